@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Threads for Core. Debian's VTK has no parallel SMP backend compiled in, so Core brings its own.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace quadrille
+{
+
+/// The number of threads to use for a request: 0 means all hardware threads. At least 1.
+int resolveThreads(int requested);
+
+/// Calls body(begin, end) for consecutive chunks of [0, count) of at most chunkSize elements, on
+/// `threads` threads (0: all). The chunks do not depend on the number of threads, so a body that
+/// writes only what belongs to its chunk gives the same bytes for any number. The first exception
+/// thrown by a body is rethrown here after all threads have stopped.
+void parallelFor(std::size_t count, std::size_t chunkSize, int threads,
+  const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+} // namespace quadrille

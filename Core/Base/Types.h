@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Ids and small vectors that every module shares.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace quadrille
+{
+
+/// Id of a vertex, face or half-edge. 32 bits hold half-edges of 1.4 billion faces.
+using Index = std::uint32_t;
+
+/// "No such element": the twin of a boundary half-edge, a removed face, ...
+constexpr Index kInvalidIndex = std::numeric_limits<Index>::max();
+
+using Vector2 = Eigen::Vector2d;
+using Vector3 = Eigen::Vector3d;
+
+} // namespace quadrille

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Cross field on faces with integer matchings, aligned to features and boundaries, whose indices can
+/// carry a quad mesh.
+///
+/// Conventions. The field of face f is the angle of its first axis d_f against half-edge 3f, counter-
+/// clockwise about the face normal. matching[h] = r means: d_f of face(h), carried across h by unfolding,
+/// is about d_g of face(twin h) rotated by r quarter turns counterclockwise. So the transition of a map that
+/// follows the field is p_g = R90^r p_f + t: rotation of the transition of h equals matching[h].
+/// alignment[h] = k for a constrained half-edge means that h runs along d_f rotated by k quarter turns: in
+/// the map h runs along axis R90^k (1, 0); -1 for an unconstrained one. Across a feature edge
+/// matching[h] = alignment[twin h] + 2 - alignment[h] (mod 4).
+#pragma once
+
+#include "Base/Error.h"
+#include "Base/Progress.h"
+#include "Mesh/Mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace quadrille
+{
+
+struct CrossFieldOptions
+{
+  double targetEdgeLength = 0; ///< s > 0; features of the field below this size are smoothed away
+  ProgressCallback progress;
+};
+
+struct CrossField
+{
+  std::vector<double> angle;           ///< #F, radians
+  std::vector<std::int8_t> matching;   ///< #H, 0..3; 0 on boundary half-edges
+  std::vector<std::int8_t> alignment;  ///< #H, 0..3 on constrained half-edges, else -1
+  /// #H: for each corner that begins a sector (its half-edge is constrained) the quarter turns that
+  /// the map makes in that sector, from this constrained half-edge counterclockwise to the next one, >= 1;
+  /// 0 at all other corners.
+  std::vector<std::int8_t> sectorTurns;
+  /// #V: quarter turns of the map round the vertex; the valence of an interior vertex (4: regular);
+  /// for a boundary vertex the sum over its open fan (2: regular).
+  std::vector<int> turns;
+
+  Status status;
+};
+
+/// Computes the field. Never makes an interior valence below 3 or above 6 or a sector below one quarter
+/// turn unless topology forces it; then the status says where.
+CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options);
+
+/// Vertices whose position in the map must be an integer point: interior ones with turns != 4, and
+/// constrained ones whose sectors are not all straight (a smooth feature has sectors 2 and 2, a smooth boundary 2),
+/// which includes feature ends, junctions and corners. #V flags.
+std::vector<std::uint8_t> integerVertices(const Mesh& mesh, const CrossField& field);
+
+} // namespace quadrille

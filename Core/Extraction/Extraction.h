@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The quad mesh of an integer-grid map.
+#pragma once
+
+#include "Base/Error.h"
+#include "Base/FixedPoint.h"
+#include "Base/Progress.h"
+#include "Mesh/Mesh.h"
+
+#include <array>
+#include <vector>
+
+namespace quadrille
+{
+
+struct ExtractionOptions
+{
+  std::size_t maximumQuads = 10000000; ///< refuse, before memory is spent, to make more
+  int threads = 0;
+  ProgressCallback progress;
+};
+
+/// An edge of the quad mesh that lies on a feature or on the boundary.
+struct QuadLine
+{
+  Index a = 0, b = 0;             ///< quad vertices
+  Index halfEdge = kInvalidIndex; ///< a constrained half-edge of the input that it runs along
+  bool boundary = false;
+};
+
+struct QuadMesh
+{
+  std::vector<Vector3> points;
+  std::vector<std::array<Index, 4>> quads;   ///< counterclockwise like the input's faces
+  std::vector<Index> sourceFace;             ///< per point: face of the mapped mesh
+  std::vector<std::array<double, 3>> sourceWeights; ///< per point: barycentric in that face
+  std::vector<Index> quadSourceFace;         ///< per quad: face of the mapped mesh under its uv centre
+  std::vector<int> valence;                  ///< per point: number of edges
+  std::vector<std::uint8_t> onBoundary;      ///< per point
+  std::vector<QuadLine> lines;               ///< features and boundary
+};
+
+struct ExtractionResult
+{
+  QuadMesh mesh;
+  Status status;
+  std::size_t openPorts = 0;    ///< edges of the grid that could not be followed to their end
+  std::size_t droppedFaces = 0; ///< loops of the grid that are no quads
+};
+
+/// Exact extraction. uv: #H, see GridMap.h. Linear in triangles plus quads.
+ExtractionResult extractQuads(
+  const Mesh& mesh, const std::vector<FixedVec2>& uv, const ExtractionOptions& options);
+
+} // namespace quadrille

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The integer-grid map of the coarse mesh: seamless map -> quantization -> re-embedding, and the
+/// certificate that travels with every map.
+///
+/// A map is one fixed-point uv per corner (half-edge id of Mesh, see there): uv[h] is the image of
+/// origin[h] in the chart of face(h). Transitions are not stored: they follow exactly from uv and matching.
+#pragma once
+
+#include "Base/FixedPoint.h"
+#include "Base/Progress.h"
+#include "CrossField/CrossField.h"
+#include "Mesh/Mesh.h"
+
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Why a map is, or is not, an integer-grid map. All counts are zero for a valid one.
+struct Certificate
+{
+  std::size_t triangles = 0;
+  std::size_t notPositive = 0;      ///< triangles with !(det > 0)
+  std::size_t wrongTurns = 0;       ///< vertices whose winding is not the expected one
+  std::size_t seamResiduals = 0;    ///< edges whose two images differ by more than a transition
+  std::size_t offIsolines = 0;      ///< constrained edges that do not lie on an integer isoline
+  std::size_t offIntegers = 0;      ///< integer vertices (singular, corner, end) not at integer points
+  std::size_t fractionalTransitions = 0; ///< transitions whose translation is not whole
+  double minimumDeterminant = 0;    ///< smallest det(u, v edges), in quads^2 (twice the uv area)
+  double area = 0;                  ///< total uv area in quads: the number of quads to expect
+  std::vector<Index> worstFaces;    ///< up to 16 faces, smallest determinant first
+
+  bool seamless() const { return notPositive == 0 && wrongTurns == 0 && seamResiduals == 0; }
+  bool valid() const
+  {
+    return seamless() && offIsolines == 0 && offIntegers == 0 && fractionalTransitions == 0;
+  }
+  std::string text() const; ///< one line for people
+};
+
+/// The transition of half-edge h (chart of face(h) -> chart of the twin's face), exact. For a zero-length
+/// image of the edge `fallbackRotation` is taken. residual, when given, is set to whether the far end disagrees.
+Transition transitionOf(const Mesh& mesh, const std::vector<FixedVec2>& uv, Index h,
+  int fallbackRotation = 0, bool* residual = nullptr);
+
+/// Exact check of a map. expectedTurns: #V (see CrossField::turns). integerVertex: #V flags.
+Certificate certify(const Mesh& mesh, const std::vector<FixedVec2>& uv,
+  const std::vector<int>& expectedTurns, const std::vector<std::uint8_t>& integerVertex);
+
+struct SeamlessOptions
+{
+  double edgeLength = 0; ///< length on the surface that one uv unit stands for; > 0
+  ProgressCallback progress;
+};
+struct SeamlessResult
+{
+  std::vector<FixedVec2> uv; ///< #H; best effort when the status is not ok
+  Status status;
+  std::vector<Index> inverted; ///< faces left with !(det > 0)
+  int newtonSteps = 0;
+};
+/// A seamless map without inverted triangles that follows the field: transitions are quarter turns plus any
+/// translation, constrained edges lie on isolines (of any value). Exact on the fixed-point grid.
+SeamlessResult computeSeamlessMap(
+  const Mesh& mesh, const CrossField& field, const SeamlessOptions& options);
+
+struct QuantizeOptions
+{
+  double maximumRefinement = 8; ///< the integers may grow by this factor when nothing else is valid
+  ProgressCallback progress;
+};
+struct QuantizeResult
+{
+  /// #H: integer translations, integer vertices and isolines locked; triangles may be inverted
+  /// (embedMap mends that).
+  std::vector<FixedVec2> uv;
+  Status status;
+  double refinement = 1; ///< factor by which sizes had to grow to be valid
+};
+/// Integers for a seamless map without a T-mesh [Coudert-Osmont et al. 2023].
+QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
+  const std::vector<FixedVec2>& seamlessUv, const QuantizeOptions& options);
+
+struct EmbedOptions
+{
+  double edgeLength = 0; ///< as in SeamlessOptions
+  ProgressCallback progress;
+};
+struct EmbedResult
+{
+  std::vector<FixedVec2> uv;
+  Status status;
+  std::vector<Index> inverted;
+  int newtonSteps = 0;
+};
+/// Moves everything but integers (integer vertices, isoline values, translations) so that every det > 0.
+EmbedResult embedMap(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& integerUv,
+  const EmbedOptions& options);
+
+struct GridMapOptions
+{
+  double edgeLength = 0;      ///< s, on the surface; > 0
+  double targetQuads = 0;     ///< 0: follow edgeLength; else scale so that the uv area comes near this
+  ProgressCallback progress;
+};
+struct GridMapResult
+{
+  std::vector<FixedVec2> uv; ///< #H
+  CrossField field;
+  Certificate certificate;
+  Status status;             ///< not ok: why and where; uv then holds the best that was reached
+  std::vector<Index> offenders; ///< coarse vertices around which the triangulation lacks freedom
+  double refinement = 1;
+  double secondsField = 0, secondsSeamless = 0, secondsQuantize = 0, secondsEmbed = 0;
+};
+/// The whole chain on one coarse mesh.
+GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options);
+
+} // namespace quadrille

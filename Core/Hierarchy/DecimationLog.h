@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The log of a decimation: what the replay needs to carry a map from the coarse to the finest mesh
+/// [Ebke et al. 2016, Appendix B], in slots of the finest mesh.
+///
+/// Slots never move: a flip or a collapse rewrites which vertex a corner slot holds, and kills slots,
+/// but a surviving face keeps its three slots. The replay keeps one fixed-point uv per corner slot and
+/// derives every transition it needs from the uv on both sides of an edge, which is exact; hence a
+/// record needs no transitions and no twins.
+///
+/// Flip of the edge between h = (a -> b) in face f = (a, b, c) and g = twin(h) in face g/3 = (b, a, d):
+///
+///        c                c          only two corner slots change their vertex:
+///       /|\              / \           corner next(h): b -> d
+///      / | \            / f \          corner next(g): a -> c
+///     /  |  \          /  h  \
+///    a  f|g  d   ->   a ----- d      (drawn schematically: f becomes (a, d, c), g/3 becomes (b, c, d))
+///
+/// so the new diagonal is next(h) = (d -> c) with twin next(g) = (c -> d); the edge a -> d moves from slot
+/// next(g) to slot h, the edge b -> c from slot next(h) to slot g.
+///
+/// Collapse of an interior vertex v with k faces onto its ring vertex b kills the two faces at the
+/// edge v b and rewrites the corner of v to b in the k - 2 others; of a boundary vertex with k faces along its
+/// boundary edge kills one face. The record names the corner slot of v in each of its k faces in counterclockwise order
+/// and the weights of v with respect to three vertices of its ring (two for a constrained vertex, whose
+/// third weight is zero).
+#pragma once
+
+#include "Base/Types.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace quadrille
+{
+
+/// A read-only view of one record; see DecimationLog.cpp for the byte layout.
+class DecimationLog
+{
+public:
+  /// Bytes as written to files and arrays: versioned, checksummed, bound to the mesh by fineHash.
+  std::vector<std::uint8_t> serialize() const;
+  /// Throws InvalidInput on truncated, damaged or foreign bytes (says which), and when the log was made
+  /// for another mesh than the one with hash expectedHash.
+  static DecimationLog deserialize(const std::vector<std::uint8_t>& bytes, std::uint64_t expectedHash);
+
+  std::uint64_t fineHash = 0;
+  Index fineFaces = 0;
+  std::size_t collapses = 0;
+  std::size_t flips = 0;
+
+  /// Rounds in order of the decimation; the replay runs them last to first. Blocks of one round touch
+  /// disjoint sets of slots, so that they replay in parallel.
+  struct Block
+  {
+    std::size_t begin = 0; ///< byte range in `records`
+    std::size_t end = 0;
+  };
+  struct Round
+  {
+    std::size_t firstBlock = 0;
+    std::size_t blockCount = 0;
+  };
+  std::vector<Round> rounds;
+  std::vector<Block> blocks;
+  std::vector<std::uint8_t> records; ///< in decimation order inside a block; readable backwards
+  std::size_t intermediateRounds = 0; ///< the first rounds, that lead to the intermediate level
+};
+
+} // namespace quadrille

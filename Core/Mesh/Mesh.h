@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Triangle-implicit half-edge mesh: the one mesh type of Core, on every level.
+///
+///            c
+///           / \           half-edge 3f+i runs from corner i to corner (i+1)%3 of face f,
+///   3f+2   / f \  3f+1    faces are counterclockwise seen from outside. A corner is named by
+///         /     \         the half-edge that leaves it: corner 3f+i is at vertex origin[3f+i].
+///        a------>b
+///           3f
+#pragma once
+
+#include "Base/Types.h"
+
+#include <vector>
+
+namespace quadrille
+{
+
+/// Bits of Mesh::flags.
+enum HalfEdgeFlag : std::uint8_t
+{
+  kFeatureEdge = 1 ///< set on both half-edges of a feature edge; boundary edges need no flag
+};
+
+struct Mesh
+{
+  std::vector<Vector3> position;   ///< #V points
+  std::vector<Index> origin;       ///< #H = 3 #F; vertex that the half-edge leaves
+  std::vector<Index> twin;         ///< #H; kInvalidIndex on the boundary
+  std::vector<std::uint8_t> flags; ///< #H; HalfEdgeFlag bits
+
+  Index vertexCount() const { return static_cast<Index>(position.size()); }
+  Index halfEdgeCount() const { return static_cast<Index>(origin.size()); }
+  Index faceCount() const { return halfEdgeCount() / 3; }
+
+  static Index face(Index h) { return h / 3; }
+  static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
+  static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
+  Index target(Index h) const { return origin[next(h)]; }
+  bool isBoundary(Index h) const { return twin[h] == kInvalidIndex; }
+  bool isFeature(Index h) const { return (flags[h] & kFeatureEdge) != 0; }
+  /// An edge that has to lie on an integer isoline: a feature or a boundary edge.
+  bool isConstrained(Index h) const { return isBoundary(h) || isFeature(h); }
+
+  Vector3 edgeVector(Index h) const { return position[target(h)] - position[origin[h]]; }
+
+  /// The next half-edge that leaves the same vertex, counterclockwise; kInvalidIndex past a boundary.
+  Index rotateCounterclockwise(Index h) const { return twin[previous(h)]; }
+  /// The next one clockwise; kInvalidIndex when h itself is a boundary half-edge.
+  Index rotateClockwise(Index h) const
+  {
+    return twin[h] == kInvalidIndex ? kInvalidIndex : next(twin[h]);
+  }
+};
+
+} // namespace quadrille

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// From a polygon soup to the prepared surface: validation, repair, space-filling-curve order,
+/// features, refinement where the triangles are too large for the quads that are asked for.
+#pragma once
+
+#include "Base/Progress.h"
+#include "Mesh/Mesh.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// What the user hands in. Nothing is assumed about it.
+struct SurfaceInput
+{
+  std::vector<Vector3> points;
+  std::vector<Index> polygonOffsets; ///< #P + 1 offsets into polygonPoints
+  std::vector<Index> polygonPoints;  ///< point ids, polygon after polygon
+  std::vector<std::uint8_t> featureEdges; ///< empty or #P; bit i: edge from corner i to i+1 is a feature
+  std::vector<std::int64_t> patchIds;     ///< empty or #P; an edge between two values is a feature
+};
+
+struct PrepareOptions
+{
+  /// Edges whose face normals differ by more than this are features; radians in (0, pi]; none: off.
+  std::optional<double> featureAngle;
+  int threads = 0; ///< 0: all
+  ProgressCallback progress;
+};
+
+/// What repair changed; all counts. Zero everywhere for a clean triangle mesh.
+struct RepairReport
+{
+  std::size_t triangulatedPolygons = 0;
+  std::size_t mergedPoints = 0;        ///< coincident points of a soup (STL) that were joined
+  std::size_t degenerateFaces = 0;     ///< removed or collapsed: repeated corner, zero area
+  std::size_t duplicateFaces = 0;      ///< removed
+  std::size_t isolatedPoints = 0;      ///< dropped
+  std::size_t nonManifoldEdges = 0;    ///< split into sheets
+  std::size_t nonManifoldVertices = 0; ///< split into sheets
+  std::size_t reorientedFaces = 0;     ///< flipped to agree with their component
+  std::size_t removedComponents = 0;   ///< components too small to carry a quad (a closed one below 4 faces)
+  std::size_t refinedFaces = 0;        ///< faces that were split because they were too large
+
+  bool nothingChanged() const;
+  /// "12 duplicate faces removed, 3 non-manifold edges split"; empty when nothing changed.
+  std::string text() const;
+};
+
+/// Where a point of the prepared surface lies on the user's input.
+struct SourceLocation
+{
+  Index polygon = kInvalidIndex;
+  std::array<Index, 3> points{};    ///< input point ids of the triangle of that polygon
+  std::array<double, 3> weights{};  ///< barycentric, sum 1
+};
+
+/// The finest level: repaired, ordered, with features. Immutable after refinement.
+struct PreparedSurface
+{
+  Mesh mesh;
+  RepairReport repair;
+  double area = 0;
+  double boundingBoxDiagonal = 0;
+  Index components = 0;
+  /// Content hash of positions, connectivity and features; binds a decimation log to its mesh.
+  std::uint64_t hash = 0;
+
+  std::vector<Index> sourcePolygon;                 ///< #F
+  std::vector<std::array<Index, 3>> sourcePoints;   ///< #F; input triangle's point ids, in corner order
+                                                    ///< of the *unrefined* face
+  /// Only where refinement split a face: index into cornerWeights, else kInvalidIndex. Empty when
+  /// nothing was refined.
+  std::vector<Index> refinedEntry;
+  std::vector<std::array<std::array<double, 3>, 3>> cornerWeights; ///< [corner][source corner]
+
+  /// Source of the point with barycentric coordinates `weights` in face `f` of the mesh.
+  SourceLocation locate(Index f, const std::array<double, 3>& weights) const;
+};
+
+/// Validates, repairs and orders. Throws InvalidInput for an empty input, a non-finite coordinate
+/// (names the point), a corner id out of range (names the polygon), a non-orientable component (names
+/// a face of it), or when nothing is left after repair.
+PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& options);
+
+/// Splits edges longer than maximumEdgeLength (conforming, at edge midpoints, longest first), and faces
+/// with more than one constrained edge, or three vertices on constrained edges joined by an
+/// unconstrained chord, that no decimation could ever repair. Afterwards every face has at most one
+/// constrained edge. The geometry does not change: new vertices lie on the old triangles.
+void refineSurface(PreparedSurface& surface, double maximumEdgeLength, const ProgressCallback& progress);
+
+} // namespace quadrille

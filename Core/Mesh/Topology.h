@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Connectivity queries on Mesh that are shared by all stages.
+#pragma once
+
+#include "Mesh/Mesh.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Pairs half-edges of a manifold, oriented triangle list: #H twins. Linear time (bucket per vertex).
+/// Throws InvalidInput naming the edge when more than two faces share one or orientation disagrees.
+std::vector<Index> pairHalfEdges(const std::vector<Index>& origin, Index vertexCount);
+
+/// One half-edge that leaves each vertex (#V): for a boundary vertex the boundary half-edge itself
+/// (so that rotating counterclockwise visits the whole fan), kInvalidIndex for an isolated vertex.
+std::vector<Index> outgoingHalfEdges(const Mesh& mesh);
+
+/// Component id per face, numbered by lowest face id; the count comes back in componentCount.
+std::vector<Index> faceComponents(const Mesh& mesh, Index& componentCount);
+
+struct TopologySummary
+{
+  Index vertices = 0;
+  Index edges = 0;
+  Index faces = 0;
+  Index components = 0;
+  Index boundaryLoops = 0;
+  long long eulerCharacteristic = 0;
+};
+TopologySummary summarizeTopology(const Mesh& mesh);
+
+/// Empty when the mesh is consistent (twins symmetric, vertices manifold, flags symmetric,
+/// finite positions, no isolated vertices); else what is wrong with which element.
+std::string validate(const Mesh& mesh);
+
+} // namespace quadrille

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Injective planar maps under linear constraints: the energy of [Garanzha et al. 2021] minimized by
+/// Newton's method in reduced unknowns.
+#pragma once
+
+#include "Base/Progress.h"
+#include "Base/Types.h"
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <array>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Point p of the map has coordinates x(2p), x(2p+1) with x = basis * y + offset; the unknowns y are
+/// free, so every linear constraint holds by construction.
+struct UntangleProblem
+{
+  Eigen::SparseMatrix<double> basis; ///< 2 #points by #unknowns
+  Eigen::VectorXd offset;            ///< 2 #points
+  std::vector<std::array<Index, 3>> triangles; ///< point ids, counterclockwise where the map is valid
+  /// Per triangle the inverse of [r1 - r0, r2 - r0], r its wanted shape in the wanted orientation and size; the
+  /// Jacobian is J = [x1 - x0, x2 - x0] * inverseReference, ideally a unit matrix.
+  std::vector<Eigen::Matrix2d> inverseReference;
+  std::vector<double> weight; ///< per triangle, usually its area; > 0
+};
+
+struct UntangleOptions
+{
+  int maximumSteps = 200;
+  /// Steps that polish after every determinant has become positive.
+  int polishSteps = 8;
+  /// Weight of the area term against the angle term.
+  double areaWeight = 0.05;
+  /// det J below this fraction counts as inverted (the caller snaps to a grid afterwards).
+  double minimumDeterminant = 1e-4;
+  ProgressCallback progress;
+};
+
+struct UntangleResult
+{
+  Eigen::VectorXd y;
+  std::vector<Index> inverted; ///< triangles with !(det > 0), worst first; empty on success
+  double minimumDeterminant = 0; ///< of J over all triangles
+  int steps = 0;
+};
+
+/// Throws InvalidInput when sizes disagree or y0 has a non-finite entry. Deterministic.
+UntangleResult untangle(
+  const UntangleProblem& problem, const Eigen::VectorXd& y0, const UntangleOptions& options);
+
+} // namespace quadrille

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The only place that orders the stages.
+#pragma once
+
+#include "Base/Error.h"
+#include "Base/Progress.h"
+#include "Extraction/Extraction.h"
+#include "GridMap/GridMap.h"
+#include "Hierarchy/Hierarchy.h"
+#include "Mesh/Surface.h"
+#include "Transfer/Transfer.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Exactly one of the three sizes is used: quads, else edgeLength, else relativeEdgeLength.
+struct RemeshOptions
+{
+  std::optional<std::size_t> quads;         ///< target number of quads, >= 1
+  std::optional<double> edgeLength;         ///< target edge length in units of the input, > 0
+  double relativeEdgeLength = 0.02;         ///< target edge length over the bounding-box diagonal, > 0
+  std::optional<double> featureAngle = 0.6981317007977318; ///< radians (40 degrees); none: no detection
+  Index coarseVertices = 1000;              ///< budget of the coarse level
+  std::size_t maximumQuads = 10000000;
+  int threads = 0;                          ///< 0: all; the result does not depend on it
+  ProgressCallback progress;
+};
+
+/// One stage of the run: names are read, repair, order, connectivity, phase1, phase2, field,
+/// seamless, quantize, embed, replay, extract (the benchmark's columns).
+struct StageRecord
+{
+  std::string stage;
+  double seconds = 0;
+  std::size_t elementsIn = 0;
+  std::size_t elementsOut = 0;
+};
+
+struct RemeshResult
+{
+  Status status;
+  QuadMesh quads;
+  PreparedSurface surface;            ///< the finest level that uv belongs to
+  std::vector<FixedVec2> uv;          ///< #H of surface.mesh
+  std::vector<std::int8_t> matching;  ///< #H of surface.mesh: rotation of the transition
+  std::vector<int> turns;             ///< #V of surface.mesh
+  Level coarse;                       ///< coarse mesh
+  std::vector<FixedVec2> coarseUv;
+  Certificate coarseCertificate;      ///< of the coarse map
+  Certificate certificate;            ///< of the map on the input surface
+  TransferResult transfer;            ///< counts only, uv is moved out
+  std::vector<StageRecord> stages;
+  double targetEdgeLength = 0;
+  std::size_t targetQuads = 0;        ///< predicted from the edge length where none was asked
+  std::vector<std::string> notices;   ///< what the user should know: repairs, raised budgets, refinement
+};
+
+/// Runs everything. Throws InvalidInput for bad input or options; any other failure, cancel included, is a
+/// status and leaves `quads` empty.
+RemeshResult remesh(const SurfaceInput& input, const RemeshOptions& options);
+
+} // namespace quadrille

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Coarse-to-fine mapping: the decimation log backwards on fixed-point uv [Ebke et al. 2016, Section 6].
+#pragma once
+
+#include "Base/FixedPoint.h"
+#include "Base/Progress.h"
+#include "Hierarchy/Hierarchy.h"
+
+#include <vector>
+
+namespace quadrille
+{
+
+struct TransferOptions
+{
+  int threads = 0;
+  ProgressCallback progress;
+};
+
+struct TransferResult
+{
+  std::vector<FixedVec2> uv;       ///< #H of the finest mesh
+  std::size_t invertedStars = 0;   ///< un-collapses whose interpolated vertex inverted its star
+  std::size_t movedToKernel = 0;   ///< of these, mended by moving the vertex into the kernel of its ring
+  std::size_t withoutKernel = 0;   ///< of these, left inverted by the replay
+  std::size_t mendedPatches = 0;   ///< patches re-embedded afterwards
+  std::size_t notPositive = 0;     ///< triangles with !(det > 0) in the end
+};
+
+/// Carries a map of the coarse level to the finest mesh. coarseUv: #H of coarse.mesh. Throws
+/// InvalidInput when sizes or the log's mesh do not fit.
+TransferResult transferMap(const Mesh& fine, const Level& coarse, const DecimationLog& log,
+  const std::vector<FixedVec2>& coarseUv, const TransferOptions& options);
+
+} // namespace quadrille
