@@ -27,6 +27,9 @@ struct HierarchyOptions
   Index coarseVertices = 1000; ///< budget of the coarse level; raised where features, handles or
                                ///< components need more (told in Hierarchy::notice)
   DecimationCost cost = DecimationCost::Gaussian; ///< of phase 2
+  /// Vertices of the finest mesh that phase 2 must not remove (index constraints; places where a map
+  /// needs more freedom).
+  std::vector<Index> keepVertices;
   int threads = 0;                                ///< 0: all; the result does not depend on it
   ProgressCallback progress;
 };
@@ -46,6 +49,8 @@ struct Hierarchy
   Level coarse;
   DecimationLog log;
   std::string notice; ///< empty, or why the coarse level is larger than asked
+  double secondsPhase1 = 0;
+  double secondsPhase2 = 0;
 };
 
 /// Throws InvalidInput when s is not positive and finite. Progress and cancel through the options.
