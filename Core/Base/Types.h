@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry> // cross(): declared by Core, defined only here
 
 #include <cstddef>
 #include <cstdint>

@@ -1,0 +1,361 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/Topology.h"
+
+#include "Base/Error.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadrille
+{
+
+namespace
+{
+
+std::string edgeName(Index a, Index b)
+{
+  return "(" + std::to_string(a) + ", " + std::to_string(b) + ")";
+}
+
+/// A half-edge in the bucket of the lower of its two vertices.
+struct BucketEntry
+{
+  Index other; ///< the higher vertex
+  Index halfEdge;
+};
+
+struct Buckets
+{
+  std::vector<Index> begin; ///< #V + 1
+  std::vector<BucketEntry> entries;
+};
+
+Index targetOf(const std::vector<Index>& origin, Index h)
+{
+  return origin[Mesh::next(h)];
+}
+
+void checkCorners(const std::vector<Index>& origin, Index vertexCount)
+{
+  if (origin.size() % 3 != 0)
+  {
+    throw InvalidInput("the corner list has " + std::to_string(origin.size()) +
+      " entries, which is no multiple of 3");
+  }
+  for (Index h = 0; h < origin.size(); ++h)
+  {
+    if (origin[h] >= vertexCount)
+    {
+      throw InvalidInput("face " + std::to_string(h / 3) + " names vertex " +
+        std::to_string(origin[h]) + " of " + std::to_string(vertexCount));
+    }
+    if (origin[h] == targetOf(origin, h))
+    {
+      throw InvalidInput("face " + std::to_string(h / 3) + " has vertex " +
+        std::to_string(origin[h]) + " at two corners");
+    }
+  }
+}
+
+Buckets fillBuckets(const std::vector<Index>& origin, Index vertexCount)
+{
+  const Index count = static_cast<Index>(origin.size());
+  Buckets buckets;
+  buckets.begin.assign(std::size_t{ vertexCount } + 2, 0);
+  // Shifted by two, so that filling turns the array into the bucket begins without a second copy.
+  for (Index h = 0; h < count; ++h)
+  {
+    ++buckets.begin[std::size_t{ std::min(origin[h], targetOf(origin, h)) } + 2];
+  }
+  for (std::size_t v = 2; v < buckets.begin.size(); ++v)
+  {
+    buckets.begin[v] += buckets.begin[v - 1];
+  }
+  buckets.entries.resize(count);
+  for (Index h = 0; h < count; ++h)
+  {
+    const Index a = origin[h];
+    const Index b = targetOf(origin, h);
+    buckets.entries[buckets.begin[std::size_t{ std::min(a, b) } + 1]++] = { std::max(a, b), h };
+  }
+  return buckets;
+}
+
+/// Twins within one bucket, whose entries come sorted by the other vertex.
+void pairBucket(const std::vector<Index>& origin, const BucketEntry* begin, const BucketEntry* end,
+  std::vector<Index>& twin)
+{
+  while (begin != end)
+  {
+    const BucketEntry* runEnd = begin + 1;
+    while (runEnd != end && runEnd->other == begin->other)
+    {
+      ++runEnd;
+    }
+    const Index h = begin->halfEdge;
+    if (runEnd - begin > 2)
+    {
+      throw InvalidInput("edge " + edgeName(origin[h], targetOf(origin, h)) + " has " +
+        std::to_string(runEnd - begin) + " faces, among them face " + std::to_string(h / 3));
+    }
+    if (runEnd - begin == 2)
+    {
+      const Index g = begin[1].halfEdge;
+      if (origin[h] == origin[g])
+      {
+        throw InvalidInput("faces " + std::to_string(h / 3) + " and " + std::to_string(g / 3) +
+          " run along edge " + edgeName(origin[h], targetOf(origin, h)) + " in the same direction");
+      }
+      twin[h] = g;
+      twin[g] = h;
+    }
+    begin = runEnd;
+  }
+}
+
+/// The boundary half-edge that follows a boundary half-edge on its loop.
+Index nextOnBoundary(const Mesh& mesh, Index h)
+{
+  Index e = Mesh::next(h);
+  while (!mesh.isBoundary(e))
+  {
+    e = Mesh::next(mesh.twin[e]);
+  }
+  return e;
+}
+
+std::string checkSizes(const Mesh& mesh)
+{
+  if (mesh.origin.size() % 3 != 0)
+  {
+    return "the number of half-edges, " + std::to_string(mesh.origin.size()) +
+      ", is no multiple of 3";
+  }
+  if (mesh.twin.size() != mesh.origin.size() || mesh.flags.size() != mesh.origin.size())
+  {
+    return "origin, twin and flags have " + std::to_string(mesh.origin.size()) + ", " +
+      std::to_string(mesh.twin.size()) + " and " + std::to_string(mesh.flags.size()) + " entries";
+  }
+  return {};
+}
+
+std::string checkVertices(const Mesh& mesh)
+{
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    if (!mesh.position[v].allFinite())
+    {
+      return "vertex " + std::to_string(v) + " has a position that is not finite";
+    }
+  }
+  return {};
+}
+
+std::string checkHalfEdge(const Mesh& mesh, Index h)
+{
+  const std::string name = "half-edge " + std::to_string(h);
+  if (mesh.origin[h] >= mesh.vertexCount() || mesh.target(h) >= mesh.vertexCount())
+  {
+    return name + " names a vertex out of range";
+  }
+  if (mesh.origin[h] == mesh.target(h))
+  {
+    return name + " begins and ends at vertex " + std::to_string(mesh.origin[h]);
+  }
+  const Index g = mesh.twin[h];
+  if (g == kInvalidIndex)
+  {
+    return {};
+  }
+  if (g >= mesh.halfEdgeCount() || mesh.twin[g] != h || Mesh::face(g) == Mesh::face(h))
+  {
+    return name + " has twin " + std::to_string(g) + ", which is not its twin";
+  }
+  if (mesh.origin[g] != mesh.target(h) || mesh.target(g) != mesh.origin[h])
+  {
+    return name + " and its twin " + std::to_string(g) + " do not join the same vertices";
+  }
+  if (mesh.flags[g] != mesh.flags[h])
+  {
+    return name + " and its twin " + std::to_string(g) + " have different flags";
+  }
+  return {};
+}
+
+std::string checkHalfEdges(const Mesh& mesh)
+{
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    // The name of a half-edge is only built once something is wrong with it; this loop is hot.
+    const Index g = mesh.twin[h];
+    const bool plain = mesh.origin[h] < mesh.vertexCount() && mesh.target(h) < mesh.vertexCount() &&
+      mesh.origin[h] != mesh.target(h) && g == kInvalidIndex;
+    std::string error = plain ? std::string() : checkHalfEdge(mesh, h);
+    if (!error.empty())
+    {
+      return error;
+    }
+  }
+  return {};
+}
+
+/// Half-edges around `first`'s origin reach its neighbours once each; their number, or 0 when a
+/// neighbour comes twice.
+Index countFan(const Mesh& mesh, Index first, std::vector<Index>& lastSeenFrom)
+{
+  const Index v = mesh.origin[first];
+  Index count = 0;
+  Index h = first;
+  do
+  {
+    ++count;
+    if (std::exchange(lastSeenFrom[mesh.target(h)], v) == v)
+    {
+      return 0;
+    }
+    const Index incoming = Mesh::previous(h);
+    if (mesh.isBoundary(incoming) && std::exchange(lastSeenFrom[mesh.origin[incoming]], v) == v)
+    {
+      return 0;
+    }
+    h = mesh.twin[incoming];
+  } while (h != kInvalidIndex && h != first);
+  return count;
+}
+
+std::string checkFans(const Mesh& mesh)
+{
+  const std::vector<Index> outgoing = outgoingHalfEdges(mesh);
+  std::vector<Index> degree(mesh.vertexCount(), 0);
+  for (const Index v : mesh.origin)
+  {
+    ++degree[v];
+  }
+  std::vector<Index> lastSeenFrom(mesh.vertexCount(), kInvalidIndex);
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    if (outgoing[v] == kInvalidIndex)
+    {
+      return "vertex " + std::to_string(v) + " is isolated";
+    }
+    const Index fan = countFan(mesh, outgoing[v], lastSeenFrom);
+    if (fan == 0)
+    {
+      return "vertex " + std::to_string(v) + " is joined to a neighbour by two edges";
+    }
+    if (fan != degree[v])
+    {
+      return "vertex " + std::to_string(v) + " is not manifold: its " + std::to_string(degree[v]) +
+        " faces are no single fan";
+    }
+  }
+  return {};
+}
+
+} // namespace
+
+std::vector<Index> pairHalfEdges(const std::vector<Index>& origin, Index vertexCount)
+{
+  checkCorners(origin, vertexCount);
+  Buckets buckets = fillBuckets(origin, vertexCount);
+  std::vector<Index> twin(origin.size(), kInvalidIndex);
+  for (Index v = 0; v < vertexCount; ++v)
+  {
+    BucketEntry* begin = buckets.entries.data() + buckets.begin[v];
+    BucketEntry* end = buckets.entries.data() + buckets.begin[std::size_t{ v } + 1];
+    std::sort(begin, end,
+      [](const BucketEntry& a, const BucketEntry& b)
+      { return a.other != b.other ? a.other < b.other : a.halfEdge < b.halfEdge; });
+    pairBucket(origin, begin, end, twin);
+  }
+  return twin;
+}
+
+std::vector<Index> outgoingHalfEdges(const Mesh& mesh)
+{
+  std::vector<Index> outgoing(mesh.vertexCount(), kInvalidIndex);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    Index& first = outgoing[mesh.origin[h]];
+    if (first == kInvalidIndex || mesh.isBoundary(h))
+    {
+      first = h;
+    }
+  }
+  return outgoing;
+}
+
+std::vector<Index> faceComponents(const Mesh& mesh, Index& componentCount)
+{
+  std::vector<Index> component(mesh.faceCount(), kInvalidIndex);
+  std::vector<Index> stack;
+  componentCount = 0;
+  for (Index seed = 0; seed < mesh.faceCount(); ++seed)
+  {
+    if (component[seed] != kInvalidIndex)
+    {
+      continue;
+    }
+    component[seed] = componentCount;
+    stack.push_back(seed);
+    while (!stack.empty())
+    {
+      const Index f = stack.back();
+      stack.pop_back();
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        if (!mesh.isBoundary(h) && component[Mesh::face(mesh.twin[h])] == kInvalidIndex)
+        {
+          component[Mesh::face(mesh.twin[h])] = componentCount;
+          stack.push_back(Mesh::face(mesh.twin[h]));
+        }
+      }
+    }
+    ++componentCount;
+  }
+  return component;
+}
+
+TopologySummary summarizeTopology(const Mesh& mesh)
+{
+  TopologySummary summary;
+  summary.vertices = mesh.vertexCount();
+  summary.faces = mesh.faceCount();
+  faceComponents(mesh, summary.components);
+
+  Index boundaryHalfEdges = 0;
+  std::vector<bool> visited(mesh.halfEdgeCount(), false);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (!mesh.isBoundary(h))
+    {
+      continue;
+    }
+    ++boundaryHalfEdges;
+    summary.boundaryLoops += visited[h] ? 0 : 1;
+    for (Index e = h; !visited[e]; e = nextOnBoundary(mesh, e))
+    {
+      visited[e] = true;
+    }
+  }
+  summary.edges = static_cast<Index>((std::size_t{ mesh.halfEdgeCount() } + boundaryHalfEdges) / 2);
+  summary.eulerCharacteristic = static_cast<long long>(summary.vertices) -
+    static_cast<long long>(summary.edges) + static_cast<long long>(summary.faces);
+  return summary;
+}
+
+std::string validate(const Mesh& mesh)
+{
+  for (const auto check : { checkSizes, checkVertices, checkHalfEdges, checkFans })
+  {
+    std::string error = check(mesh);
+    if (!error.empty())
+    {
+      return error;
+    }
+  }
+  return {};
+}
+
+} // namespace quadrille
