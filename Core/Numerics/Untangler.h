@@ -22,7 +22,8 @@ struct UntangleProblem
 {
   Eigen::SparseMatrix<double> basis; ///< 2 #points by #unknowns
   Eigen::VectorXd offset;            ///< 2 #points
-  std::vector<std::array<Index, 3>> triangles; ///< point ids, counterclockwise where the map is valid
+  std::vector<std::array<Index, 3>>
+    triangles; ///< point ids, counterclockwise where the map is valid
   /// Per triangle the inverse of [r1 - r0, r2 - r0], r its wanted shape in the wanted orientation and size; the
   /// Jacobian is J = [x1 - x0, x2 - x0] * inverseReference, ideally a unit matrix.
   std::vector<Eigen::Matrix2d> inverseReference;
@@ -36,6 +37,8 @@ struct UntangleOptions
   int polishSteps = 8;
   /// Weight of the area term against the angle term.
   double areaWeight = 0.05;
+  /// Weight of |J - 1|^2, which keeps the map turned like the references; 0: turning costs nothing.
+  double alignmentWeight = 0;
   /// det J below this fraction counts as inverted (the caller snaps to a grid afterwards).
   double minimumDeterminant = 1e-4;
   ProgressCallback progress;
@@ -44,10 +47,14 @@ struct UntangleOptions
 struct UntangleResult
 {
   Eigen::VectorXd y;
-  std::vector<Index> inverted; ///< triangles with !(det > 0), worst first; empty on success
+  std::vector<Index> inverted;   ///< triangles with !(det > 0), worst first; empty on success
   double minimumDeterminant = 0; ///< of J over all triangles
   int steps = 0;
 };
+
+/// The unknowns that minimize sum weight |J - 1|^2, whatever the signs of the determinants (the Poisson
+/// equation of a parametrization). Throws InvalidInput when sizes disagree.
+Eigen::VectorXd fitReferences(const UntangleProblem& problem);
 
 /// Throws InvalidInput when sizes disagree or y0 has a non-finite entry. Deterministic.
 UntangleResult untangle(

@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Numerics/ReducedTriangles.h"
+
+#include "Base/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace quadrille
+{
+namespace
+{
+
+using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+void checkSizes(const UntangleProblem& problem)
+{
+  const std::size_t count = problem.triangles.size();
+  if (problem.basis.rows() != problem.offset.size() || problem.offset.size() % 2 != 0 ||
+    problem.inverseReference.size() != count || problem.weight.size() != count)
+  {
+    throw InvalidInput(
+      "untangling: basis, offset, triangles, references and weights disagree in size");
+  }
+  const std::size_t points = static_cast<std::size_t>(problem.offset.size() / 2);
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    for (const Index point : problem.triangles[t])
+    {
+      if (point >= points)
+      {
+        throw InvalidInput("untangling: triangle " + std::to_string(t) + " names point " +
+          std::to_string(point) + ", which does not exist");
+      }
+    }
+  }
+}
+
+/// The derivative of J by coordinate `row` of corner `corner`.
+Jacobian cornerDerivative(const Eigen::Matrix2d& inverseReference, int corner, int row)
+{
+  const Eigen::RowVector2d gradient = corner == 0
+    ? Eigen::RowVector2d(-inverseReference.row(0) - inverseReference.row(1))
+    : Eigen::RowVector2d(inverseReference.row(corner - 1));
+  Jacobian result = Jacobian::Zero();
+  result[row] = gradient[0];
+  result[2 + row] = gradient[1];
+  return result;
+}
+
+} // namespace
+
+ReducedTriangles::ReducedTriangles(const UntangleProblem& problem)
+{
+  checkSizes(problem);
+  hessian_.resize(problem.basis.cols(), problem.basis.cols());
+  collectUnknowns(problem);
+  buildPattern();
+}
+
+void ReducedTriangles::collectUnknowns(const UntangleProblem& problem)
+{
+  const RowMatrix basis = problem.basis;
+  const std::size_t count = problem.triangles.size();
+  begin_.assign(1, 0);
+  constant_.assign(count, Jacobian::Zero());
+  std::vector<std::pair<int, Jacobian>> terms;
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    terms.clear();
+    for (int i = 0; i < 6; ++i)
+    {
+      const Jacobian derivative = cornerDerivative(problem.inverseReference[t], i / 2, i % 2);
+      const Eigen::Index coordinate = 2 * Eigen::Index(problem.triangles[t][i / 2]) + i % 2;
+      constant_[t] += problem.offset[coordinate] * derivative;
+      for (RowMatrix::InnerIterator entry(basis, coordinate); entry; ++entry)
+      {
+        terms.emplace_back(static_cast<int>(entry.col()), entry.value() * derivative);
+      }
+    }
+    std::stable_sort(
+      terms.begin(), terms.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& term : terms)
+    {
+      if (unknown_.size() > begin_[t] && unknown_.back() == term.first)
+      {
+        matrix_.back() += term.second;
+      }
+      else
+      {
+        unknown_.push_back(term.first);
+        matrix_.push_back(term.second);
+      }
+    }
+    begin_.push_back(unknown_.size());
+  }
+}
+
+void ReducedTriangles::buildPattern()
+{
+  const Eigen::Index count = hessian_.cols();
+  std::vector<std::vector<int>> columns(count);
+  for (Eigen::Index j = 0; j < count; ++j)
+  {
+    columns[j].push_back(static_cast<int>(j));
+  }
+  for (std::size_t t = 0; t < triangles(); ++t)
+  {
+    for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
+    {
+      std::vector<int>& column = columns[unknown_[a]];
+      column.insert(column.end(), unknown_.begin() + a + 1, unknown_.begin() + begin_[t + 1]);
+    }
+  }
+  std::vector<int> start(count + 1, 0);
+  for (Eigen::Index j = 0; j < count; ++j)
+  {
+    std::sort(columns[j].begin(), columns[j].end());
+    columns[j].erase(std::unique(columns[j].begin(), columns[j].end()), columns[j].end());
+    start[j + 1] = start[j] + static_cast<int>(columns[j].size());
+  }
+  hessian_.resizeNonZeros(start[count]);
+  std::copy(start.begin(), start.end(), hessian_.outerIndexPtr());
+  diagonal_.assign(start.begin(), start.end() - 1);
+  for (Eigen::Index j = 0; j < count; ++j)
+  {
+    std::copy(columns[j].begin(), columns[j].end(), hessian_.innerIndexPtr() + start[j]);
+  }
+
+  slotBegin_.assign(1, 0);
+  for (std::size_t t = 0; t < triangles(); ++t)
+  {
+    for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
+    {
+      const std::vector<int>& column = columns[unknown_[a]];
+      auto position = column.begin();
+      for (std::size_t b = a; b < begin_[t + 1]; ++b)
+      {
+        position = std::lower_bound(position, column.end(), unknown_[b]);
+        slot_.push_back(start[unknown_[a]] + static_cast<int>(position - column.begin()));
+      }
+    }
+    slotBegin_.push_back(slot_.size());
+  }
+}
+
+void ReducedTriangles::jacobians(const Eigen::VectorXd& y, std::vector<Jacobian>& result) const
+{
+  result.resize(triangles());
+  for (std::size_t t = 0; t < triangles(); ++t)
+  {
+    Jacobian jacobian = constant_[t];
+    for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
+    {
+      jacobian += y[unknown_[a]] * matrix_[a];
+    }
+    result[t] = jacobian;
+  }
+}
+
+void ReducedTriangles::assemble(
+  const std::vector<Jacobian>& gradients, const std::vector<Eigen::Matrix4d>& hessians)
+{
+  gradient_.setZero(unknowns());
+  double* values = hessian_.valuePtr();
+  std::fill(values, values + hessian_.nonZeros(), 0.0);
+  for (std::size_t t = 0; t < triangles(); ++t)
+  {
+    const int* slot = slot_.data() + slotBegin_[t];
+    for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
+    {
+      gradient_[unknown_[a]] += matrix_[a].dot(gradients[t]);
+      const Jacobian image = hessians[t] * matrix_[a];
+      for (std::size_t b = a; b < begin_[t + 1]; ++b)
+      {
+        values[*slot++] += image.dot(matrix_[b]);
+      }
+    }
+  }
+}
+
+bool ReducedTriangles::newtonStep(double regularization, Eigen::VectorXd& step)
+{
+  if (unknowns() == 0)
+  {
+    step.resize(0);
+    return true;
+  }
+  if (!analyzed_)
+  {
+    solver_.analyzePattern(hessian_);
+    analyzed_ = true;
+  }
+  double mean = 0;
+  for (const int place : diagonal_)
+  {
+    mean += hessian_.valuePtr()[place] / static_cast<double>(unknowns());
+  }
+  const double scale = mean > 0 ? mean : 1.0;
+  for (double shift = regularization; shift < 10; shift = std::max(shift * 100, 1e-12))
+  {
+    solver_.setShift(shift * scale);
+    solver_.factorize(hessian_);
+    if (solver_.info() == Eigen::Success && (solver_.vectorD().array() > 0).all())
+    {
+      step = -solver_.solve(gradient_);
+      if (step.allFinite())
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+} // namespace quadrille

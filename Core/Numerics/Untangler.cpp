@@ -1,0 +1,327 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Numerics/Untangler.h"
+
+#include "Base/Error.h"
+#include "Numerics/ReducedTriangles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+using Vector = Eigen::VectorXd;
+
+double determinantOf(const Jacobian& j)
+{
+  return j[0] * j[3] - j[1] * j[2];
+}
+
+/// The energy of one triangle, (|J|^2 + lambda (1 + det^2)) / chi(det) + mu |J - 1|^2, where
+/// chi(D) = (D + sqrt(eps^2 + D^2)) / 2 tends to max(D, 0) with eps.
+struct TriangleEnergy
+{
+  double lambda = 0;
+  double mu = 0;
+  double epsilon = 0;
+
+  double chi(double d) const
+  {
+    const double root = std::sqrt(epsilon * epsilon + d * d);
+    // The second form does not cancel for negative determinants.
+    return d >= 0 ? (d + root) / 2 : epsilon * epsilon / (2 * (root - d));
+  }
+
+  double value(const Jacobian& j) const
+  {
+    const double d = determinantOf(j);
+    const double c = chi(d);
+    if (!(c > 0))
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+    return (j.squaredNorm() + lambda * (1 + d * d)) / c +
+      mu * (j - Jacobian(1, 0, 0, 1)).squaredNorm();
+  }
+
+  /// Gradient, and Hessian projected to positive semidefinite.
+  void derivatives(const Jacobian& j, Jacobian& gradient, Eigen::Matrix4d& hessian) const;
+};
+
+/// The nearest positive semidefinite [a b; b c].
+void clampToPositive(double& a, double& b, double& c)
+{
+  const double mean = (a + c) / 2;
+  const double radius = std::hypot((a - c) / 2, b);
+  const double low = mean - radius;
+  const double high = mean + radius;
+  if (low >= 0)
+  {
+    return;
+  }
+  if (high <= 0)
+  {
+    a = b = c = 0;
+    return;
+  }
+  // high * q q^T with the unit eigenvector q of `high`: q q^T = (M - low) / (high - low).
+  const double factor = high / (high - low);
+  a = (a - low) * factor;
+  b *= factor;
+  c = (c - low) * factor;
+}
+
+void TriangleEnergy::derivatives(
+  const Jacobian& j, Jacobian& gradient, Eigen::Matrix4d& hessian) const
+{
+  const double d = determinantOf(j);
+  const double c = chi(d);
+  const double root = std::sqrt(epsilon * epsilon + d * d);
+  const double c1 = c / root;                                     // chi'
+  const double c2 = epsilon * epsilon / (2 * root * root * root); // chi''
+  const double numerator = j.squaredNorm() + lambda * (1 + d * d);
+
+  // E = E(F, D) with F = |J|^2, D = det J; E_FF = 0.
+  const double eF = 1 / c;
+  const double eD = (2 * lambda * d - numerator * c1 / c) / c;
+  const double eFD = -c1 / (c * c);
+  const double eDD =
+    2 * lambda / c - 4 * lambda * d * c1 / (c * c) - numerator * (c2 - 2 * c1 * c1 / c) / (c * c);
+
+  // J = similarity + antisimilarity: orthonormal coordinates p and q with F = |p|^2 + |q|^2,
+  // D = (|p|^2 - |q|^2) / 2. The Hessian is diagonal across p and across q and couples only the
+  // two directions along them, so that its projection is a closed form.
+  const double s = std::sqrt(0.5);
+  const Jacobian cofactor(j[3], -j[2], -j[1], j[0]);
+  const double p0 = s * (j[0] + j[3]), p1 = s * (j[1] - j[2]);
+  const double q0 = s * (j[0] - j[3]), q1 = s * (j[1] + j[2]);
+  const double p = std::hypot(p0, p1), q = std::hypot(q0, q1);
+  const double pc = p > 0 ? p0 / p : 1, ps = p > 0 ? p1 / p : 0;
+  const double qc = q > 0 ? q0 / q : 1, qs = q > 0 ? q1 / q : 0;
+  const Jacobian alongP(s * pc, s * ps, -s * ps, s * pc),
+    acrossP(-s * ps, s * pc, -s * pc, -s * ps);
+  const Jacobian alongQ(s * qc, s * qs, s * qs, -s * qc), acrossQ(-s * qs, s * qc, s * qc, s * qs);
+
+  double app = 2 * eF + eD + 4 * eFD * p * p + eDD * p * p;
+  double apq = -eDD * p * q;
+  double aqq = 2 * eF - eD - 4 * eFD * q * q + eDD * q * q;
+  clampToPositive(app, apq, aqq);
+
+  gradient = 2 * eF * j + eD * cofactor + 2 * mu * (j - Jacobian(1, 0, 0, 1));
+  hessian.noalias() = std::max(0.0, 2 * eF + eD) * acrossP * acrossP.transpose();
+  hessian.noalias() += std::max(0.0, 2 * eF - eD) * acrossQ * acrossQ.transpose();
+  hessian.noalias() += app * alongP * alongP.transpose() + aqq * alongQ * alongQ.transpose();
+  hessian.noalias() += apq * (alongP * alongQ.transpose() + alongQ * alongP.transpose());
+  hessian.diagonal().array() += 2 * mu;
+}
+
+/// One run of Newton's method; the state is y, the Jacobians at y and epsilon.
+class Minimizer
+{
+public:
+  Minimizer(const UntangleProblem& problem, const Vector& y0, const UntangleOptions& options)
+    : problem_(problem), options_(options), system_(problem), y_(y0)
+  {
+    energy_.lambda = options.areaWeight;
+    energy_.mu = options.alignmentWeight;
+  }
+
+  UntangleResult run();
+
+private:
+  double minimumDeterminant(const std::vector<Jacobian>& jacobians) const;
+  bool valid() const { return lowest_ > options_.minimumDeterminant; }
+  void lowerEpsilon(double gain);
+  double total(const std::vector<Jacobian>& jacobians) const;
+  void assemble();
+  double step();
+  void measure();
+
+  const UntangleProblem& problem_;
+  const UntangleOptions& options_;
+  ReducedTriangles system_;
+  TriangleEnergy energy_;
+  Vector y_;
+  std::vector<Jacobian> jacobians_;
+  double lowest_ = 0;
+};
+
+/// NaN counts as the lowest of all.
+double Minimizer::minimumDeterminant(const std::vector<Jacobian>& jacobians) const
+{
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Jacobian& j : jacobians)
+  {
+    const double d = determinantOf(j);
+    if (!std::isfinite(d))
+    {
+      return -std::numeric_limits<double>::infinity();
+    }
+    lowest = std::min(lowest, d);
+  }
+  return lowest;
+}
+
+void Minimizer::measure()
+{
+  system_.jacobians(y_, jacobians_);
+  lowest_ = minimumDeterminant(jacobians_);
+}
+
+/// The schedule of Garanzha et al. 2021: epsilon falls as fast as the energy does, and the slower the
+/// deeper the worst determinant lies below it. It is 0 (a barrier) once all determinants are positive.
+void Minimizer::lowerEpsilon(double gain)
+{
+  if (valid())
+  {
+    energy_.epsilon = 0;
+    return;
+  }
+  const double depth = -std::min(0.0, lowest_);
+  if (!(energy_.epsilon > 0))
+  {
+    energy_.epsilon = std::max(depth, 10 * options_.minimumDeterminant);
+    return;
+  }
+  const double root = std::hypot(depth, energy_.epsilon);
+  const double sigma = std::max(0.1, gain) * root / (depth + root);
+  energy_.epsilon = std::max(energy_.epsilon * (1 - sigma), 0.1 * options_.minimumDeterminant);
+}
+
+double Minimizer::total(const std::vector<Jacobian>& jacobians) const
+{
+  double sum = 0;
+  for (std::size_t t = 0; t < jacobians.size(); ++t)
+  {
+    sum += problem_.weight[t] * energy_.value(jacobians[t]);
+  }
+  return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+}
+
+void Minimizer::assemble()
+{
+  std::vector<Jacobian> gradients(jacobians_.size());
+  std::vector<Eigen::Matrix4d> hessians(jacobians_.size());
+  for (std::size_t t = 0; t < jacobians_.size(); ++t)
+  {
+    energy_.derivatives(jacobians_[t], gradients[t], hessians[t]);
+    gradients[t] *= problem_.weight[t];
+    hessians[t] *= problem_.weight[t];
+  }
+  system_.assemble(gradients, hessians);
+}
+
+/// One Newton step with backtracking; returns by which fraction the energy fell, 0 when it could not.
+double Minimizer::step()
+{
+  assemble();
+  Vector direction;
+  if (!system_.newtonStep(1e-10, direction))
+  {
+    return 0;
+  }
+  const double slope = system_.gradient().dot(direction);
+  const double before = total(jacobians_);
+  std::vector<Jacobian> trial;
+  for (double length = 1; length > 1e-9; length *= 0.5)
+  {
+    const Vector candidate = y_ + length * direction;
+    system_.jacobians(candidate, trial);
+    const double after = total(trial);
+    if (after <= before + 1e-4 * length * slope && after < before &&
+      (!valid() || minimumDeterminant(trial) > options_.minimumDeterminant))
+    {
+      y_ = candidate;
+      jacobians_.swap(trial);
+      lowest_ = minimumDeterminant(jacobians_);
+      return (before - after) / std::abs(before);
+    }
+  }
+  return 0;
+}
+
+UntangleResult Minimizer::run()
+{
+  measure();
+  UntangleResult result;
+  int polished = 0;
+  int stalled = 0;
+  double gain = 0;
+  while (result.steps < options_.maximumSteps && system_.unknowns() > 0)
+  {
+    if (valid() && polished++ >= options_.polishSteps)
+    {
+      break;
+    }
+    lowerEpsilon(gain);
+    report(options_.progress, static_cast<double>(result.steps) / options_.maximumSteps,
+      "untangling the map");
+    gain = step();
+    ++result.steps;
+    // A smaller epsilon can set a stalled run going again, a valid one has then converged.
+    stalled = gain < 1e-5 ? stalled + 1 : 0;
+    if (stalled > 0 && (valid() || stalled > 20))
+    {
+      break;
+    }
+  }
+  result.y = y_;
+  result.minimumDeterminant = lowest_;
+  std::vector<std::pair<double, Index>> bad;
+  for (std::size_t t = 0; t < jacobians_.size(); ++t)
+  {
+    const double d = determinantOf(jacobians_[t]);
+    if (!(d > 0))
+    {
+      bad.emplace_back(
+        std::isnan(d) ? -std::numeric_limits<double>::infinity() : d, static_cast<Index>(t));
+    }
+  }
+  std::sort(bad.begin(), bad.end());
+  for (const auto& entry : bad)
+  {
+    result.inverted.push_back(entry.second);
+  }
+  return result;
+}
+
+} // namespace
+
+Vector fitReferences(const UntangleProblem& problem)
+{
+  ReducedTriangles system(problem);
+  const Vector zero = Vector::Zero(system.unknowns());
+  std::vector<Jacobian> gradients;
+  system.jacobians(zero, gradients);
+  std::vector<Eigen::Matrix4d> hessians(gradients.size());
+  for (std::size_t t = 0; t < gradients.size(); ++t)
+  {
+    gradients[t] = problem.weight[t] * (gradients[t] - Jacobian(1, 0, 0, 1));
+    hessians[t] = problem.weight[t] * Eigen::Matrix4d::Identity();
+  }
+  system.assemble(gradients, hessians);
+  Vector result;
+  return system.newtonStep(1e-12, result) ? result : zero;
+}
+
+UntangleResult untangle(
+  const UntangleProblem& problem, const Vector& y0, const UntangleOptions& options)
+{
+  if (y0.size() != problem.basis.cols())
+  {
+    throw InvalidInput("untangling: the initial guess has not the size of the unknowns");
+  }
+  if (!y0.allFinite())
+  {
+    throw InvalidInput("untangling: the initial guess has an entry that is not finite");
+  }
+  return Minimizer(problem, y0, options).run();
+}
+
+} // namespace quadrille
