@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CrossField/CrossField.h"
+
+#include "CrossField/FieldTopology.h"
+#include "CrossField/PowerField.h"
+#include "CrossField/Turns.h"
+
+#include <cmath>
+#include <string>
+
+namespace quadrille
+{
+namespace
+{
+
+void requireInput(const Mesh& mesh, const CrossFieldOptions& options)
+{
+  if (mesh.faceCount() == 0)
+  {
+    throw InvalidInput("cross field: the mesh has no faces");
+  }
+  if (!(options.targetEdgeLength > 0) || !std::isfinite(options.targetEdgeLength))
+  {
+    throw InvalidInput("cross field: targetEdgeLength has to be positive and finite");
+  }
+}
+
+std::vector<std::int8_t> matchings(
+  const Mesh& mesh, const std::vector<std::int8_t>& alignment, const std::vector<int>& jump)
+{
+  std::vector<std::int8_t> matching(mesh.halfEdgeCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isBoundary(h))
+    {
+      continue;
+    }
+    const int turns = mesh.isFeature(h) ? alignment[mesh.twin[h]] + 2 - alignment[h] : jump[h];
+    matching[h] = static_cast<std::int8_t>(turns & 3);
+  }
+  return matching;
+}
+
+// What a map cannot realize: a triangle's corner stays below half a turn.
+std::string fanProblem(const Fan& fan, int turns)
+{
+  if (turns < 1)
+  {
+    return "no quarter turn";
+  }
+  if (turns >= 2 * static_cast<int>(fan.corners))
+  {
+    return std::to_string(turns) + " quarter turns in " + std::to_string(fan.corners) +
+      " triangles";
+  }
+  if (!fan.sector && (turns < 3 || turns > 6))
+  {
+    return "valence " + std::to_string(turns);
+  }
+  return {};
+}
+
+Status turnStatus(const FieldTopology& topology, const std::vector<int>& turns)
+{
+  Status status;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < turns.size(); ++i)
+  {
+    const std::string problem = fanProblem(topology.fans[i], turns[i]);
+    if (problem.empty())
+    {
+      continue;
+    }
+    if (count++ == 0)
+    {
+      status.code = StatusCode::Infeasible;
+      status.message = "cross field: vertex " + std::to_string(topology.fans[i].vertex) + " has " +
+        problem + (topology.fans[i].sector ? " between two constrained edges" : "");
+    }
+  }
+  if (count > 1)
+  {
+    status.message += " (and " + std::to_string(count - 1) + " more such places)";
+  }
+  if (count > 0)
+  {
+    status.message += "; more coarse vertices or fewer features there would help";
+  }
+  return status;
+}
+
+void storeTurns(
+  const Mesh& mesh, const FieldTopology& topology, const std::vector<int>& turns, CrossField& field)
+{
+  field.sectorTurns.assign(mesh.halfEdgeCount(), 0);
+  field.turns.assign(mesh.vertexCount(), 0);
+  for (std::size_t i = 0; i < turns.size(); ++i)
+  {
+    const Fan& fan = topology.fans[i];
+    field.turns[fan.vertex] += turns[i];
+    if (fan.sector)
+    {
+      field.sectorTurns[fan.first] = static_cast<std::int8_t>(turns[i]);
+    }
+  }
+}
+
+} // namespace
+
+CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options)
+{
+  requireInput(mesh, options);
+  const FieldTopology topology = buildFieldTopology(mesh);
+  const FieldConstraints constraints = fieldConstraints(mesh, topology);
+  const std::vector<double> smooth = powerField(
+    mesh, topology, constraints, constraints.angle, { options.targetEdgeLength, options.progress });
+  const std::vector<int> jump = roundJumps(mesh, topology, smooth);
+  const std::vector<int> turns = countTurns(mesh, topology, constraints, smooth, jump);
+
+  CrossField field;
+  report(options.progress, 0.8, "cross field: angles");
+  field.angle = solveAngles(mesh, topology, constraints, jump, smooth);
+  field.alignment = constraints.alignment;
+  field.matching = matchings(mesh, field.alignment, jump);
+  storeTurns(mesh, topology, turns, field);
+  field.status = turnStatus(topology, turns);
+  report(options.progress, 1.0, "cross field: done");
+  return field;
+}
+
+std::vector<std::uint8_t> integerVertices(const Mesh& mesh, const CrossField& field)
+{
+  std::vector<int> sectors(mesh.vertexCount(), 0);
+  std::vector<std::uint8_t> boundary(mesh.vertexCount(), 0);
+  std::vector<std::uint8_t> bent(mesh.vertexCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isConstrained(h))
+    {
+      const Index v = mesh.origin[h];
+      ++sectors[v];
+      boundary[v] |= mesh.isBoundary(h) ? 1 : 0;
+      bent[v] |= field.sectorTurns[h] != 2 ? 1 : 0;
+    }
+  }
+  std::vector<std::uint8_t> integer(mesh.vertexCount(), 0);
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    // A curve that passes has one sector at a boundary, two inside; any other count is an end or junction.
+    const int passing = boundary[v] != 0 ? 1 : 2;
+    const bool constrained = sectors[v] > 0;
+    integer[v] = constrained ? (bent[v] != 0 || sectors[v] != passing) : field.turns[v] != 4;
+  }
+  return integer;
+}
+
+} // namespace quadrille

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CrossField/FieldTopology.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+
+// Unlike acos, atan2 stays accurate for slivers.
+double angleBetween(const Vector3& a, const Vector3& b)
+{
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+void measureFaces(const Mesh& mesh, FieldTopology& topology)
+{
+  const Index halfEdges = mesh.halfEdgeCount();
+  topology.direction.resize(halfEdges);
+  topology.cornerAngle.resize(halfEdges);
+  topology.edgeLength.resize(halfEdges);
+  topology.area.resize(mesh.faceCount());
+  double lengthSum = 0;
+  for (Index h = 0; h < halfEdges; ++h)
+  {
+    const Vector3 out = mesh.edgeVector(h);
+    topology.edgeLength[h] = out.norm();
+    topology.cornerAngle[h] = angleBetween(out, -mesh.edgeVector(Mesh::previous(h)));
+    lengthSum += topology.edgeLength[h];
+  }
+  topology.meanEdgeLength = halfEdges > 0 ? lengthSum / halfEdges : 0;
+  // A face without area still needs a mass; a millionth of a typical one leaves others untouched.
+  const double smallest = 1e-6 * topology.meanEdgeLength * topology.meanEdgeLength;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    const Index h = 3 * f;
+    topology.direction[h] = 0;
+    topology.direction[h + 1] = kPi - topology.cornerAngle[h + 1];
+    topology.direction[h + 2] = kPi + topology.cornerAngle[h];
+    const double area = 0.5 * mesh.edgeVector(h).cross(mesh.edgeVector(h + 1)).norm();
+    topology.area[f] = std::max(area, smallest);
+    topology.totalArea += topology.area[f];
+  }
+}
+
+void measureEdges(const Mesh& mesh, FieldTopology& topology)
+{
+  const Index halfEdges = mesh.halfEdgeCount();
+  topology.transport.assign(halfEdges, 0.0);
+  topology.edgeWeight.assign(halfEdges, 0.0);
+  for (Index h = 0; h < halfEdges; ++h)
+  {
+    const Index twin = mesh.twin[h];
+    if (twin == kInvalidIndex || twin < h)
+    {
+      continue;
+    }
+    topology.transport[h] = wrapAngle(topology.direction[twin] + kPi - topology.direction[h]);
+    topology.transport[twin] = -topology.transport[h];
+    if (mesh.isConstrained(h))
+    {
+      continue;
+    }
+    topology.edges.push_back({ h, twin });
+    // Length over the distance of the barycentres; unlike cotangents it is positive for any triangle.
+    const double length = topology.edgeLength[h];
+    const double areas = topology.area[Mesh::face(h)] + topology.area[Mesh::face(twin)];
+    const double weight = 1.5 * length * length / areas;
+    topology.edgeWeight[h] = topology.edgeWeight[twin] = weight;
+  }
+}
+
+// Walks counterclockwise from corner `first` until a constrained half-edge, or round the vertex.
+Fan walkFan(const Mesh& mesh, FieldTopology& topology, Index first)
+{
+  Fan fan;
+  fan.vertex = mesh.origin[first];
+  fan.first = first;
+  fan.sector = mesh.isConstrained(first);
+  const Index id = static_cast<Index>(topology.fans.size());
+  Index h = first;
+  while (true)
+  {
+    topology.fanOfCorner[h] = id;
+    fan.last = h;
+    fan.angle += topology.cornerAngle[h];
+    ++fan.corners;
+    if (mesh.isConstrained(Mesh::previous(h)))
+    {
+      return fan;
+    }
+    h = mesh.rotateCounterclockwise(h);
+    if (h == first)
+    {
+      return fan;
+    }
+  }
+}
+
+void buildFans(const Mesh& mesh, FieldTopology& topology)
+{
+  topology.fanOfCorner.assign(mesh.halfEdgeCount(), kInvalidIndex);
+  // Sectors first: they start at constrained half-edges. What is left are whole rings.
+  for (const bool sectors : { true, false })
+  {
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      if (topology.fanOfCorner[h] == kInvalidIndex && (!sectors || mesh.isConstrained(h)))
+      {
+        topology.fans.push_back(walkFan(mesh, topology, h));
+      }
+    }
+  }
+}
+
+} // namespace
+
+double wrapAngle(double x)
+{
+  return x - 2 * kPi * std::ceil((x - kPi) / (2 * kPi));
+}
+
+int constrainedEdges(const Mesh& mesh, Index f)
+{
+  int count = 0;
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  {
+    count += mesh.isConstrained(h) ? 1 : 0;
+  }
+  return count;
+}
+
+FieldTopology buildFieldTopology(const Mesh& mesh)
+{
+  FieldTopology topology;
+  measureFaces(mesh, topology);
+  measureEdges(mesh, topology);
+  buildFans(mesh, topology);
+  return topology;
+}
+
+} // namespace quadrille

@@ -1,0 +1,404 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CrossField/PowerField.h"
+
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <stdexcept>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+using Complex = std::complex<double>;
+
+// Unknown index of each free face, and whether its component (across unconstrained edges) holds a fixed face.
+struct FreeFaces
+{
+  std::vector<Index> unknown; // #F, kInvalidIndex when fixed
+  std::vector<Index> face;    // #unknowns
+  std::vector<Index> loose;   // #unknowns; id of the component without fixed faces or kInvalidIndex
+  Index looseCount = 0;
+};
+
+// Marks the component of `seed` with `id`; true when it meets no fixed face.
+bool floodComponent(const Mesh& mesh, const FieldConstraints& constraints, Index seed, Index id,
+  std::vector<Index>& component, std::vector<Index>& members)
+{
+  bool loose = true;
+  members.assign(1, seed);
+  component[seed] = id;
+  for (std::size_t i = 0; i < members.size(); ++i)
+  {
+    const Index f = members[i];
+    loose = loose && constraints.fixed[f] == 0;
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      if (mesh.isConstrained(h))
+      {
+        continue;
+      }
+      const Index g = Mesh::face(mesh.twin[h]);
+      if (component[g] == kInvalidIndex)
+      {
+        component[g] = id;
+        members.push_back(g);
+      }
+    }
+  }
+  return loose;
+}
+
+FreeFaces numberFreeFaces(const Mesh& mesh, const FieldConstraints& constraints)
+{
+  FreeFaces free;
+  free.unknown.assign(mesh.faceCount(), kInvalidIndex);
+  std::vector<Index> component(mesh.faceCount(), kInvalidIndex);
+  std::vector<Index> members;
+  std::vector<Index> looseOf; // per component
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    if (component[f] == kInvalidIndex)
+    {
+      const Index id = static_cast<Index>(looseOf.size());
+      const bool loose = floodComponent(mesh, constraints, f, id, component, members);
+      looseOf.push_back(loose ? free.looseCount++ : kInvalidIndex);
+    }
+    if (constraints.fixed[f] == 0)
+    {
+      free.unknown[f] = static_cast<Index>(free.face.size());
+      free.face.push_back(f);
+      free.loose.push_back(looseOf[component[f]]);
+    }
+  }
+  return free;
+}
+
+// The connection Laplacian of the fourth power on the free faces, and what fixed faces put on the right.
+class ConnectionSystem
+{
+public:
+  ConnectionSystem(
+    const FieldTopology& topology, const FreeFaces& free, const std::vector<double>& guide)
+    : size_(static_cast<Eigen::Index>(free.face.size())), mass_(size_),
+      fixedPart_(Eigen::VectorXcd::Zero(size_))
+  {
+    Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(size_);
+    for (const std::array<Index, 2>& edge : topology.edges)
+    {
+      assembleEdge(topology, free, guide, edge, diagonal);
+    }
+    for (Eigen::Index i = 0; i < size_; ++i)
+    {
+      mass_(i) = topology.area[free.face[i]];
+      entries_.emplace_back(i, i, diagonal(i));
+    }
+    laplacian_.resize(size_, size_);
+    laplacian_.setFromTriplets(entries_.begin(), entries_.end());
+  }
+
+  Eigen::Index size() const { return size_; }
+  const Eigen::VectorXd& mass() const { return mass_; }
+  const Eigen::VectorXcd& fixedPart() const { return fixedPart_; }
+
+  // Factors laplaceWeight L + massWeight M; the symbolic part is done once.
+  void factorize(double laplaceWeight, double massWeight)
+  {
+    Eigen::SparseMatrix<Complex> matrix = laplaceWeight * laplacian_;
+    for (Eigen::Index i = 0; i < size_; ++i)
+    {
+      matrix.coeffRef(i, i) += massWeight * mass_(i);
+    }
+    if (!analyzed_)
+    {
+      solver_.analyzePattern(matrix);
+      analyzed_ = true;
+    }
+    solver_.factorize(matrix);
+    if (solver_.info() != Eigen::Success)
+    {
+      throw std::logic_error("cross field: a positive definite system could not be factored");
+    }
+  }
+  Eigen::VectorXcd solve(const Eigen::VectorXcd& right) const { return solver_.solve(right); }
+
+private:
+  void assembleEdge(const FieldTopology& topology, const FreeFaces& free,
+    const std::vector<double>& guide, const std::array<Index, 2>& edge, Eigen::VectorXd& diagonal)
+  {
+    const Index f = Mesh::face(edge[0]);
+    const Index g = Mesh::face(edge[1]);
+    const Index i = free.unknown[f];
+    const Index j = free.unknown[g];
+    const double w = topology.edgeWeight[edge[0]];
+    const Complex carry =
+      std::polar(1.0, 4 * topology.transport[edge[0]]); // frame of f -> frame of g
+    if (i != kInvalidIndex)
+    {
+      diagonal(i) += w;
+    }
+    if (j != kInvalidIndex)
+    {
+      diagonal(j) += w;
+    }
+    if (i != kInvalidIndex && j != kInvalidIndex)
+    {
+      // The lower triangle is all that the factorization reads.
+      const Complex entry = i < j ? -w * carry : -w * std::conj(carry);
+      entries_.emplace_back(std::max(i, j), std::min(i, j), entry);
+    }
+    else if (j != kInvalidIndex)
+    {
+      fixedPart_(j) += w * carry * std::polar(1.0, 4 * guide[f]);
+    }
+    else if (i != kInvalidIndex)
+    {
+      fixedPart_(i) += w * std::conj(carry) * std::polar(1.0, 4 * guide[g]);
+    }
+  }
+
+  Eigen::Index size_;
+  Eigen::VectorXd mass_;
+  Eigen::VectorXcd fixedPart_;
+  std::vector<Eigen::Triplet<Complex>> entries_;
+  Eigen::SparseMatrix<Complex> laplacian_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complex>> solver_;
+  bool analyzed_ = false;
+};
+
+// Bending across edges as a fourth-power field: a start for components without constraints that turns with the
+// mesh, so that the result does not depend on where the mesh lies in space.
+Eigen::VectorXcd bendingField(
+  const Mesh& mesh, const FieldTopology& topology, const FreeFaces& free)
+{
+  const auto normal = [&](Index f)
+  { return mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)); };
+  Eigen::VectorXcd field(static_cast<Eigen::Index>(free.face.size()));
+  for (std::size_t i = 0; i < free.face.size(); ++i)
+  {
+    const Index f = free.face[i];
+    Complex sum = 1e-6; // plain surfaces: any start, but the same on every run
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      if (mesh.isBoundary(h))
+      {
+        continue;
+      }
+      const Vector3 a = normal(f);
+      const Vector3 b = normal(Mesh::face(mesh.twin[h]));
+      const double bend = std::atan2(a.cross(b).norm(), a.dot(b));
+      sum += bend * topology.edgeLength[h] / topology.meanEdgeLength *
+        std::polar(1.0, 4 * topology.direction[h]);
+    }
+    field(static_cast<Eigen::Index>(i)) = sum;
+  }
+  return field;
+}
+
+// Scales each component without constraints to unit mass norm.
+void normalizeLoose(const FreeFaces& free, const Eigen::VectorXd& mass, Eigen::VectorXcd& field)
+{
+  std::vector<double> norm(free.looseCount, 0.0);
+  for (Eigen::Index i = 0; i < field.size(); ++i)
+  {
+    if (free.loose[i] != kInvalidIndex)
+    {
+      norm[free.loose[i]] += mass(i) * std::norm(field(i));
+    }
+  }
+  for (Eigen::Index i = 0; i < field.size(); ++i)
+  {
+    if (free.loose[i] != kInvalidIndex)
+    {
+      field(i) /= std::sqrt(std::max(norm[free.loose[i]], 1e-300));
+    }
+  }
+}
+
+// Harmonic where constraints reach, the smoothest eigenfield elsewhere (inverse power iterations).
+Eigen::VectorXcd smoothestField(
+  ConnectionSystem& system, const FreeFaces& free, const Eigen::VectorXcd& start, double totalArea)
+{
+  constexpr int kPowerSteps = 20;
+  // Far below the lowest eigenvalue (of the order 1 / area), so that it only keeps L invertible.
+  system.factorize(1.0, 1e-3 / totalArea);
+  Eigen::VectorXcd field = start;
+  const int steps = free.looseCount > 0 ? kPowerSteps : 1;
+  for (int step = 0; step < steps; ++step)
+  {
+    normalizeLoose(free, system.mass(), field);
+    Eigen::VectorXcd right = system.fixedPart();
+    for (Eigen::Index i = 0; i < right.size(); ++i)
+    {
+      if (free.loose[i] != kInvalidIndex)
+      {
+        right(i) = system.mass()(i) * field(i);
+      }
+    }
+    field = system.solve(right);
+  }
+  return field;
+}
+
+void normalizeEach(Eigen::VectorXcd& field)
+{
+  for (Eigen::Index i = 0; i < field.size(); ++i)
+  {
+    const double length = std::abs(field(i));
+    field(i) = length > 1e-300 ? field(i) / length : Complex(1.0);
+  }
+}
+
+void diffuseAndNormalize(ConnectionSystem& system, Eigen::VectorXcd& field, double time, int steps)
+{
+  system.factorize(time, 1.0);
+  for (int step = 0; step < steps; ++step)
+  {
+    normalizeEach(field);
+    const Eigen::VectorXcd right =
+      (system.mass().array() * field.array()).matrix() + time * system.fixedPart();
+    field = system.solve(right);
+  }
+}
+
+} // namespace
+
+FieldConstraints fieldConstraints(const Mesh& mesh, const FieldTopology& topology)
+{
+  FieldConstraints constraints;
+  constraints.fixed.assign(mesh.faceCount(), 0);
+  constraints.angle.assign(mesh.faceCount(), 0.0);
+  constraints.alignment.assign(mesh.halfEdgeCount(), -1);
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    const int count = constrainedEdges(mesh, f);
+    constraints.fixed[f] = count > 0 ? 1 : 0;
+    for (Index h = 3 * f; h < 3 * f + 3 && count > 0; ++h)
+    {
+      const Index previous = Mesh::previous(h);
+      if (!mesh.isConstrained(h) || (count == 2 && !mesh.isConstrained(previous)))
+      {
+        continue;
+      }
+      const double lean = count == 2 ? 0.5 * topology.cornerAngle[h] - 0.25 * kPi : 0.0;
+      constraints.angle[f] = topology.direction[h] + lean;
+      constraints.alignment[h] = 0;
+      if (count >= 2)
+      {
+        // One quarter turn from h to the other edge, which comes in: 1 + 2 modulo 4.
+        constraints.alignment[previous] = 3;
+      }
+      if (count == 3)
+      {
+        constraints.alignment[Mesh::next(h)] = 1;
+      }
+      break;
+    }
+  }
+  return constraints;
+}
+
+std::vector<double> powerField(const Mesh& mesh, const FieldTopology& topology,
+  const FieldConstraints& constraints, const std::vector<double>& guide,
+  const PowerFieldOptions& options)
+{
+  std::vector<double> angle = guide;
+  const FreeFaces free = numberFreeFaces(mesh, constraints);
+  if (free.face.empty())
+  {
+    return angle;
+  }
+  ConnectionSystem system(topology, free, guide);
+  report(options.progress, 0.1, "cross field: smoothest field");
+  Eigen::VectorXcd field =
+    smoothestField(system, free, bendingField(mesh, topology, free), topology.totalArea);
+
+  // Below the mesh's own edges there is nothing to smooth that rounding could see.
+  const double length = std::max(options.smoothingLength, topology.meanEdgeLength);
+  report(options.progress, 0.3, "cross field: diffusion");
+  diffuseAndNormalize(system, field, 16 * length * length, 2);
+  diffuseAndNormalize(system, field, length * length, 4);
+  for (std::size_t i = 0; i < free.face.size(); ++i)
+  {
+    angle[free.face[i]] = 0.25 * std::arg(field(static_cast<Eigen::Index>(i)));
+  }
+  return angle;
+}
+
+double edgeResidual(const FieldTopology& topology, const std::vector<double>& angle,
+  const Mesh& mesh, Index h, int jump)
+{
+  return angle[Mesh::face(h)] + topology.transport[h] - angle[Mesh::face(mesh.twin[h])] -
+    0.5 * kPi * jump;
+}
+
+std::vector<double> solveAngles(const Mesh& mesh, const FieldTopology& topology,
+  const FieldConstraints& constraints, const std::vector<int>& jump,
+  const std::vector<double>& start)
+{
+  std::vector<double> angle = start;
+  const FreeFaces free = numberFreeFaces(mesh, constraints);
+  const Eigen::Index size = static_cast<Eigen::Index>(free.face.size());
+  if (size == 0)
+  {
+    return angle;
+  }
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(size);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const std::array<Index, 2>& edge : topology.edges)
+  {
+    const Index i = free.unknown[Mesh::face(edge[0])];
+    const Index j = free.unknown[Mesh::face(edge[1])];
+    const double w = topology.edgeWeight[edge[0]];
+    // Unknown is the change against `angle`, so the residual at the start is the whole right side.
+    const double residual = w * edgeResidual(topology, angle, mesh, edge[0], jump[edge[0]]);
+    if (i != kInvalidIndex)
+    {
+      diagonal(i) += w;
+      right(i) -= residual;
+    }
+    if (j != kInvalidIndex)
+    {
+      diagonal(j) += w;
+      right(j) += residual;
+    }
+    if (i != kInvalidIndex && j != kInvalidIndex)
+    {
+      entries.emplace_back(std::max(i, j), std::min(i, j), -w);
+    }
+  }
+  // A component without constraints may turn as a whole: its first face is held (softly, which is
+  // exact because the right side sums to zero there).
+  std::vector<std::uint8_t> held(free.looseCount, 0);
+  for (Eigen::Index i = 0; i < size; ++i)
+  {
+    const Index loose = free.loose[i];
+    if (loose != kInvalidIndex && held[loose] == 0)
+    {
+      held[loose] = 1;
+      diagonal(i) *= 2;
+    }
+    entries.emplace_back(i, i, diagonal(i));
+  }
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+  if (solver.info() != Eigen::Success)
+  {
+    throw std::logic_error("cross field: the system of the angles could not be factored");
+  }
+  const Eigen::VectorXd change = solver.solve(right);
+  for (Eigen::Index i = 0; i < size; ++i)
+  {
+    angle[free.face[i]] += change(i);
+  }
+  return angle;
+}
+
+} // namespace quadrille

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Quarter turns per fan from integer jumps: turns change by whole numbers only, exactly as the jumps do.
+///
+/// jump[h] is the lifted matching: antisymmetric, residual = angle[f] + transport - angle[g] - jump pi/2. Going
+/// counterclockwise round a fan one crosses half-edges that point to its vertex, and
+///   turns = (angle sum + sum of residuals + start - end) / (pi/2),
+/// start, end: how far the constrained half-edges deviate from the axis of their alignment (zero for a whole ring).
+#pragma once
+
+#include "CrossField/FieldTopology.h"
+#include "CrossField/PowerField.h"
+
+#include <vector>
+
+namespace quadrille
+{
+
+/// Nearest jumps for the angles (#H, 0 across constrained edges).
+std::vector<int> roundJumps(
+  const Mesh& mesh, const FieldTopology& topology, const std::vector<double>& angle);
+
+/// Quarter turns of each fan.
+std::vector<int> countTurns(const Mesh& mesh, const FieldTopology& topology,
+  const FieldConstraints& constraints, const std::vector<double>& angle,
+  const std::vector<int>& jump);
+
+} // namespace quadrille
