@@ -1,0 +1,36 @@
+#!/bin/bash
+# SPDX-FileCopyrightText: The Quadrille maintainers
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Installs what Quadrille needs on Debian 12: compiler, libraries, ParaView, and what the tests use.
+# Does nothing, and needs no privileges, when everything is there already.
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build
+  paraview paraview-dev python3-paraview
+  libopenmpi-dev openmpi-bin            # ParaView's CMake files ask for MPI::MPI_C
+  libcgal-dev libeigen3-dev libsuitesparse-dev
+  libgtest-dev python3 python3-numpy python3-scipy
+  xvfb xauth libqt5svg5 libgl1-mesa-dri # pictures without a screen
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query --show --showformat='${Status}' "$package" 2>/dev/null || true)
+  [[ $status == "install ok installed" ]] || missing+=("$package")
+done
+if [[ ${#missing[@]} -eq 0 ]]; then
+  echo "install-dependencies: nothing to install"
+  exit 0
+fi
+
+as_root=()
+if [[ $(id -u) -ne 0 ]]; then
+  command -v sudo >/dev/null || { echo "install-dependencies: run as root, or install sudo; missing: ${missing[*]}" >&2; exit 1; }
+  as_root=(sudo)
+fi
+echo "install-dependencies: installing ${missing[*]}"
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -q -y --no-install-recommends "${missing[@]}"

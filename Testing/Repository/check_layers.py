@@ -1,0 +1,82 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: The Quadrille maintainers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Holds the includes of Core against the layers: a module includes only itself and the modules below it
+that it may know, and no VTK.
+
+  check_layers.py SOURCE_DIR [--selftest]
+"""
+import pathlib
+import re
+import sys
+
+# Who may include whom, one step; what a module reaches through its neighbours it may include as well.
+MAY_INCLUDE = {
+    "Base": [],
+    "Mesh": ["Base"],
+    "Numerics": ["Base"],
+    "Hierarchy": ["Mesh"],
+    "CrossField": ["Mesh", "Numerics"],
+    "GridMap": ["CrossField"],
+    "Transfer": ["Hierarchy", "GridMap"],
+    "Extraction": ["GridMap"],
+    "Evaluation": ["Transfer", "Extraction"],
+    "Pipeline": ["Evaluation"],
+}
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+
+
+def reachable(module):
+    found = {module}
+    for other in MAY_INCLUDE[module]:
+        found |= reachable(other)
+    return found
+
+
+def violations(module, name, text):
+    """Includes of one file of Core that its layer forbids."""
+    result = []
+    for bracket, path in INCLUDE.findall(text):
+        first = path.split("/")[0]
+        if path.startswith("vtk"):
+            result.append(f"{name}: Core must not know VTK: {path}")
+        elif bracket == '"' and first in MAY_INCLUDE and first not in reachable(module):
+            result.append(f"{name}: {module} must not include {path}")
+        elif bracket == '"' and first not in MAY_INCLUDE:
+            result.append(f"{name}: \"{path}\" is no header of Core; name it as Module/Header.h")
+    return result
+
+
+def check(root):
+    result, files = [], 0
+    for module in sorted(p.name for p in (root / "Core").iterdir() if p.is_dir()):
+        if module not in MAY_INCLUDE:
+            result.append(f"Core/{module}: a module that the layers do not know")
+            continue
+        for path in sorted((root / "Core" / module).rglob("*")):
+            if path.suffix in (".h", ".cpp"):
+                files += 1
+                result += violations(module, str(path.relative_to(root)), path.read_text())
+    if files == 0:
+        result.append("no source file found")
+    return result
+
+
+def selftest():
+    assert not violations("Mesh", "a", '#include "Mesh/Mesh.h"\n#include <vector>\n#include "Base/Types.h"\n')
+    assert violations("Mesh", "a", '#include "Hierarchy/Hierarchy.h"\n')
+    assert violations("Numerics", "a", '#include "Mesh/Mesh.h"\n')
+    assert violations("Pipeline", "a", "#include <vtkPolyData.h>\n")
+    assert violations("Mesh", "a", '  #  include "Mesh.h"\n')
+    assert not violations("Pipeline", "a", "".join(f'#include "{m}/X.h"\n' for m in MAY_INCLUDE))
+
+
+def main():
+    selftest()
+    problems = check(pathlib.Path(sys.argv[1]))
+    print("\n".join(problems) or "layers: fine")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: The Quadrille maintainers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every source file names its licence; no file of the repository holds a path of somebody's machine.
+
+  check_sources.py SOURCE_DIR
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+SOURCES = {".h", ".cpp", ".cxx", ".py", ".cmake", ".sh", ".xml"}
+SOURCE_NAMES = {"CMakeLists.txt", "run"}
+LICENSE_LINES = ("SPDX-FileCopyrightText:", "SPDX-License-Identifier: BSD-3-Clause")
+# Folders of people's machines; what every Linux has (/usr, /proc, ...) may be named.
+MACHINE_PATH = re.compile(r"(?<![\w.$}\])/])/(?:work|home|root|tmp|mnt|Users|workspace|builds?|data)/[\w.-]")
+BINARY = {".ply", ".png", ".vtp", ".stl", ".ex2", ".gz"}
+
+
+def repositoryFiles(root):
+    """What git tracks; outside of a git checkout everything but build folders and hidden ones."""
+    listing = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], capture_output=True)\
+        if (root / ".git").exists() and any(os.access(os.path.join(d, "git"), os.X_OK) for d in os.get_exec_path()) \
+        else None
+    if listing is not None and listing.returncode == 0:
+        names = [n for n in listing.stdout.decode().split("\0") if n]
+        return [root / n for n in names if (root / n).is_file()]
+    found = []
+    for folder, folders, files in os.walk(root):
+        folders[:] = sorted(f for f in folders if not f.startswith(("build", "__pycache__")) and f not in (".git", "out"))
+        found += [pathlib.Path(folder) / f for f in sorted(files)]
+    return found
+
+
+def licenseProblem(path, text):
+    if path.suffix not in SOURCES and path.name not in SOURCE_NAMES:
+        return None
+    head = "\n".join(text.splitlines()[:6])
+    missing = [line for line in LICENSE_LINES if line not in head]
+    return f"{path}: no \"{missing[0]}\" in its first lines" if missing else None
+
+
+def pathProblems(path, text):
+    return [f"{path}:{number}: path of a machine: {match.group(0)}..."
+            for number, line in enumerate(text.splitlines(), 1) for match in MACHINE_PATH.finditer(line)]
+
+
+def selftest():
+    machine = "/wo" + "rk/somewhere"
+    assert pathProblems("a", f'open("{machine}")') and pathProblems("a", f"cd {machine}")
+    assert not pathProblems("a", f"${{CMAKE_SOURCE_DIR}}{machine}") and not pathProblems("a", "a/work/b, #!/usr/bin/python3")
+    assert licenseProblem(pathlib.Path("a.h"), "#pragma once\n") and not licenseProblem(pathlib.Path("a.md"), "x")
+
+
+def main():
+    selftest()
+    root = pathlib.Path(sys.argv[1])
+    files = repositoryFiles(root)
+    problems = [] if files else ["no file found"]
+    for path in files:
+        if path.suffix in BINARY:
+            continue
+        try:
+            text = path.read_text()
+        except UnicodeDecodeError:
+            problems.append(f"{path}: neither text nor a known binary kind")
+            continue
+        name = path.relative_to(root)
+        problems += [p for p in [licenseProblem(name, text)] if p] + pathProblems(name, text)
+    print("\n".join(problems) or f"sources: {len(files)} files, fine")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
