@@ -466,8 +466,8 @@ def manifoldNet(shape, h, chi):
 
 
 def makeImplicit(shape, target, chi):
-    """A net of at most some 50 thousand faces, whose triangles are subdivided for the rest of the way."""
-    n = max(1, int(round(np.sqrt(target / 24000.0))))
+    """A net of up to 96 thousand faces; for more its triangles are subdivided."""
+    n = max(1, int(np.sqrt(target / 24000.0)))
     h = 0.05
     for _ in range(4):
         quads = surfaceNet(shape, h, np.zeros(3))[1]
