@@ -1,0 +1,386 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Extraction/GridVertices.h"
+
+#include "Base/Parallel.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <tuple>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr std::size_t kChunk = 1 << 14;
+
+std::int64_t ceilUnit(std::int64_t x)
+{
+  return (x + kOne - 1) & ~(kOne - 1);
+}
+
+Int128 floorDivide(Int128 a, Int128 b)
+{
+  const Int128 q = a / b;
+  return q - ((a % b != 0) && ((a < 0) != (b < 0)) ? 1 : 0);
+}
+
+/// Corner whose fan walk lists all corners of the vertex: the boundary half-edge, else the lowest id.
+Index canonicalCorner(const Mesh& mesh, Index h)
+{
+  Index lowest = h;
+  for (Index g = h; !mesh.isBoundary(g);)
+  {
+    g = mesh.rotateClockwise(g);
+    if (g == h)
+    {
+      return lowest;
+    }
+    lowest = mesh.isBoundary(g) ? g : std::min(lowest, g);
+  }
+  return mesh.isBoundary(h) ? h : lowest;
+}
+
+/// Open interval of u in which the row v meets the inside of triangle f, as the integers of fixed
+/// point it holds: [low, high].
+struct RowSpan
+{
+  Int128 low;
+  Int128 high;
+};
+
+/// Left of edge a -> b means (b.u - a.u) (v - a.v) > (b.v - a.v) (u - a.u): one bound on u per edge.
+RowSpan rowSpan(const std::array<FixedVec2, 3>& p, std::int64_t v, Int128 low, Int128 high)
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    const FixedVec2 a = p[i];
+    const FixedVec2 e = p[(i + 1) % 3] - a;
+    const Int128 c = Int128{ e.u } * (v - a.v) + Int128{ e.v } * a.u;
+    if (e.v > 0)
+    {
+      high = std::min(high, floorDivide(c - 1, e.v)); // u < c / e.v
+    }
+    else if (e.v < 0)
+    {
+      low = std::max(low, floorDivide(c, e.v) + 1); // u > c / e.v
+    }
+    else if (c <= 0)
+    {
+      return { 1, 0 };
+    }
+  }
+  return { low, high };
+}
+
+struct Box
+{
+  std::int64_t lowU, highU, lowV, highV;
+
+  explicit Box(const std::array<FixedVec2, 3>& p)
+    : lowU(std::min({ p[0].u, p[1].u, p[2].u }))
+    , highU(std::max({ p[0].u, p[1].u, p[2].u }))
+    , lowV(std::min({ p[0].v, p[1].v, p[2].v }))
+    , highV(std::max({ p[0].v, p[1].v, p[2].v }))
+  {
+  }
+  bool hasInteger() const { return ceilUnit(lowU) <= highU && ceilUnit(lowV) <= highV; }
+};
+
+void addVertex(std::vector<GridVertex>& list, Site kind, Index site, FixedVec2 uv)
+{
+  GridVertex vertex;
+  vertex.uv = uv;
+  vertex.site = site;
+  vertex.kind = kind;
+  list.push_back(vertex);
+}
+
+/// Integer points strictly inside, row by row.
+void scanInside(std::array<FixedVec2, 3> p, const Box& box, Index f, std::vector<GridVertex>& list)
+{
+  const int sign = orientation(p[0], p[1], p[2]);
+  if (sign == 0)
+  {
+    return;
+  }
+  if (sign < 0)
+  {
+    std::swap(p[1], p[2]);
+  }
+  for (std::int64_t v = ceilUnit(box.lowV); v <= box.highV; v += kOne)
+  {
+    const RowSpan span = rowSpan(p, v, box.lowU, box.highU);
+    if (span.low > span.high)
+    {
+      continue;
+    }
+    const std::int64_t high = static_cast<std::int64_t>(span.high);
+    for (std::int64_t u = ceilUnit(static_cast<std::int64_t>(span.low)); u <= high; u += kOne)
+    {
+      addVertex(list, Site::Face, f, { u, v });
+    }
+  }
+}
+
+/// Integer points strictly inside edge h, in ascending (v, u).
+void scanEdge(const ExactMap& map, Index h, std::vector<GridVertex>& list)
+{
+  const FixedVec2 a = map.at(h);
+  const FixedVec2 e = map.edge(h);
+  const bool byU = std::abs(e.u) >= std::abs(e.v);
+  const std::int64_t length = byU ? e.u : e.v;
+  const std::int64_t from = byU ? a.u : a.v;
+  const std::int64_t low = std::min(from, from + length);
+  const std::int64_t high = std::max(from, from + length);
+  const std::int64_t cross = byU ? e.v : e.u;
+  const std::size_t before = list.size();
+  for (std::int64_t x = ceilUnit(low); x <= high; x += kOne)
+  {
+    if (x == low || x == high)
+    {
+      continue;
+    }
+    const Int128 product = Int128{ x - from } * cross;
+    const std::int64_t y = (byU ? a.v : a.u) + static_cast<std::int64_t>(product / length);
+    if (product % length == 0 && isInteger(y))
+    {
+      addVertex(list, Site::Edge, h, byU ? FixedVec2{ x, y } : FixedVec2{ y, x });
+    }
+  }
+  if (byU && e.v != 0 && (e.u > 0) != (e.v > 0))
+  {
+    std::reverse(list.begin() + static_cast<std::ptrdiff_t>(before), list.end());
+  }
+}
+
+/// Appends the integer points that face f owns, in the order of GridVertex::slot().
+void scanFace(const ExactMap& map, Index f, std::vector<GridVertex>& list)
+{
+  const std::array<FixedVec2, 3> p{ map.at(3 * f), map.at(3 * f + 1), map.at(3 * f + 2) };
+  const Box box(p);
+  if (!box.hasInteger())
+  {
+    return; // the lot of nearly all triangles of a fine mesh
+  }
+  scanInside(p, box, f, list);
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  {
+    if (h < map.mesh.twin[h]) // holds on the boundary, too
+    {
+      scanEdge(map, h, list);
+    }
+  }
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  {
+    if (isInteger(map.at(h)) && canonicalCorner(map.mesh, h) == h)
+    {
+      addVertex(list, Site::Vertex, h, map.at(h));
+    }
+  }
+}
+
+bool before(const GridVertex& a, const GridVertex& b)
+{
+  return std::make_tuple(a.slot(), a.uv.v, a.uv.u) < std::make_tuple(b.slot(), b.uv.v, b.uv.u);
+}
+
+} // namespace
+
+GridVertices::GridVertices(const ExactMap& map, int threads)
+  : map_(map)
+  , faceFirst_(std::size_t{ map.mesh.faceCount() } + 1, 0)
+{
+  const std::size_t faces = map.mesh.faceCount();
+  std::vector<std::vector<GridVertex>> parts((faces + kChunk - 1) / kChunk);
+  parallelFor(faces, kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<GridVertex>& list = parts[begin / kChunk];
+      for (std::size_t f = begin; f < end; ++f)
+      {
+        scanFace(map, static_cast<Index>(f), list);
+        faceFirst_[f + 1] = static_cast<Index>(list.size());
+      }
+    });
+
+  std::size_t total = 0;
+  std::vector<std::size_t> first;
+  for (const std::vector<GridVertex>& part : parts)
+  {
+    first.push_back(total);
+    total += part.size();
+  }
+  vertices_.resize(total);
+  parallelFor(faces, kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      const std::size_t chunk = begin / kChunk;
+      std::copy(parts[chunk].begin(), parts[chunk].end(),
+        vertices_.begin() + static_cast<std::ptrdiff_t>(first[chunk]));
+      for (std::size_t f = begin; f < end; ++f)
+      {
+        faceFirst_[f + 1] += static_cast<Index>(first[chunk]);
+      }
+    });
+
+  parallelFor(total, kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t q = begin; q < end; ++q)
+      {
+        vertices_[q].firstPort = countPorts(static_cast<Index>(q));
+      }
+    });
+  for (GridVertex& vertex : vertices_)
+  {
+    const Index count = vertex.firstPort;
+    vertex.firstPort = portCount_;
+    portCount_ += count;
+  }
+}
+
+Sector GridVertices::faceSector(const GridVertex& vertex) const
+{
+  const bool positive = map_.orientationOf(vertex.site) > 0;
+  return { vertex.site, kInvalidIndex, vertex.uv, 0, positive ? 4 : 0 };
+}
+
+Sector GridVertices::edgeSector(Index h, FixedVec2 point) const
+{
+  const bool positive = map_.orientationOf(Mesh::face(h)) > 0;
+  // A half plane that holds its right border and not its left one has two of the four directions.
+  return { Mesh::face(h), h, point, firstAxis(map_.edge(h)), positive ? 2 : 0 };
+}
+
+Sector GridVertices::cornerSector(Index h) const
+{
+  Sector sector{ Mesh::face(h), h, map_.at(h), 0, 0 };
+  if (map_.orientationOf(sector.face) <= 0)
+  {
+    return sector;
+  }
+  const FixedVec2 left = map_.at(Mesh::previous(h)) - map_.at(h);
+  sector.firstDirection = firstAxis(map_.edge(h));
+  // The angle is below 180 degrees: at most two directions, each tested against the left side.
+  while (sector.count < 2 && turn(axisVector(sector.firstDirection + sector.count), left) > 0)
+  {
+    ++sector.count;
+  }
+  return sector;
+}
+
+Index GridVertices::countPorts(Index q) const
+{
+  Index count = 0;
+  forEachSector(q, [&](const Sector& sector) { count += static_cast<Index>(sector.count); });
+  return count;
+}
+
+std::optional<Index> GridVertices::findRecord(Site kind, Index site, FixedVec2 uv) const
+{
+  GridVertex key;
+  key.uv = uv;
+  key.site = site;
+  key.kind = kind;
+  const auto first = vertices_.begin() + faceFirst_[key.face()];
+  const auto last = vertices_.begin() + faceFirst_[key.face() + 1];
+  const auto found = std::lower_bound(first, last, key, before);
+  if (found == last || before(key, *found))
+  {
+    return std::nullopt;
+  }
+  return static_cast<Index>(found - vertices_.begin());
+}
+
+std::optional<Index> GridVertices::findOnEdge(Index h, FixedVec2 point) const
+{
+  const Index g = map_.mesh.twin[h];
+  if (h < g)
+  {
+    return findRecord(Site::Edge, h, point);
+  }
+  Transition t;
+  return map_.transition(h, t) ? findRecord(Site::Edge, g, t.apply(point)) : std::nullopt;
+}
+
+std::optional<Index> GridVertices::findCorner(Index h) const
+{
+  const Index corner = canonicalCorner(map_.mesh, h);
+  return findRecord(Site::Vertex, corner, map_.at(corner));
+}
+
+std::optional<Index> GridVertices::find(Index f, FixedVec2 point) const
+{
+  if (!isInteger(point))
+  {
+    return std::nullopt;
+  }
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  {
+    if (map_.at(h) == point)
+    {
+      return findCorner(h);
+    }
+  }
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  {
+    if (orientation(map_.at(h), map_.at(Mesh::next(h)), point) == 0)
+    {
+      if (const std::optional<Index> found = findOnEdge(h, point))
+      {
+        return found;
+      }
+    }
+  }
+  return findRecord(Site::Face, f, point);
+}
+
+Index GridVertices::rankOfSector(Index q, Index halfEdge) const
+{
+  Index rank = 0;
+  bool found = false;
+  forEachSector(q,
+    [&](const Sector& sector)
+    {
+      found = found || sector.halfEdge == halfEdge;
+      rank += found ? 0 : static_cast<Index>(sector.count);
+    });
+  return rank;
+}
+
+std::optional<Index> GridVertices::findPort(Index f, FixedVec2 point, int direction) const
+{
+  const std::optional<Index> q = find(f, point);
+  if (!q)
+  {
+    return std::nullopt;
+  }
+  Sector sector;
+  if (vertices_[*q].kind == Site::Face)
+  {
+    sector = faceSector(vertices_[*q]);
+  }
+  for (Index h = 3 * f; h < 3 * f + 3 && vertices_[*q].kind != Site::Face; ++h)
+  {
+    if (map_.at(h) == point)
+    {
+      sector = cornerSector(h);
+      break;
+    }
+    if (vertices_[*q].kind == Site::Edge &&
+      orientation(map_.at(h), map_.at(Mesh::next(h)), point) == 0)
+    {
+      sector = edgeSector(h, point);
+    }
+  }
+  const int turns = (direction - sector.firstDirection) & 3;
+  if (turns >= sector.count)
+  {
+    return std::nullopt;
+  }
+  return vertices_[*q].firstPort + rankOfSector(*q, sector.halfEdge) + static_cast<Index>(turns);
+}
+
+} // namespace quadrille

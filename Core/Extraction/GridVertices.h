@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The integer points of a map and the grid directions that leave them (q-vertices and q-ports of
+/// [Ebke et al. 2013]).
+///
+/// A port is a direction of the grid at an integer point together with the surface just to its left, so
+/// it stands for one corner of one quad. "Just to the left" is what makes every choice unique: the
+/// port belongs to the triangle that contains the point moved by e along the direction and by e^2 to its
+/// left, for all small e.
+#pragma once
+
+#include "Extraction/ExactMap.h"
+
+#include <optional>
+
+namespace quadrille
+{
+
+/// Where on the mesh an integer point lies. The order is that of the record in GridVertices.
+enum class Site : std::uint8_t
+{
+  Face, ///< strictly inside face site
+  Edge, ///< strictly inside the edge of half-edge site, the lower id of the two
+  Vertex ///< on the vertex of corner site, the canonical corner of its fan
+};
+
+struct GridVertex
+{
+  FixedVec2 uv;          ///< in the chart of face()
+  Index site = kInvalidIndex;
+  Index firstPort = 0;
+  Site kind = Site::Face;
+
+  Index face() const { return kind == Site::Face ? site : Mesh::face(site); }
+  /// Sorts within a face: inside, edges, corners.
+  int slot() const
+  {
+    return kind == Site::Face ? 0 : static_cast<int>(kind) * 3 - 2 + static_cast<int>(site % 3);
+  }
+};
+
+/// A wedge of one positive triangle at an integer point and the ports that lie in it.
+struct Sector
+{
+  Index face = kInvalidIndex;
+  Index halfEdge = kInvalidIndex; ///< the right side of the wedge; invalid strictly inside a face
+  FixedVec2 point;                ///< the integer point in the chart of face
+  int firstDirection = 0;         ///< in that chart, counterclockwise from the right side on
+  int count = 0;                  ///< number of ports
+};
+
+class GridVertices
+{
+public:
+  /// Finds all integer points; ids follow the faces. Linear in faces plus points; parallel.
+  GridVertices(const ExactMap& map, int threads);
+
+  const std::vector<GridVertex>& vertices() const { return vertices_; }
+  Index portCount() const { return portCount_; }
+
+  /// Calls visit(sector) counterclockwise for all sectors of vertex q that have ports; the ports of the
+  /// vertex are numbered from firstPort on in this order.
+  template <typename Visitor>
+  void forEachSector(Index q, const Visitor& visit) const
+  {
+    const GridVertex& vertex = vertices_[q];
+    if (vertex.kind == Site::Face)
+    {
+      visitFace(vertex, visit);
+    }
+    else if (vertex.kind == Site::Edge)
+    {
+      visitEdge(vertex, visit);
+    }
+    else
+    {
+      visitFan(vertex, visit);
+    }
+  }
+
+  /// The integer point at `point` of the closed triangle f, if there is one.
+  std::optional<Index> find(Index f, FixedVec2 point) const;
+
+  /// The integer point on the vertex of corner h, if there is one.
+  std::optional<Index> findCorner(Index h) const;
+
+  /// The port that leaves `point` of positive triangle f along `direction`, both in f's chart.
+  std::optional<Index> findPort(Index f, FixedVec2 point, int direction) const;
+
+private:
+  Sector faceSector(const GridVertex& vertex) const;
+  Sector edgeSector(Index h, FixedVec2 point) const;
+  Sector cornerSector(Index h) const;
+  Index countPorts(Index q) const;
+  std::optional<Index> findRecord(Site kind, Index site, FixedVec2 uv) const;
+  std::optional<Index> findOnEdge(Index h, FixedVec2 point) const;
+  Index rankOfSector(Index q, Index halfEdge) const;
+
+  template <typename Visitor>
+  void visitFace(const GridVertex& vertex, const Visitor& visit) const
+  {
+    const Sector sector = faceSector(vertex);
+    if (sector.count > 0)
+    {
+      visit(sector);
+    }
+  }
+
+  template <typename Visitor>
+  void visitEdge(const GridVertex& vertex, const Visitor& visit) const
+  {
+    const Sector mine = edgeSector(vertex.site, vertex.uv);
+    if (mine.count > 0)
+    {
+      visit(mine);
+    }
+    Transition t;
+    if (map_.transition(vertex.site, t))
+    {
+      const Sector other = edgeSector(map_.mesh.twin[vertex.site], t.apply(vertex.uv));
+      if (other.count > 0)
+      {
+        visit(other);
+      }
+    }
+  }
+
+  template <typename Visitor>
+  void visitFan(const GridVertex& vertex, const Visitor& visit) const
+  {
+    Index h = vertex.site;
+    do
+    {
+      const Sector sector = cornerSector(h);
+      if (sector.count > 0)
+      {
+        visit(sector);
+      }
+      h = map_.mesh.rotateCounterclockwise(h);
+    } while (h != vertex.site && h != kInvalidIndex);
+  }
+
+  ExactMap map_;
+  std::vector<GridVertex> vertices_;
+  std::vector<Index> faceFirst_; ///< #F + 1 offsets into vertices_
+  Index portCount_ = 0;
+};
+
+} // namespace quadrille

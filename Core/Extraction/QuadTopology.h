@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Connectivity of a quad mesh: twins, valences, and whether it is a manifold.
+#pragma once
+
+#include "Base/Types.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Half-edge 4q+i runs from corner i to corner (i+1)%4 of quad q.
+struct QuadTopology
+{
+  std::vector<Index> twin;              ///< per half-edge; kInvalidIndex on the boundary and where it is not
+                                        ///< unique
+  std::vector<int> valence;             ///< per point: number of edges
+  std::vector<std::uint8_t> onBoundary; ///< per point
+
+  std::size_t edges = 0;
+  std::size_t components = 0;
+  std::size_t boundaryEdges = 0;
+  std::size_t boundaryLoops = 0; ///< only meaningful for a manifold
+  long long eulerCharacteristic = 0;
+
+  std::size_t nonManifoldEdges = 0;    ///< half-edges that appear twice: more than two quads or opposed
+                                       ///< orientation
+  std::size_t nonManifoldVertices = 0; ///< more than one fan of quads
+  std::size_t degenerateQuads = 0;     ///< a point twice in one quad
+  std::size_t isolatedPoints = 0;
+  std::vector<Index> offendingPoints;  ///< the first few points where something is wrong
+
+  bool manifold() const
+  {
+    return nonManifoldEdges == 0 && nonManifoldVertices == 0 && degenerateQuads == 0 &&
+      isolatedPoints == 0;
+  }
+  bool closed() const { return boundaryEdges == 0; }
+  /// "2 non-manifold edges, 1 vertex ..."; empty for a manifold.
+  std::string text() const;
+};
+
+/// Linear in quads. Throws InvalidInput for a corner beyond pointCount.
+QuadTopology analyzeQuads(const std::vector<std::array<Index, 4>>& quads, std::size_t pointCount);
+
+} // namespace quadrille
