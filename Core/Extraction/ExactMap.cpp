@@ -158,8 +158,9 @@ MapCheck checkMap(const ExactMap& map, int threads)
     [&](Index begin, Index end, MapCheck& part) { checkRange(map, begin, end, part); });
   if (whole.outOfRange == kInvalidIndex)
   {
-    merge(whole, overFaces(faces, threads,
-      [&](Index begin, Index end, MapCheck& part) { checkEdges(map, begin, end, part); }));
+    merge(whole,
+      overFaces(faces, threads,
+        [&](Index begin, Index end, MapCheck& part) { checkEdges(map, begin, end, part); }));
   }
   return whole;
 }

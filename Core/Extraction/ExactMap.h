@@ -66,8 +66,8 @@ struct ExactMap
   FixedVec2 edge(Index h) const { return uv[Mesh::next(h)] - uv[h]; }
   int orientationOf(Index f) const
   {
-    return orientation(uv[3 * std::size_t{ f }], uv[3 * std::size_t{ f } + 1],
-      uv[3 * std::size_t{ f } + 2]);
+    return orientation(
+      uv[3 * std::size_t{ f }], uv[3 * std::size_t{ f } + 1], uv[3 * std::size_t{ f } + 2]);
   }
 
   /// The transition over h into the chart of its twin's face; false when there is no unique one: a
@@ -96,11 +96,11 @@ struct ExactMap
 /// What can be wrong with one element of a map.
 enum MapDefect
 {
-  kNotPositive,  ///< a triangle with !(det > 0)
-  kResidual,     ///< an edge whose two images differ by more than a transition
-  kFractional,   ///< a transition with a translation that is not whole
-  kOffIsoline,   ///< a constrained edge that does not lie on an integer isoline
-  kMapDefects    ///< number of kinds
+  kNotPositive, ///< a triangle with !(det > 0)
+  kResidual,    ///< an edge whose two images differ by more than a transition
+  kFractional,  ///< a transition with a translation that is not whole
+  kOffIsoline,  ///< a constrained edge that does not lie on an integer isoline
+  kMapDefects   ///< number of kinds
 };
 
 /// The exact check in front of the extraction.
@@ -108,8 +108,8 @@ struct MapCheck
 {
   std::array<std::size_t, kMapDefects> count{};
   std::array<std::vector<Index>, kMapDefects> faces; ///< the first few of each kind, lowest first
-  double area = 0;             ///< sum of |det| / 2 in quads
-  double extent = 0;           ///< sum of the triangles' widths in quads: bounds the work of a scan
+  double area = 0;                                   ///< sum of |det| / 2 in quads
+  double extent = 0; ///< sum of the triangles' widths in quads: bounds the work of a scan
   double constrainedLength = 0; ///< uv length of all constrained edges, each counted once, in quads
   Index outOfRange = kInvalidIndex; ///< a corner beyond the coordinates that are exact
 

@@ -32,24 +32,36 @@ struct QuadLine
 struct QuadMesh
 {
   std::vector<Vector3> points;
-  std::vector<std::array<Index, 4>> quads;   ///< counterclockwise like the input's faces
-  std::vector<Index> sourceFace;             ///< per point: face of the mapped mesh
+  std::vector<std::array<Index, 4>> quads;          ///< counterclockwise like the input's faces
+  std::vector<Index> sourceFace;                    ///< per point: face of the mapped mesh
   std::vector<std::array<double, 3>> sourceWeights; ///< per point: barycentric in that face
-  std::vector<Index> quadSourceFace;         ///< per quad: face of the mapped mesh under its uv centre
-  std::vector<int> valence;                  ///< per point: number of edges
-  std::vector<std::uint8_t> onBoundary;      ///< per point
-  std::vector<QuadLine> lines;               ///< features and boundary
+  std::vector<Index> quadSourceFace;    ///< per quad: face of the mapped mesh under its uv centre
+  std::vector<int> valence;             ///< per point: number of edges
+  std::vector<std::uint8_t> onBoundary; ///< per point
+  std::vector<QuadLine> lines;          ///< features and boundary
 };
 
 struct ExtractionResult
 {
   QuadMesh mesh;
+  /// Ok: the map is an integer-grid map, or its folds could be bridged, and mesh is a manifold with the
+  /// Euler characteristic, the components and the boundary loops of the input and all its features.
+  /// NotConverged: mesh holds what could be extracted; the message names the places. TooLarge: mesh is
+  /// empty.
   Status status;
   std::size_t openPorts = 0;    ///< edges of the grid that could not be followed to their end
   std::size_t droppedFaces = 0; ///< loops of the grid that are no quads
+  std::size_t mergedVertices =
+    0; ///< further copies of a grid vertex in folds that were joined to it
 };
 
-/// Exact extraction. uv: #H, see GridMap.h. Linear in triangles plus quads.
+/// The quads are the unit cells of the grid: each port (a corner of a cell, [Ebke et al. 2013]) is followed
+/// along its isoline to the next corner of the same cell, with exact predicates, and the cycles of length
+/// four are the quads. For an integer-grid map with det > 0 everywhere the result conforms by construction.
+/// Elsewhere, in the spirit of the same paper, the lines run back through inverted triangles and the copies
+/// of a grid vertex in the sheets of a fold are joined.
+/// uv: #H, see GridMap.h. Linear in triangles plus quads. Throws InvalidInput for an empty mesh, a
+/// wrong size of uv, or a coordinate beyond 2^44.
 ExtractionResult extractQuads(
   const Mesh& mesh, const std::vector<FixedVec2>& uv, const ExtractionOptions& options);
 

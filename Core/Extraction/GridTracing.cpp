@@ -137,13 +137,13 @@ void traceVertex(const ExactMap& map, const GridVertices& grid, Index q, bool to
       {
         const int direction = (sector.firstDirection + i) & 3;
         Walk walk{ sector.face, sector.point + axisVector(direction), direction, kInvalidIndex };
-        const bool arrived = tolerant ? followAndCollect(map, grid, walk, limit, q, merged)
-                                      : follow(map, walk, limit);
+        const bool arrived =
+          tolerant ? followAndCollect(map, grid, walk, limit, q, merged) : follow(map, walk, limit);
         cells.vertex[port] = q;
         if (arrived)
         {
-          cells.next[port] = grid.findPort(walk.face, walk.target, walk.direction + 1)
-                               .value_or(kInvalidIndex);
+          cells.next[port] =
+            grid.findPort(walk.face, walk.target, walk.direction + 1).value_or(kInvalidIndex);
         }
       }
     });

@@ -48,8 +48,7 @@ struct CellCorners
 
 /// Follows every port by one unit. tolerant: also looks for further copies of each port's vertex behind
 /// folds. Parallel; the result does not depend on the number of threads.
-CellCorners traceCells(
-  const ExactMap& map, const GridVertices& grid, bool tolerant, int threads);
+CellCorners traceCells(const ExactMap& map, const GridVertices& grid, bool tolerant, int threads);
 
 /// The face under the centre of the cell to the left of a port; none where it cannot be reached.
 std::optional<Index> faceUnderCentre(

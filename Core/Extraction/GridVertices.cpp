@@ -79,10 +79,8 @@ struct Box
   std::int64_t lowU, highU, lowV, highV;
 
   explicit Box(const std::array<FixedVec2, 3>& p)
-    : lowU(std::min({ p[0].u, p[1].u, p[2].u }))
-    , highU(std::max({ p[0].u, p[1].u, p[2].u }))
-    , lowV(std::min({ p[0].v, p[1].v, p[2].v }))
-    , highV(std::max({ p[0].v, p[1].v, p[2].v }))
+    : lowU(std::min({ p[0].u, p[1].u, p[2].u })), highU(std::max({ p[0].u, p[1].u, p[2].u })),
+      lowV(std::min({ p[0].v, p[1].v, p[2].v })), highV(std::max({ p[0].v, p[1].v, p[2].v }))
   {
   }
   bool hasInteger() const { return ceilUnit(lowU) <= highU && ceilUnit(lowV) <= highV; }
@@ -189,8 +187,7 @@ bool before(const GridVertex& a, const GridVertex& b)
 } // namespace
 
 GridVertices::GridVertices(const ExactMap& map, int threads)
-  : map_(map)
-  , faceFirst_(std::size_t{ map.mesh.faceCount() } + 1, 0)
+  : map_(map), faceFirst_(std::size_t{ map.mesh.faceCount() } + 1, 0)
 {
   const std::size_t faces = map.mesh.faceCount();
   std::vector<std::vector<GridVertex>> parts((faces + kChunk - 1) / kChunk);

@@ -19,14 +19,14 @@ namespace quadrille
 /// Where on the mesh an integer point lies. The order is that of the record in GridVertices.
 enum class Site : std::uint8_t
 {
-  Face, ///< strictly inside face site
-  Edge, ///< strictly inside the edge of half-edge site, the lower id of the two
+  Face,  ///< strictly inside face site
+  Edge,  ///< strictly inside the edge of half-edge site, the lower id of the two
   Vertex ///< on the vertex of corner site, the canonical corner of its fan
 };
 
 struct GridVertex
 {
-  FixedVec2 uv;          ///< in the chart of face()
+  FixedVec2 uv; ///< in the chart of face()
   Index site = kInvalidIndex;
   Index firstPort = 0;
   Site kind = Site::Face;

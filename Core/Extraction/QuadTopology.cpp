@@ -39,8 +39,7 @@ struct Buckets
   std::vector<Index> halfEdges;
 
   Buckets(const Quads& quads, std::size_t pointCount)
-    : first(pointCount + 1, 0)
-    , halfEdges(4 * quads.size())
+    : first(pointCount + 1, 0), halfEdges(4 * quads.size())
   {
     const Index count = static_cast<Index>(halfEdges.size());
     for (Index h = 0; h < count; ++h)
@@ -171,7 +170,8 @@ void countDegenerate(const Quads& quads, QuadTopology& topology)
 {
   for (const std::array<Index, 4>& q : quads)
   {
-    if (q[0] == q[1] || q[0] == q[2] || q[0] == q[3] || q[1] == q[2] || q[1] == q[3] || q[2] == q[3])
+    if (q[0] == q[1] || q[0] == q[2] || q[0] == q[3] || q[1] == q[2] || q[1] == q[3] ||
+      q[2] == q[3])
     {
       ++topology.degenerateQuads;
       note(topology, q[0]);

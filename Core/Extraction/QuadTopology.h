@@ -15,9 +15,9 @@ namespace quadrille
 /// Half-edge 4q+i runs from corner i to corner (i+1)%4 of quad q.
 struct QuadTopology
 {
-  std::vector<Index> twin;              ///< per half-edge; kInvalidIndex on the boundary and where it is not
-                                        ///< unique
-  std::vector<int> valence;             ///< per point: number of edges
+  std::vector<Index> twin;  ///< per half-edge; kInvalidIndex on the boundary and where it is not
+                            ///< unique
+  std::vector<int> valence; ///< per point: number of edges
   std::vector<std::uint8_t> onBoundary; ///< per point
 
   std::size_t edges = 0;
@@ -26,12 +26,13 @@ struct QuadTopology
   std::size_t boundaryLoops = 0; ///< only meaningful for a manifold
   long long eulerCharacteristic = 0;
 
-  std::size_t nonManifoldEdges = 0;    ///< half-edges that appear twice: more than two quads or opposed
-                                       ///< orientation
+  std::size_t nonManifoldEdges =
+    0; ///< half-edges that appear twice: more than two quads or opposed
+       ///< orientation
   std::size_t nonManifoldVertices = 0; ///< more than one fan of quads
   std::size_t degenerateQuads = 0;     ///< a point twice in one quad
   std::size_t isolatedPoints = 0;
-  std::vector<Index> offendingPoints;  ///< the first few points where something is wrong
+  std::vector<Index> offendingPoints; ///< the first few points where something is wrong
 
   bool manifold() const
   {

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Extraction/Extraction.h"
+
+#include "Extraction/QuadAssembly.h"
+#include "Extraction/QuadTopology.h"
+#include "Mesh/Topology.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace quadrille
+{
+namespace
+{
+
+void checkArguments(const Mesh& mesh, const std::vector<FixedVec2>& uv)
+{
+  if (mesh.faceCount() == 0)
+  {
+    throw InvalidInput("extraction: the mesh has no faces");
+  }
+  if (uv.size() != mesh.origin.size() || mesh.twin.size() != mesh.origin.size() ||
+    mesh.flags.size() != mesh.origin.size())
+  {
+    throw InvalidInput("extraction: " + std::to_string(uv.size()) + " uv for " +
+      std::to_string(mesh.origin.size()) + " corners");
+  }
+}
+
+void checkOutOfRange(const MapCheck& check)
+{
+  if (check.outOfRange != kInvalidIndex)
+  {
+    throw InvalidInput("extraction: the map of face " + std::to_string(check.outOfRange / 3) +
+      ", corner " + std::to_string(check.outOfRange % 3) +
+      ", is beyond the range of exact coordinates (2^20 quads)");
+  }
+}
+
+/// Refuses what would make too many quads, or a map that is nearly all slivers far longer than a quad.
+Status checkSize(const MapCheck& check, const Mesh& mesh, const ExtractionOptions& options)
+{
+  // Four ports a quad have to fit an Index.
+  const double limit = std::min(static_cast<double>(options.maximumQuads), 5e8);
+  std::ostringstream text;
+  if (check.area > limit)
+  {
+    text << "the map holds about " << std::llround(check.area) << " quads, more than the limit of "
+         << static_cast<std::size_t>(limit) << "; ask for larger quads or raise the limit";
+  }
+  else if (check.extent > 64 * (limit + mesh.faceCount()))
+  {
+    text << "the map's triangles are " << check.extent / mesh.faceCount()
+         << " quads wide on average; it is no map of this surface";
+  }
+  return { text.str().empty() ? StatusCode::Ok : StatusCode::TooLarge, text.str() };
+}
+
+void append(std::string& text, const std::string& more)
+{
+  text += (text.empty() ? "" : "; ") + more;
+}
+
+std::string describePoints(const QuadMesh& mesh, const std::vector<Index>& points)
+{
+  std::ostringstream text;
+  for (const Index p : points)
+  {
+    const Vector3& x = mesh.points[p];
+    text << (text.tellp() > 0 ? ", " : "") << "(" << x.x() << ", " << x.y() << ", " << x.z()
+         << ") in face " << mesh.sourceFace[p];
+  }
+  return text.str();
+}
+
+/// Compares with the input surface. Empty when the quad mesh is the same surface.
+std::string compareTopology(const Mesh& mesh, const QuadMesh& quads, const QuadTopology& found)
+{
+  std::string problem;
+  if (!found.manifold())
+  {
+    append(problem, found.text() + " near " + describePoints(quads, found.offendingPoints));
+  }
+  const TopologySummary wanted = summarizeTopology(mesh);
+  const auto differ = [&problem](const char* what, long long has, long long should)
+  {
+    if (has != should)
+    {
+      append(problem,
+        std::string(what) + " " + std::to_string(has) + " instead of " + std::to_string(should));
+    }
+  };
+  differ("Euler characteristic", found.eulerCharacteristic, wanted.eulerCharacteristic);
+  differ("components", static_cast<long long>(found.components), wanted.components);
+  if (found.manifold())
+  {
+    differ("boundary loops", static_cast<long long>(found.boundaryLoops), wanted.boundaryLoops);
+  }
+  return problem;
+}
+
+/// Every unit of a constrained isoline must be a line of the quad mesh. Empty when so.
+std::string compareLines(const QuadMesh& quads, const QuadTopology& found, const MapCheck& check)
+{
+  std::string problem;
+  std::size_t boundary = 0;
+  for (const QuadLine& line : quads.lines)
+  {
+    boundary += line.boundary ? 1 : 0;
+  }
+  if (boundary != found.boundaryEdges)
+  {
+    append(problem,
+      std::to_string(found.boundaryEdges) + " boundary edges, of which " +
+        std::to_string(boundary) + " lie on the input's boundary");
+  }
+  // In a fold the length of an edge's image counts there and back.
+  const bool folded = check.count[kNotPositive] > 0;
+  if (!folded && static_cast<double>(quads.lines.size()) != check.constrainedLength)
+  {
+    append(problem,
+      std::to_string(quads.lines.size()) + " feature and boundary edges instead of " +
+        std::to_string(check.constrainedLength));
+  }
+  return problem;
+}
+
+/// Judges the result: what is wrong with it, and what in the map explains it.
+Status judge(const Mesh& mesh, const MapCheck& check, const QuadTopology& found,
+  const ExtractionResult& result)
+{
+  std::string problem = compareTopology(mesh, result.mesh, found);
+  const std::string lines = compareLines(result.mesh, found, check);
+  if (!lines.empty())
+  {
+    append(problem, lines);
+  }
+  if (check.count[kOffIsoline] > 0)
+  {
+    append(problem, "features or boundaries are not reproduced");
+  }
+  if (problem.empty())
+  {
+    return {};
+  }
+  if (result.openPorts > 0 || result.droppedFaces > 0)
+  {
+    append(problem,
+      std::to_string(result.openPorts) + " open grid edges, " +
+        std::to_string(result.droppedFaces) + " dropped faces");
+  }
+  const std::string cause = check.text();
+  return { StatusCode::NotConverged,
+    "the quad mesh is not the input surface: " + problem +
+      (cause.empty() ? "" : ". The map has " + cause) };
+}
+
+} // namespace
+
+ExtractionResult extractQuads(
+  const Mesh& mesh, const std::vector<FixedVec2>& uv, const ExtractionOptions& options)
+{
+  checkArguments(mesh, uv);
+  const ExactMap map{ mesh, uv };
+  ExtractionResult result;
+
+  report(options.progress, 0, "checking the map");
+  const MapCheck check = checkMap(map, options.threads);
+  checkOutOfRange(check);
+  result.status = checkSize(check, mesh, options);
+  if (!result.status.ok())
+  {
+    return result;
+  }
+
+  report(options.progress, 0.3, "finding grid vertices");
+  const GridVertices grid(map, options.threads);
+
+  report(options.progress, 0.5, "following the grid");
+  const bool tolerant = check.count[kNotPositive] > 0;
+  const CellCorners cells = traceCells(map, grid, tolerant, options.threads);
+
+  report(options.progress, 0.7, "assembling quads");
+  assembleQuads(map, grid, cells, { tolerant, options.threads }, result);
+
+  report(options.progress, 0.9, "checking the quads");
+  QuadTopology topology = analyzeQuads(result.mesh.quads, result.mesh.points.size());
+  result.status = judge(mesh, check, topology, result);
+  result.mesh.valence = std::move(topology.valence);
+  result.mesh.onBoundary = std::move(topology.onBoundary);
+  report(options.progress, 1, "extraction done");
+  return result;
+}
+
+} // namespace quadrille

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// From cell corners to the quad mesh: quads, points with their place on the input, feature lines.
+#pragma once
+
+#include "Extraction/Extraction.h"
+#include "Extraction/GridTracing.h"
+
+namespace quadrille
+{
+
+struct AssemblyOptions
+{
+  bool tolerant = false; ///< there are merged vertices: drop collapsed and double quads
+  int threads = 0;
+};
+
+/// Fills points, quads, sources and lines of the result's mesh, and the counts. Valence and onBoundary are
+/// left to the topology check.
+void assembleQuads(const ExactMap& map, const GridVertices& grid, const CellCorners& cells,
+  const AssemblyOptions& options, ExtractionResult& result);
+
+} // namespace quadrille

@@ -1,0 +1,317 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GridMaps.h"
+
+#include "Extraction/Extraction.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace quadrille::test
+{
+namespace
+{
+
+/// Topology of a quad mesh by maps and sets, on purpose by other means than the library's.
+struct IndependentCheck
+{
+  std::size_t edges = 0;
+  std::size_t boundaryEdges = 0;
+  std::size_t boundaryLoops = 0;
+  std::size_t components = 0;
+  bool oriented = true;
+  bool vertexManifold = true;
+
+  IndependentCheck(const QuadMesh& mesh)
+  {
+    std::map<std::pair<Index, Index>, int> directed;
+    std::map<Index, std::set<Index>> neighbours;
+    std::map<Index, std::map<Index, Index>> links; // around a vertex: previous -> next
+    for (const auto& q : mesh.quads)
+    {
+      for (std::size_t i = 0; i < 4; ++i)
+      {
+        const Index a = q[i], b = q[(i + 1) % 4], z = q[(i + 3) % 4];
+        ++directed[{ a, b }];
+        neighbours[a].insert(b);
+        neighbours[b].insert(a);
+        vertexManifold = vertexManifold && links[a].emplace(b, z).second;
+      }
+    }
+    std::map<Index, Index> border;
+    for (const auto& [edge, count] : directed)
+    {
+      oriented = oriented && count == 1;
+      if (directed.count({ edge.second, edge.first }) == 0)
+      {
+        ++boundaryEdges;
+        vertexManifold = vertexManifold && border.emplace(edge).second;
+      }
+    }
+    for (const auto& [v, around] : neighbours)
+    {
+      edges += around.size();
+      vertexManifold = vertexManifold && isOneFan(links[v], around.size());
+    }
+    edges /= 2;
+    countComponents(neighbours);
+    countLoops(border);
+  }
+
+private:
+  static bool isOneFan(const std::map<Index, Index>& link, std::size_t neighbours)
+  {
+    // Start at a neighbour without predecessor if there is one (boundary), else anywhere.
+    std::set<Index> targets;
+    for (const auto& [from, to] : link)
+    {
+      targets.insert(to);
+    }
+    Index start = link.begin()->first;
+    for (const auto& [from, to] : link)
+    {
+      start = targets.count(from) == 0 ? from : start;
+    }
+    std::set<Index> seen;
+    for (Index p = start; seen.insert(p).second && link.count(p) != 0;)
+    {
+      p = link.at(p);
+    }
+    return seen.size() == neighbours;
+  }
+
+  void countComponents(const std::map<Index, std::set<Index>>& neighbours)
+  {
+    std::set<Index> seen;
+    for (const auto& [start, unused] : neighbours)
+    {
+      if (!seen.insert(start).second)
+      {
+        continue;
+      }
+      ++components;
+      std::vector<Index> stack{ start };
+      while (!stack.empty())
+      {
+        const Index p = stack.back();
+        stack.pop_back();
+        for (const Index q : neighbours.at(p))
+        {
+          if (seen.insert(q).second)
+          {
+            stack.push_back(q);
+          }
+        }
+      }
+    }
+  }
+
+  void countLoops(std::map<Index, Index> border)
+  {
+    while (!border.empty())
+    {
+      ++boundaryLoops;
+      Index p = border.begin()->first;
+      for (auto found = border.find(p); found != border.end(); found = border.find(p))
+      {
+        p = found->second;
+        border.erase(found);
+      }
+    }
+  }
+};
+
+ExtractionResult extract(const GridMapCase& c, int threads = 1)
+{
+  ExtractionOptions options;
+  options.threads = threads;
+  return extractQuads(c.mesh, c.uv, options);
+}
+
+void expectTopologyOfInput(const Mesh& mesh, const QuadMesh& quads)
+{
+  const IndependentCheck check(quads);
+  const TopologySummary wanted = summarizeTopology(mesh);
+  EXPECT_TRUE(check.oriented);
+  EXPECT_TRUE(check.vertexManifold);
+  EXPECT_EQ(check.components, wanted.components);
+  EXPECT_EQ(check.boundaryLoops, wanted.boundaryLoops);
+  EXPECT_EQ(static_cast<long long>(quads.points.size()) - static_cast<long long>(check.edges) +
+      static_cast<long long>(quads.quads.size()),
+    wanted.eulerCharacteristic);
+}
+
+/// Sources lie in their faces and give the positions; valences count edges; lines are quad edges.
+void expectConsistentAttributes(const Mesh& mesh, const QuadMesh& quads)
+{
+  ASSERT_EQ(quads.sourceFace.size(), quads.points.size());
+  ASSERT_EQ(quads.sourceWeights.size(), quads.points.size());
+  ASSERT_EQ(quads.valence.size(), quads.points.size());
+  ASSERT_EQ(quads.onBoundary.size(), quads.points.size());
+  ASSERT_EQ(quads.quadSourceFace.size(), quads.quads.size());
+  for (std::size_t i = 0; i < quads.points.size(); ++i)
+  {
+    Vector3 p = Vector3::Zero();
+    double sum = 0;
+    for (Index k = 0; k < 3; ++k)
+    {
+      EXPECT_GE(quads.sourceWeights[i][k], 0);
+      sum += quads.sourceWeights[i][k];
+      p += quads.sourceWeights[i][k] * mesh.position[mesh.origin[3 * quads.sourceFace[i] + k]];
+    }
+    EXPECT_NEAR(sum, 1, 1e-12); // three rounded quotients of doubles
+    EXPECT_NEAR((p - quads.points[i]).norm(), 0, 1e-12);
+  }
+  std::set<std::pair<Index, Index>> edges;
+  std::vector<std::set<Index>> neighbours(quads.points.size());
+  for (const auto& q : quads.quads)
+  {
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      edges.emplace(q[k], q[(k + 1) % 4]);
+      neighbours[q[k]].insert(q[(k + 1) % 4]);
+      neighbours[q[(k + 1) % 4]].insert(q[k]);
+    }
+  }
+  for (std::size_t i = 0; i < quads.points.size(); ++i)
+  {
+    EXPECT_EQ(static_cast<std::size_t>(quads.valence[i]), neighbours[i].size());
+  }
+  for (const QuadLine& line : quads.lines)
+  {
+    EXPECT_EQ(edges.count({ line.a, line.b }), 1u);
+    EXPECT_EQ(edges.count({ line.b, line.a }), line.boundary ? 0u : 1u);
+    EXPECT_TRUE(mesh.isConstrained(line.halfEdge));
+    EXPECT_EQ(mesh.isBoundary(line.halfEdge), line.boundary);
+    EXPECT_TRUE(!line.boundary || (quads.onBoundary[line.a] && quads.onBoundary[line.b]));
+  }
+}
+
+void expectPerfect(const GridMapCase& c)
+{
+  SCOPED_TRACE(c.name);
+  ASSERT_EQ(validate(c.mesh), "");
+  const ExtractionResult result = extract(c);
+  EXPECT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_EQ(result.mesh.quads.size(), c.quads);
+  EXPECT_EQ(result.mesh.lines.size(), c.lines);
+  EXPECT_EQ(result.openPorts, 0u);
+  EXPECT_EQ(result.droppedFaces, 0u);
+  EXPECT_EQ(result.mergedVertices, 0u);
+  expectTopologyOfInput(c.mesh, result.mesh);
+  expectConsistentAttributes(c.mesh, result.mesh);
+}
+
+void expectSame(const QuadMesh& a, const QuadMesh& b)
+{
+  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.quads, b.quads);
+  EXPECT_EQ(a.sourceFace, b.sourceFace);
+  EXPECT_EQ(a.sourceWeights, b.sourceWeights);
+  EXPECT_EQ(a.quadSourceFace, b.quadSourceFace);
+  EXPECT_EQ(a.valence, b.valence);
+  EXPECT_EQ(a.onBoundary, b.onBoundary);
+  ASSERT_EQ(a.lines.size(), b.lines.size());
+  for (std::size_t i = 0; i < a.lines.size(); ++i)
+  {
+    EXPECT_EQ(a.lines[i].a, b.lines[i].a);
+    EXPECT_EQ(a.lines[i].b, b.lines[i].b);
+    EXPECT_EQ(a.lines[i].halfEdge, b.lines[i].halfEdge);
+    EXPECT_EQ(a.lines[i].boundary, b.lines[i].boundary);
+  }
+}
+
+std::map<int, int> interiorValences(const QuadMesh& mesh)
+{
+  std::map<int, int> count;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    if (!mesh.onBoundary[i])
+    {
+      ++count[mesh.valence[i]];
+    }
+  }
+  return count;
+}
+
+} // namespace
+
+// Every grid vertex on a mesh vertex, and grid lines along mesh edges only.
+TEST(Extraction, UnitSquares)
+{
+  for (const GridMapCase& c : allCases(1))
+  {
+    expectPerfect(c);
+  }
+}
+
+// Grid vertices inside edges (the diagonals, too) and faces.
+TEST(Extraction, SquaresOfSeveralUnits)
+{
+  for (const int k : { 2, 3, 7 })
+  {
+    for (const GridMapCase& c : allCases(k))
+    {
+      expectPerfect(c);
+    }
+  }
+}
+
+TEST(Extraction, IrregularVerticesOfPolycubes)
+{
+  // Theory: the corners of a cube have valence 3; the tripod has one vertex with six faces round it.
+  const auto cube = interiorValences(extract(squares("", unitCube(1), 3)).mesh);
+  EXPECT_EQ(cube.at(3), 8);
+  EXPECT_EQ(cube.size(), 2u);
+  const auto cushion = interiorValences(extract(squares("", pillow(2), 3)).mesh);
+  EXPECT_EQ(cushion.at(2), 4);
+  EXPECT_EQ(cushion.size(), 2u);
+  const auto legs = interiorValences(extract(squares("", tripod(1), 2)).mesh);
+  EXPECT_EQ(legs.at(6), 1);
+  // sum of (4 - valence) = 4 chi = 8
+  int sum = 0;
+  for (const auto& [valence, count] : legs)
+  {
+    sum += (4 - valence) * count;
+  }
+  EXPECT_EQ(sum, 8);
+}
+
+TEST(Extraction, RandomChartsAndTriangulations)
+{
+  for (unsigned seed = 0; seed < 30; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    for (GridMapCase& c : allCases(1 + static_cast<int>(seed % 4)))
+    {
+      MapEditor editor(c);
+      editor.shuffleCharts(random);
+      editor.refine(random, 50 << (seed % 4));
+      editor.shuffleCharts(random);
+      expectPerfect(c);
+    }
+    if (HasFailure())
+    {
+      return;
+    }
+  }
+}
+
+TEST(Extraction, SameBytesForAnyNumberOfThreads)
+{
+  Random random(7);
+  GridMapCase c = squares("", markFeatures(doubleTorus(2), 0.7), 20);
+  MapEditor editor(c);
+  editor.refine(random, 20000);
+  editor.shuffleCharts(random);
+  const ExtractionResult one = extract(c, 1);
+  ASSERT_TRUE(one.status.ok()) << one.status.message;
+  expectSame(one.mesh, extract(c, 2).mesh);
+  expectSame(one.mesh, extract(c, 3).mesh);
+}
+
+} // namespace quadrille::test
