@@ -1,0 +1,306 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Hierarchy/FeatureCurves.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// Constrained neighbours of the vertices, in compressed rows; only vertices on curves have any.
+class CurveGraph
+{
+public:
+  explicit CurveGraph(const Mesh& mesh)
+    : offset_(mesh.vertexCount() + 1, 0)
+  {
+    forEachEdge(mesh, [&](Index a, Index b) {
+      ++offset_[a + 1];
+      ++offset_[b + 1];
+    });
+    for (std::size_t v = 1; v < offset_.size(); ++v)
+    {
+      offset_[v] += offset_[v - 1];
+    }
+    neighbour_.resize(offset_.back());
+    std::vector<Index> fill(offset_.begin(), offset_.end() - 1);
+    forEachEdge(mesh, [&](Index a, Index b) {
+      neighbour_[fill[a]++] = b;
+      neighbour_[fill[b]++] = a;
+    });
+  }
+
+  Index degree(Index v) const { return offset_[v + 1] - offset_[v]; }
+  Index neighbour(Index v, Index i) const { return neighbour_[offset_[v] + i]; }
+  /// The other neighbour of a vertex of degree 2.
+  Index other(Index v, Index from) const
+  {
+    return neighbour(v, 0) == from ? neighbour(v, 1) : neighbour(v, 0);
+  }
+
+private:
+  template <typename Body>
+  static void forEachEdge(const Mesh& mesh, const Body& body)
+  {
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      if (mesh.isConstrained(h) && (mesh.isBoundary(h) || h < mesh.twin[h]))
+      {
+        body(mesh.origin[h], mesh.target(h));
+      }
+    }
+  }
+  std::vector<Index> offset_;
+  std::vector<Index> neighbour_;
+};
+
+/// A maximal chain of constrained edges through vertices of degree 2.
+struct Chain
+{
+  std::vector<Index> vertices; ///< a closed one does not repeat its first vertex
+  bool closed = false;
+};
+
+Chain followChain(const CurveGraph& graph, Index start, Index second, std::vector<char>& seen)
+{
+  Chain chain;
+  chain.vertices = { start };
+  Index previous = start;
+  Index v = second;
+  while (v != start && graph.degree(v) == 2)
+  {
+    seen[v] = 1;
+    chain.vertices.push_back(v);
+    const Index next = graph.other(v, previous);
+    previous = v;
+    v = next;
+  }
+  chain.closed = v == start && graph.degree(start) == 2;
+  if (!chain.closed)
+  {
+    chain.vertices.push_back(v);
+  }
+  return chain;
+}
+
+std::vector<Chain> collectChains(const Mesh& mesh, const CurveGraph& graph)
+{
+  std::vector<Chain> chains;
+  std::vector<char> seen(mesh.vertexCount(), 0);
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    if (graph.degree(v) == 0 || graph.degree(v) == 2)
+    {
+      continue;
+    }
+    for (Index i = 0; i < graph.degree(v); ++i)
+    {
+      const Index next = graph.neighbour(v, i);
+      // A chain is found from both of its ends; the inner vertices, or the order of the ends, tell it was.
+      const bool direct = graph.degree(next) != 2;
+      if (direct ? v < next : !seen[next])
+      {
+        chains.push_back(followChain(graph, v, next, seen));
+      }
+    }
+  }
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    if (graph.degree(v) == 2 && !seen[v])
+    {
+      seen[v] = 1;
+      chains.push_back(followChain(graph, v, graph.neighbour(v, 0), seen));
+    }
+  }
+  return chains;
+}
+
+double angleBetween(const Vector3& a, const Vector3& b)
+{
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// A chain's vertex by signed position, wrapping round in a closed chain.
+class ChainWalk
+{
+public:
+  ChainWalk(const Mesh& mesh, const Chain& chain)
+    : mesh_(mesh)
+    , chain_(chain)
+  {
+  }
+  bool has(long i) const
+  {
+    return chain_.closed || (i >= 0 && i < static_cast<long>(chain_.vertices.size()));
+  }
+  const Vector3& at(long i) const { return mesh_.position[chain_.vertices[wrap(i)]]; }
+  std::size_t wrap(long i) const
+  {
+    const long n = static_cast<long>(chain_.vertices.size());
+    return static_cast<std::size_t>(((i % n) + n) % n);
+  }
+  /// The first position in direction `step` whose distance along the chain from i reaches `length`.
+  long walk(long i, long step, double length) const
+  {
+    double walked = 0;
+    long j = i;
+    const long limit = static_cast<long>(chain_.vertices.size()) / 2;
+    for (long count = 0; walked < length && count < limit && has(j + step); ++count)
+    {
+      walked += (at(j + step) - at(j)).norm();
+      j += step;
+    }
+    return j;
+  }
+
+private:
+  const Mesh& mesh_;
+  const Chain& chain_;
+};
+
+/// The turn of the curve at each vertex of the chain where it may be a corner, else zero.
+std::vector<double> cornerTurns(const Mesh& mesh, const Chain& chain, double scale)
+{
+  const ChainWalk walk(mesh, chain);
+  std::vector<double> turn(chain.vertices.size(), 0.0);
+  for (long i = 0; i < static_cast<long>(turn.size()); ++i)
+  {
+    if (!walk.has(i - 1) || !walk.has(i + 1))
+    {
+      continue;
+    }
+    const Vector3& p = walk.at(i);
+    if (angleBetween(p - walk.at(i - 1), walk.at(i + 1) - p) > kCornerAngle)
+    {
+      const Vector3& before = walk.at(walk.walk(i, -1, scale));
+      const Vector3& after = walk.at(walk.walk(i, 1, scale));
+      turn[static_cast<std::size_t>(i)] = angleBetween(p - before, after - p);
+    }
+  }
+  return turn;
+}
+
+bool turnsMost(
+  const ChainWalk& walk, const std::vector<double>& turn, std::size_t corner, double range)
+{
+  const long i = static_cast<long>(corner);
+  for (const long step : { -1L, 1L })
+  {
+    const long end = walk.walk(i, step, range);
+    for (long j = i; j != end; j += step)
+    {
+      const std::size_t other = walk.wrap(j + step);
+      // Of equals the first one stays.
+      if (turn[other] > turn[corner] || (turn[other] == turn[corner] && other < corner))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+void protectCorners(const Mesh& mesh, const Chain& chain, double scale, FeatureCurves& curves)
+{
+  const ChainWalk walk(mesh, chain);
+  const std::vector<double> turn = cornerTurns(mesh, chain, scale);
+  for (std::size_t i = 0; i < turn.size(); ++i)
+  {
+    if (turn[i] > kCornerAngle && turnsMost(walk, turn, i, 0.5 * scale))
+    {
+      curves.kind[chain.vertices[i]] = VertexKind::Protected;
+    }
+  }
+}
+
+/// Cuts the chain at its protected vertices into curves.
+void splitIntoCurves(const Chain& chain, FeatureCurves& curves)
+{
+  const std::size_t n = chain.vertices.size();
+  const auto isProtected = [&](std::size_t i) {
+    return curves.kind[chain.vertices[i % n]] == VertexKind::Protected;
+  };
+  std::size_t begin = 0;
+  while (begin < n && !isProtected(begin))
+  {
+    ++begin;
+  }
+  if (begin == n)
+  {
+    for (const Index v : chain.vertices)
+    {
+      curves.curve[v] = static_cast<Index>(curves.ends.size());
+    }
+    curves.ends.push_back({ kInvalidIndex, kInvalidIndex });
+    return;
+  }
+  const std::size_t end = chain.closed ? begin + n : n - 1;
+  for (std::size_t i = begin; i < end;)
+  {
+    const Index id = static_cast<Index>(curves.ends.size());
+    std::size_t j = i + 1;
+    for (; !isProtected(j); ++j)
+    {
+      curves.curve[chain.vertices[j % n]] = id;
+    }
+    curves.ends.push_back({ chain.vertices[i % n], chain.vertices[j % n] });
+    i = j;
+  }
+}
+
+} // namespace
+
+bool FeatureCurves::onSameCurve(Index a, Index b) const
+{
+  if (kind[a] == VertexKind::Free || kind[b] == VertexKind::Free)
+  {
+    return false;
+  }
+  if (curve[a] == kInvalidIndex && curve[b] == kInvalidIndex)
+  {
+    // Two corners: the ends are sorted by their lower vertex for this search.
+    const std::array<Index, 2> key{ std::min(a, b), std::max(a, b) };
+    return std::binary_search(endPairs.begin(), endPairs.end(), key);
+  }
+  if (curve[a] == kInvalidIndex)
+  {
+    std::swap(a, b);
+  }
+  const std::array<Index, 2>& end = ends[curve[a]];
+  return curve[a] == curve[b] || end[0] == b || end[1] == b;
+}
+
+FeatureCurves traceFeatureCurves(const Mesh& mesh, double scale)
+{
+  const CurveGraph graph(mesh);
+  FeatureCurves curves;
+  curves.kind.resize(mesh.vertexCount(), VertexKind::Free);
+  curves.curve.resize(mesh.vertexCount(), kInvalidIndex);
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    if (graph.degree(v) > 0)
+    {
+      curves.kind[v] = graph.degree(v) == 2 ? VertexKind::Curve : VertexKind::Protected;
+    }
+  }
+  for (const Chain& chain : collectChains(mesh, graph))
+  {
+    protectCorners(mesh, chain, scale, curves);
+    splitIntoCurves(chain, curves);
+  }
+  for (const std::array<Index, 2>& end : curves.ends)
+  {
+    if (end[0] != kInvalidIndex)
+    {
+      curves.endPairs.push_back({ std::min(end[0], end[1]), std::max(end[0], end[1]) });
+    }
+  }
+  std::sort(curves.endPairs.begin(), curves.endPairs.end());
+  return curves;
+}
+
+} // namespace quadrille

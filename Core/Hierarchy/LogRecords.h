@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Byte layout of the records of a decimation log, read from the end of a block to its beginning.
+///
+///     flip      h g                          | 0      9 bytes
+///     collapse  slot[k] w1 w2 i0 i1 i2 kind  | k      4 k + 13 bytes
+///
+/// The last byte is the tag. Slots and weights are little-endian 32 bit. The removed vertex is
+///     v = r[i0] + w1 (r[i1] - r[i0]) + w2 (r[i2] - r[i0]),   w in units of 2^-32, w <= 1/2 each,
+/// with r the ring of v in counterclockwise order as the slots name it: slot j is the corner of v in face
+/// (v, r[j], r[j+1]). For an interior vertex r[0] is the vertex it collapsed onto, so slots 0 and k-1 die;
+/// a boundary vertex has k + 1 ring vertices and collapsed onto r[0] (slot 0 dies) or r[k] (slot k-1
+/// dies). A vertex of a constrained curve has i2 = i0 and w2 = 0.
+#pragma once
+
+#include "Base/Types.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Vertices with more ring vertices than this are never removed (their valence falls as their
+/// neighbours go).
+constexpr int kMaximumRing = 40;
+
+enum class CollapseKind : std::uint8_t
+{
+  Interior = 0,
+  BoundaryFirst = 1, ///< onto r[0]
+  BoundaryLast = 2   ///< onto r[k]
+};
+
+struct CollapseRecord
+{
+  int faces = 0; ///< k
+  CollapseKind kind = CollapseKind::Interior;
+  bool onCurve = false;
+  std::array<std::uint8_t, 3> ring{};
+  std::array<std::uint32_t, 2> weight{};
+  std::array<Index, kMaximumRing> slot{};
+
+  int ringSize() const { return kind == CollapseKind::Interior ? faces : faces + 1; }
+  /// Position in the ring of the vertex that v collapsed onto.
+  int target() const { return kind == CollapseKind::BoundaryLast ? faces : 0; }
+  /// The slots that survive are [firstSurvivor, lastSurvivor].
+  int firstSurvivor() const { return kind == CollapseKind::BoundaryLast ? 0 : 1; }
+  int lastSurvivor() const { return kind == CollapseKind::BoundaryFirst ? faces - 1 : faces - 2; }
+};
+
+inline void storeLittleEndian(std::uint8_t* bytes, std::uint32_t value)
+{
+  bytes[0] = static_cast<std::uint8_t>(value);
+  bytes[1] = static_cast<std::uint8_t>(value >> 8);
+  bytes[2] = static_cast<std::uint8_t>(value >> 16);
+  bytes[3] = static_cast<std::uint8_t>(value >> 24);
+}
+inline std::uint32_t loadLittleEndian(const std::uint8_t* bytes)
+{
+  return std::uint32_t{ bytes[0] } | std::uint32_t{ bytes[1] } << 8 |
+    std::uint32_t{ bytes[2] } << 16 | std::uint32_t{ bytes[3] } << 24;
+}
+
+constexpr std::size_t kFlipBytes = 9;
+constexpr std::size_t collapseBytes(int faces)
+{
+  return 4 * static_cast<std::size_t>(faces) + 13;
+}
+/// Set in the kind byte of a vertex of a constrained curve.
+constexpr std::uint8_t kOnCurveBit = 4;
+
+/// Appends records to the log of one block.
+class RecordWriter
+{
+public:
+  void flip(Index h, Index g)
+  {
+    std::uint8_t* out = grow(kFlipBytes);
+    storeLittleEndian(out, h);
+    storeLittleEndian(out + 4, g);
+    out[8] = 0;
+    ++flips_;
+  }
+  void collapse(const CollapseRecord& record)
+  {
+    std::uint8_t* out = grow(collapseBytes(record.faces));
+    for (int i = 0; i < record.faces; ++i, out += 4)
+    {
+      storeLittleEndian(out, record.slot[static_cast<std::size_t>(i)]);
+    }
+    storeLittleEndian(out, record.weight[0]);
+    storeLittleEndian(out + 4, record.weight[1]);
+    out[8] = record.ring[0];
+    out[9] = record.ring[1];
+    out[10] = record.ring[2];
+    out[11] = static_cast<std::uint8_t>(
+      static_cast<unsigned>(record.kind) | (record.onCurve ? unsigned{ kOnCurveBit } : 0U));
+    out[12] = static_cast<std::uint8_t>(record.faces);
+    ++collapses_;
+  }
+
+  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+  std::size_t flips() const { return flips_; }
+  std::size_t collapses() const { return collapses_; }
+
+private:
+  std::uint8_t* grow(std::size_t count)
+  {
+    const std::size_t begin = bytes_.size();
+    bytes_.resize(begin + count);
+    return bytes_.data() + begin;
+  }
+  std::vector<std::uint8_t> bytes_;
+  std::size_t flips_ = 0;
+  std::size_t collapses_ = 0;
+};
+
+/// The collapse record that ends at `end`; its tag must not be zero. Does not check its content.
+inline void readCollapse(const std::uint8_t* end, CollapseRecord& record)
+{
+  record.faces = end[-1];
+  const unsigned kind = end[-2];
+  record.kind = static_cast<CollapseKind>(kind & 3U);
+  record.onCurve = (kind & kOnCurveBit) != 0;
+  record.ring = { end[-5], end[-4], end[-3] };
+  record.weight = { loadLittleEndian(end - 13), loadLittleEndian(end - 9) };
+  const std::uint8_t* in = end - collapseBytes(record.faces);
+  for (int i = 0; i < record.faces; ++i, in += 4)
+  {
+    record.slot[static_cast<std::size_t>(i)] = loadLittleEndian(in);
+  }
+}
+
+} // namespace quadrille
