@@ -10,12 +10,13 @@
 ///
 /// Flip of the edge between h = (a -> b) in face f = (a, b, c) and g = twin(h) in face g/3 = (b, a, d):
 ///
-///        c                c          only two corner slots change their vertex:
-///       /|\              / \           corner next(h): b -> d
-///      / | \            / f \          corner next(g): a -> c
-///     /  |  \          /  h  \
-///    a  f|g  d   ->   a ----- d      (drawn schematically: f becomes (a, d, c), g/3 becomes (b, c, d))
+///         b                 b
+///       / | \             / g \      only two corner slots change their vertex:
+///      c f|h d    ->     c-----d       corner next(h): b -> d
+///       \ | /             \ f /        corner next(g): a -> c
+///         a                 a
 ///
+/// f becomes (a, d, c) and g/3 becomes (b, c, d),
 /// so the new diagonal is next(h) = (d -> c) with twin next(g) = (c -> d); the edge a -> d moves from slot
 /// next(g) to slot h, the edge b -> c from slot next(h) to slot g.
 ///
@@ -34,7 +35,7 @@
 namespace quadrille
 {
 
-/// A read-only view of one record; see DecimationLog.cpp for the byte layout.
+/// The records; see LogRecords.h for their byte layout.
 class DecimationLog
 {
 public:
@@ -42,7 +43,8 @@ public:
   std::vector<std::uint8_t> serialize() const;
   /// Throws InvalidInput on truncated, damaged or foreign bytes (says which), and when the log was made
   /// for another mesh than the one with hash expectedHash.
-  static DecimationLog deserialize(const std::vector<std::uint8_t>& bytes, std::uint64_t expectedHash);
+  static DecimationLog deserialize(
+    const std::vector<std::uint8_t>& bytes, std::uint64_t expectedHash);
 
   std::uint64_t fineHash = 0;
   Index fineFaces = 0;
@@ -63,7 +65,7 @@ public:
   };
   std::vector<Round> rounds;
   std::vector<Block> blocks;
-  std::vector<std::uint8_t> records; ///< in decimation order inside a block; readable backwards
+  std::vector<std::uint8_t> records;  ///< in decimation order inside a block; readable backwards
   std::size_t intermediateRounds = 0; ///< the first rounds, that lead to the intermediate level
 };
 

@@ -10,14 +10,9 @@ namespace quadrille
 {
 
 DecimationMesh::DecimationMesh(const Mesh& fine, FeatureCurves featureCurves)
-  : position(fine.position)
-  , origin(fine.origin)
-  , twin(fine.twin)
-  , flags(fine.flags)
-  , outgoing(outgoingHalfEdges(fine))
-  , valence(fine.vertexCount(), 0)
-  , curves(std::move(featureCurves))
-  , curveError(fine.vertexCount(), 0.0F)
+  : position(fine.position), origin(fine.origin), twin(fine.twin), flags(fine.flags),
+    outgoing(outgoingHalfEdges(fine)), valence(fine.vertexCount(), 0),
+    curves(std::move(featureCurves)), curveError(fine.vertexCount(), 0.0F)
 {
   for (Index h = 0; h < fine.halfEdgeCount(); ++h)
   {

@@ -15,23 +15,26 @@ namespace
 class CurveGraph
 {
 public:
-  explicit CurveGraph(const Mesh& mesh)
-    : offset_(mesh.vertexCount() + 1, 0)
+  explicit CurveGraph(const Mesh& mesh) : offset_(mesh.vertexCount() + 1, 0)
   {
-    forEachEdge(mesh, [&](Index a, Index b) {
-      ++offset_[a + 1];
-      ++offset_[b + 1];
-    });
+    forEachEdge(mesh,
+      [&](Index a, Index b)
+      {
+        ++offset_[a + 1];
+        ++offset_[b + 1];
+      });
     for (std::size_t v = 1; v < offset_.size(); ++v)
     {
       offset_[v] += offset_[v - 1];
     }
     neighbour_.resize(offset_.back());
     std::vector<Index> fill(offset_.begin(), offset_.end() - 1);
-    forEachEdge(mesh, [&](Index a, Index b) {
-      neighbour_[fill[a]++] = b;
-      neighbour_[fill[b]++] = a;
-    });
+    forEachEdge(mesh,
+      [&](Index a, Index b)
+      {
+        neighbour_[fill[a]++] = b;
+        neighbour_[fill[b]++] = a;
+      });
   }
 
   Index degree(Index v) const { return offset_[v + 1] - offset_[v]; }
@@ -128,11 +131,7 @@ double angleBetween(const Vector3& a, const Vector3& b)
 class ChainWalk
 {
 public:
-  ChainWalk(const Mesh& mesh, const Chain& chain)
-    : mesh_(mesh)
-    , chain_(chain)
-  {
-  }
+  ChainWalk(const Mesh& mesh, const Chain& chain) : mesh_(mesh), chain_(chain) {}
   bool has(long i) const
   {
     return chain_.closed || (i >= 0 && i < static_cast<long>(chain_.vertices.size()));
@@ -221,9 +220,8 @@ void protectCorners(const Mesh& mesh, const Chain& chain, double scale, FeatureC
 void splitIntoCurves(const Chain& chain, FeatureCurves& curves)
 {
   const std::size_t n = chain.vertices.size();
-  const auto isProtected = [&](std::size_t i) {
-    return curves.kind[chain.vertices[i % n]] == VertexKind::Protected;
-  };
+  const auto isProtected = [&](std::size_t i)
+  { return curves.kind[chain.vertices[i % n]] == VertexKind::Protected; };
   std::size_t begin = 0;
   while (begin < n && !isProtected(begin))
   {

@@ -25,7 +25,8 @@ struct FeatureCurves
   std::vector<Index> curve;     ///< #V; curve of an inner curve vertex, else kInvalidIndex
   /// Protected end vertices of each curve; kInvalidIndex twice for a closed one without corners.
   std::vector<std::array<Index, 2>> ends;
-  std::vector<std::array<Index, 2>> endPairs; ///< sorted copy of the ends that exist, lower id first
+  std::vector<std::array<Index, 2>>
+    endPairs; ///< sorted copy of the ends that exist, lower id first
 
   /// Whether both vertices lie on one curve, ends included.
   bool onSameCurve(Index a, Index b) const;

@@ -23,14 +23,15 @@ enum class DecimationCost
 
 struct HierarchyOptions
 {
-  double targetEdgeLength = 0; ///< s, in units of the mesh; > 0. Phase 1 ends when edges exceed s/2.
+  double targetEdgeLength =
+    0; ///< s, in units of the mesh; > 0. Phase 1 ends when edges exceed s/2.
   Index coarseVertices = 1000; ///< budget of the coarse level; raised where features, handles or
                                ///< components need more (told in Hierarchy::notice)
   DecimationCost cost = DecimationCost::Gaussian; ///< of phase 2
   /// Vertices of the finest mesh that phase 2 must not remove (index constraints; places where a map
   /// needs more freedom).
   std::vector<Index> keepVertices;
-  int threads = 0;                                ///< 0: all; the result does not depend on it
+  int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;
 };
 

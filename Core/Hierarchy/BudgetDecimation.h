@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Phase 2: decimation to a number of vertices in the order of a cost [Ebke et al. 2016, Section 5.1].
+///
+/// Where we differ: E_G alone does not care for triangles without curvature and for their shape, on which the
+/// map's freedom depends; so a little of the star's area, of bad shape and of odd valences is added, and
+/// removals that make slivers wait until nothing else is left. On curves the angle defect is taken on each side
+/// apart, against pi.
+#pragma once
+
+#include "Base/Progress.h"
+#include "Hierarchy/DecimationMesh.h"
+#include "Hierarchy/LogBuilder.h"
+
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+struct BudgetOptions
+{
+  Index vertices = 1000;
+  DecimationCost cost = DecimationCost::Gaussian;
+  std::vector<Index> keepVertices;
+  std::vector<float> inputDefect; ///< #V angle defects of the input; for GaussianMemory only
+  double curveTolerance = 0;      ///< see RemovalGuards
+  int threads = 0;
+  ProgressCallback progress;
+};
+
+/// Angle defects of all vertices: 2 pi, or pi on the boundary, less the sum of angles; 0 for removed ones.
+std::vector<float> angleDefects(const DecimationMesh& mesh);
+
+/// Decimates as one round of one block. Returns why more vertices are left than asked, or an empty text.
+std::string decimateToBudget(DecimationMesh& mesh, const BudgetOptions& options, LogBuilder& log);
+
+} // namespace quadrille

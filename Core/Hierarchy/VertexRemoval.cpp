@@ -1,0 +1,758 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Hierarchy/VertexRemoval.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Planar triangles flatter than this carry no useful weights.
+constexpr double kMinimumPlanarQuality = 0.02;
+/// A face flatter than this has no reliable normal.
+constexpr double kSliverQuality = 0.02;
+/// Cost of a face with three constrained vertices where it is allowed at all.
+constexpr double kConstrainedFaceCost = 50;
+
+double cross(const Vector2& a, const Vector2& b)
+{
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// 2 sqrt(3) (doubled area) / (sum of squared edges): 1 for an equilateral triangle.
+double quality(double doubledArea, double squaredEdges)
+{
+  return squaredEdges > 0 ? 2 * 1.7320508075688772 * doubledArea / squaredEdges : 0;
+}
+
+} // namespace
+
+bool VertexRemoval::gather(Index v)
+{
+  vertex_ = v;
+  if (mesh_.curves.kind[v] == VertexKind::Protected || mesh_.valence[v] > kMaximumRing - 1)
+  {
+    return false;
+  }
+  onCurve_ = mesh_.curves.kind[v] == VertexKind::Curve;
+  const Index first = mesh_.outgoing[v];
+  boundary_ = mesh_.isBoundary(first);
+  anyConstrained_ = false;
+  faces_ = 0;
+  int firstCurve = -1;
+  const Vector3 center = mesh_.position[v];
+  const auto add = [&](Index vertex)
+  {
+    const std::size_t i = index(ringSize_++);
+    ring_[i] = vertex;
+    spoke_[i] = mesh_.position[vertex] - center;
+    length_[i] = spoke_[i].squaredNorm();
+    anyConstrained_ = anyConstrained_ || mesh_.curves.kind[vertex] != VertexKind::Free;
+  };
+  ringSize_ = 0;
+  Index h = first;
+  do
+  {
+    slot_[index(faces_)] = h;
+    if (onCurve_ && mesh_.isConstrained(h))
+    {
+      (firstCurve < 0 ? firstCurve : curveEnd_) = faces_;
+    }
+    add(mesh_.target(h));
+    const Index incoming = Mesh::previous(h);
+    h = mesh_.twin[incoming];
+    ++faces_;
+    if (h == kInvalidIndex)
+    {
+      add(mesh_.origin[incoming]);
+      curveEnd_ = faces_;
+    }
+  } while (h != kInvalidIndex && h != first);
+  if (onCurve_ && !boundary_)
+  {
+    rotateToCurve(firstCurve);
+  }
+  return faces_ >= (boundary_ ? 2 : 3);
+}
+
+void VertexRemoval::rotateToCurve(int first)
+{
+  std::rotate(slot_.begin(), slot_.begin() + first, slot_.begin() + faces_);
+  std::rotate(ring_.begin(), ring_.begin() + first, ring_.begin() + faces_);
+  std::rotate(spoke_.begin(), spoke_.begin() + first, spoke_.begin() + faces_);
+  std::rotate(length_.begin(), length_.begin() + first, length_.begin() + faces_);
+  curveEnd_ -= first;
+}
+
+double VertexRemoval::shortestEdge() const
+{
+  double shortest = kInfinity; // of squares: gather() has not taken roots yet
+  if (onCurve_)
+  {
+    shortest = std::min(length_[0], length_[index(curveEnd_)]);
+  }
+  else
+  {
+    shortest = *std::min_element(length_.begin(), length_.begin() + ringSize_);
+  }
+  return std::sqrt(shortest);
+}
+
+int VertexRemoval::starFace(int x, int y) const
+{
+  if (y == x + 1)
+  {
+    return x;
+  }
+  return y == 0 && x == ringSize_ - 1 && !boundary_ ? x : -1;
+}
+
+bool VertexRemoval::plan(const RemovalGuards& guards)
+{
+  for (int i = 0; i < ringSize_; ++i)
+  {
+    for (int j = i + 1; j < ringSize_; ++j)
+    {
+      if (ring_[index(i)] == ring_[index(j)])
+      {
+        return false;
+      }
+    }
+  }
+  if (onCurve_ &&
+    (!curveStaysClose(guards) || !loopStaysLong() ||
+      mesh_.hasEdge(ring_[0], ring_[index(curveEnd_)])))
+  {
+    return false;
+  }
+  if (!measureStar() || !mapToPlane())
+  {
+    return false;
+  }
+  if (ringSize_ == 3 && !boundary_ && closesTetrahedron())
+  {
+    return false;
+  }
+  if (!triangulate(guards) || !valencesFit(guards) || !locate())
+  {
+    return false;
+  }
+  finishPlan();
+  return true;
+}
+
+bool VertexRemoval::curveStaysClose(const RemovalGuards& guards) const
+{
+  // A curve edge with a single face on one side would leave that face without height.
+  if (!boundary_ && (curveEnd_ < 2 || curveEnd_ > ringSize_ - 2))
+  {
+    return false;
+  }
+  const Vector3& a = spoke_[0];
+  const Vector3 ab = spoke_[index(curveEnd_)] - a;
+  const double squared = ab.squaredNorm();
+  if (!(squared > 0))
+  {
+    return false;
+  }
+  const double t = std::clamp(-a.dot(ab) / squared, 0.0, 1.0);
+  const double distance = (a + t * ab).norm();
+  return distance + mesh_.curveError[vertex_] <= guards.curveTolerance;
+}
+
+bool VertexRemoval::loopStaysLong() const
+{
+  // The curve ... p - r0 - v - r1 - q ...: with p == q the loop would fall to three edges.
+  const Index r0 = ring_[0];
+  const Index r1 = ring_[index(curveEnd_)];
+  if (mesh_.curves.kind[r0] != VertexKind::Curve || mesh_.curves.kind[r1] != VertexKind::Curve)
+  {
+    return true;
+  }
+  return mesh_.nextOnCurve(r0, vertex_) != mesh_.nextOnCurve(r1, vertex_);
+}
+
+bool VertexRemoval::measureStar()
+{
+  sideNormal_ = { Vector3::Zero(), Vector3::Zero() };
+  starArea_ = 0;
+  starQuality_ = 1;
+  for (int i = 0; i < ringSize_; ++i)
+  {
+    if (!(length_[index(i)] > 0))
+    {
+      return false;
+    }
+  }
+  for (int i = 0; i < faces_; ++i)
+  {
+    const int j = nextRing(i);
+    const Vector3& p = spoke_[index(i)];
+    const Vector3& q = spoke_[index(j)];
+    const Vector3 n = p.cross(q);
+    const double doubled = n.norm();
+    const double dot = p.dot(q);
+    const double shape = quality(doubled, 2 * (length_[index(i)] + length_[index(j)] - dot));
+    starQuality_ = std::min(starQuality_, shape);
+    starArea_ += 0.5 * doubled;
+    angle_[index(i)] = std::atan2(doubled, dot);
+    sideNormal_[onCurve_ && i >= curveEnd_ ? 1 : 0] += n;
+    normal_[index(i)] = shape > kSliverQuality ? Vector3(n / doubled) : Vector3(Vector3::Zero());
+    const Index ringEdge = Mesh::next(slot_[index(i)]);
+    constrainedEdge_[index(i)] = anyConstrained_ && mesh_.isConstrained(ringEdge) ? 1 : 0;
+  }
+  for (Vector3& n : sideNormal_)
+  {
+    const double length = n.norm();
+    n = length > 0 ? Vector3(n / length) : Vector3(Vector3::Zero());
+  }
+  for (int i = 0; i < ringSize_; ++i)
+  {
+    length_[index(i)] = std::sqrt(length_[index(i)]);
+  }
+  return true;
+}
+
+bool VertexRemoval::mapToPlane()
+{
+  if (boundary_)
+  {
+    return placeSide(0, faces_, kPi);
+  }
+  if (onCurve_)
+  {
+    return placeSide(0, curveEnd_, kPi) && placeSide(curveEnd_, faces_, kPi);
+  }
+  return placeSide(0, faces_, 2 * kPi);
+}
+
+bool VertexRemoval::placeSide(int first, int last, double total)
+{
+  double sum = 0;
+  for (int i = first; i < last; ++i)
+  {
+    sum += angle_[index(i)];
+  }
+  if (!(sum > 0))
+  {
+    return false;
+  }
+  const double scale = total / sum;
+  // The second side of a curve begins at pi, where the first one ended.
+  double direction = first == 0 ? 0.0 : kPi;
+  for (int i = first; i < last; ++i)
+  {
+    const double step = scale * angle_[index(i)];
+    if (step > 0.97 * kPi || !(step > 1e-4))
+    {
+      return false;
+    }
+    if (i > first)
+    {
+      planar_[index(i)] = length_[index(i)] * Vector2(std::cos(direction), std::sin(direction));
+    }
+    else
+    {
+      planar_[index(i)] = { first == 0 ? length_[index(i)] : -length_[index(i)], 0.0 };
+    }
+    direction += step;
+  }
+  if (boundary_)
+  {
+    planar_[index(last)] = { -length_[index(last)], 0.0 };
+  }
+  return true;
+}
+
+void VertexRemoval::forbid(int x, int y)
+{
+  forbidden_[index(x)] |= std::uint64_t{ 1 } << y;
+  forbidden_[index(y)] |= std::uint64_t{ 1 } << x;
+}
+
+void VertexRemoval::forbidChords()
+{
+  for (int x = 0; x < ringSize_; ++x)
+  {
+    if (mesh_.curves.kind[ring_[index(x)]] == VertexKind::Free)
+    {
+      continue;
+    }
+    for (int y = x + 1; y < ringSize_; ++y)
+    {
+      const bool ownEdge = onCurve_ && x == 0 && y == curveEnd_;
+      if (!ownEdge && !isRingEdge(x, y) && !isRingEdge(y, x) &&
+        mesh_.curves.onSameCurve(ring_[index(x)], ring_[index(y)]))
+      {
+        forbid(x, y);
+      }
+    }
+  }
+}
+
+bool VertexRemoval::triangulate(const RemovalGuards& guards)
+{
+  std::fill(forbidden_.begin(), forbidden_.begin() + ringSize_, std::uint64_t{ 0 });
+  if (anyConstrained_)
+  {
+    forbidChords();
+  }
+  std::array<int, kN + 1> polygon;
+  for (int i = 0; i <= ringSize_; ++i)
+  {
+    polygon[index(i)] = i == ringSize_ ? 0 : i;
+  }
+  // Diagonals that the mesh has already are looked up only when the triangulation wants them.
+  for (int attempt = 0; attempt < 4; ++attempt)
+  {
+    triangleCount_ = 0;
+    if (onCurve_ && !boundary_)
+    {
+      if (!triangulatePolygon(polygon.data(), curveEnd_ + 1, guards) ||
+        !triangulatePolygon(polygon.data() + curveEnd_, ringSize_ - curveEnd_ + 1, guards))
+      {
+        return false;
+      }
+    }
+    else if (!triangulatePolygon(polygon.data(), ringSize_, guards))
+    {
+      return false;
+    }
+    if (!forbidExistingDiagonals())
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool VertexRemoval::triangulatePolygon(const int* polygon, int count, const RemovalGuards& guards)
+{
+  const auto ringAt = [&](int i) { return polygon[index(i)]; };
+  for (int i = 0; i + 1 < count; ++i)
+  {
+    best_[index(ringAt(i))][index(ringAt(i + 1))] = 0;
+  }
+  for (int gap = 2; gap < count; ++gap)
+  {
+    for (int i = 0; i + gap < count; ++i)
+    {
+      const int j = i + gap;
+      const int a = ringAt(i);
+      const int c = ringAt(j);
+      double& best = best_[index(a)][index(c)];
+      best = kInfinity;
+      if (gap < count - 1 && isForbidden(a, c))
+      {
+        continue;
+      }
+      for (int k = i + 1; k < j; ++k)
+      {
+        const int b = ringAt(k);
+        const double below = best_[index(a)][index(b)] + best_[index(b)][index(c)];
+        if (!(below < best))
+        {
+          continue;
+        }
+        const double cost = below + triangleCost(a, b, c, guards);
+        if (cost < best)
+        {
+          best = cost;
+          split_[index(a)][index(c)] = static_cast<std::uint8_t>(k);
+        }
+      }
+    }
+  }
+  if (best_[index(ringAt(0))][index(ringAt(count - 1))] == kInfinity)
+  {
+    return false;
+  }
+  collectTriangles(polygon, 0, count - 1);
+  return true;
+}
+
+void VertexRemoval::collectTriangles(const int* polygon, int i, int j)
+{
+  if (j - i < 2)
+  {
+    return;
+  }
+  const int k = split_[index(polygon[index(i)])][index(polygon[index(j)])];
+  collectTriangles(polygon, i, k);
+  collectTriangles(polygon, k, j);
+  triangles_[index(triangleCount_++)] = { static_cast<std::uint8_t>(polygon[index(i)]),
+    static_cast<std::uint8_t>(polygon[index(k)]), static_cast<std::uint8_t>(polygon[index(j)]) };
+}
+
+double VertexRemoval::triangleCost(int a, int b, int c, const RemovalGuards& guards) const
+{
+  const Vector2 ab2 = planar_[index(b)] - planar_[index(a)];
+  const Vector2 ac2 = planar_[index(c)] - planar_[index(a)];
+  const double planarArea = cross(ab2, ac2);
+  const double planarEdges = ab2.squaredNorm() + ac2.squaredNorm() + (ac2 - ab2).squaredNorm();
+  if (!(quality(planarArea, planarEdges) > kMinimumPlanarQuality))
+  {
+    return kInfinity;
+  }
+  const Vector3 ab = spoke_[index(b)] - spoke_[index(a)];
+  const Vector3 ac = spoke_[index(c)] - spoke_[index(a)];
+  const Vector3 n = ab.cross(ac);
+  const double doubled = n.norm();
+  const double shape = quality(doubled, 2 * (ab.squaredNorm() + ac.squaredNorm() - ab.dot(ac)));
+  if (!(shape > 1e-6) || shape < std::min(guards.minimumQuality, 0.95 * starQuality_))
+  {
+    return kInfinity;
+  }
+  // Second side of a curve: its ring positions run from curveEnd_ on (0 closes it).
+  const int side = onCurve_ && !boundary_ && b > curveEnd_ ? 1 : 0;
+  const double least = guards.minimumNormalDot * doubled;
+  if (n.dot(sideNormal_[index(side)]) < least)
+  {
+    return kInfinity;
+  }
+  for (const int face : { starFace(a, b), starFace(b, c), starFace(c, a) })
+  {
+    if (face >= 0 && n.dot(normal_[index(face)]) < least && !normal_[index(face)].isZero(0))
+    {
+      return kInfinity;
+    }
+  }
+  return 1 / shape + (anyConstrained_ ? constraintCost(a, b, c, guards) : 0);
+}
+
+double VertexRemoval::constraintCost(int a, int b, int c, const RemovalGuards& guards) const
+{
+  const auto constrained = [&](int x, int y)
+  {
+    const int face = starFace(x, y);
+    if (face >= 0)
+    {
+      return constrainedEdge_[index(face)] != 0;
+    }
+    return onCurve_ && ((x == 0 && y == curveEnd_) || (x == curveEnd_ && y == 0));
+  };
+  if (int{ constrained(a, b) } + int{ constrained(b, c) } + int{ constrained(c, a) } > 1)
+  {
+    return kInfinity;
+  }
+  const auto free = [&](int x) { return mesh_.curves.kind[ring_[index(x)]] == VertexKind::Free; };
+  if (free(a) || free(b) || free(c))
+  {
+    return 0;
+  }
+  return guards.allowConstrainedFaces ? kConstrainedFaceCost : kInfinity;
+}
+
+bool VertexRemoval::forbidExistingDiagonals()
+{
+  bool found = false;
+  for (int t = 0; t < triangleCount_; ++t)
+  {
+    const Triangle& triangle = triangles_[index(t)];
+    // A diagonal belongs to two triangles; its edge a - c is seen from the one that it closes.
+    const int a = triangle.a;
+    const int c = triangle.c;
+    const bool curveEdge = onCurve_ && std::min(a, c) == 0 && std::max(a, c) == curveEnd_;
+    if (!curveEdge && !isRingEdge(a, c) && !isRingEdge(c, a) &&
+      mesh_.hasEdge(ring_[index(a)], ring_[index(c)]))
+    {
+      forbid(a, c);
+      found = true;
+    }
+  }
+  return found;
+}
+
+bool VertexRemoval::closesTetrahedron() const
+{
+  const auto outer = [&](int i)
+  {
+    const Index g = mesh_.twin[Mesh::next(slot_[index(i)])];
+    return g == kInvalidIndex ? kInvalidIndex : g / 3;
+  };
+  const Index a = outer(0);
+  const Index b = outer(1);
+  const Index c = outer(2);
+  return (a != kInvalidIndex && (a == b || a == c)) || (b != kInvalidIndex && b == c);
+}
+
+bool VertexRemoval::valencesFit(const RemovalGuards& guards) const
+{
+  std::array<std::uint8_t, kN> count{};
+  for (int t = 0; t < triangleCount_; ++t)
+  {
+    ++count[triangles_[index(t)].a];
+    ++count[triangles_[index(t)].b];
+    ++count[triangles_[index(t)].c];
+  }
+  for (int i = 0; i < ringSize_; ++i)
+  {
+    // A ring vertex with m new triangles has m - 1 new diagonals and loses the spoke; at the ends of an open
+    // star it gains the new boundary edge instead of it.
+    const bool end = boundary_ && (i == 0 || i == ringSize_ - 1);
+    const int before = mesh_.valence[ring_[index(i)]];
+    const int after = before + count[index(i)] - 2 + (end ? 1 : 0);
+    const bool free = mesh_.curves.kind[ring_[index(i)]] == VertexKind::Free;
+    if ((free && after < guards.minimumValence && after < before) || after < 2 ||
+      (after > guards.maximumValence && after > before))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool VertexRemoval::locate()
+{
+  if (onCurve_)
+  {
+    const double total = length_[0] + length_[index(curveEnd_)];
+    const bool nearFirst = length_[0] <= length_[index(curveEnd_)];
+    const int near = nearFirst ? 0 : curveEnd_;
+    const int far = nearFirst ? curveEnd_ : 0;
+    weightRing_ = { static_cast<std::uint8_t>(near), static_cast<std::uint8_t>(far),
+      static_cast<std::uint8_t>(near) };
+    weight_ = { length_[index(near)] / total, 0.0 };
+    return true;
+  }
+  double bestInside = -kInfinity;
+  std::array<double, 3> bestWeights{};
+  Triangle home;
+  for (int t = 0; t < triangleCount_; ++t)
+  {
+    const Triangle& triangle = triangles_[index(t)];
+    const Vector2& a = planar_[triangle.a];
+    const Vector2& b = planar_[triangle.b];
+    const Vector2& c = planar_[triangle.c];
+    const std::array<double, 3> w{ cross(b, c), cross(c, a), cross(a, b) };
+    const double area = w[0] + w[1] + w[2];
+    const double inside = *std::min_element(w.begin(), w.end()) / area;
+    if (inside > bestInside)
+    {
+      bestInside = inside;
+      bestWeights = { w[0] / area, w[1] / area, w[2] / area };
+      home = triangle;
+    }
+  }
+  if (bestInside < -1e-6)
+  {
+    return false;
+  }
+  // The heaviest vertex becomes the base, so that the stored weights stay below one.
+  const std::array<std::uint8_t, 3> corner{ home.a, home.b, home.c };
+  const std::size_t base = static_cast<std::size_t>(
+    std::max_element(bestWeights.begin(), bestWeights.end()) - bestWeights.begin());
+  const std::size_t second = (base + 1) % 3;
+  const std::size_t third = (base + 2) % 3;
+  weightRing_ = { corner[base], corner[second], corner[third] };
+  weight_ = { std::max(0.0, bestWeights[second]), std::max(0.0, bestWeights[third]) };
+  return true;
+}
+
+void VertexRemoval::finishPlan()
+{
+  std::fill(diagonals_.begin(), diagonals_.begin() + ringSize_, std::uint8_t{ 0 });
+  worstQuality_ = 1;
+  for (int t = 0; t < triangleCount_; ++t)
+  {
+    const Triangle& triangle = triangles_[index(t)];
+    for (const std::uint8_t corner : { triangle.a, triangle.b, triangle.c })
+    {
+      ++diagonals_[corner];
+    }
+    const Vector3 ab = spoke_[triangle.b] - spoke_[triangle.a];
+    const Vector3 ac = spoke_[triangle.c] - spoke_[triangle.a];
+    worstQuality_ = std::min(worstQuality_,
+      quality(ab.cross(ac).norm(), 2 * (ab.squaredNorm() + ac.squaredNorm() - ab.dot(ac))));
+  }
+  for (int i = 0; i < ringSize_; ++i)
+  {
+    --diagonals_[index(i)];
+  }
+}
+
+int VertexRemoval::newValence(int i) const
+{
+  const bool end = boundary_ && (i == 0 || i == ringSize_ - 1);
+  return mesh_.valence[ring_[index(i)]] + diagonals_[index(i)] - 1 + (end ? 1 : 0);
+}
+
+double VertexRemoval::ownDefect() const
+{
+  std::array<double, 2> sum{};
+  for (int i = 0; i < faces_; ++i)
+  {
+    sum[onCurve_ && i >= curveEnd_ ? 1 : 0] += angle_[index(i)];
+  }
+  if (!onCurve_)
+  {
+    return 2 * kPi - sum[0];
+  }
+  return std::abs(kPi - sum[0]) + (boundary_ ? 0.0 : std::abs(kPi - sum[1]));
+}
+
+std::array<double, 2> VertexRemoval::defectChange(int i) const
+{
+  // Old angles in the faces on both sides of the spoke; they are on different sides of a curve only at
+  // the curve neighbours of a curve vertex, where side 0 lies after position 0 and before curveEnd_.
+  const auto angleAt = [](const Vector3& p, const Vector3& q, const Vector3& r)
+  {
+    const Vector3 a = q - p;
+    const Vector3 b = r - p;
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+  };
+  const auto sideOf = [&](int a, int b, int c) {
+    return onCurve_ && !boundary_ && std::max({ a, b, c }) > curveEnd_ ? 1 : 0;
+  };
+  std::array<double, 2> change{};
+  const Vector3& p = spoke_[index(i)];
+  const Vector3 center = Vector3::Zero();
+  const int previousFace = i > 0 ? i - 1 : (boundary_ ? -1 : faces_ - 1);
+  const auto sideOfFace = [&](int f) { return onCurve_ && !boundary_ && f >= curveEnd_ ? 1U : 0U; };
+  if (i < faces_)
+  {
+    change[sideOfFace(i)] += angleAt(p, center, spoke_[index(nextRing(i))]);
+  }
+  if (previousFace >= 0)
+  {
+    change[sideOfFace(previousFace)] += angleAt(p, center, spoke_[index(previousFace)]);
+  }
+  for (int t = 0; t < triangleCount_; ++t)
+  {
+    const Triangle& triangle = triangles_[index(t)];
+    const std::array<int, 3> corner{ triangle.a, triangle.b, triangle.c };
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      if (corner[k] == i)
+      {
+        const std::size_t side = index(sideOf(corner[0], corner[1], corner[2]));
+        change[side] -=
+          angleAt(p, spoke_[index(corner[(k + 1) % 3])], spoke_[index(corner[(k + 2) % 3])]);
+      }
+    }
+  }
+  return change;
+}
+
+int VertexRemoval::bestTarget() const
+{
+  // Every diagonal that ends at the target saves one flip.
+  if (onCurve_)
+  {
+    return diagonals_[index(curveEnd_)] > diagonals_[0] ? curveEnd_ : 0;
+  }
+  return static_cast<int>(
+    std::max_element(diagonals_.begin(), diagonals_.begin() + ringSize_) - diagonals_.begin());
+}
+
+CollapseRecord VertexRemoval::makeRecord(int target) const
+{
+  CollapseRecord record;
+  record.faces = faces_;
+  record.onCurve = onCurve_;
+  if (boundary_)
+  {
+    record.kind = target == 0 ? CollapseKind::BoundaryFirst : CollapseKind::BoundaryLast;
+  }
+  const int shift = boundary_ ? 0 : target;
+  for (int i = 0; i < faces_; ++i)
+  {
+    record.slot[index(i)] = slot_[index((i + shift) % faces_)];
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    record.ring[i] = static_cast<std::uint8_t>((weightRing_[i] + ringSize_ - shift) % ringSize_);
+  }
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    record.weight[i] = static_cast<std::uint32_t>(std::lround(weight_[i] * 4294967296.0));
+  }
+  return record;
+}
+
+void VertexRemoval::cutEars(int x, int y, RecordWriter& log)
+{
+  if (y - x < 2)
+  {
+    return;
+  }
+  const int z = opposite_[index(y)][index(x)];
+  cutEars(x, z, log);
+  cutEars(z, y, log);
+  const Index h = fan_[index(z)];
+  log.flip(h, mesh_.twin[h]);
+  mesh_.flip(h);
+  fan_[index(x)] = h;
+}
+
+void VertexRemoval::apply(RecordWriter& log)
+{
+  const int target = bestTarget();
+  const CollapseRecord record = makeRecord(target);
+  for (int i = 0; i < ringSize_; ++i)
+  {
+    mesh_.valence[ring_[index(i)]] = static_cast<std::uint16_t>(newValence(i));
+  }
+  if (onCurve_)
+  {
+    const Vector3 ab = spoke_[index(curveEnd_)] - spoke_[0];
+    const double t = std::clamp(-spoke_[0].dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+    const float error = mesh_.curveError[vertex_] + static_cast<float>((spoke_[0] + t * ab).norm());
+    for (const Index end : { ring_[0], ring_[index(curveEnd_)] })
+    {
+      mesh_.curveError[end] = std::max(mesh_.curveError[end], error);
+    }
+  }
+  log.collapse(record);
+  mesh_.collapse(record);
+  mesh_.outgoing[vertex_] = kInvalidIndex;
+
+  // Ring positions counted from the target: fan face j (1 <= j <= ringSize_ - 2) is (target, j, j + 1).
+  const auto fromTarget = [&](int i) { return index((i + ringSize_ - target) % ringSize_); };
+  for (int i = record.firstSurvivor(); i <= record.lastSurvivor(); ++i)
+  {
+    fan_[index(i - record.firstSurvivor() + 1)] = record.slot[index(i)];
+  }
+  std::array<std::uint8_t, kN> spokes{};
+  int spokeCount = 0;
+  std::uint64_t neighbours = 0;
+  for (int t = 0; t < triangleCount_; ++t)
+  {
+    const Triangle& triangle = triangles_[index(t)];
+    const std::size_t a = fromTarget(triangle.a);
+    const std::size_t b = fromTarget(triangle.b);
+    const std::size_t c = fromTarget(triangle.c);
+    opposite_[a][b] = static_cast<std::uint8_t>(c);
+    opposite_[b][c] = static_cast<std::uint8_t>(a);
+    opposite_[c][a] = static_cast<std::uint8_t>(b);
+    if (a == 0 || b == 0 || c == 0)
+    {
+      neighbours |= std::uint64_t{ 1 } << a | std::uint64_t{ 1 } << b | std::uint64_t{ 1 } << c;
+    }
+  }
+  for (int i = 1; i < ringSize_; ++i)
+  {
+    if ((neighbours >> i & 1U) != 0)
+    {
+      spokes[index(spokeCount++)] = static_cast<std::uint8_t>(i);
+    }
+  }
+  for (int i = 0; i + 1 < spokeCount; ++i)
+  {
+    cutEars(spokes[index(i)], spokes[index(i + 1)], log);
+  }
+  for (int i = record.firstSurvivor(); i <= record.lastSurvivor(); ++i)
+  {
+    mesh_.refreshOutgoing(record.slot[index(i)] / 3);
+  }
+}
+
+} // namespace quadrille

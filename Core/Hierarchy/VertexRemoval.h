@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Removal of one vertex [Ebke et al. 2016, Figure 4]: planar map of its star, constrained Delaunay
+/// triangulation of its ring, weights of the vertex in it, and the same as a half-edge collapse and flips.
+///
+/// Where we differ: the triangulation is found by dynamic programming over the ring polygon instead of by
+/// flipping a fan, which need not be valid. It minimizes the sum of the harmonic indices (edge lengths squared
+/// over area), whose minimum is the Delaunay triangulation [Musin 1997], and can refuse single triangles
+/// and diagonals. The flips are those that lead from the fan to it; what lies between need not be embedded.
+#pragma once
+
+#include "Hierarchy/DecimationMesh.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace quadrille
+{
+
+/// What a removal must not do to the surface.
+struct RemovalGuards
+{
+  /// Quality 4 sqrt(3) area / (sum of squared edges), 1 for an equilateral triangle, that new triangles must have
+  /// unless the star they replace had a worse one.
+  double minimumQuality = 0.15;
+  /// Cosine of the largest turn of a normal against the old faces at the same ring edges.
+  double minimumNormalDot = 0.4;
+  int minimumValence = 4; ///< of free ring vertices, unless they had less before
+  int maximumValence = 16;
+  /// Allow faces whose three vertices lie on constrained curves (never on one and the same).
+  bool allowConstrainedFaces = false;
+  double curveTolerance = 0; ///< distance by which a curve may deviate from the input's
+};
+
+class VertexRemoval
+{
+public:
+  explicit VertexRemoval(DecimationMesh& mesh) : mesh_(mesh) {}
+
+  /// Collects the star of a live vertex. False when it can never be removed: protected, or too many faces.
+  bool gather(Index v);
+  int ringSize() const { return ringSize_; }
+  Index ringVertex(int i) const { return ring_[index(i)]; }
+  int faceCount() const { return faces_; }
+  bool onCurve() const { return onCurve_; }
+  /// Shortest edge at the vertex; for a curve vertex the shorter one of its two curve edges.
+  double shortestEdge() const;
+
+  /// Finds the new triangulation. False when the removal is illegal or breaks a guard.
+  bool plan(const RemovalGuards& guards);
+
+  /// After plan(): the worst quality of the new triangles.
+  double worstQuality() const { return worstQuality_; }
+  double starArea() const { return starArea_; }
+  /// After plan(): valence of the ring vertex afterwards.
+  int newValence(int i) const;
+  /// After plan(): angle defect at the vertex; of a curve vertex the sum of the sides' |pi - angle|.
+  double ownDefect() const;
+  /// After plan(): change of the angle defect at ring vertex i, on the sides of a curve through it apart.
+  std::array<double, 2> defectChange(int i) const;
+
+  /// Carries out the plan and logs it.
+  void apply(RecordWriter& log);
+
+private:
+  static constexpr std::size_t kN = kMaximumRing;
+  struct Triangle
+  {
+    std::uint8_t a = 0, b = 0, c = 0;
+  };
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  int nextRing(int i) const { return i + 1 == ringSize_ ? 0 : i + 1; }
+  /// Face of the star between ring vertices x and y = x + 1, or -1 (diagonals, the open side of a boundary star).
+  int starFace(int x, int y) const;
+  bool isRingEdge(int x, int y) const { return starFace(x, y) >= 0; }
+
+  void rotateToCurve(int first);
+  bool measureStar();
+  bool mapToPlane();
+  bool placeSide(int first, int last, double total);
+  bool curveStaysClose(const RemovalGuards& guards) const;
+  bool loopStaysLong() const;
+  void forbidChords();
+  bool isForbidden(int x, int y) const { return (forbidden_[index(x)] >> y & 1U) != 0; }
+  void forbid(int x, int y);
+  bool triangulate(const RemovalGuards& guards);
+  bool triangulatePolygon(const int* polygon, int count, const RemovalGuards& guards);
+  void collectTriangles(const int* polygon, int i, int j);
+  double triangleCost(int a, int b, int c, const RemovalGuards& guards) const;
+  double constraintCost(int a, int b, int c, const RemovalGuards& guards) const;
+  bool forbidExistingDiagonals();
+  bool closesTetrahedron() const;
+  bool valencesFit(const RemovalGuards& guards) const;
+  bool locate();
+  void finishPlan();
+
+  int bestTarget() const;
+  CollapseRecord makeRecord(int target) const;
+  void cutEars(int x, int y, RecordWriter& log);
+
+  DecimationMesh& mesh_;
+  Index vertex_ = kInvalidIndex;
+  int faces_ = 0;
+  int ringSize_ = 0;
+  bool boundary_ = false;
+  bool onCurve_ = false;
+  bool anyConstrained_ = false; ///< some ring vertex lies on a curve
+  int curveEnd_ = 0; ///< ring position of the second curve neighbour; the first one is at 0
+
+  std::array<Index, kN> slot_{}; ///< corner of the vertex in its faces
+  std::array<Index, kN> ring_{};
+  std::array<Vector3, kN> spoke_{}; ///< ring vertex minus vertex
+  std::array<double, kN> length_{};
+  std::array<Vector3, kN> normal_{}; ///< unit normals of the star's faces; zero for slivers
+  std::array<double, kN> angle_{};   ///< at the vertex
+  std::array<Vector2, kN> planar_{};
+  std::array<std::uint8_t, kN> constrainedEdge_{}; ///< ring edge i -> i + 1
+  std::array<Vector3, 2> sideNormal_{};
+  double starArea_ = 0;
+  double starQuality_ = 0;
+
+  std::array<std::uint64_t, kN> forbidden_{};
+  std::array<std::array<double, kN>, kN> best_{};
+  std::array<std::array<std::uint8_t, kN>, kN> split_{};
+  std::array<Triangle, kN> triangles_{};
+  int triangleCount_ = 0;
+  std::array<std::uint8_t, kN> diagonals_{}; ///< new diagonals at each ring vertex
+  double worstQuality_ = 0;
+
+  std::array<std::uint8_t, 3> weightRing_{};
+  std::array<double, 2> weight_{};
+
+  // Work of apply(): ring positions relative to the target.
+  std::array<Index, kN> fan_{};
+  std::array<std::array<std::uint8_t, kN>, kN> opposite_{};
+};
+
+} // namespace quadrille
