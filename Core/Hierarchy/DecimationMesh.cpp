@@ -46,22 +46,32 @@ bool DecimationMesh::hasEdge(Index a, Index b) const
 
 Index DecimationMesh::nextOnCurve(Index v, Index from) const
 {
+  Index found = kInvalidIndex;
+  int others = 0;
+  const auto consider = [&](Index w)
+  {
+    if (w != from)
+    {
+      found = w;
+      ++others;
+    }
+  };
   const Index first = outgoing[v];
   Index h = first;
   do
   {
-    if (isConstrained(h) && target(h) != from)
+    if (isConstrained(h))
     {
-      return target(h);
+      consider(target(h));
     }
     const Index incoming = Mesh::previous(h);
     if (twin[incoming] == kInvalidIndex)
     {
-      return origin[incoming];
+      consider(origin[incoming]);
     }
     h = twin[incoming];
-  } while (h != first);
-  return kInvalidIndex;
+  } while (h != first && h != kInvalidIndex);
+  return others == 1 ? found : kInvalidIndex;
 }
 
 void DecimationMesh::link(Index h, Index g, std::uint8_t flag)

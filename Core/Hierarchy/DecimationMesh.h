@@ -38,7 +38,7 @@ public:
   bool isBoundary(Index h) const { return twin[h] == kInvalidIndex; }
   bool isConstrained(Index h) const { return isBoundary(h) || (flags[h] & kFeatureEdge) != 0; }
   bool hasEdge(Index a, Index b) const;
-  /// The neighbour of `v` along a constrained edge that is not `from`; for inner curve vertices.
+  /// The one neighbour of `v` other than `from` along constrained edges; none at ends and junctions.
   Index nextOnCurve(Index v, Index from) const;
 
   /// Carries out the collapse of a record whose vertex sits in its slots.

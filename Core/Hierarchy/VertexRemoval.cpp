@@ -173,11 +173,8 @@ bool VertexRemoval::loopStaysLong() const
   // The curve ... p - r0 - v - r1 - q ...: with p == q the loop would fall to three edges.
   const Index r0 = ring_[0];
   const Index r1 = ring_[index(curveEnd_)];
-  if (mesh_.curves.kind[r0] != VertexKind::Curve || mesh_.curves.kind[r1] != VertexKind::Curve)
-  {
-    return true;
-  }
-  return mesh_.nextOnCurve(r0, vertex_) != mesh_.nextOnCurve(r1, vertex_);
+  const Index p = mesh_.nextOnCurve(r0, vertex_);
+  return p == kInvalidIndex || p != mesh_.nextOnCurve(r1, vertex_);
 }
 
 bool VertexRemoval::measureStar()
@@ -251,7 +248,7 @@ bool VertexRemoval::placeSide(int first, int last, double total)
   for (int i = first; i < last; ++i)
   {
     const double step = scale * angle_[index(i)];
-    if (step > 0.97 * kPi || !(step > 1e-4))
+    if (step > 0.995 * kPi || !(step > 1e-6))
     {
       return false;
     }
@@ -398,7 +395,8 @@ double VertexRemoval::triangleCost(int a, int b, int c, const RemovalGuards& gua
   const Vector2 ac2 = planar_[index(c)] - planar_[index(a)];
   const double planarArea = cross(ab2, ac2);
   const double planarEdges = ab2.squaredNorm() + ac2.squaredNorm() + (ac2 - ab2).squaredNorm();
-  if (!(quality(planarArea, planarEdges) > kMinimumPlanarQuality))
+  const double leastPlanar = std::clamp(0.3 * starQuality_, 1e-6, kMinimumPlanarQuality);
+  if (!(quality(planarArea, planarEdges) > leastPlanar))
   {
     return kInfinity;
   }
@@ -410,6 +408,11 @@ double VertexRemoval::triangleCost(int a, int b, int c, const RemovalGuards& gua
   if (!(shape > 1e-6) || shape < std::min(guards.minimumQuality, 0.95 * starQuality_))
   {
     return kInfinity;
+  }
+  if (shape < kSliverQuality)
+  {
+    // In the place of another sliver; its normal says nothing.
+    return 1 / shape + (anyConstrained_ ? constraintCost(a, b, c, guards) : 0);
   }
   // Second side of a curve: its ring positions run from curveEnd_ on (0 closes it).
   const int side = onCurve_ && !boundary_ && b > curveEnd_ ? 1 : 0;
