@@ -25,6 +25,7 @@ struct Certificate
   std::size_t notPositive = 0;      ///< triangles with !(det > 0)
   std::size_t wrongTurns = 0;       ///< vertices whose winding is not the expected one
   std::size_t seamResiduals = 0;    ///< edges whose two images differ by more than a transition
+  std::size_t offAxes = 0;          ///< constrained edges that are not parallel to an axis
   std::size_t offIsolines = 0;      ///< constrained edges that do not lie on an integer isoline
   std::size_t offIntegers = 0;      ///< integer vertices (singular, corner, end) not at integer points
   std::size_t fractionalTransitions = 0; ///< transitions whose translation is not whole
@@ -32,7 +33,10 @@ struct Certificate
   double area = 0;                  ///< total uv area in quads: the number of quads to expect
   std::vector<Index> worstFaces;    ///< up to 16 faces, smallest determinant first
 
-  bool seamless() const { return notPositive == 0 && wrongTurns == 0 && seamResiduals == 0; }
+  bool seamless() const
+  {
+    return notPositive == 0 && wrongTurns == 0 && seamResiduals == 0 && offAxes == 0;
+  }
   bool valid() const
   {
     return seamless() && offIsolines == 0 && offIntegers == 0 && fractionalTransitions == 0;
@@ -58,7 +62,8 @@ struct SeamlessResult
 {
   std::vector<FixedVec2> uv; ///< #H; best effort when the status is not ok
   Status status;
-  std::vector<Index> inverted; ///< faces left with !(det > 0)
+  std::vector<Index> inverted;  ///< faces left with !(det > 0)
+  std::vector<Index> offenders; ///< vertices round which the triangulation, or the field, leaves no map
   int newtonSteps = 0;
 };
 /// A seamless map without inverted triangles that follows the field: transitions are quarter turns plus any

@@ -18,6 +18,11 @@ namespace
 
 using Vector = Eigen::VectorXd;
 
+/// Fractions by which one step lowers the energy: below the first one it is near the minimum for its
+/// epsilon, below the second one no further step pays.
+constexpr double kConverged = 1e-3;
+constexpr double kStalled = 1e-5;
+
 double determinantOf(const Jacobian& j)
 {
   return j[0] * j[3] - j[1] * j[2];
@@ -190,8 +195,9 @@ void Minimizer::lowerEpsilon(double gain)
     return;
   }
   const double root = std::hypot(depth, energy_.epsilon);
-  const double sigma = std::max(0.1, gain) * root / (depth + root);
-  energy_.epsilon = std::max(energy_.epsilon * (1 - sigma), 0.1 * options_.minimumDeterminant);
+  const double rate = gain < kConverged ? 0.5 : std::max(0.1, gain);
+  energy_.epsilon = std::max(
+    energy_.epsilon * (1 - rate * root / (depth + root)), 0.1 * options_.minimumDeterminant);
 }
 
 double Minimizer::total(const std::vector<Jacobian>& jacobians) const
@@ -264,9 +270,10 @@ UntangleResult Minimizer::run()
       "untangling the map");
     gain = step();
     ++result.steps;
-    // A smaller epsilon can set a stalled run going again, a valid one has then converged.
-    stalled = gain < 1e-5 ? stalled + 1 : 0;
-    if (stalled > 0 && (valid() || stalled > 20))
+    // A smaller epsilon can set a stalled run going again; without one it has converged.
+    const bool last = energy_.epsilon <= 0.1 * options_.minimumDeterminant;
+    stalled = last && gain < (valid() ? kStalled : kConverged) ? stalled + 1 : 0;
+    if (stalled > (valid() ? 0 : 5))
     {
       break;
     }

@@ -1,0 +1,271 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GridMap/CutGraph.h"
+
+#include "Base/Error.h"
+#include "Mesh/Topology.h"
+
+#include <numeric>
+#include <string>
+
+namespace quadrille
+{
+namespace
+{
+
+void checkEdges(const Mesh& mesh, const CrossField& field)
+{
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Index g = mesh.twin[h];
+    const std::string name = "cross field: half-edge " + std::to_string(h);
+    if (mesh.isConstrained(h) != (field.alignment[h] >= 0))
+    {
+      throw InvalidInput(name + " is constrained but not aligned, or the other way round");
+    }
+    if (g == kInvalidIndex)
+    {
+      continue;
+    }
+    if (((field.matching[h] + field.matching[g]) & 3) != 0)
+    {
+      throw InvalidInput(name + " and its twin have matchings that are not inverse to each other");
+    }
+    if (mesh.isFeature(h) &&
+      ((field.alignment[g] + 2 - field.alignment[h] - field.matching[h]) & 3) != 0)
+    {
+      throw InvalidInput(name + " has a matching that contradicts its alignments");
+    }
+  }
+}
+
+/// Round an interior vertex the directions turn by `turns` and by the matchings: a full circle.
+void checkVertices(const Mesh& mesh, const CrossField& field)
+{
+  std::vector<int> sum(mesh.vertexCount(), 0);
+  std::vector<bool> interior(mesh.vertexCount(), true);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    sum[mesh.target(h)] += field.matching[h];
+    if (mesh.isBoundary(h))
+    {
+      interior[mesh.origin[h]] = interior[mesh.target(h)] = false;
+    }
+  }
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    if (interior[v] && ((sum[v] + field.turns[v]) & 3) != 0)
+    {
+      throw InvalidInput("cross field: the matchings round vertex " + std::to_string(v) +
+        " contradict its " + std::to_string(field.turns[v]) + " quarter turns");
+    }
+  }
+}
+
+void checkField(const Mesh& mesh, const CrossField& field)
+{
+  if (field.matching.size() != mesh.origin.size() || field.alignment.size() != mesh.origin.size() ||
+    field.angle.size() != mesh.faceCount() || field.turns.size() != mesh.position.size())
+  {
+    throw InvalidInput("cross field: it does not have the size of the mesh");
+  }
+  checkEdges(mesh, field);
+  checkVertices(mesh, field);
+}
+
+class Cutter
+{
+public:
+  Cutter(const Mesh& mesh, const CrossField& field, CutGraph& graph)
+    : mesh_(mesh), field_(field), graph_(graph), cut_(mesh.origin.size(), false)
+  {
+  }
+
+  void run()
+  {
+    comb();
+    prune();
+    numberWedges();
+    traceSegments();
+  }
+
+private:
+  int combedRotation(Index h) const
+  {
+    return (graph_.comb[Mesh::face(mesh_.twin[h])] + field_.matching[h] -
+             graph_.comb[Mesh::face(h)]) &
+      3;
+  }
+
+  /// Breadth-first trees over the dual edges; what they do not cross is cut.
+  void comb()
+  {
+    graph_.comb.assign(mesh_.faceCount(), 0);
+    graph_.component.assign(mesh_.faceCount(), kInvalidIndex);
+    std::vector<bool> crossed(mesh_.origin.size(), false);
+    std::vector<Index> queue;
+    for (Index seed = 0; seed < mesh_.faceCount(); ++seed)
+    {
+      if (graph_.component[seed] != kInvalidIndex)
+      {
+        continue;
+      }
+      graph_.component[seed] = graph_.components++;
+      queue.assign(1, seed);
+      for (std::size_t i = 0; i < queue.size(); ++i)
+      {
+        enterNeighbours(queue[i], crossed, queue);
+      }
+    }
+    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    {
+      cut_[h] = !mesh_.isBoundary(h) && !crossed[h];
+    }
+  }
+
+  void enterNeighbours(Index f, std::vector<bool>& crossed, std::vector<Index>& queue)
+  {
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      const Index g = mesh_.twin[h];
+      if (g == kInvalidIndex || graph_.component[Mesh::face(g)] != kInvalidIndex)
+      {
+        continue;
+      }
+      graph_.component[Mesh::face(g)] = graph_.component[f];
+      graph_.comb[Mesh::face(g)] =
+        static_cast<std::uint8_t>((graph_.comb[f] - field_.matching[h]) & 3);
+      crossed[h] = crossed[g] = true;
+      queue.push_back(Mesh::face(g));
+    }
+  }
+
+  /// Closes the ends of the cut that do not end in a singularity or on the boundary.
+  void prune()
+  {
+    outgoing_ = outgoingHalfEdges(mesh_);
+    degree_.assign(mesh_.vertexCount(), 0);
+    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    {
+      degree_[mesh_.origin[h]] += cut_[h] ? 1 : 0;
+    }
+    for (Index start = 0; start < mesh_.vertexCount(); ++start)
+    {
+      for (Index v = start; degree_[v] == 1 && !mesh_.isBoundary(outgoing_[v]);)
+      {
+        const Index h = cutHalfEdgeFrom(v);
+        if (combedRotation(h) != 0)
+        {
+          break;
+        }
+        cut_[h] = cut_[mesh_.twin[h]] = false;
+        --degree_[v];
+        v = mesh_.target(h);
+        --degree_[v];
+      }
+    }
+  }
+
+  Index cutHalfEdgeFrom(Index v) const
+  {
+    Index h = outgoing_[v];
+    while (!cut_[h])
+    {
+      h = mesh_.rotateCounterclockwise(h);
+    }
+    return h;
+  }
+
+  void numberWedges()
+  {
+    graph_.wedge.assign(mesh_.origin.size(), kInvalidIndex);
+    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    {
+      if (graph_.wedge[h] == kInvalidIndex)
+      {
+        fillWedge(h, graph_.wedges++);
+      }
+    }
+  }
+
+  void fillWedge(Index start, Index id)
+  {
+    Index h = start;
+    do // counterclockwise up to a cut or round the vertex
+    {
+      graph_.wedge[h] = id;
+      h = cut_[Mesh::previous(h)] ? kInvalidIndex : mesh_.rotateCounterclockwise(h);
+    } while (h != kInvalidIndex && h != start);
+    if (h == start)
+    {
+      return;
+    }
+    for (h = start; !cut_[h] && !mesh_.isBoundary(h);)
+    {
+      h = mesh_.rotateClockwise(h);
+      graph_.wedge[h] = id;
+    }
+  }
+
+  /// A vertex that a segment passes through: what lies left of the cut there stays left of it.
+  bool isPassed(Index v) const
+  {
+    return degree_[v] == 2 && (field_.turns[v] & 3) == 0 && !mesh_.isBoundary(outgoing_[v]);
+  }
+
+  void traceSegments()
+  {
+    graph_.segment.assign(mesh_.origin.size(), kInvalidIndex);
+    std::vector<bool> seen(mesh_.origin.size(), false);
+    for (const bool wholeLoops : { false, true })
+    {
+      for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+      {
+        if (cut_[h] && !seen[h] && (wholeLoops || !isPassed(mesh_.origin[h])))
+        {
+          traceSegment(h, seen);
+        }
+      }
+    }
+  }
+
+  void traceSegment(Index h, std::vector<bool>& seen)
+  {
+    const Index id = static_cast<Index>(graph_.rotation.size());
+    graph_.rotation.push_back(static_cast<std::uint8_t>(combedRotation(h)));
+    while (!seen[h])
+    {
+      seen[h] = seen[mesh_.twin[h]] = true;
+      graph_.segment[h] = id;
+      graph_.path.push_back(h);
+      if (!isPassed(mesh_.target(h)))
+      {
+        break;
+      }
+      h = Mesh::next(h);
+      while (!cut_[h])
+      {
+        h = mesh_.rotateClockwise(h);
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  const CrossField& field_;
+  CutGraph& graph_;
+  std::vector<bool> cut_;
+  std::vector<Index> outgoing_;
+  std::vector<int> degree_; ///< cut edges at a vertex
+};
+
+} // namespace
+
+CutGraph cutAlongField(const Mesh& mesh, const CrossField& field)
+{
+  checkField(mesh, field);
+  CutGraph graph;
+  Cutter(mesh, field, graph).run();
+  return graph;
+}
+
+} // namespace quadrille

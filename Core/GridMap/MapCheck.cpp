@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GridMap/MapCheck.h"
+
+#include "Mesh/Topology.h"
+
+#include <algorithm>
+
+namespace quadrille
+{
+namespace
+{
+
+/// The quadrant [0, 90), [90, 180), ... degrees of a vector; -1 for the zero vector.
+int quadrantOf(FixedVec2 d)
+{
+  if (d.u > 0 && d.v >= 0)
+  {
+    return 0;
+  }
+  if (d.u <= 0 && d.v > 0)
+  {
+    return 1;
+  }
+  if (d.u < 0 && d.v <= 0)
+  {
+    return 2;
+  }
+  return d.v < 0 ? 3 : -1;
+}
+
+/// The sector that begins at constrained half-edge `start`: its corners, counterclockwise.
+template <typename Visit>
+void forSector(const Mesh& mesh, Index start, Visit visit)
+{
+  Index h = start;
+  do
+  {
+    visit(h);
+    h = mesh.rotateCounterclockwise(h);
+  } while (h != kInvalidIndex && h != start && !mesh.isConstrained(h));
+}
+
+void checkSectors(const Mesh& mesh, const CrossField& field,
+  const std::vector<std::int8_t>& entered, std::vector<std::uint8_t>& wrong)
+{
+  for (Index start = 0; start < mesh.halfEdgeCount(); ++start)
+  {
+    if (field.sectorTurns[start] > 0)
+    {
+      int turns = 0;
+      forSector(mesh, start, [&](Index h) { turns += entered[h]; });
+      if (turns != field.sectorTurns[start])
+      {
+        wrong[mesh.origin[start]] = 1;
+      }
+    }
+  }
+}
+
+bool runsAlongItsAxis(const std::vector<FixedVec2>& uv, Index h, int axis)
+{
+  const FixedVec2 d = rotate(uv[Mesh::next(h)] - uv[h], -axis);
+  return d.u > 0 && d.v == 0;
+}
+
+std::vector<Index> flagged(const std::vector<std::uint8_t>& flags)
+{
+  std::vector<Index> result;
+  for (Index i = 0; i < flags.size(); ++i)
+  {
+    if (flags[i])
+    {
+      result.push_back(i);
+    }
+  }
+  return result;
+}
+
+} // namespace
+
+int quadrantsEntered(const FixedVec2* p, int i, int orientationSign)
+{
+  const int from = quadrantOf(p[(i + 1) % 3] - p[i]);
+  const int to = quadrantOf(p[(i + 2) % 3] - p[i]);
+  if (from < 0 || to < 0)
+  {
+    return 0;
+  }
+  // A positive triangle turns by less than half a circle, so the difference modulo 4 is the number.
+  return orientationSign >= 0 ? (to - from) & 3 : -((from - to) & 3);
+}
+
+std::string MapDefects::text() const
+{
+  std::string result = std::to_string(notPositive.size()) + " triangles not positive";
+  if (!wrongTurns.empty())
+  {
+    result += ", wrong turns at vertices " + listOf(wrongTurns);
+  }
+  if (!reversed.empty())
+  {
+    result += ", reversed constrained half-edges " + listOf(reversed);
+  }
+  return result;
+}
+
+MapDefects findDefects(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv)
+{
+  MapDefects defects;
+  std::vector<std::int8_t> entered(mesh.origin.size());
+  std::vector<int> turns(mesh.vertexCount(), 0);
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    const FixedVec2* p = &uv[3 * f];
+    const int sign = orientation(p[0], p[1], p[2]);
+    if (sign <= 0)
+    {
+      defects.notPositive.push_back(f);
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      const Index h = 3 * f + i;
+      entered[h] = static_cast<std::int8_t>(quadrantsEntered(p, i, sign));
+      turns[mesh.origin[h]] += entered[h];
+      if (field.alignment[h] >= 0 && !runsAlongItsAxis(uv, h, field.alignment[h]))
+      {
+        defects.reversed.push_back(h);
+      }
+    }
+  }
+  std::vector<std::uint8_t> wrong(mesh.vertexCount(), 0);
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    wrong[v] = turns[v] != field.turns[v];
+  }
+  checkSectors(mesh, field, entered, wrong);
+  defects.wrongTurns = flagged(wrong);
+  return defects;
+}
+
+std::vector<Index> crowdedVertices(const Mesh& mesh, const CrossField& field)
+{
+  std::vector<int> triangles(mesh.vertexCount(), 0);
+  for (const Index v : mesh.origin)
+  {
+    ++triangles[v];
+  }
+  std::vector<std::uint8_t> crowded(mesh.vertexCount(), 0);
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    crowded[v] = triangles[v] > 0 && field.turns[v] >= 2 * triangles[v];
+  }
+  for (Index start = 0; start < mesh.halfEdgeCount(); ++start)
+  {
+    int corners = 0;
+    if (field.sectorTurns[start] > 0)
+    {
+      forSector(mesh, start, [&](Index) { ++corners; });
+      crowded[mesh.origin[start]] |= field.sectorTurns[start] >= 2 * corners;
+    }
+  }
+  return flagged(crowded);
+}
+
+std::vector<Index> verticesOf(const Mesh& mesh, const MapDefects& defects)
+{
+  std::vector<Index> result = defects.wrongTurns;
+  for (const Index f : defects.notPositive)
+  {
+    result.insert(result.end(), mesh.origin.begin() + 3 * f, mesh.origin.begin() + 3 * f + 3);
+  }
+  for (const Index h : defects.reversed)
+  {
+    result.push_back(mesh.origin[h]);
+    result.push_back(mesh.target(h));
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+std::string listOf(const std::vector<Index>& ids)
+{
+  constexpr std::size_t kShown = 8;
+  std::string result;
+  for (std::size_t i = 0; i < ids.size() && i < kShown; ++i)
+  {
+    result += (i > 0 ? ", " : "") + std::to_string(ids[i]);
+  }
+  return ids.size() > kShown ? result + " and " + std::to_string(ids.size() - kShown) + " more"
+                             : result;
+}
+
+} // namespace quadrille

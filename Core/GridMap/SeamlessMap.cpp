@@ -1,0 +1,391 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Base/Error.h"
+#include "GridMap/CutGraph.h"
+#include "GridMap/GridMap.h"
+#include "GridMap/MapCheck.h"
+#include "GridMap/MapShape.h"
+#include "Numerics/ExactElimination.h"
+#include "Numerics/Untangler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+namespace quadrille
+{
+namespace
+{
+
+/// The equations of a seamless map. Variables: u and v of every wedge, then both coordinates of the
+/// translation of every segment.
+class Equations
+{
+public:
+  Equations(const Mesh& mesh, const CrossField& field, const CutGraph& graph)
+    : mesh_(mesh), field_(field), graph_(graph)
+  {
+    fixOneWedgePerComponent();
+    joinSegments();
+    alignConstrainedEdges();
+  }
+
+  Index variables() const
+  {
+    return 2 * (graph_.wedges + static_cast<Index>(graph_.rotation.size()));
+  }
+  const std::vector<IntegerRow>& rows() const { return rows_; }
+
+private:
+  void fixOneWedgePerComponent()
+  {
+    Index seen = 0;
+    for (Index f = 0; f < mesh_.faceCount(); ++f)
+    {
+      if (graph_.component[f] == seen)
+      {
+        const Index w = graph_.wedge[3 * f];
+        rows_.push_back({ { 2 * w, 1 } });
+        rows_.push_back({ { 2 * w + 1, 1 } });
+        ++seen;
+      }
+    }
+  }
+
+  /// Right image = R90^r left image + translation.
+  void join(Index left, Index right, Index segment)
+  {
+    const Index t = 2 * (graph_.wedges + segment);
+    const Index u = 2 * left, v = 2 * left + 1;
+    switch (graph_.rotation[segment])
+    {
+      case 0:
+        addPair(right, t, { u, -1 }, { v, -1 });
+        break;
+      case 1:
+        addPair(right, t, { v, 1 }, { u, -1 });
+        break;
+      case 2:
+        addPair(right, t, { u, 1 }, { v, 1 });
+        break;
+      default:
+        addPair(right, t, { v, -1 }, { u, 1 });
+        break;
+    }
+  }
+
+  void addPair(
+    Index right, Index t, std::pair<Index, std::int64_t> u, std::pair<Index, std::int64_t> v)
+  {
+    rows_.push_back({ { 2 * right, 1 }, { t, -1 }, u });
+    rows_.push_back({ { 2 * right + 1, 1 }, { t + 1, -1 }, v });
+  }
+
+  void joinSegments()
+  {
+    Index last = kInvalidIndex;
+    for (const Index h : graph_.path)
+    {
+      const Index g = mesh_.twin[h];
+      const Index segment = graph_.segment[h];
+      if (segment != last)
+      {
+        join(graph_.wedge[h], graph_.wedge[Mesh::next(g)], segment);
+      }
+      join(graph_.wedge[Mesh::next(h)], graph_.wedge[g], segment);
+      last = segment;
+    }
+  }
+
+  void alignConstrainedEdges()
+  {
+    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    {
+      if (!mesh_.isConstrained(h) || (!mesh_.isBoundary(h) && mesh_.twin[h] < h))
+      {
+        continue; // the twin says the same through the seam
+      }
+      const int axis = (field_.alignment[h] + graph_.comb[Mesh::face(h)]) & 1;
+      const Index coordinate = static_cast<Index>(1 - axis);
+      const Index a = graph_.wedge[h], b = graph_.wedge[Mesh::next(h)];
+      rows_.push_back({ { 2 * a + coordinate, 1 }, { 2 * b + coordinate, -1 } });
+    }
+  }
+
+  const Mesh& mesh_;
+  const CrossField& field_;
+  const CutGraph& graph_;
+  std::vector<IntegerRow> rows_;
+};
+
+/// A seamless map as a function of free unknowns.
+class SeamlessSpace
+{
+public:
+  SeamlessSpace(const Mesh& mesh, const CrossField& field, double edgeLength)
+    : mesh_(mesh), graph_(cutAlongField(mesh, field))
+  {
+    const Equations equations(mesh, field, graph_);
+    std::optional<ExactBasis> basis = eliminateExactly(equations.variables(), equations.rows());
+    if (basis)
+    {
+      basis_ = std::move(*basis);
+      basis_.rows.resize(2 * graph_.wedges);
+      buildProblem(field, edgeLength);
+    }
+  }
+
+  bool solved() const { return !basis_.rows.empty(); }
+  const UntangleProblem& problem() const { return problem_; }
+  std::vector<FixedVec2> snap(const Eigen::VectorXd& y) const;
+  std::vector<Index> collapsedFaces(const std::vector<Index>& candidates) const;
+
+private:
+  void buildProblem(const CrossField& field, double edgeLength)
+  {
+    std::vector<Eigen::Triplet<double>> triplets;
+    for (Index i = 0; i < basis_.rows.size(); ++i)
+    {
+      for (const auto& [id, numerator] : basis_.rows[i].numerators)
+      {
+        triplets.emplace_back(static_cast<int>(i), static_cast<int>(id),
+          static_cast<double>(numerator) / static_cast<double>(basis_.rows[i].denominator));
+      }
+    }
+    problem_.basis.resize(basis_.rows.size(), basis_.free.size());
+    problem_.basis.setFromTriplets(triplets.begin(), triplets.end());
+    problem_.offset = Eigen::VectorXd::Zero(basis_.rows.size());
+    for (Index f = 0; f < mesh_.faceCount(); ++f)
+    {
+      const Index* wedge = &graph_.wedge[3 * f];
+      addTriangle(
+        problem_, { wedge[0], wedge[1], wedge[2] }, mesh_, field, f, graph_.comb[f], edgeLength);
+    }
+  }
+
+  const Mesh& mesh_;
+  CutGraph graph_;
+  ExactBasis basis_;
+  UntangleProblem problem_;
+};
+
+/// A linear form of the free unknowns, exact: numerators over a common denominator that is left out.
+using Form = IntegerRow;
+
+/// a - b up to a positive factor.
+Form difference(const ExactBasis::Row& a, const ExactBasis::Row& b, std::int64_t common)
+{
+  Form result;
+  for (const auto& [id, numerator] : a.numerators)
+  {
+    result.emplace_back(id, numerator * (common / a.denominator));
+  }
+  for (const auto& [id, numerator] : b.numerators)
+  {
+    const auto place = std::lower_bound(result.begin(), result.end(), id,
+      [](const auto& term, Index wanted) { return term.first < wanted; });
+    const std::int64_t value = -numerator * (common / b.denominator);
+    if (place != result.end() && place->first == id)
+    {
+      place->second += value;
+    }
+    else
+    {
+      result.insert(place, { id, value });
+    }
+  }
+  result.erase(
+    std::remove_if(result.begin(), result.end(), [](const auto& term) { return term.second == 0; }),
+    result.end());
+  return result;
+}
+
+bool areParallel(const Form& a, const Form& b)
+{
+  if (a.empty() || b.empty())
+  {
+    return true;
+  }
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    if (a.size() != b.size() || a[i].first != b[i].first ||
+      Int128{ a[i].second } * b[0].second != Int128{ b[i].second } * a[0].second)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The faces whose determinant is zero for every choice of the unknowns: two edges, or both coordinates,
+/// are proportional.
+std::vector<Index> SeamlessSpace::collapsedFaces(const std::vector<Index>& candidates) const
+{
+  std::vector<Index> result;
+  for (const Index f : candidates)
+  {
+    const Index* w = &graph_.wedge[3 * f];
+    std::int64_t common = 1;
+    for (int i = 0; i < 6; ++i)
+    {
+      common = std::lcm(common, basis_.rows[2 * w[i / 2] + i % 2].denominator);
+    }
+    const auto edge = [&](int corner, int coordinate)
+    {
+      return difference(
+        basis_.rows[2 * w[corner] + coordinate], basis_.rows[2 * w[0] + coordinate], common);
+    };
+    const Form u1 = edge(1, 0), v1 = edge(1, 1), u2 = edge(2, 0), v2 = edge(2, 1);
+    const bool edgeIsPoint =
+      (u1.empty() && v1.empty()) || (u2.empty() && v2.empty()) || (u1 == u2 && v1 == v2);
+    const bool noExtent = (u1.empty() && u2.empty()) || (v1.empty() && v2.empty());
+    const bool proportional = u1 == v1 && u2 == v2 && areParallel(u1, v1);
+    if (edgeIsPoint || noExtent || proportional)
+    {
+      result.push_back(f);
+    }
+  }
+  return result;
+}
+
+/// Rounds the free unknowns to multiples of their steps; all else then follows in integers.
+std::vector<FixedVec2> SeamlessSpace::snap(const Eigen::VectorXd& y) const
+{
+  std::vector<std::int64_t> fixed(y.size());
+  for (Eigen::Index i = 0; i < y.size(); ++i)
+  {
+    const double step = static_cast<double>(basis_.step[i]);
+    fixed[i] = std::llround(y[i] * static_cast<double>(kOne) / step) * basis_.step[i];
+  }
+  std::vector<std::int64_t> x(basis_.rows.size());
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    Int128 sum = 0;
+    for (const auto& [id, numerator] : basis_.rows[i].numerators)
+    {
+      sum += Int128{ numerator } * fixed[id];
+    }
+    x[i] = static_cast<std::int64_t>(sum / basis_.rows[i].denominator);
+  }
+  std::vector<FixedVec2> uv(mesh_.origin.size());
+  for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+  {
+    const Index w = graph_.wedge[h];
+    uv[h] = rotate({ x[2 * w], x[2 * w + 1] }, -graph_.comb[Mesh::face(h)]);
+  }
+  return uv;
+}
+
+/// Weights of |J - 1|^2, tried in turn: the stronger it is, the less a vertex can wind wrongly.
+constexpr double kAlignments[] = { 1, 10, 100 };
+
+UntangleOptions untangleOptions(double alignment, const ProgressCallback& progress)
+{
+  UntangleOptions options;
+  options.alignmentWeight = alignment;
+  // The equations are homogeneous: the area term keeps the map from shrinking to a point.
+  options.areaWeight = 1;
+  options.polishSteps = 4;
+  options.progress = progress;
+  return options;
+}
+
+void fail(const Mesh& mesh, StatusCode code, const std::string& message, const MapDefects& defects,
+  SeamlessResult& result)
+{
+  result.status = { code, "seamless map: " + message };
+  result.inverted = defects.notPositive;
+  if (result.offenders.empty())
+  {
+    result.offenders = verticesOf(mesh, defects);
+  }
+}
+
+/// Tells what no choice of the unknowns can mend; true when there is such a thing.
+bool findHopeless(const Mesh& mesh, const CrossField& field, const SeamlessSpace& space,
+  const MapDefects& defects, SeamlessResult& result)
+{
+  result.offenders = crowdedVertices(mesh, field);
+  if (!result.offenders.empty())
+  {
+    fail(mesh, StatusCode::Infeasible,
+      "vertices " + listOf(result.offenders) + " have too few triangles for their quarter turns",
+      defects, result);
+    return true;
+  }
+  MapDefects collapsed;
+  collapsed.notPositive = space.collapsedFaces(defects.notPositive);
+  if (collapsed.notPositive.empty())
+  {
+    return false;
+  }
+  result.offenders = verticesOf(mesh, collapsed);
+  fail(mesh, StatusCode::Infeasible,
+    "features and singularities leave no area to faces " + listOf(collapsed.notPositive) +
+      "; fewer features there or more coarse vertices would help",
+    defects, result);
+  return true;
+}
+
+/// Untangles from the solution of the Poisson equation and keeps the attempt with the fewest defects.
+MapDefects untangleField(const Mesh& mesh, const CrossField& field, const SeamlessSpace& space,
+  const Eigen::VectorXd& poisson, const ProgressCallback& progress, SeamlessResult& result)
+{
+  MapDefects best;
+  for (const double alignment : kAlignments)
+  {
+    const UntangleResult attempt =
+      untangle(space.problem(), poisson, untangleOptions(alignment, progress));
+    std::vector<FixedVec2> uv = space.snap(attempt.y);
+    MapDefects defects = findDefects(mesh, field, uv);
+    result.newtonSteps += attempt.steps;
+    if (alignment == kAlignments[0] || defects.count() < best.count())
+    {
+      best = std::move(defects);
+      result.uv = std::move(uv);
+    }
+    // More alignment mends the winding; where triangles stay inverted it rarely does, so try it once.
+    if (best.none() || (alignment > 1 && !best.notPositive.empty()))
+    {
+      break;
+    }
+  }
+  return best;
+}
+
+} // namespace
+
+SeamlessResult computeSeamlessMap(
+  const Mesh& mesh, const CrossField& field, const SeamlessOptions& options)
+{
+  if (!(options.edgeLength > 0) || !std::isfinite(options.edgeLength))
+  {
+    throw InvalidInput("seamless map: the edge length must be positive and finite");
+  }
+  SeamlessResult result;
+  report(options.progress, 0, "seamless map");
+  const SeamlessSpace space(mesh, field, options.edgeLength);
+  if (!space.solved())
+  {
+    result.uv.assign(mesh.origin.size(), FixedVec2{});
+    result.status = { StatusCode::NotConverged,
+      "seamless map: the equations need more than 63 bits; fewer singularities would help" };
+    return result;
+  }
+  const Eigen::VectorXd poisson = fitReferences(space.problem());
+  result.uv = space.snap(poisson);
+  MapDefects defects = findDefects(mesh, field, result.uv);
+  if (findHopeless(mesh, field, space, defects, result))
+  {
+    return result;
+  }
+  defects = untangleField(mesh, field, space, poisson, options.progress, result);
+  if (!defects.none())
+  {
+    fail(mesh, StatusCode::NotConverged, defects.text(), defects, result);
+  }
+  return result;
+}
+
+} // namespace quadrille
