@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quadrille
@@ -22,8 +23,9 @@ struct SurfaceInput
   std::vector<Vector3> points;
   std::vector<Index> polygonOffsets; ///< #P + 1 offsets into polygonPoints
   std::vector<Index> polygonPoints;  ///< point ids, polygon after polygon
-  std::vector<std::uint8_t> featureEdges; ///< empty or #P; bit i: edge from corner i to i+1 is a feature
-  std::vector<std::int64_t> patchIds;     ///< empty or #P; an edge between two values is a feature
+  std::vector<std::uint8_t>
+    featureEdges; ///< empty or #P; bit i: edge from corner i to i+1 is a feature
+  std::vector<std::int64_t> patchIds; ///< empty or #P; an edge between two values is a feature
 };
 
 struct PrepareOptions
@@ -42,11 +44,12 @@ struct RepairReport
   std::size_t degenerateFaces = 0;     ///< removed or collapsed: repeated corner, zero area
   std::size_t duplicateFaces = 0;      ///< removed
   std::size_t isolatedPoints = 0;      ///< dropped
-  std::size_t nonManifoldEdges = 0;    ///< split into sheets
+  std::size_t nonManifoldEdges = 0;    ///< edges of more than two faces, split into sheets
   std::size_t nonManifoldVertices = 0; ///< split into sheets
   std::size_t reorientedFaces = 0;     ///< flipped to agree with their component
-  std::size_t removedComponents = 0;   ///< components too small to carry a quad (a closed one below 4 faces)
-  std::size_t refinedFaces = 0;        ///< faces that were split because they were too large
+  std::size_t removedComponents =
+    0; ///< components too small to carry a quad (a closed one below 4 faces)
+  std::size_t refinedFaces = 0; ///< faces that were split by refineSurface
 
   bool nothingChanged() const;
   /// "12 duplicate faces removed, 3 non-manifold edges split"; empty when nothing changed.
@@ -57,8 +60,8 @@ struct RepairReport
 struct SourceLocation
 {
   Index polygon = kInvalidIndex;
-  std::array<Index, 3> points{};    ///< input point ids of the triangle of that polygon
-  std::array<double, 3> weights{};  ///< barycentric, sum 1
+  std::array<Index, 3> points{};   ///< input point ids of the triangle of that polygon
+  std::array<double, 3> weights{}; ///< barycentric, sum 1
 };
 
 /// The finest level: repaired, ordered, with features. Immutable after refinement.
@@ -72,13 +75,19 @@ struct PreparedSurface
   /// Content hash of positions, connectivity and features; binds a decimation log to its mesh.
   std::uint64_t hash = 0;
 
-  std::vector<Index> sourcePolygon;                 ///< #F
-  std::vector<std::array<Index, 3>> sourcePoints;   ///< #F; input triangle's point ids, in corner order
-                                                    ///< of the *unrefined* face
-  /// Only where refinement split a face: index into cornerWeights, else kInvalidIndex. Empty when
-  /// nothing was refined.
+  std::vector<Index> sourcePolygon; ///< #F
+  /// #F; ids of the input points at the corners of the unrefined face. Repair may have moved a corner
+  /// of a degenerate polygon's neighbour to another input point; then that point's id stands here.
+  std::vector<std::array<Index, 3>> sourcePoints;
+  /// Only where a face was split: index into cornerWeights, else kInvalidIndex. Empty when no face
+  /// was split.
   std::vector<Index> refinedEntry;
   std::vector<std::array<std::array<double, 3>, 3>> cornerWeights; ///< [corner][source corner]
+
+  /// Sub-stages with their seconds: repair, order, connectivity.
+  std::vector<std::pair<std::string, double>> seconds;
+  /// Empty, or why refineSurface left edges longer than it was asked to.
+  std::string notice;
 
   /// Source of the point with barycentric coordinates `weights` in face `f` of the mesh.
   SourceLocation locate(Index f, const std::array<double, 3>& weights) const;
@@ -89,10 +98,13 @@ struct PreparedSurface
 /// a face of it), or when nothing is left after repair.
 PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& options);
 
-/// Splits edges longer than maximumEdgeLength (conforming, at edge midpoints, longest first), and faces
-/// with more than one constrained edge, or three vertices on constrained edges joined by an
-/// unconstrained chord, that no decimation could ever repair. Afterwards every face has at most one
-/// constrained edge. The geometry does not change: new vertices lie on the old triangles.
-void refineSurface(PreparedSurface& surface, double maximumEdgeLength, const ProgressCallback& progress);
+/// Splits edges longer than maximumEdgeLength (conforming, at edge midpoints, longest first), and
+/// chords: unconstrained edges whose two ends lie on constrained edges, that no decimation could ever
+/// repair. Afterwards every face has at most one constrained edge and no chord is left. The geometry
+/// does not change: new vertices lie on the old triangles. Long thin triangles can multiply; past
+/// 16 #F + 20 area / maximumEdgeLength^2 faces the longest edges are split and the rest is left, which
+/// `notice` tells. Throws InvalidInput unless maximumEdgeLength is positive and finite.
+void refineSurface(
+  PreparedSurface& surface, double maximumEdgeLength, const ProgressCallback& progress);
 
 } // namespace quadrille

@@ -3,8 +3,8 @@
 #include "Mesh/Topology.h"
 
 #include "Base/Error.h"
+#include "Mesh/EdgeRuns.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace quadrille
@@ -18,99 +18,27 @@ std::string edgeName(Index a, Index b)
   return "(" + std::to_string(a) + ", " + std::to_string(b) + ")";
 }
 
-/// A half-edge in the bucket of the lower of its two vertices.
-struct BucketEntry
+/// Pairs the half-edges of one edge.
+void pairRun(const std::vector<Index>& origin, const EdgeRuns::Entry* begin,
+  const EdgeRuns::Entry* end, std::vector<Index>& twin)
 {
-  Index other; ///< the higher vertex
-  Index halfEdge;
-};
-
-struct Buckets
-{
-  std::vector<Index> begin; ///< #V + 1
-  std::vector<BucketEntry> entries;
-};
-
-Index targetOf(const std::vector<Index>& origin, Index h)
-{
-  return origin[Mesh::next(h)];
-}
-
-void checkCorners(const std::vector<Index>& origin, Index vertexCount)
-{
-  if (origin.size() % 3 != 0)
+  const Index h = begin->halfEdge;
+  const Index target = origin[Mesh::next(h)];
+  if (end - begin > 2)
   {
-    throw InvalidInput("the corner list has " + std::to_string(origin.size()) +
-      " entries, which is no multiple of 3");
+    throw InvalidInput("edge " + edgeName(origin[h], target) + " has " +
+      std::to_string(end - begin) + " faces, among them face " + std::to_string(h / 3));
   }
-  for (Index h = 0; h < origin.size(); ++h)
+  if (end - begin == 2)
   {
-    if (origin[h] >= vertexCount)
+    const Index g = begin[1].halfEdge;
+    if (origin[h] == origin[g])
     {
-      throw InvalidInput("face " + std::to_string(h / 3) + " names vertex " +
-        std::to_string(origin[h]) + " of " + std::to_string(vertexCount));
+      throw InvalidInput("faces " + std::to_string(h / 3) + " and " + std::to_string(g / 3) +
+        " run along edge " + edgeName(origin[h], target) + " in the same direction");
     }
-    if (origin[h] == targetOf(origin, h))
-    {
-      throw InvalidInput("face " + std::to_string(h / 3) + " has vertex " +
-        std::to_string(origin[h]) + " at two corners");
-    }
-  }
-}
-
-Buckets fillBuckets(const std::vector<Index>& origin, Index vertexCount)
-{
-  const Index count = static_cast<Index>(origin.size());
-  Buckets buckets;
-  buckets.begin.assign(std::size_t{ vertexCount } + 2, 0);
-  // Shifted by two, so that filling turns the array into the bucket begins without a second copy.
-  for (Index h = 0; h < count; ++h)
-  {
-    ++buckets.begin[std::size_t{ std::min(origin[h], targetOf(origin, h)) } + 2];
-  }
-  for (std::size_t v = 2; v < buckets.begin.size(); ++v)
-  {
-    buckets.begin[v] += buckets.begin[v - 1];
-  }
-  buckets.entries.resize(count);
-  for (Index h = 0; h < count; ++h)
-  {
-    const Index a = origin[h];
-    const Index b = targetOf(origin, h);
-    buckets.entries[buckets.begin[std::size_t{ std::min(a, b) } + 1]++] = { std::max(a, b), h };
-  }
-  return buckets;
-}
-
-/// Twins within one bucket, whose entries come sorted by the other vertex.
-void pairBucket(const std::vector<Index>& origin, const BucketEntry* begin, const BucketEntry* end,
-  std::vector<Index>& twin)
-{
-  while (begin != end)
-  {
-    const BucketEntry* runEnd = begin + 1;
-    while (runEnd != end && runEnd->other == begin->other)
-    {
-      ++runEnd;
-    }
-    const Index h = begin->halfEdge;
-    if (runEnd - begin > 2)
-    {
-      throw InvalidInput("edge " + edgeName(origin[h], targetOf(origin, h)) + " has " +
-        std::to_string(runEnd - begin) + " faces, among them face " + std::to_string(h / 3));
-    }
-    if (runEnd - begin == 2)
-    {
-      const Index g = begin[1].halfEdge;
-      if (origin[h] == origin[g])
-      {
-        throw InvalidInput("faces " + std::to_string(h / 3) + " and " + std::to_string(g / 3) +
-          " run along edge " + edgeName(origin[h], targetOf(origin, h)) + " in the same direction");
-      }
-      twin[h] = g;
-      twin[g] = h;
-    }
-    begin = runEnd;
+    twin[h] = g;
+    twin[g] = h;
   }
 }
 
@@ -257,18 +185,10 @@ std::string checkFans(const Mesh& mesh)
 
 std::vector<Index> pairHalfEdges(const std::vector<Index>& origin, Index vertexCount)
 {
-  checkCorners(origin, vertexCount);
-  Buckets buckets = fillBuckets(origin, vertexCount);
   std::vector<Index> twin(origin.size(), kInvalidIndex);
-  for (Index v = 0; v < vertexCount; ++v)
-  {
-    BucketEntry* begin = buckets.entries.data() + buckets.begin[v];
-    BucketEntry* end = buckets.entries.data() + buckets.begin[std::size_t{ v } + 1];
-    std::sort(begin, end,
-      [](const BucketEntry& a, const BucketEntry& b)
-      { return a.other != b.other ? a.other < b.other : a.halfEdge < b.halfEdge; });
-    pairBucket(origin, begin, end, twin);
-  }
+  EdgeRuns(origin, vertexCount, 1)
+    .forEach([&](const EdgeRuns::Entry* begin, const EdgeRuns::Entry* end)
+      { pairRun(origin, begin, end, twin); });
   return twin;
 }
 

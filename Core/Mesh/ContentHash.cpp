@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/ContentHash.h"
+
+#include "Base/Parallel.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace quadrille
+{
+
+namespace
+{
+
+constexpr std::size_t kChunkBytes = std::size_t{ 1 } << 20;
+
+/// One step of a multiply and fold hash; the constant is 2^64 over the golden ratio, made odd.
+std::uint64_t mix(std::uint64_t hash, std::uint64_t word)
+{
+  hash = (hash ^ word) * 0x9E3779B97F4A7C15ull;
+  return hash ^ hash >> 32;
+}
+
+std::uint64_t hashBytes(const unsigned char* bytes, std::size_t count)
+{
+  std::uint64_t hash = mix(0, count);
+  for (std::size_t i = 0; i < count; i += sizeof(std::uint64_t))
+  {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes + i, std::min(sizeof(word), count - i));
+    hash = mix(hash, word);
+  }
+  return hash;
+}
+
+/// Hashes chunks of fixed size on their own, then the hashes.
+template <typename T>
+std::uint64_t hashVector(const std::vector<T>& values, int threads)
+{
+  const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
+  const std::size_t count = values.size() * sizeof(T);
+  std::vector<std::uint64_t> parts((count + kChunkBytes - 1) / kChunkBytes);
+  parallelFor(count, kChunkBytes, threads,
+    [&](std::size_t begin, std::size_t end)
+    { parts[begin / kChunkBytes] = hashBytes(bytes + begin, end - begin); });
+  std::uint64_t hash = mix(0, count);
+  for (const std::uint64_t part : parts)
+  {
+    hash = mix(hash, part);
+  }
+  return hash;
+}
+
+} // namespace
+
+std::uint64_t contentHash(const Mesh& mesh, int threads)
+{
+  std::uint64_t hash = hashVector(mesh.position, threads);
+  hash = mix(hash, hashVector(mesh.origin, threads));
+  hash = mix(hash, hashVector(mesh.twin, threads));
+  return mix(hash, hashVector(mesh.flags, threads));
+}
+
+} // namespace quadrille

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// All half-edges of a triangle list, grouped by the edge that they run along.
+#pragma once
+
+#include "Mesh/Mesh.h"
+
+#include <vector>
+
+namespace quadrille
+{
+
+/// Half-edges sorted into one bucket per lower vertex, and by the higher vertex within a bucket, so
+/// that the half-edges of one edge are neighbours (a run). Linear for bounded valence, n log n for
+/// a cone. Works on any triangle list whose triangles have three different corners.
+class EdgeRuns
+{
+public:
+  struct Entry
+  {
+    Index other; ///< the higher vertex
+    Index halfEdge;
+  };
+
+  /// Throws InvalidInput when a corner is out of range or a face has a vertex twice.
+  EdgeRuns(const std::vector<Index>& origin, Index vertexCount, int threads);
+
+  /// Calls visit(begin, end) for the run of every edge, in the order of lower, then higher vertex.
+  template <typename Visitor>
+  void forEach(Visitor&& visit) const
+  {
+    for (std::size_t v = 0; v + 1 < begin_.size(); ++v)
+    {
+      const Entry* entry = entries_.data() + begin_[v];
+      const Entry* const bucketEnd = entries_.data() + begin_[v + 1];
+      while (entry != bucketEnd)
+      {
+        const Entry* runEnd = entry + 1;
+        while (runEnd != bucketEnd && runEnd->other == entry->other)
+        {
+          ++runEnd;
+        }
+        visit(entry, runEnd);
+        entry = runEnd;
+      }
+    }
+  }
+
+private:
+  void fill(const std::vector<Index>& origin, Index vertexCount);
+  void sortBuckets(int threads);
+
+  std::vector<Index> begin_; ///< #V + 1
+  std::vector<Entry> entries_;
+};
+
+} // namespace quadrille

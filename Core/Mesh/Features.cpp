@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/Features.h"
+
+#include "Base/Parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+
+namespace
+{
+
+constexpr std::size_t kChunk = 65536;
+
+/// Coordinates often come as float: below this height over the size of the surface (or the largest
+/// coordinate) a face's normal can be off by degrees.
+constexpr double kReliableHeight = 1e-6;
+
+constexpr int kMostSliversInARow = 16;
+
+struct FaceNormals
+{
+  std::vector<Vector3> normal;        ///< #F, unit
+  std::vector<std::uint8_t> reliable; ///< #F
+};
+
+double sizeOf(const Mesh& mesh)
+{
+  Vector3 low = mesh.position.front();
+  Vector3 high = low;
+  for (const Vector3& p : mesh.position)
+  {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return std::max((high - low).norm(), std::max(high.maxCoeff(), -low.minCoeff()));
+}
+
+FaceNormals computeNormals(const Mesh& mesh, int threads)
+{
+  const double height = kReliableHeight * sizeOf(mesh);
+  FaceNormals normals{ std::vector<Vector3>(mesh.faceCount()),
+    std::vector<std::uint8_t>(mesh.faceCount()) };
+  parallelFor(mesh.faceCount(), kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const Index h = static_cast<Index>(3 * i);
+        const Vector3 a = mesh.edgeVector(h), b = mesh.edgeVector(h + 1),
+                      c = mesh.edgeVector(h + 2);
+        const Vector3 n = a.cross(b);
+        const double doubleArea = n.norm();
+        const double longest =
+          std::sqrt(std::max({ a.squaredNorm(), b.squaredNorm(), c.squaredNorm() }));
+        normals.normal[i] = n / doubleArea;
+        normals.reliable[i] = doubleArea > height * longest;
+      }
+    });
+  return normals;
+}
+
+/// Half-edges of a face, longest first.
+std::array<Index, 3> byLength(const Mesh& mesh, Index f)
+{
+  std::array<Index, 3> edges{ 3 * f, 3 * f + 1, 3 * f + 2 };
+  std::stable_sort(edges.begin(), edges.end(),
+    [&mesh](Index a, Index b)
+    { return mesh.edgeVector(a).squaredNorm() > mesh.edgeVector(b).squaredNorm(); });
+  return edges;
+}
+
+/// The face whose normal stands for f's: beyond the longest edges of slivers, and never back.
+Index normalSource(const Mesh& mesh, const FaceNormals& normals, Index f)
+{
+  Index previous = kInvalidIndex;
+  Index current = f;
+  for (int step = 0; step < kMostSliversInARow && normals.reliable[current] == 0; ++step)
+  {
+    const std::array<Index, 3> edges = byLength(mesh, current);
+    const auto leadsOn = [&](Index h)
+    { return !mesh.isBoundary(h) && Mesh::face(mesh.twin[h]) != previous; };
+    const auto way = std::find_if(edges.begin(), edges.end(), leadsOn);
+    if (way == edges.end())
+    {
+      break;
+    }
+    previous = current;
+    current = Mesh::face(mesh.twin[*way]);
+  }
+  return current;
+}
+
+} // namespace
+
+void markFeaturesByAngle(Mesh& mesh, double angle, int threads)
+{
+  const FaceNormals normals = computeNormals(mesh, threads);
+  const double limit = std::cos(angle);
+  parallelFor(mesh.faceCount(), kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (Index h = static_cast<Index>(3 * begin); h < 3 * end; ++h)
+      {
+        if (mesh.isBoundary(h))
+        {
+          continue;
+        }
+        const Index f = normalSource(mesh, normals, Mesh::face(h));
+        const Index g = normalSource(mesh, normals, Mesh::face(mesh.twin[h]));
+        if (normals.normal[f].dot(normals.normal[g]) < limit)
+        {
+          mesh.flags[h] |= kFeatureEdge;
+        }
+      }
+    });
+}
+
+void markFeaturesByPatch(PreparedSurface& surface, const std::vector<std::int64_t>& patchIds)
+{
+  Mesh& mesh = surface.mesh;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (!mesh.isBoundary(h) &&
+      patchIds[surface.sourcePolygon[Mesh::face(h)]] !=
+        patchIds[surface.sourcePolygon[Mesh::face(mesh.twin[h])]])
+    {
+      mesh.flags[h] |= kFeatureEdge;
+    }
+  }
+}
+
+void makeFlagsSymmetric(Mesh& mesh)
+{
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (!mesh.isBoundary(h))
+    {
+      mesh.flags[mesh.twin[h]] |= mesh.flags[h];
+    }
+  }
+}
+
+} // namespace quadrille

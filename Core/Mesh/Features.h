@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Feature edges by dihedral angle and by patch ids.
+#pragma once
+
+#include "Mesh/Surface.h"
+
+namespace quadrille
+{
+
+/// Flags, on both half-edges, the inner edges whose face normals differ by more than `angle` (radians).
+/// Slivers, whose normals are rounding noise, count with the normal of the face beyond their longest
+/// edge, so that they make no features of their own.
+void markFeaturesByAngle(Mesh& mesh, double angle, int threads);
+
+/// Flags the edges between faces whose source polygons have different patch ids.
+void markFeaturesByPatch(PreparedSurface& surface, const std::vector<std::int64_t>& patchIds);
+
+/// Copies each flag to the twin: an edge is a feature when either of its polygons says so.
+void makeFlagsSymmetric(Mesh& mesh);
+
+} // namespace quadrille

@@ -1,0 +1,453 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/Sheets.h"
+
+#include "Base/Error.h"
+#include "Mesh/SurfaceEdit.h"
+#include "Mesh/Topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// Which faces belong together, and whether a face has to be turned to agree with its set's root.
+class OrientedSets
+{
+public:
+  explicit OrientedSets(Index faces) : parent_(faces), turned_(faces, 0)
+  {
+    for (Index f = 0; f < faces; ++f)
+    {
+      parent_[f] = f;
+    }
+  }
+
+  struct Root
+  {
+    Index face;
+    bool turned;
+  };
+
+  Root find(Index f)
+  {
+    bool turned = false;
+    Index root = f;
+    while (parent_[root] != root)
+    {
+      turned ^= turned_[root] != 0;
+      root = parent_[root];
+    }
+    // Second walk: point all of them at the root.
+    bool rest = turned;
+    while (parent_[f] != root && f != root)
+    {
+      const bool step = turned_[f] != 0;
+      const Index up = parent_[f];
+      parent_[f] = root;
+      turned_[f] = rest;
+      rest ^= step;
+      f = up;
+    }
+    return { root, turned };
+  }
+
+  /// Joins the sets so that exactly one of f and g is turned (differ) or both or none. False when they
+  /// are in one set already and disagree.
+  bool join(Index f, Index g, bool differ)
+  {
+    const Root a = find(f);
+    const Root b = find(g);
+    const bool turn = a.turned ^ b.turned ^ differ;
+    if (a.face == b.face)
+    {
+      return !turn;
+    }
+    // The lower face stays root; find() keeps the paths short.
+    const Index root = std::min(a.face, b.face);
+    const Index child = std::max(a.face, b.face);
+    parent_[child] = root;
+    turned_[child] = turn;
+    return true;
+  }
+
+  bool canJoin(Index f, Index g, bool differ)
+  {
+    const Root a = find(f);
+    const Root b = find(g);
+    return a.face != b.face || (a.turned ^ b.turned) == differ;
+  }
+
+  Index size() const { return static_cast<Index>(parent_.size()); }
+
+private:
+  std::vector<Index> parent_;
+  std::vector<std::uint8_t> turned_;
+};
+
+/// Per face: has it to be turned so that its set keeps the orientation of most of its faces?
+std::vector<std::uint8_t> facesToTurn(OrientedSets& sets)
+{
+  std::vector<std::array<Index, 2>> votes(sets.size(), { 0, 0 });
+  for (Index f = 0; f < sets.size(); ++f)
+  {
+    const OrientedSets::Root root = sets.find(f);
+    ++votes[root.face][root.turned ? 1 : 0];
+  }
+  std::vector<std::uint8_t> turn(sets.size(), 0);
+  for (Index f = 0; f < sets.size(); ++f)
+  {
+    const OrientedSets::Root root = sets.find(f);
+    const bool turnRoot = votes[root.face][1] > votes[root.face][0];
+    turn[f] = root.turned ^ turnRoot;
+  }
+  return turn;
+}
+
+/// A half-edge at an edge of many faces.
+struct Spoke
+{
+  Index halfEdge;
+  bool forward;     ///< runs from the edge's lower to its higher vertex once faces are turned
+  double angle = 0; ///< of the face around the edge, counterclockwise seen against its direction
+};
+
+struct ManyFacedEdge
+{
+  Index begin; ///< into ManyFacedEdges::halfEdges
+  Index end;
+};
+
+struct ManyFacedEdges
+{
+  std::vector<Index> halfEdges;
+  std::vector<ManyFacedEdge> edges;
+};
+
+void glue(std::vector<Index>& twin, Index h, Index g)
+{
+  twin[h] = g;
+  twin[g] = h;
+}
+
+std::vector<Spoke> spokesOf(
+  const Mesh& mesh, const std::vector<std::uint8_t>& turn, const Index* begin, const Index* end)
+{
+  const Index low = std::min(mesh.origin[*begin], mesh.target(*begin));
+  const Index high = std::max(mesh.origin[*begin], mesh.target(*begin));
+  const Vector3 axis = (mesh.position[high] - mesh.position[low]).normalized();
+  const Vector3 x =
+    axis.allFinite() && !axis.isZero() ? Vector3(axis.unitOrthogonal()) : Vector3(Vector3::UnitX());
+  const Vector3 y = axis.cross(x);
+  std::vector<Spoke> spokes;
+  for (const Index* h = begin; h != end; ++h)
+  {
+    const Vector3 inward = mesh.position[mesh.origin[Mesh::previous(*h)]] - mesh.position[low];
+    const bool forward = (mesh.origin[*h] == low) ^ (turn[Mesh::face(*h)] != 0);
+    spokes.push_back({ *h, forward, std::atan2(inward.dot(y), inward.dot(x)) });
+  }
+  // Faces that coincide: the one that ends a solid comes before the one that begins the next.
+  std::stable_sort(spokes.begin(), spokes.end(),
+    [](const Spoke& a, const Spoke& b)
+    { return a.angle != b.angle ? a.angle < b.angle : a.forward && !b.forward; });
+  return spokes;
+}
+
+/// True when solids meet at the edge: going round, outside and inside take turns.
+bool alternates(const std::vector<Spoke>& spokes)
+{
+  for (std::size_t i = 0; i < spokes.size(); ++i)
+  {
+    if (spokes[i].forward == spokes[(i + 1) % spokes.size()].forward)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool tryPair(std::vector<Index>& twin, OrientedSets& sets, const Mesh& mesh, Index h, Index g)
+{
+  const bool sameDirection = mesh.origin[h] == mesh.origin[g];
+  if (Mesh::face(h) == Mesh::face(g) || twin[h] != kInvalidIndex || twin[g] != kInvalidIndex ||
+    !sets.canJoin(Mesh::face(h), Mesh::face(g), sameDirection))
+  {
+    return false;
+  }
+  sets.join(Mesh::face(h), Mesh::face(g), sameDirection);
+  glue(twin, h, g);
+  return true;
+}
+
+/// A forward face has its solid clockwise of it, a backward one counterclockwise: each backward face
+/// pairs with the forward one that follows.
+void pairAcrossSolids(
+  std::vector<Index>& twin, OrientedSets& sets, const Mesh& mesh, const std::vector<Spoke>& spokes)
+{
+  for (std::size_t i = 0; i < spokes.size(); ++i)
+  {
+    const Spoke& following = spokes[(i + 1) % spokes.size()];
+    if (!spokes[i].forward && following.forward)
+    {
+      tryPair(twin, sets, mesh, spokes[i].halfEdge, following.halfEdge);
+    }
+  }
+}
+
+void pairFlattestFirst(
+  std::vector<Index>& twin, OrientedSets& sets, const Mesh& mesh, const std::vector<Spoke>& spokes)
+{
+  struct Candidate
+  {
+    double cost;
+    std::size_t a, b;
+  };
+  constexpr double kPi = 3.14159265358979323846;
+  std::vector<Candidate> candidates;
+  for (std::size_t a = 0; a < spokes.size(); ++a)
+  {
+    for (std::size_t b = a + 1; b < spokes.size(); ++b)
+    {
+      double between = spokes[b].angle - spokes[a].angle;
+      between = std::min(between, 2 * kPi - between);
+      // Pairs that would turn a patch over come after all that need not.
+      const double disagreement = spokes[a].forward == spokes[b].forward ? 2 * kPi : 0;
+      candidates.push_back({ kPi - between + disagreement, a, b });
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+    [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+  for (const Candidate& c : candidates)
+  {
+    tryPair(twin, sets, mesh, spokes[c.a].halfEdge, spokes[c.b].halfEdge);
+  }
+}
+
+/// Pairs across edges of two faces and lists the edges of more. True when all of them agree in
+/// orientation.
+bool pairPlainEdges(Mesh& mesh, const EdgeRuns& runs, ManyFacedEdges& manyFaced)
+{
+  bool oriented = true;
+  mesh.twin.assign(mesh.origin.size(), kInvalidIndex);
+  runs.forEach(
+    [&](const EdgeRuns::Entry* begin, const EdgeRuns::Entry* end)
+    {
+      if (end - begin == 2)
+      {
+        glue(mesh.twin, begin[0].halfEdge, begin[1].halfEdge);
+        oriented &= mesh.origin[begin[0].halfEdge] != mesh.origin[begin[1].halfEdge];
+      }
+      else if (end - begin > 2)
+      {
+        const Index first = static_cast<Index>(manyFaced.halfEdges.size());
+        for (const EdgeRuns::Entry* entry = begin; entry != end; ++entry)
+        {
+          manyFaced.halfEdges.push_back(entry->halfEdge);
+        }
+        manyFaced.edges.push_back({ first, static_cast<Index>(manyFaced.halfEdges.size()) });
+      }
+    });
+  return oriented;
+}
+
+OrientedSets joinAcrossPlainEdges(const PreparedSurface& surface)
+{
+  const Mesh& mesh = surface.mesh;
+  OrientedSets sets(mesh.faceCount());
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Index g = mesh.twin[h];
+    if (g != kInvalidIndex && h < g &&
+      !sets.join(Mesh::face(h), Mesh::face(g), mesh.origin[h] == mesh.origin[g]))
+    {
+      throw InvalidInput("the surface is not orientable (like a Moebius strip): polygon " +
+        std::to_string(surface.sourcePolygon[Mesh::face(h)]) +
+        " cannot agree with all its neighbours about which side is outside. Cut its component "
+        "open, "
+        "or remove the polygons that close the twisted loop.");
+    }
+  }
+  return sets;
+}
+
+/// Swaps corners 1 and 2 of the faces that are to be turned: half-edges 0 and 2 change places, and all
+/// three change direction.
+std::size_t turnFaces(PreparedSurface& surface, const std::vector<std::uint8_t>& turn)
+{
+  Mesh& mesh = surface.mesh;
+  const auto moved = [&turn](Index h)
+  { return h == kInvalidIndex || turn[h / 3] == 0 ? h : h - h % 3 + (2 - h % 3); };
+  std::size_t count = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    if (turn[f] != 0)
+    {
+      ++count;
+      std::swap(mesh.origin[3 * f + 1], mesh.origin[3 * f + 2]);
+      std::swap(surface.sourcePoints[f][1], surface.sourcePoints[f][2]);
+      std::swap(mesh.flags[3 * f], mesh.flags[3 * f + 2]);
+      std::swap(mesh.twin[3 * f], mesh.twin[3 * f + 2]);
+    }
+  }
+  for (Index& g : mesh.twin)
+  {
+    g = moved(g);
+  }
+  return count;
+}
+
+/// Faces that `outgoing` does not reach by turning counterclockwise mean a second fan.
+std::vector<std::uint8_t> verticesOfManyFans(const Mesh& mesh)
+{
+  std::vector<Index> degree(mesh.vertexCount(), 0);
+  std::vector<Index> outgoing(mesh.vertexCount(), kInvalidIndex);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Index v = mesh.origin[h];
+    if (v != kInvalidIndex)
+    {
+      ++degree[v];
+      outgoing[v] = outgoing[v] == kInvalidIndex || mesh.isBoundary(h) ? h : outgoing[v];
+    }
+  }
+  std::vector<std::uint8_t> many(mesh.vertexCount(), 0);
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    if (degree[v] == 0)
+    {
+      continue;
+    }
+    Index h = outgoing[v];
+    do
+    {
+      --degree[v];
+      h = mesh.rotateCounterclockwise(h);
+    } while (h != kInvalidIndex && h != outgoing[v]);
+    many[v] = degree[v] != 0;
+  }
+  return many;
+}
+
+/// Of edges between the same two vertices all but the first, at most one a face.
+std::vector<Index> surplusEdges(const Mesh& mesh)
+{
+  std::vector<Index> edges;
+  std::vector<std::uint8_t> taken(mesh.faceCount(), 0);
+  const auto take = [&](Index h)
+  {
+    const Index g = mesh.twin[h];
+    if (taken[Mesh::face(h)] == 0 && (g == kInvalidIndex || taken[Mesh::face(g)] == 0))
+    {
+      taken[Mesh::face(h)] = 1;
+      taken[Mesh::face(g == kInvalidIndex ? h : g)] = 1;
+      edges.push_back(h);
+    }
+  };
+  EdgeRuns(mesh.origin, mesh.vertexCount(), 1)
+    .forEach(
+      [&](const EdgeRuns::Entry* begin, const EdgeRuns::Entry* end)
+      {
+        const Index first = begin->halfEdge;
+        for (const EdgeRuns::Entry* entry = begin + 1; entry != end; ++entry)
+        {
+          const Index h = entry->halfEdge;
+          if (mesh.twin[h] != first && (mesh.isBoundary(h) || h < mesh.twin[h]))
+          {
+            take(h);
+          }
+        }
+      });
+  return edges;
+}
+
+} // namespace
+
+void pairIntoSheets(PreparedSurface& surface, const EdgeRuns& runs)
+{
+  Mesh& mesh = surface.mesh;
+  ManyFacedEdges manyFaced;
+  const bool oriented = pairPlainEdges(mesh, runs, manyFaced);
+  surface.repair.nonManifoldEdges += manyFaced.edges.size();
+  if (oriented && manyFaced.edges.empty())
+  {
+    return;
+  }
+  OrientedSets sets = joinAcrossPlainEdges(surface);
+  const std::vector<std::uint8_t> turnForSpokes = facesToTurn(sets);
+  for (const ManyFacedEdge& edge : manyFaced.edges)
+  {
+    const std::vector<Spoke> spokes = spokesOf(mesh, turnForSpokes,
+      manyFaced.halfEdges.data() + edge.begin, manyFaced.halfEdges.data() + edge.end);
+    if (alternates(spokes))
+    {
+      pairAcrossSolids(mesh.twin, sets, mesh, spokes);
+    }
+    pairFlattestFirst(mesh.twin, sets, mesh, spokes);
+  }
+  surface.repair.reorientedFaces += turnFaces(surface, facesToTurn(sets));
+}
+
+std::size_t splitVertexFans(Mesh& mesh)
+{
+  const std::vector<std::uint8_t> many = verticesOfManyFans(mesh);
+  const std::size_t count = static_cast<std::size_t>(std::count(many.begin(), many.end(), 1));
+  if (count == 0)
+  {
+    return 0;
+  }
+  std::vector<Index> halfEdges;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.origin[h] != kInvalidIndex && many[mesh.origin[h]] != 0)
+    {
+      halfEdges.push_back(h);
+    }
+  }
+  // The first fan of a vertex keeps it; renamed corners are out of the range of `many`.
+  std::vector<std::uint8_t> keepsVertex(many.size(), 0);
+  std::vector<std::uint8_t> visited(mesh.halfEdgeCount(), 0);
+  for (const Index h : halfEdges)
+  {
+    if (visited[h] != 0)
+    {
+      continue;
+    }
+    Index v = mesh.origin[h];
+    if (std::exchange(keepsVertex[v], std::uint8_t{ 1 }) != 0)
+    {
+      mesh.position.push_back(Vector3(mesh.position[v]));
+      v = mesh.vertexCount() - 1;
+    }
+    forEachInFan(mesh, h,
+      [&](Index g)
+      {
+        visited[g] = 1;
+        mesh.origin[g] = v;
+      });
+  }
+  return count;
+}
+
+bool splitDoubleEdges(PreparedSurface& surface)
+{
+  bool split = false;
+  // A split moves other half-edges of its faces, so each pass splits one edge a face.
+  for (std::vector<Index> edges = surplusEdges(surface.mesh); !edges.empty();
+       edges = surplusEdges(surface.mesh))
+  {
+    for (const Index h : edges)
+    {
+      splitEdge(surface, h);
+    }
+    split = true;
+  }
+  return split;
+}
+
+} // namespace quadrille

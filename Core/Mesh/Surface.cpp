@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/Surface.h"
+
+#include "Mesh/ContentHash.h"
+#include "Mesh/EdgeRuns.h"
+#include "Mesh/Features.h"
+#include "Mesh/Repair.h"
+#include "Mesh/SpaceFillingOrder.h"
+#include "Mesh/Triangulate.h"
+
+#include <chrono>
+
+namespace quadrille
+{
+
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+
+class Stopwatch
+{
+public:
+  /// Seconds since the last call.
+  double lap()
+  {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> seconds = now - last_;
+    last_ = now;
+    return seconds.count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+void checkOptions(const PrepareOptions& options)
+{
+  if (options.featureAngle && !(*options.featureAngle > 0 && *options.featureAngle <= kPi))
+  {
+    throw InvalidInput("the feature angle must be above 0 and at most 180 degrees.");
+  }
+}
+
+void requireFaces(const PreparedSurface& surface)
+{
+  if (surface.mesh.origin.empty())
+  {
+    throw InvalidInput("no face is left of the surface after repair (" + surface.repair.text() +
+      "): all polygons are degenerate.");
+  }
+}
+
+void markFeatures(
+  PreparedSurface& surface, const SurfaceInput& input, const PrepareOptions& options)
+{
+  if (!input.patchIds.empty())
+  {
+    markFeaturesByPatch(surface, input.patchIds);
+  }
+  if (options.featureAngle)
+  {
+    markFeaturesByAngle(surface.mesh, *options.featureAngle, options.threads);
+  }
+  makeFlagsSymmetric(surface.mesh);
+}
+
+void measure(PreparedSurface& surface)
+{
+  const Mesh& mesh = surface.mesh;
+  surface.area = 0;
+  for (Index h = 0; h < mesh.halfEdgeCount(); h += 3)
+  {
+    surface.area += mesh.edgeVector(h).cross(mesh.edgeVector(h + 1)).norm() / 2;
+  }
+  Vector3 low = mesh.position.front();
+  Vector3 high = low;
+  for (const Vector3& p : mesh.position)
+  {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  surface.boundingBoxDiagonal = (high - low).norm();
+}
+
+} // namespace
+
+SourceLocation PreparedSurface::locate(Index f, const std::array<double, 3>& weights) const
+{
+  SourceLocation location;
+  location.polygon = sourcePolygon[f];
+  location.points = sourcePoints[f];
+  location.weights = weights;
+  if (!refinedEntry.empty() && refinedEntry[f] != kInvalidIndex)
+  {
+    const auto& corners = cornerWeights[refinedEntry[f]];
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      location.weights[k] =
+        weights[0] * corners[0][k] + weights[1] * corners[1][k] + weights[2] * corners[2][k];
+    }
+  }
+  return location;
+}
+
+PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& options)
+{
+  PreparedSurface surface;
+  Stopwatch watch;
+  checkOptions(options);
+  report(options.progress, 0, "Checking the surface");
+  checkInput(input, options.threads);
+  triangulate(input, surface);
+  requireFaces(surface);
+  double repairSeconds = watch.lap();
+
+  report(options.progress, 0.2, "Ordering the surface");
+  orderSurface(surface, options.threads);
+  surface.repair.isolatedPoints = input.points.size() - surface.mesh.vertexCount();
+  const double orderSeconds = watch.lap();
+
+  report(options.progress, 0.5, "Connecting the surface");
+  EdgeRuns runs(surface.mesh.origin, surface.mesh.vertexCount(), options.threads);
+  const double connectivitySeconds = watch.lap();
+  repairSurface(surface, std::move(runs), options.threads);
+  requireFaces(surface);
+  repairSeconds += watch.lap();
+
+  report(options.progress, 0.8, "Finding features");
+  markFeatures(surface, input, options);
+  measure(surface);
+  surface.hash = contentHash(surface.mesh, options.threads);
+  report(options.progress, 1, "Surface prepared");
+  surface.seconds = { { "repair", repairSeconds }, { "order", orderSeconds },
+    { "connectivity", connectivitySeconds + watch.lap() } };
+  return surface;
+}
+
+} // namespace quadrille

@@ -1,0 +1,295 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/SurfaceEdit.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace quadrille
+{
+
+namespace
+{
+
+using Weights = std::array<double, 3>;
+
+/// Weights of a face's corners for its source triangle; begins as identity.
+Index ensureEntry(PreparedSurface& surface, Index f)
+{
+  if (surface.refinedEntry.empty())
+  {
+    surface.refinedEntry.assign(surface.mesh.faceCount(), kInvalidIndex);
+  }
+  if (surface.refinedEntry[f] == kInvalidIndex)
+  {
+    surface.refinedEntry[f] = static_cast<Index>(surface.cornerWeights.size());
+    surface.cornerWeights.push_back({ { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
+  }
+  return surface.refinedEntry[f];
+}
+
+Weights cornerOf(const PreparedSurface& surface, Index h)
+{
+  return surface.cornerWeights[surface.refinedEntry[Mesh::face(h)]][h % 3];
+}
+
+void setCorner(PreparedSurface& surface, Index h, Index vertex, const Weights& weights)
+{
+  surface.mesh.origin[h] = vertex;
+  surface.cornerWeights[surface.refinedEntry[Mesh::face(h)]][h % 3] = weights;
+}
+
+/// Appends a copy of face f, half-edge for half-edge, without twins and flags; returns its id.
+Index appendCopy(PreparedSurface& surface, Index f)
+{
+  Mesh& mesh = surface.mesh;
+  const Index copy = mesh.faceCount();
+  const Index entry = ensureEntry(surface, f);
+  for (Index i = 0; i < 3; ++i)
+  {
+    mesh.origin.push_back(Index{ mesh.origin[3 * f + i] });
+    mesh.twin.push_back(kInvalidIndex);
+    mesh.flags.push_back(0);
+  }
+  surface.sourcePolygon.push_back(Index{ surface.sourcePolygon[f] });
+  surface.sourcePoints.push_back(std::array<Index, 3>(surface.sourcePoints[f]));
+  surface.refinedEntry.push_back(static_cast<Index>(surface.cornerWeights.size()));
+  surface.cornerWeights.push_back(
+    std::array<std::array<double, 3>, 3>(surface.cornerWeights[entry]));
+  return copy;
+}
+
+void glue(Mesh& mesh, Index h, Index g)
+{
+  if (h != kInvalidIndex)
+  {
+    mesh.twin[h] = g;
+  }
+  if (g != kInvalidIndex)
+  {
+    mesh.twin[g] = h;
+  }
+}
+
+/// Hands the edge of h, its flags and its twin, over to half-edge `to`.
+void moveEdge(Mesh& mesh, Index h, Index to)
+{
+  glue(mesh, to, mesh.twin[h]);
+  mesh.flags[to] = mesh.flags[h];
+}
+
+void joinInner(Mesh& mesh, Index h, Index g)
+{
+  glue(mesh, h, g);
+  mesh.flags[h] = mesh.flags[g] = 0;
+}
+
+Weights mean(const Weights& a, const Weights& b)
+{
+  return { (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2 };
+}
+
+/// Splits the face of h between the new vertex m on h and its opposite corner. With h from a to b:
+/// the face keeps the half at a, the appended face has the other half in the same slots.
+Index splitOneSide(PreparedSurface& surface, Index h, Index m)
+{
+  Mesh& mesh = surface.mesh;
+  const Index other = 3 * appendCopy(surface, Mesh::face(h)) + h % 3;
+  const Weights middle = mean(cornerOf(surface, h), cornerOf(surface, Mesh::next(h)));
+  moveEdge(mesh, Mesh::next(h), Mesh::next(other));
+  setCorner(surface, Mesh::next(h), m, middle);
+  setCorner(surface, other, m, middle);
+  joinInner(mesh, Mesh::next(h), Mesh::previous(other));
+  mesh.flags[other] = mesh.flags[h];
+  return other;
+}
+
+} // namespace
+
+std::vector<Index> neighboursOf(const Mesh& mesh, Index h)
+{
+  std::vector<Index> neighbours;
+  forEachInFan(mesh, h,
+    [&](Index g)
+    {
+      neighbours.push_back(mesh.target(g));
+      if (mesh.isBoundary(Mesh::previous(g)))
+      {
+        neighbours.push_back(mesh.origin[Mesh::previous(g)]);
+      }
+    });
+  return neighbours;
+}
+
+Index splitEdge(PreparedSurface& surface, Index h)
+{
+  Mesh& mesh = surface.mesh;
+  const Index m = mesh.vertexCount();
+  const Index g = mesh.twin[h];
+  mesh.position.push_back((mesh.position[mesh.origin[h]] + mesh.position[mesh.target(h)]) / 2);
+  const Index h1 = splitOneSide(surface, h, m); // h: a -> m, h1: m -> b
+  if (g != kInvalidIndex)
+  {
+    const Index g1 = splitOneSide(surface, g, m); // g: b -> m, g1: m -> a
+    glue(mesh, h, g1);
+    glue(mesh, h1, g);
+  }
+  return m;
+}
+
+Index splitFace(PreparedSurface& surface, Index f)
+{
+  Mesh& mesh = surface.mesh;
+  const Index a = 3 * f;
+  const Index m = mesh.vertexCount();
+  mesh.position.push_back((mesh.position[mesh.origin[a]] + mesh.position[mesh.origin[a + 1]] +
+                            mesh.position[mesh.origin[a + 2]]) /
+    3);
+  const Index b = 3 * appendCopy(surface, f);
+  const Index c = 3 * appendCopy(surface, f);
+  Weights centre{};
+  for (Index i = 0; i < 3; ++i)
+  {
+    const Weights corner = cornerOf(surface, a + i);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      centre[k] += corner[k] / 3;
+    }
+  }
+  moveEdge(mesh, a + 1, b + 1);
+  moveEdge(mesh, a + 2, c + 2);
+  setCorner(surface, a + 2, m, centre); // (a, b, m)
+  setCorner(surface, b, m, centre);     // (m, b, c)
+  setCorner(surface, c + 1, m, centre); // (a, m, c)
+  joinInner(mesh, a + 1, b);
+  joinInner(mesh, b + 2, c + 1);
+  joinInner(mesh, a + 2, c);
+  return m;
+}
+
+void removeFace(PreparedSurface& surface, Index f)
+{
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  {
+    glue(surface.mesh, kInvalidIndex, surface.mesh.twin[h]);
+    surface.mesh.twin[h] = kInvalidIndex;
+    surface.mesh.origin[h] = kInvalidIndex;
+  }
+}
+
+bool mayCollapse(const Mesh& mesh, Index h)
+{
+  const Index g = mesh.twin[h];
+  const auto dangles = [&mesh](Index e)
+  { return mesh.isBoundary(Mesh::next(e)) && mesh.isBoundary(Mesh::previous(e)); };
+  if (dangles(h) || (g != kInvalidIndex && dangles(g)))
+  {
+    return false; // the opposite vertex would lose its last face
+  }
+  std::vector<Index> ofOrigin = neighboursOf(mesh, h);
+  std::vector<Index> ofTarget = neighboursOf(mesh, Mesh::next(h));
+  std::sort(ofOrigin.begin(), ofOrigin.end());
+  std::sort(ofTarget.begin(), ofTarget.end());
+  std::vector<Index> common;
+  std::set_intersection(
+    ofOrigin.begin(), ofOrigin.end(), ofTarget.begin(), ofTarget.end(), std::back_inserter(common));
+  if (common.size() != (g == kInvalidIndex ? 1u : 2u))
+  {
+    return false;
+  }
+  const auto onBoundary = [&mesh](Index e)
+  {
+    bool found = false;
+    forEachInFan(
+      mesh, e, [&](Index k) { found |= mesh.isBoundary(k) || mesh.isBoundary(Mesh::previous(k)); });
+    return found;
+  };
+  if (g != kInvalidIndex && onBoundary(h) && onBoundary(Mesh::next(h)))
+  {
+    return false; // would pinch the surface
+  }
+  // On a tetrahedron both opposite vertices have three neighbours only.
+  return g == kInvalidIndex || onBoundary(Mesh::previous(h)) ||
+    neighboursOf(mesh, Mesh::previous(h)).size() > 3;
+}
+
+void collapseEdge(PreparedSurface& surface, Index h)
+{
+  Mesh& mesh = surface.mesh;
+  const Index kept = mesh.target(h);
+  const Index keptPoint = surface.sourcePoints[Mesh::face(h)][Mesh::next(h) % 3];
+  forEachInFan(mesh, h,
+    [&](Index e)
+    {
+      mesh.origin[e] = kept;
+      surface.sourcePoints[Mesh::face(e)][e % 3] = keptPoint;
+    });
+  const Index g = mesh.twin[h];
+  for (const Index side : { h, g })
+  {
+    if (side == kInvalidIndex)
+    {
+      continue;
+    }
+    const Index x = mesh.twin[Mesh::next(side)];
+    const Index y = mesh.twin[Mesh::previous(side)];
+    const std::uint8_t flags = mesh.flags[Mesh::next(side)] | mesh.flags[Mesh::previous(side)];
+    removeFace(surface, Mesh::face(side));
+    glue(mesh, x, y);
+    for (const Index e : { x, y })
+    {
+      if (e != kInvalidIndex)
+      {
+        mesh.flags[e] = flags;
+      }
+    }
+  }
+}
+
+bool mayFlip(const Mesh& mesh, Index h)
+{
+  const Index g = mesh.twin[h];
+  if (g == kInvalidIndex)
+  {
+    return false;
+  }
+  const std::vector<Index> neighbours = neighboursOf(mesh, Mesh::previous(h));
+  const Index d = mesh.origin[Mesh::previous(g)];
+  return d != mesh.origin[Mesh::previous(h)] &&
+    std::find(neighbours.begin(), neighbours.end(), d) == neighbours.end();
+}
+
+void flipSliver(PreparedSurface& surface, Index h)
+{
+  // before: h a->b, n b->c, p c->a; g b->a, ng a->d, pg d->b. after: (a, d, c) and (b, c, d).
+  Mesh& mesh = surface.mesh;
+  const Index g = mesh.twin[h];
+  const Index n = Mesh::next(h), p = Mesh::previous(h);
+  const Index ng = Mesh::next(g), pg = Mesh::previous(g);
+  assert(surface.refinedEntry.empty());
+
+  const std::uint8_t feature = mesh.flags[h];
+  for (const Index e : { n, p })
+  {
+    mesh.flags[e] |= feature;
+    if (mesh.twin[e] != kInvalidIndex)
+    {
+      mesh.flags[mesh.twin[e]] |= feature;
+    }
+  }
+  auto& pointsF = surface.sourcePoints[Mesh::face(h)];
+  auto& pointsK = surface.sourcePoints[Mesh::face(g)];
+  const Index pointC = pointsF[p % 3];
+  const Index pointD = pointsK[pg % 3];
+
+  moveEdge(mesh, ng, h); // a -> d
+  moveEdge(mesh, n, g);  // b -> c
+  joinInner(mesh, n, ng);
+  mesh.origin[n] = mesh.origin[pg]; // d -> c
+  mesh.origin[ng] = mesh.origin[p]; // c -> d
+  pointsF[n % 3] = pointD;
+  pointsK[ng % 3] = pointC;
+  surface.sourcePolygon[Mesh::face(h)] = surface.sourcePolygon[Mesh::face(g)];
+}
+
+} // namespace quadrille

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Local changes of a surface under preparation; source ids, weights and flags follow. Removed faces
+/// keep their slot, with kInvalidIndex at their corners, until orderSurface.
+#pragma once
+
+#include "Mesh/Surface.h"
+
+namespace quadrille
+{
+
+/// Calls visit(g) for each half-edge g that leaves the origin of h and is in the same fan.
+template <typename Visitor>
+void forEachInFan(const Mesh& mesh, Index h, Visitor&& visit)
+{
+  Index g = h;
+  do
+  {
+    visit(g);
+    g = mesh.rotateCounterclockwise(g);
+  } while (g != kInvalidIndex && g != h);
+  if (g == h)
+  {
+    return;
+  }
+  for (g = mesh.rotateClockwise(h); g != kInvalidIndex; g = mesh.rotateClockwise(g))
+  {
+    visit(g);
+  }
+}
+
+/// Vertices joined to the origin of h by an edge of its fan.
+std::vector<Index> neighboursOf(const Mesh& mesh, Index h);
+
+/// Splits the edge of h at its midpoint; returns the new vertex. Its 1 or 2 faces become 2 or 4:
+/// each keeps the half at its own half-edge's origin, and the other half is appended.
+Index splitEdge(PreparedSurface& surface, Index h);
+
+/// Splits a face in three at its centroid; returns the new vertex. Half-edge 3f stays, the faces at
+/// 3f+1 and 3f+2 are appended.
+Index splitFace(PreparedSurface& surface, Index f);
+
+/// Removes a face; its edges become boundary.
+void removeFace(PreparedSurface& surface, Index f);
+
+/// True when the surface stays a manifold without double edges after collapseEdge(h).
+bool mayCollapse(const Mesh& mesh, Index h);
+
+/// Moves the origin of h to its target and removes the faces at h. Not for faces with weights.
+void collapseEdge(PreparedSurface& surface, Index h);
+
+/// True when h has two faces and its two opposite vertices are not joined yet.
+bool mayFlip(const Mesh& mesh, Index h);
+
+/// Turns the edge of h, whose face is a sliver on it, to the opposite vertices; both faces are parts of
+/// the twin's polygon then, and a feature on the edge goes to the sliver's other two edges. Not for
+/// faces with weights.
+void flipSliver(PreparedSurface& surface, Index h);
+
+} // namespace quadrille
