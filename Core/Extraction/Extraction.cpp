@@ -38,7 +38,8 @@ void checkOutOfRange(const MapCheck& check)
   }
 }
 
-/// Refuses what would make too many quads, or a map that is nearly all slivers far longer than a quad.
+/// Refuses what would make too many quads, or a map that is nearly all slivers far longer than a
+/// quad.
 Status checkSize(const MapCheck& check, const Mesh& mesh, const ExtractionOptions& options)
 {
   // Four ports a quad have to fit an Index.

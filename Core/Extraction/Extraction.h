@@ -44,10 +44,10 @@ struct QuadMesh
 struct ExtractionResult
 {
   QuadMesh mesh;
-  /// Ok: the map is an integer-grid map, or its folds could be bridged, and mesh is a manifold with the
-  /// Euler characteristic, the components and the boundary loops of the input and all its features.
-  /// NotConverged: mesh holds what could be extracted; the message names the places. TooLarge: mesh is
-  /// empty.
+  /// Ok: the map is an integer-grid map, or its folds could be bridged, and mesh is a manifold with
+  /// the Euler characteristic, the components and the boundary loops of the input and all its
+  /// features. NotConverged: mesh holds what could be extracted; the message names the places.
+  /// TooLarge: mesh is empty.
   Status status;
   std::size_t openPorts = 0;    ///< edges of the grid that could not be followed to their end
   std::size_t droppedFaces = 0; ///< loops of the grid that are no quads
@@ -55,13 +55,13 @@ struct ExtractionResult
     0; ///< further copies of a grid vertex in folds that were joined to it
 };
 
-/// The quads are the unit cells of the grid: each port (a corner of a cell, [Ebke et al. 2013]) is followed
-/// along its isoline to the next corner of the same cell, with exact predicates, and the cycles of length
-/// four are the quads. For an integer-grid map with det > 0 everywhere the result conforms by construction.
-/// Elsewhere, in the spirit of the same paper, the lines run back through inverted triangles and the copies
-/// of a grid vertex in the sheets of a fold are joined.
-/// uv: #H, see GridMap.h. Linear in triangles plus quads. Throws InvalidInput for an empty mesh, a
-/// wrong size of uv, or a coordinate beyond 2^44.
+/// The quads are the unit cells of the grid: each port (a corner of a cell, [Ebke et al. 2013]) is
+/// followed along its isoline to the next corner of the same cell, with exact predicates, and the
+/// cycles of length four are the quads. For an integer-grid map with det > 0 everywhere the result
+/// conforms by construction. Elsewhere, in the spirit of the same paper, the lines run back through
+/// inverted triangles and the copies of a grid vertex in the sheets of a fold are joined. uv: #H,
+/// see GridMap.h. Linear in triangles plus quads. Throws InvalidInput for an empty mesh, a wrong
+/// size of uv, or a coordinate beyond 2^44.
 ExtractionResult extractQuads(
   const Mesh& mesh, const std::vector<FixedVec2>& uv, const ExtractionOptions& options);
 

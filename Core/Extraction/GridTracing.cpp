@@ -41,8 +41,8 @@ Index exitEdge(const ExactMap& map, const Walk& walk, bool positive)
 bool isBefore(const ExactMap& map, const Walk& walk, Index h)
 {
   const int side = orientation(map.at(h), map.at(Mesh::next(h)), walk.target);
-  // On the edge's line it depends on whether the edge leans forward; an edge across the line is decided
-  // by the step back.
+  // On the edge's line it depends on whether the edge leans forward; an edge across the line is
+  // decided by the step back.
   return side > 0 || (side == 0 && along(map.edge(h), walk.direction) >= 0);
 }
 
@@ -117,8 +117,8 @@ bool followAndCollect(const ExactMap& map, const GridVertices& grid, Walk& walk,
   return false;
 }
 
-/// A line crosses a triangle of a valid map at most once per unit; folds can lengthen it, but a line
-/// that needs more than this belongs to no mesh.
+/// A line crosses a triangle of a valid map at most once per unit; folds can lengthen it, but a
+/// line that needs more than this belongs to no mesh.
 std::size_t stepLimit(const ExactMap& map, bool tolerant)
 {
   const std::size_t whole = 3 * std::size_t{ map.mesh.faceCount() } + 16;

@@ -26,7 +26,8 @@ Int128 floorDivide(Int128 a, Int128 b)
   return q - ((a % b != 0) && ((a < 0) != (b < 0)) ? 1 : 0);
 }
 
-/// Corner whose fan walk lists all corners of the vertex: the boundary half-edge, else the lowest id.
+/// Corner whose fan walk lists all corners of the vertex: the boundary half-edge, else the lowest
+/// id.
 Index canonicalCorner(const Mesh& mesh, Index h)
 {
   Index lowest = h;
@@ -50,7 +51,8 @@ struct RowSpan
   Int128 high;
 };
 
-/// Left of edge a -> b means (b.u - a.u) (v - a.v) > (b.v - a.v) (u - a.u): one bound on u per edge.
+/// Left of edge a -> b means (b.u - a.u) (v - a.v) > (b.v - a.v) (u - a.u): one bound on u per
+/// edge.
 RowSpan rowSpan(const std::array<FixedVec2, 3>& p, std::int64_t v, Int128 low, Int128 high)
 {
   for (int i = 0; i < 3; ++i)

@@ -3,10 +3,10 @@
 /// The integer points of a map and the grid directions that leave them (q-vertices and q-ports of
 /// [Ebke et al. 2013]).
 ///
-/// A port is a direction of the grid at an integer point together with the surface just to its left, so
-/// it stands for one corner of one quad. "Just to the left" is what makes every choice unique: the
-/// port belongs to the triangle that contains the point moved by e along the direction and by e^2 to its
-/// left, for all small e.
+/// A port is a direction of the grid at an integer point together with the surface just to its
+/// left, so it stands for one corner of one quad. "Just to the left" is what makes every choice
+/// unique: the port belongs to the triangle that contains the point moved by e along the direction
+/// and by e^2 to its left, for all small e.
 #pragma once
 
 #include "Extraction/ExactMap.h"
@@ -58,8 +58,8 @@ public:
   const std::vector<GridVertex>& vertices() const { return vertices_; }
   Index portCount() const { return portCount_; }
 
-  /// Calls visit(sector) counterclockwise for all sectors of vertex q that have ports; the ports of the
-  /// vertex are numbered from firstPort on in this order.
+  /// Calls visit(sector) counterclockwise for all sectors of vertex q that have ports; the ports of
+  /// the vertex are numbered from firstPort on in this order.
   template <typename Visitor>
   void forEachSector(Index q, const Visitor& visit) const
   {

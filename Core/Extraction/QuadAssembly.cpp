@@ -236,7 +236,8 @@ std::size_t countOtherCycles(const std::vector<Index>& next)
   return others;
 }
 
-/// Drops cells that collapsed when vertices were joined, and all but the first over the same vertices.
+/// Drops cells that collapsed when vertices were joined, and all but the first over the same
+/// vertices.
 std::size_t dropCollapsedAndDouble(std::vector<Cell>& cells)
 {
   struct Key

@@ -15,8 +15,8 @@ struct AssemblyOptions
   int threads = 0;
 };
 
-/// Fills points, quads, sources and lines of the result's mesh, and the counts. Valence and onBoundary are
-/// left to the topology check.
+/// Fills points, quads, sources and lines of the result's mesh, and the counts. Valence and
+/// onBoundary are left to the topology check.
 void assembleQuads(const ExactMap& map, const GridVertices& grid, const CellCorners& cells,
   const AssemblyOptions& options, ExtractionResult& result);
 

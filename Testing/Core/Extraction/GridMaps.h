@@ -31,8 +31,8 @@ struct GridMapCase
   std::size_t lines = 0; ///< unit edges on features and boundaries
 };
 
-/// Gives each pair of triangles (a b c), (a c d), as the shared lattice meshes have them, the square
-/// [0, k]^2 in its own chart.
+/// Gives each pair of triangles (a b c), (a c d), as the shared lattice meshes have them, the
+/// square [0, k]^2 in its own chart.
 inline GridMapCase squares(std::string name, Mesh mesh, int k)
 {
   GridMapCase result{ std::move(name), std::move(mesh), {}, 0, 0 };
@@ -72,7 +72,8 @@ public:
     }
   }
 
-  /// Splits a face at p (its chart), which must be strictly inside; false and nothing done otherwise.
+  /// Splits a face at p (its chart), which must be strictly inside; false and nothing done
+  /// otherwise.
   bool splitFace(Index f, FixedVec2 p)
   {
     const Index a = 3 * f, b = a + 1, c = a + 2;
@@ -94,8 +95,8 @@ public:
     return true;
   }
 
-  /// Splits the edge of h at p (chart of its face), on the edge for a constrained one; false and nothing
-  /// done when a triangle would not be positive.
+  /// Splits the edge of h at p (chart of its face), on the edge for a constrained one; false and
+  /// nothing done when a triangle would not be positive.
   bool splitEdge(Index h, FixedVec2 p)
   {
     const Index g = mesh_.twin[h];
@@ -160,8 +161,8 @@ public:
     return true;
   }
 
-  /// Moves the vertex of corner h by delta (its chart). Leaves constrained and singular vertices, and
-  /// unless `force`, moves that would not keep the star positive.
+  /// Moves the vertex of corner h by delta (its chart). Leaves constrained and singular vertices,
+  /// and unless `force`, moves that would not keep the star positive.
   bool moveVertex(Index h, FixedVec2 delta, bool force)
   {
     std::vector<std::pair<Index, FixedVec2>> moved;
@@ -195,8 +196,8 @@ public:
     return true;
   }
 
-  /// A random mix of the above; points are often integer or half integer, so that grid vertices fall on
-  /// vertices, edges and faces, and grid lines on edges and through vertices.
+  /// A random mix of the above; points are often integer or half integer, so that grid vertices
+  /// fall on vertices, edges and faces, and grid lines on edges and through vertices.
   void refine(Random& random, int edits)
   {
     for (int i = 0; i < edits; ++i)

@@ -262,7 +262,8 @@ TEST(Extraction, SquaresOfSeveralUnits)
 
 TEST(Extraction, IrregularVerticesOfPolycubes)
 {
-  // Theory: the corners of a cube have valence 3; the tripod has one vertex with six faces round it.
+  // Theory: the corners of a cube have valence 3; the tripod has one vertex with six faces round
+  // it.
   const auto cube = interiorValences(extract(squares("", unitCube(1), 3)).mesh);
   EXPECT_EQ(cube.at(3), 8);
   EXPECT_EQ(cube.size(), 2u);
