@@ -112,9 +112,7 @@ class Snapper
 {
 public:
   Snapper(const Mesh& mesh, const std::vector<Vector2>& uv, const SnapOptions& options)
-    : mesh_(mesh)
-    , uv_(uv)
-    , options_(options)
+    : mesh_(mesh), uv_(uv), options_(options)
   {
     result_.uv.resize(uv.size());
   }
@@ -191,8 +189,7 @@ private:
 
 } // namespace
 
-SnapResult snapMap(
-  const Mesh& mesh, const std::vector<Vector2>& uv, const SnapOptions& options)
+SnapResult snapMap(const Mesh& mesh, const std::vector<Vector2>& uv, const SnapOptions& options)
 {
   checkValues(mesh, uv);
   return Snapper(mesh, uv, options).run();

@@ -20,10 +20,11 @@ struct SnapOptions
 
 struct SnapResult
 {
-  std::vector<FixedVec2> uv;        ///< #H
-  double largestMove = 0;           ///< in quads
-  std::size_t snappedToFixedPoint = 0; ///< vertices whose transitions do not compose to the identity
-  std::size_t inconsistent = 0;     ///< vertices whose transitions compose to a translation
+  std::vector<FixedVec2> uv; ///< #H
+  double largestMove = 0;    ///< in quads
+  std::size_t snappedToFixedPoint =
+    0;                          ///< vertices whose transitions do not compose to the identity
+  std::size_t inconsistent = 0; ///< vertices whose transitions compose to a translation
 };
 
 /// Transitions are taken from the two images of each edge: the nearest quarter turn and the nearest

@@ -224,6 +224,18 @@ void expectSame(const QuadMesh& a, const QuadMesh& b)
   }
 }
 
+bool isPositive(const GridMapCase& c)
+{
+  for (std::size_t h = 0; h < c.uv.size(); h += 3)
+  {
+    if (orientation(c.uv[h], c.uv[h + 1], c.uv[h + 2]) <= 0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 std::map<int, int> interiorValences(const QuadMesh& mesh)
 {
   std::map<int, int> count;
@@ -300,6 +312,111 @@ TEST(Extraction, RandomChartsAndTriangulations)
       return;
     }
   }
+}
+
+// Inverted triangles: either the result is right, or the status says that it is not and where. Never a
+// crash, never a mesh that is silently wrong.
+TEST(Extraction, FoldsAreBridgedOrReported)
+{
+  int folded = 0;
+  int bridged = 0;
+  for (unsigned seed = 0; seed < 40; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    Random random(1000 + seed);
+    for (GridMapCase& c : allCases(2 + static_cast<int>(seed % 3)))
+    {
+      SCOPED_TRACE(c.name);
+      MapEditor editor(c);
+      editor.refine(random, 400);
+      editor.shuffleCharts(random);
+      editor.tangle(random, 1 + static_cast<int>(seed / 4));
+      const bool valid = isPositive(c);
+      const ExtractionResult result = extract(c);
+      folded += valid ? 0 : 1;
+      bridged += !valid && result.status.ok() ? 1 : 0;
+      EXPECT_TRUE(!valid || result.status.ok()) << result.status.message;
+      EXPECT_EQ(result.status.ok(), result.status.message.empty());
+      EXPECT_TRUE(result.status.ok() || result.status.message.find("faces") != std::string::npos);
+      if (result.status.ok())
+      {
+        expectTopologyOfInput(c.mesh, result.mesh);
+        expectConsistentAttributes(c.mesh, result.mesh);
+      }
+    }
+  }
+  // The seeds are fixed: the test sees folds, and bridges most of them.
+  EXPECT_GT(folded, 100);
+  EXPECT_GT(bridged, folded * 3 / 4);
+  RecordProperty("folded", folded);
+  RecordProperty("bridged", bridged);
+}
+
+TEST(Extraction, RefusesGarbage)
+{
+  const GridMapCase good = squares("", unitCube(2), 2);
+  EXPECT_THROW(extractQuads(Mesh{}, {}, {}), InvalidInput);
+  EXPECT_THROW(extractQuads(good.mesh, {}, {}), InvalidInput);
+
+  GridMapCase far = good;
+  far.uv[5].u = std::int64_t{ 1 } << 45;
+  EXPECT_THROW(extract(far), InvalidInput);
+  far.uv[5].u = std::numeric_limits<std::int64_t>::min();
+  EXPECT_THROW(extract(far), InvalidInput);
+
+  // Random numbers are no map: the edges' images do not match.
+  Random random(3);
+  GridMapCase noise = good;
+  for (FixedVec2& p : noise.uv)
+  {
+    p = { static_cast<std::int64_t>(random() % (5 * kOne)),
+      static_cast<std::int64_t>(random() % (5 * kOne)) };
+  }
+  EXPECT_EQ(extract(noise).status.code, StatusCode::NotConverged);
+
+  // Everything on one point.
+  GridMapCase nothing = good;
+  nothing.uv.assign(nothing.uv.size(), FixedVec2{});
+  EXPECT_EQ(extract(nothing).status.code, StatusCode::NotConverged);
+}
+
+TEST(Extraction, RefusesTooManyQuadsBeforeTheyAreMade)
+{
+  const GridMapCase c = squares("", unitCube(2), 100000);
+  const ExtractionResult result = extract(c);
+  EXPECT_EQ(result.status.code, StatusCode::TooLarge);
+  EXPECT_TRUE(result.mesh.quads.empty());
+  // 24 squares of 10^10 cells
+  EXPECT_NE(result.status.message.find("240000000000"), std::string::npos);
+
+  ExtractionOptions options;
+  const GridMapCase small = squares("", unitCube(2), 2);
+  options.maximumQuads = small.quads;
+  EXPECT_TRUE(extractQuads(small.mesh, small.uv, options).status.ok());
+  options.maximumQuads = small.quads - 1;
+  EXPECT_EQ(extractQuads(small.mesh, small.uv, options).status.code, StatusCode::TooLarge);
+}
+
+// A boundary between isolines cannot be reproduced, and cells that it cuts are left out.
+TEST(Extraction, ReportsBoundaryOffTheGrid)
+{
+  GridMapCase c = squares("", gridPlane(1, 1), 4);
+  for (FixedVec2& p : c.uv)
+  {
+    p = p + FixedVec2{ kOne / 3, 0 };
+  }
+  const ExtractionResult result = extract(c);
+  EXPECT_EQ(result.status.code, StatusCode::NotConverged);
+  EXPECT_EQ(result.mesh.quads.size(), 12u); // 3 of 4 columns are whole
+  EXPECT_GT(result.openPorts, 0u);
+}
+
+TEST(Extraction, CancelsWhenAsked)
+{
+  const GridMapCase c = squares("", unitCube(2), 2);
+  ExtractionOptions options;
+  options.progress = [](double fraction, const std::string&) { return fraction < 0.5; };
+  EXPECT_THROW(extractQuads(c.mesh, c.uv, options), Cancelled);
 }
 
 TEST(Extraction, SameBytesForAnyNumberOfThreads)
