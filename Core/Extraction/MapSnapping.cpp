@@ -75,7 +75,8 @@ Transition nearestTransition(const Mesh& mesh, const std::vector<Vector2>& uv, I
   return best;
 }
 
-/// The point that a transition with a rotation leaves in place; exact, for the translation is whole.
+/// The point that a transition with a rotation leaves in place; exact, for the translation is
+/// whole.
 FixedVec2 fixedPoint(const Transition& t)
 {
   const FixedVec2 d = t.translation;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// From a floating-point integer-grid map of another program to an exact one on the fixed-point grid.
+/// From a floating-point integer-grid map of another program to an exact one on the fixed-point
+/// grid.
 #pragma once
 
 #include "Base/FixedPoint.h"
@@ -13,8 +14,8 @@ namespace quadrille
 
 struct SnapOptions
 {
-  /// A feature or boundary edge is put on the nearest integer isoline when both ends are nearer than
-  /// this; in quads, in [0, 0.5).
+  /// A feature or boundary edge is put on the nearest integer isoline when both ends are nearer
+  /// than this; in quads, in [0, 0.5).
   double isolineTolerance = 1e-3;
 };
 

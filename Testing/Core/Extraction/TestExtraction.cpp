@@ -314,8 +314,8 @@ TEST(Extraction, RandomChartsAndTriangulations)
   }
 }
 
-// Inverted triangles: either the result is right, or the status says that it is not and where. Never a
-// crash, never a mesh that is silently wrong.
+// Inverted triangles: either the result is right, or the status says that it is not and where.
+// Never a crash, never a mesh that is silently wrong.
 TEST(Extraction, FoldsAreBridgedOrReported)
 {
   int folded = 0;

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Shape of one quad.
+#pragma once
+
+#include "Base/Types.h"
+
+#include <algorithm>
+#include <array>
+
+namespace quadrille
+{
+
+/// Scaled Jacobian as in the Verdict library: the smallest of the four normalized corner
+/// determinants with respect to the normal of the quad's centre. 1 for a rectangle, <= 0 where the
+/// quad is not convex; 0 for a vanishing edge or normal.
+inline double scaledJacobian(const std::array<Vector3, 4>& p)
+{
+  const Vector3 normal = (p[1] - p[0] + p[2] - p[3]).cross(p[2] - p[1] + p[3] - p[0]);
+  const double area = normal.norm();
+  double worst = 1;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    const Vector3 in = p[i] - p[(i + 3) % 4];
+    const Vector3 out = p[(i + 1) % 4] - p[i];
+    const double scale = area * in.norm() * out.norm();
+    if (!(scale > 0))
+    {
+      return 0;
+    }
+    worst = std::min(worst, normal.dot(in.cross(out)) / scale);
+  }
+  return worst;
+}
+
+} // namespace quadrille
