@@ -97,10 +97,12 @@ struct EmbedResult
 {
   std::vector<FixedVec2> uv;
   Status status;
-  std::vector<Index> inverted;
+  std::vector<Index> inverted;  ///< faces left with !(det > 0)
+  std::vector<Index> offenders; ///< vertices round which the triangulation leaves no map with these integers
   int newtonSteps = 0;
 };
 /// Moves everything but integers (integer vertices, isoline values, translations) so that every det > 0.
+/// Throws InvalidInput, naming the element, when integerUv is fractional or contradicts the field.
 EmbedResult embedMap(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& integerUv,
   const EmbedOptions& options);
 

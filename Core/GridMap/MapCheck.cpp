@@ -139,6 +139,19 @@ MapDefects findDefects(const Mesh& mesh, const CrossField& field, const std::vec
   return defects;
 }
 
+std::vector<Index> findNotPositive(const Mesh& mesh, const std::vector<FixedVec2>& uv)
+{
+  std::vector<Index> result;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    if (orientation(uv[3 * f], uv[3 * f + 1], uv[3 * f + 2]) <= 0)
+    {
+      result.push_back(f);
+    }
+  }
+  return result;
+}
+
 std::vector<Index> crowdedVertices(const Mesh& mesh, const CrossField& field)
 {
   std::vector<int> triangles(mesh.vertexCount(), 0);

@@ -32,6 +32,9 @@ struct MapDefects
 };
 MapDefects findDefects(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv);
 
+/// Faces with !(det > 0).
+std::vector<Index> findNotPositive(const Mesh& mesh, const std::vector<FixedVec2>& uv);
+
 /// The vertices at which the triangulation has too few triangles for the turns that the field asks for:
 /// every triangle turns by less than half a circle.
 std::vector<Index> crowdedVertices(const Mesh& mesh, const CrossField& field);
