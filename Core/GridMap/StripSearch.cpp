@@ -1,0 +1,259 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GridMap/StripSearch.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <tuple>
+
+namespace quadrille
+{
+
+namespace
+{
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Makes the shorter of two equally cheap strips win.
+constexpr double kStepCost = 1e-6;
+
+std::int64_t lengthOf(FixedVec2 e)
+{
+  return std::abs(e.u) + std::abs(e.v);
+}
+
+std::int64_t broken(std::int64_t determinant)
+{
+  return std::max<std::int64_t>(0, 1 - determinant);
+}
+
+} // namespace
+
+StripSearch::StripSearch(const IntegerMap& map, StripCost cost)
+  : map_(map)
+  , domain_(map.domain())
+  , cost_(cost)
+  , distance_(4 * std::size_t{ domain_.halfEdgeCount() })
+  , parent_(distance_.size())
+  , stamp_(distance_.size(), 0)
+  , settled_(distance_.size(), 0)
+{
+}
+
+void StripSearch::restart()
+{
+  ++round_;
+  heap_.clear();
+}
+
+FixedVec2 StripSearch::vectorOf(Index state) const
+{
+  const FixedVec2 unit = unitVector(static_cast<int>(state & 3));
+  return { length_ * unit.u, length_ * unit.v };
+}
+
+Index StripSearch::stateOf(Index h, FixedVec2 e)
+{
+  const Index direction = e.u > 0 ? 0 : e.v > 0 ? 1 : e.u < 0 ? 2 : 3;
+  return 4 * h + direction;
+}
+
+void StripSearch::relax(Index state, double cost, Index parent)
+{
+  if (stamp_[state] == round_ && distance_[state] <= cost)
+  {
+    return;
+  }
+  stamp_[state] = round_;
+  settled_[state] = 0;
+  distance_[state] = cost;
+  parent_[state] = parent;
+  heap_.emplace_back(cost, state);
+  std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+}
+
+bool StripSearch::pop(Index& state, double& cost)
+{
+  while (!heap_.empty())
+  {
+    std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+    std::tie(cost, state) = heap_.back();
+    heap_.pop_back();
+    if (!settled_[state])
+    {
+      settled_[state] = 1;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Price of the triangle for e coming in through `in` and leaving through `out`.
+double StripSearch::crossingCost(Index in, FixedVec2 e, Index out, bool isFirst) const
+{
+  const FixedVec2 a = map_[in] + e, b = map_[out] - e;
+  const std::int64_t after =
+    out == Mesh::next(in) ? IntegerMap::cross(a, b) : IntegerMap::cross(b, a);
+  if (cost_ == StripCost::KeepPositive)
+  {
+    return after > 0 ? 0 : kInfinity;
+  }
+  const std::int64_t change = broken(after) - broken(map_.determinant(Mesh::face(in)));
+  // Only the first triangle may pay with what it gains, or Dijkstra's algorithm would not apply.
+  return kBroken * static_cast<double>(isFirst ? change : std::max<std::int64_t>(0, change));
+}
+
+double StripSearch::edgeCost(Index out, FixedVec2 e) const
+{
+  return kStepCost + std::max(0.0, map_.energyChange(out, -e));
+}
+
+void StripSearch::explore(Index h, FixedVec2 e, double bound, End& closed, End& border)
+{
+  restart();
+  const Index last = domain_.twin[h];
+  const FixedVec2 closing = last == kInvalidIndex ? e : rotate(e, domain_.rotation[h]);
+  const Index start = stateOf(h, e);
+  relax(start, 0, kInvalidIndex);
+  Index state = 0;
+  double cost = 0;
+  // While the first triangle may repay, costs are not monotone yet: no early end then.
+  while (pop(state, cost) && cost < std::min(bound, closed.cost))
+  {
+    const Index in = state / 4;
+    const FixedVec2 carried = vectorOf(state);
+    for (const Index out : { Mesh::next(in), Mesh::previous(in) })
+    {
+      if (!map_.mayShift(out, -carried))
+      {
+        continue;
+      }
+      const double crossed = cost + crossingCost(in, carried, out, state == start);
+      if (out == last)
+      {
+        if (carried == closing && crossed < std::min(closed.cost, bound))
+        {
+          closed = { crossed, state, kInvalidIndex, {} };
+        }
+        continue;
+      }
+      const double total = crossed + edgeCost(out, carried);
+      if (!(total < bound))
+      {
+        continue;
+      }
+      const Index next = domain_.twin[out];
+      if (next != kInvalidIndex)
+      {
+        relax(stateOf(next, rotate(carried, domain_.rotation[out])), total, state);
+      }
+      else if (total < border.cost)
+      {
+        border = { total, state, out, -carried };
+      }
+    }
+  }
+}
+
+void StripSearch::appendPath(const End& end, std::vector<StripStep>& steps) const
+{
+  if (end.exit != kInvalidIndex)
+  {
+    steps.push_back({ end.exit, end.exitVector });
+  }
+  for (Index state = end.state; state != kInvalidIndex; state = parent_[state])
+  {
+    steps.push_back({ state / 4, vectorOf(state) });
+  }
+}
+
+Strip StripSearch::through(Index h, FixedVec2 e, double bound)
+{
+  length_ = lengthOf(e);
+  Strip strip;
+  End closed, border;
+  explore(h, e, bound, closed, border);
+  if (closed.cost < std::min(bound, border.cost))
+  {
+    appendPath(closed, strip.steps);
+    strip.cost = closed.cost;
+    return strip;
+  }
+  if (!(border.cost < bound))
+  {
+    return strip;
+  }
+  std::vector<StripStep> steps;
+  appendPath(border, steps);
+  double cost = border.cost;
+  const Index g = domain_.twin[h];
+  if (g != kInvalidIndex)
+  {
+    End otherClosed, otherBorder;
+    explore(g, -rotate(e, domain_.rotation[h]), std::min(bound, closed.cost) - border.cost,
+      otherClosed, otherBorder);
+    cost += otherBorder.cost;
+    if (otherBorder.cost < kInfinity)
+    {
+      appendPath(otherBorder, steps);
+      steps.pop_back(); // the shift of h itself, which the first half has
+    }
+  }
+  if (cost < std::min(bound, closed.cost))
+  {
+    strip.steps = std::move(steps);
+    strip.cost = cost;
+  }
+  return strip;
+}
+
+Strip StripSearch::discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>& defects)
+{
+  length_ = lengthOf(e);
+  restart();
+  End best;
+  const auto leave = [&](Index out, FixedVec2 carried, double cost, Index from) {
+    if (!map_.mayShift(out, -carried))
+    {
+      return;
+    }
+    const double total = cost + edgeCost(out, carried);
+    const Index next = domain_.twin[out];
+    if (next != kInvalidIndex)
+    {
+      relax(stateOf(next, rotate(carried, domain_.rotation[out])), total, from);
+    }
+    else if (total < best.cost)
+    {
+      best = { total, from, out, -carried };
+    }
+  };
+  for (Index out = 3 * f; out < 3 * f + 3; ++out)
+  {
+    leave(out, e, 0, kInvalidIndex);
+  }
+  Index state = 0;
+  double cost = 0;
+  while (pop(state, cost) && cost < best.cost)
+  {
+    const Index in = state / 4;
+    const FixedVec2 carried = vectorOf(state);
+    const FixedVec2 there =
+      Mesh::face(in) == f ? defects[f] - e : defects[Mesh::face(in)];
+    if (there.u * carried.u + there.v * carried.v < 0)
+    {
+      best = { cost, state, kInvalidIndex, {} };
+      break;
+    }
+    for (const Index out : { Mesh::next(in), Mesh::previous(in) })
+    {
+      leave(out, carried, cost + crossingCost(in, carried, out, false), state);
+    }
+  }
+  Strip strip;
+  appendPath(best, strip.steps);
+  strip.cost = best.cost;
+  return strip;
+}
+
+} // namespace quadrille

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Shortest strips (see IntegerMap.h) by Dijkstra's algorithm over (half-edge entered, vector carried).
+#pragma once
+
+#include "GridMap/IntegerMap.h"
+
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace quadrille
+{
+
+/// One shift of a strip.
+struct StripStep
+{
+  Index halfEdge;
+  FixedVec2 e;
+};
+
+struct Strip
+{
+  std::vector<StripStep> steps;
+  double cost = std::numeric_limits<double>::infinity();
+  bool found() const { return !steps.empty(); }
+};
+
+/// What crossing a triangle costs. A triangle with det < 1 is broken by 1 - det.
+enum class StripCost
+{
+  KeepPositive, ///< never breaks a triangle; cost is the energy that edges gain
+  Repair        ///< breaking costs first, energy second
+};
+
+class StripSearch
+{
+public:
+  StripSearch(const IntegerMap& map, StripCost cost);
+
+  /// The cheapest strip that contains shift(h, e): a closed one, or one from boundary to boundary. The
+  /// price of that first shift is left out; strips that cost `bound` or more are not found.
+  Strip through(Index h, FixedVec2 e, double bound);
+
+  /// The cheapest strip that carries the vector e of the defect of face f to a face whose defect it
+  /// lowers, or out through the boundary. defects: #F.
+  Strip discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>& defects);
+
+  static constexpr double kBroken = 1e6; ///< price of breaking a triangle by one unit
+
+private:
+  struct End
+  {
+    double cost = std::numeric_limits<double>::infinity();
+    Index state = kInvalidIndex; ///< last state of the path; kInvalidIndex: the path has none
+    Index exit = kInvalidIndex;  ///< boundary half-edge that it leaves through
+    FixedVec2 exitVector;
+  };
+
+  void restart();
+  static Index stateOf(Index h, FixedVec2 e);
+  FixedVec2 vectorOf(Index state) const;
+  void relax(Index state, double cost, Index parent);
+  bool pop(Index& state, double& cost);
+  double crossingCost(Index in, FixedVec2 e, Index out, bool isFirst) const;
+  double edgeCost(Index out, FixedVec2 e) const;
+  /// Shortest ways on from shift(h, e): to where it closes, and to a boundary.
+  void explore(Index h, FixedVec2 e, double bound, End& closed, End& border);
+  void appendPath(const End& end, std::vector<StripStep>& steps) const;
+
+  const IntegerMap& map_;
+  const IntegerDomain& domain_;
+  StripCost cost_;
+  std::int64_t length_ = 1; ///< of the vectors of the current search
+  std::vector<double> distance_;
+  std::vector<Index> parent_;
+  std::vector<std::uint32_t> stamp_;
+  std::vector<std::uint8_t> settled_;
+  std::uint32_t round_ = 0;
+  std::vector<std::pair<double, Index>> heap_;
+};
+
+} // namespace quadrille
