@@ -22,9 +22,8 @@ double angleBetween(const Vector2& a, const Vector2& b)
 template <typename VectorOf>
 std::vector<int> windings(const IntegerDomain& domain, VectorOf vectorOf)
 {
-  const Index vertices = domain.origin.empty()
-    ? 0
-    : *std::max_element(domain.origin.begin(), domain.origin.end()) + 1;
+  const Index vertices =
+    domain.origin.empty() ? 0 : *std::max_element(domain.origin.begin(), domain.origin.end()) + 1;
   std::vector<double> angle(vertices, 0);
   for (Index h = 0; h < domain.halfEdgeCount(); ++h)
   {
@@ -183,9 +182,10 @@ bool IntegerMap::isValid() const
       return false;
     }
   }
-  return windings(*domain_, [&](Index h) {
-    return Vector2(static_cast<double>(q_[h].u), static_cast<double>(q_[h].v));
-  }) == domain_->turns;
+  return windings(*domain_,
+           [&](Index h) {
+             return Vector2(static_cast<double>(q_[h].u), static_cast<double>(q_[h].v));
+           }) == domain_->turns;
 }
 
 } // namespace quadrille

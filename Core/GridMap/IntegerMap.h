@@ -45,11 +45,7 @@ struct IntegerDomain
 class IntegerMap
 {
 public:
-  explicit IntegerMap(const IntegerDomain& domain)
-    : domain_(&domain)
-    , q_(domain.halfEdgeCount())
-  {
-  }
+  explicit IntegerMap(const IntegerDomain& domain) : domain_(&domain), q_(domain.halfEdgeCount()) {}
 
   const IntegerDomain& domain() const { return *domain_; }
   FixedVec2 operator[](Index h) const { return q_[h]; }

@@ -30,13 +30,9 @@ std::int64_t broken(std::int64_t determinant)
 } // namespace
 
 StripSearch::StripSearch(const IntegerMap& map, StripCost cost)
-  : map_(map)
-  , domain_(map.domain())
-  , cost_(cost)
-  , distance_(4 * std::size_t{ domain_.halfEdgeCount() })
-  , parent_(distance_.size())
-  , stamp_(distance_.size(), 0)
-  , settled_(distance_.size(), 0)
+  : map_(map), domain_(map.domain()), cost_(cost),
+    distance_(4 * std::size_t{ domain_.halfEdgeCount() }), parent_(distance_.size()),
+    stamp_(distance_.size(), 0), settled_(distance_.size(), 0)
 {
 }
 
@@ -117,9 +113,13 @@ void StripSearch::explore(Index h, FixedVec2 e, double bound, End& closed, End& 
   relax(start, 0, kInvalidIndex);
   Index state = 0;
   double cost = 0;
-  // While the first triangle may repay, costs are not monotone yet: no early end then.
-  while (pop(state, cost) && cost < std::min(bound, closed.cost))
+  while (pop(state, cost))
   {
+    // The first triangle may repay, so the bound may be negative.
+    if (state != start && !(cost < std::min(bound, closed.cost)))
+    {
+      break;
+    }
     const Index in = state / 4;
     const FixedVec2 carried = vectorOf(state);
     for (const Index out : { Mesh::next(in), Mesh::previous(in) })
@@ -173,13 +173,12 @@ Strip StripSearch::through(Index h, FixedVec2 e, double bound)
   Strip strip;
   End closed, border;
   explore(h, e, bound, closed, border);
-  if (closed.cost < std::min(bound, border.cost))
+  if (closed.cost < bound)
   {
     appendPath(closed, strip.steps);
     strip.cost = closed.cost;
-    return strip;
   }
-  if (!(border.cost < bound))
+  if (!(border.cost < std::min(bound, closed.cost)))
   {
     return strip;
   }
@@ -212,7 +211,8 @@ Strip StripSearch::discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>&
   length_ = lengthOf(e);
   restart();
   End best;
-  const auto leave = [&](Index out, FixedVec2 carried, double cost, Index from) {
+  const auto leave = [&](Index out, FixedVec2 carried, double cost, Index from)
+  {
     if (!map_.mayShift(out, -carried))
     {
       return;
@@ -238,8 +238,7 @@ Strip StripSearch::discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>&
   {
     const Index in = state / 4;
     const FixedVec2 carried = vectorOf(state);
-    const FixedVec2 there =
-      Mesh::face(in) == f ? defects[f] - e : defects[Mesh::face(in)];
+    const FixedVec2 there = Mesh::face(in) == f ? defects[f] - e : defects[Mesh::face(in)];
     if (there.u * carried.u + there.v * carried.v < 0)
     {
       best = { cost, state, kInvalidIndex, {} };

@@ -21,8 +21,7 @@ constexpr std::size_t kSmallStar = 8;
 class DisjointSets
 {
 public:
-  explicit DisjointSets(Index count)
-    : parent_(count)
+  explicit DisjointSets(Index count) : parent_(count)
   {
     std::iota(parent_.begin(), parent_.end(), Index{ 0 });
   }
@@ -69,9 +68,7 @@ class Decimator
 {
 public:
   Decimator(UvMesh& mesh, UvEditor& editor, std::vector<std::uint8_t>& keep)
-    : mesh_(mesh)
-    , editor_(editor)
-    , keep_(keep)
+    : mesh_(mesh), editor_(editor), keep_(keep)
   {
   }
 
@@ -125,7 +122,8 @@ private:
   bool wantsFlip(Index h) const
   {
     return !mesh_.isFixed(h) &&
-      cotangentOpposite(h) + cotangentOpposite(mesh_.twin[h]) < kDelaunaySlack && editor_.canFlip(h);
+      cotangentOpposite(h) + cotangentOpposite(mesh_.twin[h]) < kDelaunaySlack &&
+      editor_.canFlip(h);
   }
 
   void makeDelaunay(const std::vector<Index>& slots)
@@ -199,8 +197,8 @@ private:
       return false;
     }
     const bool boundary = mesh_.twin[star.front()] == kInvalidIndex;
-    const bool curve = boundary ||
-      std::any_of(star.begin(), star.end(), [&](Index h) { return mesh_.isFixed(h); });
+    const bool curve =
+      boundary || std::any_of(star.begin(), star.end(), [&](Index h) { return mesh_.isFixed(h); });
     while (true)
     {
       if (const auto line = lineToRemoveOn(star, boundary, curve))

@@ -50,7 +50,7 @@ UvMesh UvMesh::from(
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     result.rotation[h] = mesh.isBoundary(h) ? std::int8_t{ 0 } : field.matching[h];
-    result.flags[h] = mesh.isConstrained(h) ? kUvConstrained : std::uint8_t{ 0 };
+    result.flags[h] = static_cast<std::uint8_t>(mesh.isConstrained(h) ? kUvConstrained : 0);
   }
   result.uv = seamlessUv;
   result.outgoing = outgoingHalfEdges(mesh);
@@ -245,7 +245,8 @@ void UvEditor::removeInside(Index h)
   UvRecord& record = records_.back();
   record.vertex = mesh_.origin[h];
   const Int128 whole = determinant(x2, x0, x1);
-  record.weights = { 0, ratio(determinant(x2, v, x1), whole), ratio(determinant(x2, x0, v), whole) };
+  record.weights = { 0, ratio(determinant(x2, v, x1), whole),
+    ratio(determinant(x2, x0, v), whole) };
   saveFace(Mesh::face(h));
   saveFace(Mesh::face(hB));
   saveFace(Mesh::face(hC));

@@ -44,7 +44,10 @@ struct UvMesh
   /// The half-edge as a vector in the chart of its face.
   FixedVec2 vector(Index h) const { return uv[Mesh::next(h)] - uv[h]; }
   bool isFixed(Index h) const { return flags[h] != 0 || twin[h] == kInvalidIndex; }
-  Int128 faceDeterminant(Index f) const { return determinant(uv[3 * f], uv[3 * f + 1], uv[3 * f + 2]); }
+  Int128 faceDeterminant(Index f) const
+  {
+    return determinant(uv[3 * f], uv[3 * f + 1], uv[3 * f + 2]);
+  }
   /// From the chart of face(h) to that of its twin's face. Exact.
   Transition transition(Index h) const;
   /// Half-edges that leave v, counterclockwise; a boundary vertex begins with its boundary half-edge.
@@ -58,12 +61,13 @@ struct UvRecord
   {
     Flip,         ///< slot: the flipped half-edge h
     RemoveInside, ///< slot: the half-edge v -> x0 of the face that stays; three faces become one
-    RemoveOnLine  ///< slot: the half-edge v -> p of the face that stays; on each side two faces become one
+    RemoveOnLine ///< slot: the half-edge v -> p of the face that stays; on each side two faces become one
   };
   Kind kind = Kind::Flip;
   Index slot = kInvalidIndex;
-  Index otherSlot = kInvalidIndex; ///< RemoveOnLine with two sides: v -> r of the other face that stays
-  Index vertex = kInvalidIndex;    ///< the removed one
+  Index otherSlot =
+    kInvalidIndex; ///< RemoveOnLine with two sides: v -> r of the other face that stays
+  Index vertex = kInvalidIndex; ///< the removed one
   /// In units of 2^-32. RemoveInside: weights of v at corners slot, next(slot), previous(slot).
   /// RemoveOnLine: [0] weight of p, [1] of r (corner slot after the removal).
   std::array<std::int64_t, 3> weights{};
@@ -74,10 +78,7 @@ struct UvRecord
 class UvEditor
 {
 public:
-  explicit UvEditor(UvMesh& mesh)
-    : mesh_(mesh)
-  {
-  }
+  explicit UvEditor(UvMesh& mesh) : mesh_(mesh) {}
 
   /// Whether the edge may be flipped so that both new triangles have a positive determinant.
   bool canFlip(Index h) const;

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Quantization without a T-mesh [Coudert-Osmont et al. 2023, from its description]. Where we differ: the decimation is
+/// exact and ends in the Delaunay triangulation of the locked vertices; straight edges between locked
+/// vertices of the coarse mesh stay, so every triangle that re-embedding cannot move is tested as it is; the
+/// start is repaired before the scale is raised; shrinking steps begin large.
+#include "GridMap/GridMap.h"
+
+#include "GridMap/QuantizeIntegers.h"
+#include "GridMap/UvDecimation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// Rounding at this scale is exact enough for any map that a user could want; the growth is judged after
+/// shrinking.
+constexpr double kMaximumScale = 1024;
+
+void checkInput(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv)
+{
+  if (uv.size() != mesh.halfEdgeCount() || field.matching.size() != mesh.halfEdgeCount())
+  {
+    throw InvalidInput("quantizeMap: " + std::to_string(uv.size()) + " corners of the map and " +
+      std::to_string(field.matching.size()) + " matchings for " +
+      std::to_string(mesh.halfEdgeCount()) + " half-edges");
+  }
+}
+
+/// Why the map is no start for quantization; empty when it is one.
+std::string defectOf(const UvMesh& mesh)
+{
+  for (Index h = 0; h < mesh.origin.size(); ++h)
+  {
+    if (h % 3 == 0 && mesh.faceDeterminant(Mesh::face(h)) <= 0)
+    {
+      return "face " + std::to_string(Mesh::face(h)) + " is not positive in the seamless map";
+    }
+    const Index g = mesh.twin[h];
+    if (g != kInvalidIndex && mesh.vector(g) != -rotate(mesh.vector(h), mesh.rotation[h]))
+    {
+      return "the seamless map does not fit its matching across half-edge " + std::to_string(h);
+    }
+    const FixedVec2 d = mesh.vector(h);
+    if ((mesh.flags[h] & kUvConstrained) != 0 && d.u != 0 && d.v != 0)
+    {
+      return "constrained half-edge " + std::to_string(h) + " is not on an isoline";
+    }
+  }
+  return {};
+}
+
+/// Charts of whole displacements: the first corner of every face becomes the origin.
+void integrate(const IntegerMap& map, UvMesh& mesh)
+{
+  const std::vector<Index>& slot = map.domain().slot;
+  for (Index h = 0; h < slot.size(); h += 3)
+  {
+    const FixedVec2 b = map[h], c = map[h] + map[h + 1];
+    mesh.uv[slot[h]] = {};
+    mesh.uv[slot[h + 1]] = { b.u * kOne, b.v * kOne };
+    mesh.uv[slot[h + 2]] = { c.u * kOne, c.v * kOne };
+  }
+}
+
+double uvArea(const UvMesh& mesh)
+{
+  double area = 0;
+  for (Index f = 0; f < mesh.alive.size(); ++f)
+  {
+    area += mesh.alive[f] ? 0.5 * static_cast<double>(mesh.faceDeterminant(f)) : 0.0;
+  }
+  return area;
+}
+
+void moveChart(UvMesh& mesh, Index f, FixedVec2 by)
+{
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  {
+    mesh.uv[h] = mesh.uv[h] + by;
+  }
+}
+
+/// Joins charts: along a spanning tree of the faces the transitions become rotations without translation.
+void joinCharts(UvMesh& mesh)
+{
+  std::vector<std::uint8_t> reached(mesh.alive.size(), 0);
+  std::vector<Index> queue;
+  for (Index seed = 0; seed < mesh.alive.size(); ++seed)
+  {
+    if (reached[seed])
+    {
+      continue;
+    }
+    reached[seed] = 1;
+    queue.assign(1, seed);
+    for (std::size_t i = 0; i < queue.size(); ++i)
+    {
+      for (Index h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h)
+      {
+        const Index g = mesh.twin[h];
+        if (g != kInvalidIndex && !reached[Mesh::face(g)])
+        {
+          reached[Mesh::face(g)] = 1;
+          moveChart(mesh, Mesh::face(g), -mesh.transition(h).translation);
+          queue.push_back(Mesh::face(g));
+        }
+      }
+    }
+  }
+}
+
+Status tooFine(double growth)
+{
+  return { StatusCode::NotConverged,
+    "the integers had to grow by a factor of " + std::to_string(growth) +
+      "; ask for more quads, or for fewer irregular vertices and features" };
+}
+
+} // namespace
+
+QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
+  const std::vector<FixedVec2>& seamlessUv, const QuantizeOptions& options)
+{
+  checkInput(mesh, field, seamlessUv);
+  QuantizeResult result;
+  result.uv = seamlessUv;
+  UvMesh uvMesh = UvMesh::from(mesh, field, seamlessUv);
+  const std::string defect = defectOf(uvMesh);
+  if (!defect.empty())
+  {
+    result.status = { StatusCode::Infeasible, "quantization: " + defect };
+    return result;
+  }
+  const double wantedArea = uvArea(uvMesh);
+  UvEditor editor(uvMesh);
+  std::vector<std::uint8_t> keep = verticesToKeep(mesh, integerVertices(mesh, field));
+  decimateInUv(uvMesh, editor, keep);
+
+  const IntegerDomain domain = IntegerDomain::from(uvMesh);
+  IntegerMap integers(domain);
+  const IntegerStart start = findValidIntegers(integers, kMaximumScale, options.progress);
+  if (!start.valid)
+  {
+    result.status = { StatusCode::NotConverged,
+      "quantization: no valid integers up to scale " + std::to_string(kMaximumScale) };
+    return result;
+  }
+  improveIntegers(integers, options.progress);
+  result.refinement =
+    start.scale > 1 ? std::max(1.0, std::sqrt(integers.area() / wantedArea)) : 1.0;
+  integrate(integers, uvMesh);
+  editor.undoAll();
+  joinCharts(uvMesh);
+  result.uv = uvMesh.uv;
+  if (result.refinement > options.maximumRefinement)
+  {
+    result.status = tooFine(result.refinement);
+  }
+  return result;
+}
+
+} // namespace quadrille
