@@ -68,12 +68,14 @@ void integrate(const IntegerMap& map, UvMesh& mesh)
   }
 }
 
+/// In quads.
 double uvArea(const UvMesh& mesh)
 {
+  constexpr double kUnit = static_cast<double>(kOne) * static_cast<double>(kOne);
   double area = 0;
   for (Index f = 0; f < mesh.alive.size(); ++f)
   {
-    area += mesh.alive[f] ? 0.5 * static_cast<double>(mesh.faceDeterminant(f)) : 0.0;
+    area += mesh.alive[f] ? 0.5 / kUnit * static_cast<double>(mesh.faceDeterminant(f)) : 0.0;
   }
   return area;
 }
@@ -152,8 +154,7 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
     return result;
   }
   improveIntegers(integers, options.progress);
-  result.refinement =
-    start.scale > 1 ? std::max(1.0, std::sqrt(integers.area() / wantedArea)) : 1.0;
+  result.refinement = std::max(1.0, std::sqrt(integers.area() / wantedArea));
   integrate(integers, uvMesh);
   editor.undoAll();
   joinCharts(uvMesh);
