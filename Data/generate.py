@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes Quadrille's own test surfaces, at any resolution from about 5 thousand to 10 million faces.
 
-  Data/generate.py SHAPE FACES OUT.ply [--check]
+  Data/generate.py SHAPE FACES OUT.{ply,vtk} [--check]
 
 Shapes:
   part   flange with a pipe stub: sharp and rounded edges, four chamfered through holes and a bore, open
@@ -11,8 +11,8 @@ Shapes:
   beast  an organic closed shape with head, ears, legs and a tail; genus 0
   frame  the rounded edges of a tetrahedron as struts; closed, genus 3
 
-The number of faces comes within a few percent of what is asked for (eight below 10 thousand). The output is binary PLY and depends on
-the arguments only. --check counts the topology anew and fails where it is not what it should be.
+The number of faces comes within a few percent of what is asked for (eight below 10 thousand). The output is binary PLY, or VTK's
+legacy format, whose reader keeps PatchId, and depends on the arguments only. --check counts the topology anew and fails where it is not what it should be.
 Needs Python 3 and numpy.
 """
 import argparse
@@ -498,6 +498,19 @@ def writePly(path, points, faces, patches):
         file.write(record.tobytes())
 
 
+def writeVtk(path, points, faces, patches):
+    cells = np.empty((len(faces), 4), ">i4")
+    cells[:, 0], cells[:, 1:] = 3, faces
+    with open(path, "wb") as file:
+        file.write(b"# vtk DataFile Version 3.0\nmade by Quadrille's Data/generate.py\nBINARY\nDATASET POLYDATA\n")
+        file.write(f"POINTS {len(points)} float\n".encode() + points.astype(">f4").tobytes())
+        file.write(f"\nPOLYGONS {len(faces)} {cells.size}\n".encode() + cells.tobytes())
+        if patches is not None:
+            file.write(f"\nCELL_DATA {len(faces)}\nSCALARS PatchId int 1\nLOOKUP_TABLE default\n".encode())
+            file.write(patches.astype(">i4").tobytes())
+        file.write(b"\n")
+
+
 def check(name, points, faces):
     """Reasons why the mesh is not what it should be: manifold, oriented, right topology, no slivers."""
     problems = []
@@ -548,7 +561,7 @@ def main():
     parser = argparse.ArgumentParser(description="Makes Quadrille's own test surfaces; see the top of this file.")
     parser.add_argument("shape", choices=sorted(EXPECTED))
     parser.add_argument("faces", type=int, help="how many triangles, about; 5000 to 10000000")
-    parser.add_argument("out", help="binary PLY file to write")
+    parser.add_argument("out", help="file to write, .ply or .vtk")
     parser.add_argument("--check", action="store_true", help="count the topology anew, fail where it is wrong")
     arguments = parser.parse_args()
     if not 5000 <= arguments.faces <= 20000000:
@@ -559,7 +572,7 @@ def main():
     else:
         points, faces, patches = makeImplicit({"beast": beast, "frame": frame}[arguments.shape](), arguments.faces,
                                               EXPECTED[arguments.shape][0])
-    writePly(arguments.out, points, faces, patches)
+    (writeVtk if arguments.out.endswith(".vtk") else writePly)(arguments.out, points, faces, patches)
     print(f"{arguments.out}: {len(faces)} faces in {time.time() - start:.1f} s")
     problems = check(arguments.shape, points, faces) if arguments.check else []
     for problem in problems:
