@@ -20,12 +20,13 @@ struct TransferOptions
 
 struct TransferResult
 {
-  std::vector<FixedVec2> uv;       ///< #H of the finest mesh
-  std::size_t invertedStars = 0;   ///< un-collapses whose interpolated vertex inverted its star
-  std::size_t movedToKernel = 0;   ///< of these, mended by moving the vertex into the kernel of its ring
-  std::size_t withoutKernel = 0;   ///< of these, left inverted by the replay
-  std::size_t mendedPatches = 0;   ///< patches re-embedded afterwards
-  std::size_t notPositive = 0;     ///< triangles with !(det > 0) in the end
+  std::vector<FixedVec2> uv;     ///< #H of the finest mesh
+  std::size_t invertedStars = 0; ///< un-collapses whose interpolated vertex inverted its star
+  std::size_t movedToKernel =
+    0; ///< of these, mended by moving the vertex into the kernel of its ring
+  std::size_t withoutKernel = 0; ///< of these, left inverted by the replay
+  std::size_t mendedPatches = 0; ///< patches re-embedded afterwards
+  std::size_t notPositive = 0;   ///< triangles with !(det > 0) in the end
 };
 
 /// Carries a map of the coarse level to the finest mesh. coarseUv: #H of coarse.mesh. Throws

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The decimation log backwards on fixed-point uv: un-flip and un-collapse [Ebke et al. 2016, Appendix A].
+///
+/// Where we differ: transitions are not stored but follow exactly from the two images of an edge; a removed vertex
+/// is rounded once and copied to its corners through exact transitions; where it would invert its star it
+/// moves into the kernel of its ring's image (along its curve for a vertex of a constrained curve).
+#pragma once
+
+#include "Base/FixedPoint.h"
+#include "Base/Progress.h"
+#include "Hierarchy/DecimationLog.h"
+
+#include <vector>
+
+namespace quadrille
+{
+
+struct ReplayCounts
+{
+  std::size_t invertedStars = 0; ///< interpolated vertices that inverted their star
+  std::size_t movedToKernel = 0; ///< of these, mended by moving them
+  std::size_t withoutKernel = 0; ///< of these, left as they were
+  std::size_t lostTransitions =
+    0; ///< edges of zero length or with images that no quarter turn joins
+
+  void add(const ReplayCounts& other);
+};
+
+/// uv: #H of the finest mesh, set on the slots of the coarse level; set on all afterwards.
+ReplayCounts replayLog(const DecimationLog& log, std::vector<FixedVec2>& uv, int threads,
+  const ProgressCallback& progress);
+
+} // namespace quadrille

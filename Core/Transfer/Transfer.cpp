@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Transfer/Transfer.h"
+
+#include "Transfer/Replay.h"
+
+#include <string>
+
+namespace quadrille
+{
+
+namespace
+{
+
+void checkSizes(const Mesh& fine, const Level& coarse, const DecimationLog& log,
+  const std::vector<FixedVec2>& coarseUv)
+{
+  if (log.fineFaces != fine.faceCount())
+  {
+    throw InvalidInput("The decimation log was made for a surface of " +
+      std::to_string(log.fineFaces) + " faces, not of " + std::to_string(fine.faceCount()) + ".");
+  }
+  if (coarseUv.size() != coarse.mesh.halfEdgeCount() ||
+    coarse.fineFace.size() != coarse.mesh.faceCount())
+  {
+    throw InvalidInput("The map has " + std::to_string(coarseUv.size()) +
+      " corners, but the coarse level has " + std::to_string(coarse.mesh.halfEdgeCount()) + ".");
+  }
+  if (coarse.mesh.vertexCount() + log.collapses != fine.vertexCount())
+  {
+    throw InvalidInput("The coarse level does not belong to this decimation log.");
+  }
+  for (const Index f : coarse.fineFace)
+  {
+    if (f >= fine.faceCount())
+    {
+      throw InvalidInput("The coarse level names face " + std::to_string(f) + " of a surface of " +
+        std::to_string(fine.faceCount()) + " faces.");
+    }
+  }
+}
+
+std::size_t countNotPositive(const std::vector<FixedVec2>& uv)
+{
+  std::size_t count = 0;
+  for (std::size_t h = 0; h < uv.size(); h += 3)
+  {
+    count += determinant(uv[h], uv[h + 1], uv[h + 2]) > 0 ? 0U : 1U;
+  }
+  return count;
+}
+
+} // namespace
+
+TransferResult transferMap(const Mesh& fine, const Level& coarse, const DecimationLog& log,
+  const std::vector<FixedVec2>& coarseUv, const TransferOptions& options)
+{
+  checkSizes(fine, coarse, log, coarseUv);
+  TransferResult result;
+  result.uv.resize(fine.halfEdgeCount());
+  for (Index h = 0; h < coarse.mesh.halfEdgeCount(); ++h)
+  {
+    result.uv[3 * coarse.fineFace[h / 3] + h % 3] = coarseUv[h];
+  }
+  const ReplayCounts counts = replayLog(log, result.uv, options.threads, options.progress);
+  result.invertedStars = counts.invertedStars;
+  result.movedToKernel = counts.movedToKernel;
+  result.withoutKernel = counts.withoutKernel;
+  result.notPositive = countNotPositive(result.uv);
+  return result;
+}
+
+} // namespace quadrille
