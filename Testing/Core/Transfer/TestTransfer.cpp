@@ -1,0 +1,306 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Base/Error.h"
+#include "TestMeshes.h"
+#include "Transfer/Transfer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <random>
+
+using namespace quadrille;
+using namespace quadrille::test;
+
+namespace
+{
+
+constexpr double kFeatureAngle = 0.7; // radians, 40 degrees
+
+Hierarchy decimate(const Mesh& mesh, double edgeLength, Index vertices, int threads = 1)
+{
+  HierarchyOptions options;
+  options.targetEdgeLength = edgeLength;
+  options.coarseVertices = vertices;
+  options.threads = threads;
+  return buildHierarchy(mesh, 1, options);
+}
+
+TransferResult transfer(
+  const Mesh& fine, const Hierarchy& h, const std::vector<FixedVec2>& coarseUv, int threads = 1)
+{
+  TransferOptions options;
+  options.threads = threads;
+  return transferMap(fine, h.coarse, h.log, coarseUv, options);
+}
+
+/// uv of every corner from its position.
+std::vector<FixedVec2> mapByPosition(
+  const Mesh& mesh, const std::function<Vector2(const Vector3&)>& map)
+{
+  std::vector<FixedVec2> uv;
+  for (const Index v : mesh.origin)
+  {
+    uv.push_back(toFixed(map(mesh.position[v])));
+  }
+  return uv;
+}
+
+/// Edges whose two images are not related by a quarter turn: must be none, exactly.
+std::size_t seamResiduals(const Mesh& mesh, const std::vector<FixedVec2>& uv)
+{
+  std::size_t count = 0;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isBoundary(h))
+    {
+      continue;
+    }
+    const Index g = mesh.twin[h];
+    const FixedVec2 here = uv[Mesh::next(h)] - uv[h];
+    const FixedVec2 there = uv[g] - uv[Mesh::next(g)];
+    bool matches = false;
+    for (int r = 0; r < 4; ++r)
+    {
+      matches = matches || rotate(here, r) == there;
+    }
+    count += matches ? 0 : 1;
+  }
+  return count;
+}
+
+std::size_t constrainedEdgesOffAxis(const Mesh& mesh, const std::vector<FixedVec2>& uv)
+{
+  std::size_t count = 0;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const FixedVec2 edge = uv[Mesh::next(h)] - uv[h];
+    count += mesh.isConstrained(h) && edge.u != 0 && edge.v != 0 ? 1 : 0;
+  }
+  return count;
+}
+
+std::size_t notPositive(const std::vector<FixedVec2>& uv)
+{
+  std::size_t count = 0;
+  for (std::size_t h = 0; h < uv.size(); h += 3)
+  {
+    count += determinant(uv[h], uv[h + 1], uv[h + 2]) > 0 ? 0 : 1;
+  }
+  return count;
+}
+
+/// Torus whose angles are its map: uv by unwrapping each triangle from its first corner, so that transitions
+/// are translations by the periods.
+std::vector<FixedVec2> torusMap(const Mesh& mesh, double radius, std::int64_t periodU,
+  std::int64_t periodV, const std::function<FixedVec2(Index)>& offset)
+{
+  const auto angles = [&](const Vector3& p)
+  {
+    const double r = p.head<2>().norm();
+    return FixedVec2{ static_cast<std::int64_t>(
+                        std::llround(std::atan2(p.y(), p.x()) / (2 * kPi) * double(periodU))),
+      static_cast<std::int64_t>(
+        std::llround(std::atan2(p.z(), r - radius) / (2 * kPi) * double(periodV))) };
+  };
+  const auto wrapTo = [](std::int64_t value, std::int64_t reference, std::int64_t period)
+  {
+    const double turns = std::round(double(reference - value) / double(period));
+    return value + static_cast<std::int64_t>(turns) * period;
+  };
+  std::vector<FixedVec2> uv(mesh.halfEdgeCount());
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const FixedVec2 base = angles(mesh.position[mesh.origin[h - h % 3]]);
+    FixedVec2 p = angles(mesh.position[mesh.origin[h]]);
+    p = { wrapTo(p.u, base.u, periodU), wrapTo(p.v, base.v, periodV) };
+    uv[h] = p + offset(mesh.origin[h]);
+  }
+  return uv;
+}
+
+/// The flat map of each side of the unit cube in a chart of its own, turned by as many quarters as the number
+/// of the side: transitions between sides are rotations with translations.
+std::vector<FixedVec2> cubeMap(const Mesh& mesh, double scale)
+{
+  std::vector<FixedVec2> uv(mesh.halfEdgeCount());
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    const Vector3 n = faceNormal(mesh, f);
+    Index axis = 0;
+    n.cwiseAbs().maxCoeff(&axis);
+    const int side = static_cast<int>(2 * axis) + (n[axis] > 0 ? 0 : 1);
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      const Vector3& p = mesh.position[mesh.origin[h]];
+      Vector2 flat(p[(axis + 1) % 3], p[(axis + 2) % 3]);
+      if (n[axis] < 0)
+      {
+        std::swap(flat.x(), flat.y()); // keeps the orientation of the side seen from outside
+      }
+      uv[h] = rotate(toFixed(Vector2(flat * scale)), side) + FixedVec2{ side * 7 * kOne, 0 };
+    }
+  }
+  return uv;
+}
+
+} // namespace
+
+TEST(Transfer, affineMapOfAPlaneComesBack)
+{
+  // On a flat surface the polar maps of the stars are exact, so the weights restore every removed vertex.
+  for (const Mesh& mesh : { gridPlane(40, 30), plateWithHole(12), plateL(20) })
+  {
+    const auto map = [](const Vector3& p)
+    { return Vector2(0.75 * p.x() - 0.25 * p.y() + 3, 0.25 * p.x() + 0.5 * p.y() - 1); };
+    const Hierarchy h = decimate(mesh, 10, 30);
+    ASSERT_LT(h.coarse.mesh.vertexCount(), mesh.vertexCount() / 5);
+    const TransferResult result = transfer(mesh, h, mapByPosition(h.coarse.mesh, map));
+    const std::vector<FixedVec2> expected = mapByPosition(mesh, map);
+    std::int64_t worst = 0;
+    for (Index c = 0; c < mesh.halfEdgeCount(); ++c)
+    {
+      const FixedVec2 d = result.uv[c] - expected[c];
+      worst = std::max({ worst, std::abs(d.u), std::abs(d.v) });
+    }
+    // Each generation of removed vertices adds at most a unit for its rounding and one for the weights
+    // (32 bits of at most 30 quads); a vertex has at most a few tens of generations above it.
+    EXPECT_LE(worst, 100);
+    EXPECT_EQ(result.notPositive, 0U);
+    EXPECT_EQ(seamResiduals(mesh, result.uv), 0U);
+  }
+}
+
+TEST(Transfer, torusKeepsItsTranslations)
+{
+  const Mesh mesh = torus(90, 45);
+  const Hierarchy h = decimate(mesh, 0.3, 120);
+  const std::vector<FixedVec2> coarseUv =
+    torusMap(h.coarse.mesh, 1, 40 * kOne, 16 * kOne, [](Index) { return FixedVec2{}; });
+  ASSERT_EQ(notPositive(coarseUv), 0U);
+  const TransferResult result = transfer(mesh, h, coarseUv);
+  EXPECT_EQ(seamResiduals(mesh, result.uv), 0U);
+  EXPECT_EQ(result.notPositive, 0U);
+  EXPECT_EQ(result.notPositive, notPositive(result.uv));
+}
+
+TEST(Transfer, cubeKeepsRotationsAndItsFlatSides)
+{
+  const Mesh mesh = markFeatures(unitCube(18), kFeatureAngle);
+  const Hierarchy h = decimate(mesh, 0.4, 80);
+  const double scale = 9;
+  const std::vector<FixedVec2> coarseUv = cubeMap(h.coarse.mesh, scale);
+  ASSERT_EQ(seamResiduals(h.coarse.mesh, coarseUv), 0U);
+  const TransferResult result = transfer(mesh, h, coarseUv);
+  EXPECT_EQ(seamResiduals(mesh, result.uv), 0U);
+  EXPECT_EQ(result.notPositive, 0U);
+  EXPECT_EQ(constrainedEdgesOffAxis(mesh, result.uv), 0U) << "exactly on isolines";
+  for (Index c = 0; c < mesh.halfEdgeCount(); ++c)
+  {
+    // Every side is flat, so its isometric map comes back; 1e-5 quads are 170 units of the grid, see above.
+    const Vector2 edge = toDouble(result.uv[Mesh::next(c)] - result.uv[c]);
+    EXPECT_NEAR(edge.norm(), scale * mesh.edgeVector(c).norm(), 1e-5);
+  }
+}
+
+TEST(Transfer, featuresInsideAPlaneStayOnTheirIsolines)
+{
+  // A curved plate with a straight feature across it; the map is not affine, so vertices are interpolated in
+  // earnest, but along the feature one coordinate is constant.
+  Mesh mesh = gridPlane(40, 40);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const bool onLine =
+      mesh.position[mesh.origin[h]].y() == 20 && mesh.position[mesh.target(h)].y() == 20;
+    mesh.flags[h] |= onLine ? kFeatureEdge : 0;
+  }
+  for (Vector3& p : mesh.position)
+  {
+    p.z() = 3 * std::sin(0.2 * p.x()) * std::cos(0.15 * p.y());
+  }
+  const Hierarchy h = decimate(mesh, 8, 60);
+  const auto map = [](const Vector3& p)
+  { return Vector2(0.4 * p.x() + 0.3 * std::sin(0.15 * p.x()), 0.35 * p.y()); };
+  const TransferResult result = transfer(mesh, h, mapByPosition(h.coarse.mesh, map));
+  EXPECT_EQ(seamResiduals(mesh, result.uv), 0U);
+  EXPECT_EQ(constrainedEdgesOffAxis(mesh, result.uv), 0U);
+  EXPECT_EQ(result.notPositive, 0U);
+}
+
+TEST(Transfer, movesVerticesIntoTheKernelWhereTheMapIsRough)
+{
+  // A valid coarse map that is far from smooth: every vertex is pushed as far as its triangles allow.
+  const Mesh mesh = torus(90, 45);
+  const Hierarchy h = decimate(mesh, 0.3, 150);
+  const Mesh& coarse = h.coarse.mesh;
+  std::mt19937 random(5);
+  std::vector<FixedVec2> offset(coarse.vertexCount());
+  const auto map = [&]()
+  { return torusMap(coarse, 1, 40 * kOne, 16 * kOne, [&](Index v) { return offset[v]; }); };
+  for (int round = 0; round < 2; ++round)
+  {
+    for (Index v = 0; v < coarse.vertexCount(); ++v)
+    {
+      const FixedVec2 before = offset[v];
+      const auto push = [&]()
+      { return static_cast<std::int64_t>(random() % (3 * kOne)) - 3 * kOne / 2; };
+      offset[v] = before + FixedVec2{ push(), push() };
+      offset[v] = notPositive(map()) == 0 ? offset[v] : before;
+    }
+  }
+  const std::vector<FixedVec2> coarseUv = map();
+  ASSERT_EQ(notPositive(coarseUv), 0U);
+  const TransferResult result = transfer(mesh, h, coarseUv);
+  EXPECT_GT(result.invertedStars, 0U) << "else this test tests nothing";
+  EXPECT_EQ(result.invertedStars, result.movedToKernel + result.withoutKernel);
+  EXPECT_EQ(result.notPositive, 0U);
+  EXPECT_EQ(notPositive(result.uv), 0U);
+  EXPECT_EQ(seamResiduals(mesh, result.uv), 0U);
+}
+
+TEST(Transfer, givesTheSameBytesForAnyNumberOfThreads)
+{
+  const Mesh mesh = torus(300, 150);
+  const Hierarchy h = decimate(mesh, 0.15, 300);
+  ASSERT_GT(h.log.blocks.size(), h.log.rounds.size() + 2);
+  const std::vector<FixedVec2> coarseUv =
+    torusMap(h.coarse.mesh, 1, 40 * kOne, 16 * kOne, [](Index) { return FixedVec2{}; });
+  const TransferResult one = transfer(mesh, h, coarseUv, 1);
+  for (const int threads : { 2, 5 })
+  {
+    EXPECT_EQ(transfer(mesh, h, coarseUv, threads).uv, one.uv);
+  }
+}
+
+TEST(Transfer, theLogFromItsBytesGivesTheSameMap)
+{
+  const Mesh mesh = torus(60, 30);
+  Hierarchy h = decimate(mesh, 0.3, 120);
+  const std::vector<FixedVec2> coarseUv =
+    torusMap(h.coarse.mesh, 1, 40 * kOne, 16 * kOne, [](Index) { return FixedVec2{}; });
+  const TransferResult before = transfer(mesh, h, coarseUv);
+  h.log = DecimationLog::deserialize(h.log.serialize(), 1);
+  EXPECT_EQ(transfer(mesh, h, coarseUv).uv, before.uv);
+}
+
+TEST(Transfer, aMapThatIsNotValidIsCountedNotFatal)
+{
+  const Mesh mesh = gridPlane(20, 20);
+  const Hierarchy h = decimate(mesh, 6, 30);
+  const std::vector<FixedVec2> flat(h.coarse.mesh.halfEdgeCount());
+  EXPECT_EQ(transfer(mesh, h, flat).notPositive, mesh.faceCount());
+}
+
+TEST(Transfer, refusesWhatDoesNotFit)
+{
+  const Mesh mesh = gridPlane(20, 20);
+  const Hierarchy h = decimate(mesh, 6, 30);
+  const auto map = [](const Vector3& p) { return Vector2(p.x(), p.y()); };
+  std::vector<FixedVec2> uv = mapByPosition(h.coarse.mesh, map);
+  EXPECT_THROW(transfer(gridPlane(20, 21), h, uv), InvalidInput);
+  uv.pop_back();
+  EXPECT_THROW(transfer(mesh, h, uv), InvalidInput);
+}
