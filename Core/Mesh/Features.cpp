@@ -128,7 +128,7 @@ void markFeaturesByPatch(PreparedSurface& surface, const std::vector<std::int64_
       patchIds[surface.sourcePolygon[Mesh::face(h)]] !=
         patchIds[surface.sourcePolygon[Mesh::face(mesh.twin[h])]])
     {
-      mesh.flags[h] |= kFeatureEdge;
+      mesh.flags[h] |= kFeatureEdge | kRequestedFeature;
     }
   }
 }

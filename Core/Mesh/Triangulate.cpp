@@ -26,7 +26,7 @@ void appendTriangle(PreparedSurface& surface, Index polygon, const std::array<In
   surface.mesh.origin.insert(surface.mesh.origin.end(), points.begin(), points.end());
   for (int i = 0; i < 3; ++i)
   {
-    surface.mesh.flags.push_back((features >> i & 1) != 0 ? kFeatureEdge : 0);
+    surface.mesh.flags.push_back((features >> i & 1) != 0 ? kFeatureEdge | kRequestedFeature : 0);
   }
   surface.sourcePolygon.push_back(polygon);
   surface.sourcePoints.push_back(points);

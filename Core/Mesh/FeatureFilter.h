@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Sharp edges of a scan are mostly noise: isolated edges and small tangles that no quad of the wanted
+/// size can follow. Each would pin integers and make the map impossible.
+#pragma once
+
+#include "Mesh/Mesh.h"
+
+namespace quadrille
+{
+
+struct FeatureFilterReport
+{
+  std::size_t removedEdges = 0;
+  std::size_t keptEdges = 0;
+};
+
+/// Unmarks features that nobody asked for (without kRequestedFeature) and that the edge length s cannot resolve: dangling chains shorter
+/// than 4 s, closed loops and whole tangles whose chains are on average shorter than s. Chains run between
+/// vertices where other than two constrained edges meet. Features that the user gave stay. Repeated until nothing changes.
+/// Throws InvalidInput when edgeLength is not positive.
+FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength);
+
+} // namespace quadrille

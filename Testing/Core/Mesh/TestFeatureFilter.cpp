@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/FeatureFilter.h"
+
+#include "Base/Error.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+namespace quadrille
+{
+namespace
+{
+
+Index featureEdges(const Mesh& mesh)
+{
+  Index count = 0;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    count += mesh.isFeature(h) && h < mesh.twin[h];
+  }
+  return count;
+}
+
+void mark(Mesh& mesh, Index h, std::uint8_t flags)
+{
+  mesh.flags[h] |= flags;
+  mesh.flags[mesh.twin[h]] |= flags;
+}
+
+/// The horizontal edges of a grid plane in one inner row of vertices, from column a to column b.
+void markRow(Mesh& mesh, int row, double a, double b, std::uint8_t flags)
+{
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3& p = mesh.position[mesh.origin[h]];
+    const Vector3& q = mesh.position[mesh.target(h)];
+    if (!mesh.isBoundary(h) && p.y() == row && q.y() == row && p.x() >= a && q.x() <= b &&
+      q.x() > p.x())
+    {
+      mark(mesh, h, flags);
+    }
+  }
+}
+
+constexpr std::uint8_t kDetected = kFeatureEdge;
+
+TEST(FeatureFilter, ShortDanglingChainGoesLongOneStays)
+{
+  Mesh mesh = test::gridPlane(20, 6);
+  markRow(mesh, 2, 3, 6, kDetected);  // length 3
+  markRow(mesh, 4, 3, 15, kDetected); // length 12
+  const FeatureFilterReport report = removeUnresolvedFeatures(mesh, 1.0);
+  EXPECT_EQ(report.removedEdges, 3u);
+  EXPECT_EQ(report.keptEdges, 12u);
+  EXPECT_EQ(featureEdges(mesh), 12u);
+}
+
+TEST(FeatureFilter, WhatTheUserAskedForStays)
+{
+  Mesh mesh = test::gridPlane(20, 6);
+  markRow(mesh, 2, 3, 6, kFeatureEdge | kRequestedFeature);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 10.0).removedEdges, 0u);
+  EXPECT_EQ(featureEdges(mesh), 3u);
+}
+
+TEST(FeatureFilter, ChainFromBoundaryToBoundaryNeedsLengthToo)
+{
+  Mesh mesh = test::gridPlane(3, 6);
+  markRow(mesh, 2, 0, 3, kDetected);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 1.0).keptEdges, 0u);
+  markRow(mesh, 2, 0, 3, kDetected);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 0.5).keptEdges, 3u);
+}
+
+TEST(FeatureFilter, LoopIsJudgedByItsLength)
+{
+  // The edges of one side of the cube form a loop of length 4 without nodes.
+  const Mesh cube = test::unitCube(3);
+  Mesh mesh = cube;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3& p = mesh.position[mesh.origin[h]];
+    const Vector3& q = mesh.position[mesh.target(h)];
+    const auto onRim = [](const Vector3& x)
+    { return x.z() == 1 && (x.x() == 0 || x.x() == 1 || x.y() == 0 || x.y() == 1); };
+    // On the rim, and along it: the edge keeps x or y.
+    if (onRim(p) && onRim(q) && ((p.x() == q.x()) != (p.y() == q.y())) && (p - q).norm() < 0.4)
+    {
+      mark(mesh, h, kDetected);
+    }
+  }
+  Mesh coarse = mesh;
+  EXPECT_EQ(featureEdges(mesh), 12u);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 1.9).keptEdges, 12u);
+  EXPECT_EQ(removeUnresolvedFeatures(coarse, 2.1).keptEdges, 0u);
+}
+
+TEST(FeatureFilter, SharpCubeIsLeftAlone)
+{
+  Mesh mesh = test::markFeatures(test::unitCube(6), 0.5);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 0.9).removedEdges, 0u);
+  EXPECT_EQ(featureEdges(mesh), 72u);
+}
+
+TEST(FeatureFilter, EdgeLengthMustBePositive)
+{
+  Mesh mesh = test::gridPlane(2, 2);
+  EXPECT_THROW(removeUnresolvedFeatures(mesh, 0), InvalidInput);
+}
+
+} // namespace
+} // namespace quadrille
