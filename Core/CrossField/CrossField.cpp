@@ -4,8 +4,11 @@
 
 #include "CrossField/FieldTopology.h"
 #include "CrossField/PowerField.h"
+#include "CrossField/TurnRepair.h"
+#include "CrossField/TurnTargets.h"
 #include "CrossField/Turns.h"
 
+#include <cassert>
 #include <cmath>
 #include <string>
 
@@ -47,9 +50,10 @@ std::string fanProblem(const Fan& fan, int turns)
 {
   if (turns < 1)
   {
-    return "no quarter turn";
+    return fan.corners == 1 ? "no quarter turn in a triangle with three constrained edges"
+                            : "no quarter turn";
   }
-  if (turns >= 2 * static_cast<int>(fan.corners))
+  if (turns > turnLimit(fan))
   {
     return std::to_string(turns) + " quarter turns in " + std::to_string(fan.corners) +
       " triangles";
@@ -106,6 +110,27 @@ void storeTurns(
   }
 }
 
+// Shifts the jumps until every fan's turns can be mapped; returns the turns.
+std::vector<int> repairJumps(const Mesh& mesh, const FieldTopology& topology,
+  const FieldConstraints& constraints, const std::vector<double>& angle, double length,
+  std::vector<int>& jump)
+{
+  const std::vector<int> turns = countTurns(mesh, topology, constraints, angle, jump);
+  const std::vector<double> natural = naturalTurns(topology, length);
+  std::vector<double> residual;
+  for (const std::array<Index, 2>& edge : topology.edges)
+  {
+    residual.push_back(edgeResidual(topology, angle, mesh, edge[0], jump[edge[0]]));
+  }
+  const TurnRepairResult repair = repairTurns({ &topology, &residual, &turns, &natural, length });
+  for (std::size_t e = 0; e < topology.edges.size(); ++e)
+  {
+    jump[topology.edges[e][0]] += repair.shift[e];
+    jump[topology.edges[e][1]] -= repair.shift[e];
+  }
+  return repair.turns;
+}
+
 } // namespace
 
 CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options)
@@ -115,12 +140,16 @@ CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options)
   const FieldConstraints constraints = fieldConstraints(mesh, topology);
   const std::vector<double> smooth = powerField(
     mesh, topology, constraints, constraints.angle, { options.targetEdgeLength, options.progress });
-  const std::vector<int> jump = roundJumps(mesh, topology, smooth);
-  const std::vector<int> turns = countTurns(mesh, topology, constraints, smooth, jump);
+  std::vector<int> jump = roundJumps(mesh, topology, smooth);
+  report(options.progress, 0.6, "cross field: turns");
+  const std::vector<int> turns =
+    repairJumps(mesh, topology, constraints, smooth, options.targetEdgeLength, jump);
 
   CrossField field;
   report(options.progress, 0.8, "cross field: angles");
   field.angle = solveAngles(mesh, topology, constraints, jump, smooth);
+  // Angles never decide turns: the jumps do.
+  assert(turns == countTurns(mesh, topology, constraints, field.angle, jump));
   field.alignment = constraints.alignment;
   field.matching = matchings(mesh, field.alignment, jump);
   storeTurns(mesh, topology, turns, field);

@@ -16,6 +16,7 @@ namespace
 
 constexpr double kPi = 3.14159265358979323846;
 using Complex = std::complex<double>;
+constexpr int kDiffusionSteps = 8; // the singularities hardly move after these
 
 // Unknown index of each free face, and whether its component (across unconstrained edges) holds a fixed face.
 struct FreeFaces
@@ -171,78 +172,79 @@ private:
   bool analyzed_ = false;
 };
 
-// Bending across edges as a fourth-power field: a start for components without constraints that turns with the
-// mesh, so that the result does not depend on where the mesh lies in space.
-Eigen::VectorXcd bendingField(
+// Sum over the edges of face f of bend x length along the edge, as a second power: the deviator of the
+// curvature tensor, which turns by twice the angle of its principal directions.
+Complex bendingDeviator(const Mesh& mesh, const FieldTopology& topology, Index f)
+{
+  const auto normal = [&](Index g)
+  { return mesh.edgeVector(3 * g).cross(mesh.edgeVector(3 * g + 1)); };
+  Complex sum = 0;
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  {
+    if (mesh.isBoundary(h))
+    {
+      continue;
+    }
+    const Vector3 a = normal(f);
+    const Vector3 b = normal(Mesh::face(mesh.twin[h]));
+    const Vector3 axis = a.cross(b);
+    const double bend = std::atan2(axis.norm(), a.dot(b)); // convex: axis along h
+    const double sign = axis.dot(mesh.edgeVector(h)) < 0 ? -1.0 : 1.0;
+    sum += sign * bend * topology.edgeLength[h] * std::polar(1.0, 2 * topology.direction[h]);
+  }
+  return sum;
+}
+
+// Principal directions as a fourth-power field, strong where curvature is anisotropic: a start for
+// components without constraints that turns with the mesh.
+Eigen::VectorXcd principalField(
   const Mesh& mesh, const FieldTopology& topology, const FreeFaces& free)
 {
-  const auto normal = [&](Index f)
-  { return mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)); };
+  std::vector<Complex> deviator(mesh.faceCount());
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    deviator[f] = bendingDeviator(mesh, topology, f);
+  }
+  // Three edges are few directions to fit a tensor to: take in two rings of neighbours.
+  constexpr int kPasses = 2;
+  for (int pass = 0; pass < kPasses; ++pass)
+  {
+    std::vector<Complex> sum = deviator;
+    for (const std::array<Index, 2>& edge : topology.edges)
+    {
+      const Complex carry = std::polar(1.0, 2 * topology.transport[edge[0]]);
+      sum[Mesh::face(edge[1])] += carry * deviator[Mesh::face(edge[0])];
+      sum[Mesh::face(edge[0])] += std::conj(carry) * deviator[Mesh::face(edge[1])];
+    }
+    deviator.swap(sum);
+  }
   Eigen::VectorXcd field(static_cast<Eigen::Index>(free.face.size()));
   for (std::size_t i = 0; i < free.face.size(); ++i)
   {
-    const Index f = free.face[i];
-    Complex sum = 1e-6; // plain surfaces: any start, but the same on every run
-    for (Index h = 3 * f; h < 3 * f + 3; ++h)
-    {
-      if (mesh.isBoundary(h))
-      {
-        continue;
-      }
-      const Vector3 a = normal(f);
-      const Vector3 b = normal(Mesh::face(mesh.twin[h]));
-      const double bend = std::atan2(a.cross(b).norm(), a.dot(b));
-      sum += bend * topology.edgeLength[h] / topology.meanEdgeLength *
-        std::polar(1.0, 4 * topology.direction[h]);
-    }
-    field(static_cast<Eigen::Index>(i)) = sum;
+    const Complex d = deviator[free.face[i]];
+    // Planes and spheres have none: any start will do, but the same on every run.
+    field(static_cast<Eigen::Index>(i)) =
+      d * d / (std::abs(d) + 1e-9 * topology.meanEdgeLength) + 1e-9 * topology.meanEdgeLength;
   }
   return field;
 }
 
-// Scales each component without constraints to unit mass norm.
-void normalizeLoose(const FreeFaces& free, const Eigen::VectorXd& mass, Eigen::VectorXcd& field)
+// Harmonic where constraints reach; elsewhere principal directions, carried from where curvature is
+// strongly anisotropic to where it is not.
+Eigen::VectorXcd initialField(ConnectionSystem& system, const FreeFaces& free,
+  const Eigen::VectorXcd& principal, double totalArea)
 {
-  std::vector<double> norm(free.looseCount, 0.0);
-  for (Eigen::Index i = 0; i < field.size(); ++i)
+  // A screening far below what constraints put in; it also keeps L invertible without any.
+  system.factorize(1.0, 1.0 / totalArea);
+  Eigen::VectorXcd right = system.fixedPart();
+  for (Eigen::Index i = 0; i < right.size(); ++i)
   {
     if (free.loose[i] != kInvalidIndex)
     {
-      norm[free.loose[i]] += mass(i) * std::norm(field(i));
+      right(i) = system.mass()(i) * principal(i);
     }
   }
-  for (Eigen::Index i = 0; i < field.size(); ++i)
-  {
-    if (free.loose[i] != kInvalidIndex)
-    {
-      field(i) /= std::sqrt(std::max(norm[free.loose[i]], 1e-300));
-    }
-  }
-}
-
-// Harmonic where constraints reach, the smoothest eigenfield elsewhere (inverse power iterations).
-Eigen::VectorXcd smoothestField(
-  ConnectionSystem& system, const FreeFaces& free, const Eigen::VectorXcd& start, double totalArea)
-{
-  constexpr int kPowerSteps = 20;
-  // Far below the lowest eigenvalue (of the order 1 / area), so that it only keeps L invertible.
-  system.factorize(1.0, 1e-3 / totalArea);
-  Eigen::VectorXcd field = start;
-  const int steps = free.looseCount > 0 ? kPowerSteps : 1;
-  for (int step = 0; step < steps; ++step)
-  {
-    normalizeLoose(free, system.mass(), field);
-    Eigen::VectorXcd right = system.fixedPart();
-    for (Eigen::Index i = 0; i < right.size(); ++i)
-    {
-      if (free.loose[i] != kInvalidIndex)
-      {
-        right(i) = system.mass()(i) * field(i);
-      }
-    }
-    field = system.solve(right);
-  }
-  return field;
+  return system.solve(right);
 }
 
 void normalizeEach(Eigen::VectorXcd& field)
@@ -314,15 +316,14 @@ std::vector<double> powerField(const Mesh& mesh, const FieldTopology& topology,
     return angle;
   }
   ConnectionSystem system(topology, free, guide);
-  report(options.progress, 0.1, "cross field: smoothest field");
+  report(options.progress, 0.1, "cross field: start");
   Eigen::VectorXcd field =
-    smoothestField(system, free, bendingField(mesh, topology, free), topology.totalArea);
+    initialField(system, free, principalField(mesh, topology, free), topology.totalArea);
 
   // Below the mesh's own edges there is nothing to smooth that rounding could see.
   const double length = std::max(options.smoothingLength, topology.meanEdgeLength);
   report(options.progress, 0.3, "cross field: diffusion");
-  diffuseAndNormalize(system, field, 16 * length * length, 2);
-  diffuseAndNormalize(system, field, length * length, 4);
+  diffuseAndNormalize(system, field, 4 * length * length, kDiffusionSteps);
   for (std::size_t i = 0; i < free.face.size(); ++i)
   {
     angle[free.face[i]] = 0.25 * std::arg(field(static_cast<Eigen::Index>(i)));

@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CrossField/TurnRepair.h"
+
+#include "Numerics/MinCostFlow.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr double kQuarter = 1.57079632679489661923;
+
+// Costs are in units of "moving a quarter turn by s through a field at rest".
+constexpr double kIrregular = 1.0; // an irregular vertex: a pair closer than about 2 s vanishes
+constexpr double kBend = 0.25;     // a sector that is not straight
+constexpr double kUnnatural = 2.0; // squared difference of a sector's turns to the natural ones
+constexpr double kRare = 1e3;      // valence 2 and 6
+constexpr double kForbidden = 1e5; // beyond, and what no map can realize
+constexpr int kEdgeSteps = 2;      // shifts of one edge either way
+constexpr int kNodeSteps = 4;      // changes of one fan's turns either way
+
+std::int64_t integerCost(double cost)
+{
+  return std::llround(cost * 1024);
+}
+
+// Cost of a fan with so many quarter turns.
+double fanCost(const Fan& fan, double natural, int turns)
+{
+  const int limit = turnLimit(fan);
+  double cost = kForbidden * (std::max(0, 1 - turns) + std::max(0, turns - limit));
+  if (fan.sector)
+  {
+    return cost + kUnnatural * (turns - natural) * (turns - natural) + kBend * std::abs(turns - 2);
+  }
+  const int away = std::abs(turns - 4);
+  cost += kIrregular * std::min(away, 1) + kRare * std::max(away - 1, 0);
+  return cost + kForbidden * std::max(away - 2, 0);
+}
+
+int cheapestTurns(const Fan& fan, double natural)
+{
+  int best = fan.sector ? 2 : 4;
+  for (const int step : { 1, -1 })
+  {
+    while (fanCost(fan, natural, best + step) < fanCost(fan, natural, best))
+    {
+      best += step;
+    }
+  }
+  return best;
+}
+
+// Nodes are fans; the last one (the hub) takes up what fans deviate from their cheapest turns. Its
+// balance is zero by the sum rule.
+class RepairFlow
+{
+public:
+  explicit RepairFlow(const TurnRepairInput& input)
+    : input_(input), hub_(static_cast<Index>(input.turns->size())), flow_(hub_ + 1)
+  {
+    for (Index i = 0; i < hub_; ++i)
+    {
+      addFan(i);
+    }
+    firstEdgeArc_ = arcCount_;
+    for (std::size_t e = 0; e < input.topology->edges.size(); ++e)
+    {
+      addEdge(e);
+    }
+  }
+
+  TurnRepairResult solve()
+  {
+    flow_.solve();
+    TurnRepairResult result;
+    result.turns = *input_.turns;
+    Index arc = firstEdgeArc_;
+    for (const std::array<Index, 2>& edge : input_.topology->edges)
+    {
+      int shift = 0;
+      for (int step = 0; step < kEdgeSteps; ++step)
+      {
+        shift += static_cast<int>(flow_.flow(arc++));
+        shift -= static_cast<int>(flow_.flow(arc++));
+      }
+      result.shift.push_back(shift);
+      result.changedEdges += shift != 0 ? 1 : 0;
+      result.turns[input_.topology->fanOfCorner[edge[1]]] -= shift;
+      result.turns[input_.topology->fanOfCorner[edge[0]]] += shift;
+    }
+    return result;
+  }
+
+private:
+  void addFan(Index i)
+  {
+    const Fan& fan = input_.topology->fans[i];
+    if (fan.sector && fan.corners == 1)
+    {
+      return; // no edge can change it
+    }
+    const double natural = (*input_.natural)[i];
+    const int cheapest = cheapestTurns(fan, natural);
+    const int excess = (*input_.turns)[i] - cheapest;
+    flow_.addSupply(i, excess);
+    flow_.addSupply(hub_, -excess);
+    for (int step = 0; step < kNodeSteps; ++step)
+    {
+      const double here = fanCost(fan, natural, cheapest + step);
+      const double more = fanCost(fan, natural, cheapest + step + 1);
+      addArc(i, hub_, more - here);
+      const double low = fanCost(fan, natural, cheapest - step);
+      const double less = fanCost(fan, natural, cheapest - step - 1);
+      addArc(hub_, i, less - low);
+    }
+  }
+
+  void addEdge(std::size_t e)
+  {
+    const std::array<Index, 2>& edge = input_.topology->edges[e];
+    const Index head = input_.topology->fanOfCorner[edge[1]];
+    const Index tail = input_.topology->fanOfCorner[edge[0]];
+    const double weight = input_.topology->edgeLength[edge[0]] / input_.length;
+    const double residual = (*input_.residual)[e] / kQuarter;
+    // (residual - shift)^2 - residual^2, step by step.
+    for (int step = 0; step < kEdgeSteps; ++step)
+    {
+      addArc(head, tail, weight * (2 * step + 1 - 2 * residual));
+      addArc(tail, head, weight * (2 * step + 1 + 2 * residual));
+    }
+  }
+
+  void addArc(Index from, Index to, double cost)
+  {
+    flow_.addArc(from, to, 1, integerCost(cost));
+    ++arcCount_;
+  }
+
+  const TurnRepairInput& input_;
+  Index hub_;
+  MinCostFlow flow_;
+  Index arcCount_ = 0;
+  Index firstEdgeArc_ = 0;
+};
+
+} // namespace
+
+int turnLimit(const Fan& fan)
+{
+  return 2 * static_cast<int>(fan.corners) - 1;
+}
+
+TurnRepairResult repairTurns(const TurnRepairInput& input)
+{
+  return RepairFlow(input).solve();
+}
+
+} // namespace quadrille

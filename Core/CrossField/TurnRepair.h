@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Makes the quarter turns of all fans realizable and few by an exact min-cost flow on the primal edges.
+#pragma once
+
+#include "CrossField/FieldTopology.h"
+
+#include <vector>
+
+namespace quadrille
+{
+
+struct TurnRepairInput
+{
+  const FieldTopology* topology = nullptr;
+  const std::vector<double>* residual = nullptr; ///< per topology edge, radians, of edges[i][0]
+  const std::vector<int>* turns = nullptr;       ///< per fan, now
+  const std::vector<double>* natural = nullptr;  ///< per fan, see naturalTurns
+  double length =
+    0; ///< s: a pair of opposite irregular vertices closer than about this is cancelled
+};
+
+struct TurnRepairResult
+{
+  std::vector<int> shift; ///< per topology edge: what to add to the jump of edges[i][0]
+  std::vector<int> turns; ///< per fan, afterwards
+  std::size_t changedEdges = 0;
+};
+
+/// Minimizes, over integer shifts of the jumps, the growth of the squared residuals (weighted by
+/// edge length / s) plus a convex cost of each fan's turns. One shift moves a quarter turn from the fan that
+/// edges[i][0] points to, to the one it leaves.
+TurnRepairResult repairTurns(const TurnRepairInput& input);
+
+/// The largest number of quarter turns that a fan of so many triangles can carry: each corner stays
+/// below half a turn.
+int turnLimit(const Fan& fan);
+
+} // namespace quadrille

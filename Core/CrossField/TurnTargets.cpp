@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CrossField/TurnTargets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+
+// Walking along the border of the faces on the left, sector after sector.
+struct BorderWalk
+{
+  std::vector<Index> before; // #fans; the sector at the other end of the incoming constrained edge
+  std::vector<Index> after;  // #fans; ... of the outgoing one
+};
+
+BorderWalk linkSectors(const FieldTopology& topology)
+{
+  const std::size_t count = topology.fans.size();
+  BorderWalk walk{ std::vector<Index>(count, kInvalidIndex),
+    std::vector<Index>(count, kInvalidIndex) };
+  for (Index i = 0; i < count; ++i)
+  {
+    if (topology.fans[i].sector)
+    {
+      // The fan that the start edge of this sector ends in holds the next corner of the same face.
+      const Index next = topology.fanOfCorner[Mesh::next(topology.fans[i].first)];
+      walk.after[i] = next;
+      walk.before[next] = i;
+    }
+  }
+  return walk;
+}
+
+// Turn of the border between its mean directions over `window` before and after sector i: the turns nearby
+// weighted by a hat.
+double windowedTurn(const FieldTopology& topology, const BorderWalk& walk,
+  const std::vector<double>& turn, Index i, double window)
+{
+  double sum = turn[i];
+  for (const bool forward : { true, false })
+  {
+    double distance = 0;
+    Index at = i;
+    while (true)
+    {
+      const Index next = forward ? walk.after[at] : walk.before[at];
+      const Fan& start = topology.fans[forward ? at : next];
+      distance += topology.edgeLength[start.first];
+      if (distance >= window || next == i)
+      {
+        break;
+      }
+      sum += turn[next] * (1 - distance / window);
+      at = next;
+    }
+  }
+  return sum;
+}
+
+} // namespace
+
+std::vector<double> naturalTurns(const FieldTopology& topology, double window)
+{
+  const BorderWalk walk = linkSectors(topology);
+  std::vector<double> turn(topology.fans.size(), 0.0);
+  for (std::size_t i = 0; i < turn.size(); ++i)
+  {
+    turn[i] = topology.fans[i].sector ? topology.fans[i].angle - kPi : 0.0;
+  }
+  std::vector<double> natural(turn.size(), 4.0);
+  for (Index i = 0; i < turn.size(); ++i)
+  {
+    if (!topology.fans[i].sector)
+    {
+      continue;
+    }
+    const double smooth = windowedTurn(topology, walk, turn, i, window);
+    const double kept = turn[i] * smooth > 0
+      ? std::copysign(std::min(std::abs(turn[i]), std::abs(smooth)), turn[i])
+      : 0.0;
+    natural[i] = 2 + kept / (0.5 * kPi);
+  }
+  return natural;
+}
+
+} // namespace quadrille

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Exact integer min-cost flow by successive shortest paths [Ahuja, Magnanti, Orlin 1993, Section 9.7].
+#pragma once
+
+#include "Base/Types.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Supplies are sent to demands along arcs at the least total cost. A convex piecewise linear cost is
+/// a bundle of parallel arcs with growing costs. Integers only, ties by id: the same result on every run.
+///
+/// Made for few supplies on many arcs: each search grows from one supply and ends at the nearest open
+/// demand, so its work is local.
+class MinCostFlow
+{
+public:
+  explicit MinCostFlow(Index nodeCount);
+
+  /// Returns the arc's id. capacity >= 0; the cost may be negative. Throws InvalidInput otherwise,
+  /// and for a node out of range.
+  Index addArc(Index from, Index to, std::int64_t capacity, std::int64_t cost);
+
+  /// Adds to the node's supply; negative amounts are demands.
+  void addSupply(Index node, std::int64_t amount);
+
+  struct Result
+  {
+    std::int64_t cost = 0;
+    std::int64_t unrouted = 0; ///< supply that reaches no open demand; 0 on success
+  };
+  /// Once per object.
+  Result solve();
+
+  /// After solve(): 0..capacity.
+  std::int64_t flow(Index arc) const;
+
+  /// After solve(): supply (> 0) or demand (< 0) left at the node.
+  std::int64_t remaining(Index node) const { return excess_[node]; }
+
+private:
+  // Residual arc 2 a is arc a, 2 a + 1 its reverse.
+  struct ResidualArc
+  {
+    Index to;
+    std::int64_t capacity;
+    std::int64_t cost;
+  };
+
+  void saturateNegativeArcs();
+  void buildAdjacency();
+  Index findNearestDemand(Index source);
+  void settle(Index node);
+  void augment(Index demand);
+
+  std::vector<ResidualArc> arcs_;
+  std::vector<std::int64_t> excess_;
+  std::vector<std::int64_t> potential_;
+  std::vector<std::int64_t> distance_;
+  std::vector<Index> entry_; // residual arc by which the search reached the node
+  std::vector<std::uint8_t> settled_;
+  std::vector<Index> touched_;
+  std::vector<std::pair<std::int64_t, Index>> heap_; // distance and node, least on top
+  std::vector<Index> firstOut_;                      // #nodes + 1
+  std::vector<Index> outgoing_;                      // residual arcs by tail node
+};
+
+} // namespace quadrille
