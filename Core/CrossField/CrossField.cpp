@@ -131,6 +131,78 @@ std::vector<int> repairJumps(const Mesh& mesh, const FieldTopology& topology,
   return repair.turns;
 }
 
+// Angles with jumps whose turns can be mapped.
+struct Solution
+{
+  std::vector<double> angle; // #F
+  std::vector<int> jump;     // #H
+  std::vector<int> turns;    // per fan
+};
+
+// Irregular vertices in each component without constraints.
+std::vector<std::size_t> countIrregular(
+  const FieldTopology& topology, const PowerFields& fields, const std::vector<int>& turns)
+{
+  std::vector<std::size_t> count(fields.looseComponents, 0);
+  for (std::size_t i = 0; i < turns.size(); ++i)
+  {
+    const Index component = fields.looseComponent[Mesh::face(topology.fans[i].first)];
+    if (component != kInvalidIndex && turns[i] != 4)
+    {
+      ++count[component];
+    }
+  }
+  return count;
+}
+
+// Takes over what `other` found in the components that `better` names.
+void adopt(const FieldTopology& topology, const PowerFields& fields,
+  const std::vector<std::uint8_t>& better, const Solution& other, Solution& solution)
+{
+  const auto taken = [&](Index f)
+  { return fields.looseComponent[f] != kInvalidIndex && better[fields.looseComponent[f]] != 0; };
+  for (Index f = 0; f < solution.angle.size(); ++f)
+  {
+    solution.angle[f] = taken(f) ? other.angle[f] : solution.angle[f];
+  }
+  for (Index h = 0; h < solution.jump.size(); ++h)
+  {
+    solution.jump[h] = taken(Mesh::face(h)) ? other.jump[h] : solution.jump[h];
+  }
+  for (std::size_t i = 0; i < solution.turns.size(); ++i)
+  {
+    solution.turns[i] =
+      taken(Mesh::face(topology.fans[i].first)) ? other.turns[i] : solution.turns[i];
+  }
+}
+
+// For each component the candidate with fewer irregular vertices after repair, the first on a tie.
+Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
+  const FieldConstraints& constraints, const PowerFields& fields, double length)
+{
+  Solution best;
+  std::vector<std::size_t> fewest;
+  for (const std::vector<double>& candidate : fields.candidates)
+  {
+    Solution solution{ candidate, roundJumps(mesh, topology, candidate), {} };
+    solution.turns = repairJumps(mesh, topology, constraints, candidate, length, solution.jump);
+    if (best.angle.empty())
+    {
+      best = std::move(solution);
+      fewest = countIrregular(topology, fields, best.turns);
+      continue;
+    }
+    const std::vector<std::size_t> irregular = countIrregular(topology, fields, solution.turns);
+    std::vector<std::uint8_t> better(fields.looseComponents);
+    for (std::size_t c = 0; c < better.size(); ++c)
+    {
+      better[c] = irregular[c] < fewest[c] ? 1 : 0;
+    }
+    adopt(topology, fields, better, solution, best);
+  }
+  return best;
+}
+
 } // namespace
 
 CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options)
@@ -138,22 +210,21 @@ CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options)
   requireInput(mesh, options);
   const FieldTopology topology = buildFieldTopology(mesh);
   const FieldConstraints constraints = fieldConstraints(mesh, topology);
-  const std::vector<double> smooth = powerField(
-    mesh, topology, constraints, constraints.angle, { options.targetEdgeLength, options.progress });
-  std::vector<int> jump = roundJumps(mesh, topology, smooth);
+  const PowerFields fields =
+    powerFields(mesh, topology, constraints, { options.targetEdgeLength, options.progress });
   report(options.progress, 0.6, "cross field: turns");
-  const std::vector<int> turns =
-    repairJumps(mesh, topology, constraints, smooth, options.targetEdgeLength, jump);
+  const Solution solution =
+    bestSolution(mesh, topology, constraints, fields, options.targetEdgeLength);
 
   CrossField field;
   report(options.progress, 0.8, "cross field: angles");
-  field.angle = solveAngles(mesh, topology, constraints, jump, smooth);
+  field.angle = solveAngles(mesh, topology, constraints, solution.jump, solution.angle);
   // Angles never decide turns: the jumps do.
-  assert(turns == countTurns(mesh, topology, constraints, field.angle, jump));
+  assert(solution.turns == countTurns(mesh, topology, constraints, field.angle, solution.jump));
   field.alignment = constraints.alignment;
-  field.matching = matchings(mesh, field.alignment, jump);
-  storeTurns(mesh, topology, turns, field);
-  field.status = turnStatus(topology, turns);
+  field.matching = matchings(mesh, field.alignment, solution.jump);
+  storeTurns(mesh, topology, solution.turns, field);
+  field.status = turnStatus(topology, solution.turns);
   report(options.progress, 1.0, "cross field: done");
   return field;
 }

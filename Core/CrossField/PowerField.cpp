@@ -85,14 +85,14 @@ class ConnectionSystem
 {
 public:
   ConnectionSystem(
-    const FieldTopology& topology, const FreeFaces& free, const std::vector<double>& guide)
+    const FieldTopology& topology, const FreeFaces& free, const std::vector<double>& fixedAngle)
     : size_(static_cast<Eigen::Index>(free.face.size())), mass_(size_),
       fixedPart_(Eigen::VectorXcd::Zero(size_))
   {
     Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(size_);
     for (const std::array<Index, 2>& edge : topology.edges)
     {
-      assembleEdge(topology, free, guide, edge, diagonal);
+      assembleEdge(topology, free, fixedAngle, edge, diagonal);
     }
     for (Eigen::Index i = 0; i < size_; ++i)
     {
@@ -130,7 +130,8 @@ public:
 
 private:
   void assembleEdge(const FieldTopology& topology, const FreeFaces& free,
-    const std::vector<double>& guide, const std::array<Index, 2>& edge, Eigen::VectorXd& diagonal)
+    const std::vector<double>& fixedAngle, const std::array<Index, 2>& edge,
+    Eigen::VectorXd& diagonal)
   {
     const Index f = Mesh::face(edge[0]);
     const Index g = Mesh::face(edge[1]);
@@ -155,11 +156,11 @@ private:
     }
     else if (j != kInvalidIndex)
     {
-      fixedPart_(j) += w * carry * std::polar(1.0, 4 * guide[f]);
+      fixedPart_(j) += w * carry * std::polar(1.0, 4 * fixedAngle[f]);
     }
     else if (i != kInvalidIndex)
     {
-      fixedPart_(i) += w * std::conj(carry) * std::polar(1.0, 4 * guide[g]);
+      fixedPart_(i) += w * std::conj(carry) * std::polar(1.0, 4 * fixedAngle[g]);
     }
   }
 
@@ -219,32 +220,82 @@ Eigen::VectorXcd principalField(
     deviator.swap(sum);
   }
   Eigen::VectorXcd field(static_cast<Eigen::Index>(free.face.size()));
+  double largest = 0;
   for (std::size_t i = 0; i < free.face.size(); ++i)
   {
     const Complex d = deviator[free.face[i]];
-    // Planes and spheres have none: any start will do, but the same on every run.
-    field(static_cast<Eigen::Index>(i)) =
-      d * d / (std::abs(d) + 1e-9 * topology.meanEdgeLength) + 1e-9 * topology.meanEdgeLength;
+    field(static_cast<Eigen::Index>(i)) = std::abs(d) > 0 ? d * d / std::abs(d) : Complex(0);
+    largest = std::max(largest, std::abs(d));
+  }
+  // A symmetric mesh may have no part of the smoothest field in its principal directions (an icosahedral
+  // sphere has none): a weak field that knows no symmetry brings it in.
+  const Vector3 skew =
+    Vector3(0.48, 0.60, 0.64) * std::sqrt(std::sqrt(largest > 0 ? 1e-3 * largest : 1));
+  for (std::size_t i = 0; i < free.face.size(); ++i)
+  {
+    const Vector3 x = mesh.edgeVector(3 * free.face[i]).normalized();
+    const Vector3 n = x.cross(mesh.edgeVector(3 * free.face[i] + 1)).normalized();
+    const Complex tangent(skew.dot(x), skew.dot(n.cross(x)));
+    field(static_cast<Eigen::Index>(i)) += tangent * tangent * tangent * tangent;
   }
   return field;
 }
 
-// Harmonic where constraints reach; elsewhere principal directions, carried from where curvature is
-// strongly anisotropic to where it is not.
-Eigen::VectorXcd initialField(ConnectionSystem& system, const FreeFaces& free,
-  const Eigen::VectorXcd& principal, double totalArea)
+// What `source` puts on the right in components without constraints; the fixed faces elsewhere.
+Eigen::VectorXcd rightSide(
+  const ConnectionSystem& system, const FreeFaces& free, const Eigen::VectorXcd& source)
 {
-  // A screening far below what constraints put in; it also keeps L invertible without any.
-  system.factorize(1.0, 1.0 / totalArea);
   Eigen::VectorXcd right = system.fixedPart();
   for (Eigen::Index i = 0; i < right.size(); ++i)
   {
     if (free.loose[i] != kInvalidIndex)
     {
-      right(i) = system.mass()(i) * principal(i);
+      right(i) = system.mass()(i) * source(i);
     }
   }
-  return system.solve(right);
+  return right;
+}
+
+// Scales each component without constraints to a unit sum of squares.
+void normalizeLoose(const FreeFaces& free, Eigen::VectorXcd& field)
+{
+  std::vector<double> norm(free.looseCount, 0.0);
+  for (Eigen::Index i = 0; i < field.size(); ++i)
+  {
+    if (free.loose[i] != kInvalidIndex)
+    {
+      norm[free.loose[i]] += std::norm(field(i));
+    }
+  }
+  for (Eigen::Index i = 0; i < field.size(); ++i)
+  {
+    if (free.loose[i] != kInvalidIndex)
+    {
+      field(i) /= std::sqrt(std::max(norm[free.loose[i]], 1e-300));
+    }
+  }
+}
+
+// Harmonic where constraints reach. Elsewhere two candidates: principal directions, carried from where
+// curvature is strongly anisotropic to where it is not, and the smoothest eigenfield, by power iterations.
+std::vector<Eigen::VectorXcd> initialFields(ConnectionSystem& system, const FreeFaces& free,
+  const Eigen::VectorXcd& principal, double totalArea)
+{
+  constexpr int kPowerSteps = 10;
+  // A screening far below what constraints put in; it also keeps L invertible without any.
+  system.factorize(1.0, 1.0 / totalArea);
+  std::vector<Eigen::VectorXcd> fields{ system.solve(rightSide(system, free, principal)) };
+  if (free.looseCount > 0)
+  {
+    Eigen::VectorXcd field = fields.front();
+    for (int step = 0; step < kPowerSteps; ++step)
+    {
+      normalizeLoose(free, field);
+      field = system.solve(rightSide(system, free, field));
+    }
+    fields.push_back(std::move(field));
+  }
+  return fields;
 }
 
 void normalizeEach(Eigen::VectorXcd& field)
@@ -256,10 +307,10 @@ void normalizeEach(Eigen::VectorXcd& field)
   }
 }
 
-void diffuseAndNormalize(ConnectionSystem& system, Eigen::VectorXcd& field, double time, int steps)
+// The system has to be factored as time L + M.
+void diffuseAndNormalize(const ConnectionSystem& system, Eigen::VectorXcd& field, double time)
 {
-  system.factorize(time, 1.0);
-  for (int step = 0; step < steps; ++step)
+  for (int step = 0; step < kDiffusionSteps; ++step)
   {
     normalizeEach(field);
     const Eigen::VectorXcd right =
@@ -305,30 +356,42 @@ FieldConstraints fieldConstraints(const Mesh& mesh, const FieldTopology& topolog
   return constraints;
 }
 
-std::vector<double> powerField(const Mesh& mesh, const FieldTopology& topology,
-  const FieldConstraints& constraints, const std::vector<double>& guide,
-  const PowerFieldOptions& options)
+PowerFields powerFields(const Mesh& mesh, const FieldTopology& topology,
+  const FieldConstraints& constraints, const PowerFieldOptions& options)
 {
-  std::vector<double> angle = guide;
+  PowerFields result;
   const FreeFaces free = numberFreeFaces(mesh, constraints);
+  result.looseComponents = free.looseCount;
+  result.looseComponent.assign(mesh.faceCount(), kInvalidIndex);
   if (free.face.empty())
   {
-    return angle;
+    result.candidates.push_back(constraints.angle);
+    return result;
   }
-  ConnectionSystem system(topology, free, guide);
+  ConnectionSystem system(topology, free, constraints.angle);
   report(options.progress, 0.1, "cross field: start");
-  Eigen::VectorXcd field =
-    initialField(system, free, principalField(mesh, topology, free), topology.totalArea);
+  std::vector<Eigen::VectorXcd> fields =
+    initialFields(system, free, principalField(mesh, topology, free), topology.totalArea);
 
   // Below the mesh's own edges there is nothing to smooth that rounding could see.
   const double length = std::max(options.smoothingLength, topology.meanEdgeLength);
+  const double time = 4 * length * length;
   report(options.progress, 0.3, "cross field: diffusion");
-  diffuseAndNormalize(system, field, 4 * length * length, kDiffusionSteps);
+  system.factorize(time, 1.0);
+  for (Eigen::VectorXcd& field : fields)
+  {
+    diffuseAndNormalize(system, field, time);
+    result.candidates.push_back(constraints.angle);
+    for (std::size_t i = 0; i < free.face.size(); ++i)
+    {
+      result.candidates.back()[free.face[i]] = 0.25 * std::arg(field(static_cast<Eigen::Index>(i)));
+    }
+  }
   for (std::size_t i = 0; i < free.face.size(); ++i)
   {
-    angle[free.face[i]] = 0.25 * std::arg(field(static_cast<Eigen::Index>(i)));
+    result.looseComponent[free.face[i]] = free.loose[i];
   }
-  return angle;
+  return result;
 }
 
 double edgeResidual(const FieldTopology& topology, const std::vector<double>& angle,

@@ -30,10 +30,18 @@ struct PowerFieldOptions
   ProgressCallback progress;
 };
 
-/// #F angles; `guide` (#F) holds the angles to use at fixed faces.
-std::vector<double> powerField(const Mesh& mesh, const FieldTopology& topology,
-  const FieldConstraints& constraints, const std::vector<double>& guide,
-  const PowerFieldOptions& options);
+/// Smooth fields to choose from. Where constraints reach they are all the same; a component without
+/// constraints has a first one along its principal directions and a second one that is the smoothest. Neither
+/// is better always: a fat torus is regular only in the first one, a sphere has pairs too many in it.
+struct PowerFields
+{
+  std::vector<std::vector<double>> candidates; ///< each #F angles; one or two
+  std::vector<Index>
+    looseComponent; ///< #F; id of the component without constraints or kInvalidIndex
+  Index looseComponents = 0;
+};
+PowerFields powerFields(const Mesh& mesh, const FieldTopology& topology,
+  const FieldConstraints& constraints, const PowerFieldOptions& options);
 
 /// Residual of half-edge h in radians: how far the field turns across it beyond `jump` quarter turns.
 double edgeResidual(const FieldTopology& topology, const std::vector<double>& angle,

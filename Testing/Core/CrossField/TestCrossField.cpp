@@ -1,12 +1,19 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossField/CrossField.h"
+#include "CrossField/PowerField.h"
+#include "CrossField/TurnRepair.h"
+#include "CrossField/TurnTargets.h"
+#include "CrossField/Turns.h"
 #include "TestMeshes.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
+#include <random>
+#include <string>
 #include <vector>
 
 namespace quadrille
@@ -129,6 +136,13 @@ TEST(CrossField, ClosedSurfacesHaveIndexSumFourChi)
   }
 }
 
+TEST(CrossField, SphereHasEightIrregularVertices)
+{
+  const CrossField field = fieldOf(sphere(3));
+  EXPECT_EQ(std::count(field.turns.begin(), field.turns.end(), 3), 8);
+  EXPECT_EQ(std::count(field.turns.begin(), field.turns.end(), 5), 0);
+}
+
 TEST(CrossField, CubeHasOneQuarterTurnPerSideAtCorners)
 {
   const Mesh mesh = markFeatures(unitCube(4), kFeatureAngle);
@@ -190,6 +204,161 @@ TEST(CrossField, ConstrainedFacesFollowTheirEdge)
       // Rounding of a handful of double operations.
       EXPECT_NEAR(direction.dot(mesh.edgeVector(h).normalized()), 1, 1e-12);
     }
+  }
+}
+
+TEST(CrossField, TorusFollowsItsPrincipalDirections)
+{
+  const CrossField field = fieldOf(torus(40, 20, 1, 0.5), 0.1);
+  EXPECT_EQ(std::count(field.turns.begin(), field.turns.end(), 4), 800);
+}
+
+// Moves every second boundary vertex out and the others in; corners stay.
+Mesh zigzagPlane(int cells, double amplitude)
+{
+  Mesh mesh = gridPlane(cells, cells);
+  for (Vector3& p : mesh.position)
+  {
+    const double sign = static_cast<int>(p.x() + p.y()) % 2 == 0 ? 1.0 : -1.0;
+    const bool onX = p.x() == 0 || p.x() == cells;
+    const bool onY = p.y() == 0 || p.y() == cells;
+    p.x() += onX && !onY ? sign * amplitude : 0.0;
+    p.y() += onY && !onX ? sign * amplitude : 0.0;
+  }
+  return mesh;
+}
+
+TEST(CrossField, ZigzagBoundaryIsStraight)
+{
+  // Turns of 62 degrees left and right: each alone would round to a corner.
+  const Mesh mesh = zigzagPlane(10, 0.3);
+  const CrossField field = fieldOf(mesh, 2);
+  expectValid(mesh, field);
+  EXPECT_EQ(sectorHistogram(mesh, field).at(1), 4);
+  const std::vector<std::uint8_t> integer = integerVertices(mesh, field);
+  EXPECT_EQ(std::count(integer.begin(), integer.end(), 1), 4);
+}
+
+TEST(CrossField, ClosedInTriangleIsInfeasible)
+{
+  Mesh mesh = unitCube(2);
+  for (Index h = 0; h < 3; ++h)
+  {
+    mesh.flags[h] |= kFeatureEdge;
+    mesh.flags[mesh.twin[h]] |= kFeatureEdge;
+  }
+  const CrossField field = fieldOf(mesh);
+  EXPECT_EQ(field.status.code, StatusCode::Infeasible);
+  EXPECT_NE(field.status.message.find("three constrained edges"), std::string::npos);
+  EXPECT_EQ(indexSum(mesh, field), 8);
+}
+
+TEST(CrossField, TriangleWithTwoConstrainedEdgesCarriesOneQuarterTurn)
+{
+  // A single quad cut along its diagonal: two corners are single triangles, two have two.
+  const Mesh mesh = gridPlane(1, 1);
+  const CrossField field = fieldOf(mesh, 1);
+  expectValid(mesh, field);
+  EXPECT_EQ(sectorHistogram(mesh, field).at(1), 4);
+}
+
+// An ellipsoid with dents, without symmetry, so that no two choices tie.
+Mesh dentedEllipsoid()
+{
+  Mesh mesh = sphere(3);
+  for (Vector3& p : mesh.position)
+  {
+    const double dent = 1 + 0.1 * std::sin(3 * p.x() + 1) * std::cos(4 * p.y()) + 0.05 * p.z();
+    p = dent * Vector3(1.7 * p.x(), 1.2 * p.y(), p.z());
+  }
+  return mesh;
+}
+
+// Reverses the order of vertices and faces, starts faces at another corner, and turns the mesh in space.
+Mesh shuffled(const Mesh& mesh)
+{
+  const Index last = mesh.vertexCount() - 1;
+  const Eigen::AngleAxisd turn(0.7, Vector3(1, 2, 3).normalized());
+  std::vector<Vector3> points(mesh.position.rbegin(), mesh.position.rend());
+  for (Vector3& p : points)
+  {
+    p = turn * p;
+  }
+  std::vector<Triangle> triangles;
+  for (Index f = mesh.faceCount(); f-- > 0;)
+  {
+    Triangle t{ last - mesh.origin[3 * f], last - mesh.origin[3 * f + 1],
+      last - mesh.origin[3 * f + 2] };
+    std::rotate(t.begin(), t.begin() + f % 3, t.end());
+    triangles.push_back(t);
+  }
+  return makeMesh(std::move(points), triangles);
+}
+
+TEST(CrossField, TurnsDoNotDependOnOrderOrPosition)
+{
+  const Mesh bumpyPlate = []
+  {
+    Mesh mesh = plateL(6);
+    for (Vector3& p : mesh.position)
+    {
+      p.z() = 0.8 * std::sin(0.7 * p.x()) * std::cos(0.9 * p.y());
+    }
+    return mesh;
+  }();
+  for (const Mesh& mesh : { dentedEllipsoid(), bumpyPlate })
+  {
+    const CrossField field = fieldOf(mesh, 0.3);
+    const CrossField other = fieldOf(shuffled(mesh), 0.3);
+    std::vector<int> back(other.turns.rbegin(), other.turns.rend());
+    EXPECT_EQ(field.turns, back);
+  }
+}
+
+TEST(CrossField, RunsGiveTheSameBytes)
+{
+  const Mesh mesh = dentedEllipsoid();
+  const CrossField first = fieldOf(mesh);
+  const CrossField second = fieldOf(mesh);
+  EXPECT_EQ(first.angle, second.angle);
+  EXPECT_EQ(first.matching, second.matching);
+  EXPECT_EQ(first.turns, second.turns);
+}
+
+TEST(CrossField, RepairMakesAnyJumpsRealizable)
+{
+  const Mesh mesh = dentedEllipsoid();
+  const FieldTopology topology = buildFieldTopology(mesh);
+  const FieldConstraints constraints = fieldConstraints(mesh, topology);
+  const std::vector<double> angle =
+    powerFields(mesh, topology, constraints, { 0.2, {} }).candidates.front();
+  std::vector<int> jump = roundJumps(mesh, topology, angle);
+  std::mt19937 random(3);
+  for (const std::array<Index, 2>& edge : topology.edges)
+  {
+    const int noise = static_cast<int>(random() % 3) - 1;
+    jump[edge[0]] += noise;
+    jump[edge[1]] -= noise;
+  }
+  const std::vector<int> turns = countTurns(mesh, topology, constraints, angle, jump);
+  EXPECT_LT(*std::min_element(turns.begin(), turns.end()), 1); // so there is something to repair
+  std::vector<double> residual;
+  for (const std::array<Index, 2>& edge : topology.edges)
+  {
+    residual.push_back(edgeResidual(topology, angle, mesh, edge[0], jump[edge[0]]));
+  }
+  const std::vector<double> natural = naturalTurns(topology, 0.2);
+  const TurnRepairResult repair = repairTurns({ &topology, &residual, &turns, &natural, 0.2 });
+  for (std::size_t e = 0; e < topology.edges.size(); ++e)
+  {
+    jump[topology.edges[e][0]] += repair.shift[e];
+    jump[topology.edges[e][1]] -= repair.shift[e];
+  }
+  EXPECT_EQ(countTurns(mesh, topology, constraints, angle, jump), repair.turns);
+  for (const int t : repair.turns)
+  {
+    EXPECT_GE(t, 3);
+    EXPECT_LE(t, 5);
   }
 }
 
