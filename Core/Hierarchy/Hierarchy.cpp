@@ -6,13 +6,13 @@
 #include "Hierarchy/DecimationMesh.h"
 #include "Hierarchy/LogBuilder.h"
 #include "Hierarchy/UniformDecimation.h"
-#include "Mesh/Topology.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 namespace quadrille
 {
@@ -47,27 +47,52 @@ void checkOptions(const Mesh& fine, const HierarchyOptions& options)
   }
 }
 
+/// The lowest vertex of each vertex's component, by merging along all edges.
+std::vector<Index> componentRoots(const Mesh& fine)
+{
+  std::vector<Index> parent(fine.vertexCount());
+  std::iota(parent.begin(), parent.end(), Index{ 0 });
+  const auto root = [&](Index v)
+  {
+    while (parent[v] != v)
+    {
+      parent[v] = parent[parent[v]];
+      v = parent[v];
+    }
+    return v;
+  };
+  for (Index h = 0; h < fine.halfEdgeCount(); ++h)
+  {
+    const Index a = root(fine.origin[h]);
+    const Index b = root(fine.target(h));
+    parent[std::max(a, b)] = std::min(a, b);
+  }
+  for (Index v = 0; v < fine.vertexCount(); ++v)
+  {
+    parent[v] = parent[parent[v]]; // the parent is lower, so its own root is final already
+  }
+  return parent;
+}
+
 /// Factor on s per vertex; empty when no component is small against s.
 std::vector<float> componentScales(const Mesh& fine, double edgeLength)
 {
-  Index count = 0;
-  const std::vector<Index> component = faceComponents(fine, count);
-  std::vector<double> area(count, 0.0);
+  const std::vector<Index> component = componentRoots(fine);
+  std::vector<float> scales(fine.vertexCount(), 0.0F);
+  std::vector<double> area(fine.vertexCount(), 0.0); // at the roots
   for (Index f = 0; f < fine.faceCount(); ++f)
   {
-    area[component[f]] += 0.5 * fine.edgeVector(3 * f).cross(fine.edgeVector(3 * f + 1)).norm();
+    area[component[fine.origin[3 * f]]] +=
+      0.5 * fine.edgeVector(3 * f).cross(fine.edgeVector(3 * f + 1)).norm();
   }
-  const auto scale = [&](double a) { return std::sqrt(a / kSmallComponent) / edgeLength; };
-  if (std::all_of(area.begin(), area.end(), [&](double a) { return scale(a) >= 1; }))
+  bool anySmall = false;
+  for (Index v = 0; v < fine.vertexCount(); ++v)
   {
-    return {};
+    const double scale = std::sqrt(area[component[v]] / kSmallComponent) / edgeLength;
+    scales[v] = static_cast<float>(std::min(1.0, scale));
+    anySmall = anySmall || scale < 1;
   }
-  std::vector<float> scales(fine.vertexCount(), 1.0F);
-  for (Index h = 0; h < fine.halfEdgeCount(); ++h)
-  {
-    scales[fine.origin[h]] = static_cast<float>(std::min(1.0, scale(area[component[h / 3]])));
-  }
-  return scales;
+  return anySmall ? scales : std::vector<float>();
 }
 
 /// The share [begin, end] of the whole progress.

@@ -142,8 +142,9 @@ void UniformDecimation::assignOwners(const std::vector<Index>& borders)
     {
       for (Index h = 3 * borders[block]; h < 3 * borders[block + 1]; ++h)
       {
-        if (!mesh_.isAlive(h / 3))
+        if (mesh_.origin[h - h % 3] == kInvalidIndex)
         {
+          h += 2; // a dead face, entered at its first corner
           continue;
         }
         // Whatever the order of the blocks: one block leaves its number, two leave kShared.
@@ -185,10 +186,15 @@ std::size_t UniformDecimation::round(double threshold, bool serial)
 void UniformDecimation::sweep(Index begin, Index end, Index block, double threshold,
   std::uint16_t stamp, VertexRemoval& removal, RecordWriter& log)
 {
-  for (Index h = 3 * begin; h < 3 * end; ++h)
+  for (Index f = begin; f < end; ++f)
   {
-    if (mesh_.isAlive(h / 3) && visit(h, block, threshold, stamp, removal))
+    // A removal may kill the very face that is being visited.
+    for (Index h = 3 * f; h < 3 * f + 3 && mesh_.isAlive(f); ++h)
     {
+      if (!visit(h, block, threshold, stamp, removal))
+      {
+        continue;
+      }
       for (int i = 0; i < removal.ringSize(); ++i)
       {
         lock_[removal.ringVertex(i)] = stamp;

@@ -27,10 +27,19 @@ double cross(const Vector2& a, const Vector2& b)
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// 2 sqrt(3) (doubled area) / (sum of squared edges): 1 for an equilateral triangle.
+/// Doubled area times this over the sum of squared edges is 1 for an equilateral triangle: 2 sqrt(3).
+constexpr double kEquilateral = 3.4641016151377544;
+
 double quality(double doubledArea, double squaredEdges)
 {
-  return squaredEdges > 0 ? 2 * 1.7320508075688772 * doubledArea / squaredEdges : 0;
+  return squaredEdges > 0 ? kEquilateral * doubledArea / squaredEdges : 0;
+}
+
+/// |ab|^2 + |ac|^2 + |ac - ab|^2
+template <typename Vector>
+double sumOfSquares(const Vector& ab, const Vector& ac)
+{
+  return 2 * (ab.squaredNorm() + ac.squaredNorm() - ab.dot(ac));
 }
 
 } // namespace
@@ -141,12 +150,12 @@ bool VertexRemoval::plan(const RemovalGuards& guards)
   {
     return false;
   }
-  if (!triangulate(guards) || !valencesFit(guards) || !locate())
+  if (!triangulate(guards))
   {
     return false;
   }
-  finishPlan();
-  return true;
+  countDiagonals();
+  return valencesFit(guards) && locate();
 }
 
 bool VertexRemoval::curveStaysClose(const RemovalGuards& guards) const
@@ -182,6 +191,7 @@ bool VertexRemoval::measureStar()
   sideNormal_ = { Vector3::Zero(), Vector3::Zero() };
   starArea_ = 0;
   starQuality_ = 1;
+  constrainedFaces_ = false;
   for (int i = 0; i < ringSize_; ++i)
   {
     if (!(length_[index(i)] > 0))
@@ -203,8 +213,13 @@ bool VertexRemoval::measureStar()
     angle_[index(i)] = std::atan2(doubled, dot);
     sideNormal_[onCurve_ && i >= curveEnd_ ? 1 : 0] += n;
     normal_[index(i)] = shape > kSliverQuality ? Vector3(n / doubled) : Vector3(Vector3::Zero());
-    const Index ringEdge = Mesh::next(slot_[index(i)]);
-    constrainedEdge_[index(i)] = anyConstrained_ && mesh_.isConstrained(ringEdge) ? 1 : 0;
+    if (anyConstrained_)
+    {
+      const auto free = [&](int k)
+      { return mesh_.curves.kind[ring_[index(k)]] == VertexKind::Free; };
+      constrainedEdge_[index(i)] = mesh_.isConstrained(Mesh::next(slot_[index(i)])) ? 1 : 0;
+      constrainedFaces_ = constrainedFaces_ || (onCurve_ && !free(i) && !free(j));
+    }
   }
   for (Vector3& n : sideNormal_)
   {
@@ -298,6 +313,8 @@ void VertexRemoval::forbidChords()
 bool VertexRemoval::triangulate(const RemovalGuards& guards)
 {
   std::fill(forbidden_.begin(), forbidden_.begin() + ringSize_, std::uint64_t{ 0 });
+  leastPlanar_ = std::clamp(0.3 * starQuality_, 1e-6, kMinimumPlanarQuality) / kEquilateral;
+  mostHarmonic_ = 1 / std::clamp(0.95 * starQuality_, 1e-6, guards.minimumQuality);
   if (anyConstrained_)
   {
     forbidChords();
@@ -393,10 +410,7 @@ double VertexRemoval::triangleCost(int a, int b, int c, const RemovalGuards& gua
 {
   const Vector2 ab2 = planar_[index(b)] - planar_[index(a)];
   const Vector2 ac2 = planar_[index(c)] - planar_[index(a)];
-  const double planarArea = cross(ab2, ac2);
-  const double planarEdges = ab2.squaredNorm() + ac2.squaredNorm() + (ac2 - ab2).squaredNorm();
-  const double leastPlanar = std::clamp(0.3 * starQuality_, 1e-6, kMinimumPlanarQuality);
-  if (!(quality(planarArea, planarEdges) > leastPlanar))
+  if (!(cross(ab2, ac2) > leastPlanar_ * sumOfSquares(ab2, ac2)))
   {
     return kInfinity;
   }
@@ -404,31 +418,33 @@ double VertexRemoval::triangleCost(int a, int b, int c, const RemovalGuards& gua
   const Vector3 ac = spoke_[index(c)] - spoke_[index(a)];
   const Vector3 n = ab.cross(ac);
   const double doubled = n.norm();
-  const double shape = quality(doubled, 2 * (ab.squaredNorm() + ac.squaredNorm() - ab.dot(ac)));
-  if (!(shape > 1e-6) || shape < std::min(guards.minimumQuality, 0.95 * starQuality_))
+  const double harmonic = sumOfSquares(ab, ac) / (kEquilateral * doubled); // 1 / quality
+  if (!(harmonic <= mostHarmonic_))
   {
     return kInfinity;
   }
-  if (shape < kSliverQuality)
+  // A sliver stands in the place of another sliver; its normal says nothing.
+  if (harmonic * kSliverQuality < 1 && !normalFits(a, b, c, n, guards.minimumNormalDot * doubled))
   {
-    // In the place of another sliver; its normal says nothing.
-    return 1 / shape + (anyConstrained_ ? constraintCost(a, b, c, guards) : 0);
+    return kInfinity;
   }
+  return harmonic + (anyConstrained_ ? constraintCost(a, b, c, guards) : 0);
+}
+
+bool VertexRemoval::normalFits(int a, int b, int c, const Vector3& n, double least) const
+{
   // Second side of a curve: its ring positions run from curveEnd_ on (0 closes it).
   const int side = onCurve_ && !boundary_ && b > curveEnd_ ? 1 : 0;
-  const double least = guards.minimumNormalDot * doubled;
   if (n.dot(sideNormal_[index(side)]) < least)
   {
-    return kInfinity;
+    return false;
   }
-  for (const int face : { starFace(a, b), starFace(b, c), starFace(c, a) })
+  const auto fits = [&](int face)
   {
-    if (face >= 0 && n.dot(normal_[index(face)]) < least && !normal_[index(face)].isZero(0))
-    {
-      return kInfinity;
-    }
-  }
-  return 1 / shape + (anyConstrained_ ? constraintCost(a, b, c, guards) : 0);
+    // The zero normal of an old sliver excuses any turn.
+    return face < 0 || n.dot(normal_[index(face)]) >= least || normal_[index(face)].isZero(0);
+  };
+  return fits(starFace(a, b)) && fits(starFace(b, c)) && fits(starFace(c, a));
 }
 
 double VertexRemoval::constraintCost(int a, int b, int c, const RemovalGuards& guards) const
@@ -451,7 +467,7 @@ double VertexRemoval::constraintCost(int a, int b, int c, const RemovalGuards& g
   {
     return 0;
   }
-  return guards.allowConstrainedFaces ? kConstrainedFaceCost : kInfinity;
+  return guards.allowConstrainedFaces || constrainedFaces_ ? kConstrainedFaceCost : kInfinity;
 }
 
 bool VertexRemoval::forbidExistingDiagonals()
@@ -489,20 +505,10 @@ bool VertexRemoval::closesTetrahedron() const
 
 bool VertexRemoval::valencesFit(const RemovalGuards& guards) const
 {
-  std::array<std::uint8_t, kN> count{};
-  for (int t = 0; t < triangleCount_; ++t)
-  {
-    ++count[triangles_[index(t)].a];
-    ++count[triangles_[index(t)].b];
-    ++count[triangles_[index(t)].c];
-  }
   for (int i = 0; i < ringSize_; ++i)
   {
-    // A ring vertex with m new triangles has m - 1 new diagonals and loses the spoke; at the ends of an open
-    // star it gains the new boundary edge instead of it.
-    const bool end = boundary_ && (i == 0 || i == ringSize_ - 1);
     const int before = mesh_.valence[ring_[index(i)]];
-    const int after = before + count[index(i)] - 2 + (end ? 1 : 0);
+    const int after = newValence(i);
     const bool free = mesh_.curves.kind[ring_[index(i)]] == VertexKind::Free;
     if ((free && after < guards.minimumValence && after < before) || after < 2 ||
       (after > guards.maximumValence && after > before))
@@ -560,21 +566,14 @@ bool VertexRemoval::locate()
   return true;
 }
 
-void VertexRemoval::finishPlan()
+void VertexRemoval::countDiagonals()
 {
   std::fill(diagonals_.begin(), diagonals_.begin() + ringSize_, std::uint8_t{ 0 });
-  worstQuality_ = 1;
   for (int t = 0; t < triangleCount_; ++t)
   {
-    const Triangle& triangle = triangles_[index(t)];
-    for (const std::uint8_t corner : { triangle.a, triangle.b, triangle.c })
-    {
-      ++diagonals_[corner];
-    }
-    const Vector3 ab = spoke_[triangle.b] - spoke_[triangle.a];
-    const Vector3 ac = spoke_[triangle.c] - spoke_[triangle.a];
-    worstQuality_ = std::min(worstQuality_,
-      quality(ab.cross(ac).norm(), 2 * (ab.squaredNorm() + ac.squaredNorm() - ab.dot(ac))));
+    ++diagonals_[triangles_[index(t)].a];
+    ++diagonals_[triangles_[index(t)].b];
+    ++diagonals_[triangles_[index(t)].c];
   }
   for (int i = 0; i < ringSize_; ++i)
   {
@@ -582,8 +581,22 @@ void VertexRemoval::finishPlan()
   }
 }
 
+double VertexRemoval::worstQuality() const
+{
+  double worst = 1;
+  for (int t = 0; t < triangleCount_; ++t)
+  {
+    const Triangle& triangle = triangles_[index(t)];
+    const Vector3 ab = spoke_[triangle.b] - spoke_[triangle.a];
+    const Vector3 ac = spoke_[triangle.c] - spoke_[triangle.a];
+    worst = std::min(worst, quality(ab.cross(ac).norm(), sumOfSquares(ab, ac)));
+  }
+  return worst;
+}
+
 int VertexRemoval::newValence(int i) const
 {
+  // The spoke goes; at the ends of an open star the new boundary edge takes its place.
   const bool end = boundary_ && (i == 0 || i == ringSize_ - 1);
   return mesh_.valence[ring_[index(i)]] + diagonals_[index(i)] - 1 + (end ? 1 : 0);
 }

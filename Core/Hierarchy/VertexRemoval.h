@@ -28,7 +28,8 @@ struct RemovalGuards
   double minimumNormalDot = 0.4;
   int minimumValence = 4; ///< of free ring vertices, unless they had less before
   int maximumValence = 16;
-  /// Allow faces whose three vertices lie on constrained curves (never on one and the same).
+  /// Allow faces whose three vertices lie on constrained curves (never two on one by a chord) where the star has
+  /// none yet.
   bool allowConstrainedFaces = false;
   double curveTolerance = 0; ///< distance by which a curve may deviate from the input's
 };
@@ -51,7 +52,7 @@ public:
   bool plan(const RemovalGuards& guards);
 
   /// After plan(): the worst quality of the new triangles.
-  double worstQuality() const { return worstQuality_; }
+  double worstQuality() const;
   double starArea() const { return starArea_; }
   /// After plan(): valence of the ring vertex afterwards.
   int newValence(int i) const;
@@ -88,12 +89,13 @@ private:
   bool triangulatePolygon(const int* polygon, int count, const RemovalGuards& guards);
   void collectTriangles(const int* polygon, int i, int j);
   double triangleCost(int a, int b, int c, const RemovalGuards& guards) const;
+  bool normalFits(int a, int b, int c, const Vector3& n, double least) const;
   double constraintCost(int a, int b, int c, const RemovalGuards& guards) const;
   bool forbidExistingDiagonals();
   bool closesTetrahedron() const;
   bool valencesFit(const RemovalGuards& guards) const;
   bool locate();
-  void finishPlan();
+  void countDiagonals();
 
   int bestTarget() const;
   CollapseRecord makeRecord(int target) const;
@@ -119,6 +121,9 @@ private:
   std::array<Vector3, 2> sideNormal_{};
   double starArea_ = 0;
   double starQuality_ = 0;
+  bool constrainedFaces_ = false; ///< a face of the star has three constrained vertices
+  double leastPlanar_ = 0;        ///< doubled area over sum of squared edges, of planar triangles
+  double mostHarmonic_ = 0;       ///< harmonic index (1 / quality) of new triangles
 
   std::array<std::uint64_t, kN> forbidden_{};
   std::array<std::array<double, kN>, kN> best_{};
@@ -126,7 +131,6 @@ private:
   std::array<Triangle, kN> triangles_{};
   int triangleCount_ = 0;
   std::array<std::uint8_t, kN> diagonals_{}; ///< new diagonals at each ring vertex
-  double worstQuality_ = 0;
 
   std::array<std::uint8_t, 3> weightRing_{};
   std::array<double, 2> weight_{};
