@@ -56,13 +56,14 @@ int cheapestTurns(const Fan& fan, double natural)
 }
 
 // Nodes are fans; the last one (the hub) takes up what fans deviate from their cheapest turns. Its
-// balance is zero by the sum rule.
+// balance follows from the sum rule, so it may be the flow's ground.
 class RepairFlow
 {
 public:
   explicit RepairFlow(const TurnRepairInput& input)
     : input_(input), hub_(static_cast<Index>(input.turns->size())), flow_(hub_ + 1)
   {
+    flow_.setGround(hub_);
     for (Index i = 0; i < hub_; ++i)
     {
       addFan(i);
@@ -108,7 +109,6 @@ private:
     const int cheapest = cheapestTurns(fan, natural);
     const int excess = (*input_.turns)[i] - cheapest;
     flow_.addSupply(i, excess);
-    flow_.addSupply(hub_, -excess);
     for (int step = 0; step < kNodeSteps; ++step)
     {
       const double here = fanCost(fan, natural, cheapest + step);

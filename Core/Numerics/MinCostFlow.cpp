@@ -5,6 +5,7 @@
 #include "Base/Error.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 
@@ -41,6 +42,15 @@ void MinCostFlow::addSupply(Index node, std::int64_t amount)
     throw InvalidInput("flow: supply at a node that does not exist");
   }
   excess_[node] += amount;
+}
+
+void MinCostFlow::setGround(Index node)
+{
+  if (node >= excess_.size())
+  {
+    throw InvalidInput("flow: the ground has to be an existing node");
+  }
+  ground_ = node;
 }
 
 std::int64_t MinCostFlow::flow(Index arc) const
@@ -83,44 +93,54 @@ void MinCostFlow::buildAdjacency()
   }
 }
 
-void MinCostFlow::settle(Index node)
+bool MinCostFlow::isGoal(Index node, Direction direction) const
 {
+  return node == ground_ ||
+    (direction == Direction::Forward ? excess_[node] < 0 : excess_[node] > 0);
+}
+
+void MinCostFlow::settle(Index node, Direction direction)
+{
+  const bool forward = direction == Direction::Forward;
   settled_[node] = 1;
   for (Index k = firstOut_[node]; k < firstOut_[node + 1]; ++k)
   {
-    const ResidualArc& arc = arcs_[outgoing_[k]];
-    if (arc.capacity == 0 || settled_[arc.to] != 0)
+    const Index other = arcs_[outgoing_[k]].to;
+    const Index used = forward ? outgoing_[k] : outgoing_[k] ^ 1; // backward: other -> node
+    if (arcs_[used].capacity == 0 || settled_[other] != 0)
     {
       continue;
     }
-    const std::int64_t length = distance_[node] + arc.cost + potential_[node] - potential_[arc.to];
-    if (length < distance_[arc.to])
+    const std::int64_t step =
+      forward ? potential_[node] - potential_[other] : potential_[other] - potential_[node];
+    const std::int64_t length = distance_[node] + arcs_[used].cost + step;
+    if (length < distance_[other])
     {
-      if (distance_[arc.to] == kUnreached)
+      if (distance_[other] == kUnreached)
       {
-        touched_.push_back(arc.to);
+        touched_.push_back(other);
       }
-      distance_[arc.to] = length;
-      entry_[arc.to] = outgoing_[k];
-      heap_.emplace_back(length, arc.to);
+      distance_[other] = length;
+      entry_[other] = used;
+      heap_.emplace_back(length, other);
       std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
     }
   }
 }
 
-// Dijkstra on reduced costs. Returns the first open demand reached, and lowers the potentials of settled
+// Dijkstra on reduced costs. Returns the first goal reached, and shifts the potentials of settled
 // nodes so that the path to it costs nothing and no reduced cost becomes negative.
-Index MinCostFlow::findNearestDemand(Index source)
+Index MinCostFlow::findNearest(Index start, Direction direction)
 {
   for (const Index node : touched_)
   {
     distance_[node] = kUnreached;
     settled_[node] = 0;
   }
-  touched_.assign(1, source);
-  heap_.assign(1, { 0, source });
-  distance_[source] = 0;
-  entry_[source] = kInvalidIndex;
+  touched_.assign(1, start);
+  heap_.assign(1, { 0, start });
+  distance_[start] = 0;
+  entry_[start] = kInvalidIndex;
   while (!heap_.empty())
   {
     const Index node = heap_.front().second;
@@ -130,35 +150,61 @@ Index MinCostFlow::findNearestDemand(Index source)
     {
       continue;
     }
-    if (excess_[node] < 0)
+    if (isGoal(node, direction))
     {
+      const std::int64_t sign = direction == Direction::Forward ? 1 : -1;
       for (const Index reached : touched_)
       {
-        potential_[reached] += settled_[reached] != 0 ? distance_[reached] - distance_[node] : 0;
+        potential_[reached] +=
+          settled_[reached] != 0 ? sign * (distance_[reached] - distance_[node]) : 0;
       }
       return node;
     }
-    settle(node);
+    settle(node, direction);
   }
   return kInvalidIndex;
 }
 
-void MinCostFlow::augment(Index demand)
+void MinCostFlow::augment(Index start, Index goal)
 {
-  std::int64_t amount = -excess_[demand];
-  Index node = demand;
-  while (entry_[node] != kInvalidIndex)
+  const auto previous = [&](Index node)
+  {
+    const ResidualArc& arc = arcs_[entry_[node]];
+    return arc.to == node ? arcs_[entry_[node] ^ 1].to : arc.to;
+  };
+  std::int64_t amount = std::abs(excess_[start]);
+  if (goal != ground_)
+  {
+    amount = std::min(amount, std::abs(excess_[goal]));
+  }
+  for (Index node = goal; node != start; node = previous(node))
   {
     amount = std::min(amount, arcs_[entry_[node]].capacity);
-    node = arcs_[entry_[node] ^ 1].to;
   }
-  amount = std::min(amount, excess_[node]);
-  excess_[node] -= amount;
-  excess_[demand] += amount;
-  for (node = demand; entry_[node] != kInvalidIndex; node = arcs_[entry_[node] ^ 1].to)
+  for (Index node = goal; node != start; node = previous(node))
   {
     arcs_[entry_[node]].capacity -= amount;
     arcs_[entry_[node] ^ 1].capacity += amount;
+  }
+  const std::int64_t moved = excess_[start] > 0 ? amount : -amount;
+  excess_[start] -= moved;
+  excess_[goal] += moved;
+}
+
+void MinCostFlow::route(Direction direction)
+{
+  for (Index start = 0; start < excess_.size(); ++start)
+  {
+    while (start != ground_ &&
+      (direction == Direction::Forward ? excess_[start] > 0 : excess_[start] < 0))
+    {
+      const Index goal = findNearest(start, direction);
+      if (goal == kInvalidIndex)
+      {
+        break; // and no later path opens: a goal out of reach now stays so
+      }
+      augment(start, goal);
+    }
   }
 }
 
@@ -166,22 +212,19 @@ MinCostFlow::Result MinCostFlow::solve()
 {
   saturateNegativeArcs();
   buildAdjacency();
-  for (Index source = 0; source < excess_.size(); ++source)
+  route(Direction::Forward);
+  if (ground_ != kInvalidIndex)
   {
-    while (excess_[source] > 0)
-    {
-      const Index demand = findNearestDemand(source);
-      if (demand == kInvalidIndex)
-      {
-        break; // and no later path opens: a demand out of reach now stays so
-      }
-      augment(demand);
-    }
+    route(Direction::Backward); // only the ground can serve what demand is left
   }
   Result result;
-  for (const std::int64_t left : excess_)
+  for (Index node = 0; node < excess_.size(); ++node)
   {
-    result.unrouted += std::max<std::int64_t>(left, 0);
+    if (node != ground_)
+    {
+      result.unrouted += ground_ == kInvalidIndex ? std::max<std::int64_t>(excess_[node], 0)
+                                                  : std::abs(excess_[node]);
+    }
   }
   for (std::size_t i = 0; i < arcs_.size(); i += 2)
   {

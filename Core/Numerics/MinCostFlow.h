@@ -16,7 +16,8 @@ namespace quadrille
 /// a bundle of parallel arcs with growing costs. Integers only, ties by id: the same result on every run.
 ///
 /// Made for few supplies on many arcs: each search grows from one supply and ends at the nearest open
-/// demand, so its work is local.
+/// demand, so its work is local. A node through which all would go may be made the ground: it gives and
+/// takes without limit, and no search has to pass it.
 class MinCostFlow
 {
 public:
@@ -29,10 +30,13 @@ public:
   /// Adds to the node's supply; negative amounts are demands.
   void addSupply(Index node, std::int64_t amount);
 
+  /// Makes the node the ground; then every other supply and demand has to be met.
+  void setGround(Index node);
+
   struct Result
   {
     std::int64_t cost = 0;
-    std::int64_t unrouted = 0; ///< supply that reaches no open demand; 0 on success
+    std::int64_t unrouted = 0; ///< supply (with a ground: also demand) that is left; 0 on success
   };
   /// Once per object.
   Result solve();
@@ -54,12 +58,21 @@ private:
 
   void saturateNegativeArcs();
   void buildAdjacency();
-  Index findNearestDemand(Index source);
-  void settle(Index node);
-  void augment(Index demand);
+  // Searches run along arcs from a supply, or against them from a demand.
+  enum class Direction
+  {
+    Forward,
+    Backward
+  };
+  bool isGoal(Index node, Direction direction) const;
+  Index findNearest(Index start, Direction direction);
+  void settle(Index node, Direction direction);
+  void augment(Index start, Index goal);
+  void route(Direction direction);
 
   std::vector<ResidualArc> arcs_;
   std::vector<std::int64_t> excess_;
+  Index ground_ = kInvalidIndex;
   std::vector<std::int64_t> potential_;
   std::vector<std::int64_t> distance_;
   std::vector<Index> entry_; // residual arc by which the search reached the node

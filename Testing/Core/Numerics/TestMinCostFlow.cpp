@@ -52,7 +52,8 @@ SmallGraph randomGraph(std::mt19937& random, bool negativeCosts)
 }
 
 // Least cost over all flows that meet every supply, by trying each of them.
-std::optional<std::int64_t> bruteForce(const SmallGraph& graph)
+// The first `freeNodes` nodes' supplies need not be met.
+std::optional<std::int64_t> bruteForce(const SmallGraph& graph, std::size_t freeNodes = 0)
 {
   std::optional<std::int64_t> best;
   std::vector<std::int64_t> flow(graph.arcs.size(), 0);
@@ -66,7 +67,8 @@ std::optional<std::int64_t> bruteForce(const SmallGraph& graph)
       left[graph.arcs[a].to] += flow[a];
       cost += flow[a] * graph.arcs[a].cost;
     }
-    if (std::all_of(left.begin(), left.end(), [](std::int64_t x) { return x == 0; }))
+    if (std::all_of(left.begin() + static_cast<long>(freeNodes), left.end(),
+          [](std::int64_t x) { return x == 0; }))
     {
       best = std::min(best.value_or(cost), cost);
     }
@@ -122,6 +124,37 @@ TEST(MinCostFlow, AgreesWithBruteForce)
     }
   }
   // Both kinds have to occur, or the comparison says little.
+  EXPECT_GT(feasible, 100);
+  EXPECT_LT(feasible, 400);
+}
+
+TEST(MinCostFlow, GroundAgreesWithBruteForce)
+{
+  std::mt19937 random(11);
+  int feasible = 0;
+  for (int round = 0; round < 400; ++round)
+  {
+    SmallGraph graph = randomGraph(random, round % 2 == 1);
+    graph.supply[1] += round % 3 - 1; // the rest need not balance: node 0 gives and takes
+    MinCostFlow flow(static_cast<Index>(graph.supply.size()));
+    flow.setGround(0);
+    for (Index node = 1; node < graph.supply.size(); ++node)
+    {
+      flow.addSupply(node, graph.supply[node]);
+    }
+    for (const SmallGraph::Arc& arc : graph.arcs)
+    {
+      flow.addArc(arc.from, arc.to, arc.capacity, arc.cost);
+    }
+    const MinCostFlow::Result result = flow.solve();
+    const std::optional<std::int64_t> expected = bruteForce(graph, 1);
+    ASSERT_EQ(result.unrouted == 0, expected.has_value()) << "round " << round;
+    if (expected)
+    {
+      ++feasible;
+      ASSERT_EQ(result.cost, *expected) << "round " << round;
+    }
+  }
   EXPECT_GT(feasible, 100);
   EXPECT_LT(feasible, 400);
 }
