@@ -22,13 +22,14 @@ namespace quadrille
 /// Exactly one of the three sizes is used: quads, else edgeLength, else relativeEdgeLength.
 struct RemeshOptions
 {
-  std::optional<std::size_t> quads;         ///< target number of quads, >= 1
-  std::optional<double> edgeLength;         ///< target edge length in units of the input, > 0
-  double relativeEdgeLength = 0.02;         ///< target edge length over the bounding-box diagonal, > 0
-  std::optional<double> featureAngle = 0.6981317007977318; ///< radians (40 degrees); none: no detection
-  Index coarseVertices = 1000;              ///< budget of the coarse level
+  std::optional<std::size_t> quads; ///< target number of quads, >= 1
+  std::optional<double> edgeLength; ///< target edge length in units of the input, > 0
+  double relativeEdgeLength = 0.02; ///< target edge length over the bounding-box diagonal, > 0
+  std::optional<double> featureAngle =
+    0.6981317007977318;        ///< radians (40 degrees); none: no detection
+  Index coarseVertices = 1000; ///< budget of the coarse level
   std::size_t maximumQuads = 10000000;
-  int threads = 0;                          ///< 0: all; the result does not depend on it
+  int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;
 };
 
@@ -46,19 +47,21 @@ struct RemeshResult
 {
   Status status;
   QuadMesh quads;
-  PreparedSurface surface;            ///< the finest level that uv belongs to
-  std::vector<FixedVec2> uv;          ///< #H of surface.mesh
-  std::vector<std::int8_t> matching;  ///< #H of surface.mesh: rotation of the transition
-  std::vector<int> turns;             ///< #V of surface.mesh
-  Level coarse;                       ///< coarse mesh
-  std::vector<FixedVec2> coarseUv;
-  Certificate coarseCertificate;      ///< of the coarse map
-  Certificate certificate;            ///< of the map on the input surface
-  TransferResult transfer;            ///< counts only, uv is moved out
+  PreparedSurface surface;           ///< the finest level that uv belongs to
+  std::vector<FixedVec2> uv;         ///< #H of surface.mesh
+  std::vector<std::int8_t> matching; ///< #H of surface.mesh: rotation of the transition
+  std::vector<int> turns;            ///< #V of surface.mesh
+  Level coarse;                      ///< coarse mesh
+  std::vector<FixedVec2> coarseUv;    ///< #H of coarse.mesh; also when the status is not ok, for a look
+  std::vector<int> coarseTurns;       ///< #V of coarse.mesh
+  Certificate coarseCertificate; ///< of the coarse map
+  Certificate certificate;       ///< of the map on the input surface
+  TransferResult transfer;       ///< counts only, uv is moved out
   std::vector<StageRecord> stages;
   double targetEdgeLength = 0;
-  std::size_t targetQuads = 0;        ///< predicted from the edge length where none was asked
-  std::vector<std::string> notices;   ///< what the user should know: repairs, raised budgets, refinement
+  std::size_t targetQuads = 0; ///< predicted from the edge length where none was asked
+  std::vector<std::string>
+    notices; ///< what the user should know: repairs, raised budgets, refinement
 };
 
 /// Runs everything. Throws InvalidInput for bad input or options; any other failure, cancel included, is a

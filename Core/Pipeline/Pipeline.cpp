@@ -1,0 +1,389 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/Pipeline.h"
+
+#include "Base/Parallel.h"
+#include "Mesh/Topology.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <queue>
+
+namespace quadrille
+{
+namespace
+{
+
+/// How often the coarse level is rebuilt with more freedom around the offenders of a failed map.
+constexpr int kMaximumAttempts = 4;
+/// Rings of intermediate vertices that are kept around an offender.
+constexpr int kFreedomRings = 2;
+
+double now()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+ProgressCallback subProgress(
+  const ProgressCallback& progress, double begin, double end, const std::string& prefix)
+{
+  if (!progress)
+  {
+    return {};
+  }
+  return [=](double fraction, const std::string& text)
+  { return progress(begin + (end - begin) * std::clamp(fraction, 0.0, 1.0), prefix + text); };
+}
+
+void checkOptions(const RemeshOptions& options)
+{
+  const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
+  if (options.quads && *options.quads < 1)
+  {
+    throw InvalidInput("the target number of quads must be at least 1");
+  }
+  if (options.edgeLength && !positive(*options.edgeLength))
+  {
+    throw InvalidInput("the target edge length must be a positive number");
+  }
+  if (!options.quads && !options.edgeLength && !positive(options.relativeEdgeLength))
+  {
+    throw InvalidInput("the relative target edge length must be a positive number");
+  }
+  if (options.featureAngle && !(*options.featureAngle > 0 && *options.featureAngle <= M_PI))
+  {
+    throw InvalidInput("the feature angle must be above 0 and at most 180 degrees");
+  }
+  if (options.coarseVertices < 4)
+  {
+    throw InvalidInput("the coarse level needs at least 4 vertices");
+  }
+}
+
+/// The run of one remesh() call; each method is one stage and fills its part of the result.
+class Run
+{
+public:
+  Run(const SurfaceInput& input, const RemeshOptions& options) : input_(input), options_(options) {}
+
+  RemeshResult execute()
+  {
+    checkOptions(options_);
+    try
+    {
+      prepare();
+      chooseEdgeLength();
+      if (!refuseTooMany())
+      {
+        refine();
+        if (computeCoarseMap())
+        {
+          transfer();
+          extract();
+        }
+      }
+    }
+    catch (const Cancelled&)
+    {
+      result_.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+      result_.quads = {};
+    }
+    return std::move(result_);
+  }
+
+private:
+  void addStage(const std::string& name, double seconds, std::size_t in, std::size_t out)
+  {
+    result_.stages.push_back({ name, seconds, in, out });
+  }
+
+  void fail(StatusCode code, const std::string& message)
+  {
+    result_.status = { code, message };
+    result_.quads = {};
+  }
+
+  void prepare()
+  {
+    PrepareOptions prepareOptions;
+    prepareOptions.featureAngle = options_.featureAngle;
+    prepareOptions.threads = options_.threads;
+    prepareOptions.progress = subProgress(options_.progress, 0.0, 0.1, "Preparing: ");
+    result_.surface = prepareSurface(input_, prepareOptions);
+    const std::size_t polygons =
+      input_.polygonOffsets.empty() ? 0 : input_.polygonOffsets.size() - 1;
+    for (const auto& [name, seconds] : result_.surface.seconds)
+    {
+      addStage(name, seconds, polygons, result_.surface.mesh.faceCount());
+    }
+  }
+
+  void chooseEdgeLength()
+  {
+    const double area = result_.surface.area;
+    if (options_.quads)
+    {
+      result_.targetQuads = *options_.quads;
+      result_.targetEdgeLength = std::sqrt(area / static_cast<double>(*options_.quads));
+      return;
+    }
+    result_.targetEdgeLength = options_.edgeLength
+      ? *options_.edgeLength
+      : options_.relativeEdgeLength * result_.surface.boundingBoxDiagonal;
+    const double quads = area / (result_.targetEdgeLength * result_.targetEdgeLength);
+    result_.targetQuads = static_cast<std::size_t>(std::max(1.0, std::min(quads, 1e15)));
+  }
+
+  bool refuseTooMany()
+  {
+    if (result_.targetQuads <= options_.maximumQuads)
+    {
+      return false;
+    }
+    fail(StatusCode::TooLarge,
+      "about " + std::to_string(result_.targetQuads) +
+        " quads would be made, more than the limit of " + std::to_string(options_.maximumQuads) +
+        "; choose a larger edge length or raise the limit");
+    return true;
+  }
+
+  void refine()
+  {
+    const double start = now();
+    const std::size_t before = result_.surface.mesh.faceCount();
+    refineSurface(result_.surface, result_.targetEdgeLength,
+      subProgress(options_.progress, 0.1, 0.15, "Refining: "));
+    addStage("refine", now() - start, before, result_.surface.mesh.faceCount());
+    const std::string repaired = result_.surface.repair.text();
+    if (!repaired.empty())
+    {
+      result_.notices.push_back("input: " + repaired);
+    }
+  }
+
+  HierarchyOptions hierarchyOptions() const
+  {
+    HierarchyOptions hierarchyOptions;
+    hierarchyOptions.targetEdgeLength = result_.targetEdgeLength;
+    hierarchyOptions.coarseVertices = options_.coarseVertices;
+    hierarchyOptions.threads = options_.threads;
+    hierarchyOptions.progress = subProgress(options_.progress, 0.15, 0.45, "Decimating: ");
+    return hierarchyOptions;
+  }
+
+  /// Decimates and maps; where the coarse triangulation lacks freedom, steps back around the
+  /// offenders and tries again.
+  bool computeCoarseMap()
+  {
+    HierarchyOptions levelOptions = hierarchyOptions();
+    GridMapOptions mapOptions;
+    mapOptions.edgeLength = result_.targetEdgeLength;
+    mapOptions.targetQuads = static_cast<double>(result_.targetQuads);
+    mapOptions.progress = subProgress(options_.progress, 0.45, 0.8, "Mapping: ");
+
+    GridMapResult map;
+    StageTimes times;
+    for (int attempt = 0; attempt < kMaximumAttempts; ++attempt)
+    {
+      hierarchy_ = buildHierarchy(result_.surface.mesh, result_.surface.hash, levelOptions);
+      map = computeGridMap(hierarchy_.coarse.mesh, mapOptions);
+      times.add(hierarchy_, map);
+      if (map.status.ok())
+      {
+        break;
+      }
+      if (attempt + 1 < kMaximumAttempts)
+      {
+        giveFreedom(map.offenders, levelOptions);
+      }
+    }
+    recordCoarse(map, times);
+    return map.status.ok();
+  }
+
+  struct StageTimes
+  {
+    double phase1 = 0, phase2 = 0, field = 0, seamless = 0, quantize = 0, embed = 0;
+    void add(const Hierarchy& hierarchy, const GridMapResult& map)
+    {
+      phase1 += hierarchy.secondsPhase1;
+      phase2 += hierarchy.secondsPhase2;
+      field += map.secondsField;
+      seamless += map.secondsSeamless;
+      quantize += map.secondsQuantize;
+      embed += map.secondsEmbed;
+    }
+  };
+
+  /// Keeps the intermediate vertices near the offenders and raises the budget by their number and a half.
+  void giveFreedom(const std::vector<Index>& offenders, HierarchyOptions& levelOptions) const
+  {
+    const Mesh& mesh = hierarchy_.intermediate.mesh;
+    std::vector<std::uint8_t> near(result_.surface.mesh.vertexCount(), 0);
+    for (const Index v : offenders)
+    {
+      near[hierarchy_.coarse.fineVertex[v]] = 1;
+    }
+    for (int ring = 0; ring < kFreedomRings; ++ring)
+    {
+      std::vector<Index> added;
+      for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+      {
+        const Index from = hierarchy_.intermediate.fineVertex[mesh.origin[h]];
+        const Index to = hierarchy_.intermediate.fineVertex[mesh.target(h)];
+        if (near[from] != near[to])
+        {
+          added.push_back(near[from] ? to : from);
+        }
+      }
+      for (const Index v : added)
+      {
+        near[v] = 1;
+      }
+    }
+    std::size_t kept = levelOptions.keepVertices.size();
+    for (const Index v : hierarchy_.intermediate.fineVertex)
+    {
+      if (near[v])
+      {
+        levelOptions.keepVertices.push_back(v);
+      }
+    }
+    std::sort(levelOptions.keepVertices.begin(), levelOptions.keepVertices.end());
+    levelOptions.keepVertices.erase(
+      std::unique(levelOptions.keepVertices.begin(), levelOptions.keepVertices.end()),
+      levelOptions.keepVertices.end());
+    kept = levelOptions.keepVertices.size() - kept;
+    levelOptions.coarseVertices = static_cast<Index>(std::max<std::size_t>(
+      hierarchy_.coarse.mesh.vertexCount() + kept, hierarchy_.coarse.mesh.vertexCount() * 5 / 4));
+  }
+
+  void recordCoarse(GridMapResult& map, const StageTimes& times)
+  {
+    const std::size_t fine = result_.surface.mesh.faceCount();
+    const std::size_t middle = hierarchy_.intermediate.mesh.faceCount();
+    const std::size_t coarse = hierarchy_.coarse.mesh.faceCount();
+    addStage("phase1", times.phase1, fine, middle);
+    addStage("phase2", times.phase2, middle, coarse);
+    addStage("field", times.field, coarse, coarse);
+    addStage("seamless", times.seamless, coarse, coarse);
+    addStage("quantize", times.quantize, coarse, coarse);
+    addStage("embed", times.embed, coarse, coarse);
+    if (!hierarchy_.notice.empty())
+    {
+      result_.notices.push_back(hierarchy_.notice);
+    }
+    if (map.refinement > 1.001)
+    {
+      result_.notices.push_back("sizes had to shrink by a factor of " +
+        std::to_string(map.refinement) + " for a valid map: expect more quads than asked for");
+    }
+    result_.coarseCertificate = map.certificate;
+    result_.coarseUv = std::move(map.uv);
+    coarseField_ = std::move(map.field);
+    result_.coarseTurns = coarseField_.turns;
+    result_.coarse = std::move(hierarchy_.coarse);
+    if (!map.status.ok())
+    {
+      fail(map.status.code, "no valid map of the coarse mesh: " + map.status.message);
+    }
+  }
+
+  void transfer()
+  {
+    const double start = now();
+    const Mesh& mesh = result_.surface.mesh;
+    TransferOptions transferOptions;
+    transferOptions.threads = options_.threads;
+    transferOptions.progress = subProgress(options_.progress, 0.8, 0.9, "Mapping back: ");
+    result_.transfer =
+      transferMap(mesh, result_.coarse, hierarchy_.log, result_.coarseUv, transferOptions);
+    result_.uv = std::move(result_.transfer.uv);
+    result_.transfer.uv.clear();
+    addStage("replay", now() - start, result_.coarse.mesh.faceCount(), mesh.faceCount());
+
+    expandSingularities();
+    std::vector<std::uint8_t> integerVertex(mesh.vertexCount(), 0);
+    const std::vector<std::uint8_t> coarseInteger =
+      integerVertices(result_.coarse.mesh, coarseField_);
+    for (Index v = 0; v < coarseInteger.size(); ++v)
+    {
+      integerVertex[result_.coarse.fineVertex[v]] = coarseInteger[v];
+    }
+    result_.certificate = certify(mesh, result_.uv, result_.turns, integerVertex);
+    addStage(
+      "certify", now() - start - result_.stages.back().seconds, mesh.faceCount(), mesh.faceCount());
+  }
+
+  /// Turns and matchings of the finest level: removed vertices are regular.
+  void expandSingularities()
+  {
+    const Mesh& mesh = result_.surface.mesh;
+    result_.turns.assign(mesh.vertexCount(), 4);
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      if (mesh.isBoundary(h))
+      {
+        result_.turns[mesh.origin[h]] = 2;
+      }
+    }
+    for (Index v = 0; v < result_.coarse.mesh.vertexCount(); ++v)
+    {
+      result_.turns[result_.coarse.fineVertex[v]] = coarseField_.turns[v];
+    }
+    result_.matching.assign(mesh.halfEdgeCount(), 0);
+    parallelFor(mesh.halfEdgeCount(), 1 << 16, options_.threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const Index h = static_cast<Index>(i);
+          if (!mesh.isBoundary(h))
+          {
+            result_.matching[h] =
+              static_cast<std::int8_t>(transitionOf(mesh, result_.uv, h).rotation);
+          }
+        }
+      });
+  }
+
+  void extract()
+  {
+    const double start = now();
+    const Mesh& mesh = result_.surface.mesh;
+    ExtractionOptions extractionOptions;
+    extractionOptions.maximumQuads = options_.maximumQuads;
+    extractionOptions.threads = options_.threads;
+    extractionOptions.progress = subProgress(options_.progress, 0.9, 1.0, "Extracting: ");
+    ExtractionResult extracted = extractQuads(mesh, result_.uv, extractionOptions);
+    addStage("extract", now() - start, mesh.faceCount(), extracted.mesh.quads.size());
+    if (!extracted.status.ok())
+    {
+      fail(extracted.status.code,
+        "no valid quad mesh: " + extracted.status.message + " (" + result_.certificate.text() +
+          ")");
+      return;
+    }
+    if (!result_.certificate.valid())
+    {
+      result_.notices.push_back("map on the input surface: " + result_.certificate.text());
+    }
+    result_.quads = std::move(extracted.mesh);
+  }
+
+  const SurfaceInput& input_;
+  const RemeshOptions& options_;
+  RemeshResult result_;
+  Hierarchy hierarchy_;
+  CrossField coarseField_;
+};
+
+} // namespace
+
+RemeshResult remesh(const SurfaceInput& input, const RemeshOptions& options)
+{
+  return Run(input, options).execute();
+}
+
+} // namespace quadrille
