@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/Pipeline.h"
+
+#include "Mesh/Topology.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace quadrille
+{
+namespace
+{
+
+SurfaceInput inputOf(const Mesh& mesh)
+{
+  SurfaceInput input;
+  input.points = mesh.position;
+  input.polygonPoints = mesh.origin;
+  for (Index f = 0; f <= mesh.faceCount(); ++f)
+  {
+    input.polygonOffsets.push_back(3 * f);
+  }
+  return input;
+}
+
+struct QuadTopology
+{
+  long long euler = 0;
+  std::size_t boundaryEdges = 0;
+  bool manifoldEdges = true;
+  bool oriented = true;
+};
+
+/// Independent of the extraction: counts from the quads alone.
+QuadTopology topologyOf(const QuadMesh& mesh)
+{
+  std::map<std::pair<Index, Index>, int> directed;
+  std::set<Index> used;
+  for (const std::array<Index, 4>& quad : mesh.quads)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      used.insert(quad[i]);
+      ++directed[{ quad[i], quad[(i + 1) % 4] }];
+    }
+  }
+  QuadTopology topology;
+  std::size_t edges = 0;
+  for (const auto& [edge, count] : directed)
+  {
+    topology.oriented = topology.oriented && count == 1;
+    const bool twin = directed.count({ edge.second, edge.first }) > 0;
+    topology.boundaryEdges += !twin;
+    edges += !twin || edge.first < edge.second;
+  }
+  topology.euler = static_cast<long long>(used.size()) - static_cast<long long>(edges) +
+    static_cast<long long>(mesh.quads.size());
+  return topology;
+}
+
+/// Remeshes and checks all that has to hold for any valid result.
+RemeshResult remeshAndCheck(const Mesh& mesh, std::size_t quads)
+{
+  RemeshOptions options;
+  options.quads = quads;
+  RemeshResult result = remesh(inputOf(mesh), options);
+  EXPECT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_TRUE(result.coarseCertificate.valid()) << result.coarseCertificate.text();
+  EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
+  const TopologySummary expected = summarizeTopology(mesh);
+  const QuadTopology actual = topologyOf(result.quads);
+  EXPECT_EQ(actual.euler, expected.eulerCharacteristic);
+  EXPECT_TRUE(actual.oriented);
+  EXPECT_EQ(actual.boundaryEdges > 0, expected.boundaryLoops > 0);
+  // The uv area of a boundary-aligned map is its number of quads, exactly.
+  EXPECT_EQ(static_cast<double>(result.quads.quads.size()), result.certificate.area);
+  // What the product promises about the count.
+  EXPECT_NEAR(static_cast<double>(result.quads.quads.size()), static_cast<double>(quads),
+    0.15 * static_cast<double>(quads));
+  return result;
+}
+
+TEST(Pipeline, ClosedSphere)
+{
+  remeshAndCheck(test::sphere(4), 600);
+}
+
+TEST(Pipeline, Torus)
+{
+  remeshAndCheck(test::torus(60, 30), 800);
+}
+
+TEST(Pipeline, GenusTwo)
+{
+  remeshAndCheck(test::doubleTorus(4), 1500);
+}
+
+TEST(Pipeline, CubeKeepsItsCornersAndEdges)
+{
+  const RemeshResult result = remeshAndCheck(test::unitCube(12), 600);
+  // Every corner of the cube is a vertex of the quad mesh: a corner is an integer point.
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Vector3 wanted(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Vector3& p : result.quads.points)
+    {
+      nearest = std::min(nearest, (p - wanted).norm());
+    }
+    EXPECT_EQ(nearest, 0) << "corner " << corner;
+  }
+}
+
+TEST(Pipeline, OpenSurfaceWithAHole)
+{
+  remeshAndCheck(test::plateWithHole(8), 400);
+}
+
+TEST(Pipeline, OpenCylinder)
+{
+  remeshAndCheck(test::openCylinder(60, 30), 700);
+}
+
+TEST(Pipeline, SeveralComponents)
+{
+  remeshAndCheck(test::twoComponents(), 600);
+}
+
+TEST(Pipeline, SameBytesForAnyNumberOfThreads)
+{
+  RemeshOptions options;
+  options.quads = 500;
+  options.threads = 1;
+  const SurfaceInput input = inputOf(test::sphere(5));
+  const RemeshResult one = remesh(input, options);
+  options.threads = 2;
+  const RemeshResult two = remesh(input, options);
+  ASSERT_TRUE(one.status.ok()) << one.status.message;
+  EXPECT_TRUE(one.uv == two.uv);
+  EXPECT_TRUE(one.quads.points == two.quads.points);
+  EXPECT_TRUE(one.quads.quads == two.quads.quads);
+}
+
+TEST(Pipeline, CancelIsAStatusAndLeavesNoQuads)
+{
+  RemeshOptions options;
+  options.quads = 500;
+  int calls = 0;
+  options.progress = [&](double, const std::string&) { return ++calls < 3; };
+  const RemeshResult result = remesh(inputOf(test::sphere(4)), options);
+  EXPECT_EQ(result.status.code, StatusCode::Cancelled);
+  EXPECT_TRUE(result.quads.quads.empty());
+}
+
+TEST(Pipeline, RefusesBeforeItSpends)
+{
+  RemeshOptions options;
+  options.quads = 1000;
+  options.maximumQuads = 999;
+  const RemeshResult result = remesh(inputOf(test::sphere(3)), options);
+  EXPECT_EQ(result.status.code, StatusCode::TooLarge);
+  EXPECT_NE(result.status.message.find("1000"), std::string::npos);
+}
+
+TEST(Pipeline, BadInputAndOptionsThrow)
+{
+  SurfaceInput input = inputOf(test::sphere(2));
+  RemeshOptions options;
+  options.edgeLength = -1;
+  EXPECT_THROW(remesh(input, options), InvalidInput);
+  options.edgeLength = 0.1;
+  input.points[7].x() = std::numeric_limits<double>::quiet_NaN();
+  try
+  {
+    remesh(input, options);
+    FAIL() << "a NaN went through";
+  }
+  catch (const InvalidInput& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("7"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(remesh(SurfaceInput{}, RemeshOptions{}), InvalidInput);
+}
+
+TEST(Pipeline, StagesAreReportedInOrder)
+{
+  RemeshOptions options;
+  options.quads = 300;
+  const RemeshResult result = remesh(inputOf(test::sphere(4)), options);
+  std::vector<std::string> names;
+  for (const StageRecord& stage : result.stages)
+  {
+    names.push_back(stage.stage);
+  }
+  for (const char* wanted : { "repair", "order", "connectivity", "phase1", "phase2", "field",
+         "seamless", "quantize", "embed", "replay", "extract" })
+  {
+    EXPECT_EQ(std::count(names.begin(), names.end(), wanted), 1) << wanted;
+  }
+}
+
+} // namespace
+} // namespace quadrille
