@@ -3,7 +3,7 @@
 #include "Pipeline/Pipeline.h"
 
 #include "Base/Parallel.h"
-#include "Mesh/Topology.h"
+#include "Mesh/FeatureFilter.h"
 
 #include <algorithm>
 #include <chrono>
@@ -152,6 +152,15 @@ private:
   {
     const double start = now();
     const std::size_t before = result_.surface.mesh.faceCount();
+    const FeatureFilterReport filtered =
+      removeUnresolvedFeatures(result_.surface.mesh, result_.targetEdgeLength);
+    if (filtered.removedEdges > 0)
+    {
+      result_.notices.push_back(std::to_string(filtered.removedEdges) +
+        " sharp edges are too short or too tangled for this edge length and were not used as "
+        "features (" +
+        std::to_string(filtered.keptEdges) + " feature edges kept)");
+    }
     refineSurface(result_.surface, result_.targetEdgeLength,
       subProgress(options_.progress, 0.1, 0.15, "Refining: "));
     addStage("refine", now() - start, before, result_.surface.mesh.faceCount());
