@@ -161,8 +161,6 @@ private:
         "features (" +
         std::to_string(filtered.keptEdges) + " feature edges kept)");
     }
-    refineSurface(result_.surface, result_.targetEdgeLength,
-      subProgress(options_.progress, 0.1, 0.15, "Refining: "));
     addStage("refine", now() - start, before, result_.surface.mesh.faceCount());
     const std::string repaired = result_.surface.repair.text();
     if (!repaired.empty())
@@ -283,7 +281,7 @@ private:
     {
       result_.notices.push_back(hierarchy_.notice);
     }
-    if (map.refinement > 1.001)
+    if (map.refinement > 1.1)
     {
       result_.notices.push_back("sizes had to shrink by a factor of " +
         std::to_string(map.refinement) + " for a valid map: expect more quads than asked for");
