@@ -3,6 +3,7 @@
 #include "Extraction/Extraction.h"
 
 #include "Extraction/QuadAssembly.h"
+#include "Extraction/QuadSmoothing.h"
 #include "Extraction/QuadTopology.h"
 #include "Mesh/Topology.h"
 
@@ -190,6 +191,10 @@ ExtractionResult extractQuads(
   result.status = judge(mesh, check, topology, result);
   result.mesh.valence = std::move(topology.valence);
   result.mesh.onBoundary = std::move(topology.onBoundary);
+  if (result.status.ok())
+  {
+    smoothQuads(mesh, result.mesh, { options.smoothingSteps, options.threads, {} });
+  }
   report(options.progress, 1, "extraction done");
   return result;
 }

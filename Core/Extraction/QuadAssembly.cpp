@@ -3,6 +3,7 @@
 #include "Extraction/QuadAssembly.h"
 
 #include "Base/Parallel.h"
+#include "Extraction/SurfaceWalk.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -316,18 +317,9 @@ void placePoint(const ExactMap& map, const GridVertex& vertex, QuadMesh& mesh, s
   {
     weights[vertex.site % 3] = 1;
   }
-  Vector3 position = Vector3::Zero();
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    if (weights[i] != 0)
-    {
-      const Index corner = 3 * vertex.face() + static_cast<Index>(i);
-      position += weights[i] * map.mesh.position[map.mesh.origin[corner]];
-    }
-  }
-  mesh.points[id] = position;
   mesh.sourceFace[id] = vertex.face();
   mesh.sourceWeights[id] = weights;
+  mesh.points[id] = positionOf(map.mesh, { vertex.face(), weights });
 }
 
 /// Numbers the grid vertices that cells use, and places them. Returns point ids per grid vertex.

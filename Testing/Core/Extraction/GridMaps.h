@@ -198,7 +198,8 @@ public:
 
   /// A random mix of the above; points are often integer or half integer, so that grid vertices
   /// fall on vertices, edges and faces, and grid lines on edges and through vertices.
-  void refine(Random& random, int edits)
+  /// Flips look at the map only; without them the mesh in space stays free of folds, too.
+  void refine(Random& random, int edits, bool flips = true)
   {
     for (int i = 0; i < edits; ++i)
     {
@@ -212,7 +213,10 @@ public:
           splitEdge(h, randomOnEdge(random, h));
           break;
         case 2:
-          flip(h);
+          if (flips)
+          {
+            flip(h);
+          }
           break;
         default:
           moveVertex(h, randomDelta(random, 1 << pick(random, 6)), false);

@@ -128,6 +128,7 @@ ExtractionResult extract(const GridMapCase& c, int threads = 1)
 {
   ExtractionOptions options;
   options.threads = threads;
+  options.smoothingSteps = 0;
   return extractQuads(c.mesh, c.uv, options);
 }
 

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Better-shaped quads without leaving the input surface.
+#pragma once
+
+#include "Extraction/Extraction.h"
+
+namespace quadrille
+{
+
+struct SmoothingOptions
+{
+  int steps = 5; ///< sweeps over all points, >= 0
+  int threads = 0;
+  ProgressCallback progress;
+};
+
+struct SmoothingResult
+{
+  std::size_t moves = 0; ///< accepted moves of all sweeps
+};
+
+/// Moves points towards the average of their neighbours, straight over the faces of the mesh, so
+/// that sourceFace and sourceWeights stay exact; points of features and boundaries slide along
+/// their curves, corners, ends and junctions stay. A move is made only if it does not lower the
+/// worst scaled Jacobian of the quads at the point and raises their sum (or the worst one, where
+/// that is bad). Points that share no quad are moved in parallel; the result does not depend on the
+/// number of threads. quads must be a manifold that was extracted from mesh.
+SmoothingResult smoothQuads(const Mesh& mesh, QuadMesh& quads, const SmoothingOptions& options);
+
+} // namespace quadrille

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Moving points on a triangle mesh: straight over its faces, or along its constrained curves.
+#pragma once
+
+#include "Mesh/Mesh.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace quadrille
+{
+
+struct SurfacePoint
+{
+  Index face = kInvalidIndex;
+  std::array<double, 3> weights{}; ///< barycentric, sum 1
+};
+
+Vector3 positionOf(const Mesh& mesh, const SurfacePoint& point);
+
+/// Walks straight from the point by the part of `displacement` that is tangential there, unfolding
+/// over edges. None when it would meet a constrained edge or a degenerate triangle, or cross more
+/// than maximumFaces faces.
+std::optional<SurfacePoint> walkSurface(
+  const Mesh& mesh, SurfacePoint from, Vector3 displacement, int maximumFaces);
+
+/// The constrained edges at the vertex of corner h, each by the lower of its two half-edges.
+std::vector<Index> constrainedEdgesAt(const Mesh& mesh, Index h);
+
+/// A place on the edge of half-edge h: position (1 - t) origin + t target.
+struct CurvePoint
+{
+  Index h = kInvalidIndex;
+  double t = 0;
+
+  SurfacePoint onSurface() const;
+};
+
+/// Where a point of a constrained edge lies; none when it lies on no such edge or on a vertex.
+std::optional<CurvePoint> locateOnCurve(const Mesh& mesh, const SurfacePoint& point);
+
+/// Walks along the curve of constrained edges by `length` (backwards when negative; forwards is the
+/// direction of h). None where the curve ends, forks, or has more than maximumEdges edges.
+std::optional<CurvePoint> walkCurve(
+  const Mesh& mesh, CurvePoint from, double length, int maximumEdges);
+
+} // namespace quadrille
