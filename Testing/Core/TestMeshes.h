@@ -120,8 +120,9 @@ inline Mesh plateL(int n)
   return planeCells(2 * n, 2 * n, [n](int i, int j) { return i < n || j < n; });
 }
 
-/// Surface of the unit voxels that `inside` holds, each voxel side cut into n x n cells of length 1/n.
-inline Mesh voxelSurface(
+/// Sides of the unit voxels that `inside` holds, each cut into n x n cells of length 1/n. Voxels may
+/// touch along edges or in corners only; the surface is no manifold then.
+inline LatticeBuilder voxelSides(
   std::array<int, 3> size, int n, const std::function<bool(int, int, int)>& inside)
 {
   LatticeBuilder builder;
@@ -177,6 +178,14 @@ inline Mesh voxelSurface(
   {
     p /= n;
   }
+  return builder;
+}
+
+/// Surface of the unit voxels that `inside` holds, each voxel side cut into n x n cells of length 1/n.
+inline Mesh voxelSurface(
+  std::array<int, 3> size, int n, const std::function<bool(int, int, int)>& inside)
+{
+  LatticeBuilder builder = voxelSides(size, n, inside);
   return makeMesh(std::move(builder.points), builder.triangles);
 }
 
