@@ -80,49 +80,41 @@ std::string checkVertices(const Mesh& mesh)
   return {};
 }
 
-std::string checkHalfEdge(const Mesh& mesh, Index h)
+/// What is wrong with a half-edge; null when nothing is.
+const char* findFault(const Mesh& mesh, Index h)
 {
-  const std::string name = "half-edge " + std::to_string(h);
   if (mesh.origin[h] >= mesh.vertexCount() || mesh.target(h) >= mesh.vertexCount())
   {
-    return name + " names a vertex out of range";
+    return "names a vertex out of range";
   }
   if (mesh.origin[h] == mesh.target(h))
   {
-    return name + " begins and ends at vertex " + std::to_string(mesh.origin[h]);
+    return "begins and ends at the same vertex";
   }
   const Index g = mesh.twin[h];
   if (g == kInvalidIndex)
   {
-    return {};
+    return nullptr;
   }
   if (g >= mesh.halfEdgeCount() || mesh.twin[g] != h || Mesh::face(g) == Mesh::face(h))
   {
-    return name + " has twin " + std::to_string(g) + ", which is not its twin";
+    return "has a twin that is not its twin";
   }
   if (mesh.origin[g] != mesh.target(h) || mesh.target(g) != mesh.origin[h])
   {
-    return name + " and its twin " + std::to_string(g) + " do not join the same vertices";
+    return "and its twin do not join the same vertices";
   }
-  if (mesh.flags[g] != mesh.flags[h])
-  {
-    return name + " and its twin " + std::to_string(g) + " have different flags";
-  }
-  return {};
+  return mesh.flags[g] == mesh.flags[h] ? nullptr : "and its twin have different flags";
 }
 
 std::string checkHalfEdges(const Mesh& mesh)
 {
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
-    // The name of a half-edge is only built once something is wrong with it; this loop is hot.
-    const Index g = mesh.twin[h];
-    const bool plain = mesh.origin[h] < mesh.vertexCount() && mesh.target(h) < mesh.vertexCount() &&
-      mesh.origin[h] != mesh.target(h) && g == kInvalidIndex;
-    std::string error = plain ? std::string() : checkHalfEdge(mesh, h);
-    if (!error.empty())
+    if (const char* const fault = findFault(mesh, h))
     {
-      return error;
+      return "half-edge " + std::to_string(h) + " " + fault + " (vertex " +
+        std::to_string(mesh.origin[h]) + ", twin " + std::to_string(mesh.twin[h]) + ")";
     }
   }
   return {};

@@ -96,6 +96,17 @@ inline bool contains(const std::string& text, const std::string& part)
   return text.find(part) != std::string::npos;
 }
 
+/// Both half-edges of a feature count.
+inline Index featureHalfEdges(const Mesh& mesh)
+{
+  Index count = 0;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    count += mesh.isFeature(h) ? 1 : 0;
+  }
+  return count;
+}
+
 inline double area(const Mesh& mesh)
 {
   double sum = 0;

@@ -136,10 +136,10 @@ TEST(Prepare, hashTellsPositionsConnectivityAndFeaturesApart)
 TEST(Prepare, featuresByAngle)
 {
   const PreparedSurface cube = prepare(toInput(unitCube(4)), kPi / 4);
-  EXPECT_EQ(std::count(cube.mesh.flags.begin(), cube.mesh.flags.end(), kFeatureEdge), 12 * 4 * 2);
+  EXPECT_EQ(featureHalfEdges(cube.mesh), 12 * 4 * 2u);
   // The angle between neighbouring sides is exactly a right one.
   const PreparedSurface none = prepare(toInput(unitCube(4)), 1.6);
-  EXPECT_EQ(std::count(none.mesh.flags.begin(), none.mesh.flags.end(), kFeatureEdge), 0);
+  EXPECT_EQ(featureHalfEdges(none.mesh), 0u);
 }
 
 TEST(Prepare, featuresByPatchAndByBits)
@@ -149,17 +149,19 @@ TEST(Prepare, featuresByPatchAndByBits)
   std::fill(input.patchIds.begin() + 16, input.patchIds.end(), std::int64_t{ 1 } << 40);
   const PreparedSurface byPatch = prepare(input);
   // The line between the second and the third row has four edges.
-  EXPECT_EQ(std::count(byPatch.mesh.flags.begin(), byPatch.mesh.flags.end(), kFeatureEdge), 4 * 2);
+  EXPECT_EQ(featureHalfEdges(byPatch.mesh), 4 * 2u);
 
   input.patchIds.clear();
   input.featureEdges.assign(32, 0);
   input.featureEdges[0] = 4; // the diagonal of the first cell: from corner 2 to corner 0
   const PreparedSurface byBit = prepare(input);
   expectSound(byBit, input);
-  ASSERT_EQ(std::count(byBit.mesh.flags.begin(), byBit.mesh.flags.end(), kFeatureEdge), 2);
-  const Index h =
-    static_cast<Index>(std::find(byBit.mesh.flags.begin(), byBit.mesh.flags.end(), kFeatureEdge) -
-      byBit.mesh.flags.begin());
+  ASSERT_EQ(featureHalfEdges(byBit.mesh), 2u);
+  Index h = 0;
+  while (!byBit.mesh.isFeature(h))
+  {
+    ++h;
+  }
   const Vector3 middle =
     (byBit.mesh.position[byBit.mesh.origin[h]] + byBit.mesh.position[byBit.mesh.target(h)]) / 2;
   EXPECT_EQ(middle, Vector3(0.5, 0.5, 0));
@@ -175,7 +177,7 @@ TEST(Prepare, sliversMakeNoFeaturesOfTheirOwn)
       { { 0, 1, 2 }, { 0, 2, 3 }, { 2, 1, 3 }, { 1, 0, 4 } });
   const PreparedSurface surface = prepare(input, 0.5);
   expectSound(surface, input);
-  EXPECT_EQ(std::count(surface.mesh.flags.begin(), surface.mesh.flags.end(), kFeatureEdge), 0);
+  EXPECT_EQ(featureHalfEdges(surface.mesh), 0u);
 }
 
 TEST(Prepare, invalidInputIsNamed)

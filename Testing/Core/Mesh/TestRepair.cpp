@@ -287,7 +287,7 @@ TEST(Repair, capsAreFlippedAndNoHoleOpens)
     EXPECT_FALSE(isDegenerate(surface.mesh, f));
   }
   // 12 edges, one of them in three pieces.
-  EXPECT_EQ(std::count(surface.mesh.flags.begin(), surface.mesh.flags.end(), kFeatureEdge), 28);
+  EXPECT_EQ(featureHalfEdges(surface.mesh), 28u);
 }
 
 TEST(Repair, anExplicitFeatureOnACapGoesToItsOtherEdges)
@@ -299,7 +299,7 @@ TEST(Repair, anExplicitFeatureOnACapGoesToItsOtherEdges)
   const PreparedSurface surface = prepare(input);
   expectSound(surface, input);
   EXPECT_EQ(surface.mesh.faceCount(), 4u);
-  EXPECT_EQ(std::count(surface.mesh.flags.begin(), surface.mesh.flags.end(), kFeatureEdge), 4);
+  EXPECT_EQ(featureHalfEdges(surface.mesh), 4u);
 }
 
 TEST(Repair, zeroLengthEdgesAreCollapsed)

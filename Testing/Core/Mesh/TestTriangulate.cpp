@@ -130,7 +130,7 @@ TEST(Triangulate, featureBitsBelongToPolygonEdgesOnly)
   input.featureEdges = { 2, 0 }; // from corner 1 to corner 2 of the first: the shared edge
   const PreparedSurface surface = prepare(input);
   expectSound(surface, input);
-  ASSERT_EQ(std::count(surface.mesh.flags.begin(), surface.mesh.flags.end(), kFeatureEdge), 2);
+  ASSERT_EQ(featureHalfEdges(surface.mesh), 2u);
   for (Index h = 0; h < surface.mesh.halfEdgeCount(); ++h)
   {
     if (surface.mesh.isFeature(h))
