@@ -161,7 +161,13 @@ private:
         "features (" +
         std::to_string(filtered.keptEdges) + " feature edges kept)");
     }
+    refineSurface(result_.surface, result_.targetEdgeLength,
+      subProgress(options_.progress, 0.1, 0.15, "Refining: "));
     addStage("refine", now() - start, before, result_.surface.mesh.faceCount());
+    if (!result_.surface.notice.empty())
+    {
+      result_.notices.push_back(result_.surface.notice);
+    }
     const std::string repaired = result_.surface.repair.text();
     if (!repaired.empty())
     {
