@@ -277,13 +277,14 @@ std::vector<FixedVec2> SeamlessSpace::snap(const Eigen::VectorXd& y) const
   return uv;
 }
 
-/// Weights of |J - 1|^2, tried in turn: the stronger it is, the less a vertex can wind wrongly.
-constexpr double kAlignments[] = { 1, 10, 100 };
+constexpr int kRounds = 5;
+constexpr double kStiffening = 10;
 
-UntangleOptions untangleOptions(double alignment, const ProgressCallback& progress)
+UntangleOptions untangleOptions(const ProgressCallback& progress)
 {
   UntangleOptions options;
-  options.alignmentWeight = alignment;
+  // Keeps the map turned like the field, and with it the winding of the vertices.
+  options.alignmentWeight = 1;
   // The equations are homogeneous: the area term keeps the map from shrinking to a point.
   options.areaWeight = 1;
   options.polishSteps = 4;
@@ -328,28 +329,64 @@ bool findHopeless(const Mesh& mesh, const CrossField& field, const SeamlessSpace
   return true;
 }
 
-/// Untangles from the solution of the Poisson equation and keeps the attempt with the fewest defects.
+/// Multiplies the weights of the faces that touch a defect, or touch one that does.
+void stiffen(const Mesh& mesh, const MapDefects& defects, std::vector<double>& weight)
+{
+  std::vector<bool> near(mesh.vertexCount(), false);
+  for (const Index v : verticesOf(mesh, defects))
+  {
+    near[v] = true;
+  }
+  const auto touches = [&](Index f)
+  {
+    const Index* v = &mesh.origin[3 * f];
+    return near[v[0]] || near[v[1]] || near[v[2]];
+  };
+  std::vector<bool> ring = near;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    for (int i = 0; i < 3 && touches(f); ++i)
+    {
+      ring[mesh.origin[3 * f + i]] = true;
+    }
+  }
+  near = ring;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    weight[f] *= touches(f) ? kStiffening : 1;
+  }
+}
+
+/// Untangles from the solution of the Poisson equation. Seams fix the winding of a vertex modulo 4 only, so
+/// a start that is inverted there may end with a wrong one: then the Poisson equation is solved
+/// again with more weight round it, until it winds rightly from the start [stiffening of Bommes et al. 2009].
 MapDefects untangleField(const Mesh& mesh, const CrossField& field, const SeamlessSpace& space,
-  const Eigen::VectorXd& poisson, const ProgressCallback& progress, SeamlessResult& result)
+  Eigen::VectorXd start, const ProgressCallback& progress, SeamlessResult& result)
 {
   MapDefects best;
-  for (const double alignment : kAlignments)
+  UntangleProblem problem = space.problem();
+  for (int round = 0; round < kRounds; ++round)
   {
-    const UntangleResult attempt =
-      untangle(space.problem(), poisson, untangleOptions(alignment, progress));
+    UntangleResult attempt = untangle(problem, start, untangleOptions(progress));
+    result.newtonSteps += attempt.steps;
+    if (round > 0 && findDefects(mesh, field, space.snap(attempt.y)).none())
+    {
+      attempt = untangle(space.problem(), attempt.y, untangleOptions(progress));
+      result.newtonSteps += attempt.steps;
+    }
     std::vector<FixedVec2> uv = space.snap(attempt.y);
     MapDefects defects = findDefects(mesh, field, uv);
-    result.newtonSteps += attempt.steps;
-    if (alignment == kAlignments[0] || defects.count() < best.count())
+    stiffen(mesh, defects, problem.weight);
+    if (round == 0 || defects.count() < best.count())
     {
       best = std::move(defects);
       result.uv = std::move(uv);
     }
-    // More alignment mends the winding; where triangles stay inverted it rarely does, so try it once.
-    if (best.none() || (alignment > 1 && !best.notPositive.empty()))
+    if (best.none())
     {
       break;
     }
+    start = fitReferences(problem);
   }
   return best;
 }
