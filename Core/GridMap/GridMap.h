@@ -74,6 +74,8 @@ SeamlessResult computeSeamlessMap(
 struct QuantizeOptions
 {
   double maximumRefinement = 8; ///< the integers may grow by this factor when nothing else is valid
+  /// Vertices, as EmbedResult::offenders, whose triangles the integers must leave positive as they are.
+  std::vector<Index> watched;
   ProgressCallback progress;
 };
 struct QuantizeResult

@@ -12,116 +12,204 @@ namespace
 {
 
 constexpr double kPi = 3.14159265358979323846;
+/// Cocircular points, which whole displacements make often, must not flip forever.
+constexpr double kDelaunaySlack = -1e-9;
 
 double angleBetween(const Vector2& a, const Vector2& b)
 {
   return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
 }
 
-/// Quarter turns round every vertex; every determinant must be positive for this to mean anything.
-template <typename VectorOf>
-std::vector<int> windings(const IntegerDomain& domain, VectorOf vectorOf)
+Vector2 inQuads(FixedVec2 q)
 {
-  const Index vertices =
-    domain.origin.empty() ? 0 : *std::max_element(domain.origin.begin(), domain.origin.end()) + 1;
-  std::vector<double> angle(vertices, 0);
-  for (Index h = 0; h < domain.halfEdgeCount(); ++h)
-  {
-    angle[domain.origin[h]] += angleBetween(vectorOf(h), -vectorOf(Mesh::previous(h)));
-  }
-  std::vector<int> turns(vertices);
-  std::transform(angle.begin(), angle.end(), turns.begin(),
-    [](double a) { return static_cast<int>(std::lround(a / (kPi / 2))); });
-  return turns;
+  return Vector2(static_cast<double>(q.u), static_cast<double>(q.v)) / double(kGrain);
 }
 
-/// Weights near the Dirichlet energy of the difference of the two maps, that is the squared relative error
-/// of every quad's size; divided by the length so that short edges do not grow for nothing.
-void setWeights(IntegerDomain& domain)
+/// The number nearest to x that is residue modulo kGrain.
+std::int64_t nearest(double x, std::int64_t residue)
 {
-  std::vector<double> cotangent(domain.halfEdgeCount());
-  for (Index h = 0; h < domain.halfEdgeCount(); ++h)
-  {
-    const Vector2 a = -domain.wanted[Mesh::next(h)], b = domain.wanted[Mesh::previous(h)];
-    cotangent[h] = b.dot(a) / (b.x() * a.y() - b.y() * a.x());
-  }
-  domain.weight.resize(domain.halfEdgeCount());
-  for (Index h = 0; h < domain.halfEdgeCount(); ++h)
-  {
-    const Index g = domain.twin[h];
-    const double sum = cotangent[h] + (g == kInvalidIndex ? cotangent[h] : cotangent[g]);
-    domain.weight[h] = std::clamp(sum, 0.1, 4.0) / std::max(domain.wanted[h].norm(), 0.25);
-  }
+  return kGrain * std::llround((x - double(residue)) / double(kGrain)) + residue;
 }
 
-std::int64_t awayFromZero(double x)
+/// The same, but with the sign of x and never zero.
+std::int64_t nearestWithSign(double x, std::int64_t residue)
 {
-  const std::int64_t n = std::llround(x);
-  return n != 0 ? n : (x < 0 ? -1 : 1);
-}
-
-FixedVec2 nearestNonZero(const Vector2& p, IntegerDomain::Axis axis)
-{
-  if (axis == IntegerDomain::kOnlyU)
+  std::int64_t n = nearest(x, residue);
+  while (x < 0 ? n >= 0 : n <= 0)
   {
-    return { awayFromZero(p.x()), 0 };
+    n += x < 0 ? -kGrain : kGrain;
   }
-  if (axis == IntegerDomain::kOnlyV)
-  {
-    return { 0, awayFromZero(p.y()) };
-  }
-  const FixedVec2 n{ std::llround(p.x()), std::llround(p.y()) };
-  if (n != FixedVec2{})
-  {
-    return n;
-  }
-  return std::abs(p.x()) >= std::abs(p.y()) ? FixedVec2{ awayFromZero(p.x()), 0 }
-                                            : FixedVec2{ 0, awayFromZero(p.y()) };
+  return n;
 }
 
 } // namespace
 
-IntegerDomain IntegerDomain::from(const UvMesh& mesh)
+IntegerMap::IntegerMap(
+  UvMesh& mesh, UvEditor& editor, const std::vector<std::uint8_t>& integerVertex)
+  : mesh_(mesh), editor_(editor), integerVertex_(integerVertex), q_(mesh.origin.size()),
+    axis_(mesh.origin.size(), kFree), wanted_(mesh.origin.size(), Vector2::Zero()),
+    weight_(mesh.origin.size(), 0)
 {
-  IntegerDomain domain;
-  std::vector<Index> compact(mesh.origin.size(), kInvalidIndex);
-  for (Index h = 0; h < mesh.origin.size(); ++h)
+  for (Index f = 0; f < mesh_.alive.size(); ++f)
   {
-    if (mesh.alive[Mesh::face(h)])
+    if (mesh_.alive[f])
     {
-      compact[h] = static_cast<Index>(domain.slot.size());
-      domain.slot.push_back(h);
+      faces_.push_back(f);
     }
   }
-  for (const Index h : domain.slot)
+  for (const Index f : faces_)
   {
-    const bool boundary = mesh.twin[h] == kInvalidIndex;
-    domain.hasBoundary = domain.hasBoundary || boundary;
-    domain.origin.push_back(mesh.origin[h]);
-    domain.twin.push_back(boundary ? kInvalidIndex : compact[mesh.twin[h]]);
-    domain.rotation.push_back(mesh.rotation[h]);
-    const FixedVec2 d = mesh.vector(h);
-    domain.wanted.push_back(toDouble(d));
-    const bool constrained = boundary || (mesh.flags[h] & kUvConstrained) != 0;
-    domain.axis.push_back(!constrained ? kFree : d.v == 0 ? kOnlyU : kOnlyV);
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      measure(h);
+    }
   }
-  setWeights(domain);
-  domain.turns = windings(domain, [&](Index h) { return domain.wanted[h]; });
-  return domain;
+  for (const Index f : faces_)
+  {
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      weigh(h);
+    }
+  }
+  for (Index v = 0; v < mesh_.outgoing.size(); ++v)
+  {
+    if (mesh_.outgoing[v] != kInvalidIndex && !integerVertex_[v])
+    {
+      freeVertices_.push_back(v);
+    }
+  }
+  turns_ = windings([&](Index h) { return wanted_[h]; });
+}
+
+void IntegerMap::measure(Index h)
+{
+  const FixedVec2 d = mesh_.vector(h);
+  wanted_[h] = toDouble(d);
+  const bool constrained = mesh_.twin[h] == kInvalidIndex || (mesh_.flags[h] & kUvConstrained) != 0;
+  axis_[h] = !constrained ? kFree : d.v == 0 ? kOnlyU : kOnlyV;
+}
+
+/// Cotangent of the wanted angle opposite to h.
+double IntegerMap::cotangentOpposite(Index h) const
+{
+  const Vector2 a = wanted_[Mesh::previous(h)], b = -wanted_[Mesh::next(h)];
+  return a.dot(b) / (a.x() * b.y() - a.y() * b.x());
+}
+
+/// Weights near the Dirichlet energy of the difference of the two maps, that is the squared relative error
+/// of every quad's size; divided by the length so that short edges do not grow for nothing.
+void IntegerMap::weigh(Index h)
+{
+  const Index g = mesh_.twin[h];
+  const double here = cotangentOpposite(h);
+  double sum = here + (g == kInvalidIndex ? here : cotangentOpposite(g));
+  // A triangle that was flipped for the sake of the integers may be degenerate in the seamless map.
+  sum = std::isfinite(sum) ? sum : 0;
+  weight_[h] = std::clamp(sum, 0.1, 4.0) / std::max(wanted_[h].norm(), 0.25);
+  if (g != kInvalidIndex)
+  {
+    weight_[g] = weight_[h];
+  }
+}
+
+/// Calls visit(h, e, leaves) for every half-edge that leaves v, with e turned to its chart, and for the boundary
+/// half-edge that ends in v.
+template <typename Visit>
+void IntegerMap::visitStar(Index v, FixedVec2 e, Visit visit) const
+{
+  Index h = mesh_.outgoing[v];
+  do
+  {
+    visit(h, e, true);
+    const Index incoming = Mesh::previous(h);
+    if (mesh_.twin[incoming] == kInvalidIndex)
+    {
+      visit(incoming, e, false);
+    }
+    e = rotate(e, mesh_.rotation[incoming]);
+    h = mesh_.twin[incoming];
+  } while (h != kInvalidIndex && h != mesh_.outgoing[v]);
+}
+
+/// Where a free vertex lies between whole points in the seamless map, seen from an integer neighbour.
+FixedVec2 IntegerMap::residueOf(Index v) const
+{
+  Vector2 offset = toDouble(mesh_.uv[mesh_.outgoing[v]]);
+  bool found = false;
+  bool u = true, w = true;
+  visitStar(v, { 1, 0 },
+    [&](Index h, FixedVec2 e, bool leaves)
+    {
+      const int back = e.v == 0 ? (e.u > 0 ? 0 : 2) : (e.v > 0 ? 3 : 1);
+      if (leaves && !found && integerVertex_[mesh_.target(h)])
+      {
+        offset = toDouble(rotate(-mesh_.vector(h), back));
+        found = true;
+      }
+      if (axis_[h] != kFree)
+      {
+        const bool alongU = (axis_[h] == kOnlyU) == (back % 2 == 0);
+        (alongU ? w : u) = false;
+      }
+    });
+  const auto part = [](double x) { return std::llround((x - std::floor(x)) * double(kGrain)); };
+  return { u ? part(offset.x()) : 0, w ? part(offset.y()) : 0 };
+}
+
+/// #H: residue of the corner modulo kGrain in the chart of its face.
+std::vector<FixedVec2> IntegerMap::residues() const
+{
+  std::vector<FixedVec2> result(q_.size());
+  for (const Index v : freeVertices_)
+  {
+    visitStar(v, residueOf(v),
+      [&](Index h, FixedVec2 e, bool leaves)
+      {
+        if (leaves)
+        {
+          result[h] = e;
+        }
+      });
+  }
+  return result;
+}
+
+FixedVec2 IntegerMap::nearestAllowed(Index h, double scale, FixedVec2 residue) const
+{
+  const Vector2 p = scale * double(kGrain) * wanted_[h];
+  if (axis_[h] == kOnlyU)
+  {
+    return { nearestWithSign(p.x(), residue.u), 0 };
+  }
+  if (axis_[h] == kOnlyV)
+  {
+    return { 0, nearestWithSign(p.y(), residue.v) };
+  }
+  const FixedVec2 n{ nearest(p.x(), residue.u), nearest(p.y(), residue.v) };
+  if (n != FixedVec2{})
+  {
+    return n;
+  }
+  return std::abs(p.x()) >= std::abs(p.y()) ? FixedVec2{ nearestWithSign(p.x(), residue.u), 0 }
+                                            : FixedVec2{ 0, nearestWithSign(p.y(), residue.v) };
 }
 
 void IntegerMap::round(double scale)
 {
-  for (Index h = 0; h < domain_->halfEdgeCount(); ++h)
+  const std::vector<FixedVec2> residue = residues();
+  for (const Index f : faces_)
   {
-    const Index g = domain_->twin[h];
-    if (g == kInvalidIndex || h < g)
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
-      q_[h] = nearestNonZero(scale * domain_->wanted[h], domain_->axis[h]);
-    }
-    if (g != kInvalidIndex && h < g)
-    {
-      q_[g] = -rotate(q_[h], domain_->rotation[h]);
+      const Index g = mesh_.twin[h];
+      if (g == kInvalidIndex || h < g)
+      {
+        q_[h] = nearestAllowed(h, scale, residue[Mesh::next(h)] - residue[h]);
+      }
+      if (g != kInvalidIndex && h < g)
+      {
+        q_[g] = -rotate(q_[h], mesh_.rotation[h]);
+      }
     }
   }
 }
@@ -129,36 +217,133 @@ void IntegerMap::round(double scale)
 void IntegerMap::shift(Index h, FixedVec2 e)
 {
   q_[h] = q_[h] + e;
-  const Index g = domain_->twin[h];
+  const Index g = mesh_.twin[h];
   if (g != kInvalidIndex)
   {
-    q_[g] = q_[g] - rotate(e, domain_->rotation[h]);
+    q_[g] = q_[g] - rotate(e, mesh_.rotation[h]);
   }
 }
 
 bool IntegerMap::mayShift(Index h, FixedVec2 e) const
 {
-  const IntegerDomain::Axis axis = domain_->axis[h];
-  return axis == IntegerDomain::kFree || (axis == IntegerDomain::kOnlyU ? e.v == 0 : e.u == 0);
+  return axis_[h] == kFree || (axis_[h] == kOnlyU ? e.v == 0 : e.u == 0);
+}
+
+void IntegerMap::moveVertex(Index v, FixedVec2 e)
+{
+  visitStar(
+    v, e, [&](Index h, FixedVec2 turned, bool leaves) { shift(h, leaves ? -turned : turned); });
+}
+
+bool IntegerMap::mayMove(Index v, FixedVec2 e) const
+{
+  bool may = true;
+  visitStar(v, e, [&](Index h, FixedVec2 turned, bool) { may = may && mayShift(h, turned); });
+  return may;
+}
+
+double IntegerMap::moveEnergy(Index v, FixedVec2 e) const
+{
+  double change = 0;
+  visitStar(v, e,
+    [&](Index h, FixedVec2 turned, bool leaves)
+    { change += energyChange(h, leaves ? -turned : turned); });
+  return change;
+}
+
+bool IntegerMap::mayFlip(Index h) const
+{
+  return !mesh_.isFixed(h) && Mesh::face(h) != Mesh::face(mesh_.twin[h]);
+}
+
+std::array<std::int64_t, 2> IntegerMap::flippedDeterminants(Index h) const
+{
+  const Index g = mesh_.twin[h];
+  const FixedVec2 toD = rotate(q_[Mesh::next(g)], mesh_.rotation[g]);
+  const FixedVec2 toC = rotate(q_[Mesh::next(h)], mesh_.rotation[h]);
+  // (a, d, c) and (b, c, d); see Hierarchy/DecimationLog.h.
+  return { cross(toD, -q_[Mesh::previous(h)]), cross(toC, -q_[Mesh::previous(g)]) };
+}
+
+void IntegerMap::flip(Index h)
+{
+  const Index g = mesh_.twin[h];
+  const Index hn = Mesh::next(h), hp = Mesh::previous(h), gn = Mesh::next(g),
+              gp = Mesh::previous(g);
+  const FixedVec2 toD = rotate(q_[gn], mesh_.rotation[g]);
+  const FixedVec2 toC = rotate(q_[hn], mesh_.rotation[h]);
+  editor_.flip(h);
+  q_[h] = toD;
+  q_[g] = toC;
+  q_[hn] = -(toD + q_[hp]);
+  q_[gn] = -(toC + q_[gp]);
+  for (const Index slot : { h, hn, hp, g, gn, gp })
+  {
+    measure(slot);
+  }
+  for (const Index slot : { h, hn, hp, g, gp })
+  {
+    weigh(slot);
+  }
+}
+
+bool IntegerMap::wantsFlip(Index h) const
+{
+  if (!mayFlip(h))
+  {
+    return false;
+  }
+  const auto cotangent = [&](Index x)
+  {
+    const Vector2 a = inQuads(q_[Mesh::previous(x)]), b = -inQuads(q_[Mesh::next(x)]);
+    return a.dot(b) / (a.x() * b.y() - a.y() * b.x());
+  };
+  if (!(cotangent(h) + cotangent(mesh_.twin[h]) < kDelaunaySlack))
+  {
+    return false;
+  }
+  const auto after = flippedDeterminants(h);
+  return brokenness(after[0]) == 0 && brokenness(after[1]) == 0;
+}
+
+void IntegerMap::makeDelaunay()
+{
+  std::vector<Index> stack;
+  for (const Index f : faces_)
+  {
+    stack.insert(stack.end(), { 3 * f, 3 * f + 1, 3 * f + 2 });
+  }
+  std::size_t budget = 64 * stack.size();
+  while (!stack.empty() && budget > 0)
+  {
+    const Index h = stack.back();
+    stack.pop_back();
+    if (wantsFlip(h))
+    {
+      const Index g = mesh_.twin[h];
+      flip(h);
+      --budget;
+      stack.insert(stack.end(), { h, Mesh::previous(h), g, Mesh::previous(g) });
+    }
+  }
 }
 
 double IntegerMap::energyChange(Index h, FixedVec2 e) const
 {
-  const double du = static_cast<double>(e.u), dv = static_cast<double>(e.v);
-  const Vector2& wanted = domain_->wanted[h];
-  return domain_->weight[h] *
-    (du * (2 * (static_cast<double>(q_[h].u) - wanted.x()) + du) +
-      dv * (2 * (static_cast<double>(q_[h].v) - wanted.y()) + dv));
+  const Vector2 d = inQuads(e);
+  return weight_[h] * d.dot(2 * (inQuads(q_[h]) - wanted_[h]) + d);
 }
 
 double IntegerMap::energy() const
 {
   double sum = 0;
-  for (Index h = 0; h < domain_->halfEdgeCount(); ++h)
+  for (const Index f : faces_)
   {
-    const Vector2 q(static_cast<double>(q_[h].u), static_cast<double>(q_[h].v));
-    const double share = domain_->twin[h] == kInvalidIndex ? 1.0 : 0.5;
-    sum += share * domain_->weight[h] * (q - domain_->wanted[h]).squaredNorm();
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      const double share = mesh_.twin[h] == kInvalidIndex ? 1.0 : 0.5;
+      sum += share * weight_[h] * (inQuads(q_[h]) - wanted_[h]).squaredNorm();
+    }
   }
   return sum;
 }
@@ -166,26 +351,36 @@ double IntegerMap::energy() const
 double IntegerMap::area() const
 {
   double sum = 0;
-  for (Index f = 0; f < domain_->faceCount(); ++f)
+  for (const Index f : faces_)
   {
-    sum += 0.5 * static_cast<double>(determinant(f));
+    sum += 0.5 * static_cast<double>(determinant(f)) / double(kGrain * kGrain);
   }
   return sum;
 }
 
-bool IntegerMap::isValid() const
+/// Quarter turns round every vertex; every determinant must be positive for this to mean anything.
+template <typename VectorOf>
+std::vector<int> IntegerMap::windings(VectorOf vectorOf) const
 {
-  for (Index f = 0; f < domain_->faceCount(); ++f)
+  std::vector<double> angle(mesh_.outgoing.size(), 0);
+  for (const Index f : faces_)
   {
-    if (defect(f) != FixedVec2{} || determinant(f) <= 0)
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
-      return false;
+      angle[mesh_.origin[h]] += angleBetween(vectorOf(h), -vectorOf(Mesh::previous(h)));
     }
   }
-  return windings(*domain_,
-           [&](Index h) {
-             return Vector2(static_cast<double>(q_[h].u), static_cast<double>(q_[h].v));
-           }) == domain_->turns;
+  std::vector<int> turns(angle.size());
+  std::transform(angle.begin(), angle.end(), turns.begin(),
+    [](double a) { return static_cast<int>(std::lround(a / (kPi / 2))); });
+  return turns;
+}
+
+bool IntegerMap::isValid() const
+{
+  const bool sound = std::all_of(
+    faces_.begin(), faces_.end(), [&](Index f) { return defect(f) == FixedVec2{} && isSound(f); });
+  return sound && windings([&](Index h) { return inQuads(q_[h]); }) == turns_;
 }
 
 } // namespace quadrille

@@ -1,54 +1,46 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Whole displacements on the half-edges of a triangulated flat cone surface, changed by strips: adding a vector
-/// along a closed chain of triangles, or one that ends at the boundary, leaves every triangle closed.
+/// Displacements on the half-edges of a decimated seamless map that make it an integer-grid map, changed by
+/// strips: adding a vector along a closed chain of triangles, or one that ends at the boundary, leaves
+/// every triangle closed.
 ///
 ///      \    / \    /        each crossed edge grows by e, which turns with the transitions;
 ///   --- \--/---\--/ ---     whatever lies on one side of the strip moves by e against the other side.
 ///        \/  e  \/
+///
+/// Displacements count in sixteenths of a quad: integer vertices lie whole quads apart, other vertices that the
+/// decimation kept may lie between.
 #pragma once
 
 #include "Base/FixedPoint.h"
 #include "GridMap/UvMesh.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace quadrille
 {
 
-/// The decimated mesh without dead slots, and what its half-edges should be.
-struct IntegerDomain
-{
-  enum Axis : std::uint8_t
-  {
-    kFree,
-    kOnlyU, ///< the half-edge runs along u: its v component stays zero
-    kOnlyV
-  };
-  std::vector<Index> slot;           ///< #H; slot of the UvMesh
-  std::vector<Index> origin;         ///< #H
-  std::vector<Index> twin;           ///< #H
-  std::vector<std::int8_t> rotation; ///< #H
-  std::vector<Axis> axis;            ///< #H
-  std::vector<Vector2> wanted;       ///< #H; displacement in quads
-  std::vector<double> weight;        ///< #H; of |q - wanted|^2, the same on both sides
-  std::vector<int> turns;            ///< #V; quarter turns round the vertex in the wanted map
-  bool hasBoundary = false;
+/// Steps of a quad.
+constexpr std::int64_t kGrain = 16;
 
-  static IntegerDomain from(const UvMesh& mesh);
-  Index halfEdgeCount() const { return static_cast<Index>(twin.size()); }
-  Index faceCount() const { return halfEdgeCount() / 3; }
-};
-
-/// A displacement in whole quads per half-edge; q[twin h] = -R90^rotation q[h].
+/// A displacement per half-edge of a UvMesh; q[twin h] = -R90^rotation q[h]. Edges may be flipped, which the
+/// editor records.
 class IntegerMap
 {
 public:
-  explicit IntegerMap(const IntegerDomain& domain) : domain_(&domain), q_(domain.halfEdgeCount()) {}
+  /// integerVertex: #V; the vertices that have to lie at whole points.
+  IntegerMap(UvMesh& mesh, UvEditor& editor, const std::vector<std::uint8_t>& integerVertex);
 
-  const IntegerDomain& domain() const { return *domain_; }
+  const UvMesh& mesh() const { return mesh_; }
+  /// The faces that are alive, ascending.
+  const std::vector<Index>& faces() const { return faces_; }
+  /// Vertices that need not lie at whole points.
+  const std::vector<Index>& freeVertices() const { return freeVertices_; }
   FixedVec2 operator[](Index h) const { return q_[h]; }
+  /// In quads.
+  Vector2 wanted(Index h) const { return wanted_[h]; }
 
   /// Rounds `scale` times what is wanted; no half-edge becomes zero. Triangles need not close.
   void round(double scale);
@@ -56,28 +48,77 @@ public:
   void shift(Index h, FixedVec2 e);
   /// Whether e keeps the half-edge on its isoline.
   bool mayShift(Index h, FixedVec2 e) const;
+  /// Moves a vertex by e in the chart of the half-edge that mesh().outgoing names.
+  void moveVertex(Index v, FixedVec2 e);
+  /// Whether moving by e keeps the vertex on its curve.
+  bool mayMove(Index v, FixedVec2 e) const;
+  /// The change of energy by moveVertex.
+  double moveEnergy(Index v, FixedVec2 e) const;
+
+  bool mayFlip(Index h) const;
+  std::array<std::int64_t, 2> flippedDeterminants(Index h) const;
+  void flip(Index h);
+  /// Flips to the Delaunay triangulation of the displacements, as far as triangles stay sound.
+  void makeDelaunay();
 
   FixedVec2 defect(Index f) const { return q_[3 * f] + q_[3 * f + 1] + q_[3 * f + 2]; }
-  /// Twice the area of face f in quads.
+  /// Twice the area of face f in units of kGrain^-2 quads.
   std::int64_t determinant(Index f) const { return cross(q_[3 * f], q_[3 * f + 1]); }
+  /// 0 for a sound triangle, else by how much it misses that; in units of a determinant.
+  static std::int64_t brokenness(std::int64_t determinant)
+  {
+    return determinant >= kLeastDeterminant ? 0 : kGrain * kGrain + kLeastDeterminant - determinant;
+  }
+  bool isSound(Index f) const { return determinant(f) >= kLeastDeterminant; }
+
   /// The change of the energy sum weight |q - wanted|^2 by shift(h, e).
   double energyChange(Index h, FixedVec2 e) const;
   double energy() const;
+  /// In quads.
   double area() const;
-  /// Every triangle closed and positive, and the winding at every vertex as wanted.
+  /// Every triangle closed and sound, and the winding at every vertex that of the seamless map.
   bool isValid() const;
 
   static std::int64_t cross(FixedVec2 a, FixedVec2 b) { return a.u * b.v - a.v * b.u; }
 
 private:
-  const IntegerDomain* domain_;
-  std::vector<FixedVec2> q_;
+  enum Axis : std::uint8_t
+  {
+    kFree,
+    kOnlyU, ///< the half-edge runs along u: its v component stays zero
+    kOnlyV
+  };
+  /// A triangle of a sixty-fourth of a quad is what re-embedding can still work with.
+  static constexpr std::int64_t kLeastDeterminant = 8;
+
+  void measure(Index h);
+  void weigh(Index h);
+  double cotangentOpposite(Index h) const;
+  bool wantsFlip(Index h) const;
+  std::vector<FixedVec2> residues() const;
+  FixedVec2 residueOf(Index v) const;
+  FixedVec2 nearestAllowed(Index h, double scale, FixedVec2 residue) const;
+  template <typename Visit>
+  void visitStar(Index v, FixedVec2 e, Visit visit) const;
+  template <typename VectorOf>
+  std::vector<int> windings(VectorOf vectorOf) const;
+
+  UvMesh& mesh_;
+  UvEditor& editor_;
+  std::vector<std::uint8_t> integerVertex_;
+  std::vector<Index> faces_;
+  std::vector<Index> freeVertices_;
+  std::vector<FixedVec2> q_;    ///< #H
+  std::vector<Axis> axis_;      ///< #H
+  std::vector<Vector2> wanted_; ///< #H, in quads
+  std::vector<double> weight_;  ///< #H; the same on both sides
+  std::vector<int> turns_;      ///< #V; quarter turns in the seamless map
 };
 
-/// The unit vectors, counterclockwise from +u.
-inline FixedVec2 unitVector(int direction)
+/// The vectors of one step, counterclockwise from +u.
+inline FixedVec2 stepVector(int direction, std::int64_t length)
 {
-  return rotate(FixedVec2{ 1, 0 }, direction);
+  return rotate(FixedVec2{ length, 0 }, direction);
 }
 
 } // namespace quadrille

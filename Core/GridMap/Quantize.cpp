@@ -6,6 +6,7 @@
 /// start is repaired before the scale is raised; shrinking steps begin large.
 #include "GridMap/GridMap.h"
 
+#include "GridMap/LockedVertices.h"
 #include "GridMap/QuantizeIntegers.h"
 #include "GridMap/UvDecimation.h"
 
@@ -55,16 +56,46 @@ std::string defectOf(const UvMesh& mesh)
   return {};
 }
 
-/// Charts of whole displacements: the first corner of every face becomes the origin.
-void integrate(const IntegerMap& map, UvMesh& mesh)
+void placeFace(const IntegerMap& map, Index corner, FixedVec2 at, UvMesh& mesh)
 {
-  const std::vector<Index>& slot = map.domain().slot;
-  for (Index h = 0; h < slot.size(); h += 3)
+  const auto place = [&](Index h, FixedVec2 q) {
+    mesh.uv[h] = at + FixedVec2{ q.u * (kOne / kGrain), q.v * (kOne / kGrain) };
+  };
+  place(corner, {});
+  place(Mesh::next(corner), map[corner]);
+  place(Mesh::previous(corner), map[corner] + map[Mesh::next(corner)]);
+}
+
+/// Charts from displacements: integer vertices lie at whole points, so all translations are whole.
+void integrate(const IntegerMap& map, const std::vector<std::uint8_t>& integer, UvMesh& mesh)
+{
+  std::vector<std::uint8_t> placed(mesh.alive.size(), 0);
+  std::vector<Index> queue;
+  for (const Index seed : map.faces())
   {
-    const FixedVec2 b = map[h], c = map[h] + map[h + 1];
-    mesh.uv[slot[h]] = {};
-    mesh.uv[slot[h + 1]] = { b.u * kOne, b.v * kOne };
-    mesh.uv[slot[h + 2]] = { c.u * kOne, c.v * kOne };
+    for (Index h = 3 * seed; h < 3 * seed + 3 && !placed[seed]; ++h)
+    {
+      if (integer[mesh.origin[h]])
+      {
+        placeFace(map, h, {}, mesh);
+        placed[seed] = 1;
+        queue.push_back(seed);
+      }
+    }
+  }
+  // Faces without an integer vertex follow from their neighbours.
+  for (std::size_t i = 0; i < queue.size(); ++i)
+  {
+    for (Index h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h)
+    {
+      const Index g = mesh.twin[h];
+      if (g != kInvalidIndex && !placed[Mesh::face(g)])
+      {
+        placeFace(map, g, rotate(mesh.uv[Mesh::next(h)], mesh.rotation[h]), mesh);
+        placed[Mesh::face(g)] = 1;
+        queue.push_back(Mesh::face(g));
+      }
+    }
   }
 }
 
@@ -141,12 +172,12 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   }
   const double wantedArea = uvArea(uvMesh);
   UvEditor editor(uvMesh);
-  std::vector<std::uint8_t> keep = verticesToKeep(mesh, integerVertices(mesh, field));
-  decimateInUv(uvMesh, editor, keep);
+  LockedVertices locked =
+    lockedVertices(mesh, uvMesh, integerVertices(mesh, field), options.watched);
+  decimateInUv(uvMesh, editor, locked.keep);
 
-  const IntegerDomain domain = IntegerDomain::from(uvMesh);
-  IntegerMap integers(domain);
-  const IntegerStart start = findValidIntegers(integers, kMaximumScale, options.progress);
+  IntegerMap integers(uvMesh, editor, locked.integer);
+  const IntegerStart start = findValidIntegers(integers, 1, kMaximumScale, options.progress);
   if (!start.valid)
   {
     result.status = { StatusCode::NotConverged,
@@ -155,7 +186,7 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   }
   improveIntegers(integers, options.progress);
   result.refinement = std::max(1.0, std::sqrt(integers.area() / wantedArea));
-  integrate(integers, uvMesh);
+  integrate(integers, locked.integer, uvMesh);
   editor.undoAll();
   joinCharts(uvMesh);
   result.uv = uvMesh.uv;

@@ -17,26 +17,23 @@ namespace
 
 /// Energies are of order one; changes below this are rounding.
 constexpr double kLeastGain = 1e-7;
-/// Sweeps of the improvement; it ends by itself long before.
+/// Sweeps over all half-edges with one length of step; they end by themselves long before.
 constexpr int kMaximumSweeps = 100;
+/// Rounds of improvement with a new triangulation each.
+constexpr int kMaximumRounds = 6;
 
-int signOf(std::int64_t x)
+std::vector<FixedVec2> stepsIn(FixedVec2 p)
 {
-  return (x > 0) - (x < 0);
-}
-
-std::vector<FixedVec2> unitsIn(FixedVec2 p)
-{
-  std::vector<FixedVec2> units;
+  std::vector<FixedVec2> steps;
   if (p.u != 0)
   {
-    units.push_back({ signOf(p.u), 0 });
+    steps.push_back({ p.u > 0 ? kGrain : -kGrain, 0 });
   }
   if (p.v != 0)
   {
-    units.push_back({ 0, signOf(p.v) });
+    steps.push_back({ 0, p.v > 0 ? kGrain : -kGrain });
   }
-  return units;
+  return steps;
 }
 
 void apply(IntegerMap& map, const Strip& strip)
@@ -67,24 +64,32 @@ double applyMeasured(IntegerMap& map, const Strip& strip)
   return change;
 }
 
-/// The faces that a strip crosses, each once; repeated tells whether it crosses one twice.
-std::vector<Index> facesOf(const IntegerDomain& domain, const Strip& strip, bool& repeated)
+struct CrossedFaces
 {
-  std::vector<Index> faces;
+  std::vector<Index> faces; ///< each once
+  bool repeated = false;    ///< whether the strip crosses one of them twice
+};
+
+CrossedFaces crossedFaces(const UvMesh& mesh, const Strip& strip)
+{
+  CrossedFaces result;
+  std::vector<Index>& faces = result.faces;
   for (const StripStep& step : strip.steps)
   {
     faces.push_back(Mesh::face(step.halfEdge));
-    if (domain.twin[step.halfEdge] != kInvalidIndex)
+    if (mesh.twin[step.halfEdge] != kInvalidIndex)
     {
-      faces.push_back(Mesh::face(domain.twin[step.halfEdge]));
+      faces.push_back(Mesh::face(mesh.twin[step.halfEdge]));
     }
   }
   std::sort(faces.begin(), faces.end());
-  const std::size_t sides = faces.size();
+  // A face that is crossed once is entered once and left once.
+  for (std::size_t i = 2; i < faces.size(); ++i)
+  {
+    result.repeated = result.repeated || faces[i] == faces[i - 2];
+  }
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  // Each face is entered once and left once.
-  repeated = sides > 2 * faces.size();
-  return faces;
+  return result;
 }
 
 std::int64_t brokenness(const IntegerMap& map, const std::vector<Index>& faces)
@@ -92,27 +97,38 @@ std::int64_t brokenness(const IntegerMap& map, const std::vector<Index>& faces)
   std::int64_t sum = 0;
   for (const Index f : faces)
   {
-    sum += std::max<std::int64_t>(0, 1 - map.determinant(f));
+    sum += IntegerMap::brokenness(map.determinant(f));
   }
   return sum;
+}
+
+std::vector<Index> facesAround(const UvMesh& mesh, Index v)
+{
+  std::vector<Index> faces;
+  for (const Index h : mesh.star(v))
+  {
+    faces.push_back(Mesh::face(h));
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
 }
 
 /// Carries the defects of all triangles to each other, or out. False when one cannot leave its face.
 bool closeTriangles(IntegerMap& map)
 {
-  const IntegerDomain& domain = map.domain();
   StripSearch search(map, StripCost::Repair);
-  std::vector<FixedVec2> defects(domain.faceCount());
-  for (Index f = 0; f < domain.faceCount(); ++f)
+  std::vector<FixedVec2> defects(map.mesh().alive.size());
+  for (const Index f : map.faces())
   {
     defects[f] = map.defect(f);
   }
-  for (Index f = 0; f < domain.faceCount(); ++f)
+  for (const Index f : map.faces())
   {
     while (defects[f] != FixedVec2{})
     {
       Strip best;
-      for (const FixedVec2 e : unitsIn(defects[f]))
+      for (const FixedVec2 e : stepsIn(defects[f]))
       {
         const Strip strip = search.discharge(f, e, defects);
         if (strip.found() && strip.cost < best.cost)
@@ -125,8 +141,7 @@ bool closeTriangles(IntegerMap& map)
         return false;
       }
       apply(map, best);
-      bool repeated = false;
-      for (const Index touched : facesOf(domain, best, repeated))
+      for (const Index touched : crossedFaces(map.mesh(), best).faces)
       {
         defects[touched] = map.defect(touched);
       }
@@ -135,25 +150,24 @@ bool closeTriangles(IntegerMap& map)
   return true;
 }
 
+/// Mends broken triangles as long as the sum of what is broken falls.
 class Repair
 {
 public:
   explicit Repair(IntegerMap& map) : map_(map), search_(map, StripCost::Repair) {}
 
-  /// Strips through broken triangles as long as the sum of what is broken falls.
   bool run()
   {
-    const Index faces = map_.domain().faceCount();
     bool progress = true;
-    while (progress)
+    bool broken = true;
+    while (progress && broken)
     {
-      progress = false;
-      bool broken = false;
-      for (Index f = 0; f < faces; ++f)
+      progress = broken = false;
+      for (const Index f : map_.faces())
       {
-        while (map_.determinant(f) <= 0)
+        while (!map_.isSound(f))
         {
-          if (!mend(f))
+          if (!flipAt(f) && !moveAt(f) && !stripAt(f))
           {
             broken = true;
             break;
@@ -161,7 +175,48 @@ public:
           progress = true;
         }
       }
-      if (!broken && allPositive())
+      broken = broken || brokenness(map_, map_.faces()) > 0;
+    }
+    return !broken;
+  }
+
+private:
+  /// Flips the edge of f that leaves least broken, if that is less than now.
+  bool flipAt(Index f)
+  {
+    Index best = kInvalidIndex;
+    std::int64_t bestChange = 0;
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      if (!map_.mayFlip(h))
+      {
+        continue;
+      }
+      const auto after = map_.flippedDeterminants(h);
+      const std::int64_t change = IntegerMap::brokenness(after[0]) +
+        IntegerMap::brokenness(after[1]) - IntegerMap::brokenness(map_.determinant(f)) -
+        IntegerMap::brokenness(map_.determinant(Mesh::face(map_.mesh().twin[h])));
+      if (change < bestChange)
+      {
+        bestChange = change;
+        best = h;
+      }
+    }
+    if (best != kInvalidIndex)
+    {
+      map_.flip(best);
+    }
+    return best != kInvalidIndex;
+  }
+
+  /// Moves a corner of f that need not be whole.
+  bool moveAt(Index f)
+  {
+    const std::vector<Index>& all = map_.freeVertices();
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      const Index v = map_.mesh().origin[h];
+      if (std::binary_search(all.begin(), all.end(), v) && moveVertex(v))
       {
         return true;
       }
@@ -169,33 +224,53 @@ public:
     return false;
   }
 
-private:
-  bool allPositive() const
+  bool moveVertex(Index v)
   {
-    for (Index f = 0; f < map_.domain().faceCount(); ++f)
+    const std::vector<Index> faces = facesAround(map_.mesh(), v);
+    const std::int64_t before = brokenness(map_, faces);
+    std::int64_t bestChange = 0;
+    FixedVec2 best;
+    for (std::int64_t length = kGrain; length >= 1; length /= 2)
     {
-      if (map_.determinant(f) <= 0)
+      for (int direction = 0; direction < 4; ++direction)
       {
-        return false;
+        const FixedVec2 e = stepVector(direction, length);
+        if (!map_.mayMove(v, e))
+        {
+          continue;
+        }
+        map_.moveVertex(v, e);
+        const std::int64_t change = brokenness(map_, faces) - before;
+        map_.moveVertex(v, -e);
+        if (change < bestChange)
+        {
+          bestChange = change;
+          best = e;
+        }
       }
     }
-    return true;
+    if (bestChange < 0)
+    {
+      map_.moveVertex(v, best);
+    }
+    return bestChange < 0;
   }
 
-  bool mend(Index f)
+  bool stripAt(Index f)
   {
     Strip best;
     std::pair<std::int64_t, double> bestChange{ 0, 0 };
+    double bound = 0;
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
       for (int direction = 0; direction < 4; ++direction)
       {
-        const FixedVec2 e = unitVector(direction);
+        const FixedVec2 e = stepVector(direction, kGrain);
         if (!map_.mayShift(h, e))
         {
           continue;
         }
-        const Strip strip = search_.through(h, e, 0);
+        Strip strip = search_.through(h, e, bound);
         if (!strip.found())
         {
           continue;
@@ -203,8 +278,9 @@ private:
         const auto change = measure(strip);
         if (change < bestChange)
         {
+          bound = std::min(bound, strip.cost);
           bestChange = change;
-          best = strip;
+          best = std::move(strip);
         }
       }
     }
@@ -218,8 +294,7 @@ private:
 
   std::pair<std::int64_t, double> measure(const Strip& strip)
   {
-    bool repeated = false;
-    const std::vector<Index> faces = facesOf(map_.domain(), strip, repeated);
+    const std::vector<Index> faces = crossedFaces(map_.mesh(), strip).faces;
     const std::int64_t before = brokenness(map_, faces);
     const double energy = applyMeasured(map_, strip);
     const std::int64_t after = brokenness(map_, faces);
@@ -234,20 +309,34 @@ private:
 class Improvement
 {
 public:
-  explicit Improvement(IntegerMap& map) : map_(map), search_(map, StripCost::KeepPositive) {}
+  explicit Improvement(IntegerMap& map) : map_(map), search_(map, StripCost::KeepSound) {}
 
   void run(const ProgressCallback& progress)
   {
-    for (std::int64_t length = longestStep(); length >= 1; length /= 2)
+    std::int64_t longest = longestStep();
+    for (int round = 0; round < kMaximumRounds; ++round)
     {
-      for (int sweep = 0; sweep < kMaximumSweeps; ++sweep)
+      bool improved = false;
+      for (std::int64_t length = longest; length >= kGrain; length /= 2)
       {
-        report(progress, 0.5, "improving integers");
-        if (!sweepOnce(length))
+        for (int sweep = 0; sweep < kMaximumSweeps; ++sweep)
         {
-          break;
+          report(progress, 0.5, "improving integers");
+          const bool strips = sweepStrips(length);
+          const bool moves = moveFreeVertices();
+          improved = improved || strips || moves;
+          if (!strips && !moves)
+          {
+            break;
+          }
         }
       }
+      if (!improved)
+      {
+        break;
+      }
+      map_.makeDelaunay();
+      longest = kGrain;
     }
   }
 
@@ -259,18 +348,20 @@ private:
     int direction;
   };
 
-  /// The largest power of two that could still bring a half-edge nearer to what is wanted.
+  /// The largest step that could still bring a half-edge nearer to what is wanted.
   std::int64_t longestStep() const
   {
     double farthest = 0;
-    const IntegerDomain& domain = map_.domain();
-    for (Index h = 0; h < domain.halfEdgeCount(); ++h)
+    for (const Index f : map_.faces())
     {
-      farthest =
-        std::max({ farthest, std::abs(static_cast<double>(map_[h].u) - domain.wanted[h].x()),
-          std::abs(static_cast<double>(map_[h].v) - domain.wanted[h].y()) });
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        const Vector2 wanted = double(kGrain) * map_.wanted(h);
+        farthest = std::max({ farthest, std::abs(static_cast<double>(map_[h].u) - wanted.x()),
+          std::abs(static_cast<double>(map_[h].v) - wanted.y()) });
+      }
     }
-    std::int64_t length = 1;
+    std::int64_t length = kGrain;
     while (static_cast<double>(2 * length) < farthest)
     {
       length *= 2;
@@ -280,20 +371,19 @@ private:
 
   std::vector<Candidate> candidates(std::int64_t length) const
   {
-    const IntegerDomain& domain = map_.domain();
     std::vector<Candidate> result;
-    for (Index h = 0; h < domain.halfEdgeCount(); ++h)
+    for (const Index f : map_.faces())
     {
-      if (domain.twin[h] < h)
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
       {
-        continue;
-      }
-      for (int direction = 0; direction < 4; ++direction)
-      {
-        const double gain = -map_.energyChange(h, vectorOf(direction, length));
-        if (gain > kLeastGain && map_.mayShift(h, vectorOf(direction, length)))
+        for (int direction = 0; map_.mesh().twin[h] >= h && direction < 4; ++direction)
         {
-          result.push_back({ gain, h, direction });
+          const FixedVec2 e = stepVector(direction, length);
+          const double gain = -map_.energyChange(h, e);
+          if (gain > kLeastGain && map_.mayShift(h, e))
+          {
+            result.push_back({ gain, h, direction });
+          }
         }
       }
     }
@@ -305,18 +395,12 @@ private:
     return result;
   }
 
-  static FixedVec2 vectorOf(int direction, std::int64_t length)
-  {
-    const FixedVec2 unit = unitVector(direction);
-    return { length * unit.u, length * unit.v };
-  }
-
-  bool sweepOnce(std::int64_t length)
+  bool sweepStrips(std::int64_t length)
   {
     bool improved = false;
     for (const Candidate& candidate : candidates(length))
     {
-      const FixedVec2 e = vectorOf(candidate.direction, length);
+      const FixedVec2 e = stepVector(candidate.direction, length);
       double gain = -map_.energyChange(candidate.halfEdge, e);
       while (gain > kLeastGain && accept(search_.through(candidate.halfEdge, e, gain)))
       {
@@ -333,17 +417,44 @@ private:
     {
       return false;
     }
-    bool repeated = false;
-    const std::vector<Index> faces = facesOf(map_.domain(), strip, repeated);
+    const CrossedFaces crossed = crossedFaces(map_.mesh(), strip);
     const double change = applyMeasured(map_, strip);
     // A triangle that is crossed once keeps its sign on the way, so the winding cannot change; one that
     // is crossed twice may turn by 180 degrees.
-    if (change < -kLeastGain && brokenness(map_, faces) == 0 && (!repeated || map_.isValid()))
+    if (change < -kLeastGain && brokenness(map_, crossed.faces) == 0 &&
+      (!crossed.repeated || map_.isValid()))
     {
       return true;
     }
     revert(map_, strip);
     return false;
+  }
+
+  bool moveFreeVertices()
+  {
+    bool improved = false;
+    for (const Index v : map_.freeVertices())
+    {
+      const std::vector<Index> faces = facesAround(map_.mesh(), v);
+      for (std::int64_t length = kGrain; length >= 1; length /= 2)
+      {
+        for (int direction = 0; direction < 4; ++direction)
+        {
+          const FixedVec2 e = stepVector(direction, length);
+          while (map_.mayMove(v, e) && map_.moveEnergy(v, e) < -kLeastGain)
+          {
+            map_.moveVertex(v, e);
+            if (brokenness(map_, faces) > 0)
+            {
+              map_.moveVertex(v, -e);
+              break;
+            }
+            improved = true;
+          }
+        }
+      }
+    }
+    return improved;
   }
 
   IntegerMap& map_;
@@ -353,10 +464,10 @@ private:
 } // namespace
 
 IntegerStart findValidIntegers(
-  IntegerMap& map, double maximumScale, const ProgressCallback& progress)
+  IntegerMap& map, double scale, double maximumScale, const ProgressCallback& progress)
 {
   IntegerStart start;
-  for (; start.scale <= maximumScale; start.scale *= std::sqrt(2.0))
+  for (start.scale = scale; start.scale <= maximumScale; start.scale *= std::sqrt(2.0))
   {
     report(progress, 0.2, "rounding at scale " + std::to_string(start.scale));
     map.round(start.scale);

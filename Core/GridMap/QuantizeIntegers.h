@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// Choosing the integers on the decimated mesh [Coudert-Osmont et al. 2023, from its description]: a first valid
-/// assignment, then strips that bring it nearer to what is wanted.
+/// assignment, then strips, moves of free vertices and flips that bring it nearer to what is wanted.
 #pragma once
 
 #include "Base/Progress.h"
@@ -16,11 +16,11 @@ struct IntegerStart
   double scale = 1; ///< of the wanted displacements, at which the map became valid
 };
 
-/// Rounds, closes and repairs at growing scales (factor sqrt 2, up to maximumScale) until valid.
+/// Rounds, closes and repairs at scales that grow from `scale` by sqrt 2 up to maximumScale until valid.
 IntegerStart findValidIntegers(
-  IntegerMap& map, double maximumScale, const ProgressCallback& progress);
+  IntegerMap& map, double scale, double maximumScale, const ProgressCallback& progress);
 
-/// Lowers the energy of a valid map by strips until none helps; it stays valid.
+/// Lowers the energy of a valid map until nothing helps; it stays valid.
 void improveIntegers(IntegerMap& map, const ProgressCallback& progress);
 
 } // namespace quadrille

@@ -22,17 +22,11 @@ std::int64_t lengthOf(FixedVec2 e)
   return std::abs(e.u) + std::abs(e.v);
 }
 
-std::int64_t broken(std::int64_t determinant)
-{
-  return std::max<std::int64_t>(0, 1 - determinant);
-}
-
 } // namespace
 
 StripSearch::StripSearch(const IntegerMap& map, StripCost cost)
-  : map_(map), domain_(map.domain()), cost_(cost),
-    distance_(4 * std::size_t{ domain_.halfEdgeCount() }), parent_(distance_.size()),
-    stamp_(distance_.size(), 0), settled_(distance_.size(), 0)
+  : map_(map), mesh_(map.mesh()), cost_(cost), distance_(4 * map.mesh().origin.size()),
+    parent_(distance_.size()), stamp_(distance_.size(), 0), settled_(distance_.size(), 0)
 {
 }
 
@@ -44,8 +38,7 @@ void StripSearch::restart()
 
 FixedVec2 StripSearch::vectorOf(Index state) const
 {
-  const FixedVec2 unit = unitVector(static_cast<int>(state & 3));
-  return { length_ * unit.u, length_ * unit.v };
+  return stepVector(static_cast<int>(state & 3), length_);
 }
 
 Index StripSearch::stateOf(Index h, FixedVec2 e)
@@ -90,11 +83,12 @@ double StripSearch::crossingCost(Index in, FixedVec2 e, Index out, bool isFirst)
   const FixedVec2 a = map_[in] + e, b = map_[out] - e;
   const std::int64_t after =
     out == Mesh::next(in) ? IntegerMap::cross(a, b) : IntegerMap::cross(b, a);
-  if (cost_ == StripCost::KeepPositive)
+  if (cost_ == StripCost::KeepSound)
   {
-    return after > 0 ? 0 : kInfinity;
+    return IntegerMap::brokenness(after) == 0 ? 0 : kInfinity;
   }
-  const std::int64_t change = broken(after) - broken(map_.determinant(Mesh::face(in)));
+  const std::int64_t change =
+    IntegerMap::brokenness(after) - IntegerMap::brokenness(map_.determinant(Mesh::face(in)));
   // Only the first triangle may pay with what it gains, or Dijkstra's algorithm would not apply.
   return kBroken * static_cast<double>(isFirst ? change : std::max<std::int64_t>(0, change));
 }
@@ -107,8 +101,8 @@ double StripSearch::edgeCost(Index out, FixedVec2 e) const
 void StripSearch::explore(Index h, FixedVec2 e, double bound, End& closed, End& border)
 {
   restart();
-  const Index last = domain_.twin[h];
-  const FixedVec2 closing = last == kInvalidIndex ? e : rotate(e, domain_.rotation[h]);
+  const Index last = mesh_.twin[h];
+  const FixedVec2 closing = last == kInvalidIndex ? e : rotate(e, mesh_.rotation[h]);
   const Index start = stateOf(h, e);
   relax(start, 0, kInvalidIndex);
   Index state = 0;
@@ -142,10 +136,10 @@ void StripSearch::explore(Index h, FixedVec2 e, double bound, End& closed, End& 
       {
         continue;
       }
-      const Index next = domain_.twin[out];
+      const Index next = mesh_.twin[out];
       if (next != kInvalidIndex)
       {
-        relax(stateOf(next, rotate(carried, domain_.rotation[out])), total, state);
+        relax(stateOf(next, rotate(carried, mesh_.rotation[out])), total, state);
       }
       else if (total < border.cost)
       {
@@ -185,11 +179,11 @@ Strip StripSearch::through(Index h, FixedVec2 e, double bound)
   std::vector<StripStep> steps;
   appendPath(border, steps);
   double cost = border.cost;
-  const Index g = domain_.twin[h];
+  const Index g = mesh_.twin[h];
   if (g != kInvalidIndex)
   {
     End otherClosed, otherBorder;
-    explore(g, -rotate(e, domain_.rotation[h]), std::min(bound, closed.cost) - border.cost,
+    explore(g, -rotate(e, mesh_.rotation[h]), std::min(bound, closed.cost) - border.cost,
       otherClosed, otherBorder);
     cost += otherBorder.cost;
     if (otherBorder.cost < kInfinity)
@@ -218,10 +212,10 @@ Strip StripSearch::discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>&
       return;
     }
     const double total = cost + edgeCost(out, carried);
-    const Index next = domain_.twin[out];
+    const Index next = mesh_.twin[out];
     if (next != kInvalidIndex)
     {
-      relax(stateOf(next, rotate(carried, domain_.rotation[out])), total, from);
+      relax(stateOf(next, rotate(carried, mesh_.rotation[out])), total, from);
     }
     else if (total < best.cost)
     {

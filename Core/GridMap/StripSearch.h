@@ -27,11 +27,11 @@ struct Strip
   bool found() const { return !steps.empty(); }
 };
 
-/// What crossing a triangle costs. A triangle with det < 1 is broken by 1 - det.
+/// What crossing a triangle costs.
 enum class StripCost
 {
-  KeepPositive, ///< never breaks a triangle; cost is the energy that edges gain
-  Repair        ///< breaking costs first, energy second
+  KeepSound, ///< never breaks a triangle; cost is the energy that edges gain
+  Repair     ///< breaking costs first, energy second
 };
 
 class StripSearch
@@ -47,7 +47,7 @@ public:
   /// lowers, or out through the boundary. defects: #F.
   Strip discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>& defects);
 
-  static constexpr double kBroken = 1e6; ///< price of breaking a triangle by one unit
+  static constexpr double kBroken = 1e4; ///< price of one unit of IntegerMap::brokenness
 
 private:
   struct End
@@ -70,7 +70,7 @@ private:
   void appendPath(const End& end, std::vector<StripStep>& steps) const;
 
   const IntegerMap& map_;
-  const IntegerDomain& domain_;
+  const UvMesh& mesh_;
   StripCost cost_;
   std::int64_t length_ = 1; ///< of the vectors of the current search
   std::vector<double> distance_;

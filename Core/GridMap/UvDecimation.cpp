@@ -18,52 +18,6 @@ constexpr double kDelaunaySlack = -1e-9;
 /// Stars up to this size go first: large stars cost more and leave worse triangles behind.
 constexpr std::size_t kSmallStar = 8;
 
-class DisjointSets
-{
-public:
-  explicit DisjointSets(Index count) : parent_(count)
-  {
-    std::iota(parent_.begin(), parent_.end(), Index{ 0 });
-  }
-  Index find(Index x)
-  {
-    while (parent_[x] != x)
-    {
-      x = parent_[x] = parent_[parent_[x]];
-    }
-    return x;
-  }
-  /// The smaller id represents the union.
-  void join(Index a, Index b)
-  {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<Index> parent_;
-};
-
-/// Keeps the first vertex of every set (of those that `counts` names) that has none to keep.
-void keepOnePerSet(
-  DisjointSets& sets, const std::vector<std::uint8_t>& counts, std::vector<std::uint8_t>& keep)
-{
-  const Index vertices = static_cast<Index>(keep.size());
-  std::vector<std::uint8_t> served(vertices, 0);
-  for (Index v = 0; v < vertices; ++v)
-  {
-    served[sets.find(v)] |= keep[v];
-  }
-  for (Index v = 0; v < vertices; ++v)
-  {
-    if (counts[v] && sets.find(v) == v && !served[v])
-    {
-      keep[v] = 1;
-    }
-  }
-}
-
 class Decimator
 {
 public:
@@ -294,26 +248,6 @@ private:
 };
 
 } // namespace
-
-std::vector<std::uint8_t> verticesToKeep(const Mesh& mesh, const std::vector<std::uint8_t>& needed)
-{
-  std::vector<std::uint8_t> keep = needed;
-  DisjointSets curves(mesh.vertexCount()), components(mesh.vertexCount());
-  std::vector<std::uint8_t> onCurve(mesh.vertexCount(), 0), used(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    used[mesh.origin[h]] = 1;
-    components.join(mesh.origin[h], mesh.target(h));
-    if (mesh.isConstrained(h))
-    {
-      curves.join(mesh.origin[h], mesh.target(h));
-      onCurve[mesh.origin[h]] = onCurve[mesh.target(h)] = 1;
-    }
-  }
-  keepOnePerSet(curves, onCurve, keep);
-  keepOnePerSet(components, used, keep);
-  return keep;
-}
 
 void decimateInUv(UvMesh& mesh, UvEditor& editor, std::vector<std::uint8_t>& keep)
 {

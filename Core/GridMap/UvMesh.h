@@ -23,7 +23,7 @@ namespace quadrille
 enum UvEdgeFlag : std::uint8_t
 {
   kUvConstrained = 1, ///< lies on an isoline: a feature or the boundary
-  kUvKept = 2         ///< joins two locked vertices on the surface: straight in every map
+  kUvKept = 2         ///< joins two kept vertices on the surface: straight in every map
 };
 
 /// Slots never move (see Hierarchy/DecimationLog.h); a removed face keeps dead slots.
