@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/Extraction.h"
 
+#include "Extraction/HoleFilling.h"
 #include "Extraction/QuadAssembly.h"
 #include "Extraction/QuadSmoothing.h"
 #include "Extraction/QuadTopology.h"
 #include "Mesh/Topology.h"
 
 #include <cmath>
+#include <map>
 #include <sstream>
 
 namespace quadrille
@@ -102,8 +104,62 @@ std::string compareTopology(const Mesh& mesh, const QuadMesh& quads, const QuadT
   return problem;
 }
 
+/// Shape of a graph of curves: what does not change when its edges are cut finer.
+struct CurveGraph
+{
+  std::map<int, std::size_t> nodes; ///< number of vertices per degree other than 2
+  long long cycles = 0;             ///< edges - vertices
+
+  CurveGraph(const std::vector<std::pair<Index, Index>>& edges, std::size_t vertices)
+  {
+    std::vector<int> degree(vertices, 0);
+    for (const auto& [a, b] : edges)
+    {
+      ++degree[a];
+      ++degree[b];
+    }
+    cycles = static_cast<long long>(edges.size());
+    for (const int d : degree)
+    {
+      cycles -= d > 0 ? 1 : 0;
+      if (d != 0 && d != 2)
+      {
+        ++nodes[d];
+      }
+    }
+  }
+  bool operator==(const CurveGraph& other) const
+  {
+    return nodes == other.nodes && cycles == other.cycles;
+  }
+};
+
+CurveGraph constrainedGraph(const Mesh& mesh)
+{
+  std::vector<std::pair<Index, Index>> edges;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isConstrained(h) && h < mesh.twin[h])
+    {
+      edges.emplace_back(mesh.origin[h], mesh.target(h));
+    }
+  }
+  return { edges, mesh.position.size() };
+}
+
+CurveGraph lineGraph(const QuadMesh& quads)
+{
+  std::vector<std::pair<Index, Index>> edges;
+  for (const QuadLine& line : quads.lines)
+  {
+    edges.emplace_back(line.a, line.b);
+  }
+  return { edges, quads.points.size() };
+}
+
 /// Every unit of a constrained isoline must be a line of the quad mesh. Empty when so.
-std::string compareLines(const QuadMesh& quads, const QuadTopology& found, const MapCheck& check)
+std::string compareLines(
+  const Mesh& mesh, const QuadMesh& quads, const QuadTopology& found, const MapCheck& check)
 {
   std::string problem;
   std::size_t boundary = 0;
@@ -125,6 +181,10 @@ std::string compareLines(const QuadMesh& quads, const QuadTopology& found, const
       std::to_string(quads.lines.size()) + " feature and boundary edges instead of " +
         std::to_string(check.constrainedLength));
   }
+  if (!(lineGraph(quads) == constrainedGraph(mesh)))
+  {
+    append(problem, "features or boundaries are interrupted");
+  }
   return problem;
 }
 
@@ -133,7 +193,7 @@ Status judge(const Mesh& mesh, const MapCheck& check, const QuadTopology& found,
   const ExtractionResult& result)
 {
   std::string problem = compareTopology(mesh, result.mesh, found);
-  const std::string lines = compareLines(result.mesh, found, check);
+  const std::string lines = compareLines(mesh, result.mesh, found, check);
   if (!lines.empty())
   {
     append(problem, lines);
@@ -185,6 +245,10 @@ ExtractionResult extractQuads(
 
   report(options.progress, 0.7, "assembling quads");
   assembleQuads(map, grid, cells, { tolerant, options.threads }, result);
+  if (tolerant)
+  {
+    result.filledHoles = fillHoles(result.mesh);
+  }
 
   report(options.progress, 0.9, "checking the quads");
   QuadTopology topology = analyzeQuads(result.mesh.quads, result.mesh.points.size());

@@ -54,8 +54,9 @@ struct ExtractionResult
   Status status;
   std::size_t openPorts = 0;    ///< edges of the grid that could not be followed to their end
   std::size_t droppedFaces = 0; ///< loops of the grid that are no quads
-  std::size_t mergedVertices =
-    0; ///< further copies of a grid vertex in folds that were joined to it
+  std::size_t filledHoles = 0;  ///< small holes left by folds that were closed, see HoleFilling.h
+  /// Further copies of a grid vertex in folds that were joined to it.
+  std::size_t mergedVertices = 0;
 };
 
 /// The quads are the unit cells of the grid: each port (a corner of a cell, [Ebke et al. 2013]) is

@@ -207,20 +207,24 @@ void countComponents(const Quads& quads, std::size_t pointCount, QuadTopology& t
   topology.components -= topology.isolatedPoints;
 }
 
-void countLoops(QuadTopology& topology)
+} // namespace
+
+std::vector<std::vector<Index>> boundaryLoops(const QuadTopology& topology)
 {
   const Index count = static_cast<Index>(topology.twin.size());
   std::vector<std::uint8_t> seen(count, 0);
+  std::vector<std::vector<Index>> loops;
   for (Index h = 0; h < count; ++h)
   {
     if (topology.twin[h] != kInvalidIndex || seen[h])
     {
       continue;
     }
-    ++topology.boundaryLoops;
+    loops.emplace_back();
     for (Index g = h; !seen[g];)
     {
       seen[g] = 1;
+      loops.back().push_back(g);
       g = nextInQuad(g);
       while (topology.twin[g] != kInvalidIndex)
       {
@@ -228,9 +232,8 @@ void countLoops(QuadTopology& topology)
       }
     }
   }
+  return loops;
 }
-
-} // namespace
 
 QuadTopology analyzeQuads(const Quads& quads, std::size_t pointCount)
 {
@@ -244,7 +247,7 @@ QuadTopology analyzeQuads(const Quads& quads, std::size_t pointCount)
   countComponents(quads, pointCount, topology);
   if (topology.manifold())
   {
-    countLoops(topology);
+    topology.boundaryLoops = boundaryLoops(topology).size();
   }
   topology.eulerCharacteristic = static_cast<long long>(pointCount - topology.isolatedPoints) -
     static_cast<long long>(topology.edges) + static_cast<long long>(quads.size());

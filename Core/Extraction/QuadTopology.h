@@ -44,6 +44,10 @@ struct QuadTopology
   std::string text() const;
 };
 
+/// The half-edges of each boundary loop in order, quads on the left. At a vertex with several fans
+/// a loop stays with its fan.
+std::vector<std::vector<Index>> boundaryLoops(const QuadTopology& topology);
+
 /// Linear in quads. Throws InvalidInput for a corner beyond pointCount.
 QuadTopology analyzeQuads(const std::vector<std::array<Index, 4>>& quads, std::size_t pointCount);
 
