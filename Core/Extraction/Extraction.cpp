@@ -188,6 +188,14 @@ std::string compareLines(
   return problem;
 }
 
+/// Is this an integer-grid map with a few folds? Only then is a small hole the trace of a fold; in
+/// anything else closing holes would make a surface out of noise.
+bool isNearlyValid(const MapCheck& check, const Mesh& mesh)
+{
+  return check.count[kResidual] == 0 && check.count[kFractional] == 0 &&
+    check.count[kNotPositive] <= mesh.faceCount() / 50;
+}
+
 /// Judges the result: what is wrong with it, and what in the map explains it.
 Status judge(const Mesh& mesh, const MapCheck& check, const QuadTopology& found,
   const ExtractionResult& result)
@@ -245,7 +253,7 @@ ExtractionResult extractQuads(
 
   report(options.progress, 0.7, "assembling quads");
   assembleQuads(map, grid, cells, { tolerant, options.threads }, result);
-  if (tolerant)
+  if (tolerant && isNearlyValid(check, mesh))
   {
     result.filledHoles = fillHoles(result.mesh);
   }
