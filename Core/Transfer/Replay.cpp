@@ -5,6 +5,7 @@
 #include "Base/Parallel.h"
 #include "Hierarchy/LogRecords.h"
 #include "Mesh/Mesh.h"
+#include "Transfer/QuarterTurns.h"
 #include "Transfer/RingKernel.h"
 
 #include <array>
@@ -15,23 +16,6 @@ namespace quadrille
 
 namespace
 {
-
-/// Quarter turns that carry `from` to `to`; -1 when none or all of them do.
-int quarterTurns(FixedVec2 from, FixedVec2 to)
-{
-  if (from == to)
-  {
-    return from == FixedVec2{} ? -1 : 0;
-  }
-  for (int r = 1; r < 4; ++r)
-  {
-    if (rotate(from, r) == to)
-    {
-      return r;
-    }
-  }
-  return -1;
-}
 
 /// w (b - a) for w in units of 2^-32, rounded to the grid.
 std::int64_t scaled(std::int64_t difference, std::uint32_t weight)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Transfer/Transfer.h"
 
+#include "Transfer/PatchMender.h"
 #include "Transfer/Replay.h"
 
 #include <string>
@@ -67,6 +68,13 @@ TransferResult transferMap(const Mesh& fine, const Level& coarse, const Decimati
   result.movedToKernel = counts.movedToKernel;
   result.withoutKernel = counts.withoutKernel;
   result.notPositive = countNotPositive(result.uv);
+  // What was invalid already on the coarse level is not a matter of a few triangles here.
+  if (result.notPositive > 0 && countNotPositive(coarseUv) == 0)
+  {
+    const MendResult mended = mendPatches(fine, result.uv, options.progress);
+    result.mendedPatches = mended.patches;
+    result.notPositive = mended.notPositive;
+  }
   return result;
 }
 

@@ -1,0 +1,551 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Transfer/PatchMender.h"
+
+#include "Numerics/Untangler.h"
+#include "Transfer/QuarterTurns.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// Rings of faces round the inverted ones, in the order of the attempts.
+constexpr std::array<int, 4> kGrowth{ 2, 4, 8, 16 };
+constexpr std::size_t kMaximumPatchFaces = 30000;
+/// Faces in all patches that are tried, besides a tenth of the mesh.
+constexpr std::size_t kMaximumWork = 50000;
+/// References flatter than this (2 area / longest edge squared) are replaced by equilateral ones.
+constexpr double kFlattestReference = 0.1;
+/// A patch vertex with more faces than this stays where it is.
+constexpr std::size_t kMaximumFan = 256;
+
+/// How a vertex of a patch may move.
+enum class Freedom
+{
+  Fixed,
+  AlongU, ///< in the chart of its first corner
+  AlongV,
+  Plane
+};
+
+/// A corner of a vertex and the rotation from the chart of the fan's first corner to its own.
+struct FanCorner
+{
+  Index corner = 0;
+  int rotation = 0;
+};
+
+class PatchMender
+{
+public:
+  PatchMender(const Mesh& mesh, std::vector<FixedVec2>& uv)
+    : mesh_(mesh), uv_(uv), inPatch_(mesh.faceCount(), 0), seenVertex_(mesh.vertexCount(), 0),
+      tried_(mesh.faceCount(), 0)
+  {
+  }
+
+  MendResult run(const ProgressCallback& progress);
+
+private:
+  bool isPositive(Index f) const
+  {
+    return determinant(uv_[3 * f], uv_[3 * f + 1], uv_[3 * f + 2]) > 0;
+  }
+  std::vector<Index> findNotPositive() const;
+  bool mendAround(Index seed);
+  void collectCluster(Index seed);
+  void growPatch();
+  void addFacesAround(Index corner);
+  std::size_t countBadInPatch() const;
+
+  bool embedPatch();
+  void collectFans();
+  void addFan(Index corner);
+  bool walkFan(Index corner, std::vector<FanCorner>& fan, bool& interior) const;
+  Freedom freedomOf(const std::vector<FanCorner>& fan, bool interior, bool closes) const;
+  UntangleProblem makeProblem() const;
+  Eigen::Matrix2d inverseReference(Index f, double scale) const;
+  double referenceScale() const;
+  void applyDisplacements(const Eigen::VectorXd& y);
+  bool windingsAreRight() const;
+
+  struct PatchVertex
+  {
+    Freedom freedom = Freedom::Fixed;
+    bool interior = false;
+    std::size_t firstFan = 0; ///< range of fans_
+    std::size_t fanCount = 0;
+    int firstUnknown = 0;
+  };
+
+  const Mesh& mesh_;
+  std::vector<FixedVec2>& uv_;
+  std::vector<std::uint8_t> inPatch_;
+  std::vector<std::uint8_t> seenVertex_;
+  std::vector<std::uint8_t> tried_; ///< bad faces that were in a cluster already
+  std::vector<Index> patch_;        ///< faces, sorted
+  std::vector<PatchVertex> vertices_;
+  std::vector<FanCorner> fans_;
+  int unknowns_ = 0;
+  std::size_t work_ = 0; ///< faces of all patches tried
+};
+
+/// All corners of the vertex of `corner`, counterclockwise, for a boundary vertex from its boundary half-edge on.
+/// Fails for an absurdly large fan.
+bool collectCorners(const Mesh& mesh, Index corner, std::vector<Index>& corners, bool& interior)
+{
+  Index first = corner;
+  interior = true;
+  for (Index h = mesh.rotateClockwise(corner); h != corner; h = mesh.rotateClockwise(h))
+  {
+    if (h == kInvalidIndex)
+    {
+      interior = false;
+      break;
+    }
+    first = h;
+  }
+  if (interior)
+  {
+    first = corner;
+  }
+  corners.clear();
+  Index h = first;
+  do
+  {
+    corners.push_back(h);
+    h = mesh.rotateCounterclockwise(h);
+  } while (h != first && h != kInvalidIndex && corners.size() < kMaximumFan);
+  return corners.size() < kMaximumFan;
+}
+
+MendResult PatchMender::run(const ProgressCallback& progress)
+{
+  MendResult result;
+  const std::vector<Index> bad = findNotPositive();
+  const std::size_t limit = kMaximumWork + mesh_.faceCount() / 10;
+  for (std::size_t i = 0; i < bad.size() && work_ < limit; ++i)
+  {
+    report(progress, double(i) / double(bad.size()), "mending the map");
+    if (tried_[bad[i]] == 0 && !isPositive(bad[i]))
+    {
+      result.patches += mendAround(bad[i]) ? 1U : 0U;
+    }
+  }
+  result.notPositive = bad.empty() ? 0 : findNotPositive().size();
+  return result;
+}
+
+std::vector<Index> PatchMender::findNotPositive() const
+{
+  std::vector<Index> bad;
+  for (Index f = 0; f < mesh_.faceCount(); ++f)
+  {
+    if (!isPositive(f))
+    {
+      bad.push_back(f);
+    }
+  }
+  return bad;
+}
+
+bool PatchMender::mendAround(Index seed)
+{
+  bool improved = false;
+  collectCluster(seed);
+  for (const Index f : patch_)
+  {
+    tried_[f] = 1;
+  }
+  int rings = 0;
+  for (const int wanted : kGrowth)
+  {
+    for (; rings < wanted; ++rings)
+    {
+      growPatch();
+    }
+    if (patch_.size() > kMaximumPatchFaces)
+    {
+      break;
+    }
+    improved = embedPatch() || improved;
+    if (countBadInPatch() == 0)
+    {
+      break;
+    }
+  }
+  for (const Index f : patch_)
+  {
+    inPatch_[f] = 0;
+  }
+  return improved;
+}
+
+void PatchMender::collectCluster(Index seed)
+{
+  patch_.assign(1, seed);
+  inPatch_[seed] = 1;
+  std::vector<Index> corners;
+  bool interior = false;
+  for (std::size_t i = 0; i < patch_.size() && patch_.size() < kMaximumPatchFaces; ++i)
+  {
+    for (Index h = 3 * patch_[i]; h < 3 * patch_[i] + 3; ++h)
+    {
+      collectCorners(mesh_, h, corners, interior);
+      for (const Index c : corners)
+      {
+        if (inPatch_[c / 3] == 0 && !isPositive(c / 3))
+        {
+          inPatch_[c / 3] = 1;
+          patch_.push_back(c / 3);
+        }
+      }
+    }
+  }
+}
+
+void PatchMender::growPatch()
+{
+  const std::size_t size = patch_.size();
+  for (std::size_t i = 0; i < size && patch_.size() <= kMaximumPatchFaces; ++i)
+  {
+    for (Index h = 3 * patch_[i]; h < 3 * patch_[i] + 3; ++h)
+    {
+      addFacesAround(h);
+    }
+  }
+  std::sort(patch_.begin(), patch_.end());
+}
+
+void PatchMender::addFacesAround(Index corner)
+{
+  std::vector<Index> corners;
+  bool interior = false;
+  collectCorners(mesh_, corner, corners, interior);
+  for (const Index c : corners)
+  {
+    if (inPatch_[c / 3] == 0)
+    {
+      inPatch_[c / 3] = 1;
+      patch_.push_back(c / 3);
+    }
+  }
+}
+
+std::size_t PatchMender::countBadInPatch() const
+{
+  return static_cast<std::size_t>(
+    std::count_if(patch_.begin(), patch_.end(), [&](Index f) { return !isPositive(f); }));
+}
+
+bool PatchMender::embedPatch()
+{
+  work_ += patch_.size();
+  collectFans();
+  if (unknowns_ == 0)
+  {
+    return false;
+  }
+  const std::size_t before = countBadInPatch();
+  std::vector<FixedVec2> saved;
+  for (const Index f : patch_)
+  {
+    saved.insert(saved.end(), { uv_[3 * f], uv_[3 * f + 1], uv_[3 * f + 2] });
+  }
+  const UntangleProblem problem = makeProblem();
+  UntangleOptions options;
+  options.maximumSteps = 60;
+  const UntangleResult result = untangle(problem, Eigen::VectorXd::Zero(unknowns_), options);
+  applyDisplacements(result.y);
+  if (result.y.allFinite() && countBadInPatch() < before && windingsAreRight())
+  {
+    return true;
+  }
+  for (std::size_t i = 0; i < saved.size(); ++i)
+  {
+    uv_[3 * patch_[i / 3] + i % 3] = saved[i];
+  }
+  return false;
+}
+
+void PatchMender::collectFans()
+{
+  vertices_.clear();
+  fans_.clear();
+  unknowns_ = 0;
+  for (const Index f : patch_)
+  {
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      if (seenVertex_[mesh_.origin[h]] == 0)
+      {
+        seenVertex_[mesh_.origin[h]] = 1;
+        addFan(h);
+      }
+    }
+  }
+  for (const Index f : patch_)
+  {
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      seenVertex_[mesh_.origin[h]] = 0;
+    }
+  }
+}
+
+void PatchMender::addFan(Index corner)
+{
+  std::vector<FanCorner> fan;
+  PatchVertex vertex;
+  const bool closes = walkFan(corner, fan, vertex.interior);
+  vertex.freedom = freedomOf(fan, vertex.interior, closes);
+  vertex.firstFan = fans_.size();
+  vertex.fanCount = fan.size();
+  vertex.firstUnknown = unknowns_;
+  if (vertex.freedom == Freedom::Plane)
+  {
+    unknowns_ += 2;
+  }
+  else if (vertex.freedom != Freedom::Fixed)
+  {
+    unknowns_ += 1;
+  }
+  fans_.insert(fans_.end(), fan.begin(), fan.end());
+  vertices_.push_back(vertex);
+}
+
+/// False when the vertex must stay for what its transitions are: irregular, or one that has no unique rotation.
+bool PatchMender::walkFan(Index corner, std::vector<FanCorner>& fan, bool& interior) const
+{
+  std::vector<Index> corners;
+  if (!collectCorners(mesh_, corner, corners, interior))
+  {
+    fan.push_back({ corner, 0 });
+    return false;
+  }
+  bool closes = true;
+  int rotation = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    fan.push_back({ corners[i], rotation & 3 });
+    const Index c = corners[i];
+    if (i + 1 == corners.size() && !interior)
+    {
+      break;
+    }
+    const Index n = corners[i + 1 == corners.size() ? 0 : i + 1];
+    const int turns = quarterTurns(uv_[Mesh::previous(c)] - uv_[c], uv_[Mesh::next(n)] - uv_[n]);
+    closes = closes && turns >= 0;
+    rotation += std::max(turns, 0);
+  }
+  return closes && (!interior || (rotation & 3) == 0);
+}
+
+Freedom PatchMender::freedomOf(const std::vector<FanCorner>& fan, bool interior, bool closes) const
+{
+  if (!closes ||
+    std::any_of(
+      fan.begin(), fan.end(), [&](const FanCorner& c) { return inPatch_[c.corner / 3] == 0; }))
+  {
+    return Freedom::Fixed;
+  }
+  int constrained = 0;
+  bool alongU = true;
+  bool alongV = true;
+  const auto addEdge = [&](FixedVec2 edge, int rotation)
+  {
+    const FixedVec2 inFirst = rotate(edge, 4 - rotation);
+    ++constrained;
+    alongU = alongU && inFirst.v == 0;
+    alongV = alongV && inFirst.u == 0;
+  };
+  for (const FanCorner& c : fan)
+  {
+    if (mesh_.isConstrained(c.corner))
+    {
+      addEdge(uv_[Mesh::next(c.corner)] - uv_[c.corner], c.rotation);
+    }
+  }
+  if (!interior)
+  {
+    const Index last = fan.back().corner;
+    addEdge(uv_[Mesh::previous(last)] - uv_[last], fan.back().rotation);
+  }
+  if (constrained == 0)
+  {
+    return Freedom::Plane;
+  }
+  if (constrained != 2 || alongU == alongV)
+  {
+    return Freedom::Fixed;
+  }
+  return alongU ? Freedom::AlongU : Freedom::AlongV;
+}
+
+/// The displacement of unknown direction (1, 0) or (0, 1) in a corner's chart.
+Vector2 direction(bool alongU, int rotation)
+{
+  const FixedVec2 d = rotate(alongU ? FixedVec2{ 1, 0 } : FixedVec2{ 0, 1 }, rotation);
+  return { static_cast<double>(d.u), static_cast<double>(d.v) };
+}
+
+UntangleProblem PatchMender::makeProblem() const
+{
+  // A point per corner, relative to its face's first corner: only differences inside a face matter.
+  UntangleProblem problem;
+  const int points = 3 * static_cast<int>(patch_.size());
+  const double scale = referenceScale();
+  problem.offset = Eigen::VectorXd::Zero(2 * points);
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto pointOf = [&](Index corner)
+  {
+    const auto face = std::lower_bound(patch_.begin(), patch_.end(), corner / 3);
+    return 3 * static_cast<int>(face - patch_.begin()) + static_cast<int>(corner % 3);
+  };
+  for (std::size_t i = 0; i < patch_.size(); ++i)
+  {
+    const Index f = patch_[i];
+    const Index point = static_cast<Index>(3 * i);
+    problem.triangles.push_back({ point, point + 1, point + 2 });
+    problem.inverseReference.push_back(inverseReference(f, scale));
+    problem.weight.push_back(0.5 / std::abs(problem.inverseReference.back().determinant()));
+    for (Index k = 0; k < 3; ++k)
+    {
+      problem.offset.segment<2>(2 * (point + k)) = toDouble(uv_[3 * f + k] - uv_[3 * f]);
+    }
+  }
+  for (const PatchVertex& vertex : vertices_)
+  {
+    for (std::size_t i = 0; i < vertex.fanCount && vertex.freedom != Freedom::Fixed; ++i)
+    {
+      const FanCorner& c = fans_[vertex.firstFan + i];
+      const int row = 2 * pointOf(c.corner);
+      int column = vertex.firstUnknown;
+      for (const bool alongU : { true, false })
+      {
+        if (vertex.freedom == (alongU ? Freedom::AlongV : Freedom::AlongU))
+        {
+          continue;
+        }
+        const Vector2 d = direction(alongU, c.rotation);
+        const int axis = d.x() != 0 ? 0 : 1;
+        entries.emplace_back(row + axis, column++, d[axis]);
+      }
+    }
+  }
+  problem.basis.resize(2 * points, unknowns_);
+  problem.basis.setFromTriplets(entries.begin(), entries.end());
+  return problem;
+}
+
+double PatchMender::referenceScale() const
+{
+  // So that the references have as much area as the image: the area of the image does not change, as its
+  // border stays.
+  double area = 0;
+  double image = 0;
+  for (const Index f : patch_)
+  {
+    area += 0.5 * mesh_.edgeVector(3 * f).cross(mesh_.edgeVector(3 * f + 1)).norm();
+    const Vector2 a = toDouble(uv_[3 * f + 1] - uv_[3 * f]);
+    const Vector2 b = toDouble(uv_[3 * f + 2] - uv_[3 * f]);
+    image += 0.5 * (a.x() * b.y() - a.y() * b.x());
+  }
+  return area > 0 && image > 0 ? std::sqrt(image / area) : 1.0;
+}
+
+Eigen::Matrix2d PatchMender::inverseReference(Index f, double scale) const
+{
+  const Vector3 ab = scale * mesh_.edgeVector(3 * f);
+  const Vector3 ac = -scale * mesh_.edgeVector(3 * f + 2);
+  const double longest = std::max({ ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm() });
+  const double doubled = ab.cross(ac).norm();
+  Eigen::Matrix2d reference;
+  if (doubled > kFlattestReference * longest)
+  {
+    const double length = ab.norm();
+    reference << length, ab.dot(ac) / length, 0, doubled / length;
+  }
+  else
+  {
+    // A tenth of the longest edge keeps the weight of a sliver small without letting it vanish.
+    const double side = 0.1 * std::sqrt(std::max(longest, 1e-12));
+    reference << side, 0.5 * side, 0, 0.8660254037844386 * side;
+  }
+  return reference.inverse();
+}
+
+void PatchMender::applyDisplacements(const Eigen::VectorXd& y)
+{
+  if (!y.allFinite() || y.lpNorm<Eigen::Infinity>() > 1e5)
+  {
+    return; // uv stays as it is, which is no improvement
+  }
+  for (const PatchVertex& vertex : vertices_)
+  {
+    if (vertex.freedom == Freedom::Fixed)
+    {
+      continue;
+    }
+    int next = vertex.firstUnknown;
+    FixedVec2 d;
+    if (vertex.freedom != Freedom::AlongV)
+    {
+      d.u = toFixed(y[next++]);
+    }
+    if (vertex.freedom != Freedom::AlongU)
+    {
+      d.v = toFixed(y[next]);
+    }
+    for (std::size_t i = 0; i < vertex.fanCount; ++i)
+    {
+      const FanCorner& c = fans_[vertex.firstFan + i];
+      uv_[c.corner] = uv_[c.corner] + rotate(d, c.rotation);
+    }
+  }
+}
+
+bool PatchMender::windingsAreRight() const
+{
+  // Positive triangles can still wind twice round a vertex. A regular one makes four quarters; of irregular ones
+  // only what is beyond any valence in use is recognized.
+  for (const PatchVertex& vertex : vertices_)
+  {
+    double sum = 0;
+    bool positive = true;
+    for (std::size_t i = 0; i < vertex.fanCount && positive; ++i)
+    {
+      const Index c = fans_[vertex.firstFan + i].corner;
+      const Vector2 a = toDouble(uv_[Mesh::next(c)] - uv_[c]);
+      const Vector2 b = toDouble(uv_[Mesh::previous(c)] - uv_[c]);
+      sum += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+      positive = isPositive(c / 3);
+    }
+    const double quarters = sum / 1.5707963267948966;
+    const bool regular = vertex.interior && vertex.freedom != Freedom::Fixed;
+    if (positive && vertex.fanCount > 1 && (regular ? quarters > 4.5 : quarters > 6.5))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+} // namespace
+
+MendResult mendPatches(
+  const Mesh& mesh, std::vector<FixedVec2>& uv, const ProgressCallback& progress)
+{
+  return PatchMender(mesh, uv).run(progress);
+}
+
+} // namespace quadrille

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestMaps.h"
+#include "TestMeshes.h"
+#include "Transfer/PatchMender.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <vector>
+
+using namespace quadrille;
+using namespace quadrille::test;
+
+namespace
+{
+
+/// Moves all corners of the vertices that `chosen` wants by the same vector in the chart of each corner; for maps
+/// with a single chart round these vertices.
+void moveVertices(const Mesh& mesh, std::vector<FixedVec2>& uv, FixedVec2 by,
+  const std::function<bool(const Vector3&)>& chosen)
+{
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    uv[h] = chosen(mesh.position[mesh.origin[h]]) ? uv[h] + by : uv[h];
+  }
+}
+
+} // namespace
+
+TEST(PatchMender, leavesAValidMapAlone)
+{
+  const Mesh mesh = torus(30, 15);
+  std::vector<FixedVec2> uv =
+    torusMap(mesh, 1, 40 * kOne, 16 * kOne, [](Index) { return FixedVec2{}; });
+  const std::vector<FixedVec2> before = uv;
+  const MendResult result = mendPatches(mesh, uv, {});
+  EXPECT_EQ(result.patches, 0U);
+  EXPECT_EQ(result.notPositive, 0U);
+  EXPECT_EQ(uv, before);
+}
+
+TEST(PatchMender, mendsAFoldInsideAPlane)
+{
+  const Mesh mesh = gridPlane(20, 20);
+  std::vector<FixedVec2> uv =
+    mapByPosition(mesh, [](const Vector3& p) { return Vector2(p.x(), p.y()); });
+  const auto inFold = [](const Vector3& p)
+  { return (p - Vector3(10, 10, 0)).lpNorm<Eigen::Infinity>() <= 1; };
+  moveVertices(mesh, uv, { 5 * kOne / 2, kOne }, inFold);
+  const std::vector<FixedVec2> before = uv;
+  ASSERT_GT(notPositive(uv), 0U);
+  const MendResult result = mendPatches(mesh, uv, {});
+  EXPECT_EQ(result.notPositive, 0U);
+  EXPECT_EQ(notPositive(uv), 0U);
+  EXPECT_EQ(seamResiduals(mesh, uv), 0U);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3& p = mesh.position[mesh.origin[h]];
+    if (p.x() == 0 || p.x() == 20 || p.y() == 0 || p.y() == 20)
+    {
+      EXPECT_EQ(uv[h], before[h]) << "far from the fold nothing moves";
+    }
+  }
+}
+
+TEST(PatchMender, mendsAcrossSeamsWithRotations)
+{
+  // The fold lies over an edge of the cube, whose two sides have charts turned against each other. It is made by
+  // sliding vertices of the edge along it, exactly, through both charts.
+  const Mesh mesh = markFeatures(unitCube(12), kFeatureAngle);
+  std::vector<Vector3> folded = mesh.position;
+  for (Vector3& p : folded)
+  {
+    if (p.x() == 1 && p.y() == 1 && p.z() > 0.4 && p.z() < 0.6)
+    {
+      p.z() += 0.3; // past its neighbours on the edge
+    }
+  }
+  std::vector<FixedVec2> uv = cubeMap(mesh, 12, &folded);
+  ASSERT_GT(notPositive(uv), 0U);
+  ASSERT_EQ(seamResiduals(mesh, uv), 0U);
+  const MendResult result = mendPatches(mesh, uv, {});
+  EXPECT_GT(result.patches, 0U);
+  EXPECT_EQ(notPositive(uv), 0U);
+  EXPECT_EQ(seamResiduals(mesh, uv), 0U);
+  EXPECT_EQ(constrainedEdgesOffAxis(mesh, uv), 0U);
+}
+
+TEST(PatchMender, givesUpOnWhatCannotBeMended)
+{
+  // The whole map is mirrored: no patch with a fixed border can be positive.
+  const Mesh mesh = gridPlane(12, 12);
+  std::vector<FixedVec2> uv =
+    mapByPosition(mesh, [](const Vector3& p) { return Vector2(-p.x(), p.y()); });
+  const MendResult result = mendPatches(mesh, uv, {});
+  EXPECT_EQ(result.notPositive, notPositive(uv));
+  EXPECT_GT(result.notPositive, 0U);
+  EXPECT_EQ(seamResiduals(mesh, uv), 0U);
+}
