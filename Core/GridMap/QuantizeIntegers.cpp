@@ -150,42 +150,76 @@ bool closeTriangles(IntegerMap& map)
   return true;
 }
 
-/// Mends broken triangles as long as the sum of what is broken falls.
+/// Mends broken triangles by steps that lower the weighted sum of what is broken. A triangle at which nothing helps
+/// gains weight, so that others are broken in its stead and mended where there is more room (the breakout
+/// method of local search); the number of times that this may happen is bounded.
 class Repair
 {
 public:
-  explicit Repair(IntegerMap& map) : map_(map), search_(map, StripCost::Repair) {}
+  explicit Repair(IntegerMap& map)
+    : map_(map), weight_(map.mesh().alive.size(), 1), search_(map, StripCost::Repair, &weight_),
+      breakouts_(kBreakouts + map.faces().size() / 4)
+  {
+  }
 
   bool run()
   {
-    bool progress = true;
-    bool broken = true;
-    while (progress && broken)
+    while (true)
     {
-      progress = broken = false;
-      for (const Index f : map_.faces())
+      const Index worst = firstBroken();
+      if (worst == kInvalidIndex)
       {
-        while (!map_.isSound(f))
-        {
-          if (!flipAt(f) && !moveAt(f) && !stripAt(f))
-          {
-            broken = true;
-            break;
-          }
-          progress = true;
-        }
+        return true;
       }
-      broken = broken || brokenness(map_, map_.faces()) > 0;
+      if (flipAt(worst) || moveAt(worst) || stripAt(worst))
+      {
+        continue;
+      }
+      if (breakouts_ == 0)
+      {
+        return false;
+      }
+      --breakouts_;
+      weight_[worst] *= 2;
     }
-    return !broken;
   }
 
 private:
+  /// Goes round the faces, so that no face starves the others.
+  Index firstBroken()
+  {
+    const std::vector<Index>& faces = map_.faces();
+    for (std::size_t i = 0; i < faces.size(); ++i)
+    {
+      position_ = position_ + 1 < faces.size() ? position_ + 1 : 0;
+      if (!map_.isSound(faces[position_]))
+      {
+        return faces[position_];
+      }
+    }
+    return kInvalidIndex;
+  }
+
+  double weighted(Index f, std::int64_t determinant) const
+  {
+    return weight_[f] * static_cast<double>(IntegerMap::brokenness(determinant));
+  }
+
+  double weighted(const std::vector<Index>& faces) const
+  {
+    double sum = 0;
+    for (const Index f : faces)
+    {
+      sum += weighted(f, map_.determinant(f));
+    }
+    return sum;
+  }
+
   /// Flips the edge of f that leaves least broken, if that is less than now.
   bool flipAt(Index f)
   {
     Index best = kInvalidIndex;
-    std::int64_t bestChange = 0;
+    double bestChange = -kLeastMend;
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
       if (!map_.mayFlip(h))
@@ -193,9 +227,9 @@ private:
         continue;
       }
       const auto after = map_.flippedDeterminants(h);
-      const std::int64_t change = IntegerMap::brokenness(after[0]) +
-        IntegerMap::brokenness(after[1]) - IntegerMap::brokenness(map_.determinant(f)) -
-        IntegerMap::brokenness(map_.determinant(Mesh::face(map_.mesh().twin[h])));
+      const Index other = Mesh::face(map_.mesh().twin[h]);
+      const double change =
+        weighted(f, after[0]) + weighted(other, after[1]) - weighted({ f, other });
       if (change < bestChange)
       {
         bestChange = change;
@@ -227,8 +261,8 @@ private:
   bool moveVertex(Index v)
   {
     const std::vector<Index> faces = facesAround(map_.mesh(), v);
-    const std::int64_t before = brokenness(map_, faces);
-    std::int64_t bestChange = 0;
+    const double before = weighted(faces);
+    double bestChange = -kLeastMend;
     FixedVec2 best;
     for (std::int64_t length = kGrain; length >= 1; length /= 2)
     {
@@ -240,7 +274,7 @@ private:
           continue;
         }
         map_.moveVertex(v, e);
-        const std::int64_t change = brokenness(map_, faces) - before;
+        const double change = weighted(faces) - before;
         map_.moveVertex(v, -e);
         if (change < bestChange)
         {
@@ -249,17 +283,17 @@ private:
         }
       }
     }
-    if (bestChange < 0)
+    if (best != FixedVec2{})
     {
       map_.moveVertex(v, best);
     }
-    return bestChange < 0;
+    return best != FixedVec2{};
   }
 
   bool stripAt(Index f)
   {
     Strip best;
-    std::pair<std::int64_t, double> bestChange{ 0, 0 };
+    std::pair<double, double> bestChange{ -kLeastMend, 0 };
     double bound = 0;
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
@@ -284,26 +318,29 @@ private:
         }
       }
     }
-    if (bestChange.first >= 0)
-    {
-      return false;
-    }
     apply(map_, best);
-    return true;
+    return best.found();
   }
 
-  std::pair<std::int64_t, double> measure(const Strip& strip)
+  /// Change of what is broken, and of the energy.
+  std::pair<double, double> measure(const Strip& strip)
   {
     const std::vector<Index> faces = crossedFaces(map_.mesh(), strip).faces;
-    const std::int64_t before = brokenness(map_, faces);
+    const double before = weighted(faces);
     const double energy = applyMeasured(map_, strip);
-    const std::int64_t after = brokenness(map_, faces);
+    const double after = weighted(faces);
     revert(map_, strip);
     return { after - before, energy };
   }
 
+  static constexpr double kLeastMend = 0.5; ///< below one unit of brokenness
+  static constexpr std::size_t kBreakouts = 40;
+
   IntegerMap& map_;
+  std::vector<double> weight_; ///< #F
   StripSearch search_;
+  std::size_t breakouts_;
+  std::size_t position_ = 0;
 };
 
 class Improvement

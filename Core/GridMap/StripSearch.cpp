@@ -24,9 +24,11 @@ std::int64_t lengthOf(FixedVec2 e)
 
 } // namespace
 
-StripSearch::StripSearch(const IntegerMap& map, StripCost cost)
-  : map_(map), mesh_(map.mesh()), cost_(cost), distance_(4 * map.mesh().origin.size()),
-    parent_(distance_.size()), stamp_(distance_.size(), 0), settled_(distance_.size(), 0)
+StripSearch::StripSearch(
+  const IntegerMap& map, StripCost cost, const std::vector<double>* faceWeight)
+  : map_(map), mesh_(map.mesh()), cost_(cost), faceWeight_(faceWeight),
+    distance_(4 * map.mesh().origin.size()), parent_(distance_.size()), stamp_(distance_.size(), 0),
+    settled_(distance_.size(), 0)
 {
 }
 
@@ -90,7 +92,9 @@ double StripSearch::crossingCost(Index in, FixedVec2 e, Index out, bool isFirst)
   const std::int64_t change =
     IntegerMap::brokenness(after) - IntegerMap::brokenness(map_.determinant(Mesh::face(in)));
   // Only the first triangle may pay with what it gains, or Dijkstra's algorithm would not apply.
-  return kBroken * static_cast<double>(isFirst ? change : std::max<std::int64_t>(0, change));
+  const double weight = faceWeight_ == nullptr ? 1.0 : (*faceWeight_)[Mesh::face(in)];
+  return kBroken * weight *
+    static_cast<double>(isFirst ? change : std::max<std::int64_t>(0, change));
 }
 
 double StripSearch::edgeCost(Index out, FixedVec2 e) const

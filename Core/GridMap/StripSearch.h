@@ -37,7 +37,9 @@ enum class StripCost
 class StripSearch
 {
 public:
-  StripSearch(const IntegerMap& map, StripCost cost);
+  /// faceWeight: #F, multiplies the price of breaking a face; must outlive the search. None: all 1.
+  StripSearch(
+    const IntegerMap& map, StripCost cost, const std::vector<double>* faceWeight = nullptr);
 
   /// The cheapest strip that contains shift(h, e): a closed one, or one from boundary to boundary. The
   /// price of that first shift is left out; strips that cost `bound` or more are not found.
@@ -72,6 +74,7 @@ private:
   const IntegerMap& map_;
   const UvMesh& mesh_;
   StripCost cost_;
+  const std::vector<double>* faceWeight_;
   std::int64_t length_ = 1; ///< of the vectors of the current search
   std::vector<double> distance_;
   std::vector<Index> parent_;
