@@ -251,9 +251,53 @@ double IntegerMap::moveEnergy(Index v, FixedVec2 e) const
   return change;
 }
 
+/// Whether the sector (or the whole ring) that h lies in, at its origin, keeps enough corners without h: every corner
+/// turns by less than two quarters, so t quarters need more than t / 2 corners.
+bool IntegerMap::hasCornerToSpare(Index h) const
+{
+  const auto axisAngle = [&](Index x)
+  { return wanted_[x].y() == 0 ? (wanted_[x].x() > 0 ? 0 : 2) : (wanted_[x].y() > 0 ? 1 : 3); };
+  int corners = 0;
+  Index last = h;
+  int turned = 0; // charts, from that of h on
+  // Counterclockwise to the end of the sector.
+  while (true)
+  {
+    ++corners;
+    const Index incoming = Mesh::previous(last);
+    const Index next = mesh_.twin[incoming];
+    if (axis_[incoming] != kFree)
+    {
+      last = incoming;
+      break;
+    }
+    turned += mesh_.rotation[incoming];
+    last = next;
+    if (last == h)
+    {
+      return 2 * (corners - 1) > turns_[mesh_.origin[h]];
+    }
+  }
+  // The end as an outgoing direction in the chart of h: the incoming half-edge reversed and turned back.
+  const int end = axisAngle(last) + 2 - turned;
+  // Clockwise to its begin.
+  Index first = h;
+  turned = 0;
+  while (axis_[first] == kFree)
+  {
+    ++corners;
+    turned -= mesh_.rotation[mesh_.twin[first]];
+    first = Mesh::next(mesh_.twin[first]);
+  }
+  const int begin = axisAngle(first) - turned;
+  const int quarters = (end - begin) & 3;
+  return 2 * (corners - 1) > (quarters == 0 ? 4 : quarters);
+}
+
 bool IntegerMap::mayFlip(Index h) const
 {
-  return !mesh_.isFixed(h) && Mesh::face(h) != Mesh::face(mesh_.twin[h]);
+  return !mesh_.isFixed(h) && Mesh::face(h) != Mesh::face(mesh_.twin[h]) && hasCornerToSpare(h) &&
+    hasCornerToSpare(mesh_.twin[h]);
 }
 
 std::array<std::int64_t, 2> IntegerMap::flippedDeterminants(Index h) const

@@ -95,6 +95,7 @@ private:
   void weigh(Index h);
   double cotangentOpposite(Index h) const;
   bool wantsFlip(Index h) const;
+  bool hasCornerToSpare(Index h) const;
   std::vector<FixedVec2> residues() const;
   FixedVec2 residueOf(Index v) const;
   FixedVec2 nearestAllowed(Index h, double scale, FixedVec2 residue) const;
