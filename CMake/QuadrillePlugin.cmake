@@ -1,2 +1,50 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
+# The VTK filters, the ParaView plugin, the Python package and the programs.
+
+# Naming a component keeps Qt, GDAL and ffmpeg out of what a build needs.
+find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore)
+
+set(_paraview_plugin_default_Quadrille ON)
+paraview_plugin_scan(
+  PLUGIN_FILES     "${CMAKE_SOURCE_DIR}/Plugin/paraview.plugin"
+  PROVIDES_PLUGINS quadrille_plugins
+  REQUIRES_MODULES quadrille_required_modules
+  ENABLE_BY_DEFAULT ON
+  HIDE_PLUGINS_FROM_CACHE ON)
+foreach(module IN LISTS quadrille_required_modules)
+  if(NOT TARGET "${module}")
+    message(FATAL_ERROR "This ParaView lacks the module ${module}, which the plugin needs.")
+  endif()
+endforeach()
+# The help compiler of Qt is not among the required packages, hence no generated XML documentation;
+# ParaView still shows the documentation of each property as its tool tip.
+paraview_plugin_build(
+  RUNTIME_DESTINATION  "${CMAKE_INSTALL_BINDIR}"
+  LIBRARY_DESTINATION  "${CMAKE_INSTALL_LIBDIR}"
+  LIBRARY_SUBDIRECTORY "${PARAVIEW_PLUGIN_SUBDIR}"
+  DISABLE_XML_DOCUMENTATION ON
+  PLUGINS_FILE_NAME    "quadrille.plugins.xml"
+  PLUGINS              ${quadrille_plugins})
+
+# python: `import quadrille`, in pvpython and in the system's own interpreter.
+set(QUADRILLE_PYTHON_DIR "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages")
+if(PARAVIEW_USE_PYTHON)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)
+  vtk_module_wrap_python(
+    MODULES             Quadrille::QuadrilleFilters
+    TARGET              Quadrille::Python
+    PYTHON_PACKAGE      "quadrille"
+    MODULE_DESTINATION  "${QUADRILLE_PYTHON_DIR}"
+    LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}/${PARAVIEW_PLUGIN_SUBDIR}/Quadrille"
+    INSTALL_HEADERS     OFF
+    BUILD_STATIC        OFF)
+  configure_file("${CMAKE_SOURCE_DIR}/Filters/Python/__init__.py"
+    "${CMAKE_BINARY_DIR}/${QUADRILLE_PYTHON_DIR}/quadrille/__init__.py" COPYONLY)
+  install(FILES "${CMAKE_SOURCE_DIR}/Filters/Python/__init__.py"
+    DESTINATION "${QUADRILLE_PYTHON_DIR}/quadrille")
+else()
+  message(FATAL_ERROR "This ParaView was built without Python, which the package `quadrille` needs.")
+endif()
+
+add_subdirectory("${CMAKE_SOURCE_DIR}/Programs")

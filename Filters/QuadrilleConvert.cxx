@@ -1,0 +1,760 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QuadrilleConvert.h"
+
+#include "Base/Error.h"
+#include "Mesh/Topology.h"
+#include "QuadrilleAttributes.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
+#include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSignedCharArray.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// Below this a coordinate on the 2^-24 grid fits the 53 bits of a double.
+constexpr std::int64_t kLargestExact = std::int64_t{ 1 } << (28 + kFractionBits);
+
+template <class... Parts>
+[[noreturn]] void refuse(const Parts&... parts)
+{
+  std::ostringstream text;
+  (text << ... << parts);
+  throw InvalidInput(text.str());
+}
+
+//------------------------------------------------------------------------------
+// The user's surface
+
+template <class Array>
+void copyPoints(Array* from, std::vector<Vector3>& to)
+{
+  const auto* p = from->GetPointer(0);
+  for (Vector3& point : to)
+  {
+    point = Vector3(p[0], p[1], p[2]);
+    p += 3;
+  }
+}
+
+std::vector<Vector3> readPoints(vtkPolyData* data)
+{
+  std::vector<Vector3> points(static_cast<std::size_t>(data->GetNumberOfPoints()));
+  if (points.empty())
+  {
+    return points;
+  }
+  vtkDataArray* array = data->GetPoints()->GetData();
+  if (auto* floats = vtkFloatArray::SafeDownCast(array))
+  {
+    copyPoints(floats, points);
+  }
+  else if (auto* doubles = vtkDoubleArray::SafeDownCast(array))
+  {
+    copyPoints(doubles, points);
+  }
+  else
+  {
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      array->GetTuple(static_cast<vtkIdType>(i), points[i].data());
+    }
+  }
+  return points;
+}
+
+void checkPointId(vtkIdType id, vtkIdType pointCount, vtkIdType cell)
+{
+  if (id < 0 || id >= pointCount)
+  {
+    refuse("cell ", cell, " refers to point ", id, ", but there are ", pointCount, " points");
+  }
+}
+
+void readPolygons(vtkPolyData* data, ConvertedSurface& surface)
+{
+  SurfaceInput& input = surface.input;
+  vtkCellArray* polys = data->GetPolys();
+  const vtkIdType pointCount = data->GetNumberOfPoints();
+  input.polygonOffsets.reserve(static_cast<std::size_t>(polys->GetNumberOfCells()) + 1);
+  input.polygonPoints.reserve(static_cast<std::size_t>(polys->GetNumberOfConnectivityIds()));
+  input.polygonOffsets.push_back(0);
+  vtkIdType cell = surface.firstCell;
+  auto iterator = vtk::TakeSmartPointer(polys->NewIterator());
+  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    iterator->GetCurrentCell(count, ids);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      checkPointId(ids[i], pointCount, cell);
+      input.polygonPoints.push_back(static_cast<Index>(ids[i]));
+    }
+    input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
+    ++cell;
+  }
+}
+
+/// Triangle i of a strip is (i, i + 1, i + 2), every second one turned round.
+void readStrips(vtkPolyData* data, ConvertedSurface& surface)
+{
+  if (data->GetNumberOfStrips() == 0)
+  {
+    return;
+  }
+  SurfaceInput& input = surface.input;
+  const vtkIdType polys = data->GetNumberOfPolys();
+  for (vtkIdType i = 0; i < polys; ++i)
+  {
+    surface.cellOfPolygon.push_back(surface.firstCell + i);
+  }
+  vtkIdType cell = surface.firstCell + polys;
+  auto iterator = vtk::TakeSmartPointer(data->GetStrips()->NewIterator());
+  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    iterator->GetCurrentCell(count, ids);
+    for (vtkIdType i = 0; i + 2 < count; ++i)
+    {
+      const vtkIdType odd = i & 1;
+      for (const vtkIdType id : { ids[i], ids[i + 1 + odd], ids[i + 2 - odd] })
+      {
+        checkPointId(id, data->GetNumberOfPoints(), cell);
+        input.polygonPoints.push_back(static_cast<Index>(id));
+      }
+      input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
+      surface.cellOfPolygon.push_back(cell);
+    }
+    ++cell;
+  }
+}
+
+std::size_t polygonCount(const SurfaceInput& input)
+{
+  return input.polygonOffsets.size() - 1;
+}
+
+/// The bits name corners of a polygon, so that they say nothing about a strip.
+void readFeatureEdges(vtkPolyData* data, ConvertedSurface& surface)
+{
+  vtkDataArray* array = data->GetCellData()->GetArray(arrays::kFeatureEdges);
+  if (!array)
+  {
+    return;
+  }
+  if (array->GetNumberOfComponents() != 1 || array->GetDataType() != VTK_UNSIGNED_CHAR)
+  {
+    refuse("cell array ", arrays::kFeatureEdges, " must have one unsigned char a cell, it has ",
+      array->GetNumberOfComponents(), " of type ", array->GetDataTypeAsString());
+  }
+  std::vector<std::uint8_t>& bits = surface.input.featureEdges;
+  bits.resize(polygonCount(surface.input));
+  for (std::size_t i = 0; i < bits.size(); ++i)
+  {
+    const vtkIdType cell = surface.cell(static_cast<Index>(i));
+    bits[i] = static_cast<std::uint8_t>(array->GetTuple1(cell));
+    if (bits[i] != 0 && cell >= surface.firstCell + data->GetNumberOfPolys())
+    {
+      refuse("cell ", cell, " is a triangle strip with ", arrays::kFeatureEdges,
+        " set; triangulate it first");
+    }
+  }
+}
+
+void readPatchIds(vtkPolyData* data, const std::string& name, ConvertedSurface& surface)
+{
+  if (name.empty() || name == "(none)")
+  {
+    return;
+  }
+  vtkDataArray* array = data->GetCellData()->GetArray(name.c_str());
+  if (!array)
+  {
+    if (name != arrays::kPatchId)
+    {
+      refuse("there is no cell array named '", name, "' with patch ids");
+    }
+    return;
+  }
+  const int type = array->GetDataType();
+  if (array->GetNumberOfComponents() != 1 || type == VTK_FLOAT || type == VTK_DOUBLE)
+  {
+    refuse("cell array '", name, "' must have one whole number a cell to be used as patch ids");
+  }
+  surface.patchArray = name;
+  std::vector<std::int64_t>& ids = surface.input.patchIds;
+  ids.resize(polygonCount(surface.input));
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    const vtkIdType cell = surface.cell(static_cast<Index>(i));
+    ids[i] = static_cast<std::int64_t>(array->GetVariantValue(cell).ToLongLong());
+  }
+}
+
+//------------------------------------------------------------------------------
+// Arrays
+
+template <class Array>
+vtkSmartPointer<Array> newArray(const char* name, int components, std::size_t tuples)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(tuples));
+  return array;
+}
+
+vtkDataArray* requireArray(
+  vtkDataSetAttributes* attributes, const char* name, int components, const char* madeBy)
+{
+  vtkDataArray* array = attributes->GetArray(name);
+  if (!array || array->GetNumberOfComponents() != components)
+  {
+    refuse("the input has no array '", name, "' with ", components,
+      " component(s) a tuple; it is made by ", madeBy);
+  }
+  return array;
+}
+
+std::vector<Index> readIds(vtkDataArray* array, std::size_t limit)
+{
+  std::vector<Index> ids(static_cast<std::size_t>(array->GetNumberOfTuples()));
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    const double id = array->GetTuple1(static_cast<vtkIdType>(i));
+    if (!(id >= 0 && id < static_cast<double>(limit)))
+    {
+      refuse("array '", array->GetName(), "' has the value ", id, " at ", i, ", but only 0 to ",
+        limit, " - 1 exist; it belongs to another surface");
+    }
+    ids[i] = static_cast<Index>(id);
+  }
+  return ids;
+}
+
+vtkSmartPointer<vtkIdTypeArray> writeIds(const char* name, const std::vector<Index>& ids)
+{
+  auto array = newArray<vtkIdTypeArray>(name, 1, ids.size());
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    array->SetValue(static_cast<vtkIdType>(i), ids[i]);
+  }
+  return array;
+}
+
+vtkSmartPointer<vtkCellArray> writeTriangles(const std::vector<Index>& corners)
+{
+  auto offsets = newArray<vtkIdTypeArray>("", 1, corners.size() / 3 + 1);
+  auto connectivity = newArray<vtkIdTypeArray>("", 1, corners.size());
+  for (vtkIdType i = 0; i < offsets->GetNumberOfTuples(); ++i)
+  {
+    offsets->SetValue(i, 3 * i);
+  }
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    connectivity->SetValue(static_cast<vtkIdType>(i), corners[i]);
+  }
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets, connectivity);
+  return cells;
+}
+
+void addFeatureEdges(vtkPolyData* data, const Mesh& mesh)
+{
+  auto array = newArray<vtkUnsignedCharArray>(arrays::kFeatureEdges, 1, mesh.faceCount());
+  array->Fill(0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isFeature(h))
+    {
+      const vtkIdType f = Mesh::face(h);
+      array->SetValue(f, static_cast<unsigned char>(array->GetValue(f) | (1 << (h % 3))));
+    }
+  }
+  data->GetCellData()->AddArray(array);
+}
+
+/// Sheets of a surface that was not manifold may share both ends of an edge; then the twins have to
+/// be told.
+bool cornersTellTwins(const Mesh& mesh)
+{
+  try
+  {
+    return pairHalfEdges(mesh.origin, mesh.vertexCount()) == mesh.twin;
+  }
+  catch (const InvalidInput&)
+  {
+    return false;
+  }
+}
+
+void addTwinsWhereNeeded(vtkPolyData* data, const Mesh& mesh)
+{
+  if (cornersTellTwins(mesh))
+  {
+    return;
+  }
+  auto array = newArray<vtkIdTypeArray>(arrays::kTwin, 3, mesh.faceCount());
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    array->SetValue(h, mesh.isBoundary(h) ? -1 : static_cast<vtkIdType>(mesh.twin[h]));
+  }
+  data->GetCellData()->AddArray(array);
+}
+
+/// Twins from the array, where it is there and fits the corners.
+bool readTwins(vtkPolyData* data, Mesh& mesh)
+{
+  auto* array = vtkIdTypeArray::SafeDownCast(data->GetCellData()->GetArray(arrays::kTwin));
+  if (!array || array->GetNumberOfValues() != static_cast<vtkIdType>(mesh.halfEdgeCount()))
+  {
+    return false;
+  }
+  mesh.twin.assign(mesh.halfEdgeCount(), kInvalidIndex);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const vtkIdType g = array->GetValue(h);
+    if (g < 0)
+    {
+      continue;
+    }
+    if (g >= array->GetNumberOfValues() || array->GetValue(g) != static_cast<vtkIdType>(h) ||
+      mesh.origin[static_cast<Index>(g)] != mesh.target(h))
+    {
+      return false; // some filter in between took or reordered cells
+    }
+    mesh.twin[h] = static_cast<Index>(g);
+  }
+  return true;
+}
+
+void readFlags(vtkPolyData* data, Mesh& mesh)
+{
+  mesh.flags.assign(mesh.halfEdgeCount(), 0);
+  vtkDataArray* array = data->GetCellData()->GetArray(arrays::kFeatureEdges);
+  for (Index h = 0; array && h < mesh.halfEdgeCount(); ++h)
+  {
+    const int bits = static_cast<int>(array->GetTuple1(Mesh::face(h)));
+    if ((bits >> (h % 3)) & 1)
+    {
+      mesh.flags[h] |= kFeatureEdge;
+      if (!mesh.isBoundary(h))
+      {
+        mesh.flags[mesh.twin[h]] |= kFeatureEdge;
+      }
+    }
+  }
+}
+
+std::vector<Index> readTriangles(vtkPolyData* data)
+{
+  if (data->GetNumberOfPolys() != data->GetNumberOfCells())
+  {
+    refuse("the input has cells other than triangles; take the output of a Quadrille filter as it is");
+  }
+  std::vector<Index> corners;
+  corners.reserve(3 * static_cast<std::size_t>(data->GetNumberOfPolys()));
+  vtkIdType cell = 0;
+  auto iterator = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
+  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    iterator->GetCurrentCell(count, ids);
+    if (count != 3)
+    {
+      refuse("cell ", cell, " has ", count, " corners, a triangle is needed");
+    }
+    for (vtkIdType i = 0; i < 3; ++i)
+    {
+      checkPointId(ids[i], data->GetNumberOfPoints(), cell);
+      corners.push_back(static_cast<Index>(ids[i]));
+    }
+    ++cell;
+  }
+  return corners;
+}
+
+/// Joins the points that were split at seams for display.
+void weldSplitPoints(vtkPolyData* data, Mesh& mesh)
+{
+  vtkDataArray* array = data->GetPointData()->GetArray(arrays::kSurfacePointId);
+  if (!array)
+  {
+    return;
+  }
+  const std::vector<Index> id = readIds(array, mesh.position.size());
+  Index count = 0;
+  for (const Index i : id)
+  {
+    count = std::max(count, i + 1);
+  }
+  std::vector<Vector3> position(count);
+  for (std::size_t i = 0; i < id.size(); ++i)
+  {
+    position[id[i]] = mesh.position[i];
+  }
+  for (Index& corner : mesh.origin)
+  {
+    corner = id[corner];
+  }
+  mesh.position = std::move(position);
+}
+
+//------------------------------------------------------------------------------
+// The mapped surface
+
+/// Corner ids with a point of its own for each image of a vertex; pointVertex says whose image it is.
+std::vector<Index> splitCorners(
+  const Mesh& mesh, const std::vector<FixedVec2>& uv, std::vector<Index>& pointVertex)
+{
+  struct Image
+  {
+    FixedVec2 uv;
+    Index next;
+  };
+  std::vector<Image> images;
+  std::vector<Index> first(mesh.vertexCount(), kInvalidIndex);
+  std::vector<Index> corners(mesh.halfEdgeCount());
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Index v = mesh.origin[h];
+    Index i = first[v];
+    while (i != kInvalidIndex && images[i].uv != uv[h])
+    {
+      i = images[i].next;
+    }
+    if (i == kInvalidIndex)
+    {
+      i = static_cast<Index>(images.size());
+      images.push_back({ uv[h], first[v] });
+      pointVertex.push_back(v);
+      first[v] = i;
+    }
+    corners[h] = i;
+  }
+  return corners;
+}
+
+void addTextureCoordinates(
+  vtkPolyData* data, const std::vector<Index>& corners, const std::vector<FixedVec2>& uv)
+{
+  auto array = newArray<vtkFloatArray>(
+    arrays::kTextureCoordinates, 2, static_cast<std::size_t>(data->GetNumberOfPoints()));
+  for (std::size_t h = 0; h < corners.size(); ++h)
+  {
+    array->SetValue(2 * corners[h], static_cast<float>(toDouble(uv[h].u)));
+    array->SetValue(2 * corners[h] + 1, static_cast<float>(toDouble(uv[h].v)));
+  }
+  data->GetPointData()->SetTCoords(array);
+}
+
+vtkSmartPointer<vtkPoints> writePoints(
+  const Mesh& mesh, const std::vector<Index>& pointVertex)
+{
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(pointVertex.size()));
+  for (std::size_t i = 0; i < pointVertex.size(); ++i)
+  {
+    points->SetPoint(static_cast<vtkIdType>(i), mesh.position[pointVertex[i]].data());
+  }
+  return points;
+}
+
+std::vector<Index> identity(Index count)
+{
+  std::vector<Index> ids(count);
+  for (Index i = 0; i < count; ++i)
+  {
+    ids[i] = i;
+  }
+  return ids;
+}
+
+void addSourceArrays(
+  vtkPolyData* data, const PreparedSurface& surface, const ConvertedSurface& converted)
+{
+  const Index faces = surface.mesh.faceCount();
+  auto cells = newArray<vtkIdTypeArray>(arrays::kSourceCellId, 1, faces);
+  auto points = newArray<vtkIdTypeArray>(arrays::kSourcePointIds, 3, faces);
+  for (Index f = 0; f < faces; ++f)
+  {
+    cells->SetValue(f, converted.cell(surface.sourcePolygon[f]));
+    for (int i = 0; i < 3; ++i)
+    {
+      points->SetValue(3 * static_cast<vtkIdType>(f) + i, surface.sourcePoints[f][i]);
+    }
+  }
+  data->GetCellData()->AddArray(cells);
+  data->GetCellData()->AddArray(points);
+  if (surface.refinedEntry.empty())
+  {
+    return;
+  }
+  auto weights = newArray<vtkDoubleArray>(arrays::kSourceWeights, 9, faces);
+  for (Index f = 0; f < faces; ++f)
+  {
+    const Index entry = surface.refinedEntry[f];
+    for (int i = 0; i < 9; ++i)
+    {
+      weights->SetValue(9 * static_cast<vtkIdType>(f) + i,
+        entry == kInvalidIndex ? double(i % 4 == 0) : surface.cornerWeights[entry][i / 3][i % 3]);
+    }
+  }
+  data->GetCellData()->AddArray(weights);
+}
+
+void carryToSurface(vtkPolyData* data, const PreparedSurface& surface, vtkPolyData* source,
+  const ConvertedSurface& converted, const std::vector<Index>& pointVertex)
+{
+  const std::vector<Index> outgoing = outgoingHalfEdges(surface.mesh);
+  carryPointArrays(source->GetPointData(), data->GetPointData(), data->GetNumberOfPoints(),
+    [&](vtkIdType i)
+    {
+      const Index h = outgoing[pointVertex[static_cast<std::size_t>(i)]];
+      std::array<double, 3> corner{};
+      corner[h % 3] = 1;
+      const SourceLocation at = surface.locate(Mesh::face(h), corner);
+      return PointOrigin{ { at.points[0], at.points[1], at.points[2] }, at.weights };
+    });
+  carryCellArrays(source->GetCellData(), data->GetCellData(), data->GetNumberOfCells(),
+    [&](vtkIdType f)
+    { return converted.cell(surface.sourcePolygon[static_cast<std::size_t>(f)]); });
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+ConvertedSurface convertSurface(vtkPolyData* data, const std::string& patchArray)
+{
+  // Ids of Core are 32 bits wide, and a half-edge is three times a face.
+  if (data->GetNumberOfPoints() >= static_cast<vtkIdType>(kInvalidIndex) ||
+    data->GetNumberOfCells() >= static_cast<vtkIdType>(kInvalidIndex / 3))
+  {
+    refuse("the surface has ", data->GetNumberOfPoints(), " points and ", data->GetNumberOfCells(),
+      " cells, more than 32-bit ids can name");
+  }
+  ConvertedSurface surface;
+  surface.ignoredCells =
+    static_cast<std::size_t>(data->GetNumberOfVerts() + data->GetNumberOfLines());
+  surface.firstCell = static_cast<vtkIdType>(surface.ignoredCells);
+  surface.input.points = readPoints(data);
+  readPolygons(data, surface);
+  readStrips(data, surface);
+  readFeatureEdges(data, surface);
+  readPatchIds(data, patchArray, surface);
+  return surface;
+}
+
+void addFeatureMarks(SurfaceInput& input, const std::vector<FeatureMark>& marks)
+{
+  if (marks.empty())
+  {
+    return;
+  }
+  input.featureEdges.resize(polygonCount(input));
+  for (const FeatureMark& mark : marks)
+  {
+    if (mark.polygon >= input.featureEdges.size())
+    {
+      refuse("a feature is marked on polygon ", mark.polygon, ", but there are only ",
+        input.featureEdges.size());
+    }
+    input.featureEdges[mark.polygon] |= mark.bits;
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> writeMesh(const Mesh& mesh)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(writePoints(mesh, identity(mesh.vertexCount())));
+  data->SetPolys(writeTriangles(mesh.origin));
+  addFeatureEdges(data, mesh);
+  addTwinsWhereNeeded(data, mesh);
+  return data;
+}
+
+Mesh readMesh(vtkPolyData* data)
+{
+  Mesh mesh;
+  mesh.origin = readTriangles(data);
+  mesh.position = readPoints(data);
+  weldSplitPoints(data, mesh);
+  if (!readTwins(data, mesh))
+  {
+    mesh.twin = pairHalfEdges(mesh.origin, mesh.vertexCount());
+  }
+  readFlags(data, mesh);
+  return mesh;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> writeLevel(const Level& level)
+{
+  vtkSmartPointer<vtkPolyData> data = writeMesh(level.mesh);
+  data->GetPointData()->AddArray(writeIds(arrays::kFineVertex, level.fineVertex));
+  data->GetCellData()->AddArray(writeIds(arrays::kFineFace, level.fineFace));
+  return data;
+}
+
+Level readLevel(vtkPolyData* data, const Mesh& fine)
+{
+  constexpr const char* kMadeBy = "vtkDecimationHierarchy";
+  Level level;
+  level.mesh = readMesh(data);
+  level.fineVertex = readIds(
+    requireArray(data->GetPointData(), arrays::kFineVertex, 1, kMadeBy), fine.vertexCount());
+  level.fineFace =
+    readIds(requireArray(data->GetCellData(), arrays::kFineFace, 1, kMadeBy), fine.faceCount());
+  return level;
+}
+
+//------------------------------------------------------------------------------
+void addMap(vtkPolyData* data, const std::vector<FixedVec2>& uv)
+{
+  const std::size_t faces = uv.size() / 3;
+  auto igm = newArray<vtkDoubleArray>(arrays::kIgm, 6, faces);
+  auto determinants = newArray<vtkDoubleArray>(arrays::kDeterminant, 1, faces);
+  for (std::size_t h = 0; h < uv.size(); ++h)
+  {
+    if (std::abs(uv[h].u) >= kLargestExact || std::abs(uv[h].v) >= kLargestExact)
+    {
+      refuse("the map of face ", h / 3, " reaches ", toDouble(uv[h].u), ", ", toDouble(uv[h].v),
+        ", beyond what can be written exactly");
+    }
+    igm->SetValue(static_cast<vtkIdType>(2 * h), toDouble(uv[h].u));
+    igm->SetValue(static_cast<vtkIdType>(2 * h + 1), toDouble(uv[h].v));
+  }
+  const double unit = 1.0 / (static_cast<double>(kOne) * static_cast<double>(kOne));
+  for (std::size_t f = 0; f < faces; ++f)
+  {
+    const Int128 d = determinant(uv[3 * f], uv[3 * f + 1], uv[3 * f + 2]);
+    determinants->SetValue(static_cast<vtkIdType>(f), static_cast<double>(d) * unit);
+  }
+  data->GetCellData()->AddArray(igm);
+  data->GetCellData()->AddArray(determinants);
+}
+
+std::vector<FixedVec2> readMap(vtkPolyData* data)
+{
+  vtkDataArray* array = requireArray(data->GetCellData(), arrays::kIgm, 6,
+    "vtkIntegerGridMap, vtkIntegerGridMapUpmap or vtkQuadRemesh");
+  std::vector<FixedVec2> uv(3 * static_cast<std::size_t>(array->GetNumberOfTuples()));
+  for (std::size_t f = 0; 3 * f < uv.size(); ++f)
+  {
+    double t[6];
+    array->GetTuple(static_cast<vtkIdType>(f), t);
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vector2 p(t[2 * i], t[2 * i + 1]);
+      if (!(p.cwiseAbs().maxCoeff() < toDouble(kLargestExact)))
+      {
+        refuse("array ", arrays::kIgm, " has the corner (", p.x(), ", ", p.y(), ") in cell ", f);
+      }
+      uv[3 * f + static_cast<std::size_t>(i)] = toFixed(p);
+    }
+  }
+  return uv;
+}
+
+void addMatching(vtkPolyData* data, const std::vector<std::int8_t>& matching)
+{
+  auto array = newArray<vtkSignedCharArray>(arrays::kMatching, 3, matching.size() / 3);
+  std::copy(matching.begin(), matching.end(), array->GetPointer(0));
+  data->GetCellData()->AddArray(array);
+}
+
+void addTurns(vtkPolyData* data, const Mesh& mesh, const std::vector<int>& turns)
+{
+  const std::vector<Index> outgoing = outgoingHalfEdges(mesh);
+  auto turnArray = newArray<vtkIntArray>(arrays::kTurns, 1, turns.size());
+  auto indexArray = newArray<vtkIntArray>(arrays::kIndex, 1, turns.size());
+  for (std::size_t v = 0; v < turns.size(); ++v)
+  {
+    const bool boundary = outgoing[v] == kInvalidIndex || mesh.isBoundary(outgoing[v]);
+    turnArray->SetValue(static_cast<vtkIdType>(v), turns[v]);
+    indexArray->SetValue(static_cast<vtkIdType>(v), (boundary ? 2 : 4) - turns[v]);
+  }
+  data->GetPointData()->AddArray(turnArray);
+  data->GetPointData()->AddArray(indexArray);
+}
+
+std::vector<std::int8_t> matchingOf(const Mesh& mesh, const std::vector<FixedVec2>& uv)
+{
+  std::vector<std::int8_t> matching(mesh.halfEdgeCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (!mesh.isBoundary(h))
+    {
+      matching[h] = static_cast<std::int8_t>(transitionOf(mesh, uv, h).rotation);
+    }
+  }
+  return matching;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> writeMappedSurface(const PreparedSurface& surface,
+  const std::vector<FixedVec2>& uv, const std::vector<std::int8_t>& matching,
+  const std::vector<int>& turns, vtkPolyData* source, const ConvertedSurface& converted,
+  bool splitSeams)
+{
+  const Mesh& mesh = surface.mesh;
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  std::vector<Index> pointVertex;
+  std::vector<Index> corners = splitSeams ? splitCorners(mesh, uv, pointVertex) : mesh.origin;
+  if (!splitSeams)
+  {
+    pointVertex = identity(mesh.vertexCount());
+  }
+  data->SetPoints(writePoints(mesh, pointVertex));
+  data->SetPolys(writeTriangles(corners));
+  carryToSurface(data, surface, source, converted, pointVertex);
+  addSourceArrays(data, surface, converted);
+  addFeatureEdges(data, mesh);
+  addTwinsWhereNeeded(data, mesh);
+  addMap(data, uv);
+  addMatching(data, matching);
+  // One value a vertex becomes one a point: addTurns works on vertices, so spread it afterwards.
+  vtkNew<vtkPolyData> perVertex;
+  addTurns(perVertex, mesh, turns);
+  for (const char* name : { arrays::kTurns, arrays::kIndex })
+  {
+    vtkDataArray* from = perVertex->GetPointData()->GetArray(name);
+    auto to = newArray<vtkIntArray>(name, 1, pointVertex.size());
+    for (std::size_t i = 0; i < pointVertex.size(); ++i)
+    {
+      to->SetTuple(static_cast<vtkIdType>(i), pointVertex[i], from);
+    }
+    data->GetPointData()->AddArray(to);
+  }
+  if (splitSeams)
+  {
+    data->GetPointData()->AddArray(writeIds(arrays::kSurfacePointId, pointVertex));
+    addTextureCoordinates(data, corners, uv);
+  }
+  return data;
+}
+
+} // namespace quadrille

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// vtkPolyData <-> Core: the surface a user hands in, the meshes between the stage filters, the map.
+///
+/// The arrays between the filters, besides those of the design's table of arrays:
+///   cells: FineFace (id of the finest face), Twin (only where the corners' points do not tell), SourceCellId,
+///          SourcePointIds and SourceWeights (the three input points of a face, and, where
+///          refinement split it, the barycentric coordinates of its corners: 9 numbers)
+///   points: FineVertex, Turns, Index, IntegerVertex, SurfacePointId (where points are split at seams)
+#pragma once
+
+#include "Base/FixedPoint.h"
+#include "GridMap/GridMap.h"
+#include "Hierarchy/Hierarchy.h"
+#include "Mesh/Surface.h"
+
+#include <vtkSmartPointer.h>
+#include <vtkType.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+class vtkPolyData;
+
+namespace quadrille
+{
+
+namespace arrays
+{
+constexpr const char* kFeatureEdges = "FeatureEdges";
+constexpr const char* kPatchId = "PatchId";
+constexpr const char* kIgm = "IGM";
+constexpr const char* kMatching = "Matching";
+constexpr const char* kDeterminant = "Determinant";
+constexpr const char* kTwin = "Twin";
+constexpr const char* kFineFace = "FineFace";
+constexpr const char* kFineVertex = "FineVertex";
+constexpr const char* kTurns = "Turns";
+constexpr const char* kIndex = "Index";
+constexpr const char* kIntegerVertex = "IntegerVertex";
+constexpr const char* kSurfacePointId = "SurfacePointId";
+constexpr const char* kTextureCoordinates = "TextureCoordinates";
+constexpr const char* kSourceCellId = "SourceCellId";
+constexpr const char* kSourcePointIds = "SourcePointIds";
+constexpr const char* kSourceWeights = "SourceWeights";
+constexpr const char* kSourceBarycentric = "SourceBarycentric";
+constexpr const char* kValence = "Valence";
+}
+
+/// Feature bits of one polygon (see SurfaceInput::featureEdges).
+struct FeatureMark
+{
+  Index polygon = 0;
+  std::uint8_t bits = 0;
+};
+
+/// A surface as Core wants it and the way back from its polygons to the cells of the vtkPolyData.
+struct ConvertedSurface
+{
+  SurfaceInput input;
+  vtkIdType firstCell = 0;              ///< cell id of polygon 0
+  std::vector<vtkIdType> cellOfPolygon; ///< only where the surface has strips
+  std::size_t ignoredCells = 0;         ///< vertices and lines
+  std::string patchArray;               ///< name of the cell array that patchIds came from, or empty
+  std::vector<FeatureMark> curveMarks;  ///< what the curves of the second input added
+
+  vtkIdType cell(Index polygon) const
+  {
+    return cellOfPolygon.empty() ? firstCell + polygon : cellOfPolygon[polygon];
+  }
+};
+
+/// Polygons and strips of a vtkPolyData. patchArray: see vtkQuadrilleSurfaceAlgorithm::PatchArrayName.
+/// Throws InvalidInput naming the cell or array that is at fault.
+ConvertedSurface convertSurface(vtkPolyData* surface, const std::string& patchArray);
+
+/// Sets the marks' bits in input.featureEdges; throws InvalidInput for a polygon out of range.
+void addFeatureMarks(SurfaceInput& input, const std::vector<FeatureMark>& marks);
+
+/// Points in double precision, triangles, FeatureEdges where there are any.
+vtkSmartPointer<vtkPolyData> writeMesh(const Mesh& mesh);
+/// Throws InvalidInput naming the cell that is no triangle, or the edge that is not manifold.
+Mesh readMesh(vtkPolyData* data);
+
+/// writeMesh with FineFace and FineVertex.
+vtkSmartPointer<vtkPolyData> writeLevel(const Level& level);
+/// Throws InvalidInput when an array is missing or an id is out of range.
+Level readLevel(vtkPolyData* data, const Mesh& fine);
+
+/// Adds IGM and Determinant. Throws InvalidInput where a coordinate is too large for an exact double.
+void addMap(vtkPolyData* data, const std::vector<FixedVec2>& uv);
+/// The exact inverse. Throws InvalidInput when the array is missing or not finite.
+std::vector<FixedVec2> readMap(vtkPolyData* data);
+/// Adds Matching: three quarter turns a cell.
+void addMatching(vtkPolyData* data, const std::vector<std::int8_t>& matching);
+/// Adds Turns, and Index = 4 - turns (2 - turns on the boundary).
+void addTurns(vtkPolyData* data, const Mesh& mesh, const std::vector<int>& turns);
+
+/// The matchings that a map has: rotations of its transitions.
+std::vector<std::int8_t> matchingOf(const Mesh& mesh, const std::vector<FixedVec2>& uv);
+
+/// The finest level with its map for display and extraction. source: what the surface was made from, its
+/// arrays are carried over. With splitSeams points are doubled where the map is cut, so that
+/// texture coordinates can be a point array.
+vtkSmartPointer<vtkPolyData> writeMappedSurface(const PreparedSurface& surface,
+  const std::vector<FixedVec2>& uv, const std::vector<std::int8_t>& matching,
+  const std::vector<int>& turns, vtkPolyData* source, const ConvertedSurface& converted,
+  bool splitSeams);
+
+} // namespace quadrille

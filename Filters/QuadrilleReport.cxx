@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QuadrilleReport.h"
+
+#include <vtkDataObject.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkStringArray.h>
+
+#include <cstdio>
+#include <functional>
+
+namespace quadrille
+{
+
+namespace
+{
+
+void addArray(vtkDataObject* data, vtkAbstractArray* array)
+{
+  data->GetFieldData()->RemoveArray(array->GetName());
+  data->GetFieldData()->AddArray(array);
+}
+
+void addCounts(vtkDataObject* data, const char* name, const std::vector<std::size_t>& values)
+{
+  vtkNew<vtkIdTypeArray> array;
+  array->SetName(name);
+  for (const std::size_t value : values)
+  {
+    array->InsertNextValue(static_cast<vtkIdType>(value));
+  }
+  addArray(data, array);
+}
+
+void addNumbers(vtkDataObject* data, const char* name, const std::vector<double>& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  for (const double value : values)
+  {
+    array->InsertNextValue(value);
+  }
+  addArray(data, array);
+}
+
+template <class Value>
+std::vector<Value> column(
+  const std::vector<StageRecord>& stages, const std::function<Value(const StageRecord&)>& of)
+{
+  std::vector<Value> values;
+  for (const StageRecord& stage : stages)
+  {
+    values.push_back(of(stage));
+  }
+  return values;
+}
+
+} // namespace
+
+void requireOk(const Status& status, const std::string& stage)
+{
+  if (!status.ok())
+  {
+    throw StageFailure(status.code, status.message.empty() ? stage + " failed" : status.message);
+  }
+}
+
+std::string stageTimesText(const std::vector<StageRecord>& stages)
+{
+  std::string text;
+  double sum = 0;
+  char line[160];
+  for (const StageRecord& stage : stages)
+  {
+    std::snprintf(line, sizeof(line), "%s: %.3f s, %zu -> %zu\n", stage.stage.c_str(), stage.seconds,
+      stage.elementsIn, stage.elementsOut);
+    text += line;
+    sum += stage.seconds;
+  }
+  std::snprintf(line, sizeof(line), "sum: %.3f s", sum);
+  return text + line;
+}
+
+std::vector<std::pair<std::string, std::size_t>> repairCounts(const RepairReport& r)
+{
+  return { { "triangulated_polygons", r.triangulatedPolygons },
+    { "merged_points", r.mergedPoints }, { "degenerate_faces", r.degenerateFaces },
+    { "duplicate_faces", r.duplicateFaces }, { "isolated_points", r.isolatedPoints },
+    { "non_manifold_edges", r.nonManifoldEdges },
+    { "non_manifold_vertices", r.nonManifoldVertices }, { "reoriented_faces", r.reorientedFaces },
+    { "removed_components", r.removedComponents }, { "refined_faces", r.refinedFaces } };
+}
+
+void addText(vtkDataObject* data, const char* name, const std::vector<std::string>& lines)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  for (const std::string& line : lines)
+  {
+    array->InsertNextValue(line);
+  }
+  addArray(data, array);
+}
+
+void addNumber(vtkDataObject* data, const char* name, double value)
+{
+  addNumbers(data, name, { value });
+}
+
+void addCount(vtkDataObject* data, const char* name, std::size_t value)
+{
+  addCounts(data, name, { value });
+}
+
+void addStages(vtkDataObject* data, const std::vector<StageRecord>& stages)
+{
+  addText(data, "StageNames",
+    column<std::string>(stages, [](const StageRecord& s) { return s.stage; }));
+  addNumbers(data, "StageSeconds",
+    column<double>(stages, [](const StageRecord& s) { return s.seconds; }));
+  addCounts(data, "StageElementsIn",
+    column<std::size_t>(stages, [](const StageRecord& s) { return s.elementsIn; }));
+  addCounts(data, "StageElementsOut",
+    column<std::size_t>(stages, [](const StageRecord& s) { return s.elementsOut; }));
+}
+
+void addCertificate(vtkDataObject* data, const Certificate& c)
+{
+  addText(data, "Certificate", { c.text() });
+  addCount(data, "CertificateValid", c.valid() ? 1 : 0);
+  addText(data, "CertificateNames",
+    { "triangles", "not_positive", "wrong_turns", "seam_residuals", "off_isolines", "off_integers",
+      "fractional_transitions", "minimum_determinant", "area" });
+  addNumbers(data, "CertificateValues",
+    { static_cast<double>(c.triangles), static_cast<double>(c.notPositive),
+      static_cast<double>(c.wrongTurns), static_cast<double>(c.seamResiduals),
+      static_cast<double>(c.offIsolines), static_cast<double>(c.offIntegers),
+      static_cast<double>(c.fractionalTransitions), c.minimumDeterminant, c.area });
+}
+
+void addRepair(vtkDataObject* data, const RepairReport& repair)
+{
+  std::vector<std::string> names;
+  std::vector<std::size_t> counts;
+  for (const auto& [name, count] : repairCounts(repair))
+  {
+    names.push_back(name);
+    counts.push_back(count);
+  }
+  addText(data, "RepairNames", names);
+  addCounts(data, "RepairCounts", counts);
+}
+
+} // namespace quadrille

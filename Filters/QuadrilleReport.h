@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a run has to say for itself: failures, stage times, certificate, repair, as text and field data.
+#pragma once
+
+#include "Base/Error.h"
+#include "GridMap/GridMap.h"
+#include "Mesh/Surface.h"
+#include "Pipeline/Pipeline.h"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+class vtkDataObject;
+
+namespace quadrille
+{
+
+/// A stage's Status that is not ok, on its way to the filter's error.
+class StageFailure : public std::runtime_error
+{
+public:
+  StageFailure(StatusCode c, const std::string& text)
+    : std::runtime_error(text)
+    , code(c)
+  {
+  }
+  StatusCode code;
+};
+
+/// Throws StageFailure unless the status is ok; `stage` says who failed when the message does not.
+void requireOk(const Status& status, const std::string& stage);
+
+/// "phase1: 0.52 s, 69451 -> 20312", one stage a line, and the sum.
+std::string stageTimesText(const std::vector<StageRecord>& stages);
+
+/// Every count of repair with its name, in the order of the struct.
+std::vector<std::pair<std::string, std::size_t>> repairCounts(const RepairReport& repair);
+
+/// Field arrays. Existing ones of the same name are replaced.
+void addText(vtkDataObject* data, const char* name, const std::vector<std::string>& lines);
+void addNumber(vtkDataObject* data, const char* name, double value);
+void addCount(vtkDataObject* data, const char* name, std::size_t value);
+
+/// StageNames, StageSeconds, StageElementsIn, StageElementsOut: one tuple a stage.
+void addStages(vtkDataObject* data, const std::vector<StageRecord>& stages);
+/// Certificate (text), CertificateValid (0 or 1), CertificateNames and CertificateValues.
+void addCertificate(vtkDataObject* data, const Certificate& certificate);
+/// RepairNames and RepairCounts.
+void addRepair(vtkDataObject* data, const RepairReport& repair);
+
+} // namespace quadrille

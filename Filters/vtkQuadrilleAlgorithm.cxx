@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkQuadrilleAlgorithm.h"
+
+#include "GridMap/GridMap.h"
+#include "Pipeline/Pipeline.h"
+#include "QuadrilleReport.h"
+
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+#include <sstream>
+
+using Executive = vtkStreamingDemandDrivenPipeline;
+
+namespace
+{
+
+/// Which part of the output is asked for; a serial run asks for piece 0 of 1.
+int requestedPiece(vtkInformationVector* outputs)
+{
+  vtkInformation* info = outputs->GetInformationObject(0);
+  return info->Has(Executive::UPDATE_PIECE_NUMBER()) ? info->Get(Executive::UPDATE_PIECE_NUMBER())
+                                                     : 0;
+}
+
+int requestedPieces(vtkInformationVector* outputs)
+{
+  vtkInformation* info = outputs->GetInformationObject(0);
+  return info->Has(Executive::UPDATE_NUMBER_OF_PIECES())
+    ? info->Get(Executive::UPDATE_NUMBER_OF_PIECES())
+    : 1;
+}
+
+void initializeOutputs(vtkInformationVector* outputs)
+{
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    if (vtkDataObject* output = vtkDataObject::GetData(outputs, port))
+    {
+      output->Initialize();
+    }
+  }
+}
+
+/// Whether the first input has nothing to work on, which is normal on a rank of a parallel run.
+bool isEmpty(vtkInformationVector** inputs)
+{
+  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  return !input || input->GetNumberOfCells() == 0;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkQuadrilleAlgorithm::vtkQuadrilleAlgorithm() = default;
+vtkQuadrilleAlgorithm::~vtkQuadrilleAlgorithm() = default;
+
+//------------------------------------------------------------------------------
+int vtkQuadrilleAlgorithm::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  // The whole mesh has to be in one place: rank 0 asks for all of it.
+  const int piece = requestedPiece(outputs);
+  const int pieces = piece == 0 ? 1 : requestedPieces(outputs);
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* info = inputs[port]->GetInformationObject(i);
+      info->Set(Executive::UPDATE_PIECE_NUMBER(), piece);
+      info->Set(Executive::UPDATE_NUMBER_OF_PIECES(), pieces);
+      info->Set(Executive::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    }
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkQuadrilleAlgorithm::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  this->ResetOutcome();
+  if (requestedPiece(outputs) > 0 || (requestedPieces(outputs) > 1 && isEmpty(inputs)))
+  {
+    initializeOutputs(outputs);
+    this->Outcome = Succeeded;
+    return 1;
+  }
+  try
+  {
+    this->Execute(inputs, outputs);
+    this->Outcome = Succeeded;
+    this->UpdateProgress(1.0);
+    return 1;
+  }
+  catch (const quadrille::InvalidInput& error)
+  {
+    return this->Fail(BadInput, error.what(), outputs);
+  }
+  catch (const quadrille::Cancelled&)
+  {
+    return this->FailCancelled(outputs);
+  }
+  catch (const quadrille::StageFailure& failure)
+  {
+    if (failure.code == quadrille::StatusCode::Cancelled)
+    {
+      return this->FailCancelled(outputs);
+    }
+    const bool tooLarge = failure.code == quadrille::StatusCode::TooLarge;
+    return this->Fail(tooLarge ? TooLarge : NoValidResult, failure.what(), outputs);
+  }
+  catch (const std::bad_alloc&)
+  {
+    return this->Fail(NoValidResult, "out of memory; ask for fewer quads or free memory", outputs);
+  }
+  catch (const std::exception& error)
+  {
+    return this->Fail(NoValidResult, std::string("internal error: ") + error.what(), outputs);
+  }
+}
+
+//------------------------------------------------------------------------------
+std::function<bool(double, const std::string&)> vtkQuadrilleAlgorithm::MakeProgress(
+  double begin, double end)
+{
+  const auto started = std::chrono::steady_clock::now();
+  return [this, begin, end, started](double fraction, const std::string& text)
+  {
+    this->SetProgressText(text.c_str());
+    this->UpdateProgress(begin + (end - begin) * std::clamp(fraction, 0.0, 1.0));
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - started;
+    this->TimeIsOver = this->TimeLimit > 0 && spent.count() > this->TimeLimit;
+    return !this->TimeIsOver && !this->CheckAbort();
+  };
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::SetStageRecords(const std::vector<quadrille::StageRecord>& stages)
+{
+  this->StageTimesText = quadrille::stageTimesText(stages);
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::SetCertificate(const quadrille::Certificate& certificate)
+{
+  this->CertificateText = certificate.text();
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::AddNotice(const std::string& text)
+{
+  this->NoticesText += (this->NoticesText.empty() ? "" : "\n") + text;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::ResetOutcome()
+{
+  this->Outcome = NotRun;
+  this->TimeIsOver = false;
+  this->OutcomeText.clear();
+  this->StageTimesText.clear();
+  this->CertificateText.clear();
+  this->NoticesText.clear();
+}
+
+//------------------------------------------------------------------------------
+int vtkQuadrilleAlgorithm::Fail(
+  OutcomeType outcome, const std::string& text, vtkInformationVector* outputs)
+{
+  initializeOutputs(outputs);
+  this->Outcome = outcome;
+  this->OutcomeText = text;
+  vtkErrorMacro(<< text);
+  return 0;
+}
+
+//------------------------------------------------------------------------------
+int vtkQuadrilleAlgorithm::FailCancelled(vtkInformationVector* outputs)
+{
+  if (this->TimeIsOver)
+  {
+    std::ostringstream text;
+    text << "stopped after the time limit of " << this->TimeLimit << " s; there is no result";
+    return this->Fail(TimedOut, text.str(), outputs);
+  }
+  // No error: it is what the user asked for. Returning 0 leaves the filter out of date.
+  initializeOutputs(outputs);
+  this->Outcome = Aborted;
+  this->OutcomeText = "stopped on request; there is no result";
+  vtkWarningMacro(<< this->OutcomeText);
+  return 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "TimeLimit: " << this->TimeLimit << "\n";
+  os << indent << "Outcome: " << this->Outcome << "\n";
+  os << indent << "OutcomeText: " << this->OutcomeText << "\n";
+  os << indent << "StageTimesText: " << this->StageTimesText << "\n";
+  os << indent << "CertificateText: " << this->CertificateText << "\n";
+  os << indent << "NoticesText: " << this->NoticesText << "\n";
+}

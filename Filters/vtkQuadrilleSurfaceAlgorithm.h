@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkQuadrilleSurfaceAlgorithm
+ * @brief   what the filters that start from a triangle surface share: the target size, features, curves
+ *
+ * Input port 0 takes the surface: polygons and triangle strips; vertices and lines are not used. Cell arrays
+ * `FeatureEdges` (unsigned char, bit i set: the edge from corner i to corner i+1 is a feature) and the patch array
+ * (see PatchArrayName) mark features beside the feature angle.
+ *
+ * Input port 1, optional, takes curves as polylines with the cell array `ConstraintType`: 0 (also where there is no such
+ * array) is a feature curve, which is drawn along the edges of the surface nearest to it. Other types are an
+ * error in this version.
+ */
+#ifndef vtkQuadrilleSurfaceAlgorithm_h
+#define vtkQuadrilleSurfaceAlgorithm_h
+
+#include "vtkQuadrilleAlgorithm.h"
+
+namespace quadrille
+{
+struct ConvertedSurface;
+struct RemeshOptions;
+}
+
+class QUADRILLEFILTERS_EXPORT vtkQuadrilleSurfaceAlgorithm : public vtkQuadrilleAlgorithm
+{
+public:
+  vtkTypeMacro(vtkQuadrilleSurfaceAlgorithm, vtkQuadrilleAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum TargetTypes
+  {
+    TARGET_NUMBER_OF_QUADS = 0,
+    TARGET_EDGE_LENGTH = 1,
+    TARGET_RELATIVE_EDGE_LENGTH = 2
+  };
+
+  /// The optional second input.
+  void SetCurvesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
+  void SetCurvesData(vtkDataObject* curves) { this->SetInputDataObject(1, curves); }
+
+  ///@{
+  /**
+   * Which of the three properties below sets the size of the quads, a TargetTypes. Default:
+   * TARGET_RELATIVE_EDGE_LENGTH.
+   */
+  vtkSetClampMacro(TargetType, int, TARGET_NUMBER_OF_QUADS, TARGET_RELATIVE_EDGE_LENGTH);
+  vtkGetMacro(TargetType, int);
+  void SetTargetTypeToNumberOfQuads() { this->SetTargetType(TARGET_NUMBER_OF_QUADS); }
+  void SetTargetTypeToEdgeLength() { this->SetTargetType(TARGET_EDGE_LENGTH); }
+  void SetTargetTypeToRelativeEdgeLength() { this->SetTargetType(TARGET_RELATIVE_EDGE_LENGTH); }
+  ///@}
+
+  ///@{
+  /**
+   * Target number of quads, at least 1. Default: 5000.
+   */
+  vtkSetMacro(NumberOfQuads, vtkIdType);
+  vtkGetMacro(NumberOfQuads, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * Target edge length in units of the input, positive. Default: 1.
+   */
+  vtkSetMacro(EdgeLength, double);
+  vtkGetMacro(EdgeLength, double);
+  ///@}
+
+  ///@{
+  /**
+   * Target edge length over the diagonal of the input's bounding box, positive. Default: 0.02.
+   */
+  vtkSetMacro(RelativeEdgeLength, double);
+  vtkGetMacro(RelativeEdgeLength, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether edges are features by their dihedral angle. Default: on.
+   */
+  vtkSetMacro(DetectFeatures, vtkTypeBool);
+  vtkGetMacro(DetectFeatures, vtkTypeBool);
+  vtkBooleanMacro(DetectFeatures, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Edges where the normals of the two faces differ by more than this are features; degrees in (0, 180].
+   * Default: 40.
+   */
+  vtkSetMacro(FeatureAngle, double);
+  vtkGetMacro(FeatureAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Name of an integer cell array; edges between two of its values are features. The default "PatchId" may be
+   * missing on the input, any other name is an error when it is. Empty or "(none)": not used.
+   */
+  void SetPatchArrayName(const char* name);
+  const char* GetPatchArrayName() { return this->PatchArrayName.c_str(); }
+  ///@}
+
+  ///@{
+  /**
+   * Budget of vertices on the coarse level, where the layout is computed; raised by the filter where features,
+   * handles or components need more. At least 4. Default: 1000.
+   */
+  vtkSetClampMacro(CoarseVertices, int, 4, VTK_INT_MAX);
+  vtkGetMacro(CoarseVertices, int);
+  ///@}
+
+protected:
+  vtkQuadrilleSurfaceAlgorithm();
+  ~vtkQuadrilleSurfaceAlgorithm() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+
+  /// The surface and the curves as Core takes them; warns of what this version does not use.
+  quadrille::ConvertedSurface ConvertInputs(vtkInformationVector** inputs);
+  /// The properties in Core's units.
+  quadrille::RemeshOptions MakeOptions();
+
+  int TargetType = TARGET_RELATIVE_EDGE_LENGTH;
+  vtkIdType NumberOfQuads = 5000;
+  double EdgeLength = 1;
+  double RelativeEdgeLength = 0.02;
+  vtkTypeBool DetectFeatures = 1;
+  double FeatureAngle = 40;
+  std::string PatchArrayName = "PatchId";
+  int CoarseVertices = 1000;
+
+private:
+  vtkQuadrilleSurfaceAlgorithm(const vtkQuadrilleSurfaceAlgorithm&) = delete;
+  void operator=(const vtkQuadrilleSurfaceAlgorithm&) = delete;
+
+  void WarnOfUnusedArrays(vtkPolyData* surface);
+};
+
+#endif
