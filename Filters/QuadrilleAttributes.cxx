@@ -76,9 +76,9 @@ void normalize(vtkDataArray* normals)
 /// Makes the same arrays active as on the source; ids stay plain arrays, as they are no longer unique.
 void copyActive(vtkDataSetAttributes* source, vtkDataSetAttributes* target)
 {
-  for (const int type : { vtkDataSetAttributes::SCALARS, vtkDataSetAttributes::VECTORS,
-         vtkDataSetAttributes::NORMALS, vtkDataSetAttributes::TCOORDS,
-         vtkDataSetAttributes::TENSORS })
+  for (const int type :
+    { vtkDataSetAttributes::SCALARS, vtkDataSetAttributes::VECTORS, vtkDataSetAttributes::NORMALS,
+      vtkDataSetAttributes::TCOORDS, vtkDataSetAttributes::TENSORS })
   {
     vtkAbstractArray* active = source->GetAbstractAttribute(type);
     if (active && active->GetName() && target->GetAbstractArray(active->GetName()))

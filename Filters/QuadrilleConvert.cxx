@@ -370,7 +370,8 @@ std::vector<Index> readTriangles(vtkPolyData* data)
 {
   if (data->GetNumberOfPolys() != data->GetNumberOfCells())
   {
-    refuse("the input has cells other than triangles; take the output of a Quadrille filter as it is");
+    refuse(
+      "the input has cells other than triangles; take the output of a Quadrille filter as it is");
   }
   std::vector<Index> corners;
   corners.reserve(3 * static_cast<std::size_t>(data->GetNumberOfPolys()));
@@ -469,8 +470,7 @@ void addTextureCoordinates(
   data->GetPointData()->SetTCoords(array);
 }
 
-vtkSmartPointer<vtkPoints> writePoints(
-  const Mesh& mesh, const std::vector<Index>& pointVertex)
+vtkSmartPointer<vtkPoints> writePoints(const Mesh& mesh, const std::vector<Index>& pointVertex)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataTypeToDouble();

@@ -62,8 +62,8 @@ struct ConvertedSurface
   vtkIdType firstCell = 0;              ///< cell id of polygon 0
   std::vector<vtkIdType> cellOfPolygon; ///< only where the surface has strips
   std::size_t ignoredCells = 0;         ///< vertices and lines
-  std::string patchArray;               ///< name of the cell array that patchIds came from, or empty
-  std::vector<FeatureMark> curveMarks;  ///< what the curves of the second input added
+  std::string patchArray;              ///< name of the cell array that patchIds came from, or empty
+  std::vector<FeatureMark> curveMarks; ///< what the curves of the second input added
 
   vtkIdType cell(Index polygon) const
   {

@@ -94,8 +94,7 @@ double distanceToSegment(const Vector3& p, const Vector3& a, const Vector3& b)
 }
 
 /// Dijkstra from a to b; edges cost more the farther they are from the straight segment. Empty: no path.
-std::vector<Index> findPath(
-  const SurfaceInput& input, const EdgeGraph& graph, Index a, Index b)
+std::vector<Index> findPath(const SurfaceInput& input, const EdgeGraph& graph, Index a, Index b)
 {
   struct Reached
   {
@@ -264,8 +263,9 @@ std::vector<std::string> applyCurves(
         const std::vector<Index> path = findPath(surface.input, graph, previous, v);
         if (path.empty())
         {
-          throw InvalidInput("curve " + std::to_string(curve) + ": no path of edges leads from surface point " +
-            std::to_string(previous) + " to " + std::to_string(v) +
+          throw InvalidInput("curve " + std::to_string(curve) +
+            ": no path of edges leads from surface point " + std::to_string(previous) + " to " +
+            std::to_string(v) +
             "; they lie on different components, or coincident points are not merged");
         }
         markPath(graph, path, marks);

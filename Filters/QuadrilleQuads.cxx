@@ -207,12 +207,36 @@ void addPatchPairs(
 
 } // namespace
 
+PointOrigin pointOrigin(const PreparedSurface& surface, const ConvertedSurface& converted,
+  Index face, const std::array<double, 3>& weights)
+{
+  const SourceLocation at = surface.locate(face, weights);
+  PointOrigin origin{ { at.points[0], at.points[1], at.points[2] }, at.weights };
+  const SurfaceInput& input = converted.input;
+  const Index begin = input.polygonOffsets[at.polygon];
+  if (input.polygonOffsets[at.polygon + 1] - begin == 3)
+  {
+    // Repair may have turned the triangle round or started it at another corner.
+    for (int i = 0; i < 3; ++i)
+    {
+      const Index id = input.polygonPoints[begin + static_cast<Index>(i)];
+      const auto found = std::find(at.points.begin(), at.points.end(), id);
+      if (found == at.points.end())
+      {
+        return { { at.points[0], at.points[1], at.points[2] }, at.weights };
+      }
+      origin.ids[i] = id;
+      origin.weights[i] = at.weights[static_cast<std::size_t>(found - at.points.begin())];
+    }
+  }
+  return origin;
+}
+
 vtkSmartPointer<vtkPolyData> writeQuads(const QuadMesh& mesh, const QuadSource& source)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
   writeGeometry(mesh, data);
-  carryPointArrays(source.carrier->GetPointData(), data->GetPointData(),
-    data->GetNumberOfPoints(),
+  carryPointArrays(source.carrier->GetPointData(), data->GetPointData(), data->GetNumberOfPoints(),
     [&](vtkIdType i)
     {
       const auto p = static_cast<std::size_t>(i);

@@ -6,6 +6,7 @@
 #include "Extraction/Extraction.h"
 #include "Mesh/Surface.h"
 #include "QuadrilleAttributes.h"
+#include "QuadrilleConvert.h"
 
 #include <vtkSmartPointer.h>
 
@@ -29,6 +30,11 @@ struct QuadSource
   std::function<vtkIdType(Index face)> sourceCell;
   std::string patchArray; ///< cell array of the carrier with patch ids, or empty
 };
+
+/// A point of the prepared surface in the user's points. Where the source cell is a triangle, its points
+/// come in the cell's own order.
+PointOrigin pointOrigin(const PreparedSurface& surface, const ConvertedSurface& converted,
+  Index face, const std::array<double, 3>& weights);
 
 /// Points: Valence, OnBoundary, SourceCellId, SourcePointIds, SourceBarycentric. Cells: SourceCellId and
 /// FeatureEdges (bit i: the edge from corner i to i+1 lies on a feature). All arrays of the carrier.

@@ -11,6 +11,7 @@
 
 #include <cstdio>
 #include <functional>
+#include <sstream>
 
 namespace quadrille
 {
@@ -75,8 +76,8 @@ std::string stageTimesText(const std::vector<StageRecord>& stages)
   char line[160];
   for (const StageRecord& stage : stages)
   {
-    std::snprintf(line, sizeof(line), "%s: %.3f s, %zu -> %zu\n", stage.stage.c_str(), stage.seconds,
-      stage.elementsIn, stage.elementsOut);
+    std::snprintf(line, sizeof(line), "%s: %.3f s, %zu -> %zu\n", stage.stage.c_str(),
+      stage.seconds, stage.elementsIn, stage.elementsOut);
     text += line;
     sum += stage.seconds;
   }
@@ -84,12 +85,25 @@ std::string stageTimesText(const std::vector<StageRecord>& stages)
   return text + line;
 }
 
+std::vector<std::string> splitLines(const std::string& text)
+{
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+  {
+    if (!line.empty())
+    {
+      lines.push_back(line);
+    }
+  }
+  return lines;
+}
+
 std::vector<std::pair<std::string, std::size_t>> repairCounts(const RepairReport& r)
 {
-  return { { "triangulated_polygons", r.triangulatedPolygons },
-    { "merged_points", r.mergedPoints }, { "degenerate_faces", r.degenerateFaces },
-    { "duplicate_faces", r.duplicateFaces }, { "isolated_points", r.isolatedPoints },
-    { "non_manifold_edges", r.nonManifoldEdges },
+  return { { "triangulated_polygons", r.triangulatedPolygons }, { "merged_points", r.mergedPoints },
+    { "degenerate_faces", r.degenerateFaces }, { "duplicate_faces", r.duplicateFaces },
+    { "isolated_points", r.isolatedPoints }, { "non_manifold_edges", r.nonManifoldEdges },
     { "non_manifold_vertices", r.nonManifoldVertices }, { "reoriented_faces", r.reorientedFaces },
     { "removed_components", r.removedComponents }, { "refined_faces", r.refinedFaces } };
 }
@@ -117,10 +131,10 @@ void addCount(vtkDataObject* data, const char* name, std::size_t value)
 
 void addStages(vtkDataObject* data, const std::vector<StageRecord>& stages)
 {
-  addText(data, "StageNames",
-    column<std::string>(stages, [](const StageRecord& s) { return s.stage; }));
-  addNumbers(data, "StageSeconds",
-    column<double>(stages, [](const StageRecord& s) { return s.seconds; }));
+  addText(
+    data, "StageNames", column<std::string>(stages, [](const StageRecord& s) { return s.stage; }));
+  addNumbers(
+    data, "StageSeconds", column<double>(stages, [](const StageRecord& s) { return s.seconds; }));
   addCounts(data, "StageElementsIn",
     column<std::size_t>(stages, [](const StageRecord& s) { return s.elementsIn; }));
   addCounts(data, "StageElementsOut",

@@ -22,11 +22,7 @@ namespace quadrille
 class StageFailure : public std::runtime_error
 {
 public:
-  StageFailure(StatusCode c, const std::string& text)
-    : std::runtime_error(text)
-    , code(c)
-  {
-  }
+  StageFailure(StatusCode c, const std::string& text) : std::runtime_error(text), code(c) {}
   StatusCode code;
 };
 
@@ -35,6 +31,9 @@ void requireOk(const Status& status, const std::string& stage);
 
 /// "phase1: 0.52 s, 69451 -> 20312", one stage a line, and the sum.
 std::string stageTimesText(const std::vector<StageRecord>& stages);
+
+/// The lines of a text without empty ones.
+std::vector<std::string> splitLines(const std::string& text);
 
 /// Every count of repair with its name, in the order of the struct.
 std::vector<std::pair<std::string, std::size_t>> repairCounts(const RepairReport& repair);

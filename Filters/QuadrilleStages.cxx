@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QuadrilleStages.h"
+
+#include "Base/Error.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace quadrille
+{
+
+namespace
+{
+
+double now()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+} // namespace
+
+StageClock::StageClock() : last_(now()) {}
+
+void StageClock::lap(const std::string& stage, std::size_t in, std::size_t out)
+{
+  const double time = now();
+  records.push_back({ stage, time - last_, in, out });
+  last_ = time;
+}
+
+void StageClock::add(const std::string& stage, double seconds, std::size_t in, std::size_t out)
+{
+  records.push_back({ stage, seconds, in, out });
+  last_ = now();
+}
+
+TargetSize chooseTarget(const PreparedSurface& surface, const RemeshOptions& options)
+{
+  TargetSize target;
+  if (options.quads)
+  {
+    target.quads = *options.quads;
+    target.edgeLength = std::sqrt(surface.area / static_cast<double>(target.quads));
+    return target;
+  }
+  target.edgeLength =
+    options.edgeLength.value_or(options.relativeEdgeLength * surface.boundingBoxDiagonal);
+  if (!(target.edgeLength > 0) || !std::isfinite(target.edgeLength))
+  {
+    throw InvalidInput("the target edge length must be a positive number");
+  }
+  const double quads = surface.area / (target.edgeLength * target.edgeLength);
+  target.quads = static_cast<std::size_t>(std::clamp(quads, 1.0, 1e15));
+  return target;
+}
+
+PreparedSurface prepareFromRecipe(const SurfaceInput& input, const SurfaceRecipe& recipe,
+  int threads, const ProgressCallback& progress, StageClock& clock)
+{
+  PrepareOptions options;
+  options.featureAngle = recipe.featureAngle;
+  options.threads = threads;
+  options.progress = progress;
+  PreparedSurface surface = prepareSurface(input, options);
+  clock.lap("repair", input.polygonOffsets.size() - 1, surface.mesh.faceCount());
+  return surface;
+}
+
+void refineFromRecipe(PreparedSurface& surface, const SurfaceRecipe& recipe,
+  const ProgressCallback& progress, StageClock& clock)
+{
+  const std::size_t before = surface.mesh.faceCount();
+  refineSurface(surface, recipe.maximumEdgeLength, progress);
+  clock.lap("refine", before, surface.mesh.faceCount());
+}
+
+} // namespace quadrille

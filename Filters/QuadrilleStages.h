@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What the stage filters share with Pipeline's order of the stages.
+#pragma once
+
+#include "Base/Progress.h"
+#include "Mesh/Surface.h"
+#include "Pipeline/Pipeline.h"
+#include "QuadrilleLog.h"
+
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Collects stage records; lap() closes the stage that began at the previous lap.
+class StageClock
+{
+public:
+  StageClock();
+  void lap(const std::string& stage, std::size_t in, std::size_t out);
+  void add(const std::string& stage, double seconds, std::size_t in, std::size_t out);
+  std::vector<StageRecord> records;
+
+private:
+  double last_;
+};
+
+struct TargetSize
+{
+  double edgeLength = 0;
+  std::size_t quads = 0;
+};
+/// The size that Pipeline would choose. Throws InvalidInput for a size that is not positive.
+TargetSize chooseTarget(const PreparedSurface& surface, const RemeshOptions& options);
+
+PreparedSurface prepareFromRecipe(const SurfaceInput& input, const SurfaceRecipe& recipe,
+  int threads, const ProgressCallback& progress, StageClock& clock);
+void refineFromRecipe(PreparedSurface& surface, const SurfaceRecipe& recipe,
+  const ProgressCallback& progress, StageClock& clock);
+
+} // namespace quadrille

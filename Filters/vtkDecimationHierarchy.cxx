@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDecimationHierarchy.h"
+
+#include "Hierarchy/Hierarchy.h"
+#include "Pipeline/Pipeline.h"
+#include "QuadrilleConvert.h"
+#include "QuadrilleLog.h"
+#include "QuadrilleReport.h"
+#include "QuadrilleStages.h"
+
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+
+vtkStandardNewMacro(vtkDecimationHierarchy);
+
+//------------------------------------------------------------------------------
+vtkDecimationHierarchy::vtkDecimationHierarchy()
+{
+  this->SetNumberOfOutputPorts(3);
+}
+
+vtkDecimationHierarchy::~vtkDecimationHierarchy() = default;
+
+//------------------------------------------------------------------------------
+int vtkDecimationHierarchy::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkTable" : "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkDecimationHierarchy::Execute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const quadrille::ConvertedSurface converted = this->ConvertInputs(inputs);
+  const quadrille::RemeshOptions options = this->MakeOptions();
+
+  quadrille::SurfaceRecipe recipe;
+  recipe.featureAngle = options.featureAngle;
+  recipe.patchArray = this->PatchArrayName;
+  recipe.curveMarks = converted.curveMarks;
+  quadrille::StageClock clock;
+  quadrille::PreparedSurface surface = quadrille::prepareFromRecipe(
+    converted.input, recipe, options.threads, this->MakeProgress(0.0, 0.3), clock);
+  const quadrille::TargetSize target = quadrille::chooseTarget(surface, options);
+  recipe.maximumEdgeLength = target.edgeLength;
+  quadrille::refineFromRecipe(surface, recipe, this->MakeProgress(0.3, 0.4), clock);
+
+  quadrille::HierarchyOptions levels;
+  levels.targetEdgeLength = target.edgeLength;
+  levels.coarseVertices = options.coarseVertices;
+  levels.threads = options.threads;
+  levels.progress = this->MakeProgress(0.4, 0.95);
+  const quadrille::Hierarchy hierarchy =
+    quadrille::buildHierarchy(surface.mesh, surface.hash, levels);
+  clock.add("phase1", hierarchy.secondsPhase1, surface.mesh.faceCount(),
+    hierarchy.intermediate.mesh.faceCount());
+  clock.add("phase2", hierarchy.secondsPhase2, hierarchy.intermediate.mesh.faceCount(),
+    hierarchy.coarse.mesh.faceCount());
+
+  this->SetStageRecords(clock.records);
+  for (const std::string& notice : { surface.repair.text(), hierarchy.notice })
+  {
+    if (!notice.empty())
+    {
+      this->AddNotice(notice);
+    }
+  }
+  vtkPolyData* coarse = vtkPolyData::GetData(outputs, 0);
+  coarse->ShallowCopy(quadrille::writeLevel(hierarchy.coarse));
+  quadrille::addNumber(coarse, "TargetEdgeLength", target.edgeLength);
+  quadrille::addCount(coarse, "TargetQuads", target.quads);
+  quadrille::addStages(coarse, clock.records);
+  quadrille::addRepair(coarse, surface.repair);
+  quadrille::addText(coarse, "Notices", quadrille::splitLines(this->GetNoticesText()));
+  vtkPolyData::GetData(outputs, 1)->ShallowCopy(quadrille::writeLevel(hierarchy.intermediate));
+  quadrille::writeLog(hierarchy.log, recipe, vtkTable::GetData(outputs, 2));
+}
+
+//------------------------------------------------------------------------------
+void vtkDecimationHierarchy::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}

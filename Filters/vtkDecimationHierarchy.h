@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkDecimationHierarchy
+ * @brief   the levels of a surface: input, intermediate, coarse, and the log that joins them
+ *
+ * Inputs and properties: see vtkQuadrilleSurfaceAlgorithm. Outputs:
+ *
+ * 0. the coarse level, for vtkIntegerGridMap. Points: `FineVertex`; cells: `FineFace`, `FeatureEdges`; field data:
+ *    `TargetEdgeLength`, `TargetQuads`, stage times, repair counts, `Notices`.
+ * 1. the intermediate level, with the same arrays.
+ * 2. the log, for vtkIntegerGridMapUpmap: a table without columns, the bytes in the field array `DecimationLog`, bound to
+ *    the surface by `SurfaceHash`. It has a port of its own so that it never travels with a picture.
+ */
+#ifndef vtkDecimationHierarchy_h
+#define vtkDecimationHierarchy_h
+
+#include "vtkQuadrilleSurfaceAlgorithm.h"
+
+class QUADRILLEFILTERS_EXPORT vtkDecimationHierarchy : public vtkQuadrilleSurfaceAlgorithm
+{
+public:
+  static vtkDecimationHierarchy* New();
+  vtkTypeMacro(vtkDecimationHierarchy, vtkQuadrilleSurfaceAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+protected:
+  vtkDecimationHierarchy();
+  ~vtkDecimationHierarchy() override;
+
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  void Execute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkDecimationHierarchy(const vtkDecimationHierarchy&) = delete;
+  void operator=(const vtkDecimationHierarchy&) = delete;
+};
+
+#endif

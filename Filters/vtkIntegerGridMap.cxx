@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkIntegerGridMap.h"
+
+#include "GridMap/GridMap.h"
+#include "QuadrilleConvert.h"
+#include "QuadrilleReport.h"
+#include "QuadrilleStages.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+vtkStandardNewMacro(vtkIntegerGridMap);
+
+namespace
+{
+
+double fieldNumber(vtkPolyData* data, const char* name)
+{
+  vtkDataArray* array = data->GetFieldData()->GetArray(name);
+  return array && array->GetNumberOfTuples() > 0 ? array->GetTuple1(0) : 0;
+}
+
+quadrille::GridMapOptions optionsFor(vtkPolyData* input, double edgeLength)
+{
+  quadrille::GridMapOptions options;
+  options.edgeLength = edgeLength;
+  if (edgeLength == 0)
+  {
+    options.edgeLength = fieldNumber(input, "TargetEdgeLength");
+    options.targetQuads = fieldNumber(input, "TargetQuads");
+  }
+  if (!(options.edgeLength > 0))
+  {
+    throw quadrille::InvalidInput(
+      "the input has no field array 'TargetEdgeLength'; set EdgeLength, or take "
+      "the coarse output of vtkDecimationHierarchy");
+  }
+  return options;
+}
+
+void addIntegerVertices(vtkPolyData* data, const std::vector<std::uint8_t>& flags)
+{
+  vtkNew<vtkUnsignedCharArray> array;
+  array->SetName(quadrille::arrays::kIntegerVertex);
+  array->SetNumberOfValues(static_cast<vtkIdType>(flags.size()));
+  std::copy(flags.begin(), flags.end(), array->GetPointer(0));
+  data->GetPointData()->AddArray(array);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkIntegerGridMap::vtkIntegerGridMap() = default;
+vtkIntegerGridMap::~vtkIntegerGridMap() = default;
+
+//------------------------------------------------------------------------------
+void vtkIntegerGridMap::Execute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  const quadrille::Mesh mesh = quadrille::readMesh(input);
+  quadrille::GridMapOptions options = optionsFor(input, this->EdgeLength);
+  options.progress = this->MakeProgress(0.0, 0.95);
+  const quadrille::GridMapResult map = quadrille::computeGridMap(mesh, options);
+
+  quadrille::StageClock clock;
+  const std::size_t faces = mesh.faceCount();
+  clock.add("field", map.secondsField, faces, faces);
+  clock.add("seamless", map.secondsSeamless, faces, faces);
+  clock.add("quantize", map.secondsQuantize, faces, faces);
+  clock.add("embed", map.secondsEmbed, faces, faces);
+  this->SetStageRecords(clock.records);
+  this->SetCertificate(map.certificate);
+  quadrille::requireOk(map.status, "the map of the coarse level");
+
+  // The mesh is written anew: a map belongs to corners, and strips or split points have none.
+  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  output->ShallowCopy(quadrille::writeMesh(mesh));
+  if (input->GetNumberOfPoints() == output->GetNumberOfPoints())
+  {
+    output->GetPointData()->PassData(input->GetPointData());
+  }
+  output->GetCellData()->PassData(input->GetCellData());
+  output->GetFieldData()->PassData(input->GetFieldData());
+  quadrille::addMap(output, map.uv);
+  quadrille::addMatching(output, map.field.matching);
+  quadrille::addTurns(output, mesh, map.field.turns);
+  addIntegerVertices(output, quadrille::integerVertices(mesh, map.field));
+  quadrille::addStages(output, clock.records);
+  quadrille::addCertificate(output, map.certificate);
+}
+
+//------------------------------------------------------------------------------
+void vtkIntegerGridMap::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "EdgeLength: " << this->EdgeLength << "\n";
+}

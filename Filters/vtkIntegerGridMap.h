@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkIntegerGridMap
+ * @brief   the integer-grid map of the coarse level: cross field, seamless map, quantization, embedding
+ *
+ * Input: output 0 of vtkDecimationHierarchy, or any clean triangle mesh when EdgeLength is set. Output: the same mesh with
+ * `IGM` (cells, double, 6: u0 v0 u1 v1 u2 v2, one unit a quad), `Matching` (cells, 3: quarter turns of the transition
+ * across each edge), `Determinant` (cells: twice the uv area, positive when valid), and on points `Turns` (quarter turns
+ * of the map), `Index` (0 where regular) and `IntegerVertex`. Field data: certificate and stage times.
+ */
+#ifndef vtkIntegerGridMap_h
+#define vtkIntegerGridMap_h
+
+#include "vtkQuadrilleAlgorithm.h"
+
+class QUADRILLEFILTERS_EXPORT vtkIntegerGridMap : public vtkQuadrilleAlgorithm
+{
+public:
+  static vtkIntegerGridMap* New();
+  vtkTypeMacro(vtkIntegerGridMap, vtkQuadrilleAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Target edge length in units of the input; 0, the default, takes `TargetEdgeLength` and `TargetQuads` from the
+   * input's field data.
+   */
+  vtkSetClampMacro(EdgeLength, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(EdgeLength, double);
+  ///@}
+
+protected:
+  vtkIntegerGridMap();
+  ~vtkIntegerGridMap() override;
+
+  void Execute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkIntegerGridMap(const vtkIntegerGridMap&) = delete;
+  void operator=(const vtkIntegerGridMap&) = delete;
+
+  double EdgeLength = 0;
+};
+
+#endif

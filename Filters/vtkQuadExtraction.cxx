@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkQuadExtraction.h"
+
+#include "Extraction/Extraction.h"
+#include "QuadrilleConvert.h"
+#include "QuadrilleQuads.h"
+#include "QuadrilleReport.h"
+#include "QuadrilleStages.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+vtkStandardNewMacro(vtkQuadExtraction);
+
+namespace
+{
+
+using quadrille::Index;
+using quadrille::PointOrigin;
+using Weights = std::array<double, 3>;
+
+/// Points of the mapped surface itself: corners of its cells, before the seams were welded.
+PointOrigin carrierPoint(vtkPolyData* data, Index face, const Weights& weights)
+{
+  vtkIdType count = 0;
+  const vtkIdType* ids = nullptr;
+  data->GetCellPoints(face, count, ids);
+  return { { ids[0], ids[1], ids[2] }, weights };
+}
+
+/// Where a mapped surface came from, as far as it tells.
+struct Ancestry
+{
+  vtkIdTypeArray* cells = nullptr;  ///< SourceCellId
+  vtkIdTypeArray* points = nullptr; ///< SourcePointIds
+  vtkDataArray* weights = nullptr;  ///< SourceWeights
+
+  explicit Ancestry(vtkPolyData* data)
+  {
+    vtkCellData* arrays = data->GetCellData();
+    cells = vtkIdTypeArray::SafeDownCast(arrays->GetArray(quadrille::arrays::kSourceCellId));
+    points = vtkIdTypeArray::SafeDownCast(arrays->GetArray(quadrille::arrays::kSourcePointIds));
+    weights = arrays->GetArray(quadrille::arrays::kSourceWeights);
+    if (!cells || !points || points->GetNumberOfComponents() != 3)
+    {
+      cells = points = nullptr;
+    }
+    if (weights && weights->GetNumberOfComponents() != 9)
+    {
+      weights = nullptr;
+    }
+  }
+
+  PointOrigin point(Index face, const Weights& inFace) const
+  {
+    PointOrigin origin;
+    points->GetTypedTuple(face, origin.ids.data());
+    origin.weights = inFace;
+    if (weights)
+    {
+      double corner[9];
+      weights->GetTuple(face, corner);
+      for (int j = 0; j < 3; ++j)
+      {
+        origin.weights[j] =
+          inFace[0] * corner[j] + inFace[1] * corner[3 + j] + inFace[2] * corner[6 + j];
+      }
+    }
+    return origin;
+  }
+};
+
+quadrille::QuadSource sourceOf(vtkPolyData* data, const std::string& patchArray)
+{
+  quadrille::QuadSource source;
+  source.carrier = data;
+  source.patchArray = data->GetCellData()->HasArray(patchArray.c_str()) ? patchArray : "";
+  source.carrierPoint = [data](Index face, const Weights& weights)
+  { return carrierPoint(data, face, weights); };
+  source.carrierCell = [](Index face) { return static_cast<vtkIdType>(face); };
+  source.sourcePoint = source.carrierPoint;
+  source.sourceCell = source.carrierCell;
+  const Ancestry ancestry(data);
+  if (ancestry.cells)
+  {
+    source.sourcePoint = [ancestry](Index face, const Weights& weights)
+    { return ancestry.point(face, weights); };
+    source.sourceCell = [ancestry](Index face) { return ancestry.cells->GetValue(face); };
+  }
+  return source;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkQuadExtraction::vtkQuadExtraction()
+{
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkQuadExtraction::~vtkQuadExtraction() = default;
+
+//------------------------------------------------------------------------------
+void vtkQuadExtraction::SetPatchArrayName(const char* name)
+{
+  const std::string value = name ? name : "";
+  if (value != this->PatchArrayName)
+  {
+    this->PatchArrayName = value;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkQuadExtraction::GetLines()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  if (this->MaximumQuads < 1)
+  {
+    throw quadrille::InvalidInput("MaximumQuads must be at least 1");
+  }
+  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  const quadrille::Mesh mesh = quadrille::readMesh(input);
+  const std::vector<quadrille::FixedVec2> uv = quadrille::readMap(input);
+  quadrille::ExtractionOptions options;
+  options.maximumQuads = static_cast<std::size_t>(this->MaximumQuads);
+  options.threads = this->NumberOfThreads;
+  options.progress = this->MakeProgress(0.0, 0.95);
+  quadrille::StageClock clock;
+  const quadrille::ExtractionResult result = quadrille::extractQuads(mesh, uv, options);
+  clock.lap("extract", mesh.faceCount(), result.mesh.quads.size());
+  this->SetStageRecords(clock.records);
+  quadrille::requireOk(result.status, "the extraction of quads");
+
+  const quadrille::QuadSource source = sourceOf(input, this->PatchArrayName);
+  vtkPolyData* quads = vtkPolyData::GetData(outputs, 0);
+  quads->ShallowCopy(quadrille::writeQuads(result.mesh, source));
+  quads->GetFieldData()->PassData(input->GetFieldData());
+  quadrille::addStages(quads, clock.records);
+  quadrille::addCount(quads, "ActualQuads", result.mesh.quads.size());
+  vtkPolyData::GetData(outputs, 1)->ShallowCopy(quadrille::writeLines(result.mesh, mesh, source));
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadExtraction::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "MaximumQuads: " << this->MaximumQuads << "\n";
+  os << indent << "PatchArrayName: " << this->PatchArrayName << "\n";
+}

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkQuadRemesh.h"
+
+#include "Pipeline/Pipeline.h"
+#include "QuadrilleConvert.h"
+#include "QuadrilleQuads.h"
+#include "QuadrilleReport.h"
+
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+#include <sstream>
+
+vtkStandardNewMacro(vtkQuadRemesh);
+
+namespace
+{
+
+quadrille::QuadSource sourceOf(const quadrille::PreparedSurface& surface,
+  const quadrille::ConvertedSurface& converted, vtkPolyData* input)
+{
+  quadrille::QuadSource source;
+  source.carrier = input;
+  source.patchArray = converted.patchArray;
+  source.carrierPoint = [&surface, &converted](
+                          quadrille::Index face, const std::array<double, 3>& weights)
+  { return quadrille::pointOrigin(surface, converted, face, weights); };
+  source.carrierCell = [&surface, &converted](quadrille::Index face)
+  { return converted.cell(surface.sourcePolygon[face]); };
+  source.sourcePoint = source.carrierPoint;
+  source.sourceCell = source.carrierCell;
+  return source;
+}
+
+void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
+{
+  quadrille::addStages(data, result.stages);
+  quadrille::addCertificate(data, result.certificate);
+  quadrille::addRepair(data, result.surface.repair);
+  quadrille::addNumber(data, "TargetEdgeLength", result.targetEdgeLength);
+  quadrille::addCount(data, "TargetQuads", result.targetQuads);
+  quadrille::addCount(data, "ActualQuads", result.quads.quads.size());
+  quadrille::addCount(data, "CoarseVertices", result.coarse.mesh.vertexCount());
+  quadrille::addCount(data, "SurfaceFaces", result.surface.mesh.faceCount());
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkQuadRemesh::vtkQuadRemesh()
+{
+  this->SetNumberOfOutputPorts(3);
+}
+
+vtkQuadRemesh::~vtkQuadRemesh() = default;
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkQuadRemesh::GetPolyDataOutputAt(int port)
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(port));
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  this->ActualQuads = this->TargetQuads = 0;
+  if (this->MaximumQuads < 1)
+  {
+    throw quadrille::InvalidInput("MaximumQuads must be at least 1");
+  }
+  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  const quadrille::ConvertedSurface converted = this->ConvertInputs(inputs);
+  quadrille::RemeshOptions options = this->MakeOptions();
+  options.maximumQuads = static_cast<std::size_t>(this->MaximumQuads);
+  options.progress = this->MakeProgress(0.02, 0.95);
+
+  const quadrille::RemeshResult result = quadrille::remesh(converted.input, options);
+  this->TargetQuads = static_cast<vtkIdType>(result.targetQuads);
+  this->SetStageRecords(result.stages);
+  this->SetCertificate(result.certificate);
+  for (const std::string& notice : result.notices)
+  {
+    this->AddNotice(notice);
+  }
+  quadrille::requireOk(result.status, "remeshing");
+
+  const quadrille::QuadSource source = sourceOf(result.surface, converted, input);
+  vtkPolyData* quads = vtkPolyData::GetData(outputs, 0);
+  quads->ShallowCopy(quadrille::writeQuads(result.quads, source));
+  quads->GetFieldData()->PassData(input->GetFieldData());
+  addFieldData(quads, result);
+  quadrille::addText(quads, "Notices", quadrille::splitLines(this->GetNoticesText()));
+  if (this->ComputeMappedSurface)
+  {
+    vtkPolyData::GetData(outputs, 1)
+      ->ShallowCopy(quadrille::writeMappedSurface(result.surface, result.uv, result.matching,
+        result.turns, input, converted, this->TextureCoordinates != 0));
+  }
+  vtkPolyData::GetData(outputs, 2)
+    ->ShallowCopy(quadrille::writeLines(result.quads, result.surface.mesh, source));
+  this->ActualQuads = quads->GetNumberOfPolys();
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "MaximumQuads: " << this->MaximumQuads << "\n";
+  os << indent << "ComputeMappedSurface: " << this->ComputeMappedSurface << "\n";
+  os << indent << "TextureCoordinates: " << this->TextureCoordinates << "\n";
+  os << indent << "TargetQuads: " << this->TargetQuads << "\n";
+  os << indent << "ActualQuads: " << this->ActualQuads << "\n";
+}

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkQuadRemesh
+ * @brief   a triangle surface becomes a pure quad mesh: all stages of Quadrille in one filter
+ *
+ * Follows Ebke, Schmidt, Campen, Kobbelt, "Interactively Controlled Quad Remeshing of High Resolution 3D
+ * Models" (2016). Inputs: see vtkQuadrilleSurfaceAlgorithm. Outputs:
+ *
+ * 0. the quads. Points: `Valence`, `OnBoundary`, `SourceCellId`, `SourcePointIds` and `SourceBarycentric` (where the
+ *    point lies on the input). Cells: `SourceCellId`, `FeatureEdges`. Every array of the input: real numbers and
+ *    colours interpolated, whole numbers and strings from the nearest point or the cell under the quad's centre.
+ * 1. the input surface, repaired, with the integer-grid map: `IGM`, `Matching`, `Determinant` on cells, `Turns`,
+ *    `Index` on points, and texture coordinates; empty unless ComputeMappedSurface is on.
+ * 2. feature and boundary lines of the quads, with `Boundary` and, where there are patches, `PatchIds`.
+ *
+ * Field data of output 0: `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`, `Certificate`,
+ * `CertificateValid`, `CertificateNames`, `CertificateValues`, `RepairNames`, `RepairCounts`, `Notices`,
+ * `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `CoarseVertices`, `SurfaceFaces`.
+ */
+#ifndef vtkQuadRemesh_h
+#define vtkQuadRemesh_h
+
+#include "vtkQuadrilleSurfaceAlgorithm.h"
+
+class QUADRILLEFILTERS_EXPORT vtkQuadRemesh : public vtkQuadrilleSurfaceAlgorithm
+{
+public:
+  static vtkQuadRemesh* New();
+  vtkTypeMacro(vtkQuadRemesh, vtkQuadrilleSurfaceAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The filter refuses, before memory is spent, to make more quads than this; at least 1. Default: ten million.
+   */
+  vtkSetMacro(MaximumQuads, vtkIdType);
+  vtkGetMacro(MaximumQuads, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * Whether output 1, the input surface with the map, is made. Default: on.
+   */
+  vtkSetMacro(ComputeMappedSurface, vtkTypeBool);
+  vtkGetMacro(ComputeMappedSurface, vtkTypeBool);
+  vtkBooleanMacro(ComputeMappedSurface, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether output 1 has texture coordinates; its points are then doubled where the map is cut. Default: on.
+   */
+  vtkSetMacro(TextureCoordinates, vtkTypeBool);
+  vtkGetMacro(TextureCoordinates, vtkTypeBool);
+  vtkBooleanMacro(TextureCoordinates, vtkTypeBool);
+  ///@}
+
+  /// Number of quads that were made by the last execution.
+  vtkGetMacro(ActualQuads, vtkIdType);
+  /// Number of quads that the last execution aimed at.
+  vtkGetMacro(TargetQuads, vtkIdType);
+
+  /// Outputs 1 and 2.
+  vtkPolyData* GetMappedSurface() { return this->GetPolyDataOutputAt(1); }
+  vtkPolyData* GetLines() { return this->GetPolyDataOutputAt(2); }
+
+protected:
+  vtkQuadRemesh();
+  ~vtkQuadRemesh() override;
+
+  void Execute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkQuadRemesh(const vtkQuadRemesh&) = delete;
+  void operator=(const vtkQuadRemesh&) = delete;
+
+  vtkPolyData* GetPolyDataOutputAt(int port);
+
+  vtkIdType MaximumQuads = 10000000;
+  vtkTypeBool ComputeMappedSurface = 1;
+  vtkTypeBool TextureCoordinates = 1;
+  vtkIdType ActualQuads = 0;
+  vtkIdType TargetQuads = 0;
+};
+
+#endif

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Command lines of the programs.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// A command line that cannot be understood; the message says which argument.
+class UsageError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Words without a leading "--" are positional, "--name value" and "--name=value" are options.
+class CommandLine
+{
+public:
+  /// Throws UsageError for an option that is not in `known`, lacks its value or is given twice.
+  CommandLine(int argc, char* argv[], const std::vector<std::string>& known);
+
+  const std::vector<std::string>& positional() const { return positional_; }
+  bool help() const { return help_; }
+  std::optional<std::string> text(const std::string& name) const;
+  /// Throw UsageError unless the value is a number in [least, most].
+  std::optional<double> number(const std::string& name, double least, double most) const;
+  std::optional<long long> count(const std::string& name, long long least, long long most) const;
+
+private:
+  std::vector<std::string> positional_;
+  std::map<std::string, std::string> values_;
+  bool help_ = false;
+};
+
+} // namespace quadrille

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// One run of vtkQuadRemesh for a program: errors are collected instead of printed.
+#pragma once
+
+#include <vtkNew.h>
+#include <vtkQuadRemesh.h>
+#include <vtkSmartPointer.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+class vtkCallbackCommand;
+class vtkPolyData;
+
+namespace quadrille
+{
+
+/// Exit codes of the programs.
+enum ExitCode
+{
+  kValidQuads = 0,
+  kBadInput = 2,
+  kNoValidResult = 3
+};
+
+struct StageRow
+{
+  std::string stage;
+  double seconds = 0;
+  long long elementsIn = 0;
+  long long elementsOut = 0;
+};
+
+class RemeshRun
+{
+public:
+  RemeshRun();
+  ~RemeshRun();
+
+  vtkQuadRemesh* filter() { return filter_; }
+  /// Called with the fraction done and what is being done; false asks to stop.
+  void onProgress(std::function<bool(double, const std::string&)> progress);
+
+  ExitCode execute(vtkPolyData* input);
+  /// The reason when execute() did not return kValidQuads.
+  std::string error() const;
+  /// Rows of the field data; empty after a failure.
+  std::vector<StageRow> stages();
+
+private:
+  vtkNew<vtkQuadRemesh> filter_;
+  vtkNew<vtkCallbackCommand> onError_;
+  vtkNew<vtkCallbackCommand> onProgress_;
+  std::function<bool(double, const std::string&)> progress_;
+  std::string errors_;
+};
+
+} // namespace quadrille

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Seconds and sizes of the stages, as CSV on standard output. Every run is a process of its own, so that
+/// its peak memory is its own; the peak is the same on each row of a run.
+#include "MeshFiles.h"
+#include "Options.h"
+#include "RemeshRun.h"
+
+#include <vtkPolyData.h>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+
+namespace
+{
+
+using namespace quadrille;
+
+constexpr const char* kHelp =
+  R"(usage: quadrille-bench MESH... [--quads N | --edge-length S] [--threads N] [--repeat N]
+
+Remeshes each mesh and writes to standard output, as CSV, the columns
+  mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb
+with the stages
+  read, repair, order, connectivity, phase1, phase2, field, seamless, quantize, embed,
+  replay, extract, total
+
+  --quads N          target number of quads (default 5000)
+  --edge-length S    target edge length in units of the input
+  --threads N        threads to compute with; 0 means all (default 0)
+  --repeat N         runs of each mesh (default 1)
+
+exit code: 0 when every run gave quads, else the worst code of the command quadrille
+)";
+
+constexpr std::array<const char*, 13> kStages = { "read", "repair", "order", "connectivity",
+  "phase1", "phase2", "field", "seamless", "quantize", "embed", "replay", "extract", "total" };
+
+struct Request
+{
+  long long quads = 5000;
+  double edgeLength = 0; ///< 0: quads
+  int threads = 0;
+  long long repeat = 1;
+};
+
+Request parse(const CommandLine& line)
+{
+  Request request;
+  if (line.positional().empty())
+  {
+    throw UsageError("no mesh is given; --help tells more");
+  }
+  const auto quads = line.count("quads", 1, 1000000000);
+  const auto length = line.number("edge-length", 1e-300, 1e300);
+  if (quads && length)
+  {
+    throw UsageError("only one of --quads and --edge-length can be given");
+  }
+  request.quads = quads.value_or(request.quads);
+  request.edgeLength = length.value_or(0);
+  request.threads = static_cast<int>(line.count("threads", 0, 4096).value_or(0));
+  request.repeat = line.count("repeat", 1, 1000000).value_or(1);
+  return request;
+}
+
+/// Part of the column that a stage of the pipeline belongs to: refinement is part of the repair, the
+/// check of the replayed map part of the replay.
+std::string columnOf(const std::string& stage)
+{
+  if (stage == "refine")
+  {
+    return "repair";
+  }
+  return stage == "certify" ? "replay" : stage;
+}
+
+std::vector<StageRow> collect(const std::vector<StageRow>& stages)
+{
+  std::vector<StageRow> rows;
+  for (const char* name : kStages)
+  {
+    StageRow row{ name, 0, 0, 0 };
+    bool first = true;
+    for (const StageRow& stage : stages)
+    {
+      if (columnOf(stage.stage) == name)
+      {
+        row.seconds += stage.seconds;
+        row.elementsIn = first ? stage.elementsIn : row.elementsIn;
+        row.elementsOut = stage.elementsOut;
+        first = false;
+      }
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+double peakMegabytes()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024; // Linux counts KiB
+}
+
+double now()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void printRows(const std::string& mesh, long long repeat, const Request& request,
+  const std::vector<StageRow>& rows)
+{
+  const double peak = peakMegabytes();
+  for (const StageRow& row : rows)
+  {
+    std::printf("%s,%lld,%d,%s,%.6f,%lld,%lld,%.1f\n", std::filesystem::path(mesh).stem().c_str(),
+      repeat, request.threads, row.stage.c_str(), row.seconds, row.elementsIn, row.elementsOut,
+      peak);
+  }
+  std::fflush(stdout);
+}
+
+int runOnce(const std::string& mesh, long long repeat, const Request& request)
+{
+  try
+  {
+    const double start = now();
+    const vtkSmartPointer<vtkPolyData> input = readMeshFile(mesh);
+    const double read = now() - start;
+    RemeshRun run;
+    run.filter()->SetTargetTypeToNumberOfQuads();
+    run.filter()->SetNumberOfQuads(request.quads);
+    if (request.edgeLength > 0)
+    {
+      run.filter()->SetTargetTypeToEdgeLength();
+      run.filter()->SetEdgeLength(request.edgeLength);
+    }
+    run.filter()->SetNumberOfThreads(request.threads);
+    run.filter()->ComputeMappedSurfaceOff();
+    const ExitCode code = run.execute(input);
+    if (code != kValidQuads)
+    {
+      std::fprintf(stderr, "quadrille-bench: %s: %s\n", mesh.c_str(), run.error().c_str());
+      return code;
+    }
+    const long long cells = input->GetNumberOfCells();
+    std::vector<StageRow> rows = run.stages();
+    rows.insert(rows.begin(), { "read", read, cells, cells });
+    rows.push_back(
+      { "total", now() - start, cells, run.filter()->GetOutput()->GetNumberOfPolys() });
+    printRows(mesh, repeat, request, collect(rows));
+    return kValidQuads;
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "quadrille-bench: %s\n", error.what());
+    return kBadInput;
+  }
+}
+
+/// A crash of one run is a failure of that run only.
+int runInChild(const std::string& mesh, long long repeat, const Request& request)
+{
+  std::fflush(stdout);
+  const pid_t child = ::fork();
+  if (child == 0)
+  {
+    const int code = runOnce(mesh, repeat, request);
+    std::fflush(nullptr);
+    ::_exit(code);
+  }
+  int status = 0;
+  if (child < 0 || ::waitpid(child, &status, 0) < 0 || !WIFEXITED(status))
+  {
+    std::fprintf(stderr, "quadrille-bench: %s: the run ended abnormally\n", mesh.c_str());
+    return kNoValidResult;
+  }
+  return WEXITSTATUS(status);
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  try
+  {
+    const CommandLine line(argc, argv, { "quads", "edge-length", "threads", "repeat" });
+    if (line.help())
+    {
+      std::fputs(kHelp, stdout);
+      return 0;
+    }
+    const Request request = parse(line);
+    std::printf("mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb\n");
+    int worst = 0;
+    for (const std::string& mesh : line.positional())
+    {
+      for (long long repeat = 0; repeat < request.repeat; ++repeat)
+      {
+        worst = std::max(worst, runInChild(mesh, repeat, request));
+      }
+    }
+    return worst;
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "quadrille-bench: %s\n", error.what());
+    return kBadInput;
+  }
+}

@@ -1,0 +1,398 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The command for people without ParaView's window: a mesh file in, a quad mesh out.
+#include "Json.h"
+#include "MeshFiles.h"
+#include "Options.h"
+#include "QuadQuality.h"
+#include "RemeshRun.h"
+
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkObject.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <new>
+#include <sstream>
+
+namespace
+{
+
+using namespace quadrille;
+
+constexpr const char* kHelp =
+  R"(usage: quadrille IN.{ply,obj,stl,off,vtp,vtk} OUT.{vtp,obj,ply,vtu,ex2} [options]
+
+Remeshes a triangle surface with quads only.
+
+size of the quads (at most one; 0.02 of the bounding-box diagonal when none is given):
+  --quads N                 target number of quads
+  --edge-length S           target edge length in units of the input
+  --relative-edge-length R  target edge length over the bounding-box diagonal
+
+  --feature-angle DEG       edges sharper than this become edges of the quads;
+                            0 turns the detection off (default 40)
+  --coarse-vertices N       vertices of the level where the layout is computed (default 1000)
+  --threads N               threads to compute with; 0 means all (default 0)
+  --report REPORT.json      what was repaired, sizes, seconds per stage, certificate,
+                            asked and actual count, quality
+  --help                    this text
+
+exit code: 0 valid quads; 2 bad input or arguments; 3 no valid result
+)";
+
+volatile std::sig_atomic_t stopRequested = 0;
+
+void requestStop(int)
+{
+  stopRequested = 1;
+}
+
+struct Request
+{
+  std::string input;
+  std::string output;
+  std::string report;
+};
+
+Request parseFiles(const CommandLine& line)
+{
+  if (line.positional().size() != 2)
+  {
+    throw UsageError("an input and an output file are needed; --help tells more");
+  }
+  const Request request{ line.positional()[0], line.positional()[1],
+    line.text("report").value_or("") };
+  if (!canWrite(request.output))
+  {
+    throw UsageError(request.output + ": unknown extension; known are vtp, obj, ply, vtu and ex2");
+  }
+  // Better now than after the computation.
+  for (const std::string& file : { request.output, request.report })
+  {
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    if (!file.empty() && ::access(folder.empty() ? "." : folder.c_str(), W_OK) != 0)
+    {
+      throw UsageError(file + ": the folder is missing or cannot be written to");
+    }
+    if (!file.empty() && std::filesystem::is_directory(file))
+    {
+      throw UsageError(file + ": is a folder");
+    }
+  }
+  return request;
+}
+
+void setSize(const CommandLine& line, vtkQuadRemesh* filter)
+{
+  constexpr double kSmallest = 1e-300;
+  const auto quads = line.count("quads", 1, 1000000000);
+  const auto length = line.number("edge-length", kSmallest, 1e300);
+  const auto relative = line.number("relative-edge-length", kSmallest, 10);
+  if (quads.has_value() + length.has_value() + relative.has_value() > 1)
+  {
+    throw UsageError("only one of --quads, --edge-length and --relative-edge-length can be given");
+  }
+  if (quads)
+  {
+    filter->SetTargetTypeToNumberOfQuads();
+    filter->SetNumberOfQuads(*quads);
+  }
+  else if (length)
+  {
+    filter->SetTargetTypeToEdgeLength();
+    filter->SetEdgeLength(*length);
+  }
+  else if (relative)
+  {
+    filter->SetRelativeEdgeLength(*relative);
+  }
+}
+
+void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
+{
+  setSize(line, filter);
+  if (const auto angle = line.number("feature-angle", 0, 180))
+  {
+    filter->SetDetectFeatures(*angle > 0);
+    filter->SetFeatureAngle(*angle);
+  }
+  if (const auto vertices = line.count("coarse-vertices", 4, 100000000))
+  {
+    filter->SetCoarseVertices(static_cast<int>(*vertices));
+  }
+  filter->SetNumberOfThreads(static_cast<int>(line.count("threads", 0, 4096).value_or(0)));
+  filter->ComputeMappedSurfaceOff();
+}
+
+/// On a terminal one line that is overwritten, elsewhere a line for each stage.
+class ProgressLine
+{
+public:
+  bool operator()(double fraction, const std::string& text)
+  {
+    const int percent = static_cast<int>(100 * fraction);
+    if (terminal_)
+    {
+      std::fprintf(stderr, "\r%3d %% %-60.60s", percent, text.c_str());
+      open_ = true;
+    }
+    else if (const std::string stage = text.substr(0, text.find(':')); stage != stage_)
+    {
+      std::fprintf(stderr, "%3d %% %s\n", percent, stage.c_str());
+      stage_ = stage;
+    }
+    return !stopRequested;
+  }
+  void finish()
+  {
+    if (open_)
+    {
+      std::fprintf(stderr, "\r%66s\r", "");
+      open_ = false;
+    }
+  }
+
+private:
+  bool terminal_ = ::isatty(2) != 0;
+  bool open_ = false;
+  std::string stage_;
+};
+
+//------------------------------------------------------------------------------
+// The report
+
+double fieldNumber(vtkPolyData* data, const char* name)
+{
+  vtkDataArray* array = data->GetFieldData()->GetArray(name);
+  return array && array->GetNumberOfTuples() > 0 ? array->GetTuple1(0) : 0;
+}
+
+/// Members from a field array of names and one of values beside it.
+void addPairs(Json& json, vtkPolyData* data, const char* namesName, const char* valuesName)
+{
+  auto* names = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(namesName));
+  vtkDataArray* values = data->GetFieldData()->GetArray(valuesName);
+  for (vtkIdType i = 0; names && values && i < names->GetNumberOfValues(); ++i)
+  {
+    json.add(names->GetValue(i), values->GetTuple1(i));
+  }
+}
+
+void addQuality(Json& json, vtkPolyData* quads)
+{
+  const QuadQuality quality = measureQuads(quads);
+  json.begin("quality");
+  json.add("mean_scaled_jacobian", quality.meanScaledJacobian);
+  json.add("minimum_scaled_jacobian", quality.minimumScaledJacobian);
+  json.add("quads_not_positive", static_cast<long long>(quality.notPositive));
+  json.add("irregular_vertices", static_cast<long long>(quality.irregularVertices));
+  json.add("irregular_other_than_3_and_5", static_cast<long long>(quality.irregularOther));
+  json.add("mean_edge_length", quality.meanEdgeLength);
+  json.begin("interior_valences");
+  for (const auto& [valence, count] : quality.valences)
+  {
+    json.add(std::to_string(valence), static_cast<long long>(count));
+  }
+  json.end();
+  json.end();
+}
+
+void addLines(Json& json, const char* name, const std::string& text)
+{
+  json.beginList(name);
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+  {
+    json.addItem(line);
+  }
+  json.endList();
+}
+
+void addStages(Json& json, RemeshRun& run, double readSeconds)
+{
+  json.beginList("stages");
+  const auto add = [&json](const StageRow& row)
+  {
+    json.beginItem();
+    json.add("stage", row.stage);
+    json.add("seconds", row.seconds);
+    json.add("elements_in", row.elementsIn);
+    json.add("elements_out", row.elementsOut);
+    json.end();
+  };
+  const long long cells = vtkPolyData::SafeDownCast(run.filter()->GetInput())->GetNumberOfCells();
+  add({ "read", readSeconds, cells, cells });
+  for (const StageRow& row : run.stages())
+  {
+    add(row);
+  }
+  json.endList();
+}
+
+void addSuccess(Json& json, vtkPolyData* quads)
+{
+  json.add("target_edge_length", fieldNumber(quads, "TargetEdgeLength"));
+  json.add("quads_asked", fieldNumber(quads, "TargetQuads"));
+  json.add("quads_actual", static_cast<long long>(quads->GetNumberOfPolys()));
+  json.begin("repair");
+  addPairs(json, quads, "RepairNames", "RepairCounts");
+  json.end();
+  json.begin("sizes");
+  json.add("surface_faces", fieldNumber(quads, "SurfaceFaces"));
+  json.add("coarse_vertices", fieldNumber(quads, "CoarseVertices"));
+  json.add("quad_points", static_cast<long long>(quads->GetNumberOfPoints()));
+  json.end();
+  json.begin("certificate");
+  json.add("valid", fieldNumber(quads, "CertificateValid") != 0);
+  addPairs(json, quads, "CertificateNames", "CertificateValues");
+  json.end();
+  addQuality(json, quads);
+}
+
+struct Timing
+{
+  double read = 0;
+  double total = 0;
+};
+
+std::string makeReport(const Request& request, RemeshRun& run, ExitCode code, const Timing& timing)
+{
+  vtkPolyData* input = vtkPolyData::SafeDownCast(run.filter()->GetInput());
+  Json json;
+  json.add("input", request.input);
+  json.add("output", request.output);
+  json.add("exit_code", static_cast<long long>(code));
+  json.add("error", code == kValidQuads ? "" : run.error());
+  json.add("input_points", static_cast<long long>(input->GetNumberOfPoints()));
+  json.add("input_cells", static_cast<long long>(input->GetNumberOfCells()));
+  json.add("seconds_total", timing.total);
+  if (code == kValidQuads)
+  {
+    addSuccess(json, run.filter()->GetOutput());
+  }
+  addStages(json, run, timing.read);
+  addLines(json, "stage_times", run.filter()->GetStageTimesText());
+  json.add("certificate_text", run.filter()->GetCertificateText());
+  addLines(json, "notices", run.filter()->GetNoticesText());
+  return json.text();
+}
+
+/// The report of a run that ended before there was a mesh.
+std::string makeFailureReport(const Request& request, ExitCode code, const std::string& error)
+{
+  Json json;
+  json.add("input", request.input);
+  json.add("output", request.output);
+  json.add("exit_code", static_cast<long long>(code));
+  json.add("error", error);
+  return json.text();
+}
+
+//------------------------------------------------------------------------------
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void printSummary(RemeshRun& run, const Request& request, double seconds)
+{
+  vtkPolyData* quads = run.filter()->GetOutput();
+  std::fprintf(stderr, "%s", run.filter()->GetNoticesText());
+  std::fprintf(stderr, "%s%s: %lld quads (asked for %lld), %lld points, %.2f s; %s\n",
+    *run.filter()->GetNoticesText() ? "\n" : "", request.output.c_str(),
+    static_cast<long long>(quads->GetNumberOfPolys()),
+    static_cast<long long>(run.filter()->GetTargetQuads()),
+    static_cast<long long>(quads->GetNumberOfPoints()), seconds,
+    run.filter()->GetCertificateText());
+}
+
+ExitCode execute(const CommandLine& line, const Request& request)
+{
+  const Clock::time_point start = Clock::now();
+  RemeshRun run;
+  setOptions(line, run.filter());
+  const vtkSmartPointer<vtkPolyData> input = readMeshFile(request.input);
+  Timing timing;
+  timing.read = secondsSince(start);
+
+  ProgressLine progress;
+  run.onProgress(
+    [&progress](double fraction, const std::string& text) { return progress(fraction, text); });
+  const ExitCode code = run.execute(input);
+  progress.finish();
+  timing.total = secondsSince(start);
+  if (code == kValidQuads)
+  {
+    writeMeshFile(run.filter()->GetOutput(), request.output);
+    printSummary(run, request, timing.total);
+  }
+  else
+  {
+    std::fprintf(stderr, "quadrille: %s: %s\n", request.input.c_str(), run.error().c_str());
+  }
+  if (!request.report.empty())
+  {
+    writeTextFile(makeReport(request, run, code, timing), request.report);
+  }
+  return code;
+}
+
+ExitCode runAndReport(const CommandLine& line, const Request& request)
+{
+  const auto fail = [&request](ExitCode code, const std::string& reason)
+  {
+    std::fprintf(stderr, "quadrille: %s\n", reason.c_str());
+    if (!request.report.empty())
+    {
+      writeTextFile(makeFailureReport(request, code, reason), request.report);
+    }
+    return code;
+  };
+  try
+  {
+    return execute(line, request);
+  }
+  catch (const FileError& error)
+  {
+    return fail(kBadInput, error.what());
+  }
+  catch (const std::bad_alloc&)
+  {
+    return fail(kNoValidResult, "out of memory");
+  }
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  std::signal(SIGINT, requestStop);
+  std::signal(SIGTERM, requestStop);
+  try
+  {
+    const CommandLine line(argc, argv,
+      { "quads", "edge-length", "relative-edge-length", "feature-angle", "coarse-vertices",
+        "threads", "report" });
+    if (line.help() || argc == 1)
+    {
+      std::fputs(kHelp, line.help() ? stdout : stderr);
+      return line.help() ? kValidQuads : kBadInput;
+    }
+    return runAndReport(line, parseFiles(line));
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "quadrille: %s\n", error.what());
+    return kBadInput;
+  }
+}
