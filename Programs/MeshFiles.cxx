@@ -12,6 +12,7 @@
 #include <vtkCellData.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
+#include <vtkExecutive.h>
 #include <vtkExodusIIWriter.h>
 #include <vtkFieldData.h>
 #include <vtkGeometryFilter.h>

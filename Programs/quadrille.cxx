@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// The command for people without ParaView's window: a mesh file in, a quad mesh out.
+#include "Evaluation/QuadQuality.h"
 #include "Json.h"
 #include "MeshFiles.h"
 #include "Options.h"
-#include "QuadQuality.h"
 #include "RemeshRun.h"
 
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkObject.h>
@@ -15,12 +17,14 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <new>
 #include <sstream>
+#include <vector>
 
 namespace
 {
@@ -186,18 +190,43 @@ void addPairs(Json& json, vtkPolyData* data, const char* namesName, const char* 
   }
 }
 
+QuadQuality measure(vtkPolyData* data)
+{
+  std::vector<Vector3> points(static_cast<std::size_t>(data->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    data->GetPoint(static_cast<vtkIdType>(i), points[i].data());
+  }
+  std::vector<std::array<Index, 4>> quads;
+  auto cells = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    cells->GetCurrentCell(count, ids);
+    quads.push_back({ static_cast<Index>(ids[0]), static_cast<Index>(ids[1]),
+      static_cast<Index>(ids[2]), static_cast<Index>(ids[3]) });
+  }
+  return evaluateQuads(points, quads);
+}
+
 void addQuality(Json& json, vtkPolyData* quads)
 {
-  const QuadQuality quality = measureQuads(quads);
+  const QuadQuality quality = measure(quads);
   json.begin("quality");
-  json.add("mean_scaled_jacobian", quality.meanScaledJacobian);
-  json.add("minimum_scaled_jacobian", quality.minimumScaledJacobian);
-  json.add("quads_not_positive", static_cast<long long>(quality.notPositive));
+  json.add("manifold", quality.manifold);
+  json.add("closed", quality.closed);
+  json.add("components", static_cast<long long>(quality.components));
+  json.add("boundary_loops", static_cast<long long>(quality.boundaryLoops));
+  json.add("euler_characteristic", quality.eulerCharacteristic);
+  json.add("mean_scaled_jacobian", quality.scaledJacobian.mean);
+  json.add("minimum_scaled_jacobian", quality.scaledJacobian.minimum);
+  json.add("quads_not_positive", static_cast<long long>(quality.nonPositiveJacobians));
+  json.add("mean_edge_length", quality.edgeLength.mean);
+  json.add("edge_length_deviation", quality.edgeLength.deviation);
   json.add("irregular_vertices", static_cast<long long>(quality.irregularVertices));
-  json.add("irregular_other_than_3_and_5", static_cast<long long>(quality.irregularOther));
-  json.add("mean_edge_length", quality.meanEdgeLength);
   json.begin("interior_valences");
-  for (const auto& [valence, count] : quality.valences)
+  for (const auto& [valence, count] : quality.interiorValences)
   {
     json.add(std::to_string(valence), static_cast<long long>(count));
   }
