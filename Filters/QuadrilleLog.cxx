@@ -25,7 +25,7 @@ namespace
 constexpr const char* kLog = "DecimationLog";
 constexpr const char* kHash = "SurfaceHash";
 constexpr const char* kFeatureAngle = "RecipeFeatureAngle";
-constexpr const char* kMaximumEdgeLength = "RecipeMaximumEdgeLength";
+constexpr const char* kEdgeLength = "RecipeEdgeLength";
 constexpr const char* kPatchArray = "RecipePatchArray";
 constexpr const char* kCurveMarks = "RecipeCurveMarks";
 
@@ -56,7 +56,7 @@ void writeLog(const DecimationLog& log, const SurfaceRecipe& recipe, vtkDataObje
   addText(data, kHash, { hash });
   // Negative: no feature detection.
   addNumber(data, kFeatureAngle, recipe.featureAngle.value_or(-1));
-  addNumber(data, kMaximumEdgeLength, recipe.maximumEdgeLength);
+  addNumber(data, kEdgeLength, recipe.edgeLength);
   addText(data, kPatchArray, { recipe.patchArray });
   vtkNew<vtkIdTypeArray> marks;
   marks->SetName(kCurveMarks);
@@ -77,7 +77,7 @@ SurfaceRecipe readRecipe(vtkDataObject* data)
   {
     recipe.featureAngle = angle;
   }
-  recipe.maximumEdgeLength = require<vtkDataArray>(data, kMaximumEdgeLength)->GetTuple1(0);
+  recipe.edgeLength = require<vtkDataArray>(data, kEdgeLength)->GetTuple1(0);
   recipe.patchArray = require<vtkStringArray>(data, kPatchArray)->GetValue(0);
   // An array without tuples does not survive every file format, and says the same as none.
   auto* marks = vtkDataArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(kCurveMarks));

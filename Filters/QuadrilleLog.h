@@ -19,7 +19,7 @@ namespace quadrille
 struct SurfaceRecipe
 {
   std::optional<double> featureAngle; ///< radians
-  double maximumEdgeLength = 0;       ///< of refineSurface
+  double edgeLength = 0;              ///< for the filter of features and the refinement
   std::string patchArray;
   std::vector<FeatureMark> curveMarks;
 };

@@ -3,6 +3,7 @@
 #include "QuadrilleStages.h"
 
 #include "Base/Error.h"
+#include "Mesh/FeatureFilter.h"
 
 #include <algorithm>
 #include <chrono>
@@ -64,7 +65,11 @@ PreparedSurface prepareFromRecipe(const SurfaceInput& input, const SurfaceRecipe
   options.threads = threads;
   options.progress = progress;
   PreparedSurface surface = prepareSurface(input, options);
-  clock.lap("repair", input.polygonOffsets.size() - 1, surface.mesh.faceCount());
+  const std::size_t polygons = input.polygonOffsets.size() - 1;
+  for (const auto& [name, seconds] : surface.seconds)
+  {
+    clock.add(name, seconds, polygons, surface.mesh.faceCount());
+  }
   return surface;
 }
 
@@ -72,7 +77,8 @@ void refineFromRecipe(PreparedSurface& surface, const SurfaceRecipe& recipe,
   const ProgressCallback& progress, StageClock& clock)
 {
   const std::size_t before = surface.mesh.faceCount();
-  refineSurface(surface, recipe.maximumEdgeLength, progress);
+  removeUnresolvedFeatures(surface.mesh, recipe.edgeLength);
+  refineSurface(surface, recipe.edgeLength, progress);
   clock.lap("refine", before, surface.mesh.faceCount());
 }
 

@@ -47,7 +47,7 @@ void vtkDecimationHierarchy::Execute(vtkInformationVector** inputs, vtkInformati
   quadrille::PreparedSurface surface = quadrille::prepareFromRecipe(
     converted.input, recipe, options.threads, this->MakeProgress(0.0, 0.3), clock);
   const quadrille::TargetSize target = quadrille::chooseTarget(surface, options);
-  recipe.maximumEdgeLength = target.edgeLength;
+  recipe.edgeLength = target.edgeLength;
   quadrille::refineFromRecipe(surface, recipe, this->MakeProgress(0.3, 0.4), clock);
 
   quadrille::HierarchyOptions levels;
