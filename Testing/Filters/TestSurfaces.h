@@ -38,9 +38,9 @@ inline vtkSmartPointer<vtkPolyData> toPolyData(const Mesh& mesh)
   vtkNew<vtkCellArray> polys;
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
-    polys->InsertNextCell({ static_cast<vtkIdType>(mesh.origin[3 * f]),
-      static_cast<vtkIdType>(mesh.origin[3 * f + 1]),
-      static_cast<vtkIdType>(mesh.origin[3 * f + 2]) });
+    polys->InsertNextCell(
+      { static_cast<vtkIdType>(mesh.origin[3 * f]), static_cast<vtkIdType>(mesh.origin[3 * f + 1]),
+        static_cast<vtkIdType>(mesh.origin[3 * f + 2]) });
   }
   data->SetPoints(points);
   data->SetPolys(polys);
@@ -61,8 +61,8 @@ public:
         (event == vtkCommand::ErrorEvent ? self->errors : self->warnings) +=
           static_cast<const char*>(text);
       });
-    for (vtkObject* source : { static_cast<vtkObject*>(filter),
-           static_cast<vtkObject*>(filter->GetExecutive()) })
+    for (vtkObject* source :
+      { static_cast<vtkObject*>(filter), static_cast<vtkObject*>(filter->GetExecutive()) })
     {
       source->AddObserver(vtkCommand::ErrorEvent, callback_);
       source->AddObserver(vtkCommand::WarningEvent, callback_);

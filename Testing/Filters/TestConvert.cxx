@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QuadrilleConvert.h"
+#include "QuadrilleLog.h"
+#include "TestSurfaces.h"
+
+#include "Base/Error.h"
+
+#include <vtkCellData.h>
+#include <vtkFloatArray.h>
+#include <vtkIntArray.h>
+#include <vtkPointData.h>
+#include <vtkTable.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace quadrille
+{
+namespace
+{
+
+/// A pentagon, a triangle and a strip of three triangles behind a vertex and a line.
+vtkSmartPointer<vtkPolyData> mixedCells()
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  for (int i = 0; i < 12; ++i)
+  {
+    points->InsertNextPoint(i % 4, i / 4, 0.25 * i);
+  }
+  vtkNew<vtkCellArray> verts, lines, polys, strips;
+  verts->InsertNextCell({ 0 });
+  lines->InsertNextCell({ 0, 1 });
+  polys->InsertNextCell({ 0, 1, 2, 6, 5 });
+  polys->InsertNextCell({ 0, 5, 4 });
+  strips->InsertNextCell({ 4, 8, 5, 9, 6 });
+  data->SetPoints(points);
+  data->SetVerts(verts);
+  data->SetLines(lines);
+  data->SetPolys(polys);
+  data->SetStrips(strips);
+  return data;
+}
+
+TEST(Convert, PolygonsAndStripsKeepTheirCells)
+{
+  const ConvertedSurface surface = convertSurface(mixedCells(), "PatchId");
+  EXPECT_EQ(surface.ignoredCells, 2u);
+  const std::vector<Index> offsets{ 0, 5, 8, 11, 14, 17 };
+  EXPECT_EQ(surface.input.polygonOffsets, offsets);
+  // Every second triangle of a strip is turned round, so that all of them see the same side.
+  const std::vector<Index> strip{ 4, 8, 5, 8, 9, 5, 5, 9, 6 };
+  EXPECT_TRUE(std::equal(strip.begin(), strip.end(), surface.input.polygonPoints.begin() + 8));
+  const std::vector<vtkIdType> cells{ 2, 3, 4, 4, 4 };
+  for (Index p = 0; p < 5; ++p)
+  {
+    EXPECT_EQ(surface.cell(p), cells[p]);
+  }
+}
+
+TEST(Convert, PointsKeepEveryBit)
+{
+  vtkSmartPointer<vtkPolyData> data = mixedCells();
+  const double value = 1.0 / 3;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->DeepCopy(data->GetPoints());
+  points->SetDataTypeToDouble();
+  vtkNew<vtkPoints> exact;
+  exact->SetDataTypeToDouble();
+  for (int i = 0; i < 12; ++i)
+  {
+    exact->InsertNextPoint(i * value, -i * value, value);
+  }
+  data->SetPoints(exact);
+  const ConvertedSurface surface = convertSurface(data, "");
+  EXPECT_EQ(surface.input.points[5], Vector3(5 * value, -5 * value, value));
+}
+
+TEST(Convert, PatchIdsAndFeaturesComeByCell)
+{
+  vtkSmartPointer<vtkPolyData> data = mixedCells();
+  vtkNew<vtkIntArray> patches;
+  patches->SetName("PatchId");
+  vtkNew<vtkUnsignedCharArray> features;
+  features->SetName("FeatureEdges");
+  for (int i = 0; i < 5; ++i)
+  {
+    patches->InsertNextValue(10 + i);
+    features->InsertNextValue(i == 2 ? 17 : 0);
+  }
+  data->GetCellData()->AddArray(patches);
+  data->GetCellData()->AddArray(features);
+  const ConvertedSurface surface = convertSurface(data, "PatchId");
+  const std::vector<std::int64_t> expected{ 12, 13, 14, 14, 14 };
+  EXPECT_EQ(surface.input.patchIds, expected);
+  EXPECT_EQ(surface.patchArray, "PatchId");
+  const std::vector<std::uint8_t> bits{ 17, 0, 0, 0, 0 };
+  EXPECT_EQ(surface.input.featureEdges, bits);
+}
+
+TEST(Convert, RefusesWhatItCannotTake)
+{
+  vtkSmartPointer<vtkPolyData> data = mixedCells();
+  EXPECT_NO_THROW(convertSurface(data, "PatchId")); // the default may be missing
+  EXPECT_THROW(convertSurface(data, "Other"), InvalidInput);
+  vtkNew<vtkFloatArray> reals;
+  reals->SetName("Reals");
+  reals->SetNumberOfTuples(5);
+  data->GetCellData()->AddArray(reals);
+  EXPECT_THROW(convertSurface(data, "Reals"), InvalidInput);
+  vtkNew<vtkCellArray> broken;
+  broken->InsertNextCell({ 0, 1, 99 });
+  data->SetPolys(broken);
+  try
+  {
+    convertSurface(data, "");
+    FAIL() << "a corner without a point must be refused";
+  }
+  catch (const InvalidInput& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("cell 2"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("99"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Convert, MeshRoundTripIsExact)
+{
+  const Mesh mesh = test::markFeatures(test::unitCube(3), 0.5);
+  const Mesh back = readMesh(writeMesh(mesh));
+  EXPECT_EQ(back.origin, mesh.origin);
+  EXPECT_EQ(back.twin, mesh.twin);
+  EXPECT_EQ(back.flags, mesh.flags);
+  EXPECT_EQ(back.position, mesh.position);
+}
+
+/// Two sheets that meet in a whole edge, both ends shared: the corners alone do not tell the twins.
+TEST(Convert, TwinsSurviveWhereCornersDoNotTellThem)
+{
+  Mesh mesh;
+  for (int i = 0; i < 6; ++i)
+  {
+    mesh.position.push_back(Vector3(i, i * i, 0.5 * i));
+  }
+  mesh.origin = { 0, 1, 2, 1, 0, 3, 0, 1, 4, 1, 0, 5 };
+  mesh.twin.assign(12, kInvalidIndex);
+  mesh.flags.assign(12, 0);
+  mesh.twin[0] = 3;
+  mesh.twin[3] = 0;
+  mesh.twin[6] = 9;
+  mesh.twin[9] = 6;
+  const vtkSmartPointer<vtkPolyData> data = writeMesh(mesh);
+  EXPECT_TRUE(data->GetCellData()->HasArray("Twin"));
+  EXPECT_EQ(readMesh(data).twin, mesh.twin);
+  EXPECT_FALSE(writeMesh(test::unitCube(2))->GetCellData()->HasArray("Twin"));
+}
+
+TEST(Convert, MapRoundTripIsExact)
+{
+  const Mesh mesh = test::gridPlane(3, 3);
+  std::vector<FixedVec2> uv(mesh.halfEdgeCount());
+  std::uint64_t state = 12345; // any bits below 2^52 in magnitude
+  const auto next = [&state]
+  {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<std::int64_t>(state >> 12) - (std::int64_t{ 1 } << 51);
+  };
+  for (FixedVec2& p : uv)
+  {
+    p = { next(), next() };
+  }
+  uv[0] = { (std::int64_t{ 1 } << 52) - 1, 1 - (std::int64_t{ 1 } << 52) };
+  const vtkSmartPointer<vtkPolyData> data = writeMesh(mesh);
+  addMap(data, uv);
+  EXPECT_EQ(readMap(data), uv);
+}
+
+TEST(Convert, MapBeyondDoublesIsRefused)
+{
+  const Mesh mesh = test::gridPlane(1, 1);
+  std::vector<FixedVec2> uv(mesh.halfEdgeCount());
+  uv[4].v = std::int64_t{ 1 } << 52;
+  EXPECT_THROW(addMap(writeMesh(mesh), uv), InvalidInput);
+  const vtkSmartPointer<vtkPolyData> data = writeMesh(mesh);
+  EXPECT_THROW(readMap(data), InvalidInput);
+  uv[4].v = 0;
+  addMap(data, uv);
+  data->GetCellData()->GetArray("IGM")->SetComponent(1, 3, std::nan(""));
+  EXPECT_THROW(readMap(data), InvalidInput);
+}
+
+TEST(Convert, DeterminantIsTwiceTheArea)
+{
+  const Mesh mesh = test::gridPlane(1, 1);
+  std::vector<FixedVec2> uv(mesh.halfEdgeCount());
+  uv[1] = { 3 * kOne, 0 };
+  uv[2] = { 0, 2 * kOne };
+  const vtkSmartPointer<vtkPolyData> data = writeMesh(mesh);
+  addMap(data, uv);
+  EXPECT_EQ(data->GetCellData()->GetArray("Determinant")->GetTuple1(0), 6);
+  EXPECT_EQ(data->GetCellData()->GetArray("Determinant")->GetTuple1(1), 0);
+}
+
+TEST(Convert, LogRecipeRoundTrip)
+{
+  SurfaceRecipe recipe;
+  recipe.featureAngle = 40 * test::kPi / 180;
+  recipe.edgeLength = 0.1;
+  recipe.patchArray = "Body";
+  recipe.curveMarks = { { 4, 1 }, { 7, 5 } };
+  DecimationLog log;
+  log.fineHash = 0xfedcba9876543210u;
+  vtkNew<vtkTable> table;
+  writeLog(log, recipe, table);
+  const SurfaceRecipe back = readRecipe(table);
+  EXPECT_EQ(back.featureAngle, recipe.featureAngle);
+  EXPECT_EQ(back.edgeLength, recipe.edgeLength);
+  EXPECT_EQ(back.patchArray, recipe.patchArray);
+  ASSERT_EQ(back.curveMarks.size(), 2u);
+  EXPECT_EQ(back.curveMarks[1].polygon, 7u);
+  EXPECT_EQ(back.curveMarks[1].bits, 5);
+  EXPECT_EQ(readLog(table, log.fineHash).fineHash, log.fineHash);
+  EXPECT_THROW(readLog(table, 1), InvalidInput);
+
+  recipe.featureAngle.reset();
+  vtkNew<vtkTable> off;
+  writeLog(log, recipe, off);
+  EXPECT_FALSE(readRecipe(off).featureAngle.has_value());
+  vtkNew<vtkTable> nothing;
+  EXPECT_THROW(readRecipe(nothing), InvalidInput);
+}
+
+} // namespace
+} // namespace quadrille

@@ -1,0 +1,415 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QuadrilleConvert.h"
+#include "TestSurfaces.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
+#include <vtkPointData.h>
+#include <vtkQuadRemesh.h>
+#include <vtkStringArray.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace quadrille
+{
+namespace
+{
+
+void run(vtkQuadRemesh* filter, vtkPolyData* input, vtkIdType quads)
+{
+  filter->SetInputData(input);
+  filter->SetTargetTypeToNumberOfQuads();
+  filter->SetNumberOfQuads(quads);
+  filter->Update();
+}
+
+/// Every valid result: only quads, manifold, oriented, the input's Euler characteristic, and for a
+/// closed one sum(4 - valence) = 4 chi.
+void expectValid(vtkQuadRemesh* filter, long long eulerCharacteristic, bool closed)
+{
+  ASSERT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+  vtkPolyData* quads = filter->GetOutput();
+  ASSERT_GT(quads->GetNumberOfPolys(), 0);
+  EXPECT_EQ(quads->GetNumberOfCells(), quads->GetNumberOfPolys());
+  const test::QuadTally t = test::tally(quads);
+  EXPECT_TRUE(t.onlyQuads);
+  EXPECT_EQ(t.badEdges, 0u);
+  EXPECT_EQ(t.eulerCharacteristic, eulerCharacteristic);
+  EXPECT_EQ(t.boundaryEdges == 0, closed);
+  vtkDataArray* valence = quads->GetPointData()->GetArray("Valence");
+  vtkDataArray* boundary = quads->GetPointData()->GetArray("OnBoundary");
+  ASSERT_TRUE(valence && boundary);
+  long long index = 0;
+  for (vtkIdType i = 0; i < quads->GetNumberOfPoints(); ++i)
+  {
+    index += (boundary->GetTuple1(i) != 0 ? 3 : 4) - static_cast<long long>(valence->GetTuple1(i));
+  }
+  EXPECT_EQ(index, 4 * eulerCharacteristic);
+}
+
+TEST(QuadRemesh, TorusIsClosedAndOfGenusOne)
+{
+  vtkNew<vtkQuadRemesh> filter;
+  run(filter, test::toPolyData(test::torus(80, 40)), 600);
+  expectValid(filter, 0, true);
+  EXPECT_EQ(filter->GetActualQuads(), filter->GetOutput()->GetNumberOfPolys());
+  EXPECT_STREQ(filter->GetOutcomeText(), "");
+  EXPECT_NE(std::string(filter->GetStageTimesText()).find("extract"), std::string::npos);
+}
+
+TEST(QuadRemesh, OpenPlateHasItsBoundary)
+{
+  vtkNew<vtkQuadRemesh> filter;
+  run(filter, test::toPolyData(test::gridPlane(30, 30)), 400);
+  expectValid(filter, 1, false);
+  vtkPolyData* lines = filter->GetLines();
+  EXPECT_EQ(static_cast<std::size_t>(lines->GetNumberOfLines()),
+    test::tally(filter->GetOutput()).boundaryEdges);
+  vtkDataArray* boundary = lines->GetCellData()->GetArray("Boundary");
+  EXPECT_EQ(boundary->GetRange()[0], 1);
+}
+
+TEST(QuadRemesh, CubeKeepsItsTwelveEdges)
+{
+  vtkNew<vtkQuadRemesh> filter;
+  const Mesh cube = test::unitCube(12);
+  run(filter, test::toPolyData(cube), 600);
+  expectValid(filter, 2, true);
+  vtkPolyData* lines = filter->GetLines();
+  double bounds[6];
+  filter->GetOutput()->GetBounds(bounds);
+  const double side = bounds[1] - bounds[0];
+  double length = 0;
+  for (vtkIdType i = 0; i < lines->GetNumberOfLines(); ++i)
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    lines->GetCellPoints(i, count, ids);
+    Vector3 a, b;
+    lines->GetPoint(ids[0], a.data());
+    lines->GetPoint(ids[1], b.data());
+    length += (b - a).norm();
+  }
+  EXPECT_NEAR(length, 12 * side, 1e-9 * side); // points on straight edges: only rounding
+  // Each feature edge is told by both of its quads.
+  vtkDataArray* bits = filter->GetOutput()->GetCellData()->GetArray("FeatureEdges");
+  long long marked = 0;
+  for (vtkIdType i = 0; i < bits->GetNumberOfTuples(); ++i)
+  {
+    marked += __builtin_popcount(static_cast<unsigned>(bits->GetTuple1(i)));
+  }
+  EXPECT_EQ(marked, 2 * lines->GetNumberOfLines());
+}
+
+/// An array that is linear in the coordinates is reproduced exactly up to rounding by barycentric
+/// interpolation, whatever triangles it goes through.
+TEST(QuadRemesh, CarriesArraysThroughTheirSource)
+{
+  const Mesh mesh = test::unitCube(10);
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(mesh);
+  vtkNew<vtkDoubleArray> linear;
+  linear->SetName("Linear");
+  vtkNew<vtkIdTypeArray> pointId, cellId;
+  pointId->SetName("PointId");
+  cellId->SetName("CellId");
+  const auto f = [](const double* p) { return 3 * p[0] - 2 * p[1] + 0.5 * p[2] + 7; };
+  for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
+  {
+    linear->InsertNextValue(f(input->GetPoint(i)));
+    pointId->InsertNextValue(i);
+  }
+  for (vtkIdType i = 0; i < input->GetNumberOfCells(); ++i)
+  {
+    cellId->InsertNextValue(i);
+  }
+  input->GetPointData()->AddArray(linear);
+  input->GetPointData()->AddArray(pointId);
+  input->GetCellData()->AddArray(cellId);
+  vtkNew<vtkQuadRemesh> filter;
+  run(filter, input, 500);
+  expectValid(filter, 2, true);
+
+  for (vtkPolyData* output : { filter->GetOutput(), filter->GetMappedSurface() })
+  {
+    vtkDataArray* carried = output->GetPointData()->GetArray("Linear");
+    ASSERT_NE(carried, nullptr);
+    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+    {
+      ASSERT_NEAR(carried->GetTuple1(i), f(output->GetPoint(i)), 1e-12 * 20);
+    }
+  }
+  vtkPolyData* quads = filter->GetOutput();
+  auto* sourceCell = vtkIdTypeArray::SafeDownCast(quads->GetPointData()->GetArray("SourceCellId"));
+  auto* sourcePoints =
+    vtkIdTypeArray::SafeDownCast(quads->GetPointData()->GetArray("SourcePointIds"));
+  vtkDataArray* weights = quads->GetPointData()->GetArray("SourceBarycentric");
+  vtkDataArray* nearest = quads->GetPointData()->GetArray("PointId");
+  for (vtkIdType i = 0; i < quads->GetNumberOfPoints(); ++i)
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    input->GetCellPoints(sourceCell->GetValue(i), count, ids);
+    Vector3 position = Vector3::Zero();
+    bool oneOfThem = false;
+    for (int k = 0; k < 3; ++k)
+    {
+      EXPECT_EQ(sourcePoints->GetTypedComponent(i, k), ids[k]); // the cell's own order
+      position += weights->GetComponent(i, k) * Vector3(input->GetPoint(ids[k]));
+      oneOfThem = oneOfThem || nearest->GetTuple1(i) == ids[k];
+    }
+    EXPECT_LT((position - Vector3(quads->GetPoint(i))).norm(), 1e-12);
+    EXPECT_TRUE(oneOfThem);
+  }
+  EXPECT_TRUE(quads->GetCellData()->HasArray("CellId"));
+  for (vtkIdType i = 0; i < quads->GetNumberOfCells(); ++i)
+  {
+    ASSERT_EQ(quads->GetCellData()->GetArray("CellId")->GetTuple1(i),
+      quads->GetCellData()->GetArray("SourceCellId")->GetTuple1(i));
+  }
+}
+
+TEST(QuadRemesh, PatchBordersAreLinesWithTheirPair)
+{
+  const Mesh mesh = test::gridPlane(24, 24);
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(mesh);
+  double bounds[6];
+  input->GetBounds(bounds);
+  const double middle = 0.5 * (bounds[0] + bounds[1]);
+  vtkNew<vtkIntArray> body;
+  body->SetName("Body");
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    const Vector3 centre =
+      (mesh.position[mesh.origin[3 * f]] + mesh.position[mesh.origin[3 * f + 1]] +
+        mesh.position[mesh.origin[3 * f + 2]]) /
+      3;
+    body->InsertNextValue(centre.x() < middle ? 5 : -3);
+  }
+  input->GetCellData()->AddArray(body);
+  vtkNew<vtkQuadRemesh> filter;
+  filter->SetPatchArrayName("Body");
+  run(filter, input, 300);
+  expectValid(filter, 1, false);
+  vtkPolyData* lines = filter->GetLines();
+  vtkDataArray* pairs = lines->GetCellData()->GetArray("PatchIds");
+  vtkDataArray* boundary = lines->GetCellData()->GetArray("Boundary");
+  ASSERT_TRUE(pairs && boundary);
+  int inner = 0;
+  for (vtkIdType i = 0; i < lines->GetNumberOfLines(); ++i)
+  {
+    if (boundary->GetTuple1(i) == 0)
+    {
+      ++inner;
+      EXPECT_EQ(pairs->GetComponent(i, 0), -3);
+      EXPECT_EQ(pairs->GetComponent(i, 1), 5);
+    }
+    else
+    {
+      EXPECT_EQ(pairs->GetComponent(i, 0), pairs->GetComponent(i, 1));
+    }
+  }
+  EXPECT_GT(inner, 0);
+}
+
+TEST(QuadRemesh, FieldDataSurvivesAFile)
+{
+  vtkNew<vtkQuadRemesh> filter;
+  run(filter, test::toPolyData(test::torus(40, 20)), 300);
+  expectValid(filter, 0, true);
+  const std::string path = testing::TempDir() + "quadrille_fields.vtp";
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(filter->GetOutput());
+  writer->SetFileName(path.c_str());
+  writer->SetDataModeToBinary();
+  ASSERT_EQ(writer->Write(), 1);
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  std::remove(path.c_str());
+  vtkFieldData* fields = reader->GetOutput()->GetFieldData();
+  ASSERT_TRUE(fields->HasArray("ActualQuads"));
+  EXPECT_EQ(fields->GetArray("ActualQuads")->GetTuple1(0), filter->GetActualQuads());
+  EXPECT_EQ(fields->GetArray("CertificateValid")->GetTuple1(0), 1);
+  auto* names = vtkStringArray::SafeDownCast(fields->GetAbstractArray("StageNames"));
+  ASSERT_NE(names, nullptr);
+  EXPECT_EQ(names->GetNumberOfValues(), fields->GetArray("StageSeconds")->GetNumberOfTuples());
+}
+
+TEST(QuadRemesh, MappedSurfaceIsAnIntegerGridMap)
+{
+  vtkNew<vtkQuadRemesh> filter;
+  run(filter, test::toPolyData(test::torus(60, 30)), 400);
+  expectValid(filter, 0, true);
+  vtkPolyData* mapped = filter->GetMappedSurface();
+  const Mesh mesh = readMesh(mapped);
+  EXPECT_EQ(validate(mesh), "");
+  const std::vector<FixedVec2> uv = readMap(mapped);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    bool residual = false;
+    if (!mesh.isBoundary(h))
+    {
+      EXPECT_TRUE(isInteger(transitionOf(mesh, uv, h, 0, &residual).translation));
+    }
+    EXPECT_FALSE(residual);
+  }
+  EXPECT_GT(mapped->GetCellData()->GetArray("Determinant")->GetRange()[0], 0);
+  // Texture coordinates are the map, at float precision.
+  vtkDataArray* texture = mapped->GetPointData()->GetTCoords();
+  ASSERT_NE(texture, nullptr);
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    mapped->GetCellPoints(f, count, ids);
+    for (Index i = 0; i < 3; ++i)
+    {
+      ASSERT_FLOAT_EQ(static_cast<float>(texture->GetComponent(ids[i], 0)),
+        static_cast<float>(toDouble(uv[3 * f + i].u)));
+    }
+  }
+}
+
+TEST(QuadRemesh, SameBytesForAnyNumberOfThreads)
+{
+  std::vector<std::vector<double>> runs;
+  for (const int threads : { 1, 2 })
+  {
+    vtkNew<vtkQuadRemesh> filter;
+    filter->SetNumberOfThreads(threads);
+    run(filter, test::toPolyData(test::torus(60, 30)), 400);
+    expectValid(filter, 0, true);
+    std::vector<double> coordinates;
+    for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
+    {
+      const double* p = filter->GetOutput()->GetPoint(i);
+      coordinates.insert(coordinates.end(), p, p + 3);
+    }
+    runs.push_back(coordinates);
+  }
+  EXPECT_EQ(runs[0], runs[1]);
+}
+
+//------------------------------------------------------------------------------
+// Failures
+
+TEST(QuadRemeshFailure, NamesThePointThatIsNotFinite)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::gridPlane(4, 4));
+  input->GetPoints()->SetPoint(7, 0, std::nan(""), 0);
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  run(filter, input, 100);
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+  EXPECT_NE(std::string(filter->GetOutcomeText()).find("7"), std::string::npos)
+    << filter->GetOutcomeText();
+  EXPECT_NE(messages.errors.find(filter->GetOutcomeText()), std::string::npos);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_EQ(filter->GetMappedSurface()->GetNumberOfCells(), 0);
+}
+
+TEST(QuadRemeshFailure, EmptyInputIsAnErrorInASerialRun)
+{
+  vtkNew<vtkPolyData> empty;
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  run(filter, empty, 100);
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+  EXPECT_NE(messages.errors, "");
+}
+
+TEST(QuadRemeshFailure, EmptyInputOnARankIsNone)
+{
+  vtkNew<vtkPolyData> empty;
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  filter->SetInputData(empty);
+  filter->UpdatePiece(1, 2, 0);
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+  EXPECT_EQ(messages.errors, "");
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+}
+
+TEST(QuadRemeshFailure, BadPropertiesAreRefused)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::gridPlane(4, 4));
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  run(filter, input, 0);
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+  filter->SetTargetTypeToEdgeLength();
+  filter->SetEdgeLength(-1);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+  filter->SetEdgeLength(1);
+  filter->SetFeatureAngle(500);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+}
+
+TEST(QuadRemeshFailure, RefusesTooManyQuads)
+{
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  filter->SetMaximumQuads(100);
+  run(filter, test::toPolyData(test::torus(40, 20)), 2000);
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::TooLarge);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+}
+
+TEST(QuadRemeshFailure, UnusedConstraintArraysAreTold)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(40, 20));
+  vtkNew<vtkDoubleArray> sizing;
+  sizing->SetName("Sizing");
+  sizing->SetNumberOfTuples(input->GetNumberOfPoints());
+  sizing->Fill(1);
+  input->GetPointData()->AddArray(sizing);
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  run(filter, input, 200);
+  EXPECT_NE(messages.warnings.find("Sizing"), std::string::npos);
+  EXPECT_NE(std::string(filter->GetNoticesText()).find("Sizing"), std::string::npos);
+}
+
+/// Asks to stop at the first progress event; the next update must run again, not serve the empty output.
+TEST(QuadRemeshFailure, AbortLeavesTheFilterOutOfDate)
+{
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+    { vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1); });
+  const unsigned long id = filter->AddObserver(vtkCommand::ProgressEvent, stop);
+  run(filter, test::toPolyData(test::torus(40, 20)), 200);
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Aborted);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_EQ(messages.errors.find("In vtkQuad"), std::string::npos);
+  filter->RemoveObserver(id);
+  filter->SetAbortExecute(0);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+  EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 0);
+}
+
+TEST(QuadRemeshFailure, TimeLimitIsAnError)
+{
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  filter->SetTimeLimit(1e-9);
+  run(filter, test::toPolyData(test::torus(40, 20)), 200);
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::TimedOut);
+  EXPECT_NE(messages.errors.find("time limit"), std::string::npos);
+}
+
+} // namespace
+} // namespace quadrille

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QuadrilleConvert.h"
+#include "TestSurfaces.h"
+
+#include <vtkCellData.h>
+#include <vtkDecimationHierarchy.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkIntegerGridMap.h>
+#include <vtkIntegerGridMapUpmap.h>
+#include <vtkPointData.h>
+#include <vtkQuadExtraction.h>
+#include <vtkQuadRemesh.h>
+#include <vtkTable.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <gtest/gtest.h>
+
+namespace quadrille
+{
+namespace
+{
+
+/// The four stage filters in a row.
+struct Chain
+{
+  vtkNew<vtkDecimationHierarchy> hierarchy;
+  vtkNew<vtkIntegerGridMap> map;
+  vtkNew<vtkIntegerGridMapUpmap> upmap;
+  vtkNew<vtkQuadExtraction> extraction;
+
+  explicit Chain(vtkPolyData* input)
+  {
+    hierarchy->SetInputData(input);
+    hierarchy->SetTargetTypeToNumberOfQuads();
+    hierarchy->SetNumberOfQuads(500);
+    map->SetInputConnection(hierarchy->GetOutputPort(0));
+    upmap->SetInputConnection(map->GetOutputPort());
+    upmap->SetInputData(1, input);
+    upmap->SetLogConnection(hierarchy->GetOutputPort(2));
+    extraction->SetInputConnection(upmap->GetOutputPort());
+  }
+};
+
+std::vector<Vector3> pointsOf(vtkPolyData* data)
+{
+  std::vector<Vector3> points;
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    points.push_back(Vector3(data->GetPoint(i)));
+  }
+  return points;
+}
+
+/// Where the pipeline needs no second attempt, the stages one by one are the same computation.
+TEST(StageFilters, ChainEqualsOneClick)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(80, 40));
+  vtkNew<vtkDoubleArray> height;
+  height->SetName("Height");
+  for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
+  {
+    height->InsertNextValue(input->GetPoint(i)[2]);
+  }
+  input->GetPointData()->AddArray(height);
+  Chain chain(input);
+  chain.extraction->Update();
+  ASSERT_EQ(chain.extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
+    << chain.hierarchy->GetOutcomeText() << chain.map->GetOutcomeText()
+    << chain.upmap->GetOutcomeText() << chain.extraction->GetOutcomeText();
+  vtkNew<vtkQuadRemesh> oneClick;
+  oneClick->SetInputData(input);
+  oneClick->SetTargetTypeToNumberOfQuads();
+  oneClick->SetNumberOfQuads(500);
+  oneClick->Update();
+  ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+
+  vtkPolyData* quads = chain.extraction->GetOutput();
+  EXPECT_EQ(pointsOf(quads), pointsOf(oneClick->GetOutput()));
+  EXPECT_EQ(quads->GetNumberOfPolys(), oneClick->GetOutput()->GetNumberOfPolys());
+  auto* cells = vtkIdTypeArray::SafeDownCast(quads->GetPointData()->GetArray("SourceCellId"));
+  auto* expected =
+    vtkIdTypeArray::SafeDownCast(oneClick->GetOutput()->GetPointData()->GetArray("SourceCellId"));
+  ASSERT_TRUE(cells && expected);
+  vtkDataArray* carried = quads->GetPointData()->GetArray("Height");
+  ASSERT_NE(carried, nullptr);
+  for (vtkIdType i = 0; i < cells->GetNumberOfValues(); ++i)
+  {
+    ASSERT_EQ(cells->GetValue(i), expected->GetValue(i));
+    // Height is linear in the position.
+    ASSERT_NEAR(carried->GetTuple1(i), quads->GetPoint(i)[2], 1e-12);
+  }
+}
+
+TEST(StageFilters, LevelsAreSubsamplingsOfTheSurface)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(80, 40));
+  Chain chain(input);
+  chain.hierarchy->SetCoarseVertices(200);
+  chain.hierarchy->Update();
+  ASSERT_EQ(chain.hierarchy->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
+    << chain.hierarchy->GetOutcomeText();
+  const vtkIdType coarse = chain.hierarchy->GetOutput()->GetNumberOfPoints();
+  const vtkIdType middle =
+    vtkPolyData::SafeDownCast(chain.hierarchy->GetOutputDataObject(1))->GetNumberOfPoints();
+  EXPECT_LE(coarse, middle);
+  EXPECT_LE(middle, input->GetNumberOfPoints());
+  EXPECT_LT(coarse, 400);
+  const Mesh mesh = readMesh(chain.hierarchy->GetOutput());
+  EXPECT_EQ(validate(mesh), "");
+  EXPECT_EQ(summarizeTopology(mesh).eulerCharacteristic, 0);
+}
+
+TEST(StageFilters, LogOfAnotherSurfaceIsRefused)
+{
+  Chain chain(test::toPolyData(test::torus(80, 40)));
+  chain.map->Update();
+  const test::Messages messages(chain.upmap);
+  chain.upmap->SetInputData(1, test::toPolyData(test::torus(80, 40, 1, 0.3)));
+  chain.upmap->Update();
+  EXPECT_EQ(chain.upmap->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+  EXPECT_EQ(chain.upmap->GetOutput()->GetNumberOfCells(), 0);
+}
+
+TEST(StageFilters, DamagedLogIsRefused)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(80, 40));
+  Chain chain(input);
+  chain.map->Update();
+  vtkNew<vtkTable> damaged;
+  damaged->DeepCopy(chain.hierarchy->GetOutputDataObject(2));
+  auto* bytes =
+    vtkUnsignedCharArray::SafeDownCast(damaged->GetFieldData()->GetAbstractArray("DecimationLog"));
+  ASSERT_NE(bytes, nullptr);
+  const vtkIdType middle = bytes->GetNumberOfValues() / 2;
+  bytes->SetValue(middle, static_cast<unsigned char>(bytes->GetValue(middle) ^ 0x10));
+  const test::Messages messages(chain.upmap);
+  chain.upmap->SetInputData(2, damaged);
+  chain.upmap->Update();
+  EXPECT_EQ(chain.upmap->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+  EXPECT_NE(messages.errors, "");
+}
+
+TEST(StageFilters, MissingArraysAreNamed)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(20, 10));
+  vtkNew<vtkQuadExtraction> extraction;
+  const test::Messages messages(extraction);
+  extraction->SetInputData(input);
+  extraction->Update();
+  EXPECT_NE(messages.errors.find("IGM"), std::string::npos);
+  vtkNew<vtkIntegerGridMap> map;
+  const test::Messages mapMessages(map);
+  map->SetInputData(input);
+  map->Update();
+  EXPECT_NE(mapMessages.errors.find("TargetEdgeLength"), std::string::npos);
+}
+
+/// The second output of the one-click filter is as good an input as the chain's, split points or not.
+TEST(StageFilters, ExtractionTakesTheMappedSurface)
+{
+  vtkNew<vtkQuadRemesh> remesh;
+  remesh->SetInputData(test::toPolyData(test::unitCube(10)));
+  remesh->SetTargetTypeToNumberOfQuads();
+  remesh->SetNumberOfQuads(400);
+  for (const bool split : { true, false })
+  {
+    remesh->SetTextureCoordinates(split);
+    vtkNew<vtkQuadExtraction> extraction;
+    extraction->SetInputConnection(remesh->GetOutputPort(1));
+    extraction->Update();
+    ASSERT_EQ(extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
+      << extraction->GetOutcomeText();
+    EXPECT_EQ(pointsOf(extraction->GetOutput()), pointsOf(remesh->GetOutput()));
+    EXPECT_EQ(extraction->GetLines()->GetNumberOfLines(), remesh->GetLines()->GetNumberOfLines());
+  }
+}
+
+} // namespace
+} // namespace quadrille

@@ -1,0 +1,281 @@
+# SPDX-FileCopyrightText: The Quadrille maintainers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The commands quadrille and quadrille-bench: formats, exit codes, report, nothing half-written; and `import quadrille`
+in the system's python3."""
+import argparse
+import csv
+import io
+import json
+import math
+import os
+import pathlib
+import shutil
+import subprocess
+import unittest
+
+import quadrille
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkIOExodus import vtkExodusIIReader
+from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLWriter
+from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
+from vtkmodules.vtkIOPLY import vtkPLYReader, vtkPLYWriter
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter, vtkXMLUnstructuredGridReader
+
+ARGS = None
+
+
+def torus(around=48, across=24):
+    """Points and triangles; the normal points outwards."""
+    points, faces = [], []
+    for i in range(around):
+        for j in range(across):
+            a, b = 2 * math.pi * i / around, 2 * math.pi * j / across
+            r = 1 + 0.4 * math.cos(b)
+            points.append((r * math.cos(a), r * math.sin(a), 0.4 * math.sin(b)))
+            p, q = i * across + j, (i + 1) % around * across + j
+            r, s = i * across + (j + 1) % across, (i + 1) % around * across + (j + 1) % across
+            faces += [(p, q, s), (p, s, r)]
+    return points, faces
+
+
+def edges(faces):
+    found = {}
+    for face in faces:
+        for k in range(len(face)):
+            edge = tuple(sorted((face[k], face[(k + 1) % len(face)])))
+            found[edge] = found.get(edge, 0) + 1
+    return found
+
+
+def faces_of(data):
+    cells = data.GetPolys() if isinstance(data, vtkPolyData) else data.GetCells()
+    offsets = [cells.GetOffsetsArray().GetValue(i) for i in range(cells.GetNumberOfCells() + 1)]
+    ids = [cells.GetConnectivityArray().GetValue(i) for i in range(cells.GetNumberOfConnectivityIds())]
+    return [ids[a:b] for a, b in zip(offsets, offsets[1:])]
+
+
+def read(reader, path):
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutput()
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(ARGS.work) / self.id()
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True)
+
+    def run_quadrille(self, *words, expect=0):
+        result = subprocess.run([ARGS.quadrille, *map(str, words)], capture_output=True, text=True, timeout=300)
+        self.assertEqual(result.returncode, expect, result.stderr)
+        return result
+
+    def write_off(self, name="torus.off"):
+        points, faces = torus()
+        path = self.folder / name
+        path.write_text(f"OFF # a comment\n{len(points)} {len(faces)} 0\n\n" +
+                        "".join("%.17g %.17g %.17g\n" % p for p in points) +
+                        "".join("3 %d %d %d 0.5 0.5 0.5\n" % f for f in faces))
+        return path
+
+    def assertTorusOfQuads(self, points, faces):
+        self.assertGreater(len(faces), 0)
+        self.assertEqual({len(f) for f in faces}, {4})
+        uses = edges(faces)
+        self.assertEqual(set(uses.values()), {2})
+        self.assertEqual(points - len(uses) + len(faces), 0)
+
+
+class Formats(Case):
+    def test_reads_every_input(self):
+        mesh = quadrille.to_polydata(*torus())
+        self.write_off()
+        for writer, name in ((vtkPLYWriter(), "t.ply"), (vtkSTLWriter(), "t.stl"), (vtkPolyDataWriter(), "t.vtk"),
+                             (vtkXMLPolyDataWriter(), "t.vtp")):
+            writer.SetInputData(mesh)
+            writer.SetFileName(str(self.folder / name))
+            if name == "t.vtp":
+                writer.SetDataModeToBinary()
+            writer.Write()
+        points, faces = torus()
+        (self.folder / "t.obj").write_text("".join("v %.17g %.17g %.17g\n" % p for p in points) +
+                                           "".join("f %d %d %d\n" % tuple(i + 1 for i in f) for f in faces))
+        for name in ("torus.off", "t.ply", "t.stl", "t.vtk", "t.vtp", "t.obj"):
+            with self.subTest(name):
+                out = self.folder / (name + ".obj")
+                self.run_quadrille(self.folder / name, out, "--quads", 300)
+                data = read(vtkOBJReader(), out)
+                self.assertTorusOfQuads(data.GetNumberOfPoints(), faces_of(data))
+
+    def test_writes_every_output(self):
+        source = self.write_off()
+        sizes = set()
+        for reader, name in ((vtkXMLPolyDataReader(), "q.vtp"), (vtkOBJReader(), "q.obj"), (vtkPLYReader(), "q.ply"),
+                             (vtkXMLUnstructuredGridReader(), "q.vtu"), (vtkExodusIIReader(), "q.ex2")):
+            with self.subTest(name):
+                out = self.folder / name
+                self.run_quadrille(source, out, "--quads", 300)
+                data = read(reader, out)
+                if name == "q.ex2":
+                    data = data.GetBlock(0).GetBlock(0)
+                self.assertTorusOfQuads(data.GetNumberOfPoints(), faces_of(data))
+                sizes.add((data.GetNumberOfPoints(), data.GetNumberOfCells()))
+                if name in ("q.vtp", "q.vtu"):
+                    self.assertTrue(data.GetPointData().HasArray("Valence"))
+                    self.assertTrue(data.GetFieldData().HasArray("Certificate"))
+                    self.assertNotIn(b"<AppendedData", out.read_bytes())
+        self.assertEqual(len(sizes), 1)
+        leftovers = [p.name for p in self.folder.iterdir() if ".part" in p.name]
+        self.assertEqual(leftovers, [])
+
+
+class ExitCodes(Case):
+    def test_help(self):
+        self.assertIn("usage: quadrille", self.run_quadrille("--help").stdout)
+
+    def test_bad_arguments(self):
+        source = self.write_off()
+        out = self.folder / "q.obj"
+        for words in ((), (source,), (source, out, "--quads"), (source, out, "--quads", "many"),
+                      (source, out, "--quads", "0"), (source, out, "--quads", "5", "--edge-length", "1"),
+                      (source, out, "--edge-length", "-1"), (source, out, "--nonsense", "1"),
+                      (source, self.folder / "q.stl"), (source, self.folder / "missing" / "q.obj"),
+                      (source, out, "--feature-angle", "200"), (source, out, "--quads", "10", "--quads", "20")):
+            with self.subTest(words):
+                self.assertIn("quadrille", self.run_quadrille(*words, expect=2).stderr)
+                self.assertFalse(out.exists())
+
+    def test_bad_input_names_the_element(self):
+        points, faces = torus(12, 6)
+        lines = ["OFF", f"{len(points)} {len(faces)} 0"] + ["%g %g %g" % p for p in points]
+        lines += ["3 %d %d %d" % f for f in faces]
+        cases = {
+            "nan": (lambda l: l.__setitem__(2 + 5, "0 nan 0"), "5"),
+            "corner": (lambda l: l.__setitem__(-1, "3 0 1 99999"), f"face {len(faces) - 1}"),
+            "short": (lambda l: l.__delitem__(slice(20, None)), "vertex 18"),
+            "counts": (lambda l: l.__setitem__(1, "what"), "counts"),
+            "empty": (lambda l: l.clear(), "empty"),
+        }
+        for name, (damage, told) in cases.items():
+            with self.subTest(name):
+                damaged = list(lines)
+                damage(damaged)
+                path = self.folder / f"{name}.off"
+                path.write_text("\n".join(damaged))
+                report = self.folder / f"{name}.json"
+                result = self.run_quadrille(path, self.folder / "q.obj", "--report", report, expect=2)
+                self.assertIn(told, result.stderr)
+                self.assertFalse((self.folder / "q.obj").exists())
+                content = json.loads(report.read_text())
+                self.assertEqual(content["exit_code"], 2)
+                self.assertIn(told, content["error"])
+        self.run_quadrille(self.folder / "absent.ply", self.folder / "q.obj", expect=2)
+
+    def test_no_valid_result(self):
+        # More quads than the limit is the one failure that needs no luck to provoke.
+        source = self.write_off()
+        report = self.folder / "r.json"
+        out = self.folder / "q.vtp"
+        out.write_text("an older result")
+        result = self.run_quadrille(source, out, "--quads", 900000000, "--report", report, expect=3)
+        self.assertIn("limit", result.stderr)
+        self.assertEqual(json.loads(report.read_text())["exit_code"], 3)
+        self.assertEqual(out.read_text(), "an older result")
+
+    def test_damaged_files_of_vtk_readers(self):
+        for extension in ("ply", "vtp", "stl", "obj", "vtk"):
+            with self.subTest(extension):
+                path = self.folder / f"garbage.{extension}"
+                path.write_bytes(bytes((7 * i * i + 13) % 256 for i in range(3000)))
+                self.run_quadrille(path, self.folder / "q.obj", expect=2)
+                self.assertFalse((self.folder / "q.obj").exists())
+
+
+class Report(Case):
+    def test_report_of_a_success(self):
+        report = self.folder / "r.json"
+        out = self.folder / "q.vtp"
+        self.run_quadrille(pathlib.Path(ARGS.data) / "frame.ply", out, "--quads", 1500, "--threads", 2,
+                           "--report", report)
+        content = json.loads(report.read_text())
+        data = read(vtkXMLPolyDataReader(), out)
+        self.assertEqual(content["exit_code"], 0)
+        self.assertEqual(content["error"], "")
+        self.assertEqual(content["quads_actual"], data.GetNumberOfCells())
+        self.assertEqual(content["quads_asked"], 1500)
+        self.assertTrue(content["certificate"]["valid"])
+        self.assertEqual(content["quality"]["euler_characteristic"], -4)  # genus 3
+        self.assertTrue(content["quality"]["manifold"] and content["quality"]["closed"])
+        self.assertIn("duplicate_faces", content["repair"])
+        stages = [s["stage"] for s in content["stages"]]
+        self.assertEqual(stages[0], "read")
+        for stage in ("repair", "phase1", "phase2", "field", "seamless", "quantize", "embed", "replay", "extract"):
+            self.assertIn(stage, stages)
+        self.assertLessEqual(sum(s["seconds"] for s in content["stages"]), 1.05 * content["seconds_total"] + 0.05)
+
+
+class Bench(Case):
+    COLUMNS = "mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb".split(",")
+    STAGES = ("read repair order connectivity phase1 phase2 field seamless quantize embed replay extract "
+              "total").split()
+
+    def test_columns_and_stages(self):
+        source = self.write_off()
+        result = subprocess.run([ARGS.bench, str(source), "--quads", "300", "--threads", "1", "--repeat", "2"],
+                                capture_output=True, text=True, timeout=300)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = list(csv.DictReader(io.StringIO(result.stdout)))
+        self.assertEqual(list(rows[0]), self.COLUMNS)
+        self.assertEqual([r["stage"] for r in rows], 2 * self.STAGES)
+        self.assertEqual({r["repeat"] for r in rows}, {"0", "1"})
+        for row in rows:
+            self.assertGreaterEqual(float(row["seconds"]), 0)
+            self.assertGreater(float(row["peak_rss_mb"]), 1)
+        for run in (rows[:13], rows[13:]):
+            self.assertLessEqual(sum(float(r["seconds"]) for r in run[:-1]), 1.01 * float(run[-1]["seconds"]))
+
+    def test_a_bad_mesh_does_not_end_the_others(self):
+        source = self.write_off()
+        result = subprocess.run([ARGS.bench, "absent.ply", str(source), "--quads", "300"], capture_output=True,
+                                text=True, timeout=300)
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(len(result.stdout.splitlines()), 1 + len(self.STAGES))
+
+
+class Python(Case):
+    def test_remesh(self):
+        points, faces = torus()
+        progress = []
+        result = quadrille.remesh((points, faces), quads=300, everything=True,
+                                  progress=lambda f, text: progress.append((f, text)))
+        corners = quadrille.to_arrays(result.quads)
+        self.assertTorusOfQuads(len(corners[0]), [list(map(int, f)) for f in corners[1]])
+        self.assertEqual(result.info["ActualQuads"], len(corners[1]))
+        self.assertEqual(result.info["TargetQuads"], 300)
+        self.assertIn("extract", result.info["stages"])
+        self.assertGreater(result.surface.GetNumberOfCells(), 0)
+        self.assertEqual(result.lines.GetNumberOfCells(), 0)
+        self.assertTrue(progress and progress == sorted(progress, key=lambda p: p[0]))
+
+    def test_errors_are_exceptions(self):
+        points, faces = torus(12, 6)
+        with self.assertRaises(quadrille.InvalidInput):
+            quadrille.remesh((points, faces), quads=10, edge_length=1)
+        with self.assertRaises(ValueError):
+            quadrille.remesh(42, quads=10)
+        with self.assertRaisesRegex(quadrille.InvalidInput, "3"):
+            quadrille.remesh((points[:3] + [(math.inf, 0, 0)] + points[4:], faces), quads=10)
+        with self.assertRaisesRegex(quadrille.RemeshError, "limit"):
+            quadrille.remesh((points, faces), quads=1000, maximum_quads=100)
+        with self.assertRaises(quadrille.RemeshError):
+            quadrille.remesh((points, faces), quads=100, progress=lambda f, text: False)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    for name in ("quadrille", "bench", "data", "work"):
+        parser.add_argument("--" + name, required=True)
+    ARGS, rest = parser.parse_known_args()
+    os.makedirs(ARGS.work, exist_ok=True)
+    unittest.main(argv=["test_programs"] + rest, verbosity=2)

@@ -1,0 +1,75 @@
+# SPDX-FileCopyrightText: The Quadrille maintainers
+# SPDX-License-Identifier: BSD-3-Clause
+"""In pvpython: the filters by the plugin, their properties, the chain of the four, the raw classes."""
+from paraview import servermanager, simple
+
+import quadrille
+from plugin_common import FILTERS, PLUGIN, check, number, size_of, surface
+
+simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
+for name in FILTERS:
+    check(name in globals(), f"the plugin has no {name}")
+
+mesh = surface(simple)
+mesh.UpdatePipeline()
+quads = QuadRemesh(Input=mesh, TargetType="Number Of Quads", NumberOfQuads=400)
+quads.UpdatePipeline()
+cells = size_of(quads)
+check(cells > 0, "no quads")
+check(number(quads, "ActualQuads") == cells, "ActualQuads differs from the output")
+check("extract" in number(quads, "StageTimes"), "no stage times")
+check(number(quads, "Certificate") != "", "no certificate")
+check(size_of(quads, 1) == size_of(mesh), "the mapped surface has other faces than the surface")
+check(quads.PointData["Valence"] is not None, "no Valence")
+check("ActualQuads" in quads.FieldData.keys(), "no field data")
+
+# Every documented property can be set, and changes the result where it should.
+quads.NumberOfQuads = 900
+quads.UpdatePipeline()
+check(size_of(quads) > cells, "more quads were asked, fewer came")
+quads.TargetType = "Relative Edge Length"
+quads.RelativeEdgeLength = 0.1
+quads.UpdatePipeline()
+coarse = size_of(quads)
+quads.TargetType = "Edge Length"
+quads.EdgeLength = 0.05
+quads.UpdatePipeline()
+check(size_of(quads) > coarse > 0, "edge length has no effect")
+quads.DetectFeatures = 0
+quads.FeatureAngle = 60
+quads.CoarseVertices = 500
+quads.NumberOfThreads = 1
+quads.TimeLimit = 250
+quads.ComputeMappedSurface = 0
+quads.MaximumQuads = 100000
+quads.UpdatePipeline()
+check(size_of(quads) > 0 and size_of(quads, 1) == 0, "ComputeMappedSurface has no effect")
+check(quads.PatchArray == "(none)", "PatchArray should be (none) where there is no cell array")
+
+# The patch array is found by its name.
+marked = simple.Calculator(Input=mesh, AttributeType="Cell Data", ResultArrayName="PatchId", Function="1",
+                           ResultArrayType="Int")
+marked.UpdatePipeline()
+check(QuadRemesh(Input=marked).PatchArray == "PatchId", "PatchId is not chosen where it is there")
+
+# An empty second input is none; a curve on the surface becomes a feature line.
+curve = simple.PolyLineSource(Points=[0.0, 0.0, 0.0, 0.0, 0.0, 0.1])
+fetched = servermanager.Fetch(mesh)
+ring = [fetched.GetPoint(i) for i in range(fetched.GetNumberOfPoints()) if abs(fetched.GetPoint(i)[1]) < 1e-6]
+check(len(ring) > 3, "the torus has no points in its plane of symmetry")
+
+# The four stages one by one.
+hierarchy = DecimationHierarchy(Input=mesh, TargetType="Number Of Quads", NumberOfQuads=400)
+grid = IntegerGridMap(Input=simple.OutputPort(hierarchy, 0))
+upmap = IntegerGridMapUpmap(Input=grid, Surface=mesh, Log=simple.OutputPort(hierarchy, 2))
+extraction = QuadExtraction(Input=upmap)
+extraction.UpdatePipeline()
+check(size_of(extraction) == cells, "the chain and the one click differ")
+check(number(upmap, "Certificate") != "", "no certificate of the chain")
+
+# The raw class is the same behind the proxy, and without one.
+raw = quads.GetClientSideObject()
+check(isinstance(raw, quadrille.vtkQuadRemesh), f"the proxy holds a {type(raw)}")
+result = quadrille.remesh(fetched, quads=400)
+check(result.GetNumberOfCells() == cells, "quadrille.remesh and the plugin differ")
+print("pvpython: fine")

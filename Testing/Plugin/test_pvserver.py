@@ -1,0 +1,58 @@
+# SPDX-FileCopyrightText: The Quadrille maintainers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Plugin on a pvserver and on its client: test_pvserver.py PVSERVER."""
+import re
+import subprocess
+import sys
+import threading
+
+from paraview import servermanager, simple
+
+from plugin_common import PLUGIN, check, number, size_of, surface
+
+
+def start(pvserver):
+    """Starts a server on a free port, waits until it listens; returns the process and its port."""
+    import socket
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    server = subprocess.Popen([pvserver, f"--server-port={port}", "--bind-address=127.0.0.1"], stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True)
+    for line in server.stdout:
+        if re.search("Accepting connection|Waiting for client", line):
+            break
+    # What it says afterwards belongs to the test's output, errors above all.
+    threading.Thread(target=lambda: [print("server:", line, end="", flush=True) for line in server.stdout],
+                     daemon=True).start()
+    return server, port
+
+
+server, port = start(sys.argv[1])
+try:
+    simple.Connect("127.0.0.1", port)
+    simple.LoadPlugin(PLUGIN, remote=True, ns=globals())
+    simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
+    mesh = surface(simple)
+    quads = QuadRemesh(Input=mesh, TargetType="Number Of Quads", NumberOfQuads=400)
+    quads.UpdatePipeline()
+    cells = size_of(quads)
+    check(cells > 0, "no quads from the server")
+    check(number(quads, "ActualQuads") == cells, "ActualQuads does not reach the client")
+    check("extract" in number(quads, "StageTimes"), "stage times do not reach the client")
+    data = servermanager.Fetch(quads)
+    check(data.GetNumberOfCells() == cells and data.GetPointData().HasArray("Valence"), "the quads do not reach the client")
+    hierarchy = DecimationHierarchy(Input=mesh, TargetType="Number Of Quads", NumberOfQuads=400)
+    upmap = IntegerGridMapUpmap(Input=IntegerGridMap(Input=simple.OutputPort(hierarchy, 0)), Surface=mesh,
+                                Log=simple.OutputPort(hierarchy, 2))
+    extraction = QuadExtraction(Input=upmap)
+    extraction.UpdatePipeline()
+    check(size_of(extraction) == cells, "the chain gives another result on the server")
+    simple.Disconnect()
+finally:
+    try:
+        server.wait(timeout=10)
+    except subprocess.TimeoutExpired:
+        server.terminate()
+        server.wait(timeout=10)
+print("pvserver: fine")
