@@ -661,6 +661,7 @@ std::vector<FixedVec2> readMap(vtkPolyData* data)
 {
   vtkDataArray* array = requireArray(data->GetCellData(), arrays::kIgm, 6,
     "vtkIntegerGridMap, vtkIntegerGridMapUpmap or vtkQuadRemesh");
+  const double limit = toDouble(kLargestExact);
   std::vector<FixedVec2> uv(3 * static_cast<std::size_t>(array->GetNumberOfTuples()));
   for (std::size_t f = 0; 3 * f < uv.size(); ++f)
   {
@@ -669,7 +670,8 @@ std::vector<FixedVec2> readMap(vtkPolyData* data)
     for (int i = 0; i < 3; ++i)
     {
       const Vector2 p(t[2 * i], t[2 * i + 1]);
-      if (!(p.cwiseAbs().maxCoeff() < toDouble(kLargestExact)))
+      // Written so that NaN is refused as well.
+      if (!(std::abs(p.x()) < limit && std::abs(p.y()) < limit))
       {
         refuse("array ", arrays::kIgm, " has the corner (", p.x(), ", ", p.y(), ") in cell ", f);
       }

@@ -146,13 +146,14 @@ void addCertificate(vtkDataObject* data, const Certificate& c)
   addText(data, "Certificate", { c.text() });
   addCount(data, "CertificateValid", c.valid() ? 1 : 0);
   addText(data, "CertificateNames",
-    { "triangles", "not_positive", "wrong_turns", "seam_residuals", "off_isolines", "off_integers",
-      "fractional_transitions", "minimum_determinant", "area" });
+    { "triangles", "not_positive", "wrong_turns", "seam_residuals", "off_axes", "off_isolines",
+      "off_integers", "fractional_transitions", "minimum_determinant", "area" });
   addNumbers(data, "CertificateValues",
     { static_cast<double>(c.triangles), static_cast<double>(c.notPositive),
       static_cast<double>(c.wrongTurns), static_cast<double>(c.seamResiduals),
-      static_cast<double>(c.offIsolines), static_cast<double>(c.offIntegers),
-      static_cast<double>(c.fractionalTransitions), c.minimumDeterminant, c.area });
+      static_cast<double>(c.offAxes), static_cast<double>(c.offIsolines),
+      static_cast<double>(c.offIntegers), static_cast<double>(c.fractionalTransitions),
+      c.minimumDeterminant, c.area });
 }
 
 void addRepair(vtkDataObject* data, const RepairReport& repair)

@@ -12,7 +12,6 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
-#include <chrono>
 #include <new>
 #include <sstream>
 
@@ -130,12 +129,14 @@ int vtkQuadrilleAlgorithm::RequestData(
 std::function<bool(double, const std::string&)> vtkQuadrilleAlgorithm::MakeProgress(
   double begin, double end)
 {
-  const auto started = std::chrono::steady_clock::now();
-  return [this, begin, end, started](double fraction, const std::string& text)
+  return [this, begin, end](double fraction, const std::string& text)
   {
+    // A stage that is tried again starts from its beginning; the bar must not run backwards.
+    const double progress = begin + (end - begin) * std::clamp(fraction, 0.0, 1.0);
+    this->FarthestProgress = std::max(this->FarthestProgress, progress);
     this->SetProgressText(text.c_str());
-    this->UpdateProgress(begin + (end - begin) * std::clamp(fraction, 0.0, 1.0));
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - started;
+    this->UpdateProgress(this->FarthestProgress);
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - this->Started;
     this->TimeIsOver = this->TimeLimit > 0 && spent.count() > this->TimeLimit;
     return !this->TimeIsOver && !this->CheckAbort();
   };
@@ -164,6 +165,8 @@ void vtkQuadrilleAlgorithm::ResetOutcome()
 {
   this->Outcome = NotRun;
   this->TimeIsOver = false;
+  this->FarthestProgress = 0;
+  this->Started = std::chrono::steady_clock::now();
   this->OutcomeText.clear();
   this->StageTimesText.clear();
   this->CertificateText.clear();

@@ -14,6 +14,7 @@
 #include "QuadrilleFiltersModule.h" // for the export macro
 #include "vtkPolyDataAlgorithm.h"
 
+#include <chrono>     // for std::chrono::steady_clock
 #include <functional> // for std::function
 #include <string>     // for std::string
 #include <vector>     // for std::vector
@@ -103,6 +104,8 @@ private:
 
   int Outcome = NotRun;
   bool TimeIsOver = false;
+  double FarthestProgress = 0;
+  std::chrono::steady_clock::time_point Started;
   std::string OutcomeText;
   std::string StageTimesText;
   std::string CertificateText;

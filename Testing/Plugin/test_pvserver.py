@@ -17,7 +17,7 @@ def start(pvserver):
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
-    server = subprocess.Popen([pvserver, f"--server-port={port}", "--bind-address=127.0.0.1"], stdout=subprocess.PIPE,
+    server = subprocess.Popen([pvserver, f"--server-port={port}"], stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True)
     for line in server.stdout:
         if re.search("Accepting connection|Waiting for client", line):
