@@ -13,9 +13,9 @@ import sys
 
 import numpy
 from paraview import simple
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 COLOURS = {
     "three": (0.12, 0.35, 0.85), "five": (0.85, 0.13, 0.13), "six": (0.55, 0.15, 0.65),
@@ -30,7 +30,7 @@ def arguments():
     parser.add_argument("--size", type=int, nargs=2, default=(1400, 1000))
     parser.add_argument("--view", type=float, nargs=3, default=(0.6, -1.0, 0.55))
     parser.add_argument("--up", type=float, nargs=3)
-    parser.add_argument("--zoom", type=float, default=1.25)
+    parser.add_argument("--zoom", type=float, default=1.0)
     parser.add_argument("--no-edges", action="store_true")
     parser.add_argument("--no-balls", action="store_true")
     return parser.parse_args()
@@ -108,14 +108,12 @@ def show_balls(view, points, radius, colour, name):
     glyph.ScaleFactor = 2 * radius
     glyph.GlyphMode = "All Points"
     display = simple.Show(glyph, view)
-    simple.ColorBy(display, None)
+    display.ColorArrayName = ["POINTS", ""]
     display.AmbientColor = display.DiffuseColor = colour
     display.Specular = 0.3
 
 
 def show_lines(view, points, edges, radius):
-    from vtkmodules.vtkCommonDataModel import vtkCellArray
-    from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray
     used, ids = numpy.unique(edges, return_inverse=True)
     data = polydata(points[used])
     cells = vtkCellArray()
@@ -124,8 +122,26 @@ def show_lines(view, points, edges, radius):
     data.SetLines(cells)
     tubes = simple.Tube(Input=producer(data, "lines"), Radius=radius, NumberofSides=8)
     display = simple.Show(tubes, view)
-    simple.ColorBy(display, None)
+    display.ColorArrayName = ["POINTS", ""]
     display.AmbientColor = display.DiffuseColor = (0.05, 0.25, 0.20)
+
+
+def fit(view, points, direction, up, zoom):
+    """A parallel camera that looks against `direction` and has the points fill the picture."""
+    direction = direction / numpy.linalg.norm(direction)
+    right = numpy.cross(up, direction)
+    right /= numpy.linalg.norm(right)
+    up = numpy.cross(direction, right)
+    across, along, depth = points @ right, points @ up, points @ direction
+    middle = [0.5 * (c.min() + c.max()) for c in (across, along, depth)]
+    centre = middle[0] * right + middle[1] * up + middle[2] * direction
+    width, height = view.ViewSize
+    half = 0.5 * max(numpy.ptp(along), numpy.ptp(across) * height / width)
+    view.CameraParallelProjection = 1
+    view.CameraFocalPoint = list(centre)
+    view.CameraPosition = list(centre + 2 * numpy.ptp(points, axis=0).sum() * direction)
+    view.CameraViewUp = list(up)
+    view.CameraParallelScale = 1.06 * half / zoom
 
 
 def main():
@@ -141,12 +157,14 @@ def main():
     view.Background = (0.97, 0.97, 0.98)
     view.OrientationAxesVisibility = 0
     display = simple.Show(surface, view)
-    simple.ColorBy(display, None)
+    display.ColorArrayName = ["POINTS", ""]
     display.SetRepresentationType("Surface" if args.no_edges else "Surface With Edges")
     display.AmbientColor = display.DiffuseColor = (0.93, 0.87, 0.74)
     display.EdgeColor = (0.25, 0.25, 0.28)
     display.LineWidth = 1.0
     display.Interpolation = "Flat"
+    display.Ambient = 0.2
+    display.Diffuse = 0.85
     lines = line_ids(quads, bits)
     if len(lines):
         show_lines(view, points, lines, 0.08 * length)
@@ -155,16 +173,12 @@ def main():
             if len(ids):
                 show_balls(view, points[ids], 0.28 * length, COLOURS[name], name)
 
-    centre = 0.5 * (points.min(axis=0) + points.max(axis=0))
     direction = numpy.array(args.view) / numpy.linalg.norm(args.view)
     up = args.up or ((0, 1, 0) if abs(direction[2]) > 0.95 else (0, 0, 1))
-    view.CameraFocalPoint = list(centre)
-    view.CameraPosition = list(centre + direction)
-    view.CameraViewUp = list(up)
-    simple.ResetCamera(view)
-    simple.GetActiveCamera().Zoom(args.zoom)
+    fit(view, points, numpy.array(args.view), numpy.array(up, float), args.zoom)
     simple.Render(view)
     simple.SaveScreenshot(args.picture, view, ImageResolution=list(args.size))
+    simple.Delete(view)  # an open window at the exit ends in an error of the X server
     print(f"render: {args.picture}: {len(quads)} quads, {len(points)} points")
 
 

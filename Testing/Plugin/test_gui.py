@@ -13,6 +13,8 @@ import tempfile
 import time
 import zlib
 
+import private_display
+
 ARTIFACTS = pathlib.Path(os.environ["QUADRILLE_ARTIFACTS"])
 WIDTH, HEIGHT = 1400, 950
 
@@ -47,18 +49,6 @@ def colours(rows):
     return len({row[3 * x:3 * x + 3] for row in rows[::3] for x in range(0, len(row) // 3, 3)})
 
 
-def start_xvfb(program, folder):
-    """Xvfb chooses a free display and tells its number through a pipe."""
-    reading, writing = os.pipe()
-    server = subprocess.Popen([program, "-displayfd", str(writing), "-screen", "0", f"{WIDTH}x{HEIGHT}x24", "-fbdir",
-                               folder, "-nolisten", "tcp"], pass_fds=[writing], stderr=subprocess.DEVNULL)
-    os.close(writing)
-    with os.fdopen(reading) as pipe:
-        number = pipe.readline().strip()
-    assert number, "Xvfb does not start"
-    return server, f":{number}"
-
-
 def wait_for(paths, process, seconds):
     end = time.time() + seconds
     while time.time() < end and process.poll() is None:
@@ -73,7 +63,7 @@ def main():
     failure = None
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        server, display = start_xvfb(xvfb, str(folder))
+        server, display = private_display.start(xvfb, "-screen", "0", f"{WIDTH}x{HEIGHT}x24", "-fbdir", str(folder))
         ready, failed, log = folder / "ready", folder / "failed", folder / "log"
         environment = dict(os.environ, DISPLAY=display, QUADRILLE_READY=str(ready), QUADRILLE_FAILED=str(failed),
                            HOME=str(folder), XDG_CONFIG_HOME=str(folder), XDG_RUNTIME_DIR=str(folder),
@@ -104,8 +94,7 @@ def main():
             except subprocess.TimeoutExpired:
                 window.kill()
                 window.wait()
-            server.terminate()
-            server.wait(timeout=15)
+            private_display.stop(server)
         print(log.read_text())
     if failure:
         sys.exit("FAILED: " + failure)

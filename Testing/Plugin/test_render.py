@@ -15,19 +15,19 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 from plugin_common import ARTIFACTS, DATA, check
 
 reader = vtkPLYReader()
-reader.SetFileName(os.path.join(DATA, "part.ply"))
+reader.SetFileName(os.path.join(DATA, "beast.ply"))
 reader.Update()
 writer = vtkXMLPolyDataWriter()
 writer.SetInputData(quadrille.remesh(reader.GetOutput(), quads=3000))
 writer.SetDataModeToBinary()
-writer.SetFileName(os.path.join(ARTIFACTS, "part-quads.vtp"))
+writer.SetFileName(os.path.join(ARTIFACTS, "beast-quads.vtp"))
 writer.Write()
 
-picture = os.path.join(ARTIFACTS, "part-quads.png")
+picture = os.path.join(ARTIFACTS, "beast-quads.png")
 if os.path.exists(picture):
     os.remove(picture)
 script = sys.argv[1]
-sys.argv = [script, os.path.join(ARTIFACTS, "part-quads.vtp"), picture, "--size", "900", "700"]
+sys.argv = [script, os.path.join(ARTIFACTS, "beast-quads.vtp"), picture, "--size", "900", "700"]
 runpy.run_path(script, run_name="__main__")
 
 image = vtkPNGReader()
