@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
+#include "GridMap/Continuation.h"
 #include "GridMap/GridMap.h"
 #include "GridMap/LockedMap.h"
 #include "GridMap/MapCheck.h"
@@ -79,6 +80,33 @@ MapDefects untangleLocked(const Mesh& mesh, const CrossField& field, const Locke
   return best;
 }
 
+/// Follows the way from the seamless map; result and defects change only if it leads to the end.
+void embedFromSeamless(const Mesh& mesh, const CrossField& field, const LockedMap& locked,
+  const UntangleProblem& problem, const EmbedOptions& options, EmbedResult& result,
+  MapDefects& defects)
+{
+  const ContinuationResult way =
+    continueToIntegers(mesh, field, *options.seamlessUv, locked, options.progress);
+  result.newtonSteps += way.newtonSteps;
+  if (!way.y)
+  {
+    return;
+  }
+  const UntangleResult polished = untangle(problem, *way.y, untangleOptions(1, options.progress));
+  result.newtonSteps += polished.steps;
+  for (const Eigen::VectorXd* y : { &polished.y, &*way.y })
+  {
+    std::vector<FixedVec2> uv = locked.snap(*y);
+    MapDefects left = findDefects(mesh, field, uv);
+    if (left.none())
+    {
+      result.uv = std::move(uv);
+      defects = std::move(left);
+      return;
+    }
+  }
+}
+
 void fail(const Mesh& mesh, StatusCode code, const std::string& message, const MapDefects& cause,
   EmbedResult& result)
 {
@@ -111,7 +139,11 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
     return result;
   }
   const UntangleProblem problem = locked.problem(lengthOfUnit(mesh, integerUv, options.edgeLength));
-  const MapDefects defects = untangleLocked(mesh, field, locked, problem, options.progress, result);
+  MapDefects defects = untangleLocked(mesh, field, locked, problem, options.progress, result);
+  if (!defects.none() && options.seamlessUv != nullptr)
+  {
+    embedFromSeamless(mesh, field, locked, problem, options, result, defects);
+  }
   if (!defects.none())
   {
     fail(mesh, StatusCode::NotConverged, defects.text(), defects, result);

@@ -93,6 +93,9 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
 struct EmbedOptions
 {
   double edgeLength = 0; ///< as in SeamlessOptions
+  /// The valid seamless map that the integers were made for; when given, embedding falls back on
+  /// following a continuous way from there.
+  const std::vector<FixedVec2>* seamlessUv = nullptr;
   ProgressCallback progress;
 };
 struct EmbedResult

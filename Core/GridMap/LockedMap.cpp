@@ -29,8 +29,9 @@ Transition fieldTransition(
 
 } // namespace
 
-LockedMap::LockedMap(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv)
-  : mesh_(mesh), field_(field), uv_(uv), place_(mesh.origin.size()), master_(mesh.vertexCount()),
+LockedMap::LockedMap(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv,
+  bool whole)
+  : mesh_(mesh), field_(field), uv_(uv), whole_(whole), place_(mesh.origin.size()), master_(mesh.vertexCount()),
     lockedU_(mesh.vertexCount(), 0), lockedV_(mesh.vertexCount(), 0)
 {
   if (uv.size() != mesh.origin.size() || field.matching.size() != mesh.origin.size() ||
@@ -67,7 +68,7 @@ void LockedMap::checkTransitions() const
       refuse("the two images of half-edge " + std::to_string(h) +
         " do not agree under the quarter turns of the field");
     }
-    if (!isInteger(transition.translation))
+    if (whole_ && !isInteger(transition.translation))
     {
       refuse("the transition of half-edge " + std::to_string(h) + " is not whole");
     }
@@ -84,7 +85,7 @@ void LockedMap::checkIsolines() const
     }
     const FixedVec2 a = rotate(uv_[h], -field_.alignment[h]);
     const FixedVec2 b = rotate(uv_[Mesh::next(h)], -field_.alignment[h]);
-    if (a.v != b.v || !isInteger(a.v))
+    if (a.v != b.v || (whole_ && !isInteger(a.v)))
     {
       refuse("constrained half-edge " + std::to_string(h) + " does not lie on an integer isoline");
     }
@@ -96,7 +97,7 @@ void LockedMap::lockIntegers()
   lockedU_ = lockedV_ = integerVertices(mesh_, field_);
   for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
   {
-    if (lockedU_[mesh_.origin[h]] && !isInteger(uv_[h]))
+    if (whole_ && lockedU_[mesh_.origin[h]] && !isInteger(uv_[h]))
     {
       refuse("vertex " + std::to_string(mesh_.origin[h]) + " does not lie at a whole point");
     }

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GridMap/Continuation.h"
+
+#include "Numerics/Untangler.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+
+namespace
+{
+
+constexpr double kQuarterTurn = 1.5707963267948966;
+constexpr double kFirstStep = 0.25;
+constexpr double kShortestStep = 1.0 / 1024;
+constexpr int kMaximumTries = 80;
+/// Steps that start with more inverted triangles than this are halved before a solver is asked.
+constexpr int kFewInverted = 4;
+constexpr double kAlwaysTried = 1.0 / 64;
+
+Vector2 edge(const Eigen::VectorXd& x, Index from, Index to)
+{
+  return x.segment<2>(2 * Eigen::Index(to)) - x.segment<2>(2 * Eigen::Index(from));
+}
+
+double cross(const Vector2& a, const Vector2& b)
+{
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Measures the map against the seamless one instead of the surface: there the way begins without stress.
+void referToSeamless(UntangleProblem& problem, const std::vector<FixedVec2>& uv)
+{
+  for (std::size_t f = 0; f < problem.triangles.size(); ++f)
+  {
+    Eigen::Matrix2d reference;
+    reference << toDouble(uv[3 * f + 1] - uv[3 * f]), toDouble(uv[3 * f + 2] - uv[3 * f]);
+    problem.inverseReference[f] = reference.inverse();
+    problem.weight[f] = 0.5 * reference.determinant();
+  }
+}
+
+class Continuation
+{
+public:
+  Continuation(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& seamlessUv,
+    const LockedMap& integers, const ProgressCallback& progress)
+    : mesh_(mesh), field_(field)
+  {
+    const LockedMap begin(mesh, field, seamlessUv, false);
+    problem_ = integers.problem(1);
+    referToSeamless(problem_, seamlessUv);
+    endOffset_ = problem_.offset;
+    y_ = begin.start();
+    const Eigen::VectorXd endFit = fitReferences(problem_);
+    problem_.offset = beginOffset_ = begin.problem(1).offset;
+    direction_ = endFit - fitReferences(problem_);
+    options_.alignmentWeight = 1;
+    options_.areaWeight = 1;
+    options_.polishSteps = 2;
+    options_.maximumSteps = 60;
+    options_.progress = progress;
+  }
+
+  ContinuationResult run()
+  {
+    ContinuationResult result;
+    double step = kFirstStep;
+    for (int i = 0; i < kMaximumTries && result.reached < 1 && step >= kShortestStep; ++i)
+    {
+      const double next = std::min(1.0, result.reached + step);
+      if (advance(result, next))
+      {
+        result.reached = next;
+        step *= 2;
+      }
+      else
+      {
+        step /= 2;
+      }
+    }
+    if (result.reached == 1)
+    {
+      result.y = y_;
+    }
+    return result;
+  }
+
+private:
+  bool advance(ContinuationResult& result, double next)
+  {
+    const double step = next - result.reached;
+    problem_.offset = (1 - next) * beginOffset_ + next * endOffset_;
+    const Eigen::VectorXd ahead = y_ + step * direction_;
+    const int invertedAhead = countInverted(ahead), invertedHere = countInverted(y_);
+    if (std::min(invertedAhead, invertedHere) > kFewInverted && step > kAlwaysTried)
+    {
+      return false;
+    }
+    const UntangleResult untangled =
+      untangle(problem_, invertedAhead <= invertedHere ? ahead : y_, options_);
+    result.newtonSteps += untangled.steps;
+    result.blocked = untangled.inverted;
+    if (!untangled.inverted.empty() || !windsAsField(untangled.y))
+    {
+      return false;
+    }
+    y_ = untangled.y;
+    return true;
+  }
+
+  int countInverted(const Eigen::VectorXd& y) const
+  {
+    const Eigen::VectorXd x = problem_.basis * y + problem_.offset;
+    return static_cast<int>(std::count_if(problem_.triangles.begin(), problem_.triangles.end(),
+      [&](const std::array<Index, 3>& t)
+      { return !(cross(edge(x, t[0], t[1]), edge(x, t[0], t[2])) > 0); }));
+  }
+
+  /// Where every determinant is positive the angle sums are multiples of 90 degrees but for rounding.
+  bool windsAsField(const Eigen::VectorXd& y) const
+  {
+    const Eigen::VectorXd x = problem_.basis * y + problem_.offset;
+    std::vector<double> angle(mesh_.vertexCount(), 0);
+    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    {
+      const Vector2 a = edge(x, h, Mesh::next(h)), b = edge(x, h, Mesh::previous(h));
+      angle[mesh_.origin[h]] += std::atan2(cross(a, b), a.dot(b));
+    }
+    for (Index v = 0; v < mesh_.vertexCount(); ++v)
+    {
+      if (std::lround(angle[v] / kQuarterTurn) != field_.turns[v])
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  const Mesh& mesh_;
+  const CrossField& field_;
+  UntangleProblem problem_;
+  Eigen::VectorXd beginOffset_, endOffset_;
+  Eigen::VectorXd direction_; ///< of the unknowns that fit best, over the whole way
+  Eigen::VectorXd y_;
+  UntangleOptions options_;
+};
+
+} // namespace
+
+ContinuationResult continueToIntegers(const Mesh& mesh, const CrossField& field,
+  const std::vector<FixedVec2>& seamlessUv, const LockedMap& integers,
+  const ProgressCallback& progress)
+{
+  return Continuation(mesh, field, seamlessUv, integers, progress).run();
+}
+
+} // namespace quadrille
