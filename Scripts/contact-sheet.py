@@ -1,8 +1,8 @@
 #!/usr/bin/env pvpython
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws up to 12 meshes into one picture, with their edges, irregular vertices as dots (red: fewer than four edges,
-blue: more), boundary vertices left out.
+"""Draws up to 12 meshes into one picture, with their edges, irregular vertices as dots (blue: fewer than four edges,
+red: more), boundary vertices left out.
 
   xvfb-run -a pvpython Scripts/contact-sheet.py OUT.png MESH.obj...
 """
@@ -59,7 +59,7 @@ def dots(mesh, below, radius):
     mapper.ScalarVisibilityOff()
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
-    actor.GetProperty().SetColor((0.85, 0.15, 0.1) if below else (0.1, 0.3, 0.9))
+    actor.GetProperty().SetColor((0.12, 0.35, 0.85) if below else (0.85, 0.13, 0.13))
     return actor
 
 
