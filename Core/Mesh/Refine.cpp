@@ -209,14 +209,13 @@ void refineSurface(
   report(progress, 0.8, "Splitting chords between features");
   splitEnclosedFaces(surface);
   splitChords(surface);
-  if (surface.mesh.faceCount() == facesBefore)
+  if (surface.mesh.faceCount() != facesBefore)
   {
-    return;
+    surface.repair.refinedFaces += countRefined(surface, entriesBefore, facesBefore);
+    report(progress, 0.9, "Ordering the refined surface");
+    orderSurface(surface, 1);
   }
-  surface.repair.refinedFaces += countRefined(surface, entriesBefore, facesBefore);
-  report(progress, 0.9, "Ordering the refined surface");
-  orderSurface(surface, 1);
-  surface.hash = contentHash(surface.mesh, 1);
+  surface.hash = contentHash(surface.mesh, 1); // the caller may have changed features before
   report(progress, 1, "Surface refined");
 }
 

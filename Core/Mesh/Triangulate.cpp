@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace quadrille
 {
@@ -207,12 +208,48 @@ bool isProperTriangle(const SurfaceInput& input, Index polygon)
     p[1] != p[2] && p[2] != p[0];
 }
 
+bool hasOnlyTriangles(const SurfaceInput& input)
+{
+  const Index polygons = static_cast<Index>(input.polygonOffsets.size() - 1);
+  Index polygon = 0;
+  while (polygon < polygons && isProperTriangle(input, polygon))
+  {
+    ++polygon;
+  }
+  return polygon == polygons;
+}
+
+/// The common case by whole arrays; element by element it took as long as the pairing of half-edges.
+void copyTriangles(const SurfaceInput& input, PreparedSurface& surface)
+{
+  const std::size_t faces = input.polygonOffsets.size() - 1;
+  surface.mesh.origin = input.polygonPoints;
+  surface.sourcePoints.resize(faces);
+  for (std::size_t f = 0; f < faces; ++f)
+  {
+    std::copy_n(input.polygonPoints.begin() + 3 * f, 3, surface.sourcePoints[f].begin());
+  }
+  surface.sourcePolygon.resize(faces);
+  std::iota(surface.sourcePolygon.begin(), surface.sourcePolygon.end(), 0u);
+  surface.mesh.flags.assign(3 * faces, 0);
+  for (std::size_t h = 0; h < 3 * faces && !input.featureEdges.empty(); ++h)
+  {
+    const bool feature = (input.featureEdges[h / 3] >> h % 3 & 1) != 0;
+    surface.mesh.flags[h] = feature ? kFeatureEdge | kRequestedFeature : 0;
+  }
+}
+
 } // namespace
 
 void triangulate(const SurfaceInput& input, PreparedSurface& surface)
 {
   const Index polygons = static_cast<Index>(input.polygonOffsets.size() - 1);
   surface.mesh.position = input.points;
+  if (hasOnlyTriangles(input))
+  {
+    copyTriangles(input, surface);
+    return;
+  }
   surface.mesh.origin.reserve(input.polygonPoints.size());
   surface.mesh.flags.reserve(input.polygonPoints.size());
   surface.sourcePolygon.reserve(polygons);
