@@ -265,7 +265,10 @@ ExtractionResult extractQuads(
   result.mesh.onBoundary = std::move(topology.onBoundary);
   if (result.status.ok())
   {
-    smoothQuads(mesh, result.mesh, { options.smoothingSteps, options.threads, {} });
+    SmoothingOptions smoothing;
+    smoothing.steps = options.smoothingSteps;
+    smoothing.threads = options.threads;
+    smoothQuads(mesh, result.mesh, smoothing);
   }
   report(options.progress, 1, "extraction done");
   return result;

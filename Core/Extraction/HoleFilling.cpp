@@ -133,27 +133,72 @@ private:
   Vector3 normal_; ///< area vector: which way is out
 };
 
-/// The points of a hole, so that its quads are to the left; empty when it is none to close.
-std::vector<Index> holePolygon(
-  const QuadMesh& quads, const std::vector<Index>& loop, const std::set<Edge>& boundaryLines)
+/// Cuts a loop at the points it visits twice, where two holes touch.
+std::vector<std::vector<Index>> simpleLoops(const QuadMesh& quads, const std::vector<Index>& loop)
 {
-  std::vector<Index> polygon;
-  if (loop.size() < 4 || loop.size() > kLongestLoop || loop.size() % 2 != 0)
-  {
-    return polygon;
-  }
+  std::vector<std::vector<Index>> loops;
+  std::vector<Index> path;
   for (const Index h : loop)
   {
-    const Index a = quads.quads[h / 4][h % 4];
-    const Index b = quads.quads[h / 4][(h + 1) % 4];
-    if (boundaryLines.count({ std::min(a, b), std::max(a, b) }) != 0)
+    const Index p = quads.quads[h / 4][h % 4];
+    const auto earlier = std::find(path.begin(), path.end(), p);
+    if (earlier != path.end())
     {
-      return {};
+      loops.emplace_back(earlier, path.end());
+      path.erase(earlier, path.end());
     }
-    polygon.push_back(a);
+    path.push_back(p);
   }
-  std::reverse(polygon.begin(), polygon.end());
-  return polygon;
+  loops.push_back(path);
+  return loops;
+}
+
+/// Is this the rim of a hole to close? boundaryLines: the edges on the input's boundary.
+bool isHole(const std::vector<Index>& loop, const std::set<Edge>& boundaryLines)
+{
+  if (loop.size() < 4 || loop.size() > kLongestLoop || loop.size() % 2 != 0)
+  {
+    return false;
+  }
+  for (std::size_t i = 0; i < loop.size(); ++i)
+  {
+    const auto [a, b] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
+    if (boundaryLines.count({ a, b }) != 0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The rims of all holes, each so that the quads that close it are to the left.
+std::vector<std::vector<Index>> findHoles(const QuadMesh& quads)
+{
+  std::set<Edge> boundaryLines;
+  for (const QuadLine& line : quads.lines)
+  {
+    if (line.boundary)
+    {
+      boundaryLines.emplace(std::min(line.a, line.b), std::max(line.a, line.b));
+    }
+  }
+  std::vector<std::vector<Index>> polygons;
+  for (const std::vector<Index>& loop :
+    boundaryLoops(analyzeQuads(quads.quads, quads.points.size())))
+  {
+    if (loop.size() > 10 * kLongestLoop)
+    {
+      continue; // a boundary of the input, or a hole far beyond what a fold leaves
+    }
+    for (const std::vector<Index>& simple : simpleLoops(quads, loop))
+    {
+      if (isHole(simple, boundaryLines))
+      {
+        polygons.emplace_back(simple.rbegin(), simple.rend());
+      }
+    }
+  }
+  return polygons;
 }
 
 /// All edges that end at one of the points of the holes.
@@ -187,28 +232,11 @@ std::set<Edge> edgesAt(const QuadMesh& quads, const std::vector<std::vector<Inde
 
 std::size_t fillHoles(QuadMesh& quads)
 {
-  std::set<Edge> boundaryLines;
-  for (const QuadLine& line : quads.lines)
-  {
-    if (line.boundary)
-    {
-      boundaryLines.emplace(std::min(line.a, line.b), std::max(line.a, line.b));
-    }
-  }
-  std::vector<std::vector<Index>> polygons;
-  for (const std::vector<Index>& loop :
-    boundaryLoops(analyzeQuads(quads.quads, quads.points.size())))
-  {
-    polygons.push_back(holePolygon(quads, loop, boundaryLines));
-  }
+  const std::vector<std::vector<Index>> polygons = findHoles(quads);
   std::set<Edge> edges = edgesAt(quads, polygons);
   std::size_t filled = 0;
   for (const std::vector<Index>& polygon : polygons)
   {
-    if (polygon.empty())
-    {
-      continue;
-    }
     const auto added = PolygonCut(quads.points, polygon, edges).run();
     if (!added)
     {

@@ -20,6 +20,9 @@ constexpr int kMaximumFaces = 2000;
 /// A curve that turns by more than this at a mesh vertex has a corner there that a quad vertex
 /// keeps.
 constexpr double kCurveCorner = 0.5235987755982988; // 30 degrees
+/// A move must not shorten the shortest edge at a point below this part of their mean: the scaled
+/// Jacobian does not see lengths.
+constexpr double kShortEdge = 0.35;
 /// Below this a quad is worth a search in all directions.
 constexpr double kBadShape = 0.4;
 
@@ -275,8 +278,12 @@ private:
   bool improve(Index p)
   {
     const Quality before = qualityAt(p, quads_.points[p]);
+    if (before.worst > options_.goodShape)
+    {
+      return false;
+    }
     const Vector3 wanted = averageOfNeighbours(p) - quads_.points[p];
-    const double reach = 0.5 * shortestEdge(p);
+    const double reach = 0.5 * edgeLengths(p, quads_.points[p]).shortest;
     const Vector3 clamped =
       wanted.norm() > reach ? Vector3(wanted * (reach / wanted.norm())) : wanted;
     for (const double factor : { 1.0, 0.5, 0.25 })
@@ -318,7 +325,7 @@ private:
       return false;
     }
     const Vector3 position = positionOf(mesh_, *place);
-    if (!qualityAt(p, position).betterThan(before))
+    if (shrinksShortEdge(p, position) || !qualityAt(p, position).betterThan(before))
     {
       return false;
     }
@@ -374,7 +381,8 @@ private:
       }
       const Vector3 normal = (corners[2] - corners[0]).cross(corners[3] - corners[1]);
       const double shape = scaledJacobian(corners);
-      const double value = normal.dot(normal_[*q]) > 0 ? shape : -1 - shape;
+      // A quad that turns over passes through a bow tie of -1 and gets worse from there.
+      const double value = normal.dot(normal_[*q]) > 0 ? shape : -2 - shape;
       quality.worst = std::min(quality.worst, value);
       quality.sum += value;
     }
@@ -412,12 +420,33 @@ private:
     return sum / std::max(count, 1);
   }
 
-  double shortestEdge(Index p) const
+  struct EdgeLengths
   {
     double shortest = std::numeric_limits<double>::infinity();
-    forEachNeighbour(
-      p, [&](const Vector3& x) { shortest = std::min(shortest, (x - quads_.points[p]).norm()); });
-    return shortest;
+    double mean = 0;
+  };
+
+  EdgeLengths edgeLengths(Index p, const Vector3& position) const
+  {
+    EdgeLengths lengths;
+    int count = 0;
+    forEachNeighbour(p,
+      [&](const Vector3& x)
+      {
+        const double length = (x - position).norm();
+        lengths.shortest = std::min(lengths.shortest, length);
+        lengths.mean += length;
+        ++count;
+      });
+    lengths.mean /= std::max(count, 1);
+    return lengths;
+  }
+
+  bool shrinksShortEdge(Index p, const Vector3& position) const
+  {
+    const EdgeLengths after = edgeLengths(p, position);
+    return after.shortest < kShortEdge * after.mean &&
+      after.shortest < edgeLengths(p, quads_.points[p]).shortest;
   }
 
   const Mesh& mesh_;

@@ -29,6 +29,16 @@ std::array<Vector3, 4> cornersOf(const QuadMesh& mesh, std::size_t q)
   return { mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]], mesh.points[c[3]] };
 }
 
+/// All points may move, so that there is something to see.
+SmoothingResult smooth(const GridMapCase& c, QuadMesh& mesh, int steps, int threads)
+{
+  SmoothingOptions options;
+  options.steps = steps;
+  options.threads = threads;
+  options.goodShape = 1;
+  return smoothQuads(c.mesh, mesh, options);
+}
+
 double worstShape(const QuadMesh& mesh)
 {
   double worst = 1;
@@ -80,7 +90,7 @@ TEST(QuadSmoothing, RaisesShapesAndStaysOnTheSurface)
   const double worst = worstShape(mesh);
   const double mean = meanShape(mesh);
   ASSERT_LT(mean, 0.95); // else there is nothing to do
-  const SmoothingResult result = smoothQuads(c.mesh, mesh, { 10, 1, {} });
+  const SmoothingResult result = smooth(c, mesh, 10, 1);
   EXPECT_GT(result.moves, 0u);
   EXPECT_GE(worstShape(mesh), worst);
   EXPECT_GT(meanShape(mesh), mean + 0.5 * (1 - mean)); // a flat plate allows squares
@@ -102,7 +112,7 @@ TEST(QuadSmoothing, BoundarySlidesAndCornersStay)
   const GridMapCase c = crumpledPlane(6, 5, 2);
   QuadMesh mesh = extractRaw(c);
   const QuadMesh before = mesh;
-  smoothQuads(c.mesh, mesh, { 10, 1, {} });
+  smooth(c, mesh, 10, 1);
   int corners = 0;
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
   {
@@ -130,7 +140,7 @@ TEST(QuadSmoothing, FeaturesOfABlockStay)
   QuadMesh mesh = extractRaw(c);
   const QuadMesh before = mesh;
   const double worst = worstShape(mesh);
-  smoothQuads(c.mesh, mesh, { 5, 1, {} });
+  smooth(c, mesh, 5, 1);
   EXPECT_GE(worstShape(mesh), worst);
   std::vector<int> lines(mesh.points.size(), 0);
   for (const QuadLine& line : mesh.lines)
@@ -162,8 +172,8 @@ TEST(QuadSmoothing, SameBytesForAnyNumberOfThreads)
   const QuadMesh raw = extractRaw(c);
   QuadMesh one = raw;
   QuadMesh three = raw;
-  smoothQuads(c.mesh, one, { 3, 1, {} });
-  smoothQuads(c.mesh, three, { 3, 3, {} });
+  smooth(c, one, 3, 1);
+  smooth(c, three, 3, 3);
   EXPECT_NE(one.points, raw.points);
   EXPECT_EQ(one.points, three.points);
   EXPECT_EQ(one.sourceFace, three.sourceFace);
@@ -175,9 +185,35 @@ TEST(QuadSmoothing, ZeroStepsAndBadSteps)
   const GridMapCase c = squares("", unitCube(1), 3);
   QuadMesh mesh = extractRaw(c);
   const QuadMesh before = mesh;
-  EXPECT_EQ(smoothQuads(c.mesh, mesh, { 0, 1, {} }).moves, 0u);
+  EXPECT_EQ(smooth(c, mesh, 0, 1).moves, 0u);
   EXPECT_EQ(mesh.points, before.points);
-  EXPECT_THROW(smoothQuads(c.mesh, mesh, { -1, 1, {} }), InvalidInput);
+  EXPECT_THROW(smooth(c, mesh, -1, 1), InvalidInput);
+}
+
+TEST(QuadSmoothing, LeavesGoodQuadsAlone)
+{
+  const GridMapCase c = crumpledPlane(12, 9, 3);
+  const QuadMesh raw = extractRaw(c);
+  QuadMesh mesh = raw;
+  SmoothingOptions options;
+  options.goodShape = 0.7;
+  smoothQuads(c.mesh, mesh, options);
+  std::vector<double> worst(mesh.points.size(), 1);
+  for (std::size_t q = 0; q < raw.quads.size(); ++q)
+  {
+    for (const Index p : raw.quads[q])
+    {
+      worst[p] = std::min(worst[p], scaledJacobian(cornersOf(raw, q)));
+    }
+  }
+  int moved = 0;
+  for (std::size_t p = 0; p < mesh.points.size(); ++p)
+  {
+    moved += mesh.points[p] != raw.points[p] ? 1 : 0;
+    // A move round a point never makes its quads worse, so who starts above the threshold stays.
+    EXPECT_TRUE(worst[p] <= 0.7 || mesh.points[p] == raw.points[p]);
+  }
+  EXPECT_GT(moved, 0);
 }
 
 // Straight over a flat mesh is straight in the plane.
