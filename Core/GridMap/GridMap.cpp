@@ -13,6 +13,8 @@ namespace
 {
 
 constexpr int kMaximumScalings = 4;
+/// How often other integers are tried where embedding fails.
+constexpr int kMaximumEmbeddings = 4;
 /// The number of quads is accepted when it is this close to the target (relative).
 constexpr double kCountTolerance = 0.06;
 
@@ -128,6 +130,7 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
   double edgeLength = options.edgeLength;
   double mapEdgeLength = edgeLength;
   double bestDeviation = std::numeric_limits<double>::infinity();
+  std::vector<FixedVec2> seamlessUv; // that result.uv was quantized from
   for (int scaling = 0; scaling < kMaximumScalings; ++scaling)
   {
     SeamlessResult seamless;
@@ -160,6 +163,7 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
       mapEdgeLength = edgeLength;
       result.refinement = quantized.refinement;
       result.uv = std::move(quantized.uv);
+      seamlessUv = std::move(seamless.uv);
     }
     if (deviation <= kCountTolerance)
     {
@@ -169,12 +173,35 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
   }
 
   EmbedResult embedded;
+  std::vector<Index> watched;
+  for (int round = 0; round < kMaximumEmbeddings; ++round)
   {
+    if (round > 0)
+    {
+      // Other integers, that leave room round the places where embedding failed.
+      const Stopwatch watch(result.secondsQuantize);
+      QuantizeOptions quantizeOptions;
+      quantizeOptions.watched = watched;
+      quantizeOptions.progress = subProgress(options.progress, 0.4, 0.7);
+      QuantizeResult quantized = quantizeMap(mesh, field, seamlessUv, quantizeOptions);
+      if (!quantized.status.ok())
+      {
+        break;
+      }
+      result.refinement = quantized.refinement;
+      result.uv = std::move(quantized.uv);
+    }
     const Stopwatch watch(result.secondsEmbed);
     EmbedOptions embedOptions;
     embedOptions.edgeLength = mapEdgeLength;
+    embedOptions.seamlessUv = &seamlessUv;
     embedOptions.progress = subProgress(options.progress, 0.7, 1.0);
     embedded = embedMap(mesh, field, result.uv, embedOptions);
+    if (embedded.status.ok())
+    {
+      break;
+    }
+    watched.insert(watched.end(), embedded.offenders.begin(), embedded.offenders.end());
   }
   if (!embedded.status.ok())
   {
