@@ -4,6 +4,7 @@
 
 #include "Base/Error.h"
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -15,12 +16,16 @@ namespace
 constexpr double kShortestDangling = 4;
 constexpr double kShortestLoop = 2;
 constexpr double kShortestMeanChain = 1;
+/// Length over length in steps of s. A circle of radius s has 1.04, one of 0.7 s 1.09; mesh edges that
+/// zigzag through noise have 1.2 and more.
+constexpr double kMostJagged = 1.1;
 
 /// A maximal run of constrained edges between nodes; `ends` is invalid for a closed loop.
 struct Chain
 {
   std::vector<Index> halfEdges; ///< one of each edge
   double length = 0;
+  double jaggedness = 1; ///< length over its length in steps of s
   Index first = kInvalidIndex;
   Index last = kInvalidIndex;
   bool removable = true; ///< all of it was detected, none asked for, none on the boundary
@@ -29,7 +34,7 @@ struct Chain
 class FeatureGraph
 {
 public:
-  explicit FeatureGraph(const Mesh& mesh) : mesh_(mesh)
+  FeatureGraph(const Mesh& mesh, double edgeLength) : mesh_(mesh), edgeLength_(edgeLength)
   {
     countDegrees();
     listIncidentEdges();
@@ -114,6 +119,7 @@ private:
   {
     Chain chain;
     Index v = start;
+    std::vector<Index> path{ start };
     while (true)
     {
       done[h] = 1;
@@ -122,6 +128,7 @@ private:
       chain.removable =
         chain.removable && !mesh_.isBoundary(h) && (mesh_.flags[h] & kRequestedFeature) == 0;
       v = otherEnd(h, v);
+      path.push_back(v);
       if (degree(v) != 2)
       {
         break;
@@ -139,10 +146,37 @@ private:
       chain.first = start;
       chain.last = v;
     }
+    chain.jaggedness = chain.length / std::max(steppedLength(path), 1e-12 * chain.length);
     chains_.push_back(std::move(chain));
   }
 
+  /// Length of the polyline through points of the path that are s apart along it.
+  double steppedLength(const std::vector<Index>& path) const
+  {
+    double sum = 0;
+    double walked = 0;
+    Vector3 last = mesh_.position[path.front()];
+    for (std::size_t i = 0; i + 1 < path.size(); ++i)
+    {
+      const Vector3& a = mesh_.position[path[i]];
+      const Vector3& b = mesh_.position[path[i + 1]];
+      const double length = (b - a).norm();
+      double used = 0;
+      while (walked + length - used >= edgeLength_)
+      {
+        used += edgeLength_ - walked;
+        walked = 0;
+        const Vector3 point = a + (b - a) * (used / length);
+        sum += (point - last).norm();
+        last = point;
+      }
+      walked += length - used;
+    }
+    return sum + (mesh_.position[path.back()] - last).norm();
+  }
+
   const Mesh& mesh_;
+  double edgeLength_;
   std::vector<Index> offset_;
   std::vector<Index> incident_;
   std::vector<Chain> chains_;
@@ -192,7 +226,7 @@ void unmark(Mesh& mesh, const Chain& chain, FeatureFilterReport& report)
 /// One pass; returns whether anything went.
 bool removeOnce(Mesh& mesh, double edgeLength, FeatureFilterReport& report)
 {
-  const FeatureGraph graph(mesh);
+  const FeatureGraph graph(mesh, edgeLength);
   const std::vector<Chain>& chains = graph.chains();
   const std::vector<Index> component = chainComponents(mesh, chains);
   std::vector<double> total(mesh.vertexCount(), 0);
@@ -217,7 +251,9 @@ bool removeOnce(Mesh& mesh, double edgeLength, FeatureFilterReport& report)
     const bool dangling = !loop && (graph.endsThere(chain.first) || graph.endsThere(chain.last));
     const bool tangle = total[component[i]] < kShortestMeanChain * edgeLength * count[component[i]];
     if ((loop && chain.length < kShortestLoop * edgeLength) ||
-      (dangling && chain.length < kShortestDangling * edgeLength) || tangle)
+      (dangling &&
+        (chain.length < kShortestDangling * edgeLength || chain.jaggedness > kMostJagged)) ||
+      tangle)
     {
       unmark(mesh, chain, report);
       removed = true;

@@ -56,6 +56,28 @@ TEST(FeatureFilter, ShortDanglingChainGoesLongOneStays)
   EXPECT_EQ(featureEdges(mesh), 12u);
 }
 
+TEST(FeatureFilter, DanglingChainThatZigzagsGoes)
+{
+  // A staircase of unit steps: length 2 for each diagonal of sqrt 2.
+  Mesh mesh = test::gridPlane(20, 20);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3& p = mesh.position[mesh.origin[h]];
+    const Vector3& q = mesh.position[mesh.target(h)];
+    const bool step = (q - p).norm() < 1.1 && p.x() >= 4 && q.x() <= 14 &&
+      ((p.x() == p.y() && q.x() > p.x()) || (p.x() == p.y() + 1 && q.y() > p.y()));
+    if (step)
+    {
+      mark(mesh, h, kDetected);
+    }
+  }
+  Mesh fine = mesh;
+  ASSERT_GT(featureEdges(mesh), 15u);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 2.9).keptEdges, 0u);
+  // Quads smaller than the steps can follow them.
+  EXPECT_EQ(removeUnresolvedFeatures(fine, 0.1).removedEdges, 0u);
+}
+
 TEST(FeatureFilter, WhatTheUserAskedForStays)
 {
   Mesh mesh = test::gridPlane(20, 6);
