@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Transfer/PatchMender.h"
 
+#include "GridMap/MapCheck.h"
 #include "Numerics/Untangler.h"
 #include "Transfer/QuarterTurns.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <array>
@@ -47,9 +49,9 @@ struct FanCorner
 class PatchMender
 {
 public:
-  PatchMender(const Mesh& mesh, std::vector<FixedVec2>& uv)
-    : mesh_(mesh), uv_(uv), inPatch_(mesh.faceCount(), 0), seenVertex_(mesh.vertexCount(), 0),
-      tried_(mesh.faceCount(), 0)
+  PatchMender(const Mesh& mesh, std::vector<FixedVec2>& uv, const std::vector<int>& expectedTurns)
+    : mesh_(mesh), uv_(uv), expectedTurns_(expectedTurns), inPatch_(mesh.faceCount(), 0),
+      seenVertex_(mesh.vertexCount(), 0), tried_(mesh.faceCount(), 0)
   {
   }
 
@@ -61,13 +63,15 @@ private:
     return determinant(uv_[3 * f], uv_[3 * f + 1], uv_[3 * f + 2]) > 0;
   }
   std::vector<Index> findNotPositive() const;
+  std::vector<Index> findSeeds() const;
   bool mendAround(Index seed);
   void collectCluster(Index seed);
   void growPatch();
   void addFacesAround(Index corner);
-  std::size_t countBadInPatch() const;
+  std::size_t countDefectsInPatch() const;
 
   bool embedPatch();
+  bool embedFrom(const UntangleProblem& problem, const Eigen::VectorXd& start);
   void collectFans();
   void addFan(Index corner);
   bool walkFan(Index corner, std::vector<FanCorner>& fan, bool& interior) const;
@@ -76,7 +80,6 @@ private:
   Eigen::Matrix2d inverseReference(Index f, double scale) const;
   double referenceScale() const;
   void applyDisplacements(const Eigen::VectorXd& y);
-  bool windingsAreRight() const;
 
   struct PatchVertex
   {
@@ -89,6 +92,7 @@ private:
 
   const Mesh& mesh_;
   std::vector<FixedVec2>& uv_;
+  const std::vector<int>& expectedTurns_;
   std::vector<std::uint8_t> inPatch_;
   std::vector<std::uint8_t> seenVertex_;
   std::vector<std::uint8_t> tried_; ///< bad faces that were in a cluster already
@@ -131,12 +135,12 @@ bool collectCorners(const Mesh& mesh, Index corner, std::vector<Index>& corners,
 MendResult PatchMender::run(const ProgressCallback& progress)
 {
   MendResult result;
-  const std::vector<Index> bad = findNotPositive();
+  const std::vector<Index> bad = findSeeds();
   const std::size_t limit = kMaximumWork + mesh_.faceCount() / 10;
   for (std::size_t i = 0; i < bad.size() && work_ < limit; ++i)
   {
     report(progress, double(i) / double(bad.size()), "mending the map");
-    if (tried_[bad[i]] == 0 && !isPositive(bad[i]))
+    if (tried_[bad[i]] == 0)
     {
       result.patches += mendAround(bad[i]) ? 1U : 0U;
     }
@@ -156,6 +160,32 @@ std::vector<Index> PatchMender::findNotPositive() const
     }
   }
   return bad;
+}
+
+/// Faces to mend around: those that are not positive and those at a vertex of wrong turns.
+std::vector<Index> PatchMender::findSeeds() const
+{
+  std::vector<int> turns(mesh_.vertexCount(), 0);
+  for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+  {
+    const Index f = Mesh::face(h);
+    turns[mesh_.origin[h]] +=
+      quadrantsEntered(&uv_[3 * f], static_cast<int>(h % 3), isPositive(f) ? 1 : -1);
+  }
+  std::vector<Index> seeds;
+  for (Index f = 0; f < mesh_.faceCount(); ++f)
+  {
+    bool defect = !isPositive(f);
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      defect = defect || turns[mesh_.origin[h]] != expectedTurns_[mesh_.origin[h]];
+    }
+    if (defect)
+    {
+      seeds.push_back(f);
+    }
+  }
+  return seeds;
 }
 
 bool PatchMender::mendAround(Index seed)
@@ -178,7 +208,7 @@ bool PatchMender::mendAround(Index seed)
       break;
     }
     improved = embedPatch() || improved;
-    if (countBadInPatch() == 0)
+    if (countDefectsInPatch() == 0)
     {
       break;
     }
@@ -241,10 +271,60 @@ void PatchMender::addFacesAround(Index corner)
   }
 }
 
-std::size_t PatchMender::countBadInPatch() const
+/// Triangles that are not positive, and vertices of wrong turns, of the patch as collectFans left it.
+std::size_t PatchMender::countDefectsInPatch() const
 {
-  return static_cast<std::size_t>(
+  std::size_t count = static_cast<std::size_t>(
     std::count_if(patch_.begin(), patch_.end(), [&](Index f) { return !isPositive(f); }));
+  for (const PatchVertex& vertex : vertices_)
+  {
+    int turns = 0;
+    for (std::size_t i = 0; i < vertex.fanCount; ++i)
+    {
+      const Index c = fans_[vertex.firstFan + i].corner;
+      turns += quadrantsEntered(
+        &uv_[3 * Mesh::face(c)], static_cast<int>(c % 3), isPositive(Mesh::face(c)) ? 1 : -1);
+    }
+    const Index v = mesh_.origin[fans_[vertex.firstFan].corner];
+    count += vertex.fanCount > 1 && turns != expectedTurns_[v] ? 1U : 0U;
+  }
+  return count;
+}
+
+/// The displacements of least Dirichlet energy: no valid map yet, but one that has forgotten any wrong winding.
+Eigen::VectorXd harmonicStart(const UntangleProblem& problem)
+{
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t t = 0; t < problem.triangles.size(); ++t)
+  {
+    const Eigen::Matrix2d& inverse = problem.inverseReference[t];
+    // Rows: how each corner enters the two columns of J.
+    Eigen::Matrix<double, 3, 2> gradient;
+    gradient.row(1) = inverse.row(0);
+    gradient.row(2) = inverse.row(1);
+    gradient.row(0) = -inverse.row(0) - inverse.row(1);
+    const Eigen::Matrix3d stiffness = problem.weight[t] * gradient * gradient.transpose();
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        for (int axis = 0; axis < 2; ++axis)
+        {
+          entries.emplace_back(2 * static_cast<int>(problem.triangles[t][i]) + axis,
+            2 * static_cast<int>(problem.triangles[t][j]) + axis, stiffness(i, j));
+        }
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> energy(problem.offset.size(), problem.offset.size());
+  energy.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SparseMatrix<double> reduced = problem.basis.transpose() * energy * problem.basis;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(reduced);
+  if (solver.info() != Eigen::Success)
+  {
+    return Eigen::VectorXd::Zero(problem.basis.cols());
+  }
+  return solver.solve(-(problem.basis.transpose() * (energy * problem.offset)));
 }
 
 bool PatchMender::embedPatch()
@@ -255,18 +335,28 @@ bool PatchMender::embedPatch()
   {
     return false;
   }
-  const std::size_t before = countBadInPatch();
+  const bool improved = embedFrom(makeProblem(), Eigen::VectorXd::Zero(unknowns_));
+  if (improved && countDefectsInPatch() == 0)
+  {
+    return true;
+  }
+  const UntangleProblem problem = makeProblem();
+  return embedFrom(problem, harmonicStart(problem)) || improved;
+}
+
+bool PatchMender::embedFrom(const UntangleProblem& problem, const Eigen::VectorXd& start)
+{
+  const std::size_t before = countDefectsInPatch();
   std::vector<FixedVec2> saved;
   for (const Index f : patch_)
   {
     saved.insert(saved.end(), { uv_[3 * f], uv_[3 * f + 1], uv_[3 * f + 2] });
   }
-  const UntangleProblem problem = makeProblem();
   UntangleOptions options;
   options.maximumSteps = 60;
-  const UntangleResult result = untangle(problem, Eigen::VectorXd::Zero(unknowns_), options);
+  const UntangleResult result = untangle(problem, start, options);
   applyDisplacements(result.y);
-  if (result.y.allFinite() && countBadInPatch() < before && windingsAreRight())
+  if (result.y.allFinite() && countDefectsInPatch() < before)
   {
     return true;
   }
@@ -514,38 +604,12 @@ void PatchMender::applyDisplacements(const Eigen::VectorXd& y)
   }
 }
 
-bool PatchMender::windingsAreRight() const
-{
-  // Positive triangles can still wind twice round a vertex. A regular one makes four quarters; of irregular ones
-  // only what is beyond any valence in use is recognized.
-  for (const PatchVertex& vertex : vertices_)
-  {
-    double sum = 0;
-    bool positive = true;
-    for (std::size_t i = 0; i < vertex.fanCount && positive; ++i)
-    {
-      const Index c = fans_[vertex.firstFan + i].corner;
-      const Vector2 a = toDouble(uv_[Mesh::next(c)] - uv_[c]);
-      const Vector2 b = toDouble(uv_[Mesh::previous(c)] - uv_[c]);
-      sum += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
-      positive = isPositive(c / 3);
-    }
-    const double quarters = sum / 1.5707963267948966;
-    const bool regular = vertex.interior && vertex.freedom != Freedom::Fixed;
-    if (positive && vertex.fanCount > 1 && (regular ? quarters > 4.5 : quarters > 6.5))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
 } // namespace
 
-MendResult mendPatches(
-  const Mesh& mesh, std::vector<FixedVec2>& uv, const ProgressCallback& progress)
+MendResult mendPatches(const Mesh& mesh, std::vector<FixedVec2>& uv,
+  const std::vector<int>& expectedTurns, const ProgressCallback& progress)
 {
-  return PatchMender(mesh, uv).run(progress);
+  return PatchMender(mesh, uv, expectedTurns).run(progress);
 }
 
 } // namespace quadrille

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Re-embeds small patches round the triangles that a replay left inverted or degenerate.
+/// Re-embeds small patches round the triangles that a replay left inverted or degenerate, and round vertices
+/// about which the map winds otherwise than it should.
 ///
 /// The unknowns are displacements of the patch's inner vertices, each in the chart of one of its corners and turned
 /// into the charts of the others; so transitions stay exactly as they are, whatever charts, curves or holes the
 /// patch has. Inner vertices of curves slide along their isoline; the patch's border, irregular vertices
 /// and corners of curves stay. The untangler moves the rest, the result is rounded to the grid and tested
-/// exactly, and it is taken only if fewer triangles are left that are not positive.
+/// exactly, and it is taken only if fewer defects are left.
 #pragma once
 
 #include "Base/FixedPoint.h"
@@ -24,8 +25,9 @@ struct MendResult
   std::size_t notPositive = 0; ///< triangles of the whole mesh with !(det > 0) in the end
 };
 
-/// Changes uv in place. Deterministic; the work is bounded, so a map that is invalid all over stays so.
-MendResult mendPatches(
-  const Mesh& mesh, std::vector<FixedVec2>& uv, const ProgressCallback& progress);
+/// Changes uv in place. expectedTurns: #V quarter turns round each vertex. Deterministic; the work is bounded, so
+/// a map that is invalid all over stays so.
+MendResult mendPatches(const Mesh& mesh, std::vector<FixedVec2>& uv,
+  const std::vector<int>& expectedTurns, const ProgressCallback& progress);
 
 } // namespace quadrille

@@ -99,6 +99,19 @@ std::optional<FixedVec2> roundInside(
   return std::nullopt;
 }
 
+/// How often a closed ring of counterclockwise triangles winds round p: each turns by less than half a circle, so
+/// one that leaves the lower half plane crosses the ray from p towards +u, which happens once a round.
+int windings(const FixedVec2* ring, int count, FixedVec2 p)
+{
+  int upwards = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    const FixedVec2 next = ring[i + 1 == count ? 0 : i + 1];
+    upwards += ring[i].v < p.v && next.v >= p.v ? 1 : 0;
+  }
+  return upwards;
+}
+
 } // namespace
 
 bool starIsPositive(const FixedVec2* ring, int count, bool closed, FixedVec2 p)
@@ -110,7 +123,7 @@ bool starIsPositive(const FixedVec2* ring, int count, bool closed, FixedVec2 p)
       return false;
     }
   }
-  return !closed || determinant(p, ring[count - 1], ring[0]) > 0;
+  return !closed || (determinant(p, ring[count - 1], ring[0]) > 0 && windings(ring, count, p) == 1);
 }
 
 std::optional<FixedVec2> kernelPoint(const FixedVec2* ring, int count, bool closed)

@@ -11,7 +11,7 @@ namespace quadrille
 {
 
 /// Whether all triangles (p, ring[i], ring[i+1]) are counterclockwise; the last one (p, ring[n-1], ring[0]) only
-/// for a closed ring. Exact.
+/// for a closed ring, which then must wind round p once: next to a cone of valence 5 a ring can wind twice. Exact.
 bool starIsPositive(const FixedVec2* ring, int count, bool closed, FixedVec2 p);
 
 /// A grid point well inside the kernel of the ring polygon; none when it has none (or none that the clipping in

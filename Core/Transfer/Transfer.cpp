@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Transfer/Transfer.h"
 
+#include "GridMap/MapCheck.h"
 #include "Transfer/PatchMender.h"
 #include "Transfer/Replay.h"
 
@@ -51,6 +52,30 @@ std::size_t countNotPositive(const std::vector<FixedVec2>& uv)
   return count;
 }
 
+/// Turns of the finest map: those of the coarse map at its vertices; removed vertices are regular.
+std::vector<int> expectedTurns(
+  const Mesh& fine, const Level& coarse, const std::vector<FixedVec2>& coarseUv)
+{
+  std::vector<int> turns(fine.vertexCount(), 4);
+  for (Index h = 0; h < fine.halfEdgeCount(); ++h)
+  {
+    if (fine.isBoundary(h))
+    {
+      turns[fine.origin[h]] = 2;
+    }
+  }
+  for (const Index v : coarse.fineVertex)
+  {
+    turns[v] = 0;
+  }
+  for (Index h = 0; h < coarse.mesh.halfEdgeCount(); ++h)
+  {
+    turns[coarse.fineVertex[coarse.mesh.origin[h]]] +=
+      quadrantsEntered(&coarseUv[3 * Mesh::face(h)], static_cast<int>(h % 3), 1);
+  }
+  return turns;
+}
+
 } // namespace
 
 TransferResult transferMap(const Mesh& fine, const Level& coarse, const DecimationLog& log,
@@ -69,9 +94,10 @@ TransferResult transferMap(const Mesh& fine, const Level& coarse, const Decimati
   result.withoutKernel = counts.withoutKernel;
   result.notPositive = countNotPositive(result.uv);
   // What was invalid already on the coarse level is not a matter of a few triangles here.
-  if (result.notPositive > 0 && countNotPositive(coarseUv) == 0)
+  if ((result.notPositive > 0 || result.withoutKernel > 0) && countNotPositive(coarseUv) == 0)
   {
-    const MendResult mended = mendPatches(fine, result.uv, options.progress);
+    const MendResult mended =
+      mendPatches(fine, result.uv, expectedTurns(fine, coarse, coarseUv), options.progress);
     result.mendedPatches = mended.patches;
     result.notPositive = mended.notPositive;
   }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "GridMap/MapCheck.h"
 #include "TestMaps.h"
 #include "TestMeshes.h"
 #include "Transfer/PatchMender.h"
@@ -26,6 +27,17 @@ void moveVertices(const Mesh& mesh, std::vector<FixedVec2>& uv, FixedVec2 by,
   }
 }
 
+/// Quarter turns round each vertex of a map without inverted triangles.
+std::vector<int> turnsOf(const Mesh& mesh, const std::vector<FixedVec2>& uv)
+{
+  std::vector<int> turns(mesh.vertexCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    turns[mesh.origin[h]] += quadrantsEntered(&uv[3 * (h / 3)], static_cast<int>(h % 3), 1);
+  }
+  return turns;
+}
+
 } // namespace
 
 TEST(PatchMender, leavesAValidMapAlone)
@@ -34,7 +46,7 @@ TEST(PatchMender, leavesAValidMapAlone)
   std::vector<FixedVec2> uv =
     torusMap(mesh, 1, 40 * kOne, 16 * kOne, [](Index) { return FixedVec2{}; });
   const std::vector<FixedVec2> before = uv;
-  const MendResult result = mendPatches(mesh, uv, {});
+  const MendResult result = mendPatches(mesh, uv, turnsOf(mesh, uv), {});
   EXPECT_EQ(result.patches, 0U);
   EXPECT_EQ(result.notPositive, 0U);
   EXPECT_EQ(uv, before);
@@ -45,12 +57,13 @@ TEST(PatchMender, mendsAFoldInsideAPlane)
   const Mesh mesh = gridPlane(20, 20);
   std::vector<FixedVec2> uv =
     mapByPosition(mesh, [](const Vector3& p) { return Vector2(p.x(), p.y()); });
+  const std::vector<int> turns = turnsOf(mesh, uv);
   const auto inFold = [](const Vector3& p)
   { return (p - Vector3(10, 10, 0)).lpNorm<Eigen::Infinity>() <= 1; };
   moveVertices(mesh, uv, { 5 * kOne / 2, kOne }, inFold);
   const std::vector<FixedVec2> before = uv;
   ASSERT_GT(notPositive(uv), 0U);
-  const MendResult result = mendPatches(mesh, uv, {});
+  const MendResult result = mendPatches(mesh, uv, turns, {});
   EXPECT_EQ(result.notPositive, 0U);
   EXPECT_EQ(notPositive(uv), 0U);
   EXPECT_EQ(seamResiduals(mesh, uv), 0U);
@@ -80,7 +93,9 @@ TEST(PatchMender, mendsAcrossSeamsWithRotations)
   std::vector<FixedVec2> uv = cubeMap(mesh, 12, &folded);
   ASSERT_GT(notPositive(uv), 0U);
   ASSERT_EQ(seamResiduals(mesh, uv), 0U);
-  const MendResult result = mendPatches(mesh, uv, {});
+  const std::vector<int> turns = turnsOf(mesh, cubeMap(mesh, 12, nullptr));
+  const MendResult result = mendPatches(mesh, uv, turns, {});
+  EXPECT_EQ(turnsOf(mesh, uv), turns);
   EXPECT_GT(result.patches, 0U);
   EXPECT_EQ(notPositive(uv), 0U);
   EXPECT_EQ(seamResiduals(mesh, uv), 0U);
@@ -93,7 +108,7 @@ TEST(PatchMender, givesUpOnWhatCannotBeMended)
   const Mesh mesh = gridPlane(12, 12);
   std::vector<FixedVec2> uv =
     mapByPosition(mesh, [](const Vector3& p) { return Vector2(-p.x(), p.y()); });
-  const MendResult result = mendPatches(mesh, uv, {});
+  const MendResult result = mendPatches(mesh, uv, std::vector<int>(mesh.vertexCount(), 4), {});
   EXPECT_EQ(result.notPositive, notPositive(uv));
   EXPECT_GT(result.notPositive, 0U);
   EXPECT_EQ(seamResiduals(mesh, uv), 0U);

@@ -75,3 +75,18 @@ TEST(RingKernel, openRingNeedsNoTriangleAtItsOpening)
   EXPECT_FALSE(starIsPositive(half.data(), 3, true, { 0, 0 }));
   EXPECT_EQ(kernelPointOnSegment(half.data(), 3, false, half[2], half[0]), (FixedVec2{ 0, 0 }));
 }
+
+TEST(RingKernel, ringThatWindsTwiceIsNoStar)
+{
+  // Every triangle with the origin is counterclockwise, but the ring goes round it twice, as it can next to a
+  // cone of valence 5.
+  const std::vector<FixedVec2> once{ { 100, 0 }, { 0, 100 }, { -100, 0 }, { 0, -100 } };
+  std::vector<FixedVec2> twice = once;
+  for (const FixedVec2 p : once)
+  {
+    twice.push_back({ 2 * p.u, 2 * p.v });
+  }
+  EXPECT_TRUE(starIsPositive(once.data(), 4, true, { 0, 0 }));
+  EXPECT_FALSE(starIsPositive(twice.data(), 8, true, { 0, 0 }));
+  EXPECT_EQ(kernelPoint(twice.data(), 8, true), std::nullopt);
+}
