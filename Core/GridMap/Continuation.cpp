@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/Continuation.h"
 
+#include "GridMap/MapShape.h"
 #include "Numerics/Untangler.h"
 
 #include <algorithm>
@@ -31,15 +32,18 @@ double cross(const Vector2& a, const Vector2& b)
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Measures the map against the seamless one instead of the surface: there the way begins without stress.
-void referToSeamless(UntangleProblem& problem, const std::vector<FixedVec2>& uv)
+/// Measures the map against the seamless one, whose coordinates are x, instead of the surface: there the way
+/// begins without stress. Holds for the faces and for the guards of constrained edges behind them.
+void referTo(const Eigen::VectorXd& x, Index faces, UntangleProblem& problem)
 {
-  for (std::size_t f = 0; f < problem.triangles.size(); ++f)
+  for (std::size_t t = 0; t < problem.triangles.size(); ++t)
   {
+    const std::array<Index, 3>& points = problem.triangles[t];
     Eigen::Matrix2d reference;
-    reference << toDouble(uv[3 * f + 1] - uv[3 * f]), toDouble(uv[3 * f + 2] - uv[3 * f]);
-    problem.inverseReference[f] = reference.inverse();
-    problem.weight[f] = 0.5 * reference.determinant();
+    reference << edge(x, points[0], points[1]), edge(x, points[0], points[2]);
+    problem.inverseReference[t] = reference.inverse();
+    problem.weight[t] =
+      t < faces ? 0.5 * reference.determinant() : kGuardWeight * reference.col(0).squaredNorm();
   }
 }
 
@@ -52,11 +56,12 @@ public:
   {
     const LockedMap begin(mesh, field, seamlessUv, false);
     problem_ = integers.problem(1);
-    referToSeamless(problem_, seamlessUv);
     endOffset_ = problem_.offset;
     y_ = begin.start();
+    beginOffset_ = begin.problem(1).offset;
+    referTo(problem_.basis * y_ + beginOffset_, mesh.faceCount(), problem_);
     const Eigen::VectorXd endFit = fitReferences(problem_);
-    problem_.offset = beginOffset_ = begin.problem(1).offset;
+    problem_.offset = beginOffset_;
     direction_ = endFit - fitReferences(problem_);
     options_.alignmentWeight = 1;
     options_.areaWeight = 1;
@@ -103,7 +108,11 @@ private:
     const UntangleResult untangled =
       untangle(problem_, invertedAhead <= invertedHere ? ahead : y_, options_);
     result.newtonSteps += untangled.steps;
-    result.blocked = untangled.inverted;
+    result.blocked.clear();
+    for (const Index t : untangled.inverted)
+    {
+      result.blocked.push_back(Mesh::face(problem_.triangles[t][0])); // points are corners
+    }
     if (!untangled.inverted.empty() || !windsAsField(untangled.y))
     {
       return false;

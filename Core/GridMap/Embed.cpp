@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
 #include "GridMap/Continuation.h"
+#include "GridMap/FieldUntangling.h"
 #include "GridMap/GridMap.h"
 #include "GridMap/LockedMap.h"
 #include "GridMap/MapCheck.h"
@@ -13,6 +14,8 @@ namespace quadrille
 {
 namespace
 {
+
+constexpr int kRounds = 3;
 
 /// Moving a free vertex does not change the signed area of a map, so it tells the size that the integers
 /// were made for, which may differ from the one that was asked.
@@ -30,54 +33,17 @@ double lengthOfUnit(const Mesh& mesh, const std::vector<FixedVec2>& uv, double e
   return mapped > 0 && area > 0 ? std::sqrt(area / mapped) : edgeLength;
 }
 
-UntangleOptions untangleOptions(double alignment, const ProgressCallback& progress)
+/// The given map and the Poisson solution, the one with fewer defects first.
+std::vector<Eigen::VectorXd> startsOf(const Mesh& mesh, const CrossField& field,
+  const LockedMap& locked, const UntangleProblem& problem)
 {
-  UntangleOptions options;
-  options.alignmentWeight = alignment;
-  options.areaWeight = 1;
-  options.polishSteps = 6;
-  options.progress = progress;
-  return options;
-}
-
-struct Attempt
-{
-  const Eigen::VectorXd* start;
-  double alignment;
-};
-
-/// Untangles until a start has led to a map without defects; keeps the one with the fewest.
-MapDefects untangleLocked(const Mesh& mesh, const CrossField& field, const LockedMap& locked,
-  const UntangleProblem& problem, const ProgressCallback& progress, EmbedResult& result)
-{
-  const Eigen::VectorXd given = locked.start();
-  const Eigen::VectorXd poisson = fitReferences(problem);
-  result.uv = locked.snap(given);
-  MapDefects best = findDefects(mesh, field, result.uv);
-  const bool givenFirst = best.count() <= findDefects(mesh, field, locked.snap(poisson)).count();
-  const Eigen::VectorXd& first = givenFirst ? given : poisson;
-  const Eigen::VectorXd& second = givenFirst ? poisson : given;
-  bool tried = false;
-  for (const Attempt& attempt :
-    { Attempt{ &first, 1 }, Attempt{ &second, 1 }, Attempt{ &first, 0.01 }, Attempt{ &first, 30 } })
+  std::vector<Eigen::VectorXd> starts{ locked.start(), fitReferences(problem) };
+  const std::size_t given = findDefects(mesh, field, locked.snap(starts[0])).count();
+  if (findDefects(mesh, field, locked.snap(starts[1])).count() < given)
   {
-    const UntangleResult untangled =
-      untangle(problem, *attempt.start, untangleOptions(attempt.alignment, progress));
-    std::vector<FixedVec2> uv = locked.snap(untangled.y);
-    MapDefects defects = findDefects(mesh, field, uv);
-    result.newtonSteps += untangled.steps;
-    if (!tried || defects.count() < best.count())
-    {
-      best = std::move(defects);
-      result.uv = std::move(uv);
-    }
-    tried = true;
-    if (best.none())
-    {
-      break;
-    }
+    std::swap(starts[0], starts[1]);
   }
-  return best;
+  return starts;
 }
 
 /// Follows the way from the seamless map; result and defects change only if it leads to the end.
@@ -92,7 +58,7 @@ void embedFromSeamless(const Mesh& mesh, const CrossField& field, const LockedMa
   {
     return;
   }
-  const UntangleResult polished = untangle(problem, *way.y, untangleOptions(1, options.progress));
+  const UntangleResult polished = untangle(problem, *way.y, fieldUntangleOptions(options.progress));
   result.newtonSteps += polished.steps;
   for (const Eigen::VectorXd* y : { &polished.y, &*way.y })
   {
@@ -127,19 +93,21 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
   report(options.progress, 0, "embedding the map");
   EmbedResult result;
   const LockedMap locked(mesh, field, integerUv);
-  MapDefects hopeless;
-  hopeless.notPositive = locked.hopelessFaces();
+  const MapDefects hopeless = locked.hopeless();
   if (!hopeless.none())
   {
     result.uv = integerUv;
-    fail(mesh, StatusCode::Infeasible,
-      "the integers leave no area to faces " + listOf(hopeless.notPositive) +
-        ", whose corners are all locked",
-      hopeless, result);
+    fail(
+      mesh, StatusCode::Infeasible, "the integers alone make " + hopeless.text(), hopeless, result);
     return result;
   }
   const UntangleProblem problem = locked.problem(lengthOfUnit(mesh, integerUv, options.edgeLength));
-  MapDefects defects = untangleLocked(mesh, field, locked, problem, options.progress, result);
+  FieldUntangling untangled = untangleAlongField(
+    mesh, field, problem, startsOf(mesh, field, locked, problem), kRounds,
+    [&](const Eigen::VectorXd& y) { return locked.snap(y); }, options.progress);
+  result.uv = std::move(untangled.uv);
+  result.newtonSteps = untangled.newtonSteps;
+  MapDefects defects = std::move(untangled.defects);
   if (!defects.none() && options.seamlessUv != nullptr)
   {
     embedFromSeamless(mesh, field, locked, problem, options, result, defects);

@@ -188,6 +188,16 @@ UntangleProblem LockedMap::problem(double edgeLength) const
   {
     addTriangle(problem, { 3 * f, 3 * f + 1, 3 * f + 2 }, mesh_, field_, f, 0, edgeLength);
   }
+  std::vector<GuardedEdge> edges;
+  for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+  {
+    const double length = mesh_.edgeVector(h).norm() / edgeLength;
+    if (mesh_.isConstrained(h) && (mesh_.isBoundary(h) || h < mesh_.twin[h]) && length > 0)
+    {
+      edges.push_back({ h, Mesh::next(h), field_.alignment[h], length });
+    }
+  }
+  guardEdges(problem, edges);
   return problem;
 }
 
@@ -221,16 +231,42 @@ std::vector<FixedVec2> LockedMap::snap(const Eigen::VectorXd& y) const
   return uv;
 }
 
-std::vector<Index> LockedMap::hopelessFaces() const
+/// From an integer vertex along constrained half-edge h to the next one, measured along the axes.
+std::int64_t LockedMap::chainLength(Index h) const
 {
-  std::vector<Index> result;
+  std::int64_t length = 0;
+  for (;;)
+  {
+    length += rotate(uv_[Mesh::next(h)] - uv_[h], -field_.alignment[h]).u;
+    if (isLocked(mesh_.target(h)))
+    {
+      return length;
+    }
+    h = Mesh::next(h);
+    while (!mesh_.isConstrained(h))
+    {
+      h = mesh_.rotateClockwise(h);
+    }
+  }
+}
+
+MapDefects LockedMap::hopeless() const
+{
+  MapDefects result;
   for (Index f = 0; f < mesh_.faceCount(); ++f)
   {
     const Index* v = &mesh_.origin[3 * f];
     if (isLocked(v[0]) && isLocked(v[1]) && isLocked(v[2]) &&
       orientation(uv_[3 * f], uv_[3 * f + 1], uv_[3 * f + 2]) <= 0)
     {
-      result.push_back(f);
+      result.notPositive.push_back(f);
+    }
+  }
+  for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+  {
+    if (mesh_.isConstrained(h) && isLocked(mesh_.origin[h]) && chainLength(h) <= 0)
+    {
+      result.reversed.push_back(h);
     }
   }
   return result;

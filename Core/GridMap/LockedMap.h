@@ -7,6 +7,7 @@
 
 #include "Base/FixedPoint.h"
 #include "CrossField/CrossField.h"
+#include "GridMap/MapCheck.h"
 #include "Mesh/Mesh.h"
 #include "Numerics/Untangler.h"
 
@@ -31,8 +32,10 @@ public:
   Eigen::VectorXd start() const;
   /// The map with these unknowns, rounded to the grid; all else follows in integers.
   std::vector<FixedVec2> snap(const Eigen::VectorXd& y) const;
-  /// Faces whose three corners are locked and whose determinant is not positive.
-  std::vector<Index> hopelessFaces() const;
+  /// What the integers alone already get wrong: faces whose three corners are locked and that are not
+  /// positive, and half-edges that begin a chain of constrained ones from integer vertex to
+  /// integer vertex whose end does not lie ahead of its beginning.
+  MapDefects hopeless() const;
 
 private:
   void checkTransitions() const;
@@ -41,6 +44,7 @@ private:
   void lockIntegers();
   void lockIsolines();
   void numberUnknowns();
+  std::int64_t chainLength(Index h) const;
   bool isLocked(Index v) const { return lockedU_[v] && lockedV_[v]; }
 
   const Mesh& mesh_;

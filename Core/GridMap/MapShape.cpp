@@ -44,4 +44,35 @@ void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, c
   problem.weight.push_back(reference.determinant() / 2);
 }
 
+void guardEdges(UntangleProblem& problem, const std::vector<GuardedEdge>& edges)
+{
+  const Eigen::Index rows = problem.offset.size();
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> basis = problem.basis;
+  std::vector<Eigen::Triplet<double>> triplets;
+  for (Eigen::Index row = 0; row < rows + 2 * Eigen::Index(edges.size()); ++row)
+  {
+    const Eigen::Index source =
+      row < rows ? row : 2 * Eigen::Index(edges[(row - rows) / 2].from) + (row - rows) % 2;
+    for (decltype(basis)::InnerIterator entry(basis, source); entry; ++entry)
+    {
+      triplets.emplace_back(static_cast<int>(row), static_cast<int>(entry.col()), entry.value());
+    }
+  }
+  problem.basis.resize(rows + 2 * Eigen::Index(edges.size()), basis.cols());
+  problem.basis.setFromTriplets(triplets.begin(), triplets.end());
+  problem.offset.conservativeResize(problem.basis.rows());
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    const GuardedEdge& edge = edges[i];
+    const Eigen::Matrix2d frame =
+      edge.length * Eigen::Rotation2Dd(edge.axis * std::acos(0.0)).toRotationMatrix();
+    const Eigen::Index point = rows / 2 + static_cast<Eigen::Index>(i);
+    problem.offset.segment<2>(2 * point) =
+      problem.offset.segment<2>(2 * Eigen::Index(edge.from)) + frame.col(1);
+    problem.triangles.push_back({ edge.from, edge.to, static_cast<Index>(point) });
+    problem.inverseReference.push_back(frame.inverse());
+    problem.weight.push_back(kGuardWeight * edge.length * edge.length);
+  }
+}
+
 } // namespace quadrille

@@ -7,6 +7,8 @@
 #include "Mesh/Mesh.h"
 #include "Numerics/Untangler.h"
 
+#include <vector>
+
 namespace quadrille
 {
 
@@ -14,5 +16,21 @@ namespace quadrille
 /// by `quarterTurns`) and its weight, which is its area in quads.
 void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, const Mesh& mesh,
   const CrossField& field, Index f, int quarterTurns, double edgeLength);
+
+/// Weight of a guard against a face of its size: enough to forbid, too little to shape the map.
+constexpr double kGuardWeight = 0.05;
+
+/// An edge of the problem that has to run along an axis of its chart.
+struct GuardedEdge
+{
+  Index from = 0, to = 0; ///< points
+  int axis = 0;           ///< quarter turns of the direction (1, 0)
+  double length = 0;      ///< wanted, > 0
+};
+
+/// Appends a triangle for each edge, after those of the faces, that is positive when the edge runs along its
+/// axis and inverted when it runs against it: a feature or a boundary can fold over at a vertex though
+/// all faces are positive. Its third point hangs on `from` by a constant offset.
+void guardEdges(UntangleProblem& problem, const std::vector<GuardedEdge>& edges);
 
 } // namespace quadrille

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
 #include "GridMap/CutGraph.h"
+#include "GridMap/FieldUntangling.h"
 #include "GridMap/GridMap.h"
 #include "GridMap/MapCheck.h"
 #include "GridMap/MapShape.h"
@@ -162,6 +163,23 @@ private:
       addTriangle(
         problem_, { wedge[0], wedge[1], wedge[2] }, mesh_, field, f, graph_.comb[f], edgeLength);
     }
+    guardEdges(problem_, guardedEdges(field, edgeLength));
+  }
+
+  /// One half-edge of each constrained edge; the other one follows through the seam.
+  std::vector<GuardedEdge> guardedEdges(const CrossField& field, double edgeLength) const
+  {
+    std::vector<GuardedEdge> edges;
+    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    {
+      const double length = mesh_.edgeVector(h).norm() / edgeLength;
+      if (mesh_.isConstrained(h) && (mesh_.isBoundary(h) || h < mesh_.twin[h]) && length > 0)
+      {
+        edges.push_back({ graph_.wedge[h], graph_.wedge[Mesh::next(h)],
+          field.alignment[h] + graph_.comb[Mesh::face(h)], length });
+      }
+    }
+    return edges;
   }
 
   const Mesh& mesh_;
@@ -277,20 +295,7 @@ std::vector<FixedVec2> SeamlessSpace::snap(const Eigen::VectorXd& y) const
   return uv;
 }
 
-constexpr int kRounds = 5;
-constexpr double kStiffening = 10;
-
-UntangleOptions untangleOptions(const ProgressCallback& progress)
-{
-  UntangleOptions options;
-  // Keeps the map turned like the field, and with it the winding of the vertices.
-  options.alignmentWeight = 1;
-  // The equations are homogeneous: the area term keeps the map from shrinking to a point.
-  options.areaWeight = 1;
-  options.polishSteps = 4;
-  options.progress = progress;
-  return options;
-}
+constexpr int kRounds = 4;
 
 void fail(const Mesh& mesh, StatusCode code, const std::string& message, const MapDefects& defects,
   SeamlessResult& result)
@@ -329,68 +334,6 @@ bool findHopeless(const Mesh& mesh, const CrossField& field, const SeamlessSpace
   return true;
 }
 
-/// Multiplies the weights of the faces that touch a defect, or touch one that does.
-void stiffen(const Mesh& mesh, const MapDefects& defects, std::vector<double>& weight)
-{
-  std::vector<bool> near(mesh.vertexCount(), false);
-  for (const Index v : verticesOf(mesh, defects))
-  {
-    near[v] = true;
-  }
-  const auto touches = [&](Index f)
-  {
-    const Index* v = &mesh.origin[3 * f];
-    return near[v[0]] || near[v[1]] || near[v[2]];
-  };
-  std::vector<bool> ring = near;
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-  {
-    for (int i = 0; i < 3 && touches(f); ++i)
-    {
-      ring[mesh.origin[3 * f + i]] = true;
-    }
-  }
-  near = ring;
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-  {
-    weight[f] *= touches(f) ? kStiffening : 1;
-  }
-}
-
-/// Untangles from the solution of the Poisson equation. Seams fix the winding of a vertex modulo 4 only, so
-/// a start that is inverted there may end with a wrong one: then the Poisson equation is solved
-/// again with more weight round it, until it winds rightly from the start [stiffening of Bommes et al. 2009].
-MapDefects untangleField(const Mesh& mesh, const CrossField& field, const SeamlessSpace& space,
-  Eigen::VectorXd start, const ProgressCallback& progress, SeamlessResult& result)
-{
-  MapDefects best;
-  UntangleProblem problem = space.problem();
-  for (int round = 0; round < kRounds; ++round)
-  {
-    UntangleResult attempt = untangle(problem, start, untangleOptions(progress));
-    result.newtonSteps += attempt.steps;
-    if (round > 0 && findDefects(mesh, field, space.snap(attempt.y)).none())
-    {
-      attempt = untangle(space.problem(), attempt.y, untangleOptions(progress));
-      result.newtonSteps += attempt.steps;
-    }
-    std::vector<FixedVec2> uv = space.snap(attempt.y);
-    MapDefects defects = findDefects(mesh, field, uv);
-    stiffen(mesh, defects, problem.weight);
-    if (round == 0 || defects.count() < best.count())
-    {
-      best = std::move(defects);
-      result.uv = std::move(uv);
-    }
-    if (best.none())
-    {
-      break;
-    }
-    start = fitReferences(problem);
-  }
-  return best;
-}
-
 } // namespace
 
 SeamlessResult computeSeamlessMap(
@@ -412,15 +355,19 @@ SeamlessResult computeSeamlessMap(
   }
   const Eigen::VectorXd poisson = fitReferences(space.problem());
   result.uv = space.snap(poisson);
-  MapDefects defects = findDefects(mesh, field, result.uv);
+  const MapDefects defects = findDefects(mesh, field, result.uv);
   if (findHopeless(mesh, field, space, defects, result))
   {
     return result;
   }
-  defects = untangleField(mesh, field, space, poisson, options.progress, result);
-  if (!defects.none())
+  FieldUntangling untangled = untangleAlongField(
+    mesh, field, space.problem(), { poisson }, kRounds,
+    [&](const Eigen::VectorXd& y) { return space.snap(y); }, options.progress);
+  result.uv = std::move(untangled.uv);
+  result.newtonSteps = untangled.newtonSteps;
+  if (!untangled.defects.none())
   {
-    fail(mesh, StatusCode::NotConverged, defects.text(), defects, result);
+    fail(mesh, StatusCode::NotConverged, untangled.defects.text(), untangled.defects, result);
   }
   return result;
 }

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GridMap/FieldUntangling.h"
+
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr double kStiffening = 10;
+
+/// Multiplies the weights of the faces that touch a defect, or touch one that does.
+void stiffen(const Mesh& mesh, const MapDefects& defects, std::vector<double>& weight)
+{
+  std::vector<bool> near(mesh.vertexCount(), false);
+  for (const Index v : verticesOf(mesh, defects))
+  {
+    near[v] = true;
+  }
+  const auto touches = [&](Index f)
+  {
+    const Index* v = &mesh.origin[3 * f];
+    return near[v[0]] || near[v[1]] || near[v[2]];
+  };
+  std::vector<bool> ring = near;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    for (int i = 0; i < 3 && touches(f); ++i)
+    {
+      ring[mesh.origin[3 * f + i]] = true;
+    }
+  }
+  near = ring;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    weight[f] *= touches(f) ? kStiffening : 1;
+  }
+}
+
+} // namespace
+
+UntangleOptions fieldUntangleOptions(const ProgressCallback& progress)
+{
+  UntangleOptions options;
+  // Keeps the map turned like the field, and with it the winding of the vertices.
+  options.alignmentWeight = 1;
+  // Equations without constants let a map shrink to a point; the area term keeps it from that.
+  options.areaWeight = 1;
+  options.polishSteps = 4;
+  options.progress = progress;
+  return options;
+}
+
+FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
+  const UntangleProblem& problem, const std::vector<Eigen::VectorXd>& starts, int rounds,
+  const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
+  const ProgressCallback& progress)
+{
+  FieldUntangling best;
+  const UntangleOptions options = fieldUntangleOptions(progress);
+  UntangleProblem stiffened = problem;
+  const int attempts = static_cast<int>(starts.size()) + rounds;
+  for (int i = 0; i < attempts; ++i)
+  {
+    const bool given = i < static_cast<int>(starts.size());
+    if (!given)
+    {
+      stiffen(mesh, best.defects, stiffened.weight);
+    }
+    UntangleResult attempt =
+      untangle(stiffened, given ? starts[i] : fitReferences(stiffened), options);
+    best.newtonSteps += attempt.steps;
+    if (!given && findDefects(mesh, field, snap(attempt.y)).none())
+    {
+      // From a valid map no vertex can change its winding any more, whatever the weights.
+      attempt = untangle(problem, attempt.y, options);
+      best.newtonSteps += attempt.steps;
+    }
+    std::vector<FixedVec2> uv = snap(attempt.y);
+    MapDefects defects = findDefects(mesh, field, uv);
+    if (i == 0 || defects.count() < best.defects.count())
+    {
+      best.defects = std::move(defects);
+      best.uv = std::move(uv);
+    }
+    if (best.defects.none())
+    {
+      break;
+    }
+  }
+  return best;
+}
+
+} // namespace quadrille

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Untangling until a map winds like its field everywhere; shared by the seamless map and the re-embedding.
+#pragma once
+
+#include "GridMap/MapCheck.h"
+#include "Numerics/Untangler.h"
+
+#include <functional>
+#include <vector>
+
+namespace quadrille
+{
+
+/// The options of all maps that follow a field.
+UntangleOptions fieldUntangleOptions(const ProgressCallback& progress);
+
+struct FieldUntangling
+{
+  std::vector<FixedVec2> uv; ///< of the attempt with the fewest defects
+  MapDefects defects;
+  int newtonSteps = 0;
+};
+
+/// Tries the starts in turn. Seams fix the winding of a vertex modulo 4 only, so a start that is inverted there
+/// may end with a wrong one: then the references are fitted again with more weight round it [stiffening of
+/// Bommes et al. 2009], at most `rounds` times, until it winds rightly from the start. snap rounds
+/// unknowns to a map. The first triangles of the problem are the faces.
+FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
+  const UntangleProblem& problem, const std::vector<Eigen::VectorXd>& starts, int rounds,
+  const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
+  const ProgressCallback& progress);
+
+} // namespace quadrille
