@@ -20,8 +20,9 @@ namespace quadrille
 /// Bits of Mesh::flags.
 enum HalfEdgeFlag : std::uint8_t
 {
-  kFeatureEdge = 1,     ///< set on both half-edges of a feature edge; boundary edges need no flag
-  kRequestedFeature = 2 ///< the user asked for this feature; without it, the dihedral angle alone did
+  kFeatureEdge = 1, ///< set on both half-edges of a feature edge; boundary edges need no flag
+  kRequestedFeature =
+    2 ///< the user asked for this feature; without it, the dihedral angle alone did
 };
 
 struct Mesh
