@@ -22,13 +22,31 @@ namespace
 
 /// Rings of faces round the inverted ones, in the order of the attempts.
 constexpr std::array<int, 4> kGrowth{ 2, 4, 8, 16 };
-constexpr std::size_t kMaximumPatchFaces = 30000;
-/// Faces in all patches that are tried, besides a tenth of the mesh.
-constexpr std::size_t kMaximumWork = 50000;
+constexpr std::size_t kMaximumPatchFaces = 10000;
+/// Faces times steps of the untangler: of one try, and of all tries besides half the faces of the mesh.
+constexpr std::size_t kWorkPerTry = 200000;
+constexpr std::size_t kMaximumWork = 1000000;
+constexpr std::size_t kLeastSteps = 30;
+constexpr std::size_t kMostSteps = 250;
 /// References flatter than this (2 area / longest edge squared) are replaced by equilateral ones.
 constexpr double kFlattestReference = 0.1;
 /// A patch vertex with more faces than this stays where it is.
 constexpr std::size_t kMaximumFan = 256;
+
+/// Which shapes the untangler aims at: those of the surface, or, where slivers keep it from converging, the same
+/// for all triangles.
+enum class Reference
+{
+  Surface,
+  Equilateral
+};
+
+Eigen::Matrix2d equilateral(double side)
+{
+  Eigen::Matrix2d edges;
+  edges << side, 0.5 * side, 0, 0.8660254037844386 * side;
+  return edges;
+}
 
 /// How a vertex of a patch may move.
 enum class Freedom
@@ -64,7 +82,7 @@ private:
   }
   std::vector<Index> findNotPositive() const;
   std::vector<Index> findSeeds() const;
-  bool mendAround(Index seed);
+  bool mendAround(Index seed, int rings);
   void collectCluster(Index seed);
   void growPatch();
   void addFacesAround(Index corner);
@@ -76,9 +94,9 @@ private:
   void addFan(Index corner);
   bool walkFan(Index corner, std::vector<FanCorner>& fan, bool& interior) const;
   Freedom freedomOf(const std::vector<FanCorner>& fan, bool interior, bool closes) const;
-  UntangleProblem makeProblem() const;
+  UntangleProblem makeProblem(Reference reference) const;
   Eigen::Matrix2d inverseReference(Index f, double scale) const;
-  double referenceScale() const;
+  double referenceScale(double& imageArea) const;
   void applyDisplacements(const Eigen::VectorXd& y);
 
   struct PatchVertex
@@ -95,12 +113,12 @@ private:
   const std::vector<int>& expectedTurns_;
   std::vector<std::uint8_t> inPatch_;
   std::vector<std::uint8_t> seenVertex_;
-  std::vector<std::uint8_t> tried_; ///< bad faces that were in a cluster already
+  std::vector<std::uint8_t> tried_; ///< faces that were in a cluster of this growth, or touched one
   std::vector<Index> patch_;        ///< faces, sorted
   std::vector<PatchVertex> vertices_;
   std::vector<FanCorner> fans_;
   int unknowns_ = 0;
-  std::size_t work_ = 0; ///< faces of all patches tried
+  std::size_t work_ = 0; ///< faces times steps of all tries
 };
 
 /// All corners of the vertex of `corner`, counterclockwise, for a boundary vertex from its boundary half-edge on.
@@ -134,18 +152,24 @@ bool collectCorners(const Mesh& mesh, Index corner, std::vector<Index>& corners,
 
 MendResult PatchMender::run(const ProgressCallback& progress)
 {
+  // Small patches of all places come first, so that a hopeless place does not use up the work of the others.
   MendResult result;
-  const std::vector<Index> bad = findSeeds();
-  const std::size_t limit = kMaximumWork + mesh_.faceCount() / 10;
-  for (std::size_t i = 0; i < bad.size() && work_ < limit; ++i)
+  std::vector<Index> seeds = findSeeds();
+  const std::size_t limit = kMaximumWork + mesh_.faceCount() / 2;
+  for (std::size_t growth = 0; growth < kGrowth.size() && !seeds.empty(); ++growth)
   {
-    report(progress, double(i) / double(bad.size()), "mending the map");
-    if (tried_[bad[i]] == 0)
+    std::fill(tried_.begin(), tried_.end(), std::uint8_t{ 0 });
+    for (const Index f : seeds)
     {
-      result.patches += mendAround(bad[i]) ? 1U : 0U;
+      report(progress, double(growth) / double(kGrowth.size()), "mending the map");
+      if (work_ < limit && tried_[f] == 0)
+      {
+        result.patches += mendAround(f, kGrowth[growth]) ? 1U : 0U;
+      }
     }
+    seeds = findSeeds();
   }
-  result.notPositive = bad.empty() ? 0 : findNotPositive().size();
+  result.notPositive = seeds.empty() ? 0 : findNotPositive().size();
   return result;
 }
 
@@ -188,31 +212,22 @@ std::vector<Index> PatchMender::findSeeds() const
   return seeds;
 }
 
-bool PatchMender::mendAround(Index seed)
+bool PatchMender::mendAround(Index seed, int rings)
 {
-  bool improved = false;
   collectCluster(seed);
-  for (const Index f : patch_)
+  for (int i = 0; i < rings; ++i)
   {
-    tried_[f] = 1;
-  }
-  int rings = 0;
-  for (const int wanted : kGrowth)
-  {
-    for (; rings < wanted; ++rings)
+    growPatch();
+    if (i == 0)
     {
-      growPatch();
-    }
-    if (patch_.size() > kMaximumPatchFaces)
-    {
-      break;
-    }
-    improved = embedPatch() || improved;
-    if (countDefectsInPatch() == 0)
-    {
-      break;
+      // What touches the cluster need not be tried again; a wrong winding has no inverted face to begin with.
+      for (const Index f : patch_)
+      {
+        tried_[f] = 1;
+      }
     }
   }
+  const bool improved = patch_.size() <= kMaximumPatchFaces && embedPatch();
   for (const Index f : patch_)
   {
     inPatch_[f] = 0;
@@ -329,19 +344,28 @@ Eigen::VectorXd harmonicStart(const UntangleProblem& problem)
 
 bool PatchMender::embedPatch()
 {
-  work_ += patch_.size();
   collectFans();
   if (unknowns_ == 0)
   {
     return false;
   }
-  const bool improved = embedFrom(makeProblem(), Eigen::VectorXd::Zero(unknowns_));
-  if (improved && countDefectsInPatch() == 0)
+  if (countDefectsInPatch() == 0)
   {
-    return true;
+    return false; // mended as part of another patch
   }
-  const UntangleProblem problem = makeProblem();
-  return embedFrom(problem, harmonicStart(problem)) || improved;
+  const UntangleProblem problem = makeProblem(Reference::Surface);
+  bool improved = embedFrom(problem, Eigen::VectorXd::Zero(unknowns_));
+  if (countDefectsInPatch() > 0)
+  {
+    const UntangleProblem again = improved ? makeProblem(Reference::Surface) : problem;
+    improved = embedFrom(again, harmonicStart(again)) || improved;
+  }
+  if (countDefectsInPatch() > 0)
+  {
+    const UntangleProblem even = makeProblem(Reference::Equilateral);
+    improved = embedFrom(even, harmonicStart(even)) || improved;
+  }
+  return improved;
 }
 
 bool PatchMender::embedFrom(const UntangleProblem& problem, const Eigen::VectorXd& start)
@@ -353,8 +377,10 @@ bool PatchMender::embedFrom(const UntangleProblem& problem, const Eigen::VectorX
     saved.insert(saved.end(), { uv_[3 * f], uv_[3 * f + 1], uv_[3 * f + 2] });
   }
   UntangleOptions options;
-  options.maximumSteps = 60;
+  options.maximumSteps =
+    static_cast<int>(std::clamp(kWorkPerTry / patch_.size(), kLeastSteps, kMostSteps));
   const UntangleResult result = untangle(problem, start, options);
+  work_ += patch_.size() * static_cast<std::size_t>(result.steps);
   applyDisplacements(result.y);
   if (result.y.allFinite() && countDefectsInPatch() < before)
   {
@@ -488,12 +514,15 @@ Vector2 direction(bool alongU, int rotation)
   return { static_cast<double>(d.u), static_cast<double>(d.v) };
 }
 
-UntangleProblem PatchMender::makeProblem() const
+UntangleProblem PatchMender::makeProblem(Reference reference) const
 {
   // A point per corner, relative to its face's first corner: only differences inside a face matter.
   UntangleProblem problem;
   const int points = 3 * static_cast<int>(patch_.size());
-  const double scale = referenceScale();
+  double imageArea = 0;
+  const double scale = referenceScale(imageArea);
+  const Eigen::Matrix2d uniform =
+    equilateral(std::sqrt(imageArea / (0.433 * static_cast<double>(patch_.size())))).inverse();
   problem.offset = Eigen::VectorXd::Zero(2 * points);
   std::vector<Eigen::Triplet<double>> entries;
   const auto pointOf = [&](Index corner)
@@ -506,7 +535,8 @@ UntangleProblem PatchMender::makeProblem() const
     const Index f = patch_[i];
     const Index point = static_cast<Index>(3 * i);
     problem.triangles.push_back({ point, point + 1, point + 2 });
-    problem.inverseReference.push_back(inverseReference(f, scale));
+    problem.inverseReference.push_back(
+      reference == Reference::Surface ? inverseReference(f, scale) : uniform);
     problem.weight.push_back(0.5 / std::abs(problem.inverseReference.back().determinant()));
     for (Index k = 0; k < 3; ++k)
     {
@@ -537,7 +567,7 @@ UntangleProblem PatchMender::makeProblem() const
   return problem;
 }
 
-double PatchMender::referenceScale() const
+double PatchMender::referenceScale(double& imageArea) const
 {
   // So that the references have as much area as the image: the area of the image does not change, as its
   // border stays.
@@ -550,6 +580,7 @@ double PatchMender::referenceScale() const
     const Vector2 b = toDouble(uv_[3 * f + 2] - uv_[3 * f]);
     image += 0.5 * (a.x() * b.y() - a.y() * b.x());
   }
+  imageArea = image > 0 ? image : std::max(area, 1e-12);
   return area > 0 && image > 0 ? std::sqrt(image / area) : 1.0;
 }
 
@@ -568,8 +599,7 @@ Eigen::Matrix2d PatchMender::inverseReference(Index f, double scale) const
   else
   {
     // A tenth of the longest edge keeps the weight of a sliver small without letting it vanish.
-    const double side = 0.1 * std::sqrt(std::max(longest, 1e-12));
-    reference << side, 0.5 * side, 0, 0.8660254037844386 * side;
+    reference = equilateral(0.1 * std::sqrt(std::max(longest, 1e-12)));
   }
   return reference.inverse();
 }
