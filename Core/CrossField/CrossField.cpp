@@ -4,6 +4,7 @@
 
 #include "CrossField/FieldTopology.h"
 #include "CrossField/PowerField.h"
+#include "CrossField/TurnCosts.h"
 #include "CrossField/TurnRepair.h"
 #include "CrossField/TurnTargets.h"
 #include "CrossField/Turns.h"
@@ -65,33 +66,38 @@ std::string fanProblem(const Fan& fan, int turns)
   return {};
 }
 
-Status turnStatus(const FieldTopology& topology, const std::vector<int>& turns)
+// Fills status and offenders.
+void judgeTurns(const FieldTopology& topology, const std::vector<int>& turns,
+  const std::vector<std::uint8_t>& blocked, CrossField& field)
 {
-  Status status;
-  std::size_t count = 0;
   for (std::size_t i = 0; i < turns.size(); ++i)
   {
-    const std::string problem = fanProblem(topology.fans[i], turns[i]);
+    std::string problem = fanProblem(topology.fans[i], turns[i]);
+    if (problem.empty() && !blocked.empty() && blocked[i] != 0)
+    {
+      problem = "triangles around it that cannot carry the turns";
+    }
     if (problem.empty())
     {
       continue;
     }
-    if (count++ == 0)
+    if (field.offenders.empty())
     {
-      status.code = StatusCode::Infeasible;
-      status.message = "cross field: vertex " + std::to_string(topology.fans[i].vertex) + " has " +
-        problem + (topology.fans[i].sector ? " between two constrained edges" : "");
+      field.status.code = StatusCode::Infeasible;
+      field.status.message = "cross field: vertex " + std::to_string(topology.fans[i].vertex) +
+        " has " + problem + (topology.fans[i].sector ? " between two constrained edges" : "");
     }
+    field.offenders.push_back(topology.fans[i].vertex);
   }
-  if (count > 1)
+  if (field.offenders.size() > 1)
   {
-    status.message += " (and " + std::to_string(count - 1) + " more such places)";
+    field.status.message +=
+      " (and " + std::to_string(field.offenders.size() - 1) + " more such places)";
   }
-  if (count > 0)
+  if (!field.offenders.empty())
   {
-    status.message += "; more coarse vertices or fewer features there would help";
+    field.status.message += "; more coarse vertices or fewer features there would help";
   }
-  return status;
 }
 
 void storeTurns(
@@ -110,33 +116,40 @@ void storeTurns(
   }
 }
 
-// Shifts the jumps until every fan's turns can be mapped; returns the turns.
-std::vector<int> repairJumps(const Mesh& mesh, const FieldTopology& topology,
-  const FieldConstraints& constraints, const std::vector<double>& angle, double length,
-  std::vector<int>& jump)
+// What turn repair reads, for given jumps.
+struct RepairData
 {
-  const std::vector<int> turns = countTurns(mesh, topology, constraints, angle, jump);
-  const std::vector<double> natural = naturalTurns(topology, length);
-  std::vector<double> residual;
-  for (const std::array<Index, 2>& edge : topology.edges)
+  std::vector<double> residual; // per topology edge
+  std::vector<int> turns;       // per fan
+
+  RepairData(const Mesh& mesh, const FieldTopology& topology, const FieldConstraints& constraints,
+    const std::vector<double>& angle, const std::vector<int>& jump)
+    : turns(countTurns(mesh, topology, constraints, angle, jump))
   {
-    residual.push_back(edgeResidual(topology, angle, mesh, edge[0], jump[edge[0]]));
+    for (const std::array<Index, 2>& edge : topology.edges)
+    {
+      residual.push_back(edgeResidual(topology, angle, mesh, edge[0], jump[edge[0]]));
+    }
   }
-  const TurnRepairResult repair = repairTurns({ &topology, &residual, &turns, &natural, length });
+};
+
+void applyShift(
+  const FieldTopology& topology, const std::vector<int>& shift, std::vector<int>& jump)
+{
   for (std::size_t e = 0; e < topology.edges.size(); ++e)
   {
-    jump[topology.edges[e][0]] += repair.shift[e];
-    jump[topology.edges[e][1]] -= repair.shift[e];
+    jump[topology.edges[e][0]] += shift[e];
+    jump[topology.edges[e][1]] -= shift[e];
   }
-  return repair.turns;
 }
 
 // Angles with jumps whose turns can be mapped.
 struct Solution
 {
-  std::vector<double> angle; // #F
-  std::vector<int> jump;     // #H
-  std::vector<int> turns;    // per fan
+  std::vector<double> angle;         // #F
+  std::vector<int> jump;             // #H
+  std::vector<int> turns;            // per fan
+  std::vector<std::uint8_t> blocked; // per fan: no angles exist; empty when all do
 };
 
 // Irregular vertices in each component without constraints.
@@ -180,12 +193,17 @@ void adopt(const FieldTopology& topology, const PowerFields& fields,
 Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
   const FieldConstraints& constraints, const PowerFields& fields, double length)
 {
+  const std::vector<double> natural = naturalTurns(topology, length);
   Solution best;
   std::vector<std::size_t> fewest;
   for (const std::vector<double>& candidate : fields.candidates)
   {
-    Solution solution{ candidate, roundJumps(mesh, topology, candidate), {} };
-    solution.turns = repairJumps(mesh, topology, constraints, candidate, length, solution.jump);
+    Solution solution{ candidate, roundJumps(mesh, topology, candidate), {}, {} };
+    const RepairData data(mesh, topology, constraints, candidate, solution.jump);
+    const TurnRepairResult repair =
+      repairTurns({ &topology, &data.residual, &data.turns, &natural, length });
+    applyShift(topology, repair.shift, solution.jump);
+    solution.turns = repair.turns;
     if (best.angle.empty())
     {
       best = std::move(solution);
@@ -200,6 +218,13 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
     }
     adopt(topology, fields, better, solution, best);
   }
+
+  const RepairData data(mesh, topology, constraints, best.angle, best.jump);
+  TurnRepairResult complete{ std::vector<int>(topology.edges.size(), 0), best.turns };
+  best.blocked =
+    completeTurns(mesh, { &topology, &data.residual, &data.turns, &natural, length }, complete);
+  applyShift(topology, complete.shift, best.jump);
+  best.turns = complete.turns;
   return best;
 }
 
@@ -224,7 +249,7 @@ CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options)
   field.alignment = constraints.alignment;
   field.matching = matchings(mesh, field.alignment, solution.jump);
   storeTurns(mesh, topology, solution.turns, field);
-  field.status = turnStatus(topology, solution.turns);
+  judgeTurns(topology, solution.turns, solution.blocked, field);
   report(options.progress, 1.0, "cross field: done");
   return field;
 }

@@ -42,10 +42,14 @@ struct CrossField
   std::vector<int> turns;
 
   Status status;
+  /// Vertices around which the mesh cannot carry the turns; empty when the status is ok. One vertex may
+  /// stand here for several of its sectors.
+  std::vector<Index> offenders;
 };
 
 /// Computes the field. Never makes an interior valence below 3 or above 6 or a sector below one quarter
-/// turn unless topology forces it; then the status says where.
+/// turn unless topology forces it; then the status says where. Ok also means that positive angles exist in all
+/// triangles that add up to the turns of every fan, without which no map could follow the field.
 CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options);
 
 /// Vertices whose position in the map must be an integer point: interior ones with turns != 4, and

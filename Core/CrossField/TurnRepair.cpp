@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossField/TurnRepair.h"
 
+#include "CrossField/TurnCosts.h"
 #include "Numerics/MinCostFlow.h"
 
 #include <algorithm>
@@ -12,47 +13,12 @@ namespace quadrille
 namespace
 {
 
-constexpr double kQuarter = 1.57079632679489661923;
-
-// Costs are in units of "moving a quarter turn by s through a field at rest".
-constexpr double kIrregular = 1.0; // an irregular vertex: a pair closer than about 2 s vanishes
-constexpr double kBend = 0.25;     // a sector that is not straight
-constexpr double kUnnatural = 2.0; // squared difference of a sector's turns to the natural ones
-constexpr double kRare = 1e3;      // valence 2 and 6
-constexpr double kForbidden = 1e5; // beyond, and what no map can realize
-constexpr int kEdgeSteps = 2;      // shifts of one edge either way
-constexpr int kNodeSteps = 4;      // changes of one fan's turns either way
+constexpr int kEdgeSteps = 2; // shifts of one edge either way
+constexpr int kNodeSteps = 4; // changes of one fan's turns either way
 
 std::int64_t integerCost(double cost)
 {
   return std::llround(cost * 1024);
-}
-
-// Cost of a fan with so many quarter turns.
-double fanCost(const Fan& fan, double natural, int turns)
-{
-  const int limit = turnLimit(fan);
-  double cost = kForbidden * (std::max(0, 1 - turns) + std::max(0, turns - limit));
-  if (fan.sector)
-  {
-    return cost + kUnnatural * (turns - natural) * (turns - natural) + kBend * std::abs(turns - 2);
-  }
-  const int away = std::abs(turns - 4);
-  cost += kIrregular * std::min(away, 1) + kRare * std::max(away - 1, 0);
-  return cost + kForbidden * std::max(away - 2, 0);
-}
-
-int cheapestTurns(const Fan& fan, double natural)
-{
-  int best = fan.sector ? 2 : 4;
-  for (const int step : { 1, -1 })
-  {
-    while (fanCost(fan, natural, best + step) < fanCost(fan, natural, best))
-    {
-      best += step;
-    }
-  }
-  return best;
 }
 
 // Nodes are fans; the last one (the hub) takes up what fans deviate from their cheapest turns. Its
@@ -90,7 +56,6 @@ public:
         shift -= static_cast<int>(flow_.flow(arc++));
       }
       result.shift.push_back(shift);
-      result.changedEdges += shift != 0 ? 1 : 0;
       result.turns[input_.topology->fanOfCorner[edge[1]]] -= shift;
       result.turns[input_.topology->fanOfCorner[edge[0]]] += shift;
     }
@@ -125,13 +90,10 @@ private:
     const std::array<Index, 2>& edge = input_.topology->edges[e];
     const Index head = input_.topology->fanOfCorner[edge[1]];
     const Index tail = input_.topology->fanOfCorner[edge[0]];
-    const double weight = input_.topology->edgeLength[edge[0]] / input_.length;
-    const double residual = (*input_.residual)[e] / kQuarter;
-    // (residual - shift)^2 - residual^2, step by step.
     for (int step = 0; step < kEdgeSteps; ++step)
     {
-      addArc(head, tail, weight * (2 * step + 1 - 2 * residual));
-      addArc(tail, head, weight * (2 * step + 1 + 2 * residual));
+      addArc(head, tail, shiftCost(input_, e, step, 1));
+      addArc(tail, head, shiftCost(input_, e, -step, -1));
     }
   }
 
@@ -149,11 +111,6 @@ private:
 };
 
 } // namespace
-
-int turnLimit(const Fan& fan)
-{
-  return 2 * static_cast<int>(fan.corners) - 1;
-}
 
 TurnRepairResult repairTurns(const TurnRepairInput& input)
 {

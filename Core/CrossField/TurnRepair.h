@@ -24,7 +24,6 @@ struct TurnRepairResult
 {
   std::vector<int> shift; ///< per topology edge: what to add to the jump of edges[i][0]
   std::vector<int> turns; ///< per fan, afterwards
-  std::size_t changedEdges = 0;
 };
 
 /// Minimizes, over integer shifts of the jumps, the growth of the squared residuals (weighted by
@@ -32,8 +31,9 @@ struct TurnRepairResult
 /// edges[i][0] points to, to the one it leaves.
 TurnRepairResult repairTurns(const TurnRepairInput& input);
 
-/// The largest number of quarter turns that a fan of so many triangles can carry: each corner stays
-/// below half a turn.
-int turnLimit(const Fan& fan);
+/// Afterwards moves single turns, as cheaply as it can, until an angle structure exists or no move helps. Returns
+/// the fans that stay in the way (#fans flags), empty on success.
+std::vector<std::uint8_t> completeTurns(
+  const Mesh& mesh, const TurnRepairInput& input, TurnRepairResult& result);
 
 } // namespace quadrille

@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CrossField/AngleStructure.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace quadrille
+{
+namespace
+{
+
+// Angles are integers, so that the answer is exact.
+constexpr std::int64_t kQuarterTurn = 360;
+constexpr std::int64_t kSmallest = 4; // one degree
+
+// Nodes are triangles, then fans. A triangle above half a turn passes angle on: it lowers its corner at a fan, which raises
+// the corner of another triangle there, until a triangle below half a turn takes it.
+class AngleTransport
+{
+public:
+  AngleTransport(const Mesh& mesh, const FieldTopology& topology, const std::vector<int>& turns)
+    : topology_(topology), faces_(mesh.faceCount()),
+      nodes_(faces_ + static_cast<Index>(topology.fans.size())), angle_(mesh.halfEdgeCount()),
+      surplus_(faces_, -2 * kQuarterTurn)
+  {
+    groupCorners();
+    for (Index i = 0; i < turns.size(); ++i)
+    {
+      spreadTurns(i, turns[i]);
+    }
+    for (Index h = 0; h < angle_.size(); ++h)
+    {
+      surplus_[Mesh::face(h)] += angle_[h];
+    }
+  }
+
+  // False when a fan is too small even for the smallest angles.
+  bool fansFit() const { return fit_; }
+
+  void solve()
+  {
+    while (buildLevels())
+    {
+      next_.assign(nodes_, 0);
+      for (Index f = 0; f < faces_; ++f)
+      {
+        while (surplus_[f] > 0 && pushFrom(f))
+        {
+        }
+      }
+    }
+  }
+
+  bool balanced() const
+  {
+    return std::all_of(surplus_.begin(), surplus_.end(), [](std::int64_t s) { return s == 0; });
+  }
+
+  // Nodes that surplus reaches (forward), or from which a deficit is reached.
+  std::vector<std::uint8_t> reached(bool forward) const
+  {
+    std::vector<std::uint8_t> seen(nodes_, 0);
+    std::vector<Index> queue;
+    for (Index f = 0; f < faces_; ++f)
+    {
+      if (forward ? surplus_[f] > 0 : surplus_[f] < 0)
+      {
+        seen[f] = 1;
+        queue.push_back(f);
+      }
+    }
+    for (std::size_t i = 0; i < queue.size(); ++i)
+    {
+      const Index node = queue[i];
+      for (Index k = 0; k < degree(node); ++k)
+      {
+        const Index corner = cornerOf(node, k);
+        const Index other = otherEnd(node, corner);
+        // Angle leaves a triangle only where its corner can shrink; it may enter anywhere.
+        const bool leaving = (node < faces_) == forward;
+        if (seen[other] == 0 && (!leaving || angle_[corner] > kSmallest))
+        {
+          seen[other] = 1;
+          queue.push_back(other);
+        }
+      }
+    }
+    return { seen.begin() + faces_, seen.end() };
+  }
+
+private:
+  Index degree(Index node) const
+  {
+    return node < faces_ ? 3 : firstCorner_[node - faces_ + 1] - firstCorner_[node - faces_];
+  }
+  Index cornerOf(Index node, Index k) const
+  {
+    return node < faces_ ? 3 * node + k : corners_[firstCorner_[node - faces_] + k];
+  }
+  Index otherEnd(Index node, Index corner) const
+  {
+    return node < faces_ ? faces_ + topology_.fanOfCorner[corner] : Mesh::face(corner);
+  }
+
+  void groupCorners()
+  {
+    firstCorner_.assign(topology_.fans.size() + 1, 0);
+    for (std::size_t i = 0; i < topology_.fans.size(); ++i)
+    {
+      firstCorner_[i + 1] = firstCorner_[i] + topology_.fans[i].corners;
+    }
+    corners_.resize(angle_.size());
+    std::vector<Index> next(firstCorner_.begin(), firstCorner_.end() - 1);
+    for (Index h = 0; h < angle_.size(); ++h)
+    {
+      corners_[next[topology_.fanOfCorner[h]]++] = h;
+    }
+  }
+
+  // Starts from the surface's own angles, scaled to the turns: most triangles are then nearly right.
+  void spreadTurns(Index i, int turns)
+  {
+    const Fan& fan = topology_.fans[i];
+    std::int64_t left = kQuarterTurn * turns - kSmallest * fan.corners;
+    fit_ = fit_ && left >= 0;
+    left = std::max<std::int64_t>(left, 0);
+    double angleLeft = fan.angle;
+    for (Index k = firstCorner_[i]; k < firstCorner_[i + 1]; ++k)
+    {
+      const double own = topology_.cornerAngle[corners_[k]];
+      const double share = angleLeft > 0 ? std::min(1.0, own / angleLeft) : 1.0;
+      const std::int64_t part = k + 1 == firstCorner_[i + 1]
+        ? left
+        : static_cast<std::int64_t>(share * static_cast<double>(left));
+      angle_[corners_[k]] = kSmallest + part;
+      left -= part;
+      angleLeft -= own;
+    }
+  }
+
+  // Distances from triangles with surplus; whether a triangle with a deficit is reached.
+  bool buildLevels()
+  {
+    level_.assign(nodes_, kInvalidIndex);
+    std::vector<Index> queue;
+    for (Index f = 0; f < faces_; ++f)
+    {
+      if (surplus_[f] > 0)
+      {
+        level_[f] = 0;
+        queue.push_back(f);
+      }
+    }
+    bool found = false;
+    for (std::size_t i = 0; i < queue.size(); ++i)
+    {
+      const Index node = queue[i];
+      found = found || (node < faces_ && surplus_[node] < 0);
+      for (Index k = 0; k < degree(node); ++k)
+      {
+        const Index corner = cornerOf(node, k);
+        const Index other = otherEnd(node, corner);
+        if (level_[other] == kInvalidIndex && (node >= faces_ || angle_[corner] > kSmallest))
+        {
+          level_[other] = level_[node] + 1;
+          queue.push_back(other);
+        }
+      }
+    }
+    return found;
+  }
+
+  // One augmenting path in the level graph from triangle f; false when there is none left.
+  bool pushFrom(Index f)
+  {
+    path_.clear();
+    Index node = f;
+    while (!(node < faces_ && surplus_[node] < 0))
+    {
+      if (next_[node] < degree(node))
+      {
+        const Index corner = cornerOf(node, next_[node]);
+        const Index other = otherEnd(node, corner);
+        if (level_[other] == level_[node] + 1 && (node >= faces_ || angle_[corner] > kSmallest))
+        {
+          path_.push_back(corner);
+          node = other;
+          continue;
+        }
+        ++next_[node];
+        continue;
+      }
+      if (path_.empty())
+      {
+        return false;
+      }
+      // Dead end: back up, and past the arc that led here.
+      node = otherEnd(node, path_.back());
+      path_.pop_back();
+      ++next_[node];
+    }
+    std::int64_t amount = std::min(surplus_[f], -surplus_[node]);
+    for (std::size_t i = 0; i < path_.size(); i += 2)
+    {
+      amount = std::min(amount, angle_[path_[i]] - kSmallest);
+    }
+    for (std::size_t i = 0; i < path_.size(); ++i)
+    {
+      angle_[path_[i]] += i % 2 == 0 ? -amount : amount;
+    }
+    surplus_[f] -= amount;
+    surplus_[node] += amount;
+    return true;
+  }
+
+  const FieldTopology& topology_;
+  Index faces_;
+  Index nodes_;
+  std::vector<std::int64_t> angle_;   // #H
+  std::vector<std::int64_t> surplus_; // #F, over half a turn
+  std::vector<Index> firstCorner_;    // #fans + 1
+  std::vector<Index> corners_;        // #H, by fan
+  std::vector<Index> level_;          // #nodes
+  std::vector<Index> next_;           // #nodes, next arc to try
+  std::vector<Index> path_;           // corners; even ones shrink, odd ones grow
+  bool fit_ = true;
+};
+
+} // namespace
+
+AngleStructure findAngleStructure(
+  const Mesh& mesh, const FieldTopology& topology, const std::vector<int>& turns)
+{
+  AngleTransport transport(mesh, topology, turns);
+  transport.solve();
+  AngleStructure result;
+  if (transport.fansFit() && transport.balanced())
+  {
+    return result;
+  }
+  result.feasible = false;
+  result.tooMany = transport.reached(true);
+  result.tooFew = transport.reached(false);
+  return result;
+}
+
+} // namespace quadrille
