@@ -15,6 +15,7 @@ constexpr double kQuarter = 1.57079632679489661923;
 constexpr double kIrregular = 1.0; // an irregular vertex: a pair closer than about 2 s vanishes
 constexpr double kBend = 0.25;     // a sector that is not straight
 constexpr double kUnnatural = 2.0; // squared difference of a sector's turns to the natural ones
+constexpr double kCone = 0.1;      // the same inside; weak, because scans are full of small cones
 constexpr double kRare = 1e3;      // valence 2 and 6
 
 } // namespace
@@ -33,7 +34,8 @@ double fanCost(const Fan& fan, double natural, int turns)
     return cost + kUnnatural * (turns - natural) * (turns - natural) + kBend * std::abs(turns - 2);
   }
   const int away = std::abs(turns - 4);
-  cost += kIrregular * std::min(away, 1) + kRare * std::max(away - 1, 0);
+  cost += kCone * (turns - natural) * (turns - natural) + kIrregular * std::min(away, 1) +
+    kRare * std::max(away - 1, 0);
   return cost + kForbiddenTurn * std::max(away - 2, 0);
 }
 

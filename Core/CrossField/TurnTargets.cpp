@@ -11,6 +11,9 @@ namespace
 {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kNoise = kPi / 3; // turns up to here can be noise,
+constexpr double kSharp =
+  kPi / 2; // from here on they are the shape's own, like the steps of a part
 
 // Walking along the border of the faces on the left, sector after sector.
 struct BorderWalk
@@ -73,18 +76,20 @@ std::vector<double> naturalTurns(const FieldTopology& topology, double window)
   {
     turn[i] = topology.fans[i].sector ? topology.fans[i].angle - kPi : 0.0;
   }
-  std::vector<double> natural(turn.size(), 4.0);
+  std::vector<double> natural(turn.size());
   for (Index i = 0; i < turn.size(); ++i)
   {
     if (!topology.fans[i].sector)
     {
+      natural[i] = topology.fans[i].angle / (0.5 * kPi);
       continue;
     }
     const double smooth = windowedTurn(topology, walk, turn, i, window);
     const double kept = turn[i] * smooth > 0
       ? std::copysign(std::min(std::abs(turn[i]), std::abs(smooth)), turn[i])
       : 0.0;
-    natural[i] = 2 + kept / (0.5 * kPi);
+    const double sharp = std::clamp((std::abs(turn[i]) - kNoise) / (kSharp - kNoise), 0.0, 1.0);
+    natural[i] = 2 + (sharp * turn[i] + (1 - sharp) * kept) / (0.5 * kPi);
   }
   return natural;
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// What the quarter turns of each fan should be: the geometry's own wish per sector, free of zigzag.
+/// What the quarter turns of each fan should be: the geometry's own wish, free of zigzag.
 #pragma once
 
 #include "CrossField/FieldTopology.h"
@@ -10,9 +10,9 @@
 namespace quadrille
 {
 
-/// Quarter turns that the surface itself makes in each sector (a real number; 4 for whole rings). The angle a
-/// sector adds to its border curve counts only as far as the curve, seen over `window` to either
-/// side, turns the same way: noise that turns left and right again within the window is straight.
+/// Quarter turns that the surface itself makes in each fan (a real number). The angle that a sector
+/// adds to its border curve counts only as far as the curve, seen over `window` to either side, turns the
+/// same way: noise that turns left and right again within the window is straight. A sharp angle always counts.
 std::vector<double> naturalTurns(const FieldTopology& topology, double window);
 
 } // namespace quadrille

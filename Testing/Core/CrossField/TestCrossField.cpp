@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CrossField/AngleStructure.h"
 #include "CrossField/CrossField.h"
 #include "CrossField/PowerField.h"
 #include "CrossField/TurnRepair.h"
@@ -360,6 +361,96 @@ TEST(CrossField, RepairMakesAnyJumpsRealizable)
     EXPECT_GE(t, 3);
     EXPECT_LE(t, 5);
   }
+}
+
+// Turns per fan as the field stores them.
+std::vector<int> turnsOf(const FieldTopology& topology, const CrossField& field)
+{
+  std::vector<int> turns;
+  for (const Fan& fan : topology.fans)
+  {
+    turns.push_back(fan.sector ? field.sectorTurns[fan.first] : field.turns[fan.vertex]);
+  }
+  return turns;
+}
+
+// A 4 x 4 plate with a flat bump on its upper side, closed off by the chord a-d:
+//
+//        b-------c
+//      /   \ e /   \       e is joined to a, b, c, d
+//    a------------d
+Mesh plateWithEar()
+{
+  const Mesh plate = gridPlane(4, 4);
+  std::vector<Vector3> points = plate.position;
+  const auto find = [&](double x, double y)
+  {
+    return static_cast<Index>(
+      std::find(points.begin(), points.end(), Vector3(x, y, 0)) - points.begin());
+  };
+  const Index a = find(1, 4), d = find(2, 4), b = plate.vertexCount(), c = b + 1, e = b + 2;
+  points.insert(
+    points.end(), { Vector3(1.3, 4.1, 0), Vector3(1.7, 4.1, 0), Vector3(1.5, 4.05, 0) });
+  std::vector<Triangle> triangles;
+  for (Index f = 0; f < plate.faceCount(); ++f)
+  {
+    triangles.push_back({ plate.origin[3 * f], plate.origin[3 * f + 1], plate.origin[3 * f + 2] });
+  }
+  triangles.insert(triangles.end(), { { a, d, e }, { d, c, e }, { c, b, e }, { b, a, e } });
+  return makeMesh(std::move(points), triangles);
+}
+
+TEST(AngleStructure, ChordOfAStraightBorderIsFoundAndGetsACorner)
+{
+  const Mesh mesh = plateWithEar();
+  const FieldTopology topology = buildFieldTopology(mesh);
+  const Index b = mesh.vertexCount() - 3;
+  // As rounding would have it: corners at the plate's corners, straight and regular elsewhere.
+  std::vector<int> turns;
+  for (const Fan& fan : topology.fans)
+  {
+    turns.push_back(fan.sector ? static_cast<int>(std::lround(fan.angle / (kPi / 2))) : 4);
+  }
+  const AngleStructure structure = findAngleStructure(mesh, topology, turns);
+  EXPECT_FALSE(structure.feasible);
+  for (std::size_t i = 0; i < turns.size(); ++i)
+  {
+    EXPECT_EQ(structure.tooMany[i] != 0, topology.fans[i].vertex >= b);
+  }
+  const CrossField field = fieldOf(mesh, 1);
+  expectValid(mesh, field);
+  EXPECT_TRUE(findAngleStructure(mesh, topology, turnsOf(topology, field)).feasible);
+}
+
+TEST(AngleStructure, ExistsForAnyGoodField)
+{
+  for (const Mesh& mesh : { sphere(3), torus(24, 12), markFeatures(unitCube(3), kFeatureAngle),
+         plateWithHole(3), plateL(4), openCylinder(24, 8) })
+  {
+    const FieldTopology topology = buildFieldTopology(mesh);
+    EXPECT_TRUE(findAngleStructure(mesh, topology, turnsOf(topology, fieldOf(mesh))).feasible);
+  }
+}
+
+TEST(AngleStructure, FindsAVertexWithTooManyTurns)
+{
+  // The five triangles of an apex have ten quarter turns; with nine at the apex one is left for their other ten
+  // corners, with ten none.
+  const Mesh mesh = sphere(0);
+  const FieldTopology topology = buildFieldTopology(mesh);
+  const auto feasible = [&](int apex)
+  {
+    // 20 triangles carry 40 quarter turns: the other eleven vertices get 2 or 3 each.
+    std::vector<int> turns;
+    int threes = 40 - apex - 11 * 2;
+    for (const Fan& fan : topology.fans)
+    {
+      turns.push_back(fan.vertex == 0 ? apex : (threes-- > 0 ? 3 : 2));
+    }
+    return findAngleStructure(mesh, topology, turns).feasible;
+  };
+  EXPECT_TRUE(feasible(9));
+  EXPECT_FALSE(feasible(10));
 }
 
 TEST(CrossField, RefusesBadInput)
