@@ -114,6 +114,7 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
   if (!field.status.ok())
   {
     result.status = field.status;
+    result.offenders = field.offenders;
     return result;
   }
   const std::vector<std::uint8_t> integerVertex = integerVertices(mesh, field);
