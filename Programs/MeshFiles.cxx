@@ -39,6 +39,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <sstream>
 
 namespace quadrille
 {
@@ -107,6 +108,52 @@ vtkSmartPointer<vtkPolyData> readWith(const std::string& path)
     fail(path, "holds no polygons");
   }
   return data;
+}
+
+//------------------------------------------------------------------------------
+// Headers that promise more than the file holds: VTK's readers would ask for the memory first
+
+/// A binary STL file is 80 bytes of text, a count of four bytes, and 50 bytes a triangle.
+void checkStl(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  unsigned char header[84] = {};
+  file.read(reinterpret_cast<char*>(header), sizeof(header));
+  const std::string start(reinterpret_cast<const char*>(header), 5);
+  if (start == "solid")
+  {
+    return; // text, or binary with a misleading name, which the reader tells apart
+  }
+  const std::uintmax_t size = fs::file_size(path);
+  const std::uintmax_t triangles = header[80] | (header[81] << 8) | (header[82] << 16) |
+    (static_cast<std::uintmax_t>(header[83]) << 24);
+  if (size < 84 || (size - 84) / 50 < triangles)
+  {
+    fail(path,
+      "is no STL file, or cut off: it announces " + std::to_string(triangles) +
+        " triangles and has " + std::to_string(size) + " bytes");
+  }
+}
+
+/// Every element takes at least one byte.
+void checkPly(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  const std::uintmax_t size = fs::file_size(path);
+  std::string line;
+  for (int i = 0; i < 1000 && std::getline(file, line) && line.substr(0, 10) != "end_header"; ++i)
+  {
+    std::istringstream words(line);
+    std::string keyword, name;
+    double count = 0;
+    if (words >> keyword >> name >> count && keyword == "element" &&
+      !(count >= 0 && count <= static_cast<double>(size)))
+    {
+      fail(path,
+        "announces more of the element " + name + " than fit into its " + std::to_string(size) +
+          " bytes: " + line);
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -284,6 +331,7 @@ vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
   const std::string extension = extensionOf(path);
   if (extension == "ply")
   {
+    checkPly(path);
     return readWith<vtkPLYReader>(path);
   }
   if (extension == "obj")
@@ -292,6 +340,7 @@ vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
   }
   if (extension == "stl")
   {
+    checkStl(path);
     return readWith<vtkSTLReader>(path);
   }
   if (extension == "vtp")

@@ -59,6 +59,38 @@ void requestStop(int)
   stopRequested = 1;
 }
 
+/// VTK's readers end the process where a damaged file makes them ask for too much memory. Catching that is the only way to keep
+/// the promise of an exit code.
+class ReaderGuard
+{
+public:
+  ReaderGuard()
+  {
+    std::signal(SIGABRT, giveUp);
+    std::signal(SIGSEGV, giveUp);
+  }
+  ~ReaderGuard()
+  {
+    std::signal(SIGABRT, SIG_DFL);
+    std::signal(SIGSEGV, SIG_DFL);
+  }
+
+private:
+  static void giveUp(int)
+  {
+    constexpr char kText[] = "quadrille: the input file is damaged: its reader failed\n";
+    // Only what is safe in a signal handler.
+    [[maybe_unused]] const ssize_t written = ::write(2, kText, sizeof(kText) - 1);
+    ::_exit(kBadInput);
+  }
+};
+
+vtkSmartPointer<vtkPolyData> readGuarded(const std::string& path)
+{
+  const ReaderGuard guard;
+  return readMeshFile(path);
+}
+
 struct Request
 {
   std::string input;
@@ -350,7 +382,7 @@ ExitCode execute(const CommandLine& line, const Request& request)
   const Clock::time_point start = Clock::now();
   RemeshRun run;
   setOptions(line, run.filter());
-  const vtkSmartPointer<vtkPolyData> input = readMeshFile(request.input);
+  const vtkSmartPointer<vtkPolyData> input = readGuarded(request.input);
   Timing timing;
   timing.read = secondsSince(start);
 

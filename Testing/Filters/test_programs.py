@@ -67,7 +67,8 @@ class Case(unittest.TestCase):
         self.folder.mkdir(parents=True)
 
     def run_quadrille(self, *words, expect=0):
-        result = subprocess.run([ARGS.quadrille, *map(str, words)], capture_output=True, text=True, timeout=300)
+        result = subprocess.run([ARGS.quadrille, *map(str, words)], capture_output=True, text=True,
+                                errors="replace", timeout=300)
         self.assertEqual(result.returncode, expect, result.stderr)
         return result
 
@@ -190,6 +191,24 @@ class ExitCodes(Case):
                 path.write_bytes(bytes((7 * i * i + 13) % 256 for i in range(3000)))
                 self.run_quadrille(path, self.folder / "q.obj", expect=2)
                 self.assertFalse((self.folder / "q.obj").exists())
+
+
+    def test_lying_headers(self):
+        """Counts beyond the file must neither take the memory nor end in a crash."""
+        huge = 123456789012
+        files = {
+            "huge.ply": f"ply\nformat ascii 1.0\nelement vertex {huge}\nproperty float x\nproperty float y\n"
+                        f"property float z\nelement face {huge}\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",
+            "huge.off": f"OFF\n{huge} {huge} 0\n0 0 0\n",
+            "huge.vtk": f"# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS {huge} float\n0 0 0\n"
+                        f"POLYGONS {huge} {4 * huge}\n3 0 0 0\n",
+        }
+        for name, text in files.items():
+            with self.subTest(name):
+                (self.folder / name).write_text(text)
+                self.run_quadrille(self.folder / name, self.folder / "q.obj", expect=2)
+        (self.folder / "huge.stl").write_bytes(b"x" * 80 + b"\xff\xff\xff\x7f" + b"\0" * 50)
+        self.assertIn("triangles", self.run_quadrille(self.folder / "huge.stl", self.folder / "q.obj", expect=2).stderr)
 
 
 class Report(Case):

@@ -1,14 +1,26 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
 """Plugin on a pvserver and on its client: test_pvserver.py PVSERVER."""
+import os
 import re
 import subprocess
 import sys
 import threading
+import traceback
 
 from paraview import servermanager, simple
 
 from plugin_common import PLUGIN, check, number, size_of, surface
+
+
+listening = threading.Event()
+listening.set()
+
+
+def pass_on(server):
+    for line in server.stdout:
+        if listening.is_set():
+            print("server:", line, end="", flush=True)
 
 
 def start(pvserver):
@@ -23,13 +35,11 @@ def start(pvserver):
         if re.search("Accepting connection|Waiting for client", line):
             break
     # What it says afterwards belongs to the test's output, errors above all.
-    threading.Thread(target=lambda: [print("server:", line, end="", flush=True) for line in server.stdout],
-                     daemon=True).start()
+    threading.Thread(target=pass_on, args=(server,), daemon=True).start()
     return server, port
 
 
-server, port = start(sys.argv[1])
-try:
+def run(port):
     simple.Connect("127.0.0.1", port)
     simple.LoadPlugin(PLUGIN, remote=True, ns=globals())
     simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
@@ -41,18 +51,27 @@ try:
     check(number(quads, "ActualQuads") == cells, "ActualQuads does not reach the client")
     check("extract" in number(quads, "StageTimes"), "stage times do not reach the client")
     data = servermanager.Fetch(quads)
-    check(data.GetNumberOfCells() == cells and data.GetPointData().HasArray("Valence"), "the quads do not reach the client")
+    check(data.GetNumberOfCells() == cells and data.GetPointData().HasArray("Valence"),
+          "the quads do not reach the client")
     hierarchy = DecimationHierarchy(Input=mesh, TargetType="Number Of Quads", NumberOfQuads=400)
     upmap = IntegerGridMapUpmap(Input=IntegerGridMap(Input=simple.OutputPort(hierarchy, 0)), Surface=mesh,
                                 Log=simple.OutputPort(hierarchy, 2))
     extraction = QuadExtraction(Input=upmap)
     extraction.UpdatePipeline()
     check(size_of(extraction) == cells, "the chain gives another result on the server")
-    simple.Disconnect()
-finally:
-    try:
-        server.wait(timeout=10)
-    except subprocess.TimeoutExpired:
-        server.terminate()
-        server.wait(timeout=10)
-print("pvserver: fine")
+
+
+server, port = start(sys.argv[1])
+failed = 0
+try:
+    run(port)
+    print("pvserver: fine", flush=True)
+except BaseException:
+    traceback.print_exc()
+    failed = 1
+# The server may outlive its client, and the client complains of its end; neither is a result of the test.
+listening.clear()
+server.kill()
+server.wait(timeout=10)
+sys.stderr.flush()
+os._exit(failed)
