@@ -16,7 +16,7 @@ import zlib
 import private_display
 
 ARTIFACTS = pathlib.Path(os.environ["QUADRILLE_ARTIFACTS"])
-WIDTH, HEIGHT = 1400, 950
+WIDTH, HEIGHT = 1152, 762  # ParaView's own size where there is no window manager
 
 
 def read_xwd(path):
