@@ -131,6 +131,7 @@ Hierarchy buildHierarchy(const Mesh& fine, std::uint64_t fineHash, const Hierarc
   uniform.edgeLength = 0.5 * s;
   uniform.scale = componentScales(fine, s);
   uniform.curveTolerance = kCurveTolerance * s;
+  uniform.keepVertices = options.keepVertices;
   uniform.threads = options.threads;
   uniform.progress = part(options.progress, 0.0, 0.6);
   decimateUniformly(mesh, uniform, log);

@@ -28,8 +28,8 @@ struct HierarchyOptions
   Index coarseVertices = 1000; ///< budget of the coarse level; raised where features, handles or
                                ///< components need more (told in Hierarchy::notice)
   DecimationCost cost = DecimationCost::Gaussian; ///< of phase 2
-  /// Vertices of the finest mesh that phase 2 must not remove (index constraints; places where a map
-  /// needs more freedom).
+  /// Vertices of the finest mesh that no phase may remove (index constraints; places where a map needs
+  /// more freedom, see TransferResult::offenders).
   std::vector<Index> keepVertices;
   int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;

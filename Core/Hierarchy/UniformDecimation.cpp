@@ -20,6 +20,8 @@ namespace
 constexpr std::size_t kBlockFaces = 16384;
 constexpr double kThresholdStep = 1.5;
 constexpr int kLastRounds = 8;
+/// Lock of a vertex that must stay.
+constexpr std::uint16_t kKept = 0xFFFF;
 /// Owner of a vertex whose faces are in several blocks.
 constexpr Index kShared = kInvalidIndex - 1;
 
@@ -31,6 +33,10 @@ public:
       owner_(new std::atomic<Index>[mesh.position.size()]), lock_(mesh.position.size(), 0)
   {
     guards_.curveTolerance = options.curveTolerance;
+    for (const Index v : options.keepVertices)
+    {
+      lock_[v] = kKept;
+    }
   }
 
   void run();
@@ -197,7 +203,8 @@ void UniformDecimation::sweep(Index begin, Index end, Index block, double thresh
       }
       for (int i = 0; i < removal.ringSize(); ++i)
       {
-        lock_[removal.ringVertex(i)] = stamp;
+        std::uint16_t& lock = lock_[removal.ringVertex(i)];
+        lock = lock == kKept ? kKept : stamp;
       }
       removal.apply(log);
     }
@@ -209,7 +216,7 @@ bool UniformDecimation::visit(
 {
   const Index v = mesh_.origin[h];
   if (mesh_.outgoing[v] != h || owner_[v].load(std::memory_order_relaxed) != block ||
-    lock_[v] == stamp || !removal.gather(v))
+    lock_[v] == stamp || lock_[v] == kKept || !removal.gather(v))
   {
     return false;
   }

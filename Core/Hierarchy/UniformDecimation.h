@@ -23,6 +23,7 @@ struct UniformOptions
   /// Per vertex factor on edgeLength (smaller for small components); empty: 1.
   std::vector<float> scale;
   double curveTolerance = 0; ///< see RemovalGuards
+  std::vector<Index> keepVertices;
   int threads = 0;
   ProgressCallback progress;
 };

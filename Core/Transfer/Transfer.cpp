@@ -6,6 +6,7 @@
 #include "Transfer/PatchMender.h"
 #include "Transfer/Replay.h"
 
+#include <algorithm>
 #include <string>
 
 namespace quadrille
@@ -50,6 +51,21 @@ std::size_t countNotPositive(const std::vector<FixedVec2>& uv)
     count += determinant(uv[h], uv[h + 1], uv[h + 2]) > 0 ? 0U : 1U;
   }
   return count;
+}
+
+std::vector<Index> verticesOfNotPositive(const Mesh& fine, const TransferResult& result)
+{
+  std::vector<Index> vertices;
+  for (Index h = 0; h < fine.halfEdgeCount() && result.notPositive > 0; h += 3)
+  {
+    if (!(determinant(result.uv[h], result.uv[h + 1], result.uv[h + 2]) > 0))
+    {
+      vertices.insert(vertices.end(), { fine.origin[h], fine.origin[h + 1], fine.origin[h + 2] });
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
 }
 
 /// Turns of the finest map: those of the coarse map at its vertices; removed vertices are regular.
@@ -101,6 +117,7 @@ TransferResult transferMap(const Mesh& fine, const Level& coarse, const Decimati
     result.mendedPatches = mended.patches;
     result.notPositive = mended.notPositive;
   }
+  result.offenders = verticesOfNotPositive(fine, result);
   return result;
 }
 
