@@ -10,6 +10,7 @@ namespace
 {
 
 constexpr double kStiffening = 10;
+constexpr std::size_t kMany = 30;
 
 /// Multiplies the weights of the faces that touch a defect, or touch one that does.
 void stiffen(const Mesh& mesh, const MapDefects& defects, std::vector<double>& weight)
@@ -49,6 +50,8 @@ UntangleOptions fieldUntangleOptions(const ProgressCallback& progress)
   // Equations without constants let a map shrink to a point; the area term keeps it from that.
   options.areaWeight = 1;
   options.polishSteps = 4;
+  // Of 50 real coarse meshes none that needed more ended well.
+  options.maximumSteps = 100;
   options.progress = progress;
   return options;
 }
@@ -80,12 +83,14 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
     }
     std::vector<FixedVec2> uv = snap(attempt.y);
     MapDefects defects = findDefects(mesh, field, uv);
-    if (i == 0 || defects.count() < best.defects.count())
+    const bool better = i == 0 || defects.count() < best.defects.count();
+    if (better)
     {
       best.defects = std::move(defects);
       best.uv = std::move(uv);
     }
-    if (best.defects.none())
+    // Many defects that more weight did not lessen have a cause that no weight mends.
+    if (best.defects.none() || (!given && !better && best.defects.count() > kMany))
     {
       break;
     }

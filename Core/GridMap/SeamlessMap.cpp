@@ -141,6 +141,7 @@ public:
   const UntangleProblem& problem() const { return problem_; }
   std::vector<FixedVec2> snap(const Eigen::VectorXd& y) const;
   std::vector<Index> collapsedFaces(const std::vector<Index>& candidates) const;
+  std::vector<Index> flattenedChords() const;
 
 private:
   void buildProblem(const CrossField& field, double edgeLength)
@@ -219,6 +220,11 @@ Form difference(const ExactBasis::Row& a, const ExactBasis::Row& b, std::int64_t
   return result;
 }
 
+bool areEqual(const ExactBasis::Row& a, const ExactBasis::Row& b)
+{
+  return a.denominator == b.denominator && a.numerators == b.numerators;
+}
+
 bool areParallel(const Form& a, const Form& b)
 {
   if (a.empty() || b.empty())
@@ -262,6 +268,36 @@ std::vector<Index> SeamlessSpace::collapsedFaces(const std::vector<Index>& candi
     if (edgeIsPoint || noExtent || proportional)
     {
       result.push_back(f);
+    }
+  }
+  return result;
+}
+
+/// The unconstrained half-edges between constrained vertices that lie on an isoline for every choice of the
+/// unknowns: mostly chords of a straight feature, with no area left between the two.
+std::vector<Index> SeamlessSpace::flattenedChords() const
+{
+  std::vector<bool> onCurve(mesh_.vertexCount(), false);
+  for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+  {
+    if (mesh_.isConstrained(h))
+    {
+      onCurve[mesh_.origin[h]] = onCurve[mesh_.target(h)] = true;
+    }
+  }
+  std::vector<Index> result;
+  for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+  {
+    if (mesh_.isConstrained(h) || mesh_.twin[h] < h || !onCurve[mesh_.origin[h]] ||
+      !onCurve[mesh_.target(h)])
+    {
+      continue;
+    }
+    const Index a = 2 * graph_.wedge[h], b = 2 * graph_.wedge[Mesh::next(h)];
+    if (areEqual(basis_.rows[a], basis_.rows[b]) ||
+      areEqual(basis_.rows[a + 1], basis_.rows[b + 1]))
+    {
+      result.push_back(h);
     }
   }
   return result;
@@ -334,6 +370,23 @@ bool findHopeless(const Mesh& mesh, const CrossField& field, const SeamlessSpace
   return true;
 }
 
+/// Looks for the cause of what untangling has left.
+void explain(
+  const Mesh& mesh, const SeamlessSpace& space, const MapDefects& defects, SeamlessResult& result)
+{
+  const std::vector<Index> chords = space.flattenedChords();
+  std::string cause;
+  if (!chords.empty())
+  {
+    MapDefects ends = defects;
+    ends.reversed.insert(ends.reversed.end(), chords.begin(), chords.end());
+    result.offenders = verticesOf(mesh, ends);
+    cause = "; half-edges " + listOf(chords) +
+      " are chords of straight features, more coarse vertices between them would help";
+  }
+  fail(mesh, StatusCode::NotConverged, defects.text() + cause, defects, result);
+}
+
 } // namespace
 
 SeamlessResult computeSeamlessMap(
@@ -367,7 +420,7 @@ SeamlessResult computeSeamlessMap(
   result.newtonSteps = untangled.newtonSteps;
   if (!untangled.defects.none())
   {
-    fail(mesh, StatusCode::NotConverged, untangled.defects.text(), untangled.defects, result);
+    explain(mesh, space, untangled.defects, result);
   }
   return result;
 }

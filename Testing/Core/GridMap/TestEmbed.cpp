@@ -151,6 +151,26 @@ TEST(Embed, FeatureVerticesSlideAlongTheirIsolineOnly)
   EXPECT_TRUE(cube.check(result.uv).valid());
 }
 
+TEST(Embed, BoundaryVerticesMayNotSlideBeyondACorner)
+{
+  // Two rows: the vertices of the lower and upper boundary slide, those of the middle are free.
+  BlockMap plate(test::gridPlane(5, 2), 1);
+  std::vector<Vector3> moved = plate.mesh.position;
+  for (Vector3& p : moved)
+  {
+    if (p.x() > 0 && p.x() < 5 && p.y() != 1)
+    {
+      p.x() = 2 - p.x(); // 1, 0, -1, -2: in reverse order and over the corner
+    }
+  }
+  plate.develop(moved);
+  ASSERT_FALSE(findDefects(plate.mesh, plate.field, plate.uv).reversed.empty());
+  const EmbedResult result = plate.embed();
+  EXPECT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_TRUE(plate.check(result.uv).valid());
+  EXPECT_TRUE(findDefects(plate.mesh, plate.field, result.uv).none());
+}
+
 TEST(Embed, OpenPlates)
 {
   BlockMap plate(test::plateWithHole(4), 1);
