@@ -156,6 +156,13 @@ private:
     }
   };
 
+  struct Move
+  {
+    SurfacePoint place;
+    Vector3 position;
+    Quality quality;
+  };
+
   void classify()
   {
     freedom_.resize(quads_.points.size());
@@ -282,22 +289,43 @@ private:
     {
       return false;
     }
-    const Vector3 wanted = averageOfNeighbours(p) - quads_.points[p];
-    const double reach = 0.5 * edgeLengths(p, quads_.points[p]).shortest;
-    const Vector3 clamped =
-      wanted.norm() > reach ? Vector3(wanted * (reach / wanted.norm())) : wanted;
-    for (const double factor : { 1.0, 0.5, 0.25 })
+    const bool bad = before.worst < kBadShape;
+    const EdgeLengths lengths = edgeLengths(p, quads_.points[p]);
+    const double reach = 0.5 * (bad ? lengths.mean : lengths.shortest);
+    Move best{ { quads_.sourceFace[p], quads_.sourceWeights[p] }, quads_.points[p], before };
+    tryWantedPlaces(p, reach, best);
+    if (bad)
     {
-      if (tryMove(p, factor * clamped, before))
-      {
-        return true;
-      }
+      tryAllDirections(p, reach, best);
     }
-    return before.worst < kBadShape && search(p, reach, before);
+    if (!best.quality.betterThan(before))
+    {
+      return false;
+    }
+    quads_.points[p] = best.position;
+    quads_.sourceFace[p] = best.place.face;
+    quads_.sourceWeights[p] = best.place.weights;
+    return true;
   }
 
-  /// Tries moves in all directions, the largest first, until one helps.
-  bool search(Index p, double reach, const Quality& before)
+  /// Towards the average of the neighbours, and to where the quads would be parallelograms.
+  void tryWantedPlaces(Index p, double reach, Move& best) const
+  {
+    const Vector3 here = quads_.points[p];
+    const Vector3 average = averageOfNeighbours(p) - here;
+    const Vector3 parallelogram = parallelogramCorner(p) - here;
+    for (const Vector3& wanted : { average, parallelogram, Vector3((average + parallelogram) / 2) })
+    {
+      const double length = wanted.norm();
+      const double scale = length > reach ? reach / length : 1.0;
+      for (const double factor : { 1.0, 0.5, 0.25 })
+      {
+        tryMove(p, factor * scale * wanted, best);
+      }
+    }
+  }
+
+  void tryAllDirections(Index p, double reach, Move& best) const
   {
     const Vector3 normal = faceNormal(quads_.sourceFace[p]);
     const Vector3 x = mesh_.edgeVector(3 * quads_.sourceFace[p]).normalized();
@@ -307,32 +335,30 @@ private:
       for (int i = 0; i < 8; ++i)
       {
         const double angle = i * 0.7853981633974483; // 45 degrees
-        if (tryMove(p, factor * reach * (std::cos(angle) * x + std::sin(angle) * y), before))
-        {
-          return true;
-        }
+        tryMove(p, factor * reach * (std::cos(angle) * x + std::sin(angle) * y), best);
       }
     }
-    return false;
   }
 
-  bool tryMove(Index p, const Vector3& displacement, const Quality& before)
+  /// Keeps the move in `best` when it is better than what is there.
+  void tryMove(Index p, const Vector3& displacement, Move& best) const
   {
     const std::optional<SurfacePoint> place =
       freedom_[p] == Freedom::Curve ? slide(p, displacement) : walk(p, displacement);
     if (!place)
     {
-      return false;
+      return;
     }
     const Vector3 position = positionOf(mesh_, *place);
-    if (shrinksShortEdge(p, position) || !qualityAt(p, position).betterThan(before))
+    if (shrinksShortEdge(p, position))
     {
-      return false;
+      return;
     }
-    quads_.points[p] = position;
-    quads_.sourceFace[p] = place->face;
-    quads_.sourceWeights[p] = place->weights;
-    return true;
+    const Quality quality = qualityAt(p, position);
+    if (quality.betterThan(best.quality))
+    {
+      best = { *place, position, quality };
+    }
   }
 
   std::optional<SurfacePoint> walk(Index p, const Vector3& displacement) const
@@ -418,6 +444,19 @@ private:
         ++count;
       });
     return sum / std::max(count, 1);
+  }
+
+  Vector3 parallelogramCorner(Index p) const
+  {
+    Vector3 sum = Vector3::Zero();
+    for (const Index* q = incident_.begin(p); q != incident_.end(p); ++q)
+    {
+      const std::array<Index, 4>& c = quads_.quads[*q];
+      const std::size_t i = static_cast<std::size_t>(std::find(c.begin(), c.end(), p) - c.begin());
+      sum += quads_.points[c[(i + 1) % 4]] + quads_.points[c[(i + 3) % 4]] -
+        quads_.points[c[(i + 2) % 4]];
+    }
+    return sum / incident_.size(p);
   }
 
   struct EdgeLengths
