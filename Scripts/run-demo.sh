@@ -15,7 +15,7 @@ options=("$@")
 [[ -f $mesh ]] || { echo "run-demo: no file $mesh" >&2; exit 2; }
 
 Scripts/install-dependencies.sh
-Scripts/build.sh
+Scripts/build.sh -DQUADRILLE_BUILD_TESTS=OFF
 
 name=$(basename "${mesh%.*}")
 mkdir -p out
