@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Seconds and sizes of the stages, as CSV on standard output. Every run is a process of its own, so that
 /// its peak memory is its own; the peak is the same on each row of a run.
+#include "Base/Parallel.h"
 #include "MeshFiles.h"
 #include "Options.h"
 #include "RemeshRun.h"
@@ -123,8 +124,8 @@ void printRows(const std::string& mesh, long long repeat, const Request& request
   for (const StageRow& row : rows)
   {
     std::printf("%s,%lld,%d,%s,%.6f,%lld,%lld,%.1f\n", std::filesystem::path(mesh).stem().c_str(),
-      repeat, request.threads, row.stage.c_str(), row.seconds, row.elementsIn, row.elementsOut,
-      peak);
+      repeat, resolveThreads(request.threads), row.stage.c_str(), row.seconds, row.elementsIn,
+      row.elementsOut, peak);
   }
   std::fflush(stdout);
 }

@@ -10,6 +10,7 @@ import math
 import os
 import pathlib
 import shutil
+import struct
 import subprocess
 import unittest
 
@@ -129,6 +130,58 @@ class Formats(Case):
         self.assertEqual(len(sizes), 1)
         leftovers = [p.name for p in self.folder.iterdir() if ".part" in p.name]
         self.assertEqual(leftovers, [])
+
+
+    def test_ply_keeps_every_property(self):
+        points, faces = torus()
+        header = ["comment x", f"element vertex {len(points)}", "property double x", "property double y",
+                  "property double z", "property uchar red", "property uchar green", "property uchar blue",
+                  "property float quality", "element edge 1", "property int vertex1", f"element face {len(faces)}",
+                  "property uchar flag", "property list uchar int vertex_indices", "property int Body", "end_header", ""]
+        bodies = [int(3 * f / len(faces)) for f in range(len(faces))]
+        text = "".join("%.17g %.17g %.17g 10 20 30 %.9g\n" % (*p, p[2]) for p in points) + "7\n"
+        text += "".join("9 3 %d %d %d %d\n" % (*f, b) for f, b in zip(faces, bodies))
+        variants = {"ascii": text.encode()}
+        for name, order in (("binary_little_endian", "<"), ("binary_big_endian", ">")):
+            variants[name] = b"".join(struct.pack(order + "3d3Bf", *p, 10, 20, 30, p[2]) for p in points)
+            variants[name] += struct.pack(order + "i", 7)
+            variants[name] += b"".join(struct.pack(order + "BB4i", 9, 3, *f, b) for f, b in zip(faces, bodies))
+        for name, body in variants.items():
+            with self.subTest(name):
+                path = self.folder / f"{name}.ply"
+                path.write_bytes("\n".join(["ply", f"format {name} 1.0"] + header).encode() + body)
+                out = self.folder / f"{name}.vtp"
+                self.run_quadrille(path, out, "--quads", 300)
+                data = read(vtkXMLPolyDataReader(), out)
+                self.assertTorusOfQuads(data.GetNumberOfPoints(), faces_of(data))
+                quality, rgb = data.GetPointData().GetArray("quality"), data.GetPointData().GetArray("RGB")
+                for i in range(data.GetNumberOfPoints()):
+                    self.assertAlmostEqual(quality.GetTuple1(i), data.GetPoint(i)[2], 5)  # float
+                    self.assertEqual(rgb.GetTuple3(i), (10, 20, 30))
+                self.assertEqual(data.GetCellData().GetArray("Body").GetRange(), (0, 2))
+                self.assertEqual(data.GetCellData().GetArray("flag").GetRange(), (9, 9))
+                path.write_bytes(path.read_bytes()[:-20])  # cut off in the last faces
+                self.assertIn("face", self.run_quadrille(path, out, expect=2).stderr)
+
+    def test_ply_strips(self):
+        # A closed band of 40 columns of one strip each: an open cylinder.
+        columns, rows, strips, points = 40, 20, [], []
+        for i in range(columns):
+            for j in range(rows + 1):
+                a = 2 * math.pi * i / columns
+                points.append((math.cos(a), math.sin(a), 0.15 * j))
+        for i in range(columns):
+            for j in range(rows + 1):
+                strips += [(i + 1) % columns * (rows + 1) + j, i * (rows + 1) + j]
+            strips.append(-1)
+        path = self.folder / "strips.ply"
+        path.write_text(f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\n"
+                        "property float z\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
+                        "".join("%.9g %.9g %.9g\n" % p for p in points) + " ".join(map(str, [len(strips)] + strips)))
+        out, report = self.folder / "q.obj", self.folder / "r.json"
+        self.run_quadrille(path, out, "--quads", 400, "--report", report)
+        quality = json.loads(report.read_text())["quality"]
+        self.assertEqual((quality["manifold"], quality["boundary_loops"], quality["euler_characteristic"]), (True, 2, 0))
 
 
 class ExitCodes(Case):

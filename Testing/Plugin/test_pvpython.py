@@ -52,11 +52,19 @@ marked = simple.Calculator(Input=mesh, AttributeType="Cell Data", ResultArrayNam
 marked.UpdatePipeline()
 check(QuadRemesh(Input=marked).PatchArray == "PatchId", "PatchId is not chosen where it is there")
 
-# An empty second input is none; a curve on the surface becomes a feature line.
-curve = simple.PolyLineSource(Points=[0.0, 0.0, 0.0, 0.0, 0.0, 0.1])
-fetched = servermanager.Fetch(mesh)
-ring = [fetched.GetPoint(i) for i in range(fetched.GetNumberOfPoints()) if abs(fetched.GetPoint(i)[1]) < 1e-6]
-check(len(ring) > 3, "the torus has no points in its plane of symmetry")
+# A curve as second input becomes a line between quads; without it there are only boundary lines.
+plane = simple.Triangulate(Input=simple.Plane(XResolution=20, YResolution=20))
+curve = simple.PolyLineSource(Points=[-0.5, 0.0, 0.0, 0.5, 0.0, 0.0])
+for curves, expected in ((None, {1}), (curve, {0, 1})):
+    flat = QuadRemesh(Input=plane, Curves=curves, TargetType="Number Of Quads", NumberOfQuads=200)
+    flat.UpdatePipeline()
+    lines = servermanager.Fetch(simple.OutputPort(flat, 2))
+    boundary = lines.GetCellData().GetArray("Boundary")
+    found = {boundary.GetValue(i) for i in range(boundary.GetNumberOfTuples())}
+    check(found == expected, f"lines with Boundary {found} where {expected} was expected")
+inner = [i for i in range(lines.GetNumberOfCells()) if boundary.GetValue(i) == 0]
+heights = {round(lines.GetPoint(lines.GetCell(i).GetPointId(k))[1], 9) for i in inner for k in (0, 1)}
+check(heights == {0.0}, f"the curve is not followed: {heights}")
 
 # The four stages one by one.
 hierarchy = DecimationHierarchy(Input=mesh, TargetType="Number Of Quads", NumberOfQuads=400)
@@ -70,6 +78,6 @@ check(number(upmap, "Certificate") != "", "no certificate of the chain")
 # The raw class is the same behind the proxy, and without one.
 raw = quads.GetClientSideObject()
 check(isinstance(raw, quadrille.vtkQuadRemesh), f"the proxy holds a {type(raw)}")
-result = quadrille.remesh(fetched, quads=400)
+result = quadrille.remesh(servermanager.Fetch(mesh), quads=400)
 check(result.GetNumberOfCells() == cells, "quadrille.remesh and the plugin differ")
 print("pvpython: fine")
