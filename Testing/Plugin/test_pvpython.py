@@ -58,7 +58,7 @@ curve = simple.PolyLineSource(Points=[-0.5, 0.0, 0.0, 0.5, 0.0, 0.0])
 for curves, expected in ((None, {1}), (curve, {0, 1})):
     flat = QuadRemesh(Input=plane, Curves=curves, TargetType="Number Of Quads", NumberOfQuads=200)
     flat.UpdatePipeline()
-    lines = servermanager.Fetch(simple.OutputPort(flat, 2))
+    lines = flat.GetClientSideObject().GetLines()
     boundary = lines.GetCellData().GetArray("Boundary")
     found = {boundary.GetValue(i) for i in range(boundary.GetNumberOfTuples())}
     check(found == expected, f"lines with Boundary {found} where {expected} was expected")
