@@ -159,7 +159,8 @@ class Part:
         profile = np.asarray(profile, float)
         length = np.linalg.norm(np.diff(profile, axis=0), axis=1)
         s = np.concatenate([[0], np.cumsum(length)])
-        n = max(2, int(round(s[-1] / step)))
+        # A rounding keeps six pieces, so that it stays one at low resolution: 15 degrees each.
+        n = max(6 if len(profile) > 2 else 2, int(round(s[-1] / step)))
         t = np.linspace(0, s[-1], n + 1)
         offset, z = np.interp(t, s, profile[:, 0]), np.interp(t, s, profile[:, 1])
         grid = base[None] + offset[:, None, None] * normal[None]
