@@ -118,12 +118,13 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
     return result;
   }
   const std::vector<std::uint8_t> integerVertex = integerVertices(mesh, field);
-  const auto fail =
-    [&](const Status& status, std::vector<FixedVec2> uv, const std::vector<Index>& faces)
+  const auto fail = [&](const Status& status, std::vector<FixedVec2> uv,
+                      const std::vector<Index>& faces, const std::vector<Index>& vertices)
   {
     result.status = status;
     result.uv = std::move(uv);
     result.offenders = cornerVertices(mesh, faces);
+    result.offenders.insert(result.offenders.end(), vertices.begin(), vertices.end());
     result.certificate = certify(mesh, result.uv, field.turns, integerVertex);
     return result;
   };
@@ -142,7 +143,7 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
     }
     if (!seamless.status.ok())
     {
-      return fail(seamless.status, std::move(seamless.uv), seamless.inverted);
+      return fail(seamless.status, std::move(seamless.uv), seamless.inverted, seamless.offenders);
     }
     QuantizeResult quantized;
     {
@@ -153,7 +154,7 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
     }
     if (!quantized.status.ok())
     {
-      return fail(quantized.status, std::move(quantized.uv), {});
+      return fail(quantized.status, std::move(quantized.uv), {}, {});
     }
     const double area = mapArea(mesh, quantized.uv);
     const double ratio = options.targetQuads > 0 ? area / options.targetQuads : 1.0;
@@ -206,7 +207,7 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
   }
   if (!embedded.status.ok())
   {
-    return fail(embedded.status, std::move(embedded.uv), embedded.inverted);
+    return fail(embedded.status, std::move(embedded.uv), embedded.inverted, embedded.offenders);
   }
   result.uv = std::move(embedded.uv);
   result.certificate = certify(mesh, result.uv, field.turns, integerVertex);

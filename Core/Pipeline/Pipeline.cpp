@@ -16,7 +16,9 @@ namespace
 {
 
 /// How often the coarse level is rebuilt with more freedom around the offenders of a failed map.
-constexpr int kMaximumAttempts = 4;
+constexpr int kMaximumAttempts = 3;
+/// How often the coarse level is rebuilt because the map does not fit the input's triangles.
+constexpr int kMaximumTransfers = 3;
 /// Rings of intermediate vertices that are kept around an offender.
 constexpr int kFreedomRings = 2;
 
@@ -77,9 +79,8 @@ public:
       if (!refuseTooMany())
       {
         refine();
-        if (computeCoarseMap())
+        if (computeMap())
         {
-          transfer();
           extract();
         }
       }
@@ -95,6 +96,15 @@ public:
 private:
   void addStage(const std::string& name, double seconds, std::size_t in, std::size_t out)
   {
+    // A stage that had to be repeated is one entry with the time of all its runs.
+    for (StageRecord& stage : result_.stages)
+    {
+      if (stage.stage == name)
+      {
+        stage = { name, stage.seconds + seconds, in, out };
+        return;
+      }
+    }
     result_.stages.push_back({ name, seconds, in, out });
   }
 
@@ -185,11 +195,88 @@ private:
     return hierarchyOptions;
   }
 
-  /// Decimates and maps; where the coarse triangulation lacks freedom, steps back around the
-  /// offenders and tries again.
-  bool computeCoarseMap()
+  /// What one attempt at a map leaves behind, so that a later, worse one can be undone.
+  struct MapState
+  {
+    Level coarse;
+    std::vector<FixedVec2> coarseUv, uv;
+    std::vector<int> coarseTurns, turns;
+    std::vector<std::int8_t> matching;
+    Certificate coarseCertificate, certificate;
+    TransferResult transfer;
+  };
+  MapState takeState()
+  {
+    return { std::move(result_.coarse), std::move(result_.coarseUv), std::move(result_.uv),
+      std::move(result_.coarseTurns), std::move(result_.turns), std::move(result_.matching),
+      result_.coarseCertificate, result_.certificate, std::move(result_.transfer) };
+  }
+  void restore(MapState&& state)
+  {
+    result_.coarse = std::move(state.coarse);
+    result_.coarseUv = std::move(state.coarseUv);
+    result_.uv = std::move(state.uv);
+    result_.coarseTurns = std::move(state.coarseTurns);
+    result_.turns = std::move(state.turns);
+    result_.matching = std::move(state.matching);
+    result_.coarseCertificate = state.coarseCertificate;
+    result_.certificate = state.certificate;
+    result_.transfer = std::move(state.transfer);
+    result_.status = {};
+  }
+
+  /// A map of the coarse mesh, carried to the input. Where the input's triangles have no room for it, their
+  /// vertices are kept on all levels and the map is made again; the best attempt counts.
+  bool computeMap()
   {
     HierarchyOptions levelOptions = hierarchyOptions();
+    if (!computeCoarseMap(levelOptions))
+    {
+      return false;
+    }
+    transfer();
+    for (int attempt = 1; attempt < kMaximumTransfers; ++attempt)
+    {
+      if (result_.certificate.valid() || result_.transfer.offenders.empty())
+      {
+        break;
+      }
+      keepVertices(result_.transfer.offenders, levelOptions);
+      const std::size_t defects = defectsOf(result_.certificate);
+      MapState best = takeState();
+      if (!computeCoarseMap(levelOptions))
+      {
+        restore(std::move(best));
+        break;
+      }
+      transfer();
+      if (defectsOf(result_.certificate) >= defects)
+      {
+        restore(std::move(best));
+        break;
+      }
+    }
+    return true;
+  }
+
+  static std::size_t defectsOf(const Certificate& certificate)
+  {
+    return certificate.notPositive + certificate.wrongTurns + certificate.seamResiduals;
+  }
+
+  static void keepVertices(const std::vector<Index>& added, HierarchyOptions& levelOptions)
+  {
+    std::vector<Index>& kept = levelOptions.keepVertices;
+    kept.insert(kept.end(), added.begin(), added.end());
+    std::sort(kept.begin(), kept.end());
+    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+    levelOptions.coarseVertices += static_cast<Index>(added.size());
+  }
+
+  /// Decimates and maps; where the coarse triangulation lacks freedom, steps back around the
+  /// offenders and tries again.
+  bool computeCoarseMap(HierarchyOptions& levelOptions)
+  {
     GridMapOptions mapOptions;
     mapOptions.edgeLength = result_.targetEdgeLength;
     mapOptions.targetQuads = static_cast<double>(result_.targetQuads);
@@ -316,6 +403,7 @@ private:
     result_.transfer.uv.clear();
     addStage("replay", now() - start, result_.coarse.mesh.faceCount(), mesh.faceCount());
 
+    const double carried = now();
     expandSingularities();
     std::vector<std::uint8_t> integerVertex(mesh.vertexCount(), 0);
     const std::vector<std::uint8_t> coarseInteger =
@@ -325,8 +413,7 @@ private:
       integerVertex[result_.coarse.fineVertex[v]] = coarseInteger[v];
     }
     result_.certificate = certify(mesh, result_.uv, result_.turns, integerVertex);
-    addStage(
-      "certify", now() - start - result_.stages.back().seconds, mesh.faceCount(), mesh.faceCount());
+    addStage("certify", now() - carried, mesh.faceCount(), mesh.faceCount());
   }
 
   /// Turns and matchings of the finest level: removed vertices are regular.

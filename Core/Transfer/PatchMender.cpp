@@ -170,6 +170,7 @@ MendResult PatchMender::run(const ProgressCallback& progress)
     seeds = findSeeds();
   }
   result.notPositive = seeds.empty() ? 0 : findNotPositive().size();
+  result.defects = std::move(seeds);
   return result;
 }
 

@@ -53,15 +53,13 @@ std::size_t countNotPositive(const std::vector<FixedVec2>& uv)
   return count;
 }
 
-std::vector<Index> verticesOfNotPositive(const Mesh& fine, const TransferResult& result)
+std::vector<Index> verticesOf(const Mesh& fine, const std::vector<Index>& faces)
 {
   std::vector<Index> vertices;
-  for (Index h = 0; h < fine.halfEdgeCount() && result.notPositive > 0; h += 3)
+  for (const Index f : faces)
   {
-    if (!(determinant(result.uv[h], result.uv[h + 1], result.uv[h + 2]) > 0))
-    {
-      vertices.insert(vertices.end(), { fine.origin[h], fine.origin[h + 1], fine.origin[h + 2] });
-    }
+    vertices.insert(
+      vertices.end(), { fine.origin[3 * f], fine.origin[3 * f + 1], fine.origin[3 * f + 2] });
   }
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
@@ -116,8 +114,8 @@ TransferResult transferMap(const Mesh& fine, const Level& coarse, const Decimati
       mendPatches(fine, result.uv, expectedTurns(fine, coarse, coarseUv), options.progress);
     result.mendedPatches = mended.patches;
     result.notPositive = mended.notPositive;
+    result.offenders = verticesOf(fine, mended.defects);
   }
-  result.offenders = verticesOfNotPositive(fine, result);
   return result;
 }
 
