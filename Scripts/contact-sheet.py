@@ -95,7 +95,7 @@ def renderer(path, viewport):
     camera.SetPosition(0.55, 0.45, 1)
     camera.SetViewUp(0, 1, 0)
     view.ResetCamera()
-    camera.Zoom(1.25)
+    camera.Zoom(1.05)
     view.ResetCameraClippingRange()
     return view
 
