@@ -169,8 +169,10 @@ MendResult PatchMender::run(const ProgressCallback& progress)
     }
     seeds = findSeeds();
   }
-  result.notPositive = seeds.empty() ? 0 : findNotPositive().size();
-  result.defects = std::move(seeds);
+  const std::vector<Index> bad = seeds.empty() ? seeds : findNotPositive();
+  result.notPositive = bad.size();
+  // A wrong winding beside an inverted triangle is the same defect; the triangle tells where room is missing.
+  result.defects = bad.empty() ? std::move(seeds) : bad;
   return result;
 }
 

@@ -23,7 +23,7 @@ struct MendResult
 {
   std::size_t patches = 0;     ///< patches that were improved
   std::size_t notPositive = 0; ///< triangles of the whole mesh with !(det > 0) in the end
-  std::vector<Index> defects;  ///< these, and the faces at vertices of wrong turns
+  std::vector<Index> defects;  ///< these; if there are none, the faces at vertices of wrong turns
 };
 
 /// Changes uv in place. expectedTurns: #V quarter turns round each vertex. Deterministic; the work is bounded, so

@@ -27,7 +27,7 @@ struct TransferResult
   std::size_t withoutKernel = 0; ///< of these, left inverted by the replay
   std::size_t mendedPatches = 0; ///< patches re-embedded afterwards
   std::size_t notPositive = 0;   ///< triangles with !(det > 0) in the end
-  /// Vertices of these triangles and of those at vertices of wrong turns, sorted. Empty when the coarse map was
+  /// Vertices of these triangles or, if there are none, of those at vertices of wrong turns, sorted. Empty when the coarse map was
   /// invalid already. Where the finest mesh has too few triangles between irregular
   /// vertices or corners for what the coarse map asks there, no replay can be valid; keeping these vertices on
   /// the coarse level (HierarchyOptions::keepVertices) shows its map what there is.
