@@ -305,7 +305,7 @@ def summary(rows):
 def writeMarkdown(options, rows, badRows):
     parts = ["# Results", "",
              "Written by `Scripts/make-results.py`; do not edit. Judged by an independent tool: exact topology, exact distances "
-             "of 100,000 samples. A figure is followed by ✓ or ✗ where the bar has a limit for it. Lines below \"topology\" count "
+             f"of {options.samples:,} samples. A figure is followed by ✓ or ✗ where the bar has a limit for it. Lines below \"topology\" count "
              "the runs with the right topology only.", "",
              f"Machine: {options.machine}. Times and memory are of the whole command, from file to file.", "", summary(rows), "",
              "| run | topology | quads | Jacobian mean | <= 0 | irregular, other than 3 and 5 | distance to the input | features | s | MB |",
