@@ -196,6 +196,13 @@ bool isNearlyValid(const MapCheck& check, const Mesh& mesh)
     check.count[kNotPositive] <= mesh.faceCount() / 50;
 }
 
+/// There is nothing to bridge where folds are the rule, and lines would run through all of them.
+Status foldedAllOver(const MapCheck& check)
+{
+  return { StatusCode::NotConverged,
+    "the map is folded all over, no quads were extracted: it has " + check.text() };
+}
+
 /// Judges the result: what is wrong with it, and what in the map explains it.
 Status judge(const Mesh& mesh, const MapCheck& check, const QuadTopology& found,
   const ExtractionResult& result)
@@ -244,12 +251,24 @@ ExtractionResult extractQuads(
     return result;
   }
 
+  if (check.count[kNotPositive] > mesh.faceCount() / 4)
+  {
+    result.status = foldedAllOver(check);
+    return result;
+  }
+
   report(options.progress, 0.3, "finding grid vertices");
   const GridVertices grid(map, options.threads);
 
   report(options.progress, 0.5, "following the grid");
   const bool tolerant = check.count[kNotPositive] > 0;
   const CellCorners cells = traceCells(map, grid, tolerant, options.threads);
+
+  if (cells.exhausted)
+  {
+    result.status = foldedAllOver(check);
+    return result;
+  }
 
   report(options.progress, 0.7, "assembling quads");
   assembleQuads(map, grid, cells, { tolerant, options.threads }, result);
@@ -268,6 +287,8 @@ ExtractionResult extractQuads(
     SmoothingOptions smoothing;
     smoothing.steps = options.smoothingSteps;
     smoothing.threads = options.threads;
+    smoothing.progress = [&options](double fraction, const std::string& text)
+    { return !options.progress || options.progress(0.9 + 0.1 * fraction, text); };
     smoothQuads(mesh, result.mesh, smoothing);
   }
   report(options.progress, 1, "extraction done");

@@ -5,6 +5,7 @@
 #include "Base/Parallel.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace quadrille
 {
@@ -12,6 +13,8 @@ namespace
 {
 
 constexpr std::size_t kChunk = 1 << 10;
+/// Valid maps of real surfaces need about three steps per triangle and port.
+constexpr std::size_t kStepsPerElement = 20;
 
 /// Is x left of the moved line?
 bool isLeft(const Walk& walk, FixedVec2 x)
@@ -95,10 +98,11 @@ using Pairs = std::vector<std::pair<Index, Index>>;
 
 /// A walk that also collects the grid vertices over the start of the side in triangles further on.
 bool followAndCollect(const ExactMap& map, const GridVertices& grid, Walk& walk,
-  std::size_t maximumSteps, Index start, Pairs& merged)
+  std::size_t maximumSteps, Index start, Pairs& merged, std::size_t& steps)
 {
   for (std::size_t i = 0; i < maximumSteps; ++i)
   {
+    ++steps;
     const FixedVec2 origin = walk.target - axisVector(walk.direction);
     if (covers(map, walk.face, origin))
     {
@@ -125,10 +129,12 @@ std::size_t stepLimit(const ExactMap& map, bool tolerant)
   return tolerant ? std::min<std::size_t>(whole, 100000) : whole;
 }
 
-void traceVertex(const ExactMap& map, const GridVertices& grid, Index q, bool tolerant,
+/// Returns the number of triangles that a tolerant run visited.
+std::size_t traceVertex(const ExactMap& map, const GridVertices& grid, Index q, bool tolerant,
   CellCorners& cells, Pairs& merged)
 {
   const std::size_t limit = stepLimit(map, tolerant);
+  std::size_t steps = 0;
   Index port = grid.vertices()[q].firstPort;
   grid.forEachSector(q,
     [&](const Sector& sector)
@@ -137,8 +143,8 @@ void traceVertex(const ExactMap& map, const GridVertices& grid, Index q, bool to
       {
         const int direction = (sector.firstDirection + i) & 3;
         Walk walk{ sector.face, sector.point + axisVector(direction), direction, kInvalidIndex };
-        const bool arrived =
-          tolerant ? followAndCollect(map, grid, walk, limit, q, merged) : follow(map, walk, limit);
+        const bool arrived = tolerant ? followAndCollect(map, grid, walk, limit, q, merged, steps)
+                                      : follow(map, walk, limit);
         cells.vertex[port] = q;
         if (arrived)
         {
@@ -147,6 +153,7 @@ void traceVertex(const ExactMap& map, const GridVertices& grid, Index q, bool to
         }
       }
     });
+  return steps;
 }
 
 /// Both ends of an edge whose image is a single integer point are one vertex.
@@ -187,15 +194,22 @@ CellCorners traceCells(const ExactMap& map, const GridVertices& grid, bool toler
   cells.next.assign(grid.portCount(), kInvalidIndex);
   cells.vertex.assign(grid.portCount(), kInvalidIndex);
   const std::size_t count = grid.vertices().size();
+  // Each side of a cell crosses few triangles on average, whatever the sizes. Whether the sum
+  // passes the limit does not depend on the order of the threads.
+  const std::size_t budget =
+    kStepsPerElement * (std::size_t{ map.mesh.faceCount() } + grid.portCount());
+  std::atomic<std::size_t> steps{ 0 };
   std::vector<Pairs> merged((count + kChunk - 1) / kChunk);
   parallelFor(count, kChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      for (std::size_t q = begin; q < end; ++q)
+      for (std::size_t q = begin; q < end && steps <= budget; ++q)
       {
-        traceVertex(map, grid, static_cast<Index>(q), tolerant, cells, merged[begin / kChunk]);
+        steps +=
+          traceVertex(map, grid, static_cast<Index>(q), tolerant, cells, merged[begin / kChunk]);
       }
     });
+  cells.exhausted = steps > budget;
   for (const Pairs& part : merged)
   {
     cells.merged.insert(cells.merged.end(), part.begin(), part.end());

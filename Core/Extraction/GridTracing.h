@@ -49,6 +49,9 @@ struct CellCorners
   std::vector<Index> vertex; ///< per port: the grid vertex it leaves
   /// Pairs of grid vertices that are one vertex of the unfolded map; none for a valid map.
   std::vector<std::pair<Index, Index>> merged;
+  /// The lines of a tolerant run are so long that the map must be folded all over; then the lists
+  /// above are not complete.
+  bool exhausted = false;
 };
 
 /// Follows every port by one unit. tolerant: also looks for further copies of each port's vertex

@@ -381,6 +381,23 @@ TEST(Extraction, RefusesGarbage)
   EXPECT_EQ(extract(nothing).status.code, StatusCode::NotConverged);
 }
 
+// A seamless map that is folded all over: refused at once, for lines would run through all of its
+// triangles without getting anywhere.
+TEST(Extraction, GivesUpOnMapsFoldedAllOver)
+{
+  Random random(31);
+  GridMapCase c = squares("", torus(60, 60), 1);
+  MapEditor editor(c);
+  for (Index h = 0; h < c.mesh.halfEdgeCount(); ++h)
+  {
+    editor.moveVertex(
+      h, { kOne / 10 * (pick(random, 401) - 200), kOne / 10 * (pick(random, 401) - 200) }, true);
+  }
+  const ExtractionResult result = extract(c);
+  EXPECT_EQ(result.status.code, StatusCode::NotConverged);
+  EXPECT_NE(result.status.message.find("folded all over"), std::string::npos);
+}
+
 TEST(Extraction, RefusesTooManyQuadsBeforeTheyAreMade)
 {
   const GridMapCase c = squares("", unitCube(2), 100000);
