@@ -43,7 +43,8 @@ inline GridMapCase squares(std::string name, Mesh mesh, int k)
     const FixedVec2 second = f % 2 == 0 ? FixedVec2{ s, s } : FixedVec2{ 0, s };
     result.uv.insert(result.uv.end(), { FixedVec2{}, first, second });
   }
-  result.quads = std::size_t{ result.mesh.faceCount() } / 2 * static_cast<std::size_t>(k * k);
+  result.quads = std::size_t{ result.mesh.faceCount() } / 2 * static_cast<std::size_t>(k) *
+    static_cast<std::size_t>(k);
   for (Index h = 0; h < result.mesh.halfEdgeCount(); ++h)
   {
     const Index g = result.mesh.twin[h];
