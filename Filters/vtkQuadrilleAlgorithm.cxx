@@ -88,12 +88,16 @@ int vtkQuadrilleAlgorithm::RequestData(
   if (requestedPiece(outputs) > 0 || (requestedPieces(outputs) > 1 && isEmpty(inputs)))
   {
     initializeOutputs(outputs);
+    this->LastResult.clear();
     this->Outcome = Succeeded;
     return 1;
   }
+  const quadrille::PollScope scope(
+    [this](double, const std::string&) { return this->ShowProgressAndGoOn(); });
   try
   {
     this->Execute(inputs, outputs);
+    this->KeepResult(outputs);
     this->Outcome = Succeeded;
     this->UpdateProgress(1.0);
     return 1;
@@ -135,11 +139,17 @@ std::function<bool(double, const std::string&)> vtkQuadrilleAlgorithm::MakeProgr
     const double progress = begin + (end - begin) * std::clamp(fraction, 0.0, 1.0);
     this->FarthestProgress = std::max(this->FarthestProgress, progress);
     this->SetProgressText(text.c_str());
-    this->UpdateProgress(this->FarthestProgress);
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - this->Started;
-    this->TimeIsOver = this->TimeLimit > 0 && spent.count() > this->TimeLimit;
-    return !this->TimeIsOver && !this->CheckAbort();
+    return this->ShowProgressAndGoOn();
   };
+}
+
+//------------------------------------------------------------------------------
+bool vtkQuadrilleAlgorithm::ShowProgressAndGoOn()
+{
+  this->UpdateProgress(this->FarthestProgress);
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - this->Started;
+  this->TimeIsOver = this->TimeLimit > 0 && spent.count() > this->TimeLimit;
+  return !this->TimeIsOver && !this->CheckAbort();
 }
 
 //------------------------------------------------------------------------------
@@ -174,13 +184,45 @@ void vtkQuadrilleAlgorithm::ResetOutcome()
 }
 
 //------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::KeepResult(vtkInformationVector* outputs)
+{
+  this->LastResult.clear();
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkDataObject* output = vtkDataObject::GetData(outputs, port);
+    this->LastResult.push_back(vtk::TakeSmartPointer(output->NewInstance()));
+    this->LastResult.back()->ShallowCopy(output);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::RestoreResult(vtkInformationVector* outputs)
+{
+  initializeOutputs(outputs);
+  for (std::size_t port = 0; port < this->LastResult.size(); ++port)
+  {
+    vtkDataObject::GetData(outputs, static_cast<int>(port))->ShallowCopy(this->LastResult[port]);
+  }
+}
+
+//------------------------------------------------------------------------------
+std::string vtkQuadrilleAlgorithm::DescribeOutputs() const
+{
+  return this->LastResult.empty() ? "there is no result" : "the previous result is kept";
+}
+
+//------------------------------------------------------------------------------
 int vtkQuadrilleAlgorithm::Fail(
   OutcomeType outcome, const std::string& text, vtkInformationVector* outputs)
 {
-  initializeOutputs(outputs);
+  this->RestoreResult(outputs);
   this->Outcome = outcome;
   this->OutcomeText = text;
-  vtkErrorMacro(<< text);
+  if (!this->LastResult.empty())
+  {
+    this->OutcomeText += "; " + this->DescribeOutputs();
+  }
+  vtkErrorMacro(<< this->OutcomeText);
   return 0;
 }
 
@@ -190,13 +232,16 @@ int vtkQuadrilleAlgorithm::FailCancelled(vtkInformationVector* outputs)
   if (this->TimeIsOver)
   {
     std::ostringstream text;
-    text << "stopped after the time limit of " << this->TimeLimit << " s; there is no result";
+    text << "stopped after the time limit of " << this->TimeLimit << " s";
     return this->Fail(TimedOut, text.str(), outputs);
   }
   // No error: it is what the user asked for. Returning 0 leaves the filter out of date.
-  initializeOutputs(outputs);
+  // The flags have done their duty; left standing they would make the executive empty the outputs.
+  this->SetAbortExecute(0);
+  this->SetAbortOutput(false);
+  this->RestoreResult(outputs);
   this->Outcome = Aborted;
-  this->OutcomeText = "stopped on request; there is no result";
+  this->OutcomeText = "stopped on request; " + this->DescribeOutputs();
   vtkWarningMacro(<< this->OutcomeText);
   return 0;
 }

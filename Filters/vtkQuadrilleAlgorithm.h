@@ -6,13 +6,15 @@
  *
  * A filter of Quadrille works on a whole surface. Under MPI rank 0 asks for the whole of its input and the
  * other ranks have an empty output. Any failure is reported through vtkErrorMacro with the
- * element that is at fault; the filter's outputs are then empty and GetOutcome() says what kind of failure it was.
+ * element that is at fault, and GetOutcome() says what kind of failure it was. The outputs then hold the previous result,
+ * unchanged, as they do after a stop on request; they are empty where there was none.
  */
 #ifndef vtkQuadrilleAlgorithm_h
 #define vtkQuadrilleAlgorithm_h
 
 #include "QuadrilleFiltersModule.h" // for the export macro
 #include "vtkPolyDataAlgorithm.h"
+#include "vtkSmartPointer.h" // for vtkSmartPointer
 
 #include <chrono>     // for std::chrono::steady_clock
 #include <functional> // for std::function
@@ -62,7 +64,7 @@ public:
 
   /// An OutcomeType.
   vtkGetMacro(Outcome, int);
-  /// The reason of a failure; empty after success.
+  /// The reason of a failure, and what the outputs hold; empty after success.
   const char* GetOutcomeText() { return this->OutcomeText.c_str(); }
   /// Seconds and sizes of the stages of the last execution, one stage a line.
   const char* GetStageTimesText() { return this->StageTimesText.c_str(); }
@@ -99,12 +101,18 @@ private:
   void operator=(const vtkQuadrilleAlgorithm&) = delete;
 
   void ResetOutcome();
+  bool ShowProgressAndGoOn();
+  void KeepResult(vtkInformationVector* outputs);
+  void RestoreResult(vtkInformationVector* outputs);
+  /// What the outputs hold after a failure.
+  std::string DescribeOutputs() const;
   int Fail(OutcomeType outcome, const std::string& text, vtkInformationVector* outputs);
   int FailCancelled(vtkInformationVector* outputs);
 
   int Outcome = NotRun;
   bool TimeIsOver = false;
   double FarthestProgress = 0;
+  std::vector<vtkSmartPointer<vtkDataObject>> LastResult; ///< shares its arrays with the outputs
   std::chrono::steady_clock::time_point Started;
   std::string OutcomeText;
   std::string StageTimesText;

@@ -35,6 +35,8 @@ RemeshRun::RemeshRun()
     {
       auto* run = static_cast<RemeshRun*>(client);
       const char* text = run->filter_->GetProgressText();
+      run->closeGap();
+      run->lastText_ = text ? text : "";
       if (run->progress_ && !run->progress_(run->filter_->GetProgress(), text ? text : ""))
       {
         run->filter_->SetAbortExecute(1);
@@ -50,11 +52,27 @@ void RemeshRun::onProgress(std::function<bool(double, const std::string&)> progr
   progress_ = std::move(progress);
 }
 
+void RemeshRun::closeGap()
+{
+  const auto time = std::chrono::steady_clock::now();
+  const double gap = std::chrono::duration<double>(time - lastCall_).count();
+  lastCall_ = time;
+  if (gap > longestGap_)
+  {
+    longestGap_ = gap;
+    longestGapText_ = lastText_;
+  }
+}
+
 ExitCode RemeshRun::execute(vtkPolyData* input)
 {
   errors_.clear();
+  longestGap_ = 0;
+  lastText_ = "start";
+  lastCall_ = std::chrono::steady_clock::now();
   filter_->SetInputData(input);
   filter_->Update();
+  closeGap();
   switch (filter_->GetOutcome())
   {
     case vtkQuadrilleAlgorithm::Succeeded:

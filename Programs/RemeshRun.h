@@ -7,6 +7,7 @@
 #include <vtkQuadRemesh.h>
 #include <vtkSmartPointer.h>
 
+#include <chrono>
 #include <functional>
 #include <string>
 #include <vector>
@@ -46,15 +47,25 @@ public:
   ExitCode execute(vtkPolyData* input);
   /// The reason when execute() did not return kValidQuads.
   std::string error() const;
+  /// The longest time of the last execution in which it could not have been stopped, in seconds, and the progress text
+  /// before it.
+  double longestGap() const { return longestGap_; }
+  const std::string& longestGapText() const { return longestGapText_; }
   /// Rows of the field data; empty after a failure.
   std::vector<StageRow> stages();
 
 private:
+  void closeGap();
+
   vtkNew<vtkQuadRemesh> filter_;
   vtkNew<vtkCallbackCommand> onError_;
   vtkNew<vtkCallbackCommand> onProgress_;
   std::function<bool(double, const std::string&)> progress_;
   std::string errors_;
+  std::chrono::steady_clock::time_point lastCall_;
+  double longestGap_ = 0;
+  std::string longestGapText_;
+  std::string lastText_;
 };
 
 } // namespace quadrille

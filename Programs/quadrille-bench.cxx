@@ -31,7 +31,8 @@ Remeshes each mesh and writes to standard output, as CSV, the columns
   mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb
 with the stages
   read, repair, order, connectivity, phase1, phase2, field, seamless, quantize, embed,
-  replay, extract, total
+  replay, extract, total, cancel
+where cancel is the longest time in which the run could not have been stopped.
 
   --quads N          target number of quads (default 5000)
   --edge-length S    target edge length in units of the input
@@ -41,8 +42,12 @@ with the stages
 exit code: 0 when every run gave quads, else the worst code of the command quadrille
 )";
 
-constexpr std::array<const char*, 13> kStages = { "read", "repair", "order", "connectivity",
-  "phase1", "phase2", "field", "seamless", "quantize", "embed", "replay", "extract", "total" };
+constexpr std::array<const char*, 14> kStages = { "read", "repair", "order", "connectivity",
+  "phase1", "phase2", "field", "seamless", "quantize", "embed", "replay", "extract", "total",
+  "cancel" };
+
+/// Seconds without a chance to stop that are worth a line.
+constexpr double kSlowCancel = 0.1;
 
 struct Request
 {
@@ -158,7 +163,13 @@ int runOnce(const std::string& mesh, long long repeat, const Request& request)
     rows.insert(rows.begin(), { "read", read, cells, cells });
     rows.push_back(
       { "total", now() - start, cells, run.filter()->GetOutput()->GetNumberOfPolys() });
+    rows.push_back({ "cancel", run.longestGap(), cells, cells });
     printRows(mesh, repeat, request, collect(rows));
+    if (run.longestGap() > kSlowCancel)
+    {
+      std::fprintf(stderr, "quadrille-bench: %s: %.3f s without a chance to stop after '%s'\n",
+        mesh.c_str(), run.longestGap(), run.longestGapText().c_str());
+    }
     return kValidQuads;
   }
   catch (const std::exception& error)

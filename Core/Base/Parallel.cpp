@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Parallel.h"
 
+#include "Base/Progress.h"
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -38,6 +40,7 @@ void parallelFor(std::size_t count, std::size_t chunkSize, int threads,
     {
       try
       {
+        poll(); // a run belongs to the caller's thread; on the others this does nothing
         const std::size_t begin = chunk * chunkSize;
         body(begin, std::min(count, begin + chunkSize));
       }

@@ -15,7 +15,7 @@ int resolveThreads(int requested);
 /// Calls body(begin, end) for consecutive chunks of [0, count) of at most chunkSize elements, on
 /// `threads` threads (0: all). The chunks do not depend on the number of threads, so a body that
 /// writes only what belongs to its chunk gives the same bytes for any number. The first exception
-/// thrown by a body is rethrown here after all threads have stopped.
+/// thrown by a body is rethrown here after all threads have stopped; so is Cancelled (see poll()).
 void parallelFor(std::size_t count, std::size_t chunkSize, int threads,
   const std::function<void(std::size_t begin, std::size_t end)>& body);
 

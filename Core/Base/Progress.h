@@ -1,10 +1,15 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// Progress and cancel are one callback.
+///
+/// A stage reports where it stands with report(). Between two reports a long loop calls poll(), which costs a look at the
+/// clock and repeats the last report of the run when a while has passed; parallelFor() does so before each chunk.
+/// So a run stops soon after the callback asks for it, without every inner loop being given the callback.
 #pragma once
 
 #include "Base/Error.h"
 
+#include <chrono>
 #include <functional>
 #include <string>
 
@@ -24,5 +29,35 @@ inline void report(const ProgressCallback& callback, double fraction, const std:
     throw Cancelled();
   }
 }
+
+/// The run of the thread that makes it, for poll(). Scopes nest; the innermost one is asked.
+class PollScope
+{
+public:
+  /// Time that must pass between two calls of the callback by poll().
+  static constexpr std::chrono::milliseconds kInterval{ 20 };
+
+  explicit PollScope(ProgressCallback callback);
+  ~PollScope();
+  PollScope(const PollScope&) = delete;
+  PollScope& operator=(const PollScope&) = delete;
+
+  /// The callback that the stages of the run must use, so that poll() knows the last report. Empty where the scope's own
+  /// callback is. Lives as long as the scope.
+  ProgressCallback callback();
+
+private:
+  friend void poll();
+  bool call(double fraction, const std::string& text);
+
+  ProgressCallback callback_;
+  PollScope* outer_;
+  std::chrono::steady_clock::time_point last_;
+  double fraction_ = 0;
+  std::string text_;
+};
+
+/// Throws Cancelled when the callback of the thread's run asks to stop. Does nothing on threads without a run.
+void poll();
 
 } // namespace quadrille

@@ -67,7 +67,11 @@ void checkOptions(const RemeshOptions& options)
 class Run
 {
 public:
-  Run(const SurfaceInput& input, const RemeshOptions& options) : input_(input), options_(options) {}
+  Run(const SurfaceInput& input, const RemeshOptions& options)
+    : input_(input), options_(options), poll_(options.progress)
+  {
+    options_.progress = poll_.callback();
+  }
 
   RemeshResult execute()
   {
@@ -473,7 +477,8 @@ private:
   }
 
   const SurfaceInput& input_;
-  const RemeshOptions& options_;
+  RemeshOptions options_;
+  PollScope poll_;
   RemeshResult result_;
   Hierarchy hierarchy_;
   CrossField coarseField_;

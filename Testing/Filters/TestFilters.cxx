@@ -401,6 +401,64 @@ TEST(QuadRemeshFailure, AbortLeavesTheFilterOutOfDate)
   EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 0);
 }
 
+/// What a filter's outputs hold, for a comparison.
+std::vector<vtkIdType> sizesOf(vtkQuadRemesh* filter)
+{
+  std::vector<vtkIdType> sizes;
+  for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
+  {
+    auto* data = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(port));
+    sizes.insert(sizes.end(),
+      { data->GetNumberOfPoints(), data->GetNumberOfCells(),
+        vtkIdType{ data->GetPointData()->GetNumberOfArrays() },
+        vtkIdType{ data->GetFieldData()->GetNumberOfArrays() } });
+  }
+  return sizes;
+}
+
+TEST(QuadRemeshFailure, PreviousResultIsKept)
+{
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  run(filter, test::toPolyData(test::torus(40, 20)), 200);
+  const std::vector<vtkIdType> before = sizesOf(filter);
+  ASSERT_GT(before[1], 0);
+  double corner[3];
+  filter->GetOutput()->GetPoint(0, corner);
+
+  // A stop on request, in the middle.
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback(
+    [](vtkObject* caller, unsigned long, void*, void*)
+    {
+      auto* algorithm = vtkAlgorithm::SafeDownCast(caller);
+      algorithm->SetAbortExecute(algorithm->GetProgress() > 0.3);
+    });
+  const unsigned long id = filter->AddObserver(vtkCommand::ProgressEvent, stop);
+  filter->SetNumberOfQuads(400);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Aborted);
+  EXPECT_NE(std::string(filter->GetOutcomeText()).find("previous result"), std::string::npos);
+  EXPECT_EQ(sizesOf(filter), before);
+  filter->RemoveObserver(id);
+  filter->SetAbortExecute(0);
+
+  // An error.
+  filter->SetNumberOfQuads(0);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+  EXPECT_EQ(sizesOf(filter), before);
+  double kept[3];
+  filter->GetOutput()->GetPoint(0, kept);
+  EXPECT_TRUE(std::equal(corner, corner + 3, kept));
+
+  // And the next success replaces it.
+  filter->SetNumberOfQuads(800);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+  EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 2 * before[1]);
+}
+
 TEST(QuadRemeshFailure, TimeLimitIsAnError)
 {
   vtkNew<vtkQuadRemesh> filter;

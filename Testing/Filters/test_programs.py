@@ -290,7 +290,7 @@ class Report(Case):
 class Bench(Case):
     COLUMNS = "mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb".split(",")
     STAGES = ("read repair order connectivity phase1 phase2 field seamless quantize embed replay extract "
-              "total").split()
+              "total cancel").split()
 
     def test_columns_and_stages(self):
         source = self.write_off()
@@ -304,8 +304,10 @@ class Bench(Case):
         for row in rows:
             self.assertGreaterEqual(float(row["seconds"]), 0)
             self.assertGreater(float(row["peak_rss_mb"]), 1)
-        for run in (rows[:13], rows[13:]):
-            self.assertLessEqual(sum(float(r["seconds"]) for r in run[:-1]), 1.01 * float(run[-1]["seconds"]))
+        for run in (rows[:14], rows[14:]):
+            stages, total, cancel = run[:-2], run[-2], run[-1]
+            self.assertLessEqual(sum(float(r["seconds"]) for r in stages), 1.01 * float(total["seconds"]))
+            self.assertTrue(0 < float(cancel["seconds"]) <= float(total["seconds"]))
 
     def test_a_bad_mesh_does_not_end_the_others(self):
         source = self.write_off()

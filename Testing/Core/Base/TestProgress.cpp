@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Base/Parallel.h"
 #include "Base/Progress.h"
 
 #include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
 
 namespace quadrille
 {
@@ -26,6 +30,59 @@ TEST(Progress, theCallbackGetsFractionAndTextAndMayCancel)
   EXPECT_EQ(fraction, 0.25);
   EXPECT_EQ(text, "quarter");
   EXPECT_THROW(report([](double, const std::string&) { return false; }, 0, ""), Cancelled);
+}
+
+TEST(Progress, pollRepeatsTheLastReportAfterAWhile)
+{
+  std::vector<double> seen;
+  PollScope scope(
+    [&](double fraction, const std::string&)
+    {
+      seen.push_back(fraction);
+      return seen.size() < 3;
+    });
+  report(scope.callback(), 0.5, "half");
+  poll(); // at once: nothing to say
+  EXPECT_EQ(seen.size(), 1U);
+  std::this_thread::sleep_for(PollScope::kInterval);
+  poll();
+  EXPECT_EQ(seen, (std::vector<double>{ 0.5, 0.5 }));
+  std::this_thread::sleep_for(PollScope::kInterval);
+  EXPECT_THROW(poll(), Cancelled);
+}
+
+TEST(Progress, theInnermostRunIsAskedAndOtherThreadsHaveNone)
+{
+  int outerCalls = 0;
+  int innerCalls = 0;
+  PollScope outer([&](double, const std::string&) { return ++outerCalls < 100; });
+  std::this_thread::sleep_for(PollScope::kInterval);
+  {
+    PollScope inner([&](double, const std::string&) { return ++innerCalls < 100; });
+    std::this_thread::sleep_for(PollScope::kInterval);
+    poll();
+    std::thread([] { poll(); }).join();
+  }
+  EXPECT_EQ(innerCalls, 1);
+  EXPECT_EQ(outerCalls, 0);
+  poll();
+  EXPECT_EQ(outerCalls, 1);
+}
+
+TEST(Progress, aParallelLoopStopsOnRequest)
+{
+  for (const int threads : { 1, 2, 4 })
+  {
+    PollScope scope([](double, const std::string&) { return false; });
+    std::atomic<int> chunks{ 0 };
+    const auto slow = [&](std::size_t, std::size_t)
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      ++chunks;
+    };
+    EXPECT_THROW(parallelFor(1000, 1, threads, slow), Cancelled);
+    EXPECT_LT(chunks, 1000);
+  }
 }
 
 TEST(Progress, aStatusIsOkUnlessToldOtherwise)
