@@ -41,6 +41,8 @@ void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
   quadrille::addStages(data, result.stages);
   quadrille::addCertificate(data, result.certificate);
   quadrille::addRepair(data, result.surface.repair);
+  quadrille::addNumber(data, "EstimatedSeconds", result.estimate.seconds);
+  quadrille::addNumber(data, "EstimatedMegabytes", 1e-6 * result.estimate.bytes);
   quadrille::addNumber(data, "TargetEdgeLength", result.targetEdgeLength);
   quadrille::addCount(data, "TargetQuads", result.targetQuads);
   quadrille::addCount(data, "ActualQuads", result.quads.quads.size());
@@ -76,6 +78,10 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   const quadrille::ConvertedSurface converted = this->ConvertInputs(inputs);
   quadrille::RemeshOptions options = this->MakeOptions();
   options.maximumQuads = static_cast<std::size_t>(this->MaximumQuads);
+  if (this->MemoryLimit > 0)
+  {
+    options.memoryLimit = 1e6 * this->MemoryLimit;
+  }
   options.progress = this->MakeProgress(0.02, 0.95);
 
   const quadrille::RemeshResult result = quadrille::remesh(converted.input, options);
@@ -110,6 +116,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "MaximumQuads: " << this->MaximumQuads << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "ComputeMappedSurface: " << this->ComputeMappedSurface << "\n";
   os << indent << "TextureCoordinates: " << this->TextureCoordinates << "\n";
   os << indent << "TargetQuads: " << this->TargetQuads << "\n";

@@ -16,7 +16,7 @@
  *
  * Field data of output 0: `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`, `Certificate`,
  * `CertificateValid`, `CertificateNames`, `CertificateValues`, `RepairNames`, `RepairCounts`, `Notices`,
- * `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `CoarseVertices`, `SurfaceFaces`.
+ * `EstimatedSeconds`, `EstimatedMegabytes`, `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `CoarseVertices`, `SurfaceFaces`.
  */
 #ifndef vtkQuadRemesh_h
 #define vtkQuadRemesh_h
@@ -36,6 +36,15 @@ public:
    */
   vtkSetMacro(MaximumQuads, vtkIdType);
   vtkGetMacro(MaximumQuads, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * The filter refuses, before it starts, to work on a surface that needs more memory than this by its estimate; in
+   * millions of bytes. 0, the default, means what the machine has free.
+   */
+  vtkSetClampMacro(MemoryLimit, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MemoryLimit, double);
   ///@}
 
   ///@{
@@ -78,6 +87,7 @@ private:
   vtkPolyData* GetPolyDataOutputAt(int port);
 
   vtkIdType MaximumQuads = 10000000;
+  double MemoryLimit = 0;
   vtkTypeBool ComputeMappedSurface = 1;
   vtkTypeBool TextureCoordinates = 1;
   vtkIdType ActualQuads = 0;

@@ -45,6 +45,8 @@ size of the quads (at most one; 0.02 of the bounding-box diagonal when none is g
                             0 turns the detection off (default 40)
   --coarse-vertices N       vertices of the level where the layout is computed (default 1000)
   --threads N               threads to compute with; 0 means all (default 0)
+  --memory-limit MB         refuse to start where more memory is needed by the estimate;
+                            0 means what the machine has free (default 0)
   --report REPORT.json      what was repaired, sizes, seconds per stage, certificate,
                             asked and actual count, quality
   --help                    this text
@@ -165,6 +167,7 @@ void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
     filter->SetCoarseVertices(static_cast<int>(*vertices));
   }
   filter->SetNumberOfThreads(static_cast<int>(line.count("threads", 0, 4096).value_or(0)));
+  filter->SetMemoryLimit(line.number("memory-limit", 0, 1e12).value_or(0));
   filter->ComputeMappedSurfaceOff();
 }
 
@@ -300,6 +303,8 @@ void addStages(Json& json, RemeshRun& run, double readSeconds)
 
 void addSuccess(Json& json, vtkPolyData* quads)
 {
+  json.add("estimated_seconds", fieldNumber(quads, "EstimatedSeconds"));
+  json.add("estimated_megabytes", fieldNumber(quads, "EstimatedMegabytes"));
   json.add("target_edge_length", fieldNumber(quads, "TargetEdgeLength"));
   json.add("quads_asked", fieldNumber(quads, "TargetQuads"));
   json.add("quads_actual", static_cast<long long>(quads->GetNumberOfPolys()));
@@ -443,7 +448,7 @@ int main(int argc, char* argv[])
   {
     const CommandLine line(argc, argv,
       { "quads", "edge-length", "relative-edge-length", "feature-angle", "coarse-vertices",
-        "threads", "report" });
+        "threads", "memory-limit", "report" });
     if (line.help() || argc == 1)
     {
       std::fputs(kHelp, line.help() ? stdout : stderr);

@@ -57,6 +57,10 @@ void checkOptions(const RemeshOptions& options)
   {
     throw InvalidInput("the feature angle must be above 0 and at most 180 degrees");
   }
+  if (options.memoryLimit && !positive(*options.memoryLimit))
+  {
+    throw InvalidInput("the memory limit must be a positive number of bytes");
+  }
   if (options.coarseVertices < 4)
   {
     throw InvalidInput("the coarse level needs at least 4 vertices");
@@ -78,15 +82,9 @@ public:
     checkOptions(options_);
     try
     {
-      prepare();
-      chooseEdgeLength();
-      if (!refuseTooMany())
+      if (fitsIntoMemory())
       {
-        refine();
-        if (computeMap())
-        {
-          extract();
-        }
+        run();
       }
     }
     catch (const Cancelled&)
@@ -98,6 +96,20 @@ public:
   }
 
 private:
+  void run()
+  {
+    prepare();
+    chooseEdgeLength();
+    if (!refuseTooMany())
+    {
+      refine();
+      if (computeMap())
+      {
+        extract();
+      }
+    }
+  }
+
   void addStage(const std::string& name, double seconds, std::size_t in, std::size_t out)
   {
     // A stage that had to be repeated is one entry with the time of all its runs.
@@ -116,6 +128,34 @@ private:
   {
     result_.status = { code, message };
     result_.quads = {};
+  }
+
+  /// Says what the run will cost; false where the memory is not there.
+  bool fitsIntoMemory()
+  {
+    std::size_t triangles = 0;
+    for (std::size_t i = 0; i + 1 < input_.polygonOffsets.size(); ++i)
+    {
+      const std::size_t corners = input_.polygonOffsets[i + 1] - input_.polygonOffsets[i];
+      triangles += std::max<std::size_t>(corners, 2) - 2;
+    }
+    const double quads =
+      static_cast<double>(std::min(options_.quads.value_or(0), options_.maximumQuads));
+    result_.estimate = estimateRun(triangles, quads, options_.threads);
+    report(options_.progress, 0,
+      "Preparing: " + describe(result_.estimate) + " for " + std::to_string(triangles) +
+        " triangles");
+    const double limit = options_.memoryLimit.value_or(freeMemory());
+    if (result_.estimate.bytes <= limit)
+    {
+      return true;
+    }
+    fail(StatusCode::TooLarge,
+      "about " + describeBytes(result_.estimate.bytes) + " of memory would be needed for " +
+        std::to_string(triangles) + " triangles, but " + describeBytes(limit) +
+        (options_.memoryLimit ? " are allowed" : " are free") +
+        "; free memory, raise the memory limit, or decimate the surface first");
+    return false;
   }
 
   void prepare()

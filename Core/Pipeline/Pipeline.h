@@ -9,6 +9,7 @@
 #include "GridMap/GridMap.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Mesh/Surface.h"
+#include "Pipeline/Estimate.h"
 #include "Transfer/Transfer.h"
 
 #include <cstdint>
@@ -29,6 +30,8 @@ struct RemeshOptions
     0.6981317007977318;        ///< radians (40 degrees); none: no detection
   Index coarseVertices = 1000; ///< budget of the coarse level
   std::size_t maximumQuads = 10000000;
+  /// Bytes that the run may take by the estimate; none: what the machine has free.
+  std::optional<double> memoryLimit;
   int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;
 };
@@ -52,12 +55,14 @@ struct RemeshResult
   std::vector<std::int8_t> matching; ///< #H of surface.mesh: rotation of the transition
   std::vector<int> turns;            ///< #V of surface.mesh
   Level coarse;                      ///< coarse mesh
-  std::vector<FixedVec2> coarseUv;    ///< #H of coarse.mesh; also when the status is not ok, for a look
-  std::vector<int> coarseTurns;       ///< #V of coarse.mesh
+  std::vector<FixedVec2>
+    coarseUv;                    ///< #H of coarse.mesh; also when the status is not ok, for a look
+  std::vector<int> coarseTurns;  ///< #V of coarse.mesh
   Certificate coarseCertificate; ///< of the coarse map
   Certificate certificate;       ///< of the map on the input surface
   TransferResult transfer;       ///< counts only, uv is moved out
   std::vector<StageRecord> stages;
+  RunEstimate estimate; ///< made before the run
   double targetEdgeLength = 0;
   std::size_t targetQuads = 0; ///< predicted from the edge length where none was asked
   std::vector<std::string>

@@ -206,5 +206,50 @@ TEST(Pipeline, StagesAreReportedInOrder)
   }
 }
 
+TEST(Estimate, growsWithSizesAndShrinksWithThreads)
+{
+  const RunEstimate small = estimateRun(100000, 1000, 1);
+  const RunEstimate large = estimateRun(8000000, 1000, 1);
+  EXPECT_GT(large.seconds, 4 * small.seconds);
+  EXPECT_GT(large.bytes, 4 * small.bytes);
+  EXPECT_LT(estimateRun(8000000, 1000, 4).seconds, large.seconds);
+  EXPECT_EQ(estimateRun(8000000, 1000, 4).bytes, large.bytes);
+  EXPECT_GT(estimateRun(100000, 1000000, 1).seconds, small.seconds);
+  EXPECT_GT(freeMemory(), 1e6);
+}
+
+TEST(Estimate, isReadable)
+{
+  EXPECT_EQ(describeBytes(639.2e6), "640 MB");
+  EXPECT_EQ(describeBytes(12.34e9), "12.3 GB");
+  EXPECT_EQ(describe({ 7.2, 1e6 }), "about 7 s and 1 MB");
+}
+
+TEST(Pipeline, refusesWhatDoesNotFitIntoMemoryBeforeItStarts)
+{
+  const Mesh mesh = test::torus(40, 20);
+  RemeshOptions options;
+  options.quads = 300;
+  options.memoryLimit = 1e6;
+  std::vector<std::string> texts;
+  options.progress = [&](double, const std::string& text)
+  {
+    texts.push_back(text);
+    return true;
+  };
+  const RemeshResult refused = remesh(inputOf(mesh), options);
+  EXPECT_EQ(refused.status.code, StatusCode::TooLarge);
+  EXPECT_NE(refused.status.message.find("1 MB are allowed"), std::string::npos)
+    << refused.status.message;
+  EXPECT_TRUE(refused.stages.empty());
+  ASSERT_EQ(texts.size(), 1U);
+  EXPECT_NE(texts[0].find(describe(refused.estimate)), std::string::npos) << texts[0];
+
+  options.memoryLimit = 1e9;
+  EXPECT_TRUE(remesh(inputOf(mesh), options).status.ok());
+  options.memoryLimit = -1;
+  EXPECT_THROW(remesh(inputOf(mesh), options), InvalidInput);
+}
+
 } // namespace
 } // namespace quadrille

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a run will cost, before it starts.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace quadrille
+{
+
+struct RunEstimate
+{
+  double seconds = 0; ///< on a machine like the one of Documentation/Performance.md
+  double bytes = 0;   ///< peak memory beside the caller's copy of the surface
+};
+
+/// From sizes alone: triangles of the input, quads asked for. threads: 0 means all. The rates are those that quadrille-bench
+/// measured on scans; surfaces whose features make the run try again take longer.
+RunEstimate estimateRun(std::size_t triangles, double quads, int threads);
+
+/// Bytes that the machine can give to a process now without swapping; infinity where it cannot be found out.
+double freeMemory();
+
+/// "about 7 s and 640 MB".
+std::string describe(const RunEstimate& estimate);
+
+/// "640 MB", "12.3 GB".
+std::string describeBytes(double bytes);
+
+} // namespace quadrille
