@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 namespace quadrille
 {
@@ -19,7 +20,8 @@ namespace
 /// Live faces of a block. Large against its border, small enough for many blocks in a scan.
 constexpr std::size_t kBlockFaces = 16384;
 constexpr double kThresholdStep = 1.5;
-constexpr int kLastRounds = 8;
+/// Rounds at the last threshold, at most.
+constexpr int kLastRounds = 40;
 /// Lock of a vertex that must stay.
 constexpr std::uint16_t kKept = 0xFFFF;
 /// Owner of a vertex whose faces are in several blocks.
@@ -30,9 +32,11 @@ class UniformDecimation
 public:
   UniformDecimation(DecimationMesh& mesh, const UniformOptions& options, LogBuilder& log)
     : mesh_(mesh), options_(options), log_(log),
-      owner_(new std::atomic<Index>[mesh.position.size()]), lock_(mesh.position.size(), 0)
+      owner_(new std::atomic<Index>[mesh.position.size()]), lock_(mesh.position.size(), 0),
+      faces_(mesh.faceCount())
   {
     guards_.curveTolerance = options.curveTolerance;
+    std::iota(faces_.begin(), faces_.end(), Index{ 0 });
     for (const Index v : options.keepVertices)
     {
       lock_[v] = kKept;
@@ -44,9 +48,9 @@ public:
 private:
   double firstThreshold() const;
   std::size_t round(double threshold, bool serial);
-  std::vector<Index> blockBorders(bool serial);
-  void assignOwners(const std::vector<Index>& borders);
-  void sweep(Index begin, Index end, Index block, double threshold, std::uint16_t stamp,
+  std::vector<std::size_t> blockBorders(bool serial);
+  void assignOwners(const std::vector<std::size_t>& borders);
+  void sweep(std::size_t begin, std::size_t end, Index block, double threshold, std::uint16_t stamp,
     VertexRemoval& removal, RecordWriter& log);
   bool visit(
     Index h, Index block, double threshold, std::uint16_t stamp, VertexRemoval& removal) const;
@@ -57,6 +61,7 @@ private:
   RemovalGuards guards_;
   std::unique_ptr<std::atomic<Index>[]> owner_;
   std::vector<std::uint16_t> lock_; ///< number of the last sweep that changed the vertex's star
+  std::vector<Index> faces_;        ///< alive at the beginning of the round
   std::uint16_t sweeps_ = 0;
   bool shifted_ = false;
 };
@@ -76,22 +81,17 @@ void UniformDecimation::run()
     report(options_.progress, ++done / (steps + 2), "uniform decimation");
     round(threshold, false);
   }
-  std::size_t alive = static_cast<std::size_t>(std::count_if(
-    mesh_.outgoing.begin(), mesh_.outgoing.end(), [](Index h) { return h != kInvalidIndex; }));
+  // Parallel rounds while they pay, then serial ones, which also reach what sits at the borders of the blocks.
+  bool serial = false;
   for (int i = 0; i < kLastRounds; ++i)
   {
     report(options_.progress, (steps + 1) / (steps + 2), "uniform decimation");
-    const bool serial = i + 2 >= kLastRounds;
     const std::size_t removed = round(last, serial);
-    alive -= removed;
-    if (serial && removed * 200 < alive)
+    if (serial && removed * 500 < faces_.size())
     {
       break;
     }
-    if (removed * 50 < alive)
-    {
-      i = std::max(i, kLastRounds - 3); // only what sits at the borders of the blocks is left
-    }
+    serial = serial || removed * 100 < faces_.size() || i + 2 == kLastRounds;
   }
 }
 
@@ -108,70 +108,63 @@ double UniformDecimation::firstThreshold() const
     sum / static_cast<double>(std::max<std::size_t>(count, 1)), 1e-6 * options_.edgeLength);
 }
 
-std::vector<Index> UniformDecimation::blockBorders(bool serial)
+/// Borders of the blocks as positions in faces_.
+std::vector<std::size_t> UniformDecimation::blockBorders(bool serial)
 {
-  std::vector<Index> borders{ 0 };
+  std::vector<std::size_t> borders{ 0 };
   if (!serial)
   {
-    std::size_t count = shifted_ ? kBlockFaces / 2 : 0;
+    const std::size_t first = shifted_ ? kBlockFaces / 2 : kBlockFaces;
     shifted_ = !shifted_;
-    for (Index f = 0; f < mesh_.faceCount(); ++f)
+    for (std::size_t border = first; border < faces_.size(); border += kBlockFaces)
     {
-      count += mesh_.isAlive(f) ? 1U : 0U;
-      if (count >= kBlockFaces)
-      {
-        borders.push_back(f + 1);
-        count = 0;
-      }
+      borders.push_back(border);
     }
   }
-  if (borders.back() != mesh_.faceCount())
-  {
-    borders.push_back(mesh_.faceCount());
-  }
+  borders.push_back(faces_.size());
   return borders;
 }
 
-void UniformDecimation::assignOwners(const std::vector<Index>& borders)
+void UniformDecimation::assignOwners(const std::vector<std::size_t>& borders)
 {
-  const std::size_t vertices = mesh_.position.size();
-  parallelFor(vertices, 1U << 16, options_.threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t v = begin; v < end; ++v)
+  const auto forEachCorner = [&](const auto& body)
+  {
+    parallelFor(borders.size() - 1, 1, options_.threads,
+      [&](std::size_t block, std::size_t)
       {
-        owner_[v].store(kInvalidIndex, std::memory_order_relaxed);
+        for (std::size_t i = borders[block]; i < borders[block + 1]; ++i)
+        {
+          const Index h = 3 * faces_[i];
+          body(owner_[mesh_.origin[h]], static_cast<Index>(block));
+          body(owner_[mesh_.origin[h + 1]], static_cast<Index>(block));
+          body(owner_[mesh_.origin[h + 2]], static_cast<Index>(block));
+        }
+      });
+  };
+  forEachCorner([](std::atomic<Index>& owner, Index)
+    { owner.store(kInvalidIndex, std::memory_order_relaxed); });
+  forEachCorner(
+    [](std::atomic<Index>& owner, Index block)
+    {
+      // Whatever the order of the blocks: one block leaves its number, two leave kShared.
+      Index seen = owner.load(std::memory_order_relaxed);
+      if (seen == block || seen == kShared)
+      {
+        return;
       }
-    });
-  parallelFor(borders.size() - 1, 1, options_.threads,
-    [&](std::size_t block, std::size_t)
-    {
-      for (Index h = 3 * borders[block]; h < 3 * borders[block + 1]; ++h)
+      if (seen != kInvalidIndex || !owner.compare_exchange_strong(seen, block))
       {
-        if (mesh_.origin[h - h % 3] == kInvalidIndex)
-        {
-          h += 2; // a dead face, entered at its first corner
-          continue;
-        }
-        // Whatever the order of the blocks: one block leaves its number, two leave kShared.
-        std::atomic<Index>& owner = owner_[mesh_.origin[h]];
-        Index seen = owner.load(std::memory_order_relaxed);
-        if (seen == block || seen == kShared)
-        {
-          continue;
-        }
-        if (seen != kInvalidIndex ||
-          !owner.compare_exchange_strong(seen, static_cast<Index>(block)))
-        {
-          owner.store(kShared, std::memory_order_relaxed);
-        }
+        owner.store(kShared, std::memory_order_relaxed);
       }
     });
 }
 
 std::size_t UniformDecimation::round(double threshold, bool serial)
 {
-  const std::vector<Index> borders = blockBorders(serial);
+  faces_.erase(
+    std::remove_if(faces_.begin(), faces_.end(), [&](Index f) { return !mesh_.isAlive(f); }),
+    faces_.end());
+  const std::vector<std::size_t> borders = blockBorders(serial);
   assignOwners(borders);
   std::vector<RecordWriter> logs(borders.size() - 1);
   const std::uint16_t firstStamp = static_cast<std::uint16_t>(sweeps_ + 1);
@@ -189,11 +182,12 @@ std::size_t UniformDecimation::round(double threshold, bool serial)
   return log_.addRound(std::move(logs));
 }
 
-void UniformDecimation::sweep(Index begin, Index end, Index block, double threshold,
+void UniformDecimation::sweep(std::size_t begin, std::size_t end, Index block, double threshold,
   std::uint16_t stamp, VertexRemoval& removal, RecordWriter& log)
 {
-  for (Index f = begin; f < end; ++f)
+  for (std::size_t i = begin; i < end; ++i)
   {
+    const Index f = faces_[i];
     // A removal may kill the very face that is being visited.
     for (Index h = 3 * f; h < 3 * f + 3 && mesh_.isAlive(f); ++h)
     {
@@ -201,9 +195,9 @@ void UniformDecimation::sweep(Index begin, Index end, Index block, double thresh
       {
         continue;
       }
-      for (int i = 0; i < removal.ringSize(); ++i)
+      for (int j = 0; j < removal.ringSize(); ++j)
       {
-        std::uint16_t& lock = lock_[removal.ringVertex(i)];
+        std::uint16_t& lock = lock_[removal.ringVertex(j)];
         lock = lock == kKept ? kKept : stamp;
       }
       removal.apply(log);
