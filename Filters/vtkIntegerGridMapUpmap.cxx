@@ -6,6 +6,7 @@
 #include "QuadrilleLog.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleStages.h"
+#include "Transfer/Charts.h"
 #include "Transfer/Transfer.h"
 
 #include "vtkDataArray.h"
@@ -114,9 +115,11 @@ void vtkIntegerGridMapUpmap::Execute(vtkInformationVector** inputs, vtkInformati
   quadrille::TransferOptions options;
   options.threads = this->NumberOfThreads;
   options.progress = this->MakeProgress(0.5, 0.9);
-  const quadrille::TransferResult map =
+  quadrille::TransferResult map =
     quadrille::transferMap(surface.mesh, coarse, log, quadrille::readMap(coarseData), options);
   clock.lap("replay", coarse.mesh.faceCount(), surface.mesh.faceCount());
+  const quadrille::ChartCounts charts = quadrille::mergeCharts(surface.mesh, map.uv);
+  clock.lap("charts", surface.mesh.faceCount(), charts.charts);
 
   const quadrille::Certificate certificate =
     quadrille::certify(surface.mesh, map.uv, expected.turns, expected.integerVertex);
@@ -134,6 +137,8 @@ void vtkIntegerGridMapUpmap::Execute(vtkInformationVector** inputs, vtkInformati
   output->GetFieldData()->PassData(coarseData->GetFieldData());
   quadrille::addStages(output, clock.records);
   quadrille::addCertificate(output, certificate);
+  quadrille::addCount(output, "Charts", charts.charts);
+  quadrille::addCount(output, "SeamEdges", charts.seamEdges);
   quadrille::addCount(output, "ReplayInvertedStars", map.invertedStars);
   quadrille::addCount(output, "ReplayMovedToKernel", map.movedToKernel);
   quadrille::addCount(output, "ReplayWithoutKernel", map.withoutKernel);

@@ -82,6 +82,7 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   {
     options.memoryLimit = 1e6 * this->MemoryLimit;
   }
+  options.mergeCharts = this->ComputeMappedSurface != 0;
   options.progress = this->MakeProgress(0.02, 0.95);
 
   const quadrille::RemeshResult result = quadrille::remesh(converted.input, options);
@@ -102,9 +103,11 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   quadrille::addText(quads, "Notices", quadrille::splitLines(this->GetNoticesText()));
   if (this->ComputeMappedSurface)
   {
-    vtkPolyData::GetData(outputs, 1)
-      ->ShallowCopy(quadrille::writeMappedSurface(result.surface, result.uv, result.matching,
-        result.turns, input, converted, this->TextureCoordinates != 0));
+    vtkPolyData* mapped = vtkPolyData::GetData(outputs, 1);
+    mapped->ShallowCopy(quadrille::writeMappedSurface(result.surface, result.uv, result.matching,
+      result.turns, input, converted, this->TextureCoordinates != 0));
+    quadrille::addCount(mapped, "Charts", result.charts.charts);
+    quadrille::addCount(mapped, "SeamEdges", result.charts.seamEdges);
   }
   vtkPolyData::GetData(outputs, 2)
     ->ShallowCopy(quadrille::writeLines(result.quads, result.surface.mesh, source));

@@ -11,7 +11,8 @@
  *    point lies on the input). Cells: `SourceCellId`, `FeatureEdges`. Every array of the input: real numbers and
  *    colours interpolated, whole numbers and strings from the nearest point or the cell under the quad's centre.
  * 1. the input surface, repaired, with the integer-grid map: `IGM`, `Matching`, `Determinant` on cells, `Turns`,
- *    `Index` on points, and texture coordinates; empty unless ComputeMappedSurface is on.
+ *    `Index` on points, and texture coordinates; `Charts` and `SeamEdges` in field data: one chart a component, with
+ *    seams between irregular vertices. Empty unless ComputeMappedSurface is on.
  * 2. feature and boundary lines of the quads, with `Boundary` and, where there are patches, `PatchIds`.
  *
  * Field data of output 0: `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`, `Certificate`,

@@ -106,6 +106,7 @@ private:
       if (computeMap())
       {
         extract();
+        mergeMapCharts();
       }
     }
   }
@@ -476,6 +477,12 @@ private:
     {
       result_.turns[result_.coarse.fineVertex[v]] = coarseField_.turns[v];
     }
+    computeMatching();
+  }
+
+  void computeMatching()
+  {
+    const Mesh& mesh = result_.surface.mesh;
     result_.matching.assign(mesh.halfEdgeCount(), 0);
     parallelFor(mesh.halfEdgeCount(), 1 << 16, options_.threads,
       [&](std::size_t begin, std::size_t end)
@@ -490,6 +497,19 @@ private:
           }
         }
       });
+  }
+
+  /// After the extraction, so that the quads do not depend on it.
+  void mergeMapCharts()
+  {
+    if (options_.mergeCharts)
+    {
+      const double start = now();
+      const Mesh& mesh = result_.surface.mesh;
+      result_.charts = mergeCharts(mesh, result_.uv);
+      computeMatching();
+      addStage("charts", now() - start, mesh.faceCount(), result_.charts.charts);
+    }
   }
 
   void extract()

@@ -10,6 +10,7 @@
 #include "Hierarchy/Hierarchy.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Estimate.h"
+#include "Transfer/Charts.h"
 #include "Transfer/Transfer.h"
 
 #include <cstdint>
@@ -32,6 +33,7 @@ struct RemeshOptions
   std::size_t maximumQuads = 10000000;
   /// Bytes that the run may take by the estimate; none: what the machine has free.
   std::optional<double> memoryLimit;
+  bool mergeCharts = false; ///< of the map on the surface, for display; the quads do not depend on it
   int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;
 };
@@ -60,6 +62,7 @@ struct RemeshResult
   std::vector<int> coarseTurns;  ///< #V of coarse.mesh
   Certificate coarseCertificate; ///< of the coarse map
   Certificate certificate;       ///< of the map on the input surface
+  ChartCounts charts;            ///< of uv; zero unless mergeCharts
   TransferResult transfer;       ///< counts only, uv is moved out
   std::vector<StageRecord> stages;
   RunEstimate estimate; ///< made before the run

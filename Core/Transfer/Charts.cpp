@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Transfer/Charts.h"
+
+#include "Base/Progress.h"
+#include "Transfer/QuarterTurns.h"
+
+namespace quadrille
+{
+
+namespace
+{
+
+constexpr std::size_t kPollFaces = 1U << 15;
+
+/// Whether both images of the edge of h are the same.
+bool isContinuous(const Mesh& mesh, const std::vector<FixedVec2>& uv, Index h)
+{
+  const Index g = mesh.twin[h];
+  return uv[h] == uv[Mesh::next(g)] && uv[Mesh::next(h)] == uv[g];
+}
+
+/// Brings the face across h into the chart of the face of h; false where no transition does.
+bool carryAcross(const Mesh& mesh, std::vector<FixedVec2>& uv, Index h)
+{
+  const Index g = mesh.twin[h];
+  const FixedVec2 from = uv[Mesh::next(g)]; // image of the origin of h in the other chart
+  const int turns = quarterTurns(uv[g] - from, uv[Mesh::next(h)] - uv[h]);
+  if (turns < 0)
+  {
+    return false;
+  }
+  const FixedVec2 to = uv[h];
+  const Index first = g - g % 3;
+  for (Index i = first; i < first + 3; ++i)
+  {
+    uv[i] = to + rotate(uv[i] - from, turns);
+  }
+  return true;
+}
+
+/// Visits the faces breadth first over the edges that `enter` lets through; returns the number of trees.
+template <typename Enter>
+std::size_t visitFaces(const Mesh& mesh, const Enter& enter)
+{
+  std::size_t trees = 0;
+  std::vector<bool> seen(mesh.faceCount(), false);
+  std::vector<Index> queue;
+  for (Index seed = 0; seed < mesh.faceCount(); ++seed)
+  {
+    if (seen[seed])
+    {
+      continue;
+    }
+    ++trees;
+    seen[seed] = true;
+    queue.assign(1, seed);
+    for (std::size_t i = 0; i < queue.size(); ++i)
+    {
+      if (i % kPollFaces == 0)
+      {
+        poll();
+      }
+      for (Index h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h)
+      {
+        const Index g = mesh.twin[h];
+        if (g != kInvalidIndex && !seen[Mesh::face(g)] && enter(h))
+        {
+          seen[Mesh::face(g)] = true;
+          queue.push_back(Mesh::face(g));
+        }
+      }
+    }
+  }
+  return trees;
+}
+
+std::size_t countSeams(const Mesh& mesh, const std::vector<FixedVec2>& uv)
+{
+  std::size_t seams = 0;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Index g = mesh.twin[h];
+    seams += g != kInvalidIndex && h < g && !isContinuous(mesh, uv, h) ? 1U : 0U;
+  }
+  return seams;
+}
+
+} // namespace
+
+ChartCounts countCharts(const Mesh& mesh, const std::vector<FixedVec2>& uv)
+{
+  return { visitFaces(mesh, [&](Index h) { return isContinuous(mesh, uv, h); }),
+    countSeams(mesh, uv) };
+}
+
+ChartCounts mergeCharts(const Mesh& mesh, std::vector<FixedVec2>& uv)
+{
+  const std::size_t charts = visitFaces(mesh, [&](Index h) { return carryAcross(mesh, uv, h); });
+  return { charts, countSeams(mesh, uv) };
+}
+
+} // namespace quadrille
