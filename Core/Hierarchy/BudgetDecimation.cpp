@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <deque>
 #include <numeric>
 #include <optional>
 #include <queue>
@@ -26,6 +28,29 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kAreaWeight = 0.15;
 constexpr double kShapeWeight = 0.4;
 constexpr double kValenceWeight = 0.05;
+
+/// Vertices that a thread evaluates at a time.
+constexpr std::size_t kChunk = 1024;
+
+/// Positions in a value of the cache, see BudgetDecimation::describe().
+constexpr std::size_t kCurvatureAt = 1;
+constexpr std::size_t kAreaAt = 2;
+constexpr std::size_t kBadAt = 3;
+constexpr std::size_t kPlanAt = 4;
+
+std::uint32_t wordOf(double number)
+{
+  const float rounded = static_cast<float>(number);
+  std::uint32_t word = 0;
+  std::memcpy(&word, &rounded, sizeof(word));
+  return word;
+}
+float numberOf(std::uint32_t word)
+{
+  float number = 0;
+  std::memcpy(&number, &word, sizeof(number));
+  return number;
+}
 
 /// Vertices that a component keeps for its topology.
 constexpr Index kVerticesPerComponent = 12;
@@ -71,6 +96,29 @@ struct Quadric
   }
   double at(const Vector3& p) const { return p.dot(a * p) + 2 * b.dot(p) + c; }
 };
+
+/// Angle defects of a mesh without dead faces.
+template <typename AnyMesh>
+std::vector<float> defectsOf(const AnyMesh& mesh)
+{
+  const Index corners = static_cast<Index>(mesh.origin.size());
+  std::vector<double> defect(mesh.position.size(), 2 * kPi);
+  for (Index h = 0; h < corners; ++h)
+  {
+    if (mesh.isBoundary(h))
+    {
+      defect[mesh.origin[h]] = kPi;
+    }
+  }
+  for (Index h = 0; h < corners; ++h)
+  {
+    const Vector3& p = mesh.position[mesh.origin[h]];
+    const Vector3 a = mesh.position[mesh.target(h)] - p;
+    const Vector3 b = mesh.position[mesh.origin[Mesh::previous(h)]] - p;
+    defect[mesh.origin[h]] -= std::atan2(a.cross(b).norm(), a.dot(b));
+  }
+  return { defect.begin(), defect.end() };
+}
 
 /// Connected components of what is alive, and how many vertices each has to keep.
 class ComponentShares
@@ -161,8 +209,8 @@ private:
 class BudgetDecimation
 {
 public:
-  BudgetDecimation(DecimationMesh& mesh, const BudgetOptions& options, LogBuilder& log)
-    : mesh_(mesh), options_(options), log_(log), shares_(mesh), kept_(mesh.position.size(), 0),
+  BudgetDecimation(DecimationMesh& mesh, const BudgetOptions& options, StarCache& cache)
+    : mesh_(mesh), options_(options), cache_(cache), shares_(mesh), kept_(mesh.position.size(), 0),
       version_(mesh.position.size(), 0)
   {
     for (const Index v : options.keepVertices)
@@ -173,12 +221,12 @@ public:
     prepareCost();
   }
 
-  std::string run();
+  BudgetResult run();
 
 private:
   struct Entry
   {
-    double cost = 0;
+    float cost = 0;
     Index vertex = 0;
     Index version = 0;
     bool operator<(const Entry& other) const
@@ -187,21 +235,47 @@ private:
     }
   };
   using Heap = std::priority_queue<Entry>;
+  struct Stage
+  {
+    RemovalGuards guards;
+    std::uint32_t number = 0;
+  };
+  /// What one thread works with.
+  struct Work
+  {
+    explicit Work(DecimationMesh& mesh) : removal(mesh) {}
+    VertexRemoval removal;
+    VertexRemoval::Change change;
+    StarCache::Words key;
+    StarCache::Words value;
+    const std::uint32_t* planned = nullptr; ///< value of the removal that was planned last
+    StarCache::Batch fresh;
+    std::size_t lookups = 0;
+    std::size_t hits = 0;
+  };
 
   void prepareCost();
-  void runStage(const RemovalGuards& guards, RecordWriter& records);
-  std::vector<Entry> evaluateAll(const RemovalGuards& guards) const;
-  std::optional<double> evaluate(
-    Index v, VertexRemoval& removal, const RemovalGuards& guards) const;
-  double curvatureCost(const VertexRemoval& removal, Index v) const;
+  void runStage(const Stage& stage, RecordWriter& records);
+  std::vector<Entry> evaluateAll(const Stage& stage);
+  std::optional<float> evaluate(Index v, const Stage& stage, Work& work) const;
+  bool plan(const Stage& stage, Work& work) const;
+  void describe(bool possible, Work& work) const;
+  float cost(Index v, double shortestEdge, const Work& work) const;
+  double curvatureCost(Index v, const Work& work) const;
   double quadricCost(const VertexRemoval& removal, Index v) const;
-  double shapeCost(const VertexRemoval& removal) const;
-  void remember(const VertexRemoval& removal, Index v);
+  double shapeCost(const Work& work) const;
+  void remember(const Work& work, Index v);
+  void takeOver(Work& work);
+  bool wantsChange() const
+  {
+    return options_.cost == DecimationCost::Gaussian ||
+      options_.cost == DecimationCost::GaussianMemory;
+  }
   std::string notice() const;
 
   DecimationMesh& mesh_;
   const BudgetOptions& options_;
-  LogBuilder& log_;
+  StarCache& cache_;
   ComponentShares shares_;
   std::vector<char> kept_;
   std::vector<Index> version_;
@@ -210,6 +284,7 @@ private:
   Index budget_ = 0;
   Index alive_ = 0;
   double area_ = 0;
+  CacheReport report_;
 };
 
 void BudgetDecimation::prepareCost()
@@ -237,22 +312,28 @@ void BudgetDecimation::prepareCost()
   }
   if (options_.cost == DecimationCost::GaussianMemory)
   {
-    defect_ = angleDefects(mesh_);
+    defect_ = defectsOf(mesh_);
   }
 }
 
-std::string BudgetDecimation::run()
+BudgetResult BudgetDecimation::run()
 {
-  std::vector<RecordWriter> records(1);
+  BudgetResult result;
+  Stage stage;
   for (const RemovalGuards& guards : guardStages(options_.curveTolerance))
   {
+    stage.guards = guards;
     if (alive_ > budget_)
     {
-      runStage(guards, records[0]);
+      runStage(stage, result.records);
     }
+    ++stage.number;
   }
-  log_.addRound(std::move(records));
-  return notice();
+  result.notice = notice();
+  report_.entries = cache_.entries();
+  report_.bytes = cache_.bytes();
+  result.cache = report_;
+  return result;
 }
 
 std::string BudgetDecimation::notice() const
@@ -268,10 +349,11 @@ std::string BudgetDecimation::notice() const
               : ": features and curved parts need them.");
 }
 
-void BudgetDecimation::runStage(const RemovalGuards& guards, RecordWriter& records)
+void BudgetDecimation::runStage(const Stage& stage, RecordWriter& records)
 {
-  Heap heap(std::less<Entry>(), evaluateAll(guards));
-  VertexRemoval removal(mesh_);
+  Heap heap(std::less<Entry>(), evaluateAll(stage));
+  Work work(mesh_);
+  VertexRemoval& removal = work.removal;
   const Index begin = alive_;
   std::vector<Index> ring;
   while (alive_ > budget_ && !heap.empty())
@@ -279,8 +361,10 @@ void BudgetDecimation::runStage(const RemovalGuards& guards, RecordWriter& recor
     const Entry entry = heap.top();
     heap.pop();
     if (entry.version != version_[entry.vertex] || !shares_.maySpare(entry.vertex) ||
-      !removal.gather(entry.vertex) || !removal.plan(guards))
+      !removal.gather(entry.vertex) || !removal.surroundingsFit(stage.guards) ||
+      !plan(stage, work) || !removal.valencesFit(stage.guards))
     {
+      takeOver(work);
       continue;
     }
     ring.clear();
@@ -288,7 +372,8 @@ void BudgetDecimation::runStage(const RemovalGuards& guards, RecordWriter& recor
     {
       ring.push_back(removal.ringVertex(i));
     }
-    remember(removal, entry.vertex);
+    remember(work, entry.vertex);
+    takeOver(work);
     removal.apply(records);
     shares_.remove(entry.vertex);
     ++version_[entry.vertex];
@@ -296,10 +381,11 @@ void BudgetDecimation::runStage(const RemovalGuards& guards, RecordWriter& recor
     for (const Index w : ring)
     {
       ++version_[w];
-      if (const std::optional<double> cost = evaluate(w, removal, guards))
+      if (const std::optional<float> cost = evaluate(w, stage, work))
       {
         heap.push({ *cost, w, version_[w] });
       }
+      takeOver(work);
     }
     if (alive_ % 1024 == 0)
     {
@@ -309,8 +395,7 @@ void BudgetDecimation::runStage(const RemovalGuards& guards, RecordWriter& recor
   }
 }
 
-std::vector<BudgetDecimation::Entry> BudgetDecimation::evaluateAll(
-  const RemovalGuards& guards) const
+std::vector<BudgetDecimation::Entry> BudgetDecimation::evaluateAll(const Stage& stage)
 {
   std::vector<Index> alive;
   for (Index v = 0; v < mesh_.position.size(); ++v)
@@ -320,16 +405,24 @@ std::vector<BudgetDecimation::Entry> BudgetDecimation::evaluateAll(
       alive.push_back(v);
     }
   }
-  std::vector<double> cost(alive.size(), -1);
-  parallelFor(alive.size(), 1024, options_.threads,
+  std::vector<float> cost(alive.size(), -1);
+  std::deque<Work> works;
+  for (std::size_t begin = 0; begin < alive.size(); begin += kChunk)
+  {
+    works.emplace_back(mesh_);
+  }
+  parallelFor(alive.size(), kChunk, options_.threads,
     [&](std::size_t begin, std::size_t end)
     {
-      VertexRemoval removal(mesh_);
       for (std::size_t i = begin; i < end; ++i)
       {
-        cost[i] = evaluate(alive[i], removal, guards).value_or(-1);
+        cost[i] = evaluate(alive[i], stage, works[begin / kChunk]).value_or(-1);
       }
     });
+  for (Work& work : works)
+  {
+    takeOver(work);
+  }
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < alive.size(); ++i)
   {
@@ -341,47 +434,114 @@ std::vector<BudgetDecimation::Entry> BudgetDecimation::evaluateAll(
   return entries;
 }
 
-std::optional<double> BudgetDecimation::evaluate(
-  Index v, VertexRemoval& removal, const RemovalGuards& guards) const
+/// Puts what a thread found out into the cache.
+void BudgetDecimation::takeOver(Work& work)
 {
-  if (kept_[v] != 0 || !removal.gather(v))
+  cache_.add(work.fresh);
+  work.fresh.clear();
+  report_.lookups += work.lookups;
+  report_.hits += work.hits;
+  work.lookups = 0;
+  work.hits = 0;
+}
+
+std::optional<float> BudgetDecimation::evaluate(Index v, const Stage& stage, Work& work) const
+{
+  VertexRemoval& removal = work.removal;
+  if (kept_[v] != 0 || !removal.gather(v) || !removal.surroundingsFit(stage.guards))
   {
     return std::nullopt;
   }
   const double shortest = removal.shortestEdge();
-  if (!removal.plan(guards))
+  if (!plan(stage, work) || !removal.valencesFit(stage.guards))
   {
     return std::nullopt;
   }
+  return cost(v, shortest, work);
+}
+
+/// Plans the removal of the vertex that was gathered, from the cache where it has it.
+bool BudgetDecimation::plan(const Stage& stage, Work& work) const
+{
+  VertexRemoval& removal = work.removal;
+  work.key.assign(1, stage.number);
+  removal.addStarKey(work.key);
+  ++work.lookups;
+  work.planned = cache_.find(work.key);
+  if (work.planned != nullptr && (*work.planned == 0 || removal.loadPlan(work.planned + kPlanAt)))
+  {
+    ++work.hits;
+    return *work.planned != 0;
+  }
+  const bool known = work.planned != nullptr;
+  const bool possible = removal.planStar(stage.guards);
+  describe(possible, work);
+  work.planned = work.value.data();
+  if (!known && removal.dependsOnStarOnly())
+  {
+    work.fresh.add(work.key, work.value);
+  }
+  return possible;
+}
+
+/// The value that the cache gets: whether the removal is possible; own curvature cost, area and shape; the plan;
+/// changes of the ring's defects, for GaussianMemory.
+void BudgetDecimation::describe(bool possible, Work& work) const
+{
+  work.value.assign(1, possible ? 1U : 0U);
+  if (!possible)
+  {
+    return;
+  }
+  work.value.resize(kPlanAt, 0U);
+  work.removal.savePlan(work.value);
+  if (!wantsChange())
+  {
+    return;
+  }
+  work.removal.measureChange(work.change);
+  double curvature = work.change.ownDefect;
+  for (int i = 0; i < work.removal.ringSize(); ++i)
+  {
+    const std::array<double, 2>& change = work.change.defect[static_cast<std::size_t>(i)];
+    curvature += std::abs(change[0]) + std::abs(change[1]);
+    if (options_.cost == DecimationCost::GaussianMemory)
+    {
+      work.value.push_back(wordOf(change[0] + change[1]));
+    }
+  }
+  const double bad = 1 - work.change.worstQuality;
+  work.value[kCurvatureAt] = wordOf(curvature);
+  work.value[kAreaAt] = wordOf(work.change.starArea);
+  work.value[kBadAt] = wordOf(bad * bad * bad);
+}
+
+float BudgetDecimation::cost(Index v, double shortestEdge, const Work& work) const
+{
   switch (options_.cost)
   {
     case DecimationCost::Uniform:
-      return shortest;
+      return static_cast<float>(shortestEdge);
     case DecimationCost::Quadric:
-      return quadricCost(removal, v);
+      return static_cast<float>(quadricCost(work.removal, v));
     default:
-      return curvatureCost(removal, v) + shapeCost(removal);
+      return static_cast<float>(curvatureCost(v, work) + shapeCost(work));
   }
 }
 
-double BudgetDecimation::curvatureCost(const VertexRemoval& removal, Index v) const
+double BudgetDecimation::curvatureCost(Index v, const Work& work) const
 {
-  const bool memory = options_.cost == DecimationCost::GaussianMemory;
-  double cost =
-    memory ? std::abs(double{ options_.inputDefect[v] }) : std::abs(removal.ownDefect());
-  for (int i = 0; i < removal.ringSize(); ++i)
+  if (options_.cost == DecimationCost::Gaussian)
   {
-    const std::array<double, 2> change = removal.defectChange(i);
-    if (memory)
-    {
-      const Index w = removal.ringVertex(i);
-      cost +=
-        std::abs(double{ defect_[w] } + change[0] + change[1] - double{ options_.inputDefect[w] });
-    }
-    else
-    {
-      cost += std::abs(change[0]) + std::abs(change[1]);
-    }
+    return numberOf(work.planned[kCurvatureAt]);
+  }
+  const std::uint32_t* change = work.planned + kPlanAt + work.removal.planWords();
+  double cost = std::abs(double{ options_.inputDefect[v] });
+  for (int i = 0; i < work.removal.ringSize(); ++i)
+  {
+    const Index w = work.removal.ringVertex(i);
+    cost +=
+      std::abs(double{ defect_[w] } + numberOf(change[i]) - double{ options_.inputDefect[w] });
   }
   return cost;
 }
@@ -399,8 +559,9 @@ double BudgetDecimation::quadricCost(const VertexRemoval& removal, Index v) cons
   return std::max(cost, 0.0);
 }
 
-double BudgetDecimation::shapeCost(const VertexRemoval& removal) const
+double BudgetDecimation::shapeCost(const Work& work) const
 {
+  const VertexRemoval& removal = work.removal;
   const double averageStar = 3 * area_ / budget_;
   double odd = 0;
   for (int i = 0; i < removal.ringSize(); ++i)
@@ -411,19 +572,19 @@ double BudgetDecimation::shapeCost(const VertexRemoval& removal) const
       odd += valence < 5 ? 5 - valence : std::max(0, valence - 7);
     }
   }
-  const double bad = 1 - removal.worstQuality();
-  return kAreaWeight * removal.starArea() / averageStar + kShapeWeight * bad * bad * bad +
-    kValenceWeight * odd;
+  return kAreaWeight * numberOf(work.planned[kAreaAt]) / averageStar +
+    kShapeWeight * numberOf(work.planned[kBadAt]) + kValenceWeight * odd;
 }
 
-void BudgetDecimation::remember(const VertexRemoval& removal, Index v)
+void BudgetDecimation::remember(const Work& work, Index v)
 {
+  const VertexRemoval& removal = work.removal;
   if (options_.cost == DecimationCost::GaussianMemory)
   {
+    const std::uint32_t* change = work.planned + kPlanAt + removal.planWords();
     for (int i = 0; i < removal.ringSize(); ++i)
     {
-      const std::array<double, 2> change = removal.defectChange(i);
-      defect_[removal.ringVertex(i)] += static_cast<float>(change[0] + change[1]);
+      defect_[removal.ringVertex(i)] += numberOf(change[i]);
     }
   }
   if (options_.cost == DecimationCost::Quadric)
@@ -441,32 +602,14 @@ void BudgetDecimation::remember(const VertexRemoval& removal, Index v)
 
 } // namespace
 
-std::vector<float> angleDefects(const DecimationMesh& mesh)
+std::vector<float> angleDefects(const Mesh& mesh)
 {
-  std::vector<float> defect(mesh.position.size(), 0.0F);
-  for (Index v = 0; v < defect.size(); ++v)
-  {
-    if (mesh.outgoing[v] != kInvalidIndex)
-    {
-      defect[v] = static_cast<float>(mesh.isBoundary(mesh.outgoing[v]) ? kPi : 2 * kPi);
-    }
-  }
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-  {
-    for (Index h = 3 * f; mesh.isAlive(f) && h < 3 * f + 3; ++h)
-    {
-      const Vector3& p = mesh.position[mesh.origin[h]];
-      const Vector3 a = mesh.position[mesh.target(h)] - p;
-      const Vector3 b = mesh.position[mesh.origin[Mesh::previous(h)]] - p;
-      defect[mesh.origin[h]] -= static_cast<float>(std::atan2(a.cross(b).norm(), a.dot(b)));
-    }
-  }
-  return defect;
+  return defectsOf(mesh);
 }
 
-std::string decimateToBudget(DecimationMesh& mesh, const BudgetOptions& options, LogBuilder& log)
+BudgetResult decimateToBudget(DecimationMesh& mesh, const BudgetOptions& options, StarCache& cache)
 {
-  return BudgetDecimation(mesh, options, log).run();
+  return BudgetDecimation(mesh, options, cache).run();
 }
 
 } // namespace quadrille

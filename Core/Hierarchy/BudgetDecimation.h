@@ -10,7 +10,7 @@
 
 #include "Base/Progress.h"
 #include "Hierarchy/DecimationMesh.h"
-#include "Hierarchy/LogBuilder.h"
+#include "Hierarchy/StarCache.h"
 
 #include <string>
 #include <vector>
@@ -29,10 +29,18 @@ struct BudgetOptions
   ProgressCallback progress;
 };
 
-/// Angle defects of all vertices: 2 pi, or pi on the boundary, less the sum of angles; 0 for removed ones.
-std::vector<float> angleDefects(const DecimationMesh& mesh);
+struct BudgetResult
+{
+  RecordWriter records; ///< one block
+  std::string notice;   ///< empty, or why more vertices are left than asked
+  CacheReport cache;
+};
 
-/// Decimates as one round of one block. Returns why more vertices are left than asked, or an empty text.
-std::string decimateToBudget(DecimationMesh& mesh, const BudgetOptions& options, LogBuilder& log);
+/// Angle defects of all vertices: 2 pi, or pi on the boundary, less the sum of angles.
+std::vector<float> angleDefects(const Mesh& mesh);
+
+/// Decimates. What the cache holds must come from calls with the same positions, curves and cost; the result does
+/// not depend on it.
+BudgetResult decimateToBudget(DecimationMesh& mesh, const BudgetOptions& options, StarCache& cache);
 
 } // namespace quadrille

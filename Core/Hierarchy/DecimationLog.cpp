@@ -190,6 +190,29 @@ void checkRecords(const DecimationLog& log)
 
 } // namespace
 
+void DecimationLog::truncate(const End& end)
+{
+  rounds.resize(end.rounds);
+  blocks.resize(end.blocks);
+  records.resize(end.records);
+  collapses = end.collapses;
+  flips = end.flips;
+}
+
+void DecimationLog::append(
+  const std::vector<std::uint8_t>& bytes, std::size_t newCollapses, std::size_t newFlips)
+{
+  if (bytes.empty())
+  {
+    return;
+  }
+  rounds.push_back({ blocks.size(), 1 });
+  blocks.push_back({ records.size(), records.size() + bytes.size() });
+  records.insert(records.end(), bytes.begin(), bytes.end());
+  collapses += newCollapses;
+  flips += newFlips;
+}
+
 std::vector<std::uint8_t> DecimationLog::serialize() const
 {
   std::vector<std::uint8_t> bytes(

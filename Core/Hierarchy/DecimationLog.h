@@ -46,6 +46,17 @@ public:
   static DecimationLog deserialize(
     const std::vector<std::uint8_t>& bytes, std::uint64_t expectedHash);
 
+  /// A state of the log that it can be cut back to.
+  struct End
+  {
+    std::size_t rounds = 0, blocks = 0, records = 0, collapses = 0, flips = 0;
+  };
+  End end() const { return { rounds.size(), blocks.size(), records.size(), collapses, flips }; }
+  void truncate(const End& end);
+  /// Adds a round of one block, if it has any records.
+  void append(
+    const std::vector<std::uint8_t>& bytes, std::size_t newCollapses, std::size_t newFlips);
+
   std::uint64_t fineHash = 0;
   Index fineFaces = 0;
   std::size_t collapses = 0;

@@ -5,6 +5,7 @@
 #include "Hierarchy/BudgetDecimation.h"
 #include "Hierarchy/DecimationMesh.h"
 #include "Hierarchy/LogBuilder.h"
+#include "Hierarchy/StarCache.h"
 #include "Hierarchy/UniformDecimation.h"
 
 #include <Eigen/Geometry>
@@ -13,6 +14,8 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 namespace quadrille
 {
@@ -95,6 +98,15 @@ std::vector<float> componentScales(const Mesh& fine, double edgeLength)
   return anySmall ? scales : std::vector<float>();
 }
 
+/// The vertex of the level that is vertex v of the finest one, if it is there.
+std::optional<Index> positionIn(const Level& level, Index v)
+{
+  const auto found = std::lower_bound(level.fineVertex.begin(), level.fineVertex.end(), v);
+  return found != level.fineVertex.end() && *found == v
+    ? std::optional<Index>(static_cast<Index>(found - level.fineVertex.begin()))
+    : std::nullopt;
+}
+
 /// The share [begin, end] of the whole progress.
 ProgressCallback part(const ProgressCallback& progress, double begin, double end)
 {
@@ -106,6 +118,32 @@ ProgressCallback part(const ProgressCallback& progress, double begin, double end
   { return progress(begin + (end - begin) * fraction, text); };
 }
 
+/// The curves among the vertices of a level; the ends of curves are on every level.
+FeatureCurves curvesOf(const Level& level, const FeatureCurves& fine)
+{
+  FeatureCurves curves;
+  for (const Index v : level.fineVertex)
+  {
+    curves.kind.push_back(fine.kind[v]);
+    curves.curve.push_back(fine.curve[v]);
+  }
+  const auto toLevel = [&](const std::array<Index, 2>& ends)
+  {
+    return ends[0] == kInvalidIndex
+      ? ends
+      : std::array<Index, 2>{ *positionIn(level, ends[0]), *positionIn(level, ends[1]) };
+  };
+  for (const std::array<Index, 2>& ends : fine.ends)
+  {
+    curves.ends.push_back(toLevel(ends));
+  }
+  for (const std::array<Index, 2>& ends : fine.endPairs)
+  {
+    curves.endPairs.push_back(toLevel(ends)); // the order of the vertices is kept
+  }
+  return curves;
+}
+
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -113,46 +151,178 @@ double secondsSince(std::chrono::steady_clock::time_point start)
 
 } // namespace
 
+/// The intermediate level as phase 2 begins on it, small and without gaps, and what phase 2 needs from the finest mesh.
+class Redecimation::Implementation
+{
+public:
+  Implementation(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options)
+    : fine_(fine), edgeLength_(options.targetEdgeLength)
+  {
+    checkOptions(fine, options);
+    const auto start = std::chrono::steady_clock::now();
+    thinOut(fineHash, options);
+    hierarchy_.secondsPhase1 = secondsSince(start);
+  }
+
+  bool allows(const HierarchyOptions& options) const
+  {
+    return options.targetEdgeLength == edgeLength_ &&
+      std::all_of(options.keepVertices.begin(), options.keepVertices.end(),
+        [&](Index v) { return positionIn(hierarchy_.intermediate, v).has_value(); });
+  }
+
+  const Hierarchy& update(const HierarchyOptions& options)
+  {
+    if (!allows(options))
+    {
+      throw InvalidInput("The coarse level cannot be made anew: the edge length has changed, or a "
+                         "vertex that is to be kept is not on the intermediate level.");
+    }
+    const auto start = std::chrono::steady_clock::now();
+    if (cost_ != options.cost)
+    {
+      cache_.clear();
+      cost_ = options.cost;
+    }
+    hierarchy_.log.truncate(intermediateEnd_);
+    hierarchy_.coarse = {};
+    DecimationMesh mesh(*intermediate_);
+    BudgetResult result = decimateToBudget(mesh, budgetOptions(options), cache_);
+    hierarchy_.notice = std::move(result.notice);
+    hierarchy_.cache = result.cache;
+    append(result.records);
+    hierarchy_.coarse = inFineTerms(mesh.extract());
+    hierarchy_.secondsPhase2 = secondsSince(start);
+    return hierarchy_;
+  }
+
+  Hierarchy& hierarchy() { return hierarchy_; }
+
+private:
+  /// Phase 1.
+  void thinOut(std::uint64_t fineHash, const HierarchyOptions& options)
+  {
+    DecimationMesh mesh(fine_, traceFeatureCurves(fine_, kCornerScale * edgeLength_));
+    UniformOptions uniform;
+    uniform.edgeLength = 0.5 * edgeLength_;
+    uniform.scale = componentScales(fine_, edgeLength_);
+    uniform.curveTolerance = kCurveTolerance * edgeLength_;
+    uniform.keepVertices = options.keepVertices;
+    uniform.threads = options.threads;
+    uniform.progress = part(options.progress, 0.0, 0.6);
+    LogBuilder log;
+    decimateUniformly(mesh, uniform, log);
+    log.endIntermediate();
+    Level& level = hierarchy_.intermediate;
+    level = mesh.extract();
+    intermediate_.emplace(level.mesh, curvesOf(level, mesh.curves));
+    for (Index v = 0; v < level.mesh.vertexCount(); ++v)
+    {
+      intermediate_->curveError[v] = mesh.curveError[level.fineVertex[v]];
+    }
+    hierarchy_.log = log.finish(kRecordBytes * level.mesh.vertexCount());
+    hierarchy_.log.fineHash = fineHash;
+    hierarchy_.log.fineFaces = fine_.faceCount();
+    intermediateEnd_ = hierarchy_.log.end();
+  }
+
+  BudgetOptions budgetOptions(const HierarchyOptions& options)
+  {
+    const Level& level = hierarchy_.intermediate;
+    BudgetOptions budget;
+    budget.vertices = options.coarseVertices;
+    budget.cost = options.cost;
+    for (const Index v : options.keepVertices)
+    {
+      budget.keepVertices.push_back(*positionIn(level, v));
+    }
+    if (options.cost == DecimationCost::GaussianMemory)
+    {
+      if (fineDefect_.empty())
+      {
+        fineDefect_ = angleDefects(fine_);
+      }
+      for (const Index v : level.fineVertex)
+      {
+        budget.inputDefect.push_back(fineDefect_[v]);
+      }
+    }
+    budget.curveTolerance = kCurveTolerance * edgeLength_;
+    budget.threads = options.threads;
+    budget.progress = part(options.progress, 0.6, 1.0);
+    return budget;
+  }
+
+  /// Adds the records of phase 2, whose slots are the intermediate level's.
+  void append(const RecordWriter& records)
+  {
+    const std::vector<Index>& fineFace = hierarchy_.intermediate.fineFace;
+    std::vector<std::uint8_t> bytes = records.bytes();
+    renameSlots(bytes, [&](Index slot) { return 3 * fineFace[slot / 3] + slot % 3; });
+    hierarchy_.log.append(bytes, records.collapses(), records.flips());
+  }
+
+  Level inFineTerms(Level level) const
+  {
+    for (Index& v : level.fineVertex)
+    {
+      v = hierarchy_.intermediate.fineVertex[v];
+    }
+    for (Index& f : level.fineFace)
+    {
+      f = hierarchy_.intermediate.fineFace[f];
+    }
+    return level;
+  }
+
+  /// Bytes of records that phase 2 needs for a vertex; a hint, so that the log seldom moves.
+  static constexpr std::size_t kRecordBytes = 64;
+
+  const Mesh& fine_;
+  double edgeLength_ = 0;
+  Hierarchy hierarchy_;
+  std::optional<DecimationMesh> intermediate_;
+  DecimationLog::End intermediateEnd_;
+  std::vector<float> fineDefect_;                  ///< for GaussianMemory, when first needed
+  DecimationCost cost_ = DecimationCost::Gaussian; ///< that the cache was filled with
+  StarCache cache_;
+};
+
+Redecimation::Redecimation(
+  const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options)
+  : implementation_(std::make_unique<Implementation>(fine, fineHash, options))
+{
+}
+
+Redecimation::~Redecimation() = default;
+Redecimation::Redecimation(Redecimation&&) noexcept = default;
+Redecimation& Redecimation::operator=(Redecimation&&) noexcept = default;
+
+bool Redecimation::allows(const HierarchyOptions& options) const
+{
+  return implementation_->allows(options);
+}
+
+const Hierarchy& Redecimation::update(const HierarchyOptions& options)
+{
+  return implementation_->update(options);
+}
+
+const Hierarchy& Redecimation::hierarchy() const
+{
+  return implementation_->hierarchy();
+}
+
+Hierarchy Redecimation::take()
+{
+  return std::move(implementation_->hierarchy());
+}
+
 Hierarchy buildHierarchy(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options)
 {
-  checkOptions(fine, options);
-  const double s = options.targetEdgeLength;
-  Hierarchy result;
-  LogBuilder log;
-
-  const auto start1 = std::chrono::steady_clock::now();
-  DecimationMesh mesh(fine, traceFeatureCurves(fine, kCornerScale * s));
-  BudgetOptions budget;
-  if (options.cost == DecimationCost::GaussianMemory)
-  {
-    budget.inputDefect = angleDefects(mesh);
-  }
-  UniformOptions uniform;
-  uniform.edgeLength = 0.5 * s;
-  uniform.scale = componentScales(fine, s);
-  uniform.curveTolerance = kCurveTolerance * s;
-  uniform.keepVertices = options.keepVertices;
-  uniform.threads = options.threads;
-  uniform.progress = part(options.progress, 0.0, 0.6);
-  decimateUniformly(mesh, uniform, log);
-  log.endIntermediate();
-  result.intermediate = mesh.extract();
-  result.secondsPhase1 = secondsSince(start1);
-
-  const auto start2 = std::chrono::steady_clock::now();
-  budget.vertices = options.coarseVertices;
-  budget.cost = options.cost;
-  budget.keepVertices = options.keepVertices;
-  budget.curveTolerance = kCurveTolerance * s;
-  budget.threads = options.threads;
-  budget.progress = part(options.progress, 0.6, 1.0);
-  result.notice = decimateToBudget(mesh, budget, log);
-  result.coarse = mesh.extract();
-  result.log = log.finish();
-  result.log.fineHash = fineHash;
-  result.log.fineFaces = fine.faceCount();
-  result.secondsPhase2 = secondsSince(start2);
-  return result;
+  Redecimation levels(fine, fineHash, options);
+  levels.update(options);
+  return levels.take();
 }
 
 } // namespace quadrille

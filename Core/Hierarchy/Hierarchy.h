@@ -7,6 +7,7 @@
 #include "Hierarchy/DecimationLog.h"
 #include "Mesh/Mesh.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,17 +45,55 @@ struct Level
   std::vector<Index> fineFace;   ///< #F
 };
 
+/// How much of phase 2's evaluations of removals the cache of Section 5.3 saved.
+struct CacheReport
+{
+  std::size_t lookups = 0; ///< triangulations of stars that were asked for
+  std::size_t hits = 0;    ///< those that the cache knew
+  std::size_t entries = 0; ///< afterwards
+  std::size_t bytes = 0;   ///< afterwards
+};
+
 struct Hierarchy
 {
   Level intermediate;
   Level coarse;
   DecimationLog log;
   std::string notice; ///< empty, or why the coarse level is larger than asked
+  CacheReport cache;
   double secondsPhase1 = 0;
   double secondsPhase2 = 0;
 };
 
-/// Throws InvalidInput when s is not positive and finite. Progress and cancel through the options.
+/// A hierarchy whose coarse level can be made again, from the intermediate one, when other vertices are to be kept
+/// or the budget changes [Section 5.3]. What a removal costs is remembered from one time to the next by the star of
+/// the vertex; the result is the same as without.
+class Redecimation
+{
+public:
+  /// Phase 1. Throws as buildHierarchy does. `fine` must outlive this object.
+  Redecimation(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options);
+  ~Redecimation();
+  Redecimation(Redecimation&&) noexcept;
+  Redecimation& operator=(Redecimation&&) noexcept;
+
+  /// Whether update() can honour the options: the target edge length is the one of phase 1, and all vertices to keep
+  /// are on the intermediate level. If not, phase 1 has to be run with them.
+  bool allows(const HierarchyOptions& options) const;
+  /// Phase 2: makes the coarse level and the end of the log anew. Bit for bit what buildHierarchy makes of these
+  /// options. Throws InvalidInput unless allows(). Cancelled leaves the hierarchy without a coarse level.
+  const Hierarchy& update(const HierarchyOptions& options);
+  /// The hierarchy after the last update().
+  const Hierarchy& hierarchy() const;
+  /// Gives the hierarchy away; this object must not be used any more.
+  Hierarchy take();
+
+private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Both phases. Throws InvalidInput when s is not positive and finite. Progress and cancel through the options.
 Hierarchy buildHierarchy(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options);
 
 } // namespace quadrille

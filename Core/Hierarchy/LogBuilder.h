@@ -46,10 +46,11 @@ public:
   /// What was added until now leads to the intermediate level.
   void endIntermediate() { log_.intermediateRounds = log_.rounds.size(); }
 
-  DecimationLog finish()
+  /// The log, with room for `more` bytes of records.
+  DecimationLog finish(std::size_t more)
   {
     // One allocation of the final size: the records of a large mesh are hundreds of megabytes.
-    log_.records.reserve(bytes_);
+    log_.records.reserve(bytes_ + more);
     for (std::vector<RecordWriter>& round : pending_)
     {
       for (const RecordWriter& block : round)

@@ -133,4 +133,22 @@ inline void readCollapse(const std::uint8_t* end, CollapseRecord& record)
   }
 }
 
+/// Replaces every slot in the records of a block.
+template <typename NewSlot>
+void renameSlots(std::vector<std::uint8_t>& bytes, const NewSlot& newSlot)
+{
+  const auto rename = [&](std::uint8_t* at)
+  { storeLittleEndian(at, newSlot(loadLittleEndian(at))); };
+  std::size_t end = bytes.size();
+  while (end > 0)
+  {
+    const int faces = bytes[end - 1];
+    end -= faces == 0 ? kFlipBytes : collapseBytes(faces);
+    for (int i = 0; i < (faces == 0 ? 2 : faces); ++i)
+    {
+      rename(bytes.data() + end + 4 * static_cast<std::size_t>(i));
+    }
+  }
+}
+
 } // namespace quadrille

@@ -27,12 +27,39 @@ double cross(const Vector2& a, const Vector2& b)
   return a.x() * b.y() - a.y() * b.x();
 }
 
+/// Arc tangent of y / x for y >= 0, in [0, pi], to 3e-10 (interpolation at Chebyshev's nodes). Costs need many
+/// angles, and the same ones on every machine.
+double angleOf(double y, double x)
+{
+  const double across = std::abs(x);
+  const bool steep = y > across;
+  const double most = steep ? y : across;
+  const double t = most > 0 ? (steep ? across : y) / most : 0;
+  const double u = t * t;
+  const double u2 = u * u;
+  const double u4 = u2 * u2;
+  const double low = (0.9999999995535374 - 0.3333332248891393 * u) +
+    u2 * (0.1999955810038755 - 0.14278576024727196 * u);
+  const double middle = (0.11050771273870649 - 0.0878504327081528 * u) +
+    u2 * (0.066852814828332 - 0.04392841011552016 * u);
+  const double high = (0.021912945231385744 - 0.007030669119558297 * u) + u2 * 0.00105760735724206;
+  const double arc = t * (low + u4 * (middle + u4 * high));
+  const double first = steep ? 0.5 * kPi - arc : arc;
+  return x < 0 ? kPi - first : first;
+}
+
 /// Doubled area times this over the sum of squared edges is 1 for an equilateral triangle: 2 sqrt(3).
 constexpr double kEquilateral = 3.4641016151377544;
 
 double quality(double doubledArea, double squaredEdges)
 {
   return squaredEdges > 0 ? kEquilateral * doubledArea / squaredEdges : 0;
+}
+
+/// A weight as the log has it, in units of 2^-32.
+std::uint32_t fixedWeight(double weight)
+{
+  return static_cast<std::uint32_t>(std::lround(std::max(0.0, weight) * 4294967296.0));
 }
 
 /// |ab|^2 + |ac|^2 + |ac - ab|^2
@@ -126,6 +153,28 @@ int VertexRemoval::starFace(int x, int y) const
 
 bool VertexRemoval::plan(const RemovalGuards& guards)
 {
+  return surroundingsFit(guards) && triangulateStar(guards) && valencesFit(guards) && locate();
+}
+
+bool VertexRemoval::surroundingsFit(const RemovalGuards& guards) const
+{
+  if (onCurve_ &&
+    (!curveStaysClose(guards) || !loopStaysLong() ||
+      mesh_.hasEdge(ring_[0], ring_[index(curveEnd_)])))
+  {
+    return false;
+  }
+  return ringSize_ != 3 || boundary_ || !closesTetrahedron();
+}
+
+bool VertexRemoval::planStar(const RemovalGuards& guards)
+{
+  return triangulateStar(guards) && locate();
+}
+
+bool VertexRemoval::triangulateStar(const RemovalGuards& guards)
+{
+  metExistingDiagonal_ = false;
   for (int i = 0; i < ringSize_; ++i)
   {
     for (int j = i + 1; j < ringSize_; ++j)
@@ -136,26 +185,60 @@ bool VertexRemoval::plan(const RemovalGuards& guards)
       }
     }
   }
-  if (onCurve_ &&
-    (!curveStaysClose(guards) || !loopStaysLong() ||
-      mesh_.hasEdge(ring_[0], ring_[index(curveEnd_)])))
-  {
-    return false;
-  }
-  if (!measureStar() || !mapToPlane())
-  {
-    return false;
-  }
-  if (ringSize_ == 3 && !boundary_ && closesTetrahedron())
-  {
-    return false;
-  }
-  if (!triangulate(guards))
+  if (!measureStar() || !mapToPlane() || !triangulate(guards))
   {
     return false;
   }
   countDiagonals();
-  return valencesFit(guards) && locate();
+  return true;
+}
+
+void VertexRemoval::addStarKey(std::vector<std::uint32_t>& words) const
+{
+  // Kinds and curves of vertices never change, so the ring implies them; but two vertices can be joined by a
+  // constrained edge now and by a chord later.
+  std::uint64_t constrained = 0;
+  for (int i = 0; anyConstrained_ && i < faces_; ++i)
+  {
+    const bool edge = mesh_.isConstrained(Mesh::next(slot_[index(i)]));
+    constrained |= std::uint64_t{ edge ? 1U : 0U } << i;
+  }
+  words.push_back(vertex_);
+  words.push_back(static_cast<std::uint32_t>(ringSize_) | (boundary_ ? 1U << 8 : 0U) |
+    (onCurve_ ? static_cast<std::uint32_t>(curveEnd_) << 16 : 0U));
+  words.push_back(static_cast<std::uint32_t>(constrained));
+  words.push_back(static_cast<std::uint32_t>(constrained >> 32));
+  words.insert(words.end(), ring_.begin(), ring_.begin() + ringSize_);
+}
+
+void VertexRemoval::savePlan(std::vector<std::uint32_t>& words) const
+{
+  const auto pack = [](std::uint32_t a, std::uint32_t b, std::uint32_t c)
+  { return a | b << 8 | c << 16; };
+  words.push_back(pack(weightRing_[0], weightRing_[1], weightRing_[2]));
+  words.push_back(weight_[0]);
+  words.push_back(weight_[1]);
+  for (int t = 0; t < triangleCount_; ++t)
+  {
+    const Triangle& triangle = triangles_[index(t)];
+    words.push_back(pack(triangle.a, triangle.b, triangle.c));
+  }
+}
+
+bool VertexRemoval::loadPlan(const std::uint32_t* words)
+{
+  const auto unpack = [](std::uint32_t word, int i)
+  { return static_cast<std::uint8_t>(word >> (8 * i)); };
+  weightRing_ = { unpack(words[0], 0), unpack(words[0], 1), unpack(words[0], 2) };
+  weight_ = { words[1], words[2] };
+  triangleCount_ = ringSize_ - 2;
+  for (int t = 0; t < triangleCount_; ++t)
+  {
+    const std::uint32_t word = words[3 + t];
+    triangles_[index(t)] = { unpack(word, 0), unpack(word, 1), unpack(word, 2) };
+  }
+  countDiagonals();
+  return !forbidExistingDiagonals();
 }
 
 bool VertexRemoval::curveStaysClose(const RemovalGuards& guards) const
@@ -209,6 +292,7 @@ bool VertexRemoval::measureStar()
     const double dot = p.dot(q);
     const double shape = quality(doubled, 2 * (length_[index(i)] + length_[index(j)] - dot));
     starQuality_ = std::min(starQuality_, shape);
+    doubled_[index(i)] = doubled;
     starArea_ += 0.5 * doubled;
     angle_[index(i)] = std::atan2(doubled, dot);
     sideNormal_[onCurve_ && i >= curveEnd_ ? 1 : 0] += n;
@@ -344,6 +428,7 @@ bool VertexRemoval::triangulate(const RemovalGuards& guards)
     {
       return true;
     }
+    metExistingDiagonal_ = true;
   }
   return false;
 }
@@ -529,7 +614,7 @@ bool VertexRemoval::locate()
     const int far = nearFirst ? curveEnd_ : 0;
     weightRing_ = { static_cast<std::uint8_t>(near), static_cast<std::uint8_t>(far),
       static_cast<std::uint8_t>(near) };
-    weight_ = { length_[index(near)] / total, 0.0 };
+    weight_ = { fixedWeight(length_[index(near)] / total), 0 };
     return true;
   }
   double bestInside = -kInfinity;
@@ -562,7 +647,7 @@ bool VertexRemoval::locate()
   const std::size_t second = (base + 1) % 3;
   const std::size_t third = (base + 2) % 3;
   weightRing_ = { corner[base], corner[second], corner[third] };
-  weight_ = { std::max(0.0, bestWeights[second]), std::max(0.0, bestWeights[third]) };
+  weight_ = { fixedWeight(bestWeights[second]), fixedWeight(bestWeights[third]) };
   return true;
 }
 
@@ -581,19 +666,6 @@ void VertexRemoval::countDiagonals()
   }
 }
 
-double VertexRemoval::worstQuality() const
-{
-  double worst = 1;
-  for (int t = 0; t < triangleCount_; ++t)
-  {
-    const Triangle& triangle = triangles_[index(t)];
-    const Vector3 ab = spoke_[triangle.b] - spoke_[triangle.a];
-    const Vector3 ac = spoke_[triangle.c] - spoke_[triangle.a];
-    worst = std::min(worst, quality(ab.cross(ac).norm(), sumOfSquares(ab, ac)));
-  }
-  return worst;
-}
-
 int VertexRemoval::newValence(int i) const
 {
   // The spoke goes; at the ends of an open star the new boundary edge takes its place.
@@ -601,61 +673,44 @@ int VertexRemoval::newValence(int i) const
   return mesh_.valence[ring_[index(i)]] + diagonals_[index(i)] - 1 + (end ? 1 : 0);
 }
 
-double VertexRemoval::ownDefect() const
+void VertexRemoval::measureChange(Change& change) const
 {
-  std::array<double, 2> sum{};
+  // Faces after curveEnd_ lie on the second side of a curve. The angles of a face sum to pi, so only two of them
+  // need an arc tangent.
+  const bool sides = onCurve_ && !boundary_;
+  std::fill(
+    change.defect.begin(), change.defect.begin() + ringSize_, std::array<double, 2>{ 0, 0 });
+  std::array<double, 2> own{};
   for (int i = 0; i < faces_; ++i)
   {
-    sum[onCurve_ && i >= curveEnd_ ? 1 : 0] += angle_[index(i)];
+    const std::size_t p = index(i);
+    const std::size_t q = index(nextRing(i));
+    const std::size_t side = sides && i >= curveEnd_ ? 1 : 0;
+    const double atP = angleOf(doubled_[p], length_[p] * length_[p] - spoke_[p].dot(spoke_[q]));
+    own[side] += angle_[p];
+    change.defect[p][side] += atP;
+    change.defect[q][side] += kPi - angle_[p] - atP;
   }
-  if (!onCurve_)
-  {
-    return 2 * kPi - sum[0];
-  }
-  return std::abs(kPi - sum[0]) + (boundary_ ? 0.0 : std::abs(kPi - sum[1]));
-}
-
-std::array<double, 2> VertexRemoval::defectChange(int i) const
-{
-  // Old angles in the faces on both sides of the spoke; they are on different sides of a curve only at
-  // the curve neighbours of a curve vertex, where side 0 lies after position 0 and before curveEnd_.
-  const auto angleAt = [](const Vector3& p, const Vector3& q, const Vector3& r)
-  {
-    const Vector3 a = q - p;
-    const Vector3 b = r - p;
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-  };
-  const auto sideOf = [&](int a, int b, int c) {
-    return onCurve_ && !boundary_ && std::max({ a, b, c }) > curveEnd_ ? 1 : 0;
-  };
-  std::array<double, 2> change{};
-  const Vector3& p = spoke_[index(i)];
-  const Vector3 center = Vector3::Zero();
-  const int previousFace = i > 0 ? i - 1 : (boundary_ ? -1 : faces_ - 1);
-  const auto sideOfFace = [&](int f) { return onCurve_ && !boundary_ && f >= curveEnd_ ? 1U : 0U; };
-  if (i < faces_)
-  {
-    change[sideOfFace(i)] += angleAt(p, center, spoke_[index(nextRing(i))]);
-  }
-  if (previousFace >= 0)
-  {
-    change[sideOfFace(previousFace)] += angleAt(p, center, spoke_[index(previousFace)]);
-  }
+  change.worstQuality = 1;
   for (int t = 0; t < triangleCount_; ++t)
   {
     const Triangle& triangle = triangles_[index(t)];
-    const std::array<int, 3> corner{ triangle.a, triangle.b, triangle.c };
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      if (corner[k] == i)
-      {
-        const std::size_t side = index(sideOf(corner[0], corner[1], corner[2]));
-        change[side] -=
-          angleAt(p, spoke_[index(corner[(k + 1) % 3])], spoke_[index(corner[(k + 2) % 3])]);
-      }
-    }
+    const std::size_t side =
+      sides && std::max({ triangle.a, triangle.b, triangle.c }) > curveEnd_ ? 1 : 0;
+    const Vector3 ab = spoke_[triangle.b] - spoke_[triangle.a];
+    const Vector3 ac = spoke_[triangle.c] - spoke_[triangle.a];
+    const double doubled = ab.cross(ac).norm();
+    const double dot = ab.dot(ac);
+    const double atA = angleOf(doubled, dot);
+    const double atB = angleOf(doubled, ab.squaredNorm() - dot);
+    change.defect[triangle.a][side] -= atA;
+    change.defect[triangle.b][side] -= atB;
+    change.defect[triangle.c][side] -= kPi - atA - atB;
+    change.worstQuality = std::min(change.worstQuality, quality(doubled, sumOfSquares(ab, ac)));
   }
-  return change;
+  change.ownDefect = onCurve_ ? std::abs(kPi - own[0]) + (boundary_ ? 0.0 : std::abs(kPi - own[1]))
+                              : std::abs(2 * kPi - own[0]);
+  change.starArea = starArea_;
 }
 
 int VertexRemoval::bestTarget() const
@@ -689,7 +744,7 @@ CollapseRecord VertexRemoval::makeRecord(int target) const
   }
   for (std::size_t i = 0; i < 2; ++i)
   {
-    record.weight[i] = static_cast<std::uint32_t>(std::lround(weight_[i] * 4294967296.0));
+    record.weight[i] = weight_[i];
   }
   return record;
 }

@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace quadrille
 {
@@ -51,15 +52,33 @@ public:
   /// Finds the new triangulation. False when the removal is illegal or breaks a guard.
   bool plan(const RemovalGuards& guards);
 
-  /// After plan(): the worst quality of the new triangles.
-  double worstQuality() const;
-  double starArea() const { return starArea_; }
-  /// After plan(): valence of the ring vertex afterwards.
+  /// The parts of plan() for who remembers plans: what lies around the star, the triangulation, the valences.
+  bool surroundingsFit(const RemovalGuards& guards) const;
+  bool planStar(const RemovalGuards& guards);
+  bool valencesFit(const RemovalGuards& guards) const;
+  /// After planStar(): whether its outcome follows from what addStarKey() gives, and not from edges elsewhere.
+  bool dependsOnStarOnly() const { return !metExistingDiagonal_; }
+  /// Appends all that planStar() depends on besides the guards, except edges between ring vertices outside the star.
+  void addStarKey(std::vector<std::uint32_t>& words) const;
+  /// Appends the plan.
+  void savePlan(std::vector<std::uint32_t>& words) const;
+  /// Takes over a plan for this star. False when one of its diagonals is an edge of the mesh already.
+  bool loadPlan(const std::uint32_t* words);
+  int planWords() const { return 3 + (ringSize_ - 2); }
+
+  /// What the plan does to the shape of the surface.
+  struct Change
+  {
+    double ownDefect = 0; ///< angle defect at the vertex; of a curve vertex the sides' |pi - angle|
+    /// Change of the angle defect at the ring vertices, on the sides of a curve through them apart.
+    std::array<std::array<double, 2>, kMaximumRing> defect;
+    double starArea = 0;
+    double worstQuality = 1; ///< of the new triangles
+  };
+  /// After planStar(), not after loadPlan().
+  void measureChange(Change& change) const;
+  /// After a plan: valence of the ring vertex afterwards.
   int newValence(int i) const;
-  /// After plan(): angle defect at the vertex; of a curve vertex the sum of the sides' |pi - angle|.
-  double ownDefect() const;
-  /// After plan(): change of the angle defect at ring vertex i, on the sides of a curve through it apart.
-  std::array<double, 2> defectChange(int i) const;
 
   /// Carries out the plan and logs it.
   void apply(RecordWriter& log);
@@ -93,7 +112,7 @@ private:
   double constraintCost(int a, int b, int c, const RemovalGuards& guards) const;
   bool forbidExistingDiagonals();
   bool closesTetrahedron() const;
-  bool valencesFit(const RemovalGuards& guards) const;
+  bool triangulateStar(const RemovalGuards& guards);
   bool locate();
   void countDiagonals();
 
@@ -115,6 +134,7 @@ private:
   std::array<Vector3, kN> spoke_{}; ///< ring vertex minus vertex
   std::array<double, kN> length_{};
   std::array<Vector3, kN> normal_{}; ///< unit normals of the star's faces; zero for slivers
+  std::array<double, kN> doubled_{}; ///< doubled areas of the faces
   std::array<double, kN> angle_{};   ///< at the vertex
   std::array<Vector2, kN> planar_{};
   std::array<std::uint8_t, kN> constrainedEdge_{}; ///< ring edge i -> i + 1
@@ -130,10 +150,11 @@ private:
   std::array<std::array<std::uint8_t, kN>, kN> split_{};
   std::array<Triangle, kN> triangles_{};
   int triangleCount_ = 0;
+  bool metExistingDiagonal_ = false;
   std::array<std::uint8_t, kN> diagonals_{}; ///< new diagonals at each ring vertex
 
   std::array<std::uint8_t, 3> weightRing_{};
-  std::array<double, 2> weight_{};
+  std::array<std::uint32_t, 2> weight_{}; ///< in units of 2^-32
 
   // Work of apply(): ring positions relative to the target.
   std::array<Index, kN> fan_{};

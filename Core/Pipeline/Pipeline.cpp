@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <queue>
 
 namespace quadrille
@@ -331,9 +332,9 @@ private:
     StageTimes times;
     for (int attempt = 0; attempt < kMaximumAttempts; ++attempt)
     {
-      hierarchy_ = buildHierarchy(result_.surface.mesh, result_.surface.hash, levelOptions);
-      map = computeGridMap(hierarchy_.coarse.mesh, mapOptions);
-      times.add(hierarchy_, map);
+      times.phase1 += makeLevels(levelOptions);
+      map = computeGridMap(hierarchy().coarse.mesh, mapOptions);
+      times.add(hierarchy(), map);
       if (map.status.ok())
       {
         break;
@@ -347,12 +348,26 @@ private:
     return map.status.ok();
   }
 
+  /// The levels with these options, from the intermediate one on where phase 1 has left all vertices that are to be
+  /// kept. Returns the seconds of phase 1.
+  double makeLevels(const HierarchyOptions& levelOptions)
+  {
+    const bool again = !levels_ || !levels_->allows(levelOptions);
+    if (again)
+    {
+      levels_.reset(); // before the new one takes its memory
+      levels_.emplace(result_.surface.mesh, result_.surface.hash, levelOptions);
+    }
+    levels_->update(levelOptions);
+    return again ? hierarchy().secondsPhase1 : 0.0;
+  }
+  const Hierarchy& hierarchy() const { return levels_->hierarchy(); }
+
   struct StageTimes
   {
     double phase1 = 0, phase2 = 0, field = 0, seamless = 0, quantize = 0, embed = 0;
     void add(const Hierarchy& hierarchy, const GridMapResult& map)
     {
-      phase1 += hierarchy.secondsPhase1;
       phase2 += hierarchy.secondsPhase2;
       field += map.secondsField;
       seamless += map.secondsSeamless;
@@ -364,19 +379,19 @@ private:
   /// Keeps the intermediate vertices near the offenders and raises the budget by their number and a half.
   void giveFreedom(const std::vector<Index>& offenders, HierarchyOptions& levelOptions) const
   {
-    const Mesh& mesh = hierarchy_.intermediate.mesh;
+    const Mesh& mesh = hierarchy().intermediate.mesh;
     std::vector<std::uint8_t> near(result_.surface.mesh.vertexCount(), 0);
     for (const Index v : offenders)
     {
-      near[hierarchy_.coarse.fineVertex[v]] = 1;
+      near[hierarchy().coarse.fineVertex[v]] = 1;
     }
     for (int ring = 0; ring < kFreedomRings; ++ring)
     {
       std::vector<Index> added;
       for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
       {
-        const Index from = hierarchy_.intermediate.fineVertex[mesh.origin[h]];
-        const Index to = hierarchy_.intermediate.fineVertex[mesh.target(h)];
+        const Index from = hierarchy().intermediate.fineVertex[mesh.origin[h]];
+        const Index to = hierarchy().intermediate.fineVertex[mesh.target(h)];
         if (near[from] != near[to])
         {
           added.push_back(near[from] ? to : from);
@@ -388,7 +403,7 @@ private:
       }
     }
     std::size_t kept = levelOptions.keepVertices.size();
-    for (const Index v : hierarchy_.intermediate.fineVertex)
+    for (const Index v : hierarchy().intermediate.fineVertex)
     {
       if (near[v])
       {
@@ -401,23 +416,23 @@ private:
       levelOptions.keepVertices.end());
     kept = levelOptions.keepVertices.size() - kept;
     levelOptions.coarseVertices = static_cast<Index>(std::max<std::size_t>(
-      hierarchy_.coarse.mesh.vertexCount() + kept, hierarchy_.coarse.mesh.vertexCount() * 5 / 4));
+      hierarchy().coarse.mesh.vertexCount() + kept, hierarchy().coarse.mesh.vertexCount() * 5 / 4));
   }
 
   void recordCoarse(GridMapResult& map, const StageTimes& times)
   {
     const std::size_t fine = result_.surface.mesh.faceCount();
-    const std::size_t middle = hierarchy_.intermediate.mesh.faceCount();
-    const std::size_t coarse = hierarchy_.coarse.mesh.faceCount();
+    const std::size_t middle = hierarchy().intermediate.mesh.faceCount();
+    const std::size_t coarse = hierarchy().coarse.mesh.faceCount();
     addStage("phase1", times.phase1, fine, middle);
     addStage("phase2", times.phase2, middle, coarse);
     addStage("field", times.field, coarse, coarse);
     addStage("seamless", times.seamless, coarse, coarse);
     addStage("quantize", times.quantize, coarse, coarse);
     addStage("embed", times.embed, coarse, coarse);
-    if (!hierarchy_.notice.empty())
+    if (!hierarchy().notice.empty())
     {
-      result_.notices.push_back(hierarchy_.notice);
+      result_.notices.push_back(hierarchy().notice);
     }
     if (map.refinement > 1.1)
     {
@@ -428,7 +443,7 @@ private:
     result_.coarseUv = std::move(map.uv);
     coarseField_ = std::move(map.field);
     result_.coarseTurns = coarseField_.turns;
-    result_.coarse = std::move(hierarchy_.coarse);
+    result_.coarse = hierarchy().coarse;
     if (!map.status.ok())
     {
       fail(map.status.code, "no valid map of the coarse mesh: " + map.status.message);
@@ -443,7 +458,7 @@ private:
     transferOptions.threads = options_.threads;
     transferOptions.progress = subProgress(options_.progress, 0.8, 0.9, "Mapping back: ");
     result_.transfer =
-      transferMap(mesh, result_.coarse, hierarchy_.log, result_.coarseUv, transferOptions);
+      transferMap(mesh, result_.coarse, hierarchy().log, result_.coarseUv, transferOptions);
     result_.uv = std::move(result_.transfer.uv);
     result_.transfer.uv.clear();
     addStage("replay", now() - start, result_.coarse.mesh.faceCount(), mesh.faceCount());
@@ -540,7 +555,7 @@ private:
   RemeshOptions options_;
   PollScope poll_;
   RemeshResult result_;
-  Hierarchy hierarchy_;
+  std::optional<Redecimation> levels_;
   CrossField coarseField_;
 };
 

@@ -312,6 +312,108 @@ TEST(Hierarchy, keptVerticesStay)
   }
 }
 
+/// Every 29th vertex of the intermediate level.
+std::vector<Index> someIntermediateVertices(const Hierarchy& hierarchy)
+{
+  std::vector<Index> some;
+  for (std::size_t i = 7; i < hierarchy.intermediate.fineVertex.size(); i += 29)
+  {
+    some.push_back(hierarchy.intermediate.fineVertex[i]);
+  }
+  return some;
+}
+
+TEST(Hierarchy, redecimationGivesWhatStartingAnewGives)
+{
+  for (const Mesh& mesh : { bumpySphere(4), markFeatures(unitCube(14), kFeatureAngle),
+         plateWithHole(12), twoComponents() })
+  {
+    const double s = 0.05 * (mesh.position.back() - mesh.position.front()).norm();
+    for (const DecimationCost cost : { DecimationCost::Gaussian, DecimationCost::GaussianMemory,
+           DecimationCost::Quadric, DecimationCost::Uniform })
+    {
+      HierarchyOptions options = makeOptions(s, 150);
+      options.cost = cost;
+      Redecimation levels(mesh, 3, options);
+      const Hierarchy first = levels.update(options);
+      HierarchyOptions other = options;
+      other.keepVertices = someIntermediateVertices(first);
+      other.coarseVertices = 180;
+      ASSERT_FALSE(other.keepVertices.empty());
+      ASSERT_TRUE(levels.allows(other));
+      const Hierarchy updated = levels.update(other);
+      const Hierarchy anew = buildHierarchy(mesh, 3, other);
+      EXPECT_EQ(updated.log.serialize(), anew.log.serialize());
+      EXPECT_EQ(updated.coarse.fineVertex, anew.coarse.fineVertex);
+      EXPECT_EQ(updated.coarse.fineFace, anew.coarse.fineFace);
+      EXPECT_EQ(updated.coarse.mesh.origin, anew.coarse.mesh.origin);
+      for (const Index v : other.keepVertices)
+      {
+        EXPECT_TRUE(std::binary_search(
+          updated.coarse.fineVertex.begin(), updated.coarse.fineVertex.end(), v));
+      }
+      expectHierarchy(mesh, updated);
+      // And back again: nothing of the second time is left.
+      EXPECT_EQ(levels.update(options).log.serialize(), first.log.serialize());
+    }
+  }
+}
+
+TEST(Hierarchy, redecimationLogsAreWellFormed)
+{
+  const Mesh mesh = bumpySphere(4);
+  const HierarchyOptions options = makeOptions(0.1, 100);
+  Redecimation levels(mesh, 9, options);
+  for (const Index budget : { 100U, 300U, 50U })
+  {
+    const DecimationLog& log = levels.update(makeOptions(0.1, budget)).log;
+    const std::vector<std::uint8_t> bytes = log.serialize();
+    const DecimationLog back = DecimationLog::deserialize(bytes, 9); // walks all records
+    EXPECT_EQ(back.collapses + budget, mesh.vertexCount());
+    EXPECT_EQ(back.intermediateRounds, log.intermediateRounds);
+    EXPECT_EQ(back.rounds.size(), log.intermediateRounds + 1);
+  }
+}
+
+TEST(Hierarchy, redecimationKnowsTheCostsThatItHadBefore)
+{
+  const Mesh mesh = bumpySphere(5);
+  HierarchyOptions options = makeOptions(0.05, 200);
+  Redecimation levels(mesh, 1, options);
+  const CacheReport cold = levels.update(options).cache;
+  const CacheReport warm = levels.update(options).cache;
+  // The same steps meet the same stars; only stars whose triangulation met an edge elsewhere are not stored.
+  EXPECT_EQ(warm.lookups, cold.lookups);
+  EXPECT_GT(warm.hits * 1000, warm.lookups * 999);
+  EXPECT_EQ(warm.entries, cold.entries);
+  EXPECT_GT(warm.bytes, 0U);
+  // In the first run each star is new when its cost is asked for, and known when its vertex goes.
+  EXPECT_LT(cold.hits, cold.lookups / 4);
+  EXPECT_GE(cold.hits, levels.hierarchy().intermediate.mesh.vertexCount() - 200U);
+  // One vertex more to keep changes the order only near it.
+  options.keepVertices = { levels.hierarchy().intermediate.fineVertex[100] };
+  const CacheReport near = levels.update(options).cache;
+  EXPECT_GT(near.hits * 2, near.lookups);
+}
+
+TEST(Hierarchy, redecimationRefusesWhatPhase1HasRemoved)
+{
+  const Mesh mesh = bumpySphere(4);
+  HierarchyOptions options = makeOptions(0.4, 50);
+  Redecimation levels(mesh, 1, options);
+  const std::vector<Index>& left = levels.hierarchy().intermediate.fineVertex;
+  Index removed = 0;
+  while (std::binary_search(left.begin(), left.end(), removed))
+  {
+    ++removed;
+  }
+  options.keepVertices = { removed };
+  EXPECT_FALSE(levels.allows(options));
+  EXPECT_THROW(levels.update(options), InvalidInput);
+  options = makeOptions(0.5, 50);
+  EXPECT_FALSE(levels.allows(options)) << "another edge length";
+}
+
 TEST(Hierarchy, everyComponentKeepsItsShare)
 {
   // One large sphere and thirty that are smaller than s.

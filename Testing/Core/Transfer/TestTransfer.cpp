@@ -175,6 +175,29 @@ TEST(Transfer, theLogFromItsBytesGivesTheSameMap)
   EXPECT_EQ(transfer(mesh, h, coarseUv).uv, before.uv);
 }
 
+TEST(Transfer, theLogOfARedecimationReplaysFromItsBytes)
+{
+  const Mesh mesh = gridPlane(40, 30);
+  const auto map = [](const Vector3& p)
+  { return Vector2(0.75 * p.x() - 0.25 * p.y() + 3, 0.25 * p.x() + 0.5 * p.y() - 1); };
+  HierarchyOptions options;
+  options.targetEdgeLength = 6;
+  options.coarseVertices = 30;
+  Redecimation levels(mesh, 1, options);
+  levels.update(options);
+  options.keepVertices = { levels.hierarchy().intermediate.fineVertex[40] };
+  Hierarchy h = levels.update(options);
+  h.log = DecimationLog::deserialize(h.log.serialize(), 1);
+  const TransferResult result = transfer(mesh, h, mapByPosition(h.coarse.mesh, map));
+  const std::vector<FixedVec2> expected = mapByPosition(mesh, map);
+  for (Index c = 0; c < mesh.halfEdgeCount(); ++c)
+  {
+    // As in affineMapOfAPlaneComesBack.
+    EXPECT_LE(std::abs(result.uv[c].u - expected[c].u), 100);
+    EXPECT_LE(std::abs(result.uv[c].v - expected[c].v), 100);
+  }
+}
+
 TEST(Transfer, aMapThatIsNotValidIsCountedNotFatal)
 {
   const Mesh mesh = gridPlane(20, 20);
