@@ -376,6 +376,9 @@ void VertexRemoval::forbid(int x, int y)
 
 void VertexRemoval::forbidChords()
 {
+  // A chord between two curves leaves no room for a map to turn between them, so no new one may arise. Those that
+  // the input has may only move along with the curve: ring vertices of a curve vertex that lie on another curve are
+  // the ends of chords that go.
   for (int x = 0; x < ringSize_; ++x)
   {
     if (mesh_.curves.kind[ring_[index(x)]] == VertexKind::Free)
@@ -384,9 +387,15 @@ void VertexRemoval::forbidChords()
     }
     for (int y = x + 1; y < ringSize_; ++y)
     {
-      const bool ownEdge = onCurve_ && x == 0 && y == curveEnd_;
-      if (!ownEdge && !isRingEdge(x, y) && !isRingEdge(y, x) &&
-        mesh_.curves.onSameCurve(ring_[index(x)], ring_[index(y)]))
+      const bool xOnOwn = onCurve_ && (x == 0 || x == curveEnd_);
+      const bool yOnOwn = onCurve_ && y == curveEnd_;
+      if (mesh_.curves.kind[ring_[index(y)]] == VertexKind::Free || (xOnOwn && yOnOwn) ||
+        isRingEdge(x, y) || isRingEdge(y, x))
+      {
+        continue;
+      }
+      const bool moves = xOnOwn != yOnOwn;
+      if (!moves || mesh_.curves.onSameCurve(ring_[index(x)], ring_[index(y)]))
       {
         forbid(x, y);
       }

@@ -203,6 +203,43 @@ TEST(Hierarchy, neverJoinsACurveWithItself)
   }
 }
 
+TEST(Hierarchy, neverJoinsTwoCurvesByAChord)
+{
+  // Long narrow strips: quads of the wanted size would span them, and an edge across would be shorter than those
+  // along them. The second one is closed, between two circles without corners.
+  for (const Mesh& mesh : { gridPlane(120, 4), openCylinder(128, 6) })
+  {
+    const double s = (mesh.position.back() - mesh.position.front()).norm() / 12;
+    const Hierarchy hierarchy = buildHierarchy(mesh, 1, makeOptions(s, 20));
+    for (const Level* level : { &hierarchy.intermediate, &hierarchy.coarse })
+    {
+      ASSERT_LT(level->mesh.vertexCount(), mesh.vertexCount() / 2);
+      std::vector<char> onCurve(level->mesh.vertexCount(), 0);
+      for (Index h = 0; h < level->mesh.halfEdgeCount(); ++h)
+      {
+        if (level->mesh.isBoundary(h))
+        {
+          onCurve[level->mesh.origin[h]] = 1;
+        }
+      }
+      for (Index h = 0; h < level->mesh.halfEdgeCount(); ++h)
+      {
+        EXPECT_TRUE(level->mesh.isBoundary(h) || !onCurve[level->mesh.origin[h]] ||
+          !onCurve[level->mesh.target(h)])
+          << level->mesh.origin[h] << " - " << level->mesh.target(h);
+      }
+    }
+  }
+}
+
+TEST(Hierarchy, chordsOfTheInputMoveAlong)
+{
+  // One row of squares: every inner edge is a chord between the two sides, and none is a reason to keep a vertex.
+  const Mesh mesh = gridPlane(40, 1);
+  const Mesh coarse = buildHierarchy(mesh, 1, makeOptions(6, 4)).coarse.mesh;
+  EXPECT_LT(coarse.vertexCount(), mesh.vertexCount() / 2);
+}
+
 TEST(Hierarchy, keepsCornersOfABoundary)
 {
   const int n = 16;
