@@ -49,9 +49,11 @@ struct Certificate
 Transition transitionOf(const Mesh& mesh, const std::vector<FixedVec2>& uv, Index h,
   int fallbackRotation = 0, bool* residual = nullptr);
 
-/// Exact check of a map. expectedTurns: #V (see CrossField::turns). integerVertex: #V flags.
+/// Exact check of a map. expectedTurns: #V (see CrossField::turns). integerVertex: #V flags. threads: 0: all; the
+/// result does not depend on it.
 Certificate certify(const Mesh& mesh, const std::vector<FixedVec2>& uv,
-  const std::vector<int>& expectedTurns, const std::vector<std::uint8_t>& integerVertex);
+  const std::vector<int>& expectedTurns, const std::vector<std::uint8_t>& integerVertex,
+  int threads = 0);
 
 struct SeamlessOptions
 {

@@ -472,7 +472,7 @@ private:
     {
       integerVertex[result_.coarse.fineVertex[v]] = coarseInteger[v];
     }
-    result_.certificate = certify(mesh, result_.uv, result_.turns, integerVertex);
+    result_.certificate = certify(mesh, result_.uv, result_.turns, integerVertex, options_.threads);
     addStage("certify", now() - carried, mesh.faceCount(), mesh.faceCount());
   }
 

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Transfer/Transfer.h"
 
+#include "Base/Parallel.h"
 #include "GridMap/MapCheck.h"
 #include "Transfer/PatchMender.h"
 #include "Transfer/Replay.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 namespace quadrille
@@ -14,6 +16,9 @@ namespace quadrille
 
 namespace
 {
+
+/// Faces of a chunk of the passes over the mesh; their uv fit a second level cache.
+constexpr std::size_t kChunkFaces = 1 << 14;
 
 void checkSizes(const Mesh& fine, const Level& coarse, const DecimationLog& log,
   const std::vector<FixedVec2>& coarseUv)
@@ -43,14 +48,21 @@ void checkSizes(const Mesh& fine, const Level& coarse, const DecimationLog& log,
   }
 }
 
-std::size_t countNotPositive(const std::vector<FixedVec2>& uv)
+std::size_t countNotPositive(const std::vector<FixedVec2>& uv, int threads)
 {
-  std::size_t count = 0;
-  for (std::size_t h = 0; h < uv.size(); h += 3)
-  {
-    count += determinant(uv[h], uv[h + 1], uv[h + 2]) > 0 ? 0U : 1U;
-  }
-  return count;
+  const std::size_t faces = uv.size() / 3;
+  std::vector<std::size_t> counts((faces + kChunkFaces - 1) / kChunkFaces, 0);
+  parallelFor(faces, kChunkFaces, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::size_t count = 0;
+      for (std::size_t h = 3 * begin; h < 3 * end; h += 3)
+      {
+        count += determinant(uv[h], uv[h + 1], uv[h + 2]) > 0 ? 0U : 1U;
+      }
+      counts[begin / kChunkFaces] = count;
+    });
+  return std::accumulate(counts.begin(), counts.end(), std::size_t{ 0 });
 }
 
 std::vector<Index> verticesOf(const Mesh& fine, const std::vector<Index>& faces)
@@ -106,12 +118,12 @@ TransferResult transferMap(const Mesh& fine, const Level& coarse, const Decimati
   result.invertedStars = counts.invertedStars;
   result.movedToKernel = counts.movedToKernel;
   result.withoutKernel = counts.withoutKernel;
-  result.notPositive = countNotPositive(result.uv);
+  result.notPositive = countNotPositive(result.uv, options.threads);
   // What was invalid already on the coarse level is not a matter of a few triangles here.
-  if ((result.notPositive > 0 || result.withoutKernel > 0) && countNotPositive(coarseUv) == 0)
+  if ((result.notPositive > 0 || result.withoutKernel > 0) && countNotPositive(coarseUv, 1) == 0)
   {
-    const MendResult mended =
-      mendPatches(fine, result.uv, expectedTurns(fine, coarse, coarseUv), options.progress);
+    const MendResult mended = mendPatches(
+      fine, result.uv, expectedTurns(fine, coarse, coarseUv), options.threads, options.progress);
     result.mendedPatches = mended.patches;
     result.notPositive = mended.notPositive;
     result.offenders = verticesOf(fine, mended.defects);
