@@ -20,31 +20,51 @@ namespace
 /// Faces of a chunk of the passes over the mesh; their uv fit a second level cache.
 constexpr std::size_t kChunkFaces = 1 << 14;
 
-void checkSizes(const Mesh& fine, const Level& coarse, const DecimationLog& log,
-  const std::vector<FixedVec2>& coarseUv)
+void checkFaces(const Level& level, Index fineFaces)
+{
+  if (level.fineFace.size() != level.mesh.faceCount())
+  {
+    throw InvalidInput("A level of " + std::to_string(level.mesh.faceCount()) + " faces names " +
+      std::to_string(level.fineFace.size()) + " faces of the surface.");
+  }
+  for (const Index f : level.fineFace)
+  {
+    if (f >= fineFaces)
+    {
+      throw InvalidInput("A level names face " + std::to_string(f) + " of a surface of " +
+        std::to_string(fineFaces) + " faces.");
+    }
+  }
+}
+
+/// uv of the finest mesh's corners, set on the slots of the coarse level.
+std::vector<FixedVec2> spreadOnSlots(
+  const Level& coarse, const std::vector<FixedVec2>& coarseUv, Index fineFaces)
+{
+  checkFaces(coarse, fineFaces);
+  if (coarseUv.size() != coarse.mesh.halfEdgeCount())
+  {
+    throw InvalidInput("The map has " + std::to_string(coarseUv.size()) +
+      " corners, but the coarse level has " + std::to_string(coarse.mesh.halfEdgeCount()) + ".");
+  }
+  std::vector<FixedVec2> uv(3 * std::size_t{ fineFaces });
+  for (Index h = 0; h < coarse.mesh.halfEdgeCount(); ++h)
+  {
+    uv[3 * std::size_t{ coarse.fineFace[h / 3] } + h % 3] = coarseUv[h];
+  }
+  return uv;
+}
+
+void checkSizes(const Mesh& fine, const Level& coarse, const DecimationLog& log)
 {
   if (log.fineFaces != fine.faceCount())
   {
     throw InvalidInput("The decimation log was made for a surface of " +
       std::to_string(log.fineFaces) + " faces, not of " + std::to_string(fine.faceCount()) + ".");
   }
-  if (coarseUv.size() != coarse.mesh.halfEdgeCount() ||
-    coarse.fineFace.size() != coarse.mesh.faceCount())
-  {
-    throw InvalidInput("The map has " + std::to_string(coarseUv.size()) +
-      " corners, but the coarse level has " + std::to_string(coarse.mesh.halfEdgeCount()) + ".");
-  }
   if (coarse.mesh.vertexCount() + log.collapses != fine.vertexCount())
   {
     throw InvalidInput("The coarse level does not belong to this decimation log.");
-  }
-  for (const Index f : coarse.fineFace)
-  {
-    if (f >= fine.faceCount())
-    {
-      throw InvalidInput("The coarse level names face " + std::to_string(f) + " of a surface of " +
-        std::to_string(fine.faceCount()) + " faces.");
-    }
   }
 }
 
@@ -107,13 +127,9 @@ std::vector<int> expectedTurns(
 TransferResult transferMap(const Mesh& fine, const Level& coarse, const DecimationLog& log,
   const std::vector<FixedVec2>& coarseUv, const TransferOptions& options)
 {
-  checkSizes(fine, coarse, log, coarseUv);
+  checkSizes(fine, coarse, log);
   TransferResult result;
-  result.uv.resize(fine.halfEdgeCount());
-  for (Index h = 0; h < coarse.mesh.halfEdgeCount(); ++h)
-  {
-    result.uv[3 * coarse.fineFace[h / 3] + h % 3] = coarseUv[h];
-  }
+  result.uv = spreadOnSlots(coarse, coarseUv, log.fineFaces);
   const ReplayCounts counts = replayLog(log, result.uv, options.threads, options.progress);
   result.invertedStars = counts.invertedStars;
   result.movedToKernel = counts.movedToKernel;
@@ -129,6 +145,20 @@ TransferResult transferMap(const Mesh& fine, const Level& coarse, const Decimati
     result.offenders = verticesOf(fine, mended.defects);
   }
   return result;
+}
+
+std::vector<FixedVec2> transferToLevel(const Level& coarse, const Level& level, std::size_t rounds,
+  const DecimationLog& log, const std::vector<FixedVec2>& coarseUv, const TransferOptions& options)
+{
+  checkFaces(level, log.fineFaces);
+  std::vector<FixedVec2> slots = spreadOnSlots(coarse, coarseUv, log.fineFaces);
+  replayRounds(log, { log.rounds.size(), rounds }, slots, options.threads, options.progress);
+  std::vector<FixedVec2> uv(level.mesh.halfEdgeCount());
+  for (Index h = 0; h < level.mesh.halfEdgeCount(); ++h)
+  {
+    uv[h] = slots[3 * std::size_t{ level.fineFace[h / 3] } + h % 3];
+  }
+  return uv;
 }
 
 } // namespace quadrille
