@@ -14,11 +14,24 @@
 namespace quadrille
 {
 
+/// Mesh::next and Mesh::previous without a branch: on walks round a vertex nothing predicts which corner of a face comes next.
+/// The tables of steps from corners 0, 1, 2 are two bits each: next 1, 2, 0 and previous 2, 0, 1.
+inline Index nextCorner(Index h)
+{
+  const Index first = h / 3 * 3;
+  return first + (9U >> 2 * (h - first) & 3U);
+}
+inline Index previousCorner(Index h)
+{
+  const Index first = h / 3 * 3;
+  return first + (18U >> 2 * (h - first) & 3U);
+}
+
 class DecimationMesh
 {
 public:
   /// Copies the connectivity; positions stay with `fine`, which must outlive this object.
-  DecimationMesh(const Mesh& fine, FeatureCurves featureCurves);
+  DecimationMesh(const Mesh& fine, FeatureCurves featureCurves, int threads = 1);
 
   const std::vector<Vector3>& position;
   std::vector<Index> origin;
@@ -52,6 +65,7 @@ public:
   Level extract() const;
 
 private:
+  void countNeighbours(const Mesh& fine);
   void link(Index h, Index g, std::uint8_t flag);
 };
 
