@@ -51,6 +51,11 @@ public:
   bool isBoundary(Index h) const { return twin[h] == kInvalidIndex; }
   bool isConstrained(Index h) const { return isBoundary(h) || (flags[h] & kFeatureEdge) != 0; }
   bool hasEdge(Index a, Index b) const;
+  /// The same, looking round the one with fewer neighbours.
+  bool areJoined(Index a, Index b) const
+  {
+    return valence[a] < valence[b] ? hasEdge(a, b) : hasEdge(b, a);
+  }
   /// The one neighbour of `v` other than `from` along constrained edges; none at ends and junctions.
   Index nextOnCurve(Index v, Index from) const;
 
