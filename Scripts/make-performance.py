@@ -7,7 +7,7 @@
 
 Meshes: the shape `beast` of Data/generate.py at 125 k, 500 k, 2 M and 8 M faces, the one of 2 M with its faces and
 points shuffled, and, where --data has scan/bunny_ct.ply, that scan, the same shuffled, and the same with each face cut into four
-and its points moved at random by a tenth of an edge. Runs of all meshes and thread counts alternate, so that a busy
+and its points moved at random by up to a tenth of their shortest edge. Runs of all meshes and thread counts alternate, so that a busy
 machine disturbs all alike; a figure is the median of the repeats. The tables replace what stands between the two marks in the page; what
 is around them is written by hand. Needs Debian's python3 with numpy.
 """
@@ -76,17 +76,20 @@ def shuffled(points, faces):
 
 
 def subdivided(points, faces):
-    """Every face into four, every point moved at random by a tenth of the mean edge length."""
+    """Every face into four, every point moved at random by up to a tenth of its shortest edge."""
     edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
     keys, inverse = np.unique(edges[:, 0] * len(points) + edges[:, 1], return_inverse=True)
     first, second = keys // len(points), keys % len(points)
-    middle = len(points) + inverse.reshape(3, -1)
-    ab, bc, ca = middle
+    ab, bc, ca = len(points) + inverse.reshape(3, -1)
     a, b, c = faces.T
     finer = np.concatenate([np.stack(f, 1) for f in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
     every = np.concatenate([points, 0.5 * (points[first] + points[second])])
-    length = 0.5 * np.linalg.norm(points[first] - points[second], axis=1).mean()
-    return every + np.random.default_rng(2).uniform(-0.1 * length, 0.1 * length, every.shape), finer
+    reach = np.full(len(every), np.inf)
+    for i, j in ((0, 1), (1, 2), (2, 0)):
+        length = np.linalg.norm(every[finer[:, i]] - every[finer[:, j]], axis=1)
+        np.minimum.at(reach, finer[:, i], length)
+        np.minimum.at(reach, finer[:, j], length)
+    return every + np.random.default_rng(2).uniform(-0.06, 0.06, every.shape) * reach[:, None], finer
 
 
 def makeMeshes(folder, data):

@@ -103,6 +103,16 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
     throw InvalidInput("the target edge length must be a positive number");
   }
   GridMapResult result;
+  if (mesh.vertexCount() > options.maximumVertices)
+  {
+    result.status = { StatusCode::TooLarge,
+      "the coarse level has " + std::to_string(mesh.vertexCount()) + " vertices, more than " +
+        std::to_string(options.maximumVertices) +
+        "; folds, noise or features hold them: smooth or repair the surface, raise the feature "
+        "angle, or ask for longer "
+        "edges" };
+    return result;
+  }
   {
     const Stopwatch watch(result.secondsField);
     CrossFieldOptions fieldOptions;

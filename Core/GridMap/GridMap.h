@@ -117,6 +117,7 @@ struct GridMapOptions
 {
   double edgeLength = 0;      ///< s, on the surface; > 0
   double targetQuads = 0;     ///< 0: follow edgeLength; else scale so that the uv area comes near this
+  Index maximumVertices = 100000; ///< of the mesh; the solvers are made for coarse levels
   ProgressCallback progress;
 };
 struct GridMapResult

@@ -335,7 +335,7 @@ private:
       times.phase1 += makeLevels(levelOptions);
       map = computeGridMap(hierarchy().coarse.mesh, mapOptions);
       times.add(hierarchy(), map);
-      if (map.status.ok())
+      if (map.status.ok() || map.status.code == StatusCode::TooLarge)
       {
         break;
       }
