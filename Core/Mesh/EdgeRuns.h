@@ -47,8 +47,7 @@ public:
   }
 
 private:
-  void countEdges(const std::vector<Index>& origin, Index vertexCount);
-  void fill(const std::vector<Index>& origin);
+  void fill(const std::vector<Index>& origin, Index vertexCount);
   void sortBuckets(int threads);
 
   std::vector<Index> begin_; ///< #V + 1
