@@ -30,9 +30,9 @@ constexpr const char* kHelp =
 Remeshes each mesh and writes to standard output, as CSV, the columns
   mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb
 with the stages
-  read, repair, order, connectivity, phase1, phase2, field, seamless, quantize, embed,
-  replay, extract, total, cancel
-where cancel is the longest time in which the run could not have been stopped.
+  read, repair, order, connectivity, refine, phase1, phase2, field, seamless, quantize, embed,
+  replay, certify, extract, total, cancel
+where refine splits the surface's long edges, certify checks the map on the surface and cancel is the longest time in which the run could not have been stopped.
 
   --quads N          target number of quads (default 5000)
   --edge-length S    target edge length in units of the input
@@ -42,9 +42,9 @@ where cancel is the longest time in which the run could not have been stopped.
 exit code: 0 when every run gave quads, else the worst code of the command quadrille
 )";
 
-constexpr std::array<const char*, 14> kStages = { "read", "repair", "order", "connectivity",
-  "phase1", "phase2", "field", "seamless", "quantize", "embed", "replay", "extract", "total",
-  "cancel" };
+constexpr std::array<const char*, 16> kStages = { "read", "repair", "order", "connectivity",
+  "refine", "phase1", "phase2", "field", "seamless", "quantize", "embed", "replay", "certify",
+  "extract", "total", "cancel" };
 
 /// Seconds without a chance to stop that are worth a line.
 constexpr double kSlowCancel = 0.1;
@@ -77,17 +77,6 @@ Request parse(const CommandLine& line)
   return request;
 }
 
-/// Part of the column that a stage of the pipeline belongs to: refinement is part of the repair, the
-/// check of the replayed map part of the replay.
-std::string columnOf(const std::string& stage)
-{
-  if (stage == "refine")
-  {
-    return "repair";
-  }
-  return stage == "certify" ? "replay" : stage;
-}
-
 std::vector<StageRow> collect(const std::vector<StageRow>& stages)
 {
   std::vector<StageRow> rows;
@@ -97,7 +86,7 @@ std::vector<StageRow> collect(const std::vector<StageRow>& stages)
     bool first = true;
     for (const StageRow& stage : stages)
     {
-      if (columnOf(stage.stage) == name)
+      if (stage.stage == name)
       {
         row.seconds += stage.seconds;
         row.elementsIn = first ? stage.elementsIn : row.elementsIn;

@@ -6,6 +6,7 @@
 #include "GridMap/MapCheck.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -25,8 +26,9 @@ using FaceValue = std::pair<Int128, Index>;
 struct Partial
 {
   Certificate counts;
-  Int128 area = 0;              ///< sum of determinants
-  std::vector<FaceValue> worst; ///< smallest determinants, ascending
+  Int128 area = 0;                ///< sum of determinants
+  std::vector<FaceValue> worst;   ///< smallest determinants, ascending
+  std::vector<Index> offIntegers; ///< vertices, some of them several times
 };
 
 void insertWorst(std::vector<FaceValue>& worst, const FaceValue& value)
@@ -46,9 +48,9 @@ void insertWorst(std::vector<FaceValue>& worst, const FaceValue& value)
 bool rotationBetween(FixedVec2 from, FixedVec2 to, int fallback, int& r)
 {
   const FixedVec2 zero;
-  r = fallback & 3;
   if (from == zero || to == zero)
   {
+    r = fallback & 3;
     return from == to;
   }
   for (r = 0; r < 4; ++r)
@@ -80,45 +82,65 @@ int nearestRotation(FixedVec2 from, FixedVec2 to)
   return best;
 }
 
+void checkSeam(const Mesh& mesh, const std::vector<FixedVec2>& uv, Index h, Certificate& counts)
+{
+  const Index g = mesh.twin[h];
+  const FixedVec2 shift = uv[Mesh::next(g)] - uv[h];
+  if (shift == uv[g] - uv[Mesh::next(h)] && uv[g] != uv[Mesh::next(g)])
+  {
+    // Nearly all edges: a translation.
+    counts.fractionalTransitions += isInteger(shift) ? 0 : 1;
+    return;
+  }
+  bool residual = false;
+  const Transition transition = transitionOf(mesh, uv, h, 0, &residual);
+  counts.seamResiduals += residual ? 1 : 0;
+  counts.fractionalTransitions += isInteger(transition.translation) ? 0 : 1;
+}
+
+void checkConstraint(FixedVec2 a, FixedVec2 b, Certificate& counts)
+{
+  const bool alongU = a.v == b.v;
+  const bool alongV = a.u == b.u;
+  counts.offAxes += alongU || alongV ? 0 : 1;
+  const bool whole = (alongU && isInteger(a.v)) || (alongV && isInteger(a.u));
+  counts.offIsolines += whole ? 0 : 1;
+}
+
 void checkEdge(const Mesh& mesh, const std::vector<FixedVec2>& uv, Index h, Certificate& counts)
 {
   const Index g = mesh.twin[h];
   if (g != kInvalidIndex && h < g)
   {
-    bool residual = false;
-    const Transition transition = transitionOf(mesh, uv, h, 0, &residual);
-    counts.seamResiduals += residual ? 1 : 0;
-    counts.fractionalTransitions += isInteger(transition.translation) ? 0 : 1;
+    checkSeam(mesh, uv, h, counts);
   }
   if (mesh.isConstrained(h) && (g == kInvalidIndex || h < g))
   {
-    const FixedVec2 a = uv[h];
-    const FixedVec2 b = uv[Mesh::next(h)];
-    const bool alongU = a.v == b.v;
-    const bool alongV = a.u == b.u;
-    counts.offAxes += alongU || alongV ? 0 : 1;
-    const bool whole = (alongU && isInteger(a.v)) || (alongV && isInteger(a.u));
-    counts.offIsolines += whole ? 0 : 1;
+    checkConstraint(uv[h], uv[Mesh::next(h)], counts);
   }
 }
 
 /// Checks faces [begin, end); entered: #H, quadrants entered in each corner.
-void checkFaces(const Mesh& mesh, const std::vector<FixedVec2>& uv, Index begin, Index end,
+void checkFaces(const Mesh& mesh, const std::vector<FixedVec2>& uv,
+  const std::vector<std::uint8_t>& integerVertex, Index begin, Index end,
   std::vector<std::int8_t>& entered, Partial& result)
 {
   for (Index f = begin; f < end; ++f)
   {
     const FixedVec2* p = &uv[3 * f];
     const Int128 det = determinant(p[0], p[1], p[2]);
-    const int sign = (det > 0) - (det < 0);
     result.area += det;
-    result.counts.notPositive += sign > 0 ? 0 : 1;
+    result.counts.notPositive += det > 0 ? 0 : 1;
     insertWorst(result.worst, { det, f });
-    for (int i = 0; i < 3; ++i)
+    const std::array<std::int8_t, 3> turns = quadrantsEnteredByAll(p, (det > 0) - (det < 0));
+    std::copy(turns.begin(), turns.end(), entered.begin() + 3 * f);
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
-      const Index h = 3 * f + i;
-      entered[h] = static_cast<std::int8_t>(quadrantsEntered(p, i, sign));
       checkEdge(mesh, uv, h, result.counts);
+      if (integerVertex[mesh.origin[h]] != 0 && !isInteger(uv[h]))
+      {
+        result.offIntegers.push_back(mesh.origin[h]);
+      }
     }
   }
 }
@@ -139,25 +161,17 @@ void checkTurns(const Mesh& mesh, const std::vector<std::int8_t>& entered,
   }
 }
 
-void checkIntegerVertices(const Mesh& mesh, const std::vector<FixedVec2>& uv,
-  const std::vector<std::uint8_t>& integerVertex, Certificate& result)
+std::size_t countDifferent(std::vector<Index>& vertices)
 {
-  std::vector<std::uint8_t> off(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    const Index v = mesh.origin[h];
-    if (integerVertex[v] && !isInteger(uv[h]))
-    {
-      off[v] = 1;
-    }
-  }
-  result.offIntegers = static_cast<std::size_t>(std::count(off.begin(), off.end(), 1));
+  std::sort(vertices.begin(), vertices.end());
+  return static_cast<std::size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
 }
 
 void merge(const std::vector<Partial>& partials, Certificate& result)
 {
   Int128 area = 0;
   std::vector<FaceValue> worst;
+  std::vector<Index> offIntegers;
   for (const Partial& partial : partials)
   {
     result.notPositive += partial.counts.notPositive;
@@ -170,7 +184,9 @@ void merge(const std::vector<Partial>& partials, Certificate& result)
     {
       insertWorst(worst, value);
     }
+    offIntegers.insert(offIntegers.end(), partial.offIntegers.begin(), partial.offIntegers.end());
   }
+  result.offIntegers = countDifferent(offIntegers);
   result.area = std::ldexp(static_cast<double>(area), -2 * kFractionBits - 1);
   for (const FaceValue& value : worst)
   {
@@ -230,22 +246,22 @@ Transition transitionOf(
 }
 
 Certificate certify(const Mesh& mesh, const std::vector<FixedVec2>& uv,
-  const std::vector<int>& expectedTurns, const std::vector<std::uint8_t>& integerVertex)
+  const std::vector<int>& expectedTurns, const std::vector<std::uint8_t>& integerVertex,
+  int threads)
 {
   checkSizes(mesh, uv.size(), expectedTurns.size(), integerVertex.size());
   Certificate result;
   result.triangles = mesh.faceCount();
   std::vector<std::int8_t> entered(mesh.halfEdgeCount(), 0);
   std::vector<Partial> partials((mesh.faceCount() + kChunk - 1) / kChunk);
-  parallelFor(mesh.faceCount(), kChunk, 0,
+  parallelFor(mesh.faceCount(), kChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      checkFaces(mesh, uv, static_cast<Index>(begin), static_cast<Index>(end), entered,
-        partials[begin / kChunk]);
+      checkFaces(mesh, uv, integerVertex, static_cast<Index>(begin), static_cast<Index>(end),
+        entered, partials[begin / kChunk]);
     });
   merge(partials, result);
   checkTurns(mesh, entered, expectedTurns, result);
-  checkIntegerVertices(mesh, uv, integerVertex, result);
   return result;
 }
 

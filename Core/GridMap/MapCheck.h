@@ -7,6 +7,7 @@
 #include "CrossField/CrossField.h"
 #include "Mesh/Mesh.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,40 @@ namespace quadrille
 /// to the other one; negative where the triangle is inverted. Added up round a vertex, between
 /// edges that lie on an axis or are equal up to quarter turns, this is the exact number of quarter turns.
 int quadrantsEntered(const FixedVec2* p, int i, int orientationSign);
+
+/// The quadrant [0, 90), [90, 180), ... degrees of a vector that is not zero.
+inline int quadrantOfNonzero(FixedVec2 d)
+{
+  const bool lower = d.v < 0 || (d.v == 0 && d.u < 0);
+  return 2 * static_cast<int>(lower) + static_cast<int>(lower ? d.u >= 0 : d.u <= 0);
+}
+
+/// quadrantsEntered of the three corners of a triangle with positive determinant, from one quadrant an edge: an
+/// edge backwards is two quadrants on.
+inline std::array<std::int8_t, 3> quadrantsEnteredByPositive(const FixedVec2* p)
+{
+  const int q0 = quadrantOfNonzero(p[1] - p[0]);
+  const int q1 = quadrantOfNonzero(p[2] - p[1]);
+  const int q2 = quadrantOfNonzero(p[0] - p[2]);
+  return { static_cast<std::int8_t>((q2 + 2 - q0) & 3), static_cast<std::int8_t>((q0 + 2 - q1) & 3),
+    static_cast<std::int8_t>((q1 + 2 - q2) & 3) };
+}
+
+/// quadrantsEntered of the three corners of any triangle.
+inline std::array<std::int8_t, 3> quadrantsEnteredByAll(const FixedVec2* p, int orientationSign)
+{
+  if (orientationSign > 0)
+  {
+    return quadrantsEnteredByPositive(p);
+  }
+  std::array<std::int8_t, 3> entered{};
+  for (int i = 0; i < 3; ++i)
+  {
+    entered[static_cast<std::size_t>(i)] =
+      static_cast<std::int8_t>(quadrantsEntered(p, i, orientationSign));
+  }
+  return entered;
+}
 
 /// What keeps a map from following a field without inverted triangles.
 struct MapDefects

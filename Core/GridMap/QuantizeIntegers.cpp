@@ -127,7 +127,6 @@ bool closeTriangles(IntegerMap& map)
   {
     while (defects[f] != FixedVec2{})
     {
-      poll();
       Strip best;
       for (const FixedVec2 e : stepsIn(defects[f]))
       {
@@ -167,7 +166,6 @@ public:
   {
     while (true)
     {
-      poll();
       const Index worst = firstBroken();
       if (worst == kInvalidIndex)
       {
@@ -348,10 +346,7 @@ private:
 class Improvement
 {
 public:
-  explicit Improvement(IntegerMap& map)
-    : map_(map), search_(map, StripCost::KeepSound), changed_(map.mesh().alive.size(), 0)
-  {
-  }
+  explicit Improvement(IntegerMap& map) : map_(map), search_(map, StripCost::KeepSound) {}
 
   void run(const ProgressCallback& progress)
   {
@@ -361,7 +356,6 @@ public:
       bool improved = false;
       for (std::int64_t length = longest; length >= kGrain; length /= 2)
       {
-        refused_.assign(4 * map_.mesh().origin.size(), {});
         for (int sweep = 0; sweep < kMaximumSweeps; ++sweep)
         {
           report(progress, 0.5, "improving integers");
@@ -443,12 +437,9 @@ private:
     bool improved = false;
     for (const Candidate& candidate : candidates(length))
     {
-      poll();
       const FixedVec2 e = stepVector(candidate.direction, length);
-      Refusal& refusal = refused_[4 * candidate.halfEdge + candidate.direction];
       double gain = -map_.energyChange(candidate.halfEdge, e);
-      while (gain > kLeastGain && !isUpToDate(refusal) &&
-        accept(search_.through(candidate.halfEdge, e, gain), refusal))
+      while (gain > kLeastGain && accept(search_.through(candidate.halfEdge, e, gain)))
       {
         improved = true;
         gain = -map_.energyChange(candidate.halfEdge, e);
@@ -457,51 +448,22 @@ private:
     return improved;
   }
 
-  /// A search that led to nothing, and the faces that it depends on.
-  struct Refusal
+  bool accept(const Strip& strip)
   {
-    std::uint64_t time = 0; ///< of the clock; 0: none
-    std::vector<Index> faces;
-  };
-
-  bool isUpToDate(const Refusal& refusal) const
-  {
-    return refusal.time > 0 &&
-      std::all_of(refusal.faces.begin(), refusal.faces.end(),
-        [&](Index f) { return changed_[f] <= refusal.time; });
-  }
-
-  void touch(const std::vector<Index>& faces)
-  {
-    ++clock_;
-    for (const Index f : faces)
+    if (!strip.found())
     {
-      changed_[f] = clock_;
+      return false;
     }
-  }
-
-  bool accept(const Strip& strip, Refusal& refusal)
-  {
-    bool localReason = true;
-    if (strip.found())
+    const CrossedFaces crossed = crossedFaces(map_.mesh(), strip);
+    const double change = applyMeasured(map_, strip);
+    // A triangle that is crossed once keeps its sign on the way, so the winding cannot change; one that
+    // is crossed twice may turn by 180 degrees.
+    if (change < -kLeastGain && brokenness(map_, crossed.faces) == 0 &&
+      (!crossed.repeated || map_.isValid()))
     {
-      const CrossedFaces crossed = crossedFaces(map_.mesh(), strip);
-      const double change = applyMeasured(map_, strip);
-      if (change < -kLeastGain && brokenness(map_, crossed.faces) == 0)
-      {
-        // A triangle that is crossed once keeps its sign on the way, so the winding cannot change; one that
-        // is crossed twice may turn by 180 degrees.
-        if (!crossed.repeated || map_.isValid())
-        {
-          touch(crossed.faces);
-          return true;
-        }
-        localReason = false;
-      }
-      revert(map_, strip);
+      return true;
     }
-    refusal.time = localReason ? clock_ : 0;
-    refusal.faces = search_.visitedFaces();
+    revert(map_, strip);
     return false;
   }
 
@@ -524,7 +486,6 @@ private:
               map_.moveVertex(v, -e);
               break;
             }
-            touch(faces);
             improved = true;
           }
         }
@@ -535,9 +496,6 @@ private:
 
   IntegerMap& map_;
   StripSearch search_;
-  std::uint64_t clock_ = 1;
-  std::vector<std::uint64_t> changed_; ///< #F: time of the last change
-  std::vector<Refusal> refused_;       ///< 4 #H: by half-edge and direction, for one length of step
 };
 
 } // namespace

@@ -356,8 +356,13 @@ void BudgetDecimation::runStage(const Stage& stage, RecordWriter& records)
   VertexRemoval& removal = work.removal;
   const Index begin = alive_;
   std::vector<Index> ring;
+  std::size_t visits = 0;
   while (alive_ > budget_ && !heap.empty())
   {
+    if (++visits % kChunk == 0)
+    {
+      poll();
+    }
     const Entry entry = heap.top();
     heap.pop();
     if (entry.version != version_[entry.vertex] || !shares_.maySpare(entry.vertex) ||

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/DecimationMesh.h"
 
+#include "Base/Parallel.h"
 #include "Mesh/Topology.h"
 
 #include <utility>
@@ -9,17 +10,41 @@
 namespace quadrille
 {
 
-DecimationMesh::DecimationMesh(const Mesh& fine, FeatureCurves featureCurves)
-  : position(fine.position), origin(fine.origin), twin(fine.twin), flags(fine.flags),
-    outgoing(outgoingHalfEdges(fine)), valence(fine.vertexCount(), 0),
-    curves(std::move(featureCurves)), curveError(fine.vertexCount(), 0.0F)
+DecimationMesh::DecimationMesh(const Mesh& fine, FeatureCurves featureCurves, int threads)
+  : position(fine.position), curves(std::move(featureCurves))
 {
+  // Each task fills arrays of its own.
+  parallelFor(4, 1, threads,
+    [&](std::size_t task, std::size_t)
+    {
+      switch (task)
+      {
+        case 0:
+          outgoing = outgoingHalfEdges(fine);
+          curveError.assign(fine.vertexCount(), 0.0F);
+          break;
+        case 1:
+          countNeighbours(fine);
+          break;
+        case 2:
+          origin = fine.origin;
+          break;
+        default:
+          twin = fine.twin;
+          flags = fine.flags;
+      }
+    });
+}
+
+void DecimationMesh::countNeighbours(const Mesh& fine)
+{
+  valence.assign(fine.vertexCount(), 0);
   for (Index h = 0; h < fine.halfEdgeCount(); ++h)
   {
-    ++valence[origin[h]];
-    if (isBoundary(h))
+    ++valence[fine.origin[h]];
+    if (fine.isBoundary(h))
     {
-      ++valence[target(h)]; // the last neighbour of its open fan has no half-edge from it
+      ++valence[fine.target(h)]; // the last neighbour of its open fan has no half-edge from it
     }
   }
 }
@@ -30,11 +55,11 @@ bool DecimationMesh::hasEdge(Index a, Index b) const
   Index h = first;
   do
   {
-    if (target(h) == b)
+    if (origin[nextCorner(h)] == b)
     {
       return true;
     }
-    const Index incoming = Mesh::previous(h);
+    const Index incoming = previousCorner(h);
     if (twin[incoming] == kInvalidIndex)
     {
       return origin[incoming] == b;
@@ -99,14 +124,14 @@ void DecimationMesh::collapse(const CollapseRecord& record)
   }
   if (first == 1)
   {
-    const Index ringEdge = Mesh::next(slot(0));
+    const Index ringEdge = nextCorner(slot(0));
     link(slot(1), twin[ringEdge], flags[ringEdge]);
     origin[slot(0) / 3 * 3] = kInvalidIndex;
   }
   if (last == record.faces - 2)
   {
-    const Index ringEdge = Mesh::next(slot(record.faces - 1));
-    link(Mesh::previous(slot(last)), twin[ringEdge], flags[ringEdge]);
+    const Index ringEdge = nextCorner(slot(record.faces - 1));
+    link(previousCorner(slot(last)), twin[ringEdge], flags[ringEdge]);
     origin[slot(record.faces - 1) / 3 * 3] = kInvalidIndex;
   }
 }
@@ -114,10 +139,10 @@ void DecimationMesh::collapse(const CollapseRecord& record)
 void DecimationMesh::flip(Index h)
 {
   const Index g = twin[h];
-  const Index nextH = Mesh::next(h);
-  const Index nextG = Mesh::next(g);
-  const Index c = origin[Mesh::previous(h)];
-  const Index d = origin[Mesh::previous(g)];
+  const Index nextH = nextCorner(h);
+  const Index nextG = nextCorner(g);
+  const Index c = origin[previousCorner(h)];
+  const Index d = origin[previousCorner(g)];
   const Index twinAd = twin[nextG];
   const std::uint8_t flagAd = flags[nextG];
   link(g, twin[nextH], flags[nextH]);

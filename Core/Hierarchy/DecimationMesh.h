@@ -14,11 +14,24 @@
 namespace quadrille
 {
 
+/// Mesh::next and Mesh::previous without a branch: on walks round a vertex nothing predicts which corner of a face comes next.
+/// The tables of steps from corners 0, 1, 2 are two bits each: next 1, 2, 0 and previous 2, 0, 1.
+inline Index nextCorner(Index h)
+{
+  const Index first = h / 3 * 3;
+  return first + (9U >> 2 * (h - first) & 3U);
+}
+inline Index previousCorner(Index h)
+{
+  const Index first = h / 3 * 3;
+  return first + (18U >> 2 * (h - first) & 3U);
+}
+
 class DecimationMesh
 {
 public:
   /// Copies the connectivity; positions stay with `fine`, which must outlive this object.
-  DecimationMesh(const Mesh& fine, FeatureCurves featureCurves);
+  DecimationMesh(const Mesh& fine, FeatureCurves featureCurves, int threads = 1);
 
   const std::vector<Vector3>& position;
   std::vector<Index> origin;
@@ -38,6 +51,11 @@ public:
   bool isBoundary(Index h) const { return twin[h] == kInvalidIndex; }
   bool isConstrained(Index h) const { return isBoundary(h) || (flags[h] & kFeatureEdge) != 0; }
   bool hasEdge(Index a, Index b) const;
+  /// The same, looking round the one with fewer neighbours.
+  bool areJoined(Index a, Index b) const
+  {
+    return valence[a] < valence[b] ? hasEdge(a, b) : hasEdge(b, a);
+  }
   /// The one neighbour of `v` other than `from` along constrained edges; none at ends and junctions.
   Index nextOnCurve(Index v, Index from) const;
 
@@ -52,6 +70,7 @@ public:
   Level extract() const;
 
 private:
+  void countNeighbours(const Mesh& fine);
   void link(Index h, Index g, std::uint8_t flag);
 };
 

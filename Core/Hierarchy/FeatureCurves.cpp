@@ -250,6 +250,16 @@ void splitIntoCurves(const Chain& chain, FeatureCurves& curves)
   }
 }
 
+bool hasConstrainedEdge(const Mesh& mesh)
+{
+  bool found = false;
+  for (Index h = 0; h < mesh.halfEdgeCount() && !found; ++h)
+  {
+    found = mesh.isConstrained(h);
+  }
+  return found;
+}
+
 } // namespace
 
 bool FeatureCurves::onSameCurve(Index a, Index b) const
@@ -274,10 +284,14 @@ bool FeatureCurves::onSameCurve(Index a, Index b) const
 
 FeatureCurves traceFeatureCurves(const Mesh& mesh, double scale)
 {
-  const CurveGraph graph(mesh);
   FeatureCurves curves;
   curves.kind.resize(mesh.vertexCount(), VertexKind::Free);
   curves.curve.resize(mesh.vertexCount(), kInvalidIndex);
+  if (!hasConstrainedEdge(mesh))
+  {
+    return curves;
+  }
+  const CurveGraph graph(mesh);
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
     if (graph.degree(v) > 0)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/Hierarchy.h"
 
+#include "Base/Parallel.h"
 #include "Hierarchy/BudgetDecimation.h"
 #include "Hierarchy/DecimationMesh.h"
 #include "Hierarchy/LogBuilder.h"
@@ -50,7 +51,7 @@ void checkOptions(const Mesh& fine, const HierarchyOptions& options)
   }
 }
 
-/// The lowest vertex of each vertex's component, by merging along all edges.
+/// The lowest vertex of each vertex's component, by merging along edges.
 std::vector<Index> componentRoots(const Mesh& fine)
 {
   std::vector<Index> parent(fine.vertexCount());
@@ -64,11 +65,19 @@ std::vector<Index> componentRoots(const Mesh& fine)
     }
     return v;
   };
-  for (Index h = 0; h < fine.halfEdgeCount(); ++h)
+  const auto merge = [&](Index v, Index w)
   {
-    const Index a = root(fine.origin[h]);
-    const Index b = root(fine.target(h));
-    parent[std::max(a, b)] = std::min(a, b);
+    if (parent[v] != parent[w])
+    {
+      const Index a = root(v);
+      const Index b = root(w);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  };
+  for (Index h = 0; h < fine.halfEdgeCount(); h += 3)
+  {
+    merge(fine.origin[h], fine.origin[h + 1]);
+    merge(fine.origin[h], fine.origin[h + 2]);
   }
   for (Index v = 0; v < fine.vertexCount(); ++v)
   {
@@ -77,25 +86,61 @@ std::vector<Index> componentRoots(const Mesh& fine)
   return parent;
 }
 
+/// Area of each component, at its root.
+std::vector<double> componentAreas(
+  const Mesh& fine, const std::vector<Index>& component, int threads)
+{
+  // Sums of consecutive faces of one component, chunk by chunk, so that the number of threads does not show.
+  constexpr std::size_t chunkFaces = 1U << 15;
+  struct Sum
+  {
+    Index root = kInvalidIndex;
+    double doubledArea = 0;
+  };
+  std::vector<std::vector<Sum>> sums(fine.faceCount() / chunkFaces + 1);
+  parallelFor(fine.faceCount(), chunkFaces, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<Sum>& sum = sums[begin / chunkFaces];
+      for (Index f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f)
+      {
+        const Index root = component[fine.origin[3 * f]];
+        if (sum.empty() || sum.back().root != root)
+        {
+          sum.push_back({ root, 0 });
+        }
+        sum.back().doubledArea += fine.edgeVector(3 * f).cross(fine.edgeVector(3 * f + 1)).norm();
+      }
+    });
+  std::vector<double> area(fine.vertexCount(), 0.0);
+  for (const std::vector<Sum>& chunk : sums)
+  {
+    for (const Sum& sum : chunk)
+    {
+      area[sum.root] += 0.5 * sum.doubledArea;
+    }
+  }
+  return area;
+}
+
 /// Factor on s per vertex; empty when no component is small against s.
-std::vector<float> componentScales(const Mesh& fine, double edgeLength)
+std::vector<float> componentScales(const Mesh& fine, double edgeLength, int threads)
 {
   const std::vector<Index> component = componentRoots(fine);
-  std::vector<float> scales(fine.vertexCount(), 0.0F);
-  std::vector<double> area(fine.vertexCount(), 0.0); // at the roots
-  for (Index f = 0; f < fine.faceCount(); ++f)
-  {
-    area[component[fine.origin[3 * f]]] +=
-      0.5 * fine.edgeVector(3 * f).cross(fine.edgeVector(3 * f + 1)).norm();
-  }
+  const std::vector<double> area = componentAreas(fine, component, threads);
+  const auto scale = [&](Index root)
+  { return std::min(1.0, std::sqrt(area[root] / kSmallComponent) / edgeLength); };
   bool anySmall = false;
-  for (Index v = 0; v < fine.vertexCount(); ++v)
+  for (Index v = 0; v < fine.vertexCount() && !anySmall; ++v)
   {
-    const double scale = std::sqrt(area[component[v]] / kSmallComponent) / edgeLength;
-    scales[v] = static_cast<float>(std::min(1.0, scale));
-    anySmall = anySmall || scale < 1;
+    anySmall = component[v] == v && scale(v) < 1;
   }
-  return anySmall ? scales : std::vector<float>();
+  std::vector<float> scales(anySmall ? fine.vertexCount() : 0);
+  for (Index v = 0; v < static_cast<Index>(scales.size()); ++v)
+  {
+    scales[v] = static_cast<float>(scale(component[v]));
+  }
+  return scales;
 }
 
 /// The vertex of the level that is vertex v of the finest one, if it is there.
@@ -202,10 +247,11 @@ private:
   /// Phase 1.
   void thinOut(std::uint64_t fineHash, const HierarchyOptions& options)
   {
-    DecimationMesh mesh(fine_, traceFeatureCurves(fine_, kCornerScale * edgeLength_));
+    DecimationMesh mesh(
+      fine_, traceFeatureCurves(fine_, kCornerScale * edgeLength_), options.threads);
     UniformOptions uniform;
     uniform.edgeLength = 0.5 * edgeLength_;
-    uniform.scale = componentScales(fine_, edgeLength_);
+    uniform.scale = componentScales(fine_, edgeLength_, options.threads);
     uniform.curveTolerance = kCurveTolerance * edgeLength_;
     uniform.keepVertices = options.keepVertices;
     uniform.threads = options.threads;

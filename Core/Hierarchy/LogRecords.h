@@ -75,6 +75,7 @@ constexpr std::uint8_t kOnCurveBit = 4;
 class RecordWriter
 {
 public:
+  void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
   void flip(Index h, Index g)
   {
     std::uint8_t* out = grow(kFlipBytes);

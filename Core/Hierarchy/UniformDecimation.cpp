@@ -3,13 +3,13 @@
 #include "Hierarchy/UniformDecimation.h"
 
 #include "Base/Parallel.h"
+#include "Hierarchy/FreeStar.h"
 #include "Hierarchy/VertexRemoval.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <memory>
-#include <numeric>
+#include <limits>
+#include <utility>
 
 namespace quadrille
 {
@@ -17,57 +17,94 @@ namespace quadrille
 namespace
 {
 
-/// Live faces of a block. Large against its border, small enough for many blocks in a scan.
-constexpr std::size_t kBlockFaces = 16384;
+/// Blocks of a round where the mesh has enough vertices for them: work for many threads.
+constexpr std::size_t kBlocks = 16;
+/// Live vertices of a block: large against its border, small enough for the cache.
+constexpr std::size_t kLeastBlock = 4096;
+constexpr std::size_t kMostBlock = 32768;
 constexpr double kThresholdStep = 1.5;
+/// Sweeps inside one round. The second one takes what the first one locked while the block is in the cache.
+constexpr int kSweepsPerRound = 2;
 /// Rounds at the last threshold, at most.
 constexpr int kLastRounds = 40;
+/// Room in the log per vertex of a block: a round removes up to half of them, at about 41 bytes each.
+constexpr std::size_t kReservedBytes = 20;
+/// How many visits ahead the memory is asked for a star, and twice that for its vertex.
+constexpr std::size_t kAhead = 6;
 /// Lock of a vertex that must stay.
 constexpr std::uint16_t kKept = 0xFFFF;
-/// Owner of a vertex whose faces are in several blocks.
-constexpr Index kShared = kInvalidIndex - 1;
+
+/// Consecutive live vertices, that one thread sweeps.
+struct Block
+{
+  std::size_t begin = 0; ///< positions in the list of live vertices
+  std::size_t end = 0;
+  Index first = 0; ///< vertex ids
+  Index last = 0;  ///< one past
+
+  bool owns(Index v) const { return v >= first && v < last; }
+};
 
 class UniformDecimation
 {
 public:
   UniformDecimation(DecimationMesh& mesh, const UniformOptions& options, LogBuilder& log)
-    : mesh_(mesh), options_(options), log_(log),
-      owner_(new std::atomic<Index>[mesh.position.size()]), lock_(mesh.position.size(), 0),
-      faces_(mesh.faceCount())
+    : mesh_(mesh), options_(options), log_(log), state_(mesh.position.size())
   {
     guards_.curveTolerance = options.curveTolerance;
-    std::iota(faces_.begin(), faces_.end(), Index{ 0 });
+    for (Index v = 0; v < static_cast<Index>(mesh.position.size()); ++v)
+    {
+      if (mesh.outgoing[v] != kInvalidIndex)
+      {
+        alive_.push_back(v);
+      }
+    }
     for (const Index v : options.keepVertices)
     {
-      lock_[v] = kKept;
+      state_[v].lock = kKept;
     }
   }
 
   void run();
 
 private:
+  struct VertexState
+  {
+    float settled = 0;      ///< no use in a visit before the threshold is above this
+    std::uint16_t lock = 0; ///< number of the last sweep that changed the vertex's star
+  };
+  /// What one thread needs to sweep a block.
+  struct Worker
+  {
+    Worker(DecimationMesh& mesh, const RemovalGuards& guards) : star(mesh, guards), removal(mesh) {}
+    FreeStar star;
+    VertexRemoval removal;
+    RecordWriter log;
+    double threshold = 0;
+    std::uint16_t stamp = 0;
+  };
+
   double firstThreshold() const;
   std::size_t round(double threshold, bool serial);
-  std::vector<std::size_t> blockBorders(bool serial);
-  void assignOwners(const std::vector<std::size_t>& borders);
-  void sweep(std::size_t begin, std::size_t end, Index block, double threshold, std::uint16_t stamp,
-    VertexRemoval& removal, RecordWriter& log);
-  bool visit(
-    Index h, Index block, double threshold, std::uint16_t stamp, VertexRemoval& removal) const;
+  std::vector<Block> makeBlocks(bool serial);
+  void sweep(Block& block, Worker& worker);
+  void fetchAhead(std::size_t i, std::size_t end) const;
+  bool visit(Index v, const Block& block, Worker& worker);
+  bool visitFreeStar(Index v, const Block& block, Worker& worker);
+  bool visitAnyStar(Index v, const Block& block, Worker& worker);
+  bool settle(Index v, double shortest, double threshold);
+  template <typename Star>
+  void apply(Star& star, Worker& worker);
 
   DecimationMesh& mesh_;
   const UniformOptions& options_;
   LogBuilder& log_;
   RemovalGuards guards_;
-  std::unique_ptr<std::atomic<Index>[]> owner_;
-  std::vector<std::uint16_t> lock_; ///< number of the last sweep that changed the vertex's star
-  std::vector<Index> faces_;        ///< alive at the beginning of the round
+  std::vector<VertexState> state_;
+  std::vector<Index> alive_;
   std::uint16_t sweeps_ = 0;
   bool shifted_ = false;
 };
-
-/// Sweeps inside one round. The second one takes what the first one locked while the block is in the cache.
-constexpr int kSweepsPerRound = 2;
 
 void UniformDecimation::run()
 {
@@ -87,11 +124,19 @@ void UniformDecimation::run()
   {
     report(options_.progress, (steps + 1) / (steps + 2), "uniform decimation");
     const std::size_t removed = round(last, serial);
-    if (serial && removed * 500 < faces_.size())
+    if (serial && removed * 500 < alive_.size())
     {
       break;
     }
-    serial = serial || removed * 100 < faces_.size() || i + 2 == kLastRounds;
+    if (!serial && (removed * 100 < alive_.size() || i + 2 == kLastRounds))
+    {
+      serial = true;
+      // Once more what the valences forbade; they have changed since.
+      for (const Index v : alive_)
+      {
+        state_[v].settled = 0;
+      }
+    }
   }
 }
 
@@ -108,125 +153,190 @@ double UniformDecimation::firstThreshold() const
     sum / static_cast<double>(std::max<std::size_t>(count, 1)), 1e-6 * options_.edgeLength);
 }
 
-/// Borders of the blocks as positions in faces_.
-std::vector<std::size_t> UniformDecimation::blockBorders(bool serial)
+std::vector<Block> UniformDecimation::makeBlocks(bool serial)
 {
   std::vector<std::size_t> borders{ 0 };
   if (!serial)
   {
-    const std::size_t first = shifted_ ? kBlockFaces / 2 : kBlockFaces;
-    shifted_ = !shifted_;
-    for (std::size_t border = first; border < faces_.size(); border += kBlockFaces)
+    const std::size_t size = std::clamp(alive_.size() / kBlocks, kLeastBlock, kMostBlock);
+    for (std::size_t border = shifted_ ? size / 2 : size; border < alive_.size(); border += size)
     {
       borders.push_back(border);
     }
+    shifted_ = !shifted_;
   }
-  borders.push_back(faces_.size());
-  return borders;
-}
-
-void UniformDecimation::assignOwners(const std::vector<std::size_t>& borders)
-{
-  const auto forEachCorner = [&](const auto& body)
+  borders.push_back(alive_.size());
+  std::vector<Block> blocks;
+  for (std::size_t i = 0; i + 1 < borders.size(); ++i)
   {
-    parallelFor(borders.size() - 1, 1, options_.threads,
-      [&](std::size_t block, std::size_t)
-      {
-        for (std::size_t i = borders[block]; i < borders[block + 1]; ++i)
-        {
-          const Index h = 3 * faces_[i];
-          body(owner_[mesh_.origin[h]], static_cast<Index>(block));
-          body(owner_[mesh_.origin[h + 1]], static_cast<Index>(block));
-          body(owner_[mesh_.origin[h + 2]], static_cast<Index>(block));
-        }
-      });
-  };
-  forEachCorner([](std::atomic<Index>& owner, Index)
-    { owner.store(kInvalidIndex, std::memory_order_relaxed); });
-  forEachCorner(
-    [](std::atomic<Index>& owner, Index block)
-    {
-      // Whatever the order of the blocks: one block leaves its number, two leave kShared.
-      Index seen = owner.load(std::memory_order_relaxed);
-      if (seen == block || seen == kShared)
-      {
-        return;
-      }
-      if (seen != kInvalidIndex || !owner.compare_exchange_strong(seen, block))
-      {
-        owner.store(kShared, std::memory_order_relaxed);
-      }
-    });
+    const Index first = i == 0 ? 0 : alive_[borders[i]];
+    const Index last = borders[i + 1] < alive_.size() ? alive_[borders[i + 1]] : kInvalidIndex;
+    blocks.push_back({ borders[i], borders[i + 1], first, last });
+  }
+  return blocks;
 }
 
 std::size_t UniformDecimation::round(double threshold, bool serial)
 {
-  faces_.erase(
-    std::remove_if(faces_.begin(), faces_.end(), [&](Index f) { return !mesh_.isAlive(f); }),
-    faces_.end());
-  const std::vector<std::size_t> borders = blockBorders(serial);
-  assignOwners(borders);
-  std::vector<RecordWriter> logs(borders.size() - 1);
-  const std::uint16_t firstStamp = static_cast<std::uint16_t>(sweeps_ + 1);
+  std::vector<Block> blocks = makeBlocks(serial);
+  std::vector<RecordWriter> logs(blocks.size());
+  const int firstStamp = sweeps_ + 1;
   sweeps_ = static_cast<std::uint16_t>(sweeps_ + kSweepsPerRound);
-  parallelFor(logs.size(), 1, options_.threads,
-    [&](std::size_t block, std::size_t)
+  parallelFor(blocks.size(), 1, options_.threads,
+    [&](std::size_t i, std::size_t)
     {
-      VertexRemoval removal(mesh_);
-      for (int i = 0; i < kSweepsPerRound; ++i)
+      Worker worker(mesh_, guards_);
+      worker.threshold = threshold;
+      worker.log.reserve(kReservedBytes * (blocks[i].end - blocks[i].begin));
+      for (int k = 0; k < kSweepsPerRound; ++k)
       {
-        sweep(borders[block], borders[block + 1], static_cast<Index>(block), threshold,
-          static_cast<std::uint16_t>(firstStamp + i), removal, logs[block]);
+        worker.stamp = static_cast<std::uint16_t>(firstStamp + k);
+        sweep(blocks[i], worker);
       }
+      logs[i] = std::move(worker.log);
     });
+  std::size_t count = 0;
+  for (const Block& block : blocks)
+  {
+    const auto begin = alive_.begin() + static_cast<std::ptrdiff_t>(block.begin);
+    const auto end = alive_.begin() + static_cast<std::ptrdiff_t>(block.end);
+    std::move(begin, end, alive_.begin() + static_cast<std::ptrdiff_t>(count));
+    count += block.end - block.begin;
+  }
+  alive_.resize(count);
   return log_.addRound(std::move(logs));
 }
 
-void UniformDecimation::sweep(std::size_t begin, std::size_t end, Index block, double threshold,
-  std::uint16_t stamp, VertexRemoval& removal, RecordWriter& log)
+/// Visits the vertices of the block; those that stay move up in its part of the list.
+void UniformDecimation::sweep(Block& block, Worker& worker)
 {
-  for (std::size_t i = begin; i < end; ++i)
+  std::size_t kept = block.begin;
+  for (std::size_t i = block.begin; i < block.end; ++i)
   {
-    const Index f = faces_[i];
-    // A removal may kill the very face that is being visited.
-    for (Index h = 3 * f; h < 3 * f + 3 && mesh_.isAlive(f); ++h)
-    {
-      if (!visit(h, block, threshold, stamp, removal))
-      {
-        continue;
-      }
-      for (int j = 0; j < removal.ringSize(); ++j)
-      {
-        std::uint16_t& lock = lock_[removal.ringVertex(j)];
-        lock = lock == kKept ? kKept : stamp;
-      }
-      removal.apply(log);
-    }
+    const Index v = alive_[i];
+    alive_[kept] = v;
+    fetchAhead(i, block.end);
+    kept += visit(v, block, worker) ? 0 : 1;
   }
+  block.end = kept;
 }
 
-bool UniformDecimation::visit(
-  Index h, Index block, double threshold, std::uint16_t stamp, VertexRemoval& removal) const
+/// Asks for what the visits that come next will read.
+void UniformDecimation::fetchAhead(std::size_t i, std::size_t end) const
 {
-  const Index v = mesh_.origin[h];
-  if (mesh_.outgoing[v] != h || owner_[v].load(std::memory_order_relaxed) != block ||
-    lock_[v] == stamp || lock_[v] == kKept || !removal.gather(v))
+#if defined(__GNUC__)
+  if (i + 2 * kAhead < end)
+  {
+    const Index far = alive_[i + 2 * kAhead];
+    __builtin_prefetch(&mesh_.outgoing[far]);
+    __builtin_prefetch(&mesh_.position[far]);
+    __builtin_prefetch(&state_[far]);
+    const Index h = mesh_.outgoing[alive_[i + kAhead]];
+    __builtin_prefetch(&mesh_.origin[h]);
+    __builtin_prefetch(&mesh_.twin[h]);
+  }
+#endif
+}
+
+bool UniformDecimation::visit(Index v, const Block& block, Worker& worker)
+{
+  const VertexState& state = state_[v];
+  if (state.lock == worker.stamp || state.lock == kKept ||
+    !(worker.threshold > double{ state.settled }))
   {
     return false;
   }
-  const double scale = options_.scale.empty() ? 1.0 : double{ options_.scale[v] };
-  if (!(removal.shortestEdge() < std::min(threshold, options_.edgeLength * scale)))
+  const int valence = mesh_.valence[v];
+  if (mesh_.curves.kind[v] == VertexKind::Free && valence >= FreeStar::kLeast &&
+    valence <= FreeStar::kMost)
+  {
+    return visitFreeStar(v, block, worker);
+  }
+  return visitAnyStar(v, block, worker);
+}
+
+/// Remembers until when a visit is of no use. Whether the vertex has to go by its shortest edge.
+bool UniformDecimation::settle(Index v, double shortest, double threshold)
+{
+  const double limit =
+    options_.edgeLength * (options_.scale.empty() ? 1.0 : double{ options_.scale[v] });
+  if (shortest < std::min(threshold, limit))
+  {
+    return true;
+  }
+  state_[v].settled =
+    shortest < limit ? static_cast<float>(shortest) : std::numeric_limits<float>::infinity();
+  return false;
+}
+
+bool UniformDecimation::visitFreeStar(Index v, const Block& block, Worker& worker)
+{
+  FreeStar& star = worker.star;
+  star.gather(v);
+  bool free = true;
+  for (int i = 0; i < star.ringSize(); ++i)
+  {
+    const Index w = star.ringVertex(i);
+    if (!block.owns(w))
+    {
+      return false;
+    }
+    free = free && mesh_.curves.kind[w] == VertexKind::Free;
+  }
+  const double shortest = double{ star.shortestEdge(worker.threshold) } * worker.threshold;
+  if (!settle(v, shortest, worker.threshold))
+  {
+    return false;
+  }
+  switch (free ? star.plan() : FreeStar::Outcome::Unsuited)
+  {
+    case FreeStar::Outcome::Planned:
+      apply(star, worker);
+      return true;
+    case FreeStar::Outcome::Refused:
+      state_[v].settled = std::numeric_limits<float>::infinity();
+      return false;
+    case FreeStar::Outcome::Blocked:
+      return false;
+    case FreeStar::Outcome::Unsuited:
+      break;
+  }
+  return visitAnyStar(v, block, worker);
+}
+
+bool UniformDecimation::visitAnyStar(Index v, const Block& block, Worker& worker)
+{
+  VertexRemoval& removal = worker.removal;
+  if (!removal.gather(v) || !settle(v, removal.shortestEdge(), worker.threshold))
   {
     return false;
   }
   for (int i = 0; i < removal.ringSize(); ++i)
   {
-    if (owner_[removal.ringVertex(i)].load(std::memory_order_relaxed) != block)
+    if (!block.owns(removal.ringVertex(i)))
     {
       return false;
     }
   }
-  return removal.plan(guards_);
+  if (!removal.plan(guards_))
+  {
+    state_[v].settled = std::numeric_limits<float>::infinity();
+    return false;
+  }
+  apply(removal, worker);
+  return true;
+}
+
+template <typename Star>
+void UniformDecimation::apply(Star& star, Worker& worker)
+{
+  for (int i = 0; i < star.ringSize(); ++i)
+  {
+    VertexState& state = state_[star.ringVertex(i)];
+    state.settled = 0;
+    state.lock = state.lock == kKept ? kKept : worker.stamp;
+  }
+  star.apply(worker.log);
 }
 
 } // namespace

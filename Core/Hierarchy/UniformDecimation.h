@@ -4,8 +4,12 @@
 ///
 /// Where we differ: no heap. Thresholds rise towards s/2; for each one sweeps in storage order remove vertices that
 /// have a shorter edge, never two neighbours in one sweep, so that the surface thins out evenly. Blocks of
-/// consecutive faces are swept in parallel; a vertex may go if its ring vertices have all their faces in the
-/// block; the borders move by half a block from round to round.
+/// consecutive live vertices are swept in parallel; a vertex may go if its ring lies in the block. Then its star
+/// does, too, and all that a removal writes belongs to edges with both ends in the block. The borders move by half
+/// a block from round to round.
+///
+/// A vertex whose star has not changed since it was looked at is passed over: its edges are too long for
+/// thresholds up to the one that was noted, or its removal was refused.
 #pragma once
 
 #include "Base/Progress.h"

@@ -19,6 +19,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMinimumPlanarQuality = 0.02;
 /// A face flatter than this has no reliable normal.
 constexpr double kSliverQuality = 0.02;
+/// Less than the harmonic index of any triangle, which is 1 for an equilateral one.
+constexpr double kLeastHarmonic = 0.999;
 /// Cost of a face with three constrained vertices where it is allowed at all.
 constexpr double kConstrainedFaceCost = 50;
 
@@ -140,15 +142,6 @@ double VertexRemoval::shortestEdge() const
     shortest = *std::min_element(length_.begin(), length_.begin() + ringSize_);
   }
   return std::sqrt(shortest);
-}
-
-int VertexRemoval::starFace(int x, int y) const
-{
-  if (y == x + 1)
-  {
-    return x;
-  }
-  return y == 0 && x == ringSize_ - 1 && !boundary_ ? x : -1;
 }
 
 bool VertexRemoval::plan(const RemovalGuards& guards)
@@ -294,7 +287,7 @@ bool VertexRemoval::measureStar()
     starQuality_ = std::min(starQuality_, shape);
     doubled_[index(i)] = doubled;
     starArea_ += 0.5 * doubled;
-    angle_[index(i)] = std::atan2(doubled, dot);
+    angle_[index(i)] = angleOf(doubled, dot);
     sideNormal_[onCurve_ && i >= curveEnd_ ? 1 : 0] += n;
     normal_[index(i)] = shape > kSliverQuality ? Vector3(n / doubled) : Vector3(Vector3::Zero());
     if (anyConstrained_)
@@ -466,7 +459,7 @@ bool VertexRemoval::triangulatePolygon(const int* polygon, int count, const Remo
       {
         const int b = ringAt(k);
         const double below = best_[index(a)][index(b)] + best_[index(b)][index(c)];
-        if (!(below < best))
+        if (!(below + kLeastHarmonic < best))
         {
           continue;
         }
@@ -575,7 +568,7 @@ bool VertexRemoval::forbidExistingDiagonals()
     const int c = triangle.c;
     const bool curveEdge = onCurve_ && std::min(a, c) == 0 && std::max(a, c) == curveEnd_;
     if (!curveEdge && !isRingEdge(a, c) && !isRingEdge(c, a) &&
-      mesh_.hasEdge(ring_[index(a)], ring_[index(c)]))
+      mesh_.areJoined(ring_[index(a)], ring_[index(c)]))
     {
       forbid(a, c);
       found = true;

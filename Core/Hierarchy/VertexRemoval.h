@@ -92,7 +92,14 @@ private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   int nextRing(int i) const { return i + 1 == ringSize_ ? 0 : i + 1; }
   /// Face of the star between ring vertices x and y = x + 1, or -1 (diagonals, the open side of a boundary star).
-  int starFace(int x, int y) const;
+  int starFace(int x, int y) const
+  {
+    if (y == x + 1)
+    {
+      return x;
+    }
+    return y == 0 && x == ringSize_ - 1 && !boundary_ ? x : -1;
+  }
   bool isRingEdge(int x, int y) const { return starFace(x, y) >= 0; }
 
   void rotateToCurve(int first);

@@ -6,6 +6,7 @@
 #include "Base/Parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 namespace quadrille
@@ -16,30 +17,59 @@ namespace
 
 constexpr std::size_t kBucketChunk = 16384;
 
-Index targetOf(const std::vector<Index>& origin, Index h)
+/// Up to this size a bucket is sorted by counting for each entry how many come before it, which needs no branch
+/// that depends on data; a vertex of most meshes has about three edges to higher ones.
+constexpr std::size_t kSmallBucket = 16;
+
+void checkFace(const Index* corner, Index face, Index vertexCount)
 {
-  return origin[Mesh::next(h)];
+  for (int i = 0; i < 3; ++i)
+  {
+    if (corner[i] >= vertexCount)
+    {
+      throw InvalidInput("face " + std::to_string(face) + " names vertex " +
+        std::to_string(corner[i]) + " of " + std::to_string(vertexCount));
+    }
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    if (corner[i] == corner[(i + 1) % 3])
+    {
+      throw InvalidInput("face " + std::to_string(face) + " has vertex " +
+        std::to_string(corner[i]) + " at two corners");
+    }
+  }
 }
 
-void checkCorners(const std::vector<Index>& origin, Index vertexCount)
+std::uint64_t sortKey(const EdgeRuns::Entry& entry)
 {
-  if (origin.size() % 3 != 0)
+  return std::uint64_t{ entry.other } << 32 | entry.halfEdge;
+}
+
+void sortBucket(EdgeRuns::Entry* bucket, std::size_t count)
+{
+  if (count > kSmallBucket)
   {
-    throw InvalidInput("the corner list has " + std::to_string(origin.size()) +
-      " entries, which is no multiple of 3");
+    std::sort(bucket, bucket + count,
+      [](const EdgeRuns::Entry& a, const EdgeRuns::Entry& b) { return sortKey(a) < sortKey(b); });
+    return;
   }
-  for (Index h = 0; h < origin.size(); ++h)
+  std::array<EdgeRuns::Entry, kSmallBucket> entry;
+  std::array<std::uint32_t, kSmallBucket> place;
+  for (std::size_t i = 0; i < count; ++i)
   {
-    if (origin[h] >= vertexCount)
+    entry[i] = bucket[i];
+    place[i] = 0;
+    for (std::size_t j = 0; j < i; ++j)
     {
-      throw InvalidInput("face " + std::to_string(h / 3) + " names vertex " +
-        std::to_string(origin[h]) + " of " + std::to_string(vertexCount));
+      const std::uint32_t before = sortKey(entry[j]) < sortKey(entry[i]) ? 1 : 0;
+      place[i] += before;
+      place[j] += 1 - before;
     }
-    if (origin[h] == targetOf(origin, h))
-    {
-      throw InvalidInput("face " + std::to_string(h / 3) + " has vertex " +
-        std::to_string(origin[h]) + " at two corners");
-    }
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    bucket[place[i]] = entry[i];
   }
 }
 
@@ -47,44 +77,57 @@ void checkCorners(const std::vector<Index>& origin, Index vertexCount)
 
 EdgeRuns::EdgeRuns(const std::vector<Index>& origin, Index vertexCount, int threads)
 {
-  checkCorners(origin, vertexCount);
-  fill(origin, vertexCount);
+  if (origin.size() % 3 != 0)
+  {
+    throw InvalidInput("the corner list has " + std::to_string(origin.size()) +
+      " entries, which is no multiple of 3");
+  }
+  countEdges(origin, vertexCount);
+  fill(origin);
   sortBuckets(threads);
 }
 
-void EdgeRuns::fill(const std::vector<Index>& origin, Index vertexCount)
+void EdgeRuns::countEdges(const std::vector<Index>& origin, Index vertexCount)
 {
-  const Index count = static_cast<Index>(origin.size());
   // Shifted by two, so that filling turns the array into the bucket begins without a second copy.
   begin_.assign(std::size_t{ vertexCount } + 2, 0);
-  for (Index h = 0; h < count; ++h)
+  for (std::size_t h = 0; h < origin.size(); h += 3)
   {
-    ++begin_[std::size_t{ std::min(origin[h], targetOf(origin, h)) } + 2];
+    const Index* corner = &origin[h];
+    checkFace(corner, static_cast<Index>(h / 3), vertexCount);
+    ++begin_[std::size_t{ std::min(corner[0], corner[1]) } + 2];
+    ++begin_[std::size_t{ std::min(corner[1], corner[2]) } + 2];
+    ++begin_[std::size_t{ std::min(corner[2], corner[0]) } + 2];
   }
   for (std::size_t v = 2; v < begin_.size(); ++v)
   {
     begin_[v] += begin_[v - 1];
   }
-  entries_.resize(count);
-  for (Index h = 0; h < count; ++h)
-  {
-    const Index a = origin[h];
-    const Index b = targetOf(origin, h);
+}
+
+void EdgeRuns::fill(const std::vector<Index>& origin)
+{
+  entries_.resize(origin.size());
+  const auto put = [&](Index a, Index b, Index h) {
     entries_[begin_[std::size_t{ std::min(a, b) } + 1]++] = { std::max(a, b), h };
+  };
+  for (Index h = 0; h < origin.size(); h += 3)
+  {
+    put(origin[h], origin[h + 1], h);
+    put(origin[h + 1], origin[h + 2], h + 1);
+    put(origin[h + 2], origin[h], h + 2);
   }
   begin_.pop_back();
 }
 
 void EdgeRuns::sortBuckets(int threads)
 {
-  const auto before = [](const Entry& a, const Entry& b)
-  { return a.other != b.other ? a.other < b.other : a.halfEdge < b.halfEdge; };
   parallelFor(begin_.size() - 1, kBucketChunk, threads,
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t v = first; v < last; ++v)
       {
-        std::sort(entries_.begin() + begin_[v], entries_.begin() + begin_[v + 1], before);
+        sortBucket(entries_.data() + begin_[v], begin_[v + 1] - begin_[v]);
       }
     });
 }

@@ -47,7 +47,8 @@ public:
   }
 
 private:
-  void fill(const std::vector<Index>& origin, Index vertexCount);
+  void countEdges(const std::vector<Index>& origin, Index vertexCount);
+  void fill(const std::vector<Index>& origin);
   void sortBuckets(int threads);
 
   std::vector<Index> begin_; ///< #V + 1

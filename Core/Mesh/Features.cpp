@@ -73,8 +73,8 @@ std::array<Index, 3> byLength(const Mesh& mesh, Index f)
   return edges;
 }
 
-/// The face whose normal stands for f's: beyond the longest edges of slivers, and never back.
-Index normalSource(const Mesh& mesh, const FaceNormals& normals, Index f)
+/// The face whose normal stands for that of a sliver f: beyond the longest edges of slivers, and never back.
+Index beyondSlivers(const Mesh& mesh, const FaceNormals& normals, Index f)
 {
   Index previous = kInvalidIndex;
   Index current = f;
@@ -94,6 +94,11 @@ Index normalSource(const Mesh& mesh, const FaceNormals& normals, Index f)
   return current;
 }
 
+const Vector3& normalOf(const Mesh& mesh, const FaceNormals& normals, Index f)
+{
+  return normals.normal[normals.reliable[f] != 0 ? f : beyondSlivers(mesh, normals, f)];
+}
+
 } // namespace
 
 void markFeaturesByAngle(Mesh& mesh, double angle, int threads)
@@ -105,15 +110,16 @@ void markFeaturesByAngle(Mesh& mesh, double angle, int threads)
     {
       for (Index h = static_cast<Index>(3 * begin); h < 3 * end; ++h)
       {
-        if (mesh.isBoundary(h))
+        const Index twin = mesh.twin[h];
+        if (mesh.isBoundary(h) || twin < h)
         {
-          continue;
+          continue; // an edge is marked from its lower half-edge
         }
-        const Index f = normalSource(mesh, normals, Mesh::face(h));
-        const Index g = normalSource(mesh, normals, Mesh::face(mesh.twin[h]));
-        if (normals.normal[f].dot(normals.normal[g]) < limit)
+        const Vector3& here = normalOf(mesh, normals, Mesh::face(h));
+        if (here.dot(normalOf(mesh, normals, Mesh::face(twin))) < limit)
         {
           mesh.flags[h] |= kFeatureEdge;
+          mesh.flags[twin] |= kFeatureEdge;
         }
       }
     });

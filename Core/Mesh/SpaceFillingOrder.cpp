@@ -5,6 +5,9 @@
 #include "Base/Parallel.h"
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
+#include <utility>
 
 namespace quadrille
 {
@@ -16,13 +19,76 @@ namespace
 constexpr int kGridBits = 11;
 constexpr std::size_t kChunk = 65536;
 
-struct KeyedPoint
-{
-  std::uint64_t key;
-  Index point;
-};
+/// The keys' 33 bits are sorted by their upper 11 first, which leaves 22 to sort among the few points of a bucket.
+constexpr int kDigitBits = 11;
+constexpr std::size_t kBuckets = std::size_t{ 1 } << kDigitBits;
+constexpr int kLowerBits = 3 * kGridBits - kDigitBits;
+/// Buckets below this size are sorted by comparing.
+constexpr std::size_t kSmallBucket = 512;
+/// Cells whose keys are computed in step; a multiple of the lanes of any vector unit.
+constexpr std::size_t kLanes = 32;
 
-std::vector<KeyedPoint> computeKeys(const std::vector<Vector3>& points, int threads)
+/// Coordinates of cells, axis by axis.
+template <std::size_t kCount>
+using Cells = std::array<std::array<std::uint32_t, kCount>, 3>;
+
+/// Undoes the rotations and reflections of the sub-cubes, coarsest first, then Gray code [Skilling 2004]; without
+/// branches, so that a compiler can take several cells at once.
+template <std::size_t kCount>
+void toHilbert(Cells<kCount>& cell, int bits)
+{
+  for (int bit = bits - 1; bit > 0; --bit)
+  {
+    const std::uint32_t lower = (1U << bit) - 1;
+    for (std::size_t i = 0; i < kCount; ++i)
+    {
+      cell[0][i] ^= lower & (0U - (cell[0][i] >> bit & 1U));
+    }
+    for (std::size_t k = 1; k < 3; ++k)
+    {
+      for (std::size_t i = 0; i < kCount; ++i)
+      {
+        const std::uint32_t reflect = 0U - (cell[k][i] >> bit & 1U);
+        const std::uint32_t swapped = (cell[0][i] ^ cell[k][i]) & lower & ~reflect;
+        cell[0][i] ^= (lower & reflect) | swapped;
+        cell[k][i] ^= swapped;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < kCount; ++i)
+  {
+    cell[1][i] ^= cell[0][i];
+    cell[2][i] ^= cell[1][i];
+    std::uint32_t t = cell[2][i] >> 1; // every bit turns all bits below it
+    t ^= t >> 1;
+    t ^= t >> 2;
+    t ^= t >> 4;
+    t ^= t >> 8;
+    t ^= t >> 16;
+    cell[0][i] ^= t;
+    cell[1][i] ^= t;
+    cell[2][i] ^= t;
+  }
+}
+
+/// Two zeros after each of the lower 21 bits.
+std::uint64_t spread(std::uint32_t x)
+{
+  std::uint64_t s = x & 0x1FFFFFU;
+  s = (s | s << 32) & 0x001F00000000FFFFULL;
+  s = (s | s << 16) & 0x001F0000FF0000FFULL;
+  s = (s | s << 8) & 0x100F00F00F00F00FULL;
+  s = (s | s << 4) & 0x10C30C30C30C30C3ULL;
+  return (s | s << 2) & 0x1249249249249249ULL;
+}
+
+template <std::size_t kCount>
+std::uint64_t interleave(const Cells<kCount>& cell, std::size_t i)
+{
+  return spread(cell[0][i]) << 2 | spread(cell[1][i]) << 1 | spread(cell[2][i]);
+}
+
+std::vector<std::uint64_t> computeKeys(const std::vector<Vector3>& points, int threads)
 {
   Vector3 low = Vector3::Constant(std::numeric_limits<double>::max());
   Vector3 high = -low;
@@ -32,86 +98,200 @@ std::vector<KeyedPoint> computeKeys(const std::vector<Vector3>& points, int thre
     high = high.cwiseMax(p);
   }
   const double extent = points.empty() ? 0 : (high - low).maxCoeff();
-  const double cells = (1 << kGridBits) - 1;
-  const double scale = extent > 0 ? cells / extent : 0;
+  const double last = (1 << kGridBits) - 1;
+  const double scale = extent > 0 ? last / extent : 0;
 
-  std::vector<KeyedPoint> keys(points.size());
+  std::vector<std::uint64_t> keys(points.size());
   parallelFor(points.size(), kChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t first = begin; first < end; first += kLanes)
       {
-        std::array<std::uint32_t, 3> cell{};
-        for (int k = 0; k < 3; ++k)
+        const std::size_t count = std::min(kLanes, end - first);
+        Cells<kLanes> cell{};
+        for (std::size_t i = 0; i < count; ++i)
         {
-          const double x = (points[i][k] - low[k]) * scale;
-          cell[k] = static_cast<std::uint32_t>(std::clamp(x, 0.0, cells));
+          for (Index k = 0; k < 3; ++k)
+          {
+            const double x = (points[first + i][k] - low[k]) * scale;
+            cell[k][i] = static_cast<std::uint32_t>(std::clamp(x, 0.0, last));
+          }
         }
-        keys[i] = { hilbertKey(cell, kGridBits), static_cast<Index>(i) };
+        toHilbert(cell, kGridBits);
+        for (std::size_t i = 0; i < count; ++i)
+        {
+          keys[first + i] = interleave(cell, i);
+        }
       }
     });
   return keys;
 }
 
-/// Least significant digit first, so that equal keys keep their order.
-void radixSort(std::vector<KeyedPoint>& items)
+std::size_t bucketOf(std::uint64_t key)
 {
-  constexpr unsigned kDigitBits = kGridBits;
-  constexpr std::size_t kBuckets = std::size_t{ 1 } << kDigitBits;
-  std::vector<KeyedPoint> sorted(items.size());
-  for (unsigned shift = 0; shift < 3 * kGridBits; shift += kDigitBits)
+  return static_cast<std::size_t>(key >> kLowerBits);
+}
+
+/// Points in buckets by the upper bits of their keys, as (lower bits of the key, point); in the order of the points
+/// inside a bucket. begin: where each bucket begins.
+std::vector<std::uint64_t> distribute(
+  const std::vector<std::uint64_t>& keys, std::vector<std::size_t>& begin, int threads)
+{
+  const std::size_t chunks = (keys.size() + kChunk - 1) / kChunk;
+  std::vector<std::array<std::size_t, kBuckets>> next(chunks);
+  parallelFor(keys.size(), kChunk, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      std::array<std::size_t, kBuckets>& count = next[first / kChunk];
+      count.fill(0);
+      for (std::size_t i = first; i < last; ++i)
+      {
+        ++count[bucketOf(keys[i])];
+      }
+    });
+  begin.assign(kBuckets + 1, 0);
+  std::size_t sum = 0;
+  for (std::size_t bucket = 0; bucket < kBuckets; ++bucket)
+  {
+    begin[bucket] = sum;
+    for (std::array<std::size_t, kBuckets>& chunk : next)
+    {
+      sum += chunk[bucket];
+      chunk[bucket] = sum - chunk[bucket];
+    }
+  }
+  begin[kBuckets] = sum;
+  std::vector<std::uint64_t> items(keys.size());
+  parallelFor(keys.size(), kChunk, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      std::array<std::size_t, kBuckets>& place = next[first / kChunk];
+      constexpr std::uint64_t kLower = (std::uint64_t{ 1 } << kLowerBits) - 1;
+      for (std::size_t i = first; i < last; ++i)
+      {
+        items[place[bucketOf(keys[i])]++] = (keys[i] & kLower) << 32 | i;
+      }
+    });
+  return items;
+}
+
+/// Sorts the items of a bucket by their keys; least significant digit first, so that equal keys keep their order.
+void sortBucket(std::uint64_t* items, std::uint64_t* scratch, std::size_t count)
+{
+  if (count < kSmallBucket)
+  {
+    std::sort(
+      items, items + count); // the point is part of the item, so that equal keys keep their order
+    return;
+  }
+  for (int shift = 32; shift < 32 + kLowerBits; shift += kDigitBits)
   {
     std::array<std::size_t, kBuckets + 1> begin{};
-    for (const KeyedPoint& item : items)
+    for (std::size_t i = 0; i < count; ++i)
     {
-      ++begin[(item.key >> shift & (kBuckets - 1)) + 1];
+      ++begin[(items[i] >> shift & (kBuckets - 1)) + 1];
     }
     for (std::size_t b = 1; b <= kBuckets; ++b)
     {
       begin[b] += begin[b - 1];
     }
-    for (const KeyedPoint& item : items)
+    for (std::size_t i = 0; i < count; ++i)
     {
-      sorted[begin[item.key >> shift & (kBuckets - 1)]++] = item;
+      scratch[begin[items[i] >> shift & (kBuckets - 1)]++] = items[i];
     }
-    items.swap(sorted);
+    std::swap(items, scratch);
   }
 }
+static_assert(kLowerBits == 2 * kDigitBits, "after two digits the items are where they were");
+
+/// Rearranges arrays through one buffer, which keeps its memory from one array to the next.
+class Permuter
+{
+public:
+  explicit Permuter(int threads) : threads_(threads) {}
+
+  /// values[i] = old values[order[i]], kWidth values an element. Empty arrays stay empty.
+  template <std::size_t kWidth, typename T>
+  void operator()(std::vector<T>& values, const std::vector<Index>& order)
+  {
+    if (values.empty())
+    {
+      return;
+    }
+    constexpr std::size_t kBytes = kWidth * sizeof(T);
+    const std::size_t bytes = values.size() * sizeof(T);
+    buffer_.resize(std::max(buffer_.size(), bytes));
+    parallelFor(bytes, kBytes * kChunk, threads_,
+      [&](std::size_t begin, std::size_t end)
+      { std::memcpy(&buffer_[begin], bytesOf(values) + begin, end - begin); });
+    values.resize(order.size() * kWidth);
+    parallelFor(order.size(), kChunk, threads_,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          std::memcpy(
+            bytesOf(values) + i * kBytes, &buffer_[std::size_t{ order[i] } * kBytes], kBytes);
+        }
+      });
+  }
+
+private:
+  template <typename T>
+  static char* bytesOf(std::vector<T>& values)
+  {
+    return reinterpret_cast<char*>(values.data());
+  }
+
+  int threads_;
+  std::vector<char> buffer_;
+};
 
 bool isRemoved(const Mesh& mesh, Index f)
 {
   return mesh.origin[3 * f] == kInvalidIndex;
 }
 
-/// Puts the vertices that have a face into curve order and renames the corners.
-void orderVertices(Mesh& mesh, int threads)
+/// Drops the vertices without a face; returns the old ids of the others, or nothing when all stay.
+std::vector<Index> dropUnused(Mesh& mesh)
 {
-  std::vector<Index> newId(mesh.vertexCount(), kInvalidIndex);
+  std::vector<std::uint8_t> used(mesh.vertexCount(), 0);
   for (const Index v : mesh.origin)
   {
     if (v != kInvalidIndex)
     {
-      newId[v] = 0;
+      used[v] = 1;
     }
   }
-  std::vector<Index> used;
-  std::vector<Vector3> points;
-  used.reserve(mesh.vertexCount());
-  points.reserve(mesh.vertexCount());
+  std::vector<Index> kept;
+  if (std::find(used.begin(), used.end(), std::uint8_t{ 0 }) == used.end())
+  {
+    return kept;
+  }
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
-    if (newId[v] == 0)
+    if (used[v] != 0)
     {
-      used.push_back(v);
-      points.push_back(mesh.position[v]);
+      mesh.position[kept.size()] = mesh.position[v];
+      kept.push_back(v);
     }
   }
-  const std::vector<Index> order = spaceFillingOrder(points, threads);
-  mesh.position.resize(points.size());
-  for (Index i = 0; i < order.size(); ++i)
+  mesh.position.resize(kept.size());
+  return kept;
+}
+
+/// Puts the vertices that have a face into curve order and renames the corners.
+void orderVertices(Mesh& mesh, Permuter& permute, int threads)
+{
+  std::vector<Index> newId(mesh.vertexCount(), kInvalidIndex);
+  const std::vector<Index> kept = dropUnused(mesh);
   {
-    mesh.position[i] = points[order[i]];
-    newId[used[order[i]]] = i;
+    const std::vector<Index> order = spaceFillingOrder(mesh.position, threads);
+    permute.operator()<1>(mesh.position, order);
+    for (Index i = 0; i < order.size(); ++i)
+    {
+      newId[kept.empty() ? order[i] : kept[order[i]]] = i;
+    }
   }
   parallelFor(mesh.origin.size(), kChunk, threads,
     [&](std::size_t begin, std::size_t end)
@@ -152,27 +332,6 @@ std::vector<Index> facesByLowestVertex(const Mesh& mesh)
   return order;
 }
 
-/// values[i] = old values[order[i]], `width` values an element.
-template <typename T>
-void permute(
-  std::vector<T>& values, const std::vector<Index>& order, std::size_t width, int threads)
-{
-  if (values.empty())
-  {
-    return;
-  }
-  std::vector<T> permuted(order.size() * width);
-  parallelFor(order.size(), kChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        std::copy_n(values.begin() + order[i] * width, width, permuted.begin() + i * width);
-      }
-    });
-  values.swap(permuted);
-}
-
 /// Keeps of the corner weights what a face still uses, in the order of the faces.
 void orderWeights(PreparedSurface& surface)
 {
@@ -188,25 +347,34 @@ void orderWeights(PreparedSurface& surface)
   surface.cornerWeights.swap(weights);
 }
 
-void orderFaces(PreparedSurface& surface, int threads)
+void orderTwins(Mesh& mesh, const std::vector<Index>& order, Permuter& permute)
 {
-  Mesh& mesh = surface.mesh;
-  const std::vector<Index> order = facesByLowestVertex(mesh);
+  if (mesh.twin.empty())
+  {
+    return;
+  }
   std::vector<Index> newFace(mesh.faceCount(), kInvalidIndex);
   for (Index i = 0; i < order.size(); ++i)
   {
     newFace[order[i]] = i;
   }
-  permute(mesh.origin, order, 3, threads);
-  permute(mesh.flags, order, 3, threads);
-  permute(mesh.twin, order, 3, threads);
+  permute.operator()<3>(mesh.twin, order);
   for (Index& g : mesh.twin)
   {
     g = g == kInvalidIndex ? kInvalidIndex : 3 * newFace[g / 3] + g % 3;
   }
-  permute(surface.sourcePolygon, order, 1, threads);
-  permute(surface.sourcePoints, order, 1, threads);
-  permute(surface.refinedEntry, order, 1, threads);
+}
+
+void orderFaces(PreparedSurface& surface, Permuter& permute)
+{
+  Mesh& mesh = surface.mesh;
+  const std::vector<Index> order = facesByLowestVertex(mesh);
+  orderTwins(mesh, order, permute);
+  permute.operator()<3>(mesh.origin, order);
+  permute.operator()<3>(mesh.flags, order);
+  permute.operator()<1>(surface.sourcePolygon, order);
+  permute.operator()<1>(surface.sourcePoints, order);
+  permute.operator()<1>(surface.refinedEntry, order);
   orderWeights(surface);
 }
 
@@ -214,55 +382,37 @@ void orderFaces(PreparedSurface& surface, int threads)
 
 std::uint64_t hilbertKey(std::array<std::uint32_t, 3> cell, int bits)
 {
-  // Undo the rotations and reflections of the sub-cubes, coarsest first, then Gray code.
-  for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1)
-  {
-    for (std::uint32_t& x : cell)
-    {
-      if ((x & q) != 0)
-      {
-        cell[0] ^= q - 1;
-      }
-      else
-      {
-        const std::uint32_t t = (cell[0] ^ x) & (q - 1);
-        cell[0] ^= t;
-        x ^= t;
-      }
-    }
-  }
-  cell[1] ^= cell[0];
-  cell[2] ^= cell[1];
-  std::uint32_t t = 0;
-  for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1)
-  {
-    t ^= (cell[2] & q) != 0 ? q - 1 : 0;
-  }
-  std::uint64_t key = 0;
-  for (int b = bits - 1; b >= 0; --b)
-  {
-    for (const std::uint32_t x : cell)
-    {
-      key = key << 1 | ((x ^ t) >> b & 1u);
-    }
-  }
-  return key;
+  Cells<1> cells{ { { cell[0] }, { cell[1] }, { cell[2] } } };
+  toHilbert(cells, bits);
+  return interleave(cells, 0);
 }
 
 std::vector<Index> spaceFillingOrder(const std::vector<Vector3>& points, int threads)
 {
-  std::vector<KeyedPoint> items = computeKeys(points, threads);
-  radixSort(items);
-  std::vector<Index> order(items.size());
-  std::transform(
-    items.begin(), items.end(), order.begin(), [](const KeyedPoint& item) { return item.point; });
+  std::vector<std::uint64_t> keys = computeKeys(points, threads);
+  std::vector<std::size_t> begin;
+  std::vector<std::uint64_t> items = distribute(keys, begin, threads);
+  std::vector<Index> order(points.size());
+  parallelFor(kBuckets, 16, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t b = first; b < last; ++b)
+      {
+        sortBucket(items.data() + begin[b], keys.data() + begin[b], begin[b + 1] - begin[b]);
+      }
+      for (std::size_t i = begin[first]; i < begin[last]; ++i)
+      {
+        order[i] = static_cast<Index>(items[i]);
+      }
+    });
   return order;
 }
 
 void orderSurface(PreparedSurface& surface, int threads)
 {
-  orderVertices(surface.mesh, threads);
-  orderFaces(surface, threads);
+  Permuter permute(threads);
+  orderVertices(surface.mesh, permute, threads);
+  orderFaces(surface, permute);
 }
 
 } // namespace quadrille

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Transfer/PatchMender.h"
 
+#include "Base/Parallel.h"
 #include "GridMap/MapCheck.h"
 #include "Numerics/Untangler.h"
 #include "Transfer/QuarterTurns.h"
@@ -13,6 +14,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace quadrille
 {
@@ -30,6 +33,8 @@ constexpr std::size_t kLeastSteps = 30;
 constexpr std::size_t kMostSteps = 250;
 /// References flatter than this (2 area / longest edge squared) are replaced by equilateral ones.
 constexpr double kFlattestReference = 0.1;
+/// Faces of a chunk of the pass over the mesh; their uv fit a second level cache.
+constexpr std::size_t kChunkFaces = 1 << 14;
 /// A patch vertex with more faces than this stays where it is.
 constexpr std::size_t kMaximumFan = 256;
 
@@ -67,9 +72,10 @@ struct FanCorner
 class PatchMender
 {
 public:
-  PatchMender(const Mesh& mesh, std::vector<FixedVec2>& uv, const std::vector<int>& expectedTurns)
-    : mesh_(mesh), uv_(uv), expectedTurns_(expectedTurns), inPatch_(mesh.faceCount(), 0),
-      seenVertex_(mesh.vertexCount(), 0), tried_(mesh.faceCount(), 0)
+  PatchMender(const Mesh& mesh, std::vector<FixedVec2>& uv, const std::vector<int>& expectedTurns,
+    int threads)
+    : mesh_(mesh), uv_(uv), expectedTurns_(expectedTurns), threads_(threads),
+      inPatch_(mesh.faceCount(), 0), seenVertex_(mesh.vertexCount(), 0), tried_(mesh.faceCount(), 0)
   {
   }
 
@@ -80,8 +86,16 @@ private:
   {
     return determinant(uv_[3 * f], uv_[3 * f + 1], uv_[3 * f + 2]) > 0;
   }
-  std::vector<Index> findNotPositive() const;
+  /// Quadrants entered in the corners of a face; a degenerate one counts like an inverted one.
+  std::array<std::int8_t, 3> enteredBy(Index f) const
+  {
+    return quadrantsEnteredByAll(&uv_[3 * f], isPositive(f) ? 1 : -1);
+  }
   std::vector<Index> findSeeds() const;
+  std::vector<int> countTurns() const;
+  int turnsRound(Index corner) const;
+  bool isDefect(Index f) const;
+  std::vector<Index> seedsLeft(std::vector<Index> seeds);
   bool mendAround(Index seed, int rings);
   void collectCluster(Index seed);
   void growPatch();
@@ -111,10 +125,12 @@ private:
   const Mesh& mesh_;
   std::vector<FixedVec2>& uv_;
   const std::vector<int>& expectedTurns_;
+  int threads_;
   std::vector<std::uint8_t> inPatch_;
   std::vector<std::uint8_t> seenVertex_;
   std::vector<std::uint8_t> tried_; ///< faces that were in a cluster of this growth, or touched one
   std::vector<Index> patch_;        ///< faces, sorted
+  std::vector<Index> changed_;      ///< faces of the patches that were improved in this growth
   std::vector<PatchVertex> vertices_;
   std::vector<FanCorner> fans_;
   int unknowns_ = 0;
@@ -150,6 +166,25 @@ bool collectCorners(const Mesh& mesh, Index corner, std::vector<Index>& corners,
   return corners.size() < kMaximumFan;
 }
 
+/// Calls visit(c) for every corner of the vertex of `corner`.
+template <typename Visit>
+void forEachCorner(const Mesh& mesh, Index corner, Visit visit)
+{
+  Index h = corner;
+  do
+  {
+    visit(h);
+    h = mesh.rotateCounterclockwise(h);
+  } while (h != kInvalidIndex && h != corner);
+  if (h == kInvalidIndex)
+  {
+    for (h = mesh.rotateClockwise(corner); h != kInvalidIndex; h = mesh.rotateClockwise(h))
+    {
+      visit(h);
+    }
+  }
+}
+
 MendResult PatchMender::run(const ProgressCallback& progress)
 {
   // Small patches of all places come first, so that a hopeless place does not use up the work of the others.
@@ -167,51 +202,99 @@ MendResult PatchMender::run(const ProgressCallback& progress)
         result.patches += mendAround(f, kGrowth[growth]) ? 1U : 0U;
       }
     }
-    seeds = findSeeds();
+    seeds = seedsLeft(std::move(seeds));
   }
-  const std::vector<Index> bad = seeds.empty() ? seeds : findNotPositive();
+  std::vector<Index> bad;
+  std::copy_if(
+    seeds.begin(), seeds.end(), std::back_inserter(bad), [&](Index f) { return !isPositive(f); });
   result.notPositive = bad.size();
   // A wrong winding beside an inverted triangle is the same defect; the triangle tells where room is missing.
   result.defects = bad.empty() ? std::move(seeds) : bad;
   return result;
 }
 
-std::vector<Index> PatchMender::findNotPositive() const
-{
-  std::vector<Index> bad;
-  for (Index f = 0; f < mesh_.faceCount(); ++f)
-  {
-    if (!isPositive(f))
-    {
-      bad.push_back(f);
-    }
-  }
-  return bad;
-}
-
 /// Faces to mend around: those that are not positive and those at a vertex of wrong turns.
 std::vector<Index> PatchMender::findSeeds() const
 {
+  const std::vector<int> turns = countTurns();
+  std::vector<std::vector<Index>> parts((mesh_.faceCount() + kChunkFaces - 1) / kChunkFaces);
+  parallelFor(mesh_.faceCount(), kChunkFaces, threads_,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t f = begin; f < end; ++f)
+      {
+        bool defect = !isPositive(static_cast<Index>(f));
+        for (std::size_t h = 3 * f; h < 3 * f + 3; ++h)
+        {
+          defect = defect || turns[mesh_.origin[h]] != expectedTurns_[mesh_.origin[h]];
+        }
+        if (defect)
+        {
+          parts[begin / kChunkFaces].push_back(static_cast<Index>(f));
+        }
+      }
+    });
+  std::vector<Index> seeds;
+  for (const std::vector<Index>& part : parts)
+  {
+    seeds.insert(seeds.end(), part.begin(), part.end());
+  }
+  return seeds;
+}
+
+std::vector<int> PatchMender::countTurns() const
+{
+  std::vector<std::int8_t> entered(mesh_.halfEdgeCount());
+  parallelFor(mesh_.faceCount(), kChunkFaces, threads_,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t f = begin; f < end; ++f)
+      {
+        const std::array<std::int8_t, 3> corners = enteredBy(static_cast<Index>(f));
+        std::copy(corners.begin(), corners.end(), &entered[3 * f]);
+      }
+    });
   std::vector<int> turns(mesh_.vertexCount(), 0);
   for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
   {
-    const Index f = Mesh::face(h);
-    turns[mesh_.origin[h]] +=
-      quadrantsEntered(&uv_[3 * f], static_cast<int>(h % 3), isPositive(f) ? 1 : -1);
+    turns[mesh_.origin[h]] += entered[h];
   }
-  std::vector<Index> seeds;
-  for (Index f = 0; f < mesh_.faceCount(); ++f)
+  return turns;
+}
+
+/// Quarter turns round the vertex of a corner, by walking its fan.
+int PatchMender::turnsRound(Index corner) const
+{
+  int turns = 0;
+  forEachCorner(mesh_, corner, [&](Index h) { turns += enteredBy(Mesh::face(h))[h % 3]; });
+  return turns;
+}
+
+bool PatchMender::isDefect(Index f) const
+{
+  bool defect = !isPositive(f);
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
   {
-    bool defect = !isPositive(f);
+    defect = defect || turnsRound(h) != expectedTurns_[mesh_.origin[h]];
+  }
+  return defect;
+}
+
+/// What findSeeds would find now, from the seeds before and from the patches that changed since.
+std::vector<Index> PatchMender::seedsLeft(std::vector<Index> seeds)
+{
+  for (const Index f : changed_)
+  {
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
-      defect = defect || turns[mesh_.origin[h]] != expectedTurns_[mesh_.origin[h]];
-    }
-    if (defect)
-    {
-      seeds.push_back(f);
+      forEachCorner(mesh_, h, [&](Index c) { seeds.push_back(Mesh::face(c)); });
     }
   }
+  changed_.clear();
+  std::sort(seeds.begin(), seeds.end());
+  seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
+  seeds.erase(
+    std::remove_if(seeds.begin(), seeds.end(), [&](Index f) { return !isDefect(f); }), seeds.end());
   return seeds;
 }
 
@@ -231,6 +314,10 @@ bool PatchMender::mendAround(Index seed, int rings)
     }
   }
   const bool improved = patch_.size() <= kMaximumPatchFaces && embedPatch();
+  if (improved)
+  {
+    changed_.insert(changed_.end(), patch_.begin(), patch_.end());
+  }
   for (const Index f : patch_)
   {
     inPatch_[f] = 0;
@@ -640,9 +727,9 @@ void PatchMender::applyDisplacements(const Eigen::VectorXd& y)
 } // namespace
 
 MendResult mendPatches(const Mesh& mesh, std::vector<FixedVec2>& uv,
-  const std::vector<int>& expectedTurns, const ProgressCallback& progress)
+  const std::vector<int>& expectedTurns, int threads, const ProgressCallback& progress)
 {
-  return PatchMender(mesh, uv, expectedTurns).run(progress);
+  return PatchMender(mesh, uv, expectedTurns, threads).run(progress);
 }
 
 } // namespace quadrille

@@ -26,9 +26,10 @@ struct MendResult
   std::vector<Index> defects;  ///< these; if there are none, the faces at vertices of wrong turns
 };
 
-/// Changes uv in place. expectedTurns: #V quarter turns round each vertex. Deterministic; the work is bounded, so
-/// a map that is invalid all over stays so.
+/// Changes uv in place. expectedTurns: #V quarter turns round each vertex. Deterministic, for any number of threads
+/// (0: all); the work is bounded, so a map that is invalid all over stays so. After one pass over the mesh that
+/// finds the defects, the cost is that of the patches.
 MendResult mendPatches(const Mesh& mesh, std::vector<FixedVec2>& uv,
-  const std::vector<int>& expectedTurns, const ProgressCallback& progress);
+  const std::vector<int>& expectedTurns, int threads, const ProgressCallback& progress);
 
 } // namespace quadrille

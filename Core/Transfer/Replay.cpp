@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Transfer/Replay.h"
 
+#include "Base/Error.h"
 #include "Base/Parallel.h"
 #include "Hierarchy/LogRecords.h"
 #include "Mesh/Mesh.h"
@@ -10,6 +11,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 
 namespace quadrille
 {
@@ -197,11 +199,25 @@ void ReplayCounts::add(const ReplayCounts& other)
 ReplayCounts replayLog(const DecimationLog& log, std::vector<FixedVec2>& uv, int threads,
   const ProgressCallback& progress)
 {
+  return replayRounds(log, { log.rounds.size(), 0 }, uv, threads, progress);
+}
+
+ReplayCounts replayRounds(const DecimationLog& log, const ReplayRange& range,
+  std::vector<FixedVec2>& uv, int threads, const ProgressCallback& progress)
+{
+  if (range.to > range.from || range.from > log.rounds.size() ||
+    uv.size() != 3 * std::size_t{ log.fineFaces })
+  {
+    throw InvalidInput("Rounds " + std::to_string(range.from) + " to " + std::to_string(range.to) +
+      " of a decimation log of " + std::to_string(log.rounds.size()) + " rounds and " +
+      std::to_string(log.fineFaces) + " faces cannot be replayed on " + std::to_string(uv.size()) +
+      " corners.");
+  }
   std::vector<ReplayCounts> counts(log.blocks.size());
-  for (std::size_t i = log.rounds.size(); i-- > 0;)
+  for (std::size_t i = range.from; i-- > range.to;)
   {
     const DecimationLog::Round& round = log.rounds[i];
-    report(progress, double(log.rounds.size() - i) / double(log.rounds.size() + 1), "replay");
+    report(progress, double(range.from - i) / double(range.from - range.to + 1), "replay");
     parallelFor(round.blockCount, 1, threads,
       [&](std::size_t begin, std::size_t)
       {

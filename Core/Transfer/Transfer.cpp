@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Transfer/Transfer.h"
 
+#include "Base/Parallel.h"
 #include "GridMap/MapCheck.h"
 #include "Transfer/PatchMender.h"
 #include "Transfer/Replay.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 namespace quadrille
@@ -15,42 +17,72 @@ namespace quadrille
 namespace
 {
 
-void checkSizes(const Mesh& fine, const Level& coarse, const DecimationLog& log,
-  const std::vector<FixedVec2>& coarseUv)
+/// Faces of a chunk of the passes over the mesh; their uv fit a second level cache.
+constexpr std::size_t kChunkFaces = 1 << 14;
+
+void checkFaces(const Level& level, Index fineFaces)
+{
+  if (level.fineFace.size() != level.mesh.faceCount())
+  {
+    throw InvalidInput("A level of " + std::to_string(level.mesh.faceCount()) + " faces names " +
+      std::to_string(level.fineFace.size()) + " faces of the surface.");
+  }
+  for (const Index f : level.fineFace)
+  {
+    if (f >= fineFaces)
+    {
+      throw InvalidInput("A level names face " + std::to_string(f) + " of a surface of " +
+        std::to_string(fineFaces) + " faces.");
+    }
+  }
+}
+
+/// uv of the finest mesh's corners, set on the slots of the coarse level.
+std::vector<FixedVec2> spreadOnSlots(
+  const Level& coarse, const std::vector<FixedVec2>& coarseUv, Index fineFaces)
+{
+  checkFaces(coarse, fineFaces);
+  if (coarseUv.size() != coarse.mesh.halfEdgeCount())
+  {
+    throw InvalidInput("The map has " + std::to_string(coarseUv.size()) +
+      " corners, but the coarse level has " + std::to_string(coarse.mesh.halfEdgeCount()) + ".");
+  }
+  std::vector<FixedVec2> uv(3 * std::size_t{ fineFaces });
+  for (Index h = 0; h < coarse.mesh.halfEdgeCount(); ++h)
+  {
+    uv[3 * std::size_t{ coarse.fineFace[h / 3] } + h % 3] = coarseUv[h];
+  }
+  return uv;
+}
+
+void checkSizes(const Mesh& fine, const Level& coarse, const DecimationLog& log)
 {
   if (log.fineFaces != fine.faceCount())
   {
     throw InvalidInput("The decimation log was made for a surface of " +
       std::to_string(log.fineFaces) + " faces, not of " + std::to_string(fine.faceCount()) + ".");
   }
-  if (coarseUv.size() != coarse.mesh.halfEdgeCount() ||
-    coarse.fineFace.size() != coarse.mesh.faceCount())
-  {
-    throw InvalidInput("The map has " + std::to_string(coarseUv.size()) +
-      " corners, but the coarse level has " + std::to_string(coarse.mesh.halfEdgeCount()) + ".");
-  }
   if (coarse.mesh.vertexCount() + log.collapses != fine.vertexCount())
   {
     throw InvalidInput("The coarse level does not belong to this decimation log.");
   }
-  for (const Index f : coarse.fineFace)
-  {
-    if (f >= fine.faceCount())
-    {
-      throw InvalidInput("The coarse level names face " + std::to_string(f) + " of a surface of " +
-        std::to_string(fine.faceCount()) + " faces.");
-    }
-  }
 }
 
-std::size_t countNotPositive(const std::vector<FixedVec2>& uv)
+std::size_t countNotPositive(const std::vector<FixedVec2>& uv, int threads)
 {
-  std::size_t count = 0;
-  for (std::size_t h = 0; h < uv.size(); h += 3)
-  {
-    count += determinant(uv[h], uv[h + 1], uv[h + 2]) > 0 ? 0U : 1U;
-  }
-  return count;
+  const std::size_t faces = uv.size() / 3;
+  std::vector<std::size_t> counts((faces + kChunkFaces - 1) / kChunkFaces, 0);
+  parallelFor(faces, kChunkFaces, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::size_t count = 0;
+      for (std::size_t h = 3 * begin; h < 3 * end; h += 3)
+      {
+        count += determinant(uv[h], uv[h + 1], uv[h + 2]) > 0 ? 0U : 1U;
+      }
+      counts[begin / kChunkFaces] = count;
+    });
+  return std::accumulate(counts.begin(), counts.end(), std::size_t{ 0 });
 }
 
 std::vector<Index> verticesOf(const Mesh& fine, const std::vector<Index>& faces)
@@ -95,28 +127,38 @@ std::vector<int> expectedTurns(
 TransferResult transferMap(const Mesh& fine, const Level& coarse, const DecimationLog& log,
   const std::vector<FixedVec2>& coarseUv, const TransferOptions& options)
 {
-  checkSizes(fine, coarse, log, coarseUv);
+  checkSizes(fine, coarse, log);
   TransferResult result;
-  result.uv.resize(fine.halfEdgeCount());
-  for (Index h = 0; h < coarse.mesh.halfEdgeCount(); ++h)
-  {
-    result.uv[3 * coarse.fineFace[h / 3] + h % 3] = coarseUv[h];
-  }
+  result.uv = spreadOnSlots(coarse, coarseUv, log.fineFaces);
   const ReplayCounts counts = replayLog(log, result.uv, options.threads, options.progress);
   result.invertedStars = counts.invertedStars;
   result.movedToKernel = counts.movedToKernel;
   result.withoutKernel = counts.withoutKernel;
-  result.notPositive = countNotPositive(result.uv);
+  result.notPositive = countNotPositive(result.uv, options.threads);
   // What was invalid already on the coarse level is not a matter of a few triangles here.
-  if ((result.notPositive > 0 || result.withoutKernel > 0) && countNotPositive(coarseUv) == 0)
+  if ((result.notPositive > 0 || result.withoutKernel > 0) && countNotPositive(coarseUv, 1) == 0)
   {
-    const MendResult mended =
-      mendPatches(fine, result.uv, expectedTurns(fine, coarse, coarseUv), options.progress);
+    const MendResult mended = mendPatches(
+      fine, result.uv, expectedTurns(fine, coarse, coarseUv), options.threads, options.progress);
     result.mendedPatches = mended.patches;
     result.notPositive = mended.notPositive;
     result.offenders = verticesOf(fine, mended.defects);
   }
   return result;
+}
+
+std::vector<FixedVec2> transferToLevel(const Level& coarse, const Level& level, std::size_t rounds,
+  const DecimationLog& log, const std::vector<FixedVec2>& coarseUv, const TransferOptions& options)
+{
+  checkFaces(level, log.fineFaces);
+  std::vector<FixedVec2> slots = spreadOnSlots(coarse, coarseUv, log.fineFaces);
+  replayRounds(log, { log.rounds.size(), rounds }, slots, options.threads, options.progress);
+  std::vector<FixedVec2> uv(level.mesh.halfEdgeCount());
+  for (Index h = 0; h < level.mesh.halfEdgeCount(); ++h)
+  {
+    uv[h] = slots[3 * std::size_t{ level.fineFace[h / 3] } + h % 3];
+  }
+  return uv;
 }
 
 } // namespace quadrille

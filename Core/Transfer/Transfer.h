@@ -39,4 +39,10 @@ struct TransferResult
 TransferResult transferMap(const Mesh& fine, const Level& coarse, const DecimationLog& log,
   const std::vector<FixedVec2>& coarseUv, const TransferOptions& options);
 
+/// The map of the coarse level on a level between: that to which the log's first `rounds` rounds lead, as
+/// Hierarchy::intermediate with log.intermediateRounds. #H of level.mesh. As the replay leaves it: nothing is
+/// counted or mended. Throws InvalidInput when sizes or rounds do not fit.
+std::vector<FixedVec2> transferToLevel(const Level& coarse, const Level& level, std::size_t rounds,
+  const DecimationLog& log, const std::vector<FixedVec2>& coarseUv, const TransferOptions& options);
+
 } // namespace quadrille

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The commands quadrille and quadrille-bench: formats, exit codes, report, nothing half-written; and `import quadrille`
-in the system's python3."""
+"""The commands quadrille, quadrille-bench and quadrille-costs: formats, exit codes, report, nothing half-written; and
+`import quadrille` in the system's python3."""
 import argparse
 import csv
 import io
@@ -289,7 +289,7 @@ class Report(Case):
 
 class Bench(Case):
     COLUMNS = "mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb".split(",")
-    STAGES = ("read repair order connectivity phase1 phase2 field seamless quantize embed replay extract "
+    STAGES = ("read repair order connectivity refine phase1 phase2 field seamless quantize embed replay certify extract "
               "total cancel").split()
 
     def test_columns_and_stages(self):
@@ -304,7 +304,7 @@ class Bench(Case):
         for row in rows:
             self.assertGreaterEqual(float(row["seconds"]), 0)
             self.assertGreater(float(row["peak_rss_mb"]), 1)
-        for run in (rows[:14], rows[14:]):
+        for run in (rows[:len(self.STAGES)], rows[len(self.STAGES):]):
             stages, total, cancel = run[:-2], run[-2], run[-1]
             self.assertLessEqual(sum(float(r["seconds"]) for r in stages), 1.01 * float(total["seconds"]))
             self.assertTrue(0 < float(cancel["seconds"]) <= float(total["seconds"]))
@@ -315,6 +315,34 @@ class Bench(Case):
                                 text=True, timeout=300)
         self.assertEqual(result.returncode, 2)
         self.assertEqual(len(result.stdout.splitlines()), 1 + len(self.STAGES))
+
+
+class Costs(Case):
+    COLUMNS = "mesh,field,triangles,valences,distance,percent,seconds_cold,seconds_warm,hit_percent".split(",")
+    FIELDS = ["reference", "intermediate", "E_G,mem", "E_G", "E_QEM", "E_uni"]
+
+    def test_columns_and_rows(self):
+        source = os.path.join(ARGS.data, "beast.ply")
+        result = subprocess.run([ARGS.costs, source, "--quads", "1000", "--coarse-vertices", "300"],
+                                capture_output=True, text=True, timeout=300)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = list(csv.DictReader(io.StringIO(result.stdout)))
+        self.assertEqual(list(rows[0]), self.COLUMNS)
+        self.assertEqual([r["field"] for r in rows], self.FIELDS)
+        # Every field on a closed surface has the same index sum, 8 on one without handles.
+        for row in rows:
+            valences = dict(map(int, pair.split(":")) for pair in row["valences"].split())
+            self.assertEqual(sum((4 - valence) * number for valence, number in valences.items()), 8)
+        self.assertEqual(float(rows[0]["distance"]), 0)
+        self.assertEqual(float(rows[2]["percent"]), 100)
+        for row in rows[2:]:
+            self.assertGreater(float(row["distance"]), 0)
+            self.assertTrue(0 < float(row["hit_percent"]) <= 100)
+
+    def test_a_bad_mesh_is_told(self):
+        result = subprocess.run([ARGS.costs, "absent.ply"], capture_output=True, text=True, timeout=60)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("absent.ply", result.stderr)
 
 
 class Python(Case):
@@ -350,7 +378,7 @@ class Python(Case):
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
-    for name in ("quadrille", "bench", "data", "work"):
+    for name in ("quadrille", "bench", "costs", "data", "work"):
         parser.add_argument("--" + name, required=True)
     ARGS, rest = parser.parse_known_args()
     os.makedirs(ARGS.work, exist_ok=True)

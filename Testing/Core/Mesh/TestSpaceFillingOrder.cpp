@@ -3,8 +3,10 @@
 #include "Mesh/SpaceFillingOrder.h"
 #include "SurfaceInputs.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <numeric>
+#include <random>
 #include <set>
 
 namespace quadrille
@@ -51,6 +53,35 @@ TEST(SpaceFillingOrder, isAPermutationAndKeepsTheOrderOfEqualPoints)
   EXPECT_EQ(order, spaceFillingOrder(points, 1));
   EXPECT_EQ(std::set<Index>(order.begin(), order.end()).size(), points.size());
   EXPECT_TRUE(spaceFillingOrder({}, 1).empty());
+}
+
+TEST(SpaceFillingOrder, isTheOrderOfTheKeys)
+{
+  // One in ten points is far away, so that the others fill few buckets with many items each, more than are sorted
+  // by comparing, and many points share a cell.
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> coordinate(0, 1);
+  std::vector<Vector3> points{ Vector3(0, 0, 0), Vector3(1, 1, 1) };
+  for (int i = 0; i < 20000; ++i)
+  {
+    const double size = i % 10 == 0 ? 1 : 0.01;
+    points.emplace_back(
+      size * coordinate(random), size * coordinate(random), size * coordinate(random));
+  }
+  std::vector<std::uint64_t> key;
+  for (const Vector3& p : points)
+  {
+    const auto cell = [](double x) { return static_cast<std::uint32_t>(x * 2047); };
+    key.push_back(hilbertKey({ cell(p.x()), cell(p.y()), cell(p.z()) }, 11));
+  }
+  std::vector<Index> expected(points.size());
+  std::iota(expected.begin(), expected.end(), Index{ 0 });
+  std::stable_sort(
+    expected.begin(), expected.end(), [&](Index a, Index b) { return key[a] < key[b]; });
+  for (const int threads : { 1, 2, 4, 8 })
+  {
+    EXPECT_EQ(spaceFillingOrder(points, threads), expected);
+  }
 }
 
 TEST(SpaceFillingOrder, neighboursInStorageAreNeighboursInSpace)

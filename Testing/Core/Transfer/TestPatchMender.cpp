@@ -46,7 +46,7 @@ TEST(PatchMender, leavesAValidMapAlone)
   std::vector<FixedVec2> uv =
     torusMap(mesh, 1, 40 * kOne, 16 * kOne, [](Index) { return FixedVec2{}; });
   const std::vector<FixedVec2> before = uv;
-  const MendResult result = mendPatches(mesh, uv, turnsOf(mesh, uv), {});
+  const MendResult result = mendPatches(mesh, uv, turnsOf(mesh, uv), 1, {});
   EXPECT_EQ(result.patches, 0U);
   EXPECT_EQ(result.notPositive, 0U);
   EXPECT_EQ(uv, before);
@@ -63,7 +63,7 @@ TEST(PatchMender, mendsAFoldInsideAPlane)
   moveVertices(mesh, uv, { 5 * kOne / 2, kOne }, inFold);
   const std::vector<FixedVec2> before = uv;
   ASSERT_GT(notPositive(uv), 0U);
-  const MendResult result = mendPatches(mesh, uv, turns, {});
+  const MendResult result = mendPatches(mesh, uv, turns, 1, {});
   EXPECT_EQ(result.notPositive, 0U);
   EXPECT_EQ(notPositive(uv), 0U);
   EXPECT_EQ(seamResiduals(mesh, uv), 0U);
@@ -94,7 +94,7 @@ TEST(PatchMender, mendsAcrossSeamsWithRotations)
   ASSERT_GT(notPositive(uv), 0U);
   ASSERT_EQ(seamResiduals(mesh, uv), 0U);
   const std::vector<int> turns = turnsOf(mesh, cubeMap(mesh, 12, nullptr));
-  const MendResult result = mendPatches(mesh, uv, turns, {});
+  const MendResult result = mendPatches(mesh, uv, turns, 1, {});
   EXPECT_EQ(turnsOf(mesh, uv), turns);
   EXPECT_GT(result.patches, 0U);
   EXPECT_EQ(notPositive(uv), 0U);
@@ -108,7 +108,7 @@ TEST(PatchMender, givesUpOnWhatCannotBeMended)
   const Mesh mesh = gridPlane(12, 12);
   std::vector<FixedVec2> uv =
     mapByPosition(mesh, [](const Vector3& p) { return Vector2(-p.x(), p.y()); });
-  const MendResult result = mendPatches(mesh, uv, std::vector<int>(mesh.vertexCount(), 4), {});
+  const MendResult result = mendPatches(mesh, uv, std::vector<int>(mesh.vertexCount(), 4), 1, {});
   EXPECT_EQ(result.notPositive, notPositive(uv));
   EXPECT_GT(result.notPositive, 0U);
   EXPECT_EQ(seamResiduals(mesh, uv), 0U);

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The costs of phase 2 against each other: what the decimation does to the singularities of the cross field, as CSV on
+/// standard output [Ebke et al. 2016, Figure 13].
+#include "CrossField/CrossField.h"
+#include "Evaluation/SingularityDistance.h"
+#include "Hierarchy/Hierarchy.h"
+#include "Mesh/FeatureFilter.h"
+#include "Mesh/Surface.h"
+#include "MeshFiles.h"
+#include "Options.h"
+#include "QuadrilleConvert.h"
+
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+namespace
+{
+
+using namespace quadrille;
+
+constexpr const char* kHelp =
+  R"(usage: quadrille-costs MESH... [options]
+
+Computes the cross field of each mesh without decimation and on coarse levels made with every cost, and writes to
+standard output, as CSV, the columns
+  mesh,field,triangles,valences,distance,percent,seconds_cold,seconds_warm,hit_percent
+with a row for each of
+  reference, intermediate, E_G,mem, E_G, E_QEM, E_uni
+valences: the irregular inner vertices, as valence:number. distance: earth mover's distance of the singularities to
+the reference, in quarter turns times target edge lengths; percent: relative to E_G,mem. Seconds of phase 2 from the
+intermediate level, with an empty and with a full cache of costs, and how much of a second run the cache knows when
+every 50th intermediate vertex has to be kept.
+
+  --quads N               target number of quads (default 5000)
+  --coarse-vertices N     budget of the coarse level (default 1000)
+  --reference-faces N     meshes with more triangles have the field of the intermediate level as reference
+                          (default 400000)
+
+exit code: 0, or 2 when a mesh cannot be used
+)";
+
+constexpr int kBadInput = 2;
+constexpr std::size_t kKeepEvery = 50;
+
+struct Request
+{
+  double quads = 5000;
+  Index coarseVertices = 1000;
+  std::size_t referenceFaces = 400000;
+};
+
+struct Cost
+{
+  const char* name;
+  DecimationCost cost;
+};
+constexpr std::array<Cost, 4> kCosts = { { { "\"E_G,mem\"", DecimationCost::GaussianMemory },
+  { "E_G", DecimationCost::Gaussian }, { "E_QEM", DecimationCost::Quadric },
+  { "E_uni", DecimationCost::Uniform } } };
+
+PreparedSurface read(const std::string& path, const Request& request, double& edgeLength)
+{
+  const vtkSmartPointer<vtkPolyData> input = readMeshFile(path);
+  PreparedSurface surface = prepareSurface(convertSurface(input, "").input, {});
+  edgeLength = std::sqrt(surface.area / request.quads);
+  removeUnresolvedFeatures(surface.mesh, edgeLength);
+  refineSurface(surface, edgeLength, {});
+  return surface;
+}
+
+std::vector<int> turnsOf(const Mesh& mesh, double edgeLength)
+{
+  return computeCrossField(mesh, { edgeLength, {} }).turns;
+}
+
+/// The turns of a level's field on the finest mesh; vertices that are not on the level are regular.
+std::vector<int> turnsOf(const Mesh& fine, const Level& level, double edgeLength)
+{
+  std::vector<int> turns = regularTurns(fine);
+  const std::vector<int> own = turnsOf(level.mesh, edgeLength);
+  for (Index v = 0; v < level.mesh.vertexCount(); ++v)
+  {
+    turns[level.fineVertex[v]] = own[v];
+  }
+  return turns;
+}
+
+std::string valencesText(const Mesh& mesh, const std::vector<int>& turns)
+{
+  std::string text;
+  for (const auto& [valence, count] : singularityHistogram(mesh, turns))
+  {
+    text += (text.empty() ? "" : " ") + std::to_string(valence) + ":" + std::to_string(count);
+  }
+  return text;
+}
+
+/// Distance in edge lengths; a row about sums that differ would mean nothing.
+double distance(const Mesh& mesh, const std::vector<int>& reference, const std::vector<int>& turns,
+  double edgeLength)
+{
+  const SingularityDistance result = singularityDistance(mesh, reference, turns);
+  return result.unmatched == 0 ? result.work / edgeLength : std::nan("");
+}
+
+struct Timing
+{
+  double cold = 0;
+  double warm = 0;
+  double hitPercent = 0;
+};
+
+Timing timePhase2(Redecimation& levels, HierarchyOptions options)
+{
+  Timing timing;
+  timing.cold = levels.update(options).secondsPhase2;
+  timing.warm = levels.update(options).secondsPhase2;
+  const std::vector<Index>& vertices = levels.hierarchy().intermediate.fineVertex;
+  for (std::size_t i = 0; i < vertices.size(); i += kKeepEvery)
+  {
+    options.keepVertices.push_back(vertices[i]);
+  }
+  const CacheReport cache = levels.update(options).cache;
+  timing.hitPercent = 100.0 * static_cast<double>(cache.hits) /
+    static_cast<double>(std::max<std::size_t>(cache.lookups, 1));
+  return timing;
+}
+
+void compare(const std::string& path, const Request& request)
+{
+  double edgeLength = 0;
+  const PreparedSurface surface = read(path, request, edgeLength);
+  const Mesh& fine = surface.mesh;
+  HierarchyOptions options;
+  options.targetEdgeLength = edgeLength;
+  options.coarseVertices = request.coarseVertices;
+  Redecimation levels(fine, surface.hash, options);
+  const Level& intermediate = levels.hierarchy().intermediate;
+  const std::string name = std::filesystem::path(path).stem();
+
+  const std::vector<int> middle = turnsOf(fine, intermediate, edgeLength);
+  const bool whole = fine.faceCount() <= request.referenceFaces;
+  const std::vector<int> reference = whole ? turnsOf(fine, edgeLength) : middle;
+  std::printf("%s,reference,%u,%s,0,,,,\n", name.c_str(),
+    whole ? fine.faceCount() : intermediate.mesh.faceCount(),
+    valencesText(fine, reference).c_str());
+  std::printf("%s,intermediate,%u,%s,%.2f,,,,\n", name.c_str(), intermediate.mesh.faceCount(),
+    valencesText(fine, middle).c_str(), distance(fine, reference, middle, edgeLength));
+  double hundredPercent = 0;
+  for (const Cost& cost : kCosts)
+  {
+    options.cost = cost.cost;
+    const Timing timing = timePhase2(levels, options);
+    const Level& coarse = levels.update(options).coarse;
+    const std::vector<int> turns = turnsOf(fine, coarse, edgeLength);
+    const double far = distance(fine, reference, turns, edgeLength);
+    hundredPercent = cost.cost == DecimationCost::GaussianMemory ? far : hundredPercent;
+    std::printf("%s,%s,%u,%s,%.2f,%.0f,%.3f,%.3f,%.1f\n", name.c_str(), cost.name,
+      coarse.mesh.faceCount(), valencesText(fine, turns).c_str(), far, 100 * far / hundredPercent,
+      timing.cold, timing.warm, timing.hitPercent);
+    std::fflush(stdout);
+  }
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  try
+  {
+    const CommandLine line(argc, argv, { "quads", "coarse-vertices", "reference-faces" });
+    if (line.help())
+    {
+      std::fputs(kHelp, stdout);
+      return 0;
+    }
+    if (line.positional().empty())
+    {
+      throw UsageError("no mesh is given; --help tells more");
+    }
+    Request request;
+    request.quads = static_cast<double>(line.count("quads", 1, 1000000000).value_or(5000));
+    request.coarseVertices =
+      static_cast<Index>(line.count("coarse-vertices", 4, 1000000000).value_or(1000));
+    request.referenceFaces =
+      static_cast<std::size_t>(line.count("reference-faces", 0, 1000000000).value_or(400000));
+    std::printf("mesh,field,triangles,valences,distance,percent,seconds_cold,seconds_warm,"
+                "hit_percent\n");
+    for (const std::string& mesh : line.positional())
+    {
+      compare(mesh, request);
+    }
+    return 0;
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "quadrille-costs: %s\n", error.what());
+    return kBadInput;
+  }
+}

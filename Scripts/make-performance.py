@@ -1,0 +1,189 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: The Quadrille maintainers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Measures the stages with quadrille-bench and writes the tables of Documentation/Performance.md.
+
+  Scripts/make-performance.py [--data FOLDER] [--command build/bin/quadrille-bench] [--out out/performance] [--repeat 5]
+
+Meshes: the shape `beast` of Data/generate.py at 125 k, 500 k, 2 M and 8 M faces, the one of 2 M with its faces and
+points shuffled, and, where --data has scan/bunny_ct.ply, that scan, the same shuffled, and the same with each face cut into four
+and its points moved at random by up to a tenth of their shortest edge. Runs of all meshes and thread counts alternate, so that a busy
+machine disturbs all alike; a figure is the median of the repeats. The tables replace what stands between the two marks in the page; what
+is around them is written by hand. Needs Debian's python3 with numpy.
+"""
+import argparse
+import csv
+import io
+import pathlib
+import statistics
+import subprocess
+import sys
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BEGIN, END = "<!-- tables: begin -->", "<!-- tables: end -->"
+SIZES = {"beast_125k": 125000, "beast_500k": 500000, "beast_2M": 2000000, "beast_8M": 8000000}
+STAGES = ["order", "connectivity", "repair", "refine", "phase1", "phase2", "field", "seamless", "quantize", "embed", "replay",
+          "certify", "extract", "total", "cancel"]
+FACE_TYPE = np.dtype([("count", "u1"), ("corners", "<i4", 3)])
+
+
+# --------------------------------------------------------------------------------------------- meshes
+def readPly(path):
+    """Binary little-endian PLY with float points and triangles, as all meshes here are."""
+    with open(path, "rb") as file:
+        header = []
+        while not header or header[-1] != "end_header":
+            header.append(file.readline().decode("ascii").strip())
+        body = file.read()
+    if "format binary_little_endian 1.0" not in header:
+        raise SystemExit(f"{path}: only binary little-endian PLY can be changed by this script")
+    count = {line.split()[1]: int(line.split()[2]) for line in header if line.startswith("element")}
+    names, element = {"vertex": [], "face": []}, None
+    for line in header:
+        words = line.split()
+        if words[0] == "element":
+            element = words[1]
+        elif words[0] == "property":
+            names[element].append(words[1:])
+    kinds = {"float": "<f4", "double": "<f8", "uchar": "u1", "int": "<i4"}
+    pointType = np.dtype([(words[1], kinds[words[0]]) for words in names["vertex"]])
+    points = np.frombuffer(body, pointType, count["vertex"])
+    faces = np.frombuffer(body, FACE_TYPE, count["face"], count["vertex"] * pointType.itemsize)
+    if len(names["face"]) != 1 or (faces["count"] != 3).any():
+        raise SystemExit(f"{path}: only triangles without properties can be changed by this script")
+    return np.stack([points["x"], points["y"], points["z"]], 1).astype(np.float64), faces["corners"].astype(np.int64)
+
+
+def writePly(path, points, faces):
+    table = np.empty(len(faces), FACE_TYPE)
+    table["count"], table["corners"] = 3, faces
+    with open(path, "wb") as file:
+        file.write((f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\nproperty float x\n"
+                    f"property float y\nproperty float z\nelement face {len(faces)}\n"
+                    "property list uchar int vertex_indices\nend_header\n").encode("ascii"))
+        file.write(points.astype("<f4").tobytes())
+        file.write(table.tobytes())
+
+
+def shuffled(points, faces):
+    random = np.random.default_rng(1)
+    order = random.permutation(len(points))
+    place = np.empty_like(order)
+    place[order] = np.arange(len(points))
+    return points[order], place[faces][random.permutation(len(faces))]
+
+
+def subdivided(points, faces):
+    """Every face into four, every point moved at random by up to a tenth of its shortest edge."""
+    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    keys, inverse = np.unique(edges[:, 0] * len(points) + edges[:, 1], return_inverse=True)
+    first, second = keys // len(points), keys % len(points)
+    ab, bc, ca = len(points) + inverse.reshape(3, -1)
+    a, b, c = faces.T
+    finer = np.concatenate([np.stack(f, 1) for f in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
+    every = np.concatenate([points, 0.5 * (points[first] + points[second])])
+    reach = np.full(len(every), np.inf)
+    for i, j in ((0, 1), (1, 2), (2, 0)):
+        length = np.linalg.norm(every[finer[:, i]] - every[finer[:, j]], axis=1)
+        np.minimum.at(reach, finer[:, i], length)
+        np.minimum.at(reach, finer[:, j], length)
+    return every + np.random.default_rng(2).uniform(-0.06, 0.06, every.shape) * reach[:, None], finer
+
+
+def makeMeshes(folder, data):
+    folder.mkdir(parents=True, exist_ok=True)
+    meshes = {}
+
+    def make(name, build):
+        path = folder / f"{name}.ply"
+        if not path.exists():
+            print(f"making {path}", flush=True)
+            writePly(path, *build())
+        meshes[name] = path
+
+    for name, size in SIZES.items():
+        path = folder / f"{name}.ply"
+        if not path.exists():
+            subprocess.run([sys.executable, ROOT / "Data/generate.py", "beast", str(size), path], check=True)
+        meshes[name] = path
+    make("beast_2M_shuffled", lambda: shuffled(*readPly(meshes["beast_2M"])))
+    scan = pathlib.Path(data or "") / "scan" / "bunny_ct.ply"
+    if data and scan.exists():
+        meshes["bunny_ct"] = scan
+        make("bunny_ct_shuffled", lambda: shuffled(*readPly(scan)))
+        make("bunny_ct_8M", lambda: subdivided(*readPly(scan)))
+    return meshes
+
+
+# ----------------------------------------------------------------------------------------------- runs
+def measure(command, meshes, threads, repeat, quads):
+    """{(mesh, threads): {stage: [seconds]}} and, beside the stages, faces and peak memory; {mesh: why it failed}."""
+    results, failures = {}, {}
+    for turn in range(repeat):
+        for name, path in meshes.items():
+            for count in threads:
+                print(f"run {turn + 1} of {repeat}: {name}, {count} threads", flush=True)
+                run = subprocess.run([command, path, "--quads", str(quads), "--threads", str(count)],
+                                     capture_output=True, text=True)
+                if run.returncode != 0:
+                    failures[name] = run.stderr.strip()
+                    continue
+                into = results.setdefault((name, count), {})
+                for row in csv.DictReader(io.StringIO(run.stdout)):
+                    into.setdefault(row["stage"], []).append(float(row["seconds"]))
+                    into["megabytes"] = float(row["peak_rss_mb"])
+                    if row["stage"] == "phase1":
+                        into["faces"], into["intermediate"] = int(row["elements_in"]), int(row["elements_out"])
+    return {key: run for key, run in results.items() if key[0] not in failures}, failures
+
+
+def table(results, count):
+    names = [name for name, threads in results if threads == count]
+    lines = ["| stage | " + " | ".join(names) + " |", "|---|" + "---:|" * len(names)]
+
+    def line(title, value):
+        lines.append(f"| {title} | " + " | ".join(value(results[name, count]) for name in names) + " |")
+
+    line("faces", lambda run: f"{run['faces']:,}")
+    line("intermediate faces", lambda run: f"{run['intermediate']:,}")
+    for stage in STAGES:
+        line(stage, lambda run: f"{statistics.median(run[stage]):.3f}")
+    line("peak bytes a face", lambda run: f"{run['megabytes'] * 1048576 / run['faces']:.0f}")
+    line("phase1, ns a face", lambda run: f"{statistics.median(run['phase1']) / run['faces'] * 1e9:.0f}")
+    line("replay, ns a face", lambda run: f"{statistics.median(run['replay']) / run['faces'] * 1e9:.0f}")
+    line("total, ns a face", lambda run: f"{statistics.median(run['total']) / run['faces'] * 1e9:.0f}")
+    return "\n".join(lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Measures the stages; see the top of this file.")
+    parser.add_argument("--data", help="folder of models with scan/bunny_ct.ply")
+    parser.add_argument("--command", default=str(ROOT / "build/bin/quadrille-bench"))
+    parser.add_argument("--out", default=str(ROOT / "out/performance"), help="folder for the meshes")
+    parser.add_argument("--markdown", default=str(ROOT / "Documentation/Performance.md"))
+    parser.add_argument("--repeat", type=int, default=5)
+    parser.add_argument("--quads", type=int, default=10000)
+    parser.add_argument("--threads", type=int, nargs="+", default=[1, 2])
+    parser.add_argument("--meshes", nargs="+", help="only these")
+    arguments = parser.parse_args()
+    meshes = makeMeshes(pathlib.Path(arguments.out), arguments.data)
+    if arguments.meshes:
+        meshes = {name: path for name, path in meshes.items() if name in arguments.meshes}
+    results, failures = measure(arguments.command, meshes, arguments.threads, arguments.repeat, arguments.quads)
+    text = "\n\n".join(f"Seconds with {count} thread{'s' if count > 1 else ''}, {arguments.quads:,} quads asked for, medians of "
+                       f"{arguments.repeat}:\n\n{table(results, count)}" for count in arguments.threads)
+    for name, reason in failures.items():
+        text += f"\n\n{name} gave no quads and is left out: {reason[:200].replace(str(ROOT), '')}"
+    page = pathlib.Path(arguments.markdown)
+    before, _, rest = page.read_text().partition(BEGIN)
+    _, found, after = rest.partition(END)
+    if not found:
+        raise SystemExit(f"{page} has no marks for the tables")
+    page.write_text(f"{before}{BEGIN}\n\n{text}\n\n{END}{after}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
