@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/FieldUntangling.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace quadrille
@@ -10,7 +11,11 @@ namespace
 {
 
 constexpr double kStiffening = 10;
+/// Rounds with more weight, one after the other, that lessened nothing: the next one would not either.
+constexpr int kIdleRounds = 2;
+/// More defects than this, or than one per so many faces, have a cause that no weight mends.
 constexpr std::size_t kMany = 30;
+constexpr std::size_t kFacesPerDefect = 64;
 
 /// Multiplies the weights of the faces that touch a defect, or touch one that does.
 void stiffen(const Mesh& mesh, const MapDefects& defects, std::vector<double>& weight)
@@ -65,6 +70,8 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
   const UntangleOptions options = fieldUntangleOptions(progress);
   UntangleProblem stiffened = problem;
   const int attempts = static_cast<int>(starts.size()) + rounds;
+  int idle = 0;
+  const std::size_t many = std::max(kMany, mesh.faceCount() / kFacesPerDefect);
   for (int i = 0; i < attempts; ++i)
   {
     const bool given = i < static_cast<int>(starts.size());
@@ -88,9 +95,11 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
     {
       best.defects = std::move(defects);
       best.uv = std::move(uv);
+      best.y = std::move(attempt.y);
     }
-    // Many defects that more weight did not lessen have a cause that no weight mends.
-    if (best.defects.none() || (!given && !better && best.defects.count() > kMany))
+    idle = given || better ? 0 : idle + 1;
+    const bool startsLeft = i + 1 < static_cast<int>(starts.size());
+    if (best.defects.none() || idle >= kIdleRounds || (!startsLeft && best.defects.count() > many))
     {
       break;
     }

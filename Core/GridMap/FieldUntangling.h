@@ -18,6 +18,7 @@ UntangleOptions fieldUntangleOptions(const ProgressCallback& progress);
 struct FieldUntangling
 {
   std::vector<FixedVec2> uv; ///< of the attempt with the fewest defects
+  Eigen::VectorXd y;         ///< its unknowns
   MapDefects defects;
   int newtonSteps = 0;
 };

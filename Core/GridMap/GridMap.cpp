@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/GridMap.h"
 
+#include "GridMap/MeshParts.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace quadrille
 {
@@ -14,9 +17,12 @@ namespace
 
 constexpr int kMaximumScalings = 4;
 /// How often other integers are tried where embedding fails.
-constexpr int kMaximumEmbeddings = 4;
+constexpr std::size_t kMaximumEmbeddings = 4;
 /// The number of quads is accepted when it is this close to the target (relative).
 constexpr double kCountTolerance = 0.06;
+/// A map with a component missing is none. That many failures in one stage have a common cause, which more work in later stages
+/// does not mend: the caller hears of them at once.
+constexpr std::size_t kHopeless = 4;
 
 class Stopwatch
 {
@@ -72,27 +78,347 @@ ProgressCallback subProgress(const ProgressCallback& progress, double begin, dou
   { return progress(begin + (end - begin) * fraction, text); };
 }
 
-/// The seamless map whose area is the target: a second solve only when the first one's area is off.
-SeamlessResult seamlessNear(const Mesh& mesh, const CrossField& field, double targetQuads,
-  const ProgressCallback& progress, double& edgeLength)
+double surfaceArea(const Mesh& mesh)
 {
-  SeamlessResult result;
-  for (int attempt = 0; attempt < 2; ++attempt)
+  double area = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
   {
-    SeamlessOptions options;
-    options.edgeLength = edgeLength;
-    options.progress = progress;
-    result = computeSeamlessMap(mesh, field, options);
-    const double area = mapArea(mesh, result.uv);
-    if (!result.status.ok() || targetQuads <= 0 || !(area > 0) ||
-      std::abs(area / targetQuads - 1) < 0.02)
-    {
-      break;
-    }
-    edgeLength *= std::sqrt(area / targetQuads);
+    area += 0.5 * mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm();
   }
-  return result;
+  return area;
 }
+
+std::vector<Index> join(std::vector<Index> a, const std::vector<Index>& b)
+{
+  a.insert(a.end(), b.begin(), b.end());
+  std::sort(a.begin(), a.end());
+  a.erase(std::unique(a.begin(), a.end()), a.end());
+  return a;
+}
+
+/// One connected component on its way to its map.
+struct Component
+{
+  MeshPart part;
+  double share = 1;                             ///< of the area of the surface
+  bool hasIntegers = false;                     ///< of an earlier scale
+  Eigen::VectorXd solution;                     ///< of its seamless map, for the next scale
+  std::vector<FixedVec2> seamlessUv, integerUv; ///< of the scale that is tried
+  std::vector<FixedVec2> startUv;               ///< the seamless map that uv was quantized from
+  std::vector<FixedVec2> uv;
+  double triedRefinement = 1, refinement = 1;
+  Status status;
+  std::vector<Index> offenders; ///< vertices of the part
+
+  void fail(const Status& why, std::vector<FixedVec2> best, std::vector<Index> where)
+  {
+    status = why;
+    uv = std::move(best);
+    offenders = std::move(where);
+  }
+};
+
+class MapMaker
+{
+public:
+  MapMaker(const Mesh& mesh, const GridMapOptions& options) : mesh_(mesh), options_(options) {}
+
+  GridMapResult run()
+  {
+    computeField();
+    if (!result_.field.status.ok())
+    {
+      result_.status = result_.field.status;
+      result_.offenders = result_.field.offenders;
+      return std::move(result_);
+    }
+    split();
+    chooseScale();
+    embed();
+    collect();
+    return std::move(result_);
+  }
+
+private:
+  ProgressCallback progressOf(std::size_t i, double begin, double end) const
+  {
+    const double step = (end - begin) / static_cast<double>(components_.size());
+    return subProgress(options_.progress, begin + step * static_cast<double>(i),
+      begin + step * static_cast<double>(i + 1));
+  }
+
+  static std::size_t workOf(const Mesh& mesh, int steps)
+  {
+    return static_cast<std::size_t>(steps) * mesh.faceCount();
+  }
+
+  void computeField()
+  {
+    const Stopwatch watch(result_.secondsField);
+    CrossFieldOptions fieldOptions;
+    fieldOptions.targetEdgeLength = options_.edgeLength;
+    fieldOptions.progress = subProgress(options_.progress, 0.0, 0.1);
+    result_.field = computeCrossField(mesh_, fieldOptions);
+  }
+
+  void split()
+  {
+    const double area = surfaceArea(mesh_);
+    for (MeshPart& part : splitIntoParts(mesh_, result_.field))
+    {
+      components_.emplace_back();
+      components_.back().share = area > 0 ? surfaceArea(part.mesh) / area : 0;
+      components_.back().part = std::move(part);
+    }
+  }
+
+  std::size_t failures() const
+  {
+    return static_cast<std::size_t>(std::count_if(
+      components_.begin(), components_.end(), [](const Component& c) { return !c.status.ok(); }));
+  }
+
+  /// Integers at the scale whose number of quads comes nearest to the target. Scales change together, so
+  /// that quads stay alike on all components.
+  void chooseScale()
+  {
+    double wanted = options_.targetQuads;
+    double bestDeviation = std::numeric_limits<double>::infinity();
+    for (int scaling = 0; scaling < kMaximumScalings; ++scaling)
+    {
+      if (!makeIntegers(wanted))
+      {
+        return; // an earlier scale may have integers
+      }
+      const double ratio = options_.targetQuads > 0 ? quadsToShare() / options_.targetQuads : 1;
+      const double deviation = std::abs(std::log(ratio));
+      if (deviation < bestDeviation)
+      {
+        bestDeviation = deviation;
+        keepTried();
+      }
+      if (deviation <= kCountTolerance)
+      {
+        return;
+      }
+      wanted /= ratio;
+    }
+  }
+
+  /// Quads of the components that have integers, extrapolated to the whole surface.
+  double quadsToShare() const
+  {
+    double quads = 0, shares = 0;
+    for (const Component& component : components_)
+    {
+      if (component.status.ok())
+      {
+        quads += mapArea(component.part.mesh, component.integerUv);
+        shares += component.share;
+      }
+    }
+    return quads > 0 && shares > 0 ? quads / shares : options_.targetQuads;
+  }
+
+  /// Components fail at the first scale only; at a later one the first failure ends the try.
+  bool makeIntegers(double wanted)
+  {
+    for (std::size_t i = 0; i < components_.size(); ++i)
+    {
+      Component& component = components_[i];
+      if (component.status.ok() && !mapSeamlessly(component, wanted, progressOf(i, 0.1, 0.4)) &&
+        component.hasIntegers)
+      {
+        return false;
+      }
+    }
+    for (std::size_t i = 0; i < components_.size() && failures() < kHopeless; ++i)
+    {
+      Component& component = components_[i];
+      if (component.status.ok() && !makeIntegers(component, progressOf(i, 0.4, 0.7)) &&
+        component.hasIntegers)
+      {
+        return false;
+      }
+    }
+    return failures() < kHopeless;
+  }
+
+  void keepTried()
+  {
+    for (Component& component : components_)
+    {
+      if (component.status.ok())
+      {
+        component.uv = std::move(component.integerUv);
+        component.startUv = std::move(component.seamlessUv);
+        component.refinement = component.triedRefinement;
+      }
+    }
+  }
+
+  /// The seamless map that has its share of `wanted`.
+  bool mapSeamlessly(Component& component, double wanted, const ProgressCallback& progress)
+  {
+    const Stopwatch watch(result_.secondsSeamless);
+    const MeshPart& part = component.part;
+    SeamlessOptions seamlessOptions;
+    seamlessOptions.edgeLength = options_.edgeLength;
+    seamlessOptions.targetQuads = wanted * component.share;
+    seamlessOptions.solution = component.hasIntegers ? &component.solution : nullptr;
+    seamlessOptions.progress = progress;
+    SeamlessResult seamless = computeSeamlessMap(part.mesh, part.field, seamlessOptions);
+    result_.work += workOf(part.mesh, seamless.newtonSteps);
+    if (!seamless.status.ok())
+    {
+      if (!component.hasIntegers)
+      {
+        component.fail(seamless.status, std::move(seamless.uv),
+          join(cornerVertices(part.mesh, seamless.inverted), seamless.offenders));
+      }
+      return false;
+    }
+    component.solution = std::move(seamless.solution);
+    component.seamlessUv = std::move(seamless.uv);
+    return true;
+  }
+
+  bool makeIntegers(Component& component, const ProgressCallback& progress)
+  {
+    QuantizeResult quantized = quantize(component, component.seamlessUv, {}, progress);
+    if (!quantized.status.ok())
+    {
+      if (!component.hasIntegers)
+      {
+        component.fail(quantized.status, std::move(quantized.uv), {});
+      }
+      return false;
+    }
+    component.hasIntegers = true;
+    component.integerUv = std::move(quantized.uv);
+    component.triedRefinement = quantized.refinement;
+    return true;
+  }
+
+  QuantizeResult quantize(const Component& component, const std::vector<FixedVec2>& seamlessUv,
+    const std::vector<Index>& watched, const ProgressCallback& progress)
+  {
+    const Stopwatch watch(result_.secondsQuantize);
+    QuantizeOptions quantizeOptions;
+    quantizeOptions.watched = watched;
+    quantizeOptions.progress = progress;
+    return quantizeMap(component.part.mesh, component.part.field, seamlessUv, quantizeOptions);
+  }
+
+  void embed()
+  {
+    for (std::size_t i = 0; i < components_.size() && failures() < kHopeless; ++i)
+    {
+      if (components_[i].status.ok())
+      {
+        embedOne(components_[i], progressOf(i, 0.7, 1.0));
+      }
+    }
+  }
+
+  /// Where embedding fails, other integers leave room round the places of the failure; integers that were tried before would
+  /// fail again.
+  void embedOne(Component& component, const ProgressCallback& progress)
+  {
+    const MeshPart& part = component.part;
+    std::vector<Index> watched;
+    std::vector<std::vector<FixedVec2>> tried;
+    EmbedResult embedded;
+    while (true)
+    {
+      EmbedOptions embedOptions;
+      embedOptions.edgeLength = options_.edgeLength;
+      embedOptions.seamlessUv = &component.startUv;
+      embedOptions.progress = progress;
+      {
+        const Stopwatch watch(result_.secondsEmbed);
+        embedded = embedMap(part.mesh, part.field, component.uv, embedOptions);
+        result_.work += workOf(part.mesh, embedded.newtonSteps);
+      }
+      tried.push_back(std::move(component.uv));
+      if (embedded.status.ok())
+      {
+        component.uv = std::move(embedded.uv);
+        return;
+      }
+      if (tried.size() >= kMaximumEmbeddings)
+      {
+        break;
+      }
+      watched = join(std::move(watched), embedded.offenders);
+      QuantizeResult quantized = quantize(component, component.startUv, watched, progress);
+      if (!quantized.status.ok() ||
+        std::find(tried.begin(), tried.end(), quantized.uv) != tried.end())
+      {
+        break;
+      }
+      component.refinement = quantized.refinement;
+      component.uv = std::move(quantized.uv);
+    }
+    component.fail(embedded.status, std::move(embedded.uv),
+      join(cornerVertices(part.mesh, embedded.inverted), embedded.offenders));
+  }
+
+  /// The maps of the components become one.
+  void collect()
+  {
+    result_.components = components_.size();
+    result_.uv.assign(mesh_.halfEdgeCount(), {});
+    for (std::size_t i = 0; i < components_.size(); ++i)
+    {
+      const Component& component = components_[i];
+      result_.refinement = std::max(result_.refinement, component.refinement);
+      for (Index h = 0; h < component.uv.size(); ++h)
+      {
+        result_.uv[3 * component.part.face[Mesh::face(h)] + h % 3] = component.uv[h];
+      }
+      for (const Index v : component.offenders)
+      {
+        result_.offenders.push_back(component.part.vertex[v]);
+      }
+      if (!component.status.ok() && result_.failedComponents++ == 0)
+      {
+        result_.status = { component.status.code, placeOf(i) + component.status.message };
+      }
+    }
+    std::sort(result_.offenders.begin(), result_.offenders.end());
+    result_.certificate =
+      certify(mesh_, result_.uv, result_.field.turns, integerVertices(mesh_, result_.field));
+    if (result_.status.ok() && !result_.certificate.valid())
+    {
+      result_.status = { StatusCode::NotConverged,
+        "the coarse map does not pass its certificate: " + result_.certificate.text() };
+      result_.offenders = cornerVertices(mesh_, result_.certificate.worstFaces);
+    }
+  }
+
+  /// Says which component and where, as users see it; empty for a connected mesh, whose elements the stages name.
+  std::string placeOf(std::size_t i) const
+  {
+    if (components_.size() == 1)
+    {
+      return {};
+    }
+    const Component& component = components_[i];
+    const Index v = component.offenders.empty() ? 0 : component.offenders.front();
+    const Vector3& p = component.part.mesh.position[v];
+    std::ostringstream text;
+    text << "at least " << failures() << " of " << components_.size()
+         << " connected components have no map; component " << i + 1 << ", near (" << p.x() << ", "
+         << p.y() << ", " << p.z() << "), elements counted inside it: ";
+    return text.str();
+  }
+
+  const Mesh& mesh_;
+  const GridMapOptions& options_;
+  GridMapResult result_;
+  std::vector<Component> components_;
+};
 
 } // namespace
 
@@ -102,9 +428,9 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
   {
     throw InvalidInput("the target edge length must be a positive number");
   }
-  GridMapResult result;
   if (mesh.vertexCount() > options.maximumVertices)
   {
+    GridMapResult result;
     result.status = { StatusCode::TooLarge,
       "the coarse level has " + std::to_string(mesh.vertexCount()) + " vertices, more than " +
         std::to_string(options.maximumVertices) +
@@ -113,121 +439,7 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
         "edges" };
     return result;
   }
-  {
-    const Stopwatch watch(result.secondsField);
-    CrossFieldOptions fieldOptions;
-    fieldOptions.targetEdgeLength = options.edgeLength;
-    fieldOptions.progress = subProgress(options.progress, 0.0, 0.1);
-    result.field = computeCrossField(mesh, fieldOptions);
-  }
-  const CrossField& field = result.field;
-  if (!field.status.ok())
-  {
-    result.status = field.status;
-    result.offenders = field.offenders;
-    return result;
-  }
-  const std::vector<std::uint8_t> integerVertex = integerVertices(mesh, field);
-  const auto fail = [&](const Status& status, std::vector<FixedVec2> uv,
-                      const std::vector<Index>& faces, const std::vector<Index>& vertices)
-  {
-    result.status = status;
-    result.uv = std::move(uv);
-    result.offenders = cornerVertices(mesh, faces);
-    result.offenders.insert(result.offenders.end(), vertices.begin(), vertices.end());
-    result.certificate = certify(mesh, result.uv, field.turns, integerVertex);
-    return result;
-  };
-
-  double edgeLength = options.edgeLength;
-  double mapEdgeLength = edgeLength;
-  double bestDeviation = std::numeric_limits<double>::infinity();
-  std::vector<FixedVec2> seamlessUv; // that result.uv was quantized from
-  for (int scaling = 0; scaling < kMaximumScalings; ++scaling)
-  {
-    SeamlessResult seamless;
-    {
-      const Stopwatch watch(result.secondsSeamless);
-      seamless = seamlessNear(mesh, field, scaling == 0 ? options.targetQuads : 0,
-        subProgress(options.progress, 0.1, 0.4), edgeLength);
-    }
-    if (!seamless.status.ok())
-    {
-      return fail(seamless.status, std::move(seamless.uv), seamless.inverted, seamless.offenders);
-    }
-    QuantizeResult quantized;
-    {
-      const Stopwatch watch(result.secondsQuantize);
-      QuantizeOptions quantizeOptions;
-      quantizeOptions.progress = subProgress(options.progress, 0.4, 0.7);
-      quantized = quantizeMap(mesh, field, seamless.uv, quantizeOptions);
-    }
-    if (!quantized.status.ok())
-    {
-      return fail(quantized.status, std::move(quantized.uv), {}, {});
-    }
-    const double area = mapArea(mesh, quantized.uv);
-    const double ratio = options.targetQuads > 0 ? area / options.targetQuads : 1.0;
-    const double deviation = std::abs(std::log(ratio));
-    if (deviation < bestDeviation)
-    {
-      bestDeviation = deviation;
-      mapEdgeLength = edgeLength;
-      result.refinement = quantized.refinement;
-      result.uv = std::move(quantized.uv);
-      seamlessUv = std::move(seamless.uv);
-    }
-    if (deviation <= kCountTolerance)
-    {
-      break;
-    }
-    edgeLength *= std::sqrt(ratio);
-  }
-
-  EmbedResult embedded;
-  std::vector<Index> watched;
-  for (int round = 0; round < kMaximumEmbeddings; ++round)
-  {
-    if (round > 0)
-    {
-      // Other integers, that leave room round the places where embedding failed.
-      const Stopwatch watch(result.secondsQuantize);
-      QuantizeOptions quantizeOptions;
-      quantizeOptions.watched = watched;
-      quantizeOptions.progress = subProgress(options.progress, 0.4, 0.7);
-      QuantizeResult quantized = quantizeMap(mesh, field, seamlessUv, quantizeOptions);
-      if (!quantized.status.ok())
-      {
-        break;
-      }
-      result.refinement = quantized.refinement;
-      result.uv = std::move(quantized.uv);
-    }
-    const Stopwatch watch(result.secondsEmbed);
-    EmbedOptions embedOptions;
-    embedOptions.edgeLength = mapEdgeLength;
-    embedOptions.seamlessUv = &seamlessUv;
-    embedOptions.progress = subProgress(options.progress, 0.7, 1.0);
-    embedded = embedMap(mesh, field, result.uv, embedOptions);
-    if (embedded.status.ok())
-    {
-      break;
-    }
-    watched.insert(watched.end(), embedded.offenders.begin(), embedded.offenders.end());
-  }
-  if (!embedded.status.ok())
-  {
-    return fail(embedded.status, std::move(embedded.uv), embedded.inverted, embedded.offenders);
-  }
-  result.uv = std::move(embedded.uv);
-  result.certificate = certify(mesh, result.uv, field.turns, integerVertex);
-  if (!result.certificate.valid())
-  {
-    result.status = { StatusCode::NotConverged,
-      "the coarse map does not pass its certificate: " + result.certificate.text() };
-    result.offenders = cornerVertices(mesh, result.certificate.worstFaces);
-  }
-  return result;
+  return MapMaker(mesh, options).run();
 }
 
 } // namespace quadrille

@@ -58,11 +58,16 @@ Certificate certify(const Mesh& mesh, const std::vector<FixedVec2>& uv,
 struct SeamlessOptions
 {
   double edgeLength = 0; ///< length on the surface that one uv unit stands for; > 0
+  /// 0, or the area that the map is scaled to in the end; scaling changes nothing else of it.
+  double targetQuads = 0;
+  /// SeamlessResult::solution for the same mesh and field: it is scaled to targetQuads instead of solving again.
+  const Eigen::VectorXd* solution = nullptr;
   ProgressCallback progress;
 };
 struct SeamlessResult
 {
   std::vector<FixedVec2> uv; ///< #H; best effort when the status is not ok
+  Eigen::VectorXd solution;  ///< the free unknowns of the map, before scaling
   Status status;
   std::vector<Index> inverted;  ///< faces left with !(det > 0)
   std::vector<Index> offenders; ///< vertices round which the triangulation, or the field, leaves no map
@@ -122,15 +127,18 @@ struct GridMapOptions
 };
 struct GridMapResult
 {
-  std::vector<FixedVec2> uv; ///< #H
+  std::vector<FixedVec2> uv; ///< #H; zero on connected components that have no map at all
   CrossField field;
   Certificate certificate;
   Status status;             ///< not ok: why and where; uv then holds the best that was reached
   std::vector<Index> offenders; ///< coarse vertices around which the triangulation lacks freedom
-  double refinement = 1;
+  double refinement = 1;     ///< of the component whose sizes had to shrink most
+  std::size_t components = 0, failedComponents = 0;
+  std::size_t work = 0;      ///< Newton steps of all solves, each times the triangles of its component
   double secondsField = 0, secondsSeamless = 0, secondsQuantize = 0, secondsEmbed = 0;
 };
-/// The whole chain on one coarse mesh.
+/// The whole chain on one coarse mesh. Its connected components are solved one by one; each gets quads by its area, and all
+/// are tried, so that offenders tells about every one that fails.
 GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options);
 
 } // namespace quadrille

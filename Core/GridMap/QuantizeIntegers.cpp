@@ -127,6 +127,7 @@ bool closeTriangles(IntegerMap& map)
   {
     while (defects[f] != FixedVec2{})
     {
+      poll();
       Strip best;
       for (const FixedVec2 e : stepsIn(defects[f]))
       {
@@ -166,6 +167,7 @@ public:
   {
     while (true)
     {
+      poll();
       const Index worst = firstBroken();
       if (worst == kInvalidIndex)
       {
@@ -346,7 +348,10 @@ private:
 class Improvement
 {
 public:
-  explicit Improvement(IntegerMap& map) : map_(map), search_(map, StripCost::KeepSound) {}
+  explicit Improvement(IntegerMap& map)
+    : map_(map), search_(map, StripCost::KeepSound), changed_(map.mesh().alive.size(), 0)
+  {
+  }
 
   void run(const ProgressCallback& progress)
   {
@@ -356,6 +361,7 @@ public:
       bool improved = false;
       for (std::int64_t length = longest; length >= kGrain; length /= 2)
       {
+        refused_.assign(4 * map_.mesh().origin.size(), {});
         for (int sweep = 0; sweep < kMaximumSweeps; ++sweep)
         {
           report(progress, 0.5, "improving integers");
@@ -437,9 +443,12 @@ private:
     bool improved = false;
     for (const Candidate& candidate : candidates(length))
     {
+      poll();
       const FixedVec2 e = stepVector(candidate.direction, length);
+      Refusal& refusal = refused_[4 * candidate.halfEdge + candidate.direction];
       double gain = -map_.energyChange(candidate.halfEdge, e);
-      while (gain > kLeastGain && accept(search_.through(candidate.halfEdge, e, gain)))
+      while (gain > kLeastGain && !isUpToDate(refusal) &&
+        accept(search_.through(candidate.halfEdge, e, gain), refusal))
       {
         improved = true;
         gain = -map_.energyChange(candidate.halfEdge, e);
@@ -448,22 +457,51 @@ private:
     return improved;
   }
 
-  bool accept(const Strip& strip)
+  /// A search that led to nothing, and the faces that it depends on.
+  struct Refusal
   {
-    if (!strip.found())
+    std::uint64_t time = 0; ///< of the clock; 0: none
+    std::vector<Index> faces;
+  };
+
+  bool isUpToDate(const Refusal& refusal) const
+  {
+    return refusal.time > 0 &&
+      std::all_of(refusal.faces.begin(), refusal.faces.end(),
+        [&](Index f) { return changed_[f] <= refusal.time; });
+  }
+
+  void touch(const std::vector<Index>& faces)
+  {
+    ++clock_;
+    for (const Index f : faces)
     {
-      return false;
+      changed_[f] = clock_;
     }
-    const CrossedFaces crossed = crossedFaces(map_.mesh(), strip);
-    const double change = applyMeasured(map_, strip);
-    // A triangle that is crossed once keeps its sign on the way, so the winding cannot change; one that
-    // is crossed twice may turn by 180 degrees.
-    if (change < -kLeastGain && brokenness(map_, crossed.faces) == 0 &&
-      (!crossed.repeated || map_.isValid()))
+  }
+
+  bool accept(const Strip& strip, Refusal& refusal)
+  {
+    bool localReason = true;
+    if (strip.found())
     {
-      return true;
+      const CrossedFaces crossed = crossedFaces(map_.mesh(), strip);
+      const double change = applyMeasured(map_, strip);
+      if (change < -kLeastGain && brokenness(map_, crossed.faces) == 0)
+      {
+        // A triangle that is crossed once keeps its sign on the way, so the winding cannot change; one that
+        // is crossed twice may turn by 180 degrees.
+        if (!crossed.repeated || map_.isValid())
+        {
+          touch(crossed.faces);
+          return true;
+        }
+        localReason = false;
+      }
+      revert(map_, strip);
     }
-    revert(map_, strip);
+    refusal.time = localReason ? clock_ : 0;
+    refusal.faces = search_.visitedFaces();
     return false;
   }
 
@@ -486,6 +524,7 @@ private:
               map_.moveVertex(v, -e);
               break;
             }
+            touch(faces);
             improved = true;
           }
         }
@@ -496,6 +535,9 @@ private:
 
   IntegerMap& map_;
   StripSearch search_;
+  std::uint64_t clock_ = 1;
+  std::vector<std::uint64_t> changed_; ///< #F: time of the last change
+  std::vector<Refusal> refused_;       ///< 4 #H: by half-edge and direction, for one length of step
 };
 
 } // namespace

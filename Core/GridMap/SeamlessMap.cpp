@@ -139,6 +139,7 @@ public:
 
   bool solved() const { return !basis_.rows.empty(); }
   const UntangleProblem& problem() const { return problem_; }
+  double area(const Eigen::VectorXd& y) const;
   std::vector<FixedVec2> snap(const Eigen::VectorXd& y) const;
   std::vector<Index> collapsedFaces(const std::vector<Index>& candidates) const;
   std::vector<Index> flattenedChords() const;
@@ -303,6 +304,20 @@ std::vector<Index> SeamlessSpace::flattenedChords() const
   return result;
 }
 
+double SeamlessSpace::area(const Eigen::VectorXd& y) const
+{
+  const Eigen::VectorXd x = problem_.basis * y;
+  double area = 0;
+  for (Index f = 0; f < mesh_.faceCount(); ++f)
+  {
+    const auto point = [&](int i)
+    { return Vector2(x.segment<2>(2 * Eigen::Index(graph_.wedge[3 * f + i]))); };
+    const Vector2 a = point(1) - point(0), b = point(2) - point(0);
+    area += (a.x() * b.y() - a.y() * b.x()) / 2;
+  }
+  return area;
+}
+
 /// Rounds the free unknowns to multiples of their steps; all else then follows in integers.
 std::vector<FixedVec2> SeamlessSpace::snap(const Eigen::VectorXd& y) const
 {
@@ -370,6 +385,27 @@ bool findHopeless(const Mesh& mesh, const CrossField& field, const SeamlessSpace
   return true;
 }
 
+/// The equations are homogeneous: a multiple of a seamless map is one, too.
+std::vector<FixedVec2> snapScaled(
+  const SeamlessSpace& space, const Eigen::VectorXd& y, double targetQuads)
+{
+  const double area = space.area(y);
+  return space.snap(targetQuads > 0 && area > 0 ? y * std::sqrt(targetQuads / area) : y);
+}
+
+/// Scales the solution that the caller has, if that leaves nothing to mend.
+bool scaleKnown(const Mesh& mesh, const CrossField& field, const SeamlessSpace& space,
+  const SeamlessOptions& options, SeamlessResult& result)
+{
+  if (options.solution == nullptr || options.solution->size() != space.problem().basis.cols())
+  {
+    return false;
+  }
+  result.uv = snapScaled(space, *options.solution, options.targetQuads);
+  result.solution = *options.solution;
+  return findDefects(mesh, field, result.uv).none();
+}
+
 /// Looks for the cause of what untangling has left.
 void explain(
   const Mesh& mesh, const SeamlessSpace& space, const MapDefects& defects, SeamlessResult& result)
@@ -392,9 +428,10 @@ void explain(
 SeamlessResult computeSeamlessMap(
   const Mesh& mesh, const CrossField& field, const SeamlessOptions& options)
 {
-  if (!(options.edgeLength > 0) || !std::isfinite(options.edgeLength))
+  if (!(options.edgeLength > 0) || !std::isfinite(options.edgeLength) ||
+    !(options.targetQuads >= 0) || !std::isfinite(options.targetQuads))
   {
-    throw InvalidInput("seamless map: the edge length must be positive and finite");
+    throw InvalidInput("seamless map: edge length and target must be positive and finite");
   }
   SeamlessResult result;
   report(options.progress, 0, "seamless map");
@@ -406,8 +443,12 @@ SeamlessResult computeSeamlessMap(
       "seamless map: the equations need more than 63 bits; fewer singularities would help" };
     return result;
   }
+  if (scaleKnown(mesh, field, space, options, result))
+  {
+    return result;
+  }
   const Eigen::VectorXd poisson = fitReferences(space.problem());
-  result.uv = space.snap(poisson);
+  result.uv = snapScaled(space, poisson, options.targetQuads);
   const MapDefects defects = findDefects(mesh, field, result.uv);
   if (findHopeless(mesh, field, space, defects, result))
   {
@@ -415,8 +456,10 @@ SeamlessResult computeSeamlessMap(
   }
   FieldUntangling untangled = untangleAlongField(
     mesh, field, space.problem(), { poisson }, kRounds,
-    [&](const Eigen::VectorXd& y) { return space.snap(y); }, options.progress);
+    [&](const Eigen::VectorXd& y) { return snapScaled(space, y, options.targetQuads); },
+    options.progress);
   result.uv = std::move(untangled.uv);
+  result.solution = std::move(untangled.y);
   result.newtonSteps = untangled.newtonSteps;
   if (!untangled.defects.none())
   {

@@ -28,7 +28,7 @@ StripSearch::StripSearch(
   const IntegerMap& map, StripCost cost, const std::vector<double>* faceWeight)
   : map_(map), mesh_(map.mesh()), cost_(cost), faceWeight_(faceWeight),
     distance_(4 * map.mesh().origin.size()), parent_(distance_.size()), stamp_(distance_.size(), 0),
-    settled_(distance_.size(), 0)
+    settled_(distance_.size(), 0), visitStamp_(map.mesh().alive.size(), 0)
 {
 }
 
@@ -36,6 +36,15 @@ void StripSearch::restart()
 {
   ++round_;
   heap_.clear();
+}
+
+void StripSearch::visit(Index f)
+{
+  if (visitStamp_[f] != searches_)
+  {
+    visitStamp_[f] = searches_;
+    visited_.push_back(f);
+  }
 }
 
 FixedVec2 StripSearch::vectorOf(Index state) const
@@ -120,6 +129,7 @@ void StripSearch::explore(Index h, FixedVec2 e, double bound, End& closed, End& 
     }
     const Index in = state / 4;
     const FixedVec2 carried = vectorOf(state);
+    visit(Mesh::face(in));
     for (const Index out : { Mesh::next(in), Mesh::previous(in) })
     {
       if (!map_.mayShift(out, -carried))
@@ -168,6 +178,8 @@ void StripSearch::appendPath(const End& end, std::vector<StripStep>& steps) cons
 Strip StripSearch::through(Index h, FixedVec2 e, double bound)
 {
   length_ = lengthOf(e);
+  ++searches_;
+  visited_.clear();
   Strip strip;
   End closed, border;
   explore(h, e, bound, closed, border);
@@ -207,6 +219,7 @@ Strip StripSearch::through(Index h, FixedVec2 e, double bound)
 Strip StripSearch::discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>& defects)
 {
   length_ = lengthOf(e);
+  ++searches_;
   restart();
   End best;
   const auto leave = [&](Index out, FixedVec2 carried, double cost, Index from)

@@ -49,6 +49,12 @@ public:
   /// lowers, or out through the boundary. defects: #F.
   Strip discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>& defects);
 
+  /// The faces that the last call of through() looked at, each once: as long as none of them changes, the same call
+  /// finds the same.
+  const std::vector<Index>& visitedFaces() const { return visited_; }
+  /// Searches so far.
+  std::size_t searches() const { return searches_; }
+
   static constexpr double kBroken = 1e4; ///< price of one unit of IntegerMap::brokenness
 
 private:
@@ -61,6 +67,7 @@ private:
   };
 
   void restart();
+  void visit(Index f);
   static Index stateOf(Index h, FixedVec2 e);
   FixedVec2 vectorOf(Index state) const;
   void relax(Index state, double cost, Index parent);
@@ -82,6 +89,9 @@ private:
   std::vector<std::uint8_t> settled_;
   std::uint32_t round_ = 0;
   std::vector<std::pair<double, Index>> heap_;
+  std::vector<Index> visited_;
+  std::vector<std::size_t> visitStamp_; ///< #F: the search that visited the face last
+  std::size_t searches_ = 0;
 };
 
 } // namespace quadrille

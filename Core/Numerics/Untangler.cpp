@@ -227,6 +227,7 @@ void Minimizer::assemble()
 double Minimizer::step()
 {
   assemble();
+  poll();
   Vector direction;
   if (!system_.newtonStep(1e-10, direction))
   {
@@ -237,6 +238,7 @@ double Minimizer::step()
   std::vector<Jacobian> trial;
   for (double length = 1; length > 1e-9; length *= 0.5)
   {
+    poll();
     const Vector candidate = y_ + length * direction;
     system_.jacobians(candidate, trial);
     const double after = total(trial);

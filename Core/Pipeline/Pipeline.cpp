@@ -18,6 +18,8 @@ namespace
 
 /// How often the coarse level is rebuilt with more freedom around the offenders of a failed map.
 constexpr int kMaximumAttempts = 3;
+/// From this number of offenders on, an attempt must have halved that of the one before to deserve another.
+constexpr std::size_t kManyOffenders = 100;
 /// How often the coarse level is rebuilt because the map does not fit the input's triangles.
 constexpr int kMaximumTransfers = 3;
 /// Rings of intermediate vertices that are kept around an offender.
@@ -330,6 +332,7 @@ private:
 
     GridMapResult map;
     StageTimes times;
+    std::size_t offenders = 0;
     for (int attempt = 0; attempt < kMaximumAttempts; ++attempt)
     {
       times.phase1 += makeLevels(levelOptions);
@@ -339,6 +342,12 @@ private:
       {
         break;
       }
+      const std::size_t count = map.offenders.size();
+      if (attempt > 0 && count >= kManyOffenders && 2 * count > offenders)
+      {
+        break;
+      }
+      offenders = count;
       if (attempt + 1 < kMaximumAttempts)
       {
         giveFreedom(map.offenders, levelOptions);

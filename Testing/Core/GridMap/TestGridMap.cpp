@@ -1,17 +1,95 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/GridMap.h"
-
+#include "GridMap/MeshParts.h"
+#include "Mesh/Topology.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 using namespace quadrille;
-using namespace quadrille::test;
+
+namespace
+{
+
+/// Sheared, so that its map takes some steps; sharp edges are features.
+Mesh shearedCube(int n, double shear = 0.2)
+{
+  Mesh mesh = test::unitCube(n);
+  for (Vector3& p : mesh.position)
+  {
+    p.x() += shear * (p.y() + 0.5 * std::sin(5 * p.z()));
+  }
+  return test::markFeatures(std::move(mesh), 0.6);
+}
+
+Mesh row(const Mesh& one, int count)
+{
+  Mesh mesh = one;
+  for (int i = 1; i < count; ++i)
+  {
+    mesh = test::disjointUnion(std::move(mesh), one, Vector3(4.0 * i, 0, 0));
+  }
+  return mesh;
+}
+
+GridMapResult mapOf(const Mesh& mesh, double quads)
+{
+  GridMapOptions options;
+  options.edgeLength = 0.25;
+  options.targetQuads = quads;
+  return computeGridMap(mesh, options);
+}
+
+} // namespace
+
+TEST(GridMap, ManyComponentsCostTheirSum)
+{
+  constexpr int kCount = 39;
+  constexpr double kQuads = 110;
+  const Mesh easy = test::gridPlane(8, 8);
+  const Mesh hard = shearedCube(4, 0.8);
+  const std::size_t easyWork = mapOf(easy, kQuads).work;
+  const std::size_t hardWork = mapOf(hard, kQuads).work;
+  // Else a solve of everything at once, which goes on as long as its hardest part, would cost no more.
+  ASSERT_GE(hardWork, 2 * easyWork);
+  const Mesh mesh = test::disjointUnion(row(easy, kCount), hard, Vector3(-4, 0, 0));
+  const GridMapResult many = mapOf(mesh, (kCount + 1) * kQuads);
+  ASSERT_TRUE(many.status.ok()) << many.status.message;
+  EXPECT_TRUE(many.certificate.valid()) << many.certificate.text();
+  EXPECT_EQ(many.components, static_cast<std::size_t>(kCount + 1));
+  EXPECT_EQ(many.failedComponents, 0U);
+  // The components have other places and scales than alone, which may cost or save some steps of the hard one.
+  EXPECT_LE(many.work, kCount * easyWork + 2 * hardWork);
+}
+
+TEST(GridMap, ComponentsGetQuadsByTheirArea)
+{
+  Mesh big = shearedCube(8);
+  for (Vector3& p : big.position)
+  {
+    p *= 4;
+  }
+  const Mesh mesh = test::disjointUnion(big, shearedCube(4), Vector3(16, 0, 0));
+  const GridMapResult result = mapOf(mesh, 17 * 110);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  double area[2] = { 0, 0 };
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    const FixedVec2* p = &result.uv[3 * f];
+    area[f < big.faceCount() ? 0 : 1] +=
+      static_cast<double>(determinant(p[0], p[1], p[2])) / double(kOne) / double(kOne) / 2;
+  }
+  // 16 : 1 on the surface; the small cube rounds its twelve edges to whole numbers of about 4 quads.
+  EXPECT_NEAR(area[0], 16 * 110, 0.06 * 16 * 110);
+  EXPECT_NEAR(area[1], 110, 0.3 * 110);
+}
 
 TEST(GridMap, aMeshThatIsNoCoarseLevelIsRefusedAtOnce)
 {
-  const Mesh mesh = torus(30, 15);
+  const Mesh mesh = test::torus(30, 15);
   GridMapOptions options;
   options.edgeLength = 0.3;
   options.maximumVertices = 449;
@@ -24,4 +102,32 @@ TEST(GridMap, aMeshThatIsNoCoarseLevelIsRefusedAtOnce)
   const GridMapResult result = computeGridMap(mesh, options);
   EXPECT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
+}
+
+TEST(MeshParts, KeepTheMeshAndTheField)
+{
+  const Mesh one = shearedCube(3);
+  const Mesh mesh = test::disjointUnion(one, test::gridPlane(4, 3), Vector3(4, 0, 0));
+  CrossFieldOptions options;
+  options.targetEdgeLength = 0.3;
+  const CrossField field = computeCrossField(mesh, options);
+  ASSERT_TRUE(field.status.ok()) << field.status.message;
+  const std::vector<MeshPart> parts = splitIntoParts(mesh, field);
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_EQ(parts[0].mesh.faceCount() + parts[1].mesh.faceCount(), mesh.faceCount());
+  EXPECT_EQ(parts[0].mesh.vertexCount(), one.vertexCount());
+  for (const MeshPart& part : parts)
+  {
+    EXPECT_EQ(validate(part.mesh), "");
+    for (Index h = 0; h < part.mesh.halfEdgeCount(); ++h)
+    {
+      const Index whole = 3 * part.face[Mesh::face(h)] + h % 3;
+      EXPECT_EQ(part.vertex[part.mesh.origin[h]], mesh.origin[whole]);
+      EXPECT_EQ(part.mesh.isConstrained(h), mesh.isConstrained(whole));
+      EXPECT_EQ(part.field.matching[h], field.matching[whole]);
+      EXPECT_EQ(part.field.alignment[h], field.alignment[whole]);
+      EXPECT_EQ(part.field.sectorTurns[h], field.sectorTurns[whole]);
+      EXPECT_EQ(part.field.turns[part.mesh.origin[h]], field.turns[mesh.origin[whole]]);
+    }
+  }
 }
