@@ -294,6 +294,12 @@ bool FreeStar::measure()
     ny_[i] *= u_[i];
     nz_[i] *= u_[i];
   }
+  leastDot_ = static_cast<float>(guards_.minimumNormalDot);
+  for (std::size_t i = 0; guards_.allowOldFolds && i < N; ++i)
+  {
+    const float dot = nx_[i] * mean_[0] + ny_[i] * mean_[1] + nz_[i] * mean_[2];
+    leastDot_ = dot < leastDot_ ? dot : leastDot_;
+  }
   goRound<N>(nx_);
   goRound<N>(ny_);
   goRound<N>(nz_);
@@ -339,7 +345,6 @@ template <int N>
 void FreeStar::evaluateTriangles()
 {
   constexpr std::size_t lanes = RingTable<N>::kLanes;
-  const float leastDot = static_cast<float>(guards_.minimumNormalDot);
   std::size_t out = 0;
   for (const auto& orbit : kRingTable<N>.orbit)
   {
@@ -366,7 +371,7 @@ void FreeStar::evaluateTriangles()
       const float planar = abu * acv - abv * acu;
       const float planarSquares =
         2 * (abu * abu + abv * abv + acu * acu + acv * acv - (abu * acu + abv * acv));
-      least[i] = leastDot * doubled;
+      least[i] = leastDot_ * doubled;
       turn[i] = tx[i] * mean_[0] + ty[i] * mean_[1] + tz[i] * mean_[2] - least[i];
       const bool good = (planar > leastPlanar_ * planarSquares) & (harmonic <= mostHarmonic_);
       cost_[out + i] = good ? harmonic : kInfinity;

@@ -90,6 +90,7 @@ private:
   // Unit normals of the faces, angles at the vertex, shapes (1 for an equilateral triangle).
   alignas(64) Lanes nx_{}, ny_{}, nz_{}, angle_{}, shape_{};
   std::array<float, 3> mean_{}; ///< unit normal of the whole star
+  float leastDot_ = 0;          ///< of normals of new triangles with those they replace
   float leastPlanar_ = 0;       ///< see VertexRemoval
   float mostHarmonic_ = 0;
   alignas(64)

@@ -85,6 +85,8 @@ private:
   };
 
   double firstThreshold() const;
+  void finish(double threshold);
+  void forget();
   std::size_t round(double threshold, bool serial);
   std::vector<Block> makeBlocks(bool serial);
   void sweep(Block& block, Worker& worker);
@@ -118,12 +120,22 @@ void UniformDecimation::run()
     report(options_.progress, ++done / (steps + 2), "uniform decimation");
     round(threshold, false);
   }
-  // Parallel rounds while they pay, then serial ones, which also reach what sits at the borders of the blocks.
+  report(options_.progress, (steps + 1) / (steps + 2), "uniform decimation");
+  finish(last);
+  // Noise of scans folds the surface; a star that is folded itself may be replaced by one that is no worse.
+  guards_.allowOldFolds = true;
+  finish(last);
+}
+
+/// Parallel rounds while they pay, then serial ones, which also reach what sits at the borders of the blocks.
+void UniformDecimation::finish(double threshold)
+{
+  forget();
   bool serial = false;
   for (int i = 0; i < kLastRounds; ++i)
   {
-    report(options_.progress, (steps + 1) / (steps + 2), "uniform decimation");
-    const std::size_t removed = round(last, serial);
+    poll();
+    const std::size_t removed = round(threshold, serial);
     if (serial && removed * 500 < alive_.size())
     {
       break;
@@ -131,12 +143,17 @@ void UniformDecimation::run()
     if (!serial && (removed * 100 < alive_.size() || i + 2 == kLastRounds))
     {
       serial = true;
-      // Once more what the valences forbade; they have changed since.
-      for (const Index v : alive_)
-      {
-        state_[v].settled = 0;
-      }
+      forget(); // once more what the valences forbade; they have changed since
     }
+  }
+}
+
+/// Every vertex is worth a visit again.
+void UniformDecimation::forget()
+{
+  for (const Index v : alive_)
+  {
+    state_[v].settled = 0;
   }
 }
 

@@ -27,6 +27,8 @@ struct RemovalGuards
   double minimumQuality = 0.15;
   /// Cosine of the largest turn of a normal against the old faces at the same ring edges.
   double minimumNormalDot = 0.4;
+  /// Let new triangles turn as far as the faces of the star do against their mean, where that is further.
+  bool allowOldFolds = false;
   int minimumValence = 4; ///< of free ring vertices, unless they had less before
   int maximumValence = 16;
   /// Allow faces whose three vertices lie on constrained curves (never two on one by a chord) where the star has
@@ -111,6 +113,7 @@ private:
   void forbidChords();
   bool isForbidden(int x, int y) const { return (forbidden_[index(x)] >> y & 1U) != 0; }
   void forbid(int x, int y);
+  double worstTurn() const;
   bool triangulate(const RemovalGuards& guards);
   bool triangulatePolygon(const int* polygon, int count, const RemovalGuards& guards);
   void collectTriangles(const int* polygon, int i, int j);
@@ -149,6 +152,7 @@ private:
   double starArea_ = 0;
   double starQuality_ = 0;
   bool constrainedFaces_ = false; ///< a face of the star has three constrained vertices
+  double leastDot_ = 0;           ///< of normals of new triangles with those they replace
   double leastPlanar_ = 0;        ///< doubled area over sum of squared edges, of planar triangles
   double mostHarmonic_ = 0;       ///< harmonic index (1 / quality) of new triangles
 

@@ -176,3 +176,18 @@ TEST(FreeStar, leavesDiagonalsThatExistToVertexRemoval)
     EXPECT_NE(star.plan(), FreeStar::Outcome::Planned) << v;
   }
 }
+
+TEST(FreeStar, foldsOfTheInputDoNotStopPhase1)
+{
+  // Noise of about the length of the edges, as scans have it where they are much denser than exact.
+  const auto verticesAfter = [](const Mesh& mesh)
+  {
+    HierarchyOptions options;
+    options.targetEdgeLength = 0.3;
+    options.coarseVertices = 100000;
+    options.threads = 1;
+    return buildHierarchy(mesh, 1, options).intermediate.mesh.vertexCount();
+  };
+  // Noise makes the surface larger. Without the rule for stars that are folded already more than half of the vertices stay.
+  EXPECT_LT(verticesAfter(roughSphere(5, 0.03)), 2 * verticesAfter(sphere(5)));
+}
