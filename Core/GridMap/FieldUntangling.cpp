@@ -11,7 +11,7 @@ namespace
 {
 
 constexpr double kStiffening = 10;
-/// Rounds with more weight, one after the other, that lessened nothing: the next one would not either.
+/// Rounds with more weight, one after the other, that lessened nothing: in the runs looked at, a third one did not either.
 constexpr int kIdleRounds = 2;
 /// More defects than this, or than one per so many faces, have a cause that no weight mends.
 constexpr std::size_t kMany = 30;
