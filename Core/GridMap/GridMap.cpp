@@ -197,7 +197,8 @@ private:
         bestDeviation = deviation;
         keepTried();
       }
-      if (deviation <= kCountTolerance)
+      // With a component missing there will be no quads to count.
+      if (deviation <= kCountTolerance || failures() > 0)
       {
         return;
       }
