@@ -47,6 +47,8 @@ void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
   quadrille::addCount(data, "TargetQuads", result.targetQuads);
   quadrille::addCount(data, "ActualQuads", result.quads.quads.size());
   quadrille::addCount(data, "CoarseVertices", result.coarse.mesh.vertexCount());
+  quadrille::addCount(data, "Decimations", static_cast<std::size_t>(result.decimations));
+  quadrille::addCount(data, "Replays", static_cast<std::size_t>(result.replays));
   quadrille::addCount(data, "SurfaceFaces", result.surface.mesh.faceCount());
 }
 

@@ -7,6 +7,8 @@
 #include "Options.h"
 #include "RemeshRun.h"
 
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkPolyData.h>
 
 #include <sys/resource.h>
@@ -31,8 +33,10 @@ Remeshes each mesh and writes to standard output, as CSV, the columns
   mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb
 with the stages
   read, repair, order, connectivity, refine, phase1, phase2, field, seamless, quantize, embed,
-  replay, certify, extract, total, cancel
-where refine splits the surface's long edges, certify checks the map on the surface and cancel is the longest time in which the run could not have been stopped.
+  replay, certify, extract, total, cancel, attempts
+where refine splits the surface's long edges, certify checks the map on the surface and cancel is the longest time in which the run could not have been stopped. Stages that were repeated count with
+all their runs: elements_in and elements_out of attempts tell how often phase 1 ran and how many maps
+were carried to the surface.
 
   --quads N          target number of quads (default 5000)
   --edge-length S    target edge length in units of the input
@@ -42,9 +46,9 @@ where refine splits the surface's long edges, certify checks the map on the surf
 exit code: 0 when every run gave quads, else the worst code of the command quadrille
 )";
 
-constexpr std::array<const char*, 16> kStages = { "read", "repair", "order", "connectivity",
+constexpr std::array<const char*, 17> kStages = { "read", "repair", "order", "connectivity",
   "refine", "phase1", "phase2", "field", "seamless", "quantize", "embed", "replay", "certify",
-  "extract", "total", "cancel" };
+  "extract", "total", "cancel", "attempts" };
 
 /// Seconds without a chance to stop that are worth a line.
 constexpr double kSlowCancel = 0.1;
@@ -152,6 +156,10 @@ int runOnce(const std::string& mesh, long long repeat, const Request& request)
     rows.insert(rows.begin(), { "read", read, cells, cells });
     rows.push_back(
       { "total", now() - start, cells, run.filter()->GetOutput()->GetNumberOfPolys() });
+    vtkFieldData* facts = run.filter()->GetOutput()->GetFieldData();
+    rows.push_back(
+      { "attempts", 0, static_cast<long long>(facts->GetArray("Decimations")->GetTuple1(0)),
+        static_cast<long long>(facts->GetArray("Replays")->GetTuple1(0)) });
     rows.push_back({ "cancel", run.longestGap(), cells, cells });
     printRows(mesh, repeat, request, collect(rows));
     if (run.longestGap() > kSlowCancel)

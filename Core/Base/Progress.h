@@ -10,6 +10,7 @@
 #include "Base/Error.h"
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -59,5 +60,15 @@ private:
 
 /// Throws Cancelled when the callback of the thread's run asks to stop. Does nothing on threads without a run.
 void poll();
+
+/// poll() in a loop of short steps: every so many of them.
+inline void pollNowAndThen(std::size_t step)
+{
+  constexpr std::size_t kStepsBetween = std::size_t{ 1 } << 16;
+  if (step % kStepsBetween == 0)
+  {
+    poll();
+  }
+}
 
 } // namespace quadrille

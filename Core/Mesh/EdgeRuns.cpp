@@ -4,6 +4,7 @@
 
 #include "Base/Error.h"
 #include "Base/Parallel.h"
+#include "Base/Progress.h"
 
 #include <algorithm>
 #include <array>
@@ -93,6 +94,7 @@ void EdgeRuns::countEdges(const std::vector<Index>& origin, Index vertexCount)
   begin_.assign(std::size_t{ vertexCount } + 2, 0);
   for (std::size_t h = 0; h < origin.size(); h += 3)
   {
+    pollNowAndThen(h / 3);
     const Index* corner = &origin[h];
     checkFace(corner, static_cast<Index>(h / 3), vertexCount);
     ++begin_[std::size_t{ std::min(corner[0], corner[1]) } + 2];
@@ -113,6 +115,7 @@ void EdgeRuns::fill(const std::vector<Index>& origin)
   };
   for (Index h = 0; h < origin.size(); h += 3)
   {
+    pollNowAndThen(h / 3);
     put(origin[h], origin[h + 1], h);
     put(origin[h + 1], origin[h + 2], h + 1);
     put(origin[h + 2], origin[h], h + 2);

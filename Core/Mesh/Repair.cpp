@@ -3,6 +3,7 @@
 #include "Mesh/Repair.h"
 
 #include "Base/Parallel.h"
+#include "Base/Progress.h"
 #include "Mesh/DegenerateFaces.h"
 #include "Mesh/DuplicateFaces.h"
 #include "Mesh/MergePoints.h"
@@ -174,14 +175,18 @@ void repairSurface(PreparedSurface& surface, EdgeRuns runs, int threads)
     orderSurface(surface, threads);
     runs = EdgeRuns(mesh.origin, mesh.vertexCount(), threads);
   }
+  poll();
   if (const std::size_t duplicates = removeDuplicateFaces(surface, runs))
   {
     repair.duplicateFaces += duplicates;
     orderSurface(surface, threads);
     runs = EdgeRuns(mesh.origin, mesh.vertexCount(), threads);
   }
+  poll();
   pairIntoSheets(surface, runs);
+  poll();
   const std::size_t manyFans = splitVertexFans(mesh);
+  poll();
   const std::size_t degenerate = removeDegenerateFaces(surface, threads);
   repair.nonManifoldVertices += manyFans;
   repair.degenerateFaces += degenerate;
@@ -193,11 +198,13 @@ void repairSurface(PreparedSurface& surface, EdgeRuns runs, int threads)
   {
     orderSurface(surface, threads);
   }
+  poll();
   removeTinyComponents(surface);
   if (repair.removedComponents > 0)
   {
     orderSurface(surface, threads);
   }
+  poll();
   if (repair.nonManifoldEdges > 0 && splitDoubleEdges(surface))
   {
     orderSurface(surface, threads);

@@ -111,6 +111,7 @@ PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& 
   checkOptions(options);
   report(options.progress, 0, "Checking the surface");
   checkInput(input, options.threads);
+  poll();
   triangulate(input, surface);
   requireFaces(surface);
   double repairSeconds = watch.lap();
@@ -124,6 +125,7 @@ PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& 
   EdgeRuns runs(surface.mesh.origin, surface.mesh.vertexCount(), options.threads);
   const double connectivitySeconds = watch.lap();
   repairSurface(surface, std::move(runs), options.threads);
+  poll();
   requireFaces(surface);
   repairSeconds += watch.lap();
 

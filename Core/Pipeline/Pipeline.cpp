@@ -364,6 +364,7 @@ private:
     const bool again = !levels_ || !levels_->allows(levelOptions);
     if (again)
     {
+      ++result_.decimations;
       levels_.reset(); // before the new one takes its memory
       levels_.emplace(result_.surface.mesh, result_.surface.hash, levelOptions);
     }
@@ -461,6 +462,7 @@ private:
 
   void transfer()
   {
+    ++result_.replays;
     const double start = now();
     const Mesh& mesh = result_.surface.mesh;
     TransferOptions transferOptions;

@@ -66,6 +66,8 @@ struct RemeshResult
   TransferResult transfer;       ///< counts only, uv is moved out
   std::vector<StageRecord> stages;
   RunEstimate estimate; ///< made before the run
+  int decimations = 0;  ///< runs of phase 1; more than one where a map lacked freedom that phase 1 had removed
+  int replays = 0;      ///< maps carried to the input; seconds of stages are sums over all runs
   double targetEdgeLength = 0;
   std::size_t targetQuads = 0; ///< predicted from the edge length where none was asked
   std::vector<std::string>

@@ -290,7 +290,7 @@ class Report(Case):
 class Bench(Case):
     COLUMNS = "mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb".split(",")
     STAGES = ("read repair order connectivity refine phase1 phase2 field seamless quantize embed replay certify extract "
-              "total cancel").split()
+              "total cancel attempts").split()
 
     def test_columns_and_stages(self):
         source = self.write_off()
@@ -305,8 +305,10 @@ class Bench(Case):
             self.assertGreaterEqual(float(row["seconds"]), 0)
             self.assertGreater(float(row["peak_rss_mb"]), 1)
         for run in (rows[:len(self.STAGES)], rows[len(self.STAGES):]):
-            stages, total, cancel = run[:-2], run[-2], run[-1]
+            stages, total, cancel, attempts = run[:-3], *run[-3:]
             self.assertLessEqual(sum(float(r["seconds"]) for r in stages), 1.01 * float(total["seconds"]))
+            self.assertGreaterEqual(int(attempts["elements_in"]), 1)
+            self.assertGreaterEqual(int(attempts["elements_out"]), 1)
             self.assertTrue(0 < float(cancel["seconds"]) <= float(total["seconds"]))
 
     def test_a_bad_mesh_does_not_end_the_others(self):
