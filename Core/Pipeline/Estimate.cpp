@@ -20,12 +20,12 @@ namespace
 
 // Medians of quadrille-bench on scans, see Documentation/Performance.md: what does not depend on the surface (the coarse
 // level), a triangle's share that threads cannot help, the share that they can, and a quad's share.
-constexpr double kSecondsFixed = 0.4;
+constexpr double kSecondsFixed = 0.3;
 constexpr double kSecondsSerial = 0.9e-6;
-constexpr double kSecondsParallel = 3.2e-6;
+constexpr double kSecondsParallel = 1.0e-6;
 constexpr double kSecondsQuad = 8e-6;
-constexpr double kBytesFixed = 40e6;
-constexpr double kBytesTriangle = 260;
+constexpr double kBytesFixed = 30e6;
+constexpr double kBytesTriangle = 270;
 constexpr double kBytesQuad = 900;
 
 } // namespace
