@@ -285,11 +285,14 @@ private:
     transfer();
     for (int attempt = 1; attempt < kMaximumTransfers; ++attempt)
     {
-      if (result_.certificate.valid() || result_.transfer.offenders.empty())
+      // With offenders everywhere it is not a matter of a few places, and the coarse level would grow out of hand.
+      const std::vector<Index>& offenders = result_.transfer.offenders;
+      if (result_.certificate.valid() || offenders.empty() ||
+        offenders.size() > result_.coarse.mesh.vertexCount() / 2)
       {
         break;
       }
-      keepVertices(result_.transfer.offenders, levelOptions);
+      keepVertices(offenders, levelOptions);
       const std::size_t defects = defectsOf(result_.certificate);
       MapState best = takeState();
       if (!computeCoarseMap(levelOptions))
