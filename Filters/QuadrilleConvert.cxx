@@ -703,19 +703,6 @@ void addTurns(vtkPolyData* data, const Mesh& mesh, const std::vector<int>& turns
   data->GetPointData()->AddArray(indexArray);
 }
 
-std::vector<std::int8_t> matchingOf(const Mesh& mesh, const std::vector<FixedVec2>& uv)
-{
-  std::vector<std::int8_t> matching(mesh.halfEdgeCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (!mesh.isBoundary(h))
-    {
-      matching[h] = static_cast<std::int8_t>(transitionOf(mesh, uv, h).rotation);
-    }
-  }
-  return matching;
-}
-
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> writeMappedSurface(const PreparedSurface& surface,
   const std::vector<FixedVec2>& uv, const std::vector<std::int8_t>& matching,

@@ -97,9 +97,6 @@ void addMatching(vtkPolyData* data, const std::vector<std::int8_t>& matching);
 /// Adds Turns, and Index = 4 - turns (2 - turns on the boundary).
 void addTurns(vtkPolyData* data, const Mesh& mesh, const std::vector<int>& turns);
 
-/// The matchings that a map has: rotations of its transitions.
-std::vector<std::int8_t> matchingOf(const Mesh& mesh, const std::vector<FixedVec2>& uv);
-
 /// The finest level with its map for display and extraction. source: what the surface was made from, its
 /// arrays are carried over. With splitSeams points are doubled where the map is cut, so that
 /// texture coordinates can be a point array.

@@ -131,9 +131,9 @@ void vtkIntegerGridMapUpmap::Execute(vtkInformationVector** inputs, vtkInformati
     vtkWarningMacro(<< "map on the surface: " << certificate.text());
   }
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
-  output->ShallowCopy(
-    quadrille::writeMappedSurface(surface, map.uv, quadrille::matchingOf(surface.mesh, map.uv),
-      expected.turns, source, converted, this->TextureCoordinates != 0));
+  output->ShallowCopy(quadrille::writeMappedSurface(surface, map.uv,
+    quadrille::matchingOf(surface.mesh, map.uv, this->NumberOfThreads), expected.turns, source,
+    converted, this->TextureCoordinates != 0));
   output->GetFieldData()->PassData(coarseData->GetFieldData());
   quadrille::addStages(output, clock.records);
   quadrille::addCertificate(output, certificate);

@@ -106,8 +106,9 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   if (this->ComputeMappedSurface)
   {
     vtkPolyData* mapped = vtkPolyData::GetData(outputs, 1);
-    mapped->ShallowCopy(quadrille::writeMappedSurface(result.surface, result.uv, result.matching,
-      result.turns, input, converted, this->TextureCoordinates != 0));
+    mapped->ShallowCopy(quadrille::writeMappedSurface(result.surface, result.uv,
+      quadrille::matchingOf(result.surface.mesh, result.uv, this->NumberOfThreads), result.turns,
+      input, converted, this->TextureCoordinates != 0));
     quadrille::addCount(mapped, "Charts", result.charts.charts);
     quadrille::addCount(mapped, "SeamEdges", result.charts.seamEdges);
   }

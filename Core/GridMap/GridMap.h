@@ -22,16 +22,16 @@ namespace quadrille
 struct Certificate
 {
   std::size_t triangles = 0;
-  std::size_t notPositive = 0;      ///< triangles with !(det > 0)
-  std::size_t wrongTurns = 0;       ///< vertices whose winding is not the expected one
-  std::size_t seamResiduals = 0;    ///< edges whose two images differ by more than a transition
-  std::size_t offAxes = 0;          ///< constrained edges that are not parallel to an axis
-  std::size_t offIsolines = 0;      ///< constrained edges that do not lie on an integer isoline
-  std::size_t offIntegers = 0;      ///< integer vertices (singular, corner, end) not at integer points
+  std::size_t notPositive = 0;   ///< triangles with !(det > 0)
+  std::size_t wrongTurns = 0;    ///< vertices whose winding is not the expected one
+  std::size_t seamResiduals = 0; ///< edges whose two images differ by more than a transition
+  std::size_t offAxes = 0;       ///< constrained edges that are not parallel to an axis
+  std::size_t offIsolines = 0;   ///< constrained edges that do not lie on an integer isoline
+  std::size_t offIntegers = 0;   ///< integer vertices (singular, corner, end) not at integer points
   std::size_t fractionalTransitions = 0; ///< transitions whose translation is not whole
-  double minimumDeterminant = 0;    ///< smallest det(u, v edges), in quads^2 (twice the uv area)
-  double area = 0;                  ///< total uv area in quads: the number of quads to expect
-  std::vector<Index> worstFaces;    ///< up to 16 faces, smallest determinant first
+  double minimumDeterminant = 0; ///< smallest det(u, v edges), in quads^2 (twice the uv area)
+  double area = 0;               ///< total uv area in quads: the number of quads to expect
+  std::vector<Index> worstFaces; ///< up to 16 faces, smallest determinant first
 
   bool seamless() const
   {
@@ -48,6 +48,10 @@ struct Certificate
 /// image of the edge `fallbackRotation` is taken. residual, when given, is set to whether the far end disagrees.
 Transition transitionOf(const Mesh& mesh, const std::vector<FixedVec2>& uv, Index h,
   int fallbackRotation = 0, bool* residual = nullptr);
+
+/// #H: rotation of each half-edge's transition; 0 on boundaries. threads: 0 means all.
+std::vector<std::int8_t> matchingOf(
+  const Mesh& mesh, const std::vector<FixedVec2>& uv, int threads);
 
 /// Exact check of a map. expectedTurns: #V (see CrossField::turns). integerVertex: #V flags. threads: 0: all; the
 /// result does not depend on it.
@@ -69,8 +73,9 @@ struct SeamlessResult
   std::vector<FixedVec2> uv; ///< #H; best effort when the status is not ok
   Eigen::VectorXd solution;  ///< the free unknowns of the map, before scaling
   Status status;
-  std::vector<Index> inverted;  ///< faces left with !(det > 0)
-  std::vector<Index> offenders; ///< vertices round which the triangulation, or the field, leaves no map
+  std::vector<Index> inverted; ///< faces left with !(det > 0)
+  std::vector<Index>
+    offenders; ///< vertices round which the triangulation, or the field, leaves no map
   int newtonSteps = 0;
 };
 /// A seamless map without inverted triangles that follows the field: transitions are quarter turns plus any
@@ -109,19 +114,20 @@ struct EmbedResult
 {
   std::vector<FixedVec2> uv;
   Status status;
-  std::vector<Index> inverted;  ///< faces left with !(det > 0)
-  std::vector<Index> offenders; ///< vertices round which the triangulation leaves no map with these integers
+  std::vector<Index> inverted; ///< faces left with !(det > 0)
+  std::vector<Index>
+    offenders; ///< vertices round which the triangulation leaves no map with these integers
   int newtonSteps = 0;
 };
 /// Moves everything but integers (integer vertices, isoline values, translations) so that every det > 0.
 /// Throws InvalidInput, naming the element, when integerUv is fractional or contradicts the field.
-EmbedResult embedMap(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& integerUv,
-  const EmbedOptions& options);
+EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
+  const std::vector<FixedVec2>& integerUv, const EmbedOptions& options);
 
 struct GridMapOptions
 {
-  double edgeLength = 0;      ///< s, on the surface; > 0
-  double targetQuads = 0;     ///< 0: follow edgeLength; else scale so that the uv area comes near this
+  double edgeLength = 0;  ///< s, on the surface; > 0
+  double targetQuads = 0; ///< 0: follow edgeLength; else scale so that the uv area comes near this
   Index maximumVertices = 100000; ///< of the mesh; the solvers are made for coarse levels
   ProgressCallback progress;
 };
@@ -130,11 +136,11 @@ struct GridMapResult
   std::vector<FixedVec2> uv; ///< #H; zero on connected components that have no map at all
   CrossField field;
   Certificate certificate;
-  Status status;             ///< not ok: why and where; uv then holds the best that was reached
+  Status status;                ///< not ok: why and where; uv then holds the best that was reached
   std::vector<Index> offenders; ///< coarse vertices around which the triangulation lacks freedom
-  double refinement = 1;     ///< of the component whose sizes had to shrink most
+  double refinement = 1;        ///< of the component whose sizes had to shrink most
   std::size_t components = 0, failedComponents = 0;
-  std::size_t work = 0;      ///< Newton steps of all solves, each times the triangles of its component
+  std::size_t work = 0; ///< Newton steps of all solves, each times the triangles of its component
   double secondsField = 0, secondsSeamless = 0, secondsQuantize = 0, secondsEmbed = 0;
 };
 /// The whole chain on one coarse mesh. Its connected components are solved one by one; each gets quads by its area, and all

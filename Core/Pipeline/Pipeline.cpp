@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/Pipeline.h"
 
-#include "Base/Parallel.h"
 #include "Mesh/FeatureFilter.h"
 
 #include <algorithm>
@@ -249,15 +248,14 @@ private:
     Level coarse;
     std::vector<FixedVec2> coarseUv, uv;
     std::vector<int> coarseTurns, turns;
-    std::vector<std::int8_t> matching;
     Certificate coarseCertificate, certificate;
     TransferResult transfer;
   };
   MapState takeState()
   {
     return { std::move(result_.coarse), std::move(result_.coarseUv), std::move(result_.uv),
-      std::move(result_.coarseTurns), std::move(result_.turns), std::move(result_.matching),
-      result_.coarseCertificate, result_.certificate, std::move(result_.transfer) };
+      std::move(result_.coarseTurns), std::move(result_.turns), result_.coarseCertificate,
+      result_.certificate, std::move(result_.transfer) };
   }
   void restore(MapState&& state)
   {
@@ -266,7 +264,6 @@ private:
     result_.uv = std::move(state.uv);
     result_.coarseTurns = std::move(state.coarseTurns);
     result_.turns = std::move(state.turns);
-    result_.matching = std::move(state.matching);
     result_.coarseCertificate = state.coarseCertificate;
     result_.certificate = state.certificate;
     result_.transfer = std::move(state.transfer);
@@ -490,7 +487,7 @@ private:
     addStage("certify", now() - carried, mesh.faceCount(), mesh.faceCount());
   }
 
-  /// Turns and matchings of the finest level: removed vertices are regular.
+  /// Turns of the finest level: removed vertices are regular.
   void expandSingularities()
   {
     const Mesh& mesh = result_.surface.mesh;
@@ -506,26 +503,6 @@ private:
     {
       result_.turns[result_.coarse.fineVertex[v]] = coarseField_.turns[v];
     }
-    computeMatching();
-  }
-
-  void computeMatching()
-  {
-    const Mesh& mesh = result_.surface.mesh;
-    result_.matching.assign(mesh.halfEdgeCount(), 0);
-    parallelFor(mesh.halfEdgeCount(), 1 << 16, options_.threads,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          const Index h = static_cast<Index>(i);
-          if (!mesh.isBoundary(h))
-          {
-            result_.matching[h] =
-              static_cast<std::int8_t>(transitionOf(mesh, result_.uv, h).rotation);
-          }
-        }
-      });
   }
 
   /// After the extraction, so that the quads do not depend on it.
@@ -536,7 +513,6 @@ private:
       const double start = now();
       const Mesh& mesh = result_.surface.mesh;
       result_.charts = mergeCharts(mesh, result_.uv);
-      computeMatching();
       addStage("charts", now() - start, mesh.faceCount(), result_.charts.charts);
     }
   }

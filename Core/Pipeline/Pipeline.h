@@ -33,7 +33,8 @@ struct RemeshOptions
   std::size_t maximumQuads = 10000000;
   /// Bytes that the run may take by the estimate; none: what the machine has free.
   std::optional<double> memoryLimit;
-  bool mergeCharts = false; ///< of the map on the surface, for display; the quads do not depend on it
+  bool mergeCharts =
+    false;         ///< of the map on the surface, for display; the quads do not depend on it
   int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;
 };
@@ -52,11 +53,10 @@ struct RemeshResult
 {
   Status status;
   QuadMesh quads;
-  PreparedSurface surface;           ///< the finest level that uv belongs to
-  std::vector<FixedVec2> uv;         ///< #H of surface.mesh
-  std::vector<std::int8_t> matching; ///< #H of surface.mesh: rotation of the transition
-  std::vector<int> turns;            ///< #V of surface.mesh
-  Level coarse;                      ///< coarse mesh
+  PreparedSurface surface;   ///< the finest level that uv belongs to
+  std::vector<FixedVec2> uv; ///< #H of surface.mesh
+  std::vector<int> turns;    ///< #V of surface.mesh
+  Level coarse;              ///< coarse mesh
   std::vector<FixedVec2>
     coarseUv;                    ///< #H of coarse.mesh; also when the status is not ok, for a look
   std::vector<int> coarseTurns;  ///< #V of coarse.mesh
@@ -66,8 +66,9 @@ struct RemeshResult
   TransferResult transfer;       ///< counts only, uv is moved out
   std::vector<StageRecord> stages;
   RunEstimate estimate; ///< made before the run
-  int decimations = 0;  ///< runs of phase 1; more than one where a map lacked freedom that phase 1 had removed
-  int replays = 0;      ///< maps carried to the input; seconds of stages are sums over all runs
+  int decimations =
+    0; ///< runs of phase 1; more than one where a map lacked freedom that phase 1 had removed
+  int replays = 0; ///< maps carried to the input; seconds of stages are sums over all runs
   double targetEdgeLength = 0;
   std::size_t targetQuads = 0; ///< predicted from the edge length where none was asked
   std::vector<std::string>
