@@ -55,11 +55,11 @@ bool DecimationMesh::hasEdge(Index a, Index b) const
   Index h = first;
   do
   {
-    if (origin[nextCorner(h)] == b)
+    if (origin[Mesh::next(h)] == b)
     {
       return true;
     }
-    const Index incoming = previousCorner(h);
+    const Index incoming = Mesh::previous(h);
     if (twin[incoming] == kInvalidIndex)
     {
       return origin[incoming] == b;
@@ -124,14 +124,14 @@ void DecimationMesh::collapse(const CollapseRecord& record)
   }
   if (first == 1)
   {
-    const Index ringEdge = nextCorner(slot(0));
+    const Index ringEdge = Mesh::next(slot(0));
     link(slot(1), twin[ringEdge], flags[ringEdge]);
     origin[slot(0) / 3 * 3] = kInvalidIndex;
   }
   if (last == record.faces - 2)
   {
-    const Index ringEdge = nextCorner(slot(record.faces - 1));
-    link(previousCorner(slot(last)), twin[ringEdge], flags[ringEdge]);
+    const Index ringEdge = Mesh::next(slot(record.faces - 1));
+    link(Mesh::previous(slot(last)), twin[ringEdge], flags[ringEdge]);
     origin[slot(record.faces - 1) / 3 * 3] = kInvalidIndex;
   }
 }
@@ -139,10 +139,10 @@ void DecimationMesh::collapse(const CollapseRecord& record)
 void DecimationMesh::flip(Index h)
 {
   const Index g = twin[h];
-  const Index nextH = nextCorner(h);
-  const Index nextG = nextCorner(g);
-  const Index c = origin[previousCorner(h)];
-  const Index d = origin[previousCorner(g)];
+  const Index nextH = Mesh::next(h);
+  const Index nextG = Mesh::next(g);
+  const Index c = origin[Mesh::previous(h)];
+  const Index d = origin[Mesh::previous(g)];
   const Index twinAd = twin[nextG];
   const std::uint8_t flagAd = flags[nextG];
   link(g, twin[nextH], flags[nextH]);

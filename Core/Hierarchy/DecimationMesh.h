@@ -14,19 +14,6 @@
 namespace quadrille
 {
 
-/// Mesh::next and Mesh::previous without a branch: on walks round a vertex nothing predicts which corner of a face comes next.
-/// The tables of steps from corners 0, 1, 2 are two bits each: next 1, 2, 0 and previous 2, 0, 1.
-inline Index nextCorner(Index h)
-{
-  const Index first = h / 3 * 3;
-  return first + (9U >> 2 * (h - first) & 3U);
-}
-inline Index previousCorner(Index h)
-{
-  const Index first = h / 3 * 3;
-  return first + (18U >> 2 * (h - first) & 3U);
-}
-
 class DecimationMesh
 {
 public:

@@ -167,8 +167,8 @@ void FreeStar::gather(Index v)
   for (std::size_t i = 0; i < index(size_); ++i)
   {
     slot_[i] = h;
-    ring_[i] = mesh_.origin[nextCorner(h)];
-    h = mesh_.twin[previousCorner(h)];
+    ring_[i] = mesh_.origin[Mesh::next(h)];
+    h = mesh_.twin[Mesh::previous(h)];
   }
 }
 
@@ -502,12 +502,12 @@ FreeStar::Outcome FreeStar::checkRing()
 bool FreeStar::hasOuterEdge(std::size_t a, std::size_t b, int valence) const
 {
   const Index wanted = ring_[b];
-  Index h = nextCorner(slot_[a]); // from a along the ring
+  Index h = Mesh::next(slot_[a]); // from a along the ring
   bool found = false;
   const auto step = [&]()
   {
-    h = nextCorner(mesh_.twin[h]);
-    found = found | (mesh_.origin[nextCorner(h)] == wanted);
+    h = Mesh::next(mesh_.twin[h]);
+    found = found | (mesh_.origin[Mesh::next(h)] == wanted);
   };
   // Nearly always three are enough, and a fixed number is predicted well; the walk may go on through the star,
   // as b is not to be met there.
@@ -523,7 +523,7 @@ bool FreeStar::hasOuterEdge(std::size_t a, std::size_t b, int valence) const
 
 bool FreeStar::closesTetrahedron() const
 {
-  const auto outer = [&](std::size_t i) { return mesh_.twin[nextCorner(slot_[i])] / 3; };
+  const auto outer = [&](std::size_t i) { return mesh_.twin[Mesh::next(slot_[i])] / 3; };
   const Index a = outer(0);
   const Index b = outer(1);
   const Index c = outer(2);
@@ -591,21 +591,6 @@ CollapseRecord FreeStar::makeRecord(int target) const
   return record;
 }
 
-void FreeStar::cutEars(int x, int y, RecordWriter& log)
-{
-  if (y - x < 2)
-  {
-    return;
-  }
-  const int z = opposite_[index(y)][index(x)];
-  cutEars(x, z, log);
-  cutEars(z, y, log);
-  const Index h = fan_[index(z)];
-  log.flip(h, mesh_.twin[h]);
-  mesh_.flip(h);
-  fan_[index(x)] = h;
-}
-
 void FreeStar::apply(RecordWriter& log)
 {
   const int target = bestTarget();
@@ -620,34 +605,15 @@ void FreeStar::apply(RecordWriter& log)
   }
   if (diagonals_[index(target)] < size_ - 3)
   {
-    // Ring positions counted from the target: fan face j (1 <= j <= size_ - 2) is (target, j, j + 1).
     const auto fromTarget = [&](int i)
     { return index(i < target ? i - target + size_ : i - target); };
-    std::copy(record.slot.begin() + 1, record.slot.begin() + size_ - 1, fan_.begin() + 1);
-    unsigned neighbours = 0;
+    flips_.begin(record.slot.data() + 1, size_ - 2);
     for (std::size_t t = 0; t < index(size_ - 2); ++t)
     {
       const Triangle& triangle = triangles_[t];
-      const std::size_t a = fromTarget(triangle.a);
-      const std::size_t b = fromTarget(triangle.b);
-      const std::size_t c = fromTarget(triangle.c);
-      opposite_[a][b] = static_cast<std::uint8_t>(c);
-      opposite_[b][c] = static_cast<std::uint8_t>(a);
-      opposite_[c][a] = static_cast<std::uint8_t>(b);
-      if (a == 0 || b == 0 || c == 0)
-      {
-        neighbours |= 1U << a | 1U << b | 1U << c;
-      }
+      flips_.add(fromTarget(triangle.a), fromTarget(triangle.b), fromTarget(triangle.c));
     }
-    int last = 1;
-    for (int i = 2; i < size_; ++i)
-    {
-      if ((neighbours >> i & 1U) != 0)
-      {
-        cutEars(last, i, log);
-        last = i;
-      }
-    }
+    flips_.carryOut(mesh_, size_, log);
   }
   for (std::size_t i = 1; i + 1 < index(size_); ++i)
   {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "Hierarchy/DecimationMesh.h"
+#include "Hierarchy/FanFlips.h"
 #include "Hierarchy/VertexRemoval.h"
 
 #include <array>
@@ -75,7 +76,6 @@ private:
   bool closesTetrahedron() const;
   int bestTarget() const;
   CollapseRecord makeRecord(int target) const;
-  void cutEars(int x, int y, RecordWriter& log);
 
   DecimationMesh& mesh_;
   RemovalGuards guards_;
@@ -101,9 +101,7 @@ private:
   std::array<std::uint8_t, 3> weightRing_{};
   std::array<float, 2> weight_{};
 
-  // Work of apply(): ring positions relative to the target.
-  std::array<Index, kRing> fan_{};
-  std::array<std::array<std::uint8_t, kRing>, kRing> opposite_{};
+  FanFlips<kRing> flips_; ///< work of apply()
 };
 
 } // namespace quadrille

@@ -765,21 +765,6 @@ CollapseRecord VertexRemoval::makeRecord(int target) const
   return record;
 }
 
-void VertexRemoval::cutEars(int x, int y, RecordWriter& log)
-{
-  if (y - x < 2)
-  {
-    return;
-  }
-  const int z = opposite_[index(y)][index(x)];
-  cutEars(x, z, log);
-  cutEars(z, y, log);
-  const Index h = fan_[index(z)];
-  log.flip(h, mesh_.twin[h]);
-  mesh_.flip(h);
-  fan_[index(x)] = h;
-}
-
 void VertexRemoval::apply(RecordWriter& log)
 {
   const int target = bestTarget();
@@ -802,40 +787,15 @@ void VertexRemoval::apply(RecordWriter& log)
   mesh_.collapse(record);
   mesh_.outgoing[vertex_] = kInvalidIndex;
 
-  // Ring positions counted from the target: fan face j (1 <= j <= ringSize_ - 2) is (target, j, j + 1).
   const auto fromTarget = [&](int i) { return index((i + ringSize_ - target) % ringSize_); };
-  for (int i = record.firstSurvivor(); i <= record.lastSurvivor(); ++i)
-  {
-    fan_[index(i - record.firstSurvivor() + 1)] = record.slot[index(i)];
-  }
-  std::array<std::uint8_t, kN> spokes{};
-  int spokeCount = 0;
-  std::uint64_t neighbours = 0;
+  flips_.begin(record.slot.data() + record.firstSurvivor(),
+    record.lastSurvivor() - record.firstSurvivor() + 1);
   for (int t = 0; t < triangleCount_; ++t)
   {
     const Triangle& triangle = triangles_[index(t)];
-    const std::size_t a = fromTarget(triangle.a);
-    const std::size_t b = fromTarget(triangle.b);
-    const std::size_t c = fromTarget(triangle.c);
-    opposite_[a][b] = static_cast<std::uint8_t>(c);
-    opposite_[b][c] = static_cast<std::uint8_t>(a);
-    opposite_[c][a] = static_cast<std::uint8_t>(b);
-    if (a == 0 || b == 0 || c == 0)
-    {
-      neighbours |= std::uint64_t{ 1 } << a | std::uint64_t{ 1 } << b | std::uint64_t{ 1 } << c;
-    }
+    flips_.add(fromTarget(triangle.a), fromTarget(triangle.b), fromTarget(triangle.c));
   }
-  for (int i = 1; i < ringSize_; ++i)
-  {
-    if ((neighbours >> i & 1U) != 0)
-    {
-      spokes[index(spokeCount++)] = static_cast<std::uint8_t>(i);
-    }
-  }
-  for (int i = 0; i + 1 < spokeCount; ++i)
-  {
-    cutEars(spokes[index(i)], spokes[index(i + 1)], log);
-  }
+  flips_.carryOut(mesh_, ringSize_, log);
   for (int i = record.firstSurvivor(); i <= record.lastSurvivor(); ++i)
   {
     mesh_.refreshOutgoing(record.slot[index(i)] / 3);

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "Hierarchy/DecimationMesh.h"
+#include "Hierarchy/FanFlips.h"
 
 #include <array>
 #include <cstdint>
@@ -128,7 +129,6 @@ private:
 
   int bestTarget() const;
   CollapseRecord makeRecord(int target) const;
-  void cutEars(int x, int y, RecordWriter& log);
 
   DecimationMesh& mesh_;
   Index vertex_ = kInvalidIndex;
@@ -167,9 +167,7 @@ private:
   std::array<std::uint8_t, 3> weightRing_{};
   std::array<std::uint32_t, 2> weight_{}; ///< in units of 2^-32
 
-  // Work of apply(): ring positions relative to the target.
-  std::array<Index, kN> fan_{};
-  std::array<std::array<std::uint8_t, kN>, kN> opposite_{};
+  FanFlips<kN> flips_; ///< work of apply()
 };
 
 } // namespace quadrille

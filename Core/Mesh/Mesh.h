@@ -37,8 +37,18 @@ struct Mesh
   Index faceCount() const { return halfEdgeCount() / 3; }
 
   static Index face(Index h) { return h / 3; }
-  static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
-  static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
+  // Without a branch: on walks round a vertex nothing predicts which corner of a face comes next. The steps from corners
+  // 0, 1, 2 are two bits each: next 1, 2, 0 and previous 2, 0, 1.
+  static Index next(Index h)
+  {
+    const Index first = h / 3 * 3;
+    return first + (9U >> 2 * (h - first) & 3U);
+  }
+  static Index previous(Index h)
+  {
+    const Index first = h / 3 * 3;
+    return first + (18U >> 2 * (h - first) & 3U);
+  }
 
   Index target(Index h) const { return origin[next(h)]; }
   bool isBoundary(Index h) const { return twin[h] == kInvalidIndex; }
