@@ -5,6 +5,7 @@
 #include "Base/Parallel.h"
 #include "MeshFiles.h"
 #include "Options.h"
+#include "PhaseOrders.h"
 #include "RemeshRun.h"
 
 #include <vtkDataArray.h>
@@ -28,6 +29,7 @@ using namespace quadrille;
 
 constexpr const char* kHelp =
   R"(usage: quadrille-bench MESH... [--quads N | --edge-length S] [--threads N] [--repeat N]
+       quadrille-bench MESH... --compare orders [--quads N] [--candidates N] [--exact-below N] [--threads N] [--repeat N]
 
 Remeshes each mesh and writes to standard output, as CSV, the columns
   mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb
@@ -42,6 +44,16 @@ were carried to the surface.
   --edge-length S    target edge length in units of the input
   --threads N        threads to compute with; 0 means all (default 0)
   --repeat N         runs of each mesh (default 1)
+
+With --compare orders runs phase 1 only, in each of its orders (sweeps, heap, stochastic), and writes
+  mesh,repeat,order,threads,seconds,faces,vertices,intermediate_vertices,short_percent,edge_5,edge_50,edge_95,
+  deviation,quality
+where short_percent of the edges are shorter than half the target edge length, 5, 50 and 95 percent of them are shorter
+than edge_* in target edge lengths, deviation is the standard deviation of the lengths over their mean, and quality the
+mean quality of the triangles (1: all equilateral).
+
+  --candidates N     vertices of a draw of the stochastic order (default 8)
+  --exact-below N    number of vertices below which the heap takes over there (default 1000000)
 
 exit code: 0 when every run gave quads, else the worst code of the command quadrille
 )";
@@ -59,7 +71,31 @@ struct Request
   double edgeLength = 0; ///< 0: quads
   int threads = 0;
   long long repeat = 1;
+  bool orders = false; ///< only phase 1, in all orders
+  RandomDraws draws;
 };
+
+void parseComparison(const CommandLine& line, Request& request)
+{
+  const auto compared = line.text("compare");
+  const auto candidates = line.count("candidates", 1, 1000000);
+  const auto exactBelow = line.count("exact-below", 0, 4000000000);
+  if (compared && *compared != "orders")
+  {
+    throw UsageError("--compare takes only orders, not '" + *compared + "'");
+  }
+  if (!compared && (candidates || exactBelow))
+  {
+    throw UsageError("--candidates and --exact-below are for --compare orders");
+  }
+  if (compared && request.edgeLength > 0)
+  {
+    throw UsageError("--compare takes --quads, not --edge-length");
+  }
+  request.orders = compared.has_value();
+  request.draws.candidates = static_cast<int>(candidates.value_or(request.draws.candidates));
+  request.draws.exactBelow = static_cast<Index>(exactBelow.value_or(request.draws.exactBelow));
+}
 
 Request parse(const CommandLine& line)
 {
@@ -78,6 +114,7 @@ Request parse(const CommandLine& line)
   request.edgeLength = length.value_or(0);
   request.threads = static_cast<int>(line.count("threads", 0, 4096).value_or(0));
   request.repeat = line.count("repeat", 1, 1000000).value_or(1);
+  parseComparison(line, request);
   return request;
 }
 
@@ -126,6 +163,25 @@ void printRows(const std::string& mesh, long long repeat, const Request& request
       row.elementsOut, peak);
   }
   std::fflush(stdout);
+}
+
+int compareOrders(const std::string& mesh, const Request& request)
+{
+  try
+  {
+    OrderComparison comparison;
+    comparison.quads = static_cast<double>(request.quads);
+    comparison.threads = request.threads;
+    comparison.repeat = request.repeat;
+    comparison.draws = request.draws;
+    printOrders(mesh, comparison);
+    return kValidQuads;
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "quadrille-bench: %s\n", error.what());
+    return kBadInput;
+  }
 }
 
 int runOnce(const std::string& mesh, long long repeat, const Request& request)
@@ -202,15 +258,25 @@ int main(int argc, char* argv[])
 {
   try
   {
-    const CommandLine line(argc, argv, { "quads", "edge-length", "threads", "repeat" });
+    const CommandLine line(argc, argv,
+      { "quads", "edge-length", "threads", "repeat", "compare", "candidates", "exact-below" });
     if (line.help())
     {
       std::fputs(kHelp, stdout);
       return 0;
     }
     const Request request = parse(line);
-    std::printf("mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb\n");
     int worst = 0;
+    if (request.orders)
+    {
+      printOrdersHeader();
+      for (const std::string& mesh : line.positional())
+      {
+        worst = std::max(worst, compareOrders(mesh, request));
+      }
+      return worst;
+    }
+    std::printf("mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb\n");
     for (const std::string& mesh : line.positional())
     {
       for (long long repeat = 0; repeat < request.repeat; ++repeat)

@@ -5,13 +5,8 @@
 #include "CrossField/CrossField.h"
 #include "Evaluation/SingularityDistance.h"
 #include "Hierarchy/Hierarchy.h"
-#include "Mesh/FeatureFilter.h"
-#include "Mesh/Surface.h"
-#include "MeshFiles.h"
 #include "Options.h"
-#include "QuadrilleConvert.h"
-
-#include <vtkPolyData.h>
+#include "PhaseOrders.h"
 
 #include <algorithm>
 #include <array>
@@ -64,16 +59,6 @@ struct Cost
 constexpr std::array<Cost, 4> kCosts = { { { "\"E_G,mem\"", DecimationCost::GaussianMemory },
   { "E_G", DecimationCost::Gaussian }, { "E_QEM", DecimationCost::Quadric },
   { "E_uni", DecimationCost::Uniform } } };
-
-PreparedSurface read(const std::string& path, const Request& request, double& edgeLength)
-{
-  const vtkSmartPointer<vtkPolyData> input = readMeshFile(path);
-  PreparedSurface surface = prepareSurface(convertSurface(input, "").input, {});
-  edgeLength = std::sqrt(surface.area / request.quads);
-  removeUnresolvedFeatures(surface.mesh, edgeLength);
-  refineSurface(surface, edgeLength, {});
-  return surface;
-}
 
 std::vector<int> turnsOf(const Mesh& mesh, double edgeLength)
 {
@@ -136,7 +121,7 @@ Timing timePhase2(Redecimation& levels, HierarchyOptions options)
 void compare(const std::string& path, const Request& request)
 {
   double edgeLength = 0;
-  const PreparedSurface surface = read(path, request, edgeLength);
+  const PreparedSurface surface = prepareMeshFile(path, request.quads, edgeLength);
   const Mesh& fine = surface.mesh;
   HierarchyOptions options;
   options.targetEdgeLength = edgeLength;

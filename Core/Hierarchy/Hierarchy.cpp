@@ -6,6 +6,7 @@
 #include "Hierarchy/BudgetDecimation.h"
 #include "Hierarchy/DecimationMesh.h"
 #include "Hierarchy/LogBuilder.h"
+#include "Hierarchy/OrderedDecimation.h"
 #include "Hierarchy/StarCache.h"
 #include "Hierarchy/UniformDecimation.h"
 
@@ -40,6 +41,11 @@ void checkOptions(const Mesh& fine, const HierarchyOptions& options)
     throw InvalidInput(
       "The target edge length of a decimation must be positive and finite, but is " +
       std::to_string(options.targetEdgeLength) + ".");
+  }
+  if (options.order == DecimationOrder::Stochastic && options.draws.candidates < 1)
+  {
+    throw InvalidInput("A draw of vertices needs at least one candidate, but is to have " +
+      std::to_string(options.draws.candidates) + ".");
   }
   for (const Index v : options.keepVertices)
   {
@@ -201,7 +207,8 @@ class Redecimation::Implementation
 {
 public:
   Implementation(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options)
-    : fine_(fine), edgeLength_(options.targetEdgeLength)
+    : fine_(fine), edgeLength_(options.targetEdgeLength), order_(options.order),
+      draws_(options.draws)
   {
     checkOptions(fine, options);
     const auto start = std::chrono::steady_clock::now();
@@ -211,7 +218,8 @@ public:
 
   bool allows(const HierarchyOptions& options) const
   {
-    return options.targetEdgeLength == edgeLength_ &&
+    return options.targetEdgeLength == edgeLength_ && options.order == order_ &&
+      (order_ != DecimationOrder::Stochastic || options.draws == draws_) &&
       std::all_of(options.keepVertices.begin(), options.keepVertices.end(),
         [&](Index v) { return positionIn(hierarchy_.intermediate, v).has_value(); });
   }
@@ -220,8 +228,9 @@ public:
   {
     if (!allows(options))
     {
-      throw InvalidInput("The coarse level cannot be made anew: the edge length has changed, or a "
-                         "vertex that is to be kept is not on the intermediate level.");
+      throw InvalidInput(
+        "The coarse level cannot be made anew: the edge length or the order of "
+        "phase 1 has changed, or a vertex that is to be kept is not on the intermediate level.");
     }
     const auto start = std::chrono::steady_clock::now();
     if (cost_ != options.cost)
@@ -257,7 +266,18 @@ private:
     uniform.threads = options.threads;
     uniform.progress = part(options.progress, 0.0, 0.6);
     LogBuilder log;
-    decimateUniformly(mesh, uniform, log);
+    switch (options.order)
+    {
+      case DecimationOrder::Sweeps:
+        decimateUniformly(mesh, uniform, log);
+        break;
+      case DecimationOrder::Heap:
+        decimateByHeap(mesh, uniform, log);
+        break;
+      case DecimationOrder::Stochastic:
+        decimateByDraws(mesh, uniform, options.draws, log);
+        break;
+    }
     log.endIntermediate();
     Level& level = hierarchy_.intermediate;
     level = mesh.extract();
@@ -326,6 +346,8 @@ private:
 
   const Mesh& fine_;
   double edgeLength_ = 0;
+  DecimationOrder order_ = DecimationOrder::Sweeps;
+  RandomDraws draws_;
   Hierarchy hierarchy_;
   std::optional<DecimationMesh> intermediate_;
   DecimationLog::End intermediateEnd_;

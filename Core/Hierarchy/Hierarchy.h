@@ -22,13 +22,36 @@ enum class DecimationCost
   Uniform         ///< E_uni: shortest incident edge
 };
 
+/// Which vertex phase 1 removes next. All orders obey the same guards and end when no edge is shorter than s/2.
+enum class DecimationOrder
+{
+  Sweeps, ///< in storage order while a threshold rises; parallel
+  Heap,   ///< the one with the shortest edge [Ebke et al. 2016, Section 5.3]; one thread
+  Stochastic ///< the best of a few drawn at random, at last by the heap [the same, Section 7]; one thread
+};
+
+/// Of DecimationOrder::Stochastic.
+struct RandomDraws
+{
+  int candidates = 8;         ///< vertices of a draw, >= 1
+  Index exactBelow = 1000000; ///< the heap takes over below this number of vertices
+  std::uint64_t seed = 1;
+
+  bool operator==(const RandomDraws& other) const
+  {
+    return candidates == other.candidates && exactBelow == other.exactBelow && seed == other.seed;
+  }
+};
+
 struct HierarchyOptions
 {
   double targetEdgeLength =
     0; ///< s, in units of the mesh; > 0. Phase 1 ends when edges exceed s/2.
   Index coarseVertices = 1000; ///< budget of the coarse level; raised where features, handles or
                                ///< components need more (told in Hierarchy::notice)
-  DecimationCost cost = DecimationCost::Gaussian; ///< of phase 2
+  DecimationCost cost = DecimationCost::Gaussian;  ///< of phase 2
+  DecimationOrder order = DecimationOrder::Sweeps; ///< of phase 1
+  RandomDraws draws;                               ///< when it is stochastic
   /// Vertices of the finest mesh that no phase may remove (index constraints; places where a map needs
   /// more freedom, see TransferResult::offenders).
   std::vector<Index> keepVertices;
@@ -77,8 +100,8 @@ public:
   Redecimation(Redecimation&&) noexcept;
   Redecimation& operator=(Redecimation&&) noexcept;
 
-  /// Whether update() can honour the options: the target edge length is the one of phase 1, and all vertices to keep
-  /// are on the intermediate level. If not, phase 1 has to be run with them.
+  /// Whether update() can honour the options: target edge length and order are those of phase 1, and all vertices to
+  /// keep are on the intermediate level. If not, phase 1 has to be run with them.
   bool allows(const HierarchyOptions& options) const;
   /// Phase 2: makes the coarse level and the end of the log anew. Bit for bit what buildHierarchy makes of these
   /// options. Throws InvalidInput unless allows(). Cancelled leaves the hierarchy without a coarse level.
@@ -93,7 +116,7 @@ private:
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Both phases. Throws InvalidInput when s is not positive and finite. Progress and cancel through the options.
+/// Both phases. Throws InvalidInput when s is not positive and finite, or draws have no candidates. Progress and cancel through the options.
 Hierarchy buildHierarchy(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options);
 
 } // namespace quadrille

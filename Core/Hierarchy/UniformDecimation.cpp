@@ -3,8 +3,7 @@
 #include "Hierarchy/UniformDecimation.h"
 
 #include "Base/Parallel.h"
-#include "Hierarchy/FreeStar.h"
-#include "Hierarchy/VertexRemoval.h"
+#include "Hierarchy/StarRemoval.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,9 +75,8 @@ private:
   /// What one thread needs to sweep a block.
   struct Worker
   {
-    Worker(DecimationMesh& mesh, const RemovalGuards& guards) : star(mesh, guards), removal(mesh) {}
-    FreeStar star;
-    VertexRemoval removal;
+    Worker(DecimationMesh& mesh, const RemovalGuards& guards) : star(mesh, guards) {}
+    StarRemoval star;
     RecordWriter log;
     double threshold = 0;
     std::uint16_t stamp = 0;
@@ -92,11 +90,8 @@ private:
   void sweep(Block& block, Worker& worker);
   void fetchAhead(std::size_t i, std::size_t end) const;
   bool visit(Index v, const Block& block, Worker& worker);
-  bool visitFreeStar(Index v, const Block& block, Worker& worker);
-  bool visitAnyStar(Index v, const Block& block, Worker& worker);
   bool settle(Index v, double shortest, double threshold);
-  template <typename Star>
-  void apply(Star& star, Worker& worker);
+  void apply(StarRemoval& star, Worker& worker);
 
   DecimationMesh& mesh_;
   const UniformOptions& options_;
@@ -258,18 +253,34 @@ void UniformDecimation::fetchAhead(std::size_t i, std::size_t end) const
 bool UniformDecimation::visit(Index v, const Block& block, Worker& worker)
 {
   const VertexState& state = state_[v];
+  StarRemoval& star = worker.star;
   if (state.lock == worker.stamp || state.lock == kKept ||
-    !(worker.threshold > double{ state.settled }))
+    !(worker.threshold > double{ state.settled }) || !star.gather(v))
   {
     return false;
   }
-  const int valence = mesh_.valence[v];
-  if (mesh_.curves.kind[v] == VertexKind::Free && valence >= FreeStar::kLeast &&
-    valence <= FreeStar::kMost)
+  for (int i = 0; i < star.ringSize(); ++i)
   {
-    return visitFreeStar(v, block, worker);
+    if (!block.owns(star.ringVertex(i)))
+    {
+      return false;
+    }
   }
-  return visitAnyStar(v, block, worker);
+  if (!settle(v, star.shortestEdge(worker.threshold), worker.threshold))
+  {
+    return false;
+  }
+  const StarRemoval::Outcome outcome = star.plan();
+  if (outcome == StarRemoval::Outcome::Refused)
+  {
+    state_[v].settled = std::numeric_limits<float>::infinity();
+  }
+  if (outcome != StarRemoval::Outcome::Planned)
+  {
+    return false;
+  }
+  apply(star, worker);
+  return true;
 }
 
 /// Remembers until when a visit is of no use. Whether the vertex has to go by its shortest edge.
@@ -286,66 +297,7 @@ bool UniformDecimation::settle(Index v, double shortest, double threshold)
   return false;
 }
 
-bool UniformDecimation::visitFreeStar(Index v, const Block& block, Worker& worker)
-{
-  FreeStar& star = worker.star;
-  star.gather(v);
-  bool free = true;
-  for (int i = 0; i < star.ringSize(); ++i)
-  {
-    const Index w = star.ringVertex(i);
-    if (!block.owns(w))
-    {
-      return false;
-    }
-    free = free && mesh_.curves.kind[w] == VertexKind::Free;
-  }
-  const double shortest = double{ star.shortestEdge(worker.threshold) } * worker.threshold;
-  if (!settle(v, shortest, worker.threshold))
-  {
-    return false;
-  }
-  switch (free ? star.plan() : FreeStar::Outcome::Unsuited)
-  {
-    case FreeStar::Outcome::Planned:
-      apply(star, worker);
-      return true;
-    case FreeStar::Outcome::Refused:
-      state_[v].settled = std::numeric_limits<float>::infinity();
-      return false;
-    case FreeStar::Outcome::Blocked:
-      return false;
-    case FreeStar::Outcome::Unsuited:
-      break;
-  }
-  return visitAnyStar(v, block, worker);
-}
-
-bool UniformDecimation::visitAnyStar(Index v, const Block& block, Worker& worker)
-{
-  VertexRemoval& removal = worker.removal;
-  if (!removal.gather(v) || !settle(v, removal.shortestEdge(), worker.threshold))
-  {
-    return false;
-  }
-  for (int i = 0; i < removal.ringSize(); ++i)
-  {
-    if (!block.owns(removal.ringVertex(i)))
-    {
-      return false;
-    }
-  }
-  if (!removal.plan(guards_))
-  {
-    state_[v].settled = std::numeric_limits<float>::infinity();
-    return false;
-  }
-  apply(removal, worker);
-  return true;
-}
-
-template <typename Star>
-void UniformDecimation::apply(Star& star, Worker& worker)
+void UniformDecimation::apply(StarRemoval& star, Worker& worker)
 {
   for (int i = 0; i < star.ringSize(); ++i)
   {
