@@ -3,11 +3,11 @@
 #include "Hierarchy/DecimationLog.h"
 
 #include "Base/Error.h"
-#include "Hierarchy/LogRecords.h"
 
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 
 namespace quadrille
 {
@@ -162,10 +162,10 @@ void checkRecords(const DecimationLog& log)
   const Index slots = 3 * log.fineFaces;
   std::size_t collapses = 0;
   std::size_t flips = 0;
-  for (const DecimationLog::Block& block : log.blocks)
+  for (const BlockRecords& block : log.blocks)
   {
-    const std::uint8_t* begin = log.records.data() + block.begin;
-    const std::uint8_t* end = log.records.data() + block.end;
+    const std::uint8_t* begin = block.data();
+    const std::uint8_t* end = begin + block.size();
     while (end > begin)
     {
       if (end[-1] == 0)
@@ -194,36 +194,43 @@ void DecimationLog::truncate(const End& end)
 {
   rounds.resize(end.rounds);
   blocks.resize(end.blocks);
-  records.resize(end.records);
   collapses = end.collapses;
   flips = end.flips;
 }
 
-void DecimationLog::append(
-  const std::vector<std::uint8_t>& bytes, std::size_t newCollapses, std::size_t newFlips)
+void DecimationLog::append(BlockRecords records, std::size_t newCollapses, std::size_t newFlips)
 {
-  if (bytes.empty())
+  if (records.empty())
   {
     return;
   }
   rounds.push_back({ blocks.size(), 1 });
-  blocks.push_back({ records.size(), records.size() + bytes.size() });
-  records.insert(records.end(), bytes.begin(), bytes.end());
+  blocks.push_back(std::move(records));
   collapses += newCollapses;
   flips += newFlips;
+}
+
+std::size_t DecimationLog::recordBytes() const
+{
+  std::size_t bytes = 0;
+  for (const BlockRecords& block : blocks)
+  {
+    bytes += block.size();
+  }
+  return bytes;
 }
 
 std::vector<std::uint8_t> DecimationLog::serialize() const
 {
   std::vector<std::uint8_t> bytes(
-    kHeaderBytes + 8 * (rounds.size() + blocks.size()) + records.size() + 8);
+    kHeaderBytes + 8 * (rounds.size() + blocks.size()) + recordBytes() + 8);
   Writer writer(bytes.data());
   writer.putBytes(kMagic);
   writer.put32(kVersion);
   writer.put32(fineFaces);
   for (const std::uint64_t value : { fineHash, std::uint64_t{ collapses }, std::uint64_t{ flips },
          std::uint64_t{ intermediateRounds }, std::uint64_t{ rounds.size() },
-         std::uint64_t{ blocks.size() }, std::uint64_t{ records.size() } })
+         std::uint64_t{ blocks.size() }, std::uint64_t{ recordBytes() } })
   {
     writer.put64(value);
   }
@@ -231,11 +238,14 @@ std::vector<std::uint8_t> DecimationLog::serialize() const
   {
     writer.put64(round.blockCount);
   }
-  for (const Block& block : blocks)
+  for (const BlockRecords& block : blocks)
   {
-    writer.put64(block.end - block.begin);
+    writer.put64(block.size());
   }
-  writer.putBytes(records);
+  for (const BlockRecords& block : blocks)
+  {
+    writer.putBytes(block);
+  }
   writer.put64(Crc64()(bytes.data(), bytes.size() - 8));
   return bytes;
 }
@@ -287,18 +297,23 @@ DecimationLog DecimationLog::deserialize(
     log.rounds.push_back({ firstBlock, reader.get64() });
     firstBlock += std::min(log.rounds.back().blockCount, std::size_t{ blockCount } + 1);
   }
-  std::size_t begin = 0;
+  std::vector<std::uint64_t> lengths;
+  std::uint64_t sum = 0;
   for (std::uint64_t i = 0; i < blockCount; ++i)
   {
-    const std::uint64_t length = std::min(reader.get64(), recordBytes + 1);
-    log.blocks.push_back({ begin, begin + length });
-    begin += length;
+    lengths.push_back(std::min(reader.get64(), recordBytes + 1));
+    sum = std::min(sum + lengths.back(), recordBytes + 1);
   }
-  if (firstBlock != blockCount || begin != recordBytes || log.intermediateRounds > roundCount)
+  if (firstBlock != blockCount || sum != recordBytes || log.intermediateRounds > roundCount)
   {
     refuse("its rounds and blocks do not add up.");
   }
-  log.records.assign(reader.position(), reader.position() + recordBytes);
+  const std::uint8_t* records = reader.position();
+  for (const std::uint64_t length : lengths)
+  {
+    log.blocks.emplace_back(records, records + length);
+    records += length;
+  }
   checkRecords(log);
   return log;
 }

@@ -28,6 +28,7 @@
 #pragma once
 
 #include "Base/Types.h"
+#include "Hierarchy/LogRecords.h"
 
 #include <cstdint>
 #include <vector>
@@ -49,13 +50,14 @@ public:
   /// A state of the log that it can be cut back to.
   struct End
   {
-    std::size_t rounds = 0, blocks = 0, records = 0, collapses = 0, flips = 0;
+    std::size_t rounds = 0, blocks = 0, collapses = 0, flips = 0;
   };
-  End end() const { return { rounds.size(), blocks.size(), records.size(), collapses, flips }; }
+  End end() const { return { rounds.size(), blocks.size(), collapses, flips }; }
   void truncate(const End& end);
   /// Adds a round of one block, if it has any records.
-  void append(
-    const std::vector<std::uint8_t>& bytes, std::size_t newCollapses, std::size_t newFlips);
+  void append(BlockRecords records, std::size_t newCollapses, std::size_t newFlips);
+  /// Bytes of all records.
+  std::size_t recordBytes() const;
 
   std::uint64_t fineHash = 0;
   Index fineFaces = 0;
@@ -64,19 +66,14 @@ public:
 
   /// Rounds in order of the decimation; the replay runs them last to first. Blocks of one round touch
   /// disjoint sets of slots, so that they replay in parallel.
-  struct Block
-  {
-    std::size_t begin = 0; ///< byte range in `records`
-    std::size_t end = 0;
-  };
   struct Round
   {
     std::size_t firstBlock = 0;
     std::size_t blockCount = 0;
   };
   std::vector<Round> rounds;
-  std::vector<Block> blocks;
-  std::vector<std::uint8_t> records;  ///< in decimation order inside a block; readable backwards
+  /// Each in memory of its own: all together are hundreds of megabytes for a large mesh, and are never copied.
+  std::vector<BlockRecords> blocks;
   std::size_t intermediateRounds = 0; ///< the first rounds, that lead to the intermediate level
 };
 

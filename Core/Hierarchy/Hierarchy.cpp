@@ -286,7 +286,7 @@ private:
     {
       intermediate_->curveError[v] = mesh.curveError[level.fineVertex[v]];
     }
-    hierarchy_.log = log.finish(kRecordBytes * level.mesh.vertexCount());
+    hierarchy_.log = log.finish();
     hierarchy_.log.fineHash = fineHash;
     hierarchy_.log.fineFaces = fine_.faceCount();
     intermediateEnd_ = hierarchy_.log.end();
@@ -323,9 +323,9 @@ private:
   void append(const RecordWriter& records)
   {
     const std::vector<Index>& fineFace = hierarchy_.intermediate.fineFace;
-    std::vector<std::uint8_t> bytes = records.bytes();
+    BlockRecords bytes = records.bytes();
     renameSlots(bytes, [&](Index slot) { return 3 * fineFace[slot / 3] + slot % 3; });
-    hierarchy_.log.append(bytes, records.collapses(), records.flips());
+    hierarchy_.log.append(std::move(bytes), records.collapses(), records.flips());
   }
 
   Level inFineTerms(Level level) const
@@ -340,9 +340,6 @@ private:
     }
     return level;
   }
-
-  /// Bytes of records that phase 2 needs for a vertex; a hint, so that the log seldom moves.
-  static constexpr std::size_t kRecordBytes = 64;
 
   const Mesh& fine_;
   double edgeLength_ = 0;

@@ -15,57 +15,57 @@ namespace quadrille
 class LogBuilder
 {
 public:
-  /// Adds a round from the logs of its blocks; blocks without records are left out. Returns the number of
-  /// vertices that it removed.
-  std::size_t addRound(std::vector<RecordWriter> blocks)
+  /// What a block did: a copy of the records, of just their size.
+  struct Block
   {
-    std::size_t removed = 0;
+    Block() = default;
+    explicit Block(const RecordWriter& writer)
+      : records(writer.bytes()), collapses(writer.collapses()), flips(writer.flips())
+    {
+    }
+
+    BlockRecords records;
+    std::size_t collapses = 0;
+    std::size_t flips = 0;
+  };
+
+  /// Adds a round of blocks; those without records are left out. Returns the number of vertices that it removed.
+  std::size_t addRound(std::vector<Block> blocks)
+  {
     DecimationLog::Round round;
     round.firstBlock = log_.blocks.size();
-    for (const RecordWriter& block : blocks)
+    std::size_t removed = 0;
+    for (Block& block : blocks)
     {
-      if (block.bytes().empty())
+      if (!block.records.empty())
       {
-        continue;
+        log_.blocks.push_back(std::move(block.records));
+        log_.flips += block.flips;
+        removed += block.collapses;
       }
-      bytes_ += block.bytes().size();
-      log_.blocks.push_back({ bytes_ - block.bytes().size(), bytes_ });
-      log_.flips += block.flips();
-      removed += block.collapses();
     }
     round.blockCount = log_.blocks.size() - round.firstBlock;
     log_.collapses += removed;
     if (round.blockCount > 0)
     {
       log_.rounds.push_back(round);
-      pending_.push_back(std::move(blocks));
     }
     return removed;
+  }
+
+  /// The same of one block.
+  std::size_t addRound(const RecordWriter& block)
+  {
+    return addRound(std::vector<Block>{ Block(block) });
   }
 
   /// What was added until now leads to the intermediate level.
   void endIntermediate() { log_.intermediateRounds = log_.rounds.size(); }
 
-  /// The log, with room for `more` bytes of records.
-  DecimationLog finish(std::size_t more)
-  {
-    // One allocation of the final size: the records of a large mesh are hundreds of megabytes.
-    log_.records.reserve(bytes_ + more);
-    for (std::vector<RecordWriter>& round : pending_)
-    {
-      for (const RecordWriter& block : round)
-      {
-        log_.records.insert(log_.records.end(), block.bytes().begin(), block.bytes().end());
-      }
-      round = {};
-    }
-    return std::move(log_);
-  }
+  DecimationLog finish() { return std::move(log_); }
 
 private:
   DecimationLog log_;
-  std::vector<std::vector<RecordWriter>> pending_;
-  std::size_t bytes_ = 0;
 };
 
 } // namespace quadrille

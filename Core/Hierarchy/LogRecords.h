@@ -71,11 +71,13 @@ constexpr std::size_t collapseBytes(int faces)
 /// Set in the kind byte of a vertex of a constrained curve.
 constexpr std::uint8_t kOnCurveBit = 4;
 
+/// The records of one block, in decimation order; readable backwards.
+using BlockRecords = std::vector<std::uint8_t>;
+
 /// Appends records to the log of one block.
 class RecordWriter
 {
 public:
-  void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
   void flip(Index h, Index g)
   {
     std::uint8_t* out = grow(kFlipBytes);
@@ -102,9 +104,15 @@ public:
     ++collapses_;
   }
 
-  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+  const BlockRecords& bytes() const { return bytes_; }
   std::size_t flips() const { return flips_; }
   std::size_t collapses() const { return collapses_; }
+  /// Begins anew in the same memory.
+  void clear()
+  {
+    bytes_.clear();
+    flips_ = collapses_ = 0;
+  }
 
 private:
   std::uint8_t* grow(std::size_t count)
@@ -113,7 +121,7 @@ private:
     bytes_.resize(begin + count);
     return bytes_.data() + begin;
   }
-  std::vector<std::uint8_t> bytes_;
+  BlockRecords bytes_;
   std::size_t flips_ = 0;
   std::size_t collapses_ = 0;
 };
@@ -136,7 +144,7 @@ inline void readCollapse(const std::uint8_t* end, CollapseRecord& record)
 
 /// Replaces every slot in the records of a block.
 template <typename NewSlot>
-void renameSlots(std::vector<std::uint8_t>& bytes, const NewSlot& newSlot)
+void renameSlots(BlockRecords& bytes, const NewSlot& newSlot)
 {
   const auto rename = [&](std::uint8_t* at)
   { storeLittleEndian(at, newSlot(loadLittleEndian(at))); };

@@ -128,7 +128,7 @@ void OrderedDecimation::byHeap()
 std::size_t OrderedDecimation::heapPass()
 {
   StarRemoval star(mesh_, guards_);
-  std::vector<RecordWriter> records(1);
+  RecordWriter records;
   std::vector<Index> version(mesh_.position.size(), 0);
   std::vector<Entry> entries;
   for (Index v = 0; v < static_cast<Index>(mesh_.position.size()); ++v)
@@ -145,7 +145,7 @@ std::size_t OrderedDecimation::heapPass()
     tick();
     const Entry entry = heap.top();
     heap.pop();
-    if (entry.version != version[entry.vertex] || !remove(entry.vertex, star, records[0]))
+    if (entry.version != version[entry.vertex] || !remove(entry.vertex, star, records))
     {
       continue;
     }
@@ -160,15 +160,15 @@ std::size_t OrderedDecimation::heapPass()
       }
     }
   }
-  return log_.addRound(std::move(records));
+  return log_.addRound(records);
 }
 
 void OrderedDecimation::byDraws(const RandomDraws& draws)
 {
   StarRemoval star(mesh_, guards_);
-  std::vector<RecordWriter> records(1);
-  drawUntilEmpty(draws, star, records[0]);
-  log_.addRound(std::move(records));
+  RecordWriter records;
+  drawUntilEmpty(draws, star, records);
+  log_.addRound(records);
   byHeap();
 }
 

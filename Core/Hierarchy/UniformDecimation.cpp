@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <utility>
 
 namespace quadrille
@@ -26,8 +28,6 @@ constexpr double kThresholdStep = 1.5;
 constexpr int kSweepsPerRound = 2;
 /// Rounds at the last threshold, at most.
 constexpr int kLastRounds = 40;
-/// Room in the log per vertex of a block: a round removes up to half of them, at about 41 bytes each.
-constexpr std::size_t kReservedBytes = 20;
 /// How many visits ahead the memory is asked for a star, and twice that for its vertex.
 constexpr std::size_t kAhead = 6;
 /// Lock of a vertex that must stay.
@@ -72,7 +72,7 @@ private:
     float settled = 0;      ///< no use in a visit before the threshold is above this
     std::uint16_t lock = 0; ///< number of the last sweep that changed the vertex's star
   };
-  /// What one thread needs to sweep a block.
+  /// What one thread needs to sweep a block; passed on from one block to the next, with its memory.
   struct Worker
   {
     Worker(DecimationMesh& mesh, const RemovalGuards& guards) : star(mesh, guards) {}
@@ -82,6 +82,9 @@ private:
     std::uint16_t stamp = 0;
   };
 
+  std::unique_ptr<Worker> takeWorker();
+  void giveBack(std::unique_ptr<Worker> worker);
+  LogBuilder::Block sweepBlock(Block& block, double threshold, int firstStamp);
   double firstThreshold() const;
   void finish(double threshold);
   void forget();
@@ -101,6 +104,8 @@ private:
   std::vector<Index> alive_;
   std::uint16_t sweeps_ = 0;
   bool shifted_ = false;
+  std::vector<std::unique_ptr<Worker>> idle_;
+  std::mutex idleMutex_;
 };
 
 void UniformDecimation::run()
@@ -119,6 +124,7 @@ void UniformDecimation::run()
   finish(last);
   // Noise of scans folds the surface; a star that is folded itself may be replaced by one that is no worse.
   guards_.allowOldFolds = true;
+  idle_.clear(); // they have copies of the guards
   finish(last);
 }
 
@@ -191,22 +197,11 @@ std::vector<Block> UniformDecimation::makeBlocks(bool serial)
 std::size_t UniformDecimation::round(double threshold, bool serial)
 {
   std::vector<Block> blocks = makeBlocks(serial);
-  std::vector<RecordWriter> logs(blocks.size());
+  std::vector<LogBuilder::Block> logs(blocks.size());
   const int firstStamp = sweeps_ + 1;
   sweeps_ = static_cast<std::uint16_t>(sweeps_ + kSweepsPerRound);
   parallelFor(blocks.size(), 1, options_.threads,
-    [&](std::size_t i, std::size_t)
-    {
-      Worker worker(mesh_, guards_);
-      worker.threshold = threshold;
-      worker.log.reserve(kReservedBytes * (blocks[i].end - blocks[i].begin));
-      for (int k = 0; k < kSweepsPerRound; ++k)
-      {
-        worker.stamp = static_cast<std::uint16_t>(firstStamp + k);
-        sweep(blocks[i], worker);
-      }
-      logs[i] = std::move(worker.log);
-    });
+    [&](std::size_t i, std::size_t) { logs[i] = sweepBlock(blocks[i], threshold, firstStamp); });
   std::size_t count = 0;
   for (const Block& block : blocks)
   {
@@ -217,6 +212,40 @@ std::size_t UniformDecimation::round(double threshold, bool serial)
   }
   alive_.resize(count);
   return log_.addRound(std::move(logs));
+}
+
+std::unique_ptr<UniformDecimation::Worker> UniformDecimation::takeWorker()
+{
+  const std::lock_guard<std::mutex> lock(idleMutex_);
+  if (idle_.empty())
+  {
+    return std::make_unique<Worker>(mesh_, guards_);
+  }
+  std::unique_ptr<Worker> worker = std::move(idle_.back());
+  idle_.pop_back();
+  return worker;
+}
+
+void UniformDecimation::giveBack(std::unique_ptr<Worker> worker)
+{
+  const std::lock_guard<std::mutex> lock(idleMutex_);
+  idle_.push_back(std::move(worker));
+}
+
+LogBuilder::Block UniformDecimation::sweepBlock(Block& block, double threshold, int firstStamp)
+{
+  std::unique_ptr<Worker> worker = takeWorker();
+  worker->threshold = threshold;
+  worker->log.clear();
+  for (int k = 0; k < kSweepsPerRound; ++k)
+  {
+    worker->stamp = static_cast<std::uint16_t>(firstStamp + k);
+    sweep(block, *worker);
+  }
+  // The worker's buffer is warm in the cache; what stays is written once, into memory of its size.
+  LogBuilder::Block result(worker->log);
+  giveBack(std::move(worker));
+  return result;
 }
 
 /// Visits the vertices of the block; those that stay move up in its part of the list.

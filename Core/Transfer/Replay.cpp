@@ -266,8 +266,7 @@ ReplayCounts replayRounds(const DecimationLog& log, const ReplayRange& range,
       {
         const std::size_t id = round.firstBlock + begin;
         BlockReplay block(uv);
-        block.run(
-          log.records.data() + log.blocks[id].begin, log.records.data() + log.blocks[id].end);
+        block.run(log.blocks[id].data(), log.blocks[id].data() + log.blocks[id].size());
         counts[id] = block.counts();
       });
   }

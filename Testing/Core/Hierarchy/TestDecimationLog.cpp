@@ -51,7 +51,7 @@ TEST(DecimationLog, roundTripsThroughBytes)
   ASSERT_GT(log.flips, 0U);
   const std::vector<std::uint8_t> bytes = log.serialize();
   const DecimationLog copy = DecimationLog::deserialize(bytes, kHash);
-  EXPECT_EQ(copy.records, log.records);
+  EXPECT_EQ(copy.blocks, log.blocks);
   EXPECT_EQ(copy.serialize(), bytes);
   EXPECT_EQ(copy.intermediateRounds, log.intermediateRounds);
 }
@@ -106,7 +106,7 @@ TEST(DecimationLog, refusesRecordsThatNameWhatIsNotThere)
   log.fineFaces = 10; // nearly every slot is out of range now
   EXPECT_NE(refusal(log.serialize(), kHash).find("does not exist"), std::string::npos);
   log = sampleLog();
-  log.records.back() = 200; // a collapse with more faces than any ring has
+  log.blocks.back().back() = 200; // a collapse with more faces than any ring has
   EXPECT_NE(refusal(log.serialize(), kHash).find("not well formed"), std::string::npos);
   log = sampleLog();
   log.collapses += 1;

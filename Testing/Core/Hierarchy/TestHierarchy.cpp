@@ -161,7 +161,7 @@ TEST(Hierarchy, logIsAsSmallAsThePapers)
   const Mesh mesh = bumpySphere(5);
   const DecimationLog log = buildHierarchy(mesh, 1, makeOptions(0.15, 200)).log;
   // 13 bytes a flip and 32 + 4 k a collapse; k is 5 to 6 on average on any surface.
-  EXPECT_LE(log.records.size(), 13 * log.flips + (32 + 4 * 5) * log.collapses);
+  EXPECT_LE(log.recordBytes(), 13 * log.flips + (32 + 4 * 5) * log.collapses);
 }
 
 TEST(Hierarchy, keepsCubeCornersAndStraightEdges)

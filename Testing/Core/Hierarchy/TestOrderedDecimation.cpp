@@ -43,17 +43,18 @@ Mesh unevenSphere(int level)
 std::vector<Index> removalOrder(const Mesh& fine, const DecimationLog& log)
 {
   std::vector<std::size_t> ends; // of the records, last one first
-  for (std::size_t end = log.blocks[0].end; end > log.blocks[0].begin;)
+  const BlockRecords& records = log.blocks[0];
+  for (std::size_t end = records.size(); end > 0;)
   {
     ends.push_back(end);
-    const int faces = log.records[end - 1];
+    const int faces = records[end - 1];
     end -= faces == 0 ? kFlipBytes : collapseBytes(faces);
   }
   std::vector<Index> vertexAt = fine.origin;
   std::vector<Index> order;
   for (auto end = ends.rbegin(); end != ends.rend(); ++end)
   {
-    const std::uint8_t* at = log.records.data() + *end;
+    const std::uint8_t* at = records.data() + *end;
     if (at[-1] == 0)
     {
       const Index h = loadLittleEndian(at - kFlipBytes);

@@ -313,11 +313,11 @@ TEST(Replay, recordsAreAsShortAsThePapers)
   const DecimationLog& log = h.log;
   std::size_t allowed = 13 * log.flips;
   std::size_t flipBytes = 0;
-  for (const DecimationLog::Block& block : log.blocks)
+  for (const BlockRecords& block : log.blocks)
   {
-    for (std::size_t end = block.end; end > block.begin;)
+    for (std::size_t end = block.size(); end > 0;)
     {
-      const int faces = log.records[end - 1];
+      const int faces = block[end - 1];
       allowed += faces == 0 ? 0 : 32 + 4 * static_cast<std::size_t>(faces);
       flipBytes += faces == 0 ? kFlipBytes : 0;
       end -= faces == 0 ? kFlipBytes : collapseBytes(faces);
