@@ -30,6 +30,25 @@ void requireInput(const Mesh& mesh, const CrossFieldOptions& options)
   }
 }
 
+// Guides make what crosses them expensive, so that turns are moved round the regions that they cover.
+constexpr double kGuideStiffness = 8;
+
+std::vector<double> stiffnessOf(const FieldTopology& topology, const std::vector<Guide>& guides,
+  const FieldConstraints& constraints)
+{
+  std::vector<double> stiffness;
+  for (const std::array<Index, 2>& edge : topology.edges)
+  {
+    if (constraints.guideStrength.empty())
+    {
+      break;
+    }
+    const auto weight = [&](Index h) { return double{ guides[Mesh::face(h)].weight }; };
+    stiffness.push_back(1 + kGuideStiffness * std::min(weight(edge[0]), weight(edge[1])));
+  }
+  return stiffness;
+}
+
 std::vector<std::int8_t> matchings(
   const Mesh& mesh, const std::vector<std::int8_t>& alignment, const std::vector<int>& jump)
 {
@@ -47,7 +66,7 @@ std::vector<std::int8_t> matchings(
 }
 
 // What a map cannot realize: a triangle's corner stays below half a turn.
-std::string fanProblem(const Fan& fan, int turns)
+std::string fanProblem(const Fan& fan, int turns, bool asked)
 {
   if (turns < 1)
   {
@@ -59,7 +78,7 @@ std::string fanProblem(const Fan& fan, int turns)
     return std::to_string(turns) + " quarter turns in " + std::to_string(fan.corners) +
       " triangles";
   }
-  if (!fan.sector && (turns < 3 || turns > 6))
+  if (!fan.sector && !asked && (turns < 3 || turns > 6))
   {
     return "valence " + std::to_string(turns);
   }
@@ -67,12 +86,12 @@ std::string fanProblem(const Fan& fan, int turns)
 }
 
 // Fills status and offenders.
-void judgeTurns(const FieldTopology& topology, const std::vector<int>& turns,
-  const std::vector<std::uint8_t>& blocked, CrossField& field)
+void judgeTurns(const FieldTopology& topology, const TurnPrescription& prescription,
+  const std::vector<int>& turns, const std::vector<std::uint8_t>& blocked, CrossField& field)
 {
-  for (std::size_t i = 0; i < turns.size(); ++i)
+  for (Index i = 0; i < turns.size(); ++i)
   {
-    std::string problem = fanProblem(topology.fans[i], turns[i]);
+    std::string problem = fanProblem(topology.fans[i], turns[i], !prescription.isFree(i));
     if (problem.empty() && !blocked.empty() && blocked[i] != 0)
     {
       problem = "triangles around it that cannot carry the turns";
@@ -150,6 +169,7 @@ struct Solution
   std::vector<int> jump;             // #H
   std::vector<int> turns;            // per fan
   std::vector<std::uint8_t> blocked; // per fan: no angles exist; empty when all do
+  Status status;                     // of the prescription
 };
 
 // Irregular vertices in each component without constraints.
@@ -191,17 +211,39 @@ void adopt(const FieldTopology& topology, const PowerFields& fields,
 
 // For each component the candidate with fewer irregular vertices after repair, the first on a tie.
 Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
-  const FieldConstraints& constraints, const PowerFields& fields, double length)
+  const FieldConstraints& constraints, const PowerFields& fields,
+  const TurnPrescription& prescription, const CrossFieldOptions& options)
 {
+  const double length = options.targetEdgeLength;
   const std::vector<double> natural = naturalTurns(topology, length);
+  const std::vector<double> stiffness = stiffnessOf(topology, options.guides, constraints);
+  const auto inputOf = [&](const RepairData& data) -> TurnRepairInput {
+    return { &topology, &data.residual, &data.turns, &natural, length, &prescription, &stiffness };
+  };
   Solution best;
   std::vector<std::size_t> fewest;
   for (const std::vector<double>& candidate : fields.candidates)
   {
-    Solution solution{ candidate, roundJumps(mesh, topology, candidate), {}, {} };
+    Solution solution{ candidate, roundJumps(mesh, topology, candidate), {}, {}, {} };
     const RepairData data(mesh, topology, constraints, candidate, solution.jump);
-    const TurnRepairResult repair =
-      repairTurns({ &topology, &data.residual, &data.turns, &natural, length });
+    if (best.angle.empty())
+    {
+      // The sums that matter are the same for all candidates.
+      solution.status = checkPrescription(mesh, topology, prescription, data.turns);
+      if (!solution.status.ok())
+      {
+        solution.turns = data.turns;
+        return solution;
+      }
+    }
+    const TurnRepairResult repair = repairTurns(inputOf(data));
+    if (!repair.complete)
+    {
+      solution.status = { StatusCode::NotConverged,
+        "target valences: the irregular vertices asked for are too many at one place for the "
+        "coarse "
+        "level; ask for them farther apart, or for more coarse vertices" };
+    }
     applyShift(topology, repair.shift, solution.jump);
     solution.turns = repair.turns;
     if (best.angle.empty())
@@ -221,8 +263,7 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
 
   const RepairData data(mesh, topology, constraints, best.angle, best.jump);
   TurnRepairResult complete{ std::vector<int>(topology.edges.size(), 0), best.turns };
-  best.blocked =
-    completeTurns(mesh, { &topology, &data.residual, &data.turns, &natural, length }, complete);
+  best.blocked = completeTurns(mesh, inputOf(data), complete);
   applyShift(topology, complete.shift, best.jump);
   best.turns = complete.turns;
   return best;
@@ -234,12 +275,17 @@ CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options)
 {
   requireInput(mesh, options);
   const FieldTopology topology = buildFieldTopology(mesh);
-  const FieldConstraints constraints = fieldConstraints(mesh, topology);
+  FieldConstraints constraints = fieldConstraints(mesh, topology);
+  if (!options.guides.empty())
+  {
+    addGuides(mesh, topology, options.guides, options.targetEdgeLength, constraints);
+  }
+  const TurnPrescription prescription = prescribeTurns(mesh, topology, options.targetValences);
   const PowerFields fields =
     powerFields(mesh, topology, constraints, { options.targetEdgeLength, options.progress });
   report(options.progress, 0.6, "cross field: turns");
   const Solution solution =
-    bestSolution(mesh, topology, constraints, fields, options.targetEdgeLength);
+    bestSolution(mesh, topology, constraints, fields, prescription, options);
 
   CrossField field;
   report(options.progress, 0.8, "cross field: angles");
@@ -249,7 +295,14 @@ CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options)
   field.alignment = constraints.alignment;
   field.matching = matchings(mesh, field.alignment, solution.jump);
   storeTurns(mesh, topology, solution.turns, field);
-  judgeTurns(topology, solution.turns, solution.blocked, field);
+  if (solution.status.ok())
+  {
+    judgeTurns(topology, prescription, solution.turns, solution.blocked, field);
+  }
+  else
+  {
+    field.status = solution.status;
+  }
   report(options.progress, 1.0, "cross field: done");
   return field;
 }

@@ -14,6 +14,7 @@
 
 #include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Mesh/Guides.h"
 #include "Mesh/Mesh.h"
 
 #include <cstdint>
@@ -26,6 +27,11 @@ struct CrossFieldOptions
 {
   double targetEdgeLength = 0; ///< s > 0; features of the field below this size are smoothed away
   ProgressCallback progress;
+  /// Empty or #F: directions that the field follows, the more the larger their weight; features and boundaries
+  /// come before them.
+  std::vector<Guide> guides;
+  /// Empty or #V: turns that vertices must have, met exactly; 0 where free, else see ValenceRequest.
+  std::vector<int> targetValences;
 };
 
 struct CrossField
@@ -48,7 +54,9 @@ struct CrossField
 };
 
 /// Computes the field. Never makes an interior valence below 3 or above 6 or a sector below one quarter
-/// turn unless topology forces it; then the status says where. Ok also means that positive angles exist in all
+/// turn unless it is asked to or topology forces it; then the status says where. Target valences that
+/// the free vertices of their component cannot complete are Infeasible without offenders: nothing that the mesh could change
+/// helps. Ok also means that positive angles exist in all
 /// triangles that add up to the turns of every fan, without which no map could follow the field.
 CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options);
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossField/PowerField.h"
 
+#include "Base/Error.h"
+
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
@@ -17,6 +19,8 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 using Complex = std::complex<double>;
 constexpr int kDiffusionSteps = 8; // the singularities hardly move after these
+// A guide of weight 1 against the Laplacian, times s^2: the field turns away from it within s / 4.
+constexpr double kGuideStrength = 16;
 
 // Unknown index of each free face, and whether its component (across unconstrained edges) holds a fixed face.
 struct FreeFaces
@@ -25,6 +29,16 @@ struct FreeFaces
   std::vector<Index> face;    // #unknowns
   std::vector<Index> loose;   // #unknowns; id of the component without fixed faces or kInvalidIndex
   Index looseCount = 0;
+  std::vector<std::uint8_t> guided; // #looseCount; whether it has guides
+
+  bool looseWithoutGuides(std::size_t i) const
+  {
+    return loose[i] != kInvalidIndex && guided[loose[i]] == 0;
+  }
+  bool anyGuided() const
+  {
+    return std::find(guided.begin(), guided.end(), std::uint8_t{ 1 }) != guided.end();
+  }
 };
 
 // Marks the component of `seed` with `id`; true when it meets no fixed face.
@@ -77,6 +91,14 @@ FreeFaces numberFreeFaces(const Mesh& mesh, const FieldConstraints& constraints)
       free.loose.push_back(looseOf[component[f]]);
     }
   }
+  free.guided.assign(free.looseCount, 0);
+  for (std::size_t i = 0; i < free.face.size(); ++i)
+  {
+    if (free.loose[i] != kInvalidIndex && constraints.strength(free.face[i]) > 0)
+    {
+      free.guided[free.loose[i]] = 1;
+    }
+  }
   return free;
 }
 
@@ -85,14 +107,21 @@ class ConnectionSystem
 {
 public:
   ConnectionSystem(
-    const FieldTopology& topology, const FreeFaces& free, const std::vector<double>& fixedAngle)
+    const FieldTopology& topology, const FreeFaces& free, const FieldConstraints& constraints)
     : size_(static_cast<Eigen::Index>(free.face.size())), mass_(size_),
-      fixedPart_(Eigen::VectorXcd::Zero(size_))
+      fixedPart_(Eigen::VectorXcd::Zero(size_)), guides_(Eigen::VectorXd::Zero(size_)),
+      guidePart_(Eigen::VectorXcd::Zero(size_))
   {
     Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(size_);
     for (const std::array<Index, 2>& edge : topology.edges)
     {
-      assembleEdge(topology, free, fixedAngle, edge, diagonal);
+      assembleEdge(topology, free, constraints.angle, edge, diagonal);
+    }
+    for (Eigen::Index i = 0; i < size_ && !constraints.guideStrength.empty(); ++i)
+    {
+      const Index f = free.face[i];
+      guides_(i) = constraints.guideStrength[f];
+      guidePart_(i) = guides_(i) * std::polar(1.0, 4 * constraints.guideAngle[f]);
     }
     for (Eigen::Index i = 0; i < size_; ++i)
     {
@@ -106,14 +135,15 @@ public:
   Eigen::Index size() const { return size_; }
   const Eigen::VectorXd& mass() const { return mass_; }
   const Eigen::VectorXcd& fixedPart() const { return fixedPart_; }
+  const Eigen::VectorXcd& guidePart() const { return guidePart_; }
 
-  // Factors laplaceWeight L + massWeight M; the symbolic part is done once.
-  void factorize(double laplaceWeight, double massWeight)
+  // Factors laplaceWeight L + massWeight M + guideWeight G; the symbolic part is done once.
+  void factorize(double laplaceWeight, double massWeight, double guideWeight)
   {
     Eigen::SparseMatrix<Complex> matrix = laplaceWeight * laplacian_;
     for (Eigen::Index i = 0; i < size_; ++i)
     {
-      matrix.coeffRef(i, i) += massWeight * mass_(i);
+      matrix.coeffRef(i, i) += massWeight * mass_(i) + guideWeight * guides_(i);
     }
     if (!analyzed_)
     {
@@ -167,6 +197,8 @@ private:
   Eigen::Index size_;
   Eigen::VectorXd mass_;
   Eigen::VectorXcd fixedPart_;
+  Eigen::VectorXd guides_;
+  Eigen::VectorXcd guidePart_;
   std::vector<Eigen::Triplet<Complex>> entries_;
   Eigen::SparseMatrix<Complex> laplacian_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complex>> solver_;
@@ -241,14 +273,15 @@ Eigen::VectorXcd principalField(
   return field;
 }
 
-// What `source` puts on the right in components without constraints; the fixed faces elsewhere.
-Eigen::VectorXcd rightSide(
-  const ConnectionSystem& system, const FreeFaces& free, const Eigen::VectorXcd& source)
+// What `source` puts on the right in components without constraints (and, if asked, without guides); the fixed faces and
+// guides elsewhere.
+Eigen::VectorXcd rightSide(const ConnectionSystem& system, const FreeFaces& free,
+  const Eigen::VectorXcd& source, bool followGuides)
 {
-  Eigen::VectorXcd right = system.fixedPart();
+  Eigen::VectorXcd right = system.fixedPart() + (followGuides ? 1.0 : 0.0) * system.guidePart();
   for (Eigen::Index i = 0; i < right.size(); ++i)
   {
-    if (free.loose[i] != kInvalidIndex)
+    if (followGuides ? free.looseWithoutGuides(i) : free.loose[i] != kInvalidIndex)
     {
       right(i) = system.mass()(i) * source(i);
     }
@@ -277,21 +310,27 @@ void normalizeLoose(const FreeFaces& free, Eigen::VectorXcd& field)
 }
 
 // Harmonic where constraints reach. Elsewhere two candidates: principal directions, carried from where
-// curvature is strongly anisotropic to where it is not, and the smoothest eigenfield, by power iterations.
+// curvature is strongly anisotropic to where it is not, and the smoothest eigenfield, by power iterations. Where only guides
+// reach, there is a third one, which comes first: harmonic between them.
 std::vector<Eigen::VectorXcd> initialFields(ConnectionSystem& system, const FreeFaces& free,
   const Eigen::VectorXcd& principal, double totalArea)
 {
   constexpr int kPowerSteps = 10;
   // A screening far below what constraints put in; it also keeps L invertible without any.
-  system.factorize(1.0, 1.0 / totalArea);
-  std::vector<Eigen::VectorXcd> fields{ system.solve(rightSide(system, free, principal)) };
+  system.factorize(1.0, 1.0 / totalArea, 1.0);
+  std::vector<Eigen::VectorXcd> fields{ system.solve(rightSide(system, free, principal, true)) };
+  if (free.anyGuided())
+  {
+    system.factorize(1.0, 1.0 / totalArea, 0.0);
+    fields.push_back(system.solve(rightSide(system, free, principal, false)));
+  }
   if (free.looseCount > 0)
   {
-    Eigen::VectorXcd field = fields.front();
+    Eigen::VectorXcd field = fields.back();
     for (int step = 0; step < kPowerSteps; ++step)
     {
       normalizeLoose(free, field);
-      field = system.solve(rightSide(system, free, field));
+      field = system.solve(rightSide(system, free, field, !free.anyGuided()));
     }
     fields.push_back(std::move(field));
   }
@@ -307,14 +346,14 @@ void normalizeEach(Eigen::VectorXcd& field)
   }
 }
 
-// The system has to be factored as time L + M.
+// The system has to be factored as time (L + G) + M.
 void diffuseAndNormalize(const ConnectionSystem& system, Eigen::VectorXcd& field, double time)
 {
   for (int step = 0; step < kDiffusionSteps; ++step)
   {
     normalizeEach(field);
-    const Eigen::VectorXcd right =
-      (system.mass().array() * field.array()).matrix() + time * system.fixedPart();
+    const Eigen::VectorXcd right = (system.mass().array() * field.array()).matrix() +
+      time * (system.fixedPart() + system.guidePart());
     field = system.solve(right);
   }
 }
@@ -356,6 +395,30 @@ FieldConstraints fieldConstraints(const Mesh& mesh, const FieldTopology& topolog
   return constraints;
 }
 
+void addGuides(const Mesh& mesh, const FieldTopology& topology, const std::vector<Guide>& guides,
+  double length, FieldConstraints& constraints)
+{
+  if (guides.size() != mesh.faceCount())
+  {
+    throw InvalidInput("cross field: " + std::to_string(guides.size()) + " guides for " +
+      std::to_string(mesh.faceCount()) + " faces");
+  }
+  constraints.guideAngle.assign(mesh.faceCount(), 0.0);
+  constraints.guideStrength.assign(mesh.faceCount(), 0.0);
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    if (guides[f].isFree() || constraints.fixed[f] != 0)
+    {
+      continue;
+    }
+    const Vector3 x = mesh.edgeVector(3 * f).normalized();
+    const Vector3 y = x.cross(mesh.edgeVector(3 * f + 1)).normalized().cross(x);
+    constraints.guideAngle[f] = std::atan2(guides[f].direction.dot(y), guides[f].direction.dot(x));
+    constraints.guideStrength[f] =
+      kGuideStrength * double{ guides[f].weight } * topology.area[f] / (length * length);
+  }
+}
+
 PowerFields powerFields(const Mesh& mesh, const FieldTopology& topology,
   const FieldConstraints& constraints, const PowerFieldOptions& options)
 {
@@ -368,7 +431,7 @@ PowerFields powerFields(const Mesh& mesh, const FieldTopology& topology,
     result.candidates.push_back(constraints.angle);
     return result;
   }
-  ConnectionSystem system(topology, free, constraints.angle);
+  ConnectionSystem system(topology, free, constraints);
   report(options.progress, 0.1, "cross field: start");
   std::vector<Eigen::VectorXcd> fields =
     initialFields(system, free, principalField(mesh, topology, free), topology.totalArea);
@@ -377,7 +440,7 @@ PowerFields powerFields(const Mesh& mesh, const FieldTopology& topology,
   const double length = std::max(options.smoothingLength, topology.meanEdgeLength);
   const double time = 4 * length * length;
   report(options.progress, 0.3, "cross field: diffusion");
-  system.factorize(time, 1.0);
+  system.factorize(time, 1.0, time);
   for (Eigen::VectorXcd& field : fields)
   {
     diffuseAndNormalize(system, field, time);
@@ -437,13 +500,24 @@ std::vector<double> solveAngles(const Mesh& mesh, const FieldTopology& topology,
       entries.emplace_back(std::max(i, j), std::min(i, j), -w);
     }
   }
-  // A component without constraints may turn as a whole: its first face is held (softly, which is
+  for (Eigen::Index i = 0; i < size; ++i)
+  {
+    const Index f = free.face[i];
+    if (constraints.strength(f) > 0)
+    {
+      const double away = angle[f] - constraints.guideAngle[f];
+      diagonal(i) += constraints.guideStrength[f];
+      right(i) -=
+        constraints.guideStrength[f] * (away - 0.5 * kPi * std::round(away / (0.5 * kPi)));
+    }
+  }
+  // A component without constraints and guides may turn as a whole: its first face is held (softly, which is
   // exact because the right side sums to zero there).
   std::vector<std::uint8_t> held(free.looseCount, 0);
   for (Eigen::Index i = 0; i < size; ++i)
   {
     const Index loose = free.loose[i];
-    if (loose != kInvalidIndex && held[loose] == 0)
+    if (free.looseWithoutGuides(i) && held[loose] == 0)
     {
       held[loose] = 1;
       diagonal(i) *= 2;

@@ -7,6 +7,7 @@
 
 #include "Base/Progress.h"
 #include "CrossField/FieldTopology.h"
+#include "Mesh/Guides.h"
 
 #include <cstdint>
 #include <vector>
@@ -21,8 +22,19 @@ struct FieldConstraints
   std::vector<std::uint8_t> fixed;    ///< #F flags
   std::vector<double> angle;          ///< #F, the field's angle where fixed
   std::vector<std::int8_t> alignment; ///< #H, as CrossField::alignment
+
+  /// Guides, which the field follows as far as smoothness lets it. Empty when there are none.
+  std::vector<double> guideAngle;    ///< #F
+  std::vector<double> guideStrength; ///< #F; against the edge weights; 0 where free or fixed
+
+  double strength(Index f) const { return guideStrength.empty() ? 0.0 : guideStrength[f]; }
 };
 FieldConstraints fieldConstraints(const Mesh& mesh, const FieldTopology& topology);
+
+/// Adds guides (#F). One of weight 1 yields to the field round it within about a quarter of `length` (s > 0), one of weight w within
+/// 1 / sqrt(w) of that. Throws InvalidInput for a wrong size.
+void addGuides(const Mesh& mesh, const FieldTopology& topology, const std::vector<Guide>& guides,
+  double length, FieldConstraints& constraints);
 
 struct PowerFieldOptions
 {
@@ -32,10 +44,11 @@ struct PowerFieldOptions
 
 /// Smooth fields to choose from. Where constraints reach they are all the same; a component without
 /// constraints has a first one along its principal directions and a second one that is the smoothest. Neither
-/// is better always: a fat torus is regular only in the first one, a sphere has pairs too many in it.
+/// is better always: a fat torus is regular only in the first one, a sphere has pairs too many in it. Where such a component
+/// has guides, the first one spreads out from them, the others follow them near by.
 struct PowerFields
 {
-  std::vector<std::vector<double>> candidates; ///< each #F angles; one or two
+  std::vector<std::vector<double>> candidates; ///< each #F angles; one to three
   std::vector<Index>
     looseComponent; ///< #F; id of the component without constraints or kInvalidIndex
   Index looseComponents = 0;
@@ -48,7 +61,8 @@ double edgeResidual(const FieldTopology& topology, const std::vector<double>& an
   const Mesh& mesh, Index h, int jump);
 
 /// Angles that minimize the weighted squared residuals for the quarter turns `jump` (#H, antisymmetric), fixed faces
-/// at their constraint. One face of each component without constraints keeps its angle.
+/// at their constraint, guided faces drawn to the nearest of the four directions of their guide. One face of each component
+/// without constraints and guides keeps its angle.
 std::vector<double> solveAngles(const Mesh& mesh, const FieldTopology& topology,
   const FieldConstraints& constraints, const std::vector<int>& jump,
   const std::vector<double>& start);

@@ -54,7 +54,9 @@ int cheapestTurns(const Fan& fan, double natural)
 
 double shiftCost(const TurnRepairInput& input, std::size_t e, int shift, int step)
 {
-  const double weight = input.topology->edgeLength[input.topology->edges[e][0]] / input.length;
+  const bool stiff = input.stiffness != nullptr && !input.stiffness->empty();
+  const double weight = input.topology->edgeLength[input.topology->edges[e][0]] / input.length *
+    (stiff ? (*input.stiffness)[e] : 1.0);
   const double residual = (*input.residual)[e] / kQuarter;
   // (residual - shift - step)^2 - (residual - shift)^2
   return weight * (1 - 2 * step * (residual - shift));

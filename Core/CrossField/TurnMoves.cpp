@@ -117,6 +117,10 @@ private:
   // harm to the search.
   double changeCost(Index i, int step) const
   {
+    if (input_.prescription != nullptr && !input_.prescription->isFree(i))
+    {
+      return kForbiddenTurn;
+    }
     const Fan& fan = input_.topology->fans[i];
     const double natural = (*input_.natural)[i];
     return fanCost(fan, natural, result_.turns[i] + step) - fanCost(fan, natural, result_.turns[i]);

@@ -21,18 +21,25 @@ std::int64_t integerCost(double cost)
   return std::llround(cost * 1024);
 }
 
-// Nodes are fans; the last one (the hub) takes up what fans deviate from their cheapest turns. Its
-// balance follows from the sum rule, so it may be the flow's ground.
+// Nodes are fans, then groups of fans with a prescribed sum; the last one (the hub) takes up what free fans deviate from
+// their cheapest turns. Its balance follows from the sum rule, so it may be the flow's ground. What the fans of a
+// group deviate goes to the group's node, whose demand is what the sum deviates.
 class RepairFlow
 {
 public:
   explicit RepairFlow(const TurnRepairInput& input)
-    : input_(input), hub_(static_cast<Index>(input.turns->size())), flow_(hub_ + 1)
+    : input_(input), fans_(static_cast<Index>(input.turns->size())),
+      hub_(fans_ + (input.prescription ? static_cast<Index>(input.prescription->turns.size()) : 0)),
+      flow_(hub_ + 1)
   {
     flow_.setGround(hub_);
-    for (Index i = 0; i < hub_; ++i)
+    for (Index i = 0; i < fans_; ++i)
     {
       addFan(i);
+    }
+    for (Index group = 0; fans_ + group < hub_; ++group)
+    {
+      flow_.addSupply(fans_ + group, -input.prescription->turns[group]);
     }
     firstEdgeArc_ = arcCount_;
     for (std::size_t e = 0; e < input.topology->edges.size(); ++e)
@@ -43,8 +50,8 @@ public:
 
   TurnRepairResult solve()
   {
-    flow_.solve();
     TurnRepairResult result;
+    result.complete = flow_.solve().unrouted == 0;
     result.turns = *input_.turns;
     Index arc = firstEdgeArc_;
     for (const std::array<Index, 2>& edge : input_.topology->edges)
@@ -66,22 +73,32 @@ private:
   void addFan(Index i)
   {
     const Fan& fan = input_.topology->fans[i];
+    const bool free = input_.prescription == nullptr || input_.prescription->isFree(i);
+    const Index sink = free ? hub_ : fans_ + input_.prescription->groupOfFan[i];
     if (fan.sector && fan.corners == 1)
     {
+      if (!free)
+      {
+        flow_.addSupply(sink, (*input_.turns)[i]);
+      }
       return; // no edge can change it
     }
     const double natural = (*input_.natural)[i];
     const int cheapest = cheapestTurns(fan, natural);
     const int excess = (*input_.turns)[i] - cheapest;
     flow_.addSupply(i, excess);
+    if (!free)
+    {
+      flow_.addSupply(sink, cheapest);
+    }
     for (int step = 0; step < kNodeSteps; ++step)
     {
       const double here = fanCost(fan, natural, cheapest + step);
       const double more = fanCost(fan, natural, cheapest + step + 1);
-      addArc(i, hub_, more - here);
+      addArc(i, sink, more - here);
       const double low = fanCost(fan, natural, cheapest - step);
       const double less = fanCost(fan, natural, cheapest - step - 1);
-      addArc(hub_, i, less - low);
+      addArc(sink, i, less - low);
     }
   }
 
@@ -104,6 +121,7 @@ private:
   }
 
   const TurnRepairInput& input_;
+  Index fans_;
   Index hub_;
   MinCostFlow flow_;
   Index arcCount_ = 0;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "CrossField/FieldTopology.h"
+#include "CrossField/TurnPrescription.h"
 
 #include <vector>
 
@@ -18,20 +19,25 @@ struct TurnRepairInput
   const std::vector<double>* natural = nullptr;  ///< per fan, see naturalTurns
   double length =
     0; ///< s: a pair of opposite irregular vertices closer than about this is cancelled
+  const TurnPrescription* prescription = nullptr; ///< none: all fans are free
+  /// Per topology edge, null or empty: what the cost of its shifts is multiplied with (guided regions).
+  const std::vector<double>* stiffness = nullptr;
 };
 
 struct TurnRepairResult
 {
   std::vector<int> shift; ///< per topology edge: what to add to the jump of edges[i][0]
   std::vector<int> turns; ///< per fan, afterwards
+  bool complete = true;   ///< false: some fan could not get the turns that are prescribed
 };
 
 /// Minimizes, over integer shifts of the jumps, the growth of the squared residuals (weighted by
 /// edge length / s) plus a convex cost of each fan's turns. One shift moves a quarter turn from the fan that
-/// edges[i][0] points to, to the one it leaves.
+/// edges[i][0] points to, to the one it leaves. Prescribed sums are met exactly.
 TurnRepairResult repairTurns(const TurnRepairInput& input);
 
-/// Afterwards moves single turns, as cheaply as it can, until an angle structure exists or no move helps. Returns
+/// Afterwards moves single turns, as cheaply as it can, until an angle structure exists or no move helps; never from or to
+/// fans with a prescription. Returns
 /// the fans that stay in the way (#fans flags), empty on success.
 std::vector<std::uint8_t> completeTurns(
   const Mesh& mesh, const TurnRepairInput& input, TurnRepairResult& result);

@@ -160,6 +160,7 @@ void checkInput(const SurfaceInput& input, int threads)
   checkOffsets(input);
   requireSize("the feature edge array", input.featureEdges.size(), input.polygonOffsets.size() - 1);
   requireSize("the patch id array", input.patchIds.size(), input.polygonOffsets.size() - 1);
+  checkRequests(input);
   checkIds(input, threads);
   checkCoordinates(input, threads);
 }

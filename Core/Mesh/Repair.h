@@ -10,7 +10,7 @@ namespace quadrille
 {
 
 /// Throws InvalidInput, naming the element, for empty input, arrays of wrong size, ids out of range and
-/// coordinates that are not finite.
+/// coordinates that are not finite; and as checkRequests does.
 void checkInput(const SurfaceInput& input, int threads);
 
 /// Makes a surface whose corners are set, and whose vertices and faces are in order, an oriented manifold

@@ -281,8 +281,9 @@ std::vector<Index> dropUnused(Mesh& mesh)
 }
 
 /// Puts the vertices that have a face into curve order and renames the corners.
-void orderVertices(Mesh& mesh, Permuter& permute, int threads)
+void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
 {
+  Mesh& mesh = surface.mesh;
   std::vector<Index> newId(mesh.vertexCount(), kInvalidIndex);
   const std::vector<Index> kept = dropUnused(mesh);
   {
@@ -301,6 +302,12 @@ void orderVertices(Mesh& mesh, Permuter& permute, int threads)
         mesh.origin[h] = mesh.origin[h] == kInvalidIndex ? kInvalidIndex : newId[mesh.origin[h]];
       }
     });
+  for (ValenceRequest& request : surface.valenceRequests)
+  {
+    request.vertex = newId[request.vertex];
+  }
+  std::sort(surface.valenceRequests.begin(), surface.valenceRequests.end(),
+    [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex < b.vertex; });
 }
 
 /// Faces that are left, by their lowest vertex; ties keep their order.
@@ -411,7 +418,7 @@ std::vector<Index> spaceFillingOrder(const std::vector<Vector3>& points, int thr
 void orderSurface(PreparedSurface& surface, int threads)
 {
   Permuter permute(threads);
-  orderVertices(surface.mesh, permute, threads);
+  orderVertices(surface, permute, threads);
   orderFaces(surface, permute);
 }
 

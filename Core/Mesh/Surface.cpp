@@ -132,6 +132,7 @@ PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& 
   report(options.progress, 0.8, "Finding features");
   markFeatures(surface, input, options);
   measure(surface);
+  collectRequests(input, surface);
   surface.hash = contentHash(surface.mesh, options.threads);
   report(options.progress, 1, "Surface prepared");
   surface.seconds = { { "repair", repairSeconds }, { "order", orderSeconds },

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "Base/Progress.h"
+#include "Mesh/Guides.h"
 #include "Mesh/Mesh.h"
 
 #include <array>
@@ -26,6 +27,11 @@ struct SurfaceInput
   std::vector<std::uint8_t>
     featureEdges; ///< empty or #P; bit i: edge from corner i to i+1 is a feature
   std::vector<std::int64_t> patchIds; ///< empty or #P; an edge between two values is a feature
+  /// Empty or #P: a direction that edges of the quads should have in the polygon, of any length; zero: free.
+  std::vector<Vector3> guideDirections;
+  std::vector<double>
+    guideWeights; ///< empty (1 everywhere) or #P; in (0, 1] where there is a direction
+  std::vector<int> targetValences; ///< empty or #points; 0: free, else see ValenceRequest
 };
 
 struct PrepareOptions
@@ -84,6 +90,11 @@ struct PreparedSurface
   std::vector<Index> refinedEntry;
   std::vector<std::array<std::array<double, 3>, 3>> cornerWeights; ///< [corner][source corner]
 
+  /// Guides and valences that were asked for; not part of the hash, as the finest level does not depend on them.
+  std::vector<PolygonGuide> polygonGuides;     ///< ascending by polygon; see surfaceGuides
+  std::vector<ValenceRequest> valenceRequests; ///< ascending by vertex, one a vertex
+  std::size_t unusedValences = 0;              ///< requests of points that no face uses
+
   /// Sub-stages with their seconds: repair, order, connectivity.
   std::vector<std::pair<std::string, double>> seconds;
   /// Empty, or why refineSurface left edges longer than it was asked to.
@@ -95,7 +106,8 @@ struct PreparedSurface
 
 /// Validates, repairs and orders. Throws InvalidInput for an empty input, a non-finite coordinate
 /// (names the point), a corner id out of range (names the polygon), a non-orientable component (names
-/// a face of it), or when nothing is left after repair.
+/// a face of it), when nothing is left after repair, and for guides and valences as checkRequests and
+/// collectRequests do.
 PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& options);
 
 /// Splits edges longer than maximumEdgeLength (conforming, at edge midpoints, longest first), and

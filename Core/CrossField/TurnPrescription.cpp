@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CrossField/TurnPrescription.h"
+
+#include "CrossField/TurnCosts.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+#include <sstream>
+
+namespace quadrille
+{
+namespace
+{
+
+std::vector<std::uint8_t> boundaryVertices(const Mesh& mesh)
+{
+  std::vector<std::uint8_t> boundary(mesh.vertexCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isBoundary(h))
+    {
+      boundary[mesh.origin[h]] = boundary[mesh.target(h)] = 1;
+    }
+  }
+  return boundary;
+}
+
+// Sets of fans whose turns have a fixed sum.
+class FanSets
+{
+public:
+  FanSets(const FieldTopology& topology, const TurnPrescription& prescription)
+    : parent_(topology.fans.size())
+  {
+    std::iota(parent_.begin(), parent_.end(), Index{ 0 });
+    for (const std::array<Index, 2>& edge : topology.edges)
+    {
+      join(topology.fanOfCorner[edge[0]], topology.fanOfCorner[edge[1]]);
+    }
+    std::vector<Index> first(prescription.turns.size(), kInvalidIndex);
+    for (Index i = 0; i < prescription.groupOfFan.size(); ++i)
+    {
+      const Index group = prescription.groupOfFan[i];
+      if (group != kInvalidIndex)
+      {
+        first[group] = first[group] == kInvalidIndex ? i : first[group];
+        join(first[group], i);
+      }
+    }
+  }
+  Index find(Index i)
+  {
+    while (parent_[i] != i)
+    {
+      i = parent_[i] = parent_[parent_[i]];
+    }
+    return i;
+  }
+
+private:
+  void join(Index a, Index b)
+  {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<Index> parent_;
+};
+
+// The sums of one set. Indices are what the turns are less than regular.
+struct SetSums
+{
+  long turns = 0;
+  long regular = 0;
+  long asked = 0, askedRegular = 0;
+  long least = 0, most = 0; // of the free fans
+  std::size_t requests = 0, freeFans = 0;
+  Index vertex = kInvalidIndex; // of a request
+};
+
+std::vector<SetSums> sumUp(const FieldTopology& topology, const TurnPrescription& prescription,
+  const std::vector<int>& turns, FanSets& sets)
+{
+  std::vector<SetSums> sums(topology.fans.size());
+  std::vector<std::uint8_t> counted(prescription.turns.size(), 0);
+  for (Index i = 0; i < turns.size(); ++i)
+  {
+    const Fan& fan = topology.fans[i];
+    SetSums& sum = sums[sets.find(i)];
+    const int regular = fan.sector ? 2 : 4;
+    sum.turns += turns[i];
+    sum.regular += regular;
+    if (prescription.isFree(i))
+    {
+      const bool stuck = fan.sector && fan.corners == 1; // no edge can change it
+      sum.least += stuck ? turns[i] : fan.sector ? 1 : 3;
+      sum.most += stuck ? turns[i] : fan.sector ? turnLimit(fan) : 6;
+      sum.freeFans += stuck ? 0 : 1;
+      continue;
+    }
+    sum.askedRegular += regular;
+    if (counted[prescription.groupOfFan[i]] == 0)
+    {
+      counted[prescription.groupOfFan[i]] = 1;
+      sum.asked += prescription.turns[prescription.groupOfFan[i]];
+      sum.vertex = fan.vertex;
+      ++sum.requests;
+    }
+  }
+  return sums;
+}
+
+std::string describe(const Mesh& mesh, const SetSums& sum, long missing)
+{
+  const Vector3& p = mesh.position[sum.vertex];
+  std::ostringstream text;
+  text << "target valences: on the component of coarse vertex " << sum.vertex << ", near (" << p.x()
+       << ", " << p.y() << ", " << p.z() << "), 4 - valence has to sum up to "
+       << sum.regular - sum.turns << " over all irregular vertices; the " << sum.requests
+       << " vertices with a target sum up to " << sum.askedRegular - sum.asked << ", and ";
+  if (sum.freeFans == 0)
+  {
+    text << "no vertex is free to take the missing " << missing;
+  }
+  else
+  {
+    text << "the " << sum.freeFans << " free ones cannot take all of the rest: " << missing
+         << " are missing";
+  }
+  text << "; leave more points free (TargetValence 0) there, or change the targets by this sum";
+  return text.str();
+}
+
+} // namespace
+
+TurnPrescription prescribeTurns(
+  const Mesh& mesh, const FieldTopology& topology, const std::vector<int>& targetValence)
+{
+  TurnPrescription result;
+  if (std::all_of(targetValence.begin(), targetValence.end(), [](int v) { return v == 0; }))
+  {
+    return result;
+  }
+  if (targetValence.size() != mesh.vertexCount())
+  {
+    throw InvalidInput("cross field: " + std::to_string(targetValence.size()) +
+      " target valences for " + std::to_string(mesh.vertexCount()) + " vertices");
+  }
+  const std::vector<std::uint8_t> boundary = boundaryVertices(mesh);
+  std::vector<Index> groupOfVertex(mesh.vertexCount(), kInvalidIndex);
+  result.groupOfFan.assign(topology.fans.size(), kInvalidIndex);
+  for (Index i = 0; i < topology.fans.size(); ++i)
+  {
+    const Index v = topology.fans[i].vertex;
+    if (targetValence[v] == 0)
+    {
+      continue;
+    }
+    const int turns = targetValence[v] - (boundary[v] != 0 ? 2 : 0);
+    if (turns < (boundary[v] != 0 ? 1 : 2))
+    {
+      throw InvalidInput("cross field: vertex " + std::to_string(v) + " is to have valence " +
+        std::to_string(targetValence[v]) +
+        (boundary[v] != 0 ? ", but on the boundary the least is 3" : ", but the least is 2"));
+    }
+    if (groupOfVertex[v] == kInvalidIndex)
+    {
+      groupOfVertex[v] = static_cast<Index>(result.turns.size());
+      result.turns.push_back(turns);
+    }
+    result.groupOfFan[i] = groupOfVertex[v];
+  }
+  return result;
+}
+
+Status checkPrescription(const Mesh& mesh, const FieldTopology& topology,
+  const TurnPrescription& prescription, const std::vector<int>& turns)
+{
+  if (prescription.turns.empty())
+  {
+    return {};
+  }
+  FanSets sets(topology, prescription);
+  for (const SetSums& sum : sumUp(topology, prescription, turns, sets))
+  {
+    // Turns that the free fans have to make together.
+    const long left = sum.turns - sum.asked;
+    const long missing = left < sum.least ? sum.least - left : std::min(0L, sum.most - left);
+    if (sum.requests > 0 && missing != 0)
+    {
+      return { StatusCode::Infeasible, describe(mesh, sum, missing) };
+    }
+  }
+  return {};
+}
+
+} // namespace quadrille

@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/Guides.h"
+
+#include "Base/Error.h"
+#include "Mesh/Surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// Sine of the angle to the normal below which a direction says nothing about the plane: half a degree.
+constexpr double kLeastTangent = 0.01;
+
+bool isGiven(const Vector3& direction)
+{
+  return direction.cwiseAbs().maxCoeff() > 0;
+}
+
+void requireSize(const char* name, std::size_t size, std::size_t wanted, const char* elements)
+{
+  if (size != 0 && size != wanted)
+  {
+    throw InvalidInput(std::string(name) + " has " + std::to_string(size) + " values for " +
+      std::to_string(wanted) + " " + elements + ": give one value each, or none.");
+  }
+}
+
+void checkGuides(const SurfaceInput& input)
+{
+  for (std::size_t i = 0; i < input.guideDirections.size(); ++i)
+  {
+    const Vector3& direction = input.guideDirections[i];
+    if (!direction.allFinite())
+    {
+      throw InvalidInput("the guiding direction of polygon " + std::to_string(i) +
+        " is not finite: correct it, or set it to zero to leave the polygon free.");
+    }
+    if (!input.guideWeights.empty() && isGiven(direction))
+    {
+      const double weight = input.guideWeights[i];
+      if (!(weight > 0 && weight <= 1))
+      {
+        throw InvalidInput("the guiding weight of polygon " + std::to_string(i) + " is " +
+          std::to_string(weight) +
+          ", but must be above 0 and at most 1; set the direction to zero to leave the polygon "
+          "free.");
+      }
+    }
+  }
+}
+
+void checkValences(const SurfaceInput& input)
+{
+  for (std::size_t i = 0; i < input.targetValences.size(); ++i)
+  {
+    const int valence = input.targetValences[i];
+    if (valence != 0 && (valence < kLeastValence || valence > kMostValence))
+    {
+      throw InvalidInput("point " + std::to_string(i) + " asks for valence " +
+        std::to_string(valence) + ", but only 0 (free) and " + std::to_string(kLeastValence) +
+        " to " + std::to_string(kMostValence) + " can be asked for.");
+    }
+  }
+}
+
+std::vector<PolygonGuide> guidesOf(const SurfaceInput& input)
+{
+  std::vector<PolygonGuide> guides;
+  for (std::size_t i = 0; i < input.guideDirections.size(); ++i)
+  {
+    const Vector3& direction = input.guideDirections[i];
+    if (isGiven(direction))
+    {
+      const double weight = input.guideWeights.empty() ? 1.0 : input.guideWeights[i];
+      guides.push_back({ static_cast<Index>(i), direction.stableNormalized(),
+        std::max(static_cast<float>(weight), std::numeric_limits<float>::min()) });
+    }
+  }
+  return guides;
+}
+
+/// One entry per corner whose point asks for a valence, by vertex.
+std::vector<ValenceRequest> cornerRequests(
+  const SurfaceInput& input, const PreparedSurface& surface)
+{
+  std::vector<ValenceRequest> requests;
+  const Mesh& mesh = surface.mesh;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Index point = surface.sourcePoints[Mesh::face(h)][h % 3];
+    // A corner that a split of an edge made stands at no point of the input.
+    const bool moved = !surface.refinedEntry.empty() &&
+      surface.refinedEntry[Mesh::face(h)] != kInvalidIndex &&
+      surface.cornerWeights[surface.refinedEntry[Mesh::face(h)]][h % 3][h % 3] != 1;
+    if (input.targetValences[point] != 0 && !moved)
+    {
+      requests.push_back({ mesh.origin[h], input.targetValences[point], point });
+    }
+  }
+  std::sort(requests.begin(), requests.end(),
+    [](const ValenceRequest& a, const ValenceRequest& b)
+    { return a.vertex != b.vertex ? a.vertex < b.vertex : a.point < b.point; });
+  return requests;
+}
+
+void requireFit(const ValenceRequest& request, bool boundary)
+{
+  if (boundary && request.valence < 3)
+  {
+    throw InvalidInput("point " + std::to_string(request.point) + " asks for valence " +
+      std::to_string(request.valence) +
+      ", but lies on the boundary, where the least is 3, a corner with one quad.");
+  }
+}
+
+} // namespace
+
+void checkRequests(const SurfaceInput& input)
+{
+  const std::size_t polygons = input.polygonOffsets.size() - 1;
+  requireSize(
+    "the array of guiding directions", input.guideDirections.size(), polygons, "polygons");
+  requireSize("the array of guiding weights", input.guideWeights.size(), polygons, "polygons");
+  requireSize(
+    "the array of target valences", input.targetValences.size(), input.points.size(), "points");
+  checkGuides(input);
+  checkValences(input);
+}
+
+void collectRequests(const SurfaceInput& input, PreparedSurface& surface)
+{
+  surface.polygonGuides = guidesOf(input);
+  if (input.targetValences.empty())
+  {
+    return;
+  }
+  std::vector<std::uint8_t> boundary(surface.mesh.vertexCount(), 0);
+  for (Index h = 0; h < surface.mesh.halfEdgeCount(); ++h)
+  {
+    if (surface.mesh.isBoundary(h))
+    {
+      boundary[surface.mesh.origin[h]] = boundary[surface.mesh.target(h)] = 1;
+    }
+  }
+  std::vector<std::uint8_t> used(input.points.size(), 0);
+  for (const ValenceRequest& request : cornerRequests(input, surface))
+  {
+    requireFit(request, boundary[request.vertex] != 0);
+    used[request.point] = 1;
+    if (surface.valenceRequests.empty() || surface.valenceRequests.back().vertex != request.vertex)
+    {
+      surface.valenceRequests.push_back(request);
+      continue;
+    }
+    const ValenceRequest& first = surface.valenceRequests.back();
+    if (first.valence != request.valence)
+    {
+      throw InvalidInput("points " + std::to_string(first.point) + " and " +
+        std::to_string(request.point) + " are one after repair, but ask for valences " +
+        std::to_string(first.valence) + " and " + std::to_string(request.valence) +
+        ": give both the same.");
+    }
+  }
+  for (std::size_t i = 0; i < used.size(); ++i)
+  {
+    surface.unusedValences += input.targetValences[i] != 0 && used[i] == 0;
+  }
+}
+
+SurfaceGuides surfaceGuides(const PreparedSurface& surface)
+{
+  SurfaceGuides result;
+  if (surface.polygonGuides.empty())
+  {
+    return result;
+  }
+  std::vector<Index> guideOf(
+    surface.polygonGuides.back().polygon + std::size_t{ 1 }, kInvalidIndex);
+  for (std::size_t i = 0; i < surface.polygonGuides.size(); ++i)
+  {
+    guideOf[surface.polygonGuides[i].polygon] = static_cast<Index>(i);
+  }
+  for (Index f = 0; f < surface.mesh.faceCount(); ++f)
+  {
+    const Index polygon = surface.sourcePolygon[f];
+    if (polygon >= guideOf.size() || guideOf[polygon] == kInvalidIndex)
+    {
+      continue;
+    }
+    const PolygonGuide& guide = surface.polygonGuides[guideOf[polygon]];
+    const Vector3 normal =
+      surface.mesh.edgeVector(3 * f).cross(surface.mesh.edgeVector(3 * f + 1)).stableNormalized();
+    const Vector3 tangent = guide.direction - normal * normal.dot(guide.direction);
+    if (tangent.norm() > kLeastTangent)
+    {
+      result.faces.push_back({ f, { tangent.normalized(), guide.weight } });
+    }
+    else
+    {
+      ++result.dropped;
+    }
+  }
+  return result;
+}
+
+std::vector<std::string> requestNotices(const PreparedSurface& surface, const SurfaceGuides& guides)
+{
+  std::vector<std::string> notices;
+  if (guides.dropped > 0)
+  {
+    notices.push_back(std::to_string(guides.dropped) +
+      " faces have a guiding direction that is normal to them and are left free");
+  }
+  if (surface.unusedValences > 0)
+  {
+    notices.push_back(std::to_string(surface.unusedValences) +
+      " points ask for a valence but are on no face that is left after repair");
+  }
+  return notices;
+}
+
+} // namespace quadrille

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a user asks of single places: directions of the quads' edges (guides) and valences of vertices
+/// (index constraints) [Ebke et al. 2016, Section 4]. Nothing here takes memory where nothing is asked.
+#pragma once
+
+#include "Base/Types.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+struct SurfaceInput;
+struct PreparedSurface;
+
+/// Smallest and largest valence that can be asked for.
+constexpr int kLeastValence = 2;
+constexpr int kMostValence = 8;
+constexpr int kRegularValence = 4;
+
+/// The direction that one family of the quads' edges should have in a face.
+struct Guide
+{
+  Vector3 direction = Vector3::Zero(); ///< unit vector in the plane of the face; zero: free
+  float weight = 0;                    ///< in (0, 1]; 0 where free
+
+  bool isFree() const { return !(weight > 0); }
+};
+
+/// The guide of a polygon of the input, as it was given.
+struct PolygonGuide
+{
+  Index polygon = kInvalidIndex;
+  Vector3 direction = Vector3::Zero(); ///< unit vector
+  float weight = 1;
+};
+
+struct FaceGuide
+{
+  Index face = kInvalidIndex;
+  Guide guide;
+};
+
+/// A vertex is to have this valence. On a boundary it is what the vertex would have if the quads went on beyond, so that 4 is
+/// regular everywhere: 3 is a corner with one quad, 5 one with three.
+struct ValenceRequest
+{
+  Index vertex = kInvalidIndex;
+  int valence = kRegularValence;
+  Index point = kInvalidIndex; ///< of the input
+};
+
+/// Throws InvalidInput, naming the polygon or point, for arrays of wrong size, directions that are not finite, weights outside
+/// (0, 1] where there is a direction, and valences other than 0 and 2 to 8.
+void checkRequests(const SurfaceInput& input);
+
+/// Fills polygonGuides, valenceRequests and unusedValences of a surface that has its final corners. Throws InvalidInput where points that
+/// became one vertex ask for different valences, and for a valence below 3 on the boundary.
+void collectRequests(const SurfaceInput& input, PreparedSurface& surface);
+
+/// Guides of the faces of the mesh, ascending by face.
+struct SurfaceGuides
+{
+  std::vector<FaceGuide> faces;
+  std::size_t dropped = 0; ///< faces whose direction is normal to them; they are free
+};
+SurfaceGuides surfaceGuides(const PreparedSurface& surface);
+
+/// What became of requests that the surface cannot take; empty when all are honoured.
+std::vector<std::string> requestNotices(
+  const PreparedSurface& surface, const SurfaceGuides& guides);
+
+} // namespace quadrille
