@@ -1,25 +1,16 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
-#include "CrossField/CrossField.h"
-#include "GridMap/GridMap.h"
 #include "Hierarchy/LogRecords.h"
-#include "Mesh/Surface.h"
+#include "ReplayChecks.h"
 #include "TestMaps.h"
 #include "TestMeshes.h"
-#include "Transfer/QuarterTurns.h"
 #include "Transfer/Replay.h"
 #include "Transfer/Transfer.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-#include <fstream>
-#include <iterator>
-#include <optional>
 #include <random>
-#include <sstream>
 #include <string>
 
 using namespace quadrille;
@@ -34,91 +25,6 @@ Hierarchy decimate(const Mesh& mesh, double edgeLength, Index vertices)
   options.targetEdgeLength = edgeLength;
   options.coarseVertices = vertices;
   return buildHierarchy(mesh, 1, options);
-}
-
-/// uv on the slots of the coarse level, as replayRounds wants them.
-std::vector<FixedVec2> onSlots(
-  const Mesh& fine, const Level& coarse, const std::vector<FixedVec2>& coarseUv)
-{
-  std::vector<FixedVec2> uv(fine.halfEdgeCount());
-  for (Index h = 0; h < coarse.mesh.halfEdgeCount(); ++h)
-  {
-    uv[3 * coarse.fineFace[h / 3] + h % 3] = coarseUv[h];
-  }
-  return uv;
-}
-
-/// The map seen through charts that are turned by random quarters and moved at random, face by face: every edge is
-/// a seam with a transition of its own then.
-void shuffleCharts(std::vector<FixedVec2>& uv, unsigned seed)
-{
-  std::mt19937_64 random(seed);
-  for (std::size_t h = 0; h < uv.size(); h += 3)
-  {
-    const int turns = static_cast<int>(random() % 4);
-    const FixedVec2 shift{ static_cast<std::int64_t>(random() >> 28),
-      -static_cast<std::int64_t>(random() >> 28) };
-    for (std::size_t i = h; i < h + 3; ++i)
-    {
-      uv[i] = rotate(uv[i], turns) + shift;
-    }
-  }
-}
-
-/// Quarter turns of the charts once round each inner vertex, modulo 4; 0 at boundary vertices.
-std::vector<int> holonomy(const Mesh& mesh, const std::vector<FixedVec2>& uv)
-{
-  std::vector<int> turns(mesh.vertexCount(), 0);
-  std::vector<bool> boundary(mesh.vertexCount(), false);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    // The transitions round the origin of h are those of the half-edges that lead to it.
-    const Index incoming = Mesh::previous(h);
-    boundary[mesh.origin[h]] =
-      boundary[mesh.origin[h]] || mesh.isBoundary(h) || mesh.isBoundary(incoming);
-    if (!mesh.isBoundary(incoming))
-    {
-      const Index g = mesh.twin[incoming];
-      const int quarter = quarterTurns(uv[h] - uv[incoming], uv[g] - uv[Mesh::next(g)]);
-      EXPECT_GE(quarter, 0) << "half-edge " << incoming;
-      turns[mesh.origin[h]] += quarter;
-    }
-  }
-  for (Index v = 0; v < mesh.vertexCount(); ++v)
-  {
-    turns[v] = boundary[v] ? 0 : turns[v] & 3;
-  }
-  return turns;
-}
-
-/// Replays a map that is seamless on the coarse level and holds all that must be exact against it.
-void expectExactReplay(const Mesh& fine, const Hierarchy& h, const std::vector<FixedVec2>& coarseUv)
-{
-  ASSERT_EQ(seamResiduals(h.coarse.mesh, coarseUv), 0U);
-  ASSERT_EQ(constrainedEdgesOffAxis(h.coarse.mesh, coarseUv), 0U);
-  std::vector<FixedVec2> uv = onSlots(fine, h.coarse, coarseUv);
-  const ReplayCounts counts = replayLog(h.log, uv, 2, {});
-  EXPECT_EQ(counts.lostTransitions, 0U);
-  EXPECT_EQ(seamResiduals(fine, uv), 0U);
-  EXPECT_EQ(constrainedEdgesOffAxis(fine, uv), 0U) << "exactly on isolines";
-  std::vector<int> expected(fine.vertexCount(), 0);
-  const std::vector<int> coarse = holonomy(h.coarse.mesh, coarseUv);
-  for (Index v = 0; v < coarse.size(); ++v)
-  {
-    expected[h.coarse.fineVertex[v]] = coarse[v];
-  }
-  EXPECT_EQ(holonomy(fine, uv), expected);
-  for (Index c = 0; c < h.coarse.mesh.halfEdgeCount(); ++c)
-  {
-    // A constrained vertex of the coarse level has its isoline's value on the fine one; nothing else may move it
-    // either. Its corner may have gone to another vertex, but the faces' charts have not changed, so a corner that
-    // still is this vertex's has its uv to the bit.
-    const Index slot = 3 * h.coarse.fineFace[c / 3] + c % 3;
-    if (fine.origin[slot] == h.coarse.fineVertex[h.coarse.mesh.origin[c]])
-    {
-      ASSERT_EQ(uv[slot], coarseUv[c]);
-    }
-  }
 }
 
 std::uint64_t crc64(const std::uint8_t* bytes, std::size_t count)
@@ -326,88 +232,3 @@ TEST(Replay, recordsAreAsShortAsThePapers)
   EXPECT_EQ(flipBytes, 9 * log.flips);
   EXPECT_LE(log.serialize().size(), allowed);
 }
-
-#ifdef QUADRILLE_SHARED_DATA
-namespace
-{
-
-/// A binary little-endian PLY file of triangles with three float coordinates a vertex and nothing else.
-std::optional<SurfaceInput> loadPly(const std::string& path)
-{
-  std::ifstream in(path, std::ios::binary);
-  std::string line;
-  std::size_t vertices = 0;
-  std::size_t faces = 0;
-  while (std::getline(in, line) && line.rfind("end_header", 0) != 0)
-  {
-    std::istringstream words(line);
-    std::string keyword, what, count;
-    words >> keyword >> what >> count;
-    if (keyword == "element")
-    {
-      (what == "vertex" ? vertices : faces) = std::stoul(count);
-    }
-  }
-  SurfaceInput surface;
-  for (std::size_t v = 0; v < vertices; ++v)
-  {
-    std::array<float, 3> p{};
-    in.read(reinterpret_cast<char*>(p.data()), 12);
-    surface.points.emplace_back(double{ p[0] }, double{ p[1] }, double{ p[2] });
-  }
-  surface.polygonOffsets.push_back(0);
-  for (std::size_t f = 0; f < faces; ++f)
-  {
-    std::uint8_t count = 0;
-    std::array<std::int32_t, 3> corner{};
-    in.read(reinterpret_cast<char*>(&count), 1);
-    in.read(reinterpret_cast<char*>(corner.data()), 12);
-    if (!in || count != 3)
-    {
-      return std::nullopt;
-    }
-    for (const std::int32_t v : corner)
-    {
-      surface.polygonPoints.push_back(static_cast<Index>(v));
-    }
-    surface.polygonOffsets.push_back(static_cast<Index>(surface.polygonPoints.size()));
-  }
-  return faces > 0 ? std::optional<SurfaceInput>(surface) : std::nullopt;
-}
-
-} // namespace
-
-TEST(Replay, keepsEveryTransitionOfSeamlessMapsOfModels)
-{
-  std::size_t models = 0;
-  for (const char* name : { "/scan/horse.ply", "/cad/fandisk.ply", "/cad/joint.ply",
-         "/cad/of_flange.ply", "/open/mask.ply", "/open/plane_holes.ply" })
-  {
-    const std::optional<SurfaceInput> input = loadPly(QUADRILLE_SHARED_DATA + std::string(name));
-    if (!input)
-    {
-      continue; // the models are large and not everywhere
-    }
-    SCOPED_TRACE(name);
-    PrepareOptions prepareOptions;
-    prepareOptions.featureAngle = kFeatureAngle;
-    PreparedSurface surface = prepareSurface(*input, prepareOptions);
-    const double edgeLength = std::sqrt(surface.area / 2500);
-    refineSurface(surface, edgeLength, {});
-    const Hierarchy h = decimate(surface.mesh, edgeLength, 1000);
-    CrossFieldOptions fieldOptions;
-    fieldOptions.targetEdgeLength = edgeLength;
-    const CrossField field = computeCrossField(h.coarse.mesh, fieldOptions);
-    SeamlessOptions options;
-    options.edgeLength = edgeLength;
-    SeamlessResult seamless = computeSeamlessMap(h.coarse.mesh, field, options);
-    shuffleCharts(seamless.uv, 5);
-    expectExactReplay(surface.mesh, h, seamless.uv);
-    ++models;
-  }
-  if (models == 0)
-  {
-    GTEST_SKIP() << "no models in " QUADRILLE_SHARED_DATA;
-  }
-}
-#endif
