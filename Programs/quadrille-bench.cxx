@@ -7,6 +7,7 @@
 #include "Options.h"
 #include "PhaseOrders.h"
 #include "RemeshRun.h"
+#include "ReplayCounts.h"
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -29,6 +30,7 @@ using namespace quadrille;
 
 constexpr const char* kHelp =
   R"(usage: quadrille-bench MESH... [--quads N | --edge-length S] [--threads N] [--repeat N]
+       quadrille-bench MESH... --compare replay [--quads N] [--threads N]
        quadrille-bench MESH... --compare orders [--quads N] [--candidates N] [--exact-below N] [--threads N] [--repeat N]
 
 Remeshes each mesh and writes to standard output, as CSV, the columns
@@ -44,6 +46,13 @@ were carried to the surface.
   --edge-length S    target edge length in units of the input
   --threads N        threads to compute with; 0 means all (default 0)
   --repeat N         runs of each mesh (default 1)
+
+With --compare replay writes, instead, what the replay of the coarse map did to the triangles of each mesh:
+  mesh,quads,faces,coarse_not_positive,inverted_stars,moved_to_kernel,without_kernel,replay_not_positive,
+  mended_patches,not_positive,ok
+where stars that their vertex inverted are counted, those of them that were mended by moving it into the kernel of its
+ring, and those that have none; then triangles that are not positive after the replay and after patches round them were
+embedded anew. ok: 1 when quads came of it.
 
 With --compare orders runs phase 1 only, in each of its orders (sweeps, heap, stochastic), and writes
   mesh,repeat,order,threads,seconds,faces,vertices,intermediate_vertices,short_percent,edge_5,edge_50,edge_95,
@@ -71,7 +80,7 @@ struct Request
   double edgeLength = 0; ///< 0: quads
   int threads = 0;
   long long repeat = 1;
-  bool orders = false; ///< only phase 1, in all orders
+  std::string compared; ///< "orders": only phase 1, in all orders; "replay": counts of the replay
   RandomDraws draws;
 };
 
@@ -80,11 +89,12 @@ void parseComparison(const CommandLine& line, Request& request)
   const auto compared = line.text("compare");
   const auto candidates = line.count("candidates", 1, 1000000);
   const auto exactBelow = line.count("exact-below", 0, 4000000000);
-  if (compared && *compared != "orders")
+  request.compared = compared.value_or("");
+  if (compared && *compared != "orders" && *compared != "replay")
   {
-    throw UsageError("--compare takes only orders, not '" + *compared + "'");
+    throw UsageError("--compare takes orders or replay, not '" + *compared + "'");
   }
-  if (!compared && (candidates || exactBelow))
+  if (request.compared != "orders" && (candidates || exactBelow))
   {
     throw UsageError("--candidates and --exact-below are for --compare orders");
   }
@@ -92,7 +102,6 @@ void parseComparison(const CommandLine& line, Request& request)
   {
     throw UsageError("--compare takes --quads, not --edge-length");
   }
-  request.orders = compared.has_value();
   request.draws.candidates = static_cast<int>(candidates.value_or(request.draws.candidates));
   request.draws.exactBelow = static_cast<Index>(exactBelow.value_or(request.draws.exactBelow));
 }
@@ -165,16 +174,20 @@ void printRows(const std::string& mesh, long long repeat, const Request& request
   std::fflush(stdout);
 }
 
-int compareOrders(const std::string& mesh, const Request& request)
+/// One mesh of a comparison.
+int compare(const std::string& mesh, const Request& request)
 {
   try
   {
-    OrderComparison comparison;
-    comparison.quads = static_cast<double>(request.quads);
-    comparison.threads = request.threads;
-    comparison.repeat = request.repeat;
-    comparison.draws = request.draws;
-    printOrders(mesh, comparison);
+    const double quads = static_cast<double>(request.quads);
+    if (request.compared == "replay")
+    {
+      printReplay(mesh, quads, request.threads);
+    }
+    else
+    {
+      printOrders(mesh, { quads, request.threads, request.repeat, request.draws });
+    }
     return kValidQuads;
   }
   catch (const std::exception& error)
@@ -267,12 +280,12 @@ int main(int argc, char* argv[])
     }
     const Request request = parse(line);
     int worst = 0;
-    if (request.orders)
+    if (!request.compared.empty())
     {
-      printOrdersHeader();
+      request.compared == "replay" ? printReplayHeader() : printOrdersHeader();
       for (const std::string& mesh : line.positional())
       {
-        worst = std::max(worst, compareOrders(mesh, request));
+        worst = std::max(worst, compare(mesh, request));
       }
       return worst;
     }

@@ -62,7 +62,9 @@ constexpr std::array<Cost, 4> kCosts = { { { "\"E_G,mem\"", DecimationCost::Gaus
 
 std::vector<int> turnsOf(const Mesh& mesh, double edgeLength)
 {
-  return computeCrossField(mesh, { edgeLength, {} }).turns;
+  CrossFieldOptions options;
+  options.targetEdgeLength = edgeLength;
+  return computeCrossField(mesh, options).turns;
 }
 
 /// The turns of a level's field on the finest mesh; vertices that are not on the level are regular.

@@ -9,7 +9,8 @@ Meshes: the shape `beast` of Data/generate.py at 125 k, 500 k, 2 M and 8 M faces
 points shuffled, and, where --data has scan/bunny_ct.ply, that scan, the same shuffled, and the same with each face cut into four
 and its points moved at random by up to a tenth of their shortest edge. Runs of all meshes and thread counts alternate, so that a busy
 machine disturbs all alike; a figure is the median of the repeats. The tables replace what stands between the two marks in the page; what
-is around them is written by hand. Needs Debian's python3 with numpy.
+is around them is written by hand. --replay writes the table of the replay over all scans of --data instead. Needs Debian's python3 with
+numpy.
 """
 import argparse
 import csv
@@ -22,7 +23,8 @@ import sys
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-BEGIN, END = "<!-- tables: begin -->", "<!-- tables: end -->"
+TABLES, REPLAY = "tables", "replay" # names of the marks round generated parts of the page
+REPLAY_QUADS = [1000, 2500, 10000]
 SIZES = {"beast_125k": 125000, "beast_500k": 500000, "beast_2M": 2000000, "beast_8M": 8000000}
 STAGES = ["order", "connectivity", "repair", "refine", "phase1", "phase2", "field", "seamless", "quantize", "embed", "replay",
           "certify", "extract", "total", "cancel"]
@@ -165,6 +167,55 @@ def table(results, count):
     return "\n".join(lines)
 
 
+def replayRows(command, scans, threads):
+    """What the replay did to the triangles of every scan; a row for each number of quads and model."""
+    rows = []
+    for quads in REPLAY_QUADS:
+        print(f"replay: {len(scans)} models, {quads} quads", flush=True)
+        run = subprocess.run([command, *scans, "--compare", "replay", "--quads", str(quads), "--threads", str(threads)],
+                             capture_output=True, text=True)
+        if run.returncode != 0:
+            raise SystemExit(run.stderr.strip())
+        rows += [{"mesh": row["mesh"], **{key: int(value) for key, value in row.items() if key != "mesh"}}
+                 for row in csv.DictReader(io.StringIO(run.stdout))]
+    return rows
+
+
+def replayTable(rows):
+    """Counts per 100,000 triangles, and what is left as it is; models without a coarse map are named."""
+    lines = ["| quads | model | triangles | inverted stars | into the kernel | no kernel | inverted after it | mended patches | left |",
+             "|---:|---|---:|---:|---:|---:|---:|---:|---:|"]
+    replayed = [row for row in rows if row["coarse_not_positive"] == 0 and hasReplay(row)]
+
+    def line(title, some):
+        faces = sum(row["faces"] for row in some)
+        each = [sum(row[key] for row in some) / faces * 1e5
+                for key in ("inverted_stars", "moved_to_kernel", "without_kernel", "replay_not_positive", "mended_patches")]
+        left = sum(row["not_positive"] for row in some)
+        lines.append(f"| {title} | {faces:,} | " + " | ".join(f"{value:.2f}" for value in each) + f" | {left} |")
+
+    for row in replayed:
+        line(f"{row['quads']:,} | {row['mesh']}", [row])
+    for quads in REPLAY_QUADS:
+        line(f"{quads:,} | **all**", [row for row in replayed if row["quads"] == quads])
+    absent = [f"{row['mesh']} at {row['quads']:,}" for row in rows if row not in replayed]
+    return "\n".join(lines) + (f"\n\nWithout a coarse map: {', '.join(absent)}." if absent else "")
+
+
+def hasReplay(row):
+    """A model whose map never got to the surface has no counts at all."""
+    return row["ok"] == 1 or row["inverted_stars"] > 0
+
+
+def writePart(page, name, text):
+    begin, end = f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
+    before, _, rest = page.read_text().partition(begin)
+    _, found, after = rest.partition(end)
+    if not found:
+        raise SystemExit(f"{page} has no marks for the part {name}")
+    page.write_text(f"{before}{begin}\n\n{text}\n\n{end}{after}")
+
+
 def main():
     parser = argparse.ArgumentParser(description="Measures the stages; see the top of this file.")
     parser.add_argument("--data", help="folder of models with scan/bunny_ct.ply")
@@ -176,7 +227,15 @@ def main():
     parser.add_argument("--quads", type=int, default=10000)
     parser.add_argument("--threads", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--meshes", nargs="+", help="only these")
+    parser.add_argument("--replay", action="store_true", help="only the table of the replay over DATA/scan")
     arguments = parser.parse_args()
+    page = pathlib.Path(arguments.markdown)
+    if arguments.replay:
+        scans = sorted((pathlib.Path(arguments.data or "") / "scan").glob("*.ply"))
+        if not arguments.data or not scans:
+            raise SystemExit("--replay needs --data with a folder scan of PLY files")
+        writePart(page, REPLAY, replayTable(replayRows(arguments.command, scans, max(arguments.threads))))
+        return 0
     meshes = makeMeshes(pathlib.Path(arguments.out), arguments.data)
     if arguments.meshes:
         meshes = {name: path for name, path in meshes.items() if name in arguments.meshes}
@@ -186,12 +245,7 @@ def main():
                        f"{arguments.repeat} ({arguments.large_repeat} at 8 M):\n\n{table(results, count)}" for count in arguments.threads)
     for name, reason in failures.items():
         text += f"\n\n{name} gave no quads and is left out: {reason[:200].replace(str(ROOT), '')}"
-    page = pathlib.Path(arguments.markdown)
-    before, _, rest = page.read_text().partition(BEGIN)
-    _, found, after = rest.partition(END)
-    if not found:
-        raise SystemExit(f"{page} has no marks for the tables")
-    page.write_text(f"{before}{BEGIN}\n\n{text}\n\n{END}{after}")
+    writePart(page, TABLES, text)
     return 0
 
 

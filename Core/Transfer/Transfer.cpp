@@ -135,6 +135,7 @@ TransferResult transferMap(const Mesh& fine, const Level& coarse, const Decimati
   result.movedToKernel = counts.movedToKernel;
   result.withoutKernel = counts.withoutKernel;
   result.notPositive = countNotPositive(result.uv, options.threads);
+  result.replayNotPositive = result.notPositive;
   // What was invalid already on the coarse level is not a matter of a few triangles here.
   if ((result.notPositive > 0 || result.withoutKernel > 0) && countNotPositive(coarseUv, 1) == 0)
   {

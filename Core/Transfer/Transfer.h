@@ -24,9 +24,10 @@ struct TransferResult
   std::size_t invertedStars = 0; ///< un-collapses whose interpolated vertex inverted its star
   std::size_t movedToKernel =
     0; ///< of these, mended by moving the vertex into the kernel of its ring
-  std::size_t withoutKernel = 0; ///< of these, left inverted by the replay
-  std::size_t mendedPatches = 0; ///< patches re-embedded afterwards
-  std::size_t notPositive = 0;   ///< triangles with !(det > 0) in the end
+  std::size_t withoutKernel = 0;     ///< of these, left inverted by the replay
+  std::size_t replayNotPositive = 0; ///< triangles with !(det > 0) that the replay left
+  std::size_t mendedPatches = 0;     ///< patches re-embedded afterwards
+  std::size_t notPositive = 0;       ///< triangles with !(det > 0) in the end
   /// Vertices of these triangles or, if there are none, of those at vertices of wrong turns, sorted. Empty when the coarse map was
   /// invalid already. Where the finest mesh has too few triangles between irregular
   /// vertices or corners for what the coarse map asks there, no replay can be valid; keeping these vertices on

@@ -329,6 +329,17 @@ class Bench(Case):
             result = subprocess.run([ARGS.bench, source, *wrong], capture_output=True, text=True, timeout=60)
             self.assertEqual(result.returncode, 2, result.stderr)
 
+    def test_counts_of_the_replay(self):
+        source = os.path.join(ARGS.data, "beast.ply")
+        result = subprocess.run([ARGS.bench, source, "--compare", "replay", "--quads", "500"], capture_output=True, text=True,
+                                timeout=300)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        (row,) = csv.DictReader(io.StringIO(result.stdout))
+        self.assertEqual((row["mesh"], row["quads"], row["ok"]), ("beast", "500", "1"))
+        self.assertEqual(int(row["inverted_stars"]), int(row["moved_to_kernel"]) + int(row["without_kernel"]))
+        self.assertGreater(int(row["inverted_stars"]), 0)
+        self.assertLessEqual(int(row["not_positive"]), int(row["replay_not_positive"]))
+
     def test_a_bad_mesh_does_not_end_the_others(self):
         source = self.write_off()
         result = subprocess.run([ARGS.bench, "absent.ply", str(source), "--quads", "300"], capture_output=True,

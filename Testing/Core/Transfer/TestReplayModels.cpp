@@ -77,7 +77,9 @@ MappedModel mapModel(const SurfaceInput& input, std::optional<double> featureAng
   levels.targetEdgeLength = edgeLength;
   model.levels = buildHierarchy(model.surface.mesh, 1, levels);
   const Mesh& coarse = model.levels.coarse.mesh;
-  const CrossField field = computeCrossField(coarse, { edgeLength, {} });
+  CrossFieldOptions fieldOptions;
+  fieldOptions.targetEdgeLength = edgeLength;
+  const CrossField field = computeCrossField(coarse, fieldOptions);
   SeamlessOptions options;
   options.edgeLength = edgeLength;
   model.coarseUv = computeSeamlessMap(bentAtRandom(coarse, seed), field, options).uv;
