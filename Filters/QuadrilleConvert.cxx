@@ -142,6 +142,8 @@ void readStrips(vtkPolyData* data, ConvertedSurface& surface)
         checkPointId(id, data->GetNumberOfPoints(), cell);
         input.polygonPoints.push_back(static_cast<Index>(id));
       }
+      const Index* corner = input.polygonPoints.data() + input.polygonPoints.size() - 3;
+      surface.stripTriangles.push_back({ corner[0], corner[1], corner[2] });
       input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
       surface.cellOfPolygon.push_back(cell);
     }
@@ -544,6 +546,26 @@ void carryToSurface(vtkPolyData* data, const PreparedSurface& surface, vtkPolyDa
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+std::optional<std::array<Index, 3>> ConvertedSurface::triangle(
+  vtkPolyData* surface, Index polygon) const
+{
+  const vtkIdType polygons = surface->GetNumberOfPolys();
+  if (static_cast<vtkIdType>(polygon) >= polygons)
+  {
+    return stripTriangles[polygon - static_cast<std::size_t>(polygons)];
+  }
+  vtkIdType count = 0;
+  const vtkIdType* ids = nullptr;
+  surface->GetPolys()->GetCellAtId(polygon, count, ids);
+  if (count != 3)
+  {
+    return std::nullopt;
+  }
+  return std::array<Index, 3>{ static_cast<Index>(ids[0]), static_cast<Index>(ids[1]),
+    static_cast<Index>(ids[2]) };
+}
 
 //------------------------------------------------------------------------------
 ConvertedSurface convertSurface(vtkPolyData* data, const std::string& patchArray)

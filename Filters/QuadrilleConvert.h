@@ -17,6 +17,8 @@
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
+#include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,9 +60,10 @@ struct FeatureMark
 /// A surface as Core wants it and the way back from its polygons to the cells of the vtkPolyData.
 struct ConvertedSurface
 {
-  SurfaceInput input;
+  SurfaceInput input; ///< may be moved away; nothing below needs it
   vtkIdType firstCell = 0;              ///< cell id of polygon 0
   std::vector<vtkIdType> cellOfPolygon; ///< only where the surface has strips
+  std::vector<std::array<Index, 3>> stripTriangles; ///< corners of the polygons that come from strips
   std::size_t ignoredCells = 0;         ///< vertices and lines
   std::string patchArray;              ///< name of the cell array that patchIds came from, or empty
   std::vector<FeatureMark> curveMarks; ///< what the curves of the second input added
@@ -69,6 +72,8 @@ struct ConvertedSurface
   {
     return cellOfPolygon.empty() ? firstCell + polygon : cellOfPolygon[polygon];
   }
+  /// Corners of a polygon of the converted vtkPolyData, if it is a triangle.
+  std::optional<std::array<Index, 3>> triangle(vtkPolyData* surface, Index polygon) const;
 };
 
 /// Polygons and strips of a vtkPolyData. patchArray: see vtkQuadrilleSurfaceAlgorithm::PatchArrayName.

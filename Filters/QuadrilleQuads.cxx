@@ -208,18 +208,16 @@ void addPatchPairs(
 } // namespace
 
 PointOrigin pointOrigin(const PreparedSurface& surface, const ConvertedSurface& converted,
-  Index face, const std::array<double, 3>& weights)
+  vtkPolyData* data, Index face, const std::array<double, 3>& weights)
 {
   const SourceLocation at = surface.locate(face, weights);
   PointOrigin origin{ { at.points[0], at.points[1], at.points[2] }, at.weights };
-  const SurfaceInput& input = converted.input;
-  const Index begin = input.polygonOffsets[at.polygon];
-  if (input.polygonOffsets[at.polygon + 1] - begin == 3)
+  if (const auto corners = converted.triangle(data, at.polygon))
   {
     // Repair may have turned the triangle round or started it at another corner.
-    for (int i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i)
     {
-      const Index id = input.polygonPoints[begin + static_cast<Index>(i)];
+      const Index id = (*corners)[i];
       const auto found = std::find(at.points.begin(), at.points.end(), id);
       if (found == at.points.end())
       {

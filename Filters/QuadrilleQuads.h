@@ -32,9 +32,9 @@ struct QuadSource
 };
 
 /// A point of the prepared surface in the user's points. Where the source cell is a triangle, its points
-/// come in the cell's own order.
+/// come in the cell's own order. data: what was converted.
 PointOrigin pointOrigin(const PreparedSurface& surface, const ConvertedSurface& converted,
-  Index face, const std::array<double, 3>& weights);
+  vtkPolyData* data, Index face, const std::array<double, 3>& weights);
 
 /// Points: Valence, OnBoundary, SourceCellId, SourcePointIds, SourceBarycentric. Cells: SourceCellId and
 /// FeatureEdges (bit i: the edge from corner i to i+1 lies on a feature). All arrays of the carrier.

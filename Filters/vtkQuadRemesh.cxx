@@ -14,6 +14,7 @@
 #include "vtkPolyData.h"
 
 #include <sstream>
+#include <utility>
 
 vtkStandardNewMacro(vtkQuadRemesh);
 
@@ -26,9 +27,9 @@ quadrille::QuadSource sourceOf(const quadrille::PreparedSurface& surface,
   quadrille::QuadSource source;
   source.carrier = input;
   source.patchArray = converted.patchArray;
-  source.carrierPoint = [&surface, &converted](
+  source.carrierPoint = [&surface, &converted, input](
                           quadrille::Index face, const std::array<double, 3>& weights)
-  { return quadrille::pointOrigin(surface, converted, face, weights); };
+  { return quadrille::pointOrigin(surface, converted, input, face, weights); };
   source.carrierCell = [&surface, &converted](quadrille::Index face)
   { return converted.cell(surface.sourcePolygon[face]); };
   source.sourcePoint = source.carrierPoint;
@@ -77,7 +78,7 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
     throw quadrille::InvalidInput("MaximumQuads must be at least 1");
   }
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
-  const quadrille::ConvertedSurface converted = this->ConvertInputs(inputs);
+  quadrille::ConvertedSurface converted = this->ConvertInputs(inputs);
   quadrille::RemeshOptions options = this->MakeOptions();
   options.maximumQuads = static_cast<std::size_t>(this->MaximumQuads);
   if (this->MemoryLimit > 0)
@@ -87,7 +88,7 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   options.mergeCharts = this->ComputeMappedSurface != 0;
   options.progress = this->MakeProgress(0.02, 0.95);
 
-  const quadrille::RemeshResult result = quadrille::remesh(converted.input, options);
+  const quadrille::RemeshResult result = quadrille::remesh(std::move(converted.input), options);
   this->TargetQuads = static_cast<vtkIdType>(result.targetQuads);
   this->SetStageRecords(result.stages);
   this->SetCertificate(result.certificate);

@@ -25,7 +25,7 @@ constexpr double kSecondsSerial = 0.9e-6;
 constexpr double kSecondsParallel = 1.0e-6;
 constexpr double kSecondsQuad = 8e-6;
 constexpr double kBytesFixed = 30e6;
-constexpr double kBytesTriangle = 270;
+constexpr double kBytesTriangle = 200;
 constexpr double kBytesQuad = 900;
 
 } // namespace

@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/Pipeline.h"
 
+#include "Base/Memory.h"
 #include "Mesh/FeatureFilter.h"
+#include "Transfer/PackedMap.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
 #include <queue>
+#include <utility>
 
 namespace quadrille
 {
@@ -73,8 +76,8 @@ void checkOptions(const RemeshOptions& options)
 class Run
 {
 public:
-  Run(const SurfaceInput& input, const RemeshOptions& options)
-    : input_(input), options_(options), poll_(options.progress)
+  Run(SurfaceInput input, const RemeshOptions& options)
+    : input_(std::move(input)), options_(options), poll_(options.progress)
   {
     options_.progress = poll_.callback();
   }
@@ -107,6 +110,7 @@ private:
       refine();
       if (computeMap())
       {
+        levels_.reset(); // the log is a tenth of all memory
         extract();
         mergeMapCharts();
       }
@@ -170,6 +174,8 @@ private:
     result_.surface = prepareSurface(input_, prepareOptions);
     const std::size_t polygons =
       input_.polygonOffsets.empty() ? 0 : input_.polygonOffsets.size() - 1;
+    input_ = {};
+    releaseFreedMemory();
     for (const auto& [name, seconds] : result_.surface.seconds)
     {
       addStage(name, seconds, polygons, result_.surface.mesh.faceCount());
@@ -246,22 +252,28 @@ private:
   struct MapState
   {
     Level coarse;
-    std::vector<FixedVec2> coarseUv, uv;
+    std::vector<FixedVec2> coarseUv;
+    PackedMap uv;
     std::vector<int> coarseTurns, turns;
     Certificate coarseCertificate, certificate;
     TransferResult transfer;
   };
   MapState takeState()
   {
-    return { std::move(result_.coarse), std::move(result_.coarseUv), std::move(result_.uv),
+    PackedMap packed(result_.surface.mesh, result_.uv);
+    std::vector<FixedVec2>().swap(result_.uv); // phase 1 comes again and needs the memory
+    return { std::move(result_.coarse), std::move(result_.coarseUv), std::move(packed),
       std::move(result_.coarseTurns), std::move(result_.turns), result_.coarseCertificate,
       result_.certificate, std::move(result_.transfer) };
   }
+  /// Ends the attempts: the levels of the failed one are let go.
   void restore(MapState&& state)
   {
+    levels_.reset();
     result_.coarse = std::move(state.coarse);
     result_.coarseUv = std::move(state.coarseUv);
-    result_.uv = std::move(state.uv);
+    std::vector<FixedVec2>().swap(result_.uv);
+    result_.uv = state.uv.unpack(result_.surface.mesh);
     result_.coarseTurns = std::move(state.coarseTurns);
     result_.turns = std::move(state.turns);
     result_.coarseCertificate = state.coarseCertificate;
@@ -367,6 +379,7 @@ private:
       ++result_.decimations;
       levels_.reset(); // before the new one takes its memory
       levels_.emplace(result_.surface.mesh, result_.surface.hash, levelOptions);
+      releaseFreedMemory();
     }
     levels_->update(levelOptions);
     return again ? hierarchy().secondsPhase1 : 0.0;
@@ -541,7 +554,7 @@ private:
     result_.quads = std::move(extracted.mesh);
   }
 
-  const SurfaceInput& input_;
+  SurfaceInput input_; ///< empty once the surface is prepared
   RemeshOptions options_;
   PollScope poll_;
   RemeshResult result_;
@@ -551,9 +564,9 @@ private:
 
 } // namespace
 
-RemeshResult remesh(const SurfaceInput& input, const RemeshOptions& options)
+RemeshResult remesh(SurfaceInput input, const RemeshOptions& options)
 {
-  return Run(input, options).execute();
+  return Run(std::move(input), options).execute();
 }
 
 } // namespace quadrille
