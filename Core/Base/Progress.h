@@ -61,11 +61,10 @@ private:
 /// Throws Cancelled when the callback of the thread's run asks to stop. Does nothing on threads without a run.
 void poll();
 
-/// poll() in a loop of short steps: every so many of them.
-inline void pollNowAndThen(std::size_t step)
+/// poll() in a loop of short steps: every so many of them, a power of two.
+inline void pollNowAndThen(std::size_t step, std::size_t stepsBetween = std::size_t{ 1 } << 16)
 {
-  constexpr std::size_t kStepsBetween = std::size_t{ 1 } << 16;
-  if (step % kStepsBetween == 0)
+  if ((step & (stepsBetween - 1)) == 0)
   {
     poll();
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/Extraction.h"
 
+#include "Base/Progress.h"
 #include "Extraction/HoleFilling.h"
 #include "Extraction/QuadAssembly.h"
 #include "Extraction/QuadSmoothing.h"
@@ -139,6 +140,7 @@ CurveGraph constrainedGraph(const Mesh& mesh)
   std::vector<std::pair<Index, Index>> edges;
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     if (mesh.isConstrained(h) && h < mesh.twin[h])
     {
       edges.emplace_back(mesh.origin[h], mesh.target(h));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
 #include "Base/Parallel.h"
+#include "Base/Progress.h"
 #include "GridMap/GridMap.h"
 #include "GridMap/MapCheck.h"
 
@@ -153,10 +154,12 @@ void checkTurns(const Mesh& mesh, const std::vector<std::int8_t>& entered,
   std::vector<int> turns(mesh.vertexCount(), 0);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     turns[mesh.origin[h]] += entered[h];
   }
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
+    pollNowAndThen(v);
     result.wrongTurns += turns[v] == expectedTurns[v] ? 0 : 1;
   }
 }

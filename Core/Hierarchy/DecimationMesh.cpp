@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/DecimationMesh.h"
 
+#include "Base/LargeArray.h"
 #include "Base/Parallel.h"
+#include "Base/Progress.h"
 #include "Mesh/Topology.h"
 
 #include <utility>
@@ -27,11 +29,11 @@ DecimationMesh::DecimationMesh(const Mesh& fine, FeatureCurves featureCurves, in
           countNeighbours(fine);
           break;
         case 2:
-          origin = fine.origin;
+          copyLarge(fine.origin, origin);
           break;
         default:
-          twin = fine.twin;
-          flags = fine.flags;
+          copyLarge(fine.twin, twin);
+          copyLarge(fine.flags, flags);
       }
     });
 }
@@ -41,6 +43,7 @@ void DecimationMesh::countNeighbours(const Mesh& fine)
   valence.assign(fine.vertexCount(), 0);
   for (Index h = 0; h < fine.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     ++valence[fine.origin[h]];
     if (fine.isBoundary(h))
     {
@@ -172,6 +175,7 @@ Level DecimationMesh::extract() const
   std::vector<Index> newVertex(position.size(), kInvalidIndex);
   for (Index v = 0; v < static_cast<Index>(position.size()); ++v)
   {
+    pollNowAndThen(v);
     if (outgoing[v] != kInvalidIndex)
     {
       newVertex[v] = static_cast<Index>(level.fineVertex.size());
@@ -182,6 +186,7 @@ Level DecimationMesh::extract() const
   std::vector<Index> newFace(faceCount(), kInvalidIndex);
   for (Index f = 0; f < faceCount(); ++f)
   {
+    pollNowAndThen(f);
     if (isAlive(f))
     {
       newFace[f] = static_cast<Index>(level.fineFace.size());

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/FeatureCurves.h"
 
+#include "Base/Progress.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -51,6 +53,7 @@ private:
   {
     for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
     {
+      pollNowAndThen(h);
       if (mesh.isConstrained(h) && (mesh.isBoundary(h) || h < mesh.twin[h]))
       {
         body(mesh.origin[h], mesh.target(h));
@@ -96,6 +99,7 @@ std::vector<Chain> collectChains(const Mesh& mesh, const CurveGraph& graph)
   std::vector<char> seen(mesh.vertexCount(), 0);
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
+    pollNowAndThen(v);
     if (graph.degree(v) == 0 || graph.degree(v) == 2)
     {
       continue;
@@ -113,6 +117,7 @@ std::vector<Chain> collectChains(const Mesh& mesh, const CurveGraph& graph)
   }
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
+    pollNowAndThen(v);
     if (graph.degree(v) == 2 && !seen[v])
     {
       seen[v] = 1;
@@ -255,6 +260,7 @@ bool hasConstrainedEdge(const Mesh& mesh)
   bool found = false;
   for (Index h = 0; h < mesh.halfEdgeCount() && !found; ++h)
   {
+    pollNowAndThen(h);
     found = mesh.isConstrained(h);
   }
   return found;
@@ -294,6 +300,7 @@ FeatureCurves traceFeatureCurves(const Mesh& mesh, double scale)
   const CurveGraph graph(mesh);
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
+    pollNowAndThen(v);
     if (graph.degree(v) > 0)
     {
       curves.kind[v] = graph.degree(v) == 2 ? VertexKind::Curve : VertexKind::Protected;

@@ -3,6 +3,7 @@
 #include "Hierarchy/Hierarchy.h"
 
 #include "Base/Parallel.h"
+#include "Base/Progress.h"
 #include "Hierarchy/BudgetDecimation.h"
 #include "Hierarchy/DecimationMesh.h"
 #include "Hierarchy/LogBuilder.h"
@@ -82,11 +83,13 @@ std::vector<Index> componentRoots(const Mesh& fine)
   };
   for (Index h = 0; h < fine.halfEdgeCount(); h += 3)
   {
+    pollNowAndThen(h);
     merge(fine.origin[h], fine.origin[h + 1]);
     merge(fine.origin[h], fine.origin[h + 2]);
   }
   for (Index v = 0; v < fine.vertexCount(); ++v)
   {
+    pollNowAndThen(v);
     parent[v] = parent[parent[v]]; // the parent is lower, so its own root is final already
   }
   return parent;
@@ -139,6 +142,7 @@ std::vector<float> componentScales(const Mesh& fine, double edgeLength, int thre
   bool anySmall = false;
   for (Index v = 0; v < fine.vertexCount() && !anySmall; ++v)
   {
+    pollNowAndThen(v);
     anySmall = component[v] == v && scale(v) < 1;
   }
   std::vector<float> scales(anySmall ? fine.vertexCount() : 0);
@@ -284,6 +288,7 @@ private:
     intermediate_.emplace(level.mesh, curvesOf(level, mesh.curves));
     for (Index v = 0; v < level.mesh.vertexCount(); ++v)
     {
+      pollNowAndThen(v);
       intermediate_->curveError[v] = mesh.curveError[level.fineVertex[v]];
     }
     hierarchy_.log = log.finish();

@@ -3,6 +3,7 @@
 #include "Hierarchy/UniformDecimation.h"
 
 #include "Base/Parallel.h"
+#include "Base/Progress.h"
 #include "Hierarchy/StarRemoval.h"
 
 #include <algorithm>
@@ -53,6 +54,7 @@ public:
     guards_.curveTolerance = options.curveTolerance;
     for (Index v = 0; v < static_cast<Index>(mesh.position.size()); ++v)
     {
+      pollNowAndThen(v);
       if (mesh.outgoing[v] != kInvalidIndex)
       {
         alive_.push_back(v);

@@ -3,6 +3,7 @@
 #include "Mesh/EdgeRuns.h"
 
 #include "Base/Error.h"
+#include "Base/LargeArray.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 
@@ -109,7 +110,7 @@ void EdgeRuns::countEdges(const std::vector<Index>& origin, Index vertexCount)
 
 void EdgeRuns::fill(const std::vector<Index>& origin)
 {
-  entries_.resize(origin.size());
+  growLarge(entries_, origin.size());
   const auto put = [&](Index a, Index b, Index h) {
     entries_[begin_[std::size_t{ std::min(a, b) } + 1]++] = { std::max(a, b), h };
   };

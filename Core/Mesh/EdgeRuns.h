@@ -3,6 +3,7 @@
 /// All half-edges of a triangle list, grouped by the edge that they run along.
 #pragma once
 
+#include "Base/Progress.h"
 #include "Mesh/Mesh.h"
 
 #include <vector>
@@ -25,12 +26,13 @@ public:
   /// Throws InvalidInput when a corner is out of range or a face has a vertex twice.
   EdgeRuns(const std::vector<Index>& origin, Index vertexCount, int threads);
 
-  /// Calls visit(begin, end) for the run of every edge, in the order of lower, then higher vertex.
+  /// Calls visit(begin, end) for the run of every edge, in the order of lower, then higher vertex. Looks out for a stop.
   template <typename Visitor>
   void forEach(Visitor&& visit) const
   {
     for (std::size_t v = 0; v + 1 < begin_.size(); ++v)
     {
+      pollNowAndThen(v);
       const Entry* entry = entries_.data() + begin_[v];
       const Entry* const bucketEnd = entries_.data() + begin_[v + 1];
       while (entry != bucketEnd)

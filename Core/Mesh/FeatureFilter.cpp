@@ -3,6 +3,7 @@
 #include "Mesh/FeatureFilter.h"
 
 #include "Base/Error.h"
+#include "Base/Progress.h"
 
 #include <algorithm>
 #include <numeric>
@@ -66,6 +67,7 @@ private:
     offset_.assign(mesh_.vertexCount() + 1, 0);
     for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
     {
+      pollNowAndThen(h);
       if (isEdge(h))
       {
         ++offset_[mesh_.origin[h] + 1];
@@ -81,6 +83,7 @@ private:
     std::vector<Index> fill(offset_.begin(), offset_.end() - 1);
     for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
     {
+      pollNowAndThen(h);
       if (isEdge(h))
       {
         incident_[fill[mesh_.origin[h]]++] = h;
@@ -96,6 +99,7 @@ private:
     {
       for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
       {
+        pollNowAndThen(h);
         if (!isEdge(h) || done[h])
         {
           continue;
@@ -276,6 +280,7 @@ FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength)
   }
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     report.keptEdges += mesh.isFeature(h) && h < mesh.twin[h];
   }
   return report;

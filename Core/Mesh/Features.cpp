@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Features.h"
 
+#include "Base/LargeArray.h"
 #include "Base/Parallel.h"
+#include "Base/Progress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,8 +44,9 @@ double sizeOf(const Mesh& mesh)
 FaceNormals computeNormals(const Mesh& mesh, int threads)
 {
   const double height = kReliableHeight * sizeOf(mesh);
-  FaceNormals normals{ std::vector<Vector3>(mesh.faceCount()),
-    std::vector<std::uint8_t>(mesh.faceCount()) };
+  FaceNormals normals;
+  normals.reliable.resize(mesh.faceCount());
+  growLarge(normals.normal, mesh.faceCount());
   parallelFor(mesh.faceCount(), kChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
@@ -130,6 +133,7 @@ void markFeaturesByPatch(PreparedSurface& surface, const std::vector<std::int64_
   Mesh& mesh = surface.mesh;
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     if (!mesh.isBoundary(h) &&
       patchIds[surface.sourcePolygon[Mesh::face(h)]] !=
         patchIds[surface.sourcePolygon[Mesh::face(mesh.twin[h])]])
@@ -143,6 +147,7 @@ void makeFlagsSymmetric(Mesh& mesh)
 {
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     if (!mesh.isBoundary(h))
     {
       mesh.flags[mesh.twin[h]] |= mesh.flags[h];

@@ -3,6 +3,7 @@
 #include "Mesh/Guides.h"
 
 #include "Base/Error.h"
+#include "Base/Progress.h"
 #include "Mesh/Surface.h"
 
 #include <algorithm>
@@ -93,6 +94,7 @@ std::vector<ValenceRequest> cornerRequests(
   const Mesh& mesh = surface.mesh;
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     const Index point = surface.sourcePoints[Mesh::face(h)][h % 3];
     // A corner that a split of an edge made stands at no point of the input.
     const bool moved = !surface.refinedEntry.empty() &&
@@ -143,6 +145,7 @@ void collectRequests(const SurfaceInput& input, PreparedSurface& surface)
   std::vector<std::uint8_t> boundary(surface.mesh.vertexCount(), 0);
   for (Index h = 0; h < surface.mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     if (surface.mesh.isBoundary(h))
     {
       boundary[surface.mesh.origin[h]] = boundary[surface.mesh.target(h)] = 1;
@@ -188,6 +191,7 @@ SurfaceGuides surfaceGuides(const PreparedSurface& surface)
   }
   for (Index f = 0; f < surface.mesh.faceCount(); ++f)
   {
+    pollNowAndThen(f);
     const Index polygon = surface.sourcePolygon[f];
     if (polygon >= guideOf.size() || guideOf[polygon] == kInvalidIndex)
     {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Refine.h"
 
+#include "Base/Progress.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/SurfaceEdit.h"
@@ -46,6 +47,7 @@ public:
   {
     for (Index f = 0; f < mesh.faceCount(); ++f)
     {
+      pollNowAndThen(f);
       pushEdgesOf(f);
     }
   }
@@ -93,6 +95,7 @@ std::vector<std::uint8_t> verticesOnConstraints(const Mesh& mesh)
   std::vector<std::uint8_t> on(mesh.vertexCount(), 0);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     if (mesh.isConstrained(h))
     {
       on[mesh.origin[h]] = 1;
@@ -166,6 +169,7 @@ void splitEnclosedFaces(PreparedSurface& surface)
   const Index count = mesh.faceCount();
   for (Index f = 0; f < count; ++f)
   {
+    pollNowAndThen(f);
     if (mesh.isConstrained(3 * f) && mesh.isConstrained(3 * f + 1) && mesh.isConstrained(3 * f + 2))
     {
       splitFace(surface, f);
@@ -181,6 +185,7 @@ void splitChords(PreparedSurface& surface)
   const auto isOn = [&](Index v) { return v < onConstraint.size() && onConstraint[v] != 0; };
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     if (!mesh.isConstrained(h) && isOn(mesh.origin[h]) && isOn(mesh.target(h)))
     {
       splitEdge(surface, h); // what it moves comes later in the list, or is seen from its twin

@@ -45,6 +45,7 @@ void checkOffsets(const SurfaceInput& input)
   }
   for (std::size_t i = 0; i + 1 < offsets.size(); ++i)
   {
+    pollNowAndThen(i);
     if (offsets[i] > offsets[i + 1])
     {
       throw InvalidInput("polygon " + std::to_string(i) +
@@ -99,6 +100,7 @@ std::size_t removeFacesWithRepeatedCorner(Mesh& mesh)
   std::size_t removed = 0;
   for (Index h = 0; h < mesh.halfEdgeCount(); h += 3)
   {
+    pollNowAndThen(h);
     Index* v = mesh.origin.data() + h;
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
     {
@@ -117,6 +119,7 @@ void removeTinyComponents(PreparedSurface& surface)
   std::vector<Index> faces(surface.components, 0);
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
+    pollNowAndThen(f);
     const bool open =
       mesh.isBoundary(3 * f) || mesh.isBoundary(3 * f + 1) || mesh.isBoundary(3 * f + 2);
     Index& n = faces[component[f]];
@@ -124,6 +127,7 @@ void removeTinyComponents(PreparedSurface& surface)
   }
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
+    pollNowAndThen(f);
     if (faces[component[f]] < kFewestClosedFaces)
     {
       removeFace(surface, f);

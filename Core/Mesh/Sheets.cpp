@@ -3,6 +3,8 @@
 #include "Mesh/Sheets.h"
 
 #include "Base/Error.h"
+#include "Base/LargeArray.h"
+#include "Base/Progress.h"
 #include "Mesh/SurfaceEdit.h"
 #include "Mesh/Topology.h"
 
@@ -97,12 +99,14 @@ std::vector<std::uint8_t> facesToTurn(OrientedSets& sets)
   std::vector<std::array<Index, 2>> votes(sets.size(), { 0, 0 });
   for (Index f = 0; f < sets.size(); ++f)
   {
+    pollNowAndThen(f);
     const OrientedSets::Root root = sets.find(f);
     ++votes[root.face][root.turned ? 1 : 0];
   }
   std::vector<std::uint8_t> turn(sets.size(), 0);
   for (Index f = 0; f < sets.size(); ++f)
   {
+    pollNowAndThen(f);
     const OrientedSets::Root root = sets.find(f);
     const bool turnRoot = votes[root.face][1] > votes[root.face][0];
     turn[f] = root.turned ^ turnRoot;
@@ -234,7 +238,7 @@ void pairFlattestFirst(
 bool pairPlainEdges(Mesh& mesh, const EdgeRuns& runs, ManyFacedEdges& manyFaced)
 {
   bool oriented = true;
-  mesh.twin.assign(mesh.origin.size(), kInvalidIndex);
+  fillLarge(mesh.twin, mesh.origin.size(), kInvalidIndex);
   runs.forEach(
     [&](const EdgeRuns::Entry* begin, const EdgeRuns::Entry* end)
     {
@@ -262,6 +266,7 @@ OrientedSets joinAcrossPlainEdges(const PreparedSurface& surface)
   OrientedSets sets(mesh.faceCount());
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     const Index g = mesh.twin[h];
     if (g != kInvalidIndex && h < g &&
       !sets.join(Mesh::face(h), Mesh::face(g), mesh.origin[h] == mesh.origin[g]))
@@ -286,6 +291,7 @@ std::size_t turnFaces(PreparedSurface& surface, const std::vector<std::uint8_t>&
   std::size_t count = 0;
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
+    pollNowAndThen(f);
     if (turn[f] != 0)
     {
       ++count;
@@ -295,9 +301,10 @@ std::size_t turnFaces(PreparedSurface& surface, const std::vector<std::uint8_t>&
       std::swap(mesh.twin[3 * f], mesh.twin[3 * f + 2]);
     }
   }
-  for (Index& g : mesh.twin)
+  for (std::size_t h = 0; h < mesh.twin.size(); ++h)
   {
-    g = moved(g);
+    pollNowAndThen(h);
+    mesh.twin[h] = moved(mesh.twin[h]);
   }
   return count;
 }
@@ -309,6 +316,7 @@ std::vector<std::uint8_t> verticesOfManyFans(const Mesh& mesh)
   std::vector<Index> outgoing(mesh.vertexCount(), kInvalidIndex);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     const Index v = mesh.origin[h];
     if (v != kInvalidIndex)
     {
@@ -319,6 +327,7 @@ std::vector<std::uint8_t> verticesOfManyFans(const Mesh& mesh)
   std::vector<std::uint8_t> many(mesh.vertexCount(), 0);
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
+    pollNowAndThen(v);
     if (degree[v] == 0)
     {
       continue;
@@ -404,6 +413,7 @@ std::size_t splitVertexFans(Mesh& mesh)
   std::vector<Index> halfEdges;
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     if (mesh.origin[h] != kInvalidIndex && many[mesh.origin[h]] != 0)
     {
       halfEdges.push_back(h);

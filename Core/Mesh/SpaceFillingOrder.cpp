@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/SpaceFillingOrder.h"
 
+#include "Base/LargeArray.h"
 #include "Base/Parallel.h"
+#include "Base/Progress.h"
 
 #include <algorithm>
 #include <cstring>
@@ -220,7 +222,7 @@ public:
     }
     constexpr std::size_t kBytes = kWidth * sizeof(T);
     const std::size_t bytes = values.size() * sizeof(T);
-    buffer_.resize(std::max(buffer_.size(), bytes));
+    growLarge(buffer_, std::max(buffer_.size(), bytes));
     parallelFor(bytes, kBytes * kChunk, threads_,
       [&](std::size_t begin, std::size_t end)
       { std::memcpy(&buffer_[begin], bytesOf(values) + begin, end - begin); });
@@ -270,6 +272,7 @@ std::vector<Index> dropUnused(Mesh& mesh)
   }
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
+    pollNowAndThen(v);
     if (used[v] != 0)
     {
       mesh.position[kept.size()] = mesh.position[v];
@@ -291,6 +294,7 @@ void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
     permute.operator()<1>(mesh.position, order);
     for (Index i = 0; i < order.size(); ++i)
     {
+      pollNowAndThen(i);
       newId[kept.empty() ? order[i] : kept[order[i]]] = i;
     }
   }
@@ -319,6 +323,7 @@ std::vector<Index> facesByLowestVertex(const Mesh& mesh)
   std::vector<Index> begin(std::size_t{ mesh.vertexCount() } + 1, 0);
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
+    pollNowAndThen(f);
     if (!isRemoved(mesh, f))
     {
       ++begin[lowest(f) + 1];
@@ -331,6 +336,7 @@ std::vector<Index> facesByLowestVertex(const Mesh& mesh)
   std::vector<Index> order(begin.back());
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
+    pollNowAndThen(f);
     if (!isRemoved(mesh, f))
     {
       order[begin[lowest(f)]++] = f;
@@ -363,11 +369,14 @@ void orderTwins(Mesh& mesh, const std::vector<Index>& order, Permuter& permute)
   std::vector<Index> newFace(mesh.faceCount(), kInvalidIndex);
   for (Index i = 0; i < order.size(); ++i)
   {
+    pollNowAndThen(i);
     newFace[order[i]] = i;
   }
   permute.operator()<3>(mesh.twin, order);
-  for (Index& g : mesh.twin)
+  for (std::size_t h = 0; h < mesh.twin.size(); ++h)
   {
+    pollNowAndThen(h);
+    Index& g = mesh.twin[h];
     g = g == kInvalidIndex ? kInvalidIndex : 3 * newFace[g / 3] + g % 3;
   }
 }

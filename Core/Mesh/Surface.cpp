@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Surface.h"
 
+#include "Base/Progress.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/EdgeRuns.h"
 #include "Mesh/Features.h"
@@ -72,6 +73,7 @@ void measure(PreparedSurface& surface)
   surface.area = 0;
   for (Index h = 0; h < mesh.halfEdgeCount(); h += 3)
   {
+    pollNowAndThen(h);
     surface.area += mesh.edgeVector(h).cross(mesh.edgeVector(h + 1)).norm() / 2;
   }
   Vector3 low = mesh.position.front();

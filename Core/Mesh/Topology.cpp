@@ -3,6 +3,7 @@
 #include "Mesh/Topology.h"
 
 #include "Base/Error.h"
+#include "Base/Progress.h"
 #include "Mesh/EdgeRuns.h"
 
 #include <utility>
@@ -72,6 +73,7 @@ std::string checkVertices(const Mesh& mesh)
 {
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
+    pollNowAndThen(v);
     if (!mesh.position[v].allFinite())
     {
       return "vertex " + std::to_string(v) + " has a position that is not finite";
@@ -111,6 +113,7 @@ std::string checkHalfEdges(const Mesh& mesh)
 {
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     if (const char* const fault = findFault(mesh, h))
     {
       return "half-edge " + std::to_string(h) + " " + fault + " (vertex " +
@@ -155,6 +158,7 @@ std::string checkFans(const Mesh& mesh)
   std::vector<Index> lastSeenFrom(mesh.vertexCount(), kInvalidIndex);
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
+    pollNowAndThen(v);
     if (outgoing[v] == kInvalidIndex)
     {
       return "vertex " + std::to_string(v) + " is isolated";
@@ -189,6 +193,7 @@ std::vector<Index> outgoingHalfEdges(const Mesh& mesh)
   std::vector<Index> outgoing(mesh.vertexCount(), kInvalidIndex);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     Index& first = outgoing[mesh.origin[h]];
     if (first == kInvalidIndex || mesh.isBoundary(h))
     {
@@ -202,9 +207,11 @@ std::vector<Index> faceComponents(const Mesh& mesh, Index& componentCount)
 {
   std::vector<Index> component(mesh.faceCount(), kInvalidIndex);
   std::vector<Index> stack;
+  std::size_t visited = 0;
   componentCount = 0;
   for (Index seed = 0; seed < mesh.faceCount(); ++seed)
   {
+    pollNowAndThen(seed);
     if (component[seed] != kInvalidIndex)
     {
       continue;
@@ -213,6 +220,7 @@ std::vector<Index> faceComponents(const Mesh& mesh, Index& componentCount)
     stack.push_back(seed);
     while (!stack.empty())
     {
+      pollNowAndThen(++visited);
       const Index f = stack.back();
       stack.pop_back();
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
@@ -240,6 +248,7 @@ TopologySummary summarizeTopology(const Mesh& mesh)
   std::vector<bool> visited(mesh.halfEdgeCount(), false);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     if (!mesh.isBoundary(h))
     {
       continue;

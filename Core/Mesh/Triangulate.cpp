@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Triangulate.h"
 
+#include "Base/LargeArray.h"
+
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace quadrille
 {
@@ -214,6 +215,7 @@ bool hasOnlyTriangles(const SurfaceInput& input)
   Index polygon = 0;
   while (polygon < polygons && isProperTriangle(input, polygon))
   {
+    pollNowAndThen(polygon);
     ++polygon;
   }
   return polygon == polygons;
@@ -223,17 +225,20 @@ bool hasOnlyTriangles(const SurfaceInput& input)
 void copyTriangles(const SurfaceInput& input, PreparedSurface& surface)
 {
   const std::size_t faces = input.polygonOffsets.size() - 1;
-  surface.mesh.origin = input.polygonPoints;
-  surface.sourcePoints.resize(faces);
+  copyLarge(input.polygonPoints, surface.mesh.origin);
+  surface.sourcePoints.reserve(faces);
+  surface.sourcePolygon.reserve(faces);
   for (std::size_t f = 0; f < faces; ++f)
   {
-    std::copy_n(input.polygonPoints.begin() + 3 * f, 3, surface.sourcePoints[f].begin());
+    pollNowAndThen(f);
+    const Index* p = input.polygonPoints.data() + 3 * f;
+    surface.sourcePoints.push_back({ p[0], p[1], p[2] });
+    surface.sourcePolygon.push_back(static_cast<Index>(f));
   }
-  surface.sourcePolygon.resize(faces);
-  std::iota(surface.sourcePolygon.begin(), surface.sourcePolygon.end(), 0u);
   surface.mesh.flags.assign(3 * faces, 0);
   for (std::size_t h = 0; h < 3 * faces && !input.featureEdges.empty(); ++h)
   {
+    pollNowAndThen(h);
     const bool feature = (input.featureEdges[h / 3] >> h % 3 & 1) != 0;
     surface.mesh.flags[h] = feature ? kFeatureEdge | kRequestedFeature : 0;
   }
@@ -244,7 +249,7 @@ void copyTriangles(const SurfaceInput& input, PreparedSurface& surface)
 void triangulate(const SurfaceInput& input, PreparedSurface& surface)
 {
   const Index polygons = static_cast<Index>(input.polygonOffsets.size() - 1);
-  surface.mesh.position = input.points;
+  copyLarge(input.points, surface.mesh.position);
   if (hasOnlyTriangles(input))
   {
     copyTriangles(input, surface);
@@ -256,6 +261,7 @@ void triangulate(const SurfaceInput& input, PreparedSurface& surface)
   surface.sourcePoints.reserve(polygons);
   for (Index polygon = 0; polygon < polygons; ++polygon)
   {
+    pollNowAndThen(polygon);
     if (isProperTriangle(input, polygon))
     {
       const Index* p = input.polygonPoints.data() + input.polygonOffsets[polygon];

@@ -3,6 +3,7 @@
 #include "Numerics/ExactElimination.h"
 
 #include "Base/FixedPoint.h"
+#include "Base/Progress.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -14,6 +15,9 @@ namespace quadrille
 {
 namespace
 {
+
+/// Rows of a few terms that are gone through before the next look out for a stop.
+constexpr std::size_t kRowsBetweenPolls = 4096;
 
 class Overflow
 {
@@ -91,6 +95,7 @@ public:
   {
     for (Index r = 0; r < rows_.size(); ++r)
     {
+      pollNowAndThen(r, kRowsBetweenPolls);
       normalize(rows_[r]);
       for (const auto& term : rows_[r])
       {
@@ -106,6 +111,7 @@ public:
     solved_.assign(rows_.size(), false);
     while (!queue_.empty())
     {
+      poll();
       const auto [length, r] = queue_.top();
       queue_.pop();
       if (!solved_[r] && length == rows_[r].size() && length > 0)
@@ -200,11 +206,14 @@ private:
     }
     for (auto pivot = order_.rbegin(); pivot != order_.rend(); ++pivot)
     {
+      poll();
       expandPivot(*pivot, basis.rows);
     }
     basis.step.assign(basis.free.size(), 1);
-    for (const ExactBasis::Row& row : basis.rows)
+    for (std::size_t v = 0; v < basis.rows.size(); ++v)
     {
+      pollNowAndThen(v, kRowsBetweenPolls);
+      const ExactBasis::Row& row = basis.rows[v];
       for (const auto& [id, numerator] : row.numerators)
       {
         const std::int64_t needed = row.denominator / std::gcd(row.denominator, numerator);

@@ -3,6 +3,7 @@
 #include "Numerics/ReducedTriangles.h"
 
 #include "Base/Error.h"
+#include "Base/Progress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,9 @@ namespace quadrille
 {
 namespace
 {
+
+/// Each takes about a microsecond.
+constexpr std::size_t kTrianglesBetweenPolls = 4096;
 
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
@@ -69,6 +73,7 @@ void ReducedTriangles::collectUnknowns(const UntangleProblem& problem)
   std::vector<std::pair<int, Jacobian>> terms;
   for (std::size_t t = 0; t < count; ++t)
   {
+    pollNowAndThen(t, kTrianglesBetweenPolls);
     terms.clear();
     for (int i = 0; i < 6; ++i)
     {
@@ -108,6 +113,7 @@ void ReducedTriangles::buildPattern()
   }
   for (std::size_t t = 0; t < triangles(); ++t)
   {
+    pollNowAndThen(t, kTrianglesBetweenPolls);
     for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
     {
       std::vector<int>& column = columns[unknown_[a]];
@@ -117,6 +123,7 @@ void ReducedTriangles::buildPattern()
   std::vector<int> start(count + 1, 0);
   for (Eigen::Index j = 0; j < count; ++j)
   {
+    pollNowAndThen(static_cast<std::size_t>(j), kTrianglesBetweenPolls);
     std::sort(columns[j].begin(), columns[j].end());
     columns[j].erase(std::unique(columns[j].begin(), columns[j].end()), columns[j].end());
     start[j + 1] = start[j] + static_cast<int>(columns[j].size());
@@ -132,6 +139,7 @@ void ReducedTriangles::buildPattern()
   slotBegin_.assign(1, 0);
   for (std::size_t t = 0; t < triangles(); ++t)
   {
+    pollNowAndThen(t, kTrianglesBetweenPolls);
     for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
     {
       const std::vector<int>& column = columns[unknown_[a]];
@@ -151,6 +159,7 @@ void ReducedTriangles::jacobians(const Eigen::VectorXd& y, std::vector<Jacobian>
   result.resize(triangles());
   for (std::size_t t = 0; t < triangles(); ++t)
   {
+    pollNowAndThen(t, kTrianglesBetweenPolls);
     Jacobian jacobian = constant_[t];
     for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
     {
@@ -168,6 +177,7 @@ void ReducedTriangles::assemble(
   std::fill(values, values + hessian_.nonZeros(), 0.0);
   for (std::size_t t = 0; t < triangles(); ++t)
   {
+    pollNowAndThen(t, kTrianglesBetweenPolls);
     const int* slot = slot_.data() + slotBegin_[t];
     for (std::size_t a = begin_[t]; a < begin_[t + 1]; ++a)
     {

@@ -3,6 +3,7 @@
 #include "Pipeline/Pipeline.h"
 
 #include "Base/Memory.h"
+#include "Base/Progress.h"
 #include "Mesh/FeatureFilter.h"
 #include "Transfer/PackedMap.h"
 
@@ -143,6 +144,7 @@ private:
     std::size_t triangles = 0;
     for (std::size_t i = 0; i + 1 < input_.polygonOffsets.size(); ++i)
     {
+      pollNowAndThen(i);
       const std::size_t corners = input_.polygonOffsets[i + 1] - input_.polygonOffsets[i];
       triangles += std::max<std::size_t>(corners, 2) - 2;
     }
@@ -413,6 +415,7 @@ private:
       std::vector<Index> added;
       for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
       {
+        pollNowAndThen(h);
         const Index from = hierarchy().intermediate.fineVertex[mesh.origin[h]];
         const Index to = hierarchy().intermediate.fineVertex[mesh.target(h)];
         if (near[from] != near[to])
@@ -507,6 +510,7 @@ private:
     result_.turns.assign(mesh.vertexCount(), 4);
     for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
     {
+      pollNowAndThen(h);
       if (mesh.isBoundary(h))
       {
         result_.turns[mesh.origin[h]] = 2;

@@ -48,6 +48,7 @@ std::size_t visitFaces(const Mesh& mesh, const Enter& enter)
   std::vector<Index> queue;
   for (Index seed = 0; seed < mesh.faceCount(); ++seed)
   {
+    pollNowAndThen(seed);
     if (seen[seed])
     {
       continue;
@@ -80,6 +81,7 @@ std::size_t countSeams(const Mesh& mesh, const std::vector<FixedVec2>& uv)
   std::size_t seams = 0;
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     const Index g = mesh.twin[h];
     seams += g != kInvalidIndex && h < g && !isContinuous(mesh, uv, h) ? 1U : 0U;
   }

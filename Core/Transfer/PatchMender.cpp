@@ -3,6 +3,7 @@
 #include "Transfer/PatchMender.h"
 
 #include "Base/Parallel.h"
+#include "Base/Progress.h"
 #include "GridMap/MapCheck.h"
 #include "Numerics/Untangler.h"
 #include "Transfer/QuarterTurns.h"
@@ -257,6 +258,7 @@ std::vector<int> PatchMender::countTurns() const
   std::vector<int> turns(mesh_.vertexCount(), 0);
   for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     turns[mesh_.origin[h]] += entered[h];
   }
   return turns;

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Transfer/Transfer.h"
 
+#include "Base/LargeArray.h"
 #include "Base/Parallel.h"
+#include "Base/Progress.h"
 #include "GridMap/MapCheck.h"
 #include "Transfer/PatchMender.h"
 #include "Transfer/Replay.h"
@@ -47,9 +49,11 @@ std::vector<FixedVec2> spreadOnSlots(
     throw InvalidInput("The map has " + std::to_string(coarseUv.size()) +
       " corners, but the coarse level has " + std::to_string(coarse.mesh.halfEdgeCount()) + ".");
   }
-  std::vector<FixedVec2> uv(3 * std::size_t{ fineFaces });
+  std::vector<FixedVec2> uv;
+  growLarge(uv, 3 * std::size_t{ fineFaces });
   for (Index h = 0; h < coarse.mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     uv[3 * std::size_t{ coarse.fineFace[h / 3] } + h % 3] = coarseUv[h];
   }
   return uv;
@@ -105,6 +109,7 @@ std::vector<int> expectedTurns(
   std::vector<int> turns(fine.vertexCount(), 4);
   for (Index h = 0; h < fine.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     if (fine.isBoundary(h))
     {
       turns[fine.origin[h]] = 2;
@@ -116,6 +121,7 @@ std::vector<int> expectedTurns(
   }
   for (Index h = 0; h < coarse.mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     turns[coarse.fineVertex[coarse.mesh.origin[h]]] +=
       quadrantsEntered(&coarseUv[3 * Mesh::face(h)], static_cast<int>(h % 3), 1);
   }
@@ -157,6 +163,7 @@ std::vector<FixedVec2> transferToLevel(const Level& coarse, const Level& level, 
   std::vector<FixedVec2> uv(level.mesh.halfEdgeCount());
   for (Index h = 0; h < level.mesh.halfEdgeCount(); ++h)
   {
+    pollNowAndThen(h);
     uv[h] = slots[3 * std::size_t{ level.fineFace[h / 3] } + h % 3];
   }
   return uv;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/FixedPoint.h"
+#include "Base/Progress.h"
 #include "Numerics/ExactElimination.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include <random>
+#include <thread>
 
 using namespace quadrille;
 
@@ -92,4 +94,11 @@ TEST(ExactElimination, OverflowIsToldNotWrapped)
 {
   const std::int64_t large = std::int64_t{ 1 } << 62;
   EXPECT_FALSE(eliminateExactly(2, { { { 0, large }, { 0, large }, { 1, 1 } } }));
+}
+
+TEST(ExactElimination, StopsOnRequest)
+{
+  PollScope scope([](double, const std::string&) { return false; });
+  std::this_thread::sleep_for(PollScope::kInterval);
+  EXPECT_THROW(eliminateExactly(3, { { { 0, 1 }, { 1, -1 } }, { { 1, 2 }, { 2, 1 } } }), Cancelled);
 }

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Arrays of the size of a large mesh: fresh memory comes at 2 GB/s, so that filling one takes longer than a run may take to stop.
+#pragma once
+
+#include "Base/Progress.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Bytes between two looks at the clock: 4 ms of fresh memory.
+constexpr std::size_t kLargeArrayStep = std::size_t{ 1 } << 23;
+
+/// values.resize(count, value...), with poll() in between; values must not have more already.
+template <typename T, typename... Value>
+void growLarge(std::vector<T>& values, std::size_t count, const Value&... value)
+{
+  values.reserve(count);
+  while (values.size() < count)
+  {
+    poll();
+    values.resize(std::min(count, values.size() + kLargeArrayStep / sizeof(T)), value...);
+  }
+}
+
+/// values.assign(count, value), with poll() in between.
+template <typename T>
+void fillLarge(std::vector<T>& values, std::size_t count, const T& value)
+{
+  values.clear();
+  growLarge(values, count, value);
+}
+
+/// to = from, with poll() in between.
+template <typename T>
+void copyLarge(const std::vector<T>& from, std::vector<T>& to)
+{
+  to.clear();
+  to.reserve(from.size());
+  while (to.size() < from.size())
+  {
+    poll();
+    const auto begin = from.begin() + static_cast<std::ptrdiff_t>(to.size());
+    const std::size_t count = std::min(from.size() - to.size(), kLargeArrayStep / sizeof(T));
+    to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+  }
+}
+
+} // namespace quadrille
