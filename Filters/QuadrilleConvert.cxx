@@ -32,6 +32,8 @@ namespace
 
 /// Below this a coordinate on the 2^-24 grid fits the 53 bits of a double.
 constexpr std::int64_t kLargestExact = std::int64_t{ 1 } << (28 + kFractionBits);
+/// Sine of the angle to the normal below which a direction says nothing about a face.
+constexpr double kLeastTangent = 0.01;
 
 template <class... Parts>
 [[noreturn]] void refuse(const Parts&... parts)
@@ -154,6 +156,119 @@ void readStrips(vtkPolyData* data, ConvertedSurface& surface)
 std::size_t polygonCount(const SurfaceInput& input)
 {
   return input.polygonOffsets.size() - 1;
+}
+
+//------------------------------------------------------------------------------
+// What the user asks for
+
+/// A real array with so many components, or null where there is none of this name.
+vtkDataArray* realArray(vtkDataSetAttributes* attributes, const char* name, int components)
+{
+  vtkDataArray* array = attributes->GetArray(name);
+  if (!array)
+  {
+    if (attributes->HasArray(name))
+    {
+      refuse("array '", name, "' does not hold numbers");
+    }
+    return nullptr;
+  }
+  const int type = array->GetDataType();
+  if (array->GetNumberOfComponents() != components || (type != VTK_FLOAT && type != VTK_DOUBLE))
+  {
+    refuse("cell array '", name, "' must have ", components, " real number(s) a cell, it has ",
+      array->GetNumberOfComponents(), " of type ", array->GetDataTypeAsString());
+  }
+  return array;
+}
+
+/// Direction and weight of single cells; nothing where there are no directions.
+class GuideArrays
+{
+public:
+  explicit GuideArrays(vtkPolyData* data)
+    : directions_(realArray(data->GetCellData(), arrays::kGuidingDirection, 3)),
+      weights_(realArray(data->GetCellData(), arrays::kGuidingWeight, 1))
+  {
+  }
+  bool empty() const { return !directions_; }
+  bool hasWeights() const { return weights_ != nullptr; }
+
+  Vector3 direction(vtkIdType cell) const
+  {
+    Vector3 d;
+    directions_->GetTuple(cell, d.data());
+    if (!d.allFinite())
+    {
+      refuse("cell ", cell, " has a ", arrays::kGuidingDirection,
+        " that is not finite; correct it, or set it to zero to leave the cell free");
+    }
+    return d;
+  }
+  /// Of a cell with a direction.
+  double weight(vtkIdType cell) const
+  {
+    const double weight = weights_ ? weights_->GetTuple1(cell) : 1;
+    if (!(weight > 0 && weight <= 1))
+    {
+      refuse("cell ", cell, " has the ", arrays::kGuidingWeight, " ", weight,
+        ", but it must be above 0 and at most 1; set the direction to zero to leave the cell free");
+    }
+    return weight;
+  }
+
+private:
+  vtkDataArray* directions_;
+  vtkDataArray* weights_;
+};
+
+void readGuides(vtkPolyData* data, ConvertedSurface& surface)
+{
+  const GuideArrays guides(data);
+  if (guides.empty())
+  {
+    return;
+  }
+  SurfaceInput& input = surface.input;
+  input.guideDirections.resize(polygonCount(input));
+  input.guideWeights.resize(guides.hasWeights() ? polygonCount(input) : 0);
+  for (std::size_t i = 0; i < input.guideDirections.size(); ++i)
+  {
+    const vtkIdType cell = surface.cell(static_cast<Index>(i));
+    input.guideDirections[i] = guides.direction(cell);
+    if (guides.hasWeights() && !input.guideDirections[i].isZero(0))
+    {
+      input.guideWeights[i] = guides.weight(cell);
+    }
+  }
+}
+
+/// #points, or empty where the array is missing.
+std::vector<int> pointValences(vtkPolyData* data)
+{
+  std::vector<int> valences;
+  vtkDataArray* array = data->GetPointData()->GetArray(arrays::kTargetValence);
+  if (!array)
+  {
+    return valences;
+  }
+  const int type = array->GetDataType();
+  if (array->GetNumberOfComponents() != 1 || type == VTK_FLOAT || type == VTK_DOUBLE)
+  {
+    refuse("point array '", arrays::kTargetValence, "' must have one whole number a point");
+  }
+  valences.resize(static_cast<std::size_t>(data->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < valences.size(); ++i)
+  {
+    const double valence = array->GetTuple1(static_cast<vtkIdType>(i));
+    if (valence != 0 && !(valence >= kLeastValence && valence <= kMostValence))
+    {
+      refuse("point ", i, " has the ", arrays::kTargetValence, " ", valence,
+        ", but only 0 (free) and ", kLeastValence, " to ", kMostValence, " can be asked for");
+    }
+    valences[i] = static_cast<int>(valence);
+  }
+  return valences;
 }
 
 /// The bits name corners of a polygon, so that they say nothing about a strip.
@@ -586,7 +701,26 @@ ConvertedSurface convertSurface(vtkPolyData* data, const std::string& patchArray
   readStrips(data, surface);
   readFeatureEdges(data, surface);
   readPatchIds(data, patchArray, surface);
+  readGuides(data, surface);
+  surface.input.targetValences = pointValences(data);
   return surface;
+}
+
+void addGuideMarks(SurfaceInput& input, const std::vector<GuideMark>& marks)
+{
+  if (marks.empty())
+  {
+    return;
+  }
+  input.guideDirections.resize(polygonCount(input), Vector3::Zero());
+  for (const GuideMark& mark : marks)
+  {
+    input.guideDirections[mark.polygon] = mark.direction;
+    if (!input.guideWeights.empty())
+    {
+      input.guideWeights[mark.polygon] = 1;
+    }
+  }
 }
 
 void addFeatureMarks(SurfaceInput& input, const std::vector<FeatureMark>& marks)
@@ -633,12 +767,65 @@ Mesh readMesh(vtkPolyData* data)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkPolyData> writeLevel(const Level& level)
+vtkSmartPointer<vtkPolyData> writeLevel(const Level& level, const std::vector<int>& targetValences)
 {
   vtkSmartPointer<vtkPolyData> data = writeMesh(level.mesh);
+  if (!level.guides.empty())
+  {
+    auto directions = newArray<vtkDoubleArray>(arrays::kGuidingDirection, 3, level.guides.size());
+    auto weights = newArray<vtkFloatArray>(arrays::kGuidingWeight, 1, level.guides.size());
+    for (std::size_t f = 0; f < level.guides.size(); ++f)
+    {
+      directions->SetTuple(static_cast<vtkIdType>(f), level.guides[f].direction.data());
+      weights->SetValue(static_cast<vtkIdType>(f), level.guides[f].weight);
+    }
+    data->GetCellData()->AddArray(directions);
+    data->GetCellData()->AddArray(weights);
+  }
+  if (!targetValences.empty())
+  {
+    auto valences = newArray<vtkIntArray>(arrays::kTargetValence, 1, targetValences.size());
+    std::copy(targetValences.begin(), targetValences.end(), valences->GetPointer(0));
+    data->GetPointData()->AddArray(valences);
+  }
   data->GetPointData()->AddArray(writeIds(arrays::kFineVertex, level.fineVertex));
   data->GetCellData()->AddArray(writeIds(arrays::kFineFace, level.fineFace));
   return data;
+}
+
+std::vector<Guide> readGuides(vtkPolyData* data, const Mesh& mesh)
+{
+  std::vector<Guide> guides;
+  const GuideArrays given(data);
+  for (Index f = 0; f < mesh.faceCount() && !given.empty(); ++f)
+  {
+    guides.emplace_back();
+    const Vector3 n = mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).stableNormalized();
+    const Vector3 direction = given.direction(f).stableNormalized();
+    const Vector3 tangent = direction - n * n.dot(direction);
+    if (tangent.norm() > kLeastTangent)
+    {
+      guides.back() = { tangent.normalized(), static_cast<float>(given.weight(f)) };
+    }
+  }
+  return guides;
+}
+
+std::vector<int> readTargetValences(vtkPolyData* data, const Mesh& mesh)
+{
+  const std::vector<int> valences = pointValences(data);
+  vtkDataArray* array = data->GetPointData()->GetArray(arrays::kSurfacePointId);
+  if (valences.empty() || !array)
+  {
+    return valences;
+  }
+  const std::vector<Index> vertex = readIds(array, mesh.vertexCount());
+  std::vector<int> result(mesh.vertexCount(), 0);
+  for (std::size_t i = 0; i < vertex.size(); ++i)
+  {
+    result[vertex[i]] = std::max(result[vertex[i]], valences[i]);
+  }
+  return result;
 }
 
 Level readLevel(vtkPolyData* data, const Mesh& fine)

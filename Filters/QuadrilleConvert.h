@@ -7,6 +7,8 @@
 ///          SourcePointIds and SourceWeights (the three input points of a face, and, where
 ///          refinement split it, the barycentric coordinates of its corners: 9 numbers)
 ///   points: FineVertex, Turns, Index, IntegerVertex, SurfacePointId (where points are split at seams)
+/// On levels of the hierarchy GuidingDirection, GuidingWeight and TargetValence hold what the user asked for, where there is
+/// anything.
 #pragma once
 
 #include "Base/FixedPoint.h"
@@ -32,6 +34,9 @@ namespace arrays
 {
 constexpr const char* kFeatureEdges = "FeatureEdges";
 constexpr const char* kPatchId = "PatchId";
+constexpr const char* kGuidingDirection = "GuidingDirection";
+constexpr const char* kGuidingWeight = "GuidingWeight";
+constexpr const char* kTargetValence = "TargetValence";
 constexpr const char* kIgm = "IGM";
 constexpr const char* kMatching = "Matching";
 constexpr const char* kDeterminant = "Determinant";
@@ -57,6 +62,13 @@ struct FeatureMark
   std::uint8_t bits = 0;
 };
 
+/// Direction that a guiding stroke gives to one polygon.
+struct GuideMark
+{
+  Index polygon = 0;
+  Vector3 direction = Vector3::Zero(); ///< unit
+};
+
 /// A surface as Core wants it and the way back from its polygons to the cells of the vtkPolyData.
 struct ConvertedSurface
 {
@@ -80,6 +92,9 @@ struct ConvertedSurface
 /// Throws InvalidInput naming the cell or array that is at fault.
 ConvertedSurface convertSurface(vtkPolyData* surface, const std::string& patchArray);
 
+/// Sets the directions of polygons under strokes, with weight 1.
+void addGuideMarks(SurfaceInput& input, const std::vector<GuideMark>& marks);
+
 /// Sets the marks' bits in input.featureEdges; throws InvalidInput for a polygon out of range.
 void addFeatureMarks(SurfaceInput& input, const std::vector<FeatureMark>& marks);
 
@@ -88,8 +103,13 @@ vtkSmartPointer<vtkPolyData> writeMesh(const Mesh& mesh);
 /// Throws InvalidInput naming the cell that is no triangle, or the edge that is not manifold.
 Mesh readMesh(vtkPolyData* data);
 
-/// writeMesh with FineFace and FineVertex.
-vtkSmartPointer<vtkPolyData> writeLevel(const Level& level);
+/// writeMesh with FineFace and FineVertex, and what is asked for: the level's guides, and targetValences (#V or empty).
+vtkSmartPointer<vtkPolyData> writeLevel(const Level& level, const std::vector<int>& targetValences);
+/// Guides of a mesh that writeLevel wrote, in the planes of its faces: #F, or empty where there are none. Throws InvalidInput naming the
+/// cell, as for the user's surface.
+std::vector<Guide> readGuides(vtkPolyData* data, const Mesh& mesh);
+/// TargetValence by the vertices of readMesh: #V, or empty where no point asks. Throws InvalidInput naming the point.
+std::vector<int> readTargetValences(vtkPolyData* data, const Mesh& mesh);
 /// Throws InvalidInput when an array is missing or an id is out of range.
 Level readLevel(vtkPolyData* data, const Mesh& fine);
 

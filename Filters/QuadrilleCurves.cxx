@@ -159,7 +159,10 @@ void markPath(
   }
 }
 
-/// Only type 0 can be honoured; everything else must not pass for done.
+constexpr double kFeatureCurve = 0;
+constexpr double kGuidingStroke = 1;
+
+/// What cannot be honoured must not pass for done.
 void checkTypes(vtkPolyData* curves)
 {
   vtkDataArray* types = curves->GetCellData()->GetArray(kConstraintType);
@@ -167,11 +170,11 @@ void checkTypes(vtkPolyData* curves)
   {
     const vtkIdType cell = curves->GetNumberOfVerts() + i;
     const double type = types->GetTuple1(cell);
-    if (type != 0)
+    if (type != kFeatureCurve && type != kGuidingStroke)
     {
       std::ostringstream text;
       text << "curve " << cell << " has " << kConstraintType << " " << type
-           << "; this version supports only type 0 (feature curve)";
+           << "; this version supports only types 0 (feature curve) and 1 (guiding stroke)";
       throw InvalidInput(text.str());
     }
   }
@@ -213,6 +216,22 @@ private:
   std::vector<Index> id_;
 };
 
+/// The polygons on both sides of the path take the direction of the segment that it follows.
+void guidePath(const EdgeGraph& graph, const std::vector<Index>& path, const Vector3& direction,
+  std::map<Index, Vector3>& guides)
+{
+  for (std::size_t k = 0; k + 1 < path.size(); ++k)
+  {
+    for (std::size_t i = graph.first[path[k]]; i < graph.first[path[k] + 1]; ++i)
+    {
+      if (graph.uses[i].target == path[k + 1])
+      {
+        guides[graph.uses[i].polygon] = direction;
+      }
+    }
+  }
+}
+
 std::string farAwayNotice(vtkIdType curve, double distance)
 {
   std::ostringstream text;
@@ -239,6 +258,8 @@ std::vector<std::string> applyCurves(
   const EdgeGraph graph = makeGraph(surface.input);
   const Snapper snapper(surface.input, surfaceData);
   std::map<Index, std::uint8_t> marks;
+  std::map<Index, Vector3> guides;
+  vtkDataArray* types = curves->GetCellData()->GetArray(kConstraintType);
   vtkIdType curve = curves->GetNumberOfVerts();
   auto lines = vtk::TakeSmartPointer(curves->GetLines()->NewIterator());
   for (lines->GoToFirstCell(); !lines->IsDoneWithTraversal(); lines->GoToNextCell(), ++curve)
@@ -248,6 +269,7 @@ std::vector<std::string> applyCurves(
     lines->GetCurrentCell(count, ids);
     double farthest = 0;
     Index previous = kInvalidIndex;
+    Vector3 before = Vector3::Zero();
     for (vtkIdType i = 0; i < count; ++i)
     {
       Vector3 p;
@@ -268,7 +290,19 @@ std::vector<std::string> applyCurves(
             std::to_string(v) +
             "; they lie on different components, or coincident points are not merged");
         }
-        markPath(graph, path, marks);
+        if (types && types->GetTuple1(curve) == kGuidingStroke)
+        {
+          guidePath(graph, path, (p - before).stableNormalized(), guides);
+        }
+        else
+        {
+          markPath(graph, path, marks);
+        }
+        before = p;
+      }
+      if (i == 0)
+      {
+        before = p;
       }
       previous = v;
     }
@@ -282,6 +316,12 @@ std::vector<std::string> applyCurves(
     surface.curveMarks.push_back({ polygon, bits });
   }
   addFeatureMarks(surface.input, surface.curveMarks);
+  std::vector<GuideMark> strokes;
+  for (const auto& [polygon, direction] : guides)
+  {
+    strokes.push_back({ polygon, direction });
+  }
+  addGuideMarks(surface.input, strokes);
   return notices;
 }
 

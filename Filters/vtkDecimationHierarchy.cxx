@@ -54,6 +54,9 @@ void vtkDecimationHierarchy::Execute(vtkInformationVector** inputs, vtkInformati
   levels.targetEdgeLength = target.edgeLength;
   levels.coarseVertices = options.coarseVertices;
   levels.threads = options.threads;
+  const quadrille::SurfaceGuides guides = quadrille::surfaceGuides(surface);
+  levels.guides = guides.faces;
+  levels.keepVertices = quadrille::indexVertices(surface);
   levels.progress = this->MakeProgress(0.4, 0.95);
   const quadrille::Hierarchy hierarchy =
     quadrille::buildHierarchy(surface.mesh, surface.hash, levels);
@@ -70,14 +73,20 @@ void vtkDecimationHierarchy::Execute(vtkInformationVector** inputs, vtkInformati
       this->AddNotice(notice);
     }
   }
+  for (const std::string& notice : quadrille::requestNotices(surface, guides))
+  {
+    this->AddNotice(notice);
+  }
+  const auto write = [&surface](const quadrille::Level& level)
+  { return quadrille::writeLevel(level, quadrille::levelValences(surface, level.fineVertex)); };
   vtkPolyData* coarse = vtkPolyData::GetData(outputs, 0);
-  coarse->ShallowCopy(quadrille::writeLevel(hierarchy.coarse));
+  coarse->ShallowCopy(write(hierarchy.coarse));
   quadrille::addNumber(coarse, "TargetEdgeLength", target.edgeLength);
   quadrille::addCount(coarse, "TargetQuads", target.quads);
   quadrille::addStages(coarse, clock.records);
   quadrille::addRepair(coarse, surface.repair);
   quadrille::addText(coarse, "Notices", quadrille::splitLines(this->GetNoticesText()));
-  vtkPolyData::GetData(outputs, 1)->ShallowCopy(quadrille::writeLevel(hierarchy.intermediate));
+  vtkPolyData::GetData(outputs, 1)->ShallowCopy(write(hierarchy.intermediate));
   quadrille::writeLog(hierarchy.log, recipe, vtkTable::GetData(outputs, 2));
 }
 

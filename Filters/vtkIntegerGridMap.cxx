@@ -67,6 +67,8 @@ void vtkIntegerGridMap::Execute(vtkInformationVector** inputs, vtkInformationVec
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   const quadrille::Mesh mesh = quadrille::readMesh(input);
   quadrille::GridMapOptions options = optionsFor(input, this->EdgeLength);
+  options.guides = quadrille::readGuides(input, mesh);
+  options.targetValences = quadrille::readTargetValences(input, mesh);
   options.progress = this->MakeProgress(0.0, 0.95);
   const quadrille::GridMapResult map = quadrille::computeGridMap(mesh, options);
 

@@ -97,6 +97,21 @@ quadrille::QuadSource sourceOf(vtkPolyData* data, const std::string& patchArray)
   return source;
 }
 
+/// Vertices whose irregular valence was asked for stay where they are.
+std::vector<quadrille::Index> requestedVertices(vtkPolyData* data, const quadrille::Mesh& mesh)
+{
+  std::vector<quadrille::Index> vertices;
+  const std::vector<int> valences = quadrille::readTargetValences(data, mesh);
+  for (quadrille::Index v = 0; v < valences.size(); ++v)
+  {
+    if (valences[v] != 0 && valences[v] != quadrille::kRegularValence)
+    {
+      vertices.push_back(v);
+    }
+  }
+  return vertices;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -137,6 +152,7 @@ void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVec
   quadrille::ExtractionOptions options;
   options.maximumQuads = static_cast<std::size_t>(this->MaximumQuads);
   options.threads = this->NumberOfThreads;
+  options.fixedVertices = requestedVertices(input, mesh);
   options.progress = this->MakeProgress(0.0, 0.95);
   quadrille::StageClock clock;
   const quadrille::ExtractionResult result = quadrille::extractQuads(mesh, uv, options);

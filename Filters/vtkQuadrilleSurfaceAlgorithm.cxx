@@ -78,9 +78,6 @@ void vtkQuadrilleSurfaceAlgorithm::WarnOfUnusedArrays(vtkPolyData* surface)
       vtkWarningMacro(<< text);
     }
   };
-  warn(surface->GetCellData(), "GuidingDirection");
-  warn(surface->GetCellData(), "GuidingWeight");
-  warn(surface->GetPointData(), "TargetValence");
   warn(surface->GetPointData(), "ConnectId");
   warn(surface->GetPointData(), "Sizing");
 }

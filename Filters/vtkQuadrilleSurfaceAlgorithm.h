@@ -6,11 +6,15 @@
  *
  * Input port 0 takes the surface: polygons and triangle strips; vertices and lines are not used. Cell arrays
  * `FeatureEdges` (unsigned char, bit i set: the edge from corner i to corner i+1 is a feature) and the patch array
- * (see PatchArrayName) mark features beside the feature angle.
+ * (see PatchArrayName) mark features beside the feature angle. The cell array `GuidingDirection` (3 real numbers; zero:
+ * free) asks for edges of the quads along a direction in the cell, and `GuidingWeight` (a real number in (0, 1], 1 where there is
+ * no such array) says how strongly. The point array `TargetValence` (a whole number) asks for a valence: 0 is free, 4 regular,
+ * 2, 3, 5 to 8 a vertex of that valence at exactly that point; on a boundary as if the quads went on beyond, so 3 is a corner.
+ * What cannot be completed is an error that names the place and what is missing.
  *
  * Input port 1, optional, takes curves as polylines with the cell array `ConstraintType`: 0 (also where there is no such
- * array) is a feature curve, which is drawn along the edges of the surface nearest to it. Other types are an
- * error in this version.
+ * array) is a feature curve, which is drawn along the edges of the surface nearest to it; 1 is a guiding stroke, whose direction the
+ * polygons at these edges take with weight 1. Other types are an error in this version.
  */
 #ifndef vtkQuadrilleSurfaceAlgorithm_h
 #define vtkQuadrilleSurfaceAlgorithm_h

@@ -289,6 +289,7 @@ ExtractionResult extractQuads(
     SmoothingOptions smoothing;
     smoothing.steps = options.smoothingSteps;
     smoothing.threads = options.threads;
+    smoothing.fixedVertices = options.fixedVertices;
     smoothing.progress = [&options](double fraction, const std::string& text)
     { return !options.progress || options.progress(0.9 + 0.1 * fraction, text); };
     smoothQuads(mesh, result.mesh, smoothing);

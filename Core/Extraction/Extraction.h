@@ -20,6 +20,8 @@ struct ExtractionOptions
   /// Sweeps of tangential smoothing on the input surface afterwards (see QuadSmoothing.h), >= 0; 0:
   /// the points stay where the map has them.
   int smoothingSteps = 5;
+  /// Vertices of the mesh, ascending, whose quad vertices smoothing must not move (irregular ones that were asked for).
+  std::vector<Index> fixedVertices;
   int threads = 0;
   ProgressCallback progress;
 };

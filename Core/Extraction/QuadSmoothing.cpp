@@ -169,7 +169,19 @@ private:
     for (Index p = 0; p < quads_.points.size(); ++p)
     {
       freedom_[p] = lines_.size(p) == 0 ? Freedom::Surface : curveFreedom(p);
+      if (!options_.fixedVertices.empty() && isOnFixedVertex(p))
+      {
+        freedom_[p] = Freedom::Fixed;
+      }
     }
+  }
+
+  bool isOnFixedVertex(Index p) const
+  {
+    const std::optional<Index> corner = meshCorner(quads_, p);
+    return corner &&
+      std::binary_search(
+        options_.fixedVertices.begin(), options_.fixedVertices.end(), mesh_.origin[*corner]);
   }
 
   /// A point of a curve slides only where the curve goes straight on in the quad mesh (two quads on

@@ -13,6 +13,7 @@ struct SmoothingOptions
   int steps = 5; ///< sweeps over all points, >= 0
   int threads = 0;
   ProgressCallback progress;
+  std::vector<Index> fixedVertices; ///< of the mesh, ascending; points on them stay
   /// Points whose quads all have a scaled Jacobian above this stay, in (0, 1]: moves for the sake
   /// of shape alone take the mesh away from the ridges and valleys of the surface that the map
   /// follows.

@@ -158,6 +158,8 @@ private:
     CrossFieldOptions fieldOptions;
     fieldOptions.targetEdgeLength = options_.edgeLength;
     fieldOptions.progress = subProgress(options_.progress, 0.0, 0.1);
+    fieldOptions.guides = options_.guides;
+    fieldOptions.targetValences = options_.targetValences;
     result_.field = computeCrossField(mesh_, fieldOptions);
   }
 

@@ -128,7 +128,9 @@ struct GridMapOptions
 {
   double edgeLength = 0;  ///< s, on the surface; > 0
   double targetQuads = 0; ///< 0: follow edgeLength; else scale so that the uv area comes near this
-  Index maximumVertices = 100000; ///< of the mesh; the solvers are made for coarse levels
+  Index maximumVertices = 100000;  ///< of the mesh; the solvers are made for coarse levels
+  std::vector<Guide> guides;       ///< empty or #F, see CrossFieldOptions
+  std::vector<int> targetValences; ///< empty or #V, the same
   ProgressCallback progress;
 };
 struct GridMapResult

@@ -3,6 +3,7 @@
 #include "Hierarchy/BudgetDecimation.h"
 
 #include "Base/Parallel.h"
+#include "Hierarchy/GuideRegions.h"
 #include "Hierarchy/VertexRemoval.h"
 
 #include <Eigen/Geometry>
@@ -57,7 +58,7 @@ constexpr Index kVerticesPerComponent = 12;
 constexpr Index kVerticesPerHandleOrLoop = 8;
 
 /// Removals are first confined to the strictest guards; the next ones are taken when the budget needs it.
-std::vector<RemovalGuards> guardStages(double curveTolerance)
+std::vector<RemovalGuards> guardStages(double curveTolerance, double regionTolerance)
 {
   RemovalGuards strict;
   strict.minimumQuality = 0.4;
@@ -65,6 +66,7 @@ std::vector<RemovalGuards> guardStages(double curveTolerance)
   strict.minimumValence = 5;
   strict.maximumValence = 8;
   strict.curveTolerance = curveTolerance;
+  strict.regionTolerance = regionTolerance;
   RemovalGuards medium = strict;
   medium.minimumQuality = 0.3;
   medium.minimumNormalDot = 0.35;
@@ -277,6 +279,7 @@ private:
   const BudgetOptions& options_;
   StarCache& cache_;
   ComponentShares shares_;
+  GuideCarrier carrier_;
   std::vector<char> kept_;
   std::vector<Index> version_;
   std::vector<float> defect_;    ///< current angle defects, for GaussianMemory
@@ -320,7 +323,7 @@ BudgetResult BudgetDecimation::run()
 {
   BudgetResult result;
   Stage stage;
-  for (const RemovalGuards& guards : guardStages(options_.curveTolerance))
+  for (const RemovalGuards& guards : guardStages(options_.curveTolerance, options_.regionTolerance))
   {
     stage.guards = guards;
     if (alive_ > budget_)
@@ -379,7 +382,9 @@ void BudgetDecimation::runStage(const Stage& stage, RecordWriter& records)
     }
     remember(work, entry.vertex);
     takeOver(work);
+    carrier_.gather(mesh_, removal);
     removal.apply(records);
+    carrier_.carry(mesh_);
     shares_.remove(entry.vertex);
     ++version_[entry.vertex];
     --alive_;

@@ -25,6 +25,7 @@ struct BudgetOptions
   std::vector<Index> keepVertices;
   std::vector<float> inputDefect; ///< #V angle defects of the input; for GaussianMemory only
   double curveTolerance = 0;      ///< see RemovalGuards
+  double regionTolerance = 0;     ///< the same
   int threads = 0;
   ProgressCallback progress;
 };

@@ -72,7 +72,7 @@ bool DecimationMesh::hasEdge(Index a, Index b) const
   return false;
 }
 
-Index DecimationMesh::nextOnCurve(Index v, Index from) const
+Index DecimationMesh::nextOnCurve(Index v, Index from, bool ofBorder) const
 {
   Index found = kInvalidIndex;
   int others = 0;
@@ -88,12 +88,12 @@ Index DecimationMesh::nextOnCurve(Index v, Index from) const
   Index h = first;
   do
   {
-    if (isConstrained(h))
+    if (ofBorder ? isRegionBorder(h) : isConstrained(h))
     {
       consider(target(h));
     }
     const Index incoming = Mesh::previous(h);
-    if (twin[incoming] == kInvalidIndex)
+    if (twin[incoming] == kInvalidIndex && !ofBorder)
     {
       consider(origin[incoming]);
     }
@@ -191,6 +191,10 @@ Level DecimationMesh::extract() const
     {
       newFace[f] = static_cast<Index>(level.fineFace.size());
       level.fineFace.push_back(f);
+      if (!guides.empty())
+      {
+        level.guides.push_back(guides[f]);
+      }
     }
   }
   for (const Index f : level.fineFace)

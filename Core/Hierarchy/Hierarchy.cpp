@@ -6,6 +6,7 @@
 #include "Base/Progress.h"
 #include "Hierarchy/BudgetDecimation.h"
 #include "Hierarchy/DecimationMesh.h"
+#include "Hierarchy/GuideRegions.h"
 #include "Hierarchy/LogBuilder.h"
 #include "Hierarchy/OrderedDecimation.h"
 #include "Hierarchy/StarCache.h"
@@ -29,6 +30,11 @@ namespace
 /// How far a curve of a coarser level may lie from the input's, in s: a tenth of a quad is not seen in the
 /// quads, while a circle of radius s still gets an edge per 0.9 s.
 constexpr double kCurveTolerance = 0.1;
+/// How far the border of a guided region may lie from its course on the intermediate level, in s: no guide has to be finer
+/// than a quad, and the triangles that it follows make it jagged by that much.
+constexpr double kRegionTolerance = 0.5;
+/// How far a guide reaches beyond its face on the way to the intermediate level, in s.
+constexpr double kGuideReach = 0.25;
 /// Distance on both sides over which the turn at a corner is measured, in s.
 constexpr double kCornerScale = 0.25;
 /// A component is thinned out as if s were at most sqrt(area / this), so that one that is smaller than a few quads
@@ -47,6 +53,16 @@ void checkOptions(const Mesh& fine, const HierarchyOptions& options)
   {
     throw InvalidInput("A draw of vertices needs at least one candidate, but is to have " +
       std::to_string(options.draws.candidates) + ".");
+  }
+  for (std::size_t i = 0; i < options.guides.size(); ++i)
+  {
+    const Index f = options.guides[i].face;
+    if (f >= fine.faceCount() || (i > 0 && options.guides[i - 1].face >= f))
+    {
+      throw InvalidInput("Guide " + std::to_string(i) + " is of face " + std::to_string(f) +
+        ", but guides must ascend by face, and the mesh has " + std::to_string(fine.faceCount()) +
+        " faces.");
+    }
   }
   for (const Index v : options.keepVertices)
   {
@@ -244,8 +260,16 @@ public:
     }
     hierarchy_.log.truncate(intermediateEnd_);
     hierarchy_.coarse = {};
+    takeOverGuides(options);
     DecimationMesh mesh(*intermediate_);
-    BudgetResult result = decimateToBudget(mesh, budgetOptions(options), cache_);
+    BudgetOptions budget = budgetOptions(options);
+    if (!hierarchy_.intermediate.guides.empty())
+    {
+      const std::vector<Index> corners =
+        markGuideRegions(mesh, hierarchy_.intermediate.guides, edgeLength_);
+      budget.keepVertices.insert(budget.keepVertices.end(), corners.begin(), corners.end());
+    }
+    BudgetResult result = decimateToBudget(mesh, budget, cache_);
     hierarchy_.notice = std::move(result.notice);
     hierarchy_.cache = result.cache;
     append(result.records);
@@ -297,6 +321,20 @@ private:
     intermediateEnd_ = hierarchy_.log.end();
   }
 
+  /// Brings the guides to the intermediate level, where they have changed.
+  void takeOverGuides(const HierarchyOptions& options)
+  {
+    if (options.guides == guides_)
+    {
+      return;
+    }
+    cache_.clear(); // plans depend on where borders run
+    guides_ = {};   // in case that what follows is stopped
+    hierarchy_.intermediate.guides = guidesOfLevel(
+      fine_, hierarchy_.intermediate, options.guides, kGuideReach * edgeLength_, options.threads);
+    guides_ = options.guides;
+  }
+
   BudgetOptions budgetOptions(const HierarchyOptions& options)
   {
     const Level& level = hierarchy_.intermediate;
@@ -319,6 +357,7 @@ private:
       }
     }
     budget.curveTolerance = kCurveTolerance * edgeLength_;
+    budget.regionTolerance = kRegionTolerance * edgeLength_;
     budget.threads = options.threads;
     budget.progress = part(options.progress, 0.6, 1.0);
     return budget;
@@ -355,6 +394,7 @@ private:
   DecimationLog::End intermediateEnd_;
   std::vector<float> fineDefect_;                  ///< for GaussianMemory, when first needed
   DecimationCost cost_ = DecimationCost::Gaussian; ///< that the cache was filled with
+  std::vector<FaceGuide> guides_;                  ///< that the intermediate level has
   StarCache cache_;
 };
 

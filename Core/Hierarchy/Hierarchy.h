@@ -5,6 +5,7 @@
 
 #include "Base/Progress.h"
 #include "Hierarchy/DecimationLog.h"
+#include "Mesh/Guides.h"
 #include "Mesh/Mesh.h"
 
 #include <memory>
@@ -55,6 +56,9 @@ struct HierarchyOptions
   /// Vertices of the finest mesh that no phase may remove (index constraints; places where a map needs
   /// more freedom, see TransferResult::offenders).
   std::vector<Index> keepVertices;
+  /// Guides of faces of the finest mesh, ascending by face (see surfaceGuides). Their regions keep their borders and corners in
+  /// phase 2, which carries the directions to the coarse level.
+  std::vector<FaceGuide> guides;
   int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;
 };
@@ -66,6 +70,7 @@ struct Level
   Mesh mesh;
   std::vector<Index> fineVertex; ///< #V; id on the finest mesh (levels are subsamplings)
   std::vector<Index> fineFace;   ///< #F
+  std::vector<Guide> guides;     ///< #F, or empty where no face has one
 };
 
 /// How much of phase 2's evaluations of removals the cache of Section 5.3 saved.
@@ -101,7 +106,7 @@ public:
   Redecimation& operator=(Redecimation&&) noexcept;
 
   /// Whether update() can honour the options: target edge length and order are those of phase 1, and all vertices to
-  /// keep are on the intermediate level. If not, phase 1 has to be run with them.
+  /// keep are on the intermediate level. If not, phase 1 has to be run with them. Guides may change freely.
   bool allows(const HierarchyOptions& options) const;
   /// Phase 2: makes the coarse level and the end of the log anew. Bit for bit what buildHierarchy makes of these
   /// options. Throws InvalidInput unless allows(). Cancelled leaves the hierarchy without a coarse level.

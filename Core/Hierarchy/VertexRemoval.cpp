@@ -81,6 +81,7 @@ bool VertexRemoval::gather(Index v)
     return false;
   }
   onCurve_ = mesh_.curves.kind[v] == VertexKind::Curve;
+  border_ = !onCurve_ && !mesh_.border.empty() && mesh_.border[v] != 0;
   const Index first = mesh_.outgoing[v];
   boundary_ = mesh_.isBoundary(first);
   anyConstrained_ = false;
@@ -100,7 +101,7 @@ bool VertexRemoval::gather(Index v)
   do
   {
     slot_[index(faces_)] = h;
-    if (onCurve_ && mesh_.isConstrained(h))
+    if ((onCurve_ && mesh_.isConstrained(h)) || (border_ && mesh_.isRegionBorder(h)))
     {
       (firstCurve < 0 ? firstCurve : curveEnd_) = faces_;
     }
@@ -114,7 +115,7 @@ bool VertexRemoval::gather(Index v)
       curveEnd_ = faces_;
     }
   } while (h != kInvalidIndex && h != first);
-  if (onCurve_ && !boundary_)
+  if (splits())
   {
     rotateToCurve(firstCurve);
   }
@@ -151,7 +152,7 @@ bool VertexRemoval::plan(const RemovalGuards& guards)
 
 bool VertexRemoval::surroundingsFit(const RemovalGuards& guards) const
 {
-  if (onCurve_ &&
+  if ((onCurve_ || border_) &&
     (!curveStaysClose(guards) || !loopStaysLong() ||
       mesh_.hasEdge(ring_[0], ring_[index(curveEnd_)])))
   {
@@ -198,7 +199,8 @@ void VertexRemoval::addStarKey(std::vector<std::uint32_t>& words) const
   }
   words.push_back(vertex_);
   words.push_back(static_cast<std::uint32_t>(ringSize_) | (boundary_ ? 1U << 8 : 0U) |
-    (onCurve_ ? static_cast<std::uint32_t>(curveEnd_) << 16 : 0U));
+    (border_ ? 1U << 9 : 0U) |
+    (onCurve_ || border_ ? static_cast<std::uint32_t>(curveEnd_) << 16 : 0U));
   words.push_back(static_cast<std::uint32_t>(constrained));
   words.push_back(static_cast<std::uint32_t>(constrained >> 32));
   words.insert(words.end(), ring_.begin(), ring_.begin() + ringSize_);
@@ -250,6 +252,10 @@ bool VertexRemoval::curveStaysClose(const RemovalGuards& guards) const
   }
   const double t = std::clamp(-a.dot(ab) / squared, 0.0, 1.0);
   const double distance = (a + t * ab).norm();
+  if (border_)
+  {
+    return distance <= guards.regionTolerance;
+  }
   return distance + mesh_.curveError[vertex_] <= guards.curveTolerance;
 }
 
@@ -258,8 +264,8 @@ bool VertexRemoval::loopStaysLong() const
   // The curve ... p - r0 - v - r1 - q ...: with p == q the loop would fall to three edges.
   const Index r0 = ring_[0];
   const Index r1 = ring_[index(curveEnd_)];
-  const Index p = mesh_.nextOnCurve(r0, vertex_);
-  return p == kInvalidIndex || p != mesh_.nextOnCurve(r1, vertex_);
+  const Index p = mesh_.nextOnCurve(r0, vertex_, border_);
+  return p == kInvalidIndex || p != mesh_.nextOnCurve(r1, vertex_, border_);
 }
 
 bool VertexRemoval::measureStar()
@@ -428,7 +434,7 @@ bool VertexRemoval::triangulate(const RemovalGuards& guards)
   for (int attempt = 0; attempt < 4; ++attempt)
   {
     triangleCount_ = 0;
-    if (onCurve_ && !boundary_)
+    if (splits())
     {
       if (!triangulatePolygon(polygon.data(), curveEnd_ + 1, guards) ||
         !triangulatePolygon(polygon.data() + curveEnd_, ringSize_ - curveEnd_ + 1, guards))
@@ -580,7 +586,8 @@ bool VertexRemoval::forbidExistingDiagonals()
     // A diagonal belongs to two triangles; its edge a - c is seen from the one that it closes.
     const int a = triangle.a;
     const int c = triangle.c;
-    const bool curveEdge = onCurve_ && std::min(a, c) == 0 && std::max(a, c) == curveEnd_;
+    const bool curveEdge =
+      (onCurve_ || border_) && std::min(a, c) == 0 && std::max(a, c) == curveEnd_;
     if (!curveEdge && !isRingEdge(a, c) && !isRingEdge(c, a) &&
       mesh_.areJoined(ring_[index(a)], ring_[index(c)]))
     {
@@ -732,7 +739,7 @@ void VertexRemoval::measureChange(Change& change) const
 int VertexRemoval::bestTarget() const
 {
   // Every diagonal that ends at the target saves one flip.
-  if (onCurve_)
+  if (onCurve_ || border_)
   {
     return diagonals_[index(curveEnd_)] > diagonals_[0] ? curveEnd_ : 0;
   }

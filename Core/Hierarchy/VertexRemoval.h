@@ -36,6 +36,8 @@ struct RemovalGuards
   /// none yet.
   bool allowConstrainedFaces = false;
   double curveTolerance = 0; ///< distance by which a curve may deviate from the input's
+  double regionTolerance =
+    0; ///< distance of the border of a guided region to the edge that takes its place
 };
 
 class VertexRemoval
@@ -49,6 +51,10 @@ public:
   Index ringVertex(int i) const { return ring_[index(i)]; }
   int faceCount() const { return faces_; }
   bool onCurve() const { return onCurve_; }
+  Index vertex() const { return vertex_; }
+  Index slot(int i) const { return slot_[index(i)]; } ///< corner of the vertex in face i
+  /// The first face beyond the curve or border that passes; 0 where there is none.
+  int secondSide() const { return splits() ? curveEnd_ : 0; }
   /// Shortest edge at the vertex; for a curve vertex the shorter one of its two curve edges.
   double shortestEdge() const;
 
@@ -105,6 +111,8 @@ private:
   }
   bool isRingEdge(int x, int y) const { return starFace(x, y) >= 0; }
 
+  /// A curve or the border of a region passes inside the surface; the edge that takes its place parts the triangulation.
+  bool splits() const { return (onCurve_ && !boundary_) || border_; }
   void rotateToCurve(int first);
   bool measureStar();
   bool mapToPlane();
@@ -136,8 +144,10 @@ private:
   int ringSize_ = 0;
   bool boundary_ = false;
   bool onCurve_ = false;
+  bool border_ = false;         ///< no curve, but the border of a guided region passes
   bool anyConstrained_ = false; ///< some ring vertex lies on a curve
-  int curveEnd_ = 0; ///< ring position of the second curve neighbour; the first one is at 0
+  int curveEnd_ =
+    0; ///< ring position of the second neighbour on curve or border; the first one is at 0
 
   std::array<Index, kN> slot_{}; ///< corner of the vertex in its faces
   std::array<Index, kN> ring_{};

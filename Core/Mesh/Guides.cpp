@@ -213,6 +213,33 @@ SurfaceGuides surfaceGuides(const PreparedSurface& surface)
   return result;
 }
 
+std::vector<Index> indexVertices(const PreparedSurface& surface)
+{
+  std::vector<Index> vertices;
+  for (const ValenceRequest& request : surface.valenceRequests)
+  {
+    if (request.valence != kRegularValence)
+    {
+      vertices.push_back(request.vertex);
+    }
+  }
+  return vertices;
+}
+
+std::vector<int> levelValences(const PreparedSurface& surface, const std::vector<Index>& fineVertex)
+{
+  std::vector<int> valences;
+  for (std::size_t i = 0; i < fineVertex.size() && !surface.valenceRequests.empty(); ++i)
+  {
+    const auto found =
+      std::lower_bound(surface.valenceRequests.begin(), surface.valenceRequests.end(),
+        fineVertex[i], [](const ValenceRequest& request, Index v) { return request.vertex < v; });
+    const bool asked = found != surface.valenceRequests.end() && found->vertex == fineVertex[i];
+    valences.push_back(asked ? found->valence : 0);
+  }
+  return valences;
+}
+
 std::vector<std::string> requestNotices(const PreparedSurface& surface, const SurfaceGuides& guides)
 {
   std::vector<std::string> notices;

@@ -28,6 +28,10 @@ struct Guide
   float weight = 0;                    ///< in (0, 1]; 0 where free
 
   bool isFree() const { return !(weight > 0); }
+  bool operator==(const Guide& other) const
+  {
+    return direction == other.direction && weight == other.weight;
+  }
 };
 
 /// The guide of a polygon of the input, as it was given.
@@ -42,6 +46,11 @@ struct FaceGuide
 {
   Index face = kInvalidIndex;
   Guide guide;
+
+  bool operator==(const FaceGuide& other) const
+  {
+    return face == other.face && guide == other.guide;
+  }
 };
 
 /// A vertex is to have this valence. On a boundary it is what the vertex would have if the quads went on beyond, so that 4 is
@@ -68,6 +77,13 @@ struct SurfaceGuides
   std::size_t dropped = 0; ///< faces whose direction is normal to them; they are free
 };
 SurfaceGuides surfaceGuides(const PreparedSurface& surface);
+
+/// Vertices that have to be irregular, ascending. They stay on every level; one that is to be regular needs not stay for that.
+std::vector<Index> indexVertices(const PreparedSurface& surface);
+
+/// Valences asked of the vertices of a level, given by their ids on the finest one; 0 where free. Empty when none is asked.
+std::vector<int> levelValences(
+  const PreparedSurface& surface, const std::vector<Index>& fineVertex);
 
 /// What became of requests that the surface cannot take; empty when all are honoured.
 std::vector<std::string> requestNotices(

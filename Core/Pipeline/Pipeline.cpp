@@ -233,6 +233,11 @@ private:
     {
       result_.notices.push_back(result_.surface.notice);
     }
+    const SurfaceGuides guides = surfaceGuides(result_.surface);
+    for (const std::string& notice : requestNotices(result_.surface, guides))
+    {
+      result_.notices.push_back(notice);
+    }
     const std::string repaired = result_.surface.repair.text();
     if (!repaired.empty())
     {
@@ -245,6 +250,8 @@ private:
     HierarchyOptions hierarchyOptions;
     hierarchyOptions.targetEdgeLength = result_.targetEdgeLength;
     hierarchyOptions.coarseVertices = options_.coarseVertices;
+    hierarchyOptions.guides = surfaceGuides(result_.surface).faces;
+    hierarchyOptions.keepVertices = indexVertices(result_.surface);
     hierarchyOptions.threads = options_.threads;
     hierarchyOptions.progress = subProgress(options_.progress, 0.15, 0.45, "Decimating: ");
     return hierarchyOptions;
@@ -350,9 +357,13 @@ private:
     for (int attempt = 0; attempt < kMaximumAttempts; ++attempt)
     {
       times.phase1 += makeLevels(levelOptions);
+      mapOptions.guides = hierarchy().coarse.guides;
+      mapOptions.targetValences = levelValences(result_.surface, hierarchy().coarse.fineVertex);
       map = computeGridMap(hierarchy().coarse.mesh, mapOptions);
       times.add(hierarchy(), map);
-      if (map.status.ok() || map.status.code == StatusCode::TooLarge)
+      const bool hopeless = map.status.code == StatusCode::TooLarge ||
+        (map.status.code == StatusCode::Infeasible && map.offenders.empty());
+      if (map.status.ok() || hopeless)
       {
         break;
       }
@@ -540,6 +551,7 @@ private:
     const Mesh& mesh = result_.surface.mesh;
     ExtractionOptions extractionOptions;
     extractionOptions.maximumQuads = options_.maximumQuads;
+    extractionOptions.fixedVertices = indexVertices(result_.surface);
     extractionOptions.threads = options_.threads;
     extractionOptions.progress = subProgress(options_.progress, 0.9, 1.0, "Extracting: ");
     ExtractionResult extracted = extractQuads(mesh, result_.uv, extractionOptions);
@@ -556,6 +568,36 @@ private:
       result_.notices.push_back("map on the input surface: " + result_.certificate.text());
     }
     result_.quads = std::move(extracted.mesh);
+    checkValences();
+  }
+
+  /// Where the map on the input is not valid everywhere, what was asked for may be lost: that is told.
+  void checkValences()
+  {
+    const std::vector<Index> vertices = indexVertices(result_.surface);
+    std::vector<int> valence(vertices.empty() ? 0 : result_.surface.mesh.vertexCount(), 0);
+    for (Index p = 0; p < result_.quads.points.size() && !valence.empty(); ++p)
+    {
+      for (Index i = 0; i < 3; ++i)
+      {
+        if (result_.quads.sourceWeights[p][i] == 1)
+        {
+          // On a boundary of k quads there are k + 1 edges; as if the quads went on, it would be k + 2.
+          valence[result_.surface.mesh.origin[3 * result_.quads.sourceFace[p] + i]] =
+            result_.quads.valence[p] + (result_.quads.onBoundary[p] != 0 ? 1 : 0);
+        }
+      }
+    }
+    std::size_t missed = 0;
+    for (const ValenceRequest& request : result_.surface.valenceRequests)
+    {
+      missed += request.valence != kRegularValence && valence[request.vertex] != request.valence;
+    }
+    if (missed > 0)
+    {
+      result_.notices.push_back(std::to_string(missed) +
+        " points did not get the valence that was asked for, where the map has folds");
+    }
   }
 
   SurfaceInput input_; ///< empty once the surface is prepared

@@ -7,6 +7,7 @@
 #include "Base/Error.h"
 
 #include <vtkCellData.h>
+#include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkIntArray.h>
 #include <vtkPointData.h>
@@ -125,6 +126,87 @@ TEST(Convert, RefusesWhatItCannotTake)
   {
     EXPECT_NE(std::string(error.what()).find("cell 2"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("99"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Convert, GuidesAndValencesComeByCellAndPoint)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(2, 2));
+  vtkNew<vtkDoubleArray> directions;
+  directions->SetName("GuidingDirection");
+  directions->SetNumberOfComponents(3);
+  directions->SetNumberOfTuples(data->GetNumberOfCells());
+  directions->Fill(0);
+  directions->SetTuple3(5, 0, 2, 0);
+  vtkNew<vtkFloatArray> weights;
+  weights->SetName("GuidingWeight");
+  weights->SetNumberOfTuples(data->GetNumberOfCells());
+  weights->Fill(0); // says nothing where there is no direction
+  weights->SetValue(5, 0.5F);
+  vtkNew<vtkIntArray> valences;
+  valences->SetName("TargetValence");
+  valences->SetNumberOfTuples(data->GetNumberOfPoints());
+  valences->Fill(0);
+  valences->SetValue(4, 5);
+  data->GetCellData()->AddArray(directions);
+  data->GetCellData()->AddArray(weights);
+  data->GetPointData()->AddArray(valences);
+  const ConvertedSurface surface = convertSurface(data, "");
+  ASSERT_EQ(surface.input.guideDirections.size(), 8u);
+  EXPECT_EQ(surface.input.guideDirections[5], Vector3(0, 2, 0));
+  EXPECT_EQ(surface.input.guideWeights[5], 0.5);
+  EXPECT_EQ(surface.input.targetValences[4], 5);
+
+  const auto messageOf = [&]
+  {
+    try
+    {
+      convertSurface(data, "");
+    }
+    catch (const InvalidInput& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  weights->SetValue(5, 1.5F);
+  EXPECT_NE(messageOf().find("cell 5"), std::string::npos);
+  weights->SetValue(5, 1);
+  directions->SetComponent(6, 1, std::nan(""));
+  EXPECT_NE(messageOf().find("cell 6"), std::string::npos);
+  directions->SetComponent(6, 1, 0);
+  valences->SetValue(4, 9);
+  EXPECT_NE(messageOf().find("point 4"), std::string::npos);
+  valences->SetValue(4, 0);
+  EXPECT_EQ(messageOf(), "");
+  vtkNew<vtkDoubleArray> real;
+  real->SetName("TargetValence");
+  real->SetNumberOfTuples(data->GetNumberOfPoints());
+  real->Fill(0);
+  data->GetPointData()->AddArray(real);
+  EXPECT_NE(messageOf(), "");
+}
+
+TEST(Convert, GuidesAndValencesOfALevelComeBack)
+{
+  Level level;
+  level.mesh = test::sphere(1);
+  level.fineVertex.resize(level.mesh.vertexCount());
+  level.fineFace.resize(level.mesh.faceCount());
+  EXPECT_TRUE(readGuides(writeLevel(level, {}), level.mesh).empty());
+  EXPECT_TRUE(readTargetValences(writeLevel(level, {}), level.mesh).empty());
+  level.guides.resize(level.mesh.faceCount());
+  level.guides[7] = { level.mesh.edgeVector(21).normalized(), 0.25F };
+  std::vector<int> valences(level.mesh.vertexCount(), 0);
+  valences[3] = 5;
+  const vtkSmartPointer<vtkPolyData> data = writeLevel(level, valences);
+  EXPECT_EQ(readTargetValences(data, level.mesh), valences);
+  const std::vector<Guide> guides = readGuides(data, level.mesh);
+  ASSERT_EQ(guides.size(), level.guides.size());
+  for (std::size_t f = 0; f < guides.size(); ++f)
+  {
+    EXPECT_EQ(guides[f].weight, level.guides[f].weight);
+    EXPECT_LT((guides[f].direction - level.guides[f].direction).norm(), 1e-14);
   }
 }
 

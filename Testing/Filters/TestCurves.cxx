@@ -87,6 +87,35 @@ TEST(Curves, OtherTypesAreRefused)
   EXPECT_THROW(applyCurves(surface, data, curve), InvalidInput);
 }
 
+TEST(Curves, StrokesGuideThePolygonsTheyRunOver)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(8, 8));
+  const vtkSmartPointer<vtkPolyData> curve = polyline({ { 0, 4, 0 }, { 4, 4, 0 }, { 8, 4, 0 } });
+  vtkNew<vtkIntArray> type;
+  type->SetName("ConstraintType");
+  type->InsertNextValue(1);
+  curve->GetCellData()->AddArray(type);
+  ConvertedSurface surface = convertSurface(data, "");
+  applyCurves(surface, data, curve);
+  EXPECT_TRUE(surface.curveMarks.empty());
+  EXPECT_TRUE(surface.input.featureEdges.empty());
+  ASSERT_EQ(surface.input.guideDirections.size(), 128u);
+  std::size_t guided = 0;
+  for (std::size_t i = 0; i < 128; ++i)
+  {
+    bool touches = false; // two corners on the line
+    int onLine = 0;
+    for (int k = 0; k < 3; ++k)
+    {
+      onLine += surface.input.points[surface.input.polygonPoints[3 * i + k]].y() == 4;
+    }
+    touches = onLine == 2;
+    guided += touches;
+    EXPECT_EQ(surface.input.guideDirections[i], touches ? Vector3(1, 0, 0) : Vector3(0, 0, 0));
+  }
+  EXPECT_EQ(guided, 16u);
+}
+
 TEST(Curves, NoPathBetweenComponentsIsAnError)
 {
   const Mesh mesh =

@@ -8,6 +8,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
 #include <vtkIntegerGridMap.h>
 #include <vtkIntegerGridMapUpmap.h>
 #include <vtkPointData.h>
@@ -91,6 +92,51 @@ TEST(StageFilters, ChainEqualsOneClick)
     ASSERT_EQ(cells->GetValue(i), expected->GetValue(i));
     // Height is linear in the position.
     ASSERT_NEAR(carried->GetTuple1(i), quads->GetPoint(i)[2], 1e-12);
+  }
+}
+
+/// Guides and target valences travel with the coarse level and the mapped surface.
+TEST(StageFilters, ChainHonoursGuidesAndValences)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(80, 40));
+  vtkNew<vtkDoubleArray> directions;
+  directions->SetName("GuidingDirection");
+  directions->SetNumberOfComponents(3);
+  for (vtkIdType i = 0; i < input->GetNumberOfCells(); ++i)
+  {
+    const Vector3 p(input->GetPoint(input->GetCell(i)->GetPointId(0)));
+    directions->InsertNextTuple3(p.x() > 0.9 ? 1 : 0, 0, p.x() > 0.9 ? 1 : 0);
+  }
+  input->GetCellData()->AddArray(directions);
+  vtkNew<vtkIntArray> valences;
+  valences->SetName("TargetValence");
+  valences->SetNumberOfTuples(input->GetNumberOfPoints());
+  valences->Fill(0);
+  valences->SetValue(1530, 3);
+  valences->SetValue(1820, 5);
+  input->GetPointData()->AddArray(valences);
+  Chain chain(input);
+  chain.extraction->Update();
+  ASSERT_EQ(chain.extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
+    << chain.hierarchy->GetOutcomeText() << chain.map->GetOutcomeText()
+    << chain.upmap->GetOutcomeText() << chain.extraction->GetOutcomeText();
+  EXPECT_TRUE(chain.hierarchy->GetOutput()->GetCellData()->HasArray("GuidingDirection"));
+  EXPECT_TRUE(chain.hierarchy->GetOutput()->GetPointData()->HasArray("TargetValence"));
+  EXPECT_STREQ(chain.hierarchy->GetNoticesText(), "");
+
+  vtkNew<vtkQuadRemesh> oneClick;
+  oneClick->SetInputData(input);
+  oneClick->SetTargetTypeToNumberOfQuads();
+  oneClick->SetNumberOfQuads(500);
+  oneClick->Update();
+  ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+  EXPECT_EQ(pointsOf(chain.extraction->GetOutput()), pointsOf(oneClick->GetOutput()));
+  vtkDataArray* valence = oneClick->GetOutput()->GetPointData()->GetArray("Valence");
+  for (const vtkIdType point : { 1530, 1820 })
+  {
+    const vtkIdType at = oneClick->GetOutput()->FindPoint(input->GetPoint(point));
+    EXPECT_EQ(Vector3(oneClick->GetOutput()->GetPoint(at)), Vector3(input->GetPoint(point)));
+    EXPECT_EQ(valence->GetTuple1(at), valences->GetValue(point));
   }
 }
 

@@ -1,0 +1,589 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Hierarchy/GuideRegions.h"
+
+#include "Base/Parallel.h"
+#include "Hierarchy/VertexRemoval.h"
+#include "Mesh/Topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <queue>
+#include <utility>
+
+namespace quadrille
+{
+
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+/// Inner angles of a region from here on are no corners.
+constexpr double kCornerLimit = 0.75 * kPi;
+/// A walk to the face below a point ends when so many steps have brought it no nearer.
+constexpr int kVainSteps = 24;
+constexpr std::size_t kChunk = 256;
+
+Vector3 normalOf(const Mesh& mesh, Index f)
+{
+  return mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1));
+}
+
+Vector3 middleOf(const Mesh& mesh, Index f)
+{
+  return (mesh.position[mesh.origin[3 * f]] + mesh.position[mesh.origin[3 * f + 1]] +
+           mesh.position[mesh.origin[3 * f + 2]]) /
+    3;
+}
+
+double distanceToSegment(const Vector3& p, const Vector3& a, const Vector3& b)
+{
+  const Vector3 ab = b - a;
+  const double squared = ab.squaredNorm();
+  const double t = squared > 0 ? std::clamp((p - a).dot(ab) / squared, 0.0, 1.0) : 0.0;
+  return (p - a - t * ab).norm();
+}
+
+double distanceToFace(const Mesh& mesh, Index f, const Vector3& p)
+{
+  const Vector3 n = normalOf(mesh, f);
+  bool inside = n.squaredNorm() > 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  {
+    const Vector3& a = mesh.position[mesh.origin[h]];
+    inside = inside && n.dot(mesh.edgeVector(h).cross(p - a)) >= 0;
+    nearest = std::min(nearest, distanceToSegment(p, a, mesh.position[mesh.target(h)]));
+  }
+  return inside ? std::abs(n.normalized().dot(p - mesh.position[mesh.origin[3 * f]])) : nearest;
+}
+
+/// Finds the fine face below a point near some fine vertices by walking over the surface, so that a sheet close by is
+/// never taken for it.
+class FaceFinder
+{
+public:
+  FaceFinder(const Mesh& mesh, const std::vector<Index>& outgoing)
+    : mesh_(mesh), outgoing_(outgoing)
+  {
+  }
+
+  Index find(const Vector3& point, const Vector3& normal, const std::array<Index, 3>& vertices)
+  {
+    seen_.clear();
+    queue_ = {};
+    for (const Index v : vertices)
+    {
+      visitFan(v, point, normal);
+    }
+    Entry best = queue_.top();
+    int vain = 0;
+    while (!queue_.empty() && vain < kVainSteps)
+    {
+      const Entry entry = queue_.top();
+      queue_.pop();
+      vain = entry < best ? 0 : vain + 1;
+      best = std::min(best, entry);
+      for (Index h = 3 * entry.second; h < 3 * entry.second + 3; ++h)
+      {
+        if (!mesh_.isBoundary(h))
+        {
+          visit(Mesh::face(mesh_.twin[h]), point, normal);
+        }
+      }
+    }
+    return best.second;
+  }
+
+private:
+  using Entry = std::pair<double, Index>;
+
+  void visitFan(Index v, const Vector3& point, const Vector3& normal)
+  {
+    const Index first = outgoing_[v];
+    Index h = first;
+    do
+    {
+      visit(Mesh::face(h), point, normal);
+      h = mesh_.rotateCounterclockwise(h);
+    } while (h != kInvalidIndex && h != first);
+  }
+  void visit(Index f, const Vector3& point, const Vector3& normal)
+  {
+    if (std::find(seen_.begin(), seen_.end(), f) == seen_.end())
+    {
+      seen_.push_back(f);
+      // Faces that look the other way lie behind a fold or a sharp edge.
+      const bool away = normalOf(mesh_, f).dot(normal) < 0;
+      queue_.push({ (away ? 4 : 1) * distanceToFace(mesh_, f, point), f });
+    }
+  }
+
+  const Mesh& mesh_;
+  const std::vector<Index>& outgoing_;
+  std::vector<Index> seen_;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue_;
+};
+
+/// A face that a spreading front may enter next: distance, face, source.
+using Front = std::pair<double, std::pair<Index, Index>>;
+
+/// Lets sources (entry i of `source` is a face) spread over the surface, nearest first, to the faces that `mayEnter` and whose middle is
+/// within `reach` of the source's. #F: the source that each face is reached from, or kInvalidIndex.
+template <typename Predicate>
+std::vector<Index> spread(
+  const Mesh& mesh, const std::vector<Index>& source, double reach, const Predicate& mayEnter)
+{
+  std::vector<Index> reached(mesh.faceCount(), kInvalidIndex);
+  std::priority_queue<Front, std::vector<Front>, std::greater<Front>> queue;
+  for (Index i = 0; i < source.size(); ++i)
+  {
+    queue.push({ 0, { source[i], i } });
+  }
+  while (!queue.empty())
+  {
+    const auto [face, from] = queue.top().second;
+    queue.pop();
+    if (reached[face] != kInvalidIndex)
+    {
+      continue;
+    }
+    reached[face] = from;
+    const Vector3 start = middleOf(mesh, source[from]);
+    for (Index h = 3 * face; h < 3 * face + 3; ++h)
+    {
+      const Index g = mesh.isBoundary(h) ? kInvalidIndex : Mesh::face(mesh.twin[h]);
+      if (g != kInvalidIndex && reached[g] == kInvalidIndex && mayEnter(g))
+      {
+        const double distance = (middleOf(mesh, g) - start).norm();
+        if (distance <= reach)
+        {
+          queue.push({ distance, { g, from } });
+        }
+      }
+    }
+  }
+  return reached;
+}
+
+/// The box of all guided faces, a little larger.
+Eigen::AlignedBox3d boxOf(const Mesh& mesh, const std::vector<FaceGuide>& guides, double margin)
+{
+  Eigen::AlignedBox3d box;
+  for (const FaceGuide& guide : guides)
+  {
+    for (Index h = 3 * guide.face; h < 3 * guide.face + 3; ++h)
+    {
+      box.extend(mesh.position[mesh.origin[h]]);
+    }
+  }
+  return { box.min() - Vector3::Constant(margin), box.max() + Vector3::Constant(margin) };
+}
+
+} // namespace
+
+namespace
+{
+
+/// Brings guides from the finest level to another one.
+class GuideProjection
+{
+public:
+  GuideProjection(const Mesh& fine, const Level& level, const std::vector<FaceGuide>& guides)
+    : fine_(fine), level_(level), guides_(guides), guideOf_(fine.faceCount(), kInvalidIndex),
+      below_(level.mesh.faceCount(), kInvalidIndex), result_(level.mesh.faceCount())
+  {
+    for (Index i = 0; i < guides.size(); ++i)
+    {
+      guideOf_[guides[i].face] = i;
+    }
+  }
+
+  std::vector<Guide> run(double reach, int threads)
+  {
+    findFacesBelow(4 * reach, threads);
+    for (Index f = 0; f < below_.size(); ++f)
+    {
+      if (below_[f] != kInvalidIndex && guideOf_[below_[f]] != kInvalidIndex)
+      {
+        adopt(f, guides_[guideOf_[below_[f]]]);
+      }
+    }
+    const std::vector<Index> missed = missedFaces(reach);
+    if (!missed.empty())
+    {
+      const std::vector<Index> near =
+        spread(fine_, missed, reach, [&](Index g) { return guideOf_[g] == kInvalidIndex; });
+      for (Index f = 0; f < below_.size(); ++f)
+      {
+        if (result_[f].isFree() && below_[f] != kInvalidIndex && near[below_[f]] != kInvalidIndex)
+        {
+          adopt(f, guides_[guideOf_[missed[near[below_[f]]]]]);
+        }
+      }
+    }
+    const bool any = std::any_of(
+      result_.begin(), result_.end(), [](const Guide& guide) { return !guide.isFree(); });
+    return any ? std::move(result_) : std::vector<Guide>();
+  }
+
+private:
+  /// The fine face at the middle of each face of the level, where guides are near.
+  void findFacesBelow(double margin, int threads)
+  {
+    const std::vector<Index> outgoing = outgoingHalfEdges(fine_);
+    const Eigen::AlignedBox3d box = boxOf(fine_, guides_, margin);
+    const Mesh& mesh = level_.mesh;
+    parallelFor(mesh.faceCount(), kChunk, threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        FaceFinder finder(fine_, outgoing);
+        for (Index f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f)
+        {
+          const Vector3 middle = middleOf(mesh, f);
+          const auto vertex = [&](Index i) { return level_.fineVertex[mesh.origin[3 * f + i]]; };
+          if (box.contains(middle))
+          {
+            below_[f] = finder.find(middle, normalOf(mesh, f), { vertex(0), vertex(1), vertex(2) });
+          }
+        }
+      });
+  }
+
+  void adopt(Index f, const FaceGuide& source)
+  {
+    const Eigen::Quaterniond turn =
+      Eigen::Quaterniond::FromTwoVectors(normalOf(fine_, source.face), normalOf(level_.mesh, f));
+    result_[f] = { (turn * source.guide.direction).normalized(), source.guide.weight };
+  }
+
+  /// Guided fine faces farther than `cover` from all middles of triangles that took a guide.
+  std::vector<Index> missedFaces(double cover) const
+  {
+    std::vector<Index> seen;
+    for (Index f = 0; f < below_.size(); ++f)
+    {
+      if (!result_[f].isFree())
+      {
+        seen.push_back(below_[f]);
+      }
+    }
+    const std::vector<Index> covered =
+      spread(fine_, seen, cover, [&](Index g) { return guideOf_[g] != kInvalidIndex; });
+    std::vector<Index> missed;
+    for (const FaceGuide& guide : guides_)
+    {
+      if (covered[guide.face] == kInvalidIndex)
+      {
+        missed.push_back(guide.face);
+      }
+    }
+    return missed;
+  }
+
+  const Mesh& fine_;
+  const Level& level_;
+  const std::vector<FaceGuide>& guides_;
+  std::vector<Index> guideOf_; // #F of the finest level
+  std::vector<Index> below_;   // #F of the level; kInvalidIndex far from all guides
+  std::vector<Guide> result_;
+};
+
+} // namespace
+
+std::vector<Guide> guidesOfLevel(const Mesh& fine, const Level& level,
+  const std::vector<FaceGuide>& fineGuides, double reach, int threads)
+{
+  return fineGuides.empty() ? std::vector<Guide>()
+                            : GuideProjection(fine, level, fineGuides).run(reach, threads);
+}
+
+namespace
+{
+
+/// The borders of the guided regions of a mesh whose flags have them. Half-edges of borders that have the region on
+/// their left run round it counterclockwise.
+class RegionBorders
+{
+public:
+  RegionBorders(const DecimationMesh& mesh, double length)
+    : mesh_(mesh), length_(length), degree_(mesh.position.size(), 0),
+      leaving_(mesh.position.size(), kInvalidIndex), arriving_(mesh.position.size(), kInvalidIndex)
+  {
+    for (Index h = 0; h < mesh.origin.size(); ++h)
+    {
+      if (mesh.isRegionBorder(h))
+      {
+        ++degree_[mesh.origin[h]];
+        if (!mesh.guides[h / 3].isFree())
+        {
+          leaving_[mesh.origin[h]] = h;
+          arriving_[mesh.target(h)] = h;
+        }
+      }
+    }
+  }
+
+  bool touches(Index v) const { return degree_[v] > 0; }
+  /// The border passes, and nothing else is there.
+  bool passes(Index v) const { return degree_[v] == 2 && mesh_.curves.kind[v] == VertexKind::Free; }
+  /// How much the border turns at a corner; 0 where it is none.
+  double sharpness(Index v) const
+  {
+    if (!passes(v) || !(innerAngle(v) < kCornerLimit))
+    {
+      return 0;
+    }
+    const Vector3& p = mesh_.position[v];
+    const Vector3 before = p - walk(v, false);
+    const Vector3 after = walk(v, true) - p;
+    Vector3 normal = Vector3::Zero();
+    for (Index h = leaving_[v]; h != kInvalidIndex; h = nextInside(h))
+    {
+      const Vector3 out = mesh_.position[mesh_.target(h)] - p;
+      normal += out.cross(mesh_.position[mesh_.origin[Mesh::previous(h)]] - p);
+    }
+    const Vector3 axis = before.cross(after);
+    const double turn = std::atan2(axis.norm(), before.dot(after));
+    return axis.dot(normal) > 0 && turn > kPi - kCornerLimit ? turn : 0;
+  }
+
+private:
+  /// The next corner of the region at the same vertex; none past the border.
+  Index nextInside(Index h) const
+  {
+    const Index incoming = Mesh::previous(h);
+    return mesh_.isRegionBorder(incoming) ? kInvalidIndex : mesh_.twin[incoming];
+  }
+  double innerAngle(Index v) const
+  {
+    double angle = 0;
+    const Vector3& p = mesh_.position[v];
+    for (Index h = leaving_[v]; h != kInvalidIndex; h = nextInside(h))
+    {
+      const Vector3 a = mesh_.position[mesh_.target(h)] - p;
+      const Vector3 b = mesh_.position[mesh_.origin[Mesh::previous(h)]] - p;
+      angle += std::atan2(a.cross(b).norm(), a.dot(b));
+    }
+    return angle;
+  }
+  /// The point about `length` further along the border.
+  Vector3 walk(Index v, bool forward) const
+  {
+    double walked = 0;
+    Index at = v;
+    do
+    {
+      const Index h = forward ? leaving_[at] : arriving_[at];
+      const Index to = forward ? mesh_.target(h) : mesh_.origin[h];
+      walked += (mesh_.position[to] - mesh_.position[at]).norm();
+      at = to;
+    } while (walked < length_ && at != v && passes(at));
+    return mesh_.position[at];
+  }
+
+  const DecimationMesh& mesh_;
+  double length_;
+  std::vector<std::uint8_t> degree_; // of the border
+  std::vector<Index> leaving_;       // half-edge of the border with the region on its left
+  std::vector<Index> arriving_;
+};
+
+/// The sharpest corners that are not closer to each other than length.
+std::vector<Index> chooseCorners(
+  const DecimationMesh& mesh, const RegionBorders& borders, double length)
+{
+  std::vector<std::pair<double, Index>> corners;
+  for (Index v = 0; v < mesh.position.size(); ++v)
+  {
+    if (const double sharpness = borders.sharpness(v); sharpness > 0)
+    {
+      corners.emplace_back(-sharpness, v);
+    }
+  }
+  std::sort(corners.begin(), corners.end());
+  std::vector<Index> chosen;
+  for (const auto& [sharpness, v] : corners)
+  {
+    const bool alone = std::none_of(chosen.begin(), chosen.end(),
+      [&, at = v](Index w) { return (mesh.position[w] - mesh.position[at]).norm() < length; });
+    if (alone)
+    {
+      chosen.push_back(v);
+    }
+  }
+  return chosen;
+}
+
+} // namespace
+
+std::vector<Index> markGuideRegions(
+  DecimationMesh& mesh, const std::vector<Guide>& guides, double length)
+{
+  mesh.guides = guides;
+  for (Index h = 0; h < mesh.origin.size(); ++h)
+  {
+    const bool parts =
+      !mesh.isConstrained(h) && guides[h / 3].isFree() != guides[mesh.twin[h] / 3].isFree();
+    mesh.flags[h] |= parts ? kRegionBorder : 0;
+  }
+  const RegionBorders borders(mesh, length);
+  std::vector<Index> kept = chooseCorners(mesh, borders, length);
+  mesh.border.assign(mesh.position.size(), 0);
+  for (Index v = 0; v < mesh.position.size(); ++v)
+  {
+    mesh.border[v] = borders.passes(v) ? 1 : 0;
+    if (borders.touches(v) && !borders.passes(v))
+    {
+      kept.push_back(v);
+    }
+  }
+  return kept;
+}
+
+void GuideCarrier::gather(const DecimationMesh& mesh, const VertexRemoval& removal)
+{
+  faces_.clear();
+  bool any = false;
+  for (int i = 0; i < removal.faceCount() && !mesh.guides.empty(); ++i)
+  {
+    any = any || !mesh.guides[removal.slot(i) / 3].isFree();
+  }
+  if (!any)
+  {
+    return;
+  }
+  split_ = removal.secondSide();
+  for (int i = 0; i < removal.faceCount(); ++i)
+  {
+    const Index face = removal.slot(i) / 3;
+    faces_.push_back({ face, split_ > 0 && i >= split_ ? 1 : 0, mesh.guides[face] });
+  }
+  ring_.clear();
+  spoke_.clear();
+  for (int i = 0; i < removal.ringSize(); ++i)
+  {
+    ring_.push_back(removal.ringVertex(i));
+    spoke_.push_back(mesh.position[removal.ringVertex(i)] - mesh.position[removal.vertex()]);
+  }
+  mapToPlane(removal);
+}
+
+/// Geodesic polar, as VertexRemoval has it: on curves each side fills half a turn.
+void GuideCarrier::mapToPlane(const VertexRemoval& removal)
+{
+  planar_.assign(ring_.size(), Vector2::Zero());
+  const std::size_t faces = faces_.size();
+  const bool halves = removal.onCurve();
+  const std::size_t half = halves && split_ > 0 ? static_cast<std::size_t>(split_) : faces;
+  const auto angleAt = [&](std::size_t i)
+  {
+    const Vector3& a = spoke_[i];
+    const Vector3& b = spoke_[next(i)];
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+  };
+  double direction = 0;
+  for (const auto& [begin, end] : { std::pair(std::size_t{ 0 }, half), std::pair(half, faces) })
+  {
+    double sum = 0;
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      sum += angleAt(i);
+    }
+    const double scale = (halves ? kPi : 2 * kPi) / std::max(sum, 1e-300);
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      planar_[i] = spoke_[i].norm() * Vector2(std::cos(direction), std::sin(direction));
+      direction += scale * angleAt(i);
+    }
+  }
+  if (ring_.size() > faces) // an open star
+  {
+    planar_.back() = spoke_.back().norm() * Vector2(std::cos(direction), std::sin(direction));
+  }
+}
+
+/// The face of the side that contains the point, or comes nearest to that.
+std::size_t GuideCarrier::containing(const Vector2& point, int side) const
+{
+  const auto cross = [](const Vector2& a, const Vector2& b)
+  { return a.x() * b.y() - a.y() * b.x(); };
+  double best = -std::numeric_limits<double>::infinity();
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < faces_.size(); ++i)
+  {
+    const Vector2& a = planar_[i];
+    const Vector2& b = planar_[next(i)];
+    const double area = cross(a, b);
+    const double u = cross(point, b) / area;
+    const double v = cross(a, point) / area;
+    const double inside = std::min({ u, v, 1 - u - v });
+    if (faces_[i].side == side && area > 0 && inside > best)
+    {
+      best = inside;
+      found = i;
+    }
+  }
+  return found;
+}
+
+/// Carries the cross of an old face through the plane to a new triangle. Its two lines are carried one by one and averaged
+/// as a fourth power, as an affine map does not keep them at right angles.
+Guide GuideCarrier::transport(std::size_t from, const std::array<std::size_t, 3>& to) const
+{
+  const Guide& guide = faces_[from].guide;
+  const Vector3& e1 = spoke_[from];
+  const Vector3& e2 = spoke_[next(from)];
+  const Vector3 normal = e1.cross(e2).normalized();
+  Eigen::Matrix<double, 3, 2> oldFrame;
+  oldFrame << e1, e2;
+  Eigen::Matrix2d oldPlane;
+  oldPlane << planar_[from], planar_[next(from)];
+  Eigen::Matrix<double, 3, 2> newFrame;
+  newFrame << spoke_[to[1]] - spoke_[to[0]], spoke_[to[2]] - spoke_[to[0]];
+  Eigen::Matrix2d newPlane;
+  newPlane << planar_[to[1]] - planar_[to[0]], planar_[to[2]] - planar_[to[0]];
+  const Eigen::Matrix2d gram = oldFrame.transpose() * oldFrame;
+  const Eigen::Matrix<double, 3, 3> carry =
+    newFrame * newPlane.inverse() * oldPlane * gram.inverse() * oldFrame.transpose();
+  const Vector3 x = newFrame.col(0).normalized();
+  const Vector3 y = x.cross(newFrame.col(1)).normalized().cross(x);
+  std::complex<double> sum = 0;
+  for (const Vector3& line : { guide.direction, Vector3(normal.cross(guide.direction)) })
+  {
+    const Vector3 carried = carry * line;
+    const std::complex<double> z(carried.dot(x), carried.dot(y));
+    const double size = std::abs(z);
+    sum += size > 0 ? std::pow(z / size, 4) : 0.0;
+  }
+  const double angle = 0.25 * std::arg(sum);
+  return { std::cos(angle) * x + std::sin(angle) * y, guide.weight };
+}
+
+void GuideCarrier::carry(DecimationMesh& mesh)
+{
+  for (const StarFace& star : faces_)
+  {
+    if (!mesh.isAlive(star.face))
+    {
+      continue;
+    }
+    std::array<std::size_t, 3> corner{};
+    for (Index i = 0; i < 3; ++i)
+    {
+      const auto found = std::find(ring_.begin(), ring_.end(), mesh.origin[3 * star.face + i]);
+      corner[i] = static_cast<std::size_t>(found - ring_.begin());
+    }
+    const int side =
+      split_ > 0 && std::max({ corner[0], corner[1], corner[2] }) > static_cast<std::size_t>(split_)
+      ? 1
+      : 0;
+    const Vector2 middle = (planar_[corner[0]] + planar_[corner[1]] + planar_[corner[2]]) / 3;
+    const std::size_t from = containing(middle, side);
+    mesh.guides[star.face] = faces_[from].guide.isFree() ? Guide() : transport(from, corner);
+  }
+}
+
+} // namespace quadrille

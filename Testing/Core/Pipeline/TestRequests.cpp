@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Guides and target valences from the input to the quads.
+#include "Pipeline/Pipeline.h"
+
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+namespace quadrille
+{
+namespace
+{
+
+using namespace quadrille::test;
+
+SurfaceInput inputOf(const Mesh& mesh)
+{
+  SurfaceInput input;
+  input.points = mesh.position;
+  input.polygonPoints = mesh.origin;
+  for (Index f = 0; f <= mesh.faceCount(); ++f)
+  {
+    input.polygonOffsets.push_back(3 * f);
+  }
+  return input;
+}
+
+/// Mean angle, weighted by length, of the quads' edges to the cross of `direction` at their middles, where `wants` it.
+double meanAngle(const QuadMesh& quads, const std::function<bool(const Vector3&)>& wants,
+  const std::function<Vector3(const Vector3&)>& direction)
+{
+  double sum = 0, length = 0;
+  for (const std::array<Index, 4>& quad : quads.quads)
+  {
+    const Vector3 n = (quads.points[quad[2]] - quads.points[quad[0]])
+                        .cross(quads.points[quad[3]] - quads.points[quad[1]])
+                        .normalized();
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const Vector3& a = quads.points[quad[i]];
+      const Vector3& b = quads.points[quad[(i + 1) % 4]];
+      const Vector3 p = (a + b) / 2;
+      if (wants(p))
+      {
+        const Vector3 d = direction(p);
+        const double angle = std::atan2(d.cross(b - a).dot(n), d.dot(b - a));
+        sum += (b - a).norm() * std::abs(angle - kPi / 2 * std::round(angle / (kPi / 2)));
+        length += (b - a).norm();
+      }
+    }
+  }
+  EXPECT_GT(length, 0);
+  return sum / length;
+}
+
+TEST(Requests, GuidesTurnTheQuadsOfATorus)
+{
+  const Mesh mesh = torus(160, 80);
+  RemeshOptions options;
+  options.quads = 1500;
+  options.featureAngle.reset();
+  options.threads = 2;
+  options.coarseVertices = 300;
+  const auto inside = [](const Vector3& p) { return p.x() > 0 && p.z() > 0; };
+  const auto helix = [](const Vector3& p)
+  {
+    const Vector3 around = Vector3(-p.y(), p.x(), 0).normalized();
+    const Vector3 out = (p - Vector3(p.x(), p.y(), 0).normalized()).normalized();
+    return Vector3(around + out.cross(around));
+  };
+  SurfaceInput input = inputOf(mesh);
+  const RemeshResult without = remesh(input, options);
+  ASSERT_TRUE(without.status.ok()) << without.status.message;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    const Vector3& p = mesh.position[mesh.origin[3 * f]];
+    input.guideDirections.push_back(inside(p) ? helix(p) : Vector3(0, 0, 0));
+  }
+  const RemeshResult with = remesh(input, options);
+  ASSERT_TRUE(with.status.ok()) << with.status.message;
+  EXPECT_TRUE(with.certificate.valid());
+  EXPECT_FALSE(with.coarse.guides.empty());
+  // Without guides the quads run along the circles, 45 degrees off.
+  EXPECT_GT(meanAngle(without.quads, inside, helix), 35 * kPi / 180);
+  EXPECT_LT(meanAngle(with.quads, inside, helix), 12 * kPi / 180);
+}
+
+/// The valence of the quad vertex at exactly this place, or 0.
+int valenceAt(const QuadMesh& quads, const Vector3& p)
+{
+  for (std::size_t i = 0; i < quads.points.size(); ++i)
+  {
+    if (quads.points[i] == p)
+    {
+      return quads.valence[i];
+    }
+  }
+  return 0;
+}
+
+TEST(Requests, ValencesComeOutAtTheirPoints)
+{
+  const Mesh mesh = torus(120, 60);
+  RemeshOptions options;
+  options.quads = 1200;
+  options.featureAngle.reset();
+  options.threads = 2;
+  options.coarseVertices = 400;
+  SurfaceInput input = inputOf(mesh);
+  input.targetValences.assign(input.points.size(), 0);
+  const std::map<Index, int> requests{ { 1000, 3 }, { 1031, 5 }, { 5010, 5 }, { 4003, 3 } };
+  for (const auto& [point, valence] : requests)
+  {
+    input.targetValences[point] = valence;
+  }
+  const RemeshResult result = remesh(input, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_TRUE(result.certificate.valid());
+  for (const auto& [point, valence] : requests)
+  {
+    EXPECT_EQ(valenceAt(result.quads, input.points[point]), valence) << "point " << point;
+  }
+  for (const std::string& notice : result.notices)
+  {
+    EXPECT_EQ(notice.find("valence"), std::string::npos) << notice;
+  }
+}
+
+TEST(Requests, InfeasibleValencesAreAnErrorWithTheSum)
+{
+  const Mesh mesh = sphere(4);
+  RemeshOptions options;
+  options.quads = 300;
+  options.featureAngle.reset();
+  SurfaceInput input = inputOf(mesh);
+  input.targetValences.assign(input.points.size(), 4);
+  const RemeshResult result = remesh(input, options);
+  EXPECT_EQ(result.status.code, StatusCode::Infeasible);
+  EXPECT_NE(result.status.message.find("has to sum up to 8"), std::string::npos)
+    << result.status.message;
+  EXPECT_NE(result.status.message.find("missing 8"), std::string::npos);
+  EXPECT_EQ(result.decimations, 1); // nothing that more vertices could help
+  EXPECT_TRUE(result.quads.quads.empty());
+}
+
+TEST(Requests, DroppedOnesAreTold)
+{
+  const Mesh mesh = sphere(4);
+  RemeshOptions options;
+  options.quads = 300;
+  options.featureAngle.reset();
+  SurfaceInput input = inputOf(mesh);
+  input.guideDirections.assign(mesh.faceCount(), Vector3::Zero());
+  input.guideDirections[17] = faceNormal(mesh, 17);
+  const RemeshResult result = remesh(input, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  ASSERT_FALSE(result.notices.empty());
+  EXPECT_NE(result.notices.front().find("normal to them"), std::string::npos);
+}
+
+} // namespace
+} // namespace quadrille
