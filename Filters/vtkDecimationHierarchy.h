@@ -6,7 +6,8 @@
  *
  * Inputs and properties: see vtkQuadrilleSurfaceAlgorithm. Outputs:
  *
- * 0. the coarse level, for vtkIntegerGridMap. Points: `FineVertex`; cells: `FineFace`, `FeatureEdges`; field data:
+ * 0. the coarse level, for vtkIntegerGridMap. Points: `FineVertex`, and `TargetValence` where it is asked for; cells:
+ *    `FineFace`, `FeatureEdges`, and `GuidingDirection` with `GuidingWeight` where there are guides; field data:
  *    `TargetEdgeLength`, `TargetQuads`, stage times, repair counts, `Notices`.
  * 1. the intermediate level, with the same arrays.
  * 2. the log, for vtkIntegerGridMapUpmap: a table without columns, the bytes in the field array `DecimationLog`, bound to
