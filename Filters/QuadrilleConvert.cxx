@@ -34,6 +34,7 @@ namespace
 constexpr std::int64_t kLargestExact = std::int64_t{ 1 } << (28 + kFractionBits);
 /// Sine of the angle to the normal below which a direction says nothing about a face.
 constexpr double kLeastTangent = 0.01;
+constexpr double kRounding = 1e-9;
 
 template <class... Parts>
 [[noreturn]] void refuse(const Parts&... parts)
@@ -801,11 +802,14 @@ std::vector<Guide> readGuides(vtkPolyData* data, const Mesh& mesh)
   {
     guides.emplace_back();
     const Vector3 n = mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).stableNormalized();
-    const Vector3 direction = given.direction(f).stableNormalized();
-    const Vector3 tangent = direction - n * n.dot(direction);
-    if (tangent.norm() > kLeastTangent)
+    const Vector3 direction = given.direction(f);
+    const Vector3 tangent = direction.stableNormalized() - n * n.dot(direction.stableNormalized());
+    // What writeLevel wrote comes back with every bit.
+    const bool exact = (tangent - direction).norm() < kRounding;
+    if (exact || tangent.norm() > kLeastTangent)
     {
-      guides.back() = { tangent.normalized(), static_cast<float>(given.weight(f)) };
+      guides.back() = { exact ? direction : Vector3(tangent.normalized()),
+        direction.isZero(0) ? 0.0F : static_cast<float>(given.weight(f)) };
     }
   }
   return guides;

@@ -206,7 +206,7 @@ TEST(Convert, GuidesAndValencesOfALevelComeBack)
   for (std::size_t f = 0; f < guides.size(); ++f)
   {
     EXPECT_EQ(guides[f].weight, level.guides[f].weight);
-    EXPECT_LT((guides[f].direction - level.guides[f].direction).norm(), 1e-14);
+    EXPECT_EQ(guides[f].direction, level.guides[f].direction);
   }
 }
 

@@ -130,10 +130,19 @@ TEST(StageFilters, ChainHonoursGuidesAndValences)
   oneClick->SetNumberOfQuads(500);
   oneClick->Update();
   ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
-  EXPECT_EQ(pointsOf(chain.extraction->GetOutput()), pointsOf(oneClick->GetOutput()));
+  // The stages merge charts before the extraction, which changes the order of points and their last bits.
+  vtkPolyData* quads = chain.extraction->GetOutput();
+  ASSERT_EQ(quads->GetNumberOfPoints(), oneClick->GetOutput()->GetNumberOfPoints());
+  for (const Vector3& p : pointsOf(quads))
+  {
+    const vtkIdType at = oneClick->GetOutput()->FindPoint(p.x(), p.y(), p.z());
+    EXPECT_LT((Vector3(oneClick->GetOutput()->GetPoint(at)) - p).norm(), 1e-12);
+  }
   vtkDataArray* valence = oneClick->GetOutput()->GetPointData()->GetArray("Valence");
   for (const vtkIdType point : { 1530, 1820 })
   {
+    const vtkIdType staged = quads->FindPoint(input->GetPoint(point));
+    EXPECT_EQ(Vector3(quads->GetPoint(staged)), Vector3(input->GetPoint(point)));
     const vtkIdType at = oneClick->GetOutput()->FindPoint(input->GetPoint(point));
     EXPECT_EQ(Vector3(oneClick->GetOutput()->GetPoint(at)), Vector3(input->GetPoint(point)));
     EXPECT_EQ(valence->GetTuple1(at), valences->GetValue(point));
