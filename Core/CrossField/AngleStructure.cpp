@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossField/AngleStructure.h"
 
+#include "Base/Progress.h"
+
 #include <algorithm>
 #include <cstdint>
 
@@ -155,6 +157,7 @@ private:
     bool found = false;
     for (std::size_t i = 0; i < queue.size(); ++i)
     {
+      pollNowAndThen(++steps_);
       const Index node = queue[i];
       found = found || (node < faces_ && surplus_[node] < 0);
       for (Index k = 0; k < degree(node); ++k)
@@ -178,6 +181,7 @@ private:
     Index node = f;
     while (!(node < faces_ && surplus_[node] < 0))
     {
+      pollNowAndThen(++steps_);
       if (next_[node] < degree(node))
       {
         const Index corner = cornerOf(node, next_[node]);
@@ -224,6 +228,7 @@ private:
   std::vector<Index> level_;          // #nodes
   std::vector<Index> next_;           // #nodes, next arc to try
   std::vector<Index> path_;           // corners; even ones shrink, odd ones grow
+  std::size_t steps_ = 0;             // between looks out for a stop
   bool fit_ = true;
 };
 

@@ -200,7 +200,7 @@ bool ReducedTriangles::newtonStep(double regularization, Eigen::VectorXd& step)
   }
   if (!analyzed_)
   {
-    solver_.analyzePattern(hessian_);
+    solver_.analyze(hessian_);
     analyzed_ = true;
   }
   double mean = 0;
@@ -211,9 +211,7 @@ bool ReducedTriangles::newtonStep(double regularization, Eigen::VectorXd& step)
   const double scale = mean > 0 ? mean : 1.0;
   for (double shift = regularization; shift < 10; shift = std::max(shift * 100, 1e-12))
   {
-    solver_.setShift(shift * scale);
-    solver_.factorize(hessian_);
-    if (solver_.info() == Eigen::Success && (solver_.vectorD().array() > 0).all())
+    if (solver_.factorize(hessian_, shift * scale))
     {
       step = -solver_.solve(gradient_);
       if (step.allFinite())

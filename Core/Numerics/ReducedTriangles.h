@@ -4,9 +4,8 @@
 /// H = sum A_t^T H_t A_t with one symbolic analysis for all factorizations.
 #pragma once
 
+#include "Numerics/SparseLdl.h"
 #include "Numerics/Untangler.h"
-
-#include <Eigen/SparseCholesky>
 
 #include <vector>
 
@@ -52,7 +51,7 @@ private:
   std::vector<int> diagonal_; ///< place of each diagonal entry
   Matrix hessian_;            ///< lower triangle
   Eigen::VectorXd gradient_;
-  Eigen::SimplicialLDLT<Matrix, Eigen::Lower> solver_;
+  SparseLdl solver_;
   bool analyzed_ = false;
 };
 
