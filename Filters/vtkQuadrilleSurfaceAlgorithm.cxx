@@ -13,6 +13,8 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
+
 //------------------------------------------------------------------------------
 vtkQuadrilleSurfaceAlgorithm::vtkQuadrilleSurfaceAlgorithm()
 {
@@ -20,6 +22,17 @@ vtkQuadrilleSurfaceAlgorithm::vtkQuadrilleSurfaceAlgorithm()
 }
 
 vtkQuadrilleSurfaceAlgorithm::~vtkQuadrilleSurfaceAlgorithm() = default;
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleSurfaceAlgorithm::SetCoarseVertices(int number)
+{
+  const int clamped = number <= 0 ? 0 : std::max(number, 4);
+  if (this->CoarseVertices != clamped)
+  {
+    this->CoarseVertices = clamped;
+    this->Modified();
+  }
+}
 
 //------------------------------------------------------------------------------
 void vtkQuadrilleSurfaceAlgorithm::SetPatchArrayName(const char* name)

@@ -110,10 +110,12 @@ public:
   ///@{
   /**
    * Budget of vertices on the coarse level, where the layout is computed; raised by the filter where features,
-   * handles or components need more. At least 4. Default: 1000.
+   * handles or components need more. 0: as many as the surface's curvature needs, from 300 to 4000; else at least 4.
+   * Default: 1000.
    */
-  vtkSetClampMacro(CoarseVertices, int, 4, VTK_INT_MAX);
+  void SetCoarseVertices(int number);
   vtkGetMacro(CoarseVertices, int);
+  void SetCoarseVerticesToAutomatic() { this->SetCoarseVertices(0); }
   ///@}
 
 protected:

@@ -43,7 +43,8 @@ size of the quads (at most one; 0.02 of the bounding-box diagonal when none is g
 
   --feature-angle DEG       edges sharper than this become edges of the quads;
                             0 turns the detection off (default 40)
-  --coarse-vertices N       vertices of the level where the layout is computed (default 1000)
+  --coarse-vertices N       vertices of the level where the layout is computed (default 1000); auto: as many as the
+                            curvature of the surface needs, from 300 to 4000
   --threads N               threads to compute with; 0 means all (default 0)
   --memory-limit MB         refuse to start where more memory is needed by the estimate;
                             0 means what the machine has free (default 0)
@@ -162,7 +163,11 @@ void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
     filter->SetDetectFeatures(*angle > 0);
     filter->SetFeatureAngle(*angle);
   }
-  if (const auto vertices = line.count("coarse-vertices", 4, 100000000))
+  if (line.text("coarse-vertices") == "auto")
+  {
+    filter->SetCoarseVerticesToAutomatic();
+  }
+  else if (const auto vertices = line.count("coarse-vertices", 4, 100000000))
   {
     filter->SetCoarseVertices(static_cast<int>(*vertices));
   }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <deque>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <queue>
@@ -29,6 +30,13 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kAreaWeight = 0.15;
 constexpr double kShapeWeight = 0.4;
 constexpr double kValenceWeight = 0.05;
+
+/// Costs in radians up to which the stages of guards are gone through before the next ceiling. The strictest guards alone would
+/// first take what costs most among the vertices that they allow.
+constexpr std::array<double, 5> kCeilings{ 0.25, 0.5, 1, 2,
+  std::numeric_limits<double>::infinity() };
+/// Where no budget is given: coarse vertices for each quad, about, by which costs are scaled before it is known.
+constexpr double kVerticesPerQuad = 0.4;
 
 /// Vertices that a thread evaluates at a time.
 constexpr std::size_t kChunk = 1024;
@@ -219,8 +227,9 @@ public:
     {
       kept_[v] = 1;
     }
-    budget_ = std::max(options.vertices, shares_.needed());
     prepareCost();
+    budget_ = std::max(isAutomatic() ? kLeastCoarseVertices : options.vertices, shares_.needed());
+    expected_ = isAutomatic() ? expectedVertices() : budget_;
   }
 
   BudgetResult run();
@@ -241,6 +250,7 @@ private:
   {
     RemovalGuards guards;
     std::uint32_t number = 0;
+    double ceiling = 0; ///< of the costs
   };
   /// What one thread works with.
   struct Work
@@ -256,6 +266,8 @@ private:
     std::size_t hits = 0;
   };
 
+  bool isAutomatic() const { return options_.vertices == 0; }
+  Index expectedVertices() const;
   void prepareCost();
   void runStage(const Stage& stage, RecordWriter& records);
   std::vector<Entry> evaluateAll(const Stage& stage);
@@ -266,6 +278,8 @@ private:
   double curvatureCost(Index v, const Work& work) const;
   double quadricCost(const VertexRemoval& removal, Index v) const;
   double shapeCost(const Work& work) const;
+  double movedBy(const Work& work) const;
+  bool movesTooMuch(const Work& work) const;
   void remember(const Work& work, Index v);
   void takeOver(Work& work);
   bool wantsChange() const
@@ -285,8 +299,11 @@ private:
   std::vector<float> defect_;    ///< current angle defects, for GaussianMemory
   std::vector<Quadric> quadric_; ///< for Quadric
   Index budget_ = 0;
+  Index expected_ = 0; ///< vertices in the end, for the scale of costs
   Index alive_ = 0;
   double area_ = 0;
+  double curvature_ = 0; ///< sum of |angle defects| at the start, where costs know it
+  double moved_ = 0;     ///< curvature times distance, see movedBy()
   CacheReport report_;
 };
 
@@ -313,41 +330,78 @@ void BudgetDecimation::prepareCost()
       quadric_[mesh_.origin[h]].addPlane(n / doubled, -n.dot(p) / doubled, 0.5 * doubled);
     }
   }
-  if (options_.cost == DecimationCost::GaussianMemory)
+  if (wantsChange())
   {
     defect_ = defectsOf(mesh_);
   }
+  for (const float defect : defect_)
+  {
+    curvature_ += std::abs(double{ defect });
+  }
+  curvature_ = std::max(curvature_, 2 * kPi);
+}
+
+Index BudgetDecimation::expectedVertices() const
+{
+  const double quads = area_ / (options_.edgeLength * options_.edgeLength);
+  return std::max(budget_,
+    static_cast<Index>(std::clamp(
+      kVerticesPerQuad * quads, double{ kLeastCoarseVertices }, double{ kMostCoarseVertices })));
+}
+
+/// The curvature that the removal moves, half of E_G since it leaves one place and arrives at another, times about the
+/// length of the edges along which it goes.
+double BudgetDecimation::movedBy(const Work& work) const
+{
+  // Six equilateral triangles.
+  const double edge =
+    std::sqrt(double{ numberOf(work.planned[kAreaAt]) } * 2 / (3 * std::sqrt(3.0)));
+  return 0.5 * double{ numberOf(work.planned[kCurvatureAt]) } * edge;
+}
+
+/// Whether an automatic budget ends before the removal.
+bool BudgetDecimation::movesTooMuch(const Work& work) const
+{
+  return isAutomatic() && alive_ <= kMostCoarseVertices &&
+    moved_ + movedBy(work) > kCurvatureShift * options_.edgeLength * curvature_;
 }
 
 BudgetResult BudgetDecimation::run()
 {
   BudgetResult result;
-  Stage stage;
-  for (const RemovalGuards& guards : guardStages(options_.curveTolerance, options_.regionTolerance))
+  for (const double ceiling : kCeilings)
   {
-    stage.guards = guards;
-    if (alive_ > budget_)
+    Stage stage;
+    stage.ceiling = wantsChange() ? ceiling : kCeilings.back();
+    for (const RemovalGuards& guards :
+      guardStages(options_.curveTolerance, options_.regionTolerance))
     {
-      runStage(stage, result.records);
+      stage.guards = guards;
+      if (alive_ > budget_)
+      {
+        runStage(stage, result.records);
+      }
+      ++stage.number;
     }
-    ++stage.number;
   }
   result.notice = notice();
   report_.entries = cache_.entries();
   report_.bytes = cache_.bytes();
   result.cache = report_;
+  result.curvatureShift = moved_ / curvature_;
   return result;
 }
 
 std::string BudgetDecimation::notice() const
 {
-  if (alive_ <= options_.vertices)
+  const Index most = isAutomatic() ? kMostCoarseVertices : options_.vertices;
+  if (alive_ <= most)
   {
     return {};
   }
-  const bool topology = shares_.needed() > options_.vertices;
+  const bool topology = shares_.needed() > most;
   return "The coarse level keeps " + std::to_string(alive_) + " vertices instead of " +
-    std::to_string(options_.vertices) +
+    (isAutomatic() ? "at most " : "") + std::to_string(most) +
     (topology ? ": its components, handles and boundary loops need them."
               : ": features and curved parts need them.");
 }
@@ -360,7 +414,7 @@ void BudgetDecimation::runStage(const Stage& stage, RecordWriter& records)
   const Index begin = alive_;
   std::vector<Index> ring;
   std::size_t visits = 0;
-  while (alive_ > budget_ && !heap.empty())
+  while (alive_ > budget_ && !heap.empty() && double{ heap.top().cost } <= stage.ceiling)
   {
     if (++visits % kChunk == 0)
     {
@@ -380,6 +434,13 @@ void BudgetDecimation::runStage(const Stage& stage, RecordWriter& records)
     {
       ring.push_back(removal.ringVertex(i));
     }
+    if (movesTooMuch(work))
+    {
+      takeOver(work);
+      budget_ = alive_;
+      return;
+    }
+    moved_ += wantsChange() ? movedBy(work) : 0;
     remember(work, entry.vertex);
     takeOver(work);
     carrier_.gather(mesh_, removal);
@@ -572,7 +633,7 @@ double BudgetDecimation::quadricCost(const VertexRemoval& removal, Index v) cons
 double BudgetDecimation::shapeCost(const Work& work) const
 {
   const VertexRemoval& removal = work.removal;
-  const double averageStar = 3 * area_ / budget_;
+  const double averageStar = 3 * area_ / expected_;
   double odd = 0;
   for (int i = 0; i < removal.ringSize(); ++i)
   {

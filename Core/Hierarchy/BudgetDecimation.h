@@ -4,7 +4,7 @@
 ///
 /// Where we differ: E_G alone does not care for triangles without curvature and for their shape, on which the
 /// map's freedom depends; so a little of the star's area, of bad shape and of odd valences is added, and
-/// removals that make slivers wait until nothing else is left. On curves the angle defect is taken on each side
+/// removals that make slivers wait until nothing else is left that costs little. On curves the angle defect is taken on each side
 /// apart, against pi.
 #pragma once
 
@@ -20,7 +20,8 @@ namespace quadrille
 
 struct BudgetOptions
 {
-  Index vertices = 1000;
+  Index vertices = 1000; ///< 0: as many as the curvature needs, see kCurvatureShift
+  double edgeLength = 0; ///< s; for vertices = 0 only
   DecimationCost cost = DecimationCost::Gaussian;
   std::vector<Index> keepVertices;
   std::vector<float> inputDefect; ///< #V angle defects of the input; for GaussianMemory only
@@ -35,6 +36,8 @@ struct BudgetResult
   RecordWriter records; ///< one block
   std::string notice;   ///< empty, or why more vertices are left than asked
   CacheReport cache;
+  double curvatureShift =
+    0; ///< see kCurvatureShift, in units of the mesh; for costs that know curvature
 };
 
 /// Angle defects of all vertices: 2 pi, or pi on the boundary, less the sum of angles.

@@ -41,6 +41,16 @@ constexpr double kCornerScale = 0.25;
 /// still has about 60 vertices to carry a cross field.
 constexpr double kSmallComponent = 26;
 
+void checkBudget(const HierarchyOptions& options)
+{
+  if (options.coarseVertices == 0 && options.cost != DecimationCost::Gaussian &&
+    options.cost != DecimationCost::GaussianMemory)
+  {
+    throw InvalidInput("A coarse level without a number of vertices needs a cost that measures the "
+                       "change of curvature.");
+  }
+}
+
 void checkOptions(const Mesh& fine, const HierarchyOptions& options)
 {
   if (!(options.targetEdgeLength > 0) || !std::isfinite(options.targetEdgeLength))
@@ -64,6 +74,7 @@ void checkOptions(const Mesh& fine, const HierarchyOptions& options)
         " faces.");
     }
   }
+  checkBudget(options);
   for (const Index v : options.keepVertices)
   {
     if (v >= fine.vertexCount())
@@ -252,6 +263,7 @@ public:
         "The coarse level cannot be made anew: the edge length or the order of "
         "phase 1 has changed, or a vertex that is to be kept is not on the intermediate level.");
     }
+    checkBudget(options);
     const auto start = std::chrono::steady_clock::now();
     if (cost_ != options.cost)
     {
@@ -272,6 +284,7 @@ public:
     BudgetResult result = decimateToBudget(mesh, budget, cache_);
     hierarchy_.notice = std::move(result.notice);
     hierarchy_.cache = result.cache;
+    hierarchy_.curvatureShift = result.curvatureShift / edgeLength_;
     append(result.records);
     hierarchy_.coarse = inFineTerms(mesh.extract());
     hierarchy_.secondsPhase2 = secondsSince(start);
@@ -340,6 +353,7 @@ private:
     const Level& level = hierarchy_.intermediate;
     BudgetOptions budget;
     budget.vertices = options.coarseVertices;
+    budget.edgeLength = edgeLength_;
     budget.cost = options.cost;
     for (const Index v : options.keepVertices)
     {

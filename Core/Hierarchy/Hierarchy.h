@@ -44,12 +44,22 @@ struct RandomDraws
   }
 };
 
+/// A budget of the coarse level that follows the surface [after the same, Section 10]. Each removal moves curvature, half of
+/// E_G, about an edge far. Singularities of the field are where the curvature is, and a quad mesh can place them by s only; so
+/// phase 2 ends when the curvature of the intermediate level would have moved by more than kCurvatureShift s on average.
+/// Performance.md has what that does to the singularities.
+constexpr double kCurvatureShift = 0.5;
+/// The limits of such a budget: with less the map lacks room, with more it takes seconds.
+constexpr Index kLeastCoarseVertices = 300;
+constexpr Index kMostCoarseVertices = 4000;
+
 struct HierarchyOptions
 {
   double targetEdgeLength =
     0; ///< s, in units of the mesh; > 0. Phase 1 ends when edges exceed s/2.
-  Index coarseVertices = 1000; ///< budget of the coarse level; raised where features, handles or
-                               ///< components need more (told in Hierarchy::notice)
+  /// Budget of the coarse level; raised where features, handles or components need more (told in Hierarchy::notice).
+  /// 0: as many as the curvature needs, see kCurvatureShift; for the costs Gaussian and GaussianMemory only.
+  Index coarseVertices = 1000;
   DecimationCost cost = DecimationCost::Gaussian;  ///< of phase 2
   DecimationOrder order = DecimationOrder::Sweeps; ///< of phase 1
   RandomDraws draws;                               ///< when it is stochastic
@@ -89,6 +99,9 @@ struct Hierarchy
   DecimationLog log;
   std::string notice; ///< empty, or why the coarse level is larger than asked
   CacheReport cache;
+  /// By how much phase 2 has moved the curvature of the intermediate level on average, in s, at most; for the costs
+  /// Gaussian and GaussianMemory. See kCurvatureShift.
+  double curvatureShift = 0;
   double secondsPhase1 = 0;
   double secondsPhase2 = 0;
 };
@@ -121,7 +134,8 @@ private:
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Both phases. Throws InvalidInput when s is not positive and finite, or draws have no candidates. Progress and cancel through the options.
+/// Both phases. Throws InvalidInput when s is not positive and finite, draws have no
+/// candidates, or the budget is 0 for a cost that knows no curvature. Progress and cancel through the options.
 Hierarchy buildHierarchy(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options);
 
 } // namespace quadrille

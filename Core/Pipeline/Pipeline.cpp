@@ -67,9 +67,10 @@ void checkOptions(const RemeshOptions& options)
   {
     throw InvalidInput("the memory limit must be a positive number of bytes");
   }
-  if (options.coarseVertices < 4)
+  if (options.coarseVertices != 0 && options.coarseVertices < 4)
   {
-    throw InvalidInput("the coarse level needs at least 4 vertices");
+    throw InvalidInput(
+      "the coarse level needs at least 4 vertices, or 0 for as many as the curvature needs");
   }
 }
 
@@ -310,7 +311,7 @@ private:
       {
         break;
       }
-      keepVertices(offenders, levelOptions);
+      keepVertices(offenders, result_.coarse.mesh.vertexCount(), levelOptions);
       const std::size_t defects = defectsOf(result_.certificate);
       MapState best = takeState();
       if (!computeCoarseMap(levelOptions))
@@ -333,12 +334,18 @@ private:
     return certificate.notPositive + certificate.wrongTurns + certificate.seamResiduals;
   }
 
-  static void keepVertices(const std::vector<Index>& added, HierarchyOptions& levelOptions)
+  /// coarseVertices: of the last attempt.
+  static void keepVertices(
+    const std::vector<Index>& added, Index coarseVertices, HierarchyOptions& levelOptions)
   {
     std::vector<Index>& kept = levelOptions.keepVertices;
     kept.insert(kept.end(), added.begin(), added.end());
     std::sort(kept.begin(), kept.end());
     kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+    if (levelOptions.coarseVertices == 0)
+    {
+      levelOptions.coarseVertices = coarseVertices; // not fewer elsewhere because of these
+    }
     levelOptions.coarseVertices += static_cast<Index>(added.size());
   }
 

@@ -29,7 +29,7 @@ struct RemeshOptions
   double relativeEdgeLength = 0.02; ///< target edge length over the bounding-box diagonal, > 0
   std::optional<double> featureAngle =
     0.6981317007977318;        ///< radians (40 degrees); none: no detection
-  Index coarseVertices = 1000; ///< budget of the coarse level
+  Index coarseVertices = 1000; ///< budget of the coarse level; 0: as many as its curvature needs
   std::size_t maximumQuads = 10000000;
   /// Bytes that the run may take by the estimate; none: what the machine has free.
   std::optional<double> memoryLimit;

@@ -134,7 +134,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     quads, edge_length, relative_edge_length: target number of quads, target edge length in units of the mesh, or over
         the diagonal of its bounding box; at most one of them; 0.02 of the diagonal when none is given.
     feature_angle: degrees; edges sharper than this become edges of the quads; None turns the detection off.
-    coarse_vertices: budget of the level where the layout is computed.
+    coarse_vertices: budget of the level where the layout is computed; 0: as many as the curvature needs.
     patch_array: name of a cell array of whole numbers, whose borders become edges of the quads; None: not used.
     curves: a vtkPolyData with polylines that become features.
     threads: 0 means all.

@@ -286,6 +286,17 @@ class Report(Case):
             self.assertIn(stage, stages)
         self.assertLessEqual(sum(s["seconds"] for s in content["stages"]), 1.05 * content["seconds_total"] + 0.05)
 
+    def test_automatic_coarse_level(self):
+        sizes = {}
+        for budget in ("auto", 500):
+            report = self.folder / f"{budget}.json"
+            self.run_quadrille(pathlib.Path(ARGS.data) / "beast.ply", self.folder / "quads.vtp", "--quads", 2500, "--coarse-vertices",
+                               budget, "--report", report)
+            sizes[budget] = json.loads(report.read_text())["sizes"]["coarse_vertices"]
+        self.assertEqual(sizes[500], 500)
+        self.assertTrue(500 < sizes["auto"] < 4000)
+        self.run_quadrille(pathlib.Path(ARGS.data) / "beast.ply", self.folder / "no.vtp", "--coarse-vertices", "some", expect=2)
+
 
 class Bench(Case):
     COLUMNS = "mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb".split(",")

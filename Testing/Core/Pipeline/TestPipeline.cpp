@@ -133,6 +133,27 @@ TEST(Pipeline, SeveralComponents)
   remeshAndCheck(test::twoComponents(), 600);
 }
 
+TEST(Pipeline, AutomaticCoarseLevel)
+{
+  // Waves of a few quads need more than the least of vertices, and no given number of them.
+  Mesh mesh = test::sphere(5);
+  for (Vector3& p : mesh.position)
+  {
+    p *= 1 + 0.08 * std::sin(7 * p.x()) * std::cos(6 * p.y());
+  }
+  RemeshOptions options;
+  options.quads = 2000;
+  options.coarseVertices = 0;
+  const RemeshResult result = remesh(inputOf(mesh), options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
+  EXPECT_GT(result.coarse.mesh.vertexCount(), kLeastCoarseVertices);
+  EXPECT_LT(result.coarse.mesh.vertexCount(), kMostCoarseVertices);
+  EXPECT_EQ(topologyOf(result.quads).euler, 2);
+  options.coarseVertices = 3;
+  EXPECT_THROW(remesh(inputOf(mesh), options), InvalidInput);
+}
+
 TEST(Pipeline, SameBytesForAnyNumberOfThreads)
 {
   RemeshOptions options;
