@@ -15,6 +15,8 @@ namespace quadrille
 namespace
 {
 
+/// A step of a search takes about as long as a fortieth of what a Newton step takes for one triangle.
+constexpr std::size_t kSearchStepsPerNewtonTriangle = 40;
 constexpr int kMaximumScalings = 4;
 /// How often other integers are tried where embedding fails.
 constexpr std::size_t kMaximumEmbeddings = 4;
@@ -310,7 +312,10 @@ private:
     QuantizeOptions quantizeOptions;
     quantizeOptions.watched = watched;
     quantizeOptions.progress = progress;
-    return quantizeMap(component.part.mesh, component.part.field, seamlessUv, quantizeOptions);
+    QuantizeResult result =
+      quantizeMap(component.part.mesh, component.part.field, seamlessUv, quantizeOptions);
+    result_.work += result.work / kSearchStepsPerNewtonTriangle;
+    return result;
   }
 
   void embed()

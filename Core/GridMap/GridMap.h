@@ -97,6 +97,7 @@ struct QuantizeResult
   std::vector<FixedVec2> uv;
   Status status;
   double refinement = 1; ///< factor by which sizes had to grow to be valid
+  std::size_t work = 0;  ///< steps from triangle to triangle that all searches have made
 };
 /// Integers for a seamless map without a T-mesh [Coudert-Osmont et al. 2023].
 QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
@@ -142,7 +143,8 @@ struct GridMapResult
   std::vector<Index> offenders; ///< coarse vertices around which the triangulation lacks freedom
   double refinement = 1;        ///< of the component whose sizes had to shrink most
   std::size_t components = 0, failedComponents = 0;
-  std::size_t work = 0; ///< Newton steps of all solves, each times the triangles of its component
+  /// Newton steps of all solves, each times the triangles of its component, and what quantization took in the same unit.
+  std::size_t work = 0;
   double secondsField = 0, secondsSeamless = 0, secondsQuantize = 0, secondsEmbed = 0;
 };
 /// The whole chain on one coarse mesh. Its connected components are solved one by one; each gets quads by its area, and all

@@ -178,13 +178,14 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
 
   IntegerMap integers(uvMesh, editor, locked.integer);
   const IntegerStart start = findValidIntegers(integers, 1, kMaximumScale, options.progress);
+  result.work = start.work;
   if (!start.valid)
   {
     result.status = { StatusCode::NotConverged,
       "quantization: no valid integers up to scale " + std::to_string(kMaximumScale) };
     return result;
   }
-  improveIntegers(integers, options.progress);
+  result.work += improveIntegers(integers, options.progress);
   result.refinement = std::max(1.0, std::sqrt(integers.area() / wantedArea));
   integrate(integers, locked.integer, uvMesh);
   editor.undoAll();

@@ -115,7 +115,7 @@ std::vector<Index> facesAround(const UvMesh& mesh, Index v)
 }
 
 /// Carries the defects of all triangles to each other, or out. False when one cannot leave its face.
-bool closeTriangles(IntegerMap& map)
+bool closeTriangles(IntegerMap& map, std::size_t& work)
 {
   StripSearch search(map, StripCost::Repair);
   std::vector<FixedVec2> defects(map.mesh().alive.size());
@@ -137,6 +137,7 @@ bool closeTriangles(IntegerMap& map)
           best = strip;
         }
       }
+      work = search.work();
       if (!best.found())
       {
         return false;
@@ -163,6 +164,8 @@ public:
   {
   }
 
+  std::size_t work() const { return search_.work(); }
+
   bool run()
   {
     while (true)
@@ -177,7 +180,7 @@ public:
       {
         continue;
       }
-      if (breakouts_ == 0)
+      if (breakouts_ == 0 || search_.work() > kMostSteps * map_.faces().size())
       {
         return false;
       }
@@ -337,6 +340,8 @@ private:
 
   static constexpr double kLeastMend = 0.5; ///< below one unit of brokenness
   static constexpr std::size_t kBreakouts = 40;
+  /// Of the searches, a face; repairs that succeeded took up to 4,100, others more than 11,000.
+  static constexpr std::size_t kMostSteps = 5000;
 
   IntegerMap& map_;
   std::vector<double> weight_; ///< #F
@@ -352,6 +357,8 @@ public:
     : map_(map), search_(map, StripCost::KeepSound), changed_(map.mesh().alive.size(), 0)
   {
   }
+
+  std::size_t work() const { return search_.work(); }
 
   void run(const ProgressCallback& progress)
   {
@@ -550,7 +557,17 @@ IntegerStart findValidIntegers(
   {
     report(progress, 0.2, "rounding at scale " + std::to_string(start.scale));
     map.round(start.scale);
-    if (closeTriangles(map) && Repair(map).run() && map.isValid())
+    std::size_t closing = 0;
+    const bool closed = closeTriangles(map, closing);
+    start.work += closing;
+    if (!closed)
+    {
+      continue;
+    }
+    Repair repair(map);
+    const bool repaired = repair.run();
+    start.work += repair.work();
+    if (repaired && map.isValid())
     {
       start.valid = true;
       return start;
@@ -559,9 +576,11 @@ IntegerStart findValidIntegers(
   return start;
 }
 
-void improveIntegers(IntegerMap& map, const ProgressCallback& progress)
+std::size_t improveIntegers(IntegerMap& map, const ProgressCallback& progress)
 {
-  Improvement(map).run(progress);
+  Improvement improvement(map);
+  improvement.run(progress);
+  return improvement.work();
 }
 
 } // namespace quadrille

@@ -14,13 +14,14 @@ struct IntegerStart
 {
   bool valid = false;
   double scale = 1; ///< of the wanted displacements, at which the map became valid
+  std::size_t work = 0; ///< StripSearch::work of all searches
 };
 
 /// Rounds, closes and repairs at scales that grow from `scale` by sqrt 2 up to maximumScale until valid.
 IntegerStart findValidIntegers(
   IntegerMap& map, double scale, double maximumScale, const ProgressCallback& progress);
 
-/// Lowers the energy of a valid map until nothing helps; it stays valid.
-void improveIntegers(IntegerMap& map, const ProgressCallback& progress);
+/// Lowers the energy of a valid map until nothing helps; it stays valid. Returns StripSearch::work of its searches.
+std::size_t improveIntegers(IntegerMap& map, const ProgressCallback& progress);
 
 } // namespace quadrille

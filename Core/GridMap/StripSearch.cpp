@@ -16,6 +16,8 @@ namespace
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Makes the shorter of two equally cheap strips win.
 constexpr double kStepCost = 1e-6;
+/// Steps that an improving search may settle.
+constexpr std::size_t kFarthest = 4000;
 
 std::int64_t lengthOf(FixedVec2 e)
 {
@@ -81,6 +83,7 @@ bool StripSearch::pop(Index& state, double& cost)
     heap_.pop_back();
     if (!settled_[state])
     {
+      ++work_;
       settled_[state] = 1;
       return true;
     }
@@ -120,7 +123,9 @@ void StripSearch::explore(Index h, FixedVec2 e, double bound, End& closed, End& 
   relax(start, 0, kInvalidIndex);
   Index state = 0;
   double cost = 0;
-  while (pop(state, cost))
+  // A repair has to reach far; what improves does so nearby, or costs more time than it is worth.
+  const std::size_t end = work_ + kFarthest;
+  while (pop(state, cost) && (cost_ == StripCost::Repair || work_ < end))
   {
     // The first triangle may repay, so the bound may be negative.
     if (state != start && !(cost < std::min(bound, closed.cost)))

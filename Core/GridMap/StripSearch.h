@@ -54,6 +54,8 @@ public:
   const std::vector<Index>& visitedFaces() const { return visited_; }
   /// Searches so far.
   std::size_t searches() const { return searches_; }
+  /// Half-edges with their step that all searches so far have settled.
+  std::size_t work() const { return work_; }
 
   static constexpr double kBroken = 1e4; ///< price of one unit of IntegerMap::brokenness
 
@@ -92,6 +94,7 @@ private:
   std::vector<Index> visited_;
   std::vector<std::size_t> visitStamp_; ///< #F: the search that visited the face last
   std::size_t searches_ = 0;
+  std::size_t work_ = 0;
 };
 
 } // namespace quadrille

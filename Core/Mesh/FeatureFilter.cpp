@@ -266,6 +266,14 @@ bool removeOnce(Mesh& mesh, double edgeLength, FeatureFilterReport& report)
   return removed;
 }
 
+double squaredDistance(const Vector3& p, const Vector3& a, const Vector3& b)
+{
+  const Vector3 d = b - a;
+  const double length = d.squaredNorm();
+  const double t = length > 0 ? std::clamp((p - a).dot(d) / length, 0.0, 1.0) : 0.0;
+  return (a + t * d - p).squaredNorm();
+}
+
 } // namespace
 
 FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength)
@@ -284,6 +292,34 @@ FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength)
     report.keptEdges += mesh.isFeature(h) && h < mesh.twin[h];
   }
   return report;
+}
+
+std::size_t removeFeaturesNear(Mesh& mesh, const std::vector<Vector3>& points, double radius)
+{
+  if (!(radius > 0))
+  {
+    throw InvalidInput("the radius for removing features must be positive");
+  }
+  constexpr auto keep = static_cast<std::uint8_t>(~kFeatureEdge);
+  std::size_t removed = 0;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (!mesh.isFeature(h) || mesh.isBoundary(h) || mesh.twin[h] < h ||
+      (mesh.flags[h] & kRequestedFeature) != 0)
+    {
+      continue;
+    }
+    const Vector3& a = mesh.position[mesh.origin[h]];
+    const Vector3& b = mesh.position[mesh.target(h)];
+    if (std::any_of(points.begin(), points.end(),
+          [&](const Vector3& p) { return squaredDistance(p, a, b) < radius * radius; }))
+    {
+      mesh.flags[h] &= keep;
+      mesh.flags[mesh.twin[h]] &= keep;
+      ++removed;
+    }
+  }
+  return removed;
 }
 
 } // namespace quadrille

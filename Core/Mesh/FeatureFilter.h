@@ -6,6 +6,8 @@
 
 #include "Mesh/Mesh.h"
 
+#include <vector>
+
 namespace quadrille
 {
 
@@ -20,5 +22,10 @@ struct FeatureFilterReport
 /// vertices where other than two constrained edges meet. Features that the user gave stay. Repeated until nothing changes.
 /// Throws InvalidInput when edgeLength is not positive.
 FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength);
+
+/// Unmarks features that nobody asked for (without kRequestedFeature) and that come closer than `radius` to one of the points; for places
+/// where no quads of the wanted size can follow them. Returns the number of edges unmarked. Throws InvalidInput when
+/// radius is not positive.
+std::size_t removeFeaturesNear(Mesh& mesh, const std::vector<Vector3>& points, double radius);
 
 } // namespace quadrille

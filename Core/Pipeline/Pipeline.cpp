@@ -4,6 +4,8 @@
 
 #include "Base/Memory.h"
 #include "Base/Progress.h"
+#include "Extraction/QuadTopology.h"
+#include "Mesh/ContentHash.h"
 #include "Mesh/FeatureFilter.h"
 #include "Transfer/PackedMap.h"
 
@@ -12,6 +14,7 @@
 #include <cmath>
 #include <optional>
 #include <queue>
+#include <sstream>
 #include <utility>
 
 namespace quadrille
@@ -25,6 +28,14 @@ constexpr int kMaximumAttempts = 3;
 constexpr std::size_t kManyOffenders = 100;
 /// How often the coarse level is rebuilt because the map does not fit the input's triangles.
 constexpr int kMaximumTransfers = 3;
+/// Work on maps (GridMapResult::work) after which nothing is tried again; about a minute.
+constexpr std::size_t kMaximumWork = 16000000;
+/// How often the number of quads is doubled where they do not fit round a small handle.
+constexpr int kMaximumFinerGrids = 3;
+/// How often features are given up near the places of a failure.
+constexpr int kMaximumFeatureDrops = 4;
+/// The first time within this part of the edge length, then twice as far each time.
+constexpr double kFirstFeatureDrop = 0.5;
 /// Rings of intermediate vertices that are kept around an offender.
 constexpr int kFreedomRings = 2;
 
@@ -110,12 +121,10 @@ private:
     if (!refuseTooMany())
     {
       refine();
-      if (computeMap())
+      while (!(computeMap() && extract()) && mayRepeat() && (takeFinerGrid() || dropFeatures()))
       {
-        levels_.reset(); // the log is a tenth of all memory
-        extract();
-        mergeMapCharts();
       }
+      mergeMapCharts();
     }
   }
 
@@ -306,7 +315,7 @@ private:
     {
       // With offenders everywhere it is not a matter of a few places, and the coarse level would grow out of hand.
       const std::vector<Index>& offenders = result_.transfer.offenders;
-      if (result_.certificate.valid() || offenders.empty() ||
+      if (result_.certificate.valid() || offenders.empty() || !mayRepeat() ||
         offenders.size() > result_.coarse.mesh.vertexCount() / 2)
       {
         break;
@@ -355,7 +364,7 @@ private:
   {
     GridMapOptions mapOptions;
     mapOptions.edgeLength = result_.targetEdgeLength;
-    mapOptions.targetQuads = static_cast<double>(result_.targetQuads);
+    mapOptions.targetQuads = gridQuads();
     mapOptions.progress = subProgress(options_.progress, 0.45, 0.8, "Mapping: ");
 
     GridMapResult map;
@@ -367,10 +376,11 @@ private:
       mapOptions.guides = hierarchy().coarse.guides;
       mapOptions.targetValences = levelValences(result_.surface, hierarchy().coarse.fineVertex);
       map = computeGridMap(hierarchy().coarse.mesh, mapOptions);
+      work_ += map.work;
       times.add(hierarchy(), map);
       const bool hopeless = map.status.code == StatusCode::TooLarge ||
         (map.status.code == StatusCode::Infeasible && map.offenders.empty());
-      if (map.status.ok() || hopeless)
+      if (map.status.ok() || hopeless || !mayRepeat())
       {
         break;
       }
@@ -491,6 +501,10 @@ private:
     if (!map.status.ok())
     {
       fail(map.status.code, "no valid map of the coarse mesh: " + map.status.message);
+      for (const Index v : map.offenders)
+      {
+        troubles_.push_back(result_.coarse.mesh.position[v]);
+      }
     }
   }
 
@@ -543,7 +557,7 @@ private:
   /// After the extraction, so that the quads do not depend on it.
   void mergeMapCharts()
   {
-    if (options_.mergeCharts)
+    if (options_.mergeCharts && result_.status.ok())
     {
       const double start = now();
       const Mesh& mesh = result_.surface.mesh;
@@ -552,8 +566,9 @@ private:
     }
   }
 
-  void extract()
+  bool extract()
   {
+    levels_.reset(); // the log is a tenth of all memory
     const double start = now();
     const Mesh& mesh = result_.surface.mesh;
     ExtractionOptions extractionOptions;
@@ -568,7 +583,11 @@ private:
       fail(extracted.status.code,
         "no valid quad mesh: " + extracted.status.message + " (" + result_.certificate.text() +
           ")");
-      return;
+      for (const Index v : result_.transfer.offenders)
+      {
+        troubles_.push_back(mesh.position[v]);
+      }
+      return false;
     }
     if (!result_.certificate.valid())
     {
@@ -576,6 +595,7 @@ private:
     }
     result_.quads = std::move(extracted.mesh);
     checkValences();
+    return true;
   }
 
   /// Where the map on the input is not valid everywhere, what was asked for may be lost: that is told.
@@ -607,12 +627,101 @@ private:
     }
   }
 
+  /// Where a loop round a small handle or a thin part is one or two quads long, quads touch themselves though the map is valid: that shows
+  /// on the coarse map already, and only more quads can help. False when this is not the cause.
+  bool takeFinerGrid()
+  {
+    if (!result_.coarseCertificate.valid() || finerGrids_ >= kMaximumFinerGrids)
+    {
+      return false;
+    }
+    ExtractionOptions extractionOptions;
+    extractionOptions.maximumQuads = options_.maximumQuads;
+    extractionOptions.smoothingSteps = 0;
+    extractionOptions.threads = options_.threads;
+    const ExtractionResult coarse =
+      extractQuads(result_.coarse.mesh, result_.coarseUv, extractionOptions);
+    if (coarse.status.ok() || coarse.status.code == StatusCode::TooLarge)
+    {
+      return false;
+    }
+    const QuadTopology topology = analyzeQuads(coarse.mesh.quads, coarse.mesh.points.size());
+    const std::size_t defects = coarse.droppedFaces + topology.nonManifoldEdges +
+      topology.nonManifoldVertices + topology.degenerateQuads;
+    for (const Index p : topology.offendingPoints)
+    {
+      troubles_.push_back(coarse.mesh.points[p]);
+    }
+    if (finerGrids_ > 0 && defects >= gridDefects_)
+    {
+      finerGrids_ = 0; // not a matter of size
+      return false;
+    }
+    ++finerGrids_;
+    gridDefects_ = defects;
+    std::ostringstream text;
+    text << "quads of the wanted size do not fit round a handle or a thin part";
+    if (!topology.offendingPoints.empty())
+    {
+      const Vector3& place = coarse.mesh.points[topology.offendingPoints.front()];
+      text << " near (" << place.x() << ", " << place.y() << ", " << place.z() << ")";
+    }
+    text << ": made for " << gridQuads()
+         << " quads instead; ask for that many, or close the handle, for a result without this";
+    result_.notices.push_back(text.str());
+    result_.status = {};
+    troubles_.clear();
+    return true;
+  }
+
+  /// Repeating what takes very long leads nowhere, on the models seen.
+  bool mayRepeat() const { return work_ < kMaximumWork; }
+
+  /// What the map is scaled to.
+  double gridQuads() const
+  {
+    return static_cast<double>(result_.targetQuads) * std::pow(2.0, finerGrids_);
+  }
+
+  /// Where a map or its quads fail, features that only the dihedral angle asked for are given up near the places of the failure,
+  /// further round them each time. False when there is nothing (more) to give up.
+  bool dropFeatures()
+  {
+    if (result_.status.code == StatusCode::TooLarge || featureDrops_ >= kMaximumFeatureDrops)
+    {
+      return false;
+    }
+    const double radius =
+      kFirstFeatureDrop * result_.targetEdgeLength * std::pow(2.0, featureDrops_++);
+    const std::size_t removed = removeFeaturesNear(result_.surface.mesh, troubles_, radius);
+    if (removed == 0)
+    {
+      return false;
+    }
+    result_.surface.hash = contentHash(result_.surface.mesh, options_.threads);
+    std::ostringstream text;
+    const Vector3& place = troubles_.front();
+    text << removed << " sharp edges near (" << place.x() << ", " << place.y() << ", " << place.z()
+         << ")" << (troubles_.size() > 1 ? " and other places" : "")
+         << " leave no room for quads of this edge length and were not used as features";
+    result_.notices.push_back(text.str());
+    result_.status = {};
+    troubles_.clear();
+    levels_.reset();
+    return true;
+  }
+
   SurfaceInput input_; ///< empty once the surface is prepared
   RemeshOptions options_;
   PollScope poll_;
   RemeshResult result_;
   std::optional<Redecimation> levels_;
   CrossField coarseField_;
+  std::vector<Vector3> troubles_; ///< where the last map or its quads failed
+  std::size_t work_ = 0;          ///< GridMapResult::work of all maps so far
+  int featureDrops_ = 0;
+  int finerGrids_ = 0;          ///< how often the number of quads was doubled
+  std::size_t gridDefects_ = 0; ///< of the quads of the coarse map before the last doubling
 };
 
 } // namespace

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/Pipeline.h"
 
+#include "Mesh/FeatureFilter.h"
 #include "Mesh/Topology.h"
+#include "PlyFile.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -127,6 +129,79 @@ TEST(Pipeline, OpenCylinder)
 {
   remeshAndCheck(test::openCylinder(60, 30), 700);
 }
+
+bool tells(const RemeshResult& result, const std::string& what)
+{
+  return std::any_of(result.notices.begin(), result.notices.end(),
+    [&](const std::string& notice) { return notice.find(what) != std::string::npos; });
+}
+
+TEST(Pipeline, RingThatTwoQuadsWouldSurroundGetsMore)
+{
+  // Round the tube it is 0.31; of 80 quads each is 0.16 long, and two of them would share two edges.
+  const Mesh mesh = test::torus(160, 10, 1, 0.05);
+  RemeshOptions options;
+  options.quads = 80;
+  const RemeshResult result = remesh(inputOf(mesh), options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_TRUE(tells(result, "do not fit round a handle")) << "no notice";
+  EXPECT_EQ(result.targetQuads, 80u);
+  EXPECT_GT(result.quads.quads.size(), 120u);
+  EXPECT_LT(result.quads.quads.size(), 300u);
+  const QuadTopology topology = topologyOf(result.quads);
+  EXPECT_EQ(topology.euler, 0);
+  EXPECT_TRUE(topology.oriented);
+  EXPECT_EQ(topology.boundaryEdges, 0u);
+}
+
+#ifdef QUADRILLE_SHARED_DATA
+TEST(Pipeline, FeaturesThatLeaveNoRoomAreGivenUpOnlyWhereNobodyAskedForThem)
+{
+  // Bevels of a hundredth of a quad, where three sharp edges would need an edge between two equal points.
+  const std::string path = std::string(QUADRILLE_SHARED_DATA) + "/cad/input_wheel.ply";
+  std::optional<SurfaceInput> wheel = test::loadPly(path);
+  if (!wheel)
+  {
+    GTEST_SKIP() << "no " << path;
+  }
+  RemeshOptions options;
+  options.quads = 2500;
+  const RemeshResult detected = remesh(*wheel, options);
+  EXPECT_TRUE(detected.status.ok()) << detected.status.message;
+  EXPECT_TRUE(tells(detected, "leave no room")) << "no notice";
+  EXPECT_TRUE(detected.certificate.valid()) << detected.certificate.text();
+  const QuadTopology topology = topologyOf(detected.quads);
+  EXPECT_EQ(topology.euler, -20);
+  EXPECT_TRUE(topology.oriented);
+  EXPECT_EQ(topology.boundaryEdges, 0u);
+  std::size_t features = 0;
+  for (Index h = 0; h < detected.surface.mesh.halfEdgeCount(); ++h)
+  {
+    features += detected.surface.mesh.isFeature(h) ? 1 : 0;
+  }
+  EXPECT_GT(features, 4000u) << "more than a few were given up";
+
+  // The same edges, asked for: nothing may be given up, and the error names the place.
+  const Mesh& mesh = detected.surface.mesh;
+  SurfaceInput asked = inputOf(mesh);
+  Mesh sharp = test::markFeatures(mesh, 0.7);
+  removeUnresolvedFeatures(sharp, detected.targetEdgeLength);
+  for (Index f = 0; f < sharp.faceCount(); ++f)
+  {
+    std::uint8_t bits = 0;
+    for (Index i = 0; i < 3; ++i)
+    {
+      bits = static_cast<std::uint8_t>(bits | (sharp.isFeature(3 * f + i) ? 1U << i : 0U));
+    }
+    asked.featureEdges.push_back(bits);
+  }
+  const RemeshResult refused = remesh(asked, options);
+  EXPECT_FALSE(refused.status.ok());
+  EXPECT_FALSE(tells(refused, "leave no room"));
+  EXPECT_NE(refused.status.message.find("leave no area to faces"), std::string::npos)
+    << refused.status.message;
+}
+#endif
 
 TEST(Pipeline, SeveralComponents)
 {
