@@ -631,7 +631,8 @@ private:
   /// on the coarse map already, and only more quads can help. False when this is not the cause.
   bool takeFinerGrid()
   {
-    if (!result_.coarseCertificate.valid() || finerGrids_ >= kMaximumFinerGrids)
+    if (result_.coarseUv.empty() || !result_.coarseCertificate.valid() ||
+      finerGrids_ >= kMaximumFinerGrids)
     {
       return false;
     }
