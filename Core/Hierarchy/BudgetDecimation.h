@@ -43,8 +43,8 @@ struct BudgetResult
 /// Angle defects of all vertices: 2 pi, or pi on the boundary, less the sum of angles.
 std::vector<float> angleDefects(const Mesh& mesh);
 
-/// Decimates. What the cache holds must come from calls with the same positions, curves and cost; the result does
-/// not depend on it.
+/// Decimates. What the cache holds must come from calls with the same positions, curves and cost (guides may differ); the result
+/// does not depend on it.
 BudgetResult decimateToBudget(DecimationMesh& mesh, const BudgetOptions& options, StarCache& cache);
 
 } // namespace quadrille

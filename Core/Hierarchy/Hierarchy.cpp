@@ -341,8 +341,7 @@ private:
     {
       return;
     }
-    cache_.clear(); // plans depend on where borders run
-    guides_ = {};   // in case that what follows is stopped
+    guides_ = {}; // in case that what follows is stopped
     hierarchy_.intermediate.guides = guidesOfLevel(
       fine_, hierarchy_.intermediate, options.guides, kGuideReach * edgeLength_, options.threads);
     guides_ = options.guides;

@@ -3,6 +3,7 @@
 /// Guides and target valences at the level of the field.
 #include "CrossField/CrossField.h"
 #include "CrossField/FieldTopology.h"
+#include "CrossField/TurnRepair.h"
 #include "Mesh/Topology.h"
 #include "TestMeshes.h"
 
@@ -262,6 +263,61 @@ TEST(Prescription, RandomRequestsAreMetExactly)
     ++model;
   }
   EXPECT_GT(requests, 10u * static_cast<std::size_t>(cases));
+}
+
+TEST(Prescription, LaterMovesLeaveItAlone)
+{
+  // Twelve turns in six triangles are more than they can carry, so a turn has to go, unless they are asked for.
+  const Mesh mesh = torus(24, 12);
+  const FieldTopology topology = buildFieldTopology(mesh);
+  const std::vector<double> residual(topology.edges.size(), 0.0);
+  const std::vector<double> natural(topology.fans.size(), 4.0);
+  TurnRepairResult result{ std::vector<int>(topology.edges.size(), 0),
+    std::vector<int>(topology.fans.size(), 4) };
+  const Index high = 5;
+  result.turns[high] = 12;
+  for (Index i = 0; i < 8; ++i)
+  {
+    result.turns[100 + 20 * i] = 3; // the sum stays
+  }
+  const std::vector<int> before = result.turns;
+  TurnPrescription prescription;
+  prescription.groupOfFan.assign(topology.fans.size(), kInvalidIndex);
+  prescription.groupOfFan[high] = 0;
+  prescription.turns = { 12 };
+  TurnRepairInput input{ &topology, &residual, &before, &natural, 0.5, &prescription, nullptr };
+  TurnRepairResult asked = result;
+  EXPECT_FALSE(completeTurns(mesh, input, asked).empty());
+  EXPECT_EQ(asked.turns[high], 12);
+  input.prescription = nullptr;
+  completeTurns(mesh, input, result);
+  EXPECT_LT(result.turns[high], 12);
+}
+
+TEST(Guides, TurnsGoRoundTheirRegions)
+{
+  // A 3 and a 5 on both sides of a guided band that does not go all the way round; across it would be shorter.
+  const Mesh mesh = gridPlane(40, 24);
+  const auto at = [&](double x, double y)
+  {
+    Index nearest = 0;
+    for (Index v = 0; v < mesh.vertexCount(); ++v)
+    {
+      const Vector3 p(x, y, 0);
+      nearest = (mesh.position[v] - p).norm() < (mesh.position[nearest] - p).norm() ? v : nearest;
+    }
+    return nearest;
+  };
+  CrossFieldOptions options;
+  options.targetEdgeLength = 2;
+  options.targetValences.assign(mesh.vertexCount(), 0);
+  options.targetValences[at(17, 12)] = 3;
+  options.targetValences[at(23, 12)] = 5;
+  options.guides = guidesAlong(mesh, Vector3::UnitX(), 1,
+    [](const Vector3& p) { return std::abs(p.x() - 20) < 1 && std::abs(p.y() - 12) < 5; });
+  const CrossField field = computeCrossField(mesh, options);
+  ASSERT_TRUE(field.status.ok()) << field.status.message;
+  EXPECT_LT(largestAngle(mesh, field, options.guides), 10 * kPi / 180);
 }
 
 TEST(Prescription, BoundaryAndFeatureVertices)
