@@ -3,6 +3,7 @@
 #include "QuadrilleConvert.h"
 
 #include "Base/Error.h"
+#include "Base/Progress.h"
 #include "Mesh/Topology.h"
 #include "QuadrilleAttributes.h"
 
@@ -48,37 +49,42 @@ template <class... Parts>
 // The user's surface
 
 template <class Array>
-void copyPoints(Array* from, std::vector<Vector3>& to)
+void copyPoints(Array* from, std::size_t count, std::vector<Vector3>& to)
 {
   const auto* p = from->GetPointer(0);
-  for (Vector3& point : to)
+  for (std::size_t i = 0; i < count; ++i, p += 3)
   {
-    point = Vector3(p[0], p[1], p[2]);
-    p += 3;
+    pollNowAndThen(i);
+    to.push_back(Vector3(p[0], p[1], p[2]));
   }
 }
 
 std::vector<Vector3> readPoints(vtkPolyData* data)
 {
-  std::vector<Vector3> points(static_cast<std::size_t>(data->GetNumberOfPoints()));
-  if (points.empty())
+  const auto count = static_cast<std::size_t>(data->GetNumberOfPoints());
+  std::vector<Vector3> points;
+  if (count == 0)
   {
     return points;
   }
+  points.reserve(count);
   vtkDataArray* array = data->GetPoints()->GetData();
   if (auto* floats = vtkFloatArray::SafeDownCast(array))
   {
-    copyPoints(floats, points);
+    copyPoints(floats, count, points);
   }
   else if (auto* doubles = vtkDoubleArray::SafeDownCast(array))
   {
-    copyPoints(doubles, points);
+    copyPoints(doubles, count, points);
   }
   else
   {
-    for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t i = 0; i < count; ++i)
     {
-      array->GetTuple(static_cast<vtkIdType>(i), points[i].data());
+      pollNowAndThen(i);
+      Vector3 point;
+      array->GetTuple(static_cast<vtkIdType>(i), point.data());
+      points.push_back(point);
     }
   }
   return points;
@@ -104,6 +110,7 @@ void readPolygons(vtkPolyData* data, ConvertedSurface& surface)
   auto iterator = vtk::TakeSmartPointer(polys->NewIterator());
   for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
   {
+    pollNowAndThen(static_cast<std::size_t>(cell - surface.firstCell));
     vtkIdType count = 0;
     const vtkIdType* ids = nullptr;
     iterator->GetCurrentCell(count, ids);

@@ -5,6 +5,7 @@
 #include "TestSurfaces.h"
 
 #include "Base/Error.h"
+#include "Base/Progress.h"
 
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -16,8 +17,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <thread>
 
 namespace quadrille
 {
@@ -61,6 +65,26 @@ TEST(Convert, PolygonsAndStripsKeepTheirCells)
   {
     EXPECT_EQ(surface.cell(p), cells[p]);
   }
+}
+
+TEST(Convert, CornersOfTrianglesAreFoundWithoutTheInput)
+{
+  const vtkSmartPointer<vtkPolyData> data = mixedCells();
+  ConvertedSurface surface = convertSurface(data, "");
+  surface.input = {};
+  using Corners = std::optional<std::array<Index, 3>>;
+  EXPECT_EQ(surface.triangle(data, 0), Corners()) << "a pentagon";
+  EXPECT_EQ(surface.triangle(data, 1), Corners({ 0, 5, 4 }));
+  EXPECT_EQ(surface.triangle(data, 2), Corners({ 4, 8, 5 }));
+  EXPECT_EQ(surface.triangle(data, 3), Corners({ 8, 9, 5 }));
+  EXPECT_EQ(surface.triangle(data, 4), Corners({ 5, 9, 6 }));
+}
+
+TEST(Convert, StopsOnRequest)
+{
+  PollScope scope([](double, const std::string&) { return false; });
+  std::this_thread::sleep_for(PollScope::kInterval);
+  EXPECT_THROW(convertSurface(mixedCells(), ""), Cancelled);
 }
 
 TEST(Convert, PointsKeepEveryBit)
