@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Rules of the removal of a vertex [Ebke et al. 2016, Section 5.2] that whole decimations seldom put to the test.
+#include "Hierarchy/VertexRemoval.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace quadrille;
+using namespace quadrille::test;
+
+namespace
+{
+
+/// Guards that leave the decision to the rules of topology and of curves.
+RemovalGuards looseGuards()
+{
+  RemovalGuards guards;
+  guards.minimumQuality = 0;
+  guards.minimumNormalDot = -1;
+  guards.minimumValence = 3;
+  guards.maximumValence = kMaximumRing;
+  guards.allowConstrainedFaces = true;
+  guards.curveTolerance = 1e300;
+  return guards;
+}
+
+Index vertexAt(const Mesh& mesh, const Vector3& p)
+{
+  const auto found = std::find(mesh.position.begin(), mesh.position.end(), p);
+  EXPECT_NE(found, mesh.position.end());
+  return static_cast<Index>(found - mesh.position.begin());
+}
+
+/// Marks the edges whose both ends satisfy the condition.
+template <typename Condition>
+Mesh markEdges(Mesh mesh, const Condition& on)
+{
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (on(mesh.position[mesh.origin[h]]) && on(mesh.position[mesh.target(h)]))
+    {
+      mesh.flags[h] |= kFeatureEdge;
+    }
+  }
+  return mesh;
+}
+
+bool canGo(const Mesh& mesh, Index v, const RemovalGuards& guards)
+{
+  DecimationMesh work(mesh, traceFeatureCurves(mesh, 0.01));
+  VertexRemoval removal(work);
+  return removal.gather(v) && removal.plan(guards);
+}
+
+} // namespace
+
+TEST(RemovalRules, aRemovedVertexDividesItsCurveAsItsEdgesWere)
+{
+  // Edges of lengths 3 and 1: its place on the isoline is three quarters of the way, to the log's 2^-32.
+  Mesh mesh = gridPlane(8, 8);
+  mesh = markEdges(std::move(mesh), [](const Vector3& p) { return p.y() == 4; });
+  const Index v = vertexAt(mesh, Vector3(4, 4, 0));
+  mesh.position[v].x() = 4.5;
+  DecimationMesh work(mesh, traceFeatureCurves(mesh, 0.01));
+  VertexRemoval removal(work);
+  ASSERT_TRUE(removal.gather(v));
+  ASSERT_TRUE(removal.plan(looseGuards()));
+  RecordWriter log;
+  removal.apply(log);
+  // The collapse is the first record; flips follow.
+  CollapseRecord record;
+  const int faces = 6;
+  readCollapse(log.bytes().data() + collapseBytes(faces), record);
+  ASSERT_EQ(record.faces, faces);
+  EXPECT_TRUE(record.onCurve);
+  EXPECT_NEAR(record.weight[0] / 4294967296.0, 0.25, 1e-9);
+  EXPECT_EQ(record.weight[1], 0U);
+}
+
+TEST(RemovalRules, theTwoFacesOfAClosedTetrahedronStay)
+{
+  // Every vertex of a tetrahedron has a free star of three faces; without it two faces would lie on each other.
+  const Mesh tetrahedron =
+    makeMesh({ Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1) },
+      { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } });
+  RemovalGuards guards = looseGuards();
+  guards.minimumValence = 2; // that of the corners of two faces
+  for (Index v = 0; v < 4; ++v)
+  {
+    EXPECT_FALSE(canGo(tetrahedron, v, guards));
+  }
+}
+
+TEST(RemovalRules, anEdgeThatExistsIsNotMadeAgain)
+{
+  const Mesh octahedron = makeMesh({ Vector3(0.8, 0, 0), Vector3(0, 1, 0), Vector3(-0.8, 0, 0),
+                                     Vector3(0, -1, 0), Vector3(0, 0, 1), Vector3(0, 0, -1) },
+    { { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 }, { 1, 0, 5 }, { 2, 1, 5 }, { 3, 2, 5 },
+      { 0, 3, 5 } });
+  ASSERT_TRUE(canGo(octahedron, 4, looseGuards()));
+  DecimationMesh work(octahedron, traceFeatureCurves(octahedron, 0.01));
+  RemovalGuards guards = looseGuards();
+  guards.minimumValence = 2; // that of the corners beside a diagonal
+  // With vertex 4 gone the square is cut by one diagonal; vertex 5 may only use the other one.
+  VertexRemoval removal(work);
+  RecordWriter log;
+  ASSERT_TRUE(removal.gather(4));
+  ASSERT_TRUE(removal.plan(looseGuards()));
+  removal.apply(log);
+  ASSERT_TRUE(work.hasEdge(0, 2)) << "the shorter one";
+  ASSERT_TRUE(removal.gather(5));
+  ASSERT_TRUE(removal.plan(guards));
+  removal.apply(log);
+  EXPECT_TRUE(work.hasEdge(1, 3));
+  EXPECT_EQ(validate(work.extract().mesh), "") << "a tetrahedron";
+}
+
+TEST(RemovalRules, aCurveMayNotCloseATriangle)
+{
+  // Three features round one face that is cut into three at its middle [Hoppe 1996]: without a corner its two edges
+  // would become one with the third.
+  const Mesh grid = gridPlane(6, 6);
+  const Vector3 a(2, 2, 0), b(3, 2, 0), c(3, 3, 0);
+  const auto isCorner = [&](const Vector3& p) { return p == a || p == b || p == c; };
+  std::vector<Vector3> points = grid.position;
+  points.push_back((a + b + c) / 3);
+  std::vector<Triangle> triangles;
+  for (Index f = 0; f < grid.faceCount(); ++f)
+  {
+    const Index p = grid.origin[3 * f], q = grid.origin[3 * f + 1], r = grid.origin[3 * f + 2];
+    if (isCorner(points[p]) && isCorner(points[q]) && isCorner(points[r]))
+    {
+      const Index middle = static_cast<Index>(points.size() - 1);
+      triangles.insert(triangles.end(), { { p, q, middle }, { q, r, middle }, { r, p, middle } });
+    }
+    else
+    {
+      triangles.push_back({ p, q, r });
+    }
+  }
+  ASSERT_EQ(triangles.size(), grid.faceCount() + 2U);
+  const Mesh mesh = markEdges(makeMesh(points, triangles), isCorner);
+  DecimationMesh work(mesh, traceFeatureCurves(mesh, 0.01));
+  VertexRemoval removal(work);
+  for (const Vector3& p : { a, b, c })
+  {
+    const Index v = vertexAt(mesh, p);
+    work.curves.kind[v] = VertexKind::Curve; // as if it were no corner
+    work.curves.curve[v] = 0;
+    ASSERT_TRUE(removal.gather(v));
+    EXPECT_FALSE(removal.surroundingsFit(looseGuards()));
+  }
+}
+
+TEST(RemovalRules, deviationsOfACurveAddUp)
+{
+  // Each vertex of a feature may go by itself, but one that took another's deviation over may not.
+  Mesh mesh = gridPlane(10, 10);
+  for (Vector3& p : mesh.position)
+  {
+    p.z() = p.y() == 5 ? 0.02 * std::pow(p.x() - 5, 2) : 0;
+  }
+  mesh = markEdges(std::move(mesh), [](const Vector3& p) { return p.y() == 5; });
+  const auto at = [&](double x)
+  { return vertexAt(mesh, Vector3(x, 5, 0.02 * std::pow(x - 5, 2))); };
+  RemovalGuards guards = looseGuards();
+  guards.curveTolerance = 0.05; // the first vertex is off by 0.02, the next one by 0.04
+  DecimationMesh work(mesh, traceFeatureCurves(mesh, 0.01));
+  VertexRemoval removal(work);
+  RecordWriter log;
+  ASSERT_TRUE(removal.gather(at(5)));
+  ASSERT_TRUE(removal.plan(guards));
+  removal.apply(log);
+  ASSERT_TRUE(removal.gather(at(6)));
+  EXPECT_FALSE(removal.surroundingsFit(guards));
+  work.curveError[at(6)] = 0;
+  EXPECT_TRUE(removal.surroundingsFit(guards)) << "its own distance alone would do";
+}
