@@ -237,20 +237,23 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
       }
     }
     const TurnRepairResult repair = repairTurns(inputOf(data));
-    if (!repair.complete)
+    if (!repair.complete && !prescription.turns.empty())
     {
       solution.status = { StatusCode::NotConverged,
         "target valences: the irregular vertices asked for are too many at one place for the "
-        "coarse "
-        "level; ask for them farther apart, or for more coarse vertices" };
+        "coarse level; ask for them farther apart, or for more coarse vertices" };
     }
     applyShift(topology, repair.shift, solution.jump);
     solution.turns = repair.turns;
-    if (best.angle.empty())
+    if (best.angle.empty() || (!best.status.ok() && solution.status.ok()))
     {
       best = std::move(solution);
       fewest = countIrregular(topology, fields, best.turns);
       continue;
+    }
+    if (!solution.status.ok())
+    {
+      continue; // fewer irregular vertices than asked for are no gain
     }
     const std::vector<std::size_t> irregular = countIrregular(topology, fields, solution.turns);
     std::vector<std::uint8_t> better(fields.looseComponents);

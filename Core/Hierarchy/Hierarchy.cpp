@@ -41,8 +41,19 @@ constexpr double kCornerScale = 0.25;
 /// still has about 60 vertices to carry a cross field.
 constexpr double kSmallComponent = 26;
 
-void checkBudget(const HierarchyOptions& options)
+/// What may change from one update to the next.
+void checkPhase2(const Mesh& fine, const HierarchyOptions& options)
 {
+  for (std::size_t i = 0; i < options.guides.size(); ++i)
+  {
+    const Index f = options.guides[i].face;
+    if (f >= fine.faceCount() || (i > 0 && options.guides[i - 1].face >= f))
+    {
+      throw InvalidInput("Guide " + std::to_string(i) + " is of face " + std::to_string(f) +
+        ", but guides must ascend by face, and the mesh has " + std::to_string(fine.faceCount()) +
+        " faces.");
+    }
+  }
   if (options.coarseVertices == 0 && options.cost != DecimationCost::Gaussian &&
     options.cost != DecimationCost::GaussianMemory)
   {
@@ -64,17 +75,7 @@ void checkOptions(const Mesh& fine, const HierarchyOptions& options)
     throw InvalidInput("A draw of vertices needs at least one candidate, but is to have " +
       std::to_string(options.draws.candidates) + ".");
   }
-  for (std::size_t i = 0; i < options.guides.size(); ++i)
-  {
-    const Index f = options.guides[i].face;
-    if (f >= fine.faceCount() || (i > 0 && options.guides[i - 1].face >= f))
-    {
-      throw InvalidInput("Guide " + std::to_string(i) + " is of face " + std::to_string(f) +
-        ", but guides must ascend by face, and the mesh has " + std::to_string(fine.faceCount()) +
-        " faces.");
-    }
-  }
-  checkBudget(options);
+  checkPhase2(fine, options);
   for (const Index v : options.keepVertices)
   {
     if (v >= fine.vertexCount())
@@ -263,7 +264,7 @@ public:
         "The coarse level cannot be made anew: the edge length or the order of "
         "phase 1 has changed, or a vertex that is to be kept is not on the intermediate level.");
     }
-    checkBudget(options);
+    checkPhase2(fine_, options);
     const auto start = std::chrono::steady_clock::now();
     if (cost_ != options.cost)
     {
@@ -341,7 +342,9 @@ private:
     {
       return;
     }
-    guides_ = {}; // in case that what follows is stopped
+    // In case that what follows is stopped: neither may say that the guides of before are there.
+    guides_ = {};
+    hierarchy_.intermediate.guides = {};
     hierarchy_.intermediate.guides = guidesOfLevel(
       fine_, hierarchy_.intermediate, options.guides, kGuideReach * edgeLength_, options.threads);
     guides_ = options.guides;

@@ -124,6 +124,10 @@ private:
       while (!(computeMap() && extract()) && mayRepeat() && (takeFinerGrid() || dropFeatures()))
       {
       }
+      if (!gridNotice_.empty())
+      {
+        result_.notices.push_back(gridNotice_);
+      }
       mergeMapCharts();
     }
   }
@@ -299,6 +303,7 @@ private:
     result_.certificate = state.certificate;
     result_.transfer = std::move(state.transfer);
     result_.status = {};
+    troubles_.clear();
   }
 
   /// A map of the coarse mesh, carried to the input. Where the input's triangles have no room for it, their
@@ -656,6 +661,7 @@ private:
     if (finerGrids_ > 0 && defects >= gridDefects_)
     {
       finerGrids_ = 0; // not a matter of size
+      gridNotice_.clear();
       return false;
     }
     ++finerGrids_;
@@ -669,7 +675,7 @@ private:
     }
     text << ": made for " << gridQuads()
          << " quads instead; ask for that many, or close the handle, for a result without this";
-    result_.notices.push_back(text.str());
+    gridNotice_ = text.str();
     result_.status = {};
     troubles_.clear();
     return true;
@@ -722,6 +728,7 @@ private:
   std::size_t work_ = 0;          ///< GridMapResult::work of all maps so far
   int featureDrops_ = 0;
   int finerGrids_ = 0;          ///< how often the number of quads was doubled
+  std::string gridNotice_;      ///< of the last doubling, while it holds
   std::size_t gridDefects_ = 0; ///< of the quads of the coarse map before the last doubling
 };
 

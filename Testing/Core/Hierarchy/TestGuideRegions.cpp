@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <thread>
 
 namespace quadrille
 {
@@ -293,6 +294,23 @@ TEST(GuideRegions, ChangesNeedPhase2OnlyAndLeaveNoTrace)
   }
 }
 
+TEST(GuideRegions, AStoppedChangeLeavesNoTrace)
+{
+  const Square square;
+  HierarchyOptions free = square.options;
+  free.guides.clear();
+  HierarchyOptions other = square.options;
+  other.guides.pop_back();
+  Redecimation levels(square.mesh, 1, square.options);
+  levels.update(square.options);
+  {
+    PollScope scope([](double, const std::string&) { return false; });
+    std::this_thread::sleep_for(PollScope::kInterval);
+    EXPECT_THROW(levels.update(other), Cancelled);
+  }
+  expectSame(levels.update(free), buildHierarchy(square.mesh, 1, free));
+}
+
 TEST(GuideRegions, TheSameForAnyNumberOfThreads)
 {
   const Mesh mesh = sphere(5);
@@ -311,9 +329,12 @@ TEST(GuideRegions, TheSameForAnyNumberOfThreads)
 TEST(GuideRegions, GuidesOutOfOrderAreRefused)
 {
   Square square;
+  Redecimation levels(square.mesh, 1, square.options);
   std::swap(square.options.guides[0], square.options.guides[1]);
+  EXPECT_THROW(levels.update(square.options), InvalidInput);
   EXPECT_THROW(buildHierarchy(square.mesh, 1, square.options), InvalidInput);
   square.options.guides = { { square.mesh.faceCount(), { Vector3::UnitX(), 1 } } };
+  EXPECT_THROW(levels.update(square.options), InvalidInput);
   EXPECT_THROW(buildHierarchy(square.mesh, 1, square.options), InvalidInput);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// Rules of the removal of a vertex [Ebke et al. 2016, Section 5.2] that whole decimations seldom put to the test.
+#include "Hierarchy/FreeStar.h"
 #include "Hierarchy/VertexRemoval.h"
 #include "TestMeshes.h"
 
@@ -19,7 +20,7 @@ namespace
 RemovalGuards looseGuards()
 {
   RemovalGuards guards;
-  guards.minimumQuality = 0;
+  guards.minimumQuality = 1e-3;
   guards.minimumNormalDot = -1;
   guards.minimumValence = 3;
   guards.maximumValence = kMaximumRing;
@@ -49,11 +50,66 @@ Mesh markEdges(Mesh mesh, const Condition& on)
   return mesh;
 }
 
+bool canGo(DecimationMesh& work, Index v, const RemovalGuards& guards)
+{
+  VertexRemoval removal(work);
+  return removal.gather(v) && removal.plan(guards);
+}
+
 bool canGo(const Mesh& mesh, Index v, const RemovalGuards& guards)
 {
   DecimationMesh work(mesh, traceFeatureCurves(mesh, 0.01));
-  VertexRemoval removal(work);
-  return removal.gather(v) && removal.plan(guards);
+  return canGo(work, v, guards);
+}
+
+FreeStar::Outcome planFast(DecimationMesh& work, Index v, const RemovalGuards& guards)
+{
+  FreeStar star(work, guards);
+  star.gather(v);
+  star.shortestEdge(1);
+  return star.plan();
+}
+
+/// A plane with one face cut into three at its middle, which is the last vertex.
+Mesh planeWithCutFace(const Vector3& a, const Vector3& b, const Vector3& c)
+{
+  const Mesh grid = gridPlane(6, 6);
+  const auto isCorner = [&](Index v)
+  { return grid.position[v] == a || grid.position[v] == b || grid.position[v] == c; };
+  std::vector<Vector3> points = grid.position;
+  points.push_back((a + b + c) / 3);
+  std::vector<Triangle> triangles;
+  for (Index f = 0; f < grid.faceCount(); ++f)
+  {
+    const Index p = grid.origin[3 * f], q = grid.origin[3 * f + 1], r = grid.origin[3 * f + 2];
+    if (isCorner(p) && isCorner(q) && isCorner(r))
+    {
+      const Index middle = static_cast<Index>(points.size() - 1);
+      triangles.insert(triangles.end(), { { p, q, middle }, { q, r, middle }, { r, p, middle } });
+    }
+    else
+    {
+      triangles.push_back({ p, q, r });
+    }
+  }
+  EXPECT_EQ(triangles.size(), grid.faceCount() + 2U);
+  return makeMesh(points, triangles);
+}
+
+/// A double pyramid over a hexagon; vertices 6 and 7 are the tips.
+Mesh doublePyramid()
+{
+  std::vector<Vector3> points;
+  std::vector<Triangle> triangles;
+  for (Index i = 0; i < 6; ++i)
+  {
+    points.emplace_back(std::cos(i * kPi / 3), std::sin(i * kPi / 3), 0);
+    triangles.push_back({ i, (i + 1) % 6, 6 });
+    triangles.push_back({ (i + 1) % 6, i, 7 });
+  }
+  points.emplace_back(0, 0, 0.5);
+  points.emplace_back(0, 0, -0.5);
+  return makeMesh(points, triangles);
 }
 
 } // namespace
@@ -92,6 +148,8 @@ TEST(RemovalRules, theTwoFacesOfAClosedTetrahedronStay)
   for (Index v = 0; v < 4; ++v)
   {
     EXPECT_FALSE(canGo(tetrahedron, v, guards));
+    DecimationMesh work(tetrahedron, traceFeatureCurves(tetrahedron, 0.01));
+    EXPECT_EQ(planFast(work, v, guards), FreeStar::Outcome::Refused);
   }
 }
 
@@ -123,27 +181,9 @@ TEST(RemovalRules, aCurveMayNotCloseATriangle)
 {
   // Three features round one face that is cut into three at its middle [Hoppe 1996]: without a corner its two edges
   // would become one with the third.
-  const Mesh grid = gridPlane(6, 6);
   const Vector3 a(2, 2, 0), b(3, 2, 0), c(3, 3, 0);
   const auto isCorner = [&](const Vector3& p) { return p == a || p == b || p == c; };
-  std::vector<Vector3> points = grid.position;
-  points.push_back((a + b + c) / 3);
-  std::vector<Triangle> triangles;
-  for (Index f = 0; f < grid.faceCount(); ++f)
-  {
-    const Index p = grid.origin[3 * f], q = grid.origin[3 * f + 1], r = grid.origin[3 * f + 2];
-    if (isCorner(points[p]) && isCorner(points[q]) && isCorner(points[r]))
-    {
-      const Index middle = static_cast<Index>(points.size() - 1);
-      triangles.insert(triangles.end(), { { p, q, middle }, { q, r, middle }, { r, p, middle } });
-    }
-    else
-    {
-      triangles.push_back({ p, q, r });
-    }
-  }
-  ASSERT_EQ(triangles.size(), grid.faceCount() + 2U);
-  const Mesh mesh = markEdges(makeMesh(points, triangles), isCorner);
+  const Mesh mesh = markEdges(planeWithCutFace(a, b, c), isCorner);
   DecimationMesh work(mesh, traceFeatureCurves(mesh, 0.01));
   VertexRemoval removal(work);
   for (const Vector3& p : { a, b, c })
@@ -179,4 +219,78 @@ TEST(RemovalRules, deviationsOfACurveAddUp)
   EXPECT_FALSE(removal.surroundingsFit(guards));
   work.curveError[at(6)] = 0;
   EXPECT_TRUE(removal.surroundingsFit(guards)) << "its own distance alone would do";
+}
+
+TEST(RemovalRules, aStarThatMeetsAVertexTwiceStays)
+{
+  // As at an edge of four faces, whose two sheets share both of its ends.
+  Mesh mesh = doublePyramid();
+  DecimationMesh apart(mesh, traceFeatureCurves(mesh, 0.01));
+  ASSERT_TRUE(canGo(apart, 6, looseGuards()));
+  ASSERT_EQ(planFast(apart, 6, looseGuards()), FreeStar::Outcome::Planned);
+  std::replace(mesh.origin.begin(), mesh.origin.end(), Index{ 3 }, Index{ 0 });
+  DecimationMesh joined(mesh, traceFeatureCurves(mesh, 0.01));
+  EXPECT_FALSE(canGo(joined, 6, looseGuards()));
+  EXPECT_EQ(planFast(joined, 6, looseGuards()), FreeStar::Outcome::Unsuited);
+}
+
+TEST(RemovalRules, aCurveIsStraightInThePlanarMap)
+{
+  // The neighbour inside a bend lies short of the chord that takes the bend's place. On the surface its triangle would turn round, in the
+  // map, where each side of a curve has half a turn, there is room for it.
+  Mesh mesh = markEdges(gridPlane(8, 8),
+    [](const Vector3& p) { return (p.y() == 4 && p.x() >= 4) || (p.x() == 4 && p.y() >= 4); });
+  const Index v = vertexAt(mesh, Vector3(4, 4, 0));
+  mesh.position[vertexAt(mesh, Vector3(5, 5, 0))] = Vector3(4.4, 4.4, 0);
+  DecimationMesh work(mesh, traceFeatureCurves(mesh, 0.01));
+  work.curves.kind[v] = VertexKind::Curve; // as if it were no corner
+  EXPECT_TRUE(canGo(work, v, looseGuards()));
+}
+
+TEST(RemovalRules, chordsMoveAlongACurveOnlyToAnotherOne)
+{
+  // Two features with a row of chords between them.
+  const Mesh grid = gridPlane(8, 8);
+  Mesh mesh = grid;
+  for (const double y : { 4.0, 5.0 })
+  {
+    mesh = markEdges(std::move(mesh), [y](const Vector3& p) { return p.y() == y; });
+  }
+  const Index v = vertexAt(mesh, Vector3(4, 4, 0));
+  DecimationMesh work(mesh, traceFeatureCurves(mesh, 0.01));
+  EXPECT_TRUE(canGo(work, v, looseGuards()));
+  for (Index w = 0; w < mesh.vertexCount(); ++w)
+  {
+    if (mesh.position[w].y() == 5)
+    {
+      work.curves.curve[w] = work.curves.curve[v]; // as if they met beyond
+    }
+  }
+  EXPECT_FALSE(canGo(work, v, looseGuards()));
+}
+
+TEST(RemovalRules, aFaceHasOneConstrainedEdge)
+{
+  const Vector3 a(2, 2, 0), b(3, 2, 0), c(3, 3, 0);
+  const Mesh mesh = planeWithCutFace(a, b, c);
+  const Index middle = mesh.vertexCount() - 1;
+  const Mesh one = markEdges(mesh, [&](const Vector3& p) { return p == a || p == b; });
+  EXPECT_TRUE(canGo(one, middle, looseGuards()));
+  const Mesh two = markEdges(one, [&](const Vector3& p) { return p == b || p == c; });
+  EXPECT_FALSE(canGo(two, middle, looseGuards()));
+}
+
+TEST(RemovalRules, facesOfThreeCurveVerticesWaitForTheLastStage)
+{
+  const Vector3 a(2, 2, 0), b(3, 2, 0), c(3, 3, 0);
+  const Mesh mesh = planeWithCutFace(a, b, c);
+  DecimationMesh work(mesh, traceFeatureCurves(mesh, 0.01));
+  for (const Vector3& p : { a, b, c })
+  {
+    work.curves.kind[vertexAt(mesh, p)] = VertexKind::Protected; // ends of features outside
+  }
+  RemovalGuards guards = looseGuards();
+  EXPECT_TRUE(canGo(work, mesh.vertexCount() - 1, guards));
+  guards.allowConstrainedFaces = false;
+  EXPECT_FALSE(canGo(work, mesh.vertexCount() - 1, guards));
 }
