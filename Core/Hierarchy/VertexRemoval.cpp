@@ -152,6 +152,7 @@ bool VertexRemoval::plan(const RemovalGuards& guards)
 
 bool VertexRemoval::surroundingsFit(const RemovalGuards& guards) const
 {
+  // Where a side of the curve is a single face, its outer edge is the new curve edge already.
   if ((onCurve_ || border_) &&
     (!curveStaysClose(guards) || !loopStaysLong() ||
       mesh_.hasEdge(ring_[0], ring_[index(curveEnd_)])))
@@ -238,11 +239,6 @@ bool VertexRemoval::loadPlan(const std::uint32_t* words)
 
 bool VertexRemoval::curveStaysClose(const RemovalGuards& guards) const
 {
-  // A curve edge with a single face on one side would leave that face without height.
-  if (!boundary_ && (curveEnd_ < 2 || curveEnd_ > ringSize_ - 2))
-  {
-    return false;
-  }
   const Vector3& a = spoke_[0];
   const Vector3 ab = spoke_[index(curveEnd_)] - a;
   const double squared = ab.squaredNorm();

@@ -620,15 +620,20 @@ private:
         }
       }
     }
-    std::size_t missed = 0;
+    std::vector<Index> missed;
     for (const ValenceRequest& request : result_.surface.valenceRequests)
     {
-      missed += request.valence != kRegularValence && valence[request.vertex] != request.valence;
+      if (request.valence != kRegularValence && valence[request.vertex] != request.valence)
+      {
+        missed.push_back(request.point);
+      }
     }
-    if (missed > 0)
+    if (!missed.empty())
     {
-      result_.notices.push_back(std::to_string(missed) +
-        " points did not get the valence that was asked for, where the map has folds");
+      result_.notices.push_back(std::to_string(missed.size()) +
+        " points did not get the valence that was asked for, where the map has folds; one is "
+        "point " +
+        std::to_string(missed.front()));
     }
   }
 
