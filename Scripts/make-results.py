@@ -32,6 +32,7 @@ MODELS = [
     "open/mountain.ply", "open/plane_holes.ply", "open/st_helens.ply", "open/mask.ply",
 ]
 COUNTS = [2500, 10000]
+EVERY_FOLDER, EVERY_COUNT = ["scan", "cad", "open"], [1000, 2500, 10000]
 WITH_SHARP_FEATURES = {"fandisk", "joint", "of_flange"}
 EXIT_CODES = {0: "quads", 2: "bad input", 3: "no valid result"}
 # Limits of the acceptance bar.
@@ -39,6 +40,7 @@ COUNT_DEVIATION, JACOBIAN_MEAN, JACOBIAN_BAD = 0.15, 0.93, 0.005
 OTHER_VALENCES, DISTANCE, FEATURE_DISTANCE = 0.05, 0.0005, 0.001
 SCALE_SECONDS, SCALE_MEGABYTES = 60, 4096
 VALID_RUNS_NEEDED = 28
+EVERY_JACOBIAN_MEAN = 0.95
 
 
 # ------------------------------------------------------------------------------------------- running
@@ -242,6 +244,12 @@ def repairText(row):
     return str(repair) if repair else "nothing to repair"
 
 
+def unresolved(row):
+    """Whether the report says that the edge length is too long for a handle of the model; None where it does not say."""
+    handles = (row.get("report") or {}).get("unresolved_handles")
+    return None if handles is None else handles > 0
+
+
 # ------------------------------------------------------------------------------------------- writing
 def mark(ok):
     return "" if ok is None else (" ✓" if ok else " **✗**")
@@ -302,7 +310,7 @@ def summary(rows):
     return "\n".join(out)
 
 
-def writeMarkdown(options, rows, badRows):
+def writeMarkdown(options, rows, badRows, everyRows):
     parts = ["# Results", "",
              "Written by `Scripts/make-results.py`; do not edit. Judged by an independent tool: exact topology, exact distances "
              f"of {options.samples:,} samples. A figure is followed by ✓ or ✗ where the bar has a limit for it. Lines below \"topology\" count "
@@ -322,7 +330,56 @@ def writeMarkdown(options, rows, badRows):
             quads = row["stats"]["counts"]["quads"] if "stats" in row else ""
             parts.append(f"| {pathlib.Path(row['model']).name} | {outcome}{mark(ok)} | {quads} | {escape(words)} "
                          f"| {row['seconds']:.1f} | {row['peakMegabytes']:.0f} |")
+    if everyRows:
+        parts += [""] + everyModel(everyRows)
     options.markdown.write_text("\n".join(parts) + "\n")
+
+
+def share(passed, total):
+    return f"{passed} of {total}" + (f" ({100 * passed / total:.1f} %)" if total else "")
+
+
+def everyModel(rows):
+    """The part of the page about all models: figures of the whole, and a line a run."""
+    valid = [r for r in rows if verdict(r).get("topology", (False,))[0]]
+    resolved = [r for r in rows if not unresolved(r)]
+    certified = [r for r in valid if fineCertificate(r)]
+    quality = [r["stats"]["quality"] for r in valid]
+    out = ["## Every model", "",
+           f"All models of {', '.join(EVERY_FOLDER)} at {', '.join(f'{n:,}' for n in EVERY_COUNT)} quads. A run is resolved where no handle is "
+           "shorter round than three edge lengths.", "",
+           "| figure | runs |", "|---|---|",
+           f"| quads with the topology of the input | {share(len(valid), len(rows))} |",
+           f"| of the resolved ones | {share(sum(r in resolved for r in valid), len(resolved))} |",
+           f"| of those with quads: the map on the input has no defect | {share(len(certified), len(valid))} |",
+           f"| no quad with scaled Jacobian <= 0 | {share(sum(q['quads_sj_le_0'] == 0 for q in quality), len(valid))} |",
+           f"| mean scaled Jacobian >= {EVERY_JACOBIAN_MEAN} | "
+           f"{share(sum(q['scaled_jacobian_mean'] >= EVERY_JACOBIAN_MEAN for q in quality), len(valid))} |",
+           f"| count within {100 * COUNT_DEVIATION:.0f} % | {share(sum(verdict(r)['count'][0] for r in valid), len(valid))} |", "",
+           "| run | outcome | quads | Jacobian mean, min, <= 0 | irregular, other than 3 and 5 | shortest handle / s | s |",
+           "|---|---|---|---|---|---|---|"]
+    return out + [everyRow(r) for r in rows]
+
+
+def fineCertificate(row):
+    return not any("map on the input surface" in n for n in (row.get("report") or {}).get("notices", []))
+
+
+def everyRow(row):
+    loop = (row.get("report") or {}).get("shortest_loop_over_edge_length") or 0
+    loop = f"{loop:.1f}" if loop else ""
+    v = verdict(row)
+    if "stats" not in row:
+        why = "killed at the time limit" if row["exit"] is None else row.get("judgeProblem") or lastMessage(row["output"])
+        why = why.split(".ply: ", 1)[-1]
+        return f"| {row['name']} | {escape(why[:160])} ||||{loop} | {row['seconds']:.1f} |"
+    quality, (irregular, other) = row["stats"]["quality"], v["valence"][1]
+    outcome = "quads" if v["topology"][0] else "wrong topology **✗**"
+    if not fineCertificate(row):
+        outcome += ", map mended by the extraction"
+    return (f"| {row['name']} | {outcome} | {v['count'][1]} ({100 * (v['count'][1] / row['asked'] - 1):+.1f} %) | "
+            f"{quality['scaled_jacobian_mean']:.3f}, {quality['scaled_jacobian_min']:.2f}, {quality['quads_sj_le_0']} | "
+            f"{irregular}, {other} | {loop} | {row['seconds']:.1f} |")
 
 
 def contactSheets(options, rows):
@@ -352,6 +409,7 @@ def parseArguments():
     parser.add_argument("--models", nargs="*", help="paths below --data; default: the models of the bar")
     parser.add_argument("--folder", help="take every mesh of this folder below --data instead")
     parser.add_argument("--bad", default="bad", help="folder with damaged input below --data; empty: leave out")
+    parser.add_argument("--every", action="store_true", help="also all models of scan, cad, open, in a table of their own")
     parser.add_argument("--quads", type=int, nargs="*", default=COUNTS)
     parser.add_argument("--timeout", type=float, default=600, help="seconds a run")
     parser.add_argument("--samples", type=int, default=100000)
@@ -379,7 +437,9 @@ def main():
     bad = meshesOf(options.bad, options.data) if options.bad and (options.data / options.bad).is_dir() else []
     badRows = [runModel(options, m, options.quads[0], reference=False) for m in bad]
     (options.out / "all.json").write_text(json.dumps([dict(r, verdict=verdict(r)) for r in rows] + badRows, indent=1))
-    writeMarkdown(options, rows, badRows)
+    every = [runModel(options, m, n, reference=True) for folder in EVERY_FOLDER if options.every
+             for m in meshesOf(folder, options.data) for n in EVERY_COUNT]
+    writeMarkdown(options, rows, badRows, every)
     print(summary(rows))
     if not options.no_pictures:
         contactSheets(options, rows + badRows)
