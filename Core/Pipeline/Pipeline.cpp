@@ -29,7 +29,7 @@ constexpr std::size_t kManyOffenders = 100;
 /// How often the coarse level is rebuilt because the map does not fit the input's triangles.
 constexpr int kMaximumTransfers = 3;
 /// Work on maps (GridMapResult::work) after which nothing is tried again; about a minute.
-constexpr std::size_t kMaximumWork = 16000000;
+constexpr std::size_t kMaximumWork = 24000000;
 /// How often the number of quads is doubled where they do not fit round a small handle.
 constexpr int kMaximumFinerGrids = 3;
 /// How often features are given up near the places of a failure.
@@ -310,13 +310,15 @@ private:
   /// vertices are kept on all levels and the map is made again; the best attempt counts.
   bool computeMap()
   {
+    // Where features can be given up, one attempt less before that: those that do not help soon hardly help later.
+    const int fewer = hasDetectedFeatures() && featureDrops_ < kMaximumFeatureDrops ? 1 : 0;
     HierarchyOptions levelOptions = hierarchyOptions();
     if (!computeCoarseMap(levelOptions))
     {
       return false;
     }
     transfer();
-    for (int attempt = 1; attempt < kMaximumTransfers; ++attempt)
+    for (int attempt = 1; attempt < kMaximumTransfers - fewer; ++attempt)
     {
       // With offenders everywhere it is not a matter of a few places, and the coarse level would grow out of hand.
       const std::vector<Index>& offenders = result_.transfer.offenders;
@@ -693,6 +695,13 @@ private:
   double gridQuads() const
   {
     return static_cast<double>(result_.targetQuads) * std::pow(2.0, finerGrids_);
+  }
+
+  bool hasDetectedFeatures() const
+  {
+    const std::vector<std::uint8_t>& flags = result_.surface.mesh.flags;
+    return std::any_of(flags.begin(), flags.end(),
+      [](std::uint8_t f) { return (f & (kFeatureEdge | kRequestedFeature)) == kFeatureEdge; });
   }
 
   /// Where a map or its quads fail, features that only the dihedral angle asked for are given up near the places of the failure,
