@@ -42,6 +42,13 @@ std::int64_t nearestWithSign(double x, std::int64_t residue)
   return n;
 }
 
+/// Whether an edge of a curve still runs the way that it should. No determinant tells: on a staircase of corners that turn by
+/// one and three quarters in turn, a step backwards makes three of one, and all triangles stay positive.
+bool isAlong(std::int64_t step, double wanted)
+{
+  return wanted > 0 ? step > 0 : step < 0;
+}
+
 } // namespace
 
 IntegerMap::IntegerMap(
@@ -226,7 +233,15 @@ void IntegerMap::shift(Index h, FixedVec2 e)
 
 bool IntegerMap::mayShift(Index h, FixedVec2 e) const
 {
-  return axis_[h] == kFree || (axis_[h] == kOnlyU ? e.v == 0 : e.u == 0);
+  switch (axis_[h])
+  {
+    case kOnlyU:
+      return e.v == 0 && isAlong(q_[h].u + e.u, wanted_[h].x());
+    case kOnlyV:
+      return e.u == 0 && isAlong(q_[h].v + e.v, wanted_[h].y());
+    default:
+      return true;
+  }
 }
 
 void IntegerMap::moveVertex(Index v, FixedVec2 e)
@@ -238,7 +253,9 @@ void IntegerMap::moveVertex(Index v, FixedVec2 e)
 bool IntegerMap::mayMove(Index v, FixedVec2 e) const
 {
   bool may = true;
-  visitStar(v, e, [&](Index h, FixedVec2 turned, bool) { may = may && mayShift(h, turned); });
+  visitStar(v, e,
+    [&](Index h, FixedVec2 turned, bool leaves)
+    { may = may && mayShift(h, leaves ? -turned : turned); });
   return may;
 }
 

@@ -46,11 +46,11 @@ public:
   void round(double scale);
   /// q[h] += e, and its twin follows.
   void shift(Index h, FixedVec2 e);
-  /// Whether e keeps the half-edge on its isoline.
+  /// Whether e keeps the half-edge on its isoline, and along it the way that is wanted.
   bool mayShift(Index h, FixedVec2 e) const;
   /// Moves a vertex by e in the chart of the half-edge that mesh().outgoing names.
   void moveVertex(Index v, FixedVec2 e);
-  /// Whether moving by e keeps the vertex on its curve.
+  /// Whether moving by e keeps the vertex on its curve, between its neighbours there.
   bool mayMove(Index v, FixedVec2 e) const;
   /// The change of energy by moveVertex.
   double moveEnergy(Index v, FixedVec2 e) const;

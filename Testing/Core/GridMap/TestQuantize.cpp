@@ -185,6 +185,36 @@ TEST(Quantize, IntegersAreClosedPositiveAndWind)
   }
 }
 
+/// On a staircase of boundary corners a step backwards would leave every triangle positive, with corners of one and three quarter turns
+/// exchanged.
+TEST(Quantize, CurvesAreNeverRunBackwards)
+{
+  const SyntheticMap map = staircaseMap(4, 4, 4, 3, 3.3, true, 8);
+  UvMesh mesh = UvMesh::from(map.mesh, map.field, map.uv);
+  UvEditor editor(mesh);
+  LockedVertices locked = lockedVertices(map.mesh, mesh, integerVertices(map.mesh, map.field), {});
+  decimateInUv(mesh, editor, locked.keep);
+  IntegerMap integers(mesh, editor, locked.integer);
+  integers.round(1);
+  int edges = 0;
+  for (const Index f : integers.faces())
+  {
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      if ((mesh.flags[h] & kUvConstrained) != 0)
+      {
+        ++edges;
+        const FixedVec2 q = integers[h];
+        EXPECT_TRUE(integers.mayShift(h, q)) << h;
+        EXPECT_FALSE(integers.mayShift(h, -q)) << h;
+        EXPECT_FALSE(integers.mayShift(h, FixedVec2{ -2 * q.u, -2 * q.v })) << h;
+        EXPECT_FALSE(integers.mayShift(h, FixedVec2{ q.v, q.u })) << h;
+      }
+    }
+  }
+  EXPECT_GT(edges, 10);
+}
+
 TEST(Quantize, ShrinksAStartThatIsTooLarge)
 {
   const SyntheticMap map = staircaseMap(4, 4, 4, 3, 3.3, true, 8);
@@ -192,7 +222,8 @@ TEST(Quantize, ShrinksAStartThatIsTooLarge)
   {
     UvMesh mesh = UvMesh::from(map.mesh, map.field, map.uv);
     UvEditor editor(mesh);
-    LockedVertices locked = lockedVertices(map.mesh, mesh, integerVertices(map.mesh, map.field), {});
+    LockedVertices locked =
+      lockedVertices(map.mesh, mesh, integerVertices(map.mesh, map.field), {});
     decimateInUv(mesh, editor, locked.keep);
     IntegerMap integers(mesh, editor, locked.integer);
     EXPECT_TRUE(findValidIntegers(integers, scale, scale, {}).valid);
