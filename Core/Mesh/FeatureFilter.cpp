@@ -294,14 +294,14 @@ FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength)
   return report;
 }
 
-std::size_t removeFeaturesNear(Mesh& mesh, const std::vector<Vector3>& points, double radius)
+std::vector<Index> detectedFeaturesNear(
+  const Mesh& mesh, const std::vector<Vector3>& points, double radius)
 {
   if (!(radius > 0))
   {
     throw InvalidInput("the radius for removing features must be positive");
   }
-  constexpr auto keep = static_cast<std::uint8_t>(~kFeatureEdge);
-  std::size_t removed = 0;
+  std::vector<Index> found;
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     if (!mesh.isFeature(h) || mesh.isBoundary(h) || mesh.twin[h] < h ||
@@ -314,12 +314,20 @@ std::size_t removeFeaturesNear(Mesh& mesh, const std::vector<Vector3>& points, d
     if (std::any_of(points.begin(), points.end(),
           [&](const Vector3& p) { return squaredDistance(p, a, b) < radius * radius; }))
     {
-      mesh.flags[h] &= keep;
-      mesh.flags[mesh.twin[h]] &= keep;
-      ++removed;
+      found.push_back(h);
     }
   }
-  return removed;
+  return found;
+}
+
+void unmarkFeatures(Mesh& mesh, const std::vector<Index>& halfEdges)
+{
+  constexpr auto keep = static_cast<std::uint8_t>(~kFeatureEdge);
+  for (const Index h : halfEdges)
+  {
+    mesh.flags[h] &= keep;
+    mesh.flags[mesh.twin[h]] &= keep;
+  }
 }
 
 } // namespace quadrille

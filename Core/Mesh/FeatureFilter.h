@@ -23,9 +23,12 @@ struct FeatureFilterReport
 /// Throws InvalidInput when edgeLength is not positive.
 FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength);
 
-/// Unmarks features that nobody asked for (without kRequestedFeature) and that come closer than `radius` to one of the points; for places
-/// where no quads of the wanted size can follow them. Returns the number of edges unmarked. Throws InvalidInput when
-/// radius is not positive.
-std::size_t removeFeaturesNear(Mesh& mesh, const std::vector<Vector3>& points, double radius);
+/// One half-edge of each feature that nobody asked for (without kRequestedFeature) and that comes closer than `radius` to one of the
+/// points. Throws InvalidInput when radius is not positive.
+std::vector<Index> detectedFeaturesNear(
+  const Mesh& mesh, const std::vector<Vector3>& points, double radius);
+
+/// These half-edges and their twins are no features any more.
+void unmarkFeatures(Mesh& mesh, const std::vector<Index>& halfEdges);
 
 } // namespace quadrille

@@ -310,19 +310,20 @@ private:
   /// vertices are kept on all levels and the map is made again; the best attempt counts.
   bool computeMap()
   {
-    // Where features can be given up, one attempt less before that: those that do not help soon hardly help later.
-    const int fewer = hasDetectedFeatures() && featureDrops_ < kMaximumFeatureDrops ? 1 : 0;
     HierarchyOptions levelOptions = hierarchyOptions();
     if (!computeCoarseMap(levelOptions))
     {
       return false;
     }
     transfer();
-    for (int attempt = 1; attempt < kMaximumTransfers - fewer; ++attempt)
+    for (int attempt = 1; attempt < kMaximumTransfers; ++attempt)
     {
       // With offenders everywhere it is not a matter of a few places, and the coarse level would grow out of hand.
       const std::vector<Index>& offenders = result_.transfer.offenders;
+      // The last attempt is left out where features can be given up: what keeping vertices did not mend once is theirs.
+      const bool last = attempt + 1 == kMaximumTransfers;
       if (result_.certificate.valid() || offenders.empty() || !mayRepeat() ||
+        (last && !featuresNear(positionsOf(offenders)).empty()) ||
         offenders.size() > result_.coarse.mesh.vertexCount() / 2)
       {
         break;
@@ -590,10 +591,7 @@ private:
       fail(extracted.status.code,
         "no valid quad mesh: " + extracted.status.message + " (" + result_.certificate.text() +
           ")");
-      for (const Index v : result_.transfer.offenders)
-      {
-        troubles_.push_back(mesh.position[v]);
-      }
+      troubles_ = positionsOf(result_.transfer.offenders);
       return false;
     }
     if (!result_.certificate.valid())
@@ -697,33 +695,42 @@ private:
     return static_cast<double>(result_.targetQuads) * std::pow(2.0, finerGrids_);
   }
 
-  bool hasDetectedFeatures() const
+  std::vector<Vector3> positionsOf(const std::vector<Index>& vertices) const
   {
-    const std::vector<std::uint8_t>& flags = result_.surface.mesh.flags;
-    return std::any_of(flags.begin(), flags.end(),
-      [](std::uint8_t f) { return (f & (kFeatureEdge | kRequestedFeature)) == kFeatureEdge; });
+    std::vector<Vector3> points;
+    for (const Index v : vertices)
+    {
+      points.push_back(result_.surface.mesh.position[v]);
+    }
+    return points;
+  }
+
+  /// Features that can be given up near the places of the last failure.
+  std::vector<Index> featuresNear(const std::vector<Vector3>& troubles) const
+  {
+    const double radius =
+      kFirstFeatureDrop * result_.targetEdgeLength * std::pow(2.0, featureDrops_);
+    return featureDrops_ < kMaximumFeatureDrops
+      ? detectedFeaturesNear(result_.surface.mesh, troubles, radius)
+      : std::vector<Index>{};
   }
 
   /// Where a map or its quads fail, features that only the dihedral angle asked for are given up near the places of the failure,
   /// further round them each time. False when there is nothing (more) to give up.
   bool dropFeatures()
   {
-    if (result_.status.code == StatusCode::TooLarge || featureDrops_ >= kMaximumFeatureDrops)
+    const std::vector<Index> features = featuresNear(troubles_);
+    if (result_.status.code == StatusCode::TooLarge || features.empty())
     {
       return false;
     }
-    const double radius =
-      kFirstFeatureDrop * result_.targetEdgeLength * std::pow(2.0, featureDrops_++);
-    const std::size_t removed = removeFeaturesNear(result_.surface.mesh, troubles_, radius);
-    if (removed == 0)
-    {
-      return false;
-    }
+    ++featureDrops_;
+    unmarkFeatures(result_.surface.mesh, features);
     result_.surface.hash = contentHash(result_.surface.mesh, options_.threads);
     std::ostringstream text;
     const Vector3& place = troubles_.front();
-    text << removed << " sharp edges near (" << place.x() << ", " << place.y() << ", " << place.z()
-         << ")" << (troubles_.size() > 1 ? " and other places" : "")
+    text << features.size() << " sharp edges near (" << place.x() << ", " << place.y() << ", "
+         << place.z() << ")" << (troubles_.size() > 1 ? " and other places" : "")
          << " leave no room for quads of this edge length and were not used as features";
     result_.notices.push_back(text.str());
     result_.status = {};
