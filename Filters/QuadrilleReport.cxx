@@ -156,6 +156,17 @@ void addCertificate(vtkDataObject* data, const Certificate& c)
       c.minimumDeterminant, c.area });
 }
 
+void addSmallParts(vtkDataObject* data, const SmallParts& parts, double edgeLength)
+{
+  const auto coordinates = [](const Vector3& p) { return std::vector{ p.x(), p.y(), p.z() }; };
+  addCount(data, "Handles", parts.handles);
+  addCount(data, "UnresolvedHandles", parts.unresolvedHandles);
+  addNumber(data, "ShortestLoopOverEdgeLength", parts.shortestLoop / edgeLength);
+  addNumbers(data, "ShortestLoopPlace", coordinates(parts.place));
+  addNumber(data, "ShortestBoundaryOverEdgeLength", parts.boundary.shortest / edgeLength);
+  addNumbers(data, "ShortestBoundaryPlace", coordinates(parts.boundary.place));
+}
+
 void addRepair(vtkDataObject* data, const RepairReport& repair)
 {
   std::vector<std::string> names;

@@ -47,6 +47,9 @@ void addCount(vtkDataObject* data, const char* name, std::size_t value);
 void addStages(vtkDataObject* data, const std::vector<StageRecord>& stages);
 /// Certificate (text), CertificateValid (0 or 1), CertificateNames and CertificateValues.
 void addCertificate(vtkDataObject* data, const Certificate& certificate);
+/// Handles, UnresolvedHandles, ShortestLoopOverEdgeLength and ShortestLoopPlace, ShortestBoundaryOverEdgeLength and
+/// ShortestBoundaryPlace.
+void addSmallParts(vtkDataObject* data, const SmallParts& parts, double edgeLength);
 /// RepairNames and RepairCounts.
 void addRepair(vtkDataObject* data, const RepairReport& repair);
 

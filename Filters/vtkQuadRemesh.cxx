@@ -51,6 +51,7 @@ void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
   quadrille::addCount(data, "Decimations", static_cast<std::size_t>(result.decimations));
   quadrille::addCount(data, "Replays", static_cast<std::size_t>(result.replays));
   quadrille::addCount(data, "SurfaceFaces", result.surface.mesh.faceCount());
+  quadrille::addSmallParts(data, result.smallParts, result.targetEdgeLength);
 }
 
 } // namespace
@@ -72,7 +73,8 @@ vtkPolyData* vtkQuadRemesh::GetPolyDataOutputAt(int port)
 //------------------------------------------------------------------------------
 void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  this->ActualQuads = this->TargetQuads = 0;
+  this->ActualQuads = this->TargetQuads = this->Handles = this->UnresolvedHandles = 0;
+  this->ShortestLoopOverEdgeLength = this->ShortestBoundaryOverEdgeLength = 0;
   if (this->MaximumQuads < 1)
   {
     throw quadrille::InvalidInput("MaximumQuads must be at least 1");
@@ -92,6 +94,14 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   this->TargetQuads = static_cast<vtkIdType>(result.targetQuads);
   this->SetStageRecords(result.stages);
   this->SetCertificate(result.certificate);
+  const quadrille::SmallParts& parts = result.smallParts;
+  this->Handles = static_cast<vtkIdType>(parts.handles);
+  this->UnresolvedHandles = static_cast<vtkIdType>(parts.unresolvedHandles);
+  if (result.targetEdgeLength > 0) // what is refused before has none
+  {
+    this->ShortestLoopOverEdgeLength = parts.shortestLoop / result.targetEdgeLength;
+    this->ShortestBoundaryOverEdgeLength = parts.boundary.shortest / result.targetEdgeLength;
+  }
   for (const std::string& notice : result.notices)
   {
     this->AddNotice(notice);
@@ -128,4 +138,9 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TextureCoordinates: " << this->TextureCoordinates << "\n";
   os << indent << "TargetQuads: " << this->TargetQuads << "\n";
   os << indent << "ActualQuads: " << this->ActualQuads << "\n";
+  os << indent << "Handles: " << this->Handles << "\n";
+  os << indent << "UnresolvedHandles: " << this->UnresolvedHandles << "\n";
+  os << indent << "ShortestLoopOverEdgeLength: " << this->ShortestLoopOverEdgeLength << "\n";
+  os << indent << "ShortestBoundaryOverEdgeLength: " << this->ShortestBoundaryOverEdgeLength
+     << "\n";
 }

@@ -17,7 +17,8 @@
  *
  * Field data of output 0: `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`, `Certificate`,
  * `CertificateValid`, `CertificateNames`, `CertificateValues`, `RepairNames`, `RepairCounts`, `Notices`,
- * `EstimatedSeconds`, `EstimatedMegabytes`, `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `CoarseVertices`, `Decimations`, `Replays`, `SurfaceFaces`.
+ * `EstimatedSeconds`, `EstimatedMegabytes`, `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `CoarseVertices`, `Decimations`, `Replays`, `SurfaceFaces`, `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`,
+ * `ShortestBoundaryOverEdgeLength` (see the getters of the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`.
  */
 #ifndef vtkQuadRemesh_h
 #define vtkQuadRemesh_h
@@ -71,6 +72,18 @@ public:
   /// Number of quads that the last execution aimed at.
   vtkGetMacro(TargetQuads, vtkIdType);
 
+  ///@{
+  /**
+   * Of the last execution, also of one that failed after its decimation: handles of the surface; those with a loop round or
+   * through them that is shorter than three target edge lengths; the shortest such loop, and the shortest
+   * boundary loop, over the target edge length (0: there is none).
+   */
+  vtkGetMacro(Handles, vtkIdType);
+  vtkGetMacro(UnresolvedHandles, vtkIdType);
+  vtkGetMacro(ShortestLoopOverEdgeLength, double);
+  vtkGetMacro(ShortestBoundaryOverEdgeLength, double);
+  ///@}
+
   /// Outputs 1 and 2.
   vtkPolyData* GetMappedSurface() { return this->GetPolyDataOutputAt(1); }
   vtkPolyData* GetLines() { return this->GetPolyDataOutputAt(2); }
@@ -93,6 +106,10 @@ private:
   vtkTypeBool TextureCoordinates = 1;
   vtkIdType ActualQuads = 0;
   vtkIdType TargetQuads = 0;
+  vtkIdType Handles = 0;
+  vtkIdType UnresolvedHandles = 0;
+  double ShortestLoopOverEdgeLength = 0;
+  double ShortestBoundaryOverEdgeLength = 0;
 };
 
 #endif

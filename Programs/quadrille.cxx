@@ -345,6 +345,10 @@ std::string makeReport(const Request& request, RemeshRun& run, ExitCode code, co
   json.add("input_points", static_cast<long long>(input->GetNumberOfPoints()));
   json.add("input_cells", static_cast<long long>(input->GetNumberOfCells()));
   json.add("seconds_total", timing.total);
+  json.add("handles", static_cast<long long>(run.filter()->GetHandles()));
+  json.add("unresolved_handles", static_cast<long long>(run.filter()->GetUnresolvedHandles()));
+  json.add("shortest_loop_over_edge_length", run.filter()->GetShortestLoopOverEdgeLength());
+  json.add("shortest_boundary_over_edge_length", run.filter()->GetShortestBoundaryOverEdgeLength());
   if (code == kValidQuads)
   {
     addSuccess(json, run.filter()->GetOutput());

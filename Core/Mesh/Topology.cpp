@@ -43,17 +43,6 @@ void pairRun(const std::vector<Index>& origin, const EdgeRuns::Entry* begin,
   }
 }
 
-/// The boundary half-edge that follows a boundary half-edge on its loop.
-Index nextOnBoundary(const Mesh& mesh, Index h)
-{
-  Index e = Mesh::next(h);
-  while (!mesh.isBoundary(e))
-  {
-    e = Mesh::next(mesh.twin[e]);
-  }
-  return e;
-}
-
 std::string checkSizes(const Mesh& mesh)
 {
   if (mesh.origin.size() % 3 != 0)
@@ -201,6 +190,16 @@ std::vector<Index> outgoingHalfEdges(const Mesh& mesh)
     }
   }
   return outgoing;
+}
+
+Index nextOnBoundary(const Mesh& mesh, Index h)
+{
+  Index e = Mesh::next(h);
+  while (!mesh.isBoundary(e))
+  {
+    e = Mesh::next(mesh.twin[e]);
+  }
+  return e;
 }
 
 std::vector<Index> faceComponents(const Mesh& mesh, Index& componentCount)

@@ -20,6 +20,9 @@ std::vector<Index> pairHalfEdges(const std::vector<Index>& origin, Index vertexC
 /// (so that rotating counterclockwise visits the whole fan), kInvalidIndex for an isolated vertex.
 std::vector<Index> outgoingHalfEdges(const Mesh& mesh);
 
+/// The boundary half-edge that follows a boundary half-edge on its loop.
+Index nextOnBoundary(const Mesh& mesh, Index h);
+
 /// Component id per face, numbered by lowest face id; the count comes back in componentCount.
 std::vector<Index> faceComponents(const Mesh& mesh, Index& componentCount);
 

@@ -129,6 +129,10 @@ private:
         result_.notices.push_back(gridNotice_);
       }
       mergeMapCharts();
+      if (!result_.status.ok() && result_.smallParts.unresolvedHandles > 0)
+      {
+        result_.status.message += "; " + unresolvedText();
+      }
     }
   }
 
@@ -381,6 +385,7 @@ private:
     for (int attempt = 0; attempt < kMaximumAttempts; ++attempt)
     {
       times.phase1 += makeLevels(levelOptions);
+      times.handles += attempt == 0 ? measureSmallParts() : 0;
       mapOptions.guides = hierarchy().coarse.guides;
       mapOptions.targetValences = levelValences(result_.surface, hierarchy().coarse.fineVertex);
       map = computeGridMap(hierarchy().coarse.mesh, mapOptions);
@@ -426,7 +431,7 @@ private:
 
   struct StageTimes
   {
-    double phase1 = 0, phase2 = 0, field = 0, seamless = 0, quantize = 0, embed = 0;
+    double phase1 = 0, phase2 = 0, handles = 0, field = 0, seamless = 0, quantize = 0, embed = 0;
     void add(const Hierarchy& hierarchy, const GridMapResult& map)
     {
       phase2 += hierarchy.secondsPhase2;
@@ -436,6 +441,77 @@ private:
       embed += map.secondsEmbed;
     }
   };
+
+  /// Once a run, as the surface stays the same. Returns the seconds.
+  double measureSmallParts()
+  {
+    if (smallPartsKnown_)
+    {
+      return 0;
+    }
+    const double start = now();
+    const double limit = kQuadsOfLoop * result_.targetEdgeLength;
+    const Mesh& mesh = hierarchy().intermediate.mesh;
+    const HandleReport found = findHandles(mesh, limit);
+    SmallParts& parts = result_.smallParts;
+    parts.handles = found.handles;
+    parts.unresolvedHandles = found.loops.size();
+    parts.complete = found.complete;
+    if (found.shortest)
+    {
+      parts.shortestLoop = found.shortest->length;
+      for (const Index v : found.shortest->vertices)
+      {
+        parts.place += mesh.position[v] / static_cast<double>(found.shortest->vertices.size());
+      }
+    }
+    parts.boundary = measureBoundary(result_.surface.mesh, limit);
+    smallPartsKnown_ = true;
+    if (parts.unresolvedHandles > 0)
+    {
+      result_.notices.push_back(unresolvedText());
+    }
+    if (parts.boundary.shortLoops > 0)
+    {
+      result_.notices.push_back(tinyHolesText());
+    }
+    return now() - start;
+  }
+
+  /// Of a loop that is too short: how long, where, and what would resolve it.
+  void describeLoop(std::ostringstream& text, double length, const Vector3& place) const
+  {
+    const double s = result_.targetEdgeLength;
+    const double factor = kQuadsOfLoop * s / length;
+    const double quads = std::ceil(static_cast<double>(result_.targetQuads) * factor * factor);
+    text << length << " = " << length / s << " edge lengths near (" << place.x() << ", "
+         << place.y() << ", " << place.z() << "): ";
+    if (quads <= static_cast<double>(options_.maximumQuads))
+    {
+      text << "ask for smaller quads (about " << static_cast<std::size_t>(quads)
+           << " resolve all) or ";
+    }
+  }
+  std::string unresolvedText() const
+  {
+    const SmallParts& parts = result_.smallParts;
+    std::ostringstream text;
+    text << (parts.complete ? "" : "at least ") << parts.unresolvedHandles << " of "
+         << parts.handles << " handles are shorter round than three quads, the shortest is ";
+    describeLoop(text, parts.shortestLoop, parts.place);
+    text << "close them in the surface, or quads there have a poor shape or fail";
+    return text.str();
+  }
+  std::string tinyHolesText() const
+  {
+    const BoundaryReport& boundary = result_.smallParts.boundary;
+    std::ostringstream text;
+    text << boundary.shortLoops << " of " << boundary.loops
+         << " boundary loops are shorter than three quads, the shortest is ";
+    describeLoop(text, boundary.shortest, boundary.place);
+    text << "fill these holes in the surface, or quads there have a poor shape or fail";
+    return text.str();
+  }
 
   /// Keeps the intermediate vertices near the offenders and raises the budget by their number and a half.
   void giveFreedom(const std::vector<Index>& offenders, HierarchyOptions& levelOptions) const
@@ -488,6 +564,7 @@ private:
     const std::size_t coarse = hierarchy().coarse.mesh.faceCount();
     addStage("phase1", times.phase1, fine, middle);
     addStage("phase2", times.phase2, middle, coarse);
+    addStage("handles", times.handles, middle, result_.smallParts.handles);
     addStage("field", times.field, coarse, coarse);
     addStage("seamless", times.seamless, coarse, coarse);
     addStage("quantize", times.quantize, coarse, coarse);
@@ -747,6 +824,7 @@ private:
   CrossField coarseField_;
   std::vector<Vector3> troubles_; ///< where the last map or its quads failed
   std::size_t work_ = 0;          ///< GridMapResult::work of all maps so far
+  bool smallPartsKnown_ = false;
   int featureDrops_ = 0;
   int finerGrids_ = 0;          ///< how often the number of quads was doubled
   std::string gridNotice_;      ///< of the last doubling, while it holds

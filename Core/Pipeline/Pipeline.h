@@ -8,6 +8,7 @@
 #include "Extraction/Extraction.h"
 #include "GridMap/GridMap.h"
 #include "Hierarchy/Hierarchy.h"
+#include "Mesh/Handles.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Estimate.h"
 #include "Transfer/Charts.h"
@@ -40,13 +41,31 @@ struct RemeshOptions
 };
 
 /// One stage of the run: names are read, repair, order, connectivity, phase1, phase2, field,
-/// seamless, quantize, embed, replay, extract (the benchmark's columns).
+/// seamless, quantize, embed, replay, extract (the benchmark's columns), and refine, handles, certify, charts.
 struct StageRecord
 {
   std::string stage;
   double seconds = 0;
   std::size_t elementsIn = 0;
   std::size_t elementsOut = 0;
+};
+
+/// So many quads a loop needs, at least, round a handle, through it or round a hole: shorter ones are not resolved.
+constexpr double kQuadsOfLoop = 3;
+
+/// What quads of the target edge length s cannot resolve. Measured on the intermediate level, whose edges are about s/2 to s long: loops about
+/// as long as 3 s come out a tenth too short, those of one or two s up to 40 %.
+struct SmallParts
+{
+  std::size_t handles = 0; ///< genus, the sum over all components
+  std::size_t unresolvedHandles =
+    0; ///< those with a loop shorter than kQuadsOfLoop s, see findHandles
+  /// The shortest loop round or through a handle, in units of the input; 0 without handles. Above kQuadsOfLoop s another one may be
+  /// somewhat shorter.
+  double shortestLoop = 0;
+  Vector3 place = Vector3::Zero(); ///< the middle of that loop
+  bool complete = true;            ///< false: too many to look at all
+  BoundaryReport boundary;         ///< of the prepared surface
 };
 
 struct RemeshResult
@@ -64,6 +83,7 @@ struct RemeshResult
   Certificate certificate;       ///< of the map on the input surface
   ChartCounts charts;            ///< of uv; zero unless mergeCharts
   TransferResult transfer;       ///< counts only, uv is moved out
+  SmallParts smallParts;
   std::vector<StageRecord> stages;
   RunEstimate estimate; ///< made before the run
   int decimations =

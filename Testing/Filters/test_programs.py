@@ -278,6 +278,10 @@ class Report(Case):
         self.assertEqual(content["quads_asked"], 1500)
         self.assertTrue(content["certificate"]["valid"])
         self.assertEqual(content["quality"]["euler_characteristic"], -4)  # genus 3
+        self.assertEqual(content["handles"], 3)
+        self.assertEqual(content["unresolved_handles"], 0)
+        self.assertGreater(content["shortest_loop_over_edge_length"], 3)
+        self.assertEqual(content["shortest_boundary_over_edge_length"], 0)
         self.assertTrue(content["quality"]["manifold"] and content["quality"]["closed"])
         self.assertIn("duplicate_faces", content["repair"])
         stages = [s["stage"] for s in content["stages"]]

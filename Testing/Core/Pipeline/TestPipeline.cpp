@@ -5,6 +5,7 @@
 #include "Mesh/FeatureFilter.h"
 #include "Mesh/Topology.h"
 #include "PlyFile.h"
+#include "TestHandleMeshes.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -152,6 +153,67 @@ TEST(Pipeline, RingThatTwoQuadsWouldSurroundGetsMore)
   EXPECT_EQ(topology.euler, 0);
   EXPECT_TRUE(topology.oriented);
   EXPECT_EQ(topology.boundaryEdges, 0u);
+}
+
+TEST(Pipeline, ThinTorusIsAnUnresolvedHandle)
+{
+  // Round the tube it is 0.31, 2 edge lengths of 80 quads and 5.6 of 600.
+  const Mesh mesh = test::torus(160, 10, 1, 0.05);
+  RemeshOptions options;
+  for (const auto& [quads, unresolved] :
+    { std::pair<std::size_t, std::size_t>{ 80, 1 }, { 600, 0 } })
+  {
+    options.quads = quads;
+    const RemeshResult result = remesh(inputOf(mesh), options);
+    EXPECT_EQ(result.smallParts.handles, 1u);
+    EXPECT_EQ(result.smallParts.unresolvedHandles, unresolved);
+    EXPECT_TRUE(result.smallParts.complete);
+    // The intermediate level lies in the tube, with edges that are not much shorter than the tube is wide: twice round its width is the least.
+    EXPECT_GT(result.smallParts.shortestLoop, (unresolved > 0 ? 3.5 : 5.5) * 0.05);
+    EXPECT_LT(result.smallParts.shortestLoop, 1.05 * 2 * test::kPi * 0.05);
+    EXPECT_NEAR(result.smallParts.place.norm(), 1, 0.06);
+    EXPECT_EQ(tells(result, "shorter round than three quads"), unresolved > 0);
+    EXPECT_EQ(result.smallParts.boundary.loops, 0u);
+  }
+}
+
+TEST(Pipeline, SphereHasNoHandles)
+{
+  RemeshOptions options;
+  options.quads = 300;
+  const RemeshResult result = remesh(inputOf(test::sphere(4)), options);
+  EXPECT_EQ(result.smallParts.handles, 0u);
+  EXPECT_EQ(result.smallParts.shortestLoop, 0);
+  EXPECT_FALSE(tells(result, "three quads"));
+}
+
+TEST(Pipeline, TinyHoleIsTold)
+{
+  RemeshOptions options;
+  options.quads = 36;
+  const RemeshResult result = remesh(
+    inputOf(test::planeCells(30, 30, [](int x, int y) { return x != 10 || y != 20; })), options);
+  EXPECT_EQ(result.smallParts.boundary.loops, 2u);
+  EXPECT_EQ(result.smallParts.boundary.shortLoops, 1u);
+  EXPECT_DOUBLE_EQ(result.smallParts.boundary.shortest, 4);
+  EXPECT_TRUE(tells(result, "1 of 2 boundary loops are shorter than three quads"));
+}
+
+TEST(Pipeline, TinyHandleOfASphereIsToldWithItsPlace)
+{
+  const Vector3 place = Vector3(1, 2, 3).normalized();
+  const test::SphereWithHandle model = test::sphereWithHandle(5, place);
+  RemeshOptions options;
+  options.quads = 300;
+  const RemeshResult result = remesh(inputOf(model.mesh), options);
+  EXPECT_EQ(result.smallParts.handles, 1u);
+  EXPECT_EQ(result.smallParts.unresolvedHandles, 1u);
+  EXPECT_LE(result.smallParts.shortestLoop, 1.0001 * model.mouthLength);
+  EXPECT_LT((result.smallParts.place - place).norm(), 0.2);
+  if (!result.status.ok())
+  {
+    EXPECT_NE(result.status.message.find("1 of 1 handles"), std::string::npos);
+  }
 }
 
 #ifdef QUADRILLE_SHARED_DATA
