@@ -177,7 +177,7 @@ vtkDataArray* realArray(vtkDataSetAttributes* attributes, const char* name, int 
   {
     if (attributes->HasArray(name))
     {
-      refuse("array '", name, "' does not hold numbers");
+      refuse("cell array '", name, "' does not hold numbers");
     }
     return nullptr;
   }
@@ -258,6 +258,10 @@ std::vector<int> pointValences(vtkPolyData* data)
   vtkDataArray* array = data->GetPointData()->GetArray(arrays::kTargetValence);
   if (!array)
   {
+    if (data->GetPointData()->HasArray(arrays::kTargetValence))
+    {
+      refuse("point array '", arrays::kTargetValence, "' does not hold numbers");
+    }
     return valences;
   }
   const int type = array->GetDataType();

@@ -12,6 +12,7 @@
 #include <vtkFloatArray.h>
 #include <vtkIntArray.h>
 #include <vtkPointData.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -209,6 +210,11 @@ TEST(Convert, GuidesAndValencesComeByCellAndPoint)
   real->Fill(0);
   data->GetPointData()->AddArray(real);
   EXPECT_NE(messageOf(), "");
+  vtkNew<vtkStringArray> words;
+  words->SetName("TargetValence");
+  words->SetNumberOfTuples(data->GetNumberOfPoints());
+  data->GetPointData()->AddArray(words);
+  EXPECT_NE(messageOf().find("TargetValence"), std::string::npos);
 }
 
 TEST(Convert, GuidesAndValencesOfALevelComeBack)
