@@ -42,7 +42,8 @@ public:
     const IntegerMap& map, StripCost cost, const std::vector<double>* faceWeight = nullptr);
 
   /// The cheapest strip that contains shift(h, e): a closed one, or one from boundary to boundary. The
-  /// price of that first shift is left out; strips that cost `bound` or more are not found.
+  /// price of that first shift is left out; strips that cost `bound` or more are not found. With KeepSound the search
+  /// also ends after a bounded number of steps, and what it has found till then counts.
   Strip through(Index h, FixedVec2 e, double bound);
 
   /// The cheapest strip that carries the vector e of the defect of face f to a face whose defect it
