@@ -36,6 +36,8 @@ constexpr std::size_t kMostSteps = 250;
 constexpr double kFlattestReference = 0.1;
 /// Faces of a chunk of the pass over the mesh; their uv fit a second level cache.
 constexpr std::size_t kChunkFaces = 1 << 14;
+/// Defects that a wrong winding of positive triangles counts for.
+constexpr std::size_t kLostTurn = 16;
 /// A patch vertex with more faces than this stays where it is.
 constexpr std::size_t kMaximumFan = 256;
 
@@ -378,7 +380,8 @@ void PatchMender::addFacesAround(Index corner)
   }
 }
 
-/// Triangles that are not positive, and vertices of wrong turns, of the patch as collectFans left it.
+/// Triangles that are not positive, and vertices of wrong turns, of the patch as collectFans left it; those with positive triangles only
+/// count more: nothing shows the untangler, or the extraction, where the turn was lost.
 std::size_t PatchMender::countDefectsInPatch() const
 {
   std::size_t count = static_cast<std::size_t>(
@@ -386,14 +389,19 @@ std::size_t PatchMender::countDefectsInPatch() const
   for (const PatchVertex& vertex : vertices_)
   {
     int turns = 0;
+    bool positive = true;
     for (std::size_t i = 0; i < vertex.fanCount; ++i)
     {
       const Index c = fans_[vertex.firstFan + i].corner;
-      turns += quadrantsEntered(
-        &uv_[3 * Mesh::face(c)], static_cast<int>(c % 3), isPositive(Mesh::face(c)) ? 1 : -1);
+      const int sign = isPositive(Mesh::face(c)) ? 1 : -1;
+      positive = positive && sign > 0;
+      turns += quadrantsEntered(&uv_[3 * Mesh::face(c)], static_cast<int>(c % 3), sign);
     }
     const Index v = mesh_.origin[fans_[vertex.firstFan].corner];
-    count += vertex.fanCount > 1 && turns != expectedTurns_[v] ? 1U : 0U;
+    if (vertex.fanCount > 1 && turns != expectedTurns_[v])
+    {
+      count += positive ? kLostTurn : 1;
+    }
   }
   return count;
 }
