@@ -105,7 +105,8 @@ std::vector<std::pair<std::string, std::size_t>> repairCounts(const RepairReport
     { "degenerate_faces", r.degenerateFaces }, { "duplicate_faces", r.duplicateFaces },
     { "isolated_points", r.isolatedPoints }, { "non_manifold_edges", r.nonManifoldEdges },
     { "non_manifold_vertices", r.nonManifoldVertices }, { "reoriented_faces", r.reorientedFaces },
-    { "removed_components", r.removedComponents }, { "refined_faces", r.refinedFaces } };
+    { "removed_components", r.removedComponents }, { "refined_faces", r.refinedFaces },
+    { "closed_handles", r.closedHandles } };
 }
 
 void addText(vtkDataObject* data, const char* name, const std::vector<std::string>& lines)

@@ -51,6 +51,15 @@ public:
 
   ///@{
   /**
+   * Handles that are shorter round or through than this, in target edge lengths, are cut along their shortest loop and closed on both
+   * sides before the surface is mapped; 0 leaves all as they are. Quads need 3. Default: 0.
+   */
+  vtkSetClampMacro(CloseHandles, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(CloseHandles, double);
+  ///@}
+
+  ///@{
+  /**
    * Whether output 1, the input surface with the map, is made. Default: on.
    */
   vtkSetMacro(ComputeMappedSurface, vtkTypeBool);
@@ -102,6 +111,7 @@ private:
 
   vtkIdType MaximumQuads = 10000000;
   double MemoryLimit = 0;
+  double CloseHandles = 0;
   vtkTypeBool ComputeMappedSurface = 1;
   vtkTypeBool TextureCoordinates = 1;
   vtkIdType ActualQuads = 0;

@@ -45,6 +45,8 @@ size of the quads (at most one; 0.02 of the bounding-box diagonal when none is g
                             0 turns the detection off (default 40)
   --coarse-vertices N       vertices of the level where the layout is computed (default 1000); auto: as many as the
                             curvature of the surface needs, from 300 to 4000
+  --close-handles R         cut and close handles that are shorter round than R edge lengths of the quads,
+                            which need 3 (default 0: none)
   --threads N               threads to compute with; 0 means all (default 0)
   --memory-limit MB         refuse to start where more memory is needed by the estimate;
                             0 means what the machine has free (default 0)
@@ -173,6 +175,7 @@ void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
   }
   filter->SetNumberOfThreads(static_cast<int>(line.count("threads", 0, 4096).value_or(0)));
   filter->SetMemoryLimit(line.number("memory-limit", 0, 1e12).value_or(0));
+  filter->SetCloseHandles(line.number("close-handles", 0, 1e6).value_or(0));
   filter->ComputeMappedSurfaceOff();
 }
 
@@ -457,7 +460,7 @@ int main(int argc, char* argv[])
   {
     const CommandLine line(argc, argv,
       { "quads", "edge-length", "relative-edge-length", "feature-angle", "coarse-vertices",
-        "threads", "memory-limit", "report" });
+        "threads", "memory-limit", "close-handles", "report" });
     if (line.help() || argc == 1)
     {
       std::fputs(kHelp, line.help() ? stdout : stderr);

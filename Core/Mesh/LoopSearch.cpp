@@ -410,6 +410,10 @@ LoopSearch::Loop LoopSearch::trace(Index a, Index b, const Arc& arc, double leng
 
 void LoopSearch::search(Index root, double bound, LoopsByLabel& loops)
 {
+  if (generators_.empty() || barred_[root] != 0)
+  {
+    return;
+  }
   spread(root, bound,
     [&](Index a, Index b, const Arc& arc, double length, std::uint64_t label)
     {
@@ -428,7 +432,7 @@ void LoopSearch::search(Index root, double bound, LoopsByLabel& loops)
 std::optional<LoopSearch::Loop> LoopSearch::shortest(Index root, double bound)
 {
   std::optional<Loop> best;
-  if (barred_[root] != 0)
+  if (generators_.empty() || barred_[root] != 0)
   {
     return best;
   }

@@ -235,6 +235,7 @@ std::string RepairReport::text() const
   append(text, removedComponents, "component too small to mesh removed",
     "components too small to mesh removed");
   append(text, refinedFaces, "large face refined", "large faces refined");
+  append(text, closedHandles, "small handle cut and closed", "small handles cut and closed");
   return text;
 }
 

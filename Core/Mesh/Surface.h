@@ -55,7 +55,8 @@ struct RepairReport
   std::size_t reorientedFaces = 0;     ///< flipped to agree with their component
   std::size_t removedComponents =
     0; ///< components too small to carry a quad (a closed one below 4 faces)
-  std::size_t refinedFaces = 0; ///< faces that were split by refineSurface
+  std::size_t refinedFaces = 0;  ///< faces that were split by refineSurface
+  std::size_t closedHandles = 0; ///< handles that closeHandles cut and closed
 
   bool nothingChanged() const;
   /// "12 duplicate faces removed, 3 non-manifold edges split"; empty when nothing changed.

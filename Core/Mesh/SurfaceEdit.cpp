@@ -104,6 +104,39 @@ Index splitOneSide(PreparedSurface& surface, Index h, Index m)
   return other;
 }
 
+/// A fan over a closed run of boundary half-edges, each of which ends where the next one begins.
+void closeWithFan(PreparedSurface& surface, const std::vector<Index>& run)
+{
+  Mesh& mesh = surface.mesh;
+  const Index middle = mesh.vertexCount();
+  Vector3 sum = Vector3::Zero();
+  for (const Index h : run)
+  {
+    sum += mesh.position[mesh.origin[h]];
+  }
+  mesh.position.push_back(sum / static_cast<double>(run.size()));
+  const Index first = mesh.faceCount();
+  for (const Index h : run)
+  {
+    const Index to = mesh.target(h);
+    const Index from = mesh.origin[h];
+    const Index face = 3 * appendCopy(surface, Mesh::face(h)); // becomes (to, from, middle)
+    const Weights weightsTo = cornerOf(surface, Mesh::next(h));
+    const Weights weightsFrom = cornerOf(surface, h);
+    setCorner(surface, face, to, weightsTo);
+    setCorner(surface, face + 1, from, weightsFrom);
+    setCorner(surface, face + 2, middle, mean(weightsTo, weightsFrom));
+    glue(mesh, h, face);
+    mesh.flags[face] = mesh.flags[h];
+  }
+  const Index count = static_cast<Index>(run.size());
+  for (Index i = 0; i < count; ++i)
+  {
+    // (middle -> to) of one face is (from -> middle) of the next.
+    joinInner(mesh, 3 * (first + i) + 2, 3 * (first + (i + 1) % count) + 1);
+  }
+}
+
 } // namespace
 
 std::vector<Index> neighboursOf(const Mesh& mesh, Index h)
@@ -165,6 +198,40 @@ Index splitFace(PreparedSurface& surface, Index f)
   joinInner(mesh, b + 2, c + 1);
   joinInner(mesh, a + 2, c);
   return m;
+}
+
+void cutAndClose(PreparedSurface& surface, const std::vector<Index>& loop)
+{
+  Mesh& mesh = surface.mesh;
+  assert(loop.size() >= 3);
+  // The faces of the loop keep its vertices; those beyond get copies.
+  std::vector<Index> beyond;
+  for (std::size_t i = loop.size(); i-- > 0;)
+  {
+    beyond.push_back(mesh.twin[loop[i]]);
+  }
+  std::vector<std::pair<Index, Index>> moved; // half-edge, vertex
+  for (std::size_t i = 0; i < loop.size(); ++i)
+  {
+    const Index copy = mesh.vertexCount();
+    mesh.position.push_back(Vector3(mesh.position[mesh.origin[loop[i]]]));
+    const Index back = mesh.twin[loop[(i + loop.size() - 1) % loop.size()]];
+    for (Index h = back; h != loop[i]; h = mesh.rotateCounterclockwise(h))
+    {
+      moved.push_back({ h, copy });
+    }
+  }
+  for (const auto& [h, copy] : moved)
+  {
+    mesh.origin[h] = copy;
+  }
+  for (const Index h : loop)
+  {
+    mesh.twin[mesh.twin[h]] = kInvalidIndex;
+    mesh.twin[h] = kInvalidIndex;
+  }
+  closeWithFan(surface, loop);
+  closeWithFan(surface, beyond);
 }
 
 void removeFace(PreparedSurface& surface, Index f)

@@ -5,6 +5,7 @@
 #include "Base/Memory.h"
 #include "Base/Progress.h"
 #include "Extraction/QuadTopology.h"
+#include "Mesh/CloseHandles.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/FeatureFilter.h"
 #include "Transfer/PackedMap.h"
@@ -36,6 +37,10 @@ constexpr int kMaximumFinerGrids = 3;
 constexpr int kMaximumFeatureDrops = 4;
 /// The first time within this part of the edge length, then twice as far each time.
 constexpr double kFirstFeatureDrop = 0.5;
+/// How often handles are looked for and closed: those whose loops meet others' have to wait.
+constexpr int kMaximumClosings = 10;
+/// Along the edges of the surface a loop may be so much longer than on the intermediate level, which lies inside of it.
+constexpr double kLongerAlongEdges = 2;
 /// Rings of intermediate vertices that are kept around an offender.
 constexpr int kFreedomRings = 2;
 
@@ -77,6 +82,10 @@ void checkOptions(const RemeshOptions& options)
   if (options.memoryLimit && !positive(*options.memoryLimit))
   {
     throw InvalidInput("the memory limit must be a positive number of bytes");
+  }
+  if (!(options.closeHandles >= 0 && std::isfinite(options.closeHandles)))
+  {
+    throw InvalidInput("the length of handles to close must be 0 or a positive number");
   }
   if (options.coarseVertices != 0 && options.coarseVertices < 4)
   {
@@ -251,6 +260,7 @@ private:
     {
       result_.notices.push_back(result_.surface.notice);
     }
+    closeSmallHandles();
     const SurfaceGuides guides = surfaceGuides(result_.surface);
     for (const std::string& notice : requestNotices(result_.surface, guides))
     {
@@ -442,6 +452,75 @@ private:
     }
   };
 
+  /// On request. Loops are found on the intermediate level and cut on the surface, until there is no shorter one.
+  void closeSmallHandles()
+  {
+    if (options_.closeHandles == 0)
+    {
+      return;
+    }
+    const double start = now();
+    const std::size_t before = result_.surface.mesh.faceCount();
+    const double limit = options_.closeHandles * result_.targetEdgeLength;
+    std::size_t closed = 0;
+    std::size_t left = 0;
+    std::optional<Vector3> place;
+    for (int closing = 0; closing < kMaximumClosings; ++closing)
+    {
+      levels_.reset();
+      levels_.emplace(result_.surface.mesh, result_.surface.hash, hierarchyOptions());
+      ++result_.decimations;
+      const Level& level = hierarchy().intermediate;
+      const HandleReport found = findHandles(level.mesh, limit);
+      left = found.loops.size();
+      if (left == 0)
+      {
+        break;
+      }
+      std::vector<std::vector<Index>> places;
+      for (const HandleLoop& loop : found.loops)
+      {
+        places.emplace_back();
+        for (const Index v : loop.vertices)
+        {
+          places.back().push_back(level.fineVertex[v]);
+        }
+      }
+      if (!place)
+      {
+        place = result_.surface.mesh.position[places.front().front()];
+      }
+      const std::size_t now = closeHandles(result_.surface, places, kLongerAlongEdges * limit);
+      if (now == 0)
+      {
+        break;
+      }
+      closed += now;
+      levels_.reset();
+      refineSurface(result_.surface, result_.targetEdgeLength, {});
+    }
+    tellClosed(closed, left, place);
+    addStage("close", now() - start, before, result_.surface.mesh.faceCount());
+  }
+
+  void tellClosed(std::size_t closed, std::size_t left, const std::optional<Vector3>& place)
+  {
+    std::ostringstream text;
+    text << closed << " handles shorter round than " << options_.closeHandles
+         << " edge lengths were cut and closed";
+    if (place)
+    {
+      text << ", the shortest near (" << place->x() << ", " << place->y() << ", " << place->z()
+           << ")";
+    }
+    if (left > 0)
+    {
+      text << "; " << left
+           << " are left: every short loop round them meets the boundary or another one";
+    }
+    result_.notices.push_back(text.str());
+  }
+
   /// Once a run, as the surface stays the same. Returns the seconds.
   double measureSmallParts()
   {
@@ -499,7 +578,8 @@ private:
     text << (parts.complete ? "" : "at least ") << parts.unresolvedHandles << " of "
          << parts.handles << " handles are shorter round than three quads, the shortest is ";
     describeLoop(text, parts.shortestLoop, parts.place);
-    text << "close them in the surface, or quads there have a poor shape or fail";
+    text << "have them closed (Close Handles, --close-handles 3), or quads there have a poor shape "
+            "or fail";
     return text.str();
   }
   std::string tinyHolesText() const

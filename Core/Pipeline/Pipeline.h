@@ -31,6 +31,9 @@ struct RemeshOptions
   std::optional<double> featureAngle =
     0.6981317007977318;        ///< radians (40 degrees); none: no detection
   Index coarseVertices = 1000; ///< budget of the coarse level; 0: as many as its curvature needs
+  /// Handles that are shorter round or through than so many target edge lengths are cut and closed before they are mapped, see
+  /// closeHandles; >= 0, 0: none. Below kQuadsOfLoop there may remain some that quads cannot resolve.
+  double closeHandles = 0;
   std::size_t maximumQuads = 10000000;
   /// Bytes that the run may take by the estimate; none: what the machine has free.
   std::optional<double> memoryLimit;

@@ -127,7 +127,7 @@ def _set_size(run, quads, edge_length, relative_edge_length):
 
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
            coarse_vertices=1000, patch_array="PatchId", curves=None, threads=0, maximum_quads=10000000,
-           memory_limit=0.0, time_limit=0.0, progress=None, everything=False):
+           memory_limit=0.0, time_limit=0.0, close_handles=0.0, progress=None, everything=False):
     """Remeshes a surface with quads only and returns a vtkPolyData.
 
     mesh: a vtkPolyData, or a pair (points, faces).
@@ -141,6 +141,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     maximum_quads: refuse to make more.
     memory_limit: refuse to start where more is needed by the estimate; millions of bytes; 0 means what is free.
     time_limit: seconds; 0 means none.
+    close_handles: handles shorter round or through than so many target edge lengths are cut and closed; 0: none.
     progress: called as progress(fraction, text); a return value of False (not None) stops the run.
     everything: return a Remeshed with the mapped surface, the feature lines and the info dict, too.
 
@@ -161,6 +162,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     run.SetMaximumQuads(int(maximum_quads))
     run.SetMemoryLimit(memory_limit)
     run.SetTimeLimit(time_limit)
+    run.SetCloseHandles(close_handles)
     run.SetComputeMappedSurface(bool(everything))
     if progress is not None:
         def on_progress(caller, event):

@@ -302,6 +302,21 @@ class Report(Case):
         self.run_quadrille(pathlib.Path(ARGS.data) / "beast.ply", self.folder / "no.vtp", "--coarse-vertices", "some", expect=2)
 
 
+    def test_handles_are_closed_on_request(self):
+        # Round the tube of the torus it is 2.5.
+        source = self.write_off()
+        for words, unresolved, closed, euler in (((), 1, 0, 0), (("--close-handles", 3), 0, 1, 2)):
+            with self.subTest(words):
+                report = self.folder / "r.json"
+                result = self.run_quadrille(source, self.folder / "q.obj", "--edge-length", 0.9, *words, "--report", report)
+                content = json.loads(report.read_text())
+                self.assertEqual(content["unresolved_handles"], unresolved)
+                self.assertEqual(content["repair"]["closed_handles"], closed)
+                self.assertEqual(content["quality"]["euler_characteristic"], euler)
+                self.assertIn("three quads" if unresolved else "were cut and closed", result.stderr)
+        self.run_quadrille(source, self.folder / "q.obj", "--close-handles", -1, expect=2)
+
+
 class Bench(Case):
     COLUMNS = "mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb".split(",")
     STAGES = ("read repair order connectivity refine phase1 phase2 field seamless quantize embed replay certify extract "
