@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/Extraction.h"
 
+#include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Extraction/HoleFilling.h"
 #include "Extraction/QuadAssembly.h"
@@ -72,9 +73,8 @@ std::string describePoints(const QuadMesh& mesh, const std::vector<Index>& point
   std::ostringstream text;
   for (const Index p : points)
   {
-    const Vector3& x = mesh.points[p];
-    text << (text.tellp() > 0 ? ", " : "") << "(" << x.x() << ", " << x.y() << ", " << x.z()
-         << ") in face " << mesh.sourceFace[p];
+    text << (text.tellp() > 0 ? ", " : "") << placeText(mesh.points[p]) << " in face "
+         << mesh.sourceFace[p];
   }
   return text.str();
 }
@@ -236,6 +236,18 @@ Status judge(const Mesh& mesh, const MapCheck& check, const QuadTopology& found,
 }
 
 } // namespace
+
+std::optional<Index> meshCorner(const QuadMesh& quads, Index p)
+{
+  for (Index i = 0; i < 3; ++i)
+  {
+    if (quads.sourceWeights[p][i] == 1)
+    {
+      return 3 * quads.sourceFace[p] + i;
+    }
+  }
+  return std::nullopt;
+}
 
 ExtractionResult extractQuads(
   const Mesh& mesh, const std::vector<FixedVec2>& uv, const ExtractionOptions& options)

@@ -9,6 +9,7 @@
 #include "Mesh/Mesh.h"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace quadrille
@@ -45,6 +46,9 @@ struct QuadMesh
   std::vector<std::uint8_t> onBoundary; ///< per point
   std::vector<QuadLine> lines;          ///< features and boundary
 };
+
+/// The corner of the mapped mesh that point p lies on exactly; none where it lies on an edge or in a face.
+std::optional<Index> meshCorner(const QuadMesh& quads, Index p);
 
 struct ExtractionResult
 {

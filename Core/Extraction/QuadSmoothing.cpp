@@ -84,19 +84,6 @@ PointLists lineNeighbours(const QuadMesh& quads)
   return { quads.points.size(), pairs };
 }
 
-/// The corner slot of a point that lies on a mesh vertex.
-std::optional<Index> meshCorner(const QuadMesh& quads, Index p)
-{
-  for (Index i = 0; i < 3; ++i)
-  {
-    if (quads.sourceWeights[p][i] == 1)
-    {
-      return 3 * quads.sourceFace[p] + i;
-    }
-  }
-  return std::nullopt;
-}
-
 /// Does the constrained curve run nearly straight through the vertex of corner h?
 bool isSmoothCurve(const Mesh& mesh, Index h)
 {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/GridMap.h"
 
+#include "Base/PlaceText.h"
 #include "GridMap/MeshParts.h"
 
 #include <algorithm>
@@ -414,11 +415,10 @@ private:
     }
     const Component& component = components_[i];
     const Index v = component.offenders.empty() ? 0 : component.offenders.front();
-    const Vector3& p = component.part.mesh.position[v];
     std::ostringstream text;
     text << "at least " << failures() << " of " << components_.size()
-         << " connected components have no map; component " << i + 1 << ", near (" << p.x() << ", "
-         << p.y() << ", " << p.z() << "), elements counted inside it: ";
+         << " connected components have no map; component " << i + 1 << ", near "
+         << placeText(component.part.mesh.position[v]) << ", elements counted inside it: ";
     return text.str();
   }
 

@@ -115,9 +115,8 @@ std::vector<Index> facesAround(const UvMesh& mesh, Index v)
 }
 
 /// Carries the defects of all triangles to each other, or out. False when one cannot leave its face.
-bool closeTriangles(IntegerMap& map, std::size_t& work)
+bool closeTriangles(IntegerMap& map, StripSearch& search)
 {
-  StripSearch search(map, StripCost::Repair);
   std::vector<FixedVec2> defects(map.mesh().alive.size());
   for (const Index f : map.faces())
   {
@@ -137,7 +136,6 @@ bool closeTriangles(IntegerMap& map, std::size_t& work)
           best = strip;
         }
       }
-      work = search.work();
       if (!best.found())
       {
         return false;
@@ -557,9 +555,9 @@ IntegerStart findValidIntegers(
   {
     report(progress, 0.2, "rounding at scale " + std::to_string(start.scale));
     map.round(start.scale);
-    std::size_t closing = 0;
-    const bool closed = closeTriangles(map, closing);
-    start.work += closing;
+    StripSearch search(map, StripCost::Repair);
+    const bool closed = closeTriangles(map, search);
+    start.work += search.work();
     if (!closed)
     {
       continue;

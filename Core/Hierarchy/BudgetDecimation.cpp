@@ -4,6 +4,7 @@
 
 #include "Base/Parallel.h"
 #include "Hierarchy/GuideRegions.h"
+#include "Hierarchy/LazyHeap.h"
 #include "Hierarchy/VertexRemoval.h"
 
 #include <Eigen/Geometry>
@@ -235,16 +236,7 @@ public:
   BudgetResult run();
 
 private:
-  struct Entry
-  {
-    float cost = 0;
-    Index vertex = 0;
-    Index version = 0;
-    bool operator<(const Entry& other) const
-    {
-      return cost != other.cost ? cost > other.cost : vertex > other.vertex;
-    }
-  };
+  using Entry = LazyHeapEntry;
   using Heap = std::priority_queue<Entry>;
   struct Stage
   {

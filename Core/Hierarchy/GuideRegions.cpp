@@ -4,6 +4,7 @@
 
 #include "Base/Parallel.h"
 #include "Hierarchy/VertexRemoval.h"
+#include "Mesh/Distance.h"
 #include "Mesh/Topology.h"
 
 #include <algorithm>
@@ -37,14 +38,6 @@ Vector3 middleOf(const Mesh& mesh, Index f)
   return (mesh.position[mesh.origin[3 * f]] + mesh.position[mesh.origin[3 * f + 1]] +
            mesh.position[mesh.origin[3 * f + 2]]) /
     3;
-}
-
-double distanceToSegment(const Vector3& p, const Vector3& a, const Vector3& b)
-{
-  const Vector3 ab = b - a;
-  const double squared = ab.squaredNorm();
-  const double t = squared > 0 ? std::clamp((p - a).dot(ab) / squared, 0.0, 1.0) : 0.0;
-  return (p - a - t * ab).norm();
 }
 
 double distanceToFace(const Mesh& mesh, Index f, const Vector3& p)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/OrderedDecimation.h"
 
+#include "Hierarchy/LazyHeap.h"
 #include "Hierarchy/StarRemoval.h"
 
 #include <cmath>
@@ -47,16 +48,7 @@ public:
 private:
   static constexpr float kNever = std::numeric_limits<float>::infinity();
 
-  struct Entry
-  {
-    float cost = 0;
-    Index vertex = 0;
-    Index version = 0;
-    bool operator<(const Entry& other) const
-    {
-      return cost != other.cost ? cost > other.cost : vertex > other.vertex;
-    }
-  };
+  using Entry = LazyHeapEntry;
 
   std::size_t heapPass();
   void drawUntilEmpty(const RandomDraws& draws, StarRemoval& star, RecordWriter& records);

@@ -4,6 +4,7 @@
 
 #include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Mesh/Distance.h"
 
 #include <algorithm>
 #include <numeric>
@@ -216,17 +217,6 @@ std::vector<Index> chainComponents(const Mesh& mesh, const std::vector<Chain>& c
   return component;
 }
 
-void unmark(Mesh& mesh, const Chain& chain, FeatureFilterReport& report)
-{
-  constexpr auto keep = static_cast<std::uint8_t>(~kFeatureEdge);
-  for (const Index h : chain.halfEdges)
-  {
-    mesh.flags[h] &= keep;
-    mesh.flags[mesh.twin[h]] &= keep;
-    ++report.removedEdges;
-  }
-}
-
 /// One pass; returns whether anything went.
 bool removeOnce(Mesh& mesh, double edgeLength, FeatureFilterReport& report)
 {
@@ -259,19 +249,12 @@ bool removeOnce(Mesh& mesh, double edgeLength, FeatureFilterReport& report)
         (chain.length < kShortestDangling * edgeLength || chain.jaggedness > kMostJagged)) ||
       tangle)
     {
-      unmark(mesh, chain, report);
+      unmarkFeatures(mesh, chain.halfEdges);
+      report.removedEdges += chain.halfEdges.size();
       removed = true;
     }
   }
   return removed;
-}
-
-double squaredDistance(const Vector3& p, const Vector3& a, const Vector3& b)
-{
-  const Vector3 d = b - a;
-  const double length = d.squaredNorm();
-  const double t = length > 0 ? std::clamp((p - a).dot(d) / length, 0.0, 1.0) : 0.0;
-  return (a + t * d - p).squaredNorm();
 }
 
 } // namespace
@@ -312,7 +295,7 @@ std::vector<Index> detectedFeaturesNear(
     const Vector3& a = mesh.position[mesh.origin[h]];
     const Vector3& b = mesh.position[mesh.target(h)];
     if (std::any_of(points.begin(), points.end(),
-          [&](const Vector3& p) { return squaredDistance(p, a, b) < radius * radius; }))
+          [&](const Vector3& p) { return distanceToSegment(p, a, b) < radius; }))
     {
       found.push_back(h);
     }

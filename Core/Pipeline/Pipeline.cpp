@@ -3,6 +3,7 @@
 #include "Pipeline/Pipeline.h"
 
 #include "Base/Memory.h"
+#include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Extraction/QuadTopology.h"
 #include "Mesh/CloseHandles.h"
@@ -337,7 +338,7 @@ private:
       // The last attempt is left out where features can be given up: what keeping vertices did not mend once is theirs.
       const bool last = attempt + 1 == kMaximumTransfers;
       if (result_.certificate.valid() || offenders.empty() || !mayRepeat() ||
-        (last && !featuresNear(positionsOf(offenders)).empty()) ||
+        (last && !featuresNear(positionsOf(result_.surface.mesh, offenders)).empty()) ||
         offenders.size() > result_.coarse.mesh.vertexCount() / 2)
       {
         break;
@@ -510,8 +511,7 @@ private:
          << " edge lengths were cut and closed";
     if (place)
     {
-      text << ", the shortest near (" << place->x() << ", " << place->y() << ", " << place->z()
-           << ")";
+      text << ", the shortest near " << placeText(*place);
     }
     if (left > 0)
     {
@@ -563,8 +563,7 @@ private:
     const double s = result_.targetEdgeLength;
     const double factor = kQuadsOfLoop * s / length;
     const double quads = std::ceil(static_cast<double>(result_.targetQuads) * factor * factor);
-    text << length << " = " << length / s << " edge lengths near (" << place.x() << ", "
-         << place.y() << ", " << place.z() << "): ";
+    text << length << " = " << length / s << " edge lengths near " << placeText(place) << ": ";
     if (quads <= static_cast<double>(options_.maximumQuads))
     {
       text << "ask for smaller quads (about " << static_cast<std::size_t>(quads)
@@ -666,10 +665,7 @@ private:
     if (!map.status.ok())
     {
       fail(map.status.code, "no valid map of the coarse mesh: " + map.status.message);
-      for (const Index v : map.offenders)
-      {
-        troubles_.push_back(result_.coarse.mesh.position[v]);
-      }
+      troubles_ = positionsOf(result_.coarse.mesh, map.offenders);
     }
   }
 
@@ -748,7 +744,7 @@ private:
       fail(extracted.status.code,
         "no valid quad mesh: " + extracted.status.message + " (" + result_.certificate.text() +
           ")");
-      troubles_ = positionsOf(result_.transfer.offenders);
+      troubles_ = positionsOf(mesh, result_.transfer.offenders);
       return false;
     }
     if (!result_.certificate.valid())
@@ -767,14 +763,11 @@ private:
     std::vector<int> valence(vertices.empty() ? 0 : result_.surface.mesh.vertexCount(), 0);
     for (Index p = 0; p < result_.quads.points.size() && !valence.empty(); ++p)
     {
-      for (Index i = 0; i < 3; ++i)
+      if (const std::optional<Index> corner = meshCorner(result_.quads, p))
       {
-        if (result_.quads.sourceWeights[p][i] == 1)
-        {
-          // On a boundary of k quads there are k + 1 edges; as if the quads went on, it would be k + 2.
-          valence[result_.surface.mesh.origin[3 * result_.quads.sourceFace[p] + i]] =
-            result_.quads.valence[p] + (result_.quads.onBoundary[p] != 0 ? 1 : 0);
-        }
+        // On a boundary of k quads there are k + 1 edges; as if the quads went on, it would be k + 2.
+        valence[result_.surface.mesh.origin[*corner]] =
+          result_.quads.valence[p] + (result_.quads.onBoundary[p] != 0 ? 1 : 0);
       }
     }
     std::vector<Index> missed;
@@ -832,8 +825,7 @@ private:
     text << "quads of the wanted size do not fit round a handle or a thin part";
     if (!topology.offendingPoints.empty())
     {
-      const Vector3& place = coarse.mesh.points[topology.offendingPoints.front()];
-      text << " near (" << place.x() << ", " << place.y() << ", " << place.z() << ")";
+      text << " near " << placeText(coarse.mesh.points[topology.offendingPoints.front()]);
     }
     text << ": made for " << gridQuads()
          << " quads instead; ask for that many, or close the handle, for a result without this";
@@ -852,12 +844,12 @@ private:
     return static_cast<double>(result_.targetQuads) * std::pow(2.0, finerGrids_);
   }
 
-  std::vector<Vector3> positionsOf(const std::vector<Index>& vertices) const
+  static std::vector<Vector3> positionsOf(const Mesh& mesh, const std::vector<Index>& vertices)
   {
     std::vector<Vector3> points;
     for (const Index v : vertices)
     {
-      points.push_back(result_.surface.mesh.position[v]);
+      points.push_back(mesh.position[v]);
     }
     return points;
   }
@@ -885,9 +877,8 @@ private:
     unmarkFeatures(result_.surface.mesh, features);
     result_.surface.hash = contentHash(result_.surface.mesh, options_.threads);
     std::ostringstream text;
-    const Vector3& place = troubles_.front();
-    text << features.size() << " sharp edges near (" << place.x() << ", " << place.y() << ", "
-         << place.z() << ")" << (troubles_.size() > 1 ? " and other places" : "")
+    text << features.size() << " sharp edges near " << placeText(troubles_.front())
+         << (troubles_.size() > 1 ? " and other places" : "")
          << " leave no room for quads of this edge length and were not used as features";
     result_.notices.push_back(text.str());
     result_.status = {};

@@ -5,6 +5,7 @@
 
 #include "Base/Error.h"
 #include "Mesh/Surface.h"
+#include "MeshInput.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -26,18 +27,6 @@ inline SurfaceInput makeInput(
   {
     input.polygonPoints.insert(input.polygonPoints.end(), polygon.begin(), polygon.end());
     input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
-  }
-  return input;
-}
-
-inline SurfaceInput toInput(const Mesh& mesh)
-{
-  SurfaceInput input;
-  input.points = mesh.position;
-  input.polygonPoints = mesh.origin;
-  for (Index f = 0; f <= mesh.faceCount(); ++f)
-  {
-    input.polygonOffsets.push_back(3 * f);
   }
   return input;
 }
@@ -128,6 +117,21 @@ inline double signedVolume(const Mesh& mesh)
   return volume / 6;
 }
 
+/// Where the sources say that corner `corner` of face f of the surface lies on the input's points.
+inline Vector3 cornerOnInput(
+  const PreparedSurface& surface, const std::vector<Vector3>& points, Index f, std::size_t corner)
+{
+  std::array<double, 3> weights{};
+  weights[corner] = 1;
+  const SourceLocation location = surface.locate(f, weights);
+  Vector3 p = Vector3::Zero();
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    p += location.weights[k] * points[location.points[k]];
+  }
+  return p;
+}
+
 /// A valid mesh, and sources that lead from every corner back to the same place on the input.
 inline void expectSound(const PreparedSurface& surface, const SurfaceInput& input)
 {
@@ -141,14 +145,7 @@ inline void expectSound(const PreparedSurface& surface, const SurfaceInput& inpu
     EXPECT_LT(surface.sourcePolygon[f], input.polygonOffsets.size() - 1);
     for (std::size_t corner = 0; corner < 3; ++corner)
     {
-      std::array<double, 3> weights{};
-      weights[corner] = 1;
-      const SourceLocation location = surface.locate(f, weights);
-      Vector3 p = Vector3::Zero();
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        p += location.weights[k] * input.points[location.points[k]];
-      }
+      const Vector3 p = cornerOnInput(surface, input.points, f, corner);
       const Index v = surface.mesh.origin[3 * f + static_cast<Index>(corner)];
       worst = std::max(worst, (p - surface.mesh.position[v]).norm());
     }

@@ -59,14 +59,7 @@ TEST(CloseHandles, capsTakeTheAttributesOfTheFacesBesideThem)
   {
     for (std::size_t corner = 0; corner < 3; ++corner)
     {
-      std::array<double, 3> weights{};
-      weights[corner] = 1;
-      const SourceLocation location = surface.locate(f, weights);
-      Vector3 p = Vector3::Zero();
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        p += location.weights[k] * mesh.position[location.points[k]];
-      }
+      const Vector3 p = test::cornerOnInput(surface, mesh.position, f, corner);
       const Vector3& q =
         surface.mesh.position[surface.mesh.origin[3 * f + static_cast<Index>(corner)]];
       off += (p - q).norm() > 1e-12 ? 1 : 0;

@@ -13,6 +13,7 @@
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/Topology.h"
 #include "Mesh/Triangulate.h"
+#include "MeshInput.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -25,23 +26,6 @@
 using namespace quadrille;
 using namespace quadrille::test;
 
-namespace
-{
-
-SurfaceInput inputOf(const Mesh& mesh)
-{
-  SurfaceInput input;
-  input.points = mesh.position;
-  input.polygonPoints = mesh.origin;
-  for (Index f = 0; f <= mesh.faceCount(); ++f)
-  {
-    input.polygonOffsets.push_back(3 * f);
-  }
-  return input;
-}
-
-} // namespace
-
 TEST(Stops, everyPassOverTheMeshCanBeStopped)
 {
   PreparedSurface surface;
@@ -50,7 +34,7 @@ TEST(Stops, everyPassOverTheMeshCanBeStopped)
   surface.sourcePolygon.resize(surface.mesh.faceCount());
   surface.sourcePoints.resize(surface.mesh.faceCount());
   Mesh& mesh = surface.mesh;
-  const SurfaceInput input = inputOf(mesh);
+  const SurfaceInput input = toInput(mesh);
   const EdgeRuns runs(mesh.origin, mesh.vertexCount(), 1);
   Index components = 0;
   PreparedSurface triangulated;

@@ -4,6 +4,7 @@
 
 #include "Mesh/FeatureFilter.h"
 #include "Mesh/Topology.h"
+#include "MeshInput.h"
 #include "PlyFile.h"
 #include "TestHandleMeshes.h"
 #include "TestMeshes.h"
@@ -20,18 +21,6 @@ namespace quadrille
 {
 namespace
 {
-
-SurfaceInput inputOf(const Mesh& mesh)
-{
-  SurfaceInput input;
-  input.points = mesh.position;
-  input.polygonPoints = mesh.origin;
-  for (Index f = 0; f <= mesh.faceCount(); ++f)
-  {
-    input.polygonOffsets.push_back(3 * f);
-  }
-  return input;
-}
 
 struct QuadTopology
 {
@@ -73,7 +62,7 @@ RemeshResult remeshAndCheck(const Mesh& mesh, std::size_t quads)
 {
   RemeshOptions options;
   options.quads = quads;
-  RemeshResult result = remesh(inputOf(mesh), options);
+  RemeshResult result = remesh(test::toInput(mesh), options);
   EXPECT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_TRUE(result.coarseCertificate.valid()) << result.coarseCertificate.text();
   EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
@@ -143,7 +132,7 @@ TEST(Pipeline, RingThatTwoQuadsWouldSurroundGetsMore)
   const Mesh mesh = test::torus(160, 10, 1, 0.05);
   RemeshOptions options;
   options.quads = 80;
-  const RemeshResult result = remesh(inputOf(mesh), options);
+  const RemeshResult result = remesh(test::toInput(mesh), options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_TRUE(tells(result, "do not fit round a handle")) << "no notice";
   EXPECT_EQ(result.targetQuads, 80u);
@@ -164,7 +153,7 @@ TEST(Pipeline, ThinTorusIsAnUnresolvedHandle)
     { std::pair<std::size_t, std::size_t>{ 80, 1 }, { 600, 0 } })
   {
     options.quads = quads;
-    const RemeshResult result = remesh(inputOf(mesh), options);
+    const RemeshResult result = remesh(test::toInput(mesh), options);
     EXPECT_EQ(result.smallParts.handles, 1u);
     EXPECT_EQ(result.smallParts.unresolvedHandles, unresolved);
     EXPECT_TRUE(result.smallParts.complete);
@@ -181,7 +170,7 @@ TEST(Pipeline, SphereHasNoHandles)
 {
   RemeshOptions options;
   options.quads = 300;
-  const RemeshResult result = remesh(inputOf(test::sphere(4)), options);
+  const RemeshResult result = remesh(test::toInput(test::sphere(4)), options);
   EXPECT_EQ(result.smallParts.handles, 0u);
   EXPECT_EQ(result.smallParts.shortestLoop, 0);
   EXPECT_FALSE(tells(result, "three quads"));
@@ -191,8 +180,9 @@ TEST(Pipeline, TinyHoleIsTold)
 {
   RemeshOptions options;
   options.quads = 36;
-  const RemeshResult result = remesh(
-    inputOf(test::planeCells(30, 30, [](int x, int y) { return x != 10 || y != 20; })), options);
+  const RemeshResult result =
+    remesh(test::toInput(test::planeCells(30, 30, [](int x, int y) { return x != 10 || y != 20; })),
+      options);
   EXPECT_EQ(result.smallParts.boundary.loops, 2u);
   EXPECT_EQ(result.smallParts.boundary.shortLoops, 1u);
   EXPECT_DOUBLE_EQ(result.smallParts.boundary.shortest, 4);
@@ -205,7 +195,7 @@ TEST(Pipeline, TinyHandleOfASphereIsToldWithItsPlace)
   const test::SphereWithHandle model = test::sphereWithHandle(5, place);
   RemeshOptions options;
   options.quads = 300;
-  const RemeshResult result = remesh(inputOf(model.mesh), options);
+  const RemeshResult result = remesh(test::toInput(model.mesh), options);
   EXPECT_EQ(result.smallParts.handles, 1u);
   EXPECT_EQ(result.smallParts.unresolvedHandles, 1u);
   EXPECT_LE(result.smallParts.shortestLoop, 1.0001 * model.mouthLength);
@@ -222,7 +212,7 @@ TEST(Pipeline, TinyHandleIsClosedOnRequestOnly)
   RemeshOptions options;
   options.quads = 300;
   options.closeHandles = 3;
-  const RemeshResult result = remesh(inputOf(model.mesh), options);
+  const RemeshResult result = remesh(test::toInput(model.mesh), options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
   EXPECT_EQ(topologyOf(result.quads).euler, 2);
@@ -237,16 +227,16 @@ TEST(Pipeline, FatTorusKeepsItsHandle)
   RemeshOptions options;
   options.quads = 800;
   const Mesh mesh = test::torus(60, 30);
-  const RemeshResult plain = remesh(inputOf(mesh), options);
+  const RemeshResult plain = remesh(test::toInput(mesh), options);
   options.closeHandles = 3;
-  const RemeshResult result = remesh(inputOf(mesh), options);
+  const RemeshResult result = remesh(test::toInput(mesh), options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_EQ(topologyOf(result.quads).euler, 0);
   EXPECT_EQ(result.surface.repair.closedHandles, 0u);
   EXPECT_TRUE(tells(result, "0 handles shorter round than 3 edge lengths were cut"));
   EXPECT_EQ(result.quads.points, plain.quads.points);
   options.closeHandles = -1;
-  EXPECT_THROW(remesh(inputOf(mesh), options), InvalidInput);
+  EXPECT_THROW(remesh(test::toInput(mesh), options), InvalidInput);
 }
 
 #ifdef QUADRILLE_SHARED_DATA
@@ -278,7 +268,7 @@ TEST(Pipeline, FeaturesThatLeaveNoRoomAreGivenUpOnlyWhereNobodyAskedForThem)
 
   // The same edges, asked for: nothing may be given up, and the error names the place.
   const Mesh& mesh = detected.surface.mesh;
-  SurfaceInput asked = inputOf(mesh);
+  SurfaceInput asked = test::toInput(mesh);
   Mesh sharp = test::markFeatures(mesh, 0.7);
   removeUnresolvedFeatures(sharp, detected.targetEdgeLength);
   for (Index f = 0; f < sharp.faceCount(); ++f)
@@ -314,14 +304,14 @@ TEST(Pipeline, AutomaticCoarseLevel)
   RemeshOptions options;
   options.quads = 2000;
   options.coarseVertices = 0;
-  const RemeshResult result = remesh(inputOf(mesh), options);
+  const RemeshResult result = remesh(test::toInput(mesh), options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
   EXPECT_GT(result.coarse.mesh.vertexCount(), kLeastCoarseVertices);
   EXPECT_LT(result.coarse.mesh.vertexCount(), kMostCoarseVertices);
   EXPECT_EQ(topologyOf(result.quads).euler, 2);
   options.coarseVertices = 3;
-  EXPECT_THROW(remesh(inputOf(mesh), options), InvalidInput);
+  EXPECT_THROW(remesh(test::toInput(mesh), options), InvalidInput);
 }
 
 TEST(Pipeline, SameBytesForAnyNumberOfThreads)
@@ -329,7 +319,7 @@ TEST(Pipeline, SameBytesForAnyNumberOfThreads)
   RemeshOptions options;
   options.quads = 500;
   options.threads = 1;
-  const SurfaceInput input = inputOf(test::sphere(5));
+  const SurfaceInput input = test::toInput(test::sphere(5));
   const RemeshResult one = remesh(input, options);
   options.threads = 2;
   const RemeshResult two = remesh(input, options);
@@ -345,7 +335,7 @@ TEST(Pipeline, CancelIsAStatusAndLeavesNoQuads)
   options.quads = 500;
   int calls = 0;
   options.progress = [&](double, const std::string&) { return ++calls < 3; };
-  const RemeshResult result = remesh(inputOf(test::sphere(4)), options);
+  const RemeshResult result = remesh(test::toInput(test::sphere(4)), options);
   EXPECT_EQ(result.status.code, StatusCode::Cancelled);
   EXPECT_TRUE(result.quads.quads.empty());
 }
@@ -355,14 +345,14 @@ TEST(Pipeline, RefusesBeforeItSpends)
   RemeshOptions options;
   options.quads = 1000;
   options.maximumQuads = 999;
-  const RemeshResult result = remesh(inputOf(test::sphere(3)), options);
+  const RemeshResult result = remesh(test::toInput(test::sphere(3)), options);
   EXPECT_EQ(result.status.code, StatusCode::TooLarge);
   EXPECT_NE(result.status.message.find("1000"), std::string::npos);
 }
 
 TEST(Pipeline, BadInputAndOptionsThrow)
 {
-  SurfaceInput input = inputOf(test::sphere(2));
+  SurfaceInput input = test::toInput(test::sphere(2));
   RemeshOptions options;
   options.edgeLength = -1;
   EXPECT_THROW(remesh(input, options), InvalidInput);
@@ -384,7 +374,7 @@ TEST(Pipeline, StagesAreReportedInOrder)
 {
   RemeshOptions options;
   options.quads = 300;
-  const RemeshResult result = remesh(inputOf(test::sphere(4)), options);
+  const RemeshResult result = remesh(test::toInput(test::sphere(4)), options);
   std::vector<std::string> names;
   for (const StageRecord& stage : result.stages)
   {
@@ -428,7 +418,7 @@ TEST(Pipeline, refusesWhatDoesNotFitIntoMemoryBeforeItStarts)
     texts.push_back(text);
     return true;
   };
-  const RemeshResult refused = remesh(inputOf(mesh), options);
+  const RemeshResult refused = remesh(test::toInput(mesh), options);
   EXPECT_EQ(refused.status.code, StatusCode::TooLarge);
   EXPECT_NE(refused.status.message.find("1 MB are allowed"), std::string::npos)
     << refused.status.message;
@@ -437,9 +427,9 @@ TEST(Pipeline, refusesWhatDoesNotFitIntoMemoryBeforeItStarts)
   EXPECT_NE(texts[0].find(describe(refused.estimate)), std::string::npos) << texts[0];
 
   options.memoryLimit = 1e9;
-  EXPECT_TRUE(remesh(inputOf(mesh), options).status.ok());
+  EXPECT_TRUE(remesh(test::toInput(mesh), options).status.ok());
   options.memoryLimit = -1;
-  EXPECT_THROW(remesh(inputOf(mesh), options), InvalidInput);
+  EXPECT_THROW(remesh(test::toInput(mesh), options), InvalidInput);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 /// Guides and target valences from the input to the quads.
 #include "Pipeline/Pipeline.h"
 
+#include "MeshInput.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -17,18 +18,6 @@ namespace
 {
 
 using namespace quadrille::test;
-
-SurfaceInput inputOf(const Mesh& mesh)
-{
-  SurfaceInput input;
-  input.points = mesh.position;
-  input.polygonPoints = mesh.origin;
-  for (Index f = 0; f <= mesh.faceCount(); ++f)
-  {
-    input.polygonOffsets.push_back(3 * f);
-  }
-  return input;
-}
 
 /// Mean angle, weighted by length, of the quads' edges to the cross of `direction` at their middles, where `wants` it.
 double meanAngle(const QuadMesh& quads, const std::function<bool(const Vector3&)>& wants,
@@ -73,7 +62,7 @@ TEST(Requests, GuidesTurnTheQuadsOfATorus)
     const Vector3 out = (p - Vector3(p.x(), p.y(), 0).normalized()).normalized();
     return Vector3(around + out.cross(around));
   };
-  SurfaceInput input = inputOf(mesh);
+  SurfaceInput input = toInput(mesh);
   const RemeshResult without = remesh(input, options);
   ASSERT_TRUE(without.status.ok()) << without.status.message;
   for (Index f = 0; f < mesh.faceCount(); ++f)
@@ -111,7 +100,7 @@ TEST(Requests, ValencesComeOutAtTheirPoints)
   options.featureAngle.reset();
   options.threads = 2;
   options.coarseVertices = 400;
-  SurfaceInput input = inputOf(mesh);
+  SurfaceInput input = toInput(mesh);
   input.targetValences.assign(input.points.size(), 0);
   const std::map<Index, int> requests{ { 1000, 3 }, { 1031, 5 }, { 5010, 5 }, { 4003, 3 } };
   for (const auto& [point, valence] : requests)
@@ -138,7 +127,7 @@ TEST(Requests, InfeasibleValencesAreAnErrorWithTheSum)
   options.quads = 300;
   options.featureAngle.reset();
   options.coarseVertices = 100;
-  SurfaceInput input = inputOf(mesh);
+  SurfaceInput input = toInput(mesh);
   input.targetValences.assign(input.points.size(), 4);
   const RemeshResult result = remesh(input, options);
   EXPECT_EQ(result.status.code, StatusCode::Infeasible);
@@ -156,7 +145,7 @@ TEST(Requests, DroppedOnesAreTold)
   RemeshOptions options;
   options.quads = 300;
   options.featureAngle.reset();
-  SurfaceInput input = inputOf(mesh);
+  SurfaceInput input = toInput(mesh);
   input.guideDirections.assign(mesh.faceCount(), Vector3::Zero());
   input.guideDirections[17] = faceNormal(mesh, 17);
   const RemeshResult result = remesh(input, options);
