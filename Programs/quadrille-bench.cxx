@@ -3,6 +3,7 @@
 /// Seconds and sizes of the stages, as CSV on standard output. Every run is a process of its own, so that
 /// its peak memory is its own; the peak is the same on each row of a run.
 #include "Base/Parallel.h"
+#include "CoarseTimes.h"
 #include "MeshFiles.h"
 #include "Options.h"
 #include "PhaseOrders.h"
@@ -32,6 +33,7 @@ constexpr const char* kHelp =
   R"(usage: quadrille-bench MESH... [--quads N | --edge-length S] [--threads N] [--repeat N]
        quadrille-bench MESH... --compare replay [--quads N] [--threads N]
        quadrille-bench MESH... --compare orders [--quads N] [--candidates N] [--exact-below N] [--threads N] [--repeat N]
+       quadrille-bench MESH... --compare coarse [--quads N] [--coarse-vertices N] [--repeat N]
 
 Remeshes each mesh and writes to standard output, as CSV, the columns
   mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb
@@ -64,6 +66,12 @@ mean quality of the triangles (1: all equilateral).
   --candidates N     vertices of a draw of the stochastic order (default 8)
   --exact-below N    number of vertices below which the heap takes over there (default 1000000)
 
+With --compare coarse makes the coarse level of each mesh, then its field and map on one thread, and writes
+  mesh,quads,vertices,faces,ok,field,seamless,quantize,embed,total,seamless_steps,embed_steps,clock
+in two rows: medians in seconds of the clock on the wall, and of the processor. A level whose first map fails has ok 0.
+
+  --coarse-vertices N  budget of the coarse level (default 1000)
+
 exit code: 0 when every run gave quads, else the worst code of the command quadrille
 )";
 
@@ -80,7 +88,9 @@ struct Request
   double edgeLength = 0; ///< 0: quads
   int threads = 0;
   long long repeat = 1;
-  std::string compared; ///< "orders": only phase 1, in all orders; "replay": counts of the replay
+  /// "orders": only phase 1, in all orders; "replay": counts of the replay; "coarse": times of the coarse level
+  std::string compared;
+  Index coarseVertices = 1000;
   RandomDraws draws;
 };
 
@@ -90,10 +100,16 @@ void parseComparison(const CommandLine& line, Request& request)
   const auto candidates = line.count("candidates", 1, 1000000);
   const auto exactBelow = line.count("exact-below", 0, 4000000000);
   request.compared = compared.value_or("");
-  if (compared && *compared != "orders" && *compared != "replay")
+  const auto coarseVertices = line.count("coarse-vertices", 4, 1000000000);
+  if (compared && *compared != "orders" && *compared != "replay" && *compared != "coarse")
   {
-    throw UsageError("--compare takes orders or replay, not '" + *compared + "'");
+    throw UsageError("--compare takes orders, replay or coarse, not '" + *compared + "'");
   }
+  if (request.compared != "coarse" && coarseVertices)
+  {
+    throw UsageError("--coarse-vertices is for --compare coarse");
+  }
+  request.coarseVertices = static_cast<Index>(coarseVertices.value_or(request.coarseVertices));
   if (request.compared != "orders" && (candidates || exactBelow))
   {
     throw UsageError("--candidates and --exact-below are for --compare orders");
@@ -184,6 +200,10 @@ int compare(const std::string& mesh, const Request& request)
     {
       printReplay(mesh, quads, request.threads);
     }
+    else if (request.compared == "coarse")
+    {
+      printCoarse(mesh, { quads, request.coarseVertices, request.repeat });
+    }
     else
     {
       printOrders(mesh, { quads, request.threads, request.repeat, request.draws });
@@ -272,7 +292,8 @@ int main(int argc, char* argv[])
   try
   {
     const CommandLine line(argc, argv,
-      { "quads", "edge-length", "threads", "repeat", "compare", "candidates", "exact-below" });
+      { "quads", "edge-length", "threads", "repeat", "compare", "candidates", "exact-below",
+        "coarse-vertices" });
     if (line.help())
     {
       std::fputs(kHelp, stdout);
@@ -282,7 +303,9 @@ int main(int argc, char* argv[])
     int worst = 0;
     if (!request.compared.empty())
     {
-      request.compared == "replay" ? printReplayHeader() : printOrdersHeader();
+      request.compared == "replay"     ? printReplayHeader()
+        : request.compared == "coarse" ? printCoarseHeader()
+                                       : printOrdersHeader();
       for (const std::string& mesh : line.positional())
       {
         worst = std::max(worst, compare(mesh, request));

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <sstream>
 
@@ -30,17 +31,20 @@ constexpr std::size_t kHopeless = 4;
 class Stopwatch
 {
 public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  Stopwatch(double& seconds, double& processor) : seconds_(seconds), processor_(processor) {}
   ~Stopwatch()
   {
     seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    processor_ += static_cast<double>(std::clock() - processorStart_) / CLOCKS_PER_SEC;
   }
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
 
 private:
   double& seconds_;
+  double& processor_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::clock_t processorStart_ = std::clock();
 };
 
 /// Area of the map in quads.
@@ -157,7 +161,7 @@ private:
 
   void computeField()
   {
-    const Stopwatch watch(result_.secondsField);
+    const Stopwatch watch(result_.secondsField, result_.processorField);
     CrossFieldOptions fieldOptions;
     fieldOptions.targetEdgeLength = options_.edgeLength;
     fieldOptions.progress = subProgress(options_.progress, 0.0, 0.1);
@@ -266,7 +270,7 @@ private:
   /// The seamless map that has its share of `wanted`.
   bool mapSeamlessly(Component& component, double wanted, const ProgressCallback& progress)
   {
-    const Stopwatch watch(result_.secondsSeamless);
+    const Stopwatch watch(result_.secondsSeamless, result_.processorSeamless);
     const MeshPart& part = component.part;
     SeamlessOptions seamlessOptions;
     seamlessOptions.edgeLength = options_.edgeLength;
@@ -275,6 +279,7 @@ private:
     seamlessOptions.progress = progress;
     SeamlessResult seamless = computeSeamlessMap(part.mesh, part.field, seamlessOptions);
     result_.work += workOf(part.mesh, seamless.newtonSteps);
+    result_.seamlessSteps += seamless.newtonSteps;
     if (!seamless.status.ok())
     {
       if (!component.hasIntegers)
@@ -309,7 +314,7 @@ private:
   QuantizeResult quantize(const Component& component, const std::vector<FixedVec2>& seamlessUv,
     const std::vector<Index>& watched, const ProgressCallback& progress)
   {
-    const Stopwatch watch(result_.secondsQuantize);
+    const Stopwatch watch(result_.secondsQuantize, result_.processorQuantize);
     QuantizeOptions quantizeOptions;
     quantizeOptions.watched = watched;
     quantizeOptions.progress = progress;
@@ -345,9 +350,10 @@ private:
       embedOptions.seamlessUv = &component.startUv;
       embedOptions.progress = progress;
       {
-        const Stopwatch watch(result_.secondsEmbed);
+        const Stopwatch watch(result_.secondsEmbed, result_.processorEmbed);
         embedded = embedMap(part.mesh, part.field, component.uv, embedOptions);
         result_.work += workOf(part.mesh, embedded.newtonSteps);
+        result_.embedSteps += embedded.newtonSteps;
       }
       tried.push_back(std::move(component.uv));
       if (embedded.status.ok())

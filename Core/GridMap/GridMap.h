@@ -146,6 +146,9 @@ struct GridMapResult
   /// Newton steps of all solves, each times the triangles of its component, and what quantization took in the same unit.
   std::size_t work = 0;
   double secondsField = 0, secondsSeamless = 0, secondsQuantize = 0, secondsEmbed = 0;
+  /// The same in processor time of the whole process, which other programs on the machine do not disturb.
+  double processorField = 0, processorSeamless = 0, processorQuantize = 0, processorEmbed = 0;
+  int seamlessSteps = 0, embedSteps = 0; ///< Newton steps of all solves
 };
 /// The whole chain on one coarse mesh. Its connected components are solved one by one; each gets quads by its area, and all
 /// are tried, so that offenders tells about every one that fails.

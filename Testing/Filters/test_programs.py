@@ -370,6 +370,22 @@ class Bench(Case):
         self.assertGreater(int(row["inverted_stars"]), 0)
         self.assertLessEqual(int(row["not_positive"]), int(row["replay_not_positive"]))
 
+    def test_times_of_the_coarse_level(self):
+        source = os.path.join(ARGS.data, "beast.ply")
+        result = subprocess.run([ARGS.bench, source, "--compare", "coarse", "--quads", "500", "--coarse-vertices", "300",
+                                 "--repeat", "2"], capture_output=True, text=True, timeout=300)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = list(csv.DictReader(io.StringIO(result.stdout)))
+        self.assertEqual([row["clock"] for row in rows], ["wall", "processor"])
+        for row in rows:
+            self.assertEqual((row["mesh"], row["quads"], row["vertices"], row["ok"]), ("beast", "500", "300", "1"))
+            stages = [float(row[name]) for name in ("field", "seamless", "quantize", "embed")]
+            self.assertGreater(min(stages), 0)
+            self.assertLessEqual(max(stages), float(row["total"]))
+            self.assertGreaterEqual(int(row["seamless_steps"]), 1)
+        wrong = subprocess.run([ARGS.bench, source, "--coarse-vertices", "300"], capture_output=True, text=True, timeout=60)
+        self.assertEqual(wrong.returncode, 2, wrong.stderr)
+
     def test_a_bad_mesh_does_not_end_the_others(self):
         source = self.write_off()
         result = subprocess.run([ARGS.bench, "absent.ply", str(source), "--quads", "300"], capture_output=True,
