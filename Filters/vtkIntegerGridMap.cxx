@@ -67,6 +67,7 @@ void vtkIntegerGridMap::Execute(vtkInformationVector** inputs, vtkInformationVec
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   const quadrille::Mesh mesh = quadrille::readMesh(input);
   quadrille::GridMapOptions options = optionsFor(input, this->EdgeLength);
+  options.method = static_cast<quadrille::MapMethod>(this->Method);
   options.guides = quadrille::readGuides(input, mesh);
   options.targetValences = quadrille::readTargetValences(input, mesh);
   options.progress = this->MakeProgress(0.0, 0.95);
@@ -104,4 +105,5 @@ void vtkIntegerGridMap::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "EdgeLength: " << this->EdgeLength << "\n";
+  os << indent << "Method: " << this->Method << "\n";
 }

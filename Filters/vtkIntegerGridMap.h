@@ -22,6 +22,30 @@ public:
   vtkTypeMacro(vtkIntegerGridMap, vtkQuadrilleAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /// The values of Method, see there.
+  enum Methods
+  {
+    METHOD_SCALE_AWARE = 0,
+    METHOD_MIXED_INTEGER = 1,
+    METHOD_QUADCOVER = 2,
+    METHOD_SEAMLESS = 3
+  };
+
+  ///@{
+  /**
+   * How the map of the coarse level is made, a Methods. Scale aware never inverts a triangle. Mixed integer
+   * [Bommes et al. 2009] rounds integers one at a time, QuadCover [Kalberer et al. 2007] all at once: both
+   * may leave inverted triangles, which a notice counts, and then there may be no quads. Seamless has no
+   * integers and cannot be given quads. Default: METHOD_SCALE_AWARE.
+   */
+  vtkSetClampMacro(Method, int, METHOD_SCALE_AWARE, METHOD_SEAMLESS);
+  vtkGetMacro(Method, int);
+  void SetMethodToScaleAware() { this->SetMethod(METHOD_SCALE_AWARE); }
+  void SetMethodToMixedInteger() { this->SetMethod(METHOD_MIXED_INTEGER); }
+  void SetMethodToQuadCover() { this->SetMethod(METHOD_QUADCOVER); }
+  void SetMethodToSeamless() { this->SetMethod(METHOD_SEAMLESS); }
+  ///@}
+
   ///@{
   /**
    * Target edge length in units of the input; 0, the default, takes `TargetEdgeLength` and `TargetQuads` from the
@@ -42,6 +66,7 @@ private:
   void operator=(const vtkIntegerGridMap&) = delete;
 
   double EdgeLength = 0;
+  int Method = METHOD_SCALE_AWARE;
 };
 
 #endif

@@ -87,6 +87,7 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   {
     options.memoryLimit = 1e6 * this->MemoryLimit;
   }
+  options.method = static_cast<quadrille::MapMethod>(this->Method);
   options.closeHandles = this->CloseHandles;
   options.mergeCharts = this->ComputeMappedSurface != 0;
   options.progress = this->MakeProgress(0.02, 0.95);
@@ -133,6 +134,7 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
 void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Method: " << this->Method << "\n";
   os << indent << "MaximumQuads: " << this->MaximumQuads << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "CloseHandles: " << this->CloseHandles << "\n";

@@ -32,6 +32,30 @@ public:
   vtkTypeMacro(vtkQuadRemesh, vtkQuadrilleSurfaceAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /// The values of Method, see there.
+  enum Methods
+  {
+    METHOD_SCALE_AWARE = 0,
+    METHOD_MIXED_INTEGER = 1,
+    METHOD_QUADCOVER = 2,
+    METHOD_SEAMLESS = 3
+  };
+
+  ///@{
+  /**
+   * How the map of the coarse level is made, a Methods. Scale aware never inverts a triangle. Mixed integer
+   * [Bommes et al. 2009] rounds integers one at a time, QuadCover [Kalberer et al. 2007] all at once: both
+   * may leave inverted triangles, which a notice counts, and then there may be no quads. Seamless has no
+   * integers and makes no quads: the mapped surface, output 1, is the result. Default: METHOD_SCALE_AWARE.
+   */
+  vtkSetClampMacro(Method, int, METHOD_SCALE_AWARE, METHOD_SEAMLESS);
+  vtkGetMacro(Method, int);
+  void SetMethodToScaleAware() { this->SetMethod(METHOD_SCALE_AWARE); }
+  void SetMethodToMixedInteger() { this->SetMethod(METHOD_MIXED_INTEGER); }
+  void SetMethodToQuadCover() { this->SetMethod(METHOD_QUADCOVER); }
+  void SetMethodToSeamless() { this->SetMethod(METHOD_SEAMLESS); }
+  ///@}
+
   ///@{
   /**
    * The filter refuses, before memory is spent, to make more quads than this; at least 1. Default: ten million.
@@ -109,6 +133,7 @@ private:
 
   vtkPolyData* GetPolyDataOutputAt(int port);
 
+  int Method = METHOD_SCALE_AWARE;
   vtkIdType MaximumQuads = 10000000;
   double MemoryLimit = 0;
   double CloseHandles = 0;

@@ -17,6 +17,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -45,6 +46,8 @@ size of the quads (at most one; 0.02 of the bounding-box diagonal when none is g
                             0 turns the detection off (default 40)
   --coarse-vertices N       vertices of the level where the layout is computed (default 1000); auto: as many as the
                             curvature of the surface needs, from 300 to 4000
+  --method NAME             how the map is made: scale-aware (default); mixed-integer and quadcover, which may leave
+                            inverted triangles and then fail; seamless, which has no integers and so makes no quads
   --close-handles R         cut and close handles that are shorter round than R edge lengths of the quads,
                             which need 3 (default 0: none)
   --threads N               threads to compute with; 0 means all (default 0)
@@ -157,9 +160,24 @@ void setSize(const CommandLine& line, vtkQuadRemesh* filter)
   }
 }
 
+void setMethod(const CommandLine& line, vtkQuadRemesh* filter)
+{
+  constexpr std::array<const char*, 4> kNames{ "scale-aware", "mixed-integer", "quadcover",
+    "seamless" };
+  const std::string name = line.text("method").value_or(kNames[0]);
+  const auto* const found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end())
+  {
+    throw UsageError(
+      "--method needs scale-aware, mixed-integer, quadcover or seamless, not '" + name + "'");
+  }
+  filter->SetMethod(static_cast<int>(found - kNames.begin()));
+}
+
 void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
 {
   setSize(line, filter);
+  setMethod(line, filter);
   if (const auto angle = line.number("feature-angle", 0, 180))
   {
     filter->SetDetectFeatures(*angle > 0);
@@ -460,7 +478,7 @@ int main(int argc, char* argv[])
   {
     const CommandLine line(argc, argv,
       { "quads", "edge-length", "relative-edge-length", "feature-angle", "coarse-vertices",
-        "threads", "memory-limit", "close-handles", "report" });
+        "threads", "memory-limit", "close-handles", "method", "report" });
     if (line.help() || argc == 1)
     {
       std::fputs(kHelp, line.help() ? stdout : stderr);

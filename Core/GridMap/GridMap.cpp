@@ -436,11 +436,30 @@ private:
 
 } // namespace
 
+const char* nameOf(MapMethod method)
+{
+  switch (method)
+  {
+    case MapMethod::ScaleAware:
+      return "scale aware";
+    case MapMethod::MixedInteger:
+      return "mixed integer";
+    case MapMethod::QuadCover:
+      return "QuadCover";
+    default:
+      return "seamless";
+  }
+}
+
 GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
 {
   if (!(options.edgeLength > 0) || !std::isfinite(options.edgeLength))
   {
     throw InvalidInput("the target edge length must be a positive number");
+  }
+  if (options.method != MapMethod::ScaleAware)
+  {
+    throw InvalidInput(std::string("the method '") + nameOf(options.method) + "' is not built yet");
   }
   if (mesh.vertexCount() > options.maximumVertices)
   {

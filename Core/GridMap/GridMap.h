@@ -125,8 +125,22 @@ struct EmbedResult
 EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
   const std::vector<FixedVec2>& integerUv, const EmbedOptions& options);
 
+/// How the map is made [Ebke et al. 2016, Figure 8].
+enum class MapMethod
+{
+  /// Seamless map without inverted triangles, integers from it, re-embedding: never inverted, whole everywhere. After
+  /// [Ebke et al. 2014] by its aim; see Documentation/Design.md for the means.
+  ScaleAware,
+  MixedInteger, ///< integers are rounded one at a time [Bommes et al. 2009]; triangles may be inverted
+  QuadCover, ///< integers are rounded all at once [Kalberer et al. 2007]; triangles may be inverted
+  Seamless   ///< no integers at all, so no quads; never inverted
+};
+/// "scale aware", "mixed integer", "QuadCover", "seamless".
+const char* nameOf(MapMethod method);
+
 struct GridMapOptions
 {
+  MapMethod method = MapMethod::ScaleAware;
   double edgeLength = 0;  ///< s, on the surface; > 0
   double targetQuads = 0; ///< 0: follow edgeLength; else scale so that the uv area comes near this
   Index maximumVertices = 100000;  ///< of the mesh; the solvers are made for coarse levels

@@ -386,6 +386,7 @@ private:
   bool computeCoarseMap(HierarchyOptions& levelOptions)
   {
     GridMapOptions mapOptions;
+    mapOptions.method = options_.method;
     mapOptions.edgeLength = result_.targetEdgeLength;
     mapOptions.targetQuads = gridQuads();
     mapOptions.progress = subProgress(options_.progress, 0.45, 0.8, "Mapping: ");

@@ -30,6 +30,7 @@ struct RemeshOptions
   double relativeEdgeLength = 0.02; ///< target edge length over the bounding-box diagonal, > 0
   std::optional<double> featureAngle =
     0.6981317007977318;        ///< radians (40 degrees); none: no detection
+  MapMethod method = MapMethod::ScaleAware;
   Index coarseVertices = 1000; ///< budget of the coarse level; 0: as many as its curvature needs
   /// Handles that are shorter round or through than so many target edge lengths are cut and closed before they are mapped, see
   /// closeHandles; >= 0, 0: none. Below kQuadsOfLoop there may remain some that quads cannot resolve.

@@ -31,6 +31,10 @@ __all__ = [
 ]
 
 
+#: How the map can be made, in the order of vtkQuadRemesh.Methods.
+METHODS = ("scale-aware", "mixed-integer", "quadcover", "seamless")
+
+
 class RemeshError(RuntimeError):
     """There is no valid result; the message says why."""
 
@@ -127,7 +131,8 @@ def _set_size(run, quads, edge_length, relative_edge_length):
 
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
            coarse_vertices=1000, patch_array="PatchId", curves=None, threads=0, maximum_quads=10000000,
-           memory_limit=0.0, time_limit=0.0, close_handles=0.0, progress=None, everything=False):
+           memory_limit=0.0, time_limit=0.0, close_handles=0.0, method="scale-aware", progress=None,
+           everything=False):
     """Remeshes a surface with quads only and returns a vtkPolyData.
 
     mesh: a vtkPolyData, or a pair (points, faces).
@@ -142,6 +147,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     memory_limit: refuse to start where more is needed by the estimate; millions of bytes; 0 means what is free.
     time_limit: seconds; 0 means none.
     close_handles: handles shorter round or through than so many target edge lengths are cut and closed; 0: none.
+    method: how the map is made: "scale-aware", "mixed-integer" or "quadcover" (both may leave inverted triangles), or
+        "seamless" (no integers, so the result has no quads; use everything=True for the mapped surface).
     progress: called as progress(fraction, text); a return value of False (not None) stops the run.
     everything: return a Remeshed with the mapped surface, the feature lines and the info dict, too.
 
@@ -163,6 +170,9 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     run.SetMemoryLimit(memory_limit)
     run.SetTimeLimit(time_limit)
     run.SetCloseHandles(close_handles)
+    if method not in METHODS:
+        raise InvalidInput("method must be one of " + ", ".join(METHODS) + f", not {method!r}")
+    run.SetMethod(METHODS.index(method))
     run.SetComputeMappedSurface(bool(everything))
     if progress is not None:
         def on_progress(caller, event):

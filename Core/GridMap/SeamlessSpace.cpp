@@ -1,0 +1,323 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GridMap/SeamlessSpace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+/// The equations of a seamless map. Variables: u and v of every wedge, then both coordinates of the
+/// translation of every segment.
+class Equations
+{
+public:
+  Equations(const Mesh& mesh, const CrossField& field, const CutGraph& graph)
+    : mesh_(mesh), field_(field), graph_(graph)
+  {
+    fixOneWedgePerComponent();
+    joinSegments();
+    alignConstrainedEdges();
+  }
+
+  Index variables() const
+  {
+    return 2 * (graph_.wedges + static_cast<Index>(graph_.rotation.size()));
+  }
+  const std::vector<IntegerRow>& rows() const { return rows_; }
+
+private:
+  void fixOneWedgePerComponent()
+  {
+    Index seen = 0;
+    for (Index f = 0; f < mesh_.faceCount(); ++f)
+    {
+      if (graph_.component[f] == seen)
+      {
+        const Index w = graph_.wedge[3 * f];
+        rows_.push_back({ { 2 * w, 1 } });
+        rows_.push_back({ { 2 * w + 1, 1 } });
+        ++seen;
+      }
+    }
+  }
+
+  /// Right image = R90^r left image + translation.
+  void join(Index left, Index right, Index segment)
+  {
+    const Index t = 2 * (graph_.wedges + segment);
+    const Index u = 2 * left, v = 2 * left + 1;
+    switch (graph_.rotation[segment])
+    {
+      case 0:
+        addPair(right, t, { u, -1 }, { v, -1 });
+        break;
+      case 1:
+        addPair(right, t, { v, 1 }, { u, -1 });
+        break;
+      case 2:
+        addPair(right, t, { u, 1 }, { v, 1 });
+        break;
+      default:
+        addPair(right, t, { v, -1 }, { u, 1 });
+        break;
+    }
+  }
+
+  void addPair(
+    Index right, Index t, std::pair<Index, std::int64_t> u, std::pair<Index, std::int64_t> v)
+  {
+    rows_.push_back({ { 2 * right, 1 }, { t, -1 }, u });
+    rows_.push_back({ { 2 * right + 1, 1 }, { t + 1, -1 }, v });
+  }
+
+  void joinSegments()
+  {
+    Index last = kInvalidIndex;
+    for (const Index h : graph_.path)
+    {
+      const Index g = mesh_.twin[h];
+      const Index segment = graph_.segment[h];
+      if (segment != last)
+      {
+        join(graph_.wedge[h], graph_.wedge[Mesh::next(g)], segment);
+      }
+      join(graph_.wedge[Mesh::next(h)], graph_.wedge[g], segment);
+      last = segment;
+    }
+  }
+
+  void alignConstrainedEdges()
+  {
+    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    {
+      if (!mesh_.isConstrained(h) || (!mesh_.isBoundary(h) && mesh_.twin[h] < h))
+      {
+        continue; // the twin says the same through the seam
+      }
+      const int axis = (field_.alignment[h] + graph_.comb[Mesh::face(h)]) & 1;
+      const Index coordinate = static_cast<Index>(1 - axis);
+      const Index a = graph_.wedge[h], b = graph_.wedge[Mesh::next(h)];
+      rows_.push_back({ { 2 * a + coordinate, 1 }, { 2 * b + coordinate, -1 } });
+    }
+  }
+
+  const Mesh& mesh_;
+  const CrossField& field_;
+  const CutGraph& graph_;
+  std::vector<IntegerRow> rows_;
+};
+
+/// A linear form of the free unknowns, exact: numerators over a common denominator that is left out.
+using Form = IntegerRow;
+
+/// a - b up to a positive factor.
+Form difference(const ExactBasis::Row& a, const ExactBasis::Row& b, std::int64_t common)
+{
+  Form result;
+  for (const auto& [id, numerator] : a.numerators)
+  {
+    result.emplace_back(id, numerator * (common / a.denominator));
+  }
+  for (const auto& [id, numerator] : b.numerators)
+  {
+    const auto place = std::lower_bound(result.begin(), result.end(), id,
+      [](const auto& term, Index wanted) { return term.first < wanted; });
+    const std::int64_t value = -numerator * (common / b.denominator);
+    if (place != result.end() && place->first == id)
+    {
+      place->second += value;
+    }
+    else
+    {
+      result.insert(place, { id, value });
+    }
+  }
+  result.erase(
+    std::remove_if(result.begin(), result.end(), [](const auto& term) { return term.second == 0; }),
+    result.end());
+  return result;
+}
+
+bool areEqual(const ExactBasis::Row& a, const ExactBasis::Row& b)
+{
+  return a.denominator == b.denominator && a.numerators == b.numerators;
+}
+
+bool areParallel(const Form& a, const Form& b)
+{
+  if (a.empty() || b.empty())
+  {
+    return true;
+  }
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    if (a.size() != b.size() || a[i].first != b[i].first ||
+      Int128{ a[i].second } * b[0].second != Int128{ b[i].second } * a[0].second)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+} // namespace
+
+SeamlessSpace::SeamlessSpace(const Mesh& mesh, const CrossField& field, double edgeLength)
+  : mesh_(mesh), graph_(cutAlongField(mesh, field))
+{
+  const Equations equations(mesh, field, graph_);
+  std::optional<ExactBasis> basis = eliminateExactly(equations.variables(), equations.rows());
+  if (basis)
+  {
+    basis_ = std::move(*basis);
+    buildProblem(field, edgeLength);
+  }
+}
+
+void SeamlessSpace::buildProblem(const CrossField& field, double edgeLength)
+{
+  const Index coordinates = 2 * graph_.wedges;
+  std::vector<Eigen::Triplet<double>> triplets;
+  for (Index i = 0; i < coordinates; ++i)
+  {
+    for (const auto& [id, numerator] : basis_.rows[i].numerators)
+    {
+      triplets.emplace_back(static_cast<int>(i), static_cast<int>(id),
+        static_cast<double>(numerator) / static_cast<double>(basis_.rows[i].denominator));
+    }
+  }
+  problem_.basis.resize(coordinates, basis_.free.size());
+  problem_.basis.setFromTriplets(triplets.begin(), triplets.end());
+  problem_.offset = Eigen::VectorXd::Zero(coordinates);
+  for (Index f = 0; f < mesh_.faceCount(); ++f)
+  {
+    const Index* wedge = &graph_.wedge[3 * f];
+    addTriangle(
+      problem_, { wedge[0], wedge[1], wedge[2] }, mesh_, field, f, graph_.comb[f], edgeLength);
+  }
+  guardEdges(problem_, guardedEdges(field, edgeLength));
+}
+
+/// One half-edge of each constrained edge; the other one follows through the seam.
+std::vector<GuardedEdge> SeamlessSpace::guardedEdges(
+  const CrossField& field, double edgeLength) const
+{
+  std::vector<GuardedEdge> edges;
+  for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+  {
+    const double length = mesh_.edgeVector(h).norm() / edgeLength;
+    if (mesh_.isConstrained(h) && (mesh_.isBoundary(h) || h < mesh_.twin[h]) && length > 0)
+    {
+      edges.push_back({ graph_.wedge[h], graph_.wedge[Mesh::next(h)],
+        field.alignment[h] + graph_.comb[Mesh::face(h)], length });
+    }
+  }
+  return edges;
+}
+
+std::vector<Index> SeamlessSpace::collapsedFaces(const std::vector<Index>& candidates) const
+{
+  std::vector<Index> result;
+  for (const Index f : candidates)
+  {
+    const Index* w = &graph_.wedge[3 * f];
+    std::int64_t common = 1;
+    for (int i = 0; i < 6; ++i)
+    {
+      common = std::lcm(common, basis_.rows[2 * w[i / 2] + i % 2].denominator);
+    }
+    const auto edge = [&](int corner, int coordinate)
+    {
+      return difference(
+        basis_.rows[2 * w[corner] + coordinate], basis_.rows[2 * w[0] + coordinate], common);
+    };
+    const Form u1 = edge(1, 0), v1 = edge(1, 1), u2 = edge(2, 0), v2 = edge(2, 1);
+    const bool edgeIsPoint =
+      (u1.empty() && v1.empty()) || (u2.empty() && v2.empty()) || (u1 == u2 && v1 == v2);
+    const bool noExtent = (u1.empty() && u2.empty()) || (v1.empty() && v2.empty());
+    const bool proportional = u1 == v1 && u2 == v2 && areParallel(u1, v1);
+    if (edgeIsPoint || noExtent || proportional)
+    {
+      result.push_back(f);
+    }
+  }
+  return result;
+}
+
+std::vector<Index> SeamlessSpace::flattenedChords() const
+{
+  std::vector<bool> onCurve(mesh_.vertexCount(), false);
+  for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+  {
+    if (mesh_.isConstrained(h))
+    {
+      onCurve[mesh_.origin[h]] = onCurve[mesh_.target(h)] = true;
+    }
+  }
+  std::vector<Index> result;
+  for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+  {
+    if (mesh_.isConstrained(h) || mesh_.twin[h] < h || !onCurve[mesh_.origin[h]] ||
+      !onCurve[mesh_.target(h)])
+    {
+      continue;
+    }
+    const Index a = 2 * graph_.wedge[h], b = 2 * graph_.wedge[Mesh::next(h)];
+    if (areEqual(basis_.rows[a], basis_.rows[b]) ||
+      areEqual(basis_.rows[a + 1], basis_.rows[b + 1]))
+    {
+      result.push_back(h);
+    }
+  }
+  return result;
+}
+
+double SeamlessSpace::area(const Eigen::VectorXd& y) const
+{
+  const Eigen::VectorXd x = problem_.basis * y;
+  double area = 0;
+  for (Index f = 0; f < mesh_.faceCount(); ++f)
+  {
+    const auto point = [&](int i)
+    { return Vector2(x.segment<2>(2 * Eigen::Index(graph_.wedge[3 * f + i]))); };
+    const Vector2 a = point(1) - point(0), b = point(2) - point(0);
+    area += (a.x() * b.y() - a.y() * b.x()) / 2;
+  }
+  return area;
+}
+
+std::vector<FixedVec2> SeamlessSpace::snap(const Eigen::VectorXd& y) const
+{
+  std::vector<std::int64_t> fixed(y.size());
+  for (Eigen::Index i = 0; i < y.size(); ++i)
+  {
+    const double step = static_cast<double>(basis_.step[i]);
+    fixed[i] = std::llround(y[i] * static_cast<double>(kOne) / step) * basis_.step[i];
+  }
+  std::vector<std::int64_t> x(2 * std::size_t{ graph_.wedges });
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    Int128 sum = 0;
+    for (const auto& [id, numerator] : basis_.rows[i].numerators)
+    {
+      sum += Int128{ numerator } * fixed[id];
+    }
+    x[i] = static_cast<std::int64_t>(sum / basis_.rows[i].denominator);
+  }
+  std::vector<FixedVec2> uv(mesh_.origin.size());
+  for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+  {
+    const Index w = graph_.wedge[h];
+    uv[h] = rotate({ x[2 * w], x[2 * w + 1] }, -graph_.comb[Mesh::face(h)]);
+  }
+  return uv;
+}
+
+} // namespace quadrille
