@@ -7,6 +7,8 @@
 #include "Mesh/Distance.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -21,6 +23,11 @@ constexpr double kShortestMeanChain = 1;
 /// Length over length in steps of s. A circle of radius s has 1.04, one of 0.7 s 1.09; mesh edges that
 /// zigzag through noise have 1.2 and more.
 constexpr double kMostJagged = 1.1;
+
+/// Mean width of a patch over s; there a quad is at least so much narrower than it is long.
+constexpr double kThinnestPatch = 0.25;
+/// Chains shorter than this part of a patch's longest one are its ends and not its sides.
+constexpr double kShortestSide = 0.5;
 
 /// A maximal run of constrained edges between nodes; `ends` is invalid for a closed loop.
 struct Chain
@@ -257,6 +264,195 @@ bool removeOnce(Mesh& mesh, double edgeLength, FeatureFilterReport& report)
   return removed;
 }
 
+/// Patches, the connected faces between constrained edges, that are thinner than quads can be.
+class ThinPatches
+{
+public:
+  ThinPatches(const Mesh& mesh, double edgeLength, const std::vector<Chain>& chains)
+    : mesh_(mesh), chains_(chains), patch_(mesh.faceCount(), kInvalidIndex),
+      chainOf_(mesh.halfEdgeCount(), kInvalidIndex)
+  {
+    double longest = 0;
+    for (Index c = 0; c < chains.size(); ++c)
+    {
+      longest += 2 * chains[c].length;
+      for (const Index h : chains[c].halfEdges)
+      {
+        chainOf_[h] = c;
+        if (!mesh.isBoundary(h))
+        {
+          chainOf_[mesh.twin[h]] = c;
+        }
+      }
+    }
+    const double thinnest = kThinnestPatch * edgeLength;
+    const double largest = 0.5 * thinnest * longest; // a thin one has no more area than this
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      pollNowAndThen(h);
+      if (mesh.isConstrained(h) && patch_[Mesh::face(h)] == kInvalidIndex)
+      {
+        grow(Mesh::face(h), largest, thinnest);
+      }
+    }
+  }
+
+  /// For each of these patches the bluntest of its sides that has another patch beyond it; never two sides of the same one, which the first
+  /// may have made wide enough.
+  std::vector<Index> chainsToDrop() const
+  {
+    std::vector<Index> result;
+    std::vector<std::uint8_t> touched(isThin_.size(), 0);
+    for (const Thin& thin : thin_)
+    {
+      if (touched[thin.patch] == 0)
+      {
+        dropOne(thin, touched, result);
+      }
+    }
+    return result;
+  }
+
+private:
+  struct Thin
+  {
+    Index patch;
+    std::vector<Index> border; ///< constrained half-edges of its faces
+  };
+
+  void grow(Index seed, double largest, double thinnest)
+  {
+    const Index id = static_cast<Index>(isThin_.size());
+    std::vector<Index> faces{ seed };
+    Thin thin{ id, {} };
+    double area = 0, perimeter = 0;
+    patch_[seed] = id;
+    bool large = false;
+    for (std::size_t i = 0; i < faces.size() && !large; ++i)
+    {
+      pollNowAndThen(i);
+      const Index f = faces[i];
+      area += 0.5 * mesh_.edgeVector(3 * f).cross(mesh_.edgeVector(3 * f + 1)).norm();
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        if (mesh_.isConstrained(h))
+        {
+          thin.border.push_back(h);
+          perimeter += mesh_.edgeVector(h).norm();
+          continue;
+        }
+        const Index next = Mesh::face(mesh_.twin[h]);
+        // What reaches a patch that was left off as too large is a part of it.
+        large = large || (patch_[next] != kInvalidIndex && patch_[next] != id);
+        if (patch_[next] == kInvalidIndex)
+        {
+          patch_[next] = id;
+          faces.push_back(next);
+        }
+      }
+      large = large || area > largest;
+    }
+    isThin_.push_back(!large && 2 * area < thinnest * perimeter ? 1 : 0);
+    if (isThin_.back() != 0)
+    {
+      thin_.push_back(std::move(thin));
+    }
+  }
+
+  void dropOne(
+    const Thin& thin, std::vector<std::uint8_t>& touched, std::vector<Index>& result) const
+  {
+    std::vector<Index> sides;
+    double longest = 0;
+    for (const Index h : thin.border)
+    {
+      const Index c = chainOf_[h];
+      longest = std::max(longest, chains_[c].length);
+      if (chains_[c].removable && neighbour(h) != thin.patch)
+      {
+        sides.push_back(c);
+      }
+    }
+    Index best = kInvalidIndex;
+    double bluntest = std::numeric_limits<double>::infinity();
+    std::sort(sides.begin(), sides.end());
+    sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+    for (const Index c : sides)
+    {
+      const double sharpness =
+        chains_[c].length < kShortestSide * longest ? bluntest : sharpnessOf(chains_[c]);
+      if (sharpness < bluntest)
+      {
+        best = c;
+        bluntest = sharpness;
+      }
+    }
+    if (best == kInvalidIndex)
+    {
+      return;
+    }
+    // What is wide is not made wide by this.
+    std::vector<Index> joined;
+    for (const Index h : chains_[best].halfEdges)
+    {
+      for (const Index p : { patch_[Mesh::face(h)], neighbour(h) })
+      {
+        if (isThin_[p] != 0)
+        {
+          joined.push_back(p);
+        }
+      }
+    }
+    if (std::none_of(joined.begin(), joined.end(), [&](Index p) { return touched[p] != 0; }))
+    {
+      result.push_back(best);
+      for (const Index p : joined)
+      {
+        touched[p] = 1;
+      }
+    }
+  }
+
+  Index neighbour(Index h) const { return patch_[Mesh::face(mesh_.twin[h])]; }
+
+  Vector3 normal(Index f) const
+  {
+    return mesh_.edgeVector(3 * f).cross(mesh_.edgeVector(3 * f + 1)).normalized();
+  }
+
+  /// Mean angle between the normals on both sides.
+  double sharpnessOf(const Chain& chain) const
+  {
+    double sum = 0;
+    for (const Index h : chain.halfEdges)
+    {
+      const double cosine = normal(Mesh::face(h)).dot(normal(Mesh::face(mesh_.twin[h])));
+      sum += std::acos(std::clamp(cosine, -1.0, 1.0)) * mesh_.edgeVector(h).norm();
+    }
+    return sum / chain.length;
+  }
+
+  const Mesh& mesh_;
+  const std::vector<Chain>& chains_;
+  std::vector<Index> patch_;         ///< #F; kInvalidIndex where no patch was grown
+  std::vector<Index> chainOf_;       ///< #H
+  std::vector<std::uint8_t> isThin_; ///< #patches
+  std::vector<Thin> thin_;
+};
+
+bool dropAlongThinPatches(Mesh& mesh, double edgeLength, FeatureFilterReport& report)
+{
+  const FeatureGraph graph(mesh, edgeLength);
+  const ThinPatches thin(mesh, edgeLength, graph.chains());
+  const std::vector<Index> drop = thin.chainsToDrop();
+  for (const Index c : drop)
+  {
+    unmarkFeatures(mesh, graph.chains()[c].halfEdges);
+    report.removedEdges += graph.chains()[c].halfEdges.size();
+  }
+  return !drop.empty();
+}
+
 } // namespace
 
 FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength)
@@ -266,7 +462,7 @@ FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength)
     throw InvalidInput("the edge length for filtering features must be positive");
   }
   FeatureFilterReport report;
-  while (removeOnce(mesh, edgeLength, report))
+  while (removeOnce(mesh, edgeLength, report) || dropAlongThinPatches(mesh, edgeLength, report))
   {
   }
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)

@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace quadrille
 {
 namespace
@@ -123,6 +126,82 @@ TEST(FeatureFilter, SharpCubeIsLeftAlone)
   Mesh mesh = test::markFeatures(test::unitCube(6), 0.5);
   EXPECT_EQ(removeUnresolvedFeatures(mesh, 0.9).removedEdges, 0u);
   EXPECT_EQ(featureEdges(mesh), 72u);
+}
+
+/// A plane 40 by 20 with a band between the rows y = 10 and y = 10 + width, where it bends by `first` and `second` radians.
+Mesh bentBand(int width, double first, double second, std::uint8_t secondFlags = kDetected)
+{
+  Mesh mesh = test::gridPlane(40, 20);
+  markRow(mesh, 10, 0, 40, kDetected);
+  markRow(mesh, 10 + width, 0, 40, secondFlags);
+  for (Vector3& p : mesh.position)
+  {
+    const double inBand = std::clamp(p.y() - 10, 0.0, double(width));
+    const double beyond = std::max(p.y() - 10 - width, 0.0);
+    p = Vector3(p.x(),
+      std::min(p.y(), 10.0) + inBand * std::cos(first) + beyond * std::cos(first + second),
+      inBand * std::sin(first) + beyond * std::sin(first + second));
+  }
+  return mesh;
+}
+
+/// Feature edges in row y = 10, which did not move.
+Index edgesOfFirstRow(const Mesh& mesh)
+{
+  Index count = 0;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    count += mesh.isFeature(h) && h < mesh.twin[h] && mesh.position[mesh.origin[h]].y() == 10 &&
+      mesh.position[mesh.target(h)].y() == 10;
+  }
+  return count;
+}
+
+TEST(FeatureFilter, ThinBandKeepsItsSharperSide)
+{
+  // A band of 1 by 40 has a mean width of 80 / 82.
+  Mesh bluntFirst = bentBand(1, 0.8, 0.9);
+  EXPECT_EQ(removeUnresolvedFeatures(bluntFirst, 4.0).removedEdges, 40u);
+  EXPECT_EQ(edgesOfFirstRow(bluntFirst), 0u);
+  Mesh sharpFirst = bentBand(1, 0.9, 0.8);
+  EXPECT_EQ(removeUnresolvedFeatures(sharpFirst, 4.0).removedEdges, 40u);
+  EXPECT_EQ(edgesOfFirstRow(sharpFirst), 40u);
+}
+
+TEST(FeatureFilter, BandThatQuadsResolveKeepsBothSides)
+{
+  Mesh mesh = bentBand(1, 0.8, 0.9);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 3.8).removedEdges, 0u);
+  Mesh wide = bentBand(2, 0.8, 0.9);
+  EXPECT_EQ(removeUnresolvedFeatures(wide, 4.0).removedEdges, 0u);
+}
+
+TEST(FeatureFilter, SideOfAThinBandThatWasAskedForStays)
+{
+  Mesh mesh = bentBand(1, 0.9, 0.8, kFeatureEdge | kRequestedFeature);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 4.0).removedEdges, 40u);
+  EXPECT_EQ(edgesOfFirstRow(mesh), 0u); // though it is the sharper one
+  Mesh both = bentBand(1, 0.9, 0.8, kFeatureEdge | kRequestedFeature);
+  markRow(both, 10, 0, 40, kFeatureEdge | kRequestedFeature);
+  EXPECT_EQ(removeUnresolvedFeatures(both, 4.0).removedEdges, 0u);
+}
+
+TEST(FeatureFilter, EndsOfAThinBandAreNotItsSides)
+{
+  // Between two rows that have to stay, without the flat edge across the band the band would be as thin as before.
+  Mesh mesh = bentBand(1, 0.8, 0.9, kFeatureEdge | kRequestedFeature);
+  markRow(mesh, 10, 0, 40, kFeatureEdge | kRequestedFeature);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3& p = mesh.position[mesh.origin[h]];
+    const Vector3& q = mesh.position[mesh.target(h)];
+    if (p.x() == 20 && q.x() == 20 && p.y() == 10 && q.z() > 0.1 && q.z() < 1)
+    {
+      mark(mesh, h, kDetected);
+    }
+  }
+  EXPECT_EQ(featureEdges(mesh), 81u);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 4.0).removedEdges, 0u);
 }
 
 TEST(FeatureFilter, NearAPlaceOnlyDetectedFeaturesGo)
