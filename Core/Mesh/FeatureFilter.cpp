@@ -26,8 +26,6 @@ constexpr double kMostJagged = 1.1;
 
 /// Mean width of a patch over s; there a quad is at least so much narrower than it is long.
 constexpr double kThinnestPatch = 0.25;
-/// Chains shorter than this part of a patch's longest one are its ends and not its sides.
-constexpr double kShortestSide = 0.5;
 
 /// A maximal run of constrained edges between nodes; `ends` is invalid for a closed loop.
 struct Chain
@@ -363,24 +361,20 @@ private:
     const Thin& thin, std::vector<std::uint8_t>& touched, std::vector<Index>& result) const
   {
     std::vector<Index> sides;
-    double longest = 0;
     for (const Index h : thin.border)
     {
-      const Index c = chainOf_[h];
-      longest = std::max(longest, chains_[c].length);
-      if (chains_[c].removable && neighbour(h) != thin.patch)
+      if (chains_[chainOf_[h]].removable && neighbour(h) != thin.patch)
       {
-        sides.push_back(c);
+        sides.push_back(chainOf_[h]);
       }
     }
-    Index best = kInvalidIndex;
-    double bluntest = std::numeric_limits<double>::infinity();
     std::sort(sides.begin(), sides.end());
     sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+    Index best = kInvalidIndex;
+    double bluntest = std::numeric_limits<double>::infinity();
     for (const Index c : sides)
     {
-      const double sharpness =
-        chains_[c].length < kShortestSide * longest ? bluntest : sharpnessOf(chains_[c]);
+      const double sharpness = sharpnessOf(chains_[c]);
       if (sharpness < bluntest)
       {
         best = c;
