@@ -6,6 +6,7 @@
 #include "GridMap/GridMap.h"
 #include "GridMap/LockedMap.h"
 #include "GridMap/MapCheck.h"
+#include "GridMap/MapShape.h"
 
 #include <cmath>
 #include <utility>
@@ -33,10 +34,22 @@ double lengthOfUnit(const Mesh& mesh, const std::vector<FixedVec2>& uv, double e
   return mapped > 0 && area > 0 ? std::sqrt(area / mapped) : edgeLength;
 }
 
-/// The given map and the Poisson solution, the one with fewer defects first.
+/// The given map and the Poisson solution, the one with fewer defects first. A start near an earlier map comes before them where
+/// nothing is wrong with it.
 std::vector<Eigen::VectorXd> startsOf(const Mesh& mesh, const CrossField& field,
-  const LockedMap& locked, const UntangleProblem& problem)
+  const LockedMap& locked, const UntangleProblem& problem, const CarriedMap* previous,
+  bool& fromPrevious)
 {
+  if (previous != nullptr && previous->knownFaces > 0)
+  {
+    const UntangleProblem nearby = referToMap(problem, previous->known, previous->uv, {}, 1);
+    const Eigen::VectorXd start = fitReferences(nearby);
+    fromPrevious = findDefects(mesh, field, locked.snap(start)).none();
+    if (fromPrevious)
+    {
+      return { start };
+    }
+  }
   std::vector<Eigen::VectorXd> starts{ locked.start(), fitReferences(problem) };
   const std::size_t given = findDefects(mesh, field, locked.snap(starts[0])).count();
   if (findDefects(mesh, field, locked.snap(starts[1])).count() < given)
@@ -102,9 +115,11 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
     return result;
   }
   const UntangleProblem problem = locked.problem(lengthOfUnit(mesh, integerUv, options.edgeLength));
+  const std::vector<Eigen::VectorXd> starts =
+    startsOf(mesh, field, locked, problem, options.previous, result.startedFromPrevious);
   FieldUntangling untangled = untangleAlongField(
-    mesh, field, problem, startsOf(mesh, field, locked, problem), kRounds,
-    [&](const Eigen::VectorXd& y) { return locked.snap(y); }, options.progress);
+    mesh, field, problem, starts, kRounds, [&](const Eigen::VectorXd& y) { return locked.snap(y); },
+    options.progress);
   result.uv = std::move(untangled.uv);
   result.newtonSteps = untangled.newtonSteps;
   MapDefects defects = std::move(untangled.defects);

@@ -6,10 +6,12 @@
 #include "GridMap/MeshParts.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 namespace quadrille
@@ -107,6 +109,7 @@ std::vector<Index> join(std::vector<Index> a, const std::vector<Index>& b)
 struct Component
 {
   MeshPart part;
+  CarriedMap previous;                          ///< empty where there is none
   double share = 1;                             ///< of the area of the surface
   bool hasIntegers = false;                     ///< of an earlier scale
   Eigen::VectorXd solution;                     ///< of its seamless map, for the next scale
@@ -114,8 +117,11 @@ struct Component
   std::vector<FixedVec2> startUv;               ///< the seamless map that uv was quantized from
   std::vector<FixedVec2> uv;
   double triedRefinement = 1, refinement = 1;
+  bool seamlessReused = false, integersReused = false, embedReused = false;
   Status status;
   std::vector<Index> offenders; ///< vertices of the part
+
+  const CarriedMap* earlier() const { return previous.knownFaces > 0 ? &previous : nullptr; }
 
   void fail(const Status& why, std::vector<FixedVec2> best, std::vector<Index> where)
   {
@@ -172,13 +178,33 @@ private:
 
   void split()
   {
+    std::optional<MapCarrier> carrier;
+    if (options_.previous != nullptr)
+    {
+      carrier.emplace(*options_.previous);
+    }
     const double area = surfaceArea(mesh_);
     for (MeshPart& part : splitIntoParts(mesh_, result_.field))
     {
       components_.emplace_back();
       components_.back().share = area > 0 ? surfaceArea(part.mesh) / area : 0;
       components_.back().part = std::move(part);
+      if (carrier)
+      {
+        carryOver(*carrier, components_.back());
+      }
     }
+  }
+
+  void carryOver(const MapCarrier& carrier, Component& component)
+  {
+    std::vector<Index> ids;
+    for (const Index v : component.part.vertex)
+    {
+      ids.push_back(options_.vertexIds[v]);
+    }
+    component.previous = carrier.carry(component.part.mesh, component.part.field, ids);
+    result_.reuse.faces += component.previous.knownFaces;
   }
 
   std::size_t failures() const
@@ -276,10 +302,12 @@ private:
     seamlessOptions.edgeLength = options_.edgeLength;
     seamlessOptions.targetQuads = wanted * component.share;
     seamlessOptions.solution = component.hasIntegers ? &component.solution : nullptr;
+    seamlessOptions.previous = component.earlier();
     seamlessOptions.progress = progress;
     SeamlessResult seamless = computeSeamlessMap(part.mesh, part.field, seamlessOptions);
     result_.work += workOf(part.mesh, seamless.newtonSteps);
     result_.seamlessSteps += seamless.newtonSteps;
+    component.seamlessReused = component.seamlessReused || seamless.startedFromPrevious;
     if (!seamless.status.ok())
     {
       if (!component.hasIntegers)
@@ -306,6 +334,7 @@ private:
       return false;
     }
     component.hasIntegers = true;
+    component.integersReused = quantized.startedFromPrevious;
     component.integerUv = std::move(quantized.uv);
     component.triedRefinement = quantized.refinement;
     return true;
@@ -317,6 +346,9 @@ private:
     const Stopwatch watch(result_.secondsQuantize, result_.processorQuantize);
     QuantizeOptions quantizeOptions;
     quantizeOptions.watched = watched;
+    // Other integers are asked for where some vertices are watched.
+    quantizeOptions.previousUv =
+      watched.empty() && component.previous.isMap ? &component.previous.uv : nullptr;
     quantizeOptions.progress = progress;
     QuantizeResult result =
       quantizeMap(component.part.mesh, component.part.field, seamlessUv, quantizeOptions);
@@ -348,6 +380,7 @@ private:
       EmbedOptions embedOptions;
       embedOptions.edgeLength = options_.edgeLength;
       embedOptions.seamlessUv = &component.startUv;
+      embedOptions.previous = component.earlier();
       embedOptions.progress = progress;
       {
         const Stopwatch watch(result_.secondsEmbed, result_.processorEmbed);
@@ -355,6 +388,7 @@ private:
         result_.work += workOf(part.mesh, embedded.newtonSteps);
         result_.embedSteps += embedded.newtonSteps;
       }
+      component.embedReused = embedded.startedFromPrevious;
       tried.push_back(std::move(component.uv));
       if (embedded.status.ok())
       {
@@ -373,6 +407,7 @@ private:
         break;
       }
       component.refinement = quantized.refinement;
+      component.integersReused = false;
       component.uv = std::move(quantized.uv);
     }
     component.fail(embedded.status, std::move(embedded.uv),
@@ -384,14 +419,23 @@ private:
   {
     result_.components = components_.size();
     result_.uv.assign(mesh_.halfEdgeCount(), {});
+    result_.seamlessUv.assign(mesh_.halfEdgeCount(), {});
     for (std::size_t i = 0; i < components_.size(); ++i)
     {
       const Component& component = components_[i];
       result_.refinement = std::max(result_.refinement, component.refinement);
+      const auto place = [&](Index h) { return 3 * component.part.face[Mesh::face(h)] + h % 3; };
       for (Index h = 0; h < component.uv.size(); ++h)
       {
-        result_.uv[3 * component.part.face[Mesh::face(h)] + h % 3] = component.uv[h];
+        result_.uv[place(h)] = component.uv[h];
       }
+      for (Index h = 0; h < component.startUv.size(); ++h)
+      {
+        result_.seamlessUv[place(h)] = component.startUv[h];
+      }
+      result_.reuse.seamless += component.seamlessReused ? 1 : 0;
+      result_.reuse.integers += component.integersReused ? 1 : 0;
+      result_.reuse.embedded += component.embedReused ? 1 : 0;
       for (const Index v : component.offenders)
       {
         result_.offenders.push_back(component.part.vertex[v]);
@@ -451,6 +495,21 @@ const char* nameOf(MapMethod method)
   }
 }
 
+void GridMapResult::addWork(const GridMapResult& other)
+{
+  work += other.work;
+  secondsField += other.secondsField;
+  secondsSeamless += other.secondsSeamless;
+  secondsQuantize += other.secondsQuantize;
+  secondsEmbed += other.secondsEmbed;
+  processorField += other.processorField;
+  processorSeamless += other.processorSeamless;
+  processorQuantize += other.processorQuantize;
+  processorEmbed += other.processorEmbed;
+  seamlessSteps += other.seamlessSteps;
+  embedSteps += other.embedSteps;
+}
+
 GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
 {
   if (!(options.edgeLength > 0) || !std::isfinite(options.edgeLength))
@@ -472,7 +531,28 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
         "edges" };
     return result;
   }
-  return MapMaker(mesh, options).run();
+  if (options.previous != nullptr && options.vertexIds.size() != mesh.vertexCount())
+  {
+    throw InvalidInput("grid map: " + std::to_string(options.vertexIds.size()) +
+      " vertex ids for " + std::to_string(mesh.vertexCount()) + " vertices");
+  }
+  GridMapResult result = MapMaker(mesh, options).run();
+  if (result.reuse.any() && !result.status.ok())
+  {
+    GridMapOptions cold = options;
+    cold.previous = nullptr;
+    GridMapResult again = MapMaker(mesh, cold).run();
+    again.addWork(result);
+    return again;
+  }
+  return result;
+}
+
+PreviousMap previousMap(
+  const Mesh& mesh, const GridMapResult& map, const std::vector<Index>& vertexIds)
+{
+  assert(map.status.ok());
+  return { mesh, vertexIds, map.field, map.seamlessUv, map.uv };
 }
 
 } // namespace quadrille

@@ -10,6 +10,7 @@
 #include "Base/FixedPoint.h"
 #include "Base/Progress.h"
 #include "CrossField/CrossField.h"
+#include "GridMap/PreviousMap.h"
 #include "Mesh/Mesh.h"
 
 #include <string>
@@ -66,6 +67,9 @@ struct SeamlessOptions
   double targetQuads = 0;
   /// SeamlessResult::solution for the same mesh and field: it is scaled to targetQuads instead of solving again.
   const Eigen::VectorXd* solution = nullptr;
+  /// An earlier map in the charts of the field, or null: where a start near it has nothing inverted, it takes the place of the
+  /// Poisson equation's solution.
+  const CarriedMap* previous = nullptr;
   ProgressCallback progress;
 };
 struct SeamlessResult
@@ -77,6 +81,7 @@ struct SeamlessResult
   std::vector<Index>
     offenders; ///< vertices round which the triangulation, or the field, leaves no map
   int newtonSteps = 0;
+  bool startedFromPrevious = false;
 };
 /// A seamless map without inverted triangles that follows the field: transitions are quarter turns plus any
 /// translation, constrained edges lie on isolines (of any value). Exact on the fixed-point grid.
@@ -88,6 +93,9 @@ struct QuantizeOptions
   double maximumRefinement = 8; ///< the integers may grow by this factor when nothing else is valid
   /// Vertices, as EmbedResult::offenders, whose triangles the integers must leave positive as they are.
   std::vector<Index> watched;
+  /// #H: an integer-grid map along the same field, or null. Its integers are the start where they are valid, and are only
+  /// improved then.
+  const std::vector<FixedVec2>* previousUv = nullptr;
   ProgressCallback progress;
 };
 struct QuantizeResult
@@ -98,6 +106,7 @@ struct QuantizeResult
   Status status;
   double refinement = 1; ///< factor by which sizes had to grow to be valid
   std::size_t work = 0;  ///< steps from triangle to triangle that all searches have made
+  bool startedFromPrevious = false;
 };
 /// Integers for a seamless map without a T-mesh [Coudert-Osmont et al. 2023].
 QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
@@ -109,6 +118,8 @@ struct EmbedOptions
   /// The valid seamless map that the integers were made for; when given, embedding falls back on
   /// following a continuous way from there.
   const std::vector<FixedVec2>* seamlessUv = nullptr;
+  /// An earlier map in the charts of the field, or null: a start near it is tried first.
+  const CarriedMap* previous = nullptr;
   ProgressCallback progress;
 };
 struct EmbedResult
@@ -119,6 +130,7 @@ struct EmbedResult
   std::vector<Index>
     offenders; ///< vertices round which the triangulation leaves no map with these integers
   int newtonSteps = 0;
+  bool startedFromPrevious = false;
 };
 /// Moves everything but integers (integer vertices, isoline values, translations) so that every det > 0.
 /// Throws InvalidInput, naming the element, when integerUv is fractional or contradicts the field.
@@ -146,13 +158,29 @@ struct GridMapOptions
   Index maximumVertices = 100000;  ///< of the mesh; the solvers are made for coarse levels
   std::vector<Guide> guides;       ///< empty or #F, see CrossFieldOptions
   std::vector<int> targetValences; ///< empty or #V, the same
+  /// An earlier map to start from (see PreviousMap.h), or null. The result is as valid as without, but may differ; it is the same
+  /// for the same earlier map. Where it leads to no map, all is done again without it.
+  const PreviousMap* previous = nullptr;
+  std::vector<Index> vertexIds; ///< #V where there is an earlier map: see PreviousMap::vertexIds
   ProgressCallback progress;
+};
+/// What a map has taken over from an earlier one.
+struct MapReuse
+{
+  std::size_t faces = 0;    ///< that were the same before
+  std::size_t seamless = 0; ///< components whose seamless map started from the earlier one
+  std::size_t integers = 0; ///< components whose integers started from the earlier ones
+  std::size_t embedded = 0; ///< components that were embedded starting from the earlier map
+
+  bool any() const { return seamless + integers + embedded > 0; }
 };
 struct GridMapResult
 {
   std::vector<FixedVec2> uv; ///< #H; zero on connected components that have no map at all
+  std::vector<FixedVec2> seamlessUv; ///< #H; of the components that have a map
   CrossField field;
   Certificate certificate;
+  MapReuse reuse;
   Status status;                ///< not ok: why and where; uv then holds the best that was reached
   std::vector<Index> offenders; ///< coarse vertices around which the triangulation lacks freedom
   double refinement = 1;        ///< of the component whose sizes had to shrink most
@@ -163,9 +191,16 @@ struct GridMapResult
   /// The same in processor time of the whole process, which other programs on the machine do not disturb.
   double processorField = 0, processorSeamless = 0, processorQuantize = 0, processorEmbed = 0;
   int seamlessSteps = 0, embedSteps = 0; ///< Newton steps of all solves
+
+  /// Adds what another, failed try has taken.
+  void addWork(const GridMapResult& other);
 };
 /// The whole chain on one coarse mesh. Its connected components are solved one by one; each gets quads by its area, and all
 /// are tried, so that offenders tells about every one that fails.
 GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options);
+
+/// What the next map can start from; the status of `map` must be ok. vertexIds: #V of its mesh.
+PreviousMap previousMap(
+  const Mesh& mesh, const GridMapResult& map, const std::vector<Index>& vertexIds);
 
 } // namespace quadrille

@@ -221,6 +221,39 @@ void IntegerMap::round(double scale)
   }
 }
 
+bool IntegerMap::takeOver(const std::vector<FixedVec2>& uv)
+{
+  constexpr int kBits = kFractionBits - 4; // of a sixteenth
+  static_assert(std::int64_t{ 1 } << kBits == kOne / kGrain);
+  // Rounds up on a tie everywhere, so that whole translations change nothing.
+  const auto nearestGrain = [](std::int64_t x)
+  { return (x + (std::int64_t{ 1 } << (kBits - 1))) >> kBits; };
+  const auto grains = [&](FixedVec2 p)
+  { return FixedVec2{ nearestGrain(p.u), nearestGrain(p.v) }; };
+  for (const Index f : faces_)
+  {
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      const Index g = mesh_.twin[h];
+      if (g != kInvalidIndex && g < h)
+      {
+        continue;
+      }
+      q_[h] = grains(uv[Mesh::next(h)]) - grains(uv[h]);
+      if (!mayShift(h, {}) || (axis_[h] == kOnlyU && q_[h].v != 0) ||
+        (axis_[h] == kOnlyV && q_[h].u != 0))
+      {
+        return false;
+      }
+      if (g != kInvalidIndex)
+      {
+        q_[g] = -rotate(q_[h], mesh_.rotation[h]);
+      }
+    }
+  }
+  return true;
+}
+
 void IntegerMap::shift(Index h, FixedVec2 e)
 {
   q_[h] = q_[h] + e;

@@ -44,6 +44,25 @@ void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, c
   problem.weight.push_back(reference.determinant() / 2);
 }
 
+UntangleProblem referToMap(const UntangleProblem& problem, const std::vector<std::uint8_t>& known,
+  const std::vector<FixedVec2>& uv, const std::vector<std::uint8_t>& quarterTurns, double scale)
+{
+  UntangleProblem result = problem;
+  for (Index f = 0; f < known.size(); ++f)
+  {
+    if (known[f] == 0)
+    {
+      continue;
+    }
+    const int turns = quarterTurns.empty() ? 0 : quarterTurns[f];
+    Eigen::Matrix2d reference;
+    reference << toDouble(rotate(uv[3 * f + 1] - uv[3 * f], turns)),
+      toDouble(rotate(uv[3 * f + 2] - uv[3 * f], turns));
+    result.inverseReference[f] = (scale * reference).inverse();
+  }
+  return result;
+}
+
 void guardEdges(UntangleProblem& problem, const std::vector<GuardedEdge>& edges)
 {
   const Eigen::Index rows = problem.offset.size();

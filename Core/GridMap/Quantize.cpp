@@ -148,6 +148,16 @@ void joinCharts(UvMesh& mesh)
   }
 }
 
+/// Integers that begin as those of a map along the same field; not valid where they lead nowhere.
+/// done: how the seamless map came to its triangles.
+IntegerStart startFrom(const std::vector<FixedVec2>& uv, const Mesh& mesh, const CrossField& field,
+  const UvEditor& done, IntegerMap& integers)
+{
+  UvMesh followed = UvMesh::from(mesh, field, uv);
+  UvEditor(followed).repeat(done.records());
+  return integers.takeOver(followed.uv) ? repairIntegers(integers) : IntegerStart{};
+}
+
 Status tooFine(double growth)
 {
   return { StatusCode::NotConverged,
@@ -177,8 +187,18 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   decimateInUv(uvMesh, editor, locked.keep);
 
   IntegerMap integers(uvMesh, editor, locked.integer);
-  const IntegerStart start = findValidIntegers(integers, 1, kMaximumScale, options.progress);
-  result.work = start.work;
+  IntegerStart start;
+  if (options.previousUv != nullptr)
+  {
+    start = startFrom(*options.previousUv, mesh, field, editor, integers);
+    result.work = start.work;
+    result.startedFromPrevious = start.valid;
+  }
+  if (!start.valid)
+  {
+    start = findValidIntegers(integers, 1, kMaximumScale, options.progress);
+    result.work += start.work;
+  }
   if (!start.valid)
   {
     result.status = { StatusCode::NotConverged,

@@ -547,6 +547,21 @@ private:
 
 } // namespace
 
+IntegerStart repairIntegers(IntegerMap& map)
+{
+  IntegerStart start;
+  StripSearch search(map, StripCost::Repair);
+  const bool closed = closeTriangles(map, search);
+  start.work = search.work();
+  if (closed)
+  {
+    Repair repair(map);
+    start.valid = repair.run() && map.isValid();
+    start.work += repair.work();
+  }
+  return start;
+}
+
 IntegerStart findValidIntegers(
   IntegerMap& map, double scale, double maximumScale, const ProgressCallback& progress)
 {
@@ -555,19 +570,11 @@ IntegerStart findValidIntegers(
   {
     report(progress, 0.2, "rounding at scale " + std::to_string(start.scale));
     map.round(start.scale);
-    StripSearch search(map, StripCost::Repair);
-    const bool closed = closeTriangles(map, search);
-    start.work += search.work();
-    if (!closed)
+    const IntegerStart repaired = repairIntegers(map);
+    start.work += repaired.work;
+    start.valid = repaired.valid;
+    if (start.valid)
     {
-      continue;
-    }
-    Repair repair(map);
-    const bool repaired = repair.run();
-    start.work += repair.work();
-    if (repaired && map.isValid())
-    {
-      start.valid = true;
       return start;
     }
   }

@@ -21,6 +21,9 @@ struct IntegerStart
 IntegerStart findValidIntegers(
   IntegerMap& map, double scale, double maximumScale, const ProgressCallback& progress);
 
+/// Closes and repairs the displacements that the map has, whose scale is 1; not valid where that does not succeed.
+IntegerStart repairIntegers(IntegerMap& map);
+
 /// Lowers the energy of a valid map until nothing helps; it stays valid. Returns StripSearch::work of its searches.
 std::size_t improveIntegers(IntegerMap& map, const ProgressCallback& progress);
 

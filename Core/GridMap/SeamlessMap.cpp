@@ -75,6 +75,25 @@ bool scaleKnown(const Mesh& mesh, const CrossField& field, const SeamlessSpace& 
   return findDefects(mesh, field, result.uv).none();
 }
 
+/// A start near the earlier map: where it knows a face, the shape that it has there takes the place of the one that the field asks
+/// for. The earlier map was scaled, the start is not.
+Eigen::VectorXd startNear(const Mesh& mesh, const SeamlessSpace& space, const CarriedMap& previous)
+{
+  double wanted = 0, mapped = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    if (previous.known[f] != 0)
+    {
+      const FixedVec2* p = &previous.seamlessUv[3 * f];
+      wanted += space.problem().weight[f]; // its area in quads
+      mapped +=
+        0.5 * static_cast<double>(determinant(p[0], p[1], p[2])) / double(kOne) / double(kOne);
+    }
+  }
+  return fitReferences(referToMap(space.problem(), previous.known, previous.seamlessUv,
+    space.graph().comb, std::sqrt(wanted / mapped)));
+}
+
 /// Looks for the cause of what untangling has left.
 void explain(
   const Mesh& mesh, const SeamlessSpace& space, const MapDefects& defects, SeamlessResult& result)
@@ -116,15 +135,26 @@ SeamlessResult computeSeamlessMap(
   {
     return result;
   }
-  const Eigen::VectorXd poisson = fitReferences(space.problem());
-  result.uv = snapScaled(space, poisson, options.targetQuads);
-  const MapDefects defects = findDefects(mesh, field, result.uv);
+  Eigen::VectorXd start;
+  MapDefects defects;
+  if (options.previous != nullptr && options.previous->knownFaces > 0)
+  {
+    start = startNear(mesh, space, *options.previous);
+    result.uv = snapScaled(space, start, options.targetQuads);
+    result.startedFromPrevious = findDefects(mesh, field, result.uv).none();
+  }
+  if (!result.startedFromPrevious)
+  {
+    start = fitReferences(space.problem());
+    result.uv = snapScaled(space, start, options.targetQuads);
+    defects = findDefects(mesh, field, result.uv);
+  }
   if (findHopeless(mesh, field, space, defects, result))
   {
     return result;
   }
   FieldUntangling untangled = untangleAlongField(
-    mesh, field, space.problem(), { poisson }, kRounds,
+    mesh, field, space.problem(), { start }, kRounds,
     [&](const Eigen::VectorXd& y) { return snapScaled(space, y, options.targetQuads); },
     options.progress);
   result.uv = std::move(untangled.uv);

@@ -17,6 +17,10 @@ constexpr int kWeightBits = 32;
 /// numerator / denominator in units of 2^-32, rounded down; 0 <= numerator <= denominator.
 std::int64_t ratio(Int128 numerator, Int128 denominator)
 {
+  if (denominator <= 0)
+  {
+    return 0; // only in a map that repeats what was done to another one, where nothing is undone
+  }
   // Scaled down first: 2^32 times a determinant would not fit 128 bits.
   while (denominator > (Int128{ 1 } << 90))
   {
@@ -218,6 +222,25 @@ void UvEditor::flip(Index h)
   mesh_.uv[hn] = d;
   mesh_.uv[gn] = c;
   finish();
+}
+
+void UvEditor::repeat(const std::vector<UvRecord>& records)
+{
+  for (const UvRecord& record : records)
+  {
+    switch (record.kind)
+    {
+      case UvRecord::Kind::Flip:
+        flip(record.slot);
+        break;
+      case UvRecord::Kind::RemoveInside:
+        removeInside(record.slot);
+        break;
+      case UvRecord::Kind::RemoveOnLine:
+        removeOnLine(record.slot);
+        break;
+    }
+  }
 }
 
 void UvEditor::undoFlip(const UvRecord& record)
