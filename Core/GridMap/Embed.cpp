@@ -42,7 +42,7 @@ std::vector<Eigen::VectorXd> startsOf(const Mesh& mesh, const CrossField& field,
 {
   if (previous != nullptr && previous->knownFaces > 0)
   {
-    const UntangleProblem nearby = referToMap(problem, previous->known, previous->uv, {}, 1);
+    const UntangleProblem nearby = referToMap(problem, *previous, previous->uv, {}, 1);
     const Eigen::VectorXd start = fitReferences(nearby);
     fromPrevious = findDefects(mesh, field, locked.snap(start)).none();
     if (fromPrevious)

@@ -44,21 +44,21 @@ void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, c
   problem.weight.push_back(reference.determinant() / 2);
 }
 
-UntangleProblem referToMap(const UntangleProblem& problem, const std::vector<std::uint8_t>& known,
+UntangleProblem referToMap(const UntangleProblem& problem, const CarriedMap& carried,
   const std::vector<FixedVec2>& uv, const std::vector<std::uint8_t>& quarterTurns, double scale)
 {
   UntangleProblem result = problem;
-  for (Index f = 0; f < known.size(); ++f)
+  for (Index f = 0; f < carried.known.size(); ++f)
   {
-    if (known[f] == 0)
+    if (carried.known[f] == 0)
     {
       continue;
     }
+    Eigen::Matrix2d shape;
+    shape << toDouble(uv[3 * f + 1] - uv[3 * f]), toDouble(uv[3 * f + 2] - uv[3 * f]);
     const int turns = quarterTurns.empty() ? 0 : quarterTurns[f];
-    Eigen::Matrix2d reference;
-    reference << toDouble(rotate(uv[3 * f + 1] - uv[3 * f], turns)),
-      toDouble(rotate(uv[3 * f + 2] - uv[3 * f], turns));
-    result.inverseReference[f] = (scale * reference).inverse();
+    const Eigen::Rotation2Dd turn(carried.turned[f] + turns * std::acos(0.0));
+    result.inverseReference[f] = (scale * turn.toRotationMatrix() * shape).inverse();
   }
   return result;
 }

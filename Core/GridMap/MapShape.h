@@ -3,8 +3,8 @@
 /// The shape that the map should give a triangle: itself, seen in the frame of the field.
 #pragma once
 
-#include "Base/FixedPoint.h"
 #include "CrossField/CrossField.h"
+#include "GridMap/PreviousMap.h"
 #include "Mesh/Mesh.h"
 #include "Numerics/Untangler.h"
 
@@ -35,10 +35,10 @@ struct GuardedEdge
 /// all faces are positive. Its third point hangs on `from` by a constant offset.
 void guardEdges(UntangleProblem& problem, const std::vector<GuardedEdge>& edges);
 
-/// The problem with other references for the faces that a map of the same mesh knows: the shape that they have there. Its
-/// fit (fitReferences) is a start near that map. known: #F flags. uv: #H. quarterTurns: #F, of the problem's charts against
-/// those of uv, or empty. scale: of the problem's unit against the map's.
-UntangleProblem referToMap(const UntangleProblem& problem, const std::vector<std::uint8_t>& known,
+/// The problem with other references for the faces that an earlier map knows: the shape that they have in `uv`, one of the maps of
+/// `carried`, turned with the field. Its fit (fitReferences) is a start near that map. quarterTurns: #F, of the problem's charts
+/// against those of the field, or empty. scale: of the problem's unit against the map's.
+UntangleProblem referToMap(const UntangleProblem& problem, const CarriedMap& carried,
   const std::vector<FixedVec2>& uv, const std::vector<std::uint8_t>& quarterTurns, double scale);
 
 } // namespace quadrille

@@ -17,8 +17,6 @@ namespace
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kQuarterTurn = kPi / 2;
-/// Radians. Where the field has turned further, the previous shape of a face is no better than the one that the field asks for.
-constexpr double kTurned = 0.1;
 
 template <typename T>
 std::size_t bytesOf(const std::vector<T>& values)
@@ -217,6 +215,7 @@ CarriedMap MapCarrier::carry(
   result.isMap =
     mesh.faceCount() > 0 && isSameMesh(mesh, corner) && joinCharts(mesh, field, corner, rotation);
   result.known.assign(mesh.faceCount(), 0);
+  result.turned.assign(mesh.faceCount(), 0);
   result.seamlessUv.assign(mesh.halfEdgeCount(), {});
   result.uv.assign(mesh.halfEdgeCount(), {});
   for (Index f = 0; f < mesh.faceCount(); ++f)
@@ -232,9 +231,10 @@ CarriedMap MapCarrier::carry(
       result.uv[3 * f + i] = rotate(previous_.uv[x], rotation[f]);
     }
     const double off = std::remainder(turn[f] - rotation[f] * kQuarterTurn, 2 * kPi);
-    const bool known =
-      std::abs(off) < kTurned && isPositive(result.seamlessUv, f) && isPositive(result.uv, f);
+    const bool known = std::abs(off) < kQuarterTurn / 2 && isPositive(result.seamlessUv, f) &&
+      isPositive(result.uv, f);
     result.known[f] = known ? 1 : 0;
+    result.turned[f] = known ? off : 0;
     result.knownFaces += known ? 1 : 0;
   }
   return result;

@@ -32,8 +32,10 @@ struct PreviousMap
 struct CarriedMap
 {
   std::vector<FixedVec2> seamlessUv, uv; ///< #H of the new mesh, or empty when nothing is known
-  /// #F: the face was there before, with the same corners, and the field has not turned in it.
+  /// #F: the face was there before, with the same corners, and is positive in both maps.
   std::vector<std::uint8_t> known;
+  std::vector<double>
+    turned; ///< #F, radians: by how much the field has turned there, less than an eighth of a circle
   std::size_t knownFaces = 0;
   /// The mesh, its constrained edges, the turns and the quarter turns between its charts are the same: uv is a map along the new
   /// field, too.

@@ -90,7 +90,7 @@ Eigen::VectorXd startNear(const Mesh& mesh, const SeamlessSpace& space, const Ca
         0.5 * static_cast<double>(determinant(p[0], p[1], p[2])) / double(kOne) / double(kOne);
     }
   }
-  return fitReferences(referToMap(space.problem(), previous.known, previous.seamlessUv,
+  return fitReferences(referToMap(space.problem(), previous, previous.seamlessUv,
     space.graph().comb, std::sqrt(wanted / mapped)));
 }
 
