@@ -346,9 +346,10 @@ private:
     const Stopwatch watch(result_.secondsQuantize, result_.processorQuantize);
     QuantizeOptions quantizeOptions;
     quantizeOptions.watched = watched;
-    // Other integers are asked for where some vertices are watched.
+    // Other integers are asked for where some vertices are watched, or where those of the first scale were too many or too few.
+    const bool again = component.hasIntegers || !watched.empty();
     quantizeOptions.previousUv =
-      watched.empty() && component.previous.isMap ? &component.previous.uv : nullptr;
+      !again && component.previous.isMap ? &component.previous.uv : nullptr;
     quantizeOptions.progress = progress;
     QuantizeResult result =
       quantizeMap(component.part.mesh, component.part.field, seamlessUv, quantizeOptions);
