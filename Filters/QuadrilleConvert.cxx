@@ -170,22 +170,23 @@ std::size_t polygonCount(const SurfaceInput& input)
 // What the user asks for
 
 /// A real array with so many components, or null where there is none of this name.
-vtkDataArray* realArray(vtkDataSetAttributes* attributes, const char* name, int components)
+vtkDataArray* realArray(
+  vtkDataSetAttributes* attributes, const char* element, const char* name, int components)
 {
   vtkDataArray* array = attributes->GetArray(name);
   if (!array)
   {
     if (attributes->HasArray(name))
     {
-      refuse("cell array '", name, "' does not hold numbers");
+      refuse(element, " array '", name, "' does not hold numbers");
     }
     return nullptr;
   }
   const int type = array->GetDataType();
   if (array->GetNumberOfComponents() != components || (type != VTK_FLOAT && type != VTK_DOUBLE))
   {
-    refuse("cell array '", name, "' must have ", components, " real number(s) a cell, it has ",
-      array->GetNumberOfComponents(), " of type ", array->GetDataTypeAsString());
+    refuse(element, " array '", name, "' must have ", components, " real number(s) a ", element,
+      ", it has ", array->GetNumberOfComponents(), " of type ", array->GetDataTypeAsString());
   }
   return array;
 }
@@ -195,8 +196,8 @@ class GuideArrays
 {
 public:
   explicit GuideArrays(vtkPolyData* data)
-    : directions_(realArray(data->GetCellData(), arrays::kGuidingDirection, 3)),
-      weights_(realArray(data->GetCellData(), arrays::kGuidingWeight, 1))
+    : directions_(realArray(data->GetCellData(), "cell", arrays::kGuidingDirection, 3)),
+      weights_(realArray(data->GetCellData(), "cell", arrays::kGuidingWeight, 1))
   {
   }
   bool empty() const { return !directions_; }
@@ -249,6 +250,32 @@ void readGuides(vtkPolyData* data, ConvertedSurface& surface)
       input.guideWeights[i] = guides.weight(cell);
     }
   }
+}
+
+/// #points, or empty where the array is missing.
+std::vector<float> pointSizes(vtkPolyData* data)
+{
+  std::vector<float> sizes;
+  vtkDataArray* array = realArray(data->GetPointData(), "point", arrays::kSizing, 1);
+  if (!array)
+  {
+    return sizes;
+  }
+  sizes.resize(static_cast<std::size_t>(data->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+  {
+    pollNowAndThen(i);
+    const double size = array->GetTuple1(static_cast<vtkIdType>(i));
+    sizes[i] = static_cast<float>(size);
+    // Written so that NaN is refused as well, and what is 0 or infinite as a float.
+    if (!(sizes[i] > 0) || !std::isfinite(sizes[i]))
+    {
+      refuse("point ", i, " has the ", arrays::kSizing, " ", size,
+        ", but it must be positive and finite: 1 leaves the quads there as they are, 0.5 makes "
+        "their edges half as long");
+    }
+  }
+  return sizes;
 }
 
 /// #points, or empty where the array is missing.
@@ -540,15 +567,21 @@ void weldSplitPoints(vtkPolyData* data, Mesh& mesh)
     count = std::max(count, i + 1);
   }
   std::vector<Vector3> position(count);
+  std::vector<float> sizing(mesh.sizing.empty() ? 0 : count, 1.0F);
   for (std::size_t i = 0; i < id.size(); ++i)
   {
     position[id[i]] = mesh.position[i];
+    if (!sizing.empty())
+    {
+      sizing[id[i]] = mesh.sizing[i];
+    }
   }
   for (Index& corner : mesh.origin)
   {
     corner = id[corner];
   }
   mesh.position = std::move(position);
+  mesh.sizing = std::move(sizing);
 }
 
 //------------------------------------------------------------------------------
@@ -715,6 +748,7 @@ ConvertedSurface convertSurface(vtkPolyData* data, const std::string& patchArray
   readPatchIds(data, patchArray, surface);
   readGuides(data, surface);
   surface.input.targetValences = pointValences(data);
+  surface.input.sizing = pointSizes(data);
   return surface;
 }
 
@@ -759,6 +793,12 @@ vtkSmartPointer<vtkPolyData> writeMesh(const Mesh& mesh)
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(writePoints(mesh, identity(mesh.vertexCount())));
   data->SetPolys(writeTriangles(mesh.origin));
+  if (!mesh.sizing.empty())
+  {
+    auto sizes = newArray<vtkFloatArray>(arrays::kSizing, 1, mesh.sizing.size());
+    std::copy(mesh.sizing.begin(), mesh.sizing.end(), sizes->GetPointer(0));
+    data->GetPointData()->AddArray(sizes);
+  }
   addFeatureEdges(data, mesh);
   addTwinsWhereNeeded(data, mesh);
   return data;
@@ -769,6 +809,7 @@ Mesh readMesh(vtkPolyData* data)
   Mesh mesh;
   mesh.origin = readTriangles(data);
   mesh.position = readPoints(data);
+  mesh.sizing = pointSizes(data);
   weldSplitPoints(data, mesh);
   if (!readTwins(data, mesh))
   {

@@ -7,7 +7,7 @@
 ///          SourcePointIds and SourceWeights (the three input points of a face, and, where
 ///          refinement split it, the barycentric coordinates of its corners: 9 numbers)
 ///   points: FineVertex, Turns, Index, IntegerVertex, SurfacePointId (where points are split at seams)
-/// On levels of the hierarchy GuidingDirection, GuidingWeight and TargetValence hold what the user asked for, where there is
+/// On levels of the hierarchy GuidingDirection, GuidingWeight, TargetValence and Sizing (with a limited growth) hold what the user asked for, where there is
 /// anything.
 #pragma once
 
@@ -37,6 +37,7 @@ constexpr const char* kPatchId = "PatchId";
 constexpr const char* kGuidingDirection = "GuidingDirection";
 constexpr const char* kGuidingWeight = "GuidingWeight";
 constexpr const char* kTargetValence = "TargetValence";
+constexpr const char* kSizing = "Sizing";
 constexpr const char* kIgm = "IGM";
 constexpr const char* kMatching = "Matching";
 constexpr const char* kDeterminant = "Determinant";
@@ -98,7 +99,7 @@ void addGuideMarks(SurfaceInput& input, const std::vector<GuideMark>& marks);
 /// Sets the marks' bits in input.featureEdges; throws InvalidInput for a polygon out of range.
 void addFeatureMarks(SurfaceInput& input, const std::vector<FeatureMark>& marks);
 
-/// Points in double precision, triangles, FeatureEdges where there are any.
+/// Points in double precision, triangles, FeatureEdges and Sizing where there are any.
 vtkSmartPointer<vtkPolyData> writeMesh(const Mesh& mesh);
 /// Throws InvalidInput naming the cell that is no triangle, or the edge that is not manifold.
 Mesh readMesh(vtkPolyData* data);

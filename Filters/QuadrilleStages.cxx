@@ -20,6 +20,12 @@ double now()
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// The surface's area over its sizes.
+double areaInSizes(const PreparedSurface& surface)
+{
+  return surface.mesh.sizing.empty() ? surface.area : sizedArea(surface.mesh);
+}
+
 } // namespace
 
 StageClock::StageClock() : last_(now()) {}
@@ -43,7 +49,7 @@ TargetSize chooseTarget(const PreparedSurface& surface, const RemeshOptions& opt
   if (options.quads)
   {
     target.quads = *options.quads;
-    target.edgeLength = std::sqrt(surface.area / static_cast<double>(target.quads));
+    target.edgeLength = std::sqrt(areaInSizes(surface) / static_cast<double>(target.quads));
     return target;
   }
   target.edgeLength =
@@ -52,9 +58,14 @@ TargetSize chooseTarget(const PreparedSurface& surface, const RemeshOptions& opt
   {
     throw InvalidInput("the target edge length must be a positive number");
   }
-  const double quads = surface.area / (target.edgeLength * target.edgeLength);
-  target.quads = static_cast<std::size_t>(std::clamp(quads, 1.0, 1e15));
+  target.quads = predictedQuads(surface, target.edgeLength);
   return target;
+}
+
+std::size_t predictedQuads(const PreparedSurface& surface, double edgeLength)
+{
+  const double quads = areaInSizes(surface) / (edgeLength * edgeLength);
+  return static_cast<std::size_t>(std::clamp(quads, 1.0, 1e15));
 }
 
 PreparedSurface prepareFromRecipe(const SurfaceInput& input, const SurfaceRecipe& recipe,
@@ -73,13 +84,15 @@ PreparedSurface prepareFromRecipe(const SurfaceInput& input, const SurfaceRecipe
   return surface;
 }
 
-void refineFromRecipe(PreparedSurface& surface, const SurfaceRecipe& recipe,
+SizingReport refineFromRecipe(PreparedSurface& surface, const SurfaceRecipe& recipe,
   const ProgressCallback& progress, StageClock& clock)
 {
   const std::size_t before = surface.mesh.faceCount();
+  const SizingReport limited = limitSizeGrowth(surface.mesh, recipe.edgeLength);
   removeUnresolvedFeatures(surface.mesh, recipe.edgeLength);
   refineSurface(surface, recipe.edgeLength, progress);
   clock.lap("refine", before, surface.mesh.faceCount());
+  return limited;
 }
 
 } // namespace quadrille

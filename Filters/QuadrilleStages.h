@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Base/Progress.h"
+#include "Mesh/Sizing.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Pipeline.h"
 #include "QuadrilleLog.h"
@@ -34,10 +35,13 @@ struct TargetSize
 };
 /// The size that Pipeline would choose. Throws InvalidInput for a size that is not positive.
 TargetSize chooseTarget(const PreparedSurface& surface, const RemeshOptions& options);
+/// The number of quads of that edge length times the sizes of the surface.
+std::size_t predictedQuads(const PreparedSurface& surface, double edgeLength);
 
 PreparedSurface prepareFromRecipe(const SurfaceInput& input, const SurfaceRecipe& recipe,
   int threads, const ProgressCallback& progress, StageClock& clock);
-void refineFromRecipe(PreparedSurface& surface, const SurfaceRecipe& recipe,
+/// Limits the growth of sizes, drops features that the size cannot resolve, refines.
+SizingReport refineFromRecipe(PreparedSurface& surface, const SurfaceRecipe& recipe,
   const ProgressCallback& progress, StageClock& clock);
 
 } // namespace quadrille

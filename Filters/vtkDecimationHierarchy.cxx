@@ -46,9 +46,14 @@ void vtkDecimationHierarchy::Execute(vtkInformationVector** inputs, vtkInformati
   quadrille::StageClock clock;
   quadrille::PreparedSurface surface = quadrille::prepareFromRecipe(
     converted.input, recipe, options.threads, this->MakeProgress(0.0, 0.3), clock);
-  const quadrille::TargetSize target = quadrille::chooseTarget(surface, options);
+  quadrille::TargetSize target = quadrille::chooseTarget(surface, options);
   recipe.edgeLength = target.edgeLength;
-  quadrille::refineFromRecipe(surface, recipe, this->MakeProgress(0.3, 0.4), clock);
+  const quadrille::SizingReport limited =
+    quadrille::refineFromRecipe(surface, recipe, this->MakeProgress(0.3, 0.4), clock);
+  if (limited.changed > 0 && !options.quads)
+  {
+    target.quads = quadrille::predictedQuads(surface, target.edgeLength);
+  }
 
   quadrille::HierarchyOptions levels;
   levels.targetEdgeLength = target.edgeLength;
@@ -66,7 +71,7 @@ void vtkDecimationHierarchy::Execute(vtkInformationVector** inputs, vtkInformati
     hierarchy.coarse.mesh.faceCount());
 
   this->SetStageRecords(clock.records);
-  for (const std::string& notice : { surface.repair.text(), hierarchy.notice })
+  for (const std::string& notice : { surface.repair.text(), quadrille::sizingNotice(surface.mesh, limited), hierarchy.notice })
   {
     if (!notice.empty())
     {

@@ -6,7 +6,7 @@
  *
  * Inputs and properties: see vtkQuadrilleSurfaceAlgorithm. Outputs:
  *
- * 0. the coarse level, for vtkIntegerGridMap. Points: `FineVertex`, and `TargetValence` where it is asked for; cells:
+ * 0. the coarse level, for vtkIntegerGridMap. Points: `FineVertex`, and `TargetValence` and `Sizing` where they are asked for; cells:
  *    `FineFace`, `FeatureEdges`, and `GuidingDirection` with `GuidingWeight` where there are guides; field data:
  *    `TargetEdgeLength`, `TargetQuads`, stage times, repair counts, `Notices`.
  * 1. the intermediate level, with the same arrays.

@@ -5,7 +5,7 @@
  * @brief   the integer-grid map of the coarse level: cross field, seamless map, quantization, embedding
  *
  * Input: output 0 of vtkDecimationHierarchy, or any clean triangle mesh when EdgeLength is set; cell arrays `GuidingDirection`,
- * `GuidingWeight` and the point array `TargetValence` are honoured as vtkQuadrilleSurfaceAlgorithm says. Output: the same mesh with
+ * `GuidingWeight` and the point arrays `TargetValence` and `Sizing` are honoured as vtkQuadrilleSurfaceAlgorithm says. Output: the same mesh with
  * `IGM` (cells, double, 6: u0 v0 u1 v1 u2 v2, one unit a quad), `Matching` (cells, 3: quarter turns of the transition
  * across each edge), `Determinant` (cells: twice the uv area, positive when valid), and on points `Turns` (quarter turns
  * of the map), `Index` (0 where regular) and `IntegerVertex`. Field data: certificate and stage times.

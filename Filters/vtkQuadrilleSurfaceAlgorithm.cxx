@@ -92,7 +92,6 @@ void vtkQuadrilleSurfaceAlgorithm::WarnOfUnusedArrays(vtkPolyData* surface)
     }
   };
   warn(surface->GetPointData(), "ConnectId");
-  warn(surface->GetPointData(), "Sizing");
 }
 
 //------------------------------------------------------------------------------

@@ -10,7 +10,9 @@
  * free) asks for edges of the quads along a direction in the cell, and `GuidingWeight` (a real number in (0, 1], 1 where there is
  * no such array) says how strongly. The point array `TargetValence` (a whole number) asks for a valence: 0 is free, 4 regular,
  * 2, 3, 5 to 8 a vertex of that valence at exactly that point; on a boundary as if the quads went on beyond, so 3 is a corner.
- * What cannot be completed is an error that names the place and what is missing.
+ * What cannot be completed is an error that names the place and what is missing. The point array `Sizing` (a real number above 0; 1
+ * where there is no such array) multiplies the target edge length; the larger sizes give way where it grows by more than a quarter per edge
+ * length, which is told in a notice. The number of quads asked for is met as a whole.
  *
  * Input port 1, optional, takes curves as polylines with the cell array `ConstraintType`: 0 (also where there is no such
  * array) is a feature curve, which is drawn along the edges of the surface nearest to it; 1 is a guiding stroke, whose direction the

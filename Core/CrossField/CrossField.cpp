@@ -4,6 +4,7 @@
 
 #include "CrossField/FieldTopology.h"
 #include "CrossField/PowerField.h"
+#include "CrossField/SizeCones.h"
 #include "CrossField/TurnCosts.h"
 #include "CrossField/TurnRepair.h"
 #include "CrossField/TurnTargets.h"
@@ -209,6 +210,39 @@ void adopt(const FieldTopology& topology, const PowerFields& fields,
   }
 }
 
+// A field with more irregular vertices has to lessen the expected error of sizes by this factor.
+constexpr double kWorthwhile = 0.9;
+
+// Where sizes are asked for: irregular vertices with which quads can have them, if turns can be moved so.
+void adaptToSizes(const Mesh& mesh, const FieldTopology& topology,
+  const FieldConstraints& constraints, TurnRepairInput input, const CrossFieldOptions& options,
+  Solution& solution)
+{
+  const std::vector<int> targets =
+    valencesForSizes(mesh, topology, solution.turns, options.targetValences);
+  if (targets.empty())
+  {
+    return;
+  }
+  const RepairData data(mesh, topology, constraints, solution.angle, solution.jump);
+  const TurnPrescription prescription = prescribeTurns(mesh, topology, targets);
+  if (!checkPrescription(mesh, topology, prescription, data.turns).ok())
+  {
+    return;
+  }
+  input.residual = &data.residual;
+  input.turns = &data.turns;
+  input.prescription = &prescription;
+  const TurnRepairResult repair = repairTurns(input);
+  if (repair.complete &&
+    sizeError(mesh, topology, repair.turns) <
+      kWorthwhile * sizeError(mesh, topology, solution.turns))
+  {
+    applyShift(topology, repair.shift, solution.jump);
+    solution.turns = repair.turns;
+  }
+}
+
 // For each component the candidate with fewer irregular vertices after repair, the first on a tie.
 Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
   const FieldConstraints& constraints, const PowerFields& fields,
@@ -264,6 +298,11 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
     adopt(topology, fields, better, solution, best);
   }
 
+  if (!mesh.sizing.empty() && best.status.ok())
+  {
+    adaptToSizes(mesh, topology, constraints,
+      { &topology, nullptr, nullptr, &natural, length, nullptr, &stiffness }, options, best);
+  }
   const RepairData data(mesh, topology, constraints, best.angle, best.jump);
   TurnRepairResult complete{ std::vector<int>(topology.edges.size(), 0), best.turns };
   best.blocked = completeTurns(mesh, inputOf(data), complete);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossField/FieldTopology.h"
 
+#include "Mesh/Sizing.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,6 +20,25 @@ double angleBetween(const Vector3& a, const Vector3& b)
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+/// In the metric of the sizes: angles at corners, lengths and areas without their least value.
+void measureSizedFaces(const Mesh& mesh, FieldTopology& topology)
+{
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    const SizedTriangle triangle = sizedTriangle(mesh, f);
+    const std::array<Vector2, 3> p{ Vector2(0, 0), Vector2(triangle.width, 0), triangle.apex };
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const Vector2 out = p[(i + 1) % 3] - p[i];
+      const Vector2 in = p[(i + 2) % 3] - p[i];
+      topology.cornerAngle[3 * f + i] =
+        std::atan2(std::abs(out.x() * in.y() - out.y() * in.x()), out.dot(in));
+      topology.edgeLength[3 * f + i] = sizedLength(mesh, 3 * f + static_cast<Index>(i));
+    }
+    topology.area[f] = 0.5 * triangle.width * triangle.apex.y();
+  }
+}
+
 void measureFaces(const Mesh& mesh, FieldTopology& topology)
 {
   const Index halfEdges = mesh.halfEdgeCount();
@@ -26,11 +47,18 @@ void measureFaces(const Mesh& mesh, FieldTopology& topology)
   topology.edgeLength.resize(halfEdges);
   topology.area.resize(mesh.faceCount());
   double lengthSum = 0;
+  if (!mesh.sizing.empty())
+  {
+    measureSizedFaces(mesh, topology);
+  }
   for (Index h = 0; h < halfEdges; ++h)
   {
-    const Vector3 out = mesh.edgeVector(h);
-    topology.edgeLength[h] = out.norm();
-    topology.cornerAngle[h] = angleBetween(out, -mesh.edgeVector(Mesh::previous(h)));
+    if (mesh.sizing.empty())
+    {
+      const Vector3 out = mesh.edgeVector(h);
+      topology.edgeLength[h] = out.norm();
+      topology.cornerAngle[h] = angleBetween(out, -mesh.edgeVector(Mesh::previous(h)));
+    }
     lengthSum += topology.edgeLength[h];
   }
   topology.meanEdgeLength = halfEdges > 0 ? lengthSum / halfEdges : 0;
@@ -42,7 +70,9 @@ void measureFaces(const Mesh& mesh, FieldTopology& topology)
     topology.direction[h] = 0;
     topology.direction[h + 1] = kPi - topology.cornerAngle[h + 1];
     topology.direction[h + 2] = kPi + topology.cornerAngle[h];
-    const double area = 0.5 * mesh.edgeVector(h).cross(mesh.edgeVector(h + 1)).norm();
+    const double area = mesh.sizing.empty()
+      ? 0.5 * mesh.edgeVector(h).cross(mesh.edgeVector(h + 1)).norm()
+      : topology.area[f];
     topology.area[f] = std::max(area, smallest);
     topology.totalArea += topology.area[f];
   }

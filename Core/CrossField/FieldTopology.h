@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Frames, unfolding and fans: the discrete connection that field, turns and repair share.
 ///
+///  - Lengths, angles and areas are those of the mesh over the sizes that it wants, where it has any (Mesh/Sizing.h).
 ///  - The frame of face f is its half-edge 3f. direction(h) is the angle of half-edge h in it.
 ///  - A direction at angle x in face(h) has angle x + transport(h) in face(twin h).
 ///  - A fan is the set of corners between two constrained half-edges of a vertex (a sector), or the whole ring of

@@ -7,6 +7,7 @@
 #include "GridMap/LockedMap.h"
 #include "GridMap/MapCheck.h"
 #include "GridMap/MapShape.h"
+#include "Mesh/Sizing.h"
 
 #include <cmath>
 #include <utility>
@@ -29,7 +30,8 @@ double lengthOfUnit(const Mesh& mesh, const std::vector<FixedVec2>& uv, double e
     const Vector2 a = toDouble(uv[3 * f + 1] - uv[3 * f]);
     const Vector2 b = toDouble(uv[3 * f + 2] - uv[3 * f]);
     mapped += a.x() * b.y() - a.y() * b.x();
-    area += mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm();
+    area += mesh.sizing.empty() ? mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm()
+                                : 2 * sizedArea(mesh, f);
   }
   return mapped > 0 && area > 0 ? std::sqrt(area / mapped) : edgeLength;
 }

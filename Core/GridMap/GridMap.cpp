@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "GridMap/MeshParts.h"
+#include "Mesh/Sizing.h"
 
 #include <algorithm>
 #include <cassert>
@@ -87,16 +88,6 @@ ProgressCallback subProgress(const ProgressCallback& progress, double begin, dou
   { return progress(begin + (end - begin) * fraction, text); };
 }
 
-double surfaceArea(const Mesh& mesh)
-{
-  double area = 0;
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-  {
-    area += 0.5 * mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm();
-  }
-  return area;
-}
-
 std::vector<Index> join(std::vector<Index> a, const std::vector<Index>& b)
 {
   a.insert(a.end(), b.begin(), b.end());
@@ -110,7 +101,7 @@ struct Component
 {
   MeshPart part;
   CarriedMap previous;                          ///< empty where there is none
-  double share = 1;                             ///< of the area of the surface
+  double share = 1;                             ///< of the area of the surface over its sizes
   bool hasIntegers = false;                     ///< of an earlier scale
   Eigen::VectorXd solution;                     ///< of its seamless map, for the next scale
   std::vector<FixedVec2> seamlessUv, integerUv; ///< of the scale that is tried
@@ -183,11 +174,11 @@ private:
     {
       carrier.emplace(*options_.previous);
     }
-    const double area = surfaceArea(mesh_);
+    const double area = sizedArea(mesh_);
     for (MeshPart& part : splitIntoParts(mesh_, result_.field))
     {
       components_.emplace_back();
-      components_.back().share = area > 0 ? surfaceArea(part.mesh) / area : 0;
+      components_.back().share = area > 0 ? sizedArea(part.mesh) / area : 0;
       components_.back().part = std::move(part);
       if (carrier)
       {

@@ -5,6 +5,7 @@
 #include "Base/Error.h"
 #include "GridMap/GridMap.h"
 #include "GridMap/MapShape.h"
+#include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
 
 #include <string>
@@ -191,7 +192,7 @@ UntangleProblem LockedMap::problem(double edgeLength) const
   std::vector<GuardedEdge> edges;
   for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
   {
-    const double length = mesh_.edgeVector(h).norm() / edgeLength;
+    const double length = sizedLength(mesh_, h) / edgeLength;
     if (mesh_.isConstrained(h) && (mesh_.isBoundary(h) || h < mesh_.twin[h]) && length > 0)
     {
       edges.push_back({ h, Mesh::next(h), field_.alignment[h], length });

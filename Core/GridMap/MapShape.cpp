@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/MapShape.h"
 
+#include "Mesh/Sizing.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -17,9 +19,25 @@ namespace
 /// area, stay invertible.
 constexpr double kLeastHeight = 1e-2;
 
+/// The same with lengths over the sizes that are wanted there.
+Eigen::Matrix2d flattenSized(const Mesh& mesh, Index f)
+{
+  const SizedTriangle triangle = sizedTriangle(mesh, f);
+  const double longest = std::max(
+    { triangle.width, triangle.apex.norm(), (triangle.apex - Vector2(triangle.width, 0)).norm() });
+  Eigen::Matrix2d result;
+  result << std::max(triangle.width, kLeastHeight * longest), triangle.apex.x(), 0,
+    std::max(triangle.apex.y(), kLeastHeight * longest);
+  return result;
+}
+
 /// The edges [p1 - p0, p2 - p0] of face f in a plane whose first axis is half-edge 3f.
 Eigen::Matrix2d flatten(const Mesh& mesh, Index f)
 {
+  if (!mesh.sizing.empty())
+  {
+    return flattenSized(mesh, f);
+  }
   const Vector3 a = mesh.edgeVector(3 * f);
   const Vector3 b = -mesh.edgeVector(3 * f + 2);
   const double longest = std::max({ a.norm(), b.norm(), (b - a).norm() });

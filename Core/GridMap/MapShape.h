@@ -14,7 +14,7 @@
 namespace quadrille
 {
 
-/// Appends face f to the problem: its points, its reference (in units of edgeLength, in the chart of the face turned
+/// Appends face f to the problem: its points, its reference (in units of edgeLength times the size that the mesh wants there, in the chart of the face turned
 /// by `quarterTurns`) and its weight, which is its area in quads.
 void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, const Mesh& mesh,
   const CrossField& field, Index f, int quarterTurns, double edgeLength);

@@ -63,6 +63,10 @@ std::vector<MeshPart> splitIntoParts(const Mesh& mesh, const CrossField& field)
     local.vertex[v] = static_cast<Index>(part.vertex.size());
     part.vertex.push_back(v);
     part.mesh.position.push_back(mesh.position[v]);
+    if (!mesh.sizing.empty())
+    {
+      part.mesh.sizing.push_back(mesh.sizing[v]);
+    }
     part.field.turns.push_back(field.turns[v]);
   }
   for (Index f = 0; f < mesh.faceCount(); ++f)

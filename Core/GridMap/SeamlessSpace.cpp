@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/SeamlessSpace.h"
 
+#include "Mesh/Sizing.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -212,7 +214,7 @@ std::vector<GuardedEdge> SeamlessSpace::guardedEdges(
   std::vector<GuardedEdge> edges;
   for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
   {
-    const double length = mesh_.edgeVector(h).norm() / edgeLength;
+    const double length = sizedLength(mesh_, h) / edgeLength;
     if (mesh_.isConstrained(h) && (mesh_.isBoundary(h) || h < mesh_.twin[h]) && length > 0)
     {
       edges.push_back({ graph_.wedge[h], graph_.wedge[Mesh::next(h)],

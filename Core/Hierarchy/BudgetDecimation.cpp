@@ -31,6 +31,9 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kAreaWeight = 0.15;
 constexpr double kShapeWeight = 0.4;
 constexpr double kValenceWeight = 0.05;
+/// Weight of a change of the logarithm of wanted sizes: in the metric of the sizes a bump of that height on a regular star has this
+/// curvature, 6 cotangents of 60 degrees, so it costs what E_G makes other curvature cost.
+constexpr double kSizeWeight = 3.4641016151377544;
 
 /// Costs in radians up to which the stages of guards are gone through before the next ceiling. The strictest guards alone would
 /// first take what costs most among the vertices that they allow.
@@ -270,6 +273,7 @@ private:
   double curvatureCost(Index v, const Work& work) const;
   double quadricCost(const VertexRemoval& removal, Index v) const;
   double shapeCost(const Work& work) const;
+  double densityOf(Index f) const;
   double movedBy(const Work& work) const;
   bool movesTooMuch(const Work& work) const;
   void remember(const Work& work, Index v);
@@ -316,7 +320,7 @@ void BudgetDecimation::prepareCost()
     const Vector3 n = (mesh_.position[mesh_.origin[3 * f + 1]] - p)
                         .cross(mesh_.position[mesh_.origin[3 * f + 2]] - p);
     const double doubled = n.norm();
-    area_ += 0.5 * doubled;
+    area_ += 0.5 * doubled * densityOf(f);
     for (Index h = 3 * f; h < 3 * f + 3 && !quadric_.empty() && doubled > 0; ++h)
     {
       quadric_[mesh_.origin[h]].addPlane(n / doubled, -n.dot(p) / doubled, 0.5 * doubled);
@@ -339,6 +343,18 @@ Index BudgetDecimation::expectedVertices() const
   return std::max(budget_,
     static_cast<Index>(std::clamp(
       kVerticesPerQuad * quads, double{ kLeastCoarseVertices }, double{ kMostCoarseVertices })));
+}
+
+/// Mean of 1 / size^2 at the corners of a face.
+double BudgetDecimation::densityOf(Index f) const
+{
+  double sum = 0;
+  for (Index h = 3 * f; h < 3 * f + 3 && !mesh_.sizing.empty(); ++h)
+  {
+    const double size = mesh_.sizeOf(mesh_.origin[h]);
+    sum += 1 / (3 * size * size);
+  }
+  return mesh_.sizing.empty() ? 1 : sum;
 }
 
 /// The curvature that the removal moves, half of E_G since it leaves one place and arrives at another, times about the
@@ -635,8 +651,10 @@ double BudgetDecimation::shapeCost(const Work& work) const
       odd += valence < 5 ? 5 - valence : std::max(0, valence - 7);
     }
   }
-  return kAreaWeight * numberOf(work.planned[kAreaAt]) / averageStar +
-    kShapeWeight * numberOf(work.planned[kBadAt]) + kValenceWeight * odd;
+  const double size = mesh_.sizeOf(removal.vertex());
+  const double sizeChange = mesh_.sizing.empty() ? 0 : removal.sizeChange();
+  return kAreaWeight * numberOf(work.planned[kAreaAt]) / (size * size) / averageStar +
+    kShapeWeight * numberOf(work.planned[kBadAt]) + kValenceWeight * odd + kSizeWeight * sizeChange;
 }
 
 void BudgetDecimation::remember(const Work& work, Index v)

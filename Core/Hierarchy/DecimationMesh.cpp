@@ -13,7 +13,7 @@ namespace quadrille
 {
 
 DecimationMesh::DecimationMesh(const Mesh& fine, FeatureCurves featureCurves, int threads)
-  : position(fine.position), curves(std::move(featureCurves))
+  : position(fine.position), sizing(fine.sizing), curves(std::move(featureCurves))
 {
   // Each task fills arrays of its own.
   parallelFor(4, 1, threads,
@@ -181,6 +181,10 @@ Level DecimationMesh::extract() const
       newVertex[v] = static_cast<Index>(level.fineVertex.size());
       level.fineVertex.push_back(v);
       level.mesh.position.push_back(position[v]);
+      if (!sizing.empty())
+      {
+        level.mesh.sizing.push_back(sizing[v]);
+      }
     }
   }
   std::vector<Index> newFace(faceCount(), kInvalidIndex);

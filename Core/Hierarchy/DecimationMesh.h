@@ -21,6 +21,7 @@ public:
   DecimationMesh(const Mesh& fine, FeatureCurves featureCurves, int threads = 1);
 
   const std::vector<Vector3>& position;
+  const std::vector<float>& sizing; ///< see Mesh
   std::vector<Index> origin;
   std::vector<Index> twin;
   std::vector<std::uint8_t> flags;
@@ -35,6 +36,9 @@ public:
   /// there are none, see GuideRegions.h.
   std::vector<Guide> guides;
   std::vector<std::uint8_t> border;
+
+  /// Wanted size at a vertex as a multiple of s.
+  double sizeOf(Index v) const { return sizing.empty() ? 1.0 : double{ sizing[v] }; }
 
   Index faceCount() const { return static_cast<Index>(origin.size() / 3); }
   bool isAlive(Index face) const { return origin[3 * face] != kInvalidIndex; }

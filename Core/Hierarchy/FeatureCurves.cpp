@@ -3,6 +3,7 @@
 #include "Hierarchy/FeatureCurves.h"
 
 #include "Base/Progress.h"
+#include "Mesh/Sizing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -180,8 +181,9 @@ std::vector<double> cornerTurns(const Mesh& mesh, const Chain& chain, double sca
     const Vector3& p = walk.at(i);
     if (angleBetween(p - walk.at(i - 1), walk.at(i + 1) - p) > kCornerAngle)
     {
-      const Vector3& before = walk.at(walk.walk(i, -1, scale));
-      const Vector3& after = walk.at(walk.walk(i, 1, scale));
+      const double distance = scale * sizeAt(mesh, chain.vertices[static_cast<std::size_t>(i)]);
+      const Vector3& before = walk.at(walk.walk(i, -1, distance));
+      const Vector3& after = walk.at(walk.walk(i, 1, distance));
       turn[static_cast<std::size_t>(i)] = angleBetween(p - before, after - p);
     }
   }
@@ -214,7 +216,8 @@ void protectCorners(const Mesh& mesh, const Chain& chain, double scale, FeatureC
   const std::vector<double> turn = cornerTurns(mesh, chain, scale);
   for (std::size_t i = 0; i < turn.size(); ++i)
   {
-    if (turn[i] > kCornerAngle && turnsMost(walk, turn, i, 0.5 * scale))
+    const double range = 0.5 * scale * sizeAt(mesh, chain.vertices[i]);
+    if (turn[i] > kCornerAngle && turnsMost(walk, turn, i, range))
     {
       curves.kind[chain.vertices[i]] = VertexKind::Protected;
     }

@@ -36,7 +36,7 @@ struct FeatureCurves
 constexpr double kCornerAngle = 40.0 * 3.14159265358979323846 / 180.0;
 
 /// Traces the curves. A vertex is a corner when the curve turns by more than kCornerAngle both between its two
-/// edges and between the chords to the points `scale` away on both sides, and turns most among its neighbours
+/// edges and between the chords to the points `scale` (times the size there) away on both sides, and turns most among its neighbours
 /// within scale / 2: so a corner survives and the staircase of a scan's boundary does not count as one.
 FeatureCurves traceFeatureCurves(const Mesh& mesh, double scale);
 

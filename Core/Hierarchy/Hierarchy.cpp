@@ -11,6 +11,7 @@
 #include "Hierarchy/OrderedDecimation.h"
 #include "Hierarchy/StarCache.h"
 #include "Hierarchy/UniformDecimation.h"
+#include "Mesh/Sizing.h"
 
 #include <Eigen/Geometry>
 
@@ -123,7 +124,7 @@ std::vector<Index> componentRoots(const Mesh& fine)
   return parent;
 }
 
-/// Area of each component, at its root.
+/// Area of each component over its sizes, at its root.
 std::vector<double> componentAreas(
   const Mesh& fine, const std::vector<Index>& component, int threads)
 {
@@ -146,7 +147,9 @@ std::vector<double> componentAreas(
         {
           sum.push_back({ root, 0 });
         }
-        sum.back().doubledArea += fine.edgeVector(3 * f).cross(fine.edgeVector(3 * f + 1)).norm();
+        sum.back().doubledArea += fine.sizing.empty()
+          ? fine.edgeVector(3 * f).cross(fine.edgeVector(3 * f + 1)).norm()
+          : 2 * sizedArea(fine, f);
       }
     });
   std::vector<double> area(fine.vertexCount(), 0.0);
@@ -160,8 +163,8 @@ std::vector<double> componentAreas(
   return area;
 }
 
-/// Factor on s per vertex; empty when no component is small against s.
-std::vector<float> componentScales(const Mesh& fine, double edgeLength, int threads)
+/// Factor on s per vertex, beside the sizes that are asked for; empty when there are none and no component is small against s.
+std::vector<float> vertexScales(const Mesh& fine, double edgeLength, int threads)
 {
   const std::vector<Index> component = componentRoots(fine);
   const std::vector<double> area = componentAreas(fine, component, threads);
@@ -173,10 +176,10 @@ std::vector<float> componentScales(const Mesh& fine, double edgeLength, int thre
     pollNowAndThen(v);
     anySmall = component[v] == v && scale(v) < 1;
   }
-  std::vector<float> scales(anySmall ? fine.vertexCount() : 0);
+  std::vector<float> scales(anySmall || !fine.sizing.empty() ? fine.vertexCount() : 0);
   for (Index v = 0; v < static_cast<Index>(scales.size()); ++v)
   {
-    scales[v] = static_cast<float>(scale(component[v]));
+    scales[v] = static_cast<float>(scale(component[v]) * sizeAt(fine, v));
   }
   return scales;
 }
@@ -302,7 +305,7 @@ private:
       fine_, traceFeatureCurves(fine_, kCornerScale * edgeLength_), options.threads);
     UniformOptions uniform;
     uniform.edgeLength = 0.5 * edgeLength_;
-    uniform.scale = componentScales(fine_, edgeLength_, options.threads);
+    uniform.scale = vertexScales(fine_, edgeLength_, options.threads);
     uniform.curveTolerance = kCurveTolerance * edgeLength_;
     uniform.keepVertices = options.keepVertices;
     uniform.threads = options.threads;

@@ -88,6 +88,7 @@ private:
   void giveBack(std::unique_ptr<Worker> worker);
   LogBuilder::Block sweepBlock(Block& block, double threshold, int firstStamp);
   double firstThreshold() const;
+  double largestScale() const;
   void finish(double threshold);
   void forget();
   std::size_t round(double threshold, bool serial);
@@ -112,7 +113,7 @@ private:
 
 void UniformDecimation::run()
 {
-  const double last = options_.edgeLength;
+  const double last = options_.edgeLength * largestScale();
   double threshold = std::min(firstThreshold(), last);
   const double steps =
     std::max(1.0, std::ceil(std::log(last / threshold) / std::log(kThresholdStep)));
@@ -171,6 +172,13 @@ double UniformDecimation::firstThreshold() const
   }
   return std::max(
     sum / static_cast<double>(std::max<std::size_t>(count, 1)), 1e-6 * options_.edgeLength);
+}
+
+/// At least 1, so that components that are all small change no threshold.
+double UniformDecimation::largestScale() const
+{
+  const auto largest = std::max_element(options_.scale.begin(), options_.scale.end());
+  return largest == options_.scale.end() ? 1.0 : std::max(1.0, double{ *largest });
 }
 
 std::vector<Block> UniformDecimation::makeBlocks(bool serial)

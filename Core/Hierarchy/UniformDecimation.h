@@ -24,7 +24,7 @@ namespace quadrille
 struct UniformOptions
 {
   double edgeLength = 0; ///< s / 2
-  /// Per vertex factor on edgeLength (smaller for small components); empty: 1.
+  /// Per vertex factor on edgeLength (smaller for small components, and by the sizes that are asked for); empty: 1.
   std::vector<float> scale;
   double curveTolerance = 0; ///< see RemovalGuards
   std::vector<Index> keepVertices;

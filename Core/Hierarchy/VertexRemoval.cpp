@@ -207,6 +207,16 @@ void VertexRemoval::addStarKey(std::vector<std::uint32_t>& words) const
   words.insert(words.end(), ring_.begin(), ring_.begin() + ringSize_);
 }
 
+double VertexRemoval::sizeChange() const
+{
+  const auto logOf = [&](std::size_t i)
+  { return std::log(mesh_.sizeOf(ring_[weightRing_[i]])); };
+  constexpr double kUnit = 1.0 / 4294967296.0;
+  const double first = logOf(0);
+  return std::abs(std::log(mesh_.sizeOf(vertex_)) - first -
+    kUnit * weight_[0] * (logOf(1) - first) - kUnit * weight_[1] * (logOf(2) - first));
+}
+
 void VertexRemoval::savePlan(std::vector<std::uint32_t>& words) const
 {
   const auto pack = [](std::uint32_t a, std::uint32_t b, std::uint32_t c)
@@ -250,9 +260,10 @@ bool VertexRemoval::curveStaysClose(const RemovalGuards& guards) const
   const double distance = (a + t * ab).norm();
   if (border_)
   {
-    return distance <= guards.regionTolerance;
+    return distance <= guards.regionTolerance * mesh_.sizeOf(vertex_);
   }
-  return distance + mesh_.curveError[vertex_] <= guards.curveTolerance;
+  return distance + mesh_.curveError[vertex_] <=
+    guards.curveTolerance * mesh_.sizeOf(vertex_);
 }
 
 bool VertexRemoval::loopStaysLong() const

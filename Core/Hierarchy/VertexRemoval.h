@@ -86,6 +86,8 @@ public:
   };
   /// After planStar(), not after loadPlan().
   void measureChange(Change& change) const;
+  /// After a plan: by how much the logarithm of the wanted size at the vertex differs from what the new triangulation has there.
+  double sizeChange() const;
   /// After a plan: valence of the ring vertex afterwards.
   int newValence(int i) const;
 

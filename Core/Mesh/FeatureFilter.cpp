@@ -5,6 +5,7 @@
 #include "Base/Error.h"
 #include "Base/Progress.h"
 #include "Mesh/Distance.h"
+#include "Mesh/Sizing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +33,7 @@ struct Chain
 {
   std::vector<Index> halfEdges; ///< one of each edge
   double length = 0;
+  double sizedLength = 0; ///< length over the size of quads there
   double jaggedness = 1; ///< length over its length in steps of s
   Index first = kInvalidIndex;
   Index last = kInvalidIndex;
@@ -135,6 +137,7 @@ private:
       done[h] = 1;
       chain.halfEdges.push_back(h);
       chain.length += mesh_.edgeVector(h).norm();
+      chain.sizedLength += sizedLength(mesh_, h);
       chain.removable =
         chain.removable && !mesh_.isBoundary(h) && (mesh_.flags[h] & kRequestedFeature) == 0;
       v = otherEnd(h, v);
@@ -160,7 +163,7 @@ private:
     chains_.push_back(std::move(chain));
   }
 
-  /// Length of the polyline through points of the path that are s apart along it.
+  /// Length of the polyline through points of the path that are s (times the size there) apart along it.
   double steppedLength(const std::vector<Index>& path) const
   {
     double sum = 0;
@@ -170,7 +173,8 @@ private:
     {
       const Vector3& a = mesh_.position[path[i]];
       const Vector3& b = mesh_.position[path[i + 1]];
-      const double length = (b - a).norm();
+      const double length =
+        (b - a).norm() / std::sqrt(sizeAt(mesh_, path[i]) * sizeAt(mesh_, path[i + 1]));
       double used = 0;
       while (walked + length - used >= edgeLength_)
       {
@@ -234,7 +238,7 @@ bool removeOnce(Mesh& mesh, double edgeLength, FeatureFilterReport& report)
   {
     if (chains[i].removable)
     {
-      total[component[i]] += chains[i].length;
+      total[component[i]] += chains[i].sizedLength;
       ++count[component[i]];
     }
   }
@@ -249,9 +253,9 @@ bool removeOnce(Mesh& mesh, double edgeLength, FeatureFilterReport& report)
     const bool loop = chain.first == kInvalidIndex;
     const bool dangling = !loop && (graph.endsThere(chain.first) || graph.endsThere(chain.last));
     const bool tangle = total[component[i]] < kShortestMeanChain * edgeLength * count[component[i]];
-    if ((loop && chain.length < kShortestLoop * edgeLength) ||
+    if ((loop && chain.sizedLength < kShortestLoop * edgeLength) ||
       (dangling &&
-        (chain.length < kShortestDangling * edgeLength || chain.jaggedness > kMostJagged)) ||
+        (chain.sizedLength < kShortestDangling * edgeLength || chain.jaggedness > kMostJagged)) ||
       tangle)
     {
       unmarkFeatures(mesh, chain.halfEdges);
@@ -330,13 +334,13 @@ private:
     {
       pollNowAndThen(i);
       const Index f = faces[i];
-      area += 0.5 * mesh_.edgeVector(3 * f).cross(mesh_.edgeVector(3 * f + 1)).norm();
+      area += sizedArea(mesh_, f);
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
       {
         if (mesh_.isConstrained(h))
         {
           thin.border.push_back(h);
-          perimeter += mesh_.edgeVector(h).norm();
+          perimeter += sizedLength(mesh_, h);
           continue;
         }
         const Index next = Mesh::face(mesh_.twin[h]);

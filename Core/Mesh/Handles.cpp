@@ -6,6 +6,7 @@
 #include "Base/Progress.h"
 #include "Mesh/HandleBasis.h"
 #include "Mesh/LoopSearch.h"
+#include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
 
 #include <algorithm>
@@ -146,7 +147,7 @@ BoundaryReport measureBoundary(const Mesh& mesh, double limit)
     for (Index h = start; !visited[h]; h = nextOnBoundary(mesh, h))
     {
       visited[h] = true;
-      length += mesh.edgeVector(h).norm();
+      length += sizedLength(mesh, h);
     }
     report.shortLoops += length < limit ? 1 : 0;
     if (report.loops++ == 0 || length < report.shortest)

@@ -11,7 +11,7 @@
 namespace quadrille
 {
 
-/// A closed loop without repeated vertices.
+/// A closed loop without repeated vertices. Where the mesh has sizes, lengths are over the size there, here and below.
 struct HandleLoop
 {
   std::vector<Index>

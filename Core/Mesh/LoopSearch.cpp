@@ -3,6 +3,7 @@
 #include "Mesh/LoopSearch.h"
 
 #include "Base/Progress.h"
+#include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
 
 #include <algorithm>
@@ -72,6 +73,11 @@ LoopSearch::LoopSearch(const Mesh& mesh, Moves moves)
   mesh_.origin = mesh.origin;
   mesh_.twin = mesh.twin;
   closeBoundary();
+  if (!mesh.sizing.empty())
+  {
+    mesh_.sizing = mesh.sizing;
+    mesh_.sizing.resize(mesh_.vertexCount(), 1.0F); // of vertices that no path meets
+  }
   outgoing_ = outgoingHalfEdges(mesh_);
   growTree();
   growCotree();
@@ -315,14 +321,15 @@ void LoopSearch::forEachArc(Index v, Visitor&& visit) const
   {
     if (barred_[mesh_.target(h)] == 0)
     {
-      visit(Arc{ h, false }, mesh_.target(h), mesh_.edgeVector(h).norm(), label_[h]);
+      visit(Arc{ h, false }, mesh_.target(h), sizedLength(mesh_, h), label_[h]);
     }
     const Index e = Mesh::next(h);
     if (moves_ == kStraightened && Mesh::face(e) < faces_ && Mesh::face(mesh_.twin[e]) < faces_)
     {
       if (const std::optional<double> length = straightAcross(mesh_, e))
       {
-        visit(Arc{ e, true }, mesh_.origin[Mesh::previous(mesh_.twin[e])], *length,
+        const Index w = mesh_.origin[Mesh::previous(mesh_.twin[e])];
+        visit(Arc{ e, true }, w, *length / std::sqrt(sizeAt(mesh_, v) * sizeAt(mesh_, w)),
           label_[h] ^ label_[Mesh::next(mesh_.twin[e])]);
       }
     }

@@ -4,6 +4,7 @@
 
 #include "Base/Progress.h"
 #include "Mesh/ContentHash.h"
+#include "Mesh/Sizing.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/SurfaceEdit.h"
 
@@ -56,7 +57,7 @@ public:
   {
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
-      const double length = mesh_.edgeVector(h).squaredNorm();
+      const double length = squaredLength(h);
       if (length > limit_ && (mesh_.isBoundary(h) || h < mesh_.twin[h]))
       {
         queue_.push({ length, h });
@@ -76,7 +77,7 @@ public:
     {
       const LongEdge top = queue_.top();
       queue_.pop();
-      if (mesh_.edgeVector(top.halfEdge).squaredNorm() == top.squaredLength)
+      if (squaredLength(top.halfEdge) == top.squaredLength)
       {
         return top.halfEdge;
       }
@@ -85,6 +86,15 @@ public:
   }
 
 private:
+  /// In sizes, the same from both sides.
+  double squaredLength(Index h) const
+  {
+    const double length = mesh_.edgeVector(h).squaredNorm();
+    return mesh_.sizing.empty()
+      ? length
+      : length / (sizeAt(mesh_, mesh_.origin[h]) * sizeAt(mesh_, mesh_.target(h)));
+  }
+
   const Mesh& mesh_;
   double limit_;
   std::priority_queue<LongEdge> queue_;
@@ -108,9 +118,10 @@ std::vector<std::uint8_t> verticesOnConstraints(const Mesh& mesh)
 std::size_t faceLimit(const PreparedSurface& surface, double maximumLength)
 {
   const double faces = surface.mesh.faceCount();
+  const double area = surface.mesh.sizing.empty() ? surface.area : sizedArea(surface.mesh);
   const double growth =
     std::max(kFacesPerFace * faces, std::min(kFacesPerFaceOfSmall * faces, kSmallEnd));
-  const double wanted = growth + kFacesPerSquare * surface.area / (maximumLength * maximumLength);
+  const double wanted = growth + kFacesPerSquare * area / (maximumLength * maximumLength);
   return static_cast<std::size_t>(std::min(wanted, std::max(faces, kMostFaces)));
 }
 

@@ -9,7 +9,7 @@
 namespace quadrille
 {
 
-/// Halves the longest edge of the surface until none is longer than maximumLength, as in longest-edge
+/// Halves the longest edge of the surface, in sizes, until none is longer than maximumLength, as in longest-edge
 /// bisection [Rivara 1984], with the whole surface as one queue: the edge is then the longest of both of
 /// its faces and the smallest angle at most halves. Ends early at mostFaces; false then.
 bool splitLongEdges(PreparedSurface& surface, double maximumLength, std::size_t mostFaces,

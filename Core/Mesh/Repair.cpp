@@ -8,6 +8,7 @@
 #include "Mesh/DuplicateFaces.h"
 #include "Mesh/MergePoints.h"
 #include "Mesh/Sheets.h"
+#include "Mesh/Sizing.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/SurfaceEdit.h"
 #include "Mesh/Topology.h"
@@ -165,6 +166,7 @@ void checkInput(const SurfaceInput& input, int threads)
   requireSize("the feature edge array", input.featureEdges.size(), input.polygonOffsets.size() - 1);
   requireSize("the patch id array", input.patchIds.size(), input.polygonOffsets.size() - 1);
   checkRequests(input);
+  checkSizing(input);
   checkIds(input, threads);
   checkCoordinates(input, threads);
 }

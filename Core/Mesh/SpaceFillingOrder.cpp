@@ -276,10 +276,15 @@ std::vector<Index> dropUnused(Mesh& mesh)
     if (used[v] != 0)
     {
       mesh.position[kept.size()] = mesh.position[v];
+      if (!mesh.sizing.empty())
+      {
+        mesh.sizing[kept.size()] = mesh.sizing[v];
+      }
       kept.push_back(v);
     }
   }
   mesh.position.resize(kept.size());
+  mesh.sizing.resize(mesh.sizing.empty() ? 0 : kept.size());
   return kept;
 }
 
@@ -292,6 +297,10 @@ void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
   {
     const std::vector<Index> order = spaceFillingOrder(mesh.position, threads);
     permute.operator()<1>(mesh.position, order);
+    if (!mesh.sizing.empty())
+    {
+      permute.operator()<1>(mesh.sizing, order);
+    }
     for (Index i = 0; i < order.size(); ++i)
     {
       pollNowAndThen(i);

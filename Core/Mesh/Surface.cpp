@@ -7,6 +7,7 @@
 #include "Mesh/EdgeRuns.h"
 #include "Mesh/Features.h"
 #include "Mesh/Repair.h"
+#include "Mesh/Sizing.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/Triangulate.h"
 
@@ -135,6 +136,7 @@ PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& 
   markFeatures(surface, input, options);
   measure(surface);
   collectRequests(input, surface);
+  collectSizing(input, surface);
   surface.hash = contentHash(surface.mesh, options.threads);
   report(options.progress, 1, "Surface prepared");
   surface.seconds = { { "repair", repairSeconds }, { "order", orderSeconds },

@@ -32,6 +32,8 @@ struct SurfaceInput
   std::vector<double>
     guideWeights; ///< empty (1 everywhere) or #P; in (0, 1] where there is a direction
   std::vector<int> targetValences; ///< empty or #points; 0: free, else see ValenceRequest
+  /// Empty or #points: the edge length that quads should have there as a multiple of the target edge length, > 0.
+  std::vector<float> sizing;
 };
 
 struct PrepareOptions
@@ -107,11 +109,11 @@ struct PreparedSurface
 
 /// Validates, repairs and orders. Throws InvalidInput for an empty input, a non-finite coordinate
 /// (names the point), a corner id out of range (names the polygon), a non-orientable component (names
-/// a face of it), when nothing is left after repair, and for guides and valences as checkRequests and
-/// collectRequests do.
+/// a face of it), when nothing is left after repair, and for guides, valences and sizes as
+/// checkRequests, collectRequests and checkSizing do.
 PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& options);
 
-/// Splits edges longer than maximumEdgeLength (conforming, at edge midpoints, longest first), and
+/// Splits edges longer than maximumEdgeLength times the size there (conforming, at edge midpoints, longest first), and
 /// chords: unconstrained edges whose two ends lie on constrained edges, that no decimation could ever
 /// repair. Afterwards every face has at most one constrained edge and no chord is left. The geometry
 /// does not change: new vertices lie on the old triangles. Long thin triangles can multiply; past

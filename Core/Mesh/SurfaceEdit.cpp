@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/SurfaceEdit.h"
 
+#include "Mesh/Sizing.h"
+
 #include <algorithm>
 #include <cassert>
 
@@ -104,17 +106,29 @@ Index splitOneSide(PreparedSurface& surface, Index h, Index m)
   return other;
 }
 
+/// Of a vertex that was added last.
+void addSize(Mesh& mesh, double size)
+{
+  if (!mesh.sizing.empty())
+  {
+    mesh.sizing.push_back(static_cast<float>(size));
+  }
+}
+
 /// A fan over a closed run of boundary half-edges, each of which ends where the next one begins.
 void closeWithFan(PreparedSurface& surface, const std::vector<Index>& run)
 {
   Mesh& mesh = surface.mesh;
   const Index middle = mesh.vertexCount();
   Vector3 sum = Vector3::Zero();
+  double sizes = 0;
   for (const Index h : run)
   {
     sum += mesh.position[mesh.origin[h]];
+    sizes += sizeAt(mesh, mesh.origin[h]);
   }
   mesh.position.push_back(sum / static_cast<double>(run.size()));
+  addSize(mesh, sizes / static_cast<double>(run.size()));
   const Index first = mesh.faceCount();
   for (const Index h : run)
   {
@@ -160,6 +174,7 @@ Index splitEdge(PreparedSurface& surface, Index h)
   const Index m = mesh.vertexCount();
   const Index g = mesh.twin[h];
   mesh.position.push_back((mesh.position[mesh.origin[h]] + mesh.position[mesh.target(h)]) / 2);
+  addSize(mesh, (sizeAt(mesh, mesh.origin[h]) + sizeAt(mesh, mesh.target(h))) / 2);
   const Index h1 = splitOneSide(surface, h, m); // h: a -> m, h1: m -> b
   if (g != kInvalidIndex)
   {
@@ -178,6 +193,9 @@ Index splitFace(PreparedSurface& surface, Index f)
   mesh.position.push_back((mesh.position[mesh.origin[a]] + mesh.position[mesh.origin[a + 1]] +
                             mesh.position[mesh.origin[a + 2]]) /
     3);
+  addSize(mesh, (sizeAt(mesh, mesh.origin[a]) + sizeAt(mesh, mesh.origin[a + 1]) +
+                  sizeAt(mesh, mesh.origin[a + 2])) /
+      3);
   const Index b = 3 * appendCopy(surface, f);
   const Index c = 3 * appendCopy(surface, f);
   Weights centre{};
@@ -215,6 +233,7 @@ void cutAndClose(PreparedSurface& surface, const std::vector<Index>& loop)
   {
     const Index copy = mesh.vertexCount();
     mesh.position.push_back(Vector3(mesh.position[mesh.origin[loop[i]]]));
+    addSize(mesh, sizeAt(mesh, mesh.origin[loop[i]]));
     const Index back = mesh.twin[loop[(i + loop.size() - 1) % loop.size()]];
     for (Index h = back; h != loop[i]; h = mesh.rotateCounterclockwise(h))
     {

@@ -9,6 +9,7 @@
 #include "Mesh/CloseHandles.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/FeatureFilter.h"
+#include "Mesh/Sizing.h"
 #include "Transfer/PackedMap.h"
 
 #include <algorithm>
@@ -128,6 +129,7 @@ private:
   {
     prepare();
     chooseEdgeLength();
+    limitSizes();
     if (!refuseTooMany())
     {
       refine();
@@ -214,7 +216,7 @@ private:
 
   void chooseEdgeLength()
   {
-    const double area = result_.surface.area;
+    const double area = sizedArea();
     if (options_.quads)
     {
       result_.targetQuads = *options_.quads;
@@ -224,8 +226,37 @@ private:
     result_.targetEdgeLength = options_.edgeLength
       ? *options_.edgeLength
       : options_.relativeEdgeLength * result_.surface.boundingBoxDiagonal;
-    const double quads = area / (result_.targetEdgeLength * result_.targetEdgeLength);
+    predictQuads();
+  }
+
+  /// The surface's area over its sizes.
+  double sizedArea() const
+  {
+    return result_.surface.mesh.sizing.empty() ? result_.surface.area
+                                               : quadrille::sizedArea(result_.surface.mesh);
+  }
+
+  /// Where an edge length is asked for.
+  void predictQuads()
+  {
+    const double quads = sizedArea() / (result_.targetEdgeLength * result_.targetEdgeLength);
     result_.targetQuads = static_cast<std::size_t>(std::max(1.0, std::min(quads, 1e15)));
+  }
+
+  /// The edge length stays; where the number of quads was asked for, it is met by the scale of the map.
+  void limitSizes()
+  {
+    Mesh& mesh = result_.surface.mesh;
+    const SizingReport limited = limitSizeGrowth(mesh, result_.targetEdgeLength);
+    const std::string notice = sizingNotice(mesh, limited);
+    if (!notice.empty())
+    {
+      result_.notices.push_back(notice);
+    }
+    if (limited.changed > 0 && !options_.quads)
+    {
+      predictQuads();
+    }
   }
 
   bool refuseTooMany()

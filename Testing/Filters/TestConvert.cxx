@@ -217,6 +217,60 @@ TEST(Convert, GuidesAndValencesComeByCellAndPoint)
   EXPECT_NE(messageOf().find("TargetValence"), std::string::npos);
 }
 
+TEST(Convert, SizesAreReadOrRefusedByName)
+{
+  const vtkSmartPointer<vtkPolyData> data = mixedCells();
+  EXPECT_TRUE(convertSurface(data, "").input.sizing.empty());
+  const auto messageOf = [&]() -> std::string
+  {
+    try
+    {
+      convertSurface(data, "");
+    }
+    catch (const InvalidInput& error)
+    {
+      return error.what();
+    }
+    return {};
+  };
+  vtkNew<vtkDoubleArray> sizes;
+  sizes->SetName("Sizing");
+  sizes->SetNumberOfTuples(data->GetNumberOfPoints());
+  sizes->Fill(1);
+  sizes->SetValue(3, 0.25);
+  data->GetPointData()->AddArray(sizes);
+  std::vector<float> expected(12, 1.0F);
+  expected[3] = 0.25F;
+  EXPECT_EQ(convertSurface(data, "").input.sizing, expected);
+  // The last two are no positive finite numbers as floats.
+  for (const double wrong :
+    { 0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity(), 1e-60, 1e60 })
+  {
+    sizes->SetValue(5, wrong);
+    EXPECT_NE(messageOf().find("point 5 has the Sizing"), std::string::npos) << messageOf();
+  }
+  vtkNew<vtkIntArray> whole;
+  whole->SetName("Sizing");
+  whole->SetNumberOfTuples(data->GetNumberOfPoints());
+  whole->Fill(1);
+  data->GetPointData()->AddArray(whole);
+  EXPECT_NE(messageOf().find("point array 'Sizing'"), std::string::npos);
+}
+
+TEST(Convert, SizesOfALevelComeBack)
+{
+  Level level;
+  level.mesh = test::sphere(1);
+  level.fineVertex.resize(level.mesh.vertexCount());
+  level.fineFace.resize(level.mesh.faceCount());
+  EXPECT_TRUE(readMesh(writeLevel(level, {})).sizing.empty());
+  for (Index v = 0; v < level.mesh.vertexCount(); ++v)
+  {
+    level.mesh.sizing.push_back(0.1F + 0.01F * static_cast<float>(v));
+  }
+  EXPECT_EQ(readMesh(writeLevel(level, {})).sizing, level.mesh.sizing);
+}
+
 TEST(Convert, GuidesAndValencesOfALevelComeBack)
 {
   Level level;

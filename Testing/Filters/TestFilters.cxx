@@ -369,16 +369,16 @@ TEST(QuadRemeshFailure, RefusesTooManyQuads)
 TEST(QuadRemeshFailure, UnusedConstraintArraysAreTold)
 {
   const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(40, 20));
-  vtkNew<vtkDoubleArray> sizing;
-  sizing->SetName("Sizing");
-  sizing->SetNumberOfTuples(input->GetNumberOfPoints());
-  sizing->Fill(1);
-  input->GetPointData()->AddArray(sizing);
+  vtkNew<vtkIntArray> connections;
+  connections->SetName("ConnectId");
+  connections->SetNumberOfTuples(input->GetNumberOfPoints());
+  connections->Fill(0);
+  input->GetPointData()->AddArray(connections);
   vtkNew<vtkQuadRemesh> filter;
   const test::Messages messages(filter);
   run(filter, input, 200);
-  EXPECT_NE(messages.warnings.find("Sizing"), std::string::npos);
-  EXPECT_NE(std::string(filter->GetNoticesText()).find("Sizing"), std::string::npos);
+  EXPECT_NE(messages.warnings.find("ConnectId"), std::string::npos);
+  EXPECT_NE(std::string(filter->GetNoticesText()).find("ConnectId"), std::string::npos);
 }
 
 /// Asks to stop at the first progress event; the next update must run again, not serve the empty output.

@@ -6,6 +6,7 @@
 #include <vtkCellData.h>
 #include <vtkDecimationHierarchy.h>
 #include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
@@ -93,6 +94,44 @@ TEST(StageFilters, ChainEqualsOneClick)
     // Height is linear in the position.
     ASSERT_NEAR(carried->GetTuple1(i), quads->GetPoint(i)[2], 1e-12);
   }
+}
+
+/// Sizes, with their growth limited, travel with the coarse level; the surface is refined by them again.
+TEST(StageFilters, ChainHonoursSizes)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(80, 40));
+  vtkNew<vtkFloatArray> sizes;
+  sizes->SetName("Sizing");
+  for (vtkIdType i = 0; i < input->GetNumberOfPoints(); ++i)
+  {
+    sizes->InsertNextValue(input->GetPoint(i)[0] > 0 ? 0.4F : 1.0F);
+  }
+  input->GetPointData()->AddArray(sizes);
+  Chain chain(input);
+  chain.extraction->Update();
+  ASSERT_EQ(chain.extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
+    << chain.hierarchy->GetOutcomeText() << chain.map->GetOutcomeText()
+    << chain.upmap->GetOutcomeText() << chain.extraction->GetOutcomeText();
+  EXPECT_TRUE(chain.hierarchy->GetOutput()->GetPointData()->HasArray("Sizing"));
+  EXPECT_NE(std::string(chain.hierarchy->GetNoticesText()).find("grow gradually"), std::string::npos);
+
+  vtkNew<vtkQuadRemesh> oneClick;
+  oneClick->SetInputData(input);
+  oneClick->SetTargetTypeToNumberOfQuads();
+  oneClick->SetNumberOfQuads(500);
+  oneClick->Update();
+  ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+  vtkPolyData* quads = chain.extraction->GetOutput();
+  ASSERT_EQ(quads->GetNumberOfPoints(), oneClick->GetOutput()->GetNumberOfPoints());
+  std::size_t fine = 0;
+  for (const Vector3& p : pointsOf(quads))
+  {
+    const vtkIdType at = oneClick->GetOutput()->FindPoint(p.x(), p.y(), p.z());
+    EXPECT_LT((Vector3(oneClick->GetOutput()->GetPoint(at)) - p).norm(), 1e-12);
+    fine += p.x() > 0 ? 1 : 0;
+  }
+  // Six times as many a unit of area, were it not for the growth in between.
+  EXPECT_GT(fine, 3 * (static_cast<std::size_t>(quads->GetNumberOfPoints()) - fine));
 }
 
 /// Guides and target valences travel with the coarse level and the mapped surface.

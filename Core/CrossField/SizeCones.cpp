@@ -1,0 +1,333 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CrossField/SizeCones.h"
+
+#include "Base/Progress.h"
+#include "Mesh/Topology.h"
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr double kQuarter = 1.57079632679489661923;
+/// Least cotangent, so that slivers leave the matrix positive.
+constexpr double kLeastCotangent = 1e-3;
+/// Share of a vertex's area in its row: only to make the matrix positive, the mean is taken off afterwards.
+constexpr double kPull = 1e-6;
+/// Vertices that turns may move between, about; each is a solve.
+constexpr std::size_t kMostPlaces = 500;
+constexpr int kMostMoves = 100;
+/// What an irregular vertex more has to take off the mean square: as much as 20 % too large quads on a fortieth of the surface.
+constexpr double kWorthOfVertex = 1e-3;
+
+/// The conformal factor as a function of the turns.
+class ConformalFactor
+{
+public:
+  ConformalFactor(const Mesh& mesh, const FieldTopology& topology)
+    : mass_(Eigen::VectorXd::Zero(mesh.vertexCount())),
+      component_(mesh.vertexCount(), kInvalidIndex)
+  {
+    const std::vector<Index> ofFace = faceComponents(mesh, components_);
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      component_[mesh.origin[h]] = ofFace[Mesh::face(h)];
+    }
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      const int a = static_cast<int>(mesh.origin[h]);
+      const int b = static_cast<int>(mesh.target(h));
+      const double weight =
+        0.5 * std::max(kLeastCotangent, 1 / std::tan(topology.cornerAngle[Mesh::previous(h)]));
+      entries.emplace_back(a, a, weight);
+      entries.emplace_back(b, b, weight);
+      entries.emplace_back(a, b, -weight);
+      entries.emplace_back(b, a, -weight);
+      mass_(a) += topology.area[Mesh::face(h)] / (3 * topology.totalArea);
+    }
+    for (int v = 0; v < static_cast<int>(mass_.size()); ++v)
+    {
+      entries.emplace_back(v, v, mass_(v) > 0 ? kPull * mass_(v) : 1.0);
+    }
+    Eigen::SparseMatrix<double> matrix(mass_.size(), mass_.size());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    solver_.compute(matrix);
+    if (solver_.info() != Eigen::Success)
+    {
+      throw std::logic_error("cross field: the system of the sizes could not be factored");
+    }
+  }
+
+  /// Of all turns of a field.
+  Eigen::VectorXd ofTurns(const FieldTopology& topology, const std::vector<int>& turns) const
+  {
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(mass_.size());
+    for (std::size_t i = 0; i < turns.size(); ++i)
+    {
+      const Fan& fan = topology.fans[i];
+      right(fan.vertex) += turns[i] * kQuarter - fan.angle;
+    }
+    return withoutMeans(solver_.solve(right));
+  }
+  /// Of one quarter turn at a vertex.
+  Eigen::VectorXd ofVertex(Index v) const
+  {
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(mass_.size());
+    right(v) = kQuarter;
+    return withoutMeans(solver_.solve(right));
+  }
+  /// Shares of the area, per vertex.
+  const Eigen::VectorXd& mass() const { return mass_; }
+  double meanSquare(const Eigen::VectorXd& factor) const { return factor.cwiseAbs2().dot(mass_); }
+
+private:
+  /// A factor that is constant on a component says nothing: the scale of the map is free.
+  Eigen::VectorXd withoutMeans(Eigen::VectorXd factor) const
+  {
+    std::vector<double> sum(components_, 0.0), share(components_, 0.0);
+    for (Eigen::Index v = 0; v < factor.size(); ++v)
+    {
+      if (component_[static_cast<std::size_t>(v)] != kInvalidIndex)
+      {
+        sum[component_[static_cast<std::size_t>(v)]] += mass_(v) * factor(v);
+        share[component_[static_cast<std::size_t>(v)]] += mass_(v);
+      }
+    }
+    for (Eigen::Index v = 0; v < factor.size(); ++v)
+    {
+      const Index component = component_[static_cast<std::size_t>(v)];
+      factor(v) -= component != kInvalidIndex ? sum[component] / share[component] : 0.0;
+    }
+    return factor;
+  }
+
+  Eigen::VectorXd mass_;
+  std::vector<Index> component_; ///< of vertices
+  Index components_ = 0;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
+};
+
+/// A vertex that turns may move to and from.
+struct Place
+{
+  Index fan = 0;
+  Index vertex = 0;
+  Index region = 0; ///< turns cannot cross constrained edges
+  int turns = 4;
+};
+
+/// Faces that unconstrained edges join, by their lowest face.
+std::vector<Index> regionsOf(const Mesh& mesh)
+{
+  std::vector<Index> region(mesh.faceCount(), kInvalidIndex);
+  std::vector<Index> stack;
+  for (Index start = 0; start < mesh.faceCount(); ++start)
+  {
+    if (region[start] != kInvalidIndex)
+    {
+      continue;
+    }
+    region[start] = start;
+    stack.push_back(start);
+    while (!stack.empty())
+    {
+      const Index f = stack.back();
+      stack.pop_back();
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        if (!mesh.isConstrained(h) && region[Mesh::face(mesh.twin[h])] == kInvalidIndex)
+        {
+          region[Mesh::face(mesh.twin[h])] = start;
+          stack.push_back(Mesh::face(mesh.twin[h]));
+        }
+      }
+    }
+  }
+  return region;
+}
+
+/// The irregular vertices, and others evenly in the order of the mesh, which runs along a space-filling curve.
+std::vector<Place> placesOf(const Mesh& mesh, const FieldTopology& topology,
+  const std::vector<int>& turns, const std::vector<int>& asked)
+{
+  const std::vector<Index> region = regionsOf(mesh);
+  std::vector<Place> all;
+  for (Index i = 0; i < topology.fans.size(); ++i)
+  {
+    const Fan& fan = topology.fans[i];
+    const bool free = asked.empty() || asked[fan.vertex] == 0;
+    // With fewer triangles there is hardly room for five quarter turns.
+    if (!fan.sector && free && fan.corners >= 4)
+    {
+      all.push_back({ i, fan.vertex, region[Mesh::face(fan.first)], turns[i] });
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const Place& a, const Place& b) { return a.vertex < b.vertex; });
+  const std::size_t step = all.size() / kMostPlaces + 1;
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    if (all[i].turns != 4 || i % step == 0)
+    {
+      places.push_back(all[i]);
+    }
+  }
+  return places;
+}
+
+/// Moves quarter turns between places, the best move first.
+class TurnPlacement
+{
+public:
+  TurnPlacement(const Mesh& mesh, std::vector<Place> places, const ConformalFactor& factor,
+    const Eigen::VectorXd& start)
+    : places_(std::move(places)), gain_(places_.size())
+  {
+    const auto size = static_cast<Eigen::Index>(places_.size());
+    Eigen::MatrixXd columns(mesh.vertexCount(), size);
+    for (Eigen::Index i = 0; i < size; ++i)
+    {
+      poll();
+      columns.col(i) = factor.ofVertex(places_[static_cast<std::size_t>(i)].vertex);
+    }
+    const Eigen::MatrixXd weighted = factor.mass().asDiagonal() * columns;
+    product_ = columns.transpose() * weighted;
+    gain_ = weighted.transpose() * start;
+    findNeighbours(mesh);
+  }
+
+  bool improve()
+  {
+    bool any = false;
+    for (int move = 0; move < kMostMoves && moveBest(); ++move)
+    {
+      poll();
+      any = true;
+    }
+    return any;
+  }
+  const std::vector<Place>& places() const { return places_; }
+
+private:
+  void findNeighbours(const Mesh& mesh)
+  {
+    std::vector<Index> placeOf(mesh.vertexCount(), kInvalidIndex);
+    for (Index i = 0; i < places_.size(); ++i)
+    {
+      placeOf[places_[i].vertex] = i;
+    }
+    neighbours_.resize(places_.size());
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      const Index a = placeOf[mesh.origin[h]];
+      const Index b = placeOf[mesh.target(h)];
+      if (a != kInvalidIndex && b != kInvalidIndex)
+      {
+        neighbours_[a].push_back(b);
+        neighbours_[b].push_back(a);
+      }
+    }
+  }
+
+  /// Whether place i may have so many turns: 3 to 5, and no irregular vertex next to another one.
+  bool mayHave(Index i, int turns) const
+  {
+    if (turns < 3 || turns > 5)
+    {
+      return false;
+    }
+    return turns == 4 ||
+      std::all_of(neighbours_[i].begin(), neighbours_[i].end(),
+        [&](Index j) { return places_[j].turns == 4; });
+  }
+
+  bool moveBest()
+  {
+    const Index count = static_cast<Index>(places_.size());
+    std::vector<std::uint8_t> mayGain(count), mayLose(count);
+    for (Index i = 0; i < count; ++i)
+    {
+      mayGain[i] = mayHave(i, places_[i].turns + 1) ? 1 : 0;
+      mayLose[i] = mayHave(i, places_[i].turns - 1) ? 1 : 0;
+    }
+    double best = 0;
+    Index to = kInvalidIndex, from = kInvalidIndex;
+    for (Index i = 0; i < count; ++i)
+    {
+      for (Index j = 0; j < count && mayGain[i] != 0; ++j)
+      {
+        if (mayLose[j] == 0 || i == j || places_[i].region != places_[j].region)
+        {
+          continue;
+        }
+        const double change = product_(i, i) + product_(j, j) - 2 * product_(i, j) +
+          2 * (gain_(i) - gain_(j)) +
+          kWorthOfVertex * ((places_[i].turns < 4 ? -1 : 1) + (places_[j].turns > 4 ? -1 : 1));
+        if (change < best)
+        {
+          best = change;
+          to = i;
+          from = j;
+        }
+      }
+    }
+    if (to == kInvalidIndex)
+    {
+      return false;
+    }
+    ++places_[to].turns;
+    --places_[from].turns;
+    gain_ += product_.col(to) - product_.col(from);
+    return true;
+  }
+
+  std::vector<Place> places_;
+  std::vector<std::vector<Index>> neighbours_; ///< places joined by an edge
+  Eigen::MatrixXd product_;                    ///< of the factors of single turns
+  Eigen::VectorXd gain_;                       ///< products with the factor of all turns
+};
+
+} // namespace
+
+double sizeError(const Mesh& mesh, const FieldTopology& topology, const std::vector<int>& turns)
+{
+  const ConformalFactor factor(mesh, topology);
+  return std::sqrt(factor.meanSquare(factor.ofTurns(topology, turns)));
+}
+
+std::vector<int> valencesForSizes(const Mesh& mesh, const FieldTopology& topology,
+  const std::vector<int>& turns, const std::vector<int>& asked)
+{
+  const ConformalFactor factor(mesh, topology);
+  TurnPlacement placement(
+    mesh, placesOf(mesh, topology, turns, asked), factor, factor.ofTurns(topology, turns));
+  if (!placement.improve())
+  {
+    return {};
+  }
+  // All are fixed: what is left free would be moved by the flow, which knows nothing of sizes.
+  std::vector<int> targets = asked;
+  targets.resize(mesh.vertexCount(), 0);
+  for (std::size_t i = 0; i < turns.size(); ++i)
+  {
+    int& target = targets[topology.fans[i].vertex];
+    target = !topology.fans[i].sector && target == 0 ? turns[i] : target;
+  }
+  for (const Place& place : placement.places())
+  {
+    targets[place.vertex] = place.turns;
+  }
+  return targets;
+}
+
+} // namespace quadrille

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CrossField/SizeCones.h"
+
+#include "CrossField/CrossField.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+namespace
+{
+
+using namespace quadrille::test;
+
+Mesh withSizes(Mesh mesh, const std::function<double(const Vector3&)>& size)
+{
+  for (const Vector3& p : mesh.position)
+  {
+    mesh.sizing.push_back(static_cast<float>(size(p)));
+  }
+  return mesh;
+}
+
+/// Turns per fan of a mesh whose fans are whole rings or straight sectors, with a few changed by vertex.
+std::vector<int> turnsWith(
+  const FieldTopology& topology, const std::vector<std::pair<Index, int>>& irregular)
+{
+  std::vector<int> turns;
+  for (const Fan& fan : topology.fans)
+  {
+    turns.push_back(fan.sector ? static_cast<int>(std::lround(fan.angle / (kPi / 2))) : 4);
+    for (const auto& [v, t] : irregular)
+    {
+      turns.back() = fan.vertex == v ? t : turns.back();
+    }
+  }
+  return turns;
+}
+
+TEST(SizeCones, FlatSurfaceOfOneSizeHasNoError)
+{
+  Mesh mesh = gridPlane(12, 12);
+  const FieldTopology topology = buildFieldTopology(mesh);
+  EXPECT_NEAR(sizeError(mesh, topology, turnsWith(topology, {})), 0, 1e-9);
+  EXPECT_TRUE(valencesForSizes(mesh, topology, turnsWith(topology, {}), {}).empty());
+}
+
+TEST(SizeCones, LinearGrowthOnAStripIsTheErrorOfItsRegularMap)
+{
+  // Without irregular vertices a map of a strip has one size only in the middle of which the logarithms of the sizes lie.
+  const auto size = [](const Vector3& p) { return std::exp(0.05 * p.x()); };
+  const Mesh mesh = withSizes(gridPlane(40, 10), size);
+  const FieldTopology topology = buildFieldTopology(mesh);
+  // The area in sizes is exp(-0.1 x) dx: the spread of 0.05 x under that weight.
+  double sum = 0, mean = 0, square = 0;
+  for (double x = 0.005; x < 40; x += 0.01)
+  {
+    const double w = std::exp(-0.1 * x);
+    sum += w;
+    mean += w * 0.05 * x;
+    square += w * 0.0025 * x * x;
+  }
+  const double spread = std::sqrt(square / sum - mean * mean / (sum * sum));
+  EXPECT_NEAR(sizeError(mesh, topology, turnsWith(topology, {})), spread, 0.02 * spread);
+}
+
+TEST(SizeCones, IrregularVerticesAreAddedInPairsAndStayApart)
+{
+  const Mesh mesh =
+    withSizes(gridPlane(40, 20), [](const Vector3& p) { return p.x() > 20 ? 1.0 : 0.5; });
+  const FieldTopology topology = buildFieldTopology(mesh);
+  const std::vector<int> before = turnsWith(topology, {});
+  const std::vector<int> targets = valencesForSizes(mesh, topology, before, {});
+  ASSERT_EQ(targets.size(), mesh.position.size());
+  int sum = 0;
+  std::vector<std::pair<Index, int>> irregular;
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    if (targets[v] != 0 && targets[v] != 4)
+    {
+      sum += targets[v] - 4;
+      irregular.emplace_back(v, targets[v]);
+    }
+  }
+  EXPECT_GE(irregular.size(), 2U);
+  EXPECT_EQ(sum, 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const auto isIrregular = [&](Index v) { return targets[v] != 0 && targets[v] != 4; };
+    EXPECT_FALSE(isIrregular(mesh.origin[h]) && isIrregular(mesh.target(h)));
+  }
+  EXPECT_LT(sizeError(mesh, topology, turnsWith(topology, irregular)),
+    0.5 * sizeError(mesh, topology, before));
+}
+
+TEST(SizeCones, TargetsOfTheUserStay)
+{
+  const Mesh mesh =
+    withSizes(gridPlane(40, 20), [](const Vector3& p) { return p.x() > 20 ? 1.0 : 0.5; });
+  const FieldTopology topology = buildFieldTopology(mesh);
+  std::vector<int> asked(mesh.vertexCount(), 0);
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    asked[v] = mesh.position[v].x() > 15 && mesh.position[v].x() < 35 ? 4 : 0;
+  }
+  const std::vector<int> targets =
+    valencesForSizes(mesh, topology, turnsWith(topology, {}), asked);
+  ASSERT_EQ(targets.size(), asked.size());
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    EXPECT_TRUE(asked[v] == 0 || targets[v] == asked[v]);
+  }
+}
+
+TEST(SizeCones, FieldTakesThem)
+{
+  const Mesh mesh =
+    withSizes(gridPlane(40, 20), [](const Vector3& p) { return p.x() > 20 ? 1.0 : 0.5; });
+  CrossFieldOptions options;
+  options.targetEdgeLength = 2;
+  const CrossField field = computeCrossField(mesh, options);
+  ASSERT_TRUE(field.status.ok()) << field.status.message;
+  const Index irregular = static_cast<Index>(
+    std::count_if(field.turns.begin(), field.turns.end(), [](int t) { return t == 3 || t == 5; }));
+  EXPECT_GE(irregular, 2U);
+  const CrossField plain = computeCrossField(gridPlane(40, 20), options);
+  EXPECT_EQ(std::count(plain.turns.begin(), plain.turns.end(), 5), 0);
+}
+
+} // namespace
+} // namespace quadrille
