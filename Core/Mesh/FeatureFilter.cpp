@@ -27,6 +27,8 @@ constexpr double kMostJagged = 1.1;
 
 /// Mean width of a patch over s; there a quad is at least so much narrower than it is long.
 constexpr double kThinnestPatch = 0.25;
+/// Chains shorter than this part of a patch's longest one are its ends and not its sides.
+constexpr double kShortestSide = 0.5;
 
 /// A maximal run of constrained edges between nodes; `ends` is invalid for a closed loop.
 struct Chain
@@ -365,8 +367,10 @@ private:
     const Thin& thin, std::vector<std::uint8_t>& touched, std::vector<Index>& result) const
   {
     std::vector<Index> sides;
+    double longest = 0;
     for (const Index h : thin.border)
     {
+      longest = std::max(longest, chains_[chainOf_[h]].length);
       if (chains_[chainOf_[h]].removable && neighbour(h) != thin.patch)
       {
         sides.push_back(chainOf_[h]);
@@ -378,7 +382,8 @@ private:
     double bluntest = std::numeric_limits<double>::infinity();
     for (const Index c : sides)
     {
-      const double sharpness = sharpnessOf(chains_[c]);
+      const bool isEnd = chains_[c].length < kShortestSide * longest;
+      const double sharpness = isEnd ? bluntest : sharpnessOf(chains_[c]);
       if (sharpness < bluntest)
       {
         best = c;

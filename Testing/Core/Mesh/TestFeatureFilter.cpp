@@ -129,31 +129,31 @@ TEST(FeatureFilter, SharpCubeIsLeftAlone)
   EXPECT_EQ(featureEdges(mesh), 72u);
 }
 
-/// A plane 40 by 20 with a band between the rows y = 10 and y = 10 + width, where it bends by `first` and `second` radians.
+/// A plane 40 by 40 with a band between the rows y = 20 and y = 20 + width, where it bends by `first` and `second` radians.
 Mesh bentBand(int width, double first, double second, std::uint8_t secondFlags = kDetected)
 {
-  Mesh mesh = test::gridPlane(40, 20);
-  markRow(mesh, 10, 0, 40, kDetected);
-  markRow(mesh, 10 + width, 0, 40, secondFlags);
+  Mesh mesh = test::gridPlane(40, 40);
+  markRow(mesh, 20, 0, 40, kDetected);
+  markRow(mesh, 20 + width, 0, 40, secondFlags);
   for (Vector3& p : mesh.position)
   {
-    const double inBand = std::clamp(p.y() - 10, 0.0, double(width));
-    const double beyond = std::max(p.y() - 10 - width, 0.0);
+    const double inBand = std::clamp(p.y() - 20, 0.0, double(width));
+    const double beyond = std::max(p.y() - 20 - width, 0.0);
     p = Vector3(p.x(),
-      std::min(p.y(), 10.0) + inBand * std::cos(first) + beyond * std::cos(first + second),
+      std::min(p.y(), 20.0) + inBand * std::cos(first) + beyond * std::cos(first + second),
       inBand * std::sin(first) + beyond * std::sin(first + second));
   }
   return mesh;
 }
 
-/// Feature edges in row y = 10, which did not move.
+/// Feature edges in row y = 20, which did not move.
 Index edgesOfFirstRow(const Mesh& mesh)
 {
   Index count = 0;
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
-    count += mesh.isFeature(h) && h < mesh.twin[h] && mesh.position[mesh.origin[h]].y() == 10 &&
-      mesh.position[mesh.target(h)].y() == 10;
+    count += mesh.isFeature(h) && h < mesh.twin[h] && mesh.position[mesh.origin[h]].y() == 20 &&
+      mesh.position[mesh.target(h)].y() == 20;
   }
   return count;
 }
@@ -183,8 +183,31 @@ TEST(FeatureFilter, SideOfAThinBandThatWasAskedForStays)
   EXPECT_EQ(removeUnresolvedFeatures(mesh, 4.0).removedEdges, 40u);
   EXPECT_EQ(edgesOfFirstRow(mesh), 0u); // though it is the sharper one
   Mesh both = bentBand(1, 0.9, 0.8, kFeatureEdge | kRequestedFeature);
-  markRow(both, 10, 0, 40, kFeatureEdge | kRequestedFeature);
+  markRow(both, 20, 0, 40, kFeatureEdge | kRequestedFeature);
   EXPECT_EQ(removeUnresolvedFeatures(both, 4.0).removedEdges, 0u);
+}
+
+TEST(FeatureFilter, EndOfAThinBandIsNoSideOfIt)
+{
+  // A flat column of features at x = 30 ends the band. Without its edge there the band would be a bay of the wide patch beyond, and as
+  // thin as before.
+  Mesh mesh = bentBand(1, 0.8, 0.9);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3& p = mesh.position[mesh.origin[h]];
+    const Vector3& q = mesh.position[mesh.target(h)];
+    if (mesh.isFeature(h) && std::max(p.x(), q.x()) > 30)
+    {
+      unmarkFeatures(mesh, { h });
+    }
+    if (p.x() == 30 && q.x() == 30)
+    {
+      mark(mesh, h, kDetected);
+    }
+  }
+  ASSERT_EQ(featureEdges(mesh), 100u);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 4.0).removedEdges, 30u);
+  EXPECT_EQ(edgesOfFirstRow(mesh), 0u);
 }
 
 TEST(FeatureFilter, OfTwoThinBandsSideBySideTheMiddleCurveMayGo)
