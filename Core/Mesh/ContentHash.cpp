@@ -3,6 +3,7 @@
 #include "Mesh/ContentHash.h"
 
 #include "Base/Parallel.h"
+#include "Mesh/Surface.h"
 
 #include <algorithm>
 #include <cstring>
@@ -60,6 +61,22 @@ std::uint64_t contentHash(const Mesh& mesh, int threads)
   hash = mix(hash, hashVector(mesh.origin, threads));
   hash = mix(hash, hashVector(mesh.twin, threads));
   return mix(hash, hashVector(mesh.flags, threads));
+}
+
+std::uint64_t contentHash(const SurfaceInput& input, int threads)
+{
+  // By name, so that an array that is new has to be put on one side or the other here.
+  const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, guideDirections,
+    guideWeights, targetValences, sizing] = input;
+  static_cast<void>(guideDirections);
+  static_cast<void>(guideWeights);
+  static_cast<void>(targetValences);
+  std::uint64_t hash = hashVector(points, threads);
+  hash = mix(hash, hashVector(polygonOffsets, threads));
+  hash = mix(hash, hashVector(polygonPoints, threads));
+  hash = mix(hash, hashVector(featureEdges, threads));
+  hash = mix(hash, hashVector(patchIds, threads));
+  return mix(hash, hashVector(sizing, threads));
 }
 
 } // namespace quadrille

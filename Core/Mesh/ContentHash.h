@@ -4,11 +4,18 @@
 
 #include "Mesh/Mesh.h"
 
+#include <cstdint>
+
 namespace quadrille
 {
+
+struct SurfaceInput;
 
 /// 64 bits over positions, connectivity and features; the same for any number of threads. It tells
 /// whether two meshes are the same, and is no defence against a forger.
 std::uint64_t contentHash(const Mesh& mesh, int threads);
+
+/// The same over what the prepared surface depends on, but for guides and target valences, which it only carries along.
+std::uint64_t contentHash(const SurfaceInput& input, int threads);
 
 } // namespace quadrille

@@ -43,6 +43,8 @@ constexpr double kFirstFeatureDrop = 0.5;
 constexpr int kMaximumClosings = 10;
 /// Along the edges of the surface a loop may be so much longer than on the intermediate level, which lies inside of it.
 constexpr double kLongerAlongEdges = 2;
+/// Bytes that a memory takes for a triangle of the input where the surface is split nowhere, and half as much again while it is filled.
+constexpr double kBytesRemembered = 150;
 /// Rings of intermediate vertices that are kept around an offender.
 constexpr int kFreedomRings = 2;
 
@@ -100,8 +102,8 @@ void checkOptions(const RemeshOptions& options)
 class Run
 {
 public:
-  Run(SurfaceInput input, const RemeshOptions& options)
-    : input_(std::move(input)), options_(options), poll_(options.progress)
+  Run(SurfaceInput input, const RemeshOptions& options, RemeshMemory* memory)
+    : input_(std::move(input)), options_(options), poll_(options.progress), memory_(memory)
   {
     options_.progress = poll_.callback();
   }
@@ -121,6 +123,7 @@ public:
       result_.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
       result_.quads = {};
     }
+    letLevelsGo();
     return std::move(result_);
   }
 
@@ -184,6 +187,7 @@ private:
     report(options_.progress, 0,
       "Preparing: " + describe(result_.estimate) + " for " + std::to_string(triangles) +
         " triangles");
+    remembersIfRoom(static_cast<double>(triangles));
     const double limit = options_.memoryLimit.value_or(freeMemory());
     if (result_.estimate.bytes <= limit)
     {
@@ -197,8 +201,60 @@ private:
     return false;
   }
 
+  void remembersIfRoom(double triangles)
+  {
+    if (memory_ == nullptr)
+    {
+      return;
+    }
+    // What is held already is not free any more.
+    const double held = static_cast<double>(memory_->bytes());
+    const double needed = result_.estimate.bytes + std::max(0.0, kBytesRemembered * triangles - held);
+    if (needed > options_.memoryLimit.value_or(freeMemory()))
+    {
+      memory_->clear();
+      memory_ = nullptr;
+      result_.notices.push_back("stages are not remembered: the run and its memory would need " +
+        describeBytes(needed) + "; a change will start from the beginning");
+    }
+  }
+
+  void reuse(const std::vector<std::string>& stages)
+  {
+    for (const std::string& stage : stages)
+    {
+      if (std::find(result_.reused.begin(), result_.reused.end(), stage) == result_.reused.end())
+      {
+        result_.reused.push_back(stage);
+      }
+    }
+  }
+
   void prepare()
   {
+    if (memory_ != nullptr)
+    {
+      key_ =
+        memoryKey(input_, options_.featureAngle, options_.closeHandles, options_.threads);
+      if (memory_->knowsPrepared(key_))
+      {
+        checkRequests(input_);
+        if (input_.sizing.empty())
+        {
+          result_.surface.area = memory_->area(); // all that the edge length needs
+          result_.surface.boundingBoxDiagonal = memory_->boundingBoxDiagonal();
+        }
+        else
+        {
+          prepared_ = memory_->prepared();
+          result_.surface = *prepared_;
+        }
+        reuse({ "repair", "order", "connectivity" });
+        return;
+      }
+      memory_->clear(); // before the new one takes its memory
+    }
+    const bool sized = !input_.sizing.empty();
     PrepareOptions prepareOptions;
     prepareOptions.featureAngle = options_.featureAngle;
     prepareOptions.threads = options_.threads;
@@ -211,6 +267,10 @@ private:
     for (const auto& [name, seconds] : result_.surface.seconds)
     {
       addStage(name, seconds, polygons, result_.surface.mesh.faceCount());
+    }
+    if (memory_ != nullptr && sized)
+    {
+      prepared_ = result_.surface; // before the sizes are limited
     }
   }
 
@@ -274,6 +334,47 @@ private:
 
   void refine()
   {
+    key_.edgeLength = result_.targetEdgeLength;
+    if (memory_ != nullptr && memory_->knowsRefined(key_))
+    {
+      result_.surface = memory_->refined();
+      const std::vector<std::string>& told = memory_->notices();
+      result_.notices.insert(result_.notices.end(), told.begin(), told.end());
+      if (options_.closeHandles == 0)
+      {
+        collectRequests(input_, result_.surface);
+      }
+      onMemory_ = true;
+      reuse({ "refine" });
+    }
+    else
+    {
+      if (memory_ != nullptr && memory_->knowsPrepared(key_))
+      {
+        if (prepared_)
+        {
+          memory_->clear(); // the surface has its sizes already
+        }
+        else
+        {
+          result_.surface = memory_->takePrepared();
+        }
+        collectRequests(input_, result_.surface);
+      }
+      refinePrepared();
+    }
+    input_ = {};
+    prepared_.reset();
+    tellRequests();
+  }
+
+  void refinePrepared()
+  {
+    if (memory_ != nullptr && !prepared_)
+    {
+      prepared_ = result_.surface;
+    }
+    const std::size_t told = result_.notices.size();
     const double start = now();
     const std::size_t before = result_.surface.mesh.faceCount();
     const FeatureFilterReport filtered =
@@ -293,6 +394,18 @@ private:
       result_.notices.push_back(result_.surface.notice);
     }
     closeSmallHandles();
+    if (memory_ != nullptr)
+    {
+      levels_.reset(); // not of the surface that is remembered
+      memory_->keep(key_, std::move(*prepared_), result_.surface,
+        { result_.notices.begin() + static_cast<std::ptrdiff_t>(told), result_.notices.end() });
+      onMemory_ = true;
+      prepared_.reset();
+    }
+  }
+
+  void tellRequests()
+  {
     const SurfaceGuides guides = surfaceGuides(result_.surface);
     for (const std::string& notice : requestNotices(result_.surface, guides))
     {
@@ -338,7 +451,7 @@ private:
   /// Ends the attempts: the levels of the failed one are let go.
   void restore(MapState&& state)
   {
-    levels_.reset();
+    letLevelsGo();
     result_.coarse = std::move(state.coarse);
     result_.coarseUv = std::move(state.coarseUv);
     std::vector<FixedVec2>().swap(result_.uv);
@@ -431,7 +544,7 @@ private:
       times.handles += attempt == 0 ? measureSmallParts() : 0;
       mapOptions.guides = hierarchy().coarse.guides;
       mapOptions.targetValences = levelValences(result_.surface, hierarchy().coarse.fineVertex);
-      map = computeGridMap(hierarchy().coarse.mesh, mapOptions);
+      map = startingWarm(mapOptions);
       work_ += map.work;
       times.add(hierarchy(), map);
       const bool hopeless = map.status.code == StatusCode::TooLarge ||
@@ -455,22 +568,81 @@ private:
     return map.status.ok();
   }
 
+  GridMapResult startingWarm(GridMapOptions mapOptions)
+  {
+    const Level& coarse = hierarchy().coarse;
+    const bool fits = onMemory_ && options_.method == MapMethod::ScaleAware;
+    if (fits && options_.warmStart && memory_->map && memory_->mapQuads == gridQuads())
+    {
+      mapOptions.previous = &*memory_->map;
+      mapOptions.vertexIds = coarse.fineVertex;
+    }
+    GridMapResult map = computeGridMap(coarse.mesh, mapOptions);
+    const auto reuseIf = [&](std::size_t components, const char* stage)
+    {
+      if (components > 0)
+      {
+        reuse({ stage });
+      }
+    };
+    reuseIf(map.reuse.seamless, "seamless");
+    reuseIf(map.reuse.integers, "quantize");
+    reuseIf(map.reuse.embedded, "embed");
+    if (fits && map.status.ok())
+    {
+      memory_->map = previousMap(coarse.mesh, map, coarse.fineVertex);
+      memory_->mapQuads = gridQuads();
+    }
+    return map;
+  }
+
   /// The levels with these options, from the intermediate one on where phase 1 has left all vertices that are to be
   /// kept. Returns the seconds of phase 1.
   double makeLevels(const HierarchyOptions& levelOptions)
   {
+    recallLevels(levelOptions);
     const bool again = !levels_ || !levels_->allows(levelOptions);
     if (again)
     {
       ++result_.decimations;
       levels_.reset(); // before the new one takes its memory
-      levels_.emplace(result_.surface.mesh, result_.surface.hash, levelOptions);
+      const PreparedSurface& surface = onMemory_ ? memory_->surface() : result_.surface;
+      levels_.emplace(surface.mesh, surface.hash, levelOptions);
+      levelsKept_ = levelOptions.keepVertices;
       releaseFreedMemory();
     }
     levels_->update(levelOptions);
     return again ? hierarchy().secondsPhase1 : 0.0;
   }
   const Hierarchy& hierarchy() const { return levels_->hierarchy(); }
+
+  /// Phase 1 depends on the vertices that it keeps: with others it is what a run without memory makes only nearly.
+  void recallLevels(const HierarchyOptions& levelOptions)
+  {
+    if (levels_ || !onMemory_ || !memory_->levels ||
+      !(options_.warmStart || memory_->levelsKept == levelOptions.keepVertices))
+    {
+      return;
+    }
+    levels_ = std::move(memory_->levels);
+    memory_->levels.reset();
+    levelsKept_ = std::move(memory_->levelsKept);
+    if (levels_->allows(levelOptions))
+    {
+      reuse({ "phase1" });
+    }
+  }
+
+  /// To the memory, if there is one that their surface belongs to: their log is a tenth of all memory.
+  void letLevelsGo()
+  {
+    if (onMemory_ && levels_)
+    {
+      memory_->levels = std::move(levels_);
+      memory_->levelsKept = std::move(levelsKept_);
+    }
+    levels_.reset();
+  }
 
   struct StageTimes
   {
@@ -761,7 +933,7 @@ private:
 
   bool extract()
   {
-    levels_.reset(); // the log is a tenth of all memory
+    letLevelsGo();
     const double start = now();
     const Mesh& mesh = result_.surface.mesh;
     ExtractionOptions extractionOptions;
@@ -915,7 +1087,8 @@ private:
     result_.notices.push_back(text.str());
     result_.status = {};
     troubles_.clear();
-    levels_.reset();
+    letLevelsGo();
+    onMemory_ = false; // its surface has these features
     return true;
   }
 
@@ -923,7 +1096,12 @@ private:
   RemeshOptions options_;
   PollScope poll_;
   RemeshResult result_;
+  RemeshMemory* memory_;    ///< null: none
+  RemeshMemory::Key key_;   ///< of the surface
+  std::optional<PreparedSurface> prepared_; ///< for the memory, while the surface is refined
+  bool onMemory_ = false;   ///< result_.surface is the one that the memory holds
   std::optional<Redecimation> levels_;
+  std::vector<Index> levelsKept_; ///< HierarchyOptions::keepVertices of their phase 1
   CrossField coarseField_;
   std::vector<Vector3> troubles_; ///< where the last map or its quads failed
   std::size_t work_ = 0;          ///< GridMapResult::work of all maps so far
@@ -938,7 +1116,12 @@ private:
 
 RemeshResult remesh(SurfaceInput input, const RemeshOptions& options)
 {
-  return Run(std::move(input), options).execute();
+  return Run(std::move(input), options, nullptr).execute();
+}
+
+RemeshResult remesh(SurfaceInput input, const RemeshOptions& options, RemeshMemory& memory)
+{
+  return Run(std::move(input), options, &memory).execute();
 }
 
 } // namespace quadrille

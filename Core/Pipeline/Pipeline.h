@@ -11,6 +11,7 @@
 #include "Mesh/Handles.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Estimate.h"
+#include "Pipeline/RemeshMemory.h"
 #include "Transfer/Charts.h"
 #include "Transfer/Transfer.h"
 
@@ -29,7 +30,7 @@ struct RemeshOptions
   std::optional<double> edgeLength; ///< target edge length in units of the input, > 0
   double relativeEdgeLength = 0.02; ///< target edge length over the bounding-box diagonal, > 0
   std::optional<double> featureAngle =
-    0.6981317007977318;        ///< radians (40 degrees); none: no detection
+    0.6981317007977318; ///< radians (40 degrees); none: no detection
   MapMethod method = MapMethod::ScaleAware;
   Index coarseVertices = 1000; ///< budget of the coarse level; 0: as many as its curvature needs
   /// Handles that are shorter round or through than so many target edge lengths are cut and closed before they are mapped, see
@@ -41,6 +42,9 @@ struct RemeshOptions
   bool mergeCharts =
     false;         ///< of the map on the surface, for display; the quads do not depend on it
   int threads = 0; ///< 0: all; the result does not depend on it
+  /// With a memory only: field, map and phase 1 may start from those of the run before, so that the result may differ from one without
+  /// memory. Off: the same bytes as without.
+  bool warmStart = false;
   ProgressCallback progress;
 };
 
@@ -89,6 +93,9 @@ struct RemeshResult
   TransferResult transfer;       ///< counts only, uv is moved out
   SmallParts smallParts;
   std::vector<StageRecord> stages;
+  /// Names of the stages that a memory had the result of (they are not among `stages`), or that started from what was there before (they
+  /// are).
+  std::vector<std::string> reused;
   RunEstimate estimate; ///< made before the run
   int decimations =
     0; ///< runs of phase 1; more than one where a map lacked freedom that phase 1 had removed
@@ -103,5 +110,9 @@ struct RemeshResult
 /// status and leaves `quads` empty. The input's memory (about 30 bytes a triangle) is let go as soon as the surface is prepared:
 /// move it in where it is not needed any more.
 RemeshResult remesh(SurfaceInput input, const RemeshOptions& options);
+
+/// The same with a memory, which an earlier run has filled or which is empty; it holds this run's stages afterwards, whatever its status.
+/// Where there is no room for both the run and the memory, the memory is emptied and a notice says so.
+RemeshResult remesh(SurfaceInput input, const RemeshOptions& options, RemeshMemory& memory);
 
 } // namespace quadrille

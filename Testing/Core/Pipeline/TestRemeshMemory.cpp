@@ -1,0 +1,305 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What is remembered from run to run leads to the same bytes, and from the right stage.
+#include "Pipeline/Pipeline.h"
+
+#include "MeshInput.h"
+#include "TestHandleMeshes.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace quadrille
+{
+namespace
+{
+
+using Names = std::vector<std::string>;
+
+const Names kPrepared = { "repair", "order", "connectivity" };
+const Names kRefined = { "repair", "order", "connectivity", "refine" };
+const Names kDecimated = { "repair", "order", "connectivity", "refine", "phase1" };
+
+/// A dented sphere: irregular vertices, nothing to refine.
+SurfaceInput dentedSphere()
+{
+  Mesh mesh = test::sphere(5);
+  for (Vector3& p : mesh.position)
+  {
+    p *= 1 + 0.15 * std::sin(4 * p.x()) * std::cos(3 * p.y() + p.z());
+  }
+  return test::toInput(mesh);
+}
+
+RemeshOptions optionsFor(std::size_t quads)
+{
+  RemeshOptions options;
+  options.quads = quads;
+  options.coarseVertices = 300;
+  return options;
+}
+
+void guideTop(SurfaceInput& input, const Vector3& direction)
+{
+  input.guideDirections.assign(input.polygonOffsets.size() - 1, Vector3::Zero());
+  for (std::size_t f = 0; f < input.guideDirections.size(); ++f)
+  {
+    if (input.points[input.polygonPoints[input.polygonOffsets[f]]].z() > 0.8)
+    {
+      input.guideDirections[f] = direction;
+    }
+  }
+}
+
+Index topmost(const SurfaceInput& input)
+{
+  const auto lower = [](const Vector3& a, const Vector3& b) { return a.z() < b.z(); };
+  return static_cast<Index>(
+    std::max_element(input.points.begin(), input.points.end(), lower) - input.points.begin());
+}
+
+void askForValence(SurfaceInput& input, Index point, int valence)
+{
+  input.targetValences.assign(input.points.size(), 0);
+  input.targetValences[point] = valence;
+}
+
+void expectSame(const RemeshResult& a, const RemeshResult& b)
+{
+  ASSERT_EQ(a.status.ok(), b.status.ok()) << a.status.message << b.status.message;
+  EXPECT_TRUE(a.surface.mesh.origin == b.surface.mesh.origin);
+  EXPECT_TRUE(a.surface.mesh.flags == b.surface.mesh.flags);
+  EXPECT_EQ(a.surface.hash, b.surface.hash);
+  EXPECT_TRUE(a.uv == b.uv);
+  EXPECT_TRUE(a.quads.points == b.quads.points);
+  EXPECT_TRUE(a.quads.quads == b.quads.quads);
+  EXPECT_EQ(a.notices, b.notices);
+  EXPECT_EQ(a.surface.repair.text(), b.surface.repair.text());
+}
+
+/// A run with the memory is byte for byte one without it, and has reused these stages.
+void expectCold(const SurfaceInput& input, const RemeshOptions& options, RemeshMemory& memory,
+  const Names& reused)
+{
+  const RemeshResult with = remesh(input, options, memory);
+  const RemeshResult without = remesh(input, options);
+  ASSERT_TRUE(without.status.ok()) << without.status.message;
+  expectSame(with, without);
+  EXPECT_EQ(with.reused, reused);
+  for (const StageRecord& stage : with.stages)
+  {
+    if (stage.stage != "phase1") // has an entry, with no time
+    {
+      EXPECT_EQ(std::count(reused.begin(), reused.end(), stage.stage), 0) << stage.stage;
+    }
+  }
+  EXPECT_EQ(with.decimations == 0, std::count(reused.begin(), reused.end(), "phase1") > 0);
+}
+
+TEST(RemeshMemory, WithoutWarmStartTheSameBytesFromTheStageThatIsAsked)
+{
+  SurfaceInput input = dentedSphere();
+  RemeshOptions options = optionsFor(500);
+  RemeshMemory memory;
+  expectCold(input, options, memory, {});
+  expectCold(input, options, memory, kDecimated);
+  guideTop(input, Vector3(1, 0, 0));
+  expectCold(input, options, memory, kDecimated);
+  guideTop(input, Vector3(1, 1, 0));
+  expectCold(input, options, memory, kDecimated);
+  askForValence(input, topmost(input), 5);
+  expectCold(input, options, memory, kRefined); // phase 1 keeps the vertex
+  askForValence(input, topmost(input), 3);
+  expectCold(input, options, memory, kDecimated);
+  options.coarseVertices = 200;
+  expectCold(input, options, memory, kDecimated);
+  options.quads = 700;
+  expectCold(input, options, memory, kPrepared);
+  options.featureAngle = 0.5;
+  expectCold(input, options, memory, {});
+  input.points[7] *= 1.001;
+  expectCold(input, options, memory, {});
+}
+
+TEST(RemeshMemory, RefinedSurfacesAndFeaturesAreRemembered)
+{
+  SurfaceInput input = test::toInput(test::markFeatures(test::unitCube(3), 0.6));
+  RemeshOptions options = optionsFor(600);
+  RemeshMemory memory;
+  expectCold(input, options, memory, {});
+  ASSERT_GT(remesh(input, options).surface.repair.refinedFaces, 0U);
+  askForValence(input, 0, 3); // a corner
+  expectCold(input, options, memory, kRefined);
+  options.quads = 900;
+  expectCold(input, options, memory, kPrepared);
+  options.quads = 60;
+  expectCold(input, options, memory, kPrepared);
+}
+
+TEST(RemeshMemory, SizesAreRemembered)
+{
+  SurfaceInput input = dentedSphere();
+  for (const Vector3& p : input.points)
+  {
+    input.sizing.push_back(p.x() > 0.6 ? 0.4 : 1.5); // grows too fast, so that it is limited
+  }
+  RemeshOptions options = optionsFor(500);
+  RemeshMemory memory;
+  expectCold(input, options, memory, {});
+  guideTop(input, Vector3(1, 0, 0));
+  expectCold(input, options, memory, kDecimated);
+  options.quads = 800;
+  expectCold(input, options, memory, kPrepared);
+  options.quads.reset();
+  options.edgeLength = 0.15;
+  expectCold(input, options, memory, kPrepared);
+  expectCold(input, options, memory, kDecimated);
+  input.sizing[3] *= 0.9;
+  expectCold(input, options, memory, {});
+}
+
+TEST(RemeshMemory, ClosedHandlesAreRemembered)
+{
+  const test::SphereWithHandle model = test::sphereWithHandle(5, Vector3(1, 2, 3).normalized());
+  SurfaceInput input = test::toInput(model.mesh);
+  RemeshOptions options = optionsFor(300);
+  options.closeHandles = 3;
+  RemeshMemory memory;
+  const RemeshResult without = remesh(input, options);
+  ASSERT_EQ(without.surface.repair.closedHandles, 1U);
+  expectSame(remesh(input, options, memory), without);
+  const RemeshResult again = remesh(input, options, memory);
+  expectSame(again, without);
+  EXPECT_EQ(again.reused, kDecimated);
+  options.quads = 350;
+  expectSame(remesh(input, options, memory), remesh(input, options));
+}
+
+TEST(RemeshMemory, AWarmStartTakesTheLastMap)
+{
+  SurfaceInput input = dentedSphere();
+  RemeshOptions options = optionsFor(500);
+  options.warmStart = true;
+  RemeshMemory memory;
+  EXPECT_TRUE(remesh(input, options, memory).reused.empty());
+  const auto has = [](const RemeshResult& result, const std::string& stage)
+  { return std::count(result.reused.begin(), result.reused.end(), stage) == 1; };
+  guideTop(input, Vector3(1, 0.2, 0));
+  RemeshResult warm = remesh(input, options, memory);
+  ASSERT_TRUE(warm.status.ok()) << warm.status.message;
+  EXPECT_TRUE(warm.certificate.valid()) << warm.certificate.text();
+  EXPECT_TRUE(has(warm, "phase1"));
+  EXPECT_TRUE(has(warm, "seamless"));
+  // The vertex is on the intermediate level, so phase 1 need not be run for it.
+  const Level& coarse = warm.coarse;
+  const Index fine = coarse.fineVertex[coarse.mesh.vertexCount() / 2];
+  const Mesh& mesh = warm.surface.mesh;
+  const Index h = static_cast<Index>(
+    std::find(mesh.origin.begin(), mesh.origin.end(), fine) - mesh.origin.begin());
+  askForValence(input, warm.surface.sourcePoints[Mesh::face(h)][h % 3], 5);
+  warm = remesh(input, options, memory);
+  ASSERT_TRUE(warm.status.ok()) << warm.status.message;
+  EXPECT_TRUE(has(warm, "phase1"));
+  EXPECT_EQ(warm.decimations, 0);
+  EXPECT_EQ(warm.turns[fine], 5);
+  // Where the size changes, the ids of the last map mean nothing.
+  options.quads = 650;
+  const RemeshResult resized = remesh(input, options, memory);
+  EXPECT_EQ(resized.reused, kPrepared);
+  expectSame(resized, remesh(input, options));
+}
+
+TEST(RemeshMemory, IsWholeAfterEveryStop)
+{
+  SurfaceInput input = dentedSphere();
+  RemeshOptions options = optionsFor(500);
+  const RemeshResult expected = remesh(input, options);
+  int total = 0;
+  options.progress = [&](double, const std::string&) { return ++total > 0; };
+  ASSERT_TRUE(remesh(input, options).status.ok());
+  ASSERT_GT(total, 20);
+  RemeshMemory memory;
+  RemeshOptions plain = optionsFor(500);
+  int stopped = 0;
+  for (int stop = 1; stop < total; stop += 1 + total / 12)
+  {
+    int calls = 0;
+    options.progress = [&](double, const std::string&) { return ++calls < stop; };
+    const StatusCode code = remesh(input, options, memory).status.code;
+    // What an earlier run has left makes this one shorter.
+    EXPECT_TRUE(code == StatusCode::Cancelled || stop > 1) << stop;
+    stopped += code == StatusCode::Cancelled ? 1 : 0;
+    if (stopped % 2 == 0)
+    {
+      memory.clear();
+    }
+  }
+  EXPECT_GT(stopped, 4);
+  expectSame(remesh(input, plain, memory), expected);
+  // A change that is stopped, too, is forgotten.
+  for (int stop = 1; stop < 40; stop += 3)
+  {
+    int calls = 0;
+    options.quads = 700;
+    options.progress = [&](double, const std::string&) { return ++calls < stop; };
+    remesh(input, options, memory);
+    expectSame(remesh(input, plain, memory), expected);
+  }
+}
+
+TEST(RemeshMemory, IsWholeAfterBadInput)
+{
+  SurfaceInput input = dentedSphere();
+  RemeshOptions options = optionsFor(500);
+  RemeshMemory memory;
+  const RemeshResult expected = remesh(input, options, memory);
+  SurfaceInput bad = input;
+  guideTop(bad, Vector3(1, 0, 0));
+  bad.guideDirections[0].x() = std::nan("");
+  EXPECT_THROW(remesh(bad, options, memory), InvalidInput);
+  bad = input;
+  askForValence(bad, 0, 77);
+  EXPECT_THROW(remesh(bad, options, memory), InvalidInput);
+  const RemeshResult after = remesh(input, options, memory);
+  expectSame(after, expected);
+  EXPECT_EQ(after.reused, kDecimated);
+  bad = input;
+  bad.points[3].y() = std::nan("");
+  EXPECT_THROW(remesh(bad, options, memory), InvalidInput);
+  expectSame(remesh(input, options, memory), expected);
+}
+
+TEST(RemeshMemory, HoldsOneSurfaceAndLetsItGoWhereThereIsNoRoom)
+{
+  const SurfaceInput input = dentedSphere();
+  const double triangles = static_cast<double>(input.polygonOffsets.size() - 1);
+  RemeshOptions options = optionsFor(500);
+  RemeshMemory memory;
+  EXPECT_EQ(memory.bytes(), 0U);
+  const RemeshResult first = remesh(input, options, memory);
+  const std::size_t held = memory.bytes();
+  EXPECT_GT(static_cast<double>(held), 60 * triangles);
+  SurfaceInput other = input;
+  other.points[0] *= 1.01;
+  remesh(other, options, memory);
+  EXPECT_LT(static_cast<double>(memory.bytes()), 1.2 * static_cast<double>(held));
+  options.memoryLimit = first.estimate.bytes + 100 * triangles;
+  const RemeshResult tight = remesh(other, options, memory);
+  EXPECT_TRUE(tight.status.ok()) << tight.status.message;
+  // What it holds counts as there, so nothing has to go.
+  EXPECT_FALSE(tight.reused.empty());
+  memory.clear();
+  EXPECT_EQ(memory.bytes(), 0U);
+  const RemeshResult without = remesh(input, options, memory);
+  EXPECT_TRUE(without.status.ok()) << without.status.message;
+  EXPECT_EQ(memory.bytes(), 0U);
+  EXPECT_TRUE(std::any_of(without.notices.begin(), without.notices.end(),
+    [](const std::string& text) { return text.find("are not remembered") != std::string::npos; }));
+}
+
+} // namespace
+} // namespace quadrille
