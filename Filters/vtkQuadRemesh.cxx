@@ -3,6 +3,7 @@
 #include "vtkQuadRemesh.h"
 
 #include "Pipeline/Pipeline.h"
+#include "Pipeline/RemeshMemory.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleQuads.h"
 #include "QuadrilleReport.h"
@@ -40,6 +41,7 @@ quadrille::QuadSource sourceOf(const quadrille::PreparedSurface& surface,
 void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
 {
   quadrille::addStages(data, result.stages);
+  quadrille::addText(data, "ReusedStages", result.reused);
   quadrille::addCertificate(data, result.certificate);
   quadrille::addRepair(data, result.surface.repair);
   quadrille::addNumber(data, "EstimatedSeconds", result.estimate.seconds);
@@ -57,12 +59,32 @@ void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkQuadRemesh::vtkQuadRemesh()
+vtkQuadRemesh::vtkQuadRemesh() : Memory(std::make_unique<quadrille::RemeshMemory>())
 {
   this->SetNumberOfOutputPorts(3);
 }
 
 vtkQuadRemesh::~vtkQuadRemesh() = default;
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::SetKeepLevels(vtkTypeBool on)
+{
+  if (!on)
+  {
+    this->Memory->clear();
+  }
+  if (this->KeepLevels != on)
+  {
+    this->KeepLevels = on;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+double vtkQuadRemesh::GetRememberedMegabytes() const
+{
+  return 1e-6 * static_cast<double>(this->Memory->bytes());
+}
 
 //------------------------------------------------------------------------------
 vtkPolyData* vtkQuadRemesh::GetPolyDataOutputAt(int port)
@@ -92,7 +114,16 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   options.mergeCharts = this->ComputeMappedSurface != 0;
   options.progress = this->MakeProgress(0.02, 0.95);
 
-  const quadrille::RemeshResult result = quadrille::remesh(std::move(converted.input), options);
+  options.warmStart = this->WarmStart != 0;
+
+  this->ReusedStagesText.clear();
+  const quadrille::RemeshResult result = this->KeepLevels
+    ? quadrille::remesh(std::move(converted.input), options, *this->Memory)
+    : quadrille::remesh(std::move(converted.input), options);
+  for (const std::string& stage : result.reused)
+  {
+    this->ReusedStagesText += (this->ReusedStagesText.empty() ? "" : "\n") + stage;
+  }
   this->TargetQuads = static_cast<vtkIdType>(result.targetQuads);
   this->SetStageRecords(result.stages);
   this->SetCertificate(result.certificate);
@@ -138,6 +169,10 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumQuads: " << this->MaximumQuads << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "CloseHandles: " << this->CloseHandles << "\n";
+  os << indent << "KeepLevels: " << this->KeepLevels << "\n";
+  os << indent << "WarmStart: " << this->WarmStart << "\n";
+  os << indent << "ReusedStagesText: " << this->ReusedStagesText << "\n";
+  os << indent << "RememberedMegabytes: " << this->GetRememberedMegabytes() << "\n";
   os << indent << "ComputeMappedSurface: " << this->ComputeMappedSurface << "\n";
   os << indent << "TextureCoordinates: " << this->TextureCoordinates << "\n";
   os << indent << "TargetQuads: " << this->TargetQuads << "\n";

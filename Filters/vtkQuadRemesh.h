@@ -15,7 +15,7 @@
  *    seams between irregular vertices. Empty unless ComputeMappedSurface is on.
  * 2. feature and boundary lines of the quads, with `Boundary` and, where there are patches, `PatchIds`.
  *
- * Field data of output 0: `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`, `Certificate`,
+ * Field data of output 0: `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`, `ReusedStages`, `Certificate`,
  * `CertificateValid`, `CertificateNames`, `CertificateValues`, `RepairNames`, `RepairCounts`, `Notices`,
  * `EstimatedSeconds`, `EstimatedMegabytes`, `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `CoarseVertices`, `Decimations`, `Replays`, `SurfaceFaces`, `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`,
  * `ShortestBoundaryOverEdgeLength` (see the getters of the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`.
@@ -24,6 +24,14 @@
 #define vtkQuadRemesh_h
 
 #include "vtkQuadrilleSurfaceAlgorithm.h"
+
+#include <memory>
+#include <string>
+
+namespace quadrille
+{
+class RemeshMemory;
+}
 
 class QUADRILLEFILTERS_EXPORT vtkQuadRemesh : public vtkQuadrilleSurfaceAlgorithm
 {
@@ -84,6 +92,35 @@ public:
 
   ///@{
   /**
+   * Whether the filter holds on to what a stage has made, so that a change begins where it enters: guides, and the number of coarse vertices, at
+   * phase 2 of the decimation; target valences at phase 1; the size of the quads at the refinement; the feature angle and
+   * the surface itself at the beginning. Contents are compared, not times. The quads are the same as without. About 90 bytes a triangle
+   * are held, twice that where large triangles were split, see GetRememberedMegabytes(); where the machine has no room for that, nothing is
+   * held and a notice says so. Off lets all go. Default: on.
+   */
+  void SetKeepLevels(vtkTypeBool on);
+  vtkGetMacro(KeepLevels, vtkTypeBool);
+  vtkBooleanMacro(KeepLevels, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * With KeepLevels: whether the map starts from that of the last execution, which keeps whole numbers where irregular vertices and features
+   * stay, and whether other target valences begin at phase 2. The result then depends on what was made before, within the same
+   * certificate; off, on the inputs and properties alone. Default: off.
+   */
+  vtkSetMacro(WarmStart, vtkTypeBool);
+  vtkGetMacro(WarmStart, vtkTypeBool);
+  vtkBooleanMacro(WarmStart, vtkTypeBool);
+  ///@}
+
+  /// Millions of bytes that are held for the next execution.
+  double GetRememberedMegabytes() const;
+  /// Stages that the last execution had, or began, from an earlier one, one a line.
+  const char* GetReusedStagesText() const { return this->ReusedStagesText.c_str(); }
+
+  ///@{
+  /**
    * Whether output 1, the input surface with the map, is made. Default: on.
    */
   vtkSetMacro(ComputeMappedSurface, vtkTypeBool);
@@ -137,6 +174,8 @@ private:
   vtkIdType MaximumQuads = 10000000;
   double MemoryLimit = 0;
   double CloseHandles = 0;
+  vtkTypeBool KeepLevels = 1;
+  vtkTypeBool WarmStart = 0;
   vtkTypeBool ComputeMappedSurface = 1;
   vtkTypeBool TextureCoordinates = 1;
   vtkIdType ActualQuads = 0;
@@ -145,6 +184,8 @@ private:
   vtkIdType UnresolvedHandles = 0;
   double ShortestLoopOverEdgeLength = 0;
   double ShortestBoundaryOverEdgeLength = 0;
+  std::string ReusedStagesText;
+  std::unique_ptr<quadrille::RemeshMemory> Memory;
 };
 
 #endif

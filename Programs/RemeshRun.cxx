@@ -15,6 +15,7 @@ namespace quadrille
 
 RemeshRun::RemeshRun()
 {
+  filter_->KeepLevelsOff(); // there is no next execution
   onError_->SetClientData(&errors_);
   onError_->SetCallback(
     [](vtkObject*, unsigned long event, void* client, void* text)

@@ -9,8 +9,8 @@ Meshes: the shape `beast` of Data/generate.py at 125 k, 500 k, 2 M and 8 M faces
 points shuffled, and, where --data has scan/bunny_ct.ply, that scan, the same shuffled, and the same with each face cut into four
 and its points moved at random by up to a tenth of their shortest edge. Runs of all meshes and thread counts alternate, so that a busy
 machine disturbs all alike; a figure is the median of the repeats. The tables replace what stands between the two marks in the page; what
-is around them is written by hand. --replay writes the table of the replay over all scans of --data instead. Needs Debian's python3 with
-numpy.
+is around them is written by hand. --replay writes the table of the replay over all scans of --data instead, --coarse that of the coarse level over
+all of its scan, cad and open. Needs Debian's python3 with numpy.
 """
 import argparse
 import csv
@@ -23,8 +23,10 @@ import sys
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-TABLES, REPLAY = "tables", "replay" # names of the marks round generated parts of the page
+TABLES, REPLAY, COARSE = "tables", "replay", "coarse" # names of the marks round generated parts of the page
 REPLAY_QUADS = [1000, 2500, 10000]
+COARSE_QUADS = 2500
+COARSE_LIMIT = 1200 # vertices; levels that features or handles hold above are not what the aims are about
 SIZES = {"beast_125k": 125000, "beast_500k": 500000, "beast_2M": 2000000, "beast_8M": 8000000}
 STAGES = ["order", "connectivity", "repair", "refine", "phase1", "phase2", "field", "seamless", "quantize", "embed", "replay",
           "certify", "extract", "total", "cancel"]
@@ -202,6 +204,42 @@ def replayTable(rows):
     return "\n".join(lines) + (f"\n\nWithout a coarse map: {', '.join(absent)}." if absent else "")
 
 
+def coarseRows(command, models, repeat):
+    """Processor seconds of field and map on the coarse level of every model, cold and after edits."""
+    rows = []
+    for path in models:
+        print(f"coarse level: {path.stem}", flush=True)
+        run = subprocess.run([command, path, "--compare", "coarse", "--quads", str(COARSE_QUADS), "--repeat", str(repeat)],
+                             capture_output=True, text=True)
+        if run.returncode != 0:
+            raise SystemExit(run.stderr.strip())
+        rows += [row for row in csv.DictReader(io.StringIO(run.stdout)) if row["clock"] == "processor"]
+    return rows
+
+
+def coarseTable(rows):
+    """Medians over the models, the largest in brackets, in milliseconds."""
+    lines = ["| edit | start | maps | field | seamless | quantize | seamless and quantize | embed | Newton steps | took over integers |",
+             "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|"]
+    fitting = [row for row in rows if int(row["vertices"]) <= COARSE_LIMIT]
+    for edit, start in dict.fromkeys((row["edit"], row["start"]) for row in fitting):
+        some = [row for row in fitting if (row["edit"], row["start"]) == (edit, start) and row["ok"] == "1"]
+
+        def cell(*stages):
+            values = [1e3 * sum(float(row[stage]) for stage in stages) for row in some]
+            return f"{statistics.median(values):.1f} ({max(values):.0f})"
+
+        steps = [int(row["seamless_steps"]) + int(row["embed_steps"]) for row in some]
+        kept = sum(int(row["integers_reused"]) > 0 for row in some)
+        lines.append(f"| {edit} | {start} | {len(some)} | {cell('field')} | {cell('seamless')} | {cell('quantize')} | "
+                     f"{cell('seamless', 'quantize')} | {cell('embed')} | {statistics.median(steps):.0f} ({max(steps)}) | {kept} |")
+    first = [row for row in rows if row["edit"] == "none"]
+    large = [row["mesh"] for row in first if row not in fitting]
+    failed = [row["mesh"] for row in first if row in fitting and row["ok"] != "1"]
+    return "\n".join(lines) + (f"\n\nMore than {COARSE_LIMIT:,} vertices: {', '.join(large)}." if large else "") + (
+        f" Without a map at the first attempt: {', '.join(failed)}." if failed else "")
+
+
 def hasReplay(row):
     """A model whose map never got to the surface has no counts at all."""
     return row["ok"] == 1 or row["inverted_stars"] > 0
@@ -228,8 +266,15 @@ def main():
     parser.add_argument("--threads", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--meshes", nargs="+", help="only these")
     parser.add_argument("--replay", action="store_true", help="only the table of the replay over DATA/scan")
+    parser.add_argument("--coarse", action="store_true", help="only the table of the coarse level over DATA/scan, cad and open")
     arguments = parser.parse_args()
     page = pathlib.Path(arguments.markdown)
+    if arguments.coarse:
+        models = [path for folder in ("scan", "cad", "open") for path in sorted((pathlib.Path(arguments.data or "") / folder).glob("*.ply"))]
+        if not arguments.data or not models:
+            raise SystemExit("--coarse needs --data with folders scan, cad and open of PLY files")
+        writePart(page, COARSE, coarseTable(coarseRows(arguments.command, models, arguments.repeat)))
+        return 0
     if arguments.replay:
         scans = sorted((pathlib.Path(arguments.data or "") / "scan").glob("*.ply"))
         if not arguments.data or not scans:

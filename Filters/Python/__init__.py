@@ -170,6 +170,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     run.SetMemoryLimit(memory_limit)
     run.SetTimeLimit(time_limit)
     run.SetCloseHandles(close_handles)
+    run.KeepLevelsOff()  # there is no next execution
     if method not in METHODS:
         raise InvalidInput("method must be one of " + ", ".join(METHODS) + f", not {method!r}")
     run.SetMethod(METHODS.index(method))

@@ -416,6 +416,69 @@ std::vector<vtkIdType> sizesOf(vtkQuadRemesh* filter)
   return sizes;
 }
 
+std::vector<double> coordinates(vtkPolyData* data)
+{
+  std::vector<double> result;
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    result.insert(result.end(), data->GetPoint(i), data->GetPoint(i) + 3);
+  }
+  return result;
+}
+
+void guideHalf(vtkPolyData* data, double x, double y)
+{
+  vtkNew<vtkDoubleArray> directions;
+  directions->SetName("GuidingDirection");
+  directions->SetNumberOfComponents(3);
+  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
+  {
+    const bool guided = i < data->GetNumberOfCells() / 2;
+    directions->InsertNextTuple3(guided ? x : 0, guided ? y : 0, 0);
+  }
+  data->GetCellData()->AddArray(directions);
+}
+
+TEST(QuadRemesh, AChangeBeginsAtItsStageWithTheSameQuads)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(60, 30));
+  vtkNew<vtkQuadRemesh> filter;
+  EXPECT_TRUE(filter->GetKeepLevels());
+  EXPECT_FALSE(filter->GetWarmStart());
+  run(filter, input, 400);
+  EXPECT_STREQ(filter->GetReusedStagesText(), "");
+  EXPECT_GT(filter->GetRememberedMegabytes(), 0.1);
+  const auto expectAsNew = [&](const char* reused)
+  {
+    vtkNew<vtkQuadRemesh> other;
+    other->KeepLevelsOff();
+    run(other, input, filter->GetNumberOfQuads());
+    EXPECT_EQ(other->GetRememberedMegabytes(), 0);
+    EXPECT_EQ(coordinates(filter->GetOutput()), coordinates(other->GetOutput()));
+    EXPECT_EQ(coordinates(filter->GetMappedSurface()), coordinates(other->GetMappedSurface()));
+    EXPECT_STREQ(filter->GetReusedStagesText(), reused);
+  };
+  guideHalf(input, 1, 0);
+  run(filter, input, 400);
+  expectAsNew("repair\norder\nconnectivity\nrefine\nphase1");
+  EXPECT_EQ(
+    filter->GetOutput()->GetFieldData()->GetAbstractArray("ReusedStages")->GetNumberOfTuples(), 5);
+  run(filter, input, 500);
+  expectAsNew("repair\norder\nconnectivity");
+  // A copy with other arrays and times has the same content.
+  const vtkSmartPointer<vtkPolyData> copy = vtkSmartPointer<vtkPolyData>::New();
+  copy->DeepCopy(input);
+  run(filter, copy, 500);
+  expectAsNew("repair\norder\nconnectivity\nrefine\nphase1");
+  filter->WarmStartOn();
+  guideHalf(copy, 1, 0.2);
+  run(filter, copy, 500);
+  EXPECT_NE(std::string(filter->GetReusedStagesText()).find("seamless"), std::string::npos);
+  expectValid(filter, 0, true);
+  filter->KeepLevelsOff();
+  EXPECT_EQ(filter->GetRememberedMegabytes(), 0);
+}
+
 TEST(QuadRemeshFailure, PreviousResultIsKept)
 {
   vtkNew<vtkQuadRemesh> filter;

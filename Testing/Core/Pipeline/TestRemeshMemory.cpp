@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 namespace quadrille
 {
@@ -211,6 +212,29 @@ TEST(RemeshMemory, AWarmStartTakesTheLastMap)
   const RemeshResult resized = remesh(input, options, memory);
   EXPECT_EQ(resized.reused, kPrepared);
   expectSame(resized, remesh(input, options));
+}
+
+TEST(RemeshMemory, SameBytesForAnyNumberOfThreads)
+{
+  std::optional<RemeshResult> first;
+  for (const int threads : { 1, 2, 4 })
+  {
+    SurfaceInput input = dentedSphere();
+    RemeshOptions options = optionsFor(500);
+    options.warmStart = true;
+    options.threads = threads;
+    RemeshMemory memory;
+    remesh(input, options, memory);
+    guideTop(input, Vector3(1, 0.2, 0));
+    RemeshResult warm = remesh(input, options, memory);
+    ASSERT_EQ(std::count(warm.reused.begin(), warm.reused.end(), "seamless"), 1);
+    if (first)
+    {
+      expectSame(warm, *first);
+      EXPECT_EQ(warm.reused, first->reused);
+    }
+    first = std::move(warm);
+  }
 }
 
 TEST(RemeshMemory, IsWholeAfterEveryStop)
