@@ -181,4 +181,23 @@ void addRepair(vtkDataObject* data, const RepairReport& repair)
   addCounts(data, "RepairCounts", counts);
 }
 
+void addMethod(vtkDataObject* data, MapMethod method)
+{
+  addText(data, "Method", { nameOf(method) });
+}
+
+MapMethod readMethod(vtkDataObject* data)
+{
+  auto* array = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("Method"));
+  for (const MapMethod method :
+    { MapMethod::MixedInteger, MapMethod::QuadCover, MapMethod::Seamless })
+  {
+    if (array && array->GetNumberOfValues() > 0 && array->GetValue(0) == nameOf(method))
+    {
+      return method;
+    }
+  }
+  return MapMethod::ScaleAware;
+}
+
 } // namespace quadrille

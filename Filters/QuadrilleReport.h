@@ -50,6 +50,10 @@ void addCertificate(vtkDataObject* data, const Certificate& certificate);
 /// Handles, UnresolvedHandles, ShortestLoopOverEdgeLength and ShortestLoopPlace, ShortestBoundaryOverEdgeLength and
 /// ShortestBoundaryPlace.
 void addSmallParts(vtkDataObject* data, const SmallParts& parts, double edgeLength);
+/// Method: the name of it.
+void addMethod(vtkDataObject* data, MapMethod method);
+/// What addMethod wrote; the default where there is nothing.
+MapMethod readMethod(vtkDataObject* data);
 /// RepairNames and RepairCounts.
 void addRepair(vtkDataObject* data, const RepairReport& repair);
 

@@ -98,6 +98,15 @@ void vtkIntegerGridMap::Execute(vtkInformationVector** inputs, vtkInformationVec
   addIntegerVertices(output, quadrille::integerVertices(mesh, map.field));
   quadrille::addStages(output, clock.records);
   quadrille::addCertificate(output, map.certificate);
+  quadrille::addMethod(output, options.method);
+  if (map.certificate.notPositive > 0)
+  {
+    const std::string text = std::string("the method '") + quadrille::nameOf(options.method) +
+      "' gives no guarantee: " + std::to_string(map.certificate.notPositive) + " of " +
+      std::to_string(map.certificate.triangles) + " triangles are inverted or degenerate";
+    this->AddNotice(text);
+    vtkWarningMacro(<< text);
+  }
 }
 
 //------------------------------------------------------------------------------

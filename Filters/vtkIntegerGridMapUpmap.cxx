@@ -125,7 +125,8 @@ void vtkIntegerGridMapUpmap::Execute(vtkInformationVector** inputs, vtkInformati
     quadrille::certify(surface.mesh, map.uv, expected.turns, expected.integerVertex);
   this->SetStageRecords(clock.records);
   this->SetCertificate(certificate);
-  if (!certificate.valid())
+  if (!quadrille::hasPromised(certificate, quadrille::readMethod(coarseData)) ||
+    certificate.notPositive > 0)
   {
     this->AddNotice("map on the surface: " + certificate.text());
     vtkWarningMacro(<< "map on the surface: " << certificate.text());

@@ -147,6 +147,12 @@ void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVec
     throw quadrille::InvalidInput("MaximumQuads must be at least 1");
   }
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  if (quadrille::readMethod(input) == quadrille::MapMethod::Seamless)
+  {
+    throw quadrille::InvalidInput(
+      "the map was made by the method 'seamless', which has no integers, so there are no "
+      "quads: choose another method where the map is made");
+  }
   const quadrille::Mesh mesh = quadrille::readMesh(input);
   const std::vector<quadrille::FixedVec2> uv = quadrille::readMap(input);
   quadrille::ExtractionOptions options;

@@ -101,6 +101,12 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   {
     throw quadrille::InvalidInput("MaximumQuads must be at least 1");
   }
+  if (this->Method == METHOD_SEAMLESS && !this->ComputeMappedSurface)
+  {
+    throw quadrille::InvalidInput(
+      "the method 'seamless' makes no quads, and its result, the mapped surface, is "
+      "switched off: switch ComputeMappedSurface on or choose another method");
+  }
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   quadrille::ConvertedSurface converted = this->ConvertInputs(inputs);
   quadrille::RemeshOptions options = this->MakeOptions();
@@ -146,6 +152,7 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   quads->ShallowCopy(quadrille::writeQuads(result.quads, source));
   quads->GetFieldData()->PassData(input->GetFieldData());
   addFieldData(quads, result);
+  quadrille::addMethod(quads, options.method);
   quadrille::addText(quads, "Notices", quadrille::splitLines(this->GetNoticesText()));
   if (this->ComputeMappedSurface)
   {
@@ -153,6 +160,8 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
     mapped->ShallowCopy(quadrille::writeMappedSurface(result.surface, result.uv,
       quadrille::matchingOf(result.surface.mesh, result.uv, this->NumberOfThreads), result.turns,
       input, converted, this->TextureCoordinates != 0));
+    quadrille::addMethod(mapped, options.method);
+    quadrille::addCertificate(mapped, result.certificate);
     quadrille::addCount(mapped, "Charts", result.charts.charts);
     quadrille::addCount(mapped, "SeamEdges", result.charts.seamEdges);
   }

@@ -228,11 +228,12 @@ void printCoarse(const std::string& path, const CoarseTiming& request)
   plain.level = levels.update(levelOptions).coarse;
   plain.options.edgeLength = edgeLength;
   plain.options.targetQuads = request.quads;
+  plain.options.method = request.method;
   Timer timer(path, request);
   const GridMapResult map = timer.run(plain, "none", nullptr);
-  if (!map.status.ok())
+  if (!map.status.ok() || request.method != MapMethod::ScaleAware)
   {
-    return;
+    return; // the others always begin anew
   }
   for (const Edit& edit : editsOf(levels, levelOptions, plain, map.field))
   {

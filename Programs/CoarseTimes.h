@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Base/Types.h"
+#include "GridMap/GridMap.h"
 
 #include <string>
 
@@ -14,6 +15,7 @@ struct CoarseTiming
 {
   double quads = 2500;
   Index coarseVertices = 1000;
+  MapMethod method = MapMethod::ScaleAware;
   long long repeat = 1;
 };
 

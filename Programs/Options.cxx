@@ -3,6 +3,7 @@
 #include "Options.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -81,6 +82,20 @@ std::optional<long long> CommandLine::count(
 {
   const std::optional<std::string> value = this->text(name);
   return value ? std::optional<long long>(parse(name, *value, least, most)) : std::nullopt;
+}
+
+int methodOf(const CommandLine& line)
+{
+  constexpr std::array<const char*, 4> kNames{ "scale-aware", "mixed-integer", "quadcover",
+    "seamless" };
+  const std::string name = line.text("method").value_or(kNames[0]);
+  const auto* const found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end())
+  {
+    throw UsageError(
+      "--method needs scale-aware, mixed-integer, quadcover or seamless, not '" + name + "'");
+  }
+  return static_cast<int>(found - kNames.begin());
 }
 
 } // namespace quadrille

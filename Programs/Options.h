@@ -40,4 +40,8 @@ private:
   bool help_ = false;
 };
 
+/// The option --method: a number of vtkQuadRemesh::Methods, which are those of MapMethod; 0 when it is not given. Throws
+/// UsageError for a name that is none.
+int methodOf(const CommandLine& line);
+
 } // namespace quadrille

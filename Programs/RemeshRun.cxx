@@ -77,7 +77,11 @@ ExitCode RemeshRun::execute(vtkPolyData* input)
   switch (filter_->GetOutcome())
   {
     case vtkQuadrilleAlgorithm::Succeeded:
-      return filter_->GetOutput()->GetNumberOfPolys() > 0 ? kValidQuads : kNoValidResult;
+      return filter_->GetOutput()->GetNumberOfPolys() > 0 ||
+          (filter_->GetMethod() == vtkQuadRemesh::METHOD_SEAMLESS &&
+            filter_->GetMappedSurface()->GetNumberOfPolys() > 0)
+        ? kValidQuads
+        : kNoValidResult;
     case vtkQuadrilleAlgorithm::BadInput:
       return kBadInput;
     default:

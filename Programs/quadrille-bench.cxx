@@ -76,6 +76,9 @@ level whose first map fails has ok 0 and no edits.
 
   --coarse-vertices N  budget of the coarse level (default 1000)
 
+  --method NAME        how the map is made, as the command has it (also without --compare; default scale-aware). Of
+                       those that round, seamless is cut, Poisson equation and relations, quantize the rounding
+
 exit code: 0 when every run gave quads, else the worst code of the command quadrille
 )";
 
@@ -95,6 +98,7 @@ struct Request
   /// "orders": only phase 1, in all orders; "replay": counts of the replay; "coarse": times of the coarse level
   std::string compared;
   Index coarseVertices = 1000;
+  int method = 0; ///< of vtkQuadRemesh::Methods
   RandomDraws draws;
 };
 
@@ -143,6 +147,7 @@ Request parse(const CommandLine& line)
   request.edgeLength = length.value_or(0);
   request.threads = static_cast<int>(line.count("threads", 0, 4096).value_or(0));
   request.repeat = line.count("repeat", 1, 1000000).value_or(1);
+  request.method = methodOf(line);
   parseComparison(line, request);
   return request;
 }
@@ -206,7 +211,8 @@ int compare(const std::string& mesh, const Request& request)
     }
     else if (request.compared == "coarse")
     {
-      printCoarse(mesh, { quads, request.coarseVertices, request.repeat });
+      printCoarse(mesh,
+        { quads, request.coarseVertices, static_cast<MapMethod>(request.method), request.repeat });
     }
     else
     {
@@ -237,7 +243,8 @@ int runOnce(const std::string& mesh, long long repeat, const Request& request)
       run.filter()->SetEdgeLength(request.edgeLength);
     }
     run.filter()->SetNumberOfThreads(request.threads);
-    run.filter()->ComputeMappedSurfaceOff();
+    run.filter()->SetMethod(request.method);
+    run.filter()->SetComputeMappedSurface(request.method == vtkQuadRemesh::METHOD_SEAMLESS);
     const ExitCode code = run.execute(input);
     if (code != kValidQuads)
     {
@@ -297,7 +304,7 @@ int main(int argc, char* argv[])
   {
     const CommandLine line(argc, argv,
       { "quads", "edge-length", "threads", "repeat", "compare", "candidates", "exact-below",
-        "coarse-vertices" });
+        "coarse-vertices", "method" });
     if (line.help())
     {
       std::fputs(kHelp, stdout);

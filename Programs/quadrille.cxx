@@ -17,7 +17,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -34,6 +33,7 @@ using namespace quadrille;
 
 constexpr const char* kHelp =
   R"(usage: quadrille IN.{ply,obj,stl,off,vtp,vtk} OUT.{vtp,obj,ply,vtu,ex2} [options]
+       quadrille IN.{ply,obj,stl,off,vtp,vtk} --method seamless --map MAP.vtp [options]
 
 Remeshes a triangle surface with quads only.
 
@@ -53,11 +53,13 @@ size of the quads (at most one; 0.02 of the bounding-box diagonal when none is g
   --threads N               threads to compute with; 0 means all (default 0)
   --memory-limit MB         refuse to start where more memory is needed by the estimate;
                             0 means what the machine has free (default 0)
+  --map MAP.vtp             write the surface with its map, too (cell array IGM: u0 v0 u1 v1 u2 v2, one unit a quad,
+                            and texture coordinates); the seamless method writes this only, so leave OUT away there
   --report REPORT.json      what was repaired, sizes, seconds per stage, certificate,
                             asked and actual count, quality
   --help                    this text
 
-exit code: 0 valid quads; 2 bad input or arguments; 3 no valid result
+exit code: 0 valid quads (seamless: a valid map); 2 bad input or arguments; 3 no valid result
 )";
 
 volatile std::sig_atomic_t stopRequested = 0;
@@ -102,24 +104,36 @@ vtkSmartPointer<vtkPolyData> readGuarded(const std::string& path)
 struct Request
 {
   std::string input;
-  std::string output;
+  std::string output; ///< empty for a method without quads
+  std::string map;    ///< empty: not asked for
   std::string report;
 };
 
 Request parseFiles(const CommandLine& line)
 {
-  if (line.positional().size() != 2)
+  const bool seamless = methodOf(line) == vtkQuadRemesh::METHOD_SEAMLESS;
+  const std::size_t files = line.positional().size();
+  if (seamless && (files != 1 || !line.text("map")))
+  {
+    throw UsageError("the method seamless makes no quads: give the input file and --map MAP.vtp, "
+                     "and no output file");
+  }
+  if (!seamless && files != 2)
   {
     throw UsageError("an input and an output file are needed; --help tells more");
   }
-  const Request request{ line.positional()[0], line.positional()[1],
-    line.text("report").value_or("") };
-  if (!canWrite(request.output))
+  const Request request{ line.positional()[0], seamless ? "" : line.positional()[1],
+    line.text("map").value_or(""), line.text("report").value_or("") };
+  if (!seamless && !canWrite(request.output))
   {
     throw UsageError(request.output + ": unknown extension; known are vtp, obj, ply, vtu and ex2");
   }
+  if (!request.map.empty() && extensionOf(request.map) != "vtp")
+  {
+    throw UsageError(request.map + ": a map needs the extension vtp");
+  }
   // Better now than after the computation.
-  for (const std::string& file : { request.output, request.report })
+  for (const std::string& file : { request.output, request.map, request.report })
   {
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
     if (!file.empty() && ::access(folder.empty() ? "." : folder.c_str(), W_OK) != 0)
@@ -160,24 +174,10 @@ void setSize(const CommandLine& line, vtkQuadRemesh* filter)
   }
 }
 
-void setMethod(const CommandLine& line, vtkQuadRemesh* filter)
-{
-  constexpr std::array<const char*, 4> kNames{ "scale-aware", "mixed-integer", "quadcover",
-    "seamless" };
-  const std::string name = line.text("method").value_or(kNames[0]);
-  const auto* const found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end())
-  {
-    throw UsageError(
-      "--method needs scale-aware, mixed-integer, quadcover or seamless, not '" + name + "'");
-  }
-  filter->SetMethod(static_cast<int>(found - kNames.begin()));
-}
-
 void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
 {
   setSize(line, filter);
-  setMethod(line, filter);
+  filter->SetMethod(methodOf(line));
   if (const auto angle = line.number("feature-angle", 0, 180))
   {
     filter->SetDetectFeatures(*angle > 0);
@@ -194,7 +194,7 @@ void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
   filter->SetNumberOfThreads(static_cast<int>(line.count("threads", 0, 4096).value_or(0)));
   filter->SetMemoryLimit(line.number("memory-limit", 0, 1e12).value_or(0));
   filter->SetCloseHandles(line.number("close-handles", 0, 1e6).value_or(0));
-  filter->ComputeMappedSurfaceOff();
+  filter->SetComputeMappedSurface(line.text("map").has_value());
 }
 
 /// On a terminal one line that is overwritten, elsewhere a line for each stage.
@@ -403,6 +403,14 @@ double secondsSince(Clock::time_point start)
 void printSummary(RemeshRun& run, const Request& request, double seconds)
 {
   vtkPolyData* quads = run.filter()->GetOutput();
+  if (request.output.empty())
+  {
+    std::fprintf(stderr, "%s\n%s: %lld triangles with their map, %.2f s; %s\n",
+      run.filter()->GetNoticesText(), request.map.c_str(),
+      static_cast<long long>(run.filter()->GetMappedSurface()->GetNumberOfPolys()), seconds,
+      run.filter()->GetCertificateText());
+    return;
+  }
   std::fprintf(stderr, "%s", run.filter()->GetNoticesText());
   std::fprintf(stderr, "%s%s: %lld quads (asked for %lld), %lld points, %.2f s; %s\n",
     *run.filter()->GetNoticesText() ? "\n" : "", request.output.c_str(),
@@ -429,7 +437,14 @@ ExitCode execute(const CommandLine& line, const Request& request)
   timing.total = secondsSince(start);
   if (code == kValidQuads)
   {
-    writeMeshFile(run.filter()->GetOutput(), request.output);
+    if (!request.output.empty())
+    {
+      writeMeshFile(run.filter()->GetOutput(), request.output);
+    }
+    if (!request.map.empty())
+    {
+      writeMeshFile(run.filter()->GetMappedSurface(), request.map);
+    }
     printSummary(run, request, timing.total);
   }
   else
@@ -478,7 +493,7 @@ int main(int argc, char* argv[])
   {
     const CommandLine line(argc, argv,
       { "quads", "edge-length", "relative-edge-length", "feature-angle", "coarse-vertices",
-        "threads", "memory-limit", "close-handles", "method", "report" });
+        "threads", "memory-limit", "close-handles", "method", "map", "report" });
     if (line.help() || argc == 1)
     {
       std::fputs(kHelp, line.help() ? stdout : stderr);

@@ -96,7 +96,16 @@ void checkSeam(const Mesh& mesh, const std::vector<FixedVec2>& uv, Index h, Cert
   bool residual = false;
   const Transition transition = transitionOf(mesh, uv, h, 0, &residual);
   counts.seamResiduals += residual ? 1 : 0;
-  counts.fractionalTransitions += isInteger(transition.translation) ? 0 : 1;
+  bool whole = isInteger(transition.translation);
+  if (uv[g] == uv[Mesh::next(g)])
+  {
+    // The image is a point, which any rotation carries over.
+    for (int r = 1; r < 4; ++r)
+    {
+      whole = whole || isInteger(uv[Mesh::next(g)] - rotate(uv[h], r));
+    }
+  }
+  counts.fractionalTransitions += whole ? 0 : 1;
 }
 
 void checkConstraint(FixedVec2 a, FixedVec2 b, Certificate& counts)

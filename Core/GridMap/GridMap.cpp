@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "GridMap/MeshParts.h"
+#include "GridMap/RoundedMap.h"
 #include "Mesh/Sizing.h"
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <sstream>
 
@@ -105,6 +107,7 @@ struct Component
   bool hasIntegers = false;                     ///< of an earlier scale
   Eigen::VectorXd solution;                     ///< of its seamless map, for the next scale
   std::vector<FixedVec2> seamlessUv, integerUv; ///< of the scale that is tried
+  std::unique_ptr<RoundedMap> rounded;          ///< of the methods that round
   std::vector<FixedVec2> startUv;               ///< the seamless map that uv was quantized from
   std::vector<FixedVec2> uv;
   double triedRefinement = 1, refinement = 1;
@@ -137,8 +140,18 @@ public:
       return std::move(result_);
     }
     split();
-    chooseScale();
-    embed();
+    if (options_.method == MapMethod::Seamless)
+    {
+      keepSeamless();
+    }
+    else
+    {
+      chooseScale();
+    }
+    if (options_.method == MapMethod::ScaleAware)
+    {
+      embed();
+    }
     collect();
     return std::move(result_);
   }
@@ -170,7 +183,7 @@ private:
   void split()
   {
     std::optional<MapCarrier> carrier;
-    if (options_.previous != nullptr)
+    if (options_.previous != nullptr && options_.method == MapMethod::ScaleAware)
     {
       carrier.emplace(*options_.previous);
     }
@@ -250,6 +263,11 @@ private:
   /// Components fail at the first scale only; at a later one the first failure ends the try.
   bool makeIntegers(double wanted)
   {
+    if (options_.method != MapMethod::ScaleAware)
+    {
+      roundIntegers(wanted);
+      return true;
+    }
     for (std::size_t i = 0; i < components_.size(); ++i)
     {
       Component& component = components_[i];
@@ -269,6 +287,50 @@ private:
       }
     }
     return failures() < kHopeless;
+  }
+
+  /// No integers: the map as it is.
+  void keepSeamless()
+  {
+    for (std::size_t i = 0; i < components_.size(); ++i)
+    {
+      Component& component = components_[i];
+      if (mapSeamlessly(component, options_.targetQuads, progressOf(i, 0.1, 1.0)))
+      {
+        component.uv = std::move(component.seamlessUv);
+      }
+    }
+  }
+
+  /// Whatever becomes of the triangles: that is a property of these methods.
+  void roundIntegers(double wanted)
+  {
+    for (std::size_t i = 0; i < components_.size(); ++i)
+    {
+      Component& component = components_[i];
+      if (!component.status.ok())
+      {
+        continue;
+      }
+      report(progressOf(i, 0.1, 1.0), 0.0, "rounding the map");
+      if (!component.rounded)
+      {
+        const Stopwatch watch(result_.secondsSeamless, result_.processorSeamless);
+        component.rounded = std::make_unique<RoundedMap>(
+          component.part.mesh, component.part.field, options_.edgeLength);
+      }
+      if (!component.rounded->status().ok())
+      {
+        const Status& why = component.rounded->status();
+        component.fail(
+          { why.code, std::string(nameOf(options_.method)) + ": " + why.message }, {}, {});
+        continue;
+      }
+      const Stopwatch watch(result_.secondsQuantize, result_.processorQuantize);
+      component.integerUv = component.rounded->make(wanted * component.share,
+        options_.method == MapMethod::QuadCover ? RoundingOrder::AllAtOnce
+                                                : RoundingOrder::OneAtATime);
+    }
   }
 
   void keepTried()
@@ -440,7 +502,7 @@ private:
     std::sort(result_.offenders.begin(), result_.offenders.end());
     result_.certificate =
       certify(mesh_, result_.uv, result_.field.turns, integerVertices(mesh_, result_.field));
-    if (result_.status.ok() && !result_.certificate.valid())
+    if (result_.status.ok() && !hasPromised(result_.certificate, options_.method))
     {
       result_.status = { StatusCode::NotConverged,
         "the coarse map does not pass its certificate: " + result_.certificate.text() };
@@ -471,6 +533,19 @@ private:
 };
 
 } // namespace
+
+bool hasPromised(const Certificate& certificate, MapMethod method)
+{
+  switch (method)
+  {
+    case MapMethod::ScaleAware:
+      return certificate.valid();
+    case MapMethod::Seamless:
+      return certificate.seamless();
+    default:
+      return certificate.whole();
+  }
+}
 
 const char* nameOf(MapMethod method)
 {
@@ -507,10 +582,6 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
   if (!(options.edgeLength > 0) || !std::isfinite(options.edgeLength))
   {
     throw InvalidInput("the target edge length must be a positive number");
-  }
-  if (options.method != MapMethod::ScaleAware)
-  {
-    throw InvalidInput(std::string("the method '") + nameOf(options.method) + "' is not built yet");
   }
   if (mesh.vertexCount() > options.maximumVertices)
   {

@@ -42,6 +42,12 @@ struct Certificate
   {
     return seamless() && offIsolines == 0 && offIntegers == 0 && fractionalTransitions == 0;
   }
+  /// Everything that has to be whole is so, whatever the triangles do.
+  bool whole() const
+  {
+    return seamResiduals == 0 && offAxes == 0 && offIsolines == 0 && offIntegers == 0 &&
+      fractionalTransitions == 0;
+  }
   std::string text() const; ///< one line for people
 };
 
@@ -149,6 +155,8 @@ enum class MapMethod
 };
 /// "scale aware", "mixed integer", "QuadCover", "seamless".
 const char* nameOf(MapMethod method);
+/// Whether a map is what its method promises: valid, whole or, for the seamless one, seamless.
+bool hasPromised(const Certificate& certificate, MapMethod method);
 
 struct GridMapOptions
 {
@@ -159,7 +167,8 @@ struct GridMapOptions
   std::vector<Guide> guides;       ///< empty or #F, see CrossFieldOptions
   std::vector<int> targetValences; ///< empty or #V, the same
   /// An earlier map to start from (see PreviousMap.h), or null. The result is as valid as without, but may differ; it is the same
-  /// for the same earlier map. Where it leads to no map, all is done again without it.
+  /// for the same earlier map. Where it leads to no map, all is done again without it. Only the scale aware
+  /// method starts from it.
   const PreviousMap* previous = nullptr;
   std::vector<Index> vertexIds; ///< #V where there is an earlier map: see PreviousMap::vertexIds
   ProgressCallback progress;

@@ -20,10 +20,11 @@ namespace
 class Equations
 {
 public:
-  Equations(const Mesh& mesh, const CrossField& field, const CutGraph& graph)
+  Equations(const Mesh& mesh, const CrossField& field, const CutGraph& graph,
+    const std::vector<std::uint8_t>& rank)
     : mesh_(mesh), field_(field), graph_(graph)
   {
-    fixOneWedgePerComponent();
+    fixOneWedgePerComponent(rank);
     joinSegments();
     alignConstrainedEdges();
   }
@@ -35,18 +36,22 @@ public:
   const std::vector<IntegerRow>& rows() const { return rows_; }
 
 private:
-  void fixOneWedgePerComponent()
+  void fixOneWedgePerComponent(const std::vector<std::uint8_t>& rank)
   {
-    Index seen = 0;
-    for (Index f = 0; f < mesh_.faceCount(); ++f)
+    std::vector<Index> corner(graph_.components, kInvalidIndex);
+    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
     {
-      if (graph_.component[f] == seen)
+      Index& best = corner[graph_.component[Mesh::face(h)]];
+      if (best == kInvalidIndex ||
+        (!rank.empty() && rank[mesh_.origin[h]] > rank[mesh_.origin[best]]))
       {
-        const Index w = graph_.wedge[3 * f];
-        rows_.push_back({ { 2 * w, 1 } });
-        rows_.push_back({ { 2 * w + 1, 1 } });
-        ++seen;
+        best = h;
       }
+    }
+    for (const Index h : corner)
+    {
+      rows_.push_back({ { 2 * graph_.wedge[h], 1 } });
+      rows_.push_back({ { 2 * graph_.wedge[h] + 1, 1 } });
     }
   }
 
@@ -171,10 +176,11 @@ bool areParallel(const Form& a, const Form& b)
 
 } // namespace
 
-SeamlessSpace::SeamlessSpace(const Mesh& mesh, const CrossField& field, double edgeLength)
+SeamlessSpace::SeamlessSpace(const Mesh& mesh, const CrossField& field, double edgeLength,
+  const std::vector<std::uint8_t>& rank)
   : mesh_(mesh), graph_(cutAlongField(mesh, field))
 {
-  const Equations equations(mesh, field, graph_);
+  const Equations equations(mesh, field, graph_, rank);
   std::optional<ExactBasis> basis = eliminateExactly(equations.variables(), equations.rows());
   if (basis)
   {

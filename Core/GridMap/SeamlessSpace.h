@@ -12,6 +12,7 @@
 #include "Numerics/ExactElimination.h"
 #include "Numerics/Untangler.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace quadrille
@@ -24,8 +25,10 @@ class SeamlessSpace
 {
 public:
   /// edgeLength: length on the surface that one uv unit stands for, > 0. Mesh and field must outlive the space.
-  /// Throws InvalidInput when the field contradicts itself.
-  SeamlessSpace(const Mesh& mesh, const CrossField& field, double edgeLength);
+  /// One corner of each component lies at the origin: the first one of the vertices of highest rank (#V; empty: all
+  /// alike). Throws InvalidInput when the field contradicts itself.
+  SeamlessSpace(const Mesh& mesh, const CrossField& field, double edgeLength,
+    const std::vector<std::uint8_t>& rank = {});
 
   /// False where the equations need more than 63 bits; nothing else may be asked then.
   bool solved() const { return !basis_.rows.empty(); }

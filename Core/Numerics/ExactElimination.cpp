@@ -89,9 +89,10 @@ IntegerRow combine(std::int64_t a, const IntegerRow& x, std::int64_t b, const In
 class Elimination
 {
 public:
-  Elimination(Index variables, const std::vector<IntegerRow>& equations)
+  Elimination(Index variables, const std::vector<IntegerRow>& equations,
+    const std::vector<std::uint8_t>& rank)
     : rows_(equations), users_(variables), useCount_(variables, 0),
-      pivotRow_(variables, kInvalidIndex)
+      pivotRow_(variables, kInvalidIndex), rank_(rank)
   {
     for (Index r = 0; r < rows_.size(); ++r)
     {
@@ -131,6 +132,11 @@ private:
     std::size_t best = 0;
     for (std::size_t i = 1; i < row.size(); ++i)
     {
+      if (!rank_.empty() && rank_[row[i].first] != rank_[row[best].first])
+      {
+        best = rank_[row[i].first] < rank_[row[best].first] ? i : best;
+        continue;
+      }
       const Index a = useCount_[row[i].first];
       const Index b = useCount_[row[best].first];
       if (a < b || (a == b && std::abs(row[i].second) < std::abs(row[best].second)))
@@ -207,7 +213,10 @@ private:
     for (auto pivot = order_.rbegin(); pivot != order_.rend(); ++pivot)
     {
       poll();
-      expandPivot(*pivot, basis.rows);
+      if (rank_.empty() || rank_[*pivot] > 0)
+      {
+        expandPivot(*pivot, basis.rows);
+      }
     }
     basis.step.assign(basis.free.size(), 1);
     for (std::size_t v = 0; v < basis.rows.size(); ++v)
@@ -299,6 +308,7 @@ private:
   std::vector<Index> useCount_;           ///< unsolved rows that use it now
   std::vector<Index> pivotRow_;
   std::vector<Index> order_; ///< solved variables
+  const std::vector<std::uint8_t>& rank_;
   std::vector<bool> solved_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue_;
 };
@@ -306,11 +316,11 @@ private:
 } // namespace
 
 std::optional<ExactBasis> eliminateExactly(
-  Index variables, const std::vector<IntegerRow>& equations)
+  Index variables, const std::vector<IntegerRow>& equations, const std::vector<std::uint8_t>& rank)
 {
   try
   {
-    return Elimination(variables, equations).run();
+    return Elimination(variables, equations, rank).run();
   }
   catch (const Overflow&)
   {

@@ -223,4 +223,17 @@ bool ReducedTriangles::newtonStep(double regularization, Eigen::VectorXd& step)
   return false;
 }
 
+void assembleFit(const UntangleProblem& problem, ReducedTriangles& system)
+{
+  std::vector<Jacobian> gradients;
+  system.jacobians(Eigen::VectorXd::Zero(system.unknowns()), gradients);
+  std::vector<Eigen::Matrix4d> hessians(gradients.size());
+  for (std::size_t t = 0; t < gradients.size(); ++t)
+  {
+    gradients[t] = problem.weight[t] * (gradients[t] - Jacobian(1, 0, 0, 1));
+    hessians[t] = problem.weight[t] * Eigen::Matrix4d::Identity();
+  }
+  system.assemble(gradients, hessians);
+}
+
 } // namespace quadrille

@@ -31,6 +31,8 @@ public:
   void assemble(
     const std::vector<Jacobian>& gradients, const std::vector<Eigen::Matrix4d>& hessians);
   const Eigen::VectorXd& gradient() const { return gradient_; }
+  /// Lower triangle, compressed, with all of the diagonal.
+  const Eigen::SparseMatrix<double>& hessian() const { return hessian_; }
 
   /// The Newton step -(H + regularization * mean(diag H))^-1 g. The regularization is raised until the
   /// matrix is positive definite; false when no finite step exists.
@@ -54,5 +56,8 @@ private:
   SparseLdl solver_;
   bool analyzed_ = false;
 };
+
+/// The derivatives at y = 0 of sum weight |J - 1|^2 / 2, the energy that fitReferences minimizes.
+void assembleFit(const UntangleProblem& problem, ReducedTriangles& system);
 
 } // namespace quadrille

@@ -8,6 +8,8 @@
 #include <Eigen/OrderingMethods>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace quadrille
 {
@@ -30,6 +32,57 @@ void checkLower(const SparseLdl::Matrix& lower)
     throw InvalidInput(
       "L D L^T: the matrix is not the lower triangle of a square one with all of its diagonal");
   }
+}
+
+/// From this part of all columns on a row is taken for a dense one.
+constexpr int kDenseRow = 4;
+/// Dense rows that are multiplied at a time.
+constexpr int kRowsOfBlock = 64;
+
+/// sum over rows of row^T row; entries of a row ascend.
+Eigen::MatrixXd productOfRows(
+  const std::vector<std::vector<std::pair<int, double>>>& rows, int columns)
+{
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(columns, columns);
+  Eigen::MatrixXd block(columns, kRowsOfBlock);
+  int filled = 0;
+  const auto flush = [&]
+  {
+    if (filled > 0) // Eigen divides by it
+    {
+      product.selfadjointView<Eigen::Lower>().rankUpdate(block.leftCols(filled));
+    }
+    filled = 0;
+  };
+  for (std::size_t r = 0; r < rows.size(); ++r)
+  {
+    pollNowAndThen(r, kColumnsBetweenPolls);
+    const auto& row = rows[r];
+    if (static_cast<int>(row.size()) * kDenseRow < columns)
+    {
+      for (std::size_t a = 0; a < row.size(); ++a)
+      {
+        double* const column = product.col(row[a].first).data();
+        for (std::size_t b = a; b < row.size(); ++b)
+        {
+          column[row[b].first] += row[a].second * row[b].second;
+        }
+      }
+      continue;
+    }
+    block.col(filled).setZero();
+    for (const auto& [j, value] : row)
+    {
+      block(j, filled) = value;
+    }
+    if (++filled == kRowsOfBlock)
+    {
+      flush();
+    }
+  }
+  flush();
+  product.triangularView<Eigen::StrictlyUpper>() = product.transpose();
+  return product;
 }
 
 } // namespace
@@ -173,6 +226,53 @@ Eigen::VectorXd SparseLdl::solve(const Eigen::VectorXd& rightSide) const
     }
   }
   return order_.inverse() * x;
+}
+
+Eigen::MatrixXd SparseLdl::schur(const Matrix& columns) const
+{
+  const int n = static_cast<int>(diagonal_.size());
+  const int k = static_cast<int>(columns.cols());
+  if (columns.rows() != n)
+  {
+    throw InvalidInput("L D L^T: the columns have not the size of the matrix");
+  }
+  // Rows of D^-1/2 L^-1 C: what they have to do with each other is the product of their columns.
+  std::vector<std::vector<std::pair<int, double>>> rows(n);
+  std::vector<double> x(n, 0.0);
+  std::vector<int> seen(n, -1);
+  std::vector<int> path(n), pattern(n);
+  for (int j = 0; j < k; ++j)
+  {
+    pollNowAndThen(static_cast<std::size_t>(j), kColumnsBetweenPolls);
+    int top = n;
+    for (Matrix::InnerIterator entry(columns, j); entry; ++entry)
+    {
+      const int first = order_.indices()[entry.row()];
+      x[first] += entry.value();
+      int length = 0;
+      for (int i = first; i >= 0 && seen[i] != j; i = parent_[i])
+      {
+        path[length++] = i;
+        seen[i] = j;
+      }
+      while (length > 0)
+      {
+        pattern[--top] = path[--length]; // descendants come before ancestors
+      }
+    }
+    for (; top < n; ++top)
+    {
+      const int i = pattern[top];
+      const double xi = x[i];
+      x[i] = 0;
+      for (std::ptrdiff_t at = firstOfL_[i]; at < firstOfL_[i + 1]; ++at)
+      {
+        x[rowOfL_[at]] -= valueOfL_[at] * xi;
+      }
+      rows[i].emplace_back(j, xi / std::sqrt(diagonal_[i]));
+    }
+  }
+  return productOfRows(rows, k);
 }
 
 } // namespace quadrille

@@ -25,14 +25,19 @@ public:
   /// After a factorization that succeeded.
   Eigen::VectorXd solve(const Eigen::VectorXd& rightSide) const;
 
+  /// C^T A^-1 C for a matrix C of n rows whose columns are sparse; k x k, symmetric. After a factorization that
+  /// succeeded. Costs half a sparse solve a column and the product of what these leave; looks out for a stop.
+  Eigen::MatrixXd schur(const Matrix& columns) const;
+
 private:
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order_; ///< to the place in the elimination
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>
+    order_; ///< to the place in the elimination
   // The reordered upper triangle by columns.
   std::vector<int> begin_; ///< n + 1
   std::vector<int> row_;
   std::vector<int> source_; ///< place of the value in `lower`
   // L without its diagonal of ones, by columns, and D.
-  std::vector<int> parent_; ///< elimination tree; -1 at roots
+  std::vector<int> parent_;              ///< elimination tree; -1 at roots
   std::vector<std::ptrdiff_t> firstOfL_; ///< n + 1
   std::vector<int> rowOfL_;
   std::vector<double> valueOfL_;

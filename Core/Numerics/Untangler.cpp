@@ -305,18 +305,9 @@ UntangleResult Minimizer::run()
 Vector fitReferences(const UntangleProblem& problem)
 {
   ReducedTriangles system(problem);
-  const Vector zero = Vector::Zero(system.unknowns());
-  std::vector<Jacobian> gradients;
-  system.jacobians(zero, gradients);
-  std::vector<Eigen::Matrix4d> hessians(gradients.size());
-  for (std::size_t t = 0; t < gradients.size(); ++t)
-  {
-    gradients[t] = problem.weight[t] * (gradients[t] - Jacobian(1, 0, 0, 1));
-    hessians[t] = problem.weight[t] * Eigen::Matrix4d::Identity();
-  }
-  system.assemble(gradients, hessians);
+  assembleFit(problem, system);
   Vector result;
-  return system.newtonStep(1e-12, result) ? result : zero;
+  return system.newtonStep(1e-12, result) ? result : Vector::Zero(system.unknowns());
 }
 
 UntangleResult untangle(

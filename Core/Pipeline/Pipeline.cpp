@@ -136,8 +136,13 @@ private:
     if (!refuseTooMany())
     {
       refine();
-      while (!(computeMap() && extract()) && mayRepeat() && (takeFinerGrid() || dropFeatures()))
+      for (bool mapped = computeMap(); !(mapped && extract()); mapped = computeMap())
       {
+        // Quads that fail for the folds of a method that has such are its result.
+        if ((mapped && isRounded()) || !mayRepeat() || !(takeFinerGrid() || dropFeatures()))
+        {
+          break;
+        }
       }
       if (!gridNotice_.empty())
       {
@@ -481,7 +486,7 @@ private:
       const std::vector<Index>& offenders = result_.transfer.offenders;
       // The last attempt is left out where features can be given up: what keeping vertices did not mend once is theirs.
       const bool last = attempt + 1 == kMaximumTransfers;
-      if (result_.certificate.valid() || offenders.empty() || !mayRepeat() ||
+      if (hasPromised(result_.certificate, options_.method) || offenders.empty() || !mayRepeat() ||
         (last && !featuresNear(positionsOf(result_.surface.mesh, offenders)).empty()) ||
         offenders.size() > result_.coarse.mesh.vertexCount() / 2)
       {
@@ -502,7 +507,28 @@ private:
         break;
       }
     }
+    tellOfRounding();
     return true;
+  }
+
+  /// Folds of the coarse map are a property of these methods: nothing is tried again for them.
+  bool isRounded() const
+  {
+    return options_.method == MapMethod::MixedInteger || options_.method == MapMethod::QuadCover;
+  }
+  void tellOfRounding()
+  {
+    if (isRounded())
+    {
+      const Certificate& coarse = result_.coarseCertificate;
+      const Certificate& fine = result_.certificate;
+      std::ostringstream text;
+      text << "the method '" << nameOf(options_.method)
+           << "' gives no guarantee: " << coarse.notPositive << " of " << coarse.triangles
+           << " triangles of the coarse map and " << fine.notPositive << " of " << fine.triangles
+           << " of the map on the surface are inverted or degenerate";
+      result_.notices.push_back(text.str());
+    }
   }
 
   static std::size_t defectsOf(const Certificate& certificate)
@@ -934,6 +960,12 @@ private:
   bool extract()
   {
     letLevelsGo();
+    if (options_.method == MapMethod::Seamless)
+    {
+      result_.notices.push_back("the method 'seamless' has no integers, so there are no quads: the "
+                                "map on the surface is the result");
+      return true;
+    }
     const double start = now();
     const Mesh& mesh = result_.surface.mesh;
     ExtractionOptions extractionOptions;
@@ -946,8 +978,11 @@ private:
     if (!extracted.status.ok())
     {
       fail(extracted.status.code,
-        "no valid quad mesh: " + extracted.status.message + " (" + result_.certificate.text() +
-          ")");
+        (isRounded()
+            ? std::string("no valid quad mesh from the map by '") + nameOf(options_.method) +
+              "', which may have folds (the scale aware method has none): "
+            : std::string("no valid quad mesh: ")) +
+          extracted.status.message + " (" + result_.certificate.text() + ")");
       troubles_ = positionsOf(mesh, result_.transfer.offenders);
       return false;
     }

@@ -6,6 +6,7 @@
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "GridMap/MapCheck.h"
+#include "Transfer/Charts.h"
 #include "Transfer/PatchMender.h"
 #include "Transfer/Replay.h"
 
@@ -134,8 +135,19 @@ TransferResult transferMap(const Mesh& fine, const Level& coarse, const Decimati
   const std::vector<FixedVec2>& coarseUv, const TransferOptions& options)
 {
   checkSizes(fine, coarse, log);
+  const bool coarseIsPositive = countNotPositive(coarseUv, 1) == 0;
   TransferResult result;
-  result.uv = spreadOnSlots(coarse, coarseUv, log.fineFaces);
+  if (coarseIsPositive)
+  {
+    result.uv = spreadOnSlots(coarse, coarseUv, log.fineFaces);
+  }
+  else
+  {
+    // An edge whose image is a point shows no rotation and is taken for one without: with few charts, as good as all are.
+    std::vector<FixedVec2> merged = coarseUv;
+    mergeCharts(coarse.mesh, merged);
+    result.uv = spreadOnSlots(coarse, merged, log.fineFaces);
+  }
   const ReplayCounts counts = replayLog(log, result.uv, options.threads, options.progress);
   result.invertedStars = counts.invertedStars;
   result.movedToKernel = counts.movedToKernel;
@@ -143,7 +155,7 @@ TransferResult transferMap(const Mesh& fine, const Level& coarse, const Decimati
   result.notPositive = countNotPositive(result.uv, options.threads);
   result.replayNotPositive = result.notPositive;
   // What was invalid already on the coarse level is not a matter of a few triangles here.
-  if ((result.notPositive > 0 || result.withoutKernel > 0) && countNotPositive(coarseUv, 1) == 0)
+  if ((result.notPositive > 0 || result.withoutKernel > 0) && coarseIsPositive)
   {
     const MendResult mended = mendPatches(
       fine, result.uv, expectedTurns(fine, coarse, coarseUv), options.threads, options.progress);

@@ -221,3 +221,24 @@ TEST(Certificate, RefusesArraysOfAnotherSize)
   map.turns.pop_back();
   EXPECT_THROW(map.check(), InvalidInput);
 }
+
+TEST(Certificate, AnEdgeWithAPointForImageMayTurnByAnything)
+{
+  const Mesh mesh = test::gridPlane(1, 1);
+  Index h = 0;
+  while (mesh.isBoundary(h))
+  {
+    ++h;
+  }
+  const Index g = mesh.twin[h];
+  std::vector<FixedVec2> uv(mesh.halfEdgeCount(), toFixed(Vector2(3, 7)));
+  const FixedVec2 p = toFixed(Vector2(0.5, 0.25));
+  uv[h] = uv[Mesh::next(h)] = p;
+  uv[g] = uv[Mesh::next(g)] = rotate(p, 1) + FixedVec2{ kOne, 0 };
+  const std::vector<int> turns(mesh.vertexCount(), 0);
+  const std::vector<std::uint8_t> free(mesh.vertexCount(), 0);
+  EXPECT_EQ(certify(mesh, uv, turns, free).fractionalTransitions, 0u);
+  uv[g].u += kOne / 4;
+  uv[Mesh::next(g)].u += kOne / 4;
+  EXPECT_EQ(certify(mesh, uv, turns, free).fractionalTransitions, 1u);
+}

@@ -104,6 +104,46 @@ TEST(GridMap, aMeshThatIsNoCoarseLevelIsRefusedAtOnce)
   EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
 }
 
+TEST(GridMap, methodsKeepWhatTheyPromise)
+{
+  const Mesh mesh = test::disjointUnion(shearedCube(8), test::sphere(3), Vector3(4, 0, 0));
+  GridMapOptions options;
+  options.edgeLength = 0.25;
+  options.targetQuads = 400;
+  for (const MapMethod method :
+    { MapMethod::ScaleAware, MapMethod::MixedInteger, MapMethod::QuadCover, MapMethod::Seamless })
+  {
+    options.method = method;
+    const GridMapResult result = computeGridMap(mesh, options);
+    const Certificate& c = result.certificate;
+    EXPECT_TRUE(result.status.ok()) << nameOf(method) << ": " << result.status.message;
+    EXPECT_TRUE(hasPromised(c, method)) << nameOf(method) << ": " << c.text();
+    EXPECT_EQ(c.whole(), method != MapMethod::Seamless) << nameOf(method) << ": " << c.text();
+    EXPECT_NEAR(c.area, 400, method == MapMethod::Seamless ? 1e-2 : 0.1 * 400) << nameOf(method);
+    EXPECT_EQ(computeGridMap(mesh, options).uv, result.uv) << nameOf(method);
+  }
+}
+
+TEST(GridMap, roundingMayFoldWhereTheScaleAwareMethodDoesNot)
+{
+  const Mesh mesh = test::markFeatures(test::doubleTorus(3), 0.7);
+  GridMapOptions options;
+  options.edgeLength = 1;
+  options.targetQuads = 37;
+  for (const MapMethod method : { MapMethod::MixedInteger, MapMethod::QuadCover })
+  {
+    options.method = method;
+    const GridMapResult result = computeGridMap(mesh, options);
+    EXPECT_TRUE(result.status.ok()) << result.status.message;
+    EXPECT_GT(result.certificate.notPositive, 0u) << nameOf(method);
+    EXPECT_TRUE(result.certificate.whole()) << result.certificate.text();
+  }
+  options.method = MapMethod::ScaleAware;
+  const GridMapResult result = computeGridMap(mesh, options);
+  EXPECT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
+}
+
 TEST(MeshParts, KeepTheMeshAndTheField)
 {
   const Mesh one = shearedCube(3);

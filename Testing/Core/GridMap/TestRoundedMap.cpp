@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GridMap/GridMap.h"
+#include "GridMap/RoundedMap.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+using namespace quadrille;
+
+namespace
+{
+
+double areaOf(const Mesh& mesh)
+{
+  double area = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    area += mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm() / 2;
+  }
+  return area;
+}
+
+struct Model
+{
+  const char* name;
+  std::function<Mesh()> make;
+};
+
+std::vector<Model> models()
+{
+  constexpr double kSharp = 0.7;
+  return { { "sphere", [] { return test::sphere(3); } },
+    { "torus", [] { return test::torus(32, 16); } },
+    { "smooth cube", [] { return test::unitCube(8); } },
+    { "cube", [] { return test::markFeatures(test::unitCube(8), kSharp); } },
+    { "cylinder", [] { return test::openCylinder(24, 12); } },
+    { "plate", [] { return test::gridPlane(12, 8); } },
+    { "plate with hole", [] { return test::plateWithHole(5); } },
+    { "L", [] { return test::plateL(6); } }, { "genus 2", [] { return test::doubleTorus(3); } },
+    { "sharp genus 2", [] { return test::markFeatures(test::doubleTorus(3), kSharp); } },
+    { "sharp square torus", [] { return test::markFeatures(test::squareTorus(4), kSharp); } },
+    { "two components", [] { return test::twoComponents(); } } };
+}
+
+CrossField fieldOf(const Mesh& mesh, double edgeLength)
+{
+  CrossFieldOptions options;
+  options.targetEdgeLength = edgeLength;
+  return computeCrossField(mesh, options);
+}
+
+} // namespace
+
+TEST(RoundedMap, WhatMustBeWholeIsSoExactly)
+{
+  for (const Model& model : models())
+  {
+    const Mesh mesh = model.make();
+    for (const double quads : { 37.0, 200.0, 1000.0 })
+    {
+      const double length = std::sqrt(areaOf(mesh) / quads);
+      const CrossField field = fieldOf(mesh, length);
+      ASSERT_TRUE(field.status.ok()) << model.name << ": " << field.status.message;
+      const RoundedMap rounded(mesh, field, length);
+      ASSERT_TRUE(rounded.status().ok()) << model.name << ": " << rounded.status().message;
+      for (const RoundingOrder order : { RoundingOrder::OneAtATime, RoundingOrder::AllAtOnce })
+      {
+        const std::vector<FixedVec2> uv = rounded.make(quads, order);
+        const Certificate c = certify(mesh, uv, field.turns, integerVertices(mesh, field));
+        const std::string where =
+          std::string(model.name) + ", " + std::to_string(quads) + ": " + c.text();
+        EXPECT_EQ(c.seamResiduals, 0u) << where;
+        EXPECT_EQ(c.offAxes, 0u) << where;
+        EXPECT_EQ(c.offIsolines, 0u) << where;
+        EXPECT_EQ(c.offIntegers, 0u) << where;
+        EXPECT_EQ(c.fractionalTransitions, 0u) << where;
+        EXPECT_EQ(c.area, std::round(c.area)) << where; // whole quads, or as much of them inverted
+      }
+    }
+  }
+}
+
+TEST(RoundedMap, AreMapsOfSmallQuadsWithoutFolds)
+{
+  for (const Model& model : models())
+  {
+    const Mesh mesh = model.make();
+    const double length = std::sqrt(areaOf(mesh) / 4000);
+    const CrossField field = fieldOf(mesh, length);
+    ASSERT_TRUE(field.status.ok()) << model.name << ": " << field.status.message;
+    const RoundedMap rounded(mesh, field, length);
+    for (const RoundingOrder order : { RoundingOrder::OneAtATime, RoundingOrder::AllAtOnce })
+    {
+      const std::vector<FixedVec2> uv = rounded.make(4000, order);
+      const Certificate c = certify(mesh, uv, field.turns, integerVertices(mesh, field));
+      EXPECT_TRUE(c.valid()) << model.name << ": " << c.text();
+      EXPECT_NEAR(c.area, 4000, 400) << model.name;
+    }
+  }
+}
+
+TEST(RoundedMap, ParityIsMetWhereNotAllIntegersAreAllowed)
+{
+  const Mesh mesh = test::doubleTorus(3);
+  const double length = std::sqrt(areaOf(mesh) / 300);
+  const CrossField field = fieldOf(mesh, length);
+  const RoundedMap rounded(mesh, field, length);
+  EXPECT_EQ(rounded.composites(), 1u); // else this tests nothing
+  for (double quads = 250; quads < 350; quads += 9)
+  {
+    const auto uv = rounded.make(quads, RoundingOrder::AllAtOnce);
+    const Certificate c = certify(mesh, uv, field.turns, integerVertices(mesh, field));
+    EXPECT_TRUE(c.whole()) << c.text();
+  }
+}
+
+TEST(RoundedMap, TheOrderOfRoundingMatters)
+{
+  std::size_t different = 0;
+  for (const Model& model : models())
+  {
+    const Mesh mesh = model.make();
+    const double length = std::sqrt(areaOf(mesh) / 200);
+    const CrossField field = fieldOf(mesh, length);
+    const RoundedMap rounded(mesh, field, length);
+    const auto one = rounded.make(200, RoundingOrder::OneAtATime);
+    different += one != rounded.make(200, RoundingOrder::AllAtOnce) ? 1 : 0;
+    EXPECT_EQ(one, RoundedMap(mesh, field, length).make(200, RoundingOrder::OneAtATime));
+  }
+  EXPECT_GE(different, 2u);
+}
+
+TEST(RoundedMap, HasTheArea)
+{
+  const Mesh mesh = test::sphere(3);
+  const CrossField field = fieldOf(mesh, 0.2);
+  const RoundedMap rounded(mesh, field, 0.2);
+  for (const double quads : { 300.0, 3000.0 })
+  {
+    const Certificate c = certify(mesh, rounded.make(quads, RoundingOrder::OneAtATime), field.turns,
+      integerVertices(mesh, field));
+    EXPECT_NEAR(c.area, quads, 0.15 * quads);
+  }
+}
