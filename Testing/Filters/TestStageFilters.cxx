@@ -6,8 +6,8 @@
 #include <vtkCellData.h>
 #include <vtkDecimationHierarchy.h>
 #include <vtkDoubleArray.h>
-#include <vtkFloatArray.h>
 #include <vtkFieldData.h>
+#include <vtkFloatArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
 #include <vtkIntegerGridMap.h>
@@ -96,6 +96,48 @@ TEST(StageFilters, ChainEqualsOneClick)
   }
 }
 
+/// The method of the map is a property of its stage; the later ones know from it what the map promises.
+TEST(StageFilters, ChainTakesEveryMethod)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(80, 40));
+  for (int method = vtkIntegerGridMap::METHOD_SCALE_AWARE;
+       method <= vtkIntegerGridMap::METHOD_SEAMLESS; ++method)
+  {
+    Chain chain(input);
+    chain.map->SetMethod(method);
+    chain.upmap->Update();
+    ASSERT_EQ(chain.upmap->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
+      << method << chain.map->GetOutcomeText() << chain.upmap->GetOutcomeText();
+    EXPECT_STREQ(chain.upmap->GetNoticesText(), "") << method;
+    vtkNew<vtkQuadRemesh> oneClick;
+    oneClick->SetInputData(input);
+    oneClick->SetTargetTypeToNumberOfQuads();
+    oneClick->SetNumberOfQuads(500);
+    oneClick->SetMethod(method);
+    oneClick->Update();
+    ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
+      << oneClick->GetOutcomeText();
+    EXPECT_EQ(oneClick->GetMappedSurface()->GetNumberOfPolys(), input->GetNumberOfPolys());
+    if (method != vtkIntegerGridMap::METHOD_SEAMLESS)
+    {
+      chain.extraction->Update();
+      EXPECT_EQ(pointsOf(chain.extraction->GetOutput()), pointsOf(oneClick->GetOutput())) << method;
+      continue;
+    }
+    EXPECT_EQ(oneClick->GetActualQuads(), 0);
+    EXPECT_NE(std::string(oneClick->GetNoticesText()).find("no quads"), std::string::npos);
+    for (vtkPolyData* mapped : { chain.upmap->GetOutput(), oneClick->GetMappedSurface() })
+    {
+      vtkNew<vtkQuadExtraction> extraction;
+      const test::Messages messages(extraction);
+      extraction->SetInputData(mapped);
+      extraction->Update();
+      EXPECT_EQ(extraction->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+      EXPECT_NE(messages.errors.find("'seamless'"), std::string::npos) << messages.errors;
+    }
+  }
+}
+
 /// Sizes, with their growth limited, travel with the coarse level; the surface is refined by them again.
 TEST(StageFilters, ChainHonoursSizes)
 {
@@ -113,7 +155,8 @@ TEST(StageFilters, ChainHonoursSizes)
     << chain.hierarchy->GetOutcomeText() << chain.map->GetOutcomeText()
     << chain.upmap->GetOutcomeText() << chain.extraction->GetOutcomeText();
   EXPECT_TRUE(chain.hierarchy->GetOutput()->GetPointData()->HasArray("Sizing"));
-  EXPECT_NE(std::string(chain.hierarchy->GetNoticesText()).find("grow gradually"), std::string::npos);
+  EXPECT_NE(
+    std::string(chain.hierarchy->GetNoticesText()).find("grow gradually"), std::string::npos);
 
   vtkNew<vtkQuadRemesh> oneClick;
   oneClick->SetInputData(input);

@@ -317,6 +317,42 @@ class Report(Case):
         self.run_quadrille(source, self.folder / "q.obj", "--close-handles", -1, expect=2)
 
 
+    def test_methods(self):
+        source = self.write_off()
+        map_file, out, report = (self.folder / name for name in ("m.vtp", "q.obj", "r.json"))
+        for method in ("scale-aware", "mixed-integer", "quadcover"):
+            with self.subTest(method):
+                result = self.run_quadrille(source, out, "--quads", 900, "--method", method, "--map", map_file)
+                data = read(vtkOBJReader(), out)
+                self.assertTorusOfQuads(data.GetNumberOfPoints(), faces_of(data))
+                self.assertEqual("gives no guarantee: 0 of" in result.stderr, method != "scale-aware")
+                self.assertTrue(read(vtkXMLPolyDataReader(), map_file).GetCellData().HasArray("IGM"))
+        map_file.unlink()
+        result = self.run_quadrille(source, "--quads", 900, "--method", "seamless", "--map", map_file, "--report", report)
+        self.assertIn("no quads", result.stderr)
+        surface = read(vtkXMLPolyDataReader(), map_file)
+        self.assertEqual(surface.GetNumberOfCells(), len(torus()[1]))
+        self.assertTrue(surface.GetCellData().HasArray("IGM"))
+        content = json.loads(report.read_text())
+        self.assertEqual((content["exit_code"], content["quads_actual"]), (0, 0))
+        # No half result: neither quads that the method has not, nor a map that nobody would see.
+        before = sorted(path.name for path in self.folder.iterdir())
+        for words, told in (((out, "--method", "seamless"), "--map"), (("--method", "seamless"), "--map"),
+                            ((out, "--method", "seamless", "--map", map_file), "no output file"),
+                            ((out, "--method", "best"), "best"), ((out, "--map", self.folder / "m.obj"), "vtp")):
+            with self.subTest(words):
+                self.assertIn(told, self.run_quadrille(source, *words, expect=2).stderr)
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), before)
+
+    def test_folds_of_a_method_are_told(self):
+        # The four holes of the flange are narrower than such quads.
+        out = self.folder / "q.obj"
+        result = self.run_quadrille(pathlib.Path(ARGS.data) / "part.ply", out, "--quads", 100, "--method", "quadcover",
+                                    expect=3)
+        self.assertIn("'QuadCover'", result.stderr)
+        self.assertFalse(out.exists())
+
+
 class Bench(Case):
     COLUMNS = "mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb".split(",")
     STAGES = ("read repair order connectivity refine phase1 phase2 field seamless quantize embed replay certify extract "
@@ -386,6 +422,10 @@ class Bench(Case):
             self.assertLessEqual(max(stages), float(row["total"]))
             self.assertEqual(int(row["faces_reused"]) > 0, row["start"] == "warm")
         self.assertEqual(rows[0]["vertices"], "300")
+        result = subprocess.run([ARGS.bench, source, "--compare", "coarse", "--quads", "500", "--method", "mixed-integer"],
+                                capture_output=True, text=True, timeout=300)
+        rows = list(csv.DictReader(io.StringIO(result.stdout)))
+        self.assertEqual([(row["edit"], row["ok"], float(row["embed"])) for row in rows], 2 * [("none", "1", 0)])
         wrong = subprocess.run([ARGS.bench, source, "--coarse-vertices", "300"], capture_output=True, text=True, timeout=60)
         self.assertEqual(wrong.returncode, 2, wrong.stderr)
 
@@ -439,6 +479,18 @@ class Python(Case):
         self.assertGreater(result.surface.GetNumberOfCells(), 0)
         self.assertEqual(result.lines.GetNumberOfCells(), 0)
         self.assertTrue(progress and progress == sorted(progress, key=lambda p: p[0]))
+
+    def test_methods(self):
+        points, faces = torus()
+        for method in quadrille.METHODS:
+            result = quadrille.remesh((points, faces), quads=900, method=method, everything=True)
+            self.assertEqual(result.quads.GetNumberOfCells() > 0, method != "seamless")
+            self.assertEqual(result.surface.GetNumberOfCells(), len(faces))
+            self.assertEqual(result.info["Method"].replace(" ", "-").lower(), method)
+        with self.assertRaisesRegex(quadrille.InvalidInput, "ComputeMappedSurface"):
+            quadrille.remesh((points, faces), quads=900, method="seamless")
+        with self.assertRaisesRegex(quadrille.InvalidInput, "best"):
+            quadrille.remesh((points, faces), quads=900, method="best")
 
     def test_errors_are_exceptions(self):
         points, faces = torus(12, 6)

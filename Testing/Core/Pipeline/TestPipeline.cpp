@@ -329,6 +329,74 @@ TEST(Pipeline, SameBytesForAnyNumberOfThreads)
   EXPECT_TRUE(one.quads.quads == two.quads.quads);
 }
 
+TEST(Pipeline, MethodsThatRoundMakeQuadsWhereNothingFolds)
+{
+  for (const MapMethod method : { MapMethod::MixedInteger, MapMethod::QuadCover })
+  {
+    for (const Mesh& mesh : { test::sphere(4), test::torus(48, 24),
+           test::markFeatures(test::unitCube(10), 0.7), test::openCylinder(32, 16) })
+    {
+      RemeshOptions options;
+      options.quads = 1500;
+      options.method = method;
+      const RemeshResult result = remesh(test::toInput(mesh), options);
+      ASSERT_TRUE(result.status.ok()) << nameOf(method) << ": " << result.status.message;
+      EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
+      EXPECT_EQ(topologyOf(result.quads).euler, summarizeTopology(mesh).eulerCharacteristic);
+      EXPECT_NEAR(static_cast<double>(result.quads.quads.size()), 1500, 150);
+      EXPECT_TRUE(std::any_of(result.notices.begin(), result.notices.end(),
+        [&](const std::string& notice)
+        { return notice.find("gives no guarantee: 0 of") != std::string::npos; }));
+    }
+  }
+}
+
+TEST(Pipeline, FoldsOfMethodsThatRoundAreToldAndWhatIsWholeStaysSo)
+{
+  const Mesh mesh = test::markFeatures(test::doubleTorus(6), 0.7);
+  for (const MapMethod method : { MapMethod::MixedInteger, MapMethod::QuadCover })
+  {
+    RemeshOptions options;
+    options.quads = 37;
+    options.coarseVertices = 400;
+    options.method = method;
+    const RemeshResult result = remesh(test::toInput(mesh), options);
+    EXPECT_GT(result.coarseCertificate.notPositive, 0u) << nameOf(method);
+    EXPECT_TRUE(result.coarseCertificate.whole()) << result.coarseCertificate.text();
+    EXPECT_GT(result.certificate.notPositive, 0u) << nameOf(method);
+    EXPECT_TRUE(result.certificate.whole()) << result.certificate.text();
+    EXPECT_EQ(result.decimations, 1);
+    ASSERT_FALSE(result.status.ok());
+    EXPECT_TRUE(result.quads.quads.empty());
+    EXPECT_NE(result.status.message.find(nameOf(method)), std::string::npos)
+      << result.status.message;
+    const std::string counts = std::to_string(result.coarseCertificate.notPositive) + " of " +
+      std::to_string(result.coarseCertificate.triangles) + " triangles of the coarse map and " +
+      std::to_string(result.certificate.notPositive) + " of " +
+      std::to_string(result.certificate.triangles);
+    EXPECT_TRUE(std::any_of(result.notices.begin(), result.notices.end(),
+      [&](const std::string& notice) { return notice.find(counts) != std::string::npos; }))
+      << counts;
+  }
+}
+
+TEST(Pipeline, TheSeamlessMethodMakesAMapAndNoQuads)
+{
+  RemeshOptions options;
+  options.quads = 790;
+  options.method = MapMethod::Seamless;
+  const RemeshResult result =
+    remesh(test::toInput(test::markFeatures(test::squareTorus(6), 0.7)), options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_TRUE(result.quads.quads.empty());
+  EXPECT_EQ(result.uv.size(), result.surface.mesh.halfEdgeCount());
+  EXPECT_TRUE(result.certificate.seamless()) << result.certificate.text();
+  EXPECT_FALSE(result.certificate.whole()) << result.certificate.text();
+  EXPECT_NEAR(result.certificate.area, 790, 1);
+  EXPECT_EQ(result.replays, 1);
+  EXPECT_NE(result.notices.back().find("no quads"), std::string::npos);
+}
+
 TEST(Pipeline, CancelIsAStatusAndLeavesNoQuads)
 {
   RemeshOptions options;
