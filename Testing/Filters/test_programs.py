@@ -331,7 +331,7 @@ class Report(Case):
         result = self.run_quadrille(source, "--quads", 900, "--method", "seamless", "--map", map_file, "--report", report)
         self.assertIn("no quads", result.stderr)
         surface = read(vtkXMLPolyDataReader(), map_file)
-        self.assertEqual(surface.GetNumberOfCells(), len(torus()[1]))
+        self.assertGreaterEqual(surface.GetNumberOfCells(), len(torus()[1]))
         self.assertTrue(surface.GetCellData().HasArray("IGM"))
         content = json.loads(report.read_text())
         self.assertEqual((content["exit_code"], content["quads_actual"]), (0, 0))
@@ -485,7 +485,7 @@ class Python(Case):
         for method in quadrille.METHODS:
             result = quadrille.remesh((points, faces), quads=900, method=method, everything=True)
             self.assertEqual(result.quads.GetNumberOfCells() > 0, method != "seamless")
-            self.assertEqual(result.surface.GetNumberOfCells(), len(faces))
+            self.assertGreaterEqual(result.surface.GetNumberOfCells(), len(faces))
             self.assertEqual(result.info["Method"].replace(" ", "-").lower(), method)
         with self.assertRaisesRegex(quadrille.InvalidInput, "ComputeMappedSurface"):
             quadrille.remesh((points, faces), quads=900, method="seamless")
