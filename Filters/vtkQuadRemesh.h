@@ -116,7 +116,8 @@ public:
 
   /// Millions of bytes that are held for the next execution.
   double GetRememberedMegabytes() const;
-  /// Stages that the last execution had, or began, from an earlier one, one a line.
+  /// Stages that the last execution had, or began, from an earlier one, one a line; "all" where nothing had changed and the result
+  /// before was returned.
   const char* GetReusedStagesText() const { return this->ReusedStagesText.c_str(); }
 
   ///@{
@@ -163,6 +164,8 @@ protected:
   ~vtkQuadRemesh() override;
 
   void Execute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  bool KeepsResult() override { return this->KeepLevels != 0; }
+  void ResultIsKept() override { this->ReusedStagesText = "all"; }
 
 private:
   vtkQuadRemesh(const vtkQuadRemesh&) = delete;

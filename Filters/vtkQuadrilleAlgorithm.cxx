@@ -5,6 +5,7 @@
 #include "GridMap/GridMap.h"
 #include "Pipeline/Pipeline.h"
 #include "QuadrilleReport.h"
+#include "QuadrilleStamps.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -84,6 +85,18 @@ int vtkQuadrilleAlgorithm::RequestUpdateExtent(
 int vtkQuadrilleAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  std::vector<quadrille::Stamp> stamps = quadrille::stampsOf(inputs, this->GetNumberOfInputPorts());
+  stamps.emplace_back(nullptr, this->GetMTime());
+  stamps.emplace_back(nullptr, requestedPiece(outputs));
+  stamps.emplace_back(nullptr, requestedPieces(outputs));
+  if (this->KeepsResult() && stamps == this->LastStamps)
+  {
+    this->RestoreResult(outputs);
+    this->ResultIsKept();
+    this->UpdateProgress(1.0);
+    return 1;
+  }
+  this->LastStamps.clear();
   this->ResetOutcome();
   if (requestedPiece(outputs) > 0 || (requestedPieces(outputs) > 1 && isEmpty(inputs)))
   {
@@ -99,6 +112,7 @@ int vtkQuadrilleAlgorithm::RequestData(
     this->Execute(inputs, outputs);
     this->KeepResult(outputs);
     this->Outcome = Succeeded;
+    this->LastStamps = std::move(stamps);
     this->UpdateProgress(1.0);
     return 1;
   }

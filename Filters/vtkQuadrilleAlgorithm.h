@@ -19,6 +19,7 @@
 #include <chrono>     // for std::chrono::steady_clock
 #include <functional> // for std::function
 #include <string>     // for std::string
+#include <utility>    // for std::pair
 #include <vector>     // for std::vector
 
 namespace quadrille
@@ -82,6 +83,11 @@ protected:
   int RequestData(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
+  /// Whether an execution with the same properties and arrays as the last one, which succeeded, returns its result instead of making it
+  /// again; ResultIsKept() hears of it. Default: no.
+  virtual bool KeepsResult() { return false; }
+  virtual void ResultIsKept() {}
+
   /// The filter's own work; throws on any failure, RequestData turns that into an error.
   virtual void Execute(vtkInformationVector** inputs, vtkInformationVector* outputs) = 0;
 
@@ -113,6 +119,8 @@ private:
   bool TimeIsOver = false;
   double FarthestProgress = 0;
   std::vector<vtkSmartPointer<vtkDataObject>> LastResult; ///< shares its arrays with the outputs
+  /// Times of the filter and its inputs at the last success; empty where there was none.
+  std::vector<std::pair<const void*, vtkMTimeType>> LastStamps;
   std::chrono::steady_clock::time_point Started;
   std::string OutcomeText;
   std::string StageTimesText;

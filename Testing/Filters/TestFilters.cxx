@@ -12,6 +12,7 @@
 #include <vtkPointData.h>
 #include <vtkQuadRemesh.h>
 #include <vtkStringArray.h>
+#include <vtkTrivialProducer.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
@@ -478,6 +479,63 @@ TEST(QuadRemesh, AChangeBeginsAtItsStageWithTheSameQuads)
   expectValid(filter, 0, true);
   filter->KeepLevelsOff();
   EXPECT_EQ(filter->GetRememberedMegabytes(), 0);
+}
+
+TEST(QuadRemesh, NothingNewReturnsTheResultBefore)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(60, 30));
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  vtkNew<vtkTrivialProducer> upstream;
+  upstream->SetOutput(input);
+  filter->SetInputConnection(upstream->GetOutputPort());
+  filter->SetTargetTypeToNumberOfQuads();
+  filter->SetNumberOfQuads(400);
+  filter->Update();
+  const std::vector<double> before = coordinates(filter->GetOutput());
+  const std::string certificate = filter->GetCertificateText();
+  // Another object with the same arrays, as a filter upstream makes that passes its input on.
+  const auto runAgain = [&]
+  {
+    const auto copy = vtkSmartPointer<vtkPolyData>::New();
+    copy->ShallowCopy(input);
+    upstream->SetOutput(copy);
+    filter->Update();
+  };
+  runAgain();
+  EXPECT_STREQ(filter->GetReusedStagesText(), "all");
+  EXPECT_EQ(coordinates(filter->GetOutput()), before);
+  EXPECT_EQ(filter->GetCertificateText(), certificate);
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+  EXPECT_EQ(filter->GetActualQuads(), filter->GetOutput()->GetNumberOfCells());
+  EXPECT_GT(filter->GetMappedSurface()->GetNumberOfCells(), 0);
+  // Any array counts, as all are carried over; so does what was changed in place, and a property.
+  vtkNew<vtkDoubleArray> numbers;
+  numbers->SetName("Numbers");
+  numbers->SetNumberOfTuples(input->GetNumberOfPoints());
+  numbers->FillValue(1);
+  input->GetPointData()->AddArray(numbers);
+  runAgain();
+  EXPECT_STRNE(filter->GetReusedStagesText(), "all");
+  EXPECT_TRUE(filter->GetOutput()->GetPointData()->HasArray("Numbers"));
+  numbers->FillValue(2);
+  numbers->Modified();
+  runAgain();
+  EXPECT_STRNE(filter->GetReusedStagesText(), "all");
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Numbers")->GetTuple1(0), 2);
+  input->GetPoints()->SetPoint(0, 1.5, 0, 0.01);
+  input->GetPoints()->Modified();
+  runAgain();
+  EXPECT_STREQ(filter->GetReusedStagesText(), "");
+  filter->ComputeMappedSurfaceOff();
+  runAgain();
+  EXPECT_STRNE(filter->GetReusedStagesText(), "all");
+  // A failure is tried again, and forgets what was before.
+  filter->SetNumberOfQuads(0);
+  runAgain();
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+  runAgain();
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
 }
 
 TEST(QuadRemeshFailure, PreviousResultIsKept)
