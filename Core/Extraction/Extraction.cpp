@@ -68,11 +68,14 @@ void append(std::string& text, const std::string& more)
   text += (text.empty() ? "" : "; ") + more;
 }
 
+/// The first few.
 std::string describePoints(const QuadMesh& mesh, const std::vector<Index>& points)
 {
+  constexpr std::size_t kNamedPoints = 8;
   std::ostringstream text;
-  for (const Index p : points)
+  for (std::size_t i = 0; i < std::min(points.size(), kNamedPoints); ++i)
   {
+    const Index p = points[i];
     text << (text.tellp() > 0 ? ", " : "") << placeText(mesh.points[p]) << " in face "
          << mesh.sourceFace[p];
   }

@@ -13,7 +13,6 @@ namespace
 {
 
 using Quads = std::vector<std::array<Index, 4>>;
-constexpr std::size_t kNamedPoints = 8;
 
 Index nextInQuad(Index h)
 {
@@ -63,10 +62,7 @@ struct Buckets
 
 void note(QuadTopology& topology, Index point)
 {
-  if (topology.offendingPoints.size() < kNamedPoints)
-  {
-    topology.offendingPoints.push_back(point);
-  }
+  topology.offendingPoints.push_back(point);
 }
 
 /// Number of half-edges from a to b; the last one comes back in h.

@@ -32,7 +32,7 @@ struct QuadTopology
   std::size_t nonManifoldVertices = 0; ///< more than one fan of quads
   std::size_t degenerateQuads = 0;     ///< a point twice in one quad
   std::size_t isolatedPoints = 0;
-  std::vector<Index> offendingPoints; ///< the first few points where something is wrong
+  std::vector<Index> offendingPoints; ///< points where something is wrong, some more than once
 
   bool manifold() const
   {

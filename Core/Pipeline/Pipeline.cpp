@@ -35,6 +35,14 @@ constexpr int kMaximumTransfers = 3;
 constexpr std::size_t kMaximumWork = 24000000;
 /// How often the number of quads is doubled where they do not fit round a small handle.
 constexpr int kMaximumFinerGrids = 3;
+/// Before that, quads are made smaller near the places alone: so often, by this factor, within so many edge lengths.
+constexpr int kMaximumShrinks = 4;
+/// Where that makes the number of quads grow by more than this factor they may as well be smaller everywhere.
+constexpr double kMostGrowth = 1.6;
+/// Handles with loops below so many edge lengths are sure to be among the places.
+constexpr double kHopelessLoop = 2;
+constexpr double kShrink = 0.5;
+constexpr double kShrinkRadius = 1.5;
 /// How often features are given up near the places of a failure.
 constexpr int kMaximumFeatureDrops = 4;
 /// The first time within this part of the edge length, then twice as far each time.
@@ -765,6 +773,14 @@ private:
     SmallParts& parts = result_.smallParts;
     parts.handles = found.handles;
     parts.unresolvedHandles = found.loops.size();
+    for (const HandleLoop& loop : found.loops)
+    {
+      const bool hopeless = loop.length < kHopelessLoop * result_.targetEdgeLength;
+      for (std::size_t i = 0; hopeless && i < loop.vertices.size(); ++i)
+      {
+        handlePlaces_.push_back(mesh.position[loop.vertices[i]]);
+      }
+    }
     parts.complete = found.complete;
     if (found.shortest)
     {
@@ -1026,14 +1042,19 @@ private:
     }
   }
 
-  /// Where a loop round a small handle or a thin part is one or two quads long, quads touch themselves though the map is valid: that shows
-  /// on the coarse map already, and only more quads can help. False when this is not the cause.
-  bool takeFinerGrid()
+  /// Where quads of the coarse map touch themselves.
+  struct GridTroubles
   {
-    if (result_.coarseUv.empty() || !result_.coarseCertificate.valid() ||
-      finerGrids_ >= kMaximumFinerGrids)
+    std::size_t defects = 0;
+    std::vector<Vector3> places;
+  };
+  /// Where a loop round a small handle or a thin part is one or two quads long, quads touch themselves though the map is valid: that shows
+  /// on the coarse map already, and only smaller quads can help. None when this is not the cause of a failure.
+  std::optional<GridTroubles> gridTroubles() const
+  {
+    if (result_.coarseUv.empty() || !result_.coarseCertificate.valid())
     {
-      return false;
+      return std::nullopt;
     }
     ExtractionOptions extractionOptions;
     extractionOptions.maximumQuads = options_.maximumQuads;
@@ -1043,34 +1064,117 @@ private:
       extractQuads(result_.coarse.mesh, result_.coarseUv, extractionOptions);
     if (coarse.status.ok() || coarse.status.code == StatusCode::TooLarge)
     {
-      return false;
+      return std::nullopt;
     }
     const QuadTopology topology = analyzeQuads(coarse.mesh.quads, coarse.mesh.points.size());
-    const std::size_t defects = coarse.droppedFaces + topology.nonManifoldEdges +
+    GridTroubles troubles;
+    troubles.defects = coarse.droppedFaces + topology.nonManifoldEdges +
       topology.nonManifoldVertices + topology.degenerateQuads;
     for (const Index p : topology.offendingPoints)
     {
-      troubles_.push_back(coarse.mesh.points[p]);
+      troubles.places.push_back(coarse.mesh.points[p]);
     }
-    if (finerGrids_ > 0 && defects >= gridDefects_)
+    return troubles;
+  }
+
+  /// Smaller quads for a map whose quads touch themselves: first there, and where that does not do, everywhere.
+  bool takeFinerGrid()
+  {
+    const std::optional<GridTroubles> troubles = gridTroubles();
+    if (!(shrinkQuadsNear(troubles) || doubleQuads(troubles)))
     {
+      return false;
+    }
+    levels_.reset();
+    result_.status = {};
+    troubles_.clear();
+    return true;
+  }
+
+  /// False, with the sizes as they were, where this leads to nothing (more).
+  bool shrinkQuadsNear(const std::optional<GridTroubles>& troubles)
+  {
+    if (!mayShrink_)
+    {
+      return false;
+    }
+    Mesh& mesh = result_.surface.mesh;
+    // A map with other sizes has other places where quads only just fit, so their number need not fall each time.
+    if (shrinks_ == kMaximumShrinks || !troubles || troubles->places.empty())
+    {
+      giveSizesBack();
+      return false;
+    }
+    if (shrinks_++ == 0)
+    {
+      sizesBefore_ = mesh.sizing;
+      areaBefore_ = sizedArea();
+      firstTroubles_ = *troubles;
+    }
+    gridDefects_ = troubles->defects;
+    std::vector<Vector3> places = troubles->places;
+    if (shrinks_ == 1)
+    {
+      places.insert(places.end(), handlePlaces_.begin(), handlePlaces_.end());
+    }
+    scaleSizesNear(mesh, places, kShrinkRadius * result_.targetEdgeLength, kShrink);
+    limitSizeGrowth(mesh, result_.targetEdgeLength);
+    if (sizedArea() > kMostGrowth * areaBefore_)
+    {
+      giveSizesBack();
+      return false;
+    }
+    std::ostringstream text;
+    text << "quads of the wanted size do not fit round a handle or a thin part near "
+         << placeText(firstTroubles_.places.front())
+         << (firstTroubles_.places.size() > 1 ? " and other places" : "")
+         << ": they are made smaller there, about " << std::llround(gridQuads())
+         << " quads altogether; close the handle for a result without this";
+    gridNotice_ = text.str();
+    return true;
+  }
+
+  void giveSizesBack()
+  {
+    if (shrinks_ > 0)
+    {
+      result_.surface.mesh.sizing = sizesBefore_;
+    }
+    mayShrink_ = false;
+  }
+
+  bool doubleQuads(const std::optional<GridTroubles>& troubles)
+  {
+    // The first time after sizes were tried it is their beginning that counts.
+    const bool afterSizes = shrinks_ > 0 && finerGrids_ == 0;
+    if (afterSizes)
+    {
+      gridNotice_.clear();
+    }
+    const std::optional<GridTroubles> now = afterSizes ? firstTroubles_ : troubles;
+    if (!now || finerGrids_ >= kMaximumFinerGrids)
+    {
+      return false;
+    }
+    if (finerGrids_ > 0 && now->defects >= gridDefects_)
+    {
+      troubles_.insert(troubles_.end(), now->places.begin(), now->places.end());
       finerGrids_ = 0; // not a matter of size
+      shrinks_ = 0;
       gridNotice_.clear();
       return false;
     }
     ++finerGrids_;
-    gridDefects_ = defects;
+    gridDefects_ = now->defects;
     std::ostringstream text;
     text << "quads of the wanted size do not fit round a handle or a thin part";
-    if (!topology.offendingPoints.empty())
+    if (!now->places.empty())
     {
-      text << " near " << placeText(coarse.mesh.points[topology.offendingPoints.front()]);
+      text << " near " << placeText(now->places.front());
     }
-    text << ": made for " << gridQuads()
+    text << ": made for " << std::llround(gridQuads())
          << " quads instead; ask for that many, or close the handle, for a result without this";
     gridNotice_ = text.str();
-    result_.status = {};
-    troubles_.clear();
     return true;
   }
 
@@ -1080,7 +1184,8 @@ private:
   /// What the map is scaled to.
   double gridQuads() const
   {
-    return static_cast<double>(result_.targetQuads) * std::pow(2.0, finerGrids_);
+    const double local = areaBefore_ > 0 && mayShrink_ ? sizedArea() / areaBefore_ : 1.0;
+    return static_cast<double>(result_.targetQuads) * std::pow(2.0, finerGrids_) * local;
   }
 
   static std::vector<Vector3> positionsOf(const Mesh& mesh, const std::vector<Index>& vertices)
@@ -1113,6 +1218,9 @@ private:
       return false;
     }
     ++featureDrops_;
+    mayShrink_ = true;
+    shrinks_ = 0;
+    areaBefore_ = 0;
     unmarkFeatures(result_.surface.mesh, features);
     result_.surface.hash = contentHash(result_.surface.mesh, options_.threads);
     std::ostringstream text;
@@ -1142,9 +1250,15 @@ private:
   std::size_t work_ = 0;          ///< GridMapResult::work of all maps so far
   bool smallPartsKnown_ = false;
   int featureDrops_ = 0;
+  bool mayShrink_ = true;       ///< whether sizes near the places of failures may help
+  int shrinks_ = 0;             ///< how often they were tried
+  std::vector<float> sizesBefore_;
+  double areaBefore_ = 0; ///< over the sizes, before
+  GridTroubles firstTroubles_;
+  std::vector<Vector3> handlePlaces_; ///< on the loops of handles that are too short
   int finerGrids_ = 0;          ///< how often the number of quads was doubled
   std::string gridNotice_;      ///< of the last doubling, while it holds
-  std::size_t gridDefects_ = 0; ///< of the quads of the coarse map before the last doubling
+  std::size_t gridDefects_ = 0; ///< of the quads of the coarse map before the last attempt with smaller ones
 };
 
 } // namespace
