@@ -1085,7 +1085,6 @@ private:
     {
       return false;
     }
-    levels_.reset();
     result_.status = {};
     troubles_.clear();
     return true;
@@ -1107,6 +1106,8 @@ private:
     }
     if (shrinks_++ == 0)
     {
+      letLevelsGo();
+      onMemoryBefore_ = std::exchange(onMemory_, false); // its surface has not these sizes
       sizesBefore_ = mesh.sizing;
       areaBefore_ = sizedArea();
       firstTroubles_ = *troubles;
@@ -1138,6 +1139,8 @@ private:
   {
     if (shrinks_ > 0)
     {
+      letLevelsGo();
+      onMemory_ = onMemoryBefore_;
       result_.surface.mesh.sizing = sizesBefore_;
     }
     mayShrink_ = false;
@@ -1253,6 +1256,7 @@ private:
   bool mayShrink_ = true;       ///< whether sizes near the places of failures may help
   int shrinks_ = 0;             ///< how often they were tried
   std::vector<float> sizesBefore_;
+  bool onMemoryBefore_ = false;
   double areaBefore_ = 0; ///< over the sizes, before
   GridTroubles firstTroubles_;
   std::vector<Vector3> handlePlaces_; ///< on the loops of handles that are too short

@@ -144,6 +144,41 @@ TEST(Pipeline, RingThatTwoQuadsWouldSurroundGetsMore)
   EXPECT_EQ(topology.boundaryEdges, 0u);
 }
 
+/// A torus whose tube is 0.03 to 0.4 wide.
+Mesh unevenTorus()
+{
+  return test::parametricGrid(240, 60, true,
+    [](double u, double v)
+    {
+      const double tube = 0.215 - 0.185 * std::cos(2 * test::kPi * u);
+      const double r = 1 + tube * std::cos(2 * test::kPi * v);
+      return Vector3(r * std::cos(2 * test::kPi * u), r * std::sin(2 * test::kPi * u),
+        tube * std::sin(2 * test::kPi * v));
+    });
+}
+
+TEST(Pipeline, QuadsAreSmallerOnlyWhereTheyDoNotFit)
+{
+  // An edge is 0.19 long, and so it is round the thinnest place: one or two quads would meet themselves.
+  RemeshOptions options;
+  options.quads = 250;
+  const RemeshResult result = remesh(test::toInput(unevenTorus()), options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_TRUE(tells(result, "they are made smaller there"));
+  EXPECT_EQ(result.targetQuads, 250u);
+  // Doubled they are 500.
+  EXPECT_LT(result.quads.quads.size(), 350u);
+  const QuadTopology topology = topologyOf(result.quads);
+  EXPECT_EQ(topology.euler, 0);
+  EXPECT_TRUE(topology.oriented);
+  EXPECT_EQ(topology.boundaryEdges, 0u);
+  const auto [least, most] =
+    std::minmax_element(result.surface.mesh.sizing.begin(), result.surface.mesh.sizing.end());
+  ASSERT_FALSE(result.surface.mesh.sizing.empty());
+  EXPECT_LE(*least, 0.5F);
+  EXPECT_EQ(*most, 1.0F);
+}
+
 TEST(Pipeline, ThinTorusIsAnUnresolvedHandle)
 {
   // Round the tube it is 0.31, 2 edge lengths of 80 quads and 5.6 of 600.
