@@ -4,6 +4,7 @@
 /// its peak memory is its own; the peak is the same on each row of a run.
 #include "Base/Parallel.h"
 #include "CoarseTimes.h"
+#include "FieldCounts.h"
 #include "MeshFiles.h"
 #include "Options.h"
 #include "PhaseOrders.h"
@@ -32,6 +33,7 @@ using namespace quadrille;
 constexpr const char* kHelp =
   R"(usage: quadrille-bench MESH... [--quads N | --edge-length S] [--threads N] [--repeat N]
        quadrille-bench MESH... --compare replay [--quads N] [--threads N]
+       quadrille-bench MESH... --compare field [--quads N] [--threads N]
        quadrille-bench MESH... --compare orders [--quads N] [--candidates N] [--exact-below N] [--threads N] [--repeat N]
        quadrille-bench MESH... --compare coarse [--quads N] [--coarse-vertices N] [--repeat N]
 
@@ -55,6 +57,11 @@ With --compare replay writes, instead, what the replay of the coarse map did to 
 where stars that their vertex inverted are counted, those of them that were mended by moving it into the kernel of its
 ring, and those that have none; then triangles that are not positive after the replay and after patches round them were
 embedded anew. ok: 1 when quads came of it.
+
+With --compare field computes the cross field of each mesh on all of its refined surface, remeshes it, and writes
+  mesh,quads,faces,coarse_vertices,irregular_surface,irregular_coarse,ratio,ok
+with the irregular vertices of both fields, the second over the first, and whether quads came of it. At most 500,000
+refined faces.
 
 With --compare orders runs phase 1 only, in each of its orders (sweeps, heap, stochastic), and writes
   mesh,repeat,order,threads,seconds,faces,vertices,intermediate_vertices,short_percent,edge_5,edge_50,edge_95,
@@ -95,7 +102,7 @@ struct Request
   double edgeLength = 0; ///< 0: quads
   int threads = 0;
   long long repeat = 1;
-  /// "orders": only phase 1, in all orders; "replay": counts of the replay; "coarse": times of the coarse level
+  /// "orders": only phase 1, in all orders; "replay": counts of the replay; "field": irregular vertices; "coarse": times of the coarse level
   std::string compared;
   Index coarseVertices = 1000;
   int method = 0; ///< of vtkQuadRemesh::Methods
@@ -109,9 +116,10 @@ void parseComparison(const CommandLine& line, Request& request)
   const auto exactBelow = line.count("exact-below", 0, 4000000000);
   request.compared = compared.value_or("");
   const auto coarseVertices = line.count("coarse-vertices", 4, 1000000000);
-  if (compared && *compared != "orders" && *compared != "replay" && *compared != "coarse")
+  if (compared && *compared != "orders" && *compared != "replay" && *compared != "coarse" &&
+    *compared != "field")
   {
-    throw UsageError("--compare takes orders, replay or coarse, not '" + *compared + "'");
+    throw UsageError("--compare takes orders, replay, field or coarse, not '" + *compared + "'");
   }
   if (request.compared != "coarse" && coarseVertices)
   {
@@ -208,6 +216,10 @@ int compare(const std::string& mesh, const Request& request)
     if (request.compared == "replay")
     {
       printReplay(mesh, quads, request.threads);
+    }
+    else if (request.compared == "field")
+    {
+      printFieldCounts(mesh, quads, request.threads);
     }
     else if (request.compared == "coarse")
     {
@@ -315,6 +327,7 @@ int main(int argc, char* argv[])
     if (!request.compared.empty())
     {
       request.compared == "replay"     ? printReplayHeader()
+        : request.compared == "field"  ? printFieldCountsHeader()
         : request.compared == "coarse" ? printCoarseHeader()
                                        : printOrdersHeader();
       for (const std::string& mesh : line.positional())

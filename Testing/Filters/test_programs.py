@@ -406,6 +406,17 @@ class Bench(Case):
         self.assertGreater(int(row["inverted_stars"]), 0)
         self.assertLessEqual(int(row["not_positive"]), int(row["replay_not_positive"]))
 
+    def test_irregular_vertices_with_and_without_decimation(self):
+        result = subprocess.run([ARGS.bench, os.path.join(ARGS.data, "part.ply"), "--compare", "field", "--quads", "500"],
+                                capture_output=True, text=True, timeout=300)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        (row,) = csv.DictReader(io.StringIO(result.stdout))
+        self.assertEqual((row["mesh"], row["quads"], row["ok"]), ("part", "500", "1"))
+        self.assertLess(int(row["coarse_vertices"]), int(row["faces"]) / 2)
+        surface, coarse = int(row["irregular_surface"]), int(row["irregular_coarse"])
+        self.assertGreater(min(surface, coarse), 0)
+        self.assertAlmostEqual(float(row["ratio"]), coarse / surface, delta=0.001)
+
     def test_times_of_the_coarse_level(self):
         source = os.path.join(ARGS.data, "beast.ply")
         result = subprocess.run([ARGS.bench, source, "--compare", "coarse", "--quads", "500", "--coarse-vertices", "300",
