@@ -69,12 +69,14 @@ void embedFromSeamless(const Mesh& mesh, const CrossField& field, const LockedMa
   const ContinuationResult way =
     continueToIntegers(mesh, field, *options.seamlessUv, locked, options.progress);
   result.newtonSteps += way.newtonSteps;
+  result.work += way.work;
   if (!way.y)
   {
     return;
   }
   const UntangleResult polished = untangle(problem, *way.y, fieldUntangleOptions(options.progress));
   result.newtonSteps += polished.steps;
+  result.work += polished.work;
   for (const Eigen::VectorXd* y : { &polished.y, &*way.y })
   {
     std::vector<FixedVec2> uv = locked.snap(*y);
@@ -124,6 +126,7 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
     options.progress);
   result.uv = std::move(untangled.uv);
   result.newtonSteps = untangled.newtonSteps;
+  result.work = untangled.work;
   MapDefects defects = std::move(untangled.defects);
   if (!defects.none() && options.seamlessUv != nullptr)
   {

@@ -164,11 +164,6 @@ private:
       begin + step * static_cast<double>(i + 1));
   }
 
-  static std::size_t workOf(const Mesh& mesh, int steps)
-  {
-    return static_cast<std::size_t>(steps) * mesh.faceCount();
-  }
-
   void computeField()
   {
     const Stopwatch watch(result_.secondsField, result_.processorField);
@@ -358,7 +353,7 @@ private:
     seamlessOptions.previous = component.earlier();
     seamlessOptions.progress = progress;
     SeamlessResult seamless = computeSeamlessMap(part.mesh, part.field, seamlessOptions);
-    result_.work += workOf(part.mesh, seamless.newtonSteps);
+    result_.work += seamless.work;
     result_.seamlessSteps += seamless.newtonSteps;
     component.seamlessReused = component.seamlessReused || seamless.startedFromPrevious;
     if (!seamless.status.ok())
@@ -439,7 +434,7 @@ private:
       {
         const Stopwatch watch(result_.secondsEmbed, result_.processorEmbed);
         embedded = embedMap(part.mesh, part.field, component.uv, embedOptions);
-        result_.work += workOf(part.mesh, embedded.newtonSteps);
+        result_.work += embedded.work;
         result_.embedSteps += embedded.newtonSteps;
       }
       component.embedReused = embedded.startedFromPrevious;

@@ -87,6 +87,7 @@ struct SeamlessResult
   std::vector<Index>
     offenders; ///< vertices round which the triangulation, or the field, leaves no map
   int newtonSteps = 0;
+  std::size_t work = 0; ///< as UntangleResult::work
   bool startedFromPrevious = false;
 };
 /// A seamless map without inverted triangles that follows the field: transitions are quarter turns plus any
@@ -136,6 +137,7 @@ struct EmbedResult
   std::vector<Index>
     offenders; ///< vertices round which the triangulation leaves no map with these integers
   int newtonSteps = 0;
+  std::size_t work = 0; ///< as UntangleResult::work
   bool startedFromPrevious = false;
 };
 /// Moves everything but integers (integer vertices, isoline values, translations) so that every det > 0.
@@ -185,7 +187,7 @@ struct MapReuse
 };
 struct GridMapResult
 {
-  std::vector<FixedVec2> uv; ///< #H; zero on connected components that have no map at all
+  std::vector<FixedVec2> uv;         ///< #H; zero on connected components that have no map at all
   std::vector<FixedVec2> seamlessUv; ///< #H; of the components that have a map
   CrossField field;
   Certificate certificate;
@@ -194,7 +196,7 @@ struct GridMapResult
   std::vector<Index> offenders; ///< coarse vertices around which the triangulation lacks freedom
   double refinement = 1;        ///< of the component whose sizes had to shrink most
   std::size_t components = 0, failedComponents = 0;
-  /// Newton steps of all solves, each times the triangles of its component, and what quantization took in the same unit.
+  /// Of all solves, as UntangleResult::work, and what quantization took in the same unit.
   std::size_t work = 0;
   double secondsField = 0, secondsSeamless = 0, secondsQuantize = 0, secondsEmbed = 0;
   /// The same in processor time of the whole process, which other programs on the machine do not disturb.

@@ -211,6 +211,7 @@ bool ReducedTriangles::newtonStep(double regularization, Eigen::VectorXd& step)
   const double scale = mean > 0 ? mean : 1.0;
   for (double shift = regularization; shift < 10; shift = std::max(shift * 100, 1e-12))
   {
+    factorFlops_ += solver_.factorFlops();
     if (solver_.factorize(hessian_, shift * scale))
     {
       step = -solver_.solve(gradient_);

@@ -37,6 +37,8 @@ public:
   /// The Newton step -(H + regularization * mean(diag H))^-1 g. The regularization is raised until the
   /// matrix is positive definite; false when no finite step exists.
   bool newtonStep(double regularization, Eigen::VectorXd& step);
+  /// Of all factorizations so far, also those of matrices that were not positive definite.
+  double factorFlops() const { return factorFlops_; }
 
 private:
   using Matrix = Eigen::SparseMatrix<double>;
@@ -55,6 +57,7 @@ private:
   Eigen::VectorXd gradient_;
   SparseLdl solver_;
   bool analyzed_ = false;
+  double factorFlops_ = 0;
 };
 
 /// The derivatives at y = 0 of sum weight |J - 1|^2 / 2, the energy that fitReferences minimizes.

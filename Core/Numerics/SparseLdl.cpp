@@ -207,6 +207,17 @@ bool SparseLdl::factorize(const Matrix& lower, double shift)
   return true;
 }
 
+double SparseLdl::factorFlops() const
+{
+  double flops = 0;
+  for (std::size_t k = 0; k + 1 < firstOfL_.size(); ++k)
+  {
+    const double column = static_cast<double>(firstOfL_[k + 1] - firstOfL_[k]);
+    flops += column * (column + 1);
+  }
+  return flops;
+}
+
 Eigen::VectorXd SparseLdl::solve(const Eigen::VectorXd& rightSide) const
 {
   Eigen::VectorXd x = order_ * rightSide;

@@ -22,6 +22,8 @@ public:
   /// Of lower + shift * identity, where lower has the pattern that was analyzed. False when it is not positive definite. Looks out for
   /// a stop.
   bool factorize(const Matrix& lower, double shift);
+  /// Multiplications and additions of one factorization, by the pattern that was analyzed.
+  double factorFlops() const;
   /// After a factorization that succeeded.
   Eigen::VectorXd solve(const Eigen::VectorXd& rightSide) const;
 

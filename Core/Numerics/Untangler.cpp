@@ -22,6 +22,8 @@ using Vector = Eigen::VectorXd;
 /// epsilon, below the second one no further step pays.
 constexpr double kConverged = 1e-3;
 constexpr double kStalled = 1e-5;
+/// What a factorization does while a Newton step does all else for one triangle.
+constexpr double kFlopsOfTriangle = 2500;
 
 double determinantOf(const Jacobian& j)
 {
@@ -280,6 +282,8 @@ UntangleResult Minimizer::run()
       break;
     }
   }
+  result.work = static_cast<std::size_t>(result.steps) * system_.triangles() +
+    static_cast<std::size_t>(system_.factorFlops() / kFlopsOfTriangle);
   result.y = y_;
   result.minimumDeterminant = lowest_;
   std::vector<std::pair<double, Index>> bad;

@@ -41,6 +41,22 @@ SparseLdl::Matrix randomMatrix(int n, int perRow, std::mt19937& random, double d
 
 } // namespace
 
+TEST(SparseLdl, FlopsFollowTheFill)
+{
+  // A dense matrix of 4: columns of L with 3, 2, 1, 0 entries below the diagonal. A diagonal one has none.
+  SparseLdl::Matrix dense =
+    Eigen::MatrixXd(Eigen::MatrixXd::Constant(4, 4, 0.1).triangularView<Eigen::Lower>())
+      .sparseView();
+  SparseLdl solver;
+  solver.analyze(dense);
+  EXPECT_EQ(solver.factorFlops(), 3 * 4 + 2 * 3 + 1 * 2);
+  SparseLdl::Matrix diagonal(4, 4);
+  diagonal.setIdentity();
+  diagonal.makeCompressed();
+  solver.analyze(diagonal);
+  EXPECT_EQ(solver.factorFlops(), 0);
+}
+
 TEST(SparseLdl, SolvesWhatADenseSolverSolves)
 {
   std::mt19937 random(3);

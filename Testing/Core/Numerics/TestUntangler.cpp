@@ -139,6 +139,23 @@ TEST(Untangler, SameBytesEveryTime)
   EXPECT_EQ(a.steps, b.steps);
 }
 
+TEST(Untangler, WorkCountsTheFactorizations)
+{
+  // Inner points that all depend on all unknowns fill the factor; the map is the same.
+  const Square sparse(14);
+  Square filled(14);
+  const Eigen::Index n = filled.inside.size();
+  const Eigen::VectorXd u = Eigen::VectorXd::Constant(n, 1 / std::sqrt(static_cast<double>(n)));
+  const Eigen::MatrixXd mirror = Eigen::MatrixXd::Identity(n, n) - 2 * u * u.transpose();
+  filled.problem.basis = Eigen::SparseMatrix<double>((filled.problem.basis * mirror).sparseView());
+  const Eigen::VectorXd start = sparse.inside + randomVector(n, -0.2, 0.2, 9);
+  const UntangleResult a = untangle(sparse.problem, start, UntangleOptions());
+  const UntangleResult b = untangle(filled.problem, mirror * start, UntangleOptions());
+  const std::size_t triangles = sparse.problem.triangles.size();
+  EXPECT_GE(a.work, static_cast<std::size_t>(a.steps) * triangles);
+  EXPECT_GT(static_cast<double>(b.work) / b.steps, 2 * static_cast<double>(a.work) / a.steps);
+}
+
 TEST(Untangler, CancelsFromTheCallback)
 {
   const Square square(6);
