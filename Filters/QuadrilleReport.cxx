@@ -168,6 +168,23 @@ void addSmallParts(vtkDataObject* data, const SmallParts& parts, double edgeLeng
   addNumbers(data, "ShortestBoundaryPlace", coordinates(parts.boundary.place));
 }
 
+void addFinalQuality(vtkDataObject* data, const FinalQualityReport& report)
+{
+  if (report.level == FinalQuality::Coarse)
+  {
+    return;
+  }
+  const auto values = [](const MapDistortion& d)
+  {
+    return std::vector{ d.mean, d.median, d.p90, d.p99, d.angle, d.size,
+      static_cast<double>(d.left) };
+  };
+  addText(data, "DistortionNames", { "mean", "median", "p90", "p99", "angle", "size", "left" });
+  addNumbers(data, "DistortionBefore", values(report.before));
+  addNumbers(data, "DistortionAfter", values(report.after));
+  addCount(data, "OptimizationSteps", static_cast<std::size_t>(report.steps));
+}
+
 void addRepair(vtkDataObject* data, const RepairReport& repair)
 {
   std::vector<std::string> names;

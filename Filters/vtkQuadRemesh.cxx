@@ -54,6 +54,7 @@ void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
   quadrille::addCount(data, "Replays", static_cast<std::size_t>(result.replays));
   quadrille::addCount(data, "SurfaceFaces", result.surface.mesh.faceCount());
   quadrille::addSmallParts(data, result.smallParts, result.targetEdgeLength);
+  quadrille::addFinalQuality(data, result.finalQuality);
 }
 
 } // namespace
@@ -117,6 +118,7 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   }
   options.method = static_cast<quadrille::MapMethod>(this->Method);
   options.closeHandles = this->CloseHandles;
+  options.finalQuality = static_cast<quadrille::FinalQuality>(this->FinalQuality);
   options.mergeCharts = this->ComputeMappedSurface != 0;
   options.progress = this->MakeProgress(0.02, 0.95);
 
@@ -182,6 +184,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "WarmStart: " << this->WarmStart << "\n";
   os << indent << "ReusedStagesText: " << this->ReusedStagesText << "\n";
   os << indent << "RememberedMegabytes: " << this->GetRememberedMegabytes() << "\n";
+  os << indent << "FinalQuality: " << this->FinalQuality << "\n";
   os << indent << "ComputeMappedSurface: " << this->ComputeMappedSurface << "\n";
   os << indent << "TextureCoordinates: " << this->TextureCoordinates << "\n";
   os << indent << "TargetQuads: " << this->TargetQuads << "\n";

@@ -18,7 +18,8 @@
  * Field data of output 0: `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`, `ReusedStages`, `Certificate`,
  * `CertificateValid`, `CertificateNames`, `CertificateValues`, `RepairNames`, `RepairCounts`, `Notices`,
  * `EstimatedSeconds`, `EstimatedMegabytes`, `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `CoarseVertices`, `Decimations`, `Replays`, `SurfaceFaces`, `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`,
- * `ShortestBoundaryOverEdgeLength` (see the getters of the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`.
+ * `ShortestBoundaryOverEdgeLength` (see the getters of the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`;
+ * with a FinalQuality other than Coarse `DistortionNames`, `DistortionBefore`, `DistortionAfter`, `OptimizationSteps`.
  */
 #ifndef vtkQuadRemesh_h
 #define vtkQuadRemesh_h
@@ -105,6 +106,25 @@ public:
 
   ///@{
   /**
+   * On which level the map is computed at last: the coarse one (the default), or, with the same whole numbers and irregular vertices, again on the
+   * intermediate one or on the input itself. The quads are the same in number and connectivity; the finer the level, the less are they
+   * distorted, and the longer it takes. Where that is not possible or does not help, the map stays as it was, with a notice.
+   */
+  enum FinalQualityLevel
+  {
+    Coarse = 0,
+    Intermediate = 1,
+    Input = 2
+  };
+  vtkSetClampMacro(FinalQuality, int, Coarse, Input);
+  vtkGetMacro(FinalQuality, int);
+  void SetFinalQualityToCoarse() { this->SetFinalQuality(Coarse); }
+  void SetFinalQualityToIntermediate() { this->SetFinalQuality(Intermediate); }
+  void SetFinalQualityToInput() { this->SetFinalQuality(Input); }
+  ///@}
+
+  ///@{
+  /**
    * With KeepLevels: whether the map starts from that of the last execution, which keeps whole numbers where irregular vertices and features
    * stay, and whether other target valences begin at phase 2. The result then depends on what was made before, within the same
    * certificate; off, on the inputs and properties alone. Default: off.
@@ -179,6 +199,7 @@ private:
   double CloseHandles = 0;
   vtkTypeBool KeepLevels = 1;
   vtkTypeBool WarmStart = 0;
+  int FinalQuality = Coarse;
   vtkTypeBool ComputeMappedSurface = 1;
   vtkTypeBool TextureCoordinates = 1;
   vtkIdType ActualQuads = 0;

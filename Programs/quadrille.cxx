@@ -50,6 +50,8 @@ size of the quads (at most one; 0.02 of the bounding-box diagonal when none is g
                             inverted triangles and then fail; seamless, which has no integers and so makes no quads
   --close-handles R         cut and close handles that are shorter round than R edge lengths of the quads,
                             which need 3 (default 0: none)
+  --final-quality LEVEL     coarse, intermediate or input: where the map is solved at last, with the same quads;
+                            the finer, the less distorted, and the longer it takes (default coarse)
   --threads N               threads to compute with; 0 means all (default 0)
   --memory-limit MB         refuse to start where more memory is needed by the estimate;
                             0 means what the machine has free (default 0)
@@ -174,6 +176,18 @@ void setSize(const CommandLine& line, vtkQuadRemesh* filter)
   }
 }
 
+int finalQuality(const CommandLine& line)
+{
+  const std::string level = line.text("final-quality").value_or("coarse");
+  const std::array<const char*, 3> levels{ "coarse", "intermediate", "input" };
+  const auto found = std::find(levels.begin(), levels.end(), level);
+  if (found == levels.end())
+  {
+    throw UsageError("--final-quality must be coarse, intermediate or input, not " + level);
+  }
+  return static_cast<int>(found - levels.begin());
+}
+
 void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
 {
   setSize(line, filter);
@@ -194,6 +208,7 @@ void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
   filter->SetNumberOfThreads(static_cast<int>(line.count("threads", 0, 4096).value_or(0)));
   filter->SetMemoryLimit(line.number("memory-limit", 0, 1e12).value_or(0));
   filter->SetCloseHandles(line.number("close-handles", 0, 1e6).value_or(0));
+  filter->SetFinalQuality(finalQuality(line));
   filter->SetComputeMappedSurface(line.text("map").has_value());
 }
 
@@ -346,6 +361,16 @@ void addSuccess(Json& json, vtkPolyData* quads)
   json.add("valid", fieldNumber(quads, "CertificateValid") != 0);
   addPairs(json, quads, "CertificateNames", "CertificateValues");
   json.end();
+  if (quads->GetFieldData()->GetArray("DistortionBefore"))
+  {
+    json.begin("distortion_before");
+    addPairs(json, quads, "DistortionNames", "DistortionBefore");
+    json.end();
+    json.begin("distortion_after");
+    addPairs(json, quads, "DistortionNames", "DistortionAfter");
+    json.end();
+    json.add("optimization_steps", fieldNumber(quads, "OptimizationSteps"));
+  }
   addQuality(json, quads);
 }
 
@@ -493,7 +518,7 @@ int main(int argc, char* argv[])
   {
     const CommandLine line(argc, argv,
       { "quads", "edge-length", "relative-edge-length", "feature-angle", "coarse-vertices",
-        "threads", "memory-limit", "close-handles", "method", "map", "report" });
+        "threads", "memory-limit", "close-handles", "method", "map", "final-quality", "report" });
     if (line.help() || argc == 1)
     {
       std::fputs(kHelp, line.help() ? stdout : stderr);

@@ -31,8 +31,9 @@ Eigen::Matrix2d flattenSized(const Mesh& mesh, Index f)
   return result;
 }
 
-/// The edges [p1 - p0, p2 - p0] of face f in a plane whose first axis is half-edge 3f.
-Eigen::Matrix2d flatten(const Mesh& mesh, Index f)
+} // namespace
+
+Eigen::Matrix2d flattenFace(const Mesh& mesh, Index f)
 {
   if (!mesh.sizing.empty())
   {
@@ -49,14 +50,12 @@ Eigen::Matrix2d flatten(const Mesh& mesh, Index f)
   return result;
 }
 
-} // namespace
-
 void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, const Mesh& mesh,
   const CrossField& field, Index f, int quarterTurns, double edgeLength)
 {
   const double turn = quarterTurns * std::acos(0.0) - field.angle[f];
   const Eigen::Matrix2d reference =
-    Eigen::Rotation2Dd(turn).toRotationMatrix() * flatten(mesh, f) / edgeLength;
+    Eigen::Rotation2Dd(turn).toRotationMatrix() * flattenFace(mesh, f) / edgeLength;
   problem.triangles.push_back(points);
   problem.inverseReference.push_back(reference.inverse());
   problem.weight.push_back(reference.determinant() / 2);

@@ -14,6 +14,10 @@
 namespace quadrille
 {
 
+/// The edges [p1 - p0, p2 - p0] of face f in a plane whose first axis is half-edge 3f, over the sizes that the mesh wants there; needles are
+/// made a little higher, so that the matrix is never singular unless the face is a point.
+Eigen::Matrix2d flattenFace(const Mesh& mesh, Index f);
+
 /// Appends face f to the problem: its points, its reference (in units of edgeLength times the size that the mesh wants there, in the chart of the face turned
 /// by `quarterTurns`) and its weight, which is its area in quads.
 void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, const Mesh& mesh,

@@ -3,6 +3,7 @@
 #include "Numerics/Untangler.h"
 
 #include "Base/Error.h"
+#include "Numerics/IsotropicEnergy.h"
 #include "Numerics/ReducedTriangles.h"
 
 #include <algorithm>
@@ -61,29 +62,6 @@ struct TriangleEnergy
   void derivatives(const Jacobian& j, Jacobian& gradient, Eigen::Matrix4d& hessian) const;
 };
 
-/// The nearest positive semidefinite [a b; b c].
-void clampToPositive(double& a, double& b, double& c)
-{
-  const double mean = (a + c) / 2;
-  const double radius = std::hypot((a - c) / 2, b);
-  const double low = mean - radius;
-  const double high = mean + radius;
-  if (low >= 0)
-  {
-    return;
-  }
-  if (high <= 0)
-  {
-    a = b = c = 0;
-    return;
-  }
-  // high * q q^T with the unit eigenvector q of `high`: q q^T = (M - low) / (high - low).
-  const double factor = high / (high - low);
-  a = (a - low) * factor;
-  b *= factor;
-  c = (c - low) * factor;
-}
-
 void TriangleEnergy::derivatives(
   const Jacobian& j, Jacobian& gradient, Eigen::Matrix4d& hessian) const
 {
@@ -101,30 +79,8 @@ void TriangleEnergy::derivatives(
   const double eDD =
     2 * lambda / c - 4 * lambda * d * c1 / (c * c) - numerator * (c2 - 2 * c1 * c1 / c) / (c * c);
 
-  // J = similarity + antisimilarity: orthonormal coordinates p and q with F = |p|^2 + |q|^2,
-  // D = (|p|^2 - |q|^2) / 2. The Hessian is diagonal across p and across q and couples only the
-  // two directions along them, so that its projection is a closed form.
-  const double s = std::sqrt(0.5);
-  const Jacobian cofactor(j[3], -j[2], -j[1], j[0]);
-  const double p0 = s * (j[0] + j[3]), p1 = s * (j[1] - j[2]);
-  const double q0 = s * (j[0] - j[3]), q1 = s * (j[1] + j[2]);
-  const double p = std::hypot(p0, p1), q = std::hypot(q0, q1);
-  const double pc = p > 0 ? p0 / p : 1, ps = p > 0 ? p1 / p : 0;
-  const double qc = q > 0 ? q0 / q : 1, qs = q > 0 ? q1 / q : 0;
-  const Jacobian alongP(s * pc, s * ps, -s * ps, s * pc),
-    acrossP(-s * ps, s * pc, -s * pc, -s * ps);
-  const Jacobian alongQ(s * qc, s * qs, s * qs, -s * qc), acrossQ(-s * qs, s * qc, s * qc, s * qs);
-
-  double app = 2 * eF + eD + 4 * eFD * p * p + eDD * p * p;
-  double apq = -eDD * p * q;
-  double aqq = 2 * eF - eD - 4 * eFD * q * q + eDD * q * q;
-  clampToPositive(app, apq, aqq);
-
-  gradient = 2 * eF * j + eD * cofactor + 2 * mu * (j - Jacobian(1, 0, 0, 1));
-  hessian.noalias() = std::max(0.0, 2 * eF + eD) * acrossP * acrossP.transpose();
-  hessian.noalias() += std::max(0.0, 2 * eF - eD) * acrossQ * acrossQ.transpose();
-  hessian.noalias() += app * alongP * alongP.transpose() + aqq * alongQ * alongQ.transpose();
-  hessian.noalias() += apq * (alongP * alongQ.transpose() + alongQ * alongP.transpose());
+  deriveByJacobian(j, { eF, eD, eFD, eDD }, gradient, hessian);
+  gradient += 2 * mu * (j - Jacobian(1, 0, 0, 1));
   hessian.diagonal().array() += 2 * mu;
 }
 

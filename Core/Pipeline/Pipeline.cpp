@@ -144,7 +144,7 @@ private:
     if (!refuseTooMany())
     {
       refine();
-      for (bool mapped = computeMap(); !(mapped && extract()); mapped = computeMap())
+      for (bool mapped = computeMap(); !(mapped && improve() && extract()); mapped = computeMap())
       {
         // Quads that fail for the folds of a method that has such are its result.
         if ((mapped && isRounded()) || !mayRepeat() || !(takeFinerGrid() || dropFeatures()))
@@ -450,6 +450,7 @@ private:
     std::vector<FixedVec2> coarseUv;
     PackedMap uv;
     std::vector<int> coarseTurns, turns;
+    std::vector<std::uint8_t> integerVertex;
     Certificate coarseCertificate, certificate;
     TransferResult transfer;
   };
@@ -458,8 +459,8 @@ private:
     PackedMap packed(result_.surface.mesh, result_.uv);
     std::vector<FixedVec2>().swap(result_.uv); // phase 1 comes again and needs the memory
     return { std::move(result_.coarse), std::move(result_.coarseUv), std::move(packed),
-      std::move(result_.coarseTurns), std::move(result_.turns), result_.coarseCertificate,
-      result_.certificate, std::move(result_.transfer) };
+      std::move(result_.coarseTurns), std::move(result_.turns), std::move(integerVertex_),
+      result_.coarseCertificate, result_.certificate, std::move(result_.transfer) };
   }
   /// Ends the attempts: the levels of the failed one are let go.
   void restore(MapState&& state)
@@ -471,6 +472,7 @@ private:
     result_.uv = state.uv.unpack(result_.surface.mesh);
     result_.coarseTurns = std::move(state.coarseTurns);
     result_.turns = std::move(state.turns);
+    integerVertex_ = std::move(state.integerVertex);
     result_.coarseCertificate = state.coarseCertificate;
     result_.certificate = state.certificate;
     result_.transfer = std::move(state.transfer);
@@ -488,6 +490,7 @@ private:
       return false;
     }
     transfer();
+    mapLevels_ = levelOptions;
     for (int attempt = 1; attempt < kMaximumTransfers; ++attempt)
     {
       // With offenders everywhere it is not a matter of a few places, and the coarse level would grow out of hand.
@@ -514,6 +517,7 @@ private:
         restore(std::move(best));
         break;
       }
+      mapLevels_ = levelOptions;
     }
     tellOfRounding();
     return true;
@@ -931,14 +935,15 @@ private:
 
     const double carried = now();
     expandSingularities();
-    std::vector<std::uint8_t> integerVertex(mesh.vertexCount(), 0);
+    integerVertex_.assign(mesh.vertexCount(), 0);
     const std::vector<std::uint8_t> coarseInteger =
       integerVertices(result_.coarse.mesh, coarseField_);
     for (Index v = 0; v < coarseInteger.size(); ++v)
     {
-      integerVertex[result_.coarse.fineVertex[v]] = coarseInteger[v];
+      integerVertex_[result_.coarse.fineVertex[v]] = coarseInteger[v];
     }
-    result_.certificate = certify(mesh, result_.uv, result_.turns, integerVertex, options_.threads);
+    result_.certificate =
+      certify(mesh, result_.uv, result_.turns, integerVertex_, options_.threads);
     addStage("certify", now() - carried, mesh.faceCount(), mesh.faceCount());
   }
 
@@ -959,6 +964,48 @@ private:
     {
       result_.turns[result_.coarse.fineVertex[v]] = coarseField_.turns[v];
     }
+  }
+
+  /// On request: the same integers, solved again on a finer level.
+  bool improve()
+  {
+    if (options_.finalQuality == FinalQuality::Coarse)
+    {
+      return true;
+    }
+    const double start = now();
+    if (options_.finalQuality == FinalQuality::Intermediate && !levels_)
+    {
+      makeLevels(mapLevels_); // let go when an earlier attempt turned out to be the better one
+    }
+    if (options_.finalQuality == FinalQuality::Intermediate &&
+      hierarchy().coarse.fineVertex != result_.coarse.fineVertex)
+    {
+      // Levels that a memory has kept from another run are nearly the same only.
+      result_.notices.push_back("final quality: the map of the coarse level was kept, as its "
+                                "decimation is not there any more");
+      return true;
+    }
+    FinalQualityOptions finalOptions;
+    finalOptions.level = options_.finalQuality;
+    finalOptions.edgeLength = result_.targetEdgeLength;
+    finalOptions.maximumQuads = options_.maximumQuads;
+    finalOptions.maximumBytes = options_.memoryLimit.value_or(freeMemory());
+    finalOptions.threads = options_.threads;
+    finalOptions.progress = subProgress(options_.progress, 0.9, 0.95, "Optimizing: ");
+    SurfaceMap map{ std::move(result_.uv), result_.certificate };
+    const CoarseMap coarse{ levels_ ? &hierarchy() : nullptr, &result_.coarseUv };
+    result_.finalQuality =
+      improveMap(result_.surface, result_.turns, integerVertex_, coarse, finalOptions, map);
+    result_.uv = std::move(map.uv);
+    result_.certificate = map.certificate;
+    if (!result_.finalQuality.notice.empty())
+    {
+      result_.notices.push_back(result_.finalQuality.notice);
+    }
+    addStage(
+      "optimize", now() - start, result_.finalQuality.elements, result_.surface.mesh.faceCount());
+    return true;
   }
 
   /// After the extraction, so that the quads do not depend on it.
@@ -1249,6 +1296,8 @@ private:
   std::optional<Redecimation> levels_;
   std::vector<Index> levelsKept_; ///< HierarchyOptions::keepVertices of their phase 1
   CrossField coarseField_;
+  HierarchyOptions mapLevels_;              ///< of the map that counts
+  std::vector<std::uint8_t> integerVertex_; ///< #V of the surface
   std::vector<Vector3> troubles_; ///< where the last map or its quads failed
   std::size_t work_ = 0;          ///< GridMapResult::work of all maps so far
   bool smallPartsKnown_ = false;

@@ -11,6 +11,7 @@
 #include "Mesh/Handles.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Estimate.h"
+#include "Pipeline/FinalQuality.h"
 #include "Pipeline/RemeshMemory.h"
 #include "Transfer/Charts.h"
 #include "Transfer/Transfer.h"
@@ -36,6 +37,8 @@ struct RemeshOptions
   /// Handles that are shorter round or through than so many target edge lengths are cut and closed before they are mapped, see
   /// closeHandles; >= 0, 0: none. Below kQuadsOfLoop there may remain some that quads cannot resolve.
   double closeHandles = 0;
+  /// The level on which the map is solved again with its integers, see improveMap.
+  FinalQuality finalQuality = FinalQuality::Coarse;
   std::size_t maximumQuads = 10000000;
   /// Bytes that the run may take by the estimate; none: what the machine has free.
   std::optional<double> memoryLimit;
@@ -49,7 +52,7 @@ struct RemeshOptions
 };
 
 /// One stage of the run: names are read, repair, order, connectivity, phase1, phase2, field,
-/// seamless, quantize, embed, replay, extract (the benchmark's columns), and refine, handles, certify, charts.
+/// seamless, quantize, embed, replay, extract (the benchmark's columns), and refine, handles, certify, optimize, charts.
 struct StageRecord
 {
   std::string stage;
@@ -91,6 +94,7 @@ struct RemeshResult
   Certificate certificate;       ///< of the map on the input surface
   ChartCounts charts;            ///< of uv; zero unless mergeCharts
   TransferResult transfer;       ///< counts only, uv is moved out
+  FinalQualityReport finalQuality; ///< zero unless asked for
   SmallParts smallParts;
   std::vector<StageRecord> stages;
   /// Names of the stages that a memory had the result of (they are not among `stages`), or that started from what was there before (they

@@ -60,13 +60,18 @@ std::vector<FixedVec2> spreadOnSlots(
   return uv;
 }
 
-void checkSizes(const Mesh& fine, const Level& coarse, const DecimationLog& log)
+void checkFineSize(const Mesh& fine, const DecimationLog& log)
 {
   if (log.fineFaces != fine.faceCount())
   {
     throw InvalidInput("The decimation log was made for a surface of " +
       std::to_string(log.fineFaces) + " faces, not of " + std::to_string(fine.faceCount()) + ".");
   }
+}
+
+void checkSizes(const Mesh& fine, const Level& coarse, const DecimationLog& log)
+{
+  checkFineSize(fine, log);
   if (coarse.mesh.vertexCount() + log.collapses != fine.vertexCount())
   {
     throw InvalidInput("The coarse level does not belong to this decimation log.");
@@ -129,41 +134,66 @@ std::vector<int> expectedTurns(
   return turns;
 }
 
+/// turns: what the finest map should wind round each vertex, asked for only where something is to be mended.
+template <typename Turns>
+TransferResult replayAndMend(const Mesh& fine, const Level& level, std::size_t rounds,
+  const DecimationLog& log, const std::vector<FixedVec2>& levelUv, const Turns& turns,
+  const TransferOptions& options)
+{
+  const bool levelIsPositive = countNotPositive(levelUv, 1) == 0;
+  TransferResult result;
+  if (levelIsPositive)
+  {
+    result.uv = spreadOnSlots(level, levelUv, log.fineFaces);
+  }
+  else
+  {
+    // An edge whose image is a point shows no rotation and is taken for one without: with few charts, as good as all are.
+    std::vector<FixedVec2> merged = levelUv;
+    mergeCharts(level.mesh, merged);
+    result.uv = spreadOnSlots(level, merged, log.fineFaces);
+  }
+  const ReplayCounts counts =
+    replayRounds(log, { rounds, 0 }, result.uv, options.threads, options.progress);
+  result.invertedStars = counts.invertedStars;
+  result.movedToKernel = counts.movedToKernel;
+  result.withoutKernel = counts.withoutKernel;
+  result.notPositive = countNotPositive(result.uv, options.threads);
+  result.replayNotPositive = result.notPositive;
+  // What was invalid already on the level is not a matter of a few triangles here.
+  if ((result.notPositive > 0 || result.withoutKernel > 0) && levelIsPositive)
+  {
+    const MendResult mended =
+      mendPatches(fine, result.uv, turns(), options.threads, options.progress);
+    result.mendedPatches = mended.patches;
+    result.notPositive = mended.notPositive;
+    result.offenders = verticesOf(fine, mended.defects);
+  }
+  return result;
+}
+
 } // namespace
 
 TransferResult transferMap(const Mesh& fine, const Level& coarse, const DecimationLog& log,
   const std::vector<FixedVec2>& coarseUv, const TransferOptions& options)
 {
   checkSizes(fine, coarse, log);
-  const bool coarseIsPositive = countNotPositive(coarseUv, 1) == 0;
-  TransferResult result;
-  if (coarseIsPositive)
+  return replayAndMend(
+    fine, coarse, log.rounds.size(), log, coarseUv,
+    [&]() { return expectedTurns(fine, coarse, coarseUv); }, options);
+}
+
+TransferResult transferFromLevel(const Mesh& fine, const Level& level, std::size_t rounds,
+  const DecimationLog& log, const std::vector<FixedVec2>& uv, const std::vector<int>& turns,
+  const TransferOptions& options)
+{
+  checkFineSize(fine, log);
+  if (turns.size() != fine.position.size())
   {
-    result.uv = spreadOnSlots(coarse, coarseUv, log.fineFaces);
+    throw InvalidInput("The turns have not the size of the surface.");
   }
-  else
-  {
-    // An edge whose image is a point shows no rotation and is taken for one without: with few charts, as good as all are.
-    std::vector<FixedVec2> merged = coarseUv;
-    mergeCharts(coarse.mesh, merged);
-    result.uv = spreadOnSlots(coarse, merged, log.fineFaces);
-  }
-  const ReplayCounts counts = replayLog(log, result.uv, options.threads, options.progress);
-  result.invertedStars = counts.invertedStars;
-  result.movedToKernel = counts.movedToKernel;
-  result.withoutKernel = counts.withoutKernel;
-  result.notPositive = countNotPositive(result.uv, options.threads);
-  result.replayNotPositive = result.notPositive;
-  // What was invalid already on the coarse level is not a matter of a few triangles here.
-  if ((result.notPositive > 0 || result.withoutKernel > 0) && coarseIsPositive)
-  {
-    const MendResult mended = mendPatches(
-      fine, result.uv, expectedTurns(fine, coarse, coarseUv), options.threads, options.progress);
-    result.mendedPatches = mended.patches;
-    result.notPositive = mended.notPositive;
-    result.offenders = verticesOf(fine, mended.defects);
-  }
-  return result;
+  return replayAndMend(
+    fine, level, rounds, log, uv, [&]() { return turns; }, options);
 }
 
 std::vector<FixedVec2> transferToLevel(const Level& coarse, const Level& level, std::size_t rounds,

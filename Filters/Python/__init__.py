@@ -101,6 +101,9 @@ def info(quads):
     return result
 
 
+_FINAL_QUALITIES = ("coarse", "intermediate", "input")
+
+
 def _check_one_size(quads, edge_length, relative_edge_length):
     given = [name for name, value in (("quads", quads), ("edge_length", edge_length),
                                       ("relative_edge_length", relative_edge_length)) if value is not None]
@@ -131,8 +134,8 @@ def _set_size(run, quads, edge_length, relative_edge_length):
 
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
            coarse_vertices=1000, patch_array="PatchId", curves=None, threads=0, maximum_quads=10000000,
-           memory_limit=0.0, time_limit=0.0, close_handles=0.0, method="scale-aware", progress=None,
-           everything=False):
+           memory_limit=0.0, time_limit=0.0, close_handles=0.0, method="scale-aware",
+           final_quality="coarse", progress=None, everything=False):
     """Remeshes a surface with quads only and returns a vtkPolyData.
 
     mesh: a vtkPolyData, or a pair (points, faces).
@@ -149,6 +152,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     close_handles: handles shorter round or through than so many target edge lengths are cut and closed; 0: none.
     method: how the map is made: "scale-aware", "mixed-integer" or "quadcover" (both may leave inverted triangles), or
         "seamless" (no integers, so the result has no quads; use everything=True for the mapped surface).
+    final_quality: "coarse", "intermediate" or "input": the level on which the map is solved at last; the quads are the same in number
+        and connectivity, less distorted, and take longer.
     progress: called as progress(fraction, text); a return value of False (not None) stops the run.
     everything: return a Remeshed with the mapped surface, the feature lines and the info dict, too.
 
@@ -174,6 +179,9 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     if method not in METHODS:
         raise InvalidInput("method must be one of " + ", ".join(METHODS) + f", not {method!r}")
     run.SetMethod(METHODS.index(method))
+    if final_quality not in _FINAL_QUALITIES:
+        raise InvalidInput(f"final_quality must be one of {', '.join(_FINAL_QUALITIES)}, not {final_quality!r}")
+    run.SetFinalQuality(_FINAL_QUALITIES.index(final_quality))
     run.SetComputeMappedSurface(bool(everything))
     if progress is not None:
         def on_progress(caller, event):

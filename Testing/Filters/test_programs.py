@@ -352,6 +352,26 @@ class Report(Case):
         self.assertIn("'QuadCover'", result.stderr)
         self.assertFalse(out.exists())
 
+    def test_final_quality(self):
+        source = self.write_off()
+        means, connectivity = {}, set()
+        for level in ("coarse", "intermediate", "input"):
+            with self.subTest(level):
+                report = self.folder / "r.json"
+                self.run_quadrille(source, self.folder / "q.obj", "--quads", 100, "--final-quality", level, "--report", report)
+                content = json.loads(report.read_text())
+                connectivity.add((content["quads_actual"], content["sizes"]["quad_points"]))
+                stages = [stage["stage"] for stage in content["stages"]]
+                self.assertEqual("optimize" in stages, level != "coarse")
+                self.assertEqual("distortion_after" in content, level != "coarse")
+                if level != "coarse":
+                    self.assertLessEqual(content["distortion_after"]["mean"], content["distortion_before"]["mean"])
+                    means[level] = content["distortion_after"]["mean"]
+        self.assertEqual(len(connectivity), 1)
+        self.assertLess(means["input"], 1.2)
+        result = self.run_quadrille(source, self.folder / "q.obj", "--final-quality", "best", expect=2)
+        self.assertIn("coarse, intermediate or input", result.stderr)
+
 
 class Bench(Case):
     COLUMNS = "mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb".split(",")
@@ -490,6 +510,10 @@ class Python(Case):
         self.assertGreater(result.surface.GetNumberOfCells(), 0)
         self.assertEqual(result.lines.GetNumberOfCells(), 0)
         self.assertTrue(progress and progress == sorted(progress, key=lambda p: p[0]))
+        better = quadrille.remesh((points, faces), quads=300, final_quality="input")
+        before, after = (quadrille.info(better)[name][0] for name in ("DistortionBefore", "DistortionAfter"))
+        self.assertLessEqual(after, before)
+        self.assertEqual(better.GetNumberOfCells(), len(corners[1]))
 
     def test_methods(self):
         points, faces = torus()
@@ -515,6 +539,8 @@ class Python(Case):
             quadrille.remesh((points, faces), quads=1000, maximum_quads=100)
         with self.assertRaisesRegex(quadrille.RemeshError, "2 MB are allowed"):
             quadrille.remesh((points, faces), quads=1000, memory_limit=2)
+        with self.assertRaisesRegex(quadrille.InvalidInput, "intermediate"):
+            quadrille.remesh((points, faces), quads=100, final_quality="finest")
         with self.assertRaises(quadrille.RemeshError):
             quadrille.remesh((points, faces), quads=100, progress=lambda f, text: False)
 
