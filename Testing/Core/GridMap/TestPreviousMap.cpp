@@ -4,11 +4,13 @@
 
 #include "Base/Error.h"
 #include "GridMap/GridMap.h"
+#include "GridMap/MapShape.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <numeric>
 
@@ -133,6 +135,41 @@ TEST(PreviousMap, CarriedIntoTurnedChartsItIsAMapAlongThem)
     const Certificate certificate =
       certify(mesh, carried.uv, turned.turns, integerVertices(mesh, turned));
     EXPECT_TRUE(certificate.valid()) << certificate.text();
+  }
+}
+
+TEST(PreviousMap, ShapesTurnWithTheField)
+{
+  constexpr double kTurn = 0.3;
+  const Mesh mesh = wavyTorus();
+  const GridMapResult map = requireMap(mesh, optionsOf(mesh));
+  const PreviousMap previous = previousMap(mesh, map, ownIds(mesh));
+  CrossField turned = map.field;
+  for (double& angle : turned.angle)
+  {
+    angle -= kTurn;
+  }
+  const CarriedMap carried = MapCarrier(previous).carry(mesh, turned, ownIds(mesh));
+  ASSERT_TRUE(carried.isMap);
+  ASSERT_EQ(carried.knownFaces, mesh.faceCount());
+  const auto directionOf = [](const UntangleProblem& problem, Index f)
+  {
+    const Eigen::Matrix2d reference = problem.inverseReference[f].inverse();
+    return std::atan2(reference(1, 0), reference(0, 0));
+  };
+  UntangleProblem before, after;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    addTriangle(before, { 3 * f, 3 * f + 1, 3 * f + 2 }, mesh, map.field, f, 0, kLength);
+    addTriangle(after, { 3 * f, 3 * f + 1, 3 * f + 2 }, mesh, turned, f, 0, kLength);
+  }
+  const UntangleProblem nearby = referToMap(after, carried, carried.uv, {}, 1);
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    const double wanted = directionOf(after, f) - directionOf(before, f);
+    const Vector2 edge = toDouble(map.uv[3 * f + 1] - map.uv[3 * f]);
+    const double moved = directionOf(nearby, f) - std::atan2(edge.y(), edge.x());
+    EXPECT_NEAR(std::remainder(moved - wanted, 2 * test::kPi), 0, 1e-9) << f;
   }
 }
 

@@ -143,6 +143,30 @@ TEST(RemeshMemory, RefinedSurfacesAndFeaturesAreRemembered)
   expectCold(input, options, memory, kPrepared);
 }
 
+TEST(RemeshMemory, FeaturesThatOneSizeCannotResolveComeBackForAnother)
+{
+  SurfaceInput input = dentedSphere();
+  input.points[topmost(input)] *= 1.08; // a spike with sharp edges
+  RemeshOptions options = optionsFor(300);
+  RemeshMemory memory;
+  const auto features = [](const RemeshResult& result)
+  {
+    const std::vector<std::uint8_t>& flags = result.surface.mesh.flags;
+    return std::count_if(
+      flags.begin(), flags.end(), [](std::uint8_t f) { return (f & kFeatureEdge) != 0; });
+  };
+  const RemeshResult large = remesh(input, options, memory);
+  ASSERT_TRUE(large.status.ok()) << large.status.message;
+  ASSERT_EQ(features(large), 0);
+  ASSERT_EQ(large.surface.repair.refinedFaces, 0U);
+  options.quads = 5000;
+  const RemeshResult small = remesh(input, options);
+  const RemeshResult after = remesh(input, options, memory);
+  ASSERT_GT(features(small), 0);
+  expectSame(after, small);
+  EXPECT_EQ(after.reused, kPrepared);
+}
+
 TEST(RemeshMemory, SizesAreRemembered)
 {
   SurfaceInput input = dentedSphere();
