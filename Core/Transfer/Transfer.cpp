@@ -6,7 +6,6 @@
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "GridMap/MapCheck.h"
-#include "Transfer/Charts.h"
 #include "Transfer/PatchMender.h"
 #include "Transfer/Replay.h"
 
@@ -142,17 +141,7 @@ TransferResult replayAndMend(const Mesh& fine, const Level& level, std::size_t r
 {
   const bool levelIsPositive = countNotPositive(levelUv, 1) == 0;
   TransferResult result;
-  if (levelIsPositive)
-  {
-    result.uv = spreadOnSlots(level, levelUv, log.fineFaces);
-  }
-  else
-  {
-    // An edge whose image is a point shows no rotation and is taken for one without: with few charts, as good as all are.
-    std::vector<FixedVec2> merged = levelUv;
-    mergeCharts(level.mesh, merged);
-    result.uv = spreadOnSlots(level, merged, log.fineFaces);
-  }
+  result.uv = spreadOnSlots(level, levelUv, log.fineFaces);
   const ReplayCounts counts =
     replayRounds(log, { rounds, 0 }, result.uv, options.threads, options.progress);
   result.invertedStars = counts.invertedStars;

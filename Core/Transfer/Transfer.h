@@ -35,8 +35,8 @@ struct TransferResult
   std::vector<Index> offenders;
 };
 
-/// Carries a map of the coarse level to the finest mesh. coarseUv: #H of coarse.mesh; where it has inverted or degenerate
-/// triangles, so has the result, in other charts and about as much, and nothing is mended. Throws InvalidInput when sizes or the log's mesh do not fit.
+/// Carries a map of the coarse level to the finest mesh. coarseUv: #H of coarse.mesh. Throws
+/// InvalidInput when sizes or the log's mesh do not fit.
 TransferResult transferMap(const Mesh& fine, const Level& coarse, const DecimationLog& log,
   const std::vector<FixedVec2>& coarseUv, const TransferOptions& options);
 

@@ -146,3 +146,21 @@ TEST(RoundedMap, HasTheArea)
     EXPECT_NEAR(c.area, quads, 0.15 * quads);
   }
 }
+
+TEST(RoundedMap, OnlyWhatMustBeWholeIsPinned)
+{
+  // The corner that lies at the origin is one of an integer vertex, where there is any.
+  Mesh mesh = test::sphere(3);
+  for (Vector3& p : mesh.position)
+  {
+    p.x() *= 1.3 + 0.2 * p.y() + 0.1 * p.z();
+  }
+  const CrossField field = fieldOf(mesh, 0.2);
+  const std::vector<std::uint8_t> integer = integerVertices(mesh, field);
+  ASSERT_EQ(integer[mesh.origin[0]], 0); // else this tests nothing
+  const auto uv = RoundedMap(mesh, field, 0.2).make(300, RoundingOrder::OneAtATime);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    EXPECT_EQ(isInteger(uv[h]), integer[mesh.origin[h]] != 0) << h;
+  }
+}
