@@ -222,7 +222,8 @@ private:
     }
     // What is held already is not free any more.
     const double held = static_cast<double>(memory_->bytes());
-    const double needed = result_.estimate.bytes + std::max(0.0, kBytesRemembered * triangles - held);
+    const double needed =
+      result_.estimate.bytes + std::max(0.0, kBytesRemembered * triangles - held);
     if (needed > options_.memoryLimit.value_or(freeMemory()))
     {
       memory_->clear();
@@ -247,8 +248,7 @@ private:
   {
     if (memory_ != nullptr)
     {
-      key_ =
-        memoryKey(input_, options_.featureAngle, options_.closeHandles, options_.threads);
+      key_ = memoryKey(input_, options_.featureAngle, options_.closeHandles, options_.threads);
       if (memory_->knowsPrepared(key_))
       {
         checkRequests(input_);
@@ -973,6 +973,14 @@ private:
     {
       return true;
     }
+    if (options_.method != MapMethod::ScaleAware && !result_.certificate.valid())
+    {
+      result_.notices.push_back(
+        "final quality: the map of the coarse level was kept, as that by the "
+        "method '" +
+        std::string(nameOf(options_.method)) + "' is no integer-grid map to begin with");
+      return true;
+    }
     const double start = now();
     if (options_.finalQuality == FinalQuality::Intermediate && !levels_)
     {
@@ -1289,29 +1297,30 @@ private:
   RemeshOptions options_;
   PollScope poll_;
   RemeshResult result_;
-  RemeshMemory* memory_;    ///< null: none
-  RemeshMemory::Key key_;   ///< of the surface
+  RemeshMemory* memory_;                    ///< null: none
+  RemeshMemory::Key key_;                   ///< of the surface
   std::optional<PreparedSurface> prepared_; ///< for the memory, while the surface is refined
-  bool onMemory_ = false;   ///< result_.surface is the one that the memory holds
+  bool onMemory_ = false;                   ///< result_.surface is the one that the memory holds
   std::optional<Redecimation> levels_;
   std::vector<Index> levelsKept_; ///< HierarchyOptions::keepVertices of their phase 1
   CrossField coarseField_;
   HierarchyOptions mapLevels_;              ///< of the map that counts
   std::vector<std::uint8_t> integerVertex_; ///< #V of the surface
-  std::vector<Vector3> troubles_; ///< where the last map or its quads failed
-  std::size_t work_ = 0;          ///< GridMapResult::work of all maps so far
+  std::vector<Vector3> troubles_;           ///< where the last map or its quads failed
+  std::size_t work_ = 0;                    ///< GridMapResult::work of all maps so far
   bool smallPartsKnown_ = false;
   int featureDrops_ = 0;
-  bool mayShrink_ = true;       ///< whether sizes near the places of failures may help
-  int shrinks_ = 0;             ///< how often they were tried
+  bool mayShrink_ = true; ///< whether sizes near the places of failures may help
+  int shrinks_ = 0;       ///< how often they were tried
   std::vector<float> sizesBefore_;
   bool onMemoryBefore_ = false;
   double areaBefore_ = 0; ///< over the sizes, before
   GridTroubles firstTroubles_;
   std::vector<Vector3> handlePlaces_; ///< on the loops of handles that are too short
-  int finerGrids_ = 0;          ///< how often the number of quads was doubled
-  std::string gridNotice_;      ///< of the last doubling, while it holds
-  std::size_t gridDefects_ = 0; ///< of the quads of the coarse map before the last attempt with smaller ones
+  int finerGrids_ = 0;                ///< how often the number of quads was doubled
+  std::string gridNotice_;            ///< of the last doubling, while it holds
+  std::size_t gridDefects_ =
+    0; ///< of the quads of the coarse map before the last attempt with smaller ones
 };
 
 } // namespace

@@ -420,6 +420,7 @@ TEST(Pipeline, TheSeamlessMethodMakesAMapAndNoQuads)
   RemeshOptions options;
   options.quads = 790;
   options.method = MapMethod::Seamless;
+  options.finalQuality = FinalQuality::Input; // has nothing to begin with, which is told
   const RemeshResult result =
     remesh(test::toInput(test::markFeatures(test::squareTorus(6), 0.7)), options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
@@ -429,6 +430,8 @@ TEST(Pipeline, TheSeamlessMethodMakesAMapAndNoQuads)
   EXPECT_FALSE(result.certificate.whole()) << result.certificate.text();
   EXPECT_NEAR(result.certificate.area, 790, 1);
   EXPECT_EQ(result.replays, 1);
+  ASSERT_GE(result.notices.size(), 2u);
+  EXPECT_NE(result.notices.end()[-2].find("final quality"), std::string::npos);
   EXPECT_NE(result.notices.back().find("no quads"), std::string::npos);
 }
 
