@@ -100,6 +100,11 @@ TEST(StageFilters, ChainEqualsOneClick)
 TEST(StageFilters, ChainTakesEveryMethod)
 {
   const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(80, 40));
+  vtkNew<vtkQuadRemesh>
+    oneClick; // the same for all: a change of the method begins at the coarse level
+  oneClick->SetInputData(input);
+  oneClick->SetTargetTypeToNumberOfQuads();
+  oneClick->SetNumberOfQuads(500);
   for (int method = vtkIntegerGridMap::METHOD_SCALE_AWARE;
        method <= vtkIntegerGridMap::METHOD_SEAMLESS; ++method)
   {
@@ -109,14 +114,12 @@ TEST(StageFilters, ChainTakesEveryMethod)
     ASSERT_EQ(chain.upmap->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
       << method << chain.map->GetOutcomeText() << chain.upmap->GetOutcomeText();
     EXPECT_STREQ(chain.upmap->GetNoticesText(), "") << method;
-    vtkNew<vtkQuadRemesh> oneClick;
-    oneClick->SetInputData(input);
-    oneClick->SetTargetTypeToNumberOfQuads();
-    oneClick->SetNumberOfQuads(500);
     oneClick->SetMethod(method);
     oneClick->Update();
     ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
       << oneClick->GetOutcomeText();
+    EXPECT_EQ(std::string(oneClick->GetReusedStagesText()).find("phase1") != std::string::npos,
+      method != vtkIntegerGridMap::METHOD_SCALE_AWARE);
     EXPECT_EQ(oneClick->GetMappedSurface()->GetNumberOfPolys(), input->GetNumberOfPolys());
     if (method != vtkIntegerGridMap::METHOD_SEAMLESS)
     {
