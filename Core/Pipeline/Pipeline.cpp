@@ -643,7 +643,11 @@ private:
     if (again)
     {
       ++result_.decimations;
-      levels_.reset(); // before the new one takes its memory
+      if (options_.warmStart)
+      {
+        levels_.reset(); // before the new one takes its memory
+      }
+      letLevelsGo();
       const PreparedSurface& surface = onMemory_ ? memory_->surface() : result_.surface;
       levels_.emplace(surface.mesh, surface.hash, levelOptions);
       levelsKept_ = levelOptions.keepVertices;
@@ -657,9 +661,13 @@ private:
   /// Phase 1 depends on the vertices that it keeps: with others it is what a run without memory makes only nearly.
   void recallLevels(const HierarchyOptions& levelOptions)
   {
-    if (levels_ || !onMemory_ || !memory_->levels ||
-      !(options_.warmStart || memory_->levelsKept == levelOptions.keepVertices))
+    if (levels_ || !onMemory_ || !memory_->levels)
     {
+      return;
+    }
+    if (!options_.warmStart && memory_->levelsKept != levelOptions.keepVertices)
+    {
+      memory_->levels.reset(); // before the new one takes its memory
       return;
     }
     levels_ = std::move(memory_->levels);
@@ -671,10 +679,11 @@ private:
     }
   }
 
-  /// To the memory, if there is one that their surface belongs to: their log is a tenth of all memory.
+  /// To the memory, if there is one that their surface belongs to: their log is a tenth of all memory. The first ones of a run are those
+  /// that the next one begins with; those of later attempts keep vertices that it does not ask for, which only a warm start may do.
   void letLevelsGo()
   {
-    if (onMemory_ && levels_)
+    if (onMemory_ && levels_ && (options_.warmStart || !memory_->levels))
     {
       memory_->levels = std::move(levels_);
       memory_->levelsKept = std::move(levelsKept_);

@@ -206,6 +206,28 @@ TEST(RemeshMemory, ClosedHandlesAreRemembered)
   expectSame(remesh(input, options, memory), remesh(input, options));
 }
 
+TEST(RemeshMemory, AttemptsThatKeepMoreVerticesDoNotTakeThePlaceOfTheFirst)
+{
+  // So deep in dents that the first map does not hold on the input and its offenders are kept by another phase 1.
+  Mesh mesh = test::sphere(5);
+  for (Vector3& p : mesh.position)
+  {
+    p *= 1 + 0.7 * std::sin(8 * p.x()) * std::cos(7 * p.y() + p.z());
+  }
+  const SurfaceInput input = test::toInput(mesh);
+  RemeshOptions options = optionsFor(100);
+  options.coarseVertices = 200;
+  options.featureAngle.reset();
+  const RemeshResult without = remesh(input, options);
+  ASSERT_GT(without.decimations, 1);
+  RemeshMemory memory;
+  expectSame(remesh(input, options, memory), without);
+  const RemeshResult again = remesh(input, options, memory);
+  expectSame(again, without);
+  EXPECT_EQ(again.reused, kDecimated);
+  EXPECT_EQ(again.decimations, without.decimations - 1);
+}
+
 TEST(RemeshMemory, AWarmStartTakesTheLastMap)
 {
   SurfaceInput input = dentedSphere();
