@@ -31,10 +31,13 @@ constexpr std::size_t kChunkFaces = 1 << 12;
 constexpr double kIsometry = 4;
 /// A step may not shrink a triangle below this part of its determinant, unless it stays above the same part of an isometry's.
 constexpr double kLeastShrink = 0.1;
+/// Where no such step lowers the energy, crushed triangles keep all others from moving: then none of them may rise by more than this factor, less
+/// and less the shorter the step.
+constexpr double kMostRise = 10;
 /// How often the steps of single vertices are halved before they stay where they are.
 constexpr int kHalvings = 12;
 /// How often the whole step is halved before the descent ends.
-constexpr int kBacktracking = 10;
+constexpr int kBacktracking = 6;
 /// Vertices of triangles above this multiple of an isometry's energy are relaxed one by one first: Newton's method on a barrier needs a step
 /// for each factor of 4/3 that a determinant is to grow by, however few triangles need it.
 constexpr double kCrushed = 8;
@@ -110,6 +113,7 @@ private:
   bool check(double bytes, double operations, RelaxResult& result) const;
   bool makeSolver(RelaxResult& result);
   bool newtonStep(double& current);
+  void setStep(const Eigen::VectorXd& direction, double length);
   void relaxCrushed();
   bool relaxVertex(Index v);
   double starEnergy(Index v, bool stepped) const;
@@ -124,6 +128,7 @@ private:
   std::vector<Index> outgoing_;
   std::vector<FixedVec2> step_; ///< #V: candidate displacement, in the chart of the vertex
   std::unique_ptr<NestedSolver> solver_;
+  double rise_ = 0; ///< by which a step may raise the energy of a crushed triangle; 0: any
   double area_ = 0;
   std::size_t held_ = 0;
 };
@@ -456,6 +461,14 @@ bool MapRelaxation::allows(Index f) const
   {
     return false;
   }
+  if (rise_ > 0)
+  {
+    const double risen = energy(f, to);
+    if (risen > kCrushed * kIsometry * references_[f].weight && risen > rise_ * energy(f, from))
+    {
+      return false;
+    }
+  }
   const double lowest = square > 0 ? -linear / (2 * square) : 0;
   return !(lowest > 0 && lowest < 1) || before + lowest * (linear + lowest * square) > 0;
 }
@@ -538,30 +551,57 @@ bool MapRelaxation::newtonStep(double& current)
   {
     return false;
   }
+  // The first step that gains something worth while; else the best one.
+  std::vector<FixedVec2> best;
+  double bestEnergy = current;
   double length = 1;
   for (int halving = 0; halving < kBacktracking; ++halving, length /= 2)
   {
-    Eigen::Index next = 0;
-    for (Index v = 0; v < mesh_.vertexCount(); ++v)
+    for (const double rise : { 0.0, 1 + (kMostRise - 1) * length * length })
     {
-      Vector2 d(0, 0);
-      for (std::size_t axis = 0; axis < 2; ++axis)
+      rise_ = rise;
+      setStep(direction, length);
+      shortenSteps();
+      const double candidate = totalEnergy(true);
+      if (candidate < bestEnergy)
       {
-        d[static_cast<Eigen::Index>(axis)] = free_[v][axis] != 0 ? length * direction[next++] : 0;
+        bestEnergy = candidate;
+        best = step_;
       }
-      // A step of many quads is none; it would leave the range of exact determinants, too.
-      step_[v] = d.norm() < 16 ? toFixed(d) : toFixed(Vector2(d.normalized() * 16));
+      if (current - bestEnergy > options_.leastGain * current)
+      {
+        break;
+      }
     }
-    shortenSteps();
-    const double candidate = totalEnergy(true);
-    if (candidate < current)
+    if (current - bestEnergy > options_.leastGain * current)
     {
-      takeStep();
-      current = candidate;
-      return true;
+      break;
     }
   }
-  return false;
+  rise_ = 0;
+  if (best.empty())
+  {
+    return false;
+  }
+  step_.swap(best);
+  takeStep();
+  current = bestEnergy;
+  return true;
+}
+
+void MapRelaxation::setStep(const Eigen::VectorXd& direction, double length)
+{
+  Eigen::Index next = 0;
+  for (Index v = 0; v < mesh_.vertexCount(); ++v)
+  {
+    Vector2 d(0, 0);
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      d[static_cast<Eigen::Index>(axis)] = free_[v][axis] != 0 ? length * direction[next++] : 0;
+    }
+    // A step of many quads is none; it would leave the range of exact determinants, too.
+    step_[v] = d.norm() < 16 ? toFixed(d) : toFixed(Vector2(d.normalized() * 16));
+  }
 }
 
 double MapRelaxation::starEnergy(Index v, bool stepped) const
