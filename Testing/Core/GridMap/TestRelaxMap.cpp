@@ -144,6 +144,29 @@ TEST(RelaxMap, LeavesWhatIsNotPositiveAlone)
   }
 }
 
+/// What would move if it might: the sides of a plate with a dent, and a vertex that is to lie at a whole point.
+TEST(RelaxMap, KeepsIsolinesAndIntegers)
+{
+  ShakenPlane plane(9, 0);
+  for (Vector3& p : plane.mesh.position)
+  {
+    p.z() = 3 * std::exp(-(p - Vector3(3, 4, 0)).squaredNorm() / 4);
+  }
+  const Index v = 44;
+  ASSERT_EQ(plane.turns[v], 4);
+  plane.integer[v] = 1;
+  const std::vector<FixedVec2> before = plane.uv;
+  const RelaxResult result = relaxMap(plane.mesh, plane.integer, thorough(), plane.uv);
+  EXPECT_LT(result.after, result.before);
+  EXPECT_GT(plane.largestError(), 0.05);
+  const Certificate certificate = certify(plane.mesh, plane.uv, plane.turns, plane.integer);
+  EXPECT_TRUE(certificate.valid()) << certificate.text();
+  for (Index h = 0; h < plane.mesh.halfEdgeCount(); ++h)
+  {
+    EXPECT_TRUE(plane.mesh.origin[h] != v || plane.uv[h] == before[h]);
+  }
+}
+
 /// Without the sweeps over single vertices, 15 steps of Newton's method would not do it: each lets a crushed triangle grow by a third.
 TEST(RelaxMap, RaisesCrushedTriangles)
 {
