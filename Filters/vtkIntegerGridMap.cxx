@@ -3,6 +3,7 @@
 #include "vtkIntegerGridMap.h"
 
 #include "GridMap/GridMap.h"
+#include "Pipeline/CoarsestMap.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleStages.h"
@@ -71,7 +72,13 @@ void vtkIntegerGridMap::Execute(vtkInformationVector** inputs, vtkInformationVec
   options.guides = quadrille::readGuides(input, mesh);
   options.targetValences = quadrille::readTargetValences(input, mesh);
   options.progress = this->MakeProgress(0.0, 0.95);
-  const quadrille::GridMapResult map = quadrille::computeGridMap(mesh, options);
+  const bool coarsest = this->Integers == INTEGERS_COARSEST;
+  if (coarsest && this->Method != METHOD_SCALE_AWARE)
+  {
+    throw quadrille::InvalidInput("the coarsest integers need the scale aware method");
+  }
+  const quadrille::GridMapResult map = coarsest ? quadrille::computeCoarsestMap(mesh, options)
+                                                : quadrille::computeGridMap(mesh, options);
 
   quadrille::StageClock clock;
   const std::size_t faces = mesh.faceCount();
@@ -115,4 +122,5 @@ void vtkIntegerGridMap::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "EdgeLength: " << this->EdgeLength << "\n";
   os << indent << "Method: " << this->Method << "\n";
+  os << indent << "Integers: " << this->Integers << "\n";
 }

@@ -46,6 +46,25 @@ public:
   void SetMethodToSeamless() { this->SetMethod(METHOD_SEAMLESS); }
   ///@}
 
+  /// The values of Integers, see there.
+  enum IntegersTypes
+  {
+    INTEGERS_KEEP_SIZES = 0,
+    INTEGERS_COARSEST = 1
+  };
+
+  ///@{
+  /**
+   * What the whole numbers of the map aim at, an IntegersTypes: quads of the size asked for, or the coarsest layout, with integers
+   * as small as a map can have whose quads are the surface. The size then sets only what the coarse level keeps. Needs
+   * METHOD_SCALE_AWARE. Default: INTEGERS_KEEP_SIZES.
+   */
+  vtkSetClampMacro(Integers, int, INTEGERS_KEEP_SIZES, INTEGERS_COARSEST);
+  vtkGetMacro(Integers, int);
+  void SetIntegersToKeepSizes() { this->SetIntegers(INTEGERS_KEEP_SIZES); }
+  void SetIntegersToCoarsest() { this->SetIntegers(INTEGERS_COARSEST); }
+  ///@}
+
   ///@{
   /**
    * Target edge length in units of the input; 0, the default, takes `TargetEdgeLength` and `TargetQuads` from the
@@ -67,6 +86,7 @@ private:
 
   double EdgeLength = 0;
   int Method = METHOD_SCALE_AWARE;
+  int Integers = INTEGERS_KEEP_SIZES;
 };
 
 #endif

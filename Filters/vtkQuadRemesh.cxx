@@ -117,6 +117,7 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
     options.memoryLimit = 1e6 * this->MemoryLimit;
   }
   options.method = static_cast<quadrille::MapMethod>(this->Method);
+  options.coarsestIntegers = this->Integers == INTEGERS_COARSEST;
   options.closeHandles = this->CloseHandles;
   options.finalQuality = static_cast<quadrille::FinalQuality>(this->FinalQuality);
   options.mergeCharts = this->ComputeMappedSurface != 0;
@@ -177,6 +178,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Method: " << this->Method << "\n";
+  os << indent << "Integers: " << this->Integers << "\n";
   os << indent << "MaximumQuads: " << this->MaximumQuads << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "CloseHandles: " << this->CloseHandles << "\n";

@@ -65,6 +65,25 @@ public:
   void SetMethodToSeamless() { this->SetMethod(METHOD_SEAMLESS); }
   ///@}
 
+  /// The values of Integers, see there.
+  enum IntegersTypes
+  {
+    INTEGERS_KEEP_SIZES = 0,
+    INTEGERS_COARSEST = 1
+  };
+
+  ///@{
+  /**
+   * What the whole numbers of the map aim at, an IntegersTypes: quads of the size asked for, or the coarsest layout, with integers
+   * as small as a map can have whose quads are the surface. The size then sets only what the coarse level keeps. Needs
+   * METHOD_SCALE_AWARE. Default: INTEGERS_KEEP_SIZES.
+   */
+  vtkSetClampMacro(Integers, int, INTEGERS_KEEP_SIZES, INTEGERS_COARSEST);
+  vtkGetMacro(Integers, int);
+  void SetIntegersToKeepSizes() { this->SetIntegers(INTEGERS_KEEP_SIZES); }
+  void SetIntegersToCoarsest() { this->SetIntegers(INTEGERS_COARSEST); }
+  ///@}
+
   ///@{
   /**
    * The filter refuses, before memory is spent, to make more quads than this; at least 1. Default: ten million.
@@ -194,6 +213,7 @@ private:
   vtkPolyData* GetPolyDataOutputAt(int port);
 
   int Method = METHOD_SCALE_AWARE;
+  int Integers = INTEGERS_KEEP_SIZES;
   vtkIdType MaximumQuads = 10000000;
   double MemoryLimit = 0;
   double CloseHandles = 0;

@@ -98,4 +98,14 @@ int methodOf(const CommandLine& line)
   return static_cast<int>(found - kNames.begin());
 }
 
+int integersOf(const CommandLine& line)
+{
+  const std::string name = line.text("integers").value_or("keep-sizes");
+  if (name != "keep-sizes" && name != "coarsest")
+  {
+    throw UsageError("--integers needs keep-sizes or coarsest, not '" + name + "'");
+  }
+  return name == "coarsest" ? 1 : 0;
+}
+
 } // namespace quadrille

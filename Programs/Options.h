@@ -44,4 +44,8 @@ private:
 /// UsageError for a name that is none.
 int methodOf(const CommandLine& line);
 
+/// The option --integers: a number of vtkQuadRemesh::IntegersTypes; 0 when it is not given. Throws UsageError for a name that
+/// is none.
+int integersOf(const CommandLine& line);
+
 } // namespace quadrille

@@ -48,6 +48,8 @@ size of the quads (at most one; 0.02 of the bounding-box diagonal when none is g
                             curvature of the surface needs, from 300 to 4000
   --method NAME             how the map is made: scale-aware (default); mixed-integer and quadcover, which may leave
                             inverted triangles and then fail; seamless, which has no integers and so makes no quads
+  --integers NAME           keep-sizes (default): quads of the size asked for; coarsest: as few as a layout of the
+                            surface can have; the size then sets only what the coarse level keeps
   --close-handles R         cut and close handles that are shorter round than R edge lengths of the quads,
                             which need 3 (default 0: none)
   --final-quality LEVEL     coarse, intermediate or input: where the map is solved at last, with the same quads;
@@ -192,6 +194,7 @@ void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
 {
   setSize(line, filter);
   filter->SetMethod(methodOf(line));
+  filter->SetIntegers(integersOf(line));
   if (const auto angle = line.number("feature-angle", 0, 180))
   {
     filter->SetDetectFeatures(*angle > 0);
@@ -518,7 +521,8 @@ int main(int argc, char* argv[])
   {
     const CommandLine line(argc, argv,
       { "quads", "edge-length", "relative-edge-length", "feature-angle", "coarse-vertices",
-        "threads", "memory-limit", "close-handles", "method", "map", "final-quality", "report" });
+        "threads", "memory-limit", "close-handles", "method", "integers", "map", "final-quality",
+        "report" });
     if (line.help() || argc == 1)
     {
       std::fputs(kHelp, line.help() ? stdout : stderr);

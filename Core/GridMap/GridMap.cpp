@@ -232,7 +232,8 @@ private:
         keepTried();
       }
       // With a component missing there will be no quads to count.
-      if (deviation <= kCountTolerance || failures() > 0)
+      // Integers that are to be small do not follow the scale.
+      if (deviation <= kCountTolerance || failures() > 0 || options_.pull < 1)
       {
         return;
       }
@@ -394,6 +395,7 @@ private:
     const Stopwatch watch(result_.secondsQuantize, result_.processorQuantize);
     QuantizeOptions quantizeOptions;
     quantizeOptions.watched = watched;
+    quantizeOptions.pull = options_.pull;
     // Other integers are asked for where some vertices are watched, or where those of the first scale were too many or too few.
     const bool again = component.hasIntegers || !watched.empty();
     quantizeOptions.previousUv =

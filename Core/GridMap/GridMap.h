@@ -98,6 +98,8 @@ SeamlessResult computeSeamlessMap(
 struct QuantizeOptions
 {
   double maximumRefinement = 8; ///< the integers may grow by this factor when nothing else is valid
+  /// In [0, 1]: the integers come near to so many times the seamless map. 0: as near to nothing as a valid map can.
+  double pull = 1;
   /// Vertices, as EmbedResult::offenders, whose triangles the integers must leave positive as they are.
   std::vector<Index> watched;
   /// #H: an integer-grid map along the same field, or null. Its integers are the start where they are valid, and are only
@@ -165,6 +167,8 @@ struct GridMapOptions
   MapMethod method = MapMethod::ScaleAware;
   double edgeLength = 0;  ///< s, on the surface; > 0
   double targetQuads = 0; ///< 0: follow edgeLength; else scale so that the uv area comes near this
+  /// See QuantizeOptions. Below 1 the number of quads is what comes of it, targetQuads only scales the seamless map.
+  double pull = 1;
   Index maximumVertices = 100000;  ///< of the mesh; the solvers are made for coarse levels
   std::vector<Guide> guides;       ///< empty or #F, see CrossFieldOptions
   std::vector<int> targetValences; ///< empty or #V, the same

@@ -425,7 +425,7 @@ void IntegerMap::makeDelaunay()
 double IntegerMap::energyChange(Index h, FixedVec2 e) const
 {
   const Vector2 d = inQuads(e);
-  return weight_[h] * d.dot(2 * (inQuads(q_[h]) - wanted_[h]) + d);
+  return weight_[h] * d.dot(2 * (inQuads(q_[h]) - pull_ * wanted_[h]) + d);
 }
 
 double IntegerMap::energy() const
@@ -436,7 +436,7 @@ double IntegerMap::energy() const
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
       const double share = mesh_.twin[h] == kInvalidIndex ? 1.0 : 0.5;
-      sum += share * weight_[h] * (inQuads(q_[h]) - wanted_[h]).squaredNorm();
+      sum += share * weight_[h] * (inQuads(q_[h]) - pull_ * wanted_[h]).squaredNorm();
     }
   }
   return sum;

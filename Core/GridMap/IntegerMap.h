@@ -55,6 +55,10 @@ public:
   void moveVertex(Index v, FixedVec2 e);
   /// Whether moving by e keeps the vertex on its curve, between its neighbours there.
   bool mayMove(Index v, FixedVec2 e) const;
+  /// From now on the energy is that of the difference to so many times what is wanted, >= 0; 1 at first. 0: displacements
+  /// become as short as triangles stay sound.
+  void setPull(double pull) { pull_ = pull; }
+  double pull() const { return pull_; }
   /// The change of energy by moveVertex.
   double moveEnergy(Index v, FixedVec2 e) const;
 
@@ -74,7 +78,7 @@ public:
   }
   bool isSound(Index f) const { return determinant(f) >= kLeastDeterminant; }
 
-  /// The change of the energy sum weight |q - wanted|^2 by shift(h, e).
+  /// The change of the energy sum weight |q - pull wanted|^2 by shift(h, e).
   double energyChange(Index h, FixedVec2 e) const;
   double energy() const;
   /// In quads.
@@ -109,6 +113,7 @@ private:
 
   UvMesh& mesh_;
   UvEditor& editor_;
+  double pull_ = 1;
   std::vector<std::uint8_t> integerVertex_;
   std::vector<Index> faces_;
   std::vector<Index> freeVertices_;

@@ -171,6 +171,10 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   const std::vector<FixedVec2>& seamlessUv, const QuantizeOptions& options)
 {
   checkInput(mesh, field, seamlessUv);
+  if (!(options.pull >= 0 && options.pull <= 1))
+  {
+    throw InvalidInput("quantizeMap: the share of the sizes that integers keep must be in [0, 1]");
+  }
   QuantizeResult result;
   result.uv = seamlessUv;
   UvMesh uvMesh = UvMesh::from(mesh, field, seamlessUv);
@@ -205,6 +209,7 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
       "quantization: no valid integers up to scale " + std::to_string(kMaximumScale) };
     return result;
   }
+  integers.setPull(options.pull);
   result.work += improveIntegers(integers, options.progress);
   result.refinement = std::max(1.0, std::sqrt(integers.area() / wantedArea));
   integrate(integers, locked.integer, uvMesh);

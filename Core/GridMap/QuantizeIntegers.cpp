@@ -404,7 +404,7 @@ private:
     {
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
       {
-        const Vector2 wanted = double(kGrain) * map_.wanted(h);
+        const Vector2 wanted = double(kGrain) * map_.pull() * map_.wanted(h);
         farthest = std::max({ farthest, std::abs(static_cast<double>(map_[h].u) - wanted.x()),
           std::abs(static_cast<double>(map_[h].v) - wanted.y()) });
       }

@@ -10,6 +10,7 @@
 #include "Mesh/ContentHash.h"
 #include "Mesh/FeatureFilter.h"
 #include "Mesh/Sizing.h"
+#include "Pipeline/CoarsestMap.h"
 #include "Transfer/PackedMap.h"
 
 #include <algorithm>
@@ -75,6 +76,10 @@ ProgressCallback subProgress(
 void checkOptions(const RemeshOptions& options)
 {
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
+  if (options.coarsestIntegers && options.method != MapMethod::ScaleAware)
+  {
+    throw InvalidInput("the coarsest integers need the scale aware method");
+  }
   if (options.quads && *options.quads < 1)
   {
     throw InvalidInput("the target number of quads must be at least 1");
@@ -609,6 +614,10 @@ private:
   GridMapResult startingWarm(GridMapOptions mapOptions)
   {
     const Level& coarse = hierarchy().coarse;
+    if (options_.coarsestIntegers)
+    {
+      return computeCoarsestMap(coarse.mesh, mapOptions);
+    }
     const bool fits = onMemory_ && options_.method == MapMethod::ScaleAware;
     if (fits && options_.warmStart && memory_->map && memory_->mapQuads == gridQuads())
     {
@@ -1144,6 +1153,10 @@ private:
   /// Smaller quads for a map whose quads touch themselves: first there, and where that does not do, everywhere.
   bool takeFinerGrid()
   {
+    if (options_.coarsestIntegers)
+    {
+      return false; // a size that fits was looked for
+    }
     const std::optional<GridTroubles> troubles = gridTroubles();
     if (!(shrinkQuadsNear(troubles) || doubleQuads(troubles)))
     {

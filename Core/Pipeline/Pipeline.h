@@ -33,6 +33,9 @@ struct RemeshOptions
   std::optional<double> featureAngle =
     0.6981317007977318; ///< radians (40 degrees); none: no detection
   MapMethod method = MapMethod::ScaleAware;
+  /// The coarsest layout of quads in place of their size, see computeCoarsestMap; by the scale aware method only. The size asked for sets
+  /// what the levels keep and how curves are followed.
+  bool coarsestIntegers = false;
   Index coarseVertices = 1000; ///< budget of the coarse level; 0: as many as its curvature needs
   /// Handles that are shorter round or through than so many target edge lengths are cut and closed before they are mapped, see
   /// closeHandles; >= 0, 0: none. Below kQuadsOfLoop there may remain some that quads cannot resolve.

@@ -34,6 +34,9 @@ __all__ = [
 #: How the map can be made, in the order of vtkQuadRemesh.Methods.
 METHODS = ("scale-aware", "mixed-integer", "quadcover", "seamless")
 
+#: What the whole numbers of the map can aim at, in the order of vtkQuadRemesh.IntegersTypes.
+INTEGERS = ("keep-sizes", "coarsest")
+
 
 class RemeshError(RuntimeError):
     """There is no valid result; the message says why."""
@@ -135,7 +138,7 @@ def _set_size(run, quads, edge_length, relative_edge_length):
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
            coarse_vertices=1000, patch_array="PatchId", curves=None, threads=0, maximum_quads=10000000,
            memory_limit=0.0, time_limit=0.0, close_handles=0.0, method="scale-aware",
-           final_quality="coarse", progress=None, everything=False):
+           final_quality="coarse", integers="keep-sizes", progress=None, everything=False):
     """Remeshes a surface with quads only and returns a vtkPolyData.
 
     mesh: a vtkPolyData, or a pair (points, faces).
@@ -154,6 +157,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         "seamless" (no integers, so the result has no quads; use everything=True for the mapped surface).
     final_quality: "coarse", "intermediate" or "input": the level on which the map is solved at last; the quads are the same in number
         and connectivity, less distorted, and take longer.
+    integers: "keep-sizes", or "coarsest" for the coarsest layout of quads that is the surface.
     progress: called as progress(fraction, text); a return value of False (not None) stops the run.
     everything: return a Remeshed with the mapped surface, the feature lines and the info dict, too.
 
@@ -182,6 +186,9 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     if final_quality not in _FINAL_QUALITIES:
         raise InvalidInput(f"final_quality must be one of {', '.join(_FINAL_QUALITIES)}, not {final_quality!r}")
     run.SetFinalQuality(_FINAL_QUALITIES.index(final_quality))
+    if integers not in INTEGERS:
+        raise InvalidInput("integers must be one of " + ", ".join(INTEGERS) + f", not {integers!r}")
+    run.SetIntegers(INTEGERS.index(integers))
     run.SetComputeMappedSurface(bool(everything))
     if progress is not None:
         def on_progress(caller, event):

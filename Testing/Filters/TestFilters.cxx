@@ -5,10 +5,12 @@
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkDecimationHierarchy.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
+#include <vtkIntegerGridMap.h>
 #include <vtkPointData.h>
 #include <vtkQuadRemesh.h>
 #include <vtkStringArray.h>
@@ -365,6 +367,37 @@ TEST(QuadRemeshFailure, RefusesTooManyQuads)
   run(filter, test::toPolyData(test::torus(40, 20)), 2000);
   EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::TooLarge);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+}
+
+TEST(QuadRemesh, CoarsestIntegersMakeAFewQuads)
+{
+  const vtkSmartPointer<vtkPolyData> input =
+    test::toPolyData(test::voxelSurface({ 3, 2, 1 }, 4, [](int, int, int) { return true; }));
+  vtkNew<vtkQuadRemesh> filter;
+  run(filter, input, 300);
+  EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 200);
+  filter->SetIntegersToCoarsest();
+  run(filter, input, 300);
+  ASSERT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 6);
+  filter->SetIntegersToKeepSizes();
+  run(filter, input, 300);
+  EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 200);
+
+  vtkNew<vtkDecimationHierarchy> hierarchy;
+  hierarchy->SetInputData(input);
+  vtkNew<vtkIntegerGridMap> map;
+  map->SetInputConnection(hierarchy->GetOutputPort(0));
+  map->SetIntegersToCoarsest();
+  map->Update();
+  ASSERT_EQ(map->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << map->GetOutcomeText();
+  double area = 0;
+  vtkDataArray* determinants = map->GetOutput()->GetCellData()->GetArray("Determinant");
+  for (vtkIdType i = 0; i < determinants->GetNumberOfTuples(); ++i)
+  {
+    area += determinants->GetTuple1(i) / 2;
+  }
+  EXPECT_NEAR(area, 6, 1e-6);
 }
 
 TEST(QuadRemeshFailure, UnusedConstraintArraysAreTold)

@@ -344,6 +344,17 @@ class Report(Case):
                 self.assertIn(told, self.run_quadrille(source, *words, expect=2).stderr)
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), before)
 
+    def test_coarsest_integers(self):
+        source, out = self.write_off(), self.folder / "q.obj"
+        self.run_quadrille(source, out, "--quads", 900, "--integers", "coarsest")
+        data = read(vtkOBJReader(), out)
+        self.assertTorusOfQuads(data.GetNumberOfPoints(), faces_of(data))
+        self.assertLess(data.GetNumberOfPoints(), 150)
+        for words, told in ((("--integers", "few"), "keep-sizes or coarsest"),
+                            (("--integers", "coarsest", "--method", "quadcover"), "scale aware")):
+            with self.subTest(words):
+                self.assertIn(told, self.run_quadrille(source, out, *words, expect=2).stderr)
+
     def test_folds_of_a_method_are_told(self):
         # The four holes of the flange are narrower than such quads.
         out = self.folder / "q.obj"

@@ -171,3 +171,47 @@ TEST(MeshParts, KeepTheMeshAndTheField)
     }
   }
 }
+
+namespace
+{
+
+GridMapResult coarsest(const Mesh& mesh, double quads, double pull = 0)
+{
+  GridMapOptions options;
+  options.edgeLength = 0.25;
+  options.targetQuads = quads;
+  options.pull = pull;
+  return computeGridMap(mesh, options);
+}
+
+} // namespace
+
+TEST(GridMap, SmallestIntegersOfABoxAreOneQuadASide)
+{
+  const Mesh box = test::markFeatures(
+    test::voxelSurface({ 3, 2, 1 }, 3, [](int, int, int) { return true; }), 0.6);
+  const GridMapResult few = coarsest(box, 500);
+  ASSERT_TRUE(few.status.ok()) << few.status.message;
+  EXPECT_TRUE(few.certificate.valid()) << few.certificate.text();
+  EXPECT_EQ(few.certificate.area, 6);
+  const GridMapResult many = coarsest(box, 500, 1);
+  ASSERT_TRUE(many.status.ok()) << many.status.message;
+  EXPECT_NEAR(many.certificate.area, 500, 75);
+  const GridMapResult between = coarsest(box, 500, 0.5);
+  ASSERT_TRUE(between.status.ok()) << between.status.message;
+  EXPECT_NEAR(between.certificate.area, 125, 40);
+}
+
+TEST(GridMap, SmallestIntegersAreValidOnCurvedSurfaces)
+{
+  const Mesh cylinder = test::openCylinder(24, 8);
+  const Mesh ball = test::sphere(3);
+  const Mesh ring = test::torus(24, 12);
+  for (const Mesh* mesh : { &cylinder, &ball, &ring })
+  {
+    const GridMapResult few = coarsest(*mesh, 400);
+    ASSERT_TRUE(few.status.ok()) << few.status.message;
+    EXPECT_TRUE(few.certificate.valid()) << few.certificate.text();
+    EXPECT_LE(few.certificate.area, 30);
+  }
+}
