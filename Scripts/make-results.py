@@ -10,6 +10,7 @@ pictures. The runs go one after the other. A run that is already there for the s
 repeated, so the script can be stopped and started again. Needs Debian's python3 with numpy and scipy.
 """
 import argparse
+import csv
 import hashlib
 import importlib.util
 import json
@@ -332,7 +333,84 @@ def writeMarkdown(options, rows, badRows, everyRows):
                          f"| {row['seconds']:.1f} | {row['peakMegabytes']:.0f} |")
     if everyRows:
         parts += [""] + everyModel(everyRows)
+    peers = readPeers(options.peers) if options.peers else {}
+    if peers:
+        parts += [""] + againstPeers(peers, {r["name"]: r for r in everyRows + rows})
+    if options.field:
+        parts += [""] + fieldCounts(options.field)
     options.markdown.write_text("\n".join(parts) + "\n")
+
+
+# ------------------------------------------------------------------------------------------- other tools
+PEER_MODELS = {"bunny": "bunny_69k"}
+
+
+def readPeers(path):
+    """Quality of other tools from a page with a table of | model count | tool | quads | irregular | topology | SJ | opposing | ...:
+    {run: [{tool, irregular, inverted, opposing, mean, topology, distance}]}."""
+    peers, run = {}, None
+    for line in path.read_text().splitlines():
+        cells = [c.strip() for c in line.strip().strip("|").split("|")] if line.startswith("|") else []
+        if len(cells) != 10 or "/" not in cells[5] or cells[1] == "tool":
+            continue
+        if cells[0]:
+            model, count = cells[0].rsplit(" ", 1)
+            run = f"{PEER_MODELS.get(model, model)}-{int(float(count.rstrip('k')) * 1000)}"
+        least, mean, inverted = cells[5].split("/")
+        peers.setdefault(run, []).append({
+            "tool": cells[1], "irregular": sum(int(n) for n in cells[3].split("+")), "topology": cells[4], "mean": float(mean),
+            "inverted": int(inverted), "opposing": int(cells[6]), "distance": float(cells[9].split("/")[1])})
+    return peers
+
+
+def againstPeers(peers, ours):
+    """Model by model: irregular vertices, inverted quads, opposing quads, distance of each tool and of ours."""
+    out = ["## Against other tools", "",
+           "Irregular vertices (with those on the boundary), quads with scaled Jacobian <= 0, quads that face against the surface, mean scaled Jacobian, and mean "
+           "distance to the input in % of the diagonal; the other tools on the same models, with their default settings. IM: Instant Meshes, QF: QuadriFlow, "
+           "MIQ: libigl with libQEx, QW: QuadWild with Bi-MDF.", "",
+           "| run | tool | irregular | <= 0 | opposing | Jacobian mean | distance | topology |", "|---|---|---|---|---|---|---|---|"]
+    ahead, compared = 0, 0
+    for run, others in peers.items():
+        row = ours.get(run)
+        if row is None or "stats" not in row:
+            continue
+        quality = row["stats"]["quality"]
+        own = {"irregular": verdict(row)["valence"][1][0], "inverted": quality["quads_sj_le_0"],
+               "opposing": quality["quads_opposing_reference"], "mean": quality["scaled_jacobian_mean"],
+               "distance": 100 * row["stats"]["distance"]["quads_to_reference"]["mean_rel"]}
+        fine = verdict(row)["topology"][0]
+        out.append(f"| {run} | **Quadrille** | **{own['irregular']}** | **{own['inverted']}** | **{own['opposing']}** | {own['mean']:.3f} | "
+                   f"{own['distance']:.3f} | {'ok' if fine else 'wrong'} |")
+        for peer in others:
+            out.append(f"| | {peer['tool']} | {peer['irregular']} | {peer['inverted']} | {peer['opposing']} | {peer['mean']:.3f} | "
+                       f"{peer['distance']:.3f} | {peer['topology']} |")
+        rivals = [p for p in others if p["topology"] == "ok"]
+        compared += 1
+        ahead += fine and all(own["irregular"] <= p["irregular"] and own["inverted"] + own["opposing"] <= p["inverted"] + p["opposing"]
+                              for p in rivals)
+    out += ["", f"On {ahead} of {compared} runs no tool with the right topology has fewer irregular vertices or fewer inverted or opposing quads."]
+    return out
+
+
+def fieldCounts(path):
+    """What quadrille-bench --compare field wrote: irregular vertices with decimation over those without."""
+    with open(path, newline="") as file:
+        rows = [r for r in readCsv(file) if r["ok"] == "1"]
+    within = [r for r in rows if int(r["irregular_coarse"]) <= 1.15 * int(r["irregular_surface"])]
+    coarse, surface = (sum(int(r[k]) for r in rows) for k in ("irregular_coarse", "irregular_surface"))
+    beyond = [r for r in rows if r not in within]
+    out = ["## Irregular vertices with and without decimation", "",
+           f"The field on the coarse level against the field on all of the surface (`quadrille-bench --compare field`): at most 1.15 times as many on "
+           f"{share(len(within), len(rows))} of the runs with quads; {coarse:,} against {surface:,} over all of them. The others:", "",
+           "| run | on the coarse level | on the surface |", "|---|---|---|"]
+    return out + [f"| {r['mesh']}-{r['quads']} | {r['irregular_coarse']} | {r['irregular_surface']} |" for r in beyond]
+
+
+def readCsv(file):
+    """Rows of several tables with the same header, one after the other."""
+    lines = [line for line in file if line.strip()]
+    return csv.DictReader([lines[0]] + [line for line in lines if line != lines[0]])
 
 
 def share(passed, total):
@@ -344,6 +422,7 @@ def everyModel(rows):
     valid = [r for r in rows if verdict(r).get("topology", (False,))[0]]
     resolved = [r for r in rows if not unresolved(r)]
     certified = [r for r in valid if fineCertificate(r)]
+    mapped = [r for r in rows if coarseCertificate(r)]
     quality = [r["stats"]["quality"] for r in valid]
     out = ["## Every model", "",
            f"All models of {', '.join(EVERY_FOLDER)} at {', '.join(f'{n:,}' for n in EVERY_COUNT)} quads. A run is resolved where no handle is "
@@ -351,6 +430,8 @@ def everyModel(rows):
            "| figure | runs |", "|---|---|",
            f"| quads with the topology of the input | {share(len(valid), len(rows))} |",
            f"| of the resolved ones | {share(sum(r in resolved for r in valid), len(resolved))} |",
+           f"| valid map of the coarse mesh, of the resolved ones | {share(sum(r in resolved for r in mapped), len(resolved))} |",
+           f"| map on the input without defect, of the resolved ones | {share(sum(r in resolved for r in certified), len(resolved))} |",
            f"| of those with quads: the map on the input has no defect | {share(len(certified), len(valid))} |",
            f"| no quad with scaled Jacobian <= 0 | {share(sum(q['quads_sj_le_0'] == 0 for q in quality), len(valid))} |",
            f"| mean scaled Jacobian >= {EVERY_JACOBIAN_MEAN} | "
@@ -363,6 +444,11 @@ def everyModel(rows):
 
 def fineCertificate(row):
     return not any("map on the input surface" in n for n in (row.get("report") or {}).get("notices", []))
+
+
+def coarseCertificate(row):
+    """Quads are made of valid coarse maps only; where none came, the error says which stage failed."""
+    return row["exit"] == 0 or (row["exit"] == 3 and "no valid quad mesh" in lastMessage(row["output"]))
 
 
 def everyRow(row):
@@ -410,6 +496,8 @@ def parseArguments():
     parser.add_argument("--folder", help="take every mesh of this folder below --data instead")
     parser.add_argument("--bad", default="bad", help="folder with damaged input below --data; empty: leave out")
     parser.add_argument("--every", action="store_true", help="also all models of scan, cad, open, in a table of their own")
+    parser.add_argument("--peers", type=pathlib.Path, help="page with the table of what other tools reach, to compare with")
+    parser.add_argument("--field", type=pathlib.Path, help="what quadrille-bench --compare field wrote, to be summed up")
     parser.add_argument("--quads", type=int, nargs="*", default=COUNTS)
     parser.add_argument("--timeout", type=float, default=600, help="seconds a run")
     parser.add_argument("--samples", type=int, default=100000)
