@@ -22,7 +22,7 @@ namespace
 /// input face; a small surface may grow more, and there is an end to all.
 constexpr double kFacesPerSquare = 20;
 constexpr double kFacesPerFace = 16;
-constexpr double kFacesPerFaceOfSmall = 64;
+constexpr double kFacesPerFaceOfSmall = 160;
 constexpr double kSmallEnd = 4e6;
 constexpr double kMostFaces = 1e8;
 

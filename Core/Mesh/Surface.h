@@ -117,7 +117,7 @@ PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& 
 /// chords: unconstrained edges whose two ends lie on constrained edges, that no decimation could ever
 /// repair. Afterwards every face has at most one constrained edge and no chord is left. The geometry
 /// does not change: new vertices lie on the old triangles. Long thin triangles can multiply; past
-/// about 16 #F + 20 area / maximumEdgeLength^2 faces (64 #F up to four million) the longest edges are
+/// about 16 #F + 20 area / maximumEdgeLength^2 faces (160 #F up to four million) the longest edges are
 /// split and the rest is left, which `notice` tells. Throws InvalidInput unless maximumEdgeLength is
 /// positive and finite. The hash is taken anew.
 void refineSurface(
