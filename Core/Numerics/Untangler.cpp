@@ -24,7 +24,7 @@ using Vector = Eigen::VectorXd;
 constexpr double kConverged = 1e-3;
 constexpr double kStalled = 1e-5;
 /// What a factorization does while a Newton step does all else for one triangle.
-constexpr double kFlopsOfTriangle = 2500;
+constexpr double kFlopsOfTriangle = 7500;
 
 double determinantOf(const Jacobian& j)
 {
