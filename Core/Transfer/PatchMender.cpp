@@ -574,6 +574,11 @@ Freedom PatchMender::freedomOf(const std::vector<FanCorner>& fan, bool interior,
   {
     return Freedom::Fixed;
   }
+  // Irregular vertices lie on whole points, also those of curves that look as if the curve passed.
+  if (expectedTurns_[mesh_.origin[fan.front().corner]] != (interior ? 4 : 2))
+  {
+    return Freedom::Fixed;
+  }
   int constrained = 0;
   bool alongU = true;
   bool alongV = true;

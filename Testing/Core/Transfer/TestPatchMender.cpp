@@ -102,6 +102,63 @@ TEST(PatchMender, mendsAcrossSeamsWithRotations)
   EXPECT_EQ(constrainedEdgesOffAxis(mesh, uv), 0U);
 }
 
+TEST(PatchMender, endOfASlitStaysOnItsWholePoint)
+{
+  // A plane with a slit from (10, 10) to the right. At its end the boundary turns back along itself: both boundary edges lie on one
+  // isoline, as where a boundary passes straight, but there are four quarter turns between them.
+  const int n = 20;
+  std::vector<Vector3> points;
+  std::vector<Triangle> triangles;
+  for (int y = 0; y <= n; ++y)
+  {
+    for (int x = 0; x <= n; ++x)
+    {
+      points.emplace_back(x, y, 0);
+    }
+  }
+  for (int x = 11; x <= n; ++x)
+  {
+    points.emplace_back(x, 10, 0); // the upper side of the slit
+  }
+  const auto at = [&](int x, int y, bool above)
+  {
+    return static_cast<Index>(
+      y == 10 && x > 10 && above ? (n + 1) * (n + 1) + x - 11 : y * (n + 1) + x);
+  };
+  for (int y = 0; y < n; ++y)
+  {
+    for (int x = 0; x < n; ++x)
+    {
+      const bool above = y >= 10;
+      const Index a = at(x, y, above), b = at(x + 1, y, above), c = at(x + 1, y + 1, above),
+                  d = at(x, y + 1, above);
+      triangles.push_back({ a, b, c });
+      triangles.push_back({ a, c, d });
+    }
+  }
+  const Mesh mesh = makeMesh(points, triangles);
+  std::vector<FixedVec2> uv =
+    mapByPosition(mesh, [](const Vector3& p) { return Vector2(p.x(), p.y()); });
+  const std::vector<int> turns = turnsOf(mesh, uv);
+  const Vector3 end(10, 10, 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    ASSERT_TRUE(mesh.position[mesh.origin[h]] != end || turns[mesh.origin[h]] == 4);
+  }
+  moveVertices(mesh, uv, { 7 * kOne / 4, kOne / 2 },
+    [](const Vector3& p) { return p.x() >= 8 && p.x() <= 9 && std::abs(p.y() - 10) <= 1; });
+  ASSERT_GT(notPositive(uv), 0U);
+  mendPatches(mesh, uv, turns, 1, {});
+  EXPECT_EQ(notPositive(uv), 0U);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.position[mesh.origin[h]] == end)
+    {
+      EXPECT_EQ(uv[h], (FixedVec2{ 10 * kOne, 10 * kOne }));
+    }
+  }
+}
+
 TEST(PatchMender, givesUpOnWhatCannotBeMended)
 {
   // The whole map is mirrored: no patch with a fixed border can be positive.
