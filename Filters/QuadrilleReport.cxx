@@ -168,6 +168,15 @@ void addSmallParts(vtkDataObject* data, const SmallParts& parts, double edgeLeng
   addNumbers(data, "ShortestBoundaryPlace", coordinates(parts.boundary.place));
 }
 
+void addAnisotropy(vtkDataObject* data, double limit, double beyond)
+{
+  if (limit > 0)
+  {
+    addNumber(data, "AnisotropyLimit", limit);
+    addNumber(data, "BeyondAnisotropyLimit", beyond);
+  }
+}
+
 void addFinalQuality(vtkDataObject* data, const FinalQualityReport& report)
 {
   if (report.level == FinalQuality::Coarse)

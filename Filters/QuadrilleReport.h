@@ -54,6 +54,8 @@ void addSmallParts(vtkDataObject* data, const SmallParts& parts, double edgeLeng
 void addMethod(vtkDataObject* data, MapMethod method);
 /// What addMethod wrote; the default where there is nothing.
 MapMethod readMethod(vtkDataObject* data);
+/// AnisotropyLimit and BeyondAnisotropyLimit, a share; nothing without limit.
+void addAnisotropy(vtkDataObject* data, double limit, double beyond);
 /// DistortionNames, DistortionBefore, DistortionAfter and OptimizationSteps; nothing for FinalQuality::Coarse.
 void addFinalQuality(vtkDataObject* data, const FinalQualityReport& report);
 /// RepairNames and RepairCounts.

@@ -69,6 +69,7 @@ void vtkIntegerGridMap::Execute(vtkInformationVector** inputs, vtkInformationVec
   const quadrille::Mesh mesh = quadrille::readMesh(input);
   quadrille::GridMapOptions options = optionsFor(input, this->EdgeLength);
   options.method = static_cast<quadrille::MapMethod>(this->Method);
+  options.anisotropyLimit = this->AnisotropyLimit;
   options.guides = quadrille::readGuides(input, mesh);
   options.targetValences = quadrille::readTargetValences(input, mesh);
   options.progress = this->MakeProgress(0.0, 0.95);
@@ -106,6 +107,7 @@ void vtkIntegerGridMap::Execute(vtkInformationVector** inputs, vtkInformationVec
   quadrille::addStages(output, clock.records);
   quadrille::addCertificate(output, map.certificate);
   quadrille::addMethod(output, options.method);
+  quadrille::addAnisotropy(output, options.anisotropyLimit, map.beyondAnisotropyLimit);
   if (map.certificate.notPositive > 0)
   {
     const std::string text = std::string("the method '") + quadrille::nameOf(options.method) +
@@ -123,4 +125,5 @@ void vtkIntegerGridMap::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "EdgeLength: " << this->EdgeLength << "\n";
   os << indent << "Method: " << this->Method << "\n";
   os << indent << "Integers: " << this->Integers << "\n";
+  os << indent << "AnisotropyLimit: " << this->AnisotropyLimit << "\n";
 }

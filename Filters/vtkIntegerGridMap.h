@@ -67,6 +67,17 @@ public:
 
   ///@{
   /**
+   * The ratio of the two stretches of a triangle of the coarse level, against the sizes asked for, from which on the map gives way to bring it
+   * down, at the price of quads that differ more in size. At least 1; 0 means no limit. Whole numbers, features and irregular
+   * vertices may keep it from being met: the share of the area beyond it is told in the field data. Not with METHOD_MIXED_INTEGER and
+   * METHOD_QUADCOVER. Default: 0.
+   */
+  vtkSetMacro(AnisotropyLimit, double);
+  vtkGetMacro(AnisotropyLimit, double);
+  ///@}
+
+  ///@{
+  /**
    * Target edge length in units of the input; 0, the default, takes `TargetEdgeLength` and `TargetQuads` from the
    * input's field data.
    */
@@ -87,6 +98,7 @@ private:
   double EdgeLength = 0;
   int Method = METHOD_SCALE_AWARE;
   int Integers = INTEGERS_KEEP_SIZES;
+  double AnisotropyLimit = 0;
 };
 
 #endif

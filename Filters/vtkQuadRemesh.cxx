@@ -118,6 +118,7 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   }
   options.method = static_cast<quadrille::MapMethod>(this->Method);
   options.coarsestIntegers = this->Integers == INTEGERS_COARSEST;
+  options.anisotropyLimit = this->AnisotropyLimit;
   options.closeHandles = this->CloseHandles;
   options.finalQuality = static_cast<quadrille::FinalQuality>(this->FinalQuality);
   options.mergeCharts = this->ComputeMappedSurface != 0;
@@ -156,6 +157,7 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   quads->GetFieldData()->PassData(input->GetFieldData());
   addFieldData(quads, result);
   quadrille::addMethod(quads, options.method);
+  quadrille::addAnisotropy(quads, options.anisotropyLimit, result.beyondAnisotropyLimit);
   quadrille::addText(quads, "Notices", quadrille::splitLines(this->GetNoticesText()));
   if (this->ComputeMappedSurface)
   {
@@ -164,6 +166,7 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
       quadrille::matchingOf(result.surface.mesh, result.uv, this->NumberOfThreads), result.turns,
       input, converted, this->TextureCoordinates != 0));
     quadrille::addMethod(mapped, options.method);
+    quadrille::addAnisotropy(mapped, options.anisotropyLimit, result.beyondAnisotropyLimit);
     quadrille::addCertificate(mapped, result.certificate);
     quadrille::addCount(mapped, "Charts", result.charts.charts);
     quadrille::addCount(mapped, "SeamEdges", result.charts.seamEdges);
@@ -179,6 +182,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Method: " << this->Method << "\n";
   os << indent << "Integers: " << this->Integers << "\n";
+  os << indent << "AnisotropyLimit: " << this->AnisotropyLimit << "\n";
   os << indent << "MaximumQuads: " << this->MaximumQuads << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "CloseHandles: " << this->CloseHandles << "\n";

@@ -86,6 +86,17 @@ public:
 
   ///@{
   /**
+   * The ratio of the two stretches of a triangle of the coarse level, against the sizes asked for, from which on the map gives way to bring it
+   * down, at the price of quads that differ more in size. At least 1; 0 means no limit. Whole numbers, features and irregular
+   * vertices may keep it from being met: the share of the area beyond it is told in the field data. Not with METHOD_MIXED_INTEGER and
+   * METHOD_QUADCOVER. Default: 0.
+   */
+  vtkSetMacro(AnisotropyLimit, double);
+  vtkGetMacro(AnisotropyLimit, double);
+  ///@}
+
+  ///@{
+  /**
    * The filter refuses, before memory is spent, to make more quads than this; at least 1. Default: ten million.
    */
   vtkSetMacro(MaximumQuads, vtkIdType);
@@ -214,6 +225,7 @@ private:
 
   int Method = METHOD_SCALE_AWARE;
   int Integers = INTEGERS_KEEP_SIZES;
+  double AnisotropyLimit = 0;
   vtkIdType MaximumQuads = 10000000;
   double MemoryLimit = 0;
   double CloseHandles = 0;

@@ -50,6 +50,8 @@ size of the quads (at most one; 0.02 of the bounding-box diagonal when none is g
                             inverted triangles and then fail; seamless, which has no integers and so makes no quads
   --integers NAME           keep-sizes (default): quads of the size asked for; coarsest: as few as a layout of the
                             surface can have; the size then sets only what the coarse level keeps
+  --anisotropy-limit R      largest ratio of the two stretches of the map, at least 1, as far as features and irregular
+                            vertices let it; quads then differ more in size (default 0: no limit)
   --close-handles R         cut and close handles that are shorter round than R edge lengths of the quads,
                             which need 3 (default 0: none)
   --final-quality LEVEL     coarse, intermediate or input: where the map is solved at last, with the same quads;
@@ -210,6 +212,7 @@ void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
   }
   filter->SetNumberOfThreads(static_cast<int>(line.count("threads", 0, 4096).value_or(0)));
   filter->SetMemoryLimit(line.number("memory-limit", 0, 1e12).value_or(0));
+  filter->SetAnisotropyLimit(line.number("anisotropy-limit", 0, 1e6).value_or(0));
   filter->SetCloseHandles(line.number("close-handles", 0, 1e6).value_or(0));
   filter->SetFinalQuality(finalQuality(line));
   filter->SetComputeMappedSurface(line.text("map").has_value());
@@ -364,6 +367,11 @@ void addSuccess(Json& json, vtkPolyData* quads)
   json.add("valid", fieldNumber(quads, "CertificateValid") != 0);
   addPairs(json, quads, "CertificateNames", "CertificateValues");
   json.end();
+  if (quads->GetFieldData()->GetArray("AnisotropyLimit"))
+  {
+    json.add("anisotropy_limit", fieldNumber(quads, "AnisotropyLimit"));
+    json.add("share_beyond_anisotropy_limit", fieldNumber(quads, "BeyondAnisotropyLimit"));
+  }
   if (quads->GetFieldData()->GetArray("DistortionBefore"))
   {
     json.begin("distortion_before");
@@ -521,8 +529,8 @@ int main(int argc, char* argv[])
   {
     const CommandLine line(argc, argv,
       { "quads", "edge-length", "relative-edge-length", "feature-angle", "coarse-vertices",
-        "threads", "memory-limit", "close-handles", "method", "integers", "map", "final-quality",
-        "report" });
+        "threads", "memory-limit", "close-handles", "anisotropy-limit", "method", "integers", "map",
+        "final-quality", "report" });
     if (line.help() || argc == 1)
     {
       std::fputs(kHelp, line.help() ? stdout : stderr);

@@ -61,30 +61,30 @@ std::vector<Eigen::VectorXd> startsOf(const Mesh& mesh, const CrossField& field,
   return starts;
 }
 
-/// Follows the way from the seamless map; result and defects change only if it leads to the end.
+/// Follows the way from the seamless map; the map changes only if it leads to the end.
 void embedFromSeamless(const Mesh& mesh, const CrossField& field, const LockedMap& locked,
-  const UntangleProblem& problem, const EmbedOptions& options, EmbedResult& result,
-  MapDefects& defects)
+  const UntangleProblem& problem, const EmbedOptions& options, FieldUntangling& untangling)
 {
   const ContinuationResult way =
     continueToIntegers(mesh, field, *options.seamlessUv, locked, options.progress);
-  result.newtonSteps += way.newtonSteps;
-  result.work += way.work;
+  untangling.newtonSteps += way.newtonSteps;
+  untangling.work += way.work;
   if (!way.y)
   {
     return;
   }
   const UntangleResult polished = untangle(problem, *way.y, fieldUntangleOptions(options.progress));
-  result.newtonSteps += polished.steps;
-  result.work += polished.work;
+  untangling.newtonSteps += polished.steps;
+  untangling.work += polished.work;
   for (const Eigen::VectorXd* y : { &polished.y, &*way.y })
   {
     std::vector<FixedVec2> uv = locked.snap(*y);
     MapDefects left = findDefects(mesh, field, uv);
     if (left.none())
     {
-      result.uv = std::move(uv);
-      defects = std::move(left);
+      untangling.uv = std::move(uv);
+      untangling.y = *y;
+      untangling.defects = std::move(left);
       return;
     }
   }
@@ -107,6 +107,7 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
   {
     throw InvalidInput("embedding: the edge length must be positive and finite");
   }
+  checkAnisotropyLimit(options.anisotropyLimit);
   report(options.progress, 0, "embedding the map");
   EmbedResult result;
   const LockedMap locked(mesh, field, integerUv);
@@ -121,20 +122,20 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
   const UntangleProblem problem = locked.problem(lengthOfUnit(mesh, integerUv, options.edgeLength));
   const std::vector<Eigen::VectorXd> starts =
     startsOf(mesh, field, locked, problem, options.previous, result.startedFromPrevious);
-  FieldUntangling untangled = untangleAlongField(
-    mesh, field, problem, starts, kRounds, [&](const Eigen::VectorXd& y) { return locked.snap(y); },
-    options.progress);
+  const auto snap = [&](const Eigen::VectorXd& y) { return locked.snap(y); };
+  FieldUntangling untangled =
+    untangleAlongField(mesh, field, problem, starts, kRounds, snap, options.progress);
+  if (!untangled.defects.none() && options.seamlessUv != nullptr)
+  {
+    embedFromSeamless(mesh, field, locked, problem, options, untangled);
+  }
+  limitAnisotropy(mesh, field, problem, options.anisotropyLimit, snap, options.progress, untangled);
   result.uv = std::move(untangled.uv);
   result.newtonSteps = untangled.newtonSteps;
   result.work = untangled.work;
-  MapDefects defects = std::move(untangled.defects);
-  if (!defects.none() && options.seamlessUv != nullptr)
+  if (!untangled.defects.none())
   {
-    embedFromSeamless(mesh, field, locked, problem, options, result, defects);
-  }
-  if (!defects.none())
-  {
-    fail(mesh, StatusCode::NotConverged, defects.text(), defects, result);
+    fail(mesh, StatusCode::NotConverged, untangled.defects.text(), untangled.defects, result);
   }
   return result;
 }

@@ -3,6 +3,7 @@
 #include "GridMap/GridMap.h"
 
 #include "Base/PlaceText.h"
+#include "GridMap/MapShape.h"
 #include "GridMap/MeshParts.h"
 #include "GridMap/RoundedMap.h"
 #include "Mesh/Sizing.h"
@@ -352,6 +353,7 @@ private:
     seamlessOptions.targetQuads = wanted * component.share;
     seamlessOptions.solution = component.hasIntegers ? &component.solution : nullptr;
     seamlessOptions.previous = component.earlier();
+    seamlessOptions.anisotropyLimit = options_.anisotropyLimit;
     seamlessOptions.progress = progress;
     SeamlessResult seamless = computeSeamlessMap(part.mesh, part.field, seamlessOptions);
     result_.work += seamless.work;
@@ -432,6 +434,7 @@ private:
       embedOptions.edgeLength = options_.edgeLength;
       embedOptions.seamlessUv = &component.startUv;
       embedOptions.previous = component.earlier();
+      embedOptions.anisotropyLimit = options_.anisotropyLimit;
       embedOptions.progress = progress;
       {
         const Stopwatch watch(result_.secondsEmbed, result_.processorEmbed);
@@ -504,6 +507,10 @@ private:
       result_.status = { StatusCode::NotConverged,
         "the coarse map does not pass its certificate: " + result_.certificate.text() };
       result_.offenders = cornerVertices(mesh_, result_.certificate.worstFaces);
+    }
+    if (options_.anisotropyLimit > 0 && result_.status.ok())
+    {
+      result_.beyondAnisotropyLimit = shareBeyondRatio(mesh_, result_.uv, options_.anisotropyLimit);
     }
   }
 
@@ -579,6 +586,12 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
   if (!(options.edgeLength > 0) || !std::isfinite(options.edgeLength))
   {
     throw InvalidInput("the target edge length must be a positive number");
+  }
+  checkAnisotropyLimit(options.anisotropyLimit);
+  if (options.anisotropyLimit > 0 &&
+    (options.method == MapMethod::MixedInteger || options.method == MapMethod::QuadCover))
+  {
+    throw InvalidInput("an anisotropy limit needs the scale aware or the seamless method");
   }
   if (mesh.vertexCount() > options.maximumVertices)
   {

@@ -76,6 +76,7 @@ struct SeamlessOptions
   /// An earlier map in the charts of the field, or null: where a start near it has nothing inverted, it takes the place of the
   /// Poisson equation's solution.
   const CarriedMap* previous = nullptr;
+  double anisotropyLimit = 0; ///< as in GridMapOptions
   ProgressCallback progress;
 };
 struct SeamlessResult
@@ -129,6 +130,7 @@ struct EmbedOptions
   const std::vector<FixedVec2>* seamlessUv = nullptr;
   /// An earlier map in the charts of the field, or null: a start near it is tried first.
   const CarriedMap* previous = nullptr;
+  double anisotropyLimit = 0; ///< as in GridMapOptions
   ProgressCallback progress;
 };
 struct EmbedResult
@@ -169,6 +171,9 @@ struct GridMapOptions
   double targetQuads = 0; ///< 0: follow edgeLength; else scale so that the uv area comes near this
   /// See QuantizeOptions. Below 1 the number of quads is what comes of it, targetQuads only scales the seamless map.
   double pull = 1;
+  /// The ratio of the two stretches of a triangle, over the sizes that the mesh wants, from which on it is to come down as far as
+  /// integers and irregular vertices let it, at the price of more distortion elsewhere; >= 1, or 0: no limit. Not by the methods that round.
+  double anisotropyLimit = 0;
   Index maximumVertices = 100000;  ///< of the mesh; the solvers are made for coarse levels
   std::vector<Guide> guides;       ///< empty or #F, see CrossFieldOptions
   std::vector<int> targetValences; ///< empty or #V, the same
@@ -199,6 +204,8 @@ struct GridMapResult
   Status status;                ///< not ok: why and where; uv then holds the best that was reached
   std::vector<Index> offenders; ///< coarse vertices around which the triangulation lacks freedom
   double refinement = 1;        ///< of the component whose sizes had to shrink most
+  /// The share of the area whose ratio of stretches is above the limit after all; 0 without limit, or where the status is not ok.
+  double beyondAnisotropyLimit = 0;
   std::size_t components = 0, failedComponents = 0;
   /// Of all solves, as UntangleResult::work, and what quantization took in the same unit.
   std::size_t work = 0;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/MapShape.h"
 
+#include "Base/Error.h"
 #include "Mesh/Sizing.h"
 
 #include <Eigen/Geometry>
@@ -48,6 +49,42 @@ Eigen::Matrix2d flattenFace(const Mesh& mesh, Index f)
   Eigen::Matrix2d result;
   result << width, along, 0, height;
   return result;
+}
+
+double shareBeyondRatio(const Mesh& mesh, const std::vector<FixedVec2>& uv, double limit)
+{
+  if (!(limit >= 1) || !std::isfinite(limit) || uv.size() != mesh.origin.size())
+  {
+    throw InvalidInput(
+      "share beyond a ratio: the ratio must be a number from 1 on, and the map of the mesh's size");
+  }
+  double area = 0, beyond = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    const Eigen::Matrix2d reference = flattenFace(mesh, f);
+    if (!(reference.determinant() > 0))
+    {
+      continue; // a point
+    }
+    Eigen::Matrix2d edges;
+    edges << toDouble(uv[3 * f + 1] - uv[3 * f]), toDouble(uv[3 * f + 2] - uv[3 * f]);
+    const Eigen::Matrix2d j = edges * reference.inverse();
+    area += reference.determinant();
+    const double d = j.determinant();
+    if (!(d > 0 && j.squaredNorm() <= (limit + 1 / limit) * d))
+    {
+      beyond += reference.determinant();
+    }
+  }
+  return area > 0 ? beyond / area : 0;
+}
+
+void checkAnisotropyLimit(double limit)
+{
+  if (limit != 0 && !(limit >= 1 && std::isfinite(limit)))
+  {
+    throw InvalidInput("the anisotropy limit must be 0 (none) or a number from 1 on");
+  }
 }
 
 void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, const Mesh& mesh,

@@ -18,6 +18,14 @@ namespace quadrille
 /// made a little higher, so that the matrix is never singular unless the face is a point.
 Eigen::Matrix2d flattenFace(const Mesh& mesh, Index f);
 
+/// The share of the area, over the sizes that the mesh wants, of faces whose two stretches (the singular values of the map's Jacobian) have a ratio
+/// above `limit`; faces without a positive determinant count as such. uv: #H. Throws InvalidInput unless limit >= 1 and finite, or
+/// where sizes disagree.
+double shareBeyondRatio(const Mesh& mesh, const std::vector<FixedVec2>& uv, double limit);
+
+/// Throws InvalidInput unless the limit is 0 (none) or a number from 1 on.
+void checkAnisotropyLimit(double limit);
+
 /// Appends face f to the problem: its points, its reference (in units of edgeLength times the size that the mesh wants there, in the chart of the face turned
 /// by `quarterTurns`) and its weight, which is its area in quads.
 void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, const Mesh& mesh,

@@ -4,6 +4,7 @@
 #include "GridMap/FieldUntangling.h"
 #include "GridMap/GridMap.h"
 #include "GridMap/MapCheck.h"
+#include "GridMap/MapShape.h"
 #include "GridMap/SeamlessSpace.h"
 #include "Numerics/Untangler.h"
 
@@ -121,6 +122,7 @@ SeamlessResult computeSeamlessMap(
   {
     throw InvalidInput("seamless map: edge length and target must be positive and finite");
   }
+  checkAnisotropyLimit(options.anisotropyLimit);
   SeamlessResult result;
   report(options.progress, 0, "seamless map");
   const SeamlessSpace space(mesh, field, options.edgeLength);
@@ -153,10 +155,12 @@ SeamlessResult computeSeamlessMap(
   {
     return result;
   }
-  FieldUntangling untangled = untangleAlongField(
-    mesh, field, space.problem(), { start }, kRounds,
-    [&](const Eigen::VectorXd& y) { return snapScaled(space, y, options.targetQuads); },
-    options.progress);
+  const auto snap = [&](const Eigen::VectorXd& y)
+  { return snapScaled(space, y, options.targetQuads); };
+  FieldUntangling untangled =
+    untangleAlongField(mesh, field, space.problem(), { start }, kRounds, snap, options.progress);
+  limitAnisotropy(
+    mesh, field, space.problem(), options.anisotropyLimit, snap, options.progress, untangled);
   result.uv = std::move(untangled.uv);
   result.solution = std::move(untangled.y);
   result.newtonSteps = untangled.newtonSteps;

@@ -55,6 +55,12 @@ void deriveByJacobian(const Jacobian& j, const IsotropicDerivatives& energy, Jac
   double app = 2 * energy.f + energy.d + 4 * energy.fd * p * p + energy.dd * p * p;
   double apq = -energy.dd * p * q;
   double aqq = 2 * energy.f - energy.d - 4 * energy.fd * q * q + energy.dd * q * q;
+  if (energy.ff != 0)
+  {
+    app += 4 * energy.ff * p * p;
+    apq += 4 * energy.ff * p * q;
+    aqq += 4 * energy.ff * q * q;
+  }
   clampToPositive(app, apq, aqq);
 
   gradient = 2 * energy.f * j + energy.d * cofactor;
@@ -62,6 +68,28 @@ void deriveByJacobian(const Jacobian& j, const IsotropicDerivatives& energy, Jac
   hessian.noalias() += std::max(0.0, 2 * energy.f - energy.d) * acrossQ * acrossQ.transpose();
   hessian.noalias() += app * alongP * alongP.transpose() + aqq * alongQ * alongQ.transpose();
   hessian.noalias() += apq * (alongP * alongQ.transpose() + alongQ * alongP.transpose());
+}
+
+double RatioEnergy::value(const Jacobian& j) const
+{
+  const double excess = j.squaredNorm() / (2 * determinantOf(j)) - bound;
+  // k^2 (sqrt(1 + (e/k)^2) - 1) without the difference of two near numbers.
+  return 2 * weight * excess * excess / (1 + std::hypot(1, excess / knee));
+}
+
+void RatioEnergy::derivatives(const Jacobian& j, Jacobian& gradient, Eigen::Matrix4d& hessian) const
+{
+  const double d = determinantOf(j);
+  const double a = j.squaredNorm() / (2 * d);
+  const double excess = a - bound;
+  const double root = std::hypot(1, excess / knee);
+  const double first = 2 * weight * excess / root;
+  const double second = 2 * weight / (root * root * root);
+  const double aF = 1 / (2 * d), aD = -a / d;
+  deriveByJacobian(j,
+    { first * aF, first * aD, second * aF * aD - first * aF / d,
+      second * aD * aD + 2 * first * a / (d * d), second * aF * aF },
+    gradient, hessian);
 }
 
 } // namespace quadrille

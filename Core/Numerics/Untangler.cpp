@@ -26,11 +26,6 @@ constexpr double kStalled = 1e-5;
 /// What a factorization does while a Newton step does all else for one triangle.
 constexpr double kFlopsOfTriangle = 7500;
 
-double determinantOf(const Jacobian& j)
-{
-  return j[0] * j[3] - j[1] * j[2];
-}
-
 /// The energy of one triangle, (|J|^2 + lambda (1 + det^2)) / chi(det) + mu |J - 1|^2, where
 /// chi(D) = (D + sqrt(eps^2 + D^2)) / 2 tends to max(D, 0) with eps.
 struct TriangleEnergy
@@ -93,12 +88,23 @@ public:
   {
     energy_.lambda = options.areaWeight;
     energy_.mu = options.alignmentWeight;
+    if (options.anisotropyLimit > 0)
+    {
+      ratio_.weight = options.anisotropyWeight;
+      ratio_.bound = (options.anisotropyLimit + 1 / options.anisotropyLimit) / 2;
+    }
   }
 
   UntangleResult run();
 
 private:
   double minimumDeterminant(const std::vector<Jacobian>& jacobians) const;
+  bool isBeyondLimit(std::size_t t, const Jacobian& j) const
+  {
+    // While some are inverted, the wall at det 0 would be one from both sides.
+    return ratio_.weight > 0 && !(energy_.epsilon > 0) && t < options_.limitedTriangles &&
+      ratio_.applies(j);
+  }
   bool valid() const { return lowest_ > options_.minimumDeterminant; }
   void lowerEpsilon(double gain);
   double total(const std::vector<Jacobian>& jacobians) const;
@@ -110,6 +116,7 @@ private:
   const UntangleOptions& options_;
   ReducedTriangles system_;
   TriangleEnergy energy_;
+  RatioEnergy ratio_;
   Vector y_;
   std::vector<Jacobian> jacobians_;
   double lowest_ = 0;
@@ -164,6 +171,10 @@ double Minimizer::total(const std::vector<Jacobian>& jacobians) const
   for (std::size_t t = 0; t < jacobians.size(); ++t)
   {
     sum += problem_.weight[t] * energy_.value(jacobians[t]);
+    if (isBeyondLimit(t, jacobians[t]))
+    {
+      sum += problem_.weight[t] * ratio_.value(jacobians[t]);
+    }
   }
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
 }
@@ -175,6 +186,14 @@ void Minimizer::assemble()
   for (std::size_t t = 0; t < jacobians_.size(); ++t)
   {
     energy_.derivatives(jacobians_[t], gradients[t], hessians[t]);
+    if (isBeyondLimit(t, jacobians_[t]))
+    {
+      Jacobian gradient;
+      Eigen::Matrix4d hessian;
+      ratio_.derivatives(jacobians_[t], gradient, hessian);
+      gradients[t] += gradient;
+      hessians[t] += hessian;
+    }
     gradients[t] *= problem_.weight[t];
     hessians[t] *= problem_.weight[t];
   }
@@ -280,6 +299,11 @@ UntangleResult untangle(
   if (!y0.allFinite())
   {
     throw InvalidInput("untangling: the initial guess has an entry that is not finite");
+  }
+  if (options.anisotropyLimit != 0 &&
+    !(options.anisotropyLimit >= 1 && std::isfinite(options.anisotropyLimit)))
+  {
+    throw InvalidInput("untangling: the anisotropy limit must be 0 or a number from 1 on");
   }
   return Minimizer(problem, y0, options).run();
 }

@@ -11,6 +11,8 @@
 #include <Eigen/SparseCore>
 
 #include <array>
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace quadrille
@@ -39,6 +41,12 @@ struct UntangleOptions
   double areaWeight = 0.05;
   /// Weight of |J - 1|^2, which keeps the map turned like the references; 0: turning costs nothing.
   double alignmentWeight = 0;
+  /// The ratio of the singular values of J up to which it costs nothing, >= 1; 0: no limit. Triangles beyond it pay a RatioEnergy of this
+  /// weight once all determinants are positive.
+  double anisotropyLimit = 0;
+  double anisotropyWeight = 500;
+  /// Triangles from this one on have no limit.
+  std::size_t limitedTriangles = std::numeric_limits<std::size_t>::max();
   /// det J below this fraction counts as inverted (the caller snaps to a grid afterwards).
   double minimumDeterminant = 1e-4;
   ProgressCallback progress;
@@ -59,7 +67,8 @@ struct UntangleResult
 /// equation of a parametrization). Throws InvalidInput when sizes disagree.
 Eigen::VectorXd fitReferences(const UntangleProblem& problem);
 
-/// Throws InvalidInput when sizes disagree or y0 has a non-finite entry. Deterministic.
+/// Throws InvalidInput when sizes disagree, y0 has a non-finite entry or the anisotropy limit is neither 0 nor a number from 1 on.
+/// Deterministic.
 UntangleResult untangle(
   const UntangleProblem& problem, const Eigen::VectorXd& y0, const UntangleOptions& options);
 

@@ -6,6 +6,7 @@
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Extraction/QuadTopology.h"
+#include "GridMap/MapShape.h"
 #include "Mesh/CloseHandles.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/FeatureFilter.h"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iomanip>
 #include <optional>
 #include <queue>
 #include <sstream>
@@ -100,6 +102,12 @@ void checkOptions(const RemeshOptions& options)
   {
     throw InvalidInput("the memory limit must be a positive number of bytes");
   }
+  checkAnisotropyLimit(options.anisotropyLimit);
+  if (options.anisotropyLimit > 0 &&
+    (options.method == MapMethod::MixedInteger || options.method == MapMethod::QuadCover))
+  {
+    throw InvalidInput("an anisotropy limit needs the scale aware or the seamless method");
+  }
   if (!(options.closeHandles >= 0 && std::isfinite(options.closeHandles)))
   {
     throw InvalidInput("the length of handles to close must be 0 or a positive number");
@@ -161,11 +169,36 @@ private:
       {
         result_.notices.push_back(gridNotice_);
       }
+      tellAnisotropy();
       mergeMapCharts();
       if (!result_.status.ok() && result_.smallParts.unresolvedHandles > 0)
       {
         result_.status.message += "; " + unresolvedText();
       }
+    }
+  }
+
+  void tellAnisotropy()
+  {
+    if (!(options_.anisotropyLimit > 0) || !result_.status.ok())
+    {
+      return;
+    }
+    result_.beyondAnisotropyLimit =
+      shareBeyondRatio(result_.coarse.mesh, result_.coarseUv, options_.anisotropyLimit);
+    if (result_.beyondAnisotropyLimit > 0)
+    {
+      std::ostringstream text;
+      text << std::setprecision(2) << 100 * result_.beyondAnisotropyLimit
+           << " % of the coarse level's area are beyond the anisotropy limit of "
+           << std::setprecision(6) << options_.anisotropyLimit
+           << ", where whole numbers, features or irregular vertices leave no room";
+      result_.notices.push_back(text.str());
+    }
+    if (result_.finalQuality.improved)
+    {
+      result_.notices.push_back("final quality does not know the anisotropy limit: on the finer "
+                                "level more triangles may be beyond it");
     }
   }
 
@@ -576,6 +609,7 @@ private:
     mapOptions.method = options_.method;
     mapOptions.edgeLength = result_.targetEdgeLength;
     mapOptions.targetQuads = gridQuads();
+    mapOptions.anisotropyLimit = options_.anisotropyLimit;
     mapOptions.progress = subProgress(options_.progress, 0.45, 0.8, "Mapping: ");
 
     GridMapResult map;
@@ -619,7 +653,8 @@ private:
       return computeCoarsestMap(coarse.mesh, mapOptions);
     }
     const bool fits = onMemory_ && options_.method == MapMethod::ScaleAware;
-    if (fits && options_.warmStart && memory_->map && memory_->mapQuads == gridQuads())
+    if (fits && options_.warmStart && memory_->map && memory_->mapQuads == gridQuads() &&
+      memory_->mapAnisotropyLimit == options_.anisotropyLimit)
     {
       mapOptions.previous = &*memory_->map;
       mapOptions.vertexIds = coarse.fineVertex;
@@ -639,6 +674,7 @@ private:
     {
       memory_->map = previousMap(coarse.mesh, map, coarse.fineVertex);
       memory_->mapQuads = gridQuads();
+      memory_->mapAnisotropyLimit = options_.anisotropyLimit;
     }
     return map;
   }

@@ -40,6 +40,9 @@ struct RemeshOptions
   /// Handles that are shorter round or through than so many target edge lengths are cut and closed before they are mapped, see
   /// closeHandles; >= 0, 0: none. Below kQuadsOfLoop there may remain some that quads cannot resolve.
   double closeHandles = 0;
+  /// The ratio of the two stretches of a triangle of the coarse level from which on it is brought down where integers and irregular vertices let
+  /// it, see GridMapOptions; >= 1, or 0: no limit. By the scale aware and the seamless method only; final quality does not know it.
+  double anisotropyLimit = 0;
   /// The level on which the map is solved again with its integers, see improveMap.
   FinalQuality finalQuality = FinalQuality::Coarse;
   std::size_t maximumQuads = 10000000;
@@ -98,6 +101,8 @@ struct RemeshResult
   ChartCounts charts;            ///< of uv; zero unless mergeCharts
   TransferResult transfer;       ///< counts only, uv is moved out
   FinalQualityReport finalQuality; ///< zero unless asked for
+  /// The share of the coarse level's area whose ratio of stretches is above the limit; 0 without limit.
+  double beyondAnisotropyLimit = 0;
   SmallParts smallParts;
   std::vector<StageRecord> stages;
   /// Names of the stages that a memory had the result of (they are not among `stages`), or that started from what was there before (they

@@ -71,6 +71,7 @@ public:
   std::vector<Index> levelsKept;      ///< HierarchyOptions::keepVertices of their phase 1
   std::optional<PreviousMap> map;     ///< the last one; its ids are vertices of surface()
   double mapQuads = 0;                ///< that it was scaled to
+  double mapAnisotropyLimit = 0;      ///< that it was made with
 
 private:
   /// What refinement changes even where it splits nothing.

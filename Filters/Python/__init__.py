@@ -138,7 +138,7 @@ def _set_size(run, quads, edge_length, relative_edge_length):
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
            coarse_vertices=1000, patch_array="PatchId", curves=None, threads=0, maximum_quads=10000000,
            memory_limit=0.0, time_limit=0.0, close_handles=0.0, method="scale-aware",
-           final_quality="coarse", integers="keep-sizes", progress=None, everything=False):
+           final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, progress=None, everything=False):
     """Remeshes a surface with quads only and returns a vtkPolyData.
 
     mesh: a vtkPolyData, or a pair (points, faces).
@@ -158,6 +158,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     final_quality: "coarse", "intermediate" or "input": the level on which the map is solved at last; the quads are the same in number
         and connectivity, less distorted, and take longer.
     integers: "keep-sizes", or "coarsest" for the coarsest layout of quads that is the surface.
+    anisotropy_limit: largest ratio of the two stretches of the map, at least 1, as far as features and irregular vertices let it;
+        0: no limit.
     progress: called as progress(fraction, text); a return value of False (not None) stops the run.
     everything: return a Remeshed with the mapped surface, the feature lines and the info dict, too.
 
@@ -179,6 +181,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     run.SetMemoryLimit(memory_limit)
     run.SetTimeLimit(time_limit)
     run.SetCloseHandles(close_handles)
+    run.SetAnisotropyLimit(anisotropy_limit)
     run.KeepLevelsOff()  # there is no next execution
     if method not in METHODS:
         raise InvalidInput("method must be one of " + ", ".join(METHODS) + f", not {method!r}")

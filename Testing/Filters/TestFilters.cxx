@@ -369,6 +369,44 @@ TEST(QuadRemeshFailure, RefusesTooManyQuads)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
 }
 
+TEST(QuadRemesh, AnAnisotropyLimitIsToldOrRefused)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(40, 20));
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  run(filter, input, 300);
+  EXPECT_EQ(filter->GetOutput()->GetFieldData()->GetArray("AnisotropyLimit"), nullptr);
+  filter->SetAnisotropyLimit(1.05);
+  run(filter, input, 300);
+  ASSERT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+  for (vtkPolyData* data : { filter->GetOutput(), filter->GetMappedSurface() })
+  {
+    ASSERT_NE(data->GetFieldData()->GetArray("BeyondAnisotropyLimit"), nullptr);
+    EXPECT_EQ(data->GetFieldData()->GetArray("AnisotropyLimit")->GetTuple1(0), 1.05);
+    const double beyond = data->GetFieldData()->GetArray("BeyondAnisotropyLimit")->GetTuple1(0);
+    EXPECT_GT(beyond, 0);
+    EXPECT_LT(beyond, 1);
+  }
+  EXPECT_NE(std::string(filter->GetNoticesText()).find("anisotropy limit"), std::string::npos);
+  filter->SetAnisotropyLimit(0.5);
+  run(filter, input, 300);
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+  EXPECT_NE(std::string(filter->GetOutcomeText()).find("anisotropy"), std::string::npos);
+
+  vtkNew<vtkDecimationHierarchy> hierarchy;
+  hierarchy->SetInputData(input);
+  vtkNew<vtkIntegerGridMap> map;
+  const test::Messages others(map);
+  map->SetInputConnection(hierarchy->GetOutputPort(0));
+  map->SetAnisotropyLimit(2);
+  map->Update();
+  ASSERT_EQ(map->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << map->GetOutcomeText();
+  EXPECT_NE(map->GetOutput()->GetFieldData()->GetArray("BeyondAnisotropyLimit"), nullptr);
+  map->SetMethodToQuadCover();
+  map->Update();
+  EXPECT_EQ(map->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+}
+
 TEST(QuadRemesh, CoarsestIntegersMakeAFewQuads)
 {
   const vtkSmartPointer<vtkPolyData> input =

@@ -355,6 +355,19 @@ class Report(Case):
             with self.subTest(words):
                 self.assertIn(told, self.run_quadrille(source, out, *words, expect=2).stderr)
 
+    def test_anisotropy_limit(self):
+        source, out, report = self.write_off(), self.folder / "q.obj", self.folder / "r.json"
+        self.run_quadrille(source, out, "--quads", 900, "--report", report)
+        self.assertNotIn("anisotropy_limit", json.loads(report.read_text()))
+        self.run_quadrille(source, out, "--quads", 900, "--anisotropy-limit", 1.1, "--report", report)
+        content = json.loads(report.read_text())
+        self.assertEqual(content["anisotropy_limit"], 1.1)
+        self.assertTrue(0 < content["share_beyond_anisotropy_limit"] < 1)
+        for words in ((0.5,), (-1,), ("inf",), ("nan",), (2, "--method", "quadcover")):
+            with self.subTest(words):
+                result = self.run_quadrille(source, out, "--anisotropy-limit", *words, expect=2)
+                self.assertIn("anisotropy", result.stderr)
+
     def test_folds_of_a_method_are_told(self):
         # The four holes of the flange are narrower than such quads.
         out = self.folder / "q.obj"

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Base/Error.h"
 #include "GridMap/GridMap.h"
+#include "GridMap/MapShape.h"
 #include "GridMap/MeshParts.h"
 #include "Mesh/Topology.h"
 #include "TestMeshes.h"
@@ -8,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 using namespace quadrille;
 
@@ -142,6 +145,82 @@ TEST(GridMap, roundingMayFoldWhereTheScaleAwareMethodDoesNot)
   const GridMapResult result = computeGridMap(mesh, options);
   EXPECT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
+}
+
+TEST(GridMap, anAnisotropyLimitLowersTheShareBeyondIt)
+{
+  constexpr double kLimit = 2;
+  const Mesh mesh =
+    test::disjointUnion(shearedCube(8, 0.8), test::gridPlane(6, 6), Vector3(4, 0, 0));
+  GridMapOptions options;
+  options.edgeLength = 0.25;
+  options.targetQuads = 900;
+  for (const MapMethod method : { MapMethod::ScaleAware, MapMethod::Seamless })
+  {
+    options.method = method;
+    options.anisotropyLimit = 0;
+    const GridMapResult off = computeGridMap(mesh, options);
+    options.anisotropyLimit = kLimit;
+    const GridMapResult on = computeGridMap(mesh, options);
+    ASSERT_TRUE(off.status.ok() && on.status.ok()) << on.status.message;
+    EXPECT_TRUE(hasPromised(on.certificate, method)) << on.certificate.text();
+    const double before = shareBeyondRatio(mesh, off.uv, kLimit);
+    EXPECT_GT(before, 0.01) << nameOf(method);
+    EXPECT_EQ(on.beyondAnisotropyLimit, shareBeyondRatio(mesh, on.uv, kLimit));
+    EXPECT_LT(on.beyondAnisotropyLimit, 0.7 * before) << nameOf(method);
+    EXPECT_EQ(off.beyondAnisotropyLimit, 0);
+    EXPECT_EQ(computeGridMap(mesh, options).uv, on.uv);
+  }
+}
+
+TEST(GridMap, theEmbeddingKeepsTheLimitToo)
+{
+  const Mesh mesh = shearedCube(8, 0.8);
+  GridMapOptions options;
+  options.edgeLength = 0.25;
+  options.targetQuads = 400;
+  const GridMapResult map = computeGridMap(mesh, options);
+  ASSERT_TRUE(map.status.ok());
+  EmbedOptions embedOptions;
+  embedOptions.edgeLength = options.edgeLength;
+  const EmbedResult off = embedMap(mesh, map.field, map.uv, embedOptions);
+  embedOptions.anisotropyLimit = 1.8;
+  const EmbedResult on = embedMap(mesh, map.field, map.uv, embedOptions);
+  ASSERT_TRUE(off.status.ok() && on.status.ok());
+  EXPECT_GT(on.newtonSteps, off.newtonSteps);
+  EXPECT_LT(shareBeyondRatio(mesh, on.uv, 1.8), 0.9 * shareBeyondRatio(mesh, off.uv, 1.8));
+}
+
+TEST(GridMap, refusesAnAnisotropyLimitThatIsNone)
+{
+  const Mesh mesh = test::gridPlane(4, 4);
+  GridMapOptions options;
+  options.edgeLength = 1;
+  for (const double limit : { 0.5, -2.0, std::numeric_limits<double>::infinity(),
+         std::numeric_limits<double>::quiet_NaN() })
+  {
+    options.anisotropyLimit = limit;
+    EXPECT_THROW(computeGridMap(mesh, options), InvalidInput) << limit;
+  }
+  options.anisotropyLimit = 2;
+  options.method = MapMethod::QuadCover;
+  EXPECT_THROW(computeGridMap(mesh, options), InvalidInput);
+  EXPECT_THROW(shareBeyondRatio(mesh, {}, 2), InvalidInput);
+}
+
+TEST(GridMap, theShareBeyondARatioIsThatOfTheArea)
+{
+  Mesh mesh = test::gridPlane(4, 1);
+  std::vector<FixedVec2> uv(mesh.origin.size());
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    // The first of four columns is three times as wide as it should be, the others keep their shape.
+    const Vector3& p = mesh.position[mesh.origin[h]];
+    const double first = mesh.position[1].x() - mesh.position[0].x();
+    uv[h] = toFixed(Vector2(p.x() > 0.5 * first ? p.x() + 2 * first : p.x(), p.y()));
+  }
+  EXPECT_NEAR(shareBeyondRatio(mesh, uv, 2.9), 0.25, 1e-9);
+  EXPECT_NEAR(shareBeyondRatio(mesh, uv, 3.1), 0, 1e-9);
 }
 
 TEST(MeshParts, KeepTheMeshAndTheField)

@@ -1,12 +1,16 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
+#include "Numerics/IsotropicEnergy.h"
+#include "Numerics/ReducedTriangles.h"
 #include "Numerics/Untangler.h"
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -75,7 +79,177 @@ Eigen::VectorXd randomVector(Eigen::Index size, double low, double high, int see
   return result;
 }
 
+/// In the middle the references are so many times as wide as the cells that the border leaves them.
+Square withWideMiddle(int n, double wide)
+{
+  Square square(n);
+  for (int j = n / 4; j < n - n / 4; ++j)
+  {
+    for (int i = n / 4; i < n - n / 4; ++i)
+    {
+      for (int k = 0; k < 2; ++k)
+      {
+        const std::size_t t = 2 * static_cast<std::size_t>(j * n + i) + static_cast<std::size_t>(k);
+        square.problem.inverseReference[t] =
+          square.problem.inverseReference[t] * Eigen::Vector2d(1 / wide, 1).asDiagonal();
+        square.problem.weight[t] *= wide;
+      }
+    }
+  }
+  return square;
+}
+
+double ratioOf(const Jacobian& j)
+{
+  const double a = j.squaredNorm() / (2 * determinantOf(j));
+  return a + std::sqrt(std::max(0.0, a * a - 1));
+}
+
+/// Of the weight of all triangles, that of those beyond the ratio.
+double shareBeyond(const UntangleProblem& problem, const Eigen::VectorXd& y, double ratio)
+{
+  std::vector<Jacobian> jacobians;
+  ReducedTriangles(problem).jacobians(y, jacobians);
+  double beyond = 0, all = 0;
+  for (std::size_t t = 0; t < jacobians.size(); ++t)
+  {
+    all += problem.weight[t];
+    beyond += ratioOf(jacobians[t]) > ratio ? problem.weight[t] : 0;
+  }
+  return beyond / all;
+}
+
 } // namespace
+
+TEST(RatioEnergy, DerivativesAreThoseOfItsValue)
+{
+  RatioEnergy energy;
+  energy.weight = 3;
+  energy.bound = 1.1;
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform(-2, 2);
+  int tried = 0;
+  for (int i = 0; i < 4000 && tried < 200; ++i)
+  {
+    const Jacobian j(uniform(random), uniform(random), uniform(random), uniform(random));
+    // The knee is narrow against the difference step elsewhere.
+    energy.knee = i % 2 == 0 ? 0.02 : 0.5;
+    if (!energy.applies(j) || determinantOf(j) < 0.3 || ratioOf(j) < 1.8)
+    {
+      continue;
+    }
+    ++tried;
+    Jacobian gradient;
+    Eigen::Matrix4d hessian;
+    energy.derivatives(j, gradient, hessian);
+    constexpr double kStep = 1e-5;
+    Eigen::Matrix4d second;
+    for (int k = 0; k < 4; ++k)
+    {
+      const Jacobian step = kStep * Jacobian::Unit(k);
+      const double slope = (energy.value(j + step) - energy.value(j - step)) / (2 * kStep);
+      EXPECT_NEAR(gradient[k], slope, 1e-5 * (1 + gradient.norm()));
+      for (int l = 0; l < 4; ++l)
+      {
+        const Jacobian other = 10 * kStep * Jacobian::Unit(l), one = 10 * step;
+        second(k, l) = (energy.value(j + one + other) - energy.value(j + one - other) -
+                         energy.value(j - one + other) + energy.value(j - one - other)) /
+          (4 * 100 * kStep * kStep);
+      }
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> spectrum(second);
+    const Eigen::Matrix4d projected = spectrum.eigenvectors() *
+      spectrum.eigenvalues().cwiseMax(0).asDiagonal() * spectrum.eigenvectors().transpose();
+    EXPECT_LT((hessian - projected).norm(), 1e-3 * (1 + second.norm())) << j.transpose();
+  }
+  EXPECT_EQ(tried, 200);
+}
+
+TEST(RatioEnergy, BeginsSmoothlyAtTheLimit)
+{
+  RatioEnergy energy;
+  energy.weight = 1;
+  energy.bound = (2 + 0.5) / 2;
+  const auto stretched = [](double ratio) { return Jacobian(ratio, 0, 0, 1); };
+  EXPECT_FALSE(energy.applies(stretched(1.99)));
+  EXPECT_FALSE(energy.applies(stretched(1 / 1.99)));
+  EXPECT_FALSE(energy.applies(Jacobian(1, 0, 0, -1)));
+  EXPECT_FALSE(energy.applies(Jacobian(1, 0, 0, 0)));
+  for (const double ratio : { 2.0001, 1 / 2.0001 })
+  {
+    ASSERT_TRUE(energy.applies(stretched(ratio)));
+    Jacobian gradient;
+    Eigen::Matrix4d hessian;
+    energy.derivatives(stretched(ratio), gradient, hessian);
+    EXPECT_LT(energy.value(stretched(ratio)), 1e-8);
+    EXPECT_LT(gradient.norm(), 1e-3);
+  }
+  EXPECT_GT(energy.value(stretched(3)), 1e-3);
+}
+
+TEST(Untangler, ALimitLowersTheShareBeyondIt)
+{
+  constexpr double kLimit = 1.4;
+  const Square square = withWideMiddle(16, 4);
+  UntangleOptions options;
+  options.areaWeight = 1;
+  options.polishSteps = 60;
+  const UntangleResult free = untangle(square.problem, square.inside, options);
+  options.anisotropyLimit = kLimit;
+  const UntangleResult limited = untangle(square.problem, square.inside, options);
+  EXPECT_TRUE(limited.inverted.empty());
+  const double before = shareBeyond(square.problem, free.y, 1.05 * kLimit);
+  EXPECT_GT(before, 0.5);
+  EXPECT_LT(shareBeyond(square.problem, limited.y, 1.05 * kLimit), 0.5 * before);
+  // Where no triangle has a limit it changes nothing.
+  options.limitedTriangles = 0;
+  EXPECT_EQ(untangle(square.problem, square.inside, options).y, free.y);
+}
+
+TEST(Untangler, ALimitThatNothingReachesChangesNoBit)
+{
+  const Square square = withWideMiddle(12, 2);
+  const Eigen::VectorXd start = square.inside + randomVector(square.inside.size(), -1, 1, 7);
+  const UntangleResult off = untangle(square.problem, start, UntangleOptions());
+  UntangleOptions options;
+  options.anisotropyLimit = 1e9;
+  const UntangleResult on = untangle(square.problem, start, options);
+  EXPECT_EQ(on.y, off.y);
+  EXPECT_EQ(on.steps, off.steps);
+}
+
+TEST(Untangler, ALimitIsLookedAtOnceTheMapIsValid)
+{
+  const Square square = withWideMiddle(12, 2);
+  for (int seed = 0; seed < 5; ++seed)
+  {
+    const Eigen::VectorXd start = square.inside + randomVector(square.inside.size(), -2, 2, seed);
+    UntangleOptions options;
+    options.polishSteps = 0;
+    const UntangleResult off = untangle(square.problem, start, options);
+    options.anisotropyLimit = 1.1;
+    const UntangleResult on = untangle(square.problem, start, options);
+    EXPECT_GT(off.steps, 1);
+    EXPECT_TRUE(off.inverted.empty()) << "seed " << seed;
+    EXPECT_EQ(on.y, off.y) << "seed " << seed;
+    options.polishSteps = 20;
+    const UntangleResult limited = untangle(square.problem, start, options);
+    EXPECT_TRUE(limited.inverted.empty()) << "seed " << seed;
+    EXPECT_NE(limited.y, off.y) << "seed " << seed;
+  }
+}
+
+TEST(Untangler, RefusesALimitThatIsNone)
+{
+  const Square square(3);
+  for (const double limit : { 0.99, -1.0, std::numeric_limits<double>::infinity(),
+         std::numeric_limits<double>::quiet_NaN() })
+  {
+    UntangleOptions options;
+    options.anisotropyLimit = limit;
+    EXPECT_THROW(untangle(square.problem, square.inside, options), InvalidInput) << limit;
+  }
+}
 
 TEST(Untangler, RecoversARandomlyPerturbedSquareWithFixedBorder)
 {

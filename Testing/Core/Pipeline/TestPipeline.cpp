@@ -463,6 +463,16 @@ TEST(Pipeline, BadInputAndOptionsThrow)
   options.edgeLength = -1;
   EXPECT_THROW(remesh(input, options), InvalidInput);
   options.edgeLength = 0.1;
+  for (const double limit : { 0.5, -1.0, std::numeric_limits<double>::infinity() })
+  {
+    options.anisotropyLimit = limit;
+    EXPECT_THROW(remesh(input, options), InvalidInput) << limit;
+  }
+  options.anisotropyLimit = 2;
+  options.method = MapMethod::MixedInteger;
+  EXPECT_THROW(remesh(input, options), InvalidInput);
+  options.anisotropyLimit = 0;
+  options.method = MapMethod::ScaleAware;
   input.points[7].x() = std::numeric_limits<double>::quiet_NaN();
   try
   {

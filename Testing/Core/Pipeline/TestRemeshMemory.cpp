@@ -262,6 +262,30 @@ TEST(RemeshMemory, AWarmStartTakesTheLastMap)
   expectSame(resized, remesh(input, options));
 }
 
+TEST(RemeshMemory, AMapWithAnotherAnisotropyLimitIsNoStart)
+{
+  const SurfaceInput input = dentedSphere();
+  for (const bool warm : { true, false })
+  {
+    RemeshOptions options = optionsFor(600);
+    options.warmStart = warm;
+    RemeshMemory memory;
+    const RemeshResult off = remesh(input, options, memory);
+    options.anisotropyLimit = 1.1;
+    const RemeshResult limited = remesh(input, options, memory);
+    ASSERT_TRUE(limited.status.ok()) << limited.status.message;
+    const auto has = [&](const std::string& stage)
+    { return std::count(limited.reused.begin(), limited.reused.end(), stage) == 1; };
+    EXPECT_TRUE(has("phase1"));
+    EXPECT_FALSE(has("seamless") || has("quantize") || has("embed"));
+    expectSame(limited, remesh(input, options));
+    EXPECT_GT(limited.beyondAnisotropyLimit, 0);
+    EXPECT_NE(limited.coarseUv, off.coarseUv);
+    options.anisotropyLimit = 0;
+    expectSame(remesh(input, options, memory), off);
+  }
+}
+
 TEST(RemeshMemory, SameBytesForAnyNumberOfThreads)
 {
   std::optional<RemeshResult> first;
