@@ -121,6 +121,7 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   options.anisotropyLimit = this->AnisotropyLimit;
   options.closeHandles = this->CloseHandles;
   options.finalQuality = static_cast<quadrille::FinalQuality>(this->FinalQuality);
+  options.distortionMetric = this->DistortionMetric != 0;
   options.mergeCharts = this->ComputeMappedSurface != 0;
   options.progress = this->MakeProgress(0.02, 0.95);
 
@@ -191,6 +192,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ReusedStagesText: " << this->ReusedStagesText << "\n";
   os << indent << "RememberedMegabytes: " << this->GetRememberedMegabytes() << "\n";
   os << indent << "FinalQuality: " << this->FinalQuality << "\n";
+  os << indent << "DistortionMetric: " << this->DistortionMetric << "\n";
   os << indent << "ComputeMappedSurface: " << this->ComputeMappedSurface << "\n";
   os << indent << "TextureCoordinates: " << this->TextureCoordinates << "\n";
   os << indent << "TargetQuads: " << this->TargetQuads << "\n";

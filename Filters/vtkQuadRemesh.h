@@ -155,6 +155,16 @@ public:
 
   ///@{
   /**
+   * Whether the map of the coarse level fits its quads to the surface that a coarse triangle stands for, as the decimation has it, and not
+   * to the flat triangle: the sizes of the quads come out a little more even. Default: off.
+   */
+  vtkSetMacro(DistortionMetric, vtkTypeBool);
+  vtkGetMacro(DistortionMetric, vtkTypeBool);
+  vtkBooleanMacro(DistortionMetric, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
    * With KeepLevels: whether the map starts from that of the last execution, which keeps whole numbers where irregular vertices and features
    * stay, and whether other target valences begin at phase 2. The result then depends on what was made before, within the same
    * certificate; off, on the inputs and properties alone. Default: off.
@@ -232,6 +242,7 @@ private:
   vtkTypeBool KeepLevels = 1;
   vtkTypeBool WarmStart = 0;
   int FinalQuality = Coarse;
+  vtkTypeBool DistortionMetric = 0;
   vtkTypeBool ComputeMappedSurface = 1;
   vtkTypeBool TextureCoordinates = 1;
   vtkIdType ActualQuads = 0;

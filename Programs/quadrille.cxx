@@ -56,6 +56,8 @@ size of the quads (at most one; 0.02 of the bounding-box diagonal when none is g
                             which need 3 (default 0: none)
   --final-quality LEVEL     coarse, intermediate or input: where the map is solved at last, with the same quads;
                             the finer, the less distorted, and the longer it takes (default coarse)
+  --distortion-metric WORD  on: coarse triangles count with the shape of the surface that they stand for, so that
+                            sizes come out more even (default off)
   --threads N               threads to compute with; 0 means all (default 0)
   --memory-limit MB         refuse to start where more memory is needed by the estimate;
                             0 means what the machine has free (default 0)
@@ -192,6 +194,16 @@ int finalQuality(const CommandLine& line)
   return static_cast<int>(found - levels.begin());
 }
 
+bool distortionMetric(const CommandLine& line)
+{
+  const std::string word = line.text("distortion-metric").value_or("off");
+  if (word != "on" && word != "off")
+  {
+    throw UsageError("--distortion-metric must be on or off, not " + word);
+  }
+  return word == "on";
+}
+
 void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
 {
   setSize(line, filter);
@@ -215,6 +227,7 @@ void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
   filter->SetAnisotropyLimit(line.number("anisotropy-limit", 0, 1e6).value_or(0));
   filter->SetCloseHandles(line.number("close-handles", 0, 1e6).value_or(0));
   filter->SetFinalQuality(finalQuality(line));
+  filter->SetDistortionMetric(distortionMetric(line));
   filter->SetComputeMappedSurface(line.text("map").has_value());
 }
 
@@ -530,7 +543,7 @@ int main(int argc, char* argv[])
     const CommandLine line(argc, argv,
       { "quads", "edge-length", "relative-edge-length", "feature-angle", "coarse-vertices",
         "threads", "memory-limit", "close-handles", "anisotropy-limit", "method", "integers", "map",
-        "final-quality", "report" });
+        "final-quality", "distortion-metric", "report" });
     if (line.help() || argc == 1)
     {
       std::fputs(kHelp, line.help() ? stdout : stderr);

@@ -36,9 +36,9 @@ struct CrossFieldOptions
 
 struct CrossField
 {
-  std::vector<double> angle;           ///< #F, radians
-  std::vector<std::int8_t> matching;   ///< #H, 0..3; 0 on boundary half-edges
-  std::vector<std::int8_t> alignment;  ///< #H, 0..3 on constrained half-edges, else -1
+  std::vector<double> angle;          ///< #F, radians
+  std::vector<std::int8_t> matching;  ///< #H, 0..3; 0 on boundary half-edges
+  std::vector<std::int8_t> alignment; ///< #H, 0..3 on constrained half-edges, else -1
   /// #H: for each corner that begins a sector (its half-edge is constrained) the quarter turns that
   /// the map makes in that sector, from this constrained half-edge counterclockwise to the next one, >= 1;
   /// 0 at all other corners.
@@ -46,6 +46,9 @@ struct CrossField
   /// #V: quarter turns of the map round the vertex; the valence of an interior vertex (4: regular);
   /// for a boundary vertex the sum over its open fan (2: regular).
   std::vector<int> turns;
+  /// #F or empty, set by who makes the map: the shape that a face should have in it is this, symmetric and in the plane of `angle`, times
+  /// the flat face; see measureStretch.
+  std::vector<Eigen::Matrix2d> stretch;
 
   Status status;
   /// Vertices around which the mesh cannot carry the turns; empty when the status is ok. One vertex may

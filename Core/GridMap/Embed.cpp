@@ -21,7 +21,8 @@ constexpr int kRounds = 3;
 
 /// Moving a free vertex does not change the signed area of a map, so it tells the size that the integers
 /// were made for, which may differ from the one that was asked.
-double lengthOfUnit(const Mesh& mesh, const std::vector<FixedVec2>& uv, double edgeLength)
+double lengthOfUnit(
+  const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv, double edgeLength)
 {
   double mapped = 0;
   double area = 0;
@@ -30,8 +31,9 @@ double lengthOfUnit(const Mesh& mesh, const std::vector<FixedVec2>& uv, double e
     const Vector2 a = toDouble(uv[3 * f + 1] - uv[3 * f]);
     const Vector2 b = toDouble(uv[3 * f + 2] - uv[3 * f]);
     mapped += a.x() * b.y() - a.y() * b.x();
-    area += mesh.sizing.empty() ? mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm()
-                                : 2 * sizedArea(mesh, f);
+    area += areaStretch(field, f) *
+      (mesh.sizing.empty() ? mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm()
+                           : 2 * sizedArea(mesh, f));
   }
   return mapped > 0 && area > 0 ? std::sqrt(area / mapped) : edgeLength;
 }
@@ -119,7 +121,8 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
       mesh, StatusCode::Infeasible, "the integers alone make " + hopeless.text(), hopeless, result);
     return result;
   }
-  const UntangleProblem problem = locked.problem(lengthOfUnit(mesh, integerUv, options.edgeLength));
+  const UntangleProblem problem =
+    locked.problem(lengthOfUnit(mesh, field, integerUv, options.edgeLength));
   const std::vector<Eigen::VectorXd> starts =
     startsOf(mesh, field, locked, problem, options.previous, result.startedFromPrevious);
   const auto snap = [&](const Eigen::VectorXd& y) { return locked.snap(y); };

@@ -6,7 +6,6 @@
 #include "GridMap/MapShape.h"
 #include "GridMap/MeshParts.h"
 #include "GridMap/RoundedMap.h"
-#include "Mesh/Sizing.h"
 
 #include <algorithm>
 #include <cassert>
@@ -174,6 +173,7 @@ private:
     fieldOptions.guides = options_.guides;
     fieldOptions.targetValences = options_.targetValences;
     result_.field = computeCrossField(mesh_, fieldOptions);
+    result_.field.stretch = options_.stretch;
   }
 
   void split()
@@ -183,11 +183,11 @@ private:
     {
       carrier.emplace(*options_.previous);
     }
-    const double area = sizedArea(mesh_);
+    const double area = stretchedArea(mesh_, result_.field);
     for (MeshPart& part : splitIntoParts(mesh_, result_.field))
     {
       components_.emplace_back();
-      components_.back().share = area > 0 ? sizedArea(part.mesh) / area : 0;
+      components_.back().share = area > 0 ? stretchedArea(part.mesh, part.field) / area : 0;
       components_.back().part = std::move(part);
       if (carrier)
       {
@@ -608,6 +608,11 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
   {
     throw InvalidInput("grid map: " + std::to_string(options.vertexIds.size()) +
       " vertex ids for " + std::to_string(mesh.vertexCount()) + " vertices");
+  }
+  if (!options.stretch.empty() && options.stretch.size() != mesh.faceCount())
+  {
+    throw InvalidInput("grid map: " + std::to_string(options.stretch.size()) + " stretches for " +
+      std::to_string(mesh.faceCount()) + " faces");
   }
   GridMapResult result = MapMaker(mesh, options).run();
   if (result.reuse.any() && !result.status.ok())

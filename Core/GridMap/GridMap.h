@@ -177,6 +177,8 @@ struct GridMapOptions
   Index maximumVertices = 100000;  ///< of the mesh; the solvers are made for coarse levels
   std::vector<Guide> guides;       ///< empty or #F, see CrossFieldOptions
   std::vector<int> targetValences; ///< empty or #V, the same
+  /// Empty or #F: how the surface that a face stands for is stretched against it, see CrossField::stretch.
+  std::vector<Eigen::Matrix2d> stretch;
   /// An earlier map to start from (see PreviousMap.h), or null. The result is as valid as without, but may differ; it is the same
   /// for the same earlier map. Where it leads to no map, all is done again without it. Only the scale aware
   /// method starts from it.

@@ -30,10 +30,10 @@ Transition fieldTransition(
 
 } // namespace
 
-LockedMap::LockedMap(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv,
-  bool whole)
-  : mesh_(mesh), field_(field), uv_(uv), whole_(whole), place_(mesh.origin.size()), master_(mesh.vertexCount()),
-    lockedU_(mesh.vertexCount(), 0), lockedV_(mesh.vertexCount(), 0)
+LockedMap::LockedMap(
+  const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv, bool whole)
+  : mesh_(mesh), field_(field), uv_(uv), whole_(whole), place_(mesh.origin.size()),
+    master_(mesh.vertexCount()), lockedU_(mesh.vertexCount(), 0), lockedV_(mesh.vertexCount(), 0)
 {
   if (uv.size() != mesh.origin.size() || field.matching.size() != mesh.origin.size() ||
     field.alignment.size() != mesh.origin.size() || field.turns.size() != mesh.position.size())
@@ -192,7 +192,7 @@ UntangleProblem LockedMap::problem(double edgeLength) const
   std::vector<GuardedEdge> edges;
   for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
   {
-    const double length = sizedLength(mesh_, h) / edgeLength;
+    const double length = stretchedLength(mesh_, field_, h) / edgeLength;
     if (mesh_.isConstrained(h) && (mesh_.isBoundary(h) || h < mesh_.twin[h]) && length > 0)
     {
       edges.push_back({ h, Mesh::next(h), field_.alignment[h], length });

@@ -87,12 +87,58 @@ void checkAnisotropyLimit(double limit)
   }
 }
 
+double areaStretch(const CrossField& field, Index f)
+{
+  return field.stretch.empty() ? 1.0 : field.stretch[f].determinant();
+}
+
+double stretchedArea(const Mesh& mesh, const CrossField& field)
+{
+  if (field.stretch.empty())
+  {
+    return sizedArea(mesh);
+  }
+  double area = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    area += areaStretch(field, f) * sizedArea(mesh, f);
+  }
+  return area;
+}
+
+double stretchedLength(const Mesh& mesh, const CrossField& field, Index h)
+{
+  const double length = sizedLength(mesh, h);
+  if (field.stretch.empty())
+  {
+    return length;
+  }
+  double sum = 0;
+  int sides = 0;
+  for (const Index side : { h, mesh.twin[h] })
+  {
+    if (side != kInvalidIndex)
+    {
+      const Index f = Mesh::face(side);
+      const Eigen::Matrix2d shape = flattenFace(mesh, f);
+      const Vector2 edges[3] = { shape.col(0), shape.col(1) - shape.col(0), -shape.col(1) };
+      const Vector2& edge = edges[side % 3];
+      sum += edge.norm() > 0 ? (field.stretch[f] * edge).norm() / edge.norm() : 1;
+      ++sides;
+    }
+  }
+  return length * sum / sides;
+}
+
 void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, const Mesh& mesh,
   const CrossField& field, Index f, int quarterTurns, double edgeLength)
 {
   const double turn = quarterTurns * std::acos(0.0) - field.angle[f];
+  const Eigen::Matrix2d flat = flattenFace(mesh, f);
+  const Eigen::Matrix2d shape =
+    field.stretch.empty() ? flat : Eigen::Matrix2d(field.stretch[f] * flat);
   const Eigen::Matrix2d reference =
-    Eigen::Rotation2Dd(turn).toRotationMatrix() * flattenFace(mesh, f) / edgeLength;
+    Eigen::Rotation2Dd(turn).toRotationMatrix() * shape / edgeLength;
   problem.triangles.push_back(points);
   problem.inverseReference.push_back(reference.inverse());
   problem.weight.push_back(reference.determinant() / 2);

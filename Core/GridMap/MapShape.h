@@ -26,8 +26,17 @@ double shareBeyondRatio(const Mesh& mesh, const std::vector<FixedVec2>& uv, doub
 /// Throws InvalidInput unless the limit is 0 (none) or a number from 1 on.
 void checkAnisotropyLimit(double limit);
 
-/// Appends face f to the problem: its points, its reference (in units of edgeLength times the size that the mesh wants there, in the chart of the face turned
-/// by `quarterTurns`) and its weight, which is its area in quads.
+/// What the field's stretch makes of the area of face f; 1 without it.
+double areaStretch(const CrossField& field, Index f);
+
+/// Area over the sizes, and stretched by the field: what the map should give its quads to.
+double stretchedArea(const Mesh& mesh, const CrossField& field);
+
+/// Length of an edge over its size; where the field stretches its faces, by the mean of what they make of it.
+double stretchedLength(const Mesh& mesh, const CrossField& field, Index h);
+
+/// Appends face f to the problem: its points, its reference (in units of edgeLength times the size that the mesh wants there, stretched by the field, in
+/// the chart of the face turned by `quarterTurns`) and its weight, which is its area in quads.
 void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, const Mesh& mesh,
   const CrossField& field, Index f, int quarterTurns, double edgeLength);
 

@@ -24,6 +24,10 @@ void addFace(
 {
   part.face.push_back(f);
   part.field.angle.push_back(field.angle[f]);
+  if (!field.stretch.empty())
+  {
+    part.field.stretch.push_back(field.stretch[f]);
+  }
   for (Index h = 3 * f; h < 3 * f + 3; ++h)
   {
     part.mesh.origin.push_back(local.vertex[mesh.origin[h]]);

@@ -220,7 +220,7 @@ std::vector<GuardedEdge> SeamlessSpace::guardedEdges(
   std::vector<GuardedEdge> edges;
   for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
   {
-    const double length = sizedLength(mesh_, h) / edgeLength;
+    const double length = stretchedLength(mesh_, field, h) / edgeLength;
     if (mesh_.isConstrained(h) && (mesh_.isBoundary(h) || h < mesh_.twin[h]) && length > 0)
     {
       edges.push_back({ graph_.wedge[h], graph_.wedge[Mesh::next(h)],

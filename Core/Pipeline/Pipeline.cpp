@@ -13,6 +13,7 @@
 #include "Mesh/Sizing.h"
 #include "Pipeline/CoarsestMap.h"
 #include "Transfer/PackedMap.h"
+#include "Transfer/SurfaceStretch.h"
 
 #include <algorithm>
 #include <chrono>
@@ -620,6 +621,7 @@ private:
       times.phase1 += makeLevels(levelOptions);
       times.handles += attempt == 0 ? measureSmallParts() : 0;
       mapOptions.guides = hierarchy().coarse.guides;
+      times.metric += measureMetric(mapOptions);
       mapOptions.targetValences = levelValences(result_.surface, hierarchy().coarse.fineVertex);
       map = startingWarm(mapOptions);
       work_ += map.work;
@@ -645,6 +647,18 @@ private:
     return map.status.ok();
   }
 
+  /// On request. Returns the seconds.
+  double measureMetric(GridMapOptions& mapOptions) const
+  {
+    const double start = now();
+    if (options_.distortionMetric)
+    {
+      mapOptions.stretch =
+        measureStretch(hierarchy().intermediate, hierarchy().coarse, hierarchy().log).stretch;
+    }
+    return now() - start;
+  }
+
   GridMapResult startingWarm(GridMapOptions mapOptions)
   {
     const Level& coarse = hierarchy().coarse;
@@ -654,7 +668,8 @@ private:
     }
     const bool fits = onMemory_ && options_.method == MapMethod::ScaleAware;
     if (fits && options_.warmStart && memory_->map && memory_->mapQuads == gridQuads() &&
-      memory_->mapAnisotropyLimit == options_.anisotropyLimit)
+      memory_->mapAnisotropyLimit == options_.anisotropyLimit &&
+      memory_->mapStretched == options_.distortionMetric)
     {
       mapOptions.previous = &*memory_->map;
       mapOptions.vertexIds = coarse.fineVertex;
@@ -675,6 +690,7 @@ private:
       memory_->map = previousMap(coarse.mesh, map, coarse.fineVertex);
       memory_->mapQuads = gridQuads();
       memory_->mapAnisotropyLimit = options_.anisotropyLimit;
+      memory_->mapStretched = options_.distortionMetric;
     }
     return map;
   }
@@ -738,7 +754,8 @@ private:
 
   struct StageTimes
   {
-    double phase1 = 0, phase2 = 0, handles = 0, field = 0, seamless = 0, quantize = 0, embed = 0;
+    double phase1 = 0, phase2 = 0, handles = 0, metric = 0, field = 0, seamless = 0, quantize = 0,
+           embed = 0;
     void add(const Hierarchy& hierarchy, const GridMapResult& map)
     {
       phase2 += hierarchy.secondsPhase2;
@@ -948,6 +965,10 @@ private:
     addStage("phase1", times.phase1, fine, middle);
     addStage("phase2", times.phase2, middle, coarse);
     addStage("handles", times.handles, middle, result_.smallParts.handles);
+    if (options_.distortionMetric)
+    {
+      addStage("metric", times.metric, middle, coarse);
+    }
     addStage("field", times.field, coarse, coarse);
     addStage("seamless", times.seamless, coarse, coarse);
     addStage("quantize", times.quantize, coarse, coarse);

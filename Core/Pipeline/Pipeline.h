@@ -45,6 +45,8 @@ struct RemeshOptions
   double anisotropyLimit = 0;
   /// The level on which the map is solved again with its integers, see improveMap.
   FinalQuality finalQuality = FinalQuality::Coarse;
+  /// The shapes of coarse triangles, to which the map fits its quads, are those of the surface that they stand for: see measureStretch.
+  bool distortionMetric = false;
   std::size_t maximumQuads = 10000000;
   /// Bytes that the run may take by the estimate; none: what the machine has free.
   std::optional<double> memoryLimit;
@@ -58,7 +60,7 @@ struct RemeshOptions
 };
 
 /// One stage of the run: names are read, repair, order, connectivity, phase1, phase2, field,
-/// seamless, quantize, embed, replay, extract (the benchmark's columns), and refine, handles, certify, optimize, charts.
+/// seamless, quantize, embed, replay, extract (the benchmark's columns), and refine, handles, metric, certify, optimize, charts.
 struct StageRecord
 {
   std::string stage;

@@ -72,6 +72,7 @@ public:
   std::optional<PreviousMap> map;     ///< the last one; its ids are vertices of surface()
   double mapQuads = 0;                ///< that it was scaled to
   double mapAnisotropyLimit = 0;      ///< that it was made with
+  bool mapStretched = false;          ///< RemeshOptions::distortionMetric of it
 
 private:
   /// What refinement changes even where it splits nothing.

@@ -138,7 +138,8 @@ def _set_size(run, quads, edge_length, relative_edge_length):
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
            coarse_vertices=1000, patch_array="PatchId", curves=None, threads=0, maximum_quads=10000000,
            memory_limit=0.0, time_limit=0.0, close_handles=0.0, method="scale-aware",
-           final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, progress=None, everything=False):
+           final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False, progress=None,
+           everything=False):
     """Remeshes a surface with quads only and returns a vtkPolyData.
 
     mesh: a vtkPolyData, or a pair (points, faces).
@@ -160,6 +161,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     integers: "keep-sizes", or "coarsest" for the coarsest layout of quads that is the surface.
     anisotropy_limit: largest ratio of the two stretches of the map, at least 1, as far as features and irregular vertices let it;
         0: no limit.
+    distortion_metric: whether coarse triangles count with the shape of the surface that they stand for, so that sizes come out more even.
     progress: called as progress(fraction, text); a return value of False (not None) stops the run.
     everything: return a Remeshed with the mapped surface, the feature lines and the info dict, too.
 
@@ -192,6 +194,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     if integers not in INTEGERS:
         raise InvalidInput("integers must be one of " + ", ".join(INTEGERS) + f", not {integers!r}")
     run.SetIntegers(INTEGERS.index(integers))
+    run.SetDistortionMetric(bool(distortion_metric))
     run.SetComputeMappedSurface(bool(everything))
     if progress is not None:
         def on_progress(caller, event):

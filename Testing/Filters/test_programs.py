@@ -396,6 +396,16 @@ class Report(Case):
         result = self.run_quadrille(source, self.folder / "q.obj", "--final-quality", "best", expect=2)
         self.assertIn("coarse, intermediate or input", result.stderr)
 
+    def test_distortion_metric(self):
+        source = self.write_off()
+        for word in ("on", "off"):
+            report = self.folder / "r.json"
+            self.run_quadrille(source, self.folder / "q.obj", "--quads", 100, "--distortion-metric", word, "--report", report)
+            stages = [stage["stage"] for stage in json.loads(report.read_text())["stages"]]
+            self.assertEqual("metric" in stages, word == "on")
+        result = self.run_quadrille(source, self.folder / "q.obj", "--distortion-metric", "yes", expect=2)
+        self.assertIn("on or off", result.stderr)
+
 
 class Bench(Case):
     COLUMNS = "mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb".split(",")
@@ -538,6 +548,9 @@ class Python(Case):
         before, after = (quadrille.info(better)[name][0] for name in ("DistortionBefore", "DistortionAfter"))
         self.assertLessEqual(after, before)
         self.assertEqual(better.GetNumberOfCells(), len(corners[1]))
+        stretched = quadrille.remesh((points, faces), quads=300, distortion_metric=True, everything=True)
+        self.assertIn("metric", stretched.info["stages"])
+        self.assertNotIn("metric", result.info["stages"])
 
     def test_methods(self):
         points, faces = torus()

@@ -267,8 +267,8 @@ GridMapResult coarsest(const Mesh& mesh, double quads, double pull = 0)
 
 TEST(GridMap, SmallestIntegersOfABoxAreOneQuadASide)
 {
-  const Mesh box = test::markFeatures(
-    test::voxelSurface({ 3, 2, 1 }, 3, [](int, int, int) { return true; }), 0.6);
+  const Mesh box =
+    test::markFeatures(test::voxelSurface({ 3, 2, 1 }, 3, [](int, int, int) { return true; }), 0.6);
   const GridMapResult few = coarsest(box, 500);
   ASSERT_TRUE(few.status.ok()) << few.status.message;
   EXPECT_TRUE(few.certificate.valid()) << few.certificate.text();
@@ -293,4 +293,111 @@ TEST(GridMap, SmallestIntegersAreValidOnCurvedSurfaces)
     EXPECT_TRUE(few.certificate.valid()) << few.certificate.text();
     EXPECT_LE(few.certificate.area, 30);
   }
+}
+
+namespace
+{
+
+/// In the planes of the faces of a mesh in the plane z = 0: `factor` along the x axis.
+std::vector<Eigen::Matrix2d> stretchAlongX(const Mesh& mesh, double factor)
+{
+  std::vector<Eigen::Matrix2d> stretch;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    const Vector3 axis = mesh.edgeVector(3 * f).normalized();
+    const Vector2 x(axis.x(), -axis.y());
+    stretch.emplace_back(Eigen::Matrix2d::Identity() + (factor - 1) * x * x.transpose());
+  }
+  return stretch;
+}
+
+} // namespace
+
+TEST(GridMap, AStretchedPlaneGetsQuadsForWhatItStandsFor)
+{
+  const Mesh mesh = test::gridPlane(10, 10);
+  GridMapOptions options;
+  options.edgeLength = 1;
+  options.targetQuads = 200;
+  options.stretch = stretchAlongX(mesh, 2);
+  const GridMapResult map = computeGridMap(mesh, options);
+  ASSERT_TRUE(map.status.ok()) << map.status.message;
+  EXPECT_NEAR(map.certificate.area, 200, 1e-9);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3 edge = mesh.edgeVector(h);
+    const Vector2 mapped = toDouble(map.uv[Mesh::next(h)] - map.uv[h]);
+    EXPECT_NEAR(mapped.squaredNorm(), 4 * edge.x() * edge.x() + edge.y() * edge.y(), 1e-4);
+  }
+}
+
+TEST(GridMap, ComponentsShareQuadsByWhatTheyStandFor)
+{
+  const Mesh one = test::gridPlane(10, 10);
+  const Mesh mesh = test::disjointUnion(one, one, Vector3(20, 0, 0));
+  GridMapOptions options;
+  options.edgeLength = 1;
+  options.targetQuads = 500;
+  options.stretch.assign(mesh.faceCount(), Eigen::Matrix2d::Identity());
+  for (Index f = one.faceCount(); f < mesh.faceCount(); ++f)
+  {
+    options.stretch[f] *= 2;
+  }
+  const GridMapResult map = computeGridMap(mesh, options);
+  ASSERT_TRUE(map.status.ok()) << map.status.message;
+  double areas[2] = {};
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    const Vector2 p = toDouble(map.uv[3 * f + 1] - map.uv[3 * f]);
+    const Vector2 q = toDouble(map.uv[3 * f + 2] - map.uv[3 * f]);
+    areas[f < one.faceCount() ? 0 : 1] += 0.5 * (p.x() * q.y() - p.y() * q.x());
+  }
+  EXPECT_NEAR(areas[0], 100, 1e-9);
+  EXPECT_NEAR(areas[1], 400, 1e-9);
+}
+
+TEST(GridMap, AStretchForEachFaceOrNone)
+{
+  const Mesh mesh = test::gridPlane(4, 4);
+  GridMapOptions options;
+  options.edgeLength = 1;
+  options.stretch.assign(3, Eigen::Matrix2d::Identity());
+  EXPECT_THROW(computeGridMap(mesh, options), InvalidInput);
+}
+
+TEST(GridMap, AUniformStretchChangesNothing)
+{
+  const Mesh mesh = shearedCube(4);
+  GridMapOptions options;
+  options.edgeLength = 0.25;
+  options.targetQuads = 150;
+  const GridMapResult flat = computeGridMap(mesh, options);
+  ASSERT_TRUE(flat.status.ok()) << flat.status.message;
+  options.stretch.assign(mesh.faceCount(), 2 * Eigen::Matrix2d::Identity());
+  const GridMapResult stretched = computeGridMap(mesh, options);
+  ASSERT_TRUE(stretched.status.ok()) << stretched.status.message;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    EXPECT_LT(toDouble(stretched.uv[h] - flat.uv[h]).norm(), 1e-6);
+  }
+}
+
+TEST(GridMap, AnEdgeIsAsLongAsBothItsFacesMakeIt)
+{
+  const Mesh mesh = test::gridPlane(2, 1);
+  CrossField field;
+  field.stretch = stretchAlongX(mesh, 2);
+  const Index last = mesh.faceCount() - 1;
+  field.stretch[last] = Eigen::Matrix2d::Identity();
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3 edge = mesh.edgeVector(h);
+    const double twice = std::hypot(2 * edge.x(), edge.y());
+    const double own = Mesh::face(h) == last ? edge.norm() : twice;
+    const bool mixed =
+      !mesh.isBoundary(h) && (Mesh::face(h) == last || Mesh::face(mesh.twin[h]) == last);
+    EXPECT_NEAR(stretchedLength(mesh, field, h), mixed ? 0.5 * (edge.norm() + twice) : own, 1e-12);
+  }
+  field.stretch.clear();
+  EXPECT_EQ(stretchedLength(mesh, field, 0), mesh.edgeVector(0).norm());
 }

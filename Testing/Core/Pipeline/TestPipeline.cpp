@@ -364,6 +364,42 @@ TEST(Pipeline, SameBytesForAnyNumberOfThreads)
   EXPECT_TRUE(one.quads.quads == two.quads.quads);
 }
 
+TEST(Pipeline, TheDistortionMetricIsMeasuredOnRequestOnly)
+{
+  Mesh dented = test::sphere(5);
+  for (Vector3& p : dented.position)
+  {
+    p *= 1 + 0.15 * std::sin(4 * p.x()) * std::cos(3 * p.y() + p.z());
+  }
+  const SurfaceInput input = test::toInput(dented);
+  RemeshOptions options;
+  options.quads = 800;
+  options.coarseVertices = 200;
+  options.threads = 1;
+  const auto stages = [](const RemeshResult& result)
+  {
+    return std::count_if(result.stages.begin(), result.stages.end(),
+      [](const StageRecord& stage) { return stage.stage == "metric"; });
+  };
+  const RemeshResult off = remesh(input, options);
+  EXPECT_EQ(stages(off), 0);
+  options.distortionMetric = true;
+  const RemeshResult one = remesh(input, options);
+  ASSERT_TRUE(one.status.ok()) << one.status.message;
+  EXPECT_TRUE(one.certificate.valid()) << one.certificate.text();
+  EXPECT_EQ(stages(one), 1);
+  EXPECT_TRUE(one.coarse.fineVertex == off.coarse.fineVertex);
+  EXPECT_FALSE(one.coarseUv == off.coarseUv);
+  for (const int threads : { 2, 4 })
+  {
+    options.threads = threads;
+    const RemeshResult more = remesh(input, options);
+    EXPECT_TRUE(one.uv == more.uv);
+    EXPECT_TRUE(one.quads.points == more.quads.points);
+    EXPECT_TRUE(one.quads.quads == more.quads.quads);
+  }
+}
+
 TEST(Pipeline, MethodsThatRoundMakeQuadsWhereNothingFolds)
 {
   for (const MapMethod method : { MapMethod::MixedInteger, MapMethod::QuadCover })

@@ -118,6 +118,8 @@ TEST(RemeshMemory, WithoutWarmStartTheSameBytesFromTheStageThatIsAsked)
   expectCold(input, options, memory, kDecimated);
   options.coarseVertices = 200;
   expectCold(input, options, memory, kDecimated);
+  options.distortionMetric = true;
+  expectCold(input, options, memory, kDecimated);
   options.quads = 700;
   expectCold(input, options, memory, kPrepared);
   options.featureAngle = 0.5;
@@ -283,6 +285,23 @@ TEST(RemeshMemory, AMapWithAnotherAnisotropyLimitIsNoStart)
     EXPECT_NE(limited.coarseUv, off.coarseUv);
     options.anisotropyLimit = 0;
     expectSame(remesh(input, options, memory), off);
+  }
+}
+
+TEST(RemeshMemory, AWarmStartTakesNoMapOfAnotherMetric)
+{
+  const SurfaceInput input = dentedSphere();
+  RemeshOptions options = optionsFor(500);
+  options.warmStart = true;
+  RemeshMemory memory;
+  for (const bool metric : { false, true, false })
+  {
+    options.distortionMetric = metric;
+    const RemeshResult other = remesh(input, options, memory);
+    EXPECT_EQ(std::count(other.reused.begin(), other.reused.end(), "seamless"), 0);
+    expectSame(other, remesh(input, options));
+    const RemeshResult again = remesh(input, options, memory);
+    EXPECT_EQ(std::count(again.reused.begin(), again.reused.end(), "seamless"), 1);
   }
 }
 

@@ -1,0 +1,504 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Transfer/SurfaceStretch.h"
+
+#include "Base/Error.h"
+#include "Base/FixedPoint.h"
+#include "Base/Progress.h"
+#include "Hierarchy/LogRecords.h"
+#include "Transfer/RingKernel.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <optional>
+#include <string>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// A point or vector of a plane; a product with one of length 1 turns it.
+using Complex = std::complex<double>;
+using Polygon = std::vector<Complex>;
+
+/// Steps from triangle to triangle after which a walk stays where it is: only triangles without area make it go in circles.
+constexpr int kMostSteps = 64;
+/// Triangles through which a face may reach; what is farther counts for the last one.
+constexpr int kMostDepth = 24;
+/// Half the extent of a star, in units of the grid on which its kernel is looked for.
+constexpr double kKernelScale = 64;
+
+double cross(Complex a, Complex b)
+{
+  return a.real() * b.imag() - a.imag() * b.real();
+}
+
+/// The turn from a to b; none where one of them has no length.
+Complex turnBetween(Complex a, Complex b)
+{
+  const Complex turn = b * std::conj(a);
+  const double length = std::abs(turn);
+  return length > 0 ? turn / length : Complex(1);
+}
+
+/// A change of the chart.
+struct Motion
+{
+  Complex turn = 1;
+  Complex shift = 0;
+  Complex operator()(Complex p) const { return turn * p + shift; }
+};
+
+/// Corners of a face in the plane whose first axis is half-edge 3f.
+std::array<Complex, 3> layOut(const Mesh& mesh, Index f)
+{
+  const Vector3 a = mesh.edgeVector(3 * f);
+  const Vector3 b = -mesh.edgeVector(3 * f + 2);
+  const double width = a.norm();
+  return { Complex(0), Complex(width),
+    width > 0 ? Complex(a.dot(b) / width, a.cross(b).norm() / width) : Complex(b.norm()) };
+}
+
+/// The coarse triangles, each in its own plane.
+class CoarsePlanes
+{
+public:
+  explicit CoarsePlanes(const Mesh& mesh)
+    : mesh_(mesh), corner_(mesh.halfEdgeCount()), across_(mesh.halfEdgeCount())
+  {
+    for (Index f = 0; f < mesh.faceCount(); ++f)
+    {
+      const std::array<Complex, 3> corners = layOut(mesh, f);
+      std::copy(corners.begin(), corners.end(), &corner_[3 * std::size_t{ f }]);
+    }
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      if (!mesh.isBoundary(h))
+      {
+        const Index twin = mesh.twin[h];
+        const Complex turn = turnBetween(edge(h), -edge(twin));
+        across_[h] = { turn, corner_[Mesh::next(twin)] - turn * corner_[h] };
+      }
+    }
+  }
+
+  const Mesh& mesh() const { return mesh_; }
+  Complex corner(Index h) const { return corner_[h]; }
+  Complex edge(Index h) const { return corner_[Mesh::next(h)] - corner_[h]; }
+  /// From the plane of the face of h to that of the face across h, which must not be a boundary.
+  const Motion& across(Index h) const { return across_[h]; }
+  /// Above 0 on the side of h on which its face is.
+  double side(Index h, Complex p) const { return cross(edge(h), p - corner_[h]); }
+
+  /// The half-edge of f that p lies beyond, the one it lies farthest beyond; none inside, and at boundaries.
+  Index exit(Index f, Complex p) const
+  {
+    Index result = kInvalidIndex;
+    double farthest = 0;
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      const double length = std::abs(edge(h));
+      const double distance = length > 0 ? side(h, p) / length : 0;
+      if (!mesh_.isBoundary(h) && distance < farthest)
+      {
+        farthest = distance;
+        result = h;
+      }
+    }
+    return result;
+  }
+
+private:
+  const Mesh& mesh_;
+  std::vector<Complex> corner_; ///< #H
+  std::vector<Motion> across_;  ///< #H
+};
+
+/// The finer faces on the coarse planes, while the log goes back.
+class Layout
+{
+public:
+  Layout(const CoarsePlanes& planes, Index faces)
+    : planes_(planes), corner_(3 * std::size_t{ faces }), home_(faces, kInvalidIndex)
+  {
+  }
+
+  /// Face f is the coarse face.
+  void place(Index f, Index coarseFace)
+  {
+    for (Index i = 0; i < 3; ++i)
+    {
+      corner_[3 * f + i] = planes_.corner(3 * coarseFace + i);
+    }
+    home_[f] = coarseFace;
+  }
+
+  /// slotOf: the corner here of a corner slot of the log.
+  template <typename SlotOf>
+  void goBack(const BlockRecords& records, const SlotOf& slotOf)
+  {
+    for (std::size_t end = records.size(); end > 0;)
+    {
+      const std::uint8_t* const at = records.data() + end;
+      if (at[-1] == 0)
+      {
+        unflip(slotOf(loadLittleEndian(at - 9)), slotOf(loadLittleEndian(at - 5)));
+        end -= kFlipBytes;
+        continue;
+      }
+      readCollapse(at, record_);
+      end -= collapseBytes(record_.faces);
+      std::for_each(record_.slot.begin(), record_.slot.begin() + record_.faces,
+        [&](Index& slot) { slot = slotOf(slot); });
+      uncollapse();
+    }
+  }
+
+  const Complex* corners(Index f) const { return &corner_[3 * std::size_t{ f }]; }
+  /// The coarse face in whose plane the corners of f are; it holds about the middle of f.
+  Index home(Index f) const { return home_[f]; }
+
+private:
+  void unflip(Index h, Index g)
+  {
+    // See the figure in DecimationLog.h and the replay.
+    const Index nextH = Mesh::next(h);
+    const Index nextG = Mesh::next(g);
+    const Complex dInF = corner_[nextH];
+    const Complex dInG = corner_[Mesh::previous(g)];
+    const Complex turn = turnBetween(corner_[nextG] - dInG, corner_[Mesh::previous(h)] - dInF);
+    corner_[nextH] = dInF + turn * (corner_[g] - dInG);
+    corner_[nextG] = dInG + std::conj(turn) * (corner_[h] - dInF);
+    goHome(h / 3);
+    goHome(g / 3);
+  }
+
+  void uncollapse()
+  {
+    unfoldRing();
+    const Complex base = ring_[record_.ring[0]];
+    const auto weight = [&](std::size_t i) { return std::ldexp(double(record_.weight[i]), -32); };
+    Complex p = base + weight(0) * (ring_[record_.ring[1]] - base);
+    if (!record_.onCurve)
+    {
+      p += weight(1) * (ring_[record_.ring[2]] - base);
+    }
+    writeStar(intoKernel(p));
+    for (int i = 0; i < record_.faces; ++i)
+    {
+      goHome(slot(i) / 3);
+    }
+  }
+
+  /// The ring in the plane of the first face that is left, relative to the vertex that the star had collapsed onto.
+  void unfoldRing()
+  {
+    const int first = record_.firstSurvivor();
+    const int last = record_.lastSurvivor();
+    ring_[static_cast<std::size_t>(record_.target())] = 0;
+    Complex turn = 1;
+    for (int i = first; i <= last; ++i)
+    {
+      const auto at = static_cast<std::size_t>(i);
+      const Index corner = slot(i);
+      const Complex toNext = corner_[Mesh::next(corner)] - corner_[corner];
+      if (i > first)
+      {
+        const Index before = slot(i - 1);
+        turn *= turnBetween(toNext, corner_[Mesh::previous(before)] - corner_[before]);
+        turn /= std::abs(turn);
+      }
+      turn_[at] = turn;
+      ring_[at] = turn * toNext;
+      ring_[at + 1] =
+        i == last ? turn * (corner_[Mesh::previous(corner)] - corner_[corner]) : ring_[at + 1];
+    }
+  }
+
+  /// p, or where it would invert its star a point well inside of it, if there is one.
+  Complex intoKernel(Complex p) const
+  {
+    const int count = record_.ringSize();
+    double extent = 0;
+    for (int i = 0; i < count; ++i)
+    {
+      extent = std::max(extent, std::abs(ring_[static_cast<std::size_t>(i)]));
+    }
+    if (!(extent > 0))
+    {
+      return p;
+    }
+    const auto onGrid = [&](Complex q)
+    { return toFixed(Vector2(q.real(), q.imag()) * (kKernelScale / extent)); };
+    std::array<FixedVec2, kMaximumRing + 1> ring;
+    std::transform(ring_.begin(), ring_.begin() + count, ring.begin(), onGrid);
+    const bool closed = record_.kind == CollapseKind::Interior;
+    if (starIsPositive(ring.data(), count, closed, onGrid(p)))
+    {
+      return p;
+    }
+    const std::optional<FixedVec2> moved = record_.onCurve
+      ? kernelPointOnSegment(
+          ring.data(), count, closed, ring[record_.ring[0]], ring[record_.ring[1]])
+      : kernelPoint(ring.data(), count, closed);
+    if (!moved)
+    {
+      return p;
+    }
+    const Vector2 q = toDouble(*moved) * (extent / kKernelScale);
+    return { q.x(), q.y() };
+  }
+
+  void writeStar(Complex p)
+  {
+    const int first = record_.firstSurvivor();
+    const int last = record_.lastSurvivor();
+    const Complex targetFirst = corner_[slot(first)];
+    const Complex targetLast = corner_[slot(last)];
+    for (int i = first; i <= last; ++i)
+    {
+      corner_[slot(i)] += std::conj(turn_[static_cast<std::size_t>(i)]) * p;
+    }
+    // The faces that come back take the plane of their neighbour in the star.
+    if (first == 1)
+    {
+      const Index corner = slot(0);
+      corner_[corner] = corner_[slot(1)];
+      corner_[Mesh::next(corner)] = targetFirst;
+      corner_[Mesh::previous(corner)] = corner_[Mesh::next(slot(1))];
+      home_[corner / 3] = home_[slot(1) / 3];
+    }
+    if (last == record_.faces - 2)
+    {
+      const Index corner = slot(record_.faces - 1);
+      corner_[corner] = corner_[slot(last)];
+      corner_[Mesh::next(corner)] = corner_[Mesh::previous(slot(last))];
+      corner_[Mesh::previous(corner)] = targetLast;
+      home_[corner / 3] = home_[slot(last) / 3];
+    }
+  }
+
+  /// To the plane of the coarse face that holds the middle of f. Done whenever f moves, as a way that is short does not
+  /// pass a cone on the wrong side.
+  void goHome(Index f)
+  {
+    Complex* const p = &corner_[3 * std::size_t{ f }];
+    for (int step = 0; step < kMostSteps; ++step)
+    {
+      const Index h = planes_.exit(home_[f], (p[0] + p[1] + p[2]) / 3.0);
+      if (h == kInvalidIndex)
+      {
+        return;
+      }
+      std::transform(p, p + 3, p, planes_.across(h));
+      home_[f] = Mesh::face(planes_.mesh().twin[h]);
+    }
+  }
+
+  Index slot(int i) const { return record_.slot[static_cast<std::size_t>(i)]; }
+
+  const CoarsePlanes& planes_;
+  std::vector<Complex> corner_;
+  std::vector<Index> home_;
+  CollapseRecord record_;
+  std::array<Complex, kMaximumRing + 1> ring_;
+  std::array<Complex, kMaximumRing>
+    turn_; ///< from the plane of each surviving face to the first one's
+};
+
+/// Sums over a coarse face.
+struct Share
+{
+  Eigen::Matrix2d stretch = Eigen::Matrix2d::Zero();
+  double covered = 0;
+  double surface = 0;
+};
+
+Eigen::Matrix2d turned(const Eigen::Matrix2d& symmetric, Complex turn)
+{
+  Eigen::Matrix2d rotation;
+  rotation << turn.real(), -turn.imag(), turn.imag(), turn.real();
+  return rotation * symmetric * rotation.transpose();
+}
+
+/// Gives each coarse face its part of a finer face.
+class Distributor
+{
+public:
+  explicit Distributor(const CoarsePlanes& planes)
+    : planes_(planes), shares_(planes.mesh().faceCount())
+  {
+  }
+
+  /// Corners of the finer face in the plane of coarse face `home` and in its own. False for one that has no area there.
+  bool add(Index home, const Complex* flat, const std::array<Complex, 3>& surface)
+  {
+    const double area = cross(flat[1] - flat[0], flat[2] - flat[0]);
+    if (!(area > 0))
+    {
+      return false;
+    }
+    Eigen::Matrix2d from;
+    from << (flat[1] - flat[0]).real(), (flat[2] - flat[0]).real(), (flat[1] - flat[0]).imag(),
+      (flat[2] - flat[0]).imag();
+    Eigen::Matrix2d to;
+    to << surface[1].real(), surface[2].real(), surface[1].imag(), surface[2].imag();
+    const Eigen::Matrix2d jacobian = to * from.inverse();
+    const Eigen::Matrix2d metric = jacobian.transpose() * jacobian;
+    ratio_ = std::max(jacobian.determinant(), 0.0);
+    const double root = std::sqrt(metric.trace() + 2 * ratio_);
+    if (!(root > 0) || !std::isfinite(root))
+    {
+      return false;
+    }
+    spread(home, kInvalidIndex, { flat[0], flat[1], flat[2] },
+      (metric + ratio_ * Eigen::Matrix2d::Identity()) / root, 0);
+    return true;
+  }
+
+  const std::vector<Share>& shares() const { return shares_; }
+
+private:
+  /// What lies beyond an edge goes to the face there; `entered` is the edge of f that the polygon came in by.
+  void spread(Index f, Index entered, Polygon polygon, const Eigen::Matrix2d& stretch, int depth)
+  {
+    for (Index h = 3 * f; h < 3 * f + 3 && depth < kMostDepth; ++h)
+    {
+      if (h == entered || planes_.mesh().isBoundary(h))
+      {
+        continue;
+      }
+      Polygon beyond = cut(polygon, h);
+      if (beyond.size() >= 3)
+      {
+        const Motion& across = planes_.across(h);
+        const Index twin = planes_.mesh().twin[h];
+        std::transform(beyond.begin(), beyond.end(), beyond.begin(), across);
+        spread(Mesh::face(twin), twin, std::move(beyond), turned(stretch, across.turn), depth + 1);
+      }
+    }
+    double area = 0;
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+    {
+      area += 0.5 * cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+    }
+    Share& share = shares_[f];
+    share.stretch += area * stretch;
+    share.covered += area;
+    share.surface += area * ratio_;
+  }
+
+  /// Leaves what is on the inner side of h and returns the rest.
+  Polygon cut(Polygon& polygon, Index h) const
+  {
+    Polygon inside, beyond;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+    {
+      const Complex p = polygon[i];
+      const Complex q = polygon[(i + 1) % polygon.size()];
+      const double sideP = planes_.side(h, p);
+      const double sideQ = planes_.side(h, q);
+      if (sideP >= 0)
+      {
+        inside.push_back(p);
+      }
+      if (sideP <= 0)
+      {
+        beyond.push_back(p);
+      }
+      if ((sideP > 0 && sideQ < 0) || (sideP < 0 && sideQ > 0))
+      {
+        const Complex between = p + sideP / (sideP - sideQ) * (q - p);
+        inside.push_back(between);
+        beyond.push_back(between);
+      }
+    }
+    polygon = std::move(inside);
+    return beyond;
+  }
+
+  const CoarsePlanes& planes_;
+  std::vector<Share> shares_;
+  double ratio_ = 1; ///< of areas, of the face that is added
+};
+
+void checkLevel(const Level& level, const DecimationLog& log)
+{
+  const bool fits = level.fineFace.size() == level.mesh.faceCount() &&
+    std::all_of(
+      level.fineFace.begin(), level.fineFace.end(), [&](Index f) { return f < log.fineFaces; });
+  if (!fits)
+  {
+    throw InvalidInput("A level of " + std::to_string(level.mesh.faceCount()) +
+      " faces is not one of the surface of " + std::to_string(log.fineFaces) +
+      " faces that the decimation log was made for.");
+  }
+}
+
+} // namespace
+
+SurfaceStretch measureStretch(
+  const Level& intermediate, const Level& coarse, const DecimationLog& log)
+{
+  checkLevel(intermediate, log);
+  checkLevel(coarse, log);
+  std::vector<Index> faceOf(log.fineFaces, kInvalidIndex);
+  for (Index f = 0; f < intermediate.mesh.faceCount(); ++f)
+  {
+    faceOf[intermediate.fineFace[f]] = f;
+  }
+  const auto localFace = [&](Index fineFace)
+  {
+    const Index f = faceOf[fineFace];
+    if (f == kInvalidIndex)
+    {
+      throw InvalidInput("Face " + std::to_string(fineFace) +
+        " of the surface is in the end of the decimation log, but not on the intermediate level.");
+    }
+    return f;
+  };
+  const CoarsePlanes planes(coarse.mesh);
+  Layout layout(planes, intermediate.mesh.faceCount());
+  for (Index f = 0; f < coarse.mesh.faceCount(); ++f)
+  {
+    layout.place(localFace(coarse.fineFace[f]), f);
+  }
+  for (std::size_t round = log.rounds.size(); round-- > log.intermediateRounds;)
+  {
+    const DecimationLog::Round& blocks = log.rounds[round];
+    for (std::size_t i = blocks.firstBlock + blocks.blockCount; i-- > blocks.firstBlock;)
+    {
+      layout.goBack(log.blocks[i], [&](Index slot) { return 3 * localFace(slot / 3) + slot % 3; });
+    }
+  }
+  SurfaceStretch result;
+  Distributor distributor(planes);
+  for (Index f = 0; f < intermediate.mesh.faceCount(); ++f)
+  {
+    pollNowAndThen(f);
+    const std::array<Complex, 3> surface = layOut(intermediate.mesh, f);
+    const bool added = distributor.add(layout.home(f), layout.corners(f), surface);
+    result.notPositive += added ? 0 : 1;
+    result.surfaceArea += added ? 0.5 * cross(surface[1], surface[2]) : 0;
+  }
+  for (const Share& share : distributor.shares())
+  {
+    Eigen::Matrix2d stretch = share.stretch;
+    const double determinant = stretch.determinant();
+    const bool covered = share.covered > 0 && share.surface > 0 && determinant > 0;
+    result.uncovered += covered ? 0 : 1;
+    stretch = covered
+      ? Eigen::Matrix2d(stretch * std::sqrt(share.surface / share.covered / determinant))
+      : Eigen::Matrix2d(Eigen::Matrix2d::Identity());
+    result.stretch.push_back(stretch);
+  }
+  return result;
+}
+
+} // namespace quadrille

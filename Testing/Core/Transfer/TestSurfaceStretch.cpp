@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Base/Error.h"
+#include "Mesh/Sizing.h"
+#include "TestMeshes.h"
+#include "Transfer/SurfaceStretch.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <cmath>
+
+using namespace quadrille;
+using namespace quadrille::test;
+
+namespace
+{
+
+Hierarchy decimate(const Mesh& mesh, double edgeLength, Index vertices, int threads = 1)
+{
+  HierarchyOptions options;
+  options.targetEdgeLength = edgeLength;
+  options.coarseVertices = vertices;
+  options.threads = threads;
+  return buildHierarchy(mesh, 1, options);
+}
+
+SurfaceStretch stretchOf(const Hierarchy& h)
+{
+  return measureStretch(h.intermediate, h.coarse, h.log);
+}
+
+/// Of the coarse level in the metric.
+double stretchedArea(const Mesh& coarse, const SurfaceStretch& result)
+{
+  double area = 0;
+  for (Index f = 0; f < coarse.faceCount(); ++f)
+  {
+    area += result.stretch[f].determinant() * sizedArea(coarse, f);
+  }
+  return area;
+}
+
+/// Columns p1 - p0, p2 - p0 of a face in a plane whose first axis is half-edge 3f.
+Eigen::Matrix2d shapeOf(const Mesh& mesh, Index f)
+{
+  const Vector3 a = mesh.edgeVector(3 * f);
+  const Vector3 b = -mesh.edgeVector(3 * f + 2);
+  Eigen::Matrix2d shape;
+  shape << a.norm(), a.dot(b) / a.norm(), 0, a.cross(b).norm() / a.norm();
+  return shape;
+}
+
+} // namespace
+
+TEST(SurfaceStretch, OfAPlaneIsNone)
+{
+  for (const Mesh& mesh : { gridPlane(40, 30), plateWithHole(12), plateL(20) })
+  {
+    const Hierarchy h = decimate(mesh, 4, 30);
+    ASSERT_LT(h.coarse.mesh.faceCount(), h.intermediate.mesh.faceCount() / 3);
+    const SurfaceStretch result = stretchOf(h);
+    ASSERT_EQ(result.stretch.size(), h.coarse.mesh.faceCount());
+    EXPECT_EQ(result.uncovered, 0U);
+    EXPECT_EQ(result.notPositive, 0U);
+    for (const Eigen::Matrix2d& stretch : result.stretch)
+    {
+      EXPECT_LT((stretch - Eigen::Matrix2d::Identity()).norm(), 1e-6);
+    }
+  }
+}
+
+TEST(SurfaceStretch, OfWavesIsTheirLengthOverThatOfTheChord)
+{
+  // A corrugated sheet can be unrolled, so what a coarse triangle stands for is the triangle of its unrolled corners.
+  constexpr int kColumns = 240;
+  constexpr int kRows = 80;
+  std::vector<double> unrolled(1, 0.0);
+  const auto height = [](double x) { return 2.4 * std::sin(2 * kPi * x / 12); };
+  for (int i = 1; i <= kColumns; ++i)
+  {
+    unrolled.push_back(unrolled.back() + std::hypot(0.5, height(0.5 * i) - height(0.5 * (i - 1))));
+  }
+  Mesh mesh = gridPlane(kColumns, kRows);
+  for (Vector3& p : mesh.position)
+  {
+    p = Vector3(0.5 * p.x(), 0.5 * p.y(), height(0.5 * p.x()));
+  }
+  const Hierarchy h = decimate(mesh, 2, 150);
+  const SurfaceStretch result = stretchOf(h);
+  const Mesh& coarse = h.coarse.mesh;
+  double total = 0;
+  double wanted = 0;
+  double along = 0;
+  double across = 0;
+  double difference = 0;
+  double withoutIt = 0;
+  for (Index f = 0; f < coarse.faceCount(); ++f)
+  {
+    const auto flat = [&](Index h0)
+    {
+      const Vector3& p = coarse.position[coarse.origin[h0]];
+      return Vector2(unrolled[static_cast<std::size_t>(std::lround(2 * p.x()))], p.y());
+    };
+    Eigen::Matrix2d surface;
+    surface << flat(3 * f + 1) - flat(3 * f), flat(3 * f + 2) - flat(3 * f);
+    const Eigen::Matrix2d jacobian = surface * shapeOf(coarse, f).inverse();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> expected(jacobian.transpose() * jacobian);
+    const double area = sizedArea(coarse, f);
+    // Along the directions in which it should stretch most and least.
+    const Vector2 most = expected.eigenvectors().col(1);
+    const Vector2 least = expected.eigenvectors().col(0);
+    total += area;
+    wanted += area * std::sqrt(expected.eigenvalues()[1]);
+    along += area * (result.stretch[f] * most).norm();
+    across += area * ((result.stretch[f] * least).norm() - std::sqrt(expected.eigenvalues()[0]));
+    difference += area * (result.stretch[f] - expected.operatorSqrt()).norm();
+    withoutIt += area * (Eigen::Matrix2d::Identity() - expected.operatorSqrt()).norm();
+  }
+  ASSERT_GT(wanted, 1.1 * total) << "the coarse level follows the waves: there is nothing to see";
+  EXPECT_NEAR(along, wanted, 0.03 * total);
+  EXPECT_NEAR(across, 0, 0.03 * total);
+  EXPECT_LT(difference, 0.6 * withoutIt);
+}
+
+TEST(SurfaceStretch, KeepsTheAreaOfTheSurface)
+{
+  for (const Mesh& mesh : { sphere(5), torus(90, 45), markFeatures(unitCube(24), 0.6),
+         openCylinder(80, 50), twoComponents() })
+  {
+    const double area = sizedArea(mesh);
+    const Hierarchy h = decimate(mesh, 0.1, 60);
+    const SurfaceStretch result = stretchOf(h);
+    EXPECT_EQ(result.uncovered, 0U);
+    EXPECT_EQ(result.notPositive, 0U);
+    EXPECT_NEAR(result.surfaceArea, sizedArea(h.intermediate.mesh), 1e-9 * area);
+    EXPECT_NEAR(stretchedArea(h.coarse.mesh, result), result.surfaceArea, 1e-6 * area);
+    EXPECT_NEAR(stretchedArea(h.coarse.mesh, result), area, 0.01 * area);
+  }
+}
+
+TEST(SurfaceStretch, IsSymmetricAndPositive)
+{
+  const SurfaceStretch result = stretchOf(decimate(torus(90, 45), 0.1, 40));
+  for (const Eigen::Matrix2d& stretch : result.stretch)
+  {
+    EXPECT_NEAR(stretch(0, 1), stretch(1, 0), 1e-12);
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(stretch).eigenvalues()[0], 0);
+  }
+}
+
+TEST(SurfaceStretch, IsTheSameForAnyNumberOfThreads)
+{
+  const Mesh mesh = torus(90, 45);
+  const SurfaceStretch one = stretchOf(decimate(mesh, 0.1, 60, 1));
+  for (const int threads : { 2, 4 })
+  {
+    EXPECT_TRUE(stretchOf(decimate(mesh, 0.1, 60, threads)).stretch == one.stretch);
+  }
+}
+
+TEST(SurfaceStretch, RefusesLevelsOfAnotherSurface)
+{
+  const Hierarchy h = decimate(torus(90, 45), 0.1, 60);
+  const Hierarchy other = decimate(torus(30, 15), 0.3, 60);
+  EXPECT_THROW(measureStretch(h.intermediate, h.coarse, other.log), InvalidInput);
+  EXPECT_THROW(measureStretch(other.intermediate, h.coarse, h.log), InvalidInput);
+}
