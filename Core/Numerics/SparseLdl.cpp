@@ -247,6 +247,10 @@ Eigen::MatrixXd SparseLdl::schur(const Matrix& columns) const
   {
     throw InvalidInput("L D L^T: the columns have not the size of the matrix");
   }
+  if (k == 0)
+  {
+    return Eigen::MatrixXd(0, 0); // Eigen's products look at the first entry
+  }
   // Rows of D^-1/2 L^-1 C: what they have to do with each other is the product of their columns.
   std::vector<std::vector<std::pair<int, double>>> rows(n);
   std::vector<double> x(n, 0.0);
