@@ -36,7 +36,7 @@ struct Chain
   std::vector<Index> halfEdges; ///< one of each edge
   double length = 0;
   double sizedLength = 0; ///< length over the size of quads there
-  double jaggedness = 1; ///< length over its length in steps of s
+  double jaggedness = 1;  ///< length over its length in steps of s
   Index first = kInvalidIndex;
   Index last = kInvalidIndex;
   bool removable = true; ///< all of it was detected, none asked for, none on the boundary
@@ -228,10 +228,10 @@ std::vector<Index> chainComponents(const Mesh& mesh, const std::vector<Chain>& c
   return component;
 }
 
-/// One pass; returns whether anything went.
-bool removeOnce(Mesh& mesh, double edgeLength, FeatureFilterReport& report)
+/// Chain by chain; returns whether anything went.
+bool dropChains(
+  Mesh& mesh, double edgeLength, const FeatureGraph& graph, FeatureFilterReport& report)
 {
-  const FeatureGraph graph(mesh, edgeLength);
   const std::vector<Chain>& chains = graph.chains();
   const std::vector<Index> component = chainComponents(mesh, chains);
   std::vector<double> total(mesh.vertexCount(), 0);
@@ -443,17 +443,28 @@ private:
   std::vector<Thin> thin_;
 };
 
-bool dropAlongThinPatches(Mesh& mesh, double edgeLength, FeatureFilterReport& report)
+bool dropAlongThinPatches(
+  Mesh& mesh, double edgeLength, const std::vector<Chain>& chains, FeatureFilterReport& report)
 {
-  const FeatureGraph graph(mesh, edgeLength);
-  const ThinPatches thin(mesh, edgeLength, graph.chains());
-  const std::vector<Index> drop = thin.chainsToDrop();
+  const std::vector<Index> drop = ThinPatches(mesh, edgeLength, chains).chainsToDrop();
   for (const Index c : drop)
   {
-    unmarkFeatures(mesh, graph.chains()[c].halfEdges);
-    report.removedEdges += graph.chains()[c].halfEdges.size();
+    unmarkFeatures(mesh, chains[c].halfEdges);
+    report.removedEdges += chains[c].halfEdges.size();
   }
   return !drop.empty();
+}
+
+/// One pass; returns whether anything went. Most scans have nothing to drop, and patches take memory for each half-edge.
+bool removeOnce(Mesh& mesh, double edgeLength, FeatureFilterReport& report)
+{
+  const FeatureGraph graph(mesh, edgeLength);
+  const std::vector<Chain>& chains = graph.chains();
+  const bool any =
+    std::any_of(chains.begin(), chains.end(), [](const Chain& chain) { return chain.removable; });
+  return any &&
+    (dropChains(mesh, edgeLength, graph, report) ||
+      dropAlongThinPatches(mesh, edgeLength, chains, report));
 }
 
 } // namespace
@@ -465,7 +476,7 @@ FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength)
     throw InvalidInput("the edge length for filtering features must be positive");
   }
   FeatureFilterReport report;
-  while (removeOnce(mesh, edgeLength, report) || dropAlongThinPatches(mesh, edgeLength, report))
+  while (removeOnce(mesh, edgeLength, report))
   {
   }
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)

@@ -38,6 +38,16 @@ inline Mesh makeMesh(std::vector<Vector3> points, const std::vector<Triangle>& t
   return mesh;
 }
 
+/// With a size at each vertex, by its position.
+inline Mesh withSizes(Mesh mesh, const std::function<double(const Vector3&)>& size)
+{
+  for (const Vector3& p : mesh.position)
+  {
+    mesh.sizing.push_back(static_cast<float>(size(p)));
+  }
+  return mesh;
+}
+
 inline Vector3 faceNormal(const Mesh& mesh, Index f)
 {
   return mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).normalized();

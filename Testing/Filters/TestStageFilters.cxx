@@ -56,6 +56,16 @@ std::vector<Vector3> pointsOf(vtkPolyData* data)
   return points;
 }
 
+vtkSmartPointer<vtkQuadRemesh> inOneClick(vtkPolyData* input)
+{
+  const auto remesh = vtkSmartPointer<vtkQuadRemesh>::New();
+  remesh->SetInputData(input);
+  remesh->SetTargetTypeToNumberOfQuads();
+  remesh->SetNumberOfQuads(500);
+  remesh->Update();
+  return remesh;
+}
+
 /// Where the pipeline needs no second attempt, the stages one by one are the same computation.
 TEST(StageFilters, ChainEqualsOneClick)
 {
@@ -72,11 +82,7 @@ TEST(StageFilters, ChainEqualsOneClick)
   ASSERT_EQ(chain.extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
     << chain.hierarchy->GetOutcomeText() << chain.map->GetOutcomeText()
     << chain.upmap->GetOutcomeText() << chain.extraction->GetOutcomeText();
-  vtkNew<vtkQuadRemesh> oneClick;
-  oneClick->SetInputData(input);
-  oneClick->SetTargetTypeToNumberOfQuads();
-  oneClick->SetNumberOfQuads(500);
-  oneClick->Update();
+  const vtkSmartPointer<vtkQuadRemesh> oneClick = inOneClick(input);
   ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
 
   vtkPolyData* quads = chain.extraction->GetOutput();
@@ -161,11 +167,7 @@ TEST(StageFilters, ChainHonoursSizes)
   EXPECT_NE(
     std::string(chain.hierarchy->GetNoticesText()).find("grow gradually"), std::string::npos);
 
-  vtkNew<vtkQuadRemesh> oneClick;
-  oneClick->SetInputData(input);
-  oneClick->SetTargetTypeToNumberOfQuads();
-  oneClick->SetNumberOfQuads(500);
-  oneClick->Update();
+  const vtkSmartPointer<vtkQuadRemesh> oneClick = inOneClick(input);
   ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
   vtkPolyData* quads = chain.extraction->GetOutput();
   ASSERT_EQ(quads->GetNumberOfPoints(), oneClick->GetOutput()->GetNumberOfPoints());
@@ -209,11 +211,7 @@ TEST(StageFilters, ChainHonoursGuidesAndValences)
   EXPECT_TRUE(chain.hierarchy->GetOutput()->GetPointData()->HasArray("TargetValence"));
   EXPECT_STREQ(chain.hierarchy->GetNoticesText(), "");
 
-  vtkNew<vtkQuadRemesh> oneClick;
-  oneClick->SetInputData(input);
-  oneClick->SetTargetTypeToNumberOfQuads();
-  oneClick->SetNumberOfQuads(500);
-  oneClick->Update();
+  const vtkSmartPointer<vtkQuadRemesh> oneClick = inOneClick(input);
   ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
   // The stages merge charts before the extraction, which changes the order of points and their last bits.
   vtkPolyData* quads = chain.extraction->GetOutput();

@@ -17,15 +17,6 @@ namespace
 
 using namespace quadrille::test;
 
-Mesh withSizes(Mesh mesh, const std::function<double(const Vector3&)>& size)
-{
-  for (const Vector3& p : mesh.position)
-  {
-    mesh.sizing.push_back(static_cast<float>(size(p)));
-  }
-  return mesh;
-}
-
 /// Turns per fan of a mesh whose fans are whole rings or straight sectors, with a few changed by vertex.
 std::vector<int> turnsWith(
   const FieldTopology& topology, const std::vector<std::pair<Index, int>>& irregular)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/GridMap.h"
 #include "GridMap/RoundedMap.h"
-#include "TestMeshes.h"
+#include "MapModels.h"
 
 #include <gtest/gtest.h>
 
@@ -10,50 +10,7 @@
 #include <functional>
 
 using namespace quadrille;
-
-namespace
-{
-
-double areaOf(const Mesh& mesh)
-{
-  double area = 0;
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-  {
-    area += mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm() / 2;
-  }
-  return area;
-}
-
-struct Model
-{
-  const char* name;
-  std::function<Mesh()> make;
-};
-
-std::vector<Model> models()
-{
-  constexpr double kSharp = 0.7;
-  return { { "sphere", [] { return test::sphere(3); } },
-    { "torus", [] { return test::torus(32, 16); } },
-    { "smooth cube", [] { return test::unitCube(8); } },
-    { "cube", [] { return test::markFeatures(test::unitCube(8), kSharp); } },
-    { "cylinder", [] { return test::openCylinder(24, 12); } },
-    { "plate", [] { return test::gridPlane(12, 8); } },
-    { "plate with hole", [] { return test::plateWithHole(5); } },
-    { "L", [] { return test::plateL(6); } }, { "genus 2", [] { return test::doubleTorus(3); } },
-    { "sharp genus 2", [] { return test::markFeatures(test::doubleTorus(3), kSharp); } },
-    { "sharp square torus", [] { return test::markFeatures(test::squareTorus(4), kSharp); } },
-    { "two components", [] { return test::twoComponents(); } } };
-}
-
-CrossField fieldOf(const Mesh& mesh, double edgeLength)
-{
-  CrossFieldOptions options;
-  options.targetEdgeLength = edgeLength;
-  return computeCrossField(mesh, options);
-}
-
-} // namespace
+using namespace quadrille::test;
 
 TEST(RoundedMap, WhatMustBeWholeIsSoExactly)
 {

@@ -20,15 +20,6 @@ namespace
 
 using namespace quadrille::test;
 
-Mesh withSizes(Mesh mesh, const std::function<double(const Vector3&)>& size)
-{
-  for (const Vector3& p : mesh.position)
-  {
-    mesh.sizing.push_back(static_cast<float>(size(p)));
-  }
-  return mesh;
-}
-
 double slope(const Mesh& mesh, double edgeLength)
 {
   double most = 0;

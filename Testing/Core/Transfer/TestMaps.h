@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Base/FixedPoint.h"
+#include "Hierarchy/Hierarchy.h"
 #include "TestMeshes.h"
 
 #include <cmath>
@@ -15,6 +16,15 @@ namespace quadrille::test
 {
 
 constexpr double kFeatureAngle = 0.7; // radians, 40 degrees
+
+inline Hierarchy decimate(const Mesh& mesh, double edgeLength, Index vertices, int threads = 1)
+{
+  HierarchyOptions options;
+  options.targetEdgeLength = edgeLength;
+  options.coarseVertices = vertices;
+  options.threads = threads;
+  return buildHierarchy(mesh, 1, options);
+}
 
 /// uv of every corner from its position.
 inline std::vector<FixedVec2> mapByPosition(

@@ -19,14 +19,6 @@ using namespace quadrille::test;
 namespace
 {
 
-Hierarchy decimate(const Mesh& mesh, double edgeLength, Index vertices)
-{
-  HierarchyOptions options;
-  options.targetEdgeLength = edgeLength;
-  options.coarseVertices = vertices;
-  return buildHierarchy(mesh, 1, options);
-}
-
 std::uint64_t crc64(const std::uint8_t* bytes, std::size_t count)
 {
   std::uint64_t crc = ~0ULL;

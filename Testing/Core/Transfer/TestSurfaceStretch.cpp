@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
 #include "Mesh/Sizing.h"
-#include "TestMeshes.h"
+#include "TestMaps.h"
 #include "Transfer/SurfaceStretch.h"
 
 #include <gtest/gtest.h>
@@ -17,15 +17,6 @@ using namespace quadrille::test;
 
 namespace
 {
-
-Hierarchy decimate(const Mesh& mesh, double edgeLength, Index vertices, int threads = 1)
-{
-  HierarchyOptions options;
-  options.targetEdgeLength = edgeLength;
-  options.coarseVertices = vertices;
-  options.threads = threads;
-  return buildHierarchy(mesh, 1, options);
-}
 
 SurfaceStretch stretchOf(const Hierarchy& h)
 {

@@ -19,15 +19,6 @@ using namespace quadrille::test;
 namespace
 {
 
-Hierarchy decimate(const Mesh& mesh, double edgeLength, Index vertices, int threads = 1)
-{
-  HierarchyOptions options;
-  options.targetEdgeLength = edgeLength;
-  options.coarseVertices = vertices;
-  options.threads = threads;
-  return buildHierarchy(mesh, 1, options);
-}
-
 TransferResult transfer(
   const Mesh& fine, const Hierarchy& h, const std::vector<FixedVec2>& coarseUv, int threads = 1)
 {
