@@ -42,6 +42,9 @@ struct QuadMesh
   std::vector<Index> sourceFace;                    ///< per point: face of the mapped mesh
   std::vector<std::array<double, 3>> sourceWeights; ///< per point: barycentric in that face
   std::vector<Index> quadSourceFace;    ///< per quad: face of the mapped mesh under its uv centre
+  /// Per quad: barycentric of the uv centre in that face, in whatever charts the map has; all zero for a quad that
+  /// is no unit square of the map (see HoleFilling.h).
+  std::vector<std::array<double, 3>> quadSourceWeights;
   std::vector<int> valence;             ///< per point: number of edges
   std::vector<std::uint8_t> onBoundary; ///< per point
   std::vector<QuadLine> lines;          ///< features and boundary

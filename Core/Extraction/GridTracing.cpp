@@ -221,7 +221,7 @@ CellCorners traceCells(const ExactMap& map, const GridVertices& grid, bool toler
   return cells;
 }
 
-std::optional<Index> faceUnderCentre(
+std::optional<CellCentre> findCentre(
   const ExactMap& map, const Sector& sector, int direction, std::size_t maximumSteps)
 {
   const auto half = [](int axis)
@@ -241,7 +241,7 @@ std::optional<Index> faceUnderCentre(
   {
     return std::nullopt;
   }
-  return walk.face;
+  return CellCentre{ walk.face, walk.target };
 }
 
 } // namespace quadrille

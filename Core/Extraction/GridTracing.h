@@ -58,8 +58,14 @@ struct CellCorners
 /// behind folds. Parallel; the result does not depend on the number of threads.
 CellCorners traceCells(const ExactMap& map, const GridVertices& grid, bool tolerant, int threads);
 
-/// The face under the centre of the cell to the left of a port; none where it cannot be reached.
-std::optional<Index> faceUnderCentre(
+struct CellCentre
+{
+  Index face = kInvalidIndex;
+  FixedVec2 uv; ///< in the chart of face
+};
+
+/// The centre of the cell to the left of a port; none where it cannot be reached.
+std::optional<CellCentre> findCentre(
   const ExactMap& map, const Sector& sector, int direction, std::size_t maximumSteps);
 
 } // namespace quadrille

@@ -247,6 +247,7 @@ std::size_t fillHoles(QuadMesh& quads)
     {
       quads.quads.push_back(q);
       quads.quadSourceFace.push_back(quads.sourceFace[q[0]]);
+      quads.quadSourceWeights.push_back({}); // no square of the map
       for (std::size_t i = 0; i < 4; ++i)
       {
         edges.emplace(std::min(q[i], q[(i + 1) % 4]), std::max(q[i], q[(i + 1) % 4]));

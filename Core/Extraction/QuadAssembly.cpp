@@ -81,12 +81,27 @@ std::vector<Index> mergeClasses(
   return root;
 }
 
+/// Barycentric coordinates of a place in the chart of a face.
+std::array<double, 3> weightsInFace(const ExactMap& map, Index face, FixedVec2 uv)
+{
+  const Index h = 3 * face;
+  const FixedVec2 a = map.at(h);
+  const FixedVec2 b = map.at(h + 1);
+  const FixedVec2 c = map.at(h + 2);
+  const double whole = static_cast<double>(determinant(a, b, c));
+  const double wa = static_cast<double>(determinant(uv, b, c)) / whole;
+  const double wb = static_cast<double>(determinant(a, uv, c)) / whole;
+  const double wc = static_cast<double>(determinant(a, b, uv)) / whole;
+  return { wa, wb, wc };
+}
+
 // ------------------------------------------------------------------ cells
 
 struct Cell
 {
-  std::array<Index, 4> corners; ///< grid vertices
-  Index face;                   ///< under its centre
+  std::array<Index, 4> corners;    ///< grid vertices
+  Index face;                      ///< under its centre
+  std::array<double, 3> weights{}; ///< of the centre in that face; all zero where it is not known
 };
 
 struct Line
@@ -168,7 +183,12 @@ private:
     {
       cell.corners[i] = vertexOf(ports[i]);
     }
-    cell.face = faceUnderCentre(map_, sector, direction, stepLimit_).value_or(sector.face);
+    const std::optional<CellCentre> centre = findCentre(map_, sector, direction, stepLimit_);
+    cell.face = centre ? centre->face : sector.face;
+    if (centre)
+    {
+      cell.weights = weightsInFace(map_, centre->face, centre->uv);
+    }
     list.push_back(cell);
   }
 
@@ -276,19 +296,6 @@ std::size_t dropCollapsedAndDouble(std::vector<Cell>& cells)
 
 // ------------------------------------------------------------------ points
 
-std::array<double, 3> weightsInFace(const ExactMap& map, const GridVertex& vertex)
-{
-  const Index h = 3 * vertex.site;
-  const FixedVec2 a = map.at(h);
-  const FixedVec2 b = map.at(h + 1);
-  const FixedVec2 c = map.at(h + 2);
-  const double whole = static_cast<double>(determinant(a, b, c));
-  const double wa = static_cast<double>(determinant(vertex.uv, b, c)) / whole;
-  const double wb = static_cast<double>(determinant(a, vertex.uv, c)) / whole;
-  const double wc = static_cast<double>(determinant(a, b, vertex.uv)) / whole;
-  return { wa, wb, wc };
-}
-
 std::array<double, 3> weightsOnEdge(const ExactMap& map, const GridVertex& vertex)
 {
   const FixedVec2 e = map.edge(vertex.site);
@@ -307,7 +314,7 @@ void placePoint(const ExactMap& map, const GridVertex& vertex, QuadMesh& mesh, s
   std::array<double, 3> weights{};
   if (vertex.kind == Site::Face)
   {
-    weights = weightsInFace(map, vertex);
+    weights = weightsInFace(map, vertex.site, vertex.uv);
   }
   else if (vertex.kind == Site::Edge)
   {
@@ -421,6 +428,7 @@ void assembleQuads(const ExactMap& map, const GridVertices& grid, const CellCorn
     mesh.quads.push_back({ pointOf[cell.corners[0]], pointOf[cell.corners[1]],
       pointOf[cell.corners[2]], pointOf[cell.corners[3]] });
     mesh.quadSourceFace.push_back(cell.face);
+    mesh.quadSourceWeights.push_back(cell.weights);
   }
   makeLines(parts.lines, pointOf, options.tolerant, mesh);
 }

@@ -153,6 +153,13 @@ void expectConsistentAttributes(const Mesh& mesh, const QuadMesh& quads)
   ASSERT_EQ(quads.valence.size(), quads.points.size());
   ASSERT_EQ(quads.onBoundary.size(), quads.points.size());
   ASSERT_EQ(quads.quadSourceFace.size(), quads.quads.size());
+  ASSERT_EQ(quads.quadSourceWeights.size(), quads.quads.size());
+  for (const std::array<double, 3>& weights : quads.quadSourceWeights)
+  {
+    const double sum = weights[0] + weights[1] + weights[2];
+    EXPECT_NEAR(sum, sum == 0 ? 0 : 1, 1e-12); // 0: a quad that fills a hole
+    EXPECT_GE(std::min({ weights[0], weights[1], weights[2] }), 0);
+  }
   for (std::size_t i = 0; i < quads.points.size(); ++i)
   {
     Vector3 p = Vector3::Zero();
@@ -213,6 +220,7 @@ void expectSame(const QuadMesh& a, const QuadMesh& b)
   EXPECT_EQ(a.sourceFace, b.sourceFace);
   EXPECT_EQ(a.sourceWeights, b.sourceWeights);
   EXPECT_EQ(a.quadSourceFace, b.quadSourceFace);
+  EXPECT_EQ(a.quadSourceWeights, b.quadSourceWeights);
   EXPECT_EQ(a.valence, b.valence);
   EXPECT_EQ(a.onBoundary, b.onBoundary);
   ASSERT_EQ(a.lines.size(), b.lines.size());
@@ -292,6 +300,33 @@ TEST(Extraction, IrregularVerticesOfPolycubes)
     sum += (4 - valence) * count;
   }
   EXPECT_EQ(sum, 8);
+}
+
+// On flat squares the centre of a quad in the map is the mean of its corners in space.
+TEST(Extraction, CentresOfQuads)
+{
+  Random random(5);
+  for (const Mesh& mesh : { gridPlane(5, 3), unitCube(2), tripod(1) })
+  {
+    GridMapCase c = squares("", mesh, 3);
+    MapEditor(c).shuffleCharts(random);
+    const QuadMesh quads = extract(c).mesh;
+    for (std::size_t q = 0; q < quads.quads.size(); ++q)
+    {
+      Vector3 centre = Vector3::Zero();
+      Vector3 mean = Vector3::Zero();
+      for (Index i = 0; i < 3; ++i)
+      {
+        centre += quads.quadSourceWeights[q][i] *
+          c.mesh.position[c.mesh.origin[3 * quads.quadSourceFace[q] + i]];
+      }
+      for (const Index p : quads.quads[q])
+      {
+        mean += quads.points[p] / 4;
+      }
+      EXPECT_LT((centre - mean).norm(), 1e-12); // rounding
+    }
+  }
 }
 
 TEST(Extraction, RandomChartsAndTriangulations)

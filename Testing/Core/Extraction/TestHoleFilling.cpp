@@ -28,6 +28,7 @@ void removeQuads(QuadMesh& mesh, const std::vector<Index>& ids)
   {
     mesh.quads.erase(mesh.quads.begin() + *id);
     mesh.quadSourceFace.erase(mesh.quadSourceFace.begin() + *id);
+    mesh.quadSourceWeights.erase(mesh.quadSourceWeights.begin() + *id);
   }
 }
 
@@ -55,6 +56,7 @@ TEST(HoleFilling, RestoresAnyMissingQuad)
     EXPECT_EQ(fillHoles(mesh), 1u);
     ASSERT_EQ(mesh.quads.size(), whole.quads.size());
     EXPECT_EQ(mesh.quadSourceFace.size(), mesh.quads.size());
+    EXPECT_EQ(mesh.quadSourceWeights.size(), mesh.quads.size());
     EXPECT_TRUE(sameQuad(mesh.quads.back(), whole.quads[q]));
   }
 }
