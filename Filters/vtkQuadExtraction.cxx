@@ -142,9 +142,9 @@ vtkPolyData* vtkQuadExtraction::GetLines()
 //------------------------------------------------------------------------------
 void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (this->MaximumQuads < 1)
+  if (this->MaximumNumberOfQuads < 1)
   {
-    throw quadrille::InvalidInput("MaximumQuads must be at least 1");
+    throw quadrille::InvalidInput("MaximumNumberOfQuads must be at least 1");
   }
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   if (quadrille::readMethod(input) == quadrille::MapMethod::Seamless)
@@ -156,7 +156,7 @@ void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVec
   const quadrille::Mesh mesh = quadrille::readMesh(input);
   const std::vector<quadrille::FixedVec2> uv = quadrille::readMap(input);
   quadrille::ExtractionOptions options;
-  options.maximumQuads = static_cast<std::size_t>(this->MaximumQuads);
+  options.maximumNumberOfQuads = static_cast<std::size_t>(this->MaximumNumberOfQuads);
   options.threads = this->NumberOfThreads;
   options.fixedVertices = requestedVertices(input, mesh);
   options.progress = this->MakeProgress(0.0, 0.95);
@@ -179,6 +179,6 @@ void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVec
 void vtkQuadExtraction::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "MaximumQuads: " << this->MaximumQuads << "\n";
+  os << indent << "MaximumNumberOfQuads: " << this->MaximumNumberOfQuads << "\n";
   os << indent << "PatchArrayName: " << this->PatchArrayName << "\n";
 }

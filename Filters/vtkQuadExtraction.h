@@ -23,8 +23,8 @@ public:
   /**
    * The filter refuses, before memory is spent, to make more quads than this; at least 1. Default: ten million.
    */
-  vtkSetMacro(MaximumQuads, vtkIdType);
-  vtkGetMacro(MaximumQuads, vtkIdType);
+  vtkSetMacro(MaximumNumberOfQuads, vtkIdType);
+  vtkGetMacro(MaximumNumberOfQuads, vtkIdType);
   ///@}
 
   ///@{
@@ -49,7 +49,7 @@ private:
   vtkQuadExtraction(const vtkQuadExtraction&) = delete;
   void operator=(const vtkQuadExtraction&) = delete;
 
-  vtkIdType MaximumQuads = 10000000;
+  vtkIdType MaximumNumberOfQuads = 10000000;
   std::string PatchArrayName = "PatchId";
 };
 

@@ -98,9 +98,9 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
 {
   this->ActualQuads = this->TargetQuads = this->Handles = this->UnresolvedHandles = 0;
   this->ShortestLoopOverEdgeLength = this->ShortestBoundaryOverEdgeLength = 0;
-  if (this->MaximumQuads < 1)
+  if (this->MaximumNumberOfQuads < 1)
   {
-    throw quadrille::InvalidInput("MaximumQuads must be at least 1");
+    throw quadrille::InvalidInput("MaximumNumberOfQuads must be at least 1");
   }
   if (this->Method == METHOD_SEAMLESS && !this->ComputeMappedSurface)
   {
@@ -111,7 +111,7 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   quadrille::ConvertedSurface converted = this->ConvertInputs(inputs);
   quadrille::RemeshOptions options = this->MakeOptions();
-  options.maximumQuads = static_cast<std::size_t>(this->MaximumQuads);
+  options.maximumNumberOfQuads = static_cast<std::size_t>(this->MaximumNumberOfQuads);
   if (this->MemoryLimit > 0)
   {
     options.memoryLimit = 1e6 * this->MemoryLimit;
@@ -184,7 +184,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Method: " << this->Method << "\n";
   os << indent << "Integers: " << this->Integers << "\n";
   os << indent << "AnisotropyLimit: " << this->AnisotropyLimit << "\n";
-  os << indent << "MaximumQuads: " << this->MaximumQuads << "\n";
+  os << indent << "MaximumNumberOfQuads: " << this->MaximumNumberOfQuads << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "CloseHandles: " << this->CloseHandles << "\n";
   os << indent << "KeepLevels: " << this->KeepLevels << "\n";

@@ -99,8 +99,8 @@ public:
   /**
    * The filter refuses, before memory is spent, to make more quads than this; at least 1. Default: ten million.
    */
-  vtkSetMacro(MaximumQuads, vtkIdType);
-  vtkGetMacro(MaximumQuads, vtkIdType);
+  vtkSetMacro(MaximumNumberOfQuads, vtkIdType);
+  vtkGetMacro(MaximumNumberOfQuads, vtkIdType);
   ///@}
 
   ///@{
@@ -236,7 +236,7 @@ private:
   int Method = METHOD_SCALE_AWARE;
   int Integers = INTEGERS_KEEP_SIZES;
   double AnisotropyLimit = 0;
-  vtkIdType MaximumQuads = 10000000;
+  vtkIdType MaximumNumberOfQuads = 10000000;
   double MemoryLimit = 0;
   double CloseHandles = 0;
   vtkTypeBool KeepLevels = 1;

@@ -43,7 +43,7 @@ public:
     NoValidResult, ///< the stages ended without a valid result
     Aborted,       ///< the user asked to stop
     TimedOut,      ///< TimeLimit was reached
-    TooLarge       ///< the result would exceed MaximumQuads
+    TooLarge       ///< the result would exceed MaximumNumberOfQuads
   };
 
   ///@{

@@ -48,7 +48,7 @@ void checkOutOfRange(const MapCheck& check)
 Status checkSize(const MapCheck& check, const Mesh& mesh, const ExtractionOptions& options)
 {
   // Four ports a quad have to fit an Index.
-  const double limit = std::min(static_cast<double>(options.maximumQuads), 5e8);
+  const double limit = std::min(static_cast<double>(options.maximumNumberOfQuads), 5e8);
   std::ostringstream text;
   if (check.area > limit)
   {

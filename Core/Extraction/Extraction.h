@@ -17,7 +17,7 @@ namespace quadrille
 
 struct ExtractionOptions
 {
-  std::size_t maximumQuads = 10000000; ///< refuse, before memory is spent, to make more
+  std::size_t maximumNumberOfQuads = 10000000; ///< refuse, before memory is spent, to make more
   /// Sweeps of tangential smoothing on the input surface afterwards (see QuadSmoothing.h), >= 0; 0:
   /// the points stay where the map has them.
   int smoothingSteps = 5;

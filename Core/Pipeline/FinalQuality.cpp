@@ -97,7 +97,7 @@ public:
       return {}; // a seamless map without integers has none
     }
     ExtractionOptions extraction;
-    extraction.maximumQuads = options_.maximumQuads;
+    extraction.maximumNumberOfQuads = options_.maximumNumberOfQuads;
     extraction.fixedVertices = indexVertices(surface_);
     extraction.threads = options_.threads;
     const ExtractionResult quads = extractQuads(surface_.mesh, uv, extraction);

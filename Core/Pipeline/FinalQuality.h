@@ -29,7 +29,7 @@ struct FinalQualityOptions
   FinalQuality level = FinalQuality::Coarse;
   double edgeLength = 0;   ///< of the quads
   double maximumBytes = 0; ///< that may be taken
-  std::size_t maximumQuads = 10000000;
+  std::size_t maximumNumberOfQuads = 10000000;
   int threads = 0;
   ProgressCallback progress;
 };

@@ -234,7 +234,7 @@ private:
       triangles += std::max<std::size_t>(corners, 2) - 2;
     }
     const double quads =
-      static_cast<double>(std::min(options_.quads.value_or(0), options_.maximumQuads));
+      static_cast<double>(std::min(options_.quads.value_or(0), options_.maximumNumberOfQuads));
     result_.estimate = estimateRun(triangles, quads, options_.threads);
     report(options_.progress, 0,
       "Preparing: " + describe(result_.estimate) + " for " + std::to_string(triangles) +
@@ -373,13 +373,14 @@ private:
 
   bool refuseTooMany()
   {
-    if (result_.targetQuads <= options_.maximumQuads)
+    if (result_.targetQuads <= options_.maximumNumberOfQuads)
     {
       return false;
     }
     fail(StatusCode::TooLarge,
       "about " + std::to_string(result_.targetQuads) +
-        " quads would be made, more than the limit of " + std::to_string(options_.maximumQuads) +
+        " quads would be made, more than the limit of " +
+        std::to_string(options_.maximumNumberOfQuads) +
         "; choose a larger edge length or raise the limit");
     return true;
   }
@@ -885,7 +886,7 @@ private:
     const double factor = kQuadsOfLoop * s / length;
     const double quads = std::ceil(static_cast<double>(result_.targetQuads) * factor * factor);
     text << length << " = " << length / s << " edge lengths near " << placeText(place) << ": ";
-    if (quads <= static_cast<double>(options_.maximumQuads))
+    if (quads <= static_cast<double>(options_.maximumNumberOfQuads))
     {
       text << "ask for smaller quads (about " << static_cast<std::size_t>(quads)
            << " resolve all) or ";
@@ -1072,7 +1073,7 @@ private:
     FinalQualityOptions finalOptions;
     finalOptions.level = options_.finalQuality;
     finalOptions.edgeLength = result_.targetEdgeLength;
-    finalOptions.maximumQuads = options_.maximumQuads;
+    finalOptions.maximumNumberOfQuads = options_.maximumNumberOfQuads;
     finalOptions.maximumBytes = options_.memoryLimit.value_or(freeMemory());
     finalOptions.threads = options_.threads;
     finalOptions.progress = subProgress(options_.progress, 0.9, 0.95, "Optimizing: ");
@@ -1115,7 +1116,7 @@ private:
     const double start = now();
     const Mesh& mesh = result_.surface.mesh;
     ExtractionOptions extractionOptions;
-    extractionOptions.maximumQuads = options_.maximumQuads;
+    extractionOptions.maximumNumberOfQuads = options_.maximumNumberOfQuads;
     extractionOptions.fixedVertices = indexVertices(result_.surface);
     extractionOptions.threads = options_.threads;
     extractionOptions.progress = subProgress(options_.progress, 0.9, 1.0, "Extracting: ");
@@ -1187,7 +1188,7 @@ private:
       return std::nullopt;
     }
     ExtractionOptions extractionOptions;
-    extractionOptions.maximumQuads = options_.maximumQuads;
+    extractionOptions.maximumNumberOfQuads = options_.maximumNumberOfQuads;
     extractionOptions.smoothingSteps = 0;
     extractionOptions.threads = options_.threads;
     const ExtractionResult coarse =

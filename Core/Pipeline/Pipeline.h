@@ -47,7 +47,7 @@ struct RemeshOptions
   FinalQuality finalQuality = FinalQuality::Coarse;
   /// The shapes of coarse triangles, to which the map fits its quads, are those of the surface that they stand for: see measureStretch.
   bool distortionMetric = false;
-  std::size_t maximumQuads = 10000000;
+  std::size_t maximumNumberOfQuads = 10000000;
   /// Bytes that the run may take by the estimate; none: what the machine has free.
   std::optional<double> memoryLimit;
   bool mergeCharts =

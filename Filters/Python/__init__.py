@@ -136,7 +136,7 @@ def _set_size(run, quads, edge_length, relative_edge_length):
 
 
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
-           coarse_vertices=1000, patch_array="PatchId", curves=None, threads=0, maximum_quads=10000000,
+           coarse_vertices=1000, patch_array="PatchId", curves=None, threads=0, maximum_number_of_quads=10000000,
            memory_limit=0.0, time_limit=0.0, close_handles=0.0, method="scale-aware",
            final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False, progress=None,
            everything=False):
@@ -150,7 +150,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     patch_array: name of a cell array of whole numbers, whose borders become edges of the quads; None: not used.
     curves: a vtkPolyData with polylines that become features.
     threads: 0 means all.
-    maximum_quads: refuse to make more.
+    maximum_number_of_quads: refuse to make more.
     memory_limit: refuse to start where more is needed by the estimate; millions of bytes; 0 means what is free.
     time_limit: seconds; 0 means none.
     close_handles: handles shorter round or through than so many target edge lengths are cut and closed; 0: none.
@@ -179,7 +179,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     run.SetCoarseVertices(coarse_vertices)
     run.SetPatchArrayName(patch_array or "")
     run.SetNumberOfThreads(threads)
-    run.SetMaximumQuads(int(maximum_quads))
+    run.SetMaximumNumberOfQuads(int(maximum_number_of_quads))
     run.SetMemoryLimit(memory_limit)
     run.SetTimeLimit(time_limit)
     run.SetCloseHandles(close_handles)

@@ -363,7 +363,7 @@ TEST(QuadRemeshFailure, RefusesTooManyQuads)
 {
   vtkNew<vtkQuadRemesh> filter;
   const test::Messages messages(filter);
-  filter->SetMaximumQuads(100);
+  filter->SetMaximumNumberOfQuads(100);
   run(filter, test::toPolyData(test::torus(40, 20)), 2000);
   EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::TooLarge);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);

@@ -573,7 +573,7 @@ class Python(Case):
         with self.assertRaisesRegex(quadrille.InvalidInput, "3"):
             quadrille.remesh((points[:3] + [(math.inf, 0, 0)] + points[4:], faces), quads=10)
         with self.assertRaisesRegex(quadrille.RemeshError, "limit"):
-            quadrille.remesh((points, faces), quads=1000, maximum_quads=100)
+            quadrille.remesh((points, faces), quads=1000, maximum_number_of_quads=100)
         with self.assertRaisesRegex(quadrille.RemeshError, "2 MB are allowed"):
             quadrille.remesh((points, faces), quads=1000, memory_limit=2)
         with self.assertRaisesRegex(quadrille.InvalidInput, "intermediate"):

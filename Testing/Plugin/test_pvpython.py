@@ -41,7 +41,7 @@ quads.CoarseVertices = 500
 quads.NumberOfThreads = 1
 quads.TimeLimit = 250
 quads.ComputeMappedSurface = 0
-quads.MaximumQuads = 100000
+quads.MaximumNumberOfQuads = 100000
 quads.UpdatePipeline()
 check(size_of(quads) > 0 and size_of(quads, 1) == 0, "ComputeMappedSurface has no effect")
 check(quads.PatchArray == "(none)", "PatchArray should be (none) where there is no cell array")

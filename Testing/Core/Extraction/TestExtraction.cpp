@@ -444,9 +444,9 @@ TEST(Extraction, RefusesTooManyQuadsBeforeTheyAreMade)
 
   ExtractionOptions options;
   const GridMapCase small = squares("", unitCube(2), 2);
-  options.maximumQuads = small.quads;
+  options.maximumNumberOfQuads = small.quads;
   EXPECT_TRUE(extractQuads(small.mesh, small.uv, options).status.ok());
-  options.maximumQuads = small.quads - 1;
+  options.maximumNumberOfQuads = small.quads - 1;
   EXPECT_EQ(extractQuads(small.mesh, small.uv, options).status.code, StatusCode::TooLarge);
 }
 

@@ -486,7 +486,7 @@ TEST(Pipeline, RefusesBeforeItSpends)
 {
   RemeshOptions options;
   options.quads = 1000;
-  options.maximumQuads = 999;
+  options.maximumNumberOfQuads = 999;
   const RemeshResult result = remesh(test::toInput(test::sphere(3)), options);
   EXPECT_EQ(result.status.code, StatusCode::TooLarge);
   EXPECT_NE(result.status.message.find("1000"), std::string::npos);
