@@ -163,7 +163,8 @@ public:
   }
 
   /// Moves the vertex of corner h by delta (its chart). Leaves constrained and singular vertices,
-  /// and unless `force`, moves that would not keep the star positive.
+  /// and unless `force`, moves that would not keep the star positive and wound once: the ring of a
+  /// neighbour of a cone can wind twice.
   bool moveVertex(Index h, FixedVec2 delta, bool force)
   {
     std::vector<std::pair<Index, FixedVec2>> moved;
@@ -183,12 +184,20 @@ public:
     {
       return false;
     }
+    double before = 0;
+    double after = 0;
     for (const auto& [corner, p] : moved)
     {
       if (!force && orientation(p, uv_[Mesh::next(corner)], uv_[Mesh::previous(corner)]) <= 0)
       {
         return false;
       }
+      before += angle(uv_[corner], corner);
+      after += angle(p, corner);
+    }
+    if (!force && (before > 3 * kPi || after > 3 * kPi)) // 2 pi, or 4 pi and more
+    {
+      return false;
     }
     for (const auto& [corner, p] : moved)
     {
@@ -236,6 +245,14 @@ public:
   }
 
 private:
+  /// At p, in the place of corner h.
+  double angle(FixedVec2 p, Index h) const
+  {
+    const Vector2 a = toDouble(uv_[Mesh::next(h)] - p);
+    const Vector2 b = toDouble(uv_[Mesh::previous(h)] - p);
+    return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+  }
+
   Vector3 position(Index h) const { return mesh_.position[mesh_.origin[h]]; }
 
   /// Is there an edge from the vertex of corner h to vertex v (or are they the same)?
