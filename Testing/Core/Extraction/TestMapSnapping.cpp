@@ -3,6 +3,7 @@
 #include "GridMaps.h"
 
 #include "Base/Error.h"
+#include "Extraction/ExactMap.h"
 #include "Extraction/Extraction.h"
 #include "Extraction/MapSnapping.h"
 
@@ -26,6 +27,48 @@ std::vector<Vector2> noisy(const GridMapCase& c, double noise, Random& random)
       toDouble(p) + noise / 1000 * Vector2(pick(random, 2001) - 1000, pick(random, 2001) - 1000));
   }
   return uv;
+}
+
+std::vector<Vector2> inDoubles(const GridMapCase& c)
+{
+  Random unused(0);
+  return noisy(c, 0, unused);
+}
+
+/// Quarter turns over every half-edge, as the images have them.
+std::vector<std::int8_t> matchingOf(const GridMapCase& c)
+{
+  const ExactMap map{ c.mesh, c.uv };
+  std::vector<std::int8_t> matching;
+  for (Index h = 0; h < c.mesh.halfEdgeCount(); ++h)
+  {
+    Transition t;
+    map.transition(h, t);
+    matching.push_back(static_cast<std::int8_t>(t.rotation));
+  }
+  return matching;
+}
+
+/// The message of the InvalidInput that snapMap throws; empty where it throws none.
+std::string refusal(
+  const GridMapCase& c, const std::vector<Vector2>& uv, const SnapOptions& options = {})
+{
+  try
+  {
+    snapMap(c.mesh, uv, options);
+  }
+  catch (const InvalidInput& error)
+  {
+    return error.what();
+  }
+  return {};
+}
+
+/// An edge over which the chart turns.
+Index turningEdge(const GridMapCase& c)
+{
+  const std::vector<std::int8_t> matching = matchingOf(c);
+  return static_cast<Index>(std::find(matching.begin(), matching.end(), 1) - matching.begin());
 }
 
 } // namespace
@@ -74,6 +117,173 @@ TEST(MapSnapping, RefusesGarbage)
   EXPECT_THROW(snapMap(c.mesh, uv), InvalidInput);
   uv[7].x() = 9.2e18;
   EXPECT_THROW(snapMap(c.mesh, uv), InvalidInput);
+}
+
+TEST(MapSnapping, SameBytesForAnyNumberOfThreads)
+{
+  Random random(24);
+  GridMapCase c = squares("", markFeatures(doubleTorus(2), 0.7), 6);
+  MapEditor(c).refine(random, 40000);
+  MapEditor(c).shuffleCharts(random);
+  const std::vector<Vector2> uv = noisy(c, 1e-4, random);
+  SnapOptions options;
+  options.threads = 1;
+  const SnapResult one = snapMap(c.mesh, uv, options);
+  for (const int threads : { 2, 5 })
+  {
+    options.threads = threads;
+    const SnapResult many = snapMap(c.mesh, uv, options);
+    EXPECT_EQ(many.uv, one.uv);
+    EXPECT_EQ(many.largestMove, one.largestMove);
+    EXPECT_EQ(many.largestMoveCorner, one.largestMoveCorner);
+    EXPECT_EQ(many.snappedToFixedPoint, one.snappedToFixedPoint);
+  }
+}
+
+// Coordinates of another unit, as texture coordinates that were scaled to the unit square.
+TEST(MapSnapping, AsksForTheScale)
+{
+  GridMapCase c = squares("", unitCube(2), 3);
+  Random random(25);
+  MapEditor(c).shuffleCharts(random);
+  std::vector<Vector2> uv = inDoubles(c);
+  for (Vector2& p : uv)
+  {
+    p *= 0.17;
+  }
+  const std::string text = refusal(c, uv);
+  EXPECT_NE(text.find("not whole"), std::string::npos) << text;
+  EXPECT_NE(text.find("one unit is one quad"), std::string::npos) << text;
+  EXPECT_NE(text.find("of cell"), std::string::npos) << text;
+  for (Vector2& p : uv)
+  {
+    p /= 0.17;
+  }
+  EXPECT_EQ(snapMap(c.mesh, uv).uv, c.uv);
+}
+
+// Charts of a texture atlas are turned by any angle.
+TEST(MapSnapping, RefusesAnAtlas)
+{
+  const GridMapCase c = squares("", unitCube(2), 3);
+  std::vector<Vector2> uv = inDoubles(c);
+  const Eigen::Rotation2Dd turn(0.5);
+  for (std::size_t h = 24; h < 36; ++h)
+  {
+    uv[h] = turn * uv[h];
+  }
+  const std::string text = refusal(c, uv);
+  EXPECT_NE(text.find("no quarter turn"), std::string::npos) << text;
+  EXPECT_NE(text.find("of cell"), std::string::npos) << text;
+}
+
+TEST(MapSnapping, TakesAMatchingThatFits)
+{
+  Random random(26);
+  for (GridMapCase& c : allCases(2))
+  {
+    SCOPED_TRACE(c.name);
+    MapEditor editor(c);
+    editor.refine(random, 200);
+    editor.shuffleCharts(random);
+    SnapOptions options;
+    options.matching = matchingOf(c);
+    EXPECT_EQ(snapMap(c.mesh, inDoubles(c), options).uv, c.uv);
+    const std::vector<Vector2> uv = noisy(c, 1e-6, random);
+    const SnapResult given = snapMap(c.mesh, uv, options);
+    EXPECT_EQ(given.uv, snapMap(c.mesh, uv).uv);
+    for (std::int8_t& turns : options.matching)
+    {
+      turns = static_cast<std::int8_t>(turns - 4); // the same modulo 4
+    }
+    EXPECT_EQ(snapMap(c.mesh, uv, options).uv, given.uv);
+  }
+}
+
+// Beside a corner of the cube an edge is far shorter than the noise, and all turns leave its
+// translation whole: only the matching knows which one it is.
+TEST(MapSnapping, MatchingDecidesWhereImagesAreTooShort)
+{
+  GridMapCase c = squares("", unitCube(1), 2);
+  const std::vector<std::int8_t> before = matchingOf(c);
+  std::vector<Index> split;
+  for (Index h = 0; h < c.mesh.halfEdgeCount(); ++h)
+  {
+    if (c.uv[h] == FixedVec2{} && before[h] != 0)
+    {
+      split.push_back(h);
+    }
+  }
+  ASSERT_FALSE(split.empty());
+  MapEditor editor(c);
+  for (const Index h : split)
+  {
+    const FixedVec2 e = c.uv[Mesh::next(h)] - c.uv[h];
+    editor.splitEdge(h, { e.u / (1 << 14), e.v / (1 << 14) });
+  }
+  Random random(27);
+  SnapOptions options;
+  options.matching = matchingOf(c);
+  options.valueError = 1e-3;
+  const std::vector<Vector2> uv = noisy(c, 1e-3, random);
+  const SnapResult snapped = snapMap(c.mesh, uv, options);
+  EXPECT_EQ(snapped.inconsistent, 0u);
+  EXPECT_EQ(snapped.snappedToFixedPoint, 8u); // the corners of the cube
+  options.matching.clear();
+  EXPECT_NE(snapMap(c.mesh, uv, options).snappedToFixedPoint, 8u);
+}
+
+TEST(MapSnapping, RefusesAMatchingThatContradictsTheImages)
+{
+  Random random(28);
+  GridMapCase c = squares("", unitCube(2), 2);
+  MapEditor(c).shuffleCharts(random);
+  const Index h = turningEdge(c);
+  const Index g = c.mesh.twin[h];
+  for (const double noise : { 0.0, 1e-5 }) // maps that fit exactly, and others
+  {
+    const std::vector<Vector2> uv = noisy(c, noise, random);
+    SnapOptions options;
+    options.matching = matchingOf(c);
+    options.matching[h] = 3; // the way back
+    options.matching[g] = 1;
+    std::string text = refusal(c, uv, options);
+    EXPECT_NE(text.find("differ by"), std::string::npos) << text;
+    const Index lower = std::min(h, g);
+    EXPECT_NE(
+      text.find("edge " + std::to_string(lower % 3) + " of cell " + std::to_string(lower / 3)),
+      std::string::npos)
+      << text;
+    options.matching[g] = 3;
+    text = refusal(c, uv, options);
+    EXPECT_NE(text.find("add up"), std::string::npos) << text;
+    options.matching.pop_back();
+    EXPECT_FALSE(refusal(c, uv, options).empty());
+  }
+}
+
+// Charts far from zero, in single precision: neighbouring values are 1/256 apart.
+TEST(MapSnapping, KnowsTheErrorOfSinglePrecision)
+{
+  Random random(29);
+  for (GridMapCase& c : allCases(2))
+  {
+    SCOPED_TRACE(c.name);
+    MapEditor(c).shuffleCharts(random);
+    std::vector<Vector2> uv;
+    for (const FixedVec2& p : c.uv)
+    {
+      uv.push_back((toDouble(p) + Vector2(40000.3, -30000.2)).cast<float>().cast<double>() -
+        Vector2(0.3, -0.2));
+    }
+    SnapOptions options;
+    options.valueError = 1.0 / 256;
+    const ExtractionResult result = extractQuads(c.mesh, snapMap(c.mesh, uv, options).uv, {});
+    EXPECT_TRUE(result.status.ok()) << result.status.message;
+    EXPECT_EQ(result.mesh.quads.size(), c.quads);
+    options.valueError = 0.1;
+    EXPECT_NE(refusal(c, uv, options).find("double precision"), std::string::npos);
+  }
 }
 
 #ifdef QUADRILLE_SHARED_DATA
