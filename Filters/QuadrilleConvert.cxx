@@ -527,7 +527,7 @@ std::vector<Index> readTriangles(vtkPolyData* data)
   if (data->GetNumberOfPolys() != data->GetNumberOfCells())
   {
     refuse(
-      "the input has cells other than triangles; take the output of a Quadrille filter as it is");
+      "the input has cells other than triangles (vertices, lines or strips); keep the triangles only");
   }
   std::vector<Index> corners;
   corners.reserve(3 * static_cast<std::size_t>(data->GetNumberOfPolys()));
@@ -540,7 +540,8 @@ std::vector<Index> readTriangles(vtkPolyData* data)
     iterator->GetCurrentCell(count, ids);
     if (count != 3)
     {
-      refuse("cell ", cell, " has ", count, " corners, a triangle is needed");
+      refuse("cell ", cell, " has ", count,
+        " corners, a triangle is needed; the surface and its map have to be triangulated first");
     }
     for (vtkIdType i = 0; i < 3; ++i)
     {
@@ -802,6 +803,26 @@ vtkSmartPointer<vtkPolyData> writeMesh(const Mesh& mesh)
   addFeatureEdges(data, mesh);
   addTwinsWhereNeeded(data, mesh);
   return data;
+}
+
+std::vector<Index> readCorners(vtkPolyData* data)
+{
+  return readTriangles(data);
+}
+
+std::vector<Vector3> readPointPositions(vtkPolyData* data)
+{
+  return readPoints(data);
+}
+
+void readFeatureFlags(vtkPolyData* data, Mesh& mesh)
+{
+  readFlags(data, mesh);
+}
+
+std::vector<int> readPointValences(vtkPolyData* data)
+{
+  return pointValences(data);
 }
 
 Mesh readMesh(vtkPolyData* data)

@@ -104,6 +104,14 @@ vtkSmartPointer<vtkPolyData> writeMesh(const Mesh& mesh);
 /// Throws InvalidInput naming the cell that is no triangle, or the edge that is not manifold.
 Mesh readMesh(vtkPolyData* data);
 
+/// Parts of readMesh: the points of the triangles' corners, #H; positions, #points; FeatureEdges to the flags of a mesh with these corners.
+/// The first throws InvalidInput naming the cell that is no triangle.
+std::vector<Index> readCorners(vtkPolyData* data);
+std::vector<Vector3> readPointPositions(vtkPolyData* data);
+void readFeatureFlags(vtkPolyData* data, Mesh& mesh);
+/// TargetValence, #points, or empty where the array is missing. Throws InvalidInput naming the point.
+std::vector<int> readPointValences(vtkPolyData* data);
+
 /// writeMesh with FineFace and FineVertex, and what is asked for: the level's guides, and targetValences (#V or empty).
 vtkSmartPointer<vtkPolyData> writeLevel(const Level& level, const std::vector<int>& targetValences);
 /// Guides of a mesh that writeLevel wrote, in the planes of its faces: #F, or empty where there are none. Throws InvalidInput naming the

@@ -4,6 +4,7 @@
 
 #include "Extraction/Extraction.h"
 #include "QuadrilleConvert.h"
+#include "QuadrilleMappedInput.h"
 #include "QuadrilleQuads.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleStages.h"
@@ -16,6 +17,8 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+
+#include <cmath>
 
 vtkStandardNewMacro(vtkQuadExtraction);
 
@@ -97,21 +100,6 @@ quadrille::QuadSource sourceOf(vtkPolyData* data, const std::string& patchArray)
   return source;
 }
 
-/// Vertices whose irregular valence was asked for stay where they are.
-std::vector<quadrille::Index> requestedVertices(vtkPolyData* data, const quadrille::Mesh& mesh)
-{
-  std::vector<quadrille::Index> vertices;
-  const std::vector<int> valences = quadrille::readTargetValences(data, mesh);
-  for (quadrille::Index v = 0; v < valences.size(); ++v)
-  {
-    if (valences[v] != 0 && valences[v] != quadrille::kRegularValence)
-    {
-      vertices.push_back(v);
-    }
-  }
-  return vertices;
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -153,15 +141,24 @@ void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVec
       "the map was made by the method 'seamless', which has no integers, so there are no "
       "quads: choose another method where the map is made");
   }
-  const quadrille::Mesh mesh = quadrille::readMesh(input);
-  const std::vector<quadrille::FixedVec2> uv = quadrille::readMap(input);
+  if (!(this->TextureScale > 0 && std::isfinite(this->TextureScale)))
+  {
+    throw quadrille::InvalidInput("TextureScale must be above 0 and finite");
+  }
+  const quadrille::MappedInput mapped =
+    quadrille::readMappedInput(input, this->TextureScale, this->NumberOfThreads);
+  const quadrille::Mesh& mesh = mapped.mesh;
+  if (const std::string notice = mapped.notice(); !notice.empty())
+  {
+    this->AddNotice(notice);
+  }
   quadrille::ExtractionOptions options;
   options.maximumNumberOfQuads = static_cast<std::size_t>(this->MaximumNumberOfQuads);
   options.threads = this->NumberOfThreads;
-  options.fixedVertices = requestedVertices(input, mesh);
+  options.fixedVertices = quadrille::requestedVertices(input, mesh);
   options.progress = this->MakeProgress(0.0, 0.95);
   quadrille::StageClock clock;
-  const quadrille::ExtractionResult result = quadrille::extractQuads(mesh, uv, options);
+  const quadrille::ExtractionResult result = quadrille::extractQuads(mesh, mapped.map.uv, options);
   clock.lap("extract", mesh.faceCount(), result.mesh.quads.size());
   this->SetStageRecords(clock.records);
   quadrille::requireOk(result.status, "the extraction of quads");
@@ -171,6 +168,8 @@ void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVec
   quads->ShallowCopy(quadrille::writeQuads(result.mesh, source));
   quads->GetFieldData()->PassData(input->GetFieldData());
   quadrille::addStages(quads, clock.records);
+  quadrille::addMapReport(quads, mapped);
+  quadrille::addText(quads, "Notices", quadrille::splitLines(this->GetNoticesText()));
   quadrille::addCount(quads, "ActualQuads", result.mesh.quads.size());
   vtkPolyData::GetData(outputs, 1)->ShallowCopy(quadrille::writeLines(result.mesh, mesh, source));
 }
@@ -180,5 +179,6 @@ void vtkQuadExtraction::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "MaximumNumberOfQuads: " << this->MaximumNumberOfQuads << "\n";
+  os << indent << "TextureScale: " << this->TextureScale << "\n";
   os << indent << "PatchArrayName: " << this->PatchArrayName << "\n";
 }

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// A surface with an integer-grid map, of ours or of another program, as the extraction wants it.
+#pragma once
+
+#include "Extraction/MapSnapping.h"
+#include "Mesh/Mesh.h"
+
+#include <string>
+#include <vector>
+
+class vtkDataObject;
+class vtkPolyData;
+
+namespace quadrille
+{
+
+struct MappedInput
+{
+  Mesh mesh; ///< its faces are the cells
+  SnapResult map;
+  bool fromTexture = false; ///< the map was in the texture coordinates
+  bool mirrored = false;    ///< and mirrored, so that v has the other sign now
+
+  /// What the user should know of the changes; empty where the map was exact.
+  std::string notice() const;
+};
+
+/// The map is the cell array IGM, else the active texture coordinates of the points times
+/// textureScale (> 0); then points at the same place are joined (see MapWelding.h). Features are in
+/// FeatureEdges, quarter turns across edges in Matching (three whole numbers a cell, from the chart
+/// of the cell to that of its neighbour, modulo 4) where there is one. Throws InvalidInput naming
+/// the cell, the edge or the array.
+MappedInput readMappedInput(vtkPolyData* data, double textureScale, int threads);
+
+/// Vertices of the input's mesh, ascending, whose TargetValence asks for an irregular one.
+std::vector<Index> requestedVertices(vtkPolyData* data, const Mesh& mesh);
+
+/// MapLargestMove (in quads), MapFixedPoints and MapInconsistentVertices.
+void addMapReport(vtkDataObject* data, const MappedInput& input);
+
+} // namespace quadrille
