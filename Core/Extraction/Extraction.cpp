@@ -83,14 +83,15 @@ std::string describePoints(const QuadMesh& mesh, const std::vector<Index>& point
 }
 
 /// Compares with the input surface. Empty when the quad mesh is the same surface.
-std::string compareTopology(const Mesh& mesh, const QuadMesh& quads, const QuadTopology& found)
+std::string compareTopology(
+  const Mesh& mesh, const QuadMesh& quads, const QuadTopology& found, int threads)
 {
   std::string problem;
   if (!found.manifold())
   {
     append(problem, found.text() + " near " + describePoints(quads, found.offendingPoints));
   }
-  const TopologySummary wanted = summarizeTopology(mesh);
+  const TopologySummary wanted = summarizeTopology(mesh, threads);
   const auto differ = [&problem](const char* what, long long has, long long should)
   {
     if (has != should)
@@ -210,9 +211,9 @@ Status foldedAllOver(const MapCheck& check)
 
 /// Judges the result: what is wrong with it, and what in the map explains it.
 Status judge(const Mesh& mesh, const MapCheck& check, const QuadTopology& found,
-  const ExtractionResult& result)
+  const ExtractionResult& result, int threads)
 {
-  std::string problem = compareTopology(mesh, result.mesh, found);
+  std::string problem = compareTopology(mesh, result.mesh, found, threads);
   const std::string lines = compareLines(mesh, result.mesh, found, check);
   if (!lines.empty())
   {
@@ -296,7 +297,7 @@ ExtractionResult extractQuads(
 
   report(options.progress, 0.9, "checking the quads");
   QuadTopology topology = analyzeQuads(result.mesh.quads, result.mesh.points.size());
-  result.status = judge(mesh, check, topology, result);
+  result.status = judge(mesh, check, topology, result, options.threads);
   result.mesh.valence = std::move(topology.valence);
   result.mesh.onBoundary = std::move(topology.onBoundary);
   if (result.status.ok())

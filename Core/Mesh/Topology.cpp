@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Topology.h"
 
+#include "Base/DisjointSets.h"
 #include "Base/Error.h"
+#include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Mesh/EdgeRuns.h"
 
@@ -166,6 +168,56 @@ std::string checkFans(const Mesh& mesh)
   return {};
 }
 
+/// The boundary half-edges, ascending, and the number of components.
+std::vector<Index> joinFaces(const Mesh& mesh, int threads, Index& components)
+{
+  constexpr std::size_t kChunk = std::size_t{ 1 } << 15;
+  DisjointSets faces(mesh.faceCount(), threads);
+  std::vector<std::vector<Index>> parts((mesh.faceCount() + kChunk - 1) / kChunk);
+  parallelFor(mesh.faceCount(), kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (Index f = static_cast<Index>(begin); f < end; ++f)
+      {
+        for (Index h = 3 * f; h < 3 * f + 3; ++h)
+        {
+          const Index g = mesh.twin[h];
+          if (g == kInvalidIndex)
+          {
+            parts[begin / kChunk].push_back(h);
+          }
+          else if (g < h)
+          {
+            faces.join(f, Mesh::face(g));
+          }
+        }
+      }
+    });
+  components = static_cast<Index>(faces.countSets());
+  std::vector<Index> boundary;
+  for (const std::vector<Index>& part : parts)
+  {
+    boundary.insert(boundary.end(), part.begin(), part.end());
+  }
+  return boundary;
+}
+
+Index countBoundaryLoops(const Mesh& mesh, const std::vector<Index>& boundary)
+{
+  Index loops = 0;
+  std::vector<bool> visited(boundary.empty() ? 0 : mesh.halfEdgeCount(), false);
+  for (std::size_t i = 0; i < boundary.size(); ++i)
+  {
+    pollNowAndThen(i);
+    loops += visited[boundary[i]] ? 0 : 1;
+    for (Index e = boundary[i]; !visited[e]; e = nextOnBoundary(mesh, e))
+    {
+      visited[e] = true;
+    }
+  }
+  return loops;
+}
+
 } // namespace
 
 std::vector<Index> pairHalfEdges(const std::vector<Index>& origin, Index vertexCount)
@@ -236,30 +288,14 @@ std::vector<Index> faceComponents(const Mesh& mesh, Index& componentCount)
   return component;
 }
 
-TopologySummary summarizeTopology(const Mesh& mesh)
+TopologySummary summarizeTopology(const Mesh& mesh, int threads)
 {
   TopologySummary summary;
   summary.vertices = mesh.vertexCount();
   summary.faces = mesh.faceCount();
-  faceComponents(mesh, summary.components);
-
-  Index boundaryHalfEdges = 0;
-  std::vector<bool> visited(mesh.halfEdgeCount(), false);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    if (!mesh.isBoundary(h))
-    {
-      continue;
-    }
-    ++boundaryHalfEdges;
-    summary.boundaryLoops += visited[h] ? 0 : 1;
-    for (Index e = h; !visited[e]; e = nextOnBoundary(mesh, e))
-    {
-      visited[e] = true;
-    }
-  }
-  summary.edges = static_cast<Index>((std::size_t{ mesh.halfEdgeCount() } + boundaryHalfEdges) / 2);
+  const std::vector<Index> boundary = joinFaces(mesh, threads, summary.components);
+  summary.boundaryLoops = countBoundaryLoops(mesh, boundary);
+  summary.edges = static_cast<Index>((std::size_t{ mesh.halfEdgeCount() } + boundary.size()) / 2);
   summary.eulerCharacteristic = static_cast<long long>(summary.vertices) -
     static_cast<long long>(summary.edges) + static_cast<long long>(summary.faces);
   return summary;

@@ -35,7 +35,8 @@ struct TopologySummary
   Index boundaryLoops = 0;
   long long eulerCharacteristic = 0;
 };
-TopologySummary summarizeTopology(const Mesh& mesh);
+/// Parallel; the same for any number of threads.
+TopologySummary summarizeTopology(const Mesh& mesh, int threads = 1);
 
 /// Empty when the mesh is consistent (twins symmetric, vertices manifold, flags symmetric,
 /// finite positions, no isolated vertices); else what is wrong with which element.

@@ -76,6 +76,24 @@ TEST(Topology, sharedMeshesHaveTheirTopology)
   }
 }
 
+// More faces than one thread takes at once.
+TEST(Topology, summaryByManyThreads)
+{
+  Mesh mesh = test::torus(200, 150);
+  for (const int i : { 1, 2, 3 })
+  {
+    mesh =
+      test::disjointUnion(std::move(mesh), test::plateWithHole(10 * i), Vector3(5.0 * i, 0, 0));
+  }
+  for (const int threads : { 1, 2, 5 })
+  {
+    const TopologySummary summary = summarizeTopology(mesh, threads);
+    EXPECT_EQ(summary.components, 4u);
+    EXPECT_EQ(summary.boundaryLoops, 6u);
+    EXPECT_EQ(summary.eulerCharacteristic, 0);
+  }
+}
+
 TEST(Topology, outgoingHalfEdgesReachEveryFaceOfTheirVertex)
 {
   for (const NamedMesh& named : sharedMeshes())
