@@ -309,26 +309,6 @@ std::array<double, 3> weightsOnEdge(const ExactMap& map, const GridVertex& verte
   return weights;
 }
 
-void placePoint(const ExactMap& map, const GridVertex& vertex, QuadMesh& mesh, std::size_t id)
-{
-  std::array<double, 3> weights{};
-  if (vertex.kind == Site::Face)
-  {
-    weights = weightsInFace(map, vertex.site, vertex.uv);
-  }
-  else if (vertex.kind == Site::Edge)
-  {
-    weights = weightsOnEdge(map, vertex);
-  }
-  else
-  {
-    weights[vertex.site % 3] = 1;
-  }
-  mesh.sourceFace[id] = vertex.face();
-  mesh.sourceWeights[id] = weights;
-  mesh.points[id] = positionOf(map.mesh, { vertex.face(), weights });
-}
-
 /// Numbers the grid vertices that cells use, and places them. Returns point ids per grid vertex.
 std::vector<Index> makePoints(const ExactMap& map, const GridVertices& grid,
   const std::vector<Cell>& cells, int threads, QuadMesh& mesh)
@@ -358,7 +338,10 @@ std::vector<Index> makePoints(const ExactMap& map, const GridVertices& grid,
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        placePoint(map, grid.vertices()[used[i]], mesh, i);
+        const SurfacePoint place = placeOf(map, grid.vertices()[used[i]]);
+        mesh.sourceFace[i] = place.face;
+        mesh.sourceWeights[i] = place.weights;
+        mesh.points[i] = positionOf(map.mesh, place);
       }
     });
   return pointOf;
@@ -400,7 +383,25 @@ void makeLines(
 
 } // namespace
 
-void assembleQuads(const ExactMap& map, const GridVertices& grid, const CellCorners& cells,
+SurfacePoint placeOf(const ExactMap& map, const GridVertex& vertex)
+{
+  std::array<double, 3> weights{};
+  if (vertex.kind == Site::Face)
+  {
+    weights = weightsInFace(map, vertex.site, vertex.uv);
+  }
+  else if (vertex.kind == Site::Edge)
+  {
+    weights = weightsOnEdge(map, vertex);
+  }
+  else
+  {
+    weights[vertex.site % 3] = 1;
+  }
+  return { vertex.face(), weights };
+}
+
+std::vector<Index> assembleQuads(const ExactMap& map, const GridVertices& grid, const CellCorners& cells,
   const AssemblyOptions& options, ExtractionResult& result)
 {
   const std::vector<Index> root = mergeClasses(map.mesh, grid, cells.merged);
@@ -422,7 +423,7 @@ void assembleQuads(const ExactMap& map, const GridVertices& grid, const CellCorn
   }
 
   QuadMesh& mesh = result.mesh;
-  const std::vector<Index> pointOf = makePoints(map, grid, parts.cells, options.threads, mesh);
+  std::vector<Index> pointOf = makePoints(map, grid, parts.cells, options.threads, mesh);
   for (const Cell& cell : parts.cells)
   {
     mesh.quads.push_back({ pointOf[cell.corners[0]], pointOf[cell.corners[1]],
@@ -431,6 +432,11 @@ void assembleQuads(const ExactMap& map, const GridVertices& grid, const CellCorn
     mesh.quadSourceWeights.push_back(cell.weights);
   }
   makeLines(parts.lines, pointOf, options.tolerant, mesh);
+  for (Index q = 0; q < root.size(); ++q)
+  {
+    pointOf[q] = pointOf[root[q]];
+  }
+  return pointOf;
 }
 
 } // namespace quadrille

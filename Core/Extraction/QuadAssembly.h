@@ -5,9 +5,13 @@
 
 #include "Extraction/Extraction.h"
 #include "Extraction/GridTracing.h"
+#include "Extraction/SurfaceWalk.h"
 
 namespace quadrille
 {
+
+/// Where a grid vertex lies on the mesh.
+SurfacePoint placeOf(const ExactMap& map, const GridVertex& vertex);
 
 struct AssemblyOptions
 {
@@ -16,8 +20,9 @@ struct AssemblyOptions
 };
 
 /// Fills points, quads, sources and lines of the result's mesh, and the counts. Valence and
-/// onBoundary are left to the topology check.
-void assembleQuads(const ExactMap& map, const GridVertices& grid, const CellCorners& cells,
+/// onBoundary are left to the topology check. Returns the point of each grid vertex; kInvalidIndex
+/// where no quad has it.
+std::vector<Index> assembleQuads(const ExactMap& map, const GridVertices& grid, const CellCorners& cells,
   const AssemblyOptions& options, ExtractionResult& result);
 
 } // namespace quadrille
