@@ -2,19 +2,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadrilleAttributes.h"
 
+#include "Base/Parallel.h"
+#include "Base/Types.h"
 #include "QuadrilleConvert.h"
 
 #include <vtkAbstractArray.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
-#include <vtkIdList.h>
-#include <vtkMath.h>
-#include <vtkNew.h>
 #include <vtkSmartPointer.h>
+#include <vtkVariant.h>
 
 #include <algorithm>
-#include <string>
-#include <vector>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <sstream>
+#include <type_traits>
+#include <unordered_map>
+#include <utility>
 
 namespace quadrille
 {
@@ -22,14 +27,18 @@ namespace quadrille
 namespace
 {
 
+constexpr std::size_t kChunk = 1 << 13;
+/// Parts of a cell that differ by less than this are equal.
+constexpr double kSamePart = 1e-9;
+
 /// Arrays that describe the source itself and would be wrong on anything made from it.
 bool isOwn(const std::string& name)
 {
-  static const std::array<const char*, 16> own = { arrays::kFeatureEdges, arrays::kIgm,
+  static const std::array<const char*, 18> own = { arrays::kFeatureEdges, arrays::kIgm,
     arrays::kMatching, arrays::kDeterminant, arrays::kTwin, arrays::kFineFace, arrays::kFineVertex,
     arrays::kTurns, arrays::kIndex, arrays::kIntegerVertex, arrays::kSurfacePointId,
     arrays::kTextureCoordinates, arrays::kSourcePointIds, arrays::kSourceWeights,
-    arrays::kSourceBarycentric, arrays::kValence };
+    arrays::kSourceBarycentric, arrays::kValence, arrays::kOnBoundary, arrays::kLayoutPatch };
   return std::any_of(own.begin(), own.end(), [&name](const char* n) { return name == n; });
 }
 
@@ -39,113 +48,401 @@ bool isColour(vtkAbstractArray* array)
     (array->GetNumberOfComponents() == 3 || array->GetNumberOfComponents() == 4);
 }
 
-bool isInterpolated(vtkAbstractArray* array)
+bool isMixed(vtkAbstractArray* array)
 {
   const int type = array->GetDataType();
   return type == VTK_FLOAT || type == VTK_DOUBLE || isColour(array);
 }
 
-vtkSmartPointer<vtkAbstractArray> newLike(vtkAbstractArray* array, vtkIdType count)
+/// Whether its tuples lie one after the other in memory, whole bytes each, so that threads can write them.
+bool isPlain(vtkAbstractArray* array)
+{
+  return array->HasStandardMemoryLayout() && vtkDataArray::SafeDownCast(array) &&
+    array->GetDataType() != VTK_BIT;
+}
+
+vtkSmartPointer<vtkAbstractArray> newLike(vtkAbstractArray* array, std::size_t count)
 {
   auto result = vtk::TakeSmartPointer(vtkAbstractArray::CreateArray(array->GetDataType()));
   result->SetName(array->GetName());
   result->SetNumberOfComponents(array->GetNumberOfComponents());
   result->CopyComponentNames(array);
-  result->SetNumberOfTuples(count);
+  result->SetNumberOfTuples(static_cast<vtkIdType>(count));
   return result;
 }
 
-int largest(const std::array<double, 3>& weights)
+std::size_t largest(const std::array<double, 3>& weights)
 {
-  return static_cast<int>(std::max_element(weights.begin(), weights.end()) - weights.begin());
+  return static_cast<std::size_t>(
+    std::max_element(weights.begin(), weights.end()) - weights.begin());
 }
 
-void normalize(vtkDataArray* normals)
+template <class Real>
+Real rounded(double value)
 {
-  for (vtkIdType i = 0; i < normals->GetNumberOfTuples(); ++i)
+  if constexpr (std::is_floating_point_v<Real>)
   {
-    double n[3];
-    normals->GetTuple(i, n);
-    if (vtkMath::Normalize(n) > 0)
-    {
-      normals->SetTuple(i, n);
-    }
+    return static_cast<Real>(value);
+  }
+  else
+  {
+    return static_cast<Real>(std::clamp(std::floor(value + 0.5), 0.0, 255.0));
   }
 }
 
-/// Makes the same arrays active as on the source; ids stay plain arrays, as they are no longer unique.
-void copyActive(vtkDataSetAttributes* source, vtkDataSetAttributes* target)
+/// Calls body(real pointer, real pointer) for the two arrays of a mixed type.
+template <class Body>
+void withValues(vtkAbstractArray* from, vtkAbstractArray* to, const Body& body)
+{
+  void* source = from->GetVoidPointer(0);
+  void* target = to->GetVoidPointer(0);
+  switch (from->GetDataType())
+  {
+    case VTK_FLOAT:
+      body(static_cast<const float*>(source), static_cast<float*>(target));
+      break;
+    case VTK_DOUBLE:
+      body(static_cast<const double*>(source), static_cast<double*>(target));
+      break;
+    default:
+      body(static_cast<const unsigned char*>(source), static_cast<unsigned char*>(target));
+  }
+}
+
+//------------------------------------------------------------------------------
+// Points
+
+/// From the point with the largest weight on: exact there, and for a value that all three share.
+template <class Real>
+void mixPoint(const Real* from, std::size_t components, const PointOrigin& origin, Real* to)
+{
+  const std::size_t k = largest(origin.weights);
+  const std::size_t i = (k + 1) % 3;
+  const std::size_t j = (k + 2) % 3;
+  const auto tuple = [&](std::size_t corner)
+  { return from + components * static_cast<std::size_t>(origin.ids[corner]); };
+  for (std::size_t c = 0; c < components; ++c)
+  {
+    const double base = static_cast<double>(tuple(k)[c]);
+    double value = base;
+    for (const std::size_t corner : { i, j })
+    {
+      if (origin.weights[corner] != 0) // what is there may be no number
+      {
+        value += origin.weights[corner] * (static_cast<double>(tuple(corner)[c]) - base);
+      }
+    }
+    to[c] = rounded<Real>(value);
+  }
+}
+
+/// Gives a mixed tuple unit length; `fallback` is taken where it has none.
+template <class Real>
+void normalize(Real* tuple, std::size_t components, const Real* fallback)
+{
+  double square = 0;
+  for (std::size_t c = 0; c < components; ++c)
+  {
+    square += static_cast<double>(tuple[c]) * static_cast<double>(tuple[c]);
+  }
+  const double length = std::sqrt(square);
+  for (std::size_t c = 0; c < components; ++c)
+  {
+    // Unit normals that cancel out leave rounding of about 1e-7 in floats.
+    tuple[c] = length > 1e-6 ? rounded<Real>(static_cast<double>(tuple[c]) / length) : fallback[c];
+  }
+}
+
+void mixPoints(vtkAbstractArray* from, vtkAbstractArray* to,
+  const std::vector<PointOrigin>& origins, bool normals, int threads)
+{
+  const auto components = static_cast<std::size_t>(from->GetNumberOfComponents());
+  withValues(from, to,
+    [&](auto* source, auto* target)
+    {
+      parallelFor(origins.size(), kChunk, threads,
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            const PointOrigin& o = origins[i];
+            mixPoint(source, components, o, target + components * i);
+            if (normals)
+            {
+              normalize(target + components * i, components,
+                source + components * static_cast<std::size_t>(o.ids[largest(o.weights)]));
+            }
+          }
+        });
+    });
+}
+
+//------------------------------------------------------------------------------
+// Cells
+
+void mixCells(vtkAbstractArray* from, vtkAbstractArray* to, const CellOrigins& origins,
+  bool normals, int threads)
+{
+  const auto components = static_cast<std::size_t>(from->GetNumberOfComponents());
+  withValues(from, to,
+    [&](auto* source, auto* target)
+    {
+      using Real = std::remove_pointer_t<decltype(target)>;
+      parallelFor(origins.first.size() - 1, kChunk, threads,
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t q = begin; q < end; ++q)
+          {
+            const auto* base =
+              source + components * static_cast<std::size_t>(origins.shares[origins.first[q]].cell);
+            for (std::size_t c = 0; c < components; ++c)
+            {
+              double value = static_cast<double>(base[c]);
+              for (std::size_t i = origins.first[q] + 1; i < origins.first[q + 1]; ++i)
+              {
+                const CellOrigins::Share& share = origins.shares[i];
+                value += share.weight *
+                  (static_cast<double>(
+                     source[components * static_cast<std::size_t>(share.cell) + c]) -
+                    static_cast<double>(base[c]));
+              }
+              target[components * q + c] = rounded<Real>(value);
+            }
+            if (normals)
+            {
+              normalize(target + components * q, components, base);
+            }
+          }
+        });
+    });
+}
+
+/// A number per tuple, the same for equal ones: the first tuple that is equal to it.
+std::vector<vtkIdType> firstEquals(vtkAbstractArray* array)
+{
+  const vtkIdType count = array->GetNumberOfTuples();
+  const int components = array->GetNumberOfComponents();
+  std::vector<vtkIdType> first(static_cast<std::size_t>(count));
+  std::unordered_map<std::string, vtkIdType> seen;
+  std::string key;
+  const bool plain = isPlain(array);
+  const auto bytes = static_cast<std::size_t>(components * array->GetDataTypeSize());
+  const char* data = plain ? static_cast<const char*>(array->GetVoidPointer(0)) : nullptr;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    key.clear();
+    if (plain)
+    {
+      key.assign(data + bytes * static_cast<std::size_t>(i), bytes);
+    }
+    for (int c = 0; !plain && c < components; ++c)
+    {
+      const vtkVariant value = array->GetVariantValue(i * components + c);
+      const std::string text = value.ToString();
+      key += std::to_string(value.GetType()) + " " + std::to_string(text.size()) + " " + text;
+    }
+    first[static_cast<std::size_t>(i)] = seen.try_emplace(key, i).first->second;
+  }
+  return first;
+}
+
+/// Of all tuples of one cell's origins the one with the largest part.
+vtkIdType majority(const CellOrigins& origins, std::size_t q, const std::vector<vtkIdType>& first,
+  std::vector<std::pair<vtkIdType, double>>& parts)
+{
+  parts.clear();
+  for (std::size_t i = origins.first[q]; i < origins.first[q + 1]; ++i)
+  {
+    parts.emplace_back(
+      first[static_cast<std::size_t>(origins.shares[i].cell)], origins.shares[i].weight);
+  }
+  const vtkIdType centre = parts.front().first;
+  std::stable_sort(
+    parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::size_t used = 0; // sums of equal tuples move to the front
+  double most = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    if (i > 0 && parts[i].first == parts[used - 1].first)
+    {
+      parts[used - 1].second += parts[i].second;
+    }
+    else
+    {
+      parts[used++] = parts[i];
+    }
+    most = std::max(most, parts[used - 1].second);
+  }
+  vtkIdType best = -1;
+  for (std::size_t i = 0; i < used; ++i)
+  {
+    const bool isMost = parts[i].second >= most - kSamePart;
+    if (isMost && (best < 0 || parts[i].first == centre))
+    {
+      best = parts[i].first;
+    }
+  }
+  return best;
+}
+
+std::vector<vtkIdType> majorities(vtkAbstractArray* from, const CellOrigins& origins, int threads)
+{
+  const std::vector<vtkIdType> first = firstEquals(from);
+  std::vector<vtkIdType> result(origins.first.size() - 1);
+  parallelFor(result.size(), kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<std::pair<vtkIdType, double>> parts;
+      for (std::size_t q = begin; q < end; ++q)
+      {
+        result[q] = majority(origins, q, first, parts);
+      }
+    });
+  return result;
+}
+
+//------------------------------------------------------------------------------
+// Both
+
+/// Tuple ids(i) of `from` becomes tuple i of `to`.
+template <class Ids>
+void copyTuples(vtkAbstractArray* from, vtkAbstractArray* to, const Ids& ids, int threads)
+{
+  const auto count = static_cast<std::size_t>(to->GetNumberOfTuples());
+  if (!isPlain(from) || !isPlain(to))
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      to->SetTuple(static_cast<vtkIdType>(i), ids(i), from);
+    }
+    return;
+  }
+  const auto bytes =
+    static_cast<std::size_t>(from->GetNumberOfComponents() * from->GetDataTypeSize());
+  const char* source = static_cast<const char*>(from->GetVoidPointer(0));
+  char* target = static_cast<char*>(to->GetVoidPointer(0));
+  parallelFor(count, kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        std::memcpy(target + bytes * i, source + bytes * static_cast<std::size_t>(ids(i)), bytes);
+      }
+    });
+}
+
+/// The array itself, or a copy whose tuples lie one after the other where that is needed to mix them.
+vtkSmartPointer<vtkAbstractArray> readable(vtkAbstractArray* array)
+{
+  if (!isMixed(array) || isPlain(array))
+  {
+    return array;
+  }
+  auto copy = newLike(array, static_cast<std::size_t>(array->GetNumberOfTuples()));
+  vtkDataArray::SafeDownCast(copy)->DeepCopy(vtkDataArray::SafeDownCast(array));
+  return copy;
+}
+
+/// Makes the same arrays active as on the source. Only what SetActiveAttribute allows.
+void copyActive(vtkDataSetAttributes* source, vtkDataSetAttributes* target,
+  const std::map<vtkAbstractArray*, int>& targetIndex)
 {
   for (const int type :
     { vtkDataSetAttributes::SCALARS, vtkDataSetAttributes::VECTORS, vtkDataSetAttributes::NORMALS,
       vtkDataSetAttributes::TCOORDS, vtkDataSetAttributes::TENSORS })
   {
-    vtkAbstractArray* active = source->GetAbstractAttribute(type);
-    if (active && active->GetName() && target->GetAbstractArray(active->GetName()))
+    const auto found = targetIndex.find(source->GetAbstractAttribute(type));
+    if (found != targetIndex.end())
     {
-      target->SetActiveAttribute(active->GetName(), type);
+      target->SetActiveAttribute(found->second, type);
     }
   }
 }
 
-template <class Fill>
-void carry(vtkDataSetAttributes* source, vtkDataSetAttributes* target, vtkIdType count, Fill fill)
+std::string describeShort(vtkAbstractArray* array, vtkIdType needed, const char* elements)
 {
+  std::ostringstream text;
+  text << "array '" << (array->GetName() ? array->GetName() : "") << "' has "
+       << array->GetNumberOfTuples() << " tuples for " << needed << " " << elements
+       << " and is not carried over";
+  return text.str();
+}
+
+/// Calls fill(from, to, whether these are the active normals) for each array that is carried.
+template <class Fill>
+std::vector<std::string> carry(vtkDataSetAttributes* source, vtkIdType needed, const char* elements,
+  vtkDataSetAttributes* target, std::size_t count, const Fill& fill)
+{
+  std::vector<std::string> notCarried;
+  std::map<vtkAbstractArray*, int> targetIndex;
+  vtkAbstractArray* normals = source->GetAbstractAttribute(vtkDataSetAttributes::NORMALS);
   for (int i = 0; i < source->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = source->GetAbstractArray(i);
-    if (!array->GetName() || isOwn(array->GetName()))
+    if (array->GetName() && isOwn(array->GetName()))
     {
       continue;
     }
+    if (array->GetNumberOfTuples() < needed)
+    {
+      notCarried.push_back(describeShort(array, needed, elements));
+      continue;
+    }
     vtkSmartPointer<vtkAbstractArray> result = newLike(array, count);
-    fill(array, result.Get());
-    target->AddArray(result);
+    if (count > 0)
+    {
+      fill(readable(array).Get(), result.Get(), array == normals && isMixed(array));
+    }
+    targetIndex[array] = target->AddArray(result);
   }
-  copyActive(source, target);
+  copyActive(source, target, targetIndex);
+  return notCarried;
 }
 
 } // namespace
 
-void carryPointArrays(vtkDataSetAttributes* source, vtkDataSetAttributes* target, vtkIdType count,
-  const std::function<PointOrigin(vtkIdType)>& origin)
+std::vector<std::string> carryPointArrays(vtkDataSetAttributes* source, vtkIdType sourcePoints,
+  vtkDataSetAttributes* target, const std::vector<PointOrigin>& origins, int threads)
 {
-  vtkNew<vtkIdList> ids;
-  ids->SetNumberOfIds(3);
-  carry(source, target, count,
-    [&](vtkAbstractArray* from, vtkAbstractArray* to)
+  return carry(source, sourcePoints, "points", target, origins.size(),
+    [&](vtkAbstractArray* from, vtkAbstractArray* to, bool normals)
     {
-      const bool interpolated = isInterpolated(from);
-      for (vtkIdType i = 0; i < count; ++i)
+      if (isMixed(from))
       {
-        PointOrigin o = origin(i);
-        if (interpolated)
-        {
-          std::copy(o.ids.begin(), o.ids.end(), ids->GetPointer(0));
-          to->InterpolateTuple(i, ids, from, o.weights.data());
-        }
-        else
-        {
-          to->SetTuple(i, o.ids[largest(o.weights)], from);
-        }
+        mixPoints(from, to, origins, normals, threads);
+        return;
       }
-      if (from == source->GetAbstractAttribute(vtkDataSetAttributes::NORMALS) && interpolated)
-      {
-        normalize(vtkDataArray::SafeDownCast(to));
-      }
+      copyTuples(
+        from, to, [&](std::size_t i) { return origins[i].ids[largest(origins[i].weights)]; },
+        threads);
     });
 }
 
-void carryCellArrays(vtkDataSetAttributes* source, vtkDataSetAttributes* target, vtkIdType count,
-  const std::function<vtkIdType(vtkIdType)>& origin)
+std::vector<std::string> carryCellArrays(vtkDataSetAttributes* source, vtkIdType sourceCells,
+  vtkDataSetAttributes* target, const std::vector<vtkIdType>& origins, int threads)
 {
-  carry(source, target, count,
-    [&](vtkAbstractArray* from, vtkAbstractArray* to)
+  return carry(source, sourceCells, "cells", target, origins.size(),
+    [&](vtkAbstractArray* from, vtkAbstractArray* to, bool)
     {
-      for (vtkIdType i = 0; i < count; ++i)
+      copyTuples(
+        from, to, [&](std::size_t i) { return origins[i]; }, threads);
+    });
+}
+
+std::vector<std::string> carryCellArrays(vtkDataSetAttributes* source, vtkIdType sourceCells,
+  vtkDataSetAttributes* target, const CellOrigins& origins, int threads)
+{
+  return carry(source, sourceCells, "cells", target, origins.first.size() - 1,
+    [&](vtkAbstractArray* from, vtkAbstractArray* to, bool normals)
+    {
+      if (isMixed(from))
       {
-        to->SetTuple(i, origin(i), from);
+        mixCells(from, to, origins, normals, threads);
+        return;
       }
+      const std::vector<vtkIdType> cells = majorities(from, origins, threads);
+      copyTuples(
+        from, to, [&](std::size_t i) { return cells[i]; }, threads);
     });
 }
 

@@ -13,6 +13,7 @@
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
+#include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -688,22 +689,32 @@ void addSourceArrays(
   data->GetCellData()->AddArray(weights);
 }
 
-void carryToSurface(vtkPolyData* data, const PreparedSurface& surface, vtkPolyData* source,
-  const ConvertedSurface& converted, const std::vector<Index>& pointVertex)
+/// Returns what could not be carried.
+std::vector<std::string> carryToSurface(vtkPolyData* data, const PreparedSurface& surface,
+  vtkPolyData* source, const ConvertedSurface& converted, const std::vector<Index>& pointVertex,
+  int threads)
 {
   const std::vector<Index> outgoing = outgoingHalfEdges(surface.mesh);
-  carryPointArrays(source->GetPointData(), data->GetPointData(), data->GetNumberOfPoints(),
-    [&](vtkIdType i)
-    {
-      const Index h = outgoing[pointVertex[static_cast<std::size_t>(i)]];
-      std::array<double, 3> corner{};
-      corner[h % 3] = 1;
-      const SourceLocation at = surface.locate(Mesh::face(h), corner);
-      return PointOrigin{ { at.points[0], at.points[1], at.points[2] }, at.weights };
-    });
-  carryCellArrays(source->GetCellData(), data->GetCellData(), data->GetNumberOfCells(),
-    [&](vtkIdType f)
-    { return converted.cell(surface.sourcePolygon[static_cast<std::size_t>(f)]); });
+  std::vector<PointOrigin> points(pointVertex.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const Index h = outgoing[pointVertex[i]];
+    std::array<double, 3> corner{};
+    corner[h % 3] = 1;
+    const SourceLocation at = surface.locate(Mesh::face(h), corner);
+    points[i] = { { at.points[0], at.points[1], at.points[2] }, at.weights };
+  }
+  std::vector<vtkIdType> cells(surface.sourcePolygon.size());
+  for (std::size_t f = 0; f < cells.size(); ++f)
+  {
+    cells[f] = converted.cell(surface.sourcePolygon[f]);
+  }
+  std::vector<std::string> notCarried = carryPointArrays(
+    source->GetPointData(), source->GetNumberOfPoints(), data->GetPointData(), points, threads);
+  const std::vector<std::string> ofCells = carryCellArrays(
+    source->GetCellData(), source->GetNumberOfCells(), data->GetCellData(), cells, threads);
+  notCarried.insert(notCarried.end(), ofCells.begin(), ofCells.end());
+  return notCarried;
 }
 
 } // namespace
@@ -719,7 +730,8 @@ std::optional<std::array<Index, 3>> ConvertedSurface::triangle(
   }
   vtkIdType count = 0;
   const vtkIdType* ids = nullptr;
-  surface->GetPolys()->GetCellAtId(polygon, count, ids);
+  vtkNew<vtkIdList> copy;
+  surface->GetPolys()->GetCellAtId(polygon, count, ids, copy);
   if (count != 3)
   {
     return std::nullopt;
@@ -993,7 +1005,7 @@ void addTurns(vtkPolyData* data, const Mesh& mesh, const std::vector<int>& turns
 vtkSmartPointer<vtkPolyData> writeMappedSurface(const PreparedSurface& surface,
   const std::vector<FixedVec2>& uv, const std::vector<std::int8_t>& matching,
   const std::vector<int>& turns, vtkPolyData* source, const ConvertedSurface& converted,
-  bool splitSeams)
+  bool splitSeams, int threads, std::vector<std::string>* notCarried)
 {
   const Mesh& mesh = surface.mesh;
   auto data = vtkSmartPointer<vtkPolyData>::New();
@@ -1005,7 +1017,12 @@ vtkSmartPointer<vtkPolyData> writeMappedSurface(const PreparedSurface& surface,
   }
   data->SetPoints(writePoints(mesh, pointVertex));
   data->SetPolys(writeTriangles(corners));
-  carryToSurface(data, surface, source, converted, pointVertex);
+  std::vector<std::string> left =
+    carryToSurface(data, surface, source, converted, pointVertex, threads);
+  if (notCarried)
+  {
+    *notCarried = std::move(left);
+  }
   addSourceArrays(data, surface, converted);
   addFeatureEdges(data, mesh);
   addTwinsWhereNeeded(data, mesh);

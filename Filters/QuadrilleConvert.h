@@ -54,6 +54,8 @@ constexpr const char* kSourcePointIds = "SourcePointIds";
 constexpr const char* kSourceWeights = "SourceWeights";
 constexpr const char* kSourceBarycentric = "SourceBarycentric";
 constexpr const char* kValence = "Valence";
+constexpr const char* kOnBoundary = "OnBoundary";
+constexpr const char* kLayoutPatch = "LayoutPatch";
 }
 
 /// Feature bits of one polygon (see SurfaceInput::featureEdges).
@@ -85,7 +87,7 @@ struct ConvertedSurface
   {
     return cellOfPolygon.empty() ? firstCell + polygon : cellOfPolygon[polygon];
   }
-  /// Corners of a polygon of the converted vtkPolyData, if it is a triangle.
+  /// Corners of a polygon of the converted vtkPolyData, if it is a triangle. Several threads may ask.
   std::optional<std::array<Index, 3>> triangle(vtkPolyData* surface, Index polygon) const;
 };
 
@@ -133,10 +135,10 @@ void addTurns(vtkPolyData* data, const Mesh& mesh, const std::vector<int>& turns
 
 /// The finest level with its map for display and extraction. source: what the surface was made from, its
 /// arrays are carried over. With splitSeams points are doubled where the map is cut, so that
-/// texture coordinates can be a point array.
+/// texture coordinates can be a point array. notCarried, if given, gets what carryPointArrays and carryCellArrays return.
 vtkSmartPointer<vtkPolyData> writeMappedSurface(const PreparedSurface& surface,
   const std::vector<FixedVec2>& uv, const std::vector<std::int8_t>& matching,
   const std::vector<int>& turns, vtkPolyData* source, const ConvertedSurface& converted,
-  bool splitSeams);
+  bool splitSeams, int threads, std::vector<std::string>* notCarried = nullptr);
 
 } // namespace quadrille

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadrilleQuads.h"
 
+#include "Base/Parallel.h"
+#include "Extraction/QuadCoverage.h"
+#include "Extraction/QuadLayout.h"
 #include "QuadrilleConvert.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
 #include <vtkLongLongArray.h>
@@ -26,6 +30,8 @@ namespace quadrille
 
 namespace
 {
+
+constexpr std::size_t kChunk = 1 << 13;
 
 template <class Array>
 vtkSmartPointer<Array> newArray(const char* name, int components, std::size_t tuples)
@@ -79,23 +85,87 @@ void writeGeometry(const QuadMesh& mesh, vtkPolyData* data)
   data->SetPolys(newCells(connectivity, 4));
 }
 
-void addPointArrays(const QuadMesh& mesh, const QuadSource& source, vtkPointData* data)
+using PointFunction = std::function<PointOrigin(Index, const std::array<double, 3>&)>;
+
+/// Per point of the quads.
+std::vector<PointOrigin> originsOf(const QuadMesh& mesh, const PointFunction& origin, int threads)
+{
+  std::vector<PointOrigin> origins(mesh.points.size());
+  parallelFor(origins.size(), kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        origins[i] = origin(mesh.sourceFace[i], mesh.sourceWeights[i]);
+      }
+    });
+  return origins;
+}
+
+/// Per quad the cell under its centre.
+std::vector<vtkIdType> centresOf(
+  const QuadMesh& mesh, const std::function<vtkIdType(Index)>& cellOf)
+{
+  std::vector<vtkIdType> cells(mesh.quads.size());
+  std::transform(mesh.quadSourceFace.begin(), mesh.quadSourceFace.end(), cells.begin(), cellOf);
+  return cells;
+}
+
+CellOrigins areasOf(const QuadMesh& mesh, const Mesh& mapped, const std::vector<FixedVec2>& uv,
+  const QuadSource& source)
+{
+  const QuadCoverage coverage = coverQuads(mapped, uv, mesh, source.threads);
+  CellOrigins origins;
+  origins.first = coverage.first;
+  origins.shares.resize(coverage.shares.size());
+  std::transform(coverage.shares.begin(), coverage.shares.end(), origins.shares.begin(),
+    [&](const FaceShare& share) {
+      return CellOrigins::Share{ source.carrierCell(share.face), share.weight };
+    });
+  return origins;
+}
+
+void append(std::vector<std::string>& list, const std::vector<std::string>& more)
+{
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+/// Point and cell arrays of the carrier. Returns what could not be carried.
+std::vector<std::string> carryArrays(const QuadMesh& mesh, const Mesh& mapped,
+  const std::vector<FixedVec2>& uv, const QuadSource& source,
+  const std::vector<PointOrigin>& origins, vtkPolyData* data)
+{
+  vtkPolyData* carrier = source.carrier;
+  std::vector<std::string> notCarried = carryPointArrays(carrier->GetPointData(),
+    carrier->GetNumberOfPoints(), data->GetPointData(), origins, source.threads);
+  vtkCellData* from = carrier->GetCellData();
+  const vtkIdType cells = carrier->GetNumberOfCells();
+  append(notCarried,
+    source.cellDataFrom == CellDataFrom::Area
+      ? carryCellArrays(
+          from, cells, data->GetCellData(), areasOf(mesh, mapped, uv, source), source.threads)
+      : carryCellArrays(
+          from, cells, data->GetCellData(), centresOf(mesh, source.carrierCell), source.threads));
+  return notCarried;
+}
+
+void addPointArrays(const QuadMesh& mesh, const std::function<vtkIdType(Index)>& cellOf,
+  const std::vector<PointOrigin>& origins, vtkPointData* data)
 {
   const std::size_t count = mesh.points.size();
   auto valence = newArray<vtkIntArray>(arrays::kValence, 1, count);
-  auto boundary = newArray<vtkUnsignedCharArray>("OnBoundary", 1, count);
+  auto boundary = newArray<vtkUnsignedCharArray>(arrays::kOnBoundary, 1, count);
   auto cell = newArray<vtkIdTypeArray>(arrays::kSourceCellId, 1, count);
   auto ids = newArray<vtkIdTypeArray>(arrays::kSourcePointIds, 3, count);
   auto weights = newArray<vtkDoubleArray>(arrays::kSourceBarycentric, 3, count);
   for (std::size_t i = 0; i < count; ++i)
   {
     const auto id = static_cast<vtkIdType>(i);
-    const PointOrigin origin = source.sourcePoint(mesh.sourceFace[i], mesh.sourceWeights[i]);
     valence->SetValue(id, mesh.valence[i]);
     boundary->SetValue(id, mesh.onBoundary[i]);
-    cell->SetValue(id, source.sourceCell(mesh.sourceFace[i]));
-    ids->SetTypedTuple(id, origin.ids.data());
-    weights->SetTypedTuple(id, origin.weights.data());
+    cell->SetValue(id, cellOf(mesh.sourceFace[i]));
+    ids->SetTypedTuple(id, origins[i].ids.data());
+    weights->SetTypedTuple(id, origins[i].weights.data());
   }
   data->AddArray(cell);
   data->AddArray(ids);
@@ -108,14 +178,33 @@ void addPointArrays(const QuadMesh& mesh, const QuadSource& source, vtkPointData
   }
 }
 
-void addSourceCells(const QuadMesh& mesh, const QuadSource& source, vtkCellData* data)
+void addSourceCells(
+  const QuadMesh& mesh, const std::function<vtkIdType(Index)>& cellOf, vtkCellData* data)
 {
   auto cell = newArray<vtkIdTypeArray>(arrays::kSourceCellId, 1, mesh.quads.size());
   for (std::size_t i = 0; i < mesh.quads.size(); ++i)
   {
-    cell->SetValue(static_cast<vtkIdType>(i), source.sourceCell(mesh.quadSourceFace[i]));
+    cell->SetValue(static_cast<vtkIdType>(i), cellOf(mesh.quadSourceFace[i]));
   }
   data->AddArray(cell);
+}
+
+void addLayout(const QuadLayout& layout, vtkPolyData* data)
+{
+  auto patch = newArray<vtkIntArray>(arrays::kLayoutPatch, 1, layout.patchOf.size());
+  std::copy(layout.patchOf.begin(), layout.patchOf.end(), patch->GetPointer(0));
+  data->GetCellData()->AddArray(patch);
+  auto shape = newArray<vtkUnsignedCharArray>("LayoutPatchShape", 1, layout.patches.size());
+  auto size = newArray<vtkIntArray>("LayoutPatchSize", 2, layout.patches.size());
+  for (std::size_t i = 0; i < layout.patches.size(); ++i)
+  {
+    const auto id = static_cast<vtkIdType>(i);
+    shape->SetValue(id, static_cast<unsigned char>(layout.patches[i].shape));
+    size->SetValue(2 * id, static_cast<int>(layout.patches[i].size[0]));
+    size->SetValue(2 * id + 1, static_cast<int>(layout.patches[i].size[1]));
+  }
+  data->GetFieldData()->AddArray(shape);
+  data->GetFieldData()->AddArray(size);
 }
 
 using Edge = std::pair<Index, Index>;
@@ -150,24 +239,21 @@ void addFeatureEdges(const QuadMesh& mesh, vtkCellData* data)
   data->AddArray(array);
 }
 
-/// Only the points that lines use, in the order of their first use.
-void writeLineGeometry(const QuadMesh& mesh, vtkPolyData* data)
+/// Only the points that lines use, in the order of their first use; they replace `ids`, points of the quads.
+vtkSmartPointer<vtkPoints> writeUsedPoints(
+  const QuadMesh& mesh, vtkIdTypeArray* ids, vtkPointData* data)
 {
   std::vector<Index> lineId(mesh.points.size(), kInvalidIndex);
   std::vector<Index> used;
-  auto connectivity = newArray<vtkIdTypeArray>("", 1, 2 * mesh.lines.size());
-  vtkIdType next = 0;
-  for (const QuadLine& line : mesh.lines)
+  for (vtkIdType i = 0; i < ids->GetNumberOfValues(); ++i)
   {
-    for (const Index end : { line.a, line.b })
+    const auto point = static_cast<std::size_t>(ids->GetValue(i));
+    if (lineId[point] == kInvalidIndex)
     {
-      if (lineId[end] == kInvalidIndex)
-      {
-        lineId[end] = static_cast<Index>(used.size());
-        used.push_back(end);
-      }
-      connectivity->SetValue(next++, lineId[end]);
+      lineId[point] = static_cast<Index>(used.size());
+      used.push_back(static_cast<Index>(point));
     }
+    ids->SetValue(i, lineId[point]);
   }
   vtkSmartPointer<vtkPoints> points = newPoints(used.size());
   auto quadPoint = newArray<vtkIdTypeArray>("QuadPointId", 1, used.size());
@@ -176,9 +262,21 @@ void writeLineGeometry(const QuadMesh& mesh, vtkPolyData* data)
     points->SetPoint(static_cast<vtkIdType>(i), mesh.points[used[i]].data());
     quadPoint->SetValue(static_cast<vtkIdType>(i), used[i]);
   }
-  data->SetPoints(points);
+  data->AddArray(quadPoint);
+  return points;
+}
+
+void writeLineGeometry(const QuadMesh& mesh, vtkPolyData* data)
+{
+  auto connectivity = newArray<vtkIdTypeArray>("", 1, 2 * mesh.lines.size());
+  vtkIdType next = 0;
+  for (const QuadLine& line : mesh.lines)
+  {
+    connectivity->SetValue(next++, line.a);
+    connectivity->SetValue(next++, line.b);
+  }
+  data->SetPoints(writeUsedPoints(mesh, connectivity, data->GetPointData()));
   data->SetLines(newCells(connectivity, 2));
-  data->GetPointData()->AddArray(quadPoint);
 }
 
 void addPatchPairs(
@@ -203,6 +301,83 @@ void addPatchPairs(
     pairs->SetValue(static_cast<vtkIdType>(2 * i + 1), std::max(left, right));
   }
   data->AddArray(pairs);
+}
+
+vtkSmartPointer<vtkPolyData> writeQuads(const QuadMesh& mesh, const Mesh& mapped,
+  const std::vector<FixedVec2>& uv, const QuadLayout& layout, const QuadSource& source,
+  std::vector<std::string>& notCarried)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  writeGeometry(mesh, data);
+  std::vector<PointOrigin> origins = originsOf(mesh, source.carrierPoint, source.threads);
+  notCarried = carryArrays(mesh, mapped, uv, source, origins, data);
+  if (source.sourcePoint)
+  {
+    origins = originsOf(mesh, source.sourcePoint, source.threads);
+  }
+  const auto& cellOf = source.sourceCell ? source.sourceCell : source.carrierCell;
+  addPointArrays(mesh, cellOf, origins, data->GetPointData());
+  addSourceCells(mesh, cellOf, data->GetCellData());
+  addFeatureEdges(mesh, data->GetCellData());
+  data->GetFieldData()->PassData(source.carrier->GetFieldData());
+  addLayout(layout, data); // replaces that of a remeshed quad mesh
+  return data;
+}
+
+vtkSmartPointer<vtkPolyData> writeLines(
+  const QuadMesh& mesh, const Mesh& mapped, const QuadLayout& layout, const QuadSource& source)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  writeLineGeometry(mesh, data);
+  auto boundary = newArray<vtkUnsignedCharArray>("Boundary", 1, mesh.lines.size());
+  auto separatrix = newArray<vtkUnsignedCharArray>("Separatrix", 1, mesh.lines.size());
+  auto patches = newArray<vtkIntArray>("LayoutPatchIds", 2, mesh.lines.size());
+  for (std::size_t i = 0; i < mesh.lines.size(); ++i)
+  {
+    const auto id = static_cast<vtkIdType>(i);
+    boundary->SetValue(id, mesh.lines[i].boundary ? 1 : 0);
+    separatrix->SetValue(id, layout.lineOnSeparatrix[i]);
+    patches->SetValue(2 * id, static_cast<int>(layout.patchesOfLine[i][0]));
+    patches->SetValue(2 * id + 1, static_cast<int>(layout.patchesOfLine[i][1]));
+  }
+  data->GetCellData()->AddArray(boundary);
+  addPatchPairs(mesh, mapped, source, data->GetCellData());
+  data->GetCellData()->AddArray(patches);
+  data->GetCellData()->AddArray(separatrix);
+  return data;
+}
+
+vtkSmartPointer<vtkPolyData> writeSeparatrices(const QuadMesh& mesh, const QuadLayout& layout)
+{
+  const std::size_t count = layout.lines.size();
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  auto connectivity = newArray<vtkIdTypeArray>("", 1, layout.linePoints.size());
+  std::copy(layout.linePoints.begin(), layout.linePoints.end(), connectivity->GetPointer(0));
+  auto offsets = newArray<vtkIdTypeArray>("", 1, count + 1);
+  auto start = newArray<vtkUnsignedCharArray>("StartKind", 1, count);
+  auto end = newArray<vtkUnsignedCharArray>("EndKind", 1, count);
+  auto feature = newArray<vtkUnsignedCharArray>("Feature", 1, count);
+  auto separatrix = newArray<vtkUnsignedCharArray>("Separatrix", 1, count);
+  offsets->SetValue(0, 0);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const auto id = static_cast<vtkIdType>(i);
+    const LayoutLine& line = layout.lines[i]; // one after the other in linePoints
+    offsets->SetValue(id + 1, static_cast<vtkIdType>(line.first + line.count));
+    start->SetValue(id, static_cast<unsigned char>(line.start));
+    end->SetValue(id, static_cast<unsigned char>(line.end));
+    feature->SetValue(id, line.feature ? 1 : 0);
+    separatrix->SetValue(id, line.separatrix ? 1 : 0);
+  }
+  data->SetPoints(writeUsedPoints(mesh, connectivity, data->GetPointData()));
+  vtkNew<vtkCellArray> lines;
+  lines->SetData(offsets.Get(), connectivity.Get());
+  data->SetLines(lines);
+  for (const auto& array : { start, end, feature, separatrix })
+  {
+    data->GetCellData()->AddArray(array);
+  }
+  return data;
 }
 
 } // namespace
@@ -230,38 +405,15 @@ PointOrigin pointOrigin(const PreparedSurface& surface, const ConvertedSurface& 
   return origin;
 }
 
-vtkSmartPointer<vtkPolyData> writeQuads(const QuadMesh& mesh, const QuadSource& source)
+QuadOutputs writeOutputs(const QuadMesh& mesh, const Mesh& mapped, const std::vector<FixedVec2>& uv,
+  const QuadSource& source)
 {
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  writeGeometry(mesh, data);
-  carryPointArrays(source.carrier->GetPointData(), data->GetPointData(), data->GetNumberOfPoints(),
-    [&](vtkIdType i)
-    {
-      const auto p = static_cast<std::size_t>(i);
-      return source.carrierPoint(mesh.sourceFace[p], mesh.sourceWeights[p]);
-    });
-  carryCellArrays(source.carrier->GetCellData(), data->GetCellData(), data->GetNumberOfCells(),
-    [&](vtkIdType q)
-    { return source.carrierCell(mesh.quadSourceFace[static_cast<std::size_t>(q)]); });
-  addPointArrays(mesh, source, data->GetPointData());
-  addSourceCells(mesh, source, data->GetCellData());
-  addFeatureEdges(mesh, data->GetCellData());
-  return data;
-}
-
-vtkSmartPointer<vtkPolyData> writeLines(
-  const QuadMesh& mesh, const Mesh& mapped, const QuadSource& source)
-{
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  writeLineGeometry(mesh, data);
-  auto boundary = newArray<vtkUnsignedCharArray>("Boundary", 1, mesh.lines.size());
-  for (std::size_t i = 0; i < mesh.lines.size(); ++i)
-  {
-    boundary->SetValue(static_cast<vtkIdType>(i), mesh.lines[i].boundary ? 1 : 0);
-  }
-  data->GetCellData()->AddArray(boundary);
-  addPatchPairs(mesh, mapped, source, data->GetCellData());
-  return data;
+  const QuadLayout layout = layoutOf(mesh);
+  QuadOutputs outputs;
+  outputs.quads = writeQuads(mesh, mapped, uv, layout, source, outputs.notCarried);
+  outputs.lines = writeLines(mesh, mapped, layout, source);
+  outputs.separatrices = writeSeparatrices(mesh, layout);
+  return outputs;
 }
 
 } // namespace quadrille

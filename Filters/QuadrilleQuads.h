@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// QuadMesh -> vtkPolyData: the quads with their sources and carried arrays, the feature and boundary lines.
+/// QuadMesh -> vtkPolyData: the quads with their sources, carried arrays and layout, the feature and boundary lines, the
+/// lines of the layout.
 #pragma once
 
+#include "Base/FixedPoint.h"
 #include "Extraction/Extraction.h"
 #include "Mesh/Surface.h"
 #include "QuadrilleAttributes.h"
@@ -12,23 +14,35 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 class vtkPolyData;
 
 namespace quadrille
 {
 
-/// Where the quads' attributes come from. `carrier` holds the arrays; faces are those of the mapped mesh.
+/// What cell arrays of the quads come from; the values of the filters' CellDataFrom.
+enum class CellDataFrom
+{
+  Centre = 0, ///< the cell under the quad's centre
+  Area = 1    ///< all cells under the quad, by area
+};
+
+/// Where the quads' attributes come from. `carrier` holds the arrays; faces are those of the mapped mesh. The functions
+/// are called from several threads.
 struct QuadSource
 {
   vtkPolyData* carrier = nullptr;
   /// Point with barycentric weights in a face, in points of the carrier.
   std::function<PointOrigin(Index face, const std::array<double, 3>& weights)> carrierPoint;
   std::function<vtkIdType(Index face)> carrierCell;
-  /// The same in the user's own surface: SourceCellId, SourcePointIds and SourceBarycentric.
+  /// The same in the user's own surface, for SourceCellId, SourcePointIds and SourceBarycentric; empty where that is the
+  /// carrier.
   std::function<PointOrigin(Index face, const std::array<double, 3>& weights)> sourcePoint;
   std::function<vtkIdType(Index face)> sourceCell;
   std::string patchArray; ///< cell array of the carrier with patch ids, or empty
+  CellDataFrom cellDataFrom = CellDataFrom::Centre;
+  int threads = 0;
 };
 
 /// A point of the prepared surface in the user's points. Where the source cell is a triangle, its points
@@ -36,13 +50,26 @@ struct QuadSource
 PointOrigin pointOrigin(const PreparedSurface& surface, const ConvertedSurface& converted,
   vtkPolyData* data, Index face, const std::array<double, 3>& weights);
 
-/// Points: Valence, OnBoundary, SourceCellId, SourcePointIds, SourceBarycentric. Cells: SourceCellId and
-/// FeatureEdges (bit i: the edge from corner i to i+1 lies on a feature). All arrays of the carrier.
-vtkSmartPointer<vtkPolyData> writeQuads(const QuadMesh& mesh, const QuadSource& source);
+struct QuadOutputs
+{
+  /// Points: Valence, OnBoundary, SourceCellId, SourcePointIds, SourceBarycentric. Cells: SourceCellId, FeatureEdges (bit
+  /// i: the edge from corner i to i+1 lies on a feature), LayoutPatch. All arrays of the carrier, and its field data. Field data, one tuple a
+  /// layout patch: LayoutPatchShape (a PatchShape) and LayoutPatchSize (2: quads along and across).
+  vtkSmartPointer<vtkPolyData> quads;
+  /// Segments on features and boundaries. Cells: Boundary (0 or 1); PatchIds (the two patches that the segment separates,
+  /// smaller one first; twice the same on a boundary), where there is a patch array; LayoutPatchIds, the same for layout
+  /// patches; Separatrix (1: there would be a border of layout patches without features, too; 0 on boundaries). Points:
+  /// QuadPointId.
+  vtkSmartPointer<vtkPolyData> lines;
+  /// The lines of the layout inside as polylines. Cells: StartKind and EndKind (a LineEnd), Feature (1: all on features, 0:
+  /// none), Separatrix. Points: QuadPointId.
+  vtkSmartPointer<vtkPolyData> separatrices;
+  /// Arrays that could not be carried, as text.
+  std::vector<std::string> notCarried;
+};
 
-/// Segments on features and boundaries. Cells: Boundary (0 or 1), PatchIds (the two patches that the segment
-/// separates, smaller one first; twice the same on a boundary), where there are patches. Points: QuadPointId.
-vtkSmartPointer<vtkPolyData> writeLines(
-  const QuadMesh& mesh, const Mesh& mapped, const QuadSource& source);
+/// uv: the map that the quads were extracted from, in any charts; mapped: its mesh.
+QuadOutputs writeOutputs(const QuadMesh& mesh, const Mesh& mapped, const std::vector<FixedVec2>& uv,
+  const QuadSource& source);
 
 } // namespace quadrille

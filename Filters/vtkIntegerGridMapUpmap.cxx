@@ -132,9 +132,14 @@ void vtkIntegerGridMapUpmap::Execute(vtkInformationVector** inputs, vtkInformati
     vtkWarningMacro(<< "map on the surface: " << certificate.text());
   }
   vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  std::vector<std::string> notCarried;
   output->ShallowCopy(quadrille::writeMappedSurface(surface, map.uv,
     quadrille::matchingOf(surface.mesh, map.uv, this->NumberOfThreads), expected.turns, source,
-    converted, this->TextureCoordinates != 0));
+    converted, this->TextureCoordinates != 0, this->NumberOfThreads, &notCarried));
+  for (const std::string& notice : notCarried)
+  {
+    this->AddNotice(notice);
+  }
   output->GetFieldData()->PassData(coarseData->GetFieldData());
   quadrille::addStages(output, clock.records);
   quadrille::addCertificate(output, certificate);

@@ -9,12 +9,15 @@
 #include "QuadrilleReport.h"
 #include "QuadrilleStages.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
+#include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
@@ -29,12 +32,13 @@ using quadrille::Index;
 using quadrille::PointOrigin;
 using Weights = std::array<double, 3>;
 
-/// Points of the mapped surface itself: corners of its cells, before the seams were welded.
+/// Points of the mapped surface itself: corners of its cells, all triangles, before the seams were welded. Several threads may ask.
 PointOrigin carrierPoint(vtkPolyData* data, Index face, const Weights& weights)
 {
   vtkIdType count = 0;
   const vtkIdType* ids = nullptr;
-  data->GetCellPoints(face, count, ids);
+  vtkNew<vtkIdList> copy;
+  data->GetPolys()->GetCellAtId(face, count, ids, copy);
   return { { ids[0], ids[1], ids[2] }, weights };
 }
 
@@ -88,8 +92,6 @@ quadrille::QuadSource sourceOf(vtkPolyData* data, const std::string& patchArray)
   source.carrierPoint = [data](Index face, const Weights& weights)
   { return carrierPoint(data, face, weights); };
   source.carrierCell = [](Index face) { return static_cast<vtkIdType>(face); };
-  source.sourcePoint = source.carrierPoint;
-  source.sourceCell = source.carrierCell;
   const Ancestry ancestry(data);
   if (ancestry.cells)
   {
@@ -105,7 +107,7 @@ quadrille::QuadSource sourceOf(vtkPolyData* data, const std::string& patchArray)
 //------------------------------------------------------------------------------
 vtkQuadExtraction::vtkQuadExtraction()
 {
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(3);
 }
 
 vtkQuadExtraction::~vtkQuadExtraction() = default;
@@ -125,6 +127,12 @@ void vtkQuadExtraction::SetPatchArrayName(const char* name)
 vtkPolyData* vtkQuadExtraction::GetLines()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkQuadExtraction::GetSeparatrices()
+{
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(2));
 }
 
 //------------------------------------------------------------------------------
@@ -163,15 +171,22 @@ void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVec
   this->SetStageRecords(clock.records);
   quadrille::requireOk(result.status, "the extraction of quads");
 
-  const quadrille::QuadSource source = sourceOf(input, this->PatchArrayName);
+  quadrille::QuadSource source = sourceOf(input, this->PatchArrayName);
+  source.cellDataFrom = static_cast<quadrille::CellDataFrom>(this->CellDataFrom);
+  source.threads = this->NumberOfThreads;
+  const quadrille::QuadOutputs written = quadrille::writeOutputs(result.mesh, mesh, uv, source);
+  for (const std::string& notice : written.notCarried)
+  {
+    this->AddNotice(notice);
+  }
   vtkPolyData* quads = vtkPolyData::GetData(outputs, 0);
-  quads->ShallowCopy(quadrille::writeQuads(result.mesh, source));
-  quads->GetFieldData()->PassData(input->GetFieldData());
+  quads->ShallowCopy(written.quads);
   quadrille::addStages(quads, clock.records);
   quadrille::addMapReport(quads, mapped);
   quadrille::addText(quads, "Notices", quadrille::splitLines(this->GetNoticesText()));
   quadrille::addCount(quads, "ActualQuads", result.mesh.quads.size());
-  vtkPolyData::GetData(outputs, 1)->ShallowCopy(quadrille::writeLines(result.mesh, mesh, source));
+  vtkPolyData::GetData(outputs, 1)->ShallowCopy(written.lines);
+  vtkPolyData::GetData(outputs, 2)->ShallowCopy(written.separatrices);
 }
 
 //------------------------------------------------------------------------------
@@ -181,4 +196,5 @@ void vtkQuadExtraction::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumNumberOfQuads: " << this->MaximumNumberOfQuads << "\n";
   os << indent << "TextureScale: " << this->TextureScale << "\n";
   os << indent << "PatchArrayName: " << this->PatchArrayName << "\n";
+  os << indent << "CellDataFrom: " << this->CellDataFrom << "\n";
 }

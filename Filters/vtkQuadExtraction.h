@@ -11,7 +11,7 @@
  * from the two images of each edge, as the translations always are. A map that is not exact is rounded, and the field arrays `MapLargestMove` (in
  * quads), `MapFixedPoints` and `MapInconsistentVertices` and a notice tell how much; an exact one, as our own, is taken as it is.
  *
- * Outputs: 0 the quads, 1 the feature and boundary lines, both as from vtkQuadRemesh.
+ * Outputs: 0 the quads, 1 the feature and boundary lines, 2 the separatrices, as outputs 0, 2 and 3 of vtkQuadRemesh.
  */
 #ifndef vtkQuadExtraction_h
 #define vtkQuadExtraction_h
@@ -50,8 +50,28 @@ public:
   const char* GetPatchArrayName() { return this->PatchArrayName.c_str(); }
   ///@}
 
-  /// Output 1.
+  /// The values of CellDataFrom, see there.
+  enum CellDataFromTypes
+  {
+    CELL_DATA_FROM_CENTRE = 0,
+    CELL_DATA_FROM_AREA = 1
+  };
+
+  ///@{
+  /**
+   * Where the cell arrays of the quads come from, a CellDataFromTypes: from the cell under the centre of the quad, or from all cells under it
+   * by their area in the map: of real numbers and colours the average, of whole numbers and strings that with the largest part. Cells beyond
+   * a feature never count. Centre and area are those before the points are smoothed. Default: CELL_DATA_FROM_CENTRE.
+   */
+  vtkSetClampMacro(CellDataFrom, int, CELL_DATA_FROM_CENTRE, CELL_DATA_FROM_AREA);
+  vtkGetMacro(CellDataFrom, int);
+  void SetCellDataFromToCentre() { this->SetCellDataFrom(CELL_DATA_FROM_CENTRE); }
+  void SetCellDataFromToArea() { this->SetCellDataFrom(CELL_DATA_FROM_AREA); }
+  ///@}
+
+  /// Outputs 1 and 2.
   vtkPolyData* GetLines();
+  vtkPolyData* GetSeparatrices();
 
 protected:
   vtkQuadExtraction();
@@ -66,6 +86,7 @@ private:
   vtkIdType MaximumNumberOfQuads = 10000000;
   double TextureScale = 1;
   std::string PatchArrayName = "PatchId";
+  int CellDataFrom = CELL_DATA_FROM_CENTRE;
 };
 
 #endif

@@ -33,8 +33,6 @@ quadrille::QuadSource sourceOf(const quadrille::PreparedSurface& surface,
   { return quadrille::pointOrigin(surface, converted, input, face, weights); };
   source.carrierCell = [&surface, &converted](quadrille::Index face)
   { return converted.cell(surface.sourcePolygon[face]); };
-  source.sourcePoint = source.carrierPoint;
-  source.sourceCell = source.carrierCell;
   return source;
 }
 
@@ -62,7 +60,7 @@ void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
 //------------------------------------------------------------------------------
 vtkQuadRemesh::vtkQuadRemesh() : Memory(std::make_unique<quadrille::RemeshMemory>())
 {
-  this->SetNumberOfOutputPorts(3);
+  this->SetNumberOfOutputPorts(4);
 }
 
 vtkQuadRemesh::~vtkQuadRemesh() = default;
@@ -152,10 +150,17 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   }
   quadrille::requireOk(result.status, "remeshing");
 
-  const quadrille::QuadSource source = sourceOf(result.surface, converted, input);
+  quadrille::QuadSource source = sourceOf(result.surface, converted, input);
+  source.cellDataFrom = static_cast<quadrille::CellDataFrom>(this->CellDataFrom);
+  source.threads = this->NumberOfThreads;
+  const quadrille::QuadOutputs written =
+    quadrille::writeOutputs(result.quads, result.surface.mesh, result.uv, source);
+  for (const std::string& notice : written.notCarried)
+  {
+    this->AddNotice(notice);
+  }
   vtkPolyData* quads = vtkPolyData::GetData(outputs, 0);
-  quads->ShallowCopy(quadrille::writeQuads(result.quads, source));
-  quads->GetFieldData()->PassData(input->GetFieldData());
+  quads->ShallowCopy(written.quads);
   addFieldData(quads, result);
   quadrille::addMethod(quads, options.method);
   quadrille::addAnisotropy(quads, options.anisotropyLimit, result.beyondAnisotropyLimit);
@@ -165,15 +170,15 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
     vtkPolyData* mapped = vtkPolyData::GetData(outputs, 1);
     mapped->ShallowCopy(quadrille::writeMappedSurface(result.surface, result.uv,
       quadrille::matchingOf(result.surface.mesh, result.uv, this->NumberOfThreads), result.turns,
-      input, converted, this->TextureCoordinates != 0));
+      input, converted, this->TextureCoordinates != 0, this->NumberOfThreads));
     quadrille::addMethod(mapped, options.method);
     quadrille::addAnisotropy(mapped, options.anisotropyLimit, result.beyondAnisotropyLimit);
     quadrille::addCertificate(mapped, result.certificate);
     quadrille::addCount(mapped, "Charts", result.charts.charts);
     quadrille::addCount(mapped, "SeamEdges", result.charts.seamEdges);
   }
-  vtkPolyData::GetData(outputs, 2)
-    ->ShallowCopy(quadrille::writeLines(result.quads, result.surface.mesh, source));
+  vtkPolyData::GetData(outputs, 2)->ShallowCopy(written.lines);
+  vtkPolyData::GetData(outputs, 3)->ShallowCopy(written.separatrices);
   this->ActualQuads = quads->GetNumberOfPolys();
 }
 
@@ -193,6 +198,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RememberedMegabytes: " << this->GetRememberedMegabytes() << "\n";
   os << indent << "FinalQuality: " << this->FinalQuality << "\n";
   os << indent << "DistortionMetric: " << this->DistortionMetric << "\n";
+  os << indent << "CellDataFrom: " << this->CellDataFrom << "\n";
   os << indent << "ComputeMappedSurface: " << this->ComputeMappedSurface << "\n";
   os << indent << "TextureCoordinates: " << this->TextureCoordinates << "\n";
   os << indent << "TargetQuads: " << this->TargetQuads << "\n";

@@ -163,6 +163,25 @@ public:
   vtkBooleanMacro(DistortionMetric, vtkTypeBool);
   ///@}
 
+  /// The values of CellDataFrom, see there.
+  enum CellDataFromTypes
+  {
+    CELL_DATA_FROM_CENTRE = 0,
+    CELL_DATA_FROM_AREA = 1
+  };
+
+  ///@{
+  /**
+   * Where the cell arrays of the quads come from, a CellDataFromTypes: from the cell under the centre of the quad, or from all cells under it
+   * by their area in the map: of real numbers and colours the average, of whole numbers and strings that with the largest part. Cells beyond
+   * a feature never count. Centre and area are those before the points are smoothed. Default: CELL_DATA_FROM_CENTRE.
+   */
+  vtkSetClampMacro(CellDataFrom, int, CELL_DATA_FROM_CENTRE, CELL_DATA_FROM_AREA);
+  vtkGetMacro(CellDataFrom, int);
+  void SetCellDataFromToCentre() { this->SetCellDataFrom(CELL_DATA_FROM_CENTRE); }
+  void SetCellDataFromToArea() { this->SetCellDataFrom(CELL_DATA_FROM_AREA); }
+  ///@}
+
   ///@{
   /**
    * With KeepLevels: whether the map starts from that of the last execution, which keeps whole numbers where irregular vertices and features
@@ -215,9 +234,10 @@ public:
   vtkGetMacro(ShortestBoundaryOverEdgeLength, double);
   ///@}
 
-  /// Outputs 1 and 2.
+  /// Outputs 1 to 3.
   vtkPolyData* GetMappedSurface() { return this->GetPolyDataOutputAt(1); }
   vtkPolyData* GetLines() { return this->GetPolyDataOutputAt(2); }
+  vtkPolyData* GetSeparatrices() { return this->GetPolyDataOutputAt(3); }
 
 protected:
   vtkQuadRemesh();
@@ -243,6 +263,7 @@ private:
   vtkTypeBool WarmStart = 0;
   int FinalQuality = Coarse;
   vtkTypeBool DistortionMetric = 0;
+  int CellDataFrom = CELL_DATA_FROM_CENTRE;
   vtkTypeBool ComputeMappedSurface = 1;
   vtkTypeBool TextureCoordinates = 1;
   vtkIdType ActualQuads = 0;

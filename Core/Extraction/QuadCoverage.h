@@ -20,8 +20,9 @@ struct FaceShare
 struct QuadCoverage
 {
   std::vector<std::size_t> first; ///< #quads + 1 offsets into shares
-  std::vector<FaceShare>
-    shares; ///< per quad; the face under its centre comes first; the weights sum to 1
+  /// Per quad; the face under its centre comes first; the weights sum to 1. Beside a vertex of
+  /// valence 2 a face may come twice.
+  std::vector<FaceShare> shares;
 };
 
 /// Cuts the faces with the unit square that each quad is in the map, before smoothing moved its points. Searches from

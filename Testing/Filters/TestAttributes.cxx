@@ -34,7 +34,7 @@ TEST(Attributes, RealNumbersAreInterpolated)
     values->InsertNextTuple2(8 * i, -16 * i);
   }
   source->AddArray(values);
-  carryPointArrays(source, target, 1, [](vtkIdType) { return kBetween; });
+  carryPointArrays(source, 3, target, { kBetween }, 1);
   vtkDataArray* result = target->GetArray("Temperature");
   ASSERT_NE(result, nullptr);
   // 0.25 * 16 + 0.125 * 8; exact in binary.
@@ -56,7 +56,7 @@ TEST(Attributes, WholeNumbersAndStringsComeFromTheNearest)
   }
   source->SetGlobalIds(ids);
   source->AddArray(names);
-  carryPointArrays(source, target, 1, [](vtkIdType) { return kBetween; });
+  carryPointArrays(source, 3, target, { kBetween }, 1);
   EXPECT_EQ(target->GetArray("Ids")->GetTuple1(0), 100);
   EXPECT_EQ(
     vtkStringArray::SafeDownCast(target->GetAbstractArray("Names"))->GetValue(0), "point 0");
@@ -80,7 +80,7 @@ TEST(Attributes, ColoursAreMixedAndNormalsStayUnit)
   }
   source->SetScalars(colours);
   source->SetNormals(normals);
-  carryPointArrays(source, target, 1, [](vtkIdType) { return kBetween; });
+  carryPointArrays(source, 3, target, { kBetween }, 1);
   EXPECT_EQ(target->GetScalars()->GetComponent(0, 0), 50);
   EXPECT_EQ(target->GetScalars()->GetComponent(0, 2), 255);
   double n[3];
@@ -102,7 +102,7 @@ TEST(Attributes, CellsTakeTheirSourceAndOwnArraysStayBehind)
   }
   source->AddArray(patch);
   source->AddArray(features);
-  carryCellArrays(source, target, 2, [](vtkIdType i) { return 3 - i; });
+  carryCellArrays(source, 4, target, std::vector<vtkIdType>{ 3, 2 }, 1);
   EXPECT_EQ(target->GetArray("PatchId")->GetTuple1(0), 30);
   EXPECT_EQ(target->GetArray("PatchId")->GetTuple1(1), 20);
   EXPECT_EQ(target->GetArray("FeatureEdges"), nullptr);
