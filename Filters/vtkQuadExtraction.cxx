@@ -174,7 +174,7 @@ void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVec
   quadrille::QuadSource source = sourceOf(input, this->PatchArrayName);
   source.cellDataFrom = static_cast<quadrille::CellDataFrom>(this->CellDataFrom);
   source.threads = this->NumberOfThreads;
-  const quadrille::QuadOutputs written = quadrille::writeOutputs(result.mesh, mesh, uv, source);
+  const quadrille::QuadOutputs written = quadrille::writeOutputs(result.mesh, mesh, mapped.map.uv, source);
   for (const std::string& notice : written.notCarried)
   {
     this->AddNotice(notice);

@@ -46,8 +46,11 @@ class InvalidInput(RemeshError, ValueError):
     """The mesh or an argument is at fault; the message names it."""
 
 
-#: What remesh(..., everything=True) returns: three vtkPolyData and info() of the first.
-Remeshed = collections.namedtuple("Remeshed", "quads surface lines info")
+#: What cell arrays of the quads can come from, in the order of vtkQuadRemesh.CellDataFromTypes.
+CELL_DATA = ("centre", "area")
+
+#: What remesh(..., everything=True) returns: four vtkPolyData, and info() of the first.
+Remeshed = collections.namedtuple("Remeshed", "quads surface lines info separatrices")
 
 
 def to_polydata(points, faces):
@@ -138,8 +141,8 @@ def _set_size(run, quads, edge_length, relative_edge_length):
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
            coarse_vertices=1000, patch_array="PatchId", curves=None, threads=0, maximum_number_of_quads=10000000,
            memory_limit=0.0, time_limit=0.0, close_handles=0.0, method="scale-aware",
-           final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False, progress=None,
-           everything=False):
+           final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False, cell_data="centre",
+           progress=None, everything=False):
     """Remeshes a surface with quads only and returns a vtkPolyData.
 
     mesh: a vtkPolyData, or a pair (points, faces).
@@ -162,8 +165,10 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     anisotropy_limit: largest ratio of the two stretches of the map, at least 1, as far as features and irregular vertices let it;
         0: no limit.
     distortion_metric: whether coarse triangles count with the shape of the surface that they stand for, so that sizes come out more even.
+    cell_data: what cell arrays of the quads come from: "centre", the cell under the centre of a quad, or "area", all cells under it: the
+        average of real numbers and colours, of whole numbers and strings that with the largest part.
     progress: called as progress(fraction, text); a return value of False (not None) stops the run.
-    everything: return a Remeshed with the mapped surface, the feature lines and the info dict, too.
+    everything: return a Remeshed with the mapped surface, the feature lines, the info dict and the lines of the layout, too.
 
     Raises InvalidInput where the mesh or an argument is at fault, else RemeshError, with the reason.
     """
@@ -195,6 +200,9 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         raise InvalidInput("integers must be one of " + ", ".join(INTEGERS) + f", not {integers!r}")
     run.SetIntegers(INTEGERS.index(integers))
     run.SetDistortionMetric(bool(distortion_metric))
+    if cell_data not in CELL_DATA:
+        raise InvalidInput("cell_data must be one of " + ", ".join(CELL_DATA) + f", not {cell_data!r}")
+    run.SetCellDataFrom(CELL_DATA.index(cell_data))
     run.SetComputeMappedSurface(bool(everything))
     if progress is not None:
         def on_progress(caller, event):
@@ -212,5 +220,5 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         raise RemeshError(run.GetOutcomeText() or "no quads were made")
     result = run.GetOutput()
     if everything:
-        return Remeshed(result, run.GetMappedSurface(), run.GetLines(), info(result))
+        return Remeshed(result, run.GetMappedSurface(), run.GetLines(), info(result), run.GetSeparatrices())
     return result
