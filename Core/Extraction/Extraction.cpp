@@ -296,7 +296,7 @@ ExtractionResult extractQuads(
   }
 
   report(options.progress, 0.9, "checking the quads");
-  QuadTopology topology = analyzeQuads(result.mesh.quads, result.mesh.points.size());
+  QuadTopology topology = analyzeQuads(result.mesh.quads, result.mesh.points.size(), options.threads);
   result.status = judge(mesh, check, topology, result, options.threads);
   result.mesh.valence = std::move(topology.valence);
   result.mesh.onBoundary = std::move(topology.onBoundary);

@@ -2,15 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/QuadTopology.h"
 
+#include "Base/DisjointSets.h"
 #include "Base/Error.h"
+#include "Base/Parallel.h"
 
 #include <algorithm>
-#include <numeric>
+#include <atomic>
+#include <memory>
+#include <utility>
 
 namespace quadrille
 {
 namespace
 {
+
+constexpr std::size_t kChunk = std::size_t{ 1 } << 13;
 
 using Quads = std::vector<std::array<Index, 4>>;
 
@@ -31,95 +37,143 @@ Index targetOf(const Quads& quads, Index h)
   return originOf(quads, nextInQuad(h));
 }
 
-/// Half-edges grouped by the point they leave.
-struct Buckets
+/// The half-edges that leave each point, as lists that all threads make at once; their order is that of the threads.
+class Corners
 {
-  std::vector<Index> first;
-  std::vector<Index> halfEdges;
-
-  Buckets(const Quads& quads, std::size_t pointCount)
-    : first(pointCount + 1, 0), halfEdges(4 * quads.size())
+public:
+  Corners(const Quads& quads, std::size_t pointCount, int threads)
+    : first_(new std::atomic<Index>[pointCount]), next_(4 * quads.size())
   {
-    const Index count = static_cast<Index>(halfEdges.size());
-    for (Index h = 0; h < count; ++h)
+    parallelFor(pointCount, kChunk, threads,
+      [this](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t p = begin; p < end; ++p)
+        {
+          first_[p].store(kInvalidIndex, std::memory_order_relaxed);
+        }
+      });
+    std::vector<Index> wrong((quads.size() + kChunk - 1) / kChunk, kInvalidIndex);
+    parallelFor(quads.size(), kChunk, threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (Index h = static_cast<Index>(4 * begin); h < 4 * end; ++h)
+        {
+          const Index p = originOf(quads, h);
+          if (p >= pointCount)
+          {
+            wrong[begin / kChunk] = h;
+            return;
+          }
+          next_[h] = first_[p].exchange(h, std::memory_order_relaxed);
+        }
+      });
+    for (const Index h : wrong)
     {
-      const Index p = originOf(quads, h);
-      if (p >= pointCount)
+      if (h != kInvalidIndex)
       {
         throw InvalidInput("quad " + std::to_string(h / 4) + " refers to point " +
-          std::to_string(p) + " of " + std::to_string(pointCount));
+          std::to_string(originOf(quads, h)) + " of " + std::to_string(pointCount));
       }
-      ++first[p + 1];
     }
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<Index> fill(first.begin(), first.end() - 1);
-    for (Index h = 0; h < count; ++h)
+  }
+
+  Index first(std::size_t p) const { return first_[p].load(std::memory_order_relaxed); }
+  Index next(Index h) const { return next_[h]; }
+
+private:
+  std::unique_ptr<std::atomic<Index>[]> first_;
+  std::vector<Index> next_;
+};
+
+/// A half-edge and the point at its other end.
+using Spoke = std::pair<Index, Index>;
+
+/// The half-edges that leave a point and those that arrive, by their other ends.
+struct Star
+{
+  std::vector<Spoke> out;
+  std::vector<Spoke> in;
+
+  void gather(const Quads& quads, const Corners& corners, std::size_t p)
+  {
+    out.clear();
+    in.clear();
+    for (Index h = corners.first(p); h != kInvalidIndex; h = corners.next(h))
     {
-      halfEdges[fill[originOf(quads, h)]++] = h;
+      const Index before = previousInQuad(h);
+      out.emplace_back(targetOf(quads, h), h);
+      in.emplace_back(originOf(quads, before), before);
     }
+    std::sort(out.begin(), out.end());
+    std::sort(in.begin(), in.end());
   }
 };
 
-void note(QuadTopology& topology, Index point)
-{
-  topology.offendingPoints.push_back(point);
-}
+using SpokeRange = std::vector<Spoke>::const_iterator;
 
-/// Number of half-edges from a to b; the last one comes back in h.
-int countHalfEdges(const Quads& quads, const Buckets& buckets, Index a, Index b, Index& h)
+SpokeRange endOfRun(SpokeRange begin, SpokeRange end)
 {
-  int count = 0;
-  for (Index i = buckets.first[a]; i < buckets.first[a + 1]; ++i)
+  SpokeRange last = begin;
+  while (last != end && last->first == begin->first)
   {
-    if (targetOf(quads, buckets.halfEdges[i]) == b)
-    {
-      h = buckets.halfEdges[i];
-      ++count;
-    }
+    ++last;
   }
-  return count;
+  return last;
 }
 
-/// Counts the edge of the `same` half-edges a -> b and the `opposite` ones b -> a.
-void countEdge(Index a, Index b, int opposite, int same, QuadTopology& topology)
+/// Counts of one chunk of points or quads.
+struct Counts
 {
-  ++topology.valence[a];
-  if (opposite > 0)
+  std::size_t edges = 0;
+  std::size_t boundaryEdges = 0;
+  std::size_t nonManifoldEdges = 0;
+  std::size_t nonManifoldVertices = 0;
+  std::size_t degenerateQuads = 0;
+  std::size_t isolatedPoints = 0;
+  std::vector<Index> offendingPoints;
+};
+
+/// The edges between p and one neighbour: `out` half-edges leave along them, `in` arrive.
+void countEdge(Index p, Index neighbour, SpokeRange outBegin, SpokeRange outEnd, SpokeRange inBegin,
+  SpokeRange inEnd, QuadTopology& topology, Counts& counts)
+{
+  const std::ptrdiff_t out = outEnd - outBegin;
+  const std::ptrdiff_t in = inEnd - inBegin;
+  ++topology.valence[p];
+  if (out == 0 || in == 0)
   {
-    topology.edges += a < b ? 1 : 0;
+    topology.onBoundary[p] = 1;
+  }
+  if (out == 0) // counted at the other end
+  {
     return;
   }
-  ++topology.edges;
-  ++topology.valence[b]; // no half-edge leaves b along this edge
-  topology.boundaryEdges += same == 1 ? 1 : 0;
-  topology.onBoundary[a] = topology.onBoundary[b] = 1;
+  counts.edges += in == 0 || p < neighbour ? 1 : 0;
+  counts.boundaryEdges += in == 0 && out == 1 ? 1 : 0;
+  if (out > 1)
+  {
+    counts.nonManifoldEdges += static_cast<std::size_t>(out);
+    counts.offendingPoints.insert(counts.offendingPoints.end(), static_cast<std::size_t>(out), p);
+  }
+  else if (in == 1)
+  {
+    topology.twin[outBegin->second] = inBegin->second;
+  }
 }
 
-void pairTwins(const Quads& quads, const Buckets& buckets, QuadTopology& topology)
+void visitStar(const Star& star, Index p, QuadTopology& topology, Counts& counts)
 {
-  const Index count = static_cast<Index>(4 * quads.size());
-  topology.twin.assign(count, kInvalidIndex);
-  for (Index h = 0; h < count; ++h)
+  SpokeRange out = star.out.begin();
+  SpokeRange in = star.in.begin();
+  while (out != star.out.end() || in != star.in.end())
   {
-    const Index a = originOf(quads, h);
-    const Index b = targetOf(quads, h);
-    Index other = h;
-    Index mine = h;
-    const int opposite = countHalfEdges(quads, buckets, b, a, other);
-    const int same = countHalfEdges(quads, buckets, a, b, mine);
-    if (same > 1)
-    {
-      ++topology.nonManifoldEdges;
-      note(topology, a);
-    }
-    else if (opposite == 1)
-    {
-      topology.twin[h] = other;
-    }
-    if (mine == h)
-    {
-      countEdge(a, b, opposite, same, topology);
-    }
+    const bool leaves = out != star.out.end() && (in == star.in.end() || out->first <= in->first);
+    const bool arrives = in != star.in.end() && (out == star.out.end() || in->first <= out->first);
+    const SpokeRange outEnd = leaves ? endOfRun(out, star.out.end()) : out;
+    const SpokeRange inEnd = arrives ? endOfRun(in, star.in.end()) : in;
+    countEdge(p, leaves ? out->first : in->first, out, outEnd, in, inEnd, topology, counts);
+    out = outEnd;
+    in = inEnd;
   }
 }
 
@@ -143,64 +197,57 @@ Index fanSize(const QuadTopology& topology, Index h)
   return size;
 }
 
-void checkFans(const Buckets& buckets, QuadTopology& topology)
+void checkFan(const Corners& corners, Index p, const QuadTopology& topology, Counts& counts)
 {
-  const Index points = static_cast<Index>(buckets.first.size() - 1);
-  for (Index p = 0; p < points; ++p)
+  Index count = 0;
+  for (Index h = corners.first(p); h != kInvalidIndex; h = corners.next(h))
   {
-    const Index corners = buckets.first[p + 1] - buckets.first[p];
-    if (corners == 0)
-    {
-      ++topology.isolatedPoints;
-      note(topology, p);
-    }
-    else if (fanSize(topology, buckets.halfEdges[buckets.first[p]]) != corners)
-    {
-      ++topology.nonManifoldVertices;
-      note(topology, p);
-    }
+    ++count;
+  }
+  if (count == 0)
+  {
+    ++counts.isolatedPoints;
+    counts.offendingPoints.push_back(p);
+  }
+  else if (fanSize(topology, corners.first(p)) != count)
+  {
+    ++counts.nonManifoldVertices;
+    counts.offendingPoints.push_back(p);
   }
 }
 
-void countDegenerate(const Quads& quads, QuadTopology& topology)
+void checkQuad(const std::array<Index, 4>& q, DisjointSets& sets, Counts& counts)
 {
-  for (const std::array<Index, 4>& q : quads)
+  if (q[0] == q[1] || q[0] == q[2] || q[0] == q[3] || q[1] == q[2] || q[1] == q[3] || q[2] == q[3])
   {
-    if (q[0] == q[1] || q[0] == q[2] || q[0] == q[3] || q[1] == q[2] || q[1] == q[3] ||
-      q[2] == q[3])
-    {
-      ++topology.degenerateQuads;
-      note(topology, q[0]);
-    }
+    ++counts.degenerateQuads;
+    counts.offendingPoints.push_back(q[0]);
+  }
+  for (std::size_t i = 1; i < 4; ++i)
+  {
+    sets.join(q[0], q[i]);
   }
 }
 
-void countComponents(const Quads& quads, std::size_t pointCount, QuadTopology& topology)
+/// Runs a check over chunks and adds what they count, in the order of the chunks.
+template <typename Body>
+void overChunks(std::size_t size, int threads, QuadTopology& topology, const Body& body)
 {
-  std::vector<Index> root(pointCount);
-  std::iota(root.begin(), root.end(), Index{ 0 });
-  const auto find = [&root](Index p)
+  std::vector<Counts> parts((size + kChunk - 1) / kChunk);
+  parallelFor(size, kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    { body(static_cast<Index>(begin), static_cast<Index>(end), parts[begin / kChunk]); });
+  for (const Counts& part : parts)
   {
-    while (root[p] != p)
-    {
-      p = root[p] = root[root[p]];
-    }
-    return p;
-  };
-  for (const std::array<Index, 4>& q : quads)
-  {
-    for (int i = 1; i < 4; ++i)
-    {
-      const Index a = find(q[0]);
-      const Index b = find(q[static_cast<std::size_t>(i)]);
-      root[std::max(a, b)] = std::min(a, b);
-    }
+    topology.edges += part.edges;
+    topology.boundaryEdges += part.boundaryEdges;
+    topology.nonManifoldEdges += part.nonManifoldEdges;
+    topology.nonManifoldVertices += part.nonManifoldVertices;
+    topology.degenerateQuads += part.degenerateQuads;
+    topology.isolatedPoints += part.isolatedPoints;
+    topology.offendingPoints.insert(
+      topology.offendingPoints.end(), part.offendingPoints.begin(), part.offendingPoints.end());
   }
-  for (Index p = 0; p < pointCount; ++p)
-  {
-    topology.components += root[p] == p ? 1 : 0;
-  }
-  topology.components -= topology.isolatedPoints;
 }
 
 } // namespace
@@ -231,17 +278,42 @@ std::vector<std::vector<Index>> boundaryLoops(const QuadTopology& topology)
   return loops;
 }
 
-QuadTopology analyzeQuads(const Quads& quads, std::size_t pointCount)
+QuadTopology analyzeQuads(const Quads& quads, std::size_t pointCount, int threads)
 {
   QuadTopology topology;
   topology.valence.assign(pointCount, 0);
   topology.onBoundary.assign(pointCount, 0);
-  const Buckets buckets(quads, pointCount);
-  pairTwins(quads, buckets, topology);
-  checkFans(buckets, topology);
-  countDegenerate(quads, topology);
-  countComponents(quads, pointCount, topology);
-  if (topology.manifold())
+  topology.twin.assign(4 * quads.size(), kInvalidIndex);
+  const Corners corners(quads, pointCount, threads);
+  overChunks(pointCount, threads, topology,
+    [&](Index begin, Index end, Counts& counts)
+    {
+      Star star;
+      for (Index p = begin; p < end; ++p)
+      {
+        star.gather(quads, corners, p);
+        visitStar(star, p, topology, counts);
+      }
+    });
+  overChunks(pointCount, threads, topology,
+    [&](Index begin, Index end, Counts& counts)
+    {
+      for (Index p = begin; p < end; ++p)
+      {
+        checkFan(corners, p, topology, counts);
+      }
+    });
+  DisjointSets sets(pointCount, threads);
+  overChunks(quads.size(), threads, topology,
+    [&](Index begin, Index end, Counts& counts)
+    {
+      for (Index q = begin; q < end; ++q)
+      {
+        checkQuad(quads[q], sets, counts);
+      }
+    });
+  topology.components = sets.countSets() - topology.isolatedPoints;
+  if (topology.manifold() && !topology.closed())
   {
     topology.boundaryLoops = boundaryLoops(topology).size();
   }

@@ -48,7 +48,8 @@ struct QuadTopology
 /// a loop stays with its fan.
 std::vector<std::vector<Index>> boundaryLoops(const QuadTopology& topology);
 
-/// Linear in quads. Throws InvalidInput for a corner beyond pointCount.
-QuadTopology analyzeQuads(const std::vector<std::array<Index, 4>>& quads, std::size_t pointCount);
+/// Linear in quads, parallel; the same for any number of threads. Throws InvalidInput for a corner beyond pointCount.
+QuadTopology analyzeQuads(
+  const std::vector<std::array<Index, 4>>& quads, std::size_t pointCount, int threads = 1);
 
 } // namespace quadrille
