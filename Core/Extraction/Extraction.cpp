@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/Extraction.h"
 
+#include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Extraction/HoleFilling.h"
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <utility>
 
 namespace quadrille
 {
@@ -117,6 +119,10 @@ struct CurveGraph
 
   CurveGraph(const std::vector<std::pair<Index, Index>>& edges, std::size_t vertices)
   {
+    if (edges.empty())
+    {
+      return;
+    }
     std::vector<int> degree(vertices, 0);
     for (const auto& [a, b] : edges)
     {
@@ -124,13 +130,18 @@ struct CurveGraph
       ++degree[b];
     }
     cycles = static_cast<long long>(edges.size());
-    for (const int d : degree)
+    for (const auto& [a, b] : edges)
     {
-      cycles -= d > 0 ? 1 : 0;
-      if (d != 0 && d != 2)
-      {
-        ++nodes[d];
-      }
+      countNode(std::exchange(degree[a], 0));
+      countNode(std::exchange(degree[b], 0));
+    }
+  }
+  void countNode(int degree)
+  {
+    cycles -= degree > 0 ? 1 : 0;
+    if (degree != 0 && degree != 2)
+    {
+      ++nodes[degree];
     }
   }
   bool operator==(const CurveGraph& other) const
@@ -139,13 +150,25 @@ struct CurveGraph
   }
 };
 
-CurveGraph constrainedGraph(const Mesh& mesh)
+CurveGraph constrainedGraph(const Mesh& mesh, int threads)
 {
+  constexpr std::size_t kChunk = std::size_t{ 1 } << 17;
+  std::vector<std::vector<Index>> parts((mesh.halfEdgeCount() + kChunk - 1) / kChunk);
+  parallelFor(mesh.halfEdgeCount(), kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (Index h = static_cast<Index>(begin); h < end; ++h)
+      {
+        if (mesh.isConstrained(h) && h < mesh.twin[h])
+        {
+          parts[begin / kChunk].push_back(h);
+        }
+      }
+    });
   std::vector<std::pair<Index, Index>> edges;
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  for (const std::vector<Index>& part : parts)
   {
-    pollNowAndThen(h);
-    if (mesh.isConstrained(h) && h < mesh.twin[h])
+    for (const Index h : part)
     {
       edges.emplace_back(mesh.origin[h], mesh.target(h));
     }
@@ -164,8 +187,8 @@ CurveGraph lineGraph(const QuadMesh& quads)
 }
 
 /// Every unit of a constrained isoline must be a line of the quad mesh. Empty when so.
-std::string compareLines(
-  const Mesh& mesh, const QuadMesh& quads, const QuadTopology& found, const MapCheck& check)
+std::string compareLines(const Mesh& mesh, const QuadMesh& quads, const QuadTopology& found,
+  const MapCheck& check, int threads)
 {
   std::string problem;
   std::size_t boundary = 0;
@@ -187,7 +210,7 @@ std::string compareLines(
       std::to_string(quads.lines.size()) + " feature and boundary edges instead of " +
         std::to_string(check.constrainedLength));
   }
-  if (!(lineGraph(quads) == constrainedGraph(mesh)))
+  if (!(lineGraph(quads) == constrainedGraph(mesh, threads)))
   {
     append(problem, "features or boundaries are interrupted");
   }
@@ -214,7 +237,7 @@ Status judge(const Mesh& mesh, const MapCheck& check, const QuadTopology& found,
   const ExtractionResult& result, int threads)
 {
   std::string problem = compareTopology(mesh, result.mesh, found, threads);
-  const std::string lines = compareLines(mesh, result.mesh, found, check);
+  const std::string lines = compareLines(mesh, result.mesh, found, check, threads);
   if (!lines.empty())
   {
     append(problem, lines);
@@ -296,7 +319,8 @@ ExtractionResult extractQuads(
   }
 
   report(options.progress, 0.9, "checking the quads");
-  QuadTopology topology = analyzeQuads(result.mesh.quads, result.mesh.points.size(), options.threads);
+  QuadTopology topology =
+    analyzeQuads(result.mesh.quads, result.mesh.points.size(), options.threads);
   result.status = judge(mesh, check, topology, result, options.threads);
   result.mesh.valence = std::move(topology.valence);
   result.mesh.onBoundary = std::move(topology.onBoundary);
