@@ -4,6 +4,7 @@
 /// its peak memory is its own; the peak is the same on each row of a run.
 #include "Base/Parallel.h"
 #include "CoarseTimes.h"
+#include "ExtractionTimes.h"
 #include "FieldCounts.h"
 #include "MeshFiles.h"
 #include "Options.h"
@@ -36,6 +37,7 @@ constexpr const char* kHelp =
        quadrille-bench MESH... --compare field [--quads N] [--threads N]
        quadrille-bench MESH... --compare orders [--quads N] [--candidates N] [--exact-below N] [--threads N] [--repeat N]
        quadrille-bench MESH... --compare coarse [--quads N] [--coarse-vertices N] [--repeat N]
+       quadrille-bench MESH... --compare extraction [--quads N] [--subdivide N] [--threads N] [--repeat N]
 
 Remeshes each mesh and writes to standard output, as CSV, the columns
   mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb
@@ -86,6 +88,13 @@ level whose first map fails has ok 0 and no edits.
   --method NAME        how the map is made, as the command has it (also without --compare; default scale-aware). Of
                        those that round, seamless is cut, Poisson equation and relations, quantize the rounding
 
+With --compare extraction remeshes each mesh, extracts the quads of the map on its surface, and of the map made 2 and 5 times as large, with
+one thread and with --threads, without smoothing, and writes
+  mesh,asked,faces,scale,threads,clock,quads,ok,same,seconds
+with medians of the clock on the wall and of the processor. same: 1 when points and quads are those of the first row of the scale.
+
+  --subdivide N        cut each triangle of the mapped surface into four, N times (0 to 3, default 0)
+
 exit code: 0 when every run gave quads, else the worst code of the command quadrille
 )";
 
@@ -102,9 +111,11 @@ struct Request
   double edgeLength = 0; ///< 0: quads
   int threads = 0;
   long long repeat = 1;
-  /// "orders": only phase 1, in all orders; "replay": counts of the replay; "field": irregular vertices; "coarse": times of the coarse level
+  /// "orders": only phase 1, in all orders; "replay": counts of the replay; "field": irregular vertices; "coarse": times of the coarse level;
+  /// "extraction": times of the extraction
   std::string compared;
   Index coarseVertices = 1000;
+  int subdivide = 0;
   int method = 0; ///< of vtkQuadRemesh::Methods
   RandomDraws draws;
 };
@@ -117,9 +128,10 @@ void parseComparison(const CommandLine& line, Request& request)
   request.compared = compared.value_or("");
   const auto coarseVertices = line.count("coarse-vertices", 4, 1000000000);
   if (compared && *compared != "orders" && *compared != "replay" && *compared != "coarse" &&
-    *compared != "field")
+    *compared != "field" && *compared != "extraction")
   {
-    throw UsageError("--compare takes orders, replay, field or coarse, not '" + *compared + "'");
+    throw UsageError(
+      "--compare takes orders, replay, field, coarse or extraction, not '" + *compared + "'");
   }
   if (request.compared != "coarse" && coarseVertices)
   {
@@ -130,6 +142,12 @@ void parseComparison(const CommandLine& line, Request& request)
   {
     throw UsageError("--candidates and --exact-below are for --compare orders");
   }
+  const auto subdivide = line.count("subdivide", 0, 3);
+  if (request.compared != "extraction" && subdivide)
+  {
+    throw UsageError("--subdivide is for --compare extraction");
+  }
+  request.subdivide = static_cast<int>(subdivide.value_or(0));
   if (compared && request.edgeLength > 0)
   {
     throw UsageError("--compare takes --quads, not --edge-length");
@@ -226,6 +244,12 @@ int compare(const std::string& mesh, const Request& request)
       printCoarse(mesh,
         { quads, request.coarseVertices, static_cast<MapMethod>(request.method), request.repeat });
     }
+    else if (request.compared == "extraction")
+    {
+      return printExtraction(mesh, { quads, request.threads, request.subdivide, request.repeat })
+        ? kValidQuads
+        : kNoValidResult;
+    }
     else
     {
       printOrders(mesh, { quads, request.threads, request.repeat, request.draws });
@@ -316,7 +340,7 @@ int main(int argc, char* argv[])
   {
     const CommandLine line(argc, argv,
       { "quads", "edge-length", "threads", "repeat", "compare", "candidates", "exact-below",
-        "coarse-vertices", "method" });
+        "coarse-vertices", "method", "subdivide" });
     if (line.help())
     {
       std::fputs(kHelp, stdout);
@@ -326,10 +350,11 @@ int main(int argc, char* argv[])
     int worst = 0;
     if (!request.compared.empty())
     {
-      request.compared == "replay"     ? printReplayHeader()
-        : request.compared == "field"  ? printFieldCountsHeader()
-        : request.compared == "coarse" ? printCoarseHeader()
-                                       : printOrdersHeader();
+      request.compared == "replay"         ? printReplayHeader()
+        : request.compared == "field"      ? printFieldCountsHeader()
+        : request.compared == "coarse"     ? printCoarseHeader()
+        : request.compared == "extraction" ? printExtractionHeader()
+                                           : printOrdersHeader();
       for (const std::string& mesh : line.positional())
       {
         worst = std::max(worst, compare(mesh, request));
