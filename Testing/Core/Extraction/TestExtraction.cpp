@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadChecks.h"
 
+#include <algorithm>
+#include <numeric>
+
 namespace quadrille::test
 {
 namespace
@@ -280,6 +283,49 @@ TEST(Extraction, SameBytesForAnyNumberOfThreads)
   ASSERT_TRUE(one.status.ok()) << one.status.message;
   expectSame(one.mesh, extract(c, 2).mesh);
   expectSame(one.mesh, extract(c, 3).mesh);
+}
+
+// A square round one vertex with very many triangles, their ids ascending, descending or shuffled round it: time that
+// grows with the square of their number would not end here.
+TEST(Extraction, VertexWithVeryManyTriangles)
+{
+  constexpr Index kSide = 50000;
+  for (const int arrangement : { 0, 1, 2 })
+  {
+    std::vector<Index> order(4 * kSide);
+    std::iota(order.begin(), order.end(), Index{ 0 });
+    if (arrangement == 1)
+    {
+      std::reverse(order.begin(), order.end());
+    }
+    else if (arrangement == 2)
+    {
+      std::shuffle(order.begin(), order.end(), Random(1));
+    }
+    const auto onRim = [](Index i)
+    {
+      const std::int64_t t = 4 * kOne * (i % kSide) / kSide;
+      return rotate({ 2 * kOne, t - 2 * kOne }, static_cast<int>(i / kSide % 4));
+    };
+    std::vector<Vector3> points;
+    std::vector<Triangle> triangles;
+    GridMapCase c;
+    for (Index i = 0; i < 4 * kSide; ++i)
+    {
+      const Vector2 p = toDouble(onRim(i));
+      points.emplace_back(p.x(), p.y(), 0);
+    }
+    points.emplace_back(0, 0, 0);
+    for (const Index i : order)
+    {
+      triangles.push_back({ 4 * kSide, i, (i + 1) % (4 * kSide) });
+      c.uv.insert(c.uv.end(), { FixedVec2{}, onRim(i), onRim(i + 1) });
+    }
+    c.mesh = makeMesh(std::move(points), triangles);
+    const ExtractionResult result = extract(c);
+    EXPECT_TRUE(result.status.ok()) << result.status.message;
+    EXPECT_EQ(result.mesh.quads.size(), 16u);
+  }
 }
 
 } // namespace quadrille::test
