@@ -225,11 +225,30 @@ bool isNearlyValid(const MapCheck& check, const Mesh& mesh)
     check.count[kNotPositive] <= mesh.faceCount() / 50;
 }
 
-/// There is nothing to bridge where folds are the rule, and lines would run through all of them.
-Status foldedAllOver(const MapCheck& check)
+bool usesFoldedPath(ExtractionPath path, const MapCheck& check)
+{
+  const bool positive = check.count[kNotPositive] == 0;
+  if (path == ExtractionPath::Fast && !positive)
+  {
+    throw InvalidInput("extraction: the fast path needs a map that is positive everywhere, but it has " +
+      check.text() + "; choose the folded path");
+  }
+  return path == ExtractionPath::Folded || !positive;
+}
+
+/// A walk crosses a triangle once on each side of an isoline, where the transitions are whole: so often do isolines of both
+/// directions meet the widths of the triangles, which check.extent bounds.
+std::size_t largestNumberOfSteps(
+  const ExactMap& map, const GridVertices& grid, const MapCheck& check)
+{
+  return 8 * (static_cast<std::size_t>(check.extent) + map.mesh.faceCount() + grid.portCount());
+}
+
+Status windsRound(const MapCheck& check)
 {
   return { StatusCode::NotConverged,
-    "the map is folded all over, no quads were extracted: it has " + check.text() };
+    "the isolines wind round the surface without end, no quads were extracted: the map has " +
+      check.text() };
 }
 
 /// Judges the result: what is wrong with it, and what in the map explains it.
@@ -292,28 +311,23 @@ ExtractionResult extractQuads(
     return result;
   }
 
-  if (check.count[kNotPositive] > mesh.faceCount() / 4)
-  {
-    result.status = foldedAllOver(check);
-    return result;
-  }
+  const bool folded = usesFoldedPath(options.path, check);
 
   report(options.progress, 0.3, "finding grid vertices");
   const GridVertices grid(map, options.threads);
 
   report(options.progress, 0.5, "following the grid");
-  const bool tolerant = check.count[kNotPositive] > 0;
-  const CellCorners cells = traceCells(map, grid, tolerant, options.threads);
-
+  const CellCorners cells =
+    traceCells(map, grid, folded, largestNumberOfSteps(map, grid, check), options.threads);
   if (cells.exhausted)
   {
-    result.status = foldedAllOver(check);
+    result.status = windsRound(check);
     return result;
   }
 
   report(options.progress, 0.7, "assembling quads");
-  assembleQuads(map, grid, cells, { tolerant, options.threads }, result);
-  if (tolerant && isNearlyValid(check, mesh))
+  assembleQuads(map, grid, cells, { folded, options.threads }, result);
+  if (folded && isNearlyValid(check, mesh))
   {
     result.filledHoles = fillHoles(result.mesh);
   }

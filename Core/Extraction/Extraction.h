@@ -15,8 +15,17 @@
 namespace quadrille
 {
 
+/// How the quads are found.
+enum class ExtractionPath
+{
+  Automatic, ///< Fast where all triangles are positive, else Folded
+  Fast,      ///< for maps with det > 0 everywhere only
+  Folded     ///< for any map: triangles may be inverted or without area
+};
+
 struct ExtractionOptions
 {
+  ExtractionPath path = ExtractionPath::Automatic;
   std::size_t maximumNumberOfQuads = 10000000; ///< refuse, before memory is spent, to make more
   /// Sweeps of tangential smoothing on the input surface afterwards (see QuadSmoothing.h), >= 0; 0:
   /// the points stay where the map has them.
@@ -66,6 +75,9 @@ struct ExtractionResult
   std::size_t filledHoles = 0;  ///< small holes left by folds that were closed, see HoleFilling.h
   /// Further copies of a grid vertex in folds that were joined to it.
   std::size_t mergedVertices = 0;
+  std::size_t zeroSides = 0;   ///< sides of cells that a fold leads back to a copy of their own vertex
+  std::size_t zippedSides = 0; ///< pairs of sides between copies of vertices that were closed on each other
+  std::size_t cancelledQuads = 0; ///< quads that lay over others in the sheets of folds
 };
 
 /// The quads are the unit cells of the grid: each port (a corner of a cell, [Ebke et al. 2013]) is

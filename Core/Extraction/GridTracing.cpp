@@ -13,26 +13,18 @@ namespace
 {
 
 constexpr std::size_t kChunk = 1 << 10;
-/// Valid maps of real surfaces need about three steps per triangle and port.
-constexpr std::size_t kStepsPerElement = 20;
-
-/// Is x left of the moved line?
-bool isLeft(const Walk& walk, FixedVec2 x)
-{
-  return along(x - walk.target, walk.direction + 1) > 0;
-}
 
 /// The half-edge of walk.face through which the line leaves.
-Index exitEdge(const ExactMap& map, const Walk& walk, bool positive)
+Index exitEdge(const ExactMap& map, const Walk& walk)
 {
   const Index h = 3 * walk.face;
-  const std::array<bool, 3> left{ isLeft(walk, map.at(h)), isLeft(walk, map.at(h + 1)),
-    isLeft(walk, map.at(h + 2)) };
+  const int axis = walk.inside();
+  const std::int64_t isoline = along(walk.target, axis);
+  const std::array<bool, 3> inner{ along(map.at(h), axis) > isoline,
+    along(map.at(h + 1), axis) > isoline, along(map.at(h + 2), axis) > isoline };
   for (Index i = 0; i < 3; ++i)
   {
-    const bool from = left[i];
-    const bool to = left[(i + 1) % 3];
-    if (positive ? !from && to : from != to && h + i != walk.entry)
+    if (!inner[i] && inner[(i + 1) % 3])
     {
       return h + i;
     }
@@ -40,13 +32,18 @@ Index exitEdge(const ExactMap& map, const Walk& walk, bool positive)
   return kInvalidIndex;
 }
 
-/// Does the target, moved by e to the left and by e^2 back, lie before the exit edge h?
+/// Does the corner at the target lie before the exit edge h?
 bool isBefore(const ExactMap& map, const Walk& walk, Index h)
 {
-  const int side = orientation(map.at(h), map.at(Mesh::next(h)), walk.target);
-  // On the edge's line it depends on whether the edge leans forward; an edge across the line is
-  // decided by the step back.
-  return side > 0 || (side == 0 && along(map.edge(h), walk.direction) >= 0);
+  const int side =
+    walk.orientation * orientation(map.at(h), map.at(Mesh::next(h)), walk.target);
+  if (side != 0)
+  {
+    return side > 0;
+  }
+  // The edge's line passes through the target. In an inverted triangle the corner is e before it and e^2 inside of the
+  // isoline, and the edge crosses the isoline. Otherwise it is e inside and e^2 before it.
+  return walk.orientation < 0 || along(map.edge(h), walk.direction) >= 0;
 }
 
 enum class Step
@@ -56,15 +53,26 @@ enum class Step
   Lost
 };
 
+template <bool kFolded>
 Step step(const ExactMap& map, Walk& walk)
 {
-  const bool positive = map.orientationOf(walk.face) > 0;
-  const Index exit = exitEdge(map, walk, positive);
+  const Index exit = exitEdge(map, walk);
   if (exit == kInvalidIndex)
   {
     return Step::Lost;
   }
-  if (positive && isBefore(map, walk, exit))
+  int sign = 1;
+  if constexpr (kFolded)
+  {
+    sign = map.orientationOf(walk.face);
+    if (sign == -walk.orientation)
+    {
+      std::swap(walk.origin, walk.target);
+      walk.direction = (walk.direction + 2) & 3;
+      walk.orientation = sign;
+    }
+  }
+  if (sign != 0 && isBefore(map, walk, exit))
   {
     return Step::Arrived;
   }
@@ -74,45 +82,24 @@ Step step(const ExactMap& map, Walk& walk)
     return Step::Lost;
   }
   walk.target = t.apply(walk.target);
+  if constexpr (kFolded)
+  {
+    walk.origin = t.apply(walk.origin);
+  }
   walk.direction = (walk.direction + t.rotation) & 3;
-  walk.entry = map.mesh.twin[exit];
-  walk.face = Mesh::face(walk.entry);
+  walk.face = Mesh::face(map.mesh.twin[exit]);
   return Step::Crossed;
 }
 
-/// Is the closed triangle's image over x? Any orientation.
-bool covers(const ExactMap& map, Index f, FixedVec2 x)
-{
-  int lowest = 1;
-  int highest = -1;
-  for (Index h = 3 * f; h < 3 * f + 3; ++h)
-  {
-    const int side = orientation(map.at(h), map.at(Mesh::next(h)), x);
-    lowest = std::min(lowest, side);
-    highest = std::max(highest, side);
-  }
-  return lowest >= 0 || highest <= 0;
-}
-
-using Pairs = std::vector<std::pair<Index, Index>>;
-
-/// A walk that also collects the grid vertices over the start of the side in triangles further on.
-bool followAndCollect(const ExactMap& map, const GridVertices& grid, Walk& walk,
-  std::size_t maximumSteps, Index start, Pairs& merged, std::size_t& steps)
+/// Walks until the triangle that contains the corner at the end. False when the line ends before, at a boundary or
+/// where images do not match, or after maximumSteps triangles. Adds the number of triangles to `steps`.
+template <bool kFolded>
+bool follow(const ExactMap& map, Walk& walk, std::size_t maximumSteps, std::size_t& steps)
 {
   for (std::size_t i = 0; i < maximumSteps; ++i)
   {
     ++steps;
-    const FixedVec2 origin = walk.target - axisVector(walk.direction);
-    if (covers(map, walk.face, origin))
-    {
-      const std::optional<Index> copy = grid.find(walk.face, origin);
-      if (copy && *copy != start)
-      {
-        merged.emplace_back(start, *copy);
-      }
-    }
-    const Step result = step(map, walk);
+    const Step result = step<kFolded>(map, walk);
     if (result != Step::Crossed)
     {
       return result == Step::Arrived;
@@ -121,19 +108,11 @@ bool followAndCollect(const ExactMap& map, const GridVertices& grid, Walk& walk,
   return false;
 }
 
-/// A line crosses a triangle of a valid map at most once per unit; folds can lengthen it, but a
-/// line that needs more than this belongs to no mesh.
-std::size_t stepLimit(const ExactMap& map, bool tolerant)
+/// Returns the number of triangles that the walks crossed.
+template <bool kFolded>
+std::size_t traceVertex(const ExactMap& map, const GridVertices& grid, Index q,
+  std::size_t maximumSteps, CellCorners& cells)
 {
-  const std::size_t whole = 3 * std::size_t{ map.mesh.faceCount() } + 16;
-  return tolerant ? std::min<std::size_t>(whole, 100000) : whole;
-}
-
-/// Returns the number of triangles that a tolerant run visited.
-std::size_t traceVertex(const ExactMap& map, const GridVertices& grid, Index q, bool tolerant,
-  CellCorners& cells, Pairs& merged)
-{
-  const std::size_t limit = stepLimit(map, tolerant);
   std::size_t steps = 0;
   Index port = grid.vertices()[q].firstPort;
   grid.forEachSector(q,
@@ -141,103 +120,137 @@ std::size_t traceVertex(const ExactMap& map, const GridVertices& grid, Index q, 
     {
       for (int i = 0; i < sector.count; ++i, ++port)
       {
-        const int direction = (sector.firstDirection + i) & 3;
-        Walk walk{ sector.face, sector.point + axisVector(direction), direction, kInvalidIndex };
-        const bool arrived = tolerant ? followAndCollect(map, grid, walk, limit, q, merged, steps)
-                                      : follow(map, walk, limit);
         cells.vertex[port] = q;
-        if (arrived)
+        if constexpr (kFolded)
+        {
+          cells.orientation[port] = static_cast<std::int8_t>(sector.orientation);
+        }
+        Walk walk = startOf(sector, sector.firstDirection + i);
+        if (follow<kFolded>(map, walk, maximumSteps, steps))
         {
           cells.next[port] =
-            grid.findPort(walk.face, walk.target, walk.direction + 1).value_or(kInvalidIndex);
+            grid.findPort(walk.face, walk.target, walk.arrivalPort()).value_or(kInvalidIndex);
         }
       }
     });
   return steps;
 }
 
-/// Both ends of an edge whose image is a single integer point are one vertex.
-void mergeZeroEdges(const ExactMap& map, const GridVertices& grid, Pairs& merged)
+/// The grid vertices on a triangle without area that share a place are one vertex.
+void mergeOnFlatFace(const ExactMap& map, const GridVertices& grid, Index f, CellCorners& cells)
 {
-  for (Index h = 0; h < map.mesh.halfEdgeCount(); ++h)
+  std::vector<std::pair<FixedVec2, Index>> found;
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
   {
-    if (map.edge(h) == FixedVec2{} && isInteger(map.at(h)))
+    if (const std::optional<Index> q = grid.findCorner(h))
     {
-      const std::optional<Index> a = grid.findCorner(h);
-      const std::optional<Index> b = grid.findCorner(Mesh::next(h));
-      if (a && b)
+      found.emplace_back(map.at(h), *q);
+    }
+    grid.forEachOnEdge(h, [&](Index q, FixedVec2 point) { found.emplace_back(point, q); });
+  }
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      if (found[i].first == found[j].first)
       {
-        merged.emplace_back(*a, *b);
+        cells.merged.emplace_back(found[j].second, found[i].second);
       }
+    }
+  }
+}
+
+void collectMerges(const ExactMap& map, const GridVertices& grid, CellCorners& cells)
+{
+  for (Index port = 0; port < cells.next.size(); ++port)
+  {
+    const Index next = cells.next[port];
+    if (next != kInvalidIndex && cells.isZero(port))
+    {
+      ++cells.zeroSides;
+      if (cells.vertex[port] != cells.vertex[next])
+      {
+        cells.merged.emplace_back(cells.vertex[port], cells.vertex[next]);
+      }
+    }
+  }
+  for (Index f = 0; f < map.mesh.faceCount(); ++f)
+  {
+    if (map.orientationOf(f) == 0)
+    {
+      mergeOnFlatFace(map, grid, f, cells);
     }
   }
 }
 
 } // namespace
 
-bool follow(const ExactMap& map, Walk& walk, std::size_t maximumSteps)
+Walk startOf(const Sector& sector, int direction)
 {
-  for (std::size_t i = 0; i < maximumSteps; ++i)
-  {
-    const Step result = step(map, walk);
-    if (result != Step::Crossed)
-    {
-      return result == Step::Arrived;
-    }
-  }
-  return false;
+  // An inverted triangle is walked the other way round: away from the corner across its port's side.
+  Walk walk;
+  walk.face = sector.face;
+  walk.orientation = sector.orientation;
+  walk.direction = (sector.orientation > 0 ? direction : direction + 1) & 3;
+  walk.origin = sector.point;
+  walk.target = sector.point + axisVector(walk.direction);
+  return walk;
 }
 
-CellCorners traceCells(const ExactMap& map, const GridVertices& grid, bool tolerant, int threads)
+CellCorners traceCells(const ExactMap& map, const GridVertices& grid, bool folded,
+  std::size_t maximumSteps, int threads)
 {
   CellCorners cells;
   cells.next.assign(grid.portCount(), kInvalidIndex);
   cells.vertex.assign(grid.portCount(), kInvalidIndex);
-  const std::size_t count = grid.vertices().size();
-  // Each side of a cell crosses few triangles on average, whatever the sizes. Whether the sum
-  // passes the limit does not depend on the order of the threads.
-  const std::size_t budget =
-    kStepsPerElement * (std::size_t{ map.mesh.faceCount() } + grid.portCount());
+  cells.orientation.assign(folded ? grid.portCount() : 0, 1);
+  // Whether the sum passes the limit does not depend on the order of the threads.
   std::atomic<std::size_t> steps{ 0 };
-  std::vector<Pairs> merged((count + kChunk - 1) / kChunk);
-  parallelFor(count, kChunk, threads,
+  parallelFor(grid.vertices().size(), kChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      for (std::size_t q = begin; q < end && steps <= budget; ++q)
+      std::size_t mine = 0;
+      for (std::size_t q = begin; q < end && mine + steps <= maximumSteps; ++q)
       {
-        steps +=
-          traceVertex(map, grid, static_cast<Index>(q), tolerant, cells, merged[begin / kChunk]);
+        const Index id = static_cast<Index>(q);
+        mine += folded ? traceVertex<true>(map, grid, id, maximumSteps, cells)
+                       : traceVertex<false>(map, grid, id, maximumSteps, cells);
       }
+      steps += mine;
     });
-  cells.exhausted = steps > budget;
-  for (const Pairs& part : merged)
+  cells.exhausted = steps > maximumSteps;
+  if (folded && !cells.exhausted)
   {
-    cells.merged.insert(cells.merged.end(), part.begin(), part.end());
-  }
-  if (tolerant)
-  {
-    mergeZeroEdges(map, grid, cells.merged);
+    collectMerges(map, grid, cells);
   }
   return cells;
 }
 
-std::optional<CellCentre> findCentre(
-  const ExactMap& map, const Sector& sector, int direction, std::size_t maximumSteps)
+std::optional<CellCentre> findCentre(const ExactMap& map, const Sector& sector, int direction,
+  bool folded, std::size_t maximumSteps)
 {
   const auto half = [](int axis)
   {
     const FixedVec2 e = axisVector(axis);
     return FixedVec2{ e.u / 2, e.v / 2 };
   };
-  Walk walk{ sector.face, sector.point + half(direction), direction & 3, kInvalidIndex };
-  if (!follow(map, walk, maximumSteps))
+  std::size_t steps = 0;
+  const auto reach = [&](Walk& walk)
+  {
+    return (folded ? follow<true>(map, walk, maximumSteps, steps)
+                   : follow<false>(map, walk, maximumSteps, steps)) &&
+      walk.orientation == sector.orientation;
+  };
+  Walk walk = startOf(sector, direction);
+  walk.target = walk.origin + half(walk.direction);
+  if (!reach(walk))
   {
     return std::nullopt;
   }
-  walk.direction = (walk.direction + 1) & 3;
-  walk.target = walk.target + half(walk.direction);
-  walk.entry = kInvalidIndex;
-  if (!follow(map, walk, maximumSteps))
+  walk.direction = walk.inside() & 3;
+  walk.origin = walk.target;
+  walk.target = walk.origin + half(walk.direction);
+  if (!reach(walk))
   {
     return std::nullopt;
   }

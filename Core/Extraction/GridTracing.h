@@ -2,22 +2,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Walks along the isolines of a map, and the corner-to-corner relation of its unit cells.
 ///
-/// The walk from a port follows the line moved to its left by an infinitesimal amount. That line
+/// A walk follows an isoline moved into one of the cells beside it by an infinitesimal amount. That line
 /// meets no vertex of the mesh and never runs along an edge, so there are no special cases: a
-/// vertex is to the left when its distance is > 0 and to the right otherwise, and the line leaves a
-/// positive triangle through the one edge that goes from a right to a left vertex:
+/// vertex is inside when its distance is > 0 and outside otherwise. On the surface the walk has the inside to its
+/// left; it leaves a triangle, of either orientation, through the one half-edge that goes from an outer to an inner
+/// vertex:
 ///
-///              left
+///              inner
 ///              .  .
 ///    . . . . / . . \ . . . > moved line
 ///    -------/-------\------> isoline
 ///          /_________\  .
-///       right      right
+///       outer      outer
 ///
-/// The moved line is inside the cell on its left, so walking one unit, turning left, walking one
-/// unit, ... goes round this cell. Through an inverted or degenerate triangle the line goes on
-/// across the other edge whose ends differ; the coordinate runs back in an inverted one and catches
-/// up in a later positive one.
+/// The moved lines of a cell are the sides of a square a little smaller than it. Walking to the end of a side, turning
+/// left, ... goes round the preimage of its outline. In an inverted triangle the same line is walked the other way
+/// round, towards the corner where it came from: a walk that a fold has turned back ends at another copy of the corner
+/// where it began, in a sheet of the other orientation. Such a side has length zero [Ebke et al. 2013]. The image of a
+/// triangle without area is crossed at one point.
+///
+/// As the preimage of a closed curve that meets no vertex consists of closed curves, every walk ends and each
+/// corner is the end of one walk only, but where two images of an edge do not match or a boundary crosses the isoline.
 #pragma once
 
 #include "Extraction/GridVertices.h"
@@ -27,36 +32,49 @@
 namespace quadrille
 {
 
-/// A walk on the moved line: the point to reach and the direction, in the chart of the current
-/// face.
+/// A walk on a moved line, in the chart of the current face.
 struct Walk
 {
   Index face = kInvalidIndex;
-  FixedVec2 target;
+  FixedVec2 origin; ///< the ends of the side, on the isoline
+  FixedVec2 target; ///< the one ahead
   int direction = 0;
-  Index entry = kInvalidIndex; ///< half-edge of face that was crossed last; none at the start
+  int orientation = 1; ///< of the last face with area
+
+  /// Axis from the isoline to the inside.
+  int inside() const { return direction + orientation; }
+  /// The port that is the corner at the target.
+  int arrivalPort() const { return orientation > 0 ? direction + 1 : direction + 2; }
 };
 
-/// Walks on from walk.face, which must contain the start and be positive, until the positive
-/// triangle that contains the target. False when the line ends before (boundary, images that do not
-/// match) or after maximumSteps triangles.
-bool follow(const ExactMap& map, Walk& walk, std::size_t maximumSteps);
+/// The side that starts at the port of the sector with this direction.
+Walk startOf(const Sector& sector, int direction);
 
-/// For each port the port at the other end of its side, that is, the next corner of the same cell.
+/// For each port the port at the other end of its side, that is, the next corner of the same cell with the cell to the
+/// left on the surface.
 struct CellCorners
 {
-  std::vector<Index> next;   ///< per port; kInvalidIndex where the line could not be followed
-  std::vector<Index> vertex; ///< per port: the grid vertex it leaves
+  std::vector<Index> next;              ///< per port; kInvalidIndex where the line has no end
+  std::vector<Index> vertex;            ///< per port: the grid vertex it leaves
+  std::vector<std::int8_t> orientation; ///< per port: of its triangle's image; empty when all are positive
   /// Pairs of grid vertices that are one vertex of the unfolded map; none for a valid map.
   std::vector<std::pair<Index, Index>> merged;
-  /// The lines of a tolerant run are so long that the map must be folded all over; then the lists
-  /// above are not complete.
+  std::size_t zeroSides = 0; ///< sides of length zero
+  /// The walks together crossed more than maximumSteps triangles; the lists above are not complete. Walks wind round the
+  /// surface where transitions are not whole.
   bool exhausted = false;
+
+  /// Does the side lead back to a copy of its own grid vertex?
+  bool isZero(Index port) const
+  {
+    return !orientation.empty() && orientation[port] != orientation[next[port]];
+  }
 };
 
-/// Follows every port by one unit. tolerant: also looks for further copies of each port's vertex
-/// behind folds. Parallel; the result does not depend on the number of threads.
-CellCorners traceCells(const ExactMap& map, const GridVertices& grid, bool tolerant, int threads);
+/// Follows every port to the end of its side. folded: triangles may be inverted or without area; otherwise all must be
+/// positive. Linear in the triangles that lines cross; parallel; the result does not depend on the number of threads.
+CellCorners traceCells(const ExactMap& map, const GridVertices& grid, bool folded,
+  std::size_t maximumSteps, int threads);
 
 struct CellCentre
 {
@@ -64,8 +82,8 @@ struct CellCentre
   FixedVec2 uv; ///< in the chart of face
 };
 
-/// The centre of the cell to the left of a port; none where it cannot be reached.
-std::optional<CellCentre> findCentre(
-  const ExactMap& map, const Sector& sector, int direction, std::size_t maximumSteps);
+/// The centre of the cell of a port; none where it cannot be reached.
+std::optional<CellCentre> findCentre(const ExactMap& map, const Sector& sector, int direction,
+  bool folded, std::size_t maximumSteps);
 
 } // namespace quadrille

@@ -264,26 +264,33 @@ GridVertices::GridVertices(const ExactMap& map, int threads)
 
 Sector GridVertices::faceSector(const GridVertex& vertex) const
 {
-  const bool positive = map_.orientationOf(vertex.site) > 0;
-  return { vertex.site, kInvalidIndex, vertex.uv, 0, positive ? 4 : 0 };
+  const int sign = map_.orientationOf(vertex.site);
+  return { vertex.site, kInvalidIndex, vertex.uv, 0, sign != 0 ? 4 : 0, sign };
 }
 
 Sector GridVertices::edgeSector(Index h, FixedVec2 point) const
 {
-  const bool positive = map_.orientationOf(Mesh::face(h)) > 0;
+  const int sign = map_.orientationOf(Mesh::face(h));
   // A half plane that holds its right border and not its left one has two of the four directions.
-  return { Mesh::face(h), h, point, firstAxis(map_.edge(h)), positive ? 2 : 0 };
+  const FixedVec2 right = sign < 0 ? -map_.edge(h) : map_.edge(h);
+  return { Mesh::face(h), h, point, firstAxis(right), sign != 0 ? 2 : 0, sign };
 }
 
 Sector GridVertices::cornerSector(Index h) const
 {
-  Sector sector{ Mesh::face(h), h, map_.at(h), 0, 0 };
-  if (map_.orientationOf(sector.face) <= 0)
+  const int sign = map_.orientationOf(Mesh::face(h));
+  Sector sector{ Mesh::face(h), h, map_.at(h), 0, 0, sign };
+  if (sign == 0)
   {
     return sector;
   }
-  const FixedVec2 left = map_.at(Mesh::previous(h)) - map_.at(h);
-  sector.firstDirection = firstAxis(map_.edge(h));
+  FixedVec2 right = map_.edge(h);
+  FixedVec2 left = map_.at(Mesh::previous(h)) - map_.at(h);
+  if (sign < 0)
+  {
+    std::swap(left, right);
+  }
+  sector.firstDirection = firstAxis(right);
   // The angle is below 180 degrees: at most two directions, each tested against the left side.
   while (sector.count < 2 && turn(axisVector(sector.firstDirection + sector.count), left) > 0)
   {

@@ -3,14 +3,17 @@
 /// The integer points of a map and the grid directions that leave them (q-vertices and q-ports of
 /// [Ebke et al. 2013]).
 ///
-/// A port is a direction of the grid at an integer point together with the surface just to its
-/// left, so it stands for one corner of one quad. "Just to the left" is what makes every choice
-/// unique: the port belongs to the triangle that contains the point moved by e along the direction
-/// and by e^2 to its left, for all small e.
+/// A port is a direction of the grid at an integer point together with the side to its left, that
+/// is, one corner of one cell. It belongs to each triangle, of either orientation, whose image contains
+/// the point moved by e along the direction and by e^2 to its left, for all small e. These corners are
+/// those of a square inside the cell, smaller and turned by infinitesimal amounts, whose sides meet no
+/// vertex and no corner of which lies on an edge: that makes every choice unique. The outline of this
+/// square has a preimage of closed curves on the surface, whatever folds the map has (see GridTracing.h).
 #pragma once
 
 #include "Extraction/ExactMap.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace quadrille
@@ -39,14 +42,15 @@ struct GridVertex
   }
 };
 
-/// A wedge of one positive triangle at an integer point and the ports that lie in it.
+/// A wedge of one triangle at an integer point and the ports that lie in it.
 struct Sector
 {
   Index face = kInvalidIndex;
-  Index halfEdge = kInvalidIndex; ///< the right side of the wedge; invalid strictly inside a face
+  Index halfEdge = kInvalidIndex; ///< on the surface the right side of the wedge; invalid strictly inside a face
   FixedVec2 point;                ///< the integer point in the chart of face
-  int firstDirection = 0;         ///< in that chart, counterclockwise from the right side on
+  int firstDirection = 0;         ///< in that chart; the others follow counterclockwise there
   int count = 0;                  ///< number of ports
+  int orientation = 1;            ///< of the triangle's image
 };
 
 class GridVertices
@@ -58,7 +62,7 @@ public:
   const std::vector<GridVertex>& vertices() const { return vertices_; }
   Index portCount() const { return portCount_; }
 
-  /// Calls visit(sector) counterclockwise for all sectors of vertex q that have ports; the ports of
+  /// Calls visit(sector) counterclockwise on the surface for all sectors of vertex q that have ports; the ports of
   /// the vertex are numbered from firstPort on in this order.
   template <typename Visitor>
   void forEachSector(Index q, const Visitor& visit) const
@@ -78,14 +82,36 @@ public:
     }
   }
 
-  /// The integer point at `point` of the closed triangle f, if there is one.
+  /// The integer point at `point` of the closed triangle f, if there is one. In a triangle without area
+  /// several can lie there; then it is the first of corners and edges.
   std::optional<Index> find(Index f, FixedVec2 point) const;
 
   /// The integer point on the vertex of corner h, if there is one.
   std::optional<Index> findCorner(Index h) const;
 
-  /// The port that leaves `point` of positive triangle f along `direction`, both in f's chart.
+  /// The port of `direction` at `point` of triangle f, both in f's chart.
   std::optional<Index> findPort(Index f, FixedVec2 point, int direction) const;
+
+  /// Calls visit(grid vertex, its place in h's chart) for those strictly inside the edge of h.
+  template <typename Visitor>
+  void forEachOnEdge(Index h, const Visitor& visit) const
+  {
+    const Index g = map_.mesh.twin[h];
+    const Index owner = std::min(h, g);
+    Transition t;
+    if (owner != h && !map_.transition(g, t))
+    {
+      return;
+    }
+    const Index f = Mesh::face(owner);
+    for (Index q = faceFirst_[f]; q < faceFirst_[f + 1]; ++q)
+    {
+      if (vertices_[q].kind == Site::Edge && vertices_[q].site == owner)
+      {
+        visit(q, t.apply(vertices_[q].uv));
+      }
+    }
+  }
 
 private:
   Sector faceSector(const GridVertex& vertex) const;

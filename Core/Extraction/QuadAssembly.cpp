@@ -3,7 +3,9 @@
 #include "Extraction/QuadAssembly.h"
 
 #include "Base/Parallel.h"
-#include "Extraction/SurfaceWalk.h"
+#include "Extraction/CurveLines.h"
+#include "Extraction/FoldedCells.h"
+#include "Extraction/GridPlaces.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -17,84 +19,6 @@ namespace
 
 constexpr std::size_t kChunk = 1 << 12;
 
-// ------------------------------------------------------------------ merged vertices
-
-/// Is the vertex on a feature or on the boundary?
-bool isConstrainedSite(const Mesh& mesh, const GridVertex& vertex)
-{
-  if (vertex.kind != Site::Vertex)
-  {
-    return vertex.kind == Site::Edge && mesh.isConstrained(vertex.site);
-  }
-  Index h = vertex.site;
-  do
-  {
-    if (mesh.isConstrained(h))
-    {
-      return true;
-    }
-    h = mesh.rotateCounterclockwise(h);
-  } while (h != vertex.site && h != kInvalidIndex);
-  return false;
-}
-
-/// The member of a class whose place the merged vertex takes: features first, then mesh vertices.
-int rankOfSite(const Mesh& mesh, const GridVertex& vertex)
-{
-  return (isConstrainedSite(mesh, vertex) ? 4 : 0) + static_cast<int>(vertex.kind);
-}
-
-/// Per grid vertex the one that stands for its class.
-std::vector<Index> mergeClasses(
-  const Mesh& mesh, const GridVertices& grid, const std::vector<std::pair<Index, Index>>& pairs)
-{
-  std::vector<Index> root(grid.vertices().size());
-  std::iota(root.begin(), root.end(), Index{ 0 });
-  const auto find = [&root](Index q)
-  {
-    while (root[q] != q)
-    {
-      q = root[q] = root[root[q]];
-    }
-    return q;
-  };
-  const auto better = [&](Index a, Index b)
-  {
-    const int rankA = rankOfSite(mesh, grid.vertices()[a]);
-    const int rankB = rankOfSite(mesh, grid.vertices()[b]);
-    return rankA != rankB ? rankA > rankB : a < b;
-  };
-  for (const auto& [a, b] : pairs)
-  {
-    const Index rootA = find(a);
-    const Index rootB = find(b);
-    if (rootA != rootB)
-    {
-      const bool keepA = better(rootA, rootB);
-      root[keepA ? rootB : rootA] = keepA ? rootA : rootB;
-    }
-  }
-  for (Index q = 0; q < root.size(); ++q)
-  {
-    root[q] = find(q);
-  }
-  return root;
-}
-
-/// Barycentric coordinates of a place in the chart of a face.
-std::array<double, 3> weightsInFace(const ExactMap& map, Index face, FixedVec2 uv)
-{
-  const Index h = 3 * face;
-  const FixedVec2 a = map.at(h);
-  const FixedVec2 b = map.at(h + 1);
-  const FixedVec2 c = map.at(h + 2);
-  const double whole = static_cast<double>(determinant(a, b, c));
-  const double wa = static_cast<double>(determinant(uv, b, c)) / whole;
-  const double wb = static_cast<double>(determinant(a, uv, c)) / whole;
-  const double wc = static_cast<double>(determinant(a, b, uv)) / whole;
-  return { wa, wb, wc };
-}
-
 // ------------------------------------------------------------------ cells
 
 struct Cell
@@ -104,17 +28,10 @@ struct Cell
   std::array<double, 3> weights{}; ///< of the centre in that face; all zero where it is not known
 };
 
-struct Line
-{
-  Index a, b; ///< grid vertices
-  Index halfEdge;
-  bool boundary;
-};
-
 struct Parts
 {
   std::vector<Cell> cells;
-  std::vector<Line> lines;
+  std::vector<CurveLine> lines;
 };
 
 /// The four ports of the cell of this port when it closes and the port is its lowest.
@@ -146,11 +63,20 @@ bool runsAlong(const ExactMap& map, const Sector& sector, int direction)
 class Collector
 {
 public:
+  /// found: the cells of a folded map, else null.
   Collector(const ExactMap& map, const GridVertices& grid, const CellCorners& cells,
-    const std::vector<Index>& root)
-    : map_(map), grid_(grid), cells_(cells), root_(root),
+    const FoldedCells* found)
+    : map_(map), grid_(grid), cells_(cells), found_(found),
       stepLimit_(3 * std::size_t{ map.mesh.faceCount() } + 16)
   {
+    if (found)
+    {
+      cellOf_.assign(cells.next.size(), kInvalidIndex);
+      for (Index i = 0; i < found->port.size(); ++i)
+      {
+        cellOf_[found->port[i]] = i;
+      }
+    }
   }
 
   void visitVertex(Index q, Parts& parts) const
@@ -169,21 +95,36 @@ public:
   }
 
 private:
-  Index vertexOf(Index port) const { return root_[cells_.vertex[port]]; }
-
-  void collectCell(Index port, const Sector& sector, int direction, std::vector<Cell>& list) const
+  /// The corners of the cell that is to be collected at this port, its lowest.
+  bool cornersOf(Index port, std::array<Index, 4>& corners) const
   {
+    if (found_)
+    {
+      const Index cell = cellOf_[port];
+      corners = cell != kInvalidIndex ? found_->corners[cell] : corners;
+      return cell != kInvalidIndex;
+    }
     std::array<Index, 4> ports;
     if (!closedCell(cells_, port, ports))
     {
-      return;
+      return false;
     }
-    Cell cell;
     for (std::size_t i = 0; i < 4; ++i)
     {
-      cell.corners[i] = vertexOf(ports[i]);
+      corners[i] = cells_.vertex[ports[i]];
     }
-    const std::optional<CellCentre> centre = findCentre(map_, sector, direction, stepLimit_);
+    return true;
+  }
+
+  void collectCell(Index port, const Sector& sector, int direction, std::vector<Cell>& list) const
+  {
+    Cell cell;
+    if (!cornersOf(port, cell.corners))
+    {
+      return;
+    }
+    const std::optional<CellCentre> centre =
+      findCentre(map_, sector, direction, found_ != nullptr, stepLimit_);
     cell.face = centre ? centre->face : sector.face;
     if (centre)
     {
@@ -192,23 +133,31 @@ private:
     list.push_back(cell);
   }
 
-  void collectLine(Index port, const Sector& sector, int direction, std::vector<Line>& list) const
+  /// Both sides of a feature see each line, in opposite directions: the one that ascends is kept.
+  void collectLine(
+    Index port, const Sector& sector, int direction, std::vector<CurveLine>& list) const
   {
     const Index next = cells_.next[port];
-    if (next == kInvalidIndex || !runsAlong(map_, sector, direction) ||
+    if (found_ || next == kInvalidIndex || !runsAlong(map_, sector, direction) ||
       !map_.mesh.isConstrained(sector.halfEdge))
     {
       return;
     }
-    list.push_back(
-      { vertexOf(port), vertexOf(next), sector.halfEdge, map_.mesh.isBoundary(sector.halfEdge) });
+    const Index a = cells_.vertex[port];
+    const Index b = cells_.vertex[next];
+    const bool boundary = map_.mesh.isBoundary(sector.halfEdge);
+    if (boundary || a < b)
+    {
+      list.push_back({ a, b, sector.halfEdge, boundary });
+    }
   }
 
   const ExactMap& map_;
   const GridVertices& grid_;
   const CellCorners& cells_;
-  const std::vector<Index>& root_;
+  const FoldedCells* found_;
   std::size_t stepLimit_;
+  std::vector<Index> cellOf_; ///< per port of a folded map: its number in found_
 };
 
 Parts collect(const Collector& collector, std::size_t vertexCount, int threads)
@@ -257,57 +206,7 @@ std::size_t countOtherCycles(const std::vector<Index>& next)
   return others;
 }
 
-/// Drops cells that collapsed when vertices were joined, and all but the first over the same
-/// vertices.
-std::size_t dropCollapsedAndDouble(std::vector<Cell>& cells)
-{
-  struct Key
-  {
-    std::array<Index, 4> corners;
-    std::size_t cell;
-  };
-  std::vector<Key> keys;
-  for (std::size_t i = 0; i < cells.size(); ++i)
-  {
-    std::array<Index, 4> corners = cells[i].corners;
-    std::sort(corners.begin(), corners.end());
-    if (std::adjacent_find(corners.begin(), corners.end()) == corners.end())
-    {
-      keys.push_back({ corners, i });
-    }
-  }
-  std::sort(keys.begin(), keys.end(),
-    [](const Key& a, const Key& b)
-    { return std::tie(a.corners, a.cell) < std::tie(b.corners, b.cell); });
-  keys.erase(std::unique(keys.begin(), keys.end(),
-               [](const Key& a, const Key& b) { return a.corners == b.corners; }),
-    keys.end());
-  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) { return a.cell < b.cell; });
-
-  std::vector<Cell> kept;
-  for (const Key& key : keys)
-  {
-    kept.push_back(cells[key.cell]);
-  }
-  const std::size_t dropped = cells.size() - kept.size();
-  cells.swap(kept);
-  return dropped;
-}
-
 // ------------------------------------------------------------------ points
-
-std::array<double, 3> weightsOnEdge(const ExactMap& map, const GridVertex& vertex)
-{
-  const FixedVec2 e = map.edge(vertex.site);
-  const FixedVec2 d = vertex.uv - map.at(vertex.site);
-  const bool byU = std::abs(e.u) >= std::abs(e.v);
-  const double t = byU ? static_cast<double>(d.u) / static_cast<double>(e.u)
-                       : static_cast<double>(d.v) / static_cast<double>(e.v);
-  std::array<double, 3> weights{};
-  weights[vertex.site % 3] = 1 - t;
-  weights[Mesh::next(vertex.site) % 3] = t;
-  return weights;
-}
 
 /// Numbers the grid vertices that cells use, and places them. Returns point ids per grid vertex.
 std::vector<Index> makePoints(const ExactMap& map, const GridVertices& grid,
@@ -349,77 +248,80 @@ std::vector<Index> makePoints(const ExactMap& map, const GridVertices& grid,
 
 // ------------------------------------------------------------------ lines
 
-/// Both sides of a feature see each line, in opposite directions: the one that ascends is kept.
-void makeLines(
-  const std::vector<Line>& lines, const std::vector<Index>& pointOf, bool tolerant, QuadMesh& mesh)
+/// The lines of a folded map between the vertices that stand for the copies. A line that a curve walks there
+/// and back again is not part of it.
+std::vector<CurveLine> mergedLines(
+  const std::vector<CurveLine>& curves, const std::vector<Index>& root)
 {
-  for (const Line& line : lines)
+  std::vector<CurveLine> lines;
+  for (CurveLine line : curves)
+  {
+    line.a = root[line.a];
+    line.b = root[line.b];
+    if (line.a != line.b)
+    {
+      lines.push_back(line);
+    }
+  }
+  const auto key = [](const CurveLine& l)
+  { return std::make_tuple(std::min(l.a, l.b), std::max(l.a, l.b), l.halfEdge); };
+  std::sort(lines.begin(), lines.end(),
+    [&](const CurveLine& l, const CurveLine& m) { return key(l) < key(m); });
+  std::vector<CurveLine> odd;
+  for (std::size_t i = 0, end = 0; i < lines.size(); i = end)
+  {
+    while (end < lines.size() &&
+      std::minmax(lines[end].a, lines[end].b) == std::minmax(lines[i].a, lines[i].b))
+    {
+      ++end;
+    }
+    if ((end - i) % 2 != 0)
+    {
+      odd.push_back(lines[i]);
+    }
+  }
+  return odd;
+}
+
+void makeLines(
+  const std::vector<CurveLine>& lines, const std::vector<Index>& pointOf, QuadMesh& mesh)
+{
+  for (const CurveLine& line : lines)
   {
     const Index a = pointOf[line.a];
     const Index b = pointOf[line.b];
-    if (a == kInvalidIndex || b == kInvalidIndex || (tolerant && a == b))
-    {
-      continue;
-    }
-    if (line.boundary || a < b)
+    if (a != kInvalidIndex && b != kInvalidIndex)
     {
       mesh.lines.push_back({ a, b, line.halfEdge, line.boundary });
     }
-    else if (tolerant) // a fold may have swallowed the other side
-    {
-      mesh.lines.push_back({ b, a, line.halfEdge, line.boundary });
-    }
-  }
-  if (tolerant)
-  {
-    const auto key = [](const QuadLine& l) { return std::tie(l.a, l.b); };
-    std::stable_sort(mesh.lines.begin(), mesh.lines.end(),
-      [&](const QuadLine& l, const QuadLine& m) { return key(l) < key(m); });
-    mesh.lines.erase(std::unique(mesh.lines.begin(), mesh.lines.end(),
-                       [&](const QuadLine& l, const QuadLine& m) { return key(l) == key(m); }),
-      mesh.lines.end());
   }
 }
 
 } // namespace
 
-SurfacePoint placeOf(const ExactMap& map, const GridVertex& vertex)
+std::vector<Index> assembleQuads(const ExactMap& map, const GridVertices& grid,
+  const CellCorners& cells, const AssemblyOptions& options, ExtractionResult& result)
 {
-  std::array<double, 3> weights{};
-  if (vertex.kind == Site::Face)
+  std::vector<CurveLine> curves;
+  std::optional<FoldedCells> found;
+  if (options.folded)
   {
-    weights = weightsInFace(map, vertex.site, vertex.uv);
+    curves = findCurveLines(map, grid);
+    found = findFoldedCells(map, grid, cells, curves);
+    result.zeroSides = cells.zeroSides;
+    result.mergedVertices = found->mergedVertices;
+    result.zippedSides = found->zippedSides;
+    result.cancelledQuads = found->cancelled;
+    result.droppedFaces = found->dropped;
   }
-  else if (vertex.kind == Site::Edge)
-  {
-    weights = weightsOnEdge(map, vertex);
-  }
-  else
-  {
-    weights[vertex.site % 3] = 1;
-  }
-  return { vertex.face(), weights };
-}
-
-std::vector<Index> assembleQuads(const ExactMap& map, const GridVertices& grid, const CellCorners& cells,
-  const AssemblyOptions& options, ExtractionResult& result)
-{
-  const std::vector<Index> root = mergeClasses(map.mesh, grid, cells.merged);
-  for (Index q = 0; q < root.size(); ++q)
-  {
-    result.mergedVertices += root[q] != q ? 1 : 0;
-  }
-  Parts parts = collect(Collector(map, grid, cells, root), grid.vertices().size(), options.threads);
+  const Collector collector(map, grid, cells, found ? &*found : nullptr);
+  const Parts parts = collect(collector, grid.vertices().size(), options.threads);
 
   result.openPorts =
     static_cast<std::size_t>(std::count(cells.next.begin(), cells.next.end(), kInvalidIndex));
-  if (4 * parts.cells.size() != cells.next.size())
+  if (!found && 4 * parts.cells.size() != cells.next.size())
   {
     result.droppedFaces = countOtherCycles(cells.next);
-  }
-  if (options.tolerant)
-  {
-    result.droppedFaces += dropCollapsedAndDouble(parts.cells);
   }
 
   QuadMesh& mesh = result.mesh;
@@ -431,10 +333,10 @@ std::vector<Index> assembleQuads(const ExactMap& map, const GridVertices& grid, 
     mesh.quadSourceFace.push_back(cell.face);
     mesh.quadSourceWeights.push_back(cell.weights);
   }
-  makeLines(parts.lines, pointOf, options.tolerant, mesh);
-  for (Index q = 0; q < root.size(); ++q)
+  makeLines(found ? mergedLines(curves, found->root) : parts.lines, pointOf, mesh);
+  for (Index q = 0; found && q < pointOf.size(); ++q)
   {
-    pointOf[q] = pointOf[root[q]];
+    pointOf[q] = pointOf[found->root[q]];
   }
   return pointOf;
 }

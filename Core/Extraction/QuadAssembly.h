@@ -4,18 +4,15 @@
 #pragma once
 
 #include "Extraction/Extraction.h"
+#include "Extraction/GridPlaces.h"
 #include "Extraction/GridTracing.h"
-#include "Extraction/SurfaceWalk.h"
 
 namespace quadrille
 {
 
-/// Where a grid vertex lies on the mesh.
-SurfacePoint placeOf(const ExactMap& map, const GridVertex& vertex);
-
 struct AssemblyOptions
 {
-  bool tolerant = false; ///< there are merged vertices: drop collapsed and double quads
+  bool folded = false; ///< the cells were traced as those of a map with folds
   int threads = 0;
 };
 
