@@ -168,8 +168,8 @@ private:
     const Index corner = atEnd ? edge.cornerAhead() : edge.cornerBehind();
     const FixedVec2 e = edge.forward ? map_.edge(edge.h) : -map_.edge(edge.h);
     const FixedVec2 p = map_.at(corner);
-    const std::int64_t along = std::abs(e.u) >= std::abs(e.v) ? (e.u < 0 ? -p.u : p.u)
-                                                              : (e.v < 0 ? -p.v : p.v);
+    const std::int64_t along =
+      std::abs(e.u) >= std::abs(e.v) ? (e.u < 0 ? -p.u : p.u) : (e.v < 0 ? -p.v : p.v);
     return along & (kOne - 1);
   }
 
@@ -189,8 +189,8 @@ private:
     const auto halfEdgeAlong = [this](DirectedEdge edge)
     { return edge.forward ? edge.h : map_.mesh.twin[edge.h]; };
     const std::optional<bool> left = turnsBackInFan(halfEdgeAlong(after), halfEdgeAlong(before));
-    const std::optional<bool> right =
-      turnsBackInFan(halfEdgeAlong({ before.h, !before.forward }), halfEdgeAlong({ after.h, !after.forward }));
+    const std::optional<bool> right = turnsBackInFan(
+      halfEdgeAlong({ before.h, !before.forward }), halfEdgeAlong({ after.h, !after.forward }));
     return left.value_or(right.value_or(false));
   }
 

@@ -13,7 +13,7 @@ namespace quadrille
 /// Two grid vertices that follow each other on a curve of constrained edges.
 struct CurveLine
 {
-  Index a = 0, b = 0;             ///< on a boundary in the direction of its half-edges, else ascending
+  Index a = 0, b = 0; ///< on a boundary in the direction of its half-edges, else ascending
   Index halfEdge = kInvalidIndex; ///< a constrained half-edge between them
   bool boundary = false;
   bool zero = false; ///< the curve turns back in between, so that a and b are copies of one vertex

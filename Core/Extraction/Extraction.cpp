@@ -230,7 +230,8 @@ bool usesFoldedPath(ExtractionPath path, const MapCheck& check)
   const bool positive = check.count[kNotPositive] == 0;
   if (path == ExtractionPath::Fast && !positive)
   {
-    throw InvalidInput("extraction: the fast path needs a map that is positive everywhere, but it has " +
+    throw InvalidInput(
+      "extraction: the fast path needs a map that is positive everywhere, but it has " +
       check.text() + "; choose the folded path");
   }
   return path == ExtractionPath::Folded || !positive;

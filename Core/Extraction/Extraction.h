@@ -50,7 +50,7 @@ struct QuadMesh
   std::vector<std::array<Index, 4>> quads;          ///< counterclockwise like the input's faces
   std::vector<Index> sourceFace;                    ///< per point: face of the mapped mesh
   std::vector<std::array<double, 3>> sourceWeights; ///< per point: barycentric in that face
-  std::vector<Index> quadSourceFace;    ///< per quad: face of the mapped mesh under its uv centre
+  std::vector<Index> quadSourceFace; ///< per quad: face of the mapped mesh under its uv centre
   /// Per quad: barycentric of the uv centre in that face, in whatever charts the map has; all zero for a quad that
   /// is no unit square of the map (see HoleFilling.h).
   std::vector<std::array<double, 3>> quadSourceWeights;
@@ -75,8 +75,10 @@ struct ExtractionResult
   std::size_t filledHoles = 0;  ///< small holes left by folds that were closed, see HoleFilling.h
   /// Further copies of a grid vertex in folds that were joined to it.
   std::size_t mergedVertices = 0;
-  std::size_t zeroSides = 0;   ///< sides of cells that a fold leads back to a copy of their own vertex
-  std::size_t zippedSides = 0; ///< pairs of sides between copies of vertices that were closed on each other
+  std::size_t zeroSides =
+    0; ///< sides of cells that a fold leads back to a copy of their own vertex
+  std::size_t zippedSides =
+    0; ///< pairs of sides between copies of vertices that were closed on each other
   std::size_t cancelledQuads = 0; ///< quads that lay over others in the sheets of folds
 };
 

@@ -95,10 +95,7 @@ private:
     const GridVertex& vertex = grid_.vertices()[q];
     return (isConstrainedSite(map_.mesh, vertex) ? 4 : 0) + static_cast<int>(vertex.kind);
   }
-  bool isBetter(Index a, Index b) const
-  {
-    return rank(a) != rank(b) ? rank(a) > rank(b) : a < b;
-  }
+  bool isBetter(Index a, Index b) const { return rank(a) != rank(b) ? rank(a) > rank(b) : a < b; }
 
   const ExactMap& map_;
   const GridVertices& grid_;
@@ -186,8 +183,7 @@ private:
       {
         if (outline[i].way == -outline[(i + 1) % size].way)
         {
-          const auto distance =
-            copies_.distance(outline[i].vertex, outline[(i + 2) % size].vertex);
+          const auto distance = copies_.distance(outline[i].vertex, outline[(i + 2) % size].vertex);
           if (best == size || distance < least)
           {
             best = i;
@@ -276,8 +272,8 @@ private:
 
 } // namespace
 
-FoldedCells findFoldedCells(const ExactMap& map, const GridVertices& grid,
-  const CellCorners& cells, const std::vector<CurveLine>& curves)
+FoldedCells findFoldedCells(const ExactMap& map, const GridVertices& grid, const CellCorners& cells,
+  const std::vector<CurveLine>& curves)
 {
   return Folding(map, grid, cells, curves).run();
 }

@@ -14,13 +14,14 @@ namespace quadrille
 
 struct FoldedCells
 {
-  std::vector<Index> root;                   ///< per grid vertex the one that stands for all its copies
-  std::vector<std::array<Index, 4>> corners; ///< per quad: such grid vertices, counterclockwise on the surface
-  std::vector<Index> port;                   ///< per quad: a port of it, each of another quad
-  std::size_t mergedVertices = 0;            ///< grid vertices that are not their root
-  std::size_t zippedSides = 0;               ///< pairs of sides that were closed on each other
-  std::size_t cancelled = 0;                 ///< quads that lay over others in the sheets of a fold
-  std::size_t dropped = 0;                   ///< outlines that are no quads
+  std::vector<Index> root; ///< per grid vertex the one that stands for all its copies
+  std::vector<std::array<Index, 4>>
+    corners;                      ///< per quad: such grid vertices, counterclockwise on the surface
+  std::vector<Index> port;        ///< per quad: a port of it, each of another quad
+  std::size_t mergedVertices = 0; ///< grid vertices that are not their root
+  std::size_t zippedSides = 0;    ///< pairs of sides that were closed on each other
+  std::size_t cancelled = 0;      ///< quads that lay over others in the sheets of a fold
+  std::size_t dropped = 0;        ///< outlines that are no quads
 };
 
 /// The outline of a cell is a closed walk on the four sides of a unit square. (1) Grid vertices that sides of length
@@ -30,7 +31,7 @@ struct FoldedCells
 /// the square as often as the cell covers it: once for a quad, never for a fold that
 /// lies within one cell, and twice or more only if the map winds round a point that is no grid vertex. (3) Of quads over the
 /// same vertices as many are left as upright sheets are more than inverted ones, at most one.
-FoldedCells findFoldedCells(const ExactMap& map, const GridVertices& grid,
-  const CellCorners& cells, const std::vector<CurveLine>& curves);
+FoldedCells findFoldedCells(const ExactMap& map, const GridVertices& grid, const CellCorners& cells,
+  const std::vector<CurveLine>& curves);
 
 } // namespace quadrille

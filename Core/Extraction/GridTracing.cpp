@@ -35,8 +35,7 @@ Index exitEdge(const ExactMap& map, const Walk& walk)
 /// Does the corner at the target lie before the exit edge h?
 bool isBefore(const ExactMap& map, const Walk& walk, Index h)
 {
-  const int side =
-    walk.orientation * orientation(map.at(h), map.at(Mesh::next(h)), walk.target);
+  const int side = walk.orientation * orientation(map.at(h), map.at(Mesh::next(h)), walk.target);
   if (side != 0)
   {
     return side > 0;
@@ -197,8 +196,8 @@ Walk startOf(const Sector& sector, int direction)
   return walk;
 }
 
-CellCorners traceCells(const ExactMap& map, const GridVertices& grid, bool folded,
-  std::size_t maximumSteps, int threads)
+CellCorners traceCells(
+  const ExactMap& map, const GridVertices& grid, bool folded, std::size_t maximumSteps, int threads)
 {
   CellCorners cells;
   cells.next.assign(grid.portCount(), kInvalidIndex);
@@ -226,8 +225,8 @@ CellCorners traceCells(const ExactMap& map, const GridVertices& grid, bool folde
   return cells;
 }
 
-std::optional<CellCentre> findCentre(const ExactMap& map, const Sector& sector, int direction,
-  bool folded, std::size_t maximumSteps)
+std::optional<CellCentre> findCentre(
+  const ExactMap& map, const Sector& sector, int direction, bool folded, std::size_t maximumSteps)
 {
   const auto half = [](int axis)
   {

@@ -54,9 +54,10 @@ Walk startOf(const Sector& sector, int direction);
 /// left on the surface.
 struct CellCorners
 {
-  std::vector<Index> next;              ///< per port; kInvalidIndex where the line has no end
-  std::vector<Index> vertex;            ///< per port: the grid vertex it leaves
-  std::vector<std::int8_t> orientation; ///< per port: of its triangle's image; empty when all are positive
+  std::vector<Index> next;   ///< per port; kInvalidIndex where the line has no end
+  std::vector<Index> vertex; ///< per port: the grid vertex it leaves
+  std::vector<std::int8_t>
+    orientation; ///< per port: of its triangle's image; empty when all are positive
   /// Pairs of grid vertices that are one vertex of the unfolded map; none for a valid map.
   std::vector<std::pair<Index, Index>> merged;
   std::size_t zeroSides = 0; ///< sides of length zero
@@ -83,7 +84,7 @@ struct CellCentre
 };
 
 /// The centre of the cell of a port; none where it cannot be reached.
-std::optional<CellCentre> findCentre(const ExactMap& map, const Sector& sector, int direction,
-  bool folded, std::size_t maximumSteps);
+std::optional<CellCentre> findCentre(
+  const ExactMap& map, const Sector& sector, int direction, bool folded, std::size_t maximumSteps);
 
 } // namespace quadrille

@@ -46,11 +46,12 @@ struct GridVertex
 struct Sector
 {
   Index face = kInvalidIndex;
-  Index halfEdge = kInvalidIndex; ///< on the surface the right side of the wedge; invalid strictly inside a face
-  FixedVec2 point;                ///< the integer point in the chart of face
-  int firstDirection = 0;         ///< in that chart; the others follow counterclockwise there
-  int count = 0;                  ///< number of ports
-  int orientation = 1;            ///< of the triangle's image
+  Index halfEdge =
+    kInvalidIndex; ///< on the surface the right side of the wedge; invalid strictly inside a face
+  FixedVec2 point; ///< the integer point in the chart of face
+  int firstDirection = 0; ///< in that chart; the others follow counterclockwise there
+  int count = 0;          ///< number of ports
+  int orientation = 1;    ///< of the triangle's image
 };
 
 class GridVertices

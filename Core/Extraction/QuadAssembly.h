@@ -19,7 +19,7 @@ struct AssemblyOptions
 /// Fills points, quads, sources and lines of the result's mesh, and the counts. Valence and
 /// onBoundary are left to the topology check. Returns the point of each grid vertex; kInvalidIndex
 /// where no quad has it.
-std::vector<Index> assembleQuads(const ExactMap& map, const GridVertices& grid, const CellCorners& cells,
-  const AssemblyOptions& options, ExtractionResult& result);
+std::vector<Index> assembleQuads(const ExactMap& map, const GridVertices& grid,
+  const CellCorners& cells, const AssemblyOptions& options, ExtractionResult& result);
 
 } // namespace quadrille

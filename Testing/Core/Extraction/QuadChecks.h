@@ -9,8 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 
 namespace quadrille::test
 {
@@ -124,10 +126,12 @@ private:
   }
 };
 
-inline ExtractionResult extract(const GridMapCase& c, int threads = 1)
+inline ExtractionResult extract(
+  const GridMapCase& c, int threads = 1, ExtractionPath path = ExtractionPath::Automatic)
 {
   ExtractionOptions options;
   options.threads = threads;
+  options.path = path;
   options.smoothingSteps = 0;
   return extractQuads(c.mesh, c.uv, options);
 }
@@ -208,6 +212,49 @@ inline bool isPositive(const GridMapCase& c)
     }
   }
   return true;
+}
+
+/// A quad mesh as a set: points by their places on the input, quads from their lowest corner on, lines.
+struct QuadSet
+{
+  using Place = std::pair<Index, std::array<double, 3>>;
+  std::set<std::array<Place, 4>> quads;
+  std::set<std::tuple<Place, Place, bool>> lines;
+
+  explicit QuadSet(const QuadMesh& mesh)
+  {
+    const auto place = [&](Index p) { return Place{ mesh.sourceFace[p], mesh.sourceWeights[p] }; };
+    for (const auto& q : mesh.quads)
+    {
+      std::array<Place, 4> corners{ place(q[0]), place(q[1]), place(q[2]), place(q[3]) };
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+      quads.insert(corners);
+    }
+    for (const QuadLine& line : mesh.lines)
+    {
+      const auto ends = line.boundary ? std::pair{ place(line.a), place(line.b) }
+                                      : std::minmax({ place(line.a), place(line.b) });
+      lines.emplace(ends.first, ends.second, line.boundary);
+    }
+  }
+  friend bool operator==(const QuadSet& a, const QuadSet& b)
+  {
+    return a.quads == b.quads && a.lines == b.lines;
+  }
+};
+
+/// A positive map gives the same mesh on both ways through the extraction.
+inline void expectSameOnBothPaths(const GridMapCase& c)
+{
+  const ExtractionResult fast = extract(c, 1, ExtractionPath::Fast);
+  const ExtractionResult folded = extract(c, 1, ExtractionPath::Folded);
+  EXPECT_EQ(folded.status.message, fast.status.message);
+  EXPECT_EQ(folded.mesh.points.size(), fast.mesh.points.size());
+  EXPECT_EQ(folded.mesh.quads.size(), fast.mesh.quads.size());
+  EXPECT_EQ(folded.mesh.lines.size(), fast.mesh.lines.size());
+  EXPECT_TRUE(QuadSet(folded.mesh) == QuadSet(fast.mesh));
+  EXPECT_EQ(
+    folded.mergedVertices + folded.zeroSides + folded.zippedSides + folded.cancelledQuads, 0u);
 }
 
 } // namespace quadrille::test
