@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GridMaps.h"
+#include "QuadChecks.h"
 
 #include "Base/Error.h"
 #include "Extraction/ExactMap.h"
@@ -288,19 +288,24 @@ TEST(MapSnapping, KnowsTheErrorOfSinglePrecision)
 
 #ifdef QUADRILLE_SHARED_DATA
 
-// A map by another program with 9 inverted triangles. The counts are those of the reference
-// extraction [Ebke et al. 2013] of the same map, made by its authors.
-TEST(MapSnapping, FandiskOfAnotherProgram)
+struct ForeignMap
 {
-  const std::string path = QUADRILLE_SHARED_DATA "/igm/qex_fandisk_param.obj";
+  Mesh mesh;
+  std::vector<Vector2> uv;
+};
+
+/// A map of igm/ in the shared data; none without them.
+std::optional<ForeignMap> loadForeignMap(const std::string& name)
+{
+  const std::string path = QUADRILLE_SHARED_DATA "/igm/" + name;
   std::ifstream file(path);
   const std::optional<Mesh> mesh = loadObj(path);
   if (!file || !mesh)
   {
-    GTEST_SKIP() << "no " << path;
+    return std::nullopt;
   }
+  ForeignMap map{ *mesh, {} };
   std::vector<Vector2> points;
-  std::vector<Vector2> uv;
   for (std::string line; std::getline(file, line);)
   {
     std::istringstream words(line);
@@ -314,19 +319,65 @@ TEST(MapSnapping, FandiskOfAnotherProgram)
     }
     for (std::string corner; kind == "f" && words >> corner;)
     {
-      uv.push_back(points[std::stoul(corner.substr(corner.find('/') + 1)) - 1]);
+      map.uv.push_back(points[std::stoul(corner.substr(corner.find('/') + 1)) - 1]);
     }
   }
-  const ExtractionResult result = extractQuads(*mesh, snapMap(*mesh, uv).uv, {});
-  EXPECT_TRUE(result.status.ok()) << result.status.message;
-  EXPECT_EQ(result.mesh.quads.size(), 897u);
-  EXPECT_GT(result.mergedVertices, 0u);
+  return map;
+}
+
+std::map<int, int> countValences(const QuadMesh& mesh)
+{
   std::map<int, int> valences;
-  for (const int v : result.mesh.valence)
+  for (const int v : mesh.valence)
   {
     ++valences[v];
   }
-  EXPECT_EQ(valences, (std::map<int, int>{ { 3, 18 }, { 4, 871 }, { 5, 10 } }));
+  return valences;
+}
+
+// A map by another program with 9 inverted triangles. The counts are those of the reference
+// extraction [Ebke et al. 2013] of the same map, made by its authors.
+TEST(MapSnapping, FandiskOfAnotherProgram)
+{
+  const std::optional<ForeignMap> map = loadForeignMap("qex_fandisk_param.obj");
+  if (!map)
+  {
+    GTEST_SKIP() << "no shared data";
+  }
+  const ExtractionResult result = extractQuads(map->mesh, snapMap(map->mesh, map->uv).uv, {});
+  EXPECT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_EQ(result.mesh.quads.size(), 897u);
+  EXPECT_GT(result.mergedVertices, 0u);
+  EXPECT_EQ(result.filledHoles + result.droppedFaces, 0u);
+  EXPECT_EQ(
+    countValences(result.mesh), (std::map<int, int>{ { 3, 18 }, { 4, 871 }, { 5, 10 } }));
+}
+
+// 18 to 239 inverted triangles, and vertices round which the map winds twice inside of a cell: such cells
+// are holes, which are closed.
+TEST(MapSnapping, DucksOfAnotherProgram)
+{
+  struct Expected
+  {
+    const char* name;
+    std::size_t quads, holes;
+  };
+  for (const Expected& expected : { Expected{ "qex_duck_miq_4_param.obj", 1073, 1 },
+         Expected{ "qex_duck_qc_8_param.obj", 274, 2 },
+         Expected{ "qex_duck_miq_16_param.obj", 59, 3 } })
+  {
+    SCOPED_TRACE(expected.name);
+    const std::optional<ForeignMap> map = loadForeignMap(expected.name);
+    if (!map)
+    {
+      GTEST_SKIP() << "no shared data";
+    }
+    const ExtractionResult result = extractQuads(map->mesh, snapMap(map->mesh, map->uv).uv, {});
+    EXPECT_TRUE(result.status.ok()) << result.status.message;
+    EXPECT_EQ(result.mesh.quads.size(), expected.quads);
+    EXPECT_EQ(result.filledHoles, expected.holes);
+    expectTopologyOfInput(map->mesh, result.mesh);
+  }
 }
 
 #endif
