@@ -194,17 +194,33 @@ void addFinalQuality(vtkDataObject* data, const FinalQualityReport& report)
   addCount(data, "OptimizationSteps", static_cast<std::size_t>(report.steps));
 }
 
-void addRepair(vtkDataObject* data, const RepairReport& repair)
+namespace
+{
+
+void addNamedCounts(vtkDataObject* data, const char* namesArray, const char* countsArray,
+  const std::vector<std::pair<std::string, std::size_t>>& namedCounts)
 {
   std::vector<std::string> names;
   std::vector<std::size_t> counts;
-  for (const auto& [name, count] : repairCounts(repair))
+  for (const auto& [name, count] : namedCounts)
   {
     names.push_back(name);
     counts.push_back(count);
   }
-  addText(data, "RepairNames", names);
-  addCounts(data, "RepairCounts", counts);
+  addText(data, namesArray, names);
+  addCounts(data, countsArray, counts);
+}
+
+} // namespace
+
+void addRepair(vtkDataObject* data, const RepairReport& repair)
+{
+  addNamedCounts(data, "RepairNames", "RepairCounts", repairCounts(repair));
+}
+
+void addExtraction(vtkDataObject* data, const ExtractionCounts& counts)
+{
+  addNamedCounts(data, "ExtractionNames", "ExtractionCounts", namedCounts(counts));
 }
 
 void addMethod(vtkDataObject* data, MapMethod method)

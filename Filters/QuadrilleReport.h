@@ -60,5 +60,7 @@ void addAnisotropy(vtkDataObject* data, double limit, double beyond);
 void addFinalQuality(vtkDataObject* data, const FinalQualityReport& report);
 /// RepairNames and RepairCounts.
 void addRepair(vtkDataObject* data, const RepairReport& repair);
+/// ExtractionNames and ExtractionCounts.
+void addExtraction(vtkDataObject* data, const ExtractionCounts& counts);
 
 } // namespace quadrille

@@ -184,6 +184,7 @@ void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVec
   quadrille::addStages(quads, clock.records);
   quadrille::addMapReport(quads, mapped);
   quadrille::addText(quads, "Notices", quadrille::splitLines(this->GetNoticesText()));
+  quadrille::addExtraction(quads, result);
   quadrille::addCount(quads, "ActualQuads", result.mesh.quads.size());
   vtkPolyData::GetData(outputs, 1)->ShallowCopy(written.lines);
   vtkPolyData::GetData(outputs, 2)->ShallowCopy(written.separatrices);

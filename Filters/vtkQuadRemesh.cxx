@@ -42,6 +42,7 @@ void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
   quadrille::addText(data, "ReusedStages", result.reused);
   quadrille::addCertificate(data, result.certificate);
   quadrille::addRepair(data, result.surface.repair);
+  quadrille::addExtraction(data, result.extraction);
   quadrille::addNumber(data, "EstimatedSeconds", result.estimate.seconds);
   quadrille::addNumber(data, "EstimatedMegabytes", 1e-6 * result.estimate.bytes);
   quadrille::addNumber(data, "TargetEdgeLength", result.targetEdgeLength);

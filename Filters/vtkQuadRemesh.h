@@ -16,7 +16,8 @@
  * 2. feature and boundary lines of the quads, with `Boundary` and, where there are patches, `PatchIds`.
  *
  * Field data of output 0: `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`, `ReusedStages`, `Certificate`,
- * `CertificateValid`, `CertificateNames`, `CertificateValues`, `Method`, `RepairNames`, `RepairCounts`, `Notices`,
+ * `CertificateValid`, `CertificateNames`, `CertificateValues`, `Method`, `RepairNames`, `RepairCounts`,
+ * `ExtractionNames`, `ExtractionCounts`, `Notices`,
  * `EstimatedSeconds`, `EstimatedMegabytes`, `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `CoarseVertices`, `Decimations`, `Replays`, `SurfaceFaces`, `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`,
  * `ShortestBoundaryOverEdgeLength` (see the getters of the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`;
  * with a FinalQuality other than Coarse `DistortionNames`, `DistortionBefore`, `DistortionAfter`, `OptimizationSteps`.

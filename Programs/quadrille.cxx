@@ -371,6 +371,9 @@ void addSuccess(Json& json, vtkPolyData* quads)
   json.begin("repair");
   addPairs(json, quads, "RepairNames", "RepairCounts");
   json.end();
+  json.begin("extraction");
+  addPairs(json, quads, "ExtractionNames", "ExtractionCounts");
+  json.end();
   json.begin("sizes");
   json.add("surface_faces", fieldNumber(quads, "SurfaceFaces"));
   json.add("coarse_vertices", fieldNumber(quads, "CoarseVertices"));

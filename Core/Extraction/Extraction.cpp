@@ -284,6 +284,14 @@ Status judge(const Mesh& mesh, const MapCheck& check, const QuadTopology& found,
 
 } // namespace
 
+std::vector<std::pair<std::string, std::size_t>> namedCounts(const ExtractionCounts& counts)
+{
+  return { { "open_ports", counts.openPorts }, { "zero_sides", counts.zeroSides },
+    { "merged_vertices", counts.mergedVertices }, { "zipped_sides", counts.zippedSides },
+    { "cancelled_quads", counts.cancelledQuads }, { "dropped_outlines", counts.droppedFaces },
+    { "filled_holes", counts.filledHoles } };
+}
+
 std::optional<Index> meshCorner(const QuadMesh& quads, Index p)
 {
   for (Index i = 0; i < 3; ++i)

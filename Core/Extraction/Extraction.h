@@ -10,6 +10,8 @@
 
 #include <array>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace quadrille
@@ -62,7 +64,27 @@ struct QuadMesh
 /// The corner of the mapped mesh that point p lies on exactly; none where it lies on an edge or in a face.
 std::optional<Index> meshCorner(const QuadMesh& quads, Index p);
 
-struct ExtractionResult
+/// What the extraction met; all zero for an integer-grid map.
+struct ExtractionCounts
+{
+  std::size_t openPorts = 0; ///< edges of the grid that could not be followed to their end
+  std::size_t zeroSides =
+    0; ///< sides of cells that a fold leads back to a copy of their own vertex
+  std::size_t mergedVertices =
+    0; ///< further copies of a grid vertex in folds that were joined to it
+  std::size_t zippedSides =
+    0; ///< pairs of sides between copies of vertices that were closed on each other
+  std::size_t cancelledQuads = 0; ///< quads that lay over others in the sheets of folds
+  std::size_t droppedFaces = 0;   ///< outlines of cells that are no quads
+  std::size_t filledHoles =
+    0; ///< small holes that such cells left and that were closed, see HoleFilling.h
+};
+
+/// By their names in reports: open_ports, zero_sides, merged_vertices, zipped_sides, cancelled_quads, dropped_outlines,
+/// filled_holes.
+std::vector<std::pair<std::string, std::size_t>> namedCounts(const ExtractionCounts& counts);
+
+struct ExtractionResult : ExtractionCounts
 {
   QuadMesh mesh;
   /// Ok: the map is an integer-grid map, or its folds could be bridged, and mesh is a manifold with
@@ -70,16 +92,6 @@ struct ExtractionResult
   /// features. NotConverged: mesh holds what could be extracted; the message names the places.
   /// TooLarge: mesh is empty.
   Status status;
-  std::size_t openPorts = 0;    ///< edges of the grid that could not be followed to their end
-  std::size_t droppedFaces = 0; ///< loops of the grid that are no quads
-  std::size_t filledHoles = 0;  ///< small holes left by folds that were closed, see HoleFilling.h
-  /// Further copies of a grid vertex in folds that were joined to it.
-  std::size_t mergedVertices = 0;
-  std::size_t zeroSides =
-    0; ///< sides of cells that a fold leads back to a copy of their own vertex
-  std::size_t zippedSides =
-    0; ///< pairs of sides between copies of vertices that were closed on each other
-  std::size_t cancelledQuads = 0; ///< quads that lay over others in the sheets of folds
 };
 
 /// The quads are the unit cells of the grid: each port (a corner of a cell, [Ebke et al. 2013]) is

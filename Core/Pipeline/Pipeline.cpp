@@ -1137,6 +1137,7 @@ private:
     {
       result_.notices.push_back("map on the input surface: " + result_.certificate.text());
     }
+    result_.extraction = extracted;
     result_.quads = std::move(extracted.mesh);
     checkValences();
     return true;

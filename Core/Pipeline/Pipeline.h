@@ -102,6 +102,7 @@ struct RemeshResult
   Certificate certificate;       ///< of the map on the input surface
   ChartCounts charts;            ///< of uv; zero unless mergeCharts
   TransferResult transfer;       ///< counts only, uv is moved out
+  ExtractionCounts extraction;   ///< what the map on the surface made necessary
   FinalQualityReport finalQuality; ///< zero unless asked for
   /// The share of the coarse level's area whose ratio of stretches is above the limit; 0 without limit.
   double beyondAnisotropyLimit = 0;

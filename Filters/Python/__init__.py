@@ -104,6 +104,7 @@ def info(quads):
 
     result["stages"] = pairs("StageNames", "StageSeconds")
     result["repair"] = pairs("RepairNames", "RepairCounts")
+    result["extraction"] = pairs("ExtractionNames", "ExtractionCounts")
     return result
 
 

@@ -284,6 +284,7 @@ class Report(Case):
         self.assertEqual(content["shortest_boundary_over_edge_length"], 0)
         self.assertTrue(content["quality"]["manifold"] and content["quality"]["closed"])
         self.assertIn("duplicate_faces", content["repair"])
+        self.assertEqual(set(content["extraction"].values()), {0})
         stages = [s["stage"] for s in content["stages"]]
         self.assertEqual(stages[0], "read")
         for stage in ("repair", "phase1", "phase2", "field", "seamless", "quantize", "embed", "replay", "extract"):
