@@ -148,8 +148,7 @@ void normalize(Real* tuple, std::size_t components, const Real* fallback)
   const double length = std::sqrt(square);
   for (std::size_t c = 0; c < components; ++c)
   {
-    // Unit normals that cancel out leave rounding of about 1e-7 in floats.
-    tuple[c] = length > 1e-6 ? rounded<Real>(static_cast<double>(tuple[c]) / length) : fallback[c];
+    tuple[c] = length > 0 ? rounded<Real>(static_cast<double>(tuple[c]) / length) : fallback[c];
   }
 }
 
@@ -226,6 +225,9 @@ std::vector<vtkIdType> firstEquals(vtkAbstractArray* array)
   std::unordered_map<std::string, vtkIdType> seen;
   std::string key;
   const bool plain = isPlain(array);
+  // The variants of VTK's bits are empty.
+  vtkDataArray* bits =
+    array->GetDataType() == VTK_BIT ? vtkDataArray::SafeDownCast(array) : nullptr;
   const auto bytes = static_cast<std::size_t>(components * array->GetDataTypeSize());
   const char* data = plain ? static_cast<const char*>(array->GetVoidPointer(0)) : nullptr;
   for (vtkIdType i = 0; i < count; ++i)
@@ -237,7 +239,8 @@ std::vector<vtkIdType> firstEquals(vtkAbstractArray* array)
     }
     for (int c = 0; !plain && c < components; ++c)
     {
-      const vtkVariant value = array->GetVariantValue(i * components + c);
+      const vtkVariant value =
+        bits ? vtkVariant(bits->GetComponent(i, c)) : array->GetVariantValue(i * components + c);
       const std::string text = value.ToString();
       key += std::to_string(value.GetType()) + " " + std::to_string(text.size()) + " " + text;
     }
