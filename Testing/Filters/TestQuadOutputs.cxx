@@ -81,52 +81,79 @@ vtkSmartPointer<vtkPolyData> soup()
   return data;
 }
 
-/// Of a file with patch ids, or with those of the regions between its sharp edges; null where there is no file.
-vtkSmartPointer<vtkPolyData> model(const std::string& path)
+/// Ids of the regions between sharp edges, one a triangle of a clean surface.
+std::vector<int> regions(const SurfaceInput& input)
 {
-  std::optional<SurfaceInput> input = test::loadPly(path);
-  if (!input)
-  {
-    return nullptr;
-  }
   PrepareOptions options;
   options.featureAngle = kFeatureAngle;
-  const PreparedSurface surface = prepareSurface(*input, options);
+  const PreparedSurface surface = prepareSurface(input, options);
   const Mesh& mesh = surface.mesh;
-  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(mesh);
-  vtkNew<vtkIntArray> patches;
-  patches->SetName("PatchId");
-  patches->SetNumberOfTuples(mesh.faceCount());
-  patches->Fill(-1);
+  std::vector<int> region(mesh.faceCount(), -1);
   int next = 100; // no ids that could be found by counting
   for (Index first = 0; first < mesh.faceCount(); ++first)
   {
-    if (!input->patchIds.empty())
+    if (region[first] >= 0)
     {
-      patches->SetValue(first, static_cast<int>(input->patchIds[surface.sourcePolygon[first]]));
       continue;
     }
-    std::vector<Index> stack;
-    if (patches->GetValue(first) < 0)
-    {
-      stack.push_back(first);
-      patches->SetValue(first, next++);
-    }
+    std::vector<Index> stack{ first };
+    region[first] = next++;
     while (!stack.empty())
     {
       const Index f = stack.back();
       stack.pop_back();
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
       {
-        const Index g = mesh.twin[h] == kInvalidIndex ? f : Mesh::face(mesh.twin[h]);
-        if (!mesh.isConstrained(h) && patches->GetValue(g) < 0)
+        const Index g = mesh.isConstrained(h) ? f : Mesh::face(mesh.twin[h]);
+        if (region[g] < 0)
         {
-          patches->SetValue(g, patches->GetValue(f));
+          region[g] = region[f];
           stack.push_back(g);
         }
       }
     }
   }
+  std::vector<int> ofPolygon(mesh.faceCount());
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    ofPolygon[surface.sourcePolygon[f]] = region[f];
+  }
+  return ofPolygon;
+}
+
+/// Of a file, with its patch ids or those of its regions, and its triangles in another order than repair has them; null
+/// where there is no file.
+vtkSmartPointer<vtkPolyData> model(const std::string& path)
+{
+  const std::optional<SurfaceInput> input = test::loadPly(path);
+  if (!input)
+  {
+    return nullptr;
+  }
+  std::vector<int> patchOf(input->patchIds.begin(), input->patchIds.end());
+  if (patchOf.empty())
+  {
+    patchOf = regions(*input);
+  }
+  const auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const Vector3& p : input->points)
+  {
+    points->InsertNextPoint(p.data());
+  }
+  vtkNew<vtkCellArray> polys;
+  vtkNew<vtkIntArray> patches;
+  patches->SetName("PatchId");
+  for (std::size_t f = patchOf.size(); f-- > 0;)
+  {
+    const Index* corner = input->polygonPoints.data() + 3 * f;
+    polys->InsertNextCell({ static_cast<vtkIdType>(corner[0]), static_cast<vtkIdType>(corner[1]),
+      static_cast<vtkIdType>(corner[2]) });
+    patches->InsertNextValue(patchOf[f]);
+  }
+  data->SetPoints(points);
+  data->SetPolys(polys);
   data->GetCellData()->AddArray(patches);
   return data;
 }
