@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <map>
 #include <sstream>
@@ -216,89 +217,141 @@ void mixCells(vtkAbstractArray* from, vtkAbstractArray* to, const CellOrigins& o
     });
 }
 
-/// A number per tuple, the same for equal ones: the first tuple that is equal to it.
-std::vector<vtkIdType> firstEquals(vtkAbstractArray* array)
+/// A number per tuple, the same for equal ones.
+class TupleKeys
 {
-  const vtkIdType count = array->GetNumberOfTuples();
-  const int components = array->GetNumberOfComponents();
-  std::vector<vtkIdType> first(static_cast<std::size_t>(count));
-  std::unordered_map<std::string, vtkIdType> seen;
-  std::string key;
-  const bool plain = isPlain(array);
-  // The variants of VTK's bits are empty.
-  vtkDataArray* bits =
-    array->GetDataType() == VTK_BIT ? vtkDataArray::SafeDownCast(array) : nullptr;
-  const auto bytes = static_cast<std::size_t>(components * array->GetDataTypeSize());
-  const char* data = plain ? static_cast<const char*>(array->GetVoidPointer(0)) : nullptr;
-  for (vtkIdType i = 0; i < count; ++i)
+public:
+  explicit TupleKeys(vtkAbstractArray* array)
+    : bytes_(static_cast<std::size_t>(array->GetNumberOfComponents() * array->GetDataTypeSize()))
   {
-    key.clear();
-    if (plain)
+    if (isPlain(array) && bytes_ <= sizeof(std::uint64_t))
     {
-      key.assign(data + bytes * static_cast<std::size_t>(i), bytes);
+      data_ = static_cast<const char*>(array->GetVoidPointer(0));
+      return;
     }
-    for (int c = 0; !plain && c < components; ++c)
-    {
-      const vtkVariant value =
-        bits ? vtkVariant(bits->GetComponent(i, c)) : array->GetVariantValue(i * components + c);
-      const std::string text = value.ToString();
-      key += std::to_string(value.GetType()) + " " + std::to_string(text.size()) + " " + text;
-    }
-    first[static_cast<std::size_t>(i)] = seen.try_emplace(key, i).first->second;
+    number(array);
   }
-  return first;
+
+  std::uint64_t operator()(vtkIdType cell) const
+  {
+    const auto i = static_cast<std::size_t>(cell);
+    if (!data_)
+    {
+      return numbers_[i];
+    }
+    std::uint64_t key = 0;
+    std::memcpy(&key, data_ + bytes_ * i, bytes_);
+    return key;
+  }
+
+private:
+  void number(vtkAbstractArray* array)
+  {
+    const vtkIdType count = array->GetNumberOfTuples();
+    const int components = array->GetNumberOfComponents();
+    std::unordered_map<std::string, std::uint64_t> seen;
+    std::string key;
+    const char* plain =
+      isPlain(array) ? static_cast<const char*>(array->GetVoidPointer(0)) : nullptr;
+    // The variants of VTK's bits are empty.
+    vtkDataArray* bits =
+      array->GetDataType() == VTK_BIT ? vtkDataArray::SafeDownCast(array) : nullptr;
+    numbers_.reserve(static_cast<std::size_t>(count));
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      key.clear();
+      if (plain)
+      {
+        key.assign(plain + bytes_ * static_cast<std::size_t>(i), bytes_);
+      }
+      for (int c = 0; !plain && c < components; ++c)
+      {
+        const vtkVariant value =
+          bits ? vtkVariant(bits->GetComponent(i, c)) : array->GetVariantValue(i * components + c);
+        const std::string text = value.ToString();
+        key += std::to_string(value.GetType()) + " " + std::to_string(text.size()) + " " + text;
+      }
+      numbers_.push_back(seen.try_emplace(key, seen.size()).first->second);
+    }
+  }
+
+  std::size_t bytes_;
+  const char* data_ = nullptr; ///< of short plain tuples, which are their own numbers
+  std::vector<std::uint64_t> numbers_;
+};
+
+struct Part
+{
+  std::uint64_t key;
+  vtkIdType cell; ///< the lowest that has it
+  double weight;
+};
+
+/// Joins parts with the same key.
+void sumParts(std::vector<Part>& parts)
+{
+  std::stable_sort(
+    parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.key < b.key; });
+  std::size_t used = 0;
+  for (const Part& part : parts)
+  {
+    if (used > 0 && part.key == parts[used - 1].key)
+    {
+      parts[used - 1].weight += part.weight;
+      parts[used - 1].cell = std::min(parts[used - 1].cell, part.cell);
+    }
+    else
+    {
+      parts[used++] = part;
+    }
+  }
+  parts.resize(used);
 }
 
-/// Of all tuples of one cell's origins the one with the largest part.
-vtkIdType majority(const CellOrigins& origins, std::size_t q, const std::vector<vtkIdType>& first,
-  std::vector<std::pair<vtkIdType, double>>& parts)
+/// Of all tuples of one cell's origins a cell with the one that has the largest part.
+vtkIdType majority(
+  const CellOrigins& origins, std::size_t q, const TupleKeys& keys, std::vector<Part>& parts)
 {
   parts.clear();
   for (std::size_t i = origins.first[q]; i < origins.first[q + 1]; ++i)
   {
-    parts.emplace_back(
-      first[static_cast<std::size_t>(origins.shares[i].cell)], origins.shares[i].weight);
+    const CellOrigins::Share& share = origins.shares[i];
+    parts.push_back({ keys(share.cell), share.cell, share.weight });
   }
-  const vtkIdType centre = parts.front().first;
-  std::stable_sort(
-    parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::size_t used = 0; // sums of equal tuples move to the front
+  const std::uint64_t centre = parts.front().key;
+  sumParts(parts);
   double most = 0;
-  for (std::size_t i = 0; i < parts.size(); ++i)
+  for (const Part& part : parts)
   {
-    if (i > 0 && parts[i].first == parts[used - 1].first)
-    {
-      parts[used - 1].second += parts[i].second;
-    }
-    else
-    {
-      parts[used++] = parts[i];
-    }
-    most = std::max(most, parts[used - 1].second);
+    most = std::max(most, part.weight);
   }
   vtkIdType best = -1;
-  for (std::size_t i = 0; i < used; ++i)
+  for (const Part& part : parts)
   {
-    const bool isMost = parts[i].second >= most - kSamePart;
-    if (isMost && (best < 0 || parts[i].first == centre))
+    if (part.weight < most - kSamePart)
     {
-      best = parts[i].first;
+      continue;
     }
+    if (part.key == centre)
+    {
+      return part.cell;
+    }
+    best = best < 0 ? part.cell : std::min(best, part.cell);
   }
   return best;
 }
 
 std::vector<vtkIdType> majorities(vtkAbstractArray* from, const CellOrigins& origins, int threads)
 {
-  const std::vector<vtkIdType> first = firstEquals(from);
+  const TupleKeys keys(from);
   std::vector<vtkIdType> result(origins.first.size() - 1);
   parallelFor(result.size(), kChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      std::vector<std::pair<vtkIdType, double>> parts;
+      std::vector<Part> parts;
       for (std::size_t q = begin; q < end; ++q)
       {
-        result[q] = majority(origins, q, first, parts);
+        result[q] = majority(origins, q, keys, parts);
       }
     });
   return result;

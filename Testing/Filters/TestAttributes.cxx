@@ -316,6 +316,16 @@ TEST(Attributes, CellsByAreaTakeTheLargestPartOfLabels)
   EXPECT_EQ(target->GetArray("Pairs")->GetComponent(0, 1), 2); // compared as a whole
 }
 
+/// Without the centre among them the lowest cell wins a tie, not the lowest value.
+TEST(Attributes, TiesBesideTheCentreGoToTheLowestCell)
+{
+  vtkNew<vtkCellData> source, target;
+  source->AddArray(arrayOf<vtkIntArray>("Labels", { 9, 5, 1 }));
+  const CellOrigins origins{ { 0, 3 }, { { 2, 0.2 }, { 1, 0.4 }, { 0, 0.4 } } };
+  carryCellArrays(source, 3, target, origins, 1);
+  EXPECT_EQ(target->GetArray("Labels")->GetTuple1(0), 9);
+}
+
 /// In doubles 0.1 + 0.2 is more than 0.3; the centre still wins.
 TEST(Attributes, PartsWithinRoundingAreATie)
 {
