@@ -142,6 +142,10 @@ void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVec
   {
     throw quadrille::InvalidInput("MaximumNumberOfQuads must be at least 1");
   }
+  if (this->SmoothingSteps < 0)
+  {
+    throw quadrille::InvalidInput("SmoothingSteps must be at least 0");
+  }
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   if (quadrille::readMethod(input) == quadrille::MapMethod::Seamless)
   {
@@ -162,6 +166,7 @@ void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVec
   }
   quadrille::ExtractionOptions options;
   options.maximumNumberOfQuads = static_cast<std::size_t>(this->MaximumNumberOfQuads);
+  options.smoothingSteps = this->SmoothingSteps;
   options.threads = this->NumberOfThreads;
   options.fixedVertices = quadrille::requestedVertices(input, mesh);
   options.progress = this->MakeProgress(0.0, 0.95);
@@ -195,6 +200,7 @@ void vtkQuadExtraction::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "MaximumNumberOfQuads: " << this->MaximumNumberOfQuads << "\n";
+  os << indent << "SmoothingSteps: " << this->SmoothingSteps << "\n";
   os << indent << "TextureScale: " << this->TextureScale << "\n";
   os << indent << "PatchArrayName: " << this->PatchArrayName << "\n";
   os << indent << "CellDataFrom: " << this->CellDataFrom << "\n";

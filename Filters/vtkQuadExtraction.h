@@ -35,6 +35,16 @@ public:
 
   ///@{
   /**
+   * Sweeps in which the points of the quads move over the surface, those of features and boundaries along their curves, towards the
+   * average of their neighbours; a move that would lower the worst scaled Jacobian round a point is not made. At
+   * least 0: the points stay where the map has them. Default: 5.
+   */
+  vtkSetMacro(SmoothingSteps, int);
+  vtkGetMacro(SmoothingSteps, int);
+  ///@}
+
+  ///@{
+  /**
    * What texture coordinates are multiplied by to make one unit one quad, above 0; the array IGM is not scaled. Default: 1.
    */
   vtkSetMacro(TextureScale, double);
@@ -84,6 +94,7 @@ private:
   void operator=(const vtkQuadExtraction&) = delete;
 
   vtkIdType MaximumNumberOfQuads = 10000000;
+  int SmoothingSteps = 5;
   double TextureScale = 1;
   std::string PatchArrayName = "PatchId";
   int CellDataFrom = CELL_DATA_FROM_CENTRE;

@@ -101,6 +101,10 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   {
     throw quadrille::InvalidInput("MaximumNumberOfQuads must be at least 1");
   }
+  if (this->SmoothingSteps < 0)
+  {
+    throw quadrille::InvalidInput("SmoothingSteps must be at least 0");
+  }
   if (this->Method == METHOD_SEAMLESS && !this->ComputeMappedSurface)
   {
     throw quadrille::InvalidInput(
@@ -111,6 +115,7 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   quadrille::ConvertedSurface converted = this->ConvertInputs(inputs);
   quadrille::RemeshOptions options = this->MakeOptions();
   options.maximumNumberOfQuads = static_cast<std::size_t>(this->MaximumNumberOfQuads);
+  options.smoothingSteps = this->SmoothingSteps;
   if (this->MemoryLimit > 0)
   {
     options.memoryLimit = 1e6 * this->MemoryLimit;
@@ -191,6 +196,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Integers: " << this->Integers << "\n";
   os << indent << "AnisotropyLimit: " << this->AnisotropyLimit << "\n";
   os << indent << "MaximumNumberOfQuads: " << this->MaximumNumberOfQuads << "\n";
+  os << indent << "SmoothingSteps: " << this->SmoothingSteps << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "CloseHandles: " << this->CloseHandles << "\n";
   os << indent << "KeepLevels: " << this->KeepLevels << "\n";

@@ -106,6 +106,16 @@ public:
 
   ///@{
   /**
+   * Sweeps in which the points of the quads move over the surface, those of features and boundaries along their curves, towards the
+   * average of their neighbours; a move that would lower the worst scaled Jacobian round a point is not made. At
+   * least 0: the points stay where the map has them. Default: 5.
+   */
+  vtkSetMacro(SmoothingSteps, int);
+  vtkGetMacro(SmoothingSteps, int);
+  ///@}
+
+  ///@{
+  /**
    * The filter refuses, before it starts, to work on a surface that needs more memory than this by its estimate; in
    * millions of bytes. 0, the default, means what the machine has free.
    */
@@ -258,6 +268,7 @@ private:
   int Integers = INTEGERS_KEEP_SIZES;
   double AnisotropyLimit = 0;
   vtkIdType MaximumNumberOfQuads = 10000000;
+  int SmoothingSteps = 5;
   double MemoryLimit = 0;
   double CloseHandles = 0;
   vtkTypeBool KeepLevels = 1;

@@ -58,6 +58,8 @@ size of the quads (at most one; 0.02 of the bounding-box diagonal when none is g
                             the finer, the less distorted, and the longer it takes (default coarse)
   --distortion-metric WORD  on: coarse triangles count with the shape of the surface that they stand for, so that
                             sizes come out more even (default off)
+  --smoothing-steps N       sweeps in which the points move over the surface, where that does not lower the worst
+                            scaled Jacobian round them; 0: they stay where the map has them (default 5)
   --threads N               threads to compute with; 0 means all (default 0)
   --memory-limit MB         refuse to start where more memory is needed by the estimate;
                             0 means what the machine has free (default 0)
@@ -226,6 +228,7 @@ void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
   filter->SetMemoryLimit(line.number("memory-limit", 0, 1e12).value_or(0));
   filter->SetAnisotropyLimit(line.number("anisotropy-limit", 0, 1e6).value_or(0));
   filter->SetCloseHandles(line.number("close-handles", 0, 1e6).value_or(0));
+  filter->SetSmoothingSteps(static_cast<int>(line.count("smoothing-steps", 0, 1000).value_or(5)));
   filter->SetFinalQuality(finalQuality(line));
   filter->SetDistortionMetric(distortionMetric(line));
   filter->SetComputeMappedSurface(line.text("map").has_value());
@@ -546,7 +549,7 @@ int main(int argc, char* argv[])
     const CommandLine line(argc, argv,
       { "quads", "edge-length", "relative-edge-length", "feature-angle", "coarse-vertices",
         "threads", "memory-limit", "close-handles", "anisotropy-limit", "method", "integers", "map",
-        "final-quality", "distortion-metric", "report" });
+        "final-quality", "distortion-metric", "smoothing-steps", "report" });
     if (line.help() || argc == 1)
     {
       std::fputs(kHelp, line.help() ? stdout : stderr);

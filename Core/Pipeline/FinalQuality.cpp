@@ -98,6 +98,7 @@ public:
     }
     ExtractionOptions extraction;
     extraction.maximumNumberOfQuads = options_.maximumNumberOfQuads;
+    extraction.smoothingSteps = options_.smoothingSteps;
     extraction.fixedVertices = indexVertices(surface_);
     extraction.threads = options_.threads;
     const ExtractionResult quads = extractQuads(surface_.mesh, uv, extraction);

@@ -30,6 +30,7 @@ struct FinalQualityOptions
   double edgeLength = 0;   ///< of the quads
   double maximumBytes = 0; ///< that may be taken
   std::size_t maximumNumberOfQuads = 10000000;
+  int smoothingSteps = 5; ///< of the quads that the result is judged by
   int threads = 0;
   ProgressCallback progress;
 };

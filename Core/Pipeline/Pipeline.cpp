@@ -1074,6 +1074,7 @@ private:
     finalOptions.level = options_.finalQuality;
     finalOptions.edgeLength = result_.targetEdgeLength;
     finalOptions.maximumNumberOfQuads = options_.maximumNumberOfQuads;
+    finalOptions.smoothingSteps = options_.smoothingSteps;
     finalOptions.maximumBytes = options_.memoryLimit.value_or(freeMemory());
     finalOptions.threads = options_.threads;
     finalOptions.progress = subProgress(options_.progress, 0.9, 0.95, "Optimizing: ");
@@ -1117,6 +1118,7 @@ private:
     const Mesh& mesh = result_.surface.mesh;
     ExtractionOptions extractionOptions;
     extractionOptions.maximumNumberOfQuads = options_.maximumNumberOfQuads;
+    extractionOptions.smoothingSteps = options_.smoothingSteps;
     extractionOptions.fixedVertices = indexVertices(result_.surface);
     extractionOptions.threads = options_.threads;
     extractionOptions.progress = subProgress(options_.progress, 0.9, 1.0, "Extracting: ");

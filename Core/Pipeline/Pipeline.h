@@ -48,6 +48,7 @@ struct RemeshOptions
   /// The shapes of coarse triangles, to which the map fits its quads, are those of the surface that they stand for: see measureStretch.
   bool distortionMetric = false;
   std::size_t maximumNumberOfQuads = 10000000;
+  int smoothingSteps = 5; ///< of the quads on the surface, see ExtractionOptions
   /// Bytes that the run may take by the estimate; none: what the machine has free.
   std::optional<double> memoryLimit;
   bool mergeCharts =

@@ -140,7 +140,7 @@ def _set_size(run, quads, edge_length, relative_edge_length):
 
 
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
-           coarse_vertices=1000, patch_array="PatchId", curves=None, threads=0, maximum_number_of_quads=10000000,
+           coarse_vertices=1000, patch_array="PatchId", curves=None, threads=0, maximum_number_of_quads=10000000, smoothing_steps=5,
            memory_limit=0.0, time_limit=0.0, close_handles=0.0, method="scale-aware",
            final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False, cell_data="centre",
            progress=None, everything=False):
@@ -155,6 +155,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     curves: a vtkPolyData with polylines that become features.
     threads: 0 means all.
     maximum_number_of_quads: refuse to make more.
+    smoothing_steps: sweeps of smoothing on the surface, which never lower the worst scaled Jacobian; 0: none.
     memory_limit: refuse to start where more is needed by the estimate; millions of bytes; 0 means what is free.
     time_limit: seconds; 0 means none.
     close_handles: handles shorter round or through than so many target edge lengths are cut and closed; 0: none.
@@ -186,6 +187,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     run.SetPatchArrayName(patch_array or "")
     run.SetNumberOfThreads(threads)
     run.SetMaximumNumberOfQuads(int(maximum_number_of_quads))
+    run.SetSmoothingSteps(smoothing_steps)
     run.SetMemoryLimit(memory_limit)
     run.SetTimeLimit(time_limit)
     run.SetCloseHandles(close_handles)

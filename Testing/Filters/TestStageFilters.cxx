@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Extraction/QuadShape.h"
 #include "QuadrilleConvert.h"
 #include "TestSurfaces.h"
 
@@ -8,6 +9,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
+#include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
 #include <vtkIntegerGridMap.h>
@@ -314,6 +316,69 @@ TEST(StageFilters, ExtractionTakesTheMappedSurface)
     EXPECT_EQ(pointsOf(extraction->GetOutput()), pointsOf(remesh->GetOutput()));
     EXPECT_EQ(extraction->GetLines()->GetNumberOfLines(), remesh->GetLines()->GetNumberOfLines());
   }
+}
+
+double worstScaledJacobian(vtkPolyData* quads)
+{
+  const std::vector<Vector3> points = pointsOf(quads);
+  double worst = 1;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType q = 0; q < quads->GetNumberOfCells(); ++q)
+  {
+    quads->GetCellPoints(q, ids);
+    std::array<Vector3, 4> corners;
+    for (vtkIdType i = 0; i < 4; ++i)
+    {
+      corners[static_cast<std::size_t>(i)] = points[static_cast<std::size_t>(ids->GetId(i))];
+    }
+    worst = std::min(worst, scaledJacobian(corners));
+  }
+  return worst;
+}
+
+/// Smoothing moves points only, and no quad gets worse than the worst one was; both filters have it.
+TEST(StageFilters, SmoothingIsAChoice)
+{
+  vtkNew<vtkQuadRemesh> remesh;
+  remesh->SetInputData(test::toPolyData(test::sphere(4)));
+  remesh->SetTargetTypeToNumberOfQuads();
+  remesh->SetNumberOfQuads(100);
+  remesh->SetSmoothingSteps(0);
+  remesh->Update();
+  ASSERT_EQ(remesh->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << remesh->GetOutcomeText();
+  const vtkSmartPointer<vtkPolyData> plain = vtkSmartPointer<vtkPolyData>::New();
+  plain->DeepCopy(remesh->GetOutput());
+  vtkNew<vtkQuadExtraction> extraction;
+  extraction->SetInputConnection(remesh->GetOutputPort(1));
+  extraction->SetSmoothingSteps(0);
+  extraction->Update();
+  EXPECT_EQ(pointsOf(extraction->GetOutput()), pointsOf(plain));
+
+  remesh->SetSmoothingSteps(5);
+  remesh->Update();
+  vtkPolyData* smooth = remesh->GetOutput();
+  ASSERT_EQ(smooth->GetNumberOfPoints(), plain->GetNumberOfPoints());
+  EXPECT_NE(pointsOf(smooth), pointsOf(plain));
+  EXPECT_GE(worstScaledJacobian(smooth), worstScaledJacobian(plain));
+  vtkNew<vtkIdList> before;
+  vtkNew<vtkIdList> after;
+  for (vtkIdType q = 0; q < plain->GetNumberOfCells(); ++q)
+  {
+    plain->GetCellPoints(q, before);
+    smooth->GetCellPoints(q, after);
+    for (vtkIdType i = 0; i < 4; ++i)
+    {
+      ASSERT_EQ(before->GetId(i), after->GetId(i));
+    }
+  }
+  extraction->SetSmoothingSteps(5);
+  extraction->Update();
+  EXPECT_EQ(pointsOf(extraction->GetOutput()), pointsOf(smooth));
+
+  const test::Messages messages(extraction);
+  extraction->SetSmoothingSteps(-1);
+  extraction->Update();
+  EXPECT_EQ(extraction->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
 }
 
 } // namespace
