@@ -8,14 +8,19 @@
  * Models" (2016). Inputs: see vtkQuadrilleSurfaceAlgorithm. Outputs:
  *
  * 0. the quads. Points: `Valence`, `OnBoundary`, `SourceCellId`, `SourcePointIds` and `SourceBarycentric` (where the
- *    point lies on the input). Cells: `SourceCellId`, `FeatureEdges`. Every array of the input: real numbers and
- *    colours interpolated, whole numbers and strings from the nearest point or the cell under the quad's centre.
+ *    point lies on the input). Cells: `SourceCellId`, `FeatureEdges`, `LayoutPatch` (the patch of the base complex). Every array of the input:
+ *    on points real numbers and colours interpolated, whole numbers and strings from the nearest point; on cells see CellDataFrom.
  * 1. the input surface, repaired, with the integer-grid map: `IGM`, `Matching`, `Determinant` on cells, `Turns`,
  *    `Index` on points, and texture coordinates; `Charts` and `SeamEdges` in field data: one chart a component, with
  *    seams between irregular vertices. Empty unless ComputeMappedSurface is on.
- * 2. feature and boundary lines of the quads, with `Boundary` and, where there are patches, `PatchIds`.
+ * 2. feature and boundary lines of the quads, with `Boundary`; where there is a patch array `PatchIds`, the pair that a line separates; `LayoutPatchIds`, the
+ *    same for layout patches; `Separatrix` (1: a border of layout patches without features, too); `QuadPointId` on points.
+ * 3. the lines between layout patches inside, as polylines. A straight line of edges leaves regular vertices opposite to where it came in; those with an irregular end
+ *    or a feature edge are the borders of patches, which are grids of quads with four sides, or rings or tori where there is no irregular vertex. Cells: `StartKind` and
+ *    `EndKind` (0 irregular vertex, 1 boundary, 2 the feature ends or begins here, 3 closed), `Feature` (1: all of it on features, 0: none), `Separatrix`
+ *    (1: the straight line has an irregular end); `QuadPointId` on points.
  *
- * Field data of output 0: `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`, `ReusedStages`, `Certificate`,
+ * Field data of output 0, beside that of the input: `LayoutPatchShape` (a patch: 0 four corners, 1 ring, 2 torus) and `LayoutPatchSize` (2: quads along and across), `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`, `ReusedStages`, `Certificate`,
  * `CertificateValid`, `CertificateNames`, `CertificateValues`, `Method`, `RepairNames`, `RepairCounts`,
  * `ExtractionNames`, `ExtractionCounts`, `Notices`,
  * `EstimatedSeconds`, `EstimatedMegabytes`, `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `CoarseVertices`, `Decimations`, `Replays`, `SurfaceFaces`, `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`,

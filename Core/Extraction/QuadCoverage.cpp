@@ -62,8 +62,8 @@ double areaOf(const Polygon& polygon)
   return twice / 2;
 }
 
-/// Area of a positive triangle inside the unit square; 0 for another one.
-double areaInSquare(const std::array<Vector2, 3>& triangle)
+/// Area inside the unit square of a triangle of this orientation (1 or -1); 0 for another one.
+double areaInSquare(const std::array<Vector2, 3>& triangle, int orientation)
 {
   Polygon polygon;
   for (const Vector2& p : triangle)
@@ -74,7 +74,7 @@ double areaInSquare(const std::array<Vector2, 3>& triangle)
   {
     polygon = cut(cut(polygon, axis, 0, -1), axis, 1, 1);
   }
-  return std::max(0.0, areaOf(polygon));
+  return std::max(0.0, orientation * areaOf(polygon));
 }
 
 /// Does the segment have a point strictly inside the unit square?
@@ -224,6 +224,7 @@ private:
 
   void search(Index start, FixedVec2 corner, std::vector<FaceShare>& shares)
   {
+    const int orientation = map_.orientationOf(start);
     seen_.clear();
     stack_.assign({ { start, {} } });
     seen_.insert(start, 0);
@@ -236,7 +237,7 @@ private:
       {
         p[i] = toDouble(here.toFirst.apply(map_.at(3 * here.face + i)) - corner);
       }
-      const double area = areaInSquare(p);
+      const double area = areaInSquare(p, orientation);
       if (area > 0 || here.face == start)
       {
         shares.push_back({ here.face, area });

@@ -544,6 +544,9 @@ class Python(Case):
         self.assertIn("extract", result.info["stages"])
         self.assertGreater(result.surface.GetNumberOfCells(), 0)
         self.assertEqual(result.lines.GetNumberOfCells(), 0)
+        self.assertEqual(result.separatrices.GetNumberOfCells(), 0)
+        self.assertEqual((result.info["LayoutPatchShape"], result.quads.GetCellData().GetArray("LayoutPatch").GetRange()),
+                         (2, (0.0, 0.0)))  # one patch, a torus
         self.assertTrue(progress and progress == sorted(progress, key=lambda p: p[0]))
         better = quadrille.remesh((points, faces), quads=300, final_quality="input")
         before, after = (quadrille.info(better)[name][0] for name in ("DistortionBefore", "DistortionAfter"))
@@ -577,6 +580,8 @@ class Python(Case):
             quadrille.remesh((points, faces), quads=1000, maximum_number_of_quads=100)
         with self.assertRaisesRegex(quadrille.RemeshError, "2 MB are allowed"):
             quadrille.remesh((points, faces), quads=1000, memory_limit=2)
+        with self.assertRaisesRegex(quadrille.InvalidInput, "cell_data must be one of centre, area"):
+            quadrille.remesh((points, faces), quads=300, cell_data="best")
         with self.assertRaisesRegex(quadrille.InvalidInput, "intermediate"):
             quadrille.remesh((points, faces), quads=100, final_quality="finest")
         with self.assertRaises(quadrille.RemeshError):

@@ -66,6 +66,14 @@ inner = [i for i in range(lines.GetNumberOfCells()) if boundary.GetValue(i) == 0
 heights = {round(lines.GetPoint(lines.GetCell(i).GetPointId(k))[1], 9) for i in inner for k in (0, 1)}
 check(heights == {0.0}, f"the curve is not followed: {heights}")
 
+# The layout: the plate is cut in two by the curve, one line of the layout.
+check(size_of(flat, 3) == 1, f"{size_of(flat, 3)} lines of the layout where one was expected")
+patches = flat.GetClientSideObject().GetOutput().GetCellData().GetArray("LayoutPatch")
+check(patches.GetRange() == (0.0, 1.0), f"layout patches {patches.GetRange()} where two were expected")
+flat.CellDataFrom = "Area"
+flat.UpdatePipeline()
+check(flat.GetClientSideObject().GetCellDataFrom() == 1, "Cell Data From has no effect")
+
 # The four stages one by one.
 hierarchy = DecimationHierarchy(Input=mesh, TargetType="Number Of Quads", NumberOfQuads=400)
 grid = IntegerGridMap(Input=simple.OutputPort(hierarchy, 0))

@@ -44,7 +44,8 @@ void expectPartition(const GridMapCase& c, const QuadCoverage& coverage, const Q
   {
     const Vector2 p = toDouble(c.uv[3 * f + 1] - c.uv[3 * f]);
     const Vector2 q = toDouble(c.uv[3 * f + 2] - c.uv[3 * f]);
-    EXPECT_NEAR(area[f], (p.x() * q.y() - p.y() * q.x()) / 2, 1e-9); // rounding of clipped corners
+    EXPECT_NEAR(
+      area[f], std::abs(p.x() * q.y() - p.y() * q.x()) / 2, 1e-9); // rounding of clipped corners
   }
 }
 
@@ -65,6 +66,13 @@ TEST(QuadCoverage, SharesAllOfTheMapOut)
       editor.shuffleCharts(random);
       const QuadMesh quads = quadsOf(c);
       expectPartition(c, coverQuads(c.mesh, c.uv, quads, 1), quads);
+
+      for (FixedVec2& p : c.uv) // mirrored: every triangle is inverted
+      {
+        p.u = -p.u;
+      }
+      const QuadMesh mirrored = quadsOf(c);
+      expectPartition(c, coverQuads(c.mesh, c.uv, mirrored, 1), mirrored);
     }
     if (HasFailure())
     {

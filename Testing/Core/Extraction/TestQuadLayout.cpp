@@ -78,6 +78,7 @@ public:
   {
     checkNumbers();
     checkWalls();
+    checkCrossings();
     checkLines();
     for (Index patch = 0; patch < layout_.patches.size(); ++patch)
     {
@@ -141,6 +142,30 @@ private:
         layout_.patchOf[sides_.at(edge).back() / 4] };
       std::sort(patches.begin(), patches.end());
       EXPECT_EQ(layout_.patchesOfLine[i], patches);
+    }
+  }
+
+  /// At a regular vertex inside no wall ends or turns, so that sides of patches match as a whole.
+  void checkCrossings() const
+  {
+    std::map<Index, std::vector<Edge>> wallsAt;
+    for (const Edge& wall : walls_)
+    {
+      wallsAt[wall.first].push_back(wall);
+      wallsAt[wall.second].push_back(wall);
+    }
+    for (const auto& [p, walls] : wallsAt)
+    {
+      if (mesh_.onBoundary[p] || mesh_.valence[p] != 4)
+      {
+        continue;
+      }
+      ASSERT_TRUE(walls.size() == 2 || walls.size() == 4);
+      for (const Index side : sides_.at(walls[0]))
+      {
+        const auto both = sides_.at(walls[1]);
+        EXPECT_TRUE(walls.size() == 4 || (side / 4 != both[0] / 4 && side / 4 != both[1] / 4));
+      }
     }
   }
 
