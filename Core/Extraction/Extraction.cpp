@@ -5,6 +5,8 @@
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Extraction/CellTopology.h"
+#include "Extraction/FreeBoundary.h"
 #include "Extraction/HoleFilling.h"
 #include "Extraction/QuadAssembly.h"
 #include "Extraction/QuadSmoothing.h"
@@ -84,9 +86,10 @@ std::string describePoints(const QuadMesh& mesh, const std::vector<Index>& point
   return text.str();
 }
 
-/// Compares with the input surface. Empty when the quad mesh is the same surface.
-std::string compareTopology(
-  const Mesh& mesh, const QuadMesh& quads, const QuadTopology& found, int threads)
+/// Compares with the input surface, of whose boundary loops some are covered. Empty when the quad
+/// mesh is the same surface.
+std::string compareTopology(const Mesh& mesh, const QuadMesh& quads, const QuadTopology& found,
+  std::size_t coveredLoops, int threads)
 {
   std::string problem;
   if (!found.manifold())
@@ -102,11 +105,13 @@ std::string compareTopology(
         std::string(what) + " " + std::to_string(has) + " instead of " + std::to_string(should));
     }
   };
-  differ("Euler characteristic", found.eulerCharacteristic, wanted.eulerCharacteristic);
+  const auto covered = static_cast<long long>(coveredLoops);
+  differ("Euler characteristic", found.eulerCharacteristic, wanted.eulerCharacteristic + covered);
   differ("components", static_cast<long long>(found.components), wanted.components);
   if (found.manifold())
   {
-    differ("boundary loops", static_cast<long long>(found.boundaryLoops), wanted.boundaryLoops);
+    differ("boundary loops", static_cast<long long>(found.boundaryLoops),
+      wanted.boundaryLoops - covered);
   }
   return problem;
 }
@@ -256,7 +261,7 @@ Status windsRound(const MapCheck& check)
 Status judge(const Mesh& mesh, const MapCheck& check, const QuadTopology& found,
   const ExtractionResult& result, int threads)
 {
-  std::string problem = compareTopology(mesh, result.mesh, found, threads);
+  std::string problem = compareTopology(mesh, result.mesh, found, 0, threads);
   const std::string lines = compareLines(mesh, result.mesh, found, check, threads);
   if (!lines.empty())
   {
@@ -276,10 +281,72 @@ Status judge(const Mesh& mesh, const MapCheck& check, const QuadTopology& found,
       std::to_string(result.openPorts) + " open grid edges, " +
         std::to_string(result.droppedFaces) + " dropped faces");
   }
+  if (const std::string ends = result.features.text(mesh); !ends.empty())
+  {
+    append(problem, ends);
+  }
   const std::string cause = check.text();
   return { StatusCode::NotConverged,
     "the quad mesh is not the input surface: " + problem +
       (cause.empty() ? "" : ". The map has " + cause) };
+}
+
+/// The same where the boundary is free.
+Status judgeFree(const Mesh& mesh, const MapCheck& check, const QuadTopology& found,
+  const ExtractionResult& result, const FreeBoundaryReport& report,
+  const ExtractionOptions& options)
+{
+  std::string problem;
+  if (options.boundary == BoundaryMode::Polygons)
+  {
+    problem =
+      compareTopology(mesh, result.mesh, found, report.loopsInCells.size(), options.threads);
+  }
+  else if (!found.manifold())
+  {
+    problem = found.text() + " near " + describePoints(result.mesh, found.offendingPoints);
+  }
+  else if (result.mesh.quads.empty())
+  {
+    problem = "no cell of the map is whole";
+  }
+  const auto count = [&problem](std::size_t number, const char* what)
+  {
+    if (number > 0)
+    {
+      append(problem, std::to_string(number) + " " + what);
+    }
+  };
+  count(report.dropped, "cells at the boundary have no simple polygon");
+  count(result.droppedFaces, "cells inside are no quads");
+  if (check.count[kResidual] + check.count[kFractional] > 0)
+  {
+    count(result.openPorts, "grid edges end, at the boundary or inside");
+  }
+  if (!result.features.offIsolines.empty())
+  {
+    append(problem, result.features.text(mesh));
+  }
+  if (problem.empty())
+  {
+    return {};
+  }
+  const std::string cause = check.text();
+  return { StatusCode::NotConverged,
+    "the quad mesh is not the input surface up to its boundary: " + problem +
+      (cause.empty() ? "" : ". The map has " + cause) };
+}
+
+/// Exact pieces of cells need an exact map without folds.
+Status checkForPolygons(const MapCheck& check)
+{
+  if (check.count[kNotPositive] + check.count[kResidual] + check.count[kFractional] == 0)
+  {
+    return {};
+  }
+  return { StatusCode::NotConverged,
+    "cells at a free boundary can only be kept as polygons where the map is valid, and it has " +
+      check.text() + "; trim them instead" };
 }
 
 } // namespace
@@ -320,7 +387,16 @@ ExtractionResult extractQuads(
     return result;
   }
 
-  const bool folded = usesFoldedPath(options.path, check);
+  if (options.boundary == BoundaryMode::Polygons)
+  {
+    result.status = checkForPolygons(check);
+    if (!result.status.ok())
+    {
+      return result;
+    }
+  }
+  const bool folded =
+    options.boundary != BoundaryMode::Polygons && usesFoldedPath(options.path, check);
 
   report(options.progress, 0.3, "finding grid vertices");
   const GridVertices grid(map, options.threads);
@@ -335,16 +411,28 @@ ExtractionResult extractQuads(
   }
 
   report(options.progress, 0.7, "assembling quads");
-  assembleQuads(map, grid, cells, { folded, options.threads }, result);
-  if (folded && isNearlyValid(check, mesh))
+  std::vector<Index> pointOf = assembleQuads(map, grid, cells, { folded, options.threads }, result);
+  const bool free = options.boundary != BoundaryMode::Aligned;
+  FreeBoundaryReport boundary;
+  if (free)
+  {
+    boundary = treatFreeBoundary(map, grid, cells, options.boundary, pointOf, result);
+  }
+  else if (folded && isNearlyValid(check, mesh))
   {
     result.filledHoles = fillHoles(result.mesh);
   }
 
   report(options.progress, 0.9, "checking the quads");
-  QuadTopology topology =
-    analyzeQuads(result.mesh.quads, result.mesh.points.size(), options.threads);
-  result.status = judge(mesh, check, topology, result, options.threads);
+  QuadTopology topology = result.mesh.polygonOffsets.empty()
+    ? analyzeQuads(result.mesh.quads, result.mesh.points.size(), options.threads)
+    : analyzeCells(result.mesh);
+  if (free || check.count[kOffIsoline] > 0)
+  {
+    result.features = findFeatureEnds(map);
+  }
+  result.status = free ? judgeFree(mesh, check, topology, result, boundary, options)
+                       : judge(mesh, check, topology, result, options.threads);
   result.mesh.valence = std::move(topology.valence);
   result.mesh.onBoundary = std::move(topology.onBoundary);
   if (result.status.ok())

@@ -6,6 +6,7 @@
 #include "Base/Error.h"
 #include "Base/FixedPoint.h"
 #include "Base/Progress.h"
+#include "Extraction/FeatureEnds.h"
 #include "Mesh/Mesh.h"
 
 #include <array>
@@ -25,9 +26,18 @@ enum class ExtractionPath
   Folded     ///< for any map: triangles may be inverted or without area
 };
 
+/// What becomes of cells that a boundary off the isolines cuts.
+enum class BoundaryMode
+{
+  Aligned,  ///< there must be none: the boundary has to lie on isolines
+  Trimmed,  ///< they are left out
+  Polygons, ///< they are kept as polygons, see FreeBoundary.h; always by the fast path
+};
+
 struct ExtractionOptions
 {
   ExtractionPath path = ExtractionPath::Automatic;
+  BoundaryMode boundary = BoundaryMode::Aligned;
   std::size_t maximumNumberOfQuads = 10000000; ///< refuse, before memory is spent, to make more
   /// Sweeps of tangential smoothing on the input surface afterwards (see QuadSmoothing.h), >= 0; 0:
   /// the points stay where the map has them.
@@ -56,6 +66,10 @@ struct QuadMesh
   /// Per quad: barycentric of the uv centre in that face, in whatever charts the map has; all zero for a quad that
   /// is no unit square of the map (see HoleFilling.h).
   std::vector<std::array<double, 3>> quadSourceWeights;
+  /// Polygon i has the points polygonPoints[polygonOffsets[i]] to polygonPoints[polygonOffsets[i + 1] - 1],
+  /// counterclockwise; three, or more than that. Both empty unless BoundaryMode::Polygons makes some.
+  std::vector<Index> polygonOffsets, polygonPoints;
+  std::vector<Index> polygonSourceFace; ///< per polygon: a face of the mapped mesh in it
   std::vector<int> valence;             ///< per point: number of edges
   std::vector<std::uint8_t> onBoundary; ///< per point
   std::vector<QuadLine> lines;          ///< features and boundary
@@ -89,9 +103,18 @@ struct ExtractionResult : ExtractionCounts
   QuadMesh mesh;
   /// Ok: the map is an integer-grid map, or its folds could be bridged, and mesh is a manifold with
   /// the Euler characteristic, the components and the boundary loops of the input and all its
-  /// features. NotConverged: mesh holds what could be extracted; the message names the places.
+  /// features. Where the boundary is free: polygons with quads are that but for loopsInCells, and
+  /// trimmed quads are a manifold of all cells that are whole; features may end at any point.
+  /// NotConverged: mesh holds what could be extracted; the message names the places.
   /// TooLarge: mesh is empty.
   Status status;
+  /// BoundaryMode::Trimmed: copies of points where only corners of whole cells had touched.
+  std::size_t separatedFans = 0;
+  /// Not BoundaryMode::Aligned: boundary loops inside of one cell, which no quad mesh of this size
+  /// shows: trimmed away with their cell, or covered by it.
+  std::size_t loopsInCells = 0;
+  /// Ends, corners and junctions of features that do not lie on integer points, see FeatureEnds.h.
+  FeatureEnds features;
 };
 
 /// The quads are the unit cells of the grid: each port (a corner of a cell, [Ebke et al. 2013]) is

@@ -156,10 +156,18 @@ private:
     for (Index p = 0; p < quads_.points.size(); ++p)
     {
       freedom_[p] = lines_.size(p) == 0 ? Freedom::Surface : curveFreedom(p);
+      if (lines_.size(p) == 0 && quads_.onBoundary[p])
+      {
+        freedom_[p] = Freedom::Fixed; // where cells were trimmed
+      }
       if (!options_.fixedVertices.empty() && isOnFixedVertex(p))
       {
         freedom_[p] = Freedom::Fixed;
       }
+    }
+    for (const Index p : quads_.polygonPoints)
+    {
+      freedom_[p] = Freedom::Fixed;
     }
   }
 

@@ -27,7 +27,8 @@ struct SmoothingResult
 
 /// Moves points towards the average of their neighbours, straight over the faces of the mesh, so
 /// that sourceFace and sourceWeights stay exact; points of features and boundaries slide along
-/// their curves, corners, ends and junctions stay. A move is made only if it does not lower the
+/// their curves, corners, ends and junctions stay, and so do points of polygons and of a trimmed
+/// boundary. A move is made only if it does not lower the
 /// worst scaled Jacobian of the quads at the point and raises their sum (or the worst one, where
 /// that is bad). Points that share no quad are moved in parallel; the result does not depend on the
 /// number of threads. quads must be a manifold that was extracted from mesh.

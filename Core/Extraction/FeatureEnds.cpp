@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Extraction/FeatureEnds.h"
+
+#include "Base/PlaceText.h"
+#include "Mesh/Topology.h"
+
+#include <cstdlib>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr std::size_t kNamedPlaces = 8;
+
+/// The two feature edges of a vertex go straight on where as many axes lie on both sides.
+/// start: a corner of the vertex on a feature; the whole fan is inside.
+bool goesStraightOn(const ExactMap& map, Index start)
+{
+  int total = 0;
+  int toSecond = 0;
+  Index h = start;
+  do
+  {
+    if (h != start && map.mesh.isFeature(h))
+    {
+      toSecond = total;
+    }
+    const FixedVec2 left = map.at(Mesh::previous(h)) - map.at(h);
+    for (int axis = firstAxis(map.edge(h)); turn(axisVector(axis), left) > 0; ++axis)
+    {
+      ++total;
+    }
+    h = map.mesh.rotateCounterclockwise(h);
+  } while (h != start && h != kInvalidIndex);
+  return total == 2 * toSecond;
+}
+
+/// Does a feature end, fork or turn at the vertex of corner h (as of outgoingHalfEdges)?
+bool endsAt(const ExactMap& map, Index h)
+{
+  int features = 0;
+  Index onFeature = kInvalidIndex;
+  Index g = h;
+  do
+  {
+    if (map.mesh.isFeature(g) && !map.mesh.isBoundary(g))
+    {
+      ++features;
+      onFeature = g;
+    }
+    g = map.mesh.rotateCounterclockwise(g);
+  } while (g != h && g != kInvalidIndex);
+  if (features == 0)
+  {
+    return false;
+  }
+  return g == kInvalidIndex || features != 2 || !goesStraightOn(map, onFeature);
+}
+
+bool isOnIsoline(const ExactMap& map, Index h)
+{
+  const FixedVec2 e = map.edge(h);
+  return (e.v == 0 && isInteger(map.at(h).v)) || (e.u == 0 && isInteger(map.at(h).u));
+}
+
+} // namespace
+
+FeatureEnds findFeatureEnds(const ExactMap& map)
+{
+  FeatureEnds ends;
+  const std::vector<Index> outgoing = outgoingHalfEdges(map.mesh);
+  for (const Index h : outgoing)
+  {
+    if (h != kInvalidIndex && !isInteger(map.at(h)) && endsAt(map, h))
+    {
+      ends.nonInteger.push_back(map.mesh.origin[h]);
+    }
+  }
+  for (Index h = 0; h < map.mesh.halfEdgeCount(); ++h)
+  {
+    if (map.mesh.isFeature(h) && h < map.mesh.twin[h] && !map.mesh.isBoundary(h) &&
+      !isOnIsoline(map, h))
+    {
+      ends.offIsolines.push_back(h);
+    }
+  }
+  return ends;
+}
+
+std::string FeatureEnds::text(const Mesh& mesh) const
+{
+  std::string result;
+  const auto add = [&](const std::vector<Index>& list, const char* what, const auto& vertexOf)
+  {
+    if (list.empty())
+    {
+      return;
+    }
+    std::string places;
+    for (std::size_t i = 0; i < std::min(list.size(), kNamedPlaces); ++i)
+    {
+      places += (i > 0 ? ", " : "") + placeText(mesh.position[vertexOf(list[i])]);
+    }
+    result += (result.empty() ? "" : ", ") + std::to_string(list.size()) + " " + what + " (near " +
+      places + (list.size() > kNamedPlaces ? ", ...)" : ")");
+  };
+  add(nonInteger, "ends, corners or junctions of features that are no integer points",
+    [](Index v) { return v; });
+  add(offIsolines, "feature edges off the integer isolines",
+    [&mesh](Index h) { return mesh.origin[h]; });
+  return result;
+}
+
+} // namespace quadrille
