@@ -408,7 +408,7 @@ PointOrigin pointOrigin(const PreparedSurface& surface, const ConvertedSurface& 
 QuadOutputs writeOutputs(const QuadMesh& mesh, const Mesh& mapped, const std::vector<FixedVec2>& uv,
   const QuadSource& source)
 {
-  const QuadLayout layout = layoutOf(mesh);
+  const QuadLayout layout = layoutOf(mesh, source.threads);
   QuadOutputs outputs;
   outputs.quads = writeQuads(mesh, mapped, uv, layout, source, outputs.notCarried);
   outputs.lines = writeLines(mesh, mapped, layout, source);

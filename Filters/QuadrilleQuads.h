@@ -58,7 +58,7 @@ struct QuadOutputs
   vtkSmartPointer<vtkPolyData> quads;
   /// Segments on features and boundaries. Cells: Boundary (0 or 1); PatchIds (the two patches that the segment separates,
   /// smaller one first; twice the same on a boundary), where there is a patch array; LayoutPatchIds, the same for layout
-  /// patches; Separatrix (1: there would be a border of layout patches without features, too; 0 on boundaries). Points:
+  /// patches, -1 along no quad; Separatrix (1: there would be a border of layout patches without features, too; 0 on boundaries). Points:
   /// QuadPointId.
   vtkSmartPointer<vtkPolyData> lines;
   /// The lines of the layout inside as polylines. Cells: StartKind and EndKind (a LineEnd), Feature (1: all on features, 0:

@@ -36,24 +36,37 @@ Index oppositeInQuad(Index h)
   return h % 4 < 2 ? h + 2 : h - 2;
 }
 
+constexpr int kRegular = 4;
+
+/// A fan of quads round a point.
+struct Vertex
+{
+  Index outgoing = kInvalidIndex;    ///< counterclockwise from here are all others that leave it
+  Index nextOfPoint = kInvalidIndex; ///< another fan of the same point
+  int valence = 0;
+  bool onBoundary = false;
+
+  /// The end of separatrices: on the boundary three edges go on straight, and two make a corner.
+  bool isIrregular() const { return onBoundary ? valence > 3 : valence != kRegular; }
+};
+
 class LayoutBuilder
 {
 public:
-  explicit LayoutBuilder(const QuadMesh& mesh)
-    : mesh_(mesh), topology_(analyzeQuads(mesh.quads, mesh.points.size())),
-      marks_(4 * mesh.quads.size(), 0)
+  LayoutBuilder(const QuadMesh& mesh, int threads) : mesh_(mesh), marks_(4 * mesh.quads.size(), 0)
   {
-    if (!topology_.manifold())
+    QuadTopology topology = analyzeQuads(mesh.quads, mesh.points.size(), threads);
+    if (topology.degenerateQuads > 0)
     {
-      throw InvalidInput("the layout needs quads that are a manifold, these have " +
-        topology_.text() + ", the first at point " +
-        std::to_string(topology_.offendingPoints.front()));
+      throw InvalidInput("the layout needs quads with four different points, these have " +
+        topology.text() + ", among them point " + std::to_string(topology.offendingPoints.front()));
     }
+    twin_ = std::move(topology.twin);
   }
 
   QuadLayout build()
   {
-    findOutgoing();
+    findVertices();
     markFeatures();
     traceSeparatrices();
     traceFeatures();
@@ -66,14 +79,12 @@ public:
 private:
   Index origin(Index h) const { return mesh_.quads[h / 4][h % 4]; }
   Index target(Index h) const { return origin(nextInQuad(h)); }
-  Index twin(Index h) const { return topology_.twin[h]; }
+  Index twin(Index h) const { return twin_[h]; }
   bool isBoundary(Index h) const { return twin(h) == kInvalidIndex; }
   bool isWall(Index h) const { return isBoundary(h) || (marks_[h] & kWall) != 0; }
   bool isFeature(Index h) const { return (marks_[h] & kFeature) != 0; }
-  bool isIrregularPoint(Index p) const
-  {
-    return isIrregular(topology_.valence[p], topology_.onBoundary[p] != 0);
-  }
+  const Vertex& vertexAt(Index h) const { return vertices_[vertexOf_[h]]; }
+  const Vertex& vertexAhead(Index h) const { return vertexAt(nextInQuad(h)); }
   Index rotateCounterclockwise(Index h) const { return twin(previousInQuad(h)); }
 
   void mark(Index h, int bits)
@@ -85,40 +96,68 @@ private:
     }
   }
 
-  /// Per point the half-edge from which counterclockwise rotation meets all others that leave it.
-  void findOutgoing()
+  /// One vertex a fan of quads, so that fans which only touch in a point are apart.
+  void findVertices()
   {
-    outgoing_.assign(mesh_.points.size(), kInvalidIndex);
+    vertexOf_.assign(marks_.size(), kInvalidIndex);
+    firstVertex_.assign(mesh_.points.size(), kInvalidIndex);
     for (Index h = 0; h < marks_.size(); ++h)
     {
-      Index& first = outgoing_[origin(h)];
-      if (first == kInvalidIndex || isBoundary(h))
+      if (vertexOf_[h] == kInvalidIndex)
       {
-        first = h;
+        addVertex(h);
       }
     }
   }
 
-  /// The edge between two points by one of its half-edges.
-  Index findEdge(Index a, Index b) const
+  void addVertex(Index h)
   {
-    Index h = outgoing_[a];
+    Index first = h;
+    while (!isBoundary(first) && nextInQuad(twin(first)) != h)
+    {
+      first = nextInQuad(twin(first));
+    }
+    Vertex vertex;
+    vertex.onBoundary = isBoundary(first);
+    vertex.outgoing = vertex.onBoundary ? first : h;
+    vertex.valence = vertex.onBoundary ? 1 : 0;
+    vertex.nextOfPoint = firstVertex_[origin(h)];
+    firstVertex_[origin(h)] = static_cast<Index>(vertices_.size());
+    forEachOutgoing(vertex,
+      [&](Index g)
+      {
+        vertexOf_[g] = static_cast<Index>(vertices_.size());
+        ++vertex.valence;
+      });
+    vertices_.push_back(vertex);
+  }
+
+  /// Counterclockwise. The last edge of a vertex on the boundary has no half-edge that leaves it.
+  template <class Visitor>
+  void forEachOutgoing(const Vertex& vertex, const Visitor& visit) const
+  {
+    Index h = vertex.outgoing;
     do
     {
-      if (target(h) == b)
-      {
-        return h;
-      }
-      const Index in = previousInQuad(h);
-      if (isBoundary(in) && origin(in) == b)
-      {
-        return in;
-      }
-      h = twin(in);
-    } while (h != kInvalidIndex && h != outgoing_[a]);
-    throw InvalidInput(
-      "the layout needs lines along edges of the quads; there is no edge from point " +
-      std::to_string(a) + " to " + std::to_string(b));
+      visit(h);
+      h = rotateCounterclockwise(h);
+    } while (h != kInvalidIndex && h != vertex.outgoing);
+  }
+
+  /// The edge between two points by one of its half-edges; kInvalidIndex where it is none of a quad.
+  Index findEdge(Index a, Index b) const
+  {
+    Index found = kInvalidIndex;
+    for (Index v = firstVertex_.at(a); v != kInvalidIndex; v = vertices_[v].nextOfPoint)
+    {
+      forEachOutgoing(vertices_[v],
+        [&](Index h)
+        {
+          const Index in = previousInQuad(h);
+          found = target(h) == b ? h : isBoundary(in) && origin(in) == b ? in : found;
+        });
+    }
+    return found;
   }
 
   void markFeatures()
@@ -128,7 +167,7 @@ private:
     {
       const Index h = findEdge(line.a, line.b);
       edgeOfLine_.push_back(h);
-      if (!isBoundary(h))
+      if (h != kInvalidIndex && !isBoundary(h))
       {
         mark(h, kFeature);
       }
@@ -140,30 +179,29 @@ private:
   /// Does the line go on at the target of an inner half-edge?
   bool goesOn(Index h) const
   {
-    const Index p = target(h);
-    return !topology_.onBoundary[p] && topology_.valence[p] == 4;
+    const Vertex& vertex = vertexAhead(h);
+    return !vertex.onBoundary && vertex.valence == kRegular;
   }
   /// The half-edge straight on, where goesOn(h).
   Index straight(Index h) const { return nextInQuad(twin(nextInQuad(h))); }
 
   void traceSeparatrices()
   {
-    for (Index p = 0; p < outgoing_.size(); ++p)
+    for (std::size_t v = 0; v < vertices_.size(); ++v)
     {
-      pollNowAndThen(p);
-      Index h = outgoing_[p];
-      if (h == kInvalidIndex || !isIrregularPoint(p))
+      pollNowAndThen(v);
+      if (!vertices_[v].isIrregular())
       {
         continue;
       }
-      do
-      {
-        if (!isWall(h))
+      forEachOutgoing(vertices_[v],
+        [&](Index h)
         {
-          trace(h, kWall | kSeparatrix);
-        }
-        h = rotateCounterclockwise(h);
-      } while (h != kInvalidIndex && h != outgoing_[p]);
+          if (!isWall(h))
+          {
+            trace(h, kWall | kSeparatrix);
+          }
+        });
     }
   }
 
@@ -172,7 +210,7 @@ private:
   {
     for (const Index h : edgeOfLine_)
     {
-      if (!isWall(h))
+      if (h != kInvalidIndex && !isWall(h))
       {
         Index begin = twin(h); // backwards
         while (goesOn(begin) && straight(begin) != twin(h))
@@ -222,10 +260,10 @@ private:
     }
   }
 
-  LineEnd endAt(Index p) const
+  static LineEnd endAt(const Vertex& vertex)
   {
-    return isIrregularPoint(p)  ? LineEnd::Irregular
-      : topology_.onBoundary[p] ? LineEnd::Boundary
+    return vertex.isIrregular() ? LineEnd::Irregular
+      : vertex.onBoundary       ? LineEnd::Boundary
                                 : LineEnd::Feature;
   }
 
@@ -250,8 +288,8 @@ private:
         layout_.linePoints.push_back(target(path_[k]));
       }
       const bool loop = closed && line.count == path_.size() + 1;
-      line.start = loop ? LineEnd::Closed : endAt(origin(path_[i]));
-      line.end = loop ? LineEnd::Closed : endAt(target(path_[end - 1]));
+      line.start = loop ? LineEnd::Closed : endAt(vertexAt(path_[i]));
+      line.end = loop ? LineEnd::Closed : endAt(vertexAhead(path_[end - 1]));
       layout_.lines.push_back(line);
       i = end;
     }
@@ -367,6 +405,12 @@ private:
   {
     for (const Index h : edgeOfLine_)
     {
+      if (h == kInvalidIndex)
+      {
+        layout_.patchesOfLine.push_back({ kInvalidIndex, kInvalidIndex });
+        layout_.lineOnSeparatrix.push_back(0);
+        continue;
+      }
       const Index mine = layout_.patchOf[h / 4];
       const Index other = isBoundary(h) ? mine : layout_.patchOf[twin(h) / 4];
       layout_.patchesOfLine.push_back({ std::min(mine, other), std::max(mine, other) });
@@ -375,19 +419,21 @@ private:
   }
 
   const QuadMesh& mesh_;
-  QuadTopology topology_;
+  std::vector<Index> twin_;         ///< per half-edge
   std::vector<std::uint8_t> marks_; ///< per half-edge
-  std::vector<Index> outgoing_;     ///< per point
-  std::vector<Index> edgeOfLine_;   ///< per line of the mesh, a half-edge
-  std::vector<Index> path_;         ///< half-edges of the line being traced
+  std::vector<Index> vertexOf_;     ///< per half-edge, the vertex that it leaves
+  std::vector<Vertex> vertices_;
+  std::vector<Index> firstVertex_; ///< per point; kInvalidIndex where it has no quad
+  std::vector<Index> edgeOfLine_;  ///< per line of the mesh, a half-edge
+  std::vector<Index> path_;        ///< half-edges of the line being traced
   QuadLayout layout_;
 };
 
 } // namespace
 
-QuadLayout layoutOf(const QuadMesh& mesh)
+QuadLayout layoutOf(const QuadMesh& mesh, int threads)
 {
-  return LayoutBuilder(mesh).build();
+  return LayoutBuilder(mesh, threads).build();
 }
 
 } // namespace quadrille

@@ -70,15 +70,10 @@ struct QuadLayout
   std::vector<std::uint8_t> lineOnSeparatrix;
 };
 
-/// Is a vertex the end of separatrices? Inside all but those with four edges; on the boundary those with more than
-/// three, as two make a corner.
-inline bool isIrregular(int valence, bool onBoundary)
-{
-  return onBoundary ? valence > 3 : valence != 4;
-}
-
-/// Uses the quads, the number of points and the lines. Linear for bounded valences. Throws InvalidInput where the
-/// quads are no oriented manifold (names a point) or a line is no edge of them (names its points).
-QuadLayout layoutOf(const QuadMesh& mesh);
+/// Uses the quads, the number of points and the lines. Where quads are no manifold, touch in a point only, or have no
+/// neighbour, they are cut and at a boundary; a line along no quad has kInvalidIndex for both patches. Linear for
+/// bounded valences; the result does not depend on the number of threads. Throws InvalidInput for a quad with a point
+/// twice or beyond the points.
+QuadLayout layoutOf(const QuadMesh& mesh, int threads = 1);
 
 } // namespace quadrille

@@ -189,7 +189,8 @@ struct Both
   vtkNew<vtkQuadRemesh> remesh;
   vtkNew<vtkQuadExtraction> extraction;
 
-  Both(vtkPolyData* input, vtkIdType quads, int cellDataFrom = vtkQuadRemesh::CELL_DATA_FROM_CENTRE)
+  Both(vtkPolyData* input, vtkIdType quads, int cellDataFrom = vtkQuadRemesh::CELL_DATA_FROM_CENTRE,
+    int smoothingSteps = 5)
   {
     remesh->SetInputData(input);
     remesh->SetTargetTypeToNumberOfQuads();
@@ -197,6 +198,8 @@ struct Both
     remesh->SetCellDataFrom(cellDataFrom);
     extraction->SetInputConnection(remesh->GetOutputPort(1));
     extraction->SetCellDataFrom(cellDataFrom);
+    remesh->SetSmoothingSteps(smoothingSteps);
+    extraction->SetSmoothingSteps(smoothingSteps);
     extraction->Update();
     EXPECT_EQ(remesh->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << remesh->GetOutcomeText();
     EXPECT_EQ(extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
@@ -287,6 +290,19 @@ void expectLinear(vtkPolyData* data, const char* name, int components)
   }
 }
 
+void expectLinearFields(vtkPolyData* data)
+{
+  ASSERT_GT(data->GetNumberOfPoints(), 0);
+  for (const std::string type : { "Float", "Double" })
+  {
+    expectLinear(data, (type + "Scalar").c_str(), 1);
+    expectLinear(data, (type + "Vector").c_str(), 3);
+    expectLinear(data, (type + "Tensor").c_str(), 9);
+  }
+  EXPECT_STREQ(data->GetPointData()->GetVectors()->GetName(), "DoubleVector");
+  EXPECT_STREQ(data->GetPointData()->GetTensors()->GetName(), "DoubleTensor");
+}
+
 TEST(QuadOutputs, LinearFieldsAreReproduced)
 {
   for (const Surface& surface : surfaces())
@@ -300,19 +316,12 @@ TEST(QuadOutputs, LinearFieldsAreReproduced)
     addLinear<vtkDoubleArray>(surface.data, "DoubleTensor", 9);
     surface.data->GetPointData()->SetActiveVectors("DoubleVector");
     surface.data->GetPointData()->SetActiveTensors("DoubleTensor");
-    Both both(surface.data, surface.quads);
-    for (vtkPolyData* quads :
-      { both.remesh->GetOutput(), both.extraction->GetOutput(), both.remesh->GetMappedSurface() })
+    for (const int smoothingSteps : { 0, 5 })
     {
-      ASSERT_GT(quads->GetNumberOfPoints(), 0);
-      for (const std::string type : { "Float", "Double" })
-      {
-        expectLinear(quads, (type + "Scalar").c_str(), 1);
-        expectLinear(quads, (type + "Vector").c_str(), 3);
-        expectLinear(quads, (type + "Tensor").c_str(), 9);
-      }
-      EXPECT_STREQ(quads->GetPointData()->GetVectors()->GetName(), "DoubleVector");
-      EXPECT_STREQ(quads->GetPointData()->GetTensors()->GetName(), "DoubleTensor");
+      Both both(surface.data, surface.quads, vtkQuadRemesh::CELL_DATA_FROM_CENTRE, smoothingSteps);
+      expectLinearFields(both.remesh->GetOutput());
+      expectLinearFields(both.extraction->GetOutput());
+      expectLinearFields(both.remesh->GetMappedSurface());
     }
   }
 }

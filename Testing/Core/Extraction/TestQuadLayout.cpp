@@ -521,15 +521,58 @@ TEST(QuadLayout, AnyFeaturesLeaveGrids)
   }
 }
 
-TEST(QuadLayout, RefusesWhatIsNoManifold)
+/// Two plates that touch in a corner, and a point that no quad has: each plate is a patch.
+TEST(QuadLayout, FansThatTouchAreApart)
+{
+  QuadMesh mesh;
+  mesh.points.resize(18);
+  const auto addPlate = [&](Index corner) // 3 x 3 points, the first one shared
+  {
+    const auto point = [&](Index i, Index j) { return i + j == 0 ? 0 : corner + 3 * j + i; };
+    for (Index j = 0; j < 2; ++j)
+    {
+      for (Index i = 0; i < 2; ++i)
+      {
+        mesh.quads.push_back(
+          { point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1) });
+      }
+    }
+  };
+  addPlate(0);
+  addPlate(8);
+  mesh.lines.push_back({ 0, 1, 0, true });
+  mesh.lines.push_back({ 9, 0, 0, true });
+  mesh.lines.push_back({ 1, 17, 0, false });
+  const QuadLayout layout = layoutOf(mesh);
+  EXPECT_EQ(layout.patchOf, (std::vector<Index>{ 0, 0, 0, 0, 1, 1, 1, 1 }));
+  for (const LayoutPatch& patch : layout.patches)
+  {
+    EXPECT_EQ(patch.shape, PatchShape::Rectangle);
+    EXPECT_EQ(patch.size, (std::array<Index, 2>{ 2, 2 }));
+  }
+  EXPECT_TRUE(layout.lines.empty());
+  EXPECT_EQ(layout.patchesOfLine[0], (std::array<Index, 2>{ 0, 0 }));
+  EXPECT_EQ(layout.patchesOfLine[1], (std::array<Index, 2>{ 1, 1 }));
+  EXPECT_EQ(layout.patchesOfLine[2], (std::array<Index, 2>{ kInvalidIndex, kInvalidIndex }));
+}
+
+/// Three plates along an edge: they are cut there.
+TEST(QuadLayout, SheetsAreCutWhereMoreThanTwoMeet)
+{
+  QuadMesh mesh;
+  mesh.points.resize(8);
+  mesh.quads = { { 0, 1, 2, 3 }, { 1, 0, 4, 5 }, { 0, 1, 6, 7 } };
+  mesh.lines.push_back({ 0, 1, 0, false });
+  const QuadLayout layout = layoutOf(mesh);
+  EXPECT_EQ(layout.patchOf, (std::vector<Index>{ 0, 1, 2 }));
+  EXPECT_EQ(layout.patchesOfLine[0][0], layout.patchesOfLine[0][1]);
+}
+
+TEST(QuadLayout, RefusesQuadsWithAPointTwice)
 {
   QuadMesh mesh = quadsOf(squares("", unitCube(2), 1));
-  QuadMesh twice = mesh;
-  twice.quads.push_back(twice.quads[3]);
-  EXPECT_THROW(layoutOf(twice), InvalidInput);
-  QuadMesh stray = mesh;
-  stray.lines.push_back({ mesh.quads[0][0], mesh.quads[0][2], 0, false });
-  EXPECT_THROW(layoutOf(stray), InvalidInput);
+  mesh.quads[5][2] = mesh.quads[5][0];
+  EXPECT_THROW(layoutOf(mesh), InvalidInput);
 }
 
 } // namespace quadrille::test
