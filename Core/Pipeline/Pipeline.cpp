@@ -5,6 +5,7 @@
 #include "Base/Memory.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Extraction/QuadShape.h"
 #include "Extraction/QuadTopology.h"
 #include "GridMap/MapShape.h"
 #include "Mesh/CloseHandles.h"
@@ -31,6 +32,8 @@ namespace
 
 /// How often the coarse level is rebuilt with more freedom around the offenders of a failed map.
 constexpr int kMaximumAttempts = 3;
+/// A fold within so many edge lengths is why a quad is turned over.
+constexpr double kFoldRadius = 2;
 /// From this number of offenders on, an attempt must have halved that of the one before to deserve another.
 constexpr std::size_t kManyOffenders = 100;
 /// How often the coarse level is rebuilt because the map does not fit the input's triangles.
@@ -158,13 +161,12 @@ private:
     if (!refuseTooMany())
     {
       refine();
-      for (bool mapped = computeMap(); !(mapped && improve() && extract()); mapped = computeMap())
+      while (!makeQuads())
       {
-        // Quads that fail for the folds of a method that has such are its result.
-        if ((mapped && isRounded()) || !mayRepeat() || !(takeFinerGrid() || dropFeatures()))
-        {
-          break;
-        }
+      }
+      if (bestQuads_)
+      {
+        restore(std::move(*bestQuads_));
       }
       if (!gridNotice_.empty())
       {
@@ -177,6 +179,18 @@ private:
         result_.status.message += "; " + unresolvedText();
       }
     }
+  }
+
+  /// One attempt; true when it was the last one. Quads that fail for the folds of a method that has such are its
+  /// result.
+  bool makeQuads()
+  {
+    const bool mapped = computeMap();
+    if (mapped && improve() && extract())
+    {
+      return isRounded() || !tryForBetterQuads();
+    }
+    return (mapped && isRounded()) || !mayRepeat() || !(takeFinerGrid() || dropFeatures());
   }
 
   void tellAnisotropy()
@@ -518,6 +532,90 @@ private:
     result_.transfer = std::move(state.transfer);
     result_.status = {};
     troubles_.clear();
+  }
+
+  /// Quads and all that they come from.
+  struct QuadState
+  {
+    MapState map;
+    QuadMesh quads;
+    ExtractionCounts extraction;
+    FinalQualityReport finalQuality;
+    std::vector<std::uint8_t> flags;
+    std::vector<float> sizing;
+    std::vector<std::string> notices;
+    std::string gridNotice;
+    std::size_t turned = 0; ///< quads turned over
+  };
+
+  void restore(QuadState&& state)
+  {
+    result_.surface.mesh.flags = std::move(state.flags);
+    result_.surface.mesh.sizing = std::move(state.sizing);
+    result_.surface.hash = contentHash(result_.surface.mesh, options_.threads);
+    restore(std::move(state.map));
+    result_.quads = std::move(state.quads);
+    result_.extraction = state.extraction;
+    result_.finalQuality = std::move(state.finalQuality);
+    result_.notices = std::move(state.notices);
+    gridNotice_ = std::move(state.gridNotice);
+  }
+
+  /// The extraction finds quads through folds of the map, but some of them may be turned over there. Then features are given up
+  /// near the folds as after a failure, and the mesh with the fewest quads turned over counts, of equal ones the first. False
+  /// when there is nothing (more) to try.
+  bool tryForBetterQuads()
+  {
+    const std::vector<Vector3> folds =
+      positionsOf(result_.surface.mesh, result_.transfer.offenders);
+    const std::vector<Index> turned = quadsTurnedOver();
+    const bool fine = std::none_of(
+      turned.begin(), turned.end(), [&](Index q) { return isNear(result_.quads.quads[q], folds); });
+    if (fine && (!bestQuads_ || turned.size() < bestQuads_->turned))
+    {
+      bestQuads_.reset();
+      return false;
+    }
+    if (!bestQuads_ || turned.size() < bestQuads_->turned)
+    {
+      bestQuads_ = QuadState{ {}, std::move(result_.quads), result_.extraction,
+        result_.finalQuality, result_.surface.mesh.flags, result_.surface.mesh.sizing,
+        result_.notices, gridNotice_, turned.size() };
+      bestQuads_->map = takeState();
+    }
+    result_.quads = {};
+    troubles_ = folds;
+    return !fine && mayRepeat() && dropFeatures();
+  }
+
+  /// With a scaled Jacobian <= 0.
+  std::vector<Index> quadsTurnedOver() const
+  {
+    std::vector<Index> turned;
+    for (Index q = 0; q < result_.quads.quads.size(); ++q)
+    {
+      pollNowAndThen(q);
+      std::array<Vector3, 4> corners;
+      std::transform(result_.quads.quads[q].begin(), result_.quads.quads[q].end(), corners.begin(),
+        [this](Index p) { return result_.quads.points[p]; });
+      if (!(scaledJacobian(corners) > 0))
+      {
+        turned.push_back(q);
+      }
+    }
+    return turned;
+  }
+
+  /// Has the quad a corner within kFoldRadius edge lengths of one of the places?
+  bool isNear(const std::array<Index, 4>& quad, const std::vector<Vector3>& places) const
+  {
+    const double radius = kFoldRadius * result_.targetEdgeLength;
+    const auto isClose = [&](const Vector3& place)
+    {
+      return std::any_of(quad.begin(), quad.end(),
+        [&](Index p) { return (result_.quads.points[p] - place).squaredNorm() < radius * radius; });
+    };
+    return std::any_of(places.begin(), places.end(), isClose);
   }
 
   /// A map of the coarse mesh, carried to the input. Where the input's triangles have no room for it, their
@@ -1390,6 +1488,7 @@ private:
   HierarchyOptions mapLevels_;              ///< of the map that counts
   std::vector<std::uint8_t> integerVertex_; ///< #V of the surface
   std::vector<Vector3> troubles_;           ///< where the last map or its quads failed
+  std::optional<QuadState> bestQuads_;      ///< of attempts whose maps have folds
   std::size_t work_ = 0;                    ///< GridMapResult::work of all maps so far
   bool smallPartsKnown_ = false;
   int featureDrops_ = 0;

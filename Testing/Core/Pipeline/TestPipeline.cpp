@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Extraction/QuadShape.h"
 #include "Pipeline/Pipeline.h"
 
 #include "Mesh/FeatureFilter.h"
@@ -275,6 +276,29 @@ TEST(Pipeline, FatTorusKeepsItsHandle)
 }
 
 #ifdef QUADRILLE_SHARED_DATA
+// The first map that gives quads has folds with 15 quads turned over near them.
+TEST(Pipeline, QuadsTurnedOverNearFoldsAreTriedAgain)
+{
+  const std::string path = std::string(QUADRILLE_SHARED_DATA) + "/cad/thingi_908460.ply";
+  std::optional<SurfaceInput> input = test::loadPly(path);
+  if (!input)
+  {
+    GTEST_SKIP() << "no " << path;
+  }
+  RemeshOptions options;
+  options.quads = 2500;
+  const RemeshResult result = remesh(*input, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_TRUE(tells(result, "leave no room"));
+  std::size_t turned = 0;
+  for (const std::array<Index, 4>& q : result.quads.quads)
+  {
+    const auto& p = result.quads.points;
+    turned += scaledJacobian({ p[q[0]], p[q[1]], p[q[2]], p[q[3]] }) > 0 ? 0 : 1;
+  }
+  EXPECT_EQ(turned, 0u);
+}
+
 TEST(Pipeline, FeaturesThatLeaveNoRoomAreGivenUpOnlyWhereNobodyAskedForThem)
 {
   // Bevels of a hundredth of a quad, where three sharp edges would need an edge between two equal points.
