@@ -54,6 +54,7 @@ constexpr const char* kSourcePointIds = "SourcePointIds";
 constexpr const char* kSourceWeights = "SourceWeights";
 constexpr const char* kSourceBarycentric = "SourceBarycentric";
 constexpr const char* kValence = "Valence";
+constexpr const char* kPartial = "Partial";
 constexpr const char* kOnBoundary = "OnBoundary";
 constexpr const char* kLayoutPatch = "LayoutPatch";
 }

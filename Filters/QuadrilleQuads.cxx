@@ -65,6 +65,12 @@ vtkSmartPointer<vtkCellArray> newCells(vtkIdTypeArray* connectivity, vtkIdType c
   return cells;
 }
 
+std::size_t polygonCount(const QuadMesh& mesh)
+{
+  return mesh.polygonSourceFace.size();
+}
+
+/// The quads, then the polygons.
 void writeGeometry(const QuadMesh& mesh, vtkPolyData* data)
 {
   vtkSmartPointer<vtkPoints> points = newPoints(mesh.points.size());
@@ -72,7 +78,8 @@ void writeGeometry(const QuadMesh& mesh, vtkPolyData* data)
   {
     points->SetPoint(static_cast<vtkIdType>(i), mesh.points[i].data());
   }
-  auto connectivity = newArray<vtkIdTypeArray>("", 1, 4 * mesh.quads.size());
+  auto connectivity =
+    newArray<vtkIdTypeArray>("", 1, 4 * mesh.quads.size() + mesh.polygonPoints.size());
   vtkIdType next = 0;
   for (const std::array<Index, 4>& quad : mesh.quads)
   {
@@ -82,7 +89,28 @@ void writeGeometry(const QuadMesh& mesh, vtkPolyData* data)
     }
   }
   data->SetPoints(points);
-  data->SetPolys(newCells(connectivity, 4));
+  if (polygonCount(mesh) == 0)
+  {
+    data->SetPolys(newCells(connectivity, 4));
+    return;
+  }
+  for (const Index corner : mesh.polygonPoints)
+  {
+    connectivity->SetValue(next++, corner);
+  }
+  const auto quads = static_cast<vtkIdType>(mesh.quads.size());
+  auto offsets = newArray<vtkIdTypeArray>("", 1, mesh.quads.size() + polygonCount(mesh) + 1);
+  for (vtkIdType i = 0; i < quads; ++i)
+  {
+    offsets->SetValue(i, 4 * i);
+  }
+  for (std::size_t i = 0; i < mesh.polygonOffsets.size(); ++i)
+  {
+    offsets->SetValue(quads + static_cast<vtkIdType>(i), 4 * quads + mesh.polygonOffsets[i]);
+  }
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets.Get(), connectivity.Get());
+  data->SetPolys(cells);
 }
 
 using PointFunction = std::function<PointOrigin(Index, const std::array<double, 3>&)>;
@@ -102,12 +130,14 @@ std::vector<PointOrigin> originsOf(const QuadMesh& mesh, const PointFunction& or
   return origins;
 }
 
-/// Per quad the cell under its centre.
+/// Per quad the cell under its centre, then a cell under each polygon.
 std::vector<vtkIdType> centresOf(
   const QuadMesh& mesh, const std::function<vtkIdType(Index)>& cellOf)
 {
-  std::vector<vtkIdType> cells(mesh.quads.size());
-  std::transform(mesh.quadSourceFace.begin(), mesh.quadSourceFace.end(), cells.begin(), cellOf);
+  std::vector<vtkIdType> cells(mesh.quads.size() + polygonCount(mesh));
+  const auto rest =
+    std::transform(mesh.quadSourceFace.begin(), mesh.quadSourceFace.end(), cells.begin(), cellOf);
+  std::transform(mesh.polygonSourceFace.begin(), mesh.polygonSourceFace.end(), rest, cellOf);
   return cells;
 }
 
@@ -118,10 +148,16 @@ CellOrigins areasOf(const QuadMesh& mesh, const Mesh& mapped, const std::vector<
   CellOrigins origins;
   origins.first = coverage.first;
   origins.shares.resize(coverage.shares.size());
+  // Polygons have the one cell that is known to lie under them.
   std::transform(coverage.shares.begin(), coverage.shares.end(), origins.shares.begin(),
     [&](const FaceShare& share) {
       return CellOrigins::Share{ source.carrierCell(share.face), share.weight };
     });
+  for (const Index face : mesh.polygonSourceFace)
+  {
+    origins.shares.push_back({ source.carrierCell(face), 1 });
+    origins.first.push_back(origins.shares.size());
+  }
   return origins;
 }
 
@@ -181,11 +217,9 @@ void addPointArrays(const QuadMesh& mesh, const std::function<vtkIdType(Index)>&
 void addSourceCells(
   const QuadMesh& mesh, const std::function<vtkIdType(Index)>& cellOf, vtkCellData* data)
 {
-  auto cell = newArray<vtkIdTypeArray>(arrays::kSourceCellId, 1, mesh.quads.size());
-  for (std::size_t i = 0; i < mesh.quads.size(); ++i)
-  {
-    cell->SetValue(static_cast<vtkIdType>(i), cellOf(mesh.quadSourceFace[i]));
-  }
+  const std::vector<vtkIdType> cells = centresOf(mesh, cellOf);
+  auto cell = newArray<vtkIdTypeArray>(arrays::kSourceCellId, 1, cells.size());
+  std::copy(cells.begin(), cells.end(), cell->GetPointer(0));
   data->AddArray(cell);
 }
 
@@ -225,17 +259,41 @@ void addFeatureEdges(const QuadMesh& mesh, vtkCellData* data)
     }
   }
   std::sort(features.begin(), features.end());
-  auto array = newArray<vtkUnsignedCharArray>(arrays::kFeatureEdges, 1, mesh.quads.size());
-  for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+  const auto bitsOf = [&features](const Index* corners, std::size_t count)
   {
+    constexpr std::size_t kBits = 8; // a polygon may have more edges
     int bits = 0;
-    for (int i = 0; i < 4; ++i)
+    for (std::size_t i = 0; i < std::min(count, kBits); ++i)
     {
-      const Edge edge = sortedEdge(mesh.quads[q][i], mesh.quads[q][(i + 1) % 4]);
+      const Edge edge = sortedEdge(corners[i], corners[(i + 1) % count]);
       bits |= std::binary_search(features.begin(), features.end(), edge) ? 1 << i : 0;
     }
-    array->SetValue(static_cast<vtkIdType>(q), static_cast<unsigned char>(bits));
+    return static_cast<unsigned char>(bits);
+  };
+  auto array = newArray<vtkUnsignedCharArray>(
+    arrays::kFeatureEdges, 1, mesh.quads.size() + polygonCount(mesh));
+  vtkIdType next = 0;
+  for (const std::array<Index, 4>& quad : mesh.quads)
+  {
+    array->SetValue(next++, bitsOf(quad.data(), 4));
   }
+  for (std::size_t i = 0; i < polygonCount(mesh); ++i)
+  {
+    const Index first = mesh.polygonOffsets[i];
+    array->SetValue(
+      next++, bitsOf(mesh.polygonPoints.data() + first, mesh.polygonOffsets[i + 1] - first));
+  }
+  data->AddArray(array);
+}
+
+/// Which cells are no whole quads of the map.
+void addPartial(const QuadMesh& mesh, vtkCellData* data)
+{
+  auto array =
+    newArray<vtkUnsignedCharArray>(arrays::kPartial, 1, mesh.quads.size() + polygonCount(mesh));
+  std::fill_n(array->GetPointer(0), mesh.quads.size(), static_cast<unsigned char>(0));
+  std::fill_n(
+    array->GetPointer(0) + mesh.quads.size(), polygonCount(mesh), static_cast<unsigned char>(1));
   data->AddArray(array);
 }
 
@@ -304,7 +362,7 @@ void addPatchPairs(
 }
 
 vtkSmartPointer<vtkPolyData> writeQuads(const QuadMesh& mesh, const Mesh& mapped,
-  const std::vector<FixedVec2>& uv, const QuadLayout& layout, const QuadSource& source,
+  const std::vector<FixedVec2>& uv, const QuadLayout* layout, const QuadSource& source,
   std::vector<std::string>& notCarried)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
@@ -320,28 +378,42 @@ vtkSmartPointer<vtkPolyData> writeQuads(const QuadMesh& mesh, const Mesh& mapped
   addSourceCells(mesh, cellOf, data->GetCellData());
   addFeatureEdges(mesh, data->GetCellData());
   data->GetFieldData()->PassData(source.carrier->GetFieldData());
-  addLayout(layout, data); // replaces that of a remeshed quad mesh
+  if (layout)
+  {
+    addLayout(*layout, data); // replaces that of a remeshed quad mesh
+  }
+  else
+  {
+    addPartial(mesh, data->GetCellData());
+  }
   return data;
 }
 
 vtkSmartPointer<vtkPolyData> writeLines(
-  const QuadMesh& mesh, const Mesh& mapped, const QuadLayout& layout, const QuadSource& source)
+  const QuadMesh& mesh, const Mesh& mapped, const QuadLayout* layout, const QuadSource& source)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
   writeLineGeometry(mesh, data);
   auto boundary = newArray<vtkUnsignedCharArray>("Boundary", 1, mesh.lines.size());
+  for (std::size_t i = 0; i < mesh.lines.size(); ++i)
+  {
+    boundary->SetValue(static_cast<vtkIdType>(i), mesh.lines[i].boundary ? 1 : 0);
+  }
+  data->GetCellData()->AddArray(boundary);
+  addPatchPairs(mesh, mapped, source, data->GetCellData());
+  if (!layout)
+  {
+    return data;
+  }
   auto separatrix = newArray<vtkUnsignedCharArray>("Separatrix", 1, mesh.lines.size());
   auto patches = newArray<vtkIntArray>("LayoutPatchIds", 2, mesh.lines.size());
   for (std::size_t i = 0; i < mesh.lines.size(); ++i)
   {
     const auto id = static_cast<vtkIdType>(i);
-    boundary->SetValue(id, mesh.lines[i].boundary ? 1 : 0);
-    separatrix->SetValue(id, layout.lineOnSeparatrix[i]);
-    patches->SetValue(2 * id, static_cast<int>(layout.patchesOfLine[i][0]));
-    patches->SetValue(2 * id + 1, static_cast<int>(layout.patchesOfLine[i][1]));
+    separatrix->SetValue(id, layout->lineOnSeparatrix[i]);
+    patches->SetValue(2 * id, static_cast<int>(layout->patchesOfLine[i][0]));
+    patches->SetValue(2 * id + 1, static_cast<int>(layout->patchesOfLine[i][1]));
   }
-  data->GetCellData()->AddArray(boundary);
-  addPatchPairs(mesh, mapped, source, data->GetCellData());
   data->GetCellData()->AddArray(patches);
   data->GetCellData()->AddArray(separatrix);
   return data;
@@ -408,10 +480,16 @@ PointOrigin pointOrigin(const PreparedSurface& surface, const ConvertedSurface& 
 QuadOutputs writeOutputs(const QuadMesh& mesh, const Mesh& mapped, const std::vector<FixedVec2>& uv,
   const QuadSource& source)
 {
-  const QuadLayout layout = layoutOf(mesh, source.threads);
+  QuadLayout layout;
+  const bool onlyQuads = polygonCount(mesh) == 0;
+  if (onlyQuads)
+  {
+    layout = layoutOf(mesh, source.threads);
+  }
   QuadOutputs outputs;
-  outputs.quads = writeQuads(mesh, mapped, uv, layout, source, outputs.notCarried);
-  outputs.lines = writeLines(mesh, mapped, layout, source);
+  outputs.quads =
+    writeQuads(mesh, mapped, uv, onlyQuads ? &layout : nullptr, source, outputs.notCarried);
+  outputs.lines = writeLines(mesh, mapped, onlyQuads ? &layout : nullptr, source);
   outputs.separatrices = writeSeparatrices(mesh, layout);
   return outputs;
 }

@@ -12,6 +12,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
@@ -102,6 +103,42 @@ quadrille::QuadSource sourceOf(vtkPolyData* data, const std::string& patchArray)
   return source;
 }
 
+/// What of a free boundary and of features the quads do not show, as notices.
+std::vector<std::string> boundaryNotices(
+  const quadrille::ExtractionResult& result, const quadrille::Mesh& mesh)
+{
+  std::vector<std::string> notices;
+  if (const std::string ends = result.features.text(mesh); !ends.empty())
+  {
+    notices.push_back("features: " + ends + "; the quads follow them up to the last whole edge");
+  }
+  if (result.loopsInCells > 0)
+  {
+    notices.push_back(std::to_string(result.loopsInCells) +
+      " holes are smaller than a quad and lie inside of one; make smaller quads to show them");
+  }
+  return notices;
+}
+
+/// NonIntegerFeatureEnds, NonIntegerFeatureEndPlaces (3 a tuple), LoopsInCells, SeparatedFans and PartialCells.
+void addBoundaryReport(
+  vtkDataObject* data, const quadrille::ExtractionResult& result, const quadrille::Mesh& mesh)
+{
+  quadrille::addCount(data, "NonIntegerFeatureEnds", result.features.nonInteger.size());
+  vtkNew<vtkDoubleArray> places;
+  places->SetName("NonIntegerFeatureEndPlaces");
+  places->SetNumberOfComponents(3);
+  for (const Index v : result.features.nonInteger)
+  {
+    places->InsertNextTuple(mesh.position[v].data());
+  }
+  data->GetFieldData()->RemoveArray(places->GetName());
+  data->GetFieldData()->AddArray(places);
+  quadrille::addCount(data, "LoopsInCells", result.loopsInCells);
+  quadrille::addCount(data, "SeparatedFans", result.separatedFans);
+  quadrille::addCount(data, "PartialCells", result.mesh.polygonSourceFace.size());
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -166,6 +203,7 @@ void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVec
   }
   quadrille::ExtractionOptions options;
   options.maximumNumberOfQuads = static_cast<std::size_t>(this->MaximumNumberOfQuads);
+  options.boundary = static_cast<quadrille::BoundaryMode>(this->BoundaryMode);
   options.smoothingSteps = this->SmoothingSteps;
   options.threads = this->NumberOfThreads;
   options.fixedVertices = quadrille::requestedVertices(input, mesh);
@@ -175,6 +213,10 @@ void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVec
   clock.lap("extract", mesh.faceCount(), result.mesh.quads.size());
   this->SetStageRecords(clock.records);
   quadrille::requireOk(result.status, "the extraction of quads");
+  for (const std::string& notice : boundaryNotices(result, mesh))
+  {
+    this->AddNotice(notice);
+  }
 
   quadrille::QuadSource source = sourceOf(input, this->PatchArrayName);
   source.cellDataFrom = static_cast<quadrille::CellDataFrom>(this->CellDataFrom);
@@ -188,6 +230,7 @@ void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVec
   quads->ShallowCopy(written.quads);
   quadrille::addStages(quads, clock.records);
   quadrille::addMapReport(quads, mapped);
+  addBoundaryReport(quads, result, mesh);
   quadrille::addText(quads, "Notices", quadrille::splitLines(this->GetNoticesText()));
   quadrille::addExtraction(quads, result);
   quadrille::addCount(quads, "ActualQuads", result.mesh.quads.size());
@@ -201,6 +244,7 @@ void vtkQuadExtraction::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "MaximumNumberOfQuads: " << this->MaximumNumberOfQuads << "\n";
   os << indent << "SmoothingSteps: " << this->SmoothingSteps << "\n";
+  os << indent << "BoundaryMode: " << this->BoundaryMode << "\n";
   os << indent << "TextureScale: " << this->TextureScale << "\n";
   os << indent << "PatchArrayName: " << this->PatchArrayName << "\n";
   os << indent << "CellDataFrom: " << this->CellDataFrom << "\n";

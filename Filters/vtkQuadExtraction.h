@@ -43,6 +43,30 @@ public:
   vtkGetMacro(SmoothingSteps, int);
   ///@}
 
+  /// The values of BoundaryMode, see there.
+  enum BoundaryModes
+  {
+    BOUNDARY_ALIGNED = 0,
+    BOUNDARY_TRIMMED = 1,
+    BOUNDARY_POLYGONS = 2
+  };
+
+  ///@{
+  /**
+   * What becomes of cells of the map that the boundary cuts, a BoundaryModes. Aligned: there must be none; the boundary of a map of ours lies on
+   * isolines, and one that does not is an error. Trimmed: they are left out; quads that then touch in a corner only get a point each. Polygons:
+   * they are kept behind the quads, as cells of three corners or more (1 in the cell array `Partial`, which is there where such cells
+   * are): grid points, the crossings of isolines with the boundary, and corners of the boundary of more than 30 degrees; such a result has no layout
+   * and no separatrices. Points at a free boundary are not smoothed. Ends of features that are no grid points are told as a notice and in the field
+   * arrays `NonIntegerFeatureEnds` and `NonIntegerFeatureEndPlaces`, holes smaller than a quad in `LoopsInCells`. Default: BOUNDARY_ALIGNED.
+   */
+  vtkSetClampMacro(BoundaryMode, int, BOUNDARY_ALIGNED, BOUNDARY_POLYGONS);
+  vtkGetMacro(BoundaryMode, int);
+  void SetBoundaryModeToAligned() { this->SetBoundaryMode(BOUNDARY_ALIGNED); }
+  void SetBoundaryModeToTrimmed() { this->SetBoundaryMode(BOUNDARY_TRIMMED); }
+  void SetBoundaryModeToPolygons() { this->SetBoundaryMode(BOUNDARY_POLYGONS); }
+  ///@}
+
   ///@{
   /**
    * What texture coordinates are multiplied by to make one unit one quad, above 0; the array IGM is not scaled. Default: 1.
@@ -95,6 +119,7 @@ private:
 
   vtkIdType MaximumNumberOfQuads = 10000000;
   int SmoothingSteps = 5;
+  int BoundaryMode = BOUNDARY_ALIGNED;
   double TextureScale = 1;
   std::string PatchArrayName = "PatchId";
   int CellDataFrom = CELL_DATA_FROM_CENTRE;

@@ -13,6 +13,7 @@
 #include <vtkQuadExtraction.h>
 #include <vtkQuadRemesh.h>
 #include <vtkSignedCharArray.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <gtest/gtest.h>
 
@@ -393,6 +394,130 @@ TEST(ForeignMaps, GarbageIsRefusedByName)
 
   vtkNew<vtkPolyData> empty;
   EXPECT_EQ(Extracted(empty).filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+}
+
+// A plane whose texture coordinates are turned against it: the boundary is free.
+TEST(ForeignMaps, FreeBoundariesAreTrimmedOrKept)
+{
+  const vtkSmartPointer<vtkPolyData> plane = test::toPolyData(test::gridPlane(6, 4));
+  vtkNew<vtkFloatArray> texture;
+  texture->SetName("Texture");
+  texture->SetNumberOfComponents(2);
+  vtkNew<vtkDoubleArray> height;
+  height->SetName("Height");
+  for (vtkIdType i = 0; i < plane->GetNumberOfPoints(); ++i)
+  {
+    const double* p = plane->GetPoint(i);
+    texture->InsertNextTuple2(0.75 * p[0] - p[1] + 0.25, p[0] + 0.75 * p[1]);
+    height->InsertNextValue(2 * p[0] - p[1]);
+  }
+  plane->GetPointData()->SetTCoords(texture);
+  plane->GetPointData()->AddArray(height);
+  EXPECT_EQ(Extracted(plane).filter->GetOutcome(), vtkQuadrilleAlgorithm::NoValidResult);
+
+  for (const int mode :
+    { vtkQuadExtraction::BOUNDARY_TRIMMED, vtkQuadExtraction::BOUNDARY_POLYGONS })
+  {
+    vtkNew<vtkQuadExtraction> filter;
+    filter->SetBoundaryMode(mode);
+    filter->SetInputData(plane);
+    for (const int from :
+      { vtkQuadExtraction::CELL_DATA_FROM_CENTRE, vtkQuadExtraction::CELL_DATA_FROM_AREA })
+    {
+      filter->SetCellDataFrom(from);
+      filter->Update();
+      ASSERT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+      vtkPolyData* quads = filter->GetOutput();
+      const bool polygons = mode == vtkQuadExtraction::BOUNDARY_POLYGONS;
+      const test::QuadTally tally = test::tally(quads);
+      EXPECT_EQ(tally.badEdges, 0u);
+      EXPECT_EQ(tally.onlyQuads, !polygons);
+      EXPECT_EQ(tally.eulerCharacteristic, 1);
+      vtkDataArray* partial = quads->GetCellData()->GetArray(arrays::kPartial);
+      ASSERT_EQ(partial != nullptr, polygons);
+      const auto cuts =
+        static_cast<vtkIdType>(quads->GetFieldData()->GetArray("PartialCells")->GetTuple1(0));
+      EXPECT_EQ(cuts > 0, polygons);
+      double area = 0;
+      for (vtkIdType c = 0; c < quads->GetNumberOfCells(); ++c)
+      {
+        vtkIdType count = 0;
+        const vtkIdType* ids = nullptr;
+        quads->GetCellPoints(c, count, ids);
+        for (vtkIdType i = 0; i < count; ++i)
+        {
+          const Vector3 a(quads->GetPoint(ids[i])), b(quads->GetPoint(ids[(i + 1) % count]));
+          area += (a.x() * b.y() - a.y() * b.x()) / 2;
+        }
+        if (polygons)
+        {
+          EXPECT_EQ(partial->GetTuple1(c) != 0, c >= quads->GetNumberOfCells() - cuts);
+        }
+      }
+      // A cell is 0.64 large.
+      EXPECT_NEAR(
+        area, polygons ? 24 : 0.64 * static_cast<double>(quads->GetNumberOfCells()), 1e-6);
+      vtkDataArray* carried = quads->GetPointData()->GetArray("Height");
+      for (vtkIdType i = 0; i < quads->GetNumberOfPoints(); ++i)
+      {
+        const double* p = quads->GetPoint(i);
+        EXPECT_NEAR(carried->GetTuple1(i), 2 * p[0] - p[1], 1e-6);
+      }
+      for (int a = 0; a < quads->GetCellData()->GetNumberOfArrays(); ++a)
+      {
+        EXPECT_EQ(quads->GetCellData()->GetAbstractArray(a)->GetNumberOfTuples(),
+          quads->GetNumberOfCells());
+      }
+      EXPECT_EQ(filter->GetSeparatrices()->GetNumberOfCells() > 0, !polygons); // the stairs
+      EXPECT_GT(filter->GetLines()->GetNumberOfCells(), polygons ? 0 : -1);
+    }
+  }
+}
+
+// Features that end inside of an edge of the quads.
+TEST(ForeignMaps, EndsOfFeaturesAreTold)
+{
+  const vtkSmartPointer<vtkPolyData> plane = test::toPolyData(test::gridPlane(6, 4));
+  vtkNew<vtkDoubleArray> texture;
+  texture->SetName("Texture");
+  texture->SetNumberOfComponents(2);
+  for (vtkIdType i = 0; i < plane->GetNumberOfPoints(); ++i)
+  {
+    const double* p = plane->GetPoint(i);
+    texture->InsertNextTuple2(0.5 * p[0], 0.5 * p[1]);
+  }
+  plane->GetPointData()->SetTCoords(texture);
+  vtkNew<vtkUnsignedCharArray> features;
+  features->SetName(arrays::kFeatureEdges);
+  features->SetNumberOfTuples(plane->GetNumberOfCells());
+  features->Fill(0);
+  for (vtkIdType f = 0; f < plane->GetNumberOfCells(); ++f)
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    plane->GetCellPoints(f, count, ids);
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vector3 a(plane->GetPoint(ids[i])), b(plane->GetPoint(ids[(i + 1) % 3]));
+      if (a.y() == 2 && b.y() == 2 && std::max(a.x(), b.x()) <= 3)
+      {
+        features->SetValue(f, static_cast<unsigned char>(features->GetValue(f) | 1 << i));
+      }
+    }
+  }
+  plane->GetCellData()->AddArray(features);
+  Extracted aligned(plane);
+  EXPECT_EQ(aligned.filter->GetOutcome(), vtkQuadrilleAlgorithm::NoValidResult);
+  vtkNew<vtkQuadExtraction> filter;
+  filter->SetBoundaryModeToTrimmed();
+  filter->SetInputData(plane);
+  filter->Update();
+  ASSERT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+  vtkFieldData* fields = filter->GetOutput()->GetFieldData();
+  EXPECT_EQ(fields->GetArray("NonIntegerFeatureEnds")->GetTuple1(0), 1);
+  EXPECT_EQ(
+    Vector3(fields->GetArray("NonIntegerFeatureEndPlaces")->GetTuple3(0)), Vector3(3, 2, 0));
+  EXPECT_NE(std::string(filter->GetNoticesText()).find("no integer points"), std::string::npos);
 }
 
 #ifdef QUADRILLE_SHARED_DATA
