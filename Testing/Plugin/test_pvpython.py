@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
 """In pvpython: the filters by the plugin, their properties, the chain of the four, the raw classes."""
+import os
+import tempfile
+
 from paraview import servermanager, simple
 
 import quadrille
@@ -82,6 +85,30 @@ extraction = QuadExtraction(Input=upmap)
 extraction.UpdatePipeline()
 check(size_of(extraction) == cells, "the chain and the one click differ")
 check(number(upmap, "Certificate") != "", "no certificate of the chain")
+
+# A map of another program: texture coordinates of an OBJ file, a plane of 8 x 6 quads in another unit and turned by
+# 37 degrees at its boundary, read by ParaView's own reader.
+with tempfile.TemporaryDirectory() as folder:
+    path = os.path.join(folder, "turned.obj")
+    with open(path, "w") as file:
+        for j in range(7):
+            for i in range(9):
+                file.write(f"v {i} {j} 0\nvt {(0.8 * i - 0.6 * j) / 10} {(0.6 * i + 0.8 * j) / 10}\n")
+        for j in range(6):
+            for i in range(8):
+                a, b, c, d = 9 * j + i + 1, 9 * j + i + 2, 9 * j + i + 11, 9 * j + i + 10
+                file.write(f"f {a}/{a} {b}/{b} {c}/{c}\nf {a}/{a} {c}/{c} {d}/{d}\n")
+    turned = simple.OpenDataFile(path)
+    foreign = QuadExtraction(Input=turned, TextureScale=10, BoundaryMode="Trimmed")
+    foreign.UpdatePipeline()
+    whole = size_of(foreign)
+    check(0 < whole < 48, f"{whole} whole cells in 48")
+    foreign.BoundaryMode = "Polygons"
+    foreign.UpdatePipeline()
+    partial = foreign.CellData["Partial"]
+    check(size_of(foreign) > whole and partial.GetRange() == (0.0, 1.0), "no polygons at the boundary")
+    data = foreign.FieldData
+    check("MapLargestMove" in data.keys() and "NonIntegerFeatureEnds" in data.keys(), "no report in the field data")
 
 # The raw class is the same behind the proxy, and without one.
 raw = quads.GetClientSideObject()
