@@ -310,6 +310,11 @@ Status judgeFree(const Mesh& mesh, const MapCheck& check, const QuadTopology& fo
   {
     problem = "no cell of the map is whole";
   }
+  // A trimmed mesh cannot be held against the input, so the map must be nearly free of folds.
+  if (options.boundary == BoundaryMode::Trimmed && !isNearlyValid(check, mesh))
+  {
+    append(problem, "the map is no integer-grid map with a few folds");
+  }
   const auto count = [&problem](std::size_t number, const char* what)
   {
     if (number > 0)

@@ -8,6 +8,7 @@
 #include "Extraction/QuadAssembly.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -16,6 +17,8 @@ namespace quadrille
 namespace
 {
 
+/// Where polygons cut the boundary short they stay within this, in quads.
+constexpr double kTolerance = 0.1;
 /// Cosine of the angle by which a boundary turns at a corner that polygons keep.
 constexpr double kCornerCosine = 0.8660254037844387; // 30 degrees
 
@@ -58,6 +61,7 @@ public:
   std::vector<Index> run()
   {
     keepWhereFlat();
+    keepWhereFar();
     for (;;)
     {
       std::vector<Index> corners = keptStops();
@@ -125,6 +129,43 @@ private:
         keepBetween(a, b);
       }
     }
+  }
+
+  /// Follows the boundary to within kTolerance [Douglas and Peucker 1973].
+  void keepWhereFar()
+  {
+    std::vector<Index> corners = keptStops();
+    if (corners.empty())
+    {
+      return;
+    }
+    std::vector<std::pair<Index, Index>> gaps;
+    for (std::size_t k = 0; k < corners.size(); ++k)
+    {
+      gaps.emplace_back(corners[k], corners[(k + 1) % corners.size()]);
+    }
+    while (!gaps.empty())
+    {
+      const auto [a, b] = gaps.back();
+      gaps.pop_back();
+      const Index between = farthest(a, b);
+      if (between != kInvalidIndex && distance(between, a, b) > kTolerance)
+      {
+        kept_[between] = 1;
+        gaps.emplace_back(a, between);
+        gaps.emplace_back(between, b);
+      }
+    }
+  }
+
+  /// Of a stop from the line through two others, or from both where they are one; in quads.
+  double distance(Index i, Index a, Index b) const
+  {
+    const auto vector = [this](Index from, Index to) -> Vector2
+    { return toDouble(place_[to] - place_[from]) / static_cast<double>(1LL << kFineBits); };
+    const Vector2 line = vector(a, b), way = vector(a, i);
+    const double length = line.norm();
+    return length > 0 ? std::abs(line.x() * way.y() - line.y() * way.x()) / length : way.norm();
   }
 
   static bool onOneIsoline(const Stop& a, const Stop& b)

@@ -607,6 +607,54 @@ TEST(FreeBoundary, FineBoundariesHaveFewCorners)
   }
 }
 
+// A round hole over one grid point: polygons stay within a tenth of a quad of it with a few corners.
+TEST(FreeBoundary, RoundBoundariesAreFollowed)
+{
+  constexpr int kRound = 240;
+  constexpr double kRadius = 0.4;
+  std::vector<Vector3> points;
+  std::vector<Triangle> triangles;
+  for (int i = 0; i < kRound; ++i)
+  {
+    const double angle = 2 * 3.141592653589793 * i / kRound;
+    const Vector3 direction(std::cos(angle), std::sin(angle), 0);
+    points.push_back(kRadius * direction);
+    points.push_back(2.2 * direction / direction.lpNorm<Eigen::Infinity>());
+  }
+  for (Index i = 0; i < kRound; ++i)
+  {
+    const Index a = 2 * i, b = 2 * ((i + 1) % kRound);
+    triangles.push_back({ a, a + 1, b + 1 });
+    triangles.push_back({ a, b + 1, b });
+  }
+  GridMapCase c{ "", makeMesh(points, triangles), {}, 0, 0 };
+  for (const Index v : c.mesh.origin)
+  {
+    c.uv.push_back(toFixed(Vector2(c.mesh.position[v].head<2>())));
+  }
+  const ExtractionResult result = extract(c, BoundaryMode::Polygons);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  std::size_t corners = 0;
+  for (const QuadLine& line : result.mesh.lines)
+  {
+    const Vector3 middle = (result.mesh.points[line.a] + result.mesh.points[line.b]) / 2;
+    if (middle.norm() < 1)
+    {
+      ++corners;
+      EXPECT_GT(middle.norm(), kRadius - 0.1);
+    }
+  }
+  EXPECT_GT(corners, 4u); // without the rule there are only the crossings
+  EXPECT_LT(corners, 20u);
+  double area = 0;
+  for (const std::vector<Index>& cell : cellsOf(result.mesh))
+  {
+    expectSimple(cell, result.mesh);
+    area += areaOf(cell, result.mesh);
+  }
+  EXPECT_NEAR(area, areaOf(c), 0.2);
+}
+
 // A hole inside of one cell, that touches a side or not: covered by a polygon mesh, trimmed away
 // with its cell.
 TEST(FreeBoundary, HolesInsideOfACell)
