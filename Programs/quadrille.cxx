@@ -60,6 +60,8 @@ size of the quads (at most one; 0.02 of the bounding-box diagonal when none is g
                             sizes come out more even (default off)
   --smoothing-steps N       sweeps in which the points move over the surface, where that does not lower the worst
                             scaled Jacobian round them; 0: they stay where the map has them (default 5)
+  --cell-data NAME          what cell arrays of the quads come from: centre (default), the cell under the centre of a
+                            quad; area, all cells under it: the average of real numbers, the most frequent label
   --threads N               threads to compute with; 0 means all (default 0)
   --memory-limit MB         refuse to start where more memory is needed by the estimate;
                             0 means what the machine has free (default 0)
@@ -196,6 +198,16 @@ int finalQuality(const CommandLine& line)
   return static_cast<int>(found - levels.begin());
 }
 
+int cellDataFrom(const CommandLine& line)
+{
+  const std::string word = line.text("cell-data").value_or("centre");
+  if (word != "centre" && word != "area")
+  {
+    throw UsageError("--cell-data must be centre or area, not " + word);
+  }
+  return word == "area" ? vtkQuadRemesh::CELL_DATA_FROM_AREA : vtkQuadRemesh::CELL_DATA_FROM_CENTRE;
+}
+
 bool distortionMetric(const CommandLine& line)
 {
   const std::string word = line.text("distortion-metric").value_or("off");
@@ -231,6 +243,7 @@ void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
   filter->SetSmoothingSteps(static_cast<int>(line.count("smoothing-steps", 0, 1000).value_or(5)));
   filter->SetFinalQuality(finalQuality(line));
   filter->SetDistortionMetric(distortionMetric(line));
+  filter->SetCellDataFrom(cellDataFrom(line));
   filter->SetComputeMappedSurface(line.text("map").has_value());
 }
 
@@ -549,7 +562,7 @@ int main(int argc, char* argv[])
     const CommandLine line(argc, argv,
       { "quads", "edge-length", "relative-edge-length", "feature-angle", "coarse-vertices",
         "threads", "memory-limit", "close-handles", "anisotropy-limit", "method", "integers", "map",
-        "final-quality", "distortion-metric", "smoothing-steps", "report" });
+        "final-quality", "distortion-metric", "smoothing-steps", "cell-data", "report" });
     if (line.help() || argc == 1)
     {
       std::fputs(kHelp, line.help() ? stdout : stderr);

@@ -21,6 +21,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <set>
 
 namespace quadrille
@@ -703,6 +704,49 @@ TEST(QuadOutputs, QuadsOfQuadsHaveTheirOwnLayout)
     EXPECT_EQ(quads, out.quads->GetNumberOfCells());
     EXPECT_EQ(out.quads->GetPointData()->GetArray("Valence")->GetNumberOfTuples(),
       out.quads->GetNumberOfPoints());
+  }
+}
+
+TEST(QuadOutputs, SameBytesForAnyNumberOfThreads)
+{
+  const vtkSmartPointer<vtkPolyData> input = model(QUADRILLE_DATA "/part.ply");
+  ASSERT_NE(input, nullptr);
+  addLinear<vtkDoubleArray>(input, "Linear", 3);
+  std::vector<vtkSmartPointer<vtkQuadRemesh>> runs;
+  for (const int threads : { 1, 3 })
+  {
+    runs.push_back(vtkSmartPointer<vtkQuadRemesh>::New());
+    runs.back()->SetInputData(input);
+    runs.back()->SetTargetTypeToNumberOfQuads();
+    runs.back()->SetNumberOfQuads(2000);
+    runs.back()->SetNumberOfThreads(threads);
+    runs.back()->SetCellDataFromToArea();
+    runs.back()->Update();
+    ASSERT_EQ(runs.back()->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+  }
+  for (int port = 0; port < 4; ++port)
+  {
+    std::array<vtkPolyData*, 2> data{};
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+      data[i] = vtkPolyData::SafeDownCast(runs[i]->GetOutputDataObject(port));
+    }
+    for (const int type : { vtkDataObject::POINT, vtkDataObject::CELL })
+    {
+      vtkDataSetAttributes* arrays = data[0]->GetAttributes(type);
+      ASSERT_EQ(arrays->GetNumberOfArrays(), data[1]->GetAttributes(type)->GetNumberOfArrays());
+      EXPECT_GT(arrays->GetNumberOfArrays(), 0);
+      for (int k = 0; k < arrays->GetNumberOfArrays(); ++k)
+      {
+        vtkDataArray* a = arrays->GetArray(k);
+        vtkDataArray* b = data[1]->GetAttributes(type)->GetArray(k);
+        ASSERT_EQ(a->GetNumberOfValues(), b->GetNumberOfValues());
+        EXPECT_EQ(std::memcmp(a->GetVoidPointer(0), b->GetVoidPointer(0),
+                    static_cast<std::size_t>(a->GetNumberOfValues() * a->GetDataTypeSize())),
+          0)
+          << port << " " << a->GetName();
+      }
+    }
   }
 }
 

@@ -407,6 +407,23 @@ class Report(Case):
         result = self.run_quadrille(source, self.folder / "q.obj", "--distortion-metric", "yes", expect=2)
         self.assertIn("on or off", result.stderr)
 
+    def test_cell_data(self):
+        points, faces = torus()
+        source, out = self.folder / "load.ply", self.folder / "q.vtp"
+        with open(source, "w") as file:
+            file.write(f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty double x\nproperty double y\n"
+                       f"property double z\nelement face {len(faces)}\nproperty list uchar int vertex_indices\n"
+                       "property double load\nend_header\n")
+            file.writelines("%r %r %r\n" % tuple(p) for p in points)
+            file.writelines("3 %d %d %d %d\n" % (*f, i % 2) for i, f in enumerate(faces))
+        for word in ("centre", "area"):
+            self.run_quadrille(source, out, "--quads", 100, "--cell-data", word)
+            load = read(vtkXMLPolyDataReader(), out).GetCellData().GetArray("load")
+            between = [v for v in map(load.GetValue, range(load.GetNumberOfTuples())) if 0.1 < v < 0.9]
+            self.assertEqual(len(between) > 0.9 * load.GetNumberOfTuples(), word == "area")
+        result = self.run_quadrille(source, out, "--cell-data", "most", expect=2)
+        self.assertIn("centre or area", result.stderr)
+
 
 class Bench(Case):
     COLUMNS = "mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb".split(",")
