@@ -3,6 +3,7 @@
 #include "QuadrilleConvert.h"
 
 #include "Base/Error.h"
+#include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Mesh/Topology.h"
 #include "QuadrilleAttributes.h"
@@ -23,6 +24,7 @@
 #include <vtkSignedCharArray.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -37,6 +39,7 @@ constexpr std::int64_t kLargestExact = std::int64_t{ 1 } << (28 + kFractionBits)
 /// Sine of the angle to the normal below which a direction says nothing about a face.
 constexpr double kLeastTangent = 0.01;
 constexpr double kRounding = 1e-9;
+constexpr std::size_t kChunk = std::size_t{ 1 } << 16;
 
 template <class... Parts>
 [[noreturn]] void refuse(const Parts&... parts)
@@ -49,43 +52,41 @@ template <class... Parts>
 //------------------------------------------------------------------------------
 // The user's surface
 
-template <class Array>
-void copyPoints(Array* from, std::size_t count, std::vector<Vector3>& to)
+template <class Real>
+void copyPoints(const Real* from, int threads, std::vector<Vector3>& to)
 {
-  const auto* p = from->GetPointer(0);
-  for (std::size_t i = 0; i < count; ++i, p += 3)
-  {
-    pollNowAndThen(i);
-    to.push_back(Vector3(p[0], p[1], p[2]));
-  }
+  parallelFor(to.size(), kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        to[i] = Vector3(from[3 * i], from[3 * i + 1], from[3 * i + 2]);
+      }
+    });
 }
 
-std::vector<Vector3> readPoints(vtkPolyData* data)
+std::vector<Vector3> readPoints(vtkPolyData* data, int threads)
 {
-  const auto count = static_cast<std::size_t>(data->GetNumberOfPoints());
-  std::vector<Vector3> points;
-  if (count == 0)
+  std::vector<Vector3> points(static_cast<std::size_t>(data->GetNumberOfPoints()));
+  if (points.empty())
   {
     return points;
   }
-  points.reserve(count);
   vtkDataArray* array = data->GetPoints()->GetData();
   if (auto* floats = vtkFloatArray::SafeDownCast(array))
   {
-    copyPoints(floats, count, points);
+    copyPoints(floats->GetPointer(0), threads, points);
   }
   else if (auto* doubles = vtkDoubleArray::SafeDownCast(array))
   {
-    copyPoints(doubles, count, points);
+    copyPoints(doubles->GetPointer(0), threads, points);
   }
   else
   {
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < points.size(); ++i)
     {
       pollNowAndThen(i);
-      Vector3 point;
-      array->GetTuple(static_cast<vtkIdType>(i), point.data());
-      points.push_back(point);
+      array->GetTuple(static_cast<vtkIdType>(i), points[i].data());
     }
   }
   return points;
@@ -393,18 +394,31 @@ vtkDataArray* requireArray(
   return array;
 }
 
-std::vector<Index> readIds(vtkDataArray* array, std::size_t limit)
+std::vector<Index> readIds(vtkDataArray* array, std::size_t limit, int threads = 1)
 {
   std::vector<Index> ids(static_cast<std::size_t>(array->GetNumberOfTuples()));
-  for (std::size_t i = 0; i < ids.size(); ++i)
+  auto* whole = vtkIdTypeArray::SafeDownCast(array);
+  const vtkIdType* values = whole ? whole->GetPointer(0) : nullptr;
+  const auto value = [&](std::size_t i)
   {
-    const double id = array->GetTuple1(static_cast<vtkIdType>(i));
-    if (!(id >= 0 && id < static_cast<double>(limit)))
+    return values ? static_cast<double>(values[i])
+                  : array->GetComponent(static_cast<vtkIdType>(i), 0);
+  };
+  const std::size_t refused = firstRefused(ids.size(), kChunk, threads,
+    [&](std::size_t i)
     {
-      refuse("array '", array->GetName(), "' has the value ", id, " at ", i, ", but only 0 to ",
-        limit, " - 1 exist; it belongs to another surface");
-    }
-    ids[i] = static_cast<Index>(id);
+      const double id = value(i);
+      if (!(id >= 0 && id < static_cast<double>(limit)))
+      {
+        return false;
+      }
+      ids[i] = static_cast<Index>(id);
+      return true;
+    });
+  if (refused < ids.size())
+  {
+    refuse("array '", array->GetName(), "' has the value ", value(refused), " at ", refused,
+      ", but only 0 to ", limit, " - 1 exist; it belongs to another surface");
   }
   return ids;
 }
@@ -505,64 +519,104 @@ bool readTwins(vtkPolyData* data, Mesh& mesh)
   return true;
 }
 
-void readFlags(vtkPolyData* data, Mesh& mesh)
+void readFlags(vtkPolyData* data, Mesh& mesh, int threads)
 {
   mesh.flags.assign(mesh.halfEdgeCount(), 0);
   vtkDataArray* array = data->GetCellData()->GetArray(arrays::kFeatureEdges);
-  for (Index h = 0; array && h < mesh.halfEdgeCount(); ++h)
+  if (!array)
   {
-    const int bits = static_cast<int>(array->GetTuple1(Mesh::face(h)));
-    if ((bits >> (h % 3)) & 1)
-    {
-      mesh.flags[h] |= kFeatureEdge;
-      if (!mesh.isBoundary(h))
-      {
-        mesh.flags[mesh.twin[h]] |= kFeatureEdge;
-      }
-    }
+    return;
   }
+  auto* bytes = vtkUnsignedCharArray::SafeDownCast(array);
+  const unsigned char* values = bytes ? bytes->GetPointer(0) : nullptr;
+  const int stride = array->GetNumberOfComponents();
+  const auto isMarked = [&](Index h)
+  {
+    const vtkIdType f = Mesh::face(h);
+    const int bits = values ? values[f * stride] : static_cast<int>(array->GetComponent(f, 0));
+    return ((bits >> (h % 3)) & 1) != 0;
+  };
+  parallelFor(mesh.halfEdgeCount(), kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (Index h = static_cast<Index>(begin); h < end; ++h)
+      {
+        if (isMarked(h) || (!mesh.isBoundary(h) && isMarked(mesh.twin[h])))
+        {
+          mesh.flags[h] |= kFeatureEdge;
+        }
+      }
+    });
 }
 
-std::vector<Index> readTriangles(vtkPolyData* data)
+/// The first cell that is no triangle of points that there are; the number of cells where all are.
+template <class Id>
+std::size_t copyTriangles(
+  const Id* offsets, const Id* ids, vtkIdType points, int threads, std::vector<Index>& corners)
+{
+  return firstRefused(corners.size() / 3, kChunk, threads,
+    [=, &corners](std::size_t f)
+    {
+      if (offsets[f + 1] - offsets[f] != 3)
+      {
+        return false;
+      }
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const Id id = ids[static_cast<std::size_t>(offsets[f]) + i];
+        if (id < 0 || id >= points)
+        {
+          return false;
+        }
+        corners[3 * f + i] = static_cast<Index>(id);
+      }
+      return true;
+    });
+}
+
+[[noreturn]] void refuseTriangle(vtkPolyData* data, vtkIdType cell)
+{
+  vtkNew<vtkIdList> ids;
+  data->GetPolys()->GetCellAtId(cell, ids);
+  for (const vtkIdType id : *ids)
+  {
+    checkPointId(id, data->GetNumberOfPoints(), cell);
+  }
+  refuse("cell ", cell, " has ", ids->GetNumberOfIds(),
+    " corners, a triangle is needed; the surface and its map have to be triangulated first");
+}
+
+std::vector<Index> readTriangles(vtkPolyData* data, int threads = 1)
 {
   if (data->GetNumberOfPolys() != data->GetNumberOfCells())
   {
-    refuse(
-      "the input has cells other than triangles (vertices, lines or strips); keep the triangles only");
+    refuse("the input has cells other than triangles (vertices, lines or strips); keep the "
+           "triangles only");
   }
-  std::vector<Index> corners;
-  corners.reserve(3 * static_cast<std::size_t>(data->GetNumberOfPolys()));
-  vtkIdType cell = 0;
-  auto iterator = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
-  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+  vtkCellArray* cells = data->GetPolys();
+  const vtkIdType points = data->GetNumberOfPoints();
+  std::vector<Index> corners(3 * static_cast<std::size_t>(cells->GetNumberOfCells()));
+  const std::size_t refused = cells->IsStorage64Bit()
+    ? copyTriangles(cells->GetOffsetsArray64()->GetPointer(0),
+        cells->GetConnectivityArray64()->GetPointer(0), points, threads, corners)
+    : copyTriangles(cells->GetOffsetsArray32()->GetPointer(0),
+        cells->GetConnectivityArray32()->GetPointer(0), points, threads, corners);
+  if (3 * refused < corners.size())
   {
-    vtkIdType count = 0;
-    const vtkIdType* ids = nullptr;
-    iterator->GetCurrentCell(count, ids);
-    if (count != 3)
-    {
-      refuse("cell ", cell, " has ", count,
-        " corners, a triangle is needed; the surface and its map have to be triangulated first");
-    }
-    for (vtkIdType i = 0; i < 3; ++i)
-    {
-      checkPointId(ids[i], data->GetNumberOfPoints(), cell);
-      corners.push_back(static_cast<Index>(ids[i]));
-    }
-    ++cell;
+    refuseTriangle(data, static_cast<vtkIdType>(refused));
   }
   return corners;
 }
 
 /// Joins the points that were split at seams for display.
-void weldSplitPoints(vtkPolyData* data, Mesh& mesh)
+void weldSplitPoints(vtkPolyData* data, Mesh& mesh, int threads)
 {
   vtkDataArray* array = data->GetPointData()->GetArray(arrays::kSurfacePointId);
   if (!array)
   {
     return;
   }
-  const std::vector<Index> id = readIds(array, mesh.position.size());
+  const std::vector<Index> id = readIds(array, mesh.position.size(), threads);
   Index count = 0;
   for (const Index i : id)
   {
@@ -578,10 +632,14 @@ void weldSplitPoints(vtkPolyData* data, Mesh& mesh)
       sizing[id[i]] = mesh.sizing[i];
     }
   }
-  for (Index& corner : mesh.origin)
-  {
-    corner = id[corner];
-  }
+  parallelFor(mesh.origin.size(), kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t h = begin; h < end; ++h)
+      {
+        mesh.origin[h] = id[mesh.origin[h]];
+      }
+    });
   mesh.position = std::move(position);
   mesh.sizing = std::move(sizing);
 }
@@ -754,7 +812,7 @@ ConvertedSurface convertSurface(vtkPolyData* data, const std::string& patchArray
   surface.ignoredCells =
     static_cast<std::size_t>(data->GetNumberOfVerts() + data->GetNumberOfLines());
   surface.firstCell = static_cast<vtkIdType>(surface.ignoredCells);
-  surface.input.points = readPoints(data);
+  surface.input.points = readPoints(data, 1);
   readPolygons(data, surface);
   readStrips(data, surface);
   readFeatureEdges(data, surface);
@@ -817,19 +875,19 @@ vtkSmartPointer<vtkPolyData> writeMesh(const Mesh& mesh)
   return data;
 }
 
-std::vector<Index> readCorners(vtkPolyData* data)
+std::vector<Index> readCorners(vtkPolyData* data, int threads)
 {
-  return readTriangles(data);
+  return readTriangles(data, threads);
 }
 
-std::vector<Vector3> readPointPositions(vtkPolyData* data)
+std::vector<Vector3> readPointPositions(vtkPolyData* data, int threads)
 {
-  return readPoints(data);
+  return readPoints(data, threads);
 }
 
-void readFeatureFlags(vtkPolyData* data, Mesh& mesh)
+void readFeatureFlags(vtkPolyData* data, Mesh& mesh, int threads)
 {
-  readFlags(data, mesh);
+  readFlags(data, mesh, threads);
 }
 
 std::vector<int> readPointValences(vtkPolyData* data)
@@ -837,18 +895,18 @@ std::vector<int> readPointValences(vtkPolyData* data)
   return pointValences(data);
 }
 
-Mesh readMesh(vtkPolyData* data)
+Mesh readMesh(vtkPolyData* data, int threads)
 {
   Mesh mesh;
-  mesh.origin = readTriangles(data);
-  mesh.position = readPoints(data);
+  mesh.origin = readTriangles(data, threads);
+  mesh.position = readPoints(data, threads);
   mesh.sizing = pointSizes(data);
-  weldSplitPoints(data, mesh);
+  weldSplitPoints(data, mesh, threads);
   if (!readTwins(data, mesh))
   {
-    mesh.twin = pairHalfEdges(mesh.origin, mesh.vertexCount());
+    mesh.twin = pairHalfEdges(mesh.origin, mesh.vertexCount(), threads);
   }
-  readFlags(data, mesh);
+  readFlags(data, mesh, threads);
   return mesh;
 }
 

@@ -105,13 +105,13 @@ void addFeatureMarks(SurfaceInput& input, const std::vector<FeatureMark>& marks)
 /// Points in double precision, triangles, FeatureEdges and Sizing where there are any.
 vtkSmartPointer<vtkPolyData> writeMesh(const Mesh& mesh);
 /// Throws InvalidInput naming the cell that is no triangle, or the edge that is not manifold.
-Mesh readMesh(vtkPolyData* data);
+Mesh readMesh(vtkPolyData* data, int threads = 1);
 
 /// Parts of readMesh: the points of the triangles' corners, #H; positions, #points; FeatureEdges to the flags of a mesh with these corners.
 /// The first throws InvalidInput naming the cell that is no triangle.
-std::vector<Index> readCorners(vtkPolyData* data);
-std::vector<Vector3> readPointPositions(vtkPolyData* data);
-void readFeatureFlags(vtkPolyData* data, Mesh& mesh);
+std::vector<Index> readCorners(vtkPolyData* data, int threads = 1);
+std::vector<Vector3> readPointPositions(vtkPolyData* data, int threads = 1);
+void readFeatureFlags(vtkPolyData* data, Mesh& mesh, int threads = 1);
 /// TargetValence, #points, or empty where the array is missing. Throws InvalidInput naming the point.
 std::vector<int> readPointValences(vtkPolyData* data);
 

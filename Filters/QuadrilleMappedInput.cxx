@@ -3,6 +3,7 @@
 #include "QuadrilleMappedInput.h"
 
 #include "Base/Error.h"
+#include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Extraction/MapWelding.h"
 #include "QuadrilleConvert.h"
@@ -10,6 +11,8 @@
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 
@@ -22,6 +25,8 @@ namespace quadrille
 
 namespace
 {
+
+constexpr std::size_t kChunk = std::size_t{ 1 } << 16;
 
 template <class... Parts>
 [[noreturn]] void refuse(const Parts&... parts)
@@ -39,20 +44,43 @@ bool isReal(vtkDataArray* array)
 /// Half a unit in the last place of the largest value where they are single precision.
 double errorOf(vtkDataArray* array, const std::vector<Vector2>& uv)
 {
+  if (array->GetDataType() != VTK_FLOAT)
+  {
+    return 0;
+  }
   double largest = 0;
   for (const Vector2& p : uv)
   {
     largest = std::max(largest, p.lpNorm<Eigen::Infinity>());
   }
   // Values that are not numbers, or far too large, are told by the corner that has them.
-  const bool single = array->GetDataType() == VTK_FLOAT && largest < 1e6;
-  return single ? std::ldexp(largest, -24) : 0;
+  return largest < 1e6 ? std::ldexp(largest, -24) : 0;
 }
 
 //------------------------------------------------------------------------------
 // The cell array IGM
 
-std::vector<Vector2> readCellMap(vtkDataArray* array)
+template <class Array>
+bool copyCellMap(vtkDataArray* array, int threads, std::vector<Vector2>& uv)
+{
+  auto* typed = Array::SafeDownCast(array);
+  if (!typed)
+  {
+    return false;
+  }
+  const auto* values = typed->GetPointer(0);
+  parallelFor(uv.size(), kChunk, threads,
+    [values, &uv](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t h = begin; h < end; ++h)
+      {
+        uv[h] = Vector2(values[2 * h], values[2 * h + 1]);
+      }
+    });
+  return true;
+}
+
+std::vector<Vector2> readCellMap(vtkDataArray* array, int threads)
 {
   if (array->GetNumberOfComponents() != 6 || !isReal(array))
   {
@@ -61,6 +89,11 @@ std::vector<Vector2> readCellMap(vtkDataArray* array)
       array->GetNumberOfComponents(), " of type ", array->GetDataTypeAsString());
   }
   std::vector<Vector2> uv(3 * static_cast<std::size_t>(array->GetNumberOfTuples()));
+  if (copyCellMap<vtkDoubleArray>(array, threads, uv) ||
+    copyCellMap<vtkFloatArray>(array, threads, uv))
+  {
+    return uv;
+  }
   for (std::size_t f = 0; 3 * f < uv.size(); ++f)
   {
     double t[6];
@@ -155,7 +188,7 @@ Mesh weldTexture(
 
 //------------------------------------------------------------------------------
 
-std::vector<std::int8_t> readMatching(vtkPolyData* data)
+std::vector<std::int8_t> readMatching(vtkPolyData* data, int threads)
 {
   std::vector<std::int8_t> matching;
   vtkDataArray* array = data->GetCellData()->GetArray(arrays::kMatching);
@@ -169,19 +202,24 @@ std::vector<std::int8_t> readMatching(vtkPolyData* data)
       "' must have three whole numbers a cell, the quarter turns over its edges; it has ",
       array->GetNumberOfComponents());
   }
-  matching.reserve(3 * static_cast<std::size_t>(array->GetNumberOfTuples()));
-  for (vtkIdType f = 0; f < array->GetNumberOfTuples(); ++f)
-  {
-    for (int i = 0; i < 3; ++i)
+  matching.resize(3 * static_cast<std::size_t>(array->GetNumberOfTuples()));
+  const auto turnsAt = [array](std::size_t h)
+  { return array->GetComponent(static_cast<vtkIdType>(h / 3), static_cast<int>(h % 3)); };
+  const std::size_t refused = firstRefused(matching.size(), kChunk, threads,
+    [&](std::size_t h)
     {
-      const double turns = array->GetComponent(f, i);
+      const double turns = turnsAt(h);
       if (!(std::abs(turns) < 1e9) || turns != std::round(turns))
       {
-        refuse("cell array '", arrays::kMatching, "' has ", turns, " over edge ", i, " of cell ", f,
-          ", which is no number of quarter turns");
+        return false;
       }
-      matching.push_back(static_cast<std::int8_t>(static_cast<long long>(turns) & 3));
-    }
+      matching[h] = static_cast<std::int8_t>(static_cast<long long>(turns) & 3);
+      return true;
+    });
+  if (refused < matching.size())
+  {
+    refuse("cell array '", arrays::kMatching, "' has ", turnsAt(refused), " over edge ",
+      refused % 3, " of cell ", refused / 3, ", which is no number of quarter turns");
   }
   return matching;
 }
@@ -203,18 +241,18 @@ MappedInput readMappedInput(vtkPolyData* data, double textureScale, int threads)
   std::vector<Vector2> uv;
   SnapOptions options;
   options.threads = threads;
-  options.matching = readMatching(data);
+  options.matching = readMatching(data, threads);
   if (vtkDataArray* igm = data->GetCellData()->GetArray(arrays::kIgm))
   {
-    uv = readCellMap(igm);
+    uv = readCellMap(igm, threads);
     options.valueError = errorOf(igm, uv);
-    result.mesh = readMesh(data);
+    result.mesh = readMesh(data, threads);
     checkNotEmpty(result.mesh);
   }
   else
   {
     vtkDataArray* texture = requireTexture(data);
-    const std::vector<Index> corners = readCorners(data);
+    const std::vector<Index> corners = readCorners(data, threads);
     uv = readTexture(texture, corners, textureScale);
     result.fromTexture = true;
     result.mirrored = isMirrored(uv);

@@ -3,8 +3,10 @@
 /// Threads for Core. Debian's VTK has no parallel SMP backend compiled in, so Core brings its own.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <vector>
 
 namespace quadrille
 {
@@ -18,5 +20,26 @@ int resolveThreads(int requested);
 /// thrown by a body is rethrown here after all threads have stopped; so is Cancelled (see poll()).
 void parallelFor(std::size_t count, std::size_t chunkSize, int threads,
   const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+/// Calls body(i) for all i below count. Where it returns false for some, the lowest of these comes back, whatever the
+/// number of threads; else count. Behind a refused one the rest of its chunk is left out.
+template <typename Body>
+std::size_t firstRefused(std::size_t count, std::size_t chunkSize, int threads, const Body& body)
+{
+  std::vector<std::size_t> refused((count + chunkSize - 1) / chunkSize, count);
+  parallelFor(count, chunkSize, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        if (!body(i))
+        {
+          refused[begin / chunkSize] = i;
+          return;
+        }
+      }
+    });
+  return refused.empty() ? count : *std::min_element(refused.begin(), refused.end());
+}
 
 } // namespace quadrille

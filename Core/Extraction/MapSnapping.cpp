@@ -50,16 +50,15 @@ void checkArguments(const Mesh& mesh, const std::vector<Vector2>& uv, const Snap
             "zero, or write them in double precision";
     throw InvalidInput(text.str());
   }
-  for (std::size_t h = 0; h < uv.size(); ++h)
+  const std::size_t h = firstRefused(uv.size(), kChunk, options.threads,
+    [&uv](std::size_t i)
+    { return std::abs(uv[i].x()) < kLimit && std::abs(uv[i].y()) < kLimit; }); // not for NaN
+  if (h < uv.size())
   {
-    // Written so that NaN fails, too.
-    if (!(std::abs(uv[h].x()) < kLimit && std::abs(uv[h].y()) < kLimit))
-    {
-      std::ostringstream text;
-      text << "map: corner " << h % 3 << " of cell " << h / 3 << " has the coordinates ("
-           << uv[h].x() << ", " << uv[h].y() << "), not finite or beyond 2^20 quads";
-      throw InvalidInput(text.str());
-    }
+    std::ostringstream text;
+    text << "map: corner " << h % 3 << " of cell " << h / 3 << " has the coordinates (" << uv[h].x()
+         << ", " << uv[h].y() << "), not finite or beyond 2^20 quads";
+    throw InvalidInput(text.str());
   }
 }
 
@@ -459,16 +458,18 @@ private:
 };
 
 /// The values on the grid; empty when one is not, bit for bit.
-std::vector<FixedVec2> onGrid(const std::vector<Vector2>& uv)
+std::vector<FixedVec2> onGrid(const std::vector<Vector2>& uv, int threads)
 {
   std::vector<FixedVec2> fixed(uv.size());
-  for (std::size_t h = 0; h < uv.size(); ++h)
-  {
-    fixed[h] = toFixed(uv[h]);
-    if (toDouble(fixed[h]) != uv[h])
+  const std::size_t refused = firstRefused(uv.size(), kChunk, threads,
+    [&](std::size_t h)
     {
-      return {};
-    }
+      fixed[h] = toFixed(uv[h]);
+      return toDouble(fixed[h]) == uv[h];
+    });
+  if (refused < uv.size())
+  {
+    fixed.clear();
   }
   return fixed;
 }
@@ -486,7 +487,7 @@ bool fitsExactly(const Mesh& mesh, const std::vector<FixedVec2>& uv, int threads
 SnapResult snapMap(const Mesh& mesh, const std::vector<Vector2>& uv, const SnapOptions& options)
 {
   checkArguments(mesh, uv, options);
-  std::vector<FixedVec2> fixed = onGrid(uv);
+  std::vector<FixedVec2> fixed = onGrid(uv, options.threads);
   if (!fixed.empty() && fitsExactly(mesh, fixed, options.threads))
   {
     Snapper(mesh, uv, options).checkExact(fixed);

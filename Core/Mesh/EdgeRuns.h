@@ -30,21 +30,30 @@ public:
   template <typename Visitor>
   void forEach(Visitor&& visit) const
   {
-    for (std::size_t v = 0; v + 1 < begin_.size(); ++v)
+    for (std::size_t v = 0; v < bucketCount(); ++v)
     {
       pollNowAndThen(v);
-      const Entry* entry = entries_.data() + begin_[v];
-      const Entry* const bucketEnd = entries_.data() + begin_[v + 1];
-      while (entry != bucketEnd)
+      forEachIn(v, visit);
+    }
+  }
+
+  std::size_t bucketCount() const { return begin_.size() - 1; }
+
+  /// The same for the edges with lower vertex v.
+  template <typename Visitor>
+  void forEachIn(std::size_t v, Visitor&& visit) const
+  {
+    const Entry* entry = entries_.data() + begin_[v];
+    const Entry* const bucketEnd = entries_.data() + begin_[v + 1];
+    while (entry != bucketEnd)
+    {
+      const Entry* runEnd = entry + 1;
+      while (runEnd != bucketEnd && runEnd->other == entry->other)
       {
-        const Entry* runEnd = entry + 1;
-        while (runEnd != bucketEnd && runEnd->other == entry->other)
-        {
-          ++runEnd;
-        }
-        visit(entry, runEnd);
-        entry = runEnd;
+        ++runEnd;
       }
+      visit(entry, runEnd);
+      entry = runEnd;
     }
   }
 

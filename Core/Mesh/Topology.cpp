@@ -21,9 +21,15 @@ std::string edgeName(Index a, Index b)
   return "(" + std::to_string(a) + ", " + std::to_string(b) + ")";
 }
 
-/// Pairs the half-edges of one edge.
-void pairRun(const std::vector<Index>& origin, const EdgeRuns::Entry* begin,
-  const EdgeRuns::Entry* end, std::vector<Index>& twin)
+bool isManifold(
+  const std::vector<Index>& origin, const EdgeRuns::Entry* begin, const EdgeRuns::Entry* end)
+{
+  return end - begin == 1 ||
+    (end - begin == 2 && origin[begin->halfEdge] != origin[begin[1].halfEdge]);
+}
+
+[[noreturn]] void refuseRun(
+  const std::vector<Index>& origin, const EdgeRuns::Entry* begin, const EdgeRuns::Entry* end)
 {
   const Index h = begin->halfEdge;
   const Index target = origin[Mesh::next(h)];
@@ -32,17 +38,9 @@ void pairRun(const std::vector<Index>& origin, const EdgeRuns::Entry* begin,
     throw InvalidInput("edge " + edgeName(origin[h], target) + " has " +
       std::to_string(end - begin) + " faces, among them face " + std::to_string(h / 3));
   }
-  if (end - begin == 2)
-  {
-    const Index g = begin[1].halfEdge;
-    if (origin[h] == origin[g])
-    {
-      throw InvalidInput("faces " + std::to_string(h / 3) + " and " + std::to_string(g / 3) +
-        " run along edge " + edgeName(origin[h], target) + " in the same direction");
-    }
-    twin[h] = g;
-    twin[g] = h;
-  }
+  throw InvalidInput("faces " + std::to_string(h / 3) + " and " +
+    std::to_string(begin[1].halfEdge / 3) + " run along edge " + edgeName(origin[h], target) +
+    " in the same direction");
 }
 
 std::string checkSizes(const Mesh& mesh)
@@ -220,12 +218,38 @@ Index countBoundaryLoops(const Mesh& mesh, const std::vector<Index>& boundary)
 
 } // namespace
 
-std::vector<Index> pairHalfEdges(const std::vector<Index>& origin, Index vertexCount)
+std::vector<Index> pairHalfEdges(const std::vector<Index>& origin, Index vertexCount, int threads)
 {
+  constexpr std::size_t kChunk = std::size_t{ 1 } << 14;
   std::vector<Index> twin(origin.size(), kInvalidIndex);
-  EdgeRuns(origin, vertexCount, 1)
-    .forEach([&](const EdgeRuns::Entry* begin, const EdgeRuns::Entry* end)
-      { pairRun(origin, begin, end, twin); });
+  const EdgeRuns runs(origin, vertexCount, threads);
+  const std::size_t refused = firstRefused(runs.bucketCount(), kChunk, threads,
+    [&](std::size_t v)
+    {
+      bool good = true;
+      runs.forEachIn(v,
+        [&](const EdgeRuns::Entry* begin, const EdgeRuns::Entry* end)
+        {
+          good = good && isManifold(origin, begin, end);
+          if (good && end - begin == 2)
+          {
+            twin[begin->halfEdge] = begin[1].halfEdge;
+            twin[begin[1].halfEdge] = begin->halfEdge;
+          }
+        });
+      return good;
+    });
+  if (refused < runs.bucketCount())
+  {
+    runs.forEachIn(refused,
+      [&](const EdgeRuns::Entry* begin, const EdgeRuns::Entry* end)
+      {
+        if (!isManifold(origin, begin, end))
+        {
+          refuseRun(origin, begin, end);
+        }
+      });
+  }
   return twin;
 }
 

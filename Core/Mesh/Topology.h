@@ -14,7 +14,8 @@ namespace quadrille
 
 /// Pairs half-edges of a manifold, oriented triangle list: #H twins. Linear time (bucket per vertex).
 /// Throws InvalidInput naming the edge when more than two faces share one or orientation disagrees.
-std::vector<Index> pairHalfEdges(const std::vector<Index>& origin, Index vertexCount);
+std::vector<Index> pairHalfEdges(
+  const std::vector<Index>& origin, Index vertexCount, int threads = 1);
 
 /// One half-edge that leaves each vertex (#V): for a boundary vertex the boundary half-edge itself
 /// (so that rotating counterclockwise visits the whole fan), kInvalidIndex for an isolated vertex.
