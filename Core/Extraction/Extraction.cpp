@@ -407,8 +407,12 @@ ExtractionResult extractQuads(
   const GridVertices grid(map, options.threads);
 
   report(options.progress, 0.5, "following the grid");
-  const CellCorners cells =
-    traceCells(map, grid, folded, largestNumberOfSteps(map, grid, check), options.threads);
+  TracingOptions tracing;
+  tracing.folded = folded;
+  tracing.valid = !folded && check.valid();
+  tracing.maximumSteps = largestNumberOfSteps(map, grid, check);
+  tracing.threads = options.threads;
+  const CellCorners cells = traceCells(map, grid, tracing);
   if (cells.exhausted)
   {
     result.status = windsRound(check);

@@ -12,7 +12,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = 1 << 10;
+constexpr std::size_t kChunk = 1 << 9;
 
 /// The half-edge of walk.face through which the line leaves.
 Index exitEdge(const ExactMap& map, const Walk& walk)
@@ -107,31 +107,95 @@ bool follow(const ExactMap& map, Walk& walk, std::size_t maximumSteps, std::size
   return false;
 }
 
-/// Returns the number of triangles that the walks crossed.
+/// Traces the ports of a range of grid vertices.
 template <bool kFolded>
-std::size_t traceVertex(const ExactMap& map, const GridVertices& grid, Index q,
-  std::size_t maximumSteps, CellCorners& cells)
+class RangeTracer
 {
-  std::size_t steps = 0;
-  Index port = grid.vertices()[q].firstPort;
-  grid.forEachSector(q,
-    [&](const Sector& sector)
-    {
-      for (int i = 0; i < sector.count; ++i, ++port)
+public:
+  RangeTracer(const ExactMap& map, const GridVertices& grid, const TracingOptions& options,
+    std::size_t begin, std::size_t end, CellCorners& cells)
+    : map_(map), grid_(grid), options_(options), begin_(begin), end_(end), cells_(cells)
+  {
+  }
+
+  /// Returns the number of triangles that the walks crossed.
+  std::size_t traceVertex(Index q)
+  {
+    std::size_t steps = 0;
+    Index port = grid_.vertices()[q].firstPort;
+    grid_.forEachSector(q,
+      [&](const Sector& sector)
       {
-        cells.vertex[port] = q;
-        if constexpr (kFolded)
+        for (int i = 0; i < sector.count; ++i, ++port)
         {
-          cells.orientation[port] = static_cast<std::int8_t>(sector.orientation);
+          cells_.vertex[port] = q;
+          if constexpr (kFolded)
+          {
+            cells_.orientation[port] = static_cast<std::int8_t>(sector.orientation);
+          }
+          if (cells_.next[port] == kInvalidIndex)
+          {
+            trace(q, port, startOf(sector, sector.firstDirection + i), steps);
+          }
         }
-        Walk walk = startOf(sector, sector.firstDirection + i);
-        if (follow<kFolded>(map, walk, maximumSteps, steps))
-        {
-          cells.next[port] =
-            grid.findPort(walk.face, walk.target, walk.arrivalPort()).value_or(kInvalidIndex);
-        }
-      }
-    });
+      });
+    return steps;
+  }
+
+private:
+  void trace(Index q, Index port, Walk walk, std::size_t& steps)
+  {
+    if (!follow<kFolded>(map_, walk, options_.maximumSteps, steps))
+    {
+      return;
+    }
+    const std::optional<Index> end = grid_.find(walk.face, walk.target);
+    const std::optional<Index> next =
+      end ? grid_.findPort(*end, walk.face, walk.target, walk.arrivalPort()) : std::nullopt;
+    if (!next)
+    {
+      return;
+    }
+    cells_.next[port] = *next;
+    if (options_.valid && begin_ <= *end && *end < end_)
+    {
+      setOtherSide(q, port, *end, *next);
+    }
+  }
+
+  /// In a valid map the side of the cell beyond the isoline runs back between the ports beside these:
+  ///
+  ///       port  |        | next              . it comes from the one after next and leads to the one
+  ///        q ---+--------+--- end            . before port, counterclockwise
+  ///      before |        | after
+  void setOtherSide(Index q, Index port, Index end, Index next)
+  {
+    const std::optional<Index> before = grid_.portBefore(q, port);
+    const std::optional<Index> after = grid_.portAfter(end, next);
+    if (before && after)
+    {
+      cells_.next[*after] = *before;
+    }
+  }
+
+  const ExactMap& map_;
+  const GridVertices& grid_;
+  const TracingOptions& options_;
+  std::size_t begin_;
+  std::size_t end_;
+  CellCorners& cells_;
+};
+
+template <bool kFolded>
+std::size_t traceRange(const ExactMap& map, const GridVertices& grid, const TracingOptions& options,
+  std::size_t begin, std::size_t end, std::size_t maximumSteps, CellCorners& cells)
+{
+  RangeTracer<kFolded> tracer(map, grid, options, begin, end, cells);
+  std::size_t steps = 0;
+  for (std::size_t q = begin; q < end && steps <= maximumSteps; ++q)
+  {
+    steps += tracer.traceVertex(static_cast<Index>(q));
+  }
   return steps;
 }
 
@@ -196,29 +260,24 @@ Walk startOf(const Sector& sector, int direction)
   return walk;
 }
 
-CellCorners traceCells(
-  const ExactMap& map, const GridVertices& grid, bool folded, std::size_t maximumSteps, int threads)
+CellCorners traceCells(const ExactMap& map, const GridVertices& grid, const TracingOptions& options)
 {
   CellCorners cells;
   cells.next.assign(grid.portCount(), kInvalidIndex);
   cells.vertex.assign(grid.portCount(), kInvalidIndex);
-  cells.orientation.assign(folded ? grid.portCount() : 0, 1);
+  cells.orientation.assign(options.folded ? grid.portCount() : 0, 1);
   // Whether the sum passes the limit does not depend on the order of the threads.
   std::atomic<std::size_t> steps{ 0 };
-  parallelFor(grid.vertices().size(), kChunk, threads,
+  parallelFor(grid.vertices().size(), kChunk, options.threads,
     [&](std::size_t begin, std::size_t end)
     {
-      std::size_t mine = 0;
-      for (std::size_t q = begin; q < end && mine + steps <= maximumSteps; ++q)
-      {
-        const Index id = static_cast<Index>(q);
-        mine += folded ? traceVertex<true>(map, grid, id, maximumSteps, cells)
-                       : traceVertex<false>(map, grid, id, maximumSteps, cells);
-      }
-      steps += mine;
+      const std::size_t done = std::min<std::size_t>(steps, options.maximumSteps);
+      const std::size_t left = options.maximumSteps - done;
+      steps += options.folded ? traceRange<true>(map, grid, options, begin, end, left, cells)
+                              : traceRange<false>(map, grid, options, begin, end, left, cells);
     });
-  cells.exhausted = steps > maximumSteps;
-  if (folded && !cells.exhausted)
+  cells.exhausted = steps > options.maximumSteps;
+  if (options.folded && !cells.exhausted)
   {
     collectMerges(map, grid, cells);
   }

@@ -72,10 +72,20 @@ struct CellCorners
   }
 };
 
-/// Follows every port to the end of its side. folded: triangles may be inverted or without area; otherwise all must be
-/// positive. Linear in the triangles that lines cross; parallel; the result does not depend on the number of threads.
-CellCorners traceCells(const ExactMap& map, const GridVertices& grid, bool folded,
-  std::size_t maximumSteps, int threads);
+struct TracingOptions
+{
+  bool folded =
+    false; ///< triangles may be inverted or without area; otherwise all must be positive
+  /// No triangle, edge or transition has a defect: both cells beside a side are known from one walk.
+  bool valid = false;
+  std::size_t maximumSteps = 0; ///< triangles that the walks may cross together
+  int threads = 0;
+};
+
+/// Follows every port to the end of its side. Linear in the triangles that lines cross; parallel; the result does not depend
+/// on the number of threads.
+CellCorners traceCells(
+  const ExactMap& map, const GridVertices& grid, const TracingOptions& options);
 
 struct CellCentre
 {

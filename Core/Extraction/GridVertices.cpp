@@ -14,6 +14,8 @@ namespace
 {
 
 constexpr std::size_t kChunk = 1 << 14;
+/// Corners of a vertex that are searched one by one.
+constexpr std::size_t kLargeFan = 64;
 
 std::int64_t ceilUnit(std::int64_t x)
 {
@@ -214,51 +216,81 @@ GridVertices::GridVertices(const ExactMap& map, int threads)
   : map_(map), faceFirst_(std::size_t{ map.mesh.faceCount() } + 1, 0)
 {
   const std::size_t faces = map.mesh.faceCount();
-  std::vector<std::vector<GridVertex>> parts((faces + kChunk - 1) / kChunk);
+  std::vector<Part> parts((faces + kChunk - 1) / kChunk);
   parallelFor(faces, kChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      std::vector<GridVertex>& list = parts[begin / kChunk];
+      Part& part = parts[begin / kChunk];
       for (std::size_t f = begin; f < end; ++f)
       {
-        scanFace(map, static_cast<Index>(f), list);
-        faceFirst_[f + 1] = static_cast<Index>(list.size());
+        const std::size_t first = part.vertices.size();
+        scanFace(map, static_cast<Index>(f), part.vertices);
+        faceFirst_[f + 1] = static_cast<Index>(part.vertices.size());
+        for (std::size_t q = first; q < part.vertices.size(); ++q)
+        {
+          numberPorts(part, static_cast<Index>(q));
+        }
       }
     });
 
+  std::vector<Index> firstVertex;
+  std::vector<Index> firstPort;
   std::size_t total = 0;
-  std::vector<std::size_t> first;
-  for (const std::vector<GridVertex>& part : parts)
+  for (const Part& part : parts)
   {
-    first.push_back(total);
-    total += part.size();
+    firstVertex.push_back(static_cast<Index>(total));
+    firstPort.push_back(portCount_);
+    total += part.vertices.size();
+    portCount_ += part.ports;
   }
   vertices_.resize(total);
   parallelFor(faces, kChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       const std::size_t chunk = begin / kChunk;
-      std::copy(parts[chunk].begin(), parts[chunk].end(),
-        vertices_.begin() + static_cast<std::ptrdiff_t>(first[chunk]));
+      for (std::size_t q = 0; q < parts[chunk].vertices.size(); ++q)
+      {
+        vertices_[firstVertex[chunk] + q] = parts[chunk].vertices[q];
+        vertices_[firstVertex[chunk] + q].firstPort += firstPort[chunk];
+      }
       for (std::size_t f = begin; f < end; ++f)
       {
-        faceFirst_[f + 1] += static_cast<Index>(first[chunk]);
+        faceFirst_[f + 1] += firstVertex[chunk];
       }
     });
-
-  parallelFor(total, kChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t q = begin; q < end; ++q)
-      {
-        vertices_[q].firstPort = countPorts(static_cast<Index>(q));
-      }
-    });
-  for (GridVertex& vertex : vertices_)
+  for (std::size_t chunk = 0; chunk < parts.size(); ++chunk)
   {
-    const Index count = vertex.firstPort;
-    vertex.firstPort = portCount_;
-    portCount_ += count;
+    for (FanCorner corner : parts[chunk].largeFans)
+    {
+      corner.vertex += firstVertex[chunk];
+      largeFans_.push_back(corner);
+    }
+  }
+  std::sort(largeFans_.begin(), largeFans_.end(),
+    [](const FanCorner& a, const FanCorner& b) { return a.halfEdge < b.halfEdge; });
+}
+
+void GridVertices::numberPorts(Part& part, Index q) const
+{
+  GridVertex& vertex = part.vertices[q];
+  vertex.firstPort = part.ports;
+  if (vertex.kind != Site::Vertex)
+  {
+    visitSectors(
+      vertex, [&](const Sector& sector) { part.ports += static_cast<Index>(sector.count); });
+    return;
+  }
+  const std::size_t first = part.largeFans.size();
+  Index h = vertex.site;
+  do
+  {
+    part.largeFans.push_back({ h, q, part.ports - vertex.firstPort });
+    part.ports += static_cast<Index>(cornerSector(h).count);
+    h = map_.mesh.rotateCounterclockwise(h);
+  } while (h != vertex.site && h != kInvalidIndex);
+  if (part.largeFans.size() - first <= kLargeFan)
+  {
+    part.largeFans.resize(first);
   }
 }
 
@@ -299,11 +331,11 @@ Sector GridVertices::cornerSector(Index h) const
   return sector;
 }
 
-Index GridVertices::countPorts(Index q) const
+const GridVertices::FanCorner* GridVertices::findInLargeFans(Index h) const
 {
-  Index count = 0;
-  forEachSector(q, [&](const Sector& sector) { count += static_cast<Index>(sector.count); });
-  return count;
+  const auto found = std::lower_bound(largeFans_.begin(), largeFans_.end(), h,
+    [](const FanCorner& corner, Index halfEdge) { return corner.halfEdge < halfEdge; });
+  return found != largeFans_.end() && found->halfEdge == h ? &*found : nullptr;
 }
 
 std::optional<Index> GridVertices::findRecord(Site kind, Index site, FixedVec2 uv) const
@@ -335,6 +367,14 @@ std::optional<Index> GridVertices::findOnEdge(Index h, FixedVec2 point) const
 
 std::optional<Index> GridVertices::findCorner(Index h) const
 {
+  if (!isInteger(map_.at(h)))
+  {
+    return std::nullopt;
+  }
+  if (const FanCorner* corner = findInLargeFans(h))
+  {
+    return corner->vertex;
+  }
   const Index corner = canonicalCorner(map_.mesh, h);
   return findRecord(Site::Vertex, corner, map_.at(corner));
 }
@@ -367,9 +407,16 @@ std::optional<Index> GridVertices::find(Index f, FixedVec2 point) const
 
 Index GridVertices::rankOfSector(Index q, Index halfEdge) const
 {
+  if (vertices_[q].kind == Site::Vertex)
+  {
+    if (const FanCorner* corner = findInLargeFans(halfEdge))
+    {
+      return corner->rank;
+    }
+  }
   Index rank = 0;
   bool found = false;
-  forEachSector(q,
+  visitSectors(vertices_[q],
     [&](const Sector& sector)
     {
       found = found || sector.halfEdge == halfEdge;
@@ -378,27 +425,22 @@ Index GridVertices::rankOfSector(Index q, Index halfEdge) const
   return rank;
 }
 
-std::optional<Index> GridVertices::findPort(Index f, FixedVec2 point, int direction) const
+std::optional<Index> GridVertices::findPort(Index q, Index f, FixedVec2 point, int direction) const
 {
-  const std::optional<Index> q = find(f, point);
-  if (!q)
-  {
-    return std::nullopt;
-  }
+  const GridVertex& vertex = vertices_[q];
   Sector sector;
-  if (vertices_[*q].kind == Site::Face)
+  if (vertex.kind == Site::Face)
   {
-    sector = faceSector(vertices_[*q]);
+    sector = faceSector(vertex);
   }
-  for (Index h = 3 * f; h < 3 * f + 3 && vertices_[*q].kind != Site::Face; ++h)
+  for (Index h = 3 * f; h < 3 * f + 3 && vertex.kind != Site::Face; ++h)
   {
     if (map_.at(h) == point)
     {
       sector = cornerSector(h);
       break;
     }
-    if (vertices_[*q].kind == Site::Edge &&
-      orientation(map_.at(h), map_.at(Mesh::next(h)), point) == 0)
+    if (vertex.kind == Site::Edge && orientation(map_.at(h), map_.at(Mesh::next(h)), point) == 0)
     {
       sector = edgeSector(h, point);
     }
@@ -408,7 +450,25 @@ std::optional<Index> GridVertices::findPort(Index f, FixedVec2 point, int direct
   {
     return std::nullopt;
   }
-  return vertices_[*q].firstPort + rankOfSector(*q, sector.halfEdge) + static_cast<Index>(turns);
+  return vertex.firstPort + rankOfSector(q, sector.halfEdge) + static_cast<Index>(turns);
+}
+
+std::optional<Index> GridVertices::portAfter(Index q, Index port) const
+{
+  if (port + 1 < endOfPorts(q))
+  {
+    return port + 1;
+  }
+  return isOnBoundary(q) ? std::nullopt : std::optional<Index>(vertices_[q].firstPort);
+}
+
+std::optional<Index> GridVertices::portBefore(Index q, Index port) const
+{
+  if (port > vertices_[q].firstPort)
+  {
+    return port - 1;
+  }
+  return isOnBoundary(q) ? std::nullopt : std::optional<Index>(endOfPorts(q) - 1);
 }
 
 } // namespace quadrille

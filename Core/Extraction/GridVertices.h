@@ -68,19 +68,7 @@ public:
   template <typename Visitor>
   void forEachSector(Index q, const Visitor& visit) const
   {
-    const GridVertex& vertex = vertices_[q];
-    if (vertex.kind == Site::Face)
-    {
-      visitFace(vertex, visit);
-    }
-    else if (vertex.kind == Site::Edge)
-    {
-      visitEdge(vertex, visit);
-    }
-    else
-    {
-      visitFan(vertex, visit);
-    }
+    visitSectors(vertices_[q], visit);
   }
 
   /// The integer point at `point` of the closed triangle f, if there is one. In a triangle without area
@@ -90,8 +78,12 @@ public:
   /// The integer point on the vertex of corner h, if there is one.
   std::optional<Index> findCorner(Index h) const;
 
-  /// The port of `direction` at `point` of triangle f, both in f's chart.
-  std::optional<Index> findPort(Index f, FixedVec2 point, int direction) const;
+  /// The port of `direction` at `point` of triangle f, both in f's chart, where vertex q lies.
+  std::optional<Index> findPort(Index q, Index f, FixedVec2 point, int direction) const;
+
+  /// The next port of vertex q counterclockwise on the surface; none at the end of a boundary vertex.
+  std::optional<Index> portAfter(Index q, Index port) const;
+  std::optional<Index> portBefore(Index q, Index port) const;
 
   /// Calls visit(grid vertex, its place in h's chart) for those strictly inside the edge of h.
   template <typename Visitor>
@@ -115,13 +107,54 @@ public:
   }
 
 private:
+  /// A corner of a mesh vertex with very many corners, so that it need not be searched there.
+  struct FanCorner
+  {
+    Index halfEdge;
+    Index vertex; ///< grid vertex
+    Index rank;   ///< number of ports before it
+  };
+  /// Of a chunk of faces.
+  struct Part
+  {
+    std::vector<GridVertex> vertices;
+    std::vector<FanCorner> largeFans;
+    Index ports = 0;
+  };
+
+  Index endOfPorts(Index q) const
+  {
+    return q + 1 < vertices_.size() ? vertices_[q + 1].firstPort : portCount_;
+  }
+  bool isOnBoundary(Index q) const
+  {
+    return vertices_[q].kind != Site::Face && map_.mesh.isBoundary(vertices_[q].site);
+  }
   Sector faceSector(const GridVertex& vertex) const;
   Sector edgeSector(Index h, FixedVec2 point) const;
   Sector cornerSector(Index h) const;
-  Index countPorts(Index q) const;
+  void numberPorts(Part& part, Index q) const;
+  const FanCorner* findInLargeFans(Index h) const;
   std::optional<Index> findRecord(Site kind, Index site, FixedVec2 uv) const;
   std::optional<Index> findOnEdge(Index h, FixedVec2 point) const;
   Index rankOfSector(Index q, Index halfEdge) const;
+
+  template <typename Visitor>
+  void visitSectors(const GridVertex& vertex, const Visitor& visit) const
+  {
+    if (vertex.kind == Site::Face)
+    {
+      visitFace(vertex, visit);
+    }
+    else if (vertex.kind == Site::Edge)
+    {
+      visitEdge(vertex, visit);
+    }
+    else
+    {
+      visitFan(vertex, visit);
+    }
+  }
 
   template <typename Visitor>
   void visitFace(const GridVertex& vertex, const Visitor& visit) const
@@ -169,7 +202,8 @@ private:
 
   ExactMap map_;
   std::vector<GridVertex> vertices_;
-  std::vector<Index> faceFirst_; ///< #F + 1 offsets into vertices_
+  std::vector<Index> faceFirst_;     ///< #F + 1 offsets into vertices_
+  std::vector<FanCorner> largeFans_; ///< by half-edge
   Index portCount_ = 0;
 };
 
