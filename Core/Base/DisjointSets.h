@@ -92,7 +92,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t kChunk = std::size_t{ 1 } << 16;
+  static constexpr std::size_t kChunk = std::size_t{ 1 } << 15;
 
   std::size_t count_;
   int threads_;

@@ -8,6 +8,7 @@
 #include "Extraction/GridPlaces.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <numeric>
 #include <tuple>
@@ -17,7 +18,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = 1 << 12;
+constexpr std::size_t kChunk = 1 << 9;
 
 // ------------------------------------------------------------------ cells
 
@@ -160,7 +161,8 @@ private:
   std::vector<Index> cellOf_; ///< per port of a folded map: its number in found_
 };
 
-Parts collect(const Collector& collector, std::size_t vertexCount, int threads)
+/// In the order of the grid vertices.
+std::vector<Parts> collect(const Collector& collector, std::size_t vertexCount, int threads)
 {
   std::vector<Parts> parts((vertexCount + kChunk - 1) / kChunk);
   parallelFor(vertexCount, kChunk, threads,
@@ -171,13 +173,36 @@ Parts collect(const Collector& collector, std::size_t vertexCount, int threads)
         collector.visitVertex(static_cast<Index>(q), parts[begin / kChunk]);
       }
     });
-  Parts whole;
+  return parts;
+}
+
+std::size_t countCells(const std::vector<Parts>& parts)
+{
+  std::size_t count = 0;
   for (const Parts& part : parts)
   {
-    whole.cells.insert(whole.cells.end(), part.cells.begin(), part.cells.end());
-    whole.lines.insert(whole.lines.end(), part.lines.begin(), part.lines.end());
+    count += part.cells.size();
   }
-  return whole;
+  return count;
+}
+
+/// Calls body(part, first cell of the part among all), by all threads.
+template <typename Body>
+void forEachPart(const std::vector<Parts>& parts, int threads, const Body& body)
+{
+  std::vector<std::size_t> first(1, 0);
+  for (const Parts& part : parts)
+  {
+    first.push_back(first.back() + part.cells.size());
+  }
+  parallelFor(parts.size(), 1, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        body(parts[i], first[i]);
+      }
+    });
 }
 
 /// Cycles of the corner relation that are no quads.
@@ -208,27 +233,40 @@ std::size_t countOtherCycles(const std::vector<Index>& next)
 
 // ------------------------------------------------------------------ points
 
-/// Numbers the grid vertices that cells use, and places them. Returns point ids per grid vertex.
-std::vector<Index> makePoints(const ExactMap& map, const GridVertices& grid,
-  const std::vector<Cell>& cells, int threads, QuadMesh& mesh)
+/// The grid vertices that cells use, ascending.
+std::vector<Index> usedVertices(
+  const std::vector<Parts>& parts, std::size_t vertexCount, int threads)
 {
-  std::vector<Index> pointOf(grid.vertices().size(), kInvalidIndex);
-  for (const Cell& cell : cells)
-  {
-    for (const Index q : cell.corners)
+  std::vector<std::atomic<std::uint8_t>> isUsed(vertexCount); // zero
+  forEachPart(parts, threads,
+    [&](const Parts& part, std::size_t)
     {
-      pointOf[q] = 0;
-    }
-  }
+      for (const Cell& cell : part.cells)
+      {
+        for (const Index q : cell.corners)
+        {
+          isUsed[q].store(1, std::memory_order_relaxed);
+        }
+      }
+    });
   std::vector<Index> used;
-  for (Index q = 0; q < pointOf.size(); ++q)
+  used.reserve(vertexCount);
+  for (Index q = 0; q < vertexCount; ++q)
   {
-    if (pointOf[q] != kInvalidIndex)
+    if (isUsed[q].load(std::memory_order_relaxed) != 0)
     {
-      pointOf[q] = static_cast<Index>(used.size());
       used.push_back(q);
     }
   }
+  return used;
+}
+
+/// Places the grid vertices that cells use. Returns point ids per grid vertex.
+std::vector<Index> makePoints(const ExactMap& map, const GridVertices& grid,
+  const std::vector<Parts>& parts, int threads, QuadMesh& mesh)
+{
+  const std::vector<Index> used = usedVertices(parts, grid.vertices().size(), threads);
+  std::vector<Index> pointOf(grid.vertices().size(), kInvalidIndex);
   mesh.points.resize(used.size());
   mesh.sourceFace.resize(used.size());
   mesh.sourceWeights.resize(used.size());
@@ -237,6 +275,7 @@ std::vector<Index> makePoints(const ExactMap& map, const GridVertices& grid,
     {
       for (std::size_t i = begin; i < end; ++i)
       {
+        pointOf[used[i]] = static_cast<Index>(i);
         const SurfacePoint place = placeOf(map, grid.vertices()[used[i]]);
         mesh.sourceFace[i] = place.face;
         mesh.sourceWeights[i] = place.weights;
@@ -244,6 +283,29 @@ std::vector<Index> makePoints(const ExactMap& map, const GridVertices& grid,
       }
     });
   return pointOf;
+}
+
+void makeQuads(
+  const std::vector<Parts>& parts, const std::vector<Index>& pointOf, int threads, QuadMesh& mesh)
+{
+  const std::size_t count = countCells(parts);
+  mesh.quads.resize(count);
+  mesh.quadSourceFace.resize(count);
+  mesh.quadSourceWeights.resize(count);
+  forEachPart(parts, threads,
+    [&](const Parts& part, std::size_t id)
+    {
+      for (const Cell& cell : part.cells)
+      {
+        for (std::size_t i = 0; i < 4; ++i)
+        {
+          mesh.quads[id][i] = pointOf[cell.corners[i]];
+        }
+        mesh.quadSourceFace[id] = cell.face;
+        mesh.quadSourceWeights[id] = cell.weights;
+        ++id;
+      }
+    });
 }
 
 // ------------------------------------------------------------------ lines
@@ -315,25 +377,26 @@ std::vector<Index> assembleQuads(const ExactMap& map, const GridVertices& grid,
     result.droppedFaces = found->dropped;
   }
   const Collector collector(map, grid, cells, found ? &*found : nullptr);
-  const Parts parts = collect(collector, grid.vertices().size(), options.threads);
+  const std::vector<Parts> parts = collect(collector, grid.vertices().size(), options.threads);
 
   result.openPorts =
     static_cast<std::size_t>(std::count(cells.next.begin(), cells.next.end(), kInvalidIndex));
-  if (!found && 4 * parts.cells.size() != cells.next.size())
+  if (!found && 4 * countCells(parts) != cells.next.size())
   {
     result.droppedFaces = countOtherCycles(cells.next);
   }
 
   QuadMesh& mesh = result.mesh;
-  std::vector<Index> pointOf = makePoints(map, grid, parts.cells, options.threads, mesh);
-  for (const Cell& cell : parts.cells)
+  std::vector<Index> pointOf = makePoints(map, grid, parts, options.threads, mesh);
+  makeQuads(parts, pointOf, options.threads, mesh);
+  if (found)
   {
-    mesh.quads.push_back({ pointOf[cell.corners[0]], pointOf[cell.corners[1]],
-      pointOf[cell.corners[2]], pointOf[cell.corners[3]] });
-    mesh.quadSourceFace.push_back(cell.face);
-    mesh.quadSourceWeights.push_back(cell.weights);
+    makeLines(mergedLines(curves, found->root), pointOf, mesh);
   }
-  makeLines(found ? mergedLines(curves, found->root) : parts.lines, pointOf, mesh);
+  for (const Parts& part : parts)
+  {
+    makeLines(part.lines, pointOf, mesh);
+  }
   for (Index q = 0; found && q < pointOf.size(); ++q)
   {
     pointOf[q] = pointOf[found->root[q]];

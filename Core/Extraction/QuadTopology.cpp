@@ -16,7 +16,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = std::size_t{ 1 } << 13;
+constexpr std::size_t kChunk = std::size_t{ 1 } << 11;
 
 using Quads = std::vector<std::array<Index, 4>>;
 
