@@ -168,8 +168,31 @@ double median(std::vector<double> values)
 /// One way to extract.
 struct Way
 {
+  ExtractionPath path = ExtractionPath::Fast;
   int threads = 1;
+
+  const char* name() const { return path == ExtractionPath::Fast ? "fast" : "folded"; }
 };
+
+/// With one thread and with as many as asked for; the fast path only where it works.
+std::vector<Way> waysFor(const MappedMesh& mapped, int threads)
+{
+  const bool folded = checkMap({ mapped.mesh, mapped.uv }, threads).count[kNotPositive] > 0;
+  std::vector<Way> ways;
+  for (const ExtractionPath path : { ExtractionPath::Fast, ExtractionPath::Folded })
+  {
+    if (folded && path == ExtractionPath::Fast)
+    {
+      continue;
+    }
+    ways.push_back({ path, 1 });
+    if (resolveThreads(threads) > 1)
+    {
+      ways.push_back({ path, resolveThreads(threads) });
+    }
+  }
+  return ways;
+}
 
 /// What came of all runs in one way.
 struct Outcome
@@ -185,6 +208,7 @@ QuadMesh runOnce(
   const Mesh& mesh, const std::vector<FixedVec2>& uv, const Way& way, Outcome& outcome)
 {
   ExtractionOptions options;
+  options.path = way.path;
   options.threads = way.threads;
   options.smoothingSteps = 0;
   const double wall = seconds(CLOCK_MONOTONIC);
@@ -251,7 +275,7 @@ std::optional<MappedMesh> mapMeshFile(const std::string& path, const ExtractionT
 
 void printExtractionHeader()
 {
-  std::printf("mesh,asked,faces,scale,threads,clock,quads,ok,same,seconds\n");
+  std::printf("mesh,asked,faces,scale,path,threads,clock,quads,ok,same,seconds\n");
 }
 
 bool printExtraction(const std::string& path, const ExtractionTiming& request)
@@ -261,11 +285,7 @@ bool printExtraction(const std::string& path, const ExtractionTiming& request)
   {
     return false;
   }
-  std::vector<Way> ways{ { 1 } };
-  if (resolveThreads(request.threads) > 1)
-  {
-    ways.push_back({ resolveThreads(request.threads) });
-  }
+  const std::vector<Way> ways = waysFor(*mapped, request.threads);
   bool allGood = true;
   for (const int scale : kScales)
   {
@@ -280,10 +300,11 @@ bool printExtraction(const std::string& path, const ExtractionTiming& request)
       const Outcome& outcome = outcomes[k];
       for (const bool wall : { true, false })
       {
-        std::printf("%s,%.0f,%u,%d,%d,%s,%zu,%d,%d,%.6f\n",
+        std::printf("%s,%.0f,%u,%d,%s,%d,%s,%zu,%d,%d,%.6f\n",
           std::filesystem::path(path).stem().c_str(), request.quads, mapped->mesh.faceCount(),
-          scale, ways[k].threads, wall ? "wall" : "processor", outcome.quads, outcome.ok ? 1 : 0,
-          outcome.same ? 1 : 0, median(wall ? outcome.wall : outcome.processor));
+          scale, ways[k].name(), ways[k].threads, wall ? "wall" : "processor", outcome.quads,
+          outcome.ok ? 1 : 0, outcome.same ? 1 : 0,
+          median(wall ? outcome.wall : outcome.processor));
       }
       allGood = allGood && outcome.ok && outcome.same;
     }

@@ -89,8 +89,8 @@ level whose first map fails has ok 0 and no edits.
                        those that round, seamless is cut, Poisson equation and relations, quantize the rounding
 
 With --compare extraction remeshes each mesh, extracts the quads of the map on its surface, and of the map made 2 and 5 times as large, with
-one thread and with --threads, without smoothing, and writes
-  mesh,asked,faces,scale,threads,clock,quads,ok,same,seconds
+one thread and with --threads, by the fast path where the map has no folds and by the one for folds, without smoothing, and writes
+  mesh,asked,faces,scale,path,threads,clock,quads,ok,same,seconds
 with medians of the clock on the wall and of the processor. same: 1 when points and quads are those of the first row of the scale.
 
   --subdivide N        cut each triangle of the mapped surface into four, N times (0 to 3, default 0)
