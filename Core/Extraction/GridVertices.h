@@ -78,7 +78,13 @@ public:
   /// The integer point on the vertex of corner h, if there is one.
   std::optional<Index> findCorner(Index h) const;
 
-  /// The port of `direction` at `point` of triangle f, both in f's chart, where vertex q lies.
+  /// The port of `direction` at `point` of triangle f, both in f's chart.
+  std::optional<Index> findPort(Index f, FixedVec2 point, int direction) const
+  {
+    const std::optional<Index> q = find(f, point);
+    return q ? findPort(*q, f, point, direction) : std::nullopt;
+  }
+  /// The same where find() has said that vertex q is there.
   std::optional<Index> findPort(Index q, Index f, FixedVec2 point, int direction) const;
 
   /// The next port of vertex q counterclockwise on the surface; none at the end of a boundary vertex.
