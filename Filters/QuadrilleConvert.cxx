@@ -747,31 +747,53 @@ void addSourceArrays(
   data->GetCellData()->AddArray(weights);
 }
 
-/// Returns what could not be carried.
-std::vector<std::string> carryToSurface(vtkPolyData* data, const PreparedSurface& surface,
-  vtkPolyData* source, const ConvertedSurface& converted, const std::vector<Index>& pointVertex,
-  int threads)
+std::vector<std::string> carryPointsToSurface(vtkPolyData* data, const PreparedSurface& surface,
+  vtkPolyData* source, const std::vector<Index>& pointVertex, int threads)
 {
   const std::vector<Index> outgoing = outgoingHalfEdges(surface.mesh);
   std::vector<PointOrigin> points(pointVertex.size());
   for (std::size_t i = 0; i < points.size(); ++i)
   {
+    pollNowAndThen(i);
     const Index h = outgoing[pointVertex[i]];
     std::array<double, 3> corner{};
     corner[h % 3] = 1;
     const SourceLocation at = surface.locate(Mesh::face(h), corner);
     points[i] = { { at.points[0], at.points[1], at.points[2] }, at.weights };
   }
+  return carryPointArrays(
+    source->GetPointData(), source->GetNumberOfPoints(), data->GetPointData(), points, threads);
+}
+
+std::vector<std::string> carryCellsToSurface(vtkPolyData* data, const PreparedSurface& surface,
+  vtkPolyData* source, const ConvertedSurface& converted, int threads)
+{
   std::vector<vtkIdType> cells(surface.sourcePolygon.size());
   for (std::size_t f = 0; f < cells.size(); ++f)
   {
+    pollNowAndThen(f);
     cells[f] = converted.cell(surface.sourcePolygon[f]);
   }
-  std::vector<std::string> notCarried = carryPointArrays(
-    source->GetPointData(), source->GetNumberOfPoints(), data->GetPointData(), points, threads);
-  const std::vector<std::string> ofCells = carryCellArrays(
+  return carryCellArrays(
     source->GetCellData(), source->GetNumberOfCells(), data->GetCellData(), cells, threads);
-  notCarried.insert(notCarried.end(), ofCells.begin(), ofCells.end());
+}
+
+/// Returns what could not be carried. Memory for where things come from is taken only where there is something to carry.
+std::vector<std::string> carryToSurface(vtkPolyData* data, const PreparedSurface& surface,
+  vtkPolyData* source, const ConvertedSurface& converted, const std::vector<Index>& pointVertex,
+  int threads)
+{
+  std::vector<std::string> notCarried;
+  if (source->GetPointData()->GetNumberOfArrays() > 0)
+  {
+    notCarried = carryPointsToSurface(data, surface, source, pointVertex, threads);
+  }
+  if (source->GetCellData()->GetNumberOfArrays() > 0)
+  {
+    const std::vector<std::string> ofCells =
+      carryCellsToSurface(data, surface, source, converted, threads);
+    notCarried.insert(notCarried.end(), ofCells.begin(), ofCells.end());
+  }
   return notCarried;
 }
 
