@@ -541,7 +541,7 @@ TEST(QuadLayout, FansThatTouchAreApart)
   addPlate(0);
   addPlate(8);
   mesh.lines.push_back({ 0, 1, 0, true });
-  mesh.lines.push_back({ 9, 0, 0, true });
+  mesh.lines.push_back({ 0, 9, 0, true });
   mesh.lines.push_back({ 1, 17, 0, false });
   const QuadLayout layout = layoutOf(mesh);
   EXPECT_EQ(layout.patchOf, (std::vector<Index>{ 0, 0, 0, 0, 1, 1, 1, 1 }));
