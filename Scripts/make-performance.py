@@ -10,7 +10,7 @@ points shuffled, and, where --data has scan/bunny_ct.ply, that scan, the same sh
 and its points moved at random by up to a tenth of their shortest edge. Runs of all meshes and thread counts alternate, so that a busy
 machine disturbs all alike; a figure is the median of the repeats. The tables replace what stands between the two marks in the page; what
 is around them is written by hand. --replay writes the table of the replay over all scans of --data instead, --coarse that of the coarse level over
-all of its scan, cad and open. Needs Debian's python3 with numpy.
+all of its scan, cad and open, --extraction that of the extraction from DATA/scan/bunny_ct.ply. Needs Debian's python3 with numpy.
 """
 import argparse
 import csv
@@ -23,7 +23,7 @@ import sys
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-TABLES, REPLAY, COARSE = "tables", "replay", "coarse" # names of the marks round generated parts of the page
+TABLES, REPLAY, COARSE, EXTRACTION = "tables", "replay", "coarse", "extraction" # names of the marks round generated parts of the page
 REPLAY_QUADS = [1000, 2500, 10000]
 COARSE_QUADS = 2500
 COARSE_LIMIT = 1200 # vertices; levels that features or handles hold above are not what the aims are about
@@ -240,6 +240,31 @@ def coarseTable(rows):
         f" Without a map at the first attempt: {', '.join(failed)}." if failed else "")
 
 
+def extractionRows(command, scan, repeat, quads):
+    """Seconds of the extraction from the map of a scan and from that map with each triangle cut into four, by (faces, quads, path, threads, clock)."""
+    seconds = {}
+    for subdivide in (0, 1):
+        print(f"extraction: {scan.stem}, cut {subdivide} times", flush=True)
+        run = subprocess.run([command, scan, "--compare", "extraction", "--quads", str(quads), "--threads", "2", "--subdivide", str(subdivide),
+                              "--repeat", str(repeat)], capture_output=True, text=True)
+        if run.returncode != 0:
+            raise SystemExit(run.stderr.strip() or "the ways to extract do not agree:\n" + run.stdout)
+        for row in csv.DictReader(io.StringIO(run.stdout)):
+            seconds[int(row["faces"]), int(row["quads"]), row["path"], int(row["threads"]), row["clock"]] = float(row["seconds"])
+    return seconds
+
+
+def extractionTable(seconds):
+    """One line for each size and path; the scaling is the ratio on the wall."""
+    lines = ["| triangles | quads | path | one thread: processor | wall | two threads: processor | wall | scaling | ns a triangle, one thread |",
+             "|---:|---:|---|---:|---:|---:|---:|---:|---:|"]
+    for faces, quads, path in dict.fromkeys(key[:3] for key in seconds):
+        one, two = ({clock: seconds[faces, quads, path, threads, clock] for clock in ("processor", "wall")} for threads in (1, 2))
+        lines.append(f"| {faces:,} | {quads:,} | {path} | {one['processor']:.3f} | {one['wall']:.3f} | {two['processor']:.3f} | "
+                     f"{two['wall']:.3f} | {one['wall'] / two['wall']:.2f} | {one['processor'] / faces * 1e9:.0f} |")
+    return "\n".join(lines)
+
+
 def hasReplay(row):
     """A model whose map never got to the surface has no counts at all."""
     return row["ok"] == 1 or row["inverted_stars"] > 0
@@ -267,6 +292,7 @@ def main():
     parser.add_argument("--meshes", nargs="+", help="only these")
     parser.add_argument("--replay", action="store_true", help="only the table of the replay over DATA/scan")
     parser.add_argument("--coarse", action="store_true", help="only the table of the coarse level over DATA/scan, cad and open")
+    parser.add_argument("--extraction", action="store_true", help="only the table of the extraction from DATA/scan/bunny_ct.ply")
     arguments = parser.parse_args()
     page = pathlib.Path(arguments.markdown)
     if arguments.coarse:
@@ -274,6 +300,12 @@ def main():
         if not arguments.data or not models:
             raise SystemExit("--coarse needs --data with folders scan, cad and open of PLY files")
         writePart(page, COARSE, coarseTable(coarseRows(arguments.command, models, arguments.repeat)))
+        return 0
+    if arguments.extraction:
+        scan = pathlib.Path(arguments.data or "") / "scan" / "bunny_ct.ply"
+        if not arguments.data or not scan.exists():
+            raise SystemExit("--extraction needs --data with scan/bunny_ct.ply")
+        writePart(page, EXTRACTION, extractionTable(extractionRows(arguments.command, scan, arguments.repeat, arguments.quads)))
         return 0
     if arguments.replay:
         scans = sorted((pathlib.Path(arguments.data or "") / "scan").glob("*.ply"))
