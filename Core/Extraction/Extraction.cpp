@@ -267,9 +267,16 @@ Status judge(const Mesh& mesh, const MapCheck& check, const QuadTopology& found,
   {
     append(problem, lines);
   }
-  if (check.count[kOffIsoline] > 0)
+  if (check.count[kOffIsoline] > result.features.offIsolines.size())
   {
-    append(problem, "features or boundaries are not reproduced");
+    append(problem,
+      "the boundary is off the isolines, where cells that it cuts can be trimmed or kept as "
+      "polygons "
+      "(boundary mode)");
+  }
+  if (!result.features.offIsolines.empty())
+  {
+    append(problem, "features are not reproduced");
   }
   if (problem.empty())
   {

@@ -475,7 +475,7 @@ TEST(FreeBoundary, RandomPlatesAreTiled)
 // diagonals and isolines, through grid points and everywhere else.
 TEST(FreeBoundary, TornSurfacesKeepTheirTopology)
 {
-  for (unsigned seed = 0; seed < 60 && !HasFailure(); ++seed)
+  for (unsigned seed = 0; seed < 64 && !HasFailure(); ++seed)
   {
     Random random(9000 + seed);
     for (GridMapCase& whole : allCases(1 + static_cast<int>(seed % 4)))
@@ -685,6 +685,51 @@ TEST(FreeBoundary, HolesInsideOfACell)
       extract(plate(false), BoundaryMode::Trimmed).mesh.quads.size());
     expectManifoldOfWholeCells(c, trimmed);
   }
+}
+
+// Two holes in one cell, in all positions to each other: the way out of one leads to the other.
+TEST(FreeBoundary, SeveralHolesInOneCell)
+{
+  for (const auto& [x, y] : { std::pair(2, 0), std::pair(0, 2), std::pair(2, 1), std::pair(-2, 1) })
+  {
+    const auto plate = [dx = x, dy = y](bool holes)
+    {
+      GridMapCase c = planeCase("",
+        planeCells(24, 24,
+          [&](int i, int j)
+          { return !holes || ((i != 11 || j != 10) && (i != 11 + dx || j != 10 + dy)); }),
+        { { kOne / 8, 0, 0, kOne / 8 }, { 0, 0 } });
+      putOnImages(c);
+      return c;
+    };
+    Random random(80);
+    GridMapCase c = plate(true);
+    MapEditor(c).shuffleCharts(random);
+    const ExtractionResult trimmed = extract(c, BoundaryMode::Trimmed);
+    ASSERT_TRUE(trimmed.status.ok()) << trimmed.status.message;
+    EXPECT_EQ(trimmed.loopsInCells, 2u);
+    EXPECT_EQ(trimmed.mesh.quads.size(), 8u);
+    const ExtractionResult polygons = extract(c, BoundaryMode::Polygons);
+    ASSERT_TRUE(polygons.status.ok()) << polygons.status.message;
+    EXPECT_EQ(polygons.loopsInCells, 2u);
+    EXPECT_EQ(polygons.mesh.quads.size(), 9u);
+  }
+}
+
+// Trimmed quads cannot be compared with the surface, so folds all over are refused.
+TEST(FreeBoundary, FoldsAllOverAreNoFreeBoundary)
+{
+  Random random(81);
+  GridMapCase c = squares("", gridPlane(30, 30), 1);
+  MapEditor editor(c);
+  for (Index h = 0; h < c.mesh.halfEdgeCount(); ++h)
+  {
+    editor.moveVertex(
+      h, { kOne / 100 * (pick(random, 201) - 100), kOne / 100 * (pick(random, 201) - 100) }, true);
+  }
+  const ExtractionResult result = extract(c, BoundaryMode::Trimmed);
+  EXPECT_EQ(result.status.code, StatusCode::NotConverged);
+  EXPECT_FALSE(result.status.message.empty());
 }
 
 // Whole cells that touch in a corner only: both stay, with a copy of the point.
