@@ -171,6 +171,12 @@ TEST(MapWelding, SheetsThatMeetAtAnEdgeStayApart)
   addSquare(sheets, Vector3::Zero(), z, y, { 8.5, 0 });
   const MappedTriangles equal = asSoup(sheets);
   EXPECT_EQ(summarizeTopology(weldMap(equal)).components, 2u);
+  MappedTriangles whole = equal; // all four images fit each other, only equal ones tell
+  for (std::size_t h = 12; h < 24; ++h)
+  {
+    whole.uv[h] += Vector2(0.5, 0);
+  }
+  EXPECT_EQ(summarizeTopology(weldMap(whole)).components, 2u);
   MappedTriangles fitting = equal; // charts of their own: whole translations between them
   for (std::size_t h = 6; h < 12; ++h)
   {
