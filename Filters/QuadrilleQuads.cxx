@@ -223,10 +223,12 @@ void addSourceCells(
   data->AddArray(cell);
 }
 
-void addLayout(const QuadLayout& layout, vtkPolyData* data)
+/// Polygons are in no patch: -1.
+void addLayout(const QuadLayout& layout, std::size_t polygons, vtkPolyData* data)
 {
-  auto patch = newArray<vtkIntArray>(arrays::kLayoutPatch, 1, layout.patchOf.size());
-  std::copy(layout.patchOf.begin(), layout.patchOf.end(), patch->GetPointer(0));
+  auto patch = newArray<vtkIntArray>(arrays::kLayoutPatch, 1, layout.patchOf.size() + polygons);
+  int* const rest = std::copy(layout.patchOf.begin(), layout.patchOf.end(), patch->GetPointer(0));
+  std::fill_n(rest, polygons, -1);
   data->GetCellData()->AddArray(patch);
   auto shape = newArray<vtkUnsignedCharArray>("LayoutPatchShape", 1, layout.patches.size());
   auto size = newArray<vtkIntArray>("LayoutPatchSize", 2, layout.patches.size());
@@ -362,7 +364,7 @@ void addPatchPairs(
 }
 
 vtkSmartPointer<vtkPolyData> writeQuads(const QuadMesh& mesh, const Mesh& mapped,
-  const std::vector<FixedVec2>& uv, const QuadLayout* layout, const QuadSource& source,
+  const std::vector<FixedVec2>& uv, const QuadLayout& layout, const QuadSource& source,
   std::vector<std::string>& notCarried)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
@@ -378,11 +380,8 @@ vtkSmartPointer<vtkPolyData> writeQuads(const QuadMesh& mesh, const Mesh& mapped
   addSourceCells(mesh, cellOf, data->GetCellData());
   addFeatureEdges(mesh, data->GetCellData());
   data->GetFieldData()->PassData(source.carrier->GetFieldData());
-  if (layout)
-  {
-    addLayout(*layout, data); // replaces that of a remeshed quad mesh
-  }
-  else
+  addLayout(layout, polygonCount(mesh), data); // replaces that of a remeshed quad mesh
+  if (polygonCount(mesh) > 0)
   {
     addPartial(mesh, data->GetCellData());
   }
@@ -390,30 +389,23 @@ vtkSmartPointer<vtkPolyData> writeQuads(const QuadMesh& mesh, const Mesh& mapped
 }
 
 vtkSmartPointer<vtkPolyData> writeLines(
-  const QuadMesh& mesh, const Mesh& mapped, const QuadLayout* layout, const QuadSource& source)
+  const QuadMesh& mesh, const Mesh& mapped, const QuadLayout& layout, const QuadSource& source)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
   writeLineGeometry(mesh, data);
   auto boundary = newArray<vtkUnsignedCharArray>("Boundary", 1, mesh.lines.size());
-  for (std::size_t i = 0; i < mesh.lines.size(); ++i)
-  {
-    boundary->SetValue(static_cast<vtkIdType>(i), mesh.lines[i].boundary ? 1 : 0);
-  }
-  data->GetCellData()->AddArray(boundary);
-  addPatchPairs(mesh, mapped, source, data->GetCellData());
-  if (!layout)
-  {
-    return data;
-  }
   auto separatrix = newArray<vtkUnsignedCharArray>("Separatrix", 1, mesh.lines.size());
   auto patches = newArray<vtkIntArray>("LayoutPatchIds", 2, mesh.lines.size());
   for (std::size_t i = 0; i < mesh.lines.size(); ++i)
   {
     const auto id = static_cast<vtkIdType>(i);
-    separatrix->SetValue(id, layout->lineOnSeparatrix[i]);
-    patches->SetValue(2 * id, static_cast<int>(layout->patchesOfLine[i][0]));
-    patches->SetValue(2 * id + 1, static_cast<int>(layout->patchesOfLine[i][1]));
+    boundary->SetValue(id, mesh.lines[i].boundary ? 1 : 0);
+    separatrix->SetValue(id, layout.lineOnSeparatrix[i]);
+    patches->SetValue(2 * id, static_cast<int>(layout.patchesOfLine[i][0]));
+    patches->SetValue(2 * id + 1, static_cast<int>(layout.patchesOfLine[i][1]));
   }
+  data->GetCellData()->AddArray(boundary);
+  addPatchPairs(mesh, mapped, source, data->GetCellData());
   data->GetCellData()->AddArray(patches);
   data->GetCellData()->AddArray(separatrix);
   return data;
@@ -480,16 +472,10 @@ PointOrigin pointOrigin(const PreparedSurface& surface, const ConvertedSurface& 
 QuadOutputs writeOutputs(const QuadMesh& mesh, const Mesh& mapped, const std::vector<FixedVec2>& uv,
   const QuadSource& source)
 {
-  QuadLayout layout;
-  const bool onlyQuads = polygonCount(mesh) == 0;
-  if (onlyQuads)
-  {
-    layout = layoutOf(mesh, source.threads);
-  }
+  const QuadLayout layout = layoutOf(mesh, source.threads);
   QuadOutputs outputs;
-  outputs.quads =
-    writeQuads(mesh, mapped, uv, onlyQuads ? &layout : nullptr, source, outputs.notCarried);
-  outputs.lines = writeLines(mesh, mapped, onlyQuads ? &layout : nullptr, source);
+  outputs.quads = writeQuads(mesh, mapped, uv, layout, source, outputs.notCarried);
+  outputs.lines = writeLines(mesh, mapped, layout, source);
   outputs.separatrices = writeSeparatrices(mesh, layout);
   return outputs;
 }

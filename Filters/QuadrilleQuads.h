@@ -50,7 +50,7 @@ struct QuadSource
 PointOrigin pointOrigin(const PreparedSurface& surface, const ConvertedSurface& converted,
   vtkPolyData* data, Index face, const std::array<double, 3>& weights);
 
-/// Where there are polygons they are cells behind the quads, the cell array Partial is 1 on them, and there is no layout.
+/// Where there are polygons they are cells behind the quads, the cell array Partial is 1 on them, and they are in no layout patch (-1).
 struct QuadOutputs
 {
   /// Points: Valence, OnBoundary, SourceCellId, SourcePointIds, SourceBarycentric. Cells: SourceCellId, FeatureEdges (bit

@@ -56,8 +56,8 @@ public:
    * What becomes of cells of the map that the boundary cuts, a BoundaryModes. Aligned: there must be none; the boundary of a map of ours lies on
    * isolines, and one that does not is an error. Trimmed: they are left out; quads that then touch in a corner only get a point each. Polygons:
    * they are kept behind the quads, as cells of three corners or more (1 in the cell array `Partial`, which is there where such cells
-   * are): grid points, the crossings of isolines with the boundary, and corners of the boundary of more than 30 degrees; such a result has no layout
-   * and no separatrices. Points at a free boundary are not smoothed. Ends of features that are no grid points are told as a notice and in the field
+   * are): grid points, the crossings of isolines with the boundary, and corners of the boundary of more than 30 degrees; they are in no layout patch
+   * (-1). Points at a free boundary are not smoothed. Ends of features that are no grid points are told as a notice and in the field
    * arrays `NonIntegerFeatureEnds` and `NonIntegerFeatureEndPlaces`, holes smaller than a quad in `LoopsInCells`. Default: BOUNDARY_ALIGNED.
    */
   vtkSetClampMacro(BoundaryMode, int, BOUNDARY_ALIGNED, BOUNDARY_POLYGONS);
