@@ -120,8 +120,8 @@ struct ExtractionResult : ExtractionCounts
 /// The quads are the unit cells of the grid: each port (a corner of a cell, [Ebke et al. 2013]) is
 /// followed along its isoline to the next corner of the same cell, with exact predicates, and the
 /// cycles of length four are the quads. For an integer-grid map with det > 0 everywhere the result
-/// conforms by construction. Elsewhere, in the spirit of the same paper, the lines run back through
-/// inverted triangles and the copies of a grid vertex in the sheets of a fold are joined. uv: #H,
+/// conforms by construction. Elsewhere, in the spirit of the same paper, the lines run through the
+/// sheets of folds and the copies of a grid vertex there are joined, see FoldedCells.h. uv: #H,
 /// see GridMap.h. Linear in triangles plus quads. Throws InvalidInput for an empty mesh, a wrong
 /// size of uv, or a coordinate beyond 2^44.
 ExtractionResult extractQuads(
