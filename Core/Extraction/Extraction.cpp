@@ -434,7 +434,7 @@ ExtractionResult extractQuads(
   {
     boundary = treatFreeBoundary(map, grid, cells, options.boundary, pointOf, result);
   }
-  else if (folded && isNearlyValid(check, mesh))
+  else if ((folded || result.droppedFaces > 0) && isNearlyValid(check, mesh))
   {
     result.filledHoles = fillHoles(result.mesh);
   }

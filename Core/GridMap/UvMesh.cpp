@@ -27,7 +27,7 @@ std::int64_t ratio(Int128 numerator, Int128 denominator)
     numerator >>= 1;
     denominator >>= 1;
   }
-  return static_cast<std::int64_t>((numerator << kWeightBits) / denominator);
+  return static_cast<std::int64_t>(numerator * (Int128{ 1 } << kWeightBits) / denominator);
 }
 
 std::int64_t scaled(std::int64_t x, std::int64_t weight)

@@ -401,6 +401,32 @@ TEST(ExtractionFuzz, FoldedMaps)
   EXPECT_GE(tally.surfaces[kHeavy], tally.cases[kHeavy] * 97 / 100);
 }
 
+// A vertex round which the map winds twice, inside of a cell: no triangle is inverted, but the cell has eight sides.
+TEST(ExtractionFuzz, TurnsInsideOfACell)
+{
+  const Mesh mesh = squareTiled({ 1, 0, 3, 2 }, { 2, 1, 0, 3 }, 3);
+  GridMapCase c = squares("slit tori", mesh, 3);
+  const std::vector<int> turns = turnsOf(c.mesh, c.uv);
+  const std::vector<Index> outgoing = outgoingHalfEdges(c.mesh);
+  int moved = 0;
+  for (std::size_t v = 0; v < turns.size(); ++v)
+  {
+    if (turns[v] == 8)
+    {
+      moved += MapEditor(c).moveVertex(outgoing[v], { kOne / 3, kOne / 5 }, true) ? 1 : 0;
+    }
+  }
+  ASSERT_EQ(moved, 2);
+  ASSERT_TRUE(isPositive(c));
+  const ExtractionResult result = extract(c);
+  EXPECT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_EQ(result.droppedFaces, 2u);
+  EXPECT_EQ(result.filledHoles, 2u);
+  EXPECT_EQ(result.mesh.quads.size(), c.quads + 2); // three quads for two cells, twice
+  expectTopologyOfInput(c.mesh, result.mesh);
+  EXPECT_EQ(extract(c, 1, ExtractionPath::Folded).filledHoles, 2u);
+}
+
 TEST(ExtractionFuzz, BrokenMaps)
 {
   // Only what was moved by whole units is still a map.
