@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadrilleConvert.h"
 
-#include "Base/Error.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Mesh/Topology.h"
 #include "QuadrilleAttributes.h"
+#include "QuadrilleRefuse.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -26,7 +26,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace quadrille
 {
@@ -40,14 +39,6 @@ constexpr std::int64_t kLargestExact = std::int64_t{ 1 } << (28 + kFractionBits)
 constexpr double kLeastTangent = 0.01;
 constexpr double kRounding = 1e-9;
 constexpr std::size_t kChunk = std::size_t{ 1 } << 16;
-
-template <class... Parts>
-[[noreturn]] void refuse(const Parts&... parts)
-{
-  std::ostringstream text;
-  (text << ... << parts);
-  throw InvalidInput(text.str());
-}
 
 //------------------------------------------------------------------------------
 // The user's surface

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadrilleMappedInput.h"
 
-#include "Base/Error.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Extraction/MapWelding.h"
 #include "QuadrilleConvert.h"
+#include "QuadrilleRefuse.h"
 #include "QuadrilleReport.h"
 
 #include <vtkCellData.h>
@@ -27,14 +27,6 @@ namespace
 {
 
 constexpr std::size_t kChunk = std::size_t{ 1 } << 16;
-
-template <class... Parts>
-[[noreturn]] void refuse(const Parts&... parts)
-{
-  std::ostringstream text;
-  (text << ... << parts);
-  throw InvalidInput(text.str());
-}
 
 bool isReal(vtkDataArray* array)
 {
