@@ -12,6 +12,10 @@
  * quads), `MapFixedPoints` and `MapInconsistentVertices` and a notice tell how much; an exact one, as our own, is taken as it is.
  *
  * Outputs: 0 the quads, 1 the feature and boundary lines, 2 the separatrices, as outputs 0, 2 and 3 of vtkQuadRemesh.
+ *
+ * Triangles may be inverted or without area, and coordinates mirrored. Field data of output 0: what the input has, `ActualQuads`, and `ExtractionNames`,
+ * `ExtractionCounts`, which tell what folds made necessary: sides of cells of length zero, merged vertices, zipped sides, cancelled quads, dropped
+ * outlines, filled holes, open ports; all zero for a valid map.
  */
 #ifndef vtkQuadExtraction_h
 #define vtkQuadExtraction_h
