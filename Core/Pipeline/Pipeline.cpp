@@ -562,8 +562,8 @@ private:
   }
 
   /// The extraction finds quads through folds of the map, but some of them may be turned over there. Then features are given up
-  /// near the folds as after a failure, and the mesh with the fewest quads turned over counts, of equal ones the first. False
-  /// when there is nothing (more) to try.
+  /// near the folds as after a failure. As that has a price, the mesh before counts unless at most half as many quads are turned over.
+  /// False when there is nothing (more) to try.
   bool tryForBetterQuads()
   {
     const std::vector<Vector3> folds =
@@ -571,12 +571,13 @@ private:
     const std::vector<Index> turned = quadsTurnedOver();
     const bool fine = std::none_of(
       turned.begin(), turned.end(), [&](Index q) { return isNear(result_.quads.quads[q], folds); });
-    if (fine && (!bestQuads_ || turned.size() < bestQuads_->turned))
+    const bool better = !bestQuads_ || 2 * turned.size() <= bestQuads_->turned;
+    if (fine && better)
     {
       bestQuads_.reset();
       return false;
     }
-    if (!bestQuads_ || turned.size() < bestQuads_->turned)
+    if (better)
     {
       bestQuads_ = QuadState{ {}, std::move(result_.quads), result_.extraction,
         result_.finalQuality, result_.surface.mesh.flags, result_.surface.mesh.sizing,

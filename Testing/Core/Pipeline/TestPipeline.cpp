@@ -299,6 +299,26 @@ TEST(Pipeline, QuadsTurnedOverNearFoldsAreTriedAgain)
   EXPECT_EQ(turned, 0u);
 }
 
+// Four quads are turned over near folds. To have three instead, 800 of 2,800 sharp edges would go: that is not worth it.
+TEST(Pipeline, FeaturesAreNotGivenUpForSingleQuads)
+{
+  const std::string path = std::string(QUADRILLE_SHARED_DATA) + "/cad/tm_box.ply";
+  std::optional<SurfaceInput> input = test::loadPly(path);
+  if (!input)
+  {
+    GTEST_SKIP() << "no " << path;
+  }
+  RemeshOptions options;
+  options.quads = 2500;
+  const RemeshResult result = remesh(*input, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_FALSE(tells(result, "leave no room"));
+  // What is told is what there is: the same quads come from the map and the features of the result.
+  const ExtractionResult again = extractQuads(result.surface.mesh, result.uv, {});
+  EXPECT_EQ(again.mesh.points, result.quads.points);
+  EXPECT_EQ(again.mesh.lines.size(), result.quads.lines.size());
+}
+
 TEST(Pipeline, FeaturesThatLeaveNoRoomAreGivenUpOnlyWhereNobodyAskedForThem)
 {
   // Bevels of a hundredth of a quad, where three sharp edges would need an edge between two equal points.
