@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/CellTopology.h"
 
+#include "Base/DisjointSets.h"
 #include "Base/Error.h"
 
 #include <algorithm>
@@ -202,26 +203,12 @@ private:
 
   void countComponents()
   {
-    std::vector<Index> root(points_);
-    std::iota(root.begin(), root.end(), Index{ 0 });
-    const auto find = [&root](Index p)
-    {
-      while (root[p] != p)
-      {
-        p = root[p] = root[root[p]];
-      }
-      return p;
-    };
+    DisjointSets sets(points_, 1);
     for (Index h = 0; h < corners_.size(); ++h)
     {
-      const Index a = find(corners_.point[h]);
-      const Index b = find(corners_.target(h));
-      root[std::max(a, b)] = std::min(a, b);
+      sets.join(corners_.point[h], corners_.target(h));
     }
-    for (Index p = 0; p < points_; ++p)
-    {
-      result_.components += root[p] == p ? 1 : 0;
-    }
+    result_.components = sets.countSets();
     result_.components -= result_.isolatedPoints;
   }
 

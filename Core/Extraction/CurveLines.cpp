@@ -154,15 +154,12 @@ private:
         }
         return;
       }
-      if (edge.h == start.h)
-      {
-        return;
-      }
-      place += way * length(edge.h);
+      place +=
+        way * length(edge.h); // a closed curve comes back to start.h, which has a grid vertex
     }
   }
 
-  /// Where the edge begins, along the way that the walk takes, less the whole units.
+  /// Where the edge begins or ends, along the way that the walk takes, less the whole units.
   std::int64_t fractionAt(DirectedEdge edge, bool atEnd) const
   {
     const Index corner = atEnd ? edge.cornerAhead() : edge.cornerBehind();

@@ -41,16 +41,7 @@ bool isConstrainedSite(const Mesh& mesh, const GridVertex& vertex)
   {
     return vertex.kind == Site::Edge && mesh.isConstrained(vertex.site);
   }
-  Index h = vertex.site;
-  do
-  {
-    if (mesh.isConstrained(h))
-    {
-      return true;
-    }
-    h = mesh.rotateCounterclockwise(h);
-  } while (h != vertex.site && h != kInvalidIndex);
-  return false;
+  return !constrainedEdgesAt(mesh, vertex.site).empty();
 }
 
 /// Copies of grid vertices as sets, each named by the member whose place the vertex takes.

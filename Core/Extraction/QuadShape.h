@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 namespace quadrille
 {
@@ -31,6 +32,28 @@ inline double scaledJacobian(const std::array<Vector3, 4>& p)
     worst = std::min(worst, normal.dot(in.cross(out)) / scale);
   }
   return worst;
+}
+
+/// The corners of a quad of points.
+inline std::array<Vector3, 4> cornersOf(
+  const std::vector<Vector3>& points, const std::array<Index, 4>& quad)
+{
+  return { points[quad[0]], points[quad[1]], points[quad[2]], points[quad[3]] };
+}
+
+/// The quads with a scaled Jacobian <= 0, ascending.
+inline std::vector<Index> quadsTurnedOver(
+  const std::vector<Vector3>& points, const std::vector<std::array<Index, 4>>& quads)
+{
+  std::vector<Index> turned;
+  for (Index q = 0; q < quads.size(); ++q)
+  {
+    if (!(scaledJacobian(cornersOf(points, quads[q])) > 0))
+    {
+      turned.push_back(q);
+    }
+  }
+  return turned;
 }
 
 } // namespace quadrille

@@ -104,14 +104,10 @@ public:
     const ExtractionResult quads = extractQuads(surface_.mesh, uv, extraction);
     TurnedQuads result;
     result.valid = quads.status.ok();
-    for (const std::array<Index, 4>& quad : quads.mesh.quads)
+    for (const Index q : quadsTurnedOver(quads.mesh.points, quads.mesh.quads))
     {
-      const std::array<Vector3, 4> p{ quads.mesh.points[quad[0]], quads.mesh.points[quad[1]],
-        quads.mesh.points[quad[2]], quads.mesh.points[quad[3]] };
-      if (!(scaledJacobian(p) > 0))
-      {
-        result.centres.push_back((p[0] + p[1] + p[2] + p[3]) / 4);
-      }
+      const std::array<Vector3, 4> p = cornersOf(quads.mesh.points, quads.mesh.quads[q]);
+      result.centres.push_back((p[0] + p[1] + p[2] + p[3]) / 4);
     }
     return result;
   }

@@ -566,9 +566,13 @@ private:
   /// False when there is nothing (more) to try.
   bool tryForBetterQuads()
   {
+    if (result_.transfer.offenders.empty() && !bestQuads_)
+    {
+      return false; // no folds
+    }
     const std::vector<Vector3> folds =
       positionsOf(result_.surface.mesh, result_.transfer.offenders);
-    const std::vector<Index> turned = quadsTurnedOver();
+    const std::vector<Index> turned = quadsTurnedOver(result_.quads.points, result_.quads.quads);
     const bool fine = std::none_of(
       turned.begin(), turned.end(), [&](Index q) { return isNear(result_.quads.quads[q], folds); });
     const bool better = !bestQuads_ || 2 * turned.size() <= bestQuads_->turned;
@@ -587,24 +591,6 @@ private:
     result_.quads = {};
     troubles_ = folds;
     return !fine && mayRepeat() && dropFeatures();
-  }
-
-  /// With a scaled Jacobian <= 0.
-  std::vector<Index> quadsTurnedOver() const
-  {
-    std::vector<Index> turned;
-    for (Index q = 0; q < result_.quads.quads.size(); ++q)
-    {
-      pollNowAndThen(q);
-      std::array<Vector3, 4> corners;
-      std::transform(result_.quads.quads[q].begin(), result_.quads.quads[q].end(), corners.begin(),
-        [this](Index p) { return result_.quads.points[p]; });
-      if (!(scaledJacobian(corners) > 0))
-      {
-        turned.push_back(q);
-      }
-    }
-    return turned;
   }
 
   /// Has the quad a corner within kFoldRadius edge lengths of one of the places?
