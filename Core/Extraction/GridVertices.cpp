@@ -121,9 +121,32 @@ void addVertex(std::vector<GridVertex>& list, Site kind, Index site, FixedVec2 u
   list.push_back(vertex);
 }
 
-/// Integer points strictly inside, row by row.
-void scanInside(std::array<FixedVec2, 3> p, const Box& box, Index f, std::vector<GridVertex>& list)
+/// Quarter turns of the frame that orders what lies in face f: its first edge with an image points along +u there, or up to a
+/// quarter to the right of it. Numbers that follow this frame do not depend on the chart that the map has there.
+int frameOf(const ExactMap& map, Index f)
 {
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  {
+    if (map.edge(h) != FixedVec2{})
+    {
+      return firstAxis(map.edge(h));
+    }
+  }
+  return 0;
+}
+
+/// From the chart into the frame; rotate(p, frame) is the way back.
+FixedVec2 toFrame(FixedVec2 p, int frame)
+{
+  return rotate(p, (4 - frame) & 3);
+}
+
+/// Integer points strictly inside, row by row of the frame.
+void scanInside(const ExactMap& map, Index f, int frame, std::vector<GridVertex>& list)
+{
+  std::array<FixedVec2, 3> p{ toFrame(map.at(3 * f), frame), toFrame(map.at(3 * f + 1), frame),
+    toFrame(map.at(3 * f + 2), frame) };
+  const Box box(p);
   const int sign = orientation(p[0], p[1], p[2]);
   if (sign == 0)
   {
@@ -143,16 +166,16 @@ void scanInside(std::array<FixedVec2, 3> p, const Box& box, Index f, std::vector
     const std::int64_t high = static_cast<std::int64_t>(span.high);
     for (std::int64_t u = ceilUnit(static_cast<std::int64_t>(span.low)); u <= high; u += kOne)
     {
-      addVertex(list, Site::Face, f, { u, v });
+      addVertex(list, Site::Face, f, rotate({ u, v }, frame));
     }
   }
 }
 
-/// Integer points strictly inside edge h, in ascending (v, u).
-void scanEdge(const ExactMap& map, Index h, std::vector<GridVertex>& list)
+/// Integer points strictly inside edge h, in ascending (v, u) of the frame.
+void scanEdge(const ExactMap& map, Index h, int frame, std::vector<GridVertex>& list)
 {
-  const FixedVec2 a = map.at(h);
-  const FixedVec2 e = map.edge(h);
+  const FixedVec2 a = toFrame(map.at(h), frame);
+  const FixedVec2 e = toFrame(map.edge(h), frame);
   const bool byU = std::abs(e.u) >= std::abs(e.v);
   const std::int64_t length = byU ? e.u : e.v;
   const std::int64_t from = byU ? a.u : a.v;
@@ -170,7 +193,7 @@ void scanEdge(const ExactMap& map, Index h, std::vector<GridVertex>& list)
     const std::int64_t y = (byU ? a.v : a.u) + static_cast<std::int64_t>(product / length);
     if (product % length == 0 && isInteger(y))
     {
-      addVertex(list, Site::Edge, h, byU ? FixedVec2{ x, y } : FixedVec2{ y, x });
+      addVertex(list, Site::Edge, h, rotate(byU ? FixedVec2{ x, y } : FixedVec2{ y, x }, frame));
     }
   }
   if (byU && e.v != 0 && (e.u > 0) != (e.v > 0))
@@ -188,12 +211,13 @@ void scanFace(const ExactMap& map, Index f, std::vector<GridVertex>& list)
   {
     return; // the lot of nearly all triangles of a fine mesh
   }
-  scanInside(p, box, f, list);
+  const int frame = frameOf(map, f);
+  scanInside(map, f, frame, list);
   for (Index h = 3 * f; h < 3 * f + 3; ++h)
   {
     if (h < map.mesh.twin[h]) // holds on the boundary, too
     {
-      scanEdge(map, h, list);
+      scanEdge(map, h, frame, list);
     }
   }
   for (Index h = 3 * f; h < 3 * f + 3; ++h)
@@ -205,9 +229,12 @@ void scanFace(const ExactMap& map, Index f, std::vector<GridVertex>& list)
   }
 }
 
-bool before(const GridVertex& a, const GridVertex& b)
+/// The order of grid vertices in a face with this frame.
+bool before(const GridVertex& a, const GridVertex& b, int frame)
 {
-  return std::make_tuple(a.slot(), a.uv.v, a.uv.u) < std::make_tuple(b.slot(), b.uv.v, b.uv.u);
+  const FixedVec2 p = toFrame(a.uv, frame);
+  const FixedVec2 q = toFrame(b.uv, frame);
+  return std::make_tuple(a.slot(), p.v, p.u) < std::make_tuple(b.slot(), q.v, q.u);
 }
 
 } // namespace
@@ -297,7 +324,8 @@ void GridVertices::numberPorts(Part& part, Index q) const
 Sector GridVertices::faceSector(const GridVertex& vertex) const
 {
   const int sign = map_.orientationOf(vertex.site);
-  return { vertex.site, kInvalidIndex, vertex.uv, 0, sign != 0 ? 4 : 0, sign };
+  return { vertex.site, kInvalidIndex, vertex.uv, frameOf(map_, vertex.site), sign != 0 ? 4 : 0,
+    sign };
 }
 
 Sector GridVertices::edgeSector(Index h, FixedVec2 point) const
@@ -346,8 +374,10 @@ std::optional<Index> GridVertices::findRecord(Site kind, Index site, FixedVec2 u
   key.kind = kind;
   const auto first = vertices_.begin() + faceFirst_[key.face()];
   const auto last = vertices_.begin() + faceFirst_[key.face() + 1];
-  const auto found = std::lower_bound(first, last, key, before);
-  if (found == last || before(key, *found))
+  const int frame = frameOf(map_, key.face());
+  const auto found = std::lower_bound(first, last, key,
+    [frame](const GridVertex& a, const GridVertex& b) { return before(a, b, frame); });
+  if (found == last || before(key, *found, frame))
   {
     return std::nullopt;
   }

@@ -61,6 +61,31 @@ std::map<int, int> interiorValences(const QuadMesh& mesh)
 
 } // namespace
 
+// A map is the same in any charts, so are its quads, their order and every bit of their points.
+TEST(Extraction, QuadsDoNotDependOnCharts)
+{
+  Random random(11);
+  for (const int k : { 1, 3, 7 })
+  {
+    for (GridMapCase c : allCases(k))
+    {
+      for (const bool folded : { false, true })
+      {
+        SCOPED_TRACE(c.name + (folded ? " with folds" : ""));
+        MapEditor editor(c);
+        folded ? editor.tangle(random, 3) : editor.refine(random, 60, false);
+        GridMapCase shuffled = c;
+        MapEditor(shuffled).shuffleCharts(random);
+        expectSame(extract(c).mesh, extract(shuffled).mesh);
+        ExtractionOptions smooth;
+        smooth.threads = 1;
+        expectSame(extractQuads(c.mesh, c.uv, smooth).mesh,
+          extractQuads(shuffled.mesh, shuffled.uv, smooth).mesh);
+      }
+    }
+  }
+}
+
 // Every grid vertex on a mesh vertex, and grid lines along mesh edges only.
 TEST(Extraction, UnitSquares)
 {
