@@ -7,10 +7,11 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
-#include <vtkInformationVector.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkTable.h>
 
 namespace quadrille
 {
@@ -21,13 +22,17 @@ namespace
 class Stamps
 {
 public:
-  void addData(vtkPolyData* data)
+  void addWhole(vtkDataObject* data) { add(data); }
+
+  void addTable(vtkTable* data)
   {
-    add(data ? data->GetPoints() : nullptr);
-    if (!data)
-    {
-      return;
-    }
+    addAttributes(data->GetRowData());
+    addArrays(data->GetFieldData());
+  }
+
+  void addSurface(vtkPolyData* data)
+  {
+    add(data->GetPoints());
     add(data->GetPoints() ? data->GetPoints()->GetData() : nullptr);
     for (vtkCellArray* cells :
       { data->GetVerts(), data->GetLines(), data->GetPolys(), data->GetStrips() })
@@ -68,18 +73,22 @@ private:
 
 } // namespace
 
-std::vector<Stamp> stampsOf(vtkInformationVector** inputs, int ports)
+void addStamps(vtkDataObject* data, std::vector<Stamp>& stamps)
 {
-  Stamps result;
-  for (int port = 0; port < ports; ++port)
+  Stamps added;
+  if (auto* surface = vtkPolyData::SafeDownCast(data))
   {
-    for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
-    {
-      result.addData(vtkPolyData::GetData(inputs[port], i));
-    }
-    result.stamps.emplace_back(nullptr, inputs[port]->GetNumberOfInformationObjects());
+    added.addSurface(surface);
   }
-  return result.stamps;
+  else if (auto* table = vtkTable::SafeDownCast(data))
+  {
+    added.addTable(table);
+  }
+  else
+  {
+    added.addWhole(data);
+  }
+  stamps.insert(stamps.end(), added.stamps.begin(), added.stamps.end());
 }
 
 } // namespace quadrille

@@ -8,7 +8,7 @@
 
 #include <vtkType.h>
 
-class vtkInformationVector;
+class vtkDataObject;
 
 namespace quadrille
 {
@@ -16,7 +16,8 @@ namespace quadrille
 /// Object and time of its last change.
 using Stamp = std::pair<const void*, vtkMTimeType>;
 
-/// Of all points, cells and arrays of all inputs, in order. Equal stamps mean equal contents, whatever the data object that holds them.
-std::vector<Stamp> stampsOf(vtkInformationVector** inputs, int ports);
+/// Appends those of all points, cells and arrays, in order. Equal stamps mean equal contents, whatever the vtkPolyData or vtkTable that
+/// holds them; any other data object counts as changed whenever it was touched.
+void addStamps(vtkDataObject* data, std::vector<Stamp>& stamps);
 
 } // namespace quadrille

@@ -4,14 +4,13 @@
 
 #include "Hierarchy/Hierarchy.h"
 #include "Pipeline/Pipeline.h"
+#include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleLog.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleStages.h"
 
 #include "vtkFieldData.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
@@ -27,17 +26,16 @@ vtkDecimationHierarchy::vtkDecimationHierarchy()
 vtkDecimationHierarchy::~vtkDecimationHierarchy() = default;
 
 //------------------------------------------------------------------------------
-int vtkDecimationHierarchy::FillOutputPortInformation(int port, vtkInformation* info)
+const char* vtkDecimationHierarchy::GetBlockType(int outputPort) const
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 2 ? "vtkTable" : "vtkPolyData");
-  return 1;
+  return outputPort == 2 ? "vtkTable" : "vtkPolyData";
 }
 
 //------------------------------------------------------------------------------
-void vtkDecimationHierarchy::Execute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkDecimationHierarchy::Execute(quadrille::Block& block)
 {
-  const quadrille::ConvertedSurface converted = this->ConvertInputs(inputs);
-  const quadrille::RemeshOptions options = this->MakeOptions();
+  const quadrille::ConvertedSurface converted = this->ConvertInputs(block);
+  const quadrille::RemeshOptions options = this->MakeOptions(block);
 
   quadrille::SurfaceRecipe recipe;
   recipe.featureAngle = options.featureAngle;
@@ -84,15 +82,15 @@ void vtkDecimationHierarchy::Execute(vtkInformationVector** inputs, vtkInformati
   }
   const auto write = [&surface](const quadrille::Level& level)
   { return quadrille::writeLevel(level, quadrille::levelValences(surface, level.fineVertex)); };
-  vtkPolyData* coarse = vtkPolyData::GetData(outputs, 0);
+  vtkPolyData* coarse = block.output(0);
   coarse->ShallowCopy(write(hierarchy.coarse));
   quadrille::addNumber(coarse, "TargetEdgeLength", target.edgeLength);
   quadrille::addCount(coarse, "TargetQuads", target.quads);
   quadrille::addStages(coarse, clock.records);
   quadrille::addRepair(coarse, surface.repair);
-  quadrille::addText(coarse, "Notices", quadrille::splitLines(this->GetNoticesText()));
-  vtkPolyData::GetData(outputs, 1)->ShallowCopy(write(hierarchy.intermediate));
-  quadrille::writeLog(hierarchy.log, recipe, vtkTable::GetData(outputs, 2));
+  quadrille::addText(coarse, "Notices", this->GetBlockNotices());
+  block.output(1)->ShallowCopy(write(hierarchy.intermediate));
+  quadrille::writeLog(hierarchy.log, recipe, block.outputTable(2));
 }
 
 //------------------------------------------------------------------------------

@@ -29,8 +29,8 @@ protected:
   vtkDecimationHierarchy();
   ~vtkDecimationHierarchy() override;
 
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  void Execute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  const char* GetBlockType(int outputPort) const override;
+  void Execute(quadrille::Block& block) override;
 
 private:
   vtkDecimationHierarchy(const vtkDecimationHierarchy&) = delete;

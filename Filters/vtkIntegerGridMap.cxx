@@ -4,6 +4,7 @@
 
 #include "GridMap/GridMap.h"
 #include "Pipeline/CoarsestMap.h"
+#include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleStages.h"
@@ -11,8 +12,6 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -63,9 +62,9 @@ vtkIntegerGridMap::vtkIntegerGridMap() = default;
 vtkIntegerGridMap::~vtkIntegerGridMap() = default;
 
 //------------------------------------------------------------------------------
-void vtkIntegerGridMap::Execute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkIntegerGridMap::Execute(quadrille::Block& block)
 {
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  vtkPolyData* input = block.input();
   const quadrille::Mesh mesh = quadrille::readMesh(input);
   quadrille::GridMapOptions options = optionsFor(input, this->EdgeLength);
   options.method = static_cast<quadrille::MapMethod>(this->Method);
@@ -92,7 +91,7 @@ void vtkIntegerGridMap::Execute(vtkInformationVector** inputs, vtkInformationVec
   quadrille::requireOk(map.status, "the map of the coarse level");
 
   // The mesh is written anew: a map belongs to corners, and strips or split points have none.
-  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  vtkPolyData* output = block.output();
   output->ShallowCopy(quadrille::writeMesh(mesh));
   if (input->GetNumberOfPoints() == output->GetNumberOfPoints())
   {

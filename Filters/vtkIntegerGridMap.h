@@ -89,7 +89,8 @@ protected:
   vtkIntegerGridMap();
   ~vtkIntegerGridMap() override;
 
-  void Execute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  PortRole GetPortRole(int) const override { return PortRole::Mesh; }
+  void Execute(quadrille::Block& block) override;
 
 private:
   vtkIntegerGridMap(const vtkIntegerGridMap&) = delete;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIntegerGridMapUpmap.h"
 
+#include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleLog.h"
 #include "QuadrilleReport.h"
@@ -11,8 +12,6 @@
 
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -85,18 +84,17 @@ vtkIntegerGridMapUpmap::vtkIntegerGridMapUpmap()
 vtkIntegerGridMapUpmap::~vtkIntegerGridMapUpmap() = default;
 
 //------------------------------------------------------------------------------
-int vtkIntegerGridMapUpmap::FillInputPortInformation(int port, vtkInformation* info)
+vtkQuadrilleAlgorithm::PortRole vtkIntegerGridMapUpmap::GetPortRole(int port) const
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 2 ? "vtkTable" : "vtkPolyData");
-  return 1;
+  return port == 0 ? PortRole::Mesh : port == 1 ? PortRole::Surface : PortRole::Log;
 }
 
 //------------------------------------------------------------------------------
-void vtkIntegerGridMapUpmap::Execute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
 {
-  vtkPolyData* coarseData = vtkPolyData::GetData(inputs[0]);
-  vtkPolyData* source = vtkPolyData::GetData(inputs[1]);
-  vtkTable* logData = vtkTable::GetData(inputs[2]);
+  vtkPolyData* coarseData = block.input(0);
+  vtkPolyData* source = block.input(1);
+  vtkTable* logData = block.inputTable(2);
   if (!source || !logData)
   {
     throw quadrille::InvalidInput("the surface or the log is missing");
@@ -131,7 +129,7 @@ void vtkIntegerGridMapUpmap::Execute(vtkInformationVector** inputs, vtkInformati
     this->AddNotice("map on the surface: " + certificate.text());
     vtkWarningMacro(<< "map on the surface: " << certificate.text());
   }
-  vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+  vtkPolyData* output = block.output();
   std::vector<std::string> notCarried;
   output->ShallowCopy(quadrille::writeMappedSurface(surface, map.uv,
     quadrille::matchingOf(surface.mesh, map.uv, this->NumberOfThreads), expected.turns, source,

@@ -37,8 +37,8 @@ protected:
   vtkIntegerGridMapUpmap();
   ~vtkIntegerGridMapUpmap() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  void Execute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  PortRole GetPortRole(int port) const override;
+  void Execute(quadrille::Block& block) override;
 
 private:
   vtkIntegerGridMapUpmap(const vtkIntegerGridMapUpmap&) = delete;

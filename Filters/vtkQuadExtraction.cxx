@@ -3,6 +3,7 @@
 #include "vtkQuadExtraction.h"
 
 #include "Extraction/Extraction.h"
+#include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleMappedInput.h"
 #include "QuadrilleQuads.h"
@@ -16,8 +17,6 @@
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
@@ -173,7 +172,7 @@ vtkPolyData* vtkQuadExtraction::GetSeparatrices()
 }
 
 //------------------------------------------------------------------------------
-void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkQuadExtraction::Execute(quadrille::Block& block)
 {
   if (this->MaximumNumberOfQuads < 1)
   {
@@ -183,7 +182,7 @@ void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVec
   {
     throw quadrille::InvalidInput("SmoothingSteps must be at least 0");
   }
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  vtkPolyData* input = block.input();
   if (quadrille::readMethod(input) == quadrille::MapMethod::Seamless)
   {
     throw quadrille::InvalidInput(
@@ -226,16 +225,16 @@ void vtkQuadExtraction::Execute(vtkInformationVector** inputs, vtkInformationVec
   {
     this->AddNotice(notice);
   }
-  vtkPolyData* quads = vtkPolyData::GetData(outputs, 0);
+  vtkPolyData* quads = block.output(0);
   quads->ShallowCopy(written.quads);
   quadrille::addStages(quads, clock.records);
   quadrille::addMapReport(quads, mapped);
   addBoundaryReport(quads, result, mesh);
-  quadrille::addText(quads, "Notices", quadrille::splitLines(this->GetNoticesText()));
+  quadrille::addText(quads, "Notices", this->GetBlockNotices());
   quadrille::addExtraction(quads, result);
   quadrille::addCount(quads, "ActualQuads", result.mesh.quads.size());
-  vtkPolyData::GetData(outputs, 1)->ShallowCopy(written.lines);
-  vtkPolyData::GetData(outputs, 2)->ShallowCopy(written.separatrices);
+  block.output(1)->ShallowCopy(written.lines);
+  block.output(2)->ShallowCopy(written.separatrices);
 }
 
 //------------------------------------------------------------------------------

@@ -115,7 +115,8 @@ protected:
   vtkQuadExtraction();
   ~vtkQuadExtraction() override;
 
-  void Execute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  PortRole GetPortRole(int) const override { return PortRole::Mesh; }
+  void Execute(quadrille::Block& block) override;
 
 private:
   vtkQuadExtraction(const vtkQuadExtraction&) = delete;

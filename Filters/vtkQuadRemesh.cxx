@@ -4,13 +4,12 @@
 
 #include "Pipeline/Pipeline.h"
 #include "Pipeline/RemeshMemory.h"
+#include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleQuads.h"
 #include "QuadrilleReport.h"
 
 #include "vtkFieldData.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
@@ -36,6 +35,12 @@ quadrille::QuadSource sourceOf(const quadrille::PreparedSurface& surface,
   return source;
 }
 
+/// The levels of a block, for its next execution.
+struct LevelMemory : quadrille::BlockMemory
+{
+  quadrille::RemeshMemory levels;
+};
+
 void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
 {
   quadrille::addStages(data, result.stages);
@@ -59,7 +64,7 @@ void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkQuadRemesh::vtkQuadRemesh() : Memory(std::make_unique<quadrille::RemeshMemory>())
+vtkQuadRemesh::vtkQuadRemesh()
 {
   this->SetNumberOfOutputPorts(4);
 }
@@ -71,7 +76,7 @@ void vtkQuadRemesh::SetKeepLevels(vtkTypeBool on)
 {
   if (!on)
   {
-    this->Memory->clear();
+    this->VisitStates([](quadrille::BlockState& state) { state.memory.reset(); });
   }
   if (this->KeepLevels != on)
   {
@@ -83,7 +88,11 @@ void vtkQuadRemesh::SetKeepLevels(vtkTypeBool on)
 //------------------------------------------------------------------------------
 double vtkQuadRemesh::GetRememberedMegabytes() const
 {
-  return 1e-6 * static_cast<double>(this->Memory->bytes());
+  std::size_t bytes = 0;
+  this->VisitStates(
+    [&bytes](quadrille::BlockState& state)
+    { bytes += state.memory ? state.memoryAs<LevelMemory>().levels.bytes() : 0; });
+  return 1e-6 * static_cast<double>(bytes);
 }
 
 //------------------------------------------------------------------------------
@@ -93,10 +102,8 @@ vtkPolyData* vtkQuadRemesh::GetPolyDataOutputAt(int port)
 }
 
 //------------------------------------------------------------------------------
-void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkQuadRemesh::Execute(quadrille::Block& block)
 {
-  this->ActualQuads = this->TargetQuads = this->Handles = this->UnresolvedHandles = 0;
-  this->ShortestLoopOverEdgeLength = this->ShortestBoundaryOverEdgeLength = 0;
   if (this->MaximumNumberOfQuads < 1)
   {
     throw quadrille::InvalidInput("MaximumNumberOfQuads must be at least 1");
@@ -111,9 +118,9 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
       "the method 'seamless' makes no quads, and its result, the mapped surface, is "
       "switched off: switch ComputeMappedSurface on or choose another method");
   }
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
-  quadrille::ConvertedSurface converted = this->ConvertInputs(inputs);
-  quadrille::RemeshOptions options = this->MakeOptions();
+  vtkPolyData* input = block.input();
+  quadrille::ConvertedSurface converted = this->ConvertInputs(block);
+  quadrille::RemeshOptions options = this->MakeOptions(block);
   options.maximumNumberOfQuads = static_cast<std::size_t>(this->MaximumNumberOfQuads);
   options.smoothingSteps = this->SmoothingSteps;
   if (this->MemoryLimit > 0)
@@ -131,24 +138,22 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
 
   options.warmStart = this->WarmStart != 0;
 
-  this->ReusedStagesText.clear();
+  quadrille::BlockReport& report = block.state->report;
   const quadrille::RemeshResult result = this->KeepLevels
-    ? quadrille::remesh(std::move(converted.input), options, *this->Memory)
+    ? quadrille::remesh(std::move(converted.input), options, block.state->memoryAs<LevelMemory>().levels)
     : quadrille::remesh(std::move(converted.input), options);
-  for (const std::string& stage : result.reused)
-  {
-    this->ReusedStagesText += (this->ReusedStagesText.empty() ? "" : "\n") + stage;
-  }
-  this->TargetQuads = static_cast<vtkIdType>(result.targetQuads);
+  report.reusedStages = result.reused;
+  report.numbers["TargetQuads"] = static_cast<double>(result.targetQuads);
   this->SetStageRecords(result.stages);
   this->SetCertificate(result.certificate);
   const quadrille::SmallParts& parts = result.smallParts;
-  this->Handles = static_cast<vtkIdType>(parts.handles);
-  this->UnresolvedHandles = static_cast<vtkIdType>(parts.unresolvedHandles);
+  report.numbers["Handles"] = static_cast<double>(parts.handles);
+  report.numbers["UnresolvedHandles"] = static_cast<double>(parts.unresolvedHandles);
   if (result.targetEdgeLength > 0) // what is refused before has none
   {
-    this->ShortestLoopOverEdgeLength = parts.shortestLoop / result.targetEdgeLength;
-    this->ShortestBoundaryOverEdgeLength = parts.boundary.shortest / result.targetEdgeLength;
+    report.numbers["ShortestLoopOverEdgeLength"] = parts.shortestLoop / result.targetEdgeLength;
+    report.numbers["ShortestBoundaryOverEdgeLength"] =
+      parts.boundary.shortest / result.targetEdgeLength;
   }
   for (const std::string& notice : result.notices)
   {
@@ -165,15 +170,15 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
   {
     this->AddNotice(notice);
   }
-  vtkPolyData* quads = vtkPolyData::GetData(outputs, 0);
+  vtkPolyData* quads = block.output(0);
   quads->ShallowCopy(written.quads);
   addFieldData(quads, result);
   quadrille::addMethod(quads, options.method);
   quadrille::addAnisotropy(quads, options.anisotropyLimit, result.beyondAnisotropyLimit);
-  quadrille::addText(quads, "Notices", quadrille::splitLines(this->GetNoticesText()));
+  quadrille::addText(quads, "Notices", this->GetBlockNotices());
   if (this->ComputeMappedSurface)
   {
-    vtkPolyData* mapped = vtkPolyData::GetData(outputs, 1);
+    vtkPolyData* mapped = block.output(1);
     mapped->ShallowCopy(quadrille::writeMappedSurface(result.surface, result.uv,
       quadrille::matchingOf(result.surface.mesh, result.uv, this->NumberOfThreads), result.turns,
       input, converted, this->TextureCoordinates != 0, this->NumberOfThreads));
@@ -183,9 +188,9 @@ void vtkQuadRemesh::Execute(vtkInformationVector** inputs, vtkInformationVector*
     quadrille::addCount(mapped, "Charts", result.charts.charts);
     quadrille::addCount(mapped, "SeamEdges", result.charts.seamEdges);
   }
-  vtkPolyData::GetData(outputs, 2)->ShallowCopy(written.lines);
-  vtkPolyData::GetData(outputs, 3)->ShallowCopy(written.separatrices);
-  this->ActualQuads = quads->GetNumberOfPolys();
+  block.output(2)->ShallowCopy(written.lines);
+  block.output(3)->ShallowCopy(written.separatrices);
+  report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
 }
 
 //------------------------------------------------------------------------------
@@ -201,18 +206,18 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CloseHandles: " << this->CloseHandles << "\n";
   os << indent << "KeepLevels: " << this->KeepLevels << "\n";
   os << indent << "WarmStart: " << this->WarmStart << "\n";
-  os << indent << "ReusedStagesText: " << this->ReusedStagesText << "\n";
+  os << indent << "ReusedStagesText: " << this->GetReusedStagesText() << "\n";
   os << indent << "RememberedMegabytes: " << this->GetRememberedMegabytes() << "\n";
   os << indent << "FinalQuality: " << this->FinalQuality << "\n";
   os << indent << "DistortionMetric: " << this->DistortionMetric << "\n";
   os << indent << "CellDataFrom: " << this->CellDataFrom << "\n";
   os << indent << "ComputeMappedSurface: " << this->ComputeMappedSurface << "\n";
   os << indent << "TextureCoordinates: " << this->TextureCoordinates << "\n";
-  os << indent << "TargetQuads: " << this->TargetQuads << "\n";
-  os << indent << "ActualQuads: " << this->ActualQuads << "\n";
-  os << indent << "Handles: " << this->Handles << "\n";
-  os << indent << "UnresolvedHandles: " << this->UnresolvedHandles << "\n";
-  os << indent << "ShortestLoopOverEdgeLength: " << this->ShortestLoopOverEdgeLength << "\n";
-  os << indent << "ShortestBoundaryOverEdgeLength: " << this->ShortestBoundaryOverEdgeLength
+  os << indent << "TargetQuads: " << this->GetTargetQuads() << "\n";
+  os << indent << "ActualQuads: " << this->GetActualQuads() << "\n";
+  os << indent << "Handles: " << this->GetHandles() << "\n";
+  os << indent << "UnresolvedHandles: " << this->GetUnresolvedHandles() << "\n";
+  os << indent << "ShortestLoopOverEdgeLength: " << this->GetShortestLoopOverEdgeLength() << "\n";
+  os << indent << "ShortestBoundaryOverEdgeLength: " << this->GetShortestBoundaryOverEdgeLength()
      << "\n";
 }

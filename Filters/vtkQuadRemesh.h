@@ -32,14 +32,6 @@
 
 #include "vtkQuadrilleSurfaceAlgorithm.h"
 
-#include <memory>
-#include <string>
-
-namespace quadrille
-{
-class RemeshMemory;
-}
-
 class QUADRILLEFILTERS_EXPORT vtkQuadRemesh : public vtkQuadrilleSurfaceAlgorithm
 {
 public:
@@ -213,7 +205,7 @@ public:
   double GetRememberedMegabytes() const;
   /// Stages that the last execution had, or began, from an earlier one, one a line; "all" where nothing had changed and the result
   /// before was returned.
-  const char* GetReusedStagesText() const { return this->ReusedStagesText.c_str(); }
+  const char* GetReusedStagesText() const { return this->GetReusedStages(); }
 
   ///@{
   /**
@@ -234,9 +226,9 @@ public:
   ///@}
 
   /// Number of quads that were made by the last execution.
-  vtkGetMacro(ActualQuads, vtkIdType);
+  vtkIdType GetActualQuads() const { return this->CountOverBlocks("ActualQuads"); }
   /// Number of quads that the last execution aimed at.
-  vtkGetMacro(TargetQuads, vtkIdType);
+  vtkIdType GetTargetQuads() const { return this->CountOverBlocks("TargetQuads"); }
 
   ///@{
   /**
@@ -244,10 +236,16 @@ public:
    * through them that is shorter than three target edge lengths; the shortest such loop, and the shortest
    * boundary loop, over the target edge length (0: there is none).
    */
-  vtkGetMacro(Handles, vtkIdType);
-  vtkGetMacro(UnresolvedHandles, vtkIdType);
-  vtkGetMacro(ShortestLoopOverEdgeLength, double);
-  vtkGetMacro(ShortestBoundaryOverEdgeLength, double);
+  vtkIdType GetHandles() const { return this->CountOverBlocks("Handles"); }
+  vtkIdType GetUnresolvedHandles() const { return this->CountOverBlocks("UnresolvedHandles"); }
+  double GetShortestLoopOverEdgeLength() const
+  {
+    return this->LeastOverBlocks("ShortestLoopOverEdgeLength");
+  }
+  double GetShortestBoundaryOverEdgeLength() const
+  {
+    return this->LeastOverBlocks("ShortestBoundaryOverEdgeLength");
+  }
   ///@}
 
   /// Outputs 1 to 3.
@@ -259,15 +257,18 @@ protected:
   vtkQuadRemesh();
   ~vtkQuadRemesh() override;
 
-  void Execute(vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void Execute(quadrille::Block& block) override;
   bool KeepsResult() override { return this->KeepLevels != 0; }
-  void ResultIsKept() override { this->ReusedStagesText = "all"; }
 
 private:
   vtkQuadRemesh(const vtkQuadRemesh&) = delete;
   void operator=(const vtkQuadRemesh&) = delete;
 
   vtkPolyData* GetPolyDataOutputAt(int port);
+  vtkIdType CountOverBlocks(const char* number) const
+  {
+    return static_cast<vtkIdType>(this->SumOverBlocks(number));
+  }
 
   int Method = METHOD_SCALE_AWARE;
   int Integers = INTEGERS_KEEP_SIZES;
@@ -283,14 +284,6 @@ private:
   int CellDataFrom = CELL_DATA_FROM_CENTRE;
   vtkTypeBool ComputeMappedSurface = 1;
   vtkTypeBool TextureCoordinates = 1;
-  vtkIdType ActualQuads = 0;
-  vtkIdType TargetQuads = 0;
-  vtkIdType Handles = 0;
-  vtkIdType UnresolvedHandles = 0;
-  double ShortestLoopOverEdgeLength = 0;
-  double ShortestBoundaryOverEdgeLength = 0;
-  std::string ReusedStagesText;
-  std::unique_ptr<quadrille::RemeshMemory> Memory;
 };
 
 #endif

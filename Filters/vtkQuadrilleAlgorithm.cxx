@@ -4,12 +4,16 @@
 
 #include "GridMap/GridMap.h"
 #include "Pipeline/Pipeline.h"
+#include "QuadrilleBlocks.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleStamps.h"
+#include "QuadrilleSurfaces.h"
 
 #include "vtkDataObject.h"
+#include "vtkDataObjectTypes.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
@@ -51,15 +55,122 @@ void initializeOutputs(vtkInformationVector* outputs)
 /// Whether the first input has nothing to work on, which is normal on a rank of a parallel run.
 bool isEmpty(vtkInformationVector** inputs)
 {
-  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
-  return !input || input->GetNumberOfCells() == 0;
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  return !input || input->GetNumberOfElements(vtkDataObject::CELL) == 0;
+}
+
+/// Place and name: a block that moved or was renamed is another one.
+std::string keyOf(const quadrille::Block& block)
+{
+  std::string key;
+  for (const unsigned index : block.path)
+  {
+    key += std::to_string(index) + "/";
+  }
+  return key + block.name;
+}
+
+/// A text of several blocks: each line begins with the block's name.
+void addLines(std::string& text, const std::string& block, const std::string& lines)
+{
+  for (const std::string& line : quadrille::splitLines(lines))
+  {
+    text += (text.empty() ? "" : "\n") + (block.empty() ? "" : block + ": ") + line;
+  }
+}
+
+std::string joinLines(const std::vector<std::string>& lines)
+{
+  std::string text;
+  for (const std::string& line : lines)
+  {
+    addLines(text, "", line);
+  }
+  return text;
 }
 
 } // namespace
 
+/// One execution: the structure of the input and its blocks.
+struct vtkQuadrilleAlgorithm::Run
+{
+  std::vector<quadrille::BlockTree> trees; ///< by input port; empty for shared ones
+  std::vector<quadrille::Block> blocks;
+  std::vector<quadrille::Stamp> stamps; ///< of what all blocks share
+};
+
 //------------------------------------------------------------------------------
 vtkQuadrilleAlgorithm::vtkQuadrilleAlgorithm() = default;
 vtkQuadrilleAlgorithm::~vtkQuadrilleAlgorithm() = default;
+
+//------------------------------------------------------------------------------
+vtkQuadrilleAlgorithm::PortRole vtkQuadrilleAlgorithm::GetPortRole(int port) const
+{
+  return port == 0 ? PortRole::Surface : PortRole::Shared;
+}
+
+//------------------------------------------------------------------------------
+int vtkQuadrilleAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
+{
+  // Composite data first: the executive then leaves the walk through its blocks to the filter.
+  const PortRole role = this->GetPortRole(port);
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(),
+    role == PortRole::Surface ? "vtkDataSet" : role == PortRole::Log ? "vtkTable" : "vtkPolyData");
+  if (role == PortRole::Shared)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkQuadrilleAlgorithm::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject"); // RequestDataObject chooses
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkQuadrilleAlgorithm::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    return this->RequestDataObject(inputs, outputs);
+  }
+  return this->Superclass::ProcessRequest(request, inputs, outputs);
+}
+
+//------------------------------------------------------------------------------
+int vtkQuadrilleAlgorithm::RequestDataObject(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  std::string composite;
+  try
+  {
+    composite = quadrille::compositeTypeFor(vtkDataObject::GetData(inputs[0]));
+  }
+  catch (const quadrille::InvalidInput& error)
+  {
+    return this->ReportFailure(error.what());
+  }
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    const std::string type = composite.empty() ? this->GetBlockType(port) : composite;
+    vtkInformation* info = outputs->GetInformationObject(port);
+    vtkDataObject* output = vtkDataObject::GetData(info);
+    if (!output || type != output->GetClassName())
+    {
+      const auto made = vtk::TakeSmartPointer(vtkDataObjectTypes::NewDataObject(type.c_str()));
+      info->Set(vtkDataObject::DATA_OBJECT(), made);
+      this->GetOutputPortInformation(port)->Set(
+        vtkDataObject::DATA_EXTENT_TYPE(), made->GetExtentType());
+    }
+  }
+  return 1;
+}
 
 //------------------------------------------------------------------------------
 int vtkQuadrilleAlgorithm::RequestUpdateExtent(
@@ -85,23 +196,11 @@ int vtkQuadrilleAlgorithm::RequestUpdateExtent(
 int vtkQuadrilleAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  std::vector<quadrille::Stamp> stamps = quadrille::stampsOf(inputs, this->GetNumberOfInputPorts());
-  stamps.emplace_back(nullptr, this->GetMTime());
-  stamps.emplace_back(nullptr, requestedPiece(outputs));
-  stamps.emplace_back(nullptr, requestedPieces(outputs));
-  if (this->KeepsResult() && stamps == this->LastStamps)
-  {
-    this->RestoreResult(outputs);
-    this->ResultIsKept();
-    this->UpdateProgress(1.0);
-    return 1;
-  }
-  this->LastStamps.clear();
   this->ResetOutcome();
   if (requestedPiece(outputs) > 0 || (requestedPieces(outputs) > 1 && isEmpty(inputs)))
   {
     initializeOutputs(outputs);
-    this->LastResult.clear();
+    this->States.clear();
     this->Outcome = Succeeded;
     return 1;
   }
@@ -109,37 +208,260 @@ int vtkQuadrilleAlgorithm::RequestData(
     [this](double, const std::string&) { return this->ShowProgressAndGoOn(); });
   try
   {
-    this->Execute(inputs, outputs);
-    this->KeepResult(outputs);
-    this->Outcome = Succeeded;
-    this->LastStamps = std::move(stamps);
-    this->UpdateProgress(1.0);
-    return 1;
+    return this->RunBlocks(inputs, outputs);
   }
   catch (const quadrille::InvalidInput& error)
   {
-    return this->Fail(BadInput, error.what(), outputs);
+    this->Outcome = BadInput;
+    return this->ReportFailure(error.what());
+  }
+  catch (const std::exception& error)
+  {
+    this->Outcome = NoValidResult;
+    return this->ReportFailure(std::string("internal error: ") + error.what());
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkQuadrilleAlgorithm::RunBlocks(vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  Run run;
+  const int ports = this->GetNumberOfInputPorts();
+  run.stamps.emplace_back(nullptr, this->GetMTime());
+  std::vector<vtkSmartPointer<vtkDataObject>> shared(static_cast<std::size_t>(ports));
+  for (int port = 0; port < ports; ++port)
+  {
+    vtkDataObject* data = vtkDataObject::GetData(inputs[port]);
+    const bool isShared = this->GetPortRole(port) == PortRole::Shared;
+    run.trees.push_back(isShared ? quadrille::BlockTree{} : quadrille::blockTree(data));
+    if (isShared && data)
+    {
+      shared[port] = quadrille::joinShared(quadrille::blockTree(data));
+      quadrille::addStamps(data, run.stamps);
+    }
+  }
+  for (const auto& [path, node] : run.trees[0])
+  {
+    // An empty leaf of composite data is normal; a plain data set without cells is told by the filter.
+    const bool isEmptyLeaf = !path.empty() &&
+      std::none_of(node.pieces.begin(), node.pieces.end(), quadrille::hasCells);
+    if (!node.isBlock || isEmptyLeaf)
+    {
+      continue;
+    }
+    quadrille::Block& block = run.blocks.emplace_back();
+    block.path = path;
+    block.name = quadrille::blockName(run.trees[0], path);
+    block.inputs = shared;
+    block.inputs.resize(static_cast<std::size_t>(ports));
+  }
+  if (run.blocks.empty())
+  {
+    throw quadrille::InvalidInput("the input has no block with a surface");
+  }
+  std::map<std::string, std::unique_ptr<quadrille::BlockState>> states;
+  for (quadrille::Block& block : run.blocks)
+  {
+    auto& state = states[keyOf(block)] = std::move(this->States[keyOf(block)]);
+    if (!state)
+    {
+      state = std::make_unique<quadrille::BlockState>();
+    }
+    block.state = state.get();
+  }
+  this->States = std::move(states);
+  for (std::size_t i = 0; i < run.blocks.size(); ++i)
+  {
+    this->BlockBegin = static_cast<double>(i) / static_cast<double>(run.blocks.size());
+    this->BlockEnd = static_cast<double>(i + 1) / static_cast<double>(run.blocks.size());
+    this->RunBlock(run, run.blocks[i]);
+  }
+  return this->Conclude(run, outputs);
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::RunBlock(Run& run, quadrille::Block& block)
+{
+  quadrille::BlockState& state = *block.state;
+  std::vector<quadrille::Stamp> stamps = run.stamps;
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    const auto node = run.trees[port].find(block.path);
+    if (node != run.trees[port].end())
+    {
+      for (vtkDataObject* piece : node->second.pieces)
+      {
+        quadrille::addStamps(piece, stamps);
+      }
+    }
+  }
+  if (this->KeepsResult() && stamps == state.lastStamps)
+  {
+    state.report.reusedStages = { "all" };
+    return;
+  }
+  state.lastStamps.clear();
+  state.report = {};
+  this->Report = &state.report;
+  try
+  {
+    for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+    {
+      const auto node = run.trees[port].find(block.path);
+      if (node != run.trees[port].end())
+      {
+        const auto& pieces = node->second.pieces;
+        if (this->GetPortRole(port) == PortRole::Surface)
+        {
+          block.inputs[port] = quadrille::joinSurface(pieces, state.report.notices);
+        }
+        else
+        {
+          block.inputs[port] = quadrille::joinExact(pieces);
+        }
+      }
+    }
+    this->ExecuteBlock(block);
+    state.lastStamps = std::move(stamps);
+  }
+  catch (const quadrille::InvalidInput& error)
+  {
+    this->FailBlock(block, BadInput, error.what());
   }
   catch (const quadrille::Cancelled&)
   {
-    return this->FailCancelled(outputs);
+    this->FailBlockAsStopped(block);
   }
   catch (const quadrille::StageFailure& failure)
   {
     if (failure.code == quadrille::StatusCode::Cancelled)
     {
-      return this->FailCancelled(outputs);
+      this->FailBlockAsStopped(block);
+      return;
     }
     const bool tooLarge = failure.code == quadrille::StatusCode::TooLarge;
-    return this->Fail(tooLarge ? TooLarge : NoValidResult, failure.what(), outputs);
+    this->FailBlock(block, tooLarge ? TooLarge : NoValidResult, failure.what());
   }
   catch (const std::bad_alloc&)
   {
-    return this->Fail(NoValidResult, "out of memory; ask for fewer quads or free memory", outputs);
+    this->FailBlock(block, NoValidResult, "out of memory; ask for fewer quads or free memory");
   }
   catch (const std::exception& error)
   {
-    return this->Fail(NoValidResult, std::string("internal error: ") + error.what(), outputs);
+    this->FailBlock(block, NoValidResult, std::string("internal error: ") + error.what());
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::ExecuteBlock(quadrille::Block& block)
+{
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    block.outputs.push_back(
+      vtk::TakeSmartPointer(vtkDataObjectTypes::NewDataObject(this->GetBlockType(port))));
+  }
+  this->Execute(block);
+  block.state->lastResult = block.outputs;
+  block.state->report.outcome = Succeeded;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::FailBlock(
+  quadrille::Block& block, OutcomeType outcome, const std::string& text)
+{
+  quadrille::BlockReport& report = block.state->report;
+  report.outcome = outcome;
+  report.outcomeText = text;
+  const bool hasResult = !block.state->lastResult.empty();
+  if (hasResult || outcome == Aborted)
+  {
+    report.outcomeText += hasResult ? "; the previous result is kept" : "; there is no result";
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::FailBlockAsStopped(quadrille::Block& block)
+{
+  if (!this->TimeIsOver)
+  {
+    this->FailBlock(block, Aborted, "stopped on request");
+    return;
+  }
+  std::ostringstream text;
+  text << "stopped after the time limit of " << this->TimeLimit << " s";
+  this->FailBlock(block, TimedOut, text.str());
+}
+
+//------------------------------------------------------------------------------
+int vtkQuadrilleAlgorithm::Conclude(const Run& run, vtkInformationVector* outputs)
+{
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    std::map<quadrille::BlockPath, vtkSmartPointer<vtkDataObject>> results;
+    for (const quadrille::Block& block : run.blocks)
+    {
+      // A copy, so that what is done to an output later does not change the result that is kept.
+      auto& result = results[block.path];
+      result = vtk::TakeSmartPointer(vtkDataObjectTypes::NewDataObject(this->GetBlockType(port)));
+      if (!block.state->lastResult.empty())
+      {
+        result->ShallowCopy(block.state->lastResult[port]);
+      }
+    }
+    quadrille::writeBlocks(run.trees[0], results, vtkDataObject::GetData(outputs, port));
+  }
+  std::vector<std::pair<std::string, quadrille::BlockReport>> reports;
+  for (const quadrille::Block& block : run.blocks)
+  {
+    reports.emplace_back(run.blocks.size() > 1 ? block.name : "", block.state->report);
+  }
+  this->SetReports(reports);
+  if (this->Outcome == Aborted)
+  {
+    // No error: it is what the user asked for. Returning 0 leaves the filter out of date.
+    // The flags have done their duty; left standing they would make the executive empty the outputs.
+    this->SetAbortExecute(0);
+    this->SetAbortOutput(false);
+    vtkWarningMacro(<< this->OutcomeText);
+    return 0;
+  }
+  this->UpdateProgress(1.0);
+  if (this->Outcome == Succeeded)
+  {
+    return 1;
+  }
+  this->ReportFailure(this->OutcomeText);
+  // The results of the other blocks are valid and have to be seen.
+  return std::any_of(this->Reports.begin(), this->Reports.end(),
+    [](const quadrille::BlockReport& report) { return report.outcome == Succeeded; });
+}
+
+//------------------------------------------------------------------------------
+int vtkQuadrilleAlgorithm::ReportFailure(const std::string& text)
+{
+  this->OutcomeText = text;
+  vtkErrorMacro(<< text);
+  return 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::SetReports(
+  const std::vector<std::pair<std::string, quadrille::BlockReport>>& reports)
+{
+  this->Outcome = Succeeded;
+  for (const auto& [name, report] : reports)
+  {
+    // A stop on request weighs most, as the filter is then left out of date; else the first failure counts.
+    if (this->Outcome == Succeeded || report.outcome == Aborted)
+    {
+      this->Outcome = report.outcome;
+    }
+    addLines(this->OutcomeText, name, report.outcomeText);
+    addLines(this->StageTimesText, name, report.stageTimes);
+    addLines(this->CertificateText, name, report.certificate);
+    addLines(this->NoticesText, name, joinLines(report.notices));
+    addLines(this->ReusedText, name, joinLines(report.reusedStages));
+    this->Reports.push_back(report);
   }
 }
 
@@ -150,7 +472,8 @@ std::function<bool(double, const std::string&)> vtkQuadrilleAlgorithm::MakeProgr
   return [this, begin, end](double fraction, const std::string& text)
   {
     // A stage that is tried again starts from its beginning; the bar must not run backwards.
-    const double progress = begin + (end - begin) * std::clamp(fraction, 0.0, 1.0);
+    const double ofBlock = begin + (end - begin) * std::clamp(fraction, 0.0, 1.0);
+    const double progress = this->BlockBegin + (this->BlockEnd - this->BlockBegin) * ofBlock;
     this->FarthestProgress = std::max(this->FarthestProgress, progress);
     this->SetProgressText(text.c_str());
     return this->ShowProgressAndGoOn();
@@ -169,19 +492,62 @@ bool vtkQuadrilleAlgorithm::ShowProgressAndGoOn()
 //------------------------------------------------------------------------------
 void vtkQuadrilleAlgorithm::SetStageRecords(const std::vector<quadrille::StageRecord>& stages)
 {
-  this->StageTimesText = quadrille::stageTimesText(stages);
+  this->Report->stageTimes = quadrille::stageTimesText(stages);
 }
 
 //------------------------------------------------------------------------------
 void vtkQuadrilleAlgorithm::SetCertificate(const quadrille::Certificate& certificate)
 {
-  this->CertificateText = certificate.text();
+  this->Report->certificate = certificate.text();
 }
 
 //------------------------------------------------------------------------------
 void vtkQuadrilleAlgorithm::AddNotice(const std::string& text)
 {
-  this->NoticesText += (this->NoticesText.empty() ? "" : "\n") + text;
+  this->Report->notices.push_back(text);
+}
+
+//------------------------------------------------------------------------------
+const std::vector<std::string>& vtkQuadrilleAlgorithm::GetBlockNotices() const
+{
+  return this->Report->notices;
+}
+
+//------------------------------------------------------------------------------
+double vtkQuadrilleAlgorithm::SumOverBlocks(const char* number) const
+{
+  double sum = 0;
+  for (const quadrille::BlockReport& report : this->Reports)
+  {
+    const auto value = report.numbers.find(number);
+    sum += value == report.numbers.end() ? 0 : value->second;
+  }
+  return sum;
+}
+
+//------------------------------------------------------------------------------
+double vtkQuadrilleAlgorithm::LeastOverBlocks(const char* number) const
+{
+  double least = 0;
+  for (const quadrille::BlockReport& report : this->Reports)
+  {
+    const auto value = report.numbers.find(number);
+    if (value != report.numbers.end() && value->second > 0)
+    {
+      least = least > 0 ? std::min(least, value->second) : value->second;
+    }
+  }
+  return least;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::VisitStates(
+  const std::function<void(quadrille::BlockState&)>& visit) const
+{
+  for (const auto& [key, state] : this->States)
+  {
+    visit(*state);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -191,73 +557,12 @@ void vtkQuadrilleAlgorithm::ResetOutcome()
   this->TimeIsOver = false;
   this->FarthestProgress = 0;
   this->Started = std::chrono::steady_clock::now();
+  this->Reports.clear();
   this->OutcomeText.clear();
   this->StageTimesText.clear();
   this->CertificateText.clear();
   this->NoticesText.clear();
-}
-
-//------------------------------------------------------------------------------
-void vtkQuadrilleAlgorithm::KeepResult(vtkInformationVector* outputs)
-{
-  this->LastResult.clear();
-  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
-  {
-    vtkDataObject* output = vtkDataObject::GetData(outputs, port);
-    this->LastResult.push_back(vtk::TakeSmartPointer(output->NewInstance()));
-    this->LastResult.back()->ShallowCopy(output);
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkQuadrilleAlgorithm::RestoreResult(vtkInformationVector* outputs)
-{
-  initializeOutputs(outputs);
-  for (std::size_t port = 0; port < this->LastResult.size(); ++port)
-  {
-    vtkDataObject::GetData(outputs, static_cast<int>(port))->ShallowCopy(this->LastResult[port]);
-  }
-}
-
-//------------------------------------------------------------------------------
-std::string vtkQuadrilleAlgorithm::DescribeOutputs() const
-{
-  return this->LastResult.empty() ? "there is no result" : "the previous result is kept";
-}
-
-//------------------------------------------------------------------------------
-int vtkQuadrilleAlgorithm::Fail(
-  OutcomeType outcome, const std::string& text, vtkInformationVector* outputs)
-{
-  this->RestoreResult(outputs);
-  this->Outcome = outcome;
-  this->OutcomeText = text;
-  if (!this->LastResult.empty())
-  {
-    this->OutcomeText += "; " + this->DescribeOutputs();
-  }
-  vtkErrorMacro(<< this->OutcomeText);
-  return 0;
-}
-
-//------------------------------------------------------------------------------
-int vtkQuadrilleAlgorithm::FailCancelled(vtkInformationVector* outputs)
-{
-  if (this->TimeIsOver)
-  {
-    std::ostringstream text;
-    text << "stopped after the time limit of " << this->TimeLimit << " s";
-    return this->Fail(TimedOut, text.str(), outputs);
-  }
-  // No error: it is what the user asked for. Returning 0 leaves the filter out of date.
-  // The flags have done their duty; left standing they would make the executive empty the outputs.
-  this->SetAbortExecute(0);
-  this->SetAbortOutput(false);
-  this->RestoreResult(outputs);
-  this->Outcome = Aborted;
-  this->OutcomeText = "stopped on request; " + this->DescribeOutputs();
-  vtkWarningMacro(<< this->OutcomeText);
-  return 0;
+  this->ReusedText.clear();
 }
 
 //------------------------------------------------------------------------------

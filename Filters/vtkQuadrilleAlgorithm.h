@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkQuadrilleAlgorithm
- * @brief   what the filters of Quadrille share: threads, time limit, errors, progress, MPI
+ * @brief   what the filters of Quadrille share: blocks, threads, time limit, errors, progress, MPI
  *
- * A filter of Quadrille works on a whole surface. Under MPI rank 0 asks for the whole of its input and the
- * other ranks have an empty output. Any failure is reported through vtkErrorMacro with the
- * element that is at fault, and GetOutcome() says what kind of failure it was. The outputs then hold the previous result,
- * unchanged, as they do after a stop on request; they are empty where there was none.
+ * A filter of Quadrille works on whole surfaces. A data set is one; composite data has one for each of its blocks, and the outputs
+ * are composite data with the same structure and names. Of a data set that is no vtkPolyData the surface is taken.
+ *
+ * Any failure is reported through vtkErrorMacro with the element that is at fault, and GetOutcome() says what kind of failure it
+ * was. The outputs then hold the previous result, unchanged, as they do after a stop on request; they are empty where there was
+ * none. A block that fails keeps its own previous result, and the others get theirs; the error names the blocks. Texts of several
+ * blocks begin each line with the name of the block.
  */
 #ifndef vtkQuadrilleAlgorithm_h
 #define vtkQuadrilleAlgorithm_h
@@ -18,12 +21,17 @@
 
 #include <chrono>     // for std::chrono::steady_clock
 #include <functional> // for std::function
+#include <map>        // for std::map
+#include <memory>     // for std::unique_ptr
 #include <string>     // for std::string
 #include <utility>    // for std::pair
 #include <vector>     // for std::vector
 
 namespace quadrille
 {
+struct Block;
+struct BlockReport;
+struct BlockState;
 struct Certificate;
 struct StageRecord;
 }
@@ -74,30 +82,63 @@ public:
   /// What the user should know: repairs, raised budgets, arrays that were not used.
   const char* GetNoticesText() { return this->NoticesText.c_str(); }
 
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
 protected:
   vtkQuadrilleAlgorithm();
   ~vtkQuadrilleAlgorithm() override;
 
+  /// What a port takes, and how composite data on it is understood.
+  enum class PortRole
+  {
+    Surface, ///< surfaces of any data sets; a block each, as port 0
+    Mesh,    ///< vtkPolyData made by a filter of Quadrille, taken as it is; a block each
+    Log,     ///< vtkTable; a block each
+    Shared   ///< vtkPolyData that says something of all surfaces, optional: blocks are put together
+  };
+  /// Default: Surface for port 0, Shared for all others.
+  virtual PortRole GetPortRole(int port) const;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  /// Class name of what a port gives for one block. Default: vtkPolyData.
+  virtual const char* GetBlockType(int /*outputPort*/) const { return "vtkPolyData"; }
+
+  virtual int RequestDataObject(vtkInformationVector** inputs, vtkInformationVector* outputs);
   int RequestUpdateExtent(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int RequestData(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
-  /// Whether an execution with the same properties and arrays as the last one, which succeeded, returns its result instead of making it
-  /// again; ResultIsKept() hears of it. Default: no.
+  /// Whether a block with the same properties and arrays as at its last execution, which succeeded, gets that result instead of a new
+  /// one; its reused stages are then "all". Default: no.
   virtual bool KeepsResult() { return false; }
-  virtual void ResultIsKept() {}
 
-  /// The filter's own work; throws on any failure, RequestData turns that into an error.
-  virtual void Execute(vtkInformationVector** inputs, vtkInformationVector* outputs) = 0;
+  /// The filter's own work on one block: fills its outputs. Throws on any failure, which becomes the block's error.
+  virtual void Execute(quadrille::Block& block) = 0;
 
-  /// A callback for Core that maps a stage's own fraction to [begin, end] of the filter's progress
+  /// A callback for Core that maps a stage's own fraction to [begin, end] of the progress of the block that is executed
   /// and stops the stage on abort or when the time is over.
   std::function<bool(double, const std::string&)> MakeProgress(double begin, double end);
 
+  ///@{
+  /// Of the block that is executed.
   void SetStageRecords(const std::vector<quadrille::StageRecord>& stages);
   void SetCertificate(const quadrille::Certificate& certificate);
   void AddNotice(const std::string& text);
+  const std::vector<std::string>& GetBlockNotices() const;
+  ///@}
+
+  ///@{
+  /// A number of each block's report, over all blocks; 0 where no block has it, and for the least where none has one above 0.
+  double SumOverBlocks(const char* number) const;
+  double LeastOverBlocks(const char* number) const;
+  ///@}
+  /// Stages that blocks had from an earlier execution, one a line.
+  const char* GetReusedStages() const { return this->ReusedText.c_str(); }
+  /// Calls `visit` with what is kept of each block.
+  void VisitStates(const std::function<void(quadrille::BlockState&)>& visit) const;
 
   int NumberOfThreads = 0;
   double TimeLimit = 0;
@@ -106,26 +147,33 @@ private:
   vtkQuadrilleAlgorithm(const vtkQuadrilleAlgorithm&) = delete;
   void operator=(const vtkQuadrilleAlgorithm&) = delete;
 
+  struct Run;
+  int RunBlocks(vtkInformationVector** inputs, vtkInformationVector* outputs);
+  void RunBlock(Run& run, quadrille::Block& block);
+  void ExecuteBlock(quadrille::Block& block);
+  void FailBlock(quadrille::Block& block, OutcomeType outcome, const std::string& text);
+  void FailBlockAsStopped(quadrille::Block& block);
+  int Conclude(const Run& run, vtkInformationVector* outputs);
+  int ReportFailure(const std::string& text);
+
   void ResetOutcome();
+  void SetReports(const std::vector<std::pair<std::string, quadrille::BlockReport>>& reports);
   bool ShowProgressAndGoOn();
-  void KeepResult(vtkInformationVector* outputs);
-  void RestoreResult(vtkInformationVector* outputs);
-  /// What the outputs hold after a failure.
-  std::string DescribeOutputs() const;
-  int Fail(OutcomeType outcome, const std::string& text, vtkInformationVector* outputs);
-  int FailCancelled(vtkInformationVector* outputs);
 
   int Outcome = NotRun;
   bool TimeIsOver = false;
   double FarthestProgress = 0;
-  std::vector<vtkSmartPointer<vtkDataObject>> LastResult; ///< shares its arrays with the outputs
-  /// Times of the filter and its inputs at the last success; empty where there was none.
-  std::vector<std::pair<const void*, vtkMTimeType>> LastStamps;
+  double BlockBegin = 0; ///< of the filter's progress
+  double BlockEnd = 1;
   std::chrono::steady_clock::time_point Started;
+  std::map<std::string, std::unique_ptr<quadrille::BlockState>> States; ///< by place and name of the block
+  quadrille::BlockReport* Report = nullptr; ///< of the block that is executed
+  std::vector<quadrille::BlockReport> Reports; ///< of all blocks of the last execution
   std::string OutcomeText;
   std::string StageTimesText;
   std::string CertificateText;
   std::string NoticesText;
+  std::string ReusedText;
 };
 
 #endif

@@ -3,17 +3,17 @@
 #include "vtkQuadrilleSurfaceAlgorithm.h"
 
 #include "Pipeline/Pipeline.h"
+#include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleCurves.h"
 
 #include "vtkCellData.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkMath.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cmath>
 
 //------------------------------------------------------------------------------
 vtkQuadrilleSurfaceAlgorithm::vtkQuadrilleSurfaceAlgorithm()
@@ -46,28 +46,16 @@ void vtkQuadrilleSurfaceAlgorithm::SetPatchArrayName(const char* name)
 }
 
 //------------------------------------------------------------------------------
-int vtkQuadrilleSurfaceAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
+quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(quadrille::Block& block)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  if (port == 1)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
-  vtkInformationVector** inputs)
-{
-  vtkPolyData* data = vtkPolyData::GetData(inputs[0]);
+  vtkPolyData* data = block.input(0);
   quadrille::ConvertedSurface surface = quadrille::convertSurface(data, this->PatchArrayName);
   if (surface.ignoredCells > 0)
   {
     this->AddNotice(std::to_string(surface.ignoredCells) + " vertex and line cells are not used");
   }
   this->WarnOfUnusedArrays(data);
-  vtkPolyData* curves = vtkPolyData::GetData(inputs[1]);
+  vtkPolyData* curves = block.input(1);
   if (curves && curves->GetNumberOfCells() > 0)
   {
     for (const std::string& notice : quadrille::applyCurves(surface, data, curves))
@@ -95,7 +83,8 @@ void vtkQuadrilleSurfaceAlgorithm::WarnOfUnusedArrays(vtkPolyData* surface)
 }
 
 //------------------------------------------------------------------------------
-quadrille::RemeshOptions vtkQuadrilleSurfaceAlgorithm::MakeOptions()
+quadrille::RemeshOptions vtkQuadrilleSurfaceAlgorithm::MakeOptions(
+  const quadrille::Block& block)
 {
   quadrille::RemeshOptions options;
   if (this->TargetType == TARGET_NUMBER_OF_QUADS)
@@ -104,11 +93,16 @@ quadrille::RemeshOptions vtkQuadrilleSurfaceAlgorithm::MakeOptions()
     {
       throw quadrille::InvalidInput("NumberOfQuads must be at least 1");
     }
-    options.quads = static_cast<std::size_t>(this->NumberOfQuads);
+    const double share = block.areaShare * static_cast<double>(this->NumberOfQuads);
+    options.quads = static_cast<std::size_t>(std::max(1.0, std::round(share)));
   }
   else if (this->TargetType == TARGET_EDGE_LENGTH)
   {
     options.edgeLength = this->EdgeLength;
+  }
+  else if (block.wholeDiagonal > 0)
+  {
+    options.edgeLength = this->RelativeEdgeLength * block.wholeDiagonal;
   }
   options.relativeEdgeLength = this->RelativeEdgeLength;
   options.featureAngle.reset();

@@ -124,12 +124,10 @@ protected:
   vtkQuadrilleSurfaceAlgorithm();
   ~vtkQuadrilleSurfaceAlgorithm() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-
   /// The surface and the curves as Core takes them; warns of what this version does not use.
-  quadrille::ConvertedSurface ConvertInputs(vtkInformationVector** inputs);
-  /// The properties in Core's units.
-  quadrille::RemeshOptions MakeOptions();
+  quadrille::ConvertedSurface ConvertInputs(quadrille::Block& block);
+  /// The properties in Core's units, with the block's part of the number of quads.
+  quadrille::RemeshOptions MakeOptions(const quadrille::Block& block);
 
   int TargetType = TARGET_RELATIVE_EDGE_LENGTH;
   vtkIdType NumberOfQuads = 5000;

@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QuadrilleBlocks.h"
+
+#include "QuadrilleRefuse.h"
+
+#include <vtkDataObject.h>
+#include <vtkDataObjectTypes.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPartitionedDataSet.h>
+#include <vtkPartitionedDataSetCollection.h>
+#include <vtkPolyData.h>
+#include <vtkTable.h>
+#include <vtkUniformGrid.h>
+#include <vtkUniformGridAMR.h>
+
+namespace quadrille
+{
+
+namespace
+{
+
+template <class Data>
+Data* at(const std::vector<vtkSmartPointer<vtkDataObject>>& data, int port)
+{
+  return Data::SafeDownCast(data.at(static_cast<std::size_t>(port)));
+}
+
+BlockPath childOf(const BlockPath& path, unsigned index)
+{
+  BlockPath child = path;
+  child.push_back(index);
+  return child;
+}
+
+template <class Composite>
+std::string nameOfChild(Composite* data, unsigned index)
+{
+  if (!data->HasMetaData(index) ||
+    !data->GetMetaData(index)->Has(vtkCompositeDataSet::NAME()))
+  {
+    return "";
+  }
+  const char* name = data->GetMetaData(index)->Get(vtkCompositeDataSet::NAME());
+  return name ? name : "";
+}
+
+void addNodes(BlockTree& tree, const BlockPath& path, const std::string& name, vtkDataObject* data);
+
+/// A multiblock for each level of an adaptive mesh, as quads are no grids.
+void addLevels(BlockTree& tree, const BlockPath& path, vtkUniformGridAMR* data)
+{
+  for (unsigned level = 0; level < data->GetNumberOfLevels(); ++level)
+  {
+    const BlockPath levelPath = childOf(path, level);
+    tree[levelPath] = { "vtkMultiBlockDataSet", "Level " + std::to_string(level), false, {} };
+    for (unsigned i = 0; i < data->GetNumberOfDataSets(level); ++i)
+    {
+      addNodes(tree, childOf(levelPath, i), "Grid " + std::to_string(i), data->GetDataSet(level, i));
+    }
+  }
+}
+
+void addNodes(BlockTree& tree, const BlockPath& path, const std::string& name, vtkDataObject* data)
+{
+  BlockNode& node = tree[path];
+  node.name = name;
+  if (!data)
+  {
+    return;
+  }
+  node.type = compositeTypeFor(data);
+  node.isBlock = node.type.empty() || data->IsA("vtkPartitionedDataSet");
+  if (auto* partitions = vtkPartitionedDataSet::SafeDownCast(data))
+  {
+    for (unsigned i = 0; i < partitions->GetNumberOfPartitions(); ++i)
+    {
+      if (vtkDataObject* piece = partitions->GetPartitionAsDataObject(i))
+      {
+        node.pieces.emplace_back(piece);
+      }
+    }
+  }
+  else if (auto* blocks = vtkMultiBlockDataSet::SafeDownCast(data))
+  {
+    for (unsigned i = 0; i < blocks->GetNumberOfBlocks(); ++i)
+    {
+      addNodes(tree, childOf(path, i), nameOfChild(blocks, i), blocks->GetBlock(i));
+    }
+  }
+  else if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(data))
+  {
+    for (unsigned i = 0; i < collection->GetNumberOfPartitionedDataSets(); ++i)
+    {
+      addNodes(tree, childOf(path, i), nameOfChild(collection, i),
+        collection->GetPartitionedDataSet(i));
+    }
+  }
+  else if (auto* levels = vtkUniformGridAMR::SafeDownCast(data))
+  {
+    addLevels(tree, path, levels);
+  }
+  else
+  {
+    node.pieces.emplace_back(data);
+  }
+}
+
+void setName(vtkInformation* metaData, const std::string& name)
+{
+  if (!name.empty())
+  {
+    metaData->Set(vtkCompositeDataSet::NAME(), name.c_str());
+  }
+}
+
+void setChild(
+  vtkDataObject* parent, unsigned index, vtkDataObject* child, const std::string& name)
+{
+  if (auto* blocks = vtkMultiBlockDataSet::SafeDownCast(parent))
+  {
+    blocks->SetBlock(index, child);
+    setName(blocks->GetMetaData(index), name);
+  }
+  else if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(parent))
+  {
+    collection->SetPartitionedDataSet(index, vtkPartitionedDataSet::SafeDownCast(child));
+    setName(collection->GetMetaData(index), name);
+  }
+}
+
+/// The object of a node: composite data that its children are put into, or the block itself.
+vtkSmartPointer<vtkDataObject> nodeObject(
+  const BlockNode& node, const vtkSmartPointer<vtkDataObject>& block)
+{
+  if (node.type.empty())
+  {
+    return block;
+  }
+  const auto object = vtk::TakeSmartPointer(vtkDataObjectTypes::NewDataObject(node.type.c_str()));
+  if (node.isBlock && block)
+  {
+    vtkPartitionedDataSet::SafeDownCast(object)->SetPartition(0, block);
+  }
+  return object;
+}
+
+} // namespace
+
+vtkPolyData* Block::input(int port) const
+{
+  return at<vtkPolyData>(inputs, port);
+}
+
+vtkTable* Block::inputTable(int port) const
+{
+  return at<vtkTable>(inputs, port);
+}
+
+vtkPolyData* Block::output(int port) const
+{
+  return at<vtkPolyData>(outputs, port);
+}
+
+vtkTable* Block::outputTable(int port) const
+{
+  return at<vtkTable>(outputs, port);
+}
+
+BlockTree blockTree(vtkDataObject* data)
+{
+  BlockTree tree;
+  addNodes(tree, {}, "", data);
+  return tree;
+}
+
+std::string blockName(const BlockTree& tree, const BlockPath& path)
+{
+  std::string text;
+  for (std::size_t depth = 1; depth <= path.size(); ++depth)
+  {
+    const auto end = path.begin() + static_cast<std::ptrdiff_t>(depth);
+    const auto node = tree.find(BlockPath(path.begin(), end));
+    const bool hasName = node != tree.end() && !node->second.name.empty();
+    text += (text.empty() ? "" : "/") +
+      (hasName ? node->second.name : "block " + std::to_string(path[depth - 1]));
+  }
+  return text;
+}
+
+std::string compositeTypeFor(vtkDataObject* input)
+{
+  if (!input || !input->IsA("vtkCompositeDataSet"))
+  {
+    return "";
+  }
+  // Kinds of multiblock and partitioned data have classes of their own, which quads can be in.
+  for (const char* type : { "vtkMultiPieceDataSet", "vtkPartitionedDataSet",
+         "vtkPartitionedDataSetCollection", "vtkMultiBlockDataSet" })
+  {
+    if (input->IsA(type))
+    {
+      return type;
+    }
+  }
+  if (input->IsA("vtkUniformGridAMR"))
+  {
+    return "vtkMultiBlockDataSet";
+  }
+  refuse("the input is a ", input->GetClassName(), ", which is not supported");
+}
+
+void writeBlocks(const BlockTree& tree,
+  const std::map<BlockPath, vtkSmartPointer<vtkDataObject>>& blocks, vtkDataObject* output)
+{
+  output->Initialize();
+  std::map<BlockPath, vtkSmartPointer<vtkDataObject>> made;
+  for (const auto& [path, node] : tree)
+  {
+    const auto block = blocks.find(path);
+    const vtkSmartPointer<vtkDataObject> object =
+      nodeObject(node, block == blocks.end() ? nullptr : block->second);
+    if (!path.empty())
+    {
+      const BlockPath parent(path.begin(), path.end() - 1);
+      setChild(made[parent], path.back(), object, node.name);
+    }
+    else if (object)
+    {
+      output->ShallowCopy(object);
+    }
+    made[path] = path.empty() && !node.type.empty() ? vtkSmartPointer<vtkDataObject>(output) : object;
+  }
+}
+
+} // namespace quadrille

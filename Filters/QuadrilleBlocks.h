@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The blocks of a filter's input: a plain data set is one block, composite data has one for each of its surfaces.
+#pragma once
+
+#include <vtkSmartPointer.h>
+#include <vtkType.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+class vtkDataObject;
+class vtkPolyData;
+class vtkTable;
+
+namespace quadrille
+{
+
+/// Ids of the children from the root of composite data down to a block; empty for a plain data set.
+using BlockPath = std::vector<unsigned>;
+
+/// What the last execution of one block has to say.
+struct BlockReport
+{
+  int outcome = 0; ///< a vtkQuadrilleAlgorithm::OutcomeType
+  std::string outcomeText;
+  std::string stageTimes;
+  std::string certificate;
+  std::vector<std::string> notices;
+  std::vector<std::string> reusedStages;
+  std::map<std::string, double> numbers; ///< by the name of the filter's getter
+};
+
+/// What a filter keeps of a block for its next execution, beside the result.
+struct BlockMemory
+{
+  virtual ~BlockMemory() = default;
+};
+
+/// What lasts of a block from one execution to the next.
+struct BlockState
+{
+  BlockReport report;
+  std::unique_ptr<BlockMemory> memory;
+  std::vector<vtkSmartPointer<vtkDataObject>> lastResult; ///< by port; shares its arrays with the outputs
+  /// Times of the filter and the block's inputs at its last success; empty where there was none.
+  std::vector<std::pair<const void*, vtkMTimeType>> lastStamps;
+
+  /// The memory as the filter's own type, made where there is none.
+  template <class Memory>
+  Memory& memoryAs()
+  {
+    if (!memory)
+    {
+      memory = std::make_unique<Memory>();
+    }
+    return static_cast<Memory&>(*memory);
+  }
+};
+
+/// One surface of the input on its way through a filter.
+struct Block
+{
+  BlockPath path;
+  std::string name; ///< for messages: "" for a plain data set, else the names from the root down, with '/' between them
+  std::vector<vtkSmartPointer<vtkDataObject>> inputs;  ///< by port; null where there is nothing
+  std::vector<vtkSmartPointer<vtkDataObject>> outputs; ///< by port; empty objects that the filter fills
+  BlockState* state = nullptr;
+  /// Its part of the area of all blocks; 1 where it is the only one.
+  double areaShare = 1;
+  /// Diagonal of the box round all blocks; 0 where it is the only one.
+  double wholeDiagonal = 0;
+
+  vtkPolyData* input(int port = 0) const;
+  vtkTable* inputTable(int port) const;
+  vtkPolyData* output(int port = 0) const;
+  vtkTable* outputTable(int port) const;
+};
+
+/// A node of composite data; the root has the empty path.
+struct BlockNode
+{
+  std::string type; ///< class name of composite data; "" for a data set, and for a leaf that is empty
+  std::string name; ///< "" where it has none
+  bool isBlock = false; ///< a data set, or data that is one surface in several partitions
+  std::vector<vtkSmartPointer<vtkDataObject>> pieces; ///< of a block
+};
+
+/// The structure of an input, in the order of a walk from the root down.
+using BlockTree = std::map<BlockPath, BlockNode>;
+
+/// Empty leaves have no pieces. Throws InvalidInput for composite data of a kind that is not known.
+BlockTree blockTree(vtkDataObject* data);
+
+/// "Car/Wheel", or "block 1/block 3" where there are no names; "" for the root.
+std::string blockName(const BlockTree& tree, const BlockPath& path);
+
+/// Class name of what an output is for an input like this: composite data of the same kind, or "" for a plain data set.
+std::string compositeTypeFor(vtkDataObject* input);
+
+/// Empties `output` and gives it the structure of `tree` with these blocks; other leaves stay empty.
+void writeBlocks(const BlockTree& tree,
+  const std::map<BlockPath, vtkSmartPointer<vtkDataObject>>& blocks, vtkDataObject* output);
+
+} // namespace quadrille
