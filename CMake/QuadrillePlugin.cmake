@@ -39,10 +39,12 @@ if(PARAVIEW_USE_PYTHON)
     LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}/${PARAVIEW_PLUGIN_SUBDIR}/Quadrille"
     INSTALL_HEADERS     OFF
     BUILD_STATIC        OFF)
-  configure_file("${CMAKE_SOURCE_DIR}/Filters/Python/__init__.py"
-    "${CMAKE_BINARY_DIR}/${QUADRILLE_PYTHON_DIR}/quadrille/__init__.py" COPYONLY)
-  install(FILES "${CMAKE_SOURCE_DIR}/Filters/Python/__init__.py"
-    DESTINATION "${QUADRILLE_PYTHON_DIR}/quadrille")
+  foreach(file IN ITEMS __init__ _errors _inputs _proxies)
+    configure_file("${CMAKE_SOURCE_DIR}/Filters/Python/${file}.py"
+      "${CMAKE_BINARY_DIR}/${QUADRILLE_PYTHON_DIR}/quadrille/${file}.py" COPYONLY)
+    install(FILES "${CMAKE_SOURCE_DIR}/Filters/Python/${file}.py"
+      DESTINATION "${QUADRILLE_PYTHON_DIR}/quadrille")
+  endforeach()
 else()
   message(FATAL_ERROR "This ParaView was built without Python, which the package `quadrille` needs.")
 endif()

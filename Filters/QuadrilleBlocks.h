@@ -48,6 +48,8 @@ struct BlockState
   std::vector<vtkSmartPointer<vtkDataObject>> lastResult; ///< by port; shares its arrays with the outputs
   /// Times of the filter and the block's inputs at its last success; empty where there was none.
   std::vector<std::pair<const void*, vtkMTimeType>> lastStamps;
+  /// The same of its last execution where that failed and would fail again.
+  std::vector<std::pair<const void*, vtkMTimeType>> failedStamps;
 
   /// The memory as the filter's own type, made where there is none.
   template <class Memory>

@@ -40,20 +40,28 @@ constexpr double kLeastTangent = 0.01;
 constexpr double kRounding = 1e-9;
 constexpr std::size_t kChunk = std::size_t{ 1 } << 16;
 
+/// body(i) for all i below count, by all threads.
+template <class Body>
+void forEachIndex(std::size_t count, int threads, const Body& body)
+{
+  parallelFor(count, kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        body(i);
+      }
+    });
+}
+
 //------------------------------------------------------------------------------
 // The user's surface
 
 template <class Real>
 void copyPoints(const Real* from, int threads, std::vector<Vector3>& to)
 {
-  parallelFor(to.size(), kChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        to[i] = Vector3(from[3 * i], from[3 * i + 1], from[3 * i + 2]);
-      }
-    });
+  forEachIndex(to.size(), threads,
+    [&](std::size_t i) { to[i] = Vector3(from[3 * i], from[3 * i + 1], from[3 * i + 2]); });
 }
 
 std::vector<Vector3> readPoints(vtkPolyData* data, int threads)
@@ -91,29 +99,44 @@ void checkPointId(vtkIdType id, vtkIdType pointCount, vtkIdType cell)
   }
 }
 
-void readPolygons(vtkPolyData* data, ConvertedSurface& surface)
+/// The first place in the connectivity with a point that is not there; the number of places where there is none.
+template <class Id>
+std::size_t copyPolygons(
+  const Id* offsets, const Id* ids, vtkIdType points, int threads, SurfaceInput& input)
+{
+  forEachIndex(input.polygonOffsets.size(), threads,
+    [&](std::size_t i) { input.polygonOffsets[i] = static_cast<Index>(offsets[i]); });
+  return firstRefused(input.polygonPoints.size(), kChunk, threads,
+    [&](std::size_t i)
+    {
+      input.polygonPoints[i] = static_cast<Index>(ids[i]);
+      return ids[i] >= 0 && ids[i] < points;
+    });
+}
+
+void readPolygons(vtkPolyData* data, ConvertedSurface& surface, int threads)
 {
   SurfaceInput& input = surface.input;
   vtkCellArray* polys = data->GetPolys();
-  const vtkIdType pointCount = data->GetNumberOfPoints();
-  input.polygonOffsets.reserve(static_cast<std::size_t>(polys->GetNumberOfCells()) + 1);
-  input.polygonPoints.reserve(static_cast<std::size_t>(polys->GetNumberOfConnectivityIds()));
-  input.polygonOffsets.push_back(0);
-  vtkIdType cell = surface.firstCell;
-  auto iterator = vtk::TakeSmartPointer(polys->NewIterator());
-  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+  const vtkIdType points = data->GetNumberOfPoints();
+  input.polygonOffsets.assign(static_cast<std::size_t>(polys->GetNumberOfCells()) + 1, 0);
+  input.polygonPoints.resize(static_cast<std::size_t>(polys->GetNumberOfConnectivityIds()));
+  if (polys->GetNumberOfCells() == 0)
   {
-    pollNowAndThen(static_cast<std::size_t>(cell - surface.firstCell));
-    vtkIdType count = 0;
-    const vtkIdType* ids = nullptr;
-    iterator->GetCurrentCell(count, ids);
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      checkPointId(ids[i], pointCount, cell);
-      input.polygonPoints.push_back(static_cast<Index>(ids[i]));
-    }
-    input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
-    ++cell;
+    return;
+  }
+  const std::size_t refused = polys->IsStorage64Bit()
+    ? copyPolygons(polys->GetOffsetsArray64()->GetPointer(0),
+        polys->GetConnectivityArray64()->GetPointer(0), points, threads, input)
+    : copyPolygons(polys->GetOffsetsArray32()->GetPointer(0),
+        polys->GetConnectivityArray32()->GetPointer(0), points, threads, input);
+  if (refused < input.polygonPoints.size())
+  {
+    const auto after =
+      std::upper_bound(input.polygonOffsets.begin(), input.polygonOffsets.end(), refused);
+    checkPointId(static_cast<vtkIdType>(
+                   polys->GetConnectivityArray()->GetComponent(static_cast<vtkIdType>(refused), 0)),
+      points, surface.firstCell + (after - input.polygonOffsets.begin()) - 1);
   }
 }
 
@@ -304,7 +327,7 @@ std::vector<int> pointValences(vtkPolyData* data)
 }
 
 /// The bits name corners of a polygon, so that they say nothing about a strip.
-void readFeatureEdges(vtkPolyData* data, ConvertedSurface& surface)
+void readFeatureEdges(vtkPolyData* data, ConvertedSurface& surface, int threads)
 {
   vtkDataArray* array = data->GetCellData()->GetArray(arrays::kFeatureEdges);
   if (!array)
@@ -316,21 +339,35 @@ void readFeatureEdges(vtkPolyData* data, ConvertedSurface& surface)
     refuse("cell array ", arrays::kFeatureEdges, " must have one unsigned char a cell, it has ",
       array->GetNumberOfComponents(), " of type ", array->GetDataTypeAsString());
   }
+  const auto* values = static_cast<const std::uint8_t*>(array->GetVoidPointer(0));
   std::vector<std::uint8_t>& bits = surface.input.featureEdges;
   bits.resize(polygonCount(surface.input));
-  for (std::size_t i = 0; i < bits.size(); ++i)
-  {
-    const vtkIdType cell = surface.cell(static_cast<Index>(i));
-    bits[i] = static_cast<std::uint8_t>(array->GetTuple1(cell));
-    if (bits[i] != 0 && cell >= surface.firstCell + data->GetNumberOfPolys())
+  const vtkIdType firstStrip = surface.firstCell + data->GetNumberOfPolys();
+  const std::size_t refused = firstRefused(bits.size(), kChunk, threads,
+    [&](std::size_t i)
     {
-      refuse("cell ", cell, " is a triangle strip with ", arrays::kFeatureEdges,
-        " set; triangulate it first");
-    }
+      const vtkIdType cell = surface.cell(static_cast<Index>(i));
+      bits[i] = values[cell];
+      return bits[i] == 0 || cell < firstStrip;
+    });
+  if (refused < bits.size())
+  {
+    refuse("cell ", surface.cell(static_cast<Index>(refused)), " is a triangle strip with ",
+      arrays::kFeatureEdges, " set; triangulate it first");
   }
 }
 
-void readPatchIds(vtkPolyData* data, const std::string& name, ConvertedSurface& surface)
+template <class Value>
+void copyPatchIds(
+  const Value* values, const ConvertedSurface& surface, int threads, std::vector<std::int64_t>& ids)
+{
+  forEachIndex(ids.size(), threads,
+    [&](std::size_t i)
+    { ids[i] = static_cast<std::int64_t>(values[surface.cell(static_cast<Index>(i))]); });
+}
+
+void readPatchIds(
+  vtkPolyData* data, const std::string& name, ConvertedSurface& surface, int threads)
 {
   if (name.empty() || name == "(none)")
   {
@@ -353,10 +390,16 @@ void readPatchIds(vtkPolyData* data, const std::string& name, ConvertedSurface& 
   surface.patchArray = name;
   std::vector<std::int64_t>& ids = surface.input.patchIds;
   ids.resize(polygonCount(surface.input));
-  for (std::size_t i = 0; i < ids.size(); ++i)
+  switch (type)
   {
-    const vtkIdType cell = surface.cell(static_cast<Index>(i));
-    ids[i] = static_cast<std::int64_t>(array->GetVariantValue(cell).ToLongLong());
+    vtkTemplateMacro(
+      copyPatchIds(static_cast<const VTK_TT*>(array->GetVoidPointer(0)), surface, threads, ids));
+    default: // bits have no bytes of their own
+      for (std::size_t i = 0; i < ids.size(); ++i)
+      {
+        const vtkIdType cell = surface.cell(static_cast<Index>(i));
+        ids[i] = static_cast<std::int64_t>(array->GetVariantValue(cell).ToLongLong());
+      }
   }
 }
 
@@ -414,55 +457,54 @@ std::vector<Index> readIds(vtkDataArray* array, std::size_t limit, int threads =
   return ids;
 }
 
-vtkSmartPointer<vtkIdTypeArray> writeIds(const char* name, const std::vector<Index>& ids)
+void copyIds(const std::vector<Index>& ids, vtkIdTypeArray* array, int threads)
+{
+  vtkIdType* to = array->GetPointer(0);
+  forEachIndex(ids.size(), threads, [&](std::size_t i) { to[i] = ids[i]; });
+}
+
+vtkSmartPointer<vtkIdTypeArray> writeIds(
+  const char* name, const std::vector<Index>& ids, int threads = 1)
 {
   auto array = newArray<vtkIdTypeArray>(name, 1, ids.size());
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    array->SetValue(static_cast<vtkIdType>(i), ids[i]);
-  }
+  copyIds(ids, array, threads);
   return array;
 }
 
-vtkSmartPointer<vtkCellArray> writeTriangles(const std::vector<Index>& corners)
+vtkSmartPointer<vtkCellArray> writeTriangles(const std::vector<Index>& corners, int threads)
 {
   auto offsets = newArray<vtkIdTypeArray>("", 1, corners.size() / 3 + 1);
   auto connectivity = newArray<vtkIdTypeArray>("", 1, corners.size());
-  for (vtkIdType i = 0; i < offsets->GetNumberOfTuples(); ++i)
-  {
-    offsets->SetValue(i, 3 * i);
-  }
-  for (std::size_t i = 0; i < corners.size(); ++i)
-  {
-    connectivity->SetValue(static_cast<vtkIdType>(i), corners[i]);
-  }
+  vtkIdType* to = offsets->GetPointer(0);
+  forEachIndex(corners.size() / 3 + 1, threads,
+    [to](std::size_t i) { to[i] = static_cast<vtkIdType>(3 * i); });
+  copyIds(corners, connectivity, threads);
   auto cells = vtkSmartPointer<vtkCellArray>::New();
   cells->SetData(offsets, connectivity);
   return cells;
 }
 
-void addFeatureEdges(vtkPolyData* data, const Mesh& mesh)
+void addFeatureEdges(vtkPolyData* data, const Mesh& mesh, int threads)
 {
   auto array = newArray<vtkUnsignedCharArray>(arrays::kFeatureEdges, 1, mesh.faceCount());
-  array->Fill(0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (mesh.isFeature(h))
+  unsigned char* bits = array->GetPointer(0);
+  forEachIndex(mesh.faceCount(), threads,
+    [&](std::size_t f)
     {
-      const vtkIdType f = Mesh::face(h);
-      array->SetValue(f, static_cast<unsigned char>(array->GetValue(f) | (1 << (h % 3))));
-    }
-  }
+      const Index h = static_cast<Index>(3 * f);
+      bits[f] = static_cast<unsigned char>((mesh.isFeature(h) ? 1 : 0) |
+        (mesh.isFeature(h + 1) ? 2 : 0) | (mesh.isFeature(h + 2) ? 4 : 0));
+    });
   data->GetCellData()->AddArray(array);
 }
 
 /// Sheets of a surface that was not manifold may share both ends of an edge; then the twins have to
 /// be told.
-bool cornersTellTwins(const Mesh& mesh)
+bool cornersTellTwins(const Mesh& mesh, int threads)
 {
   try
   {
-    return pairHalfEdges(mesh.origin, mesh.vertexCount()) == mesh.twin;
+    return pairHalfEdges(mesh.origin, mesh.vertexCount(), threads) == mesh.twin;
   }
   catch (const InvalidInput&)
   {
@@ -470,9 +512,9 @@ bool cornersTellTwins(const Mesh& mesh)
   }
 }
 
-void addTwinsWhereNeeded(vtkPolyData* data, const Mesh& mesh)
+void addTwinsWhereNeeded(vtkPolyData* data, const Mesh& mesh, int threads)
 {
-  if (cornersTellTwins(mesh))
+  if (cornersTellTwins(mesh, threads))
   {
     return;
   }
@@ -623,14 +665,8 @@ void weldSplitPoints(vtkPolyData* data, Mesh& mesh, int threads)
       sizing[id[i]] = mesh.sizing[i];
     }
   }
-  parallelFor(mesh.origin.size(), kChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t h = begin; h < end; ++h)
-      {
-        mesh.origin[h] = id[mesh.origin[h]];
-      }
-    });
+  forEachIndex(mesh.origin.size(), threads,
+    [&](std::size_t h) { mesh.origin[h] = id[mesh.origin[h]]; });
   mesh.position = std::move(position);
   mesh.sizing = std::move(sizing);
 }
@@ -683,15 +719,19 @@ void addTextureCoordinates(
   data->GetPointData()->SetTCoords(array);
 }
 
-vtkSmartPointer<vtkPoints> writePoints(const Mesh& mesh, const std::vector<Index>& pointVertex)
+vtkSmartPointer<vtkPoints> writePoints(
+  const Mesh& mesh, const std::vector<Index>& pointVertex, int threads)
 {
+  auto array = newArray<vtkDoubleArray>("Points", 3, pointVertex.size());
+  double* to = array->GetPointer(0);
+  forEachIndex(pointVertex.size(), threads,
+    [&](std::size_t i)
+    {
+      const Vector3& p = mesh.position[pointVertex[i]];
+      std::copy(p.data(), p.data() + 3, to + 3 * i);
+    });
   auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(pointVertex.size()));
-  for (std::size_t i = 0; i < pointVertex.size(); ++i)
-  {
-    points->SetPoint(static_cast<vtkIdType>(i), mesh.position[pointVertex[i]].data());
-  }
+  points->SetData(array);
   return points;
 }
 
@@ -705,20 +745,20 @@ std::vector<Index> identity(Index count)
   return ids;
 }
 
-void addSourceArrays(
-  vtkPolyData* data, const PreparedSurface& surface, const ConvertedSurface& converted)
+void addSourceArrays(vtkPolyData* data, const PreparedSurface& surface,
+  const ConvertedSurface& converted, int threads)
 {
-  const Index faces = surface.mesh.faceCount();
+  const std::size_t faces = surface.mesh.faceCount();
   auto cells = newArray<vtkIdTypeArray>(arrays::kSourceCellId, 1, faces);
   auto points = newArray<vtkIdTypeArray>(arrays::kSourcePointIds, 3, faces);
-  for (Index f = 0; f < faces; ++f)
-  {
-    cells->SetValue(f, converted.cell(surface.sourcePolygon[f]));
-    for (int i = 0; i < 3; ++i)
+  vtkIdType* cell = cells->GetPointer(0);
+  vtkIdType* point = points->GetPointer(0);
+  forEachIndex(faces, threads,
+    [&](std::size_t f)
     {
-      points->SetValue(3 * static_cast<vtkIdType>(f) + i, surface.sourcePoints[f][i]);
-    }
-  }
+      cell[f] = converted.cell(surface.sourcePolygon[f]);
+      std::copy(surface.sourcePoints[f].begin(), surface.sourcePoints[f].end(), point + 3 * f);
+    });
   data->GetCellData()->AddArray(cells);
   data->GetCellData()->AddArray(points);
   if (surface.refinedEntry.empty())
@@ -726,15 +766,17 @@ void addSourceArrays(
     return;
   }
   auto weights = newArray<vtkDoubleArray>(arrays::kSourceWeights, 9, faces);
-  for (Index f = 0; f < faces; ++f)
-  {
-    const Index entry = surface.refinedEntry[f];
-    for (int i = 0; i < 9; ++i)
+  double* weight = weights->GetPointer(0);
+  forEachIndex(faces, threads,
+    [&](std::size_t f)
     {
-      weights->SetValue(9 * static_cast<vtkIdType>(f) + i,
-        entry == kInvalidIndex ? double(i % 4 == 0) : surface.cornerWeights[entry][i / 3][i % 3]);
-    }
-  }
+      const Index entry = surface.refinedEntry[f];
+      for (std::size_t i = 0; i < 9; ++i)
+      {
+        weight[9 * f + i] =
+          entry == kInvalidIndex ? double(i % 4 == 0) : surface.cornerWeights[entry][i / 3][i % 3];
+      }
+    });
   data->GetCellData()->AddArray(weights);
 }
 
@@ -743,15 +785,15 @@ std::vector<std::string> carryPointsToSurface(vtkPolyData* data, const PreparedS
 {
   const std::vector<Index> outgoing = outgoingHalfEdges(surface.mesh);
   std::vector<PointOrigin> points(pointVertex.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    pollNowAndThen(i);
-    const Index h = outgoing[pointVertex[i]];
-    std::array<double, 3> corner{};
-    corner[h % 3] = 1;
-    const SourceLocation at = surface.locate(Mesh::face(h), corner);
-    points[i] = { { at.points[0], at.points[1], at.points[2] }, at.weights };
-  }
+  forEachIndex(points.size(), threads,
+    [&](std::size_t i)
+    {
+      const Index h = outgoing[pointVertex[i]];
+      std::array<double, 3> corner{};
+      corner[h % 3] = 1;
+      const SourceLocation at = surface.locate(Mesh::face(h), corner);
+      points[i] = { { at.points[0], at.points[1], at.points[2] }, at.weights };
+    });
   return carryPointArrays(
     source->GetPointData(), source->GetNumberOfPoints(), data->GetPointData(), points, threads);
 }
@@ -760,11 +802,8 @@ std::vector<std::string> carryCellsToSurface(vtkPolyData* data, const PreparedSu
   vtkPolyData* source, const ConvertedSurface& converted, int threads)
 {
   std::vector<vtkIdType> cells(surface.sourcePolygon.size());
-  for (std::size_t f = 0; f < cells.size(); ++f)
-  {
-    pollNowAndThen(f);
-    cells[f] = converted.cell(surface.sourcePolygon[f]);
-  }
+  forEachIndex(cells.size(), threads,
+    [&](std::size_t f) { cells[f] = converted.cell(surface.sourcePolygon[f]); });
   return carryCellArrays(
     source->GetCellData(), source->GetNumberOfCells(), data->GetCellData(), cells, threads);
 }
@@ -812,7 +851,7 @@ std::optional<std::array<Index, 3>> ConvertedSurface::triangle(
 }
 
 //------------------------------------------------------------------------------
-ConvertedSurface convertSurface(vtkPolyData* data, const std::string& patchArray)
+ConvertedSurface convertSurface(vtkPolyData* data, const std::string& patchArray, int threads)
 {
   // Ids of Core are 32 bits wide, and a half-edge is three times a face.
   if (data->GetNumberOfPoints() >= static_cast<vtkIdType>(kInvalidIndex) ||
@@ -825,11 +864,11 @@ ConvertedSurface convertSurface(vtkPolyData* data, const std::string& patchArray
   surface.ignoredCells =
     static_cast<std::size_t>(data->GetNumberOfVerts() + data->GetNumberOfLines());
   surface.firstCell = static_cast<vtkIdType>(surface.ignoredCells);
-  surface.input.points = readPoints(data, 1);
-  readPolygons(data, surface);
+  surface.input.points = readPoints(data, threads);
+  readPolygons(data, surface, threads);
   readStrips(data, surface);
-  readFeatureEdges(data, surface);
-  readPatchIds(data, patchArray, surface);
+  readFeatureEdges(data, surface, threads);
+  readPatchIds(data, patchArray, surface, threads);
   readGuides(data, surface);
   surface.input.targetValences = pointValences(data);
   surface.input.sizing = pointSizes(data);
@@ -875,16 +914,16 @@ void addFeatureMarks(SurfaceInput& input, const std::vector<FeatureMark>& marks)
 vtkSmartPointer<vtkPolyData> writeMesh(const Mesh& mesh)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(writePoints(mesh, identity(mesh.vertexCount())));
-  data->SetPolys(writeTriangles(mesh.origin));
+  data->SetPoints(writePoints(mesh, identity(mesh.vertexCount()), 1));
+  data->SetPolys(writeTriangles(mesh.origin, 1));
   if (!mesh.sizing.empty())
   {
     auto sizes = newArray<vtkFloatArray>(arrays::kSizing, 1, mesh.sizing.size());
     std::copy(mesh.sizing.begin(), mesh.sizing.end(), sizes->GetPointer(0));
     data->GetPointData()->AddArray(sizes);
   }
-  addFeatureEdges(data, mesh);
-  addTwinsWhereNeeded(data, mesh);
+  addFeatureEdges(data, mesh, 1);
+  addTwinsWhereNeeded(data, mesh, 1);
   return data;
 }
 
@@ -1001,51 +1040,68 @@ Level readLevel(vtkPolyData* data, const Mesh& fine)
 }
 
 //------------------------------------------------------------------------------
-void addMap(vtkPolyData* data, const std::vector<FixedVec2>& uv)
+void addMap(vtkPolyData* data, const std::vector<FixedVec2>& uv, int threads)
 {
   const std::size_t faces = uv.size() / 3;
   auto igm = newArray<vtkDoubleArray>(arrays::kIgm, 6, faces);
   auto determinants = newArray<vtkDoubleArray>(arrays::kDeterminant, 1, faces);
-  for (std::size_t h = 0; h < uv.size(); ++h)
-  {
-    if (std::abs(uv[h].u) >= kLargestExact || std::abs(uv[h].v) >= kLargestExact)
+  double* value = igm->GetPointer(0);
+  const std::size_t refused = firstRefused(uv.size(), kChunk, threads,
+    [&](std::size_t h)
     {
-      refuse("the map of face ", h / 3, " reaches ", toDouble(uv[h].u), ", ", toDouble(uv[h].v),
-        ", beyond what can be written exactly");
-    }
-    igm->SetValue(static_cast<vtkIdType>(2 * h), toDouble(uv[h].u));
-    igm->SetValue(static_cast<vtkIdType>(2 * h + 1), toDouble(uv[h].v));
+      value[2 * h] = toDouble(uv[h].u);
+      value[2 * h + 1] = toDouble(uv[h].v);
+      return std::abs(uv[h].u) < kLargestExact && std::abs(uv[h].v) < kLargestExact;
+    });
+  if (refused < uv.size())
+  {
+    refuse("the map of face ", refused / 3, " reaches ", toDouble(uv[refused].u), ", ",
+      toDouble(uv[refused].v), ", beyond what can be written exactly");
   }
   const double unit = 1.0 / (static_cast<double>(kOne) * static_cast<double>(kOne));
-  for (std::size_t f = 0; f < faces; ++f)
-  {
-    const Int128 d = determinant(uv[3 * f], uv[3 * f + 1], uv[3 * f + 2]);
-    determinants->SetValue(static_cast<vtkIdType>(f), static_cast<double>(d) * unit);
-  }
+  double* area = determinants->GetPointer(0);
+  forEachIndex(faces, threads,
+    [&](std::size_t f)
+    {
+      const Int128 d = determinant(uv[3 * f], uv[3 * f + 1], uv[3 * f + 2]);
+      area[f] = static_cast<double>(d) * unit;
+    });
   data->GetCellData()->AddArray(igm);
   data->GetCellData()->AddArray(determinants);
 }
 
-std::vector<FixedVec2> readMap(vtkPolyData* data)
+std::vector<FixedVec2> readMap(vtkPolyData* data, int threads)
 {
   vtkDataArray* array = requireArray(data->GetCellData(), arrays::kIgm, 6,
     "vtkIntegerGridMap, vtkIntegerGridMapUpmap or vtkQuadRemesh");
   const double limit = toDouble(kLargestExact);
-  std::vector<FixedVec2> uv(3 * static_cast<std::size_t>(array->GetNumberOfTuples()));
-  for (std::size_t f = 0; 3 * f < uv.size(); ++f)
+  auto* doubles = vtkDoubleArray::SafeDownCast(array);
+  const double* values = doubles ? doubles->GetPointer(0) : nullptr;
+  const auto corner = [&](std::size_t h)
   {
-    double t[6];
-    array->GetTuple(static_cast<vtkIdType>(f), t);
-    for (int i = 0; i < 3; ++i)
+    const auto f = static_cast<vtkIdType>(h / 3);
+    const int first = static_cast<int>(2 * (h % 3));
+    return values ? Vector2(values[2 * h], values[2 * h + 1])
+                  : Vector2(array->GetComponent(f, first), array->GetComponent(f, first + 1));
+  };
+  std::vector<FixedVec2> uv(3 * static_cast<std::size_t>(array->GetNumberOfTuples()));
+  const std::size_t refused = firstRefused(uv.size(), kChunk, threads,
+    [&](std::size_t h)
     {
-      const Vector2 p(t[2 * i], t[2 * i + 1]);
+      const Vector2 p = corner(h);
       // Written so that NaN is refused as well.
       if (!(std::abs(p.x()) < limit && std::abs(p.y()) < limit))
       {
-        refuse("array ", arrays::kIgm, " has the corner (", p.x(), ", ", p.y(), ") in cell ", f);
+        return false;
       }
-      uv[3 * f + static_cast<std::size_t>(i)] = toFixed(p);
-    }
+      uv[h] = toFixed(p);
+      return true;
+    });
+  if (refused < uv.size())
+  {
+    const Vector2 p = corner(refused);
+    refuse(
+      "array ", arrays::kIgm, " has the corner (", p.x(), ", ", p.y(), ") in cell ", refused / 3);
   }
   return uv;
 }
@@ -1086,35 +1142,35 @@ vtkSmartPointer<vtkPolyData> writeMappedSurface(const PreparedSurface& surface,
   {
     pointVertex = identity(mesh.vertexCount());
   }
-  data->SetPoints(writePoints(mesh, pointVertex));
-  data->SetPolys(writeTriangles(corners));
+  data->SetPoints(writePoints(mesh, pointVertex, threads));
+  data->SetPolys(writeTriangles(corners, threads));
   std::vector<std::string> left =
     carryToSurface(data, surface, source, converted, pointVertex, threads);
   if (notCarried)
   {
     *notCarried = std::move(left);
   }
-  addSourceArrays(data, surface, converted);
-  addFeatureEdges(data, mesh);
-  addTwinsWhereNeeded(data, mesh);
-  addMap(data, uv);
+  addSourceArrays(data, surface, converted, threads);
+  addFeatureEdges(data, mesh, threads);
+  addTwinsWhereNeeded(data, mesh, threads);
+  addMap(data, uv, threads);
   addMatching(data, matching);
   // One value a vertex becomes one a point: addTurns works on vertices, so spread it afterwards.
   vtkNew<vtkPolyData> perVertex;
   addTurns(perVertex, mesh, turns);
   for (const char* name : { arrays::kTurns, arrays::kIndex })
   {
-    vtkDataArray* from = perVertex->GetPointData()->GetArray(name);
-    auto to = newArray<vtkIntArray>(name, 1, pointVertex.size());
-    for (std::size_t i = 0; i < pointVertex.size(); ++i)
-    {
-      to->SetTuple(static_cast<vtkIdType>(i), pointVertex[i], from);
-    }
-    data->GetPointData()->AddArray(to);
+    const int* from =
+      vtkIntArray::SafeDownCast(perVertex->GetPointData()->GetArray(name))->GetPointer(0);
+    auto array = newArray<vtkIntArray>(name, 1, pointVertex.size());
+    int* to = array->GetPointer(0);
+    forEachIndex(
+      pointVertex.size(), threads, [&](std::size_t i) { to[i] = from[pointVertex[i]]; });
+    data->GetPointData()->AddArray(array);
   }
   if (splitSeams)
   {
-    data->GetPointData()->AddArray(writeIds(arrays::kSurfacePointId, pointVertex));
+    data->GetPointData()->AddArray(writeIds(arrays::kSurfacePointId, pointVertex, threads));
     addTextureCoordinates(data, corners, uv);
   }
   return data;

@@ -94,7 +94,8 @@ struct ConvertedSurface
 
 /// Polygons and strips of a vtkPolyData. patchArray: see vtkQuadrilleSurfaceAlgorithm::PatchArrayName.
 /// Throws InvalidInput naming the cell or array that is at fault.
-ConvertedSurface convertSurface(vtkPolyData* surface, const std::string& patchArray);
+ConvertedSurface convertSurface(
+  vtkPolyData* surface, const std::string& patchArray, int threads = 1);
 
 /// Sets the directions of polygons under strokes, with weight 1.
 void addGuideMarks(SurfaceInput& input, const std::vector<GuideMark>& marks);
@@ -126,9 +127,9 @@ std::vector<int> readTargetValences(vtkPolyData* data, const Mesh& mesh);
 Level readLevel(vtkPolyData* data, const Mesh& fine);
 
 /// Adds IGM and Determinant. Throws InvalidInput where a coordinate is too large for an exact double.
-void addMap(vtkPolyData* data, const std::vector<FixedVec2>& uv);
+void addMap(vtkPolyData* data, const std::vector<FixedVec2>& uv, int threads = 1);
 /// The exact inverse. Throws InvalidInput when the array is missing or not finite.
-std::vector<FixedVec2> readMap(vtkPolyData* data);
+std::vector<FixedVec2> readMap(vtkPolyData* data, int threads = 1);
 /// Adds Matching: three quarter turns a cell.
 void addMatching(vtkPolyData* data, const std::vector<std::int8_t>& matching);
 /// Adds Turns, and Index = 4 - turns (2 - turns on the boundary).

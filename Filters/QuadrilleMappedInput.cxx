@@ -8,6 +8,7 @@
 #include "QuadrilleConvert.h"
 #include "QuadrilleRefuse.h"
 #include "QuadrilleReport.h"
+#include "QuadrilleSharedLevels.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -230,6 +231,15 @@ void checkNotEmpty(const Mesh& mesh)
 MappedInput readMappedInput(vtkPolyData* data, double textureScale, int threads)
 {
   MappedInput result;
+  if (const auto hash = mappedSurfaceHash(data, threads))
+  {
+    result.shared = findSharedMap(*hash);
+  }
+  if (result.shared)
+  {
+    result.map.uv = readMap(data, threads);
+    return result;
+  }
   std::vector<Vector2> uv;
   SnapOptions options;
   options.threads = threads;
@@ -238,8 +248,8 @@ MappedInput readMappedInput(vtkPolyData* data, double textureScale, int threads)
   {
     uv = readCellMap(igm, threads);
     options.valueError = errorOf(igm, uv);
-    result.mesh = readMesh(data, threads);
-    checkNotEmpty(result.mesh);
+    result.ownMesh = readMesh(data, threads);
+    checkNotEmpty(result.ownMesh);
   }
   else
   {
@@ -257,11 +267,16 @@ MappedInput readMappedInput(vtkPolyData* data, double textureScale, int threads)
       options.matching[h] = static_cast<std::int8_t>(-options.matching[h] & 3);
     }
     options.valueError = errorOf(texture, uv);
-    result.mesh = weldTexture(data, corners, uv);
-    checkNotEmpty(result.mesh);
+    result.ownMesh = weldTexture(data, corners, uv);
+    checkNotEmpty(result.ownMesh);
   }
-  result.map = snapMap(result.mesh, uv, options);
+  result.map = snapMap(result.ownMesh, uv, options);
   return result;
+}
+
+const Mesh& MappedInput::mesh() const
+{
+  return shared ? shared->finest->surface.mesh : ownMesh;
 }
 
 std::string MappedInput::notice() const

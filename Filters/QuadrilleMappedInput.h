@@ -6,6 +6,7 @@
 #include "Extraction/MapSnapping.h"
 #include "Mesh/Mesh.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,13 +16,17 @@ class vtkPolyData;
 namespace quadrille
 {
 
+struct SharedMap;
+
 struct MappedInput
 {
-  Mesh mesh; ///< its faces are the cells
+  std::shared_ptr<const SharedMap> shared; ///< of the filter that made the map; null: it was read
+  Mesh ownMesh; ///< only where it was read
   SnapResult map;
   bool fromTexture = false; ///< the map was in the texture coordinates
   bool mirrored = false;    ///< and mirrored, so that v has the other sign now
 
+  const Mesh& mesh() const; ///< its faces are the cells
   /// What the user should know of the changes; empty where the map was exact.
   std::string notice() const;
 };
@@ -29,7 +34,8 @@ struct MappedInput
 /// The map is the cell array IGM, else the active texture coordinates of the points times
 /// textureScale (> 0); then points at the same place are joined (see MapWelding.h). Features are in
 /// FeatureEdges, quarter turns across edges in Matching (three whole numbers a cell, from the chart
-/// of the cell to that of its neighbour, modulo 4) where there is one. Throws InvalidInput naming
+/// of the cell to that of its neighbour, modulo 4) where there is one. What vtkIntegerGridMapUpmap has made in this process is found by its
+/// contents and neither connected nor checked again, with the same result. Throws InvalidInput naming
 /// the cell, the edge or the array.
 MappedInput readMappedInput(vtkPolyData* data, double textureScale, int threads);
 

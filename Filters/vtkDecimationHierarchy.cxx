@@ -3,11 +3,13 @@
 #include "vtkDecimationHierarchy.h"
 
 #include "Hierarchy/Hierarchy.h"
+#include "Mesh/ContentHash.h"
 #include "Pipeline/Pipeline.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleLog.h"
 #include "QuadrilleReport.h"
+#include "QuadrilleSharedLevels.h"
 #include "QuadrilleStages.h"
 
 #include "vtkFieldData.h"
@@ -34,7 +36,9 @@ const char* vtkDecimationHierarchy::GetBlockType(int outputPort) const
 //------------------------------------------------------------------------------
 void vtkDecimationHierarchy::Execute(quadrille::Block& block)
 {
-  const quadrille::ConvertedSurface converted = this->ConvertInputs(block);
+  auto& held = block.state->memoryAs<quadrille::SharedLevels>();
+  held = {}; // before the new one takes its memory
+  quadrille::ConvertedSurface converted = this->ConvertInputs(block);
   const quadrille::RemeshOptions options = this->MakeOptions(block);
 
   quadrille::SurfaceRecipe recipe;
@@ -42,12 +46,18 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   recipe.patchArray = this->PatchArrayName;
   recipe.curveMarks = converted.curveMarks;
   quadrille::StageClock clock;
-  quadrille::PreparedSurface surface = quadrille::prepareFromRecipe(
+  const auto made = std::make_shared<quadrille::SharedSurface>();
+  made->key.input = quadrille::contentHash(converted.input, options.threads);
+  quadrille::PreparedSurface& surface = made->surface;
+  surface = quadrille::prepareFromRecipe(
     converted.input, recipe, options.threads, this->MakeProgress(0.0, 0.3), clock);
+  converted.input = {};
   quadrille::TargetSize target = quadrille::chooseTarget(surface, options);
   recipe.edgeLength = target.edgeLength;
   const quadrille::SizingReport limited =
     quadrille::refineFromRecipe(surface, recipe, this->MakeProgress(0.3, 0.4), clock);
+  made->key.featureAngle = recipe.featureAngle;
+  made->key.edgeLength = recipe.edgeLength;
   if (limited.changed > 0 && !options.quads)
   {
     target.quads = quadrille::predictedQuads(surface, target.edgeLength);
@@ -91,6 +101,8 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   quadrille::addText(coarse, "Notices", this->GetBlockNotices());
   block.output(1)->ShallowCopy(write(hierarchy.intermediate));
   quadrille::writeLog(hierarchy.log, recipe, block.outputTable(2));
+  held.surface = made;
+  quadrille::share(held.surface);
 }
 
 //------------------------------------------------------------------------------

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIntegerGridMapUpmap.h"
 
+#include "Mesh/ContentHash.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleLog.h"
 #include "QuadrilleReport.h"
+#include "QuadrilleSharedLevels.h"
 #include "QuadrilleStages.h"
 #include "Transfer/Charts.h"
 #include "Transfer/Transfer.h"
@@ -73,6 +75,13 @@ Expectation expectationOf(
   return expected;
 }
 
+/// Whether the extraction takes the map as it is, bit for bit.
+bool isExact(const quadrille::Certificate& certificate)
+{
+  return certificate.seamResiduals == 0 && certificate.offAxes == 0 &&
+    certificate.offIsolines == 0 && certificate.fractionalTransitions == 0;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -100,14 +109,17 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
     throw quadrille::InvalidInput("the surface or the log is missing");
   }
   const quadrille::SurfaceRecipe recipe = quadrille::readRecipe(logData);
-  quadrille::ConvertedSurface converted = quadrille::convertSurface(source, recipe.patchArray);
+  quadrille::ConvertedSurface converted =
+    quadrille::convertSurface(source, recipe.patchArray, this->NumberOfThreads);
   quadrille::addFeatureMarks(converted.input, recipe.curveMarks);
   quadrille::StageClock clock;
-  quadrille::PreparedSurface surface = quadrille::prepareFromRecipe(
-    converted.input, recipe, this->NumberOfThreads, this->MakeProgress(0.0, 0.4), clock);
-  quadrille::refineFromRecipe(surface, recipe, this->MakeProgress(0.4, 0.5), clock);
+  auto& held = block.state->memoryAs<quadrille::SharedLevels>();
+  held.map.reset();
+  this->FindOrPrepare(converted, recipe, clock, held);
+  const quadrille::PreparedSurface& surface = held.surface->surface;
 
   const quadrille::DecimationLog log = quadrille::readLog(logData, surface.hash);
+  clock.lap("log", 0, log.collapses + log.flips);
   const quadrille::Level coarse = quadrille::readLevel(coarseData, surface.mesh);
   const Expectation expected = expectationOf(surface.mesh, coarse, coarseData);
   quadrille::TransferOptions options;
@@ -119,9 +131,9 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   const quadrille::ChartCounts charts = quadrille::mergeCharts(surface.mesh, map.uv);
   clock.lap("charts", surface.mesh.faceCount(), charts.charts);
 
-  const quadrille::Certificate certificate =
-    quadrille::certify(surface.mesh, map.uv, expected.turns, expected.integerVertex);
-  this->SetStageRecords(clock.records);
+  const quadrille::Certificate certificate = quadrille::certify(
+    surface.mesh, map.uv, expected.turns, expected.integerVertex, this->NumberOfThreads);
+  clock.lap("certify", surface.mesh.faceCount(), surface.mesh.faceCount());
   this->SetCertificate(certificate);
   if (!quadrille::hasPromised(certificate, quadrille::readMethod(coarseData)) ||
     certificate.notPositive > 0)
@@ -138,6 +150,14 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   {
     this->AddNotice(notice);
   }
+  if (const auto key = quadrille::mappedSurfaceHash(output, this->NumberOfThreads);
+      key && isExact(certificate))
+  {
+    held.map = std::make_shared<quadrille::SharedMap>(quadrille::SharedMap{ *key, held.surface });
+    quadrille::share(held.map);
+  }
+  clock.lap("write", surface.mesh.faceCount(), surface.mesh.faceCount());
+  this->SetStageRecords(clock.records);
   output->GetFieldData()->PassData(coarseData->GetFieldData());
   quadrille::addStages(output, clock.records);
   quadrille::addCertificate(output, certificate);
@@ -147,6 +167,32 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   quadrille::addCount(output, "ReplayMovedToKernel", map.movedToKernel);
   quadrille::addCount(output, "ReplayWithoutKernel", map.withoutKernel);
   quadrille::addCount(output, "ReplayMendedPatches", map.mendedPatches);
+}
+
+//------------------------------------------------------------------------------
+void vtkIntegerGridMapUpmap::FindOrPrepare(quadrille::ConvertedSurface& converted,
+  const quadrille::SurfaceRecipe& recipe, quadrille::StageClock& clock,
+  quadrille::SharedLevels& held)
+{
+  const quadrille::SurfaceKey key{ quadrille::contentHash(converted.input, this->NumberOfThreads),
+    recipe.featureAngle, recipe.edgeLength };
+  if (auto found = quadrille::findSharedSurface(key))
+  {
+    held.surface = std::move(found);
+  }
+  else
+  {
+    held.surface.reset(); // before the new one takes its memory
+    const auto made = std::make_shared<quadrille::SharedSurface>();
+    made->key = key;
+    made->surface = quadrille::prepareFromRecipe(
+      converted.input, recipe, this->NumberOfThreads, this->MakeProgress(0.0, 0.4), clock);
+    quadrille::refineFromRecipe(made->surface, recipe, this->MakeProgress(0.4, 0.5), clock);
+    held.surface = made;
+    quadrille::share(held.surface);
+  }
+  converted.input = {};
+  clock.lap("find", 0, held.surface->surface.mesh.faceCount());
 }
 
 //------------------------------------------------------------------------------

@@ -14,6 +14,14 @@
 
 #include "vtkQuadrilleAlgorithm.h"
 
+namespace quadrille
+{
+class StageClock;
+struct ConvertedSurface;
+struct SharedLevels;
+struct SurfaceRecipe;
+}
+
 class QUADRILLEFILTERS_EXPORT vtkIntegerGridMapUpmap : public vtkQuadrilleAlgorithm
 {
 public:
@@ -41,6 +49,10 @@ protected:
   void Execute(quadrille::Block& block) override;
 
 private:
+  /// The finest level: what a filter of this process holds, else made from the surface, whose conversion is let go.
+  void FindOrPrepare(quadrille::ConvertedSurface& converted, const quadrille::SurfaceRecipe& recipe,
+    quadrille::StageClock& clock, quadrille::SharedLevels& held);
+
   vtkIntegerGridMapUpmap(const vtkIntegerGridMapUpmap&) = delete;
   void operator=(const vtkIntegerGridMapUpmap&) = delete;
 

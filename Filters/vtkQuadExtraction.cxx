@@ -193,9 +193,11 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
   {
     throw quadrille::InvalidInput("TextureScale must be above 0 and finite");
   }
+  quadrille::StageClock clock;
   const quadrille::MappedInput mapped =
     quadrille::readMappedInput(input, this->TextureScale, this->NumberOfThreads);
-  const quadrille::Mesh& mesh = mapped.mesh;
+  const quadrille::Mesh& mesh = mapped.mesh();
+  clock.lap("read", mesh.faceCount(), mesh.faceCount());
   if (const std::string notice = mapped.notice(); !notice.empty())
   {
     this->AddNotice(notice);
@@ -207,7 +209,6 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
   options.threads = this->NumberOfThreads;
   options.fixedVertices = quadrille::requestedVertices(input, mesh);
   options.progress = this->MakeProgress(0.0, 0.95);
-  quadrille::StageClock clock;
   const quadrille::ExtractionResult result = quadrille::extractQuads(mesh, mapped.map.uv, options);
   clock.lap("extract", mesh.faceCount(), result.mesh.quads.size());
   this->SetStageRecords(clock.records);

@@ -9,10 +9,13 @@
 #include "QuadrilleStamps.h"
 #include "QuadrilleSurfaces.h"
 
+#include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkDataObjectTypes.h"
+#include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
@@ -59,6 +62,14 @@ bool isEmpty(vtkInformationVector** inputs)
   return !input || input->GetNumberOfElements(vtkDataObject::CELL) == 0;
 }
 
+/// Keeps the executive from adding a dump of the request to the reason that the filter itself has told, then goes.
+class IgnoreOnce : public vtkCommand
+{
+public:
+  static IgnoreOnce* New() { return new IgnoreOnce; }
+  void Execute(vtkObject* caller, unsigned long, void*) override { caller->RemoveObserver(this); }
+};
+
 /// Place and name: a block that moved or was renamed is another one.
 std::string keyOf(const quadrille::Block& block)
 {
@@ -97,6 +108,7 @@ struct vtkQuadrilleAlgorithm::Run
   std::vector<quadrille::BlockTree> trees; ///< by input port; empty for shared ones
   std::vector<quadrille::Block> blocks;
   std::vector<quadrille::Stamp> stamps; ///< of what all blocks share
+  bool anew = false; ///< a block was executed
 };
 
 //------------------------------------------------------------------------------
@@ -136,11 +148,14 @@ int vtkQuadrilleAlgorithm::FillOutputPortInformation(int, vtkInformation* info)
 vtkTypeBool vtkQuadrilleAlgorithm::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  const vtkTypeBool done = request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT())
+    ? this->RequestDataObject(inputs, outputs)
+    : this->Superclass::ProcessRequest(request, inputs, outputs);
+  if (!done)
   {
-    return this->RequestDataObject(inputs, outputs);
+    this->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, vtkNew<IgnoreOnce>());
   }
-  return this->Superclass::ProcessRequest(request, inputs, outputs);
+  return done;
 }
 
 //------------------------------------------------------------------------------
@@ -300,7 +315,13 @@ void vtkQuadrilleAlgorithm::RunBlock(Run& run, quadrille::Block& block)
     state.report.reusedStages = { "all" };
     return;
   }
+  if (stamps == state.failedStamps)
+  {
+    return; // another port asks: its report says already why there is nothing
+  }
+  run.anew = true;
   state.lastStamps.clear();
+  state.failedStamps.clear();
   state.report = {};
   this->Report = &state.report;
   try
@@ -323,6 +344,7 @@ void vtkQuadrilleAlgorithm::RunBlock(Run& run, quadrille::Block& block)
     }
     this->ExecuteBlock(block);
     state.lastStamps = std::move(stamps);
+    return;
   }
   catch (const quadrille::InvalidInput& error)
   {
@@ -345,10 +367,15 @@ void vtkQuadrilleAlgorithm::RunBlock(Run& run, quadrille::Block& block)
   catch (const std::bad_alloc&)
   {
     this->FailBlock(block, NoValidResult, "out of memory; ask for fewer quads or free memory");
+    return; // it may be there the next time
   }
   catch (const std::exception& error)
   {
     this->FailBlock(block, NoValidResult, std::string("internal error: ") + error.what());
+  }
+  if (state.report.outcome != Aborted)
+  {
+    state.failedStamps = std::move(stamps);
   }
 }
 
@@ -430,7 +457,10 @@ int vtkQuadrilleAlgorithm::Conclude(const Run& run, vtkInformationVector* output
   {
     return 1;
   }
-  this->ReportFailure(this->OutcomeText);
+  if (run.anew)
+  {
+    this->ReportFailure(this->OutcomeText);
+  }
   // The results of the other blocks are valid and have to be seen.
   return std::any_of(this->Reports.begin(), this->Reports.end(),
     [](const quadrille::BlockReport& report) { return report.outcome == Succeeded; });

@@ -49,7 +49,8 @@ void vtkQuadrilleSurfaceAlgorithm::SetPatchArrayName(const char* name)
 quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(quadrille::Block& block)
 {
   vtkPolyData* data = block.input(0);
-  quadrille::ConvertedSurface surface = quadrille::convertSurface(data, this->PatchArrayName);
+  quadrille::ConvertedSurface surface =
+    quadrille::convertSurface(data, this->PatchArrayName, this->NumberOfThreads);
   if (surface.ignoredCells > 0)
   {
     this->AddNotice(std::to_string(surface.ignoredCells) + " vertex and line cells are not used");

@@ -35,16 +35,22 @@ std::uint64_t hashBytes(const unsigned char* bytes, std::size_t count)
   return hash;
 }
 
-/// Hashes chunks of fixed size on their own, then the hashes.
 template <typename T>
 std::uint64_t hashVector(const std::vector<T>& values, int threads)
 {
-  const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
-  const std::size_t count = values.size() * sizeof(T);
+  return contentHash(values.data(), values.size() * sizeof(T), threads);
+}
+
+} // namespace
+
+/// Hashes chunks of fixed size on their own, then the hashes.
+std::uint64_t contentHash(const void* bytes, std::size_t count, int threads)
+{
+  const auto* first = static_cast<const unsigned char*>(bytes);
   std::vector<std::uint64_t> parts((count + kChunkBytes - 1) / kChunkBytes);
   parallelFor(count, kChunkBytes, threads,
     [&](std::size_t begin, std::size_t end)
-    { parts[begin / kChunkBytes] = hashBytes(bytes + begin, end - begin); });
+    { parts[begin / kChunkBytes] = hashBytes(first + begin, end - begin); });
   std::uint64_t hash = mix(0, count);
   for (const std::uint64_t part : parts)
   {
@@ -53,7 +59,10 @@ std::uint64_t hashVector(const std::vector<T>& values, int threads)
   return hash;
 }
 
-} // namespace
+std::uint64_t combineHashes(std::uint64_t first, std::uint64_t second)
+{
+  return mix(first, second);
+}
 
 std::uint64_t contentHash(const Mesh& mesh, int threads)
 {

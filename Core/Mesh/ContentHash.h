@@ -4,6 +4,7 @@
 
 #include "Mesh/Mesh.h"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace quadrille
@@ -17,5 +18,10 @@ std::uint64_t contentHash(const Mesh& mesh, int threads);
 
 /// The same over what the prepared surface depends on, but for guides and target valences, which it only carries along.
 std::uint64_t contentHash(const SurfaceInput& input, int threads);
+
+/// The same over bytes, with their number.
+std::uint64_t contentHash(const void* bytes, std::size_t count, int threads);
+/// Of two hashes in this order.
+std::uint64_t combineHashes(std::uint64_t first, std::uint64_t second);
 
 } // namespace quadrille

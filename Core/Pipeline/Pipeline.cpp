@@ -297,6 +297,12 @@ private:
     }
   }
 
+  void forgetReuse(const std::string& stage)
+  {
+    std::vector<std::string>& reused = result_.reused;
+    reused.erase(std::remove(reused.begin(), reused.end(), stage), reused.end());
+  }
+
   void prepare()
   {
     if (memory_ != nullptr)
@@ -790,6 +796,7 @@ private:
     if (again)
     {
       ++result_.decimations;
+      forgetReuse("phase1"); // what the memory had did for the first attempt only
       if (options_.warmStart)
       {
         levels_.reset(); // before the new one takes its memory

@@ -109,8 +109,8 @@ struct RemeshResult
   double beyondAnisotropyLimit = 0;
   SmallParts smallParts;
   std::vector<StageRecord> stages;
-  /// Names of the stages that a memory had the result of (they are not among `stages`), or that started from what was there before (they
-  /// are).
+  /// Names of the stages that a memory had the result of (they are not among `stages`, or without time), or that started from what was
+  /// there before (they are). "phase1" only where no attempt had to compute one.
   std::vector<std::string> reused;
   RunEstimate estimate; ///< made before the run
   int decimations =

@@ -3,19 +3,22 @@
 """Pure quad remeshing of triangle surfaces, in pvpython and in the system's python3.
 
     import quadrille
-    quads = quadrille.remesh(polydata, quads=5000)              # vtkPolyData in, vtkPolyData out
+    quads = quadrille.remesh(polydata)                          # vtkPolyData in, vtkPolyData out; about 5,000 quads
     quads = quadrille.remesh((points, faces), edge_length=0.5)  # arrays or lists in
     points, faces = quadrille.to_arrays(quads)
+
+    quadrille.check(QuadRemesh(Input=surface))                  # in a script of ParaView: raises where it fails
 
 The VTK classes themselves are here too: vtkQuadRemesh, vtkDecimationHierarchy, vtkIntegerGridMap,
 vtkIntegerGridMapUpmap, vtkQuadExtraction.
 """
 import collections
 
-from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules import vtkCommonExecutionModel as _execution_model  # base classes of the filters
 
+from ._errors import InvalidInput, RemeshError, one_of, real, whole
+from ._inputs import as_curves, as_surface, to_polydata, with_requests
+from ._proxies import check
 from .QuadrilleFilters import (
     vtkDecimationHierarchy,
     vtkIntegerGridMap,
@@ -25,7 +28,7 @@ from .QuadrilleFilters import (
 )
 
 __all__ = [
-    "InvalidInput", "RemeshError", "Remeshed", "info", "remesh", "to_arrays", "to_polydata",
+    "InvalidInput", "RemeshError", "Remeshed", "check", "info", "remesh", "to_arrays", "to_polydata",
     "vtkDecimationHierarchy", "vtkIntegerGridMap", "vtkIntegerGridMapUpmap", "vtkQuadExtraction",
     "vtkQuadRemesh",
 ]
@@ -38,43 +41,14 @@ METHODS = ("scale-aware", "mixed-integer", "quadcover", "seamless")
 INTEGERS = ("keep-sizes", "coarsest")
 
 
-class RemeshError(RuntimeError):
-    """There is no valid result; the message says why."""
-
-
-class InvalidInput(RemeshError, ValueError):
-    """The mesh or an argument is at fault; the message names it."""
-
+#: The level on which the map is solved at last, in the order of vtkQuadRemesh.FinalQualityTypes.
+FINAL_QUALITIES = ("coarse", "intermediate", "input")
 
 #: What cell arrays of the quads can come from, in the order of vtkQuadRemesh.CellDataFromTypes.
 CELL_DATA = ("centre", "area")
 
 #: What remesh(..., everything=True) returns: four vtkPolyData, and info() of the first.
 Remeshed = collections.namedtuple("Remeshed", "quads surface lines info separatrices")
-
-
-def to_polydata(points, faces):
-    """A vtkPolyData from points (n by 3) and faces: an array (m by 3, or m by 4) or a list of lists of point ids."""
-    import numpy
-    from vtkmodules.util.numpy_support import numpy_to_vtk
-
-    points = numpy.ascontiguousarray(points, dtype=numpy.float64)
-    if points.ndim != 2 or points.shape[1] != 3:
-        raise InvalidInput(f"points must be n by 3, not {points.shape}")
-    lengths = [len(face) for face in faces]
-    corners = numpy.fromiter((i for face in faces for i in face), dtype=numpy.int64, count=sum(lengths))
-    offsets = numpy.concatenate(([0], numpy.cumsum(lengths))).astype(numpy.int64)
-
-    def ids(values):
-        return numpy_to_vtk(values, deep=True, array_type=vtkIdTypeArray().GetDataType())
-
-    mesh = vtkPolyData()
-    mesh.SetPoints(vtkPoints())
-    mesh.GetPoints().SetData(numpy_to_vtk(points, deep=True))
-    cells = vtkCellArray()
-    cells.SetData(ids(offsets), ids(corners))
-    mesh.SetPolys(cells)
-    return mesh
 
 
 def to_arrays(quads):
@@ -111,48 +85,93 @@ def info(quads):
 _FINAL_QUALITIES = ("coarse", "intermediate", "input")
 
 
-def _check_one_size(quads, edge_length, relative_edge_length):
+#: What `quads` is where no size is given.
+DEFAULT_QUADS = 5000
+
+
+def _set_size(run, quads, edge_length, relative_edge_length):
     given = [name for name, value in (("quads", quads), ("edge_length", edge_length),
                                       ("relative_edge_length", relative_edge_length)) if value is not None]
     if len(given) > 1:
         raise InvalidInput("give only one of " + " and ".join(given))
-
-
-def _as_polydata(mesh):
-    if isinstance(mesh, vtkPolyData):
-        return mesh
-    try:
-        points, faces = mesh
-    except (TypeError, ValueError):
-        raise InvalidInput("the mesh must be a vtkPolyData or a pair (points, faces)") from None
-    return to_polydata(points, faces)
-
-
-def _set_size(run, quads, edge_length, relative_edge_length):
-    if quads is not None:
-        run.SetTargetTypeToNumberOfQuads()
-        run.SetNumberOfQuads(int(quads))
-    elif edge_length is not None:
+    if edge_length is not None:
         run.SetTargetTypeToEdgeLength()
-        run.SetEdgeLength(edge_length)
+        run.SetEdgeLength(real("edge_length", edge_length, above=0))
     elif relative_edge_length is not None:
-        run.SetRelativeEdgeLength(relative_edge_length)
+        run.SetTargetTypeToRelativeEdgeLength()
+        run.SetRelativeEdgeLength(real("relative_edge_length", relative_edge_length, above=0, most=1,
+                                       hint=" (it is a part of the diagonal of the bounding box)"))
+    else:
+        run.SetTargetTypeToNumberOfQuads()
+        run.SetNumberOfQuads(whole("quads", DEFAULT_QUADS if quads is None else quads, least=1))
+
+
+def _set_numbers(run, *, feature_angle, coarse_vertices, threads, maximum_number_of_quads, smoothing_steps, memory_limit, time_limit,
+                 close_handles, anisotropy_limit):
+    run.SetDetectFeatures(feature_angle is not None)
+    if feature_angle is not None:
+        run.SetFeatureAngle(real("feature_angle", feature_angle, above=0, most=180, hint=" (None turns the detection off)"))
+    coarse = whole("coarse_vertices", coarse_vertices, least=0)
+    if 0 < coarse < 4:
+        raise InvalidInput(f"coarse_vertices must be 0 (as many as the curvature needs) or at least 4, not {coarse}")
+    run.SetCoarseVertices(coarse)
+    run.SetNumberOfThreads(whole("threads", threads, least=0))
+    run.SetMaximumNumberOfQuads(whole("maximum_number_of_quads", maximum_number_of_quads, least=1))
+    run.SetSmoothingSteps(whole("smoothing_steps", smoothing_steps, least=0))
+    run.SetMemoryLimit(real("memory_limit", memory_limit, least=0))
+    run.SetTimeLimit(real("time_limit", time_limit, least=0))
+    run.SetCloseHandles(real("close_handles", close_handles, least=0))
+    limit = real("anisotropy_limit", anisotropy_limit, least=0)
+    if 0 < limit < 1:
+        raise InvalidInput(f"anisotropy_limit must be 0 (none) or at least 1, not {limit}")
+    run.SetAnisotropyLimit(limit)
+
+
+def _set_names(run, *, patch_array, method, final_quality, integers, cell_data):
+    run.SetPatchArrayName(patch_array or "")
+    run.SetMethod(one_of("method", method, METHODS))
+    run.SetFinalQuality(one_of("final_quality", final_quality, FINAL_QUALITIES))
+    run.SetIntegers(one_of("integers", integers, INTEGERS))
+    run.SetCellDataFrom(one_of("cell_data", cell_data, CELL_DATA))
+
+
+def _finish(run):
+    """Runs it; the reason of a failure comes as an exception, so VTK need not print it as well."""
+    for source in (run, run.GetExecutive()):
+        source.AddObserver("ErrorEvent", lambda caller, event: None)
+        source.AddObserver("WarningEvent", lambda caller, event: None)
+    run.Update()
+    if run.GetOutcome() == vtkQuadRemesh.BadInput:
+        raise InvalidInput(run.GetOutcomeText())
+    if run.GetOutcome() != vtkQuadRemesh.Succeeded:
+        raise RemeshError(run.GetOutcomeText() or "no quads were made")
 
 
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
-           coarse_vertices=1000, patch_array="PatchId", curves=None, threads=0, maximum_number_of_quads=10000000, smoothing_steps=5,
+           guiding_direction=None, guiding_weight=None, target_valence=None, sizing=None, feature_edges=None, patch_ids=None,
+           curves=None, strokes=None, patch_array="PatchId", coarse_vertices=1000, threads=0, maximum_number_of_quads=10000000, smoothing_steps=5,
            memory_limit=0.0, time_limit=0.0, close_handles=0.0, method="scale-aware",
            final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False, cell_data="centre",
            progress=None, everything=False):
     """Remeshes a surface with quads only and returns a vtkPolyData.
 
-    mesh: a vtkPolyData, or a pair (points, faces).
+    mesh: a vtkPolyData (of another vtkDataSet the surface is taken), or a pair (points, faces) of arrays or lists: points #V by 3, faces #F
+        by 3 or by 4, or one list of point ids a face, also as VTK has them, with the number of corners before the corners; or an object
+        with `vertices` and `faces`.
     quads, edge_length, relative_edge_length: target number of quads, target edge length in units of the mesh, or over
-        the diagonal of its bounding box; at most one of them; 0.02 of the diagonal when none is given.
+        the diagonal of its bounding box; at most one of them; 5,000 quads when none is given.
     feature_angle: degrees; edges sharper than this become edges of the quads; None turns the detection off.
+    guiding_direction: #F by 3; edges of the quads should run along this direction in the face; zero: free.
+    guiding_weight: #F or one number, above 0 and at most 1: how strongly; 1 where it is not given.
+    target_valence: #V whole numbers, or a dict from point ids to them: 0 free, 4 regular, 2, 3, 5 to 8 a vertex of this valence there.
+    sizing: #V, above 0: the edge length there as a multiple of the target edge length.
+    feature_edges: n by 2 point ids, the ends of edges of the mesh; or #F numbers, of which bit i marks the edge from corner i to i + 1.
+    patch_ids: #F whole numbers; edges between two values become edges of the quads.
+    curves: a list of polylines (n by 3 points each), drawn along the nearest edges of the mesh, that become features; or a vtkPolyData with
+        lines and, if some are strokes, the cell array ConstraintType (0 feature, 1 stroke).
+    strokes: a list of polylines along which quads should run.
+    patch_array: name of a cell array of whole numbers of a vtkPolyData, whose borders become edges of the quads; None: not used.
     coarse_vertices: budget of the level where the layout is computed; 0: as many as the curvature needs.
-    patch_array: name of a cell array of whole numbers, whose borders become edges of the quads; None: not used.
-    curves: a vtkPolyData with polylines that become features.
     threads: 0 means all.
     maximum_number_of_quads: refuse to make more.
     smoothing_steps: sweeps of smoothing on the surface, which never lower the worst scaled Jacobian; 0: none.
@@ -174,53 +193,27 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
 
     Raises InvalidInput where the mesh or an argument is at fault, else RemeshError, with the reason.
     """
-    _check_one_size(quads, edge_length, relative_edge_length)
     run = vtkQuadRemesh()
-    run.SetInputData(_as_polydata(mesh))
-    if curves is not None:
-        run.SetCurvesData(curves)
     _set_size(run, quads, edge_length, relative_edge_length)
-    run.SetDetectFeatures(feature_angle is not None)
-    if feature_angle is not None:
-        run.SetFeatureAngle(feature_angle)
-    run.SetCoarseVertices(coarse_vertices)
-    run.SetPatchArrayName(patch_array or "")
-    run.SetNumberOfThreads(threads)
-    run.SetMaximumNumberOfQuads(int(maximum_number_of_quads))
-    run.SetSmoothingSteps(smoothing_steps)
-    run.SetMemoryLimit(memory_limit)
-    run.SetTimeLimit(time_limit)
-    run.SetCloseHandles(close_handles)
-    run.SetAnisotropyLimit(anisotropy_limit)
-    run.KeepLevelsOff()  # there is no next execution
-    if method not in METHODS:
-        raise InvalidInput("method must be one of " + ", ".join(METHODS) + f", not {method!r}")
-    run.SetMethod(METHODS.index(method))
-    if final_quality not in _FINAL_QUALITIES:
-        raise InvalidInput(f"final_quality must be one of {', '.join(_FINAL_QUALITIES)}, not {final_quality!r}")
-    run.SetFinalQuality(_FINAL_QUALITIES.index(final_quality))
-    if integers not in INTEGERS:
-        raise InvalidInput("integers must be one of " + ", ".join(INTEGERS) + f", not {integers!r}")
-    run.SetIntegers(INTEGERS.index(integers))
+    _set_numbers(run, feature_angle=feature_angle, coarse_vertices=coarse_vertices, threads=threads,
+                 maximum_number_of_quads=maximum_number_of_quads, smoothing_steps=smoothing_steps, memory_limit=memory_limit,
+                 time_limit=time_limit, close_handles=close_handles, anisotropy_limit=anisotropy_limit)
+    _set_names(run, patch_array=patch_array, method=method, final_quality=final_quality, integers=integers, cell_data=cell_data)
     run.SetDistortionMetric(bool(distortion_metric))
-    if cell_data not in CELL_DATA:
-        raise InvalidInput("cell_data must be one of " + ", ".join(CELL_DATA) + f", not {cell_data!r}")
-    run.SetCellDataFrom(CELL_DATA.index(cell_data))
     run.SetComputeMappedSurface(bool(everything))
+    run.KeepLevelsOff()  # there is no next execution
+    run.SetInputData(with_requests(
+        as_surface(mesh), guiding_direction=guiding_direction, guiding_weight=guiding_weight, target_valence=target_valence,
+        sizing=sizing, feature_edges=feature_edges, patch_ids=patch_ids, patch_array=patch_array))
+    lines = as_curves(curves, strokes)
+    if lines is not None:
+        run.SetCurvesData(lines)
     if progress is not None:
         def on_progress(caller, event):
             if progress(caller.GetProgress(), caller.GetProgressText() or "") is False:
                 caller.SetAbortExecute(1)
         run.AddObserver("ProgressEvent", on_progress)
-    # The reason comes back as an exception; without these observers VTK would print it as well.
-    for source in (run, run.GetExecutive()):
-        source.AddObserver("ErrorEvent", lambda caller, event: None)
-        source.AddObserver("WarningEvent", lambda caller, event: None)
-    run.Update()
-    if run.GetOutcome() == vtkQuadRemesh.BadInput:
-        raise InvalidInput(run.GetOutcomeText())
-    if run.GetOutcome() != vtkQuadRemesh.Succeeded:
-        raise RemeshError(run.GetOutcomeText() or "no quads were made")
+    _finish(run)
     result = run.GetOutput()
     if everything:
         return Remeshed(result, run.GetMappedSurface(), run.GetLines(), info(result), run.GetSeparatrices())

@@ -11,6 +11,8 @@
 #include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
 #include <vtkIntegerGridMap.h>
+#include <vtkLogger.h>
+#include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkQuadRemesh.h>
 #include <vtkStringArray.h>
@@ -318,6 +320,46 @@ TEST(QuadRemeshFailure, NamesThePointThatIsNotFinite)
   EXPECT_NE(messages.errors.find(filter->GetOutcomeText()), std::string::npos);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
   EXPECT_EQ(filter->GetMappedSurface()->GetNumberOfCells(), 0);
+}
+
+/// Collects what VTK would print.
+class Window : public vtkOutputWindow
+{
+public:
+  static Window* New() { VTK_STANDARD_NEW_BODY(Window); }
+  vtkTypeMacro(Window, vtkOutputWindow);
+  void DisplayText(const char* text) override { lines.emplace_back(text); }
+  std::vector<std::string> lines;
+};
+
+/// ParaView asks every port in turn: the run is not repeated, and its reason printed once, without the executive's dump of the request.
+TEST(QuadRemeshFailure, IsToldOnceForAllPorts)
+{
+  const vtkSmartPointer<vtkOutputWindow> before = vtkOutputWindow::GetInstance();
+  vtkNew<Window> window;
+  vtkOutputWindow::SetInstance(window);
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  vtkNew<vtkQuadRemesh> filter;
+  filter->SetInputData(test::toPolyData(test::torus(80, 40)));
+  filter->SetTargetTypeToEdgeLength();
+  filter->SetEdgeLength(-1);
+  for (int i = 0; i < 2 * filter->GetNumberOfOutputPorts(); ++i)
+  {
+    filter->Update(i / 2);
+    EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+    EXPECT_STRNE(filter->GetOutcomeText(), "");
+  }
+  EXPECT_EQ(window->lines.size(), 1u);
+  // A change is a new attempt, and its failure news.
+  filter->SetEdgeLength(-2);
+  filter->Update();
+  EXPECT_EQ(window->lines.size(), 2u);
+  filter->SetEdgeLength(0.3);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+  EXPECT_EQ(window->lines.size(), 2u);
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_INFO);
+  vtkOutputWindow::SetInstance(before);
 }
 
 TEST(QuadRemeshFailure, EmptyInputIsAnErrorInASerialRun)

@@ -4,6 +4,7 @@
 #include "QuadrilleConvert.h"
 #include "TestSurfaces.h"
 
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDecimationHierarchy.h>
 #include <vtkDoubleArray.h>
@@ -89,7 +90,14 @@ TEST(StageFilters, ChainEqualsOneClick)
 
   vtkPolyData* quads = chain.extraction->GetOutput();
   EXPECT_EQ(pointsOf(quads), pointsOf(oneClick->GetOutput()));
-  EXPECT_EQ(quads->GetNumberOfPolys(), oneClick->GetOutput()->GetNumberOfPolys());
+  vtkCellArray* corners = quads->GetPolys();
+  vtkCellArray* sameCorners = oneClick->GetOutput()->GetPolys();
+  ASSERT_EQ(corners->GetNumberOfConnectivityIds(), sameCorners->GetNumberOfConnectivityIds());
+  for (vtkIdType i = 0; i < corners->GetNumberOfConnectivityIds(); ++i)
+  {
+    ASSERT_EQ(corners->GetConnectivityArray()->GetTuple1(i),
+      sameCorners->GetConnectivityArray()->GetTuple1(i));
+  }
   auto* cells = vtkIdTypeArray::SafeDownCast(quads->GetPointData()->GetArray("SourceCellId"));
   auto* expected =
     vtkIdTypeArray::SafeDownCast(oneClick->GetOutput()->GetPointData()->GetArray("SourceCellId"));
@@ -102,6 +110,114 @@ TEST(StageFilters, ChainEqualsOneClick)
     // Height is linear in the position.
     ASSERT_NEAR(carried->GetTuple1(i), quads->GetPoint(i)[2], 1e-12);
   }
+}
+
+bool sameArrays(vtkFieldData* a, vtkFieldData* b)
+{
+  bool same = a->GetNumberOfArrays() == b->GetNumberOfArrays();
+  for (int i = 0; same && i < a->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = a->GetAbstractArray(i);
+    vtkAbstractArray* other = b->GetAbstractArray(array->GetName());
+    same = other && array->GetNumberOfValues() == other->GetNumberOfValues();
+    for (vtkIdType k = 0; same && k < array->GetNumberOfValues(); ++k)
+    {
+      same = array->GetVariantValue(k) == other->GetVariantValue(k);
+    }
+  }
+  return same;
+}
+
+/// All that later filters read, but for the seconds in the field data.
+void expectSameData(vtkPolyData* a, vtkPolyData* b)
+{
+  EXPECT_EQ(pointsOf(a), pointsOf(b));
+  EXPECT_TRUE(sameArrays(a->GetPointData(), b->GetPointData()));
+  EXPECT_TRUE(sameArrays(a->GetCellData(), b->GetCellData()));
+  ASSERT_EQ(a->GetNumberOfPolys(), b->GetNumberOfPolys());
+  vtkDataArray* corners = a->GetPolys()->GetConnectivityArray();
+  vtkDataArray* others = b->GetPolys()->GetConnectivityArray();
+  ASSERT_EQ(corners->GetNumberOfValues(), others->GetNumberOfValues());
+  for (vtkIdType i = 0; i < corners->GetNumberOfValues(); ++i)
+  {
+    ASSERT_EQ(corners->GetTuple1(i), others->GetTuple1(i));
+  }
+}
+
+bool hasPrepared(vtkQuadrilleAlgorithm* filter)
+{
+  return std::string(filter->GetStageTimesText()).find("repair:") != std::string::npos;
+}
+
+/// What is found in the process, and what is made again where nobody holds it any more (from a file, in another process), are the same
+/// bytes.
+TEST(StageFilters, WhatIsHeldIsFoundAndMadeAgainWhereItIsNot)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(80, 40));
+  vtkNew<vtkPolyData> coarse;
+  vtkNew<vtkTable> log;
+  vtkNew<vtkPolyData> mapped;
+  vtkNew<vtkPolyData> quads;
+  {
+    Chain chain(input);
+    chain.extraction->Update();
+    ASSERT_EQ(chain.extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+    EXPECT_TRUE(hasPrepared(chain.hierarchy));
+    EXPECT_FALSE(hasPrepared(chain.upmap)) << chain.upmap->GetStageTimesText();
+    coarse->ShallowCopy(chain.map->GetOutput());
+    log->ShallowCopy(chain.hierarchy->GetOutputDataObject(2));
+    mapped->ShallowCopy(chain.upmap->GetOutput());
+    quads->ShallowCopy(chain.extraction->GetOutput());
+  }
+  vtkNew<vtkIntegerGridMapUpmap> upmap; // the filters that held something are gone
+  upmap->SetInputData(0, coarse);
+  upmap->SetInputData(1, input);
+  upmap->SetInputData(2, log);
+  vtkNew<vtkQuadExtraction> extraction;
+  extraction->SetInputData(mapped);
+  extraction->Update();
+  expectSameData(extraction->GetOutput(), quads);
+  upmap->Update();
+  EXPECT_TRUE(hasPrepared(upmap)) << upmap->GetStageTimesText();
+  expectSameData(upmap->GetOutput(), mapped);
+
+  // Executed again it finds what it has made itself.
+  upmap->TextureCoordinatesOff();
+  upmap->Update();
+  ASSERT_EQ(upmap->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+  EXPECT_FALSE(hasPrepared(upmap)) << upmap->GetStageTimesText();
+}
+
+/// Contents count, not the object: a change that VTK does not hear of is seen.
+TEST(StageFilters, NothingIsFoundForASurfaceThatHasChanged)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(80, 40));
+  Chain chain(input);
+  chain.extraction->Update();
+  auto* points = vtkDoubleArray::SafeDownCast(input->GetPoints()->GetData());
+  ASSERT_NE(points, nullptr);
+  points->GetPointer(0)[0] += 1e-9;
+  vtkNew<vtkIntegerGridMapUpmap> upmap;
+  upmap->SetInputData(0, chain.map->GetOutput());
+  upmap->SetInputData(1, input);
+  upmap->SetInputData(2, chain.hierarchy->GetOutputDataObject(2));
+  const test::Messages messages(upmap);
+  upmap->Update();
+  EXPECT_EQ(upmap->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+  EXPECT_NE(std::string(upmap->GetOutcomeText()).find("another surface"), std::string::npos);
+  EXPECT_TRUE(hasPrepared(upmap) || std::string(upmap->GetStageTimesText()).empty());
+
+  // One corner of the map moved: the extraction has to see it.
+  vtkNew<vtkPolyData> mapped;
+  mapped->DeepCopy(chain.upmap->GetOutput());
+  auto* igm = vtkDoubleArray::SafeDownCast(mapped->GetCellData()->GetArray("IGM"));
+  ASSERT_NE(igm, nullptr);
+  igm->GetPointer(0)[0] += 3;
+  vtkNew<vtkQuadExtraction> extraction;
+  extraction->SetInputData(mapped);
+  const test::Messages ofExtraction(extraction);
+  extraction->Update();
+  EXPECT_EQ(extraction->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
 }
 
 /// The method of the map is a property of its stage; the later ones know from it what the map promises.

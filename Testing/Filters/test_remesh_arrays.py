@@ -1,0 +1,287 @@
+# SPDX-FileCopyrightText: The Quadrille maintainers
+# SPDX-License-Identifier: BSD-3-Clause
+"""quadrille.remesh with what Python has: arrays, lists, data sets, and what is wrong with them."""
+import math
+import unittest
+
+import numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import (
+    VTK_HEXAHEDRON, vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkUnstructuredGrid)
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+
+import quadrille
+
+
+def plate(columns=24, rows=16):
+    """A flat plate of triangles, one unit a square."""
+    x, y = numpy.meshgrid(numpy.arange(columns + 1.0), numpy.arange(rows + 1.0))
+    points = numpy.stack((x.ravel(), y.ravel(), numpy.zeros(x.size)), axis=1)
+    corner = (numpy.arange(rows)[:, None] * (columns + 1) + numpy.arange(columns)).ravel()
+    up = columns + 1
+    faces = numpy.concatenate((numpy.stack((corner, corner + 1, corner + up + 1), axis=1),
+                               numpy.stack((corner, corner + up + 1, corner + up), axis=1)))
+    return points, faces
+
+
+def hexahedra():
+    """Two hexahedra side by side."""
+    grid = vtkUnstructuredGrid()
+    points = vtkPoints()
+    for z in range(2):
+        for y in range(2):
+            for x in range(3):
+                points.InsertNextPoint(x, y, z)
+    grid.SetPoints(points)
+    for x in range(2):
+        grid.InsertNextCell(VTK_HEXAHEDRON, 8, [x, x + 1, x + 4, x + 3, x + 6, x + 7, x + 10, x + 9])
+    return grid
+
+
+class Mesh(unittest.TestCase):
+    def setUp(self):
+        self.points, self.faces = plate()
+        self.expected = quadrille.to_arrays(quadrille.remesh((self.points, self.faces), quads=150))
+
+    def assertSame(self, points, faces):
+        found = quadrille.to_arrays(quadrille.remesh((points, faces), quads=150))
+        numpy.testing.assert_array_equal(found[0], self.expected[0])
+        numpy.testing.assert_array_equal(found[1], self.expected[1])
+
+    def assertRefused(self, words, *args, **options):
+        with self.assertRaises(quadrille.InvalidInput) as caught:
+            quadrille.remesh(*args, **options)
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+
+    def test_every_form_of_the_same_mesh(self):
+        self.assertSame(self.points.tolist(), self.faces.tolist())
+        self.assertSame(self.points, [tuple(face) for face in self.faces.tolist()])
+        self.assertSame(self.points, self.faces.astype(numpy.float64))
+        self.assertSame(self.points, self.faces.astype(numpy.uint32))
+        counted = numpy.insert(self.faces, 0, 3, axis=1)
+        self.assertSame(self.points, counted)           # as VTK: 3, a, b, c
+        self.assertSame(self.points, counted.tolist())
+        if counted.size % 3:
+            self.assertSame(self.points, counted.ravel())
+        self.assertSame(self.points, numpy.asfortranarray(self.faces))
+
+        class Trimesh:
+            vertices, faces = self.points, self.faces
+        found = quadrille.to_arrays(quadrille.remesh(Trimesh(), quads=150))
+        numpy.testing.assert_array_equal(found[0], self.expected[0])
+
+    def test_flat_faces_with_counts_as_pyvista_has_them(self):
+        points, faces = plate(5, 5)  # 50 triangles: 200 numbers, which are no multiple of 3
+        flat = numpy.insert(faces, 0, 3, axis=1).ravel()
+        self.assertEqual(flat.size % 3, 2)
+        quads = quadrille.remesh((points, flat), quads=25)
+        self.assertGreater(quads.GetNumberOfCells(), 0)
+
+    def test_quads_are_quads(self):
+        corner = (numpy.arange(16)[:, None] * 25 + numpy.arange(24)).ravel()
+        quads = numpy.stack((corner, corner + 1, corner + 26, corner + 25), axis=1)
+        self.assertGreater(quadrille.remesh((self.points, quads), quads=100).GetNumberOfCells(), 50)
+        mixed = quads[:10].tolist() + [q[:3] for q in quads[10:].tolist()] + [[q[0], q[2], q[3]] for q in quads[10:].tolist()]
+        self.assertGreater(quadrille.remesh((self.points, mixed), quads=100).GetNumberOfCells(), 50)
+
+    def test_faces_that_could_be_two_things(self):
+        # Two faces that begin with 3 and name it nowhere else: quads round point 3, or triangles.
+        points = numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [-1, 1, 0]], dtype=float)
+        self.assertRefused(["begins with 3", "faces[:, 1:]"], (points, numpy.array([[3, 0, 1, 2], [3, 4, 0, 2]])), quads=4)
+
+    def test_what_is_wrong_with_faces(self):
+        p, f = self.points, self.faces
+        self.assertRefused(["flat array", "reshape(-1, 3)"], (p, f.ravel()), quads=9)
+        self.assertRefused(["face 7", "point 9999", "0 to 424"], (p, numpy.where(numpy.arange(len(f))[:, None] == 7, 9999, f)), quads=9)
+        self.assertRefused(["begin at 1", "subtract 1"], (p, f + 1), quads=9)
+        self.assertRefused(["names point -1"], (p, numpy.where(f == 0, -1, f)), quads=9)
+        self.assertRefused(["whole numbers", "0.5"], (p, f + 0.5), quads=9)
+        self.assertRefused(["no faces"], (p, numpy.zeros((0, 3), int)), quads=9)
+        self.assertRefused(["no faces"], (p, []), quads=9)
+        self.assertRefused(["2 corners"], (p, f[:, :2]), quads=9)
+        self.assertRefused(["face 1 has 2 corners"], (p, [[0, 1, 26], [0, 1]]), quads=9)
+        self.assertRefused(["numbers only"], (p, [["a", "b", "c"]]), quads=9)
+
+    def test_what_is_wrong_with_points(self):
+        p, f = self.points, self.faces
+        self.assertRefused(["points", "reshape(-1, 3)"], (p.ravel(), f), quads=9)
+        self.assertRefused(["column of zeros"], (p[:, :2], f), quads=9)
+        self.assertRefused(["point 17", "finite"], (numpy.where(numpy.arange(len(p))[:, None] == 17, math.nan, p), f), quads=9)
+        self.assertRefused(["numbers only"], ([["a", "b", "c"]], f), quads=9)
+        self.assertRefused(["different lengths"], ([[0, 0, 0], [1, 0]], f), quads=9)
+
+    def test_what_is_no_mesh(self):
+        self.assertRefused(["name of a file", "read"], "part.ply", quads=9)
+        self.assertRefused(["int"], 42, quads=9)
+        self.assertRefused(["NoneType"], None, quads=9)
+        self.assertRefused(["Update()", "GetOutput()"], vtkSphereSource(), quads=9)
+        self.assertRefused(["blocks"], vtkMultiBlockDataSet(), quads=9)
+
+    def test_volumes_give_their_surface(self):
+        quads = quadrille.remesh(hexahedra(), quads=100)
+        self.assertEqual(quads.GetBounds(), (0, 2, 0, 1, 0, 1))
+        image = vtkImageData()
+        image.SetDimensions(4, 4, 4)
+        self.assertGreater(quadrille.remesh(image, quads=60).GetNumberOfCells(), 40)
+        self.assertRefused(["no surface"], vtkUnstructuredGrid(), quads=9)
+
+    def test_numbers(self):
+        mesh = (self.points, self.faces)
+        for name, values in {
+                "quads": (0, -5, 2.5, math.nan, math.inf, "100", True, 10**12),
+                "edge_length": (0, -1, math.nan, math.inf, "1"),
+                "relative_edge_length": (0, -1, 1.5, math.nan),
+                "feature_angle": (0, -40, 181, math.nan, "40"),
+                "coarse_vertices": (-3, 3, 2.5, math.nan),
+                "threads": (-1, 1.5),
+                "maximum_number_of_quads": (0, -1),
+                "smoothing_steps": (-1, 0.5),
+                "memory_limit": (-1, math.nan),
+                "time_limit": (-1, math.nan),
+                "close_handles": (-1, math.inf),
+                "anisotropy_limit": (-1, 0.5, math.nan),
+                "method": ("best", 0), "final_quality": ("finest",), "integers": ("few",), "cell_data": ("best",)}.items():
+            for value in values:
+                with self.subTest(name=name, value=value):
+                    self.assertRefused([name, repr(value) if not isinstance(value, float) else str(value)], mesh, **{name: value})
+        self.assertRefused(["only one", "quads", "edge_length"], mesh, quads=100, edge_length=1)
+        self.assertGreater(quadrille.remesh(mesh, quads=100.0, coarse_vertices=0, feature_angle=None).GetNumberOfCells(), 0)
+
+    def test_the_default_is_a_number_of_quads(self):
+        result = quadrille.remesh((self.points, self.faces))
+        self.assertEqual(quadrille.info(result)["TargetQuads"], 5000)
+
+
+class Requests(unittest.TestCase):
+    def setUp(self):
+        self.points, self.faces = plate()
+        self.mesh = (self.points, self.faces)
+
+    def assertRefused(self, words, **options):
+        Mesh.assertRefused(self, words, self.mesh, quads=100, **options)
+
+    def middle(self):
+        """Ends of the edges of the column x = 12."""
+        return [(12 + 25 * row, 12 + 25 * (row + 1)) for row in range(16)]
+
+    def inner_lines(self, result):
+        lines = result.lines
+        boundary = vtk_to_numpy(lines.GetCellData().GetArray("Boundary"))
+        ends = vtk_to_numpy(lines.GetLines().GetConnectivityArray()).reshape(-1, 2)
+        return vtk_to_numpy(lines.GetPoints().GetData())[ends[boundary == 0]]
+
+    def test_feature_edges_as_pairs_and_as_bits(self):
+        pairs = self.middle()
+        bits = numpy.zeros(len(self.faces), numpy.uint8)
+        ends = {frozenset(pair) for pair in pairs}
+        for f, face in enumerate(self.faces.tolist()):
+            for i in range(3):
+                bits[f] |= (frozenset((face[i], face[(i + 1) % 3])) in ends) << i
+        results = [quadrille.remesh(self.mesh, quads=100, feature_edges=given, everything=True)
+                   for given in (pairs, numpy.array(pairs)[:, ::-1], bits)]
+        for result in results:
+            inner = self.inner_lines(result)
+            self.assertGreater(len(inner), 3)
+            numpy.testing.assert_array_equal(inner[:, :, 0], 12)
+            numpy.testing.assert_array_equal(quadrille.to_arrays(result.quads)[0], quadrille.to_arrays(results[0].quads)[0])
+        # An edge of a polydata and of faces with four corners, too.
+        surface = quadrille.to_polydata(*self.mesh)
+        given = quadrille.remesh(surface, quads=100, feature_edges=pairs)
+        numpy.testing.assert_array_equal(quadrille.to_arrays(given)[0], quadrille.to_arrays(results[0].quads)[0])
+        self.assertFalse(surface.GetCellData().HasArray("FeatureEdges"), "the user's mesh was changed")
+
+    def test_patch_ids(self):
+        ids = (self.points[self.faces].mean(axis=1)[:, 0] > 12).astype(int)
+        result = quadrille.remesh(self.mesh, quads=100, patch_ids=ids, everything=True)
+        numpy.testing.assert_array_equal(self.inner_lines(result)[:, :, 0], 12)
+        self.assertEqual(set(vtk_to_numpy(result.quads.GetCellData().GetArray("PatchId"))), {0, 1})
+
+    def test_curves_and_strokes(self):
+        line = [[12, -0.1, 0], [12, 8, 0], [12, 16.1, 0]]
+        result = quadrille.remesh(self.mesh, quads=100, curves=[line], everything=True)
+        numpy.testing.assert_array_equal(self.inner_lines(result)[:, :, 0], 12)
+        stroke = numpy.array([[5, 3, 0], [15, 13, 0]])
+        result = quadrille.remesh(self.mesh, quads=100, strokes=[stroke], everything=True)
+        self.assertEqual(len(self.inner_lines(result)), 0)
+        plain = quadrille.remesh(self.mesh, quads=100)
+        self.assertFalse(numpy.array_equal(quadrille.to_arrays(plain)[0], quadrille.to_arrays(result.quads)[0]))
+
+    def test_guiding_direction(self):
+        direction = numpy.tile((1.0, 1.0, 0.0), (len(self.faces), 1))
+        weight = numpy.full(len(self.faces), 0.5)
+        surface = quadrille.to_polydata(*self.mesh)
+        for name, values in (("GuidingDirection", direction), ("GuidingWeight", weight)):
+            array = numpy_to_vtk(values, deep=True)
+            array.SetName(name)
+            surface.GetCellData().AddArray(array)
+        expected = quadrille.to_arrays(quadrille.remesh(surface, quads=400))[0]
+        for given in (weight, 0.5):
+            guided = quadrille.remesh(self.mesh, quads=400, guiding_direction=direction, guiding_weight=given)
+            numpy.testing.assert_array_equal(quadrille.to_arrays(guided)[0], expected)
+        free = quadrille.to_arrays(quadrille.remesh(self.mesh, quads=400))[0]
+        self.assertFalse(numpy.array_equal(free, expected))
+
+    def test_target_valence_and_sizing(self):
+        asked = {8 * 25 + 9: 3, 8 * 25 + 15: 5}
+        valences = numpy.zeros(len(self.points), int)
+        for point, valence in asked.items():
+            valences[point] = valence
+        for given in (asked, valences):
+            quads = quadrille.remesh(self.mesh, quads=400, target_valence=given)
+            found = vtk_to_numpy(quads.GetPointData().GetArray("Valence"))
+            points = quadrille.to_arrays(quads)[0]
+            for point, valence in asked.items():
+                nearest = numpy.linalg.norm(points - self.points[point], axis=1).argmin()
+                self.assertEqual(found[nearest], valence)
+        small_left = numpy.where(self.points[:, 0] < 12, 0.5, 1.0)
+        points, faces = quadrille.to_arrays(quadrille.remesh(self.mesh, quads=400, sizing=small_left))
+        left = points[faces].mean(axis=1)[:, 0] < 12
+        self.assertGreater(left.sum(), 1.2 * (~left).sum())
+
+    def test_what_is_wrong_with_requests(self):
+        faces, points = len(self.faces), len(self.points)
+        self.assertRefused(["guiding_direction", str((faces, 3))], guiding_direction=numpy.ones((5, 3)))
+        self.assertRefused(["guiding_direction", "shape"], guiding_direction=numpy.ones(faces))
+        self.assertRefused(["guiding_weight needs"], guiding_weight=1)
+        self.assertRefused(["above 0"], guiding_direction=numpy.ones((faces, 3)), guiding_weight=7)
+        self.assertRefused(["finite"], guiding_direction=numpy.full((faces, 3), math.nan))
+        self.assertRefused(["target_valence", str((points,))], target_valence=[4, 4])
+        self.assertRefused(["target_valence names point 9999"], target_valence={9999: 3})
+        self.assertRefused(["TargetValence 9"], target_valence={200: 9})
+        self.assertRefused(["target_valence", "whole", "4.5"], target_valence=numpy.full(points, 4.5))
+        self.assertRefused(["Sizing", "point 0"], sizing=numpy.full(points, -1.0))
+        self.assertRefused(["sizing", "numbers"], sizing=["a"] * points)
+        self.assertRefused(["feature edge 0", "no edge of a face"], feature_edges=[(0, 60)])
+        self.assertRefused(["feature edge 1", "9999"], feature_edges=[(0, 1), (0, 9999)])
+        self.assertRefused(["feature_edges", "n by 2"], feature_edges=[1, 2, 3])
+        self.assertRefused(["feature_edges of face 0 is 256"], feature_edges=numpy.full(faces, 256))
+        self.assertRefused(["patch_ids"], patch_ids=[1])
+        self.assertRefused(["curves[0]", "1 point(s)"], curves=[[[0, 0, 0]]])
+        self.assertRefused(["strokes[1]", "n by 3"], strokes=[[[0, 0, 0], [1, 0, 0]], [[1, 2]] * 4])
+        self.assertRefused(["strokes beside"], curves=vtkPolyData(), strokes=[[[0, 0, 0], [1, 0, 0]]])
+
+
+class Check(unittest.TestCase):
+    def test_of_an_algorithm(self):
+        run = quadrille.vtkQuadRemesh()
+        run.SetInputData(quadrille.to_polydata(*plate()))
+        run.AddObserver("ErrorEvent", lambda caller, event: None)
+        self.assertIs(quadrille.check(run), run)
+        run.SetTargetTypeToEdgeLength()
+        run.SetEdgeLength(-1)
+        with self.assertRaises(quadrille.InvalidInput) as caught:
+            quadrille.check(run)
+        self.assertIn("edge length", str(caught.exception))
+        run.SetEdgeLength(1)
+        run.SetMaximumNumberOfQuads(3)
+        with self.assertRaises(quadrille.RemeshError) as caught:
+            quadrille.check(run)
+        self.assertNotIsInstance(caught.exception, quadrille.InvalidInput)
+        with self.assertRaises(quadrille.InvalidInput):
+            quadrille.check(42)
+
+
+if __name__ == "__main__":
+    unittest.main()
