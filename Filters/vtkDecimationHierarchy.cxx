@@ -4,6 +4,7 @@
 
 #include "Hierarchy/Hierarchy.h"
 #include "Mesh/ContentHash.h"
+#include "Mesh/RepairText.h"
 #include "Pipeline/Pipeline.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
@@ -79,7 +80,11 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
     hierarchy.coarse.mesh.faceCount());
 
   this->SetStageRecords(clock.records);
-  for (const std::string& notice : { surface.repair.text(), quadrille::sizingNotice(surface.mesh, limited), hierarchy.notice })
+  for (const std::string& sentence : quadrille::repairSentences(surface.repair))
+  {
+    this->AddNotice("input: " + sentence);
+  }
+  for (const std::string& notice : { quadrille::sizingNotice(surface.mesh, limited), hierarchy.notice })
   {
     if (!notice.empty())
     {

@@ -6,7 +6,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 #include <sstream>
+#include <utility>
 
 namespace quadrille
 {
@@ -30,9 +32,45 @@ Number parse(const std::string& name, const std::string& text, Number least, Num
   return value;
 }
 
+/// Insertions, deletions and exchanges of letters that lead from one word to the other.
+std::size_t editDistance(const std::string& a, const std::string& b)
+{
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{ 0 });
+  for (std::size_t i = 1; i <= a.size(); ++i)
+  {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j)
+    {
+      const std::size_t kept = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({ row[j] + 1, row[j - 1] + 1, kept });
+    }
+  }
+  return row.back();
+}
+
+[[noreturn]] void refuseOption(
+  const std::string& word, const std::string& name, const std::vector<std::string>& names)
+{
+  const auto nearest = std::min_element(names.begin(), names.end(),
+    [&](const std::string& a, const std::string& b)
+    { return editDistance(name, a) < editDistance(name, b); });
+  const bool similar =
+    nearest != names.end() && 2 * editDistance(name, *nearest) <= nearest->size();
+  throw UsageError("unknown option " + word +
+    (similar ? "; did you mean --" + *nearest + "?" : "; --help lists all options"));
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name)
+{
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 } // namespace
 
-CommandLine::CommandLine(int argc, char* argv[], const std::vector<std::string>& known)
+CommandLine::CommandLine(int argc, char* argv[], const std::vector<std::string>& known,
+  const std::vector<std::string>& flags)
 {
   for (int i = 1; i < argc; ++i)
   {
@@ -49,9 +87,21 @@ CommandLine::CommandLine(int argc, char* argv[], const std::vector<std::string>&
     }
     const std::size_t equals = word.find('=');
     const std::string name = word.substr(2, equals == std::string::npos ? equals : equals - 2);
-    if (word[1] != '-' || std::find(known.begin(), known.end(), name) == known.end())
+    const bool isFlag = contains(flags, name);
+    if (word[1] != '-' || !(isFlag || contains(known, name)))
     {
-      throw UsageError("unknown option " + word);
+      std::vector<std::string> names = known;
+      names.insert(names.end(), flags.begin(), flags.end());
+      refuseOption(word, name, names);
+    }
+    if (isFlag && equals != std::string::npos)
+    {
+      throw UsageError("--" + name + " takes no value");
+    }
+    if (isFlag)
+    {
+      values_.emplace(name, "");
+      continue;
     }
     if (equals == std::string::npos && i + 1 >= argc)
     {

@@ -20,15 +20,18 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// Words without a leading "--" are positional, "--name value" and "--name=value" are options.
+/// Words without a leading "--" are positional, "--name value" and "--name=value" are options, "--name" alone is a flag.
 class CommandLine
 {
 public:
-  /// Throws UsageError for an option that is not in `known`, lacks its value or is given twice.
-  CommandLine(int argc, char* argv[], const std::vector<std::string>& known);
+  /// Throws UsageError for an option that is neither in `known` nor in `flags` (and names the nearest one that is), lacks its value, has one
+  /// though it is a flag, or is given twice.
+  CommandLine(int argc, char* argv[], const std::vector<std::string>& known,
+    const std::vector<std::string>& flags = {});
 
   const std::vector<std::string>& positional() const { return positional_; }
   bool help() const { return help_; }
+  bool flag(const std::string& name) const { return values_.count(name) > 0; }
   std::optional<std::string> text(const std::string& name) const;
   /// Throw UsageError unless the value is a number in [least, most].
   std::optional<double> number(const std::string& name, double least, double most) const;

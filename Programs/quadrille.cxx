@@ -6,6 +6,7 @@
 #include "MeshFiles.h"
 #include "Options.h"
 #include "RemeshRun.h"
+#include "Terminal.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -69,6 +70,8 @@ size of the quads (at most one; 0.02 of the bounding-box diagonal when none is g
                             and texture coordinates); the seamless method writes this only, so leave OUT away there
   --report REPORT.json      what was repaired, sizes, seconds per stage, certificate,
                             asked and actual count, quality
+  --maximum-quads N         refuse to make more than this (default 10000000)
+  --quiet                   no progress, no notices, no summary; what goes wrong is still told
   --help                    this text
 
 exit code: 0 valid quads (seamless: a valid map); 2 bad input or arguments; 3 no valid result
@@ -238,6 +241,7 @@ void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
   }
   filter->SetNumberOfThreads(static_cast<int>(line.count("threads", 0, 4096).value_or(0)));
   filter->SetMemoryLimit(line.number("memory-limit", 0, 1e12).value_or(0));
+  filter->SetMaximumNumberOfQuads(line.count("maximum-quads", 1, 500000000).value_or(10000000));
   filter->SetAnisotropyLimit(line.number("anisotropy-limit", 0, 1e6).value_or(0));
   filter->SetCloseHandles(line.number("close-handles", 0, 1e6).value_or(0));
   filter->SetSmoothingSteps(static_cast<int>(line.count("smoothing-steps", 0, 1000).value_or(5)));
@@ -246,40 +250,6 @@ void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
   filter->SetCellDataFrom(cellDataFrom(line));
   filter->SetComputeMappedSurface(line.text("map").has_value());
 }
-
-/// On a terminal one line that is overwritten, elsewhere a line for each stage.
-class ProgressLine
-{
-public:
-  bool operator()(double fraction, const std::string& text)
-  {
-    const int percent = static_cast<int>(100 * fraction);
-    if (terminal_)
-    {
-      std::fprintf(stderr, "\r%3d %% %-60.60s", percent, text.c_str());
-      open_ = true;
-    }
-    else if (const std::string stage = text.substr(0, text.find(':')); stage != stage_)
-    {
-      std::fprintf(stderr, "%3d %% %s\n", percent, stage.c_str());
-      stage_ = stage;
-    }
-    return !stopRequested;
-  }
-  void finish()
-  {
-    if (open_)
-    {
-      std::fprintf(stderr, "\r%66s\r", "");
-      open_ = false;
-    }
-  }
-
-private:
-  bool terminal_ = ::isatty(2) != 0;
-  bool open_ = false;
-  std::string stage_;
-};
 
 //------------------------------------------------------------------------------
 // The report
@@ -468,24 +438,100 @@ double secondsSince(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void printSummary(RemeshRun& run, const Request& request, double seconds)
+std::vector<std::string> linesOf(const std::string& text)
+{
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+  {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+/// Thousands are set apart: 1,234,567.
+std::string grouped(long long number)
+{
+  std::string digits = std::to_string(number);
+  for (std::ptrdiff_t i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
+  {
+    digits.insert(static_cast<std::size_t>(i), ",");
+  }
+  return digits;
+}
+
+std::string textOf(double number, const char* format)
+{
+  char text[64];
+  std::snprintf(text, sizeof(text), format, number);
+  return text;
+}
+
+/// A value of the certificate; 0 where it is not told.
+double certificateNumber(vtkPolyData* data, const std::string& name)
+{
+  auto* names = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("CertificateNames"));
+  vtkDataArray* values = data->GetFieldData()->GetArray("CertificateValues");
+  for (vtkIdType i = 0; names && values && i < names->GetNumberOfValues(); ++i)
+  {
+    if (names->GetValue(i) == name)
+    {
+      return values->GetTuple1(i);
+    }
+  }
+  return 0;
+}
+
+/// What the map's certificate means for the result.
+std::string mapSentence(vtkPolyData* data)
+{
+  const auto folds = static_cast<long long>(certificateNumber(data, "not_positive"));
+  if (folds > 0)
+  {
+    return "the map has folds (" + grouped(folds) + " triangles), which the quads bridge";
+  }
+  return certificateNumber(data, "wrong_turns") > 0 ? "the map has vertices with another valence than the field"
+                                                    : "the map has no folds";
+}
+
+/// "part.vtp: 3,091 quads (asked for 3,000), 3,110 points, edge length 0.0123, 1.20 s".
+std::string quadsSentence(RemeshRun& run, const Request& request, double seconds)
 {
   vtkPolyData* quads = run.filter()->GetOutput();
-  if (request.output.empty())
+  return request.output + ": " + grouped(quads->GetNumberOfPolys()) + " quads (asked for " +
+    grouped(static_cast<long long>(run.filter()->GetTargetQuads())) + "), " +
+    grouped(quads->GetNumberOfPoints()) + " points, edge length " +
+    textOf(fieldNumber(quads, "TargetEdgeLength"), "%.4g") + ", " + textOf(seconds, "%.2f s");
+}
+
+void printSummary(RemeshRun& run, const Request& request, double seconds)
+{
+  printSentences(linesOf(run.filter()->GetNoticesText()));
+  vtkPolyData* mapped = run.filter()->GetMappedSurface();
+  std::vector<std::string> results;
+  if (!request.output.empty())
   {
-    std::fprintf(stderr, "%s\n%s: %lld triangles with their map, %.2f s; %s\n",
-      run.filter()->GetNoticesText(), request.map.c_str(),
-      static_cast<long long>(run.filter()->GetMappedSurface()->GetNumberOfPolys()), seconds,
-      run.filter()->GetCertificateText());
-    return;
+    results.push_back(quadsSentence(run, request, seconds));
   }
-  std::fprintf(stderr, "%s", run.filter()->GetNoticesText());
-  std::fprintf(stderr, "%s%s: %lld quads (asked for %lld), %lld points, %.2f s; %s\n",
-    *run.filter()->GetNoticesText() ? "\n" : "", request.output.c_str(),
-    static_cast<long long>(quads->GetNumberOfPolys()),
-    static_cast<long long>(run.filter()->GetTargetQuads()),
-    static_cast<long long>(quads->GetNumberOfPoints()), seconds,
-    run.filter()->GetCertificateText());
+  if (!request.map.empty())
+  {
+    results.push_back(request.map + ": " + grouped(mapped->GetNumberOfPolys()) + " triangles with their map" +
+      (request.output.empty() ? ", " + textOf(seconds, "%.2f s") : ""));
+  }
+  results.back() += "; " + mapSentence(request.output.empty() ? mapped : run.filter()->GetOutput());
+  for (const std::string& result : results)
+  {
+    std::fprintf(stderr, "%s\n", result.c_str());
+  }
+}
+
+/// Notices of a failed run often name its cause.
+void printFailure(RemeshRun& run, const Request& request)
+{
+  printSentences(linesOf(run.filter()->GetNoticesText()));
+  const std::string text = "quadrille: " + request.input + ": " + run.error();
+  const std::size_t width = terminalWidth();
+  std::fprintf(stderr, "%s\n", width > 0 ? wrapText(text, width - 1, 2).c_str() : text.c_str());
 }
 
 ExitCode execute(const CommandLine& line, const Request& request)
@@ -497,9 +543,14 @@ ExitCode execute(const CommandLine& line, const Request& request)
   Timing timing;
   timing.read = secondsSince(start);
 
-  ProgressLine progress;
+  const bool quiet = line.flag("quiet");
+  ProgressDisplay progress(quiet);
   run.onProgress(
-    [&progress](double fraction, const std::string& text) { return progress(fraction, text); });
+    [&progress](double fraction, const std::string& text)
+    {
+      progress.show(fraction, text);
+      return stopRequested == 0;
+    });
   const ExitCode code = run.execute(input);
   progress.finish();
   timing.total = secondsSince(start);
@@ -513,11 +564,14 @@ ExitCode execute(const CommandLine& line, const Request& request)
     {
       writeMeshFile(run.filter()->GetMappedSurface(), request.map);
     }
-    printSummary(run, request, timing.total);
+    if (!quiet)
+    {
+      printSummary(run, request, timing.total);
+    }
   }
   else
   {
-    std::fprintf(stderr, "quadrille: %s: %s\n", request.input.c_str(), run.error().c_str());
+    printFailure(run, request);
   }
   if (!request.report.empty())
   {
@@ -562,7 +616,8 @@ int main(int argc, char* argv[])
     const CommandLine line(argc, argv,
       { "quads", "edge-length", "relative-edge-length", "feature-angle", "coarse-vertices",
         "threads", "memory-limit", "close-handles", "anisotropy-limit", "method", "integers", "map",
-        "final-quality", "distortion-metric", "smoothing-steps", "cell-data", "report" });
+        "final-quality", "distortion-metric", "smoothing-steps", "cell-data", "maximum-quads", "report" },
+      { "quiet" });
     if (line.help() || argc == 1)
     {
       std::fputs(kHelp, line.help() ? stdout : stderr);

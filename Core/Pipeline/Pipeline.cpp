@@ -11,6 +11,7 @@
 #include "Mesh/CloseHandles.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/FeatureFilter.h"
+#include "Mesh/RepairText.h"
 #include "Mesh/Sizing.h"
 #include "Pipeline/CoarsestMap.h"
 #include "Transfer/PackedMap.h"
@@ -401,7 +402,8 @@ private:
       "about " + std::to_string(result_.targetQuads) +
         " quads would be made, more than the limit of " +
         std::to_string(options_.maximumNumberOfQuads) +
-        "; choose a larger edge length or raise the limit");
+        "; ask for fewer or longer quads, or raise the limit (Maximum Number Of Quads, "
+        "--maximum-quads)");
     return true;
   }
 
@@ -484,10 +486,9 @@ private:
     {
       result_.notices.push_back(notice);
     }
-    const std::string repaired = result_.surface.repair.text();
-    if (!repaired.empty())
+    for (const std::string& sentence : repairSentences(result_.surface.repair))
     {
-      result_.notices.push_back("input: " + repaired);
+      result_.notices.push_back("input: " + sentence);
     }
   }
 

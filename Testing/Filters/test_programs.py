@@ -9,6 +9,7 @@ import json
 import math
 import os
 import pathlib
+import pty
 import shutil
 import struct
 import subprocess
@@ -59,6 +60,24 @@ def read(reader, path):
     reader.SetFileName(str(path))
     reader.Update()
     return reader.GetOutput()
+
+
+def on_a_terminal(words):
+    """What a program shows on a terminal of 80 columns, and its exit code."""
+    ours, theirs = pty.openpty()
+    process = subprocess.Popen([*map(str, words)], stdout=theirs, stderr=theirs, stdin=theirs)
+    os.close(theirs)
+    shown = b""
+    while True:
+        try:
+            more = os.read(ours, 4096)
+        except OSError:  # the other end is closed
+            break
+        if not more:
+            break
+        shown += more
+    os.close(ours)
+    return shown.decode(errors="replace"), process.wait(timeout=60)
 
 
 class Case(unittest.TestCase):
@@ -187,6 +206,46 @@ class Formats(Case):
 class ExitCodes(Case):
     def test_help(self):
         self.assertIn("usage: quadrille", self.run_quadrille("--help").stdout)
+
+    def test_on_a_terminal_the_progress_is_one_line(self):
+        source = self.write_off()
+        shown, code = on_a_terminal([ARGS.quadrille, source, self.folder / "q.obj", "--quads", "20000"])
+        self.assertEqual(code, 0, shown)
+        self.assertRegex(shown, r"\r\x1b\[K\[#*\.*\] +\d+ % +\d+ s  \S")
+        bars, _, rest = shown.rpartition("\r\x1b[K")  # what stands after the bar was taken away
+        self.assertNotIn("\n", bars)
+        self.assertIn("20,", rest)
+        self.assertIn("no folds", rest)
+        self.assertNotIn(" %", rest)
+        shown, code = on_a_terminal([ARGS.quadrille, source, self.folder / "q.obj", "--quads", "300", "--quiet"])
+        self.assertEqual((shown, code), ("", 0))
+
+    def test_elsewhere_a_short_run_shows_no_progress(self):
+        told = self.run_quadrille(self.write_off(), self.folder / "q.obj", "--quads", 300).stderr
+        self.assertNotIn(" % ", told)
+        self.assertRegex(told.splitlines()[-1], r"q\.obj: \d+ quads \(asked for 300\), \d+ points, edge length .* s; the map has no folds")
+        self.assertEqual(self.run_quadrille(self.write_off(), self.folder / "q.obj", "--quads", 300, "--quiet").stderr, "")
+        # What goes wrong is told all the same.
+        self.assertIn("limit", self.run_quadrille(self.write_off(), self.folder / "q.obj", "--quads", 300, "--quiet",
+                                                  "--maximum-quads", 10, expect=3).stderr)
+
+    def test_repairs_are_told_in_sentences(self):
+        points, faces = torus()
+        faces = faces + faces[:2] + [(5, 5, 6)]
+        path = self.folder / "broken.off"
+        path.write_text("\n".join(["OFF", f"{len(points) + 1} {len(faces)} 0"] + ["%g %g %g" % p for p in points + [(9, 9, 9)]]
+                                  + ["3 %d %d %d" % f for f in faces]))
+        told = self.run_quadrille(path, self.folder / "q.obj", "--quads", 300).stderr.splitlines()
+        self.assertIn("- input: 2 faces that were there already were removed", told)
+        self.assertIn("- input: 1 face without area was removed", told)
+        self.assertIn("- input: 1 point that no face uses was left out", told)
+
+    def test_an_option_nearly_right_is_named(self):
+        source, out = self.write_off(), self.folder / "q.obj"
+        self.assertIn("did you mean --quads?", self.run_quadrille(source, out, "--quad", 5, expect=2).stderr)
+        self.assertIn("did you mean --edge-length?", self.run_quadrille(source, out, "--edgelength", 5, expect=2).stderr)
+        self.assertIn("--help", self.run_quadrille(source, out, "--bananas", 5, expect=2).stderr)
+        self.assertIn("takes no value", self.run_quadrille(source, out, "--quiet=1", expect=2).stderr)
 
     def test_bad_arguments(self):
         source = self.write_off()
