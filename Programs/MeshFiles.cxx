@@ -3,7 +3,6 @@
 #include "MeshFiles.h"
 
 #include "OffReader.h"
-#include "PlyReader.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkAppendFilter.h>
@@ -23,6 +22,7 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataReader.h>
+#include <vtkQuadrillePLYReader.h>
 #include <vtkSTLReader.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
@@ -107,6 +107,21 @@ vtkSmartPointer<vtkPolyData> readWith(const std::string& path)
     fail(path, "holds no polygons");
   }
   return data;
+}
+
+/// Its own texts name the file.
+vtkSmartPointer<vtkPolyData> readPlyFile(const std::string& path)
+{
+  vtkNew<vtkQuadrillePLYReader> reader;
+  const ErrorCollector errors(reader);
+  const ErrorCollector pipelineErrors(reader->GetExecutive());
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  if (*reader->GetOutcomeText() != '\0')
+  {
+    throw FileError(reader->GetOutcomeText());
+  }
+  return reader->GetOutput();
 }
 
 //------------------------------------------------------------------------------
@@ -309,7 +324,7 @@ vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
   const std::string extension = extensionOf(path);
   if (extension == "ply")
   {
-    return readPly(path);
+    return readPlyFile(path);
   }
   if (extension == "obj")
   {

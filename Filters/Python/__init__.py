@@ -3,20 +3,21 @@
 """Pure quad remeshing of triangle surfaces, in pvpython and in the system's python3.
 
     import quadrille
-    quads = quadrille.remesh(polydata)                          # vtkPolyData in, vtkPolyData out; about 5,000 quads
+    quads = quadrille.remesh(quadrille.read("part.ply"))        # vtkPolyData in, vtkPolyData out; about 5,000 quads
     quads = quadrille.remesh((points, faces), edge_length=0.5)  # arrays or lists in
     points, faces = quadrille.to_arrays(quads)
 
     quadrille.check(QuadRemesh(Input=surface))                  # in a script of ParaView: raises where it fails
 
 The VTK classes themselves are here too: vtkQuadRemesh, vtkDecimationHierarchy, vtkIntegerGridMap,
-vtkIntegerGridMapUpmap, vtkQuadExtraction.
+vtkIntegerGridMapUpmap, vtkQuadExtraction, and the reader vtkQuadrillePLYReader.
 """
 import collections
 
 from vtkmodules import vtkCommonExecutionModel as _execution_model  # base classes of the filters
 
 from ._errors import InvalidInput, RemeshError, one_of, real, whole
+from ._files import read
 from ._inputs import as_curves, as_surface, to_polydata, with_requests
 from ._proxies import check
 from .QuadrilleFilters import (
@@ -25,12 +26,13 @@ from .QuadrilleFilters import (
     vtkIntegerGridMapUpmap,
     vtkQuadExtraction,
     vtkQuadRemesh,
+    vtkQuadrillePLYReader,
 )
 
 __all__ = [
-    "InvalidInput", "RemeshError", "Remeshed", "check", "info", "remesh", "to_arrays", "to_polydata",
+    "InvalidInput", "RemeshError", "Remeshed", "check", "info", "read", "remesh", "to_arrays", "to_polydata",
     "vtkDecimationHierarchy", "vtkIntegerGridMap", "vtkIntegerGridMapUpmap", "vtkQuadExtraction",
-    "vtkQuadRemesh",
+    "vtkQuadRemesh", "vtkQuadrillePLYReader",
 ]
 
 

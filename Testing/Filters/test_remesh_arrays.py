@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """quadrille.remesh with what Python has: arrays, lists, data sets, and what is wrong with them."""
 import math
+import os
+import tempfile
 import unittest
 
 import numpy
@@ -10,6 +12,7 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     VTK_HEXAHEDRON, vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkUnstructuredGrid)
 from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkIOPLY import vtkPLYReader
 
 import quadrille
 
@@ -152,6 +155,40 @@ class Mesh(unittest.TestCase):
     def test_the_default_is_a_number_of_quads(self):
         result = quadrille.remesh((self.points, self.faces))
         self.assertEqual(quadrille.info(result)["TargetQuads"], 5000)
+
+
+class Files(unittest.TestCase):
+    def test_read(self):
+        data = os.path.join(os.path.dirname(__file__), "..", "..", "Data")
+        part = quadrille.read(os.path.join(data, "part.ply"))
+        self.assertTrue(part.GetCellData().HasArray("PatchId"))
+        for path, words in ((os.path.join(data, "absent.ply"), ["absent.ply", "no such file"]),
+                            (os.path.join(data, "README.md"), [".md", ".ply"]), (__file__, [".py"])):
+            with self.assertRaises(quadrille.InvalidInput) as caught:
+                quadrille.read(path)
+            for word in words:
+                self.assertIn(word, str(caught.exception))
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("damaged.ply", "damaged.vtp"):
+                path = os.path.join(folder, name)
+                with open(path, "w") as file:
+                    file.write("ply\nformat ascii 1.0\nelement vertex what\n")
+                with self.assertRaises(quadrille.InvalidInput) as caught:
+                    quadrille.read(path)
+                self.assertIn(path, str(caught.exception))
+
+    def test_the_reader_keeps_what_vtk_leaves_out(self):
+        path = os.path.join(os.path.dirname(__file__), "..", "..", "Data", "part.ply")
+        ours, theirs = quadrille.vtkQuadrillePLYReader(), vtkPLYReader()
+        for reader in (ours, theirs):
+            reader.SetFileName(path)
+            reader.Update()
+        self.assertTrue(ours.CanReadFile(path))
+        self.assertFalse(ours.CanReadFile(__file__))
+        self.assertFalse(theirs.GetOutput().GetCellData().HasArray("PatchId"))  # else ours is not needed any more
+        self.assertEqual(ours.GetOutput().GetNumberOfPolys(), theirs.GetOutput().GetNumberOfPolys())
+        for data in (ours.GetOutput(), theirs.GetOutput()):
+            self.assertGreater(quadrille.remesh(data, quads=300).GetNumberOfCells(), 0)
 
 
 class Requests(unittest.TestCase):

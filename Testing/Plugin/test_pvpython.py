@@ -7,7 +7,7 @@ import tempfile
 from paraview import servermanager, simple
 
 import quadrille
-from plugin_common import FILTERS, PLUGIN, check, number, size_of, surface
+from plugin_common import DATA, FILTERS, PLUGIN, check, number, size_of, surface
 
 simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
 for name in FILTERS:
@@ -109,6 +109,16 @@ with tempfile.TemporaryDirectory() as folder:
     check(size_of(foreign) > whole and partial.GetRange() == (0.0, 1.0), "no polygons at the boundary")
     data = foreign.FieldData
     check("MapLargestMove" in data.keys() and "NonIntegerFeatureEnds" in data.keys(), "no report in the field data")
+
+# PLY files with all their properties: patch borders become edges of the quads, as with the command.
+part = QuadrillePLYReader(FileName=os.path.join(DATA, "part.ply"))
+part.UpdatePipeline()
+check("PatchId" in part.CellData.keys(), "the reader lost PatchId")
+of_part = QuadRemesh(Input=part, TargetType="Number Of Quads", NumberOfQuads=3000)
+of_part.UpdatePipeline()
+by_hand = quadrille.remesh(quadrille.read(os.path.join(DATA, "part.ply")), quads=3000)
+check(size_of(of_part) == by_hand.GetNumberOfCells() > 0, "other quads than without ParaView")
+check("PatchId" in of_part.CellData.keys(), "the quads have no PatchId")
 
 # The raw class is the same behind the proxy, and without one.
 raw = quads.GetClientSideObject()

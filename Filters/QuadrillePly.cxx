@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "PlyReader.h"
+#include "QuadrillePly.h"
 
-#include "MeshFiles.h"
+#include "Base/Error.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -136,7 +136,7 @@ public:
 private:
   [[noreturn]] void fail(const std::string& reason) const
   {
-    throw FileError(path_ + ": " + reason);
+    throw InvalidInput(path_ + ": " + reason);
   }
   [[noreturn]] void failAt(const Element& element, vtkIdType i, const std::string& reason) const
   {
@@ -609,7 +609,7 @@ vtkSmartPointer<vtkPolyData> readPly(const std::string& path)
   std::ifstream file(path, std::ios::binary);
   if (!file)
   {
-    throw FileError(path + ": cannot be opened for reading");
+    throw InvalidInput(path + ": cannot be opened for reading");
   }
   std::ostringstream bytes;
   bytes << file.rdbuf();
