@@ -14,6 +14,7 @@
 #include "Mesh/RepairText.h"
 #include "Mesh/Sizing.h"
 #include "Pipeline/CoarsestMap.h"
+#include "Pipeline/Notices.h"
 #include "Transfer/PackedMap.h"
 #include "Transfer/SurfaceStretch.h"
 
@@ -202,15 +203,7 @@ private:
     }
     result_.beyondAnisotropyLimit =
       shareBeyondRatio(result_.coarse.mesh, result_.coarseUv, options_.anisotropyLimit);
-    if (result_.beyondAnisotropyLimit > 0)
-    {
-      std::ostringstream text;
-      text << std::setprecision(2) << 100 * result_.beyondAnisotropyLimit
-           << " % of the coarse level's area are beyond the anisotropy limit of "
-           << std::setprecision(6) << options_.anisotropyLimit
-           << ", where whole numbers, features or irregular vertices leave no room";
-      result_.notices.push_back(text.str());
-    }
+    tell(anisotropyNotice(result_.beyondAnisotropyLimit, options_.anisotropyLimit));
     if (result_.finalQuality.improved)
     {
       result_.notices.push_back("final quality does not know the anisotropy limit: on the finer "
@@ -230,6 +223,30 @@ private:
       }
     }
     result_.stages.push_back({ name, seconds, in, out });
+  }
+
+  void tell(const std::string& notice)
+  {
+    if (!notice.empty())
+    {
+      result_.notices.push_back(notice);
+    }
+  }
+
+  /// In place of what an earlier attempt of this run has told.
+  void tellInstead(std::string& before, const std::string& notice)
+  {
+    std::vector<std::string>& notices = result_.notices;
+    notices.erase(std::remove(notices.begin(), notices.end(), before), notices.end());
+    before = notice;
+    tell(notice);
+  }
+
+  /// For a failure of the extraction: whether the map is to blame.
+  std::string describeMap() const
+  {
+    const std::string defects = defectsText(result_.certificate);
+    return defects.empty() ? " (the map is valid)" : " (map on the input surface: " + defects + ")";
   }
 
   void fail(StatusCode code, const std::string& message)
@@ -454,20 +471,11 @@ private:
     const std::size_t before = result_.surface.mesh.faceCount();
     const FeatureFilterReport filtered =
       removeUnresolvedFeatures(result_.surface.mesh, result_.targetEdgeLength);
-    if (filtered.removedEdges > 0)
-    {
-      result_.notices.push_back(std::to_string(filtered.removedEdges) +
-        " sharp edges are too short or too tangled for this edge length and were not used as "
-        "features (" +
-        std::to_string(filtered.keptEdges) + " feature edges kept)");
-    }
+    tell(featureNotice(filtered));
     refineSurface(result_.surface, result_.targetEdgeLength,
       subProgress(options_.progress, 0.1, 0.15, "Refining: "));
     addStage("refine", now() - start, before, result_.surface.mesh.faceCount());
-    if (!result_.surface.notice.empty())
-    {
-      result_.notices.push_back(result_.surface.notice);
-    }
+    tell(result_.surface.notice);
     closeSmallHandles();
     if (memory_ != nullptr)
     {
@@ -1067,15 +1075,8 @@ private:
     addStage("seamless", times.seamless, coarse, coarse);
     addStage("quantize", times.quantize, coarse, coarse);
     addStage("embed", times.embed, coarse, coarse);
-    if (!hierarchy().notice.empty())
-    {
-      result_.notices.push_back(hierarchy().notice);
-    }
-    if (map.refinement > 1.1)
-    {
-      result_.notices.push_back("sizes had to shrink by a factor of " +
-        std::to_string(map.refinement) + " for a valid map: expect more quads than asked for");
-    }
+    tellInstead(levelNotice_, hierarchy().notice);
+    tellInstead(refinementNotice_, refinementNotice(map.refinement));
     result_.coarseCertificate = map.certificate;
     result_.coarseUv = std::move(map.uv);
     coarseField_ = std::move(map.field);
@@ -1224,14 +1225,13 @@ private:
             ? std::string("no valid quad mesh from the map by '") + nameOf(options_.method) +
               "', which may have folds (the scale aware method has none): "
             : std::string("no valid quad mesh: ")) +
-          extracted.status.message + " (" + result_.certificate.text() + ")");
+          extracted.status.message + describeMap() +
+          "; ask for more quads, raise the number of coarse vertices (Coarse Vertices, "
+          "--coarse-vertices), or raise the feature angle where noise is taken for features");
       troubles_ = positionsOf(mesh, result_.transfer.offenders);
       return false;
     }
-    if (!result_.certificate.valid())
-    {
-      result_.notices.push_back("map on the input surface: " + result_.certificate.text());
-    }
+    tell(mapNotice(mesh, result_.certificate));
     result_.extraction = extracted;
     result_.quads = std::move(extracted.mesh);
     checkValences();
@@ -1496,6 +1496,7 @@ private:
   std::vector<Vector3> handlePlaces_; ///< on the loops of handles that are too short
   int finerGrids_ = 0;                ///< how often the number of quads was doubled
   std::string gridNotice_;            ///< of the last doubling, while it holds
+  std::string levelNotice_, refinementNotice_; ///< of the last attempt
   std::size_t gridDefects_ =
     0; ///< of the quads of the coarse map before the last attempt with smaller ones
 };

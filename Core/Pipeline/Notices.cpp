@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/Notices.h"
+
+#include "Base/PlaceText.h"
+
+#include <iomanip>
+#include <sstream>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// A smaller factor is nothing that a user would see.
+constexpr double kTellRefinement = 1.1;
+
+void append(std::string& text, std::size_t count, const char* one, const char* many)
+{
+  if (count > 0)
+  {
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + (count == 1 ? one : many);
+  }
+}
+
+} // namespace
+
+std::string featureNotice(const FeatureFilterReport& report)
+{
+  if (report.removedEdges == 0)
+  {
+    return "";
+  }
+  return std::to_string(report.removedEdges) +
+    " sharp edges are too short or too tangled for this edge length and were not used as "
+    "features (" +
+    std::to_string(report.keptEdges) + " feature edges kept)";
+}
+
+std::string refinementNotice(double factor)
+{
+  if (factor <= kTellRefinement)
+  {
+    return "";
+  }
+  std::ostringstream text;
+  text << "sizes had to shrink by a factor of " << std::setprecision(3) << factor
+       << " for a valid map: expect more quads than asked for";
+  return text.str();
+}
+
+std::string anisotropyNotice(double share, double limit)
+{
+  if (!(share > 0))
+  {
+    return "";
+  }
+  std::ostringstream text;
+  text << std::setprecision(2) << 100 * share
+       << " % of the coarse level's area are beyond the anisotropy limit of "
+       << std::setprecision(6) << limit
+       << ", where whole numbers, features or irregular vertices leave no room";
+  return text.str();
+}
+
+std::string defectsText(const Certificate& certificate)
+{
+  std::string text;
+  append(text, certificate.notPositive, " triangle is turned over or flat",
+    " triangles are turned over or flat");
+  append(text, certificate.wrongTurns, " vertex has another valence than the field",
+    " vertices have another valence than the field");
+  append(text, certificate.seamResiduals, " edge has two images that do not match",
+    " edges have two images that do not match");
+  append(text, certificate.offIsolines, " feature or boundary edge is on no grid line",
+    " feature or boundary edges are on no grid line");
+  append(text, certificate.offIntegers, " irregular vertex or corner is on no grid point",
+    " irregular vertices or corners are on no grid point");
+  append(text, certificate.fractionalTransitions, " edge has a shift that is not whole",
+    " edges have shifts that are not whole");
+  return text;
+}
+
+std::string mapNotice(const Mesh& mesh, const Certificate& certificate)
+{
+  std::string text = defectsText(certificate);
+  if (text.empty())
+  {
+    return text;
+  }
+  text = "map on the input surface: " + text + " (of " + std::to_string(certificate.triangles) + " triangles)";
+  if (certificate.notPositive > 0 && !certificate.worstFaces.empty())
+  {
+    const Index h = 3 * certificate.worstFaces.front();
+    const Vector3 middle = (mesh.position[mesh.origin[h]] + mesh.position[mesh.origin[h + 1]] +
+                             mesh.position[mesh.origin[h + 2]]) /
+      3;
+    text += ", the worst triangle near " + placeText(middle);
+  }
+  return text +
+    "; the quads bridge such places, but may have a poor shape there: more quads or a larger "
+    "number of coarse vertices often help";
+}
+
+} // namespace quadrille

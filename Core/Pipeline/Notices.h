@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a run tells the user, in sentences that remesh() and the stage filters share. Each is empty where there is nothing to tell.
+#pragma once
+
+#include "GridMap/GridMap.h"
+#include "Mesh/FeatureFilter.h"
+
+#include <string>
+
+namespace quadrille
+{
+
+/// Features that the edge length cannot resolve.
+std::string featureNotice(const FeatureFilterReport& report);
+
+/// Sizes that shrank by this factor for a valid map; see GridMapResult::refinement.
+std::string refinementNotice(double factor);
+
+/// The share of the coarse level's area that is beyond the limit.
+std::string anisotropyNotice(double share, double limit);
+
+/// "12 of 3000 triangles are turned over or flat, 1 vertex ...": the counts of a certificate that are not zero.
+std::string defectsText(const Certificate& certificate);
+
+/// What is wrong with the map on the input surface, with the place of its worst triangle and what it means.
+std::string mapNotice(const Mesh& mesh, const Certificate& certificate);
+
+} // namespace quadrille
