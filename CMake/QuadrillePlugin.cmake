@@ -2,8 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The VTK filters, the ParaView plugin, the Python package and the programs.
 
-# Naming a component keeps Qt, GDAL and ffmpeg out of what a build needs.
-find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore)
+# ParaView's server manager was built with double-conversion and its package asks for it; nothing here includes or links it, so
+# that the library with which ParaView runs is enough and its headers need not be there.
+find_library(double-conversion_LIBRARY NAMES double-conversion libdouble-conversion.so.3)
+set(double-conversion_INCLUDE_DIR "/usr/include" CACHE PATH "Not used, but asked for by ParaView's package")
+# Naming components keeps Qt, GDAL and ffmpeg out of what a build needs.
+find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore RemotingServerManager)
 
 set(_paraview_plugin_default_Quadrille ON)
 paraview_plugin_scan(

@@ -27,6 +27,7 @@ struct BlockReport
 {
   int outcome = 0; ///< a vtkQuadrilleAlgorithm::OutcomeType
   std::string outcomeText;
+  std::string result; ///< what was made, in a sentence
   std::string stageTimes;
   std::string certificate;
   std::vector<std::string> notices;

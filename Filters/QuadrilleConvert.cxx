@@ -5,6 +5,7 @@
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Mesh/Topology.h"
+#include "QuadrilleArrayNames.h"
 #include "QuadrilleAttributes.h"
 #include "QuadrilleRefuse.h"
 
@@ -307,19 +308,21 @@ std::vector<int> pointValences(vtkPolyData* data)
     }
     return valences;
   }
-  const int type = array->GetDataType();
-  if (array->GetNumberOfComponents() != 1 || type == VTK_FLOAT || type == VTK_DOUBLE)
+  if (array->GetNumberOfComponents() != 1)
   {
     refuse("point array '", arrays::kTargetValence, "' must have one whole number a point");
   }
+  requireWhole(array, "point");
   valences.resize(static_cast<std::size_t>(data->GetNumberOfPoints()));
   for (std::size_t i = 0; i < valences.size(); ++i)
   {
     const double valence = array->GetTuple1(static_cast<vtkIdType>(i));
     if (valence != 0 && !(valence >= kLeastValence && valence <= kMostValence))
     {
-      refuse("point ", i, " has the ", arrays::kTargetValence, " ", valence,
-        ", but only 0 (free) and ", kLeastValence, " to ", kMostValence, " can be asked for");
+      double p[3];
+      data->GetPoint(static_cast<vtkIdType>(i), p);
+      refuse("point ", i, " at (", p[0], ", ", p[1], ", ", p[2], ") has the ",
+        arrays::kTargetValence, " ", valence, ", but only 0 (free) and ", kLeastValence, " to ", kMostValence, " can be asked for");
     }
     valences[i] = static_cast<int>(valence);
   }
@@ -334,27 +337,47 @@ void readFeatureEdges(vtkPolyData* data, ConvertedSurface& surface, int threads)
   {
     return;
   }
-  if (array->GetNumberOfComponents() != 1 || array->GetDataType() != VTK_UNSIGNED_CHAR)
+  if (array->GetNumberOfComponents() != 1)
   {
-    refuse("cell array ", arrays::kFeatureEdges, " must have one unsigned char a cell, it has ",
-      array->GetNumberOfComponents(), " of type ", array->GetDataTypeAsString());
+    refuse("cell array ", arrays::kFeatureEdges, " must have one whole number a cell, it has ",
+      array->GetNumberOfComponents());
   }
-  const auto* values = static_cast<const std::uint8_t*>(array->GetVoidPointer(0));
+  requireWhole(array, "cell");
+  // The type of our own arrays is read without a call for each cell.
+  const auto* bytes = array->GetDataType() == VTK_UNSIGNED_CHAR
+    ? static_cast<const std::uint8_t*>(array->GetVoidPointer(0))
+    : nullptr;
+  const auto valueOf = [&](std::size_t i)
+  {
+    const vtkIdType cell = surface.cell(static_cast<Index>(i));
+    return bytes ? static_cast<double>(bytes[cell]) : array->GetComponent(cell, 0);
+  };
   std::vector<std::uint8_t>& bits = surface.input.featureEdges;
   bits.resize(polygonCount(surface.input));
   const vtkIdType firstStrip = surface.firstCell + data->GetNumberOfPolys();
   const std::size_t refused = firstRefused(bits.size(), kChunk, threads,
     [&](std::size_t i)
     {
-      const vtkIdType cell = surface.cell(static_cast<Index>(i));
-      bits[i] = values[cell];
-      return bits[i] == 0 || cell < firstStrip;
+      const double value = valueOf(i);
+      if (!(value >= 0 && value <= 255))
+      {
+        return false;
+      }
+      bits[i] = static_cast<std::uint8_t>(value);
+      return bits[i] == 0 || surface.cell(static_cast<Index>(i)) < firstStrip;
     });
-  if (refused < bits.size())
+  if (refused == bits.size())
   {
-    refuse("cell ", surface.cell(static_cast<Index>(refused)), " is a triangle strip with ",
-      arrays::kFeatureEdges, " set; triangulate it first");
+    return;
   }
+  const vtkIdType cell = surface.cell(static_cast<Index>(refused));
+  if (cell >= firstStrip)
+  {
+    refuse("cell ", cell, " is a triangle strip with ", arrays::kFeatureEdges,
+      " set; triangulate it first");
+  }
+  refuse("cell ", cell, " has ", arrays::kFeatureEdges, " ", valueOf(refused),
+    ", but bits of at most 8 edges are read: 0 to 255");
 }
 
 template <class Value>
@@ -382,15 +405,15 @@ void readPatchIds(
     }
     return;
   }
-  const int type = array->GetDataType();
-  if (array->GetNumberOfComponents() != 1 || type == VTK_FLOAT || type == VTK_DOUBLE)
+  if (array->GetNumberOfComponents() != 1)
   {
     refuse("cell array '", name, "' must have one whole number a cell to be used as patch ids");
   }
+  requireWhole(array, "cell");
   surface.patchArray = name;
   std::vector<std::int64_t>& ids = surface.input.patchIds;
   ids.resize(polygonCount(surface.input));
-  switch (type)
+  switch (array->GetDataType())
   {
     vtkTemplateMacro(
       copyPatchIds(static_cast<const VTK_TT*>(array->GetVoidPointer(0)), surface, threads, ids));
@@ -881,13 +904,19 @@ void addGuideMarks(SurfaceInput& input, const std::vector<GuideMark>& marks)
   {
     return;
   }
+  const bool full = input.guideWeights.empty() &&
+    std::all_of(marks.begin(), marks.end(), [](const GuideMark& m) { return m.weight == 1; });
   input.guideDirections.resize(polygonCount(input), Vector3::Zero());
+  if (!full)
+  {
+    input.guideWeights.resize(polygonCount(input), 1);
+  }
   for (const GuideMark& mark : marks)
   {
     input.guideDirections[mark.polygon] = mark.direction;
-    if (!input.guideWeights.empty())
+    if (!full)
     {
-      input.guideWeights[mark.polygon] = 1;
+      input.guideWeights[mark.polygon] = mark.weight;
     }
   }
 }

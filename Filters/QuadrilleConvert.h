@@ -37,6 +37,7 @@ constexpr const char* kPatchId = "PatchId";
 constexpr const char* kGuidingDirection = "GuidingDirection";
 constexpr const char* kGuidingWeight = "GuidingWeight";
 constexpr const char* kTargetValence = "TargetValence";
+constexpr const char* kConstraintType = "ConstraintType";
 constexpr const char* kSizing = "Sizing";
 constexpr const char* kIgm = "IGM";
 constexpr const char* kMatching = "Matching";
@@ -57,6 +58,7 @@ constexpr const char* kValence = "Valence";
 constexpr const char* kPartial = "Partial";
 constexpr const char* kOnBoundary = "OnBoundary";
 constexpr const char* kLayoutPatch = "LayoutPatch";
+constexpr const char* kQuadNormals = "QuadNormals";
 }
 
 /// Feature bits of one polygon (see SurfaceInput::featureEdges).
@@ -71,6 +73,7 @@ struct GuideMark
 {
   Index polygon = 0;
   Vector3 direction = Vector3::Zero(); ///< unit
+  double weight = 1;                   ///< in (0, 1]
 };
 
 /// A surface as Core wants it and the way back from its polygons to the cells of the vtkPolyData.
@@ -97,7 +100,7 @@ struct ConvertedSurface
 ConvertedSurface convertSurface(
   vtkPolyData* surface, const std::string& patchArray, int threads = 1);
 
-/// Sets the directions of polygons under strokes, with weight 1.
+/// Sets directions and weights of polygons under strokes.
 void addGuideMarks(SurfaceInput& input, const std::vector<GuideMark>& marks);
 
 /// Sets the marks' bits in input.featureEdges; throws InvalidInput for a polygon out of range.

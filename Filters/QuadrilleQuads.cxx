@@ -12,6 +12,7 @@
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkFloatArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
 #include <vtkLongLongArray.h>
@@ -208,10 +209,33 @@ void addPointArrays(const QuadMesh& mesh, const std::function<vtkIdType(Index)>&
   data->AddArray(weights);
   data->AddArray(boundary);
   data->AddArray(valence);
-  if (!data->GetScalars())
+}
+
+/// Normals by which a surface without features is drawn smooth. A point on a feature has none: there the quads stay flat.
+void addNormals(const QuadMesh& mesh, vtkPointData* data)
+{
+  const bool features = std::any_of(
+    mesh.lines.begin(), mesh.lines.end(), [](const QuadLine& line) { return !line.boundary; });
+  if (features || polygonCount(mesh) > 0 || data->GetNormals())
   {
-    data->SetActiveScalars(arrays::kValence);
+    return;
   }
+  std::vector<Vector3> sums(mesh.points.size(), Vector3::Zero());
+  for (const std::array<Index, 4>& quad : mesh.quads)
+  {
+    const Vector3 normal = (mesh.points[quad[2]] - mesh.points[quad[0]])
+                             .cross(mesh.points[quad[3]] - mesh.points[quad[1]]);
+    for (const Index corner : quad)
+    {
+      sums[corner] += normal;
+    }
+  }
+  auto normals = newArray<vtkFloatArray>(arrays::kQuadNormals, 3, sums.size());
+  for (std::size_t i = 0; i < sums.size(); ++i)
+  {
+    normals->SetTuple(static_cast<vtkIdType>(i), Vector3(sums[i].stableNormalized()).data());
+  }
+  data->SetNormals(normals);
 }
 
 void addSourceCells(
@@ -377,6 +401,7 @@ vtkSmartPointer<vtkPolyData> writeQuads(const QuadMesh& mesh, const Mesh& mapped
   }
   const auto& cellOf = source.sourceCell ? source.sourceCell : source.carrierCell;
   addPointArrays(mesh, cellOf, origins, data->GetPointData());
+  addNormals(mesh, data->GetPointData());
   addSourceCells(mesh, cellOf, data->GetCellData());
   addFeatureEdges(mesh, data->GetCellData());
   data->GetFieldData()->PassData(source.carrier->GetFieldData());
@@ -444,6 +469,47 @@ vtkSmartPointer<vtkPolyData> writeSeparatrices(const QuadMesh& mesh, const QuadL
   return data;
 }
 
+vtkSmartPointer<vtkPolyData> writeIrregular(const QuadMesh& mesh)
+{
+  std::vector<Index> found;
+  const auto indexOf = [&mesh](std::size_t i)
+  { return (mesh.onBoundary[i] != 0 ? 3 : 4) - mesh.valence[i]; };
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    if (indexOf(i) != 0)
+    {
+      found.push_back(static_cast<Index>(i));
+    }
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkSmartPointer<vtkPoints> points = newPoints(found.size());
+  auto connectivity = newArray<vtkIdTypeArray>("", 1, found.size());
+  auto valence = newArray<vtkIntArray>(arrays::kValence, 1, found.size());
+  auto index = newArray<vtkIntArray>(arrays::kIndex, 1, found.size());
+  auto boundary = newArray<vtkUnsignedCharArray>(arrays::kOnBoundary, 1, found.size());
+  auto quadPoint = newArray<vtkIdTypeArray>("QuadPointId", 1, found.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    const auto id = static_cast<vtkIdType>(i);
+    const Index p = found[i];
+    points->SetPoint(id, mesh.points[p].data());
+    connectivity->SetValue(id, id);
+    valence->SetValue(id, mesh.valence[p]);
+    index->SetValue(id, indexOf(p));
+    boundary->SetValue(id, mesh.onBoundary[p]);
+    quadPoint->SetValue(id, p);
+  }
+  data->SetPoints(points);
+  data->SetVerts(newCells(connectivity, 1));
+  for (vtkDataArray* array :
+    std::initializer_list<vtkDataArray*>{ valence, index, boundary, quadPoint })
+  {
+    data->GetPointData()->AddArray(array);
+  }
+  data->GetPointData()->SetActiveScalars(arrays::kValence);
+  return data;
+}
+
 } // namespace
 
 PointOrigin pointOrigin(const PreparedSurface& surface, const ConvertedSurface& converted,
@@ -477,6 +543,7 @@ QuadOutputs writeOutputs(const QuadMesh& mesh, const Mesh& mapped, const std::ve
   outputs.quads = writeQuads(mesh, mapped, uv, layout, source, outputs.notCarried);
   outputs.lines = writeLines(mesh, mapped, layout, source);
   outputs.separatrices = writeSeparatrices(mesh, layout);
+  outputs.irregular = writeIrregular(mesh);
   return outputs;
 }
 

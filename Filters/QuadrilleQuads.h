@@ -53,7 +53,7 @@ PointOrigin pointOrigin(const PreparedSurface& surface, const ConvertedSurface& 
 /// Where there are polygons they are cells behind the quads, the cell array Partial is 1 on them, and they are in no layout patch (-1).
 struct QuadOutputs
 {
-  /// Points: Valence, OnBoundary, SourceCellId, SourcePointIds, SourceBarycentric. Cells: SourceCellId, FeatureEdges (bit
+  /// Points: Valence, OnBoundary, on surfaces without features QuadNormals (active where the carrier has no normals), SourceCellId, SourcePointIds, SourceBarycentric. Cells: SourceCellId, FeatureEdges (bit
   /// i: the edge from corner i to i+1 lies on a feature), LayoutPatch. All arrays of the carrier, and its field data. Field data, one tuple a
   /// layout patch: LayoutPatchShape (a PatchShape) and LayoutPatchSize (2: quads along and across).
   vtkSmartPointer<vtkPolyData> quads;
@@ -65,6 +65,9 @@ struct QuadOutputs
   /// The lines of the layout inside as polylines. Cells: StartKind and EndKind (a LineEnd), Feature (1: all on features, 0:
   /// none), Separatrix. Points: QuadPointId.
   vtkSmartPointer<vtkPolyData> separatrices;
+  /// Irregular vertices as vertices: those without 4 edges inside, without 3 on a boundary. Points: Valence (number of edges;
+  /// active), Index (how many are missing to a regular one), OnBoundary, QuadPointId.
+  vtkSmartPointer<vtkPolyData> irregular;
   /// Arrays that could not be carried, as text.
   std::vector<std::string> notCarried;
 };

@@ -85,6 +85,33 @@ std::string stageTimesText(const std::vector<StageRecord>& stages)
   return text + line;
 }
 
+std::string wrapLines(const std::string& text, std::size_t width)
+{
+  std::string wrapped;
+  for (const std::string& line : splitLines(text))
+  {
+    std::istringstream words(line);
+    std::size_t used = 0;
+    wrapped += wrapped.empty() ? "" : "\n";
+    for (std::string word; words >> word;)
+    {
+      if (used > 0 && used + 1 + word.size() > width)
+      {
+        wrapped += "\n  ";
+        used = 2;
+      }
+      else if (used > 0)
+      {
+        wrapped += " ";
+        ++used;
+      }
+      wrapped += word;
+      used += word.size();
+    }
+  }
+  return wrapped;
+}
+
 std::vector<std::string> splitLines(const std::string& text)
 {
   std::vector<std::string> lines;

@@ -5,6 +5,7 @@
 #include "Pipeline/Pipeline.h"
 #include "Pipeline/RemeshMemory.h"
 #include "QuadrilleBlocks.h"
+#include "QuadrilleConstraints.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleQuads.h"
 #include "QuadrilleReport.h"
@@ -41,6 +42,19 @@ struct LevelMemory : quadrille::BlockMemory
   quadrille::RemeshMemory levels;
 };
 
+std::string describe(const quadrille::RemeshResult& result, vtkIdType irregular)
+{
+  std::ostringstream text;
+  if (result.quads.quads.empty())
+  {
+    text << "No quads, as the method makes none: the mapped surface is the result.";
+    return text.str();
+  }
+  text << result.quads.quads.size() << " quads (about " << result.targetQuads << " asked for), "
+       << irregular << " irregular vertices";
+  return text.str();
+}
+
 void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
 {
   quadrille::addStages(data, result.stages);
@@ -66,7 +80,7 @@ void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
 //------------------------------------------------------------------------------
 vtkQuadRemesh::vtkQuadRemesh()
 {
-  this->SetNumberOfOutputPorts(4);
+  this->SetNumberOfOutputPorts(6);
 }
 
 vtkQuadRemesh::~vtkQuadRemesh() = default;
@@ -119,7 +133,8 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
       "switched off: switch ComputeMappedSurface on or choose another method");
   }
   vtkPolyData* input = block.input();
-  quadrille::ConvertedSurface converted = this->ConvertInputs(block);
+  std::vector<quadrille::PlacedConstraint> placed;
+  quadrille::ConvertedSurface converted = this->ConvertInputs(block, &placed);
   quadrille::RemeshOptions options = this->MakeOptions(block);
   options.maximumNumberOfQuads = static_cast<std::size_t>(this->MaximumNumberOfQuads);
   options.smoothingSteps = this->SmoothingSteps;
@@ -190,6 +205,9 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   }
   block.output(2)->ShallowCopy(written.lines);
   block.output(3)->ShallowCopy(written.separatrices);
+  block.output(4)->ShallowCopy(written.irregular);
+  block.output(5)->ShallowCopy(quadrille::writeConstraints(placed, result.quads));
+  this->SetResult(describe(result, written.irregular->GetNumberOfPoints()));
   report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
 }
 

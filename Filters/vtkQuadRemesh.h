@@ -7,7 +7,7 @@
  * Follows Ebke, Schmidt, Campen, Kobbelt, "Interactively Controlled Quad Remeshing of High Resolution 3D
  * Models" (2016). Inputs: see vtkQuadrilleSurfaceAlgorithm. Outputs:
  *
- * 0. the quads. Points: `Valence`, `OnBoundary`, `SourceCellId`, `SourcePointIds` and `SourceBarycentric` (where the
+ * 0. the quads. Points: `Valence`, `QuadNormals` (surfaces without features), `OnBoundary`, `SourceCellId`, `SourcePointIds` and `SourceBarycentric` (where the
  *    point lies on the input). Cells: `SourceCellId`, `FeatureEdges`, `LayoutPatch` (the patch of the base complex). Every array of the input:
  *    on points real numbers and colours interpolated, whole numbers and strings from the nearest point; on cells see CellDataFrom.
  * 1. the input surface, repaired, with the integer-grid map: `IGM`, `Matching`, `Determinant` on cells, `Turns`,
@@ -19,6 +19,9 @@
  *    or a feature edge are the borders of patches, which are grids of quads with four sides, or rings or tori where there is no irregular vertex. Cells: `StartKind` and
  *    `EndKind` (0 irregular vertex, 1 boundary, 2 the feature ends or begins here, 3 closed), `Feature` (1: all of it on features, 0: none), `Separatrix`
  *    (1: the straight line has an irregular end); `QuadPointId` on points.
+ * 4. the irregular vertices of the quads as vertices, with `Valence` (number of edges), `Index` (edges that are missing to a regular
+ *    vertex), `OnBoundary` and `QuadPointId`.
+ * 5. what the constraints of the inputs 1 to 3 became on the surface, see QuadrilleConstraints.h.
  *
  * Field data of output 0, beside that of the input: `LayoutPatchShape` (a patch: 0 four corners, 1 ring, 2 torus) and `LayoutPatchSize` (2: quads along and across), `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`, `ReusedStages`, `Certificate`,
  * `CertificateValid`, `CertificateNames`, `CertificateValues`, `Method`, `RepairNames`, `RepairCounts`,
@@ -248,10 +251,12 @@ public:
   }
   ///@}
 
-  /// Outputs 1 to 3.
+  /// Outputs 1 to 5.
   vtkPolyData* GetMappedSurface() { return this->GetPolyDataOutputAt(1); }
   vtkPolyData* GetLines() { return this->GetPolyDataOutputAt(2); }
   vtkPolyData* GetSeparatrices() { return this->GetPolyDataOutputAt(3); }
+  vtkPolyData* GetIrregularVertices() { return this->GetPolyDataOutputAt(4); }
+  vtkPolyData* GetConstraints() { return this->GetPolyDataOutputAt(5); }
 
 protected:
   vtkQuadRemesh();

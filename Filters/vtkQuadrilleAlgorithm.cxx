@@ -28,6 +28,9 @@ using Executive = vtkStreamingDemandDrivenPipeline;
 namespace
 {
 
+/// Letters in a line of ResultText, as many as ParaView's panel shows.
+constexpr std::size_t kPanelWidth = 60;
+
 /// Which part of the output is asked for; a serial run asks for piece 0 of 1.
 int requestedPiece(vtkInformationVector* outputs)
 {
@@ -470,6 +473,10 @@ int vtkQuadrilleAlgorithm::Conclude(const Run& run, vtkInformationVector* output
 int vtkQuadrilleAlgorithm::ReportFailure(const std::string& text)
 {
   this->OutcomeText = text;
+  if (this->ResultText.empty())
+  {
+    this->ResultText = quadrille::wrapLines("Failed: " + text, kPanelWidth);
+  }
   vtkErrorMacro(<< text);
   return 0;
 }
@@ -490,9 +497,16 @@ void vtkQuadrilleAlgorithm::SetReports(
     addLines(this->StageTimesText, name, report.stageTimes);
     addLines(this->CertificateText, name, report.certificate);
     addLines(this->NoticesText, name, joinLines(report.notices));
+    const bool failed = report.outcome != Succeeded;
+    addLines(this->ResultText, name, failed ? "Failed: " + report.outcomeText : report.result);
+    for (const std::string& notice : report.notices)
+    {
+      addLines(this->ResultText, name, "Note: " + notice);
+    }
     addLines(this->ReusedText, name, joinLines(report.reusedStages));
     this->Reports.push_back(report);
   }
+  this->ResultText = quadrille::wrapLines(this->ResultText, kPanelWidth);
 }
 
 //------------------------------------------------------------------------------
@@ -535,6 +549,19 @@ void vtkQuadrilleAlgorithm::SetCertificate(const quadrille::Certificate& certifi
 void vtkQuadrilleAlgorithm::AddNotice(const std::string& text)
 {
   this->Report->notices.push_back(text);
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::AddWarning(const std::string& text)
+{
+  this->AddNotice(text);
+  vtkWarningMacro(<< text);
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::SetResult(const std::string& text)
+{
+  this->Report->result = text;
 }
 
 //------------------------------------------------------------------------------
@@ -592,6 +619,7 @@ void vtkQuadrilleAlgorithm::ResetOutcome()
   this->StageTimesText.clear();
   this->CertificateText.clear();
   this->NoticesText.clear();
+  this->ResultText.clear();
   this->ReusedText.clear();
 }
 
@@ -606,4 +634,5 @@ void vtkQuadrilleAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "StageTimesText: " << this->StageTimesText << "\n";
   os << indent << "CertificateText: " << this->CertificateText << "\n";
   os << indent << "NoticesText: " << this->NoticesText << "\n";
+  os << indent << "ResultText: " << this->ResultText << "\n";
 }

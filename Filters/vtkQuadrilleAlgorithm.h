@@ -81,6 +81,8 @@ public:
   const char* GetCertificateText() { return this->CertificateText.c_str(); }
   /// What the user should know: repairs, raised budgets, arrays that were not used.
   const char* GetNoticesText() { return this->NoticesText.c_str(); }
+  /// What the last execution made, or why it failed, and the notices: for the panel.
+  const char* GetResultText() { return this->ResultText.c_str(); }
 
   vtkTypeBool ProcessRequest(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
@@ -127,6 +129,9 @@ protected:
   void SetStageRecords(const std::vector<quadrille::StageRecord>& stages);
   void SetCertificate(const quadrille::Certificate& certificate);
   void AddNotice(const std::string& text);
+  /// A notice of something that the user asked for and does not get: a warning, too.
+  void AddWarning(const std::string& text);
+  void SetResult(const std::string& text);
   const std::vector<std::string>& GetBlockNotices() const;
   ///@}
 
@@ -173,6 +178,7 @@ private:
   std::string StageTimesText;
   std::string CertificateText;
   std::string NoticesText;
+  std::string ResultText;
   std::string ReusedText;
 };
 

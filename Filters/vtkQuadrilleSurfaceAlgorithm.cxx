@@ -3,9 +3,10 @@
 #include "vtkQuadrilleSurfaceAlgorithm.h"
 
 #include "Pipeline/Pipeline.h"
+#include "QuadrilleArrayNames.h"
 #include "QuadrilleBlocks.h"
+#include "QuadrilleConstraints.h"
 #include "QuadrilleConvert.h"
-#include "QuadrilleCurves.h"
 
 #include "vtkCellData.h"
 #include "vtkMath.h"
@@ -15,10 +16,18 @@
 #include <algorithm>
 #include <cmath>
 
+namespace
+{
+
+/// What is drawn belongs to the blocks that are no farther from it than this part of the diagonal of all blocks.
+constexpr double kReach = 0.02;
+
+} // namespace
+
 //------------------------------------------------------------------------------
 vtkQuadrilleSurfaceAlgorithm::vtkQuadrilleSurfaceAlgorithm()
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(4);
 }
 
 vtkQuadrilleSurfaceAlgorithm::~vtkQuadrilleSurfaceAlgorithm() = default;
@@ -46,41 +55,61 @@ void vtkQuadrilleSurfaceAlgorithm::SetPatchArrayName(const char* name)
 }
 
 //------------------------------------------------------------------------------
-quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(quadrille::Block& block)
+quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
+  quadrille::Block& block, std::vector<quadrille::PlacedConstraint>* placed)
 {
   vtkPolyData* data = block.input(0);
+  this->WarnOfUnusedArrays(block);
   quadrille::ConvertedSurface surface =
     quadrille::convertSurface(data, this->PatchArrayName, this->NumberOfThreads);
   if (surface.ignoredCells > 0)
   {
     this->AddNotice(std::to_string(surface.ignoredCells) + " vertex and line cells are not used");
   }
-  this->WarnOfUnusedArrays(data);
-  vtkPolyData* curves = block.input(1);
-  if (curves && curves->GetNumberOfCells() > 0)
+  quadrille::ConstraintInputs constraints;
+  constraints.curves = block.input(1);
+  constraints.strokes = block.input(2);
+  constraints.points = block.input(3);
+  constraints.strokeWeight = this->StrokeWeight;
+  constraints.valence = this->PointValence;
+  if (block.wholeDiagonal > 0) // one of several blocks
   {
-    for (const std::string& notice : quadrille::applyCurves(surface, data, curves))
-    {
-      this->AddNotice(notice);
-      vtkWarningMacro(<< notice);
-    }
+    constraints.reach = kReach * block.wholeDiagonal;
+  }
+  quadrille::PlacedConstraints result = quadrille::applyConstraints(surface, constraints);
+  for (const std::string& notice : result.notices)
+  {
+    this->AddWarning(notice);
+  }
+  if (placed)
+  {
+    *placed = std::move(result.placed);
   }
   return surface;
 }
 
 //------------------------------------------------------------------------------
-void vtkQuadrilleSurfaceAlgorithm::WarnOfUnusedArrays(vtkPolyData* surface)
+void vtkQuadrilleSurfaceAlgorithm::WarnOfUnusedArrays(const quadrille::Block& block)
 {
-  const auto warn = [this](vtkDataSetAttributes* attributes, const char* name)
+  const auto warn =
+    [&](int port, const char* name, const std::vector<quadrille::ReadArray>& read)
   {
-    if (attributes->HasArray(name))
+    if (vtkPolyData* data = block.input(port))
     {
-      const std::string text = std::string("array '") + name + "' is not used by this version";
-      this->AddNotice(text);
-      vtkWarningMacro(<< text);
+      for (const std::string& notice : quadrille::arrayNotices(data, name, read))
+      {
+        this->AddWarning(notice);
+      }
     }
   };
-  warn(surface->GetPointData(), "ConnectId");
+  warn(0, "the surface", quadrille::surfaceArrays(this->PatchArrayName));
+  warn(1, "the feature curves", quadrille::lineArrays());
+  warn(2, "the guiding strokes", quadrille::lineArrays());
+  warn(3, "the valence points", quadrille::pointArrays());
+  if (block.input(0)->GetPointData()->HasArray("ConnectId"))
+  {
+    this->AddWarning("array 'ConnectId' is not used by this version");
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -128,4 +157,6 @@ void vtkQuadrilleSurfaceAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
   os << indent << "PatchArrayName: " << this->PatchArrayName << "\n";
   os << indent << "CoarseVertices: " << this->CoarseVertices << "\n";
+  os << indent << "StrokeWeight: " << this->StrokeWeight << "\n";
+  os << indent << "PointValence: " << this->PointValence << "\n";
 }

@@ -14,9 +14,15 @@
  * where there is no such array) multiplies the target edge length; the larger sizes give way where it grows by more than a quarter per edge
  * length, which is told in a notice. The number of quads asked for is met as a whole.
  *
- * Input port 1, optional, takes curves as polylines with the cell array `ConstraintType`: 0 (also where there is no such
- * array) is a feature curve, which is drawn along the edges of the surface nearest to it; 1 is a guiding stroke, whose direction the
- * polygons at these edges take with weight 1. Other types are an error in this version.
+ * Three optional inputs hold what is drawn beside the surface, see QuadrilleConstraints.h for how it is put there:
+ * - port 1, feature curves: polylines that become features, along the edges of the surface nearest to them. The line cell array
+ *   `ConstraintType` may say 1: a guiding stroke instead; other values than 0 and 1 are an error;
+ * - port 2, guiding strokes: polylines whose direction the polygons below take with StrokeWeight, or with the line cell array
+ *   `GuidingWeight`;
+ * - port 3, valence points: points, with cells or without. The vertex of the surface nearest to each gets PointValence, or what the point array
+ *   `TargetValence` says.
+ * Whole numbers may come as real numbers, as a Calculator makes them. Arrays on the wrong kind of element or with a name that is nearly
+ * one of these are told in a notice and a warning.
  */
 #ifndef vtkQuadrilleSurfaceAlgorithm_h
 #define vtkQuadrilleSurfaceAlgorithm_h
@@ -26,6 +32,7 @@
 namespace quadrille
 {
 struct ConvertedSurface;
+struct PlacedConstraint;
 struct RemeshOptions;
 }
 
@@ -42,14 +49,39 @@ public:
     TARGET_RELATIVE_EDGE_LENGTH = 2
   };
 
-  /// The optional second input.
+  ///@{
+  /// The optional inputs.
   void SetCurvesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
   void SetCurvesData(vtkDataObject* curves) { this->SetInputDataObject(1, curves); }
+  void SetStrokesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
+  void SetStrokesData(vtkDataObject* strokes) { this->SetInputDataObject(2, strokes); }
+  void SetValencePointsConnection(vtkAlgorithmOutput* output)
+  {
+    this->SetInputConnection(3, output);
+  }
+  void SetValencePointsData(vtkDataObject* points) { this->SetInputDataObject(3, points); }
+  ///@}
+
+  ///@{
+  /**
+   * How strongly quads follow the strokes of port 2 that have no `GuidingWeight`, above 0 and at most 1. Default: 1.
+   */
+  vtkSetMacro(StrokeWeight, double);
+  vtkGetMacro(StrokeWeight, double);
+  ///@}
+
+  ///@{
+  /**
+   * The valence that is asked for at the points of port 3 without `TargetValence`, 2 to 8. Default: 3.
+   */
+  vtkSetMacro(PointValence, int);
+  vtkGetMacro(PointValence, int);
+  ///@}
 
   ///@{
   /**
    * Which of the three properties below sets the size of the quads, a TargetTypes. Default:
-   * TARGET_RELATIVE_EDGE_LENGTH.
+   * TARGET_NUMBER_OF_QUADS.
    */
   vtkSetClampMacro(TargetType, int, TARGET_NUMBER_OF_QUADS, TARGET_RELATIVE_EDGE_LENGTH);
   vtkGetMacro(TargetType, int);
@@ -124,12 +156,14 @@ protected:
   vtkQuadrilleSurfaceAlgorithm();
   ~vtkQuadrilleSurfaceAlgorithm() override;
 
-  /// The surface and the curves as Core takes them; warns of what this version does not use.
-  quadrille::ConvertedSurface ConvertInputs(quadrille::Block& block);
+  /// The surface and what is asked of it as Core takes them; warns of what is not used. placed, if given, gets the
+  /// constraints of ports 1 to 3.
+  quadrille::ConvertedSurface ConvertInputs(
+    quadrille::Block& block, std::vector<quadrille::PlacedConstraint>* placed = nullptr);
   /// The properties in Core's units, with the block's part of the number of quads.
   quadrille::RemeshOptions MakeOptions(const quadrille::Block& block);
 
-  int TargetType = TARGET_RELATIVE_EDGE_LENGTH;
+  int TargetType = TARGET_NUMBER_OF_QUADS;
   vtkIdType NumberOfQuads = 5000;
   double EdgeLength = 1;
   double RelativeEdgeLength = 0.02;
@@ -137,12 +171,14 @@ protected:
   double FeatureAngle = 40;
   std::string PatchArrayName = "PatchId";
   int CoarseVertices = 1000;
+  double StrokeWeight = 1;
+  int PointValence = 3;
 
 private:
   vtkQuadrilleSurfaceAlgorithm(const vtkQuadrilleSurfaceAlgorithm&) = delete;
   void operator=(const vtkQuadrilleSurfaceAlgorithm&) = delete;
 
-  void WarnOfUnusedArrays(vtkPolyData* surface);
+  void WarnOfUnusedArrays(const quadrille::Block& block);
 };
 
 #endif

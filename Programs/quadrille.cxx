@@ -38,8 +38,8 @@ constexpr const char* kHelp =
 
 Remeshes a triangle surface with quads only.
 
-size of the quads (at most one; 0.02 of the bounding-box diagonal when none is given):
-  --quads N                 target number of quads
+size of the quads (at most one):
+  --quads N                 target number of quads (default 5000)
   --edge-length S           target edge length in units of the input
   --relative-edge-length R  target edge length over the bounding-box diagonal
 
@@ -185,6 +185,7 @@ void setSize(const CommandLine& line, vtkQuadRemesh* filter)
   }
   else if (relative)
   {
+    filter->SetTargetTypeToRelativeEdgeLength();
     filter->SetRelativeEdgeLength(*relative);
   }
 }

@@ -101,6 +101,7 @@ def _set_size(run, quads, edge_length, relative_edge_length):
         run.SetEdgeLength(real("edge_length", edge_length, above=0))
     elif relative_edge_length is not None:
         run.SetTargetTypeToRelativeEdgeLength()
+        run.SetTargetTypeToRelativeEdgeLength()
         run.SetRelativeEdgeLength(real("relative_edge_length", relative_edge_length, above=0, most=1,
                                        hint=" (it is a part of the diagonal of the bounding box)"))
     else:

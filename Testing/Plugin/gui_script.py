@@ -6,14 +6,32 @@ import sys
 import traceback
 
 try:
-    from paraview import simple
+    from paraview import servermanager, simple
+
+    def check(condition, text):
+        if not condition:
+            raise RuntimeError(text)
+
     simple.LoadPlugin(os.environ["QUADRILLE_PLUGIN"], remote=False, ns=globals())
     part = simple.PLYReader(registrationName="part", FileNames=[os.path.join(os.environ["QUADRILLE_DATA"], "part.ply")])
     quads = QuadRemesh(registrationName="quads", Input=part, TargetType="Number Of Quads", NumberOfQuads=2000)
     view = simple.GetActiveViewOrCreate("RenderView")
-    display = simple.Show(quads, view)
-    display.SetRepresentationType("Surface With Edges")
-    simple.ColorBy(display, ("POINTS", "Valence"))
+
+    # The first Apply shows the quads alone, with edges: Apply asks this of each output.
+    controller = servermanager.vtkSMParaViewPipelineControllerWithRendering()
+    for port in range(6):
+        chosen = controller.ShowInPreferredView(quads.SMProxy, port, view.SMProxy)
+        check((chosen is not None) == (port == 0), f"output {port} shows at first Apply: {chosen}")
+    check(simple.GetDisplayProperties(quads, view).Representation == "Surface With Edges", "the quads have no edges")
+    # One click on the eye of the irregular vertices shows them as spheres, each valence in its colour.
+    irregular = simple.Show(simple.OutputPort(quads, 4), view)
+    check((irregular.Representation, irregular.PointSize, irregular.RenderPointsAsSpheres) == ("Points", 12.0, 1),
+          f"irregular vertices as {irregular.Representation} of size {irregular.PointSize}")
+    check(irregular.ColorArrayName[1] == "Valence", f"irregular vertices are coloured by {irregular.ColorArrayName}")
+    colours = simple.GetColorTransferFunction("Valence")
+    check(colours.InterpretValuesAsCategories == 1 and colours.Annotations[2:4] == ["3", "3"], "valences have no colours of their own")
+    blue, red = colours.IndexedColors[3:6], colours.IndexedColors[9:12]
+    check(blue[2] > 0.8 > blue[0] and red[0] > 0.8 > red[2], f"3 and 5 are coloured {blue} and {red}")
     simple.SetActiveSource(quads)
     simple.ResetCamera(view)
     simple.Render(view)

@@ -30,6 +30,9 @@ check("ActualQuads" in quads.FieldData.keys(), "no field data")
 quads.NumberOfQuads = 900
 quads.UpdatePipeline()
 check(size_of(quads) > cells, "more quads were asked, fewer came")
+# What the panel shows is of this execution, without being asked for again.
+check(quads.GetPropertyValue("ActualQuads") == size_of(quads), "Actual Quads is that of the execution before")
+check(quads.GetPropertyValue("ResultText").startswith(f"{size_of(quads)} quads"), "Result Text is that of the execution before")
 quads.TargetType = "Relative Edge Length"
 quads.RelativeEdgeLength = 0.1
 quads.UpdatePipeline()
@@ -49,6 +52,24 @@ quads.UpdatePipeline()
 check(size_of(quads) > 0 and size_of(quads, 1) == 0, "ComputeMappedSurface has no effect")
 check(quads.PatchArray == "(none)", "PatchArray should be (none) where there is no cell array")
 
+# The number of quads comes first: it is the default, and whole numbers that the window has a field for.
+default = QuadRemesh(Input=mesh)
+check(default.TargetType == "Number Of Quads" and default.NumberOfQuads == 5000, "5,000 quads are not the default")
+for name in ("NumberOfQuads", "MaximumNumberOfQuads", "ActualQuads"):
+    kind = default.SMProxy.GetProperty(name).GetClassName()
+    check(kind == "vtkSMIntVectorProperty", f"{name} is a {kind}, for which ParaView has no widget")
+order = [default.SMProxy.GetPropertyGroup(i).GetXMLLabel() for i in range(default.SMProxy.GetNumberOfPropertyGroups())]
+check(order[0] == "Size Of The Quads" and order[-1] == "Run", f"the panel's order is {order}")
+walk = servermanager.vtkSMOrderedPropertyIterator()
+walk.SetProxy(default.SMProxy)
+names = []
+walk.Begin()
+while not walk.IsAtEnd():
+    names.append(walk.GetKey())
+    walk.Next()
+check(names.index("NumberOfQuads") < names.index("FeatureAngle") < names.index("GuidingStrokes")
+      < names.index("ResultText") < names.index("NumberOfThreads"), f"the properties come as {names}")
+
 # The patch array is found by its name.
 marked = simple.Calculator(Input=mesh, AttributeType="Cell Data", ResultArrayName="PatchId", Function="1",
                            ResultArrayType="Int")
@@ -59,7 +80,7 @@ check(QuadRemesh(Input=marked).PatchArray == "PatchId", "PatchId is not chosen w
 plane = simple.Triangulate(Input=simple.Plane(XResolution=20, YResolution=20))
 curve = simple.PolyLineSource(Points=[-0.5, 0.0, 0.0, 0.5, 0.0, 0.0])
 for curves, expected in ((None, {1}), (curve, {0, 1})):
-    flat = QuadRemesh(Input=plane, Curves=curves, TargetType="Number Of Quads", NumberOfQuads=200)
+    flat = QuadRemesh(Input=plane, FeatureCurves=curves, TargetType="Number Of Quads", NumberOfQuads=200)
     flat.UpdatePipeline()
     lines = flat.GetClientSideObject().GetLines()
     boundary = lines.GetCellData().GetArray("Boundary")
@@ -68,6 +89,33 @@ for curves, expected in ((None, {1}), (curve, {0, 1})):
 inner = [i for i in range(lines.GetNumberOfCells()) if boundary.GetValue(i) == 0]
 heights = {round(lines.GetPoint(lines.GetCell(i).GetPointId(k))[1], 9) for i in inner for k in (0, 1)}
 check(heights == {0.0}, f"the curve is not followed: {heights}")
+
+# Strokes and valences by sources without any array; the output Constraints shows what became of them.
+ball = simple.Triangulate(Input=simple.Sphere(ThetaResolution=48, PhiResolution=48))
+stroke = simple.PolyLineSource(Points=[0.5, 0.0, 0.0, 0.4, 0.3, 0.0, 0.3, 0.4, 0.1])
+point = simple.PolyPointSource(Points=[0.0, -0.5, 0.0])
+drawn = QuadRemesh(Input=ball, NumberOfQuads=600, GuidingStrokes=stroke, StrokeWeight=0.5, ValencePoints=point, ValenceAtPoints=5)
+drawn.UpdatePipeline()
+shown = servermanager.Fetch(drawn, idx=5)
+kinds = [int(shown.GetCellData().GetArray("Constraint").GetTuple1(i)) for i in range(shown.GetNumberOfCells())]
+check(kinds == [2, 1], f"constraints {kinds} where a valence that was met and a stroke were expected")
+check(shown.GetCellData().GetArray("Valence").GetTuple1(0) == 5, "the valence at the point is not 5")
+irregular = servermanager.Fetch(drawn, idx=4)
+valences = irregular.GetPointData().GetArray("Valence")
+index = sum(4 - valences.GetTuple1(i) for i in range(irregular.GetNumberOfPoints()))
+check(irregular.GetNumberOfVerts() == irregular.GetNumberOfPoints() > 0, "the irregular vertices are no vertices")
+check(index == 8, f"the indices of the irregular vertices of a sphere sum up to {index}")
+check(servermanager.Fetch(drawn).GetPointData().GetNormals() is not None, "a smooth surface without normals is drawn flat")
+drawn.ValencePoints = None
+drawn.UpdatePipeline()
+check(size_of(drawn, 5) == 1, "the valence point is still there")
+
+# Doubles of a Calculator are whole numbers, too; on cells, or with another name, they are told.
+def calculated(name, value, kind="Point Data"):
+    return simple.Calculator(Input=ball, AttributeType=kind, ResultArrayName=name, Function=value)
+remeshed = QuadRemesh(Input=calculated("TargetValence", "0"), NumberOfQuads=400)
+remeshed.UpdatePipeline()
+check("TargetValence" not in remeshed.GetPropertyValue("Notices"), "doubles are not taken for valences")
 
 # The layout: the plate is cut in two by the curve, one line of the layout.
 check(size_of(flat, 3) == 1, f"{size_of(flat, 3)} lines of the layout where one was expected")

@@ -1,0 +1,882 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QuadrilleConstraints.h"
+
+#include "Mesh/Guides.h"
+#include "QuadrilleRefuse.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkGenericCell.h>
+#include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStaticCellLocator.h>
+#include <vtkStaticPointLocator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <queue>
+#include <sstream>
+#include <unordered_map>
+
+namespace quadrille
+{
+
+namespace
+{
+
+constexpr const char* kConstraintType = "ConstraintType";
+/// A path may be this many times longer than needed rather than leave the segment by its own length.
+constexpr double kDetourPenalty = 10;
+/// What was moved by more than this part of the surface's bounding-box diagonal is worth a warning. Points of lines that are clicked in a
+/// window lie in front of the surface as a rule.
+constexpr double kFarPoint = 0.05;
+constexpr double kFarLine = 0.1;
+/// Samples of a stroke in each edge length of the polygons below.
+constexpr double kSamplesAnEdge = 3;
+constexpr double kMostSamples = 4096;
+/// Barycentric nearness to an edge of a sample that lies on it.
+constexpr double kOnEdge = 1e-6;
+
+struct EdgeUse
+{
+  Index target = 0;
+  Index polygon = 0;
+  std::uint8_t bit = 0;
+};
+
+/// Edges of the polygons by their start, both directions: CSR.
+struct EdgeGraph
+{
+  std::vector<std::size_t> first;
+  std::vector<EdgeUse> uses;
+};
+
+template <class Visit>
+void forEachEdge(const SurfaceInput& input, Visit visit)
+{
+  for (std::size_t p = 0; p + 1 < input.polygonOffsets.size(); ++p)
+  {
+    const Index begin = input.polygonOffsets[p];
+    const Index corners = input.polygonOffsets[p + 1] - begin;
+    for (Index i = 0; i < corners && i < 8; ++i) // eight bits a polygon
+    {
+      visit(static_cast<Index>(p), i, input.polygonPoints[begin + i],
+        input.polygonPoints[begin + (i + 1) % corners]);
+    }
+  }
+}
+
+EdgeGraph makeGraph(const SurfaceInput& input)
+{
+  EdgeGraph graph;
+  graph.first.assign(input.points.size() + 2, 0);
+  forEachEdge(input,
+    [&](Index, Index, Index a, Index b)
+    {
+      ++graph.first[a + 2];
+      ++graph.first[b + 2];
+    });
+  for (std::size_t i = 2; i < graph.first.size(); ++i)
+  {
+    graph.first[i] += graph.first[i - 1];
+  }
+  graph.uses.resize(graph.first.back());
+  forEachEdge(input,
+    [&](Index p, Index i, Index a, Index b)
+    {
+      const auto bit = static_cast<std::uint8_t>(1 << i);
+      graph.uses[graph.first[a + 1]++] = { b, p, bit };
+      graph.uses[graph.first[b + 1]++] = { a, p, bit };
+    });
+  return graph;
+}
+
+double distanceToSegment(const Vector3& p, const Vector3& a, const Vector3& b)
+{
+  const Vector3 d = b - a;
+  const double length2 = d.squaredNorm();
+  const double t = length2 > 0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0;
+  return (p - (a + t * d)).norm();
+}
+
+/// Dijkstra from a to b; edges cost more the farther they are from the straight segment. Empty: no path.
+std::vector<Index> findPath(const SurfaceInput& input, const EdgeGraph& graph, Index a, Index b)
+{
+  struct Reached
+  {
+    double cost;
+    Index from;
+  };
+  using Entry = std::pair<double, Index>;
+  std::unordered_map<Index, Reached> reached; // only looked up, so its order does not matter
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+  const Vector3& start = input.points[a];
+  const Vector3& end = input.points[b];
+  const double scale = kDetourPenalty / std::max((end - start).norm(), 1e-300);
+  reached[a] = { 0, a };
+  front.push({ 0, a });
+  while (!front.empty() && front.top().second != b)
+  {
+    const auto [cost, v] = front.top();
+    front.pop();
+    if (cost > reached[v].cost)
+    {
+      continue;
+    }
+    for (std::size_t i = graph.first[v]; i < graph.first[v + 1]; ++i)
+    {
+      const Index w = graph.uses[i].target;
+      const Vector3& p = input.points[v];
+      const Vector3& q = input.points[w];
+      const double away = distanceToSegment(0.5 * (p + q), start, end);
+      const double next = cost + (q - p).norm() * (1 + scale * away);
+      const auto found = reached.find(w);
+      if (found == reached.end() || next < found->second.cost)
+      {
+        reached[w] = { next, v };
+        front.push({ next, w });
+      }
+    }
+  }
+  std::vector<Index> path;
+  if (!front.empty())
+  {
+    for (Index v = b; v != a; v = reached[v].from)
+    {
+      path.push_back(v);
+    }
+    path.push_back(a);
+  }
+  return path;
+}
+
+void markPath(
+  const EdgeGraph& graph, const std::vector<Index>& path, std::map<Index, std::uint8_t>& marks)
+{
+  for (std::size_t k = 0; k + 1 < path.size(); ++k)
+  {
+    for (std::size_t i = graph.first[path[k]]; i < graph.first[path[k] + 1]; ++i)
+    {
+      if (graph.uses[i].target == path[k + 1])
+      {
+        marks[graph.uses[i].polygon] |= graph.uses[i].bit;
+      }
+    }
+  }
+}
+
+std::string placeText(const Vector3& p)
+{
+  std::ostringstream text;
+  text << "(" << p.x() << ", " << p.y() << ", " << p.z() << ")";
+  return text.str();
+}
+
+double diagonalOf(const SurfaceInput& input)
+{
+  if (input.points.empty())
+  {
+    return 0;
+  }
+  Vector3 low = input.points.front();
+  Vector3 high = low;
+  for (const Vector3& p : input.points)
+  {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return (high - low).norm();
+}
+
+/// The nearest place on the polygons, and the nearest of the points that they use: an isolated one would be nobody's edge.
+class Snapper
+{
+public:
+  struct Place
+  {
+    Index polygon = kInvalidIndex;
+    Vector3 point = Vector3::Zero();
+  };
+
+  explicit Snapper(const SurfaceInput& input)
+  {
+    std::vector<std::uint8_t> used(input.points.size(), 0);
+    for (const Index p : input.polygonPoints)
+    {
+      used[p] = 1;
+    }
+    vtkNew<vtkPoints> all;
+    vtkNew<vtkPoints> corners;
+    all->SetDataTypeToDouble();
+    corners->SetDataTypeToDouble();
+    for (std::size_t i = 0; i < used.size(); ++i)
+    {
+      all->InsertNextPoint(input.points[i].data());
+      if (used[i])
+      {
+        corners->InsertNextPoint(input.points[i].data());
+        id_.push_back(static_cast<Index>(i));
+      }
+    }
+    vtkNew<vtkCellArray> polygons;
+    for (std::size_t p = 0; p + 1 < input.polygonOffsets.size(); ++p)
+    {
+      polygons->InsertNextCell(
+        static_cast<int>(input.polygonOffsets[p + 1] - input.polygonOffsets[p]));
+      for (Index i = input.polygonOffsets[p]; i < input.polygonOffsets[p + 1]; ++i)
+      {
+        polygons->InsertCellPoint(input.polygonPoints[i]);
+      }
+    }
+    polygons_->SetPoints(all);
+    polygons_->SetPolys(polygons);
+    polygonLocator_->SetDataSet(polygons_);
+    polygonLocator_->BuildLocator();
+    corners_->SetPoints(corners);
+    cornerLocator_->SetDataSet(corners_);
+    cornerLocator_->BuildLocator();
+  }
+
+  Index nearestCorner(const Vector3& p) const
+  {
+    return id_[static_cast<std::size_t>(cornerLocator_->FindClosestPoint(p.data()))];
+  }
+
+  Place nearestPlace(const Vector3& p) const
+  {
+    Place place;
+    vtkIdType cell = -1;
+    int part = 0;
+    double distance2 = 0;
+    polygonLocator_->FindClosestPoint(p.data(), place.point.data(), cell_, cell, part, distance2);
+    if (cell < 0)
+    {
+      refuse("no place on the surface was found for the point ", placeText(p));
+    }
+    place.polygon = static_cast<Index>(cell);
+    return place;
+  }
+
+private:
+  vtkNew<vtkPolyData> polygons_;
+  vtkNew<vtkStaticCellLocator> polygonLocator_;
+  vtkNew<vtkGenericCell> cell_;
+  vtkNew<vtkPolyData> corners_;
+  vtkNew<vtkStaticPointLocator> cornerLocator_;
+  std::vector<Index> id_;
+};
+
+//------------------------------------------------------------------------------
+// One polyline
+
+struct Polyline
+{
+  vtkIdType cell = 0;
+  std::vector<Vector3> points;
+};
+
+std::vector<Polyline> readLines(vtkPolyData* data, const char* what)
+{
+  std::vector<Polyline> lines;
+  vtkIdType cell = data->GetNumberOfVerts();
+  auto iterator = vtk::TakeSmartPointer(data->GetLines()->NewIterator());
+  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    iterator->GetCurrentCell(count, ids);
+    lines.push_back({ cell++, {} });
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      Vector3 p;
+      data->GetPoint(ids[i], p.data());
+      if (!p.allFinite())
+      {
+        refuse(what, " ", lines.back().cell, " has a point that is not finite; draw it anew");
+      }
+      lines.back().points.push_back(p);
+    }
+  }
+  return lines;
+}
+
+/// Everything that is put on the surface, until it is written to the input at once.
+class Placement
+{
+public:
+  Placement(ConvertedSurface& surface, double reach)
+    : surface_(surface), input_(surface.input), graph_(makeGraph(surface.input)),
+      snapper_(surface.input), diagonal_(diagonalOf(surface.input)), reach_(reach)
+  {
+  }
+
+  void addFeature(const Polyline& line);
+  void addStroke(const Polyline& line, double weight);
+  void addValence(vtkIdType source, const Vector3& point, int valence);
+  PlacedConstraints finish();
+
+private:
+  struct Stroke
+  {
+    Vector3 direction = Vector3::Zero();
+    double weight = 1;
+  };
+
+  std::vector<Index> pathBetween(const char* what, vtkIdType line, Index a, Index b) const;
+  /// Places below the straight segment from one to the other; none where the way jumps.
+  std::vector<Snapper::Place> sampleBetween(
+    const Snapper::Place& first, const Snapper::Place& last) const;
+  double meanEdge(Index polygon) const;
+  bool isInReach(const std::vector<Vector3>& points) const;
+  bool isOnBoundary(Index point) const;
+  void guide(const Snapper::Place& place, const Stroke& stroke);
+  void guideAlong(const std::vector<Index>& path, const Stroke& stroke);
+  void tellIfFar(const char* what, const PlacedConstraint& placed);
+
+  ConvertedSurface& surface_;
+  SurfaceInput& input_;
+  EdgeGraph graph_;
+  Snapper snapper_;
+  double diagonal_;
+  double reach_;
+  std::map<Index, std::uint8_t> features_;
+  std::map<Index, Stroke> strokes_;
+  PlacedConstraints result_;
+};
+
+std::vector<Index> Placement::pathBetween(
+  const char* what, vtkIdType line, Index a, Index b) const
+{
+  std::vector<Index> path = findPath(input_, graph_, a, b);
+  if (path.empty())
+  {
+    refuse(what, " ", line, ": no path of edges leads from ", placeText(input_.points[a]), " to ",
+      placeText(input_.points[b]),
+      "; the places lie on different parts of the surface, or points at the same place are not merged: draw one line for "
+      "each part, or apply Clean to the surface first");
+  }
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+void Placement::tellIfFar(const char* what, const PlacedConstraint& placed)
+{
+  const double far = placed.kind == ConstraintKind::Valence ? kFarPoint : kFarLine;
+  if (placed.distance > far * diagonal_)
+  {
+    std::ostringstream text;
+    text << what << " " << placed.source << " was moved by up to " << placed.distance
+         << " to lie on the surface, near " << placeText(placed.path.front())
+         << ": look at the output Constraints, and move its points if that is not what was meant";
+    result_.notices.push_back(text.str());
+  }
+}
+
+bool Placement::isInReach(const std::vector<Vector3>& points) const
+{
+  return std::isinf(reach_) ||
+    std::any_of(points.begin(), points.end(),
+      [this](const Vector3& p) { return (snapper_.nearestPlace(p).point - p).norm() <= reach_; });
+}
+
+/// An edge from there has one polygon only.
+bool Placement::isOnBoundary(Index point) const
+{
+  std::map<Index, int> polygons;
+  for (std::size_t i = graph_.first[point]; i < graph_.first[point + 1]; ++i)
+  {
+    ++polygons[graph_.uses[i].target];
+  }
+  return std::any_of(
+    polygons.begin(), polygons.end(), [](const auto& edge) { return edge.second == 1; });
+}
+
+void Placement::addFeature(const Polyline& line)
+{
+  if (!isInReach(line.points))
+  {
+    return;
+  }
+  PlacedConstraint placed;
+  placed.kind = ConstraintKind::Feature;
+  placed.source = line.cell;
+  Index previous = kInvalidIndex;
+  for (const Vector3& p : line.points)
+  {
+    const Index v = snapper_.nearestCorner(p);
+    placed.distance = std::max(placed.distance, (input_.points[v] - p).norm());
+    if (previous == kInvalidIndex)
+    {
+      placed.path.push_back(input_.points[v]);
+    }
+    else if (v != previous)
+    {
+      const std::vector<Index> path = pathBetween("feature curve", line.cell, previous, v);
+      markPath(graph_, path, features_);
+      for (std::size_t i = 1; i < path.size(); ++i)
+      {
+        placed.path.push_back(input_.points[path[i]]);
+      }
+    }
+    previous = v;
+  }
+  if (placed.path.size() < 2)
+  {
+    result_.notices.push_back("feature curve " + std::to_string(line.cell) +
+      " has no edge of the surface along it and is not followed: all its points have the same nearest point of the surface");
+    return;
+  }
+  tellIfFar("feature curve", placed);
+  result_.placed.push_back(std::move(placed));
+}
+
+double Placement::meanEdge(Index polygon) const
+{
+  const Index begin = input_.polygonOffsets[polygon];
+  const Index corners = input_.polygonOffsets[polygon + 1] - begin;
+  double sum = 0;
+  for (Index i = 0; i < corners; ++i)
+  {
+    sum += (input_.points[input_.polygonPoints[begin + i]] -
+      input_.points[input_.polygonPoints[begin + (i + 1) % corners]])
+             .norm();
+  }
+  return sum / std::max<Index>(corners, 1);
+}
+
+std::vector<Snapper::Place> Placement::sampleBetween(
+  const Snapper::Place& first, const Snapper::Place& last) const
+{
+  const Vector3& a = first.point;
+  const Vector3& b = last.point;
+  const double edge = std::min(meanEdge(first.polygon), meanEdge(last.polygon));
+  const double wanted = kSamplesAnEdge * (b - a).norm() / std::max(edge, 1e-300);
+  const int count = static_cast<int>(std::clamp(std::ceil(wanted), 4.0, kMostSamples));
+  const double step = (b - a).norm() / count;
+  std::vector<Snapper::Place> places{ first };
+  for (int i = 0; i < count; ++i)
+  {
+    places.push_back(snapper_.nearestPlace(a + (i + 0.5) / count * (b - a)));
+  }
+  places.push_back(last);
+  // Over a bulge places move apart, but where they jump the segment left this part of the surface.
+  constexpr double kJump = 6;
+  for (std::size_t i = 0; i + 1 < places.size(); ++i)
+  {
+    if ((places[i + 1].point - places[i].point).norm() > kJump * std::max(step, 1e-300))
+    {
+      return {};
+    }
+  }
+  return places;
+}
+
+/// The polygon of the place, and where it lies on an edge that beyond it. At a corner none: which one is not said.
+void Placement::guide(const Snapper::Place& place, const Stroke& stroke)
+{
+  const Index begin = input_.polygonOffsets[place.polygon];
+  const Index corners = input_.polygonOffsets[place.polygon + 1] - begin;
+  const double near = kOnEdge * meanEdge(place.polygon);
+  for (Index i = 0; i < corners; ++i)
+  {
+    if ((input_.points[input_.polygonPoints[begin + i]] - place.point).norm() < near)
+    {
+      return;
+    }
+  }
+  strokes_[place.polygon] = stroke;
+  for (Index i = 0; i < corners; ++i)
+  {
+    const Index a = input_.polygonPoints[begin + i];
+    const Index b = input_.polygonPoints[begin + (i + 1) % corners];
+    if (distanceToSegment(place.point, input_.points[a], input_.points[b]) < near)
+    {
+      guideAlong({ a, b }, stroke);
+    }
+  }
+}
+
+/// The polygons on both sides of a path of edges.
+void Placement::guideAlong(const std::vector<Index>& path, const Stroke& stroke)
+{
+  for (std::size_t k = 0; k + 1 < path.size(); ++k)
+  {
+    for (std::size_t i = graph_.first[path[k]]; i < graph_.first[path[k] + 1]; ++i)
+    {
+      if (graph_.uses[i].target == path[k + 1])
+      {
+        strokes_[graph_.uses[i].polygon] = stroke;
+      }
+    }
+  }
+}
+
+void Placement::addStroke(const Polyline& line, double weight)
+{
+  if (!isInReach(line.points))
+  {
+    return;
+  }
+  PlacedConstraint placed;
+  placed.kind = ConstraintKind::Stroke;
+  placed.source = line.cell;
+  placed.weight = weight;
+  std::vector<Snapper::Place> ends;
+  for (const Vector3& p : line.points)
+  {
+    ends.push_back(snapper_.nearestPlace(p));
+    placed.distance = std::max(placed.distance, (ends.back().point - p).norm());
+  }
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+  {
+    const Vector3& a = ends[i].point;
+    const Vector3& b = ends[i + 1].point;
+    if (a == b)
+    {
+      continue;
+    }
+    const Stroke stroke{ (b - a).stableNormalized(), weight };
+    const std::vector<Snapper::Place> places = sampleBetween(ends[i], ends[i + 1]);
+    for (const Snapper::Place& place : places)
+    {
+      guide(place, stroke);
+      placed.path.push_back(place.point);
+    }
+    if (places.empty())
+    {
+      const std::vector<Index> path = pathBetween(
+        "guiding stroke", line.cell, snapper_.nearestCorner(a), snapper_.nearestCorner(b));
+      guideAlong(path, stroke);
+      for (const Index v : path)
+      {
+        placed.path.push_back(input_.points[v]);
+      }
+    }
+  }
+  if (placed.path.size() < 2)
+  {
+    result_.notices.push_back("guiding stroke " + std::to_string(line.cell) +
+      " has no length and is not followed: give it two different points");
+    return;
+  }
+  tellIfFar("guiding stroke", placed);
+  result_.placed.push_back(std::move(placed));
+}
+
+void Placement::addValence(vtkIdType source, const Vector3& point, int valence)
+{
+  if (!isInReach({ point }))
+  {
+    return;
+  }
+  const Index v = snapper_.nearestCorner(point);
+  if (valence == kLeastValence && isOnBoundary(v))
+  {
+    refuse("valence ", valence, " is asked for at ", placeText(input_.points[v]),
+      ", on the boundary of the surface, where the least is 3, a corner with one quad: ask for 3 or more there, or move the "
+      "point inside");
+  }
+  input_.targetValences.resize(input_.points.size(), 0);
+  int& asked = input_.targetValences[v];
+  if (asked != 0 && asked != valence)
+  {
+    refuse("valence point ", source, " asks for valence ", valence, " at ",
+      placeText(input_.points[v]), ", where ", asked,
+      " is asked for already: give both the same, or take one away");
+  }
+  asked = valence;
+  PlacedConstraint placed;
+  placed.kind = ConstraintKind::Valence;
+  placed.source = source;
+  placed.path = { input_.points[v] };
+  placed.distance = (input_.points[v] - point).norm();
+  placed.valence = valence;
+  tellIfFar("valence point", placed);
+  result_.placed.push_back(std::move(placed));
+}
+
+PlacedConstraints Placement::finish()
+{
+  for (const auto& [polygon, bits] : features_)
+  {
+    surface_.curveMarks.push_back({ polygon, bits });
+  }
+  addFeatureMarks(input_, surface_.curveMarks);
+  std::vector<GuideMark> marks;
+  for (const auto& [polygon, stroke] : strokes_)
+  {
+    marks.push_back({ polygon, stroke.direction, stroke.weight });
+  }
+  addGuideMarks(input_, marks);
+  return std::move(result_);
+}
+
+//------------------------------------------------------------------------------
+// The inputs
+
+bool hasLines(vtkPolyData* data)
+{
+  return data && data->GetNumberOfLines() > 0;
+}
+
+bool hasPoints(vtkPolyData* data)
+{
+  return data && data->GetNumberOfPoints() > 0;
+}
+
+/// What cannot be honoured must not pass for done.
+bool isStroke(vtkDataArray* types, vtkIdType cell)
+{
+  const double type = types ? types->GetComponent(cell, 0) : 0;
+  if (type != static_cast<double>(ConstraintKind::Feature) &&
+    type != static_cast<double>(ConstraintKind::Stroke))
+  {
+    refuse("curve ", cell, " has ", arrays::kConstraintType, " ", type,
+      ", but only 0 (feature curve) and 1 (guiding stroke) can be asked for: correct the array, or use the inputs Feature "
+      "Curves and Guiding Strokes without it");
+  }
+  return type == static_cast<double>(ConstraintKind::Stroke);
+}
+
+double weightOf(vtkDataArray* weights, vtkIdType cell, double otherwise)
+{
+  const double weight = weights ? weights->GetComponent(cell, 0) : otherwise;
+  if (!(weight > 0 && weight <= 1))
+  {
+    refuse("guiding stroke ", cell, " has the weight ", weight,
+      ", but it must be above 0 and at most 1");
+  }
+  return weight;
+}
+
+void addCurves(vtkPolyData* curves, double strokeWeight, Placement& placement)
+{
+  vtkDataArray* types = curves->GetCellData()->GetArray(arrays::kConstraintType);
+  vtkDataArray* weights = curves->GetCellData()->GetArray(arrays::kGuidingWeight);
+  for (const Polyline& line : readLines(curves, "feature curve"))
+  {
+    if (isStroke(types, line.cell))
+    {
+      placement.addStroke(line, weightOf(weights, line.cell, strokeWeight));
+    }
+    else
+    {
+      placement.addFeature(line);
+    }
+  }
+}
+
+void addStrokes(vtkPolyData* strokes, double strokeWeight, Placement& placement)
+{
+  vtkDataArray* weights = strokes->GetCellData()->GetArray(arrays::kGuidingWeight);
+  for (const Polyline& line : readLines(strokes, "guiding stroke"))
+  {
+    placement.addStroke(line, weightOf(weights, line.cell, strokeWeight));
+  }
+}
+
+void addPoints(vtkPolyData* points, int valence, Placement& placement)
+{
+  vtkDataArray* asked = points->GetPointData()->GetArray(arrays::kTargetValence);
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    Vector3 p;
+    points->GetPoint(i, p.data());
+    if (!p.allFinite())
+    {
+      refuse("valence point ", i, " is not finite; place it anew");
+    }
+    const double value = asked ? asked->GetComponent(i, 0) : valence;
+    if (value == 0)
+    {
+      continue;
+    }
+    if (!(value >= kLeastValence && value <= kMostValence) || value != std::floor(value))
+    {
+      refuse("the valence point at ", placeText(p), " asks for valence ", value, ", but only ",
+        kLeastValence, " to ", kMostValence, ", and 0 for none, can be asked for");
+    }
+    placement.addValence(i, p, static_cast<int>(value));
+  }
+}
+
+/// What of an input is not used.
+void tellUnused(vtkPolyData* data, const char* name, std::vector<std::string>& notices)
+{
+  if (data && data->GetNumberOfPoints() > 0 && data->GetNumberOfLines() == 0)
+  {
+    notices.push_back(std::string("the input ") + name +
+      " has no lines and is not used: give it polylines, as Poly Line Source makes them");
+  }
+  else if (data && data->GetNumberOfPolys() + data->GetNumberOfStrips() > 0)
+  {
+    notices.push_back(
+      std::string("the input ") + name + " has cells that are no lines; they are not used");
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintInputs& inputs)
+{
+  PlacedConstraints unused;
+  tellUnused(inputs.curves, "Feature Curves", unused.notices);
+  tellUnused(inputs.strokes, "Guiding Strokes", unused.notices);
+  const bool any = hasLines(inputs.curves) || hasLines(inputs.strokes) || hasPoints(inputs.points);
+  if (!any || surface.input.polygonPoints.empty())
+  {
+    return unused;
+  }
+  Placement placement(surface, inputs.reach);
+  if (hasLines(inputs.curves))
+  {
+    addCurves(inputs.curves, inputs.strokeWeight, placement);
+  }
+  if (hasLines(inputs.strokes))
+  {
+    addStrokes(inputs.strokes, inputs.strokeWeight, placement);
+  }
+  if (hasPoints(inputs.points))
+  {
+    addPoints(inputs.points, inputs.valence, placement);
+  }
+  PlacedConstraints result = placement.finish();
+  result.notices.insert(result.notices.begin(), unused.notices.begin(), unused.notices.end());
+  return result;
+}
+
+//------------------------------------------------------------------------------
+// What became of them
+
+namespace
+{
+
+template <class Array>
+vtkSmartPointer<Array> newArray(const char* name, int components = 1)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  return array;
+}
+
+/// Beside the kinds: a valence that is not that of the quads.
+constexpr int kMissedValence = 3;
+
+/// The valence of the quads at a place, on boundaries one more, as it is asked for there; regular where no point of theirs lies.
+class ReachedValences
+{
+public:
+  explicit ReachedValences(const QuadMesh& mesh) : mesh_(mesh)
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (const auto& p : mesh.points)
+    {
+      points->InsertNextPoint(p.data());
+    }
+    data_->SetPoints(points);
+    tolerance_ = 1e-6 * data_->GetLength();
+    locator_->SetDataSet(data_);
+    locator_->BuildLocator();
+  }
+  int at(const Vector3& p) const
+  {
+    const vtkIdType found = mesh_.points.empty() ? -1 : locator_->FindClosestPoint(p.data());
+    if (found < 0 || (mesh_.points[static_cast<std::size_t>(found)] - p).norm() > tolerance_)
+    {
+      return kRegularValence;
+    }
+    const auto i = static_cast<std::size_t>(found);
+    return mesh_.valence[i] + (mesh_.onBoundary[i] != 0 ? 1 : 0);
+  }
+
+private:
+  const QuadMesh& mesh_;
+  vtkNew<vtkPolyData> data_;
+  vtkNew<vtkStaticPointLocator> locator_;
+  double tolerance_ = 0;
+};
+
+/// Along the path at its point i.
+Vector3 directionAt(const std::vector<Vector3>& path, std::size_t i)
+{
+  const Vector3 along = path[std::min(i + 1, path.size() - 1)] - path[i == 0 ? 0 : i - 1];
+  return along.norm() > 0 ? Vector3(along.normalized()) : Vector3(Vector3::Zero());
+}
+
+} // namespace
+
+vtkSmartPointer<vtkPolyData> writeConstraints(
+  const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh)
+{
+  auto kind = newArray<vtkIntArray>("Constraint");
+  auto source = newArray<vtkIdTypeArray>("SourceId");
+  auto distance = newArray<vtkDoubleArray>("Distance");
+  auto weight = newArray<vtkDoubleArray>(arrays::kGuidingWeight);
+  auto asked = newArray<vtkIntArray>(arrays::kTargetValence);
+  auto valence = newArray<vtkIntArray>(arrays::kValence);
+  auto direction = newArray<vtkDoubleArray>("Direction", 3);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> verts;
+  vtkNew<vtkCellArray> lines;
+  const ReachedValences reached(mesh);
+  const auto add = [&](const PlacedConstraint& constraint, vtkCellArray* cells)
+  {
+    const bool point = constraint.kind == ConstraintKind::Valence;
+    const int there = point ? reached.at(constraint.path.front()) : 0;
+    const bool isMet = !point || there == constraint.valence;
+    cells->InsertNextCell(static_cast<int>(constraint.path.size()));
+    for (std::size_t i = 0; i < constraint.path.size(); ++i)
+    {
+      cells->InsertCellPoint(points->InsertNextPoint(constraint.path[i].data()));
+      direction->InsertNextTuple(directionAt(constraint.path, i).data());
+    }
+    kind->InsertNextValue(isMet ? static_cast<int>(constraint.kind) : kMissedValence);
+    source->InsertNextValue(constraint.source);
+    distance->InsertNextValue(constraint.distance);
+    weight->InsertNextValue(constraint.weight);
+    asked->InsertNextValue(constraint.valence);
+    valence->InsertNextValue(there);
+  };
+  // Vertices come before lines in the order of cells.
+  for (const PlacedConstraint& constraint : placed)
+  {
+    if (constraint.kind == ConstraintKind::Valence)
+    {
+      add(constraint, verts);
+    }
+  }
+  for (const PlacedConstraint& constraint : placed)
+  {
+    if (constraint.kind != ConstraintKind::Valence)
+    {
+      add(constraint, lines);
+    }
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetVerts(verts);
+  data->SetLines(lines);
+  data->GetPointData()->AddArray(direction);
+  for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{
+         kind, source, distance, weight, asked, valence })
+  {
+    data->GetCellData()->AddArray(array);
+  }
+  data->GetCellData()->SetActiveScalars("Constraint");
+  return data;
+}
+
+} // namespace quadrille

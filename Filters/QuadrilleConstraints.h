@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a user draws beside the surface: feature curves, guiding strokes and points with valences. They are put on the surface,
+/// and what became of them is shown.
+#pragma once
+
+#include "Extraction/Extraction.h"
+#include "QuadrilleConvert.h"
+
+#include <vtkSmartPointer.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+class vtkPolyData;
+
+namespace quadrille
+{
+
+/// Null inputs ask for nothing.
+struct ConstraintInputs
+{
+  /// Polylines that become features. A line cell array ConstraintType may say 1: this one is a guiding stroke.
+  vtkPolyData* curves = nullptr;
+  /// Polylines whose direction the quads follow. A line cell array GuidingWeight goes before strokeWeight.
+  vtkPolyData* strokes = nullptr;
+  /// Points for which a valence is asked. A point array TargetValence goes before valence; 0 there: nothing is asked.
+  vtkPolyData* points = nullptr;
+  double strokeWeight = 1; ///< in (0, 1]
+  int valence = 3;         ///< 2 to 8
+  /// What has all its points farther from the surface than this is meant for another block, and nothing is said of it.
+  double reach = std::numeric_limits<double>::infinity();
+};
+
+enum class ConstraintKind
+{
+  Feature = 0,
+  Stroke = 1,
+  Valence = 2
+};
+
+/// Where a constraint lies on the surface.
+struct PlacedConstraint
+{
+  ConstraintKind kind = ConstraintKind::Feature;
+  vtkIdType source = 0;      ///< line, or point, of its input
+  std::vector<Vector3> path; ///< of one point for a valence
+  double distance = 0;       ///< of the farthest given point to its place on the surface, in units of the input
+  double weight = 0;         ///< of strokes
+  int valence = 0;           ///< asked for
+};
+
+struct PlacedConstraints
+{
+  std::vector<PlacedConstraint> placed;
+  std::vector<std::string> notices; ///< what the user should know
+};
+
+/// Features: every point of a curve goes to the nearest point of the surface's polygons, and between two of them runs the path along
+/// edges that stays closest to the straight segment; its edges are marked in surface.curveMarks and surface.input.featureEdges.
+/// Strokes: every point goes to the nearest place on the surface, and the polygons under the straight segment between
+/// two get its direction. Where the way there is torn, that of a feature is taken.
+/// Valences: the nearest place on the surface, and of the corners of the polygon there the nearest one.
+/// Throws InvalidInput, with the place, for values that cannot be asked for and for a curve that cannot be followed.
+PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintInputs& inputs);
+
+/// Lines and vertices where the constraints lie. Cells: Constraint (active: 0 feature, 1 stroke, 2 a valence that was met, 3 one that was
+/// not), SourceId (line or point of its input), Distance, GuidingWeight (0 but on strokes), TargetValence (0 on lines) and Valence (that
+/// of the quads there, on boundaries one more; 0 on lines). Points: Direction (unit vectors along lines, else zero).
+/// mesh: what was made.
+vtkSmartPointer<vtkPolyData> writeConstraints(
+  const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh);
+
+} // namespace quadrille

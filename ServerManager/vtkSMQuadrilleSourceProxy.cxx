@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSMQuadrilleSourceProxy.h"
+
+#include "vtkObjectFactory.h"
+#include "vtkPVXMLElement.h"
+#include "vtkNew.h"
+#include "vtkSMInputProperty.h"
+#include "vtkSMParaViewPipelineController.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMSessionProxyManager.h"
+#include "vtkSmartPointer.h"
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkSMQuadrilleSourceProxy);
+
+namespace
+{
+
+/// Which output of the producer the property was connected to last; -1 where it is none.
+int connectedPort(vtkSMProperty* property, vtkSMProxy* producer)
+{
+  auto* input = vtkSMInputProperty::SafeDownCast(property);
+  int port = -1;
+  for (unsigned int i = 0; input && i < input->GetNumberOfProxies(); ++i)
+  {
+    if (input->GetProxy(i) == producer)
+    {
+      port = static_cast<int>(input->GetOutputPortForConnection(i));
+    }
+  }
+  return port;
+}
+
+void applyDisplayHints(vtkPVXMLElement* hints, int port, vtkSMProxy* representation)
+{
+  for (unsigned int i = 0; hints && i < hints->GetNumberOfNestedElements(); ++i)
+  {
+    vtkPVXMLElement* hint = hints->GetNestedElement(i);
+    int wanted = -1;
+    double value = 0;
+    const char* name = hint->GetAttribute("property");
+    if (std::strcmp(hint->GetName(), "Display") == 0 && name &&
+      hint->GetScalarAttribute("port", &wanted) && wanted == port &&
+      hint->GetScalarAttribute("value", &value) && representation->GetProperty(name))
+    {
+      vtkSMPropertyHelper(representation, name).Set(value);
+    }
+  }
+}
+
+/// Values, their names, and their colours one after the other.
+struct Entries
+{
+  std::vector<std::string> annotations;
+  std::vector<double> colours;
+};
+
+Entries readEntries(vtkPVXMLElement* map)
+{
+  Entries entries;
+  for (unsigned int i = 0; i < map->GetNumberOfNestedElements(); ++i)
+  {
+    vtkPVXMLElement* entry = map->GetNestedElement(i);
+    double colour[3];
+    if (entry->GetAttribute("value") && entry->GetAttribute("text") &&
+      entry->GetScalarAttribute("red", &colour[0]) &&
+      entry->GetScalarAttribute("green", &colour[1]) &&
+      entry->GetScalarAttribute("blue", &colour[2]))
+    {
+      entries.annotations.emplace_back(entry->GetAttribute("value"));
+      entries.annotations.emplace_back(entry->GetAttribute("text"));
+      entries.colours.insert(entries.colours.end(), colour, colour + 3);
+    }
+  }
+  return entries;
+}
+
+/// The opacity function of an array, by the name by which ParaView finds it.
+vtkSMProxy* opacityOf(const std::string& array, vtkSMSessionProxyManager* manager)
+{
+  const std::string name = array + ".PiecewiseFunction";
+  if (vtkSMProxy* found = manager->GetProxy("piecewise_functions", name.c_str()))
+  {
+    return found;
+  }
+  auto made =
+    vtkSmartPointer<vtkSMProxy>::Take(manager->NewProxy("piecewise_functions", "PiecewiseFunction"));
+  vtkNew<vtkSMParaViewPipelineController> controller;
+  controller->InitializeProxy(made);
+  made->UpdateVTKObjects();
+  controller->RegisterOpacityTransferFunction(made, name.c_str());
+  return made; // the manager holds it
+}
+
+/// Under the name by which ParaView finds the colour map of an array.
+void makeColourMap(vtkPVXMLElement* map, vtkSMSessionProxyManager* manager)
+{
+  const std::string name = std::string(map->GetAttributeOrEmpty("array")) + ".PVLookupTable";
+  if (manager->GetProxy("lookup_tables", name.c_str()))
+  {
+    return;
+  }
+  auto table = vtkSmartPointer<vtkSMProxy>::Take(manager->NewProxy("lookup_tables", "PVLookupTable"));
+  if (!table)
+  {
+    return; // a client without views
+  }
+  const Entries entries = readEntries(map);
+  vtkNew<vtkSMParaViewPipelineController> controller;
+  controller->PreInitializeProxy(table);
+  // The editor of colour maps does not work without one.
+  vtkSMPropertyHelper(table, "ScalarOpacityFunction")
+    .Set(opacityOf(map->GetAttributeOrEmpty("array"), manager));
+  vtkSMPropertyHelper(table, "IndexedLookup").Set(1);
+  vtkSMPropertyHelper annotations(table, "Annotations");
+  for (std::size_t i = 0; i < entries.annotations.size(); ++i)
+  {
+    annotations.Set(static_cast<unsigned int>(i), entries.annotations[i].c_str());
+  }
+  vtkSMPropertyHelper(table, "IndexedColors")
+    .Set(entries.colours.data(), static_cast<unsigned int>(entries.colours.size()));
+  vtkSMPropertyHelper(table, "AnnotationsInitialized").Set(1);
+  controller->PostInitializeProxy(table);
+  table->UpdateVTKObjects();
+  controller->RegisterColorTransferFunctionProxy(table, name.c_str());
+}
+
+void makeColourMaps(vtkPVXMLElement* hints, vtkSMSessionProxyManager* manager)
+{
+  for (unsigned int i = 0; hints && i < hints->GetNumberOfNestedElements(); ++i)
+  {
+    if (std::strcmp(hints->GetNestedElement(i)->GetName(), "ColourMap") == 0)
+    {
+      makeColourMap(hints->GetNestedElement(i), manager);
+    }
+  }
+}
+
+} // namespace
+
+vtkSMQuadrilleSourceProxy::vtkSMQuadrilleSourceProxy() = default;
+vtkSMQuadrilleSourceProxy::~vtkSMQuadrilleSourceProxy() = default;
+
+//------------------------------------------------------------------------------
+void vtkSMQuadrilleSourceProxy::PostUpdateData(bool usingCache)
+{
+  this->Superclass::PostUpdateData(usingCache);
+  this->UpdatePropertyInformation();
+}
+
+//------------------------------------------------------------------------------
+void vtkSMQuadrilleSourceProxy::AddConsumer(vtkSMProperty* property, vtkSMProxy* consumer)
+{
+  this->Superclass::AddConsumer(property, consumer);
+  const char* group = consumer ? consumer->GetXMLGroup() : nullptr;
+  if (group && std::strcmp(group, "representations") == 0)
+  {
+    makeColourMaps(this->GetHints(), this->GetSessionProxyManager());
+    applyDisplayHints(this->GetHints(), connectedPort(property, this), consumer);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMQuadrilleSourceProxy::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}

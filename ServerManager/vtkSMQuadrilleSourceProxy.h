@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSMQuadrilleSourceProxy
+ * @brief   a filter whose panel tells of the execution just over, and whose outputs come with a display
+ *
+ * ParaView 5.11 asks a filter for its information properties before it executes it, so that the panel shows what was valid
+ * one Apply ago. This proxy asks again after each execution.
+ *
+ * A hint `<Display port="4" property="PointSize" value="12"/>` sets a property of each representation of an output at the moment it is
+ * made; there is one element for each property, with one number. What a user, a script or a state file sets later stays.
+ *
+ * A hint `<ColourMap array="Valence">` with elements `<Entry value="3" text="3" red="0.2" green="0.4" blue="0.9"/>` gives the values of
+ * an array colours and names of their own, in the legend, too; where the array has a colour map already, that stays.
+ *
+ * In the XML of the server manager it is the element QuadrilleSourceProxy.
+ */
+#ifndef vtkSMQuadrilleSourceProxy_h
+#define vtkSMQuadrilleSourceProxy_h
+
+#include "QuadrilleServerManagerModule.h" // for the export macro
+#include "vtkSMSourceProxy.h"
+
+class QUADRILLESERVERMANAGER_EXPORT vtkSMQuadrilleSourceProxy : public vtkSMSourceProxy
+{
+public:
+  static vtkSMQuadrilleSourceProxy* New();
+  vtkTypeMacro(vtkSMQuadrilleSourceProxy, vtkSMSourceProxy);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+protected:
+  vtkSMQuadrilleSourceProxy();
+  ~vtkSMQuadrilleSourceProxy() override;
+
+  /// Called when the filter has executed, whoever asked for it: a view, a reader of its data, a script.
+  void PostUpdateData(bool usingCache) override;
+
+  /// Called when something takes an output of the filter as its input, a representation for example.
+  void AddConsumer(vtkSMProperty* property, vtkSMProxy* consumer) override;
+
+private:
+  vtkSMQuadrilleSourceProxy(const vtkSMQuadrilleSourceProxy&) = delete;
+  void operator=(const vtkSMQuadrilleSourceProxy&) = delete;
+};
+
+#endif

@@ -1,0 +1,394 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QuadrilleArrayNames.h"
+#include "QuadrilleConstraints.h"
+#include "TestSurfaces.h"
+
+#include "Base/Error.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
+#include <vtkIntArray.h>
+#include <vtkPointData.h>
+
+#include <gtest/gtest.h>
+
+namespace quadrille
+{
+namespace
+{
+
+vtkSmartPointer<vtkPolyData> polyline(const std::vector<Vector3>& points)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> coordinates;
+  coordinates->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> lines;
+  lines->InsertNextCell(static_cast<int>(points.size()));
+  for (const Vector3& p : points)
+  {
+    lines->InsertCellPoint(coordinates->InsertNextPoint(p.data()));
+  }
+  data->SetPoints(coordinates);
+  data->SetLines(lines);
+  return data;
+}
+
+/// What the user is told of curves on the first of the inputs.
+std::vector<std::string> applyCurves(ConvertedSurface& surface, vtkPolyData* curves)
+{
+  ConstraintInputs inputs;
+  inputs.curves = curves;
+  return applyConstraints(surface, inputs).notices;
+}
+
+/// Marked edges as pairs of points, each seen from every polygon that has it.
+std::map<std::pair<Index, Index>, int> markedEdges(const ConvertedSurface& surface)
+{
+  std::map<std::pair<Index, Index>, int> edges;
+  for (std::size_t p = 0; p < surface.input.featureEdges.size(); ++p)
+  {
+    for (Index i = 0; i < 3; ++i)
+    {
+      if ((surface.input.featureEdges[p] >> i) & 1)
+      {
+        const Index a = surface.input.polygonPoints[3 * p + i];
+        const Index b = surface.input.polygonPoints[3 * p + (i + 1) % 3];
+        ++edges[{ std::min(a, b), std::max(a, b) }];
+      }
+    }
+  }
+  return edges;
+}
+
+TEST(Constraints, FollowsAGridLineFromBothSides)
+{
+  const Mesh mesh = test::gridPlane(8, 8);
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(mesh);
+  ConvertedSurface surface = convertSurface(data, "");
+  double bounds[6];
+  data->GetBounds(bounds);
+  const double y = 0.5 * (bounds[2] + bounds[3]);
+  // Slightly off the grid line and off the plane: it is projected.
+  const auto notices = applyCurves(
+    surface, polyline({ { bounds[0], y + 0.01, 0.02 }, { bounds[1], y - 0.01, 0.02 } }));
+  EXPECT_TRUE(notices.empty());
+  const auto edges = markedEdges(surface);
+  EXPECT_EQ(edges.size(), 8u);
+  for (const auto& [edge, uses] : edges)
+  {
+    EXPECT_EQ(uses, 2);
+    EXPECT_NEAR(mesh.position[edge.first].y(), y, 1e-12);
+    EXPECT_NEAR(mesh.position[edge.second].y(), y, 1e-12);
+  }
+  EXPECT_EQ(surface.curveMarks.size(), 16u);
+}
+
+TEST(Constraints, OtherTypesAreRefused)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(2, 2));
+  const vtkSmartPointer<vtkPolyData> curve = polyline({ { 0, 0, 0 }, { 1, 0, 0 } });
+  vtkNew<vtkIntArray> type;
+  type->SetName("ConstraintType");
+  type->InsertNextValue(0);
+  curve->GetCellData()->AddArray(type);
+  ConvertedSurface surface = convertSurface(data, "");
+  EXPECT_NO_THROW(applyCurves(surface, curve));
+  type->SetValue(0, 3);
+  EXPECT_THROW(applyCurves(surface, curve), InvalidInput);
+}
+
+TEST(Constraints, StrokesGuideThePolygonsTheyRunOver)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(8, 8));
+  const vtkSmartPointer<vtkPolyData> curve = polyline({ { 0, 4, 0 }, { 4, 4, 0 }, { 8, 4, 0 } });
+  vtkNew<vtkIntArray> type;
+  type->SetName("ConstraintType");
+  type->InsertNextValue(1);
+  curve->GetCellData()->AddArray(type);
+  ConvertedSurface surface = convertSurface(data, "");
+  applyCurves(surface, curve);
+  EXPECT_TRUE(surface.curveMarks.empty());
+  EXPECT_TRUE(surface.input.featureEdges.empty());
+  ASSERT_EQ(surface.input.guideDirections.size(), 128u);
+  std::size_t guided = 0;
+  for (std::size_t i = 0; i < 128; ++i)
+  {
+    bool touches = false; // two corners on the line
+    int onLine = 0;
+    for (int k = 0; k < 3; ++k)
+    {
+      onLine += surface.input.points[surface.input.polygonPoints[3 * i + k]].y() == 4;
+    }
+    touches = onLine == 2;
+    guided += touches;
+    EXPECT_EQ(surface.input.guideDirections[i], touches ? Vector3(1, 0, 0) : Vector3(0, 0, 0));
+  }
+  EXPECT_EQ(guided, 16u);
+}
+
+TEST(Constraints, NoPathBetweenComponentsIsAnError)
+{
+  const Mesh mesh =
+    test::disjointUnion(test::gridPlane(2, 2), test::gridPlane(2, 2), Vector3(0, 0, 5));
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(mesh);
+  ConvertedSurface surface = convertSurface(data, "");
+  EXPECT_THROW(applyCurves(surface, polyline({ { 0, 0, 0 }, { 0, 0, 5 } })), InvalidInput);
+}
+
+TEST(Constraints, FarFromTheSurfaceIsTold)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(4, 4));
+  ConvertedSurface surface = convertSurface(data, "");
+  const auto notices = applyCurves(surface, polyline({ { 0, 0, 50 }, { 1, 1, 50 } }));
+  EXPECT_EQ(notices.size(), 1u);
+}
+
+vtkSmartPointer<vtkPolyData> pointCloud(const std::vector<Vector3>& points)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> coordinates;
+  coordinates->SetDataTypeToDouble();
+  for (const Vector3& p : points)
+  {
+    coordinates->InsertNextPoint(p.data());
+  }
+  data->SetPoints(coordinates);
+  return data;
+}
+
+TEST(Constraints, StrokesOfTheirOwnInputNeedNoArray)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(8, 8));
+  ConvertedSurface surface = convertSurface(data, "");
+  ConstraintInputs inputs;
+  const vtkSmartPointer<vtkPolyData> stroke = polyline({ { 1, 4, 0.1 }, { 7, 4, 0.1 } });
+  inputs.strokes = stroke;
+  inputs.strokeWeight = 0.25;
+  const PlacedConstraints result = applyConstraints(surface, inputs);
+  EXPECT_TRUE(result.notices.empty());
+  ASSERT_EQ(result.placed.size(), 1u);
+  EXPECT_EQ(result.placed[0].kind, ConstraintKind::Stroke);
+  EXPECT_NEAR(result.placed[0].distance, 0.1, 1e-12);
+  for (const Vector3& p : result.placed[0].path)
+  {
+    EXPECT_EQ(p.z(), 0); // on the surface
+    EXPECT_NEAR(p.y(), 4, 1e-12);
+  }
+  std::size_t guided = 0;
+  for (std::size_t i = 0; i < surface.input.guideDirections.size(); ++i)
+  {
+    if (!surface.input.guideDirections[i].isZero(0))
+    {
+      ++guided;
+      EXPECT_EQ(surface.input.guideDirections[i], Vector3(1, 0, 0));
+      EXPECT_EQ(surface.input.guideWeights[i], 0.25);
+    }
+  }
+  EXPECT_EQ(guided, 12u); // both sides of six edges
+}
+
+TEST(Constraints, StrokesCrossTrianglesLargerThanTheirSegments)
+{
+  // The stroke lies within one of two triangles and near none of the edges.
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(1, 1));
+  ConvertedSurface surface = convertSurface(data, "");
+  ConstraintInputs inputs;
+  const vtkSmartPointer<vtkPolyData> stroke = polyline({ { 0.7, 0.1, 0 }, { 0.9, 0.3, 0 } });
+  inputs.strokes = stroke;
+  applyConstraints(surface, inputs);
+  int guided = 0;
+  for (const Vector3& direction : surface.input.guideDirections)
+  {
+    guided += direction.isZero(0) ? 0 : 1;
+  }
+  EXPECT_EQ(guided, 1);
+}
+
+TEST(Constraints, ValencePointsGoToTheNearestVertex)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(4, 4));
+  ConvertedSurface surface = convertSurface(data, "");
+  ConstraintInputs inputs;
+  const vtkSmartPointer<vtkPolyData> points = pointCloud({ { 1.1, 2.2, 0 }, { 3, 1, 0 } });
+  inputs.points = points;
+  inputs.valence = 5;
+  const PlacedConstraints result = applyConstraints(surface, inputs);
+  ASSERT_EQ(result.placed.size(), 2u);
+  EXPECT_EQ(result.placed[0].path.front(), Vector3(1, 2, 0));
+  ASSERT_EQ(surface.input.targetValences.size(), surface.input.points.size());
+  for (std::size_t i = 0; i < surface.input.points.size(); ++i)
+  {
+    const Vector3& p = surface.input.points[i];
+    const bool asked = p == Vector3(1, 2, 0) || p == Vector3(3, 1, 0);
+    EXPECT_EQ(surface.input.targetValences[i], asked ? 5 : 0);
+  }
+}
+
+TEST(Constraints, WholeDoublesAreTargetValences)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(4, 4));
+  const vtkSmartPointer<vtkPolyData> points = pointCloud({ { 1, 2, 0 }, { 3, 1, 0 } });
+  vtkNew<vtkDoubleArray> valences;
+  valences->SetName("TargetValence");
+  valences->InsertNextValue(0);
+  valences->InsertNextValue(6);
+  points->GetPointData()->AddArray(valences);
+  ConstraintInputs inputs;
+  inputs.points = points;
+  ConvertedSurface surface = convertSurface(data, "");
+  const PlacedConstraints result = applyConstraints(surface, inputs);
+  ASSERT_EQ(result.placed.size(), 1u);
+  EXPECT_EQ(result.placed[0].valence, 6);
+  valences->SetValue(1, 4.5);
+  ConvertedSurface again = convertSurface(data, "");
+  EXPECT_THROW(applyConstraints(again, inputs), InvalidInput);
+}
+
+TEST(Constraints, TwoValencesAtOnePlaceAreRefused)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(4, 4));
+  vtkNew<vtkIntArray> valences;
+  valences->SetName("TargetValence");
+  valences->InsertNextValue(3);
+  valences->InsertNextValue(5);
+  const vtkSmartPointer<vtkPolyData> points = pointCloud({ { 1, 2, 0 }, { 1.1, 2, 0 } });
+  points->GetPointData()->AddArray(valences);
+  ConstraintInputs inputs;
+  inputs.points = points;
+  ConvertedSurface surface = convertSurface(data, "");
+  EXPECT_THROW(applyConstraints(surface, inputs), InvalidInput);
+}
+
+TEST(Constraints, WhatIsOutOfReachIsForAnotherBlock)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(4, 4));
+  ConvertedSurface surface = convertSurface(data, "");
+  const vtkSmartPointer<vtkPolyData> points = pointCloud({ { 1, 2, 0.1 }, { 3, 1, 7 } });
+  const vtkSmartPointer<vtkPolyData> stroke = polyline({ { 0, 2, 7 }, { 4, 2, 7 } });
+  ConstraintInputs inputs;
+  inputs.points = points;
+  inputs.strokes = stroke;
+  inputs.reach = 1;
+  const PlacedConstraints result = applyConstraints(surface, inputs);
+  ASSERT_EQ(result.placed.size(), 1u);
+  EXPECT_EQ(result.placed[0].path.front(), Vector3(1, 2, 0));
+  EXPECT_TRUE(result.notices.empty());
+}
+
+TEST(Constraints, ValenceTwoOnTheBoundaryIsRefusedWithItsPlace)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(4, 4));
+  ConvertedSurface surface = convertSurface(data, "");
+  const vtkSmartPointer<vtkPolyData> points = pointCloud({ { 4, 2, 0 } });
+  ConstraintInputs inputs;
+  inputs.points = points;
+  inputs.valence = 2;
+  try
+  {
+    applyConstraints(surface, inputs);
+    FAIL();
+  }
+  catch (const InvalidInput& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("(4, 2, 0)"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Constraints, OutputTellsWhatWasReached)
+{
+  QuadMesh mesh; // one quad: its corners have two edges each and lie on the boundary
+  mesh.points = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } };
+  mesh.quads = { { 0, 1, 2, 3 } };
+  mesh.valence = { 2, 2, 2, 2 };
+  mesh.onBoundary = { 1, 1, 1, 1 };
+  PlacedConstraint met;
+  met.kind = ConstraintKind::Valence;
+  met.path = { { 1, 0, 0 } };
+  met.valence = 3;
+  PlacedConstraint missed = met;
+  missed.valence = 5;
+  PlacedConstraint stroke;
+  stroke.kind = ConstraintKind::Stroke;
+  stroke.path = { { 0, 0, 0 }, { 1, 0, 0 } };
+  const vtkSmartPointer<vtkPolyData> data = writeConstraints({ stroke, met, missed }, mesh);
+  ASSERT_EQ(data->GetNumberOfVerts(), 2);
+  ASSERT_EQ(data->GetNumberOfLines(), 1);
+  vtkDataArray* kind = data->GetCellData()->GetScalars();
+  ASSERT_NE(kind, nullptr);
+  EXPECT_EQ(kind->GetTuple1(0), 2);
+  EXPECT_EQ(kind->GetTuple1(1), 3);
+  EXPECT_EQ(kind->GetTuple1(2), 1); // lines come behind vertices
+  EXPECT_EQ(data->GetCellData()->GetArray("Valence")->GetTuple1(1), 3);
+  EXPECT_EQ(data->GetPointData()->GetArray("Direction")->GetComponent(2, 0), 1);
+}
+
+//------------------------------------------------------------------------------
+// Arrays that were probably meant
+
+template <class Array>
+void addArray(vtkDataSetAttributes* attributes, const char* name, vtkIdType count, int components = 1)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(count);
+  array->Fill(0);
+  attributes->AddArray(array);
+}
+
+TEST(ArrayNames, WhatWasProbablyMeantIsTold)
+{
+  for (const char* name : { "targetvalence", "Target_Valence", "TargetValences", "TargetValenc" })
+  {
+    const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(2, 2));
+    addArray<vtkDoubleArray>(data->GetPointData(), name, data->GetNumberOfPoints());
+    const auto notices = arrayNotices(data, "the surface", surfaceArrays("PatchId"));
+    ASSERT_EQ(notices.size(), 1u) << name;
+    EXPECT_NE(notices[0].find("'TargetValence'"), std::string::npos);
+  }
+}
+
+TEST(ArrayNames, OtherNamesAreLeftAlone)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(2, 2));
+  for (const char* name : { "Valence", "Normals", "Temperature", "Pressure", "Index", "Size" })
+  {
+    addArray<vtkDoubleArray>(data->GetPointData(), name, data->GetNumberOfPoints());
+  }
+  addArray<vtkIntArray>(data->GetCellData(), "FeatureEdges", data->GetNumberOfCells());
+  EXPECT_TRUE(arrayNotices(data, "the surface", surfaceArrays("PatchId")).empty());
+}
+
+TEST(ArrayNames, WrongElementsAndComponentsAreTold)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(2, 2));
+  addArray<vtkDoubleArray>(data->GetCellData(), "TargetValence", data->GetNumberOfCells());
+  const auto notices = arrayNotices(data, "the surface", surfaceArrays("PatchId"));
+  ASSERT_EQ(notices.size(), 1u);
+  EXPECT_NE(notices[0].find("Cell Data To Point Data"), std::string::npos);
+  addArray<vtkDoubleArray>(data->GetPointData(), "Sizing", data->GetNumberOfPoints(), 3);
+  EXPECT_THROW(arrayNotices(data, "the surface", surfaceArrays("PatchId")), InvalidInput);
+}
+
+TEST(ArrayNames, WholeDoublesAreFeatureEdgesAndPatchIds)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(2, 2));
+  addArray<vtkDoubleArray>(data->GetCellData(), "FeatureEdges", data->GetNumberOfCells());
+  addArray<vtkFloatArray>(data->GetCellData(), "PatchId", data->GetNumberOfCells());
+  addArray<vtkDoubleArray>(data->GetPointData(), "TargetValence", data->GetNumberOfPoints());
+  data->GetCellData()->GetArray("FeatureEdges")->SetTuple1(3, 5);
+  data->GetCellData()->GetArray("PatchId")->SetTuple1(3, -2);
+  data->GetPointData()->GetArray("TargetValence")->SetTuple1(4, 3);
+  const ConvertedSurface surface = convertSurface(data, "PatchId");
+  EXPECT_EQ(surface.input.featureEdges[3], 5);
+  EXPECT_EQ(surface.input.patchIds[3], -2);
+  EXPECT_EQ(surface.input.targetValences[4], 3);
+  data->GetCellData()->GetArray("PatchId")->SetTuple1(3, 0.5);
+  EXPECT_THROW(convertSurface(data, "PatchId"), InvalidInput);
+}
+
+} // namespace
+} // namespace quadrille
