@@ -122,9 +122,9 @@ void tellNearlyRight(vtkPolyData* data, const std::string& input, const ReadArra
       const char* name = attributes->GetArrayName(i);
       if (name && !isRead(name) && isNearly(name, wanted.name))
       {
-        notices.push_back(std::string("array '") + name + "' of " + input +
-          " is not used: if '" + wanted.name + "' is meant, give it this name, on " +
-          nameOf(wanted.place) + " (in Calculator: Result Array Name)");
+        notices.push_back(std::string("array '") + name + "' of " + input + " is not used: if '" +
+          wanted.name + "' is meant, give it this name, on " + nameOf(wanted.place) +
+          " (in Calculator: Result Array Name)");
       }
     }
   }
@@ -132,8 +132,7 @@ void tellNearlyRight(vtkPolyData* data, const std::string& input, const ReadArra
 
 void tellWrongComponents(vtkPolyData* data, const std::string& input, const ReadArray& wanted)
 {
-  vtkAbstractArray* array =
-    attributesOf(data, wanted.place)->GetAbstractArray(wanted.name.c_str());
+  vtkAbstractArray* array = attributesOf(data, wanted.place)->GetAbstractArray(wanted.name.c_str());
   if (!array)
   {
     return;

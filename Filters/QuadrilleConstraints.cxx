@@ -2,30 +2,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadrilleConstraints.h"
 
+#include "Base/PlaceText.h"
 #include "Mesh/Guides.h"
 #include "QuadrilleRefuse.h"
+#include "QuadrilleSnapping.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
-#include <vtkDoubleArray.h>
-#include <vtkGenericCell.h>
-#include <vtkIdTypeArray.h>
-#include <vtkIntArray.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkStaticCellLocator.h>
-#include <vtkStaticPointLocator.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <queue>
 #include <sstream>
-#include <unordered_map>
+#include <string>
+#include <utility>
 
 namespace quadrille
 {
@@ -33,9 +27,6 @@ namespace quadrille
 namespace
 {
 
-constexpr const char* kConstraintType = "ConstraintType";
-/// A path may be this many times longer than needed rather than leave the segment by its own length.
-constexpr double kDetourPenalty = 10;
 /// What was moved by more than this part of the surface's bounding-box diagonal is worth a warning. Points of lines that are clicked in a
 /// window lie in front of the surface as a rule.
 constexpr double kFarPoint = 0.05;
@@ -45,119 +36,6 @@ constexpr double kSamplesAnEdge = 3;
 constexpr double kMostSamples = 4096;
 /// Barycentric nearness to an edge of a sample that lies on it.
 constexpr double kOnEdge = 1e-6;
-
-struct EdgeUse
-{
-  Index target = 0;
-  Index polygon = 0;
-  std::uint8_t bit = 0;
-};
-
-/// Edges of the polygons by their start, both directions: CSR.
-struct EdgeGraph
-{
-  std::vector<std::size_t> first;
-  std::vector<EdgeUse> uses;
-};
-
-template <class Visit>
-void forEachEdge(const SurfaceInput& input, Visit visit)
-{
-  for (std::size_t p = 0; p + 1 < input.polygonOffsets.size(); ++p)
-  {
-    const Index begin = input.polygonOffsets[p];
-    const Index corners = input.polygonOffsets[p + 1] - begin;
-    for (Index i = 0; i < corners && i < 8; ++i) // eight bits a polygon
-    {
-      visit(static_cast<Index>(p), i, input.polygonPoints[begin + i],
-        input.polygonPoints[begin + (i + 1) % corners]);
-    }
-  }
-}
-
-EdgeGraph makeGraph(const SurfaceInput& input)
-{
-  EdgeGraph graph;
-  graph.first.assign(input.points.size() + 2, 0);
-  forEachEdge(input,
-    [&](Index, Index, Index a, Index b)
-    {
-      ++graph.first[a + 2];
-      ++graph.first[b + 2];
-    });
-  for (std::size_t i = 2; i < graph.first.size(); ++i)
-  {
-    graph.first[i] += graph.first[i - 1];
-  }
-  graph.uses.resize(graph.first.back());
-  forEachEdge(input,
-    [&](Index p, Index i, Index a, Index b)
-    {
-      const auto bit = static_cast<std::uint8_t>(1 << i);
-      graph.uses[graph.first[a + 1]++] = { b, p, bit };
-      graph.uses[graph.first[b + 1]++] = { a, p, bit };
-    });
-  return graph;
-}
-
-double distanceToSegment(const Vector3& p, const Vector3& a, const Vector3& b)
-{
-  const Vector3 d = b - a;
-  const double length2 = d.squaredNorm();
-  const double t = length2 > 0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0;
-  return (p - (a + t * d)).norm();
-}
-
-/// Dijkstra from a to b; edges cost more the farther they are from the straight segment. Empty: no path.
-std::vector<Index> findPath(const SurfaceInput& input, const EdgeGraph& graph, Index a, Index b)
-{
-  struct Reached
-  {
-    double cost;
-    Index from;
-  };
-  using Entry = std::pair<double, Index>;
-  std::unordered_map<Index, Reached> reached; // only looked up, so its order does not matter
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-  const Vector3& start = input.points[a];
-  const Vector3& end = input.points[b];
-  const double scale = kDetourPenalty / std::max((end - start).norm(), 1e-300);
-  reached[a] = { 0, a };
-  front.push({ 0, a });
-  while (!front.empty() && front.top().second != b)
-  {
-    const auto [cost, v] = front.top();
-    front.pop();
-    if (cost > reached[v].cost)
-    {
-      continue;
-    }
-    for (std::size_t i = graph.first[v]; i < graph.first[v + 1]; ++i)
-    {
-      const Index w = graph.uses[i].target;
-      const Vector3& p = input.points[v];
-      const Vector3& q = input.points[w];
-      const double away = distanceToSegment(0.5 * (p + q), start, end);
-      const double next = cost + (q - p).norm() * (1 + scale * away);
-      const auto found = reached.find(w);
-      if (found == reached.end() || next < found->second.cost)
-      {
-        reached[w] = { next, v };
-        front.push({ next, w });
-      }
-    }
-  }
-  std::vector<Index> path;
-  if (!front.empty())
-  {
-    for (Index v = b; v != a; v = reached[v].from)
-    {
-      path.push_back(v);
-    }
-    path.push_back(a);
-  }
-  return path;
-}
 
 void markPath(
   const EdgeGraph& graph, const std::vector<Index>& path, std::map<Index, std::uint8_t>& marks)
@@ -173,108 +51,6 @@ void markPath(
     }
   }
 }
-
-std::string placeText(const Vector3& p)
-{
-  std::ostringstream text;
-  text << "(" << p.x() << ", " << p.y() << ", " << p.z() << ")";
-  return text.str();
-}
-
-double diagonalOf(const SurfaceInput& input)
-{
-  if (input.points.empty())
-  {
-    return 0;
-  }
-  Vector3 low = input.points.front();
-  Vector3 high = low;
-  for (const Vector3& p : input.points)
-  {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return (high - low).norm();
-}
-
-/// The nearest place on the polygons, and the nearest of the points that they use: an isolated one would be nobody's edge.
-class Snapper
-{
-public:
-  struct Place
-  {
-    Index polygon = kInvalidIndex;
-    Vector3 point = Vector3::Zero();
-  };
-
-  explicit Snapper(const SurfaceInput& input)
-  {
-    std::vector<std::uint8_t> used(input.points.size(), 0);
-    for (const Index p : input.polygonPoints)
-    {
-      used[p] = 1;
-    }
-    vtkNew<vtkPoints> all;
-    vtkNew<vtkPoints> corners;
-    all->SetDataTypeToDouble();
-    corners->SetDataTypeToDouble();
-    for (std::size_t i = 0; i < used.size(); ++i)
-    {
-      all->InsertNextPoint(input.points[i].data());
-      if (used[i])
-      {
-        corners->InsertNextPoint(input.points[i].data());
-        id_.push_back(static_cast<Index>(i));
-      }
-    }
-    vtkNew<vtkCellArray> polygons;
-    for (std::size_t p = 0; p + 1 < input.polygonOffsets.size(); ++p)
-    {
-      polygons->InsertNextCell(
-        static_cast<int>(input.polygonOffsets[p + 1] - input.polygonOffsets[p]));
-      for (Index i = input.polygonOffsets[p]; i < input.polygonOffsets[p + 1]; ++i)
-      {
-        polygons->InsertCellPoint(input.polygonPoints[i]);
-      }
-    }
-    polygons_->SetPoints(all);
-    polygons_->SetPolys(polygons);
-    polygonLocator_->SetDataSet(polygons_);
-    polygonLocator_->BuildLocator();
-    corners_->SetPoints(corners);
-    cornerLocator_->SetDataSet(corners_);
-    cornerLocator_->BuildLocator();
-  }
-
-  Index nearestCorner(const Vector3& p) const
-  {
-    return id_[static_cast<std::size_t>(cornerLocator_->FindClosestPoint(p.data()))];
-  }
-
-  Place nearestPlace(const Vector3& p) const
-  {
-    Place place;
-    vtkIdType cell = -1;
-    int part = 0;
-    double distance2 = 0;
-    polygonLocator_->FindClosestPoint(p.data(), place.point.data(), cell_, cell, part, distance2);
-    if (cell < 0)
-    {
-      refuse("no place on the surface was found for the point ", placeText(p));
-    }
-    place.polygon = static_cast<Index>(cell);
-    return place;
-  }
-
-private:
-  vtkNew<vtkPolyData> polygons_;
-  vtkNew<vtkStaticCellLocator> polygonLocator_;
-  vtkNew<vtkGenericCell> cell_;
-  vtkNew<vtkPolyData> corners_;
-  vtkNew<vtkStaticPointLocator> cornerLocator_;
-  std::vector<Index> id_;
-};
-
 //------------------------------------------------------------------------------
 // One polyline
 
@@ -314,7 +90,7 @@ class Placement
 {
 public:
   Placement(ConvertedSurface& surface, double reach)
-    : surface_(surface), input_(surface.input), graph_(makeGraph(surface.input)),
+    : surface_(surface), input_(surface.input), graph_(makeEdgeGraph(surface.input)),
       snapper_(surface.input), diagonal_(diagonalOf(surface.input)), reach_(reach)
   {
   }
@@ -335,7 +111,6 @@ private:
   /// Places below the straight segment from one to the other; none where the way jumps.
   std::vector<Snapper::Place> sampleBetween(
     const Snapper::Place& first, const Snapper::Place& last) const;
-  double meanEdge(Index polygon) const;
   bool isInReach(const std::vector<Vector3>& points) const;
   bool isOnBoundary(Index point) const;
   void guide(const Snapper::Place& place, const Stroke& stroke);
@@ -353,15 +128,15 @@ private:
   PlacedConstraints result_;
 };
 
-std::vector<Index> Placement::pathBetween(
-  const char* what, vtkIdType line, Index a, Index b) const
+std::vector<Index> Placement::pathBetween(const char* what, vtkIdType line, Index a, Index b) const
 {
-  std::vector<Index> path = findPath(input_, graph_, a, b);
+  std::vector<Index> path = findEdgePath(input_, graph_, a, b);
   if (path.empty())
   {
     refuse(what, " ", line, ": no path of edges leads from ", placeText(input_.points[a]), " to ",
       placeText(input_.points[b]),
-      "; the places lie on different parts of the surface, or points at the same place are not merged: draw one line for "
+      "; the places lie on different parts of the surface, or points at the same place are not "
+      "merged: draw one line for "
       "each part, or apply Clean to the surface first");
   }
   std::reverse(path.begin(), path.end());
@@ -432,25 +207,12 @@ void Placement::addFeature(const Polyline& line)
   if (placed.path.size() < 2)
   {
     result_.notices.push_back("feature curve " + std::to_string(line.cell) +
-      " has no edge of the surface along it and is not followed: all its points have the same nearest point of the surface");
+      " has no edge of the surface along it and is not followed: all its points have the same "
+      "nearest point of the surface");
     return;
   }
   tellIfFar("feature curve", placed);
   result_.placed.push_back(std::move(placed));
-}
-
-double Placement::meanEdge(Index polygon) const
-{
-  const Index begin = input_.polygonOffsets[polygon];
-  const Index corners = input_.polygonOffsets[polygon + 1] - begin;
-  double sum = 0;
-  for (Index i = 0; i < corners; ++i)
-  {
-    sum += (input_.points[input_.polygonPoints[begin + i]] -
-      input_.points[input_.polygonPoints[begin + (i + 1) % corners]])
-             .norm();
-  }
-  return sum / std::max<Index>(corners, 1);
 }
 
 std::vector<Snapper::Place> Placement::sampleBetween(
@@ -458,7 +220,7 @@ std::vector<Snapper::Place> Placement::sampleBetween(
 {
   const Vector3& a = first.point;
   const Vector3& b = last.point;
-  const double edge = std::min(meanEdge(first.polygon), meanEdge(last.polygon));
+  const double edge = std::min(meanEdge(input_, first.polygon), meanEdge(input_, last.polygon));
   const double wanted = kSamplesAnEdge * (b - a).norm() / std::max(edge, 1e-300);
   const int count = static_cast<int>(std::clamp(std::ceil(wanted), 4.0, kMostSamples));
   const double step = (b - a).norm() / count;
@@ -485,7 +247,7 @@ void Placement::guide(const Snapper::Place& place, const Stroke& stroke)
 {
   const Index begin = input_.polygonOffsets[place.polygon];
   const Index corners = input_.polygonOffsets[place.polygon + 1] - begin;
-  const double near = kOnEdge * meanEdge(place.polygon);
+  const double near = kOnEdge * meanEdge(input_, place.polygon);
   for (Index i = 0; i < corners; ++i)
   {
     if ((input_.points[input_.polygonPoints[begin + i]] - place.point).norm() < near)
@@ -582,7 +344,8 @@ void Placement::addValence(vtkIdType source, const Vector3& point, int valence)
   if (valence == kLeastValence && isOnBoundary(v))
   {
     refuse("valence ", valence, " is asked for at ", placeText(input_.points[v]),
-      ", on the boundary of the surface, where the least is 3, a corner with one quad: ask for 3 or more there, or move the "
+      ", on the boundary of the surface, where the least is 3, a corner with one quad: ask for 3 "
+      "or more there, or move the "
       "point inside");
   }
   input_.targetValences.resize(input_.points.size(), 0);
@@ -641,7 +404,8 @@ bool isStroke(vtkDataArray* types, vtkIdType cell)
     type != static_cast<double>(ConstraintKind::Stroke))
   {
     refuse("curve ", cell, " has ", arrays::kConstraintType, " ", type,
-      ", but only 0 (feature curve) and 1 (guiding stroke) can be asked for: correct the array, or use the inputs Feature "
+      ", but only 0 (feature curve) and 1 (guiding stroke) can be asked for: correct the array, or "
+      "use the inputs Feature "
       "Curves and Guiding Strokes without it");
   }
   return type == static_cast<double>(ConstraintKind::Stroke);
@@ -753,130 +517,6 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
   PlacedConstraints result = placement.finish();
   result.notices.insert(result.notices.begin(), unused.notices.begin(), unused.notices.end());
   return result;
-}
-
-//------------------------------------------------------------------------------
-// What became of them
-
-namespace
-{
-
-template <class Array>
-vtkSmartPointer<Array> newArray(const char* name, int components = 1)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  return array;
-}
-
-/// Beside the kinds: a valence that is not that of the quads.
-constexpr int kMissedValence = 3;
-
-/// The valence of the quads at a place, on boundaries one more, as it is asked for there; regular where no point of theirs lies.
-class ReachedValences
-{
-public:
-  explicit ReachedValences(const QuadMesh& mesh) : mesh_(mesh)
-  {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    for (const auto& p : mesh.points)
-    {
-      points->InsertNextPoint(p.data());
-    }
-    data_->SetPoints(points);
-    tolerance_ = 1e-6 * data_->GetLength();
-    locator_->SetDataSet(data_);
-    locator_->BuildLocator();
-  }
-  int at(const Vector3& p) const
-  {
-    const vtkIdType found = mesh_.points.empty() ? -1 : locator_->FindClosestPoint(p.data());
-    if (found < 0 || (mesh_.points[static_cast<std::size_t>(found)] - p).norm() > tolerance_)
-    {
-      return kRegularValence;
-    }
-    const auto i = static_cast<std::size_t>(found);
-    return mesh_.valence[i] + (mesh_.onBoundary[i] != 0 ? 1 : 0);
-  }
-
-private:
-  const QuadMesh& mesh_;
-  vtkNew<vtkPolyData> data_;
-  vtkNew<vtkStaticPointLocator> locator_;
-  double tolerance_ = 0;
-};
-
-/// Along the path at its point i.
-Vector3 directionAt(const std::vector<Vector3>& path, std::size_t i)
-{
-  const Vector3 along = path[std::min(i + 1, path.size() - 1)] - path[i == 0 ? 0 : i - 1];
-  return along.norm() > 0 ? Vector3(along.normalized()) : Vector3(Vector3::Zero());
-}
-
-} // namespace
-
-vtkSmartPointer<vtkPolyData> writeConstraints(
-  const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh)
-{
-  auto kind = newArray<vtkIntArray>("Constraint");
-  auto source = newArray<vtkIdTypeArray>("SourceId");
-  auto distance = newArray<vtkDoubleArray>("Distance");
-  auto weight = newArray<vtkDoubleArray>(arrays::kGuidingWeight);
-  auto asked = newArray<vtkIntArray>(arrays::kTargetValence);
-  auto valence = newArray<vtkIntArray>(arrays::kValence);
-  auto direction = newArray<vtkDoubleArray>("Direction", 3);
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkCellArray> verts;
-  vtkNew<vtkCellArray> lines;
-  const ReachedValences reached(mesh);
-  const auto add = [&](const PlacedConstraint& constraint, vtkCellArray* cells)
-  {
-    const bool point = constraint.kind == ConstraintKind::Valence;
-    const int there = point ? reached.at(constraint.path.front()) : 0;
-    const bool isMet = !point || there == constraint.valence;
-    cells->InsertNextCell(static_cast<int>(constraint.path.size()));
-    for (std::size_t i = 0; i < constraint.path.size(); ++i)
-    {
-      cells->InsertCellPoint(points->InsertNextPoint(constraint.path[i].data()));
-      direction->InsertNextTuple(directionAt(constraint.path, i).data());
-    }
-    kind->InsertNextValue(isMet ? static_cast<int>(constraint.kind) : kMissedValence);
-    source->InsertNextValue(constraint.source);
-    distance->InsertNextValue(constraint.distance);
-    weight->InsertNextValue(constraint.weight);
-    asked->InsertNextValue(constraint.valence);
-    valence->InsertNextValue(there);
-  };
-  // Vertices come before lines in the order of cells.
-  for (const PlacedConstraint& constraint : placed)
-  {
-    if (constraint.kind == ConstraintKind::Valence)
-    {
-      add(constraint, verts);
-    }
-  }
-  for (const PlacedConstraint& constraint : placed)
-  {
-    if (constraint.kind != ConstraintKind::Valence)
-    {
-      add(constraint, lines);
-    }
-  }
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(points);
-  data->SetVerts(verts);
-  data->SetLines(lines);
-  data->GetPointData()->AddArray(direction);
-  for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{
-         kind, source, distance, weight, asked, valence })
-  {
-    data->GetCellData()->AddArray(array);
-  }
-  data->GetCellData()->SetActiveScalars("Constraint");
-  return data;
 }
 
 } // namespace quadrille

@@ -46,9 +46,10 @@ struct PlacedConstraint
   ConstraintKind kind = ConstraintKind::Feature;
   vtkIdType source = 0;      ///< line, or point, of its input
   std::vector<Vector3> path; ///< of one point for a valence
-  double distance = 0;       ///< of the farthest given point to its place on the surface, in units of the input
-  double weight = 0;         ///< of strokes
-  int valence = 0;           ///< asked for
+  double distance =
+    0; ///< of the farthest given point to its place on the surface, in units of the input
+  double weight = 0; ///< of strokes
+  int valence = 0;   ///< asked for
 };
 
 struct PlacedConstraints

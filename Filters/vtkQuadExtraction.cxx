@@ -234,6 +234,8 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
   quadrille::addText(quads, "Notices", this->GetBlockNotices());
   quadrille::addExtraction(quads, result);
   quadrille::addCount(quads, "ActualQuads", result.mesh.quads.size());
+  this->SetResult(std::to_string(result.mesh.quads.size()) + " quads, " +
+    std::to_string(written.irregular->GetNumberOfPoints()) + " irregular vertices");
   block.output(1)->ShallowCopy(written.lines);
   block.output(2)->ShallowCopy(written.separatrices);
 }

@@ -497,8 +497,9 @@ void vtkQuadrilleAlgorithm::SetReports(
     addLines(this->StageTimesText, name, report.stageTimes);
     addLines(this->CertificateText, name, report.certificate);
     addLines(this->NoticesText, name, joinLines(report.notices));
-    const bool failed = report.outcome != Succeeded;
-    addLines(this->ResultText, name, failed ? "Failed: " + report.outcomeText : report.result);
+    const std::string made = report.result.empty() ? "Done" : report.result;
+    addLines(this->ResultText, name,
+      report.outcome == Succeeded ? made : "Failed: " + report.outcomeText);
     for (const std::string& notice : report.notices)
     {
       addLines(this->ResultText, name, "Note: " + notice);

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSMQuadrilleSourceProxy.h"
 
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVXMLElement.h"
-#include "vtkNew.h"
 #include "vtkSMInputProperty.h"
 #include "vtkSMParaViewPipelineController.h"
 #include "vtkSMPropertyHelper.h"
@@ -87,8 +87,8 @@ vtkSMProxy* opacityOf(const std::string& array, vtkSMSessionProxyManager* manage
   {
     return found;
   }
-  auto made =
-    vtkSmartPointer<vtkSMProxy>::Take(manager->NewProxy("piecewise_functions", "PiecewiseFunction"));
+  auto made = vtkSmartPointer<vtkSMProxy>::Take(
+    manager->NewProxy("piecewise_functions", "PiecewiseFunction"));
   vtkNew<vtkSMParaViewPipelineController> controller;
   controller->InitializeProxy(made);
   made->UpdateVTKObjects();
@@ -104,7 +104,8 @@ void makeColourMap(vtkPVXMLElement* map, vtkSMSessionProxyManager* manager)
   {
     return;
   }
-  auto table = vtkSmartPointer<vtkSMProxy>::Take(manager->NewProxy("lookup_tables", "PVLookupTable"));
+  auto table =
+    vtkSmartPointer<vtkSMProxy>::Take(manager->NewProxy("lookup_tables", "PVLookupTable"));
   if (!table)
   {
     return; // a client without views

@@ -329,7 +329,8 @@ TEST(Constraints, OutputTellsWhatWasReached)
 // Arrays that were probably meant
 
 template <class Array>
-void addArray(vtkDataSetAttributes* attributes, const char* name, vtkIdType count, int components = 1)
+void addArray(
+  vtkDataSetAttributes* attributes, const char* name, vtkIdType count, int components = 1)
 {
   vtkNew<Array> array;
   array->SetName(name);

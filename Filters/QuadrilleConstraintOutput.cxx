@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/Guides.h"
+#include "QuadrilleConstraints.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStaticPointLocator.h>
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace quadrille
+{
+
+namespace
+{
+
+template <class Array>
+vtkSmartPointer<Array> newArray(const char* name, int components = 1)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  return array;
+}
+
+/// Beside the kinds: a valence that is not that of the quads.
+constexpr int kMissedValence = 3;
+
+/// The valence of the quads at a place, on boundaries one more, as it is asked for there; regular where no point of theirs lies.
+class ReachedValences
+{
+public:
+  explicit ReachedValences(const QuadMesh& mesh) : mesh_(mesh)
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (const auto& p : mesh.points)
+    {
+      points->InsertNextPoint(p.data());
+    }
+    data_->SetPoints(points);
+    tolerance_ = 1e-6 * data_->GetLength();
+    if (!mesh.points.empty())
+    {
+      locator_->SetDataSet(data_);
+      locator_->BuildLocator();
+    }
+  }
+  int at(const Vector3& p) const
+  {
+    const vtkIdType found = mesh_.points.empty() ? -1 : locator_->FindClosestPoint(p.data());
+    if (found < 0 || (mesh_.points[static_cast<std::size_t>(found)] - p).norm() > tolerance_)
+    {
+      return kRegularValence;
+    }
+    const auto i = static_cast<std::size_t>(found);
+    return mesh_.valence[i] + (mesh_.onBoundary[i] != 0 ? 1 : 0);
+  }
+
+private:
+  const QuadMesh& mesh_;
+  vtkNew<vtkPolyData> data_;
+  vtkNew<vtkStaticPointLocator> locator_;
+  double tolerance_ = 0;
+};
+
+/// Along the path at its point i.
+Vector3 directionAt(const std::vector<Vector3>& path, std::size_t i)
+{
+  const Vector3 along = path[std::min(i + 1, path.size() - 1)] - path[i == 0 ? 0 : i - 1];
+  return along.norm() > 0 ? Vector3(along.normalized()) : Vector3(Vector3::Zero());
+}
+
+} // namespace
+
+vtkSmartPointer<vtkPolyData> writeConstraints(
+  const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh)
+{
+  auto kind = newArray<vtkIntArray>("Constraint");
+  auto source = newArray<vtkIdTypeArray>("SourceId");
+  auto distance = newArray<vtkDoubleArray>("Distance");
+  auto weight = newArray<vtkDoubleArray>(arrays::kGuidingWeight);
+  auto asked = newArray<vtkIntArray>(arrays::kTargetValence);
+  auto valence = newArray<vtkIntArray>(arrays::kValence);
+  auto direction = newArray<vtkDoubleArray>("Direction", 3);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> verts;
+  vtkNew<vtkCellArray> lines;
+  // The search is worth its time only where a valence was asked for.
+  const bool asks = std::any_of(placed.begin(), placed.end(),
+    [](const PlacedConstraint& constraint) { return constraint.kind == ConstraintKind::Valence; });
+  const QuadMesh none;
+  const ReachedValences reached(asks ? mesh : none);
+  const auto add = [&](const PlacedConstraint& constraint, vtkCellArray* cells)
+  {
+    const bool point = constraint.kind == ConstraintKind::Valence;
+    const int there = point ? reached.at(constraint.path.front()) : 0;
+    const bool isMet = !point || there == constraint.valence;
+    cells->InsertNextCell(static_cast<int>(constraint.path.size()));
+    for (std::size_t i = 0; i < constraint.path.size(); ++i)
+    {
+      cells->InsertCellPoint(points->InsertNextPoint(constraint.path[i].data()));
+      direction->InsertNextTuple(directionAt(constraint.path, i).data());
+    }
+    kind->InsertNextValue(isMet ? static_cast<int>(constraint.kind) : kMissedValence);
+    source->InsertNextValue(constraint.source);
+    distance->InsertNextValue(constraint.distance);
+    weight->InsertNextValue(constraint.weight);
+    asked->InsertNextValue(constraint.valence);
+    valence->InsertNextValue(there);
+  };
+  // Vertices come before lines in the order of cells.
+  for (const PlacedConstraint& constraint : placed)
+  {
+    if (constraint.kind == ConstraintKind::Valence)
+    {
+      add(constraint, verts);
+    }
+  }
+  for (const PlacedConstraint& constraint : placed)
+  {
+    if (constraint.kind != ConstraintKind::Valence)
+    {
+      add(constraint, lines);
+    }
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetVerts(verts);
+  data->SetLines(lines);
+  data->GetPointData()->AddArray(direction);
+  for (vtkDataArray* array :
+    std::initializer_list<vtkDataArray*>{ kind, source, distance, weight, asked, valence })
+  {
+    data->GetCellData()->AddArray(array);
+  }
+  data->GetCellData()->SetActiveScalars("Constraint");
+  return data;
+}
+
+} // namespace quadrille
