@@ -5,7 +5,9 @@
 # ParaView's server manager was built with double-conversion and its package asks for it; nothing here includes or links it, so
 # that the library with which ParaView runs is enough and its headers need not be there.
 find_library(double-conversion_LIBRARY NAMES double-conversion libdouble-conversion.so.3)
-set(double-conversion_INCLUDE_DIR "/usr/include" CACHE PATH "Not used, but asked for by ParaView's package")
+if(NOT double-conversion_INCLUDE_DIR) # also where an earlier run has noted that it did not find it
+  set(double-conversion_INCLUDE_DIR "/usr/include" CACHE PATH "Not used, but asked for by ParaView's package" FORCE)
+endif()
 # Naming components keeps Qt, GDAL and ffmpeg out of what a build needs.
 find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore RemotingServerManager)
 

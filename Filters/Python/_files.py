@@ -25,6 +25,30 @@ def _reader_for(extension):
     raise InvalidInput(f"files of the kind {extension or 'without extension'} are not read here; known are .ply, .obj, .stl, .vtp and .vtk")
 
 
+class _Silence:
+    """VTK's readers report through parsers of their own: what they print is collected while this is entered."""
+
+    def __enter__(self):
+        from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
+
+        self._before = (vtkOutputWindow.GetInstance(), vtkLogger.GetCurrentVerbosityCutoff())
+        self._window = vtkStringOutputWindow()
+        vtkOutputWindow.SetInstance(self._window)
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+        return self
+
+    def __exit__(self, *_):
+        from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow
+
+        vtkOutputWindow.SetInstance(self._before[0])
+        vtkLogger.SetStderrVerbosity(self._before[1])
+
+    def reason(self):
+        """The last line of what was printed; empty where nothing was."""
+        lines = [line for line in self._window.GetOutput().splitlines() if line.strip()]
+        return lines[-1].split("): ", 1)[-1] if lines else ""
+
+
 def read(path):
     """The surface in a file as a vtkPolyData: .ply with all properties of its vertices and faces, .obj, .stl, .vtp or .vtk. Raises InvalidInput
     where the file is missing, damaged or of another kind."""
@@ -32,16 +56,10 @@ def read(path):
     reader = _reader_for(os.path.splitext(path)[1].lower())
     if not os.path.isfile(path):
         raise InvalidInput(f"{path}: there is no such file")
-    messages = []
-
-    def on_error(caller, event, text):
-        messages.append(text.strip())
-    on_error.CallDataType = "string0"
-    for source in (reader, reader.GetExecutive()):
-        source.AddObserver("ErrorEvent", on_error)
-    reader.SetFileName(path)
-    reader.Update()
-    if messages:
-        reason = reader.GetOutcomeText() if hasattr(reader, "GetOutcomeText") else messages[0].splitlines()[-1]
+    with _Silence() as silence:
+        reader.SetFileName(path)
+        reader.Update()
+    reason = reader.GetOutcomeText() if hasattr(reader, "GetOutcomeText") else silence.reason()
+    if reason:
         raise InvalidInput(reason if path in reason else f"{path}: {reason}")
     return reader.GetOutput()
