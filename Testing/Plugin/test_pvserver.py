@@ -9,7 +9,9 @@ import threading
 import traceback
 
 from paraview import servermanager, simple
+from vtkmodules.vtkCommonCore import vtkLogger
 
+import quadrille
 from plugin_common import PLUGIN, check, number, size_of, surface
 
 
@@ -59,6 +61,19 @@ def run(port):
     extraction = QuadExtraction(Input=upmap)
     extraction.UpdatePipeline()
     check(size_of(extraction) == cells, "the chain gives another result on the server")
+    check(quadrille.check(extraction) is extraction, "check does not return what it was given")
+
+    # A failure on the server is raised on the client. The line that both print of it is wanted, hence the last.
+    listening.clear()
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+    bad = QuadRemesh(Input=mesh, TargetType="Edge Length", EdgeLength=-1)
+    for proxy in (bad, simple.Calculator(Input=bad, Function="1")):
+        try:
+            quadrille.check(proxy)
+        except quadrille.RemeshError as error:
+            check("edge length" in str(error), f"the reason does not reach the client: {error}")
+        else:
+            check(False, "a failure on the server is not noticed")
 
 
 server, port = start(sys.argv[1])
