@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Base/PlaceText.h"
 #include "Mesh/Guides.h"
 #include "QuadrilleConstraints.h"
 
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <string>
 
 namespace quadrille
 {
@@ -80,7 +82,37 @@ Vector3 directionAt(const std::vector<Vector3>& path, std::size_t i)
   return along.norm() > 0 ? Vector3(along.normalized()) : Vector3(Vector3::Zero());
 }
 
+/// The search for them is worth its time only then.
+bool asksForValences(const std::vector<PlacedConstraint>& placed)
+{
+  return std::any_of(placed.begin(), placed.end(),
+    [](const PlacedConstraint& constraint) { return constraint.kind == ConstraintKind::Valence; });
+}
+
 } // namespace
+
+std::vector<std::string> missedValences(
+  const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh)
+{
+  std::vector<std::string> missed;
+  if (mesh.quads.empty() || !asksForValences(placed))
+  {
+    return missed;
+  }
+  const ReachedValences reached(mesh);
+  for (const PlacedConstraint& constraint : placed)
+  {
+    const bool asks = constraint.kind == ConstraintKind::Valence;
+    const int there = asks ? reached.at(constraint.path.front()) : 0;
+    if (asks && there != constraint.valence)
+    {
+      missed.push_back("valence " + std::to_string(constraint.valence) + " was asked for at " +
+        placeText(constraint.path.front()) + ", but the quads have " + std::to_string(there) +
+        " there: move the point away from sharp edges and other points, or ask for smaller quads");
+    }
+  }
+  return missed;
+}
 
 vtkSmartPointer<vtkPolyData> writeConstraints(
   const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh)
@@ -96,11 +128,8 @@ vtkSmartPointer<vtkPolyData> writeConstraints(
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> verts;
   vtkNew<vtkCellArray> lines;
-  // The search is worth its time only where a valence was asked for.
-  const bool asks = std::any_of(placed.begin(), placed.end(),
-    [](const PlacedConstraint& constraint) { return constraint.kind == ConstraintKind::Valence; });
   const QuadMesh none;
-  const ReachedValences reached(asks ? mesh : none);
+  const ReachedValences reached(asksForValences(placed) ? mesh : none);
   const auto add = [&](const PlacedConstraint& constraint, vtkCellArray* cells)
   {
     const bool point = constraint.kind == ConstraintKind::Valence;

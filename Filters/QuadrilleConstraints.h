@@ -66,6 +66,10 @@ struct PlacedConstraints
 /// Throws InvalidInput, with the place, for values that cannot be asked for and for a curve that cannot be followed.
 PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintInputs& inputs);
 
+/// What to do about valences that the quads do not have, with place and both numbers. mesh: what was made.
+std::vector<std::string> missedValences(
+  const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh);
+
 /// Lines and vertices where the constraints lie. Cells: Constraint (active: 0 feature, 1 stroke, 2 a valence that was met, 3 one that was
 /// not), SourceId (line or point of its input), Distance, GuidingWeight (0 but on strokes), TargetValence (0 on lines) and Valence (that
 /// of the quads there, on boundaries one more; 0 on lines). Points: Direction (unit vectors along lines, else zero).

@@ -185,6 +185,10 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   {
     this->AddNotice(notice);
   }
+  for (const std::string& warning : quadrille::missedValences(placed, result.quads))
+  {
+    this->AddWarning(warning);
+  }
   vtkPolyData* quads = block.output(0);
   quads->ShallowCopy(written.quads);
   addFieldData(quads, result);

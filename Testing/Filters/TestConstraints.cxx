@@ -322,6 +322,10 @@ TEST(Constraints, OutputTellsWhatWasReached)
   EXPECT_EQ(kind->GetTuple1(1), 3);
   EXPECT_EQ(kind->GetTuple1(2), 1); // lines come behind vertices
   EXPECT_EQ(data->GetCellData()->GetArray("Valence")->GetTuple1(1), 3);
+  const std::vector<std::string> told = missedValences({ stroke, met, missed }, mesh);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(
+    told[0].find("valence 5 was asked for at (1, 0, 0), but the quads have 3"), std::string::npos);
   EXPECT_EQ(data->GetPointData()->GetArray("Direction")->GetComponent(2, 0), 1);
 }
 
