@@ -84,7 +84,8 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   {
     this->AddNotice("input: " + sentence);
   }
-  for (const std::string& notice : { quadrille::sizingNotice(surface.mesh, limited), hierarchy.notice })
+  for (const std::string& notice :
+    { surface.facets.text(), quadrille::sizingNotice(surface.mesh, limited), hierarchy.notice })
   {
     if (!notice.empty())
     {

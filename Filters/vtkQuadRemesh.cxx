@@ -146,6 +146,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   options.coarsestIntegers = this->Integers == INTEGERS_COARSEST;
   options.anisotropyLimit = this->AnisotropyLimit;
   options.closeHandles = this->CloseHandles;
+  options.removeSmallComponents = this->SmallComponents == REMOVE_SMALL_COMPONENTS;
   options.finalQuality = static_cast<quadrille::FinalQuality>(this->FinalQuality);
   options.distortionMetric = this->DistortionMetric != 0;
   options.mergeCharts = this->ComputeMappedSurface != 0;
@@ -226,6 +227,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SmoothingSteps: " << this->SmoothingSteps << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "CloseHandles: " << this->CloseHandles << "\n";
+  os << indent << "SmallComponents: " << this->SmallComponents << "\n";
   os << indent << "KeepLevels: " << this->KeepLevels << "\n";
   os << indent << "WarmStart: " << this->WarmStart << "\n";
   os << indent << "ReusedStagesText: " << this->GetReusedStagesText() << "\n";

@@ -132,6 +132,22 @@ public:
   vtkGetMacro(CloseHandles, double);
   ///@}
 
+  /// The values of SmallComponents, see there.
+  enum SmallComponentsTypes
+  {
+    KEEP_SMALL_COMPONENTS = 0,
+    REMOVE_SMALL_COMPONENTS = 1
+  };
+  ///@{
+  /**
+   * What becomes of connected components with less area than the smallest block of quads of the target size has, such as the islands of
+   * isosurfaces: KEEP_SMALL_COMPONENTS makes each of about that many quads (six for a closed one), REMOVE_SMALL_COMPONENTS leaves them
+   * out, unless all are such. A notice counts them. Default: KEEP_SMALL_COMPONENTS.
+   */
+  vtkSetClampMacro(SmallComponents, int, KEEP_SMALL_COMPONENTS, REMOVE_SMALL_COMPONENTS);
+  vtkGetMacro(SmallComponents, int);
+  ///@}
+
   ///@{
   /**
    * Whether the filter holds on to what a stage has made, so that a change begins where it enters: guides, and the number of coarse vertices, at
@@ -282,6 +298,7 @@ private:
   int SmoothingSteps = 5;
   double MemoryLimit = 0;
   double CloseHandles = 0;
+  int SmallComponents = KEEP_SMALL_COMPONENTS;
   vtkTypeBool KeepLevels = 1;
   vtkTypeBool WarmStart = 0;
   int FinalQuality = Coarse;

@@ -55,6 +55,8 @@ size of the quads (at most one):
                             vertices let it; quads then differ more in size (default 0: no limit)
   --close-handles R         cut and close handles that are shorter round than R edge lengths of the quads,
                             which need 3 (default 0: none)
+  --small-components WORD   what becomes of connected components with less area than the smallest block of quads has:
+                            keep (default), as about that many quads, or remove
   --final-quality LEVEL     coarse, intermediate or input: where the map is solved at last, with the same quads;
                             the finer, the less distorted, and the longer it takes (default coarse)
   --distortion-metric WORD  on: coarse triangles count with the shape of the surface that they stand for, so that
@@ -212,6 +214,17 @@ int cellDataFrom(const CommandLine& line)
   return word == "area" ? vtkQuadRemesh::CELL_DATA_FROM_AREA : vtkQuadRemesh::CELL_DATA_FROM_CENTRE;
 }
 
+int smallComponents(const CommandLine& line)
+{
+  const std::string word = line.text("small-components").value_or("keep");
+  if (word != "keep" && word != "remove")
+  {
+    throw UsageError("--small-components must be keep or remove, not " + word);
+  }
+  return word == "remove" ? vtkQuadRemesh::REMOVE_SMALL_COMPONENTS
+                          : vtkQuadRemesh::KEEP_SMALL_COMPONENTS;
+}
+
 bool distortionMetric(const CommandLine& line)
 {
   const std::string word = line.text("distortion-metric").value_or("off");
@@ -245,6 +258,7 @@ void setOptions(const CommandLine& line, vtkQuadRemesh* filter)
   filter->SetMaximumNumberOfQuads(line.count("maximum-quads", 1, 500000000).value_or(10000000));
   filter->SetAnisotropyLimit(line.number("anisotropy-limit", 0, 1e6).value_or(0));
   filter->SetCloseHandles(line.number("close-handles", 0, 1e6).value_or(0));
+  filter->SetSmallComponents(smallComponents(line));
   filter->SetSmoothingSteps(static_cast<int>(line.count("smoothing-steps", 0, 1000).value_or(5)));
   filter->SetFinalQuality(finalQuality(line));
   filter->SetDistortionMetric(distortionMetric(line));
@@ -616,7 +630,7 @@ int main(int argc, char* argv[])
   {
     const CommandLine line(argc, argv,
       { "quads", "edge-length", "relative-edge-length", "feature-angle", "coarse-vertices",
-        "threads", "memory-limit", "close-handles", "anisotropy-limit", "method", "integers", "map",
+        "threads", "memory-limit", "close-handles", "small-components", "anisotropy-limit", "method", "integers", "map",
         "final-quality", "distortion-metric", "smoothing-steps", "cell-data", "maximum-quads", "report" },
       { "quiet" });
     if (line.help() || argc == 1)

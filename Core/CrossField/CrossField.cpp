@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossField/CrossField.h"
 
+#include "Base/PlaceText.h"
 #include "CrossField/FieldTopology.h"
 #include "CrossField/PowerField.h"
 #include "CrossField/SizeCones.h"
@@ -87,7 +88,7 @@ std::string fanProblem(const Fan& fan, int turns, bool asked)
 }
 
 // Fills status and offenders.
-void judgeTurns(const FieldTopology& topology, const TurnPrescription& prescription,
+void judgeTurns(const Mesh& mesh, const FieldTopology& topology, const TurnPrescription& prescription,
   const std::vector<int>& turns, const std::vector<std::uint8_t>& blocked, CrossField& field)
 {
   for (Index i = 0; i < turns.size(); ++i)
@@ -104,8 +105,9 @@ void judgeTurns(const FieldTopology& topology, const TurnPrescription& prescript
     if (field.offenders.empty())
     {
       field.status.code = StatusCode::Infeasible;
-      field.status.message = "cross field: vertex " + std::to_string(topology.fans[i].vertex) +
-        " has " + problem + (topology.fans[i].sector ? " between two constrained edges" : "");
+      field.status.message = "cross field: the vertex near " +
+        placeText(mesh.position[topology.fans[i].vertex]) + " would have " + problem +
+        (topology.fans[i].sector ? " between two features or on the boundary" : "");
     }
     field.offenders.push_back(topology.fans[i].vertex);
   }
@@ -116,7 +118,8 @@ void judgeTurns(const FieldTopology& topology, const TurnPrescription& prescript
   }
   if (!field.offenders.empty())
   {
-    field.status.message += "; more coarse vertices or fewer features there would help";
+    field.status.message += "; ask for more coarse vertices, for smaller quads, or for fewer "
+                            "features there (a larger feature angle, or none)";
   }
 }
 
@@ -339,7 +342,7 @@ CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options)
   storeTurns(mesh, topology, solution.turns, field);
   if (solution.status.ok())
   {
-    judgeTurns(topology, prescription, solution.turns, solution.blocked, field);
+    judgeTurns(mesh, topology, prescription, solution.turns, solution.blocked, field);
   }
   else
   {

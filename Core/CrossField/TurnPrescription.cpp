@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossField/TurnPrescription.h"
 
+#include "Base/PlaceText.h"
 #include "CrossField/TurnCosts.h"
 
 #include <algorithm>
@@ -114,10 +115,9 @@ std::vector<SetSums> sumUp(const FieldTopology& topology, const TurnPrescription
 
 std::string describe(const Mesh& mesh, const SetSums& sum, long missing)
 {
-  const Vector3& p = mesh.position[sum.vertex];
   std::ostringstream text;
-  text << "target valences: on the component of coarse vertex " << sum.vertex << ", near (" << p.x()
-       << ", " << p.y() << ", " << p.z() << "), 4 - valence has to sum up to "
+  text << "target valences: on the component near " << placeText(mesh.position[sum.vertex])
+       << ", 4 - valence has to sum up to "
        << sum.regular - sum.turns << " over all irregular vertices; the " << sum.requests
        << " vertices with a target sum up to " << sum.askedRegular - sum.asked << ", and ";
   if (sum.freeFans == 0)
@@ -161,8 +161,8 @@ TurnPrescription prescribeTurns(
     const int turns = targetValence[v] - (boundary[v] != 0 ? 2 : 0);
     if (turns < (boundary[v] != 0 ? 1 : 2))
     {
-      throw InvalidInput("cross field: vertex " + std::to_string(v) + " is to have valence " +
-        std::to_string(targetValence[v]) +
+      throw InvalidInput("cross field: the vertex at " + placeText(mesh.position[v]) +
+        " is to have valence " + std::to_string(targetValence[v]) +
         (boundary[v] != 0 ? ", but on the boundary the least is 3" : ", but the least is 2"));
     }
     if (groupOfVertex[v] == kInvalidIndex)

@@ -80,8 +80,7 @@ std::string describePoints(const QuadMesh& mesh, const std::vector<Index>& point
   for (std::size_t i = 0; i < std::min(points.size(), kNamedPoints); ++i)
   {
     const Index p = points[i];
-    text << (text.tellp() > 0 ? ", " : "") << placeText(mesh.points[p]) << " in face "
-         << mesh.sourceFace[p];
+    text << (text.tellp() > 0 ? ", " : "") << placeText(mesh.points[p]);
   }
   return text.str();
 }

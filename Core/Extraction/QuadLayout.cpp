@@ -3,6 +3,7 @@
 #include "Extraction/QuadLayout.h"
 
 #include "Base/Error.h"
+#include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Extraction/QuadTopology.h"
 
@@ -59,7 +60,8 @@ public:
     if (topology.degenerateQuads > 0)
     {
       throw InvalidInput("the layout needs quads with four different points, these have " +
-        topology.text() + ", among them point " + std::to_string(topology.offendingPoints.front()));
+        topology.text() + ", one of them near " +
+        placeText(mesh.points[topology.offendingPoints.front()]));
     }
     twin_ = std::move(topology.twin);
   }

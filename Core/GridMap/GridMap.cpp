@@ -6,6 +6,7 @@
 #include "GridMap/MapShape.h"
 #include "GridMap/MeshParts.h"
 #include "GridMap/RoundedMap.h"
+#include "Mesh/SmallComponents.h"
 
 #include <algorithm>
 #include <cassert>
@@ -29,6 +30,8 @@ constexpr int kMaximumScalings = 4;
 constexpr std::size_t kMaximumEmbeddings = 4;
 /// The number of quads is accepted when it is this close to the target (relative).
 constexpr double kCountTolerance = 0.06;
+/// However many blocks there are, the other components have this part of the quads that they would have alone.
+constexpr double kLeastBesideBlocks = 0.5;
 /// A map with a component missing is none. That many failures in one stage have a common cause, which more work in later stages
 /// does not mend: the caller hears of them at once.
 constexpr std::size_t kHopeless = 4;
@@ -104,6 +107,7 @@ struct Component
   MeshPart part;
   CarriedMap previous;                          ///< empty where there is none
   double share = 1;                             ///< of the area of the surface over its sizes
+  double block = 0;                             ///< quads that it has at least, see quadsOfBlock
   bool hasIntegers = false;                     ///< of an earlier scale
   Eigen::VectorXd solution;                     ///< of its seamless map, for the next scale
   std::vector<FixedVec2> seamlessUv, integerUv; ///< of the scale that is tried
@@ -188,6 +192,7 @@ private:
     {
       components_.emplace_back();
       components_.back().share = area > 0 ? stretchedArea(part.mesh, part.field) / area : 0;
+      components_.back().block = measureComponents(part.mesh).block.front();
       components_.back().part = std::move(part);
       if (carrier)
       {
@@ -217,7 +222,7 @@ private:
   /// that quads stay alike on all components.
   void chooseScale()
   {
-    double wanted = options_.targetQuads;
+    double wanted = besideBlocks(options_.targetQuads);
     double bestDeviation = std::numeric_limits<double>::infinity();
     for (int scaling = 0; scaling < kMaximumScalings; ++scaling)
     {
@@ -225,7 +230,7 @@ private:
       {
         return; // an earlier scale may have integers
       }
-      const double ratio = options_.targetQuads > 0 ? quadsToShare() / options_.targetQuads : 1;
+      const double ratio = options_.targetQuads > 0 ? ratioToTarget(wanted) : 1;
       const double deviation = std::abs(std::log(ratio));
       if (deviation < bestDeviation)
       {
@@ -242,19 +247,65 @@ private:
     }
   }
 
-  /// Quads of the components that have integers, extrapolated to the whole surface.
-  double quadsToShare() const
+  /// A component whose share is less than a block of quads gets that block.
+  static bool isBlock(const Component& component, double wanted)
   {
-    double quads = 0, shares = 0;
+    return wanted * component.share < component.block;
+  }
+  static double quadsOf(const Component& component, double wanted)
+  {
+    return isBlock(component, wanted) ? component.block : wanted * component.share;
+  }
+
+  /// The number of quads of which the others get their shares, so that with the blocks there are as many as asked for. Where blocks
+  /// would take more than half of the quads, the others keep half of what they would have alone.
+  double besideBlocks(double target) const
+  {
+    double wanted = target;
+    for (bool changed = true; changed;)
+    {
+      double blocks = 0, shares = 0;
+      for (const Component& component : components_)
+      {
+        blocks += isBlock(component, wanted) ? component.block : 0;
+        shares += isBlock(component, wanted) ? 0 : component.share;
+      }
+      const double left = blocks > 0 && shares > 0
+        ? std::max(kLeastBesideBlocks * target, (target - blocks) / shares)
+        : target;
+      changed = left < wanted;
+      wanted = std::min(left, wanted); // fewer quads make more blocks
+    }
+    return wanted;
+  }
+
+  /// Quads of the components that are no blocks over what they should have. Those without integers are as if they had their share.
+  double ratioToTarget(double wanted) const
+  {
+    double quads = 0, shares = 0, blocks = 0, shareOfBlocks = 0;
     for (const Component& component : components_)
     {
-      if (component.status.ok())
+      const bool block = isBlock(component, wanted);
+      const double made = component.status.ok() && !component.integerUv.empty()
+        ? mapArea(component.part.mesh, component.integerUv)
+        : component.block;
+      blocks += block ? made : 0;
+      shareOfBlocks += block ? component.share : 0;
+      if (!block && component.status.ok())
       {
-        quads += mapArea(component.part.mesh, component.integerUv);
+        quads += made;
         shares += component.share;
       }
     }
-    return quads > 0 && shares > 0 ? quads / shares : options_.targetQuads;
+    if (!(quads > 0 && shares > 0))
+    {
+      return 1;
+    }
+    const double target = shareOfBlocks > 0
+      ? std::max(kLeastBesideBlocks * options_.targetQuads,
+          (options_.targetQuads - blocks) / (1 - shareOfBlocks))
+      : options_.targetQuads;
+    return quads / shares / target;
   }
 
   /// Components fail at the first scale only; at a later one the first failure ends the try.
@@ -292,7 +343,7 @@ private:
     for (std::size_t i = 0; i < components_.size(); ++i)
     {
       Component& component = components_[i];
-      if (mapSeamlessly(component, options_.targetQuads, progressOf(i, 0.1, 1.0)))
+      if (mapSeamlessly(component, besideBlocks(options_.targetQuads), progressOf(i, 0.1, 1.0)))
       {
         component.uv = std::move(component.seamlessUv);
       }
@@ -324,7 +375,7 @@ private:
         continue;
       }
       const Stopwatch watch(result_.secondsQuantize, result_.processorQuantize);
-      component.integerUv = component.rounded->make(wanted * component.share,
+      component.integerUv = component.rounded->make(quadsOf(component, wanted),
         options_.method == MapMethod::QuadCover ? RoundingOrder::AllAtOnce
                                                 : RoundingOrder::OneAtATime);
     }
@@ -350,7 +401,7 @@ private:
     const MeshPart& part = component.part;
     SeamlessOptions seamlessOptions;
     seamlessOptions.edgeLength = options_.edgeLength;
-    seamlessOptions.targetQuads = wanted * component.share;
+    seamlessOptions.targetQuads = quadsOf(component, wanted);
     seamlessOptions.solution = component.hasIntegers ? &component.solution : nullptr;
     seamlessOptions.previous = component.earlier();
     seamlessOptions.anisotropyLimit = options_.anisotropyLimit;
@@ -477,7 +528,9 @@ private:
     for (std::size_t i = 0; i < components_.size(); ++i)
     {
       const Component& component = components_[i];
-      result_.refinement = std::max(result_.refinement, component.refinement);
+      // What a block grows by is a few quads.
+      result_.refinement = std::max(
+        result_.refinement, isBlock(component, options_.targetQuads) ? 1.0 : component.refinement);
       const auto place = [&](Index h) { return 3 * component.part.face[Mesh::face(h)] + h % 3; };
       for (Index h = 0; h < component.uv.size(); ++h)
       {
@@ -496,7 +549,7 @@ private:
       }
       if (!component.status.ok() && result_.failedComponents++ == 0)
       {
-        result_.status = { component.status.code, placeOf(i) + component.status.message };
+        result_.status = { component.status.code, explain(i) };
       }
     }
     std::sort(result_.offenders.begin(), result_.offenders.end());
@@ -514,19 +567,20 @@ private:
     }
   }
 
-  /// Says which component and where, as users see it; empty for a connected mesh, whose elements the stages name.
-  std::string placeOf(std::size_t i) const
+  /// Where and why a component has no map, and what helps: the stages count, as numbers of the coarse mesh say nothing to users.
+  std::string explain(std::size_t i) const
   {
-    if (components_.size() == 1)
-    {
-      return {};
-    }
     const Component& component = components_[i];
     const Index v = component.offenders.empty() ? 0 : component.offenders.front();
     std::ostringstream text;
-    text << "at least " << failures() << " of " << components_.size()
-         << " connected components have no map; component " << i + 1 << ", near "
-         << placeText(component.part.mesh.position[v]) << ", elements counted inside it: ";
+    if (components_.size() > 1)
+    {
+      text << "at least " << failures() << " of " << components_.size()
+           << " connected components have no map, one of them ";
+    }
+    text << "near " << placeText(component.part.mesh.position[v]) << ": "
+         << component.status.message << "; ask for smaller quads, for fewer features there (a larger "
+         << "feature angle, or none) or for more coarse vertices";
     return text.str();
   }
 

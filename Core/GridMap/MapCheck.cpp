@@ -96,11 +96,11 @@ std::string MapDefects::text() const
   std::string result = std::to_string(notPositive.size()) + " triangles not positive";
   if (!wrongTurns.empty())
   {
-    result += ", wrong turns at vertices " + listOf(wrongTurns);
+    result += ", wrong turns at " + std::to_string(wrongTurns.size()) + " vertices";
   }
   if (!reversed.empty())
   {
-    result += ", reversed constrained half-edges " + listOf(reversed);
+    result += ", " + std::to_string(reversed.size()) + " reversed feature or boundary edges";
   }
   return result;
 }
@@ -191,18 +191,6 @@ std::vector<Index> verticesOf(const Mesh& mesh, const MapDefects& defects)
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
-}
-
-std::string listOf(const std::vector<Index>& ids)
-{
-  constexpr std::size_t kShown = 8;
-  std::string result;
-  for (std::size_t i = 0; i < ids.size() && i < kShown; ++i)
-  {
-    result += (i > 0 ? ", " : "") + std::to_string(ids[i]);
-  }
-  return ids.size() > kShown ? result + " and " + std::to_string(ids.size() - kShown) + " more"
-                             : result;
 }
 
 } // namespace quadrille

@@ -63,7 +63,7 @@ struct MapDefects
 
   bool none() const { return notPositive.empty() && wrongTurns.empty() && reversed.empty(); }
   std::size_t count() const { return notPositive.size() + wrongTurns.size() + reversed.size(); }
-  std::string text() const;
+  std::string text() const; ///< how many of each
 };
 MapDefects findDefects(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv);
 
@@ -76,8 +76,5 @@ std::vector<Index> crowdedVertices(const Mesh& mesh, const CrossField& field);
 
 /// The vertices of all defects, ascending.
 std::vector<Index> verticesOf(const Mesh& mesh, const MapDefects& defects);
-
-/// "3, 14, 15 and 7 more".
-std::string listOf(const std::vector<Index>& ids);
 
 } // namespace quadrille

@@ -161,8 +161,7 @@ IntegerStart startFrom(const std::vector<FixedVec2>& uv, const Mesh& mesh, const
 Status tooFine(double growth)
 {
   return { StatusCode::NotConverged,
-    "the integers had to grow by a factor of " + std::to_string(growth) +
-      "; ask for more quads, or for fewer irregular vertices and features" };
+    "quads would have to be smaller by a factor of " + std::to_string(growth) };
 }
 
 } // namespace

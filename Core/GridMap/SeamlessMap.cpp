@@ -37,7 +37,8 @@ bool findHopeless(const Mesh& mesh, const CrossField& field, const SeamlessSpace
   if (!result.offenders.empty())
   {
     fail(mesh, StatusCode::Infeasible,
-      "vertices " + listOf(result.offenders) + " have too few triangles for their quarter turns",
+      std::to_string(result.offenders.size()) +
+        " vertices have too few triangles for their quarter turns",
       defects, result);
     return true;
   }
@@ -49,8 +50,8 @@ bool findHopeless(const Mesh& mesh, const CrossField& field, const SeamlessSpace
   }
   result.offenders = verticesOf(mesh, collapsed);
   fail(mesh, StatusCode::Infeasible,
-    "features and singularities leave no area to faces " + listOf(collapsed.notPositive) +
-      "; fewer features there or more coarse vertices would help",
+    "features and irregular vertices leave no area to " +
+      std::to_string(collapsed.notPositive.size()) + " triangles",
     defects, result);
   return true;
 }
@@ -106,8 +107,8 @@ void explain(
     MapDefects ends = defects;
     ends.reversed.insert(ends.reversed.end(), chords.begin(), chords.end());
     result.offenders = verticesOf(mesh, ends);
-    cause = "; half-edges " + listOf(chords) +
-      " are chords of straight features, more coarse vertices between them would help";
+    cause = "; " + std::to_string(chords.size()) +
+      " edges are chords of straight features, with no vertex between them";
   }
   fail(mesh, StatusCode::NotConverged, defects.text() + cause, defects, result);
 }

@@ -12,6 +12,7 @@
 #include "Hierarchy/StarCache.h"
 #include "Hierarchy/UniformDecimation.h"
 #include "Mesh/Sizing.h"
+#include "Mesh/SmallComponents.h"
 
 #include <Eigen/Geometry>
 
@@ -38,9 +39,6 @@ constexpr double kRegionTolerance = 0.5;
 constexpr double kGuideReach = 0.25;
 /// Distance on both sides over which the turn at a corner is measured, in s.
 constexpr double kCornerScale = 0.25;
-/// A component is thinned out as if s were at most sqrt(area / this), so that one that is smaller than a few quads
-/// still has about 60 vertices to carry a cross field.
-constexpr double kSmallComponent = 26;
 
 /// What may change from one update to the next.
 void checkPhase2(const Mesh& fine, const HierarchyOptions& options)
@@ -168,8 +166,7 @@ std::vector<float> vertexScales(const Mesh& fine, double edgeLength, int threads
 {
   const std::vector<Index> component = componentRoots(fine);
   const std::vector<double> area = componentAreas(fine, component, threads);
-  const auto scale = [&](Index root)
-  { return std::min(1.0, std::sqrt(area[root] / kSmallComponent) / edgeLength); };
+  const auto scale = [&](Index root) { return triangulationScale(area[root], edgeLength); };
   bool anySmall = false;
   for (Index v = 0; v < fine.vertexCount() && !anySmall; ++v)
   {

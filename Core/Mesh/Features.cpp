@@ -5,6 +5,8 @@
 #include "Base/LargeArray.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Mesh/Creases.h"
+#include "Mesh/FeatureFilter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -102,11 +104,8 @@ const Vector3& normalOf(const Mesh& mesh, const FaceNormals& normals, Index f)
   return normals.normal[normals.reliable[f] != 0 ? f : beyondSlivers(mesh, normals, f)];
 }
 
-} // namespace
-
-void markFeaturesByAngle(Mesh& mesh, double angle, int threads)
+void markSharpEdges(Mesh& mesh, const FaceNormals& normals, double angle, int threads)
 {
-  const FaceNormals normals = computeNormals(mesh, threads);
   const double limit = std::cos(angle);
   parallelFor(mesh.faceCount(), kChunk, threads,
     [&](std::size_t begin, std::size_t end)
@@ -126,6 +125,35 @@ void markFeaturesByAngle(Mesh& mesh, double angle, int threads)
         }
       }
     });
+}
+
+} // namespace
+
+void markFeaturesByAngle(Mesh& mesh, double angle, int threads)
+{
+  markSharpEdges(mesh, computeNormals(mesh, threads), angle, threads);
+}
+
+FacetReport markCreases(Mesh& mesh, double angle, int threads)
+{
+  const FaceNormals normals = computeNormals(mesh, threads);
+  markSharpEdges(mesh, normals, angle, threads);
+  const auto angleOf = [&](Index h)
+  {
+    const double cosine = normalOf(mesh, normals, Mesh::face(h))
+                            .dot(normalOf(mesh, normals, Mesh::face(mesh.twin[h])));
+    return std::acos(std::clamp(cosine, -1.0, 1.0));
+  };
+  const std::vector<Index> facets = edgesOfFacets(mesh, angle, angleOf, threads);
+  FacetReport report;
+  report.edges = facets.size();
+  if (!facets.empty())
+  {
+    const Index h = facets.front();
+    report.place = 0.5 * (mesh.position[mesh.origin[h]] + mesh.position[mesh.target(h)]);
+  }
+  unmarkFeatures(mesh, facets);
+  return report;
 }
 
 void markFeaturesByPatch(PreparedSurface& surface, const std::vector<std::int64_t>& patchIds)

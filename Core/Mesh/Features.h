@@ -13,6 +13,10 @@ namespace quadrille
 /// edge, so that they make no features of their own.
 void markFeaturesByAngle(Mesh& mesh, double angle, int threads);
 
+/// As markFeaturesByAngle, but for edges that do not stand out from their surroundings (see edgesOfFacets): those of the facets of a
+/// coarse or noisy sampling of a smooth surface. Features that were marked before stay.
+FacetReport markCreases(Mesh& mesh, double angle, int threads);
+
 /// Flags the edges between faces whose source polygons have different patch ids.
 void markFeaturesByPatch(PreparedSurface& surface, const std::vector<std::int64_t>& patchIds);
 

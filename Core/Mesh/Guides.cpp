@@ -3,6 +3,7 @@
 #include "Mesh/Guides.h"
 
 #include "Base/Error.h"
+#include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Mesh/Surface.h"
 
@@ -112,12 +113,12 @@ std::vector<ValenceRequest> cornerRequests(
   return requests;
 }
 
-void requireFit(const ValenceRequest& request, bool boundary)
+void requireFit(const ValenceRequest& request, const Vector3& place, bool boundary)
 {
   if (boundary && request.valence < 3)
   {
-    throw InvalidInput("point " + std::to_string(request.point) + " asks for valence " +
-      std::to_string(request.valence) +
+    throw InvalidInput("point " + std::to_string(request.point) + " at " + placeText(place) +
+      " asks for valence " + std::to_string(request.valence) +
       ", but lies on the boundary, where the least is 3, a corner with one quad.");
   }
 }
@@ -155,7 +156,8 @@ void collectRequests(const SurfaceInput& input, PreparedSurface& surface)
   std::vector<std::uint8_t> used(input.points.size(), 0);
   for (const ValenceRequest& request : cornerRequests(input, surface))
   {
-    requireFit(request, boundary[request.vertex] != 0);
+    const Vector3& place = surface.mesh.position[request.vertex];
+    requireFit(request, place, boundary[request.vertex] != 0);
     used[request.point] = 1;
     if (surface.valenceRequests.empty() || surface.valenceRequests.back().vertex != request.vertex)
     {
@@ -166,7 +168,8 @@ void collectRequests(const SurfaceInput& input, PreparedSurface& surface)
     if (first.valence != request.valence)
     {
       throw InvalidInput("points " + std::to_string(first.point) + " and " +
-        std::to_string(request.point) + " are one after repair, but ask for valences " +
+        std::to_string(request.point) + " at " + placeText(place) +
+        " are one after repair, but ask for valences " +
         std::to_string(first.valence) + " and " + std::to_string(request.valence) +
         ": give both the same.");
     }

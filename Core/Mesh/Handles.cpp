@@ -96,6 +96,19 @@ std::optional<LoopSearch::Loop> tightenedLoop(LoopSearch& search)
   return best;
 }
 
+HandleLoop boundaryLoop(const Mesh& mesh, Index start, double length)
+{
+  HandleLoop loop;
+  loop.length = length;
+  Index h = start;
+  do
+  {
+    loop.vertices.push_back(mesh.origin[h]);
+    h = nextOnBoundary(mesh, h);
+  } while (h != start);
+  return loop;
+}
+
 } // namespace
 
 HandleReport findHandles(const Mesh& mesh, double limit)
@@ -148,6 +161,10 @@ BoundaryReport measureBoundary(const Mesh& mesh, double limit)
     {
       visited[h] = true;
       length += sizedLength(mesh, h);
+    }
+    if (length < limit)
+    {
+      report.tooShort.push_back(boundaryLoop(mesh, start, length));
     }
     report.shortLoops += length < limit ? 1 : 0;
     if (report.loops++ == 0 || length < report.shortest)

@@ -5,6 +5,7 @@
 #include "Base/Progress.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/Sizing.h"
+#include "Mesh/SmallComponents.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/SurfaceEdit.h"
 
@@ -44,12 +45,28 @@ class LongEdgeQueue
 {
 public:
   LongEdgeQueue(const Mesh& mesh, double maximumLength)
-    : mesh_(mesh), limit_(maximumLength * maximumLength)
+    : mesh_(mesh), limit_(maximumLength * maximumLength), faces_(mesh.faceCount())
   {
+    findScales(maximumLength);
     for (Index f = 0; f < mesh.faceCount(); ++f)
     {
       pollNowAndThen(f);
       pushEdgesOf(f);
+    }
+  }
+
+  /// Faces that were appended since are parts of f or of a neighbour of it.
+  void pushNewFaces(Index f)
+  {
+    const Index before = faces_;
+    faces_ = mesh_.faceCount();
+    if (!scale_.empty())
+    {
+      scale_.resize(faces_, scale_[f]);
+    }
+    for (Index g = before; g < faces_; ++g)
+    {
+      pushEdgesOf(g);
     }
   }
 
@@ -86,17 +103,37 @@ public:
   }
 
 private:
+  void findScales(double maximumLength)
+  {
+    const ComponentSizes sizes = measureComponents(mesh_);
+    const auto scale = [&](Index c) { return triangulationScale(sizes.area[c], maximumLength); };
+    std::vector<double> ofComponent;
+    bool anySmall = false;
+    for (Index c = 0; c < sizes.area.size(); ++c)
+    {
+      ofComponent.push_back(scale(c) * scale(c));
+      anySmall = anySmall || ofComponent.back() < 1;
+    }
+    for (Index f = 0; f < mesh_.faceCount() && anySmall; ++f)
+    {
+      scale_.push_back(ofComponent[sizes.componentOfFace[f]]);
+    }
+  }
+
   /// In sizes, the same from both sides.
   double squaredLength(Index h) const
   {
     const double length = mesh_.edgeVector(h).squaredNorm();
-    return mesh_.sizing.empty()
+    const double sized = mesh_.sizing.empty()
       ? length
       : length / (sizeAt(mesh_, mesh_.origin[h]) * sizeAt(mesh_, mesh_.target(h)));
+    return scale_.empty() ? sized : sized / scale_[Mesh::face(h)];
   }
 
   const Mesh& mesh_;
   double limit_;
+  Index faces_;
+  std::vector<double> scale_; ///< #F, squared; empty where no component is small
   std::priority_queue<LongEdge> queue_;
 };
 
@@ -153,7 +190,6 @@ bool splitLongEdges(PreparedSurface& surface, double maximumLength, std::size_t 
     {
       return false;
     }
-    const Index before = mesh.faceCount();
     const Index g = mesh.twin[h];
     splitEdge(surface, h);
     queue.pushEdgesOf(Mesh::face(h));
@@ -161,10 +197,7 @@ bool splitLongEdges(PreparedSurface& surface, double maximumLength, std::size_t 
     {
       queue.pushEdgesOf(Mesh::face(g));
     }
-    for (Index f = before; f < mesh.faceCount(); ++f)
-    {
-      queue.pushEdgesOf(f);
-    }
+    queue.pushNewFaces(Mesh::face(h));
     if (++splits % kSplitsBetweenReports == 0)
     {
       report(progress, 0.8 * (mesh.faceCount() - firstFaces) / (mostFaces - firstFaces),

@@ -4,6 +4,7 @@
 
 #include "Base/Error.h"
 #include "Base/LargeArray.h"
+#include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Mesh/SurfaceEdit.h"
 #include "Mesh/Topology.h"
@@ -272,7 +273,8 @@ OrientedSets joinAcrossPlainEdges(const PreparedSurface& surface)
       !sets.join(Mesh::face(h), Mesh::face(g), mesh.origin[h] == mesh.origin[g]))
     {
       throw InvalidInput("the surface is not orientable (like a Moebius strip): polygon " +
-        std::to_string(surface.sourcePolygon[Mesh::face(h)]) +
+        std::to_string(surface.sourcePolygon[Mesh::face(h)]) + " near " +
+        placeText(mesh.position[mesh.origin[h]]) +
         " cannot agree with all its neighbours about which side is outside. Cut its component "
         "open, "
         "or remove the polygons that close the twisted loop.");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Surface.h"
 
+#include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/EdgeRuns.h"
@@ -63,7 +64,7 @@ void markFeatures(
   }
   if (options.featureAngle)
   {
-    markFeaturesByAngle(surface.mesh, *options.featureAngle, options.threads);
+    surface.facets = markCreases(surface.mesh, *options.featureAngle, options.threads);
   }
   makeFlagsSymmetric(surface.mesh);
 }
@@ -88,6 +89,18 @@ void measure(PreparedSurface& surface)
 }
 
 } // namespace
+
+std::string FacetReport::text() const
+{
+  if (edges == 0)
+  {
+    return {};
+  }
+  return std::to_string(edges) +
+    " sharp edges, one of them near " + placeText(place) +
+    ", do not stand out from their surroundings, as the facets of a coarse or noisy surface do not: they were not used as features "
+    "(mark edges to have them followed: Feature Edges, Curves)";
+}
 
 SourceLocation PreparedSurface::locate(Index f, const std::array<double, 3>& weights) const
 {

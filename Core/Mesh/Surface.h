@@ -73,11 +73,22 @@ struct SourceLocation
   std::array<double, 3> weights{}; ///< barycentric, sum 1
 };
 
+/// Sharp edges that are no creases.
+struct FacetReport
+{
+  std::size_t edges = 0;
+  Vector3 place = Vector3::Zero(); ///< of one of them
+
+  /// What the user should know; empty where there is none.
+  std::string text() const;
+};
+
 /// The finest level: repaired, ordered, with features. Immutable after refinement.
 struct PreparedSurface
 {
   Mesh mesh;
   RepairReport repair;
+  FacetReport facets;
   double area = 0;
   double boundingBoxDiagonal = 0;
   Index components = 0;
@@ -113,7 +124,8 @@ struct PreparedSurface
 /// checkRequests, collectRequests and checkSizing do.
 PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& options);
 
-/// Splits edges longer than maximumEdgeLength times the size there (conforming, at edge midpoints, longest first), and
+/// Splits edges longer than maximumEdgeLength times the size there, and times triangulationScale() in small components
+/// (conforming, at edge midpoints, longest first), and
 /// chords: unconstrained edges whose two ends lie on constrained edges, that no decimation could ever
 /// repair. Afterwards every face has at most one constrained edge and no chord is left. The geometry
 /// does not change: new vertices lie on the old triangles. Long thin triangles can multiply; past

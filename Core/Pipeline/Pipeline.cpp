@@ -13,6 +13,7 @@
 #include "Mesh/FeatureFilter.h"
 #include "Mesh/RepairText.h"
 #include "Mesh/Sizing.h"
+#include "Mesh/SmallComponents.h"
 #include "Pipeline/CoarsestMap.h"
 #include "Pipeline/Notices.h"
 #include "Transfer/PackedMap.h"
@@ -51,6 +52,9 @@ constexpr double kMostGrowth = 1.6;
 /// Handles with loops below so many edge lengths are sure to be among the places.
 constexpr double kHopelessLoop = 2;
 constexpr double kShrink = 0.5;
+/// So many quads are made to fit round a loop that is too short for three, if they need not be smaller than this for it.
+constexpr double kQuadsOfShrunkLoop = 4;
+constexpr double kLeastShrink = 0.1;
 constexpr double kShrinkRadius = 1.5;
 /// How often features are given up near the places of a failure.
 constexpr int kMaximumFeatureDrops = 4;
@@ -179,6 +183,10 @@ private:
       if (!result_.status.ok() && result_.smallParts.unresolvedHandles > 0)
       {
         result_.status.message += "; " + unresolvedText();
+      }
+      if (!result_.status.ok() && result_.smallParts.boundary.shortLoops > 0)
+      {
+        result_.status.message += "; " + tinyHolesText();
       }
     }
   }
@@ -326,6 +334,7 @@ private:
     if (memory_ != nullptr)
     {
       key_ = memoryKey(input_, options_.featureAngle, options_.closeHandles, options_.threads);
+      key_.removeSmallComponents = options_.removeSmallComponents;
       if (memory_->knowsPrepared(key_))
       {
         checkRequests(input_);
@@ -458,6 +467,54 @@ private:
     input_ = {};
     prepared_.reset();
     tellRequests();
+    countSmallComponents();
+  }
+
+  /// What of the surface is left after the removal, or becomes blocks, sets the number of quads where an edge length is asked for.
+  void countSmallComponents()
+  {
+    const double quad = result_.targetEdgeLength * result_.targetEdgeLength;
+    const SmallComponents small = findSmallComponents(result_.surface, result_.targetEdgeLength);
+    if (!options_.quads)
+    {
+      const double quads = (sizedArea() - small.area) / quad + small.quads;
+      result_.targetQuads = static_cast<std::size_t>(std::max(1.0, std::min(quads, 1e15)));
+    }
+    if (small.count > 0)
+    {
+      result_.notices.push_back(smallComponentsText(small, small.count) +
+        ": each was made of about the smallest block of quads there is, " +
+        std::to_string(std::llround(small.quads)) +
+        " altogether; ask for more quads to resolve them, or have them removed (Small Components, "
+        "--small-components remove)");
+    }
+  }
+
+  /// On request, before anything depends on them.
+  void dropSmallComponents()
+  {
+    if (!options_.removeSmallComponents)
+    {
+      return;
+    }
+    const SmallComponents small = findSmallComponents(result_.surface, result_.targetEdgeLength);
+    const std::size_t removed = quadrille::removeSmallComponents(result_.surface, small);
+    if (removed > 0)
+    {
+      result_.notices.push_back(smallComponentsText(small, removed) + ": removed, as was asked for");
+    }
+  }
+
+  std::string smallComponentsText(const SmallComponents& small, std::size_t count) const
+  {
+    std::ostringstream text;
+    text << count << " of " << small.components
+         << " connected components are smaller than a closed block of quads of this size, the "
+            "largest with the area of "
+         << std::setprecision(2)
+         << small.largest / (result_.targetEdgeLength * result_.targetEdgeLength)
+         << std::setprecision(6) << " quads near " << placeText(small.place);
+    return text.str();
   }
 
   void refinePrepared()
@@ -469,6 +526,8 @@ private:
     const std::size_t told = result_.notices.size();
     const double start = now();
     const std::size_t before = result_.surface.mesh.faceCount();
+    dropSmallComponents();
+    tell(result_.surface.facets.text());
     const FeatureFilterReport filtered =
       removeUnresolvedFeatures(result_.surface.mesh, result_.targetEdgeLength);
     tell(featureNotice(filtered));
@@ -721,6 +780,10 @@ private:
     {
       times.phase1 += makeLevels(levelOptions);
       times.handles += attempt == 0 ? measureSmallParts() : 0;
+      if (shrinkQuadsAtShortLoops())
+      {
+        times.phase1 += makeLevels(levelOptions);
+      }
       mapOptions.guides = hierarchy().coarse.guides;
       times.metric += measureMetric(mapOptions);
       mapOptions.targetValences = levelValences(result_.surface, hierarchy().coarse.fineVertex);
@@ -953,10 +1016,16 @@ private:
     for (const HandleLoop& loop : found.loops)
     {
       const bool hopeless = loop.length < kHopelessLoop * result_.targetEdgeLength;
-      for (std::size_t i = 0; hopeless && i < loop.vertices.size(); ++i)
+      HandleLoop onSurface{ {}, loop.length };
+      for (std::size_t i = 0; i < loop.vertices.size(); ++i)
       {
-        handlePlaces_.push_back(mesh.position[loop.vertices[i]]);
+        onSurface.vertices.push_back(hierarchy().intermediate.fineVertex[loop.vertices[i]]);
+        if (hopeless)
+        {
+          handlePlaces_.push_back(mesh.position[loop.vertices[i]]);
+        }
       }
+      shortLoops_.push_back(std::move(onSurface));
     }
     parts.complete = found.complete;
     if (found.shortest)
@@ -968,6 +1037,8 @@ private:
       }
     }
     parts.boundary = measureBoundary(result_.surface.mesh, limit);
+    shortLoops_.insert(
+      shortLoops_.end(), parts.boundary.tooShort.begin(), parts.boundary.tooShort.end());
     smallPartsKnown_ = true;
     if (parts.unresolvedHandles > 0)
     {
@@ -978,6 +1049,49 @@ private:
       result_.notices.push_back(tinyHolesText());
     }
     return now() - start;
+  }
+
+  /// Quads round loops that are too short for three are made smaller before the first map, so that there is room for four, where that
+  /// does not take too many. Waiting for the failure that most of them are would cost several maps. Once a run; true where sizes have
+  /// changed, so that the levels have to be made anew.
+  bool shrinkQuadsAtShortLoops()
+  {
+    if (loopsDone_ || shortLoops_.empty() || options_.coarsestIntegers ||
+      options_.method != MapMethod::ScaleAware)
+    {
+      return false;
+    }
+    loopsDone_ = true;
+    Mesh& mesh = result_.surface.mesh;
+    std::vector<float> before = mesh.sizing;
+    const double areaBefore = sizedArea();
+    mesh.sizing.resize(mesh.vertexCount(), 1.0F);
+    std::vector<float> factor(mesh.vertexCount(), 1.0F);
+    for (const HandleLoop& loop : shortLoops_)
+    {
+      const double wanted = loop.length / (kQuadsOfShrunkLoop * result_.targetEdgeLength);
+      for (const Index v : loop.vertices)
+      {
+        factor[v] = std::min(factor[v], static_cast<float>(std::max(kLeastShrink, wanted)));
+      }
+    }
+    for (Index v = 0; v < mesh.vertexCount(); ++v)
+    {
+      mesh.sizing[v] *= factor[v];
+    }
+    limitSizeGrowth(mesh, result_.targetEdgeLength);
+    if (sizedArea() > kMostGrowth * areaBefore)
+    {
+      mesh.sizing = std::move(before);
+      return false;
+    }
+    letLevelsGo();
+    onMemory_ = false; // its surface has not these sizes
+    result_.notices.push_back("quads are made smaller round " + std::to_string(shortLoops_.size()) +
+      " handles and holes that are shorter round than three of the wanted size, one of them near " +
+      placeText(mesh.position[shortLoops_.front().vertices.front()]) +
+      "; close or fill them for quads of one size");
+    return true;
   }
 
   /// Of a loop that is too short: how long, where, and what would resolve it.
@@ -1252,12 +1366,12 @@ private:
           result_.quads.valence[p] + (result_.quads.onBoundary[p] != 0 ? 1 : 0);
       }
     }
-    std::vector<Index> missed;
+    std::vector<ValenceRequest> missed;
     for (const ValenceRequest& request : result_.surface.valenceRequests)
     {
       if (request.valence != kRegularValence && valence[request.vertex] != request.valence)
       {
-        missed.push_back(request.point);
+        missed.push_back(request);
       }
     }
     if (!missed.empty())
@@ -1265,7 +1379,9 @@ private:
       result_.notices.push_back(std::to_string(missed.size()) +
         " points did not get the valence that was asked for, where the map has folds; one is "
         "point " +
-        std::to_string(missed.front()));
+        std::to_string(missed.front().point) + " at " +
+        placeText(result_.surface.mesh.position[missed.front().vertex]) +
+        ": ask for smaller quads, or for fewer irregular vertices there");
     }
   }
 
@@ -1493,6 +1609,8 @@ private:
   bool onMemoryBefore_ = false;
   double areaBefore_ = 0; ///< over the sizes, before
   GridTroubles firstTroubles_;
+  std::vector<HandleLoop> shortLoops_; ///< round handles and holes, of vertices of the surface
+  bool loopsDone_ = false;             ///< whether quads were made smaller for them, or cannot be
   std::vector<Vector3> handlePlaces_; ///< on the loops of handles that are too short
   int finerGrids_ = 0;                ///< how often the number of quads was doubled
   std::string gridNotice_;            ///< of the last doubling, while it holds

@@ -40,6 +40,9 @@ struct RemeshOptions
   /// Handles that are shorter round or through than so many target edge lengths are cut and closed before they are mapped, see
   /// closeHandles; >= 0, 0: none. Below kQuadsOfLoop there may remain some that quads cannot resolve.
   double closeHandles = 0;
+  /// Connected components with less area than the smallest block of quads has (six for a closed one without handles, see quadsOfBlock)
+  /// go, unless all are such. Off: each becomes about that many quads. Both are told.
+  bool removeSmallComponents = false;
   /// The ratio of the two stretches of a triangle of the coarse level from which on it is brought down where integers and irregular vertices let
   /// it, see GridMapOptions; >= 1, or 0: no limit. By the scale aware and the seamless method only; final quality does not know it.
   double anisotropyLimit = 0;

@@ -59,7 +59,7 @@ bool RemeshMemory::Key::preparesAs(const Key& other) const
 bool RemeshMemory::Key::refinesAs(const Key& other) const
 {
   return preparesAs(other) && closeHandles == other.closeHandles && requests == other.requests &&
-    edgeLength == other.edgeLength;
+    removeSmallComponents == other.removeSmallComponents && edgeLength == other.edgeLength;
 }
 
 RemeshMemory::Key memoryKey(
@@ -133,7 +133,7 @@ void RemeshMemory::keep(const Key& key, PreparedSurface prepared, const Prepared
   area_ = prepared.area;
   boundingBoxDiagonal_ = prepared.boundingBoxDiagonal;
   if (refined.mesh.faceCount() != prepared.mesh.faceCount() || key.closeHandles > 0 ||
-    !refined.mesh.sizing.empty())
+    key.removeSmallComponents || !refined.mesh.sizing.empty())
   {
     forgetRequests(prepared);
     prepared_ = std::move(prepared);

@@ -39,6 +39,7 @@ public:
     std::uint64_t input = 0; ///< contentHash of the input
     std::optional<double> featureAngle;
     double closeHandles = 0;
+    bool removeSmallComponents = false;
     std::uint64_t requests = 0; ///< of guides and valences where closed handles move their corners
     double edgeLength = 0;
 

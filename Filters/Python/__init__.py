@@ -48,6 +48,7 @@ FINAL_QUALITIES = ("coarse", "intermediate", "input")
 
 #: What cell arrays of the quads can come from, in the order of vtkQuadRemesh.CellDataFromTypes.
 CELL_DATA = ("centre", "area")
+SMALL_COMPONENTS = ("keep", "remove")
 
 #: What remesh(..., everything=True) returns: four vtkPolyData, and info() of the first.
 Remeshed = collections.namedtuple("Remeshed", "quads surface lines info separatrices")
@@ -130,12 +131,13 @@ def _set_numbers(run, *, feature_angle, coarse_vertices, threads, maximum_number
     run.SetAnisotropyLimit(limit)
 
 
-def _set_names(run, *, patch_array, method, final_quality, integers, cell_data):
+def _set_names(run, *, patch_array, method, final_quality, integers, cell_data, small_components):
     run.SetPatchArrayName(patch_array or "")
     run.SetMethod(one_of("method", method, METHODS))
     run.SetFinalQuality(one_of("final_quality", final_quality, FINAL_QUALITIES))
     run.SetIntegers(one_of("integers", integers, INTEGERS))
     run.SetCellDataFrom(one_of("cell_data", cell_data, CELL_DATA))
+    run.SetSmallComponents(one_of("small_components", small_components, SMALL_COMPONENTS))
 
 
 def _finish(run):
@@ -153,7 +155,7 @@ def _finish(run):
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
            guiding_direction=None, guiding_weight=None, target_valence=None, sizing=None, feature_edges=None, patch_ids=None,
            curves=None, strokes=None, patch_array="PatchId", coarse_vertices=1000, threads=0, maximum_number_of_quads=10000000, smoothing_steps=5,
-           memory_limit=0.0, time_limit=0.0, close_handles=0.0, method="scale-aware",
+           memory_limit=0.0, time_limit=0.0, close_handles=0.0, small_components="keep", method="scale-aware",
            final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False, cell_data="centre",
            progress=None, everything=False):
     """Remeshes a surface with quads only and returns a vtkPolyData.
@@ -181,6 +183,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     memory_limit: refuse to start where more is needed by the estimate; millions of bytes; 0 means what is free.
     time_limit: seconds; 0 means none.
     close_handles: handles shorter round or through than so many target edge lengths are cut and closed; 0: none.
+    small_components: connected components with less area than the smallest block of quads has: "keep", as about that many quads, or
+        "remove".
     method: how the map is made: "scale-aware", "mixed-integer" or "quadcover" (both may leave inverted triangles), or
         "seamless" (no integers, so the result has no quads; use everything=True for the mapped surface).
     final_quality: "coarse", "intermediate" or "input": the level on which the map is solved at last; the quads are the same in number
@@ -201,7 +205,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     _set_numbers(run, feature_angle=feature_angle, coarse_vertices=coarse_vertices, threads=threads,
                  maximum_number_of_quads=maximum_number_of_quads, smoothing_steps=smoothing_steps, memory_limit=memory_limit,
                  time_limit=time_limit, close_handles=close_handles, anisotropy_limit=anisotropy_limit)
-    _set_names(run, patch_array=patch_array, method=method, final_quality=final_quality, integers=integers, cell_data=cell_data)
+    _set_names(run, patch_array=patch_array, method=method, final_quality=final_quality, integers=integers, cell_data=cell_data,
+               small_components=small_components)
     run.SetDistortionMetric(bool(distortion_metric))
     run.SetComputeMappedSurface(bool(everything))
     run.KeepLevelsOff()  # there is no next execution

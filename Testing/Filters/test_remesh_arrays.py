@@ -145,7 +145,8 @@ class Mesh(unittest.TestCase):
                 "time_limit": (-1, math.nan),
                 "close_handles": (-1, math.inf),
                 "anisotropy_limit": (-1, 0.5, math.nan),
-                "method": ("best", 0), "final_quality": ("finest",), "integers": ("few",), "cell_data": ("best",)}.items():
+                "method": ("best", 0), "final_quality": ("finest",), "integers": ("few",), "cell_data": ("best",),
+                "small_components": ("shrink",)}.items():
             for value in values:
                 with self.subTest(name=name, value=value):
                     self.assertRefused([name, repr(value) if not isinstance(value, float) else str(value)], mesh, **{name: value})

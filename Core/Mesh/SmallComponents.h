@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Connected components that are smaller than a few quads: the islands of isosurfaces and noisy scans.
+#pragma once
+
+#include "Mesh/Surface.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace quadrille
+{
+
+/// A component whose area is below that of so many quads is triangulated as if they were smaller: about 60 vertices on all levels are
+/// what a cross field with eight irregular vertices needs.
+constexpr double kQuadsOfSmallTriangulation = 26;
+
+/// Factor on the edge length s for the triangles of a component with this area (over its sizes); at most 1.
+double triangulationScale(double area, double edgeLength);
+
+/// The number of quads of a small block with the topology of a component: six for a sphere (a box), four for a disc, 16 for each
+/// handle of another closed surface, and eight for each boundary loop after the first and 16 for each handle of an open one.
+double quadsOfBlock(long long eulerCharacteristic, std::size_t boundaryLoops);
+
+/// The components of a mesh, in the order of their lowest faces.
+struct ComponentSizes
+{
+  std::vector<Index> componentOfFace; ///< #F
+  std::vector<double> area;           ///< over the sizes
+  std::vector<double> block;          ///< see quadsOfBlock
+};
+/// Linear. The mesh passes validate(), but for vertices without faces.
+ComponentSizes measureComponents(const Mesh& mesh);
+
+/// Components with less area than the quads of their smallest block have.
+struct SmallComponents
+{
+  std::size_t components = 0; ///< of the surface
+  std::size_t count = 0;      ///< small ones among them
+  double area = 0;            ///< of the small ones, over the sizes
+  double quads = 0;           ///< of their blocks
+  double largest = 0;         ///< area of the largest small one
+  Vector3 place = Vector3::Zero();   ///< the middle of its vertices
+  std::vector<std::uint8_t> isSmall; ///< #F; empty where count is 0
+};
+/// For quads of edge length s > 0. Linear, and next to nothing for a large connected surface.
+SmallComponents findSmallComponents(const PreparedSurface& surface, double edgeLength);
+
+/// Removes the small components; at least one component stays, so where all are small all stay. Area, components and hash follow, and
+/// requests at their vertices go. Returns how many went.
+std::size_t removeSmallComponents(PreparedSurface& surface, const SmallComponents& small);
+
+} // namespace quadrille
