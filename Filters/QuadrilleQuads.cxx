@@ -211,12 +211,17 @@ void addPointArrays(const QuadMesh& mesh, const std::function<vtkIdType(Index)>&
   data->AddArray(valence);
 }
 
-/// Normals by which a surface without features is drawn smooth. A point on a feature has none: there the quads stay flat.
+/// Normals by which a surface without features is drawn smooth. A point on a feature has none: there the quads stay flat, and the normals
+/// of the carrier, which would smear sharp edges, are an array like others.
 void addNormals(const QuadMesh& mesh, vtkPointData* data)
 {
-  const bool features = std::any_of(
-    mesh.lines.begin(), mesh.lines.end(), [](const QuadLine& line) { return !line.boundary; });
-  if (features || polygonCount(mesh) > 0 || data->GetNormals())
+  if (std::any_of(
+        mesh.lines.begin(), mesh.lines.end(), [](const QuadLine& line) { return !line.boundary; }))
+  {
+    data->SetActiveAttribute(-1, vtkDataSetAttributes::NORMALS);
+    return;
+  }
+  if (polygonCount(mesh) > 0 || data->GetNormals())
   {
     return;
   }

@@ -106,6 +106,11 @@ index = sum(4 - valences.GetTuple1(i) for i in range(irregular.GetNumberOfPoints
 check(irregular.GetNumberOfVerts() == irregular.GetNumberOfPoints() > 0, "the irregular vertices are no vertices")
 check(index == 8, f"the indices of the irregular vertices of a sphere sum up to {index}")
 check(servermanager.Fetch(drawn).GetPointData().GetNormals() is not None, "a smooth surface without normals is drawn flat")
+# The cylinder comes with normals; where it has sharp edges they would smear them.
+capped = QuadRemesh(Input=simple.Triangulate(Input=simple.Cylinder(Resolution=40)), NumberOfQuads=300)
+capped.UpdatePipeline()
+points = servermanager.Fetch(capped).GetPointData()
+check(points.GetArray("Normals") is not None and points.GetNormals() is None, "sharp edges are drawn smooth")
 drawn.ValencePoints = None
 drawn.UpdatePipeline()
 check(size_of(drawn, 5) == 1, "the valence point is still there")
