@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadrilleBlocks.h"
 
+#include "QuadrilleRanks.h"
 #include "QuadrilleRefuse.h"
 
+#include <vtkDataAssembly.h>
 #include <vtkDataObject.h>
 #include <vtkDataObjectTypes.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
 #include <vtkPartitionedDataSet.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPolyData.h>
@@ -175,6 +178,92 @@ BlockTree blockTree(vtkDataObject* data)
   return tree;
 }
 
+void BlockReport::pack(Packer& packer) const
+{
+  const auto packLines = [&packer](const std::vector<std::string>& lines)
+  {
+    packer.count(lines.size());
+    for (const std::string& line : lines)
+    {
+      packer.text(line);
+    }
+  };
+  packer.count(static_cast<std::uint64_t>(outcome));
+  packer.text(outcomeText);
+  packer.count(mayPass);
+  packer.text(result);
+  packer.text(stageTimes);
+  packer.text(certificate);
+  packLines(notices);
+  packLines(reusedStages);
+  packer.count(numbers.size());
+  for (const auto& [name, value] : numbers)
+  {
+    packer.text(name);
+    packer.number(value);
+  }
+}
+
+BlockReport BlockReport::unpack(Unpacker& unpacker)
+{
+  BlockReport report;
+  report.outcome = static_cast<int>(unpacker.count());
+  report.outcomeText = unpacker.text();
+  report.mayPass = unpacker.count() != 0;
+  report.result = unpacker.text();
+  report.stageTimes = unpacker.text();
+  report.certificate = unpacker.text();
+  for (std::vector<std::string>* lines : { &report.notices, &report.reusedStages })
+  {
+    lines->resize(unpacker.count());
+    for (std::string& line : *lines)
+    {
+      line = unpacker.text();
+    }
+  }
+  for (std::uint64_t left = unpacker.count(); left > 0; --left)
+  {
+    const std::string name = unpacker.text();
+    report.numbers[name] = unpacker.number();
+  }
+  return report;
+}
+
+void mergeTrees(BlockTree& tree, const Ranks& ranks)
+{
+  Packer packer;
+  packer.count(tree.size());
+  for (const auto& [path, node] : tree)
+  {
+    packer.count(path.size());
+    for (const unsigned index : path)
+    {
+      packer.count(index);
+    }
+    packer.text(node.type);
+    packer.text(node.name);
+    packer.count(node.isBlock);
+  }
+  for (const std::string& bytes : ranks.gather(packer.bytes()))
+  {
+    Unpacker unpacker(bytes);
+    for (std::uint64_t left = unpacker.count(); left > 0; --left)
+    {
+      BlockPath path(unpacker.count());
+      for (unsigned& index : path)
+      {
+        index = static_cast<unsigned>(unpacker.count());
+      }
+      BlockNode& node = tree[path];
+      const std::string type = unpacker.text();
+      const std::string name = unpacker.text();
+      node.type = node.type.empty() ? type : node.type;
+      node.name = node.name.empty() ? name : node.name;
+      node.isBlock = unpacker.count() != 0 || node.isBlock;
+    }
+  }
+}
+
 std::string blockName(const BlockTree& tree, const BlockPath& path)
 {
   std::string text;
@@ -212,7 +301,8 @@ std::string compositeTypeFor(vtkDataObject* input)
 }
 
 void writeBlocks(const BlockTree& tree,
-  const std::map<BlockPath, vtkSmartPointer<vtkDataObject>>& blocks, vtkDataObject* output)
+  const std::map<BlockPath, vtkSmartPointer<vtkDataObject>>& blocks, vtkDataObject* input,
+  vtkDataObject* output)
 {
   output->Initialize();
   std::map<BlockPath, vtkSmartPointer<vtkDataObject>> made;
@@ -231,6 +321,14 @@ void writeBlocks(const BlockTree& tree,
       output->ShallowCopy(object);
     }
     made[path] = path.empty() && !node.type.empty() ? vtkSmartPointer<vtkDataObject>(output) : object;
+  }
+  auto* source = vtkPartitionedDataSetCollection::SafeDownCast(input);
+  auto* target = vtkPartitionedDataSetCollection::SafeDownCast(output);
+  if (source && target && source->GetDataAssembly())
+  {
+    vtkNew<vtkDataAssembly> assembly;
+    assembly->DeepCopy(source->GetDataAssembly());
+    target->SetDataAssembly(assembly);
   }
 }
 

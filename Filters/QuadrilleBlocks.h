@@ -22,17 +22,25 @@ namespace quadrille
 /// Ids of the children from the root of composite data down to a block; empty for a plain data set.
 using BlockPath = std::vector<unsigned>;
 
+class Packer;
+class Ranks;
+class Unpacker;
+
 /// What the last execution of one block has to say.
 struct BlockReport
 {
   int outcome = 0; ///< a vtkQuadrilleAlgorithm::OutcomeType
   std::string outcomeText;
   std::string result; ///< what was made, in a sentence
+  bool mayPass = false; ///< a failure that may pass by itself, as for lack of memory: the next execution tries again
   std::string stageTimes;
   std::string certificate;
   std::vector<std::string> notices;
   std::vector<std::string> reusedStages;
   std::map<std::string, double> numbers; ///< by the name of the filter's getter
+
+  void pack(Packer& packer) const;
+  static BlockReport unpack(Unpacker& unpacker);
 };
 
 /// What a filter keeps of a block for its next execution, beside the result.
@@ -51,6 +59,8 @@ struct BlockState
   std::vector<std::pair<const void*, vtkMTimeType>> lastStamps;
   /// The same of its last execution where that failed and would fail again.
   std::vector<std::pair<const void*, vtkMTimeType>> failedStamps;
+  double lastAreaShare = 1;
+  double lastWholeDiagonal = 0;
 
   /// The memory as the filter's own type, made where there is none.
   template <class Memory>
@@ -98,14 +108,18 @@ using BlockTree = std::map<BlockPath, BlockNode>;
 /// Empty leaves have no pieces. Throws InvalidInput for composite data of a kind that is not known.
 BlockTree blockTree(vtkDataObject* data);
 
+/// Gives all ranks the nodes of all; pieces stay where they are. Collective.
+void mergeTrees(BlockTree& tree, const Ranks& ranks);
+
 /// "Car/Wheel", or "block 1/block 3" where there are no names; "" for the root.
 std::string blockName(const BlockTree& tree, const BlockPath& path);
 
 /// Class name of what an output is for an input like this: composite data of the same kind, or "" for a plain data set.
 std::string compositeTypeFor(vtkDataObject* input);
 
-/// Empties `output` and gives it the structure of `tree` with these blocks; other leaves stay empty.
+/// Empties `output` and gives it the structure of `tree` with these blocks; other leaves stay empty. input: what the tree is of.
 void writeBlocks(const BlockTree& tree,
-  const std::map<BlockPath, vtkSmartPointer<vtkDataObject>>& blocks, vtkDataObject* output);
+  const std::map<BlockPath, vtkSmartPointer<vtkDataObject>>& blocks, vtkDataObject* input,
+  vtkDataObject* output);
 
 } // namespace quadrille

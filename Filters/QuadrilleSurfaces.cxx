@@ -2,19 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadrilleSurfaces.h"
 
+#include "Base/Types.h"
+#include "QuadrillePieces.h"
 #include "QuadrilleRefuse.h"
 
-#include <vtkAppendPolyData.h>
-#include <vtkCleanPolyData.h>
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
 #include <vtkDataSet.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkDataSetSurfaceFilter.h>
 #include <vtkFieldData.h>
 #include <vtkGenericCell.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
-#include <vtkTable.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <array>
+#include <cmath>
 
 namespace quadrille
 {
@@ -22,98 +28,142 @@ namespace quadrille
 namespace
 {
 
-std::size_t volumeCells(vtkDataSet* data)
+/// Dimensions of cells by type.
+class CellDimensions
 {
-  std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensions;
-  dimensions.fill(-1);
-  vtkNew<vtkGenericCell> cell;
+public:
+  CellDimensions()
+  {
+    dimensions_.fill(0);
+    for (int type = 1; type < VTK_NUMBER_OF_CELL_TYPES; ++type)
+    {
+      // Numbers between the kinds of cells are of none.
+      if (vtkCell* known = vtkGenericCell::InstantiateCell(type))
+      {
+        dimensions_[static_cast<std::size_t>(type)] = known->GetCellDimension();
+        known->Delete();
+      }
+    }
+  }
+  int of(int type) const { return dimensions_.at(static_cast<std::size_t>(type)); }
+
+private:
+  std::array<int, VTK_NUMBER_OF_CELL_TYPES> dimensions_;
+};
+
+std::size_t volumeCells(vtkDataSet* data, const CellDimensions& dimensions)
+{
   std::size_t count = 0;
   for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
   {
-    const int type = data->GetCellType(i);
-    int& dimension = dimensions[static_cast<std::size_t>(type)];
-    if (dimension < 0)
-    {
-      cell->SetCellType(type);
-      dimension = cell->GetCellDimension();
-    }
-    count += dimension == 3;
+    count += dimensions.of(data->GetCellType(i)) == 3;
   }
   return count;
 }
 
 bool hasAnything(vtkDataObject* data)
 {
-  return hasCells(data) || (data && data->GetFieldData()->GetNumberOfArrays() > 0);
+  return cellCount(data) > 0 || (data && data->GetFieldData()->GetNumberOfArrays() > 0);
 }
 
-vtkSmartPointer<vtkPolyData> append(const std::vector<vtkSmartPointer<vtkPolyData>>& pieces)
+/// Marks the faces that come from volume cells of the data set.
+void markFaces(vtkPolyData* surface, vtkDataSet* data, const CellDimensions& dimensions)
 {
-  vtkNew<vtkAppendPolyData> all;
-  for (vtkPolyData* piece : pieces)
+  vtkNew<vtkUnsignedCharArray> marks;
+  marks->SetName(kVolumeFace);
+  marks->SetNumberOfValues(surface->GetNumberOfCells());
+  vtkDataArray* cells = surface->GetCellData()->GetArray("vtkOriginalCellIds");
+  for (vtkIdType i = 0; i < surface->GetNumberOfCells(); ++i)
   {
-    all->AddInputData(piece);
+    const auto cell = static_cast<vtkIdType>(cells->GetTuple1(i));
+    marks->SetValue(i, dimensions.of(data->GetCellType(cell)) == 3);
   }
-  all->Update();
-  return all->GetOutput();
+  surface->GetCellData()->AddArray(marks);
+}
+
+double triangleArea(vtkPolyData* surface, vtkIdType i, vtkIdType j, vtkIdType k)
+{
+  Vector3 a, b, c;
+  surface->GetPoint(i, a.data());
+  surface->GetPoint(j, b.data());
+  surface->GetPoint(k, c.data());
+  return 0.5 * (b - a).cross(c - a).norm();
+}
+
+/// Number of cells that stand for cells of other pieces, or for finer cells.
+std::size_t ghostCells(vtkDataSet* data)
+{
+  vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
+  std::size_t count = 0;
+  for (vtkIdType i = 0; ghosts && i < ghosts->GetNumberOfValues(); ++i)
+  {
+    constexpr int ghost = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL |
+      vtkDataSetAttributes::REFINEDCELL;
+    count += (ghosts->GetValue(i) & ghost) != 0;
+  }
+  return count;
 }
 
 } // namespace
 
-bool hasCells(vtkDataObject* data)
+std::vector<std::string> SurfaceCounts::notices() const
 {
-  auto* set = vtkDataSet::SafeDownCast(data);
-  return set && set->GetNumberOfCells() > 0;
+  std::vector<std::string> texts;
+  if (volumeCells > 0)
+  {
+    texts.push_back("the surface of " + std::to_string(volumeCells) + " volume cells was taken");
+  }
+  if (ghostCells > 0)
+  {
+    texts.push_back(std::to_string(ghostCells) + " ghost cells were left out");
+  }
+  return texts;
 }
 
-vtkSmartPointer<vtkPolyData> surfaceOf(vtkDataObject* data, std::vector<std::string>& notices)
+std::size_t cellCount(vtkDataObject* data)
 {
-  if (auto* surface = vtkPolyData::SafeDownCast(data))
-  {
-    return surface;
-  }
+  auto* set = vtkDataSet::SafeDownCast(data);
+  return set ? static_cast<std::size_t>(set->GetNumberOfCells()) : 0;
+}
+
+vtkSmartPointer<vtkPolyData> surfaceOf(
+  vtkDataObject* data, bool markVolumeFaces, SurfaceCounts& counts)
+{
   auto* set = vtkDataSet::SafeDownCast(data);
   if (!set)
   {
     refuse("a ", data->GetClassName(), " has no surface");
   }
-  vtkNew<vtkDataSetSurfaceFilter> filter;
-  filter->SetInputData(set);
-  filter->SetPieceInvariant(0);
-  filter->PassThroughCellIdsOn();
-  filter->PassThroughPointIdsOn();
-  filter->Update();
-  if (const std::size_t volumes = volumeCells(set))
+  const std::size_t ghosts = ghostCells(set);
+  counts.ghostCells += ghosts;
+  vtkSmartPointer<vtkPolyData> surface = vtkPolyData::SafeDownCast(data);
+  if (!surface)
   {
-    notices.push_back("the surface of " + std::to_string(volumes) + " volume cells was taken: " +
-      std::to_string(filter->GetOutput()->GetNumberOfPolys()) + " faces");
-  }
-  return filter->GetOutput();
-}
-
-vtkSmartPointer<vtkPolyData> joinSurface(
-  const std::vector<vtkSmartPointer<vtkDataObject>>& pieces, std::vector<std::string>& notices)
-{
-  std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
-  for (vtkDataObject* piece : pieces)
-  {
-    if (hasCells(piece) || pieces.size() == 1)
+    vtkNew<vtkDataSetSurfaceFilter> filter;
+    filter->SetInputData(set);
+    filter->SetPieceInvariant(0);
+    filter->PassThroughCellIdsOn();
+    filter->PassThroughPointIdsOn();
+    filter->Update();
+    surface = filter->GetOutput();
+    const CellDimensions dimensions;
+    counts.volumeCells += volumeCells(set, dimensions);
+    if (markVolumeFaces)
     {
-      surfaces.push_back(surfaceOf(piece, notices));
+      markFaces(surface, set, dimensions);
     }
   }
-  if (surfaces.size() < 2)
+  if (ghosts > 0)
   {
-    return surfaces.empty() ? nullptr : surfaces[0];
+    auto copy = vtkSmartPointer<vtkPolyData>::New();
+    copy->ShallowCopy(surface);
+    copy->RemoveGhostCells();
+    surface = copy;
   }
-  vtkNew<vtkCleanPolyData> clean;
-  clean->SetInputData(append(surfaces));
-  clean->SetTolerance(0);
-  clean->Update();
-  return clean->GetOutput();
+  return surface;
 }
 
-vtkSmartPointer<vtkDataObject> joinExact(const std::vector<vtkSmartPointer<vtkDataObject>>& pieces)
+vtkSmartPointer<vtkDataObject> onlyPiece(const std::vector<vtkSmartPointer<vtkDataObject>>& pieces)
 {
   vtkSmartPointer<vtkDataObject> found;
   for (const vtkSmartPointer<vtkDataObject>& piece : pieces)
@@ -130,20 +180,32 @@ vtkSmartPointer<vtkDataObject> joinExact(const std::vector<vtkSmartPointer<vtkDa
   return found;
 }
 
-vtkSmartPointer<vtkDataObject> joinShared(const BlockTree& tree)
+double areaOf(vtkPolyData* surface)
 {
-  std::vector<vtkSmartPointer<vtkPolyData>> parts;
-  for (const auto& [path, node] : tree)
+  double area = 0;
+  auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
   {
-    for (vtkDataObject* piece : node.pieces)
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    cells->GetCurrentCell(count, ids);
+    for (vtkIdType i = 2; i < count; ++i)
     {
-      if (auto* part = vtkPolyData::SafeDownCast(piece); part && part->GetNumberOfPoints() > 0)
-      {
-        parts.emplace_back(part);
-      }
+      area += triangleArea(surface, ids[0], ids[i - 1], ids[i]);
     }
   }
-  return parts.empty() ? nullptr : parts.size() == 1 ? parts[0] : append(parts);
+  auto strips = vtk::TakeSmartPointer(surface->GetStrips()->NewIterator());
+  for (strips->GoToFirstCell(); !strips->IsDoneWithTraversal(); strips->GoToNextCell())
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    strips->GetCurrentCell(count, ids);
+    for (vtkIdType i = 2; i < count; ++i)
+    {
+      area += triangleArea(surface, ids[i - 2], ids[i - 1], ids[i]);
+    }
+  }
+  return std::isfinite(area) ? area : 0;
 }
 
 } // namespace quadrille

@@ -5,21 +5,27 @@
 #include "GridMap/GridMap.h"
 #include "Pipeline/Pipeline.h"
 #include "QuadrilleBlocks.h"
+#include "QuadrillePieces.h"
+#include "QuadrilleRanks.h"
 #include "QuadrilleReport.h"
+#include "QuadrilleShared.h"
 #include "QuadrilleStamps.h"
 #include "QuadrilleSurfaces.h"
+#include "vtkQuadrilleExecutive.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkDataObjectTypes.h"
-#include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <limits>
 #include <new>
 #include <sstream>
 
@@ -58,13 +64,6 @@ void initializeOutputs(vtkInformationVector* outputs)
   }
 }
 
-/// Whether the first input has nothing to work on, which is normal on a rank of a parallel run.
-bool isEmpty(vtkInformationVector** inputs)
-{
-  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
-  return !input || input->GetNumberOfElements(vtkDataObject::CELL) == 0;
-}
-
 /// Keeps the executive from adding a dump of the request to the reason that the filter itself has told, then goes.
 class IgnoreOnce : public vtkCommand
 {
@@ -72,6 +71,32 @@ public:
   static IgnoreOnce* New() { return new IgnoreOnce; }
   void Execute(vtkObject* caller, unsigned long, void*) override { caller->RemoveObserver(this); }
 };
+
+/// Parts of the sum of the areas, none below the least one: blocks that would be below get that, and the others share the rest.
+std::vector<double> sharesOf(const std::vector<double>& areas, double least)
+{
+  std::vector<double> shares(areas.size(), 1.0 / static_cast<double>(areas.size()));
+  std::vector<bool> isRaised(areas.size(), false);
+  for (bool isSettled = false; !isSettled;)
+  {
+    double rest = 1, area = 0;
+    for (std::size_t i = 0; i < areas.size(); ++i)
+    {
+      (isRaised[i] ? rest : area) += isRaised[i] ? -least : areas[i];
+    }
+    isSettled = true;
+    for (std::size_t i = 0; i < areas.size() && area > 0; ++i)
+    {
+      shares[i] = isRaised[i] ? least : rest * areas[i] / area;
+      if (shares[i] < least)
+      {
+        isRaised[i] = true;
+        isSettled = false;
+      }
+    }
+  }
+  return shares;
+}
 
 /// Place and name: a block that moved or was renamed is another one.
 std::string keyOf(const quadrille::Block& block)
@@ -105,18 +130,53 @@ std::string joinLines(const std::vector<std::string>& lines)
 
 } // namespace
 
+/// What happens to one block in an execution; the same on all ranks where nothing else is said.
+struct vtkQuadrilleAlgorithm::Work
+{
+  quadrille::Block block; ///< inputs and outputs on the owner only
+  std::string key;
+  int owner = 0;
+  std::size_t cells = 0; ///< of all ranks
+  bool isChanged = true;
+  std::vector<quadrille::Stamp> stamps; ///< of this rank's pieces
+  std::string error;                ///< why the inputs could not be had
+  std::vector<std::string> notices; ///< on the inputs
+};
+
 /// One execution: the structure of the input and its blocks.
 struct vtkQuadrilleAlgorithm::Run
 {
-  std::vector<quadrille::BlockTree> trees; ///< by input port; empty for shared ones
-  std::vector<quadrille::Block> blocks;
+  explicit Run(vtkMultiProcessController* controller) : ranks(controller) {}
+
+  quadrille::Ranks ranks;
+  std::vector<quadrille::BlockTree> trees; ///< by input port, with this rank's pieces
+  std::vector<vtkSmartPointer<vtkDataObject>> shared; ///< by input port
+  std::vector<std::string> notices;                   ///< on shared inputs
   std::vector<quadrille::Stamp> stamps; ///< of what all blocks share
-  bool anew = false; ///< a block was executed
+  vtkDataObject* input = nullptr;
+  std::vector<Work> works;
+  bool anew = false; ///< a block is executed
+
+  bool owns(const Work& work) const { return work.owner == ranks.rank(); }
+  /// This rank's pieces for a block.
+  std::vector<vtkSmartPointer<vtkDataObject>> pieces(const Work& work, int port) const
+  {
+    const auto node = trees[static_cast<std::size_t>(port)].find(work.block.path);
+    return node == trees[static_cast<std::size_t>(port)].end()
+      ? std::vector<vtkSmartPointer<vtkDataObject>>{}
+      : node->second.pieces;
+  }
 };
 
 //------------------------------------------------------------------------------
 vtkQuadrilleAlgorithm::vtkQuadrilleAlgorithm() = default;
 vtkQuadrilleAlgorithm::~vtkQuadrilleAlgorithm() = default;
+
+//------------------------------------------------------------------------------
+vtkExecutive* vtkQuadrilleAlgorithm::CreateDefaultExecutive()
+{
+  return vtkQuadrilleExecutive::New();
+}
 
 //------------------------------------------------------------------------------
 vtkQuadrilleAlgorithm::PortRole vtkQuadrilleAlgorithm::GetPortRole(int port) const
@@ -194,9 +254,12 @@ int vtkQuadrilleAlgorithm::RequestDataObject(
 int vtkQuadrilleAlgorithm::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  // The whole mesh has to be in one place: rank 0 asks for all of it.
-  const int piece = requestedPiece(outputs);
-  const int pieces = piece == 0 ? 1 : requestedPieces(outputs);
+  // Ranks that work together each ask for their own part, all alike, so that filters upstream can work together, too. Else the whole
+  // is asked for once.
+  const quadrille::Ranks ranks(quadrille::controllerOf(outputs));
+  const bool isAlone = !ranks.isParallel() && requestedPiece(outputs) == 0;
+  const int piece = ranks.isParallel() ? ranks.rank() : requestedPiece(outputs);
+  const int pieces = isAlone ? 1 : requestedPieces(outputs);
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
     for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
@@ -215,18 +278,20 @@ int vtkQuadrilleAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   this->ResetOutcome();
-  if (requestedPiece(outputs) > 0 || (requestedPieces(outputs) > 1 && isEmpty(inputs)))
+  Run run(quadrille::controllerOf(outputs));
+  if (!run.ranks.isParallel() && requestedPiece(outputs) > 0)
   {
     initializeOutputs(outputs);
     this->States.clear();
     this->Outcome = Succeeded;
     return 1;
   }
+  this->IsRoot = run.ranks.isRoot();
   const quadrille::PollScope scope(
     [this](double, const std::string&) { return this->ShowProgressAndGoOn(); });
   try
   {
-    return this->RunBlocks(inputs, outputs);
+    return this->RunBlocks(run, inputs, outputs);
   }
   catch (const quadrille::InvalidInput& error)
   {
@@ -241,144 +306,464 @@ int vtkQuadrilleAlgorithm::RequestData(
 }
 
 //------------------------------------------------------------------------------
-int vtkQuadrilleAlgorithm::RunBlocks(vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkQuadrilleAlgorithm::RunBlocks(
+  Run& run, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  Run run;
-  const int ports = this->GetNumberOfInputPorts();
-  run.stamps.emplace_back(nullptr, this->GetMTime());
-  std::vector<vtkSmartPointer<vtkDataObject>> shared(static_cast<std::size_t>(ports));
-  for (int port = 0; port < ports; ++port)
+  std::string error;
+  try
   {
-    vtkDataObject* data = vtkDataObject::GetData(inputs[port]);
-    const bool isShared = this->GetPortRole(port) == PortRole::Shared;
-    run.trees.push_back(isShared ? quadrille::BlockTree{} : quadrille::blockTree(data));
-    if (isShared && data)
+    this->ReadInputs(run, inputs);
+  }
+  catch (const std::exception& failure)
+  {
+    error = failure.what();
+  }
+  auto* executive = vtkQuadrilleExecutive::SafeDownCast(this->GetExecutive());
+  if (executive && executive->GetUpstreamFailed())
+  {
+    error = "a filter that makes the input failed on rank " + std::to_string(run.ranks.rank());
+  }
+  run.ranks.agree(error);
+  this->ListBlocks(run);
+  this->TakeStates(run);
+  run.anew = std::any_of(
+    run.works.begin(), run.works.end(), [](const Work& work) { return work.isChanged; });
+  if (run.anew)
+  {
+    this->GatherInputs(run);
+    this->MeasureBlocks(run);
+    this->ShareOut(run);
+  }
+  std::vector<Work*> mine;
+  for (Work& work : run.works)
+  {
+    if (run.owns(work))
     {
-      shared[port] = quadrille::joinShared(quadrille::blockTree(data));
-      quadrille::addStamps(data, run.stamps);
+      mine.push_back(&work);
     }
   }
-  for (const auto& [path, node] : run.trees[0])
+  for (std::size_t i = 0; i < mine.size(); ++i)
   {
-    // An empty leaf of composite data is normal; a plain data set without cells is told by the filter.
-    const bool isEmptyLeaf = !path.empty() &&
-      std::none_of(node.pieces.begin(), node.pieces.end(), quadrille::hasCells);
-    if (!node.isBlock || isEmptyLeaf)
-    {
-      continue;
-    }
-    quadrille::Block& block = run.blocks.emplace_back();
-    block.path = path;
-    block.name = quadrille::blockName(run.trees[0], path);
-    block.inputs = shared;
-    block.inputs.resize(static_cast<std::size_t>(ports));
+    this->BlockBegin = static_cast<double>(i) / static_cast<double>(mine.size());
+    this->BlockEnd = static_cast<double>(i + 1) / static_cast<double>(mine.size());
+    this->RunBlock(*mine[i]);
   }
-  if (run.blocks.empty())
-  {
-    throw quadrille::InvalidInput("the input has no block with a surface");
-  }
-  std::map<std::string, std::unique_ptr<quadrille::BlockState>> states;
-  for (quadrille::Block& block : run.blocks)
-  {
-    auto& state = states[keyOf(block)] = std::move(this->States[keyOf(block)]);
-    if (!state)
-    {
-      state = std::make_unique<quadrille::BlockState>();
-    }
-    block.state = state.get();
-  }
-  this->States = std::move(states);
-  for (std::size_t i = 0; i < run.blocks.size(); ++i)
-  {
-    this->BlockBegin = static_cast<double>(i) / static_cast<double>(run.blocks.size());
-    this->BlockEnd = static_cast<double>(i + 1) / static_cast<double>(run.blocks.size());
-    this->RunBlock(run, run.blocks[i]);
-  }
+  this->ExchangeReports(run);
   return this->Conclude(run, outputs);
 }
 
 //------------------------------------------------------------------------------
-void vtkQuadrilleAlgorithm::RunBlock(Run& run, quadrille::Block& block)
+void vtkQuadrilleAlgorithm::ReadInputs(Run& run, vtkInformationVector** inputs)
 {
-  quadrille::BlockState& state = *block.state;
-  std::vector<quadrille::Stamp> stamps = run.stamps;
+  run.stamps.emplace_back(nullptr, this->GetMTime());
+  run.input = vtkDataObject::GetData(inputs[0]);
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
-    const auto node = run.trees[port].find(block.path);
-    if (node != run.trees[port].end())
+    vtkDataObject* data = vtkDataObject::GetData(inputs[port]);
+    run.trees.push_back(quadrille::blockTree(data));
+    if (this->GetPortRole(port) != PortRole::Shared)
     {
-      for (vtkDataObject* piece : node->second.pieces)
+      continue;
+    }
+    for (const auto& [path, node] : run.trees.back())
+    {
+      for (vtkDataObject* piece : node.pieces)
       {
-        quadrille::addStamps(piece, stamps);
+        quadrille::addStamps(piece, run.stamps);
+      }
+    }
+    run.stamps.emplace_back(nullptr, run.trees.back().size());
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::ListBlocks(Run& run)
+{
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    quadrille::BlockTree& tree = run.trees[static_cast<std::size_t>(port)];
+    std::vector<vtkSmartPointer<vtkDataObject>> shared;
+    if (this->GetPortRole(port) == PortRole::Shared)
+    {
+      for (const auto& [path, node] : tree)
+      {
+        shared.insert(shared.end(), node.pieces.begin(), node.pieces.end());
+      }
+      shared = run.ranks.collectEverywhere(shared);
+    }
+    else
+    {
+      quadrille::mergeTrees(tree, run.ranks);
+    }
+    run.shared.emplace_back(quadrille::joinShared(shared, run.notices));
+  }
+  quadrille::Packer packer;
+  for (const auto& [path, node] : run.trees[0])
+  {
+    if (node.isBlock)
+    {
+      Work& work = run.works.emplace_back();
+      work.block.path = path;
+      work.block.name = quadrille::blockName(run.trees[0], path);
+      work.key = keyOf(work.block);
+      std::uint64_t cells = 0;
+      for (vtkDataObject* piece : node.pieces)
+      {
+        cells += quadrille::cellCount(piece);
+      }
+      packer.count(cells);
+    }
+  }
+  for (const std::string& bytes : run.ranks.gather(packer.bytes()))
+  {
+    quadrille::Unpacker unpacker(bytes);
+    for (Work& work : run.works)
+    {
+      work.cells += unpacker.count();
+    }
+  }
+  // An empty leaf of composite data is normal; a plain data set without cells is told by the filter.
+  run.works.erase(std::remove_if(run.works.begin(), run.works.end(),
+                    [](const Work& work) { return work.cells == 0 && !work.block.path.empty(); }),
+    run.works.end());
+  if (run.works.empty())
+  {
+    throw quadrille::InvalidInput("there is no cell in the input");
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::TakeStates(Run& run)
+{
+  std::map<std::string, std::unique_ptr<quadrille::BlockState>> states;
+  quadrille::Packer packer;
+  for (Work& work : run.works)
+  {
+    auto& state = states[work.key] = std::move(this->States[work.key]);
+    if (!state)
+    {
+      state = std::make_unique<quadrille::BlockState>();
+    }
+    work.block.state = state.get();
+    work.stamps = run.stamps;
+    for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+    {
+      for (vtkDataObject* piece : run.pieces(work, port))
+      {
+        quadrille::addStamps(piece, work.stamps);
+      }
+    }
+    packer.count(!state->lastResult.empty());
+    packer.count(this->KeepsResult() && work.stamps == state->lastStamps);
+    // Where another port asks for what failed, the report says already why there is nothing.
+    packer.count(work.stamps == state->failedStamps);
+  }
+  this->States = std::move(states);
+  // A block stays where its result and its memory are; the others go to the rank with the least to do, large ones first.
+  std::vector<std::size_t> load(static_cast<std::size_t>(run.ranks.size()), 0);
+  for (Work& work : run.works)
+  {
+    work.owner = -1;
+  }
+  std::vector<bool> hasResult(run.works.size(), true), hasFailed(run.works.size(), true);
+  const std::vector<std::string> all = run.ranks.gather(packer.bytes());
+  for (std::size_t rank = 0; rank < all.size(); ++rank)
+  {
+    quadrille::Unpacker unpacker(all[rank]);
+    for (std::size_t w = 0; w < run.works.size(); ++w)
+    {
+      Work& work = run.works[w];
+      if (unpacker.count() != 0 && work.owner < 0)
+      {
+        work.owner = static_cast<int>(rank);
+        load[rank] += work.cells;
+      }
+      hasResult[w] = unpacker.count() != 0 && hasResult[w];
+      hasFailed[w] = unpacker.count() != 0 && hasFailed[w];
+      work.isChanged = !hasResult[w] && !hasFailed[w];
+    }
+  }
+  std::vector<Work*> free;
+  for (Work& work : run.works)
+  {
+    if (work.owner < 0)
+    {
+      free.push_back(&work);
+    }
+  }
+  std::stable_sort(
+    free.begin(), free.end(), [](const Work* a, const Work* b) { return a->cells > b->cells; });
+  for (Work* work : free)
+  {
+    const auto least = std::min_element(load.begin(), load.end());
+    work->owner = static_cast<int>(least - load.begin());
+    *least += work->cells;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::GatherInputs(Run& run)
+{
+  for (Work& work : run.works)
+  {
+    work.notices = run.notices;
+    work.block.inputs.resize(static_cast<std::size_t>(this->GetNumberOfInputPorts()));
+    for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+    {
+      if (this->GetPortRole(port) != PortRole::Shared)
+      {
+        this->GatherPort(run, work, port);
       }
     }
   }
-  if (this->KeepsResult() && stamps == state.lastStamps)
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::GatherPort(Run& run, Work& work, int port)
+{
+  const bool isSurface = this->GetPortRole(port) == PortRole::Surface;
+  const auto given = run.pieces(work, port);
+  const bool isJoined = run.ranks.size() > 1 || given.size() > 1 || this->RankIndependent;
+  std::vector<vtkSmartPointer<vtkDataObject>> pieces;
+  quadrille::SurfaceCounts counts;
+  std::string error;
+  try
   {
-    state.report.reusedStages = { "all" };
+    for (const vtkSmartPointer<vtkDataObject>& piece : given)
+    {
+      if (isSurface && (quadrille::cellCount(piece) > 0 || !isJoined))
+      {
+        pieces.emplace_back(quadrille::surfaceOf(piece, isJoined, counts));
+      }
+      else if (!isSurface)
+      {
+        pieces.push_back(piece);
+      }
+    }
+  }
+  catch (const std::exception& failure)
+  {
+    error = failure.what();
+    pieces.clear();
+  }
+  quadrille::Packer packer;
+  packer.text(error);
+  packer.count(counts.volumeCells);
+  packer.count(counts.ghostCells);
+  counts = {};
+  for (const std::string& bytes : run.ranks.gather(packer.bytes()))
+  {
+    quadrille::Unpacker unpacker(bytes);
+    const std::string text = unpacker.text();
+    work.error = work.error.empty() ? text : work.error;
+    counts.volumeCells += unpacker.count();
+    counts.ghostCells += unpacker.count();
+  }
+  pieces = run.ranks.collect(pieces, work.owner);
+  if (!run.owns(work) || !work.error.empty())
+  {
     return;
   }
-  if (stamps == state.failedStamps)
+  for (const std::string& notice : counts.notices())
   {
-    return; // another port asks: its report says already why there is nothing
+    work.notices.push_back(notice);
   }
-  run.anew = true;
-  state.lastStamps.clear();
-  state.failedStamps.clear();
+  try
+  {
+    if (!isSurface)
+    {
+      work.block.inputs[port] = quadrille::onlyPiece(pieces);
+    }
+    else if (!this->RankIndependent && pieces.size() == 1)
+    {
+      work.block.inputs[port] = quadrille::withoutMarks(vtkPolyData::SafeDownCast(pieces[0]));
+    }
+    else
+    {
+      std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
+      for (vtkDataObject* piece : pieces)
+      {
+        surfaces.emplace_back(vtkPolyData::SafeDownCast(piece));
+      }
+      work.block.inputs[port] = quadrille::joinPieces(surfaces, work.notices);
+    }
+    if (this->GetPortRole(port) == PortRole::Mesh && !work.block.input(port))
+    {
+      work.error = "the input is no mesh of a filter of Quadrille";
+    }
+  }
+  catch (const std::exception& failure)
+  {
+    work.error = failure.what();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::MeasureBlocks(Run& run)
+{
+  if (run.works.size() < 2 || !this->HasCommonTarget())
+  {
+    return;
+  }
+  quadrille::Packer packer;
+  for (const Work& work : run.works)
+  {
+    vtkPolyData* surface = run.owns(work) ? work.block.input() : nullptr;
+    packer.number(surface ? quadrille::areaOf(surface) : 0);
+    vtkBoundingBox box;
+    double bounds[6];
+    if (surface && surface->GetNumberOfPoints() > 0)
+    {
+      surface->GetBounds(bounds);
+      box.SetBounds(bounds);
+    }
+    box.IsValid() ? box.GetBounds(bounds) : vtkMath::UninitializeBounds(bounds);
+    for (const double bound : bounds)
+    {
+      packer.number(bound);
+    }
+  }
+  std::vector<double> areas(run.works.size(), 0);
+  vtkBoundingBox whole;
+  for (const std::string& bytes : run.ranks.gather(packer.bytes()))
+  {
+    quadrille::Unpacker unpacker(bytes);
+    for (double& area : areas)
+    {
+      area += unpacker.number();
+      double bounds[6];
+      for (double& bound : bounds)
+      {
+        bound = unpacker.number();
+      }
+      whole.AddBounds(bounds); // ignores what is uninitialized
+    }
+  }
+  const std::vector<double> shares = sharesOf(areas, this->LeastAreaShare(areas.size()));
+  for (std::size_t i = 0; i < areas.size(); ++i)
+  {
+    Work& work = run.works[i];
+    work.block.areaShare = shares[i];
+    work.block.wholeDiagonal = whole.IsValid() ? whole.GetDiagonalLength() : 0;
+    work.isChanged = work.isChanged || work.block.areaShare != work.block.state->lastAreaShare ||
+      work.block.wholeDiagonal != work.block.state->lastWholeDiagonal;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::ShareOut(Run& run)
+{
+  for (std::size_t port = 0; port < run.shared.size(); ++port)
+  {
+    auto* shared = vtkPolyData::SafeDownCast(run.shared[port]);
+    if (!shared)
+    {
+      continue;
+    }
+    if (run.works.size() == 1)
+    {
+      run.works[0].block.inputs[port] = shared;
+      continue;
+    }
+    const std::size_t items = quadrille::sharedItems(shared);
+    quadrille::Packer packer;
+    for (const Work& work : run.works)
+    {
+      packer.count(run.owns(work));
+      if (run.owns(work))
+      {
+        for (const double distance : quadrille::itemDistances(shared, work.block.input()))
+        {
+          packer.number(distance);
+        }
+      }
+    }
+    // Of several surfaces at the same distance the first one.
+    std::vector<double> least(items, std::numeric_limits<double>::infinity());
+    std::vector<std::size_t> nearest(items, 0);
+    const std::vector<std::string> all = run.ranks.gather(packer.bytes());
+    std::vector<quadrille::Unpacker> unpackers(all.begin(), all.end());
+    for (std::size_t w = 0; w < run.works.size(); ++w)
+    {
+      run.works[w].isChanged = true; // it may have got what another one had
+      for (quadrille::Unpacker& unpacker : unpackers)
+      {
+        const bool isThere = unpacker.count() != 0;
+        for (std::size_t i = 0; isThere && i < items; ++i)
+        {
+          const double distance = unpacker.number();
+          if (distance < least[i])
+          {
+            least[i] = distance;
+            nearest[i] = w;
+          }
+        }
+      }
+    }
+    for (std::size_t w = 0; w < run.works.size(); ++w)
+    {
+      std::vector<bool> isChosen(items, false);
+      for (std::size_t i = 0; i < items; ++i)
+      {
+        isChosen[i] = nearest[i] == w;
+      }
+      if (run.owns(run.works[w]))
+      {
+        run.works[w].block.inputs[port] = quadrille::selectItems(shared, isChosen);
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::RunBlock(Work& work)
+{
+  quadrille::BlockState& state = *work.block.state;
+  if (!work.isChanged)
+  {
+    if (state.report.outcome == Succeeded)
+    {
+      state.report.reusedStages = { "all" };
+    }
+    return;
+  }
   state.report = {};
+  state.report.notices = work.notices;
   this->Report = &state.report;
   try
   {
-    for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+    if (!work.error.empty())
     {
-      const auto node = run.trees[port].find(block.path);
-      if (node != run.trees[port].end())
-      {
-        const auto& pieces = node->second.pieces;
-        if (this->GetPortRole(port) == PortRole::Surface)
-        {
-          block.inputs[port] = quadrille::joinSurface(pieces, state.report.notices);
-        }
-        else
-        {
-          block.inputs[port] = quadrille::joinExact(pieces);
-        }
-      }
+      throw quadrille::InvalidInput(work.error);
     }
-    this->ExecuteBlock(block);
-    state.lastStamps = std::move(stamps);
-    return;
+    this->ExecuteBlock(work.block);
   }
   catch (const quadrille::InvalidInput& error)
   {
-    this->FailBlock(block, BadInput, error.what());
+    this->FailBlock(state, BadInput, error.what());
   }
   catch (const quadrille::Cancelled&)
   {
-    this->FailBlockAsStopped(block);
+    this->FailBlockAsStopped(state);
   }
   catch (const quadrille::StageFailure& failure)
   {
     if (failure.code == quadrille::StatusCode::Cancelled)
     {
-      this->FailBlockAsStopped(block);
+      this->FailBlockAsStopped(state);
       return;
     }
     const bool tooLarge = failure.code == quadrille::StatusCode::TooLarge;
-    this->FailBlock(block, tooLarge ? TooLarge : NoValidResult, failure.what());
+    this->FailBlock(state, tooLarge ? TooLarge : NoValidResult, failure.what());
   }
   catch (const std::bad_alloc&)
   {
-    this->FailBlock(block, NoValidResult, "out of memory; ask for fewer quads or free memory");
-    return; // it may be there the next time
+    this->FailBlock(state, NoValidResult, "out of memory; ask for fewer quads or free memory");
+    state.report.mayPass = true;
   }
   catch (const std::exception& error)
   {
-    this->FailBlock(block, NoValidResult, std::string("internal error: ") + error.what());
-  }
-  if (state.report.outcome != Aborted)
-  {
-    state.failedStamps = std::move(stamps);
+    this->FailBlock(state, NoValidResult, std::string("internal error: ") + error.what());
   }
 }
 
@@ -390,36 +775,85 @@ void vtkQuadrilleAlgorithm::ExecuteBlock(quadrille::Block& block)
     block.outputs.push_back(
       vtk::TakeSmartPointer(vtkDataObjectTypes::NewDataObject(this->GetBlockType(port))));
   }
-  this->Execute(block);
+  // Composite data may have blocks of points and lines, and grids that finer ones replace: no error, but told.
+  vtkPolyData* surface =
+    this->GetPortRole(0) == PortRole::Surface && !block.path.empty() ? block.input() : nullptr;
+  if (surface && surface->GetNumberOfPolys() + surface->GetNumberOfStrips() == 0)
+  {
+    this->AddNotice("has no faces and is left empty");
+  }
+  else
+  {
+    this->Execute(block);
+  }
   block.state->lastResult = block.outputs;
   block.state->report.outcome = Succeeded;
 }
 
 //------------------------------------------------------------------------------
 void vtkQuadrilleAlgorithm::FailBlock(
-  quadrille::Block& block, OutcomeType outcome, const std::string& text)
+  quadrille::BlockState& state, OutcomeType outcome, const std::string& text)
 {
-  quadrille::BlockReport& report = block.state->report;
-  report.outcome = outcome;
-  report.outcomeText = text;
-  const bool hasResult = !block.state->lastResult.empty();
+  state.report.outcome = outcome;
+  state.report.outcomeText = text;
+  const bool hasResult = !state.lastResult.empty();
   if (hasResult || outcome == Aborted)
   {
-    report.outcomeText += hasResult ? "; the previous result is kept" : "; there is no result";
+    state.report.outcomeText +=
+      hasResult ? "; the previous result is kept" : "; there is no result";
   }
 }
 
 //------------------------------------------------------------------------------
-void vtkQuadrilleAlgorithm::FailBlockAsStopped(quadrille::Block& block)
+void vtkQuadrilleAlgorithm::FailBlockAsStopped(quadrille::BlockState& state)
 {
   if (!this->TimeIsOver)
   {
-    this->FailBlock(block, Aborted, "stopped on request");
+    this->FailBlock(state, Aborted, "stopped on request");
     return;
   }
   std::ostringstream text;
   text << "stopped after the time limit of " << this->TimeLimit << " s";
-  this->FailBlock(block, TimedOut, text.str());
+  this->FailBlock(state, TimedOut, text.str());
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::ExchangeReports(Run& run)
+{
+  quadrille::Packer packer;
+  for (const Work& work : run.works)
+  {
+    packer.count(run.owns(work));
+    if (run.owns(work))
+    {
+      work.block.state->report.pack(packer);
+    }
+  }
+  for (const std::string& bytes : run.ranks.gather(packer.bytes()))
+  {
+    quadrille::Unpacker unpacker(bytes);
+    for (Work& work : run.works)
+    {
+      if (unpacker.count() != 0)
+      {
+        work.block.state->report = quadrille::BlockReport::unpack(unpacker);
+      }
+    }
+  }
+  for (Work& work : run.works)
+  {
+    quadrille::BlockState& state = *work.block.state;
+    const bool hasSucceeded = state.report.outcome == Succeeded;
+    const bool failsAgain =
+      !hasSucceeded && state.report.outcome != Aborted && !state.report.mayPass;
+    state.lastStamps = hasSucceeded ? work.stamps : std::vector<quadrille::Stamp>{};
+    state.failedStamps = failsAgain ? work.stamps : std::vector<quadrille::Stamp>{};
+    if (work.isChanged)
+    {
+      state.lastAreaShare = work.block.areaShare;
+      state.lastWholeDiagonal = work.block.wholeDiagonal;
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -428,22 +862,27 @@ int vtkQuadrilleAlgorithm::Conclude(const Run& run, vtkInformationVector* output
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
     std::map<quadrille::BlockPath, vtkSmartPointer<vtkDataObject>> results;
-    for (const quadrille::Block& block : run.blocks)
+    for (const Work& work : run.works)
     {
-      // A copy, so that what is done to an output later does not change the result that is kept.
-      auto& result = results[block.path];
-      result = vtk::TakeSmartPointer(vtkDataObjectTypes::NewDataObject(this->GetBlockType(port)));
-      if (!block.state->lastResult.empty())
+      if (!run.owns(work))
       {
-        result->ShallowCopy(block.state->lastResult[port]);
+        continue;
+      }
+      // A copy, so that what is done to an output later does not change the result that is kept.
+      auto& result = results[work.block.path];
+      result = vtk::TakeSmartPointer(vtkDataObjectTypes::NewDataObject(this->GetBlockType(port)));
+      if (!work.block.state->lastResult.empty())
+      {
+        result->ShallowCopy(work.block.state->lastResult[static_cast<std::size_t>(port)]);
       }
     }
-    quadrille::writeBlocks(run.trees[0], results, vtkDataObject::GetData(outputs, port));
+    quadrille::writeBlocks(
+      run.trees[0], results, run.input, vtkDataObject::GetData(outputs, port));
   }
   std::vector<std::pair<std::string, quadrille::BlockReport>> reports;
-  for (const quadrille::Block& block : run.blocks)
+  for (const Work& work : run.works)
   {
-    reports.emplace_back(run.blocks.size() > 1 ? block.name : "", block.state->report);
+    reports.emplace_back(run.works.size() > 1 ? work.block.name : "", work.block.state->report);
   }
   this->SetReports(reports);
   if (this->Outcome == Aborted)
@@ -452,7 +891,10 @@ int vtkQuadrilleAlgorithm::Conclude(const Run& run, vtkInformationVector* output
     // The flags have done their duty; left standing they would make the executive empty the outputs.
     this->SetAbortExecute(0);
     this->SetAbortOutput(false);
-    vtkWarningMacro(<< this->OutcomeText);
+    if (this->IsRoot)
+    {
+      vtkWarningMacro(<< this->OutcomeText);
+    }
     return 0;
   }
   this->UpdateProgress(1.0);
@@ -477,7 +919,10 @@ int vtkQuadrilleAlgorithm::ReportFailure(const std::string& text)
   {
     this->ResultText = quadrille::wrapLines("Failed: " + text, kPanelWidth);
   }
-  vtkErrorMacro(<< text);
+  if (this->IsRoot)
+  {
+    vtkErrorMacro(<< text);
+  }
   return 0;
 }
 
@@ -630,6 +1075,7 @@ void vtkQuadrilleAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "TimeLimit: " << this->TimeLimit << "\n";
+  os << indent << "RankIndependent: " << this->RankIndependent << "\n";
   os << indent << "Outcome: " << this->Outcome << "\n";
   os << indent << "OutcomeText: " << this->OutcomeText << "\n";
   os << indent << "StageTimesText: " << this->StageTimesText << "\n";

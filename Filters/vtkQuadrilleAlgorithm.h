@@ -11,6 +11,11 @@
  * was. The outputs then hold the previous result, unchanged, as they do after a stop on request; they are empty where there was
  * none. A block that fails keeps its own previous result, and the others get theirs; the error names the blocks. Texts of several
  * blocks begin each line with the name of the block.
+ *
+ * In a parallel run each rank has its part of the input. The pieces of a surface are brought to one rank and put together there, in an
+ * order that does not depend on how they were cut, so that the result is the same for any number of them; see RankIndependent. The blocks of
+ * composite data are spread over the ranks. The outputs lie on the rank that made them and are empty on the others; what the filter
+ * tells is the same on all. Ranks work together where as many pieces are asked for as there are ranks, as ParaView does.
  */
 #ifndef vtkQuadrilleAlgorithm_h
 #define vtkQuadrilleAlgorithm_h
@@ -71,6 +76,16 @@ public:
   vtkGetMacro(TimeLimit, double);
   ///@}
 
+  ///@{
+  /**
+   * Whether a surface that comes in one piece is put into the order of one that comes in several, too. Then the result is the
+   * same for any number of ranks, also for one; ids as in `SourceCellId` count in that order. Off, one piece stays as it is. Default: off.
+   */
+  vtkSetMacro(RankIndependent, vtkTypeBool);
+  vtkGetMacro(RankIndependent, vtkTypeBool);
+  vtkBooleanMacro(RankIndependent, vtkTypeBool);
+  ///@}
+
   /// An OutcomeType.
   vtkGetMacro(Outcome, int);
   /// The reason of a failure, and what the outputs hold; empty after success.
@@ -90,6 +105,8 @@ public:
 protected:
   vtkQuadrilleAlgorithm();
   ~vtkQuadrilleAlgorithm() override;
+
+  vtkExecutive* CreateDefaultExecutive() override;
 
   /// What a port takes, and how composite data on it is understood.
   enum class PortRole
@@ -116,6 +133,12 @@ protected:
   /// Whether a block with the same properties and arrays as at its last execution, which succeeded, gets that result instead of a new
   /// one; its reused stages are then "all". Default: no.
   virtual bool KeepsResult() { return false; }
+
+  /// Whether the target size is one for all blocks together, so that a block has to know its part (Block::areaShare,
+  /// Block::wholeDiagonal). Default: no.
+  virtual bool HasCommonTarget() const { return false; }
+  /// The least part of the target that a block gets, however small it is, with this number of blocks. Default: 0.
+  virtual double LeastAreaShare(std::size_t /*blocks*/) const { return 0; }
 
   /// The filter's own work on one block: fills its outputs. Throws on any failure, which becomes the block's error.
   virtual void Execute(quadrille::Block& block) = 0;
@@ -147,17 +170,27 @@ protected:
 
   int NumberOfThreads = 0;
   double TimeLimit = 0;
+  vtkTypeBool RankIndependent = 0;
 
 private:
   vtkQuadrilleAlgorithm(const vtkQuadrilleAlgorithm&) = delete;
   void operator=(const vtkQuadrilleAlgorithm&) = delete;
 
   struct Run;
-  int RunBlocks(vtkInformationVector** inputs, vtkInformationVector* outputs);
-  void RunBlock(Run& run, quadrille::Block& block);
+  struct Work;
+  int RunBlocks(Run& run, vtkInformationVector** inputs, vtkInformationVector* outputs);
+  void ReadInputs(Run& run, vtkInformationVector** inputs);
+  void ListBlocks(Run& run);
+  void TakeStates(Run& run);
+  void GatherInputs(Run& run);
+  void GatherPort(Run& run, Work& work, int port);
+  void MeasureBlocks(Run& run);
+  void ShareOut(Run& run);
+  void RunBlock(Work& work);
   void ExecuteBlock(quadrille::Block& block);
-  void FailBlock(quadrille::Block& block, OutcomeType outcome, const std::string& text);
-  void FailBlockAsStopped(quadrille::Block& block);
+  void FailBlock(quadrille::BlockState& state, OutcomeType outcome, const std::string& text);
+  void FailBlockAsStopped(quadrille::BlockState& state);
+  void ExchangeReports(Run& run);
   int Conclude(const Run& run, vtkInformationVector* outputs);
   int ReportFailure(const std::string& text);
 
@@ -171,6 +204,7 @@ private:
   double BlockBegin = 0; ///< of the filter's progress
   double BlockEnd = 1;
   std::chrono::steady_clock::time_point Started;
+  bool IsRoot = true; ///< of the ranks of the last execution; it alone prints messages
   std::map<std::string, std::unique_ptr<quadrille::BlockState>> States; ///< by place and name of the block
   quadrille::BlockReport* Report = nullptr; ///< of the block that is executed
   std::vector<quadrille::BlockReport> Reports; ///< of all blocks of the last execution

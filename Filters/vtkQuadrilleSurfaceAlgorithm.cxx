@@ -16,14 +16,6 @@
 #include <algorithm>
 #include <cmath>
 
-namespace
-{
-
-/// What is drawn belongs to the blocks that are no farther from it than this part of the diagonal of all blocks.
-constexpr double kReach = 0.02;
-
-} // namespace
-
 //------------------------------------------------------------------------------
 vtkQuadrilleSurfaceAlgorithm::vtkQuadrilleSurfaceAlgorithm()
 {
@@ -72,10 +64,6 @@ quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
   constraints.points = block.input(3);
   constraints.strokeWeight = this->StrokeWeight;
   constraints.valence = this->PointValence;
-  if (block.wholeDiagonal > 0) // one of several blocks
-  {
-    constraints.reach = kReach * block.wholeDiagonal;
-  }
   quadrille::PlacedConstraints result = quadrille::applyConstraints(surface, constraints);
   for (const std::string& notice : result.notices)
   {
@@ -110,6 +98,15 @@ void vtkQuadrilleSurfaceAlgorithm::WarnOfUnusedArrays(const quadrille::Block& bl
   {
     this->AddWarning("array 'ConnectId' is not used by this version");
   }
+}
+
+//------------------------------------------------------------------------------
+double vtkQuadrilleSurfaceAlgorithm::LeastAreaShare(std::size_t blocks) const
+{
+  // Fewer quads than this are no shape of a part, whatever the others are.
+  constexpr double leastQuads = 50;
+  return std::min(leastQuads / std::max(1.0, static_cast<double>(this->NumberOfQuads)),
+    0.5 / static_cast<double>(blocks));
 }
 
 //------------------------------------------------------------------------------
@@ -151,6 +148,7 @@ void vtkQuadrilleSurfaceAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "TargetType: " << this->TargetType << "\n";
   os << indent << "NumberOfQuads: " << this->NumberOfQuads << "\n";
+  os << indent << "QuadsAre: " << this->QuadsAre << "\n";
   os << indent << "EdgeLength: " << this->EdgeLength << "\n";
   os << indent << "RelativeEdgeLength: " << this->RelativeEdgeLength << "\n";
   os << indent << "DetectFeatures: " << this->DetectFeatures << "\n";

@@ -98,6 +98,25 @@ public:
   vtkGetMacro(NumberOfQuads, vtkIdType);
   ///@}
 
+  /// The values of QuadsAre, see there.
+  enum QuadsAreTypes
+  {
+    QUADS_ARE_SHARED_BY_AREA = 0,
+    QUADS_ARE_PER_BLOCK = 1
+  };
+
+  ///@{
+  /**
+   * What the target size means for composite data of several blocks, a QuadsAreTypes: shared by area, NumberOfQuads is for all blocks together,
+   * each gets the part that its area has, but small ones at least 50, where there are 100 for each, else half of the mean; and RelativeEdgeLength is over the diagonal of the box round all blocks; per block,
+   * both are meant for each block by itself. Default: QUADS_ARE_SHARED_BY_AREA.
+   */
+  vtkSetClampMacro(QuadsAre, int, QUADS_ARE_SHARED_BY_AREA, QUADS_ARE_PER_BLOCK);
+  vtkGetMacro(QuadsAre, int);
+  void SetQuadsAreToSharedByArea() { this->SetQuadsAre(QUADS_ARE_SHARED_BY_AREA); }
+  void SetQuadsAreToPerBlock() { this->SetQuadsAre(QUADS_ARE_PER_BLOCK); }
+  ///@}
+
   ///@{
   /**
    * Target edge length in units of the input, positive. Default: 1.
@@ -156,6 +175,10 @@ protected:
   vtkQuadrilleSurfaceAlgorithm();
   ~vtkQuadrilleSurfaceAlgorithm() override;
 
+  bool HasCommonTarget() const override { return this->QuadsAre == QUADS_ARE_SHARED_BY_AREA; }
+
+  double LeastAreaShare(std::size_t blocks) const override;
+
   /// The surface and what is asked of it as Core takes them; warns of what is not used. placed, if given, gets the
   /// constraints of ports 1 to 3.
   quadrille::ConvertedSurface ConvertInputs(
@@ -165,6 +188,7 @@ protected:
 
   int TargetType = TARGET_NUMBER_OF_QUADS;
   vtkIdType NumberOfQuads = 5000;
+  int QuadsAre = QUADS_ARE_SHARED_BY_AREA;
   double EdgeLength = 1;
   double RelativeEdgeLength = 0.02;
   vtkTypeBool DetectFeatures = 1;

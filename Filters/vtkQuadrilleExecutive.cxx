@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkQuadrilleExecutive.h"
+
+#include "QuadrilleRanks.h"
+
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+
+vtkStandardNewMacro(vtkQuadrilleExecutive);
+
+//------------------------------------------------------------------------------
+vtkQuadrilleExecutive::vtkQuadrilleExecutive() = default;
+vtkQuadrilleExecutive::~vtkQuadrilleExecutive() = default;
+
+//------------------------------------------------------------------------------
+int vtkQuadrilleExecutive::ForwardUpstream(vtkInformation* request)
+{
+  const int result = this->Superclass::ForwardUpstream(request);
+  if (!request->Has(REQUEST_DATA()))
+  {
+    return result;
+  }
+  this->UpstreamFailed = result == 0;
+  const bool hasOthers = quadrille::controllerOf(this->GetOutputInformation()) != nullptr;
+  return hasOthers ? 1 : result;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleExecutive::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "UpstreamFailed: " << this->UpstreamFailed << "\n";
+}
