@@ -6,6 +6,7 @@
 #include "Base/Progress.h"
 #include "Extraction/MapWelding.h"
 #include "QuadrilleConvert.h"
+#include "QuadrilleFrame.h"
 #include "QuadrilleRefuse.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleSharedLevels.h"
@@ -217,6 +218,24 @@ std::vector<std::int8_t> readMatching(vtkPolyData* data, int threads)
   return matching;
 }
 
+/// A mesh in a frame that `data` was written from, as readMesh would read it.
+Mesh onSurface(const Mesh& inFrame, const Frame& frame, vtkPolyData* data, int threads)
+{
+  Mesh mesh = inFrame;
+  const std::vector<Vector3> points = readPointPositions(data, threads);
+  vtkDataArray* split = data->GetPointData()->GetArray(arrays::kSurfacePointId);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    mesh.position[split ? static_cast<std::size_t>(split->GetTuple1(static_cast<vtkIdType>(i))) : i] =
+      points[i];
+  }
+  if (frame.reversed)
+  {
+    reverseFaces(mesh);
+  }
+  return mesh;
+}
+
 void checkNotEmpty(const Mesh& mesh)
 {
   if (mesh.faceCount() == 0)
@@ -238,6 +257,8 @@ MappedInput readMappedInput(vtkPolyData* data, double textureScale, int threads)
   if (result.shared)
   {
     result.map.uv = readMap(data, threads);
+    result.frame = result.shared->frame;
+    result.mesh = onSurface(result.meshInFrame(), result.frame, data, threads);
     return result;
   }
   std::vector<Vector2> uv;
@@ -248,8 +269,8 @@ MappedInput readMappedInput(vtkPolyData* data, double textureScale, int threads)
   {
     uv = readCellMap(igm, threads);
     options.valueError = errorOf(igm, uv);
-    result.ownMesh = readMesh(data, threads);
-    checkNotEmpty(result.ownMesh);
+    result.mesh = readMesh(data, threads);
+    checkNotEmpty(result.mesh);
   }
   else
   {
@@ -267,16 +288,18 @@ MappedInput readMappedInput(vtkPolyData* data, double textureScale, int threads)
       options.matching[h] = static_cast<std::int8_t>(-options.matching[h] & 3);
     }
     options.valueError = errorOf(texture, uv);
-    result.ownMesh = weldTexture(data, corners, uv);
-    checkNotEmpty(result.ownMesh);
+    result.mesh = weldTexture(data, corners, uv);
+    checkNotEmpty(result.mesh);
   }
-  result.map = snapMap(result.ownMesh, uv, options);
+  result.map = snapMap(result.mesh, uv, options);
+  result.ownMeshInFrame = result.mesh;
+  result.frame = enterFrame(data, result.ownMeshInFrame);
   return result;
 }
 
-const Mesh& MappedInput::mesh() const
+const Mesh& MappedInput::meshInFrame() const
 {
-  return shared ? shared->finest->surface.mesh : ownMesh;
+  return shared ? shared->finest->surface.mesh : ownMeshInFrame;
 }
 
 std::string MappedInput::notice() const

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Extraction/MapSnapping.h"
+#include "Mesh/Frame.h"
 #include "Mesh/Mesh.h"
 
 #include <memory>
@@ -21,12 +22,14 @@ struct SharedMap;
 struct MappedInput
 {
   std::shared_ptr<const SharedMap> shared; ///< of the filter that made the map; null: it was read
-  Mesh ownMesh; ///< only where it was read
+  Mesh mesh; ///< its faces are the cells
   SnapResult map;
+  Frame frame;
+  Mesh ownMeshInFrame; ///< only where it was read
   bool fromTexture = false; ///< the map was in the texture coordinates
   bool mirrored = false;    ///< and mirrored, so that v has the other sign now
 
-  const Mesh& mesh() const; ///< its faces are the cells
+  const Mesh& meshInFrame() const;
   /// What the user should know of the changes; empty where the map was exact.
   std::string notice() const;
 };

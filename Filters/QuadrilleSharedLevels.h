@@ -6,6 +6,7 @@
 /// gone. Who finds nothing makes the same again, bit for bit: after a file, in another process, behind a filter that has changed the data.
 #pragma once
 
+#include "Mesh/Frame.h"
 #include "Mesh/Surface.h"
 #include "QuadrilleBlocks.h"
 
@@ -22,7 +23,7 @@ namespace quadrille
 /// What the finest level is made from.
 struct SurfaceKey
 {
-  std::uint64_t input = 0; ///< contentHash of the converted surface with the marks of curves
+  std::uint64_t input = 0; ///< contentHash of the converted surface with the marks of curves, in its frame
   std::optional<double> featureAngle;
   double edgeLength = 0;
 
@@ -33,7 +34,7 @@ struct SurfaceKey
   }
 };
 
-/// The finest level as prepareFromRecipe and refineFromRecipe make it. Guides and valences are not in its key: they may be others.
+/// The finest level in its frame, as prepareFromRecipe and refineFromRecipe make it. Guides and valences are not in its key: they may be others.
 struct SharedSurface
 {
   SurfaceKey key;
@@ -45,6 +46,7 @@ struct SharedMap
 {
   std::uint64_t key = 0; ///< mappedSurfaceHash of what was written
   std::shared_ptr<const SharedSurface> finest;
+  Frame frame; ///< of the finest level
 };
 
 /// What a stage filter holds for a block.

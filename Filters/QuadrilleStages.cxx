@@ -4,6 +4,7 @@
 
 #include "Base/Error.h"
 #include "Mesh/FeatureFilter.h"
+#include "Mesh/Frame.h"
 
 #include <algorithm>
 #include <chrono>
@@ -49,11 +50,13 @@ TargetSize chooseTarget(const PreparedSurface& surface, const RemeshOptions& opt
   if (options.quads)
   {
     target.quads = *options.quads;
-    target.edgeLength = std::sqrt(areaInSizes(surface) / static_cast<double>(target.quads));
+    target.edgeLength =
+      roundedLength(std::sqrt(areaInSizes(surface) / static_cast<double>(target.quads)));
     return target;
   }
   target.edgeLength =
-    options.edgeLength.value_or(options.relativeEdgeLength * surface.boundingBoxDiagonal);
+    options.edgeLength.value_or(
+      roundedLength(options.relativeEdgeLength * surface.boundingBoxDiagonal));
   if (!(target.edgeLength > 0) || !std::isfinite(target.edgeLength))
   {
     throw InvalidInput("the target edge length must be a positive number");

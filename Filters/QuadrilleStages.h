@@ -33,7 +33,8 @@ struct TargetSize
   double edgeLength = 0;
   std::size_t quads = 0;
 };
-/// The size that Pipeline would choose. Throws InvalidInput for a size that is not positive.
+/// The size that Pipeline would choose; surface and edge lengths in a frame (see Mesh/Frame.h). Throws InvalidInput for a size that is
+/// not positive.
 TargetSize chooseTarget(const PreparedSurface& surface, const RemeshOptions& options);
 /// The number of quads of that edge length times the sizes of the surface.
 std::size_t predictedQuads(const PreparedSurface& surface, double edgeLength);

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDecimationHierarchy.h"
 
+#include "Base/PlaceText.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/RepairText.h"
+#include "Pipeline/LeaveFrame.h"
 #include "Pipeline/Pipeline.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
+#include "QuadrilleFrame.h"
 #include "QuadrilleLog.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleSharedLevels.h"
@@ -40,7 +43,15 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   auto& held = block.state->memoryAs<quadrille::SharedLevels>();
   held = {}; // before the new one takes its memory
   quadrille::ConvertedSurface converted = this->ConvertInputs(block);
-  const quadrille::RemeshOptions options = this->MakeOptions(block);
+  quadrille::RemeshOptions options = this->MakeOptions(block);
+  quadrille::FramedInput framed =
+    quadrille::enterFrame(std::move(converted.input), options.threads);
+  const quadrille::Frame& frame = framed.frame;
+  const quadrille::PlaceScope places(frame.centre, frame.unit, frame.sign);
+  if (options.edgeLength)
+  {
+    options.edgeLength = frame.lengthOf(*options.edgeLength);
+  }
 
   quadrille::SurfaceRecipe recipe;
   recipe.featureAngle = options.featureAngle;
@@ -48,11 +59,11 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   recipe.curveMarks = converted.curveMarks;
   quadrille::StageClock clock;
   const auto made = std::make_shared<quadrille::SharedSurface>();
-  made->key.input = quadrille::contentHash(converted.input, options.threads);
+  made->key.input = quadrille::contentHash(framed.input, options.threads);
   quadrille::PreparedSurface& surface = made->surface;
   surface = quadrille::prepareFromRecipe(
-    converted.input, recipe, options.threads, this->MakeProgress(0.0, 0.3), clock);
-  converted.input = {};
+    framed.input, recipe, options.threads, this->MakeProgress(0.0, 0.3), clock);
+  framed.input = {};
   quadrille::TargetSize target = quadrille::chooseTarget(surface, options);
   recipe.edgeLength = target.edgeLength;
   const quadrille::SizingReport limited =
@@ -96,16 +107,26 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   {
     this->AddNotice(notice);
   }
-  const auto write = [&surface](const quadrille::Level& level)
-  { return quadrille::writeLevel(level, quadrille::levelValences(surface, level.fineVertex)); };
+  const std::vector<quadrille::Vector3> positions =
+    quadrille::userPositions(surface, frame, framed.points);
+  const auto write = [&](quadrille::Level level)
+  {
+    const std::vector<quadrille::Vector3> inFrame = level.mesh.position;
+    quadrille::leaveFrame(level, frame, positions);
+    const auto data =
+      quadrille::writeLevel(level, quadrille::levelValences(surface, level.fineVertex));
+    quadrille::addFrame(data, frame, inFrame);
+    return data;
+  };
   vtkPolyData* coarse = block.output(0);
   coarse->ShallowCopy(write(hierarchy.coarse));
-  quadrille::addNumber(coarse, "TargetEdgeLength", target.edgeLength);
+  quadrille::addNumber(coarse, "TargetEdgeLength", frame.unit * target.edgeLength);
   quadrille::addCount(coarse, "TargetQuads", target.quads);
   quadrille::addStages(coarse, clock.records);
   quadrille::addRepair(coarse, surface.repair);
   quadrille::addText(coarse, "Notices", this->GetBlockNotices());
   block.output(1)->ShallowCopy(write(hierarchy.intermediate));
+  recipe.edgeLength *= frame.unit;
   quadrille::writeLog(hierarchy.log, recipe, block.outputTable(2));
   held.surface = made;
   quadrille::share(held.surface);

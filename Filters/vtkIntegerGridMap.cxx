@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIntegerGridMap.h"
 
+#include "Base/PlaceText.h"
 #include "GridMap/GridMap.h"
 #include "Pipeline/CoarsestMap.h"
+#include "Pipeline/LeaveFrame.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
+#include "QuadrilleFrame.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleStages.h"
 
@@ -65,20 +68,28 @@ vtkIntegerGridMap::~vtkIntegerGridMap() = default;
 void vtkIntegerGridMap::Execute(quadrille::Block& block)
 {
   vtkPolyData* input = block.input();
-  const quadrille::Mesh mesh = quadrille::readMesh(input);
+  const quadrille::Mesh surface = quadrille::readMesh(input);
+  quadrille::Mesh mesh = surface;
+  const quadrille::Frame frame = quadrille::enterFrame(input, mesh);
+  const quadrille::PlaceScope places(frame.centre, frame.unit, frame.sign);
   quadrille::GridMapOptions options = optionsFor(input, this->EdgeLength);
+  options.edgeLength = frame.lengthOf(options.edgeLength);
   options.method = static_cast<quadrille::MapMethod>(this->Method);
   options.anisotropyLimit = this->AnisotropyLimit;
-  options.guides = quadrille::readGuides(input, mesh);
-  options.targetValences = quadrille::readTargetValences(input, mesh);
+  options.guides = quadrille::readGuides(input, surface);
+  for (quadrille::Guide& guide : options.guides)
+  {
+    guide.direction = frame.turned(guide.direction);
+  }
+  options.targetValences = quadrille::readTargetValences(input, surface);
   options.progress = this->MakeProgress(0.0, 0.95);
   const bool coarsest = this->Integers == INTEGERS_COARSEST;
   if (coarsest && this->Method != METHOD_SCALE_AWARE)
   {
     throw quadrille::InvalidInput("the coarsest integers need the scale aware method");
   }
-  const quadrille::GridMapResult map = coarsest ? quadrille::computeCoarsestMap(mesh, options)
-                                                : quadrille::computeGridMap(mesh, options);
+  quadrille::GridMapResult map = coarsest ? quadrille::computeCoarsestMap(mesh, options)
+                                          : quadrille::computeGridMap(mesh, options);
 
   quadrille::StageClock clock;
   const std::size_t faces = mesh.faceCount();
@@ -92,17 +103,22 @@ void vtkIntegerGridMap::Execute(quadrille::Block& block)
 
   // The mesh is written anew: a map belongs to corners, and strips or split points have none.
   vtkPolyData* output = block.output();
-  output->ShallowCopy(quadrille::writeMesh(mesh));
+  output->ShallowCopy(quadrille::writeMesh(surface));
   if (input->GetNumberOfPoints() == output->GetNumberOfPoints())
   {
     output->GetPointData()->PassData(input->GetPointData());
   }
   output->GetCellData()->PassData(input->GetCellData());
   output->GetFieldData()->PassData(input->GetFieldData());
+  addIntegerVertices(output, quadrille::integerVertices(mesh, map.field));
+  if (frame.reversed)
+  {
+    quadrille::reverseMap(map.uv);
+    quadrille::reverseMatching(map.field.matching);
+  }
   quadrille::addMap(output, map.uv);
   quadrille::addMatching(output, map.field.matching);
-  quadrille::addTurns(output, mesh, map.field.turns);
-  addIntegerVertices(output, quadrille::integerVertices(mesh, map.field));
+  quadrille::addTurns(output, surface, map.field.turns);
   quadrille::addStages(output, clock.records);
   quadrille::addCertificate(output, map.certificate);
   quadrille::addMethod(output, options.method);

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkIntegerGridMapUpmap.h"
 
+#include "Base/PlaceText.h"
 #include "Mesh/ContentHash.h"
+#include "Pipeline/LeaveFrame.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
+#include "QuadrilleFrame.h"
 #include "QuadrilleLog.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleSharedLevels.h"
@@ -108,25 +111,36 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   {
     throw quadrille::InvalidInput("the surface or the log is missing");
   }
-  const quadrille::SurfaceRecipe recipe = quadrille::readRecipe(logData);
+  quadrille::SurfaceRecipe recipe = quadrille::readRecipe(logData);
   quadrille::ConvertedSurface converted =
     quadrille::convertSurface(source, recipe.patchArray, this->NumberOfThreads);
   quadrille::addFeatureMarks(converted.input, recipe.curveMarks);
+  quadrille::FramedInput framed =
+    quadrille::enterFrame(std::move(converted.input), this->NumberOfThreads);
+  const quadrille::Frame& frame = framed.frame;
+  const quadrille::PlaceScope places(frame.centre, frame.unit, frame.sign);
+  recipe.edgeLength = frame.lengthOf(recipe.edgeLength);
   quadrille::StageClock clock;
   auto& held = block.state->memoryAs<quadrille::SharedLevels>();
   held.map.reset();
-  this->FindOrPrepare(converted, recipe, clock, held);
+  this->FindOrPrepare(framed.input, recipe, clock, held);
   const quadrille::PreparedSurface& surface = held.surface->surface;
 
   const quadrille::DecimationLog log = quadrille::readLog(logData, surface.hash);
   clock.lap("log", 0, log.collapses + log.flips);
-  const quadrille::Level coarse = quadrille::readLevel(coarseData, surface.mesh);
+  quadrille::Level coarse = quadrille::readLevel(coarseData, surface.mesh);
+  std::vector<quadrille::FixedVec2> coarseUv = quadrille::readMap(coarseData);
+  if (frame.reversed)
+  {
+    quadrille::reverseFaces(coarse.mesh);
+    quadrille::reverseMap(coarseUv);
+  }
   const Expectation expected = expectationOf(surface.mesh, coarse, coarseData);
   quadrille::TransferOptions options;
   options.threads = this->NumberOfThreads;
   options.progress = this->MakeProgress(0.5, 0.9);
   quadrille::TransferResult map =
-    quadrille::transferMap(surface.mesh, coarse, log, quadrille::readMap(coarseData), options);
+    quadrille::transferMap(surface.mesh, coarse, log, coarseUv, options);
   clock.lap("replay", coarse.mesh.faceCount(), surface.mesh.faceCount());
   const quadrille::ChartCounts charts = quadrille::mergeCharts(surface.mesh, map.uv);
   clock.lap("charts", surface.mesh.faceCount(), charts.charts);
@@ -141,10 +155,16 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
     this->AddNotice("map on the surface: " + certificate.text());
     vtkWarningMacro(<< "map on the surface: " << certificate.text());
   }
+  quadrille::PreparedSurface written = surface;
+  quadrille::leaveFrame(written, frame, quadrille::userPositions(surface, frame, framed.points));
+  if (frame.reversed)
+  {
+    quadrille::reverseMap(map.uv);
+  }
   vtkPolyData* output = block.output();
   std::vector<std::string> notCarried;
-  output->ShallowCopy(quadrille::writeMappedSurface(surface, map.uv,
-    quadrille::matchingOf(surface.mesh, map.uv, this->NumberOfThreads), expected.turns, source,
+  output->ShallowCopy(quadrille::writeMappedSurface(written, map.uv,
+    quadrille::matchingOf(written.mesh, map.uv, this->NumberOfThreads), expected.turns, source,
     converted, this->TextureCoordinates != 0, this->NumberOfThreads, &notCarried));
   for (const std::string& notice : notCarried)
   {
@@ -153,12 +173,13 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   if (const auto key = quadrille::mappedSurfaceHash(output, this->NumberOfThreads);
       key && isExact(certificate))
   {
-    held.map = std::make_shared<quadrille::SharedMap>(quadrille::SharedMap{ *key, held.surface });
+    held.map = std::make_shared<quadrille::SharedMap>(quadrille::SharedMap{ *key, held.surface, frame });
     quadrille::share(held.map);
   }
   clock.lap("write", surface.mesh.faceCount(), surface.mesh.faceCount());
   this->SetStageRecords(clock.records);
   output->GetFieldData()->PassData(coarseData->GetFieldData());
+  quadrille::addFrame(output, frame, surface.mesh.position);
   quadrille::addStages(output, clock.records);
   quadrille::addCertificate(output, certificate);
   quadrille::addCount(output, "Charts", charts.charts);
@@ -170,11 +191,11 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
 }
 
 //------------------------------------------------------------------------------
-void vtkIntegerGridMapUpmap::FindOrPrepare(quadrille::ConvertedSurface& converted,
+void vtkIntegerGridMapUpmap::FindOrPrepare(quadrille::SurfaceInput& input,
   const quadrille::SurfaceRecipe& recipe, quadrille::StageClock& clock,
   quadrille::SharedLevels& held)
 {
-  const quadrille::SurfaceKey key{ quadrille::contentHash(converted.input, this->NumberOfThreads),
+  const quadrille::SurfaceKey key{ quadrille::contentHash(input, this->NumberOfThreads),
     recipe.featureAngle, recipe.edgeLength };
   if (auto found = quadrille::findSharedSurface(key))
   {
@@ -186,12 +207,12 @@ void vtkIntegerGridMapUpmap::FindOrPrepare(quadrille::ConvertedSurface& converte
     const auto made = std::make_shared<quadrille::SharedSurface>();
     made->key = key;
     made->surface = quadrille::prepareFromRecipe(
-      converted.input, recipe, this->NumberOfThreads, this->MakeProgress(0.0, 0.4), clock);
+      input, recipe, this->NumberOfThreads, this->MakeProgress(0.0, 0.4), clock);
     quadrille::refineFromRecipe(made->surface, recipe, this->MakeProgress(0.4, 0.5), clock);
     held.surface = made;
     quadrille::share(held.surface);
   }
-  converted.input = {};
+  input = {};
   clock.lap("find", 0, held.surface->surface.mesh.faceCount());
 }
 

@@ -17,8 +17,8 @@
 namespace quadrille
 {
 class StageClock;
-struct ConvertedSurface;
 struct SharedLevels;
+struct SurfaceInput;
 struct SurfaceRecipe;
 }
 
@@ -50,7 +50,7 @@ protected:
 
 private:
   /// The finest level: what a filter of this process holds, else made from the surface, whose conversion is let go.
-  void FindOrPrepare(quadrille::ConvertedSurface& converted, const quadrille::SurfaceRecipe& recipe,
+  void FindOrPrepare(quadrille::SurfaceInput& input, const quadrille::SurfaceRecipe& recipe,
     quadrille::StageClock& clock, quadrille::SharedLevels& held);
 
   vtkIntegerGridMapUpmap(const vtkIntegerGridMapUpmap&) = delete;

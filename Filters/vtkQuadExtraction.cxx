@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadExtraction.h"
 
+#include "Base/PlaceText.h"
 #include "Extraction/Extraction.h"
+#include "Pipeline/LeaveFrame.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
+#include "QuadrilleFrame.h"
 #include "QuadrilleMappedInput.h"
 #include "QuadrilleQuads.h"
 #include "QuadrilleReport.h"
@@ -196,7 +199,14 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
   quadrille::StageClock clock;
   const quadrille::MappedInput mapped =
     quadrille::readMappedInput(input, this->TextureScale, this->NumberOfThreads);
-  const quadrille::Mesh& mesh = mapped.mesh();
+  const quadrille::Mesh& mesh = mapped.mesh;
+  const quadrille::Frame& frame = mapped.frame;
+  const quadrille::PlaceScope places(frame.centre, frame.unit, frame.sign);
+  std::vector<quadrille::FixedVec2> uvInFrame = mapped.map.uv;
+  if (frame.reversed)
+  {
+    quadrille::reverseMap(uvInFrame);
+  }
   clock.lap("read", mesh.faceCount(), mesh.faceCount());
   if (const std::string notice = mapped.notice(); !notice.empty())
   {
@@ -209,11 +219,13 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
   options.threads = this->NumberOfThreads;
   options.fixedVertices = quadrille::requestedVertices(input, mesh);
   options.progress = this->MakeProgress(0.0, 0.95);
-  const quadrille::ExtractionResult result = quadrille::extractQuads(mesh, mapped.map.uv, options);
+  quadrille::ExtractionResult result =
+    quadrille::extractQuads(mapped.meshInFrame(), uvInFrame, options);
   clock.lap("extract", mesh.faceCount(), result.mesh.quads.size());
   this->SetStageRecords(clock.records);
   quadrille::requireOk(result.status, "the extraction of quads");
-  for (const std::string& notice : boundaryNotices(result, mesh))
+  quadrille::leaveFrame(result.mesh, mapped.meshInFrame(), frame, mesh.position);
+  for (const std::string& notice : boundaryNotices(result, mapped.meshInFrame()))
   {
     this->AddNotice(notice);
   }
@@ -228,6 +240,7 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
   }
   vtkPolyData* quads = block.output(0);
   quads->ShallowCopy(written.quads);
+  quads->GetFieldData()->RemoveArray(quadrille::arrays::kFrame); // of the mapped surface
   quadrille::addStages(quads, clock.records);
   quadrille::addMapReport(quads, mapped);
   addBoundaryReport(quads, result, mesh);

@@ -7,6 +7,7 @@
 #include "QuadrilleBlocks.h"
 #include "QuadrilleConstraints.h"
 #include "QuadrilleConvert.h"
+#include "QuadrilleFrame.h"
 #include "QuadrilleQuads.h"
 #include "QuadrilleReport.h"
 
@@ -202,6 +203,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
     mapped->ShallowCopy(quadrille::writeMappedSurface(result.surface, result.uv,
       quadrille::matchingOf(result.surface.mesh, result.uv, this->NumberOfThreads), result.turns,
       input, converted, this->TextureCoordinates != 0, this->NumberOfThreads));
+    quadrille::addFrame(mapped, result.frame, result.framePositions);
     quadrille::addMethod(mapped, options.method);
     quadrille::addAnisotropy(mapped, options.anisotropyLimit, result.beyondAnisotropyLimit);
     quadrille::addCertificate(mapped, result.certificate);

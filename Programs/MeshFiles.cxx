@@ -20,6 +20,7 @@
 #include <vtkOBJReader.h>
 #include <vtkPLYWriter.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataReader.h>
 #include <vtkQuadrillePLYReader.h>
@@ -32,12 +33,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 
 namespace quadrille
@@ -147,6 +152,129 @@ void checkStl(const std::string& path)
       "is no STL file, or cut off: it announces " + std::to_string(triangles) +
         " triangles and has " + std::to_string(size) + " bytes");
   }
+}
+
+/// Far from the origin single precision has lost what tells points apart: where a coordinate is above so many sides of the box.
+constexpr double kFarSides = 4;
+
+bool isFar(vtkPolyData* mesh)
+{
+  double box[6];
+  mesh->GetBounds(box);
+  double side = 0;
+  double largest = 0;
+  for (int k = 0; k < 3; ++k)
+  {
+    side = std::max(side, box[2 * k + 1] - box[2 * k]);
+    largest = std::max({ largest, std::abs(box[2 * k]), std::abs(box[2 * k + 1]) });
+  }
+  return largest > kFarSides * side;
+}
+
+//------------------------------------------------------------------------------
+// Digits that VTK's OBJ reader leaves out
+
+using Coordinates = std::array<double, 3>;
+
+/// Of the lines "v x y z".
+std::vector<Coordinates> readObjPoints(const std::string& path)
+{
+  std::vector<Coordinates> points;
+  std::ifstream file(path);
+  std::string line;
+  while (std::getline(file, line))
+  {
+    Coordinates p{};
+    if (std::sscanf(line.c_str(), " v %lf %lf %lf", &p[0], &p[1], &p[2]) == 3)
+    {
+      points.push_back(p);
+    }
+  }
+  return points;
+}
+
+std::array<float, 3> inSinglePrecision(const Coordinates& p)
+{
+  return { static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]) };
+}
+
+/// Points of the file by those of the reader: in their order where the reader keeps it, else by their values, as it makes copies at
+/// seams of textures. Empty where two points of the file are one in single precision.
+std::vector<Coordinates> matchObjPoints(const std::vector<Coordinates>& inFile, vtkPoints* read)
+{
+  const auto count = static_cast<std::size_t>(read->GetNumberOfPoints());
+  std::vector<std::array<float, 3>> values(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    Coordinates p{};
+    read->GetPoint(static_cast<vtkIdType>(i), p.data());
+    values[i] = inSinglePrecision(p);
+  }
+  const auto fits = [&](std::size_t i) { return inSinglePrecision(inFile[i]) == values[i]; };
+  bool inOrder = count == inFile.size();
+  for (std::size_t i = 0; inOrder && i < count; ++i)
+  {
+    inOrder = fits(i);
+  }
+  if (inOrder)
+  {
+    return inFile;
+  }
+  std::map<std::array<float, 3>, Coordinates> byValue;
+  for (const Coordinates& p : inFile)
+  {
+    if (byValue.emplace(inSinglePrecision(p), p).first->second != p)
+    {
+      return {};
+    }
+  }
+  std::vector<Coordinates> matched(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const auto found = byValue.find(values[i]);
+    if (found == byValue.end())
+    {
+      return {};
+    }
+    matched[i] = found->second;
+  }
+  return matched;
+}
+
+bool isMoreThanFloat(const Coordinates& p)
+{
+  return std::any_of(p.begin(), p.end(),
+    [](double x) { return static_cast<double>(static_cast<float>(x)) != x; });
+}
+
+/// vtkOBJReader keeps single precision: far from the origin the digits of the file are read again.
+vtkSmartPointer<vtkPolyData> readObj(const std::string& path)
+{
+  vtkSmartPointer<vtkPolyData> data = readWith<vtkOBJReader>(path);
+  if (data->GetNumberOfPoints() == 0 || !isFar(data))
+  {
+    return data;
+  }
+  const std::vector<Coordinates> inFile = readObjPoints(path);
+  if (std::none_of(inFile.begin(), inFile.end(), isMoreThanFloat))
+  {
+    return data;
+  }
+  const std::vector<Coordinates> points = matchObjPoints(inFile, data->GetPoints());
+  if (points.empty())
+  {
+    fail(path,
+      "lies so far from the origin that its points are not told apart in single precision, which is what its "
+      "reader has: remove the texture coordinates, move it to the origin, or save it as PLY or VTP in double precision");
+  }
+  vtkNew<vtkPoints> inDouble;
+  inDouble->SetDataTypeToDouble();
+  for (const Coordinates& p : points)
+  {
+    inDouble->InsertNextPoint(p.data());
+  }
+  data->SetPoints(inDouble);
+  return data;
 }
 
 //------------------------------------------------------------------------------
@@ -272,8 +400,50 @@ void writeVtu(vtkPolyData* mesh, const std::string& path)
   runWriter(writer.Get(), path);
 }
 
+template <class Value>
+void writeValue(std::FILE* file, Value value)
+{
+  std::fwrite(&value, sizeof(value), 1, file);
+}
+
+/// vtkPLYWriter writes floats only. Points and faces, in the byte order of this machine, which is little-endian.
+void writePlyInDouble(vtkPolyData* mesh, const std::string& path)
+{
+  File file = openForWriting(path);
+  std::fprintf(file.get(),
+    "ply\nformat binary_little_endian 1.0\ncomment quad mesh made by Quadrille\n"
+    "element vertex %lld\nproperty double x\nproperty double y\nproperty double z\n"
+    "element face %lld\nproperty list uchar int vertex_indices\nend_header\n",
+    static_cast<long long>(mesh->GetNumberOfPoints()),
+    static_cast<long long>(mesh->GetNumberOfPolys()));
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    mesh->GetPoint(i, p);
+    std::fwrite(p, sizeof(p), 1, file.get());
+  }
+  auto cells = vtk::TakeSmartPointer(mesh->GetPolys()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    cells->GetCurrentCell(count, ids);
+    writeValue(file.get(), static_cast<unsigned char>(count));
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      writeValue(file.get(), static_cast<std::int32_t>(ids[i]));
+    }
+  }
+  finish(file, path);
+}
+
 void writePly(vtkPolyData* mesh, const std::string& path)
 {
+  if (isFar(mesh))
+  {
+    writePlyInDouble(mesh, path);
+    return;
+  }
   vtkNew<vtkPLYWriter> writer;
   writer->SetInputData(mesh);
   writer->SetFileTypeToBinary();
@@ -328,7 +498,7 @@ vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
   }
   if (extension == "obj")
   {
-    return readWith<vtkOBJReader>(path);
+    return readObj(path);
   }
   if (extension == "stl")
   {

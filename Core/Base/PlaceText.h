@@ -5,18 +5,34 @@
 
 #include "Base/Types.h"
 
-#include <sstream>
 #include <string>
 
 namespace quadrille
 {
 
-/// "(x, y, z)"
-inline std::string placeText(const Vector3& p)
+/// Where a run works in coordinates of its own (see Mesh/Frame.h), messages of the thread that makes the scope name places in those of the
+/// user: centre + unit * sign . p. Scopes nest; the innermost one counts.
+class PlaceScope
 {
-  std::ostringstream text;
-  text << "(" << p.x() << ", " << p.y() << ", " << p.z() << ")";
-  return text.str();
-}
+public:
+  PlaceScope() : PlaceScope(Vector3::Zero(), 1, Vector3::Ones()) {}
+  PlaceScope(const Vector3& centre, double unit, const Vector3& sign);
+  ~PlaceScope();
+  PlaceScope(const PlaceScope&) = delete;
+  PlaceScope& operator=(const PlaceScope&) = delete;
+
+  void set(const Vector3& centre, double unit, const Vector3& sign);
+
+private:
+  friend std::string placeText(const Vector3& p);
+
+  Vector3 centre_;
+  double unit_;
+  Vector3 sign_;
+  PlaceScope* outer_;
+};
+
+/// "(x, y, z)", with as many digits as it takes to tell places apart that lie a thousandth of the surface's size from each other.
+std::string placeText(const Vector3& p);
 
 } // namespace quadrille

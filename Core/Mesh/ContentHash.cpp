@@ -76,7 +76,7 @@ std::uint64_t contentHash(const SurfaceInput& input, int threads)
 {
   // By name, so that an array that is new has to be put on one side or the other here.
   const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, guideDirections,
-    guideWeights, targetValences, sizing] = input;
+    guideWeights, targetValences, sizing, faceOrder, precision] = input;
   static_cast<void>(guideDirections);
   static_cast<void>(guideWeights);
   static_cast<void>(targetValences);
@@ -85,7 +85,9 @@ std::uint64_t contentHash(const SurfaceInput& input, int threads)
   hash = mix(hash, hashVector(polygonPoints, threads));
   hash = mix(hash, hashVector(featureEdges, threads));
   hash = mix(hash, hashVector(patchIds, threads));
-  return mix(hash, hashVector(sizing, threads));
+  hash = mix(hash, hashVector(sizing, threads));
+  hash = mix(hash, static_cast<std::uint64_t>(faceOrder));
+  return mix(hash, hashVector(std::vector<double>{ precision }, 1));
 }
 
 } // namespace quadrille

@@ -19,9 +19,11 @@ namespace
 
 constexpr std::size_t kChunk = 65536;
 
-/// Coordinates often come as float: below this height over the size of the surface (or the largest
-/// coordinate) a face's normal can be off by degrees.
+/// Coordinates often come as float, even where they are double now: below this height over the size of the surface a face's
+/// normal can be off by degrees.
 constexpr double kReliableHeight = 1e-6;
+/// The same over the precision of the coordinates, where that is worse.
+constexpr double kReliableSteps = 16;
 
 constexpr int kMostSliversInARow = 16;
 
@@ -40,12 +42,12 @@ double sizeOf(const Mesh& mesh)
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  return std::max((high - low).norm(), std::max(high.maxCoeff(), -low.minCoeff()));
+  return (high - low).norm();
 }
 
-FaceNormals computeNormals(const Mesh& mesh, int threads)
+FaceNormals computeNormals(const Mesh& mesh, double precision, int threads)
 {
-  const double height = kReliableHeight * sizeOf(mesh);
+  const double height = std::max(kReliableHeight * sizeOf(mesh), kReliableSteps * precision);
   FaceNormals normals;
   normals.reliable.resize(mesh.faceCount());
   growLarge(normals.normal, mesh.faceCount());
@@ -129,14 +131,14 @@ void markSharpEdges(Mesh& mesh, const FaceNormals& normals, double angle, int th
 
 } // namespace
 
-void markFeaturesByAngle(Mesh& mesh, double angle, int threads)
+void markFeaturesByAngle(Mesh& mesh, double angle, int threads, double precision)
 {
-  markSharpEdges(mesh, computeNormals(mesh, threads), angle, threads);
+  markSharpEdges(mesh, computeNormals(mesh, precision, threads), angle, threads);
 }
 
-FacetReport markCreases(Mesh& mesh, double angle, int threads)
+FacetReport markCreases(Mesh& mesh, double angle, int threads, double precision)
 {
-  const FaceNormals normals = computeNormals(mesh, threads);
+  const FaceNormals normals = computeNormals(mesh, precision, threads);
   markSharpEdges(mesh, normals, angle, threads);
   const auto angleOf = [&](Index h)
   {

@@ -10,12 +10,12 @@ namespace quadrille
 
 /// Flags, on both half-edges, the inner edges whose face normals differ by more than `angle` (radians).
 /// Slivers, whose normals are rounding noise, count with the normal of the face beyond their longest
-/// edge, so that they make no features of their own.
-void markFeaturesByAngle(Mesh& mesh, double angle, int threads);
+/// edge, so that they make no features of their own. precision: see SurfaceInput.
+void markFeaturesByAngle(Mesh& mesh, double angle, int threads, double precision = 0);
 
 /// As markFeaturesByAngle, but for edges that do not stand out from their surroundings (see edgesOfFacets): those of the facets of a
 /// coarse or noisy sampling of a smooth surface. Features that were marked before stay.
-FacetReport markCreases(Mesh& mesh, double angle, int threads);
+FacetReport markCreases(Mesh& mesh, double angle, int threads, double precision = 0);
 
 /// Flags the edges between faces whose source polygons have different patch ids.
 void markFeaturesByPatch(PreparedSurface& surface, const std::vector<std::int64_t>& patchIds);

@@ -64,7 +64,8 @@ void markFeatures(
   }
   if (options.featureAngle)
   {
-    surface.facets = markCreases(surface.mesh, *options.featureAngle, options.threads);
+    surface.facets =
+      markCreases(surface.mesh, *options.featureAngle, options.threads, input.precision);
   }
   makeFlagsSymmetric(surface.mesh);
 }

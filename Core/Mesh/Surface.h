@@ -18,6 +18,14 @@
 namespace quadrille
 {
 
+/// How the corners of a polygon are taken.
+enum class FaceOrder
+{
+  AsGiven,    ///< one after the other from the first one on
+  FromLowest, ///< from the lowest point id on
+  Reversed    ///< from the lowest point id on, the other way round
+};
+
 /// What the user hands in. Nothing is assumed about it.
 struct SurfaceInput
 {
@@ -34,6 +42,9 @@ struct SurfaceInput
   std::vector<int> targetValences; ///< empty or #points; 0: free, else see ValenceRequest
   /// Empty or #points: the edge length that quads should have there as a multiple of the target edge length, > 0.
   std::vector<float> sizing;
+  FaceOrder faceOrder = FaceOrder::AsGiven; ///< see Frame.h
+  /// By how much coordinates may differ from what was meant, in units of the points, >= 0; 0: not known.
+  double precision = 0;
 };
 
 struct PrepareOptions

@@ -34,16 +34,64 @@ void appendTriangle(PreparedSurface& surface, Index polygon, const std::array<In
   surface.sourcePoints.push_back(points);
 }
 
+/// The polygon's corners in the order that is asked for.
+class CornerOrder
+{
+public:
+  CornerOrder(const Index* points, Index count, FaceOrder order)
+    : count_(count), order_(order),
+      first_(order == FaceOrder::AsGiven
+          ? 0
+          : static_cast<Index>(std::min_element(points, points + count) - points))
+  {
+  }
+  /// The polygon's own number of corner i.
+  Index corner(Index i) const
+  {
+    return (order_ == FaceOrder::Reversed ? first_ + count_ - i : first_ + i) % count_;
+  }
+  /// The polygon's own number of the edge that follows corner i.
+  Index edge(Index i) const
+  {
+    return order_ == FaceOrder::Reversed ? corner(i + 1) : corner(i);
+  }
+
+private:
+  Index count_;
+  FaceOrder order_;
+  Index first_;
+};
+
+struct Triangle
+{
+  std::array<Index, 3> points{};
+  std::uint8_t features = 0;
+};
+
+Triangle orderedTriangle(const Index* points, unsigned features, FaceOrder faceOrder)
+{
+  const CornerOrder order(points, 3, faceOrder);
+  Triangle triangle;
+  for (Index i = 0; i < 3; ++i)
+  {
+    triangle.points[i] = points[order.corner(i)];
+    triangle.features = static_cast<std::uint8_t>(
+      triangle.features | (features >> order.edge(i) & 1U) << i);
+  }
+  return triangle;
+}
+
 /// The polygon's corners without those that repeat the one before.
 std::vector<Corner> distinctCorners(
   const SurfaceInput& input, Index begin, Index end, unsigned features)
 {
   std::vector<Corner> corners;
-  for (Index i = begin; i < end; ++i)
+  const CornerOrder order(input.polygonPoints.data() + begin, end - begin, input.faceOrder);
+  for (Index i = 0; i < end - begin; ++i)
   {
     // A byte holds the first eight edges only.
-    const bool feature = i - begin < 8 && (features >> (i - begin) & 1u) != 0;
-    const Index point = input.polygonPoints[i];
+    const bool feature = order.edge(i) < 8 && (features >> order.edge(i) & 1u) != 0;
+    const Index point = input.polygonPoints[begin + order.corner(i)];
     if (!corners.empty() && corners.back().point == point)
     {
       corners.back().feature = feature;
@@ -225,22 +273,23 @@ bool hasOnlyTriangles(const SurfaceInput& input)
 void copyTriangles(const SurfaceInput& input, PreparedSurface& surface)
 {
   const std::size_t faces = input.polygonOffsets.size() - 1;
-  copyLarge(input.polygonPoints, surface.mesh.origin);
+  growLarge(surface.mesh.origin, 3 * faces);
+  growLarge(surface.mesh.flags, 3 * faces);
   surface.sourcePoints.reserve(faces);
   surface.sourcePolygon.reserve(faces);
   for (std::size_t f = 0; f < faces; ++f)
   {
     pollNowAndThen(f);
-    const Index* p = input.polygonPoints.data() + 3 * f;
-    surface.sourcePoints.push_back({ p[0], p[1], p[2] });
+    const Triangle triangle = orderedTriangle(input.polygonPoints.data() + 3 * f,
+      input.featureEdges.empty() ? 0 : input.featureEdges[f], input.faceOrder);
+    surface.sourcePoints.push_back(triangle.points);
     surface.sourcePolygon.push_back(static_cast<Index>(f));
-  }
-  surface.mesh.flags.assign(3 * faces, 0);
-  for (std::size_t h = 0; h < 3 * faces && !input.featureEdges.empty(); ++h)
-  {
-    pollNowAndThen(h);
-    const bool feature = (input.featureEdges[h / 3] >> h % 3 & 1) != 0;
-    surface.mesh.flags[h] = feature ? kFeatureEdge | kRequestedFeature : 0;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      surface.mesh.origin[3 * f + i] = triangle.points[i];
+      surface.mesh.flags[3 * f + i] =
+        (triangle.features >> i & 1) != 0 ? kFeatureEdge | kRequestedFeature : 0;
+    }
   }
 }
 
@@ -264,9 +313,10 @@ void triangulate(const SurfaceInput& input, PreparedSurface& surface)
     pollNowAndThen(polygon);
     if (isProperTriangle(input, polygon))
     {
-      const Index* p = input.polygonPoints.data() + input.polygonOffsets[polygon];
-      appendTriangle(surface, polygon, { p[0], p[1], p[2] },
-        input.featureEdges.empty() ? 0 : input.featureEdges[polygon]);
+      const Triangle triangle =
+        orderedTriangle(input.polygonPoints.data() + input.polygonOffsets[polygon],
+          input.featureEdges.empty() ? 0 : input.featureEdges[polygon], input.faceOrder);
+      appendTriangle(surface, polygon, triangle.points, triangle.features);
     }
     else
     {

@@ -11,10 +11,12 @@
 #include "Mesh/CloseHandles.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/FeatureFilter.h"
+#include "Mesh/Frame.h"
 #include "Mesh/RepairText.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/SmallComponents.h"
 #include "Pipeline/CoarsestMap.h"
+#include "Pipeline/LeaveFrame.h"
 #include "Pipeline/Notices.h"
 #include "Transfer/PackedMap.h"
 #include "Transfer/SurfaceStretch.h"
@@ -148,19 +150,62 @@ public:
       {
         run();
       }
+      letLevelsGo();
+      leave();
     }
     catch (const Cancelled&)
     {
-      result_.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
-      result_.quads = {};
+      letLevelsGo();
+      leaveNothing();
     }
-    letLevelsGo();
     return std::move(result_);
   }
 
 private:
+  /// What was under work when it was stopped is in the run's own coordinates, or half made.
+  void leaveNothing()
+  {
+    result_.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+    result_.quads = {};
+    result_.surface = {};
+    result_.uv.clear();
+    result_.turns.clear();
+    result_.coarse = {};
+    result_.coarseUv.clear();
+    result_.coarseTurns.clear();
+  }
+
+  void leave()
+  {
+    result_.frame = frame_;
+    if (options_.mergeCharts && result_.status.ok())
+    {
+      result_.framePositions = result_.surface.mesh.position;
+    }
+    leaveFrame(result_, frame_, userPoints_);
+    if (askedEdgeLength_ && !options_.quads)
+    {
+      result_.targetEdgeLength = *askedEdgeLength_; // with every bit
+    }
+  }
+
+  void enter()
+  {
+    FramedInput framed = enterFrame(std::move(input_), options_.threads);
+    input_ = std::move(framed.input);
+    frame_ = framed.frame;
+    userPoints_ = std::move(framed.points);
+    places_.set(frame_.centre, frame_.unit, frame_.sign);
+    if (options_.edgeLength)
+    {
+      askedEdgeLength_ = options_.edgeLength;
+      options_.edgeLength = frame_.lengthOf(*options_.edgeLength);
+    }
+  }
+
   void run()
   {
+    enter();
     prepare();
     chooseEdgeLength();
     limitSizes();
@@ -379,12 +424,13 @@ private:
     if (options_.quads)
     {
       result_.targetQuads = *options_.quads;
-      result_.targetEdgeLength = std::sqrt(area / static_cast<double>(*options_.quads));
+      result_.targetEdgeLength =
+        roundedLength(std::sqrt(area / static_cast<double>(*options_.quads)));
       return;
     }
     result_.targetEdgeLength = options_.edgeLength
       ? *options_.edgeLength
-      : options_.relativeEdgeLength * result_.surface.boundingBoxDiagonal;
+      : roundedLength(options_.relativeEdgeLength * result_.surface.boundingBoxDiagonal);
     predictQuads();
   }
 
@@ -1100,7 +1146,7 @@ private:
     const double s = result_.targetEdgeLength;
     const double factor = kQuadsOfLoop * s / length;
     const double quads = std::ceil(static_cast<double>(result_.targetQuads) * factor * factor);
-    text << length << " = " << length / s << " edge lengths near " << placeText(place) << ": ";
+    text << length * frame_.unit << " = " << length / s << " edge lengths near " << placeText(place) << ": ";
     if (quads <= static_cast<double>(options_.maximumNumberOfQuads))
     {
       text << "ask for smaller quads (about " << static_cast<std::size_t>(quads)
@@ -1585,7 +1631,11 @@ private:
     return true;
   }
 
-  SurfaceInput input_; ///< empty once the surface is prepared
+  SurfaceInput input_; ///< in the frame from enter() on; empty once the surface is prepared
+  Frame frame_;
+  std::vector<Vector3> userPoints_; ///< of the input, as they came
+  PlaceScope places_;
+  std::optional<double> askedEdgeLength_; ///< in units of the input
   RemeshOptions options_;
   PollScope poll_;
   RemeshResult result_;

@@ -8,6 +8,7 @@
 #include "Extraction/Extraction.h"
 #include "GridMap/GridMap.h"
 #include "Hierarchy/Hierarchy.h"
+#include "Mesh/Frame.h"
 #include "Mesh/Handles.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Estimate.h"
@@ -95,7 +96,9 @@ struct RemeshResult
 {
   Status status;
   QuadMesh quads;
-  PreparedSurface surface;   ///< the finest level that uv belongs to
+  PreparedSurface surface;   ///< the finest level that uv belongs to; its hash is that of the surface in its frame
+  Frame frame;               ///< that the run worked in; all else here is on the user's surface
+  std::vector<Vector3> framePositions; ///< #V of surface.mesh, in the frame; empty unless mergeCharts
   std::vector<FixedVec2> uv; ///< #H of surface.mesh
   std::vector<int> turns;    ///< #V of surface.mesh
   Level coarse;              ///< coarse mesh
@@ -125,7 +128,8 @@ struct RemeshResult
     notices; ///< what the user should know: repairs, raised budgets, refinement
 };
 
-/// Runs everything. Throws InvalidInput for bad input or options; any other failure, cancel included, is a
+/// Runs everything, in coordinates of its own (see Mesh/Frame.h): of a surface that is shifted, scaled or mirrored it makes the same quads,
+/// shifted, scaled or mirrored, up to rounding. Throws InvalidInput for bad input or options; any other failure, cancel included, is a
 /// status and leaves `quads` empty. The input's memory (about 30 bytes a triangle) is let go as soon as the surface is prepared:
 /// move it in where it is not needed any more.
 RemeshResult remesh(SurfaceInput input, const RemeshOptions& options);

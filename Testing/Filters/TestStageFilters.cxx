@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/QuadShape.h"
 #include "QuadrilleConvert.h"
+#include "QuadrilleFrame.h"
 #include "TestSurfaces.h"
 
 #include <vtkCellArray.h>
@@ -22,6 +23,8 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace quadrille
 {
@@ -57,6 +60,26 @@ std::vector<Vector3> pointsOf(vtkPolyData* data)
     points.push_back(Vector3(data->GetPoint(i)));
   }
   return points;
+}
+
+/// Positive where faces look outwards.
+double volumeOf(vtkPolyData* data)
+{
+  vtkNew<vtkIdList> ids;
+  const Vector3 base(data->GetPoint(0));
+  double volume = 0;
+  for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c)
+  {
+    data->GetCellPoints(c, ids);
+    for (vtkIdType i = 2; i < ids->GetNumberOfIds(); ++i)
+    {
+      const Vector3 a = Vector3(data->GetPoint(ids->GetId(0))) - base;
+      const Vector3 b = Vector3(data->GetPoint(ids->GetId(i - 1))) - base;
+      const Vector3 d = Vector3(data->GetPoint(ids->GetId(i))) - base;
+      volume += a.dot(b.cross(d)) / 6;
+    }
+  }
+  return volume;
 }
 
 vtkSmartPointer<vtkQuadRemesh> inOneClick(vtkPolyData* input)
@@ -196,7 +219,7 @@ TEST(StageFilters, NothingIsFoundForASurfaceThatHasChanged)
   chain.extraction->Update();
   auto* points = vtkDoubleArray::SafeDownCast(input->GetPoints()->GetData());
   ASSERT_NE(points, nullptr);
-  points->GetPointer(0)[0] += 1e-9;
+  points->GetPointer(0)[0] += 1e-3; // more than a step of the grid that a run works on
   vtkNew<vtkIntegerGridMapUpmap> upmap;
   upmap->SetInputData(0, chain.map->GetOutput());
   upmap->SetInputData(1, input);
@@ -218,6 +241,52 @@ TEST(StageFilters, NothingIsFoundForASurfaceThatHasChanged)
   const test::Messages ofExtraction(extraction);
   extraction->Update();
   EXPECT_EQ(extraction->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+}
+
+/// Far from the origin, and as a mirror image with its faces as they were (so that they look inwards) or turned round.
+TEST(StageFilters, ChainEqualsOneClickFarAwayAndInTheMirror)
+{
+  for (const bool mirrored : { false, true })
+  {
+    for (const bool reversed : { false, true })
+    {
+      Mesh mesh = test::torus(80, 40);
+      for (Vector3& p : mesh.position)
+      {
+        p = Vector3((mirrored ? -1 : 1) * p.x() + 30000, p.y() - 20000, p.z());
+      }
+      if (reversed)
+      {
+        reverseFaces(mesh);
+      }
+      const vtkSmartPointer<vtkPolyData> input = test::toPolyData(mesh);
+      Chain chain(input);
+      chain.extraction->Update();
+      ASSERT_EQ(chain.extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
+        << chain.hierarchy->GetOutcomeText() << chain.map->GetOutcomeText()
+        << chain.upmap->GetOutcomeText() << chain.extraction->GetOutcomeText();
+      const vtkSmartPointer<vtkQuadRemesh> oneClick = inOneClick(input);
+      ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+      EXPECT_EQ(pointsOf(chain.extraction->GetOutput()), pointsOf(oneClick->GetOutput()));
+      // Levels and the mapped surface have the points of the input, and faces that look where the input's look.
+      const std::vector<Vector3> points = pointsOf(input);
+      for (vtkPolyData* level : { chain.hierarchy->GetOutput(), chain.map->GetOutput(),
+             chain.upmap->GetOutput(), vtkPolyData::SafeDownCast(oneClick->GetOutputDataObject(1)) })
+      {
+        const std::vector<Vector3> own = pointsOf(level);
+        for (const Vector3& p : own)
+        {
+          ASSERT_NE(std::find(points.begin(), points.end(), p), points.end());
+        }
+        EXPECT_EQ(volumeOf(level) > 0, volumeOf(input) > 0);
+        vtkDataArray* determinant = level->GetCellData()->GetArray(arrays::kDeterminant);
+        EXPECT_TRUE(level == chain.hierarchy->GetOutput() || determinant->GetRange()[0] > 0);
+      }
+      EXPECT_EQ(volumeOf(chain.extraction->GetOutput()) > 0, volumeOf(input) > 0);
+      EXPECT_NEAR(volumeOf(chain.extraction->GetOutput()) / volumeOf(input), 1, 0.05);
+      EXPECT_FALSE(chain.extraction->GetOutput()->GetPointData()->HasArray(arrays::kFramePosition));
+    }
+  }
 }
 
 /// The method of the map is a property of its stage; the later ones know from it what the map promises.

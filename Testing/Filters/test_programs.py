@@ -109,6 +109,62 @@ class Case(unittest.TestCase):
 
 
 class Formats(Case):
+    def test_far_from_the_origin_all_formats_keep_the_digits(self):
+        """A map in metres: single precision knows half of one there."""
+        shift = (4500000.125, 5400000.25, 300.5)
+        points, faces = torus()
+        far = [tuple(x + s for x, s in zip(p, shift)) for p in points]
+        off, obj = self.folder / "far.off", self.folder / "far.obj"
+        off.write_text(f"OFF\n{len(far)} {len(faces)} 0\n" + "".join("%.17g %.17g %.17g\n" % p for p in far) +
+                       "".join("3 %d %d %d\n" % f for f in faces))
+        obj.write_text("".join("v %.17g %.17g %.17g\n" % p for p in far) +
+                       "".join("f %d %d %d\n" % tuple(v + 1 for v in f) for f in faces))
+        self.run_quadrille(self.write_off("near.off"), self.folder / "near.obj", "--quads", 300)
+        near = self.obj_points(self.folder / "near.obj")
+        for source in (off, obj):
+            results = {}
+            for extension in ("obj", "ply", "vtp", "vtu"):
+                target = self.folder / f"{source.suffix[1:]}.{extension}"
+                self.run_quadrille(source, target, "--quads", 300)
+                results[extension] = self.points_of(target)
+            # VTK's reader of Exodus files has single precision, the file has more: a NetCDF variable of type 6, double.
+            target = self.folder / f"{source.suffix[1:]}.ex2"
+            self.run_quadrille(source, target, "--quads", 300)
+            data = target.read_bytes()
+            at = data.find(b"coordx")
+            kind, _, begin = struct.unpack(">IIQ", data[at + 24:at + 40])
+            self.assertEqual(kind, 6)
+            self.assertEqual(struct.unpack(">5d", data[begin:begin + 40]), tuple(p[0] for p in results["vtp"][:5]))
+            for extension, found in results.items():
+                self.assertEqual(found, results["vtp"], f"{source.suffix} {extension}")
+            self.assertEqual(len(results["vtp"]), len(near))
+            for p, q in zip(results["vtp"], near):
+                self.assertLess(math.dist([a - b for a, b in zip(p, shift)], q), 1e-7)
+
+    def test_an_obj_file_that_its_reader_cannot_tell_apart_is_refused(self):
+        points, faces = torus()
+        path = self.folder / "textured.obj"
+        path.write_text("".join("v %.17g %.17g %.17g\n" % (x + 4.5e6, y, z) for x, y, z in points) +
+                        "vt 0 0\nvt 1 1\n" +
+                        "".join("f %d/1 %d/2 %d/1\n" % tuple(v + 1 for v in f) for f in faces))
+        result = self.run_quadrille(path, self.folder / "out.obj", expect=2)
+        self.assertIn("texture coordinates", result.stderr)
+
+    @staticmethod
+    def obj_points(path):
+        return [tuple(map(float, line.split()[1:])) for line in path.read_text().splitlines() if line.startswith("v ")]
+
+    def points_of(self, path):
+        if path.suffix == ".obj":
+            return self.obj_points(path)
+        if path.suffix == ".ply":
+            header, body = path.read_bytes().split(b"end_header\n", 1)
+            self.assertIn(b"property double x", header)
+            count = int(header.split(b"element vertex ")[1].split()[0])
+            return list(struct.iter_unpack("<ddd", body[:24 * count]))
+        data = read(vtkXMLPolyDataReader() if path.suffix == ".vtp" else vtkXMLUnstructuredGridReader(), path)
+        return [data.GetPoint(i) for i in range(data.GetNumberOfPoints())]
+
     def test_reads_every_input(self):
         mesh = quadrille.to_polydata(*torus())
         self.write_off()

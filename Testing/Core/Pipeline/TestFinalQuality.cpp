@@ -63,10 +63,11 @@ void expectLessDistortion(const SurfaceInput& input, std::size_t quads)
     const RemeshResult fine = solve(input, level, quads);
     ASSERT_TRUE(fine.status.ok()) << fine.status.message;
     EXPECT_TRUE(fine.finalQuality.improved) << fine.finalQuality.notice;
-    EXPECT_EQ(fine.finalQuality.before.mean, carried);
+    // The run measures in its own coordinates, which are on a grid.
+    EXPECT_NEAR(fine.finalQuality.before.mean, carried, 1e-6);
     EXPECT_LT(fine.finalQuality.after.mean, least);
     least = fine.finalQuality.after.mean;
-    EXPECT_EQ(measureDistortion(fine.surface.mesh, fine.uv).mean, least);
+    EXPECT_NEAR(measureDistortion(fine.surface.mesh, fine.uv).mean, least, 1e-6);
     EXPECT_TRUE(fine.certificate.valid()) << fine.certificate.text();
     // The integers are the same, so is all that can be counted.
     EXPECT_EQ(fine.certificate.area, coarse.certificate.area);

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Base/PlaceText.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace quadrille
+{
+
+namespace
+{
+
+thread_local PlaceScope* currentScope = nullptr;
+
+/// What a stream takes by default.
+constexpr int kLeastDigits = 6;
+constexpr int kMostDigits = 17;
+
+/// Of places that lie `unit` from each other at most.
+int digitsFor(double magnitude, double unit)
+{
+  if (!(magnitude > unit))
+  {
+    return kLeastDigits;
+  }
+  return std::min(kMostDigits, kLeastDigits + static_cast<int>(std::ceil(std::log10(magnitude / unit))));
+}
+
+} // namespace
+
+PlaceScope::PlaceScope(const Vector3& centre, double unit, const Vector3& sign)
+  : centre_(centre), unit_(unit), sign_(sign), outer_(currentScope)
+{
+  currentScope = this;
+}
+
+PlaceScope::~PlaceScope()
+{
+  currentScope = outer_;
+}
+
+void PlaceScope::set(const Vector3& centre, double unit, const Vector3& sign)
+{
+  centre_ = centre;
+  unit_ = unit;
+  sign_ = sign;
+}
+
+std::string placeText(const Vector3& p)
+{
+  std::ostringstream text;
+  Vector3 place = p;
+  if (const PlaceScope* scope = currentScope)
+  {
+    place = scope->centre_ + scope->unit_ * scope->sign_.cwiseProduct(p);
+    text.precision(digitsFor(scope->centre_.cwiseAbs().maxCoeff(), scope->unit_));
+  }
+  text << "(" << place.x() << ", " << place.y() << ", " << place.z() << ")";
+  return text.str();
+}
+
+} // namespace quadrille

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/LeaveFrame.h"
+
+#include "Base/Progress.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// Rounding of a place between three points of a frame, in which no coordinate is above one half.
+constexpr double kRounding = 1e-12;
+
+using Weights = std::array<double, 3>;
+
+Vector3 between(const Mesh& mesh, Index f, const Weights& weights)
+{
+  return weights[0] * mesh.position[mesh.origin[3 * f]] +
+    weights[1] * mesh.position[mesh.origin[3 * f + 1]] +
+    weights[2] * mesh.position[mesh.origin[3 * f + 2]];
+}
+
+/// Where a point of the quads lies on the user's surface.
+class PlaceOnSurface
+{
+public:
+  PlaceOnSurface(const Mesh& mapped, const Frame& frame, const std::vector<Vector3>& positions)
+    : mapped_(mapped), frame_(frame), positions_(positions)
+  {
+  }
+
+  Vector3 operator()(const Vector3& point, Index f, const Weights& weights) const
+  {
+    if ((between(mapped_, f, weights) - point).cwiseAbs().maxCoeff() > kRounding)
+    {
+      return frame_.toUser(point); // the point is not on its face
+    }
+    Vector3 place = Vector3::Zero();
+    for (Index i = 0; i < 3; ++i)
+    {
+      const Vector3& corner = positions_[mapped_.origin[3 * f + i]];
+      if (weights[i] == 1)
+      {
+        return corner;
+      }
+      place += weights[i] * (corner - frame_.centre);
+    }
+    return frame_.centre + place;
+  }
+
+private:
+  const Mesh& mapped_;
+  const Frame& frame_;
+  const std::vector<Vector3>& positions_;
+};
+
+void reverseQuads(QuadMesh& quads)
+{
+  for (std::array<Index, 4>& quad : quads.quads)
+  {
+    std::swap(quad[1], quad[3]);
+  }
+  for (Weights& weights : quads.sourceWeights)
+  {
+    std::swap(weights[1], weights[2]);
+  }
+  for (Weights& weights : quads.quadSourceWeights)
+  {
+    std::swap(weights[1], weights[2]);
+  }
+  for (std::size_t i = 0; i + 1 < quads.polygonOffsets.size(); ++i)
+  {
+    std::reverse(quads.polygonPoints.begin() + quads.polygonOffsets[i] + 1,
+      quads.polygonPoints.begin() + quads.polygonOffsets[i + 1]);
+  }
+  for (QuadLine& line : quads.lines)
+  {
+    std::swap(line.a, line.b);
+    line.halfEdge = line.halfEdge == kInvalidIndex ? kInvalidIndex : reversedEdge(line.halfEdge);
+  }
+}
+
+} // namespace
+
+void leaveFrame(Level& level, const Frame& frame, const std::vector<Vector3>& positions)
+{
+  for (Index v = 0; v < level.mesh.vertexCount(); ++v)
+  {
+    level.mesh.position[v] = positions[level.fineVertex[v]];
+  }
+  for (Guide& guide : level.guides)
+  {
+    guide.direction = frame.turned(guide.direction);
+  }
+  if (frame.reversed)
+  {
+    reverseFaces(level.mesh);
+  }
+}
+
+void leaveFrame(PreparedSurface& surface, const Frame& frame, std::vector<Vector3> positions)
+{
+  surface.mesh.position = std::move(positions);
+  surface.area *= frame.unit * frame.unit;
+  surface.boundingBoxDiagonal *= frame.unit;
+  for (PolygonGuide& guide : surface.polygonGuides)
+  {
+    guide.direction = frame.turned(guide.direction);
+  }
+  if (frame.reversed)
+  {
+    reverseFaces(surface);
+  }
+}
+
+void leaveFrame(QuadMesh& quads, const Mesh& mapped, const Frame& frame,
+  const std::vector<Vector3>& positions)
+{
+  const PlaceOnSurface place(mapped, frame, positions);
+  for (std::size_t p = 0; p < quads.points.size(); ++p)
+  {
+    pollNowAndThen(p);
+    quads.points[p] = place(quads.points[p], quads.sourceFace[p], quads.sourceWeights[p]);
+  }
+  if (frame.reversed)
+  {
+    reverseQuads(quads);
+  }
+}
+
+void reverseMap(std::vector<FixedVec2>& uv)
+{
+  for (std::size_t h = 0; h < uv.size(); h += 3)
+  {
+    pollNowAndThen(h);
+    std::swap(uv[h + 1], uv[h + 2]);
+  }
+  for (FixedVec2& p : uv)
+  {
+    std::swap(p.u, p.v);
+  }
+}
+
+void reverseMatching(std::vector<std::int8_t>& matching)
+{
+  for (std::size_t h = 0; h < matching.size(); h += 3)
+  {
+    std::swap(matching[h], matching[h + 2]);
+  }
+  for (std::int8_t& turns : matching)
+  {
+    turns = static_cast<std::int8_t>(-turns & 3);
+  }
+}
+
+void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points)
+{
+  result.targetEdgeLength *= frame.unit;
+  SmallParts& parts = result.smallParts;
+  parts.shortestLoop *= frame.unit;
+  parts.place = frame.toUser(parts.place);
+  parts.boundary.shortest *= frame.unit;
+  parts.boundary.place = frame.toUser(parts.boundary.place);
+  if (result.surface.mesh.position.empty())
+  {
+    return;
+  }
+  std::vector<Vector3> positions = userPositions(result.surface, frame, points);
+  leaveFrame(result.quads, result.surface.mesh, frame, positions);
+  leaveFrame(result.coarse, frame, positions);
+  leaveFrame(result.surface, frame, std::move(positions));
+  if (frame.reversed)
+  {
+    reverseMap(result.uv);
+    reverseMap(result.coarseUv);
+  }
+}
+
+} // namespace quadrille

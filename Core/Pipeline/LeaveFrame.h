@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a run made in its frame (see Mesh/Frame.h), back on the user's surface. Where the frame's faces run the other way round, corners
+/// 0 1 2 become 0 2 1 everywhere and u and v change places, so that maps stay positive.
+#pragma once
+
+#include "Extraction/Extraction.h"
+#include "Mesh/Frame.h"
+#include "Pipeline/Pipeline.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace quadrille
+{
+
+/// positions: userPositions of the finest level.
+void leaveFrame(Level& level, const Frame& frame, const std::vector<Vector3>& positions);
+/// The surface with its guides and measures.
+void leaveFrame(PreparedSurface& surface, const Frame& frame, std::vector<Vector3> positions);
+/// Points on vertices of the mapped mesh get their positions, others the place between them. mapped: still in the frame.
+void leaveFrame(QuadMesh& quads, const Mesh& mapped, const Frame& frame,
+  const std::vector<Vector3>& positions);
+
+/// The map of a mesh whose faces were reversed, or are to be. uv: #H.
+void reverseMap(std::vector<FixedVec2>& uv);
+/// The same of its matching, #H.
+void reverseMatching(std::vector<std::int8_t>& matching);
+
+/// All of a result. points: FramedInput::points.
+void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points);
+
+} // namespace quadrille
