@@ -440,7 +440,7 @@ TEST(Pipeline, FeaturesThatLeaveNoRoomAreGivenUpOnlyWhereNobodyAskedForThem)
   const RemeshResult refused = remesh(asked, options);
   EXPECT_FALSE(refused.status.ok());
   EXPECT_FALSE(tells(refused, "leave no room"));
-  EXPECT_NE(refused.status.message.find("leave no area to faces"), std::string::npos)
+  EXPECT_NE(refused.status.message.find("leave no area to "), std::string::npos)
     << refused.status.message;
 }
 #endif
