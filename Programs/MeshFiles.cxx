@@ -12,6 +12,8 @@
 #include <vtkCellData.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkDoubleArray.h>
 #include <vtkExecutive.h>
 #include <vtkExodusIIWriter.h>
 #include <vtkFieldData.h>
@@ -450,12 +452,33 @@ void writePly(vtkPolyData* mesh, const std::string& path)
   runWriter(writer.Get(), path);
 }
 
+/// The Exodus writer takes the precision of the points from the first array of real numbers that it finds, whatever it is told of doubles.
+void toDouble(vtkDataSetAttributes* attributes)
+{
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = attributes->GetArray(i);
+    if (array && array->GetDataType() == VTK_FLOAT)
+    {
+      vtkNew<vtkDoubleArray> copy;
+      copy->DeepCopy(array);
+      copy->SetName(array->GetName());
+      attributes->AddArray(copy); // in the place of the one of this name
+    }
+  }
+}
+
 /// Exodus knows whole numbers only as ids and maps, hence every array as real numbers; field data with
 /// text has no place in it.
 void writeExodus(vtkPolyData* mesh, const std::string& path)
 {
   vtkSmartPointer<vtkUnstructuredGrid> grid = toGrid(mesh);
   grid->GetFieldData()->Initialize();
+  if (isFar(mesh))
+  {
+    toDouble(grid->GetPointData());
+    toDouble(grid->GetCellData());
+  }
   vtkNew<vtkExodusIIWriter> writer;
   writer->SetInputData(grid);
   writer->WriteOutBlockIdArrayOn();
