@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The frame of a surface (see Mesh/Frame.h) between the stage filters: their outputs lie on the user's surface, and the arrays Frame (field: centre,
-/// unit, signs, reversed) and FramePosition (points) give back, to the last bit, what the stage before has computed with.
+/// The frame of a surface (see Mesh/Frame.h) between the stage filters: their outputs lie on the user's surface, and
+/// the arrays Frame (field: centre, unit, signs, reversed) and FramePosition (points) give back, to the last bit, what
+/// the stage before has computed with.
 #pragma once
 
 #include "Mesh/Frame.h"
@@ -23,8 +24,9 @@ constexpr const char* kFramePosition = "FramePosition";
 void addFrame(
   vtkPolyData* data, const Frame& frame, const std::vector<Vector3>& positions);
 
-/// A mesh as readMesh reads it from `data` goes into the frame of the arrays. Where there are none, or points have moved since, into one of its
-/// own: round its box's centre, with the box's longest side as unit, nothing rounded and nothing turned.
+/// A mesh as readMesh reads it from `data` goes into the frame of the arrays. Where there are none, or points have
+/// moved since, into one of its own: round its box's centre, with the box's longest side as unit, nothing rounded and
+/// nothing turned.
 Frame enterFrame(vtkPolyData* data, Mesh& mesh);
 
 } // namespace quadrille

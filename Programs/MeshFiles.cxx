@@ -156,7 +156,8 @@ void checkStl(const std::string& path)
   }
 }
 
-/// Far from the origin single precision has lost what tells points apart: where a coordinate is above so many sides of the box.
+/// Far from the origin single precision has lost what tells points apart: where a coordinate is above so many sides of
+/// the box.
 constexpr double kFarSides = 4;
 
 bool isFar(vtkPolyData* mesh)
@@ -200,8 +201,8 @@ std::array<float, 3> inSinglePrecision(const Coordinates& p)
   return { static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]) };
 }
 
-/// Points of the file by those of the reader: in their order where the reader keeps it, else by their values, as it makes copies at
-/// seams of textures. Empty where two points of the file are one in single precision.
+/// Points of the file by those of the reader: in their order where the reader keeps it, else by their values, as it
+/// makes copies at seams of textures. Empty where two points of the file are one in single precision.
 std::vector<Coordinates> matchObjPoints(const std::vector<Coordinates>& inFile, vtkPoints* read)
 {
   const auto count = static_cast<std::size_t>(read->GetNumberOfPoints());
@@ -452,7 +453,8 @@ void writePly(vtkPolyData* mesh, const std::string& path)
   runWriter(writer.Get(), path);
 }
 
-/// The Exodus writer takes the precision of the points from the first array of real numbers that it finds, whatever it is told of doubles.
+/// The Exodus writer takes the precision of the points from the first array of real numbers that it finds, whatever it
+/// is told of doubles.
 void toDouble(vtkDataSetAttributes* attributes)
 {
   for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)

@@ -10,8 +10,8 @@
 namespace quadrille
 {
 
-/// Where a run works in coordinates of its own (see Mesh/Frame.h), messages of the thread that makes the scope name places in those of the
-/// user: centre + unit * sign . p. Scopes nest; the innermost one counts.
+/// Where a run works in coordinates of its own (see Mesh/Frame.h), messages of the thread that makes the scope name
+/// places in those of the user: centre + unit * sign . p. Scopes nest; the innermost one counts.
 class PlaceScope
 {
 public:
@@ -32,7 +32,8 @@ private:
   PlaceScope* outer_;
 };
 
-/// "(x, y, z)", with as many digits as it takes to tell places apart that lie a thousandth of the surface's size from each other.
+/// "(x, y, z)", with as many digits as it takes to tell places apart that lie a thousandth of the surface's size from
+/// each other.
 std::string placeText(const Vector3& p);
 
 } // namespace quadrille

@@ -27,8 +27,8 @@ constexpr int kStepsOfEdge = 10;
 constexpr int kMostGridBits = 44;
 constexpr std::size_t kFineShare = 64;
 constexpr std::size_t kEdgeSamples = std::size_t{ 1 } << 20;
-/// Rounding goes up from this part of a step on, away from zero. Not one half, nor any simple fraction, as coordinates that people or
-/// programs write sit on such, and there the last bit would decide.
+/// Rounding goes up from this part of a step on, away from zero. Not one half, nor any simple fraction, as coordinates
+/// that people or programs write sit on such, and there the last bit would decide.
 constexpr double kUp = 0.618;
 /// An enclosed volume below this part of what its terms add up to says nothing.
 constexpr double kNoVolume = 1e-6;
@@ -69,8 +69,8 @@ Box boxOf(const std::vector<Vector3>& points, const Bytes& used)
   return box;
 }
 
-/// Takes differences of coordinates of some magnitude back to the binary fractions that they were before a shift rounded them: of a
-/// surface in single precision, say, that was moved in double precision.
+/// Takes differences of coordinates of some magnitude back to the binary fractions that they were before a shift
+/// rounded them: of a surface in single precision, say, that was moved in double precision.
 class Snap
 {
 public:

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The coordinates that a run works in. Maps in metres and parts of assemblies lie far from the origin, where the last bits of their
-/// numbers are noise; CAD models are full of exact ties, which that noise would decide. So a run sees the surface round its box's centre,
-/// with the longest side of the box as unit, on a grid that is coarser than this noise, and with axes and faces turned in a
-/// way that a mirror image shares. Then a shift, a scale and a mirror image are the same to the last bit for all that follows.
+/// The coordinates that a run works in. Maps in metres and parts of assemblies lie far from the origin, where the last
+/// bits of their numbers are noise; CAD models are full of exact ties, which that noise would decide. So a run sees the
+/// surface round its box's centre, with the longest side of the box as unit, on a grid that is coarser than this noise,
+/// and with axes and faces turned in a way that a mirror image shares. Then a shift, a scale and a mirror image are the
+/// same to the last bit for all that follows.
 ///
 ///   user                                  frame
 ///   P = centre + unit * sign . p   <->    p = sign . round((P - centre) / unit)      faces may run the other way round
@@ -41,18 +42,19 @@ struct FramedInput
   std::vector<Vector3> points; ///< of the user
 };
 
-/// Puts a surface into its frame. Points that no polygon uses do not count. Which way an axis runs is told by the first point that lies
-/// well off the middle, which way faces run by the volume that they enclose, or the first polygon where that says nothing: with
-/// the same ids of points, a mirror image has the same frame, whether its faces are reversed or not. Throws InvalidInput as checkInput does.
+/// Puts a surface into its frame. Points that no polygon uses do not count. Which way an axis runs is told by the first
+/// point that lies well off the middle, which way faces run by the volume that they enclose, or the first polygon where
+/// that says nothing: with the same ids of points, a mirror image has the same frame, whether its faces are reversed or
+/// not. Throws InvalidInput as checkInput does.
 FramedInput enterFrame(SurfaceInput input, int threads);
 
-/// The user's positions of the vertices, #V: for points of the input their own numbers, for vertices that refinement made the place
-/// between them, for others (repair and closed handles) that of the frame. points: those of FramedInput.
+/// The user's positions of the vertices, #V: for points of the input their own numbers, for vertices that refinement
+/// made the place between them, for others (repair and closed handles) that of the frame. points: those of FramedInput.
 std::vector<Vector3> userPositions(
   const PreparedSurface& surface, const Frame& frame, const std::vector<Vector3>& points);
 
-/// Turns all faces round: corners 0 1 2 become 0 2 1. What belongs to corner i moves to reversedCorner(h), what belongs to half-edge i
-/// to reversedEdge(h). Twice is nothing.
+/// Turns all faces round: corners 0 1 2 become 0 2 1. What belongs to corner i moves to reversedCorner(h), what belongs
+/// to half-edge i to reversedEdge(h). Twice is nothing.
 inline Index reversedCorner(Index h)
 {
   return h / 3 * 3 + (3 - h % 3) % 3;

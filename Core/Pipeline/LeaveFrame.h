@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a run made in its frame (see Mesh/Frame.h), back on the user's surface. Where the frame's faces run the other way round, corners
-/// 0 1 2 become 0 2 1 everywhere and u and v change places, so that maps stay positive.
+/// What a run made in its frame (see Mesh/Frame.h), back on the user's surface. Where the frame's faces run the other
+/// way round, corners 0 1 2 become 0 2 1 everywhere and u and v change places, so that maps stay positive.
 #pragma once
 
 #include "Extraction/Extraction.h"
@@ -18,7 +18,8 @@ namespace quadrille
 void leaveFrame(Level& level, const Frame& frame, const std::vector<Vector3>& positions);
 /// The surface with its guides and measures.
 void leaveFrame(PreparedSurface& surface, const Frame& frame, std::vector<Vector3> positions);
-/// Points on vertices of the mapped mesh get their positions, others the place between them. mapped: still in the frame.
+/// Points on vertices of the mapped mesh get their positions, others the place between them. mapped: still in the
+/// frame.
 void leaveFrame(QuadMesh& quads, const Mesh& mapped, const Frame& frame,
   const std::vector<Vector3>& positions);
 
