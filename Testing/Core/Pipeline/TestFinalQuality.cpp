@@ -178,7 +178,7 @@ TEST(FinalQuality, TurnsNoQuadOver)
 {
   const auto input = test::loadPly(std::string(QUADRILLE_SHARED_DATA) + "/scan/igea.ply");
   ASSERT_TRUE(input);
-  const RemeshResult fine = solve(*input, FinalQuality::Input, 10000);
+  const RemeshResult fine = solve(*input, FinalQuality::Input, 12000);
   ASSERT_TRUE(fine.status.ok());
   EXPECT_TRUE(fine.finalQuality.improved);
   EXPECT_GT(fine.finalQuality.holds, 0);
