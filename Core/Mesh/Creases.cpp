@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Creases.h"
 
+#include "Base/DisjointSets.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Mesh/Topology.h"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 
 namespace quadrille
 {
@@ -301,16 +301,7 @@ private:
   /// Edges that are left among more that have gone: connected ones, no line among them, with less length than what went near them.
   void dropRemnants()
   {
-    std::vector<Index> parent(edges_.size());
-    std::iota(parent.begin(), parent.end(), Index{ 0 });
-    const auto root = [&](Index i)
-    {
-      while (parent[i] != i)
-      {
-        i = parent[i] = parent[parent[i]];
-      }
-      return i;
-    };
+    DisjointSets sets(edges_.size(), 1);
     for (Index i = 0; i < edges_.size(); ++i)
     {
       for (const Index v : { mesh_.origin[edges_[i].halfEdge], mesh_.target(edges_[i].halfEdge) })
@@ -321,8 +312,7 @@ private:
             const Index k = indexOf_[h];
             if (k != kInvalidIndex && kept_[i] != 0 && kept_[k] != 0)
             {
-              const Index a = root(i), b = root(k);
-              parent[std::max(a, b)] = std::min(a, b);
+              sets.join(i, k);
             }
           });
       }
@@ -332,7 +322,7 @@ private:
     {
       if (kept_[i] != 0)
       {
-        members[root(i)].push_back(i);
+        members[sets.find(i)].push_back(i);
       }
     }
     const std::vector<std::uint8_t> before = kept_;
