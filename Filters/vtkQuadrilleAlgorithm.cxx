@@ -519,11 +519,18 @@ void vtkQuadrilleAlgorithm::GatherInputs(Run& run)
 }
 
 //------------------------------------------------------------------------------
+bool vtkQuadrilleAlgorithm::IsPutInOrder(const Run& run) const
+{
+  return this->RankIndependent == Always ||
+    (this->RankIndependent == UnderMPI && run.ranks.isParallel());
+}
+
+//------------------------------------------------------------------------------
 void vtkQuadrilleAlgorithm::GatherPort(Run& run, Work& work, int port)
 {
   const bool isSurface = this->GetPortRole(port) == PortRole::Surface;
   const auto given = run.pieces(work, port);
-  const bool isJoined = run.ranks.size() > 1 || given.size() > 1 || this->RankIndependent;
+  const bool isJoined = run.ranks.size() > 1 || given.size() > 1 || this->IsPutInOrder(run);
   std::vector<vtkSmartPointer<vtkDataObject>> pieces;
   quadrille::SurfaceCounts counts;
   std::string error;
@@ -574,7 +581,7 @@ void vtkQuadrilleAlgorithm::GatherPort(Run& run, Work& work, int port)
     {
       work.block.inputs[port] = quadrille::onlyPiece(pieces);
     }
-    else if (!this->RankIndependent && pieces.size() == 1)
+    else if (!this->IsPutInOrder(run) && pieces.size() == 1)
     {
       work.block.inputs[port] = quadrille::withoutMarks(vtkPolyData::SafeDownCast(pieces[0]));
     }

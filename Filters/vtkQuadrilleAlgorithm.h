@@ -13,7 +13,7 @@
  * blocks begin each line with the name of the block.
  *
  * In a parallel run each rank has its part of the input. The pieces of a surface are brought to one rank and put together there, in an
- * order that does not depend on how they were cut, so that the result is the same for any number of them; see RankIndependent. The blocks of
+ * order that does not depend on how they were cut, so that the result is the same for any number of ranks; see RankIndependent. The blocks of
  * composite data are spread over the ranks. The outputs lie on the rank that made them and are empty on the others; what the filter
  * tells is the same on all. Ranks work together where as many pieces are asked for as there are ranks, as ParaView does.
  */
@@ -59,6 +59,14 @@ public:
     TooLarge       ///< the result would exceed MaximumNumberOfQuads
   };
 
+  /// See SetRankIndependent().
+  enum RankIndependentType
+  {
+    Never = 0,
+    Always,
+    UnderMPI
+  };
+
   ///@{
   /**
    * Number of threads, 0 or more; 0, the default, means all. The result does not depend on it.
@@ -78,12 +86,12 @@ public:
 
   ///@{
   /**
-   * Whether a surface that comes in one piece is put into the order of one that comes in several, too. Then the result is the
-   * same for any number of ranks, also for one; ids as in `SourceCellId` count in that order. Off, one piece stays as it is. Default: off.
+   * Whether a surface that comes in one piece is put into the order of one that comes in several, too, a RankIndependentType.
+   * Then the result is the same for any number of ranks, also for one; ids as in `SourceCellId` count in that order. Otherwise one
+   * piece stays as it is. Default: UnderMPI, that is where the session is one of MPI, with any number of ranks.
    */
-  vtkSetMacro(RankIndependent, vtkTypeBool);
-  vtkGetMacro(RankIndependent, vtkTypeBool);
-  vtkBooleanMacro(RankIndependent, vtkTypeBool);
+  vtkSetClampMacro(RankIndependent, int, Never, UnderMPI);
+  vtkGetMacro(RankIndependent, int);
   ///@}
 
   /// An OutcomeType.
@@ -170,7 +178,7 @@ protected:
 
   int NumberOfThreads = 0;
   double TimeLimit = 0;
-  vtkTypeBool RankIndependent = 0;
+  int RankIndependent = UnderMPI;
 
 private:
   vtkQuadrilleAlgorithm(const vtkQuadrilleAlgorithm&) = delete;
@@ -183,6 +191,7 @@ private:
   void ListBlocks(Run& run);
   void TakeStates(Run& run);
   void GatherInputs(Run& run);
+  bool IsPutInOrder(const Run& run) const;
   void GatherPort(Run& run, Work& work, int port);
   void MeasureBlocks(Run& run);
   void ShareOut(Run& run);

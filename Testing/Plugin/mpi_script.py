@@ -75,8 +75,8 @@ def tell(name, filter_proxy, port=0):
     return raw
 
 
-def remesh(source, quads=600, RankIndependent=1, **options):
-    return QuadRemesh(Input=source, TargetType="Number Of Quads", NumberOfQuads=quads, RankIndependent=RankIndependent, **options)
+def remesh(source, quads=600, **options):
+    return QuadRemesh(Input=source, TargetType="Number Of Quads", NumberOfQuads=quads, **options)
 
 
 def torus():
@@ -136,9 +136,9 @@ def group(*sources):
 
 
 def chain(source):
-    levels = DecimationHierarchy(Input=source, TargetType="Number Of Quads", NumberOfQuads=600, RankIndependent=1)
+    levels = DecimationHierarchy(Input=source, TargetType="Number Of Quads", NumberOfQuads=600)
     coarse = IntegerGridMap(Input=simple.OutputPort(levels, 0))
-    upmap = IntegerGridMapUpmap(Input=coarse, Surface=source, Log=simple.OutputPort(levels, 2), RankIndependent=1)
+    upmap = IntegerGridMapUpmap(Input=coarse, Surface=source, Log=simple.OutputPort(levels, 2))
     return QuadExtraction(Input=upmap)
 
 
@@ -154,7 +154,7 @@ def collection():
 
 CASES = {
     "sources": lambda: [tell("sphere", remesh(sphere())), tell("torus", remesh(torus()))],
-    "files": lambda: [tell("ply", remesh(ply(), RankIndependent=0)), tell("vtu", remesh(tetrahedra()))],
+    "files": lambda: [tell("ply", remesh(ply())), tell("vtu", remesh(tetrahedra()))],
     "redistribute": lambda: [
         tell("redistributed", remesh(simple.RedistributeDataSet(Input=ply()))),
         tell("redistributed torus", remesh(simple.RedistributeDataSet(Input=torus())))],
