@@ -1175,10 +1175,18 @@ private:
     return text.str();
   }
 
-  /// Keeps the intermediate vertices near the offenders and raises the budget by their number and a half.
+  /// Keeps the intermediate vertices near the offenders and raises the budget by their number and a half. Where the coarse level has all of
+  /// the intermediate one already, both get about twice as many.
   void giveFreedom(const std::vector<Index>& offenders, HierarchyOptions& levelOptions) const
   {
     const Mesh& mesh = hierarchy().intermediate.mesh;
+    const Index coarseVertices = hierarchy().coarse.mesh.vertexCount();
+    if (coarseVertices == mesh.vertexCount())
+    {
+      levelOptions.targetEdgeLength /= std::sqrt(2.0);
+      levelOptions.coarseVertices = 2 * coarseVertices;
+      return;
+    }
     std::vector<std::uint8_t> near(result_.surface.mesh.vertexCount(), 0);
     for (const Index v : offenders)
     {
@@ -1215,8 +1223,8 @@ private:
       std::unique(levelOptions.keepVertices.begin(), levelOptions.keepVertices.end()),
       levelOptions.keepVertices.end());
     kept = levelOptions.keepVertices.size() - kept;
-    levelOptions.coarseVertices = static_cast<Index>(std::max<std::size_t>(
-      hierarchy().coarse.mesh.vertexCount() + kept, hierarchy().coarse.mesh.vertexCount() * 5 / 4));
+    levelOptions.coarseVertices = static_cast<Index>(
+      std::max<std::size_t>(coarseVertices + kept, coarseVertices * 5 / 4));
   }
 
   void recordCoarse(GridMapResult& map, const StageTimes& times)

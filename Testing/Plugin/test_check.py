@@ -34,7 +34,7 @@ def failing_script():
 
     print("CHECK", reason_of(quads))
     print("BEHIND", reason_of(simple.Calculator(Input=quads, Function="1")))
-    quads.EdgeLength = 0.1
+    quads.EdgeLength = 0.2
     print("MENDED", reason_of(quads), quadrille.check(quads) is quads)
     # A stage whose input has failed is not at fault itself.
     hierarchy = DecimationHierarchy(Input=mesh, TargetType="Edge Length", EdgeLength=-1)

@@ -183,6 +183,20 @@ TEST(Pipeline, QuadsAreSmallerOnlyWhereTheyDoNotFit)
   EXPECT_EQ(*most, 1.0F);
 }
 
+/// A fat torus, round whose tube there are so many quads only that the intermediate level has no vertex more than the coarse one.
+TEST(Pipeline, CoarseLevelThatHasAllVerticesGetsMore)
+{
+  const Mesh mesh = test::torus(64, 64, 1, 0.9);
+  RemeshOptions options;
+  options.quads = 20;
+  const RemeshResult result = remesh(test::toInput(mesh), options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_GT(result.decimations, 1); // else the case is none any more
+  const QuadTopology topology = topologyOf(result.quads);
+  EXPECT_EQ(topology.euler, 0);
+  EXPECT_TRUE(topology.oriented);
+}
+
 TEST(Pipeline, ThinTorusIsAnUnresolvedHandle)
 {
   // Round the tube it is 0.31, 2 edge lengths of 80 quads and 5.6 of 600.
