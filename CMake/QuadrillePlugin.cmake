@@ -23,13 +23,28 @@ foreach(module IN LISTS quadrille_required_modules)
     message(FATAL_ERROR "This ParaView lacks the module ${module}, which the plugin needs.")
   endif()
 endforeach()
-# The help compiler of Qt is not among the required packages, hence no generated XML documentation;
-# ParaView still shows the documentation of each property as its tool tip.
+# The pages behind the question mark in the panel. ParaView's CMake functions compile them with the tools of Qt, and fail without;
+# /usr/bin/xmlpatterns may be a link of qtchooser to nothing, so it is run.
+set(QUADRILLE_HELP OFF)
+find_program(qt_xmlpatterns_executable NAMES xmlpatterns-qt5 xmlpatterns) # the name that ParaView looks it up by
+find_package(Qt5Help QUIET)
+if(PARAVIEW_USE_QT AND qt_xmlpatterns_executable AND Qt5Help_FOUND AND TARGET Qt5::qhelpgenerator)
+  execute_process(COMMAND "${qt_xmlpatterns_executable}" -version RESULT_VARIABLE result OUTPUT_QUIET ERROR_QUIET)
+  if(result EQUAL 0)
+    set(QUADRILLE_HELP ON)
+  endif()
+endif()
+if(QUADRILLE_HELP)
+  set(quadrille_no_help OFF)
+else()
+  message(STATUS "No help pages in ParaView: xmlpatterns (qtxmlpatterns5-dev-tools) or Qt5Help (qttools5-dev) is missing")
+  set(quadrille_no_help ON)
+endif()
 paraview_plugin_build(
   RUNTIME_DESTINATION  "${CMAKE_INSTALL_BINDIR}"
   LIBRARY_DESTINATION  "${CMAKE_INSTALL_LIBDIR}"
   LIBRARY_SUBDIRECTORY "${PARAVIEW_PLUGIN_SUBDIR}"
-  DISABLE_XML_DOCUMENTATION ON
+  DISABLE_XML_DOCUMENTATION ${quadrille_no_help}
   PLUGINS_FILE_NAME    "quadrille.plugins.xml"
   PLUGINS              ${quadrille_plugins})
 

@@ -11,6 +11,7 @@ packages=(
   paraview paraview-dev python3-paraview
   libopenmpi-dev openmpi-bin            # ParaView's CMake files ask for MPI::MPI_C
   libcgal-dev libeigen3-dev libsuitesparse-dev
+  qttools5-dev qtxmlpatterns5-dev-tools # the pages behind the question mark in ParaView's panel
   libgtest-dev python3 python3-numpy python3-scipy
   xvfb xauth libqt5svg5 libgl1-mesa-dri # pictures without a screen
 )
