@@ -40,8 +40,9 @@ public:
   ///@{
   /**
    * Sweeps in which the points of the quads move over the surface, those of features and boundaries along their curves, towards the
-   * average of their neighbours; a move that would lower the worst scaled Jacobian round a point is not made. At
-   * least 0: the points stay where the map has them. Default: 5.
+   * average of their neighbours; a move that would lower the worst scaled Jacobian round a point is not made. Then points
+   * near quads that are turned over at a corner move to mend them. At least 0: the points stay where the map has them.
+   * Default: 5.
    */
   vtkSetMacro(SmoothingSteps, int);
   vtkGetMacro(SmoothingSteps, int);

@@ -62,7 +62,8 @@ size of the quads (at most one):
   --distortion-metric WORD  on: coarse triangles count with the shape of the surface that they stand for, so that
                             sizes come out more even (default off)
   --smoothing-steps N       sweeps in which the points move over the surface, where that does not lower the worst
-                            scaled Jacobian round them; 0: they stay where the map has them (default 5)
+                            scaled Jacobian round them, before quads that are turned over at a corner are mended; 0: they
+                            stay where the map has them (default 5)
   --cell-data NAME          what cell arrays of the quads come from: centre (default), the cell under the centre of a
                             quad; area, all cells under it: the average of real numbers, the most frequent label
   --threads N               threads to compute with; 0 means all (default 0)

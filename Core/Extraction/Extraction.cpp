@@ -11,6 +11,7 @@
 #include "Extraction/QuadAssembly.h"
 #include "Extraction/QuadSmoothing.h"
 #include "Extraction/QuadTopology.h"
+#include "Extraction/QuadUntangling.h"
 #include "Mesh/Topology.h"
 
 #include <cmath>
@@ -459,6 +460,10 @@ ExtractionResult extractQuads(
     smoothing.progress = [&options](double fraction, const std::string& text)
     { return !options.progress || options.progress(0.9 + 0.1 * fraction, text); };
     smoothQuads(mesh, result.mesh, smoothing);
+    if (options.smoothingSteps > 0)
+    {
+      untangleQuads(mesh, result.mesh, { options.fixedVertices, options.threads });
+    }
   }
   report(options.progress, 1, "extraction done");
   return result;

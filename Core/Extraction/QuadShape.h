@@ -12,12 +12,18 @@
 namespace quadrille
 {
 
+/// Normal of the quad at its centre, four times as long as its area is large (of the projection along the normal).
+inline Vector3 centreNormal(const std::array<Vector3, 4>& p)
+{
+  return (p[1] - p[0] + p[2] - p[3]).cross(p[2] - p[1] + p[3] - p[0]);
+}
+
 /// Scaled Jacobian as in the Verdict library: the smallest of the four normalized corner
 /// determinants with respect to the normal of the quad's centre. 1 for a rectangle, <= 0 where the
 /// quad is not convex; 0 for a vanishing edge or normal.
 inline double scaledJacobian(const std::array<Vector3, 4>& p)
 {
-  const Vector3 normal = (p[1] - p[0] + p[2] - p[3]).cross(p[2] - p[1] + p[3] - p[0]);
+  const Vector3 normal = centreNormal(p);
   const double area = normal.norm();
   double worst = 1;
   for (std::size_t i = 0; i < 4; ++i)
@@ -41,6 +47,20 @@ inline std::array<Vector3, 4> cornersOf(
   return { points[quad[0]], points[quad[1]], points[quad[2]], points[quad[3]] };
 }
 
+/// Is the scaled Jacobian <= 0? Without lengths, which only scale the determinants.
+inline bool isTurnedOver(const std::array<Vector3, 4>& p)
+{
+  const Vector3 normal = centreNormal(p);
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    if (!(normal.dot((p[i] - p[(i + 3) % 4]).cross(p[(i + 1) % 4] - p[i])) > 0))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// The quads with a scaled Jacobian <= 0, ascending.
 inline std::vector<Index> quadsTurnedOver(
   const std::vector<Vector3>& points, const std::vector<std::array<Index, 4>>& quads)
@@ -48,7 +68,7 @@ inline std::vector<Index> quadsTurnedOver(
   std::vector<Index> turned;
   for (Index q = 0; q < quads.size(); ++q)
   {
-    if (!(scaledJacobian(cornersOf(points, quads[q])) > 0))
+    if (isTurnedOver(cornersOf(points, quads[q])))
     {
       turned.push_back(q);
     }

@@ -409,6 +409,28 @@ inline Mesh tripod(int n)
   return voxelSurface({ 2, 2, 2 }, n, [](int x, int y, int z) { return x + y + z <= 1; });
 }
 
+/// A plane of 2 n x 2 m lattice cells in one chart, one quad for 2 x 2 cells, whose map was thrown
+/// about (all determinants stay positive): badly shaped quads on a flat surface.
+inline GridMapCase crumpledPlane(int n, int m, unsigned seed, int moves = 4000)
+{
+  GridMapCase c = squares("plane", gridPlane(2 * n, 2 * m), 1);
+  for (Index h = 0; h < c.mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3& p = c.mesh.position[c.mesh.origin[h]];
+    c.uv[h] = toFixed(Vector2(p.x() / 2, p.y() / 2));
+  }
+  c.quads = static_cast<std::size_t>(n * m);
+  Random random(seed);
+  MapEditor editor(c);
+  for (int i = 0; i < moves; ++i)
+  {
+    const Index h = static_cast<Index>(pick(random, static_cast<int>(c.mesh.halfEdgeCount())));
+    const auto part = [&]() { return kOne / 200 * (pick(random, 101) - 50); };
+    editor.moveVertex(h, { part(), part() }, false);
+  }
+  return c;
+}
+
 inline std::vector<GridMapCase> allCases(int k)
 {
   const double sharp = 0.7;

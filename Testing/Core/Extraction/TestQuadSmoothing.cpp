@@ -59,28 +59,6 @@ double meanShape(const QuadMesh& mesh)
   return sum / static_cast<double>(mesh.quads.size());
 }
 
-/// A plane of 2 n x 2 m lattice cells in one chart, one quad for 2 x 2 cells, whose map was thrown
-/// about (all determinants stay positive): badly shaped quads on a flat surface.
-GridMapCase crumpledPlane(int n, int m, unsigned seed)
-{
-  GridMapCase c = squares("plane", gridPlane(2 * n, 2 * m), 1);
-  for (Index h = 0; h < c.mesh.halfEdgeCount(); ++h)
-  {
-    const Vector3& p = c.mesh.position[c.mesh.origin[h]];
-    c.uv[h] = toFixed(Vector2(p.x() / 2, p.y() / 2));
-  }
-  c.quads = static_cast<std::size_t>(n * m);
-  Random random(seed);
-  MapEditor editor(c);
-  for (int i = 0; i < 4000; ++i)
-  {
-    const Index h = static_cast<Index>(pick(random, static_cast<int>(c.mesh.halfEdgeCount())));
-    const auto part = [&]() { return kOne / 200 * (pick(random, 101) - 50); };
-    editor.moveVertex(h, { part(), part() }, false);
-  }
-  return c;
-}
-
 } // namespace
 
 TEST(QuadSmoothing, RaisesShapesAndStaysOnTheSurface)
