@@ -2,16 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSMQuadrilleSourceProxy.h"
 
+#include "vtkClientServerStream.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVXMLElement.h"
 #include "vtkSMInputProperty.h"
 #include "vtkSMParaViewPipelineController.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMSession.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSmartPointer.h"
 
 #include <cstring>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -141,6 +144,36 @@ void makeColourMaps(vtkPVXMLElement* hints, vtkSMSessionProxyManager* manager)
   }
 }
 
+bool isRepresentation(vtkSMProxy* proxy)
+{
+  const char* group = proxy ? proxy->GetXMLGroup() : nullptr;
+  return group && std::strcmp(group, "representations") == 0;
+}
+
+/// Tells the representations of the producer, and of all filters behind it, to update when they are next shown.
+void markRepresentations(vtkSMProxy* producer, std::set<vtkSMProxy*>& visited)
+{
+  for (unsigned int i = 0; i < producer->GetNumberOfConsumers(); ++i)
+  {
+    vtkSMProxy* consumer = producer->GetConsumerProxy(i);
+    if (!consumer || !consumer->GetObjectsCreated() || !visited.insert(consumer).second)
+    {
+      continue;
+    }
+    if (isRepresentation(consumer))
+    {
+      vtkClientServerStream stream;
+      stream << vtkClientServerStream::Invoke << VTKOBJECT(consumer) << "MarkModified"
+             << vtkClientServerStream::End;
+      consumer->GetSession()->ExecuteStream(consumer->GetLocation(), stream);
+    }
+    else if (vtkSMSourceProxy::SafeDownCast(consumer))
+    {
+      markRepresentations(consumer, visited);
+    }
+  }
+}
+
 } // namespace
 
 vtkSMQuadrilleSourceProxy::vtkSMQuadrilleSourceProxy() = default;
@@ -154,11 +187,18 @@ void vtkSMQuadrilleSourceProxy::PostUpdateData(bool usingCache)
 }
 
 //------------------------------------------------------------------------------
+void vtkSMQuadrilleSourceProxy::MarkDirty(vtkSMProxy* modifiedProxy)
+{
+  this->Superclass::MarkDirty(modifiedProxy);
+  std::set<vtkSMProxy*> visited;
+  markRepresentations(this, visited);
+}
+
+//------------------------------------------------------------------------------
 void vtkSMQuadrilleSourceProxy::AddConsumer(vtkSMProperty* property, vtkSMProxy* consumer)
 {
   this->Superclass::AddConsumer(property, consumer);
-  const char* group = consumer ? consumer->GetXMLGroup() : nullptr;
-  if (group && std::strcmp(group, "representations") == 0)
+  if (isRepresentation(consumer))
   {
     makeColourMaps(this->GetHints(), this->GetSessionProxyManager());
     applyDisplayHints(this->GetHints(), connectedPort(property, this), consumer);

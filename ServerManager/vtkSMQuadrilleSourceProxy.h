@@ -7,6 +7,9 @@
  * ParaView 5.11 asks a filter for its information properties before it executes it, so that the panel shows what was valid
  * one Apply ago. This proxy asks again after each execution.
  *
+ * A representation that could not update, because the filter failed, waits in ParaView 5.11 for ever: its proxy passes a change on only
+ * when the one before it was shown. This proxy tells the representations behind it of each change itself.
+ *
  * A hint `<Display port="4" property="PointSize" value="12"/>` sets a property of each representation of an output at the moment it is
  * made; there is one element for each property, with one number. What a user, a script or a state file sets later stays.
  *
@@ -27,6 +30,9 @@ public:
   static vtkSMQuadrilleSourceProxy* New();
   vtkTypeMacro(vtkSMQuadrilleSourceProxy, vtkSMSourceProxy);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// Called when a property of the filter, or what is before it, has changed.
+  void MarkDirty(vtkSMProxy* modifiedProxy) override;
 
 protected:
   vtkSMQuadrilleSourceProxy();
