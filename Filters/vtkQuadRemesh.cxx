@@ -3,7 +3,7 @@
 #include "vtkQuadRemesh.h"
 
 #include "Pipeline/Pipeline.h"
-#include "Pipeline/RemeshMemory.h"
+#include "Pipeline/ResultStore.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleConstraints.h"
 #include "QuadrilleConvert.h"
@@ -40,7 +40,7 @@ quadrille::QuadSource sourceOf(const quadrille::PreparedSurface& surface,
 /// The levels of a block, for its next execution.
 struct LevelMemory : quadrille::BlockMemory
 {
-  quadrille::RemeshMemory levels;
+  quadrille::ResultStore levels;
 };
 
 std::string describe(const quadrille::RemeshResult& result, vtkIdType irregular)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Progress.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace quadrille
@@ -13,6 +14,17 @@ namespace
 thread_local PollScope* currentScope = nullptr;
 
 } // namespace
+
+ProgressCallback subProgress(
+  const ProgressCallback& callback, double begin, double end, const std::string& prefix)
+{
+  if (!callback)
+  {
+    return {};
+  }
+  return [=](double fraction, const std::string& text)
+  { return callback(begin + (end - begin) * std::clamp(fraction, 0.0, 1.0), prefix + text); };
+}
 
 PollScope::PollScope(ProgressCallback callback)
   : callback_(std::move(callback)), outer_(currentScope), last_(std::chrono::steady_clock::now())

@@ -31,6 +31,10 @@ inline void report(const ProgressCallback& callback, double fraction, const std:
   }
 }
 
+/// The share [begin, end] of a longer run, whose texts begin with `prefix`. Empty where the callback is.
+ProgressCallback subProgress(
+  const ProgressCallback& callback, double begin, double end, const std::string& prefix = {});
+
 /// The run of the thread that makes it, for poll(). Scopes nest; the innermost one is asked.
 class PollScope
 {

@@ -349,7 +349,7 @@ TEST(Pipeline, SmallComponentsAreInTheKeyOfTheMemory)
 {
   RemeshOptions options;
   options.quads = 500;
-  RemeshMemory memory;
+  ResultStore memory;
   const SurfaceInput input = test::toInput(sphereWithIslands(3));
   const RemeshResult kept = remesh(input, options, memory);
   options.removeSmallComponents = true;

@@ -83,7 +83,7 @@ void expectSame(const RemeshResult& a, const RemeshResult& b)
 }
 
 /// A run with the memory is byte for byte one without it, and has reused these stages.
-void expectCold(const SurfaceInput& input, const RemeshOptions& options, RemeshMemory& memory,
+void expectCold(const SurfaceInput& input, const RemeshOptions& options, ResultStore& memory,
   const Names& reused)
 {
   const RemeshResult with = remesh(input, options, memory);
@@ -101,11 +101,11 @@ void expectCold(const SurfaceInput& input, const RemeshOptions& options, RemeshM
   EXPECT_EQ(with.decimations == 0, std::count(reused.begin(), reused.end(), "phase1") > 0);
 }
 
-TEST(RemeshMemory, WithoutWarmStartTheSameBytesFromTheStageThatIsAsked)
+TEST(ResultStore, WithoutWarmStartTheSameBytesFromTheStageThatIsAsked)
 {
   SurfaceInput input = dentedSphere();
   RemeshOptions options = optionsFor(500);
-  RemeshMemory memory;
+  ResultStore memory;
   expectCold(input, options, memory, {});
   expectCold(input, options, memory, kDecimated);
   guideTop(input, Vector3(1, 0, 0));
@@ -128,11 +128,11 @@ TEST(RemeshMemory, WithoutWarmStartTheSameBytesFromTheStageThatIsAsked)
   expectCold(input, options, memory, {});
 }
 
-TEST(RemeshMemory, RefinedSurfacesAndFeaturesAreRemembered)
+TEST(ResultStore, RefinedSurfacesAndFeaturesAreRemembered)
 {
   SurfaceInput input = test::toInput(test::markFeatures(test::unitCube(3), 0.6));
   RemeshOptions options = optionsFor(600);
-  RemeshMemory memory;
+  ResultStore memory;
   expectCold(input, options, memory, {});
   ASSERT_GT(remesh(input, options).surface.repair.refinedFaces, 0U);
   askForValence(input, 0, 3); // a corner
@@ -145,12 +145,12 @@ TEST(RemeshMemory, RefinedSurfacesAndFeaturesAreRemembered)
   expectCold(input, options, memory, kPrepared);
 }
 
-TEST(RemeshMemory, FeaturesThatOneSizeCannotResolveComeBackForAnother)
+TEST(ResultStore, FeaturesThatOneSizeCannotResolveComeBackForAnother)
 {
   SurfaceInput input = dentedSphere();
   input.points[topmost(input)] *= 1.08; // a spike with sharp edges
   RemeshOptions options = optionsFor(300);
-  RemeshMemory memory;
+  ResultStore memory;
   const auto features = [](const RemeshResult& result)
   {
     const std::vector<std::uint8_t>& flags = result.surface.mesh.flags;
@@ -169,7 +169,7 @@ TEST(RemeshMemory, FeaturesThatOneSizeCannotResolveComeBackForAnother)
   EXPECT_EQ(after.reused, kPrepared);
 }
 
-TEST(RemeshMemory, SizesAreRemembered)
+TEST(ResultStore, SizesAreRemembered)
 {
   SurfaceInput input = dentedSphere();
   for (const Vector3& p : input.points)
@@ -177,7 +177,7 @@ TEST(RemeshMemory, SizesAreRemembered)
     input.sizing.push_back(p.x() > 0.6 ? 0.4 : 1.5); // grows too fast, so that it is limited
   }
   RemeshOptions options = optionsFor(500);
-  RemeshMemory memory;
+  ResultStore memory;
   expectCold(input, options, memory, {});
   guideTop(input, Vector3(1, 0, 0));
   expectCold(input, options, memory, kDecimated);
@@ -191,13 +191,13 @@ TEST(RemeshMemory, SizesAreRemembered)
   expectCold(input, options, memory, {});
 }
 
-TEST(RemeshMemory, ClosedHandlesAreRemembered)
+TEST(ResultStore, ClosedHandlesAreRemembered)
 {
   const test::SphereWithHandle model = test::sphereWithHandle(5, Vector3(1, 2, 3).normalized());
   SurfaceInput input = test::toInput(model.mesh);
   RemeshOptions options = optionsFor(300);
   options.closeHandles = 3;
-  RemeshMemory memory;
+  ResultStore memory;
   const RemeshResult without = remesh(input, options);
   ASSERT_EQ(without.surface.repair.closedHandles, 1U);
   expectSame(remesh(input, options, memory), without);
@@ -208,7 +208,7 @@ TEST(RemeshMemory, ClosedHandlesAreRemembered)
   expectSame(remesh(input, options, memory), remesh(input, options));
 }
 
-TEST(RemeshMemory, AttemptsThatKeepMoreVerticesDoNotTakeThePlaceOfTheFirst)
+TEST(ResultStore, AttemptsThatKeepMoreVerticesDoNotTakeThePlaceOfTheFirst)
 {
   // So deep in dents that the first map does not hold on the input and its offenders are kept by another phase 1.
   Mesh mesh = test::sphere(5);
@@ -222,7 +222,7 @@ TEST(RemeshMemory, AttemptsThatKeepMoreVerticesDoNotTakeThePlaceOfTheFirst)
   options.featureAngle.reset();
   const RemeshResult without = remesh(input, options);
   ASSERT_GT(without.decimations, 1);
-  RemeshMemory memory;
+  ResultStore memory;
   expectSame(remesh(input, options, memory), without);
   const RemeshResult again = remesh(input, options, memory);
   expectSame(again, without);
@@ -230,12 +230,12 @@ TEST(RemeshMemory, AttemptsThatKeepMoreVerticesDoNotTakeThePlaceOfTheFirst)
   EXPECT_EQ(again.decimations, without.decimations - 1);
 }
 
-TEST(RemeshMemory, AWarmStartTakesTheLastMap)
+TEST(ResultStore, AWarmStartTakesTheLastMap)
 {
   SurfaceInput input = dentedSphere();
   RemeshOptions options = optionsFor(500);
   options.warmStart = true;
-  RemeshMemory memory;
+  ResultStore memory;
   EXPECT_TRUE(remesh(input, options, memory).reused.empty());
   const auto has = [](const RemeshResult& result, const std::string& stage)
   { return std::count(result.reused.begin(), result.reused.end(), stage) == 1; };
@@ -264,14 +264,14 @@ TEST(RemeshMemory, AWarmStartTakesTheLastMap)
   expectSame(resized, remesh(input, options));
 }
 
-TEST(RemeshMemory, AMapWithAnotherAnisotropyLimitIsNoStart)
+TEST(ResultStore, AMapWithAnotherAnisotropyLimitIsNoStart)
 {
   const SurfaceInput input = dentedSphere();
   for (const bool warm : { true, false })
   {
     RemeshOptions options = optionsFor(600);
     options.warmStart = warm;
-    RemeshMemory memory;
+    ResultStore memory;
     const RemeshResult off = remesh(input, options, memory);
     options.anisotropyLimit = 1.1;
     const RemeshResult limited = remesh(input, options, memory);
@@ -288,12 +288,12 @@ TEST(RemeshMemory, AMapWithAnotherAnisotropyLimitIsNoStart)
   }
 }
 
-TEST(RemeshMemory, AWarmStartTakesNoMapOfAnotherMetric)
+TEST(ResultStore, AWarmStartTakesNoMapOfAnotherMetric)
 {
   const SurfaceInput input = dentedSphere();
   RemeshOptions options = optionsFor(500);
   options.warmStart = true;
-  RemeshMemory memory;
+  ResultStore memory;
   for (const bool metric : { false, true, false })
   {
     options.distortionMetric = metric;
@@ -305,7 +305,7 @@ TEST(RemeshMemory, AWarmStartTakesNoMapOfAnotherMetric)
   }
 }
 
-TEST(RemeshMemory, SameBytesForAnyNumberOfThreads)
+TEST(ResultStore, SameBytesForAnyNumberOfThreads)
 {
   std::optional<RemeshResult> first;
   for (const int threads : { 1, 2, 4 })
@@ -314,7 +314,7 @@ TEST(RemeshMemory, SameBytesForAnyNumberOfThreads)
     RemeshOptions options = optionsFor(500);
     options.warmStart = true;
     options.threads = threads;
-    RemeshMemory memory;
+    ResultStore memory;
     remesh(input, options, memory);
     guideTop(input, Vector3(1, 0.2, 0));
     RemeshResult warm = remesh(input, options, memory);
@@ -328,7 +328,7 @@ TEST(RemeshMemory, SameBytesForAnyNumberOfThreads)
   }
 }
 
-TEST(RemeshMemory, IsWholeAfterEveryStop)
+TEST(ResultStore, IsWholeAfterEveryStop)
 {
   SurfaceInput input = dentedSphere();
   RemeshOptions options = optionsFor(500);
@@ -337,7 +337,7 @@ TEST(RemeshMemory, IsWholeAfterEveryStop)
   options.progress = [&](double, const std::string&) { return ++total > 0; };
   ASSERT_TRUE(remesh(input, options).status.ok());
   ASSERT_GT(total, 20);
-  RemeshMemory memory;
+  ResultStore memory;
   RemeshOptions plain = optionsFor(500);
   int stopped = 0;
   for (int stop = 1; stop < total; stop += 1 + total / 12)
@@ -366,11 +366,11 @@ TEST(RemeshMemory, IsWholeAfterEveryStop)
   }
 }
 
-TEST(RemeshMemory, IsWholeAfterBadInput)
+TEST(ResultStore, IsWholeAfterBadInput)
 {
   SurfaceInput input = dentedSphere();
   RemeshOptions options = optionsFor(500);
-  RemeshMemory memory;
+  ResultStore memory;
   const RemeshResult expected = remesh(input, options, memory);
   SurfaceInput bad = input;
   guideTop(bad, Vector3(1, 0, 0));
@@ -388,12 +388,12 @@ TEST(RemeshMemory, IsWholeAfterBadInput)
   expectSame(remesh(input, options, memory), expected);
 }
 
-TEST(RemeshMemory, HoldsOneSurfaceAndLetsItGoWhereThereIsNoRoom)
+TEST(ResultStore, HoldsOneSurfaceAndLetsItGoWhereThereIsNoRoom)
 {
   const SurfaceInput input = dentedSphere();
   const double triangles = static_cast<double>(input.polygonOffsets.size() - 1);
   RemeshOptions options = optionsFor(500);
-  RemeshMemory memory;
+  ResultStore memory;
   EXPECT_EQ(memory.bytes(), 0U);
   const RemeshResult first = remesh(input, options, memory);
   const std::size_t held = memory.bytes();

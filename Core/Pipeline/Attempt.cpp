@@ -1,0 +1,355 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/Attempt.h"
+
+#include "Extraction/QuadTopology.h"
+#include "GridMap/PreviousMap.h"
+#include "Pipeline/CoarsestMap.h"
+#include "Pipeline/Notices.h"
+#include "Transfer/SurfaceStretch.h"
+
+#include <sstream>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+void addRequests(const PreparedSurface& surface, KeyMaker& key)
+{
+  for (const PolygonGuide& guide : surface.polygonGuides)
+  {
+    key.add(std::uint64_t{ guide.polygon }).add(double{ guide.weight });
+    for (int i = 0; i < 3; ++i)
+    {
+      key.add(guide.direction[i]);
+    }
+  }
+  for (const ValenceRequest& request : surface.valenceRequests)
+  {
+    key.add(std::uint64_t{ request.vertex })
+      .add(static_cast<std::uint64_t>(static_cast<std::int64_t>(request.valence)));
+  }
+}
+
+/// Of all that a map depends on.
+ResultKey mapKey(const RunContext& run, const Plan& plan, const Phase1* before)
+{
+  const RemeshOptions& options = run.options;
+  KeyMaker key(run.surface.key());
+  key.add(run.edgeLength).add(plan.levelsKey());
+  if (before != nullptr)
+  {
+    key.add(before->edgeLength).add(before->kept);
+  }
+  key.add(static_cast<std::uint64_t>(options.method))
+    .add(std::uint64_t{ options.coarsestIntegers ? 1U : 0U })
+    .add(std::uint64_t{ options.distortionMetric ? 1U : 0U })
+    .add(std::uint64_t{ options.warmStart ? 1U : 0U })
+    .add(options.anisotropyLimit);
+  addRequests(*run.surface, key);
+  return key.key();
+}
+
+/// Of what a map has to share with an earlier one for a warm start.
+ResultKey warmKey(const RunContext& run, const Plan& plan)
+{
+  return KeyMaker(run.surface.key())
+    .add(run.edgeLength)
+    .add(plan.quads)
+    .add(run.options.anisotropyLimit)
+    .add(std::uint64_t{ run.options.distortionMetric ? 1U : 0U })
+    .key();
+}
+
+GridMapOptions mapOptions(RunContext& run, const Plan& plan, MapAttempt& made)
+{
+  const Hierarchy& levels = run.levels.hierarchy();
+  GridMapOptions options;
+  options.method = run.options.method;
+  options.edgeLength = run.edgeLength;
+  options.targetQuads = plan.quads;
+  options.anisotropyLimit = run.options.anisotropyLimit;
+  options.guides = levels.coarse.guides;
+  options.targetValences = levelValences(*run.surface, levels.coarse.fineVertex);
+  options.progress = subProgress(run.options.progress, 0.45, 0.8, "Mapping: ");
+  if (run.options.distortionMetric) // on request
+  {
+    const double start = secondsNow();
+    options.stretch = measureStretch(levels.intermediate, levels.coarse, levels.log).stretch;
+    made.stages.add("metric", secondsNow() - start, levels.intermediate.mesh.faceCount(),
+      levels.coarse.mesh.faceCount());
+  }
+  return options;
+}
+
+GridMapResult computeMap(RunContext& run, const Plan& plan, MapAttempt& made)
+{
+  const Level& coarse = run.levels.hierarchy().coarse;
+  GridMapOptions options = mapOptions(run, plan, made);
+  if (run.options.coarsestIntegers)
+  {
+    return computeCoarsestMap(coarse.mesh, options);
+  }
+  const bool remembers = run.store != nullptr && run.options.warmStart &&
+    run.options.method == MapMethod::ScaleAware;
+  const std::shared_ptr<PreviousMap> previous =
+    remembers ? run.store->find<PreviousMap>(warmKey(run, plan)) : nullptr;
+  if (previous)
+  {
+    options.previous = previous.get();
+    options.vertexIds = coarse.fineVertex;
+  }
+  GridMapResult map = computeGridMap(coarse.mesh, options);
+  const auto reuseIf = [&](std::size_t components, const char* stage)
+  {
+    if (components > 0)
+    {
+      made.reused.emplace_back(stage);
+    }
+  };
+  reuseIf(map.reuse.seamless, "seamless");
+  reuseIf(map.reuse.integers, "quantize");
+  reuseIf(map.reuse.embedded, "embed");
+  if (remembers && map.status.ok())
+  {
+    auto next = std::make_shared<PreviousMap>(previousMap(coarse.mesh, map, coarse.fineVertex));
+    const std::size_t bytes = next->bytes();
+    run.store->put(warmKey(run, plan), std::move(next), bytes);
+  }
+  return map;
+}
+
+/// What is left of a map on the coarse level.
+void recordCoarse(const Hierarchy& levels, GridMapResult& map, MapAttempt& made)
+{
+  const std::size_t coarse = levels.coarse.mesh.faceCount();
+  made.stages.add("field", map.secondsField, coarse, coarse);
+  made.stages.add("seamless", map.secondsSeamless, coarse, coarse);
+  made.stages.add("quantize", map.secondsQuantize, coarse, coarse);
+  made.stages.add("embed", map.secondsEmbed, coarse, coarse);
+  for (const std::string& notice : { levels.notice, refinementNotice(map.refinement) })
+  {
+    if (!notice.empty())
+    {
+      made.notices.push_back(notice);
+    }
+  }
+  made.work = map.work;
+  made.coarse = levels.coarse;
+  made.coarseUv = std::move(map.uv);
+  made.coarseTurns = map.field.turns;
+  made.coarseCertificate = map.certificate;
+  made.hopeless = map.status.code == StatusCode::TooLarge ||
+    (map.status.code == StatusCode::Infeasible && map.offenders.empty());
+  if (!map.status.ok())
+  {
+    made.status = { map.status.code, "no valid map of the coarse mesh: " + map.status.message };
+    made.coarseTroubles = positionsOf(levels.coarse.mesh, map.offenders);
+    for (const Index v : map.offenders)
+    {
+      made.coarseOffenders.push_back(levels.coarse.fineVertex[v]);
+    }
+  }
+}
+
+/// Turns of the finest level: removed vertices are regular.
+std::vector<int> expectedTurns(const Mesh& mesh, const Level& coarse, const std::vector<int>& turns)
+{
+  std::vector<int> expected(mesh.vertexCount(), 4);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    pollNowAndThen(h);
+    if (mesh.isBoundary(h))
+    {
+      expected[mesh.origin[h]] = 2;
+    }
+  }
+  for (Index v = 0; v < coarse.mesh.vertexCount(); ++v)
+  {
+    expected[coarse.fineVertex[v]] = turns[v];
+  }
+  return expected;
+}
+
+void carryToSurface(RunContext& run, const CrossField& field, MapAttempt& made)
+{
+  const Mesh& mesh = run.surface->mesh;
+  double start = secondsNow();
+  TransferOptions options;
+  options.threads = run.options.threads;
+  options.progress = subProgress(run.options.progress, 0.8, 0.9, "Mapping back: ");
+  made.transfer =
+    transferMap(mesh, made.coarse, run.levels.hierarchy().log, made.coarseUv, options);
+  made.uv = std::move(made.transfer.uv);
+  made.transfer.uv.clear();
+  made.stages.add("replay", secondsNow() - start, made.coarse.mesh.faceCount(), mesh.faceCount());
+
+  start = secondsNow();
+  made.turns = expectedTurns(mesh, made.coarse, made.coarseTurns);
+  made.integerVertex.assign(mesh.vertexCount(), 0);
+  const std::vector<std::uint8_t> integer = integerVertices(made.coarse.mesh, field);
+  for (Index v = 0; v < integer.size(); ++v)
+  {
+    made.integerVertex[made.coarse.fineVertex[v]] = integer[v];
+  }
+  made.certificate =
+    certify(mesh, made.uv, made.turns, made.integerVertex, run.options.threads);
+  made.stages.add("certify", secondsNow() - start, mesh.faceCount(), mesh.faceCount());
+}
+
+void tellOfRounding(MapMethod method, MapAttempt& made)
+{
+  if (isRounded(method))
+  {
+    const Certificate& coarse = made.coarseCertificate;
+    const Certificate& fine = made.certificate;
+    std::ostringstream text;
+    text << "the method '" << nameOf(method) << "' gives no guarantee: " << coarse.notPositive
+         << " of " << coarse.triangles << " triangles of the coarse map and " << fine.notPositive
+         << " of " << fine.triangles << " of the map on the surface are inverted or degenerate";
+    made.notices.push_back(text.str());
+  }
+}
+
+void keepMap(RunContext& run, MapAttempt& map)
+{
+  if (run.store == nullptr)
+  {
+    return;
+  }
+  std::vector<FixedVec2> uv = std::move(map.uv);
+  map.uv = {};
+  if (!uv.empty())
+  {
+    map.packed = PackedMap(run.surface->mesh, uv);
+  }
+  auto kept = std::make_shared<MapAttempt>(map);
+  map.packed = {};
+  map.uv = std::move(uv);
+  const std::size_t bytes = kept->bytes();
+  run.store->put(map.key, std::move(kept), bytes);
+}
+
+/// Names of what an attempt from the store has not computed.
+std::shared_ptr<MapAttempt> asReused(const MapAttempt& found)
+{
+  auto map = std::make_shared<MapAttempt>(found);
+  map->reused.clear();
+  for (const StageRecord& record : found.stages.all())
+  {
+    map->reused.push_back(record.stage);
+  }
+  map->stages = {};
+  return map;
+}
+
+} // namespace
+
+std::size_t MapAttempt::defects() const
+{
+  return certificate.notPositive + certificate.wrongTurns + certificate.seamResiduals;
+}
+
+void MapAttempt::pack(const Mesh& surface)
+{
+  if (!uv.empty())
+  {
+    packed = PackedMap(surface, uv);
+    std::vector<FixedVec2>().swap(uv);
+  }
+}
+
+void MapAttempt::unpack(const Mesh& surface)
+{
+  if (uv.empty() && packed.bytes() > 0)
+  {
+    uv = packed.unpack(surface);
+    packed = {};
+  }
+}
+
+std::size_t MapAttempt::bytes() const
+{
+  return bytesOf(coarse.mesh.position) + bytesOf(coarse.mesh.origin) + bytesOf(coarse.mesh.twin) +
+    bytesOf(coarseUv) + bytesOf(uv) + packed.bytes() + bytesOf(turns) + bytesOf(integerVertex) +
+    bytesOf(phase1.kept);
+}
+
+HierarchyOptions levelOptions(const RunContext& run, const Plan& plan)
+{
+  HierarchyOptions options;
+  options.targetEdgeLength = plan.levelLength * run.edgeLength;
+  options.coarseVertices = plan.coarseVertices;
+  options.guides = surfaceGuides(*run.surface).faces;
+  options.keepVertices = plan.keptVertices;
+  options.threads = run.options.threads;
+  options.progress = subProgress(run.options.progress, 0.15, 0.45, "Decimating: ");
+  return options;
+}
+
+std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan, const Phase1* before)
+{
+  run.surface.apply(plan);
+  const ResultKey key = mapKey(run, plan, before);
+  if (run.store != nullptr)
+  {
+    if (const auto found = run.store->find<MapAttempt>(key))
+    {
+      return asReused(*found);
+    }
+  }
+  auto made = std::make_shared<MapAttempt>();
+  made->key = key;
+  const Hierarchy& levels = run.levels.make(levelOptions(run, plan), before);
+  made->stages.add(run.levels.stages());
+  made->phase1 = run.levels.phase1();
+  GridMapResult map = computeMap(run, plan, *made);
+  recordCoarse(levels, map, *made);
+  if (made->status.ok())
+  {
+    carryToSurface(run, map.field, *made);
+    tellOfRounding(run.options.method, *made);
+  }
+  keepMap(run, *made);
+  return made;
+}
+
+std::optional<GridTroubles> gridTroubles(const RunContext& run, const MapAttempt& map)
+{
+  if (map.coarseUv.empty() || !map.coarseCertificate.valid())
+  {
+    return std::nullopt;
+  }
+  ExtractionOptions options;
+  options.maximumNumberOfQuads = run.options.maximumNumberOfQuads;
+  options.smoothingSteps = 0;
+  options.threads = run.options.threads;
+  const ExtractionResult coarse = extractQuads(map.coarse.mesh, map.coarseUv, options);
+  if (coarse.status.ok() || coarse.status.code == StatusCode::TooLarge)
+  {
+    return std::nullopt;
+  }
+  const QuadTopology topology = analyzeQuads(coarse.mesh.quads, coarse.mesh.points.size());
+  GridTroubles troubles;
+  troubles.defects = coarse.droppedFaces + topology.nonManifoldEdges +
+    topology.nonManifoldVertices + topology.degenerateQuads;
+  for (const Index p : topology.offendingPoints)
+  {
+    troubles.places.push_back(coarse.mesh.points[p]);
+  }
+  return troubles;
+}
+
+std::vector<Vector3> positionsOf(const Mesh& mesh, const std::vector<Index>& vertices)
+{
+  std::vector<Vector3> points;
+  for (const Index v : vertices)
+  {
+    points.push_back(mesh.position[v]);
+  }
+  return points;
+}
+
+} // namespace quadrille

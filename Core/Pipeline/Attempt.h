@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What one plan leads to: a map of the surface, and its quads. Values, with their own notices and stage records.
+#pragma once
+
+#include "Base/Error.h"
+#include "Base/FixedPoint.h"
+#include "Extraction/Extraction.h"
+#include "GridMap/GridMap.h"
+#include "Hierarchy/Hierarchy.h"
+#include "Pipeline/FinalQuality.h"
+#include "Pipeline/Levels.h"
+#include "Pipeline/Options.h"
+#include "Pipeline/Plan.h"
+#include "Pipeline/SmallParts.h"
+#include "Pipeline/StageRecords.h"
+#include "Pipeline/SurfaceVersion.h"
+#include "Transfer/PackedMap.h"
+#include "Transfer/Transfer.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// What all attempts of a run share.
+struct RunContext
+{
+  const RemeshOptions& options;
+  double edgeLength = 0;       ///< s, in the frame
+  std::size_t targetQuads = 0; ///< asked for, or predicted from s
+  RunSurface& surface;
+  Levels& levels;
+  ResultStore* store = nullptr; ///< null: none
+  ShortLoops shortLoops;        ///< of the surface before any plan
+};
+
+/// A map of the coarse level, carried to the surface where there is one.
+struct MapAttempt
+{
+  ResultKey key = 0;
+  Status status;         ///< of the coarse map
+  bool hopeless = false; ///< no other triangulation can mend it
+  Level coarse;
+  std::vector<FixedVec2> coarseUv; ///< #H of coarse.mesh; also where the status is not ok
+  std::vector<int> coarseTurns;    ///< #V of coarse.mesh
+  Certificate coarseCertificate;
+  std::vector<Index> coarseOffenders; ///< vertices of the surface, where the status is not ok
+  std::vector<Vector3> coarseTroubles; ///< their positions
+  Phase1 phase1;
+  std::size_t work = 0; ///< GridMapResult::work
+
+  // Where the status is ok.
+  std::vector<FixedVec2> uv; ///< #H of the surface; empty while packed
+  PackedMap packed;
+  std::vector<int> turns;                  ///< #V of the surface
+  std::vector<std::uint8_t> integerVertex; ///< #V of the surface
+  Certificate certificate;
+  TransferResult transfer; ///< but for uv
+
+  std::vector<std::string> notices, reused;
+  StageRecords stages;
+
+  /// Of the map on the surface: what keeps it from being valid.
+  std::size_t defects() const;
+  void pack(const Mesh& surface);
+  void unpack(const Mesh& surface);
+  std::size_t bytes() const;
+};
+
+/// The quads of a map, solved again before on request.
+struct QuadAttempt
+{
+  Status status;
+  QuadMesh quads;
+  ExtractionCounts extraction;
+  FinalQualityReport finalQuality;
+  /// Where the map was solved again.
+  std::optional<PackedMap> uv;
+  std::optional<Certificate> certificate;
+  std::size_t turned = 0;      ///< quads turned over
+  bool turnedAtFolds = false;  ///< some of them where the map has folds
+  std::vector<std::string> notices, reused;
+  StageRecords stages;
+
+  std::size_t bytes() const;
+};
+
+struct Attempt
+{
+  Plan plan;
+  std::shared_ptr<MapAttempt> map;
+  std::shared_ptr<const QuadAttempt> quads; ///< null: none were made
+};
+
+/// What a plan asks of the levels. The plan is on the surface.
+HierarchyOptions levelOptions(const RunContext& run, const Plan& plan);
+
+/// Levels, map, and map of the surface by the plan, which is put on the surface. before: phase 1 of the attempt that the plan continues, or
+/// null.
+std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan, const Phase1* before);
+
+/// The quads of a map with status ok, whose plan is on the surface; the levels are let go.
+std::shared_ptr<const QuadAttempt> makeQuads(RunContext& run, const Plan& plan, MapAttempt& map);
+
+/// Where quads of the coarse map touch themselves: round a small handle or a thin part, where a loop is one or two quads long, that shows on
+/// the coarse map already, and only smaller quads can help. None where this is not the cause of a failure.
+std::optional<GridTroubles> gridTroubles(const RunContext& run, const MapAttempt& map);
+
+/// Positions of vertices.
+std::vector<Vector3> positionsOf(const Mesh& mesh, const std::vector<Index>& vertices);
+
+} // namespace quadrille

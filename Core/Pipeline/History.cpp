@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/History.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadrille
+{
+
+void History::addMap(const Plan& plan, std::shared_ptr<MapAttempt> map)
+{
+  if (roundIsOver_)
+  {
+    round_.clear();
+    best_ = {};
+    roundIsOver_ = false;
+  }
+  round_.push_back({ plan.step, map->coarseOffenders.size() });
+  work_ += map->work;
+  all_.add(map->stages);
+  reused_.insert(reused_.end(), map->reused.begin(), map->reused.end());
+  last_ = { plan, std::move(map), nullptr };
+  if (!last_.map->status.ok())
+  {
+    return;
+  }
+  replays_ += last_.map->stages.has("replay") ? 1 : 0;
+  if (!best_.map || last_.map->defects() < best_.map->defects())
+  {
+    best_ = last_;
+  }
+  else
+  {
+    std::vector<FixedVec2>().swap(last_.map->uv); // nobody asks for it any more
+  }
+}
+
+void History::addQuads(std::shared_ptr<const QuadAttempt> quads)
+{
+  last_ = ofRound();
+  last_.quads = std::move(quads);
+  best_ = last_;
+  roundIsOver_ = true;
+  if (!last_.quads)
+  {
+    return;
+  }
+  all_.add(last_.quads->stages);
+  reused_.insert(reused_.end(), last_.quads->reused.begin(), last_.quads->reused.end());
+  if (last_.quads->status.ok() &&
+    (!result_.quads || 2 * last_.quads->turned <= result_.quads->turned))
+  {
+    result_ = last_;
+  }
+}
+
+void History::packMaps(const Mesh& surface)
+{
+  for (const Attempt* attempt : { &last_, &best_, &result_ })
+  {
+    if (attempt->map)
+    {
+      attempt->map->pack(surface);
+    }
+  }
+}
+
+std::size_t History::inRound(const std::string& step) const
+{
+  return static_cast<std::size_t>(std::count_if(round_.begin(), round_.end(),
+    [&](const Summary& summary) { return summary.step == step; }));
+}
+
+std::size_t History::trailing(const std::string& step) const
+{
+  const auto other = std::find_if(round_.rbegin(), round_.rend(),
+    [&](const Summary& summary) { return summary.step != step; });
+  return static_cast<std::size_t>(other - round_.rbegin());
+}
+
+std::size_t History::offendersBefore() const
+{
+  return round_.size() < 2 ? 0 : round_[round_.size() - 2].offenders;
+}
+
+StageRecords History::stages() const
+{
+  StageRecords own;
+  const Attempt& chosen = result();
+  if (chosen.map)
+  {
+    own.add(chosen.map->stages);
+  }
+  if (chosen.quads)
+  {
+    own.add(chosen.quads->stages);
+  }
+  StageRecords told;
+  double others = 0;
+  for (const StageRecord& record : all_.all())
+  {
+    if (own.has(record.stage))
+    {
+      told.add(record.stage, record.seconds, 0, 0);
+    }
+    else
+    {
+      others += record.seconds;
+    }
+  }
+  for (const StageRecord& record : own.all())
+  {
+    told.add(record.stage, 0, record.elementsIn, record.elementsOut);
+  }
+  if (others > 0)
+  {
+    told.add("retries", others, 0, 0);
+  }
+  return told;
+}
+
+} // namespace quadrille

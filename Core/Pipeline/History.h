@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The attempts of a run: which of them counts, and what of them the choice of the next one needs.
+#pragma once
+
+#include "Pipeline/Attempt.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Work on maps (GridMapResult::work) after which nothing is tried again; about a minute.
+constexpr std::size_t kMaximumWork = 24000000;
+
+/// Attempts come in rounds: maps until one is good or no other would be better, then the quads of the best map. Of the maps of the surface
+/// at most three are held, two of them packed: the last one, the best of the round, and that of the result so far.
+class History
+{
+public:
+  void addMap(const Plan& plan, std::shared_ptr<MapAttempt> map);
+  /// Of the map ofRound(), or null where it was not carried to the surface; ends the round.
+  void addQuads(std::shared_ptr<const QuadAttempt> quads);
+  /// Before another map takes its memory.
+  void packMaps(const Mesh& surface);
+
+  bool isEmpty() const { return last_.map == nullptr; }
+  const Attempt& last() const { return last_; }
+  /// The best of the round, that is the one with the fewest defects, or the last one where none was carried to the surface.
+  const Attempt& ofRound() const { return best_.map ? best_ : last_; }
+  bool roundHasMap() const { return best_.map != nullptr; }
+  bool lastIsBest() const { return best_.map != nullptr && best_.map == last_.map; }
+  /// How many attempts of the round were made by this step; at its end, one after the other.
+  std::size_t inRound(const std::string& step) const;
+  std::size_t trailing(const std::string& step) const;
+  /// Offenders of the coarse map of the attempt before the last one of the round; 0 where there is none.
+  std::size_t offendersBefore() const;
+
+  /// The attempt that has quads, of several the one with the fewest that are turned over: a later one counts only where it has at most half as
+  /// many, as what it gave up has a price. Without any, that of the last round.
+  const Attempt& result() const { return result_.quads ? result_ : last_; }
+  bool hasResult() const { return result_.quads != nullptr; }
+
+  bool isSpent() const { return work_ >= kMaximumWork; }
+  int replays() const { return replays_; } ///< maps that were carried to the surface
+  /// Sizes of the result's stages, with the seconds of all attempts. Stages that only others have had are one, "retries".
+  StageRecords stages() const;
+  /// Stages that some attempt has taken over.
+  const std::vector<std::string>& reused() const { return reused_; }
+
+private:
+  struct Summary
+  {
+    std::string step;
+    std::size_t offenders = 0; ///< of the coarse map
+  };
+
+  Attempt last_, best_; ///< of the round
+  Attempt result_;
+  bool roundIsOver_ = true;
+  std::vector<Summary> round_;
+  StageRecords all_;
+  std::vector<std::string> reused_;
+  std::size_t work_ = 0;
+  int replays_ = 0;
+};
+
+} // namespace quadrille

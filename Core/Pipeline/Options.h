@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a run is asked for.
+#pragma once
+
+#include "Base/Progress.h"
+#include "GridMap/GridMap.h"
+#include "Mesh/Mesh.h"
+#include "Pipeline/FinalQuality.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace quadrille
+{
+
+/// Exactly one of the three sizes is used: quads, else edgeLength, else relativeEdgeLength.
+struct RemeshOptions
+{
+  std::optional<std::size_t> quads; ///< target number of quads, >= 1
+  std::optional<double> edgeLength; ///< target edge length in units of the input, > 0
+  double relativeEdgeLength = 0.02; ///< target edge length over the bounding-box diagonal, > 0
+  std::optional<double> featureAngle =
+    0.6981317007977318; ///< radians (40 degrees); none: no detection
+  MapMethod method = MapMethod::ScaleAware;
+  /// The coarsest layout of quads in place of their size, see computeCoarsestMap; by the scale aware method only. The size asked for sets
+  /// what the levels keep and how curves are followed.
+  bool coarsestIntegers = false;
+  Index coarseVertices = 1000; ///< budget of the coarse level; 0: as many as its curvature needs
+  /// Handles that are shorter round or through than so many target edge lengths are cut and closed before they are mapped, see
+  /// closeHandles; >= 0, 0: none. Below kQuadsOfLoop there may remain some that quads cannot resolve.
+  double closeHandles = 0;
+  /// Connected components with less area than the smallest block of quads has (six for a closed one without handles, see quadsOfBlock)
+  /// go, unless all are such. Off: each becomes about that many quads. Both are told.
+  bool removeSmallComponents = false;
+  /// The ratio of the two stretches of a triangle of the coarse level from which on it is brought down where integers and irregular vertices let
+  /// it, see GridMapOptions; >= 1, or 0: no limit. By the scale aware and the seamless method only; final quality does not know it.
+  double anisotropyLimit = 0;
+  /// The level on which the map is solved again with its integers, see improveMap.
+  FinalQuality finalQuality = FinalQuality::Coarse;
+  /// The shapes of coarse triangles, to which the map fits its quads, are those of the surface that they stand for: see measureStretch.
+  bool distortionMetric = false;
+  std::size_t maximumNumberOfQuads = 10000000;
+  int smoothingSteps = 5; ///< of the quads on the surface, see ExtractionOptions
+  /// Bytes that the run may take by the estimate; none: what the machine has free.
+  std::optional<double> memoryLimit;
+  bool mergeCharts =
+    false;         ///< of the map on the surface, for display; the quads do not depend on it
+  int threads = 0; ///< 0: all; the result does not depend on it
+  /// With a memory only: field, map and phase 1 may start from those of the run before, so that the result may differ from one without
+  /// memory. Off: the same bytes as without.
+  bool warmStart = false;
+  ProgressCallback progress;
+};
+
+/// Throws InvalidInput, naming the option, where one is out of its range or two contradict each other.
+void checkOptions(const RemeshOptions& options);
+
+/// Whether folds of the map are a property of the method, so that nothing is tried again for them.
+bool isRounded(MapMethod method);
+
+} // namespace quadrille

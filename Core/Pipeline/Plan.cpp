@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/Plan.h"
+
+namespace quadrille
+{
+
+ResultKey Plan::surfaceKey() const
+{
+  KeyMaker key;
+  key.add(std::uint64_t{ sizes ? 1U : 0U }).add(std::uint64_t{ featuresGivenUp ? 1U : 0U });
+  if (sizes)
+  {
+    key.add(*sizes);
+  }
+  if (featuresGivenUp)
+  {
+    key.add(*featuresGivenUp);
+  }
+  return key.key();
+}
+
+ResultKey Plan::levelsKey() const
+{
+  return KeyMaker()
+    .add(keptVertices)
+    .add(std::uint64_t{ coarseVertices })
+    .add(levelLength)
+    .add(quads)
+    .key();
+}
+
+} // namespace quadrille

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// All that one attempt may do otherwise than another: a value, so that an attempt that leads nowhere leaves nothing behind.
+#pragma once
+
+#include "Base/Types.h"
+#include "Pipeline/ResultStore.h"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Where quads of the coarse map touch themselves though it is valid: round handles and thin parts that only one or two quads fit round.
+struct GridTroubles
+{
+  std::size_t defects = 0;
+  std::vector<Vector3> places;
+};
+
+/// What was done to make quads fit round small handles and thin parts.
+struct FinerGrid
+{
+  bool mayShrink = true; ///< whether sizes near the places of failures may help
+  int shrinks = 0;       ///< how often they were tried
+  /// The sizes and the area over them before the first time; null: those of the surface.
+  std::shared_ptr<const std::vector<float>> sizesBefore;
+  double areaBefore = 0;
+  GridTroubles firstTroubles; ///< that led to the first time
+  int doublings = 0;          ///< how often the number of quads was doubled
+  std::size_t defects = 0;    ///< of the quads of the coarse map before the last change
+  std::string notice;         ///< of the last change
+};
+
+struct Plan
+{
+  const char* step = "first"; ///< what made it of the one before, a name of the table in Recovery.cpp
+
+  // Of the levels.
+  std::vector<Index> keptVertices; ///< that no level may lack, ascending; those of index constraints among them
+  Index coarseVertices = 1000;     ///< budget, see HierarchyOptions
+  double levelLength = 1;          ///< edge length that the levels are made for, over that of the quads
+
+  // Of the surface, see RunSurface.
+  std::shared_ptr<const std::vector<float>> sizes; ///< #V; null: those of the surface
+  std::shared_ptr<const std::vector<Index>> featuresGivenUp; ///< half-edges; null: none
+  int featureDrops = 0; ///< how often features were given up
+
+  // Of the map.
+  double quads = 0; ///< that it is scaled to
+  FinerGrid finer;
+
+  std::vector<std::string> notices; ///< what the user should know of the choices
+
+  /// Of sizes and features.
+  ResultKey surfaceKey() const;
+  /// Of the rest that a map depends on.
+  ResultKey levelsKey() const;
+};
+
+} // namespace quadrille

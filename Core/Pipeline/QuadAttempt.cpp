@@ -1,0 +1,255 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/Attempt.h"
+
+#include "Base/PlaceText.h"
+#include "Extraction/QuadShape.h"
+#include "Pipeline/Estimate.h"
+#include "Pipeline/Notices.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+/// A fold within so many edge lengths is why a quad is turned over.
+constexpr double kFoldRadius = 2;
+
+FinalQualityOptions finalQualityOptions(const RunContext& run)
+{
+  FinalQualityOptions options;
+  options.level = run.options.finalQuality;
+  options.edgeLength = run.edgeLength;
+  options.maximumNumberOfQuads = run.options.maximumNumberOfQuads;
+  options.smoothingSteps = run.options.smoothingSteps;
+  options.maximumBytes = run.options.memoryLimit.value_or(freeMemory());
+  options.threads = run.options.threads;
+  options.progress = subProgress(run.options.progress, 0.9, 0.95, "Optimizing: ");
+  return options;
+}
+
+/// Why the map is not solved again, though that was asked for; empty where it can be. The levels are made for it where they are needed.
+std::string hindrance(RunContext& run, const Plan& plan, const MapAttempt& map)
+{
+  if (run.options.method != MapMethod::ScaleAware && !map.certificate.valid())
+  {
+    return std::string("that by the method '") + nameOf(run.options.method) +
+      "' is no integer-grid map to begin with";
+  }
+  if (run.options.finalQuality == FinalQuality::Intermediate)
+  {
+    run.levels.make(levelOptions(run, plan), &map.phase1);
+    if (run.levels.hierarchy().coarse.fineVertex != map.coarse.fineVertex)
+    {
+      // Levels that the store has kept from another run are nearly the same only.
+      return "its decimation is not there any more";
+    }
+  }
+  return {};
+}
+
+/// On request: the same integers, solved again on a finer level.
+void improve(RunContext& run, const Plan& plan, MapAttempt& map, QuadAttempt& made)
+{
+  if (run.options.finalQuality == FinalQuality::Coarse)
+  {
+    return;
+  }
+  const double start = secondsNow();
+  const std::string why = hindrance(run, plan, map);
+  if (!why.empty())
+  {
+    made.notices.push_back("final quality: the map of the coarse level was kept, as " + why);
+    return;
+  }
+  const bool byLevels = run.options.finalQuality == FinalQuality::Intermediate;
+  const Mesh& mesh = run.surface->mesh;
+  SurfaceMap improved{ std::move(map.uv), map.certificate };
+  const CoarseMap coarse{ byLevels ? &run.levels.hierarchy() : nullptr, &map.coarseUv };
+  made.finalQuality = improveMap(*run.surface, map.turns, map.integerVertex, coarse,
+    finalQualityOptions(run), improved);
+  map.uv = std::move(improved.uv);
+  if (made.finalQuality.improved)
+  {
+    map.certificate = improved.certificate;
+    made.uv = PackedMap(mesh, map.uv);
+    made.certificate = improved.certificate;
+  }
+  if (!made.finalQuality.notice.empty())
+  {
+    made.notices.push_back(made.finalQuality.notice);
+  }
+  made.stages.add(
+    "optimize", secondsNow() - start, made.finalQuality.elements, mesh.faceCount());
+}
+
+/// Where the map on the surface is not valid everywhere, what was asked for may be lost: that is told.
+std::string missedValencesText(const PreparedSurface& surface, const QuadMesh& quads)
+{
+  const std::vector<Index> vertices = indexVertices(surface);
+  std::vector<int> valence(vertices.empty() ? 0 : surface.mesh.vertexCount(), 0);
+  for (Index p = 0; p < quads.points.size() && !valence.empty(); ++p)
+  {
+    if (const std::optional<Index> corner = meshCorner(quads, p))
+    {
+      // On a boundary of k quads there are k + 1 edges; as if the quads went on, it would be k + 2.
+      valence[surface.mesh.origin[*corner]] =
+        quads.valence[p] + (quads.onBoundary[p] != 0 ? 1 : 0);
+    }
+  }
+  std::vector<ValenceRequest> missed;
+  for (const ValenceRequest& request : surface.valenceRequests)
+  {
+    if (request.valence != kRegularValence && valence[request.vertex] != request.valence)
+    {
+      missed.push_back(request);
+    }
+  }
+  if (missed.empty())
+  {
+    return {};
+  }
+  return std::to_string(missed.size()) +
+    " points did not get the valence that was asked for, where the map has folds; one is point " +
+    std::to_string(missed.front().point) + " at " +
+    placeText(surface.mesh.position[missed.front().vertex]) +
+    ": ask for smaller quads, or for fewer irregular vertices there";
+}
+
+/// For a failure of the extraction: whether the map is to blame.
+std::string describeMap(const Certificate& certificate)
+{
+  const std::string defects = defectsText(certificate);
+  return defects.empty() ? " (the map is valid)" : " (map on the input surface: " + defects + ")";
+}
+
+Status failureOf(const Status& extraction, MapMethod method, const Certificate& certificate)
+{
+  return { extraction.code,
+    (isRounded(method)
+        ? std::string("no valid quad mesh from the map by '") + nameOf(method) +
+          "', which may have folds (the scale aware method has none): "
+        : std::string("no valid quad mesh: ")) +
+      extraction.message + describeMap(certificate) +
+      "; ask for more quads, raise the number of coarse vertices (Coarse Vertices, "
+      "--coarse-vertices), or raise the feature angle where noise is taken for features" };
+}
+
+/// Has a quad a corner within kFoldRadius edge lengths of one of the places?
+bool isNear(const std::array<Vector3, 4>& corners, const std::vector<Vector3>& places, double radius)
+{
+  const auto isClose = [&](const Vector3& place)
+  {
+    return std::any_of(corners.begin(), corners.end(),
+      [&](const Vector3& p) { return (p - place).squaredNorm() < radius * radius; });
+  };
+  return std::any_of(places.begin(), places.end(), isClose);
+}
+
+void countTurned(const RunContext& run, const MapAttempt& map, QuadAttempt& made)
+{
+  const std::vector<Vector3> folds = positionsOf(run.surface->mesh, map.transfer.offenders);
+  const std::vector<Index> turned = quadsTurnedOver(made.quads.points, made.quads.quads);
+  made.turned = turned.size();
+  made.turnedAtFolds = std::any_of(turned.begin(), turned.end(),
+    [&](Index q)
+    {
+      return isNear(cornersOf(made.quads.points, made.quads.quads[q]), folds,
+        kFoldRadius * run.edgeLength);
+    });
+}
+
+void extract(RunContext& run, const MapAttempt& map, QuadAttempt& made)
+{
+  if (run.options.method == MapMethod::Seamless)
+  {
+    made.notices.push_back("the method 'seamless' has no integers, so there are no quads: the "
+                           "map on the surface is the result");
+    return;
+  }
+  const double start = secondsNow();
+  const Mesh& mesh = run.surface->mesh;
+  ExtractionOptions options;
+  options.maximumNumberOfQuads = run.options.maximumNumberOfQuads;
+  options.smoothingSteps = run.options.smoothingSteps;
+  options.fixedVertices = indexVertices(*run.surface);
+  options.threads = run.options.threads;
+  options.progress = subProgress(run.options.progress, 0.9, 1.0, "Extracting: ");
+  ExtractionResult extracted = extractQuads(mesh, map.uv, options);
+  made.stages.add(
+    "extract", secondsNow() - start, mesh.faceCount(), extracted.mesh.quads.size());
+  if (!extracted.status.ok())
+  {
+    made.status = failureOf(extracted.status, run.options.method, map.certificate);
+    return;
+  }
+  made.extraction = extracted;
+  made.quads = std::move(extracted.mesh);
+  for (const std::string& notice :
+    { mapNotice(mesh, map.certificate), missedValencesText(*run.surface, made.quads) })
+  {
+    if (!notice.empty())
+    {
+      made.notices.push_back(notice);
+    }
+  }
+  countTurned(run, map, made);
+}
+
+} // namespace
+
+std::size_t QuadAttempt::bytes() const
+{
+  return bytesOf(quads.points) + bytesOf(quads.quads) + bytesOf(quads.sourceFace) +
+    bytesOf(quads.sourceWeights) + (uv ? uv->bytes() : 0);
+}
+
+std::shared_ptr<const QuadAttempt> makeQuads(RunContext& run, const Plan& plan, MapAttempt& map)
+{
+  const Mesh& mesh = run.surface->mesh;
+  const ResultKey key = KeyMaker(map.key)
+                          .add(static_cast<std::uint64_t>(run.options.smoothingSteps))
+                          .add(static_cast<std::uint64_t>(run.options.finalQuality))
+                          .key();
+  const auto found = run.store != nullptr ? run.store->find<QuadAttempt>(key) : nullptr;
+  if (found && found->quads.quads.size() <= run.options.maximumNumberOfQuads)
+  {
+    if (found->uv)
+    {
+      map.uv.clear();
+      map.packed = *found->uv;
+      map.certificate = *found->certificate;
+    }
+    run.levels.letGo();
+    auto reused = std::make_shared<QuadAttempt>(*found);
+    for (const StageRecord& record : found->stages.all())
+    {
+      reused->reused.push_back(record.stage);
+    }
+    reused->stages = {};
+    return reused;
+  }
+  if (run.options.finalQuality != FinalQuality::Intermediate)
+  {
+    run.levels.letGo(); // before the map takes their memory
+  }
+  map.unpack(mesh);
+  auto made = std::make_shared<QuadAttempt>();
+  improve(run, plan, map, *made);
+  run.levels.letGo();
+  extract(run, map, *made);
+  // What a limit of this run has kept from being made is not remembered.
+  const bool limited = made->status.code == StatusCode::TooLarge ||
+    (run.options.finalQuality != FinalQuality::Coarse && !made->finalQuality.improved);
+  if (run.store != nullptr && !limited)
+  {
+    const std::size_t bytes = made->bytes();
+    run.store->put(key, std::make_shared<QuadAttempt>(*made), bytes);
+  }
+  return made;
+}
+
+} // namespace quadrille

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What is tried where a map or its quads fail: each strategy makes another plan of the attempts so far, or has nothing to offer.
+#pragma once
+
+#include "Pipeline/Attempt.h"
+#include "Pipeline/History.h"
+#include "Pipeline/Plan.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// The plan that a run begins with: smaller quads round loops that are too short for three, where that does not take too many. Waiting
+/// for the failure that most of them are would cost several maps.
+Plan firstPlan(RunContext& run);
+
+/// Another map in this round, before quads are made; none where the last one is good, or another would not be better.
+std::optional<Plan> nextMapPlan(RunContext& run, const History& history);
+
+/// Another round; none where the quads are good, or another would not be better.
+std::optional<Plan> nextPlan(RunContext& run, const History& history);
+
+/// Of the plans of a run, the names of the steps that made them, in the order in which they are tried.
+std::vector<std::string> recoverySteps();
+
+} // namespace quadrille

@@ -1,0 +1,376 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/SizedSurface.h"
+
+#include "Base/Memory.h"
+#include "Base/PlaceText.h"
+#include "Mesh/ContentHash.h"
+#include "Mesh/FeatureFilter.h"
+#include "Mesh/Frame.h"
+#include "Mesh/RepairText.h"
+#include "Mesh/Sizing.h"
+#include "Mesh/SmallComponents.h"
+#include "Pipeline/Notices.h"
+#include "Pipeline/SmallHandles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+/// A prepared surface in the store: triangles, which sized surfaces may share, and its own marks.
+struct StoredPrepared
+{
+  std::shared_ptr<PreparedSurface> surface;
+  SurfaceMarks marks;
+  double sizedArea = 0;
+};
+
+/// A sized one. The number of quads is that of the limited sizes, where an edge length was asked for.
+struct StoredSized
+{
+  std::shared_ptr<PreparedSurface> surface;
+  SurfaceMarks marks;
+  bool hasRequests = false; ///< of its own, moved by what closed handles
+  std::size_t targetQuads = 0;
+  std::vector<std::string> notices;
+};
+
+double areaOverSizes(const PreparedSurface& surface)
+{
+  return surface.mesh.sizing.empty() ? surface.area : sizedArea(surface.mesh);
+}
+
+/// Of guides and valences, where closed handles move their corners.
+ResultKey requestsKey(const SurfaceInput& input)
+{
+  KeyMaker key;
+  for (const Vector3& direction : input.guideDirections)
+  {
+    key.add(direction[0]).add(direction[1]).add(direction[2]);
+  }
+  return key.add(input.guideWeights).add(input.targetValences).key();
+}
+
+std::string smallComponentsText(
+  const SmallComponents& small, std::size_t count, double edgeLength)
+{
+  std::ostringstream text;
+  text << count << " of " << small.components
+       << " connected components are smaller than a closed block of quads of this size, the "
+          "largest with the area of "
+       << std::setprecision(2) << small.largest / (edgeLength * edgeLength) << std::setprecision(6)
+       << " quads near " << placeText(small.place);
+  return text.str();
+}
+
+class SurfaceSizing
+{
+public:
+  SurfaceSizing(SurfaceInput& input, const RemeshOptions& options, ResultStore* store)
+    : input_(input), options_(options), store_(store)
+  {
+  }
+
+  SizedSurface run()
+  {
+    prepare();
+    made_.edgeLength = targetEdgeLength(options_, sizedArea_, diagonal_);
+    made_.targetQuads =
+      options_.quads ? *options_.quads : predictedQuads(sizedArea_, made_.edgeLength);
+    if (!findSized())
+    {
+      size();
+    }
+    input_ = {};
+    if (made_.status.ok())
+    {
+      tellRequests();
+      countSmallComponents();
+    }
+    return std::move(made_);
+  }
+
+private:
+  void tell(const std::string& notice)
+  {
+    if (!notice.empty())
+    {
+      made_.notices.push_back(notice);
+    }
+  }
+
+  void reuse(std::initializer_list<const char*> stages)
+  {
+    made_.reused.insert(made_.reused.end(), stages.begin(), stages.end());
+  }
+
+  void prepare()
+  {
+    if (store_ != nullptr)
+    {
+      preparedKey_ = KeyMaker(contentHash(input_, options_.threads))
+                       .add(options_.featureAngle.value_or(0))
+                       .key();
+      if ((prepared_ = store_->find<StoredPrepared>(preparedKey_)))
+      {
+        checkRequests(input_);
+        sizedArea_ = prepared_->sizedArea;
+        diagonal_ = prepared_->surface->boundingBoxDiagonal;
+        reuse({ "repair", "order", "connectivity" });
+        return;
+      }
+    }
+    PrepareOptions prepareOptions;
+    prepareOptions.featureAngle = options_.featureAngle;
+    prepareOptions.threads = options_.threads;
+    prepareOptions.progress = subProgress(options_.progress, 0.0, 0.1, "Preparing: ");
+    requestsKey_ = options_.closeHandles > 0 ? requestsKey(input_) : 0;
+    made_.surface = std::make_shared<PreparedSurface>(prepareSurface(input_, prepareOptions));
+    const std::size_t polygons =
+      input_.polygonOffsets.empty() ? 0 : input_.polygonOffsets.size() - 1;
+    input_ = {};
+    releaseFreedMemory();
+    for (const auto& [name, seconds] : made_.surface->seconds)
+    {
+      made_.stages.add(name, seconds, polygons, made_.surface->mesh.faceCount());
+    }
+    sizedArea_ = areaOverSizes(*made_.surface);
+    diagonal_ = made_.surface->boundingBoxDiagonal;
+  }
+
+  bool findSized()
+  {
+    if (made_.surface == nullptr)
+    {
+      requestsKey_ = options_.closeHandles > 0 ? requestsKey(input_) : 0;
+    }
+    made_.key = KeyMaker(preparedKey_)
+                  .add(made_.edgeLength)
+                  .add(options_.closeHandles)
+                  .add(requestsKey_)
+                  .add(std::uint64_t{ options_.removeSmallComponents ? 1U : 0U })
+                  .key();
+    const auto found = prepared_ ? store_->find<StoredSized>(made_.key) : nullptr;
+    if (!found || (!options_.quads && found->targetQuads > options_.maximumNumberOfQuads))
+    {
+      return false;
+    }
+    made_.surface = found->surface;
+    putOn(found->marks, *made_.surface);
+    if (!found->hasRequests)
+    {
+      collectRequests(input_, *made_.surface);
+    }
+    made_.targetQuads = options_.quads ? *options_.quads : found->targetQuads;
+    made_.notices = found->notices;
+    reuse({ "refine" });
+    return !refuseTooMany();
+  }
+
+  /// Of the prepared surface, which is kept as it was where there is a store.
+  void size()
+  {
+    std::shared_ptr<PreparedSurface> before = made_.surface;
+    SurfaceMarks marks;
+    if (prepared_)
+    {
+      before = prepared_->surface;
+      marks = prepared_->marks;
+    }
+    else if (store_ != nullptr)
+    {
+      PreparedSurface& surface = *made_.surface;
+      marks = marksOf(surface);
+      marks.polygonGuides.clear();
+      marks.valenceRequests.clear();
+      marks.unusedValences = 0;
+    }
+    if (store_ != nullptr)
+    {
+      made_.surface = std::make_shared<PreparedSurface>(*before);
+      if (prepared_)
+      {
+        putOn(marks, *made_.surface);
+        collectRequests(input_, *made_.surface);
+      }
+    }
+    limitSizes();
+    if (refuseTooMany())
+    {
+      return;
+    }
+    refine();
+    if (store_ != nullptr)
+    {
+      keep(std::move(before), std::move(marks));
+    }
+  }
+
+  /// Triangles that refinement left as they were are kept once.
+  void keep(std::shared_ptr<PreparedSurface> before, SurfaceMarks marks)
+  {
+    const bool hasRequests = options_.closeHandles > 0;
+    const bool sameTriangles = !hasRequests && !options_.removeSmallComponents &&
+      before->mesh.faceCount() == made_.surface->mesh.faceCount();
+    auto sized = std::make_shared<StoredSized>();
+    sized->marks = marksOf(*made_.surface);
+    sized->hasRequests = hasRequests;
+    sized->targetQuads = made_.targetQuads;
+    sized->notices = made_.notices;
+    if (sameTriangles)
+    {
+      putOn(sized->marks, *before);
+      made_.surface = before;
+    }
+    sized->surface = made_.surface;
+    auto prepared = std::make_shared<StoredPrepared>();
+    prepared->surface = std::move(before);
+    prepared->marks = std::move(marks);
+    prepared->sizedArea = sizedArea_;
+    const std::size_t own = bytesOf(*prepared->surface) + prepared->marks.bytes();
+    store_->put(preparedKey_, std::move(prepared), own);
+    const std::size_t bytes =
+      sized->marks.bytes() + (sameTriangles ? 0 : bytesOf(*made_.surface));
+    store_->put(made_.key, std::move(sized), bytes);
+  }
+
+  /// The edge length stays; where the number of quads was asked for, it is met by the scale of the map.
+  void limitSizes()
+  {
+    Mesh& mesh = made_.surface->mesh;
+    const SizingReport limited = limitSizeGrowth(mesh, made_.edgeLength);
+    tell(sizingNotice(mesh, limited));
+    if (limited.changed > 0 && !options_.quads)
+    {
+      made_.targetQuads = predictedQuads(areaOverSizes(*made_.surface), made_.edgeLength);
+    }
+  }
+
+  bool refuseTooMany()
+  {
+    if (made_.targetQuads <= options_.maximumNumberOfQuads)
+    {
+      return false;
+    }
+    made_.status = { StatusCode::TooLarge,
+      "about " + std::to_string(made_.targetQuads) +
+        " quads would be made, more than the limit of " +
+        std::to_string(options_.maximumNumberOfQuads) +
+        "; ask for fewer or longer quads, or raise the limit (Maximum Number Of Quads, "
+        "--maximum-quads)" };
+    return true;
+  }
+
+  void refine()
+  {
+    PreparedSurface& surface = *made_.surface;
+    double start = secondsNow();
+    const std::size_t before = surface.mesh.faceCount();
+    dropSmallComponents();
+    tell(surface.facets.text());
+    tell(featureNotice(removeUnresolvedFeatures(surface.mesh, made_.edgeLength)));
+    refineSurface(surface, made_.edgeLength,
+      subProgress(options_.progress, 0.1, 0.15, "Refining: "));
+    made_.stages.add("refine", secondsNow() - start, before, surface.mesh.faceCount());
+    tell(surface.notice);
+    if (options_.closeHandles > 0)
+    {
+      start = secondsNow();
+      const std::size_t open = surface.mesh.faceCount();
+      const ClosedHandles closed = closeSmallHandles(surface, made_.edgeLength, options_);
+      tell(closed.notice);
+      made_.decimations += closed.decimations;
+      made_.stages.add("close", secondsNow() - start, open, surface.mesh.faceCount());
+    }
+  }
+
+  /// On request, before anything depends on them.
+  void dropSmallComponents()
+  {
+    if (!options_.removeSmallComponents)
+    {
+      return;
+    }
+    const SmallComponents small = findSmallComponents(*made_.surface, made_.edgeLength);
+    const std::size_t removed = quadrille::removeSmallComponents(*made_.surface, small);
+    if (removed > 0)
+    {
+      tell(smallComponentsText(small, removed, made_.edgeLength) +
+        ": removed, as was asked for");
+    }
+  }
+
+  void tellRequests()
+  {
+    const PreparedSurface& surface = *made_.surface;
+    for (const std::string& notice : requestNotices(surface, surfaceGuides(surface)))
+    {
+      tell(notice);
+    }
+    for (const std::string& sentence : repairSentences(surface.repair))
+    {
+      tell("input: " + sentence);
+    }
+  }
+
+  /// What of the surface is left after the removal, or becomes blocks, sets the number of quads where an edge length is asked for.
+  void countSmallComponents()
+  {
+    const double quad = made_.edgeLength * made_.edgeLength;
+    const SmallComponents small = findSmallComponents(*made_.surface, made_.edgeLength);
+    if (!options_.quads)
+    {
+      const double quads = (areaOverSizes(*made_.surface) - small.area) / quad + small.quads;
+      made_.targetQuads = predictedQuads(quads, 1);
+    }
+    if (small.count > 0)
+    {
+      tell(smallComponentsText(small, small.count, made_.edgeLength) +
+        ": each was made of about the smallest block of quads there is, " +
+        std::to_string(std::llround(small.quads)) +
+        " altogether; ask for more quads to resolve them, or have them removed (Small Components, "
+        "--small-components remove)");
+    }
+  }
+
+  SurfaceInput& input_;
+  const RemeshOptions& options_;
+  ResultStore* store_;
+  SizedSurface made_;
+  ResultKey preparedKey_ = 0, requestsKey_ = 0;
+  std::shared_ptr<StoredPrepared> prepared_; ///< found in the store
+  double sizedArea_ = 0, diagonal_ = 0;
+};
+
+} // namespace
+
+double targetEdgeLength(
+  const RemeshOptions& options, double sizedArea, double boundingBoxDiagonal)
+{
+  if (options.quads)
+  {
+    return roundedLength(std::sqrt(sizedArea / static_cast<double>(*options.quads)));
+  }
+  return options.edgeLength ? *options.edgeLength
+                            : roundedLength(options.relativeEdgeLength * boundingBoxDiagonal);
+}
+
+std::size_t predictedQuads(double sizedArea, double edgeLength)
+{
+  const double quads = sizedArea / (edgeLength * edgeLength);
+  return static_cast<std::size_t>(std::max(1.0, std::min(quads, 1e15)));
+}
+
+SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, ResultStore* store)
+{
+  return SurfaceSizing(input, options, store).run();
+}
+
+} // namespace quadrille

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// From the input in its frame to the surface that attempts begin with: repaired, with features, refined for the size of the quads.
+#pragma once
+
+#include "Base/Error.h"
+#include "Mesh/Surface.h"
+#include "Pipeline/Options.h"
+#include "Pipeline/ResultStore.h"
+#include "Pipeline/StageRecords.h"
+#include "Pipeline/SurfaceVersion.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+struct SizedSurface
+{
+  Status status; ///< TooLarge where more quads would be made than may
+  std::shared_ptr<PreparedSurface> surface;
+  ResultKey key = 0;             ///< of all but guides and valences
+  double edgeLength = 0;         ///< s, in the frame
+  std::size_t targetQuads = 0;   ///< predicted where an edge length was asked for
+  std::vector<std::string> notices;
+  std::vector<std::string> reused; ///< names of stages whose result the store had
+  StageRecords stages;
+  int decimations = 0; ///< runs of phase 1 that closing handles took
+};
+
+/// Lengths in options are in the frame. The input is let go as soon as the surface is prepared. store: null: none. Throws InvalidInput as
+/// prepareSurface does.
+SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, ResultStore* store);
+
+/// s for a number of quads, an edge length or a relative one, whichever the options ask for, kept to the bits of Frame::lengthOf.
+/// sizedArea: the surface's area over its sizes.
+double targetEdgeLength(
+  const RemeshOptions& options, double sizedArea, double boundingBoxDiagonal);
+/// At least one, at most 1e15.
+std::size_t predictedQuads(double sizedArea, double edgeLength);
+
+} // namespace quadrille

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/SmallHandles.h"
+
+#include "Base/PlaceText.h"
+#include "Hierarchy/Hierarchy.h"
+#include "Mesh/CloseHandles.h"
+#include "Mesh/Handles.h"
+
+#include <optional>
+#include <sstream>
+
+namespace quadrille
+{
+namespace
+{
+
+/// How often handles are looked for and closed: those whose loops meet others' have to wait.
+constexpr int kMaximumClosings = 10;
+/// Along the edges of the surface a loop may be so much longer than on the intermediate level, which lies inside of it.
+constexpr double kLongerAlongEdges = 2;
+
+std::vector<std::vector<Index>> placesOf(const HandleReport& found, const Level& level)
+{
+  std::vector<std::vector<Index>> places;
+  for (const HandleLoop& loop : found.loops)
+  {
+    places.emplace_back();
+    for (const Index v : loop.vertices)
+    {
+      places.back().push_back(level.fineVertex[v]);
+    }
+  }
+  return places;
+}
+
+std::string closedText(
+  double length, std::size_t closed, std::size_t left, const std::optional<Vector3>& place)
+{
+  std::ostringstream text;
+  text << closed << " handles shorter round than " << length
+       << " edge lengths were cut and closed";
+  if (place)
+  {
+    text << ", the shortest near " << placeText(*place);
+  }
+  if (left > 0)
+  {
+    text << "; " << left
+         << " are left: every short loop round them meets the boundary or another one";
+  }
+  return text.str();
+}
+
+} // namespace
+
+ClosedHandles closeSmallHandles(
+  PreparedSurface& surface, double edgeLength, const RemeshOptions& options)
+{
+  ClosedHandles result;
+  const double limit = options.closeHandles * edgeLength;
+  std::size_t closed = 0, left = 0;
+  std::optional<Vector3> place;
+  for (int closing = 0; closing < kMaximumClosings; ++closing)
+  {
+    HierarchyOptions levels;
+    levels.targetEdgeLength = edgeLength;
+    levels.coarseVertices = options.coarseVertices;
+    levels.guides = surfaceGuides(surface).faces;
+    levels.keepVertices = indexVertices(surface);
+    levels.threads = options.threads;
+    levels.progress = subProgress(options.progress, 0.15, 0.45, "Decimating: ");
+    const Redecimation redecimation(surface.mesh, surface.hash, levels);
+    ++result.decimations;
+    const Level& level = redecimation.hierarchy().intermediate;
+    const HandleReport found = findHandles(level.mesh, limit);
+    left = found.loops.size();
+    if (left == 0)
+    {
+      break;
+    }
+    const std::vector<std::vector<Index>> places = placesOf(found, level);
+    place = place.value_or(surface.mesh.position[places.front().front()]);
+    const std::size_t now = closeHandles(surface, places, kLongerAlongEdges * limit);
+    if (now == 0)
+    {
+      break;
+    }
+    closed += now;
+    refineSurface(surface, edgeLength, {});
+  }
+  result.notice = closedText(options.closeHandles, closed, left, place);
+  return result;
+}
+
+} // namespace quadrille

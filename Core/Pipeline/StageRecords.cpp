@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/StageRecords.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace quadrille
+{
+
+void StageRecords::add(
+  const std::string& stage, double seconds, std::size_t in, std::size_t out)
+{
+  const auto known = std::find_if(records_.begin(), records_.end(),
+    [&](const StageRecord& record) { return record.stage == stage; });
+  if (known == records_.end())
+  {
+    records_.push_back({ stage, seconds, in, out });
+  }
+  else
+  {
+    *known = { stage, known->seconds + seconds, in, out };
+  }
+}
+
+void StageRecords::add(const StageRecords& later)
+{
+  for (const StageRecord& record : later.records_)
+  {
+    add(record.stage, record.seconds, record.elementsIn, record.elementsOut);
+  }
+}
+
+bool StageRecords::has(const std::string& stage) const
+{
+  return std::any_of(records_.begin(), records_.end(),
+    [&](const StageRecord& record) { return record.stage == stage; });
+}
+
+double secondsNow()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+} // namespace quadrille

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What the stages of a run took.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// One stage of a run: names are read, repair, order, connectivity, phase1, phase2, field,
+/// seamless, quantize, embed, replay, extract (the benchmark's columns), and refine, close, handles, metric, certify, optimize, charts,
+/// retries.
+struct StageRecord
+{
+  std::string stage;
+  double seconds = 0;
+  std::size_t elementsIn = 0;
+  std::size_t elementsOut = 0;
+};
+
+/// The stages in the order of their first run. A stage that had to be repeated is one record, with the time of all its runs and the sizes of
+/// the last one.
+class StageRecords
+{
+public:
+  void add(const std::string& stage, double seconds, std::size_t in, std::size_t out);
+  void add(const StageRecords& later);
+  bool has(const std::string& stage) const;
+  const std::vector<StageRecord>& all() const { return records_; }
+
+private:
+  std::vector<StageRecord> records_;
+};
+
+/// Seconds on a clock that only goes forward.
+double secondsNow();
+
+} // namespace quadrille
