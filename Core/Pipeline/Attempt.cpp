@@ -92,10 +92,10 @@ GridMapResult computeMap(RunContext& run, const Plan& plan, MapAttempt& made)
   {
     return computeCoarsestMap(coarse.mesh, options);
   }
-  const bool remembers = run.store != nullptr && run.options.warmStart &&
-    run.options.method == MapMethod::ScaleAware;
-  const std::shared_ptr<PreviousMap> previous =
-    remembers ? run.store->find<PreviousMap>(warmKey(run, plan)) : nullptr;
+  const bool remembers = run.store != nullptr && run.options.method == MapMethod::ScaleAware;
+  const std::shared_ptr<PreviousMap> previous = remembers && run.options.warmStart
+    ? run.store->find<PreviousMap>(warmKey(run, plan))
+    : nullptr;
   if (previous)
   {
     options.previous = previous.get();
@@ -106,7 +106,7 @@ GridMapResult computeMap(RunContext& run, const Plan& plan, MapAttempt& made)
   {
     if (components > 0)
     {
-      made.reused.emplace_back(stage);
+      made.started.emplace_back(stage);
     }
   };
   reuseIf(map.reuse.seamless, "seamless");
@@ -236,11 +236,12 @@ void keepMap(RunContext& run, MapAttempt& map)
 std::shared_ptr<MapAttempt> asReused(const MapAttempt& found)
 {
   auto map = std::make_shared<MapAttempt>(found);
-  map->reused.clear();
+  map->reused = { "phase1", "phase2" };
   for (const StageRecord& record : found.stages.all())
   {
     map->reused.push_back(record.stage);
   }
+  map->started.clear();
   map->stages = {};
   return map;
 }
@@ -304,6 +305,10 @@ std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan, const Pha
   made->key = key;
   const Hierarchy& levels = run.levels.make(levelOptions(run, plan), before);
   made->stages.add(run.levels.stages());
+  if (!made->stages.has("phase2"))
+  {
+    made->reused.emplace_back("phase2");
+  }
   made->phase1 = run.levels.phase1();
   GridMapResult map = computeMap(run, plan, *made);
   recordCoarse(levels, map, *made);

@@ -61,7 +61,9 @@ struct MapAttempt
   Certificate certificate;
   TransferResult transfer; ///< but for uv
 
-  std::vector<std::string> notices, reused;
+  std::vector<std::string> notices;
+  std::vector<std::string> reused;  ///< names of stages that were not computed
+  std::vector<std::string> started; ///< names of those that were, from an earlier map
   StageRecords stages;
 
   /// Of the map on the surface: what keeps it from being valid.

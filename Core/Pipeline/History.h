@@ -49,6 +49,11 @@ public:
   StageRecords stages() const;
   /// Stages that some attempt has taken over.
   const std::vector<std::string>& reused() const { return reused_; }
+  /// Stages that the result has computed from an earlier map.
+  std::vector<std::string> started() const
+  {
+    return result().map ? result().map->started : std::vector<std::string>{};
+  }
 
 private:
   struct Summary

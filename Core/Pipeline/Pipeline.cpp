@@ -240,6 +240,8 @@ void takeHistory(
   }
   reused.insert(reused.end(), history.reused().begin(), history.reused().end());
   result.reused = onlyReused(reused, result.stages);
+  const std::vector<std::string> started = history.started();
+  result.reused.insert(result.reused.end(), started.begin(), started.end());
 }
 
 /// From the sized surface to the result, in the frame.

@@ -186,11 +186,8 @@ private:
     }
     else if (store_ != nullptr)
     {
-      PreparedSurface& surface = *made_.surface;
-      marks = marksOf(surface);
-      marks.polygonGuides.clear();
-      marks.valenceRequests.clear();
-      marks.unusedValences = 0;
+      marks = marksOf(*made_.surface);
+      forgetRequests(marks);
     }
     if (store_ != nullptr)
     {
@@ -228,6 +225,10 @@ private:
     {
       putOn(sized->marks, *before);
       made_.surface = before;
+    }
+    if (!hasRequests)
+    {
+      forgetRequests(sized->marks);
     }
     sized->surface = made_.surface;
     auto prepared = std::make_shared<StoredPrepared>();

@@ -46,11 +46,11 @@ std::size_t bytesOf(const PreparedSurface& surface)
     bytesOf(surface.refinedEntry) + bytesOf(surface.cornerWeights);
 }
 
-void forgetRequests(PreparedSurface& surface)
+void forgetRequests(SurfaceMarks& marks)
 {
-  surface.polygonGuides.clear();
-  surface.valenceRequests.clear();
-  surface.unusedValences = 0;
+  marks.polygonGuides.clear();
+  marks.valenceRequests.clear();
+  marks.unusedValences = 0;
 }
 
 RunSurface::RunSurface(std::shared_ptr<PreparedSurface> surface, ResultKey key, int threads)

@@ -31,10 +31,11 @@ struct SurfaceMarks
   std::size_t bytes() const;
 };
 SurfaceMarks marksOf(const PreparedSurface& surface);
+/// Guides and valences, which belong to the run and not to the surface.
+void forgetRequests(SurfaceMarks& marks);
 void putOn(const SurfaceMarks& marks, PreparedSurface& surface);
 std::size_t bytesOf(const Mesh& mesh);
 std::size_t bytesOf(const PreparedSurface& surface);
-void forgetRequests(PreparedSurface& surface);
 
 /// The surface that a run works on: sized, with the features and sizes of one plan after the other.
 class RunSurface
