@@ -574,16 +574,17 @@ TEST(QuadRemesh, AChangeBeginsAtItsStageWithTheSameQuads)
   };
   guideSome(input, 1, 0);
   run(filter, input, 400);
-  expectAsNew("repair\norder\nconnectivity\nrefine\nphase1");
+  expectAsNew("repair\norder\nconnectivity\nrefine\nhandles\nphase1");
   EXPECT_EQ(
-    filter->GetOutput()->GetFieldData()->GetAbstractArray("ReusedStages")->GetNumberOfTuples(), 5);
+    filter->GetOutput()->GetFieldData()->GetAbstractArray("ReusedStages")->GetNumberOfTuples(), 6);
   run(filter, input, 500);
   expectAsNew("repair\norder\nconnectivity");
   // A copy with other arrays and times has the same content.
   const vtkSmartPointer<vtkPolyData> copy = vtkSmartPointer<vtkPolyData>::New();
   copy->DeepCopy(input);
   run(filter, copy, 500);
-  expectAsNew("repair\norder\nconnectivity\nrefine\nphase1");
+  expectAsNew("repair\norder\nconnectivity\nrefine\nhandles\nphase1\nphase2\nfield\nseamless\nquantize\nembed\nreplay\n"
+              "certify\nextract");
   filter->WarmStartOn();
   copy->Modified();
   run(filter, copy, 500);
