@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Seconds and sizes of the stages, as CSV on standard output. Every run is a process of its own, so that
 /// its peak memory is its own; the peak is the same on each row of a run.
+#include "Base/Clock.h"
 #include "Base/Parallel.h"
 #include "CoarseTimes.h"
 #include "ExtractionTimes.h"
@@ -22,7 +23,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 
@@ -207,11 +207,6 @@ double peakMegabytes()
   return static_cast<double>(usage.ru_maxrss) / 1024; // Linux counts KiB
 }
 
-double now()
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 void printRows(const std::string& mesh, long long repeat, const Request& request,
   const std::vector<StageRow>& rows)
 {
@@ -267,9 +262,9 @@ int runOnce(const std::string& mesh, long long repeat, const Request& request)
 {
   try
   {
-    const double start = now();
+    const double start = secondsNow();
     const vtkSmartPointer<vtkPolyData> input = readMeshFile(mesh);
-    const double read = now() - start;
+    const double read = secondsNow() - start;
     RemeshRun run;
     run.filter()->SetTargetTypeToNumberOfQuads();
     run.filter()->SetNumberOfQuads(request.quads);
@@ -291,7 +286,7 @@ int runOnce(const std::string& mesh, long long repeat, const Request& request)
     std::vector<StageRow> rows = run.stages();
     rows.insert(rows.begin(), { "read", read, cells, cells });
     rows.push_back(
-      { "total", now() - start, cells, run.filter()->GetOutput()->GetNumberOfPolys() });
+      { "total", secondsNow() - start, cells, run.filter()->GetOutput()->GetNumberOfPolys() });
     vtkFieldData* facts = run.filter()->GetOutput()->GetFieldData();
     rows.push_back(
       { "attempts", 0, static_cast<long long>(facts->GetArray("Decimations")->GetTuple1(0)),

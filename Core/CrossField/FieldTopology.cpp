@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossField/FieldTopology.h"
 
+#include "Base/Angles.h"
 #include "Mesh/Sizing.h"
 
 #include <algorithm>
@@ -11,8 +12,6 @@ namespace quadrille
 {
 namespace
 {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Unlike acos, atan2 stays accurate for slivers.
 double angleBetween(const Vector3& a, const Vector3& b)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossField/PowerField.h"
 
+#include "Base/Angles.h"
 #include "Base/Error.h"
 
 #include <Eigen/SparseCholesky>
@@ -16,7 +17,6 @@ namespace quadrille
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
 using Complex = std::complex<double>;
 constexpr int kDiffusionSteps = 8; // the singularities hardly move after these
 // A guide of weight 1 against the Laplacian, times s^2: the field turns away from it within s / 4.

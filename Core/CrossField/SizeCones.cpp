@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossField/SizeCones.h"
 
+#include "Base/Angles.h"
 #include "Base/Progress.h"
 #include "Mesh/Topology.h"
 
@@ -18,7 +19,6 @@ namespace quadrille
 namespace
 {
 
-constexpr double kQuarter = 1.57079632679489661923;
 /// Least cotangent, so that slivers leave the matrix positive.
 constexpr double kLeastCotangent = 1e-3;
 /// Share of a vertex's area in its row: only to make the matrix positive, the mean is taken off afterwards.
@@ -75,7 +75,7 @@ public:
     for (std::size_t i = 0; i < turns.size(); ++i)
     {
       const Fan& fan = topology.fans[i];
-      right(fan.vertex) += turns[i] * kQuarter - fan.angle;
+      right(fan.vertex) += turns[i] * kRightAngle - fan.angle;
     }
     return withoutMeans(solver_.solve(right));
   }
@@ -83,7 +83,7 @@ public:
   Eigen::VectorXd ofVertex(Index v) const
   {
     Eigen::VectorXd right = Eigen::VectorXd::Zero(mass_.size());
-    right(v) = kQuarter;
+    right(v) = kRightAngle;
     return withoutMeans(solver_.solve(right));
   }
   /// Shares of the area, per vertex.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossField/TurnCosts.h"
 
+#include "Base/Angles.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +11,6 @@ namespace quadrille
 {
 namespace
 {
-
-constexpr double kQuarter = 1.57079632679489661923;
 
 constexpr double kIrregular = 1.0; // an irregular vertex: a pair closer than about 2 s vanishes
 constexpr double kBend = 0.25;     // a sector that is not straight
@@ -57,7 +57,7 @@ double shiftCost(const TurnRepairInput& input, std::size_t e, int shift, int ste
   const bool stiff = input.stiffness != nullptr && !input.stiffness->empty();
   const double weight = input.topology->edgeLength[input.topology->edges[e][0]] / input.length *
     (stiff ? (*input.stiffness)[e] : 1.0);
-  const double residual = (*input.residual)[e] / kQuarter;
+  const double residual = (*input.residual)[e] / kRightAngle;
   // (residual - shift - step)^2 - (residual - shift)^2
   return weight * (1 - 2 * step * (residual - shift));
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossField/TurnTargets.h"
 
+#include "Base/Angles.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +12,6 @@ namespace quadrille
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kNoise = kPi / 3; // turns up to here can be noise,
 constexpr double kSharp =
   kPi / 2; // from here on they are the shape's own, like the steps of a part

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossField/Turns.h"
 
+#include "Base/Angles.h"
+
 #include <cmath>
 
 namespace quadrille
@@ -9,14 +11,12 @@ namespace quadrille
 namespace
 {
 
-constexpr double kQuarter = 1.57079632679489661923;
-
 // Angle from the axis of its alignment to constrained half-edge h, in (-pi, pi].
 double deviation(const FieldTopology& topology, const FieldConstraints& constraints,
   const std::vector<double>& angle, Index h)
 {
   return wrapAngle(
-    topology.direction[h] - angle[Mesh::face(h)] - kQuarter * constraints.alignment[h]);
+    topology.direction[h] - angle[Mesh::face(h)] - kRightAngle * constraints.alignment[h]);
 }
 
 } // namespace
@@ -28,7 +28,7 @@ std::vector<int> roundJumps(
   for (const std::array<Index, 2>& edge : topology.edges)
   {
     const double turn = edgeResidual(topology, angle, mesh, edge[0], 0);
-    jump[edge[0]] = static_cast<int>(std::lround(turn / kQuarter));
+    jump[edge[0]] = static_cast<int>(std::lround(turn / kRightAngle));
     jump[edge[1]] = -jump[edge[0]];
   }
   return jump;
@@ -59,7 +59,7 @@ std::vector<int> countTurns(const Mesh& mesh, const FieldTopology& topology,
   std::vector<int> turns(topology.fans.size());
   for (std::size_t i = 0; i < turns.size(); ++i)
   {
-    turns[i] = static_cast<int>(std::lround(sum[i] / kQuarter));
+    turns[i] = static_cast<int>(std::lround(sum[i] / kRightAngle));
   }
   return turns;
 }

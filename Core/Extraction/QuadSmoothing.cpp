@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/QuadSmoothing.h"
 
+#include "Base/Angles.h"
 #include "Base/Parallel.h"
 #include "Extraction/QuadMoves.h"
 #include "Extraction/QuadShape.h"
@@ -181,7 +182,7 @@ private:
     {
       for (int i = 0; i < 8; ++i)
       {
-        const double angle = i * 0.7853981633974483; // 45 degrees
+        const double angle = i * kPi / 4;
         tryMove(p, factor * reach * (std::cos(angle) * x + std::sin(angle) * y), best);
       }
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/Continuation.h"
 
+#include "Base/Angles.h"
 #include "GridMap/MapShape.h"
 #include "Numerics/Untangler.h"
 
@@ -14,7 +15,6 @@ namespace quadrille
 namespace
 {
 
-constexpr double kQuarterTurn = 1.5707963267948966;
 constexpr double kFirstStep = 0.25;
 constexpr double kShortestStep = 1.0 / 1024;
 constexpr int kMaximumTries = 80;
@@ -142,7 +142,7 @@ private:
     }
     for (Index v = 0; v < mesh_.vertexCount(); ++v)
     {
-      if (std::lround(angle[v] / kQuarterTurn) != field_.turns[v])
+      if (std::lround(angle[v] / kRightAngle) != field_.turns[v])
       {
         return false;
       }

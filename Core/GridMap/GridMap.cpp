@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/GridMap.h"
 
+#include "Base/Clock.h"
 #include "Base/PlaceText.h"
+#include "Base/ProgressPart.h"
 #include "GridMap/MapShape.h"
 #include "GridMap/MeshParts.h"
 #include "GridMap/RoundedMap.h"
@@ -10,9 +12,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -35,25 +35,6 @@ constexpr double kLeastBesideBlocks = 0.5;
 /// A map with a component missing is none. That many failures in one stage have a common cause, which more work in later stages
 /// does not mend: the caller hears of them at once.
 constexpr std::size_t kHopeless = 4;
-
-class Stopwatch
-{
-public:
-  Stopwatch(double& seconds, double& processor) : seconds_(seconds), processor_(processor) {}
-  ~Stopwatch()
-  {
-    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    processor_ += static_cast<double>(std::clock() - processorStart_) / CLOCKS_PER_SEC;
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
-private:
-  double& seconds_;
-  double& processor_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::clock_t processorStart_ = std::clock();
-};
 
 /// Area of the map in quads.
 double mapArea(const Mesh& mesh, const std::vector<FixedVec2>& uv)
@@ -81,16 +62,6 @@ std::vector<Index> cornerVertices(const Mesh& mesh, const std::vector<Index>& fa
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
-}
-
-ProgressCallback subProgress(const ProgressCallback& progress, double begin, double end)
-{
-  if (!progress)
-  {
-    return {};
-  }
-  return [=](double fraction, const std::string& text)
-  { return progress(begin + (end - begin) * fraction, text); };
 }
 
 std::vector<Index> join(std::vector<Index> a, const std::vector<Index>& b)
@@ -164,16 +135,16 @@ private:
   ProgressCallback progressOf(std::size_t i, double begin, double end) const
   {
     const double step = (end - begin) / static_cast<double>(components_.size());
-    return subProgress(options_.progress, begin + step * static_cast<double>(i),
+    return progressPart(options_.progress, begin + step * static_cast<double>(i),
       begin + step * static_cast<double>(i + 1));
   }
 
   void computeField()
   {
-    const Stopwatch watch(result_.secondsField, result_.processorField);
+    const TimedScope timed(result_.secondsField, result_.processorField);
     CrossFieldOptions fieldOptions;
     fieldOptions.targetEdgeLength = options_.edgeLength;
-    fieldOptions.progress = subProgress(options_.progress, 0.0, 0.1);
+    fieldOptions.progress = progressPart(options_.progress, 0.0, 0.1);
     fieldOptions.guides = options_.guides;
     fieldOptions.targetValences = options_.targetValences;
     result_.field = computeCrossField(mesh_, fieldOptions);
@@ -363,7 +334,7 @@ private:
       report(progressOf(i, 0.1, 1.0), 0.0, "rounding the map");
       if (!component.rounded)
       {
-        const Stopwatch watch(result_.secondsSeamless, result_.processorSeamless);
+        const TimedScope timed(result_.secondsSeamless, result_.processorSeamless);
         component.rounded = std::make_unique<RoundedMap>(
           component.part.mesh, component.part.field, options_.edgeLength);
       }
@@ -374,7 +345,7 @@ private:
           { why.code, std::string(nameOf(options_.method)) + ": " + why.message }, {}, {});
         continue;
       }
-      const Stopwatch watch(result_.secondsQuantize, result_.processorQuantize);
+      const TimedScope timed(result_.secondsQuantize, result_.processorQuantize);
       component.integerUv = component.rounded->make(quadsOf(component, wanted),
         options_.method == MapMethod::QuadCover ? RoundingOrder::AllAtOnce
                                                 : RoundingOrder::OneAtATime);
@@ -397,7 +368,7 @@ private:
   /// The seamless map that has its share of `wanted`.
   bool mapSeamlessly(Component& component, double wanted, const ProgressCallback& progress)
   {
-    const Stopwatch watch(result_.secondsSeamless, result_.processorSeamless);
+    const TimedScope timed(result_.secondsSeamless, result_.processorSeamless);
     const MeshPart& part = component.part;
     SeamlessOptions seamlessOptions;
     seamlessOptions.edgeLength = options_.edgeLength;
@@ -445,7 +416,7 @@ private:
   QuantizeResult quantize(const Component& component, const std::vector<FixedVec2>& seamlessUv,
     const std::vector<Index>& watched, const ProgressCallback& progress)
   {
-    const Stopwatch watch(result_.secondsQuantize, result_.processorQuantize);
+    const TimedScope timed(result_.secondsQuantize, result_.processorQuantize);
     QuantizeOptions quantizeOptions;
     quantizeOptions.watched = watched;
     quantizeOptions.pull = options_.pull;
@@ -488,7 +459,7 @@ private:
       embedOptions.anisotropyLimit = options_.anisotropyLimit;
       embedOptions.progress = progress;
       {
-        const Stopwatch watch(result_.secondsEmbed, result_.processorEmbed);
+        const TimedScope timed(result_.secondsEmbed, result_.processorEmbed);
         embedded = embedMap(part.mesh, part.field, component.uv, embedOptions);
         result_.work += embedded.work;
         result_.embedSteps += embedded.newtonSteps;

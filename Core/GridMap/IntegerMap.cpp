@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/IntegerMap.h"
 
+#include "Base/Angles.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +13,6 @@ namespace quadrille
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
 /// Cocircular points, which whole displacements make often, must not flip forever.
 constexpr double kDelaunaySlack = -1e-9;
 

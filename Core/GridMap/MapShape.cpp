@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/MapShape.h"
 
+#include "Base/Angles.h"
 #include "Base/Error.h"
 #include "Mesh/Sizing.h"
 
@@ -133,7 +134,7 @@ double stretchedLength(const Mesh& mesh, const CrossField& field, Index h)
 void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, const Mesh& mesh,
   const CrossField& field, Index f, int quarterTurns, double edgeLength)
 {
-  const double turn = quarterTurns * std::acos(0.0) - field.angle[f];
+  const double turn = quarterTurns * kRightAngle - field.angle[f];
   const Eigen::Matrix2d flat = flattenFace(mesh, f);
   const Eigen::Matrix2d shape =
     field.stretch.empty() ? flat : Eigen::Matrix2d(field.stretch[f] * flat);
@@ -157,7 +158,7 @@ UntangleProblem referToMap(const UntangleProblem& problem, const CarriedMap& car
     Eigen::Matrix2d shape;
     shape << toDouble(uv[3 * f + 1] - uv[3 * f]), toDouble(uv[3 * f + 2] - uv[3 * f]);
     const int turns = quarterTurns.empty() ? 0 : quarterTurns[f];
-    const Eigen::Rotation2Dd turn(carried.turned[f] + turns * std::acos(0.0));
+    const Eigen::Rotation2Dd turn(carried.turned[f] + turns * kRightAngle);
     result.inverseReference[f] = (scale * turn.toRotationMatrix() * shape).inverse();
   }
   return result;
@@ -184,7 +185,7 @@ void guardEdges(UntangleProblem& problem, const std::vector<GuardedEdge>& edges)
   {
     const GuardedEdge& edge = edges[i];
     const Eigen::Matrix2d frame =
-      edge.length * Eigen::Rotation2Dd(edge.axis * std::acos(0.0)).toRotationMatrix();
+      edge.length * Eigen::Rotation2Dd(edge.axis * kRightAngle).toRotationMatrix();
     const Eigen::Index point = rows / 2 + static_cast<Eigen::Index>(i);
     problem.offset.segment<2>(2 * point) =
       problem.offset.segment<2>(2 * Eigen::Index(edge.from)) + frame.col(1);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/PreviousMap.h"
 
+#include "Base/Angles.h"
 #include "Base/Error.h"
 
 #include <Eigen/Geometry>
@@ -14,9 +15,6 @@ namespace quadrille
 {
 namespace
 {
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kQuarterTurn = kPi / 2;
 
 template <typename T>
 std::size_t bytesOf(const std::vector<T>& values)
@@ -210,7 +208,7 @@ CarriedMap MapCarrier::carry(
     {
       turn[f] = previous_.field.angle[Mesh::face(corner[f])] - field.angle[f] -
         directionInFace(previous_.mesh, corner[f]);
-      rotation[f] = static_cast<int>(std::lround(turn[f] / kQuarterTurn));
+      rotation[f] = static_cast<int>(std::lround(turn[f] / kRightAngle));
     }
   }
   result.isMap =
@@ -231,8 +229,8 @@ CarriedMap MapCarrier::carry(
       result.seamlessUv[3 * f + i] = rotate(previous_.seamlessUv[x], rotation[f]);
       result.uv[3 * f + i] = rotate(previous_.uv[x], rotation[f]);
     }
-    const double off = std::remainder(turn[f] - rotation[f] * kQuarterTurn, 2 * kPi);
-    const bool known = std::abs(off) < kQuarterTurn / 2 && isPositive(result.seamlessUv, f) &&
+    const double off = std::remainder(turn[f] - rotation[f] * kRightAngle, 2 * kPi);
+    const bool known = std::abs(off) < kRightAngle / 2 && isPositive(result.seamlessUv, f) &&
       isPositive(result.uv, f);
     result.known[f] = known ? 1 : 0;
     result.turned[f] = known ? off : 0;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/BudgetDecimation.h"
 
+#include "Base/Angles.h"
 #include "Base/Parallel.h"
 #include "Hierarchy/GuideRegions.h"
 #include "Hierarchy/LazyHeap.h"
@@ -23,8 +24,6 @@ namespace quadrille
 
 namespace
 {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Weights of what is added to the curvature cost (radians). A star of average size costs as much as a change of
 /// curvature of kAreaWeight.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/FreeStar.h"
 
+#include "Base/Angles.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,7 +14,7 @@ namespace quadrille
 namespace
 {
 
-constexpr float kPi = 3.14159265F;
+constexpr float kSinglePi = static_cast<float>(kPi);
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kEquilateral = 3.46410162F; // 2 sqrt(3), see VertexRemoval
 /// Stars with a flatter face go to VertexRemoval: their normals and their weights need more digits.
@@ -115,8 +117,8 @@ inline float angleOf(float x, float y)
   r = r * q + 0.1999355085F;
   r = r * q - 0.3333314528F;
   r = (r * q + 1.0F) * t;
-  r = ax < y ? 0.5F * kPi - r : r;
-  return x < 0 ? kPi - r : r;
+  r = ax < y ? 0.5F * kSinglePi - r : r;
+  return x < 0 ? kSinglePi - r : r;
 }
 
 /// Sine and cosine of an angle in [-pi/2, pi/2]; error 1e-7 [Abramowitz and Stegun 1964, 4.3.97 and 4.3.99].
@@ -320,17 +322,17 @@ bool FreeStar::mapToPlane()
     direction[i] = sum;
     sum += angle_[i];
   }
-  const float scale = 2 * kPi / sum;
+  const float scale = 2 * kSinglePi / sum;
   bool fits = true;
   for (std::size_t i = 0; i < N; ++i)
   {
     const float step = scale * angle_[i];
-    fits = fits & (step < 0.995F * kPi) & (step > 1e-6F);
+    fits = fits & (step < 0.995F * kSinglePi) & (step > 1e-6F);
   }
   for (std::size_t i = 0; i < lanes; ++i)
   {
     // From half the angle, so that the polynomials serve the whole turn; which way the plane is turned does not matter.
-    const float half = 0.5F * (scale * direction[i] - kPi);
+    const float half = 0.5F * (scale * direction[i] - kSinglePi);
     const float sine = sineOf(half);
     const float cosine = cosineOf(half);
     u_[i] = length_[i] * (1 - 2 * sine * sine);

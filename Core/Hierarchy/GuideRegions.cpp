@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/GuideRegions.h"
 
+#include "Base/Angles.h"
 #include "Base/Parallel.h"
 #include "Hierarchy/VertexRemoval.h"
 #include "Mesh/Distance.h"
@@ -21,7 +22,6 @@ namespace quadrille
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
 /// Inner angles of a region from here on are no corners.
 constexpr double kCornerLimit = 0.75 * kPi;
 /// A walk to the face below a point ends when so many steps have brought it no nearer.

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/Hierarchy.h"
 
+#include "Base/Clock.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/ProgressPart.h"
 #include "Hierarchy/BudgetDecimation.h"
 #include "Hierarchy/DecimationMesh.h"
 #include "Hierarchy/GuideRegions.h"
@@ -17,7 +19,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -190,17 +191,6 @@ std::optional<Index> positionIn(const Level& level, Index v)
     : std::nullopt;
 }
 
-/// The share [begin, end] of the whole progress.
-ProgressCallback part(const ProgressCallback& progress, double begin, double end)
-{
-  if (!progress)
-  {
-    return {};
-  }
-  return [&progress, begin, end](double fraction, const std::string& text)
-  { return progress(begin + (end - begin) * fraction, text); };
-}
-
 /// The curves among the vertices of a level; the ends of curves are on every level.
 FeatureCurves curvesOf(const Level& level, const FeatureCurves& fine)
 {
@@ -227,11 +217,6 @@ FeatureCurves curvesOf(const Level& level, const FeatureCurves& fine)
   return curves;
 }
 
-double secondsSince(std::chrono::steady_clock::time_point start)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 } // namespace
 
 /// The intermediate level as phase 2 begins on it, small and without gaps, and what phase 2 needs from the finest mesh.
@@ -243,9 +228,9 @@ public:
       draws_(options.draws)
   {
     checkOptions(fine, options);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     thinOut(fineHash, options);
-    hierarchy_.secondsPhase1 = secondsSince(start);
+    hierarchy_.secondsPhase1 = watch.seconds();
   }
 
   bool allows(const HierarchyOptions& options) const
@@ -265,7 +250,7 @@ public:
         "phase 1 has changed, or a vertex that is to be kept is not on the intermediate level.");
     }
     checkPhase2(fine_, options);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     if (cost_ != options.cost)
     {
       cache_.clear();
@@ -288,7 +273,7 @@ public:
     hierarchy_.curvatureShift = result.curvatureShift / edgeLength_;
     append(result.records);
     hierarchy_.coarse = inFineTerms(mesh.extract());
-    hierarchy_.secondsPhase2 = secondsSince(start);
+    hierarchy_.secondsPhase2 = watch.seconds();
     return hierarchy_;
   }
 
@@ -306,7 +291,7 @@ private:
     uniform.curveTolerance = kCurveTolerance * edgeLength_;
     uniform.keepVertices = options.keepVertices;
     uniform.threads = options.threads;
-    uniform.progress = part(options.progress, 0.0, 0.6);
+    uniform.progress = progressPart(options.progress, 0.0, 0.6);
     LogBuilder log;
     switch (options.order)
     {
@@ -375,7 +360,7 @@ private:
     budget.curveTolerance = kCurveTolerance * edgeLength_;
     budget.regionTolerance = kRegionTolerance * edgeLength_;
     budget.threads = options.threads;
-    budget.progress = part(options.progress, 0.6, 1.0);
+    budget.progress = progressPart(options.progress, 0.6, 1.0);
     return budget;
   }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/VertexRemoval.h"
 
+#include "Base/Angles.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -13,7 +15,6 @@ namespace quadrille
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Planar triangles flatter than this carry no useful weights.
 constexpr double kMinimumPlanarQuality = 0.02;

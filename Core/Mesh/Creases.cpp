@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Creases.h"
 
+#include "Base/Angles.h"
 #include "Base/DisjointSets.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
@@ -30,7 +31,7 @@ constexpr double kMostBlunt = 0.1;
 constexpr int kMostRounds = 30;
 /// A line of so many edges is one, whatever is beside it.
 constexpr std::size_t kLongLine = 12;
-const double kStraight = std::cos(20 * 3.14159265358979323846 / 180);
+const double kStraight = std::cos(radians(20));
 
 /// A detected feature edge.
 struct SharpEdge

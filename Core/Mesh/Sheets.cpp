@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Sheets.h"
 
+#include "Base/Angles.h"
 #include "Base/Error.h"
 #include "Base/LargeArray.h"
 #include "Base/PlaceText.h"
@@ -213,7 +214,6 @@ void pairFlattestFirst(
     double cost;
     std::size_t a, b;
   };
-  constexpr double kPi = 3.14159265358979323846;
   std::vector<Candidate> candidates;
   for (std::size_t a = 0; a < spokes.size(); ++a)
   {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Surface.h"
 
+#include "Base/Angles.h"
+#include "Base/Clock.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Mesh/ContentHash.h"
@@ -12,31 +14,11 @@
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/Triangulate.h"
 
-#include <chrono>
-
 namespace quadrille
 {
 
 namespace
 {
-
-constexpr double kPi = 3.14159265358979323846;
-
-class Stopwatch
-{
-public:
-  /// Seconds since the last call.
-  double lap()
-  {
-    const auto now = std::chrono::steady_clock::now();
-    const std::chrono::duration<double> seconds = now - last_;
-    last_ = now;
-    return seconds.count();
-  }
-
-private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 void checkOptions(const PrepareOptions& options)
 {

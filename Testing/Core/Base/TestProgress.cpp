@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/ProgressPart.h"
 
 #include <gtest/gtest.h>
 
@@ -30,6 +31,34 @@ TEST(Progress, theCallbackGetsFractionAndTextAndMayCancel)
   EXPECT_EQ(fraction, 0.25);
   EXPECT_EQ(text, "quarter");
   EXPECT_THROW(report([](double, const std::string&) { return false; }, 0, ""), Cancelled);
+}
+
+TEST(Progress, aPartIsSeenAsSuchFromOutside)
+{
+  double fraction = 0;
+  std::string text;
+  bool goOn = true;
+  const ProgressCallback whole = [&](double f, const std::string& t)
+  {
+    fraction = f;
+    text = t;
+    return goOn;
+  };
+  const ProgressCallback part = progressPart(whole, 0.5, 0.75, "Mapping: ");
+  EXPECT_TRUE(part(0.5, "field"));
+  EXPECT_EQ(fraction, 0.625);
+  EXPECT_EQ(text, "Mapping: field");
+  part(1.5, "");
+  EXPECT_EQ(fraction, 0.75);
+  part(-1, "");
+  EXPECT_EQ(fraction, 0.5);
+  const ProgressCallback partOfPart = progressPart(part, 0.5, 1);
+  partOfPart(0, "integers");
+  EXPECT_EQ(fraction, 0.625);
+  EXPECT_EQ(text, "Mapping: integers");
+  goOn = false;
+  EXPECT_FALSE(partOfPart(0.5, ""));
+  EXPECT_FALSE(progressPart({}, 0, 1)); // nobody listens
 }
 
 TEST(Progress, pollRepeatsTheLastReportAfterAWhile)

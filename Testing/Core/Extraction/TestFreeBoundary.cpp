@@ -616,7 +616,7 @@ TEST(FreeBoundary, RoundBoundariesAreFollowed)
   std::vector<Triangle> triangles;
   for (int i = 0; i < kRound; ++i)
   {
-    const double angle = 2 * 3.141592653589793 * i / kRound;
+    const double angle = 2 * kPi * i / kRound;
     const Vector3 direction(std::cos(angle), std::sin(angle), 0);
     points.push_back(kRadius * direction);
     points.push_back(2.2 * direction / direction.lpNorm<Eigen::Infinity>());

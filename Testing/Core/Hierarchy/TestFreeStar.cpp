@@ -143,7 +143,7 @@ TEST(FreeStar, leavesDiagonalsThatExistToVertexRemoval)
   {
     for (int i = 0; i < 3; ++i)
     {
-      const double angle = 2 * 3.14159265358979323846 * i / 3;
+      const double angle = 2 * kPi * i / 3;
       points.emplace_back(0.2 * std::cos(angle), 0.2 * std::sin(angle), row);
     }
   }
