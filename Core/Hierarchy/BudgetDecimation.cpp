@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Base/Parallel.h"
+#include "Hierarchy/GaussianCurvatureCost.h"
 #include "Hierarchy/GuideRegions.h"
 #include "Hierarchy/LazyHeap.h"
 #include "Hierarchy/VertexRemoval.h"
@@ -109,29 +110,6 @@ struct Quadric
   }
   double at(const Vector3& p) const { return p.dot(a * p) + 2 * b.dot(p) + c; }
 };
-
-/// Angle defects of a mesh without dead faces.
-template <typename AnyMesh>
-std::vector<float> defectsOf(const AnyMesh& mesh)
-{
-  const Index corners = static_cast<Index>(mesh.origin.size());
-  std::vector<double> defect(mesh.position.size(), 2 * kPi);
-  for (Index h = 0; h < corners; ++h)
-  {
-    if (mesh.isBoundary(h))
-    {
-      defect[mesh.origin[h]] = kPi;
-    }
-  }
-  for (Index h = 0; h < corners; ++h)
-  {
-    const Vector3& p = mesh.position[mesh.origin[h]];
-    const Vector3 a = mesh.position[mesh.target(h)] - p;
-    const Vector3 b = mesh.position[mesh.origin[Mesh::previous(h)]] - p;
-    defect[mesh.origin[h]] -= std::atan2(a.cross(b).norm(), a.dot(b));
-  }
-  return { defect.begin(), defect.end() };
-}
 
 /// Connected components of what is alive, and how many vertices each has to keep.
 class ComponentShares
@@ -327,7 +305,7 @@ void BudgetDecimation::prepareCost()
   }
   if (wantsChange())
   {
-    defect_ = defectsOf(mesh_);
+    defect_ = angleDefects(mesh_);
   }
   for (const float defect : defect_)
   {
@@ -578,18 +556,16 @@ void BudgetDecimation::describe(bool possible, Work& work) const
     return;
   }
   work.removal.measureChange(work.change);
-  double curvature = work.change.ownDefect;
   for (int i = 0; i < work.removal.ringSize(); ++i)
   {
     const std::array<double, 2>& change = work.change.defect[static_cast<std::size_t>(i)];
-    curvature += std::abs(change[0]) + std::abs(change[1]);
     if (options_.cost == DecimationCost::GaussianMemory)
     {
       work.value.push_back(wordOf(change[0] + change[1]));
     }
   }
   const double bad = 1 - work.change.worstQuality;
-  work.value[kCurvatureAt] = wordOf(curvature);
+  work.value[kCurvatureAt] = wordOf(gaussianCurvatureCost(work.change, work.removal.ringSize()));
   work.value[kAreaAt] = wordOf(work.change.starArea);
   work.value[kBadAt] = wordOf(bad * bad * bad);
 }
@@ -681,11 +657,6 @@ void BudgetDecimation::remember(const Work& work, Index v)
 }
 
 } // namespace
-
-std::vector<float> angleDefects(const Mesh& mesh)
-{
-  return defectsOf(mesh);
-}
 
 BudgetResult decimateToBudget(DecimationMesh& mesh, const BudgetOptions& options, StarCache& cache)
 {

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Phase 2: decimation to a number of vertices in the order of a cost [Ebke et al. 2016, Section 5.1].
 ///
-/// Where we differ: E_G alone does not care for triangles without curvature and for their shape, on which the
-/// map's freedom depends; so a little of the star's area, of bad shape and of odd valences is added, and
-/// removals that make slivers wait until nothing else is left that costs little. On curves the angle defect is taken on each side
-/// apart, against pi.
+/// E_G itself: GaussianCurvatureCost.h. Where we differ: E_G alone does not care for triangles without curvature and for
+/// their shape, on which the map's freedom depends; so a little of the star's area, of bad shape and of odd valences is
+/// added, and removals that make slivers wait until nothing else is left that costs little.
 #pragma once
 
 #include "Base/Progress.h"
@@ -39,9 +38,6 @@ struct BudgetResult
   double curvatureShift =
     0; ///< see kCurvatureShift, in units of the mesh; for costs that know curvature
 };
-
-/// Angle defects of all vertices: 2 pi, or pi on the boundary, less the sum of angles.
-std::vector<float> angleDefects(const Mesh& mesh);
 
 /// Decimates. What the cache holds must come from calls with the same positions, curves and cost (guides may differ); the result
 /// does not depend on it.

@@ -8,6 +8,7 @@
 #include "Base/ProgressPart.h"
 #include "Hierarchy/BudgetDecimation.h"
 #include "Hierarchy/DecimationMesh.h"
+#include "Hierarchy/GaussianCurvatureCost.h"
 #include "Hierarchy/GuideRegions.h"
 #include "Hierarchy/LogBuilder.h"
 #include "Hierarchy/OrderedDecimation.h"
