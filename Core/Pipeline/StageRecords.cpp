@@ -3,7 +3,6 @@
 #include "Pipeline/StageRecords.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace quadrille
 {
@@ -35,11 +34,6 @@ bool StageRecords::has(const std::string& stage) const
 {
   return std::any_of(records_.begin(), records_.end(),
     [&](const StageRecord& record) { return record.stage == stage; });
-}
-
-double secondsNow()
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 } // namespace quadrille

@@ -3,6 +3,8 @@
 /// What the stages of a run took.
 #pragma once
 
+#include "Base/Clock.h"
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -34,8 +36,5 @@ public:
 private:
   std::vector<StageRecord> records_;
 };
-
-/// Seconds on a clock that only goes forward.
-double secondsNow();
 
 } // namespace quadrille
