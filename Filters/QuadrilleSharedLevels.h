@@ -34,7 +34,7 @@ struct SurfaceKey
   }
 };
 
-/// The finest level in its frame, as prepareFromRecipe and refineFromRecipe make it. Guides and valences are not in its key: they may be others.
+/// The finest level in its frame, as sizeSurface makes it. Guides and valences are not in its key: they may be others.
 struct SharedSurface
 {
   SurfaceKey key;

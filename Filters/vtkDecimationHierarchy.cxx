@@ -5,16 +5,15 @@
 #include "Base/PlaceText.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Mesh/ContentHash.h"
-#include "Mesh/RepairText.h"
+#include "Pipeline/FirstLevels.h"
 #include "Pipeline/LeaveFrame.h"
-#include "Pipeline/Pipeline.h"
+#include "Pipeline/SizedSurface.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleFrame.h"
 #include "QuadrilleLog.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleSharedLevels.h"
-#include "QuadrilleStages.h"
 
 #include "vtkFieldData.h"
 #include "vtkObjectFactory.h"
@@ -44,6 +43,7 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   held = {}; // before the new one takes its memory
   quadrille::ConvertedSurface converted = this->ConvertInputs(block);
   quadrille::RemeshOptions options = this->MakeOptions(block);
+  quadrille::checkOptions(options);
   quadrille::FramedInput framed =
     quadrille::enterFrame(std::move(converted.input), options.threads);
   const quadrille::Frame& frame = framed.frame;
@@ -57,55 +57,30 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   recipe.featureAngle = options.featureAngle;
   recipe.patchArray = this->PatchArrayName;
   recipe.curveMarks = converted.curveMarks;
-  quadrille::StageClock clock;
   const auto made = std::make_shared<quadrille::SharedSurface>();
   made->key.input = quadrille::contentHash(framed.input, options.threads);
-  quadrille::PreparedSurface& surface = made->surface;
-  surface = quadrille::prepareFromRecipe(
-    framed.input, recipe, options.threads, this->MakeProgress(0.0, 0.3), clock);
-  framed.input = {};
-  quadrille::TargetSize target = quadrille::chooseTarget(surface, options);
-  recipe.edgeLength = target.edgeLength;
-  const quadrille::SizingReport limited =
-    quadrille::refineFromRecipe(surface, recipe, this->MakeProgress(0.3, 0.4), clock);
+  options.progress = this->MakeProgress(0.0, 1.8); // the levels end where half of a whole run is done
+  quadrille::SizedSurface sized = quadrille::sizeSurface(framed.input, options, nullptr);
+  quadrille::requireOk(sized.status, "the levels");
+  recipe.edgeLength = sized.edgeLength;
   made->key.featureAngle = recipe.featureAngle;
   made->key.edgeLength = recipe.edgeLength;
-  if (limited.changed > 0 && !options.quads)
-  {
-    target.quads = quadrille::predictedQuads(surface, target.edgeLength);
-  }
+  const quadrille::FirstLevels levels = quadrille::makeFirstLevels(sized, frame, options);
+  const quadrille::Hierarchy& hierarchy = levels.hierarchy;
+  made->surface = std::move(*sized.surface);
+  const quadrille::PreparedSurface& surface = made->surface;
 
-  quadrille::HierarchyOptions levels;
-  levels.targetEdgeLength = target.edgeLength;
-  levels.coarseVertices = options.coarseVertices;
-  levels.threads = options.threads;
-  const quadrille::SurfaceGuides guides = quadrille::surfaceGuides(surface);
-  levels.guides = guides.faces;
-  levels.keepVertices = quadrille::indexVertices(surface);
-  levels.progress = this->MakeProgress(0.4, 0.95);
-  const quadrille::Hierarchy hierarchy =
-    quadrille::buildHierarchy(surface.mesh, surface.hash, levels);
-  clock.add("phase1", hierarchy.secondsPhase1, surface.mesh.faceCount(),
-    hierarchy.intermediate.mesh.faceCount());
-  clock.add("phase2", hierarchy.secondsPhase2, hierarchy.intermediate.mesh.faceCount(),
-    hierarchy.coarse.mesh.faceCount());
-
-  this->SetStageRecords(clock.records);
-  for (const std::string& sentence : quadrille::repairSentences(surface.repair))
+  sized.stages.add(levels.stages);
+  this->SetStageRecords(sized.stages.all());
+  for (const std::vector<std::string>& notices : { sized.notices, levels.notices })
   {
-    this->AddNotice("input: " + sentence);
-  }
-  for (const std::string& notice :
-    { surface.facets.text(), quadrille::sizingNotice(surface.mesh, limited), hierarchy.notice })
-  {
-    if (!notice.empty())
+    for (const std::string& notice : notices)
     {
-      this->AddNotice(notice);
+      if (!notice.empty())
+      {
+        this->AddNotice(notice);
+      }
     }
-  }
-  for (const std::string& notice : quadrille::requestNotices(surface, guides))
-  {
-    this->AddNotice(notice);
   }
   const std::vector<quadrille::Vector3> positions =
     quadrille::userPositions(surface, frame, framed.points);
@@ -120,9 +95,9 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   };
   vtkPolyData* coarse = block.output(0);
   coarse->ShallowCopy(write(hierarchy.coarse));
-  quadrille::addNumber(coarse, "TargetEdgeLength", frame.unit * target.edgeLength);
-  quadrille::addCount(coarse, "TargetQuads", target.quads);
-  quadrille::addStages(coarse, clock.records);
+  quadrille::addNumber(coarse, "TargetEdgeLength", frame.unit * sized.edgeLength);
+  quadrille::addCount(coarse, "TargetQuads", sized.targetQuads);
+  quadrille::addStages(coarse, sized.stages.all());
   quadrille::addRepair(coarse, surface.repair);
   quadrille::addText(coarse, "Notices", this->GetBlockNotices());
   block.output(1)->ShallowCopy(write(hierarchy.intermediate));

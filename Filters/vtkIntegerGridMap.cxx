@@ -6,11 +6,12 @@
 #include "GridMap/GridMap.h"
 #include "Pipeline/CoarsestMap.h"
 #include "Pipeline/LeaveFrame.h"
+#include "Pipeline/Notices.h"
+#include "Pipeline/StageRecords.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleFrame.h"
 #include "QuadrilleReport.h"
-#include "QuadrilleStages.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -91,15 +92,23 @@ void vtkIntegerGridMap::Execute(quadrille::Block& block)
   quadrille::GridMapResult map = coarsest ? quadrille::computeCoarsestMap(mesh, options)
                                           : quadrille::computeGridMap(mesh, options);
 
-  quadrille::StageClock clock;
+  quadrille::StageRecords stages;
   const std::size_t faces = mesh.faceCount();
-  clock.add("field", map.secondsField, faces, faces);
-  clock.add("seamless", map.secondsSeamless, faces, faces);
-  clock.add("quantize", map.secondsQuantize, faces, faces);
-  clock.add("embed", map.secondsEmbed, faces, faces);
-  this->SetStageRecords(clock.records);
+  stages.add("field", map.secondsField, faces, faces);
+  stages.add("seamless", map.secondsSeamless, faces, faces);
+  stages.add("quantize", map.secondsQuantize, faces, faces);
+  stages.add("embed", map.secondsEmbed, faces, faces);
+  this->SetStageRecords(stages.all());
   this->SetCertificate(map.certificate);
   quadrille::requireOk(map.status, "the map of the coarse level");
+  for (const std::string& notice : { quadrille::refinementNotice(map.refinement),
+         quadrille::anisotropyNotice(map.beyondAnisotropyLimit, options.anisotropyLimit) })
+  {
+    if (!notice.empty())
+    {
+      this->AddNotice(notice);
+    }
+  }
 
   // The mesh is written anew: a map belongs to corners, and strips or split points have none.
   vtkPolyData* output = block.output();
@@ -119,7 +128,7 @@ void vtkIntegerGridMap::Execute(quadrille::Block& block)
   quadrille::addMap(output, map.uv);
   quadrille::addMatching(output, map.field.matching);
   quadrille::addTurns(output, surface, map.field.turns);
-  quadrille::addStages(output, clock.records);
+  quadrille::addStages(output, stages.all());
   quadrille::addCertificate(output, map.certificate);
   quadrille::addMethod(output, options.method);
   quadrille::addAnisotropy(output, options.anisotropyLimit, map.beyondAnisotropyLimit);

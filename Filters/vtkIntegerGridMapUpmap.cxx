@@ -5,13 +5,14 @@
 #include "Base/PlaceText.h"
 #include "Mesh/ContentHash.h"
 #include "Pipeline/LeaveFrame.h"
+#include "Pipeline/SizedSurface.h"
+#include "Pipeline/StageRecords.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleFrame.h"
 #include "QuadrilleLog.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleSharedLevels.h"
-#include "QuadrilleStages.h"
 #include "Transfer/Charts.h"
 #include "Transfer/Transfer.h"
 
@@ -21,6 +22,8 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
+
+#include <limits>
 
 vtkStandardNewMacro(vtkIntegerGridMapUpmap);
 
@@ -120,14 +123,14 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   const quadrille::Frame& frame = framed.frame;
   const quadrille::PlaceScope places(frame.centre, frame.unit, frame.sign);
   recipe.edgeLength = frame.lengthOf(recipe.edgeLength);
-  quadrille::StageClock clock;
+  quadrille::StageLaps laps;
   auto& held = block.state->memoryAs<quadrille::SharedLevels>();
   held.map.reset();
-  this->FindOrPrepare(framed.input, recipe, clock, held);
+  this->FindOrPrepare(framed.input, recipe, laps, held);
   const quadrille::PreparedSurface& surface = held.surface->surface;
 
   const quadrille::DecimationLog log = quadrille::readLog(logData, surface.hash);
-  clock.lap("log", 0, log.collapses + log.flips);
+  laps.lap("log", 0, log.collapses + log.flips);
   quadrille::Level coarse = quadrille::readLevel(coarseData, surface.mesh);
   std::vector<quadrille::FixedVec2> coarseUv = quadrille::readMap(coarseData);
   if (frame.reversed)
@@ -141,13 +144,13 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   options.progress = this->MakeProgress(0.5, 0.9);
   quadrille::TransferResult map =
     quadrille::transferMap(surface.mesh, coarse, log, coarseUv, options);
-  clock.lap("replay", coarse.mesh.faceCount(), surface.mesh.faceCount());
+  laps.lap("replay", coarse.mesh.faceCount(), surface.mesh.faceCount());
   const quadrille::ChartCounts charts = quadrille::mergeCharts(surface.mesh, map.uv);
-  clock.lap("charts", surface.mesh.faceCount(), charts.charts);
+  laps.lap("charts", surface.mesh.faceCount(), charts.charts);
 
   const quadrille::Certificate certificate = quadrille::certify(
     surface.mesh, map.uv, expected.turns, expected.integerVertex, this->NumberOfThreads);
-  clock.lap("certify", surface.mesh.faceCount(), surface.mesh.faceCount());
+  laps.lap("certify", surface.mesh.faceCount(), surface.mesh.faceCount());
   this->SetCertificate(certificate);
   if (!quadrille::hasPromised(certificate, quadrille::readMethod(coarseData)) ||
     certificate.notPositive > 0)
@@ -176,11 +179,11 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
     held.map = std::make_shared<quadrille::SharedMap>(quadrille::SharedMap{ *key, held.surface, frame });
     quadrille::share(held.map);
   }
-  clock.lap("write", surface.mesh.faceCount(), surface.mesh.faceCount());
-  this->SetStageRecords(clock.records);
+  laps.lap("write", surface.mesh.faceCount(), surface.mesh.faceCount());
+  this->SetStageRecords(laps.records.all());
   output->GetFieldData()->PassData(coarseData->GetFieldData());
   quadrille::addFrame(output, frame, surface.mesh.position);
-  quadrille::addStages(output, clock.records);
+  quadrille::addStages(output, laps.records.all());
   quadrille::addCertificate(output, certificate);
   quadrille::addCount(output, "Charts", charts.charts);
   quadrille::addCount(output, "SeamEdges", charts.seamEdges);
@@ -192,7 +195,7 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
 
 //------------------------------------------------------------------------------
 void vtkIntegerGridMapUpmap::FindOrPrepare(quadrille::SurfaceInput& input,
-  const quadrille::SurfaceRecipe& recipe, quadrille::StageClock& clock,
+  const quadrille::SurfaceRecipe& recipe, quadrille::StageLaps& laps,
   quadrille::SharedLevels& held)
 {
   const quadrille::SurfaceKey key{ quadrille::contentHash(input, this->NumberOfThreads),
@@ -206,14 +209,20 @@ void vtkIntegerGridMapUpmap::FindOrPrepare(quadrille::SurfaceInput& input,
     held.surface.reset(); // before the new one takes its memory
     const auto made = std::make_shared<quadrille::SharedSurface>();
     made->key = key;
-    made->surface = quadrille::prepareFromRecipe(
-      input, recipe, this->NumberOfThreads, this->MakeProgress(0.0, 0.4), clock);
-    quadrille::refineFromRecipe(made->surface, recipe, this->MakeProgress(0.4, 0.5), clock);
+    quadrille::RemeshOptions options;
+    options.edgeLength = recipe.edgeLength;
+    options.featureAngle = recipe.featureAngle;
+    options.maximumNumberOfQuads = std::numeric_limits<std::size_t>::max();
+    options.threads = this->NumberOfThreads;
+    options.progress = this->MakeProgress(0.0, 3.3); // the surface is ready at 0.15 of a whole run
+    quadrille::SizedSurface sized = quadrille::sizeSurface(input, options, nullptr);
+    laps.add(sized.stages);
+    made->surface = std::move(*sized.surface);
     held.surface = made;
     quadrille::share(held.surface);
   }
   input = {};
-  clock.lap("find", 0, held.surface->surface.mesh.faceCount());
+  laps.lap("find", 0, held.surface->surface.mesh.faceCount());
 }
 
 //------------------------------------------------------------------------------

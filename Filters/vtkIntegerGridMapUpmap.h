@@ -16,7 +16,7 @@
 
 namespace quadrille
 {
-class StageClock;
+class StageLaps;
 struct SharedLevels;
 struct SurfaceInput;
 struct SurfaceRecipe;
@@ -51,7 +51,7 @@ protected:
 private:
   /// The finest level: what a filter of this process holds, else made from the surface, whose conversion is let go.
   void FindOrPrepare(quadrille::SurfaceInput& input, const quadrille::SurfaceRecipe& recipe,
-    quadrille::StageClock& clock, quadrille::SharedLevels& held);
+    quadrille::StageLaps& laps, quadrille::SharedLevels& held);
 
   vtkIntegerGridMapUpmap(const vtkIntegerGridMapUpmap&) = delete;
   void operator=(const vtkIntegerGridMapUpmap&) = delete;

@@ -5,13 +5,13 @@
 #include "Base/PlaceText.h"
 #include "Extraction/Extraction.h"
 #include "Pipeline/LeaveFrame.h"
+#include "Pipeline/StageRecords.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleFrame.h"
 #include "QuadrilleMappedInput.h"
 #include "QuadrilleQuads.h"
 #include "QuadrilleReport.h"
-#include "QuadrilleStages.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -196,7 +196,7 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
   {
     throw quadrille::InvalidInput("TextureScale must be above 0 and finite");
   }
-  quadrille::StageClock clock;
+  quadrille::StageLaps laps;
   const quadrille::MappedInput mapped =
     quadrille::readMappedInput(input, this->TextureScale, this->NumberOfThreads);
   const quadrille::Mesh& mesh = mapped.mesh;
@@ -207,7 +207,7 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
   {
     quadrille::reverseMap(uvInFrame);
   }
-  clock.lap("read", mesh.faceCount(), mesh.faceCount());
+  laps.lap("read", mesh.faceCount(), mesh.faceCount());
   if (const std::string notice = mapped.notice(); !notice.empty())
   {
     this->AddNotice(notice);
@@ -221,8 +221,8 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
   options.progress = this->MakeProgress(0.0, 0.95);
   quadrille::ExtractionResult result =
     quadrille::extractQuads(mapped.meshInFrame(), uvInFrame, options);
-  clock.lap("extract", mesh.faceCount(), result.mesh.quads.size());
-  this->SetStageRecords(clock.records);
+  laps.lap("extract", mesh.faceCount(), result.mesh.quads.size());
+  this->SetStageRecords(laps.records.all());
   quadrille::requireOk(result.status, "the extraction of quads");
   quadrille::leaveFrame(result.mesh, mapped.meshInFrame(), frame, mesh.position);
   for (const std::string& notice : boundaryNotices(result, mapped.meshInFrame()))
@@ -241,7 +241,7 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
   vtkPolyData* quads = block.output(0);
   quads->ShallowCopy(written.quads);
   quads->GetFieldData()->RemoveArray(quadrille::arrays::kFrame); // of the mapped surface
-  quadrille::addStages(quads, clock.records);
+  quadrille::addStages(quads, laps.records.all());
   quadrille::addMapReport(quads, mapped);
   addBoundaryReport(quads, result, mesh);
   quadrille::addText(quads, "Notices", this->GetBlockNotices());

@@ -139,6 +139,13 @@ const Hierarchy& Levels::make(const HierarchyOptions& options, const Phase1* bef
   return hierarchy();
 }
 
+Hierarchy Levels::take()
+{
+  Hierarchy taken = held_->levels->take();
+  held_.reset();
+  return taken;
+}
+
 void Levels::letGo()
 {
   if (held_ && store_ != nullptr)

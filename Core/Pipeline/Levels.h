@@ -53,6 +53,8 @@ public:
   const Phase1& phase1() const { return phase1_; } ///< of what was made last
   /// To the store, where there is one.
   void letGo();
+  /// Gives away what was made last; not where there is a store.
+  Hierarchy take();
 
   int decimations() const { return decimations_; } ///< runs of phase 1
   bool recalled() const { return recalled_; }      ///< whether phase 1 was in the store

@@ -6,6 +6,7 @@
 #include "Base/Progress.h"
 #include "GridMap/MapShape.h"
 #include "Pipeline/Attempt.h"
+#include "Pipeline/FirstLevels.h"
 #include "Pipeline/History.h"
 #include "Pipeline/LeaveFrame.h"
 #include "Pipeline/Notices.h"
@@ -78,41 +79,6 @@ ResultStore* storeIfRoom(ResultStore* store, const SurfaceInput& input,
   result.notices.push_back("stages are not remembered: the run and its memory would need " +
     describeBytes(needed) + "; a change will start from the beginning");
   return nullptr;
-}
-
-struct StoredShortLoops
-{
-  ShortLoops loops;
-};
-
-/// Loops are short or not on the intermediate level; of the surface before any plan.
-void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::string>& reused)
-{
-  const ResultKey key = KeyMaker(run.surface.key()).add(run.edgeLength).key();
-  if (run.store != nullptr)
-  {
-    if (const auto known = run.store->find<StoredShortLoops>(key))
-    {
-      run.shortLoops = known->loops;
-      reused.emplace_back("handles");
-      return;
-    }
-  }
-  Plan plan;
-  plan.keptVertices = indexVertices(*run.surface);
-  plan.coarseVertices = run.options.coarseVertices;
-  const Hierarchy& levels = run.levels.make(levelOptions(run, plan), nullptr);
-  stages.add(run.levels.stages());
-  const double start = secondsNow();
-  run.shortLoops = measureSmallParts(levels.intermediate, run.surface->mesh, run.edgeLength);
-  stages.add("handles", secondsNow() - start, levels.intermediate.mesh.faceCount(),
-    run.shortLoops.parts.handles);
-  if (run.store != nullptr)
-  {
-    run.store->put(key,
-      std::make_shared<StoredShortLoops>(StoredShortLoops{ run.shortLoops }),
-      sizeof(StoredShortLoops));
-  }
 }
 
 /// Attempts, until one is good or nothing is left to try.

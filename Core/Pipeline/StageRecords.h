@@ -37,4 +37,26 @@ private:
   std::vector<StageRecord> records_;
 };
 
+/// Records of stages that follow each other.
+class StageLaps
+{
+public:
+  /// Closes the stage that began at the previous lap.
+  void lap(const std::string& stage, std::size_t in, std::size_t out)
+  {
+    records.add(stage, watch_.lap(), in, out);
+  }
+  /// Stages that were recorded elsewhere since then.
+  void add(const StageRecords& stages)
+  {
+    records.add(stages);
+    watch_.lap();
+  }
+
+  StageRecords records;
+
+private:
+  Stopwatch watch_;
+};
+
 } // namespace quadrille

@@ -25,6 +25,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace quadrille
 {
@@ -564,6 +565,30 @@ TEST(StageFilters, SmoothingIsAChoice)
   extraction->SetSmoothingSteps(-1);
   extraction->Update();
   EXPECT_EQ(extraction->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
+}
+
+/// Where a loop is too short for three quads, the first filter makes them smaller there, as the one click does, and tells the same.
+TEST(StageFilters, ChainMakesQuadsSmallerAtShortLoops)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::parametricGrid(160, 50, true,
+    [](double u, double v)
+    {
+      const double tube = 0.215 - 0.185 * std::cos(2 * test::kPi * u);
+      const double r = 1 + tube * std::cos(2 * test::kPi * v);
+      return Vector3(r * std::cos(2 * test::kPi * u), r * std::sin(2 * test::kPi * u),
+        tube * std::sin(2 * test::kPi * v));
+    }));
+  Chain chain(input);
+  chain.extraction->Update();
+  ASSERT_EQ(chain.extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
+    << chain.hierarchy->GetOutcomeText() << chain.map->GetOutcomeText()
+    << chain.upmap->GetOutcomeText() << chain.extraction->GetOutcomeText();
+  const std::string told = chain.hierarchy->GetNoticesText();
+  EXPECT_NE(told.find("made smaller round"), std::string::npos) << told;
+  const vtkSmartPointer<vtkQuadRemesh> oneClick = inOneClick(input);
+  EXPECT_EQ(pointsOf(chain.extraction->GetOutput()), pointsOf(oneClick->GetOutput()));
+  EXPECT_NE(std::string(oneClick->GetNoticesText()).find(told), std::string::npos)
+    << oneClick->GetNoticesText();
 }
 
 } // namespace

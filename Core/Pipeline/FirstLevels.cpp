@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/FirstLevels.h"
+
+#include "Pipeline/Recovery.h"
+
+namespace quadrille
+{
+namespace
+{
+
+struct StoredShortLoops
+{
+  ShortLoops loops;
+};
+
+} // namespace
+
+void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::string>& reused)
+{
+  const ResultKey key = KeyMaker(run.surface.key()).add(run.edgeLength).key();
+  if (run.store != nullptr)
+  {
+    if (const auto known = run.store->find<StoredShortLoops>(key))
+    {
+      run.shortLoops = known->loops;
+      reused.emplace_back("handles");
+      return;
+    }
+  }
+  Plan plan;
+  plan.keptVertices = indexVertices(*run.surface);
+  plan.coarseVertices = run.options.coarseVertices;
+  const Hierarchy& levels = run.levels.make(levelOptions(run, plan), nullptr);
+  stages.add(run.levels.stages());
+  const double start = secondsNow();
+  run.shortLoops = measureSmallParts(levels.intermediate, run.surface->mesh, run.edgeLength);
+  stages.add("handles", secondsNow() - start, levels.intermediate.mesh.faceCount(),
+    run.shortLoops.parts.handles);
+  if (run.store != nullptr)
+  {
+    run.store->put(key,
+      std::make_shared<StoredShortLoops>(StoredShortLoops{ run.shortLoops }),
+      sizeof(StoredShortLoops));
+  }
+}
+
+FirstLevels makeFirstLevels(
+  SizedSurface& sized, const Frame& frame, const RemeshOptions& options)
+{
+  FirstLevels first;
+  RunSurface surface(sized.surface, sized.key, options.threads);
+  Levels levels(surface, nullptr, false);
+  RunContext run{ options, sized.edgeLength, sized.targetQuads, surface, levels, nullptr, {} };
+  std::vector<std::string> reused;
+  findShortLoops(run, first.stages, reused);
+  first.smallParts = run.shortLoops.parts;
+  const QuadSize size{ sized.edgeLength, frame.unit, sized.targetQuads,
+    options.maximumNumberOfQuads };
+  const Plan plan = firstPlan(run);
+  surface.apply(plan);
+  levels.make(levelOptions(run, plan), nullptr);
+  first.stages.add(levels.stages());
+  first.hierarchy = levels.take();
+  first.notices = { unresolvedHandlesText(first.smallParts, size),
+    tinyHolesText(first.smallParts, size) };
+  first.notices.insert(first.notices.end(), plan.notices.begin(), plan.notices.end());
+  first.notices.push_back(first.hierarchy.notice);
+  surface.apply({});
+  return first;
+}
+
+} // namespace quadrille

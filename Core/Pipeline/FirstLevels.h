@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The levels that the first attempt of a run works on, and what quads of the size asked for cannot resolve there.
+#pragma once
+
+#include "Hierarchy/Hierarchy.h"
+#include "Mesh/Frame.h"
+#include "Pipeline/Attempt.h"
+#include "Pipeline/SizedSurface.h"
+
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Fills run.shortLoops, which are told on the intermediate level of the surface before any plan.
+void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::string>& reused);
+
+/// What a stage filter hands on of the first attempt; bit for bit what remesh() works with there.
+struct FirstLevels
+{
+  Hierarchy hierarchy;
+  SmallParts smallParts; ///< lengths in the frame
+  std::vector<std::string> notices;
+  StageRecords stages;
+};
+/// The sized surface must be ok; it is as it was afterwards.
+FirstLevels makeFirstLevels(
+  SizedSurface& sized, const Frame& frame, const RemeshOptions& options);
+
+} // namespace quadrille
