@@ -151,11 +151,13 @@ public:
 
   ///@{
   /**
-   * Whether the filter holds on to what a stage has made, so that a change begins where it enters: guides, and the number of coarse vertices, at
-   * phase 2 of the decimation; target valences at phase 1; the size of the quads at the refinement; the feature angle and
-   * the surface itself at the beginning. Contents are compared, not times. The quads are the same as without. About 90 bytes a triangle
-   * are held, twice that where large triangles were split, see GetRememberedMegabytes(); where the machine has no room for that, nothing is
-   * held and a notice says so. Off lets all go. Default: on.
+   * Whether the filter holds on to what each stage has made, so that a change begins where it enters: guides, and the
+   * number of coarse vertices, at phase 2 of the decimation; target valences at phase 1; the size of the quads at the
+   * refinement; smoothing steps at the extraction; the feature angle and the surface itself at the beginning. What was
+   * set before is looked up. Contents are compared, not times. The quads are the same as without. Stages hold about 130
+   * bytes a triangle after the first execution, more with each setting that was tried, at most a quarter of the
+   * machine's memory for a block, see GetRememberedMegabytes(); where the machine has no room for that, nothing is held
+   * and a notice says so. Off lets all go. Default: on.
    */
   void SetKeepLevels(vtkTypeBool on);
   vtkGetMacro(KeepLevels, vtkTypeBool);
