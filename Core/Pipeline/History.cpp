@@ -38,14 +38,13 @@ void History::addMap(const Plan& plan, std::shared_ptr<MapAttempt> map)
 
 void History::addQuads(std::shared_ptr<const QuadAttempt> quads)
 {
-  last_ = ofRound();
-  last_.quads = std::move(quads);
-  best_ = last_;
   roundIsOver_ = true;
-  if (!last_.quads)
+  if (!best_.map || !quads)
   {
     return;
   }
+  best_.quads = std::move(quads);
+  last_ = best_;
   all_.add(last_.quads->stages);
   reused_.insert(reused_.end(), last_.quads->reused.begin(), last_.quads->reused.end());
   if (last_.quads->status.ok() &&

@@ -1,0 +1,332 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Which of hand-made attempts counts, and what is told of all of them.
+#include "Pipeline/History.h"
+
+#include "HandMadeAttempts.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+namespace quadrille
+{
+namespace
+{
+
+using test::carriedMap;
+using test::failedMap;
+using test::failedQuads;
+using test::planOf;
+using test::quadsWith;
+
+using Names = std::vector<std::string>;
+
+/// A round of one map.
+void addRound(History& history, const Plan& plan, const std::shared_ptr<MapAttempt>& map,
+  std::shared_ptr<const QuadAttempt> quads)
+{
+  history.addMap(plan, map);
+  history.addQuads(std::move(quads));
+}
+
+/// The one record of a stage.
+StageRecord recordOf(const StageRecords& stages, const std::string& name)
+{
+  StageRecord found;
+  for (const StageRecord& record : stages.all())
+  {
+    if (record.stage == name)
+    {
+      EXPECT_TRUE(found.stage.empty()) << name;
+      found = record;
+    }
+  }
+  EXPECT_EQ(found.stage, name);
+  return found;
+}
+
+TEST(History, TheMapWithTheFewestDefectsOfARoundCounts)
+{
+  History history;
+  EXPECT_TRUE(history.isEmpty());
+  const auto first = carriedMap(5), second = carriedMap(3), equal = carriedMap(3),
+             worse = carriedMap(4);
+  history.addMap(planOf("first"), first);
+  EXPECT_FALSE(history.isEmpty());
+  EXPECT_EQ(history.ofRound().map, first);
+  EXPECT_TRUE(history.lastIsBest());
+  history.addMap(planOf("kept offenders"), second);
+  EXPECT_EQ(history.ofRound().map, second);
+  EXPECT_TRUE(history.lastIsBest());
+  for (const auto& later : { equal, worse })
+  {
+    history.addMap(planOf("kept offenders"), later);
+    EXPECT_EQ(history.ofRound().map, second);
+    EXPECT_EQ(history.last().map, later);
+    EXPECT_FALSE(history.lastIsBest());
+  }
+}
+
+TEST(History, TurnsAndSeamsAreDefectsToo)
+{
+  History history;
+  const auto first = carriedMap(0), second = carriedMap(0), third = carriedMap(2);
+  first->certificate.wrongTurns = 4;
+  second->certificate.seamResiduals = 3;
+  for (const auto& map : { first, second, third })
+  {
+    history.addMap(planOf("first"), map);
+    EXPECT_EQ(history.ofRound().map, map);
+  }
+}
+
+TEST(History, ACoarseFailureDoesNotTakeThePlaceOfAMap)
+{
+  History history;
+  const auto failed = failedMap(), carried = carriedMap(5), later = failedMap();
+  history.addMap(planOf("first"), failed);
+  EXPECT_FALSE(history.roundHasMap());
+  EXPECT_FALSE(history.lastIsBest());
+  EXPECT_EQ(history.ofRound().map, failed); // there is no better one
+  history.addMap(planOf("more freedom"), carried);
+  EXPECT_TRUE(history.lastIsBest());
+  history.addMap(planOf("kept offenders"), later);
+  EXPECT_TRUE(history.roundHasMap());
+  EXPECT_FALSE(history.lastIsBest());
+  EXPECT_EQ(history.ofRound().map, carried);
+  EXPECT_EQ(history.last().map, later);
+}
+
+TEST(History, QuadsBelongToTheBestMapAndEndTheRound)
+{
+  History history;
+  const auto best = carriedMap(1), worse = carriedMap(4), other = carriedMap(9);
+  const auto quads = quadsWith(1);
+  history.addMap(planOf("first"), best);
+  history.addMap(planOf("kept offenders"), worse);
+  history.addQuads(quads);
+  EXPECT_EQ(history.last().map, best);
+  EXPECT_STREQ(history.last().plan.step, "first");
+  EXPECT_EQ(history.last().quads, quads);
+  EXPECT_EQ(history.ofRound().quads, quads);
+  EXPECT_EQ(history.result().map, best);
+  // A map of the next round is measured by itself.
+  history.addMap(planOf("fewer features"), other);
+  EXPECT_EQ(history.ofRound().map, other);
+  EXPECT_EQ(history.ofRound().quads, nullptr);
+  EXPECT_EQ(history.result().map, best);
+}
+
+TEST(History, ARoundWithoutMapHasNoneAtItsEndEither)
+{
+  History history;
+  const auto failed = failedMap();
+  addRound(history, planOf("first"), failed, nullptr);
+  EXPECT_FALSE(history.roundHasMap());
+  EXPECT_FALSE(history.lastIsBest());
+  EXPECT_FALSE(history.hasResult());
+  EXPECT_EQ(history.ofRound().map, failed);
+  EXPECT_EQ(history.result().map, failed);
+}
+
+TEST(History, LaterQuadsCountWithAtMostHalfAsManyTurnedOver)
+{
+  History history;
+  const auto add = [&](std::size_t turned)
+  {
+    addRound(history, planOf("fewer features"), carriedMap(1), quadsWith(turned));
+    EXPECT_EQ(history.last().quads->turned, turned);
+    return history.result().quads->turned;
+  };
+  EXPECT_EQ(add(10), 10U);
+  EXPECT_EQ(add(6), 10U);
+  EXPECT_EQ(add(5), 5U);
+  EXPECT_EQ(add(3), 5U);
+  EXPECT_EQ(add(2), 2U);
+}
+
+TEST(History, FailuresAfterAGoodAttemptDoNotHideIt)
+{
+  History history;
+  addRound(history, planOf("first"), carriedMap(2), failedQuads());
+  EXPECT_FALSE(history.hasResult());
+  const auto good = carriedMap(3);
+  addRound(history, planOf("more quads"), good, quadsWith(4));
+  addRound(history, planOf("fewer features"), carriedMap(0), failedQuads());
+  EXPECT_EQ(history.result().map, good);
+  const auto failed = failedMap();
+  addRound(history, planOf("fewer features"), failed, nullptr);
+  EXPECT_TRUE(history.hasResult());
+  EXPECT_EQ(history.result().map, good);
+  EXPECT_STREQ(history.result().plan.step, "more quads");
+  EXPECT_EQ(history.last().map, failed);
+}
+
+TEST(History, WithoutQuadsTheLastRoundIsTheResult)
+{
+  History history;
+  addRound(history, planOf("first"), carriedMap(2), failedQuads());
+  const auto later = carriedMap(7);
+  const auto quads = failedQuads();
+  addRound(history, planOf("more quads"), later, quads);
+  EXPECT_EQ(history.result().map, later);
+  EXPECT_EQ(history.result().quads, quads);
+}
+
+TEST(History, StepsAndOffendersAreThoseOfTheRound)
+{
+  History history;
+  history.addMap(planOf("more freedom"), failedMap({ 1, 2, 3 }));
+  EXPECT_EQ(history.offendersBefore(), 0U);
+  history.addMap(planOf("more freedom"), failedMap({ 1, 2 }));
+  EXPECT_EQ(history.trailing("more freedom"), 2U);
+  EXPECT_EQ(history.offendersBefore(), 3U);
+  history.addMap(planOf("kept offenders"), carriedMap(1));
+  EXPECT_EQ(history.offendersBefore(), 2U);
+  EXPECT_EQ(history.trailing("more freedom"), 0U);
+  history.addMap(planOf("more freedom"), failedMap());
+  EXPECT_EQ(history.trailing("more freedom"), 1U);
+  EXPECT_EQ(history.inRound("more freedom"), 3U);
+  EXPECT_EQ(history.inRound("kept offenders"), 1U);
+  EXPECT_EQ(history.inRound("first"), 0U);
+  history.addQuads(quadsWith(1));
+  history.addMap(planOf("more freedom"), failedMap());
+  EXPECT_EQ(history.inRound("more freedom"), 1U);
+  EXPECT_EQ(history.inRound("kept offenders"), 0U);
+  EXPECT_EQ(history.trailing("more freedom"), 1U);
+  EXPECT_EQ(history.offendersBefore(), 0U);
+}
+
+TEST(History, IsSpentByTheWorkOfAllRounds)
+{
+  History history;
+  const auto first = failedMap(), second = carriedMap(1), third = carriedMap(1);
+  first->work = kMaximumWork / 2;
+  second->work = kMaximumWork - first->work - 1;
+  third->work = 1;
+  history.addMap(planOf("first"), first);
+  addRound(history, planOf("more freedom"), second, quadsWith(1));
+  EXPECT_FALSE(history.isSpent());
+  history.addMap(planOf("fewer features"), third);
+  EXPECT_TRUE(history.isSpent());
+}
+
+TEST(History, StagesHaveTheResultsSizesAndTheSecondsOfAll)
+{
+  History history;
+  const auto good = carriedMap(1), undone = carriedMap(8);
+  good->stages.add("phase1", 1, 100, 50);
+  good->stages.add("replay", 2, 20, 100);
+  const auto quads = quadsWith(2), others = failedQuads();
+  quads->stages.add("extract", 4, 100, 30);
+  addRound(history, planOf("first"), good, quads);
+  EXPECT_FALSE(history.stages().has("retries"));
+
+  undone->stages.add("phase1", 8, 200, 70);
+  undone->stages.add("metric", 16, 7, 7);
+  undone->stages.add("replay", 32, 40, 200);
+  others->stages.add("extract", 64, 200, 0);
+  others->stages.add("optimize", 128, 9, 9);
+  addRound(history, planOf("fewer features"), undone, others);
+  const StageRecords stages = history.stages();
+  Names names;
+  for (const StageRecord& record : stages.all())
+  {
+    names.push_back(record.stage);
+  }
+  EXPECT_EQ(names, Names({ "phase1", "replay", "extract", "retries" }));
+  const StageRecord phase1 = recordOf(stages, "phase1");
+  EXPECT_EQ(phase1.seconds, 9);
+  EXPECT_EQ(phase1.elementsIn, 100U);
+  EXPECT_EQ(phase1.elementsOut, 50U);
+  EXPECT_EQ(recordOf(stages, "replay").seconds, 34);
+  const StageRecord extract = recordOf(stages, "extract");
+  EXPECT_EQ(extract.seconds, 68);
+  EXPECT_EQ(extract.elementsOut, 30U);
+  EXPECT_EQ(recordOf(stages, "retries").seconds, 144);
+  EXPECT_EQ(history.replays(), 2);
+}
+
+TEST(History, ReusedStagesAreThoseOfAllStartedOnesThoseOfTheResult)
+{
+  History history;
+  const auto good = carriedMap(1), undone = carriedMap(0);
+  const auto quads = quadsWith(2), others = failedQuads();
+  good->reused = { "phase1" };
+  good->started = { "seamless" };
+  quads->reused = { "extract" };
+  undone->reused = { "phase2" };
+  undone->started = { "embed" };
+  others->reused = { "optimize" };
+  EXPECT_EQ(history.started(), Names());
+  addRound(history, planOf("first"), good, quads);
+  addRound(history, planOf("fewer features"), undone, others);
+  EXPECT_EQ(history.reused(), Names({ "phase1", "extract", "phase2", "optimize" }));
+  EXPECT_EQ(history.started(), Names({ "seamless" }));
+}
+
+TEST(History, NoticesOfAnAttemptThatIsUndoneAreNotTheResults)
+{
+  History history;
+  const auto good = carriedMap(1), undone = carriedMap(0);
+  const auto quads = quadsWith(4), others = quadsWith(3);
+  Plan plan = planOf("first");
+  plan.notices = { "of the plan" };
+  good->notices = { "of the map" };
+  quads->notices = { "of the quads" };
+  addRound(history, plan, good, quads);
+  plan = planOf("fewer features");
+  plan.notices = { "of the plan", "sharp edges were not used" };
+  plan.finer.notice = "more quads were made";
+  undone->notices = { "of a map that is undone" };
+  others->notices = { "of quads that are undone" };
+  addRound(history, plan, undone, others);
+  const Attempt& result = history.result();
+  EXPECT_EQ(result.plan.notices, Names({ "of the plan" }));
+  EXPECT_EQ(result.plan.finer.notice, "");
+  EXPECT_EQ(result.map->notices, Names({ "of the map" }));
+  EXPECT_EQ(result.quads->notices, Names({ "of the quads" }));
+}
+
+/// uv with another value at each corner of a vertex where x is 1, as along a cut.
+std::vector<FixedVec2> cutMap(const Mesh& mesh, std::int64_t offset)
+{
+  std::vector<FixedVec2> uv;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const std::int64_t v = std::int64_t{ mesh.origin[h] } + offset;
+    uv.push_back({ v, mesh.position[mesh.origin[h]].x() == 1 ? std::int64_t{ h } : -v });
+  }
+  return uv;
+}
+
+TEST(History, PackedMapsKeepTheirUv)
+{
+  const Mesh mesh = test::gridPlane(3, 2);
+  History history;
+  const auto ofResult = carriedMap(4), best = carriedMap(2), last = carriedMap(3);
+  ofResult->uv = cutMap(mesh, 10);
+  best->uv = cutMap(mesh, 20);
+  last->uv = cutMap(mesh, 30);
+  addRound(history, planOf("first"), ofResult, quadsWith(2));
+  history.packMaps(mesh);
+  history.addMap(planOf("fewer features"), best);
+  EXPECT_EQ(best->uv.size(), mesh.halfEdgeCount()); // its quads may come next
+  history.addMap(planOf("kept offenders"), last);
+  EXPECT_TRUE(last->uv.empty()); // it will have none
+  history.packMaps(mesh);
+  history.packMaps(mesh);
+  for (const auto& map : { ofResult, best })
+  {
+    EXPECT_TRUE(map->uv.empty());
+    EXPECT_GT(map->packed.bytes(), 0U);
+    map->unpack(mesh);
+    EXPECT_EQ(map->packed.bytes(), 0U);
+    map->unpack(mesh);
+  }
+  EXPECT_EQ(ofResult->uv, cutMap(mesh, 10));
+  EXPECT_EQ(best->uv, cutMap(mesh, 20));
+}
+
+} // namespace
+} // namespace quadrille

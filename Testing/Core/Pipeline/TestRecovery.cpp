@@ -1,0 +1,863 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What each recovery strategy makes of hand-made attempts, and when it has nothing to offer.
+#include "Pipeline/Recovery.h"
+
+#include "HandMadeAttempts.h"
+#include "Mesh/Sizing.h"
+#include "MeshInput.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace quadrille
+{
+namespace
+{
+
+using test::carriedMap;
+using test::failedMap;
+using test::failedQuads;
+using test::planOf;
+using test::quadsWith;
+
+constexpr std::size_t kTarget = 1000;
+/// Of the tubes below, over the edge length.
+constexpr double kTubeRadius = 0.05;
+
+/// A run on a small surface, without a store. s: edge length of the quads.
+struct TestRun
+{
+  TestRun(const SurfaceInput& input, double s, std::optional<double> featureAngle = std::nullopt)
+    : surface(
+        std::make_shared<PreparedSurface>(prepareSurface(input, { featureAngle, 1, {} })), 1, 1),
+      levels(surface, nullptr, false), context{ options, s, kTarget, surface, levels, nullptr, {} }
+  {
+    options.threads = 1;
+  }
+  TestRun(const Mesh& mesh, double s, std::optional<double> featureAngle = std::nullopt)
+    : TestRun(test::toInput(mesh), s, featureAngle)
+  {
+  }
+
+  const Mesh& mesh() const { return surface->mesh; }
+  Index vertexAt(const Vector3& p) const
+  {
+    const auto found = std::find(mesh().position.begin(), mesh().position.end(), p);
+    EXPECT_NE(found, mesh().position.end());
+    return static_cast<Index>(found - mesh().position.begin());
+  }
+  Plan first() { return firstPlan(context); }
+  /// After a round of this map only, and its quads.
+  std::optional<Plan> nextAfter(const Plan& plan, const std::shared_ptr<MapAttempt>& map,
+    std::shared_ptr<const QuadAttempt> quads = nullptr)
+  {
+    History history;
+    history.addMap(plan, map);
+    history.addQuads(std::move(quads));
+    return nextPlan(context, history);
+  }
+
+  RemeshOptions options;
+  RunSurface surface;
+  Levels levels;
+  RunContext context;
+};
+
+/// Without any plan the test ends here.
+void expectStep(const std::optional<Plan>& plan, const char* step)
+{
+  EXPECT_TRUE(plan) << "instead of " << step;
+  EXPECT_STREQ(plan.value().step, step);
+}
+
+/// A coarse level by itself: a small tube at the place with an integer-grid map of two quads round it, which touch
+/// themselves in each of the rows - 1 rings between them.
+void putTube(MapAttempt& map, const Vector3& place, int rows = 2)
+{
+  constexpr int around = 8;
+  Mesh tube = test::openCylinder(around, 4, kTubeRadius, kTubeRadius);
+  for (Vector3& p : tube.position)
+  {
+    p += place;
+  }
+  map.coarse.mesh = tube;
+  map.coarseUv.clear();
+  for (int cell = 0; cell < around * 4; ++cell)
+  {
+    for (const int corner : { 0, 1, 2, 0, 2, 3 })
+    {
+      const int i = cell % around + (corner == 1 || corner == 2 ? 1 : 0);
+      const int j = cell / around + (corner >= 2 ? 1 : 0);
+      map.coarseUv.push_back({ 2 * kOne * i / around, rows * kOne * j / 4 });
+    }
+  }
+}
+
+/// A failure on the surface that the coarse map shows already.
+std::shared_ptr<MapAttempt> mapWithTube(const Vector3& place, int rows = 2)
+{
+  auto map = carriedMap(1);
+  putTube(*map, place, rows);
+  return map;
+}
+
+std::vector<Index> vertices(Index count)
+{
+  std::vector<Index> all(count);
+  std::iota(all.begin(), all.end(), Index{ 0 });
+  return all;
+}
+
+/// Vertices of the level (ids on the surface) within two edges of those given.
+std::vector<Index> twoRings(const Level& level, const std::vector<Index>& centres)
+{
+  std::vector<Index> near = centres;
+  for (int ring = 0; ring < 2; ++ring)
+  {
+    const std::vector<Index> inner = near;
+    for (Index h = 0; h < level.mesh.halfEdgeCount(); ++h)
+    {
+      const Index from = level.fineVertex[level.mesh.origin[h]];
+      if (std::find(inner.begin(), inner.end(), from) != inner.end())
+      {
+        near.push_back(level.fineVertex[level.mesh.target(h)]);
+      }
+    }
+  }
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  return near;
+}
+
+TEST(Recovery, StepsAreTriedInThisOrder)
+{
+  EXPECT_EQ(recoverySteps(),
+    std::vector<std::string>(
+      { "more freedom", "kept offenders", "smaller quads near", "more quads", "fewer features" }));
+}
+
+// The plan that a run begins with.
+
+TEST(Recovery, FirstPlanTakesBudgetAndNumberFromTheOptions)
+{
+  TestRun run(test::gridPlane(4, 4), 1);
+  run.options.coarseVertices = 123;
+  const Plan plan = run.first();
+  EXPECT_STREQ(plan.step, "first");
+  EXPECT_EQ(plan.coarseVertices, 123U);
+  EXPECT_EQ(plan.quads, double{ kTarget });
+  EXPECT_EQ(plan.sizes, nullptr);
+  EXPECT_EQ(plan.featuresGivenUp, nullptr);
+  EXPECT_TRUE(plan.notices.empty());
+}
+
+/// A loop of this length at the vertex in the middle of a plane.
+void addShortLoop(TestRun& run, const Vector3& place, double length)
+{
+  run.context.shortLoops.loops.push_back({ { run.vertexAt(place) }, length });
+}
+
+TEST(Recovery, FirstPlanLetsFourQuadsFitRoundShortLoops)
+{
+  TestRun run(test::gridPlane(20, 20), 1);
+  const Vector3 middle(10, 10, 0), corner(2, 2, 0);
+  addShortLoop(run, middle, 2);    // four quads of half the size
+  addShortLoop(run, corner, 0.01); // would take quads that are too small
+  const Plan plan = run.first();
+  ASSERT_TRUE(plan.sizes);
+  EXPECT_EQ((*plan.sizes)[run.vertexAt(middle)], 0.5F);
+  EXPECT_EQ((*plan.sizes)[run.vertexAt(corner)], 0.1F);
+  EXPECT_EQ((*plan.sizes)[run.vertexAt({ 20, 20, 0 })], 1.0F);
+  EXPECT_EQ(plan.quads, double{ kTarget });
+  ASSERT_EQ(plan.notices.size(), 1U);
+  EXPECT_NE(plan.notices[0].find("round 2 handles"), std::string::npos) << plan.notices[0];
+  EXPECT_NE(plan.notices[0].find("(10, 10, 0)"), std::string::npos) << plan.notices[0];
+  EXPECT_TRUE(run.mesh().sizing.empty()); // a plan is not on the surface yet
+}
+
+TEST(Recovery, FirstPlanKeepsSizesWhereSmallerQuadsWouldBeTooMany)
+{
+  TestRun run(test::gridPlane(4, 4), 1);
+  addShortLoop(run, { 2, 2, 0 }, 0.1);
+  EXPECT_EQ(run.first().sizes, nullptr);
+}
+
+TEST(Recovery, FirstPlanKeepsSizesForOtherMapsThanScaleAwareOnes)
+{
+  TestRun run(test::gridPlane(20, 20), 1);
+  addShortLoop(run, { 10, 10, 0 }, 2);
+  ASSERT_TRUE(run.first().sizes);
+  run.options.coarsestIntegers = true;
+  EXPECT_EQ(run.first().sizes, nullptr);
+  run.options.coarsestIntegers = false;
+  run.options.method = MapMethod::Seamless;
+  EXPECT_EQ(run.first().sizes, nullptr);
+}
+
+// More freedom for the coarse map.
+
+/// A sphere whose intermediate level has fewer vertices than it, and more than the coarse one.
+struct SphereRun : TestRun
+{
+  SphereRun() : TestRun(test::sphere(4), 0.3) { options.coarseVertices = 100; }
+};
+
+TEST(Recovery, MoreFreedomKeepsTheRingsRoundOffendersAndRaisesTheBudget)
+{
+  SphereRun run;
+  Plan plan = run.first();
+  const Hierarchy& levels = run.levels.make(levelOptions(run.context, plan), nullptr);
+  ASSERT_LT(levels.intermediate.mesh.vertexCount(), run.mesh().vertexCount());
+  const std::vector<Index> offenders{ levels.coarse.fineVertex[7], levels.coarse.fineVertex[80] };
+  const std::vector<Index> rings = twoRings(levels.intermediate, offenders);
+  const Index coarse = levels.coarse.mesh.vertexCount();
+  ASSERT_EQ(coarse, 100U);
+  ASSERT_GT(rings.size(), 25U);
+  History history;
+  history.addMap(plan, failedMap(offenders));
+  std::optional<Plan> next = nextMapPlan(run.context, history);
+  expectStep(next, "more freedom");
+  EXPECT_EQ(next->keptVertices, rings);
+  EXPECT_EQ(next->coarseVertices, coarse + rings.size());
+  EXPECT_EQ(next->levelLength, 1);
+  // What was kept before stays, and counts only once.
+  history = {};
+  plan.keptVertices = { rings[0] };
+  history.addMap(plan, failedMap(offenders));
+  next = nextMapPlan(run.context, history);
+  expectStep(next, "more freedom");
+  const std::vector<Index>& onLevel = run.levels.hierarchy().coarse.fineVertex;
+  for (const Index v : { rings[0], offenders[0], offenders[1] })
+  {
+    EXPECT_TRUE(std::binary_search(next->keptVertices.begin(), next->keptVertices.end(), v));
+  }
+  EXPECT_TRUE(std::is_sorted(next->keptVertices.begin(), next->keptVertices.end()));
+  EXPECT_EQ(next->coarseVertices, onLevel.size() + next->keptVertices.size() - 1);
+}
+
+TEST(Recovery, MoreFreedomRaisesTheBudgetByAQuarterAtLeast)
+{
+  SphereRun run;
+  History history;
+  history.addMap(run.first(), failedMap());
+  const std::optional<Plan> next = nextMapPlan(run.context, history);
+  expectStep(next, "more freedom");
+  EXPECT_TRUE(next->keptVertices.empty());
+  EXPECT_EQ(next->coarseVertices, 125U);
+}
+
+TEST(Recovery, MoreFreedomTakesFinerLevelsWhereTheCoarseOneIsTheIntermediateOne)
+{
+  SphereRun run;
+  run.options.coarseVertices = 100000;
+  const Plan plan = run.first();
+  History history;
+  history.addMap(plan, failedMap({ 0, 1 }));
+  const std::optional<Plan> next = nextMapPlan(run.context, history);
+  expectStep(next, "more freedom");
+  const Index coarse = run.levels.hierarchy().coarse.mesh.vertexCount();
+  EXPECT_EQ(coarse, run.levels.hierarchy().intermediate.mesh.vertexCount());
+  EXPECT_EQ(next->coarseVertices, 2 * coarse);
+  EXPECT_DOUBLE_EQ(next->levelLength, std::sqrt(0.5));
+  EXPECT_TRUE(next->keptVertices.empty());
+  EXPECT_GT(
+    run.levels.make(levelOptions(run.context, *next), nullptr).coarse.mesh.vertexCount(), coarse);
+}
+
+TEST(Recovery, MoreFreedomEndsAfterTwoTimesOneAfterTheOther)
+{
+  SphereRun run;
+  const Plan first = run.first();
+  Plan again = first;
+  again.step = "more freedom";
+  History history;
+  history.addMap(first, failedMap());
+  EXPECT_TRUE(nextMapPlan(run.context, history));
+  history.addMap(again, failedMap());
+  EXPECT_TRUE(nextMapPlan(run.context, history));
+  history.addMap(again, failedMap());
+  EXPECT_FALSE(nextMapPlan(run.context, history));
+  // After something else it counts from the beginning.
+  Plan other = first;
+  other.step = "kept offenders";
+  history.addMap(other, failedMap());
+  EXPECT_TRUE(nextMapPlan(run.context, history));
+}
+
+TEST(Recovery, MoreFreedomIsForCoarseFailuresThatCanBeMended)
+{
+  SphereRun run;
+  const auto hopeless = failedMap();
+  hopeless->hopeless = true;
+  for (const auto& map : { hopeless, carriedMap(0) })
+  {
+    History history;
+    history.addMap(run.first(), map);
+    EXPECT_FALSE(nextMapPlan(run.context, history));
+  }
+}
+
+/// Whether there is another map after two attempts with so many offenders.
+bool goesOn(TestRun& run, Index before, Index after)
+{
+  Plan plan = run.first();
+  History history;
+  history.addMap(plan, failedMap(vertices(before)));
+  plan.step = "more freedom";
+  history.addMap(plan, failedMap(vertices(after)));
+  return nextMapPlan(run.context, history).has_value();
+}
+
+TEST(Recovery, MoreFreedomHasToHalveManyOffenders)
+{
+  SphereRun run;
+  EXPECT_TRUE(goesOn(run, 300, 150));
+  EXPECT_FALSE(goesOn(run, 300, 151));
+  EXPECT_FALSE(goesOn(run, 110, 100));
+  EXPECT_TRUE(goesOn(run, 99, 99));
+  // The first attempt is compared with none.
+  History history;
+  history.addMap(run.first(), failedMap(vertices(300)));
+  EXPECT_TRUE(nextMapPlan(run.context, history));
+}
+
+// Offenders of the map on the surface are kept on all levels.
+
+/// With a coarse level of a hundred vertices.
+std::shared_ptr<MapAttempt> mapWithOffenders(std::vector<Index> offenders, std::size_t defects = 1)
+{
+  auto map = carriedMap(defects);
+  map->coarse.mesh.position.assign(100, Vector3::Zero());
+  map->transfer.offenders = std::move(offenders);
+  return map;
+}
+
+TEST(Recovery, KeptOffendersAreAddedToThoseKeptAndToTheBudget)
+{
+  TestRun run(test::gridPlane(12, 12), 1);
+  Plan plan = run.first();
+  plan.keptVertices = { 3, 50 };
+  plan.coarseVertices = 400;
+  History history;
+  history.addMap(plan, mapWithOffenders({ 3, 7, 60 }));
+  std::optional<Plan> next = nextMapPlan(run.context, history);
+  expectStep(next, "kept offenders");
+  EXPECT_EQ(next->keptVertices, std::vector<Index>({ 3, 7, 50, 60 }));
+  EXPECT_EQ(next->coarseVertices, 403U);
+  // A budget by curvature must not shrink elsewhere because of these.
+  plan.coarseVertices = 0;
+  history = {};
+  history.addMap(plan, mapWithOffenders({ 3, 7, 60 }));
+  next = nextMapPlan(run.context, history);
+  expectStep(next, "kept offenders");
+  EXPECT_EQ(next->coarseVertices, 103U);
+}
+
+TEST(Recovery, KeptOffendersEndAfterTwoTimesInARound)
+{
+  TestRun run(test::gridPlane(12, 12), 1);
+  Plan again = run.first();
+  again.step = "kept offenders";
+  History history;
+  history.addMap(run.first(), mapWithOffenders({ 1 }, 9));
+  EXPECT_TRUE(nextMapPlan(run.context, history));
+  history.addMap(again, mapWithOffenders({ 1 }, 8));
+  EXPECT_TRUE(nextMapPlan(run.context, history));
+  Plan freedom = again;
+  freedom.step = "more freedom";
+  history.addMap(freedom, mapWithOffenders({ 1 }, 7));
+  EXPECT_TRUE(nextMapPlan(run.context, history)); // one time only so far
+  history.addMap(again, mapWithOffenders({ 1 }, 6));
+  EXPECT_FALSE(nextMapPlan(run.context, history));
+}
+
+TEST(Recovery, KeptOffendersAreForTheBestMapOnly)
+{
+  TestRun run(test::gridPlane(12, 12), 1);
+  Plan again = run.first();
+  again.step = "kept offenders";
+  History history;
+  history.addMap(run.first(), mapWithOffenders({ 1 }, 5));
+  history.addMap(again, mapWithOffenders({ 1 }, 5));
+  EXPECT_FALSE(nextMapPlan(run.context, history));
+}
+
+TEST(Recovery, KeptOffendersAreAtMostHalfOfTheCoarseLevel)
+{
+  TestRun run(test::gridPlane(12, 12), 1);
+  const auto offersFor = [&](std::vector<Index> offenders)
+  {
+    History history;
+    history.addMap(run.first(), mapWithOffenders(std::move(offenders)));
+    return nextMapPlan(run.context, history).has_value();
+  };
+  EXPECT_TRUE(offersFor(vertices(50)));
+  EXPECT_FALSE(offersFor(vertices(51)));
+  EXPECT_FALSE(offersFor({}));
+}
+
+TEST(Recovery, KeptOffendersAreNotForWhatTheMethodNeverPromised)
+{
+  TestRun run(test::gridPlane(12, 12), 1);
+  History folds;
+  folds.addMap(run.first(), mapWithOffenders({ 1 }));
+  EXPECT_TRUE(nextMapPlan(run.context, folds));
+  run.options.method = MapMethod::QuadCover;
+  EXPECT_FALSE(nextMapPlan(run.context, folds));
+  const auto fractions = mapWithOffenders({ 1 }, 0);
+  fractions->certificate.fractionalTransitions = 1;
+  History history;
+  history.addMap(run.first(), fractions);
+  run.options.method = MapMethod::Seamless;
+  EXPECT_FALSE(nextMapPlan(run.context, history));
+  run.options.method = MapMethod::ScaleAware;
+  EXPECT_TRUE(nextMapPlan(run.context, history));
+}
+
+/// A unit cube whose edges are features, with edges of 1/8 and quads of twice that.
+struct CubeRun : TestRun
+{
+  explicit CubeRun(const SurfaceInput& input = test::toInput(test::unitCube(8)))
+    : TestRun(input, 0.25, 0.7)
+  {
+  }
+  /// On an edge of the cube, in its middle.
+  Index onEdge() const { return vertexAt({ 0.5, 0, 0 }); }
+  Index inFace() const { return vertexAt({ 0.5, 0.5, 0 }); }
+};
+
+TEST(Recovery, KeptOffendersLeaveTheLastTimeToFeaturesThatCanBeGivenUp)
+{
+  CubeRun run;
+  const auto offersAfter = [&](const char* step, Index offender)
+  {
+    Plan plan = run.first();
+    plan.step = step;
+    History history;
+    history.addMap(plan, mapWithOffenders({ offender }));
+    return nextMapPlan(run.context, history).has_value();
+  };
+  EXPECT_TRUE(offersAfter("first", run.onEdge()));
+  EXPECT_FALSE(offersAfter("kept offenders", run.onEdge()));
+  EXPECT_TRUE(offersAfter("kept offenders", run.inFace()));
+}
+
+// Smaller quads where those of the coarse map touch themselves.
+
+TEST(Recovery, SmallerQuadsNearShrinkSizesNearThePlacesOnly)
+{
+  TestRun run(test::gridPlane(40, 40), 1);
+  const Vector3 place(10, 10, 0), hopeless(30, 30, 0);
+  run.context.shortLoops.hopelessPlaces = { hopeless };
+  const auto map = mapWithTube(place);
+  const std::optional<GridTroubles> troubles = gridTroubles(run.context, *map);
+  ASSERT_TRUE(troubles);
+  ASSERT_FALSE(troubles->places.empty());
+  const std::optional<Plan> next = run.nextAfter(run.first(), map, failedQuads());
+  expectStep(next, "smaller quads near");
+  ASSERT_TRUE(next->sizes);
+  const std::vector<float>& sizes = *next->sizes;
+  ASSERT_EQ(sizes.size(), run.mesh().vertexCount());
+  for (Index v = 0; v < run.mesh().vertexCount(); ++v)
+  {
+    const Vector3& p = run.mesh().position[v];
+    const double distance = std::min((p - place).norm(), (p - hopeless).norm());
+    if (distance < 1.5 - 2 * kTubeRadius)
+    {
+      EXPECT_EQ(sizes[v], 0.5F) << p.transpose();
+    }
+    else if (distance > 1.5 + 2 * kTubeRadius)
+    {
+      EXPECT_GE(sizes[v], std::min(1.0, 0.5 + kSizeGrowth * (distance - 1.5 - 2 * kTubeRadius)))
+        << p.transpose();
+    }
+  }
+  EXPECT_EQ(next->finer.shrinks, 1);
+  EXPECT_EQ(next->finer.areaBefore, 1600);
+  EXPECT_EQ(next->finer.sizesBefore, nullptr);
+  EXPECT_EQ(next->finer.defects, troubles->defects);
+  EXPECT_EQ(next->finer.firstTroubles.defects, troubles->defects);
+  const double area = run.surface.sizedArea(sizes);
+  EXPECT_GT(area, 1640);
+  EXPECT_DOUBLE_EQ(next->quads, kTarget * area / 1600);
+  EXPECT_NE(next->finer.notice.find("made smaller there"), std::string::npos);
+}
+
+TEST(Recovery, SmallerQuadsNearGoOnFromTheSizesOfBefore)
+{
+  TestRun run(test::gridPlane(40, 40), 1);
+  const Vector3 place(10, 10, 0), hopeless(30, 30, 0);
+  run.context.shortLoops.hopelessPlaces = { hopeless };
+  const std::optional<Plan> first = run.nextAfter(run.first(), mapWithTube(place));
+  expectStep(first, "smaller quads near");
+  const std::optional<Plan> next = run.nextAfter(*first, mapWithTube(place, 3));
+  expectStep(next, "smaller quads near");
+  EXPECT_EQ((*next->sizes)[run.vertexAt(place)], 0.25F);
+  EXPECT_EQ((*next->sizes)[run.vertexAt(hopeless)], 0.5F); // these were for the first time
+  EXPECT_EQ(next->finer.shrinks, 2);
+  EXPECT_EQ(next->finer.areaBefore, 1600);
+  EXPECT_EQ(next->finer.firstTroubles.defects, first->finer.firstTroubles.defects);
+  EXPECT_GT(next->finer.defects, first->finer.defects);
+  EXPECT_DOUBLE_EQ(next->quads, kTarget * run.surface.sizedArea(*next->sizes) / 1600);
+}
+
+TEST(Recovery, SmallerQuadsNearEndAfterFourTimes)
+{
+  TestRun run(test::gridPlane(40, 40), 1);
+  Plan plan = run.first();
+  plan.finer.areaBefore = 1600;
+  plan.finer.shrinks = 3;
+  plan.finer.firstTroubles = { 6, { Vector3(10, 10, 0) } };
+  const auto map = mapWithTube({ 10, 10, 0 });
+  const std::optional<Plan> fourth = run.nextAfter(plan, map);
+  expectStep(fourth, "smaller quads near");
+  expectStep(run.nextAfter(*fourth, map), "more quads");
+}
+
+TEST(Recovery, SmallerQuadsNearAreGivenBackWhereTheyWouldBeTooMany)
+{
+  TestRun run(test::gridPlane(12, 12), 1);
+  Plan plan = run.first();
+  plan.sizes = std::make_shared<const std::vector<float>>(run.mesh().vertexCount(), 1.0F);
+  const auto map = mapWithTube({ 6, 6, 0 });
+  const std::optional<Plan> shrunk = run.nextAfter(plan, map);
+  expectStep(shrunk, "smaller quads near");
+  EXPECT_NE(shrunk->sizes, plan.sizes);
+  EXPECT_EQ(shrunk->finer.sizesBefore, plan.sizes);
+  const std::optional<Plan> next = run.nextAfter(*shrunk, map);
+  expectStep(next, "more quads");
+  EXPECT_EQ(next->sizes, plan.sizes);
+  EXPECT_FALSE(next->finer.mayShrink);
+  EXPECT_EQ(next->quads, 2.0 * kTarget);
+  // They are not tried again.
+  Plan again = *next;
+  again.finer.defects = 1000;
+  expectStep(run.nextAfter(again, map), "more quads");
+}
+
+TEST(Recovery, SmallerQuadsAreNoHelpWithoutTroublesOfTheCoarseGrid)
+{
+  TestRun run(test::gridPlane(40, 40), 1);
+  EXPECT_FALSE(run.nextAfter(run.first(), carriedMap(1), failedQuads()));
+  const auto invalid = mapWithTube({ 10, 10, 0 });
+  invalid->coarseCertificate.notPositive = 1;
+  EXPECT_FALSE(run.nextAfter(run.first(), invalid, failedQuads()));
+  // Nor for the coarsest layout, which has no size.
+  run.options.coarsestIntegers = true;
+  EXPECT_FALSE(run.nextAfter(run.first(), mapWithTube({ 10, 10, 0 }), failedQuads()));
+}
+
+TEST(Recovery, AnotherRoundBeginsWithTheLevelsOfTheFirst)
+{
+  TestRun run(test::gridPlane(40, 40), 1);
+  Plan plan = run.first();
+  plan.keptVertices = { 1, 2, 3 };
+  plan.coarseVertices = 5000;
+  plan.levelLength = 0.5;
+  const auto failed = failedMap();
+  putTube(*failed, { 10, 10, 0 });
+  Plan doubled = plan;
+  doubled.finer.mayShrink = false;
+  for (const Plan& before : { plan, doubled })
+  {
+    const std::optional<Plan> next = run.nextAfter(before, failed);
+    ASSERT_TRUE(next);
+    EXPECT_TRUE(next->keptVertices.empty()) << next->step;
+    EXPECT_EQ(next->coarseVertices, run.options.coarseVertices) << next->step;
+    EXPECT_EQ(next->levelLength, 1) << next->step;
+  }
+}
+
+// More quads everywhere.
+
+TEST(Recovery, MoreQuadsDoubleThemThreeTimes)
+{
+  TestRun run(test::gridPlane(12, 12), 1);
+  Plan plan = run.first();
+  plan.finer.mayShrink = false;
+  for (int times = 1; times <= 3; ++times)
+  {
+    const std::optional<Plan> next = run.nextAfter(plan, mapWithTube({ 6, 6, 0 }, 9 - times));
+    expectStep(next, "more quads");
+    plan = *next;
+    EXPECT_EQ(plan.finer.doublings, times);
+    EXPECT_EQ(plan.quads, std::pow(2.0, times) * kTarget);
+    EXPECT_NE(plan.finer.notice.find("made for " + std::to_string(std::llround(plan.quads))),
+      std::string::npos)
+      << plan.finer.notice;
+  }
+  EXPECT_FALSE(run.nextAfter(plan, mapWithTube({ 6, 6, 0 }, 2)));
+}
+
+TEST(Recovery, MoreQuadsEndWhereDefectsDoNotFall)
+{
+  TestRun run(test::gridPlane(12, 12), 1);
+  Plan plan = run.first();
+  plan.finer.mayShrink = false;
+  const std::optional<Plan> doubled = run.nextAfter(plan, mapWithTube({ 6, 6, 0 }, 4));
+  expectStep(doubled, "more quads");
+  EXPECT_FALSE(run.nextAfter(*doubled, mapWithTube({ 6, 6, 0 }, 4)));
+  EXPECT_FALSE(run.nextAfter(*doubled, mapWithTube({ 6, 6, 0 }, 5)));
+  expectStep(run.nextAfter(*doubled, mapWithTube({ 6, 6, 0 }, 3)), "more quads");
+}
+
+TEST(Recovery, MoreQuadsAfterSizesCompareWithTheFirstFailure)
+{
+  TestRun run(test::gridPlane(12, 12), 1);
+  Plan plan = run.first();
+  plan.finer.shrinks = 4;
+  plan.finer.areaBefore = 144;
+  plan.finer.defects = 1;
+  plan.finer.firstTroubles = { 77, { Vector3(6, 6, 0) } };
+  // Smaller quads may have mended the grid and led to another failure.
+  for (const auto& map : { mapWithTube({ 2, 2, 0 }), carriedMap(1) })
+  {
+    const std::optional<Plan> next = run.nextAfter(plan, map, failedQuads());
+    expectStep(next, "more quads");
+    EXPECT_EQ(next->finer.defects, 77U);
+    EXPECT_NE(next->finer.notice.find("(6, 6, 0)"), std::string::npos) << next->finer.notice;
+  }
+}
+
+// Features that nobody asked for.
+
+/// A failure of the quads of a map with these offenders.
+std::shared_ptr<MapAttempt> mapWithFoldsAt(std::vector<Index> offenders)
+{
+  auto map = carriedMap(1);
+  map->transfer.offenders = std::move(offenders);
+  return map;
+}
+
+/// The middles of the features that a plan gives up, by their x.
+std::vector<double> givenUpAt(const TestRun& run, const Plan& plan)
+{
+  std::vector<double> middles;
+  for (const Index h : *plan.featuresGivenUp)
+  {
+    const Vector3 p =
+      (run.mesh().position[run.mesh().origin[h]] + run.mesh().position[run.mesh().target(h)]) / 2;
+    EXPECT_EQ(p.y(), 0);
+    EXPECT_EQ(p.z(), 0);
+    middles.push_back(p.x());
+  }
+  std::sort(middles.begin(), middles.end());
+  return middles;
+}
+
+TEST(Recovery, FewerFeaturesGivesThemUpNearThePlacesFurtherEachTime)
+{
+  CubeRun run;
+  const auto map = mapWithFoldsAt({ run.onEdge() });
+  const std::optional<Plan> first = run.nextAfter(run.first(), map, failedQuads());
+  expectStep(first, "fewer features");
+  EXPECT_EQ(givenUpAt(run, *first), std::vector<double>({ 0.4375, 0.5625 }));
+  EXPECT_EQ(first->featureDrops, 1);
+  ASSERT_EQ(first->notices.size(), 1U);
+  EXPECT_EQ(first->notices[0].find("2 sharp edges near (0.5, 0, 0) "), 0U) << first->notices[0];
+  const std::optional<Plan> second = run.nextAfter(*first, map, failedQuads());
+  expectStep(second, "fewer features");
+  EXPECT_EQ(givenUpAt(run, *second), std::vector<double>({ 0.3125, 0.4375, 0.5625, 0.6875 }));
+  EXPECT_EQ(second->featureDrops, 2);
+  EXPECT_EQ(second->notices.size(), 2U);
+  // On the surface they are features no more, and are again for a plan that gives up none.
+  const Index h = second->featuresGivenUp->front();
+  run.surface.apply(*second);
+  EXPECT_FALSE(run.mesh().isFeature(h) || run.mesh().isFeature(run.mesh().twin[h]));
+  run.surface.apply(run.first());
+  EXPECT_TRUE(run.mesh().isFeature(h) && run.mesh().isFeature(run.mesh().twin[h]));
+}
+
+TEST(Recovery, FewerFeaturesAreForThePlacesOfACoarseFailureToo)
+{
+  CubeRun run;
+  const auto failed = failedMap();
+  failed->hopeless = true;
+  EXPECT_FALSE(run.nextAfter(run.first(), failed));
+  failed->coarseTroubles = { Vector3(0.5, 0, 0) };
+  const std::optional<Plan> next = run.nextAfter(run.first(), failed);
+  expectStep(next, "fewer features");
+  EXPECT_EQ(givenUpAt(run, *next), std::vector<double>({ 0.4375, 0.5625 }));
+}
+
+TEST(Recovery, FewerFeaturesEndAfterFourTimesAndFarFromFeatures)
+{
+  CubeRun run;
+  const auto map = mapWithFoldsAt({ run.onEdge() });
+  EXPECT_FALSE(run.nextAfter(run.first(), mapWithFoldsAt({ run.inFace() }), failedQuads()));
+  Plan plan = run.first();
+  plan.featureDrops = 3;
+  const std::optional<Plan> fourth = run.nextAfter(plan, map, failedQuads());
+  expectStep(fourth, "fewer features");
+  EXPECT_FALSE(
+    run.nextAfter(*fourth, mapWithFoldsAt({ run.vertexAt({ 1, 1, 1 }) }), failedQuads()));
+}
+
+TEST(Recovery, FewerFeaturesAreNoHelpAgainstALimitOfQuads)
+{
+  CubeRun run;
+  const auto map = mapWithFoldsAt({ run.onEdge() });
+  EXPECT_FALSE(run.nextAfter(run.first(), map, failedQuads(StatusCode::TooLarge)));
+  const auto failed = failedMap();
+  failed->coarseTroubles = { Vector3(0.5, 0, 0) };
+  EXPECT_TRUE(run.nextAfter(run.first(), failed));
+  failed->status.code = StatusCode::TooLarge;
+  EXPECT_FALSE(run.nextAfter(run.first(), failed));
+}
+
+TEST(Recovery, FeaturesThatTheUserAskedForStay)
+{
+  SurfaceInput input = test::toInput(test::unitCube(8));
+  input.featureEdges.assign(input.polygonOffsets.size() - 1, 0);
+  // Half of an edge of the cube.
+  for (std::size_t corner = 0; corner < input.polygonPoints.size(); ++corner)
+  {
+    const std::size_t polygon = corner / 3;
+    const Vector3& a = input.points[input.polygonPoints[corner]];
+    const Vector3& b = input.points[input.polygonPoints[3 * polygon + (corner + 1) % 3]];
+    if (a.y() == 0 && b.y() == 0 && a.z() == 0 && b.z() == 0 && (a + b).x() > 1)
+    {
+      input.featureEdges[polygon] |= static_cast<std::uint8_t>(1U << corner % 3);
+    }
+  }
+  CubeRun run(input);
+  const auto map = mapWithFoldsAt({ run.onEdge() });
+  const std::optional<Plan> first = run.nextAfter(run.first(), map, failedQuads());
+  expectStep(first, "fewer features");
+  EXPECT_EQ(givenUpAt(run, *first), std::vector<double>({ 0.4375 }));
+  const Index asked = run.vertexAt({ 0.75, 0, 0 });
+  EXPECT_FALSE(run.nextAfter(run.first(), mapWithFoldsAt({ asked }), failedQuads()));
+}
+
+/// All of the finer grid was tried.
+Plan planWithFinerGrid(TestRun& run, const std::shared_ptr<const std::vector<float>>& before)
+{
+  Plan plan = run.first();
+  const std::vector<float> sizes(run.mesh().vertexCount(), 0.5F);
+  plan.sizes = std::make_shared<const std::vector<float>>(sizes);
+  plan.quads = 8765;
+  plan.finer.shrinks = 4;
+  plan.finer.sizesBefore = before;
+  plan.finer.areaBefore = 6;
+  plan.finer.doublings = 3;
+  plan.finer.notice = "they are made smaller there";
+  return plan;
+}
+
+TEST(Recovery, FewerFeaturesAfterAFailureTakeTheFinerGridBack)
+{
+  CubeRun run;
+  const auto before = std::make_shared<const std::vector<float>>(run.mesh().vertexCount(), 1.0F);
+  const auto map = mapWithFoldsAt({ run.onEdge() });
+  const std::optional<Plan> next =
+    run.nextAfter(planWithFinerGrid(run, before), map, failedQuads());
+  expectStep(next, "fewer features");
+  EXPECT_EQ(next->sizes, before);
+  EXPECT_EQ(next->quads, double{ kTarget });
+  EXPECT_EQ(next->finer.shrinks, 0);
+  EXPECT_EQ(next->finer.doublings, 0);
+  EXPECT_EQ(next->finer.areaBefore, 0);
+  EXPECT_EQ(next->finer.sizesBefore, nullptr);
+  EXPECT_TRUE(next->finer.mayShrink);
+  EXPECT_EQ(next->finer.notice, "");
+}
+
+TEST(Recovery, FewerFeaturesForQuadsAtFoldsKeepTheFinerGrid)
+{
+  CubeRun run;
+  const Plan plan = planWithFinerGrid(run, nullptr);
+  const auto map = mapWithFoldsAt({ run.onEdge() });
+  const std::optional<Plan> next = run.nextAfter(plan, map, quadsWith(3));
+  expectStep(next, "fewer features");
+  EXPECT_EQ(givenUpAt(run, *next), std::vector<double>({ 0.4375, 0.5625 }));
+  EXPECT_EQ(next->sizes, plan.sizes);
+  EXPECT_EQ(next->quads, plan.quads);
+  EXPECT_EQ(next->finer.shrinks, 4);
+  EXPECT_EQ(next->finer.doublings, 3);
+  EXPECT_EQ(next->finer.notice, plan.finer.notice);
+}
+
+TEST(Recovery, FewerFeaturesFollowMoreQuadsThatWereNoMatterOfSize)
+{
+  CubeRun run;
+  Plan plan = run.first();
+  plan.finer.mayShrink = false;
+  // The coarse grid fails at the edge of the cube, the map on the surface at none.
+  const auto map = mapWithTube({ 0.4375, 0, 0 });
+  map->transfer.offenders = { run.inFace() };
+  const std::optional<Plan> doubled = run.nextAfter(plan, map, failedQuads());
+  expectStep(doubled, "more quads");
+  const std::optional<Plan> next = run.nextAfter(*doubled, map, failedQuads());
+  expectStep(next, "fewer features");
+  EXPECT_EQ(givenUpAt(run, *next), std::vector<double>({ 0.3125, 0.4375, 0.5625 }));
+  EXPECT_EQ(next->quads, double{ kTarget });
+}
+
+// Of all of them.
+
+TEST(Recovery, TheFirstStrategyWithAPlanIsTaken)
+{
+  CubeRun run;
+  const auto map = mapWithTube({ 0.5, 0, 0 });
+  map->transfer.offenders = { run.onEdge() };
+  // All three have something to offer here.
+  Plan plan = run.first();
+  expectStep(run.nextAfter(plan, map, failedQuads()), "smaller quads near");
+  plan.finer.mayShrink = false;
+  expectStep(run.nextAfter(plan, map, failedQuads()), "more quads");
+  plan.finer.doublings = 3;
+  expectStep(run.nextAfter(plan, map, failedQuads()), "fewer features");
+  // Quads that are turned over are no failure of the grid.
+  expectStep(run.nextAfter(run.first(), map, quadsWith(1)), "fewer features");
+}
+
+TEST(Recovery, GoodQuadsNeedNothing)
+{
+  CubeRun run;
+  const auto map = mapWithTube({ 0.5, 0, 0 });
+  map->transfer.offenders = { run.onEdge() };
+  EXPECT_FALSE(run.nextAfter(run.first(), map, quadsWith(0)));
+  const auto elsewhere = quadsWith(5);
+  elsewhere->turnedAtFolds = false;
+  EXPECT_FALSE(run.nextAfter(run.first(), map, elsewhere));
+}
+
+TEST(Recovery, NothingIsTriedOnceTheWorkIsSpent)
+{
+  CubeRun run;
+  for (const std::size_t work : { kMaximumWork - 1, kMaximumWork })
+  {
+    const auto map = mapWithOffenders({ run.onEdge() });
+    map->work = work;
+    History history;
+    history.addMap(run.first(), map);
+    EXPECT_EQ(nextMapPlan(run.context, history).has_value(), work < kMaximumWork);
+    history.addQuads(failedQuads());
+    EXPECT_EQ(nextPlan(run.context, history).has_value(), work < kMaximumWork);
+  }
+}
+
+TEST(Recovery, NothingIsTriedForMethodsThatRoundOnceTheyHaveAMap)
+{
+  CubeRun run;
+  const auto map = mapWithFoldsAt({ run.onEdge() });
+  const auto failed = failedMap();
+  failed->coarseTroubles = { Vector3(0.5, 0, 0) };
+  for (const MapMethod method : { MapMethod::MixedInteger, MapMethod::QuadCover })
+  {
+    run.options.method = method;
+    EXPECT_FALSE(run.nextAfter(run.first(), map, failedQuads()));
+    EXPECT_FALSE(run.nextAfter(run.first(), map, quadsWith(4)));
+    EXPECT_TRUE(run.nextAfter(run.first(), failed));
+  }
+  run.options.method = MapMethod::ScaleAware;
+  EXPECT_TRUE(run.nextAfter(run.first(), map, failedQuads()));
+}
+
+} // namespace
+} // namespace quadrille
