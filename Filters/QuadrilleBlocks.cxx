@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadrilleBlocks.h"
 
+#include "Pipeline/ResultStore.h"
+
 #include "QuadrilleRanks.h"
 #include "QuadrilleRefuse.h"
 
@@ -330,6 +332,53 @@ void writeBlocks(const BlockTree& tree,
     assembly->DeepCopy(source->GetDataAssembly());
     target->SetDataAssembly(assembly);
   }
+}
+
+std::size_t EarlierResult::bytes() const
+{
+  std::size_t kibibytes = 0;
+  for (vtkDataObject* data : result)
+  {
+    kibibytes += data ? data->GetActualMemorySize() : 0;
+  }
+  return 1024 * kibibytes;
+}
+
+const EarlierResult* BlockState::findEarlier(const EarlierResult& wanted)
+{
+  const auto found = std::find_if(
+    earlier.begin(), earlier.end(), [&](const EarlierResult& r) { return r.isFor(wanted); });
+  if (found == earlier.end())
+  {
+    return nullptr;
+  }
+  std::rotate(found, found + 1, earlier.end());
+  return &earlier.back();
+}
+
+void BlockState::keepEarlier(EarlierResult result)
+{
+  constexpr std::size_t most = 32;
+  constexpr std::size_t shareOfMachine = 8;
+  earlier.erase(std::remove_if(earlier.begin(), earlier.end(),
+                  [&](const EarlierResult& r) { return r.isFor(result); }),
+    earlier.end());
+  earlier.push_back(std::move(result));
+  const std::size_t bound = ResultStore::bytesOfMachine() / shareOfMachine;
+  while (earlier.size() > most || (earlier.size() > 1 && this->bytesOfEarlier() > bound))
+  {
+    earlier.erase(earlier.begin());
+  }
+}
+
+std::size_t BlockState::bytesOfEarlier() const
+{
+  std::size_t bytes = 0;
+  for (const EarlierResult& result : earlier)
+  {
+    bytes += result.bytes();
+  }
+  return bytes;
 }
 
 } // namespace quadrille

@@ -49,6 +49,24 @@ struct BlockMemory
   virtual ~BlockMemory() = default;
 };
 
+/// A result and all that it depends on.
+struct EarlierResult
+{
+  std::string settings;                                     ///< vtkQuadrilleAlgorithm::GetSettings()
+  std::vector<std::pair<const void*, vtkMTimeType>> stamps; ///< of the inputs
+  double areaShare = 1;
+  double wholeDiagonal = 0;
+  BlockReport report;
+  std::vector<vtkSmartPointer<vtkDataObject>> result; ///< by port
+
+  bool isFor(const EarlierResult& other) const
+  {
+    return settings == other.settings && stamps == other.stamps && areaShare == other.areaShare &&
+      wholeDiagonal == other.wholeDiagonal;
+  }
+  std::size_t bytes() const;
+};
+
 /// What lasts of a block from one execution to the next.
 struct BlockState
 {
@@ -61,6 +79,14 @@ struct BlockState
   std::vector<std::pair<const void*, vtkMTimeType>> failedStamps;
   double lastAreaShare = 1;
   double lastWholeDiagonal = 0;
+  /// Results of earlier settings, the last used one at the end, so that going back to them is a look-up. Bounded in number and bytes: at most
+  /// an eighth of the machine's memory.
+  std::vector<EarlierResult> earlier;
+
+  /// The one with the settings, stamps and shares of `wanted`, which becomes the last used one; null where there is none.
+  const EarlierResult* findEarlier(const EarlierResult& wanted);
+  void keepEarlier(EarlierResult result);
+  std::size_t bytesOfEarlier() const;
 
   /// The memory as the filter's own type, made where there is none.
   template <class Memory>

@@ -91,7 +91,12 @@ void vtkQuadRemesh::SetKeepLevels(vtkTypeBool on)
 {
   if (!on)
   {
-    this->VisitStates([](quadrille::BlockState& state) { state.memory.reset(); });
+    this->VisitStates(
+      [](quadrille::BlockState& state)
+      {
+        state.memory.reset();
+        state.earlier.clear();
+      });
   }
   if (this->KeepLevels != on)
   {
@@ -106,7 +111,10 @@ double vtkQuadRemesh::GetRememberedMegabytes() const
   std::size_t bytes = 0;
   this->VisitStates(
     [&bytes](quadrille::BlockState& state)
-    { bytes += state.memory ? state.memoryAs<LevelMemory>().levels.bytes() : 0; });
+    {
+      bytes += state.memory ? state.memoryAs<LevelMemory>().levels.bytes() : 0;
+      bytes += state.bytesOfEarlier();
+    });
   return 1e-6 * static_cast<double>(bytes);
 }
 
@@ -216,6 +224,37 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   block.output(5)->ShallowCopy(quadrille::writeConstraints(placed, result.quads));
   this->SetResult(describe(result, written.irregular->GetNumberOfPoints()));
   report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::AddSettings(std::ostream& os) const
+{
+  this->Superclass::AddSettings(os);
+  os
+    << "Method " << this->Method << '\n'
+    << "Integers " << this->Integers << '\n'
+    << "AnisotropyLimit " << this->AnisotropyLimit << '\n'
+    << "SmoothingSteps " << this->SmoothingSteps << '\n'
+    << "CloseHandles " << this->CloseHandles << '\n'
+    << "SmallComponents " << this->SmallComponents << '\n'
+    << "WarmStart " << this->WarmStart << '\n'
+    << "FinalQuality " << this->FinalQuality << '\n'
+    << "DistortionMetric " << this->DistortionMetric << '\n'
+    << "CellDataFrom " << this->CellDataFrom << '\n'
+    << "ComputeMappedSurface " << this->ComputeMappedSurface << '\n'
+    << "TextureCoordinates " << this->TextureCoordinates << '\n';
+  if (this->FinalQuality != Coarse)
+  {
+    os << "MemoryLimit " << this->MemoryLimit << '\n'; // by which the finer map may be left out
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkQuadRemesh::AllowsEarlier(const quadrille::BlockReport& report) const
+{
+  const auto quads = report.numbers.find("ActualQuads");
+  return quads == report.numbers.end() ||
+    quads->second <= static_cast<double>(this->MaximumNumberOfQuads);
 }
 
 //------------------------------------------------------------------------------

@@ -283,6 +283,8 @@ protected:
 
   void Execute(quadrille::Block& block) override;
   bool KeepsResult() override { return this->KeepLevels != 0; }
+  void AddSettings(std::ostream& os) const override;
+  bool AllowsEarlier(const quadrille::BlockReport& report) const override;
 
 private:
   vtkQuadRemesh(const vtkQuadRemesh&) = delete;

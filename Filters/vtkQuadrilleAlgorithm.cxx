@@ -519,6 +519,21 @@ void vtkQuadrilleAlgorithm::GatherInputs(Run& run)
 }
 
 //------------------------------------------------------------------------------
+std::string vtkQuadrilleAlgorithm::GetSettings() const
+{
+  std::ostringstream text;
+  text.precision(17);
+  this->AddSettings(text);
+  return text.str();
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::AddSettings(std::ostream& os) const
+{
+  os << "RankIndependent " << this->RankIndependent << '\n';
+}
+
+//------------------------------------------------------------------------------
 bool vtkQuadrilleAlgorithm::IsPutInOrder(const Run& run) const
 {
   return this->RankIndependent == Always ||
@@ -734,6 +749,20 @@ void vtkQuadrilleAlgorithm::RunBlock(Work& work)
     }
     return;
   }
+  quadrille::EarlierResult wanted{ this->GetSettings(),
+    { work.stamps.begin() + 1, work.stamps.end() }, work.block.areaShare, work.block.wholeDiagonal,
+    {}, {} }; // the first stamp is the filter's
+  if (this->KeepsResult() && work.error.empty())
+  {
+    const quadrille::EarlierResult* earlier = state.findEarlier(wanted);
+    if (earlier && this->AllowsEarlier(earlier->report))
+    {
+      state.lastResult = earlier->result;
+      state.report = earlier->report;
+      state.report.reusedStages = { "all" };
+      return;
+    }
+  }
   state.report = {};
   state.report.notices = work.notices;
   this->Report = &state.report;
@@ -744,6 +773,12 @@ void vtkQuadrilleAlgorithm::RunBlock(Work& work)
       throw quadrille::InvalidInput(work.error);
     }
     this->ExecuteBlock(work.block);
+    if (this->KeepsResult())
+    {
+      wanted.report = state.report;
+      wanted.result = state.lastResult;
+      state.keepEarlier(std::move(wanted));
+    }
   }
   catch (const quadrille::InvalidInput& error)
   {

@@ -94,6 +94,12 @@ public:
   vtkGetMacro(RankIndependent, int);
   ///@}
 
+  /**
+   * All properties that the result depends on, with their values. Threads and limits are none of them. An execution with the settings and
+   * inputs of an earlier one gets its result, where the filter keeps results.
+   */
+  std::string GetSettings() const;
+
   /// An OutcomeType.
   vtkGetMacro(Outcome, int);
   /// The reason of a failure, and what the outputs hold; empty after success.
@@ -141,6 +147,10 @@ protected:
   /// Whether a block with the same properties and arrays as at its last execution, which succeeded, gets that result instead of a new
   /// one; its reused stages are then "all". Default: no.
   virtual bool KeepsResult() { return false; }
+  /// Writes the properties that the result depends on, see GetSettings().
+  virtual void AddSettings(std::ostream& os) const;
+  /// Whether an earlier result with the same settings keeps to the limits that are no settings.
+  virtual bool AllowsEarlier(const quadrille::BlockReport& /*report*/) const { return true; }
 
   /// Whether the target size is one for all blocks together, so that a block has to know its part (Block::areaShare,
   /// Block::wholeDiagonal). Default: no.

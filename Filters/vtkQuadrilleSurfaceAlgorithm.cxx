@@ -143,6 +143,24 @@ quadrille::RemeshOptions vtkQuadrilleSurfaceAlgorithm::MakeOptions(
 }
 
 //------------------------------------------------------------------------------
+void vtkQuadrilleSurfaceAlgorithm::AddSettings(std::ostream& os) const
+{
+  this->Superclass::AddSettings(os);
+  os
+    << "TargetType " << this->TargetType << '\n'
+    << "NumberOfQuads " << this->NumberOfQuads << '\n'
+    << "QuadsAre " << this->QuadsAre << '\n'
+    << "EdgeLength " << this->EdgeLength << '\n'
+    << "RelativeEdgeLength " << this->RelativeEdgeLength << '\n'
+    << "DetectFeatures " << this->DetectFeatures << '\n'
+    << "FeatureAngle " << this->FeatureAngle << '\n'
+    << "PatchArrayName " << this->PatchArrayName << '\n'
+    << "CoarseVertices " << this->CoarseVertices << '\n'
+    << "StrokeWeight " << this->StrokeWeight << '\n'
+    << "PointValence " << this->PointValence << '\n';
+}
+
+//------------------------------------------------------------------------------
 void vtkQuadrilleSurfaceAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

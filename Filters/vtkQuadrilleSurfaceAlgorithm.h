@@ -178,6 +178,7 @@ protected:
   bool HasCommonTarget() const override { return this->QuadsAre == QUADS_ARE_SHARED_BY_AREA; }
 
   double LeastAreaShare(std::size_t blocks) const override;
+  void AddSettings(std::ostream& os) const override;
 
   /// The surface and what is asked of it as Core takes them; warns of what is not used. placed, if given, gets the
   /// constraints of ports 1 to 3.

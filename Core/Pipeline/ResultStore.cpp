@@ -16,14 +16,6 @@ namespace
 
 constexpr std::size_t kShareOfMachine = 4;
 
-std::size_t bytesOfMachine()
-{
-  const long pages = sysconf(_SC_PHYS_PAGES);
-  const long page = sysconf(_SC_PAGE_SIZE);
-  return pages > 0 && page > 0 ? static_cast<std::size_t>(pages) * static_cast<std::size_t>(page)
-                               : std::size_t{ 1 } << 32;
-}
-
 } // namespace
 
 KeyMaker& KeyMaker::add(std::uint64_t value)
@@ -43,6 +35,14 @@ KeyMaker& KeyMaker::add(double value)
 KeyMaker& KeyMaker::addBytes(const void* bytes, std::size_t count)
 {
   return add(contentHash(bytes, count, 1));
+}
+
+std::size_t ResultStore::bytesOfMachine()
+{
+  const long pages = sysconf(_SC_PHYS_PAGES);
+  const long page = sysconf(_SC_PAGE_SIZE);
+  return pages > 0 && page > 0 ? static_cast<std::size_t>(pages) * static_cast<std::size_t>(page)
+                               : std::size_t{ 1 } << 32;
 }
 
 ResultStore::ResultStore(std::size_t maximumBytes)

@@ -48,6 +48,9 @@ public:
   /// 0: a quarter of the machine's memory.
   explicit ResultStore(std::size_t maximumBytes = 0);
 
+  /// Of the machine's memory; 4 GiB where that cannot be found out.
+  static std::size_t bytesOfMachine();
+
   std::size_t bytes() const { return bytes_; }
   std::size_t maximumBytes() const { return maximumBytes_; }
   /// Lets go what is beyond.

@@ -595,6 +595,51 @@ TEST(QuadRemesh, AChangeBeginsAtItsStageWithTheSameQuads)
   EXPECT_EQ(filter->GetRememberedMegabytes(), 0);
 }
 
+TEST(QuadRemesh, GoingBackAndOtherLimitsAreALookUp)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(60, 30));
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  run(filter, input, 400);
+  const std::vector<double> first = coordinates(filter->GetOutput());
+  const std::string notices = filter->GetNoticesText();
+  run(filter, input, 500);
+  EXPECT_STRNE(filter->GetReusedStagesText(), "all");
+  const std::vector<double> second = coordinates(filter->GetOutput());
+  EXPECT_NE(first, second);
+  const auto expectAll = [&](const std::vector<double>& points)
+  {
+    EXPECT_STREQ(filter->GetReusedStagesText(), "all");
+    EXPECT_EQ(coordinates(filter->GetOutput()), points);
+    EXPECT_EQ(filter->GetActualQuads(), filter->GetOutput()->GetNumberOfCells());
+    expectValid(filter, 0, true);
+  };
+  run(filter, input, 400);
+  expectAll(first);
+  EXPECT_EQ(filter->GetNoticesText(), notices);
+  run(filter, input, 500);
+  expectAll(second);
+  filter->SetNumberOfThreads(1);
+  filter->SetTimeLimit(100);
+  filter->SetMemoryLimit(1000);
+  filter->SetMaximumNumberOfQuads(5000);
+  filter->Update();
+  expectAll(second);
+  // A limit that the result does not keep to is an error as ever.
+  filter->SetMaximumNumberOfQuads(100);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::TooLarge);
+  filter->SetMaximumNumberOfQuads(5000);
+  filter->SetSmoothingSteps(0);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+  EXPECT_STRNE(filter->GetReusedStagesText(), "all");
+  filter->KeepLevelsOff();
+  filter->SetSmoothingSteps(5);
+  filter->Update();
+  EXPECT_STREQ(filter->GetReusedStagesText(), "");
+}
+
 TEST(QuadRemesh, NothingNewReturnsTheResultBefore)
 {
   const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(60, 30));
