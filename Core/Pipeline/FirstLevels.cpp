@@ -18,7 +18,12 @@ struct StoredShortLoops
 
 void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::string>& reused)
 {
-  const ResultKey key = KeyMaker(run.surface.key()).add(run.edgeLength).key();
+  Plan plan;
+  plan.keptVertices = indexVertices(*run.surface);
+  plan.coarseVertices = run.options.coarseVertices;
+  // Phase 1 keeps these vertices, so the loops on its level depend on them.
+  const ResultKey key =
+    KeyMaker(run.surface.key()).add(run.edgeLength).add(plan.keptVertices).key();
   if (run.store != nullptr)
   {
     if (const auto known = run.store->find<StoredShortLoops>(key))
@@ -28,9 +33,6 @@ void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::stri
       return;
     }
   }
-  Plan plan;
-  plan.keptVertices = indexVertices(*run.surface);
-  plan.coarseVertices = run.options.coarseVertices;
   const Hierarchy& levels = run.levels.make(levelOptions(run, plan), nullptr);
   stages.add(run.levels.stages());
   const double start = secondsNow();
@@ -39,9 +41,13 @@ void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::stri
     run.shortLoops.parts.handles);
   if (run.store != nullptr)
   {
-    run.store->put(key,
-      std::make_shared<StoredShortLoops>(StoredShortLoops{ run.shortLoops }),
-      sizeof(StoredShortLoops));
+    std::size_t bytes = sizeof(StoredShortLoops) + bytesOf(run.shortLoops.hopelessPlaces);
+    for (const HandleLoop& loop : run.shortLoops.loops)
+    {
+      bytes += bytesOf(loop.vertices);
+    }
+    run.store->put(
+      key, std::make_shared<StoredShortLoops>(StoredShortLoops{ run.shortLoops }), bytes);
   }
 }
 

@@ -34,8 +34,8 @@ Names with(Names names, const Names& more)
 }
 
 const Names kPrepared = sorted({ "repair", "order", "connectivity" });
-const Names kRefined = with(kPrepared, { "refine", "handles" });
-const Names kDecimated = with(kRefined, { "phase1" });
+const Names kRefined = with(kPrepared, { "refine" });
+const Names kDecimated = with(kRefined, { "handles", "phase1" });
 const Names kMapped = with(kDecimated,
   { "phase2", "field", "seamless", "quantize", "embed", "replay", "certify" });
 const Names kAll = with(kMapped, { "extract" });
