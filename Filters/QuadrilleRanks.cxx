@@ -13,7 +13,10 @@
 #include <vtkNew.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
 
 namespace quadrille
@@ -78,6 +81,14 @@ vtkMultiProcessController* controllerOf(vtkInformationVector* outputs)
   const bool isParallel =
     all && all->IsA("vtkMPIController") && all->GetNumberOfProcesses() == pieces;
   return isParallel ? all : nullptr;
+}
+
+bool isLaunchedByMpi()
+{
+  // Open MPI, MPICH and its kin, Slurm.
+  const char* const names[] = { "OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS" };
+  return std::any_of(std::begin(names), std::end(names),
+    [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
 int Ranks::rank() const

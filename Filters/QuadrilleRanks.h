@@ -21,6 +21,9 @@ namespace quadrille
 /// The ranks that work on a request together, or null: those of an MPI session in which all ask alike, each for its own piece.
 vtkMultiProcessController* controllerOf(vtkInformationVector* outputs);
 
+/// Whether mpiexec or srun has started this process. ParaView's pvpython and pvserver are sessions of MPI with one rank also without.
+bool isLaunchedByMpi();
+
 class Ranks
 {
 public:

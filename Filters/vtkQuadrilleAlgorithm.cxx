@@ -537,7 +537,7 @@ void vtkQuadrilleAlgorithm::AddSettings(std::ostream& os) const
 bool vtkQuadrilleAlgorithm::IsPutInOrder(const Run& run) const
 {
   return this->RankIndependent == Always ||
-    (this->RankIndependent == UnderMPI && run.ranks.isParallel());
+    (this->RankIndependent == UnderMPI && run.ranks.isParallel() && quadrille::isLaunchedByMpi());
 }
 
 //------------------------------------------------------------------------------

@@ -88,7 +88,7 @@ public:
   /**
    * Whether a surface that comes in one piece is put into the order of one that comes in several, too, a RankIndependentType.
    * Then the result is the same for any number of ranks, also for one; ids as in `SourceCellId` count in that order. Otherwise one
-   * piece stays as it is. Default: UnderMPI, that is where the session is one of MPI, with any number of ranks.
+   * piece stays as it is. Default: UnderMPI, that is where mpiexec or srun has started the session, with any number of ranks.
    */
   vtkSetClampMacro(RankIndependent, int, Never, UnderMPI);
   vtkGetMacro(RankIndependent, int);
