@@ -309,7 +309,6 @@ TEST(History, PackedMapsKeepTheirUv)
   best->uv = cutMap(mesh, 20);
   last->uv = cutMap(mesh, 30);
   addRound(history, planOf("first"), ofResult, quadsWith(2));
-  history.packMaps(mesh);
   history.addMap(planOf("fewer features"), best);
   EXPECT_EQ(best->uv.size(), mesh.halfEdgeCount()); // its quads may come next
   history.addMap(planOf("kept offenders"), last);
