@@ -70,4 +70,8 @@ else()
   message(FATAL_ERROR "This ParaView was built without Python, which the package `quadrille` needs.")
 endif()
 
+# What VTK and ParaView generate for each class costs little beside their headers.
+quadrille_unity(QuadrilleFiltersPython 16)
+quadrille_unity(QuadrilleFiltersCS 16)
+
 add_subdirectory("${CMAKE_SOURCE_DIR}/Programs")

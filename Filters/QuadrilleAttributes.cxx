@@ -29,7 +29,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = 1 << 13;
+constexpr std::size_t kAttributeChunk = 1 << 13;
 /// Parts of a cell that differ by less than this are equal.
 constexpr double kSamePart = 1e-9;
 
@@ -162,7 +162,7 @@ void mixPoints(vtkAbstractArray* from, vtkAbstractArray* to,
   withValues(from, to,
     [&](auto* source, auto* target)
     {
-      parallelFor(origins.size(), kChunk, threads,
+      parallelFor(origins.size(), kAttributeChunk, threads,
         [&](std::size_t begin, std::size_t end)
         {
           for (std::size_t i = begin; i < end; ++i)
@@ -190,7 +190,7 @@ void mixCells(vtkAbstractArray* from, vtkAbstractArray* to, const CellOrigins& o
     [&](auto* source, auto* target)
     {
       using Real = std::remove_pointer_t<decltype(target)>;
-      parallelFor(origins.first.size() - 1, kChunk, threads,
+      parallelFor(origins.first.size() - 1, kAttributeChunk, threads,
         [&](std::size_t begin, std::size_t end)
         {
           for (std::size_t q = begin; q < end; ++q)
@@ -347,7 +347,7 @@ std::vector<vtkIdType> majorities(vtkAbstractArray* from, const CellOrigins& ori
 {
   const TupleKeys keys(from);
   std::vector<vtkIdType> result(origins.first.size() - 1);
-  parallelFor(result.size(), kChunk, threads,
+  parallelFor(result.size(), kAttributeChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       std::vector<Part> parts;
@@ -379,7 +379,7 @@ void copyTuples(vtkAbstractArray* from, vtkAbstractArray* to, const Ids& ids, in
     static_cast<std::size_t>(from->GetNumberOfComponents() * from->GetDataTypeSize());
   const char* source = static_cast<const char*>(from->GetVoidPointer(0));
   char* target = static_cast<char*>(to->GetVoidPointer(0));
-  parallelFor(count, kChunk, threads,
+  parallelFor(count, kAttributeChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

@@ -3,6 +3,7 @@
 #include "Base/PlaceText.h"
 #include "Mesh/Guides.h"
 #include "QuadrilleConstraints.h"
+#include "QuadrilleNewArray.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -24,15 +25,6 @@ namespace quadrille
 
 namespace
 {
-
-template <class Array>
-vtkSmartPointer<Array> newArray(const char* name, int components = 1)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  return array;
-}
 
 /// Beside the kinds: a valence that is not that of the quads.
 constexpr int kMissedValence = 3;

@@ -7,6 +7,7 @@
 #include "Mesh/Topology.h"
 #include "QuadrilleArrayNames.h"
 #include "QuadrilleAttributes.h"
+#include "QuadrilleNewArray.h"
 #include "QuadrilleRefuse.h"
 
 #include <vtkCellArray.h>
@@ -428,16 +429,6 @@ void readPatchIds(
 
 //------------------------------------------------------------------------------
 // Arrays
-
-template <class Array>
-vtkSmartPointer<Array> newArray(const char* name, int components, std::size_t tuples)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(tuples));
-  return array;
-}
 
 vtkDataArray* requireArray(
   vtkDataSetAttributes* attributes, const char* name, int components, const char* madeBy)

@@ -6,6 +6,7 @@
 #include "Extraction/QuadCoverage.h"
 #include "Extraction/QuadLayout.h"
 #include "QuadrilleConvert.h"
+#include "QuadrilleNewArray.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -32,17 +33,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = 1 << 13;
-
-template <class Array>
-vtkSmartPointer<Array> newArray(const char* name, int components, std::size_t tuples)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(tuples));
-  return array;
-}
+constexpr std::size_t kQuadChunk = 1 << 13;
 
 vtkSmartPointer<vtkPoints> newPoints(std::size_t count)
 {
@@ -66,7 +57,7 @@ vtkSmartPointer<vtkCellArray> newCells(vtkIdTypeArray* connectivity, vtkIdType c
   return cells;
 }
 
-std::size_t polygonCount(const QuadMesh& mesh)
+std::size_t partialPolygonCount(const QuadMesh& mesh)
 {
   return mesh.polygonSourceFace.size();
 }
@@ -90,7 +81,7 @@ void writeGeometry(const QuadMesh& mesh, vtkPolyData* data)
     }
   }
   data->SetPoints(points);
-  if (polygonCount(mesh) == 0)
+  if (partialPolygonCount(mesh) == 0)
   {
     data->SetPolys(newCells(connectivity, 4));
     return;
@@ -100,7 +91,7 @@ void writeGeometry(const QuadMesh& mesh, vtkPolyData* data)
     connectivity->SetValue(next++, corner);
   }
   const auto quads = static_cast<vtkIdType>(mesh.quads.size());
-  auto offsets = newArray<vtkIdTypeArray>("", 1, mesh.quads.size() + polygonCount(mesh) + 1);
+  auto offsets = newArray<vtkIdTypeArray>("", 1, mesh.quads.size() + partialPolygonCount(mesh) + 1);
   for (vtkIdType i = 0; i < quads; ++i)
   {
     offsets->SetValue(i, 4 * i);
@@ -120,7 +111,7 @@ using PointFunction = std::function<PointOrigin(Index, const std::array<double, 
 std::vector<PointOrigin> originsOf(const QuadMesh& mesh, const PointFunction& origin, int threads)
 {
   std::vector<PointOrigin> origins(mesh.points.size());
-  parallelFor(origins.size(), kChunk, threads,
+  parallelFor(origins.size(), kQuadChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -135,7 +126,7 @@ std::vector<PointOrigin> originsOf(const QuadMesh& mesh, const PointFunction& or
 std::vector<vtkIdType> centresOf(
   const QuadMesh& mesh, const std::function<vtkIdType(Index)>& cellOf)
 {
-  std::vector<vtkIdType> cells(mesh.quads.size() + polygonCount(mesh));
+  std::vector<vtkIdType> cells(mesh.quads.size() + partialPolygonCount(mesh));
   const auto rest =
     std::transform(mesh.quadSourceFace.begin(), mesh.quadSourceFace.end(), cells.begin(), cellOf);
   std::transform(mesh.polygonSourceFace.begin(), mesh.polygonSourceFace.end(), rest, cellOf);
@@ -221,7 +212,7 @@ void addNormals(const QuadMesh& mesh, vtkPointData* data)
     data->SetActiveAttribute(-1, vtkDataSetAttributes::NORMALS);
     return;
   }
-  if (polygonCount(mesh) > 0 || data->GetNormals())
+  if (partialPolygonCount(mesh) > 0 || data->GetNormals())
   {
     return;
   }
@@ -279,7 +270,7 @@ Edge sortedEdge(Index a, Index b)
   return { std::min(a, b), std::max(a, b) };
 }
 
-void addFeatureEdges(const QuadMesh& mesh, vtkCellData* data)
+void addQuadFeatureEdges(const QuadMesh& mesh, vtkCellData* data)
 {
   std::vector<Edge> features;
   for (const QuadLine& line : mesh.lines)
@@ -302,13 +293,13 @@ void addFeatureEdges(const QuadMesh& mesh, vtkCellData* data)
     return static_cast<unsigned char>(bits);
   };
   auto array = newArray<vtkUnsignedCharArray>(
-    arrays::kFeatureEdges, 1, mesh.quads.size() + polygonCount(mesh));
+    arrays::kFeatureEdges, 1, mesh.quads.size() + partialPolygonCount(mesh));
   vtkIdType next = 0;
   for (const std::array<Index, 4>& quad : mesh.quads)
   {
     array->SetValue(next++, bitsOf(quad.data(), 4));
   }
-  for (std::size_t i = 0; i < polygonCount(mesh); ++i)
+  for (std::size_t i = 0; i < partialPolygonCount(mesh); ++i)
   {
     const Index first = mesh.polygonOffsets[i];
     array->SetValue(
@@ -321,10 +312,10 @@ void addFeatureEdges(const QuadMesh& mesh, vtkCellData* data)
 void addPartial(const QuadMesh& mesh, vtkCellData* data)
 {
   auto array =
-    newArray<vtkUnsignedCharArray>(arrays::kPartial, 1, mesh.quads.size() + polygonCount(mesh));
+    newArray<vtkUnsignedCharArray>(arrays::kPartial, 1, mesh.quads.size() + partialPolygonCount(mesh));
   std::fill_n(array->GetPointer(0), mesh.quads.size(), static_cast<unsigned char>(0));
   std::fill_n(
-    array->GetPointer(0) + mesh.quads.size(), polygonCount(mesh), static_cast<unsigned char>(1));
+    array->GetPointer(0) + mesh.quads.size(), partialPolygonCount(mesh), static_cast<unsigned char>(1));
   data->AddArray(array);
 }
 
@@ -408,10 +399,10 @@ vtkSmartPointer<vtkPolyData> writeQuads(const QuadMesh& mesh, const Mesh& mapped
   addPointArrays(mesh, cellOf, origins, data->GetPointData());
   addNormals(mesh, data->GetPointData());
   addSourceCells(mesh, cellOf, data->GetCellData());
-  addFeatureEdges(mesh, data->GetCellData());
+  addQuadFeatureEdges(mesh, data->GetCellData());
   data->GetFieldData()->PassData(source.carrier->GetFieldData());
-  addLayout(layout, polygonCount(mesh), data); // replaces that of a remeshed quad mesh
-  if (polygonCount(mesh) > 0)
+  addLayout(layout, partialPolygonCount(mesh), data); // replaces that of a remeshed quad mesh
+  if (partialPolygonCount(mesh) > 0)
   {
     addPartial(mesh, data->GetCellData());
   }

@@ -87,7 +87,7 @@ struct Ancestry
   }
 };
 
-quadrille::QuadSource sourceOf(vtkPolyData* data, const std::string& patchArray)
+quadrille::QuadSource sourceOfMapped(vtkPolyData* data, const std::string& patchArray)
 {
   quadrille::QuadSource source;
   source.carrier = data;
@@ -230,7 +230,7 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
     this->AddNotice(notice);
   }
 
-  quadrille::QuadSource source = sourceOf(input, this->PatchArrayName);
+  quadrille::QuadSource source = sourceOfMapped(input, this->PatchArrayName);
   source.cellDataFrom = static_cast<quadrille::CellDataFrom>(this->CellDataFrom);
   source.threads = this->NumberOfThreads;
   const quadrille::QuadOutputs written = quadrille::writeOutputs(result.mesh, mesh, mapped.map.uv, source);

@@ -21,7 +21,7 @@ constexpr double kRedrawSeconds = 0.1;
 /// Between two lines where there is no terminal, and before the first: short runs show none.
 constexpr double kLineSeconds = 5;
 
-double seconds(std::chrono::steady_clock::duration duration)
+double secondsOf(std::chrono::steady_clock::duration duration)
 {
   return std::chrono::duration<double>(duration).count();
 }
@@ -91,18 +91,18 @@ ProgressDisplay::ProgressDisplay(bool quiet) : quiet_(quiet), terminal_(terminal
 void ProgressDisplay::show(double fraction, const std::string& text)
 {
   const Clock::time_point time = Clock::now();
-  if (quiet_ || seconds(time - last_) < (terminal_ ? kRedrawSeconds : kLineSeconds))
+  if (quiet_ || secondsOf(time - last_) < (terminal_ ? kRedrawSeconds : kLineSeconds))
   {
     return;
   }
   last_ = time;
   if (!terminal_)
   {
-    std::fprintf(stderr, "%3d %% after %.0f s: %s\n", percentOf(fraction), seconds(time - start_), text.c_str());
+    std::fprintf(stderr, "%3d %% after %.0f s: %s\n", percentOf(fraction), secondsOf(time - start_), text.c_str());
     return;
   }
   // The last column stays free: some terminals begin a new line there.
-  const std::string line = barText(fraction, text, seconds(time - start_), terminalWidth() - 1);
+  const std::string line = barText(fraction, text, secondsOf(time - start_), terminalWidth() - 1);
   if (line != drawn_)
   {
     std::fprintf(stderr, "\r\033[K%s", line.c_str());

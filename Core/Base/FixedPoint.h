@@ -19,6 +19,19 @@ constexpr std::int64_t kOne = std::int64_t{ 1 } << kFractionBits;
 // GCC spells its 128-bit type as an extension; the keyword keeps -Wpedantic builds of users quiet.
 __extension__ typedef __int128 Int128;
 
+/// The quotient rounded down; b is not 0.
+inline Int128 floorDivide(Int128 a, Int128 b)
+{
+  const Int128 q = a / b;
+  return q - ((a % b != 0) && ((a < 0) != (b < 0)) ? 1 : 0);
+}
+
+/// The first whole coordinate above x.
+inline std::int64_t unitAbove(std::int64_t x)
+{
+  return (x & ~(kOne - 1)) + kOne;
+}
+
 /// A point or vector of the parameter domain in units of 2^-24 quads.
 struct FixedVec2
 {

@@ -12,7 +12,7 @@ namespace quadrille
 namespace
 {
 
-thread_local PlaceScope* currentScope = nullptr;
+thread_local PlaceScope* currentPlaceScope = nullptr;
 
 /// What a stream takes by default.
 constexpr int kLeastDigits = 6;
@@ -31,14 +31,14 @@ int digitsFor(double magnitude, double unit)
 } // namespace
 
 PlaceScope::PlaceScope(const Vector3& centre, double unit, const Vector3& sign)
-  : centre_(centre), unit_(unit), sign_(sign), outer_(currentScope)
+  : centre_(centre), unit_(unit), sign_(sign), outer_(currentPlaceScope)
 {
-  currentScope = this;
+  currentPlaceScope = this;
 }
 
 PlaceScope::~PlaceScope()
 {
-  currentScope = outer_;
+  currentPlaceScope = outer_;
 }
 
 void PlaceScope::set(const Vector3& centre, double unit, const Vector3& sign)
@@ -52,7 +52,7 @@ std::string placeText(const Vector3& p)
 {
   std::ostringstream text;
   Vector3 place = p;
-  if (const PlaceScope* scope = currentScope)
+  if (const PlaceScope* scope = currentPlaceScope)
   {
     place = scope->centre_ + scope->unit_ * scope->sign_.cwiseProduct(p);
     text.precision(digitsFor(scope->centre_.cwiseAbs().maxCoeff(), scope->unit_));

@@ -12,18 +12,6 @@ namespace quadrille
 namespace
 {
 
-Int128 floorDivide(Int128 a, Int128 b)
-{
-  const Int128 q = a / b;
-  return q - ((a % b != 0) && ((a < 0) != (b < 0)) ? 1 : 0);
-}
-
-/// The first whole coordinate above x.
-std::int64_t unitAbove(std::int64_t x)
-{
-  return (x & ~(kOne - 1)) + kOne;
-}
-
 } // namespace
 
 bool isAligned(const ExactMap& map, Index h)

@@ -12,7 +12,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = 1 << 15;
+constexpr std::size_t kMapChunk = 1 << 15;
 constexpr std::size_t kNamedFaces = 8;
 /// Base/FixedPoint.h: differences of coordinates below this have exact determinants.
 constexpr std::int64_t kCoordinateLimit = std::int64_t{ 1 } << 44;
@@ -137,10 +137,10 @@ void merge(MapCheck& into, const MapCheck& from)
 template <typename Body>
 MapCheck overFaces(Index faces, int threads, const Body& body)
 {
-  std::vector<MapCheck> parts((faces + kChunk - 1) / kChunk);
-  parallelFor(faces, kChunk, threads,
+  std::vector<MapCheck> parts((faces + kMapChunk - 1) / kMapChunk);
+  parallelFor(faces, kMapChunk, threads,
     [&](std::size_t begin, std::size_t end)
-    { body(static_cast<Index>(begin), static_cast<Index>(end), parts[begin / kChunk]); });
+    { body(static_cast<Index>(begin), static_cast<Index>(end), parts[begin / kMapChunk]); });
   MapCheck whole;
   for (const MapCheck& part : parts)
   {

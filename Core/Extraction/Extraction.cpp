@@ -24,7 +24,7 @@ namespace quadrille
 namespace
 {
 
-void checkArguments(const Mesh& mesh, const std::vector<FixedVec2>& uv)
+void checkMap(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 {
   if (mesh.faceCount() == 0)
   {
@@ -157,16 +157,16 @@ struct CurveGraph
 
 CurveGraph constrainedGraph(const Mesh& mesh, int threads)
 {
-  constexpr std::size_t kChunk = std::size_t{ 1 } << 17;
-  std::vector<std::vector<Index>> parts((mesh.halfEdgeCount() + kChunk - 1) / kChunk);
-  parallelFor(mesh.halfEdgeCount(), kChunk, threads,
+  constexpr std::size_t kHalfEdgeChunk = std::size_t{ 1 } << 17;
+  std::vector<std::vector<Index>> parts((mesh.halfEdgeCount() + kHalfEdgeChunk - 1) / kHalfEdgeChunk);
+  parallelFor(mesh.halfEdgeCount(), kHalfEdgeChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (Index h = static_cast<Index>(begin); h < end; ++h)
       {
         if (mesh.isConstrained(h) && h < mesh.twin[h])
         {
-          parts[begin / kChunk].push_back(h);
+          parts[begin / kHalfEdgeChunk].push_back(h);
         }
       }
     });
@@ -386,7 +386,7 @@ std::optional<Index> meshCorner(const QuadMesh& quads, Index p)
 ExtractionResult extractQuads(
   const Mesh& mesh, const std::vector<FixedVec2>& uv, const ExtractionOptions& options)
 {
-  checkArguments(mesh, uv);
+  checkMap(mesh, uv);
   const ExactMap map{ mesh, uv };
   ExtractionResult result;
 

@@ -7,12 +7,6 @@ namespace quadrille
 namespace
 {
 
-/// The first whole coordinate above x.
-std::int64_t unitAbove(std::int64_t x)
-{
-  return (x & ~(kOne - 1)) + kOne;
-}
-
 /// p with another coordinate along an axis.
 FixedVec2 withAlong(FixedVec2 p, int direction, std::int64_t value)
 {

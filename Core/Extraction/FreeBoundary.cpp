@@ -5,6 +5,7 @@
 #include "Extraction/CurveLines.h"
 #include "Extraction/FaceTrace.h"
 #include "Extraction/PartialCells.h"
+#include "Extraction/QuadHalfEdges.h"
 #include "Extraction/QuadTopology.h"
 
 #include <algorithm>
@@ -147,15 +148,6 @@ private:
 };
 
 // ------------------------------------------------------------------ fans
-
-Index previousInQuad(Index h)
-{
-  return h % 4 == 0 ? h + 3 : h - 1;
-}
-Index nextInQuad(Index h)
-{
-  return h % 4 == 3 ? h - 3 : h + 1;
-}
 
 /// The lines' places among the half-edges of the quads.
 class LineEdges

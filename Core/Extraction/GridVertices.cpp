@@ -13,19 +13,13 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = 1 << 14;
+constexpr std::size_t kFaceChunk = 1 << 14;
 /// Corners of a vertex that are searched one by one.
 constexpr std::size_t kLargeFan = 64;
 
 std::int64_t ceilUnit(std::int64_t x)
 {
   return (x + kOne - 1) & ~(kOne - 1);
-}
-
-Int128 floorDivide(Int128 a, Int128 b)
-{
-  const Int128 q = a / b;
-  return q - ((a % b != 0) && ((a < 0) != (b < 0)) ? 1 : 0);
 }
 
 /// Corner whose fan walk lists all corners of the vertex: the boundary half-edge, else the lowest
@@ -243,11 +237,11 @@ GridVertices::GridVertices(const ExactMap& map, int threads)
   : map_(map), faceFirst_(std::size_t{ map.mesh.faceCount() } + 1, 0)
 {
   const std::size_t faces = map.mesh.faceCount();
-  std::vector<Part> parts((faces + kChunk - 1) / kChunk);
-  parallelFor(faces, kChunk, threads,
+  std::vector<Part> parts((faces + kFaceChunk - 1) / kFaceChunk);
+  parallelFor(faces, kFaceChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      Part& part = parts[begin / kChunk];
+      Part& part = parts[begin / kFaceChunk];
       for (std::size_t f = begin; f < end; ++f)
       {
         const std::size_t first = part.vertices.size();
@@ -271,10 +265,10 @@ GridVertices::GridVertices(const ExactMap& map, int threads)
     portCount_ += part.ports;
   }
   vertices_.resize(total);
-  parallelFor(faces, kChunk, threads,
+  parallelFor(faces, kFaceChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      const std::size_t chunk = begin / kChunk;
+      const std::size_t chunk = begin / kFaceChunk;
       for (std::size_t q = 0; q < parts[chunk].vertices.size(); ++q)
       {
         vertices_[firstVertex[chunk] + q] = parts[chunk].vertices[q];

@@ -18,10 +18,10 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = 1 << 14;
+constexpr std::size_t kSnapChunk = 1 << 14;
 constexpr double kLimit = 1 << 20;
 /// Beyond this, in quads, two images of an edge or a translation are not merely imprecise.
-constexpr double kTolerance = 0.1;
+constexpr double kSnapTolerance = 0.1;
 /// Quarter turns under which the images agree by so much more or less are equally good.
 constexpr double kAmbiguity = 1e-3;
 
@@ -30,7 +30,7 @@ std::string edgeName(Index h)
   return "edge " + std::to_string(h % 3) + " of cell " + std::to_string(h / 3);
 }
 
-void checkArguments(const Mesh& mesh, const std::vector<Vector2>& uv, const SnapOptions& options)
+void checkSnapArguments(const Mesh& mesh, const std::vector<Vector2>& uv, const SnapOptions& options)
 {
   const std::string corners = std::to_string(mesh.origin.size()) + " corners";
   if (uv.size() != mesh.origin.size())
@@ -50,7 +50,7 @@ void checkArguments(const Mesh& mesh, const std::vector<Vector2>& uv, const Snap
             "zero, or write them in double precision";
     throw InvalidInput(text.str());
   }
-  const std::size_t h = firstRefused(uv.size(), kChunk, options.threads,
+  const std::size_t h = firstRefused(uv.size(), kSnapChunk, options.threads,
     [&uv](std::size_t i)
     { return std::abs(uv[i].x()) < kLimit && std::abs(uv[i].y()) < kLimit; }); // not for NaN
   if (h < uv.size())
@@ -198,8 +198,8 @@ public:
       }));
     result_.uv.resize(uv_.size());
     const std::vector<Index> outgoing = outgoingHalfEdges(mesh_);
-    std::vector<SnapResult> parts((outgoing.size() + kChunk - 1) / kChunk);
-    parallelFor(outgoing.size(), kChunk, options_.threads,
+    std::vector<SnapResult> parts((outgoing.size() + kSnapChunk - 1) / kSnapChunk);
+    parallelFor(outgoing.size(), kSnapChunk, options_.threads,
       [&](std::size_t begin, std::size_t end)
       {
         std::vector<Corner> corners;
@@ -207,7 +207,7 @@ public:
         {
           if (outgoing[v] != kInvalidIndex)
           {
-            snapVertex(outgoing[v], corners, parts[begin / kChunk]);
+            snapVertex(outgoing[v], corners, parts[begin / kSnapChunk]);
           }
         }
       });
@@ -271,12 +271,12 @@ private:
   {
     const Fit fit = fitAt(h);
     faults.charts += fit.transition.isIdentity() && fit.fraction <= ambiguity_ ? 0 : 1;
-    if (!(fit.residual <= kTolerance))
+    if (!(fit.residual <= kSnapTolerance))
     {
       ++faults.apart;
       faults.firstApart = std::min(faults.firstApart, h);
     }
-    else if (!(fit.fraction <= kTolerance))
+    else if (!(fit.fraction <= kSnapTolerance))
     {
       ++faults.fractional;
       faults.firstFractional = std::min(faults.firstFractional, h);
@@ -302,9 +302,9 @@ private:
     checkAsymmetry(h, faults);
     const Fit given = fitAt(h);
     const Fit best = bestFit(mesh_, uv_, h, ambiguity_);
-    const bool apart = given.residual > kTolerance && best.residual + ambiguity_ < given.residual;
-    const bool fits = best.residual <= kTolerance && best.fraction <= kTolerance;
-    if (apart || (given.fraction > kTolerance && fits))
+    const bool apart = given.residual > kSnapTolerance && best.residual + ambiguity_ < given.residual;
+    const bool fits = best.residual <= kSnapTolerance && best.fraction <= kSnapTolerance;
+    if (apart || (given.fraction > kSnapTolerance && fits))
     {
       faults.firstContradiction = std::min(faults.firstContradiction, h);
     }
@@ -314,8 +314,8 @@ private:
   EdgeFaults findFaults(const Check& check) const
   {
     const std::size_t count = mesh_.halfEdgeCount();
-    std::vector<EdgeFaults> parts((count + kChunk - 1) / kChunk);
-    parallelFor(count, kChunk, options_.threads,
+    std::vector<EdgeFaults> parts((count + kSnapChunk - 1) / kSnapChunk);
+    parallelFor(count, kSnapChunk, options_.threads,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
@@ -323,7 +323,7 @@ private:
           const Index h = static_cast<Index>(i);
           if (mesh_.twin[h] != kInvalidIndex && h < mesh_.twin[h])
           {
-            check(h, parts[begin / kChunk]);
+            check(h, parts[begin / kSnapChunk]);
           }
         }
       });
@@ -461,7 +461,7 @@ private:
 std::vector<FixedVec2> onGrid(const std::vector<Vector2>& uv, int threads)
 {
   std::vector<FixedVec2> fixed(uv.size());
-  const std::size_t refused = firstRefused(uv.size(), kChunk, threads,
+  const std::size_t refused = firstRefused(uv.size(), kSnapChunk, threads,
     [&](std::size_t h)
     {
       fixed[h] = toFixed(uv[h]);
@@ -486,7 +486,7 @@ bool fitsExactly(const Mesh& mesh, const std::vector<FixedVec2>& uv, int threads
 
 SnapResult snapMap(const Mesh& mesh, const std::vector<Vector2>& uv, const SnapOptions& options)
 {
-  checkArguments(mesh, uv, options);
+  checkSnapArguments(mesh, uv, options);
   std::vector<FixedVec2> fixed = onGrid(uv, options.threads);
   if (!fixed.empty() && fitsExactly(mesh, fixed, options.threads))
   {

@@ -18,7 +18,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = 1 << 9;
+constexpr std::size_t kAssemblyChunk = 1 << 9;
 
 // ------------------------------------------------------------------ cells
 
@@ -164,13 +164,13 @@ private:
 /// In the order of the grid vertices.
 std::vector<Parts> collect(const Collector& collector, std::size_t vertexCount, int threads)
 {
-  std::vector<Parts> parts((vertexCount + kChunk - 1) / kChunk);
-  parallelFor(vertexCount, kChunk, threads,
+  std::vector<Parts> parts((vertexCount + kAssemblyChunk - 1) / kAssemblyChunk);
+  parallelFor(vertexCount, kAssemblyChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t q = begin; q < end; ++q)
       {
-        collector.visitVertex(static_cast<Index>(q), parts[begin / kChunk]);
+        collector.visitVertex(static_cast<Index>(q), parts[begin / kAssemblyChunk]);
       }
     });
   return parts;
@@ -270,7 +270,7 @@ std::vector<Index> makePoints(const ExactMap& map, const GridVertices& grid,
   mesh.points.resize(used.size());
   mesh.sourceFace.resize(used.size());
   mesh.sourceWeights.resize(used.size());
-  parallelFor(used.size(), kChunk, threads,
+  parallelFor(used.size(), kAssemblyChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

@@ -15,7 +15,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = 256;
+constexpr std::size_t kCoverageChunk = 256;
 
 /// Up to seven corners: a triangle cut by four lines.
 struct Polygon
@@ -288,12 +288,12 @@ QuadCoverage coverQuads(
   const std::size_t count = quads.quads.size();
   QuadCoverage coverage;
   coverage.first.assign(count + 1, 0);
-  std::vector<std::vector<FaceShare>> parts((count + kChunk - 1) / kChunk);
-  parallelFor(count, kChunk, threads,
+  std::vector<std::vector<FaceShare>> parts((count + kCoverageChunk - 1) / kCoverageChunk);
+  parallelFor(count, kCoverageChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       Coverer coverer(mesh, uv, quads);
-      std::vector<FaceShare>& part = parts[begin / kChunk];
+      std::vector<FaceShare>& part = parts[begin / kCoverageChunk];
       for (std::size_t q = begin; q < end; ++q)
       {
         coverer.cover(q, part);
@@ -303,7 +303,7 @@ QuadCoverage coverQuads(
   for (std::size_t i = 0; i < parts.size(); ++i)
   {
     const std::size_t before = coverage.shares.size();
-    for (std::size_t q = i * kChunk; q < std::min(count, (i + 1) * kChunk); ++q)
+    for (std::size_t q = i * kCoverageChunk; q < std::min(count, (i + 1) * kCoverageChunk); ++q)
     {
       coverage.first[q + 1] += before;
     }

@@ -5,6 +5,7 @@
 #include "Base/Error.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Extraction/QuadHalfEdges.h"
 #include "Extraction/QuadTopology.h"
 
 #include <algorithm>
@@ -23,19 +24,6 @@ enum EdgeMark : std::uint8_t
   kWall = 2, ///< between patches; boundary edges are walls without it
   kSeparatrix = 4
 };
-
-Index nextInQuad(Index h)
-{
-  return h % 4 == 3 ? h - 3 : h + 1;
-}
-Index previousInQuad(Index h)
-{
-  return h % 4 == 0 ? h + 3 : h - 1;
-}
-Index oppositeInQuad(Index h)
-{
-  return h % 4 < 2 ? h + 2 : h - 2;
-}
 
 constexpr int kRegular = 4;
 

@@ -5,6 +5,7 @@
 #include "Base/DisjointSets.h"
 #include "Base/Error.h"
 #include "Base/Parallel.h"
+#include "Extraction/QuadHalfEdges.h"
 
 #include <algorithm>
 #include <atomic>
@@ -16,18 +17,10 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = std::size_t{ 1 } << 11;
+constexpr std::size_t kTopologyChunk = std::size_t{ 1 } << 11;
 
 using Quads = std::vector<std::array<Index, 4>>;
 
-Index nextInQuad(Index h)
-{
-  return h % 4 == 3 ? h - 3 : h + 1;
-}
-Index previousInQuad(Index h)
-{
-  return h % 4 == 0 ? h + 3 : h - 1;
-}
 Index originOf(const Quads& quads, Index h)
 {
   return quads[h / 4][h % 4];
@@ -38,13 +31,13 @@ Index targetOf(const Quads& quads, Index h)
 }
 
 /// The half-edges that leave each point, as lists that all threads make at once; their order is that of the threads.
-class Corners
+class LeavingHalfEdges
 {
 public:
-  Corners(const Quads& quads, std::size_t pointCount, int threads)
+  LeavingHalfEdges(const Quads& quads, std::size_t pointCount, int threads)
     : first_(new std::atomic<Index>[pointCount]), next_(4 * quads.size())
   {
-    parallelFor(pointCount, kChunk, threads,
+    parallelFor(pointCount, kTopologyChunk, threads,
       [this](std::size_t begin, std::size_t end)
       {
         for (std::size_t p = begin; p < end; ++p)
@@ -52,8 +45,8 @@ public:
           first_[p].store(kInvalidIndex, std::memory_order_relaxed);
         }
       });
-    std::vector<Index> wrong((quads.size() + kChunk - 1) / kChunk, kInvalidIndex);
-    parallelFor(quads.size(), kChunk, threads,
+    std::vector<Index> wrong((quads.size() + kTopologyChunk - 1) / kTopologyChunk, kInvalidIndex);
+    parallelFor(quads.size(), kTopologyChunk, threads,
       [&](std::size_t begin, std::size_t end)
       {
         for (Index h = static_cast<Index>(4 * begin); h < 4 * end; ++h)
@@ -61,7 +54,7 @@ public:
           const Index p = originOf(quads, h);
           if (p >= pointCount)
           {
-            wrong[begin / kChunk] = h;
+            wrong[begin / kTopologyChunk] = h;
             return;
           }
           next_[h] = first_[p].exchange(h, std::memory_order_relaxed);
@@ -94,7 +87,7 @@ struct Star
   std::vector<Spoke> out;
   std::vector<Spoke> in;
 
-  void gather(const Quads& quads, const Corners& corners, std::size_t p)
+  void gather(const Quads& quads, const LeavingHalfEdges& corners, std::size_t p)
   {
     out.clear();
     in.clear();
@@ -197,7 +190,7 @@ Index fanSize(const QuadTopology& topology, Index h)
   return size;
 }
 
-void checkFan(const Corners& corners, Index p, const QuadTopology& topology, Counts& counts)
+void checkFan(const LeavingHalfEdges& corners, Index p, const QuadTopology& topology, Counts& counts)
 {
   Index count = 0;
   for (Index h = corners.first(p); h != kInvalidIndex; h = corners.next(h))
@@ -233,10 +226,10 @@ void checkQuad(const std::array<Index, 4>& q, DisjointSets& sets, Counts& counts
 template <typename Body>
 void overChunks(std::size_t size, int threads, QuadTopology& topology, const Body& body)
 {
-  std::vector<Counts> parts((size + kChunk - 1) / kChunk);
-  parallelFor(size, kChunk, threads,
+  std::vector<Counts> parts((size + kTopologyChunk - 1) / kTopologyChunk);
+  parallelFor(size, kTopologyChunk, threads,
     [&](std::size_t begin, std::size_t end)
-    { body(static_cast<Index>(begin), static_cast<Index>(end), parts[begin / kChunk]); });
+    { body(static_cast<Index>(begin), static_cast<Index>(end), parts[begin / kTopologyChunk]); });
   for (const Counts& part : parts)
   {
     topology.edges += part.edges;
@@ -284,7 +277,7 @@ QuadTopology analyzeQuads(const Quads& quads, std::size_t pointCount, int thread
   topology.valence.assign(pointCount, 0);
   topology.onBoundary.assign(pointCount, 0);
   topology.twin.assign(4 * quads.size(), kInvalidIndex);
-  const Corners corners(quads, pointCount, threads);
+  const LeavingHalfEdges corners(quads, pointCount, threads);
   overChunks(pointCount, threads, topology,
     [&](Index begin, Index end, Counts& counts)
     {

@@ -26,7 +26,7 @@ constexpr double kMargin = 0.15;
 /// Points whose corners all have more than this area stay.
 constexpr double kGoodCorner = 0.6;
 /// A move must not shorten the shortest edge at a point below this part of their mean.
-constexpr double kShortEdge = 0.2;
+constexpr double kShortUntangledEdge = 0.2;
 /// A move has to lower the badness of the corners at the point by this part.
 constexpr double kLeastGain = 1e-3;
 /// Parts of the way to a corner of the quads at a point that are tried.
@@ -379,7 +379,7 @@ private:
     }
     const Vector3 position = positionOf(moves_.mesh(), *place);
     const EdgeLengths after = edgeLengths(p, position);
-    if (after.shortest < kShortEdge * after.mean && after.shortest < before.shortest)
+    if (after.shortest < kShortUntangledEdge * after.mean && after.shortest < before.shortest)
     {
       return;
     }

@@ -17,7 +17,7 @@ namespace quadrille
 namespace
 {
 
-constexpr int kRounds = 3;
+constexpr int kEmbedRounds = 3;
 
 /// Moving a free vertex does not change the signed area of a map, so it tells the size that the integers
 /// were made for, which may differ from the one that was asked.
@@ -92,7 +92,7 @@ void embedFromSeamless(const Mesh& mesh, const CrossField& field, const LockedMa
   }
 }
 
-void fail(const Mesh& mesh, StatusCode code, const std::string& message, const MapDefects& cause,
+void failEmbedding(const Mesh& mesh, StatusCode code, const std::string& message, const MapDefects& cause,
   EmbedResult& result)
 {
   result.status = { code, "embedding: " + message };
@@ -117,7 +117,7 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
   if (!hopeless.none())
   {
     result.uv = integerUv;
-    fail(
+    failEmbedding(
       mesh, StatusCode::Infeasible, "the integers alone make " + hopeless.text(), hopeless, result);
     return result;
   }
@@ -127,7 +127,7 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
     startsOf(mesh, field, locked, problem, options.previous, result.startedFromPrevious);
   const auto snap = [&](const Eigen::VectorXd& y) { return locked.snap(y); };
   FieldUntangling untangled =
-    untangleAlongField(mesh, field, problem, starts, kRounds, snap, options.progress);
+    untangleAlongField(mesh, field, problem, starts, kEmbedRounds, snap, options.progress);
   if (!untangled.defects.none() && options.seamlessUv != nullptr)
   {
     embedFromSeamless(mesh, field, locked, problem, options, untangled);
@@ -138,7 +138,7 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
   result.work = untangled.work;
   if (!untangled.defects.none())
   {
-    fail(mesh, StatusCode::NotConverged, untangled.defects.text(), untangled.defects, result);
+    failEmbedding(mesh, StatusCode::NotConverged, untangled.defects.text(), untangled.defects, result);
   }
   return result;
 }

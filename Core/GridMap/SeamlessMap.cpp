@@ -16,9 +16,9 @@ namespace quadrille
 namespace
 {
 
-constexpr int kRounds = 4;
+constexpr int kSeamlessRounds = 4;
 
-void fail(const Mesh& mesh, StatusCode code, const std::string& message, const MapDefects& defects,
+void failSeamless(const Mesh& mesh, StatusCode code, const std::string& message, const MapDefects& defects,
   SeamlessResult& result)
 {
   result.status = { code, "seamless map: " + message };
@@ -36,7 +36,7 @@ bool findHopeless(const Mesh& mesh, const CrossField& field, const SeamlessSpace
   result.offenders = crowdedVertices(mesh, field);
   if (!result.offenders.empty())
   {
-    fail(mesh, StatusCode::Infeasible,
+    failSeamless(mesh, StatusCode::Infeasible,
       std::to_string(result.offenders.size()) +
         " vertices have too few triangles for their quarter turns",
       defects, result);
@@ -49,7 +49,7 @@ bool findHopeless(const Mesh& mesh, const CrossField& field, const SeamlessSpace
     return false;
   }
   result.offenders = verticesOf(mesh, collapsed);
-  fail(mesh, StatusCode::Infeasible,
+  failSeamless(mesh, StatusCode::Infeasible,
     "features and irregular vertices leave no area to " +
       std::to_string(collapsed.notPositive.size()) + " triangles",
     defects, result);
@@ -110,7 +110,7 @@ void explain(
     cause = "; " + std::to_string(chords.size()) +
       " edges are chords of straight features, with no vertex between them";
   }
-  fail(mesh, StatusCode::NotConverged, defects.text() + cause, defects, result);
+  failSeamless(mesh, StatusCode::NotConverged, defects.text() + cause, defects, result);
 }
 
 } // namespace
@@ -159,7 +159,7 @@ SeamlessResult computeSeamlessMap(
   const auto snap = [&](const Eigen::VectorXd& y)
   { return snapScaled(space, y, options.targetQuads); };
   FieldUntangling untangled =
-    untangleAlongField(mesh, field, space.problem(), { start }, kRounds, snap, options.progress);
+    untangleAlongField(mesh, field, space.problem(), { start }, kSeamlessRounds, snap, options.progress);
   limitAnisotropy(
     mesh, field, space.problem(), options.anisotropyLimit, snap, options.progress, untangled);
   result.uv = std::move(untangled.uv);

@@ -14,7 +14,7 @@ namespace
 
 /// Edges count as Delaunay when the cotangents opposite to them sum to more than this; below zero, so that
 /// rounding cannot make cocircular vertices flip forever.
-constexpr double kDelaunaySlack = -1e-9;
+constexpr double kUvDelaunaySlack = -1e-9;
 /// Stars up to this size go first: large stars cost more and leave worse triangles behind.
 constexpr std::size_t kSmallStar = 8;
 
@@ -76,7 +76,7 @@ private:
   bool wantsFlip(Index h) const
   {
     return !mesh_.isFixed(h) &&
-      cotangentOpposite(h) + cotangentOpposite(mesh_.twin[h]) < kDelaunaySlack &&
+      cotangentOpposite(h) + cotangentOpposite(mesh_.twin[h]) < kUvDelaunaySlack &&
       editor_.canFlip(h);
   }
 

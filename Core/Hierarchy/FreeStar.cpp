@@ -15,11 +15,10 @@ namespace
 {
 
 constexpr float kSinglePi = static_cast<float>(kPi);
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kEquilateral = 3.46410162F; // 2 sqrt(3), see VertexRemoval
+constexpr float kInfinitySingle = std::numeric_limits<float>::infinity();
+constexpr float kEquilateralSingle = 3.46410162F; // 2 sqrt(3), see VertexRemoval
 /// Stars with a flatter face go to VertexRemoval: their normals and their weights need more digits.
 constexpr float kFlattestFace = 0.022F;
-constexpr double kMinimumPlanarQuality = 0.02;
 
 /// The triangles of a polygon with N corners, up to rotation, and the order in which the triangulation of
 /// least cost asks for them.
@@ -101,7 +100,7 @@ template <int N>
 constexpr RingTable<N> kRingTable{};
 
 /// Angle of the vector (x, y), y >= 0; error 3e-7 [Abramowitz and Stegun 1964, 4.4.49].
-inline float angleOf(float x, float y)
+inline float angleOfSingle(float x, float y)
 {
   const float ax = std::abs(x);
   const float low = ax < y ? ax : y;
@@ -178,7 +177,7 @@ float FreeStar::shortestEdge(double unit)
 {
   const double scale = 1 / unit;
   const Vector3 center = mesh_.position[vertex_];
-  float shortest = kInfinity;
+  float shortest = kInfinitySingle;
   for (std::size_t i = 0; i < index(size_); ++i)
   {
     const Vector3& p = mesh_.position[ring_[i]];
@@ -266,8 +265,8 @@ bool FreeStar::measure()
     const float nz = x_[i] * y_[j] - y_[i] * x_[j];
     const float doubled = std::sqrt(nx * nx + ny * ny + nz * nz);
     const float dot = x_[i] * x_[j] + y_[i] * y_[j] + z_[i] * z_[j];
-    shape_[i] = kEquilateral * doubled / (2 * (squared_[i] + squared_[j] - dot));
-    angle_[i] = angleOf(dot, doubled);
+    shape_[i] = kEquilateralSingle * doubled / (2 * (squared_[i] + squared_[j] - dot));
+    angle_[i] = angleOfSingle(dot, doubled);
     nx_[i] = nx;
     ny_[i] = ny;
     nz_[i] = nz;
@@ -306,7 +305,7 @@ bool FreeStar::measure()
   goRound<N>(ny_);
   goRound<N>(nz_);
   leastPlanar_ =
-    static_cast<float>(std::min(0.3 * double{ worst }, kMinimumPlanarQuality)) / kEquilateral;
+    static_cast<float>(std::min(0.3 * double{ worst }, kMinimumPlanarQuality)) / kEquilateralSingle;
   mostHarmonic_ = 1 / static_cast<float>(std::min(0.95 * double{ worst }, guards_.minimumQuality));
   return sound;
 }
@@ -367,7 +366,7 @@ void FreeStar::evaluateTriangles()
       const float squares = 2 *
         (abx * abx + aby * aby + abz * abz + acx * acx + acy * acy + acz * acz -
           (abx * acx + aby * acy + abz * acz));
-      const float harmonic = squares / (kEquilateral * doubled);
+      const float harmonic = squares / (kEquilateralSingle * doubled);
       const float abu = u_[b] - u_[i], abv = v_[b] - v_[i];
       const float acu = u_[c] - u_[i], acv = v_[c] - v_[i];
       const float planar = abu * acv - abv * acu;
@@ -376,7 +375,7 @@ void FreeStar::evaluateTriangles()
       least[i] = leastDot_ * doubled;
       turn[i] = tx[i] * mean_[0] + ty[i] * mean_[1] + tz[i] * mean_[2] - least[i];
       const bool good = (planar > leastPlanar_ * planarSquares) & (harmonic <= mostHarmonic_);
-      cost_[out + i] = good ? harmonic : kInfinity;
+      cost_[out + i] = good ? harmonic : kInfinitySingle;
     }
     const auto compare = [&](std::size_t face)
     {
@@ -402,7 +401,7 @@ void FreeStar::evaluateTriangles()
     }
     for (std::size_t i = 0; i < lanes; ++i)
     {
-      cost_[out + i] = turn[i] >= 0 ? cost_[out + i] : kInfinity;
+      cost_[out + i] = turn[i] >= 0 ? cost_[out + i] : kInfinitySingle;
     }
     out += lanes;
   }
@@ -424,7 +423,7 @@ bool FreeStar::triangulate()
     for (std::size_t a = 0; a + gap < N; ++a)
     {
       const std::size_t c = a + gap;
-      float least = kInfinity;
+      float least = kInfinitySingle;
       std::size_t by = a + 1;
       for (std::size_t b = a + 1; b < c; ++b)
       {
@@ -436,7 +435,7 @@ bool FreeStar::triangulate()
       middle[a][c] = static_cast<std::uint8_t>(by);
     }
   }
-  if (!(best[0][N - 1] < kInfinity))
+  if (!(best[0][N - 1] < kInfinitySingle))
   {
     return false;
   }
@@ -535,7 +534,7 @@ bool FreeStar::closesTetrahedron() const
 bool FreeStar::locate()
 {
   const auto cross = [&](std::size_t i, std::size_t j) { return u_[i] * v_[j] - v_[i] * u_[j]; };
-  float bestInside = -kInfinity;
+  float bestInside = -kInfinitySingle;
   std::array<float, 3> weights{};
   Triangle home;
   for (std::size_t t = 0; t < index(size_ - 2) && bestInside < 0; ++t)

@@ -26,7 +26,7 @@ namespace
 constexpr double kCornerLimit = 0.75 * kPi;
 /// A walk to the face below a point ends when so many steps have brought it no nearer.
 constexpr int kVainSteps = 24;
-constexpr std::size_t kChunk = 256;
+constexpr std::size_t kRegionChunk = 256;
 
 Vector3 normalOf(const Mesh& mesh, Index f)
 {
@@ -230,7 +230,7 @@ private:
     const std::vector<Index> outgoing = outgoingHalfEdges(fine_);
     const Eigen::AlignedBox3d box = boxOf(fine_, guides_, margin);
     const Mesh& mesh = level_.mesh;
-    parallelFor(mesh.faceCount(), kChunk, threads,
+    parallelFor(mesh.faceCount(), kRegionChunk, threads,
       [&](std::size_t begin, std::size_t end)
       {
         FaceFinder finder(fine_, outgoing);

@@ -16,8 +16,6 @@ namespace
 {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Planar triangles flatter than this carry no useful weights.
-constexpr double kMinimumPlanarQuality = 0.02;
 /// A face flatter than this has no reliable normal.
 constexpr double kSliverQuality = 0.02;
 /// Less than the harmonic index of any triangle, which is 1 for an equilateral one.

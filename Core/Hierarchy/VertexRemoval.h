@@ -20,6 +20,9 @@
 namespace quadrille
 {
 
+/// Planar triangles flatter than this carry no useful weights.
+constexpr double kMinimumPlanarQuality = 0.02;
+
 /// What a removal must not do to the surface.
 struct RemovalGuards
 {

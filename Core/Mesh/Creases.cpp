@@ -17,7 +17,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = 64;
+constexpr std::size_t kEdgeChunk = 64;
 /// Rings of vertices round an edge whose edges are looked at.
 constexpr int kRings = 2;
 /// The search does not go on from vertices with more edges, as the tip of a fan is near to all of its rim.
@@ -130,7 +130,7 @@ private:
   {
     near_.resize(edges_.size());
     blunt_.assign(edges_.size(), 0.0);
-    parallelFor(edges_.size(), kChunk, threads,
+    parallelFor(edges_.size(), kEdgeChunk, threads,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)

@@ -15,7 +15,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = 65536;
+constexpr std::size_t kDegenerateChunk = 65536;
 
 /// An edge this much shorter than the longest one is collapsed; a longer one means a cap.
 constexpr double kShortEdge = 1e-9;
@@ -130,15 +130,15 @@ private:
 
 std::vector<Index> findDegenerate(const Mesh& mesh, int threads)
 {
-  std::vector<std::vector<Index>> found((mesh.faceCount() + kChunk - 1) / kChunk);
-  parallelFor(mesh.faceCount(), kChunk, threads,
+  std::vector<std::vector<Index>> found((mesh.faceCount() + kDegenerateChunk - 1) / kDegenerateChunk);
+  parallelFor(mesh.faceCount(), kDegenerateChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t f = begin; f < end; ++f)
       {
         if (isDegenerate(mesh, static_cast<Index>(f)))
         {
-          found[begin / kChunk].push_back(static_cast<Index>(f));
+          found[begin / kDegenerateChunk].push_back(static_cast<Index>(f));
         }
       }
     });

@@ -17,7 +17,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = 65536;
+constexpr std::size_t kFeatureChunk = 65536;
 
 /// Coordinates often come as float, even where they are double now: below this height over the size of the surface a face's
 /// normal can be off by degrees.
@@ -51,7 +51,7 @@ FaceNormals computeNormals(const Mesh& mesh, double precision, int threads)
   FaceNormals normals;
   normals.reliable.resize(mesh.faceCount());
   growLarge(normals.normal, mesh.faceCount());
-  parallelFor(mesh.faceCount(), kChunk, threads,
+  parallelFor(mesh.faceCount(), kFeatureChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -109,7 +109,7 @@ const Vector3& normalOf(const Mesh& mesh, const FaceNormals& normals, Index f)
 void markSharpEdges(Mesh& mesh, const FaceNormals& normals, double angle, int threads)
 {
   const double limit = std::cos(angle);
-  parallelFor(mesh.faceCount(), kChunk, threads,
+  parallelFor(mesh.faceCount(), kFeatureChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (Index h = static_cast<Index>(3 * begin); h < 3 * end; ++h)

@@ -18,7 +18,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = 65536;
+constexpr std::size_t kFrameChunk = 65536;
 
 /// Steps of the grid in the box's longest side, as a power of two: four times as fine as single precision.
 constexpr int kGridBits = 26;
@@ -125,7 +125,7 @@ double roundToGrid(double x)
 /// Whether all coordinates could have come as single precision.
 bool areFloats(const std::vector<Vector3>& points, int threads)
 {
-  return firstRefused(points.size(), kChunk, threads,
+  return firstRefused(points.size(), kFrameChunk, threads,
            [&](std::size_t i)
            { return points[i].cast<float>().cast<double>() == points[i]; }) == points.size();
 }
@@ -134,7 +134,7 @@ bool areFloats(const std::vector<Vector3>& points, int threads)
 void toGrid(FramedInput& framed, const Snap& snap, double steps, int threads)
 {
   growLarge(framed.input.points, framed.points.size());
-  parallelFor(framed.points.size(), kChunk, threads,
+  parallelFor(framed.points.size(), kFrameChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -191,8 +191,8 @@ bool firstPolygonDescends(const SurfaceInput& input)
 bool looksInwards(const SurfaceInput& input, int threads)
 {
   const std::size_t polygons = input.polygonOffsets.size() - 1;
-  std::vector<std::array<double, 2>> parts((polygons + kChunk - 1) / kChunk, { 0, 0 });
-  parallelFor(polygons, kChunk, threads,
+  std::vector<std::array<double, 2>> parts((polygons + kFrameChunk - 1) / kFrameChunk, { 0, 0 });
+  parallelFor(polygons, kFrameChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t p = begin; p < end; ++p)
@@ -203,8 +203,8 @@ bool looksInwards(const SurfaceInput& input, int threads)
         {
           const double volume = input.points[ids[0]].dot(
             input.points[ids[i - 1]].cross(input.points[ids[i]]));
-          parts[begin / kChunk][0] += volume;
-          parts[begin / kChunk][1] += std::abs(volume);
+          parts[begin / kFrameChunk][0] += volume;
+          parts[begin / kFrameChunk][1] += std::abs(volume);
         }
       }
     });
@@ -261,7 +261,7 @@ FramedInput enterFrame(SurfaceInput input, int threads)
   framed.input = std::move(input);
   toGrid(framed, snap, steps, threads);
   frame.sign = signsOf(framed.input.points, used, boxOf(framed.input.points, used));
-  parallelFor(framed.input.points.size(), kChunk, threads,
+  parallelFor(framed.input.points.size(), kFrameChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

@@ -25,7 +25,7 @@ bool isGiven(const Vector3& direction)
   return direction.cwiseAbs().maxCoeff() > 0;
 }
 
-void requireSize(const char* name, std::size_t size, std::size_t wanted, const char* elements)
+void requireGuideSize(const char* name, std::size_t size, std::size_t wanted, const char* elements)
 {
   if (size != 0 && size != wanted)
   {
@@ -128,10 +128,10 @@ void requireFit(const ValenceRequest& request, const Vector3& place, bool bounda
 void checkRequests(const SurfaceInput& input)
 {
   const std::size_t polygons = input.polygonOffsets.size() - 1;
-  requireSize(
+  requireGuideSize(
     "the array of guiding directions", input.guideDirections.size(), polygons, "polygons");
-  requireSize("the array of guiding weights", input.guideWeights.size(), polygons, "polygons");
-  requireSize(
+  requireGuideSize("the array of guiding weights", input.guideWeights.size(), polygons, "polygons");
+  requireGuideSize(
     "the array of target valences", input.targetValences.size(), input.points.size(), "points");
   checkGuides(input);
   checkValences(input);

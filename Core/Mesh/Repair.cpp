@@ -21,7 +21,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = 65536;
+constexpr std::size_t kRepairChunk = 65536;
 
 /// A closed component needs at least the faces of a tetrahedron.
 constexpr Index kFewestClosedFaces = 4;
@@ -58,7 +58,7 @@ void checkOffsets(const SurfaceInput& input)
 
 void checkIds(const SurfaceInput& input, int threads)
 {
-  parallelFor(input.polygonOffsets.size() - 1, kChunk, threads,
+  parallelFor(input.polygonOffsets.size() - 1, kRepairChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t polygon = begin; polygon < end; ++polygon)
@@ -81,7 +81,7 @@ void checkCoordinates(const SurfaceInput& input, int threads)
 {
   // The squared size of the box must be finite too, or every length would overflow.
   constexpr double kLargest = 1e150;
-  parallelFor(input.points.size(), kChunk, threads,
+  parallelFor(input.points.size(), kRepairChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

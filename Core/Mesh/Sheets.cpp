@@ -136,7 +136,7 @@ struct ManyFacedEdges
   std::vector<ManyFacedEdge> edges;
 };
 
-void glue(std::vector<Index>& twin, Index h, Index g)
+void glueHalfEdges(std::vector<Index>& twin, Index h, Index g)
 {
   twin[h] = g;
   twin[g] = h;
@@ -187,7 +187,7 @@ bool tryPair(std::vector<Index>& twin, OrientedSets& sets, const Mesh& mesh, Ind
     return false;
   }
   sets.join(Mesh::face(h), Mesh::face(g), sameDirection);
-  glue(twin, h, g);
+  glueHalfEdges(twin, h, g);
   return true;
 }
 
@@ -245,7 +245,7 @@ bool pairPlainEdges(Mesh& mesh, const EdgeRuns& runs, ManyFacedEdges& manyFaced)
     {
       if (end - begin == 2)
       {
-        glue(mesh.twin, begin[0].halfEdge, begin[1].halfEdge);
+        glueHalfEdges(mesh.twin, begin[0].halfEdge, begin[1].halfEdge);
         oriented &= mesh.origin[begin[0].halfEdge] != mesh.origin[begin[1].halfEdge];
       }
       else if (end - begin > 2)

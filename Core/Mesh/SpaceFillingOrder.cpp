@@ -18,15 +18,15 @@ namespace
 {
 
 /// 2^11 cells an axis: on a surface some 10^7 cells, so ten million vertices are about one a cell.
-constexpr int kGridBits = 11;
-constexpr std::size_t kChunk = 65536;
+constexpr int kCellBits = 11;
+constexpr std::size_t kOrderChunk = 65536;
 
 /// The keys' 33 bits are sorted by their upper 11 first, which leaves 22 to sort among the few points of a bucket.
 constexpr int kDigitBits = 11;
 constexpr std::size_t kBuckets = std::size_t{ 1 } << kDigitBits;
-constexpr int kLowerBits = 3 * kGridBits - kDigitBits;
+constexpr int kLowerBits = 3 * kCellBits - kDigitBits;
 /// Buckets below this size are sorted by comparing.
-constexpr std::size_t kSmallBucket = 512;
+constexpr std::size_t kSmallKeyBucket = 512;
 /// Cells whose keys are computed in step; a multiple of the lanes of any vector unit.
 constexpr std::size_t kLanes = 32;
 
@@ -100,11 +100,11 @@ std::vector<std::uint64_t> computeKeys(const std::vector<Vector3>& points, int t
     high = high.cwiseMax(p);
   }
   const double extent = points.empty() ? 0 : (high - low).maxCoeff();
-  const double last = (1 << kGridBits) - 1;
+  const double last = (1 << kCellBits) - 1;
   const double scale = extent > 0 ? last / extent : 0;
 
   std::vector<std::uint64_t> keys(points.size());
-  parallelFor(points.size(), kChunk, threads,
+  parallelFor(points.size(), kOrderChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t first = begin; first < end; first += kLanes)
@@ -119,7 +119,7 @@ std::vector<std::uint64_t> computeKeys(const std::vector<Vector3>& points, int t
             cell[k][i] = static_cast<std::uint32_t>(std::clamp(x, 0.0, last));
           }
         }
-        toHilbert(cell, kGridBits);
+        toHilbert(cell, kCellBits);
         for (std::size_t i = 0; i < count; ++i)
         {
           keys[first + i] = interleave(cell, i);
@@ -139,12 +139,12 @@ std::size_t bucketOf(std::uint64_t key)
 std::vector<std::uint64_t> distribute(
   const std::vector<std::uint64_t>& keys, std::vector<std::size_t>& begin, int threads)
 {
-  const std::size_t chunks = (keys.size() + kChunk - 1) / kChunk;
+  const std::size_t chunks = (keys.size() + kOrderChunk - 1) / kOrderChunk;
   std::vector<std::array<std::size_t, kBuckets>> next(chunks);
-  parallelFor(keys.size(), kChunk, threads,
+  parallelFor(keys.size(), kOrderChunk, threads,
     [&](std::size_t first, std::size_t last)
     {
-      std::array<std::size_t, kBuckets>& count = next[first / kChunk];
+      std::array<std::size_t, kBuckets>& count = next[first / kOrderChunk];
       count.fill(0);
       for (std::size_t i = first; i < last; ++i)
       {
@@ -164,10 +164,10 @@ std::vector<std::uint64_t> distribute(
   }
   begin[kBuckets] = sum;
   std::vector<std::uint64_t> items(keys.size());
-  parallelFor(keys.size(), kChunk, threads,
+  parallelFor(keys.size(), kOrderChunk, threads,
     [&](std::size_t first, std::size_t last)
     {
-      std::array<std::size_t, kBuckets>& place = next[first / kChunk];
+      std::array<std::size_t, kBuckets>& place = next[first / kOrderChunk];
       constexpr std::uint64_t kLower = (std::uint64_t{ 1 } << kLowerBits) - 1;
       for (std::size_t i = first; i < last; ++i)
       {
@@ -178,9 +178,9 @@ std::vector<std::uint64_t> distribute(
 }
 
 /// Sorts the items of a bucket by their keys; least significant digit first, so that equal keys keep their order.
-void sortBucket(std::uint64_t* items, std::uint64_t* scratch, std::size_t count)
+void sortKeyBucket(std::uint64_t* items, std::uint64_t* scratch, std::size_t count)
 {
-  if (count < kSmallBucket)
+  if (count < kSmallKeyBucket)
   {
     std::sort(
       items, items + count); // the point is part of the item, so that equal keys keep their order
@@ -223,11 +223,11 @@ public:
     constexpr std::size_t kBytes = kWidth * sizeof(T);
     const std::size_t bytes = values.size() * sizeof(T);
     growLarge(buffer_, std::max(buffer_.size(), bytes));
-    parallelFor(bytes, kBytes * kChunk, threads_,
+    parallelFor(bytes, kBytes * kOrderChunk, threads_,
       [&](std::size_t begin, std::size_t end)
       { std::memcpy(&buffer_[begin], bytesOf(values) + begin, end - begin); });
     values.resize(order.size() * kWidth);
-    parallelFor(order.size(), kChunk, threads_,
+    parallelFor(order.size(), kOrderChunk, threads_,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
@@ -307,7 +307,7 @@ void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
       newId[kept.empty() ? order[i] : kept[order[i]]] = i;
     }
   }
-  parallelFor(mesh.origin.size(), kChunk, threads,
+  parallelFor(mesh.origin.size(), kOrderChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t h = begin; h < end; ++h)
@@ -423,7 +423,7 @@ std::vector<Index> spaceFillingOrder(const std::vector<Vector3>& points, int thr
     {
       for (std::size_t b = first; b < last; ++b)
       {
-        sortBucket(items.data() + begin[b], keys.data() + begin[b], begin[b + 1] - begin[b]);
+        sortKeyBucket(items.data() + begin[b], keys.data() + begin[b], begin[b + 1] - begin[b]);
       }
       for (std::size_t i = begin[first]; i < begin[last]; ++i)
       {

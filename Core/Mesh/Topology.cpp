@@ -169,10 +169,10 @@ std::string checkFans(const Mesh& mesh)
 /// The boundary half-edges, ascending, and the number of components.
 std::vector<Index> joinFaces(const Mesh& mesh, int threads, Index& components)
 {
-  constexpr std::size_t kChunk = std::size_t{ 1 } << 15;
+  constexpr std::size_t kTopologyChunk = std::size_t{ 1 } << 15;
   DisjointSets faces(mesh.faceCount(), threads);
-  std::vector<std::vector<Index>> parts((mesh.faceCount() + kChunk - 1) / kChunk);
-  parallelFor(mesh.faceCount(), kChunk, threads,
+  std::vector<std::vector<Index>> parts((mesh.faceCount() + kTopologyChunk - 1) / kTopologyChunk);
+  parallelFor(mesh.faceCount(), kTopologyChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (Index f = static_cast<Index>(begin); f < end; ++f)
@@ -182,7 +182,7 @@ std::vector<Index> joinFaces(const Mesh& mesh, int threads, Index& components)
           const Index g = mesh.twin[h];
           if (g == kInvalidIndex)
           {
-            parts[begin / kChunk].push_back(h);
+            parts[begin / kTopologyChunk].push_back(h);
           }
           else if (g < h)
           {
@@ -220,10 +220,10 @@ Index countBoundaryLoops(const Mesh& mesh, const std::vector<Index>& boundary)
 
 std::vector<Index> pairHalfEdges(const std::vector<Index>& origin, Index vertexCount, int threads)
 {
-  constexpr std::size_t kChunk = std::size_t{ 1 } << 14;
+  constexpr std::size_t kTopologyChunk = std::size_t{ 1 } << 14;
   std::vector<Index> twin(origin.size(), kInvalidIndex);
   const EdgeRuns runs(origin, vertexCount, threads);
-  const std::size_t refused = firstRefused(runs.bucketCount(), kChunk, threads,
+  const std::size_t refused = firstRefused(runs.bucketCount(), kTopologyChunk, threads,
     [&](std::size_t v)
     {
       bool good = true;

@@ -31,11 +31,11 @@ constexpr std::size_t kMaximumPatchFaces = 10000;
 constexpr std::size_t kWorkPerTry = 200000;
 constexpr std::size_t kMaximumWork = 1000000;
 constexpr std::size_t kLeastSteps = 30;
-constexpr std::size_t kMostSteps = 250;
+constexpr std::size_t kMostUntanglingSteps = 250;
 /// References flatter than this (2 area / longest edge squared) are replaced by equilateral ones.
 constexpr double kFlattestReference = 0.1;
 /// Faces of a chunk of the pass over the mesh; their uv fit a second level cache.
-constexpr std::size_t kChunkFaces = 1 << 14;
+constexpr std::size_t kMendChunk = 1 << 14;
 /// Defects that a wrong winding of positive triangles counts for.
 constexpr std::size_t kLostTurn = 16;
 /// A patch vertex with more faces than this stays where it is.
@@ -220,8 +220,8 @@ MendResult PatchMender::run(const ProgressCallback& progress)
 std::vector<Index> PatchMender::findSeeds() const
 {
   const std::vector<int> turns = countTurns();
-  std::vector<std::vector<Index>> parts((mesh_.faceCount() + kChunkFaces - 1) / kChunkFaces);
-  parallelFor(mesh_.faceCount(), kChunkFaces, threads_,
+  std::vector<std::vector<Index>> parts((mesh_.faceCount() + kMendChunk - 1) / kMendChunk);
+  parallelFor(mesh_.faceCount(), kMendChunk, threads_,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t f = begin; f < end; ++f)
@@ -233,7 +233,7 @@ std::vector<Index> PatchMender::findSeeds() const
         }
         if (defect)
         {
-          parts[begin / kChunkFaces].push_back(static_cast<Index>(f));
+          parts[begin / kMendChunk].push_back(static_cast<Index>(f));
         }
       }
     });
@@ -248,7 +248,7 @@ std::vector<Index> PatchMender::findSeeds() const
 std::vector<int> PatchMender::countTurns() const
 {
   std::vector<std::int8_t> entered(mesh_.halfEdgeCount());
-  parallelFor(mesh_.faceCount(), kChunkFaces, threads_,
+  parallelFor(mesh_.faceCount(), kMendChunk, threads_,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t f = begin; f < end; ++f)
@@ -478,7 +478,7 @@ bool PatchMender::embedFrom(const UntangleProblem& problem, const Eigen::VectorX
   }
   UntangleOptions options;
   options.maximumSteps =
-    static_cast<int>(std::clamp(kWorkPerTry / patch_.size(), kLeastSteps, kMostSteps));
+    static_cast<int>(std::clamp(kWorkPerTry / patch_.size(), kLeastSteps, kMostUntanglingSteps));
   const UntangleResult result = untangle(problem, start, options);
   work_ += patch_.size() * static_cast<std::size_t>(result.steps);
   applyDisplacements(result.y);

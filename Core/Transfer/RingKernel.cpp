@@ -14,7 +14,7 @@ namespace quadrille
 namespace
 {
 
-double cross(const Vector2& a, const Vector2& b)
+double crossProduct(const Vector2& a, const Vector2& b)
 {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -37,8 +37,8 @@ ConvexPolygon clip(const ConvexPolygon& polygon, const Vector2& a, const Vector2
   {
     const Vector2& p = polygon.at(i);
     const Vector2& q = polygon.at(i + 1);
-    const double sideP = cross(b - a, p - a);
-    const double sideQ = cross(b - a, q - a);
+    const double sideP = crossProduct(b - a, p - a);
+    const double sideQ = crossProduct(b - a, q - a);
     if (sideP >= 0)
     {
       result.push(p);
@@ -62,7 +62,7 @@ Vector2 center(const ConvexPolygon& polygon)
   {
     const Vector2 p = polygon.at(i) - origin;
     const Vector2 q = polygon.at(i + 1) - origin;
-    const double piece = cross(p, q);
+    const double piece = crossProduct(p, q);
     area += piece;
     weighted += piece * (p + q);
     mean += p / polygon.count;

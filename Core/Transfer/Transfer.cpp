@@ -20,7 +20,7 @@ namespace
 {
 
 /// Faces of a chunk of the passes over the mesh; their uv fit a second level cache.
-constexpr std::size_t kChunkFaces = 1 << 14;
+constexpr std::size_t kCountChunk = 1 << 14;
 
 void checkFaces(const Level& level, Index fineFaces)
 {
@@ -80,8 +80,8 @@ void checkSizes(const Mesh& fine, const Level& coarse, const DecimationLog& log)
 std::size_t countNotPositive(const std::vector<FixedVec2>& uv, int threads)
 {
   const std::size_t faces = uv.size() / 3;
-  std::vector<std::size_t> counts((faces + kChunkFaces - 1) / kChunkFaces, 0);
-  parallelFor(faces, kChunkFaces, threads,
+  std::vector<std::size_t> counts((faces + kCountChunk - 1) / kCountChunk, 0);
+  parallelFor(faces, kCountChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       std::size_t count = 0;
@@ -89,7 +89,7 @@ std::size_t countNotPositive(const std::vector<FixedVec2>& uv, int threads)
       {
         count += determinant(uv[h], uv[h + 1], uv[h + 2]) > 0 ? 0U : 1U;
       }
-      counts[begin / kChunkFaces] = count;
+      counts[begin / kCountChunk] = count;
     });
   return std::accumulate(counts.begin(), counts.end(), std::size_t{ 0 });
 }

@@ -15,7 +15,7 @@ namespace quadrille::test
 namespace
 {
 
-QuadMesh extractRaw(const GridMapCase& c)
+QuadMesh extractUnsmoothed(const GridMapCase& c)
 {
   ExtractionOptions options;
   options.smoothingSteps = 0;
@@ -48,7 +48,7 @@ bool sameQuad(std::array<Index, 4> a, std::array<Index, 4> b)
 
 TEST(HoleFilling, RestoresAnyMissingQuad)
 {
-  const QuadMesh whole = extractRaw(squares("", unitCube(2), 2));
+  const QuadMesh whole = extractUnsmoothed(squares("", unitCube(2), 2));
   for (Index q = 0; q < whole.quads.size(); ++q)
   {
     QuadMesh mesh = whole;
@@ -65,7 +65,7 @@ TEST(HoleFilling, RestoresAnyMissingQuad)
 // plane.
 TEST(HoleFilling, RestoresTwoMissingQuads)
 {
-  const QuadMesh whole = extractRaw(squares("", gridPlane(4, 4), 1));
+  const QuadMesh whole = extractUnsmoothed(squares("", gridPlane(4, 4), 1));
   const QuadTopology topology = analyze(whole);
   int pairs = 0;
   for (Index h = 0; h < topology.twin.size(); ++h)
@@ -97,7 +97,7 @@ TEST(HoleFilling, RestoresTwoMissingQuads)
 TEST(HoleFilling, LeavesTheInputsHoles)
 {
   // The hole of the plate has 8 sides, few enough to be filled were it not a boundary of the input.
-  QuadMesh mesh = extractRaw(squares("", plateWithHole(2), 1));
+  QuadMesh mesh = extractUnsmoothed(squares("", plateWithHole(2), 1));
   const std::size_t quads = mesh.quads.size();
   EXPECT_EQ(fillHoles(mesh), 0u);
   EXPECT_EQ(mesh.quads.size(), quads);
@@ -108,7 +108,7 @@ TEST(HoleFilling, LeavesTheInputsHoles)
 // where that makes no manifold; whatever is done, the result is a manifold.
 TEST(HoleFilling, NeverMakesNonManifolds)
 {
-  const QuadMesh whole = extractRaw(squares("", unitCube(1), 2));
+  const QuadMesh whole = extractUnsmoothed(squares("", unitCube(1), 2));
   Random random(11);
   for (int round = 0; round < 300; ++round)
   {

@@ -98,7 +98,7 @@ MappedTriangles asSoup(const MappedTriangles& shared)
   return soup;
 }
 
-std::string refusal(const MappedTriangles& triangles)
+std::string weldingRefusal(const MappedTriangles& triangles)
 {
   try
   {
@@ -189,7 +189,7 @@ TEST(MapWelding, SheetsThatMeetAtAnEdgeStayApart)
   {
     unclear.uv[h] += Vector2(0.5, 0);
   }
-  EXPECT_NE(refusal(unclear).find("meet at one edge"), std::string::npos) << refusal(unclear);
+  EXPECT_NE(weldingRefusal(unclear).find("meet at one edge"), std::string::npos) << weldingRefusal(unclear);
 }
 
 TEST(MapWelding, FansThatTouchInAPointStayApart)
@@ -209,24 +209,24 @@ TEST(MapWelding, RefusesGarbage)
   MappedTriangles good;
   const Vector3 x = Vector3::UnitX(), y = Vector3::UnitY();
   addSquare(good, Vector3::Zero(), x, y, { 0, 0 });
-  EXPECT_EQ(refusal(good), "");
+  EXPECT_EQ(weldingRefusal(good), "");
   MappedTriangles bad = good;
   bad.position[2].y() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(refusal(bad).find("point 2"), std::string::npos);
+  EXPECT_NE(weldingRefusal(bad).find("point 2"), std::string::npos);
   bad = good;
   bad.corners[4] = 9;
-  EXPECT_NE(refusal(bad).find("cell 1"), std::string::npos);
+  EXPECT_NE(weldingRefusal(bad).find("cell 1"), std::string::npos);
   bad = good;
   bad.position[3] = bad.position[2];
-  EXPECT_NE(refusal(bad).find("cell 1"), std::string::npos);
+  EXPECT_NE(weldingRefusal(bad).find("cell 1"), std::string::npos);
   bad = good;
   bad.uv.pop_back();
-  EXPECT_FALSE(refusal(bad).empty());
+  EXPECT_FALSE(weldingRefusal(bad).empty());
   bad = good;
   std::swap(bad.corners[1], bad.corners[2]);
   std::swap(bad.uv[1], bad.uv[2]);
-  EXPECT_NE(refusal(bad).find("orient"), std::string::npos);
-  EXPECT_NE(refusal(asSoup(bad)).find("orient"), std::string::npos);
+  EXPECT_NE(weldingRefusal(bad).find("orient"), std::string::npos);
+  EXPECT_NE(weldingRefusal(asSoup(bad)).find("orient"), std::string::npos);
 }
 
 } // namespace quadrille::test

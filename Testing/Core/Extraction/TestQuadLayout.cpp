@@ -16,7 +16,7 @@ namespace quadrille::test
 namespace
 {
 
-QuadMesh quadsOf(const GridMapCase& c)
+QuadMesh layoutQuadsOf(const GridMapCase& c)
 {
   ExtractionOptions options;
   options.smoothingSteps = 0;
@@ -342,7 +342,7 @@ private:
 QuadLayout checkedLayout(const GridMapCase& c)
 {
   SCOPED_TRACE(c.name);
-  const QuadMesh mesh = quadsOf(c);
+  const QuadMesh mesh = layoutQuadsOf(c);
   QuadLayout layout = layoutOf(mesh);
   LayoutCheck(mesh, layout).run();
   return layout;
@@ -570,7 +570,7 @@ TEST(QuadLayout, SheetsAreCutWhereMoreThanTwoMeet)
 
 TEST(QuadLayout, RefusesQuadsWithAPointTwice)
 {
-  QuadMesh mesh = quadsOf(squares("", unitCube(2), 1));
+  QuadMesh mesh = layoutQuadsOf(squares("", unitCube(2), 1));
   mesh.quads[5][2] = mesh.quads[5][0];
   EXPECT_THROW(layoutOf(mesh), InvalidInput);
 }

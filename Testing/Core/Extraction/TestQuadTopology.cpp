@@ -26,7 +26,7 @@ Quads torusOfQuads(Index columns, Index rows)
   return quads;
 }
 
-void expectSame(const QuadTopology& a, const QuadTopology& b)
+void expectSameTopology(const QuadTopology& a, const QuadTopology& b)
 {
   EXPECT_EQ(a.twin, b.twin);
   EXPECT_EQ(a.valence, b.valence);
@@ -116,11 +116,11 @@ TEST(QuadTopology, SameForAnyNumberOfThreads)
   EXPECT_GT(one.nonManifoldEdges, 0u);
   EXPECT_GT(one.nonManifoldVertices, 0u);
   EXPECT_GT(one.boundaryEdges, 0u);
-  expectSame(one, analyzeQuads(quads, 30000, 2));
-  expectSame(one, analyzeQuads(quads, 30000, 5));
+  expectSameTopology(one, analyzeQuads(quads, 30000, 2));
+  expectSameTopology(one, analyzeQuads(quads, 30000, 5));
   quads = torusOfQuads(200, 150);
   quads.erase(quads.begin() + 70);
-  expectSame(analyzeQuads(quads, 30000, 1), analyzeQuads(quads, 30000, 3));
+  expectSameTopology(analyzeQuads(quads, 30000, 1), analyzeQuads(quads, 30000, 3));
 }
 
 // Time that grows with the square of a valence would not end here.

@@ -14,7 +14,7 @@ namespace quadrille::test
 namespace
 {
 
-QuadMesh extractRaw(const GridMapCase& c)
+QuadMesh rawQuads(const GridMapCase& c)
 {
   ExtractionOptions options;
   options.smoothingSteps = 0;
@@ -112,7 +112,7 @@ TEST(QuadUntangling, MendsAllOfAPlane)
   for (const double thickness : { 1.0, 0.05, 0.002 })
   {
     const GridMapCase c = thinCrumpledPlane(1, thickness);
-    QuadMesh mesh = extractRaw(c);
+    QuadMesh mesh = rawQuads(c);
     const std::size_t before = turnedOver(mesh);
     ASSERT_GE(before, 5u); // else there is nothing to see
     const UntanglingResult result = untangleQuads(c.mesh, mesh, {});
@@ -132,7 +132,7 @@ TEST(QuadUntangling, MendsAllOfAPlane)
 TEST(QuadUntangling, MovesNothingButPointsNearQuadsTurnedOver)
 {
   const GridMapCase c = crumpledPlane(40, 30, 4, 50000);
-  const QuadMesh raw = extractRaw(c);
+  const QuadMesh raw = rawQuads(c);
   QuadMesh mesh = raw;
   untangleQuads(c.mesh, mesh, {});
   std::vector<Vector3> centres;
@@ -158,7 +158,7 @@ TEST(QuadUntangling, LeavesMeshesWithoutSuchQuadsAlone)
 {
   for (const GridMapCase& c : allCases(2))
   {
-    const QuadMesh raw = extractRaw(c);
+    const QuadMesh raw = rawQuads(c);
     if (turnedOver(raw) == 0)
     {
       QuadMesh mesh = raw;
@@ -181,7 +181,7 @@ TEST(QuadUntangling, WhatCannotBeMendedStaysAsItWas)
 TEST(QuadUntangling, SameBytesForAnyNumberOfThreads)
 {
   const GridMapCase c = crumpledPlane(40, 30, 5, 50000);
-  const QuadMesh raw = extractRaw(c);
+  const QuadMesh raw = rawQuads(c);
   QuadMesh one = raw;
   QuadMesh three = raw;
   untangleQuads(c.mesh, one, { {}, 1 });
@@ -197,7 +197,7 @@ TEST(QuadUntangling, IsPartOfTheExtraction)
   const ExtractionResult result = extractQuads(c.mesh, c.uv, {});
   ASSERT_TRUE(result.status.ok());
   EXPECT_EQ(turnedOver(result.mesh), 0u);
-  EXPECT_GT(turnedOver(extractRaw(c)), 0u);
+  EXPECT_GT(turnedOver(rawQuads(c)), 0u);
 }
 
 } // namespace quadrille::test

@@ -22,7 +22,7 @@ namespace
 constexpr double kLength = 0.25;
 
 /// Sheared, so that its map takes some steps; sharp edges are features.
-Mesh shearedCube(int n)
+Mesh slantedCube(int n)
 {
   Mesh mesh = test::unitCube(n);
   for (Vector3& p : mesh.position)
@@ -122,7 +122,7 @@ Mesh flipped(Mesh mesh, Index h)
 
 TEST(PreviousMap, CarriedIntoTurnedChartsItIsAMapAlongThem)
 {
-  for (const Mesh& mesh : { shearedCube(6), wavyTorus() })
+  for (const Mesh& mesh : { slantedCube(6), wavyTorus() })
   {
     const GridMapResult map = requireMap(mesh, optionsOf(mesh));
     const PreviousMap previous = previousMap(mesh, map, ownIds(mesh));
@@ -197,7 +197,7 @@ TEST(PreviousMap, OtherTurnsOrEdgesAreNoMap)
 
 TEST(PreviousMap, TheSameAgainKeepsItsIntegers)
 {
-  for (const Mesh& mesh : { shearedCube(6), wavyTorus() })
+  for (const Mesh& mesh : { slantedCube(6), wavyTorus() })
   {
     GridMapOptions options = optionsOf(mesh);
     const GridMapResult cold = requireMap(mesh, options);
@@ -243,7 +243,7 @@ TEST(PreviousMap, AnotherTriangulationKnowsTheOtherFaces)
 
 TEST(PreviousMap, NothingOfItIsTrusted)
 {
-  const Mesh mesh = shearedCube(6);
+  const Mesh mesh = slantedCube(6);
   GridMapOptions options = optionsOf(mesh);
   const GridMapResult cold = requireMap(mesh, options);
   PreviousMap previous = previousMap(mesh, cold, options.vertexIds);
@@ -264,7 +264,7 @@ TEST(PreviousMap, NothingOfItIsTrusted)
 
 TEST(PreviousMap, WrongSizesAreRefused)
 {
-  const Mesh mesh = shearedCube(4);
+  const Mesh mesh = slantedCube(4);
   GridMapOptions options = optionsOf(mesh);
   const GridMapResult map = requireMap(mesh, options);
   PreviousMap previous = previousMap(mesh, map, options.vertexIds);

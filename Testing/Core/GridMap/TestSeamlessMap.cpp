@@ -19,7 +19,7 @@ using namespace quadrille::test;
 namespace
 {
 
-SeamlessResult mapOf(const Mesh& mesh, const CrossField& field, double edgeLength)
+SeamlessResult seamlessMapOf(const Mesh& mesh, const CrossField& field, double edgeLength)
 {
   SeamlessOptions options;
   options.edgeLength = edgeLength;
@@ -36,7 +36,7 @@ TEST(SeamlessMap, IsExactAndPositiveOnEveryKindOfSurface)
     const double length = std::sqrt(areaOf(mesh) / 500);
     const CrossField field = fieldOf(mesh, length);
     ASSERT_TRUE(field.status.ok()) << model.name << ": " << field.status.message;
-    const SeamlessResult result = mapOf(mesh, field, length);
+    const SeamlessResult result = seamlessMapOf(mesh, field, length);
     EXPECT_TRUE(result.status.ok()) << model.name << ": " << result.status.message;
     const Certificate c = certify(mesh, result.uv, field.turns, integerVertices(mesh, field));
     EXPECT_EQ(c.notPositive, 0u) << model.name;
@@ -53,7 +53,7 @@ TEST(SeamlessMap, TransitionsTurnAsTheFieldMatches)
 {
   const Mesh mesh = test::sphere(3);
   const CrossField field = fieldOf(mesh, 0.2);
-  const SeamlessResult result = mapOf(mesh, field, 0.2);
+  const SeamlessResult result = seamlessMapOf(mesh, field, 0.2);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     EXPECT_EQ(transitionOf(mesh, result.uv, h).rotation, field.matching[h]);
@@ -64,7 +64,7 @@ TEST(SeamlessMap, AFlatPlateIsMappedWithoutDistortion)
 {
   const Mesh mesh = test::gridPlane(6, 4);
   const CrossField field = fieldOf(mesh, 1);
-  const SeamlessResult result = mapOf(mesh, field, 1);
+  const SeamlessResult result = seamlessMapOf(mesh, field, 1);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     const double length = toDouble(result.uv[Mesh::next(h)] - result.uv[h]).norm();
@@ -90,7 +90,7 @@ TEST(SeamlessMap, SameBytesEveryTime)
 {
   const Mesh mesh = test::sphere(3);
   const CrossField field = fieldOf(mesh, 0.3);
-  EXPECT_EQ(mapOf(mesh, field, 0.3).uv, mapOf(mesh, field, 0.3).uv);
+  EXPECT_EQ(seamlessMapOf(mesh, field, 0.3).uv, seamlessMapOf(mesh, field, 0.3).uv);
 }
 
 TEST(SeamlessMap, NamesVerticesWithTooFewTriangles)
@@ -100,7 +100,7 @@ TEST(SeamlessMap, NamesVerticesWithTooFewTriangles)
     { { 0, 2, 1 }, { 0, 1, 3 }, { 0, 3, 2 }, { 1, 2, 3 } });
   CrossField field = fieldOf(mesh, 0.5);
   field.turns[0] += 4; // the equations only know it modulo 4
-  const SeamlessResult result = mapOf(mesh, field, 0.5);
+  const SeamlessResult result = seamlessMapOf(mesh, field, 0.5);
   EXPECT_EQ(result.status.code, StatusCode::Infeasible);
   EXPECT_EQ(result.offenders, std::vector<Index>{ 0 });
 }
@@ -110,8 +110,8 @@ TEST(SeamlessMap, RefusesABrokenField)
   const Mesh mesh = test::sphere(1);
   CrossField field = fieldOf(mesh, 0.5);
   field.matching[0] = static_cast<std::int8_t>((field.matching[0] + 1) & 3);
-  EXPECT_THROW(mapOf(mesh, field, 0.5), InvalidInput);
-  EXPECT_THROW(mapOf(mesh, fieldOf(mesh, 0.5), 0), InvalidInput);
+  EXPECT_THROW(seamlessMapOf(mesh, field, 0.5), InvalidInput);
+  EXPECT_THROW(seamlessMapOf(mesh, fieldOf(mesh, 0.5), 0), InvalidInput);
 }
 
 TEST(CutGraph, LeavesOneDiskAndClosesEndsWithoutSingularity)

@@ -14,7 +14,7 @@ using namespace quadrille::test;
 namespace
 {
 
-HierarchyOptions makeOptions(double edgeLength, Index coarseVertices)
+HierarchyOptions automaticOptions(double edgeLength, Index coarseVertices)
 {
   HierarchyOptions options;
   options.targetEdgeLength = edgeLength;
@@ -53,7 +53,7 @@ TEST(AutomaticBudget, endsWhereTheCurvatureWouldMoveTooFar)
   {
     for (const DecimationCost cost : { DecimationCost::Gaussian, DecimationCost::GaussianMemory })
     {
-      HierarchyOptions options = makeOptions(s, 0);
+      HierarchyOptions options = automaticOptions(s, 0);
       options.cost = cost;
       Redecimation levels(mesh, 1, options);
       const Hierarchy found = levels.update(options);
@@ -76,12 +76,12 @@ TEST(AutomaticBudget, doesNotDependOnTheUnit)
 {
   // A power of two changes no digit of any number.
   Mesh mesh = wavySphere(4, 0.1);
-  const DecimationLog log = buildHierarchy(mesh, 1, makeOptions(0.12, 0)).log;
+  const DecimationLog log = buildHierarchy(mesh, 1, automaticOptions(0.12, 0)).log;
   for (Vector3& p : mesh.position)
   {
     p *= 1024;
   }
-  EXPECT_EQ(buildHierarchy(mesh, 1, makeOptions(0.12 * 1024, 0)).log.serialize(), log.serialize());
+  EXPECT_EQ(buildHierarchy(mesh, 1, automaticOptions(0.12 * 1024, 0)).log.serialize(), log.serialize());
 }
 
 TEST(AutomaticBudget, rougherSurfacesGetMoreVertices)
@@ -89,9 +89,9 @@ TEST(AutomaticBudget, rougherSurfacesGetMoreVertices)
   // Both have about as many quads; half of the rough one's curvature is in waves of a few quads.
   const double s = 0.08;
   const Index smooth =
-    buildHierarchy(wavySphere(5, 0.0), 1, makeOptions(s, 0)).coarse.mesh.vertexCount();
+    buildHierarchy(wavySphere(5, 0.0), 1, automaticOptions(s, 0)).coarse.mesh.vertexCount();
   const Index rough =
-    buildHierarchy(wavySphere(5, 0.12), 1, makeOptions(s, 0)).coarse.mesh.vertexCount();
+    buildHierarchy(wavySphere(5, 0.12), 1, automaticOptions(s, 0)).coarse.mesh.vertexCount();
   EXPECT_LT(smooth, rough);
 }
 
@@ -100,7 +100,7 @@ TEST(AutomaticBudget, staysInsideItsLimits)
   // A plane has no curvature to move but at its corners, and would keep nothing.
   const Mesh plane = gridPlane(60, 60);
   EXPECT_EQ(
-    buildHierarchy(plane, 1, makeOptions(3, 0)).coarse.mesh.vertexCount(), kLeastCoarseVertices);
+    buildHierarchy(plane, 1, automaticOptions(3, 0)).coarse.mesh.vertexCount(), kLeastCoarseVertices);
   // Noise as large as the edges moves too far with the first vertex, but is not all kept.
   Mesh noise = sphere(6);
   std::uint32_t random = 1;
@@ -109,7 +109,7 @@ TEST(AutomaticBudget, staysInsideItsLimits)
     random = random * 1664525U + 1013904223U;
     p *= 1 + 0.01 * (static_cast<double>(random) / 4294967296.0);
   }
-  const Hierarchy levels = buildHierarchy(noise, 1, makeOptions(0.03, 0));
+  const Hierarchy levels = buildHierarchy(noise, 1, automaticOptions(0.03, 0));
   ASSERT_GT(levels.intermediate.mesh.vertexCount(), kMostCoarseVertices);
   EXPECT_EQ(levels.coarse.mesh.vertexCount(), kMostCoarseVertices);
 }
@@ -120,7 +120,7 @@ TEST(AutomaticBudget, componentsShareItByNeed)
   const Mesh mesh = disjointUnion(wavySphere(5, 0.12), sphere(5), Vector3(4, 0, 0));
   for (const Index budget : { 0U, 1200U })
   {
-    const Hierarchy levels = buildHierarchy(mesh, 1, makeOptions(0.1, budget));
+    const Hierarchy levels = buildHierarchy(mesh, 1, automaticOptions(0.1, budget));
     const std::array<Index, 2> before = countSides(levels.intermediate.mesh);
     const std::array<Index, 2> after = countSides(levels.coarse.mesh);
     const double roughShare = static_cast<double>(after[0]) / before[0];
@@ -135,7 +135,7 @@ TEST(AutomaticBudget, needsACostOfCurvature)
   const Mesh mesh = sphere(3);
   for (const DecimationCost cost : { DecimationCost::Quadric, DecimationCost::Uniform })
   {
-    HierarchyOptions options = makeOptions(0.3, 0);
+    HierarchyOptions options = automaticOptions(0.3, 0);
     options.cost = cost;
     EXPECT_THROW(buildHierarchy(mesh, 1, options), InvalidInput);
     options.coarseVertices = 50;

@@ -16,9 +16,9 @@ using namespace quadrille::test;
 namespace
 {
 
-constexpr double kFeatureAngle = 0.7; // radians, 40 degrees
+constexpr double kOrderFeatureAngle = 0.7; // radians, 40 degrees
 
-HierarchyOptions makeOptions(double edgeLength, DecimationOrder order)
+HierarchyOptions orderOptions(double edgeLength, DecimationOrder order)
 {
   HierarchyOptions options;
   options.targetEdgeLength = edgeLength;
@@ -118,7 +118,7 @@ constexpr DecimationOrder kOtherOrders[] = { DecimationOrder::Heap, DecimationOr
 TEST(OrderedDecimation, theHeapTakesTheShortestEdgeFirst)
 {
   const Mesh mesh = unevenSphere(3);
-  const Hierarchy levels = buildHierarchy(mesh, 1, makeOptions(0.4, DecimationOrder::Heap));
+  const Hierarchy levels = buildHierarchy(mesh, 1, orderOptions(0.4, DecimationOrder::Heap));
   const std::vector<Index> order = removalOrder(mesh, levels.log);
   ASSERT_GT(order.size(), mesh.vertexCount() / 2U);
   double shortest = 1e300;
@@ -163,31 +163,31 @@ TEST(OrderedDecimation, moreCandidatesComeCloserToTheHeap)
     }
     return sum / 200;
   };
-  HierarchyOptions options = makeOptions(0.4, DecimationOrder::Stochastic);
+  HierarchyOptions options = orderOptions(0.4, DecimationOrder::Stochastic);
   options.draws.candidates = 1;
   const double one = meanOfFirst(options);
   options.draws.candidates = 16;
   const double many = meanOfFirst(options);
   EXPECT_LT(many, 0.95 * one);
-  EXPECT_LT(meanOfFirst(makeOptions(0.4, DecimationOrder::Heap)), many);
+  EXPECT_LT(meanOfFirst(orderOptions(0.4, DecimationOrder::Heap)), many);
 }
 
 TEST(OrderedDecimation, withoutDrawsItIsTheHeap)
 {
   const Mesh mesh = unevenSphere(4);
-  HierarchyOptions options = makeOptions(0.2, DecimationOrder::Stochastic);
+  HierarchyOptions options = orderOptions(0.2, DecimationOrder::Stochastic);
   options.draws.exactBelow = mesh.vertexCount() + 1;
   EXPECT_EQ(buildHierarchy(mesh, 1, options).log.serialize(),
-    buildHierarchy(mesh, 1, makeOptions(0.2, DecimationOrder::Heap)).log.serialize());
+    buildHierarchy(mesh, 1, orderOptions(0.2, DecimationOrder::Heap)).log.serialize());
   options.draws.exactBelow = mesh.vertexCount();
   EXPECT_NE(buildHierarchy(mesh, 1, options).log.serialize(),
-    buildHierarchy(mesh, 1, makeOptions(0.2, DecimationOrder::Heap)).log.serialize());
+    buildHierarchy(mesh, 1, orderOptions(0.2, DecimationOrder::Heap)).log.serialize());
 }
 
 TEST(OrderedDecimation, theSeedAloneDecides)
 {
   const Mesh mesh = unevenSphere(4);
-  HierarchyOptions options = makeOptions(0.2, DecimationOrder::Stochastic);
+  HierarchyOptions options = orderOptions(0.2, DecimationOrder::Stochastic);
   const std::vector<std::uint8_t> first = buildHierarchy(mesh, 1, options).log.serialize();
   options.threads = 4;
   EXPECT_EQ(buildHierarchy(mesh, 1, options).log.serialize(), first);
@@ -200,10 +200,10 @@ TEST(OrderedDecimation, endsWhereTheSweepsEnd)
   const Mesh mesh = unevenSphere(5);
   const double s = 0.2;
   const Mesh swept =
-    buildHierarchy(mesh, 1, makeOptions(s, DecimationOrder::Sweeps)).intermediate.mesh;
+    buildHierarchy(mesh, 1, orderOptions(s, DecimationOrder::Sweeps)).intermediate.mesh;
   for (const DecimationOrder order : kOtherOrders)
   {
-    const Mesh level = buildHierarchy(mesh, 1, makeOptions(s, order)).intermediate.mesh;
+    const Mesh level = buildHierarchy(mesh, 1, orderOptions(s, order)).intermediate.mesh;
     // As for the sweeps: guards hold hardly any edge back on a smooth surface.
     EXPECT_LT(shortShare(level, 0.5 * s), 0.02);
     EXPECT_NEAR(level.vertexCount(), swept.vertexCount(), 0.2 * swept.vertexCount());
@@ -213,7 +213,7 @@ TEST(OrderedDecimation, endsWhereTheSweepsEnd)
 TEST(OrderedDecimation, keepsTopologyAndCurvesOfEveryKindOfSurface)
 {
   const std::vector<Mesh> meshes{ unevenSphere(4), torus(60, 30), plateWithHole(10), plateL(15),
-    openCylinder(48, 20), markFeatures(unitCube(14), kFeatureAngle), twoComponents() };
+    openCylinder(48, 20), markFeatures(unitCube(14), kOrderFeatureAngle), twoComponents() };
   for (const Mesh& mesh : meshes)
   {
     double diagonal = 0;
@@ -224,7 +224,7 @@ TEST(OrderedDecimation, keepsTopologyAndCurvesOfEveryKindOfSurface)
     const TopologySummary before = summarizeTopology(mesh);
     for (const DecimationOrder order : kOtherOrders)
     {
-      HierarchyOptions options = makeOptions(0.15 * diagonal, order);
+      HierarchyOptions options = orderOptions(0.15 * diagonal, order);
       for (Index v = 0; v < mesh.vertexCount(); v += 40)
       {
         options.keepVertices.push_back(v);
@@ -250,10 +250,10 @@ TEST(OrderedDecimation, keepsTopologyAndCurvesOfEveryKindOfSurface)
 
 TEST(OrderedDecimation, keepsCubeCornersAndStraightEdges)
 {
-  const Mesh mesh = markFeatures(unitCube(16), kFeatureAngle);
+  const Mesh mesh = markFeatures(unitCube(16), kOrderFeatureAngle);
   for (const DecimationOrder order : kOtherOrders)
   {
-    const Mesh level = buildHierarchy(mesh, 1, makeOptions(0.4, order)).intermediate.mesh;
+    const Mesh level = buildHierarchy(mesh, 1, orderOptions(0.4, order)).intermediate.mesh;
     ASSERT_LT(level.vertexCount(), mesh.vertexCount() / 4);
     double length = 0;
     for (Index h = 0; h < level.halfEdgeCount(); ++h)
@@ -271,24 +271,24 @@ TEST(OrderedDecimation, keepsCubeCornersAndStraightEdges)
 TEST(OrderedDecimation, anotherOrderNeedsPhase1Again)
 {
   const Mesh mesh = unevenSphere(3);
-  HierarchyOptions options = makeOptions(0.3, DecimationOrder::Stochastic);
+  HierarchyOptions options = orderOptions(0.3, DecimationOrder::Stochastic);
   const Redecimation levels(mesh, 1, options);
   EXPECT_TRUE(levels.allows(options));
   options.draws.seed = 7;
   EXPECT_FALSE(levels.allows(options));
-  options = makeOptions(0.3, DecimationOrder::Sweeps);
+  options = orderOptions(0.3, DecimationOrder::Sweeps);
   EXPECT_FALSE(levels.allows(options));
 }
 
 TEST(OrderedDecimation, refusesEmptyDrawsAndCancels)
 {
   const Mesh mesh = unevenSphere(4);
-  HierarchyOptions options = makeOptions(0.2, DecimationOrder::Stochastic);
+  HierarchyOptions options = orderOptions(0.2, DecimationOrder::Stochastic);
   options.draws.candidates = 0;
   EXPECT_THROW(buildHierarchy(mesh, 1, options), InvalidInput);
   for (const DecimationOrder order : kOtherOrders)
   {
-    options = makeOptions(0.2, order);
+    options = orderOptions(0.2, order);
     options.progress = [](double, const std::string&) { return false; };
     EXPECT_THROW(buildHierarchy(mesh, 1, options), Cancelled);
   }

@@ -75,7 +75,7 @@ PreparedSurface prepared(const FramedInput& framed)
   return prepareSurface(framed.input, options);
 }
 
-std::size_t featureEdges(const Mesh& mesh)
+std::size_t countFeatures(const Mesh& mesh)
 {
   std::size_t count = 0;
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
@@ -116,10 +116,10 @@ TEST(Frame, ASurfaceInSinglePrecisionIsTheSameAfterAnyShift)
 TEST(Frame, FeaturesDoNotDependOnTheDistanceFromTheOrigin)
 {
   const SurfaceInput input = model("part.ply");
-  const std::size_t sharp = featureEdges(prepared(enterFrame(input, 1)).mesh);
+  const std::size_t sharp = countFeatures(prepared(enterFrame(input, 1)).mesh);
   EXPECT_GT(sharp, 100u);
   const Vector3 shift = Vector3::Constant(1e4 * diagonalOf(input.points));
-  EXPECT_EQ(featureEdges(prepared(enterFrame(
+  EXPECT_EQ(countFeatures(prepared(enterFrame(
               moved(input, [&](const Vector3& p) { return Vector3(p + shift); }), 1)).mesh),
     sharp);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
 #include "Mesh/Topology.h"
+#include "SurfaceInputs.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -33,18 +34,7 @@ std::vector<NamedMesh> sharedMeshes()
     { "cylinder", test::openCylinder(6, 3), 0, 2, 1 }, { "two", test::twoComponents(), 4, 0, 2 } };
 }
 
-double signedVolume(const Mesh& mesh)
-{
-  double volume = 0;
-  for (Index h = 0; h < mesh.halfEdgeCount(); h += 3)
-  {
-    volume += mesh.position[mesh.origin[h]].dot(
-      mesh.position[mesh.origin[h + 1]].cross(mesh.position[mesh.origin[h + 2]]));
-  }
-  return volume / 6;
-}
-
-std::string messageOf(const std::function<void()>& call)
+std::string refusalOf(const std::function<void()>& call)
 {
   try
   {
@@ -71,7 +61,7 @@ TEST(Topology, sharedMeshesHaveTheirTopology)
     EXPECT_EQ(summary.components, named.components);
     if (named.loops == 0)
     {
-      EXPECT_GT(signedVolume(named.mesh), 0);
+      EXPECT_GT(test::signedVolume(named.mesh), 0);
     }
   }
 }
@@ -149,20 +139,20 @@ TEST(Topology, pairingSurvivesAVertexOfHighValence)
 
 TEST(Topology, pairingNamesWhatIsWrong)
 {
-  EXPECT_NE(messageOf(
+  EXPECT_NE(refusalOf(
               [] {
                 pairHalfEdges({ 0, 1, 2, 1, 0, 3, 0, 1, 4 }, 5);
               })
               .find("(0, 1)"),
     std::string::npos);
-  EXPECT_NE(messageOf(
+  EXPECT_NE(refusalOf(
               [] {
                 pairHalfEdges({ 0, 1, 2, 0, 1, 3 }, 4);
               })
               .find("same direction"),
     std::string::npos);
-  EXPECT_NE(messageOf([] { pairHalfEdges({ 0, 1, 7 }, 4); }).find("vertex 7"), std::string::npos);
-  EXPECT_NE(messageOf(
+  EXPECT_NE(refusalOf([] { pairHalfEdges({ 0, 1, 7 }, 4); }).find("vertex 7"), std::string::npos);
+  EXPECT_NE(refusalOf(
               [] {
                 pairHalfEdges({ 0, 1, 1 }, 4);
               })

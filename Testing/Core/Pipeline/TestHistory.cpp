@@ -19,7 +19,7 @@ using test::failedQuads;
 using test::planOf;
 using test::quadsWith;
 
-using Names = std::vector<std::string>;
+using Texts = std::vector<std::string>;
 
 /// A round of one map.
 void addRound(History& history, const Plan& plan, const std::shared_ptr<MapAttempt>& map,
@@ -229,12 +229,12 @@ TEST(History, StagesHaveTheResultsSizesAndTheSecondsOfAll)
   others->stages.add("optimize", 128, 9, 9);
   addRound(history, planOf("fewer features"), undone, others);
   const StageRecords stages = history.stages();
-  Names names;
+  Texts names;
   for (const StageRecord& record : stages.all())
   {
     names.push_back(record.stage);
   }
-  EXPECT_EQ(names, Names({ "phase1", "replay", "extract", "retries" }));
+  EXPECT_EQ(names, Texts({ "phase1", "replay", "extract", "retries" }));
   const StageRecord phase1 = recordOf(stages, "phase1");
   EXPECT_EQ(phase1.seconds, 9);
   EXPECT_EQ(phase1.elementsIn, 100U);
@@ -258,11 +258,11 @@ TEST(History, ReusedStagesAreThoseOfAllStartedOnesThoseOfTheResult)
   undone->reused = { "phase2" };
   undone->started = { "embed" };
   others->reused = { "optimize" };
-  EXPECT_EQ(history.started(), Names());
+  EXPECT_EQ(history.started(), Texts());
   addRound(history, planOf("first"), good, quads);
   addRound(history, planOf("fewer features"), undone, others);
-  EXPECT_EQ(history.reused(), Names({ "phase1", "extract", "phase2", "optimize" }));
-  EXPECT_EQ(history.started(), Names({ "seamless" }));
+  EXPECT_EQ(history.reused(), Texts({ "phase1", "extract", "phase2", "optimize" }));
+  EXPECT_EQ(history.started(), Texts({ "seamless" }));
 }
 
 TEST(History, NoticesOfAnAttemptThatIsUndoneAreNotTheResults)
@@ -282,10 +282,10 @@ TEST(History, NoticesOfAnAttemptThatIsUndoneAreNotTheResults)
   others->notices = { "of quads that are undone" };
   addRound(history, plan, undone, others);
   const Attempt& result = history.result();
-  EXPECT_EQ(result.plan.notices, Names({ "of the plan" }));
+  EXPECT_EQ(result.plan.notices, Texts({ "of the plan" }));
   EXPECT_EQ(result.plan.finer.notice, "");
-  EXPECT_EQ(result.map->notices, Names({ "of the map" }));
-  EXPECT_EQ(result.quads->notices, Names({ "of the quads" }));
+  EXPECT_EQ(result.map->notices, Texts({ "of the map" }));
+  EXPECT_EQ(result.quads->notices, Texts({ "of the quads" }));
 }
 
 /// uv with another value at each corner of a vertex where x is 1, as along a cut.

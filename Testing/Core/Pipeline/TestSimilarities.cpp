@@ -94,7 +94,7 @@ std::vector<std::array<Index, 4>> canonical(std::vector<std::array<Index, 4>> qu
 }
 
 /// The same quads over the same points, up to `tolerance` in units of the first; with the faces' sense, as the input has it.
-void expectSame(const RemeshResult& here, const RemeshResult& there, const Move& back,
+void expectSameAfterMove(const RemeshResult& here, const RemeshResult& there, const Move& back,
   double tolerance, bool reversed)
 {
   ASSERT_TRUE(there.status.ok()) << there.status.message;
@@ -120,7 +120,7 @@ TEST(Similarities, AShiftChangesNothing)
     const RemeshResult there = quadsOf(
       moved(model.input, [&](const Vector3& p) { return Vector3(p + shift); }, false), model.quads);
     // A coordinate there is known to 2^-40 diagonals; smoothing weighs the same numbers.
-    expectSame(here, there, [&](const Vector3& p) { return Vector3(p - shift); }, 1e-7 * diagonal,
+    expectSameAfterMove(here, there, [&](const Vector3& p) { return Vector3(p - shift); }, 1e-7 * diagonal,
       false);
   }
 }
@@ -137,7 +137,7 @@ TEST(Similarities, AScaleChangesNothing)
       const RemeshResult there = quadsOf(
         moved(model.input, [&](const Vector3& p) { return Vector3(scale * p); }, false),
         model.quads);
-      expectSame(here, there, [&](const Vector3& p) { return Vector3(p / scale); },
+      expectSameAfterMove(here, there, [&](const Vector3& p) { return Vector3(p / scale); },
         1e-9 * diagonal, false);
       EXPECT_NEAR(there.targetEdgeLength, scale * here.targetEdgeLength,
         1e-9 * there.targetEdgeLength);
@@ -164,7 +164,7 @@ TEST(Similarities, AMirrorImageHasTheMirrorImageOfTheQuads)
       for (const bool reverse : { false, true })
       {
         const RemeshResult there = quadsOf(moved(model.input, mirror, reverse), model.quads);
-        expectSame(here, there, mirror, 0, reverse);
+        expectSameAfterMove(here, there, mirror, 0, reverse);
       }
     }
   }
