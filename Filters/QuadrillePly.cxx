@@ -103,10 +103,10 @@ const std::vector<Bundle>& bundles()
   return all;
 }
 
-class Reader
+class PlyReader
 {
 public:
-  Reader(const std::string& path, std::string bytes) : path_(path), bytes_(std::move(bytes)) {}
+  PlyReader(const std::string& path, std::string bytes) : path_(path), bytes_(std::move(bytes)) {}
 
   vtkSmartPointer<vtkPolyData> read()
   {
@@ -613,7 +613,7 @@ vtkSmartPointer<vtkPolyData> readPly(const std::string& path)
   }
   std::ostringstream bytes;
   bytes << file.rdbuf();
-  return Reader(path, bytes.str()).read();
+  return PlyReader(path, bytes.str()).read();
 }
 
 } // namespace quadrille

@@ -2,38 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadrillePLYReader.h"
 
-#include "Base/Error.h"
 #include "QuadrillePly.h"
 
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
-#include <exception>
 #include <fstream>
-#include <new>
 
 vtkStandardNewMacro(vtkQuadrillePLYReader);
 
 //------------------------------------------------------------------------------
-vtkQuadrillePLYReader::vtkQuadrillePLYReader()
-{
-  this->SetNumberOfInputPorts(0);
-}
-
+vtkQuadrillePLYReader::vtkQuadrillePLYReader() = default;
 vtkQuadrillePLYReader::~vtkQuadrillePLYReader() = default;
-
-//------------------------------------------------------------------------------
-void vtkQuadrillePLYReader::SetFileName(const char* name)
-{
-  const std::string value = name ? name : "";
-  if (value != this->FileName)
-  {
-    this->FileName = value;
-    this->Modified();
-  }
-}
 
 //------------------------------------------------------------------------------
 int vtkQuadrillePLYReader::CanReadFile(const char* name)
@@ -46,35 +26,13 @@ int vtkQuadrillePLYReader::CanReadFile(const char* name)
 }
 
 //------------------------------------------------------------------------------
-int vtkQuadrillePLYReader::RequestData(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+vtkSmartPointer<vtkPolyData> vtkQuadrillePLYReader::ReadSurface(const std::string& path)
 {
-  this->OutcomeText.clear();
-  try
-  {
-    if (this->FileName.empty())
-    {
-      throw quadrille::InvalidInput("no file is named: set FileName");
-    }
-    vtkPolyData::GetData(outputs, 0)->ShallowCopy(quadrille::readPly(this->FileName));
-    return 1;
-  }
-  catch (const std::bad_alloc&)
-  {
-    this->OutcomeText = this->FileName + ": there is not enough memory for it";
-  }
-  catch (const std::exception& error)
-  {
-    this->OutcomeText = error.what();
-  }
-  vtkErrorMacro(<< this->OutcomeText);
-  return 0;
+  return quadrille::readPly(path);
 }
 
 //------------------------------------------------------------------------------
 void vtkQuadrillePLYReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << this->FileName << "\n";
-  os << indent << "OutcomeText: " << this->OutcomeText << "\n";
 }

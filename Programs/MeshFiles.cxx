@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshFiles.h"
 
-#include "OffReader.h"
-
 #include <vtkAlgorithm.h>
 #include <vtkAppendFilter.h>
 #include <vtkCallbackCommand.h>
@@ -25,6 +23,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataReader.h>
+#include <vtkQuadrilleOFFReader.h>
 #include <vtkQuadrillePLYReader.h>
 #include <vtkSTLReader.h>
 #include <vtkUnstructuredGrid.h>
@@ -116,10 +115,11 @@ vtkSmartPointer<vtkPolyData> readWith(const std::string& path)
   return data;
 }
 
-/// Its own texts name the file.
-vtkSmartPointer<vtkPolyData> readPlyFile(const std::string& path)
+/// With one of our own readers, whose texts name the file.
+template <class Reader>
+vtkSmartPointer<vtkPolyData> readWithOurs(const std::string& path)
 {
-  vtkNew<vtkQuadrillePLYReader> reader;
+  vtkNew<Reader> reader;
   const ErrorCollector errors(reader);
   const ErrorCollector pipelineErrors(reader->GetExecutive());
   reader->SetFileName(path.c_str());
@@ -519,7 +519,7 @@ vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
   const std::string extension = extensionOf(path);
   if (extension == "ply")
   {
-    return readPlyFile(path);
+    return readWithOurs<vtkQuadrillePLYReader>(path);
   }
   if (extension == "obj")
   {
@@ -540,7 +540,7 @@ vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
   }
   if (extension == "off")
   {
-    return readOff(path);
+    return readWithOurs<vtkQuadrilleOFFReader>(path);
   }
   fail(path, "unknown extension; known are ply, obj, stl, off, vtp and vtk");
 }

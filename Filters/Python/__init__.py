@@ -10,7 +10,8 @@
     quadrille.check(QuadRemesh(Input=surface))                  # in a script of ParaView: raises where it fails
 
 The VTK classes themselves are here too: vtkQuadRemesh, vtkDecimationHierarchy, vtkIntegerGridMap,
-vtkIntegerGridMapUpmap, vtkQuadExtraction, and the reader vtkQuadrillePLYReader.
+vtkIntegerGridMapUpmap, vtkQuadExtraction, and the readers vtkQuadrilleOFFReader and
+vtkQuadrillePLYReader.
 """
 import collections
 
@@ -26,13 +27,14 @@ from .QuadrilleFilters import (
     vtkIntegerGridMapUpmap,
     vtkQuadExtraction,
     vtkQuadRemesh,
+    vtkQuadrilleOFFReader,
     vtkQuadrillePLYReader,
 )
 
 __all__ = [
     "InvalidInput", "RemeshError", "Remeshed", "check", "info", "read", "remesh", "to_arrays", "to_polydata",
     "vtkDecimationHierarchy", "vtkIntegerGridMap", "vtkIntegerGridMapUpmap", "vtkQuadExtraction",
-    "vtkQuadRemesh", "vtkQuadrillePLYReader",
+    "vtkQuadRemesh", "vtkQuadrilleOFFReader", "vtkQuadrillePLYReader",
 ]
 
 

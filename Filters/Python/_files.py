@@ -10,6 +10,9 @@ def _reader_for(extension):
     if extension == ".ply":
         from .QuadrilleFilters import vtkQuadrillePLYReader
         return vtkQuadrillePLYReader()
+    if extension == ".off":
+        from .QuadrilleFilters import vtkQuadrilleOFFReader
+        return vtkQuadrilleOFFReader()
     if extension == ".stl":
         from vtkmodules.vtkIOGeometry import vtkSTLReader
         return vtkSTLReader()
@@ -22,7 +25,8 @@ def _reader_for(extension):
     if extension == ".vtk":
         from vtkmodules.vtkIOLegacy import vtkPolyDataReader
         return vtkPolyDataReader()
-    raise InvalidInput(f"files of the kind {extension or 'without extension'} are not read here; known are .ply, .obj, .stl, .vtp and .vtk")
+    raise InvalidInput(f"files of the kind {extension or 'without extension'} are not read here; known are .ply, .off, .obj, .stl, "
+                       ".vtp and .vtk")
 
 
 class _Silence:
@@ -50,8 +54,8 @@ class _Silence:
 
 
 def read(path):
-    """The surface in a file as a vtkPolyData: .ply with all properties of its vertices and faces, .obj, .stl, .vtp or .vtk. Raises InvalidInput
-    where the file is missing, damaged or of another kind."""
+    """The surface in a file as a vtkPolyData: .ply and .off with all properties of their vertices and faces, .obj,
+    .stl, .vtp or .vtk. Raises InvalidInput where the file is missing, damaged or of another kind."""
     path = os.fspath(path)
     reader = _reader_for(os.path.splitext(path)[1].lower())
     if not os.path.isfile(path):

@@ -238,6 +238,29 @@ class Formats(Case):
                 path.write_bytes(path.read_bytes()[:-20])  # cut off in the last faces
                 self.assertIn("face", self.run_quadrille(path, out, expect=2).stderr)
 
+    def test_off_keeps_what_its_first_word_promises(self):
+        points, faces = torus()
+        path, out = self.folder / "all.off", self.folder / "q.vtp"
+        lines = ["STCNOFF", f"{len(points)} {len(faces)} 0"]
+        lines += ["%.17g %.17g %.17g 0 0 1 10 20 30 0.25 0.75" % p for p in points]
+        lines += ["3 %d %d %d %d" % (*f, 3 * i // len(faces)) for i, f in enumerate(faces)]
+        path.write_text("\n".join(lines))
+        self.run_quadrille(path, out, "--quads", 300)
+        data = read(vtkXMLPolyDataReader(), out)
+        self.assertTorusOfQuads(data.GetNumberOfPoints(), faces_of(data))
+        self.assertEqual({data.GetPointData().GetArray("RGB").GetTuple3(i) for i in range(data.GetNumberOfPoints())},
+                         {(10, 20, 30)})
+        self.assertEqual(data.GetCellData().GetArray("ColorIndex").GetRange(), (0, 2))
+        for number, line, words in ((2, "0 0 0 0 0 1 10 20 30 0.25", ["vertex 0", "colour"]),
+                                    (3, "0 0 0 0 0", ["vertex 1", "normal"]), (4, "0 0 0 0 0 1 1", ["vertex 2", "texture"]),
+                                    (5, "0 0 0 0 0 1 10 20 nan 0 0", ["vertex 3", "colour"])):
+            damaged = list(lines)
+            damaged[number] = line
+            path.write_text("\n".join(damaged))
+            told = self.run_quadrille(path, out, expect=2).stderr
+            for word in words:
+                self.assertIn(word, told)
+
     def test_ply_strips(self):
         # A closed band of 40 columns of one strip each: an open cylinder.
         columns, rows, strips, points = 40, 20, [], []

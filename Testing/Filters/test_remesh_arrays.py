@@ -191,6 +191,32 @@ class Files(unittest.TestCase):
         for data in (ours.GetOutput(), theirs.GetOutput()):
             self.assertGreater(quadrille.remesh(data, quads=300).GetNumberOfCells(), 0)
 
+    def test_off(self):
+        texts = {
+            "plain": ("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n", {}, {}),
+            "colours": ("COFF # of whole numbers and of fractions\n4 2 0\n0 0 0 255 0 0 7\n1 0 0 1.0 0 0 0.5\n1 1 0 0 0 0 0\n"
+                        "0 1 0 0 0 0 0\n3 0 1 2 1 2 3\n3 0 2 3 0. 1 0.2\n",
+                        {"RGBA": [(255, 0, 0, 7), (255, 0, 0, 128), (0, 0, 0, 0), (0, 0, 0, 0)]},
+                        {"RGB": [(1, 2, 3), (0, 255, 51)]}),
+            "normals": ("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 2\n1 1 0 0 0 3\n3 0 1 2 5\n",
+                        {"Normals": [(0, 0, 1), (0, 0, 2), (0, 0, 3)]}, {"ColorIndex": [(5,)]}),
+            "texture": ("STOFF 3 1 0\n0 0 0 0.5 1\n1 0 0 0 0.25\n1 1 0 0 0\n3 0 1 2\n",
+                        {"TCoords": [(0.5, 1), (0, 0.25), (0, 0)]}, {}),
+            "some without": ("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 1 2 3\n3 0 2 3\n", {}, {}),
+        }
+        with tempfile.TemporaryDirectory() as folder:
+            for name, (text, points, cells) in texts.items():
+                path = os.path.join(folder, name + ".off")
+                with open(path, "w") as file:
+                    file.write(text)
+                data = quadrille.read(path)
+                self.assertTrue(quadrille.vtkQuadrilleOFFReader.CanReadFile(path))
+                for attributes, wanted in ((data.GetPointData(), points), (data.GetCellData(), cells)):
+                    found = {array.GetName(): [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
+                             for array in map(attributes.GetArray, range(attributes.GetNumberOfArrays()))}
+                    self.assertEqual(found, wanted, name)
+        self.assertFalse(quadrille.vtkQuadrilleOFFReader.CanReadFile(__file__))
+
 
 class Requests(unittest.TestCase):
     def setUp(self):

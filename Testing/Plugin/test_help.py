@@ -50,7 +50,8 @@ def look(group, name):
 
 for name in FILTERS:
     look("filters", name)
-look("sources", "QuadrillePLYReader")
+for name in ("QuadrillePLYReader", "QuadrilleOFFReader"):
+    look("sources", name)
 # The window takes the pages from the plugin itself.
 text = base64.b64encode(qch.read_bytes())
 check(text[:2000] in pathlib.Path(PLUGIN).read_bytes(), "the plugin does not hold the pages")

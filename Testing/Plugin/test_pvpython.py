@@ -173,6 +173,22 @@ by_hand = quadrille.remesh(quadrille.read(os.path.join(DATA, "part.ply")), quads
 check(size_of(of_part) == by_hand.GetNumberOfCells() > 0, "other quads than without ParaView")
 check("PatchId" in of_part.CellData.keys(), "the quads have no PatchId")
 
+# OFF files are opened like any other: ParaView has no reader of its own.
+with tempfile.TemporaryDirectory() as folder:
+    path = os.path.join(folder, "sheet.off")
+    with open(path, "w") as file:
+        file.write("OFF\n9 8 0\n" + "".join(f"{i} {j} 0\n" for j in range(3) for i in range(3)))
+        for j in range(2):
+            for i in range(2):
+                a = 3 * j + i
+                file.write(f"3 {a} {a + 1} {a + 4} {i}\n3 {a} {a + 4} {a + 3} {i}\n")
+    sheet = simple.OpenDataFile(path)
+    check(sheet is not None and sheet.GetXMLName() == "QuadrilleOFFReader", f"an OFF file is opened by {sheet}")
+    of_sheet = QuadRemesh(Input=sheet, TargetType="Number Of Quads", NumberOfQuads=100, PatchArray="ColorIndex")
+    of_sheet.UpdatePipeline()
+    check(size_of(of_sheet) > 0 and of_sheet.CellData["ColorIndex"].GetRange() == (0.0, 1.0), "no quads of an OFF file")
+    check(of_sheet.CellData["FeatureEdges"].GetRange()[1] > 0, "the border between two colours is no feature")
+
 # The raw class is the same behind the proxy, and without one.
 raw = quads.GetClientSideObject()
 check(isinstance(raw, quadrille.vtkQuadRemesh), f"the proxy holds a {type(raw)}")

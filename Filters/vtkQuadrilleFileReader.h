@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkQuadrilleFileReader
+ * @brief   what the readers of surfaces share: the name of the file, and what went wrong
+ *
+ * A file that is damaged is an error that names the file and the place in it; the output is empty then.
+ */
+#ifndef vtkQuadrilleFileReader_h
+#define vtkQuadrilleFileReader_h
+
+#include "QuadrilleFiltersModule.h" // for the export macro
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkSmartPointer.h" // for the result of ReadSurface
+
+#include <string> // for std::string
+
+class QUADRILLEFILTERS_EXPORT vtkQuadrilleFileReader : public vtkPolyDataAlgorithm
+{
+public:
+  vtkTypeMacro(vtkQuadrilleFileReader, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The file to read. Default: none.
+   */
+  void SetFileName(const char* name);
+  const char* GetFileName() { return this->FileName.c_str(); }
+  ///@}
+
+  /// Why the last execution gave nothing; empty after success.
+  const char* GetOutcomeText() { return this->OutcomeText.c_str(); }
+
+protected:
+  vtkQuadrilleFileReader();
+  ~vtkQuadrilleFileReader() override;
+
+  int RequestData(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  /// The surface in the file; throws a std::exception whose text names the file and the place.
+  virtual vtkSmartPointer<vtkPolyData> ReadSurface(const std::string& path) = 0;
+
+private:
+  vtkQuadrilleFileReader(const vtkQuadrilleFileReader&) = delete;
+  void operator=(const vtkQuadrilleFileReader&) = delete;
+
+  std::string FileName;
+  std::string OutcomeText;
+};
+
+#endif
