@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Options.h"
 
+#include "Terminal.h"
+
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cmath>
 #include <numeric>
 #include <sstream>
 #include <utility>
@@ -16,20 +18,35 @@ namespace quadrille
 namespace
 {
 
+/// Columns of the help, and where the texts of the options begin.
+constexpr std::size_t kHelpWidth = 116;
+constexpr std::size_t kTextColumn = 28;
+
 template <class Number>
-Number parse(const std::string& name, const std::string& text, Number least, Number most)
+Number parseNumber(const std::string& name, const std::string& text, Range<Number> range)
 {
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (text.empty() || error != std::errc() || end != text.data() + text.size() ||
-    !(value >= least && value <= most))
+    !(value >= range.least && value <= range.most))
   {
     std::ostringstream message;
-    message << "--" << name << " needs a number from " << least << " to " << most << ", not '"
+    message << "--" << name << " needs a number from " << range.least << " to " << range.most << ", not '"
             << text << "'";
     throw UsageError(message.str());
   }
   return value;
+}
+
+/// "a, b or c".
+std::string listed(const std::vector<std::string>& words)
+{
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+  {
+    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " or ") + words[i];
+  }
+  return text;
 }
 
 /// Insertions, deletions and exchanges of letters that lead from one word to the other.
@@ -50,112 +67,193 @@ std::size_t editDistance(const std::string& a, const std::string& b)
   return row.back();
 }
 
-[[noreturn]] void refuseOption(
-  const std::string& word, const std::string& name, const std::vector<std::string>& names)
+[[noreturn]] void refuseOption(const std::string& word, const std::vector<std::string>& names)
 {
+  const std::string name = word.substr(std::min(word.find_first_not_of('-'), word.size()));
+  const std::string bare = name.substr(0, name.find('='));
   const auto nearest = std::min_element(names.begin(), names.end(),
     [&](const std::string& a, const std::string& b)
-    { return editDistance(name, a) < editDistance(name, b); });
+    { return editDistance(bare, a) < editDistance(bare, b); });
   const bool similar =
-    nearest != names.end() && 2 * editDistance(name, *nearest) <= nearest->size();
+    nearest != names.end() && 2 * editDistance(bare, *nearest) <= nearest->size();
   throw UsageError("unknown option " + word +
     (similar ? "; did you mean --" + *nearest + "?" : "; --help lists all options"));
 }
 
-bool contains(const std::vector<std::string>& names, const std::string& name)
+/// Groups under their own texts, nothing that CLI11 would add.
+class HelpText : public CLI::Formatter
 {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
+public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override
+  {
+    return app->get_description() + make_groups(app, mode) + "\n" + app->get_footer();
+  }
+  std::string make_group(
+    std::string group, bool positional, std::vector<const CLI::Option*> options) const override
+  {
+    std::string text = group + "\n";
+    for (const CLI::Option* option : options)
+    {
+      text += make_option(option, positional);
+    }
+    return text;
+  }
+};
 
 } // namespace
 
-CommandLine::CommandLine(int argc, char* argv[], const std::vector<std::string>& known,
-  const std::vector<std::string>& flags)
+struct CommandOptions::Parser
 {
-  for (int i = 1; i < argc; ++i)
+  CLI::App app;
+  std::string group;
+  std::vector<std::string> files;
+  std::vector<std::string> names;
+
+  void describe(CLI::Option* option, const std::string& name)
   {
-    const std::string word = argv[i];
-    if (word == "--help" || word == "-h")
-    {
-      help_ = true;
-      continue;
-    }
-    if (word.size() < 2 || word[0] != '-')
-    {
-      positional_.push_back(word);
-      continue;
-    }
-    const std::size_t equals = word.find('=');
-    const std::string name = word.substr(2, equals == std::string::npos ? equals : equals - 2);
-    const bool isFlag = contains(flags, name);
-    if (word[1] != '-' || !(isFlag || contains(known, name)))
-    {
-      std::vector<std::string> names = known;
-      names.insert(names.end(), flags.begin(), flags.end());
-      refuseOption(word, name, names);
-    }
-    if (isFlag && equals != std::string::npos)
-    {
-      throw UsageError("--" + name + " takes no value");
-    }
-    if (isFlag)
-    {
-      values_.emplace(name, "");
-      continue;
-    }
-    if (equals == std::string::npos && i + 1 >= argc)
-    {
-      throw UsageError(word + " needs a value");
-    }
-    const std::string value = equals == std::string::npos ? argv[++i] : word.substr(equals + 1);
-    if (!values_.emplace(name, value).second)
-    {
-      throw UsageError("--" + name + " is given twice");
-    }
+    option->group(group);
+    names.push_back(name);
   }
-}
 
-std::optional<std::string> CommandLine::text(const std::string& name) const
-{
-  const auto found = values_.find(name);
-  return found == values_.end() ? std::nullopt : std::optional<std::string>(found->second);
-}
-
-std::optional<double> CommandLine::number(const std::string& name, double least, double most) const
-{
-  const std::optional<std::string> value = this->text(name);
-  return value ? std::optional<double>(parse(name, *value, least, most)) : std::nullopt;
-}
-
-std::optional<long long> CommandLine::count(
-  const std::string& name, long long least, long long most) const
-{
-  const std::optional<std::string> value = this->text(name);
-  return value ? std::optional<long long>(parse(name, *value, least, most)) : std::nullopt;
-}
-
-int methodOf(const CommandLine& line)
-{
-  constexpr std::array<const char*, 4> kNames{ "scale-aware", "mixed-integer", "quadcover",
-    "seamless" };
-  const std::string name = line.text("method").value_or(kNames[0]);
-  const auto* const found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end())
+  /// An option with one value, given once at most.
+  void addValue(const std::string& name, const std::string& unit,
+    std::function<void(const std::string&)> use, const std::string& help)
   {
-    throw UsageError(
-      "--method needs scale-aware, mixed-integer, quadcover or seamless, not '" + name + "'");
+    CLI::Option* option = app.add_option(
+      "--" + name,
+      [name, use](const CLI::results_t& values)
+      {
+        if (values.size() > 1)
+        {
+          throw UsageError("--" + name + " is given twice");
+        }
+        use(values.front());
+        return true;
+      },
+      wrapText(help, kHelpWidth - kTextColumn, 0));
+    option->type_name(unit)->type_size(1)->expected(1)->multi_option_policy(
+      CLI::MultiOptionPolicy::TakeAll);
+    describe(option, name);
   }
-  return static_cast<int>(found - kNames.begin());
+};
+
+CommandOptions::CommandOptions(const std::string& introduction, const std::string& closing)
+  : parser_(std::make_unique<Parser>())
+{
+  CLI::App& app = parser_->app;
+  app.description(introduction);
+  app.footer(closing);
+  app.formatter(std::make_shared<HelpText>());
+  app.get_formatter()->column_width(kTextColumn);
+  app.allow_extras(); // so that the message is ours
+  app.set_help_flag();
+  app.add_option("files", parser_->files);
 }
 
-int integersOf(const CommandLine& line)
+CommandOptions::~CommandOptions() = default;
+
+void CommandOptions::beginGroup(const std::string& text)
 {
-  const std::string name = line.text("integers").value_or("keep-sizes");
-  if (name != "keep-sizes" && name != "coarsest")
+  parser_->group = text;
+}
+
+void CommandOptions::addNumber(const std::string& name, const std::string& unit, Range<double> range,
+  std::function<void(double)> set, const std::string& help)
+{
+  parser_->addValue(
+    name, unit, [=](const std::string& word) { set(parseNumber(name, word, range)); }, help);
+}
+
+void CommandOptions::addCount(const std::string& name, const std::string& unit,
+  Range<long long> range, std::function<void(long long)> set, const std::string& help)
+{
+  parser_->addValue(
+    name, unit, [=](const std::string& word) { set(parseNumber(name, word, range)); }, help);
+}
+
+void CommandOptions::addChoice(const std::string& name, const std::string& unit,
+  const std::vector<std::string>& words, std::function<void(int)> set, const std::string& help)
+{
+  const auto choose = [=](const std::string& word)
   {
-    throw UsageError("--integers needs keep-sizes or coarsest, not '" + name + "'");
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found == words.end())
+    {
+      throw UsageError("--" + name + " needs " + listed(words) + ", not '" + word + "'");
+    }
+    set(static_cast<int>(found - words.begin()));
+  };
+  parser_->addValue(name, unit, choose, help);
+}
+
+void CommandOptions::addText(const std::string& name, const std::string& unit,
+  std::function<void(const std::string&)> set, const std::string& help)
+{
+  parser_->addValue(name, unit, std::move(set), help);
+}
+
+void CommandOptions::addFlag(
+  const std::string& name, std::function<void()> set, const std::string& help)
+{
+  CLI::Option* option = parser_->app.add_flag_callback("--" + name, std::move(set), help);
+  parser_->describe(option->disable_flag_override(), name);
+}
+
+bool CommandOptions::parse(int argc, char* argv[])
+{
+  CLI::App& app = parser_->app;
+  app.set_help_flag("--help,-h", "this text")->group(parser_->group);
+  parser_->names.push_back("help");
+  try
+  {
+    app.parse(argc, argv);
   }
-  return name == "coarsest" ? 1 : 0;
+  catch (const CLI::CallForHelp&)
+  {
+    return false;
+  }
+  catch (const CLI::ArgumentMismatch& error)
+  {
+    const std::string text = error.what(); // "--name: what is wrong", or "--name was given ..."
+    const bool flag = text.find("flag override") != std::string::npos;
+    throw UsageError(text.substr(0, text.find_first_of(": ")) + (flag ? " takes no value" : " needs a value"));
+  }
+  catch (const CLI::ParseError& error)
+  {
+    throw UsageError(error.what());
+  }
+  const std::vector<std::string> unknown = app.remaining();
+  if (!unknown.empty())
+  {
+    refuseOption(unknown.front(), parser_->names);
+  }
+  return true;
+}
+
+const std::vector<std::string>& CommandOptions::files() const
+{
+  return parser_->files;
+}
+
+bool CommandOptions::given(const std::string& name) const
+{
+  return parser_->app.count("--" + name) > 0;
+}
+
+std::string CommandOptions::help() const
+{
+  return parser_->app.help();
+}
+
+long long countOf(const std::string& option, const std::string& word, Range<long long> range)
+{
+  return parseNumber(option, word, range);
+}
+
+void addMethod(CommandOptions& options, std::function<void(int)> set, const std::string& help)
+{
+  options.addChoice(
+    "method", "NAME", { "scale-aware", "mixed-integer", "quadcover", "seamless" }, std::move(set), help);
 }
 
 } // namespace quadrille

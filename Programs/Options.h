@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Command lines of the programs.
+/// Command lines of the programs, by CLI11: each option is declared once, with its text in the help, what it may be and
+/// who gets it.
 #pragma once
 
 #include <functional>
-#include <map>
-#include <optional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,42 +13,63 @@
 namespace quadrille
 {
 
-/// A command line that cannot be understood; the message says which argument.
+/// A command line that cannot be understood; the message says which argument, and what it may be.
 class UsageError : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// Words without a leading "--" are positional, "--name value" and "--name=value" are options, "--name" alone is a flag.
-class CommandLine
+/// What a number may be.
+template <class Number>
+struct Range
 {
-public:
-  /// Throws UsageError for an option that is neither in `known` nor in `flags` (and names the nearest one that is), lacks its value, has one
-  /// though it is a flag, or is given twice.
-  CommandLine(int argc, char* argv[], const std::vector<std::string>& known,
-    const std::vector<std::string>& flags = {});
-
-  const std::vector<std::string>& positional() const { return positional_; }
-  bool help() const { return help_; }
-  bool flag(const std::string& name) const { return values_.count(name) > 0; }
-  std::optional<std::string> text(const std::string& name) const;
-  /// Throw UsageError unless the value is a number in [least, most].
-  std::optional<double> number(const std::string& name, double least, double most) const;
-  std::optional<long long> count(const std::string& name, long long least, long long most) const;
-
-private:
-  std::vector<std::string> positional_;
-  std::map<std::string, std::string> values_;
-  bool help_ = false;
+  Number least;
+  Number most;
 };
 
-/// The option --method: a number of vtkQuadRemesh::Methods, which are those of MapMethod; 0 when it is not given. Throws
-/// UsageError for a name that is none.
-int methodOf(const CommandLine& line);
+/// Words without a leading "--" are files, "--name value" and "--name=value" are options, "--name" alone is a flag.
+class CommandOptions
+{
+public:
+  /// The help is the introduction, the options in their order, and the closing words.
+  CommandOptions(const std::string& introduction, const std::string& closing);
+  ~CommandOptions();
+  CommandOptions(const CommandOptions&) = delete;
+  CommandOptions& operator=(const CommandOptions&) = delete;
 
-/// The option --integers: a number of vtkQuadRemesh::IntegersTypes; 0 when it is not given. Throws UsageError for a name that
-/// is none.
-int integersOf(const CommandLine& line);
+  /// Options from here on stand under this text in the help.
+  void beginGroup(const std::string& text);
+
+  /// What is given to the setters has been checked; they are called while parse() runs.
+  void addNumber(const std::string& name, const std::string& unit, Range<double> range,
+    std::function<void(double)> set, const std::string& help);
+  void addCount(const std::string& name, const std::string& unit, Range<long long> range,
+    std::function<void(long long)> set, const std::string& help);
+  /// One of some words; the setter gets its place among them.
+  void addChoice(const std::string& name, const std::string& unit,
+    const std::vector<std::string>& words, std::function<void(int)> set, const std::string& help);
+  void addText(const std::string& name, const std::string& unit,
+    std::function<void(const std::string&)> set, const std::string& help);
+  void addFlag(const std::string& name, std::function<void()> set, const std::string& help);
+
+  /// False where help was asked for. Throws UsageError for an option that is none (and names the nearest one that is),
+  /// lacks its value, has one though it is a flag, is given twice, or is not what it may be.
+  bool parse(int argc, char* argv[]);
+
+  const std::vector<std::string>& files() const;
+  bool given(const std::string& name) const;
+  std::string help() const;
+
+private:
+  struct Parser;
+  std::unique_ptr<Parser> parser_;
+};
+
+/// The number in a word; throws UsageError that names the option where it is none, or out of range.
+long long countOf(const std::string& option, const std::string& word, Range<long long> range);
+
+/// Adds the option --method; the setter gets a number of vtkQuadRemesh::Methods, which are those of MapMethod.
+void addMethod(CommandOptions& options, std::function<void(int)> set, const std::string& help);
 
 } // namespace quadrille

@@ -31,7 +31,7 @@ namespace
 
 using namespace quadrille;
 
-constexpr const char* kHelp =
+constexpr const char* kIntroduction =
   R"(usage: quadrille-bench MESH... [--quads N | --edge-length S] [--threads N] [--repeat N]
        quadrille-bench MESH... --compare replay [--quads N] [--threads N]
        quadrille-bench MESH... --compare field [--quads N] [--threads N]
@@ -44,14 +44,9 @@ Remeshes each mesh and writes to standard output, as CSV, the columns
 with the stages
   read, repair, order, connectivity, refine, phase1, phase2, field, seamless, quantize, embed,
   replay, certify, extract, total, cancel, attempts
-where refine splits the surface's long edges, certify checks the map on the surface and cancel is the longest time in which the run could not have been stopped. Stages that were repeated count with
-all their runs: elements_in and elements_out of attempts tell how often phase 1 ran and how many maps
-were carried to the surface.
-
-  --quads N          target number of quads (default 5000)
-  --edge-length S    target edge length in units of the input
-  --threads N        threads to compute with; 0 means all (default 0)
-  --repeat N         runs of each mesh (default 1)
+where refine splits the surface's long edges, certify checks the map on the surface and cancel is the longest time in
+which the run could not have been stopped. Stages that were repeated count with all their runs: elements_in and
+elements_out of attempts tell how often phase 1 ran and how many maps were carried to the surface.
 
 With --compare replay writes, instead, what the replay of the coarse map did to the triangles of each mesh:
   mesh,quads,faces,coarse_not_positive,inverted_stars,moved_to_kernel,without_kernel,replay_not_positive,
@@ -65,38 +60,38 @@ With --compare field computes the cross field of each mesh on all of its refined
 with the irregular vertices of both fields, the second over the first, and whether quads came of it. At most 500,000
 refined faces.
 
-With --compare orders runs phase 1 only, in each of its orders (sweeps, heap, stochastic), and writes
+)";
+
+constexpr const char* kOrders =
+  R"(With --compare orders runs phase 1 only, in each of its orders (sweeps, heap, stochastic), and writes
   mesh,repeat,order,threads,seconds,faces,vertices,intermediate_vertices,short_percent,edge_5,edge_50,edge_95,
   deviation,quality
 where short_percent of the edges are shorter than half the target edge length, 5, 50 and 95 percent of them are shorter
 than edge_* in target edge lengths, deviation is the standard deviation of the lengths over their mean, and quality the
 mean quality of the triangles (1: all equilateral).
+)";
 
-  --candidates N     vertices of a draw of the stochastic order (default 8)
-  --exact-below N    number of vertices below which the heap takes over there (default 1000000)
-
-With --compare coarse makes the coarse level of each mesh, then its field and map on one thread, and writes
+constexpr const char* kCoarse =
+  R"(With --compare coarse makes the coarse level of each mesh, then its field and map on one thread, and writes
   mesh,quads,vertices,faces,edit,start,clock,ok,field,seamless,quantize,embed,total,seamless_steps,embed_steps,
   faces_reused,seamless_reused,integers_reused,embedded_reused
-with medians in seconds of the clock on the wall and of the processor, Newton steps, and what was taken over from the map before.
-Edits: none; direction, a stroke over some faces turned by 20 degrees; valence, one vertex that is to have five edges; level, the
-vertices of the intermediate level round it kept. Those are made cold and starting warm from the map before the edit. A
-level whose first map fails has ok 0 and no edits.
-
-  --coarse-vertices N  budget of the coarse level (default 1000)
-
-  --method NAME        how the map is made, as the command has it (also without --compare; default scale-aware). Of
-                       those that round, seamless is cut, Poisson equation and relations, quantize the rounding
-
-With --compare extraction remeshes each mesh, extracts the quads of the map on its surface, and of the map made 2 and 5 times as large, with
-one thread and with --threads, by the fast path where the map has no folds and by the one for folds, without smoothing, and writes
-  mesh,asked,faces,scale,path,threads,clock,quads,ok,same,seconds
-with medians of the clock on the wall and of the processor. same: 1 when points and quads are those of the first row of the scale.
-
-  --subdivide N        cut each triangle of the mapped surface into four, N times (0 to 3, default 0)
-
-exit code: 0 when every run gave quads, else the worst code of the command quadrille
+with medians in seconds of the clock on the wall and of the processor, Newton steps, and what was taken over from the
+map before. Edits: none; direction, a stroke over some faces turned by 20 degrees; valence, one vertex that is to have
+five edges; level, the vertices of the intermediate level round it kept. Those are made cold and starting warm from the
+map before the edit. A level whose first map fails has ok 0 and no edits.
 )";
+
+constexpr const char* kExtraction =
+  R"(With --compare extraction remeshes each mesh, extracts the quads of the map on its surface, and of the map made 2 and 5
+times as large, with one thread and with --threads, by the fast path where the map has no folds and by the one for folds,
+without smoothing, and writes
+  mesh,asked,faces,scale,path,threads,clock,quads,ok,same,seconds
+with medians of the clock on the wall and of the processor. same: 1 when points and quads are those of the first row of
+the scale.
+)";
+
+constexpr const char* kClosing =
+  "exit code: 0 when every run gave quads, else the worst code of the command quadrille";
 
 constexpr std::array<const char*, 17> kStages = { "read", "repair", "order", "connectivity",
   "refine", "phase1", "phase2", "field", "seamless", "quantize", "embed", "replay", "certify",
@@ -120,62 +115,75 @@ struct Request
   RandomDraws draws;
 };
 
-void parseComparison(const CommandLine& line, Request& request)
+const std::vector<std::string> kComparisons = { "orders", "replay", "field", "coarse", "extraction" };
+
+void addOptions(CommandOptions& options, Request& request)
 {
-  const auto compared = line.text("compare");
-  const auto candidates = line.count("candidates", 1, 1000000);
-  const auto exactBelow = line.count("exact-below", 0, 4000000000);
-  request.compared = compared.value_or("");
-  const auto coarseVertices = line.count("coarse-vertices", 4, 1000000000);
-  if (compared && *compared != "orders" && *compared != "replay" && *compared != "coarse" &&
-    *compared != "field" && *compared != "extraction")
-  {
-    throw UsageError(
-      "--compare takes orders, replay, field, coarse or extraction, not '" + *compared + "'");
-  }
-  if (request.compared != "coarse" && coarseVertices)
-  {
-    throw UsageError("--coarse-vertices is for --compare coarse");
-  }
-  request.coarseVertices = static_cast<Index>(coarseVertices.value_or(request.coarseVertices));
-  if (request.compared != "orders" && (candidates || exactBelow))
-  {
-    throw UsageError("--candidates and --exact-below are for --compare orders");
-  }
-  const auto subdivide = line.count("subdivide", 0, 3);
-  if (request.compared != "extraction" && subdivide)
-  {
-    throw UsageError("--subdivide is for --compare extraction");
-  }
-  request.subdivide = static_cast<int>(subdivide.value_or(0));
-  if (compared && request.edgeLength > 0)
-  {
-    throw UsageError("--compare takes --quads, not --edge-length");
-  }
-  request.draws.candidates = static_cast<int>(candidates.value_or(request.draws.candidates));
-  request.draws.exactBelow = static_cast<Index>(exactBelow.value_or(request.draws.exactBelow));
+  options.beginGroup("options:");
+  options.addCount("quads", "N", { 1, 1000000000 }, [&request](long long quads) { request.quads = quads; },
+    "target number of quads (default 5000)");
+  options.addNumber("edge-length", "S", { 1e-300, 1e300 }, [&request](double length) { request.edgeLength = length; },
+    "target edge length in units of the input");
+  options.addCount("threads", "N", { 0, 4096 },
+    [&request](long long threads) { request.threads = static_cast<int>(threads); },
+    "threads to compute with; 0 means all (default 0)");
+  options.addCount("repeat", "N", { 1, 1000000 }, [&request](long long repeat) { request.repeat = repeat; },
+    "runs of each mesh (default 1)");
+  addMethod(options, [&request](int method) { request.method = method; },
+    "how the map is made, as the command has it (default scale-aware). Of those that round, seamless is cut, Poisson "
+    "equation and relations, quantize the rounding");
+  options.addChoice("compare", "NAME", kComparisons,
+    [&request](int place) { request.compared = kComparisons[static_cast<std::size_t>(place)]; },
+    "orders, replay, field, coarse or extraction: compares instead, as told here");
 }
 
-Request parse(const CommandLine& line)
+/// Those that only one comparison has.
+void addComparisons(CommandOptions& options, Request& request)
 {
-  Request request;
-  if (line.positional().empty())
+  options.beginGroup(kOrders);
+  options.addCount("candidates", "N", { 1, 1000000 },
+    [&request](long long count) { request.draws.candidates = static_cast<int>(count); },
+    "vertices of a draw of the stochastic order (default 8)");
+  options.addCount("exact-below", "N", { 0, 4000000000 },
+    [&request](long long count) { request.draws.exactBelow = static_cast<Index>(count); },
+    "number of vertices below which the heap takes over there (default 1000000)");
+  options.beginGroup(kCoarse);
+  options.addCount("coarse-vertices", "N", { 4, 1000000000 },
+    [&request](long long count) { request.coarseVertices = static_cast<Index>(count); },
+    "budget of the coarse level (default 1000)");
+  options.beginGroup(kExtraction);
+  options.addCount("subdivide", "N", { 0, 3 },
+    [&request](long long times) { request.subdivide = static_cast<int>(times); },
+    "cut each triangle of the mapped surface into four, N times (default 0)");
+}
+
+/// What no option can check for itself.
+void checkTogether(const CommandOptions& options, const Request& request)
+{
+  if (options.files().empty())
   {
     throw UsageError("no mesh is given; --help tells more");
   }
-  const auto quads = line.count("quads", 1, 1000000000);
-  const auto length = line.number("edge-length", 1e-300, 1e300);
-  if (quads && length)
+  if (options.given("quads") && options.given("edge-length"))
   {
     throw UsageError("only one of --quads and --edge-length can be given");
   }
-  request.quads = quads.value_or(request.quads);
-  request.edgeLength = length.value_or(0);
-  request.threads = static_cast<int>(line.count("threads", 0, 4096).value_or(0));
-  request.repeat = line.count("repeat", 1, 1000000).value_or(1);
-  request.method = methodOf(line);
-  parseComparison(line, request);
-  return request;
+  if (request.compared != "coarse" && options.given("coarse-vertices"))
+  {
+    throw UsageError("--coarse-vertices is for --compare coarse");
+  }
+  if (request.compared != "orders" && (options.given("candidates") || options.given("exact-below")))
+  {
+    throw UsageError("--candidates and --exact-below are for --compare orders");
+  }
+  if (request.compared != "extraction" && options.given("subdivide"))
+  {
+    throw UsageError("--subdivide is for --compare extraction");
+  }
+  if (!request.compared.empty() && options.given("edge-length"))
+  {
+    throw UsageError("--compare takes --quads, not --edge-length");
+  }
 }
 
 std::vector<StageRow> collect(const std::vector<StageRow>& stages)
@@ -327,44 +335,52 @@ int runInChild(const std::string& mesh, long long repeat, const Request& request
   return WEXITSTATUS(status);
 }
 
+int compareAll(const std::vector<std::string>& meshes, const Request& request)
+{
+  request.compared == "replay"         ? printReplayHeader()
+    : request.compared == "field"      ? printFieldCountsHeader()
+    : request.compared == "coarse"     ? printCoarseHeader()
+    : request.compared == "extraction" ? printExtractionHeader()
+                                       : printOrdersHeader();
+  int worst = 0;
+  for (const std::string& mesh : meshes)
+  {
+    worst = std::max(worst, compare(mesh, request));
+  }
+  return worst;
+}
+
+int runAll(const std::vector<std::string>& meshes, const Request& request)
+{
+  std::printf("mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb\n");
+  int worst = 0;
+  for (const std::string& mesh : meshes)
+  {
+    for (long long repeat = 0; repeat < request.repeat; ++repeat)
+    {
+      worst = std::max(worst, runInChild(mesh, repeat, request));
+    }
+  }
+  return worst;
+}
+
 } // namespace
 
 int main(int argc, char* argv[])
 {
   try
   {
-    const CommandLine line(argc, argv,
-      { "quads", "edge-length", "threads", "repeat", "compare", "candidates", "exact-below",
-        "coarse-vertices", "method", "subdivide" });
-    if (line.help())
+    Request request;
+    CommandOptions options(kIntroduction, kClosing);
+    addOptions(options, request);
+    addComparisons(options, request);
+    if (!options.parse(argc, argv))
     {
-      std::fputs(kHelp, stdout);
+      std::fputs(options.help().c_str(), stdout);
       return 0;
     }
-    const Request request = parse(line);
-    int worst = 0;
-    if (!request.compared.empty())
-    {
-      request.compared == "replay"         ? printReplayHeader()
-        : request.compared == "field"      ? printFieldCountsHeader()
-        : request.compared == "coarse"     ? printCoarseHeader()
-        : request.compared == "extraction" ? printExtractionHeader()
-                                           : printOrdersHeader();
-      for (const std::string& mesh : line.positional())
-      {
-        worst = std::max(worst, compare(mesh, request));
-      }
-      return worst;
-    }
-    std::printf("mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb\n");
-    for (const std::string& mesh : line.positional())
-    {
-      for (long long repeat = 0; repeat < request.repeat; ++repeat)
-      {
-        worst = std::max(worst, runInChild(mesh, repeat, request));
-      }
-    }
-    return worst;
+    checkTogether(options, request);
+    return request.compared.empty() ? runAll(options.files(), request) : compareAll(options.files(), request);
   }
   catch (const std::exception& error)
   {

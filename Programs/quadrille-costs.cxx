@@ -20,7 +20,7 @@ namespace
 
 using namespace quadrille;
 
-constexpr const char* kHelp =
+constexpr const char* kIntroduction =
   R"(usage: quadrille-costs MESH... [options]
 
 Computes the cross field of each mesh without decimation and on coarse levels made with every cost, and writes to
@@ -33,13 +33,9 @@ the reference, in quarter turns times target edge lengths; percent: relative to 
 intermediate level, with an empty and with a full cache of costs, and how much of a second run the cache knows when
 every 50th intermediate vertex has to be kept.
 
-  --quads N               target number of quads (default 5000)
-  --coarse-vertices N     budget of the coarse level (default 1000)
-  --reference-faces N     meshes with more triangles have the field of the intermediate level as reference
-                          (default 400000)
-
-exit code: 0, or 2 when a mesh cannot be used
 )";
+
+constexpr const char* kClosing = "exit code: 0, or 2 when a mesh cannot be used";
 
 constexpr int kBadInput = 2;
 constexpr std::size_t kKeepEvery = 50;
@@ -156,31 +152,41 @@ void compare(const std::string& path, const Request& request)
   }
 }
 
+void addOptions(CommandOptions& options, Request& request)
+{
+  options.beginGroup("options:");
+  options.addCount("quads", "N", { 1, 1000000000 },
+    [&request](long long quads) { request.quads = static_cast<double>(quads); },
+    "target number of quads (default 5000)");
+  options.addCount("coarse-vertices", "N", { 4, 1000000000 },
+    [&request](long long count) { request.coarseVertices = static_cast<Index>(count); },
+    "budget of the coarse level (default 1000)");
+  options.addCount("reference-faces", "N", { 0, 1000000000 },
+    [&request](long long count) { request.referenceFaces = static_cast<std::size_t>(count); },
+    "meshes with more triangles have the field of the intermediate level as reference (default 400000)");
+}
+
 } // namespace
 
 int main(int argc, char* argv[])
 {
   try
   {
-    const CommandLine line(argc, argv, { "quads", "coarse-vertices", "reference-faces" });
-    if (line.help())
+    Request request;
+    CommandOptions options(kIntroduction, kClosing);
+    addOptions(options, request);
+    if (!options.parse(argc, argv))
     {
-      std::fputs(kHelp, stdout);
+      std::fputs(options.help().c_str(), stdout);
       return 0;
     }
-    if (line.positional().empty())
+    if (options.files().empty())
     {
       throw UsageError("no mesh is given; --help tells more");
     }
-    Request request;
-    request.quads = static_cast<double>(line.count("quads", 1, 1000000000).value_or(5000));
-    request.coarseVertices =
-      static_cast<Index>(line.count("coarse-vertices", 4, 1000000000).value_or(1000));
-    request.referenceFaces =
-      static_cast<std::size_t>(line.count("reference-faces", 0, 1000000000).value_or(400000));
     std::printf("mesh,field,triangles,valences,distance,percent,seconds_cold,seconds_warm,"
                 "hit_percent\n");
-    for (const std::string& mesh : line.positional())
+    for (const std::string& mesh : options.files())
     {
       compare(mesh, request);
     }

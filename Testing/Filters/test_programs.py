@@ -325,6 +325,34 @@ class ExitCodes(Case):
         self.assertIn("did you mean --edge-length?", self.run_quadrille(source, out, "--edgelength", 5, expect=2).stderr)
         self.assertIn("--help", self.run_quadrille(source, out, "--bananas", 5, expect=2).stderr)
         self.assertIn("takes no value", self.run_quadrille(source, out, "--quiet=1", expect=2).stderr)
+        self.assertIn("unknown option -quads;", self.run_quadrille(source, out, "-quads", 5, expect=2).stderr)
+
+    def test_wrong_values_name_the_option_and_what_it_may_be(self):
+        source, out = self.write_off(), self.folder / "q.obj"
+        for words, told in ((("--quads",), "--quads needs a value"), (("--quads", "many"), "--quads needs a number from 1 to"),
+                            (("--edge-length", "-1"), "not '-1'"), (("--quads=5", "--quads=6"), "--quads is given twice"),
+                            (("--quads", "5", "--edge-length", "1"), "only one of --quads"),
+                            (("--method", "best"), "--method needs scale-aware, mixed-integer, quadcover or seamless"),
+                            (("--integers", "all"), "--integers needs keep-sizes or coarsest, not 'all'"),
+                            (("--coarse-vertices", "some"), "--coarse-vertices needs a number from 4 to"),
+                            (("--map", "map.obj"), "a map needs the extension vtp"), (("third.obj",), "an input and an output file")):
+            with self.subTest(words):
+                self.assertIn(told, self.run_quadrille(source, out, *words, expect=2).stderr)
+                self.assertFalse(out.exists())
+
+    def test_the_help_has_every_option_once(self):
+        for program in (ARGS.quadrille, ARGS.bench, ARGS.costs):
+            text = subprocess.run([program, "--help"], capture_output=True, text=True, timeout=60).stdout
+            options = [line.split()[0] for line in text.splitlines() if line.startswith("  --")]
+            self.assertEqual(len(options), len(set(options)))
+            self.assertIn("--quads", options)
+            self.assertLessEqual(max(map(len, text.splitlines())), 120)
+            for option in options:
+                if option in ("--help", "--help,-h", "--quiet"):
+                    continue
+                # Each is known: what is wrong is its value.
+                result = subprocess.run([program, "in.off", "out.obj", option], capture_output=True, text=True, timeout=60)
+                self.assertEqual((result.returncode, f"{option} needs a value" in result.stderr), (2, True), result.stderr)
 
     def test_bad_arguments(self):
         source = self.write_off()
@@ -439,6 +467,12 @@ class Report(Case):
         self.assertEqual(sizes[500], 500)
         self.assertTrue(500 < sizes["auto"] < 4000)
         self.run_quadrille(pathlib.Path(ARGS.data) / "beast.ply", self.folder / "no.vtp", "--coarse-vertices", "some", expect=2)
+
+    def test_a_name_that_is_no_utf_8(self):
+        source = self.write_off().rename(self.folder / os.fsdecode(b"caf\xe9.off"))
+        report = self.folder / "r.json"
+        self.run_quadrille(source, self.folder / "q.obj", "--quads", 300, "--report", report)
+        self.assertIn("caf\ufffd.off", json.loads(report.read_text(encoding="utf-8"))["input"])
 
 
     def test_handles_are_closed_on_request(self):

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Report.h"
+
+#include "Evaluation/QuadQuality.h"
+
+#include <nlohmann/json.hpp>
+
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+namespace quadrille
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+/// Counts that VTK holds as real numbers are written without a decimal point; what is no number is null.
+Json number(double value)
+{
+  constexpr double kExact = 9007199254740992; // 2^53
+  return value == std::floor(value) && std::abs(value) < kExact ? Json(static_cast<long long>(value)) : Json(value);
+}
+
+/// Members from a field array of names and one of values beside it.
+Json pairs(vtkPolyData* data, const char* namesName, const char* valuesName)
+{
+  auto* names = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(namesName));
+  vtkDataArray* values = data->GetFieldData()->GetArray(valuesName);
+  Json json = Json::object();
+  for (vtkIdType i = 0; names && values && i < names->GetNumberOfValues(); ++i)
+  {
+    json[names->GetValue(i)] = number(values->GetTuple1(i));
+  }
+  return json;
+}
+
+QuadQuality measureQuads(vtkPolyData* data)
+{
+  std::vector<Vector3> points(static_cast<std::size_t>(data->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    data->GetPoint(static_cast<vtkIdType>(i), points[i].data());
+  }
+  std::vector<std::array<Index, 4>> quads;
+  auto cells = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    cells->GetCurrentCell(count, ids);
+    quads.push_back({ static_cast<Index>(ids[0]), static_cast<Index>(ids[1]),
+      static_cast<Index>(ids[2]), static_cast<Index>(ids[3]) });
+  }
+  return evaluateQuads(points, quads);
+}
+
+Json qualityOf(vtkPolyData* quads)
+{
+  const QuadQuality quality = measureQuads(quads);
+  Json valences = Json::object();
+  for (const auto& [valence, count] : quality.interiorValences)
+  {
+    valences[std::to_string(valence)] = count;
+  }
+  return {
+    { "manifold", quality.manifold },
+    { "closed", quality.closed },
+    { "components", quality.components },
+    { "boundary_loops", quality.boundaryLoops },
+    { "euler_characteristic", quality.eulerCharacteristic },
+    { "mean_scaled_jacobian", number(quality.scaledJacobian.mean) },
+    { "minimum_scaled_jacobian", number(quality.scaledJacobian.minimum) },
+    { "quads_not_positive", quality.nonPositiveJacobians },
+    { "mean_edge_length", number(quality.edgeLength.mean) },
+    { "edge_length_deviation", number(quality.edgeLength.deviation) },
+    { "irregular_vertices", quality.irregularVertices },
+    { "interior_valences", valences },
+  };
+}
+
+Json linesOf(const std::string& text)
+{
+  Json lines = Json::array();
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+  {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+Json stagesOf(RemeshRun& run, double readSeconds)
+{
+  const long long cells = vtkPolyData::SafeDownCast(run.filter()->GetInput())->GetNumberOfCells();
+  std::vector<StageRow> rows = run.stages();
+  rows.insert(rows.begin(), { "read", readSeconds, cells, cells });
+  Json stages = Json::array();
+  for (const StageRow& row : rows)
+  {
+    stages.push_back({ { "stage", row.stage },
+      { "seconds", number(row.seconds) },
+      { "elements_in", row.elementsIn },
+      { "elements_out", row.elementsOut } });
+  }
+  return stages;
+}
+
+void addSuccess(Json& json, vtkPolyData* quads)
+{
+  const auto field = [quads](const char* name) { return number(fieldNumber(quads, name)); };
+  json["estimated_seconds"] = field("EstimatedSeconds");
+  json["estimated_megabytes"] = field("EstimatedMegabytes");
+  json["target_edge_length"] = field("TargetEdgeLength");
+  json["quads_asked"] = field("TargetQuads");
+  json["quads_actual"] = quads->GetNumberOfPolys();
+  json["repair"] = pairs(quads, "RepairNames", "RepairCounts");
+  json["extraction"] = pairs(quads, "ExtractionNames", "ExtractionCounts");
+  json["sizes"] = { { "surface_faces", field("SurfaceFaces") },
+    { "coarse_vertices", field("CoarseVertices") },
+    { "quad_points", quads->GetNumberOfPoints() } };
+  json["certificate"] = { { "valid", fieldNumber(quads, "CertificateValid") != 0 } };
+  json["certificate"].update(pairs(quads, "CertificateNames", "CertificateValues"));
+  if (quads->GetFieldData()->GetArray("AnisotropyLimit"))
+  {
+    json["anisotropy_limit"] = field("AnisotropyLimit");
+    json["share_beyond_anisotropy_limit"] = field("BeyondAnisotropyLimit");
+  }
+  if (quads->GetFieldData()->GetArray("DistortionBefore"))
+  {
+    json["distortion_before"] = pairs(quads, "DistortionNames", "DistortionBefore");
+    json["distortion_after"] = pairs(quads, "DistortionNames", "DistortionAfter");
+    json["optimization_steps"] = field("OptimizationSteps");
+  }
+  json["quality"] = qualityOf(quads);
+}
+
+Json beginReport(const RunFiles& files, ExitCode code, const std::string& error)
+{
+  return { { "input", files.input }, { "output", files.output }, { "exit_code", static_cast<int>(code) },
+    { "error", error } };
+}
+
+/// Names of files need not be UTF-8: what is not is replaced, as JSON knows nothing else.
+std::string textOf(const Json& json)
+{
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace
+
+double fieldNumber(vtkPolyData* data, const char* name)
+{
+  vtkDataArray* array = data->GetFieldData()->GetArray(name);
+  return array && array->GetNumberOfTuples() > 0 ? array->GetTuple1(0) : 0;
+}
+
+std::string makeReport(const RunFiles& files, RemeshRun& run, ExitCode code, const RunTimes& times)
+{
+  vtkQuadRemesh* filter = run.filter();
+  vtkPolyData* input = vtkPolyData::SafeDownCast(filter->GetInput());
+  Json json = beginReport(files, code, code == kValidQuads ? "" : run.error());
+  json["input_points"] = input->GetNumberOfPoints();
+  json["input_cells"] = input->GetNumberOfCells();
+  json["seconds_total"] = number(times.total);
+  json["handles"] = filter->GetHandles();
+  json["unresolved_handles"] = filter->GetUnresolvedHandles();
+  json["shortest_loop_over_edge_length"] = number(filter->GetShortestLoopOverEdgeLength());
+  json["shortest_boundary_over_edge_length"] = number(filter->GetShortestBoundaryOverEdgeLength());
+  if (code == kValidQuads)
+  {
+    addSuccess(json, filter->GetOutput());
+  }
+  json["stages"] = stagesOf(run, times.read);
+  json["stage_times"] = linesOf(filter->GetStageTimesText());
+  json["certificate_text"] = filter->GetCertificateText();
+  json["notices"] = linesOf(filter->GetNoticesText());
+  return textOf(json);
+}
+
+std::string makeFailureReport(const RunFiles& files, ExitCode code, const std::string& error)
+{
+  return textOf(beginReport(files, code, error));
+}
+
+} // namespace quadrille
