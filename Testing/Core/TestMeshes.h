@@ -3,6 +3,7 @@
 /// Small meshes that all tests of Core share. All of them pass validate(); closed ones point outwards.
 #pragma once
 
+#include "Base/Angles.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
 
@@ -20,7 +21,7 @@
 namespace quadrille::test
 {
 
-constexpr double kPi = 3.14159265358979323846;
+using quadrille::kPi;
 
 using Triangle = std::array<Index, 3>;
 
