@@ -84,34 +84,42 @@ std::size_t editDistance(const std::string& a, const std::string& b)
 class HelpText : public CLI::Formatter
 {
 public:
-  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override
+  /// CLI11's names of groups have no line breaks: they are places in these texts.
+  explicit HelpText(const std::vector<std::string>& groups) : groups_(groups) {}
+
+  std::string make_help(const CLI::App* app, std::string, CLI::AppFormatMode mode) const override
   {
     return app->get_description() + make_groups(app, mode) + "\n" + app->get_footer();
   }
   std::string make_group(
     std::string group, bool positional, std::vector<const CLI::Option*> options) const override
   {
-    std::string text = group + "\n";
+    std::string text = groups_.at(std::stoul(group)) + "\n";
     for (const CLI::Option* option : options)
     {
       text += make_option(option, positional);
     }
     return text;
   }
+
+private:
+  const std::vector<std::string>& groups_;
 };
 
 } // namespace
 
 struct CommandOptions::Parser
 {
+  std::vector<std::string> groups;
   CLI::App app;
-  std::string group;
   std::vector<std::string> files;
   std::vector<std::string> names;
 
+  std::string groupName() const { return std::to_string(groups.size() - 1); }
+
   void describe(CLI::Option* option, const std::string& name)
   {
-    option->group(group);
+    option->group(groupName());
     names.push_back(name);
   }
 
@@ -143,7 +151,7 @@ CommandOptions::CommandOptions(const std::string& introduction, const std::strin
   CLI::App& app = parser_->app;
   app.description(introduction);
   app.footer(closing);
-  app.formatter(std::make_shared<HelpText>());
+  app.formatter(std::make_shared<HelpText>(parser_->groups));
   app.get_formatter()->column_width(kTextColumn);
   app.allow_extras(); // so that the message is ours
   app.set_help_flag();
@@ -154,7 +162,7 @@ CommandOptions::~CommandOptions() = default;
 
 void CommandOptions::beginGroup(const std::string& text)
 {
-  parser_->group = text;
+  parser_->groups.push_back(text);
 }
 
 void CommandOptions::addNumber(const std::string& name, const std::string& unit, Range<double> range,
@@ -202,7 +210,7 @@ void CommandOptions::addFlag(
 bool CommandOptions::parse(int argc, char* argv[])
 {
   CLI::App& app = parser_->app;
-  app.set_help_flag("--help,-h", "this text")->group(parser_->group);
+  app.set_help_flag("--help,-h", "this text")->group(parser_->groupName());
   parser_->names.push_back("help");
   try
   {

@@ -38,7 +38,7 @@ public:
   CommandOptions(const CommandOptions&) = delete;
   CommandOptions& operator=(const CommandOptions&) = delete;
 
-  /// Options from here on stand under this text in the help.
+  /// Options from here on stand under this text in the help. To be called before the first one is added.
   void beginGroup(const std::string& text);
 
   /// What is given to the setters has been checked; they are called while parse() runs.

@@ -164,8 +164,8 @@ void addFinish(CommandOptions& options, vtkQuadRemesh* filter)
     [filter](int level) { filter->SetFinalQuality(level); },
     "coarse, intermediate or input: where the map is solved at last, with the same quads; the finer, the less distorted, "
     "and the longer it takes (default coarse)");
-  options.addChoice("distortion-metric", "WORD", { "off", "on" },
-    [filter](int on) { filter->SetDistortionMetric(on); },
+  options.addChoice("distortion-metric", "WORD", { "on", "off" },
+    [filter](int off) { filter->SetDistortionMetric(off == 0); },
     "on: coarse triangles count with the shape of the surface that they stand for, so that sizes come out more even "
     "(default off)");
   options.addCount("smoothing-steps", "N", { 0, 1000 },
@@ -431,15 +431,11 @@ ExitCode runCommand(int argc, char* argv[])
   addShape(options, run.filter());
   addFinish(options, run.filter());
   addRun(options, run.filter(), request);
-  if (argc == 1)
+  const bool understood = options.parse(argc, argv);
+  if (argc == 1 || !understood)
   {
-    std::fputs(options.help().c_str(), stderr);
-    return kBadInput;
-  }
-  if (!options.parse(argc, argv))
-  {
-    std::fputs(options.help().c_str(), stdout);
-    return kValidQuads;
+    std::fputs(options.help().c_str(), understood ? stderr : stdout);
+    return understood ? kBadInput : kValidQuads;
   }
   checkTogether(options, run.filter(), request.files);
   run.filter()->SetComputeMappedSurface(options.given("map"));

@@ -19,7 +19,7 @@ constexpr double kAngles = 40 * 3e-10;
 /// Defects are kept in single precision, and are at most 2 pi.
 constexpr double kSingle = 1e-6;
 
-RemovalGuards looseGuards()
+RemovalGuards costGuards()
 {
   RemovalGuards guards;
   guards.minimumQuality = 1e-3;
@@ -88,7 +88,7 @@ double removeAndMeasure(DecimationMesh& work, Index v)
 {
   VertexRemoval removal(work);
   VertexRemoval::Change change;
-  EXPECT_TRUE(removal.gather(v) && removal.plan(looseGuards()));
+  EXPECT_TRUE(removal.gather(v) && removal.plan(costGuards()));
   removal.measureChange(change);
   RecordWriter records;
   removal.apply(records);
