@@ -15,7 +15,6 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -111,7 +110,8 @@ bool parseWords(const Words& words, std::size_t first, Number (&numbers)[Count])
   return true;
 }
 
-/// Colours of vertices or of faces, with as many parts as the first of them has.
+/// Colours of vertices or of faces, with as many parts as the first of them has. Their parts go from 0 to 1 where one of
+/// them has a decimal point, else from 0 to 255.
 class Colors
 {
 public:
@@ -123,42 +123,42 @@ public:
     {
       return false;
     }
-    const auto isFraction = [](std::string_view word) { return word.find('.') != std::string_view::npos; };
-    const double whole = std::any_of(words.begin() + static_cast<std::ptrdiff_t>(first),
-                           words.begin() + static_cast<std::ptrdiff_t>(last), isFraction)
-      ? 1
-      : 255;
-    std::array<unsigned char, 4> color{};
-    for (std::size_t k = 0; k < parts; ++k)
+    parts_ = parts;
+    for (std::size_t k = first; k < last; ++k)
     {
       double value = 0;
-      if (!parseWord(words[first + k], value) || !(value >= 0 && value <= whole))
+      if (!parseWord(words[k], value) || !(value >= 0))
       {
         return false;
       }
-      color[k] = static_cast<unsigned char>(std::lround(255 / whole * value));
+      most_ = std::max(most_, value);
+      areFractions_ = areFractions_ || words[k].find('.') != std::string_view::npos;
+      values_.push_back(value);
     }
-    parts_ = parts;
-    values_.insert(values_.end(), color.begin(), color.begin() + static_cast<std::ptrdiff_t>(parts));
-    return true;
+    return most_ <= whole();
   }
 
   /// Adds the array where there is a colour for each of so many elements.
   void addTo(vtkDataSetAttributes* attributes, long long count) const
   {
-    if (values_.empty() || values_.size() != parts_ * static_cast<std::size_t>(count))
+    if (values_.empty() || values_.size() != parts_ * static_cast<std::size_t>(count) || most_ > whole())
     {
       return;
     }
     auto array = newArray<vtkUnsignedCharArray>(
       parts_ == 4 ? "RGBA" : "RGB", static_cast<int>(parts_), static_cast<std::size_t>(count));
-    std::copy(values_.begin(), values_.end(), array->GetPointer(0));
+    std::transform(values_.begin(), values_.end(), array->GetPointer(0),
+      [this](double value) { return static_cast<unsigned char>(std::lround(255 / whole() * value)); });
     attributes->SetScalars(array);
   }
 
 private:
+  double whole() const { return areFractions_ ? 1 : 255; }
+
   std::size_t parts_ = 0;
-  std::vector<unsigned char> values_;
+  bool areFractions_ = false;
+  double most_ = 0;
+  std::vector<double> values_;
 };
 
 class OffReader

@@ -23,7 +23,8 @@ constexpr std::size_t kHelpWidth = 116;
 constexpr std::size_t kTextColumn = 28;
 
 template <class Number>
-Number parseNumber(const std::string& name, const std::string& text, Range<Number> range)
+Number parseNumber(
+  const std::string& name, const std::string& text, Range<Number> range, const std::string& before = "")
 {
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -31,7 +32,7 @@ Number parseNumber(const std::string& name, const std::string& text, Range<Numbe
     !(value >= range.least && value <= range.most))
   {
     std::ostringstream message;
-    message << "--" << name << " needs a number from " << range.least << " to " << range.most << ", not '"
+    message << "--" << name << " needs " << before << "a number from " << range.least << " to " << range.most << ", not '"
             << text << "'";
     throw UsageError(message.str());
   }
@@ -89,7 +90,7 @@ public:
 
   std::string make_help(const CLI::App* app, std::string, CLI::AppFormatMode mode) const override
   {
-    return app->get_description() + make_groups(app, mode) + "\n" + app->get_footer();
+    return app->get_description() + make_groups(app, mode) + "\n" + app->get_footer() + "\n";
   }
   std::string make_group(
     std::string group, bool positional, std::vector<const CLI::Option*> options) const override
@@ -114,6 +115,8 @@ struct CommandOptions::Parser
   CLI::App app;
   std::vector<std::string> files;
   std::vector<std::string> names;
+  std::vector<std::string> flags; ///< those of the names that take no value
+  bool askedForVersion = false;
 
   std::string groupName() const { return std::to_string(groups.size() - 1); }
 
@@ -142,6 +145,49 @@ struct CommandOptions::Parser
     option->type_name(unit)->type_size(1)->expected(1)->multi_option_policy(
       CLI::MultiOptionPolicy::TakeAll);
     describe(option, name);
+  }
+
+  /// CLI11 takes "--quiet=" and "--help=no" for answers.
+  void refuseValuesOfFlags(int argc, char* argv[]) const
+  {
+    for (int i = 1; i < argc; ++i)
+    {
+      const std::string word = argv[i];
+      const std::string begin = word.substr(0, word.find('='));
+      const auto isBegin = [&begin](const std::string& name) { return begin == "--" + name; };
+      if (begin != word && std::any_of(flags.begin(), flags.end(), isBegin))
+      {
+        throw UsageError(begin + " takes no value");
+      }
+    }
+  }
+
+  /// Throws UsageError in our words for what CLI11 cannot parse.
+  void parse(int argc, char* argv[])
+  {
+    refuseValuesOfFlags(argc, argv);
+    try
+    {
+      app.parse(argc, argv);
+    }
+    catch (const CLI::CallForHelp&)
+    {
+      return;
+    }
+    catch (const CLI::ArgumentMismatch& error)
+    {
+      const std::string text = error.what(); // "--name: what is wrong"
+      throw UsageError(text.substr(0, text.find(':')) + " needs a value");
+    }
+    catch (const CLI::ParseError& error)
+    {
+      throw UsageError(error.what());
+    }
+    const std::vector<std::string> unknown = app.remaining();
+    if (!unknown.empty())
+    {
+      refuseOption(unknown.front(), names);
+    }
   }
 };
 
@@ -179,6 +225,14 @@ void CommandOptions::addCount(const std::string& name, const std::string& unit,
     name, unit, [=](const std::string& word) { set(parseNumber(name, word, range)); }, help);
 }
 
+void CommandOptions::addCountOrWord(const std::string& name, const std::string& unit, Range<long long> range,
+  const std::string& word, std::function<void(std::optional<long long>)> set, const std::string& help)
+{
+  const auto choose = [=](const std::string& given)
+  { set(given == word ? std::nullopt : std::optional(parseNumber(name, given, range, word + " or "))); };
+  parser_->addValue(name, unit, choose, help);
+}
+
 void CommandOptions::addChoice(const std::string& name, const std::string& unit,
   const std::vector<std::string>& words, std::function<void(int)> set, const std::string& help)
 {
@@ -204,38 +258,34 @@ void CommandOptions::addFlag(
   const std::string& name, std::function<void()> set, const std::string& help)
 {
   CLI::Option* option = parser_->app.add_flag_callback("--" + name, std::move(set), help);
-  parser_->describe(option->disable_flag_override(), name);
+  parser_->describe(option, name);
+  parser_->flags.push_back(name);
 }
 
-bool CommandOptions::parse(int argc, char* argv[])
+std::optional<std::string> CommandOptions::parse(int argc, char* argv[])
 {
   CLI::App& app = parser_->app;
-  app.set_help_flag("--help,-h", "this text")->group(parser_->groupName());
+  const CLI::Option* askedForHelp = app.set_help_flag("--help,-h", "this text")->group(parser_->groupName());
+  addFlag("version", [this] { parser_->askedForVersion = true; }, "the version of this program");
   parser_->names.push_back("help");
+  parser_->flags.push_back("help");
   try
   {
-    app.parse(argc, argv);
+    parser_->parse(argc, argv);
   }
-  catch (const CLI::CallForHelp&)
+  catch (const UsageError&)
   {
-    return false;
+    // Who asks for help may not know yet what is wrong.
+    if (askedForHelp->count() == 0)
+    {
+      throw;
+    }
   }
-  catch (const CLI::ArgumentMismatch& error)
+  if (askedForHelp->count() > 0)
   {
-    const std::string text = error.what(); // "--name: what is wrong", or "--name was given ..."
-    const bool flag = text.find("flag override") != std::string::npos;
-    throw UsageError(text.substr(0, text.find_first_of(": ")) + (flag ? " takes no value" : " needs a value"));
+    return help();
   }
-  catch (const CLI::ParseError& error)
-  {
-    throw UsageError(error.what());
-  }
-  const std::vector<std::string> unknown = app.remaining();
-  if (!unknown.empty())
-  {
-    refuseOption(unknown.front(), parser_->names);
-  }
-  return true;
+  return parser_->askedForVersion ? std::optional<std::string>("Quadrille " QUADRILLE_VERSION "\n") : std::nullopt;
 }
 
 const std::vector<std::string>& CommandOptions::files() const
@@ -251,11 +301,6 @@ bool CommandOptions::given(const std::string& name) const
 std::string CommandOptions::help() const
 {
   return parser_->app.help();
-}
-
-long long countOf(const std::string& option, const std::string& word, Range<long long> range)
-{
-  return parseNumber(option, word, range);
 }
 
 void addMethod(CommandOptions& options, std::function<void(int)> set, const std::string& help)

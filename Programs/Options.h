@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -46,6 +47,9 @@ public:
     std::function<void(double)> set, const std::string& help);
   void addCount(const std::string& name, const std::string& unit, Range<long long> range,
     std::function<void(long long)> set, const std::string& help);
+  /// A count, or this word, for which the setter gets nothing.
+  void addCountOrWord(const std::string& name, const std::string& unit, Range<long long> range,
+    const std::string& word, std::function<void(std::optional<long long>)> set, const std::string& help);
   /// One of some words; the setter gets its place among them.
   void addChoice(const std::string& name, const std::string& unit,
     const std::vector<std::string>& words, std::function<void(int)> set, const std::string& help);
@@ -53,9 +57,9 @@ public:
     std::function<void(const std::string&)> set, const std::string& help);
   void addFlag(const std::string& name, std::function<void()> set, const std::string& help);
 
-  /// False where help was asked for. Throws UsageError for an option that is none (and names the nearest one that is),
+  /// What to print in place of a run, where --help or --version is given. Throws UsageError for an option that is none (and names the nearest one that is),
   /// lacks its value, has one though it is a flag, is given twice, or is not what it may be.
-  bool parse(int argc, char* argv[]);
+  std::optional<std::string> parse(int argc, char* argv[]);
 
   const std::vector<std::string>& files() const;
   bool given(const std::string& name) const;
@@ -65,9 +69,6 @@ private:
   struct Parser;
   std::unique_ptr<Parser> parser_;
 };
-
-/// The number in a word; throws UsageError that names the option where it is none, or out of range.
-long long countOf(const std::string& option, const std::string& word, Range<long long> range);
 
 /// Adds the option --method; the setter gets a number of vtkQuadRemesh::Methods, which are those of MapMethod.
 void addMethod(CommandOptions& options, std::function<void(int)> set, const std::string& help);

@@ -375,9 +375,9 @@ int main(int argc, char* argv[])
     CommandOptions options(kIntroduction, kClosing);
     addOptions(options, request);
     addComparisons(options, request);
-    if (!options.parse(argc, argv))
+    if (const std::optional<std::string> text = options.parse(argc, argv))
     {
-      std::fputs(options.help().c_str(), stdout);
+      std::fputs(text->c_str(), stdout);
       return 0;
     }
     checkTogether(options, request);

@@ -175,9 +175,9 @@ int main(int argc, char* argv[])
     Request request;
     CommandOptions options(kIntroduction, kClosing);
     addOptions(options, request);
-    if (!options.parse(argc, argv))
+    if (const std::optional<std::string> text = options.parse(argc, argv))
     {
-      std::fputs(options.help().c_str(), stdout);
+      std::fputs(text->c_str(), stdout);
       return 0;
     }
     if (options.files().empty())

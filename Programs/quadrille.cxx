@@ -20,6 +20,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -122,15 +123,17 @@ void addShape(CommandOptions& options, vtkQuadRemesh* filter)
       filter->SetFeatureAngle(angle);
     },
     "edges sharper than this become edges of the quads; 0 turns the detection off (default 40)");
-  options.addText("coarse-vertices", "N",
-    [filter](const std::string& word)
+  options.addCountOrWord("coarse-vertices", "N", { 4, 100000000 }, "auto",
+    [filter](std::optional<long long> vertices)
     {
-      if (word == "auto")
+      if (vertices)
+      {
+        filter->SetCoarseVertices(static_cast<int>(*vertices));
+      }
+      else
       {
         filter->SetCoarseVerticesToAutomatic();
-        return;
       }
-      filter->SetCoarseVertices(static_cast<int>(countOf("coarse-vertices", word, { 4, 100000000 })));
     },
     "vertices of the level where the layout is computed (default 1000); auto: as many as the curvature of the surface "
     "needs, from 300 to 4000");
@@ -431,11 +434,15 @@ ExitCode runCommand(int argc, char* argv[])
   addShape(options, run.filter());
   addFinish(options, run.filter());
   addRun(options, run.filter(), request);
-  const bool understood = options.parse(argc, argv);
-  if (argc == 1 || !understood)
+  if (const std::optional<std::string> text = options.parse(argc, argv))
   {
-    std::fputs(options.help().c_str(), understood ? stderr : stdout);
-    return understood ? kBadInput : kValidQuads;
+    std::fputs(text->c_str(), stdout);
+    return kValidQuads;
+  }
+  if (argc == 1)
+  {
+    std::fputs(options.help().c_str(), stderr);
+    return kBadInput;
   }
   checkTogether(options, run.filter(), request.files);
   run.filter()->SetComputeMappedSurface(options.given("map"));

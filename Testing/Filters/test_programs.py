@@ -324,7 +324,8 @@ class ExitCodes(Case):
         self.assertIn("did you mean --quads?", self.run_quadrille(source, out, "--quad", 5, expect=2).stderr)
         self.assertIn("did you mean --edge-length?", self.run_quadrille(source, out, "--edgelength", 5, expect=2).stderr)
         self.assertIn("--help", self.run_quadrille(source, out, "--bananas", 5, expect=2).stderr)
-        self.assertIn("takes no value", self.run_quadrille(source, out, "--quiet=1", expect=2).stderr)
+        for word in ("--quiet=1", "--quiet=", "--help=1"):
+            self.assertIn(word.split("=")[0] + " takes no value", self.run_quadrille(source, out, word, expect=2).stderr)
         self.assertIn("unknown option -quads;", self.run_quadrille(source, out, "-quads", 5, expect=2).stderr)
 
     def test_wrong_values_name_the_option_and_what_it_may_be(self):
@@ -334,11 +335,22 @@ class ExitCodes(Case):
                             (("--quads", "5", "--edge-length", "1"), "only one of --quads"),
                             (("--method", "best"), "--method needs scale-aware, mixed-integer, quadcover or seamless"),
                             (("--integers", "all"), "--integers needs keep-sizes or coarsest, not 'all'"),
-                            (("--coarse-vertices", "some"), "--coarse-vertices needs a number from 4 to"),
+                            (("--coarse-vertices", "some"), "--coarse-vertices needs auto or a number from 4 to"),
                             (("--map", "map.obj"), "a map needs the extension vtp"), (("third.obj",), "an input and an output file")):
             with self.subTest(words):
                 self.assertIn(told, self.run_quadrille(source, out, *words, expect=2).stderr)
                 self.assertFalse(out.exists())
+
+    def test_help_and_version(self):
+        usage = self.run_quadrille("--help").stdout
+        self.assertTrue(usage.startswith("usage: quadrille") and usage.endswith("3 no valid result\n"))
+        # Who asks for help may not know yet what is wrong.
+        for words in (("-h",), ("a.off", "--help"), ("--quads", "many", "--help"), ("--help", "--bananas"), ("--help", "--quads")):
+            self.assertEqual(self.run_quadrille(*words).stdout, usage)
+        for program in (ARGS.quadrille, ARGS.bench, ARGS.costs):
+            result = subprocess.run([program, "--version"], capture_output=True, text=True, timeout=60)
+            self.assertEqual(result.returncode, 0)
+            self.assertRegex(result.stdout, r"^Quadrille \d+\.\d+\.\d+\n$")
 
     def test_the_help_has_every_option_once(self):
         for program in (ARGS.quadrille, ARGS.bench, ARGS.costs):
@@ -348,7 +360,7 @@ class ExitCodes(Case):
             self.assertIn("--quads", options)
             self.assertLessEqual(max(map(len, text.splitlines())), 120)
             for option in options:
-                if option in ("--help", "--help,-h", "--quiet"):
+                if option in ("--quiet", "--version"):
                     continue
                 # Each is known: what is wrong is its value.
                 result = subprocess.run([program, "in.off", "out.obj", option], capture_output=True, text=True, timeout=60)

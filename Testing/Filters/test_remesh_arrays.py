@@ -194,10 +194,11 @@ class Files(unittest.TestCase):
     def test_off(self):
         texts = {
             "plain": ("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n", {}, {}),
-            "colours": ("COFF # of whole numbers and of fractions\n4 2 0\n0 0 0 255 0 0 7\n1 0 0 1.0 0 0 0.5\n1 1 0 0 0 0 0\n"
-                        "0 1 0 0 0 0 0\n3 0 1 2 1 2 3\n3 0 2 3 0. 1 0.2\n",
-                        {"RGBA": [(255, 0, 0, 7), (255, 0, 0, 128), (0, 0, 0, 0), (0, 0, 0, 0)]},
-                        {"RGB": [(1, 2, 3), (0, 255, 51)]}),
+            "colours": ("COFF # vertices have whole numbers, faces have fractions\n4 2 0\n0 0 0 255 0 0 7\n1 0 0 1 0 0 128\n"
+                        "1 1 0 0 0 0 0\n0 1 0 0 0 0 0\n3 0 1 2 1 0 0\n3 0 2 3 0. 1 0.2\n",
+                        {"RGBA": [(255, 0, 0, 7), (1, 0, 0, 128), (0, 0, 0, 0), (0, 0, 0, 0)]},
+                        {"RGB": [(255, 0, 0), (0, 255, 51)]}),
+            "both kinds": ("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 1 2 3\n3 0 2 3 0. 1 0.2\n", {}, {}),
             "normals": ("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 2\n1 1 0 0 0 3\n3 0 1 2 5\n",
                         {"Normals": [(0, 0, 1), (0, 0, 2), (0, 0, 3)]}, {"ColorIndex": [(5,)]}),
             "texture": ("STOFF 3 1 0\n0 0 0 0.5 1\n1 0 0 0 0.25\n1 1 0 0 0\n3 0 1 2\n",
@@ -215,6 +216,10 @@ class Files(unittest.TestCase):
                     found = {array.GetName(): [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
                              for array in map(attributes.GetArray, range(attributes.GetNumberOfArrays()))}
                     self.assertEqual(found, wanted, name)
+            with open(path, "w") as file:
+                file.write("COFF\n3 1 0\n0 0 0 1 2 3\n1 0 0 0.5 0 0\n1 1 0 0 0 0\n3 0 1 2\n")
+            with self.assertRaisesRegex(quadrille.InvalidInput, "vertex 1 has no colour .* like the others"):
+                quadrille.read(path)
         self.assertFalse(quadrille.vtkQuadrilleOFFReader.CanReadFile(__file__))
 
 
