@@ -6,6 +6,9 @@
 #include "Extraction/Extraction.h"
 #include "Extraction/SurfaceWalk.h"
 
+#include <algorithm>
+#include <array>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -88,6 +91,29 @@ public:
         }
       }
     }
+  }
+
+  struct EdgeLengths
+  {
+    double shortest = std::numeric_limits<double>::infinity();
+    double mean = 0;
+  };
+
+  /// Of the edges at p, if it were at `position`.
+  EdgeLengths edgeLengths(Index p, const Vector3& position) const
+  {
+    EdgeLengths lengths;
+    int count = 0;
+    forEachNeighbour(p,
+      [&](const Vector3& x)
+      {
+        const double length = (x - position).norm();
+        lengths.shortest = std::min(lengths.shortest, length);
+        lengths.mean += length;
+        ++count;
+      });
+    lengths.mean /= std::max(count, 1);
+    return lengths;
   }
 
 private:

@@ -141,7 +141,7 @@ private:
       return false;
     }
     const bool bad = before.worst < kBadShape;
-    const EdgeLengths lengths = edgeLengths(p, quads_.points[p]);
+    const QuadMoves::EdgeLengths lengths = moves_.edgeLengths(p, quads_.points[p]);
     const double reach = 0.5 * (bad ? lengths.mean : lengths.shortest);
     Move best{ moves_.place(p), quads_.points[p], before };
     tryWantedPlaces(p, reach, best);
@@ -249,33 +249,11 @@ private:
     return sum / incident_.size(p);
   }
 
-  struct EdgeLengths
-  {
-    double shortest = std::numeric_limits<double>::infinity();
-    double mean = 0;
-  };
-
-  EdgeLengths edgeLengths(Index p, const Vector3& position) const
-  {
-    EdgeLengths lengths;
-    int count = 0;
-    moves_.forEachNeighbour(p,
-      [&](const Vector3& x)
-      {
-        const double length = (x - position).norm();
-        lengths.shortest = std::min(lengths.shortest, length);
-        lengths.mean += length;
-        ++count;
-      });
-    lengths.mean /= std::max(count, 1);
-    return lengths;
-  }
-
   bool shrinksShortEdge(Index p, const Vector3& position) const
   {
-    const EdgeLengths after = edgeLengths(p, position);
+    const QuadMoves::EdgeLengths after = moves_.edgeLengths(p, position);
     return after.shortest < kShortEdge * after.mean &&
-      after.shortest < edgeLengths(p, quads_.points[p]).shortest;
+      after.shortest < moves_.edgeLengths(p, quads_.points[p]).shortest;
   }
 
   QuadMesh& quads_;

@@ -308,7 +308,7 @@ private:
   Move bestMove(Index p, double before) const
   {
     Move best{ moves_.place(p), moves_.position(p), before };
-    const EdgeLengths lengths = edgeLengths(p, moves_.position(p));
+    const QuadMoves::EdgeLengths lengths = moves_.edgeLengths(p, moves_.position(p));
     const std::vector<Vector3> ways = waysFrom(p);
     for (const double step : kSteps)
     {
@@ -347,30 +347,9 @@ private:
     return ways;
   }
 
-  struct EdgeLengths
-  {
-    double shortest = std::numeric_limits<double>::infinity();
-    double mean = 0;
-  };
-
-  EdgeLengths edgeLengths(Index p, const Vector3& position) const
-  {
-    EdgeLengths lengths;
-    int count = 0;
-    moves_.forEachNeighbour(p,
-      [&](const Vector3& x)
-      {
-        const double length = (x - position).norm();
-        lengths.shortest = std::min(lengths.shortest, length);
-        lengths.mean += length;
-        ++count;
-      });
-    lengths.mean /= std::max(count, 1);
-    return lengths;
-  }
-
   /// Keeps the move in `best` when it is better than what is there.
-  void tryMove(Index p, const Vector3& displacement, const EdgeLengths& before, Move& best) const
+  void tryMove(Index p, const Vector3& displacement, const QuadMoves::EdgeLengths& before,
+    Move& best) const
   {
     const std::optional<SurfacePoint> place = moves_.target(p, displacement);
     if (!place)
@@ -378,7 +357,7 @@ private:
       return;
     }
     const Vector3 position = positionOf(moves_.mesh(), *place);
-    const EdgeLengths after = edgeLengths(p, position);
+    const QuadMoves::EdgeLengths after = moves_.edgeLengths(p, position);
     if (after.shortest < kShortUntangledEdge * after.mean && after.shortest < before.shortest)
     {
       return;
