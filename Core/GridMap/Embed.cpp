@@ -128,7 +128,8 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
   const auto snap = [&](const Eigen::VectorXd& y) { return locked.snap(y); };
   FieldUntangling untangled =
     untangleAlongField(mesh, field, problem, starts, kEmbedRounds, snap, options.progress);
-  if (!untangled.defects.none() && options.seamlessUv != nullptr)
+  if (!untangled.defects.none() && options.seamlessUv != nullptr &&
+    verticesOf(mesh, untangled.defects) != options.failedBefore)
   {
     embedFromSeamless(mesh, field, locked, problem, options, untangled);
   }

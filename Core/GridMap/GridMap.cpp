@@ -443,7 +443,7 @@ private:
   }
 
   /// Where embedding fails, other integers leave room round the places of the failure; integers that were tried before would
-  /// fail again.
+  /// fail again. Where another component has no map, all that counts is where this one would fail, too: one try tells.
   void embedOne(Component& component, const ProgressCallback& progress)
   {
     const MeshPart& part = component.part;
@@ -454,9 +454,10 @@ private:
     {
       EmbedOptions embedOptions;
       embedOptions.edgeLength = options_.edgeLength;
-      embedOptions.seamlessUv = &component.startUv;
+      embedOptions.seamlessUv = failures() == 0 ? &component.startUv : nullptr;
       embedOptions.previous = component.earlier();
       embedOptions.anisotropyLimit = options_.anisotropyLimit;
+      embedOptions.failedBefore = embedded.offenders;
       embedOptions.progress = progress;
       {
         const TimedScope timed(result_.secondsEmbed, result_.processorEmbed);
@@ -471,7 +472,7 @@ private:
         component.uv = std::move(embedded.uv);
         return;
       }
-      if (tried.size() >= kMaximumEmbeddings)
+      if (failures() > 0 || tried.size() >= kMaximumEmbeddings)
       {
         break;
       }

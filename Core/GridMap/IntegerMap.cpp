@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace quadrille
 {
@@ -87,6 +88,69 @@ IntegerMap::IntegerMap(
     }
   }
   turns_ = windings([&](Index h) { return wanted_[h]; });
+  findLoops();
+}
+
+void IntegerMap::findLoops()
+{
+  loop_.assign(q_.size(), kInvalidIndex);
+  for (const Index f : faces_)
+  {
+    for (Index first = 3 * f; first < 3 * f + 3; ++first)
+    {
+      if (mesh_.twin[first] != kInvalidIndex || loop_[first] != kInvalidIndex)
+      {
+        continue;
+      }
+      const Index id = static_cast<Index>(loopLength_.size());
+      loopLength_.push_back(0);
+      for (Index h = first; loop_[h] == kInvalidIndex;)
+      {
+        loop_[h] = id;
+        h = Mesh::next(h);
+        while (mesh_.twin[h] != kInvalidIndex)
+        {
+          h = Mesh::next(mesh_.twin[h]);
+        }
+      }
+    }
+  }
+}
+
+void IntegerMap::measureLoops()
+{
+  std::fill(loopLength_.begin(), loopLength_.end(), 0);
+  for (Index h = 0; h < loop_.size(); ++h)
+  {
+    if (loop_[h] != kInvalidIndex)
+    {
+      loopLength_[loop_[h]] += lengthOf(q_[h]);
+    }
+  }
+  shortage_ = 0;
+  for (Index loop = 0; loop < loopLength_.size(); ++loop)
+  {
+    shortage_ += shortageOf(loop);
+  }
+}
+
+std::vector<Index> IntegerMap::shortLoops() const
+{
+  std::vector<Index> halfEdges;
+  for (Index h = 0; h < loop_.size() && shortage_ > 0; ++h)
+  {
+    if (loop_[h] != kInvalidIndex && shortageOf(loop_[h]) > 0)
+    {
+      halfEdges.push_back(h);
+    }
+  }
+  return halfEdges;
+}
+
+FixedVec2 IntegerMap::along(Index h) const
+{
+  return axis_[h] == kOnlyU ? FixedVec2{ wanted_[h].x() > 0 ? kGrain : -kGrain, 0 }
+                            : FixedVec2{ 0, wanted_[h].y() > 0 ? kGrain : -kGrain };
 }
 
 void IntegerMap::measure(Index h)
@@ -220,6 +284,7 @@ void IntegerMap::round(double scale)
       }
     }
   }
+  measureLoops();
 }
 
 bool IntegerMap::takeOver(const std::vector<FixedVec2>& uv)
@@ -252,17 +317,23 @@ bool IntegerMap::takeOver(const std::vector<FixedVec2>& uv)
       }
     }
   }
+  measureLoops();
   return true;
 }
 
 void IntegerMap::shift(Index h, FixedVec2 e)
 {
+  const std::int64_t before = lengthOf(q_[h]);
   q_[h] = q_[h] + e;
   const Index g = mesh_.twin[h];
   if (g != kInvalidIndex)
   {
     q_[g] = q_[g] - rotate(e, mesh_.rotation[h]);
+    return;
   }
+  shortage_ -= shortageOf(loop_[h]);
+  loopLength_[loop_[h]] += lengthOf(q_[h]) - before;
+  shortage_ += shortageOf(loop_[h]);
 }
 
 bool IntegerMap::mayShift(Index h, FixedVec2 e) const
@@ -368,6 +439,8 @@ void IntegerMap::flip(Index h)
   const FixedVec2 toD = rotate(q_[gn], mesh_.rotation[g]);
   const FixedVec2 toC = rotate(q_[hn], mesh_.rotation[h]);
   editor_.flip(h);
+  loop_[h] = std::exchange(loop_[gn], kInvalidIndex);
+  loop_[g] = std::exchange(loop_[hn], kInvalidIndex);
   q_[h] = toD;
   q_[g] = toC;
   q_[hn] = -(toD + q_[hp]);

@@ -15,8 +15,10 @@
 #include "Base/FixedPoint.h"
 #include "GridMap/UvMesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 namespace quadrille
@@ -78,6 +80,14 @@ public:
   }
   bool isSound(Index f) const { return determinant(f) >= kLeastDeterminant; }
 
+  /// Steps that boundary loops lack to have three quads each: the two quads at a loop of two edges, or the two sides of one at a loop of
+  /// one edge, would be joined along it, and the hole be lost.
+  std::int64_t shortageOfLoops() const { return shortage_; }
+  /// The half-edges of loops that lack some, ascending.
+  std::vector<Index> shortLoops() const;
+  /// Along the curve that h lies on, the way that lengthens it.
+  FixedVec2 along(Index h) const;
+
   /// The change of the energy sum weight |q - pull wanted|^2 by shift(h, e).
   double energyChange(Index h, FixedVec2 e) const;
   double energy() const;
@@ -98,6 +108,15 @@ private:
   /// A triangle of a sixty-fourth of a quad is what re-embedding can still work with.
   static constexpr std::int64_t kLeastDeterminant = 8;
 
+  static constexpr std::int64_t kLeastLoop = 3 * kGrain;
+
+  void findLoops();
+  void measureLoops();
+  static std::int64_t lengthOf(FixedVec2 q) { return std::abs(q.u) + std::abs(q.v); }
+  std::int64_t shortageOf(Index loop) const
+  {
+    return std::max<std::int64_t>(0, kLeastLoop - loopLength_[loop]);
+  }
   void measure(Index h);
   void weigh(Index h);
   double cotangentOpposite(Index h) const;
@@ -122,6 +141,9 @@ private:
   std::vector<Vector2> wanted_; ///< #H, in quads
   std::vector<double> weight_;  ///< #H; the same on both sides
   std::vector<int> turns_;      ///< #V; quarter turns in the seamless map
+  std::vector<Index> loop_;     ///< #H; of boundary half-edges
+  std::vector<std::int64_t> loopLength_;
+  std::int64_t shortage_ = 0; ///< of all loops
 };
 
 /// The vectors of one step, counterclockwise from +u.

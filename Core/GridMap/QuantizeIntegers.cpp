@@ -150,6 +150,40 @@ bool closeTriangles(IntegerMap& map, StripSearch& search)
   return true;
 }
 
+/// Lengthens boundary loops that are too short for quads, by the strip that costs least each time. One where no strip keeps all
+/// triangles sound stays as it is.
+void lengthenLoops(IntegerMap& map, StripSearch& search)
+{
+  const auto accept = [&](const Strip& strip)
+  {
+    const std::int64_t before = map.shortageOfLoops();
+    const CrossedFaces crossed = crossedFaces(map.mesh(), strip);
+    apply(map, strip);
+    if (map.shortageOfLoops() < before && brokenness(map, crossed.faces) == 0 &&
+      (!crossed.repeated || map.isValid()))
+    {
+      return true;
+    }
+    revert(map, strip);
+    return false;
+  };
+  bool changed = true;
+  while (changed && map.shortageOfLoops() > 0)
+  {
+    poll();
+    std::vector<Strip> strips;
+    for (const Index h : map.shortLoops())
+    {
+      strips.push_back(
+        search.through(h, map.along(h), std::numeric_limits<double>::infinity()));
+    }
+    std::stable_sort(strips.begin(), strips.end(),
+      [](const Strip& a, const Strip& b) { return a.cost < b.cost; });
+    changed = std::any_of(strips.begin(), strips.end(),
+      [&](const Strip& strip) { return strip.found() && accept(strip); });
+  }
+}
+
 /// Mends broken triangles by steps that lower the weighted sum of what is broken. A triangle at which nothing helps
 /// gains weight, so that others are broken in its stead and mended where there is more room (the breakout
 /// method of local search); the number of times that this may happen is bounded.
@@ -491,8 +525,13 @@ private:
     if (strip.found())
     {
       const CrossedFaces crossed = crossedFaces(map_.mesh(), strip);
+      const std::int64_t shortage = map_.shortageOfLoops();
       const double change = applyMeasured(map_, strip);
-      if (change < -kLeastGain && brokenness(map_, crossed.faces) == 0)
+      if (map_.shortageOfLoops() > shortage)
+      {
+        localReason = false;
+      }
+      else if (change < -kLeastGain && brokenness(map_, crossed.faces) == 0)
       {
         // A triangle that is crossed once keeps its sign on the way, so the winding cannot change; one that
         // is crossed twice may turn by 180 degrees.
@@ -558,6 +597,12 @@ IntegerStart repairIntegers(IntegerMap& map)
     Repair repair(map);
     start.valid = repair.run() && map.isValid();
     start.work += repair.work();
+  }
+  if (start.valid && map.shortageOfLoops() > 0)
+  {
+    StripSearch lengthening(map, StripCost::KeepSound);
+    lengthenLoops(map, lengthening);
+    start.work += lengthening.work();
   }
   return start;
 }

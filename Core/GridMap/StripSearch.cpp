@@ -160,7 +160,8 @@ void StripSearch::explore(Index h, FixedVec2 e, double bound, End& closed, End& 
       {
         relax(stateOf(next, rotate(carried, mesh_.rotation[out])), total, state);
       }
-      else if (total < border.cost)
+      // Out where it came in, a strip would take back what it is for.
+      else if (total < border.cost && (out != h || carried != e))
       {
         border = { total, state, out, -carried };
       }

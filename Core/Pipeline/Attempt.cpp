@@ -281,10 +281,10 @@ std::size_t MapAttempt::bytes() const
 HierarchyOptions levelOptions(const RunContext& run, const Plan& plan)
 {
   HierarchyOptions options;
-  options.targetEdgeLength = plan.levelLength * run.edgeLength;
-  options.coarseVertices = plan.coarseVertices;
+  options.targetEdgeLength = plan.levels.edgeLength * run.edgeLength;
+  options.coarseVertices = plan.levels.coarseVertices;
   options.guides = surfaceGuides(*run.surface).faces;
-  options.keepVertices = plan.keptVertices;
+  options.keepVertices = plan.levels.keptVertices;
   options.threads = run.options.threads;
   options.progress = subProgress(run.options.progress, 0.15, 0.45, "Decimating: ");
   return options;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/FirstLevels.h"
 
-#include "Pipeline/Recovery.h"
+#include "Pipeline/FirstPlan.h"
 
 namespace quadrille
 {
@@ -19,11 +19,11 @@ struct StoredShortLoops
 void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::string>& reused)
 {
   Plan plan;
-  plan.keptVertices = indexVertices(*run.surface);
-  plan.coarseVertices = run.options.coarseVertices;
+  plan.levels.keptVertices = indexVertices(*run.surface);
+  plan.levels.coarseVertices = run.options.coarseVertices;
   // Phase 1 keeps these vertices, so the loops on its level depend on them.
   const ResultKey key =
-    KeyMaker(run.surface.key()).add(run.edgeLength).add(plan.keptVertices).key();
+    KeyMaker(run.surface.key()).add(run.edgeLength).add(plan.levels.keptVertices).key();
   if (run.store != nullptr)
   {
     if (const auto known = run.store->find<StoredShortLoops>(key))

@@ -10,6 +10,7 @@
 #include "Pipeline/History.h"
 #include "Pipeline/LeaveFrame.h"
 #include "Pipeline/Notices.h"
+#include "Pipeline/FirstPlan.h"
 #include "Pipeline/Recovery.h"
 #include "Pipeline/SizedSurface.h"
 

@@ -23,9 +23,9 @@ ResultKey Plan::surfaceKey() const
 ResultKey Plan::levelsKey() const
 {
   return KeyMaker()
-    .add(keptVertices)
-    .add(std::uint64_t{ coarseVertices })
-    .add(levelLength)
+    .add(levels.keptVertices)
+    .add(std::uint64_t{ levels.coarseVertices })
+    .add(levels.edgeLength)
     .add(quads)
     .key();
 }

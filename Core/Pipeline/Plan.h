@@ -36,14 +36,22 @@ struct FinerGrid
   std::string notice;         ///< of the last change
 };
 
+/// What levels are made for.
+struct LevelPlan
+{
+  std::vector<Index> keptVertices; ///< that no level may lack, ascending; those of index constraints among them
+  Index coarseVertices = 1000;     ///< budget, see HierarchyOptions
+  double edgeLength = 1;           ///< over that of the quads
+};
+
 struct Plan
 {
   const char* step = "first"; ///< what made it of the one before, a name of the table in Recovery.cpp
 
-  // Of the levels.
-  std::vector<Index> keptVertices; ///< that no level may lack, ascending; those of index constraints among them
-  Index coarseVertices = 1000;     ///< budget, see HierarchyOptions
-  double levelLength = 1;          ///< edge length that the levels are made for, over that of the quads
+  LevelPlan levels;
+  /// Of the next round: without what was kept for the sake of the map on the surface, but with all that the coarse map could not do without,
+  /// so that another round need not find that out again.
+  LevelPlan nextLevels;
 
   // Of the surface, see RunSurface.
   std::shared_ptr<const std::vector<float>> sizes; ///< #V; null: those of the surface

@@ -14,10 +14,6 @@
 namespace quadrille
 {
 
-/// The plan that a run begins with: smaller quads round loops that are too short for three, where that does not take too many. Waiting
-/// for the failure that most of them are would cost several maps.
-Plan firstPlan(RunContext& run);
-
 /// Another map in this round, before quads are made; none where the last one is good, or another would not be better.
 std::optional<Plan> nextMapPlan(RunContext& run, const History& history);
 

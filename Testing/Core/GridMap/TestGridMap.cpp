@@ -9,8 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <vector>
 
 using namespace quadrille;
 
@@ -46,7 +49,53 @@ GridMapResult mapOf(const Mesh& mesh, double quads)
   return computeGridMap(mesh, options);
 }
 
+/// Of each boundary loop, in quads.
+std::vector<double> loopLengths(const Mesh& mesh, const std::vector<FixedVec2>& uv)
+{
+  std::vector<double> lengths;
+  std::vector<bool> seen(mesh.halfEdgeCount(), false);
+  for (Index first = 0; first < mesh.halfEdgeCount(); ++first)
+  {
+    if (!mesh.isBoundary(first) || seen[first])
+    {
+      continue;
+    }
+    std::int64_t length = 0;
+    for (Index h = first; !seen[h];)
+    {
+      seen[h] = true;
+      const FixedVec2 along = uv[Mesh::next(h)] - uv[h];
+      length += std::abs(along.u) + std::abs(along.v);
+      h = Mesh::next(h);
+      while (!mesh.isBoundary(h))
+      {
+        h = Mesh::next(mesh.twin[h]);
+      }
+    }
+    lengths.push_back(static_cast<double>(length) / static_cast<double>(kOne));
+  }
+  return lengths;
+}
+
 } // namespace
+
+/// Two quads round a loop would be joined along it, one with itself.
+TEST(GridMap, BoundaryLoopsHaveThreeQuads)
+{
+  for (const double circumference : { 0.2, 1.0, 1.4, 2.2 })
+  {
+    const double radius = circumference / (2 * test::kPi);
+    const Mesh mesh = test::openCylinder(12, 60, radius, 5);
+    GridMapOptions options;
+    options.edgeLength = 1;
+    options.targetQuads = 5 * std::max(1.0, circumference);
+    const GridMapResult result = computeGridMap(mesh, options);
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    const std::vector<double> lengths = loopLengths(mesh, result.uv);
+    ASSERT_EQ(lengths.size(), 2U);
+    EXPECT_GE(*std::min_element(lengths.begin(), lengths.end()), 3) << circumference;
+  }
+}
 
 TEST(GridMap, ManyComponentsCostTheirSum)
 {

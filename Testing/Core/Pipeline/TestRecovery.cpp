@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// What each recovery strategy makes of hand-made attempts, and when it has nothing to offer.
+#include "Pipeline/FirstPlan.h"
 #include "Pipeline/Recovery.h"
 
 #include "HandMadeAttempts.h"
@@ -149,7 +150,7 @@ TEST(Recovery, FirstPlanTakesBudgetAndNumberFromTheOptions)
   run.options.coarseVertices = 123;
   const Plan plan = run.first();
   EXPECT_STREQ(plan.step, "first");
-  EXPECT_EQ(plan.coarseVertices, 123U);
+  EXPECT_EQ(plan.levels.coarseVertices, 123U);
   EXPECT_EQ(plan.quads, double{ kTarget });
   EXPECT_EQ(plan.sizes, nullptr);
   EXPECT_EQ(plan.featuresGivenUp, nullptr);
@@ -222,22 +223,24 @@ TEST(Recovery, MoreFreedomKeepsTheRingsRoundOffendersAndRaisesTheBudget)
   history.addMap(plan, failedMap(offenders));
   std::optional<Plan> next = nextMapPlan(run.context, history);
   expectStep(next, "more freedom");
-  EXPECT_EQ(next->keptVertices, rings);
-  EXPECT_EQ(next->coarseVertices, coarse + rings.size());
-  EXPECT_EQ(next->levelLength, 1);
+  EXPECT_EQ(next->levels.keptVertices, rings);
+  EXPECT_EQ(next->levels.coarseVertices, coarse + rings.size());
+  EXPECT_EQ(next->levels.edgeLength, 1);
+  EXPECT_EQ(next->nextLevels.keptVertices, rings);
+  EXPECT_EQ(next->nextLevels.coarseVertices, next->levels.coarseVertices);
   // What was kept before stays, and counts only once.
   history = {};
-  plan.keptVertices = { rings[0] };
+  plan.levels.keptVertices = { rings[0] };
   history.addMap(plan, failedMap(offenders));
   next = nextMapPlan(run.context, history);
   expectStep(next, "more freedom");
   const std::vector<Index>& onLevel = run.levels.hierarchy().coarse.fineVertex;
   for (const Index v : { rings[0], offenders[0], offenders[1] })
   {
-    EXPECT_TRUE(std::binary_search(next->keptVertices.begin(), next->keptVertices.end(), v));
+    EXPECT_TRUE(std::binary_search(next->levels.keptVertices.begin(), next->levels.keptVertices.end(), v));
   }
-  EXPECT_TRUE(std::is_sorted(next->keptVertices.begin(), next->keptVertices.end()));
-  EXPECT_EQ(next->coarseVertices, onLevel.size() + next->keptVertices.size() - 1);
+  EXPECT_TRUE(std::is_sorted(next->levels.keptVertices.begin(), next->levels.keptVertices.end()));
+  EXPECT_EQ(next->levels.coarseVertices, onLevel.size() + next->levels.keptVertices.size() - 1);
 }
 
 TEST(Recovery, MoreFreedomRaisesTheBudgetByAQuarterAtLeast)
@@ -247,8 +250,8 @@ TEST(Recovery, MoreFreedomRaisesTheBudgetByAQuarterAtLeast)
   history.addMap(run.first(), failedMap());
   const std::optional<Plan> next = nextMapPlan(run.context, history);
   expectStep(next, "more freedom");
-  EXPECT_TRUE(next->keptVertices.empty());
-  EXPECT_EQ(next->coarseVertices, 125U);
+  EXPECT_TRUE(next->levels.keptVertices.empty());
+  EXPECT_EQ(next->levels.coarseVertices, 125U);
 }
 
 TEST(Recovery, MoreFreedomTakesFinerLevelsWhereTheCoarseOneIsTheIntermediateOne)
@@ -262,9 +265,10 @@ TEST(Recovery, MoreFreedomTakesFinerLevelsWhereTheCoarseOneIsTheIntermediateOne)
   expectStep(next, "more freedom");
   const Index coarse = run.levels.hierarchy().coarse.mesh.vertexCount();
   EXPECT_EQ(coarse, run.levels.hierarchy().intermediate.mesh.vertexCount());
-  EXPECT_EQ(next->coarseVertices, 2 * coarse);
-  EXPECT_DOUBLE_EQ(next->levelLength, std::sqrt(0.5));
-  EXPECT_TRUE(next->keptVertices.empty());
+  EXPECT_EQ(next->levels.coarseVertices, 2 * coarse);
+  EXPECT_DOUBLE_EQ(next->levels.edgeLength, std::sqrt(0.5));
+  EXPECT_DOUBLE_EQ(next->nextLevels.edgeLength, std::sqrt(0.5));
+  EXPECT_TRUE(next->levels.keptVertices.empty());
   EXPECT_GT(
     run.levels.make(levelOptions(run.context, *next), nullptr).coarse.mesh.vertexCount(), coarse);
 }
@@ -341,21 +345,22 @@ TEST(Recovery, KeptOffendersAreAddedToThoseKeptAndToTheBudget)
 {
   TestRun run(test::gridPlane(12, 12), 1);
   Plan plan = run.first();
-  plan.keptVertices = { 3, 50 };
-  plan.coarseVertices = 400;
+  plan.levels.keptVertices = { 3, 50 };
+  plan.levels.coarseVertices = 400;
   History history;
   history.addMap(plan, mapWithOffenders({ 3, 7, 60 }));
   std::optional<Plan> next = nextMapPlan(run.context, history);
   expectStep(next, "kept offenders");
-  EXPECT_EQ(next->keptVertices, std::vector<Index>({ 3, 7, 50, 60 }));
-  EXPECT_EQ(next->coarseVertices, 403U);
+  EXPECT_EQ(next->levels.keptVertices, std::vector<Index>({ 3, 7, 50, 60 }));
+  EXPECT_EQ(next->nextLevels.keptVertices, run.first().levels.keptVertices);
+  EXPECT_EQ(next->levels.coarseVertices, 403U);
   // A budget by curvature must not shrink elsewhere because of these.
-  plan.coarseVertices = 0;
+  plan.levels.coarseVertices = 0;
   history = {};
   history.addMap(plan, mapWithOffenders({ 3, 7, 60 }));
   next = nextMapPlan(run.context, history);
   expectStep(next, "kept offenders");
-  EXPECT_EQ(next->coarseVertices, 103U);
+  EXPECT_EQ(next->levels.coarseVertices, 103U);
 }
 
 TEST(Recovery, KeptOffendersEndAfterTwoTimesInARound)
@@ -558,9 +563,9 @@ TEST(Recovery, AnotherRoundBeginsWithTheLevelsOfTheFirst)
 {
   TestRun run(test::gridPlane(40, 40), 1);
   Plan plan = run.first();
-  plan.keptVertices = { 1, 2, 3 };
-  plan.coarseVertices = 5000;
-  plan.levelLength = 0.5;
+  plan.levels.keptVertices = { 1, 2, 3 };
+  plan.levels.coarseVertices = 5000;
+  plan.levels.edgeLength = 0.5;
   const auto failed = failedMap();
   putTube(*failed, { 10, 10, 0 });
   Plan doubled = plan;
@@ -569,10 +574,28 @@ TEST(Recovery, AnotherRoundBeginsWithTheLevelsOfTheFirst)
   {
     const std::optional<Plan> next = run.nextAfter(before, failed);
     ASSERT_TRUE(next);
-    EXPECT_TRUE(next->keptVertices.empty()) << next->step;
-    EXPECT_EQ(next->coarseVertices, run.options.coarseVertices) << next->step;
-    EXPECT_EQ(next->levelLength, 1) << next->step;
+    EXPECT_TRUE(next->levels.keptVertices.empty()) << next->step;
+    EXPECT_EQ(next->levels.coarseVertices, run.options.coarseVertices) << next->step;
+    EXPECT_EQ(next->levels.edgeLength, 1) << next->step;
   }
+}
+
+TEST(Recovery, AnotherRoundKeepsWhatTheCoarseMapNeeded)
+{
+  TestRun run(test::gridPlane(40, 40), 1);
+  Plan plan = run.first();
+  plan.nextLevels.keptVertices = { 4, 7 };
+  plan.nextLevels.coarseVertices = 321;
+  plan.nextLevels.edgeLength = 0.25;
+  plan.levels = plan.nextLevels;
+  plan.levels.keptVertices = { 1, 4, 7 }; // 1 for the sake of the surface
+  const auto failed = failedMap();
+  putTube(*failed, { 10, 10, 0 });
+  const std::optional<Plan> next = run.nextAfter(plan, failed);
+  ASSERT_TRUE(next);
+  EXPECT_EQ(next->levels.keptVertices, std::vector<Index>({ 4, 7 }));
+  EXPECT_EQ(next->levels.coarseVertices, 321U);
+  EXPECT_EQ(next->levels.edgeLength, 0.25);
 }
 
 // More quads everywhere.

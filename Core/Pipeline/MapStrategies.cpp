@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/Strategies.h"
+
+#include "Mesh/Mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+namespace
+{
+
+/// From this number of offenders on, an attempt must have halved that of the one before to deserve another.
+constexpr std::size_t kManyOffenders = 100;
+/// Rings of intermediate vertices that are kept around an offender.
+constexpr int kFreedomRings = 2;
+
+void keepAlso(const std::vector<Index>& vertices, Plan& plan)
+{
+  std::vector<Index>& kept = plan.levels.keptVertices;
+  kept.insert(kept.end(), vertices.begin(), vertices.end());
+  std::sort(kept.begin(), kept.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+}
+
+/// Vertices of the surface that are on the level, within some rings round others.
+std::vector<Index> ringsRound(
+  const Level& level, const std::vector<Index>& vertices, std::size_t vertexCount)
+{
+  std::vector<std::uint8_t> near(vertexCount, 0);
+  for (const Index v : vertices)
+  {
+    near[v] = 1;
+  }
+  for (int ring = 0; ring < kFreedomRings; ++ring)
+  {
+    std::vector<Index> added;
+    for (Index h = 0; h < level.mesh.halfEdgeCount(); ++h)
+    {
+      pollNowAndThen(h);
+      const Index from = level.fineVertex[level.mesh.origin[h]];
+      const Index to = level.fineVertex[level.mesh.target(h)];
+      if (near[from] != near[to])
+      {
+        added.push_back(near[from] ? to : from);
+      }
+    }
+    for (const Index v : added)
+    {
+      near[v] = 1;
+    }
+  }
+  std::vector<Index> found;
+  for (const Index v : level.fineVertex)
+  {
+    if (near[v])
+    {
+      found.push_back(v);
+    }
+  }
+  return found;
+}
+
+} // namespace
+
+std::optional<Plan> moreFreedom(const Trouble& trouble)
+{
+  const History& history = trouble.history;
+  const Attempt& last = history.last();
+  const std::size_t offenders = last.map->coarseOffenders.size();
+  const std::size_t times = history.trailing("more freedom");
+  if (last.map->status.ok() || last.map->hopeless || times == trouble.bound ||
+    (times > 0 && offenders >= kManyOffenders && 2 * offenders > history.offendersBefore()))
+  {
+    return std::nullopt;
+  }
+  RunContext& run = trouble.run;
+  run.surface.apply(last.plan);
+  const Hierarchy& levels = run.levels.make(levelOptions(run, last.plan), &last.map->phase1);
+  const Index coarse = levels.coarse.mesh.vertexCount();
+  Plan plan = last.plan;
+  if (coarse == levels.intermediate.mesh.vertexCount())
+  {
+    plan.levels.edgeLength /= std::sqrt(2.0);
+    plan.levels.coarseVertices = 2 * coarse;
+    plan.nextLevels = plan.levels;
+    return plan;
+  }
+  const std::size_t before = plan.levels.keptVertices.size();
+  keepAlso(ringsRound(levels.intermediate, last.map->coarseOffenders,
+             run.surface->mesh.vertexCount()),
+    plan);
+  const std::size_t added = plan.levels.keptVertices.size() - before;
+  plan.levels.coarseVertices =
+    static_cast<Index>(std::max<std::size_t>(coarse + added, std::size_t{ coarse } * 5 / 4));
+  plan.nextLevels = plan.levels;
+  return plan;
+}
+
+std::optional<Plan> keptOffenders(const Trouble& trouble)
+{
+  const History& history = trouble.history;
+  const RunContext& run = trouble.run;
+  const std::size_t times = history.inRound("kept offenders");
+  if (!history.lastIsBest() || times == trouble.bound)
+  {
+    return std::nullopt;
+  }
+  const MapAttempt& map = *history.last().map;
+  const std::vector<Index>& offenders = map.transfer.offenders;
+  const Index coarse = map.coarse.mesh.vertexCount();
+  // With offenders everywhere it is not a matter of a few places, and the coarse level would grow out of hand.
+  if (hasPromised(map.certificate, run.options.method) || offenders.empty() ||
+    offenders.size() > coarse / 2)
+  {
+    return std::nullopt;
+  }
+  // The last time is left out where features can be given up: what keeping vertices did not mend once is theirs.
+  const bool isLast = times + 1 == trouble.bound;
+  const std::vector<Vector3> places = positionsOf(run.surface->mesh, offenders);
+  if (isLast && !featuresNear(run, history.last().plan, places).empty())
+  {
+    return std::nullopt;
+  }
+  Plan plan = history.last().plan;
+  keepAlso(offenders, plan);
+  if (plan.levels.coarseVertices == 0)
+  {
+    plan.levels.coarseVertices = coarse; // not fewer elsewhere because of these
+  }
+  plan.levels.coarseVertices += static_cast<Index>(offenders.size());
+  return plan;
+}
+
+} // namespace quadrille
