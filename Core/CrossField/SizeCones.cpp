@@ -26,6 +26,8 @@ constexpr double kPull = 1e-6;
 /// Vertices that turns may move between, about; each is a solve.
 constexpr std::size_t kMostPlaces = 500;
 constexpr int kMostMoves = 100;
+/// Columns of a product that are computed at once.
+constexpr Eigen::Index kBlock = 64;
 /// What an irregular vertex more has to take off the mean square: as much as 20 % too large quads on a fortieth of the surface.
 constexpr double kWorthOfVertex = 1e-3;
 
@@ -201,7 +203,7 @@ public:
       columns.col(i) = factor.ofVertex(places_[static_cast<std::size_t>(i)].vertex);
     }
     const Eigen::MatrixXd weighted = factor.mass().asDiagonal() * columns;
-    product_ = columns.transpose() * weighted;
+    multiply(columns, weighted);
     gain_ = weighted.transpose() * start;
     findNeighbours(mesh);
   }
@@ -219,6 +221,27 @@ public:
   const std::vector<Place>& places() const { return places_; }
 
 private:
+  /// product_ = columns^T weighted, which is symmetric: the blocks on the diagonal and above.
+  void multiply(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& weighted)
+  {
+    const Eigen::Index size = columns.cols();
+    product_.resize(size, size);
+    for (Eigen::Index i = 0; i < size; i += kBlock)
+    {
+      poll();
+      const Eigen::Index width = std::min(kBlock, size - i);
+      product_.block(i, i, width, size - i).noalias() =
+        columns.middleCols(i, width).transpose() * weighted.rightCols(size - i);
+    }
+    for (Eigen::Index j = 0; j < size; ++j)
+    {
+      for (Eigen::Index i = j + 1; i < size; ++i)
+      {
+        product_(i, j) = product_(j, i);
+      }
+    }
+  }
+
   void findNeighbours(const Mesh& mesh)
   {
     std::vector<Index> placeOf(mesh.vertexCount(), kInvalidIndex);
