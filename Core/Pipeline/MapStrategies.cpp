@@ -95,7 +95,11 @@ std::optional<Plan> moreFreedom(const Trouble& trouble)
   const std::size_t added = plan.levels.keptVertices.size() - before;
   plan.levels.coarseVertices =
     static_cast<Index>(std::max<std::size_t>(coarse + added, std::size_t{ coarse } * 5 / 4));
-  plan.nextLevels = plan.levels;
+  if (offenders < kManyOffenders)
+  {
+    // More have a cause that another round may take away, and the vertices would stand in the way of its map.
+    plan.nextLevels = plan.levels;
+  }
   return plan;
 }
 

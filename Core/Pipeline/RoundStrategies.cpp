@@ -48,6 +48,12 @@ std::string nearText(const std::vector<Vector3>& places)
   return " near " + placeText(places.front()) + (places.size() > 1 ? " and other places" : "");
 }
 
+/// Where an earlier round has quads, of which some are turned over, a finer grid would cost more than it gives.
+bool asksForFinerGrid(const Trouble& trouble)
+{
+  return trouble.failed && !trouble.history.hasResult() && !trouble.run.options.coarsestIntegers;
+}
+
 /// Loops of handles and holes that pass near one of the places.
 std::vector<HandleLoop> loopsNear(const RunContext& run, const std::vector<Vector3>& places)
 {
@@ -86,7 +92,7 @@ std::optional<Plan> smallerQuadsNear(const Trouble& trouble)
   Plan plan = newRound(trouble.attempt.plan);
   FinerGrid& finer = plan.finer;
   // A map with other sizes has other places where quads only just fit, so their number need not fall each time.
-  if (!trouble.failed || run.options.coarsestIntegers || !finer.mayShrink ||
+  if (!asksForFinerGrid(trouble) || !finer.mayShrink ||
     static_cast<std::size_t>(finer.shrinks) == trouble.bound || !trouble.grid ||
     trouble.grid->places.empty())
   {
@@ -150,7 +156,7 @@ std::optional<Plan> moreQuads(const Trouble& trouble)
   const bool afterSizes = finer.shrinks > 0 && finer.doublings == 0;
   const GridTroubles* grid = trouble.grid ? &*trouble.grid : nullptr;
   grid = afterSizes ? &finer.firstTroubles : grid;
-  if (!trouble.failed || run.options.coarsestIntegers || grid == nullptr ||
+  if (!asksForFinerGrid(trouble) || grid == nullptr ||
     static_cast<std::size_t>(finer.doublings) >= trouble.bound ||
     isNoMatterOfSize(plan, trouble.grid))
   {

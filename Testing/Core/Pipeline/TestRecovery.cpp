@@ -598,6 +598,39 @@ TEST(Recovery, AnotherRoundKeepsWhatTheCoarseMapNeeded)
   EXPECT_EQ(next->levels.edgeLength, 0.25);
 }
 
+TEST(Recovery, NoFinerGridOnceARoundHasQuads)
+{
+  TestRun run(test::gridPlane(12, 12), 1);
+  const Plan plan = run.first();
+  Plan doubling = plan;
+  doubling.finer.mayShrink = false;
+  for (const Plan& later : { plan, doubling })
+  {
+    expectStep(run.nextAfter(later, mapWithTube({ 6, 6, 0 }), failedQuads()),
+      later.finer.mayShrink ? "smaller quads near" : "more quads");
+    History history;
+    history.addMap(plan, carriedMap(1));
+    history.addQuads(quadsWith(2));
+    history.addMap(later, mapWithTube({ 6, 6, 0 }));
+    history.addQuads(failedQuads());
+    EXPECT_FALSE(nextPlan(run.context, history)); // there are no features to give up
+  }
+}
+
+TEST(Recovery, ManyOffendersAreNotKeptForTheNextRound)
+{
+  SphereRun run;
+  const Plan plan = run.first();
+  std::vector<Index> many = run.levels.make(levelOptions(run.context, plan), nullptr).coarse.fineVertex;
+  ASSERT_GE(many.size(), 100U);
+  History history;
+  history.addMap(plan, failedMap(many));
+  const std::optional<Plan> next = nextMapPlan(run.context, history);
+  expectStep(next, "more freedom");
+  EXPECT_GT(next->levels.keptVertices.size(), 100U);
+  EXPECT_EQ(next->nextLevels.keptVertices, plan.levels.keptVertices);
+}
+
 // More quads everywhere.
 
 TEST(Recovery, MoreQuadsDoubleThemThreeTimes)
