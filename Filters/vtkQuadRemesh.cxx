@@ -37,10 +37,30 @@ quadrille::QuadSource sourceOf(const quadrille::PreparedSurface& surface,
   return source;
 }
 
-/// The levels of a block, for its next execution.
+/// The second output of the last execution, and what it was made from.
+struct MappedOutput
+{
+  vtkPolyData* input = nullptr;
+  vtkMTimeType inputTime = 0;
+  vtkTypeBool textureCoordinates = 0;
+  quadrille::ResultKey map = 0; ///< 0: there is none
+  vtkSmartPointer<vtkPolyData> surface;
+
+  /// The map's key, where another output from the same input would be the same.
+  quadrille::ResultKey mapFor(vtkPolyData* other, vtkTypeBool withTextureCoordinates) const
+  {
+    return other == input && other->GetMTime() == inputTime &&
+        withTextureCoordinates == textureCoordinates
+      ? map
+      : 0;
+  }
+};
+
+/// What a block keeps for its next execution.
 struct LevelMemory : quadrille::BlockMemory
 {
   quadrille::ResultStore levels;
+  MappedOutput mapped;
 };
 
 std::string describe(const quadrille::RemeshResult& result, vtkIdType irregular)
@@ -74,6 +94,28 @@ void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
   quadrille::addCount(data, "SurfaceFaces", result.surface.mesh.faceCount());
   quadrille::addSmallParts(data, result.smallParts, result.targetEdgeLength);
   quadrille::addFinalQuality(data, result.finalQuality);
+}
+
+/// What the surface's own arrays come from.
+struct MappedSource
+{
+  vtkPolyData* input = nullptr;
+  const quadrille::ConvertedSurface* converted = nullptr;
+  bool textureCoordinates = false;
+};
+
+void writeMapped(const quadrille::RemeshResult& result, const quadrille::RemeshOptions& options,
+  const MappedSource& source, vtkPolyData* mapped)
+{
+  mapped->ShallowCopy(quadrille::writeMappedSurface(result.surface, result.uv,
+    quadrille::matchingOf(result.surface.mesh, result.uv, options.threads), result.turns,
+    source.input, *source.converted, source.textureCoordinates, options.threads));
+  quadrille::addFrame(mapped, result.frame, result.framePositions);
+  quadrille::addMethod(mapped, options.method);
+  quadrille::addAnisotropy(mapped, options.anisotropyLimit, result.beyondAnisotropyLimit);
+  quadrille::addCertificate(mapped, result.certificate);
+  quadrille::addCount(mapped, "Charts", result.charts.charts);
+  quadrille::addCount(mapped, "SeamEdges", result.charts.seamEdges);
 }
 
 } // namespace
@@ -164,8 +206,14 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   options.warmStart = this->WarmStart != 0;
 
   quadrille::BlockReport& report = block.state->report;
-  const quadrille::RemeshResult result = this->KeepLevels
-    ? quadrille::remesh(std::move(converted.input), options, block.state->memoryAs<LevelMemory>().levels)
+  LevelMemory* memory =
+    this->KeepLevels ? &block.state->memoryAs<LevelMemory>() : nullptr;
+  if (memory != nullptr && options.mergeCharts)
+  {
+    options.knownMap = memory->mapped.mapFor(input, this->TextureCoordinates);
+  }
+  const quadrille::RemeshResult result = memory != nullptr
+    ? quadrille::remesh(std::move(converted.input), options, memory->levels)
     : quadrille::remesh(std::move(converted.input), options);
   report.reusedStages = result.reused;
   report.numbers["TargetQuads"] = static_cast<double>(result.targetQuads);
@@ -208,15 +256,20 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   if (this->ComputeMappedSurface)
   {
     vtkPolyData* mapped = block.output(1);
-    mapped->ShallowCopy(quadrille::writeMappedSurface(result.surface, result.uv,
-      quadrille::matchingOf(result.surface.mesh, result.uv, this->NumberOfThreads), result.turns,
-      input, converted, this->TextureCoordinates != 0, this->NumberOfThreads));
-    quadrille::addFrame(mapped, result.frame, result.framePositions);
-    quadrille::addMethod(mapped, options.method);
-    quadrille::addAnisotropy(mapped, options.anisotropyLimit, result.beyondAnisotropyLimit);
-    quadrille::addCertificate(mapped, result.certificate);
-    quadrille::addCount(mapped, "Charts", result.charts.charts);
-    quadrille::addCount(mapped, "SeamEdges", result.charts.seamEdges);
+    if (result.mapKey == options.knownMap)
+    {
+      mapped->ShallowCopy(memory->mapped.surface);
+    }
+    else
+    {
+      writeMapped(result, options, { input, &converted, this->TextureCoordinates != 0 }, mapped);
+    }
+    if (memory != nullptr)
+    {
+      memory->mapped = { input, input->GetMTime(), this->TextureCoordinates, result.mapKey,
+        vtkSmartPointer<vtkPolyData>::New() };
+      memory->mapped.surface->ShallowCopy(mapped);
+    }
   }
   block.output(2)->ShallowCopy(written.lines);
   block.output(3)->ShallowCopy(written.separatrices);

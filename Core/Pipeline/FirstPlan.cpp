@@ -19,6 +19,54 @@ namespace
 constexpr double kQuadsOfShrunkLoop = 4;
 constexpr double kLeastShrink = 0.1;
 
+/// In the store.
+struct StoredFirstSizes
+{
+  std::shared_ptr<const std::vector<float>> sizes; ///< null: they would make too many quads
+};
+
+/// Null where they would make too many quads.
+std::shared_ptr<const std::vector<float>> sizesAtLoops(RunContext& run)
+{
+  std::vector<float> sizes = run.surface.changedSizes(
+    [&](Mesh& mesh)
+    {
+      const std::vector<float> factor =
+        sizesOfLoops(run.shortLoops.loops, run.edgeLength, kLeastShrink, mesh.vertexCount());
+      mesh.sizing.resize(mesh.vertexCount(), 1.0F);
+      for (Index v = 0; v < mesh.vertexCount(); ++v)
+      {
+        mesh.sizing[v] *= factor[v];
+      }
+      limitSizeGrowth(mesh, run.edgeLength);
+    });
+  return run.surface.sizedArea(sizes) > kMostGrowth * run.surface.sizedArea()
+    ? nullptr
+    : std::make_shared<const std::vector<float>>(std::move(sizes));
+}
+
+/// The same, from the store where it has them.
+std::shared_ptr<const std::vector<float>> knownSizesAtLoops(RunContext& run)
+{
+  if (run.store == nullptr)
+  {
+    return sizesAtLoops(run);
+  }
+  KeyMaker key(run.surface.key());
+  key.add(run.edgeLength);
+  for (const HandleLoop& loop : run.shortLoops.loops)
+  {
+    key.add(loop.length).add(loop.vertices);
+  }
+  auto known = run.store->find<StoredFirstSizes>(key.key());
+  if (!known)
+  {
+    known = std::make_shared<StoredFirstSizes>(StoredFirstSizes{ sizesAtLoops(run) });
+    run.store->put(key.key(), known, known->sizes ? bytesOf(*known->sizes) : 0);
+  }
+  return known->sizes;
+}
+
 } // namespace
 
 std::vector<float> sizesOfLoops(
@@ -56,23 +104,11 @@ Plan firstPlan(RunContext& run)
   {
     return plan;
   }
-  std::vector<float> sizes = run.surface.changedSizes(
-    [&](Mesh& mesh)
-    {
-      const std::vector<float> factor =
-        sizesOfLoops(loops, run.edgeLength, kLeastShrink, mesh.vertexCount());
-      mesh.sizing.resize(mesh.vertexCount(), 1.0F);
-      for (Index v = 0; v < mesh.vertexCount(); ++v)
-      {
-        mesh.sizing[v] *= factor[v];
-      }
-      limitSizeGrowth(mesh, run.edgeLength);
-    });
-  if (run.surface.sizedArea(sizes) > kMostGrowth * run.surface.sizedArea())
+  plan.sizes = knownSizesAtLoops(run);
+  if (!plan.sizes)
   {
     return plan;
   }
-  plan.sizes = std::make_shared<const std::vector<float>>(std::move(sizes));
   plan.notices.push_back("quads are made smaller round " + std::to_string(loops.size()) +
     " handles and holes that are shorter round than three of the wanted size, one of them near " +
     placeText(run.surface->mesh.position[loops.front().vertices.front()]) +

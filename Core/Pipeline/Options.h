@@ -9,6 +9,7 @@
 #include "Pipeline/FinalQuality.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 namespace quadrille
@@ -46,6 +47,8 @@ struct RemeshOptions
   std::optional<double> memoryLimit;
   bool mergeCharts =
     false;         ///< of the map on the surface, for display; the quads do not depend on it
+  /// RemeshResult::mapKey of a map that the caller still has with its charts merged: where it is the result again, that is not done another time.
+  std::uint64_t knownMap = 0;
   int threads = 0; ///< 0: all; the result does not depend on it
   /// With a memory only: field, map and phase 1 may start from those of the run before, so that the result may differ from one without
   /// memory. Off: the same bytes as without.

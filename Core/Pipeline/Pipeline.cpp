@@ -169,6 +169,17 @@ void takeAttempt(const Attempt& attempt, RunSurface& surface, RemeshResult& resu
     result.extraction = made.extraction;
     result.finalQuality = made.finalQuality;
   }
+  if (result.status.ok())
+  {
+    const FinalQuality level =
+      result.finalQuality.improved ? result.finalQuality.level : FinalQuality::Coarse;
+    result.mapKey = KeyMaker(map.key).add(static_cast<std::uint64_t>(level)).key();
+  }
+}
+
+bool isKnown(const RemeshOptions& options, const RemeshResult& result)
+{
+  return result.mapKey != 0 && result.mapKey == options.knownMap;
 }
 
 void tellAttempt(const Attempt& attempt, const QuadSize& size, RemeshResult& result)
@@ -230,7 +241,7 @@ void runAttempts(
       { sized.edgeLength, frame.unit, sized.targetQuads, options.maximumNumberOfQuads }, result);
     takeHistory(history, levels, sized.stages, result);
   }
-  if (options.mergeCharts && result.status.ok())
+  if (options.mergeCharts && result.status.ok() && !isKnown(options, result))
   {
     // After the extraction, so that the quads do not depend on it.
     const double start = secondsNow();
@@ -284,7 +295,7 @@ void run(SurfaceInput& input, RemeshOptions options, ResultStore* store, PlaceSc
   {
     runAttempts(sized, frame, options, store, result);
   }
-  leave(sized, framed, options.mergeCharts, result);
+  leave(sized, framed, options.mergeCharts && !isKnown(options, result), result);
   if (askedEdgeLength && !options.quads)
   {
     result.targetEdgeLength = *askedEdgeLength; // with every bit

@@ -30,8 +30,10 @@ struct RemeshResult
   QuadMesh quads;
   PreparedSurface surface;   ///< the finest level that uv belongs to; its hash is that of the surface in its frame
   Frame frame;               ///< that the run worked in; all else here is on the user's surface
-  std::vector<Vector3> framePositions; ///< #V of surface.mesh, in the frame; empty unless mergeCharts
+  std::vector<Vector3> framePositions; ///< #V of surface.mesh, in the frame; empty unless mergeCharts, or where the map is known
   std::vector<FixedVec2> uv; ///< #H of surface.mesh
+  /// Of uv and the surface that it belongs to: where it is the same, they are.
+  ResultKey mapKey = 0;
   std::vector<int> turns;    ///< #V of surface.mesh
   Level coarse;              ///< coarse mesh
   std::vector<FixedVec2>
@@ -39,7 +41,7 @@ struct RemeshResult
   std::vector<int> coarseTurns;  ///< #V of coarse.mesh
   Certificate coarseCertificate; ///< of the coarse map
   Certificate certificate;       ///< of the map on the input surface
-  ChartCounts charts;            ///< of uv; zero unless mergeCharts
+  ChartCounts charts;            ///< of uv; zero unless mergeCharts, or where the map is known
   TransferResult transfer;       ///< counts only, uv is moved out
   ExtractionCounts extraction;   ///< what the map on the surface made necessary
   FinalQualityReport finalQuality; ///< zero unless asked for

@@ -42,6 +42,13 @@ struct StoredSized
   std::vector<std::string> notices;
 };
 
+/// What a sized surface has of components that are too small for a block of quads.
+struct StoredSmallComponents
+{
+  SmallComponents small; ///< without its flags of faces
+  double area = 0;       ///< of the whole surface, over the sizes
+};
+
 double areaOverSizes(const PreparedSurface& surface)
 {
   return surface.mesh.sizing.empty() ? surface.area : sizedArea(surface.mesh);
@@ -321,14 +328,33 @@ private:
     }
   }
 
+  /// From the store where it has them.
+  StoredSmallComponents smallComponents()
+  {
+    const auto known = store_ != nullptr ? store_->find<StoredSmallComponents>(made_.key) : nullptr;
+    if (known)
+    {
+      return *known;
+    }
+    StoredSmallComponents found{ findSmallComponents(*made_.surface, made_.edgeLength),
+      areaOverSizes(*made_.surface) };
+    found.small.isSmall = {};
+    if (store_ != nullptr)
+    {
+      store_->put(made_.key, std::make_shared<StoredSmallComponents>(found), sizeof(found));
+    }
+    return found;
+  }
+
   /// What of the surface is left after the removal, or becomes blocks, sets the number of quads where an edge length is asked for.
   void countSmallComponents()
   {
     const double quad = made_.edgeLength * made_.edgeLength;
-    const SmallComponents small = findSmallComponents(*made_.surface, made_.edgeLength);
+    const StoredSmallComponents known = smallComponents();
+    const SmallComponents& small = known.small;
     if (!options_.quads)
     {
-      const double quads = (areaOverSizes(*made_.surface) - small.area) / quad + small.quads;
+      const double quads = (known.area - small.area) / quad + small.quads;
       made_.targetQuads = predictedQuads(quads, 1);
     }
     if (small.count > 0)

@@ -640,6 +640,37 @@ TEST(QuadRemesh, GoingBackAndOtherLimitsAreALookUp)
   EXPECT_STREQ(filter->GetReusedStagesText(), "");
 }
 
+TEST(QuadRemesh, OtherQuadsOfTheSameMapLeaveTheMappedSurfaceAsItIs)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(60, 30));
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  filter->SetInputData(input);
+  filter->SetTargetTypeToNumberOfQuads();
+  filter->SetNumberOfQuads(400);
+  filter->Update();
+  const auto mapOf = [&] { return filter->GetMappedSurface()->GetCellData()->GetArray("IGM"); };
+  const vtkSmartPointer<vtkDataArray> first = mapOf();
+  ASSERT_TRUE(first);
+  filter->SetSmoothingSteps(1);
+  filter->Update();
+  EXPECT_EQ(mapOf(), first);
+  // Another map, and the same one with an array of the input more, are written anew.
+  const auto mark = vtkSmartPointer<vtkIntArray>::New();
+  mark->SetName("Mark");
+  mark->SetNumberOfValues(input->GetNumberOfPoints());
+  mark->FillValue(7);
+  input->GetPointData()->AddArray(mark);
+  input->Modified();
+  filter->SetSmoothingSteps(2);
+  filter->Update();
+  EXPECT_TRUE(filter->GetMappedSurface()->GetPointData()->HasArray("Mark"));
+  filter->SetNumberOfQuads(600);
+  filter->Update();
+  EXPECT_NE(mapOf(), first);
+  EXPECT_GT(filter->GetMappedSurface()->GetFieldData()->GetArray("Charts")->GetTuple1(0), 0);
+}
+
 TEST(QuadRemesh, NothingNewReturnsTheResultBefore)
 {
   const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(60, 30));
