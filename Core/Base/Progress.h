@@ -31,7 +31,9 @@ inline void report(const ProgressCallback& callback, double fraction, const std:
   }
 }
 
-/// The share [begin, end] of a longer run, whose texts begin with `prefix`. Empty where the callback is.
+/// A stage reports its own fraction; whoever calls it knows what part of all that is: the callback for a stage that is the
+/// part [begin, end] of all, whose texts get a prefix. A fraction outside of [0, 1] counts as the nearest one in it. Empty
+/// where `callback` is.
 ProgressCallback subProgress(
   const ProgressCallback& callback, double begin, double end, const std::string& prefix = {});
 

@@ -4,7 +4,7 @@
 
 #include "Base/Clock.h"
 #include "Base/PlaceText.h"
-#include "Base/ProgressPart.h"
+#include "Base/Progress.h"
 #include "GridMap/MapShape.h"
 #include "GridMap/MeshParts.h"
 #include "GridMap/RoundedMap.h"
@@ -135,7 +135,7 @@ private:
   ProgressCallback progressOf(std::size_t i, double begin, double end) const
   {
     const double step = (end - begin) / static_cast<double>(components_.size());
-    return progressPart(options_.progress, begin + step * static_cast<double>(i),
+    return subProgress(options_.progress, begin + step * static_cast<double>(i),
       begin + step * static_cast<double>(i + 1));
   }
 
@@ -144,7 +144,7 @@ private:
     const TimedScope timed(result_.secondsField, result_.processorField);
     CrossFieldOptions fieldOptions;
     fieldOptions.targetEdgeLength = options_.edgeLength;
-    fieldOptions.progress = progressPart(options_.progress, 0.0, 0.1);
+    fieldOptions.progress = subProgress(options_.progress, 0.0, 0.1);
     fieldOptions.guides = options_.guides;
     fieldOptions.targetValences = options_.targetValences;
     result_.field = computeCrossField(mesh_, fieldOptions);

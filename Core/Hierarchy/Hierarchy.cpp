@@ -5,7 +5,6 @@
 #include "Base/Clock.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
-#include "Base/ProgressPart.h"
 #include "Hierarchy/BudgetDecimation.h"
 #include "Hierarchy/DecimationMesh.h"
 #include "Hierarchy/GaussianCurvatureCost.h"
@@ -292,7 +291,7 @@ private:
     uniform.curveTolerance = kCurveTolerance * edgeLength_;
     uniform.keepVertices = options.keepVertices;
     uniform.threads = options.threads;
-    uniform.progress = progressPart(options.progress, 0.0, 0.6);
+    uniform.progress = subProgress(options.progress, 0.0, 0.6);
     LogBuilder log;
     switch (options.order)
     {
@@ -361,7 +360,7 @@ private:
     budget.curveTolerance = kCurveTolerance * edgeLength_;
     budget.regionTolerance = kRegionTolerance * edgeLength_;
     budget.threads = options.threads;
-    budget.progress = progressPart(options.progress, 0.6, 1.0);
+    budget.progress = subProgress(options.progress, 0.6, 1.0);
     return budget;
   }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
-#include "Base/ProgressPart.h"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +43,7 @@ TEST(Progress, aPartIsSeenAsSuchFromOutside)
     text = t;
     return goOn;
   };
-  const ProgressCallback part = progressPart(whole, 0.5, 0.75, "Mapping: ");
+  const ProgressCallback part = subProgress(whole, 0.5, 0.75, "Mapping: ");
   EXPECT_TRUE(part(0.5, "field"));
   EXPECT_EQ(fraction, 0.625);
   EXPECT_EQ(text, "Mapping: field");
@@ -52,13 +51,13 @@ TEST(Progress, aPartIsSeenAsSuchFromOutside)
   EXPECT_EQ(fraction, 0.75);
   part(-1, "");
   EXPECT_EQ(fraction, 0.5);
-  const ProgressCallback partOfPart = progressPart(part, 0.5, 1);
+  const ProgressCallback partOfPart = subProgress(part, 0.5, 1);
   partOfPart(0, "integers");
   EXPECT_EQ(fraction, 0.625);
   EXPECT_EQ(text, "Mapping: integers");
   goOn = false;
   EXPECT_FALSE(partOfPart(0.5, ""));
-  EXPECT_FALSE(progressPart({}, 0, 1)); // nobody listens
+  EXPECT_FALSE(subProgress({}, 0, 1)); // nobody listens
 }
 
 TEST(Progress, pollRepeatsTheLastReportAfterAWhile)
