@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossField/TurnPrescription.h"
 
+#include "Base/DisjointSets.h"
 #include "Base/PlaceText.h"
 #include "CrossField/TurnCosts.h"
 
 #include <algorithm>
 #include <cstdlib>
-#include <numeric>
 #include <sstream>
 
 namespace quadrille
@@ -29,46 +29,25 @@ std::vector<std::uint8_t> boundaryVertices(const Mesh& mesh)
 }
 
 // Sets of fans whose turns have a fixed sum.
-class FanSets
+DisjointSets fansOfFixedSum(const FieldTopology& topology, const TurnPrescription& prescription)
 {
-public:
-  FanSets(const FieldTopology& topology, const TurnPrescription& prescription)
-    : parent_(topology.fans.size())
+  DisjointSets sets(topology.fans.size(), 1);
+  for (const std::array<Index, 2>& edge : topology.edges)
   {
-    std::iota(parent_.begin(), parent_.end(), Index{ 0 });
-    for (const std::array<Index, 2>& edge : topology.edges)
+    sets.join(topology.fanOfCorner[edge[0]], topology.fanOfCorner[edge[1]]);
+  }
+  std::vector<Index> first(prescription.turns.size(), kInvalidIndex);
+  for (Index i = 0; i < prescription.groupOfFan.size(); ++i)
+  {
+    const Index group = prescription.groupOfFan[i];
+    if (group != kInvalidIndex)
     {
-      join(topology.fanOfCorner[edge[0]], topology.fanOfCorner[edge[1]]);
-    }
-    std::vector<Index> first(prescription.turns.size(), kInvalidIndex);
-    for (Index i = 0; i < prescription.groupOfFan.size(); ++i)
-    {
-      const Index group = prescription.groupOfFan[i];
-      if (group != kInvalidIndex)
-      {
-        first[group] = first[group] == kInvalidIndex ? i : first[group];
-        join(first[group], i);
-      }
+      first[group] = first[group] == kInvalidIndex ? i : first[group];
+      sets.join(first[group], i);
     }
   }
-  Index find(Index i)
-  {
-    while (parent_[i] != i)
-    {
-      i = parent_[i] = parent_[parent_[i]];
-    }
-    return i;
-  }
-
-private:
-  void join(Index a, Index b)
-  {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-  std::vector<Index> parent_;
-};
+  return sets;
+}
 
 // The sums of one set. Indices are what the turns are less than regular.
 struct SetSums
@@ -82,7 +61,7 @@ struct SetSums
 };
 
 std::vector<SetSums> sumUp(const FieldTopology& topology, const TurnPrescription& prescription,
-  const std::vector<int>& turns, FanSets& sets)
+  const std::vector<int>& turns, DisjointSets& sets)
 {
   std::vector<SetSums> sums(topology.fans.size());
   std::vector<std::uint8_t> counted(prescription.turns.size(), 0);
@@ -182,7 +161,7 @@ Status checkPrescription(const Mesh& mesh, const FieldTopology& topology,
   {
     return {};
   }
-  FanSets sets(topology, prescription);
+  DisjointSets sets = fansOfFixedSum(topology, prescription);
   for (const SetSums& sum : sumUp(topology, prescription, turns, sets))
   {
     // Turns that the free fans have to make together.

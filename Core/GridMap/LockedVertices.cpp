@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/LockedVertices.h"
 
+#include "Base/DisjointSets.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <numeric>
 
 namespace quadrille
 {
@@ -20,33 +21,6 @@ enum Lock : std::uint8_t
 {
   kLockedU = 1,
   kLockedV = 2
-};
-
-class DisjointSets
-{
-public:
-  explicit DisjointSets(Index count) : parent_(count)
-  {
-    std::iota(parent_.begin(), parent_.end(), Index{ 0 });
-  }
-  Index find(Index x)
-  {
-    while (parent_[x] != x)
-    {
-      x = parent_[x] = parent_[parent_[x]];
-    }
-    return x;
-  }
-  /// The smaller id represents the union.
-  void join(Index a, Index b)
-  {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<Index> parent_;
 };
 
 /// Flags the first vertex of every set (of those with a vertex that counts) that has no flag yet.
@@ -70,7 +44,7 @@ void flagOnePerSet(
 
 void keepWhatTopologyNeeds(const Mesh& mesh, LockedVertices& locked)
 {
-  DisjointSets curves(mesh.vertexCount()), components(mesh.vertexCount());
+  DisjointSets curves(mesh.vertexCount(), 1), components(mesh.vertexCount(), 1);
   std::vector<std::uint8_t> onCurve(mesh.vertexCount(), 0), used(mesh.vertexCount(), 0);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {

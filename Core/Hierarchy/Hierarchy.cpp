@@ -3,6 +3,7 @@
 #include "Hierarchy/Hierarchy.h"
 
 #include "Base/Clock.h"
+#include "Base/DisjointSets.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Hierarchy/BudgetDecimation.h"
@@ -20,7 +21,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -40,6 +40,8 @@ constexpr double kRegionTolerance = 0.5;
 constexpr double kGuideReach = 0.25;
 /// Distance on both sides over which the turn at a corner is measured, in s.
 constexpr double kCornerScale = 0.25;
+/// Faces of a chunk of the passes over the mesh.
+constexpr std::size_t kChunkFaces = std::size_t{ 1 } << 15;
 
 /// What may change from one update to the next.
 void checkPhase2(const Mesh& fine, const HierarchyOptions& options)
@@ -86,62 +88,39 @@ void checkOptions(const Mesh& fine, const HierarchyOptions& options)
   }
 }
 
-/// The lowest vertex of each vertex's component, by merging along edges.
-std::vector<Index> componentRoots(const Mesh& fine)
+/// The vertices of each component, joined along edges.
+DisjointSets componentsOf(const Mesh& fine, int threads)
 {
-  std::vector<Index> parent(fine.vertexCount());
-  std::iota(parent.begin(), parent.end(), Index{ 0 });
-  const auto root = [&](Index v)
-  {
-    while (parent[v] != v)
+  DisjointSets components(fine.vertexCount(), threads);
+  parallelFor(fine.faceCount(), kChunkFaces, threads,
+    [&](std::size_t begin, std::size_t end)
     {
-      parent[v] = parent[parent[v]];
-      v = parent[v];
-    }
-    return v;
-  };
-  const auto merge = [&](Index v, Index w)
-  {
-    if (parent[v] != parent[w])
-    {
-      const Index a = root(v);
-      const Index b = root(w);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  };
-  for (Index h = 0; h < fine.halfEdgeCount(); h += 3)
-  {
-    pollNowAndThen(h);
-    merge(fine.origin[h], fine.origin[h + 1]);
-    merge(fine.origin[h], fine.origin[h + 2]);
-  }
-  for (Index v = 0; v < fine.vertexCount(); ++v)
-  {
-    pollNowAndThen(v);
-    parent[v] = parent[parent[v]]; // the parent is lower, so its own root is final already
-  }
-  return parent;
+      for (std::size_t h = 3 * begin; h < 3 * end; h += 3)
+      {
+        components.join(fine.origin[h], fine.origin[h + 1]);
+        components.join(fine.origin[h], fine.origin[h + 2]);
+      }
+    });
+  return components;
 }
 
 /// Area of each component over its sizes, at its root.
-std::vector<double> componentAreas(
-  const Mesh& fine, const std::vector<Index>& component, int threads)
+std::vector<double> componentAreas(const Mesh& fine, DisjointSets& components, int threads)
 {
   // Sums of consecutive faces of one component, chunk by chunk, so that the number of threads does not show.
-  constexpr std::size_t chunkFaces = 1U << 15;
   struct Sum
   {
     Index root = kInvalidIndex;
     double doubledArea = 0;
   };
-  std::vector<std::vector<Sum>> sums(fine.faceCount() / chunkFaces + 1);
-  parallelFor(fine.faceCount(), chunkFaces, threads,
+  std::vector<std::vector<Sum>> sums(fine.faceCount() / kChunkFaces + 1);
+  parallelFor(fine.faceCount(), kChunkFaces, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      std::vector<Sum>& sum = sums[begin / chunkFaces];
+      std::vector<Sum>& sum = sums[begin / kChunkFaces];
       for (Index f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f)
       {
-        const Index root = component[fine.origin[3 * f]];
+        const Index root = components.find(fine.origin[3 * f]);
         if (sum.empty() || sum.back().root != root)
         {
           sum.push_back({ root, 0 });
@@ -165,19 +144,19 @@ std::vector<double> componentAreas(
 /// Factor on s per vertex, beside the sizes that are asked for; empty when there are none and no component is small against s.
 std::vector<float> vertexScales(const Mesh& fine, double edgeLength, int threads)
 {
-  const std::vector<Index> component = componentRoots(fine);
-  const std::vector<double> area = componentAreas(fine, component, threads);
+  DisjointSets components = componentsOf(fine, threads);
+  const std::vector<double> area = componentAreas(fine, components, threads);
   const auto scale = [&](Index root) { return triangulationScale(area[root], edgeLength); };
   bool anySmall = false;
   for (Index v = 0; v < fine.vertexCount() && !anySmall; ++v)
   {
     pollNowAndThen(v);
-    anySmall = component[v] == v && scale(v) < 1;
+    anySmall = components.find(v) == v && scale(v) < 1;
   }
   std::vector<float> scales(anySmall || !fine.sizing.empty() ? fine.vertexCount() : 0);
   for (Index v = 0; v < static_cast<Index>(scales.size()); ++v)
   {
-    scales[v] = static_cast<float>(scale(component[v]) * sizeAt(fine, v));
+    scales[v] = static_cast<float>(scale(components.find(v)) * sizeAt(fine, v));
   }
   return scales;
 }

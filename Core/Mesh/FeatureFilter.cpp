@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/FeatureFilter.h"
 
+#include "Base/DisjointSets.h"
 #include "Base/Error.h"
 #include "Base/Progress.h"
 #include "Mesh/Distance.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 namespace quadrille
@@ -198,24 +198,15 @@ private:
   std::vector<Chain> chains_;
 };
 
-/// Components of chains that share nodes.
+/// For each chain a vertex that stands for all chains which hang together with it at their ends.
 std::vector<Index> chainComponents(const Mesh& mesh, const std::vector<Chain>& chains)
 {
-  std::vector<Index> parent(mesh.vertexCount());
-  std::iota(parent.begin(), parent.end(), Index{ 0 });
-  const auto root = [&](Index v)
-  {
-    while (parent[v] != v)
-    {
-      v = parent[v] = parent[parent[v]];
-    }
-    return v;
-  };
+  DisjointSets nodes(mesh.vertexCount(), 1);
   for (const Chain& chain : chains)
   {
     if (chain.first != kInvalidIndex)
     {
-      parent[root(chain.first)] = root(chain.last);
+      nodes.join(chain.first, chain.last);
     }
   }
   std::vector<Index> component(chains.size());
@@ -223,7 +214,7 @@ std::vector<Index> chainComponents(const Mesh& mesh, const std::vector<Chain>& c
   {
     const Chain& chain = chains[i];
     component[i] =
-      root(chain.first == kInvalidIndex ? mesh.origin[chain.halfEdges.front()] : chain.first);
+      nodes.find(chain.first == kInvalidIndex ? mesh.origin[chain.halfEdges.front()] : chain.first);
   }
   return component;
 }
