@@ -3,6 +3,7 @@
 /// A mesh with its fixed-point map, seen through exact predicates: what the extraction asks of it.
 #pragma once
 
+#include "Base/ChartRotation.h"
 #include "Base/FixedPoint.h"
 #include "Mesh/Mesh.h"
 
@@ -79,17 +80,12 @@ struct ExactMap
     {
       return false;
     }
-    const FixedVec2 mine = edge(h);
-    const FixedVec2 others = -edge(g);
-    for (int r = 0; r < 4; ++r)
+    const std::optional<int> rotation = rotationBetween(edge(h), -edge(g));
+    if (rotation)
     {
-      if (rotate(mine, r) == others)
-      {
-        result = { r, uv[Mesh::next(g)] - rotate(uv[h], r) };
-        return mine != FixedVec2{};
-      }
+      result = { *rotation, uv[Mesh::next(g)] - rotate(uv[h], *rotation) };
     }
-    return false;
+    return rotation.has_value();
   }
 };
 

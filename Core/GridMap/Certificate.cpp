@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Base/ChartRotation.h"
 #include "Base/Error.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
@@ -45,26 +46,7 @@ void insertWorst(std::vector<FaceValue>& worst, const FaceValue& value)
   }
 }
 
-/// Quarter turns r with R90^r from == to, if any. Zero vectors match every rotation.
-bool rotationBetween(FixedVec2 from, FixedVec2 to, int fallback, int& r)
-{
-  const FixedVec2 zero;
-  if (from == zero || to == zero)
-  {
-    r = fallback & 3;
-    return from == to;
-  }
-  for (r = 0; r < 4; ++r)
-  {
-    if (rotate(from, r) == to)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// The rotation that turns `from` nearest to `to`, for images that agree under none.
+/// The rotation that brings `from` nearest to `to`, for images that agree under none.
 int nearestRotation(FixedVec2 from, FixedVec2 to)
 {
   const auto dot = [&](int r)
@@ -243,8 +225,12 @@ Transition transitionOf(
   const FixedVec2 from = uv[Mesh::next(h)] - uv[h];
   const FixedVec2 to = uv[g] - uv[Mesh::next(g)];
   Transition result;
-  const bool agree = rotationBetween(from, to, fallbackRotation, result.rotation);
-  if (!agree)
+  const std::optional<int> rotation = rotationBetween(from, to);
+  if (rotation)
+  {
+    result.rotation = *rotation;
+  }
+  else
   {
     result.rotation =
       from == FixedVec2{} || to == FixedVec2{} ? fallbackRotation & 3 : nearestRotation(from, to);
@@ -252,7 +238,7 @@ Transition transitionOf(
   result.translation = uv[Mesh::next(g)] - rotate(uv[h], result.rotation);
   if (residual)
   {
-    *residual = !agree;
+    *residual = !rotation && from != to;
   }
   return result;
 }

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Transfer/Charts.h"
 
+#include "Base/ChartRotation.h"
 #include "Base/Progress.h"
-#include "Transfer/QuarterTurns.h"
 
 namespace quadrille
 {
@@ -25,8 +25,8 @@ bool carryAcross(const Mesh& mesh, std::vector<FixedVec2>& uv, Index h)
 {
   const Index g = mesh.twin[h];
   const FixedVec2 from = uv[Mesh::next(g)]; // image of the origin of h in the other chart
-  const int turns = quarterTurns(uv[g] - from, uv[Mesh::next(h)] - uv[h]);
-  if (turns < 0)
+  const std::optional<int> rotation = rotationBetween(uv[g] - from, uv[Mesh::next(h)] - uv[h]);
+  if (!rotation)
   {
     return false;
   }
@@ -34,7 +34,7 @@ bool carryAcross(const Mesh& mesh, std::vector<FixedVec2>& uv, Index h)
   const Index first = g - g % 3;
   for (Index i = first; i < first + 3; ++i)
   {
-    uv[i] = to + rotate(uv[i] - from, turns);
+    uv[i] = to + rotate(uv[i] - from, *rotation);
   }
   return true;
 }

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Transfer/PatchMender.h"
 
+#include "Base/ChartRotation.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "GridMap/MapCheck.h"
 #include "Numerics/Untangler.h"
-#include "Transfer/QuarterTurns.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -559,9 +559,10 @@ bool PatchMender::walkFan(Index corner, std::vector<FanCorner>& fan, bool& inter
       break;
     }
     const Index n = corners[i + 1 == corners.size() ? 0 : i + 1];
-    const int turns = quarterTurns(uv_[Mesh::previous(c)] - uv_[c], uv_[Mesh::next(n)] - uv_[n]);
-    closes = closes && turns >= 0;
-    rotation += std::max(turns, 0);
+    const std::optional<int> further =
+      rotationBetween(uv_[Mesh::previous(c)] - uv_[c], uv_[Mesh::next(n)] - uv_[n]);
+    closes = closes && further;
+    rotation += further.value_or(0);
   }
   return closes && (!interior || (rotation & 3) == 0);
 }

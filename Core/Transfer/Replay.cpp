@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Transfer/Replay.h"
 
+#include "Base/ChartRotation.h"
 #include "Base/Error.h"
 #include "Base/Parallel.h"
 #include "Hierarchy/LogRecords.h"
 #include "Mesh/Mesh.h"
-#include "Transfer/QuarterTurns.h"
 #include "Transfer/RingKernel.h"
 
 #include <algorithm>
@@ -124,14 +124,11 @@ void BlockReplay::unflip(Index h, Index g)
   const Index nextG = Mesh::next(g);
   const FixedVec2 dInF = uv_[nextH];
   const FixedVec2 dInG = uv_[Mesh::previous(g)];
-  int turns = quarterTurns(uv_[nextG] - dInG, uv_[Mesh::previous(h)] - dInF);
-  if (turns < 0)
-  {
-    ++counts_.lostTransitions;
-    turns = 0;
-  }
-  uv_[nextH] = dInF + rotate(uv_[g] - dInG, turns);
-  uv_[nextG] = dInG + rotate(uv_[h] - dInF, 4 - turns);
+  const std::optional<int> rotation =
+    rotationBetween(uv_[nextG] - dInG, uv_[Mesh::previous(h)] - dInF);
+  counts_.lostTransitions += rotation ? 0U : 1U;
+  uv_[nextH] = dInF + rotate(uv_[g] - dInG, rotation.value_or(0));
+  uv_[nextG] = dInG + rotate(uv_[h] - dInF, 4 - rotation.value_or(0));
 }
 
 void BlockReplay::uncollapse()
@@ -161,9 +158,10 @@ void BlockReplay::unfoldRing()
     {
       // The spoke to ring vertex i is known from the face before.
       const Index before = slot(i - 1);
-      const int turns = quarterTurns(toNext, uv_[Mesh::previous(before)] - uv_[before]);
-      counts_.lostTransitions += turns < 0 ? 1U : 0U;
-      rotation = (rotation + (turns < 0 ? 0 : turns)) & 3;
+      const std::optional<int> further =
+        rotationBetween(toNext, uv_[Mesh::previous(before)] - uv_[before]);
+      counts_.lostTransitions += further ? 0U : 1U;
+      rotation = (rotation + further.value_or(0)) & 3;
     }
     rotation_[static_cast<std::size_t>(i)] = rotation;
     ring(i) = rotate(toNext, rotation);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Base/ChartRotation.h"
 #include "Base/FixedPoint.h"
 
 #include <gtest/gtest.h>
@@ -55,6 +56,20 @@ TEST(FixedPoint, fourQuarterTurnsAreNone)
     }
   }
   EXPECT_EQ(rotate({ kOne, 0 }, 1), (FixedVec2{ 0, kOne })); // counterclockwise
+}
+
+TEST(FixedPoint, theRotationBetweenTwoImagesIsExact)
+{
+  for (const FixedVec2 p : somePoints())
+  {
+    for (int r = 0; r < 4 && p != FixedVec2{}; ++r)
+    {
+      EXPECT_EQ(rotationBetween(p, rotate(p, r)), r);
+      EXPECT_FALSE(rotationBetween(p, rotate(p, r) + FixedVec2{ 1, 0 })) << "one step away is no image";
+    }
+    EXPECT_FALSE(rotationBetween(p, {})) << "all of them, or none";
+    EXPECT_FALSE(rotationBetween({}, p));
+  }
 }
 
 TEST(FixedPoint, transitionsInvertExactly)

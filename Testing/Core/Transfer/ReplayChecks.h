@@ -3,9 +3,9 @@
 /// What the replay must do exactly, for any seamless map.
 #pragma once
 
+#include "Base/ChartRotation.h"
 #include "Hierarchy/Hierarchy.h"
 #include "TestMaps.h"
-#include "Transfer/QuarterTurns.h"
 #include "Transfer/Replay.h"
 
 #include <gtest/gtest.h>
@@ -68,9 +68,10 @@ inline std::vector<int> holonomy(const Mesh& mesh, const std::vector<FixedVec2>&
     else if (!mesh.isBoundary(incoming))
     {
       const Index g = mesh.twin[incoming];
-      const int quarter = quarterTurns(uv[h] - uv[incoming], uv[g] - uv[Mesh::next(g)]);
-      EXPECT_GE(quarter, 0) << "half-edge " << incoming;
-      turns[mesh.origin[h]] += quarter;
+      const std::optional<int> quarter =
+        rotationBetween(uv[h] - uv[incoming], uv[g] - uv[Mesh::next(g)]);
+      EXPECT_TRUE(quarter) << "half-edge " << incoming;
+      turns[mesh.origin[h]] += quarter.value_or(0);
     }
   }
   for (Index v = 0; v < mesh.vertexCount(); ++v)

@@ -5,15 +5,17 @@
 
 #include "Base/FixedPoint.h"
 
+#include <optional>
+
 namespace quadrille
 {
 
-/// Quarter turns that carry `from` to `to`, exactly; -1 when none does, or all of them (zero length).
-inline int quarterTurns(FixedVec2 from, FixedVec2 to)
+/// How many quarter turns carry `from` to `to`, 0 to 3, exactly; none where no number does, or where all do (length zero).
+inline std::optional<int> rotationBetween(FixedVec2 from, FixedVec2 to)
 {
   if (from == to)
   {
-    return from == FixedVec2{} ? -1 : 0;
+    return from == FixedVec2{} ? std::nullopt : std::optional<int>(0);
   }
   for (int r = 1; r < 4; ++r)
   {
@@ -22,7 +24,7 @@ inline int quarterTurns(FixedVec2 from, FixedVec2 to)
       return r;
     }
   }
-  return -1;
+  return std::nullopt;
 }
 
 } // namespace quadrille
