@@ -34,7 +34,7 @@ struct FeatureCurves
 };
 
 /// Direction change above which an inner curve vertex is a corner.
-constexpr double kCornerAngle = 40.0 * kPi / 180.0;
+constexpr double kCornerAngle = radians(40);
 
 /// Traces the curves. A vertex is a corner when the curve turns by more than kCornerAngle both between its two
 /// edges and between the chords to the points `scale` (times the size there) away on both sides, and turns most among its neighbours

@@ -29,7 +29,7 @@ void checkOptions(const RemeshOptions& options)
   {
     throw InvalidInput("the relative target edge length must be a positive number");
   }
-  if (options.featureAngle && !(*options.featureAngle > 0 && *options.featureAngle <= M_PI))
+  if (options.featureAngle && !(*options.featureAngle > 0 && *options.featureAngle <= kPi))
   {
     throw InvalidInput("the feature angle must be above 0 and at most 180 degrees");
   }

@@ -3,6 +3,7 @@
 /// What a run is asked for.
 #pragma once
 
+#include "Base/Angles.h"
 #include "Base/Progress.h"
 #include "GridMap/GridMap.h"
 #include "Mesh/Mesh.h"
@@ -21,8 +22,7 @@ struct RemeshOptions
   std::optional<std::size_t> quads; ///< target number of quads, >= 1
   std::optional<double> edgeLength; ///< target edge length in units of the input, > 0
   double relativeEdgeLength = 0.02; ///< target edge length over the bounding-box diagonal, > 0
-  std::optional<double> featureAngle =
-    0.6981317007977318; ///< radians (40 degrees); none: no detection
+  std::optional<double> featureAngle = radians(40); ///< radians; none: no detection
   MapMethod method = MapMethod::ScaleAware;
   /// The coarsest layout of quads in place of their size, see computeCoarsestMap; by the scale aware method only. The size asked for sets
   /// what the levels keep and how curves are followed.

@@ -383,7 +383,7 @@ TEST(Pipeline, QuadsRoundTheTipOfAConeAreNotTurnedOver)
   cone.polygonOffsets = { 0, kSides };
   for (Index i = 1; i <= kSides; ++i)
   {
-    const double angle = 2 * M_PI * i / kSides;
+    const double angle = 2 * kPi * i / kSides;
     cone.points.emplace_back(-0.5, 0.5 * std::cos(angle), 0.5 * std::sin(angle));
     cone.polygonPoints.push_back(kSides + 1 - i); // the base
   }
@@ -394,7 +394,7 @@ TEST(Pipeline, QuadsRoundTheTipOfAConeAreNotTurnedOver)
   }
   RemeshOptions options;
   options.quads = 5000;
-  options.featureAngle = 40 * M_PI / 180;
+  options.featureAngle = radians(40);
   const RemeshResult result = remesh(cone, options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
