@@ -14,6 +14,7 @@
 #include "QuadrilleReport.h"
 #include "QuadrilleSharedLevels.h"
 #include "Transfer/Charts.h"
+#include "Transfer/ExpectedTurns.h"
 #include "Transfer/Transfer.h"
 
 #include "vtkDataArray.h"
@@ -48,19 +49,6 @@ std::vector<int> coarseNumbers(vtkPolyData* coarse, const char* name)
 }
 
 /// Vertices that the decimation removed are regular and need no integers.
-std::vector<int> expectedTurns(const quadrille::Mesh& mesh)
-{
-  std::vector<int> turns(mesh.vertexCount(), 4);
-  for (quadrille::Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (mesh.isBoundary(h))
-    {
-      turns[mesh.origin[h]] = 2;
-    }
-  }
-  return turns;
-}
-
 struct Expectation
 {
   std::vector<int> turns;
@@ -70,12 +58,12 @@ struct Expectation
 Expectation expectationOf(
   const quadrille::Mesh& mesh, const quadrille::Level& coarse, vtkPolyData* coarseData)
 {
-  Expectation expected{ expectedTurns(mesh), std::vector<std::uint8_t>(mesh.vertexCount(), 0) };
-  const std::vector<int> turns = coarseNumbers(coarseData, quadrille::arrays::kTurns);
+  Expectation expected{ quadrille::expectedTurns(
+                          mesh, coarse, coarseNumbers(coarseData, quadrille::arrays::kTurns)),
+    std::vector<std::uint8_t>(mesh.vertexCount(), 0) };
   const std::vector<int> integer = coarseNumbers(coarseData, quadrille::arrays::kIntegerVertex);
   for (std::size_t v = 0; v < coarse.fineVertex.size(); ++v)
   {
-    expected.turns[coarse.fineVertex[v]] = turns[v];
     expected.integerVertex[coarse.fineVertex[v]] = static_cast<std::uint8_t>(integer[v]);
   }
   return expected;

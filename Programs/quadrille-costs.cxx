@@ -7,6 +7,7 @@
 #include "Hierarchy/Hierarchy.h"
 #include "Options.h"
 #include "PhaseOrders.h"
+#include "Transfer/ExpectedTurns.h"
 
 #include <algorithm>
 #include <array>
@@ -63,16 +64,10 @@ std::vector<int> turnsOf(const Mesh& mesh, double edgeLength)
   return computeCrossField(mesh, options).turns;
 }
 
-/// The turns of a level's field on the finest mesh; vertices that are not on the level are regular.
+/// The turns of a level's field on the finest mesh.
 std::vector<int> turnsOf(const Mesh& fine, const Level& level, double edgeLength)
 {
-  std::vector<int> turns = regularTurns(fine);
-  const std::vector<int> own = turnsOf(level.mesh, edgeLength);
-  for (Index v = 0; v < level.mesh.vertexCount(); ++v)
-  {
-    turns[level.fineVertex[v]] = own[v];
-  }
-  return turns;
+  return expectedTurns(fine, level, turnsOf(level.mesh, edgeLength));
 }
 
 std::string valencesText(const Mesh& mesh, const std::vector<int>& turns)

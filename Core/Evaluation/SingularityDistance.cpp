@@ -3,6 +3,7 @@
 #include "Evaluation/SingularityDistance.h"
 
 #include "Base/Error.h"
+#include "Mesh/Topology.h"
 #include "Numerics/MinCostFlow.h"
 
 #include <algorithm>
@@ -40,19 +41,6 @@ void requireTurns(const Mesh& mesh, const std::vector<int>& turns)
 }
 
 } // namespace
-
-std::vector<int> regularTurns(const Mesh& mesh)
-{
-  std::vector<int> turns(mesh.vertexCount(), 4);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (mesh.isBoundary(h))
-    {
-      turns[mesh.origin[h]] = 2;
-    }
-  }
-  return turns;
-}
 
 std::map<int, std::size_t> singularityHistogram(const Mesh& mesh, const std::vector<int>& turns)
 {

@@ -13,9 +13,6 @@
 namespace quadrille
 {
 
-/// Quarter turns of a regular vertex: 4, on the boundary 2.
-std::vector<int> regularTurns(const Mesh& mesh);
-
 /// Number of interior vertices per number of quarter turns (see CrossField::turns), regular ones left out.
 std::map<int, std::size_t> singularityHistogram(const Mesh& mesh, const std::vector<int>& turns);
 

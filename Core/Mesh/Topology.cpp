@@ -268,6 +268,20 @@ std::vector<Index> outgoingHalfEdges(const Mesh& mesh)
   return outgoing;
 }
 
+std::vector<int> regularTurns(const Mesh& mesh)
+{
+  std::vector<int> turns(mesh.vertexCount(), 4);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    pollNowAndThen(h);
+    if (mesh.isBoundary(h))
+    {
+      turns[mesh.origin[h]] = 2;
+    }
+  }
+  return turns;
+}
+
 Index nextOnBoundary(const Mesh& mesh, Index h)
 {
   Index e = Mesh::next(h);

@@ -21,6 +21,9 @@ std::vector<Index> pairHalfEdges(
 /// (so that rotating counterclockwise visits the whole fan), kInvalidIndex for an isolated vertex.
 std::vector<Index> outgoingHalfEdges(const Mesh& mesh);
 
+/// Quarter turns of a map round each vertex (#V) where none is irregular: 4, on a boundary 2.
+std::vector<int> regularTurns(const Mesh& mesh);
+
 /// The boundary half-edge that follows a boundary half-edge on its loop.
 Index nextOnBoundary(const Mesh& mesh, Index h);
 

@@ -6,6 +6,7 @@
 #include "GridMap/PreviousMap.h"
 #include "Pipeline/CoarsestMap.h"
 #include "Pipeline/Notices.h"
+#include "Transfer/ExpectedTurns.h"
 #include "Transfer/SurfaceStretch.h"
 
 #include <sstream>
@@ -152,25 +153,6 @@ void recordCoarse(const Hierarchy& levels, GridMapResult& map, MapAttempt& made)
       made.coarseOffenders.push_back(levels.coarse.fineVertex[v]);
     }
   }
-}
-
-/// Turns of the finest level: removed vertices are regular.
-std::vector<int> expectedTurns(const Mesh& mesh, const Level& coarse, const std::vector<int>& turns)
-{
-  std::vector<int> expected(mesh.vertexCount(), 4);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    if (mesh.isBoundary(h))
-    {
-      expected[mesh.origin[h]] = 2;
-    }
-  }
-  for (Index v = 0; v < coarse.mesh.vertexCount(); ++v)
-  {
-    expected[coarse.fineVertex[v]] = turns[v];
-  }
-  return expected;
 }
 
 void carryToSurface(RunContext& run, const CrossField& field, MapAttempt& made)

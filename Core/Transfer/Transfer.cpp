@@ -6,6 +6,7 @@
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "GridMap/MapCheck.h"
+#include "Transfer/ExpectedTurns.h"
 #include "Transfer/PatchMender.h"
 #include "Transfer/Replay.h"
 
@@ -107,28 +108,15 @@ std::vector<Index> verticesOf(const Mesh& fine, const std::vector<Index>& faces)
   return vertices;
 }
 
-/// Turns of the finest map: those of the coarse map at its vertices; removed vertices are regular.
-std::vector<int> expectedTurns(
-  const Mesh& fine, const Level& coarse, const std::vector<FixedVec2>& coarseUv)
+/// Quarter turns of a map of the coarse level round each of its vertices.
+std::vector<int> turnsOf(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 {
-  std::vector<int> turns(fine.vertexCount(), 4);
-  for (Index h = 0; h < fine.halfEdgeCount(); ++h)
+  std::vector<int> turns(mesh.vertexCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     pollNowAndThen(h);
-    if (fine.isBoundary(h))
-    {
-      turns[fine.origin[h]] = 2;
-    }
-  }
-  for (const Index v : coarse.fineVertex)
-  {
-    turns[v] = 0;
-  }
-  for (Index h = 0; h < coarse.mesh.halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    turns[coarse.fineVertex[coarse.mesh.origin[h]]] +=
-      quadrantsEntered(&coarseUv[3 * Mesh::face(h)], static_cast<int>(h % 3), 1);
+    turns[mesh.origin[h]] +=
+      quadrantsEntered(&uv[3 * Mesh::face(h)], static_cast<int>(h % 3), 1);
   }
   return turns;
 }
@@ -169,7 +157,7 @@ TransferResult transferMap(const Mesh& fine, const Level& coarse, const Decimati
   checkSizes(fine, coarse, log);
   return replayAndMend(
     fine, coarse, log.rounds.size(), log, coarseUv,
-    [&]() { return expectedTurns(fine, coarse, coarseUv); }, options);
+    [&]() { return expectedTurns(fine, coarse, turnsOf(coarse.mesh, coarseUv)); }, options);
 }
 
 TransferResult transferFromLevel(const Mesh& fine, const Level& level, std::size_t rounds,

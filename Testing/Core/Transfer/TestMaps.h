@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Base/FixedPoint.h"
+#include "GridMap/MapCheck.h"
 #include "Hierarchy/Hierarchy.h"
 #include "TestMeshes.h"
 
@@ -36,6 +37,17 @@ inline std::vector<FixedVec2> mapByPosition(
     uv.push_back(toFixed(map(mesh.position[v])));
   }
   return uv;
+}
+
+/// Quarter turns round each vertex of a map without inverted triangles.
+inline std::vector<int> turnsOf(const Mesh& mesh, const std::vector<FixedVec2>& uv)
+{
+  std::vector<int> turns(mesh.vertexCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    turns[mesh.origin[h]] += quadrantsEntered(&uv[3 * (h / 3)], static_cast<int>(h % 3), 1);
+  }
+  return turns;
 }
 
 /// Edges whose two images are not related by a quarter turn: must be none, exactly.

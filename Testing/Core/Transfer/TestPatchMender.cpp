@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GridMap/MapCheck.h"
 #include "TestMaps.h"
 #include "TestMeshes.h"
 #include "Transfer/PatchMender.h"
@@ -25,17 +24,6 @@ void moveVertices(const Mesh& mesh, std::vector<FixedVec2>& uv, FixedVec2 by,
   {
     uv[h] = chosen(mesh.position[mesh.origin[h]]) ? uv[h] + by : uv[h];
   }
-}
-
-/// Quarter turns round each vertex of a map without inverted triangles.
-std::vector<int> turnsOf(const Mesh& mesh, const std::vector<FixedVec2>& uv)
-{
-  std::vector<int> turns(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    turns[mesh.origin[h]] += quadrantsEntered(&uv[3 * (h / 3)], static_cast<int>(h % 3), 1);
-  }
-  return turns;
 }
 
 } // namespace

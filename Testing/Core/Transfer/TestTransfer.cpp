@@ -3,6 +3,7 @@
 #include "Base/Error.h"
 #include "TestMaps.h"
 #include "TestMeshes.h"
+#include "Transfer/ExpectedTurns.h"
 #include "Transfer/Transfer.h"
 
 #include <gtest/gtest.h>
@@ -84,6 +85,24 @@ TEST(Transfer, cubeKeepsRotationsAndItsFlatSides)
     const Vector2 edge = toDouble(result.uv[Mesh::next(c)] - result.uv[c]);
     EXPECT_NEAR(edge.norm(), scale * mesh.edgeVector(c).norm(), 1e-5);
   }
+}
+
+TEST(Transfer, turnsOnTheSurfaceAreThoseOfTheCoarseMap)
+{
+  const Mesh cube = markFeatures(unitCube(18), kFeatureAngle);
+  const Hierarchy ofCube = decimate(cube, 0.4, 80);
+  const std::vector<FixedVec2> cubeUv = cubeMap(ofCube.coarse.mesh, 9);
+  EXPECT_EQ(expectedTurns(cube, ofCube.coarse, turnsOf(ofCube.coarse.mesh, cubeUv)),
+    turnsOf(cube, transfer(cube, ofCube, cubeUv).uv));
+
+  const Mesh plane = gridPlane(40, 30); // has regular boundary vertices, and four corners with one turn
+  const Hierarchy ofPlane = decimate(plane, 10, 30);
+  const std::vector<FixedVec2> planeUv = mapByPosition(
+    ofPlane.coarse.mesh, [](const Vector3& p) { return Vector2(p.x(), p.y()); });
+  const std::vector<int> turns =
+    expectedTurns(plane, ofPlane.coarse, turnsOf(ofPlane.coarse.mesh, planeUv));
+  EXPECT_EQ(turns, turnsOf(plane, transfer(plane, ofPlane, planeUv).uv));
+  EXPECT_EQ(std::count(turns.begin(), turns.end(), 1), 4);
 }
 
 TEST(Transfer, featuresInsideAPlaneStayOnTheirIsolines)
