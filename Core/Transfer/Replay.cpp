@@ -8,6 +8,7 @@
 #include "Hierarchy/LogRecords.h"
 #include "Mesh/Mesh.h"
 #include "Transfer/RingKernel.h"
+#include "Transfer/StarReplay.h"
 
 #include <algorithm>
 #include <array>
@@ -20,40 +21,53 @@ namespace quadrille
 namespace
 {
 
-/// w (b - a) for w in units of 2^-32, rounded to the grid.
-std::int64_t scaled(std::int64_t difference, std::uint32_t weight)
+/// Charts of fixed-point uv.
+struct UvCharts
 {
-  return static_cast<std::int64_t>(
-    (Int128{ difference } * weight + (std::int64_t{ 1 } << 31)) >> 32);
-}
-FixedVec2 scaled(FixedVec2 difference, std::uint32_t weight)
-{
-  return { scaled(difference.u, weight), scaled(difference.v, weight) };
-}
+  using Point = FixedVec2;
+  using Rotation = int; ///< quarter turns
 
-/// Replays one block. All coordinates of a star are taken relative to the vertex that it had collapsed onto.
+  static Rotation none() { return 0; }
+  Rotation between(FixedVec2 from, FixedVec2 to)
+  {
+    const std::optional<int> rotation = rotationBetween(from, to);
+    lost += rotation ? 0U : 1U;
+    return rotation.value_or(0);
+  }
+  static Rotation after(Rotation second, Rotation first) { return (second + first) & 3; }
+  static FixedVec2 rotate(Rotation r, FixedVec2 p) { return quadrille::rotate(p, r); }
+  static FixedVec2 rotateBack(Rotation r, FixedVec2 p) { return quadrille::rotate(p, 4 - r); }
+  /// Rounded to the grid.
+  static FixedVec2 scaled(FixedVec2 difference, std::uint32_t weight)
+  {
+    const auto round = [&](std::int64_t d)
+    { return static_cast<std::int64_t>((Int128{ d } * weight + (std::int64_t{ 1 } << 31)) >> 32); };
+    return { round(difference.u), round(difference.v) };
+  }
+
+  std::size_t lost = 0; ///< edges without a rotation
+};
+
+/// Replays one block.
 class BlockReplay
 {
 public:
-  explicit BlockReplay(std::vector<FixedVec2>& uv) : uv_(uv) {}
+  explicit BlockReplay(std::vector<FixedVec2>& uv) : uv_(uv), star_(uv) {}
   void run(const std::uint8_t* begin, const std::uint8_t* end);
-  const ReplayCounts& counts() const { return counts_; }
+  ReplayCounts counts() const
+  {
+    ReplayCounts counts = counts_;
+    counts.lostTransitions = star_.charts().lost;
+    return counts;
+  }
 
 private:
-  void unflip(Index h, Index g);
   void uncollapse();
-  void unfoldRing();
-  FixedVec2 interpolate() const;
   FixedVec2 moveIntoKernel(FixedVec2 p);
-  void writeStar(FixedVec2 p);
-  FixedVec2& ring(int i) { return ring_[static_cast<std::size_t>(i)]; }
-  Index slot(int i) const { return record_.slot[static_cast<std::size_t>(i)]; }
 
-  std::vector<FixedVec2>& uv_;
+  const std::vector<FixedVec2>& uv_;
+  StarReplay<UvCharts> star_;
   CollapseRecord record_;
-  std::array<FixedVec2, kMaximumRing + 1> ring_;
-  std::array<int, kMaximumRing>
-    rotation_{}; ///< from the chart of each surviving face to the first one's
   ReplayCounts counts_;
 };
 
@@ -105,7 +119,7 @@ void BlockReplay::run(const std::uint8_t* begin, const std::uint8_t* end)
     }
     if (end[-1] == 0)
     {
-      unflip(loadLittleEndian(end - 9), loadLittleEndian(end - 5));
+      star_.unflip(loadLittleEndian(end - 9), loadLittleEndian(end - 5));
       end -= kFlipBytes;
     }
     else
@@ -117,70 +131,15 @@ void BlockReplay::run(const std::uint8_t* begin, const std::uint8_t* end)
   }
 }
 
-void BlockReplay::unflip(Index h, Index g)
-{
-  // Before: f = (a, d, c), g/3 = (b, c, d). See the figure in DecimationLog.h.
-  const Index nextH = Mesh::next(h);
-  const Index nextG = Mesh::next(g);
-  const FixedVec2 dInF = uv_[nextH];
-  const FixedVec2 dInG = uv_[Mesh::previous(g)];
-  const std::optional<int> rotation =
-    rotationBetween(uv_[nextG] - dInG, uv_[Mesh::previous(h)] - dInF);
-  counts_.lostTransitions += rotation ? 0U : 1U;
-  uv_[nextH] = dInF + rotate(uv_[g] - dInG, rotation.value_or(0));
-  uv_[nextG] = dInG + rotate(uv_[h] - dInF, 4 - rotation.value_or(0));
-}
-
 void BlockReplay::uncollapse()
 {
-  unfoldRing();
-  FixedVec2 p = interpolate();
+  FixedVec2 p = star_.unfold(record_);
   const bool closed = record_.kind == CollapseKind::Interior;
-  if (!starIsPositive(ring_.data(), record_.ringSize(), closed, p))
+  if (!starIsPositive(star_.ring().data(), record_.ringSize(), closed, p))
   {
     p = moveIntoKernel(p);
   }
-  writeStar(p);
-}
-
-void BlockReplay::unfoldRing()
-{
-  const int first = record_.firstSurvivor();
-  const int last = record_.lastSurvivor();
-  int rotation = 0;
-  ring(record_.target()) = {};
-  for (int i = first; i <= last; ++i)
-  {
-    const Index corner = slot(i);
-    const FixedVec2 base = uv_[corner];
-    const FixedVec2 toNext = uv_[Mesh::next(corner)] - base;
-    if (i > first)
-    {
-      // The spoke to ring vertex i is known from the face before.
-      const Index before = slot(i - 1);
-      const std::optional<int> further =
-        rotationBetween(toNext, uv_[Mesh::previous(before)] - uv_[before]);
-      counts_.lostTransitions += further ? 0U : 1U;
-      rotation = (rotation + further.value_or(0)) & 3;
-    }
-    rotation_[static_cast<std::size_t>(i)] = rotation;
-    ring(i) = rotate(toNext, rotation);
-    if (i == last)
-    {
-      ring(i + 1) = rotate(uv_[Mesh::previous(corner)] - base, rotation);
-    }
-  }
-}
-
-FixedVec2 BlockReplay::interpolate() const
-{
-  const FixedVec2 base = ring_[record_.ring[0]];
-  FixedVec2 p = base + scaled(ring_[record_.ring[1]] - base, record_.weight[0]);
-  if (!record_.onCurve)
-  {
-    p = p + scaled(ring_[record_.ring[2]] - base, record_.weight[1]);
-  }
-  return p;
+  star_.write(record_, p);
 }
 
 FixedVec2 BlockReplay::moveIntoKernel(FixedVec2 p)
@@ -188,10 +147,11 @@ FixedVec2 BlockReplay::moveIntoKernel(FixedVec2 p)
   ++counts_.invertedStars;
   const bool closed = record_.kind == CollapseKind::Interior;
   const int count = record_.ringSize();
+  const auto& ring = star_.ring();
   const std::optional<FixedVec2> moved = record_.onCurve
     ? kernelPointOnSegment(
-        ring_.data(), count, closed, ring_[record_.ring[0]], ring_[record_.ring[1]])
-    : kernelPoint(ring_.data(), count, closed);
+        ring.data(), count, closed, ring[record_.ring[0]], ring[record_.ring[1]])
+    : kernelPoint(ring.data(), count, closed);
   if (!moved)
   {
     ++counts_.withoutKernel;
@@ -199,32 +159,6 @@ FixedVec2 BlockReplay::moveIntoKernel(FixedVec2 p)
   }
   ++counts_.movedToKernel;
   return *moved;
-}
-
-void BlockReplay::writeStar(FixedVec2 p)
-{
-  const int first = record_.firstSurvivor();
-  const int last = record_.lastSurvivor();
-  const FixedVec2 targetFirst = uv_[slot(first)];
-  const FixedVec2 targetLast = uv_[slot(last)];
-  for (int i = first; i <= last; ++i)
-  {
-    uv_[slot(i)] = uv_[slot(i)] + rotate(p, 4 - rotation_[static_cast<std::size_t>(i)]);
-  }
-  // The faces that come back take the chart of their neighbour in the star.
-  if (first == 1)
-  {
-    uv_[slot(0)] = uv_[slot(1)];
-    uv_[Mesh::next(slot(0))] = targetFirst;
-    uv_[Mesh::previous(slot(0))] = uv_[Mesh::next(slot(1))];
-  }
-  if (last == record_.faces - 2)
-  {
-    const Index corner = slot(record_.faces - 1);
-    uv_[corner] = uv_[slot(last)];
-    uv_[Mesh::next(corner)] = uv_[Mesh::previous(slot(last))];
-    uv_[Mesh::previous(corner)] = targetLast;
-  }
 }
 
 } // namespace

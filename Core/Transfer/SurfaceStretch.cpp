@@ -7,6 +7,7 @@
 #include "Base/Progress.h"
 #include "Hierarchy/LogRecords.h"
 #include "Transfer/RingKernel.h"
+#include "Transfer/StarReplay.h"
 
 #include <Eigen/LU>
 
@@ -23,7 +24,7 @@ namespace quadrille
 namespace
 {
 
-/// A point or vector of a plane; a product with one of length 1 turns it.
+/// A point or vector of a plane; a product with one of length 1 rotates it.
 using Complex = std::complex<double>;
 using Polygon = std::vector<Complex>;
 
@@ -39,20 +40,20 @@ double cross(Complex a, Complex b)
   return a.real() * b.imag() - a.imag() * b.real();
 }
 
-/// The turn from a to b; none where one of them has no length.
-Complex turnBetween(Complex a, Complex b)
+/// The rotation from a to b; none where one of them has no length.
+Complex rotationBetween(Complex a, Complex b)
 {
-  const Complex turn = b * std::conj(a);
-  const double length = std::abs(turn);
-  return length > 0 ? turn / length : Complex(1);
+  const Complex rotation = b * std::conj(a);
+  const double length = std::abs(rotation);
+  return length > 0 ? rotation / length : Complex(1);
 }
 
 /// A change of the chart.
 struct Motion
 {
-  Complex turn = 1;
-  Complex shift = 0;
-  Complex operator()(Complex p) const { return turn * p + shift; }
+  Complex rotation = 1;
+  Complex translation = 0;
+  Complex operator()(Complex p) const { return rotation * p + translation; }
 };
 
 /// Corners of a face in the plane whose first axis is half-edge 3f.
@@ -82,8 +83,8 @@ public:
       if (!mesh.isBoundary(h))
       {
         const Index twin = mesh.twin[h];
-        const Complex turn = turnBetween(edge(h), -edge(twin));
-        across_[h] = { turn, corner_[Mesh::next(twin)] - turn * corner_[h] };
+        const Complex rotation = rotationBetween(edge(h), -edge(twin));
+        across_[h] = { rotation, corner_[Mesh::next(twin)] - rotation * corner_[h] };
       }
     }
   }
@@ -120,14 +121,38 @@ private:
   std::vector<Motion> across_;  ///< #H
 };
 
+/// Charts that are planes of coarse faces.
+struct PlaneCharts
+{
+  using Point = Complex;
+  using Rotation = Complex; ///< of length 1
+
+  static Complex none() { return 1; }
+  static Complex between(Complex from, Complex to) { return rotationBetween(from, to); }
+  static Complex after(Complex second, Complex first)
+  {
+    const Complex both = second * first;
+    return both / std::abs(both);
+  }
+  static Complex rotate(Complex r, Complex p) { return r * p; }
+  static Complex rotateBack(Complex r, Complex p) { return std::conj(r) * p; }
+  static Complex scaled(Complex difference, std::uint32_t weight)
+  {
+    return std::ldexp(double(weight), -32) * difference;
+  }
+};
+
 /// The finer faces on the coarse planes, while the log goes back.
 class Layout
 {
 public:
   Layout(const CoarsePlanes& planes, Index faces)
-    : planes_(planes), corner_(3 * std::size_t{ faces }), home_(faces, kInvalidIndex)
+    : planes_(planes), corner_(3 * std::size_t{ faces }), home_(faces, kInvalidIndex),
+      star_(corner_)
   {
   }
+  Layout(const Layout&) = delete;
+  Layout& operator=(const Layout&) = delete;
 
   /// Face f is the coarse face.
   void place(Index f, Index coarseFace)
@@ -148,7 +173,11 @@ public:
       const std::uint8_t* const at = records.data() + end;
       if (at[-1] == 0)
       {
-        unflip(slotOf(loadLittleEndian(at - 9)), slotOf(loadLittleEndian(at - 5)));
+        const Index h = slotOf(loadLittleEndian(at - 9));
+        const Index g = slotOf(loadLittleEndian(at - 5));
+        star_.unflip(h, g);
+        goHome(h / 3);
+        goHome(g / 3);
         end -= kFlipBytes;
         continue;
       }
@@ -165,59 +194,22 @@ public:
   Index home(Index f) const { return home_[f]; }
 
 private:
-  void unflip(Index h, Index g)
-  {
-    // See the figure in DecimationLog.h and the replay.
-    const Index nextH = Mesh::next(h);
-    const Index nextG = Mesh::next(g);
-    const Complex dInF = corner_[nextH];
-    const Complex dInG = corner_[Mesh::previous(g)];
-    const Complex turn = turnBetween(corner_[nextG] - dInG, corner_[Mesh::previous(h)] - dInF);
-    corner_[nextH] = dInF + turn * (corner_[g] - dInG);
-    corner_[nextG] = dInG + std::conj(turn) * (corner_[h] - dInF);
-    goHome(h / 3);
-    goHome(g / 3);
-  }
-
   void uncollapse()
   {
-    unfoldRing();
-    const Complex base = ring_[record_.ring[0]];
-    const auto weight = [&](std::size_t i) { return std::ldexp(double(record_.weight[i]), -32); };
-    Complex p = base + weight(0) * (ring_[record_.ring[1]] - base);
-    if (!record_.onCurve)
-    {
-      p += weight(1) * (ring_[record_.ring[2]] - base);
-    }
-    writeStar(intoKernel(p));
-    for (int i = 0; i < record_.faces; ++i)
-    {
-      goHome(slot(i) / 3);
-    }
-  }
-
-  /// The ring in the plane of the first face that is left, relative to the vertex that the star had collapsed onto.
-  void unfoldRing()
-  {
+    star_.write(record_, intoKernel(star_.unfold(record_)));
     const int first = record_.firstSurvivor();
     const int last = record_.lastSurvivor();
-    ring_[static_cast<std::size_t>(record_.target())] = 0;
-    Complex turn = 1;
-    for (int i = first; i <= last; ++i)
+    if (first == 1)
     {
-      const auto at = static_cast<std::size_t>(i);
-      const Index corner = slot(i);
-      const Complex toNext = corner_[Mesh::next(corner)] - corner_[corner];
-      if (i > first)
-      {
-        const Index before = slot(i - 1);
-        turn *= turnBetween(toNext, corner_[Mesh::previous(before)] - corner_[before]);
-        turn /= std::abs(turn);
-      }
-      turn_[at] = turn;
-      ring_[at] = turn * toNext;
-      ring_[at + 1] =
-        i == last ? turn * (corner_[Mesh::previous(corner)] - corner_[corner]) : ring_[at + 1];
+      home_[faceOf(0)] = home_[faceOf(first)];
+    }
+    if (last == record_.faces - 2)
+    {
+      home_[faceOf(record_.faces - 1)] = home_[faceOf(last)];
+    }
+    for (int i = 0; i < record_.faces; ++i)
+    {
+      goHome(faceOf(i));
     }
   }
 
@@ -225,10 +217,11 @@ private:
   Complex intoKernel(Complex p) const
   {
     const int count = record_.ringSize();
+    const auto& unfolded = star_.ring();
     double extent = 0;
     for (int i = 0; i < count; ++i)
     {
-      extent = std::max(extent, std::abs(ring_[static_cast<std::size_t>(i)]));
+      extent = std::max(extent, std::abs(unfolded[static_cast<std::size_t>(i)]));
     }
     if (!(extent > 0))
     {
@@ -237,7 +230,7 @@ private:
     const auto onGrid = [&](Complex q)
     { return toFixed(Vector2(q.real(), q.imag()) * (kKernelScale / extent)); };
     std::array<FixedVec2, kMaximumRing + 1> ring;
-    std::transform(ring_.begin(), ring_.begin() + count, ring.begin(), onGrid);
+    std::transform(unfolded.begin(), unfolded.begin() + count, ring.begin(), onGrid);
     const bool closed = record_.kind == CollapseKind::Interior;
     if (starIsPositive(ring.data(), count, closed, onGrid(p)))
     {
@@ -253,35 +246,6 @@ private:
     }
     const Vector2 q = toDouble(*moved) * (extent / kKernelScale);
     return { q.x(), q.y() };
-  }
-
-  void writeStar(Complex p)
-  {
-    const int first = record_.firstSurvivor();
-    const int last = record_.lastSurvivor();
-    const Complex targetFirst = corner_[slot(first)];
-    const Complex targetLast = corner_[slot(last)];
-    for (int i = first; i <= last; ++i)
-    {
-      corner_[slot(i)] += std::conj(turn_[static_cast<std::size_t>(i)]) * p;
-    }
-    // The faces that come back take the plane of their neighbour in the star.
-    if (first == 1)
-    {
-      const Index corner = slot(0);
-      corner_[corner] = corner_[slot(1)];
-      corner_[Mesh::next(corner)] = targetFirst;
-      corner_[Mesh::previous(corner)] = corner_[Mesh::next(slot(1))];
-      home_[corner / 3] = home_[slot(1) / 3];
-    }
-    if (last == record_.faces - 2)
-    {
-      const Index corner = slot(record_.faces - 1);
-      corner_[corner] = corner_[slot(last)];
-      corner_[Mesh::next(corner)] = corner_[Mesh::previous(slot(last))];
-      corner_[Mesh::previous(corner)] = targetLast;
-      home_[corner / 3] = home_[slot(last) / 3];
-    }
   }
 
   /// To the plane of the coarse face that holds the middle of f. Done whenever f moves, as a way that is short does not
@@ -301,15 +265,13 @@ private:
     }
   }
 
-  Index slot(int i) const { return record_.slot[static_cast<std::size_t>(i)]; }
+  Index faceOf(int i) const { return record_.slot[static_cast<std::size_t>(i)] / 3; }
 
   const CoarsePlanes& planes_;
   std::vector<Complex> corner_;
   std::vector<Index> home_;
+  StarReplay<PlaneCharts> star_;
   CollapseRecord record_;
-  std::array<Complex, kMaximumRing + 1> ring_;
-  std::array<Complex, kMaximumRing>
-    turn_; ///< from the plane of each surviving face to the first one's
 };
 
 /// Sums over a coarse face.
@@ -320,10 +282,10 @@ struct Share
   double surface = 0;
 };
 
-Eigen::Matrix2d turned(const Eigen::Matrix2d& symmetric, Complex turn)
+Eigen::Matrix2d rotated(const Eigen::Matrix2d& symmetric, Complex r)
 {
   Eigen::Matrix2d rotation;
-  rotation << turn.real(), -turn.imag(), turn.imag(), turn.real();
+  rotation << r.real(), -r.imag(), r.imag(), r.real();
   return rotation * symmetric * rotation.transpose();
 }
 
@@ -380,7 +342,7 @@ private:
         const Motion& across = planes_.across(h);
         const Index twin = planes_.mesh().twin[h];
         std::transform(beyond.begin(), beyond.end(), beyond.begin(), across);
-        spread(Mesh::face(twin), twin, std::move(beyond), turned(stretch, across.turn), depth + 1);
+        spread(Mesh::face(twin), twin, std::move(beyond), rotated(stretch, across.rotation), depth + 1);
       }
     }
     double area = 0;
