@@ -89,9 +89,9 @@ std::vector<Polyline> readLines(vtkPolyData* data, const char* what)
 class Placement
 {
 public:
-  Placement(ConvertedSurface& surface, double reach)
+  explicit Placement(ConvertedSurface& surface)
     : surface_(surface), input_(surface.input), graph_(makeEdgeGraph(surface.input)),
-      snapper_(surface.input), diagonal_(diagonalOf(surface.input)), reach_(reach)
+      snapper_(surface.input), diagonal_(diagonalOf(surface.input))
   {
   }
 
@@ -111,7 +111,6 @@ private:
   /// Places below the straight segment from one to the other; none where the way jumps.
   std::vector<Snapper::Place> sampleBetween(
     const Snapper::Place& first, const Snapper::Place& last) const;
-  bool isInReach(const std::vector<Vector3>& points) const;
   bool isOnBoundary(Index point) const;
   void guide(const Snapper::Place& place, const Stroke& stroke);
   void guideAlong(const std::vector<Index>& path, const Stroke& stroke);
@@ -122,7 +121,6 @@ private:
   EdgeGraph graph_;
   Snapper snapper_;
   double diagonal_;
-  double reach_;
   std::map<Index, std::uint8_t> features_;
   std::map<Index, Stroke> strokes_;
   PlacedConstraints result_;
@@ -156,13 +154,6 @@ void Placement::tellIfFar(const char* what, const PlacedConstraint& placed)
   }
 }
 
-bool Placement::isInReach(const std::vector<Vector3>& points) const
-{
-  return std::isinf(reach_) ||
-    std::any_of(points.begin(), points.end(),
-      [this](const Vector3& p) { return (snapper_.nearestPlace(p).point - p).norm() <= reach_; });
-}
-
 /// An edge from there has one polygon only.
 bool Placement::isOnBoundary(Index point) const
 {
@@ -177,10 +168,6 @@ bool Placement::isOnBoundary(Index point) const
 
 void Placement::addFeature(const Polyline& line)
 {
-  if (!isInReach(line.points))
-  {
-    return;
-  }
   PlacedConstraint placed;
   placed.kind = ConstraintKind::Feature;
   placed.source = line.cell;
@@ -284,10 +271,6 @@ void Placement::guideAlong(const std::vector<Index>& path, const Stroke& stroke)
 
 void Placement::addStroke(const Polyline& line, double weight)
 {
-  if (!isInReach(line.points))
-  {
-    return;
-  }
   PlacedConstraint placed;
   placed.kind = ConstraintKind::Stroke;
   placed.source = line.cell;
@@ -336,10 +319,6 @@ void Placement::addStroke(const Polyline& line, double weight)
 
 void Placement::addValence(vtkIdType source, const Vector3& point, int valence)
 {
-  if (!isInReach({ point }))
-  {
-    return;
-  }
   const Index v = snapper_.nearestCorner(point);
   if (valence == kLeastValence && isOnBoundary(v))
   {
@@ -501,7 +480,7 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
   {
     return unused;
   }
-  Placement placement(surface, inputs.reach);
+  Placement placement(surface);
   if (hasLines(inputs.curves))
   {
     addCurves(inputs.curves, inputs.strokeWeight, placement);

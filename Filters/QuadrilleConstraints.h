@@ -9,7 +9,6 @@
 
 #include <vtkSmartPointer.h>
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -29,8 +28,6 @@ struct ConstraintInputs
   vtkPolyData* points = nullptr;
   double strokeWeight = 1; ///< in (0, 1]
   int valence = 3;         ///< 2 to 8
-  /// What has all its points farther from the surface than this is meant for another block, and nothing is said of it.
-  double reach = std::numeric_limits<double>::infinity();
 };
 
 enum class ConstraintKind

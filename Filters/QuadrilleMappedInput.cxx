@@ -277,7 +277,6 @@ MappedInput readMappedInput(vtkPolyData* data, double textureScale, int threads)
     vtkDataArray* texture = requireTexture(data);
     const std::vector<Index> corners = readCorners(data, threads);
     uv = readTexture(texture, corners, textureScale);
-    result.fromTexture = true;
     result.mirrored = isMirrored(uv);
     for (std::size_t h = 0; result.mirrored && h < uv.size(); ++h)
     {

@@ -26,8 +26,7 @@ struct MappedInput
   SnapResult map;
   Frame frame;
   Mesh ownMeshInFrame; ///< only where it was read
-  bool fromTexture = false; ///< the map was in the texture coordinates
-  bool mirrored = false;    ///< and mirrored, so that v has the other sign now
+  bool mirrored = false; ///< the map was in mirrored texture coordinates, so that v has the other sign now
 
   const Mesh& meshInFrame() const;
   /// What the user should know of the changes; empty where the map was exact.

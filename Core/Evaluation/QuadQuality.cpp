@@ -6,7 +6,6 @@
 #include "Extraction/QuadTopology.h"
 
 #include <cmath>
-#include <cstdio>
 
 namespace quadrille
 {
@@ -118,21 +117,6 @@ QuadQuality evaluateQuads(const std::vector<Vector3>& points, const Quads& quads
   measureShapes(points, quads, quality);
   measureEdges(points, quads, topology, quality);
   return quality;
-}
-
-std::string QuadQuality::text() const
-{
-  char line[512];
-  std::snprintf(line, sizeof line,
-    "%zu quads, %zu vertices (%zu irregular), chi %lld, %zu components, %zu boundary loops, %s, "
-    "%s, "
-    "scaled Jacobian min %.3f mean %.3f (%zu not positive), edge length mean %.4g min %.4g max "
-    "%.4g",
-    quads, vertices, irregularVertices, eulerCharacteristic, components, boundaryLoops,
-    manifold ? "manifold" : "NOT manifold", closed ? "closed" : "open", scaledJacobian.minimum,
-    scaledJacobian.mean, nonPositiveJacobians, edgeLength.mean, edgeLength.minimum,
-    edgeLength.maximum);
-  return line;
 }
 
 } // namespace quadrille

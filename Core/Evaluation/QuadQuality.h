@@ -7,7 +7,6 @@
 
 #include <array>
 #include <map>
-#include <string>
 #include <vector>
 
 namespace quadrille
@@ -45,9 +44,6 @@ struct QuadQuality
   Statistics edgeLength;
   Statistics area;    ///< per quad, of its two triangles at the diagonal from corner 0
   Statistics warping; ///< per quad: largest angle between the normals of two triangles, radians
-
-  /// One line for people.
-  std::string text() const;
 };
 
 /// Linear in quads. Throws InvalidInput for a corner beyond the points.

@@ -70,12 +70,6 @@ RoundedMap::RoundedMap(const Mesh& mesh, const CrossField& field, double edgeLen
   relateIntegers();
 }
 
-std::size_t RoundedMap::composites() const
-{
-  return static_cast<std::size_t>(
-    std::count(lattice_.composite.begin(), lattice_.composite.end(), std::uint8_t{ 1 }));
-}
-
 /// What must be whole: translations, one image of each integer vertex (the others follow), and the
 /// coordinate across each constrained edge. Variables that are always equal share a form.
 void RoundedMap::collectForms(const CrossField& field)

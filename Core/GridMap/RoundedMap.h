@@ -27,10 +27,6 @@ public:
 
   /// Not ok where the equations need more than 63 bits, or have no unique solution; make() must not be called then.
   const Status& status() const { return status_; }
-  /// Number of integers that are rounded, and of those that wait for the others because only some values are
-  /// allowed (parity).
-  std::size_t integers() const { return lattice_.coordinates.size(); }
-  std::size_t composites() const;
 
   /// #H: the map with whole translations, isolines and integer vertices. The Poisson solution is scaled to an area of
   /// targetQuads (0: as edgeLength has it) before it is rounded, which changes the area again.

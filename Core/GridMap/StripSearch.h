@@ -53,8 +53,6 @@ public:
   /// The faces that the last call of through() looked at, each once: as long as none of them changes, the same call
   /// finds the same.
   const std::vector<Index>& visitedFaces() const { return visited_; }
-  /// Searches so far.
-  std::size_t searches() const { return searches_; }
   /// Half-edges with their step that all searches so far have settled.
   std::size_t work() const { return work_; }
 

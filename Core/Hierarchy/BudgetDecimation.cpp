@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Base/Parallel.h"
+#include "Hierarchy/ComparedCosts.h"
 #include "Hierarchy/GaussianCurvatureCost.h"
 #include "Hierarchy/GuideRegions.h"
 #include "Hierarchy/LazyHeap.h"
@@ -89,27 +90,6 @@ std::vector<RemovalGuards> guardStages(double curveTolerance, double regionToler
   loose.maximumValence = 12;
   return { strict, medium, loose };
 }
-
-struct Quadric
-{
-  Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
-  Vector3 b = Vector3::Zero();
-  double c = 0;
-
-  void addPlane(const Vector3& normal, double offset, double weight)
-  {
-    a += weight * normal * normal.transpose();
-    b += weight * offset * normal;
-    c += weight * offset * offset;
-  }
-  void add(const Quadric& other)
-  {
-    a += other.a;
-    b += other.b;
-    c += other.c;
-  }
-  double at(const Vector3& p) const { return p.dot(a * p) + 2 * b.dot(p) + c; }
-};
 
 /// Connected components of what is alive, and how many vertices each has to keep.
 class ComponentShares
@@ -248,18 +228,14 @@ private:
   void describe(bool possible, Work& work) const;
   float cost(Index v, double shortestEdge, const Work& work) const;
   double curvatureCost(Index v, const Work& work) const;
-  double quadricCost(const VertexRemoval& removal, Index v) const;
   double shapeCost(const Work& work) const;
   double densityOf(Index f) const;
   double movedBy(const Work& work) const;
   bool movesTooMuch(const Work& work) const;
-  void remember(const Work& work, Index v);
+  void remember(const Work& work);
   void takeOver(Work& work);
-  bool wantsChange() const
-  {
-    return options_.cost == DecimationCost::Gaussian ||
-      options_.cost == DecimationCost::GaussianMemory;
-  }
+  /// Whether the cost is E_G or E_G,mem.
+  bool wantsChange() const { return !compared_; }
   std::string notice() const;
 
   DecimationMesh& mesh_;
@@ -269,8 +245,8 @@ private:
   GuideCarrier carrier_;
   std::vector<char> kept_;
   std::vector<Index> version_;
-  std::vector<float> defect_;    ///< current angle defects, for GaussianMemory
-  std::vector<Quadric> quadric_; ///< for Quadric
+  std::vector<float> defect_;            ///< current angle defects, for GaussianMemory
+  std::optional<ComparedCost> compared_; ///< where E_G is not what orders the removals
   Index budget_ = 0;
   Index expected_ = 0; ///< vertices in the end, for the scale of costs
   Index alive_ = 0;
@@ -283,9 +259,9 @@ private:
 void BudgetDecimation::prepareCost()
 {
   alive_ = shares_.total();
-  if (options_.cost == DecimationCost::Quadric)
+  if (options_.cost == DecimationCost::Quadric || options_.cost == DecimationCost::Uniform)
   {
-    quadric_.resize(mesh_.position.size());
+    compared_.emplace(mesh_, options_.cost);
   }
   for (Index f = 0; f < mesh_.faceCount(); ++f)
   {
@@ -296,12 +272,7 @@ void BudgetDecimation::prepareCost()
     const Vector3& p = mesh_.position[mesh_.origin[3 * f]];
     const Vector3 n = (mesh_.position[mesh_.origin[3 * f + 1]] - p)
                         .cross(mesh_.position[mesh_.origin[3 * f + 2]] - p);
-    const double doubled = n.norm();
-    area_ += 0.5 * doubled * densityOf(f);
-    for (Index h = 3 * f; h < 3 * f + 3 && !quadric_.empty() && doubled > 0; ++h)
-    {
-      quadric_[mesh_.origin[h]].addPlane(n / doubled, -n.dot(p) / doubled, 0.5 * doubled);
-    }
+    area_ += 0.5 * n.norm() * densityOf(f);
   }
   if (wantsChange())
   {
@@ -426,7 +397,7 @@ void BudgetDecimation::runStage(const Stage& stage, RecordWriter& records)
       return;
     }
     moved_ += wantsChange() ? movedBy(work) : 0;
-    remember(work, entry.vertex);
+    remember(work);
     takeOver(work);
     carrier_.gather(mesh_, removal);
     removal.apply(records);
@@ -572,15 +543,8 @@ void BudgetDecimation::describe(bool possible, Work& work) const
 
 float BudgetDecimation::cost(Index v, double shortestEdge, const Work& work) const
 {
-  switch (options_.cost)
-  {
-    case DecimationCost::Uniform:
-      return static_cast<float>(shortestEdge);
-    case DecimationCost::Quadric:
-      return static_cast<float>(quadricCost(work.removal, v));
-    default:
-      return static_cast<float>(curvatureCost(v, work) + shapeCost(work));
-  }
+  return static_cast<float>(compared_ ? compared_->of(work.removal, shortestEdge)
+                                      : curvatureCost(v, work) + shapeCost(work));
 }
 
 double BudgetDecimation::curvatureCost(Index v, const Work& work) const
@@ -598,19 +562,6 @@ double BudgetDecimation::curvatureCost(Index v, const Work& work) const
       std::abs(double{ defect_[w] } + numberOf(change[i]) - double{ options_.inputDefect[w] });
   }
   return cost;
-}
-
-double BudgetDecimation::quadricCost(const VertexRemoval& removal, Index v) const
-{
-  double cost = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < removal.ringSize(); ++i)
-  {
-    const Index w = removal.ringVertex(i);
-    Quadric sum = quadric_[v];
-    sum.add(quadric_[w]);
-    cost = std::min(cost, sum.at(mesh_.position[w]));
-  }
-  return std::max(cost, 0.0);
 }
 
 double BudgetDecimation::shapeCost(const Work& work) const
@@ -632,7 +583,7 @@ double BudgetDecimation::shapeCost(const Work& work) const
     kShapeWeight * numberOf(work.planned[kBadAt]) + kValenceWeight * odd + kSizeWeight * sizeChange;
 }
 
-void BudgetDecimation::remember(const Work& work, Index v)
+void BudgetDecimation::remember(const Work& work)
 {
   const VertexRemoval& removal = work.removal;
   if (options_.cost == DecimationCost::GaussianMemory)
@@ -643,16 +594,9 @@ void BudgetDecimation::remember(const Work& work, Index v)
       defect_[removal.ringVertex(i)] += numberOf(change[i]);
     }
   }
-  if (options_.cost == DecimationCost::Quadric)
+  if (compared_)
   {
-    int best = 0;
-    for (int i = 1; i < removal.ringSize(); ++i)
-    {
-      const auto cost = [&](int j)
-      { return quadric_[v].at(mesh_.position[removal.ringVertex(j)]); };
-      best = cost(i) < cost(best) ? i : best;
-    }
-    quadric_[removal.ringVertex(best)].add(quadric_[v]);
+    compared_->remove(removal);
   }
 }
 

@@ -19,11 +19,12 @@ enum class DecimationCost
 {
   Gaussian,       ///< E_G: change of Gaussian curvature against the current mesh
   GaussianMemory, ///< E_G,mem: against the input mesh
-  Quadric,        ///< E_QEM
-  Uniform         ///< E_uni: shortest incident edge
+  Quadric,        ///< E_QEM, to compare with (ComparedCosts.h)
+  Uniform         ///< E_uni: shortest incident edge; the same
 };
 
-/// Which vertex phase 1 removes next. All orders obey the same guards and end when no edge is shorter than s/2.
+/// Which vertex phase 1 removes next. All orders obey the same guards and end when no edge is shorter than s/2. A run takes
+/// the sweeps; the others are there to compare with (OrderedDecimation.h).
 enum class DecimationOrder
 {
   Sweeps, ///< in storage order while a threshold rises; parallel

@@ -218,11 +218,6 @@ void repairSurface(PreparedSurface& surface, EdgeRuns runs, int threads)
   }
 }
 
-bool RepairReport::nothingChanged() const
-{
-  return text().empty();
-}
-
 std::string RepairReport::text() const
 {
   std::string text;

@@ -71,7 +71,6 @@ struct RepairReport
   std::size_t refinedFaces = 0;  ///< faces that were split by refineSurface
   std::size_t closedHandles = 0; ///< handles that closeHandles cut and closed
 
-  bool nothingChanged() const;
   /// "12 duplicate faces removed, 3 non-manifold edges split"; empty when nothing changed.
   std::string text() const;
 };

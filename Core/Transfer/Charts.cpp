@@ -90,12 +90,6 @@ std::size_t countSeams(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 
 } // namespace
 
-ChartCounts countCharts(const Mesh& mesh, const std::vector<FixedVec2>& uv)
-{
-  return { visitFaces(mesh, [&](Index h) { return isContinuous(mesh, uv, h); }),
-    countSeams(mesh, uv) };
-}
-
 ChartCounts mergeCharts(const Mesh& mesh, std::vector<FixedVec2>& uv)
 {
   const std::size_t charts = visitFaces(mesh, [&](Index h) { return carryAcross(mesh, uv, h); });

@@ -18,9 +18,6 @@ struct ChartCounts
   std::size_t seamEdges = 0; ///< edges whose transition is not the identity
 };
 
-/// Counts without changing anything; interior edges only.
-ChartCounts countCharts(const Mesh& mesh, const std::vector<FixedVec2>& uv);
-
 /// Carries every face into the chart of its neighbour, breadth first from the lowest face of each component, so that
 /// one chart a component is left. What remains of seams is what the breadth-first tree does not cross and that
 /// carries a rotation or a translation: paths between irregular vertices, corners and handles, none of which ends at a regular

@@ -171,12 +171,6 @@ void ReplayCounts::add(const ReplayCounts& other)
   lostTransitions += other.lostTransitions;
 }
 
-ReplayCounts replayLog(const DecimationLog& log, std::vector<FixedVec2>& uv, int threads,
-  const ProgressCallback& progress)
-{
-  return replayRounds(log, { log.rounds.size(), 0 }, uv, threads, progress);
-}
-
 ReplayCounts replayRounds(const DecimationLog& log, const ReplayRange& range,
   std::vector<FixedVec2>& uv, int threads, const ProgressCallback& progress)
 {

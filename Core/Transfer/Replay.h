@@ -27,10 +27,6 @@ struct ReplayCounts
   void add(const ReplayCounts& other);
 };
 
-/// uv: #H of the finest mesh, set on the slots of the coarse level; set on all afterwards.
-ReplayCounts replayLog(const DecimationLog& log, std::vector<FixedVec2>& uv, int threads,
-  const ProgressCallback& progress);
-
 /// Part of a log: from the level that its first `from` rounds lead to, back to that of its first `to` rounds.
 /// 0 is the finest level, DecimationLog::intermediateRounds the intermediate one, rounds.size() the coarse one.
 struct ReplayRange
@@ -39,8 +35,8 @@ struct ReplayRange
   std::size_t to = 0; ///< <= from
 };
 
-/// The same for a part of the log: uv is set on the slots of the level `from`, and on those of level `to`
-/// afterwards. Parts one after the other give what the whole log gives. Throws InvalidInput when the range is none
+/// uv: #H of the finest mesh, set on the slots of the level `from`, and on those of level `to` afterwards; level 0
+/// has all slots. Parts one after the other give what the whole log gives. Throws InvalidInput when the range is none
 /// of the log or uv has not the size of the finest mesh.
 ReplayCounts replayRounds(const DecimationLog& log, const ReplayRange& range,
   std::vector<FixedVec2>& uv, int threads, const ProgressCallback& progress);

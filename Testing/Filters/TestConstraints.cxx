@@ -262,22 +262,6 @@ TEST(Constraints, TwoValencesAtOnePlaceAreRefused)
   EXPECT_THROW(applyConstraints(surface, inputs), InvalidInput);
 }
 
-TEST(Constraints, WhatIsOutOfReachIsForAnotherBlock)
-{
-  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(4, 4));
-  ConvertedSurface surface = convertSurface(data, "");
-  const vtkSmartPointer<vtkPolyData> points = pointCloud({ { 1, 2, 0.1 }, { 3, 1, 7 } });
-  const vtkSmartPointer<vtkPolyData> stroke = polyline({ { 0, 2, 7 }, { 4, 2, 7 } });
-  ConstraintInputs inputs;
-  inputs.points = points;
-  inputs.strokes = stroke;
-  inputs.reach = 1;
-  const PlacedConstraints result = applyConstraints(surface, inputs);
-  ASSERT_EQ(result.placed.size(), 1u);
-  EXPECT_EQ(result.placed[0].path.front(), Vector3(1, 2, 0));
-  EXPECT_TRUE(result.notices.empty());
-}
-
 TEST(Constraints, ValenceTwoOnTheBoundaryIsRefusedWithItsPlace)
 {
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(4, 4));

@@ -81,6 +81,12 @@ inline std::vector<int> holonomy(const Mesh& mesh, const std::vector<FixedVec2>&
   return turns;
 }
 
+/// uv: set on the slots of the coarse level; set on all afterwards.
+inline ReplayCounts replayAll(const DecimationLog& log, std::vector<FixedVec2>& uv, int threads)
+{
+  return replayRounds(log, { log.rounds.size(), 0 }, uv, threads, {});
+}
+
 /// Replays a map that is seamless on the coarse level and holds all that must be exact against it.
 inline void expectExactReplay(
   const Mesh& fine, const Hierarchy& h, const std::vector<FixedVec2>& coarseUv)
@@ -88,7 +94,7 @@ inline void expectExactReplay(
   ASSERT_EQ(seamResiduals(h.coarse.mesh, coarseUv), 0U);
   ASSERT_EQ(constrainedEdgesOffAxis(h.coarse.mesh, coarseUv), 0U);
   std::vector<FixedVec2> uv = onSlots(fine, h.coarse, coarseUv);
-  const ReplayCounts counts = replayLog(h.log, uv, 2, {});
+  const ReplayCounts counts = replayAll(h.log, uv, 2);
   EXPECT_EQ(counts.lostTransitions, 0U);
   EXPECT_EQ(seamResiduals(fine, uv), 0U);
   EXPECT_EQ(constrainedEdgesOffAxis(fine, uv), 0U) << "exactly on isolines";

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Base/DisjointSets.h"
 #include "TestMaps.h"
 #include "TestMeshes.h"
 #include "Transfer/Charts.h"
@@ -38,6 +39,27 @@ std::vector<std::int64_t> determinants(const std::vector<FixedVec2>& uv)
     result.push_back(static_cast<std::int64_t>(determinant(uv[h], uv[h + 1], uv[h + 2])));
   }
   return result;
+}
+
+/// Parts without a seam between them, and edges that are seams.
+ChartCounts countCharts(const Mesh& mesh, const std::vector<FixedVec2>& uv)
+{
+  ChartCounts counts;
+  DisjointSets parts(mesh.faceCount(), 1);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Index g = mesh.twin[h];
+    if (g != kInvalidIndex && uv[h] == uv[Mesh::next(g)] && uv[Mesh::next(h)] == uv[g])
+    {
+      parts.join(Mesh::face(h), Mesh::face(g));
+    }
+    else
+    {
+      counts.seamEdges += g != kInvalidIndex && h < g ? 1U : 0U;
+    }
+  }
+  counts.charts = parts.countSets();
+  return counts;
 }
 
 /// Vertices where exactly one seam edge ends.

@@ -54,7 +54,7 @@ TEST(Replay, partsGiveWhatTheWholeGives)
   shuffleCharts(coarseUv, 3);
   const std::vector<FixedVec2> start = onSlots(mesh, h.coarse, coarseUv);
   std::vector<FixedVec2> whole = start;
-  replayLog(h.log, whole, 1, {});
+  replayAll(h.log, whole, 1);
   const std::size_t rounds = h.log.rounds.size();
   ASSERT_GT(rounds, h.log.intermediateRounds);
   ASSERT_GT(h.log.intermediateRounds, 1U);
@@ -190,7 +190,7 @@ TEST(Replay, damagedLogsWithARightChecksumNeverHarm)
     {
       const DecimationLog log = DecimationLog::deserialize(damaged, 1);
       std::vector<FixedVec2> uv = start; // a log of another size is refused with it
-      const ReplayCounts counts = replayLog(log, uv, 1, {});
+      const ReplayCounts counts = replayAll(log, uv, 1);
       EXPECT_EQ(counts.invertedStars, counts.movedToKernel + counts.withoutKernel);
       ++replayed;
     }
