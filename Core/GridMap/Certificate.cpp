@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "GridMap/Certificate.h"
+
 #include "Base/ChartRotation.h"
 #include "Base/Error.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
-#include "GridMap/GridMap.h"
 #include "GridMap/MapCheck.h"
 
 #include <algorithm>

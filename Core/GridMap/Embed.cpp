@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "GridMap/Embed.h"
+
 #include "Base/Error.h"
 #include "GridMap/Continuation.h"
 #include "GridMap/FieldUntangling.h"
-#include "GridMap/GridMap.h"
 #include "GridMap/LockedMap.h"
 #include "GridMap/MapCheck.h"
 #include "GridMap/MapShape.h"

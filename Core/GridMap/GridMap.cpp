@@ -5,9 +5,12 @@
 #include "Base/Clock.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "GridMap/Embed.h"
 #include "GridMap/MapShape.h"
 #include "GridMap/MeshParts.h"
+#include "GridMap/Quantize.h"
 #include "GridMap/RoundedMap.h"
+#include "GridMap/SeamlessMap.h"
 #include "Mesh/SmallComponents.h"
 
 #include <algorithm>

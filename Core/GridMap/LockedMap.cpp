@@ -3,7 +3,6 @@
 #include "GridMap/LockedMap.h"
 
 #include "Base/Error.h"
-#include "GridMap/GridMap.h"
 #include "GridMap/MapShape.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"

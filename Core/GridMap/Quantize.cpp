@@ -4,7 +4,7 @@
 /// exact and ends in the Delaunay triangulation of the locked vertices; straight edges between locked
 /// vertices of the coarse mesh stay, so every triangle that re-embedding cannot move is tested as it is; the
 /// start is repaired before the scale is raised; shrinking steps begin large.
-#include "GridMap/GridMap.h"
+#include "GridMap/Quantize.h"
 
 #include "GridMap/LockedVertices.h"
 #include "GridMap/QuantizeIntegers.h"

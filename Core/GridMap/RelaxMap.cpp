@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "GridMap/Certificate.h"
 #include "GridMap/RelaxMap.h"
 
 #include "Base/Parallel.h"
-#include "GridMap/GridMap.h"
 #include "GridMap/MapShape.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "GridMap/SeamlessMap.h"
+
 #include "Base/Error.h"
 #include "GridMap/FieldUntangling.h"
-#include "GridMap/GridMap.h"
 #include "GridMap/MapCheck.h"
 #include "GridMap/MapShape.h"
 #include "GridMap/SeamlessSpace.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
-#include "GridMap/GridMap.h"
+#include "GridMap/Certificate.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>

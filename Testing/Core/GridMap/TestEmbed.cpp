@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
-#include "GridMap/GridMap.h"
+#include "GridMap/Certificate.h"
+#include "GridMap/Embed.h"
 #include "GridMap/MapCheck.h"
 #include "TestMeshes.h"
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
+#include "GridMap/Embed.h"
 #include "GridMap/GridMap.h"
 #include "GridMap/MapShape.h"
 #include "GridMap/MeshParts.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GridMap/GridMap.h"
+#include "GridMap/Certificate.h"
 #include "GridMap/RoundedMap.h"
 #include "MapModels.h"
 

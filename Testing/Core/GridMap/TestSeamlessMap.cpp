@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Error.h"
+#include "GridMap/Certificate.h"
 #include "GridMap/CutGraph.h"
-#include "GridMap/GridMap.h"
 #include "GridMap/MapCheck.h"
+#include "GridMap/SeamlessMap.h"
 #include "MapModels.h"
 
 #include <gtest/gtest.h>

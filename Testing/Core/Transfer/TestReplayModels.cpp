@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The replay of smooth seamless maps on every model there is: exact to the bit.
 #include "CrossField/CrossField.h"
-#include "GridMap/GridMap.h"
+#include "GridMap/SeamlessMap.h"
 #include "Mesh/FeatureFilter.h"
 #include "PlyFile.h"
 #include "ReplayChecks.h"

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The second stage of an integer-grid map: integers for a seamless one.
+#pragma once
+
+#include "Base/FixedPoint.h"
+#include "Base/Progress.h"
+#include "CrossField/CrossField.h"
+
+#include <vector>
+
+namespace quadrille
+{
+
+struct QuantizeOptions
+{
+  double maximumRefinement = 8; ///< the integers may grow by this factor when nothing else is valid
+  /// In [0, 1]: the integers come near to so many times the seamless map. 0: as near to nothing as a valid map can.
+  double pull = 1;
+  /// Vertices, as EmbedResult::offenders, whose triangles the integers must leave positive as they are.
+  std::vector<Index> watched;
+  /// #H: an integer-grid map along the same field, or null. Its integers are the start where they are valid, and are only
+  /// improved then.
+  const std::vector<FixedVec2>* previousUv = nullptr;
+  ProgressCallback progress;
+};
+struct QuantizeResult
+{
+  /// #H: integer translations, integer vertices and isolines locked; triangles may be inverted
+  /// (embedMap mends that).
+  std::vector<FixedVec2> uv;
+  Status status;
+  double refinement = 1; ///< factor by which sizes had to grow to be valid
+  std::size_t work = 0;  ///< steps from triangle to triangle that all searches have made
+  bool startedFromPrevious = false;
+};
+/// Integers for a seamless map without a T-mesh [Coudert-Osmont et al. 2023].
+QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
+  const std::vector<FixedVec2>& seamlessUv, const QuantizeOptions& options);
+
+} // namespace quadrille
