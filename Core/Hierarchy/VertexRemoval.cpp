@@ -75,6 +75,7 @@ double sumOfSquares(const Vector& ab, const Vector& ac)
 bool VertexRemoval::gather(Index v)
 {
   vertex_ = v;
+  // Ends and junctions of curves stay [Hoppe 1996].
   if (mesh_.curves.kind[v] == VertexKind::Protected || mesh_.valence[v] > kMaximumRing - 1)
   {
     return false;
@@ -151,7 +152,8 @@ bool VertexRemoval::plan(const RemovalGuards& guards)
 
 bool VertexRemoval::surroundingsFit(const RemovalGuards& guards) const
 {
-  // Where a side of the curve is a single face, its outer edge is the new curve edge already.
+  // The neighbours on the curve may be joined by an edge already: that of another curve, which the curve's two edges
+  // would become one with [Hoppe 1996], or the outer edge of a side that is a single face.
   if ((onCurve_ || border_) &&
     (!curveStaysClose(guards) || !loopStaysLong() ||
       mesh_.hasEdge(ring_[0], ring_[index(curveEnd_)])))
@@ -381,7 +383,7 @@ void VertexRemoval::forbid(int x, int y)
 
 void VertexRemoval::forbidChords()
 {
-  // A chord between two curves leaves no room for a map to turn between them, so no new one may arise. Those that
+  // A chord between two curves leaves a map no room between them, so no new one may arise. Those that
   // the input has may only move along with the curve: ring vertices of a curve vertex that lie on another curve are
   // the ends of chords that go.
   for (int x = 0; x < ringSize_; ++x)
@@ -409,7 +411,7 @@ void VertexRemoval::forbidChords()
 }
 
 /// Least cosine between a face of the star, slivers aside, and its side's mean.
-double VertexRemoval::worstTurn() const
+double VertexRemoval::worstDeviation() const
 {
   double worst = 1;
   for (int i = 0; i < faces_; ++i)
@@ -423,7 +425,7 @@ double VertexRemoval::worstTurn() const
 
 bool VertexRemoval::triangulate(const RemovalGuards& guards)
 {
-  leastDot_ = std::min(guards.minimumNormalDot, guards.allowOldFolds ? worstTurn() : 1.0);
+  leastDot_ = std::min(guards.minimumNormalDot, guards.allowOldFolds ? worstDeviation() : 1.0);
   std::fill(forbidden_.begin(), forbidden_.begin() + ringSize_, std::uint64_t{ 0 });
   leastPlanar_ = std::clamp(0.3 * starQuality_, 1e-6, kMinimumPlanarQuality) / kEquilateral;
   mostHarmonic_ = 1 / std::clamp(0.95 * starQuality_, 1e-6, guards.minimumQuality);
@@ -554,7 +556,7 @@ bool VertexRemoval::normalFits(int a, int b, int c, const Vector3& n, double lea
   }
   const auto fits = [&](int face)
   {
-    // The zero normal of an old sliver excuses any turn.
+    // The zero normal of an old sliver excuses any deviation.
     return face < 0 || n.dot(normal_[index(face)]) >= least || normal_[index(face)].isZero(0);
   };
   return fits(starFace(a, b)) && fits(starFace(b, c)) && fits(starFace(c, a));
@@ -744,7 +746,7 @@ void VertexRemoval::measureChange(Change& change) const
 
 int VertexRemoval::bestTarget() const
 {
-  // Every diagonal that ends at the target saves one flip.
+  // Every diagonal that ends at the target saves one flip. A vertex of a curve goes along it [Hoppe 1996].
   if (onCurve_ || border_)
   {
     return diagonals_[index(curveEnd_)] > diagonals_[0] ? curveEnd_ : 0;

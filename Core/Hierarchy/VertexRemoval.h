@@ -7,6 +7,14 @@
 /// flipping a fan, which need not be valid. It minimizes the sum of the harmonic indices (edge lengths squared
 /// over area), whose minimum is the Delaunay triangulation [Musin 1997], and can refuse single triangles
 /// and diagonals. The flips are those that lead from the fan to it; what lies between need not be embedded.
+///
+/// Constrained curves, features and boundaries, keep their topology by the criteria for discontinuity curves of
+/// [Hoppe 1996], which the paper takes over in Section 5.2. For the collapse of v onto w they come to:
+///   v ends a curve, or three or more meet there    it stays: VertexKind::Protected, refused by gather()
+///   v lies inside a curve, w not beside it there   never: v goes onto a neighbour on its curve, bestTarget()
+///   two edges of curves would become one           refused by surroundingsFit()
+/// A vertex on no curve meets none of them. Ours are besides: corners stay, no chords between curves (forbidChords()), loops of
+/// at least four edges and the distance from the input's curve (surroundingsFit()).
 #pragma once
 
 #include "Hierarchy/DecimationMesh.h"
@@ -29,9 +37,9 @@ struct RemovalGuards
   /// Quality 4 sqrt(3) area / (sum of squared edges), 1 for an equilateral triangle, that new triangles must have
   /// unless the star they replace had a worse one.
   double minimumQuality = 0.15;
-  /// Cosine of the largest turn of a normal against the old faces at the same ring edges.
+  /// Cosine of the largest deviation of a normal from those of the old faces at the same ring edges.
   double minimumNormalDot = 0.4;
-  /// Let new triangles turn as far as the faces of the star do against their mean, where that is further.
+  /// Let new triangles deviate as far as the faces of the star do from their mean, where that is further.
   bool allowOldFolds = false;
   int minimumValence = 4; ///< of free ring vertices, unless they had less before
   int maximumValence = 16;
@@ -127,7 +135,7 @@ private:
   void forbidChords();
   bool isForbidden(int x, int y) const { return (forbidden_[index(x)] >> y & 1U) != 0; }
   void forbid(int x, int y);
-  double worstTurn() const;
+  double worstDeviation() const;
   bool triangulate(const RemovalGuards& guards);
   bool triangulatePolygon(const int* polygon, int count, const RemovalGuards& guards);
   void collectTriangles(const int* polygon, int i, int j);
