@@ -80,7 +80,7 @@ void vtkIntegerGridMap::Execute(quadrille::Block& block)
   options.guides = quadrille::readGuides(input, surface);
   for (quadrille::Guide& guide : options.guides)
   {
-    guide.direction = frame.turned(guide.direction);
+    guide.direction = frame.mirrored(guide.direction);
   }
   options.targetValences = quadrille::readTargetValences(input, surface);
   options.progress = this->MakeProgress(0.0, 0.95);

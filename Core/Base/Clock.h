@@ -30,9 +30,9 @@ public:
   /// The same; the next lap begins.
   double lap()
   {
-    const double now = secondsNow();
-    const double passed = now - start_;
-    start_ = now;
+    const double time = secondsNow();
+    const double passed = time - start_;
+    start_ = time;
     return passed;
   }
 

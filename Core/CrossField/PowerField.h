@@ -56,11 +56,11 @@ struct PowerFields
 PowerFields powerFields(const Mesh& mesh, const FieldTopology& topology,
   const FieldConstraints& constraints, const PowerFieldOptions& options);
 
-/// Residual of half-edge h in radians: how far the field turns across it beyond `jump` quarter turns.
+/// Residual of half-edge h in radians: how far the field rotates across it beyond its period jump.
 double edgeResidual(const FieldTopology& topology, const std::vector<double>& angle,
   const Mesh& mesh, Index h, int jump);
 
-/// Angles that minimize the weighted squared residuals for the quarter turns `jump` (#H, antisymmetric), fixed faces
+/// Angles that minimize the weighted squared residuals for the period jumps `jump` (#H, antisymmetric), fixed faces
 /// at their constraint, guided faces drawn to the nearest of the four directions of their guide. One face of each component
 /// without constraints and guides keeps its angle.
 std::vector<double> solveAngles(const Mesh& mesh, const FieldTopology& topology,

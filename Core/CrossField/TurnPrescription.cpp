@@ -92,7 +92,7 @@ std::vector<SetSums> sumUp(const FieldTopology& topology, const TurnPrescription
   return sums;
 }
 
-std::string describe(const Mesh& mesh, const SetSums& sum, long missing)
+std::string textOfMissing(const Mesh& mesh, const SetSums& sum, long missing)
 {
   std::ostringstream text;
   text << "target valences: on the component near " << placeText(mesh.position[sum.vertex])
@@ -169,7 +169,7 @@ Status checkPrescription(const Mesh& mesh, const FieldTopology& topology,
     const long missing = left < sum.least ? sum.least - left : std::min(0L, sum.most - left);
     if (sum.requests > 0 && missing != 0)
     {
-      return { StatusCode::Infeasible, describe(mesh, sum, missing) };
+      return { StatusCode::Infeasible, textOfMissing(mesh, sum, missing) };
     }
   }
   return {};

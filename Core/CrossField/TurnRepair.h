@@ -26,12 +26,12 @@ struct TurnRepairInput
 
 struct TurnRepairResult
 {
-  std::vector<int> shift; ///< per topology edge: what to add to the jump of edges[i][0]
+  std::vector<int> shift; ///< per topology edge: what to add to the period jump of edges[i][0]
   std::vector<int> turns; ///< per fan, afterwards
   bool complete = true;   ///< false: some fan could not get the turns that are prescribed
 };
 
-/// Minimizes, over integer shifts of the jumps, the growth of the squared residuals (weighted by
+/// Minimizes, over integer shifts of the period jumps, the growth of the squared residuals (weighted by
 /// edge length / s) plus a convex cost of each fan's turns. One shift moves a quarter turn from the fan that
 /// edges[i][0] points to, to the one it leaves. Prescribed sums are met exactly.
 TurnRepairResult repairTurns(const TurnRepairInput& input);

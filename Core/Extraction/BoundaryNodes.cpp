@@ -25,7 +25,7 @@ int axesInCorner(const ExactMap& map, Index h)
   const FixedVec2 left = map.at(Mesh::previous(h)) - map.at(h);
   const int first = firstAxis(map.edge(h));
   int count = 0;
-  while (count < 2 && turn(axisVector(first + count), left) > 0)
+  while (count < 2 && orientation(axisVector(first + count), left) > 0)
   {
     ++count;
   }

@@ -181,7 +181,7 @@ private:
     }
     if (map_.mesh.origin[before.cornerAhead()] != map_.mesh.origin[after.cornerBehind()])
     {
-      return false; // edges of length zero between them hide the turns of the charts
+      return false; // edges of length zero between them hide the rotations of the charts
     }
     const auto halfEdgeAlong = [this](DirectedEdge edge)
     { return edge.forward ? edge.h : map_.mesh.twin[edge.h]; };

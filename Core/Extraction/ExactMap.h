@@ -51,7 +51,7 @@ inline int firstAxis(FixedVec2 e)
 }
 
 /// +1, 0, -1 as b lies counterclockwise of, along, or clockwise of a. Exact.
-inline int turn(FixedVec2 a, FixedVec2 b)
+inline int orientation(FixedVec2 a, FixedVec2 b)
 {
   const Int128 d = Int128{ a.u } * b.v - Int128{ a.v } * b.u;
   return (d > 0) - (d < 0);

@@ -346,7 +346,7 @@ void FaceTrace::startInside(const Place& place, Index node, Side& side)
   }
   addStop(stopAt(node, place, kInvalidIndex));
   int direction = n.onV ? 0 : 1;
-  direction += turn(e, axisVector(direction)) > 0 ? 0 : 2;
+  direction += orientation(e, axisVector(direction)) > 0 ? 0 : 2;
   // The exact place lies between this value and the next one, and on no integer.
   const std::int64_t below = n.onV ? n.uv.u : n.uv.v;
   const std::int64_t from = direction < 2 ? below : -below - 1;

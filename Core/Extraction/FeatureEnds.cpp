@@ -28,7 +28,7 @@ bool goesStraightOn(const ExactMap& map, Index start)
       toSecond = total;
     }
     const FixedVec2 left = map.at(Mesh::previous(h)) - map.at(h);
-    for (int axis = firstAxis(map.edge(h)); turn(axisVector(axis), left) > 0; ++axis)
+    for (int axis = firstAxis(map.edge(h)); orientation(axisVector(axis), left) > 0; ++axis)
     {
       ++total;
     }

@@ -109,8 +109,8 @@ private:
     int local = (direction - toFirst[best].rotation) & 3;
     for (Index corner = loop[best];;)
     {
-      const int turns = (local - firstAxis(map_.edge(corner))) & 3;
-      if (turns < axesInCorner(map_, corner))
+      const int axis = (local - firstAxis(map_.edge(corner))) & 3;
+      if (axis < axesInCorner(map_, corner))
       {
         side = trace.sideFrom({ Mesh::face(corner), {} }, map_.at(corner), local);
         return trace.followSide(side, false);

@@ -39,7 +39,7 @@ struct FreeBoundaryReport
 ///
 /// Polygons: for a map with det > 0 everywhere and whole transitions. The corners of a polygon are
 /// grid vertices, crossings of isolines with boundary edges, boundary vertices on isolines, and of
-/// the other boundary vertices those where the boundary turns by more than 30 degrees in space or a
+/// the other boundary vertices those where the boundary bends by more than 30 degrees in space or a
 /// feature ends, and those without which the polygon would be degenerate, cross itself or stay
 /// more than a tenth of a quad away from the boundary [Douglas and Peucker 1973]. A whole cell with a boundary vertex on a
 /// side becomes a polygon, too. A boundary loop inside of one cell stays covered by it. All

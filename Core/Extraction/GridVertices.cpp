@@ -115,7 +115,7 @@ void addVertex(std::vector<GridVertex>& list, Site kind, Index site, FixedVec2 u
   list.push_back(vertex);
 }
 
-/// Quarter turns of the frame that orders what lies in face f: its first edge with an image points along +u there, or up to a
+/// Rotation of the frame that orders what lies in face f: its first edge with an image points along +u there, or up to a
 /// quarter to the right of it. Numbers that follow this frame do not depend on the chart that the map has there.
 int frameOf(const ExactMap& map, Index f)
 {
@@ -346,7 +346,7 @@ Sector GridVertices::cornerSector(Index h) const
   }
   sector.firstDirection = firstAxis(right);
   // The angle is below 180 degrees: at most two directions, each tested against the left side.
-  while (sector.count < 2 && turn(axisVector(sector.firstDirection + sector.count), left) > 0)
+  while (sector.count < 2 && orientation(axisVector(sector.firstDirection + sector.count), left) > 0)
   {
     ++sector.count;
   }
@@ -469,12 +469,12 @@ std::optional<Index> GridVertices::findPort(Index q, Index f, FixedVec2 point, i
       sector = edgeSector(h, point);
     }
   }
-  const int turns = (direction - sector.firstDirection) & 3;
-  if (turns >= sector.count)
+  const int axis = (direction - sector.firstDirection) & 3;
+  if (axis >= sector.count)
   {
     return std::nullopt;
   }
-  return vertex.firstPort + rankOfSector(q, sector.halfEdge) + static_cast<Index>(turns);
+  return vertex.firstPort + rankOfSector(q, sector.halfEdge) + static_cast<Index>(axis);
 }
 
 std::optional<Index> GridVertices::portAfter(Index q, Index port) const

@@ -88,8 +88,8 @@ private:
       }
     }
     const double shape = scaledJacobian(p);
-    const bool turned = (p[2] - p[0]).cross(p[3] - p[1]).dot(normal_) < 0;
-    return shape > 0 && !turned ? 1 - shape : kTurnedOver;
+    const bool turnedOver = (p[2] - p[0]).cross(p[3] - p[1]).dot(normal_) < 0;
+    return shape > 0 && !turnedOver ? 1 - shape : kTurnedOver;
   }
 
   void solve(std::size_t i, std::size_t j)

@@ -22,7 +22,7 @@ constexpr std::size_t kSnapChunk = 1 << 14;
 constexpr double kLimit = 1 << 20;
 /// Beyond this, in quads, two images of an edge or a translation are not merely imprecise.
 constexpr double kSnapTolerance = 0.1;
-/// Quarter turns under which the images agree by so much more or less are equally good.
+/// Rotations under which the images agree by so much more or less are equally good.
 constexpr double kAmbiguity = 1e-3;
 
 std::string edgeName(Index h)
@@ -77,11 +77,11 @@ Vector2 rotated(const Vector2& p, int r)
   }
 }
 
-/// One quarter turn for an edge.
+/// One rotation for an edge.
 struct Fit
 {
   Transition transition;
-  double residual = 0; ///< length by which the two images differ after the turn
+  double residual = 0; ///< length by which the two images differ after the rotation
   double fraction = 0; ///< of the translation, from the nearest whole one
 };
 
@@ -100,7 +100,7 @@ Fit fitOf(const Mesh& mesh, const std::vector<Vector2>& uv, Index h, int rotatio
   return fit;
 }
 
-/// The turn with the smallest residual; of turns that do as well the one with the least fraction.
+/// The rotation with the smallest residual; of rotations that do as well the one with the least fraction.
 Fit bestFit(const Mesh& mesh, const std::vector<Vector2>& uv, Index h, double ambiguity)
 {
   std::array<Fit, 4> fits;
@@ -218,7 +218,7 @@ public:
     return std::move(result_);
   }
 
-  /// Of a map that fits exactly: only the given quarter turns can be wrong. Images of length zero
+  /// Of a map that fits exactly: only the given rotations can be wrong. Images of length zero
   /// say nothing about them.
   void checkExact(const std::vector<FixedVec2>& fixed) const
   {
@@ -292,7 +292,7 @@ private:
     }
   }
 
-  /// The given quarter turns are wrong where the images fit under others and not under them.
+  /// The given rotations are wrong where the images fit under others and not under them.
   void checkMatching(Index h, EdgeFaults& faults) const
   {
     if (options_.matching.empty())

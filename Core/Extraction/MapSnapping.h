@@ -40,8 +40,8 @@ struct SnapResult
 
 /// A map on the grid whose edges fit exactly, by whole transitions, with its features and
 /// boundaries on isolines, comes back bit for bit. For any other the transition over each edge is
-/// the quarter turn under which its two images agree, with the nearest whole translation; where the
-/// images are too short to tell, the turn whose translation is nearest to whole. Each vertex is
+/// the rotation under which its two images agree, with the nearest whole translation; where the
+/// images are too short to tell, the rotation whose translation is nearest to whole. Each vertex is
 /// then rounded once, in the chart of one corner, to the fixed point of the transitions round it
 /// where these are not the identity, and copied to its other corners exactly [Ebke et al. 2013,
 /// Section 4]. Afterwards the two images of every edge agree but at the vertices counted as

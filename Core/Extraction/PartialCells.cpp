@@ -19,7 +19,7 @@ namespace
 
 /// Where polygons cut the boundary short they stay within this, in quads.
 constexpr double kTolerance = 0.1;
-/// Cosine of the angle by which a boundary turns at a corner that polygons keep.
+/// Cosine of the angle by which a boundary bends at a corner that polygons keep.
 constexpr double kCornerCosine = 0.8660254037844387; // 30 degrees
 
 /// Do the segments ab and cd cross, each inside of the other?

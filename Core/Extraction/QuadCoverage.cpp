@@ -102,7 +102,7 @@ bool entersSquare(const Vector2& a, const Vector2& b)
   return begin < end;
 }
 
-/// Faces that were met, each with the quarter turns to the first chart: beside a vertex of valence 2 a face can lie
+/// Faces that were met, each with the rotation to the first chart: beside a vertex of valence 2 a face can lie
 /// under a quad in two places. Cleared in the time of what it holds.
 class FaceSet
 {

@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr int kMaximumFaces = 2000;
-/// A curve that turns by more than this at a mesh vertex has a corner there that a quad vertex
+/// A curve that bends by more than this at a mesh vertex has a corner there that a quad vertex
 /// keeps.
 constexpr double kCurveCorner = 0.5235987755982988; // 30 degrees
 

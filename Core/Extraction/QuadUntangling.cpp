@@ -233,12 +233,12 @@ private:
       {
         improve(p, ++time);
       }
-      State now = stateOf(place);
-      const bool last = !(now.badness < (1 - kLeastProgress) * left);
-      left = now.badness;
-      if (now.betterThan(best))
+      State moved = stateOf(place);
+      const bool last = !(moved.badness < (1 - kLeastProgress) * left);
+      left = moved.badness;
+      if (moved.betterThan(best))
       {
-        best = std::move(now);
+        best = std::move(moved);
       }
       if (last)
       {

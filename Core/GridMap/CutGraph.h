@@ -12,7 +12,7 @@
 namespace quadrille
 {
 
-/// A combed chart per component. The chart of face f, turned by comb[f] quarter turns, is the chart of its
+/// A combed chart per component. The chart of face f, rotated by comb[f] quarter turns, is the chart of its
 /// component; inside it a point has one image per wedge (the corners of a vertex between cut edges).
 /// A segment is a chain of cut edges that all have the same transition.
 struct CutGraph

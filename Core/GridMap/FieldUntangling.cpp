@@ -54,7 +54,7 @@ void stiffen(const Mesh& mesh, const MapDefects& defects, std::vector<double>& w
 UntangleOptions fieldUntangleOptions(const ProgressCallback& progress)
 {
   UntangleOptions options;
-  // Keeps the map turned like the field, and with it the winding of the vertices.
+  // Keeps the map rotated like the field, and with it the winding of the vertices.
   options.alignmentWeight = 1;
   // Equations without constants let a map shrink to a point; the area term keeps it from that.
   options.areaWeight = 1;

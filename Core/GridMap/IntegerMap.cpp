@@ -184,7 +184,7 @@ void IntegerMap::weigh(Index h)
   }
 }
 
-/// Calls visit(h, e, leaves) for every half-edge that leaves v, with e turned to its chart, and for the boundary
+/// Calls visit(h, e, leaves) for every half-edge that leaves v, with e rotated to its chart, and for the boundary
 /// half-edge that ends in v.
 template <typename Visit>
 void IntegerMap::visitStar(Index v, FixedVec2 e, Visit visit) const
@@ -287,7 +287,7 @@ void IntegerMap::round(double scale)
   measureLoops();
 }
 
-bool IntegerMap::takeOver(const std::vector<FixedVec2>& uv)
+bool IntegerMap::adopt(const std::vector<FixedVec2>& uv)
 {
   constexpr int kBits = kFractionBits - 4; // of a sixteenth
   static_assert(std::int64_t{ 1 } << kBits == kOne / kGrain);
@@ -352,15 +352,15 @@ bool IntegerMap::mayShift(Index h, FixedVec2 e) const
 void IntegerMap::moveVertex(Index v, FixedVec2 e)
 {
   visitStar(
-    v, e, [&](Index h, FixedVec2 turned, bool leaves) { shift(h, leaves ? -turned : turned); });
+    v, e, [&](Index h, FixedVec2 rotated, bool leaves) { shift(h, leaves ? -rotated : rotated); });
 }
 
 bool IntegerMap::mayMove(Index v, FixedVec2 e) const
 {
   bool may = true;
   visitStar(v, e,
-    [&](Index h, FixedVec2 turned, bool leaves)
-    { may = may && mayShift(h, leaves ? -turned : turned); });
+    [&](Index h, FixedVec2 rotated, bool leaves)
+    { may = may && mayShift(h, leaves ? -rotated : rotated); });
   return may;
 }
 
@@ -368,8 +368,8 @@ double IntegerMap::moveEnergy(Index v, FixedVec2 e) const
 {
   double change = 0;
   visitStar(v, e,
-    [&](Index h, FixedVec2 turned, bool leaves)
-    { change += energyChange(h, leaves ? -turned : turned); });
+    [&](Index h, FixedVec2 rotated, bool leaves)
+    { change += energyChange(h, leaves ? -rotated : rotated); });
   return change;
 }
 
@@ -381,7 +381,7 @@ bool IntegerMap::hasCornerToSpare(Index h) const
   { return wanted_[x].y() == 0 ? (wanted_[x].x() > 0 ? 0 : 2) : (wanted_[x].y() > 0 ? 1 : 3); };
   int corners = 0;
   Index last = h;
-  int turned = 0; // charts, from that of h on
+  int rotated = 0; // charts, from that of h on
   // Counterclockwise to the end of the sector.
   while (true)
   {
@@ -393,25 +393,25 @@ bool IntegerMap::hasCornerToSpare(Index h) const
       last = incoming;
       break;
     }
-    turned += mesh_.rotation[incoming];
+    rotated += mesh_.rotation[incoming];
     last = next;
     if (last == h)
     {
       return 2 * (corners - 1) > turns_[mesh_.origin[h]];
     }
   }
-  // The end as an outgoing direction in the chart of h: the incoming half-edge reversed and turned back.
-  const int end = axisAngle(last) + 2 - turned;
+  // The end as an outgoing direction in the chart of h: the incoming half-edge reversed and rotated back.
+  const int end = axisAngle(last) + 2 - rotated;
   // Clockwise to its begin.
   Index first = h;
-  turned = 0;
+  rotated = 0;
   while (axis_[first] == kFree)
   {
     ++corners;
-    turned -= mesh_.rotation[mesh_.twin[first]];
+    rotated -= mesh_.rotation[mesh_.twin[first]];
     first = Mesh::next(mesh_.twin[first]);
   }
-  const int begin = axisAngle(first) - turned;
+  const int begin = axisAngle(first) - rotated;
   const int quarters = (end - begin) & 3;
   return 2 * (corners - 1) > (quarters == 0 ? 4 : quarters);
 }

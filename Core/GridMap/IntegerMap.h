@@ -48,7 +48,7 @@ public:
   void round(double scale);
   /// The displacements of another map along the same half-edges, to the nearest sixteenth; uv: #H. Triangles close where its
   /// transitions are whole. False, with nothing to use, when an edge of a curve runs the wrong way there.
-  bool takeOver(const std::vector<FixedVec2>& uv);
+  bool adopt(const std::vector<FixedVec2>& uv);
   /// q[h] += e, and its twin follows.
   void shift(Index h, FixedVec2 e);
   /// Whether e keeps the half-edge on its isoline, and along it the way that is wanted.

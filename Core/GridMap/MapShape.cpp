@@ -134,12 +134,12 @@ double stretchedLength(const Mesh& mesh, const CrossField& field, Index h)
 void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, const Mesh& mesh,
   const CrossField& field, Index f, int quarterTurns, double edgeLength)
 {
-  const double turn = quarterTurns * kRightAngle - field.angle[f];
+  const double rotation = quarterTurns * kRightAngle - field.angle[f];
   const Eigen::Matrix2d flat = flattenFace(mesh, f);
   const Eigen::Matrix2d shape =
     field.stretch.empty() ? flat : Eigen::Matrix2d(field.stretch[f] * flat);
   const Eigen::Matrix2d reference =
-    Eigen::Rotation2Dd(turn).toRotationMatrix() * shape / edgeLength;
+    Eigen::Rotation2Dd(rotation).toRotationMatrix() * shape / edgeLength;
   problem.triangles.push_back(points);
   problem.inverseReference.push_back(reference.inverse());
   problem.weight.push_back(reference.determinant() / 2);
@@ -158,8 +158,8 @@ UntangleProblem referToMap(const UntangleProblem& problem, const CarriedMap& car
     Eigen::Matrix2d shape;
     shape << toDouble(uv[3 * f + 1] - uv[3 * f]), toDouble(uv[3 * f + 2] - uv[3 * f]);
     const int turns = quarterTurns.empty() ? 0 : quarterTurns[f];
-    const Eigen::Rotation2Dd turn(carried.turned[f] + turns * kRightAngle);
-    result.inverseReference[f] = (scale * turn.toRotationMatrix() * shape).inverse();
+    const Eigen::Rotation2Dd rotation(carried.fieldRotation[f] + turns * kRightAngle);
+    result.inverseReference[f] = (scale * rotation.toRotationMatrix() * shape).inverse();
   }
   return result;
 }

@@ -143,15 +143,15 @@ bool MapCarrier::isSameMesh(const Mesh& mesh, const std::vector<Index>& corner) 
   return true;
 }
 
-/// Whether quarter turns of the charts make the previous field's matchings, alignments and turns those of the new one. rotation:
-/// #F, those turns; that of face 0 is given.
+/// Whether rotations of the charts make the previous field's matchings, alignments and turns those of the new one.
+/// rotation: #F, these; that of face 0 is given.
 bool MapCarrier::joinCharts(const Mesh& mesh, const CrossField& field,
   const std::vector<Index>& corner, std::vector<int>& rotation) const
 {
   const auto image = [&](Index h) { return follow(corner[Mesh::face(h)], h % 3); };
   const CrossField& before = previous_.field;
   std::vector<std::uint8_t> reached(mesh.faceCount(), 0);
-  std::vector<int> turned = rotation;
+  std::vector<int> rotated = rotation;
   std::vector<Index> queue{ 0 };
   reached[0] = 1;
   for (std::size_t i = 0; i < queue.size(); ++i)
@@ -161,7 +161,7 @@ bool MapCarrier::joinCharts(const Mesh& mesh, const CrossField& field,
     {
       const Index x = image(h);
       if (mesh.isConstrained(h) &&
-        (((before.alignment[x] + turned[f] - field.alignment[h]) & 3) != 0 ||
+        (((before.alignment[x] + rotated[f] - field.alignment[h]) & 3) != 0 ||
           before.sectorTurns[x] != field.sectorTurns[h]))
       {
         return false;
@@ -171,14 +171,14 @@ bool MapCarrier::joinCharts(const Mesh& mesh, const CrossField& field,
         continue;
       }
       const Index g = Mesh::face(mesh.twin[h]);
-      const int there = (field.matching[h] - before.matching[x] + turned[f]) & 3;
+      const int there = (field.matching[h] - before.matching[x] + rotated[f]) & 3;
       if (reached[g] == 0)
       {
         reached[g] = 1;
-        turned[g] = there;
+        rotated[g] = there;
         queue.push_back(g);
       }
-      else if (((turned[g] - there) & 3) != 0)
+      else if (((rotated[g] - there) & 3) != 0)
       {
         return false;
       }
@@ -191,7 +191,7 @@ bool MapCarrier::joinCharts(const Mesh& mesh, const CrossField& field,
       return false;
     }
   }
-  rotation = std::move(turned);
+  rotation = std::move(rotated);
   return queue.size() == mesh.faceCount();
 }
 
@@ -201,20 +201,20 @@ CarriedMap MapCarrier::carry(
   CarriedMap result;
   const std::vector<Index> corner = cornersOf(mesh, vertexIds);
   std::vector<int> rotation(mesh.faceCount(), 0);
-  std::vector<double> turn(mesh.faceCount(), 0); // of the previous chart against the new one
+  std::vector<double> angle(mesh.faceCount(), 0); // of the previous chart against the new one
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
     if (corner[f] != kInvalidIndex)
     {
-      turn[f] = previous_.field.angle[Mesh::face(corner[f])] - field.angle[f] -
+      angle[f] = previous_.field.angle[Mesh::face(corner[f])] - field.angle[f] -
         directionInFace(previous_.mesh, corner[f]);
-      rotation[f] = static_cast<int>(std::lround(turn[f] / kRightAngle));
+      rotation[f] = static_cast<int>(std::lround(angle[f] / kRightAngle));
     }
   }
   result.isMap =
     mesh.faceCount() > 0 && isSameMesh(mesh, corner) && joinCharts(mesh, field, corner, rotation);
   result.known.assign(mesh.faceCount(), 0);
-  result.turned.assign(mesh.faceCount(), 0);
+  result.fieldRotation.assign(mesh.faceCount(), 0);
   result.seamlessUv.assign(mesh.halfEdgeCount(), {});
   result.uv.assign(mesh.halfEdgeCount(), {});
   for (Index f = 0; f < mesh.faceCount(); ++f)
@@ -229,11 +229,11 @@ CarriedMap MapCarrier::carry(
       result.seamlessUv[3 * f + i] = rotate(previous_.seamlessUv[x], rotation[f]);
       result.uv[3 * f + i] = rotate(previous_.uv[x], rotation[f]);
     }
-    const double off = std::remainder(turn[f] - rotation[f] * kRightAngle, 2 * kPi);
+    const double off = std::remainder(angle[f] - rotation[f] * kRightAngle, 2 * kPi);
     const bool known = std::abs(off) < kRightAngle / 2 && isPositive(result.seamlessUv, f) &&
       isPositive(result.uv, f);
     result.known[f] = known ? 1 : 0;
-    result.turned[f] = known ? off : 0;
+    result.fieldRotation[f] = known ? off : 0;
     result.knownFaces += known ? 1 : 0;
   }
   return result;

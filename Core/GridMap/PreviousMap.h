@@ -35,7 +35,7 @@ struct CarriedMap
   /// #F: the face was there before, with the same corners, and is positive in both maps.
   std::vector<std::uint8_t> known;
   std::vector<double>
-    turned; ///< #F, radians: by how much the field has turned there, less than an eighth of a circle
+    fieldRotation; ///< #F, radians: by how much the field has rotated there, less than an eighth of a circle
   std::size_t knownFaces = 0;
   /// The mesh, its constrained edges, the turns and the quarter turns between its charts are the same: uv is a map along the new
   /// field, too.

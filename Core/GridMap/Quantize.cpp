@@ -155,7 +155,7 @@ IntegerStart startFrom(const std::vector<FixedVec2>& uv, const Mesh& mesh, const
 {
   UvMesh followed = UvMesh::from(mesh, field, uv);
   UvEditor(followed).repeat(done.records());
-  return integers.takeOver(followed.uv) ? repairIntegers(integers) : IntegerStart{};
+  return integers.adopt(followed.uv) ? repairIntegers(integers) : IntegerStart{};
 }
 
 Status tooFine(double growth)

@@ -534,7 +534,7 @@ private:
       else if (change < -kLeastGain && brokenness(map_, crossed.faces) == 0)
       {
         // A triangle that is crossed once keeps its sign on the way, so the winding cannot change; one that
-        // is crossed twice may turn by 180 degrees.
+        // is crossed twice may be rotated by 180 degrees.
         if (!crossed.repeated || map_.isValid())
         {
           touch(crossed.faces);

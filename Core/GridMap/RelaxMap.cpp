@@ -188,8 +188,8 @@ void MapRelaxation::placeCorners(Index v)
       return;
     }
     bool residual = false;
-    const int turn = transitionOf(mesh_, uv_, across, 0, &residual).rotation;
-    const int rotation = (turn + rotation_[h]) & 3;
+    const int step = transitionOf(mesh_, uv_, across, 0, &residual).rotation;
+    const int rotation = (step + rotation_[h]) & 3;
     if (residual || uv_[across] == uv_[h] || (next == start && rotation != 0))
     {
       hold(v);
@@ -373,9 +373,9 @@ Eigen::Matrix<double, 4, 2> MapRelaxation::cornerDerivative(Index h) const
   Eigen::Matrix<double, 4, 2> result;
   for (int axis = 0; axis < 2; ++axis)
   {
-    const FixedVec2 turned =
+    const FixedVec2 rotated =
       rotate(axis == 0 ? FixedVec2{ 1, 0 } : FixedVec2{ 0, 1 }, rotation_[h]);
-    const Vector2 along(static_cast<double>(turned.u), static_cast<double>(turned.v));
+    const Vector2 along(static_cast<double>(rotated.u), static_cast<double>(rotated.v));
     result.col(axis).head<2>() = g[0] * along;
     result.col(axis).tail<2>() = g[1] * along;
   }

@@ -3,7 +3,7 @@
 /// The integers of a map stay, everything else moves until the distortion against the surface is least: "the same integers,
 /// solved again on a finer level" [Ebke et al. 2016, Section 10].
 ///
-/// The unknowns are displacements of vertices, each in the chart of one corner and turned into those of the others, so
+/// The unknowns are displacements of vertices, each in the chart of one corner and rotated into those of the others, so
 /// transitions stay exactly as they are, whatever charts the map has. Integer vertices stay; vertices of constrained edges slide along their isoline.
 /// No determinant ever reaches zero on the way, so no vertex changes its winding, and the quads keep their connectivity.
 #pragma once

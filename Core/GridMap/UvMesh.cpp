@@ -168,12 +168,12 @@ void UvEditor::bury(Index f)
 void UvEditor::relocate(const std::array<Relocation, 2>& moves, std::size_t count)
 {
   std::array<Index, 2> partner{};
-  std::array<int, 2> turn{};
+  std::array<int, 2> rotations{};
   std::array<std::uint8_t, 2> flag{};
   for (std::size_t i = 0; i < count; ++i)
   {
     partner[i] = mesh_.twin[moves[i].from];
-    turn[i] = mesh_.rotation[moves[i].from] + moves[i].rotation;
+    rotations[i] = mesh_.rotation[moves[i].from] + moves[i].rotation;
     flag[i] = mesh_.flags[moves[i].from];
   }
   for (std::size_t i = 0; i < count; ++i)
@@ -181,7 +181,7 @@ void UvEditor::relocate(const std::array<Relocation, 2>& moves, std::size_t coun
     // The two edges may be glued to each other.
     const std::size_t other = 1 - i;
     const bool both = count == 2 && partner[i] == moves[other].from;
-    const int rotation = both ? turn[i] - moves[other].rotation : turn[i];
+    const int rotation = both ? rotations[i] - moves[other].rotation : rotations[i];
     const Index to = moves[i].to;
     const Index newPartner = both ? moves[other].to : partner[i];
     mesh_.twin[to] = newPartner;
@@ -306,10 +306,10 @@ void UvEditor::undoRemoveInside(const UvRecord& record)
 void UvEditor::reviveSide(Index h, FixedVec2 v, FixedVec2 r)
 {
   const Index hp = Mesh::previous(h), hB = mesh_.twin[hp];
-  const int turn = mesh_.rotation[hp];
-  mesh_.uv[hB] = rotate(v, turn);
-  mesh_.uv[Mesh::next(hB)] = rotate(mesh_.uv[hp], turn);
-  mesh_.uv[Mesh::previous(hB)] = rotate(r, turn);
+  const int rotation = mesh_.rotation[hp];
+  mesh_.uv[hB] = rotate(v, rotation);
+  mesh_.uv[Mesh::next(hB)] = rotate(mesh_.uv[hp], rotation);
+  mesh_.uv[Mesh::previous(hB)] = rotate(r, rotation);
   mesh_.alive[Mesh::face(hB)] = 1;
 }
 

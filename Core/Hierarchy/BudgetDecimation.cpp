@@ -46,7 +46,7 @@ constexpr double kVerticesPerQuad = 0.4;
 /// Vertices that a thread evaluates at a time.
 constexpr std::size_t kChunk = 1024;
 
-/// Positions in a value of the cache, see BudgetDecimation::describe().
+/// Positions in a value of the cache, see BudgetDecimation::writeValue().
 constexpr std::size_t kCurvatureAt = 1;
 constexpr std::size_t kAreaAt = 2;
 constexpr std::size_t kBadAt = 3;
@@ -225,7 +225,7 @@ private:
   std::vector<Entry> evaluateAll(const Stage& stage);
   std::optional<float> evaluate(Index v, const Stage& stage, Work& work) const;
   bool plan(const Stage& stage, Work& work) const;
-  void describe(bool possible, Work& work) const;
+  void writeValue(bool possible, Work& work) const;
   float cost(Index v, double shortestEdge, const Work& work) const;
   double curvatureCost(Index v, const Work& work) const;
   double shapeCost(const Work& work) const;
@@ -233,7 +233,7 @@ private:
   double movedBy(const Work& work) const;
   bool movesTooMuch(const Work& work) const;
   void remember(const Work& work);
-  void takeOver(Work& work);
+  void fillCache(Work& work);
   /// Whether the cost is E_G or E_G,mem.
   bool wantsChange() const { return !compared_; }
   std::string notice() const;
@@ -382,7 +382,7 @@ void BudgetDecimation::runStage(const Stage& stage, RecordWriter& records)
       !removal.gather(entry.vertex) || !removal.surroundingsFit(stage.guards) ||
       !plan(stage, work) || !removal.valencesFit(stage.guards))
     {
-      takeOver(work);
+      fillCache(work);
       continue;
     }
     ring.clear();
@@ -392,13 +392,13 @@ void BudgetDecimation::runStage(const Stage& stage, RecordWriter& records)
     }
     if (movesTooMuch(work))
     {
-      takeOver(work);
+      fillCache(work);
       budget_ = alive_;
       return;
     }
     moved_ += wantsChange() ? movedBy(work) : 0;
     remember(work);
-    takeOver(work);
+    fillCache(work);
     carrier_.gather(mesh_, removal);
     removal.apply(records);
     carrier_.carry(mesh_);
@@ -412,7 +412,7 @@ void BudgetDecimation::runStage(const Stage& stage, RecordWriter& records)
       {
         heap.push({ *cost, w, version_[w] });
       }
-      takeOver(work);
+      fillCache(work);
     }
     if (alive_ % 1024 == 0)
     {
@@ -448,7 +448,7 @@ std::vector<BudgetDecimation::Entry> BudgetDecimation::evaluateAll(const Stage& 
     });
   for (Work& work : works)
   {
-    takeOver(work);
+    fillCache(work);
   }
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < alive.size(); ++i)
@@ -462,7 +462,7 @@ std::vector<BudgetDecimation::Entry> BudgetDecimation::evaluateAll(const Stage& 
 }
 
 /// Puts what a thread found out into the cache.
-void BudgetDecimation::takeOver(Work& work)
+void BudgetDecimation::fillCache(Work& work)
 {
   cache_.add(work.fresh);
   work.fresh.clear();
@@ -502,7 +502,7 @@ bool BudgetDecimation::plan(const Stage& stage, Work& work) const
   }
   const bool known = work.planned != nullptr;
   const bool possible = removal.planStar(stage.guards);
-  describe(possible, work);
+  writeValue(possible, work);
   work.planned = work.value.data();
   if (!known && removal.dependsOnStarOnly())
   {
@@ -513,7 +513,7 @@ bool BudgetDecimation::plan(const Stage& stage, Work& work) const
 
 /// The value that the cache gets: whether the removal is possible; own curvature cost, area and shape; the plan;
 /// changes of the ring's defects, for GaussianMemory.
-void BudgetDecimation::describe(bool possible, Work& work) const
+void BudgetDecimation::writeValue(bool possible, Work& work) const
 {
   work.value.assign(1, possible ? 1U : 0U);
   if (!possible)

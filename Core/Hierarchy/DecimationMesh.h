@@ -58,7 +58,7 @@ public:
 
   /// Carries out the collapse of a record whose vertex sits in its slots.
   void collapse(const CollapseRecord& record);
-  /// Turns the edge of h as drawn in DecimationLog.h.
+  /// Flips the edge of h as drawn in DecimationLog.h.
   void flip(Index h);
   /// Makes `outgoing` right again for the corners of a face whose connectivity changed.
   void refreshOutgoing(Index face);

@@ -167,12 +167,12 @@ private:
   const Chain& chain_;
 };
 
-/// The turn of the curve at each vertex of the chain where it may be a corner, else zero.
-std::vector<double> cornerTurns(const Mesh& mesh, const Chain& chain, double scale)
+/// By how much the curve bends at each vertex of the chain where it may be a corner, else zero.
+std::vector<double> cornerBends(const Mesh& mesh, const Chain& chain, double scale)
 {
   const ChainWalk walk(mesh, chain);
-  std::vector<double> turn(chain.vertices.size(), 0.0);
-  for (long i = 0; i < static_cast<long>(turn.size()); ++i)
+  std::vector<double> bend(chain.vertices.size(), 0.0);
+  for (long i = 0; i < static_cast<long>(bend.size()); ++i)
   {
     if (!walk.has(i - 1) || !walk.has(i + 1))
     {
@@ -184,14 +184,14 @@ std::vector<double> cornerTurns(const Mesh& mesh, const Chain& chain, double sca
       const double distance = scale * sizeAt(mesh, chain.vertices[static_cast<std::size_t>(i)]);
       const Vector3& before = walk.at(walk.walk(i, -1, distance));
       const Vector3& after = walk.at(walk.walk(i, 1, distance));
-      turn[static_cast<std::size_t>(i)] = angleBetween(p - before, after - p);
+      bend[static_cast<std::size_t>(i)] = angleBetween(p - before, after - p);
     }
   }
-  return turn;
+  return bend;
 }
 
-bool turnsMost(
-  const ChainWalk& walk, const std::vector<double>& turn, std::size_t corner, double range)
+bool bendsMost(
+  const ChainWalk& walk, const std::vector<double>& bend, std::size_t corner, double range)
 {
   const long i = static_cast<long>(corner);
   for (const long step : { -1L, 1L })
@@ -201,7 +201,7 @@ bool turnsMost(
     {
       const std::size_t other = walk.wrap(j + step);
       // Of equals the first one stays.
-      if (turn[other] > turn[corner] || (turn[other] == turn[corner] && other < corner))
+      if (bend[other] > bend[corner] || (bend[other] == bend[corner] && other < corner))
       {
         return false;
       }
@@ -213,11 +213,11 @@ bool turnsMost(
 void protectCorners(const Mesh& mesh, const Chain& chain, double scale, FeatureCurves& curves)
 {
   const ChainWalk walk(mesh, chain);
-  const std::vector<double> turn = cornerTurns(mesh, chain, scale);
-  for (std::size_t i = 0; i < turn.size(); ++i)
+  const std::vector<double> bend = cornerBends(mesh, chain, scale);
+  for (std::size_t i = 0; i < bend.size(); ++i)
   {
     const double range = 0.5 * scale * sizeAt(mesh, chain.vertices[i]);
-    if (turn[i] > kCornerAngle && turnsMost(walk, turn, i, range))
+    if (bend[i] > kCornerAngle && bendsMost(walk, bend, i, range))
     {
       curves.kind[chain.vertices[i]] = VertexKind::Protected;
     }

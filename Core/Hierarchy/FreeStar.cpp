@@ -79,7 +79,7 @@ struct RingTable
     int d1 = b - a;
     int d2 = c - b;
     int d3 = N - d1 - d2;
-    for (int turn = 0; turn < 2 && (isLess(d2, d3, d1, d2) || isLess(d3, d1, d1, d2)); ++turn)
+    for (int step = 0; step < 2 && (isLess(d2, d3, d1, d2) || isLess(d3, d1, d1, d2)); ++step)
     {
       start = (start + d1) % N;
       const int rotated = d1;
@@ -330,7 +330,7 @@ bool FreeStar::mapToPlane()
   }
   for (std::size_t i = 0; i < lanes; ++i)
   {
-    // From half the angle, so that the polynomials serve the whole turn; which way the plane is turned does not matter.
+    // From half the angle, so that the polynomials serve the whole circle; how the plane is rotated does not matter.
     const float half = 0.5F * (scale * direction[i] - kSinglePi);
     const float sine = sineOf(half);
     const float cosine = cosineOf(half);
@@ -351,7 +351,7 @@ void FreeStar::evaluateTriangles()
   {
     const std::size_t second = orbit.first;
     const std::size_t third = orbit.second;
-    alignas(64) std::array<float, lanes> turn; // how far the normal is on the right side
+    alignas(64) std::array<float, lanes> margin; // how far the normal is on the right side
     alignas(64) std::array<float, lanes> tx, ty, tz, least;
     for (std::size_t i = 0; i < lanes; ++i)
     {
@@ -373,7 +373,7 @@ void FreeStar::evaluateTriangles()
       const float planarSquares =
         2 * (abu * abu + abv * abv + acu * acu + acv * acv - (abu * acu + abv * acv));
       least[i] = leastDot_ * doubled;
-      turn[i] = tx[i] * mean_[0] + ty[i] * mean_[1] + tz[i] * mean_[2] - least[i];
+      margin[i] = tx[i] * mean_[0] + ty[i] * mean_[1] + tz[i] * mean_[2] - least[i];
       const bool good = (planar > leastPlanar_ * planarSquares) & (harmonic <= mostHarmonic_);
       cost_[out + i] = good ? harmonic : kInfinitySingle;
     }
@@ -383,7 +383,7 @@ void FreeStar::evaluateTriangles()
       {
         const float other =
           tx[i] * nx_[i + face] + ty[i] * ny_[i + face] + tz[i] * nz_[i + face] - least[i];
-        turn[i] = other < turn[i] ? other : turn[i];
+        margin[i] = other < margin[i] ? other : margin[i];
       }
     };
     // Faces of the star at the triangle's ring edges.
@@ -401,7 +401,7 @@ void FreeStar::evaluateTriangles()
     }
     for (std::size_t i = 0; i < lanes; ++i)
     {
-      cost_[out + i] = turn[i] >= 0 ? cost_[out + i] : kInfinitySingle;
+      cost_[out + i] = margin[i] >= 0 ? cost_[out + i] : kInfinitySingle;
     }
     out += lanes;
   }

@@ -248,9 +248,9 @@ private:
 
   void adopt(Index f, const FaceGuide& source)
   {
-    const Eigen::Quaterniond turn =
+    const Eigen::Quaterniond rotation =
       Eigen::Quaterniond::FromTwoVectors(normalOf(fine_, source.face), normalOf(level_.mesh, f));
-    result_[f] = { (turn * source.guide.direction).normalized(), source.guide.weight };
+    result_[f] = { (rotation * source.guide.direction).normalized(), source.guide.weight };
   }
 
   /// Guided fine faces farther than `cover` from all middles of triangles that took a guide.
@@ -323,7 +323,7 @@ public:
   bool touches(Index v) const { return degree_[v] > 0; }
   /// The border passes, and nothing else is there.
   bool passes(Index v) const { return degree_[v] == 2 && mesh_.curves.kind[v] == VertexKind::Free; }
-  /// How much the border turns at a corner; 0 where it is none.
+  /// How much the border bends at a corner; 0 where it is none.
   double sharpness(Index v) const
   {
     if (!passes(v) || !(innerAngle(v) < kCornerLimit))
@@ -340,8 +340,8 @@ public:
       normal += out.cross(mesh_.position[mesh_.origin[Mesh::previous(h)]] - p);
     }
     const Vector3 axis = before.cross(after);
-    const double turn = std::atan2(axis.norm(), before.dot(after));
-    return axis.dot(normal) > 0 && turn > kPi - kCornerLimit ? turn : 0;
+    const double bend = std::atan2(axis.norm(), before.dot(after));
+    return axis.dot(normal) > 0 && bend > kPi - kCornerLimit ? bend : 0;
   }
 
 private:
@@ -465,7 +465,7 @@ void GuideCarrier::gather(const DecimationMesh& mesh, const VertexRemoval& remov
   mapToPlane(removal);
 }
 
-/// Geodesic polar, as VertexRemoval has it: on curves each side fills half a turn.
+/// Geodesic polar, as VertexRemoval has it: on curves each side fills half a circle.
 void GuideCarrier::mapToPlane(const VertexRemoval& removal)
 {
   planar_.assign(ring_.size(), Vector2::Zero());

@@ -20,7 +20,8 @@ namespace quadrille
 class VertexRemoval;
 
 /// Guides of the faces of a level: that of the fine face at the barycentre. Guided fine faces that no triangle near by has
-/// taken a guide from give theirs to triangles whose barycentre is within `reach`. The direction is turned with the normal. fineGuides: ascending by face. Empty when no face has one.
+/// taken a guide from give theirs to triangles whose barycentre is within `reach`. The direction is rotated with the normal.
+/// fineGuides: ascending by face. Empty when no face has one.
 std::vector<Guide> guidesOfLevel(const Mesh& fine, const Level& level,
   const std::vector<FaceGuide>& fineGuides, double reach, int threads);
 

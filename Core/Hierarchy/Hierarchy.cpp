@@ -38,7 +38,7 @@ constexpr double kCurveTolerance = 0.1;
 constexpr double kRegionTolerance = 0.5;
 /// How far a guide reaches beyond its face on the way to the intermediate level, in s.
 constexpr double kGuideReach = 0.25;
-/// Distance on both sides over which the turn at a corner is measured, in s.
+/// Distance on both sides over which the bend at a corner is measured, in s.
 constexpr double kCornerScale = 0.25;
 /// Faces of a chunk of the passes over the mesh.
 constexpr std::size_t kChunkFaces = std::size_t{ 1 } << 15;
@@ -237,7 +237,7 @@ public:
     }
     hierarchy_.log.truncate(intermediateEnd_);
     hierarchy_.coarse = {};
-    takeOverGuides(options);
+    carryGuides(options);
     DecimationMesh mesh(*intermediate_);
     BudgetOptions budget = budgetOptions(options);
     if (!hierarchy_.intermediate.guides.empty())
@@ -300,7 +300,7 @@ private:
   }
 
   /// Brings the guides to the intermediate level, where they have changed.
-  void takeOverGuides(const HierarchyOptions& options)
+  void carryGuides(const HierarchyOptions& options)
   {
     if (options.guides == guides_)
     {

@@ -71,7 +71,7 @@ public:
 private:
   struct VertexState
   {
-    float settled = 0;      ///< no use in a visit before the threshold is above this
+    float idleBelow = 0;    ///< no use in a visit before the threshold is above this
     std::uint16_t lock = 0; ///< number of the last sweep that changed the vertex's star
   };
   /// What one thread needs to sweep a block; passed on from one block to the next, with its memory.
@@ -96,7 +96,7 @@ private:
   void sweep(Block& block, Worker& worker);
   void fetchAhead(std::size_t i, std::size_t end) const;
   bool visit(Index v, const Block& block, Worker& worker);
-  bool settle(Index v, double shortest, double threshold);
+  bool isDue(Index v, double shortest, double threshold);
   void apply(StarRemoval& star, Worker& worker);
 
   DecimationMesh& mesh_;
@@ -157,7 +157,7 @@ void UniformDecimation::forget()
 {
   for (const Index v : alive_)
   {
-    state_[v].settled = 0;
+    state_[v].idleBelow = 0;
   }
 }
 
@@ -294,7 +294,7 @@ bool UniformDecimation::visit(Index v, const Block& block, Worker& worker)
   const VertexState& state = state_[v];
   StarRemoval& star = worker.star;
   if (state.lock == worker.stamp || state.lock == kKept ||
-    !(worker.threshold > double{ state.settled }) || !star.gather(v))
+    !(worker.threshold > double{ state.idleBelow }) || !star.gather(v))
   {
     return false;
   }
@@ -305,14 +305,14 @@ bool UniformDecimation::visit(Index v, const Block& block, Worker& worker)
       return false;
     }
   }
-  if (!settle(v, star.shortestEdge(worker.threshold), worker.threshold))
+  if (!isDue(v, star.shortestEdge(worker.threshold), worker.threshold))
   {
     return false;
   }
   const StarRemoval::Outcome outcome = star.plan();
   if (outcome == StarRemoval::Outcome::Refused)
   {
-    state_[v].settled = std::numeric_limits<float>::infinity();
+    state_[v].idleBelow = std::numeric_limits<float>::infinity();
   }
   if (outcome != StarRemoval::Outcome::Planned)
   {
@@ -322,8 +322,8 @@ bool UniformDecimation::visit(Index v, const Block& block, Worker& worker)
   return true;
 }
 
-/// Remembers until when a visit is of no use. Whether the vertex has to go by its shortest edge.
-bool UniformDecimation::settle(Index v, double shortest, double threshold)
+/// Whether the vertex has to go by its shortest edge. If not, remembers until when a visit is of no use.
+bool UniformDecimation::isDue(Index v, double shortest, double threshold)
 {
   const double limit =
     options_.edgeLength * (options_.scale.empty() ? 1.0 : double{ options_.scale[v] });
@@ -331,7 +331,7 @@ bool UniformDecimation::settle(Index v, double shortest, double threshold)
   {
     return true;
   }
-  state_[v].settled =
+  state_[v].idleBelow =
     shortest < limit ? static_cast<float>(shortest) : std::numeric_limits<float>::infinity();
   return false;
 }
@@ -341,7 +341,7 @@ void UniformDecimation::apply(StarRemoval& star, Worker& worker)
   for (int i = 0; i < star.ringSize(); ++i)
   {
     VertexState& state = state_[star.ringVertex(i)];
-    state.settled = 0;
+    state.idleBelow = 0;
     state.lock = state.lock == kKept ? kKept : worker.stamp;
   }
   star.apply(worker.log);

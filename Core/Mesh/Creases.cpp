@@ -204,7 +204,7 @@ private:
     return vertices;
   }
 
-  /// Of the sharp edges at v the one that goes on straightest from edge i; kInvalidIndex where all turn too far.
+  /// Of the sharp edges at v the one that goes on straightest from edge i; kInvalidIndex where all bend too far.
   Index straightOn(Index i, Index v) const
   {
     const auto away = [&](Index k) -> Vector3

@@ -20,7 +20,7 @@ namespace quadrille
 /// surface as e does. A crease has creases or nothing much beside it; round the edge of a facet some of the weight belongs to edges that
 /// are a little blunter than a feature (above 0.6 of the feature angle, and above 0.4 of the angle of e). An edge goes where the mean of
 /// that part over the sharp edges nearby exceeds a tenth; edges that have gone count as blunt ones in the next round. An edge on a
-/// chain of at least 12 that turns by less than 20 degrees at each vertex stays: noise makes no such lines. At last connected edges
+/// chain of at least 12 that bends by less than 20 degrees at each vertex stays: noise makes no such lines. At last connected edges
 /// without such a chain go where more length went near them than they have.
 std::vector<Index> edgesOfFacets(const Mesh& mesh, double featureAngle,
   const std::function<double(Index)>& angleOf, int threads);

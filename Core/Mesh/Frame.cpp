@@ -267,12 +267,12 @@ FramedInput enterFrame(SurfaceInput input, int threads)
       for (std::size_t i = begin; i < end; ++i)
       {
         // Of the two zeros one.
-        framed.input.points[i] = frame.turned(framed.input.points[i]) / steps + Vector3::Zero();
+        framed.input.points[i] = frame.mirrored(framed.input.points[i]) / steps + Vector3::Zero();
       }
     });
   for (Vector3& direction : framed.input.guideDirections)
   {
-    direction = frame.turned(direction);
+    direction = frame.mirrored(direction);
   }
   frame.reversed = looksInwards(framed.input, threads);
   framed.input.faceOrder = frame.reversed ? FaceOrder::Reversed : FaceOrder::FromLowest;

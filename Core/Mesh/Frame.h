@@ -3,7 +3,7 @@
 /// The coordinates that a run works in. Maps in metres and parts of assemblies lie far from the origin, where the last
 /// bits of their numbers are noise; CAD models are full of exact ties, which that noise would decide. So a run sees the
 /// surface round its box's centre, with the longest side of the box as unit, on a grid that is coarser than this noise,
-/// and with axes and faces turned in a way that a mirror image shares. Then a shift, a scale and a mirror image are the
+/// and with axes and faces reversed so that a mirror image is the same. Then a shift, a scale and a mirror image are the
 /// same to the last bit for all that follows.
 ///
 ///   user                                  frame
@@ -26,7 +26,7 @@ struct Frame
 
   Vector3 toUser(const Vector3& p) const { return centre + unit * sign.cwiseProduct(p); }
   /// Vectors of any length, such as directions.
-  Vector3 turned(const Vector3& direction) const { return sign.cwiseProduct(direction); }
+  Vector3 mirrored(const Vector3& direction) const { return sign.cwiseProduct(direction); }
   /// A length of the user's in the frame, kept to 40 bits: the way out (times unit) and in again gives the same number.
   double lengthOf(double userLength) const;
 };
@@ -53,7 +53,7 @@ FramedInput enterFrame(SurfaceInput input, int threads);
 std::vector<Vector3> userPositions(
   const PreparedSurface& surface, const Frame& frame, const std::vector<Vector3>& points);
 
-/// Turns all faces round: corners 0 1 2 become 0 2 1. What belongs to corner i moves to reversedCorner(h), what belongs
+/// Reverses all faces: corners 0 1 2 become 0 2 1. What belongs to corner i moves to reversedCorner(h), what belongs
 /// to half-edge i to reversedEdge(h). Twice is nothing.
 inline Index reversedCorner(Index h)
 {

@@ -21,11 +21,11 @@ namespace quadrille
 namespace
 {
 
-/// Which faces belong together, and whether a face has to be turned to agree with its set's root.
+/// Which faces belong together, and whether a face has to be reversed to agree with its set's root.
 class OrientedSets
 {
 public:
-  explicit OrientedSets(Index faces) : parent_(faces), turned_(faces, 0)
+  explicit OrientedSets(Index faces) : parent_(faces), reversed_(faces, 0)
   {
     for (Index f = 0; f < faces; ++f)
     {
@@ -36,48 +36,48 @@ public:
   struct Root
   {
     Index face;
-    bool turned;
+    bool reversed;
   };
 
   Root find(Index f)
   {
-    bool turned = false;
+    bool reversed = false;
     Index root = f;
     while (parent_[root] != root)
     {
-      turned ^= turned_[root] != 0;
+      reversed ^= reversed_[root] != 0;
       root = parent_[root];
     }
     // Second walk: point all of them at the root.
-    bool rest = turned;
+    bool rest = reversed;
     while (parent_[f] != root && f != root)
     {
-      const bool step = turned_[f] != 0;
+      const bool step = reversed_[f] != 0;
       const Index up = parent_[f];
       parent_[f] = root;
-      turned_[f] = rest;
+      reversed_[f] = rest;
       rest ^= step;
       f = up;
     }
-    return { root, turned };
+    return { root, reversed };
   }
 
-  /// Joins the sets so that exactly one of f and g is turned (differ) or both or none. False when they
+  /// Joins the sets so that exactly one of f and g is reversed (differ) or both or none. False when they
   /// are in one set already and disagree.
   bool join(Index f, Index g, bool differ)
   {
     const Root a = find(f);
     const Root b = find(g);
-    const bool turn = a.turned ^ b.turned ^ differ;
+    const bool differs = a.reversed ^ b.reversed ^ differ;
     if (a.face == b.face)
     {
-      return !turn;
+      return !differs;
     }
     // The lower face stays root; find() keeps the paths short.
     const Index root = std::min(a.face, b.face);
     const Index child = std::max(a.face, b.face);
     parent_[child] = root;
-    turned_[child] = turn;
+    reversed_[child] = differs;
     return true;
   }
 
@@ -85,42 +85,42 @@ public:
   {
     const Root a = find(f);
     const Root b = find(g);
-    return a.face != b.face || (a.turned ^ b.turned) == differ;
+    return a.face != b.face || (a.reversed ^ b.reversed) == differ;
   }
 
   Index size() const { return static_cast<Index>(parent_.size()); }
 
 private:
   std::vector<Index> parent_;
-  std::vector<std::uint8_t> turned_;
+  std::vector<std::uint8_t> reversed_;
 };
 
-/// Per face: has it to be turned so that its set keeps the orientation of most of its faces?
-std::vector<std::uint8_t> facesToTurn(OrientedSets& sets)
+/// Per face: has it to be reversed so that its set keeps the orientation of most of its faces?
+std::vector<std::uint8_t> facesToReverse(OrientedSets& sets)
 {
   std::vector<std::array<Index, 2>> votes(sets.size(), { 0, 0 });
   for (Index f = 0; f < sets.size(); ++f)
   {
     pollNowAndThen(f);
     const OrientedSets::Root root = sets.find(f);
-    ++votes[root.face][root.turned ? 1 : 0];
+    ++votes[root.face][root.reversed ? 1 : 0];
   }
-  std::vector<std::uint8_t> turn(sets.size(), 0);
+  std::vector<std::uint8_t> reverse(sets.size(), 0);
   for (Index f = 0; f < sets.size(); ++f)
   {
     pollNowAndThen(f);
     const OrientedSets::Root root = sets.find(f);
-    const bool turnRoot = votes[root.face][1] > votes[root.face][0];
-    turn[f] = root.turned ^ turnRoot;
+    const bool reverseRoot = votes[root.face][1] > votes[root.face][0];
+    reverse[f] = root.reversed ^ reverseRoot;
   }
-  return turn;
+  return reverse;
 }
 
 /// A half-edge at an edge of many faces.
 struct Spoke
 {
   Index halfEdge;
-  bool forward;     ///< runs from the edge's lower to its higher vertex once faces are turned
+  bool forward;     ///< runs from the edge's lower to its higher vertex once faces are reversed
   double angle = 0; ///< of the face around the edge, counterclockwise seen against its direction
 };
 
@@ -143,7 +143,7 @@ void glueHalfEdges(std::vector<Index>& twin, Index h, Index g)
 }
 
 std::vector<Spoke> spokesOf(
-  const Mesh& mesh, const std::vector<std::uint8_t>& turn, const Index* begin, const Index* end)
+  const Mesh& mesh, const std::vector<std::uint8_t>& reverse, const Index* begin, const Index* end)
 {
   const Index low = std::min(mesh.origin[*begin], mesh.target(*begin));
   const Index high = std::max(mesh.origin[*begin], mesh.target(*begin));
@@ -155,7 +155,7 @@ std::vector<Spoke> spokesOf(
   for (const Index* h = begin; h != end; ++h)
   {
     const Vector3 inward = mesh.position[mesh.origin[Mesh::previous(*h)]] - mesh.position[low];
-    const bool forward = (mesh.origin[*h] == low) ^ (turn[Mesh::face(*h)] != 0);
+    const bool forward = (mesh.origin[*h] == low) ^ (reverse[Mesh::face(*h)] != 0);
     spokes.push_back({ *h, forward, std::atan2(inward.dot(y), inward.dot(x)) });
   }
   // Faces that coincide: the one that ends a solid comes before the one that begins the next.
@@ -221,7 +221,7 @@ void pairFlattestFirst(
     {
       double between = spokes[b].angle - spokes[a].angle;
       between = std::min(between, 2 * kPi - between);
-      // Pairs that would turn a patch over come after all that need not.
+      // Pairs that would reverse a patch come after all that need not.
       const double disagreement = spokes[a].forward == spokes[b].forward ? 2 * kPi : 0;
       candidates.push_back({ kPi - between + disagreement, a, b });
     }
@@ -283,18 +283,18 @@ OrientedSets joinAcrossPlainEdges(const PreparedSurface& surface)
   return sets;
 }
 
-/// Swaps corners 1 and 2 of the faces that are to be turned: half-edges 0 and 2 change places, and all
+/// Swaps corners 1 and 2 of the faces that are to be reversed: half-edges 0 and 2 change places, and all
 /// three change direction.
-std::size_t turnFaces(PreparedSurface& surface, const std::vector<std::uint8_t>& turn)
+std::size_t reverseOrientation(PreparedSurface& surface, const std::vector<std::uint8_t>& reverse)
 {
   Mesh& mesh = surface.mesh;
-  const auto moved = [&turn](Index h)
-  { return h == kInvalidIndex || turn[h / 3] == 0 ? h : h - h % 3 + (2 - h % 3); };
+  const auto moved = [&reverse](Index h)
+  { return h == kInvalidIndex || reverse[h / 3] == 0 ? h : h - h % 3 + (2 - h % 3); };
   std::size_t count = 0;
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
     pollNowAndThen(f);
-    if (turn[f] != 0)
+    if (reverse[f] != 0)
     {
       ++count;
       std::swap(mesh.origin[3 * f + 1], mesh.origin[3 * f + 2]);
@@ -390,10 +390,10 @@ void pairIntoSheets(PreparedSurface& surface, const EdgeRuns& runs)
     return;
   }
   OrientedSets sets = joinAcrossPlainEdges(surface);
-  const std::vector<std::uint8_t> turnForSpokes = facesToTurn(sets);
+  const std::vector<std::uint8_t> reversedForSpokes = facesToReverse(sets);
   for (const ManyFacedEdge& edge : manyFaced.edges)
   {
-    const std::vector<Spoke> spokes = spokesOf(mesh, turnForSpokes,
+    const std::vector<Spoke> spokes = spokesOf(mesh, reversedForSpokes,
       manyFaced.halfEdges.data() + edge.begin, manyFaced.halfEdges.data() + edge.end);
     if (alternates(spokes))
     {
@@ -401,7 +401,7 @@ void pairIntoSheets(PreparedSurface& surface, const EdgeRuns& runs)
     }
     pairFlattestFirst(mesh.twin, sets, mesh, spokes);
   }
-  surface.repair.reorientedFaces += turnFaces(surface, facesToTurn(sets));
+  surface.repair.reorientedFaces += reverseOrientation(surface, facesToReverse(sets));
 }
 
 std::size_t splitVertexFans(Mesh& mesh)

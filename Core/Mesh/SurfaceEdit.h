@@ -57,7 +57,7 @@ void collapseEdge(PreparedSurface& surface, Index h);
 /// True when h has two faces and its two opposite vertices are not joined yet.
 bool mayFlip(const Mesh& mesh, Index h);
 
-/// Turns the edge of h, whose face is a sliver on it, to the opposite vertices; both faces are parts of
+/// Flips the edge of h, whose face is a sliver on it, to the opposite vertices; both faces are parts of
 /// the twin's polygon then, and a feature on the edge goes to the sliver's other two edges. Not for
 /// faces with weights.
 void flipSliver(PreparedSurface& surface, Index h);

@@ -39,7 +39,7 @@ struct UntangleOptions
   int polishSteps = 8;
   /// Weight of the area term against the angle term.
   double areaWeight = 0.05;
-  /// Weight of |J - 1|^2, which keeps the map turned like the references; 0: turning costs nothing.
+  /// Weight of |J - 1|^2, which keeps the map rotated like the references; 0: rotations cost nothing.
   double alignmentWeight = 0;
   /// The ratio of the singular values of J up to which it costs nothing, >= 1; 0: no limit. Triangles beyond it pay a RatioEnergy of this
   /// weight once all determinants are positive.

@@ -95,7 +95,7 @@ void leaveFrame(Level& level, const Frame& frame, const std::vector<Vector3>& po
   }
   for (Guide& guide : level.guides)
   {
-    guide.direction = frame.turned(guide.direction);
+    guide.direction = frame.mirrored(guide.direction);
   }
   if (frame.reversed)
   {
@@ -110,7 +110,7 @@ void leaveFrame(PreparedSurface& surface, const Frame& frame, std::vector<Vector
   surface.boundingBoxDiagonal *= frame.unit;
   for (PolygonGuide& guide : surface.polygonGuides)
   {
-    guide.direction = frame.turned(guide.direction);
+    guide.direction = frame.mirrored(guide.direction);
   }
   if (frame.reversed)
   {

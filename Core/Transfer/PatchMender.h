@@ -3,7 +3,7 @@
 /// Re-embeds small patches round the triangles that a replay left inverted or degenerate, and round vertices
 /// about which the map winds otherwise than it should.
 ///
-/// The unknowns are displacements of the patch's inner vertices, each in the chart of one of its corners and turned
+/// The unknowns are displacements of the patch's inner vertices, each in the chart of one of its corners and rotated
 /// into the charts of the others; so transitions stay exactly as they are, whatever charts, curves or holes the
 /// patch has. Inner vertices of curves slide along their isoline; the patch's border, irregular vertices
 /// and corners of curves stay. The untangler moves the rest, the result is rounded to the grid and tested

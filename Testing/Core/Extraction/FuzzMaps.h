@@ -351,7 +351,7 @@ private:
     const Index start = first_[v];
     const FixedVec2 along = map.edge(start);
     const auto runsOn = [along](FixedVec2 e)
-    { return turn(along, e) == 0 && (along.u > 0) == (e.u > 0) && (along.v > 0) == (e.v > 0); };
+    { return orientation(along, e) == 0 && (along.u > 0) == (e.u > 0) && (along.v > 0) == (e.v > 0); };
     int constrained = 0;
     int straight = 0;
     Transition whole;
@@ -406,7 +406,7 @@ private:
       {
         const FixedVec2 a = uv_[Mesh::next(g)] - uv_[g];
         const FixedVec2 b = uv_[Mesh::previous(g)] - uv_[g];
-        positive = positive && turn(a, b) > 0;
+        positive = positive && orientation(a, b) > 0;
         angle += angleBetween(a, b);
       });
     return positive && angle < 3 * kPi;
