@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/LockedVertices.h"
+#include "GridMap/Quantize.h"
 #include "GridMap/QuantizeIntegers.h"
 #include "GridMap/UvDecimation.h"
 #include "SyntheticMaps.h"
