@@ -26,18 +26,21 @@ struct ReadArray
   int components = 1;
 };
 
-/// What the surface, lines of curves and strokes, and points with valences are asked for. patchArray: the property's value.
+/// What the surface, lines of curves and strokes, and points with valences are asked for. patchArray: the property's
+/// value.
 std::vector<ReadArray> surfaceArrays(const std::string& patchArray);
 std::vector<ReadArray> lineArrays();
 std::vector<ReadArray> pointArrays();
 
-/// What to do about arrays that are not read although they look as if they should be: of the right name on the other kind of element, with
-/// another number of components, or of a name that differs in case, underscores, a plural or up to two letters.
+/// What to do about arrays that are not read although they look as if they should be: of the right name on the other
+/// kind of element, with another number of components, or of a name that differs in case, underscores, a plural or up
+/// to two letters.
 /// input: what the data is called in the sentence.
 std::vector<std::string> arrayNotices(
   vtkPolyData* data, const std::string& input, const std::vector<ReadArray>& read);
 
-/// Whether all values are whole; a Calculator makes doubles. Throws InvalidInput, naming array and value, where one is not.
+/// Whether all values are whole; a Calculator makes doubles. Throws InvalidInput, naming array and value, where one is
+/// not.
 void requireWhole(vtkDataArray* array, const char* element);
 
 } // namespace quadrille

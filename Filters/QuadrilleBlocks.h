@@ -79,11 +79,12 @@ struct BlockState
   std::vector<std::pair<const void*, vtkMTimeType>> failedStamps;
   double lastAreaShare = 1;
   double lastWholeDiagonal = 0;
-  /// Results of earlier settings, the last used one at the end, so that going back to them is a look-up. Bounded in number and bytes: at most
-  /// an eighth of the machine's memory.
+  /// Results of earlier settings, the last used one at the end, so that going back to them is a look-up. Bounded in
+  /// number and bytes: at most an eighth of the machine's memory.
   std::vector<EarlierResult> earlier;
 
-  /// The one with the settings, stamps and shares of `wanted`, which becomes the last used one; null where there is none.
+  /// The one with the settings, stamps and shares of `wanted`, which becomes the last used one; null where there is
+  /// none.
   const EarlierResult* findEarlier(const EarlierResult& wanted);
   void keepEarlier(EarlierResult result);
   std::size_t bytesOfEarlier() const;
@@ -143,7 +144,8 @@ std::string blockName(const BlockTree& tree, const BlockPath& path);
 /// Class name of what an output is for an input like this: composite data of the same kind, or "" for a plain data set.
 std::string compositeTypeFor(vtkDataObject* input);
 
-/// Empties `output` and gives it the structure of `tree` with these blocks; other leaves stay empty. input: what the tree is of.
+/// Empties `output` and gives it the structure of `tree` with these blocks; other leaves stay empty. input: what the
+/// tree is of.
 void writeBlocks(const BlockTree& tree,
   const std::map<BlockPath, vtkSmartPointer<vtkDataObject>>& blocks, vtkDataObject* input,
   vtkDataObject* output);

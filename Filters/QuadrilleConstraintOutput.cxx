@@ -29,7 +29,8 @@ namespace
 /// Beside the kinds: a valence that is not that of the quads.
 constexpr int kMissedValence = 3;
 
-/// The valence of the quads at a place, on boundaries one more, as it is asked for there; regular where no point of theirs lies.
+/// The valence of the quads at a place, on boundaries one more, as it is asked for there; regular where no point of
+/// theirs lies.
 class ReachedValences
 {
 public:

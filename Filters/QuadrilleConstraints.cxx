@@ -27,8 +27,8 @@ namespace quadrille
 namespace
 {
 
-/// What was moved by more than this part of the surface's bounding-box diagonal is worth a warning. Points of lines that are clicked in a
-/// window lie in front of the surface as a rule.
+/// What was moved by more than this part of the surface's bounding-box diagonal is worth a warning. Points of lines
+/// that are clicked in a window lie in front of the surface as a rule.
 constexpr double kFarPoint = 0.05;
 constexpr double kFarLine = 0.1;
 /// Samples of a stroke in each edge length of the polygons below.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a user draws beside the surface: feature curves, guiding strokes and points with valences. They are put on the surface,
-/// and what became of them is shown.
+/// What a user draws beside the surface: feature curves, guiding strokes and points with valences. They are put on the
+/// surface, and what became of them is shown.
 #pragma once
 
 #include "Extraction/Extraction.h"
@@ -55,8 +55,9 @@ struct PlacedConstraints
   std::vector<std::string> notices; ///< what the user should know
 };
 
-/// Features: every point of a curve goes to the nearest point of the surface's polygons, and between two of them runs the path along
-/// edges that stays closest to the straight segment; its edges are marked in surface.curveMarks and surface.input.featureEdges.
+/// Features: every point of a curve goes to the nearest point of the surface's polygons, and between two of them runs
+/// the path along edges that stays closest to the straight segment; its edges are marked in surface.curveMarks and
+/// surface.input.featureEdges.
 /// Strokes: every point goes to the nearest place on the surface, and the polygons under the straight segment between
 /// two get its direction. Where the way there is torn, that of a feature is taken.
 /// Valences: the nearest place on the surface, and of the corners of the polygon there the nearest one.
@@ -67,9 +68,10 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
 std::vector<std::string> missedValences(
   const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh);
 
-/// Lines and vertices where the constraints lie. Cells: Constraint (active: 0 feature, 1 stroke, 2 a valence that was met, 3 one that was
-/// not), SourceId (line or point of its input), Distance, GuidingWeight (0 but on strokes), TargetValence (0 on lines) and Valence (that
-/// of the quads there, on boundaries one more; 0 on lines). Points: Direction (unit vectors along lines, else zero).
+/// Lines and vertices where the constraints lie. Cells: Constraint (active: 0 feature, 1 stroke, 2 a valence that was
+/// met, 3 one that was not), SourceId (line or point of its input), Distance, GuidingWeight (0 but on strokes),
+/// TargetValence (0 on lines) and Valence (that of the quads there, on boundaries one more; 0 on lines). Points:
+/// Direction (unit vectors along lines, else zero).
 /// mesh: what was made.
 vtkSmartPointer<vtkPolyData> writeConstraints(
   const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh);

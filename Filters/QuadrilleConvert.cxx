@@ -822,7 +822,8 @@ std::vector<std::string> carryCellsToSurface(vtkPolyData* data, const PreparedSu
     source->GetCellData(), source->GetNumberOfCells(), data->GetCellData(), cells, threads);
 }
 
-/// Returns what could not be carried. Memory for where things come from is taken only where there is something to carry.
+/// Returns what could not be carried. Memory for where things come from is taken only where there is something to
+/// carry.
 std::vector<std::string> carryToSurface(vtkPolyData* data, const PreparedSurface& surface,
   vtkPolyData* source, const ConvertedSurface& converted, const std::vector<Index>& pointVertex,
   int threads)

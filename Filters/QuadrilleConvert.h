@@ -7,8 +7,8 @@
 ///          SourcePointIds and SourceWeights (the three input points of a face, and, where
 ///          refinement split it, the barycentric coordinates of its corners: 9 numbers)
 ///   points: FineVertex, Turns, Index, IntegerVertex, SurfacePointId (where points are split at seams)
-/// On levels of the hierarchy GuidingDirection, GuidingWeight, TargetValence and Sizing (with a limited growth) hold what the user asked for, where there is
-/// anything.
+/// On levels of the hierarchy GuidingDirection, GuidingWeight, TargetValence and Sizing (with a limited growth) hold
+/// what the user asked for, where there is anything.
 #pragma once
 
 #include "Base/FixedPoint.h"
@@ -111,7 +111,8 @@ vtkSmartPointer<vtkPolyData> writeMesh(const Mesh& mesh);
 /// Throws InvalidInput naming the cell that is no triangle, or the edge that is not manifold.
 Mesh readMesh(vtkPolyData* data, int threads = 1);
 
-/// Parts of readMesh: the points of the triangles' corners, #H; positions, #points; FeatureEdges to the flags of a mesh with these corners.
+/// Parts of readMesh: the points of the triangles' corners, #H; positions, #points; FeatureEdges to the flags of a mesh
+/// with these corners.
 /// The first throws InvalidInput naming the cell that is no triangle.
 std::vector<Index> readCorners(vtkPolyData* data, int threads = 1);
 std::vector<Vector3> readPointPositions(vtkPolyData* data, int threads = 1);
@@ -121,8 +122,8 @@ std::vector<int> readPointValences(vtkPolyData* data);
 
 /// writeMesh with FineFace and FineVertex, and what is asked for: the level's guides, and targetValences (#V or empty).
 vtkSmartPointer<vtkPolyData> writeLevel(const Level& level, const std::vector<int>& targetValences);
-/// Guides of a mesh that writeLevel wrote, in the planes of its faces: #F, or empty where there are none. Throws InvalidInput naming the
-/// cell, as for the user's surface.
+/// Guides of a mesh that writeLevel wrote, in the planes of its faces: #F, or empty where there are none. Throws
+/// InvalidInput naming the cell, as for the user's surface.
 std::vector<Guide> readGuides(vtkPolyData* data, const Mesh& mesh);
 /// TargetValence by the vertices of readMesh: #V, or empty where no point asks. Throws InvalidInput naming the point.
 std::vector<int> readTargetValences(vtkPolyData* data, const Mesh& mesh);
@@ -140,7 +141,8 @@ void addTurns(vtkPolyData* data, const Mesh& mesh, const std::vector<int>& turns
 
 /// The finest level with its map for display and extraction. source: what the surface was made from, its
 /// arrays are carried over. With splitSeams points are doubled where the map is cut, so that
-/// texture coordinates can be a point array. notCarried, if given, gets what carryPointArrays and carryCellArrays return.
+/// texture coordinates can be a point array. notCarried, if given, gets what carryPointArrays and carryCellArrays
+/// return.
 vtkSmartPointer<vtkPolyData> writeMappedSurface(const PreparedSurface& surface,
   const std::vector<FixedVec2>& uv, const std::vector<std::int8_t>& matching,
   const std::vector<int>& turns, vtkPolyData* source, const ConvertedSurface& converted,

@@ -43,7 +43,8 @@ std::optional<Frame> readFrame(vtkPolyData* data)
   return sound ? std::optional<Frame>(frame) : std::nullopt;
 }
 
-/// The positions in the frame of the mesh's vertices, where there are such and the points lie where the frame puts them.
+/// The positions in the frame of the mesh's vertices, where there are such and the points lie where the frame puts
+/// them.
 std::optional<std::vector<Vector3>> framePositions(
   vtkPolyData* data, const Mesh& mesh, const Frame& frame)
 {

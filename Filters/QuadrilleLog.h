@@ -19,7 +19,8 @@ namespace quadrille
 struct SurfaceRecipe
 {
   std::optional<double> featureAngle; ///< radians
-  /// For the filter of features and the refinement; in the log in units of the user, where it is used in those of the surface's frame.
+  /// For the filter of features and the refinement; in the log in units of the user, where it is used in those of the
+  /// surface's frame.
   double edgeLength = 0;
   std::string patchArray;
   std::vector<FeatureMark> curveMarks;

@@ -36,9 +36,9 @@ struct MappedInput
 /// The map is the cell array IGM, else the active texture coordinates of the points times
 /// textureScale (> 0); then points at the same place are joined (see MapWelding.h). Features are in
 /// FeatureEdges, quarter turns across edges in Matching (three whole numbers a cell, from the chart
-/// of the cell to that of its neighbour, modulo 4) where there is one. What vtkIntegerGridMapUpmap has made in this process is found by its
-/// contents and neither connected nor checked again, with the same result. Throws InvalidInput naming
-/// the cell, the edge or the array.
+/// of the cell to that of its neighbour, modulo 4) where there is one. What vtkIntegerGridMapUpmap has made in this
+/// process is found by its contents and neither connected nor checked again, with the same result. Throws InvalidInput
+/// naming the cell, the edge or the array.
 MappedInput readMappedInput(vtkPolyData* data, double textureScale, int threads);
 
 /// Vertices of the input's mesh, ascending, whose TargetValence asks for an irregular one.

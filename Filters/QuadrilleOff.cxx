@@ -110,8 +110,8 @@ bool parseWords(const Words& words, std::size_t first, Number (&numbers)[Count])
   return true;
 }
 
-/// Colours of vertices or of faces, with as many parts as the first of them has. Their parts go from 0 to 1 where one of
-/// them has a decimal point, else from 0 to 255.
+/// Colours of vertices or of faces, with as many parts as the first of them has. Their parts go from 0 to 1 where one
+/// of them has a decimal point, else from 0 to 255.
 class Colors
 {
 public:

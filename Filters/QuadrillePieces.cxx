@@ -48,7 +48,8 @@ std::uint64_t orderedBits(double value)
 
 using PointKey = std::array<std::uint64_t, 3>;
 
-/// Whether a coordinate needs double precision; filters upstream may have changed the type of the numbers, not what they are.
+/// Whether a coordinate needs double precision; filters upstream may have changed the type of the numbers, not what
+/// they are.
 bool needsDouble(vtkPolyData* piece)
 {
   if (!piece->GetPoints() || piece->GetPoints()->GetDataType() == VTK_FLOAT)
@@ -67,9 +68,9 @@ bool needsDouble(vtkPolyData* piece)
   return false;
 }
 
-/// What coordinates are rounded to multiples of: sources compute the points of a cut anew for each piece, and their last bits differ, above all of
-/// those that should be 0. A power of two, 2^-25 to 2^-26 of the diagonal where all coordinates are single, else 2^-31 to 2^-32: no more than
-/// their own last bit in most single ones. 0: no rounding.
+/// What coordinates are rounded to multiples of: sources compute the points of a cut anew for each piece, and their
+/// last bits differ, above all of those that should be 0. A power of two, 2^-25 to 2^-26 of the diagonal where all
+/// coordinates are single, else 2^-31 to 2^-32: no more than their own last bit in most single ones. 0: no rounding.
 double unitOfPlaces(const std::vector<vtkSmartPointer<vtkPolyData>>& pieces)
 {
   vtkBoundingBox box;

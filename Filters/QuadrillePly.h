@@ -15,8 +15,8 @@ namespace quadrille
 
 /// Text and binary, both byte orders. Scalar properties of vertices and faces become point and cell arrays of
 /// their own type and name; nx ny nz become Normals, red green blue (alpha) RGB or RGBA, and pairs of texture
-/// coordinates TCoords. `tristrips` become triangle strips. Throws InvalidInput naming the file and the line of the header or the
-/// element that is damaged, before it asks for more memory than the file can fill.
+/// coordinates TCoords. `tristrips` become triangle strips. Throws InvalidInput naming the file and the line of the
+/// header or the element that is damaged, before it asks for more memory than the file can fill.
 vtkSmartPointer<vtkPolyData> readPly(const std::string& path);
 
 } // namespace quadrille

@@ -202,8 +202,8 @@ void addPointArrays(const QuadMesh& mesh, const std::function<vtkIdType(Index)>&
   data->AddArray(valence);
 }
 
-/// Normals by which a surface without features is drawn smooth. A point on a feature has none: there the quads stay flat, and the normals
-/// of the carrier, which would smear sharp edges, are an array like others.
+/// Normals by which a surface without features is drawn smooth. A point on a feature has none: there the quads stay
+/// flat, and the normals of the carrier, which would smear sharp edges, are an array like others.
 void addNormals(const QuadMesh& mesh, vtkPointData* data)
 {
   if (std::any_of(

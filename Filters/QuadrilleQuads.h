@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// QuadMesh -> vtkPolyData: the quads with their sources, carried arrays and layout, the feature and boundary lines, the
-/// lines of the layout.
+/// QuadMesh -> vtkPolyData: the quads with their sources, carried arrays and layout, the feature and boundary lines,
+/// the lines of the layout.
 #pragma once
 
 #include "Base/FixedPoint.h"
@@ -36,8 +36,8 @@ struct QuadSource
   /// Point with barycentric weights in a face, in points of the carrier.
   std::function<PointOrigin(Index face, const std::array<double, 3>& weights)> carrierPoint;
   std::function<vtkIdType(Index face)> carrierCell;
-  /// The same in the user's own surface, for SourceCellId, SourcePointIds and SourceBarycentric; empty where that is the
-  /// carrier.
+  /// The same in the user's own surface, for SourceCellId, SourcePointIds and SourceBarycentric; empty where that is
+  /// the carrier.
   std::function<PointOrigin(Index face, const std::array<double, 3>& weights)> sourcePoint;
   std::function<vtkIdType(Index face)> sourceCell;
   std::string patchArray; ///< cell array of the carrier with patch ids, or empty
@@ -50,23 +50,27 @@ struct QuadSource
 PointOrigin pointOrigin(const PreparedSurface& surface, const ConvertedSurface& converted,
   vtkPolyData* data, Index face, const std::array<double, 3>& weights);
 
-/// Where there are polygons they are cells behind the quads, the cell array Partial is 1 on them, and they are in no layout patch (-1).
+/// Where there are polygons they are cells behind the quads, the cell array Partial is 1 on them, and they are in no
+/// layout patch (-1).
 struct QuadOutputs
 {
-  /// Points: Valence, OnBoundary, on surfaces without features QuadNormals (active where the carrier has no normals), SourceCellId, SourcePointIds, SourceBarycentric. Cells: SourceCellId, FeatureEdges (bit
-  /// i: the edge from corner i to i+1 lies on a feature), LayoutPatch. All arrays of the carrier, and its field data. Field data, one tuple a
+  /// Points: Valence, OnBoundary, on surfaces without features QuadNormals (active where the carrier has no normals),
+  /// SourceCellId, SourcePointIds, SourceBarycentric. Cells: SourceCellId, FeatureEdges (bit i: the edge from corner i
+  /// to i+1 lies on a feature), LayoutPatch. All arrays of the carrier, and its field data. Field data, one tuple a
   /// layout patch: LayoutPatchShape (a PatchShape) and LayoutPatchSize (2: quads along and across).
   vtkSmartPointer<vtkPolyData> quads;
-  /// Segments on features and boundaries. Cells: Boundary (0 or 1); PatchIds (the two patches that the segment separates,
-  /// smaller one first; twice the same on a boundary), where there is a patch array; LayoutPatchIds, the same for layout
-  /// patches, -1 along no quad; Separatrix (1: there would be a border of layout patches without features, too; 0 on boundaries). Points:
+  /// Segments on features and boundaries. Cells: Boundary (0 or 1); PatchIds (the two patches that the segment
+  /// separates, smaller one first; twice the same on a boundary), where there is a patch array; LayoutPatchIds, the
+  /// same for layout patches, -1 along no quad; Separatrix (1: there would be a border of layout patches without
+  /// features, too; 0 on boundaries). Points:
   /// QuadPointId.
   vtkSmartPointer<vtkPolyData> lines;
-  /// The lines of the layout inside as polylines. Cells: StartKind and EndKind (a LineEnd), Feature (1: all on features, 0:
+  /// The lines of the layout inside as polylines. Cells: StartKind and EndKind (a LineEnd), Feature (1: all on
+  /// features, 0:
   /// none), Separatrix. Points: QuadPointId.
   vtkSmartPointer<vtkPolyData> separatrices;
-  /// Irregular vertices as vertices: those without 4 edges inside, without 3 on a boundary. Points: Valence (number of edges;
-  /// active), Index (how many are missing to a regular one), OnBoundary, QuadPointId.
+  /// Irregular vertices as vertices: those without 4 edges inside, without 3 on a boundary. Points: Valence (number of
+  /// edges; active), Index (how many are missing to a regular one), OnBoundary, QuadPointId.
   vtkSmartPointer<vtkPolyData> irregular;
   /// Arrays that could not be carried, as text.
   std::vector<std::string> notCarried;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The ranks of a parallel run that work together on one execution of a filter. Without a controller there is one rank.
 ///
-/// All functions but the first four are collective: every rank calls them in the same order, also one that has no data or has failed.
+/// All functions but the first four are collective: every rank calls them in the same order, also one that has no data
+/// or has failed.
 #pragma once
 
 #include <vtkSmartPointer.h>
@@ -18,10 +19,12 @@ class vtkMultiProcessController;
 namespace quadrille
 {
 
-/// The ranks that work on a request together, or null: those of an MPI session in which all ask alike, each for its own piece.
+/// The ranks that work on a request together, or null: those of an MPI session in which all ask alike, each for its own
+/// piece.
 vtkMultiProcessController* controllerOf(vtkInformationVector* outputs);
 
-/// Whether mpiexec or srun has started this process. ParaView's pvpython and pvserver are sessions of MPI with one rank also without.
+/// Whether mpiexec or srun has started this process. ParaView's pvpython and pvserver are sessions of MPI with one rank
+/// also without.
 bool isLaunchedByMpi();
 
 class Ranks
@@ -40,8 +43,8 @@ public:
   std::vector<std::string> gather(const std::string& bytes) const;
   /// Throws InvalidInput with the first text that is not empty, on all ranks.
   void agree(const std::string& error) const;
-  /// The data objects of all ranks, by rank, on `owner`; nothing on others. Null objects are left out. Throws InvalidInput on all ranks where
-  /// one cannot send.
+  /// The data objects of all ranks, by rank, on `owner`; nothing on others. Null objects are left out. Throws
+  /// InvalidInput on all ranks where one cannot send.
   std::vector<vtkSmartPointer<vtkDataObject>> collect(
     const std::vector<vtkSmartPointer<vtkDataObject>>& mine, int owner) const;
   /// The same on all ranks; for small data.

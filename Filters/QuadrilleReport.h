@@ -32,8 +32,8 @@ void requireOk(const Status& status, const std::string& stage);
 /// "phase1: 0.52 s, 69451 -> 20312", one stage a line, and the sum.
 std::string stageTimesText(const std::vector<StageRecord>& stages);
 
-/// Breaks lines between words where they are longer than `width` letters; what follows a break is indented by two. ParaView's fields do
-/// not wrap.
+/// Breaks lines between words where they are longer than `width` letters; what follows a break is indented by two.
+/// ParaView's fields do not wrap.
 std::string wrapLines(const std::string& text, std::size_t width);
 
 /// The lines of a text without empty ones.

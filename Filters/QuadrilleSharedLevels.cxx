@@ -20,8 +20,8 @@ namespace quadrille
 namespace
 {
 
-/// Those that are held somewhere in this process, without holding them. One for the process, as filters know nothing of each other: between
-/// them are data objects, which ParaView copies and hands on.
+/// Those that are held somewhere in this process, without holding them. One for the process, as filters know nothing of
+/// each other: between them are data objects, which ParaView copies and hands on.
 template <class Shared>
 class Registry
 {

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// What one stage filter has prepared and the next one would have to make again from the data between them.
 ///
-/// The filter that made it holds it, with its block; others find it by contents, in the same process only. What nobody holds any more is
-/// gone. Who finds nothing makes the same again, bit for bit: after a file, in another process, behind a filter that has changed the data.
+/// The filter that made it holds it, with its block; others find it by contents, in the same process only. What nobody
+/// holds any more is gone. Who finds nothing makes the same again, bit for bit: after a file, in another process,
+/// behind a filter that has changed the data.
 #pragma once
 
 #include "Mesh/Frame.h"
@@ -64,7 +65,8 @@ std::shared_ptr<const SharedMap> findSharedMap(std::uint64_t key);
 void share(const std::shared_ptr<const SharedSurface>& surface);
 void share(const std::shared_ptr<const SharedMap>& map);
 
-/// 64 bits over all that readMappedInput reads of a surface with the array IGM; none where an array is not plain memory, or IGM is missing.
+/// 64 bits over all that readMappedInput reads of a surface with the array IGM; none where an array is not plain
+/// memory, or IGM is missing.
 std::optional<std::uint64_t> mappedSurfaceHash(vtkPolyData* data, int threads);
 
 } // namespace quadrille

@@ -37,7 +37,8 @@ EdgeGraph makeEdgeGraph(const SurfaceInput& input);
 
 double distanceToSegment(const Vector3& p, const Vector3& a, const Vector3& b);
 
-/// Points from b back to a along edges, by Dijkstra's algorithm; edges cost more the farther they are from the straight segment.
+/// Points from b back to a along edges, by Dijkstra's algorithm; edges cost more the farther they are from the straight
+/// segment.
 /// Empty: no path.
 std::vector<Index> findEdgePath(
   const SurfaceInput& input, const EdgeGraph& graph, Index a, Index b);
@@ -48,7 +49,8 @@ double meanEdge(const SurfaceInput& input, Index polygon);
 /// The diagonal of the box round all points.
 double diagonalOf(const SurfaceInput& input);
 
-/// The nearest place on the polygons, and the nearest of the points that they use: an isolated one would be nobody's edge.
+/// The nearest place on the polygons, and the nearest of the points that they use: an isolated one would be nobody's
+/// edge.
 class Snapper
 {
 public:

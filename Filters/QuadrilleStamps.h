@@ -16,8 +16,8 @@ namespace quadrille
 /// Object and time of its last change.
 using Stamp = std::pair<const void*, vtkMTimeType>;
 
-/// Appends those of all points, cells and arrays, in order. Equal stamps mean equal contents, whatever the vtkPolyData or vtkTable that
-/// holds them; any other data object counts as changed whenever it was touched.
+/// Appends those of all points, cells and arrays, in order. Equal stamps mean equal contents, whatever the vtkPolyData
+/// or vtkTable that holds them; any other data object counts as changed whenever it was touched.
 void addStamps(vtkDataObject* data, std::vector<Stamp>& stamps);
 
 } // namespace quadrille

@@ -27,8 +27,9 @@ struct SurfaceCounts
 /// Number of cells; 0 for what is no data set.
 std::size_t cellCount(vtkDataObject* data);
 
-/// A vtkPolyData as it is; of any other data set the surface, with its arrays and vtkOriginalCellIds and vtkOriginalPointIds. Ghost cells
-/// are left out. With markVolumeFaces faces of volume cells are marked for joinPieces. Throws InvalidInput for what is no data set.
+/// A vtkPolyData as it is; of any other data set the surface, with its arrays and vtkOriginalCellIds and
+/// vtkOriginalPointIds. Ghost cells are left out. With markVolumeFaces faces of volume cells are marked for joinPieces.
+/// Throws InvalidInput for what is no data set.
 vtkSmartPointer<vtkPolyData> surfaceOf(
   vtkDataObject* data, bool markVolumeFaces, SurfaceCounts& counts);
 

@@ -35,7 +35,8 @@ using quadrille::Index;
 using quadrille::PointOrigin;
 using Weights = std::array<double, 3>;
 
-/// Points of the mapped surface itself: corners of its cells, all triangles, before the seams were welded. Several threads may ask.
+/// Points of the mapped surface itself: corners of its cells, all triangles, before the seams were welded. Several
+/// threads may ask.
 PointOrigin carrierPoint(vtkPolyData* data, Index face, const Weights& weights)
 {
   vtkIdType count = 0;

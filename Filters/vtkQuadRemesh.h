@@ -225,8 +225,8 @@ public:
 
   /// Millions of bytes that are held for the next execution.
   double GetRememberedMegabytes() const;
-  /// Stages that the last execution had, or began, from an earlier one, one a line; "all" where nothing had changed and the result
-  /// before was returned.
+  /// Stages that the last execution had, or began, from an earlier one, one a line; "all" where nothing had changed and
+  /// the result before was returned.
   const char* GetReusedStagesText() const { return this->GetReusedStages(); }
 
   ///@{

@@ -72,7 +72,8 @@ public:
   void Execute(vtkObject* caller, unsigned long, void*) override { caller->RemoveObserver(this); }
 };
 
-/// Parts of the sum of the areas, none below the least one: blocks that would be below get that, and the others share the rest.
+/// Parts of the sum of the areas, none below the least one: blocks that would be below get that, and the others share
+/// the rest.
 std::vector<double> sharesOf(const std::vector<double>& areas, double least)
 {
   std::vector<double> shares(areas.size(), 1.0 / static_cast<double>(areas.size()));
@@ -254,8 +255,8 @@ int vtkQuadrilleAlgorithm::RequestDataObject(
 int vtkQuadrilleAlgorithm::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  // Ranks that work together each ask for their own part, all alike, so that filters upstream can work together, too. Else the whole
-  // is asked for once.
+  // Ranks that work together each ask for their own part, all alike, so that filters upstream can work together, too.
+  // Else the whole is asked for once.
   const quadrille::Ranks ranks(quadrille::controllerOf(outputs));
   const bool isAlone = !ranks.isParallel() && requestedPiece(outputs) == 0;
   const int piece = ranks.isParallel() ? ranks.rank() : requestedPiece(outputs);
@@ -459,7 +460,8 @@ void vtkQuadrilleAlgorithm::TakeStates(Run& run)
     packer.count(work.stamps == state->failedStamps);
   }
   this->States = std::move(states);
-  // A block stays where its result and its memory are; the others go to the rank with the least to do, large ones first.
+  // A block stays where its result and its memory are; the others go to the rank with the least to do, large ones
+  // first.
   std::vector<std::size_t> load(static_cast<std::size_t>(run.ranks.size()), 0);
   for (Work& work : run.works)
   {

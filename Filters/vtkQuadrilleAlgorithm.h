@@ -144,8 +144,8 @@ protected:
   int RequestData(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
-  /// Whether a block with the same properties and arrays as at its last execution, which succeeded, gets that result instead of a new
-  /// one; its reused stages are then "all". Default: no.
+  /// Whether a block with the same properties and arrays as at its last execution, which succeeded, gets that result
+  /// instead of a new one; its reused stages are then "all". Default: no.
   virtual bool KeepsResult() { return false; }
   /// Writes the properties that the result depends on, see GetSettings().
   virtual void AddSettings(std::ostream& os) const;
@@ -177,7 +177,8 @@ protected:
   ///@}
 
   ///@{
-  /// A number of each block's report, over all blocks; 0 where no block has it, and for the least where none has one above 0.
+  /// A number of each block's report, over all blocks; 0 where no block has it, and for the least where none has one
+  /// above 0.
   double SumOverBlocks(const char* number) const;
   double LeastOverBlocks(const char* number) const;
   ///@}

@@ -21,9 +21,9 @@ struct CoarseTiming
 
 /// Writes the header of printCoarse() to standard output.
 void printCoarseHeader();
-/// Makes the coarse level of the mesh and times its field and map, then again after each of three small edits, cold and starting
-/// from the map before the edit. Writes, for each, a row of medians for the clock on the wall and one for the processor's to
-/// standard output, as CSV. Throws as prepareMeshFile() does.
+/// Makes the coarse level of the mesh and times its field and map, then again after each of three small edits, cold and
+/// starting from the map before the edit. Writes, for each, a row of medians for the clock on the wall and one for the
+/// processor's to standard output, as CSV. Throws as prepareMeshFile() does.
 void printCoarse(const std::string& path, const CoarseTiming& request);
 
 } // namespace quadrille

@@ -40,8 +40,8 @@ FixedVec2 midpoint(FixedVec2 a, FixedVec2 b)
   return { (a.u + b.u) >> 1, (a.v + b.v) >> 1 };
 }
 
-/// Every triangle in four by the midpoints of its edges; those of the map are rounded in the chart of the lower half-edge
-/// and carried over the exact transition, so the map stays seamless bit for bit.
+/// Every triangle in four by the midpoints of its edges; those of the map are rounded in the chart of the lower
+/// half-edge and carried over the exact transition, so the map stays seamless bit for bit.
 ///
 ///            c
 ///          /   \            face f becomes 4f .. 4f + 3: (a, ab, ca), (b, bc, ab),

@@ -57,8 +57,9 @@ public:
     std::function<void(const std::string&)> set, const std::string& help);
   void addFlag(const std::string& name, std::function<void()> set, const std::string& help);
 
-  /// What to print in place of a run, where --help or --version is given. Throws UsageError for an option that is none (and names the nearest one that is),
-  /// lacks its value, has one though it is a flag, is given twice, or is not what it may be.
+  /// What to print in place of a run, where --help or --version is given. Throws UsageError for an option that is none
+  /// (and names the nearest one that is), lacks its value, has one though it is a flag, is given twice, or is not what
+  /// it may be.
   std::optional<std::string> parse(int argc, char* argv[]);
 
   const std::vector<std::string>& files() const;

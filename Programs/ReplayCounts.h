@@ -10,8 +10,8 @@ namespace quadrille
 
 /// Writes the header of printReplay() to standard output.
 void printReplayHeader();
-/// Remeshes the mesh and writes the counts of its last replay as a row of CSV, also where no quads come of it. Throws as
-/// readMeshFile() and remesh() do.
+/// Remeshes the mesh and writes the counts of its last replay as a row of CSV, also where no quads come of it. Throws
+/// as readMeshFile() and remesh() do.
 void printReplay(const std::string& path, double quads, int threads);
 
 } // namespace quadrille

@@ -33,7 +33,8 @@ private:
   Clock::time_point last_ = start_;
 };
 
-/// A bar of `width` characters in all, as "[####....]  45 %  Decimating  3 s"; the text gives way where there is no room.
+/// A bar of `width` characters in all, as "[####....]  45 %  Decimating  3 s"; the text gives way where there is no
+/// room.
 std::string barText(double fraction, const std::string& text, double seconds, std::size_t width);
 
 /// The text in lines of at most `width` characters, broken at spaces; those after the first begin with `indent` spaces.
@@ -42,7 +43,8 @@ std::string wrapText(const std::string& text, std::size_t width, std::size_t ind
 /// Columns of the terminal behind standard error; none where it is no terminal.
 std::size_t terminalWidth();
 
-/// Writes sentences to standard error, one paragraph each with a dash before it: wrapped on a terminal, a line each elsewhere.
+/// Writes sentences to standard error, one paragraph each with a dash before it: wrapped on a terminal, a line each
+/// elsewhere.
 void printSentences(const std::vector<std::string>& sentences);
 
 } // namespace quadrille

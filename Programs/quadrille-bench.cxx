@@ -107,8 +107,8 @@ struct Request
   double edgeLength = 0; ///< 0: quads
   int threads = 0;
   long long repeat = 1;
-  /// "orders": only phase 1, in all orders; "replay": counts of the replay; "field": irregular vertices; "coarse": times of the coarse level;
-  /// "extraction": times of the extraction
+  /// "orders": only phase 1, in all orders; "replay": counts of the replay; "field": irregular vertices; "coarse":
+  /// times of the coarse level; "extraction": times of the extraction
   std::string compared;
   Index coarseVertices = 1000;
   int subdivide = 0;

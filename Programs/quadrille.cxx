@@ -47,8 +47,8 @@ void requestStop(int)
   stopRequested = 1;
 }
 
-/// VTK's readers end the process where a damaged file makes them ask for too much memory. Catching that is the only way to keep
-/// the promise of an exit code.
+/// VTK's readers end the process where a damaged file makes them ask for too much memory. Catching that is the only way
+/// to keep the promise of an exit code.
 class ReaderGuard
 {
 public:

@@ -10,7 +10,8 @@
 namespace quadrille
 {
 
-/// How many quarter turns carry `from` to `to`, 0 to 3, exactly; none where no number does, or where all do (length zero).
+/// How many quarter turns carry `from` to `to`, 0 to 3, exactly; none where no number does, or where all do (length
+/// zero).
 inline std::optional<int> rotationBetween(FixedVec2 from, FixedVec2 to)
 {
   if (from == to)

@@ -9,7 +9,8 @@
 namespace quadrille
 {
 
-/// Seconds since a moment that stays the same while the program runs, on a clock that never goes back: only differences mean something.
+/// Seconds since a moment that stays the same while the program runs, on a clock that never goes back: only differences
+/// mean something.
 inline double secondsNow()
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

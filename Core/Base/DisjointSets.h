@@ -17,8 +17,8 @@ namespace quadrille
 {
 
 /// Union-find without locks, in the manner of [Anderson and Woll 1991]: a root is hung below a lower one by one
-/// compare-and-swap, and paths are halved on the way. The lowest element of a set is its root, so what comes out does not
-/// depend on the order of the joins.
+/// compare-and-swap, and paths are halved on the way. The lowest element of a set is its root, so what comes out does
+/// not depend on the order of the joins.
 class DisjointSets
 {
 public:

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Arrays of the size of a large mesh: fresh memory comes at 2 GB/s, so that filling one takes longer than a run may take to stop.
+/// Arrays of the size of a large mesh: fresh memory comes at 2 GB/s, so that filling one takes longer than a run may
+/// take to stop.
 #pragma once
 
 #include "Base/Progress.h"

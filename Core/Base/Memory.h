@@ -6,8 +6,9 @@
 namespace quadrille
 {
 
-/// Gives freed memory back to the system, so that what a stage has let go does not count at the peak of a later one. After phase
-/// 1 the GNU library holds back 17 bytes a face, as holes between the blocks of the log. Does nothing with other libraries.
+/// Gives freed memory back to the system, so that what a stage has let go does not count at the peak of a later one.
+/// After phase 1 the GNU library holds back 17 bytes a face, as holes between the blocks of the log. Does nothing with
+/// other libraries.
 void releaseFreedMemory();
 
 } // namespace quadrille

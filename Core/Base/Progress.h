@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Progress and cancel are one callback.
 ///
-/// A stage reports where it stands with report(). Between two reports a long loop calls poll(), which costs a look at the
-/// clock and repeats the last report of the run when a while has passed; parallelFor() does so before each chunk.
+/// A stage reports where it stands with report(). Between two reports a long loop calls poll(), which costs a look at
+/// the clock and repeats the last report of the run when a while has passed; parallelFor() does so before each chunk.
 /// So a run stops soon after the callback asks for it, without every inner loop being given the callback.
 #pragma once
 
@@ -31,9 +31,9 @@ inline void report(const ProgressCallback& callback, double fraction, const std:
   }
 }
 
-/// A stage reports its own fraction; whoever calls it knows what part of all that is: the callback for a stage that is the
-/// part [begin, end] of all, whose texts get a prefix. A fraction outside of [0, 1] counts as the nearest one in it. Empty
-/// where `callback` is.
+/// A stage reports its own fraction; whoever calls it knows what part of all that is: the callback for a stage that is
+/// the part [begin, end] of all, whose texts get a prefix. A fraction outside of [0, 1] counts as the nearest one in
+/// it. Empty where `callback` is.
 ProgressCallback subProgress(
   const ProgressCallback& callback, double begin, double end, const std::string& prefix = {});
 
@@ -49,8 +49,8 @@ public:
   PollScope(const PollScope&) = delete;
   PollScope& operator=(const PollScope&) = delete;
 
-  /// The callback that the stages of the run must use, so that poll() knows the last report. Empty where the scope's own
-  /// callback is. Lives as long as the scope.
+  /// The callback that the stages of the run must use, so that poll() knows the last report. Empty where the scope's
+  /// own callback is. Lives as long as the scope.
   ProgressCallback callback();
 
 private:

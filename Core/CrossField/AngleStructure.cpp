@@ -16,8 +16,8 @@ namespace
 constexpr std::int64_t kQuarterTurn = 360;
 constexpr std::int64_t kSmallest = 4; // one degree
 
-// Nodes are triangles, then fans. A triangle above half a turn passes angle on: it lowers its corner at a fan, which raises
-// the corner of another triangle there, until a triangle below half a turn takes it.
+// Nodes are triangles, then fans. A triangle above half a turn passes angle on: it lowers its corner at a fan, which
+// raises the corner of another triangle there, until a triangle below half a turn takes it.
 class AngleTransport
 {
 public:

@@ -46,8 +46,8 @@ struct CrossField
   /// #V: quarter turns of the map round the vertex; the valence of an interior vertex (4: regular);
   /// for a boundary vertex the sum over its open fan (2: regular).
   std::vector<int> turns;
-  /// #F or empty, set by who makes the map: the shape that a face should have in it is this, symmetric and in the plane of `angle`, times
-  /// the flat face; see measureStretch.
+  /// #F or empty, set by who makes the map: the shape that a face should have in it is this, symmetric and in the plane
+  /// of `angle`, times the flat face; see measureStretch.
   std::vector<Eigen::Matrix2d> stretch;
 
   Status status;
@@ -58,8 +58,8 @@ struct CrossField
 
 /// Computes the field. Never makes an interior valence below 3 or above 6 or a sector below one quarter
 /// turn unless it is asked to or topology forces it; then the status says where. Target valences that
-/// the free vertices of their component cannot complete are Infeasible without offenders: nothing that the mesh could change
-/// helps. Ok also means that positive angles exist in all
+/// the free vertices of their component cannot complete are Infeasible without offenders: nothing that the mesh could
+/// change helps. Ok also means that positive angles exist in all
 /// triangles that add up to the turns of every fan, without which no map could follow the field.
 CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options);
 

@@ -273,8 +273,8 @@ Eigen::VectorXcd principalField(
   return field;
 }
 
-// What `source` puts on the right in components without constraints (and, if asked, without guides); the fixed faces and
-// guides elsewhere.
+// What `source` puts on the right in components without constraints (and, if asked, without guides); the fixed faces
+// and guides elsewhere.
 Eigen::VectorXcd rightSide(const ConnectionSystem& system, const FreeFaces& free,
   const Eigen::VectorXcd& source, bool followGuides)
 {
@@ -310,8 +310,8 @@ void normalizeLoose(const FreeFaces& free, Eigen::VectorXcd& field)
 }
 
 // Harmonic where constraints reach. Elsewhere two candidates: principal directions, carried from where
-// curvature is strongly anisotropic to where it is not, and the smoothest eigenfield, by power iterations. Where only guides
-// reach, there is a third one, which comes first: harmonic between them.
+// curvature is strongly anisotropic to where it is not, and the smoothest eigenfield, by power iterations. Where only
+// guides reach, there is a third one, which comes first: harmonic between them.
 std::vector<Eigen::VectorXcd> initialFields(ConnectionSystem& system, const FreeFaces& free,
   const Eigen::VectorXcd& principal, double totalArea)
 {

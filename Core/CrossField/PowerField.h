@@ -31,8 +31,8 @@ struct FieldConstraints
 };
 FieldConstraints fieldConstraints(const Mesh& mesh, const FieldTopology& topology);
 
-/// Adds guides (#F). One of weight 1 yields to the field round it within about a quarter of `length` (s > 0), one of weight w within
-/// 1 / sqrt(w) of that. Throws InvalidInput for a wrong size.
+/// Adds guides (#F). One of weight 1 yields to the field round it within about a quarter of `length` (s > 0), one of
+/// weight w within 1 / sqrt(w) of that. Throws InvalidInput for a wrong size.
 void addGuides(const Mesh& mesh, const FieldTopology& topology, const std::vector<Guide>& guides,
   double length, FieldConstraints& constraints);
 
@@ -44,8 +44,8 @@ struct PowerFieldOptions
 
 /// Smooth fields to choose from. Where constraints reach they are all the same; a component without
 /// constraints has a first one along its principal directions and a second one that is the smoothest. Neither
-/// is better always: a fat torus is regular only in the first one, a sphere has pairs too many in it. Where such a component
-/// has guides, the first one spreads out from them, the others follow them near by.
+/// is better always: a fat torus is regular only in the first one, a sphere has pairs too many in it. Where such a
+/// component has guides, the first one spreads out from them, the others follow them near by.
 struct PowerFields
 {
   std::vector<std::vector<double>> candidates; ///< each #F angles; one to three
@@ -61,8 +61,8 @@ double edgeResidual(const FieldTopology& topology, const std::vector<double>& an
   const Mesh& mesh, Index h, int jump);
 
 /// Angles that minimize the weighted squared residuals for the period jumps `jump` (#H, antisymmetric), fixed faces
-/// at their constraint, guided faces drawn to the nearest of the four directions of their guide. One face of each component
-/// without constraints and guides keeps its angle.
+/// at their constraint, guided faces drawn to the nearest of the four directions of their guide. One face of each
+/// component without constraints and guides keeps its angle.
 std::vector<double> solveAngles(const Mesh& mesh, const FieldTopology& topology,
   const FieldConstraints& constraints, const std::vector<int>& jump,
   const std::vector<double>& start);

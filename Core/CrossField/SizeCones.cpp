@@ -28,7 +28,8 @@ constexpr std::size_t kMostPlaces = 500;
 constexpr int kMostMoves = 100;
 /// Columns of a product that are computed at once.
 constexpr Eigen::Index kBlock = 64;
-/// What an irregular vertex more has to take off the mean square: as much as 20 % too large quads on a fortieth of the surface.
+/// What an irregular vertex more has to take off the mean square: as much as 20 % too large quads on a fortieth of the
+/// surface.
 constexpr double kWorthOfVertex = 1e-3;
 
 /// The conformal factor as a function of the turns.

@@ -21,8 +21,8 @@ std::int64_t integerCost(double cost)
   return std::llround(cost * 1024);
 }
 
-// Nodes are fans, then groups of fans with a prescribed sum; the last one (the hub) takes up what free fans deviate from
-// their cheapest turns. Its balance follows from the sum rule, so it may be the flow's ground. What the fans of a
+// Nodes are fans, then groups of fans with a prescribed sum; the last one (the hub) takes up what free fans deviate
+// from their cheapest turns. Its balance follows from the sum rule, so it may be the flow's ground. What the fans of a
 // group deviate goes to the group's node, whose demand is what the sum deviates.
 class RepairFlow
 {

@@ -36,8 +36,8 @@ struct TurnRepairResult
 /// edges[i][0] points to, to the one it leaves. Prescribed sums are met exactly.
 TurnRepairResult repairTurns(const TurnRepairInput& input);
 
-/// Afterwards moves single turns, as cheaply as it can, until an angle structure exists or no move helps; never from or to
-/// fans with a prescription. Returns
+/// Afterwards moves single turns, as cheaply as it can, until an angle structure exists or no move helps; never from or
+/// to fans with a prescription. Returns
 /// the fans that stay in the way (#fans flags), empty on success.
 std::vector<std::uint8_t> completeTurns(
   const Mesh& mesh, const TurnRepairInput& input, TurnRepairResult& result);

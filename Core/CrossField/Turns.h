@@ -3,8 +3,8 @@
 /// Turns per fan from period jumps [Bommes et al. 2009]: turns change by whole numbers only, exactly as the jumps do.
 ///
 /// jump[h] is the period jump of half-edge h, the matching before it is taken modulo 4: antisymmetric, residual =
-/// angle[f] + transport - angle[g] - jump pi/2. Going counterclockwise round a fan one crosses half-edges that point to its
-/// vertex, and
+/// angle[f] + transport - angle[g] - jump pi/2. Going counterclockwise round a fan one crosses half-edges that point to
+/// its vertex, and
 ///   turns = (angle sum + sum of residuals + start - end) / (pi/2),
 /// start, end: how far the constrained half-edges deviate from the axis of their alignment (zero for a whole ring).
 #pragma once

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// How far a map is from an isometry of the surface, up to one scale for all of it; where the surface asks for sizes, lengths on it are
-/// taken over them.
+/// How far a map is from an isometry of the surface, up to one scale for all of it; where the surface asks for sizes,
+/// lengths on it are taken over them.
 #pragma once
 
 #include "Base/FixedPoint.h"
@@ -12,7 +12,8 @@
 namespace quadrille
 {
 
-/// Means are over the area of the triangles with a positive determinant and an area. With the singular values a, b of the Jacobian:
+/// Means are over the area of the triangles with a positive determinant and an area. With the singular values a, b of
+/// the Jacobian:
 struct MapDistortion
 {
   double mean =

@@ -120,7 +120,8 @@ private:
   }
 
   /// Adds the line to the first grid vertex behind the end of an edge, `last` being the last one on it, at its distance
-  /// from the origin of start.h. There is none where that end is a grid vertex itself, or the curve ends before the next.
+  /// from the origin of start.h. There is none where that end is a grid vertex itself, or the curve ends before the
+  /// next.
   void walkOn(const DirectedEdge start, Node last)
   {
     DirectedEdge edge = start;
@@ -191,8 +192,8 @@ private:
     return left.value_or(right.value_or(false));
   }
 
-  /// Compares the images of two edges at a vertex through the fan counterclockwise from the half-edge `from` that leaves
-  /// it to the half-edge `to` that ends there. None where a boundary or an image of length zero lies between.
+  /// Compares the images of two edges at a vertex through the fan counterclockwise from the half-edge `from` that
+  /// leaves it to the half-edge `to` that ends there. None where a boundary or an image of length zero lies between.
   std::optional<bool> turnsBackInFan(Index from, Index to) const
   {
     if (from == kInvalidIndex || to == kInvalidIndex)

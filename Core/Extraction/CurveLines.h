@@ -19,8 +19,8 @@ struct CurveLine
   bool zero = false; ///< the curve turns back in between, so that a and b are copies of one vertex
 };
 
-/// Follows the curves themselves, so that folds beside them do not matter; each piece between two grid vertices comes once. A curve ends
-/// where it forks.
+/// Follows the curves themselves, so that folds beside them do not matter; each piece between two grid vertices comes
+/// once. A curve ends where it forks.
 std::vector<CurveLine> findCurveLines(const ExactMap& map, const GridVertices& grid);
 
 } // namespace quadrille

@@ -242,8 +242,8 @@ bool usesFoldedPath(ExtractionPath path, const MapCheck& check)
   return path == ExtractionPath::Folded || !positive;
 }
 
-/// A walk crosses a triangle once on each side of an isoline, where the transitions are whole: so often do isolines of both
-/// directions meet the widths of the triangles, which check.extent bounds.
+/// A walk crosses a triangle once on each side of an isoline, where the transitions are whole: so often do isolines of
+/// both directions meet the widths of the triangles, which check.extent bounds.
 std::size_t largestNumberOfSteps(
   const ExactMap& map, const GridVertices& grid, const MapCheck& check)
 {

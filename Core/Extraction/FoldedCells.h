@@ -25,12 +25,12 @@ struct FoldedCells
 };
 
 /// The outline of a cell is a closed walk on the four sides of a unit square. (1) Grid vertices that sides of length
-/// zero, triangles without area or curves that turn back join are one vertex [Ebke et al. 2013, Section 5]. (2) A side walked in an
-/// upright sheet and then the same side back in an inverted one are closed on each other like a zip, which makes one vertex of
-/// both ends; where there is a choice, of the two that are nearest in space. What is left of the outline goes round
-/// the square as often as the cell covers it: once for a quad, never for a fold that
-/// lies within one cell, and twice or more only if the map winds round a point that is no grid vertex. (3) Of quads over the
-/// same vertices as many are left as upright sheets are more than inverted ones, at most one.
+/// zero, triangles without area or curves that turn back join are one vertex [Ebke et al. 2013, Section 5]. (2) A side
+/// walked in an upright sheet and then the same side back in an inverted one are closed on each other like a zip, which
+/// makes one vertex of both ends; where there is a choice, of the two that are nearest in space. What is left of the
+/// outline goes round the square as often as the cell covers it: once for a quad, never for a fold that
+/// lies within one cell, and twice or more only if the map winds round a point that is no grid vertex. (3) Of quads
+/// over the same vertices as many are left as upright sheets are more than inverted ones, at most one.
 FoldedCells findFoldedCells(const ExactMap& map, const GridVertices& grid, const CellCorners& cells,
   const std::vector<CurveLine>& curves);
 

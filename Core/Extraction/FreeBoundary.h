@@ -41,8 +41,8 @@ struct FreeBoundaryReport
 /// grid vertices, crossings of isolines with boundary edges, boundary vertices on isolines, and of
 /// the other boundary vertices those where the boundary bends by more than 30 degrees in space or a
 /// feature ends, and those without which the polygon would be degenerate, cross itself or stay
-/// more than a tenth of a quad away from the boundary [Douglas and Peucker 1973]. A whole cell with a boundary vertex on a
-/// side becomes a polygon, too. A boundary loop inside of one cell stays covered by it. All
+/// more than a tenth of a quad away from the boundary [Douglas and Peucker 1973]. A whole cell with a boundary vertex
+/// on a side becomes a polygon, too. A boundary loop inside of one cell stays covered by it. All
 /// decisions are exact, but crossings are rounded to 2^-56 quads where it is asked whether a
 /// polygon crosses itself. pointOf is completed.
 FreeBoundaryReport treatFreeBoundary(const ExactMap& map, const GridVertices& grid,

@@ -61,8 +61,8 @@ struct CellCorners
   /// Pairs of grid vertices that are one vertex of the unfolded map; none for a valid map.
   std::vector<std::pair<Index, Index>> merged;
   std::size_t zeroSides = 0; ///< sides of length zero
-  /// The walks together crossed more than maximumSteps triangles; the lists above are not complete. Walks wind round the
-  /// surface where transitions are not whole.
+  /// The walks together crossed more than maximumSteps triangles; the lists above are not complete. Walks wind round
+  /// the surface where transitions are not whole.
   bool exhausted = false;
 
   /// Does the side lead back to a copy of its own grid vertex?
@@ -82,8 +82,8 @@ struct TracingOptions
   int threads = 0;
 };
 
-/// Follows every port to the end of its side. Linear in the triangles that lines cross; parallel; the result does not depend
-/// on the number of threads.
+/// Follows every port to the end of its side. Linear in the triangles that lines cross; parallel; the result does not
+/// depend on the number of threads.
 CellCorners traceCells(
   const ExactMap& map, const GridVertices& grid, const TracingOptions& options);
 

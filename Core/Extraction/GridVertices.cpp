@@ -115,8 +115,8 @@ void addVertex(std::vector<GridVertex>& list, Site kind, Index site, FixedVec2 u
   list.push_back(vertex);
 }
 
-/// Rotation of the frame that orders what lies in face f: its first edge with an image points along +u there, or up to a
-/// quarter to the right of it. Numbers that follow this frame do not depend on the chart that the map has there.
+/// Rotation of the frame that orders what lies in face f: its first edge with an image points along +u there, or up to
+/// a quarter to the right of it. Numbers that follow this frame do not depend on the chart that the map has there.
 int frameOf(const ExactMap& map, Index f)
 {
   for (Index h = 3 * f; h < 3 * f + 3; ++h)

@@ -28,8 +28,8 @@ struct QuadCoverage
 /// Cuts the faces with the unit square that each quad is in the map, before smoothing moved its points. Searches from
 /// the face under the centre on over the edges that cross the square, never over a constrained edge, so that nothing
 /// from beyond a feature counts. In a fold only faces of the orientation of the one under the centre count. A quad
-/// without a square (QuadMesh::quadSourceWeights) has its one face. uv: #H, the map that the quads come from, in whatever charts. Linear in the shares; parallel,
-/// the result does not depend on the number of threads.
+/// without a square (QuadMesh::quadSourceWeights) has its one face. uv: #H, the map that the quads come from, in
+/// whatever charts. Linear in the shares; parallel, the result does not depend on the number of threads.
 QuadCoverage coverQuads(
   const Mesh& mesh, const std::vector<FixedVec2>& uv, const QuadMesh& quads, int threads);
 

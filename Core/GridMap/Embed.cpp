@@ -39,8 +39,8 @@ double lengthOfUnit(
   return mapped > 0 && area > 0 ? std::sqrt(area / mapped) : edgeLength;
 }
 
-/// The given map and the Poisson solution, the one with fewer defects first. A start near an earlier map comes before them where
-/// nothing is wrong with it.
+/// The given map and the Poisson solution, the one with fewer defects first. A start near an earlier map comes before
+/// them where nothing is wrong with it.
 std::vector<Eigen::VectorXd> startsOf(const Mesh& mesh, const CrossField& field,
   const LockedMap& locked, const UntangleProblem& problem, const CarriedMap* previous,
   bool& fromPrevious)

@@ -22,8 +22,8 @@ struct EmbedOptions
   /// An earlier map in the charts of the field, or null: a start near it is tried first.
   const CarriedMap* previous = nullptr;
   double anisotropyLimit = 0; ///< as in GridMapOptions
-  /// Where embedding other integers failed, ascending: if it fails at just these again, it is told at once, as the way from the seamless map
-  /// was gone in vain then.
+  /// Where embedding other integers failed, ascending: if it fails at just these again, it is told at once, as the way
+  /// from the seamless map was gone in vain then.
   std::vector<Index> failedBefore;
   ProgressCallback progress;
 };

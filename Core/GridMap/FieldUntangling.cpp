@@ -11,14 +11,15 @@ namespace
 {
 
 constexpr double kStiffening = 10;
-/// Rounds with more weight, one after the other, that lessened nothing: in the runs looked at, a third one did not either.
+/// Rounds with more weight, one after the other, that lessened nothing: in the runs looked at, a third one did not
+/// either.
 constexpr int kIdleRounds = 2;
 /// More defects than this, or than one per so many faces, have a cause that no weight mends.
 constexpr std::size_t kMany = 30;
 constexpr std::size_t kFacesPerDefect = 64;
 constexpr int kAnisotropySteps = 30;
-/// Of the way from 1 to the limit, where the penalty begins: it is zero there and small at first, so that triangles come to rest a little
-/// further on.
+/// Of the way from 1 to the limit, where the penalty begins: it is zero there and small at first, so that triangles
+/// come to rest a little further on.
 constexpr double kAnisotropyStart = 0.85;
 
 /// Multiplies the weights of the faces that touch a defect, or touch one that does.

@@ -35,8 +35,8 @@ constexpr std::size_t kMaximumEmbeddings = 4;
 constexpr double kCountTolerance = 0.06;
 /// However many blocks there are, the other components have this part of the quads that they would have alone.
 constexpr double kLeastBesideBlocks = 0.5;
-/// A map with a component missing is none. That many failures in one stage have a common cause, which more work in later stages
-/// does not mend: the caller hears of them at once.
+/// A map with a component missing is none. That many failures in one stage have a common cause, which more work in
+/// later stages does not mend: the caller hears of them at once.
 constexpr std::size_t kHopeless = 4;
 
 /// Area of the map in quads.
@@ -231,8 +231,8 @@ private:
     return isBlock(component, wanted) ? component.block : wanted * component.share;
   }
 
-  /// The number of quads of which the others get their shares, so that with the blocks there are as many as asked for. Where blocks
-  /// would take more than half of the quads, the others keep half of what they would have alone.
+  /// The number of quads of which the others get their shares, so that with the blocks there are as many as asked for.
+  /// Where blocks would take more than half of the quads, the others keep half of what they would have alone.
   double besideBlocks(double target) const
   {
     double wanted = target;
@@ -253,7 +253,8 @@ private:
     return wanted;
   }
 
-  /// Quads of the components that are no blocks over what they should have. Those without integers are as if they had their share.
+  /// Quads of the components that are no blocks over what they should have. Those without integers are as if they had
+  /// their share.
   double ratioToTarget(double wanted) const
   {
     double quads = 0, shares = 0, blocks = 0, shareOfBlocks = 0;
@@ -423,7 +424,8 @@ private:
     QuantizeOptions quantizeOptions;
     quantizeOptions.watched = watched;
     quantizeOptions.pull = options_.pull;
-    // Other integers are asked for where some vertices are watched, or where those of the first scale were too many or too few.
+    // Other integers are asked for where some vertices are watched, or where those of the first scale were too many or
+    // too few.
     const bool again = component.hasIntegers || !watched.empty();
     quantizeOptions.previousUv =
       !again && component.previous.isMap ? &component.previous.uv : nullptr;
@@ -445,8 +447,9 @@ private:
     }
   }
 
-  /// Where embedding fails, other integers leave room round the places of the failure; integers that were tried before would
-  /// fail again. Where another component has no map, all that counts is where this one would fail, too: one try tells.
+  /// Where embedding fails, other integers leave room round the places of the failure; integers that were tried before
+  /// would fail again. Where another component has no map, all that counts is where this one would fail, too: one try
+  /// tells.
   void embedOne(Component& component, const ProgressCallback& progress)
   {
     const MeshPart& part = component.part;
@@ -542,7 +545,8 @@ private:
     }
   }
 
-  /// Where and why a component has no map, and what helps: the stages count, as numbers of the coarse mesh say nothing to users.
+  /// Where and why a component has no map, and what helps: the stages count, as numbers of the coarse mesh say nothing
+  /// to users.
   std::string explain(std::size_t i) const
   {
     const Component& component = components_[i];

@@ -42,16 +42,17 @@ struct GridMapOptions
   double targetQuads = 0; ///< 0: follow edgeLength; else scale so that the uv area comes near this
   /// See QuantizeOptions. Below 1 the number of quads is what comes of it, targetQuads only scales the seamless map.
   double pull = 1;
-  /// The ratio of the two stretches of a triangle, over the sizes that the mesh wants, from which on it is to come down as far as
-  /// integers and irregular vertices let it, at the price of more distortion elsewhere; >= 1, or 0: no limit. Not by the methods that round.
+  /// The ratio of the two stretches of a triangle, over the sizes that the mesh wants, from which on it is to come down
+  /// as far as integers and irregular vertices let it, at the price of more distortion elsewhere; >= 1, or 0: no limit.
+  /// Not by the methods that round.
   double anisotropyLimit = 0;
   Index maximumVertices = 100000;  ///< of the mesh; the solvers are made for coarse levels
   std::vector<Guide> guides;       ///< empty or #F, see CrossFieldOptions
   std::vector<int> targetValences; ///< empty or #V, the same
   /// Empty or #F: how the surface that a face stands for is stretched against it, see CrossField::stretch.
   std::vector<Eigen::Matrix2d> stretch;
-  /// An earlier map to start from (see PreviousMap.h), or null. The result is as valid as without, but may differ; it is the same
-  /// for the same earlier map. Where it leads to no map, all is done again without it. Only the scale aware
+  /// An earlier map to start from (see PreviousMap.h), or null. The result is as valid as without, but may differ; it
+  /// is the same for the same earlier map. Where it leads to no map, all is done again without it. Only the scale aware
   /// method starts from it.
   const PreviousMap* previous = nullptr;
   std::vector<Index> vertexIds; ///< #V where there is an earlier map: see PreviousMap::vertexIds
@@ -77,7 +78,8 @@ struct GridMapResult
   Status status;                ///< not ok: why and where; uv then holds the best that was reached
   std::vector<Index> offenders; ///< coarse vertices around which the triangulation lacks freedom
   double refinement = 1;        ///< of the component whose sizes had to shrink most
-  /// The share of the area whose ratio of stretches is above the limit after all; 0 without limit, or where the status is not ok.
+  /// The share of the area whose ratio of stretches is above the limit after all; 0 without limit, or where the status
+  /// is not ok.
   double beyondAnisotropyLimit = 0;
   std::size_t components = 0, failedComponents = 0;
   /// Of all solves, as UntangleResult::work, and what quantization took in the same unit.
@@ -90,8 +92,8 @@ struct GridMapResult
   /// Adds what another, failed try has taken.
   void addWork(const GridMapResult& other);
 };
-/// The whole chain on one coarse mesh. Its connected components are solved one by one; each gets quads by its area, and all
-/// are tried, so that offenders tells about every one that fails.
+/// The whole chain on one coarse mesh. Its connected components are solved one by one; each gets quads by its area, and
+/// all are tried, so that offenders tells about every one that fails.
 GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options);
 
 /// What the next map can start from; the status of `map` must be ok. vertexIds: #V of its mesh.

@@ -44,8 +44,8 @@ std::int64_t nearestWithSign(double x, std::int64_t residue)
   return n;
 }
 
-/// Whether an edge of a curve still runs the way that it should. No determinant tells: on a staircase of corners that turn by
-/// one and three quarters in turn, a step backwards makes three of one, and all triangles stay positive.
+/// Whether an edge of a curve still runs the way that it should. No determinant tells: on a staircase of corners that
+/// turn by one and three quarters in turn, a step backwards makes three of one, and all triangles stay positive.
 bool isAlong(std::int64_t step, double wanted)
 {
   return wanted > 0 ? step > 0 : step < 0;

@@ -46,8 +46,8 @@ public:
 
   /// Rounds `scale` times what is wanted; no half-edge becomes zero. Triangles need not close.
   void round(double scale);
-  /// The displacements of another map along the same half-edges, to the nearest sixteenth; uv: #H. Triangles close where its
-  /// transitions are whole. False, with nothing to use, when an edge of a curve runs the wrong way there.
+  /// The displacements of another map along the same half-edges, to the nearest sixteenth; uv: #H. Triangles close
+  /// where its transitions are whole. False, with nothing to use, when an edge of a curve runs the wrong way there.
   bool adopt(const std::vector<FixedVec2>& uv);
   /// q[h] += e, and its twin follows.
   void shift(Index h, FixedVec2 e);
@@ -57,8 +57,8 @@ public:
   void moveVertex(Index v, FixedVec2 e);
   /// Whether moving by e keeps the vertex on its curve, between its neighbours there.
   bool mayMove(Index v, FixedVec2 e) const;
-  /// From now on the energy is that of the difference to so many times what is wanted, >= 0; 1 at first. 0: displacements
-  /// become as short as triangles stay sound.
+  /// From now on the energy is that of the difference to so many times what is wanted, >= 0; 1 at first. 0:
+  /// displacements become as short as triangles stay sound.
   void setPull(double pull) { pull_ = pull; }
   double pull() const { return pull_; }
   /// The change of energy by moveVertex.
@@ -80,8 +80,8 @@ public:
   }
   bool isSound(Index f) const { return determinant(f) >= kLeastDeterminant; }
 
-  /// Steps that boundary loops lack to have three quads each: the two quads at a loop of two edges, or the two sides of one at a loop of
-  /// one edge, would be joined along it, and the hole be lost.
+  /// Steps that boundary loops lack to have three quads each: the two quads at a loop of two edges, or the two sides of
+  /// one at a loop of one edge, would be joined along it, and the hole be lost.
   std::int64_t shortageOfLoops() const { return shortage_; }
   /// The half-edges of loops that lack some, ascending.
   std::vector<Index> shortLoops() const;

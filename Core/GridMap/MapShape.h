@@ -14,13 +14,13 @@
 namespace quadrille
 {
 
-/// The edges [p1 - p0, p2 - p0] of face f in a plane whose first axis is half-edge 3f, over the sizes that the mesh wants there; needles are
-/// made a little higher, so that the matrix is never singular unless the face is a point.
+/// The edges [p1 - p0, p2 - p0] of face f in a plane whose first axis is half-edge 3f, over the sizes that the mesh
+/// wants there; needles are made a little higher, so that the matrix is never singular unless the face is a point.
 Eigen::Matrix2d flattenFace(const Mesh& mesh, Index f);
 
-/// The share of the area, over the sizes that the mesh wants, of faces whose two stretches (the singular values of the map's Jacobian) have a ratio
-/// above `limit`; faces without a positive determinant count as such. uv: #H. Throws InvalidInput unless limit >= 1 and finite, or
-/// where sizes disagree.
+/// The share of the area, over the sizes that the mesh wants, of faces whose two stretches (the singular values of the
+/// map's Jacobian) have a ratio above `limit`; faces without a positive determinant count as such. uv: #H. Throws
+/// InvalidInput unless limit >= 1 and finite, or where sizes disagree.
 double shareBeyondRatio(const Mesh& mesh, const std::vector<FixedVec2>& uv, double limit);
 
 /// Throws InvalidInput unless the limit is 0 (none) or a number from 1 on.
@@ -35,8 +35,9 @@ double stretchedArea(const Mesh& mesh, const CrossField& field);
 /// Length of an edge over its size; where the field stretches its faces, by the mean of what they make of it.
 double stretchedLength(const Mesh& mesh, const CrossField& field, Index h);
 
-/// Appends face f to the problem: its points, its reference (in units of edgeLength times the size that the mesh wants there, stretched by the field, in
-/// the chart of the face turned by `quarterTurns`) and its weight, which is its area in quads.
+/// Appends face f to the problem: its points, its reference (in units of edgeLength times the size that the mesh wants
+/// there, stretched by the field, in the chart of the face turned by `quarterTurns`) and its weight, which is its area
+/// in quads.
 void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, const Mesh& mesh,
   const CrossField& field, Index f, int quarterTurns, double edgeLength);
 
@@ -56,9 +57,9 @@ struct GuardedEdge
 /// all faces are positive. Its third point hangs on `from` by a constant offset.
 void guardEdges(UntangleProblem& problem, const std::vector<GuardedEdge>& edges);
 
-/// The problem with other references for the faces that an earlier map knows: the shape that they have in `uv`, one of the maps of
-/// `carried`, turned with the field. Its fit (fitReferences) is a start near that map. quarterTurns: #F, of the problem's charts
-/// against those of the field, or empty. scale: of the problem's unit against the map's.
+/// The problem with other references for the faces that an earlier map knows: the shape that they have in `uv`, one of
+/// the maps of `carried`, turned with the field. Its fit (fitReferences) is a start near that map. quarterTurns: #F, of
+/// the problem's charts against those of the field, or empty. scale: of the problem's unit against the map's.
 UntangleProblem referToMap(const UntangleProblem& problem, const CarriedMap& carried,
   const std::vector<FixedVec2>& uv, const std::vector<std::uint8_t>& quarterTurns, double scale);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// A mesh with a field, taken apart into connected components: no equation of a map joins two of them, so each is solved
-/// by itself, and one that has no map costs the others nothing.
+/// A mesh with a field, taken apart into connected components: no equation of a map joins two of them, so each is
+/// solved by itself, and one that has no map costs the others nothing.
 #pragma once
 
 #include "CrossField/CrossField.h"

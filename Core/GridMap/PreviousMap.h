@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// A map that was made before, to start from after a small edit: other directions, other valences, a coarse mesh that
-/// differs in places. Nothing of it is trusted: it moves where Newton's method and the search for integers begin, and the result has to pass the
-/// same certificate. It may differ from the result without it.
+/// differs in places. Nothing of it is trusted: it moves where Newton's method and the search for integers begin, and
+/// the result has to pass the same certificate. It may differ from the result without it.
 #pragma once
 
 #include "Base/FixedPoint.h"
@@ -37,8 +37,8 @@ struct CarriedMap
   std::vector<double>
     fieldRotation; ///< #F, radians: by how much the field has rotated there, less than an eighth of a circle
   std::size_t knownFaces = 0;
-  /// The mesh, its constrained edges, the turns and the quarter turns between its charts are the same: uv is a map along the new
-  /// field, too.
+  /// The mesh, its constrained edges, the turns and the quarter turns between its charts are the same: uv is a map
+  /// along the new field, too.
   bool isMap = false;
 };
 

@@ -19,8 +19,9 @@ namespace quadrille
 namespace
 {
 
-/// The growth is judged after shrinking, which undoes most of it. Real models became valid at scales up to about 12; where 12 is
-/// not enough the failures seen came back at every scale up to 256, so this leaves some room and ends there.
+/// The growth is judged after shrinking, which undoes most of it. Real models became valid at scales up to about 12;
+/// where 12 is not enough the failures seen came back at every scale up to 256, so this leaves some room and ends
+/// there.
 constexpr double kMaximumScale = 32;
 
 void checkInput(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv)

@@ -19,8 +19,8 @@ struct QuantizeOptions
   double pull = 1;
   /// Vertices, as EmbedResult::offenders, whose triangles the integers must leave positive as they are.
   std::vector<Index> watched;
-  /// #H: an integer-grid map along the same field, or null. Its integers are the start where they are valid, and are only
-  /// improved then.
+  /// #H: an integer-grid map along the same field, or null. Its integers are the start where they are valid, and are
+  /// only improved then.
   const std::vector<FixedVec2>* previousUv = nullptr;
   ProgressCallback progress;
 };

@@ -150,8 +150,8 @@ bool closeTriangles(IntegerMap& map, StripSearch& search)
   return true;
 }
 
-/// Lengthens boundary loops that are too short for quads, by the strip that costs least each time. One where no strip keeps all
-/// triangles sound stays as it is.
+/// Lengthens boundary loops that are too short for quads, by the strip that costs least each time. One where no strip
+/// keeps all triangles sound stays as it is.
 void lengthenLoops(IntegerMap& map, StripSearch& search)
 {
   const auto accept = [&](const Strip& strip)

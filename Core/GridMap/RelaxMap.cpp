@@ -29,21 +29,22 @@ namespace
 constexpr std::size_t kChunkFaces = 1 << 12;
 /// Energy of an isometry, |J|^2 + |J^-1|^2.
 constexpr double kIsometry = 4;
-/// A step may not shrink a triangle below this part of its determinant, unless it stays above the same part of an isometry's.
+/// A step may not shrink a triangle below this part of its determinant, unless it stays above the same part of an
+/// isometry's.
 constexpr double kLeastShrink = 0.1;
-/// Where no such step lowers the energy, crushed triangles keep all others from moving: then none of them may rise by more than this factor, less
-/// and less the shorter the step.
+/// Where no such step lowers the energy, crushed triangles keep all others from moving: then none of them may rise by
+/// more than this factor, less and less the shorter the step.
 constexpr double kMostRise = 10;
 /// How often the steps of single vertices are halved before they stay where they are.
 constexpr int kHalvings = 12;
 /// How often the whole step is halved before the descent ends.
 constexpr int kBacktracking = 6;
-/// Vertices of triangles above this multiple of an isometry's energy are relaxed one by one first: Newton's method on a barrier needs a step
-/// for each factor of 4/3 that a determinant is to grow by, however few triangles need it.
+/// Vertices of triangles above this multiple of an isometry's energy are relaxed one by one first: Newton's method on a
+/// barrier needs a step for each factor of 4/3 that a determinant is to grow by, however few triangles need it.
 constexpr double kCrushed = 8;
 constexpr int kLocalSweeps = 60;
-/// What a factorization takes, on scans: bytes a triangle, operations over the triangles to the power of 3/2. Of one thread and steps as measured,
-/// see Documentation/Performance.md.
+/// What a factorization takes, on scans: bytes a triangle, operations over the triangles to the power of 3/2. Of one
+/// thread and steps as measured, see Documentation/Performance.md.
 constexpr double kBytesPerFace = 1500;
 constexpr double kOperationsPerRoot = 60;
 constexpr double kOperationsPerSecond = 5e9;

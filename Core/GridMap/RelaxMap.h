@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The integers of a map stay, everything else moves until the distortion against the surface is least: "the same integers,
-/// solved again on a finer level" [Ebke et al. 2016, Section 10].
+/// The integers of a map stay, everything else moves until the distortion against the surface is least: "the same
+/// integers, solved again on a finer level" [Ebke et al. 2016, Section 10].
 ///
 /// The unknowns are displacements of vertices, each in the chart of one corner and rotated into those of the others, so
-/// transitions stay exactly as they are, whatever charts the map has. Integer vertices stay; vertices of constrained edges slide along their isoline.
-/// No determinant ever reaches zero on the way, so no vertex changes its winding, and the quads keep their connectivity.
+/// transitions stay exactly as they are, whatever charts the map has. Integer vertices stay; vertices of constrained
+/// edges slide along their isoline.
+/// No determinant ever reaches zero on the way, so no vertex changes its winding, and the quads keep their
+/// connectivity.
 #pragma once
 
 #include "Base/Error.h"
@@ -30,7 +32,8 @@ struct RelaxOptions
   double leastGain = 1e-3;
   /// Bytes that may be taken; where more are needed nothing is done and the status says so.
   double maximumBytes = std::numeric_limits<double>::infinity();
-  /// The same for the multiplications of a factorization: by default about 40 s on one thread, a surface of 600,000 to 1,500,000 triangles.
+  /// The same for the multiplications of a factorization: by default about 40 s on one thread, a surface of 600,000 to
+  /// 1,500,000 triangles.
   double maximumOperations = 2e11;
   /// Directions that the isolines should keep; empty or #F.
   std::vector<Guide> guides;
@@ -49,9 +52,11 @@ struct RelaxResult
   double bytes = 0; ///< of a factorization
 };
 
-/// Minimizes the symmetric Dirichlet energy |J|^2 + |J^-1|^2 of the map from the surface, each connected component scaled to the area that
-/// its map has. uv: #H, changed in place; untouched triangles that are not positive stay as they are, with their vertices.
-/// integerVertex: #V flags of vertices that must not move. Throws InvalidInput when sizes disagree. Cancelled leaves uv undefined.
+/// Minimizes the symmetric Dirichlet energy |J|^2 + |J^-1|^2 of the map from the surface, each connected component
+/// scaled to the area that its map has. uv: #H, changed in place; untouched triangles that are not positive stay as
+/// they are, with their vertices.
+/// integerVertex: #V flags of vertices that must not move. Throws InvalidInput when sizes disagree. Cancelled leaves uv
+/// undefined.
 /// Sources: energy and step bounds as in [Smith and Schaefer 2015], projected Hessians as in Untangler.h.
 RelaxResult relaxMap(const Mesh& mesh, const std::vector<std::uint8_t>& integerVertex,
   const RelaxOptions& options, std::vector<FixedVec2>& uv);

@@ -78,8 +78,8 @@ bool scaleKnown(const Mesh& mesh, const CrossField& field, const SeamlessSpace& 
   return findDefects(mesh, field, result.uv).none();
 }
 
-/// A start near the earlier map: where it knows a face, the shape that it has there takes the place of the one that the field asks
-/// for. The earlier map was scaled, the start is not.
+/// A start near the earlier map: where it knows a face, the shape that it has there takes the place of the one that the
+/// field asks for. The earlier map was scaled, the start is not.
 Eigen::VectorXd startNear(const Mesh& mesh, const SeamlessSpace& space, const CarriedMap& previous)
 {
   double wanted = 0, mapped = 0;

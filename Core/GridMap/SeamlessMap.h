@@ -20,8 +20,8 @@ struct SeamlessOptions
   double targetQuads = 0;
   /// SeamlessResult::solution for the same mesh and field: it is scaled to targetQuads instead of solving again.
   const Eigen::VectorXd* solution = nullptr;
-  /// An earlier map in the charts of the field, or null: where a start near it has nothing inverted, it takes the place of the
-  /// Poisson equation's solution.
+  /// An earlier map in the charts of the field, or null: where a start near it has nothing inverted, it takes the place
+  /// of the Poisson equation's solution.
   const CarriedMap* previous = nullptr;
   double anisotropyLimit = 0; ///< as in GridMapOptions
   ProgressCallback progress;

@@ -96,7 +96,8 @@ public:
   /// Every slot that operations from `record` on have changed; dead ones and repetitions included.
   std::vector<Index> slotsSince(std::size_t record) const;
 
-  /// Carries out what another editor has done to a mesh with the same edges, whatever the triangles are here; not to be undone.
+  /// Carries out what another editor has done to a mesh with the same edges, whatever the triangles are here; not to be
+  /// undone.
   void repeat(const std::vector<UvRecord>& records);
 
   /// Undoes everything, last first, on the mesh's current uv, whatever that has become: removed vertices

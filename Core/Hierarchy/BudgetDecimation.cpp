@@ -32,12 +32,12 @@ namespace
 constexpr double kAreaWeight = 0.15;
 constexpr double kShapeWeight = 0.4;
 constexpr double kValenceWeight = 0.05;
-/// Weight of a change of the logarithm of wanted sizes: in the metric of the sizes a bump of that height on a regular star has this
-/// curvature, 6 cotangents of 60 degrees, so it costs what E_G makes other curvature cost.
+/// Weight of a change of the logarithm of wanted sizes: in the metric of the sizes a bump of that height on a regular
+/// star has this curvature, 6 cotangents of 60 degrees, so it costs what E_G makes other curvature cost.
 constexpr double kSizeWeight = 3.4641016151377544;
 
-/// Costs in radians up to which the stages of guards are gone through before the next ceiling. The strictest guards alone would
-/// first take what costs most among the vertices that they allow.
+/// Costs in radians up to which the stages of guards are gone through before the next ceiling. The strictest guards
+/// alone would first take what costs most among the vertices that they allow.
 constexpr std::array<double, 5> kCeilings{ 0.25, 0.5, 1, 2,
   std::numeric_limits<double>::infinity() };
 /// Where no budget is given: coarse vertices for each quad, about, by which costs are scaled before it is known.

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Phase 2: decimation to a number of vertices in the order of a cost [Ebke et al. 2016, Section 5.1].
 ///
-/// E_G itself: GaussianCurvatureCost.h. Where we differ: E_G alone does not care for triangles without curvature and for
-/// their shape, on which the map's freedom depends; so a little of the star's area, of bad shape and of odd valences is
-/// added, and removals that make slivers wait until nothing else is left that costs little.
+/// E_G itself: GaussianCurvatureCost.h. Where we differ: E_G alone does not care for triangles without curvature and
+/// for their shape, on which the map's freedom depends; so a little of the star's area, of bad shape and of odd
+/// valences is added, and removals that make slivers wait until nothing else is left that costs little.
 #pragma once
 
 #include "Base/Progress.h"
@@ -39,8 +39,8 @@ struct BudgetResult
     0; ///< see kCurvatureShift, in units of the mesh; for costs that know curvature
 };
 
-/// Decimates. What the cache holds must come from calls with the same positions, curves and cost (guides may differ); the result
-/// does not depend on it.
+/// Decimates. What the cache holds must come from calls with the same positions, curves and cost (guides may differ);
+/// the result does not depend on it.
 BudgetResult decimateToBudget(DecimationMesh& mesh, const BudgetOptions& options, StarCache& cache);
 
 } // namespace quadrille

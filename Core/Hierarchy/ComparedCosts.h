@@ -40,7 +40,8 @@ struct Quadric
 class ComparedCost
 {
 public:
-  /// cost: Quadric or Uniform. E_QEM begins with the planes of the mesh's faces, by their areas. mesh must outlive this object.
+  /// cost: Quadric or Uniform. E_QEM begins with the planes of the mesh's faces, by their areas. mesh must outlive this
+  /// object.
   ComparedCost(const DecimationMesh& mesh, DecimationCost cost);
 
   /// Of the removal of the vertex that was gathered. shortestEdge: VertexRemoval::shortestEdge() of it.

@@ -32,8 +32,8 @@ public:
   FeatureCurves curves;
   /// Largest distance by which the curve edges at a vertex already deviate from the input's curve.
   std::vector<float> curveError;
-  /// Guides of the faces (#F), and for vertices whether the border of a guided region passes there (#V flags). Empty where
-  /// there are none, see GuideRegions.h.
+  /// Guides of the faces (#F), and for vertices whether the border of a guided region passes there (#V flags). Empty
+  /// where there are none, see GuideRegions.h.
   std::vector<Guide> guides;
   std::vector<std::uint8_t> border;
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Removal of a vertex far from all constrained curves, with a small ring: nearly all of phase 1.
 ///
-/// It does what VertexRemoval does, with the same guards, and writes the same records, but in single precision relative to the
-/// vertex and with the triangles of a ring evaluated side by side: those that are rotations of each other
+/// It does what VertexRemoval does, with the same guards, and writes the same records, but in single precision relative
+/// to the vertex and with the triangles of a ring evaluated side by side: those that are rotations of each other
 /// by the ring form one loop without branches. What single precision cannot judge (slivers) or the tables do not
 /// hold (large rings) is left to VertexRemoval. No transcendental function of the system's
 /// library is called, so the result does not depend on its version.

@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// E_G, by which phase 2 orders the removals [Ebke et al. 2016, Section 5.1]: how much Gaussian curvature one of them changes.
+/// E_G, by which phase 2 orders the removals [Ebke et al. 2016, Section 5.1]: how much Gaussian curvature one of them
+/// changes.
 ///
 ///   E_G(v)     = |K(v)| + sum over the ring vertices w of |K'(w) - K(w)|
 ///   E_G,mem(v) = |K0(v)| + sum over the ring vertices w of |K'(w) - K0(w)|
 ///
-/// K: angle defect on the current mesh, K': after the removal, K0: on the input. The defect of a vertex is 2 pi, on the boundary pi,
-/// less its angles. Curvature does not vanish: by the theorem of Gauss and Bonnet what leaves v arrives at its ring, so E_G is at
-/// least 2 |K(v)|.
+/// K: angle defect on the current mesh, K': after the removal, K0: on the input. The defect of a vertex is 2 pi, on the
+/// boundary pi, less its angles. Curvature does not vanish: by the theorem of Gauss and Bonnet what leaves v arrives at
+/// its ring, so E_G is at least 2 |K(v)|.
 ///
-/// Where we differ: at vertices of a feature curve, and of a ring that one passes, the defect is taken on each side of it apart,
-/// against pi, so that a sharp edge does not count as curvature.
+/// Where we differ: at vertices of a feature curve, and of a ring that one passes, the defect is taken on each side of
+/// it apart, against pi, so that a sharp edge does not count as curvature.
 #pragma once
 
 #include "Hierarchy/DecimationMesh.h"

@@ -124,8 +124,8 @@ private:
 /// A face that a spreading front may enter next: distance, face, source.
 using Front = std::pair<double, std::pair<Index, Index>>;
 
-/// Lets sources (entry i of `source` is a face) spread over the surface, nearest first, to the faces that `mayEnter` and whose middle is
-/// within `reach` of the source's. #F: the source that each face is reached from, or kInvalidIndex.
+/// Lets sources (entry i of `source` is a face) spread over the surface, nearest first, to the faces that `mayEnter`
+/// and whose middle is within `reach` of the source's. #F: the source that each face is reached from, or kInvalidIndex.
 template <typename Predicate>
 std::vector<Index> spread(
   const Mesh& mesh, const std::vector<Index>& source, double reach, const Predicate& mayEnter)
@@ -523,8 +523,8 @@ std::size_t GuideCarrier::containing(const Vector2& point, int side) const
   return found;
 }
 
-/// Carries the cross of an old face through the plane to a new triangle. Its two lines are carried one by one and averaged
-/// as a fourth power, as an affine map does not keep them at right angles.
+/// Carries the cross of an old face through the plane to a new triangle. Its two lines are carried one by one and
+/// averaged as a fourth power, as an affine map does not keep them at right angles.
 Guide GuideCarrier::transport(std::size_t from, const std::array<std::size_t, 3>& to) const
 {
   const Guide& guide = faces_[from].guide;

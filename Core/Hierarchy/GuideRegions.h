@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// Guides in the hierarchy [Ebke et al. 2016, Section 5.2]: regions, that is connected sets of guided faces, keep their
-/// borders and corners while phase 2 decimates, and directions are carried from the triangles that go to those that come.
+/// borders and corners while phase 2 decimates, and directions are carried from the triangles that go to those that
+/// come.
 ///
 /// Where we differ: phase 1 does not look at guides, so that a change of guides never repeats it. The triangles of the
-/// intermediate level, a little above s/2 long, take their guides from the finest level by their barycentres; what falls between
-/// them (a stroke along a line of faces) reaches s/4 to each side. Border vertices are removed like free ones, with the
-/// new border edge among the triangulation's: nothing has to lie on an isoline there.
+/// intermediate level, a little above s/2 long, take their guides from the finest level by their barycentres; what
+/// falls between them (a stroke along a line of faces) reaches s/4 to each side. Border vertices are removed like free
+/// ones, with the new border edge among the triangulation's: nothing has to lie on an isoline there.
 #pragma once
 
 #include "Hierarchy/DecimationMesh.h"
@@ -19,16 +20,17 @@ namespace quadrille
 
 class VertexRemoval;
 
-/// Guides of the faces of a level: that of the fine face at the barycentre. Guided fine faces that no triangle near by has
-/// taken a guide from give theirs to triangles whose barycentre is within `reach`. The direction is rotated with the normal.
+/// Guides of the faces of a level: that of the fine face at the barycentre. Guided fine faces that no triangle near by
+/// has taken a guide from give theirs to triangles whose barycentre is within `reach`. The direction is rotated with
+/// the normal.
 /// fineGuides: ascending by face. Empty when no face has one.
 std::vector<Guide> guidesOfLevel(const Mesh& fine, const Level& level,
   const std::vector<FaceGuide>& fineGuides, double reach, int threads);
 
 /// Gives the mesh guides (#F): flags the borders of their regions, except where a feature or the boundary parts them
 /// anyway, and says which vertices lie inside a border. Returns the vertices that have to stay: where borders end,
-/// meet or touch a feature or the boundary, and corners, at which a region's inner angle is below 3/4 pi both at the vertex and
-/// between points `length` away along the border. Of corners closer than `length` only the sharpest stays.
+/// meet or touch a feature or the boundary, and corners, at which a region's inner angle is below 3/4 pi both at the
+/// vertex and between points `length` away along the border. Of corners closer than `length` only the sharpest stays.
 std::vector<Index> markGuideRegions(
   DecimationMesh& mesh, const std::vector<Guide>& guides, double length);
 

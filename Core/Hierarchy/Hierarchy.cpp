@@ -33,8 +33,8 @@ namespace
 /// How far a curve of a coarser level may lie from the input's, in s: a tenth of a quad is not seen in the
 /// quads, while a circle of radius s still gets an edge per 0.9 s.
 constexpr double kCurveTolerance = 0.1;
-/// How far the border of a guided region may lie from its course on the intermediate level, in s: no guide has to be finer
-/// than a quad, and the triangles that it follows make it jagged by that much.
+/// How far the border of a guided region may lie from its course on the intermediate level, in s: no guide has to be
+/// finer than a quad, and the triangles that it follows make it jagged by that much.
 constexpr double kRegionTolerance = 0.5;
 /// How far a guide reaches beyond its face on the way to the intermediate level, in s.
 constexpr double kGuideReach = 0.25;
@@ -141,7 +141,8 @@ std::vector<double> componentAreas(const Mesh& fine, DisjointSets& components, i
   return area;
 }
 
-/// Factor on s per vertex, beside the sizes that are asked for; empty when there are none and no component is small against s.
+/// Factor on s per vertex, beside the sizes that are asked for; empty when there are none and no component is small
+/// against s.
 std::vector<float> vertexScales(const Mesh& fine, double edgeLength, int threads)
 {
   DisjointSets components = componentsOf(fine, threads);

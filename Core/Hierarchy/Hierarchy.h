@@ -23,8 +23,8 @@ enum class DecimationCost
   Uniform         ///< E_uni: shortest incident edge; the same
 };
 
-/// Which vertex phase 1 removes next. All orders obey the same guards and end when no edge is shorter than s/2. A run takes
-/// the sweeps; the others are there to compare with (OrderedDecimation.h).
+/// Which vertex phase 1 removes next. All orders obey the same guards and end when no edge is shorter than s/2. A run
+/// takes the sweeps; the others are there to compare with (OrderedDecimation.h).
 enum class DecimationOrder
 {
   Sweeps, ///< in storage order while a threshold rises; parallel
@@ -45,9 +45,10 @@ struct RandomDraws
   }
 };
 
-/// A budget of the coarse level that follows the surface [after the same, Section 10]. Each removal moves curvature, half of
-/// E_G, about an edge far. Singularities of the field are where the curvature is, and a quad mesh can place them by s only; so
-/// phase 2 ends when the curvature of the intermediate level would have moved by more than kCurvatureShift s on average.
+/// A budget of the coarse level that follows the surface [after the same, Section 10]. Each removal moves curvature,
+/// half of E_G, about an edge far. Singularities of the field are where the curvature is, and a quad mesh can place
+/// them by s only; so phase 2 ends when the curvature of the intermediate level would have moved by more than
+/// kCurvatureShift s on average.
 /// Performance.md has what that does to the singularities.
 constexpr double kCurvatureShift = 0.5;
 /// The limits of such a budget: with less the map lacks room, with more it takes seconds.
@@ -67,8 +68,8 @@ struct HierarchyOptions
   /// Vertices of the finest mesh that no phase may remove (index constraints; places where a map needs
   /// more freedom, see TransferResult::offenders).
   std::vector<Index> keepVertices;
-  /// Guides of faces of the finest mesh, ascending by face (see surfaceGuides). Their regions keep their borders and corners in
-  /// phase 2, which carries the directions to the coarse level.
+  /// Guides of faces of the finest mesh, ascending by face (see surfaceGuides). Their regions keep their borders and
+  /// corners in phase 2, which carries the directions to the coarse level.
   std::vector<FaceGuide> guides;
   int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;

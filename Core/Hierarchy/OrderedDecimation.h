@@ -3,7 +3,8 @@
 /// Phase 1 in the orders of [Ebke et al. 2016], for comparison with the sweeps of UniformDecimation.h: the vertex with
 /// the least E_uni next, by a heap (Section 5.3), or the best of a few vertices drawn at random (Section 7).
 ///
-/// Only quadrille-bench and tests ask for them. Guards, end condition and log are those of the sweeps. On one thread; each round of the log is one block.
+/// Only quadrille-bench and tests ask for them. Guards, end condition and log are those of the sweeps. On one thread;
+/// each round of the log is one block.
 #pragma once
 
 #include "Hierarchy/UniformDecimation.h"

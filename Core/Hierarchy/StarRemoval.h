@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Removal of one vertex in phase 1, in whatever order: FreeStar where it is made for the star, VertexRemoval elsewhere.
+/// Removal of one vertex in phase 1, in whatever order: FreeStar where it is made for the star, VertexRemoval
+/// elsewhere.
 #pragma once
 
 #include "Hierarchy/FreeStar.h"

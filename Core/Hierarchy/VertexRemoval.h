@@ -13,8 +13,8 @@
 ///   v ends a curve, or three or more meet there    it stays: VertexKind::Protected, refused by gather()
 ///   v lies inside a curve, w not beside it there   never: v goes onto a neighbour on its curve, bestTarget()
 ///   two edges of curves would become one           refused by surroundingsFit()
-/// A vertex on no curve meets none of them. Ours are besides: corners stay, no chords between curves (forbidChords()), loops of
-/// at least four edges and the distance from the input's curve (surroundingsFit()).
+/// A vertex on no curve meets none of them. Ours are besides: corners stay, no chords between curves (forbidChords()),
+/// loops of at least four edges and the distance from the input's curve (surroundingsFit()).
 #pragma once
 
 #include "Hierarchy/DecimationMesh.h"
@@ -97,7 +97,8 @@ public:
   };
   /// After planStar(), not after loadPlan().
   void measureChange(Change& change) const;
-  /// After a plan: by how much the logarithm of the wanted size at the vertex differs from what the new triangulation has there.
+  /// After a plan: by how much the logarithm of the wanted size at the vertex differs from what the new triangulation
+  /// has there.
   double sizeChange() const;
   /// After a plan: valence of the ring vertex afterwards.
   int newValence(int i) const;
@@ -124,7 +125,8 @@ private:
   }
   bool isRingEdge(int x, int y) const { return starFace(x, y) >= 0; }
 
-  /// A curve or the border of a region passes inside the surface; the edge that takes its place parts the triangulation.
+  /// A curve or the border of a region passes inside the surface; the edge that takes its place parts the
+  /// triangulation.
   bool splits() const { return (onCurve_ && !boundary_) || border_; }
   void rotateToCurve(int first);
   bool measureStar();

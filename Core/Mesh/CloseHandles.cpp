@@ -65,7 +65,8 @@ std::size_t closeHandles(
       {
         continue;
       }
-      // Disjoint loops cross nowhere, so being new to the basis means that all cuts together leave the surface in one piece.
+      // Disjoint loops cross nowhere, so being new to the basis means that all cuts together leave the surface in one
+      // piece.
       const LoopSearch::Class sum = search.classOf(*loop);
       if (basis.insert(sum, search.crossings(sum)))
       {

@@ -299,7 +299,8 @@ private:
     return !drop.empty();
   }
 
-  /// Edges that are left among more that have gone: connected ones, no line among them, with less length than what went near them.
+  /// Edges that are left among more that have gone: connected ones, no line among them, with less length than what went
+  /// near them.
   void dropRemnants()
   {
     DisjointSets sets(edges_.size(), 1);

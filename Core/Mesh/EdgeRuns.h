@@ -26,7 +26,8 @@ public:
   /// Throws InvalidInput when a corner is out of range or a face has a vertex twice.
   EdgeRuns(const std::vector<Index>& origin, Index vertexCount, int threads);
 
-  /// Calls visit(begin, end) for the run of every edge, in the order of lower, then higher vertex. Looks out for a stop.
+  /// Calls visit(begin, end) for the run of every edge, in the order of lower, then higher vertex. Looks out for a
+  /// stop.
   template <typename Visitor>
   void forEach(Visitor&& visit) const
   {

@@ -292,8 +292,8 @@ public:
     }
   }
 
-  /// For each of these patches the bluntest of its sides that has another patch beyond it; never two sides of the same one, which the first
-  /// may have made wide enough.
+  /// For each of these patches the bluntest of its sides that has another patch beyond it; never two sides of the same
+  /// one, which the first may have made wide enough.
   std::vector<Index> chainsToDrop() const
   {
     std::vector<Index> result;
@@ -446,7 +446,8 @@ bool dropAlongThinPatches(
   return !drop.empty();
 }
 
-/// One pass; returns whether anything went. Most scans have nothing to drop, and patches take memory for each half-edge.
+/// One pass; returns whether anything went. Most scans have nothing to drop, and patches take memory for each
+/// half-edge.
 bool removeOnce(Mesh& mesh, double edgeLength, FeatureFilterReport& report)
 {
   const FeatureGraph graph(mesh, edgeLength);

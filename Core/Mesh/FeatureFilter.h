@@ -17,15 +17,16 @@ struct FeatureFilterReport
   std::size_t keptEdges = 0;
 };
 
-/// Unmarks features that nobody asked for (without kRequestedFeature) and that the edge length s cannot resolve: dangling chains shorter
-/// than 4 s or zigzagging, closed loops and whole tangles whose chains are on average shorter than s, and the bluntest side of each patch between
-/// features that is on average (2 area / perimeter) narrower than s / 4. Chains run between
-/// vertices where other than two constrained edges meet. Features that the user gave stay. Repeated until nothing changes.
+/// Unmarks features that nobody asked for (without kRequestedFeature) and that the edge length s cannot resolve:
+/// dangling chains shorter than 4 s or zigzagging, closed loops and whole tangles whose chains are on average shorter
+/// than s, and the bluntest side of each patch between features that is on average (2 area / perimeter) narrower than s
+/// / 4. Chains run between vertices where other than two constrained edges meet. Features that the user gave stay.
+/// Repeated until nothing changes.
 /// Throws InvalidInput when edgeLength is not positive.
 FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength);
 
-/// One half-edge of each feature that nobody asked for (without kRequestedFeature) and that comes closer than `radius` to one of the
-/// points. Throws InvalidInput when radius is not positive.
+/// One half-edge of each feature that nobody asked for (without kRequestedFeature) and that comes closer than `radius`
+/// to one of the points. Throws InvalidInput when radius is not positive.
 std::vector<Index> detectedFeaturesNear(
   const Mesh& mesh, const std::vector<Vector3>& points, double radius);
 

@@ -19,8 +19,8 @@ namespace
 
 constexpr std::size_t kFeatureChunk = 65536;
 
-/// Coordinates often come as float, even where they are double now: below this height over the size of the surface a face's
-/// normal can be off by degrees.
+/// Coordinates often come as float, even where they are double now: below this height over the size of the surface a
+/// face's normal can be off by degrees.
 constexpr double kReliableHeight = 1e-6;
 /// The same over the precision of the coordinates, where that is worse.
 constexpr double kReliableSteps = 16;

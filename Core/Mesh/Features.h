@@ -13,8 +13,8 @@ namespace quadrille
 /// edge, so that they make no features of their own. precision: see SurfaceInput.
 void markFeaturesByAngle(Mesh& mesh, double angle, int threads, double precision = 0);
 
-/// As markFeaturesByAngle, but for edges that do not stand out from their surroundings (see edgesOfFacets): those of the facets of a
-/// coarse or noisy sampling of a smooth surface. Features that were marked before stay.
+/// As markFeaturesByAngle, but for edges that do not stand out from their surroundings (see edgesOfFacets): those of
+/// the facets of a coarse or noisy sampling of a smooth surface. Features that were marked before stay.
 FacetReport markCreases(Mesh& mesh, double angle, int threads, double precision = 0);
 
 /// Flags the edges between faces whose source polygons have different patch ids.

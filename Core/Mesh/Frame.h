@@ -3,8 +3,8 @@
 /// The coordinates that a run works in. Maps in metres and parts of assemblies lie far from the origin, where the last
 /// bits of their numbers are noise; CAD models are full of exact ties, which that noise would decide. So a run sees the
 /// surface round its box's centre, with the longest side of the box as unit, on a grid that is coarser than this noise,
-/// and with axes and faces reversed so that a mirror image is the same. Then a shift, a scale and a mirror image are the
-/// same to the last bit for all that follows.
+/// and with axes and faces reversed so that a mirror image is the same. Then a shift, a scale and a mirror image are
+/// the same to the last bit for all that follows.
 ///
 ///   user                                  frame
 ///   P = centre + unit * sign . p   <->    p = sign . round((P - centre) / unit)      faces may run the other way round

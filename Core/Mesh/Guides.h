@@ -53,8 +53,8 @@ struct FaceGuide
   }
 };
 
-/// A vertex is to have this valence. On a boundary it is what the vertex would have if the quads went on beyond, so that 4 is
-/// regular everywhere: 3 is a corner with one quad, 5 one with three.
+/// A vertex is to have this valence. On a boundary it is what the vertex would have if the quads went on beyond, so
+/// that 4 is regular everywhere: 3 is a corner with one quad, 5 one with three.
 struct ValenceRequest
 {
   Index vertex = kInvalidIndex;
@@ -62,12 +62,12 @@ struct ValenceRequest
   Index point = kInvalidIndex; ///< of the input
 };
 
-/// Throws InvalidInput, naming the polygon or point, for arrays of wrong size, directions that are not finite, weights outside
-/// (0, 1] where there is a direction, and valences other than 0 and 2 to 8.
+/// Throws InvalidInput, naming the polygon or point, for arrays of wrong size, directions that are not finite, weights
+/// outside (0, 1] where there is a direction, and valences other than 0 and 2 to 8.
 void checkRequests(const SurfaceInput& input);
 
-/// Fills polygonGuides, valenceRequests and unusedValences of a surface that has its final corners. Throws InvalidInput where points that
-/// became one vertex ask for different valences, and for a valence below 3 on the boundary.
+/// Fills polygonGuides, valenceRequests and unusedValences of a surface that has its final corners. Throws InvalidInput
+/// where points that became one vertex ask for different valences, and for a valence below 3 on the boundary.
 void collectRequests(const SurfaceInput& input, PreparedSurface& surface);
 
 /// Guides of the faces of the mesh, ascending by face.
@@ -78,10 +78,12 @@ struct SurfaceGuides
 };
 SurfaceGuides surfaceGuides(const PreparedSurface& surface);
 
-/// Vertices that have to be irregular, ascending. They stay on every level; one that is to be regular needs not stay for that.
+/// Vertices that have to be irregular, ascending. They stay on every level; one that is to be regular needs not stay
+/// for that.
 std::vector<Index> indexVertices(const PreparedSurface& surface);
 
-/// Valences asked of the vertices of a level, given by their ids on the finest one; 0 where free. Empty when none is asked.
+/// Valences asked of the vertices of a level, given by their ids on the finest one; 0 where free. Empty when none is
+/// asked.
 std::vector<int> levelValences(
   const PreparedSurface& surface, const std::vector<Index>& fineVertex);
 

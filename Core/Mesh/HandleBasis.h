@@ -11,8 +11,8 @@
 namespace quadrille
 {
 
-/// A symplectic Gram-Schmidt process in Z/2: pairs of classes that cross each other and nothing else, and open classes that
-/// cross nothing. Each of both stands for a handle.
+/// A symplectic Gram-Schmidt process in Z/2: pairs of classes that cross each other and nothing else, and open classes
+/// that cross nothing. Each of both stands for a handle.
 class HandleBasis
 {
 public:

@@ -29,11 +29,12 @@ struct HandleReport
   bool complete = true; ///< false: the work came to its end, there may be more short loops
 };
 
-/// Handles that are shorter round, or through, than `limit` (units of the mesh, > 0). The number of loops is the largest number of
-/// loops among all that are shorter and on which the surface can be cut open without falling apart; a handle that
-/// is short both ways counts once, by its shorter loop. Lengths are those of paths along edges and straight across pairs of triangles: up to 4 %
-/// above the shortest curve on even triangulations. Linear where there is no handle; bounded by counts of steps, so that the same
-/// mesh has the same loops. The mesh passes validate(). Throws InvalidInput unless the limit is positive.
+/// Handles that are shorter round, or through, than `limit` (units of the mesh, > 0). The number of loops is the
+/// largest number of loops among all that are shorter and on which the surface can be cut open without falling apart; a
+/// handle that is short both ways counts once, by its shorter loop. Lengths are those of paths along edges and straight
+/// across pairs of triangles: up to 4 % above the shortest curve on even triangulations. Linear where there is no
+/// handle; bounded by counts of steps, so that the same mesh has the same loops. The mesh passes validate(). Throws
+/// InvalidInput unless the limit is positive.
 HandleReport findHandles(const Mesh& mesh, double limit);
 
 struct BoundaryReport

@@ -36,7 +36,8 @@ bool has(const LoopSearch::Class& sum, std::size_t i)
   return (sum[i / 64] >> i % 64 & 1) != 0;
 }
 
-/// From corner to corner across the edge of h, both triangles laid into one plane; none where that line does not cross the edge.
+/// From corner to corner across the edge of h, both triangles laid into one plane; none where that line does not cross
+/// the edge.
 std::optional<double> straightAcross(const Mesh& mesh, Index h)
 {
   const Vector3& p = mesh.position[mesh.origin[h]];
@@ -111,7 +112,8 @@ void LoopSearch::closeBoundary()
       mesh_.twin.insert(mesh_.twin.end(), { h, face + 5, face - 2 });
       mesh_.twin[h] = face;
       barred_[mesh_.origin[h]] = moves_ == kInnerEdges ? 1 : 0;
-      // What comes in at the origin along the boundary: the last of the fan that is not closed yet. Closed are the starts only.
+      // What comes in at the origin along the boundary: the last of the fan that is not closed yet. Closed are the
+      // starts only.
       h = Mesh::previous(h);
       while (mesh_.twin[h] != kInvalidIndex && Mesh::face(mesh_.twin[h]) < faces_)
       {
@@ -251,8 +253,8 @@ void LoopSearch::labelEdges()
   }
 }
 
-/// Numbers the ends of generators as one meets them on a walk round the tree. With the tree drawn together into a point, two generators cross there
-/// if their ends alternate.
+/// Numbers the ends of generators as one meets them on a walk round the tree. With the tree drawn together into a
+/// point, two generators cross there if their ends alternate.
 void LoopSearch::walkContour()
 {
   if (generators_.empty())
@@ -337,8 +339,8 @@ void LoopSearch::forEachArc(Index v, Visitor&& visit) const
   } while (h != outgoing_[v]);
 }
 
-/// Dijkstra's algorithm up to half the bound, which may shrink on the way; meet(a, b, arc, length, label) for each arc that
-/// closes a loop round a handle in less than the bound.
+/// Dijkstra's algorithm up to half the bound, which may shrink on the way; meet(a, b, arc, length, label) for each arc
+/// that closes a loop round a handle in less than the bound.
 template <typename Meeting>
 void LoopSearch::spread(Index root, const double& bound, Meeting&& meet)
 {

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Short loops round the handles of a surface, or through them.
 ///
-/// Such a loop does not cut the surface in two, where all boundary loops are thought to be closed. That is told by its homology
-/// class with coefficients in Z/2, the sum of labels of its edges, which a tree and a cotree give [Eppstein 2003; Busaryev et al.
-/// 2012]. The shortest loops are made of two shortest paths from one vertex and an arc between their ends [Erickson and Whittlesey
-/// 2005]. Here the paths end at half of the length that is looked for, so that a search stays near its vertex.
+/// Such a loop does not cut the surface in two, where all boundary loops are thought to be closed. That is told by its
+/// homology class with coefficients in Z/2, the sum of labels of its edges, which a tree and a cotree give [Eppstein
+/// 2003; Busaryev et al.
+/// 2012]. The shortest loops are made of two shortest paths from one vertex and an arc between their ends [Erickson and
+/// Whittlesey 2005]. Here the paths end at half of the length that is looked for, so that a search stays near its
+/// vertex.
 #pragma once
 
 #include "Mesh/Mesh.h"
@@ -41,8 +43,8 @@ public:
   };
   /// Bit i, in words of 64: the coefficient of generator i.
   using Class = std::vector<std::uint64_t>;
-  /// By the sum of the labels, the shortest loop that has it. With up to 32 handles that is the class itself; with more,
-  /// 64 bits of it, which two classes share with a chance of 2^-64.
+  /// By the sum of the labels, the shortest loop that has it. With up to 32 handles that is the class itself; with
+  /// more, 64 bits of it, which two classes share with a chance of 2^-64.
   using LoopsByLabel = std::unordered_map<std::uint64_t, Loop>;
 
   /// Linear. The mesh passes validate().
@@ -61,7 +63,8 @@ public:
   std::optional<Loop> shortest(Index root, double bound);
 
   Class classOf(const Loop& loop) const;
-  /// The intersection with each generator: bit i says whether a loop of the class and generator i cross an odd number of times.
+  /// The intersection with each generator: bit i says whether a loop of the class and generator i cross an odd number
+  /// of times.
   Class crossings(const Class& loop) const;
   /// Vertices that searches have visited so far, all together.
   std::size_t work() const { return work_; }

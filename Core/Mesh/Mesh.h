@@ -40,8 +40,8 @@ struct Mesh
   Index faceCount() const { return halfEdgeCount() / 3; }
 
   static Index face(Index h) { return h / 3; }
-  // Without a branch: on walks round a vertex nothing predicts which corner of a face comes next. The steps from corners
-  // 0, 1, 2 are two bits each: next 1, 2, 0 and previous 2, 0, 1.
+  // Without a branch: on walks round a vertex nothing predicts which corner of a face comes next. The steps from
+  // corners 0, 1, 2 are two bits each: next 1, 2, 0 and previous 2, 0, 1.
   static Index next(Index h)
   {
     const Index first = h / 3 * 3;

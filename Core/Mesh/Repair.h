@@ -14,8 +14,8 @@ namespace quadrille
 void checkInput(const SurfaceInput& input, int threads);
 
 /// Makes a surface whose corners are set, and whose vertices and faces are in order, an oriented manifold
-/// with twins (`runs` are its edges); counts what it changed, and the components. Linear, and little more than the pairing of half-edges where
-/// nothing has to be changed. Throws InvalidInput when a component is not orientable.
+/// with twins (`runs` are its edges); counts what it changed, and the components. Linear, and little more than the
+/// pairing of half-edges where nothing has to be changed. Throws InvalidInput when a component is not orientable.
 void repairSurface(PreparedSurface& surface, EdgeRuns runs, int threads);
 
 } // namespace quadrille

@@ -11,7 +11,8 @@
 namespace quadrille
 {
 
-/// One sentence for each kind of change that was made, with its count, what it means for the quads and, where there is something to do, what.
+/// One sentence for each kind of change that was made, with its count, what it means for the quads and, where there is
+/// something to do, what.
 /// Empty when nothing changed.
 std::vector<std::string> repairSentences(const RepairReport& report);
 

@@ -25,9 +25,11 @@ namespace quadrille
 namespace
 {
 
-/// Least height of a sized triangle over that of the face, with the mean size: the change of its shape that a map can follow.
+/// Least height of a sized triangle over that of the face, with the mean size: the change of its shape that a map can
+/// follow.
 constexpr double kLeastHeightLeft = 0.3;
-/// Sizes in a triangle differ by at most this factor when its integral is taken from the middles of its edges: 0.1 % then.
+/// Sizes in a triangle differ by at most this factor when its integral is taken from the middles of its edges: 0.1 %
+/// then.
 constexpr double kSmoothRatio = 1.3;
 constexpr int kMostSplits = 12;
 /// A change of sizes by more than this factor is told.

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The sizes that are wanted on a surface: Mesh::sizing times s, the edge length that all quads have without it. Where sizes
-/// differ, the map's stages work in the metric in which every quad is one: lengths over the size where they are. A change of the
-/// size is a conformal change of the metric, so it has a curvature, and the cross field gets the irregular vertices that
-/// let the number of quads side by side grow.
+/// The sizes that are wanted on a surface: Mesh::sizing times s, the edge length that all quads have without it. Where
+/// sizes differ, the map's stages work in the metric in which every quad is one: lengths over the size where they are.
+/// A change of the size is a conformal change of the metric, so it has a curvature, and the cross field gets the
+/// irregular vertices that let the number of quads side by side grow.
 #pragma once
 
 #include "Mesh/Mesh.h"
@@ -45,13 +45,15 @@ inline double sizedLength(const Mesh& mesh, Index h)
                              : mesh.edgeVector(h).norm() / sizeOfEdge(mesh, h);
 }
 
-/// A triangle laid out in the plane with sized lengths: corner 0 at the origin, corner 1 at (width, 0), corner 2 at `apex`.
+/// A triangle laid out in the plane with sized lengths: corner 0 at the origin, corner 1 at (width, 0), corner 2 at
+/// `apex`.
 struct SizedTriangle
 {
   double width = 0;
   Vector2 apex = Vector2::Zero();
 };
-/// Of a face whose sizes differ so much that its sized lengths make no triangle, or hardly one, the face itself over the mean of its sizes.
+/// Of a face whose sizes differ so much that its sized lengths make no triangle, or hardly one, the face itself over
+/// the mean of its sizes.
 SizedTriangle sizedTriangle(const Mesh& mesh, Index f);
 
 /// The integral of 1 / size^2 over a face, the size being linear on it: its area in quads of edge length 1.
@@ -62,7 +64,8 @@ double sizedArea(const Mesh& mesh);
 /// Throws InvalidInput, naming the point, for sizes that are not positive and finite, and for an array of wrong size.
 void checkSizing(const SurfaceInput& input);
 
-/// Fills Mesh::sizing of a surface that has its final corners. Of points that became one vertex the smallest size counts.
+/// Fills Mesh::sizing of a surface that has its final corners. Of points that became one vertex the smallest size
+/// counts.
 void collectSizing(const SurfaceInput& input, PreparedSurface& surface);
 
 /// What limiting the growth of sizes has changed.
@@ -72,12 +75,13 @@ struct SizingReport
   double most = 1;         ///< largest factor by which a size was lessened
   Index vertex = kInvalidIndex; ///< where
 };
-/// Lessens sizes until none grows by more than kSizeGrowth along an edge of the mesh, per length in units of s = edgeLength.
+/// Lessens sizes until none grows by more than kSizeGrowth along an edge of the mesh, per length in units of s =
+/// edgeLength.
 /// Throws InvalidInput unless edgeLength is positive and finite. Without sizes nothing happens.
 SizingReport limitSizeGrowth(Mesh& mesh, double edgeLength);
 
-/// Multiplies the sizes of the vertices within `radius` (> 0, units of the mesh) of any place; a mesh without sizes gets them. Returns
-/// how many there are.
+/// Multiplies the sizes of the vertices within `radius` (> 0, units of the mesh) of any place; a mesh without sizes
+/// gets them. Returns how many there are.
 std::size_t scaleSizesNear(
   Mesh& mesh, const std::vector<Vector3>& places, double radius, double factor);
 

@@ -12,15 +12,16 @@
 namespace quadrille
 {
 
-/// A component whose area is below that of so many quads is triangulated as if they were smaller: about 60 vertices on all levels are
-/// what a cross field with eight irregular vertices needs.
+/// A component whose area is below that of so many quads is triangulated as if they were smaller: about 60 vertices on
+/// all levels are what a cross field with eight irregular vertices needs.
 constexpr double kQuadsOfSmallTriangulation = 26;
 
 /// Factor on the edge length s for the triangles of a component with this area (over its sizes); at most 1.
 double triangulationScale(double area, double edgeLength);
 
-/// The number of quads of a small block with the topology of a component: six for a sphere (a box), four for a disc, 16 for each
-/// handle of another closed surface, and eight for each boundary loop after the first and 16 for each handle of an open one.
+/// The number of quads of a small block with the topology of a component: six for a sphere (a box), four for a disc, 16
+/// for each handle of another closed surface, and eight for each boundary loop after the first and 16 for each handle
+/// of an open one.
 double quadsOfBlock(long long eulerCharacteristic, std::size_t boundaryLoops);
 
 /// The components of a mesh, in the order of their lowest faces.
@@ -47,8 +48,8 @@ struct SmallComponents
 /// For quads of edge length s > 0. Linear, and next to nothing for a large connected surface.
 SmallComponents findSmallComponents(const PreparedSurface& surface, double edgeLength);
 
-/// Removes the small components; at least one component stays, so where all are small all stay. Area, components and hash follow, and
-/// requests at their vertices go. Returns how many went.
+/// Removes the small components; at least one component stays, so where all are small all stay. Area, components and
+/// hash follow, and requests at their vertices go. Returns how many went.
 std::size_t removeSmallComponents(PreparedSurface& surface, const SmallComponents& small);
 
 } // namespace quadrille

@@ -40,9 +40,10 @@ Index splitEdge(PreparedSurface& surface, Index h);
 /// 3f+1 and 3f+2 are appended.
 Index splitFace(PreparedSurface& surface, Index f);
 
-/// Cuts the surface open along a simple closed loop of at least 3 inner half-edges, each of which ends where the next one
-/// begins, that meets no boundary; closes both sides with a fan round a new vertex at the mean of the loop's vertices. The faces of
-/// a fan have the sources of the faces that they are joined to: a new vertex, and only it, lies off its sources.
+/// Cuts the surface open along a simple closed loop of at least 3 inner half-edges, each of which ends where the next
+/// one begins, that meets no boundary; closes both sides with a fan round a new vertex at the mean of the loop's
+/// vertices. The faces of a fan have the sources of the faces that they are joined to: a new vertex, and only it, lies
+/// off its sources.
 void cutAndClose(PreparedSurface& surface, const std::vector<Index>& loop);
 
 /// Removes a face; its edges become boundary.

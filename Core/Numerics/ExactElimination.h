@@ -33,8 +33,8 @@ struct ExactBasis
 /// Solves `equations` (each = 0) for as many variables as their rank. The shortest equation goes first and
 /// is solved for the variable that the fewest other equations use, which keeps the rows short. Terms of an
 /// equation may repeat a variable. Empty when a coefficient would leave 63 bits.
-/// rank: empty, or one number a variable: an equation is solved for a variable of the lowest rank that it has, so that those
-/// of higher ranks depend on each other only. Rows of variables of rank 0 that were solved for stay empty then.
+/// rank: empty, or one number a variable: an equation is solved for a variable of the lowest rank that it has, so that
+/// those of higher ranks depend on each other only. Rows of variables of rank 0 that were solved for stay empty then.
 std::optional<ExactBasis> eliminateExactly(Index variables,
   const std::vector<IntegerRow>& equations, const std::vector<std::uint8_t>& rank = {});
 

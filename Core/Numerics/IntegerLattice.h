@@ -23,8 +23,8 @@ struct IntegerLattice
   std::vector<std::uint8_t> composite;
 };
 
-/// forms: linear forms of `variables` real variables. Independent forms become coordinates, as far as possible those without
-/// a flag in `derived` (#forms); where another form is a fraction of them, not all of their whole values are
+/// forms: linear forms of `variables` real variables. Independent forms become coordinates, as far as possible those
+/// without a flag in `derived` (#forms); where another form is a fraction of them, not all of their whole values are
 /// allowed, and a coordinate is changed so that the rest is, one prime factor of a denominator at a time.
 /// Empty when a coefficient would leave 63 bits.
 std::optional<IntegerLattice> integerLattice(Index variables,

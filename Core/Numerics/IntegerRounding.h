@@ -26,8 +26,8 @@ struct RoundedForms
   Eigen::VectorXd multiplier;
 };
 
-/// schur: k x k, C^T A^-1 C for the Hessian A of the energy and k independent forms, the columns of C; x: k, their values
-/// at the minimum. Those with a flag in `last` (#k) wait until the others are whole. No system is solved
+/// schur: k x k, C^T A^-1 C for the Hessian A of the energy and k independent forms, the columns of C; x: k, their
+/// values at the minimum. Those with a flag in `last` (#k) wait until the others are whole. No system is solved
 /// again: each rounding is one column of a Cholesky factorization of schur. k^3 / 3 operations; looks out for a stop.
 /// Throws InvalidInput for sizes that disagree or a matrix that is not positive definite.
 RoundedForms roundForms(const Eigen::MatrixXd& schur, const Eigen::VectorXd& x,

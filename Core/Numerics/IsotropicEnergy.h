@@ -23,9 +23,10 @@ inline double determinantOf(const Jacobian& j)
   return j[0] * j[3] - j[1] * j[2];
 }
 
-/// What a triangle pays whose singular values have a ratio r beyond a limit. With the excess e = (r + 1/r) / 2 - bound, where
-/// (r + 1/r) / 2 = |J|^2 / (2 det), it is 2 weight k^2 (sqrt(1 + (e/k)^2) - 1): weight e^2 at first, so that its first derivative is continuous, and
-/// linear further on, so that a triangle that cannot meet the limit does not drag its neighbours beyond it.
+/// What a triangle pays whose singular values have a ratio r beyond a limit. With the excess e = (r + 1/r) / 2 - bound,
+/// where (r + 1/r) / 2 = |J|^2 / (2 det), it is 2 weight k^2 (sqrt(1 + (e/k)^2) - 1): weight e^2 at first, so that its
+/// first derivative is continuous, and linear further on, so that a triangle that cannot meet the limit does not drag
+/// its neighbours beyond it.
 struct RatioEnergy
 {
   double weight = 0;

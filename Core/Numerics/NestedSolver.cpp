@@ -24,8 +24,8 @@ constexpr Index kSubtrees = 64;
 /// Columns that are eliminated together.
 constexpr std::size_t kPanel = 48;
 
-// Loops over rows are also compiled for processors with wider vectors; no instruction set here fuses multiplications and additions, and no sum
-// runs across rows, so the bytes are the same on all of them.
+// Loops over rows are also compiled for processors with wider vectors; no instruction set here fuses multiplications
+// and additions, and no sum runs across rows, so the bytes are the same on all of them.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__gnu_linux__) &&   \
   !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define QUADRILLE_WIDE_VECTORS __attribute__((target_clones("avx2", "default")))
@@ -60,7 +60,8 @@ void subtractOne(double* c, const double* a, std::size_t rows, double factor)
   }
 }
 
-/// Column c of rows [row, ...) minus the panel's columns times their entries at `row`; the same for the next column, if it is there.
+/// Column c of rows [row, ...) minus the panel's columns times their entries at `row`; the same for the next column, if
+/// it is there.
 void subtractPanel(double* c0, double* c1, const double* panel, std::size_t stride,
   std::size_t columns, std::size_t row, std::size_t rows)
 {
@@ -110,8 +111,8 @@ bool factorizePanel(double* columns, std::size_t rows, std::size_t begin, std::s
   return true;
 }
 
-/// The first `own` columns of a symmetric matrix with a right side as its last row are eliminated. left: rows by own; right: the
-/// remaining lower triangle, (rows - own) by (rows - own - 1).
+/// The first `own` columns of a symmetric matrix with a right side as its last row are eliminated. left: rows by own;
+/// right: the remaining lower triangle, (rows - own) by (rows - own - 1).
 bool eliminate(
   std::vector<double>& left, std::vector<double>& right, std::size_t rows, std::size_t own)
 {

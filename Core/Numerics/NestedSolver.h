@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Positive definite systems that are sums over the triangles of a mesh, for meshes of hundreds of thousands of vertices:
-/// nested dissection [George 1973] by the positions of the vertices and a multifrontal Cholesky factorization [Duff and Reid 1983].
+/// Positive definite systems that are sums over the triangles of a mesh, for meshes of hundreds of thousands of
+/// vertices:
+/// nested dissection [George 1973] by the positions of the vertices and a multifrontal Cholesky factorization [Duff and
+/// Reid 1983].
 /// No sparse matrix is built: each triangle is asked for its part when its front is factorized.
 #pragma once
 
@@ -21,14 +23,16 @@ namespace quadrille
 class NestedSolver
 {
 public:
-  /// What triangle t adds: the leading rows and columns belong to the unknowns of its corners, corner after corner. Only the lower triangle
-  /// of the matrix is read. Called from several threads at once.
+  /// What triangle t adds: the leading rows and columns belong to the unknowns of its corners, corner after corner.
+  /// Only the lower triangle of the matrix is read. Called from several threads at once.
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   using Element = std::function<void(Index t, Matrix6& matrix, Vector6& rightSide)>;
 
-  /// Ordering and sizes. position: #V, only for the dissection. unknowns: #V, 0 to 2 a vertex; they are numbered vertex after vertex.
-  /// Every vertex with unknowns must be in a triangle. Throws InvalidInput for sizes that disagree. Looks out for a stop.
+  /// Ordering and sizes. position: #V, only for the dissection. unknowns: #V, 0 to 2 a vertex; they are numbered vertex
+  /// after vertex.
+  /// Every vertex with unknowns must be in a triangle. Throws InvalidInput for sizes that disagree. Looks out for a
+  /// stop.
   NestedSolver(const std::vector<Vector3>& position, const std::vector<std::uint8_t>& unknowns,
     const std::vector<std::array<Index, 3>>& triangles);
 
@@ -38,8 +42,8 @@ public:
   /// Multiplications of a factorization.
   double operations() const { return operations_; }
 
-  /// Solves (sum of matrices + shift * identity) x = sum of right sides. False, and x unchanged, when the matrix is not positive
-  /// definite. The same bytes for any number of threads (0: all). Looks out for a stop.
+  /// Solves (sum of matrices + shift * identity) x = sum of right sides. False, and x unchanged, when the matrix is not
+  /// positive definite. The same bytes for any number of threads (0: all). Looks out for a stop.
   bool solve(const Element& element, double shift, int threads, Eigen::VectorXd& x);
 
 private:

@@ -17,11 +17,11 @@ class SparseLdl
 public:
   using Matrix = Eigen::SparseMatrix<double>;
 
-  /// Ordering and pattern of L. lower: n x n, compressed, the lower triangle with all of the diagonal. Throws InvalidInput when it is
-  /// not.
+  /// Ordering and pattern of L. lower: n x n, compressed, the lower triangle with all of the diagonal. Throws
+  /// InvalidInput when it is not.
   void analyze(const Matrix& lower);
-  /// Of lower + shift * identity, where lower has the pattern that was analyzed. False when it is not positive definite. Looks out for
-  /// a stop.
+  /// Of lower + shift * identity, where lower has the pattern that was analyzed. False when it is not positive
+  /// definite. Looks out for a stop.
   bool factorize(const Matrix& lower, double shift);
   /// Multiplications and additions of one factorization, by the pattern that was analyzed.
   double factorFlops() const;

@@ -41,8 +41,8 @@ struct UntangleOptions
   double areaWeight = 0.05;
   /// Weight of |J - 1|^2, which keeps the map rotated like the references; 0: rotations cost nothing.
   double alignmentWeight = 0;
-  /// The ratio of the singular values of J up to which it costs nothing, >= 1; 0: no limit. Triangles beyond it pay a RatioEnergy of this
-  /// weight once all determinants are positive.
+  /// The ratio of the singular values of J up to which it costs nothing, >= 1; 0: no limit. Triangles beyond it pay a
+  /// RatioEnergy of this weight once all determinants are positive.
   double anisotropyLimit = 0;
   double anisotropyWeight = 500;
   /// Triangles from this one on have no limit.
@@ -58,8 +58,8 @@ struct UntangleResult
   std::vector<Index> inverted;   ///< triangles with !(det > 0), worst first; empty on success
   double minimumDeterminant = 0; ///< of J over all triangles
   int steps = 0;
-  /// Newton steps times triangles, and the factorizations in the same unit: global unknowns, as surfaces of high genus have, fill the
-  /// factor, and these then take far more than the triangles.
+  /// Newton steps times triangles, and the factorizations in the same unit: global unknowns, as surfaces of high genus
+  /// have, fill the factor, and these then take far more than the triangles.
   std::size_t work = 0;
 };
 
@@ -67,7 +67,8 @@ struct UntangleResult
 /// equation of a parametrization). Throws InvalidInput when sizes disagree.
 Eigen::VectorXd fitReferences(const UntangleProblem& problem);
 
-/// Throws InvalidInput when sizes disagree, y0 has a non-finite entry or the anisotropy limit is neither 0 nor a number from 1 on.
+/// Throws InvalidInput when sizes disagree, y0 has a non-finite entry or the anisotropy limit is neither 0 nor a number
+/// from 1 on.
 /// Deterministic.
 UntangleResult untangle(
   const UntangleProblem& problem, const Eigen::VectorXd& y0, const UntangleOptions& options);

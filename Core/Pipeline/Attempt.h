@@ -101,15 +101,16 @@ struct Attempt
 /// What a plan asks of the levels. The plan is on the surface.
 HierarchyOptions levelOptions(const RunContext& run, const Plan& plan);
 
-/// Levels, map, and map of the surface by the plan, which is put on the surface. before: phase 1 of the attempt that the plan continues, or
-/// null.
+/// Levels, map, and map of the surface by the plan, which is put on the surface. before: phase 1 of the attempt that
+/// the plan continues, or null.
 std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan, const Phase1* before);
 
 /// The quads of a map with status ok, whose plan is on the surface; the levels are let go.
 std::shared_ptr<const QuadAttempt> makeQuads(RunContext& run, const Plan& plan, MapAttempt& map);
 
-/// Where quads of the coarse map touch themselves: round a small handle or a thin part, where a loop is one or two quads long, that shows on
-/// the coarse map already, and only smaller quads can help. None where this is not the cause of a failure.
+/// Where quads of the coarse map touch themselves: round a small handle or a thin part, where a loop is one or two
+/// quads long, that shows on the coarse map already, and only smaller quads can help. None where this is not the cause
+/// of a failure.
 std::optional<GridTroubles> gridTroubles(const RunContext& run, const MapAttempt& map);
 
 /// Positions of vertices.

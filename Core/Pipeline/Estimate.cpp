@@ -18,8 +18,8 @@ namespace quadrille
 namespace
 {
 
-// Medians of quadrille-bench on scans, see Documentation/Performance.md: what does not depend on the surface (the coarse
-// level), a triangle's share that threads cannot help, the share that they can, and a quad's share.
+// Medians of quadrille-bench on scans, see Documentation/Performance.md: what does not depend on the surface (the
+// coarse level), a triangle's share that threads cannot help, the share that they can, and a quad's share.
 constexpr double kSecondsFixed = 0.3;
 constexpr double kSecondsSerial = 0.9e-6;
 constexpr double kSecondsParallel = 1.0e-6;

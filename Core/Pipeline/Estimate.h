@@ -15,8 +15,8 @@ struct RunEstimate
   double bytes = 0;   ///< peak memory beside the caller's copy of the surface
 };
 
-/// From sizes alone: triangles of the input, quads asked for. threads: 0 means all. The rates are those that quadrille-bench
-/// measured on scans; surfaces whose features make the run try again take longer.
+/// From sizes alone: triangles of the input, quads asked for. threads: 0 means all. The rates are those that
+/// quadrille-bench measured on scans; surfaces whose features make the run try again take longer.
 RunEstimate estimateRun(std::size_t triangles, double quads, int threads);
 
 /// Bytes that the machine can give to a process now without swapping; infinity where it cannot be found out.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The map solved again, with the integers and irregular vertices that it has, on a finer level than the coarse one [Ebke et al. 2016,
-/// Section 10].
+/// The map solved again, with the integers and irregular vertices that it has, on a finer level than the coarse one
+/// [Ebke et al. 2016, Section 10].
 #pragma once
 
 #include "Base/FixedPoint.h"
@@ -62,10 +62,11 @@ struct CoarseMap
   const std::vector<FixedVec2>* uv = nullptr; ///< #H of the coarse level
 };
 
-/// `map` is replaced where the re-solve has a lower distortion, a certificate that is not worse in any count and not more quads that
-/// are turned over; otherwise it stays as it is and the report's notice says why. Where the surface has creases or pockets narrower than
-/// a quad, a map that follows them can turn a quad over that the coarse map drew across them: there the carried map is held and
-/// the rest solved again. turns, integerVertex: #V of the surface, as for certify().
+/// `map` is replaced where the re-solve has a lower distortion, a certificate that is not worse in any count and not
+/// more quads that are turned over; otherwise it stays as it is and the report's notice says why. Where the surface has
+/// creases or pockets narrower than a quad, a map that follows them can turn a quad over that the coarse map drew
+/// across them: there the carried map is held and the rest solved again. turns, integerVertex: #V of the surface, as
+/// for certify().
 FinalQualityReport improveMap(const PreparedSurface& surface, const std::vector<int>& turns,
   const std::vector<std::uint8_t>& integerVertex, const CoarseMap& coarse,
   const FinalQualityOptions& options, SurfaceMap& map);

@@ -15,7 +15,8 @@ namespace quadrille
 namespace
 {
 
-/// So many quads are made to fit round a loop that is too short for three, if they need not be smaller than this for it.
+/// So many quads are made to fit round a loop that is too short for three, if they need not be smaller than this for
+/// it.
 constexpr double kQuadsOfShrunkLoop = 4;
 constexpr double kLeastShrink = 0.1;
 

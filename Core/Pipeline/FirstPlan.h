@@ -13,14 +13,16 @@ namespace quadrille
 /// Where smaller quads make their number grow by more than this factor they may as well be smaller everywhere.
 constexpr double kMostGrowth = 1.6;
 
-/// The plan that a run begins with: smaller quads round loops that are too short for three, where that does not take too many. Waiting
-/// for the failure that most of them are would cost several maps.
+/// The plan that a run begins with: smaller quads round loops that are too short for three, where that does not take
+/// too many. Waiting for the failure that most of them are would cost several maps.
 Plan firstPlan(RunContext& run);
 
-/// The number of quads that the map of a plan is scaled to. sizedArea: of the surface with the sizes of the plan; not asked without shrinks.
+/// The number of quads that the map of a plan is scaled to. sizedArea: of the surface with the sizes of the plan; not
+/// asked without shrinks.
 double quadsFor(const RunContext& run, const Plan& plan, double sizedArea);
 
-/// #V, 1 away from the loops: sizes, as multiples of edgeLength, with which four quads fit round each loop, but none below `least`.
+/// #V, 1 away from the loops: sizes, as multiples of edgeLength, with which four quads fit round each loop, but none
+/// below `least`.
 std::vector<float> sizesOfLoops(
   const std::vector<HandleLoop>& loops, double edgeLength, double least, Index vertexCount);
 

@@ -15,8 +15,9 @@ namespace quadrille
 /// Work on maps (GridMapResult::work) after which nothing is tried again; about a minute.
 constexpr std::size_t kMaximumWork = 24000000;
 
-/// Attempts come in rounds: maps until one is good or no other would be better, then the quads of the best map. Of the maps of the surface
-/// at most three are held, two of them packed: the last one, the best of the round, and that of the result so far.
+/// Attempts come in rounds: maps until one is good or no other would be better, then the quads of the best map. Of the
+/// maps of the surface at most three are held, two of them packed: the last one, the best of the round, and that of the
+/// result so far.
 class History
 {
 public:
@@ -28,7 +29,8 @@ public:
 
   bool isEmpty() const { return last_.map == nullptr; }
   const Attempt& last() const { return last_; }
-  /// The best of the round, that is the one with the fewest defects, or the last one where none was carried to the surface.
+  /// The best of the round, that is the one with the fewest defects, or the last one where none was carried to the
+  /// surface.
   const Attempt& ofRound() const { return best_.map ? best_ : last_; }
   bool roundHasMap() const { return best_.map != nullptr; }
   bool lastIsBest() const { return best_.map != nullptr && best_.map == last_.map; }
@@ -38,14 +40,15 @@ public:
   /// Offenders of the coarse map of the attempt before the last one of the round; 0 where there is none.
   std::size_t offendersBefore() const;
 
-  /// The attempt that has quads, of several the one with the fewest that are turned over: a later one counts only where it has at most half as
-  /// many, as what it gave up has a price. Without any, that of the last round.
+  /// The attempt that has quads, of several the one with the fewest that are turned over: a later one counts only where
+  /// it has at most half as many, as what it gave up has a price. Without any, that of the last round.
   const Attempt& result() const { return result_.quads ? result_ : last_; }
   bool hasResult() const { return result_.quads != nullptr; }
 
   bool isSpent() const { return work_ >= kMaximumWork; }
   int replays() const { return replays_; } ///< maps that were carried to the surface
-  /// Sizes of the result's stages, with the seconds of all attempts. Stages that only others have had are one, "retries".
+  /// Sizes of the result's stages, with the seconds of all attempts. Stages that only others have had are one,
+  /// "retries".
   StageRecords stages() const;
   /// Stages that some attempt has taken over.
   const std::vector<std::string>& reused() const { return reused_; }

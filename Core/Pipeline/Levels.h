@@ -21,7 +21,8 @@ struct Phase1
   std::vector<Index> kept; ///< HierarchyOptions::keepVertices
 };
 
-/// Phase 1 of a surface, from which phase 2 can be made again and again. The surface must have its marks on when that is done.
+/// Phase 1 of a surface, from which phase 2 can be made again and again. The surface must have its marks on when that
+/// is done.
 struct StoredLevels
 {
   std::shared_ptr<PreparedSurface> surface; ///< that they refer to
@@ -37,15 +38,15 @@ struct StoredLevels
 class Levels
 {
 public:
-  /// store: null: none. anyKept: phase 1 may have kept other vertices than it is asked to, so that the levels are only nearly what a run
-  /// without a store makes.
+  /// store: null: none. anyKept: phase 1 may have kept other vertices than it is asked to, so that the levels are only
+  /// nearly what a run without a store makes.
   Levels(RunSurface& surface, ResultStore* store, bool anyKept);
   ~Levels() { letGo(); }
   Levels(const Levels&) = delete;
   Levels& operator=(const Levels&) = delete;
 
-  /// Both levels of the surface as it is now. before: phase 1 of an attempt before, on the same surface, or null. Where that has left all
-  /// vertices that are to be kept the levels are made from its intermediate one.
+  /// Both levels of the surface as it is now. before: phase 1 of an attempt before, on the same surface, or null. Where
+  /// that has left all vertices that are to be kept the levels are made from its intermediate one.
   const Hierarchy& make(const HierarchyOptions& options, const Phase1* before);
   /// What was made last.
   const Hierarchy& hierarchy() const { return held_->levels->hierarchy(); }

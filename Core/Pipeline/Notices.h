@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a run tells the user, in sentences that remesh() and the stage filters share. Each is empty where there is nothing to tell.
+/// What a run tells the user, in sentences that remesh() and the stage filters share. Each is empty where there is
+/// nothing to tell.
 #pragma once
 
 #include "GridMap/GridMap.h"

@@ -24,22 +24,24 @@ struct RemeshOptions
   double relativeEdgeLength = 0.02; ///< target edge length over the bounding-box diagonal, > 0
   std::optional<double> featureAngle = radians(40); ///< radians; none: no detection
   MapMethod method = MapMethod::ScaleAware;
-  /// The coarsest layout of quads in place of their size, see computeCoarsestMap; by the scale aware method only. The size asked for sets
-  /// what the levels keep and how curves are followed.
+  /// The coarsest layout of quads in place of their size, see computeCoarsestMap; by the scale aware method only. The
+  /// size asked for sets what the levels keep and how curves are followed.
   bool coarsestIntegers = false;
   Index coarseVertices = 1000; ///< budget of the coarse level; 0: as many as its curvature needs
-  /// Handles that are shorter round or through than so many target edge lengths are cut and closed before they are mapped, see
-  /// closeHandles; >= 0, 0: none. Below kQuadsOfLoop there may remain some that quads cannot resolve.
+  /// Handles that are shorter round or through than so many target edge lengths are cut and closed before they are
+  /// mapped, see closeHandles; >= 0, 0: none. Below kQuadsOfLoop there may remain some that quads cannot resolve.
   double closeHandles = 0;
-  /// Connected components with less area than the smallest block of quads has (six for a closed one without handles, see quadsOfBlock)
-  /// go, unless all are such. Off: each becomes about that many quads. Both are told.
+  /// Connected components with less area than the smallest block of quads has (six for a closed one without handles,
+  /// see quadsOfBlock) go, unless all are such. Off: each becomes about that many quads. Both are told.
   bool removeSmallComponents = false;
-  /// The ratio of the two stretches of a triangle of the coarse level from which on it is brought down where integers and irregular vertices let
-  /// it, see GridMapOptions; >= 1, or 0: no limit. By the scale aware and the seamless method only; final quality does not know it.
+  /// The ratio of the two stretches of a triangle of the coarse level from which on it is brought down where integers
+  /// and irregular vertices let it, see GridMapOptions; >= 1, or 0: no limit. By the scale aware and the seamless
+  /// method only; final quality does not know it.
   double anisotropyLimit = 0;
   /// The level on which the map is solved again with its integers, see improveMap.
   FinalQuality finalQuality = FinalQuality::Coarse;
-  /// The shapes of coarse triangles, to which the map fits its quads, are those of the surface that they stand for: see measureStretch.
+  /// The shapes of coarse triangles, to which the map fits its quads, are those of the surface that they stand for: see
+  /// measureStretch.
   bool distortionMetric = false;
   std::size_t maximumNumberOfQuads = 10000000;
   int smoothingSteps = 5; ///< of the quads on the surface, see ExtractionOptions
@@ -47,11 +49,12 @@ struct RemeshOptions
   std::optional<double> memoryLimit;
   bool mergeCharts =
     false;         ///< of the map on the surface, for display; the quads do not depend on it
-  /// RemeshResult::mapKey of a map that the caller still has with its charts merged: where it is the result again, that is not done another time.
+  /// RemeshResult::mapKey of a map that the caller still has with its charts merged: where it is the result again, that
+  /// is not done another time.
   std::uint64_t knownMap = 0;
   int threads = 0; ///< 0: all; the result does not depend on it
-  /// With a memory only: field, map and phase 1 may start from those of the run before, so that the result may differ from one without
-  /// memory. Off: the same bytes as without.
+  /// With a memory only: field, map and phase 1 may start from those of the run before, so that the result may differ
+  /// from one without memory. Off: the same bytes as without.
   bool warmStart = false;
   ProgressCallback progress;
 };

@@ -49,7 +49,8 @@ struct RemeshResult
   double beyondAnisotropyLimit = 0;
   SmallParts smallParts;
   std::vector<StageRecord> stages; ///< see StageRecords; seconds are sums over all attempts
-  /// Names of the stages that no attempt has computed, as the store had their results, and of those that started from an earlier map.
+  /// Names of the stages that no attempt has computed, as the store had their results, and of those that started from
+  /// an earlier map.
   std::vector<std::string> reused;
   RunEstimate estimate; ///< made before the run
   int decimations =
@@ -61,15 +62,16 @@ struct RemeshResult
     notices; ///< what the user should know: repairs, raised budgets, refinement
 };
 
-/// Runs everything, in coordinates of its own (see Mesh/Frame.h): of a surface that is shifted, scaled or mirrored it makes the same quads,
-/// shifted, scaled or mirrored, up to rounding. Throws InvalidInput for bad input or options; any other failure, cancel included, is a
-/// status and leaves `quads` empty. The input's memory (about 30 bytes a triangle) is let go as soon as the surface is prepared:
+/// Runs everything, in coordinates of its own (see Mesh/Frame.h): of a surface that is shifted, scaled or mirrored it
+/// makes the same quads, shifted, scaled or mirrored, up to rounding. Throws InvalidInput for bad input or options; any
+/// other failure, cancel included, is a status and leaves `quads` empty. The input's memory (about 30 bytes a triangle)
+/// is let go as soon as the surface is prepared:
 /// move it in where it is not needed any more.
 RemeshResult remesh(SurfaceInput input, const RemeshOptions& options);
 
-/// The same with a store: what earlier runs have left there is not computed again, and it holds this run's stages afterwards, whatever its
-/// status. The result is the same, bit for bit, unless options.warmStart is on. Where there is no room for both the run and the store, that is
-/// emptied and a notice says so.
+/// The same with a store: what earlier runs have left there is not computed again, and it holds this run's stages
+/// afterwards, whatever its status. The result is the same, bit for bit, unless options.warmStart is on. Where there is
+/// no room for both the run and the store, that is emptied and a notice says so.
 RemeshResult remesh(SurfaceInput input, const RemeshOptions& options, ResultStore& store);
 
 } // namespace quadrille

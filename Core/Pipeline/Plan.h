@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// All that one attempt may do otherwise than another: a value, so that an attempt that leads nowhere leaves nothing behind.
+/// All that one attempt may do otherwise than another: a value, so that an attempt that leads nowhere leaves nothing
+/// behind.
 #pragma once
 
 #include "Base/Types.h"
@@ -15,7 +16,8 @@
 namespace quadrille
 {
 
-/// Where quads of the coarse map touch themselves though it is valid: round handles and thin parts that only one or two quads fit round.
+/// Where quads of the coarse map touch themselves though it is valid: round handles and thin parts that only one or two
+/// quads fit round.
 struct GridTroubles
 {
   std::size_t defects = 0;
@@ -49,8 +51,8 @@ struct Plan
   const char* step = "first"; ///< what made it of the one before, a name of the table in Recovery.cpp
 
   LevelPlan levels;
-  /// Of the next round: without what was kept for the sake of the map on the surface, but with all that the coarse map could not do without,
-  /// so that another round need not find that out again.
+  /// Of the next round: without what was kept for the sake of the map on the surface, but with all that the coarse map
+  /// could not do without, so that another round need not find that out again.
   LevelPlan nextLevels;
 
   // Of the surface, see RunSurface.

@@ -31,7 +31,8 @@ FinalQualityOptions finalQualityOptions(const RunContext& run)
   return options;
 }
 
-/// Why the map is not solved again, though that was asked for; empty where it can be. The levels are made for it where they are needed.
+/// Why the map is not solved again, though that was asked for; empty where it can be. The levels are made for it where
+/// they are needed.
 std::string hindrance(RunContext& run, const Plan& plan, const MapAttempt& map)
 {
   if (run.options.method != MapMethod::ScaleAware && !map.certificate.valid())

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// What is tried where a map or its quads fail: each strategy makes another plan of the attempts so far, or has nothing to offer.
+/// What is tried where a map or its quads fail: each strategy makes another plan of the attempts so far, or has nothing
+/// to offer.
 #pragma once
 
 #include "Pipeline/Attempt.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Results of stages under keys of exactly what they depend on. What a run can take from an earlier one falls out of the keys: an edit is
-/// answered from the first stage whose key it changes, and one that is taken back is a look-up.
+/// Results of stages under keys of exactly what they depend on. What a run can take from an earlier one falls out of
+/// the keys: an edit is answered from the first stage whose key it changes, and one that is taken back is a look-up.
 #pragma once
 
 #include <cstddef>
@@ -39,8 +39,9 @@ private:
   ResultKey key_;
 };
 
-/// Belongs to the caller of remesh(), who makes it, asks for its size and clears it. Bounded in bytes: what was not used for longest goes
-/// first, but nothing that a run holds. A result is found by its type and its key; one under a key that is there already takes its place.
+/// Belongs to the caller of remesh(), who makes it, asks for its size and clears it. Bounded in bytes: what was not
+/// used for longest goes first, but nothing that a run holds. A result is found by its type and its key; one under a
+/// key that is there already takes its place.
 /// Not for several threads at once.
 class ResultStore
 {

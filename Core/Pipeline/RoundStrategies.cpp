@@ -20,8 +20,8 @@ namespace
 
 constexpr double kShrink = 0.5;
 constexpr double kShrinkRadius = 1.5; ///< edge lengths round a place
-/// How small quads become for a loop at which they have met themselves; sizes that differ so much make maps harder, so the first plan does
-/// without.
+/// How small quads become for a loop at which they have met themselves; sizes that differ so much make maps harder, so
+/// the first plan does without.
 constexpr double kLeastSizeOfLoop = 0.02;
 /// Features are given up within this part of the edge length the first time, then twice as far each time.
 constexpr double kFirstFeatureDrop = 0.5;

@@ -346,7 +346,8 @@ private:
     return found;
   }
 
-  /// What of the surface is left after the removal, or becomes blocks, sets the number of quads where an edge length is asked for.
+  /// What of the surface is left after the removal, or becomes blocks, sets the number of quads where an edge length is
+  /// asked for.
   void countSmallComponents()
   {
     const double quad = made_.edgeLength * made_.edgeLength;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// From the input in its frame to the surface that attempts begin with: repaired, with features, refined for the size of the quads.
+/// From the input in its frame to the surface that attempts begin with: repaired, with features, refined for the size
+/// of the quads.
 #pragma once
 
 #include "Base/Error.h"
@@ -30,11 +31,12 @@ struct SizedSurface
   int decimations = 0; ///< runs of phase 1 that closing handles took
 };
 
-/// Lengths in options are in the frame. The input is let go as soon as the surface is prepared. store: null: none. Throws InvalidInput as
-/// prepareSurface does.
+/// Lengths in options are in the frame. The input is let go as soon as the surface is prepared. store: null: none.
+/// Throws InvalidInput as prepareSurface does.
 SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, ResultStore* store);
 
-/// s for a number of quads, an edge length or a relative one, whichever the options ask for, kept to the bits of Frame::lengthOf.
+/// s for a number of quads, an edge length or a relative one, whichever the options ask for, kept to the bits of
+/// Frame::lengthOf.
 /// sizedArea: the surface's area over its sizes.
 double targetEdgeLength(
   const RemeshOptions& options, double sizedArea, double boundingBoxDiagonal);

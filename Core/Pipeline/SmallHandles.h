@@ -17,8 +17,8 @@ struct ClosedHandles
   int decimations = 0; ///< runs of phase 1
 };
 
-/// Handles that are shorter round, or through, than options.closeHandles edge lengths are found on the intermediate level and cut on the
-/// surface, until there is no shorter one, see closeHandles. The surface is refined afterwards.
+/// Handles that are shorter round, or through, than options.closeHandles edge lengths are found on the intermediate
+/// level and cut on the surface, until there is no shorter one, see closeHandles. The surface is refined afterwards.
 ClosedHandles closeSmallHandles(
   PreparedSurface& surface, double edgeLength, const RemeshOptions& options);
 

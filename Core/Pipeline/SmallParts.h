@@ -15,15 +15,15 @@ namespace quadrille
 /// So many quads a loop needs, at least, round a handle, through it or round a hole: shorter ones are not resolved.
 constexpr double kQuadsOfLoop = 3;
 
-/// What quads of the target edge length s cannot resolve. Measured on the intermediate level, whose edges are about s/2 to s long: loops about
-/// as long as 3 s come out a tenth too short, those of one or two s up to 40 %.
+/// What quads of the target edge length s cannot resolve. Measured on the intermediate level, whose edges are about s/2
+/// to s long: loops about as long as 3 s come out a tenth too short, those of one or two s up to 40 %.
 struct SmallParts
 {
   std::size_t handles = 0; ///< genus, the sum over all components
   std::size_t unresolvedHandles =
     0; ///< those with a loop shorter than kQuadsOfLoop s, see findHandles
-  /// The shortest loop round or through a handle, in units of the input; 0 without handles. Above kQuadsOfLoop s another one may be
-  /// somewhat shorter.
+  /// The shortest loop round or through a handle, in units of the input; 0 without handles. Above kQuadsOfLoop s
+  /// another one may be somewhat shorter.
   double shortestLoop = 0;
   Vector3 place = Vector3::Zero(); ///< the middle of that loop
   bool complete = true;            ///< false: too many to look at all

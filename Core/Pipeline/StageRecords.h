@@ -13,8 +13,8 @@ namespace quadrille
 {
 
 /// One stage of a run: names are read, repair, order, connectivity, phase1, phase2, field,
-/// seamless, quantize, embed, replay, extract (the benchmark's columns), and refine, close, handles, metric, certify, optimize, charts,
-/// retries.
+/// seamless, quantize, embed, replay, extract (the benchmark's columns), and refine, close, handles, metric, certify,
+/// optimize, charts, retries.
 struct StageRecord
 {
   std::string stage;
@@ -23,8 +23,8 @@ struct StageRecord
   std::size_t elementsOut = 0;
 };
 
-/// The stages in the order of their first run. A stage that had to be repeated is one record, with the time of all its runs and the sizes of
-/// the last one.
+/// The stages in the order of their first run. A stage that had to be repeated is one record, with the time of all its
+/// runs and the sizes of the last one.
 class StageRecords
 {
 public:

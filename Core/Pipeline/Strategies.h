@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The strategies of Recovery, each a function of the attempts so far; see Documentation/Design.md, "Stepping back". Each says what its bound counts.
+/// The strategies of Recovery, each a function of the attempts so far; see Documentation/Design.md, "Stepping back".
+/// Each says what its bound counts.
 #pragma once
 
 #include "Pipeline/Attempt.h"
@@ -30,11 +31,13 @@ struct Trouble
 
 // For another map of the same round.
 
-/// Where the coarse map fails: keeps the intermediate vertices near the offenders and raises the budget by their number and a half. Where the
-/// coarse level has all of the intermediate one already, both get about twice as many. Bound: times one after the other.
+/// Where the coarse map fails: keeps the intermediate vertices near the offenders and raises the budget by their number
+/// and a half. Where the coarse level has all of the intermediate one already, both get about twice as many. Bound:
+/// times one after the other.
 std::optional<Plan> moreFreedom(const Trouble& trouble);
 
-/// Where the surface's triangles have no room for the map, their vertices are kept on all levels, so that the coarse map shows what there is.
+/// Where the surface's triangles have no room for the map, their vertices are kept on all levels, so that the coarse
+/// map shows what there is.
 /// Bound: times in a round.
 std::optional<Plan> keptOffenders(const Trouble& trouble);
 
@@ -46,8 +49,8 @@ std::optional<Plan> smallerQuadsNear(const Trouble& trouble);
 /// Where smaller quads near the places do not do: twice as many everywhere. Bound: times one after the other.
 std::optional<Plan> moreQuads(const Trouble& trouble);
 
-/// Features that only the dihedral angle asked for are given up near the places of a failure, or near folds at which quads are turned over,
-/// further round them each time. Bound: times in all.
+/// Features that only the dihedral angle asked for are given up near the places of a failure, or near folds at which
+/// quads are turned over, further round them each time. Bound: times in all.
 std::optional<Plan> fewerFeatures(const Trouble& trouble);
 
 /// Features that can be given up near the places.

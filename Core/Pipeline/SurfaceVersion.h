@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The same triangles with other features and sizes. A surface of two million faces takes 140 MB, what changes from one size of quads to
-/// another, or from one attempt to the next, takes ten: so the stages share the triangles and put on what they need.
+/// The same triangles with other features and sizes. A surface of two million faces takes 140 MB, what changes from one
+/// size of quads to another, or from one attempt to the next, takes ten: so the stages share the triangles and put on
+/// what they need.
 #pragma once
 
 #include "Mesh/Surface.h"
@@ -48,11 +49,13 @@ public:
   const PreparedSurface* operator->() const { return surface_.get(); }
   const std::shared_ptr<PreparedSurface>& pointer() const { return surface_; }
 
-  /// Puts the sizes of the plan on and takes the features off that it gives up; what another plan has changed is undone.
+  /// Puts the sizes of the plan on and takes the features off that it gives up; what another plan has changed is
+  /// undone.
   void apply(const Plan& plan);
   /// Of the surface as it is now.
   ResultKey key() const { return planKey_; }
-  /// The sizes that `change` makes of those the surface has now, which it keeps. change: may alter the sizing of the mesh only.
+  /// The sizes that `change` makes of those the surface has now, which it keeps. change: may alter the sizing of the
+  /// mesh only.
   std::vector<float> changedSizes(const std::function<void(Mesh&)>& change);
   /// The surface's area over its sizes, or over others.
   double sizedArea() const;

@@ -20,9 +20,9 @@ struct ChartCounts
 
 /// Carries every face into the chart of its neighbour, breadth first from the lowest face of each component, so that
 /// one chart a component is left. What remains of seams is what the breadth-first tree does not cross and that
-/// carries a rotation or a translation: paths between irregular vertices, corners and handles, none of which ends at a regular
-/// vertex. Transitions change with the charts and stay exact; determinants, turns and isolines stay. Edges whose images no
-/// quarter turn joins, or of zero length, are not crossed. uv: #H.
+/// carries a rotation or a translation: paths between irregular vertices, corners and handles, none of which ends at a
+/// regular vertex. Transitions change with the charts and stay exact; determinants, turns and isolines stay. Edges
+/// whose images no quarter turn joins, or of zero length, are not crossed. uv: #H.
 ChartCounts mergeCharts(const Mesh& mesh, std::vector<FixedVec2>& uv);
 
 } // namespace quadrille

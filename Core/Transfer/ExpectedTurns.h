@@ -10,8 +10,8 @@
 namespace quadrille
 {
 
-/// Quarter turns, #V of `fine`: those of the coarse level at its vertices (coarseTurns: #V of coarse.mesh); the vertices that the
-/// decimation removed are regular.
+/// Quarter turns, #V of `fine`: those of the coarse level at its vertices (coarseTurns: #V of coarse.mesh); the
+/// vertices that the decimation removed are regular.
 std::vector<int> expectedTurns(
   const Mesh& fine, const Level& coarse, const std::vector<int>& coarseTurns);
 

@@ -11,8 +11,8 @@
 namespace quadrille
 {
 
-/// The corners of a vertex have the same uv except where the map is cut, so that one value a vertex and the corners that differ
-/// from it say all: 8 bytes a face and 20 for each such corner, in place of 48.
+/// The corners of a vertex have the same uv except where the map is cut, so that one value a vertex and the corners
+/// that differ from it say all: 8 bytes a face and 20 for each such corner, in place of 48.
 class PackedMap
 {
 public:

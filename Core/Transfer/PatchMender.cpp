@@ -380,8 +380,8 @@ void PatchMender::addFacesAround(Index corner)
   }
 }
 
-/// Triangles that are not positive, and vertices of wrong turns, of the patch as collectFans left it; those with positive triangles only
-/// count more: nothing shows the untangler, or the extraction, where the turn was lost.
+/// Triangles that are not positive, and vertices of wrong turns, of the patch as collectFans left it; those with
+/// positive triangles only count more: nothing shows the untangler, or the extraction, where the turn was lost.
 std::size_t PatchMender::countDefectsInPatch() const
 {
   std::size_t count = static_cast<std::size_t>(

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// What un-flip and un-collapse do to the corners of a star [Ebke et al. 2016, Appendix A], whatever a point is: fixed-point uv
-/// for the map, complex numbers for the triangles laid out in their planes.
+/// What un-flip and un-collapse do to the corners of a star [Ebke et al. 2016, Appendix A], whatever a point is:
+/// fixed-point uv for the map, complex numbers for the triangles laid out in their planes.
 #pragma once
 
 #include "Hierarchy/LogRecords.h"
@@ -43,8 +43,8 @@ public:
     corner_[nextG] = dInG + Charts::rotateBack(rotation, corner_[h] - dInF);
   }
 
-  /// Lays the ring of a removed vertex out in the chart of the first face that is left, relative to the vertex that the star had
-  /// collapsed onto. Returns where the weights put the removed vertex there.
+  /// Lays the ring of a removed vertex out in the chart of the first face that is left, relative to the vertex that the
+  /// star had collapsed onto. Returns where the weights put the removed vertex there.
   Point unfold(const CollapseRecord& record)
   {
     const int first = record.firstSurvivor();

@@ -28,7 +28,8 @@ namespace
 using Complex = std::complex<double>;
 using Polygon = std::vector<Complex>;
 
-/// Steps from triangle to triangle after which a walk stays where it is: only triangles without area make it go in circles.
+/// Steps from triangle to triangle after which a walk stays where it is: only triangles without area make it go in
+/// circles.
 constexpr int kMostSteps = 64;
 /// Triangles through which a face may reach; what is farther counts for the last one.
 constexpr int kMostDepth = 24;

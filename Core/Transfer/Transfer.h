@@ -28,8 +28,8 @@ struct TransferResult
   std::size_t replayNotPositive = 0; ///< triangles with !(det > 0) that the replay left
   std::size_t mendedPatches = 0;     ///< patches re-embedded afterwards
   std::size_t notPositive = 0;       ///< triangles with !(det > 0) in the end
-  /// Vertices of these triangles or, if there are none, of those at vertices of wrong turns, sorted. Empty when the coarse map was
-  /// invalid already. Where the finest mesh has too few triangles between irregular
+  /// Vertices of these triangles or, if there are none, of those at vertices of wrong turns, sorted. Empty when the
+  /// coarse map was invalid already. Where the finest mesh has too few triangles between irregular
   /// vertices or corners for what the coarse map asks there, no replay can be valid; keeping these vertices on
   /// the coarse level (HierarchyOptions::keepVertices) shows its map what there is.
   std::vector<Index> offenders;
@@ -46,8 +46,8 @@ TransferResult transferMap(const Mesh& fine, const Level& coarse, const Decimati
 std::vector<FixedVec2> transferToLevel(const Level& coarse, const Level& level, std::size_t rounds,
   const DecimationLog& log, const std::vector<FixedVec2>& coarseUv, const TransferOptions& options);
 
-/// Carries a map of a level between, as transferToLevel makes it, to the finest mesh. uv: #H of level.mesh; turns: #V of the finest mesh,
-/// what the map should wind round each vertex. Throws InvalidInput when sizes or rounds do not fit.
+/// Carries a map of a level between, as transferToLevel makes it, to the finest mesh. uv: #H of level.mesh; turns: #V
+/// of the finest mesh, what the map should wind round each vertex. Throws InvalidInput when sizes or rounds do not fit.
 TransferResult transferFromLevel(const Mesh& fine, const Level& level, std::size_t rounds,
   const DecimationLog& log, const std::vector<FixedVec2>& uv, const std::vector<int>& turns,
   const TransferOptions& options);

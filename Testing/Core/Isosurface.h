@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Isosurfaces on coarse grids, as visualization tools make them: triangles of all shapes, facets with angles of all sizes, islands.
+/// Isosurfaces on coarse grids, as visualization tools make them: triangles of all shapes, facets with angles of all
+/// sizes, islands.
 #pragma once
 
 #include "TestMeshes.h"
@@ -15,8 +16,8 @@
 namespace quadrille::test
 {
 
-/// Marching tetrahedra: where `field` is 0 between points of the cubic grid with spacing 1 and coordinates -extent to extent. Outwards
-/// is where the field is positive; open where the surface meets the sides of the grid.
+/// Marching tetrahedra: where `field` is 0 between points of the cubic grid with spacing 1 and coordinates -extent to
+/// extent. Outwards is where the field is positive; open where the surface meets the sides of the grid.
 inline Mesh isosurface(int extent, const std::function<double(const Vector3&)>& field)
 {
   const int side = 2 * extent + 1;

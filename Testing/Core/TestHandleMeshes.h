@@ -14,8 +14,8 @@ struct SphereWithHandle
   double mouthLength; ///< round the mouth of the handle
 };
 
-/// The unit sphere with a handle at a place on it: the two triangles nearest to the place that have no vertex in common are
-/// taken out and joined by a tube of `rings` rings that bows out by `height`.
+/// The unit sphere with a handle at a place on it: the two triangles nearest to the place that have no vertex in common
+/// are taken out and joined by a tube of `rings` rings that bows out by `height`.
 inline SphereWithHandle sphereWithHandle(
   int level, const Vector3& place, int rings = 6, double height = 0.1)
 {

@@ -332,7 +332,8 @@ public:
   std::vector<std::string> lines;
 };
 
-/// ParaView asks every port in turn: the run is not repeated, and its reason printed once, without the executive's dump of the request.
+/// ParaView asks every port in turn: the run is not repeated, and its reason printed once, without the executive's dump
+/// of the request.
 TEST(QuadRemeshFailure, IsToldOnceForAllPorts)
 {
   const vtkSmartPointer<vtkOutputWindow> before = vtkOutputWindow::GetInstance();

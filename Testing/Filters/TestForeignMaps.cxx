@@ -39,7 +39,8 @@ vtkSmartPointer<vtkPolyData> mappedTorus()
   return mapped;
 }
 
-/// The same triangles without any array; corner i of cell f has point 3 f + i where `soup`, else the point of the map for display.
+/// The same triangles without any array; corner i of cell f has point 3 f + i where `soup`, else the point of the map
+/// for display.
 vtkSmartPointer<vtkPolyData> bareSurface(vtkPolyData* mapped, bool soup)
 {
   auto bare = vtkSmartPointer<vtkPolyData>::New();
@@ -524,7 +525,8 @@ TEST(ForeignMaps, EndsOfFeaturesAreTold)
 
 #ifdef QUADRILLE_SHARED_DATA
 
-// Maps by other programs; the counts of fandisk are those of the reference extraction [Ebke et al. 2013] by its authors.
+// Maps by other programs; the counts of fandisk are those of the reference extraction [Ebke et al. 2013] by its
+// authors.
 TEST(ForeignMaps, FandiskOfAnotherProgram)
 {
   const std::string path = QUADRILLE_SHARED_DATA "/igm/qex_fandisk_param.obj";

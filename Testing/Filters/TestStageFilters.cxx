@@ -173,8 +173,8 @@ bool hasPrepared(vtkQuadrilleAlgorithm* filter)
   return std::string(filter->GetStageTimesText()).find("repair:") != std::string::npos;
 }
 
-/// What is found in the process, and what is made again where nobody holds it any more (from a file, in another process), are the same
-/// bytes.
+/// What is found in the process, and what is made again where nobody holds it any more (from a file, in another
+/// process), are the same bytes.
 TEST(StageFilters, WhatIsHeldIsFoundAndMadeAgainWhereItIsNot)
 {
   const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(80, 40));
@@ -567,7 +567,8 @@ TEST(StageFilters, SmoothingIsAChoice)
   EXPECT_EQ(extraction->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
 }
 
-/// Where a loop is too short for three quads, the first filter makes them smaller there, as the one click does, and tells the same.
+/// Where a loop is too short for three quads, the first filter makes them smaller there, as the one click does, and
+/// tells the same.
 TEST(StageFilters, ChainMakesQuadsSmallerAtShortLoops)
 {
   const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::parametricGrid(160, 50, true,

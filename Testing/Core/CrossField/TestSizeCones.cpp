@@ -43,7 +43,8 @@ TEST(SizeCones, FlatSurfaceOfOneSizeHasNoError)
 
 TEST(SizeCones, LinearGrowthOnAStripIsTheErrorOfItsRegularMap)
 {
-  // Without irregular vertices a map of a strip has one size only in the middle of which the logarithms of the sizes lie.
+  // Without irregular vertices a map of a strip has one size only in the middle of which the logarithms of the sizes
+  // lie.
   const auto size = [](const Vector3& p) { return std::exp(0.05 * p.x()); };
   const Mesh mesh = withSizes(gridPlane(40, 10), size);
   const FieldTopology topology = buildFieldTopology(mesh);

@@ -186,8 +186,8 @@ TEST(Quantize, IntegersAreClosedPositiveAndWind)
   }
 }
 
-/// On a staircase of boundary corners a step backwards would leave every triangle positive, with corners of one and three quarter turns
-/// exchanged.
+/// On a staircase of boundary corners a step backwards would leave every triangle positive, with corners of one and
+/// three quarter turns exchanged.
 TEST(Quantize, CurvesAreNeverRunBackwards)
 {
   const SyntheticMap map = staircaseMap(4, 4, 4, 3, 3.3, true, 8);

@@ -16,7 +16,8 @@ using namespace quadrille;
 namespace
 {
 
-/// A plane of unit cells, mapped to itself, except that inner vertices lie elsewhere, and those of the sides elsewhere along them.
+/// A plane of unit cells, mapped to itself, except that inner vertices lie elsewhere, and those of the sides elsewhere
+/// along them.
 struct ShakenPlane
 {
   Mesh mesh;
@@ -167,7 +168,8 @@ TEST(RelaxMap, KeepsIsolinesAndIntegers)
   }
 }
 
-/// Without the sweeps over single vertices, 15 steps of Newton's method would not do it: each lets a crushed triangle grow by a third.
+/// Without the sweeps over single vertices, 15 steps of Newton's method would not do it: each lets a crushed triangle
+/// grow by a third.
 TEST(RelaxMap, RaisesCrushedTriangles)
 {
   ShakenPlane plane(9, 0);

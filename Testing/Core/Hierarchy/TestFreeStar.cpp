@@ -188,6 +188,7 @@ TEST(FreeStar, foldsOfTheInputDoNotStopPhase1)
     options.threads = 1;
     return buildHierarchy(mesh, 1, options).intermediate.mesh.vertexCount();
   };
-  // Noise makes the surface larger. Without the rule for stars that are folded already more than half of the vertices stay.
+  // Noise makes the surface larger. Without the rule for stars that are folded already more than half of the vertices
+  // stay.
   EXPECT_LT(verticesAfter(roughSphere(5, 0.03)), 2 * verticesAfter(sphere(5)));
 }

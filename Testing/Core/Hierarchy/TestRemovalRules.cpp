@@ -236,8 +236,8 @@ TEST(RemovalRules, aStarThatMeetsAVertexTwiceStays)
 
 TEST(RemovalRules, aCurveIsStraightInThePlanarMap)
 {
-  // The neighbour inside a bend lies short of the chord that takes the bend's place. On the surface its triangle would turn round, in the
-  // map, where each side of a curve has half a turn, there is room for it.
+  // The neighbour inside a bend lies short of the chord that takes the bend's place. On the surface its triangle would
+  // turn round, in the map, where each side of a curve has half a turn, there is room for it.
   Mesh mesh = markEdges(gridPlane(8, 8),
     [](const Vector3& p) { return (p.y() == 4 && p.x() >= 4) || (p.x() == 4 && p.y() >= 4); });
   const Index v = vertexAt(mesh, Vector3(4, 4, 0));

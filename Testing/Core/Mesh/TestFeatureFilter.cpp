@@ -129,7 +129,8 @@ TEST(FeatureFilter, SharpCubeIsLeftAlone)
   EXPECT_EQ(featureEdges(mesh), 72u);
 }
 
-/// A plane 40 by 40 with a band between the rows y = 20 and y = 20 + width, where it bends by `first` and `second` radians.
+/// A plane 40 by 40 with a band between the rows y = 20 and y = 20 + width, where it bends by `first` and `second`
+/// radians.
 Mesh bentBand(int width, double first, double second, std::uint8_t secondFlags = kDetected)
 {
   Mesh mesh = test::gridPlane(40, 40);
@@ -189,8 +190,8 @@ TEST(FeatureFilter, SideOfAThinBandThatWasAskedForStays)
 
 TEST(FeatureFilter, EndOfAThinBandIsNoSideOfIt)
 {
-  // A flat column of features at x = 30 ends the band. Without its edge there the band would be a bay of the wide patch beyond, and as
-  // thin as before.
+  // A flat column of features at x = 30 ends the band. Without its edge there the band would be a bay of the wide patch
+  // beyond, and as thin as before.
   Mesh mesh = bentBand(1, 0.8, 0.9);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {

@@ -137,7 +137,8 @@ TEST(Frame, AScaleIsUndone)
   }
 }
 
-/// Both kinds of files: with faces that were turned round, and with faces as they were, so that the surface is inside out.
+/// Both kinds of files: with faces that were turned round, and with faces as they were, so that the surface is inside
+/// out.
 TEST(Frame, AMirrorImageIsTheSameSurface)
 {
   for (const char* name : { "part.ply", "frame.ply", "beast.ply" })

@@ -173,8 +173,8 @@ TEST(FinalQuality, StopsOnRequest)
 }
 
 #ifdef QUADRILLE_SHARED_DATA
-/// Its ear has a pocket narrower than a quad: a map that follows it turns quads over. Where points move over the surface afterwards
-/// they can be mended, else the carried map is held there.
+/// Its ear has a pocket narrower than a quad: a map that follows it turns quads over. Where points move over the
+/// surface afterwards they can be mended, else the carried map is held there.
 TEST(FinalQuality, TurnsNoQuadOver)
 {
   const auto input = test::loadPly(std::string(QUADRILLE_SHARED_DATA) + "/scan/igea.ply");

@@ -183,7 +183,8 @@ TEST(Pipeline, QuadsAreSmallerOnlyWhereTheyDoNotFit)
   EXPECT_EQ(*most, 1.0F);
 }
 
-/// A fat torus, round whose tube there are so many quads only that the intermediate level has no vertex more than the coarse one.
+/// A fat torus, round whose tube there are so many quads only that the intermediate level has no vertex more than the
+/// coarse one.
 TEST(Pipeline, CoarseLevelThatHasAllVerticesGetsMore)
 {
   const Mesh mesh = test::torus(64, 64, 1, 0.9);
@@ -210,7 +211,8 @@ TEST(Pipeline, ThinTorusIsAnUnresolvedHandle)
     EXPECT_EQ(result.smallParts.handles, 1u);
     EXPECT_EQ(result.smallParts.unresolvedHandles, unresolved);
     EXPECT_TRUE(result.smallParts.complete);
-    // The intermediate level lies in the tube, with edges that are not much shorter than the tube is wide: twice round its width is the least.
+    // The intermediate level lies in the tube, with edges that are not much shorter than the tube is wide: twice round
+    // its width is the least.
     EXPECT_GT(result.smallParts.shortestLoop, (unresolved > 0 ? 3.5 : 5.5) * 0.05);
     EXPECT_LT(result.smallParts.shortestLoop, 1.05 * 2 * test::kPi * 0.05);
     EXPECT_NEAR(result.smallParts.place.norm(), 1, 0.06);
@@ -373,8 +375,8 @@ TEST(Pipeline, CoarseIsosurface)
   EXPECT_TRUE(tells(result, "do not stand out from their surroundings"));
 }
 
-// Six creases meet in the tip, at 26 degrees from each other, with irregular vertices between them: quads there are long and thin
-// whatever they do.
+// Six creases meet in the tip, at 26 degrees from each other, with irregular vertices between them: quads there are
+// long and thin whatever they do.
 TEST(Pipeline, QuadsRoundTheTipOfAConeAreNotTurnedOver)
 {
   constexpr Index kSides = 6;
@@ -422,7 +424,8 @@ TEST(Pipeline, QuadsTurnedOverNearFoldsAreTriedAgain)
   EXPECT_TRUE(quadsTurnedOver(result.quads.points, result.quads.quads).empty());
 }
 
-// Four quads are turned over near folds. To have three instead, 800 of 2,800 sharp edges would go: that is not worth it.
+// Four quads are turned over near folds. To have three instead, 800 of 2,800 sharp edges would go: that is not worth
+// it.
 TEST(Pipeline, FeaturesAreNotGivenUpForSingleQuads)
 {
   const std::string path = std::string(QUADRILLE_SHARED_DATA) + "/cad/tm_box.ply";

@@ -93,7 +93,8 @@ std::vector<std::array<Index, 4>> canonical(std::vector<std::array<Index, 4>> qu
   return quads;
 }
 
-/// The same quads over the same points, up to `tolerance` in units of the first; with the faces' sense, as the input has it.
+/// The same quads over the same points, up to `tolerance` in units of the first; with the faces' sense, as the input
+/// has it.
 void expectSameAfterMove(const RemeshResult& here, const RemeshResult& there, const Move& back,
   double tolerance, bool reversed)
 {

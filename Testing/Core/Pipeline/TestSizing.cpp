@@ -90,7 +90,8 @@ RemeshResult remeshWith(const SurfaceInput& input, std::size_t quads, int thread
   return result;
 }
 
-/// Half of the surface, beyond `z`, asks for edges half as long. Away from where sizes grow the ratio of mean lengths is 2 up to 15 %.
+/// Half of the surface, beyond `z`, asks for edges half as long. Away from where sizes grow the ratio of mean lengths
+/// is 2 up to 15 %.
 void expectHalves(const Mesh& mesh, std::size_t quads, double middle, double away)
 {
   const auto fine = [=](const Vector3& p) { return p.x() > middle + away / 4; };

@@ -48,8 +48,8 @@ inline void shuffleCharts(std::vector<FixedVec2>& uv, unsigned seed)
 /// Of a vertex with an edge that has no length in the map: such an edge has no rotation.
 constexpr int kUnknownTurns = -1;
 
-/// Quarter turns of the charts once round each inner vertex, modulo 4; 0 at boundary vertices; kUnknownTurns where an edge has no
-/// length.
+/// Quarter turns of the charts once round each inner vertex, modulo 4; 0 at boundary vertices; kUnknownTurns where an
+/// edge has no length.
 inline std::vector<int> holonomy(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 {
   std::vector<int> turns(mesh.vertexCount(), 0);

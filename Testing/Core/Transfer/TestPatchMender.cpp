@@ -92,8 +92,8 @@ TEST(PatchMender, mendsAcrossSeamsWithRotations)
 
 TEST(PatchMender, endOfASlitStaysOnItsWholePoint)
 {
-  // A plane with a slit from (10, 10) to the right. At its end the boundary turns back along itself: both boundary edges lie on one
-  // isoline, as where a boundary passes straight, but there are four quarter turns between them.
+  // A plane with a slit from (10, 10) to the right. At its end the boundary turns back along itself: both boundary
+  // edges lie on one isoline, as where a boundary passes straight, but there are four quarter turns between them.
   const int n = 20;
   std::vector<Vector3> points;
   std::vector<Triangle> triangles;
