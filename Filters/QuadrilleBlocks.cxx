@@ -42,8 +42,7 @@ BlockPath childOf(const BlockPath& path, unsigned index)
 template <class Composite>
 std::string nameOfChild(Composite* data, unsigned index)
 {
-  if (!data->HasMetaData(index) ||
-    !data->GetMetaData(index)->Has(vtkCompositeDataSet::NAME()))
+  if (!data->HasMetaData(index) || !data->GetMetaData(index)->Has(vtkCompositeDataSet::NAME()))
   {
     return "";
   }
@@ -62,7 +61,8 @@ void addLevels(BlockTree& tree, const BlockPath& path, vtkUniformGridAMR* data)
     tree[levelPath] = { "vtkMultiBlockDataSet", "Level " + std::to_string(level), false, {} };
     for (unsigned i = 0; i < data->GetNumberOfDataSets(level); ++i)
     {
-      addNodes(tree, childOf(levelPath, i), "Grid " + std::to_string(i), data->GetDataSet(level, i));
+      addNodes(
+        tree, childOf(levelPath, i), "Grid " + std::to_string(i), data->GetDataSet(level, i));
     }
   }
 }
@@ -98,8 +98,8 @@ void addNodes(BlockTree& tree, const BlockPath& path, const std::string& name, v
   {
     for (unsigned i = 0; i < collection->GetNumberOfPartitionedDataSets(); ++i)
     {
-      addNodes(tree, childOf(path, i), nameOfChild(collection, i),
-        collection->GetPartitionedDataSet(i));
+      addNodes(
+        tree, childOf(path, i), nameOfChild(collection, i), collection->GetPartitionedDataSet(i));
     }
   }
   else if (auto* levels = vtkUniformGridAMR::SafeDownCast(data))
@@ -120,8 +120,7 @@ void setName(vtkInformation* metaData, const std::string& name)
   }
 }
 
-void setChild(
-  vtkDataObject* parent, unsigned index, vtkDataObject* child, const std::string& name)
+void setChild(vtkDataObject* parent, unsigned index, vtkDataObject* child, const std::string& name)
 {
   if (auto* blocks = vtkMultiBlockDataSet::SafeDownCast(parent))
   {
@@ -322,7 +321,8 @@ void writeBlocks(const BlockTree& tree,
     {
       output->ShallowCopy(object);
     }
-    made[path] = path.empty() && !node.type.empty() ? vtkSmartPointer<vtkDataObject>(output) : object;
+    made[path] =
+      path.empty() && !node.type.empty() ? vtkSmartPointer<vtkDataObject>(output) : object;
   }
   auto* source = vtkPartitionedDataSetCollection::SafeDownCast(input);
   auto* target = vtkPartitionedDataSetCollection::SafeDownCast(output);

@@ -32,7 +32,8 @@ struct BlockReport
   int outcome = 0; ///< a vtkQuadrilleAlgorithm::OutcomeType
   std::string outcomeText;
   std::string result; ///< what was made, in a sentence
-  bool mayPass = false; ///< a failure that may pass by itself, as for lack of memory: the next execution tries again
+  bool mayPass =
+    false; ///< a failure that may pass by itself, as for lack of memory: the next execution tries again
   std::string stageTimes;
   std::string certificate;
   std::vector<std::string> notices;
@@ -52,7 +53,7 @@ struct BlockMemory
 /// A result and all that it depends on.
 struct EarlierResult
 {
-  std::string settings;                                     ///< vtkQuadrilleAlgorithm::GetSettings()
+  std::string settings; ///< vtkQuadrilleAlgorithm::GetSettings()
   std::vector<std::pair<const void*, vtkMTimeType>> stamps; ///< of the inputs
   double areaShare = 1;
   double wholeDiagonal = 0;
@@ -72,7 +73,8 @@ struct BlockState
 {
   BlockReport report;
   std::unique_ptr<BlockMemory> memory;
-  std::vector<vtkSmartPointer<vtkDataObject>> lastResult; ///< by port; shares its arrays with the outputs
+  std::vector<vtkSmartPointer<vtkDataObject>>
+    lastResult; ///< by port; shares its arrays with the outputs
   /// Times of the filter and the block's inputs at its last success; empty where there was none.
   std::vector<std::pair<const void*, vtkMTimeType>> lastStamps;
   /// The same of its last execution where that failed and would fail again.
@@ -105,9 +107,11 @@ struct BlockState
 struct Block
 {
   BlockPath path;
-  std::string name; ///< for messages: "" for a plain data set, else the names from the root down, with '/' between them
-  std::vector<vtkSmartPointer<vtkDataObject>> inputs;  ///< by port; null where there is nothing
-  std::vector<vtkSmartPointer<vtkDataObject>> outputs; ///< by port; empty objects that the filter fills
+  std::string
+    name; ///< for messages: "" for a plain data set, else the names from the root down, with '/' between them
+  std::vector<vtkSmartPointer<vtkDataObject>> inputs; ///< by port; null where there is nothing
+  std::vector<vtkSmartPointer<vtkDataObject>>
+    outputs; ///< by port; empty objects that the filter fills
   BlockState* state = nullptr;
   /// Its part of the area of all blocks; 1 where it is the only one.
   double areaShare = 1;
@@ -123,8 +127,9 @@ struct Block
 /// A node of composite data; the root has the empty path.
 struct BlockNode
 {
-  std::string type; ///< class name of composite data; "" for a data set, and for a leaf that is empty
-  std::string name; ///< "" where it has none
+  std::string
+    type; ///< class name of composite data; "" for a data set, and for a leaf that is empty
+  std::string name;     ///< "" where it has none
   bool isBlock = false; ///< a data set, or data that is one surface in several partitions
   std::vector<vtkSmartPointer<vtkDataObject>> pieces; ///< of a block
 };

@@ -323,7 +323,8 @@ std::vector<int> pointValences(vtkPolyData* data)
       double p[3];
       data->GetPoint(static_cast<vtkIdType>(i), p);
       refuse("point ", i, " at (", p[0], ", ", p[1], ", ", p[2], ") has the ",
-        arrays::kTargetValence, " ", valence, ", but only 0 (free) and ", kLeastValence, " to ", kMostValence, " can be asked for");
+        arrays::kTargetValence, " ", valence, ", but only 0 (free) and ", kLeastValence, " to ",
+        kMostValence, " can be asked for");
     }
     valences[i] = static_cast<int>(valence);
   }
@@ -679,8 +680,8 @@ void weldSplitPoints(vtkPolyData* data, Mesh& mesh, int threads)
       sizing[id[i]] = mesh.sizing[i];
     }
   }
-  forEachIndex(mesh.origin.size(), threads,
-    [&](std::size_t h) { mesh.origin[h] = id[mesh.origin[h]]; });
+  forEachIndex(
+    mesh.origin.size(), threads, [&](std::size_t h) { mesh.origin[h] = id[mesh.origin[h]]; });
   mesh.position = std::move(position);
   mesh.sizing = std::move(sizing);
 }
@@ -759,8 +760,8 @@ std::vector<Index> identity(Index count)
   return ids;
 }
 
-void addSourceArrays(vtkPolyData* data, const PreparedSurface& surface,
-  const ConvertedSurface& converted, int threads)
+void addSourceArrays(
+  vtkPolyData* data, const PreparedSurface& surface, const ConvertedSurface& converted, int threads)
 {
   const std::size_t faces = surface.mesh.faceCount();
   auto cells = newArray<vtkIdTypeArray>(arrays::kSourceCellId, 1, faces);
@@ -1185,8 +1186,7 @@ vtkSmartPointer<vtkPolyData> writeMappedSurface(const PreparedSurface& surface,
       vtkIntArray::SafeDownCast(perVertex->GetPointData()->GetArray(name))->GetPointer(0);
     auto array = newArray<vtkIntArray>(name, 1, pointVertex.size());
     int* to = array->GetPointer(0);
-    forEachIndex(
-      pointVertex.size(), threads, [&](std::size_t i) { to[i] = from[pointVertex[i]]; });
+    forEachIndex(pointVertex.size(), threads, [&](std::size_t i) { to[i] = from[pointVertex[i]]; });
     data->GetPointData()->AddArray(array);
   }
   if (splitSeams)

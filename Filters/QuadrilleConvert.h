@@ -79,11 +79,12 @@ struct GuideMark
 /// A surface as Core wants it and the way back from its polygons to the cells of the vtkPolyData.
 struct ConvertedSurface
 {
-  SurfaceInput input; ///< may be moved away; nothing below needs it
+  SurfaceInput input;                   ///< may be moved away; nothing below needs it
   vtkIdType firstCell = 0;              ///< cell id of polygon 0
   std::vector<vtkIdType> cellOfPolygon; ///< only where the surface has strips
-  std::vector<std::array<Index, 3>> stripTriangles; ///< corners of the polygons that come from strips
-  std::size_t ignoredCells = 0;         ///< vertices and lines
+  std::vector<std::array<Index, 3>>
+    stripTriangles;                    ///< corners of the polygons that come from strips
+  std::size_t ignoredCells = 0;        ///< vertices and lines
   std::string patchArray;              ///< name of the cell array that patchIds came from, or empty
   std::vector<FeatureMark> curveMarks; ///< what the curves of the second input added
 

@@ -21,8 +21,7 @@ constexpr const char* kFramePosition = "FramePosition";
 }
 
 /// positions: in the frame, one a vertex of the mesh; points that were split at seams (SurfacePointId) share theirs.
-void addFrame(
-  vtkPolyData* data, const Frame& frame, const std::vector<Vector3>& positions);
+void addFrame(vtkPolyData* data, const Frame& frame, const std::vector<Vector3>& positions);
 
 /// A mesh as readMesh reads it from `data` goes into the frame of the arrays. Where there are none, or points have
 /// moved since, into one of its own: round its box's centre, with the box's longest side as unit, nothing rounded and

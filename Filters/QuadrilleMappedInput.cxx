@@ -226,7 +226,8 @@ Mesh onSurface(const Mesh& inFrame, const Frame& frame, vtkPolyData* data, int t
   vtkDataArray* split = data->GetPointData()->GetArray(arrays::kSurfacePointId);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    mesh.position[split ? static_cast<std::size_t>(split->GetTuple1(static_cast<vtkIdType>(i))) : i] =
+    mesh
+      .position[split ? static_cast<std::size_t>(split->GetTuple1(static_cast<vtkIdType>(i))) : i] =
       points[i];
   }
   if (frame.reversed)

@@ -22,11 +22,12 @@ struct SharedMap;
 struct MappedInput
 {
   std::shared_ptr<const SharedMap> shared; ///< of the filter that made the map; null: it was read
-  Mesh mesh; ///< its faces are the cells
+  Mesh mesh;                               ///< its faces are the cells
   SnapResult map;
   Frame frame;
   Mesh ownMeshInFrame; ///< only where it was read
-  bool mirrored = false; ///< the map was in mirrored texture coordinates, so that v has the other sign now
+  bool mirrored =
+    false; ///< the map was in mirrored texture coordinates, so that v has the other sign now
 
   const Mesh& meshInFrame() const;
   /// What the user should know of the changes; empty where the map was exact.

@@ -141,14 +141,16 @@ public:
   /// Adds the array where there is a colour for each of so many elements.
   void addTo(vtkDataSetAttributes* attributes, long long count) const
   {
-    if (values_.empty() || values_.size() != parts_ * static_cast<std::size_t>(count) || most_ > whole())
+    if (values_.empty() || values_.size() != parts_ * static_cast<std::size_t>(count) ||
+      most_ > whole())
     {
       return;
     }
     auto array = newArray<vtkUnsignedCharArray>(
       parts_ == 4 ? "RGBA" : "RGB", static_cast<int>(parts_), static_cast<std::size_t>(count));
     std::transform(values_.begin(), values_.end(), array->GetPointer(0),
-      [this](double value) { return static_cast<unsigned char>(std::lround(255 / whole() * value)); });
+      [this](double value)
+      { return static_cast<unsigned char>(std::lround(255 / whole() * value)); });
     attributes->SetScalars(array);
   }
 
@@ -256,7 +258,8 @@ private:
   }
 
   /// What the kind of file promises beside the coordinates, in its order: normal, colour, texture coordinates.
-  void readExtras(long long i, const Words& words, vtkDoubleArray* normals, vtkDoubleArray* texture, Colors& colors) const
+  void readExtras(long long i, const Words& words, vtkDoubleArray* normals, vtkDoubleArray* texture,
+    Colors& colors) const
   {
     std::size_t first = 3;
     if (hasNormals_)
@@ -283,7 +286,8 @@ private:
     const std::size_t last = words.size() - (hasTexture_ ? 2 : 0);
     if (hasColors_ && (last < first || !colors.add(words, first, last)))
     {
-      failAtVertex(i, "has no colour of three or four parts like the others, as the file's first word promises");
+      failAtVertex(i,
+        "has no colour of three or four parts like the others, as the file's first word promises");
     }
   }
 

@@ -139,7 +139,7 @@ private:
   vtkSmartPointer<vtkPolyData> write(std::vector<std::string>& notices) const;
 
   std::vector<vtkSmartPointer<vtkPolyData>> pieces_;
-  std::vector<vtkIdType> firstPoint_; ///< of each piece, in all points
+  std::vector<vtkIdType> firstPoint_;    ///< of each piece, in all points
   std::vector<TupleOrigin> placeOrigin_; ///< the first point at a place
   std::vector<vtkIdType> place_;         ///< of each point
   std::vector<vtkIdType> corners_;       ///< places
@@ -184,7 +184,8 @@ void PieceJoin::findPlaces()
   std::vector<std::size_t> order(keys.size());
   std::iota(order.begin(), order.end(), std::size_t{ 0 });
   std::sort(order.begin(), order.end(),
-    [&keys](std::size_t a, std::size_t b) { return std::pair(keys[a], a) < std::pair(keys[b], b); });
+    [&keys](std::size_t a, std::size_t b)
+    { return std::pair(keys[a], a) < std::pair(keys[b], b); });
   place_.resize(keys.size());
   for (std::size_t i = 0; i < order.size(); ++i)
   {
@@ -443,8 +444,7 @@ std::map<std::string, SharedArray> sharedArrays(const std::vector<vtkDataSetAttr
 vtkSmartPointer<vtkAbstractArray> gatherArray(
   const SharedArray& shared, const std::vector<TupleOrigin>& origins, double missing)
 {
-  auto result = vtk::TakeSmartPointer(
-    vtkAbstractArray::CreateArray(shared.model->GetDataType()));
+  auto result = vtk::TakeSmartPointer(vtkAbstractArray::CreateArray(shared.model->GetDataType()));
   result->SetName(shared.model->GetName());
   result->SetNumberOfComponents(shared.model->GetNumberOfComponents());
   for (int c = 0; c < shared.model->GetNumberOfComponents(); ++c)

@@ -311,11 +311,11 @@ void addQuadFeatureEdges(const QuadMesh& mesh, vtkCellData* data)
 /// Which cells are no whole quads of the map.
 void addPartial(const QuadMesh& mesh, vtkCellData* data)
 {
-  auto array =
-    newArray<vtkUnsignedCharArray>(arrays::kPartial, 1, mesh.quads.size() + partialPolygonCount(mesh));
+  auto array = newArray<vtkUnsignedCharArray>(
+    arrays::kPartial, 1, mesh.quads.size() + partialPolygonCount(mesh));
   std::fill_n(array->GetPointer(0), mesh.quads.size(), static_cast<unsigned char>(0));
-  std::fill_n(
-    array->GetPointer(0) + mesh.quads.size(), partialPolygonCount(mesh), static_cast<unsigned char>(1));
+  std::fill_n(array->GetPointer(0) + mesh.quads.size(), partialPolygonCount(mesh),
+    static_cast<unsigned char>(1));
   data->AddArray(array);
 }
 

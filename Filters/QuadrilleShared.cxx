@@ -112,7 +112,8 @@ int kindOf(vtkPolyData* data, vtkIdType cell)
 
 struct Item
 {
-  vtkIdType cell = -1; ///< a line or polygon, or the vertex cell of a single point; -1: a point without cell
+  vtkIdType cell =
+    -1; ///< a line or polygon, or the vertex cell of a single point; -1: a point without cell
   std::vector<vtkIdType> points;
 };
 

@@ -131,8 +131,7 @@ std::optional<std::uint64_t> mappedSurfaceHash(vtkPolyData* data, int threads)
   hash.add(data->GetPoints()->GetData());
   hash.add(data->GetPolys()->GetOffsetsArray());
   hash.add(data->GetPolys()->GetConnectivityArray());
-  for (const char* name :
-    { arrays::kIgm, arrays::kMatching, arrays::kFeatureEdges, arrays::kTwin })
+  for (const char* name : { arrays::kIgm, arrays::kMatching, arrays::kFeatureEdges, arrays::kTwin })
   {
     hash.add(data->GetCellData()->GetArray(name));
   }

@@ -24,7 +24,8 @@ namespace quadrille
 /// What the finest level is made from.
 struct SurfaceKey
 {
-  std::uint64_t input = 0; ///< contentHash of the converted surface with the marks of curves, in its frame
+  std::uint64_t input =
+    0; ///< contentHash of the converted surface with the marks of curves, in its frame
   std::optional<double> featureAngle;
   double edgeLength = 0;
 

@@ -170,7 +170,8 @@ vtkSmartPointer<vtkDataObject> onlyPiece(const std::vector<vtkSmartPointer<vtkDa
   {
     if (found && hasAnything(found) && hasAnything(piece))
     {
-      refuse("the input comes in several pieces; take the output of a filter of Quadrille as it is");
+      refuse(
+        "the input comes in several pieces; take the output of a filter of Quadrille as it is");
     }
     if (!found || hasAnything(piece))
     {

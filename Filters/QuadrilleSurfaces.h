@@ -34,8 +34,7 @@ vtkSmartPointer<vtkPolyData> surfaceOf(
   vtkDataObject* data, bool markVolumeFaces, SurfaceCounts& counts);
 
 /// The only piece that has anything in it, or null. Throws InvalidInput where there are several.
-vtkSmartPointer<vtkDataObject> onlyPiece(
-  const std::vector<vtkSmartPointer<vtkDataObject>>& pieces);
+vtkSmartPointer<vtkDataObject> onlyPiece(const std::vector<vtkSmartPointer<vtkDataObject>>& pieces);
 
 /// Sum of the areas of all polygons; 0 where a coordinate is not finite.
 double areaOf(vtkPolyData* surface);

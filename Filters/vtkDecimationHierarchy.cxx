@@ -59,7 +59,8 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   recipe.curveMarks = converted.curveMarks;
   const auto made = std::make_shared<quadrille::SharedSurface>();
   made->key.input = quadrille::contentHash(framed.input, options.threads);
-  options.progress = this->MakeProgress(0.0, 1.8); // the levels end where half of a whole run is done
+  options.progress =
+    this->MakeProgress(0.0, 1.8); // the levels end where half of a whole run is done
   quadrille::SizedSurface sized = quadrille::sizeSurface(framed.input, options, nullptr);
   quadrille::requireOk(sized.status, "the levels");
   recipe.edgeLength = sized.edgeLength;

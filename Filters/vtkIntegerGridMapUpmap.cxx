@@ -164,7 +164,8 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   if (const auto key = quadrille::mappedSurfaceHash(output, this->NumberOfThreads);
       key && isExact(certificate))
   {
-    held.map = std::make_shared<quadrille::SharedMap>(quadrille::SharedMap{ *key, held.surface, frame });
+    held.map =
+      std::make_shared<quadrille::SharedMap>(quadrille::SharedMap{ *key, held.surface, frame });
     quadrille::share(held.map);
   }
   laps.lap("write", surface.mesh.faceCount(), surface.mesh.faceCount());
@@ -183,8 +184,7 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
 
 //------------------------------------------------------------------------------
 void vtkIntegerGridMapUpmap::FindOrPrepare(quadrille::SurfaceInput& input,
-  const quadrille::SurfaceRecipe& recipe, quadrille::StageLaps& laps,
-  quadrille::SharedLevels& held)
+  const quadrille::SurfaceRecipe& recipe, quadrille::StageLaps& laps, quadrille::SharedLevels& held)
 {
   const quadrille::SurfaceKey key{ quadrille::contentHash(input, this->NumberOfThreads),
     recipe.featureAngle, recipe.edgeLength };

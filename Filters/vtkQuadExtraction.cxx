@@ -234,7 +234,8 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
   quadrille::QuadSource source = sourceOfMapped(input, this->PatchArrayName);
   source.cellDataFrom = static_cast<quadrille::CellDataFrom>(this->CellDataFrom);
   source.threads = this->NumberOfThreads;
-  const quadrille::QuadOutputs written = quadrille::writeOutputs(result.mesh, mesh, mapped.map.uv, source);
+  const quadrille::QuadOutputs written =
+    quadrille::writeOutputs(result.mesh, mesh, mapped.map.uv, source);
   for (const std::string& notice : written.notCarried)
   {
     this->AddNotice(notice);

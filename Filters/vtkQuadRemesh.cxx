@@ -206,8 +206,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   options.warmStart = this->WarmStart != 0;
 
   quadrille::BlockReport& report = block.state->report;
-  LevelMemory* memory =
-    this->KeepLevels ? &block.state->memoryAs<LevelMemory>() : nullptr;
+  LevelMemory* memory = this->KeepLevels ? &block.state->memoryAs<LevelMemory>() : nullptr;
   if (memory != nullptr && options.mergeCharts)
   {
     options.knownMap = memory->mapped.mapFor(input, this->TextureCoordinates);
@@ -283,19 +282,18 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
 void vtkQuadRemesh::AddSettings(std::ostream& os) const
 {
   this->Superclass::AddSettings(os);
-  os
-    << "Method " << this->Method << '\n'
-    << "Integers " << this->Integers << '\n'
-    << "AnisotropyLimit " << this->AnisotropyLimit << '\n'
-    << "SmoothingSteps " << this->SmoothingSteps << '\n'
-    << "CloseHandles " << this->CloseHandles << '\n'
-    << "SmallComponents " << this->SmallComponents << '\n'
-    << "WarmStart " << this->WarmStart << '\n'
-    << "FinalQuality " << this->FinalQuality << '\n'
-    << "DistortionMetric " << this->DistortionMetric << '\n'
-    << "CellDataFrom " << this->CellDataFrom << '\n'
-    << "ComputeMappedSurface " << this->ComputeMappedSurface << '\n'
-    << "TextureCoordinates " << this->TextureCoordinates << '\n';
+  os << "Method " << this->Method << '\n'
+     << "Integers " << this->Integers << '\n'
+     << "AnisotropyLimit " << this->AnisotropyLimit << '\n'
+     << "SmoothingSteps " << this->SmoothingSteps << '\n'
+     << "CloseHandles " << this->CloseHandles << '\n'
+     << "SmallComponents " << this->SmallComponents << '\n'
+     << "WarmStart " << this->WarmStart << '\n'
+     << "FinalQuality " << this->FinalQuality << '\n'
+     << "DistortionMetric " << this->DistortionMetric << '\n'
+     << "CellDataFrom " << this->CellDataFrom << '\n'
+     << "ComputeMappedSurface " << this->ComputeMappedSurface << '\n'
+     << "TextureCoordinates " << this->TextureCoordinates << '\n';
   if (this->FinalQuality != Coarse)
   {
     os << "MemoryLimit " << this->MemoryLimit << '\n'; // by which the finer map may be left out

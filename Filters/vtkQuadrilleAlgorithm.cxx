@@ -140,8 +140,8 @@ struct vtkQuadrilleAlgorithm::Work
   std::size_t cells = 0; ///< of all ranks
   bool isChanged = true;
   std::vector<quadrille::Stamp> stamps; ///< of this rank's pieces
-  std::string error;                ///< why the inputs could not be had
-  std::vector<std::string> notices; ///< on the inputs
+  std::string error;                    ///< why the inputs could not be had
+  std::vector<std::string> notices;     ///< on the inputs
 };
 
 /// One execution: the structure of the input and its blocks.
@@ -150,10 +150,10 @@ struct vtkQuadrilleAlgorithm::Run
   explicit Run(vtkMultiProcessController* controller) : ranks(controller) {}
 
   quadrille::Ranks ranks;
-  std::vector<quadrille::BlockTree> trees; ///< by input port, with this rank's pieces
+  std::vector<quadrille::BlockTree> trees;            ///< by input port, with this rank's pieces
   std::vector<vtkSmartPointer<vtkDataObject>> shared; ///< by input port
   std::vector<std::string> notices;                   ///< on shared inputs
-  std::vector<quadrille::Stamp> stamps; ///< of what all blocks share
+  std::vector<quadrille::Stamp> stamps;               ///< of what all blocks share
   vtkDataObject* input = nullptr;
   std::vector<Work> works;
   bool anew = false; ///< a block is executed
@@ -193,7 +193,9 @@ int vtkQuadrilleAlgorithm::FillInputPortInformation(int port, vtkInformation* in
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(),
-    role == PortRole::Surface ? "vtkDataSet" : role == PortRole::Log ? "vtkTable" : "vtkPolyData");
+    role == PortRole::Surface ? "vtkDataSet"
+      : role == PortRole::Log ? "vtkTable"
+                              : "vtkPolyData");
   if (role == PortRole::Shared)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
@@ -920,8 +922,7 @@ int vtkQuadrilleAlgorithm::Conclude(const Run& run, vtkInformationVector* output
         result->ShallowCopy(work.block.state->lastResult[static_cast<std::size_t>(port)]);
       }
     }
-    quadrille::writeBlocks(
-      run.trees[0], results, run.input, vtkDataObject::GetData(outputs, port));
+    quadrille::writeBlocks(run.trees[0], results, run.input, vtkDataObject::GetData(outputs, port));
   }
   std::vector<std::pair<std::string, quadrille::BlockReport>> reports;
   for (const Work& work : run.works)
@@ -987,8 +988,8 @@ void vtkQuadrilleAlgorithm::SetReports(
     addLines(this->CertificateText, name, report.certificate);
     addLines(this->NoticesText, name, joinLines(report.notices));
     const std::string made = report.result.empty() ? "Done" : report.result;
-    addLines(this->ResultText, name,
-      report.outcome == Succeeded ? made : "Failed: " + report.outcomeText);
+    addLines(
+      this->ResultText, name, report.outcome == Succeeded ? made : "Failed: " + report.outcomeText);
     for (const std::string& notice : report.notices)
     {
       addLines(this->ResultText, name, "Note: " + notice);

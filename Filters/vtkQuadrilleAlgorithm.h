@@ -225,8 +225,9 @@ private:
   double BlockEnd = 1;
   std::chrono::steady_clock::time_point Started;
   bool IsRoot = true; ///< of the ranks of the last execution; it alone prints messages
-  std::map<std::string, std::unique_ptr<quadrille::BlockState>> States; ///< by place and name of the block
-  quadrille::BlockReport* Report = nullptr; ///< of the block that is executed
+  std::map<std::string, std::unique_ptr<quadrille::BlockState>>
+    States;                                    ///< by place and name of the block
+  quadrille::BlockReport* Report = nullptr;    ///< of the block that is executed
   std::vector<quadrille::BlockReport> Reports; ///< of all blocks of the last execution
   std::string OutcomeText;
   std::string StageTimesText;

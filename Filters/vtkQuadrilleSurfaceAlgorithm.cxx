@@ -79,8 +79,7 @@ quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
 //------------------------------------------------------------------------------
 void vtkQuadrilleSurfaceAlgorithm::WarnOfUnusedArrays(const quadrille::Block& block)
 {
-  const auto warn =
-    [&](int port, const char* name, const std::vector<quadrille::ReadArray>& read)
+  const auto warn = [&](int port, const char* name, const std::vector<quadrille::ReadArray>& read)
   {
     if (vtkPolyData* data = block.input(port))
     {
@@ -110,8 +109,7 @@ double vtkQuadrilleSurfaceAlgorithm::LeastAreaShare(std::size_t blocks) const
 }
 
 //------------------------------------------------------------------------------
-quadrille::RemeshOptions vtkQuadrilleSurfaceAlgorithm::MakeOptions(
-  const quadrille::Block& block)
+quadrille::RemeshOptions vtkQuadrilleSurfaceAlgorithm::MakeOptions(const quadrille::Block& block)
 {
   quadrille::RemeshOptions options;
   if (this->TargetType == TARGET_NUMBER_OF_QUADS)
@@ -146,18 +144,17 @@ quadrille::RemeshOptions vtkQuadrilleSurfaceAlgorithm::MakeOptions(
 void vtkQuadrilleSurfaceAlgorithm::AddSettings(std::ostream& os) const
 {
   this->Superclass::AddSettings(os);
-  os
-    << "TargetType " << this->TargetType << '\n'
-    << "NumberOfQuads " << this->NumberOfQuads << '\n'
-    << "QuadsAre " << this->QuadsAre << '\n'
-    << "EdgeLength " << this->EdgeLength << '\n'
-    << "RelativeEdgeLength " << this->RelativeEdgeLength << '\n'
-    << "DetectFeatures " << this->DetectFeatures << '\n'
-    << "FeatureAngle " << this->FeatureAngle << '\n'
-    << "PatchArrayName " << this->PatchArrayName << '\n'
-    << "CoarseVertices " << this->CoarseVertices << '\n'
-    << "StrokeWeight " << this->StrokeWeight << '\n'
-    << "PointValence " << this->PointValence << '\n';
+  os << "TargetType " << this->TargetType << '\n'
+     << "NumberOfQuads " << this->NumberOfQuads << '\n'
+     << "QuadsAre " << this->QuadsAre << '\n'
+     << "EdgeLength " << this->EdgeLength << '\n'
+     << "RelativeEdgeLength " << this->RelativeEdgeLength << '\n'
+     << "DetectFeatures " << this->DetectFeatures << '\n'
+     << "FeatureAngle " << this->FeatureAngle << '\n'
+     << "PatchArrayName " << this->PatchArrayName << '\n'
+     << "CoarseVertices " << this->CoarseVertices << '\n'
+     << "StrokeWeight " << this->StrokeWeight << '\n'
+     << "PointValence " << this->PointValence << '\n';
 }
 
 //------------------------------------------------------------------------------

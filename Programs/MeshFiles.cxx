@@ -246,8 +246,8 @@ std::vector<Coordinates> matchObjPoints(const std::vector<Coordinates>& inFile, 
 
 bool isMoreThanFloat(const Coordinates& p)
 {
-  return std::any_of(p.begin(), p.end(),
-    [](double x) { return static_cast<double>(static_cast<float>(x)) != x; });
+  return std::any_of(
+    p.begin(), p.end(), [](double x) { return static_cast<double>(static_cast<float>(x)) != x; });
 }
 
 /// vtkOBJReader keeps single precision: far from the origin the digits of the file are read again.
@@ -267,8 +267,10 @@ vtkSmartPointer<vtkPolyData> readObj(const std::string& path)
   if (points.empty())
   {
     fail(path,
-      "lies so far from the origin that its points are not told apart in single precision, which is what its "
-      "reader has: remove the texture coordinates, move it to the origin, or save it as PLY or VTP in double precision");
+      "lies so far from the origin that its points are not told apart in single precision, which "
+      "is what its "
+      "reader has: remove the texture coordinates, move it to the origin, or save it as PLY or VTP "
+      "in double precision");
   }
   vtkNew<vtkPoints> inDouble;
   inDouble->SetDataTypeToDouble();

@@ -23,8 +23,8 @@ constexpr std::size_t kHelpWidth = 116;
 constexpr std::size_t kTextColumn = 28;
 
 template <class Number>
-Number parseNumber(
-  const std::string& name, const std::string& text, Range<Number> range, const std::string& before = "")
+Number parseNumber(const std::string& name, const std::string& text, Range<Number> range,
+  const std::string& before = "")
 {
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -32,8 +32,8 @@ Number parseNumber(
     !(value >= range.least && value <= range.most))
   {
     std::ostringstream message;
-    message << "--" << name << " needs " << before << "a number from " << range.least << " to " << range.most << ", not '"
-            << text << "'";
+    message << "--" << name << " needs " << before << "a number from " << range.least << " to "
+            << range.most << ", not '" << text << "'";
     throw UsageError(message.str());
   }
   return value;
@@ -211,8 +211,8 @@ void CommandOptions::beginGroup(const std::string& text)
   parser_->groups.push_back(text);
 }
 
-void CommandOptions::addNumber(const std::string& name, const std::string& unit, Range<double> range,
-  std::function<void(double)> set, const std::string& help)
+void CommandOptions::addNumber(const std::string& name, const std::string& unit,
+  Range<double> range, std::function<void(double)> set, const std::string& help)
 {
   parser_->addValue(
     name, unit, [=](const std::string& word) { set(parseNumber(name, word, range)); }, help);
@@ -225,11 +225,15 @@ void CommandOptions::addCount(const std::string& name, const std::string& unit,
     name, unit, [=](const std::string& word) { set(parseNumber(name, word, range)); }, help);
 }
 
-void CommandOptions::addCountOrWord(const std::string& name, const std::string& unit, Range<long long> range,
-  const std::string& word, std::function<void(std::optional<long long>)> set, const std::string& help)
+void CommandOptions::addCountOrWord(const std::string& name, const std::string& unit,
+  Range<long long> range, const std::string& word,
+  std::function<void(std::optional<long long>)> set, const std::string& help)
 {
   const auto choose = [=](const std::string& given)
-  { set(given == word ? std::nullopt : std::optional(parseNumber(name, given, range, word + " or "))); };
+  {
+    set(
+      given == word ? std::nullopt : std::optional(parseNumber(name, given, range, word + " or ")));
+  };
   parser_->addValue(name, unit, choose, help);
 }
 
@@ -265,8 +269,10 @@ void CommandOptions::addFlag(
 std::optional<std::string> CommandOptions::parse(int argc, char* argv[])
 {
   CLI::App& app = parser_->app;
-  const CLI::Option* askedForHelp = app.set_help_flag("--help,-h", "this text")->group(parser_->groupName());
-  addFlag("version", [this] { parser_->askedForVersion = true; }, "the version of this program");
+  const CLI::Option* askedForHelp =
+    app.set_help_flag("--help,-h", "this text")->group(parser_->groupName());
+  addFlag(
+    "version", [this] { parser_->askedForVersion = true; }, "the version of this program");
   parser_->names.push_back("help");
   parser_->flags.push_back("help");
   try
@@ -285,7 +291,8 @@ std::optional<std::string> CommandOptions::parse(int argc, char* argv[])
   {
     return help();
   }
-  return parser_->askedForVersion ? std::optional<std::string>("Quadrille " QUADRILLE_VERSION "\n") : std::nullopt;
+  return parser_->askedForVersion ? std::optional<std::string>("Quadrille " QUADRILLE_VERSION "\n")
+                                  : std::nullopt;
 }
 
 const std::vector<std::string>& CommandOptions::files() const
@@ -305,8 +312,8 @@ std::string CommandOptions::help() const
 
 void addMethod(CommandOptions& options, std::function<void(int)> set, const std::string& help)
 {
-  options.addChoice(
-    "method", "NAME", { "scale-aware", "mixed-integer", "quadcover", "seamless" }, std::move(set), help);
+  options.addChoice("method", "NAME", { "scale-aware", "mixed-integer", "quadcover", "seamless" },
+    std::move(set), help);
 }
 
 } // namespace quadrille

@@ -49,7 +49,8 @@ public:
     std::function<void(long long)> set, const std::string& help);
   /// A count, or this word, for which the setter gets nothing.
   void addCountOrWord(const std::string& name, const std::string& unit, Range<long long> range,
-    const std::string& word, std::function<void(std::optional<long long>)> set, const std::string& help);
+    const std::string& word, std::function<void(std::optional<long long>)> set,
+    const std::string& help);
   /// One of some words; the setter gets its place among them.
   void addChoice(const std::string& name, const std::string& unit,
     const std::vector<std::string>& words, std::function<void(int)> set, const std::string& help);

@@ -30,7 +30,9 @@ using Json = nlohmann::ordered_json;
 Json number(double value)
 {
   constexpr double kExact = 9007199254740992; // 2^53
-  return value == std::floor(value) && std::abs(value) < kExact ? Json(static_cast<long long>(value)) : Json(value);
+  return value == std::floor(value) && std::abs(value) < kExact
+    ? Json(static_cast<long long>(value))
+    : Json(value);
 }
 
 /// Members from a field array of names and one of values beside it.
@@ -109,10 +111,8 @@ Json stagesOf(RemeshRun& run, double readSeconds)
   Json stages = Json::array();
   for (const StageRow& row : rows)
   {
-    stages.push_back({ { "stage", row.stage },
-      { "seconds", number(row.seconds) },
-      { "elements_in", row.elementsIn },
-      { "elements_out", row.elementsOut } });
+    stages.push_back({ { "stage", row.stage }, { "seconds", number(row.seconds) },
+      { "elements_in", row.elementsIn }, { "elements_out", row.elementsOut } });
   }
   return stages;
 }
@@ -128,8 +128,7 @@ void addSuccess(Json& json, vtkPolyData* quads)
   json["repair"] = pairs(quads, "RepairNames", "RepairCounts");
   json["extraction"] = pairs(quads, "ExtractionNames", "ExtractionCounts");
   json["sizes"] = { { "surface_faces", field("SurfaceFaces") },
-    { "coarse_vertices", field("CoarseVertices") },
-    { "quad_points", quads->GetNumberOfPoints() } };
+    { "coarse_vertices", field("CoarseVertices") }, { "quad_points", quads->GetNumberOfPoints() } };
   json["certificate"] = { { "valid", fieldNumber(quads, "CertificateValid") != 0 } };
   json["certificate"].update(pairs(quads, "CertificateNames", "CertificateValues"));
   if (quads->GetFieldData()->GetArray("AnisotropyLimit"))
@@ -148,8 +147,8 @@ void addSuccess(Json& json, vtkPolyData* quads)
 
 Json beginReport(const RunFiles& files, ExitCode code, const std::string& error)
 {
-  return { { "input", files.input }, { "output", files.output }, { "exit_code", static_cast<int>(code) },
-    { "error", error } };
+  return { { "input", files.input }, { "output", files.output },
+    { "exit_code", static_cast<int>(code) }, { "error", error } };
 }
 
 /// Names of files need not be UTF-8: what is not is replaced, as JSON knows nothing else.

@@ -98,7 +98,8 @@ void ProgressDisplay::show(double fraction, const std::string& text)
   last_ = time;
   if (!terminal_)
   {
-    std::fprintf(stderr, "%3d %% after %.0f s: %s\n", percentOf(fraction), secondsOf(time - start_), text.c_str());
+    std::fprintf(stderr, "%3d %% after %.0f s: %s\n", percentOf(fraction), secondsOf(time - start_),
+      text.c_str());
     return;
   }
   // The last column stays free: some terminals begin a new line there.

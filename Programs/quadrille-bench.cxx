@@ -116,24 +116,33 @@ struct Request
   RandomDraws draws;
 };
 
-const std::vector<std::string> kComparisons = { "orders", "replay", "field", "coarse", "extraction" };
+const std::vector<std::string> kComparisons = { "orders", "replay", "field", "coarse",
+  "extraction" };
 
 void addOptions(CommandOptions& options, Request& request)
 {
   options.beginGroup("options:");
-  options.addCount("quads", "N", { 1, 1000000000 }, [&request](long long quads) { request.quads = quads; },
+  options.addCount(
+    "quads", "N", { 1, 1000000000 }, [&request](long long quads) { request.quads = quads; },
     "target number of quads (default 5000)");
-  options.addNumber("edge-length", "S", { 1e-300, 1e300 }, [&request](double length) { request.edgeLength = length; },
+  options.addNumber(
+    "edge-length", "S", { 1e-300, 1e300 },
+    [&request](double length) { request.edgeLength = length; },
     "target edge length in units of the input");
-  options.addCount("threads", "N", { 0, 4096 },
+  options.addCount(
+    "threads", "N", { 0, 4096 },
     [&request](long long threads) { request.threads = static_cast<int>(threads); },
     "threads to compute with; 0 means all (default 0)");
-  options.addCount("repeat", "N", { 1, 1000000 }, [&request](long long repeat) { request.repeat = repeat; },
+  options.addCount(
+    "repeat", "N", { 1, 1000000 }, [&request](long long repeat) { request.repeat = repeat; },
     "runs of each mesh (default 1)");
-  addMethod(options, [&request](int method) { request.method = method; },
-    "how the map is made, as the command has it (default scale-aware). Of those that round, seamless is cut, Poisson "
+  addMethod(
+    options, [&request](int method) { request.method = method; },
+    "how the map is made, as the command has it (default scale-aware). Of those that round, "
+    "seamless is cut, Poisson "
     "equation and relations, quantize the rounding");
-  options.addChoice("compare", "NAME", kComparisons,
+  options.addChoice(
+    "compare", "NAME", kComparisons,
     [&request](int place) { request.compared = kComparisons[static_cast<std::size_t>(place)]; },
     "orders, replay, field, coarse or extraction: compares instead, as told here");
 }
@@ -142,18 +151,22 @@ void addOptions(CommandOptions& options, Request& request)
 void addComparisons(CommandOptions& options, Request& request)
 {
   options.beginGroup(kOrders);
-  options.addCount("candidates", "N", { 1, 1000000 },
+  options.addCount(
+    "candidates", "N", { 1, 1000000 },
     [&request](long long count) { request.draws.candidates = static_cast<int>(count); },
     "vertices of a draw of the stochastic order (default 8)");
-  options.addCount("exact-below", "N", { 0, 4000000000 },
+  options.addCount(
+    "exact-below", "N", { 0, 4000000000 },
     [&request](long long count) { request.draws.exactBelow = static_cast<Index>(count); },
     "number of vertices below which the heap takes over there (default 1000000)");
   options.beginGroup(kCoarse);
-  options.addCount("coarse-vertices", "N", { 4, 1000000000 },
+  options.addCount(
+    "coarse-vertices", "N", { 4, 1000000000 },
     [&request](long long count) { request.coarseVertices = static_cast<Index>(count); },
     "budget of the coarse level (default 1000)");
   options.beginGroup(kExtraction);
-  options.addCount("subdivide", "N", { 0, 3 },
+  options.addCount(
+    "subdivide", "N", { 0, 3 },
     [&request](long long times) { request.subdivide = static_cast<int>(times); },
     "cut each triangle of the mapped surface into four, N times (default 0)");
 }
@@ -381,7 +394,8 @@ int main(int argc, char* argv[])
       return 0;
     }
     checkTogether(options, request);
-    return request.compared.empty() ? runAll(options.files(), request) : compareAll(options.files(), request);
+    return request.compared.empty() ? runAll(options.files(), request)
+                                    : compareAll(options.files(), request);
   }
   catch (const std::exception& error)
   {

@@ -150,15 +150,19 @@ void compare(const std::string& path, const Request& request)
 void addOptions(CommandOptions& options, Request& request)
 {
   options.beginGroup("options:");
-  options.addCount("quads", "N", { 1, 1000000000 },
+  options.addCount(
+    "quads", "N", { 1, 1000000000 },
     [&request](long long quads) { request.quads = static_cast<double>(quads); },
     "target number of quads (default 5000)");
-  options.addCount("coarse-vertices", "N", { 4, 1000000000 },
+  options.addCount(
+    "coarse-vertices", "N", { 4, 1000000000 },
     [&request](long long count) { request.coarseVertices = static_cast<Index>(count); },
     "budget of the coarse level (default 1000)");
-  options.addCount("reference-faces", "N", { 0, 1000000000 },
+  options.addCount(
+    "reference-faces", "N", { 0, 1000000000 },
     [&request](long long count) { request.referenceFaces = static_cast<std::size_t>(count); },
-    "meshes with more triangles have the field of the intermediate level as reference (default 400000)");
+    "meshes with more triangles have the field of the intermediate level as reference (default "
+    "400000)");
 }
 
 } // namespace

@@ -90,21 +90,24 @@ void addSizes(CommandOptions& options, vtkQuadRemesh* filter)
 {
   constexpr double kSmallest = 1e-300;
   options.beginGroup("size of the quads (at most one):");
-  options.addCount("quads", "N", { 1, 1000000000 },
+  options.addCount(
+    "quads", "N", { 1, 1000000000 },
     [filter](long long quads)
     {
       filter->SetTargetTypeToNumberOfQuads();
       filter->SetNumberOfQuads(quads);
     },
     "target number of quads (default 5000)");
-  options.addNumber("edge-length", "S", { kSmallest, 1e300 },
+  options.addNumber(
+    "edge-length", "S", { kSmallest, 1e300 },
     [filter](double length)
     {
       filter->SetTargetTypeToEdgeLength();
       filter->SetEdgeLength(length);
     },
     "target edge length in units of the input");
-  options.addNumber("relative-edge-length", "R", { kSmallest, 10 },
+  options.addNumber(
+    "relative-edge-length", "R", { kSmallest, 10 },
     [filter](double length)
     {
       filter->SetTargetTypeToRelativeEdgeLength();
@@ -116,14 +119,16 @@ void addSizes(CommandOptions& options, vtkQuadRemesh* filter)
 void addShape(CommandOptions& options, vtkQuadRemesh* filter)
 {
   options.beginGroup("what the quads are like:");
-  options.addNumber("feature-angle", "DEG", { 0, 180 },
+  options.addNumber(
+    "feature-angle", "DEG", { 0, 180 },
     [filter](double angle)
     {
       filter->SetDetectFeatures(angle > 0);
       filter->SetFeatureAngle(angle);
     },
     "edges sharper than this become edges of the quads; 0 turns the detection off (default 40)");
-  options.addCountOrWord("coarse-vertices", "N", { 4, 100000000 }, "auto",
+  options.addCountOrWord(
+    "coarse-vertices", "N", { 4, 100000000 }, "auto",
     [filter](std::optional<long long> vertices)
     {
       if (vertices)
@@ -135,72 +140,101 @@ void addShape(CommandOptions& options, vtkQuadRemesh* filter)
         filter->SetCoarseVerticesToAutomatic();
       }
     },
-    "vertices of the level where the layout is computed (default 1000); auto: as many as the curvature of the surface "
+    "vertices of the level where the layout is computed (default 1000); auto: as many as the "
+    "curvature of the surface "
     "needs, from 300 to 4000");
-  addMethod(options, [filter](int method) { filter->SetMethod(method); },
-    "how the map is made: scale-aware (default); mixed-integer and quadcover, which may leave inverted triangles and "
+  addMethod(
+    options, [filter](int method) { filter->SetMethod(method); },
+    "how the map is made: scale-aware (default); mixed-integer and quadcover, which may leave "
+    "inverted triangles and "
     "then fail; seamless, which has no integers and so makes no quads");
-  options.addChoice("integers", "NAME", { "keep-sizes", "coarsest" },
+  options.addChoice(
+    "integers", "NAME", { "keep-sizes", "coarsest" },
     [filter](int integers) { filter->SetIntegers(integers); },
-    "keep-sizes (default): quads of the size asked for; coarsest: as few as a layout of the surface can have; the size "
+    "keep-sizes (default): quads of the size asked for; coarsest: as few as a layout of the "
+    "surface can have; the size "
     "then sets only what the coarse level keeps");
-  options.addNumber("anisotropy-limit", "R", { 0, 1e6 },
+  options.addNumber(
+    "anisotropy-limit", "R", { 0, 1e6 },
     [filter](double limit) { filter->SetAnisotropyLimit(limit); },
-    "largest ratio of the two stretches of the map, at least 1, as far as features and irregular vertices let it; quads "
+    "largest ratio of the two stretches of the map, at least 1, as far as features and irregular "
+    "vertices let it; quads "
     "then differ more in size (default 0: no limit)");
-  options.addNumber("close-handles", "R", { 0, 1e6 },
-    [filter](double length) { filter->SetCloseHandles(length); },
-    "cut and close handles that are shorter round than R edge lengths of the quads, which need 3 (default 0: none)");
-  options.addChoice("small-components", "WORD", { "keep", "remove" },
+  options.addNumber(
+    "close-handles", "R", { 0, 1e6 }, [filter](double length) { filter->SetCloseHandles(length); },
+    "cut and close handles that are shorter round than R edge lengths of the quads, which need 3 "
+    "(default 0: none)");
+  options.addChoice(
+    "small-components", "WORD", { "keep", "remove" },
     [filter](int remove)
     {
       filter->SetSmallComponents(
         remove ? vtkQuadRemesh::REMOVE_SMALL_COMPONENTS : vtkQuadRemesh::KEEP_SMALL_COMPONENTS);
     },
-    "what becomes of connected components with less area than the smallest block of quads has: keep (default), as about "
+    "what becomes of connected components with less area than the smallest block of quads has: "
+    "keep (default), as about "
     "that many quads, or remove");
 }
 
 void addFinish(CommandOptions& options, vtkQuadRemesh* filter)
 {
-  options.addChoice("final-quality", "LEVEL", { "coarse", "intermediate", "input" },
+  options.addChoice(
+    "final-quality", "LEVEL", { "coarse", "intermediate", "input" },
     [filter](int level) { filter->SetFinalQuality(level); },
-    "coarse, intermediate or input: where the map is solved at last, with the same quads; the finer, the less distorted, "
+    "coarse, intermediate or input: where the map is solved at last, with the same quads; the "
+    "finer, the less distorted, "
     "and the longer it takes (default coarse)");
-  options.addChoice("distortion-metric", "WORD", { "on", "off" },
+  options.addChoice(
+    "distortion-metric", "WORD", { "on", "off" },
     [filter](int off) { filter->SetDistortionMetric(off == 0); },
-    "on: coarse triangles count with the shape of the surface that they stand for, so that sizes come out more even "
+    "on: coarse triangles count with the shape of the surface that they stand for, so that sizes "
+    "come out more even "
     "(default off)");
-  options.addCount("smoothing-steps", "N", { 0, 1000 },
+  options.addCount(
+    "smoothing-steps", "N", { 0, 1000 },
     [filter](long long steps) { filter->SetSmoothingSteps(static_cast<int>(steps)); },
-    "sweeps in which the points move over the surface, where that does not lower the worst scaled Jacobian round them, "
-    "before quads that are turned over at a corner are mended; 0: they stay where the map has them (default 5)");
-  options.addChoice("cell-data", "NAME", { "centre", "area" },
+    "sweeps in which the points move over the surface, where that does not lower the worst scaled "
+    "Jacobian round them, "
+    "before quads that are turned over at a corner are mended; 0: they stay where the map has them "
+    "(default 5)");
+  options.addChoice(
+    "cell-data", "NAME", { "centre", "area" },
     [filter](int area)
-    { filter->SetCellDataFrom(area ? vtkQuadRemesh::CELL_DATA_FROM_AREA : vtkQuadRemesh::CELL_DATA_FROM_CENTRE); },
-    "what cell arrays of the quads come from: centre (default), the cell under the centre of a quad; area, all cells "
+    {
+      filter->SetCellDataFrom(
+        area ? vtkQuadRemesh::CELL_DATA_FROM_AREA : vtkQuadRemesh::CELL_DATA_FROM_CENTRE);
+    },
+    "what cell arrays of the quads come from: centre (default), the cell under the centre of a "
+    "quad; area, all cells "
     "under it: the average of real numbers, the most frequent label");
 }
 
 void addRun(CommandOptions& options, vtkQuadRemesh* filter, Request& request)
 {
   options.beginGroup("the run:");
-  options.addCount("threads", "N", { 0, 4096 },
+  options.addCount(
+    "threads", "N", { 0, 4096 },
     [filter](long long threads) { filter->SetNumberOfThreads(static_cast<int>(threads)); },
     "threads to compute with; 0 means all (default 0)");
-  options.addNumber("memory-limit", "MB", { 0, 1e12 },
+  options.addNumber(
+    "memory-limit", "MB", { 0, 1e12 },
     [filter](double megabytes) { filter->SetMemoryLimit(megabytes); },
-    "refuse to start where more memory is needed by the estimate; 0 means what the machine has free (default 0)");
-  options.addCount("maximum-quads", "N", { 1, 500000000 },
+    "refuse to start where more memory is needed by the estimate; 0 means what the machine has "
+    "free (default 0)");
+  options.addCount(
+    "maximum-quads", "N", { 1, 500000000 },
     [filter](long long quads) { filter->SetMaximumNumberOfQuads(quads); },
     "refuse to make more than this (default 10000000)");
-  options.addText("map", "MAP.vtp", [&request](const std::string& path) { request.files.map = path; },
-    "write the surface with its map, too (cell array IGM: u0 v0 u1 v1 u2 v2, one unit a quad, and texture coordinates); "
+  options.addText(
+    "map", "MAP.vtp", [&request](const std::string& path) { request.files.map = path; },
+    "write the surface with its map, too (cell array IGM: u0 v0 u1 v1 u2 v2, one unit a quad, and "
+    "texture coordinates); "
     "the seamless method writes this only, so leave OUT away there");
-  options.addText("report", "REPORT.json",
-    [&request](const std::string& path) { request.files.report = path; },
+  options.addText(
+    "report", "REPORT.json", [&request](const std::string& path) { request.files.report = path; },
     "what was repaired, sizes, seconds per stage, certificate, asked and actual count, quality");
-  options.addFlag("quiet", [&request] { request.quiet = true; },
+  options.addFlag(
+    "quiet", [&request] { request.quiet = true; },
     "no progress, no notices, no summary; what goes wrong is still told");
 }
 
@@ -224,7 +258,9 @@ void requireWritable(const RunFiles& files)
 /// What no option can check for itself.
 void checkTogether(const CommandOptions& options, vtkQuadRemesh* filter, RunFiles& files)
 {
-  if (options.given("quads") + options.given("edge-length") + options.given("relative-edge-length") > 1)
+  if (options.given("quads") + options.given("edge-length") +
+      options.given("relative-edge-length") >
+    1)
   {
     throw UsageError("only one of --quads, --edge-length and --relative-edge-length can be given");
   }
@@ -292,7 +328,8 @@ std::string textOf(double number, const char* format)
 /// A value of the certificate; 0 where it is not told.
 double certificateNumber(vtkPolyData* data, const std::string& name)
 {
-  auto* names = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("CertificateNames"));
+  auto* names =
+    vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("CertificateNames"));
   vtkDataArray* values = data->GetFieldData()->GetArray("CertificateValues");
   for (vtkIdType i = 0; names && values && i < names->GetNumberOfValues(); ++i)
   {
@@ -312,8 +349,9 @@ std::string mapSentence(vtkPolyData* data)
   {
     return "the map has folds (" + grouped(folds) + " triangles), which the quads bridge";
   }
-  return certificateNumber(data, "wrong_turns") > 0 ? "the map has vertices with another valence than the field"
-                                                    : "the map has no folds";
+  return certificateNumber(data, "wrong_turns") > 0
+    ? "the map has vertices with another valence than the field"
+    : "the map has no folds";
 }
 
 /// "part.vtp: 3,091 quads (asked for 3,000), 3,110 points, edge length 0.0123, 1.20 s".
@@ -337,8 +375,8 @@ void printSummary(RemeshRun& run, const RunFiles& files, double seconds)
   }
   if (!files.map.empty())
   {
-    results.push_back(files.map + ": " + grouped(mapped->GetNumberOfPolys()) + " triangles with their map" +
-      (files.output.empty() ? ", " + textOf(seconds, "%.2f s") : ""));
+    results.push_back(files.map + ": " + grouped(mapped->GetNumberOfPolys()) +
+      " triangles with their map" + (files.output.empty() ? ", " + textOf(seconds, "%.2f s") : ""));
   }
   results.back() += "; " + mapSentence(files.output.empty() ? mapped : run.filter()->GetOutput());
   for (const std::string& result : results)

@@ -22,10 +22,7 @@ public:
 class Cancelled : public std::runtime_error
 {
 public:
-  Cancelled()
-    : std::runtime_error("cancelled")
-  {
-  }
+  Cancelled() : std::runtime_error("cancelled") {}
 };
 
 enum class StatusCode

@@ -83,10 +83,7 @@ struct Transition
   FixedVec2 translation;
 
   FixedVec2 apply(FixedVec2 p) const { return rotate(p, rotation) + translation; }
-  Transition inverse() const
-  {
-    return { (4 - rotation) & 3, -rotate(translation, 4 - rotation) };
-  }
+  Transition inverse() const { return { (4 - rotation) & 3, -rotate(translation, 4 - rotation) }; }
   /// this after first: p -> this(first(p)).
   Transition after(const Transition& first) const
   {

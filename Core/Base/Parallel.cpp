@@ -28,8 +28,7 @@ void parallelFor(std::size_t count, std::size_t chunkSize, int threads,
 {
   chunkSize = std::max<std::size_t>(chunkSize, 1);
   const std::size_t chunks = (count + chunkSize - 1) / chunkSize;
-  const std::size_t workers =
-    std::min(chunks, static_cast<std::size_t>(resolveThreads(threads)));
+  const std::size_t workers = std::min(chunks, static_cast<std::size_t>(resolveThreads(threads)));
 
   std::atomic<std::size_t> nextChunk{ 0 };
   std::exception_ptr firstError;

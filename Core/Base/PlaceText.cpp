@@ -25,7 +25,8 @@ int digitsFor(double magnitude, double unit)
   {
     return kLeastDigits;
   }
-  return std::min(kMostDigits, kLeastDigits + static_cast<int>(std::ceil(std::log10(magnitude / unit))));
+  return std::min(
+    kMostDigits, kLeastDigits + static_cast<int>(std::ceil(std::log10(magnitude / unit))));
 }
 
 } // namespace

@@ -88,8 +88,9 @@ std::string fanProblem(const Fan& fan, int turns, bool asked)
 }
 
 // Fills status and offenders.
-void judgeTurns(const Mesh& mesh, const FieldTopology& topology, const TurnPrescription& prescription,
-  const std::vector<int>& turns, const std::vector<std::uint8_t>& blocked, CrossField& field)
+void judgeTurns(const Mesh& mesh, const FieldTopology& topology,
+  const TurnPrescription& prescription, const std::vector<int>& turns,
+  const std::vector<std::uint8_t>& blocked, CrossField& field)
 {
   for (Index i = 0; i < turns.size(); ++i)
   {

@@ -175,7 +175,8 @@ std::vector<Place> placesOf(const Mesh& mesh, const FieldTopology& topology,
       all.push_back({ i, fan.vertex, region[Mesh::face(fan.first)], turns[i] });
     }
   }
-  std::sort(all.begin(), all.end(), [](const Place& a, const Place& b) { return a.vertex < b.vertex; });
+  std::sort(
+    all.begin(), all.end(), [](const Place& a, const Place& b) { return a.vertex < b.vertex; });
   const std::size_t step = all.size() / kMostPlaces + 1;
   std::vector<Place> places;
   for (std::size_t i = 0; i < all.size(); ++i)

@@ -96,8 +96,8 @@ std::string textOfMissing(const Mesh& mesh, const SetSums& sum, long missing)
 {
   std::ostringstream text;
   text << "target valences: on the component near " << placeText(mesh.position[sum.vertex])
-       << ", 4 - valence has to sum up to "
-       << sum.regular - sum.turns << " over all irregular vertices; the " << sum.requests
+       << ", 4 - valence has to sum up to " << sum.regular - sum.turns
+       << " over all irregular vertices; the " << sum.requests
        << " vertices with a target sum up to " << sum.askedRegular - sum.asked << ", and ";
   if (sum.freeFans == 0)
   {

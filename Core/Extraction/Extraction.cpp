@@ -158,7 +158,8 @@ struct CurveGraph
 CurveGraph constrainedGraph(const Mesh& mesh, int threads)
 {
   constexpr std::size_t kHalfEdgeChunk = std::size_t{ 1 } << 17;
-  std::vector<std::vector<Index>> parts((mesh.halfEdgeCount() + kHalfEdgeChunk - 1) / kHalfEdgeChunk);
+  std::vector<std::vector<Index>> parts(
+    (mesh.halfEdgeCount() + kHalfEdgeChunk - 1) / kHalfEdgeChunk);
   parallelFor(mesh.halfEdgeCount(), kHalfEdgeChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {

@@ -346,7 +346,8 @@ Sector GridVertices::cornerSector(Index h) const
   }
   sector.firstDirection = firstAxis(right);
   // The angle is below 180 degrees: at most two directions, each tested against the left side.
-  while (sector.count < 2 && orientation(axisVector(sector.firstDirection + sector.count), left) > 0)
+  while (
+    sector.count < 2 && orientation(axisVector(sector.firstDirection + sector.count), left) > 0)
   {
     ++sector.count;
   }

@@ -30,7 +30,8 @@ std::string edgeName(Index h)
   return "edge " + std::to_string(h % 3) + " of cell " + std::to_string(h / 3);
 }
 
-void checkSnapArguments(const Mesh& mesh, const std::vector<Vector2>& uv, const SnapOptions& options)
+void checkSnapArguments(
+  const Mesh& mesh, const std::vector<Vector2>& uv, const SnapOptions& options)
 {
   const std::string corners = std::to_string(mesh.origin.size()) + " corners";
   if (uv.size() != mesh.origin.size())
@@ -302,7 +303,8 @@ private:
     checkAsymmetry(h, faults);
     const Fit given = fitAt(h);
     const Fit best = bestFit(mesh_, uv_, h, ambiguity_);
-    const bool apart = given.residual > kSnapTolerance && best.residual + ambiguity_ < given.residual;
+    const bool apart =
+      given.residual > kSnapTolerance && best.residual + ambiguity_ < given.residual;
     const bool fits = best.residual <= kSnapTolerance && best.fraction <= kSnapTolerance;
     if (apart || (given.fraction > kSnapTolerance && fits))
     {

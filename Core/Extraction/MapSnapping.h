@@ -29,8 +29,8 @@ struct SnapOptions
 
 struct SnapResult
 {
-  std::vector<FixedVec2> uv; ///< #H
-  double largestMove = 0;    ///< in quads; 0 for a map that was exact already
+  std::vector<FixedVec2> uv;               ///< #H
+  double largestMove = 0;                  ///< in quads; 0 for a map that was exact already
   Index largestMoveCorner = kInvalidIndex; ///< where; none when nothing moved
   std::size_t snappedToFixedPoint =
     0;                          ///< vertices whose transitions do not compose to the identity

@@ -42,8 +42,8 @@ enum class LineEnd : std::uint8_t
 {
   Irregular, ///< at an irregular vertex, inside or on the boundary
   Boundary,  ///< at a regular vertex of the boundary
-  Feature,   ///< at a regular vertex, where the line goes on but is no feature any more, or becomes one
-  Closed     ///< nowhere: the last point is the first
+  Feature, ///< at a regular vertex, where the line goes on but is no feature any more, or becomes one
+  Closed   ///< nowhere: the last point is the first
 };
 
 /// A piece of a straight line inside the mesh, all of it on features or none.

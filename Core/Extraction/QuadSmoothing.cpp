@@ -259,7 +259,7 @@ private:
   QuadMesh& quads_;
   const SmoothingOptions& options_;
   QuadMoves moves_;
-  const PointLists& incident_; ///< per point its quads
+  const PointLists& incident_;              ///< per point its quads
   std::vector<std::vector<Index>> classes_; ///< movable points per colour
 };
 

@@ -190,7 +190,8 @@ Index fanSize(const QuadTopology& topology, Index h)
   return size;
 }
 
-void checkFan(const LeavingHalfEdges& corners, Index p, const QuadTopology& topology, Counts& counts)
+void checkFan(
+  const LeavingHalfEdges& corners, Index p, const QuadTopology& topology, Counts& counts)
 {
   Index count = 0;
   for (Index h = corners.first(p); h != kInvalidIndex; h = corners.next(h))

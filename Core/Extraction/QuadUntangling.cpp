@@ -348,8 +348,8 @@ private:
   }
 
   /// Keeps the move in `best` when it is better than what is there.
-  void tryMove(Index p, const Vector3& displacement, const QuadMoves::EdgeLengths& before,
-    Move& best) const
+  void tryMove(
+    Index p, const Vector3& displacement, const QuadMoves::EdgeLengths& before, Move& best) const
   {
     const std::optional<SurfacePoint> place = moves_.target(p, displacement);
     if (!place)

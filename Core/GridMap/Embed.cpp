@@ -93,8 +93,8 @@ void embedFromSeamless(const Mesh& mesh, const CrossField& field, const LockedMa
   }
 }
 
-void failEmbedding(const Mesh& mesh, StatusCode code, const std::string& message, const MapDefects& cause,
-  EmbedResult& result)
+void failEmbedding(const Mesh& mesh, StatusCode code, const std::string& message,
+  const MapDefects& cause, EmbedResult& result)
 {
   result.status = { code, "embedding: " + message };
   result.offenders = verticesOf(mesh, cause);
@@ -140,7 +140,8 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
   result.work = untangled.work;
   if (!untangled.defects.none())
   {
-    failEmbedding(mesh, StatusCode::NotConverged, untangled.defects.text(), untangled.defects, result);
+    failEmbedding(
+      mesh, StatusCode::NotConverged, untangled.defects.text(), untangled.defects, result);
   }
   return result;
 }

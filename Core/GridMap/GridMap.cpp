@@ -558,7 +558,8 @@ private:
            << " connected components have no map, one of them ";
     }
     text << "near " << placeText(component.part.mesh.position[v]) << ": "
-         << component.status.message << "; ask for smaller quads, for fewer features there (a larger "
+         << component.status.message
+         << "; ask for smaller quads, for fewer features there (a larger "
          << "feature angle, or none) or for more coarse vertices";
     return text.str();
   }

@@ -294,8 +294,9 @@ bool IntegerMap::adopt(const std::vector<FixedVec2>& uv)
   // Rounds up on a tie everywhere, so that whole translations change nothing.
   const auto nearestGrain = [](std::int64_t x)
   { return (x + (std::int64_t{ 1 } << (kBits - 1))) >> kBits; };
-  const auto grains = [&](FixedVec2 p)
-  { return FixedVec2{ nearestGrain(p.u), nearestGrain(p.v) }; };
+  const auto grains = [&](FixedVec2 p) {
+    return FixedVec2{ nearestGrain(p.u), nearestGrain(p.v) };
+  };
   for (const Index f : faces_)
   {
     for (Index h = 3 * f; h < 3 * f + 3; ++h)

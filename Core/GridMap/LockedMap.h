@@ -23,8 +23,8 @@ public:
   /// Throws InvalidInput, naming the element, when transitions are not whole or not those of the field,
   /// when constrained edges do not lie on integer isolines, or integer vertices not at whole points.
   /// whole = false admits a seamless map, whose translations, isolines and integer vertices lie anywhere.
-  LockedMap(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv,
-    bool whole = true);
+  LockedMap(
+    const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv, bool whole = true);
 
   /// Points of the problem are corners; references are in units of edgeLength.
   UntangleProblem problem(double edgeLength) const;

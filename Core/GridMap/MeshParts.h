@@ -17,7 +17,8 @@ struct MeshPart
   Mesh mesh;
   CrossField field;          ///< without status and offenders
   std::vector<Index> vertex; ///< of the whole mesh, per vertex of the part; ascending
-  std::vector<Index> face;   ///< of the whole mesh, per face of the part; ascending, corners in the same order
+  std::vector<Index>
+    face; ///< of the whole mesh, per face of the part; ascending, corners in the same order
 };
 
 /// The components by their lowest face. The field must have the size of the mesh.

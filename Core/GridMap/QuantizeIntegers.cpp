@@ -174,11 +174,10 @@ void lengthenLoops(IntegerMap& map, StripSearch& search)
     std::vector<Strip> strips;
     for (const Index h : map.shortLoops())
     {
-      strips.push_back(
-        search.through(h, map.along(h), std::numeric_limits<double>::infinity()));
+      strips.push_back(search.through(h, map.along(h), std::numeric_limits<double>::infinity()));
     }
-    std::stable_sort(strips.begin(), strips.end(),
-      [](const Strip& a, const Strip& b) { return a.cost < b.cost; });
+    std::stable_sort(
+      strips.begin(), strips.end(), [](const Strip& a, const Strip& b) { return a.cost < b.cost; });
     changed = std::any_of(strips.begin(), strips.end(),
       [&](const Strip& strip) { return strip.found() && accept(strip); });
   }

@@ -13,7 +13,7 @@ namespace quadrille
 struct IntegerStart
 {
   bool valid = false;
-  double scale = 1; ///< of the wanted displacements, at which the map became valid
+  double scale = 1;     ///< of the wanted displacements, at which the map became valid
   std::size_t work = 0; ///< StripSearch::work of all searches
 };
 

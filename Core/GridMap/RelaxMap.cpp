@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GridMap/Certificate.h"
 #include "GridMap/RelaxMap.h"
+#include "GridMap/Certificate.h"
 
 #include "Base/Parallel.h"
 #include "GridMap/MapShape.h"

@@ -19,8 +19,8 @@ namespace
 
 constexpr int kSeamlessRounds = 4;
 
-void failSeamless(const Mesh& mesh, StatusCode code, const std::string& message, const MapDefects& defects,
-  SeamlessResult& result)
+void failSeamless(const Mesh& mesh, StatusCode code, const std::string& message,
+  const MapDefects& defects, SeamlessResult& result)
 {
   result.status = { code, "seamless map: " + message };
   result.inverted = defects.notPositive;
@@ -159,8 +159,8 @@ SeamlessResult computeSeamlessMap(
   }
   const auto snap = [&](const Eigen::VectorXd& y)
   { return snapScaled(space, y, options.targetQuads); };
-  FieldUntangling untangled =
-    untangleAlongField(mesh, field, space.problem(), { start }, kSeamlessRounds, snap, options.progress);
+  FieldUntangling untangled = untangleAlongField(
+    mesh, field, space.problem(), { start }, kSeamlessRounds, snap, options.progress);
   limitAnisotropy(
     mesh, field, space.problem(), options.anisotropyLimit, snap, options.progress, untangled);
   result.uv = std::move(untangled.uv);

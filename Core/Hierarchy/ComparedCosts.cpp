@@ -20,8 +20,8 @@ ComparedCost::ComparedCost(const DecimationMesh& mesh, DecimationCost cost)
       continue;
     }
     const Vector3& p = mesh.position[mesh.origin[3 * f]];
-    const Vector3 n = (mesh.position[mesh.origin[3 * f + 1]] - p)
-                        .cross(mesh.position[mesh.origin[3 * f + 2]] - p);
+    const Vector3 n =
+      (mesh.position[mesh.origin[3 * f + 1]] - p).cross(mesh.position[mesh.origin[3 * f + 2]] - p);
     const double doubled = n.norm();
     for (Index h = 3 * f; h < 3 * f + 3 && doubled > 0; ++h)
     {

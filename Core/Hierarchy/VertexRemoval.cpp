@@ -210,8 +210,7 @@ void VertexRemoval::addStarKey(std::vector<std::uint32_t>& words) const
 
 double VertexRemoval::sizeChange() const
 {
-  const auto logOf = [&](std::size_t i)
-  { return std::log(mesh_.sizeOf(ring_[weightRing_[i]])); };
+  const auto logOf = [&](std::size_t i) { return std::log(mesh_.sizeOf(ring_[weightRing_[i]])); };
   constexpr double kUnit = 1.0 / 4294967296.0;
   const double first = logOf(0);
   return std::abs(std::log(mesh_.sizeOf(vertex_)) - first -
@@ -263,8 +262,7 @@ bool VertexRemoval::curveStaysClose(const RemovalGuards& guards) const
   {
     return distance <= guards.regionTolerance * mesh_.sizeOf(vertex_);
   }
-  return distance + mesh_.curveError[vertex_] <=
-    guards.curveTolerance * mesh_.sizeOf(vertex_);
+  return distance + mesh_.curveError[vertex_] <= guards.curveTolerance * mesh_.sizeOf(vertex_);
 }
 
 bool VertexRemoval::loopStaysLong() const

@@ -146,9 +146,8 @@ private:
     std::vector<Index> found;
     for (const Index v : verticesNear(edge.halfEdge))
     {
-      forEachEdgeAt(v,
-        [&](Index h)
-        { found.push_back(mesh_.isBoundary(h) ? h : std::min(h, mesh_.twin[h])); });
+      forEachEdgeAt(
+        v, [&](Index h) { found.push_back(mesh_.isBoundary(h) ? h : std::min(h, mesh_.twin[h])); });
     }
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -195,7 +194,8 @@ private:
         }
       }
       std::sort(vertices.begin() + static_cast<std::ptrdiff_t>(end), vertices.end());
-      vertices.erase(std::unique(vertices.begin() + static_cast<std::ptrdiff_t>(end), vertices.end()),
+      vertices.erase(
+        std::unique(vertices.begin() + static_cast<std::ptrdiff_t>(end), vertices.end()),
         vertices.end());
       begin = end;
     }
@@ -242,7 +242,8 @@ private:
       }
       seen[i] = 1;
       std::vector<Index> line{ i };
-      for (const Index start : { mesh_.origin[edges_[i].halfEdge], mesh_.target(edges_[i].halfEdge) })
+      for (const Index start :
+        { mesh_.origin[edges_[i].halfEdge], mesh_.target(edges_[i].halfEdge) })
       {
         Index current = i;
         Index v = start;
@@ -367,8 +368,8 @@ private:
 
 } // namespace
 
-std::vector<Index> edgesOfFacets(const Mesh& mesh, double featureAngle,
-  const std::function<double(Index)>& angleOf, int threads)
+std::vector<Index> edgesOfFacets(
+  const Mesh& mesh, double featureAngle, const std::function<double(Index)>& angleOf, int threads)
 {
   return Facets(mesh, featureAngle, angleOf).find(threads);
 }

@@ -23,7 +23,7 @@ namespace quadrille
 /// edges that have gone count as blunt ones in the next round. An edge on a chain of at least 12 that bends by less
 /// than 20 degrees at each vertex stays: noise makes no such lines. At last connected edges without such a chain go
 /// where more length went near them than they have.
-std::vector<Index> edgesOfFacets(const Mesh& mesh, double featureAngle,
-  const std::function<double(Index)>& angleOf, int threads);
+std::vector<Index> edgesOfFacets(
+  const Mesh& mesh, double featureAngle, const std::function<double(Index)>& angleOf, int threads);
 
 } // namespace quadrille

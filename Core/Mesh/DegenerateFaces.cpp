@@ -130,7 +130,8 @@ private:
 
 std::vector<Index> findDegenerate(const Mesh& mesh, int threads)
 {
-  std::vector<std::vector<Index>> found((mesh.faceCount() + kDegenerateChunk - 1) / kDegenerateChunk);
+  std::vector<std::vector<Index>> found(
+    (mesh.faceCount() + kDegenerateChunk - 1) / kDegenerateChunk);
   parallelFor(mesh.faceCount(), kDegenerateChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {

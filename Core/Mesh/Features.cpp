@@ -142,8 +142,8 @@ FacetReport markCreases(Mesh& mesh, double angle, int threads, double precision)
   markSharpEdges(mesh, normals, angle, threads);
   const auto angleOf = [&](Index h)
   {
-    const double cosine = normalOf(mesh, normals, Mesh::face(h))
-                            .dot(normalOf(mesh, normals, Mesh::face(mesh.twin[h])));
+    const double cosine =
+      normalOf(mesh, normals, Mesh::face(h)).dot(normalOf(mesh, normals, Mesh::face(mesh.twin[h])));
     return std::acos(std::clamp(cosine, -1.0, 1.0));
   };
   const std::vector<Index> facets = edgesOfFacets(mesh, angle, angleOf, threads);

@@ -110,7 +110,8 @@ int gridBits(const SurfaceInput& input, double unit)
   }
   std::size_t below = 0;
   int exponent = kLowest;
-  while (exponent < -1 && (below += count[static_cast<std::size_t>(exponent - kLowest)]) * kFineShare <= sum)
+  while (exponent < -1 &&
+    (below += count[static_cast<std::size_t>(exponent - kLowest)]) * kFineShare <= sum)
   {
     ++exponent;
   }
@@ -201,8 +202,8 @@ bool looksInwards(const SurfaceInput& input, int threads)
         const std::size_t corners = input.polygonOffsets[p + 1] - input.polygonOffsets[p];
         for (std::size_t i = 2; i < corners; ++i)
         {
-          const double volume = input.points[ids[0]].dot(
-            input.points[ids[i - 1]].cross(input.points[ids[i]]));
+          const double volume =
+            input.points[ids[0]].dot(input.points[ids[i - 1]].cross(input.points[ids[i]]));
           parts[begin / kFrameChunk][0] += volume;
           parts[begin / kFrameChunk][1] += std::abs(volume);
         }
@@ -276,8 +277,7 @@ FramedInput enterFrame(SurfaceInput input, int threads)
   }
   frame.reversed = looksInwards(framed.input, threads);
   framed.input.faceOrder = frame.reversed ? FaceOrder::Reversed : FaceOrder::FromLowest;
-  framed.input.precision =
-    std::max(1 / steps, std::ldexp(magnitude, floats ? -24 : -53) / unit);
+  framed.input.precision = std::max(1 / steps, std::ldexp(magnitude, floats ? -24 : -53) / unit);
   return framed;
 }
 

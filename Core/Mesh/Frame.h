@@ -38,7 +38,7 @@ double roundedLength(double length);
 struct FramedInput
 {
   Frame frame;
-  SurfaceInput input;          ///< points, directions, faceOrder and precision are those of the frame
+  SurfaceInput input; ///< points, directions, faceOrder and precision are those of the frame
   std::vector<Vector3> points; ///< of the user
 };
 

@@ -169,9 +169,8 @@ void collectRequests(const SurfaceInput& input, PreparedSurface& surface)
     {
       throw InvalidInput("points " + std::to_string(first.point) + " and " +
         std::to_string(request.point) + " at " + placeText(place) +
-        " are one after repair, but ask for valences " +
-        std::to_string(first.valence) + " and " + std::to_string(request.valence) +
-        ": give both the same.");
+        " are one after repair, but ask for valences " + std::to_string(first.valence) + " and " +
+        std::to_string(request.valence) + ": give both the same.");
     }
   }
   for (std::size_t i = 0; i < used.size(); ++i)

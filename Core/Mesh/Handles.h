@@ -40,9 +40,9 @@ HandleReport findHandles(const Mesh& mesh, double limit);
 struct BoundaryReport
 {
   std::size_t loops = 0;
-  std::size_t shortLoops = 0;      ///< shorter than the limit
-  double shortest = 0;             ///< length; 0 without boundary
-  Vector3 place = Vector3::Zero(); ///< a vertex of the shortest
+  std::size_t shortLoops = 0;       ///< shorter than the limit
+  double shortest = 0;              ///< length; 0 without boundary
+  Vector3 place = Vector3::Zero();  ///< a vertex of the shortest
   std::vector<HandleLoop> tooShort; ///< those shorter than the limit, by their lowest half-edge
 };
 

@@ -33,7 +33,8 @@ struct Mesh
   std::vector<Index> origin;       ///< #H = 3 #F; vertex that the half-edge leaves
   std::vector<Index> twin;         ///< #H; kInvalidIndex on the boundary
   std::vector<std::uint8_t> flags; ///< #H; HalfEdgeFlag bits
-  std::vector<float> sizing; ///< #V, or empty: wanted edge length there as a multiple of s; see Sizing.h
+  std::vector<float>
+    sizing; ///< #V, or empty: wanted edge length there as a multiple of s; see Sizing.h
 
   Index vertexCount() const { return static_cast<Index>(position.size()); }
   Index halfEdgeCount() const { return static_cast<Index>(origin.size()); }

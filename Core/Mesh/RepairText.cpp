@@ -58,8 +58,7 @@ std::vector<std::string> repairSentences(const RepairReport& report)
     const std::size_t count = report.*sentence.count;
     if (count > 0)
     {
-      sentences.push_back(
-        std::to_string(count) + (count == 1 ? sentence.one : sentence.many));
+      sentences.push_back(std::to_string(count) + (count == 1 ? sentence.one : sentence.many));
     }
   }
   return sentences;

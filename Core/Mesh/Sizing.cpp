@@ -63,7 +63,8 @@ double askedAt(const SurfaceInput& input, const PreparedSurface& surface, Index 
   for (std::size_t k = 0; k < 3; ++k)
   {
     // Where a weight is 0, nothing but the other sizes may show.
-    size += source.weights[k] != 0 ? source.weights[k] * double{ input.sizing[source.points[k]] } : 0;
+    size +=
+      source.weights[k] != 0 ? source.weights[k] * double{ input.sizing[source.points[k]] } : 0;
   }
   return size;
 }
@@ -102,9 +103,8 @@ SizedTriangle sizedTriangle(const Mesh& mesh, Index f)
 double sizedArea(const Mesh& mesh, Index f)
 {
   const double area = areaOf(mesh, f);
-  return mesh.sizing.empty()
-    ? area
-    : area *
+  return mesh.sizing.empty() ? area
+                             : area *
       meanDensity(sizeAt(mesh, mesh.origin[3 * f]), sizeAt(mesh, mesh.origin[3 * f + 1]),
         sizeAt(mesh, mesh.origin[3 * f + 2]), kMostSplits);
 }

@@ -71,8 +71,8 @@ void collectSizing(const SurfaceInput& input, PreparedSurface& surface);
 /// What limiting the growth of sizes has changed.
 struct SizingReport
 {
-  std::size_t changed = 0; ///< vertices
-  double most = 1;         ///< largest factor by which a size was lessened
+  std::size_t changed = 0;      ///< vertices
+  double most = 1;              ///< largest factor by which a size was lessened
   Index vertex = kInvalidIndex; ///< where
 };
 /// Lessens sizes until none grows by more than kSizeGrowth along an edge of the mesh, per length in units of s =

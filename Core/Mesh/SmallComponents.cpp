@@ -56,7 +56,8 @@ std::vector<long long> countEuler(const Mesh& mesh, const ComponentSizes& sizes)
   {
     pollNowAndThen(h);
     long long& sum = twice[sizes.componentOfFace[Mesh::face(h)]];
-    sum += (seen[mesh.origin[h]] == 0 ? 2 : 0) - (mesh.isBoundary(h) ? 2 : 1) + (h % 3 == 0 ? 2 : 0);
+    sum +=
+      (seen[mesh.origin[h]] == 0 ? 2 : 0) - (mesh.isBoundary(h) ? 2 : 1) + (h % 3 == 0 ? 2 : 0);
     seen[mesh.origin[h]] = 1;
   }
   for (long long& sum : twice)
@@ -76,8 +77,7 @@ double triangulationScale(double area, double edgeLength)
 double quadsOfBlock(long long eulerCharacteristic, std::size_t boundaryLoops)
 {
   const auto loops = static_cast<double>(boundaryLoops);
-  const double handles =
-    std::max(0.0, (2 - static_cast<double>(eulerCharacteristic) - loops) / 2);
+  const double handles = std::max(0.0, (2 - static_cast<double>(eulerCharacteristic) - loops) / 2);
   if (boundaryLoops == 0)
   {
     return handles == 0 ? kQuadsOfSphere : kQuadsOfHandle * handles;

@@ -37,11 +37,11 @@ ComponentSizes measureComponents(const Mesh& mesh);
 /// Components with less area than the quads of their smallest block have.
 struct SmallComponents
 {
-  std::size_t components = 0; ///< of the surface
-  std::size_t count = 0;      ///< small ones among them
-  double area = 0;            ///< of the small ones, over the sizes
-  double quads = 0;           ///< of their blocks
-  double largest = 0;         ///< area of the largest small one
+  std::size_t components = 0;        ///< of the surface
+  std::size_t count = 0;             ///< small ones among them
+  double area = 0;                   ///< of the small ones, over the sizes
+  double quads = 0;                  ///< of their blocks
+  double largest = 0;                ///< area of the largest small one
   Vector3 place = Vector3::Zero();   ///< the middle of its vertices
   std::vector<std::uint8_t> isSmall; ///< #F; empty where count is 0
 };

@@ -79,9 +79,9 @@ std::string FacetReport::text() const
   {
     return {};
   }
-  return std::to_string(edges) +
-    " sharp edges, one of them near " + placeText(place) +
-    ", do not stand out from their surroundings, as the facets of a coarse or noisy surface do not: they were not used as features "
+  return std::to_string(edges) + " sharp edges, one of them near " + placeText(place) +
+    ", do not stand out from their surroundings, as the facets of a coarse or noisy surface do "
+    "not: they were not used as features "
     "(mark edges to have them followed: Feature Edges, Curves)";
 }
 

@@ -193,8 +193,9 @@ Index splitFace(PreparedSurface& surface, Index f)
   mesh.position.push_back((mesh.position[mesh.origin[a]] + mesh.position[mesh.origin[a + 1]] +
                             mesh.position[mesh.origin[a + 2]]) /
     3);
-  addSize(mesh, (sizeAt(mesh, mesh.origin[a]) + sizeAt(mesh, mesh.origin[a + 1]) +
-                  sizeAt(mesh, mesh.origin[a + 2])) /
+  addSize(mesh,
+    (sizeAt(mesh, mesh.origin[a]) + sizeAt(mesh, mesh.origin[a + 1]) +
+      sizeAt(mesh, mesh.origin[a + 2])) /
       3);
   const Index b = 3 * appendCopy(surface, f);
   const Index c = 3 * appendCopy(surface, f);

@@ -51,10 +51,7 @@ public:
     return (order_ == FaceOrder::Reversed ? first_ + count_ - i : first_ + i) % count_;
   }
   /// The polygon's own number of the edge that follows corner i.
-  Index edge(Index i) const
-  {
-    return order_ == FaceOrder::Reversed ? corner(i + 1) : corner(i);
-  }
+  Index edge(Index i) const { return order_ == FaceOrder::Reversed ? corner(i + 1) : corner(i); }
 
 private:
   Index count_;
@@ -75,8 +72,8 @@ Triangle orderedTriangle(const Index* points, unsigned features, FaceOrder faceO
   for (Index i = 0; i < 3; ++i)
   {
     triangle.points[i] = points[order.corner(i)];
-    triangle.features = static_cast<std::uint8_t>(
-      triangle.features | (features >> order.edge(i) & 1U) << i);
+    triangle.features =
+      static_cast<std::uint8_t>(triangle.features | (features >> order.edge(i) & 1U) << i);
   }
   return triangle;
 }

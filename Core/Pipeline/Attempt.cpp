@@ -94,9 +94,8 @@ GridMapResult computeMap(RunContext& run, const Plan& plan, MapAttempt& made)
     return computeCoarsestMap(coarse.mesh, options);
   }
   const bool remembers = run.store != nullptr && run.options.method == MapMethod::ScaleAware;
-  const std::shared_ptr<PreviousMap> previous = remembers && run.options.warmStart
-    ? run.store->find<PreviousMap>(warmKey(run, plan))
-    : nullptr;
+  const std::shared_ptr<PreviousMap> previous =
+    remembers && run.options.warmStart ? run.store->find<PreviousMap>(warmKey(run, plan)) : nullptr;
   if (previous)
   {
     options.previous = previous.get();
@@ -176,8 +175,7 @@ void carryToSurface(RunContext& run, const CrossField& field, MapAttempt& made)
   {
     made.integerVertex[made.coarse.fineVertex[v]] = integer[v];
   }
-  made.certificate =
-    certify(mesh, made.uv, made.turns, made.integerVertex, run.options.threads);
+  made.certificate = certify(mesh, made.uv, made.turns, made.integerVertex, run.options.threads);
   made.stages.add("certify", secondsNow() - start, mesh.faceCount(), mesh.faceCount());
 }
 

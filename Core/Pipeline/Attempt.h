@@ -48,7 +48,7 @@ struct MapAttempt
   std::vector<FixedVec2> coarseUv; ///< #H of coarse.mesh; also where the status is not ok
   std::vector<int> coarseTurns;    ///< #V of coarse.mesh
   Certificate coarseCertificate;
-  std::vector<Index> coarseOffenders; ///< vertices of the surface, where the status is not ok
+  std::vector<Index> coarseOffenders;  ///< vertices of the surface, where the status is not ok
   std::vector<Vector3> coarseTroubles; ///< their positions
   Phase1 phase1;
   std::size_t work = 0; ///< GridMapResult::work
@@ -83,8 +83,8 @@ struct QuadAttempt
   /// Where the map was solved again.
   std::optional<PackedMap> uv;
   std::optional<Certificate> certificate;
-  std::size_t turned = 0;      ///< quads turned over
-  bool turnedAtFolds = false;  ///< some of them where the map has folds
+  std::size_t turned = 0;     ///< quads turned over
+  bool turnedAtFolds = false; ///< some of them where the map has folds
   std::vector<std::string> notices, reused;
   StageRecords stages;
 

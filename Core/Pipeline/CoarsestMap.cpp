@@ -33,8 +33,8 @@ GridMapResult computeCoarsestMap(const Mesh& mesh, GridMapOptions options)
     GridMapResult map = computeGridMap(mesh, options);
     map.addWork(spent);
     // Without a seamless map, or any integers for it, there is nothing that other shares could change.
-    const bool started = std::any_of(map.seamlessUv.begin(), map.seamlessUv.end(),
-      [](FixedVec2 p) { return p != FixedVec2{}; });
+    const bool started = std::any_of(
+      map.seamlessUv.begin(), map.seamlessUv.end(), [](FixedVec2 p) { return p != FixedVec2{}; });
     const bool last = pull >= 1 || (!map.status.ok() && !started);
     if (last || (map.status.ok() && hasSoundQuads(mesh, map.uv)))
     {

@@ -51,8 +51,7 @@ void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::stri
   }
 }
 
-FirstLevels makeFirstLevels(
-  SizedSurface& sized, const Frame& frame, const RemeshOptions& options)
+FirstLevels makeFirstLevels(SizedSurface& sized, const Frame& frame, const RemeshOptions& options)
 {
   FirstLevels first;
   RunSurface surface(sized.surface, sized.key, options.threads);

@@ -26,7 +26,6 @@ struct FirstLevels
   StageRecords stages;
 };
 /// The sized surface must be ok; it is as it was afterwards.
-FirstLevels makeFirstLevels(
-  SizedSurface& sized, const Frame& frame, const RemeshOptions& options);
+FirstLevels makeFirstLevels(SizedSurface& sized, const Frame& frame, const RemeshOptions& options);
 
 } // namespace quadrille

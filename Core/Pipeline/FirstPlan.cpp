@@ -100,8 +100,7 @@ Plan firstPlan(RunContext& run)
   plan.nextLevels = plan.levels;
   plan.quads = quadsFor(run, plan, 0);
   const std::vector<HandleLoop>& loops = run.shortLoops.loops;
-  if (loops.empty() || run.options.coarsestIntegers ||
-    run.options.method != MapMethod::ScaleAware)
+  if (loops.empty() || run.options.coarsestIntegers || run.options.method != MapMethod::ScaleAware)
   {
     return plan;
   }

@@ -67,14 +67,14 @@ void History::packMaps(const Mesh& surface)
 
 std::size_t History::inRound(const std::string& step) const
 {
-  return static_cast<std::size_t>(std::count_if(round_.begin(), round_.end(),
-    [&](const Summary& summary) { return summary.step == step; }));
+  return static_cast<std::size_t>(std::count_if(
+    round_.begin(), round_.end(), [&](const Summary& summary) { return summary.step == step; }));
 }
 
 std::size_t History::trailing(const std::string& step) const
 {
-  const auto other = std::find_if(round_.rbegin(), round_.rend(),
-    [&](const Summary& summary) { return summary.step != step; });
+  const auto other = std::find_if(
+    round_.rbegin(), round_.rend(), [&](const Summary& summary) { return summary.step != step; });
   return static_cast<std::size_t>(other - round_.rbegin());
 }
 

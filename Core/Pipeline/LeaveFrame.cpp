@@ -118,8 +118,8 @@ void leaveFrame(PreparedSurface& surface, const Frame& frame, std::vector<Vector
   }
 }
 
-void leaveFrame(QuadMesh& quads, const Mesh& mapped, const Frame& frame,
-  const std::vector<Vector3>& positions)
+void leaveFrame(
+  QuadMesh& quads, const Mesh& mapped, const Frame& frame, const std::vector<Vector3>& positions)
 {
   const PlaceOnSurface place(mapped, frame, positions);
   for (std::size_t p = 0; p < quads.points.size(); ++p)

@@ -20,8 +20,8 @@ void leaveFrame(Level& level, const Frame& frame, const std::vector<Vector3>& po
 void leaveFrame(PreparedSurface& surface, const Frame& frame, std::vector<Vector3> positions);
 /// Points on vertices of the mapped mesh get their positions, others the place between them. mapped: still in the
 /// frame.
-void leaveFrame(QuadMesh& quads, const Mesh& mapped, const Frame& frame,
-  const std::vector<Vector3>& positions);
+void leaveFrame(
+  QuadMesh& quads, const Mesh& mapped, const Frame& frame, const std::vector<Vector3>& positions);
 
 /// The map of a mesh whose faces were reversed, or are to be. uv: #H.
 void reverseMap(std::vector<FixedVec2>& uv);

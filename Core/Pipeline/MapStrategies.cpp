@@ -89,8 +89,8 @@ std::optional<Plan> moreFreedom(const Trouble& trouble)
     return plan;
   }
   const std::size_t before = plan.levels.keptVertices.size();
-  keepAlso(ringsRound(levels.intermediate, last.map->coarseOffenders,
-             run.surface->mesh.vertexCount()),
+  keepAlso(
+    ringsRound(levels.intermediate, last.map->coarseOffenders, run.surface->mesh.vertexCount()),
     plan);
   const std::size_t added = plan.levels.keptVertices.size() - before;
   plan.levels.coarseVertices =

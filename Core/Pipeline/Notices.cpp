@@ -89,7 +89,8 @@ std::string mapNotice(const Mesh& mesh, const Certificate& certificate)
   {
     return text;
   }
-  text = "map on the input surface: " + text + " (of " + std::to_string(certificate.triangles) + " triangles)";
+  text = "map on the input surface: " + text + " (of " + std::to_string(certificate.triangles) +
+    " triangles)";
   if (certificate.notPositive > 0 && !certificate.worstFaces.empty())
   {
     const Index h = 3 * certificate.worstFaces.front();

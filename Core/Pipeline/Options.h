@@ -48,7 +48,7 @@ struct RemeshOptions
   /// Bytes that the run may take by the estimate; none: what the machine has free.
   std::optional<double> memoryLimit;
   bool mergeCharts =
-    false;         ///< of the map on the surface, for display; the quads do not depend on it
+    false; ///< of the map on the surface, for display; the quads do not depend on it
   /// RemeshResult::mapKey of a map that the caller still has with its charts merged: where it is the result again, that
   /// is not done another time.
   std::uint64_t knownMap = 0;

@@ -7,10 +7,10 @@
 #include "GridMap/MapShape.h"
 #include "Pipeline/Attempt.h"
 #include "Pipeline/FirstLevels.h"
+#include "Pipeline/FirstPlan.h"
 #include "Pipeline/History.h"
 #include "Pipeline/LeaveFrame.h"
 #include "Pipeline/Notices.h"
-#include "Pipeline/FirstPlan.h"
 #include "Pipeline/Recovery.h"
 #include "Pipeline/SizedSurface.h"
 
@@ -46,8 +46,7 @@ Status estimate(const SurfaceInput& input, const RemeshOptions& options, RemeshR
     static_cast<double>(std::min(options.quads.value_or(0), options.maximumNumberOfQuads));
   result.estimate = estimateRun(triangles, quads, options.threads);
   report(options.progress, 0,
-    "Preparing: " + describe(result.estimate) + " for " + std::to_string(triangles) +
-      " triangles");
+    "Preparing: " + describe(result.estimate) + " for " + std::to_string(triangles) + " triangles");
   const double limit = options.memoryLimit.value_or(freeMemory());
   if (result.estimate.bytes <= limit)
   {
@@ -61,8 +60,8 @@ Status estimate(const SurfaceInput& input, const RemeshOptions& options, RemeshR
 }
 
 /// Null where there is no room for both the run and the store.
-ResultStore* storeIfRoom(ResultStore* store, const SurfaceInput& input,
-  const RemeshOptions& options, RemeshResult& result)
+ResultStore* storeIfRoom(
+  ResultStore* store, const SurfaceInput& input, const RemeshOptions& options, RemeshResult& result)
 {
   if (store == nullptr)
   {
@@ -97,8 +96,7 @@ void makeAttempts(RunContext& run, History& history)
     }
     const Attempt& best = history.ofRound();
     run.surface.apply(best.plan);
-    history.addQuads(
-      history.roundHasMap() ? makeQuads(run, best.plan, *best.map) : nullptr);
+    history.addQuads(history.roundHasMap() ? makeQuads(run, best.plan, *best.map) : nullptr);
   }
 }
 
@@ -223,9 +221,8 @@ void takeHistory(
 }
 
 /// From the sized surface to the result, in the frame.
-void runAttempts(
-  SizedSurface& sized, const Frame& frame, const RemeshOptions& options, ResultStore* store,
-  RemeshResult& result)
+void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& options,
+  ResultStore* store, RemeshResult& result)
 {
   RunSurface surface(sized.surface, sized.key, options.threads);
   {
@@ -257,8 +254,7 @@ void leave(SizedSurface& sized, const FramedInput& framed, bool keepsFrame, Reme
 {
   result.frame = framed.frame;
   // The store, if there is one, has its triangles for the next run.
-  result.surface =
-    sized.surface.use_count() > 1 ? *sized.surface : std::move(*sized.surface);
+  result.surface = sized.surface.use_count() > 1 ? *sized.surface : std::move(*sized.surface);
   if (keepsFrame && result.status.ok())
   {
     result.framePositions = result.surface.mesh.position;

@@ -28,14 +28,16 @@ struct RemeshResult
 {
   Status status;
   QuadMesh quads;
-  PreparedSurface surface;   ///< the finest level that uv belongs to; its hash is that of the surface in its frame
-  Frame frame;               ///< that the run worked in; all else here is on the user's surface
-  std::vector<Vector3> framePositions; ///< #V of surface.mesh, in the frame; empty unless mergeCharts, or where the map is known
+  PreparedSurface
+    surface; ///< the finest level that uv belongs to; its hash is that of the surface in its frame
+  Frame frame; ///< that the run worked in; all else here is on the user's surface
+  std::vector<Vector3>
+    framePositions; ///< #V of surface.mesh, in the frame; empty unless mergeCharts, or where the map is known
   std::vector<FixedVec2> uv; ///< #H of surface.mesh
   /// Of uv and the surface that it belongs to: where it is the same, they are.
   ResultKey mapKey = 0;
-  std::vector<int> turns;    ///< #V of surface.mesh
-  Level coarse;              ///< coarse mesh
+  std::vector<int> turns; ///< #V of surface.mesh
+  Level coarse;           ///< coarse mesh
   std::vector<FixedVec2>
     coarseUv;                    ///< #H of coarse.mesh; also when the status is not ok, for a look
   std::vector<int> coarseTurns;  ///< #V of coarse.mesh

@@ -41,14 +41,16 @@ struct FinerGrid
 /// What levels are made for.
 struct LevelPlan
 {
-  std::vector<Index> keptVertices; ///< that no level may lack, ascending; those of index constraints among them
-  Index coarseVertices = 1000;     ///< budget, see HierarchyOptions
-  double edgeLength = 1;           ///< over that of the quads
+  std::vector<Index>
+    keptVertices; ///< that no level may lack, ascending; those of index constraints among them
+  Index coarseVertices = 1000; ///< budget, see HierarchyOptions
+  double edgeLength = 1;       ///< over that of the quads
 };
 
 struct Plan
 {
-  const char* step = "first"; ///< what made it of the one before, a name of the table in Recovery.cpp
+  const char* step =
+    "first"; ///< what made it of the one before, a name of the table in Recovery.cpp
 
   LevelPlan levels;
   /// Of the next round: without what was kept for the sake of the map on the surface, but with all that the coarse map
@@ -56,9 +58,9 @@ struct Plan
   LevelPlan nextLevels;
 
   // Of the surface, see RunSurface.
-  std::shared_ptr<const std::vector<float>> sizes; ///< #V; null: those of the surface
+  std::shared_ptr<const std::vector<float>> sizes;           ///< #V; null: those of the surface
   std::shared_ptr<const std::vector<Index>> featuresGivenUp; ///< half-edges; null: none
-  int featureDrops = 0; ///< how often features were given up
+  int featureDrops = 0;                                      ///< how often features were given up
 
   // Of the map.
   double quads = 0; ///< that it is scaled to

@@ -70,8 +70,8 @@ void improve(RunContext& run, const Plan& plan, MapAttempt& map, QuadAttempt& ma
   const Mesh& mesh = run.surface->mesh;
   SurfaceMap improved{ std::move(map.uv), map.certificate };
   const CoarseMap coarse{ byLevels ? &run.levels.hierarchy() : nullptr, &map.coarseUv };
-  made.finalQuality = improveMap(*run.surface, map.turns, map.integerVertex, coarse,
-    finalQualityOptions(run), improved);
+  made.finalQuality = improveMap(
+    *run.surface, map.turns, map.integerVertex, coarse, finalQualityOptions(run), improved);
   map.uv = std::move(improved.uv);
   if (made.finalQuality.improved)
   {
@@ -83,8 +83,7 @@ void improve(RunContext& run, const Plan& plan, MapAttempt& map, QuadAttempt& ma
   {
     made.notices.push_back(made.finalQuality.notice);
   }
-  made.stages.add(
-    "optimize", secondsNow() - start, made.finalQuality.elements, mesh.faceCount());
+  made.stages.add("optimize", secondsNow() - start, made.finalQuality.elements, mesh.faceCount());
 }
 
 /// Where the map on the surface is not valid everywhere, what was asked for may be lost: that is told.
@@ -97,8 +96,7 @@ std::string missedValencesText(const PreparedSurface& surface, const QuadMesh& q
     if (const std::optional<Index> corner = meshCorner(quads, p))
     {
       // On a boundary of k quads there are k + 1 edges; as if the quads went on, it would be k + 2.
-      valence[surface.mesh.origin[*corner]] =
-        quads.valence[p] + (quads.onBoundary[p] != 0 ? 1 : 0);
+      valence[surface.mesh.origin[*corner]] = quads.valence[p] + (quads.onBoundary[p] != 0 ? 1 : 0);
     }
   }
   std::vector<ValenceRequest> missed;
@@ -130,17 +128,17 @@ std::string describeMap(const Certificate& certificate)
 Status failureOf(const Status& extraction, MapMethod method, const Certificate& certificate)
 {
   return { extraction.code,
-    (isRounded(method)
-        ? std::string("no valid quad mesh from the map by '") + nameOf(method) +
+    (isRounded(method) ? std::string("no valid quad mesh from the map by '") + nameOf(method) +
           "', which may have folds (the scale aware method has none): "
-        : std::string("no valid quad mesh: ")) +
+                       : std::string("no valid quad mesh: ")) +
       extraction.message + describeMap(certificate) +
       "; ask for more quads, raise the number of coarse vertices (Coarse Vertices, "
       "--coarse-vertices), or raise the feature angle where noise is taken for features" };
 }
 
 /// Has a quad a corner within kFoldRadius edge lengths of one of the places?
-bool isNear(const std::array<Vector3, 4>& corners, const std::vector<Vector3>& places, double radius)
+bool isNear(
+  const std::array<Vector3, 4>& corners, const std::vector<Vector3>& places, double radius)
 {
   const auto isClose = [&](const Vector3& place)
   {
@@ -158,8 +156,8 @@ void countTurned(const RunContext& run, const MapAttempt& map, QuadAttempt& made
   made.turnedAtFolds = std::any_of(turned.begin(), turned.end(),
     [&](Index q)
     {
-      return isNear(cornersOf(made.quads.points, made.quads.quads[q]), folds,
-        kFoldRadius * run.edgeLength);
+      return isNear(
+        cornersOf(made.quads.points, made.quads.quads[q]), folds, kFoldRadius * run.edgeLength);
     });
 }
 
@@ -180,8 +178,7 @@ void extract(RunContext& run, const MapAttempt& map, QuadAttempt& made)
   options.threads = run.options.threads;
   options.progress = subProgress(run.options.progress, 0.9, 1.0, "Extracting: ");
   ExtractionResult extracted = extractQuads(mesh, map.uv, options);
-  made.stages.add(
-    "extract", secondsNow() - start, mesh.faceCount(), extracted.mesh.quads.size());
+  made.stages.add("extract", secondsNow() - start, mesh.faceCount(), extracted.mesh.quads.size());
   if (!extracted.status.ok())
   {
     made.status = failureOf(extracted.status, run.options.method, map.certificate);

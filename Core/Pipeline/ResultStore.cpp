@@ -91,8 +91,8 @@ std::vector<std::shared_ptr<void>> ResultStore::allOf(std::type_index type) cons
       found.emplace_back(entry.lastUse, entry.value);
     }
   }
-  std::sort(found.begin(), found.end(),
-    [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::sort(
+    found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<std::shared_ptr<void>> values;
   for (auto& [use, value] : found)
   {

@@ -201,9 +201,8 @@ std::optional<Plan> fewerFeatures(const Trouble& trouble)
     return std::nullopt;
   }
   ++plan.featureDrops;
-  auto givenUp = plan.featuresGivenUp
-    ? std::make_shared<std::vector<Index>>(*plan.featuresGivenUp)
-    : std::make_shared<std::vector<Index>>();
+  auto givenUp = plan.featuresGivenUp ? std::make_shared<std::vector<Index>>(*plan.featuresGivenUp)
+                                      : std::make_shared<std::vector<Index>>();
   givenUp->insert(givenUp->end(), features.begin(), features.end());
   plan.featuresGivenUp = std::move(givenUp);
   plan.notices.push_back(std::to_string(features.size()) + " sharp edges" + nearText(places) +

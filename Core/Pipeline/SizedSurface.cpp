@@ -65,8 +65,7 @@ ResultKey requestsKey(const SurfaceInput& input)
   return key.add(input.guideWeights).add(input.targetValences).key();
 }
 
-std::string smallComponentsText(
-  const SmallComponents& small, std::size_t count, double edgeLength)
+std::string smallComponentsText(const SmallComponents& small, std::size_t count, double edgeLength)
 {
   std::ostringstream text;
   text << count << " of " << small.components
@@ -244,8 +243,7 @@ private:
     prepared->sizedArea = sizedArea_;
     const std::size_t own = bytesOf(*prepared->surface) + prepared->marks.bytes();
     store_->put(preparedKey_, std::move(prepared), own);
-    const std::size_t bytes =
-      sized->marks.bytes() + (sameTriangles ? 0 : bytesOf(*made_.surface));
+    const std::size_t bytes = sized->marks.bytes() + (sameTriangles ? 0 : bytesOf(*made_.surface));
     store_->put(made_.key, std::move(sized), bytes);
   }
 
@@ -284,8 +282,8 @@ private:
     dropSmallComponents();
     tell(surface.facets.text());
     tell(featureNotice(removeUnresolvedFeatures(surface.mesh, made_.edgeLength)));
-    refineSurface(surface, made_.edgeLength,
-      subProgress(options_.progress, 0.1, 0.15, "Refining: "));
+    refineSurface(
+      surface, made_.edgeLength, subProgress(options_.progress, 0.1, 0.15, "Refining: "));
     made_.stages.add("refine", secondsNow() - start, before, surface.mesh.faceCount());
     tell(surface.notice);
     if (options_.closeHandles > 0)
@@ -310,8 +308,7 @@ private:
     const std::size_t removed = quadrille::removeSmallComponents(*made_.surface, small);
     if (removed > 0)
     {
-      tell(smallComponentsText(small, removed, made_.edgeLength) +
-        ": removed, as was asked for");
+      tell(smallComponentsText(small, removed, made_.edgeLength) + ": removed, as was asked for");
     }
   }
 
@@ -379,8 +376,7 @@ private:
 
 } // namespace
 
-double targetEdgeLength(
-  const RemeshOptions& options, double sizedArea, double boundingBoxDiagonal)
+double targetEdgeLength(const RemeshOptions& options, double sizedArea, double boundingBoxDiagonal)
 {
   if (options.quads)
   {

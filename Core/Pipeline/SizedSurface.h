@@ -22,9 +22,9 @@ struct SizedSurface
 {
   Status status; ///< TooLarge where more quads would be made than may
   std::shared_ptr<PreparedSurface> surface;
-  ResultKey key = 0;             ///< of all but guides and valences
-  double edgeLength = 0;         ///< s, in the frame
-  std::size_t targetQuads = 0;   ///< predicted where an edge length was asked for
+  ResultKey key = 0;           ///< of all but guides and valences
+  double edgeLength = 0;       ///< s, in the frame
+  std::size_t targetQuads = 0; ///< predicted where an edge length was asked for
   std::vector<std::string> notices;
   std::vector<std::string> reused; ///< names of stages whose result the store had
   StageRecords stages;
@@ -38,8 +38,7 @@ SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, Resu
 /// s for a number of quads, an edge length or a relative one, whichever the options ask for, kept to the bits of
 /// Frame::lengthOf.
 /// sizedArea: the surface's area over its sizes.
-double targetEdgeLength(
-  const RemeshOptions& options, double sizedArea, double boundingBoxDiagonal);
+double targetEdgeLength(const RemeshOptions& options, double sizedArea, double boundingBoxDiagonal);
 /// At least one, at most 1e15.
 std::size_t predictedQuads(double sizedArea, double edgeLength);
 

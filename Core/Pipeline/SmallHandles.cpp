@@ -38,8 +38,7 @@ std::string closedText(
   double length, std::size_t closed, std::size_t left, const std::optional<Vector3>& place)
 {
   std::ostringstream text;
-  text << closed << " handles shorter round than " << length
-       << " edge lengths were cut and closed";
+  text << closed << " handles shorter round than " << length << " edge lengths were cut and closed";
   if (place)
   {
     text << ", the shortest near " << placeText(*place);

@@ -15,7 +15,8 @@ namespace
 /// Handles with loops below so many edge lengths are sure to be among the places where quads meet themselves.
 constexpr double kHopelessLoop = 2;
 
-void collectHandles(const HandleReport& found, const Level& level, double edgeLength, ShortLoops& loops)
+void collectHandles(
+  const HandleReport& found, const Level& level, double edgeLength, ShortLoops& loops)
 {
   for (const HandleLoop& loop : found.loops)
   {

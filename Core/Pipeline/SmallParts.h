@@ -45,10 +45,10 @@ ShortLoops measureSmallParts(const Level& intermediate, const Mesh& finest, doub
 /// The size of quads as messages tell it.
 struct QuadSize
 {
-  double edgeLength = 0;           ///< s
-  double unit = 1;                 ///< of the user, in which lengths are told
-  std::size_t quads = 0;           ///< asked for
-  std::size_t maximumOfQuads = 0;  ///< that may be made
+  double edgeLength = 0;          ///< s
+  double unit = 1;                ///< of the user, in which lengths are told
+  std::size_t quads = 0;          ///< asked for
+  std::size_t maximumOfQuads = 0; ///< that may be made
 };
 
 /// What of the handles, and of the boundary loops, is not resolved, where, and what to do; empty where all is.

@@ -7,8 +7,7 @@
 namespace quadrille
 {
 
-void StageRecords::add(
-  const std::string& stage, double seconds, std::size_t in, std::size_t out)
+void StageRecords::add(const std::string& stage, double seconds, std::size_t in, std::size_t out)
 {
   const auto known = std::find_if(records_.begin(), records_.end(),
     [&](const StageRecord& record) { return record.stage == stage; });

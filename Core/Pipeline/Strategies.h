@@ -22,9 +22,9 @@ struct Trouble
 {
   RunContext& run;
   const History& history;
-  const Attempt& attempt;         ///< of the round
-  std::vector<Vector3> places;    ///< where the map or its quads failed
-  bool failed = true;             ///< else there are quads, but some are turned over at folds of the map
+  const Attempt& attempt;      ///< of the round
+  std::vector<Vector3> places; ///< where the map or its quads failed
+  bool failed = true; ///< else there are quads, but some are turned over at folds of the map
   std::optional<GridTroubles> grid;
   std::size_t bound = 0; ///< of the strategy that is asked
 };

@@ -149,8 +149,7 @@ FixedVec2 BlockReplay::moveIntoKernel(FixedVec2 p)
   const int count = record_.ringSize();
   const auto& ring = star_.ring();
   const std::optional<FixedVec2> moved = record_.onCurve
-    ? kernelPointOnSegment(
-        ring.data(), count, closed, ring[record_.ring[0]], ring[record_.ring[1]])
+    ? kernelPointOnSegment(ring.data(), count, closed, ring[record_.ring[0]], ring[record_.ring[1]])
     : kernelPoint(ring.data(), count, closed);
   if (!moved)
   {

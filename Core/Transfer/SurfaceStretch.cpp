@@ -343,7 +343,8 @@ private:
         const Motion& across = planes_.across(h);
         const Index twin = planes_.mesh().twin[h];
         std::transform(beyond.begin(), beyond.end(), beyond.begin(), across);
-        spread(Mesh::face(twin), twin, std::move(beyond), rotated(stretch, across.rotation), depth + 1);
+        spread(
+          Mesh::face(twin), twin, std::move(beyond), rotated(stretch, across.rotation), depth + 1);
       }
     }
     double area = 0;

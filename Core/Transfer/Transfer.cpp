@@ -115,8 +115,7 @@ std::vector<int> turnsOf(const Mesh& mesh, const std::vector<FixedVec2>& uv)
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     pollNowAndThen(h);
-    turns[mesh.origin[h]] +=
-      quadrantsEntered(&uv[3 * Mesh::face(h)], static_cast<int>(h % 3), 1);
+    turns[mesh.origin[h]] += quadrantsEntered(&uv[3 * Mesh::face(h)], static_cast<int>(h % 3), 1);
   }
   return turns;
 }

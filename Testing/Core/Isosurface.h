@@ -59,8 +59,10 @@ inline Mesh isosurface(int extent, const std::function<double(const Vector3&)>& 
     {
       const int tip = in.size() == 1 ? in[0] : out[0];
       const std::vector<int>& rest = in.size() == 1 ? out : in;
-      const Vector3 away = (placeOf(rest[0]) + placeOf(rest[1]) + placeOf(rest[2])) / 3 - placeOf(tip);
-      add(cut(tip, rest[0]), cut(tip, rest[1]), cut(tip, rest[2]), in.size() == 1 ? away : Vector3(-away));
+      const Vector3 away =
+        (placeOf(rest[0]) + placeOf(rest[1]) + placeOf(rest[2])) / 3 - placeOf(tip);
+      add(cut(tip, rest[0]), cut(tip, rest[1]), cut(tip, rest[2]),
+        in.size() == 1 ? away : Vector3(-away));
     }
     else if (in.size() == 2)
     {
@@ -72,9 +74,8 @@ inline Mesh isosurface(int extent, const std::function<double(const Vector3&)>& 
       add(a, c, d, away);
     }
   };
-  constexpr std::array<std::array<int, 3>, 6> orders{
-    { { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 2, 1, 0 } }
-  };
+  constexpr std::array<std::array<int, 3>, 6> orders{ { { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 },
+    { 1, 2, 0 }, { 2, 0, 1 }, { 2, 1, 0 } } };
   for (int z = 0; z + 1 < side; ++z)
   {
     for (int y = 0; y + 1 < side; ++y)

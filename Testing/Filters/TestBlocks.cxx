@@ -169,7 +169,8 @@ TEST(Blocks, PiecesOfASurfaceAreOneSurface)
     {
       input->SetPartition(static_cast<unsigned>(p), everyNth(whole, count, p));
     }
-    input->SetPartition(static_cast<unsigned>(count), everyNth(whole, 2, 0)); // what others have, too
+    input->SetPartition(
+      static_cast<unsigned>(count), everyNth(whole, 2, 0)); // what others have, too
     vtkNew<vtkQuadRemesh> filter;
     filter->SetInputData(input);
     filter->SetTargetTypeToNumberOfQuads();

@@ -271,8 +271,9 @@ TEST(StageFilters, ChainEqualsOneClickFarAwayAndInTheMirror)
       EXPECT_EQ(pointsOf(chain.extraction->GetOutput()), pointsOf(oneClick->GetOutput()));
       // Levels and the mapped surface have the points of the input, and faces that look where the input's look.
       const std::vector<Vector3> points = pointsOf(input);
-      for (vtkPolyData* level : { chain.hierarchy->GetOutput(), chain.map->GetOutput(),
-             chain.upmap->GetOutput(), vtkPolyData::SafeDownCast(oneClick->GetOutputDataObject(1)) })
+      for (vtkPolyData* level :
+        { chain.hierarchy->GetOutput(), chain.map->GetOutput(), chain.upmap->GetOutput(),
+          vtkPolyData::SafeDownCast(oneClick->GetOutputDataObject(1)) })
       {
         const std::vector<Vector3> own = pointsOf(level);
         for (const Vector3& p : own)

@@ -65,7 +65,8 @@ TEST(FixedPoint, theRotationBetweenTwoImagesIsExact)
     for (int r = 0; r < 4 && p != FixedVec2{}; ++r)
     {
       EXPECT_EQ(rotationBetween(p, rotate(p, r)), r);
-      EXPECT_FALSE(rotationBetween(p, rotate(p, r) + FixedVec2{ 1, 0 })) << "one step away is no image";
+      EXPECT_FALSE(rotationBetween(p, rotate(p, r) + FixedVec2{ 1, 0 }))
+        << "one step away is no image";
     }
     EXPECT_FALSE(rotationBetween(p, {})) << "all of them, or none";
     EXPECT_FALSE(rotationBetween({}, p));

@@ -100,8 +100,7 @@ TEST(SizeCones, TargetsOfTheUserStay)
   {
     asked[v] = mesh.position[v].x() > 15 && mesh.position[v].x() < 35 ? 4 : 0;
   }
-  const std::vector<int> targets =
-    valencesForSizes(mesh, topology, turnsWith(topology, {}), asked);
+  const std::vector<int> targets = valencesForSizes(mesh, topology, turnsWith(topology, {}), asked);
   ASSERT_EQ(targets.size(), asked.size());
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {

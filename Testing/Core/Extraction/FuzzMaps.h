@@ -350,8 +350,9 @@ private:
     }
     const Index start = first_[v];
     const FixedVec2 along = map.edge(start);
-    const auto runsOn = [along](FixedVec2 e)
-    { return orientation(along, e) == 0 && (along.u > 0) == (e.u > 0) && (along.v > 0) == (e.v > 0); };
+    const auto runsOn = [along](FixedVec2 e) {
+      return orientation(along, e) == 0 && (along.u > 0) == (e.u > 0) && (along.v > 0) == (e.v > 0);
+    };
     int constrained = 0;
     int straight = 0;
     Transition whole;

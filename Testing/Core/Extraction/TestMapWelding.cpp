@@ -189,7 +189,8 @@ TEST(MapWelding, SheetsThatMeetAtAnEdgeStayApart)
   {
     unclear.uv[h] += Vector2(0.5, 0);
   }
-  EXPECT_NE(weldingRefusal(unclear).find("meet at one edge"), std::string::npos) << weldingRefusal(unclear);
+  EXPECT_NE(weldingRefusal(unclear).find("meet at one edge"), std::string::npos)
+    << weldingRefusal(unclear);
 }
 
 TEST(MapWelding, FansThatTouchInAPointStayApart)

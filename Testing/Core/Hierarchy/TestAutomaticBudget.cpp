@@ -81,7 +81,8 @@ TEST(AutomaticBudget, doesNotDependOnTheUnit)
   {
     p *= 1024;
   }
-  EXPECT_EQ(buildHierarchy(mesh, 1, automaticOptions(0.12 * 1024, 0)).log.serialize(), log.serialize());
+  EXPECT_EQ(
+    buildHierarchy(mesh, 1, automaticOptions(0.12 * 1024, 0)).log.serialize(), log.serialize());
 }
 
 TEST(AutomaticBudget, rougherSurfacesGetMoreVertices)
@@ -99,8 +100,8 @@ TEST(AutomaticBudget, staysInsideItsLimits)
 {
   // A plane has no curvature to move but at its corners, and would keep nothing.
   const Mesh plane = gridPlane(60, 60);
-  EXPECT_EQ(
-    buildHierarchy(plane, 1, automaticOptions(3, 0)).coarse.mesh.vertexCount(), kLeastCoarseVertices);
+  EXPECT_EQ(buildHierarchy(plane, 1, automaticOptions(3, 0)).coarse.mesh.vertexCount(),
+    kLeastCoarseVertices);
   // Noise as large as the edges moves too far with the first vertex, but is not all kept.
   Mesh noise = sphere(6);
   std::uint32_t random = 1;

@@ -165,5 +165,6 @@ TEST(GaussianCurvatureCost, aStraightFeatureIsNoCurvature)
     [](const Vector3& p) { return (p - Vector3(0.5, 0, 0)).norm() < 1e-9; });
   ASSERT_NE(found, cube.position.end());
   DecimationMesh work(cube, traceFeatureCurves(cube, 0.01));
-  EXPECT_NEAR(removeAndMeasure(work, static_cast<Index>(found - cube.position.begin())), 0, kAngles);
+  EXPECT_NEAR(
+    removeAndMeasure(work, static_cast<Index>(found - cube.position.begin())), 0, kAngles);
 }

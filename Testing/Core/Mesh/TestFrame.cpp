@@ -52,8 +52,7 @@ SurfaceInput withFacesReversed(SurfaceInput input)
   {
     const Index begin = input.polygonOffsets[p];
     const Index count = input.polygonOffsets[p + 1] - begin;
-    std::reverse(
-      input.polygonPoints.begin() + begin, input.polygonPoints.begin() + begin + count);
+    std::reverse(input.polygonPoints.begin() + begin, input.polygonPoints.begin() + begin + count);
     if (!input.featureEdges.empty())
     {
       unsigned bits = 0;
@@ -119,8 +118,9 @@ TEST(Frame, FeaturesDoNotDependOnTheDistanceFromTheOrigin)
   const std::size_t sharp = countFeatures(prepared(enterFrame(input, 1)).mesh);
   EXPECT_GT(sharp, 100u);
   const Vector3 shift = Vector3::Constant(1e4 * diagonalOf(input.points));
-  EXPECT_EQ(countFeatures(prepared(enterFrame(
-              moved(input, [&](const Vector3& p) { return Vector3(p + shift); }), 1)).mesh),
+  EXPECT_EQ(countFeatures(prepared(
+              enterFrame(moved(input, [&](const Vector3& p) { return Vector3(p + shift); }), 1))
+                            .mesh),
     sharp);
 }
 
@@ -147,8 +147,7 @@ TEST(Frame, AMirrorImageIsTheSameSurface)
     const PreparedSurface here = prepared(enterFrame(input, 1));
     for (int mirrored = 1; mirrored < 8; ++mirrored)
     {
-      const Vector3 sign(
-        mirrored & 1 ? -1 : 1, mirrored & 2 ? -1 : 1, mirrored & 4 ? -1 : 1);
+      const Vector3 sign(mirrored & 1 ? -1 : 1, mirrored & 2 ? -1 : 1, mirrored & 4 ? -1 : 1);
       const SurfaceInput image =
         moved(input, [&](const Vector3& p) { return Vector3(sign.cwiseProduct(p)); });
       for (const SurfaceInput& kind : { image, withFacesReversed(image) })

@@ -80,7 +80,8 @@ TEST(Sizing, TrianglesHaveTheLengthsOfTheirEdgesOverSizes)
   {
     const SizedTriangle triangle = sizedTriangle(mesh, f);
     EXPECT_NEAR(triangle.width, sizedLength(mesh, 3 * f), 1e-12);
-    EXPECT_NEAR((triangle.apex - Vector2(triangle.width, 0)).norm(), sizedLength(mesh, 3 * f + 1), 1e-12);
+    EXPECT_NEAR(
+      (triangle.apex - Vector2(triangle.width, 0)).norm(), sizedLength(mesh, 3 * f + 1), 1e-12);
     EXPECT_NEAR(triangle.apex.norm(), sizedLength(mesh, 3 * f + 2), 1e-12);
     EXPECT_GT(triangle.apex.y(), 0);
   }

@@ -3,9 +3,9 @@
 #include "Extraction/QuadShape.h"
 #include "Pipeline/Pipeline.h"
 
+#include "Isosurface.h"
 #include "Mesh/FeatureFilter.h"
 #include "Mesh/Topology.h"
-#include "Isosurface.h"
 #include "MeshInput.h"
 #include "PlyFile.h"
 #include "TestHandleMeshes.h"
@@ -167,8 +167,8 @@ TEST(Pipeline, QuadsAreSmallerOnlyWhereTheyDoNotFit)
   const RemeshResult result = remesh(test::toInput(unevenTorus()), options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   // Before the first map, or after one whose quads met themselves.
-  EXPECT_TRUE(tells(result, "quads are made smaller round") ||
-    tells(result, "they are made smaller there"));
+  EXPECT_TRUE(
+    tells(result, "quads are made smaller round") || tells(result, "they are made smaller there"));
   EXPECT_EQ(result.targetQuads, 250u);
   // Doubled they are 500.
   EXPECT_LT(result.quads.quads.size(), 450u);
@@ -240,7 +240,8 @@ TEST(Pipeline, TinyHoleIsTold)
       options);
   EXPECT_EQ(result.smallParts.boundary.loops, 2u);
   EXPECT_EQ(result.smallParts.boundary.shortLoops, 1u);
-  EXPECT_NEAR(result.smallParts.boundary.shortest, 4, 8 * 30 * std::ldexp(1.0, -26)); // the run's grid
+  EXPECT_NEAR(
+    result.smallParts.boundary.shortest, 4, 8 * 30 * std::ldexp(1.0, -26)); // the run's grid
   EXPECT_TRUE(tells(result, "1 of 2 boundary loops are shorter than three quads"));
 }
 

@@ -237,7 +237,8 @@ TEST(Recovery, MoreFreedomKeepsTheRingsRoundOffendersAndRaisesTheBudget)
   const std::vector<Index>& onLevel = run.levels.hierarchy().coarse.fineVertex;
   for (const Index v : { rings[0], offenders[0], offenders[1] })
   {
-    EXPECT_TRUE(std::binary_search(next->levels.keptVertices.begin(), next->levels.keptVertices.end(), v));
+    EXPECT_TRUE(
+      std::binary_search(next->levels.keptVertices.begin(), next->levels.keptVertices.end(), v));
   }
   EXPECT_TRUE(std::is_sorted(next->levels.keptVertices.begin(), next->levels.keptVertices.end()));
   EXPECT_EQ(next->levels.coarseVertices, onLevel.size() + next->levels.keptVertices.size() - 1);
@@ -621,7 +622,8 @@ TEST(Recovery, ManyOffendersAreNotKeptForTheNextRound)
 {
   SphereRun run;
   const Plan plan = run.first();
-  std::vector<Index> many = run.levels.make(levelOptions(run.context, plan), nullptr).coarse.fineVertex;
+  std::vector<Index> many =
+    run.levels.make(levelOptions(run.context, plan), nullptr).coarse.fineVertex;
   ASSERT_GE(many.size(), 100U);
   History history;
   history.addMap(plan, failedMap(many));

@@ -36,8 +36,8 @@ Names with(Names names, const Names& more)
 const Names kPrepared = sorted({ "repair", "order", "connectivity" });
 const Names kRefined = with(kPrepared, { "refine" });
 const Names kDecimated = with(kRefined, { "handles", "phase1" });
-const Names kMapped = with(kDecimated,
-  { "phase2", "field", "seamless", "quantize", "embed", "replay", "certify" });
+const Names kMapped =
+  with(kDecimated, { "phase2", "field", "seamless", "quantize", "embed", "replay", "certify" });
 const Names kAll = with(kMapped, { "extract" });
 
 /// A dented sphere: irregular vertices, nothing to refine.
@@ -98,8 +98,8 @@ void expectSame(const RemeshResult& a, const RemeshResult& b)
 }
 
 /// A run with the store is byte for byte one without it, and has reused these stages and computed none of them.
-void expectCold(const SurfaceInput& input, const RemeshOptions& options, ResultStore& store,
-  const Names& reused)
+void expectCold(
+  const SurfaceInput& input, const RemeshOptions& options, ResultStore& store, const Names& reused)
 {
   const RemeshResult stored = remesh(input, options, store);
   const RemeshResult without = remesh(input, options);
@@ -170,8 +170,9 @@ TEST(ResultStore, WhatIsUsedLeastGoesFirstAndNothingThatIsHeld)
   put(4, 70);
   EXPECT_TRUE(store.find<int>(1));
   EXPECT_FALSE(store.find<int>(3));
-  EXPECT_TRUE(store.find<int>(4) == nullptr || store.bytes() > 100U); // too much beside what is held
-  put(1, 10); // in place of the one before
+  EXPECT_TRUE(
+    store.find<int>(4) == nullptr || store.bytes() > 100U); // too much beside what is held
+  put(1, 10);                                               // in place of the one before
   EXPECT_EQ(*store.find<int>(1), 1);
   EXPECT_LE(store.bytes(), 100U);
   store.clear();

@@ -41,9 +41,8 @@ std::vector<Model> models()
   // Full of ties, on whole numbers.
   all.push_back({ "cube", test::toInput(test::unitCube(12)), 600 });
   all.push_back({ "square torus", test::toInput(test::squareTorus(6)), 600 });
-  all.push_back(
-    { "plane", test::toInput(test::planeCells(20, 20, [](int x, int y) { return x < 12 || y < 8; })),
-      200 });
+  all.push_back({ "plane",
+    test::toInput(test::planeCells(20, 20, [](int x, int y) { return x < 12 || y < 8; })), 200 });
   return all;
 }
 
@@ -118,11 +117,13 @@ TEST(Similarities, AShiftChangesNothing)
     ASSERT_TRUE(here.status.ok()) << here.status.message;
     const double diagonal = diagonalOf(model.input.points);
     const Vector3 shift = 1e4 * diagonal * Vector3(1, -0.77, 0.3);
-    const RemeshResult there = quadsOf(
-      moved(model.input, [&](const Vector3& p) { return Vector3(p + shift); }, false), model.quads);
+    const RemeshResult there =
+      quadsOf(moved(
+                model.input, [&](const Vector3& p) { return Vector3(p + shift); }, false),
+        model.quads);
     // A coordinate there is known to 2^-40 diagonals; smoothing weighs the same numbers.
-    expectSameAfterMove(here, there, [&](const Vector3& p) { return Vector3(p - shift); }, 1e-7 * diagonal,
-      false);
+    expectSameAfterMove(
+      here, there, [&](const Vector3& p) { return Vector3(p - shift); }, 1e-7 * diagonal, false);
   }
 }
 
@@ -135,13 +136,14 @@ TEST(Similarities, AScaleChangesNothing)
     const double diagonal = diagonalOf(model.input.points);
     for (const double scale : { 1e-9, 1e9 })
     {
-      const RemeshResult there = quadsOf(
-        moved(model.input, [&](const Vector3& p) { return Vector3(scale * p); }, false),
-        model.quads);
-      expectSameAfterMove(here, there, [&](const Vector3& p) { return Vector3(p / scale); },
-        1e-9 * diagonal, false);
-      EXPECT_NEAR(there.targetEdgeLength, scale * here.targetEdgeLength,
-        1e-9 * there.targetEdgeLength);
+      const RemeshResult there =
+        quadsOf(moved(
+                  model.input, [&](const Vector3& p) { return Vector3(scale * p); }, false),
+          model.quads);
+      expectSameAfterMove(
+        here, there, [&](const Vector3& p) { return Vector3(p / scale); }, 1e-9 * diagonal, false);
+      EXPECT_NEAR(
+        there.targetEdgeLength, scale * here.targetEdgeLength, 1e-9 * there.targetEdgeLength);
       EXPECT_NEAR(there.surface.area, scale * scale * here.surface.area, 1e-9 * there.surface.area);
     }
   }
@@ -211,13 +213,13 @@ TEST(Similarities, MapAndSourcesFitTheUsersSurface)
         {
           place += result.quads.sourceWeights[p][i] * mesh.position[mesh.origin[3 * f + i]];
         }
-        ASSERT_LE((place - result.quads.points[p]).norm(), 1e-6 * result.surface.boundingBoxDiagonal);
+        ASSERT_LE(
+          (place - result.quads.points[p]).norm(), 1e-6 * result.surface.boundingBoxDiagonal);
       }
       for (const QuadLine& line : result.quads.lines)
       {
         EXPECT_TRUE(mesh.isConstrained(line.halfEdge));
-        const Vector3 along =
-          result.quads.points[line.b] - result.quads.points[line.a];
+        const Vector3 along = result.quads.points[line.b] - result.quads.points[line.a];
         EXPECT_EQ(line.boundary, mesh.isBoundary(line.halfEdge));
         EXPECT_GT(along.norm(), 0);
       }
@@ -228,7 +230,8 @@ TEST(Similarities, MapAndSourcesFitTheUsersSurface)
 TEST(Similarities, PointsOnVerticesHaveTheInputsOwnNumbers)
 {
   const Vector3 shift(1234567.1, -7654321.9, 0.1234567);
-  const SurfaceInput input = moved(test::toInput(test::unitCube(12)),
+  const SurfaceInput input = moved(
+    test::toInput(test::unitCube(12)),
     [&](const Vector3& p) { return Vector3(1.23456789 * p + shift); }, false);
   const RemeshResult result = quadsOf(input, 600);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
@@ -243,8 +246,9 @@ TEST(Similarities, PointsOnVerticesHaveTheInputsOwnNumbers)
 TEST(Similarities, AnEdgeLengthIsInUnitsOfTheInput)
 {
   const Vector3 shift = Vector3::Constant(1e6);
-  const SurfaceInput input = moved(test::toInput(test::sphere(4)),
-    [&](const Vector3& p) { return Vector3(50 * p + shift); }, false);
+  const SurfaceInput input = moved(
+    test::toInput(test::sphere(4)), [&](const Vector3& p) { return Vector3(50 * p + shift); },
+    false);
   RemeshOptions options;
   options.edgeLength = 7.3;
   const RemeshResult result = remesh(input, options);

@@ -127,8 +127,7 @@ TEST(Sizing, HalfACubeHasQuadsHalfAsLong)
 /// From 0.5 to 1.5 over a length of 20.
 SurfaceInput growingCylinder()
 {
-  return withSizes(
-    openCylinder(60, 200, 2, 20), [](const Vector3& p) { return 0.5 + p.z() / 20; });
+  return withSizes(openCylinder(60, 200, 2, 20), [](const Vector3& p) { return 0.5 + p.z() / 20; });
 }
 
 TEST(Sizing, SizesMayGrowAlongASurface)

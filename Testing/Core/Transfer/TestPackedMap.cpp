@@ -39,7 +39,8 @@ TEST(PackedMap, everyCornerMayHaveItsOwnImage)
   std::vector<FixedVec2> uv = continuousMap(mesh);
   for (std::size_t h = 0; h < uv.size(); h += 1 + random() % 9)
   {
-    uv[h] = { static_cast<std::int64_t>(random() >> 20), -static_cast<std::int64_t>(random() >> 20) };
+    uv[h] = { static_cast<std::int64_t>(random() >> 20),
+      -static_cast<std::int64_t>(random() >> 20) };
   }
   EXPECT_EQ(PackedMap(mesh, uv).unpack(mesh), uv);
   for (FixedVec2& p : uv)

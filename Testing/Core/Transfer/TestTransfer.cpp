@@ -95,10 +95,11 @@ TEST(Transfer, turnsOnTheSurfaceAreThoseOfTheCoarseMap)
   EXPECT_EQ(expectedTurns(cube, ofCube.coarse, turnsOf(ofCube.coarse.mesh, cubeUv)),
     turnsOf(cube, transfer(cube, ofCube, cubeUv).uv));
 
-  const Mesh plane = gridPlane(40, 30); // has regular boundary vertices, and four corners with one turn
+  const Mesh plane =
+    gridPlane(40, 30); // has regular boundary vertices, and four corners with one turn
   const Hierarchy ofPlane = decimate(plane, 10, 30);
-  const std::vector<FixedVec2> planeUv = mapByPosition(
-    ofPlane.coarse.mesh, [](const Vector3& p) { return Vector2(p.x(), p.y()); });
+  const std::vector<FixedVec2> planeUv =
+    mapByPosition(ofPlane.coarse.mesh, [](const Vector3& p) { return Vector2(p.x(), p.y()); });
   const std::vector<int> turns =
     expectedTurns(plane, ofPlane.coarse, turnsOf(ofPlane.coarse.mesh, planeUv));
   EXPECT_EQ(turns, turnsOf(plane, transfer(plane, ofPlane, planeUv).uv));
