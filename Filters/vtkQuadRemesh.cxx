@@ -255,7 +255,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   if (this->ComputeMappedSurface)
   {
     vtkPolyData* mapped = block.output(1);
-    if (result.mapKey == options.knownMap)
+    if (result.mapIsKnown)
     {
       mapped->ShallowCopy(memory->mapped.surface);
     }

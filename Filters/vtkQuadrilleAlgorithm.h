@@ -4,18 +4,20 @@
  * @class   vtkQuadrilleAlgorithm
  * @brief   what the filters of Quadrille share: blocks, threads, time limit, errors, progress, MPI
  *
- * A filter of Quadrille works on whole surfaces. A data set is one; composite data has one for each of its blocks, and the outputs
- * are composite data with the same structure and names. Of a data set that is no vtkPolyData the surface is taken.
+ * A filter of Quadrille works on whole surfaces. A data set is one; composite data has one for each of its blocks, and
+ * the outputs are composite data with the same structure and names. Of a data set that is no vtkPolyData the surface is
+ * taken.
  *
- * Any failure is reported through vtkErrorMacro with the element that is at fault, and GetOutcome() says what kind of failure it
- * was. The outputs then hold the previous result, unchanged, as they do after a stop on request; they are empty where there was
- * none. A block that fails keeps its own previous result, and the others get theirs; the error names the blocks. Texts of several
- * blocks begin each line with the name of the block.
+ * Any failure is reported through vtkErrorMacro with the element that is at fault, and GetOutcome() says what kind of
+ * failure it was. The outputs then hold the previous result, unchanged, as they do after a stop on request; they are
+ * empty where there was none. A block that fails keeps its own previous result, and the others get theirs; the error
+ * names the blocks. Texts of several blocks begin each line with the name of the block.
  *
- * In a parallel run each rank has its part of the input. The pieces of a surface are brought to one rank and put together there, in an
- * order that does not depend on how they were cut, so that the result is the same for any number of ranks; see RankIndependent. The blocks of
- * composite data are spread over the ranks. The outputs lie on the rank that made them and are empty on the others; what the filter
- * tells is the same on all. Ranks work together where as many pieces are asked for as there are ranks, as ParaView does.
+ * In a parallel run each rank has its part of the input. The pieces of a surface are brought to one rank and put
+ * together there, in an order that does not depend on how they were cut, so that the result is the same for any number
+ * of ranks; see RankIndependent. The blocks of composite data are spread over the ranks. The outputs lie on the rank
+ * that made them and are empty on the others; what the filter tells is the same on all. Ranks work together where as
+ * many pieces are asked for as there are ranks, as ParaView does.
  */
 #ifndef vtkQuadrilleAlgorithm_h
 #define vtkQuadrilleAlgorithm_h
@@ -86,17 +88,18 @@ public:
 
   ///@{
   /**
-   * Whether a surface that comes in one piece is put into the order of one that comes in several, too, a RankIndependentType.
-   * Then the result is the same for any number of ranks, also for one; ids as in `SourceCellId` count in that order. Otherwise one
-   * piece stays as it is. Default: UnderMPI, that is where mpiexec or srun has started the session, with any number of ranks.
+   * Whether a surface that comes in one piece is put into the order of one that comes in several, too, a
+   * RankIndependentType. Then the result is the same for any number of ranks, also for one; ids as in `SourceCellId`
+   * count in that order. Otherwise one piece stays as it is. Default: UnderMPI, that is where mpiexec or srun has
+   * started the session, with any number of ranks.
    */
   vtkSetClampMacro(RankIndependent, int, Never, UnderMPI);
   vtkGetMacro(RankIndependent, int);
   ///@}
 
   /**
-   * All properties that the result depends on, with their values. Threads and limits are none of them. An execution with the settings and
-   * inputs of an earlier one gets its result, where the filter keeps results.
+   * All properties that the result depends on, with their values. Threads and limits are none of them. An execution
+   * with the settings and inputs of an earlier one gets its result, where the filter keeps results.
    */
   std::string GetSettings() const;
 

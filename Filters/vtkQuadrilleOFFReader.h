@@ -4,10 +4,10 @@
  * @class   vtkQuadrilleOFFReader
  * @brief   reads OFF files with normals, colours and texture coordinates
  *
- * The text form of the Object File Format in three dimensions, with any of the prefixes ST, C and N. Normals and texture
- * coordinates become the point arrays Normals and TCoords, colours of vertices and of faces RGB or RGBA, and an index in
- * place of a face's colour the cell array ColorIndex. A file that is damaged is an error that names the vertex or the face;
- * the output is empty then.
+ * The text form of the Object File Format in three dimensions, with any of the prefixes ST, C and N. Normals and
+ * texture coordinates become the point arrays Normals and TCoords, colours of vertices and of faces RGB or RGBA, and an
+ * index in place of a face's colour the cell array ColorIndex. A file that is damaged is an error that names the vertex
+ * or the face; the output is empty then.
  */
 #ifndef vtkQuadrilleOFFReader_h
 #define vtkQuadrilleOFFReader_h

@@ -4,10 +4,10 @@
  * @class   vtkQuadrillePLYReader
  * @brief   reads PLY files with all properties of their vertices and faces
  *
- * Text and binary, both byte orders. Each scalar property becomes a point or cell array of its own type and name (vtkPLYReader
- * keeps a few only, and patch ids of CAD surfaces are not among them); nx ny nz become Normals, red green blue (alpha) RGB or
- * RGBA, pairs of texture coordinates TCoords, and `tristrips` triangle strips. A file that is damaged is an error that names
- * the line of the header or the element; the output is empty then.
+ * Text and binary, both byte orders. Each scalar property becomes a point or cell array of its own type and name
+ * (vtkPLYReader keeps a few only, and patch ids of CAD surfaces are not among them); nx ny nz become Normals, red green
+ * blue (alpha) RGB or RGBA, pairs of texture coordinates TCoords, and `tristrips` triangle strips. A file that is
+ * damaged is an error that names the line of the header or the element; the output is empty then.
  */
 #ifndef vtkQuadrillePLYReader_h
 #define vtkQuadrillePLYReader_h

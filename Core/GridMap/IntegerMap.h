@@ -96,6 +96,8 @@ public:
   /// Every triangle closed and sound, and the winding at every vertex that of the seamless map.
   bool isValid() const;
 
+  /// Along an axis.
+  static std::int64_t lengthOf(FixedVec2 q) { return std::abs(q.u) + std::abs(q.v); }
   static std::int64_t cross(FixedVec2 a, FixedVec2 b) { return a.u * b.v - a.v * b.u; }
 
 private:
@@ -112,7 +114,6 @@ private:
 
   void findLoops();
   void measureLoops();
-  static std::int64_t lengthOf(FixedVec2 q) { return std::abs(q.u) + std::abs(q.v); }
   std::int64_t shortageOf(Index loop) const
   {
     return std::max<std::int64_t>(0, kLeastLoop - loopLength_[loop]);

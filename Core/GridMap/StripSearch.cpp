@@ -3,7 +3,6 @@
 #include "GridMap/StripSearch.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <functional>
 #include <tuple>
 
@@ -18,11 +17,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kStepCost = 1e-6;
 /// Steps that an improving search may settle.
 constexpr std::size_t kFarthest = 4000;
-
-std::int64_t lengthOf(FixedVec2 e)
-{
-  return std::abs(e.u) + std::abs(e.v);
-}
 
 } // namespace
 
@@ -183,7 +177,7 @@ void StripSearch::appendPath(const End& end, std::vector<StripStep>& steps) cons
 
 Strip StripSearch::through(Index h, FixedVec2 e, double bound)
 {
-  length_ = lengthOf(e);
+  length_ = IntegerMap::lengthOf(e);
   ++searches_;
   visited_.clear();
   Strip strip;
@@ -224,7 +218,7 @@ Strip StripSearch::through(Index h, FixedVec2 e, double bound)
 
 Strip StripSearch::discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>& defects)
 {
-  length_ = lengthOf(e);
+  length_ = IntegerMap::lengthOf(e);
   ++searches_;
   restart();
   End best;

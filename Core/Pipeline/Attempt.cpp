@@ -9,6 +9,7 @@
 #include "Transfer/ExpectedTurns.h"
 #include "Transfer/SurfaceStretch.h"
 
+#include <algorithm>
 #include <sstream>
 #include <utility>
 
@@ -335,6 +336,12 @@ std::vector<Vector3> positionsOf(const Mesh& mesh, const std::vector<Index>& ver
     points.push_back(mesh.position[v]);
   }
   return points;
+}
+
+bool isNear(const Vector3& p, const std::vector<Vector3>& places, double radius)
+{
+  return std::any_of(places.begin(), places.end(),
+    [&](const Vector3& place) { return (p - place).squaredNorm() < radius * radius; });
 }
 
 } // namespace quadrille

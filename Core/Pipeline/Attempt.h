@@ -115,5 +115,7 @@ std::optional<GridTroubles> gridTroubles(const RunContext& run, const MapAttempt
 
 /// Positions of vertices.
 std::vector<Vector3> positionsOf(const Mesh& mesh, const std::vector<Index>& vertices);
+/// Whether p is less than `radius` from one of the places.
+bool isNear(const Vector3& p, const std::vector<Vector3>& places, double radius);
 
 } // namespace quadrille

@@ -145,7 +145,8 @@ void tellAnisotropy(const RemeshOptions& options, RemeshResult& result)
 }
 
 /// The attempt that counts, in the frame.
-void takeAttempt(const Attempt& attempt, RunSurface& surface, RemeshResult& result)
+void takeAttempt(
+  const Attempt& attempt, const RemeshOptions& options, RunSurface& surface, RemeshResult& result)
 {
   surface.apply(attempt.plan);
   MapAttempt& map = *attempt.map;
@@ -172,12 +173,10 @@ void takeAttempt(const Attempt& attempt, RunSurface& surface, RemeshResult& resu
     const FinalQuality level =
       result.finalQuality.improved ? result.finalQuality.level : FinalQuality::Coarse;
     result.mapKey = KeyMaker(map.key).add(static_cast<std::uint64_t>(level)).key();
+    // A map that started from another one is not told by its key.
+    result.mapIsKnown =
+      options.knownMap != 0 && result.mapKey == options.knownMap && !options.warmStart;
   }
-}
-
-bool isKnown(const RemeshOptions& options, const RemeshResult& result)
-{
-  return result.mapKey != 0 && result.mapKey == options.knownMap;
 }
 
 void tellAttempt(const Attempt& attempt, const QuadSize& size, RemeshResult& result)
@@ -233,12 +232,12 @@ void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& o
     makeAttempts(run, history);
     levels.letGo();
     result.smallParts = run.shortLoops.parts;
-    takeAttempt(history.result(), surface, result);
+    takeAttempt(history.result(), options, surface, result);
     tellAttempt(history.result(),
       { sized.edgeLength, frame.unit, sized.targetQuads, options.maximumNumberOfQuads }, result);
     takeHistory(history, levels, sized.stages, result);
   }
-  if (options.mergeCharts && result.status.ok() && !isKnown(options, result))
+  if (options.mergeCharts && result.status.ok() && !result.mapIsKnown)
   {
     // After the extraction, so that the quads do not depend on it.
     const double start = secondsNow();
@@ -291,7 +290,7 @@ void run(SurfaceInput& input, RemeshOptions options, ResultStore* store, PlaceSc
   {
     runAttempts(sized, frame, options, store, result);
   }
-  leave(sized, framed, options.mergeCharts && !isKnown(options, result), result);
+  leave(sized, framed, options.mergeCharts && !result.mapIsKnown, result);
   if (askedEdgeLength && !options.quads)
   {
     result.targetEdgeLength = *askedEdgeLength; // with every bit

@@ -31,19 +31,20 @@ struct RemeshResult
   PreparedSurface
     surface; ///< the finest level that uv belongs to; its hash is that of the surface in its frame
   Frame frame; ///< that the run worked in; all else here is on the user's surface
-  std::vector<Vector3>
-    framePositions; ///< #V of surface.mesh, in the frame; empty unless mergeCharts, or where the map is known
+  /// #V of surface.mesh, in the frame; empty unless mergeCharts, or where mapIsKnown.
+  std::vector<Vector3> framePositions;
   std::vector<FixedVec2> uv; ///< #H of surface.mesh
-  /// Of uv and the surface that it belongs to: where it is the same, they are.
+  /// Of uv and the surface that it belongs to: where it is the same, they are, but for warm starts.
   ResultKey mapKey = 0;
-  std::vector<int> turns; ///< #V of surface.mesh
-  Level coarse;           ///< coarse mesh
+  bool mapIsKnown = false; ///< whether it is that of RemeshOptions::knownMap
+  std::vector<int> turns;  ///< #V of surface.mesh
+  Level coarse;            ///< coarse mesh
   std::vector<FixedVec2>
     coarseUv;                    ///< #H of coarse.mesh; also when the status is not ok, for a look
   std::vector<int> coarseTurns;  ///< #V of coarse.mesh
   Certificate coarseCertificate; ///< of the coarse map
   Certificate certificate;       ///< of the map on the input surface
-  ChartCounts charts;            ///< of uv; zero unless mergeCharts, or where the map is known
+  ChartCounts charts;            ///< of uv; zero unless mergeCharts, or where mapIsKnown
   TransferResult transfer;       ///< counts only, uv is moved out
   ExtractionCounts extraction;   ///< what the map on the surface made necessary
   FinalQualityReport finalQuality; ///< zero unless asked for
@@ -67,8 +68,7 @@ struct RemeshResult
 /// Runs everything, in coordinates of its own (see Mesh/Frame.h): of a surface that is shifted, scaled or mirrored it
 /// makes the same quads, shifted, scaled or mirrored, up to rounding. Throws InvalidInput for bad input or options; any
 /// other failure, cancel included, is a status and leaves `quads` empty. The input's memory (about 30 bytes a triangle)
-/// is let go as soon as the surface is prepared:
-/// move it in where it is not needed any more.
+/// is let go as soon as the surface is prepared: move it in where it is not needed any more.
 RemeshResult remesh(SurfaceInput input, const RemeshOptions& options);
 
 /// The same with a store: what earlier runs have left there is not computed again, and it holds this run's stages

@@ -136,18 +136,6 @@ Status failureOf(const Status& extraction, MapMethod method, const Certificate& 
       "--coarse-vertices), or raise the feature angle where noise is taken for features" };
 }
 
-/// Has a quad a corner within kFoldRadius edge lengths of one of the places?
-bool isNear(
-  const std::array<Vector3, 4>& corners, const std::vector<Vector3>& places, double radius)
-{
-  const auto isClose = [&](const Vector3& place)
-  {
-    return std::any_of(corners.begin(), corners.end(),
-      [&](const Vector3& p) { return (p - place).squaredNorm() < radius * radius; });
-  };
-  return std::any_of(places.begin(), places.end(), isClose);
-}
-
 void countTurned(const RunContext& run, const MapAttempt& map, QuadAttempt& made)
 {
   const std::vector<Vector3> folds = positionsOf(run.surface->mesh, map.transfer.offenders);
@@ -156,8 +144,9 @@ void countTurned(const RunContext& run, const MapAttempt& map, QuadAttempt& made
   made.turnedAtFolds = std::any_of(turned.begin(), turned.end(),
     [&](Index q)
     {
-      return isNear(
-        cornersOf(made.quads.points, made.quads.quads[q]), folds, kFoldRadius * run.edgeLength);
+      const std::array<Vector3, 4> corners = cornersOf(made.quads.points, made.quads.quads[q]);
+      return std::any_of(corners.begin(), corners.end(),
+        [&](const Vector3& p) { return isNear(p, folds, kFoldRadius * run.edgeLength); });
     });
 }
 

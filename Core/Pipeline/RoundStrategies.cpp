@@ -54,20 +54,21 @@ bool asksForFinerGrid(const Trouble& trouble)
   return trouble.failed && !trouble.history.hasResult() && !trouble.run.options.coarsestIntegers;
 }
 
+/// Whether quads that are smaller everywhere had no fewer defects.
+bool isNoMatterOfSize(const Plan& plan, const std::optional<GridTroubles>& grid)
+{
+  return plan.finer.doublings > 0 && grid && grid->defects >= plan.finer.defects;
+}
+
 /// Loops of handles and holes that pass near one of the places.
 std::vector<HandleLoop> loopsNear(const RunContext& run, const std::vector<Vector3>& places)
 {
-  const double radius = kShrinkRadius * run.edgeLength;
-  const auto isNear = [&](Index v)
-  {
-    const Vector3& p = run.surface->mesh.position[v];
-    return std::any_of(places.begin(), places.end(),
-      [&](const Vector3& place) { return (p - place).squaredNorm() < radius * radius; });
-  };
+  const auto isAtPlace = [&](Index v)
+  { return isNear(run.surface->mesh.position[v], places, kShrinkRadius * run.edgeLength); };
   std::vector<HandleLoop> near;
   for (const HandleLoop& loop : run.shortLoops.loops)
   {
-    if (std::any_of(loop.vertices.begin(), loop.vertices.end(), isNear))
+    if (std::any_of(loop.vertices.begin(), loop.vertices.end(), isAtPlace))
     {
       near.push_back(loop);
     }
@@ -135,17 +136,6 @@ std::optional<Plan> smallerQuadsNear(const Trouble& trouble)
   finer.notice = text.str();
   return plan;
 }
-
-namespace
-{
-
-/// Whether quads that are smaller everywhere had no fewer defects.
-bool isNoMatterOfSize(const Plan& plan, const std::optional<GridTroubles>& grid)
-{
-  return plan.finer.doublings > 0 && grid && grid->defects >= plan.finer.defects;
-}
-
-} // namespace
 
 std::optional<Plan> moreQuads(const Trouble& trouble)
 {
