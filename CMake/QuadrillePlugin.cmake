@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The VTK filters, the ParaView plugin, the Python package and the programs.
 
-# ParaView's server manager was built with double-conversion and its package asks for it; nothing here includes or links it, so
-# that the library with which ParaView runs is enough and its headers need not be there.
+# ParaView's server manager was built with double-conversion and its package asks for it; nothing here includes or links
+# it, so that the library with which ParaView runs is enough and its headers need not be there.
 find_library(double-conversion_LIBRARY NAMES double-conversion libdouble-conversion.so.3)
 if(NOT double-conversion_INCLUDE_DIR) # also where an earlier run has noted that it did not find it
   set(double-conversion_INCLUDE_DIR "/usr/include" CACHE PATH "Not used, but asked for by ParaView's package" FORCE)
@@ -23,8 +23,8 @@ foreach(module IN LISTS quadrille_required_modules)
     message(FATAL_ERROR "This ParaView lacks the module ${module}, which the plugin needs.")
   endif()
 endforeach()
-# The pages behind the question mark in the panel. ParaView's CMake functions compile them with the tools of Qt, and fail without;
-# /usr/bin/xmlpatterns may be a link of qtchooser to nothing, so it is run.
+# The pages behind the question mark in the panel. ParaView's CMake functions compile them with the tools of Qt, and
+# fail without; /usr/bin/xmlpatterns may be a link of qtchooser to nothing, so it is run.
 set(QUADRILLE_HELP OFF)
 find_program(qt_xmlpatterns_executable NAMES xmlpatterns-qt5 xmlpatterns) # the name that ParaView looks it up by
 find_package(Qt5Help QUIET)
@@ -37,7 +37,8 @@ endif()
 if(QUADRILLE_HELP)
   set(quadrille_no_help OFF)
 else()
-  message(STATUS "No help pages in ParaView: xmlpatterns (qtxmlpatterns5-dev-tools) or Qt5Help (qttools5-dev) is missing")
+  message(STATUS
+    "No help pages in ParaView: xmlpatterns (qtxmlpatterns5-dev-tools) or Qt5Help (qttools5-dev) is missing")
   set(quadrille_no_help ON)
 endif()
 paraview_plugin_build(

@@ -11,9 +11,9 @@ Shapes:
   beast  an organic closed shape with head, ears, legs and a tail; genus 0
   frame  the rounded edges of a tetrahedron as struts; closed, genus 3
 
-The number of faces comes within a few percent of what is asked for (eight below 10 thousand). The output is binary PLY, or VTK's
-legacy format, whose reader keeps PatchId, and depends on the arguments only. --check counts the topology anew and fails where it is not what it should be.
-Needs Python 3 and numpy.
+The number of faces comes within a few percent of what is asked for (eight below 10 thousand). The output is binary PLY,
+or VTK's legacy format, whose reader keeps PatchId, and depends on the arguments only. --check counts the topology anew
+and fails where it is not what it should be. Needs Python 3 and numpy.
 """
 import argparse
 import sys

@@ -6,12 +6,12 @@
  *
  * Inputs and properties: see vtkQuadrilleSurfaceAlgorithm. Outputs:
  *
- * 0. the coarse level, for vtkIntegerGridMap. Points: `FineVertex`, and `TargetValence` and `Sizing` where they are asked for; cells:
- *    `FineFace`, `FeatureEdges`, and `GuidingDirection` with `GuidingWeight` where there are guides; field data:
- *    `TargetEdgeLength`, `TargetQuads`, stage times, repair counts, `Notices`.
+ * 0. the coarse level, for vtkIntegerGridMap. Points: `FineVertex`, and `TargetValence` and `Sizing` where they are
+ *    asked for; cells: `FineFace`, `FeatureEdges`, and `GuidingDirection` with `GuidingWeight` where there are guides;
+ *    field data: `TargetEdgeLength`, `TargetQuads`, stage times, repair counts, `Notices`.
  * 1. the intermediate level, with the same arrays.
- * 2. the log, for vtkIntegerGridMapUpmap: a table without columns, the bytes in the field array `DecimationLog`, bound to
- *    the surface by `SurfaceHash`. It has a port of its own so that it never travels with a picture.
+ * 2. the log, for vtkIntegerGridMapUpmap: a table without columns, the bytes in the field array `DecimationLog`, bound
+ *    to the surface by `SurfaceHash`. It has a port of its own so that it never travels with a picture.
  */
 #ifndef vtkDecimationHierarchy_h
 #define vtkDecimationHierarchy_h

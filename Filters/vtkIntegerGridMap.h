@@ -4,11 +4,12 @@
  * @class   vtkIntegerGridMap
  * @brief   the integer-grid map of the coarse level: cross field, seamless map, quantization, embedding
  *
- * Input: output 0 of vtkDecimationHierarchy, or any clean triangle mesh when EdgeLength is set; cell arrays `GuidingDirection`,
- * `GuidingWeight` and the point arrays `TargetValence` and `Sizing` are honoured as vtkQuadrilleSurfaceAlgorithm says. Output: the same mesh with
- * `IGM` (cells, double, 6: u0 v0 u1 v1 u2 v2, one unit a quad), `Matching` (cells, 3: quarter turns of the transition
- * across each edge), `Determinant` (cells: twice the uv area, positive when valid), and on points `Turns` (quarter turns
- * of the map), `Index` (0 where regular) and `IntegerVertex`. Field data: certificate and stage times.
+ * Input: output 0 of vtkDecimationHierarchy, or any clean triangle mesh when EdgeLength is set; cell arrays
+ * `GuidingDirection`, `GuidingWeight` and the point arrays `TargetValence` and `Sizing` are honoured as
+ * vtkQuadrilleSurfaceAlgorithm says. Output: the same mesh with `IGM` (cells, double, 6: u0 v0 u1 v1 u2 v2, one unit a
+ * quad), `Matching` (cells, 3: quarter turns of the transition across each edge), `Determinant` (cells: twice the uv
+ * area, positive when valid), and on points `Turns` (quarter turns of the map), `Index` (0 where regular) and
+ * `IntegerVertex`. Field data: certificate and stage times.
  */
 #ifndef vtkIntegerGridMap_h
 #define vtkIntegerGridMap_h
@@ -55,9 +56,9 @@ public:
 
   ///@{
   /**
-   * What the whole numbers of the map aim at, an IntegersTypes: quads of the size asked for, or the coarsest layout, with integers
-   * as small as a map can have whose quads are the surface. The size then sets only what the coarse level keeps. Needs
-   * METHOD_SCALE_AWARE. Default: INTEGERS_KEEP_SIZES.
+   * What the whole numbers of the map aim at, an IntegersTypes: quads of the size asked for, or the coarsest layout,
+   * with integers as small as a map can have whose quads are the surface. The size then sets only what the coarse level
+   * keeps. Needs METHOD_SCALE_AWARE. Default: INTEGERS_KEEP_SIZES.
    */
   vtkSetClampMacro(Integers, int, INTEGERS_KEEP_SIZES, INTEGERS_COARSEST);
   vtkGetMacro(Integers, int);
@@ -67,10 +68,10 @@ public:
 
   ///@{
   /**
-   * The ratio of the two stretches of a triangle of the coarse level, against the sizes asked for, from which on the map gives way to bring it
-   * down, at the price of quads that differ more in size. At least 1; 0 means no limit. Whole numbers, features and irregular
-   * vertices may keep it from being met: the share of the area beyond it is told in the field data. Not with METHOD_MIXED_INTEGER and
-   * METHOD_QUADCOVER. Default: 0.
+   * The ratio of the two stretches of a triangle of the coarse level, against the sizes asked for, from which on the
+   * map gives way to bring it down, at the price of quads that differ more in size. At least 1; 0 means no limit. Whole
+   * numbers, features and irregular vertices may keep it from being met: the share of the area beyond it is told in the
+   * field data. Not with METHOD_MIXED_INTEGER and METHOD_QUADCOVER. Default: 0.
    */
   vtkSetMacro(AnisotropyLimit, double);
   vtkGetMacro(AnisotropyLimit, double);

@@ -6,8 +6,8 @@
  *
  * Inputs: 0 the coarse level with `IGM` (vtkIntegerGridMap); 1 the surface that vtkDecimationHierarchy had;
  * 2 its log port. A log of another surface is refused. Output: the surface, repaired, with
- * `IGM`, `Matching`, `Determinant`, `Turns`, `Index`, `SourceCellId`, `SourcePointIds`, every array of the surface, and, with
- * TextureCoordinates, points doubled at the cuts. Field data: certificate, stage times, counts of the replay.
+ * `IGM`, `Matching`, `Determinant`, `Turns`, `Index`, `SourceCellId`, `SourcePointIds`, every array of the surface,
+ * and, with TextureCoordinates, points doubled at the cuts. Field data: certificate, stage times, counts of the replay.
  */
 #ifndef vtkIntegerGridMapUpmap_h
 #define vtkIntegerGridMapUpmap_h

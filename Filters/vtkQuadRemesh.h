@@ -7,28 +7,33 @@
  * Follows Ebke, Schmidt, Campen, Kobbelt, "Interactively Controlled Quad Remeshing of High Resolution 3D
  * Models" (2016). Inputs: see vtkQuadrilleSurfaceAlgorithm. Outputs:
  *
- * 0. the quads. Points: `Valence`, `QuadNormals` (surfaces without features), `OnBoundary`, `SourceCellId`, `SourcePointIds` and `SourceBarycentric` (where the
- *    point lies on the input). Cells: `SourceCellId`, `FeatureEdges`, `LayoutPatch` (the patch of the base complex). Every array of the input:
- *    on points real numbers and colours interpolated, whole numbers and strings from the nearest point; on cells see CellDataFrom.
+ * 0. the quads. Points: `Valence`, `QuadNormals` (surfaces without features), `OnBoundary`, `SourceCellId`,
+ *    `SourcePointIds` and `SourceBarycentric` (where the point lies on the input). Cells: `SourceCellId`,
+ *    `FeatureEdges`, `LayoutPatch` (the patch of the base complex). Every array of the input: on points real numbers
+ *    and colours interpolated, whole numbers and strings from the nearest point; on cells see CellDataFrom.
  * 1. the input surface, repaired, with the integer-grid map: `IGM`, `Matching`, `Determinant` on cells, `Turns`,
  *    `Index` on points, and texture coordinates; `Charts` and `SeamEdges` in field data: one chart a component, with
  *    seams between irregular vertices. Empty unless ComputeMappedSurface is on.
- * 2. feature and boundary lines of the quads, with `Boundary`; where there is a patch array `PatchIds`, the pair that a line separates; `LayoutPatchIds`, the
- *    same for layout patches; `Separatrix` (1: a border of layout patches without features, too); `QuadPointId` on points.
- * 3. the lines between layout patches inside, as polylines. A straight line of edges leaves regular vertices opposite to where it came in; those with an irregular end
- *    or a feature edge are the borders of patches, which are grids of quads with four sides, or rings or tori where there is no irregular vertex. Cells: `StartKind` and
- *    `EndKind` (0 irregular vertex, 1 boundary, 2 the feature ends or begins here, 3 closed), `Feature` (1: all of it on features, 0: none), `Separatrix`
- *    (1: the straight line has an irregular end); `QuadPointId` on points.
- * 4. the irregular vertices of the quads as vertices, with `Valence` (number of edges), `Index` (edges that are missing to a regular
- *    vertex), `OnBoundary` and `QuadPointId`.
+ * 2. feature and boundary lines of the quads, with `Boundary`; where there is a patch array `PatchIds`, the pair that a
+ *    line separates; `LayoutPatchIds`, the same for layout patches; `Separatrix` (1: a border of layout patches without
+ *    features, too); `QuadPointId` on points.
+ * 3. the lines between layout patches inside, as polylines. A straight line of edges leaves regular vertices opposite
+ *    to where it came in; those with an irregular end or a feature edge are the borders of patches, which are grids of
+ *    quads with four sides, or rings or tori where there is no irregular vertex. Cells: `StartKind` and `EndKind` (0
+ *    irregular vertex, 1 boundary, 2 the feature ends or begins here, 3 closed), `Feature` (1: all of it on features,
+ *    0: none), `Separatrix` (1: the straight line has an irregular end); `QuadPointId` on points.
+ * 4. the irregular vertices of the quads as vertices, with `Valence` (number of edges), `Index` (edges that are missing
+ *    to a regular vertex), `OnBoundary` and `QuadPointId`.
  * 5. what the constraints of the inputs 1 to 3 became on the surface, see QuadrilleConstraints.h.
  *
- * Field data of output 0, beside that of the input: `LayoutPatchShape` (a patch: 0 four corners, 1 ring, 2 torus) and `LayoutPatchSize` (2: quads along and across), `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`, `ReusedStages`, `Certificate`,
- * `CertificateValid`, `CertificateNames`, `CertificateValues`, `Method`, `RepairNames`, `RepairCounts`,
- * `ExtractionNames`, `ExtractionCounts`, `Notices`,
- * `EstimatedSeconds`, `EstimatedMegabytes`, `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `CoarseVertices`, `Decimations`, `Replays`, `SurfaceFaces`, `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`,
- * `ShortestBoundaryOverEdgeLength` (see the getters of the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`;
- * with a FinalQuality other than Coarse `DistortionNames`, `DistortionBefore`, `DistortionAfter`, `OptimizationSteps`.
+ * Field data of output 0, beside that of the input: `LayoutPatchShape` (a patch: 0 four corners, 1 ring, 2 torus) and
+ * `LayoutPatchSize` (2: quads along and across), `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`,
+ * `ReusedStages`, `Certificate`, `CertificateValid`, `CertificateNames`, `CertificateValues`, `Method`, `RepairNames`,
+ * `RepairCounts`, `ExtractionNames`, `ExtractionCounts`, `Notices`, `EstimatedSeconds`, `EstimatedMegabytes`,
+ * `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `CoarseVertices`, `Decimations`, `Replays`, `SurfaceFaces`,
+ * `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`, `ShortestBoundaryOverEdgeLength` (see the getters of
+ * the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`; with a FinalQuality other than Coarse
+ * `DistortionNames`, `DistortionBefore`, `DistortionAfter`, `OptimizationSteps`.
  */
 #ifndef vtkQuadRemesh_h
 #define vtkQuadRemesh_h
@@ -75,9 +80,9 @@ public:
 
   ///@{
   /**
-   * What the whole numbers of the map aim at, an IntegersTypes: quads of the size asked for, or the coarsest layout, with integers
-   * as small as a map can have whose quads are the surface. The size then sets only what the coarse level keeps. Needs
-   * METHOD_SCALE_AWARE. Default: INTEGERS_KEEP_SIZES.
+   * What the whole numbers of the map aim at, an IntegersTypes: quads of the size asked for, or the coarsest layout,
+   * with integers as small as a map can have whose quads are the surface. The size then sets only what the coarse level
+   * keeps. Needs METHOD_SCALE_AWARE. Default: INTEGERS_KEEP_SIZES.
    */
   vtkSetClampMacro(Integers, int, INTEGERS_KEEP_SIZES, INTEGERS_COARSEST);
   vtkGetMacro(Integers, int);
@@ -87,10 +92,10 @@ public:
 
   ///@{
   /**
-   * The ratio of the two stretches of a triangle of the coarse level, against the sizes asked for, from which on the map gives way to bring it
-   * down, at the price of quads that differ more in size. At least 1; 0 means no limit. Whole numbers, features and irregular
-   * vertices may keep it from being met: the share of the area beyond it is told in the field data. Not with METHOD_MIXED_INTEGER and
-   * METHOD_QUADCOVER. Default: 0.
+   * The ratio of the two stretches of a triangle of the coarse level, against the sizes asked for, from which on the
+   * map gives way to bring it down, at the price of quads that differ more in size. At least 1; 0 means no limit. Whole
+   * numbers, features and irregular vertices may keep it from being met: the share of the area beyond it is told in the
+   * field data. Not with METHOD_MIXED_INTEGER and METHOD_QUADCOVER. Default: 0.
    */
   vtkSetMacro(AnisotropyLimit, double);
   vtkGetMacro(AnisotropyLimit, double);
@@ -106,10 +111,10 @@ public:
 
   ///@{
   /**
-   * Sweeps in which the points of the quads move over the surface, those of features and boundaries along their curves, towards the
-   * average of their neighbours; a move that would lower the worst scaled Jacobian round a point is not made. Then points
-   * near quads that are turned over at a corner move to mend them. At least 0: the points stay where the map has them.
-   * Default: 5.
+   * Sweeps in which the points of the quads move over the surface, those of features and boundaries along their curves,
+   * towards the average of their neighbours; a move that would lower the worst scaled Jacobian round a point is not
+   * made. Then points near quads that are turned over at a corner move to mend them. At least 0: the points stay where
+   * the map has them. Default: 5.
    */
   vtkSetMacro(SmoothingSteps, int);
   vtkGetMacro(SmoothingSteps, int);
@@ -126,8 +131,8 @@ public:
 
   ///@{
   /**
-   * Handles that are shorter round or through than this, in target edge lengths, are cut along their shortest loop and closed on both
-   * sides before the surface is mapped; 0 leaves all as they are. Quads need 3. Default: 0.
+   * Handles that are shorter round or through than this, in target edge lengths, are cut along their shortest loop and
+   * closed on both sides before the surface is mapped; 0 leaves all as they are. Quads need 3. Default: 0.
    */
   vtkSetClampMacro(CloseHandles, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(CloseHandles, double);
@@ -141,9 +146,9 @@ public:
   };
   ///@{
   /**
-   * What becomes of connected components with less area than the smallest block of quads of the target size has, such as the islands of
-   * isosurfaces: KEEP_SMALL_COMPONENTS makes each of about that many quads (six for a closed one), REMOVE_SMALL_COMPONENTS leaves them
-   * out, unless all are such. A notice counts them. Default: KEEP_SMALL_COMPONENTS.
+   * What becomes of connected components with less area than the smallest block of quads of the target size has, such
+   * as the islands of isosurfaces: KEEP_SMALL_COMPONENTS makes each of about that many quads (six for a closed one),
+   * REMOVE_SMALL_COMPONENTS leaves them out, unless all are such. A notice counts them. Default: KEEP_SMALL_COMPONENTS.
    */
   vtkSetClampMacro(SmallComponents, int, KEEP_SMALL_COMPONENTS, REMOVE_SMALL_COMPONENTS);
   vtkGetMacro(SmallComponents, int);
@@ -166,9 +171,10 @@ public:
 
   ///@{
   /**
-   * On which level the map is computed at last: the coarse one (the default), or, with the same whole numbers and irregular vertices, again on the
-   * intermediate one or on the input itself. The quads are the same in number and connectivity; the finer the level, the less are they
-   * distorted, and the longer it takes. Where that is not possible or does not help, the map stays as it was, with a notice.
+   * On which level the map is computed at last: the coarse one (the default), or, with the same whole numbers and
+   * irregular vertices, again on the intermediate one or on the input itself. The quads are the same in number and
+   * connectivity; the finer the level, the less are they distorted, and the longer it takes. Where that is not possible
+   * or does not help, the map stays as it was, with a notice.
    */
   enum FinalQualityLevel
   {
@@ -185,8 +191,8 @@ public:
 
   ///@{
   /**
-   * Whether the map of the coarse level fits its quads to the surface that a coarse triangle stands for, as the decimation has it, and not
-   * to the flat triangle: the sizes of the quads come out a little more even. Default: off.
+   * Whether the map of the coarse level fits its quads to the surface that a coarse triangle stands for, as the
+   * decimation has it, and not to the flat triangle: the sizes of the quads come out a little more even. Default: off.
    */
   vtkSetMacro(DistortionMetric, vtkTypeBool);
   vtkGetMacro(DistortionMetric, vtkTypeBool);
@@ -202,9 +208,10 @@ public:
 
   ///@{
   /**
-   * Where the cell arrays of the quads come from, a CellDataFromTypes: from the cell under the centre of the quad, or from all cells under it
-   * by their area in the map: of real numbers and colours the average, of whole numbers and strings that with the largest part. Cells beyond
-   * a feature never count. Centre and area are those before the points are smoothed. Default: CELL_DATA_FROM_CENTRE.
+   * Where the cell arrays of the quads come from, a CellDataFromTypes: from the cell under the centre of the quad, or
+   * from all cells under it by their area in the map: of real numbers and colours the average, of whole numbers and
+   * strings that with the largest part. Cells beyond a feature never count. Centre and area are those before the points
+   * are smoothed. Default: CELL_DATA_FROM_CENTRE.
    */
   vtkSetClampMacro(CellDataFrom, int, CELL_DATA_FROM_CENTRE, CELL_DATA_FROM_AREA);
   vtkGetMacro(CellDataFrom, int);
@@ -214,9 +221,9 @@ public:
 
   ///@{
   /**
-   * With KeepLevels: whether the map starts from that of the last execution, which keeps whole numbers where irregular vertices and features
-   * stay, and whether other target valences begin at phase 2. The result then depends on what was made before, within the same
-   * certificate; off, on the inputs and properties alone. Default: off.
+   * With KeepLevels: whether the map starts from that of the last execution, which keeps whole numbers where irregular
+   * vertices and features stay, and whether other target valences begin at phase 2. The result then depends on what was
+   * made before, within the same certificate; off, on the inputs and properties alone. Default: off.
    */
   vtkSetMacro(WarmStart, vtkTypeBool);
   vtkGetMacro(WarmStart, vtkTypeBool);
@@ -254,8 +261,8 @@ public:
 
   ///@{
   /**
-   * Of the last execution, also of one that failed after its decimation: handles of the surface; those with a loop round or
-   * through them that is shorter than three target edge lengths; the shortest such loop, and the shortest
+   * Of the last execution, also of one that failed after its decimation: handles of the surface; those with a loop
+   * round or through them that is shorter than three target edge lengths; the shortest such loop, and the shortest
    * boundary loop, over the target edge length (0: there is none).
    */
   vtkIdType GetHandles() const { return this->CountOverBlocks("Handles"); }

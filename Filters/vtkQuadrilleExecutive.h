@@ -4,8 +4,8 @@
  * @class   vtkQuadrilleExecutive
  * @brief   executes a filter of Quadrille in a parallel run also where a filter upstream failed
  *
- * An executive does not execute its filter where something upstream fails. If that happens on one rank only, the filter waits on the
- * others for a rank that never comes. This executive goes on, and the filter tells all ranks.
+ * An executive does not execute its filter where something upstream fails. If that happens on one rank only, the filter
+ * waits on the others for a rank that never comes. This executive goes on, and the filter tells all ranks.
  */
 #ifndef vtkQuadrilleExecutive_h
 #define vtkQuadrilleExecutive_h

@@ -7,22 +7,23 @@
  * Input port 0 takes the surface: polygons and triangle strips; vertices and lines are not used. Cell arrays
  * `FeatureEdges` (unsigned char, bit i set: the edge from corner i to corner i+1 is a feature) and the patch array
  * (see PatchArrayName) mark features beside the feature angle. The cell array `GuidingDirection` (3 real numbers; zero:
- * free) asks for edges of the quads along a direction in the cell, and `GuidingWeight` (a real number in (0, 1], 1 where there is
- * no such array) says how strongly. The point array `TargetValence` (a whole number) asks for a valence: 0 is free, 4 regular,
- * 2, 3, 5 to 8 a vertex of that valence at exactly that point; on a boundary as if the quads went on beyond, so 3 is a corner.
- * What cannot be completed is an error that names the place and what is missing. The point array `Sizing` (a real number above 0; 1
- * where there is no such array) multiplies the target edge length; the larger sizes give way where it grows by more than a quarter per edge
- * length, which is told in a notice. The number of quads asked for is met as a whole.
+ * free) asks for edges of the quads along a direction in the cell, and `GuidingWeight` (a real number in (0, 1], 1
+ * where there is no such array) says how strongly. The point array `TargetValence` (a whole number) asks for a valence:
+ * 0 is free, 4 regular, 2, 3, 5 to 8 a vertex of that valence at exactly that point; on a boundary as if the quads went
+ * on beyond, so 3 is a corner. What cannot be completed is an error that names the place and what is missing. The point
+ * array `Sizing` (a real number above 0; 1 where there is no such array) multiplies the target edge length; the larger
+ * sizes give way where it grows by more than a quarter per edge length, which is told in a notice. The number of quads
+ * asked for is met as a whole.
  *
  * Three optional inputs hold what is drawn beside the surface, see QuadrilleConstraints.h for how it is put there:
- * - port 1, feature curves: polylines that become features, along the edges of the surface nearest to them. The line cell array
- *   `ConstraintType` may say 1: a guiding stroke instead; other values than 0 and 1 are an error;
- * - port 2, guiding strokes: polylines whose direction the polygons below take with StrokeWeight, or with the line cell array
- *   `GuidingWeight`;
- * - port 3, valence points: points, with cells or without. The vertex of the surface nearest to each gets PointValence, or what the point array
- *   `TargetValence` says.
- * Whole numbers may come as real numbers, as a Calculator makes them. Arrays on the wrong kind of element or with a name that is nearly
- * one of these are told in a notice and a warning.
+ * - port 1, feature curves: polylines that become features, along the edges of the surface nearest to them. The line
+ *   cell array `ConstraintType` may say 1: a guiding stroke instead; other values than 0 and 1 are an error;
+ * - port 2, guiding strokes: polylines whose direction the polygons below take with StrokeWeight, or with the line cell
+ *   array `GuidingWeight`;
+ * - port 3, valence points: points, with cells or without. The vertex of the surface nearest to each gets PointValence,
+ *   or what the point array `TargetValence` says.
+ * Whole numbers may come as real numbers, as a Calculator makes them. Arrays on the wrong kind of element or with a
+ * name that is nearly one of these are told in a notice and a warning.
  */
 #ifndef vtkQuadrilleSurfaceAlgorithm_h
 #define vtkQuadrilleSurfaceAlgorithm_h
@@ -107,8 +108,9 @@ public:
 
   ///@{
   /**
-   * What the target size means for composite data of several blocks, a QuadsAreTypes: shared by area, NumberOfQuads is for all blocks together,
-   * each gets the part that its area has, but small ones at least 50, where there are 100 for each, else half of the mean; and RelativeEdgeLength is over the diagonal of the box round all blocks; per block,
+   * What the target size means for composite data of several blocks, a QuadsAreTypes: shared by area, NumberOfQuads is
+   * for all blocks together, each gets the part that its area has, but small ones at least 50, where there are 100 for
+   * each, else half of the mean; and RelativeEdgeLength is over the diagonal of the box round all blocks; per block,
    * both are meant for each block by itself. Default: QUADS_ARE_SHARED_BY_AREA.
    */
   vtkSetClampMacro(QuadsAre, int, QUADS_ARE_SHARED_BY_AREA, QUADS_ARE_PER_BLOCK);

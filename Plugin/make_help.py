@@ -4,15 +4,16 @@
 
   make_help.py FOLDER XML...
 
-ParaView's own generator leaves our filters out: it knows the element SourceProxy, but not the one of a proxy of our own, and
-not what a filter has from its base proxy. A page has the name that ParaView looks for, GROUP.NAME.html.
+ParaView's own generator leaves our filters out: it knows the element SourceProxy, but not the one of a proxy of our
+own, and not what a filter has from its base proxy. A page has the name that ParaView looks for, GROUP.NAME.html.
 """
 import html
 import pathlib
 import sys
 import xml.etree.ElementTree as ElementTree
 
-PROPERTIES = ("InputProperty", "IntVectorProperty", "DoubleVectorProperty", "StringVectorProperty", "IdTypeVectorProperty")
+PROPERTIES = ("InputProperty", "IntVectorProperty", "DoubleVectorProperty", "StringVectorProperty",
+              "IdTypeVectorProperty")
 
 
 def text_of(element):
@@ -35,7 +36,8 @@ def properties_of(proxy, proxies):
 
 def groups_of(proxy, properties):
     """Pairs of a title and its properties, as the panel orders them; inputs, and what no group has, come first."""
-    groups = [(group.get("label"), [properties[p.get("name")] for p in group.findall("Property") if p.get("name") in properties])
+    groups = [(group.get("label"), [properties[p.get("name")] for p in group.findall("Property")
+                                    if p.get("name") in properties])
               for group in proxy.findall("PropertyGroup")]
     grouped = {p.get("name") for _, members in groups for p in members}
     return [("", [p for name, p in properties.items() if name not in grouped])] + groups
@@ -80,7 +82,8 @@ def page_of(proxy, proxies):
 
 def main(folder, *files):
     groups = [group for file in files for group in ElementTree.parse(file).getroot().findall("ProxyGroup")]
-    proxies = {(group.get("name"), proxy.get("name")): proxy for group in groups for proxy in group if proxy.get("class")}
+    proxies = {(group.get("name"), proxy.get("name")): proxy for group in groups for proxy in group
+               if proxy.get("class")}
     pathlib.Path(folder).mkdir(parents=True, exist_ok=True)
     for (group, name), proxy in proxies.items():
         if group in ("filters", "sources"):

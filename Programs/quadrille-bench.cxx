@@ -83,9 +83,9 @@ map before the edit. A level whose first map fails has ok 0 and no edits.
 )";
 
 constexpr const char* kExtraction =
-  R"(With --compare extraction remeshes each mesh, extracts the quads of the map on its surface, and of the map made 2 and 5
-times as large, with one thread and with --threads, by the fast path where the map has no folds and by the one for
-folds, without smoothing, and writes
+  R"(With --compare extraction remeshes each mesh, extracts the quads of the map on its surface, and of the map made 2
+and 5 times as large, with one thread and with --threads, by the fast path where the map has no folds and by the one
+for folds, without smoothing, and writes
   mesh,asked,faces,scale,path,threads,clock,quads,ok,same,seconds
 with medians of the clock on the wall and of the processor. same: 1 when points and quads are those of the first row of
 the scale.

@@ -7,15 +7,17 @@
   Scripts/gate.py compare OLD NEW [--common]
   Scripts/gate.py list [--shared FOLDER]
 
-record makes each run of the list in a process of its own, through the VTK filters of the build in the folder BUILD, and writes to FILE:
-status, texts, number of quads, and SHA-256 sums of the quads (points, corners), of the map on the surface (points, `IGM`, `Matching`) and of the
-outputs drawn from the quads; seconds and peak memory of the process. Models are those of Data/, and those of FOLDER (default: shared/data
-beside the checkout), which are left out, with a line, where they are not there. A run of several steps uses the same filter for all of
-them; some are followed by a run that makes each step with a new filter, or with other numbers of threads, which must give the same sums:
-where they differ, record ends with 1. About 4 minutes with two jobs on two cores.
+record makes each run of the list in a process of its own, through the VTK filters of the build in the folder BUILD, and
+writes to FILE: status, texts, number of quads, and SHA-256 sums of the quads (points, corners), of the map on the
+surface (points, `IGM`, `Matching`) and of the outputs drawn from the quads; seconds and peak memory of the process.
+Models are those of Data/, and those of FOLDER (default: shared/data beside the checkout), which are left out, with a
+line, where they are not there. A run of several steps uses the same filter for all of them; some are followed by a run
+that makes each step with a new filter, or with other numbers of threads, which must give the same sums: where they
+differ, record ends with 1. About 4 minutes with two jobs on two cores.
 
-compare tells what differs and ends with 1 where a sum, a status or the text of a failure does, or a run of OLD is not in NEW (--common: only runs
-that both have count). Notices, reused stages, time and memory are told, and change nothing in the exit code.
+compare tells what differs and ends with 1 where a sum, a status or the text of a failure does, or a run of OLD is not
+in NEW (--common: only runs that both have count). Notices, reused stages, time and memory are told, and change nothing
+in the exit code.
 
 Sums can be compared on one machine with one version of the libraries only.
 """
@@ -42,11 +44,12 @@ INTERMEDIATE, INPUT = 1, 2  # vtkQuadRemesh.FinalQualityLevel
 OUTCOMES = ("not run", "succeeded", "bad input", "no valid result", "aborted", "timed out", "too large")
 
 
-# --- the list ----------------------------------------------------------------------------------------------------------
+# --- the list ---------------------------------------------------------------------------------------------------------
 
 class Run:
-    """One process. `steps` are (name, requests), made one after the other by `make`; requests are setters of the filter without their Set, in
-    capitals, and, in small letters, what is added to the surface, a name of ADDITIONS or of DRAWN. Those of `base` hold for each step. """
+    """One process. `steps` are (name, requests), made one after the other by `make`; requests are setters of the filter
+    without their Set, in capitals, and, in small letters, what is added to the surface, a name of ADDITIONS or of
+    DRAWN. Those of `base` hold for each step. """
 
     def __init__(self, name, mesh, base=None, steps=None, make="one filter", quick=False, same_as=None):
         self.name, self.mesh, self.base = name, mesh, base or {}
@@ -109,13 +112,15 @@ def own_runs():
         single(part, 3000, "coarsest", Integers=1), single(beast, 2000, "coarsest", Integers=1),
         single(frame, 1500, "coarsest", Integers=1),
         single(part, 3000, "intermediate", FinalQuality=INTERMEDIATE), single(part, 3000, "input", FinalQuality=INPUT),
-        single(beast, 2000, "intermediate", FinalQuality=INTERMEDIATE), single(beast, 2000, "input", FinalQuality=INPUT),
+        single(beast, 2000, "intermediate", FinalQuality=INTERMEDIATE),
+        single(beast, 2000, "input", FinalQuality=INPUT),
         single(frame, 1500, "input", FinalQuality=INPUT),
         single(part, 3000, "metric", DistortionMetric=1), single(beast, 2000, "metric", DistortionMetric=1),
         single(beast, 2000, "anisotropy", AnisotropyLimit=1.5), single(part, 3000, "anisotropy", AnisotropyLimit=2.0),
         single(beast, 2000, "sizes", sizes="finer to one end"), single(part, 3000, "sizes", sizes="finer to one end"),
         single(beast, 2000, "too-steep-sizes", sizes="leap"),
-        single(beast, 2000, "directions", directions="round z"), single(frame, 1500, "directions", directions="along x"),
+        single(beast, 2000, "directions", directions="round z"),
+        single(frame, 1500, "directions", directions="along x"),
         single(beast, 2000, "weak-directions", directions="along x", weights="half"),
         single(beast, 2000, "strokes", strokes="over the top"), single(part, 3000, "strokes", strokes="along the side"),
         single(beast, 2000, "weak-strokes", strokes="along the side", StrokeWeight=0.4),
@@ -130,23 +135,28 @@ def own_runs():
         single(frame, 1500, "few-coarse-vertices", CoarseVertices=40),
         single(beast, 2000, "automatic-coarse-vertices", CoarseVertices=0),
         single(frame, 1500, "handles-closed", CloseHandles=40.0),
-        single(beast, 2000, "unsmoothed", SmoothingSteps=0), single(beast, 2000, "area", CellDataFrom=1, patches="slabs"),
+        single(beast, 2000, "unsmoothed", SmoothingSteps=0),
+        single(beast, 2000, "area", CellDataFrom=1, patches="slabs"),
         single(beast, 200, "too-many-quads", MaximumNumberOfQuads=50, quick=True),
         Run("part/edge-length", part, {"TargetType": 1, "EdgeLength": 0.05}),
         Run("frame/relative-edge-length", frame, {"TargetType": 2, "RelativeEdgeLength": 0.03}),
         Run("pieces/2000", "islands", quads(2000)),
         Run("pieces/2000/removed", "islands", quads(2000, SmallComponents=1)),
-        Run("blocks/3000", "blocks", quads(3000), quick=True), Run("blocks/3000/each", "blocks", quads(3000, QuadsAre=1)),
+        Run("blocks/3000", "blocks", quads(3000), quick=True),
+        Run("blocks/3000/each", "blocks", quads(3000, QuadsAre=1)),
         Run("torn/500", "torn", quads(500), quick=True), Run("empty", "empty", quads(500), quick=True),
         Run("part/3000/chain", part, quads(3000), make="chain", same_as="part/3000", quick=True),
         Run("beast/2000/chain", beast, quads(2000), make="chain", same_as="beast/2000"),
         Run("frame/1500/chain-coarsest", frame, quads(1500, Integers=1), make="chain", same_as="frame/1500/coarsest"),
-        Run("beast/2000/chain-directions", beast, quads(2000, directions="round z"), make="chain", same_as="beast/2000/directions"),
+        Run("beast/2000/chain-directions", beast, quads(2000, directions="round z"), make="chain",
+            same_as="beast/2000/directions"),
         Run("frame/60/chain", frame, quads(60), make="chain"),
         Run("beast/warm-start", beast, quads(2000, WarmStart=1),
-            [("first", {}), ("stroke", {"strokes": "over the top"}), ("valence", {"valences": "three at one end"}), ("back", {})]),
+            [("first", {}), ("stroke", {"strokes": "over the top"}), ("valence", {"valences": "three at one end"}),
+             ("back", {})]),
         Run("part/warm-start", part, quads(3000, WarmStart=1),
-            [("first", {}), ("stroke", {"strokes": "along the side"}), ("more coarse vertices", {"CoarseVertices": 1400}), ("back", {})]),
+            [("first", {}), ("stroke", {"strokes": "along the side"}),
+             ("more coarse vertices", {"CoarseVertices": 1400}), ("back", {})]),
     ]
     runs += warm_and_cold("beast/edits", beast, quads(2000), EDITS)
     runs += warm_and_cold("part/edits", part, quads(3000), [step for step in EDITS if "valence" not in step[0]])
@@ -160,35 +170,46 @@ def own_runs():
 
 #: Models of the shared folder: numbers of quads to make of each.
 SHARED = {
-    "cad/fandisk.ply": (5000, 600), "cad/joint.ply": (5000, 1000), "cad/rolling_stage.ply": (5000,), "cad/of_flange.ply": (2000,),
+    "cad/fandisk.ply": (5000, 600), "cad/joint.ply": (5000, 1000), "cad/rolling_stage.ply": (5000,),
+    "cad/of_flange.ply": (2000,),
     "cad/cgal_couplingdown.ply": (5000, 800), "cad/cgal_anchor_dense.ply": (3000,),
     "cad/cgal_spool.ply": (2000, 200), "cad/cgal_part.ply": (1500,), "cad/tm_box.ply": (5000,),
-    "cad/tm_plate_holes.ply": (1500, 300), "cad/tm_1002_tray_bottom.ply": (3000,), 
-    "cad/tm_torus.ply": (1000,), "cad/of_naca0012.ply": (3000,), "cad/of_pipe.ply": (1500,), "cad/of_bullet.ply": (3000,),
-    "cad/abc3.ply": (4000,), "cad/ost_wingnut.ply": (1000,), "cad/crank_case.ply": (8000,), "cad/axom_boxedSphere.ply": (3000,),
+    "cad/tm_plate_holes.ply": (1500, 300), "cad/tm_1002_tray_bottom.ply": (3000,),
+    "cad/tm_torus.ply": (1000,), "cad/of_naca0012.ply": (3000,), "cad/of_pipe.ply": (1500,),
+    "cad/of_bullet.ply": (3000,),
+    "cad/abc3.ply": (4000,), "cad/ost_wingnut.ply": (1000,), "cad/crank_case.ply": (8000,),
+    "cad/axom_boxedSphere.ply": (3000,),
     "cad/input_wheel.ply": (8000,), "cad/thingi_908460.ply": (10000,), "cad/ost_boot.ply": (6000,),
-    "open/mask.ply": (3000,), "open/plane_holes.ply": (3000,), "open/st_helens.ply": (5000,), "open/dir_dome.ply": (1000,),
+    "open/mask.ply": (3000,), "open/plane_holes.ply": (3000,), "open/st_helens.ply": (5000,),
+    "open/dir_dome.ply": (1000,),
     "open/of_rotating.ply": (500,), "open/cgal_holes.ply": (1500,), "open/violin_open.ply": (2000,),
-    "scan/bunny_69k.ply": (5000,), "scan/horse.ply": (4000,), "scan/armadillo_86k.ply": (8000,), "scan/lucy_100k.ply": (6000,),
+    "scan/bunny_69k.ply": (5000,), "scan/horse.ply": (4000,), "scan/armadillo_86k.ply": (8000,),
+    "scan/lucy_100k.ply": (6000,),
     "scan/ost_hammer.ply": (2000,), "scan/bunny_ct.ply": (5000,),
-    "bad/tm_soup.stl": (500,), "bad/tm_shared.stl": (500,), "bad/tm_multibody.stl": (500,), "bad/tm_angle_block.stl": (1000,),
+    "bad/tm_soup.stl": (500,), "bad/tm_shared.stl": (500,), "bad/tm_multibody.stl": (500,),
+    "bad/tm_angle_block.stl": (1000,),
     "bad/tm_not_convex.obj": (500,), "bad/cgal_degtri_sliding.off": (100,), "bad/cgal_blobby-shuffled.off": (1000,),
     "bad/cgal_oblong-shuffled.off": (500,), "bad/cgal_pig.stl": (2000,), "bad/cgal_boeing.off": (2000,),
-    "bad/cgal_elephant-with-holes.off": (3000,), "bad/cgal_b9_mesh.off": (3000,), "bad/ml_many_small_holes.ply": (2000,),
+    "bad/cgal_elephant-with-holes.off": (3000,), "bad/cgal_b9_mesh.off": (3000,),
+    "bad/ml_many_small_holes.ply": (2000,),
     "bad/mf_openscad-nonmanifold-crash.obj": (1500,), "bad/vtk_doorman.obj": (4000,),
 }
 
 
 def shared_runs():
     runs = [single(mesh, number) for mesh, numbers in SHARED.items() for number in numbers]
-    fandisk, horse, joint, couplingdown = "cad/fandisk.ply", "scan/horse.ply", "cad/joint.ply", "cad/cgal_couplingdown.ply"
+    fandisk, joint, couplingdown = "cad/fandisk.ply", "cad/joint.ply", "cad/cgal_couplingdown.ply"
+    horse = "scan/horse.ply"
     for label, method in (("mixed-integer", MIXED_INTEGER), ("quadcover", QUADCOVER), ("seamless", SEAMLESS)):
         runs += [single(mesh, number, label, Method=method) for mesh, number in ((fandisk, 5000), (horse, 4000))]
     runs += [single(fandisk, 5000, "coarsest", Integers=1), single(joint, 5000, "coarsest", Integers=1),
              single(horse, 4000, "coarsest", Integers=1), single(fandisk, 5000, "input", FinalQuality=INPUT),
-             single(horse, 4000, "intermediate", FinalQuality=INTERMEDIATE), single(joint, 5000, "metric", DistortionMetric=1),
-             single(horse, 4000, "anisotropy", AnisotropyLimit=1.5), single(horse, 4000, "strokes", strokes="over the top"),
-             single(fandisk, 5000, "sizes", sizes="finer to one end"), single("open/mask.ply", 3000, "curves", curves="over the top"),
+             single(horse, 4000, "intermediate", FinalQuality=INTERMEDIATE),
+             single(joint, 5000, "metric", DistortionMetric=1),
+             single(horse, 4000, "anisotropy", AnisotropyLimit=1.5),
+             single(horse, 4000, "strokes", strokes="over the top"),
+             single(fandisk, 5000, "sizes", sizes="finer to one end"),
+             single("open/mask.ply", 3000, "curves", curves="over the top"),
              single(horse, 4000, "valences", valences="three and five"),
              single("cad/tm_box.ply", 5000, "removed", SmallComponents=1),
              Run("joint/5000/chain", joint, quads(5000), make="chain", same_as="joint/5000"),
@@ -196,7 +217,8 @@ def shared_runs():
              Run("cgal_couplingdown/800/chain", couplingdown, quads(800), make="chain")]
     runs += [Run(f"{name}/foreign-map", f"igm/{name}.obj", {"BoundaryMode": mode}, make="extraction")
              for name, mode in (("qex_fandisk_param", 0), ("qex_duck_miq_4_param", 1), ("qex_duck_miq_16_param", 0))]
-    runs += warm_and_cold("horse/edits", horse, quads(4000), [step for step in EDITS if step[0] not in ("sizes", "feature angle")])
+    runs += warm_and_cold("horse/edits", horse, quads(4000),
+                          [step for step in EDITS if step[0] not in ("sizes", "feature angle")])
     runs += warm_and_cold("fandisk/edits", fandisk, quads(600), EDITS[:8] + EDITS[-1:])
     runs += one_and_two_threads("scan/bunny_69k.ply", 4000) + one_and_two_threads(joint, 3000)
     return runs
@@ -216,7 +238,7 @@ def all_runs(shared):
     return found, missing
 
 
-# --- surfaces ----------------------------------------------------------------------------------------------------------
+# --- surfaces ---------------------------------------------------------------------------------------------------------
 
 def read_off(path):
     import numpy
@@ -245,14 +267,16 @@ def islands():
     points, faces = arrays_of(quadrille.read(ROOT / "Data/beast.ply"))
     size = numpy.ptp(points, axis=0).max()
     parts = [(1, (0, 0, 0)), (0.01, (1.2, 0, 0)), (0.004, (0, 1.3, 0)), (0.3, (0, 0, 1.2))]
-    return quadrille.to_polydata(numpy.concatenate([scale * points + size * numpy.array(shift) for scale, shift in parts]),
+    return quadrille.to_polydata(numpy.concatenate([scale * points + size * numpy.array(shift)
+                                                    for scale, shift in parts]),
                                  numpy.concatenate([faces + i * len(points) for i in range(len(parts))]))
 
 
 def torn():
     """Three triangles that share an edge, beside a sheet: no surface."""
     import quadrille
-    return quadrille.to_polydata([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, -1, 0.2], [0.3, 0, 1]], [[0, 1, 2], [1, 0, 3], [0, 1, 4]])
+    return quadrille.to_polydata([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, -1, 0.2], [0.3, 0, 1]],
+                                 [[0, 1, 2], [1, 0, 3], [0, 1, 4]])
 
 
 def blocks():
@@ -275,7 +299,7 @@ def surface_of(mesh, shared):
     return quadrille.to_polydata(*read_off(path)) if path.suffix == ".off" else quadrille.read(path)
 
 
-# --- what is asked for beside the surface --------------------------------------------------------------------------------
+# --- what is asked for beside the surface -----------------------------------------------------------------------------
 
 def centres_of(points, faces):
     return points[faces].mean(axis=1)
@@ -394,7 +418,7 @@ def drawn(kind, surface):
     return result
 
 
-# --- one run -----------------------------------------------------------------------------------------------------------
+# --- one run ----------------------------------------------------------------------------------------------------------
 
 def sum_of(*arrays):
     """SHA-256 of types, shapes and bytes; None stands for an array that is not there."""
@@ -530,7 +554,8 @@ def with_extraction(surface, run, steps):
         yield name, step_record(extraction, range(1, 3), surface, time.process_time() - begin)
 
 
-MAKERS = {"one filter": with_one_filter, "new filters": with_new_filters, "chain": with_chain, "extraction": with_extraction}
+MAKERS = {"one filter": with_one_filter, "new filters": with_new_filters, "chain": with_chain,
+          "extraction": with_extraction}
 
 
 def make_run(run, shared):
@@ -542,7 +567,7 @@ def make_run(run, shared):
     return record
 
 
-# --- record ------------------------------------------------------------------------------------------------------------
+# --- record -----------------------------------------------------------------------------------------------------------
 
 def recorded_in_process(run, arguments):
     packages = pathlib.Path(arguments.python).resolve() / "lib/python3/dist-packages"
@@ -563,15 +588,16 @@ SUMS = ("quads", "map", "drawn")
 
 
 def unequal(runs, record):
-    """Lines for runs that must have the sums of another and do not. The chain has other lines. After a failure the outputs hold what the
-    filter made before, so that only the status counts."""
+    """Lines for runs that must have the sums of another and do not. The chain has other lines. After a failure the
+    outputs hold what the filter made before, so that only the status counts."""
     lines = []
     for run in runs:
         other = record.get(run.same_as)
         if other is None or run.name not in record:
             continue
         for name, step in record[run.name]["steps"].items():
-            keys = ("status",) if step["status"] != "succeeded" else ("quads", "status") if run.make == "chain" else (*SUMS, "status")
+            keys = (("status",) if step["status"] != "succeeded"
+                    else ("quads", "status") if run.make == "chain" else (*SUMS, "status"))
             wrong = [key for key in keys if step.get(key) != other["steps"].get(name, {}).get(key)]
             if wrong:
                 lines.append(f"{run.name}, {name or 'the only step'}: other {', '.join(wrong)} than {run.same_as}")
@@ -586,26 +612,28 @@ def record(arguments):
     begin, made = time.perf_counter(), {}
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         # Long ones first, so that none is left over at the end.
-        waiting = {pool.submit(recorded_in_process, run, arguments): run for run in sorted(runs, key=lambda r: -len(r.steps))}
+        waiting = {pool.submit(recorded_in_process, run, arguments): run
+                   for run in sorted(runs, key=lambda r: -len(r.steps))}
         for done in concurrent.futures.as_completed(waiting):
             run = waiting[done]
             made[run.name] = done.result()
             statuses = {step["status"] for step in made[run.name]["steps"].values()}
-            print(f"{made[run.name].get('seconds', 0):7.2f} s {made[run.name].get('peak_megabytes', 0):8.1f} MB  {run.name}: "
-                  f"{', '.join(sorted(statuses))}", flush=True)
+            print(f"{made[run.name].get('seconds', 0):7.2f} s {made[run.name].get('peak_megabytes', 0):8.1f} MB  "
+                  f"{run.name}: {', '.join(sorted(statuses))}", flush=True)
     pathlib.Path(arguments.file).write_text(json.dumps(made, indent=1, sort_keys=True) + "\n")
     lines = unequal(runs, made)
     print("\n".join(lines), end="\n" if lines else "")
-    print(f"{len(made)} runs with {sum(len(run['steps']) for run in made.values())} steps in {time.perf_counter() - begin:.0f} s; "
-          f"{len(lines)} that must be equal are not")
+    print(f"{len(made)} runs with {sum(len(run['steps']) for run in made.values())} steps in "
+          f"{time.perf_counter() - begin:.0f} s; {len(lines)} that must be equal are not")
     return 1 if lines else 0
 
 
-# --- compare -----------------------------------------------------------------------------------------------------------
+# --- compare ----------------------------------------------------------------------------------------------------------
 
 def differences(old, new):
     """What differs between two steps and must not, and what is only told."""
-    wrong = [f"other {key} ({old.get('count')} before, {new.get('count')} now)" for key in SUMS if old.get(key) != new.get(key)]
+    wrong = [f"other {key} ({old.get('count')} before, {new.get('count')} now)" for key in SUMS
+             if old.get(key) != new.get(key)]
     if old.get("status") != new.get("status"):
         wrong.append(f"{old.get('status')} before, {new.get('status')} now")
     if old.get("text") != new.get("text"):
@@ -613,7 +641,8 @@ def differences(old, new):
     told = []
     for key in ("notices", "reused"):
         before, now = ((step.get(key) or "").splitlines() for step in (old, new))
-        told += [f"{key}: - {line}" for line in before if line not in now] + [f"{key}: + {line}" for line in now if line not in before]
+        told += [f"{key}: - {line}" for line in before if line not in now]
+        told += [f"{key}: + {line}" for line in now if line not in before]
         if sorted(before) == sorted(now) and before != now:
             told.append(f"{key}: other order")
     return wrong, told
@@ -640,12 +669,13 @@ def compare_cost(old, new):
              if "peak_megabytes" in old[name] and "peak_megabytes" in new[name]}
     if not pairs:
         return ["no memory to compare"]
-    lines = [f"{name}: peak memory {a['peak_megabytes']} MB before, {b['peak_megabytes']} MB now" for name, (a, b) in pairs.items()
+    lines = [f"{name}: peak memory {a['peak_megabytes']} MB before, {b['peak_megabytes']} MB now"
+             for name, (a, b) in pairs.items()
              if b["peak_megabytes"] > MEMORY_TOLERANCE * a["peak_megabytes"]]
     peaks = [statistics.median(pair[k]["peak_megabytes"] for pair in pairs.values()) for k in (0, 1)]
     sums = [sum(pair[k]["seconds"] for pair in pairs.values()) for k in (0, 1)]
-    lines.append(f"peak memory, median of {len(pairs)} runs: {peaks[0]:.1f} MB before, {peaks[1]:.1f} MB now, ratio {peaks[1] / peaks[0]:.3f}; "
-                 f"{len(lines)} runs more than 3 % above")
+    lines.append(f"peak memory, median of {len(pairs)} runs: {peaks[0]:.1f} MB before, {peaks[1]:.1f} MB now, ratio "
+                 f"{peaks[1] / peaks[0]:.3f}; {len(lines)} runs more than 3 % above")
     lines.append(f"seconds in filters: {sums[0]:.1f} before, {sums[1]:.1f} now")
     return lines
 

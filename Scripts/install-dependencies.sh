@@ -14,6 +14,7 @@ packages=(
   qttools5-dev qtxmlpatterns5-dev-tools # the pages behind the question mark in ParaView's panel
   libcli11-dev nlohmann-json3-dev       # options and reports of the commands
   libgtest-dev python3 python3-numpy python3-scipy
+  clang-format                          # the tests hold the sources against it
   xvfb xauth libqt5svg5 libgl1-mesa-dri # pictures without a screen
 )
 
@@ -29,7 +30,10 @@ fi
 
 as_root=()
 if [[ $(id -u) -ne 0 ]]; then
-  command -v sudo >/dev/null || { echo "install-dependencies: run as root, or install sudo; missing: ${missing[*]}" >&2; exit 1; }
+  if ! command -v sudo >/dev/null; then
+    echo "install-dependencies: run as root, or install sudo; missing: ${missing[*]}" >&2
+    exit 1
+  fi
   as_root=(sudo)
 fi
 echo "install-dependencies: installing ${missing[*]}"

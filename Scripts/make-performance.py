@@ -6,11 +6,12 @@
   Scripts/make-performance.py [--data FOLDER] [--command build/bin/quadrille-bench] [--out out/performance] [--repeat 5]
 
 Meshes: the shape `beast` of Data/generate.py at 125 k, 500 k, 2 M and 8 M faces, the one of 2 M with its faces and
-points shuffled, and, where --data has scan/bunny_ct.ply, that scan, the same shuffled, and the same with each face cut into four
-and its points moved at random by up to a tenth of their shortest edge. Runs of all meshes and thread counts alternate, so that a busy
-machine disturbs all alike; a figure is the median of the repeats. The tables replace what stands between the two marks in the page; what
-is around them is written by hand. --replay writes the table of the replay over all scans of --data instead, --coarse that of the coarse level over
-all of its scan, cad and open, --extraction that of the extraction from DATA/scan/bunny_ct.ply. Needs Debian's python3 with numpy.
+points shuffled, and, where --data has scan/bunny_ct.ply, that scan, the same shuffled, and the same with each face cut
+into four and its points moved at random by up to a tenth of their shortest edge. Runs of all meshes and thread counts
+alternate, so that a busy machine disturbs all alike; a figure is the median of the repeats. The tables replace what
+stands between the two marks in the page; what is around them is written by hand. --replay writes the table of the
+replay over all scans of --data instead, --coarse that of the coarse level over all of its scan, cad and open,
+--extraction that of the extraction from DATA/scan/bunny_ct.ply. Needs Debian's python3 with numpy.
 """
 import argparse
 import csv
@@ -23,12 +24,14 @@ import sys
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-TABLES, REPLAY, COARSE, EXTRACTION = "tables", "replay", "coarse", "extraction" # names of the marks round generated parts of the page
+# Names of the marks round generated parts of the page.
+TABLES, REPLAY, COARSE, EXTRACTION = "tables", "replay", "coarse", "extraction"
 REPLAY_QUADS = [1000, 2500, 10000]
 COARSE_QUADS = 2500
 COARSE_LIMIT = 1200 # vertices; levels that features or handles hold above are not what the aims are about
 SIZES = {"beast_125k": 125000, "beast_500k": 500000, "beast_2M": 2000000, "beast_8M": 8000000}
-STAGES = ["order", "connectivity", "repair", "refine", "phase1", "phase2", "field", "seamless", "quantize", "embed", "replay",
+STAGES = ["order", "connectivity", "repair", "refine", "phase1", "phase2", "field", "seamless", "quantize", "embed",
+          "replay",
           "certify", "extract", "total", "cancel"]
 FACE_TYPE = np.dtype([("count", "u1"), ("corners", "<i4", 3)])
 
@@ -185,14 +188,16 @@ def replayRows(command, scans, threads):
 
 def replayTable(rows):
     """Counts per 100,000 triangles, and what is left as it is; models without a coarse map are named."""
-    lines = ["| quads | model | triangles | inverted stars | into the kernel | no kernel | inverted after it | mended patches | left |",
+    lines = ["| quads | model | triangles | inverted stars | into the kernel | no kernel | inverted after it | "
+             "mended patches | left |",
              "|---:|---|---:|---:|---:|---:|---:|---:|---:|"]
     replayed = [row for row in rows if row["coarse_not_positive"] == 0 and hasReplay(row)]
 
     def line(title, some):
         faces = sum(row["faces"] for row in some)
         each = [sum(row[key] for row in some) / faces * 1e5
-                for key in ("inverted_stars", "moved_to_kernel", "without_kernel", "replay_not_positive", "mended_patches")]
+                for key in ("inverted_stars", "moved_to_kernel", "without_kernel", "replay_not_positive",
+                            "mended_patches")]
         left = sum(row["not_positive"] for row in some)
         lines.append(f"| {title} | {faces:,} | " + " | ".join(f"{value:.2f}" for value in each) + f" | {left} |")
 
@@ -209,7 +214,8 @@ def coarseRows(command, models, repeat):
     rows = []
     for path in models:
         print(f"coarse level: {path.stem}", flush=True)
-        run = subprocess.run([command, path, "--compare", "coarse", "--quads", str(COARSE_QUADS), "--repeat", str(repeat)],
+        run = subprocess.run([command, path, "--compare", "coarse", "--quads", str(COARSE_QUADS),
+                              "--repeat", str(repeat)],
                              capture_output=True, text=True)
         if run.returncode != 0:
             raise SystemExit(run.stderr.strip())
@@ -219,7 +225,8 @@ def coarseRows(command, models, repeat):
 
 def coarseTable(rows):
     """Medians over the models, the largest in brackets, in milliseconds."""
-    lines = ["| edit | start | maps | field | seamless | quantize | seamless and quantize | embed | Newton steps | took over integers |",
+    lines = ["| edit | start | maps | field | seamless | quantize | seamless and quantize | embed | Newton steps | "
+             "took over integers |",
              "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|"]
     fitting = [row for row in rows if int(row["vertices"]) <= COARSE_LIMIT]
     for edit, start in dict.fromkeys((row["edit"], row["start"]) for row in fitting):
@@ -232,7 +239,8 @@ def coarseTable(rows):
         steps = [int(row["seamless_steps"]) + int(row["embed_steps"]) for row in some]
         kept = sum(int(row["integers_reused"]) > 0 for row in some)
         lines.append(f"| {edit} | {start} | {len(some)} | {cell('field')} | {cell('seamless')} | {cell('quantize')} | "
-                     f"{cell('seamless', 'quantize')} | {cell('embed')} | {statistics.median(steps):.0f} ({max(steps)}) | {kept} |")
+                     f"{cell('seamless', 'quantize')} | {cell('embed')} | {statistics.median(steps):.0f} "
+                     f"({max(steps)}) | {kept} |")
     first = [row for row in rows if row["edit"] == "none"]
     large = [row["mesh"] for row in first if row not in fitting]
     failed = [row["mesh"] for row in first if row in fitting and row["ok"] != "1"]
@@ -241,27 +249,33 @@ def coarseTable(rows):
 
 
 def extractionRows(command, scan, repeat, quads):
-    """Seconds of the extraction from the map of a scan and from that map with each triangle cut into four, by (faces, quads, path, threads, clock)."""
+    """Seconds of the extraction from the map of a scan and from that map with each triangle cut into four, by (faces,
+    quads, path, threads, clock)."""
     seconds = {}
     for subdivide in (0, 1):
         print(f"extraction: {scan.stem}, cut {subdivide} times", flush=True)
-        run = subprocess.run([command, scan, "--compare", "extraction", "--quads", str(quads), "--threads", "2", "--subdivide", str(subdivide),
+        run = subprocess.run([command, scan, "--compare", "extraction", "--quads", str(quads), "--threads", "2",
+                              "--subdivide", str(subdivide),
                               "--repeat", str(repeat)], capture_output=True, text=True)
         if run.returncode != 0:
             raise SystemExit(run.stderr.strip() or "the ways to extract do not agree:\n" + run.stdout)
         for row in csv.DictReader(io.StringIO(run.stdout)):
-            seconds[int(row["faces"]), int(row["quads"]), row["path"], int(row["threads"]), row["clock"]] = float(row["seconds"])
+            seconds[int(row["faces"]), int(row["quads"]), row["path"], int(row["threads"]),
+                    row["clock"]] = float(row["seconds"])
     return seconds
 
 
 def extractionTable(seconds):
     """One line for each size and path; the scaling is the ratio on the wall."""
-    lines = ["| triangles | quads | path | one thread: processor | wall | two threads: processor | wall | scaling | ns a triangle, one thread |",
+    lines = ["| triangles | quads | path | one thread: processor | wall | two threads: processor | wall | scaling | "
+             "ns a triangle, one thread |",
              "|---:|---:|---|---:|---:|---:|---:|---:|---:|"]
     for faces, quads, path in dict.fromkeys(key[:3] for key in seconds):
-        one, two = ({clock: seconds[faces, quads, path, threads, clock] for clock in ("processor", "wall")} for threads in (1, 2))
-        lines.append(f"| {faces:,} | {quads:,} | {path} | {one['processor']:.3f} | {one['wall']:.3f} | {two['processor']:.3f} | "
-                     f"{two['wall']:.3f} | {one['wall'] / two['wall']:.2f} | {one['processor'] / faces * 1e9:.0f} |")
+        one, two = ({clock: seconds[faces, quads, path, threads, clock] for clock in ("processor", "wall")}
+                    for threads in (1, 2))
+        lines.append(f"| {faces:,} | {quads:,} | {path} | {one['processor']:.3f} | {one['wall']:.3f} | "
+                     f"{two['processor']:.3f} | {two['wall']:.3f} | {one['wall'] / two['wall']:.2f} | "
+                     f"{one['processor'] / faces * 1e9:.0f} |")
     return "\n".join(lines)
 
 
@@ -291,12 +305,15 @@ def main():
     parser.add_argument("--threads", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--meshes", nargs="+", help="only these")
     parser.add_argument("--replay", action="store_true", help="only the table of the replay over DATA/scan")
-    parser.add_argument("--coarse", action="store_true", help="only the table of the coarse level over DATA/scan, cad and open")
-    parser.add_argument("--extraction", action="store_true", help="only the table of the extraction from DATA/scan/bunny_ct.ply")
+    parser.add_argument("--coarse", action="store_true",
+                        help="only the table of the coarse level over DATA/scan, cad and open")
+    parser.add_argument("--extraction", action="store_true",
+                        help="only the table of the extraction from DATA/scan/bunny_ct.ply")
     arguments = parser.parse_args()
     page = pathlib.Path(arguments.markdown)
     if arguments.coarse:
-        models = [path for folder in ("scan", "cad", "open") for path in sorted((pathlib.Path(arguments.data or "") / folder).glob("*.ply"))]
+        models = [path for folder in ("scan", "cad", "open")
+                  for path in sorted((pathlib.Path(arguments.data or "") / folder).glob("*.ply"))]
         if not arguments.data or not models:
             raise SystemExit("--coarse needs --data with folders scan, cad and open of PLY files")
         writePart(page, COARSE, coarseTable(coarseRows(arguments.command, models, arguments.repeat)))
@@ -305,7 +322,8 @@ def main():
         scan = pathlib.Path(arguments.data or "") / "scan" / "bunny_ct.ply"
         if not arguments.data or not scan.exists():
             raise SystemExit("--extraction needs --data with scan/bunny_ct.ply")
-        writePart(page, EXTRACTION, extractionTable(extractionRows(arguments.command, scan, arguments.repeat, arguments.quads)))
+        writePart(page, EXTRACTION, extractionTable(extractionRows(arguments.command, scan, arguments.repeat,
+                                                                   arguments.quads)))
         return 0
     if arguments.replay:
         scans = sorted((pathlib.Path(arguments.data or "") / "scan").glob("*.ply"))
@@ -318,8 +336,9 @@ def main():
         meshes = {name: path for name, path in meshes.items() if name in arguments.meshes}
     results, failures = measure(arguments.command, meshes, arguments.threads, arguments.repeat, arguments.large_repeat,
                                 arguments.quads)
-    text = "\n\n".join(f"Seconds with {count} thread{'s' if count > 1 else ''}, {arguments.quads:,} quads asked for, medians of "
-                       f"{arguments.repeat} ({arguments.large_repeat} at 8 M):\n\n{table(results, count)}" for count in arguments.threads)
+    text = "\n\n".join(f"Seconds with {count} thread{'s' if count > 1 else ''}, {arguments.quads:,} quads asked for, "
+                       f"medians of {arguments.repeat} ({arguments.large_repeat} at 8 M):\n\n{table(results, count)}"
+                       for count in arguments.threads)
     for name, reason in failures.items():
         text += f"\n\n{name} gave no quads and is left out: {reason[:200].replace(str(ROOT), '')}"
     writePart(page, TABLES, text)

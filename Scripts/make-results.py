@@ -160,7 +160,8 @@ def featureDistance(tool, quads, reference, diagonal, angle=40.0):
     a, b = points[topology["idx"][sharp]], points[topology["idx"][topology["nxt"][sharp]]]
     samples = samplesOnSegments(a, b, 20000)
     quadTopology = tool.topology(len(quads[0]), quads[1], quads[2])
-    return float(distanceToSegments(samples, quads[0][quadTopology["elo"]], quads[0][quadTopology["ehi"]]).mean() / diagonal)
+    distances = distanceToSegments(samples, quads[0][quadTopology["elo"]], quads[0][quadTopology["ehi"]])
+    return float(distances.mean() / diagonal)
 
 
 def samplesOnSegments(a, b, count):
@@ -190,7 +191,8 @@ def otherValences(stats):
     inner = {int(k): n for k, n in stats["valence"]["interior"].items()}
     border = {int(k): n for k, n in stats["valence"]["boundary"].items()}
     irregular = sum(n for k, n in inner.items() if k != 4) + sum(n for k, n in border.items() if k != 3)
-    other = sum(n for k, n in inner.items() if k not in (3, 4, 5)) + sum(n for k, n in border.items() if k not in (2, 3, 4))
+    other = sum(n for k, n in inner.items() if k not in (3, 4, 5))
+    other += sum(n for k, n in border.items() if k not in (2, 3, 4))
     return irregular, other
 
 
@@ -205,7 +207,8 @@ def verdict(row):
     if reference:
         lines["topology"] = (stats["counts"]["non_quads"] == 0 and topology["manifold"] and topology["oriented"]
                              and (topology["closed"] or not reference["closed"]) and all(
-                                 stats["agreement"][k] for k in ("euler_equal", "components_equal", "boundary_loops_equal")),
+                                 stats["agreement"][k]
+                                 for k in ("euler_equal", "components_equal", "boundary_loops_equal")),
                              topology["euler_characteristic"])
     count = stats["counts"]["quads"]
     lines["count"] = (abs(count - row["asked"]) <= COUNT_DEVIATION * row["asked"], count)
@@ -229,7 +232,8 @@ def badVerdict(row):
     """A repaired surface with quads, or a clear error; nothing half-written."""
     if row["exit"] == 0:
         stats = row.get("stats")
-        fine = bool(stats) and stats["counts"]["non_quads"] == 0 and stats["counts"]["quads"] > 0 and stats["topology"]["manifold"]
+        fine = (bool(stats) and stats["counts"]["non_quads"] == 0 and stats["counts"]["quads"] > 0
+                and stats["topology"]["manifold"])
         return fine, repairText(row)
     clear = row["exit"] in EXIT_CODES and not row["outputLeft"] and bool(lastMessage(row["output"]))
     return clear, lastMessage(row["output"]) or "no message"
@@ -241,12 +245,13 @@ def repairText(row):
     repair = report.get("repair", report.get("repaired"))
     if isinstance(repair, dict):
         said = [f"{value} {key}" for key, value in repair.items() if isinstance(value, (int, float)) and value]
-        return ", ".join(said) or (repair.get("text") if isinstance(repair.get("text"), str) else "") or "nothing to repair"
+        text = repair.get("text") if isinstance(repair.get("text"), str) else ""
+        return ", ".join(said) or text or "nothing to repair"
     return str(repair) if repair else "nothing to repair"
 
 
 def unresolved(row):
-    """Whether the report says that the edge length is too long for a handle of the model; None where it does not say."""
+    """Whether the report says that the edge length is too long for a handle; None where it does not say."""
     handles = (row.get("report") or {}).get("unresolved_handles")
     return None if handles is None else handles > 0
 
@@ -259,12 +264,15 @@ def mark(ok):
 def tableRow(row):
     v = verdict(row)
     if "stats" not in row:
-        why = "killed at the time limit" if row["exit"] is None else row.get("judgeProblem") or lastMessage(row["output"])
+        why = ("killed at the time limit" if row["exit"] is None
+               else row.get("judgeProblem") or lastMessage(row["output"]))
         code = "timeout" if row["exit"] is None else f"exit {row['exit']}"
-        return f"| {row['name']} | {code}{mark(v['ends'][0])} | {escape(why)} |||||| {row['seconds']:.1f} | {row['peakMegabytes']:.0f} |"
+        return (f"| {row['name']} | {code}{mark(v['ends'][0])} | {escape(why)} |||||| "
+                f"{row['seconds']:.1f} | {row['peakMegabytes']:.0f} |")
     cells = [row["name"], "", "", "", "", "", "", ""]
     topology = row["stats"]["topology"]
-    cells[1] = f"chi {topology['euler_characteristic']}, {topology['boundary_loops']} loops{mark(v['topology'][0]) if 'topology' in v else ''}"
+    right = mark(v["topology"][0]) if "topology" in v else ""
+    cells[1] = f"chi {topology['euler_characteristic']}, {topology['boundary_loops']} loops{right}"
     cells[2] = f"{v['count'][1]} ({100 * (v['count'][1] / row['asked'] - 1):+.1f} %){mark(v['count'][0])}"
     if "jacobian" in v:
         cells[3] = f"{v['jacobian'][1][0]:.3f}{mark(v['jacobian'][0])}"
@@ -313,17 +321,21 @@ def summary(rows):
 
 def writeMarkdown(options, rows, badRows, everyRows):
     parts = ["# Results", "",
-             "Written by `Scripts/make-results.py`; do not edit. Judged by an independent tool: exact topology, exact distances "
-             f"of {options.samples:,} samples. A figure is followed by ✓ or ✗ where the bar has a limit for it. Lines below \"topology\" count "
+             "Written by `Scripts/make-results.py`; do not edit. Judged by an independent tool: exact topology, "
+             f"exact distances of {options.samples:,} samples. A figure is followed by ✓ or ✗ where the bar has a "
+             "limit for it. Lines below \"topology\" count "
              "the runs with the right topology only.", "",
-             f"Machine: {options.machine}. Times and memory are of the whole command, from file to file.", "", summary(rows), "",
-             "| run | topology | quads | Jacobian mean | <= 0 | irregular, other than 3 and 5 | distance to the input | features | s | MB |",
+             f"Machine: {options.machine}. Times and memory are of the whole command, from file to file.", "",
+             summary(rows), "",
+             "| run | topology | quads | Jacobian mean | <= 0 | irregular, other than 3 and 5 | "
+             "distance to the input | features | s | MB |",
              "|---|---|---|---|---|---|---|---|---|---|"]
     parts += [tableRow(r) for r in rows]
     if badRows:
         fine = sum(badVerdict(r)[0] for r in badRows)
         parts += ["", "## Damaged input", "",
-                  f"Quads on a repaired surface, or an error that says why; nothing half-written: {fine} of {len(badRows)}.", "",
+                  f"Quads on a repaired surface, or an error that says why; nothing half-written: {fine} of "
+                  f"{len(badRows)}.", "",
                   "| file | outcome | quads | what was repaired, or the error | s | MB |", "|---|---|---|---|---|---|"]
         for row in badRows:
             ok, words = badVerdict(row)
@@ -346,8 +358,8 @@ PEER_MODELS = {"bunny": "bunny_69k"}
 
 
 def readPeers(path):
-    """Quality of other tools from a page with a table of | model count | tool | quads | irregular | topology | SJ | opposing | ...:
-    {run: [{tool, irregular, inverted, opposing, mean, topology, distance}]}."""
+    """Quality of other tools from a page with a table of | model count | tool | quads | irregular | topology | SJ |
+    opposing | ...: {run: [{tool, irregular, inverted, opposing, mean, topology, distance}]}."""
     peers, run = {}, None
     for line in path.read_text().splitlines():
         cells = [c.strip() for c in line.strip().strip("|").split("|")] if line.startswith("|") else []
@@ -358,7 +370,8 @@ def readPeers(path):
             run = f"{PEER_MODELS.get(model, model)}-{int(float(count.rstrip('k')) * 1000)}"
         least, mean, inverted = cells[5].split("/")
         peers.setdefault(run, []).append({
-            "tool": cells[1], "irregular": sum(int(n) for n in cells[3].split("+")), "topology": cells[4], "mean": float(mean),
+            "tool": cells[1], "irregular": sum(int(n) for n in cells[3].split("+")), "topology": cells[4],
+            "mean": float(mean),
             "inverted": int(inverted), "opposing": int(cells[6]), "distance": float(cells[9].split("/")[1])})
     return peers
 
@@ -366,10 +379,12 @@ def readPeers(path):
 def againstPeers(peers, ours):
     """Model by model: irregular vertices, inverted quads, opposing quads, distance of each tool and of ours."""
     out = ["## Against other tools", "",
-           "Irregular vertices (with those on the boundary), quads with scaled Jacobian <= 0, quads that face against the surface, mean scaled Jacobian, and mean "
-           "distance to the input in % of the diagonal; the other tools on the same models, with their default settings. IM: Instant Meshes, QF: QuadriFlow, "
-           "MIQ: libigl with libQEx, QW: QuadWild with Bi-MDF.", "",
-           "| run | tool | irregular | <= 0 | opposing | Jacobian mean | distance | topology |", "|---|---|---|---|---|---|---|---|"]
+           "Irregular vertices (with those on the boundary), quads with scaled Jacobian <= 0, quads that face against "
+           "the surface, mean scaled Jacobian, and mean distance to the input in % of the diagonal; the other tools on "
+           "the same models, with their default settings. IM: Instant Meshes, QF: QuadriFlow, MIQ: libigl with libQEx, "
+           "QW: QuadWild with Bi-MDF.", "",
+           "| run | tool | irregular | <= 0 | opposing | Jacobian mean | distance | topology |",
+           "|---|---|---|---|---|---|---|---|"]
     ahead, compared = [0, 0], 0
     for run, others in peers.items():
         row = ours.get(run)
@@ -380,18 +395,19 @@ def againstPeers(peers, ours):
                "opposing": quality["quads_opposing_reference"], "mean": quality["scaled_jacobian_mean"],
                "distance": 100 * row["stats"]["distance"]["quads_to_reference"]["mean_rel"]}
         fine = verdict(row)["topology"][0]
-        out.append(f"| {run} | **Quadrille** | **{own['irregular']}** | **{own['inverted']}** | **{own['opposing']}** | {own['mean']:.3f} | "
-                   f"{own['distance']:.3f} | {'ok' if fine else 'wrong'} |")
+        out.append(f"| {run} | **Quadrille** | **{own['irregular']}** | **{own['inverted']}** | **{own['opposing']}** "
+                   f"| {own['mean']:.3f} | {own['distance']:.3f} | {'ok' if fine else 'wrong'} |")
         for peer in others:
-            out.append(f"| | {peer['tool']} | {peer['irregular']} | {peer['inverted']} | {peer['opposing']} | {peer['mean']:.3f} | "
-                       f"{peer['distance']:.3f} | {peer['topology']} |")
+            out.append(f"| | {peer['tool']} | {peer['irregular']} | {peer['inverted']} | {peer['opposing']} | "
+                       f"{peer['mean']:.3f} | {peer['distance']:.3f} | {peer['topology']} |")
         rivals = [p for p in others if p["topology"] == "ok"]
         compared += 1
-        better = [fine and all(own["irregular"] <= p["irregular"] and sum(own[k] for k in kinds) <= sum(p[k] for k in kinds) for p in rivals)
+        better = [fine and all(own["irregular"] <= p["irregular"]
+                               and sum(own[k] for k in kinds) <= sum(p[k] for k in kinds) for p in rivals)
                   for kinds in (("inverted",), ("inverted", "opposing"))]
         ahead = [n + b for n, b in zip(ahead, better)]
-    out += ["", f"Among the tools with the right topology none has fewer irregular vertices, and none fewer quads with scaled Jacobian <= 0, on {ahead[0]} of "
-            f"{compared} runs; with opposing quads counted, too, on {ahead[1]}."]
+    out += ["", f"Among the tools with the right topology none has fewer irregular vertices, and none fewer quads with "
+            f"scaled Jacobian <= 0, on {ahead[0]} of {compared} runs; with opposing quads counted, too, on {ahead[1]}."]
     return out
 
 
@@ -403,8 +419,9 @@ def fieldCounts(path):
     coarse, surface = (sum(int(r[k]) for r in rows) for k in ("irregular_coarse", "irregular_surface"))
     beyond = [r for r in rows if r not in within]
     out = ["## Irregular vertices with and without decimation", "",
-           f"The field on the coarse level against the field on all of the surface (`quadrille-bench --compare field`): at most 1.15 times as many on "
-           f"{share(len(within), len(rows))} of the runs with quads; {coarse:,} against {surface:,} over all of them. The others:", "",
+           f"The field on the coarse level against the field on all of the surface (`quadrille-bench --compare "
+           f"field`): at most 1.15 times as many on {share(len(within), len(rows))} of the runs with quads; {coarse:,} "
+           f"against {surface:,} over all of them. The others:", "",
            "| run | on the coarse level | on the surface |", "|---|---|---|"]
     return out + [f"| {r['mesh']}-{r['quads']} | {r['irregular_coarse']} | {r['irregular_surface']} |" for r in beyond]
 
@@ -427,19 +444,24 @@ def everyModel(rows):
     mapped = [r for r in rows if coarseCertificate(r)]
     quality = [r["stats"]["quality"] for r in valid]
     out = ["## Every model", "",
-           f"All models of {', '.join(EVERY_FOLDER)} at {', '.join(f'{n:,}' for n in EVERY_COUNT)} quads. A run is resolved where no handle is "
-           "shorter round than three edge lengths.", "",
+           f"All models of {', '.join(EVERY_FOLDER)} at {', '.join(f'{n:,}' for n in EVERY_COUNT)} quads. A run is "
+           "resolved where no handle is shorter round than three edge lengths.", "",
            "| figure | runs |", "|---|---|",
            f"| quads with the topology of the input | {share(len(valid), len(rows))} |",
            f"| of the resolved ones | {share(sum(r in resolved for r in valid), len(resolved))} |",
-           f"| valid map of the coarse mesh, of the resolved ones | {share(sum(r in resolved for r in mapped), len(resolved))} |",
-           f"| map on the input without defect, of the resolved ones | {share(sum(r in resolved for r in certified), len(resolved))} |",
+           "| valid map of the coarse mesh, of the resolved ones | "
+           f"{share(sum(r in resolved for r in mapped), len(resolved))} |",
+           "| map on the input without defect, of the resolved ones | "
+           f"{share(sum(r in resolved for r in certified), len(resolved))} |",
            f"| of those with quads: the map on the input has no defect | {share(len(certified), len(valid))} |",
-           f"| no quad with scaled Jacobian <= 0 | {share(sum(q['quads_sj_le_0'] == 0 for q in quality), len(valid))} |",
+           "| no quad with scaled Jacobian <= 0 | "
+           f"{share(sum(q['quads_sj_le_0'] == 0 for q in quality), len(valid))} |",
            f"| mean scaled Jacobian >= {EVERY_JACOBIAN_MEAN} | "
            f"{share(sum(q['scaled_jacobian_mean'] >= EVERY_JACOBIAN_MEAN for q in quality), len(valid))} |",
-           f"| count within {100 * COUNT_DEVIATION:.0f} % | {share(sum(verdict(r)['count'][0] for r in valid), len(valid))} |", "",
-           "| run | outcome | quads | Jacobian mean, min, <= 0 | irregular, other than 3 and 5 | shortest handle / s | s |",
+           f"| count within {100 * COUNT_DEVIATION:.0f} % | "
+           f"{share(sum(verdict(r)['count'][0] for r in valid), len(valid))} |", "",
+           "| run | outcome | quads | Jacobian mean, min, <= 0 | irregular, other than 3 and 5 | "
+           "shortest handle / s | s |",
            "|---|---|---|---|---|---|---|"]
     return out + [everyRow(r) for r in rows]
 
@@ -458,7 +480,8 @@ def everyRow(row):
     loop = f"{loop:.1f}" if loop else ""
     v = verdict(row)
     if "stats" not in row:
-        why = "killed at the time limit" if row["exit"] is None else row.get("judgeProblem") or lastMessage(row["output"])
+        why = ("killed at the time limit" if row["exit"] is None
+               else row.get("judgeProblem") or lastMessage(row["output"]))
         why = why.split(".ply: ", 1)[-1]
         return f"| {row['name']} | {escape(why[:160])} ||||{loop} | {row['seconds']:.1f} |"
     quality, (irregular, other) = row["stats"]["quality"], v["valence"][1]
@@ -466,8 +489,8 @@ def everyRow(row):
     if not fineCertificate(row):
         outcome += ", map mended by the extraction"
     return (f"| {row['name']} | {outcome} | {v['count'][1]} ({100 * (v['count'][1] / row['asked'] - 1):+.1f} %) | "
-            f"{quality['scaled_jacobian_mean']:.3f}, {quality['scaled_jacobian_min']:.2f}, {quality['quads_sj_le_0']} | "
-            f"{irregular}, {other} | {loop} | {row['seconds']:.1f} |")
+            f"{quality['scaled_jacobian_mean']:.3f}, {quality['scaled_jacobian_min']:.2f}, {quality['quads_sj_le_0']} "
+            f"| {irregular}, {other} | {loop} | {row['seconds']:.1f} |")
 
 
 def contactSheets(options, rows):
@@ -481,7 +504,8 @@ def contactSheets(options, rows):
 
 def describeMachine():
     cores = len(os.sched_getaffinity(0))
-    model = next((l.split(":", 1)[1].strip() for l in open("/proc/cpuinfo") if l.startswith("model name")), "unknown processor")
+    model = next((l.split(":", 1)[1].strip() for l in open("/proc/cpuinfo") if l.startswith("model name")),
+                 "unknown processor")
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2 ** 30
     return f"{cores} cores of {model}, {memory:.0f} GiB"
 
@@ -497,14 +521,18 @@ def parseArguments():
     parser.add_argument("--models", nargs="*", help="paths below --data; default: the models of the bar")
     parser.add_argument("--folder", help="take every mesh of this folder below --data instead")
     parser.add_argument("--bad", default="bad", help="folder with damaged input below --data; empty: leave out")
-    parser.add_argument("--every", action="store_true", help="also all models of scan, cad, open, in a table of their own")
-    parser.add_argument("--peers", type=pathlib.Path, help="page with the table of what other tools reach, to compare with")
-    parser.add_argument("--field", type=pathlib.Path, help="what quadrille-bench --compare field wrote, to be summed up")
+    parser.add_argument("--every", action="store_true",
+                        help="also all models of scan, cad, open, in a table of their own")
+    parser.add_argument("--peers", type=pathlib.Path,
+                        help="page with the table of what other tools reach, to compare with")
+    parser.add_argument("--field", type=pathlib.Path,
+                        help="what quadrille-bench --compare field wrote, to be summed up")
     parser.add_argument("--quads", type=int, nargs="*", default=COUNTS)
     parser.add_argument("--timeout", type=float, default=600, help="seconds a run")
     parser.add_argument("--samples", type=int, default=100000)
     parser.add_argument("--machine", default=describeMachine())
-    parser.add_argument("--extra", nargs="*", default=[], help="further arguments of the command, without their dashes' first --")
+    parser.add_argument("--extra", nargs="*", default=[],
+                        help="further arguments of the command, without their dashes' first --")
     parser.add_argument("--fresh", action="store_true", help="repeat runs that are already there")
     parser.add_argument("--keep", action="store_true", help="do not repeat runs of an older build")
     parser.add_argument("--no-pictures", action="store_true")

@@ -5,9 +5,9 @@
 
   PYTHONPATH=build/lib/python3/dist-packages Scripts/measure-chain.py MESH... [--quads N] [--threads N] [--repeat N]
 
-Each mesh is read once. Then new filters, so that nothing is remembered, run --repeat times, Quad Remesh and the chain in turn. Printed are
-the medians of wall and processor seconds, those of each filter, and the ratio of the chain to Quad Remesh. The exit code is 1 where the
-bytes of points or quads differ.
+Each mesh is read once. Then new filters, so that nothing is remembered, run --repeat times, Quad Remesh and the chain
+in turn. Printed are the medians of wall and processor seconds, those of each filter, and the ratio of the chain to Quad
+Remesh. The exit code is 1 where the bytes of points or quads differ.
 """
 import argparse
 import pathlib
@@ -79,7 +79,8 @@ def main():
     parser.add_argument("--repeat", type=int, default=5)
     arguments = parser.parse_args()
     same = True
-    print("| mesh | Quad Remesh, s | processor s | chain, s | processor s | its filters, s | ratio | processor | same quads |")
+    print("| mesh | Quad Remesh, s | processor s | chain, s | processor s | its filters, s | ratio | processor | "
+          "same quads |")
     print("|---|---|---|---|---|---|---|---|---|")
     for mesh in arguments.meshes:
         surface = quadrille.read(mesh)
@@ -92,8 +93,8 @@ def main():
             same = same and found == expected
         one, four = medians(first), medians(second)
         filters = ", ".join(f"{statistics.median(run[i][0] for run in second):.2f}" for i in range(4))
-        print(f"| {pathlib.Path(mesh).stem} | {one[0]:.2f} | {one[1]:.2f} | {four[0]:.2f} | {four[1]:.2f} | {filters} | "
-              f"{four[0] / one[0]:.2f} | {four[1] / one[1]:.2f} | {'yes' if same else 'NO'} |", flush=True)
+        print(f"| {pathlib.Path(mesh).stem} | {one[0]:.2f} | {one[1]:.2f} | {four[0]:.2f} | {four[1]:.2f} | {filters} "
+              f"| {four[0] / one[0]:.2f} | {four[1] / one[1]:.2f} | {'yes' if same else 'NO'} |", flush=True)
     return 0 if same else 1
 
 

@@ -5,10 +5,11 @@
 
   Scripts/measure-final-quality.py --program build/bin/quadrille MESH... [--quads N]... [--threads N] [-- more options]
 
-Each mesh is remeshed three times. Distortion is that of the map on the input: the mean over the area of the symmetric Dirichlet energy over 4
-(1 where the map is an isometry), the value that 99 hundredths of the area lie below, and the mean of (a/b + b/a) / 2 with the singular values
-a, b. Of the quads: mean and least scaled Jacobian, deviation of the edge length over its mean. Seconds are
-processor time: of the whole run for the coarse map, beyond it for the others, so that a busy machine does not count.
+Each mesh is remeshed three times. Distortion is that of the map on the input: the mean over the area of the symmetric
+Dirichlet energy over 4 (1 where the map is an isometry), the value that 99 hundredths of the area lie below, and the
+mean of (a/b + b/a) / 2 with the singular values a, b. Of the quads: mean and least scaled Jacobian, deviation of the
+edge length over its mean. Seconds are processor time: of the whole run for the coarse map, beyond it for the others, so
+that a busy machine does not count.
 """
 import argparse
 import json
@@ -51,7 +52,8 @@ def main():
     parser.add_argument("--threads", type=int, default=1)
     arguments, more = parser.parse_known_args()
     more = [word for word in more if word != "--"]
-    print("| mesh | faces | quads | level | distortion | 99 % below | angles | scaled Jacobian | least | edge lengths | user s |")
+    print("| mesh | faces | quads | level | distortion | 99 % below | angles | scaled Jacobian | least | edge lengths "
+          "| user s |")
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     for mesh in arguments.meshes:
         for quads in arguments.quads or [5000]:
@@ -64,7 +66,8 @@ def main():
             first = [name, int(reports[0]["sizes"]["surface_faces"]), reports[0]["quads_actual"]]
             for level, report in zip(LEVELS, reports):
                 distortion = reports[2]["distortion_before"] if level == "coarse" else report["distortion_after"]
-                cells = row(report, level, distortion, report["user_seconds"] - (reports[0]["user_seconds"] if level != "coarse" else 0))
+                cells = row(report, level, distortion,
+                            report["user_seconds"] - (reports[0]["user_seconds"] if level != "coarse" else 0))
                 if connectivity(report) != connectivity(reports[0]):
                     cells[0] += " (OTHER CONNECTIVITY)"
                 if any("final quality" in notice for notice in report["notices"]):

@@ -31,7 +31,8 @@ def bars(x, y, groups, most):
         for k, (colour, value) in enumerate(values):
             height = PANEL_HEIGHT * value / most
             left = x + i * step + 0.1 * step + k * width
-            parts.append(f'<rect x="{left:.1f}" y="{base - height:.1f}" width="{0.9 * width:.1f}" height="{height:.1f}" fill="{colour}"/>')
+            parts.append(f'<rect x="{left:.1f}" y="{base - height:.1f}" width="{0.9 * width:.1f}" '
+                         f'height="{height:.1f}" fill="{colour}"/>')
             parts.append(text(left + 0.45 * width, base - height - 3, f"{value:.0f}", 8))
         parts.append(text(x + (i + 0.5) * step, base + 14, name, 10))
     parts.append(f'<path d="M{x} {base}h{PANEL_WIDTH}" stroke="black"/>')
@@ -55,12 +56,15 @@ def draw(rows):
         own = [row for row in rows if row["mesh"] == model]
         x = LEFT + i * (PANEL_WIDTH + 30)
         parts.append(text(x + PANEL_WIDTH / 2, TOP - 16, model, 13))
-        histogram = [(f"valence {kind}", [(COLOURS[row["field"]], counts[id(row)].get(kind, 0)) for row in own]) for kind in kinds]
+        histogram = [(f"valence {kind}", [(COLOURS[row["field"]], counts[id(row)].get(kind, 0)) for row in own])
+                     for kind in kinds]
         parts += bars(x, TOP, histogram, 1.15 * max(value for _, group in histogram for _, value in group))
         distances = [(COLOURS[row["field"]], float(row["distance"])) for row in own if row["field"] != "reference"]
-        parts += bars(x, below, [("distance to the field without decimation", distances)], 1.15 * max(v for _, v in distances))
+        parts += bars(x, below, [("distance to the field without decimation", distances)],
+                      1.15 * max(v for _, v in distances))
     for words, y in (("vertices", TOP), ("quarter turns x edges", below)):
-        parts.append(f'<g transform="translate({LEFT - 20} {y + PANEL_HEIGHT / 2}) rotate(-90)">{text(0, 0, words)}</g>')
+        parts.append(f'<g transform="translate({LEFT - 20} {y + PANEL_HEIGHT / 2}) '
+                     f'rotate(-90)">{text(0, 0, words)}</g>')
     return "\n".join(parts + ["</svg>"]) + "\n"
 
 

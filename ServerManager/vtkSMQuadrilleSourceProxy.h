@@ -4,17 +4,20 @@
  * @class   vtkSMQuadrilleSourceProxy
  * @brief   a filter whose panel tells of the execution just over, and whose outputs come with a display
  *
- * ParaView 5.11 asks a filter for its information properties before it executes it, so that the panel shows what was valid
- * one Apply ago. This proxy asks again after each execution.
+ * ParaView 5.11 asks a filter for its information properties before it executes it, so that the panel shows what was
+ * valid one Apply ago. This proxy asks again after each execution.
  *
- * A representation that could not update, because the filter failed, waits in ParaView 5.11 for ever: its proxy passes a change on only
- * when the one before it was shown. This proxy tells the representations behind it of each change itself.
+ * A representation that could not update, because the filter failed, waits in ParaView 5.11 for ever: its proxy passes
+ * a change on only when the one before it was shown. This proxy tells the representations behind it of each change
+ * itself.
  *
- * A hint `<Display port="4" property="PointSize" value="12"/>` sets a property of each representation of an output at the moment it is
- * made; there is one element for each property, with one number. What a user, a script or a state file sets later stays.
+ * A hint `<Display port="4" property="PointSize" value="12"/>` sets a property of each representation of an output at
+ * the moment it is made; there is one element for each property, with one number. What a user, a script or a state file
+ * sets later stays.
  *
- * A hint `<ColourMap array="Valence">` with elements `<Entry value="3" text="3" red="0.2" green="0.4" blue="0.9"/>` gives the values of
- * an array colours and names of their own, in the legend, too; where the array has a colour map already, that stays.
+ * A hint `<ColourMap array="Valence">` with elements `<Entry value="3" text="3" red="0.2" green="0.4" blue="0.9"/>`
+ * gives the values of an array colours and names of their own, in the legend, too; where the array has a colour map
+ * already, that stays.
  *
  * In the XML of the server manager it is the element QuadrilleSourceProxy.
  */

@@ -112,11 +112,13 @@ def _set_size(run, quads, edge_length, relative_edge_length):
         run.SetNumberOfQuads(whole("quads", DEFAULT_QUADS if quads is None else quads, least=1))
 
 
-def _set_numbers(run, *, feature_angle, coarse_vertices, threads, maximum_number_of_quads, smoothing_steps, memory_limit, time_limit,
+def _set_numbers(run, *, feature_angle, coarse_vertices, threads, maximum_number_of_quads, smoothing_steps,
+                 memory_limit, time_limit,
                  close_handles, anisotropy_limit):
     run.SetDetectFeatures(feature_angle is not None)
     if feature_angle is not None:
-        run.SetFeatureAngle(real("feature_angle", feature_angle, above=0, most=180, hint=" (None turns the detection off)"))
+        run.SetFeatureAngle(real("feature_angle", feature_angle, above=0, most=180,
+                                 hint=" (None turns the detection off)"))
     coarse = whole("coarse_vertices", coarse_vertices, least=0)
     if 0 < coarse < 4:
         raise InvalidInput(f"coarse_vertices must be 0 (as many as the curvature needs) or at least 4, not {coarse}")
@@ -155,29 +157,34 @@ def _finish(run):
 
 
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
-           guiding_direction=None, guiding_weight=None, target_valence=None, sizing=None, feature_edges=None, patch_ids=None,
-           curves=None, strokes=None, patch_array="PatchId", coarse_vertices=1000, threads=0, maximum_number_of_quads=10000000, smoothing_steps=5,
+           guiding_direction=None, guiding_weight=None, target_valence=None, sizing=None, feature_edges=None,
+           patch_ids=None, curves=None, strokes=None, patch_array="PatchId", coarse_vertices=1000,
+           threads=0, maximum_number_of_quads=10000000, smoothing_steps=5,
            memory_limit=0.0, time_limit=0.0, close_handles=0.0, small_components="keep", method="scale-aware",
-           final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False, cell_data="centre",
+           final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False,
+           cell_data="centre",
            progress=None, everything=False):
     """Remeshes a surface with quads only and returns a vtkPolyData.
 
-    mesh: a vtkPolyData (of another vtkDataSet the surface is taken), or a pair (points, faces) of arrays or lists: points #V by 3, faces #F
-        by 3 or by 4, or one list of point ids a face, also as VTK has them, with the number of corners before the corners; or an object
-        with `vertices` and `faces`.
+    mesh: a vtkPolyData (of another vtkDataSet the surface is taken), or a pair (points, faces) of arrays or lists:
+        points #V by 3, faces #F by 3 or by 4, or one list of point ids a face, also as VTK has them, with the number of
+        corners before the corners; or an object with `vertices` and `faces`.
     quads, edge_length, relative_edge_length: target number of quads, target edge length in units of the mesh, or over
         the diagonal of its bounding box; at most one of them; 5,000 quads when none is given.
     feature_angle: degrees; edges sharper than this become edges of the quads; None turns the detection off.
     guiding_direction: #F by 3; edges of the quads should run along this direction in the face; zero: free.
     guiding_weight: #F or one number, above 0 and at most 1: how strongly; 1 where it is not given.
-    target_valence: #V whole numbers, or a dict from point ids to them: 0 free, 4 regular, 2, 3, 5 to 8 a vertex of this valence there.
+    target_valence: #V whole numbers, or a dict from point ids to them: 0 free, 4 regular, 2, 3, 5 to 8 a vertex of this
+        valence there.
     sizing: #V, above 0: the edge length there as a multiple of the target edge length.
-    feature_edges: n by 2 point ids, the ends of edges of the mesh; or #F numbers, of which bit i marks the edge from corner i to i + 1.
+    feature_edges: n by 2 point ids, the ends of edges of the mesh; or #F numbers, of which bit i marks the edge from
+        corner i to i + 1.
     patch_ids: #F whole numbers; edges between two values become edges of the quads.
-    curves: a list of polylines (n by 3 points each), drawn along the nearest edges of the mesh, that become features; or a vtkPolyData with
-        lines and, if some are strokes, the cell array ConstraintType (0 feature, 1 stroke).
+    curves: a list of polylines (n by 3 points each), drawn along the nearest edges of the mesh, that become features;
+        or a vtkPolyData with lines and, if some are strokes, the cell array ConstraintType (0 feature, 1 stroke).
     strokes: a list of polylines along which quads should run.
-    patch_array: name of a cell array of whole numbers of a vtkPolyData, whose borders become edges of the quads; None: not used.
+    patch_array: name of a cell array of whole numbers of a vtkPolyData, whose borders become edges of the quads; None:
+        not used.
     coarse_vertices: budget of the level where the layout is computed; 0: as many as the curvature needs.
     threads: 0 means all.
     maximum_number_of_quads: refuse to make more.
@@ -185,35 +192,41 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     memory_limit: refuse to start where more is needed by the estimate; millions of bytes; 0 means what is free.
     time_limit: seconds; 0 means none.
     close_handles: handles shorter round or through than so many target edge lengths are cut and closed; 0: none.
-    small_components: connected components with less area than the smallest block of quads has: "keep", as about that many quads, or
-        "remove".
+    small_components: connected components with less area than the smallest block of quads has: "keep", as about that
+        many quads, or "remove".
     method: how the map is made: "scale-aware", "mixed-integer" or "quadcover" (both may leave inverted triangles), or
         "seamless" (no integers, so the result has no quads; use everything=True for the mapped surface).
-    final_quality: "coarse", "intermediate" or "input": the level on which the map is solved at last; the quads are the same in number
-        and connectivity, less distorted, and take longer.
+    final_quality: "coarse", "intermediate" or "input": the level on which the map is solved at last; the quads are the
+        same in number and connectivity, less distorted, and take longer.
     integers: "keep-sizes", or "coarsest" for the coarsest layout of quads that is the surface.
-    anisotropy_limit: largest ratio of the two stretches of the map, at least 1, as far as features and irregular vertices let it;
-        0: no limit.
-    distortion_metric: whether coarse triangles count with the shape of the surface that they stand for, so that sizes come out more even.
-    cell_data: what cell arrays of the quads come from: "centre", the cell under the centre of a quad, or "area", all cells under it: the
-        average of real numbers and colours, of whole numbers and strings that with the largest part.
+    anisotropy_limit: largest ratio of the two stretches of the map, at least 1, as far as features and irregular
+        vertices let it; 0: no limit.
+    distortion_metric: whether coarse triangles count with the shape of the surface that they stand for, so that sizes
+        come out more even.
+    cell_data: what cell arrays of the quads come from: "centre", the cell under the centre of a quad, or "area", all
+        cells under it: the average of real numbers and colours, of whole numbers and strings that with the largest
+        part.
     progress: called as progress(fraction, text); a return value of False (not None) stops the run.
-    everything: return a Remeshed with the mapped surface, the feature lines, the info dict and the lines of the layout, too.
+    everything: return a Remeshed with the mapped surface, the feature lines, the info dict and the lines of the layout,
+        too.
 
     Raises InvalidInput where the mesh or an argument is at fault, else RemeshError, with the reason.
     """
     run = vtkQuadRemesh()
     _set_size(run, quads, edge_length, relative_edge_length)
     _set_numbers(run, feature_angle=feature_angle, coarse_vertices=coarse_vertices, threads=threads,
-                 maximum_number_of_quads=maximum_number_of_quads, smoothing_steps=smoothing_steps, memory_limit=memory_limit,
+                 maximum_number_of_quads=maximum_number_of_quads, smoothing_steps=smoothing_steps,
+                 memory_limit=memory_limit,
                  time_limit=time_limit, close_handles=close_handles, anisotropy_limit=anisotropy_limit)
-    _set_names(run, patch_array=patch_array, method=method, final_quality=final_quality, integers=integers, cell_data=cell_data,
+    _set_names(run, patch_array=patch_array, method=method, final_quality=final_quality, integers=integers,
+               cell_data=cell_data,
                small_components=small_components)
     run.SetDistortionMetric(bool(distortion_metric))
     run.SetComputeMappedSurface(bool(everything))
     run.KeepLevelsOff()  # there is no next execution
     run.SetInputData(with_requests(
-        as_surface(mesh), guiding_direction=guiding_direction, guiding_weight=guiding_weight, target_valence=target_valence,
+        as_surface(mesh), guiding_direction=guiding_direction, guiding_weight=guiding_weight,
+        target_valence=target_valence,
         sizing=sizing, feature_edges=feature_edges, patch_ids=patch_ids, patch_array=patch_array))
     lines = as_curves(curves, strokes)
     if lines is not None:

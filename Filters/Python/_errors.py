@@ -14,7 +14,8 @@ class InvalidInput(RemeshError, ValueError):
 
 
 def real(name, value, *, least=None, above=None, most=None, hint=""):
-    """value as a float; InvalidInput unless it is a finite number in the range: at least `least`, above `above`, at most `most`."""
+    """value as a float; InvalidInput unless it is a finite number in the range: at least `least`, above `above`, at
+    most `most`."""
     if isinstance(value, bool) or not isinstance(value, numbers.Real) or not math.isfinite(value):
         raise InvalidInput(f"{name} must be a finite number, not {value!r}{hint}")
     too_small = (least is not None and value < least) or (above is not None and value <= above)

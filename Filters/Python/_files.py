@@ -25,8 +25,8 @@ def _reader_for(extension):
     if extension == ".vtk":
         from vtkmodules.vtkIOLegacy import vtkPolyDataReader
         return vtkPolyDataReader()
-    raise InvalidInput(f"files of the kind {extension or 'without extension'} are not read here; known are .ply, .off, .obj, .stl, "
-                       ".vtp and .vtk")
+    raise InvalidInput(f"files of the kind {extension or 'without extension'} are not read here; known are .ply, .off, "
+                       ".obj, .stl, .vtp and .vtk")
 
 
 class _Silence:

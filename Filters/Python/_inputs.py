@@ -76,20 +76,21 @@ def _from_flat(flat):
 
 
 def _without_counts(rows):
-    """Rows [n, id 1 ... id n] as rows of ids. A face that names a point twice is none, so these cannot be polygons with one corner more."""
+    """Rows [n, id 1 ... id n] as rows of ids. A face that names a point twice is none, so these cannot be polygons with
+    one corner more."""
     corners = rows.shape[1] - 1
     if corners < 3 or rows.shape[0] == 0 or not (rows[:, 0] == corners).all():
         return rows
     if (rows[:, 1:] == corners).any():
         return rows[:, 1:]
     raise InvalidInput(
-        f"each of the faces begins with {corners} and has {corners} numbers more: if that is their number of corners, as in "
-        f"VTK, give faces[:, 1:]; if not, begin one of them with another of its points")
+        f"each of the faces begins with {corners} and has {corners} numbers more: if that is their number of corners, "
+        "as in VTK, give faces[:, 1:]; if not, begin one of them with another of its points")
 
 
 def as_faces(faces, point_count):
-    """Number of corners of each face, and the corners of all: from an array m by k, a list of lists of point ids, or VTK's faces with their
-    numbers of corners before them (rows or flat)."""
+    """Number of corners of each face, and the corners of all: from an array m by k, a list of lists of point ids, or
+    VTK's faces with their numbers of corners before them (rows or flat)."""
     try:
         array = numpy.asarray(faces)
     except ValueError:
@@ -123,7 +124,8 @@ def _check_corners(counts, corners, point_count):
     if bad.size:
         face = numpy.searchsorted(numpy.cumsum(counts), bad[0], side="right")
         from_one = corners.min() == 1 and corners.max() == point_count
-        raise InvalidInput(f"face {face} names point {corners[bad[0]]}, but there are only the points 0 to {point_count - 1}"
+        raise InvalidInput(f"face {face} names point {corners[bad[0]]}, but there are only the points 0 to "
+                           f"{point_count - 1}"
                            + ("; the ids seem to begin at 1: subtract 1" if from_one else ""))
 
 
@@ -137,8 +139,9 @@ def _cells(counts, corners):
 
 
 def to_polydata(points, faces):
-    """A vtkPolyData from points (n by 3) and faces: an array (m by 3, or m by 4), a list of lists of point ids, or faces with their numbers
-    of corners before them, as VTK and PyVista have them. Raises InvalidInput, which names the point or the face."""
+    """A vtkPolyData from points (n by 3) and faces: an array (m by 3, or m by 4), a list of lists of point ids, or
+    faces with their numbers of corners before them, as VTK and PyVista have them. Raises InvalidInput, which names the
+    point or the face."""
     points = as_points(points)
     mesh = vtkPolyData()
     mesh.SetPoints(vtkPoints())
@@ -154,11 +157,13 @@ def as_surface(mesh):
     if isinstance(mesh, vtkDataSet):
         return _surface_of(mesh)
     if isinstance(mesh, vtkCompositeDataSet):
-        raise InvalidInput("the mesh is composite data: call remesh for each of its blocks, or use the filter vtkQuadRemesh, which takes them all")
+        raise InvalidInput("the mesh is composite data: call remesh for each of its blocks, or use the filter "
+                           "vtkQuadRemesh, which takes them all")
     if isinstance(mesh, vtkAlgorithm):
         raise InvalidInput(f"{mesh.GetClassName()} is a reader or filter: call its Update(), then pass its GetOutput()")
     if hasattr(mesh, "SMProxy"):
-        raise InvalidInput("this is a ParaView proxy: use QuadRemesh(Input=...) and quadrille.check(), or pass servermanager.Fetch(...)")
+        raise InvalidInput("this is a ParaView proxy: use QuadRemesh(Input=...) and quadrille.check(), or pass "
+                           "servermanager.Fetch(...)")
     if isinstance(mesh, (str, bytes, os.PathLike)):
         raise InvalidInput(f"the mesh must be {_KINDS}, not the name of a file: quadrille.read({str(mesh)!r}) reads it")
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
@@ -177,11 +182,12 @@ def _surface_of(data):
     surface.SetInputData(data)
     surface.Update()
     if surface.GetOutput().GetNumberOfPolys() + surface.GetOutput().GetNumberOfStrips() == 0:
-        raise InvalidInput(f"the {data.GetClassName()} has no surface: it has {data.GetNumberOfCells()} cells, none of them a polygon or a volume")
+        raise InvalidInput(f"the {data.GetClassName()} has no surface: it has {data.GetNumberOfCells()} cells, none of "
+                           "them a polygon or a volume")
     return surface.GetOutput()
 
 
-# --- what is asked for ---------------------------------------------------------------------------------------------------
+# --- what is asked for ------------------------------------------------------------------------------------------------
 
 def _per(name, values, count, element, components=1):
     """values as an array with one row for each of the `count` elements."""
@@ -208,7 +214,8 @@ def _bits_of_pairs(surface, pairs):
     point_count = surface.GetNumberOfPoints()
     bad = numpy.flatnonzero(((pairs < 0) | (pairs >= point_count)).any(axis=1))
     if bad.size:
-        raise InvalidInput(f"feature edge {bad[0]} is {tuple(pairs[bad[0]].tolist())}, but there are only the points 0 to {point_count - 1}")
+        raise InvalidInput(f"feature edge {bad[0]} is {tuple(pairs[bad[0]].tolist())}, but there are only the points 0 "
+                           f"to {point_count - 1}")
     counts = numpy.diff(offsets)
     face = numpy.repeat(numpy.arange(counts.size), counts)
     corner = numpy.arange(corners.size) - offsets[face]
@@ -219,23 +226,26 @@ def _bits_of_pairs(surface, pairs):
     wanted_keys = wanted[:, 0] * point_count + wanted[:, 1]
     missing = numpy.flatnonzero(~numpy.isin(wanted_keys, edge_keys))
     if missing.size:
-        raise InvalidInput(f"feature edge {missing[0]}, from point {pairs[missing[0], 0]} to {pairs[missing[0], 1]}, is no edge of a face; "
-                           "a line across faces can be given in `curves`")
+        raise InvalidInput(f"feature edge {missing[0]}, from point {pairs[missing[0], 0]} to {pairs[missing[0], 1]}, "
+                           "is no edge of a face; a line across faces can be given in `curves`")
     marked = numpy.isin(edge_keys, wanted_keys)
     if (corner[marked] > 7).any():
-        raise InvalidInput(f"face {face[marked][corner[marked] > 7][0]} has more than 8 corners: triangulate it to mark its edges")
+        raise InvalidInput(f"face {face[marked][corner[marked] > 7][0]} has more than 8 corners: triangulate it to "
+                           "mark its edges")
     bits = numpy.zeros(counts.size, numpy.uint8)
     numpy.bitwise_or.at(bits, face[marked], (1 << corner[marked]).astype(numpy.uint8))
     return bits
 
 
 def _feature_bits(surface, feature_edges):
-    array = _as_ids("feature_edges", _numbers("feature_edges", feature_edges, "n by 2 point ids, or one number of bits a face"))
+    array = _as_ids("feature_edges", _numbers("feature_edges", feature_edges,
+                                              "n by 2 point ids, or one number of bits a face"))
     if array.ndim == 2 and array.shape[1] == 2:
         return _bits_of_pairs(surface, array)
     faces = surface.GetNumberOfPolys()
     if array.shape != (faces,):
-        raise InvalidInput(f"feature_edges must be n by 2 point ids, or bits for each of the {faces} faces, not of the shape {array.shape}")
+        raise InvalidInput(f"feature_edges must be n by 2 point ids, or bits for each of the {faces} faces, not of the "
+                           f"shape {array.shape}")
     bad = numpy.flatnonzero((array < 0) | (array > 255))
     if bad.size:
         raise InvalidInput(f"feature_edges of face {bad[0]} is {array[bad[0]]}, but bits for 8 edges are 0 to 255")
@@ -248,20 +258,23 @@ def _valences(target_valence, point_count):
     valences = numpy.zeros(point_count, numpy.int64)
     for point, valence in target_valence.items():
         if not 0 <= point < point_count:
-            raise InvalidInput(f"target_valence names point {point}, but there are only the points 0 to {point_count - 1}")
+            raise InvalidInput(f"target_valence names point {point}, but there are only the points 0 to "
+                               f"{point_count - 1}")
         valences[point] = valence
     return valences
 
 
-def with_requests(surface, *, guiding_direction=None, guiding_weight=None, target_valence=None, sizing=None, feature_edges=None,
+def with_requests(surface, *, guiding_direction=None, guiding_weight=None, target_valence=None, sizing=None,
+                  feature_edges=None,
                   patch_ids=None, patch_array="PatchId"):
     """The surface with the arrays that the filters look for; the surface itself stays as it is."""
     given = (guiding_direction, guiding_weight, target_valence, sizing, feature_edges, patch_ids)
     if all(values is None for values in given):
         return surface
-    if surface.GetNumberOfCells() != surface.GetNumberOfPolys() and any(v is not None for v in given if v is not target_valence):
-        raise InvalidInput("the surface has vertices, lines or strips beside its polygons, so arrays of its faces could be meant in two ways; "
-                           "keep the polygons only (vtkCleanPolyData, vtkTriangleFilter)")
+    as_arrays = [v for v in given if v is not None and v is not target_valence]
+    if surface.GetNumberOfCells() != surface.GetNumberOfPolys() and as_arrays:
+        raise InvalidInput("the surface has vertices, lines or strips beside its polygons, so arrays of its faces "
+                           "could be meant in two ways; keep the polygons only (vtkCleanPolyData, vtkTriangleFilter)")
     faces, points = surface.GetNumberOfPolys(), surface.GetNumberOfPoints()
     result = vtkPolyData()
     result.ShallowCopy(surface)
@@ -269,7 +282,8 @@ def with_requests(surface, *, guiding_direction=None, guiding_weight=None, targe
     if guiding_weight is not None and guiding_direction is None and not cell_data.HasArray("GuidingDirection"):
         raise InvalidInput("guiding_weight needs guiding_direction")
     if guiding_direction is not None:
-        _add(cell_data, "GuidingDirection", _per("guiding_direction", guiding_direction, faces, "face", 3), numpy.float64)
+        _add(cell_data, "GuidingDirection", _per("guiding_direction", guiding_direction, faces, "face", 3),
+             numpy.float64)
     if guiding_weight is not None:
         weights = numpy.full(faces, guiding_weight) if numpy.ndim(guiding_weight) == 0 else guiding_weight
         _add(cell_data, "GuidingWeight", _per("guiding_weight", weights, faces, "face"), numpy.float64)
@@ -280,7 +294,8 @@ def with_requests(surface, *, guiding_direction=None, guiding_weight=None, targe
     if feature_edges is not None:
         _add(cell_data, "FeatureEdges", _feature_bits(result, feature_edges), numpy.uint8)
     if patch_ids is not None:
-        _add(cell_data, patch_array or "PatchId", _as_ids("patch_ids", _per("patch_ids", patch_ids, faces, "face")), numpy.int64)
+        _add(cell_data, patch_array or "PatchId", _as_ids("patch_ids", _per("patch_ids", patch_ids, faces, "face")),
+             numpy.int64)
     return result
 
 
@@ -302,12 +317,14 @@ _FEATURE, _STROKE = 0, 1
 
 
 def as_curves(curves, strokes):
-    """The lines of both as one vtkPolyData with the array ConstraintType, or None. curves may be a vtkPolyData that has it already."""
+    """The lines of both as one vtkPolyData with the array ConstraintType, or None. curves may be a vtkPolyData that has
+    it already."""
     ready = curves if isinstance(curves, vtkPolyData) else None
     if ready is not None and strokes is None:
         return ready
     if ready is not None:
-        raise InvalidInput("strokes beside a vtkPolyData of curves: put them into it, with 1 in its cell array ConstraintType")
+        raise InvalidInput("strokes beside a vtkPolyData of curves: put them into it, with 1 in its cell array "
+                           "ConstraintType")
     lines = [(line, _FEATURE) for line in _polylines("curves", curves if curves is not None else [])]
     lines += [(line, _STROKE) for line in _polylines("strokes", strokes if strokes is not None else [])]
     if not lines:

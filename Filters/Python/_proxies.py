@@ -49,11 +49,12 @@ def _outcome_of_properties(proxy):
 
 
 def check(source):
-    """Brings a filter of ParaView up to date, raises if it or a filter of Quadrille before it has failed, and returns it.
+    """Brings a filter of ParaView up to date, raises if it or a filter of Quadrille before it has failed, returns it.
 
     source: a proxy (`QuadRemesh(...)`, or anything behind it), or an algorithm of VTK (`vtkQuadRemesh()`).
 
-    ParaView's proxies print an error and go on, with the previous result or with nothing; this is for scripts that have to notice:
+    ParaView's proxies print an error and go on, with the previous result or with nothing; this is for scripts that have
+    to notice:
 
         quads = quadrille.check(QuadRemesh(Input=surface, NumberOfQuads=5000))
 

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scripts/gate.py: two records of the same build are equal, and each kind of difference is found: test_gate.py GATE BUILD WORK."""
+"""Scripts/gate.py: two records of the same build are equal, and each kind of difference is found: test_gate.py GATE
+BUILD WORK."""
 import copy
 import importlib.util
 import json
@@ -78,7 +79,8 @@ class Gate(unittest.TestCase):
                 (lambda record: step(record).update(drawn="0"), "part/3000: other drawn"),
                 (lambda record: step(record).update(status="no valid result"), "succeeded before, no valid result now"),
                 (lambda record: record["empty"]["steps"][""].update(text="?"), "empty: other text"),
-                (lambda record: record["frame/few-edits/warm"]["steps"].pop("back"), "frame/few-edits/warm, back: only in OLD"),
+                (lambda record: record["frame/few-edits/warm"]["steps"].pop("back"),
+                 "frame/few-edits/warm, back: only in OLD"),
                 (lambda record: record.pop("beast/2000"), "beast/2000: not in NEW")):
             code, text = self.compared_with(change)
             self.assertEqual(code, 1, text)

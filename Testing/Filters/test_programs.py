@@ -212,7 +212,8 @@ class Formats(Case):
         header = ["comment x", f"element vertex {len(points)}", "property double x", "property double y",
                   "property double z", "property uchar red", "property uchar green", "property uchar blue",
                   "property float quality", "element edge 1", "property int vertex1", f"element face {len(faces)}",
-                  "property uchar flag", "property list uchar int vertex_indices", "property int Body", "end_header", ""]
+                  "property uchar flag", "property list uchar int vertex_indices", "property int Body",
+                  "end_header", ""]
         bodies = [int(3 * f / len(faces)) for f in range(len(faces))]
         text = "".join("%.17g %.17g %.17g 10 20 30 %.9g\n" % (*p, p[2]) for p in points) + "7\n"
         text += "".join("9 3 %d %d %d %d\n" % (*f, b) for f, b in zip(faces, bodies))
@@ -252,7 +253,8 @@ class Formats(Case):
                          {(10, 20, 30)})
         self.assertEqual(data.GetCellData().GetArray("ColorIndex").GetRange(), (0, 2))
         for number, line, words in ((2, "0 0 0 0 0 1 10 20 30 0.25", ["vertex 0", "colour"]),
-                                    (3, "0 0 0 0 0", ["vertex 1", "normal"]), (4, "0 0 0 0 0 1 1", ["vertex 2", "texture"]),
+                                    (3, "0 0 0 0 0", ["vertex 1", "normal"]),
+                                    (4, "0 0 0 0 0 1 1", ["vertex 2", "texture"]),
                                     (5, "0 0 0 0 0 1 10 20 nan 0 0", ["vertex 3", "colour"])):
             damaged = list(lines)
             damaged[number] = line
@@ -279,7 +281,8 @@ class Formats(Case):
         out, report = self.folder / "q.obj", self.folder / "r.json"
         self.run_quadrille(path, out, "--quads", 400, "--report", report)
         quality = json.loads(report.read_text())["quality"]
-        self.assertEqual((quality["manifold"], quality["boundary_loops"], quality["euler_characteristic"]), (True, 2, 0))
+        self.assertEqual((quality["manifold"], quality["boundary_loops"], quality["euler_characteristic"]),
+                         (True, 2, 0))
 
 
 class ExitCodes(Case):
@@ -302,8 +305,10 @@ class ExitCodes(Case):
     def test_elsewhere_a_short_run_shows_no_progress(self):
         told = self.run_quadrille(self.write_off(), self.folder / "q.obj", "--quads", 300).stderr
         self.assertNotIn(" % ", told)
-        self.assertRegex(told.splitlines()[-1], r"q\.obj: \d+ quads \(asked for 300\), \d+ points, edge length .* s; the map has no folds")
-        self.assertEqual(self.run_quadrille(self.write_off(), self.folder / "q.obj", "--quads", 300, "--quiet").stderr, "")
+        self.assertRegex(told.splitlines()[-1], r"q\.obj: \d+ quads \(asked for 300\), \d+ points, "
+                         r"edge length .* s; the map has no folds")
+        self.assertEqual(self.run_quadrille(self.write_off(), self.folder / "q.obj", "--quads", 300, "--quiet").stderr,
+                         "")
         # What goes wrong is told all the same.
         self.assertIn("limit", self.run_quadrille(self.write_off(), self.folder / "q.obj", "--quads", 300, "--quiet",
                                                   "--maximum-quads", 10, expect=3).stderr)
@@ -312,7 +317,8 @@ class ExitCodes(Case):
         points, faces = torus()
         faces = faces + faces[:2] + [(5, 5, 6)]
         path = self.folder / "broken.off"
-        path.write_text("\n".join(["OFF", f"{len(points) + 1} {len(faces)} 0"] + ["%g %g %g" % p for p in points + [(9, 9, 9)]]
+        path.write_text("\n".join(["OFF", f"{len(points) + 1} {len(faces)} 0"]
+                                  + ["%g %g %g" % p for p in points + [(9, 9, 9)]]
                                   + ["3 %d %d %d" % f for f in faces]))
         told = self.run_quadrille(path, self.folder / "q.obj", "--quads", 300).stderr.splitlines()
         self.assertIn("- input: 2 faces that were there already were removed", told)
@@ -322,21 +328,26 @@ class ExitCodes(Case):
     def test_an_option_nearly_right_is_named(self):
         source, out = self.write_off(), self.folder / "q.obj"
         self.assertIn("did you mean --quads?", self.run_quadrille(source, out, "--quad", 5, expect=2).stderr)
-        self.assertIn("did you mean --edge-length?", self.run_quadrille(source, out, "--edgelength", 5, expect=2).stderr)
+        self.assertIn("did you mean --edge-length?",
+                      self.run_quadrille(source, out, "--edgelength", 5, expect=2).stderr)
         self.assertIn("--help", self.run_quadrille(source, out, "--bananas", 5, expect=2).stderr)
         for word in ("--quiet=1", "--quiet=", "--help=1"):
-            self.assertIn(word.split("=")[0] + " takes no value", self.run_quadrille(source, out, word, expect=2).stderr)
+            self.assertIn(word.split("=")[0] + " takes no value",
+                          self.run_quadrille(source, out, word, expect=2).stderr)
         self.assertIn("unknown option -quads;", self.run_quadrille(source, out, "-quads", 5, expect=2).stderr)
 
     def test_wrong_values_name_the_option_and_what_it_may_be(self):
         source, out = self.write_off(), self.folder / "q.obj"
-        for words, told in ((("--quads",), "--quads needs a value"), (("--quads", "many"), "--quads needs a number from 1 to"),
-                            (("--edge-length", "-1"), "not '-1'"), (("--quads=5", "--quads=6"), "--quads is given twice"),
+        for words, told in ((("--quads",), "--quads needs a value"),
+                            (("--quads", "many"), "--quads needs a number from 1 to"),
+                            (("--edge-length", "-1"), "not '-1'"),
+                            (("--quads=5", "--quads=6"), "--quads is given twice"),
                             (("--quads", "5", "--edge-length", "1"), "only one of --quads"),
                             (("--method", "best"), "--method needs scale-aware, mixed-integer, quadcover or seamless"),
                             (("--integers", "all"), "--integers needs keep-sizes or coarsest, not 'all'"),
                             (("--coarse-vertices", "some"), "--coarse-vertices needs auto or a number from 4 to"),
-                            (("--map", "map.obj"), "a map needs the extension vtp"), (("third.obj",), "an input and an output file")):
+                            (("--map", "map.obj"), "a map needs the extension vtp"),
+                            (("third.obj",), "an input and an output file")):
             with self.subTest(words):
                 self.assertIn(told, self.run_quadrille(source, out, *words, expect=2).stderr)
                 self.assertFalse(out.exists())
@@ -345,7 +356,8 @@ class ExitCodes(Case):
         usage = self.run_quadrille("--help").stdout
         self.assertTrue(usage.startswith("usage: quadrille") and usage.endswith("3 no valid result\n"))
         # Who asks for help may not know yet what is wrong.
-        for words in (("-h",), ("a.off", "--help"), ("--quads", "many", "--help"), ("--help", "--bananas"), ("--help", "--quads")):
+        for words in (("-h",), ("a.off", "--help"), ("--quads", "many", "--help"), ("--help", "--bananas"),
+                      ("--help", "--quads")):
             self.assertEqual(self.run_quadrille(*words).stdout, usage)
         for program in (ARGS.quadrille, ARGS.bench, ARGS.costs):
             result = subprocess.run([program, "--version"], capture_output=True, text=True, timeout=60)
@@ -363,8 +375,10 @@ class ExitCodes(Case):
                 if option in ("--quiet", "--version"):
                     continue
                 # Each is known: what is wrong is its value.
-                result = subprocess.run([program, "in.off", "out.obj", option], capture_output=True, text=True, timeout=60)
-                self.assertEqual((result.returncode, f"{option} needs a value" in result.stderr), (2, True), result.stderr)
+                result = subprocess.run([program, "in.off", "out.obj", option], capture_output=True, text=True,
+                                        timeout=60)
+                self.assertEqual((result.returncode, f"{option} needs a value" in result.stderr), (2, True),
+                                 result.stderr)
 
     def test_bad_arguments(self):
         source = self.write_off()
@@ -429,7 +443,8 @@ class ExitCodes(Case):
         huge = 123456789012
         files = {
             "huge.ply": f"ply\nformat ascii 1.0\nelement vertex {huge}\nproperty float x\nproperty float y\n"
-                        f"property float z\nelement face {huge}\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",
+                        f"property float z\nelement face {huge}\nproperty list uchar int vertex_indices\nend_header\n"
+                        "0 0 0\n",
             "huge.off": f"OFF\n{huge} {huge} 0\n0 0 0\n",
             "huge.vtk": f"# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS {huge} float\n0 0 0\n"
                         f"POLYGONS {huge} {4 * huge}\n3 0 0 0\n",
@@ -473,12 +488,14 @@ class Report(Case):
         sizes = {}
         for budget in ("auto", 500):
             report = self.folder / f"{budget}.json"
-            self.run_quadrille(pathlib.Path(ARGS.data) / "beast.ply", self.folder / "quads.vtp", "--quads", 2500, "--coarse-vertices",
+            self.run_quadrille(pathlib.Path(ARGS.data) / "beast.ply", self.folder / "quads.vtp", "--quads", 2500,
+                               "--coarse-vertices",
                                budget, "--report", report)
             sizes[budget] = json.loads(report.read_text())["sizes"]["coarse_vertices"]
         self.assertEqual(sizes[500], 500)
         self.assertTrue(500 < sizes["auto"] < 4000)
-        self.run_quadrille(pathlib.Path(ARGS.data) / "beast.ply", self.folder / "no.vtp", "--coarse-vertices", "some", expect=2)
+        self.run_quadrille(pathlib.Path(ARGS.data) / "beast.ply", self.folder / "no.vtp", "--coarse-vertices", "some",
+                           expect=2)
 
     def test_a_name_that_is_no_utf_8(self):
         source = self.write_off().rename(self.folder / os.fsdecode(b"caf\xe9.off"))
@@ -493,7 +510,8 @@ class Report(Case):
         for words, unresolved, closed, euler in (((), 1, 0, 0), (("--close-handles", 3), 0, 1, 2)):
             with self.subTest(words):
                 report = self.folder / "r.json"
-                result = self.run_quadrille(source, self.folder / "q.obj", "--edge-length", 0.9, *words, "--report", report)
+                result = self.run_quadrille(source, self.folder / "q.obj", "--edge-length", 0.9, *words, "--report",
+                                            report)
                 content = json.loads(report.read_text())
                 self.assertEqual(content["unresolved_handles"], unresolved)
                 self.assertEqual(content["repair"]["closed_handles"], closed)
@@ -513,7 +531,8 @@ class Report(Case):
                 self.assertEqual("gives no guarantee: 0 of" in result.stderr, method != "scale-aware")
                 self.assertTrue(read(vtkXMLPolyDataReader(), map_file).GetCellData().HasArray("IGM"))
         map_file.unlink()
-        result = self.run_quadrille(source, "--quads", 900, "--method", "seamless", "--map", map_file, "--report", report)
+        result = self.run_quadrille(source, "--quads", 900, "--method", "seamless", "--map", map_file, "--report",
+                                    report)
         self.assertIn("no quads", result.stderr)
         surface = read(vtkXMLPolyDataReader(), map_file)
         self.assertGreaterEqual(surface.GetNumberOfCells(), len(torus()[1]))
@@ -567,7 +586,8 @@ class Report(Case):
         for level in ("coarse", "intermediate", "input"):
             with self.subTest(level):
                 report = self.folder / "r.json"
-                self.run_quadrille(source, self.folder / "q.obj", "--quads", 100, "--final-quality", level, "--report", report)
+                self.run_quadrille(source, self.folder / "q.obj", "--quads", 100, "--final-quality", level, "--report",
+                                   report)
                 content = json.loads(report.read_text())
                 connectivity.add((content["quads_actual"], content["sizes"]["quad_points"]))
                 stages = [stage["stage"] for stage in content["stages"]]
@@ -585,7 +605,8 @@ class Report(Case):
         source = self.write_off()
         for word in ("on", "off"):
             report = self.folder / "r.json"
-            self.run_quadrille(source, self.folder / "q.obj", "--quads", 100, "--distortion-metric", word, "--report", report)
+            self.run_quadrille(source, self.folder / "q.obj", "--quads", 100, "--distortion-metric", word, "--report",
+                               report)
             stages = [stage["stage"] for stage in json.loads(report.read_text())["stages"]]
             self.assertEqual("metric" in stages, word == "on")
         result = self.run_quadrille(source, self.folder / "q.obj", "--distortion-metric", "yes", expect=2)
@@ -611,8 +632,8 @@ class Report(Case):
 
 class Bench(Case):
     COLUMNS = "mesh,repeat,threads,stage,seconds,elements_in,elements_out,peak_rss_mb".split(",")
-    STAGES = ("read repair order connectivity refine phase1 phase2 field seamless quantize embed replay certify extract "
-              "total cancel attempts").split()
+    STAGES = ("read repair order connectivity refine phase1 phase2 field seamless quantize embed replay certify "
+              "extract total cancel attempts").split()
 
     def test_columns_and_stages(self):
         source = self.write_off()
@@ -635,7 +656,8 @@ class Bench(Case):
 
     def test_orders_of_phase_1(self):
         source = os.path.join(ARGS.data, "beast.ply")
-        result = subprocess.run([ARGS.bench, source, "--compare", "orders", "--quads", "500", "--exact-below", "300", "--repeat", "2"],
+        result = subprocess.run([ARGS.bench, source, "--compare", "orders", "--quads", "500", "--exact-below", "300",
+                                 "--repeat", "2"],
                                 capture_output=True, text=True, timeout=300)
         self.assertEqual(result.returncode, 0, result.stderr)
         rows = list(csv.DictReader(io.StringIO(result.stdout)))
@@ -653,7 +675,8 @@ class Bench(Case):
 
     def test_counts_of_the_replay(self):
         source = os.path.join(ARGS.data, "beast.ply")
-        result = subprocess.run([ARGS.bench, source, "--compare", "replay", "--quads", "500"], capture_output=True, text=True,
+        result = subprocess.run([ARGS.bench, source, "--compare", "replay", "--quads", "500"], capture_output=True,
+                                text=True,
                                 timeout=300)
         self.assertEqual(result.returncode, 0, result.stderr)
         (row,) = csv.DictReader(io.StringIO(result.stdout))
@@ -663,7 +686,8 @@ class Bench(Case):
         self.assertLessEqual(int(row["not_positive"]), int(row["replay_not_positive"]))
 
     def test_irregular_vertices_with_and_without_decimation(self):
-        result = subprocess.run([ARGS.bench, os.path.join(ARGS.data, "part.ply"), "--compare", "field", "--quads", "500"],
+        result = subprocess.run([ARGS.bench, os.path.join(ARGS.data, "part.ply"), "--compare", "field", "--quads",
+                                 "500"],
                                 capture_output=True, text=True, timeout=300)
         self.assertEqual(result.returncode, 0, result.stderr)
         (row,) = csv.DictReader(io.StringIO(result.stdout))
@@ -675,11 +699,13 @@ class Bench(Case):
 
     def test_times_of_the_coarse_level(self):
         source = os.path.join(ARGS.data, "beast.ply")
-        result = subprocess.run([ARGS.bench, source, "--compare", "coarse", "--quads", "500", "--coarse-vertices", "300",
+        result = subprocess.run([ARGS.bench, source, "--compare", "coarse", "--quads", "500", "--coarse-vertices",
+                                 "300",
                                  "--repeat", "2"], capture_output=True, text=True, timeout=300)
         self.assertEqual(result.returncode, 0, result.stderr)
         rows = list(csv.DictReader(io.StringIO(result.stdout)))
-        edits = [("none", "cold")] + [(edit, start) for edit in ("direction", "valence", "level") for start in ("cold", "warm")]
+        edits = [("none", "cold")] + [(edit, start) for edit in ("direction", "valence", "level")
+                                      for start in ("cold", "warm")]
         self.assertEqual([(row["edit"], row["start"], row["clock"]) for row in rows],
                          [(*edit, clock) for edit in edits for clock in ("wall", "processor")])
         for row in rows:
@@ -689,11 +715,13 @@ class Bench(Case):
             self.assertLessEqual(max(stages), float(row["total"]))
             self.assertEqual(int(row["faces_reused"]) > 0, row["start"] == "warm")
         self.assertEqual(rows[0]["vertices"], "300")
-        result = subprocess.run([ARGS.bench, source, "--compare", "coarse", "--quads", "500", "--method", "mixed-integer"],
+        result = subprocess.run([ARGS.bench, source, "--compare", "coarse", "--quads", "500", "--method",
+                                 "mixed-integer"],
                                 capture_output=True, text=True, timeout=300)
         rows = list(csv.DictReader(io.StringIO(result.stdout)))
         self.assertEqual([(row["edit"], row["ok"], float(row["embed"])) for row in rows], 2 * [("none", "1", 0)])
-        wrong = subprocess.run([ARGS.bench, source, "--coarse-vertices", "300"], capture_output=True, text=True, timeout=60)
+        wrong = subprocess.run([ARGS.bench, source, "--coarse-vertices", "300"], capture_output=True, text=True,
+                               timeout=60)
         self.assertEqual(wrong.returncode, 2, wrong.stderr)
 
     def test_a_bad_mesh_does_not_end_the_others(self):
@@ -746,7 +774,8 @@ class Python(Case):
         self.assertGreater(result.surface.GetNumberOfCells(), 0)
         self.assertEqual(result.lines.GetNumberOfCells(), 0)
         self.assertEqual(result.separatrices.GetNumberOfCells(), 0)
-        self.assertEqual((result.info["LayoutPatchShape"], result.quads.GetCellData().GetArray("LayoutPatch").GetRange()),
+        self.assertEqual((result.info["LayoutPatchShape"],
+                          result.quads.GetCellData().GetArray("LayoutPatch").GetRange()),
                          (2, (0.0, 0.0)))  # one patch, a torus
         self.assertTrue(progress and progress == sorted(progress, key=lambda p: p[0]))
         better = quadrille.remesh((points, faces), quads=300, final_quality="input")

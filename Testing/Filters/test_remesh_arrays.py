@@ -86,18 +86,21 @@ class Mesh(unittest.TestCase):
         corner = (numpy.arange(16)[:, None] * 25 + numpy.arange(24)).ravel()
         quads = numpy.stack((corner, corner + 1, corner + 26, corner + 25), axis=1)
         self.assertGreater(quadrille.remesh((self.points, quads), quads=100).GetNumberOfCells(), 50)
-        mixed = quads[:10].tolist() + [q[:3] for q in quads[10:].tolist()] + [[q[0], q[2], q[3]] for q in quads[10:].tolist()]
+        mixed = (quads[:10].tolist() + [q[:3] for q in quads[10:].tolist()]
+                 + [[q[0], q[2], q[3]] for q in quads[10:].tolist()])
         self.assertGreater(quadrille.remesh((self.points, mixed), quads=100).GetNumberOfCells(), 50)
 
     def test_faces_that_could_be_two_things(self):
         # Two faces that begin with 3 and name it nowhere else: quads round point 3, or triangles.
         points = numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [-1, 1, 0]], dtype=float)
-        self.assertRefused(["begins with 3", "faces[:, 1:]"], (points, numpy.array([[3, 0, 1, 2], [3, 4, 0, 2]])), quads=4)
+        self.assertRefused(["begins with 3", "faces[:, 1:]"], (points, numpy.array([[3, 0, 1, 2], [3, 4, 0, 2]])),
+                           quads=4)
 
     def test_what_is_wrong_with_faces(self):
         p, f = self.points, self.faces
         self.assertRefused(["flat array", "reshape(-1, 3)"], (p, f.ravel()), quads=9)
-        self.assertRefused(["face 7", "point 9999", "0 to 424"], (p, numpy.where(numpy.arange(len(f))[:, None] == 7, 9999, f)), quads=9)
+        self.assertRefused(["face 7", "point 9999", "0 to 424"],
+                           (p, numpy.where(numpy.arange(len(f))[:, None] == 7, 9999, f)), quads=9)
         self.assertRefused(["begin at 1", "subtract 1"], (p, f + 1), quads=9)
         self.assertRefused(["names point -1"], (p, numpy.where(f == 0, -1, f)), quads=9)
         self.assertRefused(["whole numbers", "0.5"], (p, f + 0.5), quads=9)
@@ -111,7 +114,8 @@ class Mesh(unittest.TestCase):
         p, f = self.points, self.faces
         self.assertRefused(["points", "reshape(-1, 3)"], (p.ravel(), f), quads=9)
         self.assertRefused(["column of zeros"], (p[:, :2], f), quads=9)
-        self.assertRefused(["point 17", "finite"], (numpy.where(numpy.arange(len(p))[:, None] == 17, math.nan, p), f), quads=9)
+        self.assertRefused(["point 17", "finite"], (numpy.where(numpy.arange(len(p))[:, None] == 17, math.nan, p), f),
+                           quads=9)
         self.assertRefused(["numbers only"], ([["a", "b", "c"]], f), quads=9)
         self.assertRefused(["different lengths"], ([[0, 0, 0], [1, 0]], f), quads=9)
 
@@ -149,9 +153,11 @@ class Mesh(unittest.TestCase):
                 "small_components": ("shrink",)}.items():
             for value in values:
                 with self.subTest(name=name, value=value):
-                    self.assertRefused([name, repr(value) if not isinstance(value, float) else str(value)], mesh, **{name: value})
+                    self.assertRefused([name, repr(value) if not isinstance(value, float) else str(value)], mesh,
+                                       **{name: value})
         self.assertRefused(["only one", "quads", "edge_length"], mesh, quads=100, edge_length=1)
-        self.assertGreater(quadrille.remesh(mesh, quads=100.0, coarse_vertices=0, feature_angle=None).GetNumberOfCells(), 0)
+        made = quadrille.remesh(mesh, quads=100.0, coarse_vertices=0, feature_angle=None)
+        self.assertGreater(made.GetNumberOfCells(), 0)
 
     def test_the_default_is_a_number_of_quads(self):
         result = quadrille.remesh((self.points, self.faces))
@@ -194,8 +200,8 @@ class Files(unittest.TestCase):
     def test_off(self):
         texts = {
             "plain": ("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n", {}, {}),
-            "colours": ("COFF # vertices have whole numbers, faces have fractions\n4 2 0\n0 0 0 255 0 0 7\n1 0 0 1 0 0 128\n"
-                        "1 1 0 0 0 0 0\n0 1 0 0 0 0 0\n3 0 1 2 1 0 0\n3 0 2 3 0. 1 0.2\n",
+            "colours": ("COFF # vertices have whole numbers, faces have fractions\n4 2 0\n0 0 0 255 0 0 7\n"
+                        "1 0 0 1 0 0 128\n1 1 0 0 0 0 0\n0 1 0 0 0 0 0\n3 0 1 2 1 0 0\n3 0 2 3 0. 1 0.2\n",
                         {"RGBA": [(255, 0, 0, 7), (1, 0, 0, 128), (0, 0, 0, 0), (0, 0, 0, 0)]},
                         {"RGB": [(255, 0, 0), (0, 255, 51)]}),
             "both kinds": ("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 1 2 3\n3 0 2 3 0. 1 0.2\n", {}, {}),
@@ -254,7 +260,8 @@ class Requests(unittest.TestCase):
             inner = self.inner_lines(result)
             self.assertGreater(len(inner), 3)
             numpy.testing.assert_array_equal(inner[:, :, 0], 12)
-            numpy.testing.assert_array_equal(quadrille.to_arrays(result.quads)[0], quadrille.to_arrays(results[0].quads)[0])
+            numpy.testing.assert_array_equal(quadrille.to_arrays(result.quads)[0],
+                                             quadrille.to_arrays(results[0].quads)[0])
         # An edge of a polydata and of faces with four corners, too.
         surface = quadrille.to_polydata(*self.mesh)
         given = quadrille.remesh(surface, quads=100, feature_edges=pairs)

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every property of Quad Remesh but threads and limits is among its settings: else a change of it would get an earlier result."""
+"""Every property of Quad Remesh but threads and limits is among its settings: else a change of it would get an earlier
+result."""
 import sys
 
 import quadrille
@@ -9,7 +10,7 @@ NO_SETTINGS = {"NumberOfThreads", "TimeLimit", "MemoryLimit", "MaximumNumberOfQu
 
 
 def properties(kind):
-    """Names that have a setter and a getter of their own classes, down to the base that the filters of Quadrille share."""
+    """Names with a setter and a getter of their own classes, down to the base that the filters of Quadrille share."""
     names = set()
     for base in kind.__mro__:
         if base.__name__.startswith(("vtkQuadRemesh", "vtkQuadrille")):

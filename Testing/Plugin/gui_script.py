@@ -29,7 +29,8 @@ try:
           f"irregular vertices as {irregular.Representation} of size {irregular.PointSize}")
     check(irregular.ColorArrayName[1] == "Valence", f"irregular vertices are coloured by {irregular.ColorArrayName}")
     colours = simple.GetColorTransferFunction("Valence")
-    check(colours.InterpretValuesAsCategories == 1 and colours.Annotations[2:4] == ["3", "3"], "valences have no colours of their own")
+    check(colours.InterpretValuesAsCategories == 1 and colours.Annotations[2:4] == ["3", "3"],
+          "valences have no colours of their own")
     blue, red = colours.IndexedColors[3:6], colours.IndexedColors[9:12]
     check(blue[2] > 0.8 > blue[0] and red[0] > 0.8 > red[2], f"3 and 5 are coloured {blue} and {red}")
     simple.SetActiveSource(quads)

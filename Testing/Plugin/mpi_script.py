@@ -152,7 +152,8 @@ def partitioned():
 
 
 def collection():
-    return simple.GroupDatasets(Input=[sphere(), simple.Cylinder(Resolution=24)], OutputType="vtkPartitionedDataSetCollection")
+    return simple.GroupDatasets(Input=[sphere(), simple.Cylinder(Resolution=24)],
+                                OutputType="vtkPartitionedDataSetCollection")
 
 
 CASES = {
@@ -166,8 +167,10 @@ CASES = {
         tell("image", remesh(box())),
         tell("contour", remesh(simple.Contour(Input=box(20), ContourBy=["POINTS", "RTData"], Isosurfaces=[150]), 900)),
         tell("unstructured", remesh(simple.RedistributeDataSet(Input=tetrahedra())))],
-    "blocks": lambda: [tell("blocks", remesh(group(sphere(), simple.Cylinder(Resolution=24), simple.Plane(XResolution=9, YResolution=9)), 900)),
-                       tell("per block", remesh(group(sphere(), simple.Cylinder(Resolution=24)), 300, QuadsAre="Per Block"))],
+    "blocks": lambda: [tell("blocks", remesh(group(sphere(), simple.Cylinder(Resolution=24),
+                                                   simple.Plane(XResolution=9, YResolution=9)), 900)),
+                       tell("per block", remesh(group(sphere(), simple.Cylinder(Resolution=24)), 300,
+                                                QuadsAre="Per Block"))],
     "partitions": lambda: [tell("partitions", remesh(partitioned()))],
     "collections": lambda: [tell("collection", remesh(collection(), 700))],
     "stages": lambda: [tell("stages", chain(sphere())), tell("stages of blocks", chain(group(sphere(), torus())))],

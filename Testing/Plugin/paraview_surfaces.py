@@ -131,7 +131,8 @@ def tube(simple, sides):
     for i in range(25):
         t = 4 * math.pi * i / 24
         points += [math.cos(t), math.sin(t), 0.15 * t]
-    return simple.Tube(Input=simple.PolyLineSource(Points=points), Radius=0.15, NumberofSides=sides, Scalars=["POINTS", ""],
+    return simple.Tube(Input=simple.PolyLineSource(Points=points), Radius=0.15, NumberofSides=sides,
+                       Scalars=["POINTS", ""],
                        Vectors=["POINTS", ""])
 
 

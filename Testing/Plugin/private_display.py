@@ -12,7 +12,8 @@ import sys
 def start(program, *options):
     """Starts Xvfb; returns the process and the name of its display."""
     reading, writing = os.pipe()
-    server = subprocess.Popen([program, "-displayfd", str(writing), "-noreset", "-nolisten", "tcp", *options], pass_fds=[writing],
+    server = subprocess.Popen([program, "-displayfd", str(writing), "-noreset", "-nolisten", "tcp", *options],
+                              pass_fds=[writing],
                               stderr=subprocess.DEVNULL)
     os.close(writing)
     with os.fdopen(reading) as pipe:

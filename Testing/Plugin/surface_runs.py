@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Quad Remesh on what ParaView's own sources and filters make, with default settings but for the number of quads.
 
-GROUP: contours, cuts or shapes (see paraview_surfaces.py). Each surface has to give valid quads, or a message that names a place. With
---full at the default of 5,000 quads, each in less than five seconds; without, fewer quads, and the larger ones of the surfaces are left out.
+GROUP: contours, cuts or shapes (see paraview_surfaces.py). Each surface has to give valid quads, or a message that
+names a place. With --full at the default of 5,000 quads, each in less than five seconds; without, fewer quads, and the
+larger ones of the surfaces are left out.
 """
 import time
 
@@ -67,14 +68,15 @@ def turned_over(points, quads):
 
 
 def faults_of(quads, mapped):
-    """What is wrong with the quads, held against the surface as it was mapped (repaired, refined, the same in shape)."""
+    """What is wrong with the quads, against the surface as it was mapped (repaired, refined, the same in shape)."""
     faces, triangles = faces_of(quads), faces_of(mapped)
     if faces.shape[1] != 4:
         return ["not all faces are quads"]
     points = vtk_to_numpy(quads.GetPoints().GetData()).astype(float)
     places = vtk_to_numpy(mapped.GetPoints().GetData()).astype(float)
     made, wanted = topology_of(faces), topology_of(triangles)
-    faults = [f"{key} {made[key]} instead of {wanted[key]}" for key in ("euler", "manifold") if made[key] != wanted[key]]
+    faults = [f"{key} {made[key]} instead of {wanted[key]}" for key in ("euler", "manifold")
+              if made[key] != wanted[key]]
     if (made["boundary"] > 0) != (wanted["boundary"] > 0):
         faults.append("open or closed by mistake")
     ratio = area_of(points, faces) / area_of(places, triangles)

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""A filter that fails in pvpython: one line says why, quadrille.check raises; a state written as Python, which does not load the plugin.
+"""A filter that fails in pvpython: one line says why, quadrille.check raises; a state written as Python, which does not
+load the plugin.
 
     test_check.py PVPYTHON      runs itself there, as what it prints is part of the test
 """
@@ -48,14 +49,17 @@ def write_state(path):
     from plugin_common import PLUGIN, surface
 
     simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
-    QuadRemesh(registrationName="my quads", Input=surface(simple), TargetType="Number Of Quads", NumberOfQuads=350).UpdatePipeline()
+    QuadRemesh(registrationName="my quads", Input=surface(simple), TargetType="Number Of Quads",
+               NumberOfQuads=350).UpdatePipeline()
     with open(path, "w") as file:
         file.write(smstate.get_state())
-        file.write("\nquads = FindSource('my quads')\nquads.UpdatePipeline()\nprint('CELLS', quads.GetDataInformation().GetNumberOfCells())\n")
+        file.write("\nquads = FindSource('my quads')\nquads.UpdatePipeline()\n"
+                   "print('CELLS', quads.GetDataInformation().GetNumberOfCells())\n")
 
 
 def run(pvpython, *words, **environment):
-    result = subprocess.run([pvpython, *words], env=dict(os.environ, **environment), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+    result = subprocess.run([pvpython, *words], env=dict(os.environ, **environment), stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT,
                             text=True, timeout=120)
     return result.returncode, result.stdout
 
@@ -72,7 +76,8 @@ def test_failures(pvpython):
     said = re.findall(r"ERR\|.*", output)
     of_remesh = [line for line in said if "vtkQuadRemesh" in line]
     expect(len(of_remesh) == 1, f"{len(of_remesh)} lines tell of one failure", output)
-    expect("returned failure for request" not in output or "vtkQuad" not in output.split("returned failure")[0].splitlines()[-1],
+    expect("returned failure for request" not in output
+           or "vtkQuad" not in output.split("returned failure")[0].splitlines()[-1],
            "the executive dumps its request", output)
     for wanted in (r"CHECK InvalidInput: .*edge length", r"BEHIND InvalidInput: .*edge length", r"MENDED nothing True",
                    r"CHAIN InvalidInput: .*target edge length"):
@@ -85,7 +90,8 @@ def test_python_state(pvpython):
         code, output = run(pvpython, __file__, "state", path)
         expect(code == 0, f"writing the state: exit code {code}", output)
         code, output = run(pvpython, path)
-        expect(code != 0 and "QuadRemesh" in output, "ParaView loads the plugin by itself: the guide need not say how", output)
+        expect(code != 0 and "QuadRemesh" in output, "ParaView loads the plugin by itself: the guide need not say how",
+               output)
         plugin = os.environ["QUADRILLE_PLUGIN"]
         # The two ways of the guide.
         code, by_path = run(pvpython, path, PV_PLUGIN_PATH=os.path.dirname(plugin))
@@ -99,7 +105,8 @@ def test_python_state(pvpython):
         code, by_line = run(pvpython, path)
         expect(code == 0, "with LoadPlugin", by_line)
         cells = [re.search(r"CELLS (\d+)", output) for output in (by_path, by_line)]
-        expect(all(cells) and int(cells[0].group(1)) > 0 and cells[0].group(1) == cells[1].group(1), "other quads", by_path + by_line)
+        expect(all(cells) and int(cells[0].group(1)) > 0 and cells[0].group(1) == cells[1].group(1), "other quads",
+               by_path + by_line)
 
 
 if sys.argv[1] == "failing":

@@ -32,15 +32,18 @@ check("the surface of 2560 volume cells" in raw.GetNoticesText(), raw.GetNotices
 check(raw.GetOutputDataObject(0).IsA("vtkMultiBlockDataSet"), "the output is no multiblock")
 
 # Blocks of all kinds in one group.
-parts = [simple.Sphere(), simple.Wavelet(WholeExtent=[0, 6, 0, 6, 0, 6]), simple.Tetrahedralize(Input=simple.Cone(Resolution=12)),
+parts = [simple.Sphere(), simple.Wavelet(WholeExtent=[0, 6, 0, 6, 0, 6]),
+         simple.Tetrahedralize(Input=simple.Cone(Resolution=12)),
          simple.Plane(XResolution=5, YResolution=5)]
 for kind in ("vtkMultiBlockDataSet", "vtkPartitionedDataSetCollection"):
     quads, raw = remesh(simple.GroupDatasets(Input=parts, OutputType=kind))
-    check(raw.GetOutputDataObject(0).IsA(kind), f"{raw.GetOutputDataObject(0).GetClassName()} where {kind} was expected")
+    check(raw.GetOutputDataObject(0).IsA(kind),
+          f"{raw.GetOutputDataObject(0).GetClassName()} where {kind} was expected")
     check(raw.GetNoticesText().count("the surface of") == 1, raw.GetNoticesText())
 quads.QuadsAre = "Per Block"
 quads.UpdatePipeline()
-check(raw.GetTargetQuads() == 800 * len(parts), f"{raw.GetTargetQuads()} quads where each of {len(parts)} blocks gets 800")
+check(raw.GetTargetQuads() == 800 * len(parts),
+      f"{raw.GetTargetQuads()} quads where each of {len(parts)} blocks gets 800")
 
 # What filters do with blocks downstream.
 merged = simple.MergeBlocks(Input=quads)

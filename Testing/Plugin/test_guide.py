@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs every snippet of the user guide, as a reader would: in a folder where `build`, `Data` and `Scripts` are those of the project.
+"""Runs every snippet of the user guide, as a reader would: in a folder where `build`, `Data` and `Scripts` are those of
+the project.
 
     test_guide.py GUIDE.md SOURCE_FOLDER BUILD_FOLDER PVPYTHON PYTHON WORK_FOLDER
 
@@ -9,19 +10,21 @@ What counts as a snippet, for who edits the guide:
 - a fenced block with the language `python`: run by pvpython where it imports `paraview`, else by the system's python3;
 - a fenced block with the language `sh`: run by bash, which stops at the first command that fails;
 - a fenced block with the language `text` is no code (a synopsis, an output) and is not run;
-- a block without a language or with another one, and a block that is indented and not fenced, is an error: it would go unseen.
+- a block without a language or with another one, and a block that is indented and not fenced, is an error: it would go
+  unseen.
 
 A line directly above the fence may say more, as a comment that readers do not see:
 
     <!-- snippet: continues -->         begins where the Python snippet before it ended (its code is run first)
     <!-- snippet: with NAME -->         needs the file NAME, which is one of FILES below
     <!-- snippet: prints an error -->   an error of VTK or ParaView is part of it, and has to come
-    <!-- snippet: not run, REASON -->   only for `sh`: what changes the machine; each is listed with its reason in the test's output
+    <!-- snippet: not run, REASON -->   only for `sh`: what changes the machine; each is listed with its reason in
+                                        the test's output
 
 Several of them are separated by semicolons: <!-- snippet: continues; prints an error -->.
 
-A snippet fails where its exit code is not 0 or it prints an error of VTK or ParaView. All snippets share one folder, in the order of the
-guide, so that one can use the files that another has written.
+A snippet fails where its exit code is not 0 or it prints an error of VTK or ParaView. All snippets share one folder, in
+the order of the guide, so that one can use the files that another has written.
 """
 import os
 import re
@@ -90,7 +93,8 @@ def read_snippets(text):
             continue
         begin, language = i, fence.group(1).strip()
         if language not in LANGUAGES:
-            raise GuideError(f"line {begin + 1}: the language of a fence is one of {', '.join(LANGUAGES)}, not {language!r}")
+            raise GuideError(f"line {begin + 1}: the language of a fence is one of {', '.join(LANGUAGES)}, not "
+                             f"{language!r}")
         i += 1
         while i < len(lines) and not re.match(r"\s*```\s*$", lines[i]):
             i += 1
@@ -149,7 +153,8 @@ def run(snippet, command, folder, environment):
     has_error = bool(ERRORS.search(result.stdout))
     failed = result.returncode != 0 or has_error != ("prints an error" in snippet.directives)
     if failed:
-        print(f"FAILED: {snippet}, exit code {result.returncode}\n--- code\n{snippet.code}--- output\n{result.stdout}---", flush=True)
+        print(f"FAILED: {snippet}, exit code {result.returncode}\n--- code\n{snippet.code}"
+              f"--- output\n{result.stdout}---", flush=True)
     return not failed
 
 
@@ -159,7 +164,8 @@ def main(guide, source, build, pvpython, python, folder):
     chain(snippets)
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
-    for name, target in (("build", build), ("Data", os.path.join(source, "Data")), ("Scripts", os.path.join(source, "Scripts"))):
+    for name, target in (("build", build), ("Data", os.path.join(source, "Data")),
+                         ("Scripts", os.path.join(source, "Scripts"))):
         os.symlink(target, os.path.join(folder, name))
     environment = dict(os.environ, PYTHONPATH=os.path.join(build, "lib/python3/dist-packages"))
     results = []

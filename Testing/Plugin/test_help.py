@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The question mark in ParaView's panel finds a page for each filter, with all its properties: test_help.py QCH
 
-ParaView looks for qthelp://NAMESPACE/NAME/GROUP.PROXY.html, where NAME is what comes before the dot in the namespace. A .qch file is a
-data base of SQLite; its texts are compressed by zlib, after four bytes with their length.
+ParaView looks for qthelp://NAMESPACE/NAME/GROUP.PROXY.html, where NAME is what comes before the dot in the namespace. A
+.qch file is a data base of SQLite; its texts are compressed by zlib, after four bytes with their length.
 """
 import base64
 import html
@@ -23,8 +23,8 @@ tables = sqlite3.connect(qch)
 (folder,), = tables.execute("SELECT Name FROM FolderTable")
 check(namespace.split(".")[0] == folder, f"namespace {namespace}, folder {folder}")
 pages = {name: zlib.decompress(data[4:]).decode() for name, data in tables.execute(
-    "SELECT FileNameTable.Name, FileDataTable.Data FROM FileNameTable JOIN FileDataTable ON FileNameTable.FileId = FileDataTable.Id "
-    "WHERE Data IS NOT NULL")}
+    "SELECT FileNameTable.Name, FileDataTable.Data FROM FileNameTable JOIN FileDataTable "
+    "ON FileNameTable.FileId = FileDataTable.Id WHERE Data IS NOT NULL")}
 
 
 def shown(proxy):

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The same quads with 1, 2 and 4 ranks, without deadlock: test_mpi.py MPIEXEC PVBATCH CASE...
 
-Runs mpi_script.py under mpirun with each number of ranks. Each rank writes a line for each block that it holds and for what the
-filter tells. A block may lie on any rank, but on one only; what the filter tells must be the same on all ranks; and all must be the same
-for each number of ranks.
+Runs mpi_script.py under mpirun with each number of ranks. Each rank writes a line for each block that it holds and for
+what the filter tells. A block may lie on any rank, but on one only; what the filter tells must be the same on all
+ranks; and all must be the same for each number of ranks.
 """
 import os
 import pathlib

@@ -32,7 +32,8 @@ quads.UpdatePipeline()
 check(size_of(quads) > cells, "more quads were asked, fewer came")
 # What the panel shows is of this execution, without being asked for again.
 check(quads.GetPropertyValue("ActualQuads") == size_of(quads), "Actual Quads is that of the execution before")
-check(quads.GetPropertyValue("ResultText").startswith(f"{size_of(quads)} quads"), "Result Text is that of the execution before")
+check(quads.GetPropertyValue("ResultText").startswith(f"{size_of(quads)} quads"),
+      "Result Text is that of the execution before")
 quads.TargetType = "Relative Edge Length"
 quads.RelativeEdgeLength = 0.1
 quads.UpdatePipeline()
@@ -94,7 +95,8 @@ check(heights == {0.0}, f"the curve is not followed: {heights}")
 ball = simple.Triangulate(Input=simple.Sphere(ThetaResolution=48, PhiResolution=48))
 stroke = simple.PolyLineSource(Points=[0.5, 0.0, 0.0, 0.4, 0.3, 0.0, 0.3, 0.4, 0.1])
 point = simple.PolyPointSource(Points=[0.0, -0.5, 0.0])
-drawn = QuadRemesh(Input=ball, NumberOfQuads=600, GuidingStrokes=stroke, StrokeWeight=0.5, ValencePoints=point, ValenceAtPoints=5)
+drawn = QuadRemesh(Input=ball, NumberOfQuads=600, GuidingStrokes=stroke, StrokeWeight=0.5, ValencePoints=point,
+                   ValenceAtPoints=5)
 drawn.UpdatePipeline()
 shown = servermanager.Fetch(drawn, idx=5)
 kinds = [int(shown.GetCellData().GetArray("Constraint").GetTuple1(i)) for i in range(shown.GetNumberOfCells())]
@@ -105,7 +107,8 @@ valences = irregular.GetPointData().GetArray("Valence")
 index = sum(4 - valences.GetTuple1(i) for i in range(irregular.GetNumberOfPoints()))
 check(irregular.GetNumberOfVerts() == irregular.GetNumberOfPoints() > 0, "the irregular vertices are no vertices")
 check(index == 8, f"the indices of the irregular vertices of a sphere sum up to {index}")
-check(servermanager.Fetch(drawn).GetPointData().GetNormals() is not None, "a smooth surface without normals is drawn flat")
+check(servermanager.Fetch(drawn).GetPointData().GetNormals() is not None,
+      "a smooth surface without normals is drawn flat")
 # The cylinder comes with normals; where it has sharp edges they would smear them.
 capped = QuadRemesh(Input=simple.Triangulate(Input=simple.Cylinder(Resolution=40)), NumberOfQuads=300)
 capped.UpdatePipeline()

@@ -29,7 +29,8 @@ def stripped(line):
 def nameIn(line):
     """What a line without indentation declares, or None."""
     line = re.sub(r"\[\[\w+\]\]\s*", "", line)
-    if line.startswith(("template", "using namespace", "namespace", "TEST", "INSTANTIATE", "return", "static_assert", "friend")):
+    if line.startswith(("template", "using namespace", "namespace", "TEST", "INSTANTIATE", "return", "static_assert",
+                        "friend")):
         return None
     for pattern in (TYPE, ALIAS):
         match = pattern.match(line)
@@ -68,8 +69,8 @@ def problems(folder):
             continue  # a program is a target of its own
         for name in anonymousNames(text):
             users[name].append(path.name)
-    return [f"{folder}: {name} stands in the anonymous namespaces of {', '.join(files)}: give it another name in one, or "
-            "share it in a header" for name, files in sorted(users.items()) if len(files) > 1]
+    return [f"{folder}: {name} stands in the anonymous namespaces of {', '.join(files)}: give it another name in "
+            "one, or share it in a header" for name, files in sorted(users.items()) if len(files) > 1]
 
 
 def selftest():
