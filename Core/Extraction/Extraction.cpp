@@ -24,7 +24,7 @@ namespace quadrille
 namespace
 {
 
-void checkMap(const Mesh& mesh, const std::vector<FixedVec2>& uv)
+void checkCorners(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 {
   if (mesh.faceCount() == 0)
   {
@@ -387,7 +387,7 @@ std::optional<Index> meshCorner(const QuadMesh& quads, Index p)
 ExtractionResult extractQuads(
   const Mesh& mesh, const std::vector<FixedVec2>& uv, const ExtractionOptions& options)
 {
-  checkMap(mesh, uv);
+  checkCorners(mesh, uv);
   const ExactMap map{ mesh, uv };
   ExtractionResult result;
 

@@ -16,14 +16,14 @@ namespace
 {
 
 /// A side of length one of an outline.
-struct Side
+struct OutlineSide
 {
   Index vertex; ///< the grid vertex where it begins
   Index port;
   int way; ///< +1: counterclockwise round the square, in an upright triangle; -1: the other way
 };
 
-using Outline = std::vector<Side>;
+using Outline = std::vector<OutlineSide>;
 
 /// One quad of a sheet.
 struct Sheet

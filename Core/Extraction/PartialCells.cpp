@@ -471,6 +471,7 @@ private:
   Simplifier simplifierOf(const std::vector<Stop>& stops) const
   {
     std::vector<std::uint8_t> wanted;
+    wanted.reserve(stops.size());
     for (const Stop& stop : stops)
     {
       wanted.push_back(isWanted(stop) ? 1 : 0);

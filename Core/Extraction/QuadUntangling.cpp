@@ -340,6 +340,7 @@ private:
         }
       });
     std::vector<Vector3> ways;
+    ways.reserve(corners.size());
     for (const Index c : corners)
     {
       ways.push_back(moves_.position(c) - moves_.position(p));

@@ -587,7 +587,8 @@ CollapseRecord FreeStar::makeRecord(int target) const
   }
   for (std::size_t i = 0; i < 2; ++i)
   {
-    record.weight[i] = static_cast<std::uint32_t>(double{ weight_[i] } * 4294967296.0 + 0.5);
+    record.weight[i] =
+      static_cast<std::uint32_t>(std::llround(double{ weight_[i] } * 4294967296.0));
   }
   return record;
 }

@@ -51,6 +51,7 @@ std::vector<LoopSearch::Loop> shortLoops(LoopSearch& search, double limit, bool&
                                                   : a.first < b.first;
     });
   std::vector<LoopSearch::Loop> loops;
+  loops.reserve(order.size());
   for (const auto& [label, loop] : order)
   {
     loops.push_back(std::move(*loop));

@@ -106,7 +106,7 @@ std::vector<Corner> distinctCorners(
 /// Projects the corners to the plane of the polygon's area vector, so that it turns left.
 void projectToPlane(const std::vector<Vector3>& points, std::vector<Corner>& corners)
 {
-  const Vector3 base = points[corners.front().point];
+  const Vector3& base = points[corners.front().point];
   Vector3 normal = Vector3::Zero();
   for (std::size_t i = 0; i < corners.size(); ++i)
   {

@@ -331,6 +331,7 @@ std::optional<GridTroubles> gridTroubles(const RunContext& run, const MapAttempt
 std::vector<Vector3> positionsOf(const Mesh& mesh, const std::vector<Index>& vertices)
 {
   std::vector<Vector3> points;
+  points.reserve(vertices.size());
   for (const Index v : vertices)
   {
     points.push_back(mesh.position[v]);

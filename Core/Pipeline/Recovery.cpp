@@ -80,6 +80,7 @@ std::optional<Plan> nextPlan(RunContext& run, const History& history)
 std::vector<std::string> recoverySteps()
 {
   std::vector<std::string> names;
+  names.reserve(kForMaps.size() + kForRounds.size());
   for (const Strategy& strategy : kForMaps)
   {
     names.emplace_back(strategy.name);

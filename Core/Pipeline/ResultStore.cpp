@@ -94,6 +94,7 @@ std::vector<std::shared_ptr<void>> ResultStore::allOf(std::type_index type) cons
   std::sort(
     found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<std::shared_ptr<void>> values;
+  values.reserve(found.size());
   for (auto& [use, value] : found)
   {
     values.push_back(std::move(value));

@@ -94,8 +94,10 @@ const std::uint8_t* recordBegin(const std::uint8_t* end)
     // The two lines that the 48 bytes of a face can lie on.
     const auto address = reinterpret_cast<std::uintptr_t>(uv) +
       sizeof(FixedVec2) * std::uintptr_t{ loadLittleEndian(slots + 4 * std::min(i, count - 1)) };
+    // NOLINTBEGIN(performance-no-int-to-ptr): nothing is read there
     __builtin_prefetch(reinterpret_cast<const void*>(address - 32), 1);
     __builtin_prefetch(reinterpret_cast<const void*>(address + 32), 1);
+    // NOLINTEND(performance-no-int-to-ptr)
   }
 #else
   static_cast<void>(uv);
