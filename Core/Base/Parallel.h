@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// Loops on threads. They are started anew for each loop: less than two hundred a run, of 35 microseconds each, are too
-/// few for a pool or a library (measured in Documentation/Design.md), and here every chunk looks out for a stop.
+/// few for a pool or a library (figures: Documentation/Design/Libraries.md), and every chunk here looks out for a stop.
 #pragma once
 
 #include <algorithm>

@@ -24,7 +24,7 @@ namespace quadrille
 enum class MapMethod
 {
   /// Seamless map without inverted triangles, integers from it, re-embedding: never inverted, whole everywhere. After
-  /// [Ebke et al. 2014] by its aim; see Documentation/Design.md for the means.
+  /// [Ebke et al. 2014] by its aim; see Documentation/Design/Map.md for the means.
   ScaleAware,
   MixedInteger, ///< integers are rounded one at a time [Bommes et al. 2009]; triangles may be inverted
   QuadCover, ///< integers are rounded all at once [Kalberer et al. 2007]; triangles may be inverted

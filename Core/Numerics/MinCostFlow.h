@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// Exact integer min-cost flow by successive shortest paths [Ahuja, Magnanti, Orlin 1993, Section 9.7].
-/// Documentation/Design.md compares it with LEMON.
+/// Documentation/Design/Libraries.md compares it with LEMON.
 #pragma once
 
 #include "Base/Types.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// L D L^T of a sparse symmetric matrix, row by row [Davis 2005], that can be stopped: on the largest coarse levels one
-/// factorization takes seconds, and those of libraries cannot be interrupted. Documentation/Design.md compares it with
-/// CHOLMOD.
+/// factorization takes seconds, and those of libraries cannot be interrupted.
+/// Documentation/Design/Libraries.md compares it with CHOLMOD.
 #pragma once
 
 #include <Eigen/SparseCore>

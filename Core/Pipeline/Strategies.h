@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The strategies of Recovery, each a function of the attempts so far; see Documentation/Design.md, "Stepping back".
+/// The strategies of Recovery, each a function of the attempts so far; see Documentation/Design/Recovery.md.
 /// Each says what its bound counts.
 #pragma once
 

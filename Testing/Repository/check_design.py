@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every file of Core that Documentation/Design.md names is there: `Hierarchy/StarCache`, without ending, or with one.
+"""What the documents name is there: files of Core (`Hierarchy/StarCache`, without ending, or with one), names of the
+sources in code spans of the design (`quadsOfBlock`, `Mesh::sizing`), and what links lead to, headings included. Pages
+that comments and documents name (Documentation/Design/Map.md) are there as well.
 
   check_design.py SOURCE_DIR
 """
@@ -9,7 +11,15 @@ import pathlib
 import re
 import sys
 
+from check_sources import repositoryFiles
+
 ENDINGS = (".h", ".cpp")
+SOURCES = {".h", ".cpp", ".cxx", ".py", ".xml", ".cmake", ".txt", ".sh"}
+LINK = re.compile(r"\]\(([^)#\s]*)(?:#([^)\s]+))?\)")
+PAGE = re.compile(r"\bDocumentation/[\w/]+\.(?:md|bib)\b")
+SPAN = re.compile(r"`([A-Za-z_]\w*(?:::\w+)*)(?:\(\))?`")
+LIBRARY = re.compile(r"(?:std|tbb)::|vtkSMPTools$")
+FENCE = re.compile(r"^```.*?^```", re.DOTALL | re.MULTILINE)
 
 
 def modules(root):
@@ -18,28 +28,76 @@ def modules(root):
 
 def names(text, folders):
     """Names of files in one of the folders, also those in code spans that have more in them."""
-    return sorted(set(re.findall(r"\b((?:" + "|".join(folders) + r")/\w+(?:\.\w+)?)", text)))
+    return sorted(set(re.findall(r"(?<![\w/])(?:Core/)?((?:" + "|".join(folders) + r")/\w+(?:\.\w+)?)", text)))
 
 
 def exists(core, name):
     return (core / name).is_file() or any((core / (name + ending)).is_file() for ending in ENDINGS)
 
 
+def spans(text):
+    """Names of the sources that code spans hold: the last part of `Mesh::sizing`. Those of libraries are not ours."""
+    return sorted({match.split("::")[-1] for match in SPAN.findall(FENCE.sub("", text)) if not LIBRARY.match(match)})
+
+
+def anchor(heading):
+    """What GitHub makes of a heading."""
+    return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
+
+
+def anchors(text):
+    return {anchor(line.lstrip("#")) for line in FENCE.sub("", text).splitlines() if re.match(r"#+ ", line)}
+
+
+def linkProblems(page, text):
+    """Links within the repository that lead nowhere; page is a path."""
+    result = []
+    for target, heading in LINK.findall(FENCE.sub("", text)):
+        if re.match(r"\w+:", target):
+            continue
+        goal = (page.parent / target).resolve() if target else page
+        if not goal.exists():
+            result.append(f"link to {target}, which is not there")
+        elif heading and goal.suffix == ".md" and heading not in anchors(goal.read_text()):
+            result.append(f"link to {target}#{heading}: no such heading")
+    return result
+
+
 def selftest(root):
     folders = modules(root)
     assert names("`Mesh/Mesh`, `Core/Mesh/Mesh.h` and Some/Thing", folders) == ["Mesh/Mesh", "Mesh/Mesh.h"]
+    assert not names("Design/Mesh/Mesh", folders)
     assert exists(root / "Core", "Mesh/Mesh") and exists(root / "Core", "Mesh/Mesh.h")
     assert not exists(root / "Core", "Mesh/Mesh.cxx") and not exists(root / "Core", "Mesh/NoSuchFile")
+    assert spans("`poll()` of `Some::thing`, `std::sort`, `a b`, `x.h`\n```\n`no`\n```\n") == ["poll", "thing"]
+    assert anchors("# A b, c\n```\n# no\n```\n## [D] e-f\n") == {"a-b-c", "d-e-f"}
+    page = root / "README.md"
+    assert not linkProblems(page, "[a](README.md) [b](https://example.org/x)")
+    assert len(linkProblems(page, "[a](NoSuchFile.md) [b](README.md#no-such-heading)")) == 2
 
 
 def main():
-    root = pathlib.Path(sys.argv[1])
+    root = pathlib.Path(sys.argv[1]).resolve()
     selftest(root)
-    named = names((root / "Documentation" / "Design.md").read_text(), modules(root))
-    problems = [f"Documentation/Design.md: no {name} in Core" for name in named if not exists(root / "Core", name)]
+    files = repositoryFiles(root)
+    texts = {p: p.read_text() for p in files if p.suffix in SOURCES | {".md"} and "CHANGELOG" not in p.name}
+    words = set().union(*(re.findall(r"\w+", text) for path, text in texts.items() if path.suffix != ".md"))
+    design = [p for p in texts if p == root / "Documentation/Design.md" or p.parent == root / "Documentation/Design"]
+    problems, named = [], set()
+    for path, text in sorted(texts.items()):
+        page = path.relative_to(root)
+        pages = sorted(set(PAGE.findall(text)))
+        problems += [f"{page}: no {goal} here" for goal in pages if not (root / goal).is_file()]
+        if path.suffix == ".md":
+            problems += [f"{page}: {line}" for line in linkProblems(path, text)]
+        if path in design:
+            found = names(text, modules(root))
+            named |= set(found)
+            problems += [f"{page}: no {name} in Core" for name in found if not exists(root / "Core", name)]
+            problems += [f"{page}: no `{name}` in the sources" for name in spans(text) if name not in words]
     if len(named) < 30:
         problems.append(f"Documentation/Design.md: only {len(named)} files are named, the table of steps is gone")
-    print("\n".join(problems) or f"design: {len(named)} files, fine")
+    print("\n".join(problems) or f"design: {len(design)} pages, {len(named)} files, fine")
     return 1 if problems else 0
 
 
