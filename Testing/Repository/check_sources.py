@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every source file names its licence; no file of the repository holds a path of somebody's machine.
+"""Every source file names its licence; no file of the repository holds a path of somebody's machine; names of tests in
+C++ are in CamelCase.
 
   check_sources.py SOURCE_DIR
 """
@@ -16,6 +17,7 @@ SOURCE_NAMES = {"CMakeLists.txt", "run"}
 LICENSE_LINES = ("SPDX-FileCopyrightText:", "SPDX-License-Identifier: BSD-3-Clause")
 # Folders of people's machines; what every Linux has (/usr, /proc, ...) may be named.
 MACHINE_PATH = re.compile(r"(?<![\w.$}\])/])/(?:work|home|root|tmp|mnt|Users|workspace|builds?|data)/[\w.-]")
+TEST_NAME = re.compile(r"^(?:TEST|TEST_F|TEST_P|TYPED_TEST)\((\w+),\s*(?:DISABLED_)?(\w+)", re.MULTILINE)
 BINARY = {".ply", ".png", ".vtp", ".stl", ".ex2", ".gz"}
 
 
@@ -48,11 +50,20 @@ def pathProblems(path, text):
             for number, line in enumerate(text.splitlines(), 1) for match in MACHINE_PATH.finditer(line)]
 
 
+def testNameProblems(path, text):
+    if path.suffix not in (".cpp", ".cxx"):
+        return []
+    return [f"{path}: the test {suite}.{name} is not in CamelCase" for suite, name in TEST_NAME.findall(text)
+            if not re.fullmatch(r"[A-Z][A-Za-z0-9]*", suite) or not re.fullmatch(r"[A-Z][A-Za-z0-9]*", name)]
+
+
 def selftest():
     machine = "/wo" + "rk/somewhere"
     assert pathProblems("a", f'open("{machine}")') and pathProblems("a", f"cd {machine}")
     assert not pathProblems("a", f"${{CMAKE_SOURCE_DIR}}{machine}")
     assert not pathProblems("a", "a/work/b, #!/usr/bin/python3")
+    assert testNameProblems(pathlib.Path("a.cpp"), "TEST(Some, thing)\n")
+    assert not testNameProblems(pathlib.Path("a.cpp"), "TEST_P(Some, DISABLED_Thing2)\n")
     assert licenseProblem(pathlib.Path("a.h"), "#pragma once\n") and not licenseProblem(pathlib.Path("a.md"), "x")
 
 
@@ -70,7 +81,8 @@ def main():
             problems.append(f"{path}: neither text nor a known binary kind")
             continue
         name = path.relative_to(root)
-        problems += [p for p in [licenseProblem(name, text)] if p] + pathProblems(name, text)
+        problems += [p for p in [licenseProblem(name, text)] if p]
+        problems += pathProblems(name, text) + testNameProblems(name, text)
     print("\n".join(problems) or f"sources: {len(files)} files, fine")
     return 1 if problems else 0
 

@@ -13,7 +13,7 @@ namespace quadrille
 constexpr std::chrono::milliseconds kNap{ 20 };
 constexpr double kNapSeconds = 0.02;
 
-TEST(Clock, lapsAddUpToTheTimeThatPassed)
+TEST(Clock, LapsAddUpToTheTimeThatPassed)
 {
   const double begin = secondsNow();
   Stopwatch watch;
@@ -28,7 +28,7 @@ TEST(Clock, lapsAddUpToTheTimeThatPassed)
   EXPECT_LE(first + second, secondsNow() - begin);
 }
 
-TEST(Clock, aScopeAddsItsTimeToWhatIsThere)
+TEST(Clock, AScopeAddsItsTimeToWhatIsThere)
 {
   double seconds = 1, processor = 2;
   {

@@ -10,7 +10,7 @@
 namespace quadrille
 {
 
-TEST(DisjointSets, rootIsTheLowest)
+TEST(DisjointSets, RootIsTheLowest)
 {
   DisjointSets sets(6, 1);
   EXPECT_EQ(sets.countSets(), 6u);
@@ -26,7 +26,7 @@ TEST(DisjointSets, rootIsTheLowest)
 }
 
 // Sets of 1 to 1000 elements, each joined along a random tree in random order by all threads.
-TEST(DisjointSets, sameForAnyNumberOfThreads)
+TEST(DisjointSets, SameForAnyNumberOfThreads)
 {
   std::mt19937 random(5);
   std::vector<Index> shuffled(300000);

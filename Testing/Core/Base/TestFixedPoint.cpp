@@ -42,7 +42,7 @@ std::vector<Transition> someTransitions()
 
 } // namespace
 
-TEST(FixedPoint, fourQuarterTurnsAreNone)
+TEST(FixedPoint, FourQuarterTurnsAreNone)
 {
   for (const FixedVec2 p : somePoints())
   {
@@ -58,7 +58,7 @@ TEST(FixedPoint, fourQuarterTurnsAreNone)
   EXPECT_EQ(rotate({ kOne, 0 }, 1), (FixedVec2{ 0, kOne })); // counterclockwise
 }
 
-TEST(FixedPoint, theRotationBetweenTwoImagesIsExact)
+TEST(FixedPoint, TheRotationBetweenTwoImagesIsExact)
 {
   for (const FixedVec2 p : somePoints())
   {
@@ -73,7 +73,7 @@ TEST(FixedPoint, theRotationBetweenTwoImagesIsExact)
   }
 }
 
-TEST(FixedPoint, transitionsInvertExactly)
+TEST(FixedPoint, TransitionsInvertExactly)
 {
   for (const Transition& t : someTransitions())
   {
@@ -87,7 +87,7 @@ TEST(FixedPoint, transitionsInvertExactly)
   }
 }
 
-TEST(FixedPoint, transitionsComposeAsTheyApply)
+TEST(FixedPoint, TransitionsComposeAsTheyApply)
 {
   const std::vector<Transition> transitions = someTransitions();
   for (std::size_t i = 0; i + 2 < transitions.size(); ++i)
@@ -102,7 +102,7 @@ TEST(FixedPoint, transitionsComposeAsTheyApply)
   }
 }
 
-TEST(FixedPoint, transitionsKeepOrientation)
+TEST(FixedPoint, TransitionsKeepOrientation)
 {
   const std::vector<FixedVec2> p = somePoints();
   for (const Transition& t : someTransitions())
@@ -115,7 +115,7 @@ TEST(FixedPoint, transitionsKeepOrientation)
   }
 }
 
-TEST(FixedPoint, orientationIsExactAtTheLimits)
+TEST(FixedPoint, OrientationIsExactAtTheLimits)
 {
   // The longest possible edges, and a point off their line by the least possible amount: a double would
   // see 90 bits of product and lose the one that counts.
@@ -128,7 +128,7 @@ TEST(FixedPoint, orientationIsExactAtTheLimits)
   EXPECT_EQ(orientation({ 0, 0 }, { kOne, 0 }, { 0, kOne }), 1);
 }
 
-TEST(FixedPoint, conversionRoundsToTheNearestGridValue)
+TEST(FixedPoint, ConversionRoundsToTheNearestGridValue)
 {
   EXPECT_EQ(toFixed(1.0), kOne);
   EXPECT_EQ(toFixed(-2.5), -5 * kOne / 2);
@@ -141,7 +141,7 @@ TEST(FixedPoint, conversionRoundsToTheNearestGridValue)
   }
 }
 
-TEST(FixedPoint, integersAreWholeUnits)
+TEST(FixedPoint, IntegersAreWholeUnits)
 {
   EXPECT_TRUE(isInteger(std::int64_t{ 0 }));
   EXPECT_TRUE(isInteger(-3 * kOne));

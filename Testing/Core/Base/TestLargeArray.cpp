@@ -18,7 +18,7 @@ constexpr std::size_t kCount = 5 * kLargeArrayStep / (2 * sizeof(std::uint32_t))
 
 } // namespace
 
-TEST(LargeArray, growsFillsAndCopiesAsTheVectorDoes)
+TEST(LargeArray, GrowsFillsAndCopiesAsTheVectorDoes)
 {
   std::vector<std::uint32_t> values{ 3, 4 };
   growLarge(values, kCount);
@@ -34,7 +34,7 @@ TEST(LargeArray, growsFillsAndCopiesAsTheVectorDoes)
   EXPECT_TRUE(values.empty());
 }
 
-TEST(LargeArray, stopsOnRequest)
+TEST(LargeArray, StopsOnRequest)
 {
   const std::vector<std::uint32_t> source(kCount, 1);
   std::vector<std::uint32_t> values;

@@ -13,13 +13,13 @@
 namespace quadrille
 {
 
-TEST(Parallel, atLeastOneThread)
+TEST(Parallel, AtLeastOneThread)
 {
   EXPECT_GE(resolveThreads(0), 1);
   EXPECT_EQ(resolveThreads(5), 5);
 }
 
-TEST(Parallel, everyElementComesOnce)
+TEST(Parallel, EveryElementComesOnce)
 {
   for (const std::size_t count : { 0u, 1u, 7u, 64u, 1000u })
   {
@@ -45,7 +45,7 @@ TEST(Parallel, everyElementComesOnce)
   }
 }
 
-TEST(Parallel, chunksDoNotDependOnTheNumberOfThreads)
+TEST(Parallel, ChunksDoNotDependOnTheNumberOfThreads)
 {
   const auto chunks = [](int threads)
   {
@@ -63,7 +63,7 @@ TEST(Parallel, chunksDoNotDependOnTheNumberOfThreads)
   EXPECT_EQ(chunks(1).size(), 31u); // 30 whole ones and a rest of 10
 }
 
-TEST(Parallel, sumsByChunkAreTheSameForAnyNumberOfThreads)
+TEST(Parallel, SumsByChunkAreTheSameForAnyNumberOfThreads)
 {
   const auto sum = [](int threads)
   {
@@ -88,7 +88,7 @@ TEST(Parallel, sumsByChunkAreTheSameForAnyNumberOfThreads)
   EXPECT_EQ(sum(1), sum(5));
 }
 
-TEST(Parallel, anExceptionReachesTheCallerAndStopsTheRest)
+TEST(Parallel, AnExceptionReachesTheCallerAndStopsTheRest)
 {
   for (const int threads : { 1, 3 })
   {

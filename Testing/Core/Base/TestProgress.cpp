@@ -11,12 +11,12 @@
 namespace quadrille
 {
 
-TEST(Progress, anEmptyCallbackNeverCancels)
+TEST(Progress, AnEmptyCallbackNeverCancels)
 {
   EXPECT_NO_THROW(report({}, 0.5, "half"));
 }
 
-TEST(Progress, theCallbackGetsFractionAndTextAndMayCancel)
+TEST(Progress, TheCallbackGetsFractionAndTextAndMayCancel)
 {
   double fraction = 0;
   std::string text;
@@ -32,7 +32,7 @@ TEST(Progress, theCallbackGetsFractionAndTextAndMayCancel)
   EXPECT_THROW(report([](double, const std::string&) { return false; }, 0, ""), Cancelled);
 }
 
-TEST(Progress, aPartIsSeenAsSuchFromOutside)
+TEST(Progress, APartIsSeenAsSuchFromOutside)
 {
   double fraction = 0;
   std::string text;
@@ -60,7 +60,7 @@ TEST(Progress, aPartIsSeenAsSuchFromOutside)
   EXPECT_FALSE(subProgress({}, 0, 1)); // nobody listens
 }
 
-TEST(Progress, pollRepeatsTheLastReportAfterAWhile)
+TEST(Progress, PollRepeatsTheLastReportAfterAWhile)
 {
   std::vector<double> seen;
   PollScope scope(
@@ -79,7 +79,7 @@ TEST(Progress, pollRepeatsTheLastReportAfterAWhile)
   EXPECT_THROW(poll(), Cancelled);
 }
 
-TEST(Progress, theInnermostRunIsAskedAndOtherThreadsHaveNone)
+TEST(Progress, TheInnermostRunIsAskedAndOtherThreadsHaveNone)
 {
   int outerCalls = 0;
   int innerCalls = 0;
@@ -97,7 +97,7 @@ TEST(Progress, theInnermostRunIsAskedAndOtherThreadsHaveNone)
   EXPECT_EQ(outerCalls, 1);
 }
 
-TEST(Progress, aParallelLoopStopsOnRequest)
+TEST(Progress, AParallelLoopStopsOnRequest)
 {
   for (const int threads : { 1, 2, 4 })
   {
@@ -113,7 +113,7 @@ TEST(Progress, aParallelLoopStopsOnRequest)
   }
 }
 
-TEST(Progress, aStatusIsOkUnlessToldOtherwise)
+TEST(Progress, AStatusIsOkUnlessToldOtherwise)
 {
   EXPECT_TRUE(Status().ok());
   EXPECT_FALSE((Status{ StatusCode::Infeasible, "no" }.ok()));

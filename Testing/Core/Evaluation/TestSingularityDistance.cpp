@@ -28,7 +28,7 @@ constexpr double kRounding = 20.0 / 1024;
 
 } // namespace
 
-TEST(SingularityDistance, isZeroBetweenEqualFields)
+TEST(SingularityDistance, IsZeroBetweenEqualFields)
 {
   const Mesh mesh = gridPlane(10, 10);
   std::vector<int> turns = regularTurns(mesh);
@@ -37,7 +37,7 @@ TEST(SingularityDistance, isZeroBetweenEqualFields)
   EXPECT_EQ(singularityDistance(mesh, turns, turns).work, 0);
 }
 
-TEST(SingularityDistance, isTheWayASingularityMovedTimesItsIndex)
+TEST(SingularityDistance, IsTheWayASingularityMovedTimesItsIndex)
 {
   const Mesh mesh = gridPlane(20, 10);
   for (const int index : { -2, -1, 1, 2 })
@@ -53,7 +53,7 @@ TEST(SingularityDistance, isTheWayASingularityMovedTimesItsIndex)
   }
 }
 
-TEST(SingularityDistance, splitsAndPairsCostTheirWaysOnly)
+TEST(SingularityDistance, SplitsAndPairsCostTheirWaysOnly)
 {
   const Mesh mesh = gridPlane(20, 10);
   std::vector<int> before = regularTurns(mesh);
@@ -66,7 +66,7 @@ TEST(SingularityDistance, splitsAndPairsCostTheirWaysOnly)
   EXPECT_NEAR(singularityDistance(mesh, before, after).work, 5, kRounding);
 }
 
-TEST(SingularityDistance, tellsSumsThatDiffer)
+TEST(SingularityDistance, TellsSumsThatDiffer)
 {
   const Mesh mesh = gridPlane(10, 10);
   std::vector<int> after = regularTurns(mesh);
@@ -75,7 +75,7 @@ TEST(SingularityDistance, tellsSumsThatDiffer)
   EXPECT_THROW(singularityDistance(mesh, after, {}), InvalidInput);
 }
 
-TEST(SingularityDistance, histogramLeavesRegularAndBoundaryVerticesOut)
+TEST(SingularityDistance, HistogramLeavesRegularAndBoundaryVerticesOut)
 {
   const Mesh mesh = gridPlane(10, 10);
   std::vector<int> turns = regularTurns(mesh);

@@ -140,7 +140,7 @@ TEST(GridMap, ComponentsGetQuadsByTheirArea)
   EXPECT_NEAR(area[1], 110, 0.3 * 110);
 }
 
-TEST(GridMap, aMeshThatIsNoCoarseLevelIsRefusedAtOnce)
+TEST(GridMap, AMeshThatIsNoCoarseLevelIsRefusedAtOnce)
 {
   const Mesh mesh = test::torus(30, 15);
   GridMapOptions options;
@@ -157,7 +157,7 @@ TEST(GridMap, aMeshThatIsNoCoarseLevelIsRefusedAtOnce)
   EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
 }
 
-TEST(GridMap, methodsKeepWhatTheyPromise)
+TEST(GridMap, MethodsKeepWhatTheyPromise)
 {
   const Mesh mesh = test::disjointUnion(shearedCube(8), test::sphere(3), Vector3(4, 0, 0));
   GridMapOptions options;
@@ -177,7 +177,7 @@ TEST(GridMap, methodsKeepWhatTheyPromise)
   }
 }
 
-TEST(GridMap, roundingMayFoldWhereTheScaleAwareMethodDoesNot)
+TEST(GridMap, RoundingMayFoldWhereTheScaleAwareMethodDoesNot)
 {
   const Mesh mesh = test::markFeatures(test::doubleTorus(3), 0.7);
   GridMapOptions options;
@@ -197,7 +197,7 @@ TEST(GridMap, roundingMayFoldWhereTheScaleAwareMethodDoesNot)
   EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
 }
 
-TEST(GridMap, anAnisotropyLimitLowersTheShareBeyondIt)
+TEST(GridMap, AnAnisotropyLimitLowersTheShareBeyondIt)
 {
   constexpr double kLimit = 2;
   const Mesh mesh =
@@ -223,7 +223,7 @@ TEST(GridMap, anAnisotropyLimitLowersTheShareBeyondIt)
   }
 }
 
-TEST(GridMap, theEmbeddingKeepsTheLimitToo)
+TEST(GridMap, TheEmbeddingKeepsTheLimitToo)
 {
   const Mesh mesh = shearedCube(8, 0.8);
   GridMapOptions options;
@@ -241,7 +241,7 @@ TEST(GridMap, theEmbeddingKeepsTheLimitToo)
   EXPECT_LT(shareBeyondRatio(mesh, on.uv, 1.8), 0.9 * shareBeyondRatio(mesh, off.uv, 1.8));
 }
 
-TEST(GridMap, refusesAnAnisotropyLimitThatIsNone)
+TEST(GridMap, RefusesAnAnisotropyLimitThatIsNone)
 {
   const Mesh mesh = test::gridPlane(4, 4);
   GridMapOptions options;
@@ -258,7 +258,7 @@ TEST(GridMap, refusesAnAnisotropyLimitThatIsNone)
   EXPECT_THROW(shareBeyondRatio(mesh, {}, 2), InvalidInput);
 }
 
-TEST(GridMap, theShareBeyondARatioIsThatOfTheArea)
+TEST(GridMap, TheShareBeyondARatioIsThatOfTheArea)
 {
   Mesh mesh = test::gridPlane(4, 1);
   std::vector<FixedVec2> uv(mesh.origin.size());

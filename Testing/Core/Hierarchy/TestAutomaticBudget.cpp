@@ -46,7 +46,7 @@ std::array<Index, 2> countSides(const Mesh& mesh)
 
 } // namespace
 
-TEST(AutomaticBudget, endsWhereTheCurvatureWouldMoveTooFar)
+TEST(AutomaticBudget, EndsWhereTheCurvatureWouldMoveTooFar)
 {
   const Mesh mesh = wavySphere(5, 0.1);
   for (const double s : { 0.09, 0.14 })
@@ -72,7 +72,7 @@ TEST(AutomaticBudget, endsWhereTheCurvatureWouldMoveTooFar)
   }
 }
 
-TEST(AutomaticBudget, doesNotDependOnTheUnit)
+TEST(AutomaticBudget, DoesNotDependOnTheUnit)
 {
   // A power of two changes no digit of any number.
   Mesh mesh = wavySphere(4, 0.1);
@@ -85,7 +85,7 @@ TEST(AutomaticBudget, doesNotDependOnTheUnit)
     buildHierarchy(mesh, 1, automaticOptions(0.12 * 1024, 0)).log.serialize(), log.serialize());
 }
 
-TEST(AutomaticBudget, rougherSurfacesGetMoreVertices)
+TEST(AutomaticBudget, RougherSurfacesGetMoreVertices)
 {
   // Both have about as many quads; half of the rough one's curvature is in waves of a few quads.
   const double s = 0.08;
@@ -96,7 +96,7 @@ TEST(AutomaticBudget, rougherSurfacesGetMoreVertices)
   EXPECT_LT(smooth, rough);
 }
 
-TEST(AutomaticBudget, staysInsideItsLimits)
+TEST(AutomaticBudget, StaysInsideItsLimits)
 {
   // A plane has no curvature to move but at its corners, and would keep nothing.
   const Mesh plane = gridPlane(60, 60);
@@ -115,7 +115,7 @@ TEST(AutomaticBudget, staysInsideItsLimits)
   EXPECT_EQ(levels.coarse.mesh.vertexCount(), kMostCoarseVertices);
 }
 
-TEST(AutomaticBudget, componentsShareItByNeed)
+TEST(AutomaticBudget, ComponentsShareItByNeed)
 {
   // The same shape twice, once with waves: it needs more, whether the budget is given or not.
   const Mesh mesh = disjointUnion(wavySphere(5, 0.12), sphere(5), Vector3(4, 0, 0));
@@ -131,7 +131,7 @@ TEST(AutomaticBudget, componentsShareItByNeed)
   }
 }
 
-TEST(AutomaticBudget, needsACostOfCurvature)
+TEST(AutomaticBudget, NeedsACostOfCurvature)
 {
   const Mesh mesh = sphere(3);
   for (const DecimationCost cost : { DecimationCost::Quadric, DecimationCost::Uniform })

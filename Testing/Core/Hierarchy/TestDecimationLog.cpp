@@ -44,7 +44,7 @@ std::string refusal(const std::vector<std::uint8_t>& bytes, std::uint64_t hash)
 
 } // namespace
 
-TEST(DecimationLog, roundTripsThroughBytes)
+TEST(DecimationLog, RoundTripsThroughBytes)
 {
   const DecimationLog& log = sampleLog();
   ASSERT_GT(log.collapses, 0U);
@@ -56,7 +56,7 @@ TEST(DecimationLog, roundTripsThroughBytes)
   EXPECT_EQ(copy.intermediateRounds, log.intermediateRounds);
 }
 
-TEST(DecimationLog, anEmptyLogRoundTrips)
+TEST(DecimationLog, AnEmptyLogRoundTrips)
 {
   HierarchyOptions options;
   options.targetEdgeLength = 1e-3;
@@ -65,12 +65,12 @@ TEST(DecimationLog, anEmptyLogRoundTrips)
   EXPECT_EQ(DecimationLog::deserialize(log.serialize(), kHash).rounds.size(), 0U);
 }
 
-TEST(DecimationLog, refusesALogOfAnotherSurface)
+TEST(DecimationLog, RefusesALogOfAnotherSurface)
 {
   EXPECT_NE(refusal(sampleLog().serialize(), kHash + 1).find("another surface"), std::string::npos);
 }
 
-TEST(DecimationLog, refusesEveryTruncation)
+TEST(DecimationLog, RefusesEveryTruncation)
 {
   const std::vector<std::uint8_t> bytes = sampleLog().serialize();
   for (std::size_t length = 0; length < bytes.size(); length += length < 200 ? 1 : 97)
@@ -84,7 +84,7 @@ TEST(DecimationLog, refusesEveryTruncation)
   EXPECT_NE(refusal(longer, kHash), "accepted");
 }
 
-TEST(DecimationLog, refusesEveryFlippedBit)
+TEST(DecimationLog, RefusesEveryFlippedBit)
 {
   // A 64-bit CRC finds every single-bit error; the header's own checks may speak first.
   std::vector<std::uint8_t> bytes = sampleLog().serialize();
@@ -99,7 +99,7 @@ TEST(DecimationLog, refusesEveryFlippedBit)
   }
 }
 
-TEST(DecimationLog, refusesRecordsThatNameWhatIsNotThere)
+TEST(DecimationLog, RefusesRecordsThatNameWhatIsNotThere)
 {
   // With a right checksum, as a faulty writer would make it.
   DecimationLog log = sampleLog();

@@ -70,7 +70,7 @@ void expectSameRecords(const RecordWriter& a, const RecordWriter& b)
 
 } // namespace
 
-TEST(FreeStar, doesWhatVertexRemovalDoes)
+TEST(FreeStar, DoesWhatVertexRemovalDoes)
 {
   int planned = 0;
   int refused = 0;
@@ -118,7 +118,7 @@ TEST(FreeStar, doesWhatVertexRemovalDoes)
   EXPECT_GT(refused, 100);
 }
 
-TEST(FreeStar, leavesSliversToVertexRemoval)
+TEST(FreeStar, LeavesSliversToVertexRemoval)
 {
   Mesh mesh = sphere(3);
   const Index v = 100;
@@ -134,7 +134,7 @@ TEST(FreeStar, leavesSliversToVertexRemoval)
   EXPECT_EQ(star.plan(), FreeStar::Outcome::Unsuited);
 }
 
-TEST(FreeStar, leavesDiagonalsThatExistToVertexRemoval)
+TEST(FreeStar, LeavesDiagonalsThatExistToVertexRemoval)
 {
   // A thin prism with pointed ends: the diagonals inside the ring of a vertex of its middle go round its back.
   const int rows = 5;
@@ -177,7 +177,7 @@ TEST(FreeStar, leavesDiagonalsThatExistToVertexRemoval)
   }
 }
 
-TEST(FreeStar, foldsOfTheInputDoNotStopPhase1)
+TEST(FreeStar, FoldsOfTheInputDoNotStopPhase1)
 {
   // Noise of about the length of the edges, as scans have it where they are much denser than exact.
   const auto verticesAfter = [](const Mesh& mesh)

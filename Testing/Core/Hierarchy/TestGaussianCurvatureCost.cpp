@@ -97,7 +97,7 @@ double removeAndMeasure(DecimationMesh& work, Index v)
 
 } // namespace
 
-TEST(GaussianCurvatureCost, theDefectOfAConeIsThatOfItsApex)
+TEST(GaussianCurvatureCost, TheDefectOfAConeIsThatOfItsApex)
 {
   for (const double height : { 0.0, 0.5, 3.0 })
   {
@@ -112,7 +112,7 @@ TEST(GaussianCurvatureCost, theDefectOfAConeIsThatOfItsApex)
   }
 }
 
-TEST(GaussianCurvatureCost, theCornersOfACubeHaveAllOfItsCurvature)
+TEST(GaussianCurvatureCost, TheCornersOfACubeHaveAllOfItsCurvature)
 {
   const Mesh cube = unitCube(3);
   const std::vector<float> defect = angleDefects(cube);
@@ -127,7 +127,7 @@ TEST(GaussianCurvatureCost, theCornersOfACubeHaveAllOfItsCurvature)
   EXPECT_EQ(corners, 8);
 }
 
-TEST(GaussianCurvatureCost, theApexOfAConeCostsItsDefectTwice)
+TEST(GaussianCurvatureCost, TheApexOfAConeCostsItsDefectTwice)
 {
   for (const double height : { 0.0, 0.5, 1.0 })
   {
@@ -137,7 +137,7 @@ TEST(GaussianCurvatureCost, theApexOfAConeCostsItsDefectTwice)
   }
 }
 
-TEST(GaussianCurvatureCost, aVertexOfASphereCostsWhatTheDirectSumSays)
+TEST(GaussianCurvatureCost, AVertexOfASphereCostsWhatTheDirectSumSays)
 {
   const Mesh ball = sphere(2);
   const std::vector<double> before = slowDefects(ball);
@@ -158,7 +158,7 @@ TEST(GaussianCurvatureCost, aVertexOfASphereCostsWhatTheDirectSumSays)
   }
 }
 
-TEST(GaussianCurvatureCost, aStraightFeatureIsNoCurvature)
+TEST(GaussianCurvatureCost, AStraightFeatureIsNoCurvature)
 {
   const Mesh cube = markFeatures(unitCube(4), test::kPi / 4);
   const auto found = std::find_if(cube.position.begin(), cube.position.end(),

@@ -86,7 +86,7 @@ double distanceToSegment(const Vector3& p, const Vector3& a, const Vector3& b)
 
 } // namespace
 
-TEST(Hierarchy, keepsTopologyOfEveryKindOfSurface)
+TEST(Hierarchy, KeepsTopologyOfEveryKindOfSurface)
 {
   const std::vector<Mesh> meshes{ bumpySphere(4), torus(60, 30), gridPlane(30, 20),
     plateWithHole(10), plateL(15), openCylinder(48, 20), markFeatures(unitCube(14), kFeatureAngle),
@@ -102,7 +102,7 @@ TEST(Hierarchy, keepsTopologyOfEveryKindOfSurface)
   }
 }
 
-TEST(Hierarchy, reachesTheBudgetExactlyOnASmoothSurface)
+TEST(Hierarchy, ReachesTheBudgetExactlyOnASmoothSurface)
 {
   const Mesh mesh = bumpySphere(5);
   const Hierarchy hierarchy = buildHierarchy(mesh, 1, makeOptions(0.15, 300));
@@ -110,7 +110,7 @@ TEST(Hierarchy, reachesTheBudgetExactlyOnASmoothSurface)
   EXPECT_EQ(hierarchy.notice, "");
 }
 
-TEST(Hierarchy, leavesFewShortEdgesAfterPhase1)
+TEST(Hierarchy, LeavesFewShortEdgesAfterPhase1)
 {
   const Mesh mesh = bumpySphere(5);
   const double s = 0.2;
@@ -127,7 +127,7 @@ TEST(Hierarchy, leavesFewShortEdgesAfterPhase1)
   EXPECT_EQ(hierarchy.coarse.mesh.vertexCount(), level.vertexCount()) << "already below the budget";
 }
 
-TEST(Hierarchy, everyCostReachesTheBudget)
+TEST(Hierarchy, EveryCostReachesTheBudget)
 {
   const Mesh mesh = bumpySphere(4);
   for (const DecimationCost cost : { DecimationCost::Gaussian, DecimationCost::GaussianMemory,
@@ -141,7 +141,7 @@ TEST(Hierarchy, everyCostReachesTheBudget)
   }
 }
 
-TEST(Hierarchy, givesTheSameBytesForAnyNumberOfThreads)
+TEST(Hierarchy, GivesTheSameBytesForAnyNumberOfThreads)
 {
   // Large enough for several blocks in a round.
   const Mesh mesh = torus(300, 150);
@@ -156,7 +156,7 @@ TEST(Hierarchy, givesTheSameBytesForAnyNumberOfThreads)
   }
 }
 
-TEST(Hierarchy, logIsAsSmallAsThePapers)
+TEST(Hierarchy, LogIsAsSmallAsThePapers)
 {
   const Mesh mesh = bumpySphere(5);
   const DecimationLog log = buildHierarchy(mesh, 1, makeOptions(0.15, 200)).log;
@@ -164,7 +164,7 @@ TEST(Hierarchy, logIsAsSmallAsThePapers)
   EXPECT_LE(log.recordBytes(), 13 * log.flips + (32 + 4 * 5) * log.collapses);
 }
 
-TEST(Hierarchy, keepsCubeCornersAndStraightEdges)
+TEST(Hierarchy, KeepsCubeCornersAndStraightEdges)
 {
   const Mesh mesh = markFeatures(unitCube(16), kFeatureAngle);
   const Mesh coarse = buildHierarchy(mesh, 1, makeOptions(0.3, 60)).coarse.mesh;
@@ -189,7 +189,7 @@ TEST(Hierarchy, keepsCubeCornersAndStraightEdges)
   EXPECT_EQ(countFacesWithTwoConstrainedEdges(coarse), 0U);
 }
 
-TEST(Hierarchy, neverJoinsACurveWithItself)
+TEST(Hierarchy, NeverJoinsACurveWithItself)
 {
   // Both rims of a cylinder are circles; an edge inside the surface must not join two points of one.
   const Mesh mesh = openCylinder(64, 24);
@@ -203,7 +203,7 @@ TEST(Hierarchy, neverJoinsACurveWithItself)
   }
 }
 
-TEST(Hierarchy, neverJoinsTwoCurvesByAChord)
+TEST(Hierarchy, NeverJoinsTwoCurvesByAChord)
 {
   // Long narrow strips: quads of the wanted size would span them, and an edge across would be shorter than those
   // along them. The second one is closed, between two circles without corners.
@@ -232,7 +232,7 @@ TEST(Hierarchy, neverJoinsTwoCurvesByAChord)
   }
 }
 
-TEST(Hierarchy, chordsOfTheInputMoveAlong)
+TEST(Hierarchy, ChordsOfTheInputMoveAlong)
 {
   // One row of squares: every inner edge is a chord between the two sides, and none is a reason to keep a vertex.
   const Mesh mesh = gridPlane(40, 1);
@@ -240,7 +240,7 @@ TEST(Hierarchy, chordsOfTheInputMoveAlong)
   EXPECT_LT(coarse.vertexCount(), mesh.vertexCount() / 2);
 }
 
-TEST(Hierarchy, keepsCornersOfABoundary)
+TEST(Hierarchy, KeepsCornersOfABoundary)
 {
   const int n = 16;
   const Mesh coarse = buildHierarchy(plateL(n), 1, makeOptions(8, 30)).coarse.mesh;
@@ -253,7 +253,7 @@ TEST(Hierarchy, keepsCornersOfABoundary)
   }
 }
 
-TEST(Hierarchy, staysCloseToRoundCurves)
+TEST(Hierarchy, StaysCloseToRoundCurves)
 {
   const double s = 0.5;
   const Mesh mesh = openCylinder(256, 60);
@@ -279,7 +279,7 @@ TEST(Hierarchy, staysCloseToRoundCurves)
   }
 }
 
-TEST(Hierarchy, boundaryLoopsKeepFourEdges)
+TEST(Hierarchy, BoundaryLoopsKeepFourEdges)
 {
   // A hole that is tiny against s: everything about it wants to collapse.
   const Mesh mesh = plateWithHole(4);
@@ -301,7 +301,7 @@ TEST(Hierarchy, boundaryLoopsKeepFourEdges)
   EXPECT_EQ(summarizeTopology(coarse).boundaryLoops, 2U);
 }
 
-TEST(Hierarchy, endsAndJunctionsOfFeaturesStay)
+TEST(Hierarchy, EndsAndJunctionsOfFeaturesStay)
 {
   // A feature line in the middle of a plate that ends inside, with a branch at its middle.
   Mesh mesh = gridPlane(40, 40);
@@ -332,7 +332,7 @@ TEST(Hierarchy, endsAndJunctionsOfFeaturesStay)
   EXPECT_NEAR(length, 30, 1e-12);
 }
 
-TEST(Hierarchy, keptVerticesStay)
+TEST(Hierarchy, KeptVerticesStay)
 {
   const Mesh mesh = bumpySphere(4);
   HierarchyOptions options = makeOptions(0.4, 100); // both phases would like to remove them
@@ -360,7 +360,7 @@ std::vector<Index> someIntermediateVertices(const Hierarchy& hierarchy)
   return some;
 }
 
-TEST(Hierarchy, redecimationGivesWhatStartingAnewGives)
+TEST(Hierarchy, RedecimationGivesWhatStartingAnewGives)
 {
   for (const Mesh& mesh : { bumpySphere(4), markFeatures(unitCube(14), kFeatureAngle),
          plateWithHole(12), twoComponents() })
@@ -396,7 +396,7 @@ TEST(Hierarchy, redecimationGivesWhatStartingAnewGives)
   }
 }
 
-TEST(Hierarchy, redecimationLogsAreWellFormed)
+TEST(Hierarchy, RedecimationLogsAreWellFormed)
 {
   const Mesh mesh = bumpySphere(4);
   const HierarchyOptions options = makeOptions(0.1, 100);
@@ -412,7 +412,7 @@ TEST(Hierarchy, redecimationLogsAreWellFormed)
   }
 }
 
-TEST(Hierarchy, redecimationKnowsTheCostsThatItHadBefore)
+TEST(Hierarchy, RedecimationKnowsTheCostsThatItHadBefore)
 {
   const Mesh mesh = bumpySphere(5);
   HierarchyOptions options = makeOptions(0.05, 200);
@@ -435,7 +435,7 @@ TEST(Hierarchy, redecimationKnowsTheCostsThatItHadBefore)
 
 /// Rough surfaces cost more than the first ceilings allow. What was planned under one of them, with the same guards, is
 /// known under the next: otherwise one lookup in five finds something here, and with it three in ten.
-TEST(Hierarchy, laterCeilingsKnowThePlansOfEarlierOnes)
+TEST(Hierarchy, LaterCeilingsKnowThePlansOfEarlierOnes)
 {
   Mesh mesh = test::sphere(5);
   for (Vector3& p : mesh.position)
@@ -447,7 +447,7 @@ TEST(Hierarchy, laterCeilingsKnowThePlansOfEarlierOnes)
   EXPECT_GT(4 * report.hits, report.lookups);
 }
 
-TEST(Hierarchy, redecimationRefusesWhatPhase1HasRemoved)
+TEST(Hierarchy, RedecimationRefusesWhatPhase1HasRemoved)
 {
   const Mesh mesh = bumpySphere(4);
   HierarchyOptions options = makeOptions(0.4, 50);
@@ -465,7 +465,7 @@ TEST(Hierarchy, redecimationRefusesWhatPhase1HasRemoved)
   EXPECT_FALSE(levels.allows(options)) << "another edge length";
 }
 
-TEST(Hierarchy, everyComponentKeepsItsShare)
+TEST(Hierarchy, EveryComponentKeepsItsShare)
 {
   // One large sphere and thirty that are smaller than s.
   Mesh mesh = bumpySphere(4);
@@ -494,7 +494,7 @@ TEST(Hierarchy, everyComponentKeepsItsShare)
   }
 }
 
-TEST(Hierarchy, trianglesOfTheCoarseLevelAreWellShaped)
+TEST(Hierarchy, TrianglesOfTheCoarseLevelAreWellShaped)
 {
   const Mesh coarse = buildHierarchy(bumpySphere(5), 1, makeOptions(0.1, 500)).coarse.mesh;
   for (Index h = 0; h < coarse.halfEdgeCount(); ++h)
@@ -506,7 +506,7 @@ TEST(Hierarchy, trianglesOfTheCoarseLevelAreWellShaped)
   }
 }
 
-TEST(Hierarchy, refusesBadOptionsAndCancels)
+TEST(Hierarchy, RefusesBadOptionsAndCancels)
 {
   const Mesh mesh = sphere(2);
   EXPECT_THROW(buildHierarchy(mesh, 1, makeOptions(0, 10)), InvalidInput);

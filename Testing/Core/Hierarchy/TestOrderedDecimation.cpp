@@ -115,7 +115,7 @@ constexpr DecimationOrder kOtherOrders[] = { DecimationOrder::Heap, DecimationOr
 
 } // namespace
 
-TEST(OrderedDecimation, theHeapTakesTheShortestEdgeFirst)
+TEST(OrderedDecimation, TheHeapTakesTheShortestEdgeFirst)
 {
   const Mesh mesh = unevenSphere(3);
   const Hierarchy levels = buildHierarchy(mesh, 1, orderOptions(0.4, DecimationOrder::Heap));
@@ -148,7 +148,7 @@ TEST(OrderedDecimation, theHeapTakesTheShortestEdgeFirst)
   EXPECT_EQ(falls, 0U);
 }
 
-TEST(OrderedDecimation, moreCandidatesComeCloserToTheHeap)
+TEST(OrderedDecimation, MoreCandidatesComeCloserToTheHeap)
 {
   // The mean edge that a draw of the best of c of n vertices removes falls with c; by how much theory does not
   // say for meshes, but the order of the three is certain on a thousand vertices.
@@ -172,7 +172,7 @@ TEST(OrderedDecimation, moreCandidatesComeCloserToTheHeap)
   EXPECT_LT(meanOfFirst(orderOptions(0.4, DecimationOrder::Heap)), many);
 }
 
-TEST(OrderedDecimation, withoutDrawsItIsTheHeap)
+TEST(OrderedDecimation, WithoutDrawsItIsTheHeap)
 {
   const Mesh mesh = unevenSphere(4);
   HierarchyOptions options = orderOptions(0.2, DecimationOrder::Stochastic);
@@ -184,7 +184,7 @@ TEST(OrderedDecimation, withoutDrawsItIsTheHeap)
     buildHierarchy(mesh, 1, orderOptions(0.2, DecimationOrder::Heap)).log.serialize());
 }
 
-TEST(OrderedDecimation, theSeedAloneDecides)
+TEST(OrderedDecimation, TheSeedAloneDecides)
 {
   const Mesh mesh = unevenSphere(4);
   HierarchyOptions options = orderOptions(0.2, DecimationOrder::Stochastic);
@@ -195,7 +195,7 @@ TEST(OrderedDecimation, theSeedAloneDecides)
   EXPECT_NE(buildHierarchy(mesh, 1, options).log.serialize(), first);
 }
 
-TEST(OrderedDecimation, endsWhereTheSweepsEnd)
+TEST(OrderedDecimation, EndsWhereTheSweepsEnd)
 {
   const Mesh mesh = unevenSphere(5);
   const double s = 0.2;
@@ -210,7 +210,7 @@ TEST(OrderedDecimation, endsWhereTheSweepsEnd)
   }
 }
 
-TEST(OrderedDecimation, keepsTopologyAndCurvesOfEveryKindOfSurface)
+TEST(OrderedDecimation, KeepsTopologyAndCurvesOfEveryKindOfSurface)
 {
   const std::vector<Mesh> meshes{ unevenSphere(4), torus(60, 30), plateWithHole(10), plateL(15),
     openCylinder(48, 20), markFeatures(unitCube(14), kOrderFeatureAngle), twoComponents() };
@@ -248,7 +248,7 @@ TEST(OrderedDecimation, keepsTopologyAndCurvesOfEveryKindOfSurface)
   }
 }
 
-TEST(OrderedDecimation, keepsCubeCornersAndStraightEdges)
+TEST(OrderedDecimation, KeepsCubeCornersAndStraightEdges)
 {
   const Mesh mesh = markFeatures(unitCube(16), kOrderFeatureAngle);
   for (const DecimationOrder order : kOtherOrders)
@@ -268,7 +268,7 @@ TEST(OrderedDecimation, keepsCubeCornersAndStraightEdges)
   }
 }
 
-TEST(OrderedDecimation, anotherOrderNeedsPhase1Again)
+TEST(OrderedDecimation, AnotherOrderNeedsPhase1Again)
 {
   const Mesh mesh = unevenSphere(3);
   HierarchyOptions options = orderOptions(0.3, DecimationOrder::Stochastic);
@@ -280,7 +280,7 @@ TEST(OrderedDecimation, anotherOrderNeedsPhase1Again)
   EXPECT_FALSE(levels.allows(options));
 }
 
-TEST(OrderedDecimation, refusesEmptyDrawsAndCancels)
+TEST(OrderedDecimation, RefusesEmptyDrawsAndCancels)
 {
   const Mesh mesh = unevenSphere(4);
   HierarchyOptions options = orderOptions(0.2, DecimationOrder::Stochastic);

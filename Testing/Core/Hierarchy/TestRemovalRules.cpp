@@ -114,7 +114,7 @@ Mesh doublePyramid()
 
 } // namespace
 
-TEST(RemovalRules, aRemovedVertexDividesItsCurveAsItsEdgesWere)
+TEST(RemovalRules, ARemovedVertexDividesItsCurveAsItsEdgesWere)
 {
   // Edges of lengths 3 and 1: its place on the isoline is three quarters of the way, to the log's 2^-32.
   Mesh mesh = gridPlane(8, 8);
@@ -137,7 +137,7 @@ TEST(RemovalRules, aRemovedVertexDividesItsCurveAsItsEdgesWere)
   EXPECT_EQ(record.weight[1], 0U);
 }
 
-TEST(RemovalRules, theTwoFacesOfAClosedTetrahedronStay)
+TEST(RemovalRules, TheTwoFacesOfAClosedTetrahedronStay)
 {
   // Every vertex of a tetrahedron has a free star of three faces; without it two faces would lie on each other.
   const Mesh tetrahedron =
@@ -153,7 +153,7 @@ TEST(RemovalRules, theTwoFacesOfAClosedTetrahedronStay)
   }
 }
 
-TEST(RemovalRules, anEdgeThatExistsIsNotMadeAgain)
+TEST(RemovalRules, AnEdgeThatExistsIsNotMadeAgain)
 {
   const Mesh octahedron = makeMesh({ Vector3(0.8, 0, 0), Vector3(0, 1, 0), Vector3(-0.8, 0, 0),
                                      Vector3(0, -1, 0), Vector3(0, 0, 1), Vector3(0, 0, -1) },
@@ -177,7 +177,7 @@ TEST(RemovalRules, anEdgeThatExistsIsNotMadeAgain)
   EXPECT_EQ(validate(work.extract().mesh), "") << "a tetrahedron";
 }
 
-TEST(RemovalRules, aCurveMayNotCloseATriangle)
+TEST(RemovalRules, ACurveMayNotCloseATriangle)
 {
   // Three features round one face that is cut into three at its middle [Hoppe 1996]: without a corner its two edges
   // would become one with the third.
@@ -196,7 +196,7 @@ TEST(RemovalRules, aCurveMayNotCloseATriangle)
   }
 }
 
-TEST(RemovalRules, deviationsOfACurveAddUp)
+TEST(RemovalRules, DeviationsOfACurveAddUp)
 {
   // Each vertex of a feature may go by itself, but one that took another's deviation over may not.
   Mesh mesh = gridPlane(10, 10);
@@ -221,7 +221,7 @@ TEST(RemovalRules, deviationsOfACurveAddUp)
   EXPECT_TRUE(removal.surroundingsFit(guards)) << "its own distance alone would do";
 }
 
-TEST(RemovalRules, aStarThatMeetsAVertexTwiceStays)
+TEST(RemovalRules, AStarThatMeetsAVertexTwiceStays)
 {
   // As at an edge of four faces, whose two sheets share both of its ends.
   Mesh mesh = doublePyramid();
@@ -234,7 +234,7 @@ TEST(RemovalRules, aStarThatMeetsAVertexTwiceStays)
   EXPECT_EQ(planFast(joined, 6, looseGuards()), FreeStar::Outcome::Unsuited);
 }
 
-TEST(RemovalRules, aCurveIsStraightInThePlanarMap)
+TEST(RemovalRules, ACurveIsStraightInThePlanarMap)
 {
   // The neighbour inside a bend lies short of the chord that takes the bend's place. On the surface its triangle would
   // turn round, in the map, where each side of a curve has half a turn, there is room for it.
@@ -247,7 +247,7 @@ TEST(RemovalRules, aCurveIsStraightInThePlanarMap)
   EXPECT_TRUE(canGo(work, v, looseGuards()));
 }
 
-TEST(RemovalRules, chordsMoveAlongACurveOnlyToAnotherOne)
+TEST(RemovalRules, ChordsMoveAlongACurveOnlyToAnotherOne)
 {
   // Two features with a row of chords between them.
   const Mesh grid = gridPlane(8, 8);
@@ -269,7 +269,7 @@ TEST(RemovalRules, chordsMoveAlongACurveOnlyToAnotherOne)
   EXPECT_FALSE(canGo(work, v, looseGuards()));
 }
 
-TEST(RemovalRules, aFaceHasOneConstrainedEdge)
+TEST(RemovalRules, AFaceHasOneConstrainedEdge)
 {
   const Vector3 a(2, 2, 0), b(3, 2, 0), c(3, 3, 0);
   const Mesh mesh = planeWithCutFace(a, b, c);
@@ -280,7 +280,7 @@ TEST(RemovalRules, aFaceHasOneConstrainedEdge)
   EXPECT_FALSE(canGo(two, middle, looseGuards()));
 }
 
-TEST(RemovalRules, facesOfThreeCurveVerticesWaitForTheLastStage)
+TEST(RemovalRules, FacesOfThreeCurveVerticesWaitForTheLastStage)
 {
   const Vector3 a(2, 2, 0), b(3, 2, 0), c(3, 3, 0);
   const Mesh mesh = planeWithCutFace(a, b, c);

@@ -16,7 +16,7 @@ StarCache::Words keyOf(std::uint32_t i)
 
 } // namespace
 
-TEST(StarCache, findsEveryEntryAfterItHasGrown)
+TEST(StarCache, FindsEveryEntryAfterItHasGrown)
 {
   StarCache cache;
   EXPECT_EQ(cache.find(keyOf(0)), nullptr);

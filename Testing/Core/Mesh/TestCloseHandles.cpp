@@ -28,7 +28,7 @@ void expectSourcesFit(const PreparedSurface& surface)
   ASSERT_EQ(surface.refinedEntry.size(), surface.mesh.faceCount());
 }
 
-TEST(CloseHandles, tinyHandleOfASphereIsGone)
+TEST(CloseHandles, TinyHandleOfASphereIsGone)
 {
   const test::SphereWithHandle model = test::sphereWithHandle(4, Vector3(1, 2, 3).normalized());
   PreparedSurface surface = test::prepare(test::toInput(model.mesh));
@@ -49,7 +49,7 @@ TEST(CloseHandles, tinyHandleOfASphereIsGone)
   expectSourcesFit(surface);
 }
 
-TEST(CloseHandles, capsTakeTheAttributesOfTheFacesBesideThem)
+TEST(CloseHandles, CapsTakeTheAttributesOfTheFacesBesideThem)
 {
   const Mesh mesh = test::torus(40, 10, 1, 0.2);
   PreparedSurface surface = test::prepare(test::toInput(mesh));
@@ -70,7 +70,7 @@ TEST(CloseHandles, capsTakeTheAttributesOfTheFacesBesideThem)
   EXPECT_EQ(surface.mesh.faceCount(), mesh.faceCount() + 20);
 }
 
-TEST(CloseHandles, allHandlesOfABlockOneByOne)
+TEST(CloseHandles, AllHandlesOfABlockOneByOne)
 {
   PreparedSurface surface = test::prepare(test::toInput(test::doubleTorus(4)));
   // Two loops of 4 sides each, in one call: one component, no handle.
@@ -80,7 +80,7 @@ TEST(CloseHandles, allHandlesOfABlockOneByOne)
   EXPECT_EQ(summarizeTopology(surface.mesh).components, 1u);
 }
 
-TEST(CloseHandles, oneHandleIsNeverCutTwice)
+TEST(CloseHandles, OneHandleIsNeverCutTwice)
 {
   PreparedSurface surface = test::prepare(test::toInput(test::torus(40, 10, 1, 0.2)));
   std::vector<std::vector<Index>> places;
@@ -93,7 +93,7 @@ TEST(CloseHandles, oneHandleIsNeverCutTwice)
   EXPECT_EQ(summarizeTopology(surface.mesh).eulerCharacteristic, 2);
 }
 
-TEST(CloseHandles, whatIsLongOrNoHandleStays)
+TEST(CloseHandles, WhatIsLongOrNoHandleStays)
 {
   for (const Mesh& mesh :
     { test::torus(40, 10, 1, 0.2), test::sphere(3), test::openCylinder(20, 20, 0.1, 1) })
@@ -111,7 +111,7 @@ TEST(CloseHandles, whatIsLongOrNoHandleStays)
   }
 }
 
-TEST(CloseHandles, loopsOfTheBoundaryAreNotCut)
+TEST(CloseHandles, LoopsOfTheBoundaryAreNotCut)
 {
   // A row of holes with every vertex of one circle on one of them: each loop round the tube meets the boundary.
   constexpr Index kAround = 40;

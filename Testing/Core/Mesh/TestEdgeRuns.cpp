@@ -52,7 +52,7 @@ std::vector<Line> sortedLines(const std::vector<Index>& origin)
 
 } // namespace
 
-TEST(EdgeRuns, comeInTheOrderOfLowerVertexHigherVertexHalfEdge)
+TEST(EdgeRuns, ComeInTheOrderOfLowerVertexHigherVertexHalfEdge)
 {
   // Random triangles on few vertices: buckets of all sizes up to hundreds, edges with many faces.
   std::mt19937 random(7);
@@ -78,7 +78,7 @@ TEST(EdgeRuns, comeInTheOrderOfLowerVertexHigherVertexHalfEdge)
   EXPECT_EQ(linesOf(mesh.origin, mesh.vertexCount(), 2), sortedLines(mesh.origin));
 }
 
-TEST(EdgeRuns, refusesWhatIsNoTriangleList)
+TEST(EdgeRuns, RefusesWhatIsNoTriangleList)
 {
   EXPECT_THROW(EdgeRuns({ 0, 1, 2, 0 }, 3, 1), InvalidInput);
   EXPECT_THROW(EdgeRuns({ 0, 1, 3 }, 3, 1), InvalidInput);

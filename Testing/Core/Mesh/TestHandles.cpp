@@ -17,7 +17,7 @@ namespace quadrille
 namespace
 {
 
-TEST(Handles, noneOnASphereOrAPlate)
+TEST(Handles, NoneOnASphereOrAPlate)
 {
   for (const Mesh& mesh : { test::sphere(3), test::plateWithHole(4), test::openCylinder(12, 8) })
   {
@@ -29,7 +29,7 @@ TEST(Handles, noneOnASphereOrAPlate)
   }
 }
 
-TEST(Handles, genusIsThatOfTheEulerCharacteristic)
+TEST(Handles, GenusIsThatOfTheEulerCharacteristic)
 {
   EXPECT_EQ(findHandles(test::torus(20, 10), 1e-3).handles, 1u);
   EXPECT_EQ(findHandles(test::doubleTorus(3), 1e-3).handles, 2u);
@@ -52,7 +52,7 @@ TEST(Handles, genusIsThatOfTheEulerCharacteristic)
   }
 }
 
-TEST(Handles, boundaryLoopsCountAsClosed)
+TEST(Handles, BoundaryLoopsCountAsClosed)
 {
   // A torus with a hole: cut along a loop round the hole it would fall apart.
   Mesh mesh = test::torus(40, 20, 1, 0.3);
@@ -83,7 +83,7 @@ Mesh twistedTorus(double radius, double tube)
     });
 }
 
-TEST(Handles, shorterLoopOfAThinTorusIsItsMeridian)
+TEST(Handles, ShorterLoopOfAThinTorusIsItsMeridian)
 {
   for (const Mesh& mesh : { test::torus(60, 24, 1, 0.2), twistedTorus(1, 0.2) })
   {
@@ -96,7 +96,7 @@ TEST(Handles, shorterLoopOfAThinTorusIsItsMeridian)
   }
 }
 
-TEST(Handles, shorterLoopOfAFatTorusGoesThroughTheHole)
+TEST(Handles, ShorterLoopOfAFatTorusGoesThroughTheHole)
 {
   const Mesh mesh = test::torus(60, 60, 1, 0.8);
   const double equator = 2 * test::kPi * 0.2;
@@ -109,7 +109,7 @@ TEST(Handles, shorterLoopOfAFatTorusGoesThroughTheHole)
   }
 }
 
-TEST(Handles, bothLoopsOfOneHandleShortCountsOnce)
+TEST(Handles, BothLoopsOfOneHandleShortCountsOnce)
 {
   const HandleReport report = findHandles(test::torus(30, 20, 1, 0.45), 100);
   EXPECT_EQ(report.handles, 1u);
@@ -117,7 +117,7 @@ TEST(Handles, bothLoopsOfOneHandleShortCountsOnce)
   EXPECT_EQ(findHandles(test::doubleTorus(3), 100).loops.size(), 2u);
 }
 
-TEST(Handles, theShortestIsKnownAboveTheLimitToo)
+TEST(Handles, TheShortestIsKnownAboveTheLimitToo)
 {
   const HandleReport report = findHandles(test::torus(60, 24, 1, 0.2), 0.01);
   EXPECT_TRUE(report.loops.empty());
@@ -125,7 +125,7 @@ TEST(Handles, theShortestIsKnownAboveTheLimitToo)
   EXPECT_NEAR(report.shortest->length, 2 * test::kPi * 0.2, 0.04 * 2 * test::kPi * 0.2);
 }
 
-TEST(Handles, tinyHandleOnASphereIsFoundAtItsPlace)
+TEST(Handles, TinyHandleOnASphereIsFoundAtItsPlace)
 {
   const Vector3 place = Vector3(1, 2, 3).normalized();
   const test::SphereWithHandle model = test::sphereWithHandle(4, place);
@@ -140,7 +140,7 @@ TEST(Handles, tinyHandleOnASphereIsFoundAtItsPlace)
   }
 }
 
-TEST(Handles, sameLoopsAgain)
+TEST(Handles, SameLoopsAgain)
 {
   const Mesh mesh = test::doubleTorus(4);
   const HandleReport a = findHandles(mesh, 100), b = findHandles(mesh, 100);
@@ -152,14 +152,14 @@ TEST(Handles, sameLoopsAgain)
   }
 }
 
-TEST(Handles, limitMustBePositive)
+TEST(Handles, LimitMustBePositive)
 {
   EXPECT_THROW(findHandles(test::torus(20, 10), 0), InvalidInput);
   EXPECT_THROW(
     findHandles(test::torus(20, 10), std::numeric_limits<double>::quiet_NaN()), InvalidInput);
 }
 
-TEST(LoopSearch, loopsAreClosedSimpleAndAsLongAsTheirEdges)
+TEST(LoopSearch, LoopsAreClosedSimpleAndAsLongAsTheirEdges)
 {
   const Mesh mesh = test::doubleTorus(4);
   LoopSearch search(mesh, LoopSearch::kInnerEdges);
@@ -193,7 +193,7 @@ TEST(LoopSearch, loopsAreClosedSimpleAndAsLongAsTheirEdges)
   }
 }
 
-TEST(LoopSearch, meridianAndEquatorCrossOnce)
+TEST(LoopSearch, MeridianAndEquatorCrossOnce)
 {
   const Mesh mesh = test::torus(40, 20, 1, 0.45);
   LoopSearch search(mesh, LoopSearch::kStraightened);
@@ -212,7 +212,7 @@ TEST(LoopSearch, meridianAndEquatorCrossOnce)
   }
 }
 
-TEST(Boundary, loopsAndTheShortest)
+TEST(Boundary, LoopsAndTheShortest)
 {
   const BoundaryReport plate = measureBoundary(test::plateWithHole(4), 20);
   EXPECT_EQ(plate.loops, 2u);

@@ -37,7 +37,7 @@ std::vector<Mesh> cleanMeshes()
 
 } // namespace
 
-TEST(Prepare, cleanMeshesKeepTheirTopologyAndNothingIsReported)
+TEST(Prepare, CleanMeshesKeepTheirTopologyAndNothingIsReported)
 {
   for (const Mesh& mesh : cleanMeshes())
   {
@@ -57,7 +57,7 @@ TEST(Prepare, cleanMeshesKeepTheirTopologyAndNothingIsReported)
   }
 }
 
-TEST(Prepare, sameBytesForAnyNumberOfThreads)
+TEST(Prepare, SameBytesForAnyNumberOfThreads)
 {
   const Mesh mesh = disjointUnion(sphere(6), torus(200, 150), { 3, 0, 0 });
   for (const SurfaceInput& input :
@@ -67,7 +67,7 @@ TEST(Prepare, sameBytesForAnyNumberOfThreads)
   }
 }
 
-TEST(Prepare, soupAndRandomOrientationGiveBackTheMesh)
+TEST(Prepare, SoupAndRandomOrientationGiveBackTheMesh)
 {
   for (const Mesh& mesh : cleanMeshes())
   {
@@ -86,13 +86,13 @@ TEST(Prepare, soupAndRandomOrientationGiveBackTheMesh)
   }
 }
 
-TEST(Prepare, soupCountsTheMergedPoints)
+TEST(Prepare, SoupCountsTheMergedPoints)
 {
   const Mesh mesh = sphere(2);
   EXPECT_EQ(prepare(toSoup(mesh)).repair.mergedPoints, mesh.halfEdgeCount() - mesh.vertexCount());
 }
 
-TEST(Prepare, closedComponentsThatAreInsideOutStayInsideOut)
+TEST(Prepare, ClosedComponentsThatAreInsideOutStayInsideOut)
 {
   SurfaceInput input = toInput(unitCube(2));
   for (std::size_t i = 0; i < input.polygonPoints.size(); i += 3)
@@ -105,7 +105,7 @@ TEST(Prepare, closedComponentsThatAreInsideOutStayInsideOut)
   EXPECT_NEAR(signedVolume(surface.mesh), -1, 1e-14);
 }
 
-TEST(Prepare, mostFacesDecideTheOrientation)
+TEST(Prepare, MostFacesDecideTheOrientation)
 {
   SurfaceInput input = toInput(sphere(2));
   std::swap(input.polygonPoints[31], input.polygonPoints[32]);
@@ -116,7 +116,7 @@ TEST(Prepare, mostFacesDecideTheOrientation)
   expectSound(surface, input);
 }
 
-TEST(Prepare, hashTellsPositionsConnectivityAndFeaturesApart)
+TEST(Prepare, HashTellsPositionsConnectivityAndFeaturesApart)
 {
   SurfaceInput input = toInput(unitCube(3));
   const std::uint64_t hash = prepare(input).hash;
@@ -133,7 +133,7 @@ TEST(Prepare, hashTellsPositionsConnectivityAndFeaturesApart)
   EXPECT_NE(prepare(smaller).hash, hash);
 }
 
-TEST(Prepare, featuresByAngle)
+TEST(Prepare, FeaturesByAngle)
 {
   const PreparedSurface cube = prepare(toInput(unitCube(4)), kPi / 4);
   EXPECT_EQ(featureHalfEdges(cube.mesh), 12 * 4 * 2u);
@@ -142,7 +142,7 @@ TEST(Prepare, featuresByAngle)
   EXPECT_EQ(featureHalfEdges(none.mesh), 0u);
 }
 
-TEST(Prepare, featuresByPatchAndByBits)
+TEST(Prepare, FeaturesByPatchAndByBits)
 {
   SurfaceInput input = toInput(gridPlane(4, 4));
   input.patchIds.assign(32, -5);
@@ -167,7 +167,7 @@ TEST(Prepare, featuresByPatchAndByBits)
   EXPECT_EQ(middle, Vector3(0.5, 0.5, 0));
 }
 
-TEST(Prepare, sliversMakeNoFeaturesOfTheirOwn)
+TEST(Prepare, SliversMakeNoFeaturesOfTheirOwn)
 {
   // Two flat triangles with a sliver between them, whose apex is off the plane by less than floats
   // resolve but makes its normal point sideways.
@@ -180,7 +180,7 @@ TEST(Prepare, sliversMakeNoFeaturesOfTheirOwn)
   EXPECT_EQ(featureHalfEdges(surface.mesh), 0u);
 }
 
-TEST(Prepare, invalidInputIsNamed)
+TEST(Prepare, InvalidInputIsNamed)
 {
   const SurfaceInput good = toInput(unitCube(1));
   const auto messageFor = [&good](const std::function<void(SurfaceInput&)>& damage)
@@ -214,7 +214,7 @@ TEST(Prepare, invalidInputIsNamed)
     "no face is left"));
 }
 
-TEST(Prepare, cancelStops)
+TEST(Prepare, CancelStops)
 {
   PrepareOptions options;
   int calls = 0;
@@ -223,7 +223,7 @@ TEST(Prepare, cancelStops)
   EXPECT_EQ(calls, 3);
 }
 
-TEST(Prepare, subStagesAreTimed)
+TEST(Prepare, SubStagesAreTimed)
 {
   const PreparedSurface surface = prepare(toInput(sphere(1)));
   ASSERT_EQ(surface.seconds.size(), 3u);

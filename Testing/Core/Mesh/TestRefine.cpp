@@ -118,7 +118,7 @@ void expectRefined(const SurfaceInput& input, double featureAngle, double maximu
 
 } // namespace
 
-TEST(Refine, longEdgesAndChordsAreSplitAndTheSurfaceStays)
+TEST(Refine, LongEdgesAndChordsAreSplitAndTheSurfaceStays)
 {
   expectRefined(tessellatedCylinder(48), 0.7, 0.3);
   expectRefined(toInput(unitCube(1)), 0.7, 0.2);
@@ -131,7 +131,7 @@ TEST(Refine, longEdgesAndChordsAreSplitAndTheSurfaceStays)
   expectRefined(toInput(twoComponents()), 0.7, 0.2);
 }
 
-TEST(Refine, aSingleTriangleGetsAVertexInside)
+TEST(Refine, ASingleTriangleGetsAVertexInside)
 {
   const SurfaceInput input = makeInput({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, { { 0, 1, 2 } });
   PreparedSurface surface = prepare(input);
@@ -145,7 +145,7 @@ TEST(Refine, aSingleTriangleGetsAVertexInside)
   EXPECT_GE(surface.mesh.faceCount(), 20u);
 }
 
-TEST(Refine, aFineMeshWithoutChordsIsLeftAlone)
+TEST(Refine, AFineMeshWithoutChordsIsLeftAlone)
 {
   PreparedSurface surface = prepare(toInput(sphere(3)));
   const std::uint64_t hash = surface.hash;
@@ -155,7 +155,7 @@ TEST(Refine, aFineMeshWithoutChordsIsLeftAlone)
   EXPECT_TRUE(surface.refinedEntry.empty());
 }
 
-TEST(Refine, locateFollowsAnyPointOfAnyFace)
+TEST(Refine, LocateFollowsAnyPointOfAnyFace)
 {
   const SurfaceInput input = tessellatedCylinder(24);
   PreparedSurface surface = prepare(input, 0.7);
@@ -181,7 +181,7 @@ TEST(Refine, locateFollowsAnyPointOfAnyFace)
   }
 }
 
-TEST(Refine, smallestAngleAtMostHalvesTwice)
+TEST(Refine, SmallestAngleAtMostHalvesTwice)
 {
   // Longest-edge bisection keeps angles above half of the smallest one [Rosenberg, Stenger 1975]; a
   // chord or a constrained corner may be cut once more.
@@ -197,7 +197,7 @@ TEST(Refine, smallestAngleAtMostHalvesTwice)
   EXPECT_GT(smallest, kPi / 4 / 4);
 }
 
-TEST(Refine, runsTwiceToTheSameBytes)
+TEST(Refine, RunsTwiceToTheSameBytes)
 {
   const SurfaceInput input = tessellatedCylinder(32);
   PreparedSurface first = prepare(input, 0.7, 1);
@@ -209,7 +209,7 @@ TEST(Refine, runsTwiceToTheSameBytes)
   EXPECT_EQ(first.cornerWeights, second.cornerWeights);
 }
 
-TEST(Refine, aSecondRefinementBuildsOnTheFirst)
+TEST(Refine, ASecondRefinementBuildsOnTheFirst)
 {
   const SurfaceInput input = toInput(unitCube(1));
   PreparedSurface surface = prepare(input, 0.7);
@@ -219,7 +219,7 @@ TEST(Refine, aSecondRefinementBuildsOnTheFirst)
   EXPECT_LE(longestEdge(surface.mesh), 0.1);
 }
 
-TEST(Refine, growthIsBoundedAndTold)
+TEST(Refine, GrowthIsBoundedAndTold)
 {
   // 2000 strips a thousand times longer than the edge length would need millions of faces.
   std::vector<Vector3> points;
@@ -243,7 +243,7 @@ TEST(Refine, growthIsBoundedAndTold)
   EXPECT_LT(surface.mesh.faceCount(), 4 * bound);
 }
 
-TEST(Refine, badLengthsAreRefused)
+TEST(Refine, BadLengthsAreRefused)
 {
   PreparedSurface surface = prepare(toInput(sphere(1)));
   for (const double length : { 0.0, -1.0, double(NAN), double(INFINITY) })

@@ -88,7 +88,7 @@ SurfaceInput moebius(int n)
 
 } // namespace
 
-TEST(Repair, solidsThatShareAnEdgeComeApart)
+TEST(Repair, SolidsThatShareAnEdgeComeApart)
 {
   const SurfaceInput input = twoCubes({ 1, 1, 0 });
   ASSERT_EQ(input.points.size(), 14u);
@@ -102,7 +102,7 @@ TEST(Repair, solidsThatShareAnEdgeComeApart)
   EXPECT_EQ(summary.eulerCharacteristic, 4);
 }
 
-TEST(Repair, solidsThatShareAVertexComeApart)
+TEST(Repair, SolidsThatShareAVertexComeApart)
 {
   const SurfaceInput input = twoCubes({ 1, 1, 1 });
   ASSERT_EQ(input.points.size(), 15u);
@@ -113,7 +113,7 @@ TEST(Repair, solidsThatShareAVertexComeApart)
   EXPECT_EQ(summarizeTopology(surface.mesh).components, 2u);
 }
 
-TEST(Repair, aWallBetweenTwoSolidsKeepsBothSides)
+TEST(Repair, AWallBetweenTwoSolidsKeepsBothSides)
 {
   const SurfaceInput input = twoCubes({ 1, 0, 0 });
   ASSERT_EQ(input.points.size(), 12u);
@@ -126,7 +126,7 @@ TEST(Repair, aWallBetweenTwoSolidsKeepsBothSides)
   EXPECT_EQ(summary.eulerCharacteristic, 4);
 }
 
-TEST(Repair, aSheetWithTwoSidesKeepsOne)
+TEST(Repair, ASheetWithTwoSidesKeepsOne)
 {
   SurfaceInput input = toInput(gridPlane(5, 4));
   const std::size_t corners = input.polygonPoints.size();
@@ -143,7 +143,7 @@ TEST(Repair, aSheetWithTwoSidesKeepsOne)
   EXPECT_EQ(summarizeTopology(surface.mesh).eulerCharacteristic, 1);
 }
 
-TEST(Repair, aFlapWithTwoSidesGoes)
+TEST(Repair, AFlapWithTwoSidesGoes)
 {
   // One triangle, in both orientations, that hangs on an edge of a sphere.
   SurfaceInput input = toInput(sphere(1));
@@ -160,7 +160,7 @@ TEST(Repair, aFlapWithTwoSidesGoes)
   EXPECT_EQ(summarizeTopology(surface.mesh).eulerCharacteristic, 2);
 }
 
-TEST(Repair, repeatedFacesGo)
+TEST(Repair, RepeatedFacesGo)
 {
   SurfaceInput input = toInput(torus(8, 6));
   for (const std::size_t face : { 3u, 40u, 3u })
@@ -178,7 +178,7 @@ TEST(Repair, repeatedFacesGo)
   EXPECT_EQ(summarizeTopology(surface.mesh).boundaryLoops, 0u);
 }
 
-TEST(Repair, aFinOnASheetLeavesTheSheetWhole)
+TEST(Repair, AFinOnASheetLeavesTheSheetWhole)
 {
   // A flat sheet, and a row of faces that stands on its middle line: three faces at each edge.
   SurfaceInput input = toInput(gridPlane(4, 4));
@@ -207,14 +207,14 @@ TEST(Repair, aFinOnASheetLeavesTheSheetWhole)
   EXPECT_EQ(std::count(component.begin(), component.end(), sheet), 32);
 }
 
-TEST(Repair, aMoebiusStripIsRefusedByName)
+TEST(Repair, AMoebiusStripIsRefusedByName)
 {
   const std::string message = messageOf([] { prepare(moebius(12)); });
   EXPECT_TRUE(contains(message, "not orientable")) << message;
   EXPECT_TRUE(contains(message, "polygon ")) << message;
 }
 
-TEST(Repair, isolatedPointsGo)
+TEST(Repair, IsolatedPointsGo)
 {
   SurfaceInput input = toInput(sphere(1));
   input.points.insert(input.points.begin(), 3, Vector3(9, 9, 9));
@@ -228,7 +228,7 @@ TEST(Repair, isolatedPointsGo)
   EXPECT_EQ(surface.repair.text(), "3 isolated points dropped");
 }
 
-TEST(Repair, tooSmallClosedComponentsGo)
+TEST(Repair, TooSmallClosedComponentsGo)
 {
   SurfaceInput input = toInput(sphere(1));
   const Index a = static_cast<Index>(input.points.size());
@@ -249,7 +249,7 @@ TEST(Repair, tooSmallClosedComponentsGo)
   EXPECT_EQ(surface.mesh.faceCount(), 80u);
 }
 
-TEST(Repair, facesWithARepeatedCornerGo)
+TEST(Repair, FacesWithARepeatedCornerGo)
 {
   SurfaceInput input = toInput(sphere(1));
   input.polygonPoints.insert(input.polygonPoints.end(), { 4, 4, 7, 3, 8, 3 });
@@ -261,7 +261,7 @@ TEST(Repair, facesWithARepeatedCornerGo)
   EXPECT_EQ(surface.mesh.faceCount(), 80u);
 }
 
-TEST(Repair, capsAreFlippedAndNoHoleOpens)
+TEST(Repair, CapsAreFlippedAndNoHoleOpens)
 {
   // The top of a box has a vertex in the middle of one edge that the side does not know; faces without
   // area (0, 1, m) close the gap.
@@ -290,7 +290,7 @@ TEST(Repair, capsAreFlippedAndNoHoleOpens)
   EXPECT_EQ(featureHalfEdges(surface.mesh), 28u);
 }
 
-TEST(Repair, anExplicitFeatureOnACapGoesToItsOtherEdges)
+TEST(Repair, AnExplicitFeatureOnACapGoesToItsOtherEdges)
 {
   SurfaceInput input =
     makeInput({ { 0, 0, 0 }, { 2, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 1, -1, 0 } },
@@ -302,7 +302,7 @@ TEST(Repair, anExplicitFeatureOnACapGoesToItsOtherEdges)
   EXPECT_EQ(featureHalfEdges(surface.mesh), 4u);
 }
 
-TEST(Repair, zeroLengthEdgesAreCollapsed)
+TEST(Repair, ZeroLengthEdgesAreCollapsed)
 {
   // A torus where one vertex was split in two at the same place: two faces without area.
   const Mesh mesh = torus(10, 8);
@@ -332,7 +332,7 @@ TEST(Repair, zeroLengthEdgesAreCollapsed)
   EXPECT_EQ(summarizeTopology(surface.mesh).eulerCharacteristic, 0);
 }
 
-TEST(Repair, anEdgeBetweenTwoPillarsIsNotDoubled)
+TEST(Repair, AnEdgeBetweenTwoPillarsIsNotDoubled)
 {
   // Top and bottom layer are full, between them stand two pillars that touch along an edge. Apart, they
   // share its two ends, which lie in one fan each: the same two vertices would have two edges.
@@ -355,7 +355,7 @@ TEST(Repair, anEdgeBetweenTwoPillarsIsNotDoubled)
   EXPECT_NEAR(signedVolume(surface.mesh), 10, 1e-13);
 }
 
-TEST(Repair, textNamesWhatChanged)
+TEST(Repair, TextNamesWhatChanged)
 {
   RepairReport report;
   EXPECT_EQ(report.text(), "");

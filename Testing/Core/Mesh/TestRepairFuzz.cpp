@@ -151,7 +151,7 @@ private:
 
 } // namespace
 
-TEST(RepairFuzz, aValidSurfaceOrAnError)
+TEST(RepairFuzz, AValidSurfaceOrAnError)
 {
   int prepared = 0;
   for (unsigned seed = 0; seed < 1000; ++seed)

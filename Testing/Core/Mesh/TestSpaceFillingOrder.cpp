@@ -14,7 +14,7 @@ namespace quadrille
 
 using namespace test;
 
-TEST(SpaceFillingOrder, hilbertCurveVisitsEveryCellAndStepsToANeighbour)
+TEST(SpaceFillingOrder, HilbertCurveVisitsEveryCellAndStepsToANeighbour)
 {
   constexpr int kBits = 3;
   constexpr std::uint32_t kSize = 1u << kBits;
@@ -43,7 +43,7 @@ TEST(SpaceFillingOrder, hilbertCurveVisitsEveryCellAndStepsToANeighbour)
   }
 }
 
-TEST(SpaceFillingOrder, isAPermutationAndKeepsTheOrderOfEqualPoints)
+TEST(SpaceFillingOrder, IsAPermutationAndKeepsTheOrderOfEqualPoints)
 {
   std::vector<Vector3> points(1000, Vector3(1, 2, 3));
   std::vector<Index> order = spaceFillingOrder(points, 2);
@@ -55,7 +55,7 @@ TEST(SpaceFillingOrder, isAPermutationAndKeepsTheOrderOfEqualPoints)
   EXPECT_TRUE(spaceFillingOrder({}, 1).empty());
 }
 
-TEST(SpaceFillingOrder, isTheOrderOfTheKeys)
+TEST(SpaceFillingOrder, IsTheOrderOfTheKeys)
 {
   // One in ten points is far away, so that the others fill few buckets with many items each, more than are sorted
   // by comparing, and many points share a cell.
@@ -84,7 +84,7 @@ TEST(SpaceFillingOrder, isTheOrderOfTheKeys)
   }
 }
 
-TEST(SpaceFillingOrder, neighboursInStorageAreNeighboursInSpace)
+TEST(SpaceFillingOrder, NeighboursInStorageAreNeighboursInSpace)
 {
   // On a surface, a curve that fills space jumps far only now and then: the mean step stays within a
   // few edge lengths, where shuffled vertices would be a radius apart.

@@ -26,7 +26,7 @@
 using namespace quadrille;
 using namespace quadrille::test;
 
-TEST(Stops, everyPassOverTheMeshCanBeStopped)
+TEST(Stops, EveryPassOverTheMeshCanBeStopped)
 {
   PreparedSurface surface;
   surface.mesh = gridPlane(6, 5);

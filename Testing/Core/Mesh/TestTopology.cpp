@@ -49,7 +49,7 @@ std::string refusalOf(const std::function<void()>& call)
 
 } // namespace
 
-TEST(Topology, sharedMeshesHaveTheirTopology)
+TEST(Topology, SharedMeshesHaveTheirTopology)
 {
   for (const NamedMesh& named : sharedMeshes())
   {
@@ -67,7 +67,7 @@ TEST(Topology, sharedMeshesHaveTheirTopology)
 }
 
 // More faces than one thread takes at once.
-TEST(Topology, summaryByManyThreads)
+TEST(Topology, SummaryByManyThreads)
 {
   Mesh mesh = test::torus(200, 150);
   for (const int i : { 1, 2, 3 })
@@ -84,7 +84,7 @@ TEST(Topology, summaryByManyThreads)
   }
 }
 
-TEST(Topology, outgoingHalfEdgesReachEveryFaceOfTheirVertex)
+TEST(Topology, OutgoingHalfEdgesReachEveryFaceOfTheirVertex)
 {
   for (const NamedMesh& named : sharedMeshes())
   {
@@ -106,7 +106,7 @@ TEST(Topology, outgoingHalfEdgesReachEveryFaceOfTheirVertex)
   }
 }
 
-TEST(Topology, cubeHasItsTwelveEdgesAsFeatures)
+TEST(Topology, CubeHasItsTwelveEdgesAsFeatures)
 {
   const Mesh cube = test::markFeatures(test::unitCube(5), test::kPi / 4);
   // 12 edges of 5 cells each, two half-edges an edge.
@@ -114,7 +114,7 @@ TEST(Topology, cubeHasItsTwelveEdgesAsFeatures)
   EXPECT_EQ(validate(cube), "");
 }
 
-TEST(Topology, componentsAreNumberedByTheirLowestFace)
+TEST(Topology, ComponentsAreNumberedByTheirLowestFace)
 {
   Index count = 0;
   const Mesh mesh = test::twoComponents();
@@ -124,7 +124,7 @@ TEST(Topology, componentsAreNumberedByTheirLowestFace)
   EXPECT_EQ(std::count(component.begin(), component.end(), 0u), 320);
 }
 
-TEST(Topology, pairingSurvivesAVertexOfHighValence)
+TEST(Topology, PairingSurvivesAVertexOfHighValence)
 {
   // A cone of 20,000 faces: all in the bucket of vertex 0, which must not cost quadratic time.
   const Index rim = 20000;
@@ -137,7 +137,7 @@ TEST(Topology, pairingSurvivesAVertexOfHighValence)
   EXPECT_EQ(std::count(twin.begin(), twin.end(), kInvalidIndex), rim);
 }
 
-TEST(Topology, pairingNamesWhatIsWrong)
+TEST(Topology, PairingNamesWhatIsWrong)
 {
   EXPECT_NE(refusalOf(
               [] {
@@ -161,7 +161,7 @@ TEST(Topology, pairingNamesWhatIsWrong)
   EXPECT_TRUE(pairHalfEdges({}, 0).empty());
 }
 
-TEST(Topology, validateFindsEachKindOfDamage)
+TEST(Topology, ValidateFindsEachKindOfDamage)
 {
   const Mesh good = test::markFeatures(test::unitCube(2), 1);
   const auto damaged = [&good](const std::function<void(Mesh&)>& damage)
@@ -180,7 +180,7 @@ TEST(Topology, validateFindsEachKindOfDamage)
   EXPECT_NE(damaged([](Mesh& m) { m.origin[0] = m.vertexCount(); }), "");
 }
 
-TEST(Topology, validateFindsABowTie)
+TEST(Topology, ValidateFindsABowTie)
 {
   const Mesh bowTie =
     test::makeMesh({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { -1, 0, 0 }, { -1, -1, 0 } },

@@ -54,7 +54,7 @@ std::vector<Vector3> comb(int n)
 
 } // namespace
 
-TEST(Triangulate, areaAndOrientationOfConvexAndOtherPolygons)
+TEST(Triangulate, AreaAndOrientationOfConvexAndOtherPolygons)
 {
   std::vector<Vector3> arrow{ { 0, 0, 0 }, { 2, -2, 0 }, { 1, 0, 0 }, { 2, 2, 0 } };
   std::vector<Vector3> circle, star;
@@ -79,7 +79,7 @@ TEST(Triangulate, areaAndOrientationOfConvexAndOtherPolygons)
   }
 }
 
-TEST(Triangulate, anyPlaneWorks)
+TEST(Triangulate, AnyPlaneWorks)
 {
   std::vector<Vector3> polygon = comb(5);
   const Eigen::AngleAxisd turn(1.1, Vector3(1, 2, 3).normalized());
@@ -91,7 +91,7 @@ TEST(Triangulate, anyPlaneWorks)
   EXPECT_NEAR(prepareOne(polygon).area, planarArea(comb(5)), 1e-10);
 }
 
-TEST(Triangulate, collinearCornersMakeNoDegenerateFaces)
+TEST(Triangulate, CollinearCornersMakeNoDegenerateFaces)
 {
   const PreparedSurface surface = prepareOne({ { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 }, { 3, 0, 0 },
     { 3, 1, 0 }, { 2, 1, 0 }, { 1, 1, 0 }, { 0, 1, 0 } });
@@ -100,7 +100,7 @@ TEST(Triangulate, collinearCornersMakeNoDegenerateFaces)
   EXPECT_NEAR(surface.area, 3, 1e-14);
 }
 
-TEST(Triangulate, repeatedCornersAreDropped)
+TEST(Triangulate, RepeatedCornersAreDropped)
 {
   const SurfaceInput input = makeInput({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } },
     { { 0, 0, 1, 2, 2, 3, 0 }, { 1, 1, 2 }, { 3, 3, 3, 3 } });
@@ -110,7 +110,7 @@ TEST(Triangulate, repeatedCornersAreDropped)
   EXPECT_EQ(surface.repair.degenerateFaces, 2u);
 }
 
-TEST(Triangulate, aHoleJoinedByASlitIsLeftOut)
+TEST(Triangulate, AHoleJoinedByASlitIsLeftOut)
 {
   // Outer square, slit to the inner square, around it the other way, and back.
   const SurfaceInput input = makeInput({ { 0, 0, 0 }, { 3, 0, 0 }, { 3, 3, 0 }, { 0, 3, 0 },
@@ -122,7 +122,7 @@ TEST(Triangulate, aHoleJoinedByASlitIsLeftOut)
   EXPECT_EQ(summarizeTopology(surface.mesh).boundaryLoops, 2u);
 }
 
-TEST(Triangulate, featureBitsBelongToPolygonEdgesOnly)
+TEST(Triangulate, FeatureBitsBelongToPolygonEdgesOnly)
 {
   SurfaceInput input =
     makeInput({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 2, 0, 0 }, { 2, 1, 0 } },
@@ -141,7 +141,7 @@ TEST(Triangulate, featureBitsBelongToPolygonEdgesOnly)
   }
 }
 
-TEST(Triangulate, quadMeshGivesTheSurface)
+TEST(Triangulate, QuadMeshGivesTheSurface)
 {
   // Sides of a cube as quads: twelve faces, closed.
   const SurfaceInput input = makeInput({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 },

@@ -69,7 +69,7 @@ void enumerate(
 
 } // namespace
 
-TEST(IntegerLattice, halfASumNeedsAnEvenOne)
+TEST(IntegerLattice, HalfASumNeedsAnEvenOne)
 {
   // a, b and (a + b) / 2, as round a vertex of valence 3: whole only for a and b of the same parity.
   const auto lattice = integerLattice(2,
@@ -87,7 +87,7 @@ TEST(IntegerLattice, halfASumNeedsAnEvenOne)
     });
 }
 
-TEST(IntegerLattice, derivedFormsFollowFromTheOthersWherePossible)
+TEST(IntegerLattice, DerivedFormsFollowFromTheOthersWherePossible)
 {
   // With p free, t = 2 p is always whole; with t free, p = t / 2 would need an even t.
   const auto lattice =
@@ -98,7 +98,7 @@ TEST(IntegerLattice, derivedFormsFollowFromTheOthersWherePossible)
   EXPECT_EQ(lattice->coordinates[0], (std::vector<std::pair<Index, double>>{ { 1, 1.0 } }));
 }
 
-TEST(IntegerLattice, holdsExactlyTheWholeValuesThatFormsTakeTogether)
+TEST(IntegerLattice, HoldsExactlyTheWholeValuesThatFormsTakeTogether)
 {
   std::size_t composites = 0;
   std::size_t members = 0;
@@ -163,7 +163,7 @@ TEST(IntegerLattice, holdsExactlyTheWholeValuesThatFormsTakeTogether)
   EXPECT_GT(members, 400u);
 }
 
-TEST(IntegerLattice, ofNoFormsIsEmpty)
+TEST(IntegerLattice, OfNoFormsIsEmpty)
 {
   const auto lattice = integerLattice(4, {}, {});
   ASSERT_TRUE(lattice);

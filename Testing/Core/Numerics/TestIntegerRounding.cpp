@@ -95,7 +95,7 @@ Eigen::VectorXd roundByResolving(const Problem& problem, const std::vector<std::
 
 } // namespace
 
-TEST(IntegerRounding, isTheSameAsSolvingAgainAfterEachInteger)
+TEST(IntegerRounding, IsTheSameAsSolvingAgainAfterEachInteger)
 {
   int differences = 0;
   for (unsigned seed = 0; seed < 40; ++seed)
@@ -123,7 +123,7 @@ TEST(IntegerRounding, isTheSameAsSolvingAgainAfterEachInteger)
   EXPECT_GT(differences, 10); // the orders are not the same thing
 }
 
-TEST(IntegerRounding, refusesFormsThatDependOnEachOther)
+TEST(IntegerRounding, RefusesFormsThatDependOnEachOther)
 {
   const Eigen::MatrixXd schur = Eigen::MatrixXd::Constant(2, 2, 1.0);
   EXPECT_THROW(roundForms(schur, Eigen::Vector2d(0.2, 0.3), { 0, 0 }, RoundingOrder::OneAtATime),
@@ -132,7 +132,7 @@ TEST(IntegerRounding, refusesFormsThatDependOnEachOther)
     roundForms(schur, Eigen::Vector2d(0.2, 0.3), { 0 }, RoundingOrder::OneAtATime), InvalidInput);
 }
 
-TEST(SparseLdl, givesTheSchurComplementOfSparseColumns)
+TEST(SparseLdl, GivesTheSchurComplementOfSparseColumns)
 {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> number(-1, 1);

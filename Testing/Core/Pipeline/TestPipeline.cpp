@@ -712,7 +712,7 @@ TEST(Pipeline, StagesAreReportedInOrder)
   }
 }
 
-TEST(Estimate, growsWithSizesAndShrinksWithThreads)
+TEST(Estimate, GrowsWithSizesAndShrinksWithThreads)
 {
   const RunEstimate small = estimateRun(100000, 1000, 1);
   const RunEstimate large = estimateRun(8000000, 1000, 1);
@@ -724,14 +724,14 @@ TEST(Estimate, growsWithSizesAndShrinksWithThreads)
   EXPECT_GT(freeMemory(), 1e6);
 }
 
-TEST(Estimate, isReadable)
+TEST(Estimate, IsReadable)
 {
   EXPECT_EQ(describeBytes(639.2e6), "640 MB");
   EXPECT_EQ(describeBytes(12.34e9), "12.3 GB");
   EXPECT_EQ(describe({ 7.2, 1e6 }), "about 7 s and 1 MB");
 }
 
-TEST(Pipeline, refusesWhatDoesNotFitIntoMemoryBeforeItStarts)
+TEST(Pipeline, RefusesWhatDoesNotFitIntoMemoryBeforeItStarts)
 {
   const Mesh mesh = test::torus(40, 20);
   RemeshOptions options;

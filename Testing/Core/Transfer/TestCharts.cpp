@@ -85,7 +85,7 @@ std::set<Index> seamEnds(const Mesh& mesh, const std::vector<FixedVec2>& uv)
   return ends;
 }
 
-TEST(Charts, aPlaneBecomesOneChartWithoutSeams)
+TEST(Charts, APlaneBecomesOneChartWithoutSeams)
 {
   const Mesh mesh = gridPlane(12, 9);
   std::vector<FixedVec2> uv =
@@ -102,7 +102,7 @@ TEST(Charts, aPlaneBecomesOneChartWithoutSeams)
   EXPECT_EQ(determinants(uv), before);
 }
 
-TEST(Charts, seamsOfACubeEndAtItsCornersOnly)
+TEST(Charts, SeamsOfACubeEndAtItsCornersOnly)
 {
   const Mesh mesh = unitCube(6);
   std::vector<FixedVec2> uv = cubeMap(mesh, 6);
@@ -125,7 +125,7 @@ TEST(Charts, seamsOfACubeEndAtItsCornersOnly)
   }
 }
 
-TEST(Charts, theSeamsOfATorusHaveNoEnds)
+TEST(Charts, TheSeamsOfATorusHaveNoEnds)
 {
   const Mesh mesh = torus(40, 20);
   std::vector<FixedVec2> uv =
@@ -138,7 +138,7 @@ TEST(Charts, theSeamsOfATorusHaveNoEnds)
   EXPECT_EQ(seamResiduals(mesh, uv), 0U);
 }
 
-TEST(Charts, edgesWithoutATransitionAreNotCrossed)
+TEST(Charts, EdgesWithoutATransitionAreNotCrossed)
 {
   const Mesh mesh = gridPlane(6, 6);
   const Index inside = 2 * (3 * 6 + 3);

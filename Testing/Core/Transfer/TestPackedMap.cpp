@@ -22,7 +22,7 @@ std::vector<FixedVec2> continuousMap(const Mesh& mesh)
 
 } // namespace
 
-TEST(PackedMap, aMapWithoutCutsNeedsAQuarter)
+TEST(PackedMap, AMapWithoutCutsNeedsAQuarter)
 {
   const Mesh mesh = gridPlane(60, 50);
   const std::vector<FixedVec2> uv = continuousMap(mesh);
@@ -32,7 +32,7 @@ TEST(PackedMap, aMapWithoutCutsNeedsAQuarter)
   EXPECT_LT(5 * packed.bytes(), sizeof(FixedVec2) * uv.size());
 }
 
-TEST(PackedMap, everyCornerMayHaveItsOwnImage)
+TEST(PackedMap, EveryCornerMayHaveItsOwnImage)
 {
   const Mesh mesh = torus(30, 20);
   std::mt19937_64 random(7);
@@ -50,7 +50,7 @@ TEST(PackedMap, everyCornerMayHaveItsOwnImage)
   EXPECT_EQ(PackedMap(mesh, uv).unpack(mesh), uv);
 }
 
-TEST(PackedMap, refusesTheMapOfAnotherMesh)
+TEST(PackedMap, RefusesTheMapOfAnotherMesh)
 {
   const Mesh mesh = gridPlane(4, 4);
   const Mesh other = gridPlane(5, 4);

@@ -28,7 +28,7 @@ void moveVertices(const Mesh& mesh, std::vector<FixedVec2>& uv, FixedVec2 by,
 
 } // namespace
 
-TEST(PatchMender, leavesAValidMapAlone)
+TEST(PatchMender, LeavesAValidMapAlone)
 {
   const Mesh mesh = torus(30, 15);
   std::vector<FixedVec2> uv =
@@ -40,7 +40,7 @@ TEST(PatchMender, leavesAValidMapAlone)
   EXPECT_EQ(uv, before);
 }
 
-TEST(PatchMender, mendsAFoldInsideAPlane)
+TEST(PatchMender, MendsAFoldInsideAPlane)
 {
   const Mesh mesh = gridPlane(20, 20);
   std::vector<FixedVec2> uv =
@@ -65,7 +65,7 @@ TEST(PatchMender, mendsAFoldInsideAPlane)
   }
 }
 
-TEST(PatchMender, mendsAcrossSeamsWithRotations)
+TEST(PatchMender, MendsAcrossSeamsWithRotations)
 {
   // The fold lies over an edge of the cube, whose two sides have charts turned against each other. It is made by
   // sliding vertices of the edge along it, exactly, through both charts.
@@ -90,7 +90,7 @@ TEST(PatchMender, mendsAcrossSeamsWithRotations)
   EXPECT_EQ(constrainedEdgesOffAxis(mesh, uv), 0U);
 }
 
-TEST(PatchMender, endOfASlitStaysOnItsWholePoint)
+TEST(PatchMender, EndOfASlitStaysOnItsWholePoint)
 {
   // A plane with a slit from (10, 10) to the right. At its end the boundary turns back along itself: both boundary
   // edges lie on one isoline, as where a boundary passes straight, but there are four quarter turns between them.
@@ -147,7 +147,7 @@ TEST(PatchMender, endOfASlitStaysOnItsWholePoint)
   }
 }
 
-TEST(PatchMender, givesUpOnWhatCannotBeMended)
+TEST(PatchMender, GivesUpOnWhatCannotBeMended)
 {
   // The whole map is mirrored: no patch with a fixed border can be positive.
   const Mesh mesh = gridPlane(12, 12);

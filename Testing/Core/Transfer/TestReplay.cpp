@@ -45,7 +45,7 @@ void renewChecksum(std::vector<std::uint8_t>& bytes)
 
 } // namespace
 
-TEST(Replay, partsGiveWhatTheWholeGives)
+TEST(Replay, PartsGiveWhatTheWholeGives)
 {
   const Mesh mesh = torus(90, 45);
   const Hierarchy h = decimate(mesh, 0.3, 120);
@@ -74,7 +74,7 @@ TEST(Replay, partsGiveWhatTheWholeGives)
   EXPECT_EQ(uv, whole);
 }
 
-TEST(Replay, reachesTheIntermediateLevel)
+TEST(Replay, ReachesTheIntermediateLevel)
 {
   const Mesh mesh = markFeatures(unitCube(18), kFeatureAngle);
   const Hierarchy h = decimate(mesh, 0.25, 60);
@@ -100,7 +100,7 @@ TEST(Replay, reachesTheIntermediateLevel)
     coarseUv);
 }
 
-TEST(Replay, refusesRangesAndLevelsThatDoNotFit)
+TEST(Replay, RefusesRangesAndLevelsThatDoNotFit)
 {
   const Mesh mesh = torus(30, 15);
   const Hierarchy h = decimate(mesh, 0.5, 60);
@@ -121,7 +121,7 @@ TEST(Replay, refusesRangesAndLevelsThatDoNotFit)
     InvalidInput);
 }
 
-TEST(Replay, keepsEveryTransitionOfSmoothMaps)
+TEST(Replay, KeepsEveryTransitionOfSmoothMaps)
 {
   // Random waves on maps of known surfaces, seen through charts that are all turned against each other.
   std::mt19937 random(17);
@@ -160,7 +160,7 @@ TEST(Replay, keepsEveryTransitionOfSmoothMaps)
   }
 }
 
-TEST(Replay, damagedLogsWithARightChecksumNeverHarm)
+TEST(Replay, DamagedLogsWithARightChecksumNeverHarm)
 {
   // What a checksum cannot find, as a faulty writer would make it: each log is refused, or can be replayed.
   const Mesh mesh = torus(24, 12);
@@ -204,7 +204,7 @@ TEST(Replay, damagedLogsWithARightChecksumNeverHarm)
   EXPECT_GT(replayed, 20U) << "else nothing was replayed";
 }
 
-TEST(Replay, recordsAreAsShortAsThePapers)
+TEST(Replay, RecordsAreAsShortAsThePapers)
 {
   // [Ebke et al. 2016, Appendix B]: 13 bytes a flip and 32 + 4 k a collapse; everything a file has counts.
   const Hierarchy h = decimate(torus(120, 60), 0.2, 200);

@@ -134,7 +134,7 @@ constexpr std::uintmax_t kLargeModel = 9500000;
 
 } // namespace
 
-TEST(ReplayModels, areExactOnTheProjectsMeshes)
+TEST(ReplayModels, AreExactOnTheProjectsMeshes)
 {
   EXPECT_EQ(expectExactReplays(QUADRILLE_DATA, 0, kLargeModel), 3U);
 }
@@ -144,7 +144,7 @@ class ReplayModels : public testing::TestWithParam<const char*>
 {
 };
 
-TEST_P(ReplayModels, areExact)
+TEST_P(ReplayModels, AreExact)
 {
   const std::string folder = std::string(QUADRILLE_SHARED_DATA) + "/" + GetParam();
   if (expectExactReplays(folder, 0, kLargeModel) == 0)
@@ -154,7 +154,7 @@ TEST_P(ReplayModels, areExact)
 }
 
 /// Takes a minute and gigabytes; run it with --gtest_also_run_disabled_tests after a change of the replay.
-TEST_P(ReplayModels, DISABLED_ofMillionsOfFacesAreExact)
+TEST_P(ReplayModels, DISABLED_OfMillionsOfFacesAreExact)
 {
   const std::string folder = std::string(QUADRILLE_SHARED_DATA) + "/" + GetParam();
   expectExactReplays(folder, kLargeModel, std::numeric_limits<std::uintmax_t>::max());

@@ -19,13 +19,13 @@ std::optional<FixedVec2> kernel(const std::vector<FixedVec2>& ring)
 
 } // namespace
 
-TEST(RingKernel, ofASquareIsItsCentre)
+TEST(RingKernel, OfASquareIsItsCentre)
 {
   const std::vector<FixedVec2> square{ { 0, 0 }, { 100, 0 }, { 100, 100 }, { 0, 100 } };
   EXPECT_EQ(kernel(square), (FixedVec2{ 50, 50 }));
 }
 
-TEST(RingKernel, isFoundWhereAMeanOfTheCornersFails)
+TEST(RingKernel, IsFoundWhereAMeanOfTheCornersFails)
 {
   // An L with long arms: the kernel is the square where they meet.
   const std::vector<FixedVec2> ring{ { 0, 0 }, { 1000, 0 }, { 1000, 10 }, { 10, 10 }, { 10, 1000 },
@@ -33,7 +33,7 @@ TEST(RingKernel, isFoundWhereAMeanOfTheCornersFails)
   EXPECT_EQ(kernel(ring), (FixedVec2{ 5, 5 }));
 }
 
-TEST(RingKernel, isExactForSmallestKernels)
+TEST(RingKernel, IsExactForSmallestKernels)
 {
   // The only grid point with positive determinants of a triangle of three units is (1, 1).
   const std::vector<FixedVec2> ring{ { 0, 0 }, { 3, 0 }, { 0, 3 } };
@@ -42,7 +42,7 @@ TEST(RingKernel, isExactForSmallestKernels)
   EXPECT_EQ(kernel(tooSmall), std::nullopt);
 }
 
-TEST(RingKernel, aZigZagHasNone)
+TEST(RingKernel, AZigZagHasNone)
 {
   const std::vector<FixedVec2> ring{ { 0, 0 }, { 100, 0 }, { 100, 100 }, { 90, 10 }, { 10, 90 },
     { 0, 0 }, { 0, 50 } };
@@ -51,7 +51,7 @@ TEST(RingKernel, aZigZagHasNone)
   EXPECT_EQ(kernel(clockwise), std::nullopt);
 }
 
-TEST(RingKernel, onASegmentStaysOnItsIsoline)
+TEST(RingKernel, OnASegmentStaysOnItsIsoline)
 {
   // Vertices of a feature v = 7 between (0, 7) and (1000, 7); the ring admits only u in (600, 700).
   const std::vector<FixedVec2> ring{ { 0, 7 }, { 600, -500 }, { 1000, 7 }, { 700, 500 } };
@@ -68,7 +68,7 @@ TEST(RingKernel, onASegmentStaysOnItsIsoline)
   EXPECT_LT(inside->u, 700);
 }
 
-TEST(RingKernel, openRingNeedsNoTriangleAtItsOpening)
+TEST(RingKernel, OpenRingNeedsNoTriangleAtItsOpening)
 {
   const std::vector<FixedVec2> half{ { 100, 0 }, { 0, 100 }, { -100, 0 } };
   EXPECT_TRUE(starIsPositive(half.data(), 3, false, { 0, 0 }));
@@ -76,7 +76,7 @@ TEST(RingKernel, openRingNeedsNoTriangleAtItsOpening)
   EXPECT_EQ(kernelPointOnSegment(half.data(), 3, false, half[2], half[0]), (FixedVec2{ 0, 0 }));
 }
 
-TEST(RingKernel, ringThatWindsTwiceIsNoStar)
+TEST(RingKernel, RingThatWindsTwiceIsNoStar)
 {
   // Every triangle with the origin is counterclockwise, but the ring goes round it twice, as it can next to a
   // cone of valence 5.

@@ -30,7 +30,7 @@ TransferResult transfer(
 
 } // namespace
 
-TEST(Transfer, affineMapOfAPlaneComesBack)
+TEST(Transfer, AffineMapOfAPlaneComesBack)
 {
   // On a flat surface the polar maps of the stars are exact, so the weights restore every removed vertex.
   for (const Mesh& mesh : { gridPlane(40, 30), plateWithHole(12), plateL(20) })
@@ -55,7 +55,7 @@ TEST(Transfer, affineMapOfAPlaneComesBack)
   }
 }
 
-TEST(Transfer, torusKeepsItsTranslations)
+TEST(Transfer, TorusKeepsItsTranslations)
 {
   const Mesh mesh = torus(90, 45);
   const Hierarchy h = decimate(mesh, 0.3, 120);
@@ -68,7 +68,7 @@ TEST(Transfer, torusKeepsItsTranslations)
   EXPECT_EQ(result.notPositive, notPositive(result.uv));
 }
 
-TEST(Transfer, cubeKeepsRotationsAndItsFlatSides)
+TEST(Transfer, CubeKeepsRotationsAndItsFlatSides)
 {
   const Mesh mesh = markFeatures(unitCube(18), kFeatureAngle);
   const Hierarchy h = decimate(mesh, 0.4, 80);
@@ -87,7 +87,7 @@ TEST(Transfer, cubeKeepsRotationsAndItsFlatSides)
   }
 }
 
-TEST(Transfer, turnsOnTheSurfaceAreThoseOfTheCoarseMap)
+TEST(Transfer, TurnsOnTheSurfaceAreThoseOfTheCoarseMap)
 {
   const Mesh cube = markFeatures(unitCube(18), kFeatureAngle);
   const Hierarchy ofCube = decimate(cube, 0.4, 80);
@@ -106,7 +106,7 @@ TEST(Transfer, turnsOnTheSurfaceAreThoseOfTheCoarseMap)
   EXPECT_EQ(std::count(turns.begin(), turns.end(), 1), 4);
 }
 
-TEST(Transfer, featuresInsideAPlaneStayOnTheirIsolines)
+TEST(Transfer, FeaturesInsideAPlaneStayOnTheirIsolines)
 {
   // A curved plate with a straight feature across it; the map is not affine, so vertices are interpolated in
   // earnest, but along the feature one coordinate is constant.
@@ -130,7 +130,7 @@ TEST(Transfer, featuresInsideAPlaneStayOnTheirIsolines)
   EXPECT_EQ(result.notPositive, 0U);
 }
 
-TEST(Transfer, movesVerticesIntoTheKernelWhereTheMapIsRough)
+TEST(Transfer, MovesVerticesIntoTheKernelWhereTheMapIsRough)
 {
   // A valid coarse map that is far from smooth: every vertex is pushed as far as its triangles allow.
   const Mesh mesh = torus(90, 45);
@@ -161,7 +161,7 @@ TEST(Transfer, movesVerticesIntoTheKernelWhereTheMapIsRough)
   EXPECT_EQ(seamResiduals(mesh, result.uv), 0U);
 }
 
-TEST(Transfer, givesTheSameBytesForAnyNumberOfThreads)
+TEST(Transfer, GivesTheSameBytesForAnyNumberOfThreads)
 {
   const Mesh mesh = torus(300, 150);
   const Hierarchy h = decimate(mesh, 0.15, 300);
@@ -175,7 +175,7 @@ TEST(Transfer, givesTheSameBytesForAnyNumberOfThreads)
   }
 }
 
-TEST(Transfer, theLogFromItsBytesGivesTheSameMap)
+TEST(Transfer, TheLogFromItsBytesGivesTheSameMap)
 {
   const Mesh mesh = torus(60, 30);
   Hierarchy h = decimate(mesh, 0.3, 120);
@@ -186,7 +186,7 @@ TEST(Transfer, theLogFromItsBytesGivesTheSameMap)
   EXPECT_EQ(transfer(mesh, h, coarseUv).uv, before.uv);
 }
 
-TEST(Transfer, theLogOfARedecimationReplaysFromItsBytes)
+TEST(Transfer, TheLogOfARedecimationReplaysFromItsBytes)
 {
   const Mesh mesh = gridPlane(40, 30);
   const auto map = [](const Vector3& p)
@@ -209,7 +209,7 @@ TEST(Transfer, theLogOfARedecimationReplaysFromItsBytes)
   }
 }
 
-TEST(Transfer, aMapThatIsNotValidIsCountedNotFatal)
+TEST(Transfer, AMapThatIsNotValidIsCountedNotFatal)
 {
   const Mesh mesh = gridPlane(20, 20);
   const Hierarchy h = decimate(mesh, 6, 30);
@@ -217,7 +217,7 @@ TEST(Transfer, aMapThatIsNotValidIsCountedNotFatal)
   EXPECT_EQ(transfer(mesh, h, flat).notPositive, mesh.faceCount());
 }
 
-TEST(Transfer, refusesWhatDoesNotFit)
+TEST(Transfer, RefusesWhatDoesNotFit)
 {
   const Mesh mesh = gridPlane(20, 20);
   const Hierarchy h = decimate(mesh, 6, 30);
