@@ -63,7 +63,7 @@ struct LevelMemory : quadrille::BlockMemory
   MappedOutput mapped;
 };
 
-std::string describe(const quadrille::RemeshResult& result, vtkIdType irregular)
+std::string resultText(const quadrille::RemeshResult& result, vtkIdType irregular)
 {
   std::ostringstream text;
   if (result.quads.quads.empty())
@@ -274,7 +274,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   block.output(3)->ShallowCopy(written.separatrices);
   block.output(4)->ShallowCopy(written.irregular);
   block.output(5)->ShallowCopy(quadrille::writeConstraints(placed, result.quads));
-  this->SetResult(describe(result, written.irregular->GetNumberOfPoints()));
+  this->SetResult(resultText(result, written.irregular->GetNumberOfPoints()));
   report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
 }
 

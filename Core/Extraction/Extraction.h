@@ -40,7 +40,7 @@ struct ExtractionOptions
   BoundaryMode boundary = BoundaryMode::Aligned;
   std::size_t maximumNumberOfQuads = 10000000; ///< refuse, before memory is spent, to make more
   /// Sweeps of tangential smoothing on the input surface afterwards (see QuadSmoothing.h), >= 0, before quads that are
-  /// turned over are mended (see QuadUntangling.h); 0: the points stay where the map has them.
+  /// inverted are mended (see QuadUntangling.h); 0: the points stay where the map has them.
   int smoothingSteps = 5;
   /// Vertices of the mesh, ascending, whose quad vertices smoothing must not move (irregular ones that were asked for).
   std::vector<Index> fixedVertices;

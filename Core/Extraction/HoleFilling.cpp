@@ -17,7 +17,7 @@ namespace
 
 constexpr std::size_t kLongestLoop = 20;
 constexpr double kImpossible = std::numeric_limits<double>::infinity();
-constexpr double kTurnedOver = 10; ///< cost of a quad that is not convex; a good one costs 0
+constexpr double kInverted = 10; ///< cost of a quad that is not convex; a good one costs 0
 
 using Edge = std::pair<Index, Index>;
 
@@ -88,8 +88,8 @@ private:
       }
     }
     const double shape = scaledJacobian(p);
-    const bool turnedOver = (p[2] - p[0]).cross(p[3] - p[1]).dot(normal_) < 0;
-    return shape > 0 && !turnedOver ? 1 - shape : kTurnedOver;
+    const bool inverted = (p[2] - p[0]).cross(p[3] - p[1]).dot(normal_) < 0;
+    return shape > 0 && !inverted ? 1 - shape : kInverted;
   }
 
   void solve(std::size_t i, std::size_t j)

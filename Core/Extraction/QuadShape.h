@@ -48,7 +48,7 @@ inline std::array<Vector3, 4> cornersOf(
 }
 
 /// Is the scaled Jacobian <= 0? Without lengths, which only scale the determinants.
-inline bool isTurnedOver(const std::array<Vector3, 4>& p)
+inline bool isInverted(const std::array<Vector3, 4>& p)
 {
   const Vector3 normal = centreNormal(p);
   for (std::size_t i = 0; i < 4; ++i)
@@ -62,18 +62,18 @@ inline bool isTurnedOver(const std::array<Vector3, 4>& p)
 }
 
 /// The quads with a scaled Jacobian <= 0, ascending.
-inline std::vector<Index> quadsTurnedOver(
+inline std::vector<Index> invertedQuads(
   const std::vector<Vector3>& points, const std::vector<std::array<Index, 4>>& quads)
 {
-  std::vector<Index> turned;
+  std::vector<Index> inverted;
   for (Index q = 0; q < quads.size(); ++q)
   {
-    if (isTurnedOver(cornersOf(points, quads[q])))
+    if (isInverted(cornersOf(points, quads[q])))
     {
-      turned.push_back(q);
+      inverted.push_back(q);
     }
   }
-  return turned;
+  return inverted;
 }
 
 } // namespace quadrille

@@ -16,12 +16,12 @@ namespace quadrille
 namespace
 {
 
-/// So many rings of quads round those that are turned over may move; the next number where some are left.
+/// So many rings of quads round those that are inverted may move; the next number where some are left.
 constexpr int kRings[] = { 1, 2 };
 constexpr int kMaximumSweeps = 30;
 /// A sweep that lowers the badness of a place by less than this part is the last one.
 constexpr double kLeastProgress = 0.01;
-/// Corners with less than this area go on moving once no quad is turned over.
+/// Corners with less than this area go on moving once no quad is inverted.
 constexpr double kMargin = 0.15;
 /// Points whose corners all have more than this area stay.
 constexpr double kGoodCorner = 0.6;
@@ -32,7 +32,7 @@ constexpr double kLeastGain = 1e-3;
 /// Parts of the way to a corner of the quads at a point that are tried.
 constexpr double kSteps[] = { 0.5, 0.2, 0.08, 0.03, 0.01 };
 
-/// Areas of the parallelograms at the four corners, negative where the quad is turned over.
+/// Areas of the parallelograms at the four corners, negative where the quad is inverted.
 std::array<double, 4> cornerAreas(const std::array<Vector3, 4>& p)
 {
   const Vector3 normal = centreNormal(p).normalized();
@@ -62,16 +62,16 @@ public:
   {
   }
 
-  /// The quads that are left turned over.
-  std::vector<Index> run(std::vector<Index> turned)
+  /// The quads that are left inverted.
+  std::vector<Index> run(std::vector<Index> inverted)
   {
     for (const int rings : kRings)
     {
-      if (turned.empty())
+      if (inverted.empty())
       {
         break;
       }
-      const std::vector<Place> places = separate(pointsRound(turned, rings));
+      const std::vector<Place> places = separate(pointsRound(inverted, rings));
       parallelFor(places.size(), 1, options_.threads,
         [&](std::size_t begin, std::size_t end)
         {
@@ -80,9 +80,9 @@ public:
             mend(places[i]);
           }
         });
-      turned = quadsTurnedOver(quads_.points, quads_.quads);
+      inverted = invertedQuads(quads_.points, quads_.quads);
     }
-    return turned;
+    return inverted;
   }
 
 private:
@@ -174,7 +174,7 @@ private:
     for (double& area : areas)
     {
       area /= unit_[q];
-      area = outwards ? area : -2 - area; // all are positive where a quad is turned over as a whole
+      area = outwards ? area : -2 - area; // all are positive where a quad is inverted as a whole
     }
     return areas;
   }
@@ -182,8 +182,8 @@ private:
   /// How good the quads of a place are.
   struct State
   {
-    std::size_t turned = 0;
-    std::size_t inwards = 0;                                ///< quads turned over as a whole
+    std::size_t inverted = 0;
+    std::size_t inwards = 0;                                ///< quads inverted as a whole
     double worst = std::numeric_limits<double>::infinity(); ///< area of a corner, in units
     double badness = 0;                                     ///< of all corners
     std::vector<SurfacePoint> points;
@@ -192,7 +192,7 @@ private:
     bool betterThan(const State& other) const
     {
       return inwards <= other.inwards &&
-        (turned < other.turned || (turned == other.turned && worst > other.worst));
+        (inverted < other.inverted || (inverted == other.inverted && worst > other.worst));
     }
   };
 
@@ -202,7 +202,7 @@ private:
     for (const Index q : place.quads)
     {
       const std::array<Vector3, 4> corners = cornersOf(quads_.points, quads_.quads[q]);
-      state.turned += isTurnedOver(corners) ? 1 : 0;
+      state.inverted += isInverted(corners) ? 1 : 0;
       state.inwards += moves_.facesOutwards(q, corners) ? 0 : 1;
       for (const double area : areasInUnits(q, corners))
       {
@@ -226,7 +226,7 @@ private:
     State best = before;
     std::uint32_t time = 1;
     double left = before.badness;
-    for (int sweep = 0; sweep < kMaximumSweeps && (best.turned > 0 || best.worst < kMargin);
+    for (int sweep = 0; sweep < kMaximumSweeps && (best.inverted > 0 || best.worst < kMargin);
          ++sweep)
     {
       for (const Index p : place.points)
@@ -245,7 +245,7 @@ private:
         break;
       }
     }
-    const State& result = best.turned < before.turned ? best : before;
+    const State& result = best.inverted < before.inverted ? best : before;
     for (std::size_t i = 0; i < place.points.size(); ++i)
     {
       moves_.move(place.points[i], result.points[i], result.positions[i]);
@@ -398,11 +398,11 @@ private:
 UntanglingResult untangleQuads(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options)
 {
   UntanglingResult result;
-  std::vector<Index> turned = quadsTurnedOver(quads.points, quads.quads);
-  result.turnedBefore = turned.size();
-  if (!turned.empty())
+  std::vector<Index> inverted = invertedQuads(quads.points, quads.quads);
+  result.invertedBefore = inverted.size();
+  if (!inverted.empty())
   {
-    result.turnedAfter = Untangling(mesh, quads, options).run(std::move(turned)).size();
+    result.invertedAfter = Untangling(mesh, quads, options).run(std::move(inverted)).size();
   }
   return result;
 }

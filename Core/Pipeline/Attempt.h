@@ -83,8 +83,8 @@ struct QuadAttempt
   /// Where the map was solved again.
   std::optional<PackedMap> uv;
   std::optional<Certificate> certificate;
-  std::size_t turned = 0;     ///< quads turned over
-  bool turnedAtFolds = false; ///< some of them where the map has folds
+  std::size_t invertedQuads = 0;
+  bool invertedAtFolds = false; ///< some of them where the map has folds
   std::vector<std::string> notices, reused;
   StageRecords stages;
 

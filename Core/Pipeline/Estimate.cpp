@@ -54,7 +54,7 @@ double freeMemory()
   return std::numeric_limits<double>::infinity();
 }
 
-std::string describeBytes(double bytes)
+std::string bytesText(double bytes)
 {
   std::array<char, 64> text{};
   if (bytes < 1e9)
@@ -68,11 +68,11 @@ std::string describeBytes(double bytes)
   return text.data();
 }
 
-std::string describe(const RunEstimate& estimate)
+std::string estimateText(const RunEstimate& estimate)
 {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "about %.0f s and ", std::max(1.0, estimate.seconds));
-  return text.data() + describeBytes(estimate.bytes);
+  return text.data() + bytesText(estimate.bytes);
 }
 
 } // namespace quadrille

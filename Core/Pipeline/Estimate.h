@@ -23,9 +23,9 @@ RunEstimate estimateRun(std::size_t triangles, double quads, int threads);
 double freeMemory();
 
 /// "about 7 s and 640 MB".
-std::string describe(const RunEstimate& estimate);
+std::string estimateText(const RunEstimate& estimate);
 
 /// "640 MB", "12.3 GB".
-std::string describeBytes(double bytes);
+std::string bytesText(double bytes);
 
 } // namespace quadrille

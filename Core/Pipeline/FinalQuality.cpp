@@ -17,7 +17,7 @@ namespace quadrille
 namespace
 {
 
-/// How often quads that the re-solve has turned over get the carried map back.
+/// How often quads that the re-solve has inverted get the carried map back.
 constexpr int kMaximumHolds = 3;
 /// Within so many edge lengths of such a quad; twice as far each time.
 constexpr double kFirstHold = 1;
@@ -66,8 +66,8 @@ std::string comparison(const char* what, double before, double after)
   return std::string("final quality: the map of the coarse level was kept, as ") + text;
 }
 
-/// The quads of a map that are turned over at a corner.
-struct TurnedQuads
+/// The quads of a map that are inverted at a corner.
+struct InvertedQuads
 {
   bool valid = false; ///< whether the map has quads at all
   std::vector<Vector3> centres;
@@ -90,7 +90,7 @@ public:
     return options_.level == FinalQuality::Input ? solveOnInput(uv) : solveOnIntermediate(uv);
   }
 
-  TurnedQuads turnedQuads(const std::vector<FixedVec2>& uv) const
+  InvertedQuads invertedQuadsOf(const std::vector<FixedVec2>& uv) const
   {
     if (carried_.certificate.fractionalTransitions > 0)
     {
@@ -102,9 +102,9 @@ public:
     extraction.fixedVertices = indexVertices(surface_);
     extraction.threads = options_.threads;
     const ExtractionResult quads = extractQuads(surface_.mesh, uv, extraction);
-    TurnedQuads result;
+    InvertedQuads result;
     result.valid = quads.status.ok();
-    for (const Index q : quadsTurnedOver(quads.mesh.points, quads.mesh.quads))
+    for (const Index q : invertedQuads(quads.mesh.points, quads.mesh.quads))
     {
       const std::array<Vector3, 4> p = cornersOf(quads.mesh.points, quads.mesh.quads[q]);
       result.centres.push_back((p[0] + p[1] + p[2] + p[3]) / 4);
@@ -195,7 +195,7 @@ FinalQualityReport improveMap(const PreparedSurface& surface, const std::vector<
     ? surface.mesh.faceCount()
     : coarse.hierarchy->intermediate.mesh.faceCount();
   Improvement improvement(surface, turns, integerVertex, coarse, options, map);
-  const TurnedQuads before = improvement.turnedQuads(map.uv);
+  const InvertedQuads before = improvement.invertedQuadsOf(map.uv);
   double radius = kFirstHold * options.edgeLength;
   for (int hold = 0;; ++hold)
   {
@@ -224,22 +224,22 @@ FinalQualityReport improveMap(const PreparedSurface& surface, const std::vector<
       report.notice = comparison("the distortion", report.before.mean, after.mean);
       return report;
     }
-    const TurnedQuads turned = improvement.turnedQuads(uv);
-    if (turned.valid >= before.valid && turned.centres.size() <= before.centres.size())
+    const InvertedQuads inverted = improvement.invertedQuadsOf(uv);
+    if (inverted.valid >= before.valid && inverted.centres.size() <= before.centres.size())
     {
       report.improved = true;
       report.after = after;
       map = { std::move(uv), certificate };
       return report;
     }
-    if (turned.valid < before.valid || hold == kMaximumHolds)
+    if (inverted.valid < before.valid || hold == kMaximumHolds)
     {
       report.notice = comparison("the number of quads that are turned over",
-        static_cast<double>(before.centres.size()), static_cast<double>(turned.centres.size()));
+        static_cast<double>(before.centres.size()), static_cast<double>(inverted.centres.size()));
       return report;
     }
     // Large quads on creases and in pockets that are narrower than they are.
-    improvement.fixNear(turned.centres, radius);
+    improvement.fixNear(inverted.centres, radius);
     radius *= 2;
     ++report.holds;
   }

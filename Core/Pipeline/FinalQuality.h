@@ -43,7 +43,7 @@ struct FinalQualityReport
   MapDistortion before, after;
   int steps = 0; ///< of Newton's method
   int holds =
-    0; ///< how often it was solved again with the carried map round quads that had turned over
+    0; ///< how often it was solved again with the carried map round quads that were inverted
   std::size_t elements = 0; ///< triangles of the level
   std::string notice;
 };
@@ -63,7 +63,7 @@ struct CoarseMap
 };
 
 /// `map` is replaced where the re-solve has a lower distortion, a certificate that is not worse in any count and not
-/// more quads that are turned over; otherwise it stays as it is and the report's notice says why. Where the surface has
+/// more quads that are inverted; otherwise it stays as it is and the report's notice says why. Where the surface has
 /// creases or pockets narrower than a quad, a map that follows them can turn a quad over that the coarse map drew
 /// across them: there the carried map is held and the rest solved again. turns, integerVertex: #V of the surface, as
 /// for certify().

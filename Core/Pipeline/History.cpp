@@ -48,7 +48,7 @@ void History::addQuads(std::shared_ptr<const QuadAttempt> quads)
   all_.add(last_.quads->stages);
   reused_.insert(reused_.end(), last_.quads->reused.begin(), last_.quads->reused.end());
   if (last_.quads->status.ok() &&
-    (!result_.quads || 2 * last_.quads->turned <= result_.quads->turned))
+    (!result_.quads || 2 * last_.quads->invertedQuads <= result_.quads->invertedQuads))
   {
     result_ = last_;
   }

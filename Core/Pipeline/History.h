@@ -40,7 +40,7 @@ public:
   /// Offenders of the coarse map of the attempt before the last one of the round; 0 where there is none.
   std::size_t offendersBefore() const;
 
-  /// The attempt that has quads, of several the one with the fewest that are turned over: a later one counts only where
+  /// The attempt that has quads, of several the one with the fewest that are inverted: a later one counts only where
   /// it has at most half as many, as what it gave up has a price. Without any, that of the last round.
   const Attempt& result() const { return result_.quads ? result_ : last_; }
   bool hasResult() const { return result_.quads != nullptr; }

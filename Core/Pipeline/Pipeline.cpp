@@ -46,15 +46,16 @@ Status estimate(const SurfaceInput& input, const RemeshOptions& options, RemeshR
     static_cast<double>(std::min(options.quads.value_or(0), options.maximumNumberOfQuads));
   result.estimate = estimateRun(triangles, quads, options.threads);
   report(options.progress, 0,
-    "Preparing: " + describe(result.estimate) + " for " + std::to_string(triangles) + " triangles");
+    "Preparing: " + estimateText(result.estimate) + " for " + std::to_string(triangles) +
+      " triangles");
   const double limit = options.memoryLimit.value_or(freeMemory());
   if (result.estimate.bytes <= limit)
   {
     return {};
   }
   return { StatusCode::TooLarge,
-    "about " + describeBytes(result.estimate.bytes) + " of memory would be needed for " +
-      std::to_string(triangles) + " triangles, but " + describeBytes(limit) +
+    "about " + bytesText(result.estimate.bytes) + " of memory would be needed for " +
+      std::to_string(triangles) + " triangles, but " + bytesText(limit) +
       (options.memoryLimit ? " are allowed" : " are free") +
       "; free memory, raise the memory limit, or decimate the surface first" };
 }
@@ -77,7 +78,7 @@ ResultStore* storeIfRoom(
   }
   store->clear();
   result.notices.push_back("stages are not remembered: the run and its memory would need " +
-    describeBytes(needed) + "; a change will start from the beginning");
+    bytesText(needed) + "; a change will start from the beginning");
   return nullptr;
 }
 

@@ -15,7 +15,7 @@ namespace quadrille
 namespace
 {
 
-/// A fold within so many edge lengths is why a quad is turned over.
+/// A fold within so many edge lengths is why a quad is inverted.
 constexpr double kFoldRadius = 2;
 
 FinalQualityOptions finalQualityOptions(const RunContext& run)
@@ -119,7 +119,7 @@ std::string missedValencesText(const PreparedSurface& surface, const QuadMesh& q
 }
 
 /// For a failure of the extraction: whether the map is to blame.
-std::string describeMap(const Certificate& certificate)
+std::string certificateText(const Certificate& certificate)
 {
   const std::string defects = defectsText(certificate);
   return defects.empty() ? " (the map is valid)" : " (map on the input surface: " + defects + ")";
@@ -131,17 +131,17 @@ Status failureOf(const Status& extraction, MapMethod method, const Certificate& 
     (isRounded(method) ? std::string("no valid quad mesh from the map by '") + nameOf(method) +
           "', which may have folds (the scale aware method has none): "
                        : std::string("no valid quad mesh: ")) +
-      extraction.message + describeMap(certificate) +
+      extraction.message + certificateText(certificate) +
       "; ask for more quads, raise the number of coarse vertices (Coarse Vertices, "
       "--coarse-vertices), or raise the feature angle where noise is taken for features" };
 }
 
-void countTurned(const RunContext& run, const MapAttempt& map, QuadAttempt& made)
+void countInverted(const RunContext& run, const MapAttempt& map, QuadAttempt& made)
 {
   const std::vector<Vector3> folds = positionsOf(run.surface->mesh, map.transfer.offenders);
-  const std::vector<Index> turned = quadsTurnedOver(made.quads.points, made.quads.quads);
-  made.turned = turned.size();
-  made.turnedAtFolds = std::any_of(turned.begin(), turned.end(),
+  const std::vector<Index> inverted = invertedQuads(made.quads.points, made.quads.quads);
+  made.invertedQuads = inverted.size();
+  made.invertedAtFolds = std::any_of(inverted.begin(), inverted.end(),
     [&](Index q)
     {
       const std::array<Vector3, 4> corners = cornersOf(made.quads.points, made.quads.quads[q]);
@@ -183,7 +183,7 @@ void extract(RunContext& run, const MapAttempt& map, QuadAttempt& made)
       made.notices.push_back(notice);
     }
   }
-  countTurned(run, map, made);
+  countInverted(run, map, made);
 }
 
 } // namespace

@@ -62,7 +62,7 @@ std::optional<Plan> nextPlan(RunContext& run, const History& history)
   const bool mapped = attempt.map->status.ok();
   const bool hasQuads = attempt.quads && attempt.quads->status.ok();
   if (history.isSpent() || (mapped && isRounded(run.options.method)) ||
-    (hasQuads && !attempt.quads->turnedAtFolds))
+    (hasQuads && !attempt.quads->invertedAtFolds))
   {
     return std::nullopt;
   }

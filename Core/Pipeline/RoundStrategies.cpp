@@ -48,7 +48,7 @@ std::string nearText(const std::vector<Vector3>& places)
   return " near " + placeText(places.front()) + (places.size() > 1 ? " and other places" : "");
 }
 
-/// Where an earlier round has quads, of which some are turned over, a finer grid would cost more than it gives.
+/// Where an earlier round has quads, of which some are inverted, a finer grid would cost more than it gives.
 bool asksForFinerGrid(const Trouble& trouble)
 {
   return trouble.failed && !trouble.history.hasResult() && !trouble.run.options.coarsestIntegers;

@@ -80,12 +80,12 @@ ClosedHandles closeSmallHandles(
     }
     const std::vector<std::vector<Index>> places = placesOf(found, level);
     place = place.value_or(surface.mesh.position[places.front().front()]);
-    const std::size_t now = closeHandles(surface, places, kLongerAlongEdges * limit);
-    if (now == 0)
+    const std::size_t closedHere = closeHandles(surface, places, kLongerAlongEdges * limit);
+    if (closedHere == 0)
     {
       break;
     }
-    closed += now;
+    closed += closedHere;
     refineSurface(surface, edgeLength, {});
   }
   result.notice = closedText(options.closeHandles, closed, left, place);

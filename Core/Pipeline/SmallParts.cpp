@@ -35,8 +35,7 @@ void collectHandles(
 }
 
 /// Of a loop that is too short: how long, where, and what would resolve it.
-void describeLoop(
-  std::ostringstream& text, double length, const Vector3& place, const QuadSize& size)
+void appendLoop(std::ostringstream& text, double length, const Vector3& place, const QuadSize& size)
 {
   const double s = size.edgeLength;
   const double factor = kQuadsOfLoop * s / length;
@@ -86,7 +85,7 @@ std::string unresolvedHandlesText(const SmallParts& parts, const QuadSize& size)
   std::ostringstream text;
   text << (parts.complete ? "" : "at least ") << parts.unresolvedHandles << " of " << parts.handles
        << " handles are shorter round than three quads, the shortest is ";
-  describeLoop(text, parts.shortestLoop, parts.place, size);
+  appendLoop(text, parts.shortestLoop, parts.place, size);
   text << "have them closed (Close Handles, --close-handles 3), or quads there have a poor shape "
           "or fail";
   return text.str();
@@ -102,7 +101,7 @@ std::string tinyHolesText(const SmallParts& parts, const QuadSize& size)
   std::ostringstream text;
   text << boundary.shortLoops << " of " << boundary.loops
        << " boundary loops are shorter than three quads, the shortest is ";
-  describeLoop(text, boundary.shortest, boundary.place, size);
+  appendLoop(text, boundary.shortest, boundary.place, size);
   text << "fill these holes in the surface, or quads there have a poor shape or fail";
   return text.str();
 }

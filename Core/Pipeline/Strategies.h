@@ -24,7 +24,7 @@ struct Trouble
   const History& history;
   const Attempt& attempt;      ///< of the round
   std::vector<Vector3> places; ///< where the map or its quads failed
-  bool failed = true; ///< else there are quads, but some are turned over at folds of the map
+  bool failed = true;          ///< else there are quads, but some are inverted at folds of the map
   std::optional<GridTroubles> grid;
   std::size_t bound = 0; ///< of the strategy that is asked
 };
@@ -50,7 +50,7 @@ std::optional<Plan> smallerQuadsNear(const Trouble& trouble);
 std::optional<Plan> moreQuads(const Trouble& trouble);
 
 /// Features that only the dihedral angle asked for are given up near the places of a failure, or near folds at which
-/// quads are turned over, further round them each time. Bound: times in all.
+/// quads are inverted, further round them each time. Bound: times in all.
 std::optional<Plan> fewerFeatures(const Trouble& trouble);
 
 /// Features that can be given up near the places.

@@ -34,9 +34,9 @@ GridMapCase thinCrumpledPlane(unsigned seed, double thickness)
   return c;
 }
 
-std::size_t turnedOver(const QuadMesh& mesh)
+std::size_t invertedCount(const QuadMesh& mesh)
 {
-  return quadsTurnedOver(mesh.points, mesh.quads).size();
+  return invertedQuads(mesh.points, mesh.quads).size();
 }
 
 void expectSamePlaces(const QuadMesh& a, const QuadMesh& b)
@@ -83,11 +83,11 @@ struct Dart
 
 } // namespace
 
-TEST(QuadShape, TurnedOverIsAJacobianOfAtMostZero)
+TEST(QuadShape, InvertedIsAJacobianOfAtMostZero)
 {
   Random random(3);
   const auto coordinate = [&]() { return 0.01 * pick(random, 200); };
-  int turned = 0;
+  int inverted = 0;
   for (int i = 0; i < 2000; ++i)
   {
     std::array<Vector3, 4> p;
@@ -95,15 +95,15 @@ TEST(QuadShape, TurnedOverIsAJacobianOfAtMostZero)
     {
       x = Vector3(coordinate(), coordinate(), 0.2 * coordinate());
     }
-    EXPECT_EQ(isTurnedOver(p), !(scaledJacobian(p) > 0));
-    turned += isTurnedOver(p) ? 1 : 0;
+    EXPECT_EQ(isInverted(p), !(scaledJacobian(p) > 0));
+    inverted += isInverted(p) ? 1 : 0;
   }
-  EXPECT_GT(turned, 200);
-  EXPECT_LT(turned, 1800);
+  EXPECT_GT(inverted, 200);
+  EXPECT_LT(inverted, 1800);
   const Vector3 o(0, 0, 0), x(1, 0, 0), y(0, 1, 0);
-  EXPECT_TRUE(isTurnedOver({ o, o, x, y }));                // an edge without length
-  EXPECT_TRUE(isTurnedOver({ o, x, Vector3(2, 0, 0), y })); // a straight corner
-  EXPECT_FALSE(isTurnedOver({ o, x, Vector3(x + y), y }));
+  EXPECT_TRUE(isInverted({ o, o, x, y }));                // an edge without length
+  EXPECT_TRUE(isInverted({ o, x, Vector3(2, 0, 0), y })); // a straight corner
+  EXPECT_FALSE(isInverted({ o, x, Vector3(x + y), y }));
 }
 
 // On a plane every place can be mended, thick or thin.
@@ -113,12 +113,12 @@ TEST(QuadUntangling, MendsAllOfAPlane)
   {
     const GridMapCase c = thinCrumpledPlane(1, thickness);
     QuadMesh mesh = rawQuads(c);
-    const std::size_t before = turnedOver(mesh);
+    const std::size_t before = invertedCount(mesh);
     ASSERT_GE(before, 5u); // else there is nothing to see
     const UntanglingResult result = untangleQuads(c.mesh, mesh, {});
-    EXPECT_EQ(result.turnedBefore, before);
-    EXPECT_EQ(result.turnedAfter, 0u) << thickness;
-    EXPECT_EQ(turnedOver(mesh), 0u);
+    EXPECT_EQ(result.invertedBefore, before);
+    EXPECT_EQ(result.invertedAfter, 0u) << thickness;
+    EXPECT_EQ(invertedCount(mesh), 0u);
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
     {
       const SurfacePoint place{ mesh.sourceFace[i], mesh.sourceWeights[i] };
@@ -129,14 +129,14 @@ TEST(QuadUntangling, MendsAllOfAPlane)
   }
 }
 
-TEST(QuadUntangling, MovesNothingButPointsNearQuadsTurnedOver)
+TEST(QuadUntangling, MovesNothingButPointsNearInvertedQuads)
 {
   const GridMapCase c = crumpledPlane(40, 30, 4, 50000);
   const QuadMesh raw = rawQuads(c);
   QuadMesh mesh = raw;
   untangleQuads(c.mesh, mesh, {});
   std::vector<Vector3> centres;
-  for (const Index q : quadsTurnedOver(raw.points, raw.quads))
+  for (const Index q : invertedQuads(raw.points, raw.quads))
   {
     const std::array<Vector3, 4> p = cornersOf(raw.points, raw.quads[q]);
     centres.push_back((p[0] + p[1] + p[2] + p[3]) / 4);
@@ -159,10 +159,10 @@ TEST(QuadUntangling, LeavesMeshesWithoutSuchQuadsAlone)
   for (const GridMapCase& c : allCases(2))
   {
     const QuadMesh raw = rawQuads(c);
-    if (turnedOver(raw) == 0)
+    if (invertedCount(raw) == 0)
     {
       QuadMesh mesh = raw;
-      EXPECT_EQ(untangleQuads(c.mesh, mesh, {}).turnedBefore, 0u);
+      EXPECT_EQ(untangleQuads(c.mesh, mesh, {}).invertedBefore, 0u);
       expectSamePlaces(mesh, raw);
     }
   }
@@ -173,8 +173,8 @@ TEST(QuadUntangling, WhatCannotBeMendedStaysAsItWas)
   Dart dart;
   const QuadMesh before = dart.quads;
   const UntanglingResult result = untangleQuads(dart.mesh, dart.quads, {});
-  EXPECT_EQ(result.turnedBefore, 1u);
-  EXPECT_EQ(result.turnedAfter, 1u);
+  EXPECT_EQ(result.invertedBefore, 1u);
+  EXPECT_EQ(result.invertedAfter, 1u);
   expectSamePlaces(dart.quads, before);
 }
 
@@ -196,8 +196,8 @@ TEST(QuadUntangling, IsPartOfTheExtraction)
   const GridMapCase c = thinCrumpledPlane(1, 0.002);
   const ExtractionResult result = extractQuads(c.mesh, c.uv, {});
   ASSERT_TRUE(result.status.ok());
-  EXPECT_EQ(turnedOver(result.mesh), 0u);
-  EXPECT_GT(turnedOver(rawQuads(c)), 0u);
+  EXPECT_EQ(invertedCount(result.mesh), 0u);
+  EXPECT_GT(invertedCount(rawQuads(c)), 0u);
 }
 
 } // namespace quadrille::test

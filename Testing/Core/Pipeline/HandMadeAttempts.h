@@ -36,11 +36,11 @@ inline std::shared_ptr<MapAttempt> failedMap(std::vector<Index> offenders = {})
   return map;
 }
 
-inline std::shared_ptr<QuadAttempt> quadsWith(std::size_t turned)
+inline std::shared_ptr<QuadAttempt> quadsWith(std::size_t inverted)
 {
   auto quads = std::make_shared<QuadAttempt>();
-  quads->turned = turned;
-  quads->turnedAtFolds = turned > 0;
+  quads->invertedQuads = inverted;
+  quads->invertedAtFolds = inverted > 0;
   return quads;
 }
 

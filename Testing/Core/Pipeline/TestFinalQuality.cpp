@@ -40,7 +40,7 @@ std::map<std::pair<int, bool>, std::size_t> valences(const QuadMesh& quads)
   return counts;
 }
 
-std::size_t turnedQuads(const QuadMesh& quads)
+std::size_t invertedCount(const QuadMesh& quads)
 {
   return static_cast<std::size_t>(std::count_if(quads.quads.begin(), quads.quads.end(),
     [&](const std::array<Index, 4>& q)
@@ -73,7 +73,7 @@ void expectLessDistortion(const SurfaceInput& input, std::size_t quads)
     EXPECT_EQ(fine.certificate.area, coarse.certificate.area);
     EXPECT_EQ(fine.quads.quads.size(), coarse.quads.quads.size());
     EXPECT_EQ(valences(fine.quads), valences(coarse.quads));
-    EXPECT_LE(turnedQuads(fine.quads), turnedQuads(coarse.quads));
+    EXPECT_LE(invertedCount(fine.quads), invertedCount(coarse.quads));
     EXPECT_TRUE(std::any_of(fine.stages.begin(), fine.stages.end(),
       [&](const StageRecord& stage)
       { return stage.stage == "optimize" && stage.elementsIn == fine.finalQuality.elements; }));
@@ -185,14 +185,14 @@ TEST(FinalQuality, TurnsNoQuadOver)
   const RemeshResult moved = remesh(*input, options);
   ASSERT_TRUE(moved.status.ok());
   EXPECT_TRUE(moved.finalQuality.improved);
-  EXPECT_EQ(turnedQuads(moved.quads), 0U);
+  EXPECT_EQ(invertedCount(moved.quads), 0U);
 
   options.smoothingSteps = 0;
   const RemeshResult raw = remesh(*input, options);
   ASSERT_TRUE(raw.status.ok());
   EXPECT_GT(raw.finalQuality.holds, 0);
   options.finalQuality = FinalQuality::Coarse;
-  EXPECT_LE(turnedQuads(raw.quads), turnedQuads(remesh(*input, options).quads));
+  EXPECT_LE(invertedCount(raw.quads), invertedCount(remesh(*input, options).quads));
 }
 
 /// Its map has hundreds of crushed triangles that no step may crush further; they must not keep the others from moving.

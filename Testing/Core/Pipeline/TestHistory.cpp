@@ -129,14 +129,14 @@ TEST(History, ARoundWithoutMapHasNoneAtItsEndEither)
   EXPECT_EQ(history.result().map, failed);
 }
 
-TEST(History, LaterQuadsCountWithAtMostHalfAsManyTurnedOver)
+TEST(History, LaterQuadsCountWithAtMostHalfAsManyInverted)
 {
   History history;
-  const auto add = [&](std::size_t turned)
+  const auto add = [&](std::size_t inverted)
   {
-    addRound(history, planOf("fewer features"), carriedMap(1), quadsWith(turned));
-    EXPECT_EQ(history.last().quads->turned, turned);
-    return history.result().quads->turned;
+    addRound(history, planOf("fewer features"), carriedMap(1), quadsWith(inverted));
+    EXPECT_EQ(history.last().quads->invertedQuads, inverted);
+    return history.result().quads->invertedQuads;
   };
   EXPECT_EQ(add(10), 10U);
   EXPECT_EQ(add(6), 10U);

@@ -378,7 +378,7 @@ TEST(Pipeline, CoarseIsosurface)
 
 // Six creases meet in the tip, at 26 degrees from each other, with irregular vertices between them: quads there are
 // long and thin whatever they do.
-TEST(Pipeline, QuadsRoundTheTipOfAConeAreNotTurnedOver)
+TEST(Pipeline, QuadsRoundTheTipOfAConeAreNotInverted)
 {
   constexpr Index kSides = 6;
   SurfaceInput cone;
@@ -401,15 +401,15 @@ TEST(Pipeline, QuadsRoundTheTipOfAConeAreNotTurnedOver)
   const RemeshResult result = remesh(cone, options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
-  EXPECT_TRUE(quadsTurnedOver(result.quads.points, result.quads.quads).empty());
+  EXPECT_TRUE(invertedQuads(result.quads.points, result.quads.quads).empty());
   options.smoothingSteps = 0; // the map alone has such quads
   const RemeshResult raw = remesh(cone, options);
-  EXPECT_FALSE(quadsTurnedOver(raw.quads.points, raw.quads.quads).empty());
+  EXPECT_FALSE(invertedQuads(raw.quads.points, raw.quads.quads).empty());
 }
 
 #ifdef QUADRILLE_SHARED_DATA
-// The first map that gives quads has folds with a quad turned over near them that moving its points does not mend.
-TEST(Pipeline, QuadsTurnedOverNearFoldsAreTriedAgain)
+// The first map that gives quads has folds with an inverted quad near them that moving its points does not mend.
+TEST(Pipeline, InvertedQuadsNearFoldsAreTriedAgain)
 {
   const std::string path = std::string(QUADRILLE_SHARED_DATA) + "/cad/thingi_908460.ply";
   std::optional<SurfaceInput> input = test::loadPly(path);
@@ -422,10 +422,10 @@ TEST(Pipeline, QuadsTurnedOverNearFoldsAreTriedAgain)
   const RemeshResult result = remesh(*input, options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_TRUE(tells(result, "leave no room"));
-  EXPECT_TRUE(quadsTurnedOver(result.quads.points, result.quads.quads).empty());
+  EXPECT_TRUE(invertedQuads(result.quads.points, result.quads.quads).empty());
 }
 
-// Four quads are turned over near folds. To have three instead, 800 of 2,800 sharp edges would go: that is not worth
+// Four quads are inverted near folds. To have three instead, 800 of 2,800 sharp edges would go: that is not worth
 // it.
 TEST(Pipeline, FeaturesAreNotGivenUpForSingleQuads)
 {
@@ -436,7 +436,7 @@ TEST(Pipeline, FeaturesAreNotGivenUpForSingleQuads)
     GTEST_SKIP() << "no " << path;
   }
   RemeshOptions options;
-  options.quads = 5000; // where giving features up does not halve the number of quads turned over
+  options.quads = 5000; // where giving features up does not halve the number of inverted quads
   const RemeshResult result = remesh(*input, options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_FALSE(tells(result, "leave no room"));
@@ -726,9 +726,9 @@ TEST(Estimate, GrowsWithSizesAndShrinksWithThreads)
 
 TEST(Estimate, IsReadable)
 {
-  EXPECT_EQ(describeBytes(639.2e6), "640 MB");
-  EXPECT_EQ(describeBytes(12.34e9), "12.3 GB");
-  EXPECT_EQ(describe({ 7.2, 1e6 }), "about 7 s and 1 MB");
+  EXPECT_EQ(bytesText(639.2e6), "640 MB");
+  EXPECT_EQ(bytesText(12.34e9), "12.3 GB");
+  EXPECT_EQ(estimateText({ 7.2, 1e6 }), "about 7 s and 1 MB");
 }
 
 TEST(Pipeline, RefusesWhatDoesNotFitIntoMemoryBeforeItStarts)
@@ -749,7 +749,7 @@ TEST(Pipeline, RefusesWhatDoesNotFitIntoMemoryBeforeItStarts)
     << refused.status.message;
   EXPECT_TRUE(refused.stages.empty());
   ASSERT_EQ(texts.size(), 1U);
-  EXPECT_NE(texts[0].find(describe(refused.estimate)), std::string::npos) << texts[0];
+  EXPECT_NE(texts[0].find(estimateText(refused.estimate)), std::string::npos) << texts[0];
 
   options.memoryLimit = 1e9;
   EXPECT_TRUE(remesh(test::toInput(mesh), options).status.ok());

@@ -877,7 +877,7 @@ TEST(Recovery, TheFirstStrategyWithAPlanIsTaken)
   expectStep(run.nextAfter(plan, map, failedQuads()), "more quads");
   plan.finer.doublings = 3;
   expectStep(run.nextAfter(plan, map, failedQuads()), "fewer features");
-  // Quads that are turned over are no failure of the grid.
+  // Quads that are inverted are no failure of the grid.
   expectStep(run.nextAfter(run.first(), map, quadsWith(1)), "fewer features");
 }
 
@@ -888,7 +888,7 @@ TEST(Recovery, GoodQuadsNeedNothing)
   map->transfer.offenders = { run.onEdge() };
   EXPECT_FALSE(run.nextAfter(run.first(), map, quadsWith(0)));
   const auto elsewhere = quadsWith(5);
-  elsewhere->turnedAtFolds = false;
+  elsewhere->invertedAtFolds = false;
   EXPECT_FALSE(run.nextAfter(run.first(), map, elsewhere));
 }
 
