@@ -28,6 +28,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace quadrille
 {
@@ -750,6 +751,18 @@ vtkSmartPointer<vtkPoints> writePoints(
   return points;
 }
 
+/// Cell arrays, where they are there.
+void shareArrays(vtkPolyData* from, std::initializer_list<const char*> names, vtkPolyData* to)
+{
+  for (const char* name : names)
+  {
+    if (vtkAbstractArray* array = from->GetCellData()->GetAbstractArray(name))
+    {
+      to->GetCellData()->AddArray(array);
+    }
+  }
+}
+
 std::vector<Index> identity(Index count)
 {
   std::vector<Index> ids(count);
@@ -1154,27 +1167,40 @@ void addTurns(vtkPolyData* data, const Mesh& mesh, const std::vector<int>& turns
 vtkSmartPointer<vtkPolyData> writeMappedSurface(const PreparedSurface& surface,
   const std::vector<FixedVec2>& uv, const std::vector<std::int8_t>& matching,
   const std::vector<int>& turns, vtkPolyData* source, const ConvertedSurface& converted,
-  bool splitSeams, int threads, std::vector<std::string>* notCarried)
+  bool splitSeams, int threads, std::vector<std::string>* notCarried, vtkPolyData* earlier)
 {
   const Mesh& mesh = surface.mesh;
   auto data = vtkSmartPointer<vtkPolyData>::New();
-  std::vector<Index> pointVertex;
-  std::vector<Index> corners = splitSeams ? splitCorners(mesh, uv, pointVertex) : mesh.origin;
-  if (!splitSeams)
+  std::vector<Index> pointVertex, corners;
+  if (splitSeams)
+  {
+    corners = splitCorners(mesh, uv, pointVertex);
+  }
+  else
   {
     pointVertex = identity(mesh.vertexCount());
   }
   data->SetPoints(writePoints(mesh, pointVertex, threads));
-  data->SetPolys(writeTriangles(corners, threads));
+  data->SetPolys(writeTriangles(splitSeams ? corners : mesh.origin, threads));
   std::vector<std::string> left =
     carryToSurface(data, surface, source, converted, pointVertex, threads);
   if (notCarried)
   {
     *notCarried = std::move(left);
   }
-  addSourceArrays(data, surface, converted, threads);
-  addFeatureEdges(data, mesh, threads);
-  addTwinsWhereNeeded(data, mesh, threads);
+  if (earlier)
+  {
+    shareArrays(
+      earlier, { arrays::kSourceCellId, arrays::kSourcePointIds, arrays::kSourceWeights }, data);
+    addFeatureEdges(data, mesh, threads);
+    shareArrays(earlier, { arrays::kTwin }, data);
+  }
+  else
+  {
+    addSourceArrays(data, surface, converted, threads);
+    addFeatureEdges(data, mesh, threads);
+    addTwinsWhereNeeded(data, mesh, threads);
+  }
   addMap(data, uv, threads);
   addMatching(data, matching);
   // One value a vertex becomes one a point: addTurns works on vertices, so spread it afterwards.

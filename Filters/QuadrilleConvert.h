@@ -143,10 +143,12 @@ void addTurns(vtkPolyData* data, const Mesh& mesh, const std::vector<int>& turns
 /// The finest level with its map for display and extraction. source: what the surface was made from, its
 /// arrays are carried over. With splitSeams points are doubled where the map is cut, so that
 /// texture coordinates can be a point array. notCarried, if given, gets what carryPointArrays and carryCellArrays
-/// return.
+/// return. earlier, if given, was written for the same triangles, made from the same cells: what says where these
+/// come from is shared with it.
 vtkSmartPointer<vtkPolyData> writeMappedSurface(const PreparedSurface& surface,
   const std::vector<FixedVec2>& uv, const std::vector<std::int8_t>& matching,
   const std::vector<int>& turns, vtkPolyData* source, const ConvertedSurface& converted,
-  bool splitSeams, int threads, std::vector<std::string>* notCarried = nullptr);
+  bool splitSeams, int threads, std::vector<std::string>* notCarried = nullptr,
+  vtkPolyData* earlier = nullptr);
 
 } // namespace quadrille

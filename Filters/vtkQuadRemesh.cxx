@@ -10,13 +10,16 @@
 #include "QuadrilleFrame.h"
 #include "QuadrilleQuads.h"
 #include "QuadrilleReport.h"
+#include "QuadrilleStamps.h"
 
 #include "vtkFieldData.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
 #include <sstream>
 #include <utility>
+#include <vector>
 
 vtkStandardNewMacro(vtkQuadRemesh);
 
@@ -45,7 +48,29 @@ struct MappedOutput
   vtkTypeBool textureCoordinates = 0;
   quadrille::ResultKey map = 0; ///< 0: there is none
   vtkSmartPointer<vtkPolyData> surface;
+  std::uint64_t triangles = 0;         ///< hash of the surface
+  bool reversed = false;               ///< its faces against those of the input
+  std::vector<quadrille::Stamp> cells; ///< of the input
 
+  /// What was written, where another surface from the same cells has the same triangles.
+  vtkPolyData* sameTriangles(const quadrille::RemeshResult& result, vtkPolyData* from) const
+  {
+    return surface && triangles == result.surface.hash && reversed == result.frame.reversed &&
+        cells == cellStamps(from)
+      ? surface
+      : nullptr;
+  }
+  static std::vector<quadrille::Stamp> cellStamps(vtkPolyData* data)
+  {
+    vtkNew<vtkPolyData> cells;
+    cells->SetVerts(data->GetVerts());
+    cells->SetLines(data->GetLines());
+    cells->SetPolys(data->GetPolys());
+    cells->SetStrips(data->GetStrips());
+    std::vector<quadrille::Stamp> stamps;
+    quadrille::addStamps(cells, stamps);
+    return stamps;
+  }
   /// The map's key, where another output from the same input would be the same.
   quadrille::ResultKey mapFor(vtkPolyData* other, vtkTypeBool withTextureCoordinates) const
   {
@@ -102,6 +127,7 @@ struct MappedSource
   vtkPolyData* input = nullptr;
   const quadrille::ConvertedSurface* converted = nullptr;
   bool textureCoordinates = false;
+  vtkPolyData* earlier = nullptr; ///< see writeMappedSurface
 };
 
 void writeMapped(const quadrille::RemeshResult& result, const quadrille::RemeshOptions& options,
@@ -109,7 +135,8 @@ void writeMapped(const quadrille::RemeshResult& result, const quadrille::RemeshO
 {
   mapped->ShallowCopy(quadrille::writeMappedSurface(result.surface, result.uv,
     quadrille::matchingOf(result.surface.mesh, result.uv, options.threads), result.turns,
-    source.input, *source.converted, source.textureCoordinates, options.threads));
+    source.input, *source.converted, source.textureCoordinates, options.threads, nullptr,
+    source.earlier));
   quadrille::addFrame(mapped, result.frame, result.framePositions);
   quadrille::addMethod(mapped, options.method);
   quadrille::addAnisotropy(mapped, options.anisotropyLimit, result.beyondAnisotropyLimit);
@@ -261,12 +288,16 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
     }
     else
     {
-      writeMapped(result, options, { input, &converted, this->TextureCoordinates != 0 }, mapped);
+      vtkPolyData* earlier =
+        memory != nullptr ? memory->mapped.sameTriangles(result, input) : nullptr;
+      writeMapped(
+        result, options, { input, &converted, this->TextureCoordinates != 0, earlier }, mapped);
     }
     if (memory != nullptr)
     {
       memory->mapped = { input, input->GetMTime(), this->TextureCoordinates, result.mapKey,
-        vtkSmartPointer<vtkPolyData>::New() };
+        vtkSmartPointer<vtkPolyData>::New(), result.surface.hash, result.frame.reversed,
+        MappedOutput::cellStamps(input) };
       memory->mapped.surface->ShallowCopy(mapped);
     }
   }

@@ -19,7 +19,7 @@ namespace
 // intermediateRounds, number of rounds, of blocks, of record bytes (64 bit each); blocks per round, bytes
 // per block (64 bit each); records; CRC-64 of all before it.
 constexpr std::array<std::uint8_t, 8> kMagic{ 'Q', 'D', 'R', 'L', 'D', 'L', 'O', 'G' };
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kHeaderBytes = 8 + 4 + 4 + 7 * 8;
 
 /// CRC-64 of ECMA-182 in its reflected form, eight bytes at a time [Kounavis and Berry 2005].

@@ -578,6 +578,7 @@ CollapseRecord FreeStar::makeRecord(int target) const
 {
   CollapseRecord record;
   record.faces = size_;
+  record.vertex = vertex_;
   std::copy(slot_.begin() + target, slot_.begin() + size_, record.slot.begin());
   std::copy(slot_.begin(), slot_.begin() + target, record.slot.begin() + (size_ - target));
   for (std::size_t i = 0; i < 3; ++i)

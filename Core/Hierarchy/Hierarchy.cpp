@@ -14,6 +14,7 @@
 #include "Hierarchy/OrderedDecimation.h"
 #include "Hierarchy/StarCache.h"
 #include "Hierarchy/UniformDecimation.h"
+#include "Hierarchy/VertexRestoration.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/SmallComponents.h"
 
@@ -21,6 +22,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -42,6 +45,10 @@ constexpr double kGuideReach = 0.25;
 constexpr double kCornerScale = 0.25;
 /// Faces of a chunk of the passes over the mesh.
 constexpr std::size_t kChunkFaces = std::size_t{ 1 } << 15;
+/// Where more than one of so many removals would have to be undone, phase 1 runs anew.
+constexpr std::size_t kLeastLeft = 4;
+/// Of an intermediate level and of its DecimationMesh, about.
+constexpr std::size_t kBytesOfLevelVertex = 200;
 
 /// What may change from one update to the next.
 void checkPhase2(const Mesh& fine, const HierarchyOptions& options)
@@ -54,6 +61,14 @@ void checkPhase2(const Mesh& fine, const HierarchyOptions& options)
       throw InvalidInput("Guide " + std::to_string(i) + " is of face " + std::to_string(f) +
         ", but guides must ascend by face, and the mesh has " + std::to_string(fine.faceCount()) +
         " faces.");
+    }
+  }
+  for (const Index v : options.keepVertices)
+  {
+    if (v >= fine.vertexCount())
+    {
+      throw InvalidInput("Vertex " + std::to_string(v) + " is to be kept, but the mesh has only " +
+        std::to_string(fine.vertexCount()) + " vertices.");
     }
   }
   if (options.coarseVertices == 0 && options.cost != DecimationCost::Gaussian &&
@@ -78,14 +93,6 @@ void checkOptions(const Mesh& fine, const HierarchyOptions& options)
       std::to_string(options.draws.candidates) + ".");
   }
   checkPhase2(fine, options);
-  for (const Index v : options.keepVertices)
-  {
-    if (v >= fine.vertexCount())
-    {
-      throw InvalidInput("Vertex " + std::to_string(v) + " is to be kept, but the mesh has only " +
-        std::to_string(fine.vertexCount()) + " vertices.");
-    }
-  }
 }
 
 /// The vertices of each component, joined along edges.
@@ -141,25 +148,32 @@ std::vector<double> componentAreas(const Mesh& fine, DisjointSets& components, i
   return area;
 }
 
-/// Factor on s per vertex, beside the sizes that are asked for; empty when there are none and no component is small
-/// against s.
-std::vector<float> vertexScales(const Mesh& fine, double edgeLength, int threads)
+/// Factors on s.
+struct VertexScales
+{
+  std::vector<float>
+    scale; ///< #V; empty where no size is asked for and no component is small against s
+  bool anySmallComponent = false; ///< else they are the sizes that are asked for
+};
+
+VertexScales vertexScales(const Mesh& fine, double edgeLength, int threads)
 {
   DisjointSets components = componentsOf(fine, threads);
   const std::vector<double> area = componentAreas(fine, components, threads);
   const auto scale = [&](Index root) { return triangulationScale(area[root], edgeLength); };
-  bool anySmall = false;
+  VertexScales result;
+  bool& anySmall = result.anySmallComponent;
   for (Index v = 0; v < fine.vertexCount() && !anySmall; ++v)
   {
     pollNowAndThen(v);
     anySmall = components.find(v) == v && scale(v) < 1;
   }
-  std::vector<float> scales(anySmall || !fine.sizing.empty() ? fine.vertexCount() : 0);
-  for (Index v = 0; v < static_cast<Index>(scales.size()); ++v)
+  result.scale.resize(anySmall || !fine.sizing.empty() ? fine.vertexCount() : 0);
+  for (Index v = 0; v < static_cast<Index>(result.scale.size()); ++v)
   {
-    scales[v] = static_cast<float>(scale(components.find(v)) * sizeAt(fine, v));
+    result.scale[v] = static_cast<float>(scale(components.find(v)) * sizeAt(fine, v));
   }
-  return scales;
+  return result;
 }
 
 /// The vertex of the level that is vertex v of the finest one, if it is there.
@@ -169,6 +183,36 @@ std::optional<Index> positionIn(const Level& level, Index v)
   return found != level.fineVertex.end() && *found == v
     ? std::optional<Index>(static_cast<Index>(found - level.fineVertex.begin()))
     : std::nullopt;
+}
+
+std::vector<Index> sorted(std::vector<Index> values)
+{
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+/// A level of a level, in terms of the finest mesh.
+Level inFineTerms(Level level, const Level& above)
+{
+  for (Index& v : level.fineVertex)
+  {
+    v = above.fineVertex[v];
+  }
+  for (Index& f : level.fineFace)
+  {
+    f = above.fineFace[f];
+  }
+  return level;
+}
+
+/// The same for records.
+BlockRecords inFineTerms(BlockRecords records, const Level& above)
+{
+  renameRecords(
+    records, [&](Index slot) { return 3 * above.fineFace[slot / 3] + slot % 3; },
+    [&](Index v) { return above.fineVertex[v]; });
+  return records;
 }
 
 /// The curves among the vertices of a level; the ends of curves are on every level.
@@ -203,9 +247,11 @@ FeatureCurves curvesOf(const Level& level, const FeatureCurves& fine)
 class Redecimation::Implementation
 {
 public:
-  Implementation(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options)
+  /// kept: vertices, ascending, that phase 1 is to leave in any case.
+  Implementation(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options,
+    std::vector<Index> kept = {})
     : fine_(fine), edgeLength_(options.targetEdgeLength), order_(options.order),
-      draws_(options.draws)
+      draws_(options.draws), keptByPhase1_(std::move(kept))
   {
     checkOptions(fine, options);
     const Stopwatch watch;
@@ -216,20 +262,61 @@ public:
   bool allows(const HierarchyOptions& options) const
   {
     return options.targetEdgeLength == edgeLength_ && options.order == order_ &&
-      (order_ != DecimationOrder::Stochastic || options.draws == draws_) &&
-      std::all_of(options.keepVertices.begin(), options.keepVertices.end(),
-        [&](Index v) { return positionIn(hierarchy_.intermediate, v).has_value(); });
+      (order_ != DecimationOrder::Stochastic || options.draws == draws_);
+  }
+
+  const Mesh& fine() const { return fine_; }
+  std::uint64_t fineHash() const { return hierarchy_.log.fineHash; }
+  const std::vector<Index>& keptByPhase1() const { return keptByPhase1_; }
+  const Level& levelOfPhase1() const
+  {
+    return asPhase1Left_ ? asPhase1Left_->level : hierarchy_.intermediate;
+  }
+
+  /// Puts these vertices (ascending) on the intermediate level, which is as phase 1 has left it else. False where so
+  /// many removals would have to be undone for them that phase 1 had better run with them.
+  bool putOnLevel(const std::vector<Index>& vertices, const HierarchyOptions& options)
+  {
+    if (vertices == (asPhase1Left_ ? keptByRestoration_ : keptByPhase1_))
+    {
+      return true;
+    }
+    returnToPhase1();
+    std::vector<Index> missing;
+    std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(missing),
+      [&](Index v) { return !positionIn(hierarchy_.intermediate, v); });
+    if (missing.empty())
+    {
+      return true;
+    }
+    hierarchy_.coarse = {};
+    hierarchy_.log.truncate(intermediateEnd_);
+    const std::optional<std::vector<LoggedRemoval>> removals =
+      removalsFrom(hierarchy_.log, missing, hierarchy_.log.collapses / kLeastLeft);
+    if (removals)
+    {
+      restore(*removals, vertices, options);
+    }
+    return removals.has_value();
+  }
+
+  /// Of what is held only to go back to the level that phase 1 left.
+  std::size_t bytesAside() const
+  {
+    std::size_t bytes = 0;
+    if (asPhase1Left_)
+    {
+      for (const auto& [id, block] : asPhase1Left_->blocks)
+      {
+        bytes += block.capacity();
+      }
+      bytes += asPhase1Left_->level.mesh.position.size() * kBytesOfLevelVertex;
+    }
+    return bytes;
   }
 
   const Hierarchy& update(const HierarchyOptions& options)
   {
-    if (!allows(options))
-    {
-      throw InvalidInput(
-        "The coarse level cannot be made anew: the edge length or the order of "
-        "phase 1 has changed, or a vertex that is to be kept is not on the intermediate level.");
-    }
-    checkPhase2(fine_, options);
     const Stopwatch watch;
     if (cost_ != options.cost)
     {
@@ -252,7 +339,7 @@ public:
     hierarchy_.cache = result.cache;
     hierarchy_.curvatureShift = result.curvatureShift / edgeLength_;
     append(result.records);
-    hierarchy_.coarse = inFineTerms(mesh.extract());
+    hierarchy_.coarse = inFineTerms(mesh.extract(), hierarchy_.intermediate);
     hierarchy_.secondsPhase2 = watch.seconds();
     return hierarchy_;
   }
@@ -265,12 +352,11 @@ private:
   {
     DecimationMesh mesh(
       fine_, traceFeatureCurves(fine_, kCornerScale * edgeLength_), options.threads);
-    UniformOptions uniform;
-    uniform.edgeLength = 0.5 * edgeLength_;
-    uniform.scale = vertexScales(fine_, edgeLength_, options.threads);
-    uniform.curveTolerance = kCurveTolerance * edgeLength_;
-    uniform.keepVertices = options.keepVertices;
-    uniform.threads = options.threads;
+    UniformOptions uniform = uniformOptions(options);
+    VertexScales scales = vertexScales(fine_, edgeLength_, options.threads);
+    anySmallComponent_ = scales.anySmallComponent;
+    uniform.scale = std::move(scales.scale);
+    uniform.keepVertices = keptByPhase1_;
     uniform.progress = subProgress(options.progress, 0.0, 0.6);
     LogBuilder log;
     switch (options.order)
@@ -288,16 +374,116 @@ private:
     log.endIntermediate();
     Level& level = hierarchy_.intermediate;
     level = mesh.extract();
-    intermediate_.emplace(level.mesh, curvesOf(level, mesh.curves));
-    for (Index v = 0; v < level.mesh.vertexCount(); ++v)
-    {
-      pollNowAndThen(v);
-      intermediate_->curveError[v] = mesh.curveError[level.fineVertex[v]];
-    }
+    makeIntermediate(mesh.curves, mesh.curveError, level.fineVertex);
     hierarchy_.log = log.finish();
     hierarchy_.log.fineHash = fineHash;
     hierarchy_.log.fineFaces = fine_.faceCount();
     intermediateEnd_ = hierarchy_.log.end();
+  }
+
+  UniformOptions uniformOptions(const HierarchyOptions& options) const
+  {
+    UniformOptions uniform;
+    uniform.edgeLength = 0.5 * edgeLength_;
+    uniform.curveTolerance = kCurveTolerance * edgeLength_;
+    uniform.threads = options.threads;
+    return uniform;
+  }
+
+  /// The intermediate level as it is told, for phase 2. curveError: of the vertices of a mesh, `ids` there.
+  void makeIntermediate(const FeatureCurves& fineCurves, const std::vector<float>& curveError,
+    const std::vector<Index>& ids)
+  {
+    const Level& level = hierarchy_.intermediate;
+    intermediate_ = std::make_unique<DecimationMesh>(level.mesh, curvesOf(level, fineCurves));
+    for (std::size_t v = 0; v < ids.size(); ++v)
+    {
+      intermediate_->curveError[v] = curveError[ids[v]];
+    }
+  }
+
+  /// Undoes the removals, and thins out again what they have touched, but for the vertices.
+  void restore(const std::vector<LoggedRemoval>& removals, const std::vector<Index>& vertices,
+    const HierarchyOptions& options)
+  {
+    const RestoredLevel restored = undoRemovals(
+      fine_, hierarchy_.intermediate, intermediate_->curveError, hierarchy_.log, removals);
+    const FeatureCurves fineCurves = traceFeatureCurves(fine_, kCornerScale * edgeLength_);
+    DecimationMesh mesh(restored.level.mesh, curvesOf(restored.level, fineCurves));
+    mesh.curveError = restored.curveError;
+    UniformOptions uniform = uniformOptions(options);
+    uniform.candidates = restored.touched;
+    for (const Index v : vertices)
+    {
+      uniform.keepVertices.push_back(*positionIn(restored.level, v));
+    }
+    uniform.scale = restored.level.mesh.sizing;
+    if (anySmallComponent_)
+    {
+      const VertexScales scales = vertexScales(fine_, edgeLength_, options.threads);
+      uniform.scale.clear();
+      for (const Index v : restored.level.fineVertex)
+      {
+        uniform.scale.push_back(scales.scale[v]);
+      }
+    }
+    LogBuilder builder;
+    decimateUniformly(mesh, uniform, builder);
+    const DecimationLog again = builder.finish();
+    BlockRecords records;
+    for (const BlockRecords& block : again.blocks)
+    {
+      records.insert(records.end(), block.begin(), block.end());
+    }
+    Level level = mesh.extract();
+    const std::vector<Index> ids = level.fineVertex;
+    level = inFineTerms(std::move(level), restored.level);
+    records = inFineTerms(std::move(records), restored.level);
+
+    asPhase1Left_.emplace(AsPhase1Left{ std::move(hierarchy_.intermediate),
+      std::move(intermediate_), intermediateEnd_, takeOut(hierarchy_.log, removals) });
+    try
+    {
+      hierarchy_.intermediate = std::move(level);
+      makeIntermediate(fineCurves, mesh.curveError, ids);
+      hierarchy_.log.append(std::move(records), again.collapses, again.flips);
+      endIntermediate();
+    }
+    catch (...)
+    {
+      returnToPhase1();
+      throw;
+    }
+    keptByRestoration_ = vertices;
+  }
+
+  /// The intermediate level and its log without what was brought back.
+  void returnToPhase1()
+  {
+    if (!asPhase1Left_)
+    {
+      return;
+    }
+    hierarchy_.coarse = {};
+    hierarchy_.log.truncate(asPhase1Left_->end);
+    for (auto& [id, block] : asPhase1Left_->blocks)
+    {
+      hierarchy_.log.blocks[id] = std::move(block);
+    }
+    hierarchy_.intermediate = std::move(asPhase1Left_->level);
+    intermediate_ = std::move(asPhase1Left_->mesh);
+    asPhase1Left_.reset();
+    endIntermediate();
+  }
+
+  /// What the log has leads to the intermediate level, of which nothing is known yet.
+  void endIntermediate()
+  {
+    intermediateEnd_ = hierarchy_.log.end();
+    hierarchy_.log.intermediateRounds = hierarchy_.log.rounds.size();
+    hierarchy_.intermediate.guides = {};
+    guides_ = {};
+    cache_.clear();
   }
 
   /// Brings the guides to the intermediate level, where they have changed.
@@ -347,23 +533,8 @@ private:
   /// Adds the records of phase 2, whose slots are the intermediate level's.
   void append(const RecordWriter& records)
   {
-    const std::vector<Index>& fineFace = hierarchy_.intermediate.fineFace;
-    BlockRecords bytes = records.bytes();
-    renameSlots(bytes, [&](Index slot) { return 3 * fineFace[slot / 3] + slot % 3; });
-    hierarchy_.log.append(std::move(bytes), records.collapses(), records.flips());
-  }
-
-  Level inFineTerms(Level level) const
-  {
-    for (Index& v : level.fineVertex)
-    {
-      v = hierarchy_.intermediate.fineVertex[v];
-    }
-    for (Index& f : level.fineFace)
-    {
-      f = hierarchy_.intermediate.fineFace[f];
-    }
-    return level;
+    hierarchy_.log.append(
+      inFineTerms(records.bytes(), hierarchy_.intermediate), records.collapses(), records.flips());
   }
 
   const Mesh& fine_;
@@ -371,8 +542,20 @@ private:
   DecimationOrder order_ = DecimationOrder::Sweeps;
   RandomDraws draws_;
   Hierarchy hierarchy_;
-  std::optional<DecimationMesh> intermediate_;
+  std::unique_ptr<DecimationMesh> intermediate_; ///< on the positions of hierarchy_.intermediate
   DecimationLog::End intermediateEnd_;
+  bool anySmallComponent_ = false; ///< see VertexScales
+  std::vector<Index> keptByPhase1_;
+  std::vector<Index> keptByRestoration_; ///< where something is set aside
+  /// Set aside while vertices are back that phase 1 has removed.
+  struct AsPhase1Left
+  {
+    Level level;
+    std::unique_ptr<DecimationMesh> mesh;
+    DecimationLog::End end;
+    std::vector<std::pair<std::size_t, BlockRecords>> blocks; ///< that records were taken from
+  };
+  std::optional<AsPhase1Left> asPhase1Left_;
   std::vector<float> fineDefect_;                  ///< for GaussianMemory, when first needed
   DecimationCost cost_ = DecimationCost::Gaussian; ///< that the cache was filled with
   std::vector<FaceGuide> guides_;                  ///< that the intermediate level has
@@ -394,9 +577,51 @@ bool Redecimation::allows(const HierarchyOptions& options) const
   return implementation_->allows(options);
 }
 
+const Level& Redecimation::intermediateOfPhase1(const HierarchyOptions& options)
+{
+  if (!implementation_->keptByPhase1().empty())
+  {
+    decimateAnew(options, {});
+  }
+  return implementation_->levelOfPhase1();
+}
+
 const Hierarchy& Redecimation::update(const HierarchyOptions& options)
 {
-  return implementation_->update(options);
+  if (!allows(options))
+  {
+    throw InvalidInput("The coarse level cannot be made anew: the edge length or the order of "
+                       "phase 1 has changed.");
+  }
+  const Mesh& fine = implementation_->fine();
+  checkPhase2(fine, options);
+  const std::vector<Index> kept = sorted(options.keepVertices);
+  const Stopwatch watch;
+  const std::vector<Index>& before = implementation_->keptByPhase1();
+  if (!before.empty() && before != kept)
+  {
+    decimateAnew(options, {});
+  }
+  if (!implementation_->putOnLevel(kept, options))
+  {
+    decimateAnew(options, kept);
+  }
+  const double seconds = watch.seconds();
+  implementation_->update(options);
+  implementation_->hierarchy().secondsPhase2 += seconds;
+  return implementation_->hierarchy();
+}
+
+void Redecimation::decimateAnew(const HierarchyOptions& options, std::vector<Index> kept)
+{
+  implementation_ = std::make_unique<Implementation>(
+    implementation_->fine(), implementation_->fineHash(), options, std::move(kept));
+  ++decimations_;
+}
+
+std::size_t Redecimation::bytesAside() const
+{
+  return implementation_->bytesAside();
 }
 
 const Hierarchy& Redecimation::hierarchy() const

@@ -3,10 +3,10 @@
 /// Byte layout of the records of a decimation log, read from the end of a block to its beginning.
 ///
 ///     flip      h g                          | 0      9 bytes
-///     collapse  slot[k] w1 w2 i0 i1 i2 kind  | k      4 k + 13 bytes
+///     collapse  slot[k] v w1 w2 i0 i1 i2 kind| k      4 k + 17 bytes
 ///
-/// The last byte is the tag. Slots and weights are little-endian 32 bit. The removed vertex is
-///     v = r[i0] + w1 (r[i1] - r[i0]) + w2 (r[i2] - r[i0]),   w in units of 2^-32, w <= 1/2 each,
+/// The last byte is the tag. Slots, weights and v, the id of the removed vertex, are little-endian 32 bit. It lies at
+///     r[i0] + w1 (r[i1] - r[i0]) + w2 (r[i2] - r[i0]),   w in units of 2^-32, w <= 1/2 each,
 /// with r the ring of v in counterclockwise order as the slots name it: slot j is the corner of v in face
 /// (v, r[j], r[j+1]). For an interior vertex r[0] is the vertex it collapsed onto, so slots 0 and k-1 die;
 /// a boundary vertex has k + 1 ring vertices and collapsed onto r[0] (slot 0 dies) or r[k] (slot k-1
@@ -36,6 +36,7 @@ enum class CollapseKind : std::uint8_t
 struct CollapseRecord
 {
   int faces = 0; ///< k
+  Index vertex = kInvalidIndex;
   CollapseKind kind = CollapseKind::Interior;
   bool onCurve = false;
   std::array<std::uint8_t, 3> ring{};
@@ -66,7 +67,7 @@ inline std::uint32_t loadLittleEndian(const std::uint8_t* bytes)
 constexpr std::size_t kFlipBytes = 9;
 constexpr std::size_t collapseBytes(int faces)
 {
-  return 4 * static_cast<std::size_t>(faces) + 13;
+  return 4 * static_cast<std::size_t>(faces) + 17;
 }
 /// Set in the kind byte of a vertex of a constrained curve.
 constexpr std::uint8_t kOnCurveBit = 4;
@@ -93,14 +94,15 @@ public:
     {
       storeLittleEndian(out, record.slot[static_cast<std::size_t>(i)]);
     }
-    storeLittleEndian(out, record.weight[0]);
-    storeLittleEndian(out + 4, record.weight[1]);
-    out[8] = record.ring[0];
-    out[9] = record.ring[1];
-    out[10] = record.ring[2];
-    out[11] = static_cast<std::uint8_t>(
+    storeLittleEndian(out, record.vertex);
+    storeLittleEndian(out + 4, record.weight[0]);
+    storeLittleEndian(out + 8, record.weight[1]);
+    out[12] = record.ring[0];
+    out[13] = record.ring[1];
+    out[14] = record.ring[2];
+    out[15] = static_cast<std::uint8_t>(
       static_cast<unsigned>(record.kind) | (record.onCurve ? unsigned{ kOnCurveBit } : 0U));
-    out[12] = static_cast<std::uint8_t>(record.faces);
+    out[16] = static_cast<std::uint8_t>(record.faces);
     ++collapses_;
   }
 
@@ -126,10 +128,17 @@ private:
   std::size_t collapses_ = 0;
 };
 
+/// The vertex that the collapse record that ends at `end` removes.
+inline Index removedVertex(const std::uint8_t* end)
+{
+  return loadLittleEndian(end - 17);
+}
+
 /// The collapse record that ends at `end`; its tag must not be zero. Does not check its content.
 inline void readCollapse(const std::uint8_t* end, CollapseRecord& record)
 {
   record.faces = end[-1];
+  record.vertex = removedVertex(end);
   const unsigned kind = end[-2];
   record.kind = static_cast<CollapseKind>(kind & 3U);
   record.onCurve = (kind & kOnCurveBit) != 0;
@@ -142,20 +151,26 @@ inline void readCollapse(const std::uint8_t* end, CollapseRecord& record)
   }
 }
 
-/// Replaces every slot in the records of a block.
-template <typename NewSlot>
-void renameSlots(BlockRecords& bytes, const NewSlot& newSlot)
+/// Replaces every slot and every vertex in the records of a block.
+template <typename NewSlot, typename NewVertex>
+void renameRecords(BlockRecords& bytes, const NewSlot& newSlot, const NewVertex& newVertex)
 {
-  const auto rename = [&](std::uint8_t* at)
-  { storeLittleEndian(at, newSlot(loadLittleEndian(at))); };
+  const auto rename = [](std::uint8_t* at, const auto& newName)
+  { storeLittleEndian(at, newName(loadLittleEndian(at))); };
   std::size_t end = bytes.size();
   while (end > 0)
   {
     const int faces = bytes[end - 1];
+    const int slots = faces == 0 ? 2 : faces;
     end -= faces == 0 ? kFlipBytes : collapseBytes(faces);
-    for (int i = 0; i < (faces == 0 ? 2 : faces); ++i)
+    std::uint8_t* at = bytes.data() + end;
+    for (int i = 0; i < slots; ++i, at += 4)
     {
-      rename(bytes.data() + end + 4 * static_cast<std::size_t>(i));
+      rename(at, newSlot);
+    }
+    if (faces != 0)
+    {
+      rename(at, newVertex);
     }
   }
 }

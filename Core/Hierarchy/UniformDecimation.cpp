@@ -52,7 +52,8 @@ public:
     : mesh_(mesh), options_(options), log_(log), state_(mesh.position.size())
   {
     guards_.curveTolerance = options.curveTolerance;
-    for (Index v = 0; v < static_cast<Index>(mesh.position.size()); ++v)
+    alive_ = options.candidates;
+    for (Index v = 0; v < static_cast<Index>(mesh.position.size()) && !isLocal(); ++v)
     {
       pollNowAndThen(v);
       if (mesh.outgoing[v] != kInvalidIndex)
@@ -87,7 +88,9 @@ private:
   std::unique_ptr<Worker> takeWorker();
   void giveBack(std::unique_ptr<Worker> worker);
   LogBuilder::Block sweepBlock(Block& block, double threshold, int firstStamp);
+  bool isLocal() const { return !options_.candidates.empty(); }
   double firstThreshold() const;
+  double shortestEdge() const;
   double largestScale() const;
   void finish(double threshold);
   void forget();
@@ -121,7 +124,7 @@ void UniformDecimation::run()
   for (; threshold < last; threshold *= kThresholdStep)
   {
     report(options_.progress, ++done / (steps + 2), "uniform decimation");
-    round(threshold, false);
+    round(threshold, isLocal());
   }
   report(options_.progress, (steps + 1) / (steps + 2), "uniform decimation");
   finish(last);
@@ -135,7 +138,7 @@ void UniformDecimation::run()
 void UniformDecimation::finish(double threshold)
 {
   forget();
-  bool serial = false;
+  bool serial = isLocal();
   for (int i = 0; i < kLastRounds; ++i)
   {
     poll();
@@ -161,8 +164,29 @@ void UniformDecimation::forget()
   }
 }
 
+/// Of those at candidates.
+double UniformDecimation::shortestEdge() const
+{
+  double shortest = std::numeric_limits<double>::infinity();
+  for (Index h = 0; h < 3 * mesh_.faceCount(); ++h)
+  {
+    const Index a = mesh_.origin[h], b = mesh_.target(h);
+    if (std::binary_search(alive_.begin(), alive_.end(), a) &&
+      std::binary_search(alive_.begin(), alive_.end(), b))
+    {
+      shortest = std::min(shortest, (mesh_.position[b] - mesh_.position[a]).norm());
+    }
+  }
+  return shortest;
+}
+
 double UniformDecimation::firstThreshold() const
 {
+  const double least = 1e-6 * options_.edgeLength;
+  if (isLocal())
+  {
+    return std::max(shortestEdge() * kThresholdStep, least);
+  }
   double sum = 0;
   std::size_t count = 0;
   for (Index h = 0; h < 3 * mesh_.faceCount(); h += 7)
@@ -170,8 +194,7 @@ double UniformDecimation::firstThreshold() const
     sum += (mesh_.position[mesh_.target(h)] - mesh_.position[mesh_.origin[h]]).norm();
     ++count;
   }
-  return std::max(
-    sum / static_cast<double>(std::max<std::size_t>(count, 1)), 1e-6 * options_.edgeLength);
+  return std::max(sum / static_cast<double>(std::max<std::size_t>(count, 1)), least);
 }
 
 /// At least 1, so that components that are all small change no threshold.

@@ -28,6 +28,8 @@ struct UniformOptions
   std::vector<float> scale;
   double curveTolerance = 0; ///< see RemovalGuards
   std::vector<Index> keepVertices;
+  /// Empty: all vertices. Else only these may go, ascending: a part of a mesh that is thinned out already.
+  std::vector<Index> candidates;
   int threads = 0;
   ProgressCallback progress;
 };

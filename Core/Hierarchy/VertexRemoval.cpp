@@ -758,6 +758,7 @@ CollapseRecord VertexRemoval::makeRecord(int target) const
   CollapseRecord record;
   record.faces = faces_;
   record.onCurve = onCurve_;
+  record.vertex = vertex_;
   if (boundary_)
   {
     record.kind = target == 0 ? CollapseKind::BoundaryFirst : CollapseKind::BoundaryLast;

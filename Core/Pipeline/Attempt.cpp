@@ -36,15 +36,11 @@ void addRequests(const PreparedSurface& surface, KeyMaker& key)
 }
 
 /// Of all that a map depends on.
-ResultKey mapKey(const RunContext& run, const Plan& plan, const Phase1* before)
+ResultKey mapKey(const RunContext& run, const Plan& plan)
 {
   const RemeshOptions& options = run.options;
   KeyMaker key(run.surface.key());
   key.add(run.edgeLength).add(plan.levelsKey());
-  if (before != nullptr)
-  {
-    key.add(before->edgeLength).add(before->kept);
-  }
   key.add(static_cast<std::uint64_t>(options.method))
     .add(std::uint64_t{ options.coarsestIntegers ? 1U : 0U })
     .add(std::uint64_t{ options.distortionMetric ? 1U : 0U })
@@ -255,8 +251,7 @@ void MapAttempt::unpack(const Mesh& surface)
 std::size_t MapAttempt::bytes() const
 {
   return bytesOf(coarse.mesh.position) + bytesOf(coarse.mesh.origin) + bytesOf(coarse.mesh.twin) +
-    bytesOf(coarseUv) + bytesOf(uv) + packed.bytes() + bytesOf(turns) + bytesOf(integerVertex) +
-    bytesOf(phase1.kept);
+    bytesOf(coarseUv) + bytesOf(uv) + packed.bytes() + bytesOf(turns) + bytesOf(integerVertex);
 }
 
 HierarchyOptions levelOptions(const RunContext& run, const Plan& plan)
@@ -271,10 +266,10 @@ HierarchyOptions levelOptions(const RunContext& run, const Plan& plan)
   return options;
 }
 
-std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan, const Phase1* before)
+std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan)
 {
   run.surface.apply(plan);
-  const ResultKey key = mapKey(run, plan, before);
+  const ResultKey key = mapKey(run, plan);
   if (run.store != nullptr)
   {
     if (const auto found = run.store->find<MapAttempt>(key))
@@ -284,13 +279,12 @@ std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan, const Pha
   }
   auto made = std::make_shared<MapAttempt>();
   made->key = key;
-  const Hierarchy& levels = run.levels.make(levelOptions(run, plan), before);
+  const Hierarchy& levels = run.levels.make(levelOptions(run, plan));
   made->stages.add(run.levels.stages());
   if (!made->stages.has("phase2"))
   {
     made->reused.emplace_back("phase2");
   }
-  made->phase1 = run.levels.phase1();
   GridMapResult map = computeMap(run, plan, *made);
   recordCoarse(levels, map, *made);
   if (made->status.ok())

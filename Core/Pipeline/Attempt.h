@@ -50,8 +50,7 @@ struct MapAttempt
   Certificate coarseCertificate;
   std::vector<Index> coarseOffenders;  ///< vertices of the surface, where the status is not ok
   std::vector<Vector3> coarseTroubles; ///< their positions
-  Phase1 phase1;
-  std::size_t work = 0; ///< GridMapResult::work
+  std::size_t work = 0;                ///< GridMapResult::work
 
   // Where the status is ok.
   std::vector<FixedVec2> uv; ///< #H of the surface; empty while packed
@@ -101,9 +100,8 @@ struct Attempt
 /// What a plan asks of the levels. The plan is on the surface.
 HierarchyOptions levelOptions(const RunContext& run, const Plan& plan);
 
-/// Levels, map, and map of the surface by the plan, which is put on the surface. before: phase 1 of the attempt that
-/// the plan continues, or null.
-std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan, const Phase1* before);
+/// Levels, map, and map of the surface by the plan, which is put on the surface.
+std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan);
 
 /// The quads of a map with status ok, whose plan is on the surface; the levels are let go.
 std::shared_ptr<const QuadAttempt> makeQuads(RunContext& run, const Plan& plan, MapAttempt& map);

@@ -18,12 +18,7 @@ struct StoredShortLoops
 
 void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::string>& reused)
 {
-  Plan plan;
-  plan.levels.keptVertices = indexVertices(*run.surface);
-  plan.levels.coarseVertices = run.options.coarseVertices;
-  // Phase 1 keeps these vertices, so the loops on its level depend on them.
-  const ResultKey key =
-    KeyMaker(run.surface.key()).add(run.edgeLength).add(plan.levels.keptVertices).key();
+  const ResultKey key = KeyMaker(run.surface.key()).add(run.edgeLength).key();
   if (run.store != nullptr)
   {
     if (const auto known = run.store->find<StoredShortLoops>(key))
@@ -33,12 +28,12 @@ void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::stri
       return;
     }
   }
-  const Hierarchy& levels = run.levels.make(levelOptions(run, plan), nullptr);
+  const Level& intermediate = run.levels.makeIntermediate(levelOptions(run, {}));
   stages.add(run.levels.stages());
   const double start = secondsNow();
-  run.shortLoops = measureSmallParts(levels.intermediate, run.surface->mesh, run.edgeLength);
-  stages.add("handles", secondsNow() - start, levels.intermediate.mesh.faceCount(),
-    run.shortLoops.parts.handles);
+  run.shortLoops = measureSmallParts(intermediate, run.surface->mesh, run.edgeLength);
+  stages.add(
+    "handles", secondsNow() - start, intermediate.mesh.faceCount(), run.shortLoops.parts.handles);
   if (run.store != nullptr)
   {
     std::size_t bytes = sizeof(StoredShortLoops) + bytesOf(run.shortLoops.hopelessPlaces);
@@ -55,7 +50,7 @@ FirstLevels makeFirstLevels(SizedSurface& sized, const Frame& frame, const Remes
 {
   FirstLevels first;
   RunSurface surface(sized.surface, sized.key, options.threads);
-  Levels levels(surface, nullptr, false);
+  Levels levels(surface, nullptr);
   RunContext run{ options, sized.edgeLength, sized.targetQuads, surface, levels, nullptr, {} };
   std::vector<std::string> reused;
   findShortLoops(run, first.stages, reused);
@@ -64,7 +59,7 @@ FirstLevels makeFirstLevels(SizedSurface& sized, const Frame& frame, const Remes
     options.maximumNumberOfQuads };
   const Plan plan = firstPlan(run);
   surface.apply(plan);
-  levels.make(levelOptions(run, plan), nullptr);
+  levels.make(levelOptions(run, plan));
   first.stages.add(levels.stages());
   first.hierarchy = levels.take();
   first.notices = { unresolvedHandlesText(first.smallParts, size),

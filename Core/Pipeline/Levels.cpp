@@ -33,22 +33,13 @@ std::size_t StoredLevels::bytes() const
 {
   const Hierarchy& hierarchy = levels->hierarchy();
   return hierarchy.log.recordBytes() + hierarchy.cache.bytes + bytesOf(hierarchy.coarse.mesh) +
-    2 * bytesOf(hierarchy.intermediate.mesh) + bytesOf(phase1.kept);
+    2 * bytesOf(hierarchy.intermediate.mesh) + levels->bytesAside();
 }
 
-Levels::Levels(RunSurface& surface, ResultStore* store, bool anyKept)
-  : surface_(surface), store_(store), anyKept_(anyKept)
-{
-}
+Levels::Levels(RunSurface& surface, ResultStore* store) : surface_(surface), store_(store) {}
 
-ResultKey Levels::key(const Phase1& phase1) const
+bool Levels::recall(ResultKey wanted)
 {
-  return KeyMaker(surface_.key()).add(phase1.edgeLength).add(phase1.kept).key();
-}
-
-bool Levels::recall(const Phase1& phase1)
-{
-  const ResultKey wanted = key(phase1);
   if (held_ && heldKey_ == wanted)
   {
     return true;
@@ -66,73 +57,62 @@ bool Levels::recall(const Phase1& phase1)
   return true;
 }
 
-/// The last used levels of this surface that the options allow.
-bool Levels::recallAny(const HierarchyOptions& options)
-{
-  if (!anyKept_ || store_ == nullptr)
-  {
-    return false;
-  }
-  if (held_ && held_->surfaceKey == surface_.key() && held_->levels->allows(options))
-  {
-    return true;
-  }
-  for (const std::shared_ptr<StoredLevels>& other : store_->all<StoredLevels>())
-  {
-    if (other->surface == surface_.pointer() && other->surfaceKey == surface_.key() &&
-      other->levels->allows(options))
-    {
-      return recall(other->phase1);
-    }
-  }
-  return false;
-}
-
-void Levels::decimate(HierarchyOptions options, const Phase1& phase1)
+void Levels::decimate(const HierarchyOptions& options, ResultKey key)
 {
   letGo(); // before the new ones take their memory
-  ++decimations_;
-  options.keepVertices = phase1.kept;
   auto made = std::make_shared<StoredLevels>();
   made->surface = surface_.pointer();
   made->surfaceKey = surface_.key();
-  made->phase1 = phase1;
   made->levels = std::make_unique<Redecimation>(surface_->mesh, surface_->hash, options);
   releaseFreedMemory();
   held_ = std::move(made);
-  heldKey_ = key(phase1);
-  const Hierarchy& hierarchy = held_->levels->hierarchy();
-  stages_.add("phase1", hierarchy.secondsPhase1, surface_->mesh.faceCount(),
-    hierarchy.intermediate.mesh.faceCount());
+  heldKey_ = key;
+  recordPhase1(1);
 }
 
-void Levels::obtain(const HierarchyOptions& options, const Phase1& phase1)
+/// What phase 1 took the last time, where it ran so often.
+void Levels::recordPhase1(int runs)
 {
-  if (!recall(phase1))
+  if (runs > 0)
   {
-    decimate(options, phase1);
+    decimations_ += runs;
+    const Hierarchy& hierarchy = held_->levels->hierarchy();
+    stages_.add("phase1", hierarchy.secondsPhase1, surface_->mesh.faceCount(),
+      hierarchy.intermediate.mesh.faceCount());
   }
 }
 
-const Hierarchy& Levels::make(const HierarchyOptions& options, const Phase1* before)
+void Levels::obtain(const HierarchyOptions& options)
 {
   stages_ = {};
-  const Phase1 own{ options.targetEdgeLength, options.keepVertices };
-  const bool known = before != nullptr && before->edgeLength == own.edgeLength;
-  if (!recallAny(options))
+  const ResultKey key = KeyMaker(surface_.key()).add(options.targetEdgeLength).key();
+  if (!recall(key))
   {
-    obtain(options, known ? *before : own);
-    if (!held_->levels->allows(options))
-    {
-      obtain(options, own);
-    }
+    decimate(options, key);
   }
-  phase1_ = held_->phase1;
+}
+
+const Level& Levels::makeIntermediate(const HierarchyOptions& options)
+{
+  obtain(options);
+  const int before = held_->levels->decimations();
+  const Level& level = held_->levels->intermediateOfPhase1(options);
+  const int runs = held_->levels->decimations() - before;
+  held_->made = runs > 0 ? 0 : held_->made;
+  recordPhase1(runs);
+  return level;
+}
+
+const Hierarchy& Levels::make(const HierarchyOptions& options)
+{
+  obtain(options);
   if (held_->made != phase2Key(options))
   {
     held_->made = 0; // what is stopped on the way is not made
+    const int before = held_->levels->decimations();
     const Hierarchy& hierarchy = held_->levels->update(options);
     held_->made = phase2Key(options);
+    recordPhase1(held_->levels->decimations() - before);
     stages_.add("phase2", hierarchy.secondsPhase2, hierarchy.intermediate.mesh.faceCount(),
       hierarchy.coarse.mesh.faceCount());
   }

@@ -78,7 +78,7 @@ std::optional<Plan> moreFreedom(const Trouble& trouble)
   }
   RunContext& run = trouble.run;
   run.surface.apply(last.plan);
-  const Hierarchy& levels = run.levels.make(levelOptions(run, last.plan), &last.map->phase1);
+  const Hierarchy& levels = run.levels.make(levelOptions(run, last.plan));
   const Index coarse = levels.coarse.mesh.vertexCount();
   Plan plan = last.plan;
   if (coarse == levels.intermediate.mesh.vertexCount())

@@ -87,12 +87,10 @@ void makeAttempts(RunContext& run, History& history)
 {
   for (std::optional<Plan> plan = firstPlan(run); plan; plan = nextPlan(run, history))
   {
-    const Phase1* before = nullptr;
     while (plan)
     {
       history.packMaps(run.surface->mesh);
-      history.addMap(*plan, makeMap(run, *plan, before));
-      before = &history.last().map->phase1;
+      history.addMap(*plan, makeMap(run, *plan));
       plan = nextMapPlan(run, history);
     }
     const Attempt& best = history.ofRound();
@@ -226,7 +224,7 @@ void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& o
 {
   RunSurface surface(sized.surface, sized.key, options.threads);
   {
-    Levels levels(surface, store, options.warmStart);
+    Levels levels(surface, store);
     RunContext run{ options, sized.edgeLength, sized.targetQuads, surface, levels, store, {} };
     History history;
     findShortLoops(run, sized.stages, result.reused);

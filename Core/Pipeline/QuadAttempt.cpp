@@ -42,7 +42,7 @@ std::string hindrance(RunContext& run, const Plan& plan, const MapAttempt& map)
   }
   if (run.options.finalQuality == FinalQuality::Intermediate)
   {
-    run.levels.make(levelOptions(run, plan), &map.phase1);
+    run.levels.make(levelOptions(run, plan));
     if (run.levels.hierarchy().coarse.fineVertex != map.coarse.fineVertex)
     {
       // Levels that the store has kept from another run are nearly the same only.

@@ -418,7 +418,7 @@ TEST(Pipeline, InvertedQuadsNearFoldsAreTriedAgain)
     GTEST_SKIP() << "no " << path;
   }
   RemeshOptions options;
-  options.quads = 3000;
+  options.quads = 2200;
   const RemeshResult result = remesh(*input, options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_TRUE(tells(result, "leave no room"));

@@ -36,7 +36,7 @@ struct TestRun
   TestRun(const SurfaceInput& input, double s, std::optional<double> featureAngle = std::nullopt)
     : surface(
         std::make_shared<PreparedSurface>(prepareSurface(input, { featureAngle, 1, {} })), 1, 1),
-      levels(surface, nullptr, false), context{ options, s, kTarget, surface, levels, nullptr, {} }
+      levels(surface, nullptr), context{ options, s, kTarget, surface, levels, nullptr, {} }
   {
     options.threads = 1;
   }
@@ -212,7 +212,7 @@ TEST(Recovery, MoreFreedomKeepsTheRingsRoundOffendersAndRaisesTheBudget)
 {
   SphereRun run;
   Plan plan = run.first();
-  const Hierarchy& levels = run.levels.make(levelOptions(run.context, plan), nullptr);
+  const Hierarchy& levels = run.levels.make(levelOptions(run.context, plan));
   ASSERT_LT(levels.intermediate.mesh.vertexCount(), run.mesh().vertexCount());
   const std::vector<Index> offenders{ levels.coarse.fineVertex[7], levels.coarse.fineVertex[80] };
   const std::vector<Index> rings = twoRings(levels.intermediate, offenders);
@@ -270,8 +270,7 @@ TEST(Recovery, MoreFreedomTakesFinerLevelsWhereTheCoarseOneIsTheIntermediateOne)
   EXPECT_DOUBLE_EQ(next->levels.edgeLength, std::sqrt(0.5));
   EXPECT_DOUBLE_EQ(next->nextLevels.edgeLength, std::sqrt(0.5));
   EXPECT_TRUE(next->levels.keptVertices.empty());
-  EXPECT_GT(
-    run.levels.make(levelOptions(run.context, *next), nullptr).coarse.mesh.vertexCount(), coarse);
+  EXPECT_GT(run.levels.make(levelOptions(run.context, *next)).coarse.mesh.vertexCount(), coarse);
 }
 
 TEST(Recovery, MoreFreedomEndsAfterTwoTimesOneAfterTheOther)
@@ -622,8 +621,7 @@ TEST(Recovery, ManyOffendersAreNotKeptForTheNextRound)
 {
   SphereRun run;
   const Plan plan = run.first();
-  std::vector<Index> many =
-    run.levels.make(levelOptions(run.context, plan), nullptr).coarse.fineVertex;
+  std::vector<Index> many = run.levels.make(levelOptions(run.context, plan)).coarse.fineVertex;
   ASSERT_GE(many.size(), 100U);
   History history;
   history.addMap(plan, failedMap(many));

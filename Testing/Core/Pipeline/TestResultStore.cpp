@@ -132,7 +132,7 @@ TEST(ResultStore, TheSameBytesFromTheStageThatIsAsked)
   options.maximumNumberOfQuads = 5000;
   expectCold(input, options, store, kAll);
   askForValence(input, topmost(input), 5);
-  expectCold(input, options, store, kRefined); // phase 1 keeps the vertex
+  expectCold(input, options, store, kDecimated);
   askForValence(input, topmost(input), 3);
   expectCold(input, options, store, with(kDecimated, { "phase2" }));
   options.coarseVertices = 200;
@@ -187,11 +187,11 @@ TEST(ResultStore, RefinedSurfacesAndFeaturesAreRemembered)
   expectCold(input, options, memory, {});
   ASSERT_GT(remesh(input, options).surface.repair.refinedFaces, 0U);
   askForValence(input, 0, 3); // a corner
-  expectCold(input, options, memory, kRefined);
+  expectCold(input, options, memory, kDecimated);
   options.quads = 900;
   expectCold(input, options, memory, kPrepared);
   input.targetValences.clear(); // those of the run that filled the memory are not held
-  expectCold(input, options, memory, kRefined);
+  expectCold(input, options, memory, kDecimated);
   options.quads = 60;
   expectCold(input, options, memory, kPrepared);
 }
@@ -261,7 +261,7 @@ TEST(ResultStore, ClosedHandlesAreRemembered)
 
 TEST(ResultStore, WhatARetryFoundIsRememberedForTheNextEdit)
 {
-  // So deep in dents that the first map does not hold on the input and its offenders are kept by another phase 1.
+  // So deep in dents that the first map does not hold on the input and its offenders, which phase 1 has removed, come back.
   Mesh mesh = test::sphere(5);
   for (Vector3& p : mesh.position)
   {
@@ -272,7 +272,7 @@ TEST(ResultStore, WhatARetryFoundIsRememberedForTheNextEdit)
   options.coarseVertices = 200;
   options.featureAngle.reset();
   const RemeshResult without = remesh(input, options);
-  ASSERT_GT(without.decimations, 1);
+  ASSERT_GT(without.replays, 1);
   ResultStore memory;
   expectSame(remesh(input, options, memory), without);
   const RemeshResult again = remesh(input, options, memory);
@@ -284,6 +284,29 @@ TEST(ResultStore, WhatARetryFoundIsRememberedForTheNextEdit)
   const RemeshResult smoother = remesh(input, options, memory);
   expectSame(smoother, remesh(input, options));
   EXPECT_EQ(sorted(smoother.reused), kMapped);
+}
+
+/// A vertex that phase 1 has removed comes back without another phase 1, as it does in a run from the start.
+TEST(ResultStore, AValenceAtARemovedVertexKeepsPhase1)
+{
+  SurfaceInput input = dentedSphere();
+  const RemeshOptions options = optionsFor(500);
+  ResultStore memory;
+  const RemeshResult first = remesh(input, options, memory);
+  const std::vector<Index>& coarse = first.coarse.fineVertex;
+  const Mesh& mesh = first.surface.mesh;
+  for (const Index h : { mesh.halfEdgeCount() / 5, mesh.halfEdgeCount() / 2 })
+  {
+    ASSERT_FALSE(std::binary_search(coarse.begin(), coarse.end(), mesh.origin[h]));
+    SurfaceInput asked = input;
+    askForValence(asked, first.surface.sourcePoints[Mesh::face(h)][h % 3], 5);
+    const RemeshResult result = remesh(asked, options, memory);
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    EXPECT_EQ(result.turns[mesh.origin[h]], 5);
+    EXPECT_EQ(result.decimations, 0);
+    EXPECT_EQ(std::count(result.reused.begin(), result.reused.end(), "phase1"), 1);
+    expectSame(result, remesh(asked, options));
+  }
 }
 
 TEST(ResultStore, AWarmStartTakesTheLastMap)
