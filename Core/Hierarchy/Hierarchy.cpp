@@ -45,8 +45,9 @@ constexpr double kGuideReach = 0.25;
 constexpr double kCornerScale = 0.25;
 /// Faces of a chunk of the passes over the mesh.
 constexpr std::size_t kChunkFaces = std::size_t{ 1 } << 15;
-/// Where more than one of so many removals would have to be undone, phase 1 runs anew.
-constexpr std::size_t kLeastLeft = 4;
+/// What bringing a vertex back undoes, in removals, and what another size does, at most, where it is worth it.
+constexpr std::size_t kUndoneForKept = 32;
+constexpr std::size_t kUndoneForSize = 2;
 /// Of an intermediate level and of its DecimationMesh, about.
 constexpr std::size_t kBytesOfLevelVertex = 200;
 
@@ -176,6 +177,11 @@ VertexScales vertexScales(const Mesh& fine, double edgeLength, int threads)
   return result;
 }
 
+double sizeAt(const std::vector<float>& sizing, Index v)
+{
+  return sizing.empty() ? 1.0 : double{ sizing[v] };
+}
+
 /// The vertex of the level that is vertex v of the finest one, if it is there.
 std::optional<Index> positionIn(const Level& level, Index v)
 {
@@ -247,11 +253,9 @@ FeatureCurves curvesOf(const Level& level, const FeatureCurves& fine)
 class Redecimation::Implementation
 {
 public:
-  /// kept: vertices, ascending, that phase 1 is to leave in any case.
-  Implementation(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options,
-    std::vector<Index> kept = {})
+  Implementation(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options)
     : fine_(fine), edgeLength_(options.targetEdgeLength), order_(options.order),
-      draws_(options.draws), keptByPhase1_(std::move(kept))
+      draws_(options.draws), byPhase1_{ sorted(options.keepVertices), fine.sizing }
   {
     checkOptions(fine, options);
     const Stopwatch watch;
@@ -265,39 +269,32 @@ public:
       (order_ != DecimationOrder::Stochastic || options.draws == draws_);
   }
 
-  const Mesh& fine() const { return fine_; }
-  std::uint64_t fineHash() const { return hierarchy_.log.fineHash; }
-  const std::vector<Index>& keptByPhase1() const { return keptByPhase1_; }
   const Level& levelOfPhase1() const
   {
     return asPhase1Left_ ? asPhase1Left_->level : hierarchy_.intermediate;
   }
 
-  /// Puts these vertices (ascending) on the intermediate level, which is as phase 1 has left it else. False where so
-  /// many removals would have to be undone for them that phase 1 had better run with them.
-  bool putOnLevel(const std::vector<Index>& vertices, const HierarchyOptions& options)
+  /// Puts these vertices (ascending) on the intermediate level, and as many as the sizes ask for that the finest mesh
+  /// has now. All else is as phase 1 has left it.
+  void putOnLevel(const std::vector<Index>& vertices, const HierarchyOptions& options)
   {
-    if (vertices == (asPhase1Left_ ? keptByRestoration_ : keptByPhase1_))
+    if ((asPhase1Left_ ? byRestoration_ : byPhase1_).is(vertices, fine_))
     {
-      return true;
+      return;
     }
     returnToPhase1();
-    std::vector<Index> missing;
-    std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(missing),
-      [&](Index v) { return !positionIn(hierarchy_.intermediate, v); });
-    if (missing.empty())
+    if (byPhase1_.is(vertices, fine_))
     {
-      return true;
+      return;
+    }
+    const std::vector<Index> missing = missingVertices(vertices);
+    if (missing.empty() && byPhase1_.sizing == fine_.sizing)
+    {
+      return;
     }
     hierarchy_.coarse = {};
     hierarchy_.log.truncate(intermediateEnd_);
-    const std::optional<std::vector<LoggedRemoval>> removals =
-      removalsFrom(hierarchy_.log, missing, hierarchy_.log.collapses / kLeastLeft);
-    if (removals)
-    {
-      restore(*removals, vertices, options);
-    }
-    return removals.has_value();
+    restore(removalsFrom(hierarchy_.log, missing), vertices, options);
   }
 
   /// Of what is held only to go back to the level that phase 1 left.
@@ -317,7 +314,14 @@ public:
 
   const Hierarchy& update(const HierarchyOptions& options)
   {
+    if (!allows(options))
+    {
+      throw InvalidInput("The coarse level cannot be made anew: the edge length or the order of "
+                         "phase 1 has changed.");
+    }
+    checkPhase2(fine_, options);
     const Stopwatch watch;
+    putOnLevel(sorted(options.keepVertices), options);
     if (cost_ != options.cost)
     {
       cache_.clear();
@@ -356,7 +360,7 @@ private:
     VertexScales scales = vertexScales(fine_, edgeLength_, options.threads);
     anySmallComponent_ = scales.anySmallComponent;
     uniform.scale = std::move(scales.scale);
-    uniform.keepVertices = keptByPhase1_;
+    uniform.keepVertices = byPhase1_.kept;
     uniform.progress = subProgress(options.progress, 0.0, 0.6);
     LogBuilder log;
     switch (options.order)
@@ -400,6 +404,24 @@ private:
     {
       intermediate_->curveError[v] = curveError[ids[v]];
     }
+  }
+
+  /// Of these, and where quads are to be smaller than phase 1 had them, those that it has removed.
+  std::vector<Index> missingVertices(const std::vector<Index>& vertices) const
+  {
+    std::vector<Index> wanted = vertices;
+    for (Index v = 0; v < fine_.vertexCount() && byPhase1_.sizing != fine_.sizing; ++v)
+    {
+      if (sizeAt(fine_, v) < sizeAt(byPhase1_.sizing, v))
+      {
+        wanted.push_back(v);
+      }
+    }
+    wanted = sorted(std::move(wanted));
+    std::vector<Index> missing;
+    std::set_difference(wanted.begin(), wanted.end(), hierarchy_.intermediate.fineVertex.begin(),
+      hierarchy_.intermediate.fineVertex.end(), std::back_inserter(missing));
+    return missing;
   }
 
   /// Undoes the removals, and thins out again what they have touched, but for the vertices.
@@ -454,7 +476,7 @@ private:
       returnToPhase1();
       throw;
     }
-    keptByRestoration_ = vertices;
+    byRestoration_ = { vertices, fine_.sizing };
   }
 
   /// The intermediate level and its log without what was brought back.
@@ -545,8 +567,19 @@ private:
   std::unique_ptr<DecimationMesh> intermediate_; ///< on the positions of hierarchy_.intermediate
   DecimationLog::End intermediateEnd_;
   bool anySmallComponent_ = false; ///< see VertexScales
-  std::vector<Index> keptByPhase1_;
-  std::vector<Index> keptByRestoration_; ///< where something is set aside
+  /// What the intermediate level was made for.
+  struct Wanted
+  {
+    std::vector<Index> kept;   ///< ascending
+    std::vector<float> sizing; ///< of the finest mesh
+
+    bool is(const std::vector<Index>& vertices, const Mesh& fine) const
+    {
+      return kept == vertices && sizing == fine.sizing;
+    }
+  };
+  Wanted byPhase1_;
+  Wanted byRestoration_; ///< where something is set aside
   /// Set aside while vertices are back that phase 1 has removed.
   struct AsPhase1Left
   {
@@ -561,6 +594,16 @@ private:
   std::vector<FaceGuide> guides_;                  ///< that the intermediate level has
   StarCache cache_;
 };
+
+bool isLocalChange(const Mesh& fine, const std::vector<float>& sizesBefore, std::size_t kept)
+{
+  std::size_t undone = kUndoneForKept * kept;
+  for (Index v = 0; v < fine.vertexCount() && sizesBefore != fine.sizing; ++v)
+  {
+    undone += sizeAt(fine, v) < sizeAt(sizesBefore, v) ? kUndoneForSize : 0;
+  }
+  return undone <= fine.vertexCount();
+}
 
 Redecimation::Redecimation(
   const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options)
@@ -577,46 +620,14 @@ bool Redecimation::allows(const HierarchyOptions& options) const
   return implementation_->allows(options);
 }
 
-const Level& Redecimation::intermediateOfPhase1(const HierarchyOptions& options)
+const Level& Redecimation::intermediateOfPhase1() const
 {
-  if (!implementation_->keptByPhase1().empty())
-  {
-    decimateAnew(options, {});
-  }
   return implementation_->levelOfPhase1();
 }
 
 const Hierarchy& Redecimation::update(const HierarchyOptions& options)
 {
-  if (!allows(options))
-  {
-    throw InvalidInput("The coarse level cannot be made anew: the edge length or the order of "
-                       "phase 1 has changed.");
-  }
-  const Mesh& fine = implementation_->fine();
-  checkPhase2(fine, options);
-  const std::vector<Index> kept = sorted(options.keepVertices);
-  const Stopwatch watch;
-  const std::vector<Index>& before = implementation_->keptByPhase1();
-  if (!before.empty() && before != kept)
-  {
-    decimateAnew(options, {});
-  }
-  if (!implementation_->putOnLevel(kept, options))
-  {
-    decimateAnew(options, kept);
-  }
-  const double seconds = watch.seconds();
-  implementation_->update(options);
-  implementation_->hierarchy().secondsPhase2 += seconds;
-  return implementation_->hierarchy();
-}
-
-void Redecimation::decimateAnew(const HierarchyOptions& options, std::vector<Index> kept)
-{
-  implementation_ = std::make_unique<Implementation>(
-    implementation_->fine(), implementation_->fineHash(), options, std::move(kept));
-  ++decimations_;
+  return implementation_->update(options);
 }
 
 std::size_t Redecimation::bytesAside() const
@@ -636,7 +647,12 @@ Hierarchy Redecimation::take()
 
 Hierarchy buildHierarchy(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options)
 {
-  Redecimation levels(fine, fineHash, options);
+  HierarchyOptions phase1 = options;
+  if (isLocalChange(fine, fine.sizing, options.keepVertices.size()))
+  {
+    phase1.keepVertices.clear();
+  }
+  Redecimation levels(fine, fineHash, phase1);
   levels.update(options);
   return levels.take();
 }

@@ -109,13 +109,13 @@ struct Hierarchy
 };
 
 /// A hierarchy whose coarse level can be made again, from the intermediate one, when other vertices are to be kept,
-/// or guides or the budget change [Section 5.3]. What a removal costs is remembered from one time to the next by the star of
-/// the vertex; the result is the same as without.
+/// or guides or the budget change [Section 5.3]. What a removal costs is remembered from one time to the next by the
+/// star of the vertex; the result is the same as without.
 class Redecimation
 {
 public:
-  /// Phase 1, which does not look at the vertices to keep. Throws as buildHierarchy does. `fine` must outlive this
-  /// object.
+  /// Phase 1 with the vertices to keep of the options. Throws as buildHierarchy does. `fine` must outlive this object;
+  /// its sizes alone may change.
   Redecimation(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options);
   ~Redecimation();
   Redecimation(Redecimation&&) noexcept;
@@ -123,32 +123,33 @@ public:
 
   /// Whether update() can honour the options: target edge length and order are those of phase 1. All else may change.
   bool allows(const HierarchyOptions& options) const;
-  /// The intermediate level as phase 1 leaves it, without vertices that were brought back. Valid until update().
-  const Level& intermediateOfPhase1(const HierarchyOptions& options);
-  /// Phase 2: makes the coarse level and the end of the log anew. Bit for bit what buildHierarchy makes of these
-  /// options. Vertices to keep that phase 1 has removed come back first, see VertexRestoration.h; phase 1 runs anew
-  /// only where more than a quarter of all removals depends on theirs. Throws InvalidInput unless allows(). Cancelled
-  /// leaves the hierarchy without a coarse level.
+  /// The intermediate level as phase 1 left it, without vertices that were brought back. Valid until update().
+  const Level& intermediateOfPhase1() const;
+  /// Phase 2: makes the coarse level and the end of the log anew. Vertices to keep that phase 1 has removed come back
+  /// first, and as many as are needed where the mesh has smaller sizes now, see VertexRestoration.h. The result depends
+  /// on what phase 1 was given, and on what is asked for now, but not on what came between. Throws InvalidInput unless
+  /// allows(). Cancelled leaves the hierarchy without a coarse level.
   const Hierarchy& update(const HierarchyOptions& options);
   /// The hierarchy after the last update().
   const Hierarchy& hierarchy() const;
   /// Gives the hierarchy away; this object must not be used any more.
   Hierarchy take();
-  /// How often phase 1 ran.
-  int decimations() const { return decimations_; }
   /// Of what is held to go back to the level that phase 1 left; hierarchy() is not among it.
   std::size_t bytesAside() const;
 
 private:
   class Implementation;
-  void decimateAnew(const HierarchyOptions& options, std::vector<Index> kept);
 
   std::unique_ptr<Implementation> implementation_;
-  int decimations_ = 1;
 };
 
-/// Both phases. Throws InvalidInput when s is not positive and finite, draws have no
-/// candidates, or the budget is 0 for a cost that knows no curvature. Progress and cancel through the options.
+/// Whether bringing so many vertices back, and making quads smaller where the mesh has smaller sizes than these, is
+/// less work than another phase 1 that knows them.
+bool isLocalChange(const Mesh& fine, const std::vector<float>& sizesBefore, std::size_t kept);
+
+/// Both phases; vertices to keep come back after phase 1 where they are a local change. Throws InvalidInput when s is
+/// not positive and finite, draws have no candidates, or the budget is 0 for a cost that knows no curvature. Progress
+/// and cancel through the options.
 Hierarchy buildHierarchy(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options);
 
 } // namespace quadrille

@@ -46,11 +46,15 @@ class Search
 {
 public:
   Search(const DecimationLog& log, const std::vector<Index>& vertices)
-    : log_(log), vertices_(vertices), touched_(log.fineFaces)
+    : log_(log), touched_(log.fineFaces), wanted_(vertices.back() + 1)
   {
+    for (const Index v : vertices)
+    {
+      wanted_[v] = true;
+    }
   }
 
-  std::optional<std::vector<LoggedRemoval>> run(std::size_t most)
+  std::vector<LoggedRemoval> run()
   {
     for (std::size_t block = 0; block < log_.blocks.size(); ++block)
     {
@@ -58,15 +62,10 @@ public:
       findRemovals(log_.blocks[block], offsets_);
       for (std::size_t i = 0; i + 1 < offsets_.size(); ++i)
       {
-        if (!depends(block, offsets_[i], offsets_[i + 1]))
+        if (depends(block, offsets_[i], offsets_[i + 1]))
         {
-          continue;
+          found_.push_back({ block, offsets_[i], offsets_[i + 1] });
         }
-        if (found_.size() >= most)
-        {
-          return std::nullopt;
-        }
-        found_.push_back({ block, offsets_[i], offsets_[i + 1] });
       }
     }
     return std::move(found_);
@@ -82,7 +81,8 @@ private:
     const int faces = last[-1];
     const auto face = [&](int i)
     { return loadLittleEndian(slots + 4 * static_cast<std::size_t>(i)) / 3; };
-    bool meets = std::binary_search(vertices_.begin(), vertices_.end(), removedVertex(last));
+    const Index vertex = removedVertex(last);
+    bool meets = vertex < wanted_.size() && wanted_[vertex];
     for (int i = 0; i < faces && !meets; ++i)
     {
       meets = touched_[face(i)];
@@ -95,8 +95,8 @@ private:
   }
 
   const DecimationLog& log_;
-  const std::vector<Index>& vertices_;
   std::vector<bool> touched_; ///< faces of the finest mesh
+  std::vector<bool> wanted_;  ///< vertices up to the last one that is asked for
   std::vector<std::size_t> offsets_;
   std::vector<LoggedRemoval> found_;
 };
@@ -340,10 +340,10 @@ RestoredLevel Undoing::finish() const
 
 } // namespace
 
-std::optional<std::vector<LoggedRemoval>> removalsFrom(
-  const DecimationLog& log, const std::vector<Index>& vertices, std::size_t most)
+std::vector<LoggedRemoval> removalsFrom(
+  const DecimationLog& log, const std::vector<Index>& vertices)
 {
-  return Search(log, vertices).run(most);
+  return vertices.empty() ? std::vector<LoggedRemoval>{} : Search(log, vertices).run();
 }
 
 RestoredLevel undoRemovals(const Mesh& fine, const Level& level,

@@ -5,8 +5,9 @@
 /// leads to the level that comes of it.
 ///
 /// Two removals commute where their stars have no face in common. So the removals that come later and share faces with
-/// one of them, directly or through others, are all that has to be undone. While the surface thins out by a factor of
-/// four, that many vertices wide a star's influence stays the same: of each resolution a few hundred vertices come back.
+/// one of them, directly or through others, are all that has to be undone. Counted in vertices of the mesh as it was
+/// when they went, the place that a removal has an influence on does not grow: of each resolution a few hundred come
+/// back.
 #pragma once
 
 #include "Hierarchy/DecimationLog.h"
@@ -14,7 +15,6 @@
 #include "Mesh/Mesh.h"
 
 #include <cstddef>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -29,9 +29,9 @@ struct LoggedRemoval
 };
 
 /// The removals of these vertices (ids of the finest mesh, ascending) and all that depend on them, in the order of the
-/// log. None where they are more than `most`.
-std::optional<std::vector<LoggedRemoval>> removalsFrom(
-  const DecimationLog& log, const std::vector<Index>& vertices, std::size_t most);
+/// log.
+std::vector<LoggedRemoval> removalsFrom(
+  const DecimationLog& log, const std::vector<Index>& vertices);
 
 /// A level with removals undone.
 struct RestoredLevel

@@ -60,59 +60,57 @@ bool Levels::recall(ResultKey wanted)
 void Levels::decimate(const HierarchyOptions& options, ResultKey key)
 {
   letGo(); // before the new ones take their memory
+  ++decimations_;
   auto made = std::make_shared<StoredLevels>();
   made->surface = surface_.pointer();
-  made->surfaceKey = surface_.key();
   made->levels = std::make_unique<Redecimation>(surface_->mesh, surface_->hash, options);
   releaseFreedMemory();
   held_ = std::move(made);
   heldKey_ = key;
-  recordPhase1(1);
+  const Hierarchy& hierarchy = held_->levels->hierarchy();
+  stages_.add("phase1", hierarchy.secondsPhase1, surface_->mesh.faceCount(),
+    hierarchy.intermediate.mesh.faceCount());
 }
 
-/// What phase 1 took the last time, where it ran so often.
-void Levels::recordPhase1(int runs)
-{
-  if (runs > 0)
-  {
-    decimations_ += runs;
-    const Hierarchy& hierarchy = held_->levels->hierarchy();
-    stages_.add("phase1", hierarchy.secondsPhase1, surface_->mesh.faceCount(),
-      hierarchy.intermediate.mesh.faceCount());
-  }
-}
-
+/// Phase 1, of the surface without the sizes of the plan, and without what the plan keeps; with them, where they are
+/// not few.
 void Levels::obtain(const HierarchyOptions& options)
 {
   stages_ = {};
-  const ResultKey key = KeyMaker(surface_.key()).add(options.targetEdgeLength).key();
+  HierarchyOptions phase1 = options;
+  if (!isLocalChange(surface_->mesh, surface_.sizesBefore(), options.keepVertices.size()))
+  {
+    const ResultKey key =
+      KeyMaker(surface_.key()).add(options.targetEdgeLength).add(options.keepVertices).key();
+    if (!recall(key))
+    {
+      decimate(phase1, key);
+    }
+    return;
+  }
+  const ResultKey key = KeyMaker(surface_.keyWithoutSizes()).add(options.targetEdgeLength).key();
   if (!recall(key))
   {
-    decimate(options, key);
+    phase1.keepVertices.clear();
+    surface_.withSizesBefore([&] { decimate(phase1, key); });
   }
 }
 
 const Level& Levels::makeIntermediate(const HierarchyOptions& options)
 {
   obtain(options);
-  const int before = held_->levels->decimations();
-  const Level& level = held_->levels->intermediateOfPhase1(options);
-  const int runs = held_->levels->decimations() - before;
-  held_->made = runs > 0 ? 0 : held_->made;
-  recordPhase1(runs);
-  return level;
+  return held_->levels->intermediateOfPhase1();
 }
 
 const Hierarchy& Levels::make(const HierarchyOptions& options)
 {
   obtain(options);
-  if (held_->made != phase2Key(options))
+  const ResultKey wanted = KeyMaker(surface_.key()).add(phase2Key(options)).key();
+  if (held_->made != wanted)
   {
     held_->made = 0; // what is stopped on the way is not made
-    const int before = held_->levels->decimations();
     const Hierarchy& hierarchy = held_->levels->update(options);
-    held_->made = phase2Key(options);
-    recordPhase1(held_->levels->decimations() - before);
+    held_->made = wanted;
     stages_.add("phase2", hierarchy.secondsPhase2, hierarchy.intermediate.mesh.faceCount(),
       hierarchy.coarse.mesh.faceCount());
   }

@@ -19,7 +19,6 @@ namespace quadrille
 struct StoredLevels
 {
   std::shared_ptr<PreparedSurface> surface; ///< that they refer to
-  ResultKey surfaceKey = 0;
   std::unique_ptr<Redecimation> levels;
   ResultKey made = 0; ///< of the options of phase 2, when the coarse level was made last
 
@@ -57,7 +56,6 @@ public:
 private:
   void obtain(const HierarchyOptions& options);
   bool recall(ResultKey wanted);
-  void recordPhase1(int runs);
   void decimate(const HierarchyOptions& options, ResultKey key);
 
   RunSurface& surface_;

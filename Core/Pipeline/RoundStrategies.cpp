@@ -19,6 +19,8 @@ namespace
 {
 
 constexpr double kShrink = 0.5;
+/// Of the number of defects where there are twice as many quads.
+constexpr double kGrowthAlongTubes = 1.35;
 constexpr double kShrinkRadius = 1.5; ///< edge lengths round a place
 /// How small quads become for a loop at which they have met themselves; sizes that differ so much make maps harder, so
 /// the first plan does without.
@@ -54,10 +56,13 @@ bool asksForFinerGrid(const Trouble& trouble)
   return trouble.failed && !trouble.history.hasResult() && !trouble.run.options.coarsestIntegers;
 }
 
-/// Whether quads that are smaller everywhere had no fewer defects.
+/// Whether quads that are smaller everywhere had no fewer defects. Along a tube that still too few quads go round there
+/// are as many as the tube is long, and so sqrt 2 times as many as before: another doubling may help there.
 bool isNoMatterOfSize(const Plan& plan, const std::optional<GridTroubles>& grid)
 {
-  return plan.finer.doublings > 0 && grid && grid->defects >= plan.finer.defects;
+  return plan.finer.doublings > 0 && grid && grid->defects >= plan.finer.defects &&
+    static_cast<double>(grid->defects) <=
+    kGrowthAlongTubes * static_cast<double>(plan.finer.defects);
 }
 
 /// Loops of handles and holes that pass near one of the places.

@@ -54,7 +54,7 @@ void forgetRequests(SurfaceMarks& marks)
 }
 
 RunSurface::RunSurface(std::shared_ptr<PreparedSurface> surface, ResultKey key, int threads)
-  : surface_(std::move(surface)), key_(key), planKey_(key), threads_(threads)
+  : surface_(std::move(surface)), key_(key), planKey_(key), featuresKey_(key), threads_(threads)
 {
 }
 
@@ -85,6 +85,24 @@ void RunSurface::apply(const Plan& plan)
     surface_->hash = contentHash(mesh, threads_);
   }
   planKey_ = key;
+  featuresKey_ = plan.featuresGivenUp ? KeyMaker(key_).add(*plan.featuresGivenUp).key() : key_;
+}
+
+void RunSurface::withSizesBefore(const std::function<void()>& act)
+{
+  std::vector<float> sizes = sizesBefore();
+  std::vector<float>& sizing = surface_->mesh.sizing;
+  sizing.swap(sizes);
+  try
+  {
+    act();
+  }
+  catch (...)
+  {
+    sizing.swap(sizes);
+    throw;
+  }
+  sizing.swap(sizes);
 }
 
 std::vector<float> RunSurface::changedSizes(const std::function<void(Mesh&)>& change)

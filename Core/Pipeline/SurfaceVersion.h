@@ -54,6 +54,15 @@ public:
   void apply(const Plan& plan);
   /// Of the surface as it is now.
   ResultKey key() const { return planKey_; }
+  /// The same, without the sizes of the plan.
+  ResultKey keyWithoutSizes() const { return featuresKey_; }
+  /// Those without the plan.
+  const std::vector<float>& sizesBefore() const
+  {
+    return before_ ? before_->sizing : surface_->mesh.sizing;
+  }
+  /// What `act` sees of the surface has these sizes.
+  void withSizesBefore(const std::function<void()>& act);
   /// The sizes that `change` makes of those the surface has now, which it keeps. change: may alter the sizing of the
   /// mesh only.
   std::vector<float> changedSizes(const std::function<void(Mesh&)>& change);
@@ -63,7 +72,7 @@ public:
 
 private:
   std::shared_ptr<PreparedSurface> surface_;
-  ResultKey key_, planKey_;
+  ResultKey key_, planKey_, featuresKey_;
   int threads_;
   std::optional<SurfaceMarks> before_; ///< where a plan has changed something
 };

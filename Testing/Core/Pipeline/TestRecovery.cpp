@@ -662,6 +662,8 @@ TEST(Recovery, MoreQuadsEndWhereDefectsDoNotFall)
   EXPECT_FALSE(run.nextAfter(*doubled, mapWithTube({ 6, 6, 0 }, 4)));
   EXPECT_FALSE(run.nextAfter(*doubled, mapWithTube({ 6, 6, 0 }, 5)));
   expectStep(run.nextAfter(*doubled, mapWithTube({ 6, 6, 0 }, 3)), "more quads");
+  // As many more as the tube is longer in quads.
+  expectStep(run.nextAfter(*doubled, mapWithTube({ 6, 6, 0 }, 6)), "more quads");
 }
 
 TEST(Recovery, MoreQuadsAfterSizesCompareWithTheFirstFailure)

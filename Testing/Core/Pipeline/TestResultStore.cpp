@@ -261,7 +261,8 @@ TEST(ResultStore, ClosedHandlesAreRemembered)
 
 TEST(ResultStore, WhatARetryFoundIsRememberedForTheNextEdit)
 {
-  // So deep in dents that the first map does not hold on the input and its offenders, which phase 1 has removed, come back.
+  // So deep in dents that the first map does not hold on the input and its offenders, which phase 1 has removed, come
+  // back.
   Mesh mesh = test::sphere(5);
   for (Vector3& p : mesh.position)
   {
