@@ -100,7 +100,7 @@ bool has(const Level& level, Index v)
   return std::binary_search(level.fineVertex.begin(), level.fineVertex.end(), v);
 }
 
-TEST(VertexRestoration, allRemovalsUndoneGiveTheFinestMesh)
+TEST(VertexRestoration, AllRemovalsUndoneGiveTheFinestMesh)
 {
   for (const Mesh& mesh : meshes())
   {
@@ -122,7 +122,7 @@ TEST(VertexRestoration, allRemovalsUndoneGiveTheFinestMesh)
   }
 }
 
-TEST(VertexRestoration, undoesWhatDependsOnAVertexOnly)
+TEST(VertexRestoration, UndoesWhatDependsOnAVertexOnly)
 {
   for (const Mesh& mesh : meshes())
   {
@@ -148,7 +148,7 @@ TEST(VertexRestoration, undoesWhatDependsOnAVertexOnly)
 
 /// The replay rewrites an affine map of a plane exactly where weights are barycentric, so it tells a log that does not
 /// belong to its level.
-TEST(VertexRestoration, theLogWithoutRemovalsLeadsToTheLevel)
+TEST(VertexRestoration, TheLogWithoutRemovalsLeadsToTheLevel)
 {
   const Mesh mesh = test::plateWithHole(12);
   const Thinned thinned = thinOut(mesh, 0.1 * diameter(mesh));
@@ -174,7 +174,7 @@ TEST(VertexRestoration, theLogWithoutRemovalsLeadsToTheLevel)
   EXPECT_EQ(rest.blocks, thinned.log.blocks);
 }
 
-TEST(VertexRestoration, bringsVerticesBackToAllLevels)
+TEST(VertexRestoration, BringsVerticesBackToAllLevels)
 {
   for (const Mesh& mesh : meshes())
   {
@@ -201,7 +201,7 @@ TEST(VertexRestoration, bringsVerticesBackToAllLevels)
   }
 }
 
-TEST(VertexRestoration, manyVerticesAreLeftByPhase1)
+TEST(VertexRestoration, ManyVerticesAreLeftByPhase1)
 {
   const Mesh mesh = wavySphere(4);
   HierarchyOptions options = optionsOf(mesh, 0.15);
@@ -220,7 +220,7 @@ TEST(VertexRestoration, manyVerticesAreLeftByPhase1)
 }
 
 /// Where quads are to be smaller than they were in phase 1, and nowhere else.
-TEST(VertexRestoration, smallerSizesBringVerticesBack)
+TEST(VertexRestoration, SmallerSizesBringVerticesBack)
 {
   for (Mesh mesh : meshes())
   {
@@ -258,7 +258,7 @@ TEST(VertexRestoration, smallerSizesBringVerticesBack)
   }
 }
 
-TEST(VertexRestoration, stoppedOnTheWayNothingIsLost)
+TEST(VertexRestoration, StoppedOnTheWayNothingIsLost)
 {
   const Mesh mesh = wavySphere(5);
   HierarchyOptions options = optionsOf(mesh, 0.05);
