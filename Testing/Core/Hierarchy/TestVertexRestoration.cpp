@@ -20,7 +20,7 @@ namespace
 using test::markFeatures;
 using test::unitCube;
 
-Mesh wavySphere(int subdivisions)
+Mesh dentedBall(int subdivisions)
 {
   Mesh mesh = test::sphere(subdivisions);
   for (Vector3& p : mesh.position)
@@ -33,7 +33,7 @@ Mesh wavySphere(int subdivisions)
 /// Closed and open, smooth and with features.
 std::vector<Mesh> meshes()
 {
-  return { wavySphere(4), markFeatures(unitCube(14), radians(40)), test::plateWithHole(12) };
+  return { dentedBall(4), markFeatures(unitCube(14), radians(40)), test::plateWithHole(12) };
 }
 
 double diameter(const Mesh& mesh)
@@ -203,7 +203,7 @@ TEST(VertexRestoration, BringsVerticesBackToAllLevels)
 
 TEST(VertexRestoration, ManyVerticesAreLeftByPhase1)
 {
-  const Mesh mesh = wavySphere(4);
+  const Mesh mesh = dentedBall(4);
   HierarchyOptions options = optionsOf(mesh, 0.15);
   for (Index v = 0; v < mesh.vertexCount(); v += 9)
   {
@@ -260,7 +260,7 @@ TEST(VertexRestoration, SmallerSizesBringVerticesBack)
 
 TEST(VertexRestoration, StoppedOnTheWayNothingIsLost)
 {
-  const Mesh mesh = wavySphere(5);
+  const Mesh mesh = dentedBall(5);
   HierarchyOptions options = optionsOf(mesh, 0.05);
   Redecimation levels(mesh, 5, options);
   const std::vector<std::uint8_t> pure = levels.update(options).log.serialize();
