@@ -151,6 +151,25 @@ void tellWrongComponents(vtkPolyData* data, const std::string& input, const Read
   }
 }
 
+/// Null where there is no such input or array.
+vtkDataArray* cellArray(vtkPolyData* data, const char* name)
+{
+  return data && data->GetNumberOfCells() > 0 ? data->GetCellData()->GetArray(name) : nullptr;
+}
+
+template <class Condition>
+bool anyValue(vtkDataArray* array, const Condition& holds)
+{
+  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
+  {
+    if (holds(array->GetComponent(i, 0)))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 } // namespace
 
 std::vector<ReadArray> surfaceArrays(const std::string& patchArray)
@@ -186,6 +205,37 @@ std::vector<std::string> arrayNotices(
     tellWrongComponents(data, input, wanted);
     tellWrongPlace(data, input, wanted, notices);
     tellNearlyRight(data, input, wanted, read, notices);
+  }
+  return notices;
+}
+
+std::vector<std::string> partnerNotices(
+  vtkPolyData* surface, vtkPolyData* curves, vtkPolyData* strokes)
+{
+  constexpr double stroke = 1; // of ConstraintType
+  std::vector<std::string> notices;
+  if (cellArray(surface, arrays::kGuidingWeight) && !cellArray(surface, arrays::kGuidingDirection))
+  {
+    notices.push_back(std::string("array '") + arrays::kGuidingWeight +
+      "' of the surface is not used: there is no array '" + arrays::kGuidingDirection +
+      "' on cells that it could weight. Add the directions, three numbers a cell (in Calculator: "
+      "Attribute Type Cell Data), or use Stroke Weight for guiding strokes");
+  }
+  if (cellArray(curves, arrays::kGuidingWeight) &&
+    !anyValue(
+      cellArray(curves, arrays::kConstraintType), [](double type) { return type == stroke; }))
+  {
+    notices.push_back(std::string("array '") + arrays::kGuidingWeight +
+      "' of the feature curves is not used: none of them is a guiding stroke. Give strokes to the "
+      "input Guiding Strokes, or the cell array '" +
+      arrays::kConstraintType + "' with 1 for each line that is one");
+  }
+  if (anyValue(
+        cellArray(strokes, arrays::kConstraintType), [](double type) { return type != stroke; }))
+  {
+    notices.push_back(std::string("array '") + arrays::kConstraintType +
+      "' of the guiding strokes is not used: all lines of this input are guiding strokes. Give "
+      "lines that shall be features to the input Feature Curves");
   }
   return notices;
 }

@@ -39,6 +39,12 @@ std::vector<ReadArray> pointArrays();
 std::vector<std::string> arrayNotices(
   vtkPolyData* data, const std::string& input, const std::vector<ReadArray>& read);
 
+/// What to do about arrays that are read, but say nothing without another one: GuidingWeight of the surface without
+/// GuidingDirection, GuidingWeight of curves of which none is a stroke, a ConstraintType of strokes that is not theirs.
+/// Null: there is no such input.
+std::vector<std::string> partnerNotices(
+  vtkPolyData* surface, vtkPolyData* curves, vtkPolyData* strokes);
+
 /// Whether all values are whole; a Calculator makes doubles. Throws InvalidInput, naming array and value, where one is
 /// not.
 void requireWhole(vtkDataArray* array, const char* element);

@@ -93,6 +93,11 @@ void vtkQuadrilleSurfaceAlgorithm::WarnOfUnusedArrays(const quadrille::Block& bl
   warn(1, "the feature curves", quadrille::lineArrays());
   warn(2, "the guiding strokes", quadrille::lineArrays());
   warn(3, "the valence points", quadrille::pointArrays());
+  for (const std::string& notice :
+    quadrille::partnerNotices(block.input(0), block.input(1), block.input(2)))
+  {
+    this->AddWarning(notice);
+  }
   if (block.input(0)->GetPointData()->HasArray("ConnectId"))
   {
     this->AddWarning("array 'ConnectId' is not used by this version");

@@ -362,6 +362,41 @@ TEST(ArrayNames, WrongElementsAndComponentsAreTold)
   EXPECT_THROW(arrayNotices(data, "the surface", surfaceArrays("PatchId")), InvalidInput);
 }
 
+TEST(ArrayNames, WeightsWithoutDirectionsAreTold)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(2, 2));
+  addArray<vtkDoubleArray>(data->GetCellData(), "GuidingWeight", data->GetNumberOfCells());
+  const auto notices = partnerNotices(data, nullptr, nullptr);
+  ASSERT_EQ(notices.size(), 1u);
+  EXPECT_NE(notices[0].find("'GuidingWeight' of the surface is not used"), std::string::npos);
+  EXPECT_NE(notices[0].find("'GuidingDirection'"), std::string::npos);
+  // On points they weight nothing either.
+  addArray<vtkDoubleArray>(data->GetPointData(), "GuidingDirection", data->GetNumberOfPoints(), 3);
+  EXPECT_EQ(partnerNotices(data, nullptr, nullptr).size(), 1u);
+  addArray<vtkDoubleArray>(data->GetCellData(), "GuidingDirection", data->GetNumberOfCells(), 3);
+  EXPECT_TRUE(partnerNotices(data, nullptr, nullptr).empty());
+}
+
+TEST(ArrayNames, ArraysOfLinesWithoutAPartnerAreTold)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(2, 2));
+  const vtkSmartPointer<vtkPolyData> curves = polyline({ { 0, 0, 0 }, { 1, 0, 0 } });
+  addArray<vtkDoubleArray>(curves->GetCellData(), "GuidingWeight", 1);
+  EXPECT_TRUE(partnerNotices(data, nullptr, curves).empty()); // strokes have weights
+  ASSERT_EQ(partnerNotices(data, curves, nullptr).size(), 1u);
+  EXPECT_NE(partnerNotices(data, curves, nullptr)[0].find("of the feature curves is not used"),
+    std::string::npos);
+  addArray<vtkIntArray>(curves->GetCellData(), "ConstraintType", 1);
+  EXPECT_EQ(partnerNotices(data, curves, nullptr).size(), 1u); // no line is a stroke
+  ASSERT_EQ(partnerNotices(data, nullptr, curves).size(), 1u); // and here each is one
+  EXPECT_NE(
+    partnerNotices(data, nullptr, curves)[0].find("'ConstraintType' of the guiding strokes"),
+    std::string::npos);
+  curves->GetCellData()->GetArray("ConstraintType")->SetTuple1(0, 1);
+  EXPECT_TRUE(partnerNotices(data, curves, nullptr).empty());
+  EXPECT_TRUE(partnerNotices(data, nullptr, curves).empty());
+}
+
 TEST(ArrayNames, WholeDoublesAreFeatureEdgesAndPatchIds)
 {
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(2, 2));
