@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/PlaceText.h"
-#include "Mesh/Guides.h"
 #include "QuadrilleConstraints.h"
 #include "QuadrilleNewArray.h"
+#include "QuadrilleQuadPlaces.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -14,7 +14,6 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkStaticPointLocator.h>
 
 #include <algorithm>
 #include <initializer_list>
@@ -28,45 +27,6 @@ namespace
 
 /// Beside the kinds: a valence that is not that of the quads.
 constexpr int kMissedValence = 3;
-
-/// The valence of the quads at a place, on boundaries one more, as it is asked for there; regular where no point of
-/// theirs lies.
-class ReachedValences
-{
-public:
-  explicit ReachedValences(const QuadMesh& mesh) : mesh_(mesh)
-  {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    for (const auto& p : mesh.points)
-    {
-      points->InsertNextPoint(p.data());
-    }
-    data_->SetPoints(points);
-    tolerance_ = 1e-6 * data_->GetLength();
-    if (!mesh.points.empty())
-    {
-      locator_->SetDataSet(data_);
-      locator_->BuildLocator();
-    }
-  }
-  int at(const Vector3& p) const
-  {
-    const vtkIdType found = mesh_.points.empty() ? -1 : locator_->FindClosestPoint(p.data());
-    if (found < 0 || (mesh_.points[static_cast<std::size_t>(found)] - p).norm() > tolerance_)
-    {
-      return kRegularValence;
-    }
-    const auto i = static_cast<std::size_t>(found);
-    return mesh_.valence[i] + (mesh_.onBoundary[i] != 0 ? 1 : 0);
-  }
-
-private:
-  const QuadMesh& mesh_;
-  vtkNew<vtkPolyData> data_;
-  vtkNew<vtkStaticPointLocator> locator_;
-  double tolerance_ = 0;
-};
 
 /// Along the path at its point i.
 Vector3 directionAt(const std::vector<Vector3>& path, std::size_t i)
@@ -151,7 +111,7 @@ vtkSmartPointer<vtkPolyData> writeConstraints(
   }
   for (const PlacedConstraint& constraint : placed)
   {
-    if (constraint.kind != ConstraintKind::Valence)
+    if (constraint.kind != ConstraintKind::Valence && constraint.path.size() > 1)
     {
       add(constraint, lines);
     }

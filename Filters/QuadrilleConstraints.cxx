@@ -115,6 +115,8 @@ private:
   void guide(const Snapper::Place& place, const Stroke& stroke);
   void guideAlong(const std::vector<Index>& path, const Stroke& stroke);
   void tellIfFar(const char* what, const PlacedConstraint& placed);
+  /// A line that is not followed.
+  void drop(const char* what, PlacedConstraint line, const std::string& whyNot);
 
   ConvertedSurface& surface_;
   SurfaceInput& input_;
@@ -123,6 +125,7 @@ private:
   double diagonal_;
   std::map<Index, std::uint8_t> features_;
   std::map<Index, Stroke> strokes_;
+  std::map<Index, Stroke> ofThisStroke_; ///< the part of strokes_ that addStroke is at
   PlacedConstraints result_;
 };
 
@@ -152,6 +155,13 @@ void Placement::tellIfFar(const char* what, const PlacedConstraint& placed)
          << ": look at the output Constraints, and move its points if that is not what was meant";
     result_.notices.push_back(text.str());
   }
+}
+
+void Placement::drop(const char* what, PlacedConstraint line, const std::string& whyNot)
+{
+  result_.notices.push_back(std::string(what) + " " + std::to_string(line.source) + " " + whyNot);
+  line.whyNot = whyNot;
+  result_.placed.push_back(std::move(line));
 }
 
 /// An edge from there has one polygon only.
@@ -193,8 +203,8 @@ void Placement::addFeature(const Polyline& line)
   }
   if (placed.path.size() < 2)
   {
-    result_.notices.push_back("feature curve " + std::to_string(line.cell) +
-      " has no edge of the surface along it and is not followed: all its points have the same "
+    drop("feature curve", std::move(placed),
+      "has no edge of the surface along it and is not followed: all its points have the same "
       "nearest point of the surface");
     return;
   }
@@ -242,7 +252,7 @@ void Placement::guide(const Snapper::Place& place, const Stroke& stroke)
       return;
     }
   }
-  strokes_[place.polygon] = stroke;
+  ofThisStroke_[place.polygon] = stroke;
   for (Index i = 0; i < corners; ++i)
   {
     const Index a = input_.polygonPoints[begin + i];
@@ -263,7 +273,7 @@ void Placement::guideAlong(const std::vector<Index>& path, const Stroke& stroke)
     {
       if (graph_.uses[i].target == path[k + 1])
       {
-        strokes_[graph_.uses[i].polygon] = stroke;
+        ofThisStroke_[graph_.uses[i].polygon] = stroke;
       }
     }
   }
@@ -276,6 +286,7 @@ void Placement::addStroke(const Polyline& line, double weight)
   placed.source = line.cell;
   placed.weight = weight;
   std::vector<Snapper::Place> ends;
+  ofThisStroke_.clear();
   for (const Vector3& p : line.points)
   {
     ends.push_back(snapper_.nearestPlace(p));
@@ -309,9 +320,15 @@ void Placement::addStroke(const Polyline& line, double weight)
   }
   if (placed.path.size() < 2)
   {
-    result_.notices.push_back("guiding stroke " + std::to_string(line.cell) +
-      " has no length and is not followed: give it two different points");
+    placed.path.assign(1, ends.empty() ? Vector3(Vector3::Zero()) : ends.front().point);
+    drop("guiding stroke", std::move(placed),
+      "has no length and is not followed: give it two different points");
     return;
+  }
+  for (const auto& [polygon, stroke] : ofThisStroke_)
+  {
+    strokes_[polygon] = stroke;
+    placed.guided.push_back(guidedPolygon(input_, polygon, stroke.direction, stroke.weight));
   }
   tellIfFar("guiding stroke", placed);
   result_.placed.push_back(std::move(placed));
@@ -468,6 +485,29 @@ void tellUnused(vtkPolyData* data, const char* name, std::vector<std::string>& n
 }
 
 } // namespace
+
+GuidedPolygon guidedPolygon(
+  const SurfaceInput& input, Index polygon, const Vector3& direction, double weight)
+{
+  const Index begin = input.polygonOffsets[polygon];
+  const Index end = input.polygonOffsets[polygon + 1];
+  const auto corner = [&](Index i) { return input.points[input.polygonPoints[i]]; };
+  GuidedPolygon guided;
+  guided.polygon = polygon;
+  guided.weight = weight;
+  Vector3 normal = Vector3::Zero(); // twice as long as the area is large
+  for (Index i = begin; i < end; ++i)
+  {
+    guided.centre += corner(i) / static_cast<double>(end - begin);
+    normal +=
+      (corner(i) - corner(begin)).cross(corner(i + 1 < end ? i + 1 : begin) - corner(begin));
+  }
+  guided.area = 0.5 * normal.norm();
+  guided.normal = normal.stableNormalized();
+  const Vector3 along = direction.stableNormalized();
+  guided.direction = (along - guided.normal * guided.normal.dot(along)).stableNormalized();
+  return guided;
+}
 
 //------------------------------------------------------------------------------
 PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintInputs& inputs)

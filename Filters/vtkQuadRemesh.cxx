@@ -5,6 +5,7 @@
 #include "Pipeline/Pipeline.h"
 #include "Pipeline/ResultStore.h"
 #include "QuadrilleBlocks.h"
+#include "QuadrilleConstraintTable.h"
 #include "QuadrilleConstraints.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleFrame.h"
@@ -15,8 +16,11 @@
 #include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkTable.h"
 
+#include <algorithm>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -101,6 +105,20 @@ std::string resultText(const quadrille::RemeshResult& result, vtkIdType irregula
   return text.str();
 }
 
+/// What is added to the sentence above where something was asked for.
+std::string constraintText(const std::vector<quadrille::ConstraintWord>& words)
+{
+  const auto met = std::count_if(
+    words.begin(), words.end(), [](const quadrille::ConstraintWord& word) { return word.isMet; });
+  std::ostringstream text;
+  if (!words.empty())
+  {
+    text << ", " << met << " of " << words.size() << " constraints met"
+         << (static_cast<std::size_t>(met) < words.size() ? " (see Constraint Table)" : "");
+  }
+  return text.str();
+}
+
 void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
 {
   quadrille::addStages(data, result.stages);
@@ -150,7 +168,7 @@ void writeMapped(const quadrille::RemeshResult& result, const quadrille::RemeshO
 //------------------------------------------------------------------------------
 vtkQuadRemesh::vtkQuadRemesh()
 {
-  this->SetNumberOfOutputPorts(6);
+  this->SetNumberOfOutputPorts(7);
 }
 
 vtkQuadRemesh::~vtkQuadRemesh() = default;
@@ -194,6 +212,18 @@ vtkPolyData* vtkQuadRemesh::GetPolyDataOutputAt(int port)
 }
 
 //------------------------------------------------------------------------------
+const char* vtkQuadRemesh::GetBlockType(int outputPort) const
+{
+  return outputPort == 6 ? "vtkTable" : "vtkPolyData";
+}
+
+//------------------------------------------------------------------------------
+vtkTable* vtkQuadRemesh::GetConstraintTable()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(6));
+}
+
+//------------------------------------------------------------------------------
 void vtkQuadRemesh::Execute(quadrille::Block& block)
 {
   if (this->MaximumNumberOfQuads < 1)
@@ -211,8 +241,8 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
       "switched off: switch ComputeMappedSurface on or choose another method");
   }
   vtkPolyData* input = block.input();
-  std::vector<quadrille::PlacedConstraint> placed;
-  quadrille::ConvertedSurface converted = this->ConvertInputs(block, &placed);
+  quadrille::AskedConstraints asked;
+  quadrille::ConvertedSurface converted = this->ConvertInputs(block, &asked);
   quadrille::RemeshOptions options = this->MakeOptions(block);
   options.maximumNumberOfQuads = static_cast<std::size_t>(this->MaximumNumberOfQuads);
   options.smoothingSteps = this->SmoothingSteps;
@@ -269,7 +299,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   {
     this->AddNotice(notice);
   }
-  for (const std::string& warning : quadrille::missedValences(placed, result.quads))
+  for (const std::string& warning : quadrille::missedValences(asked.placed, result.quads))
   {
     this->AddWarning(warning);
   }
@@ -304,8 +334,12 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   block.output(2)->ShallowCopy(written.lines);
   block.output(3)->ShallowCopy(written.separatrices);
   block.output(4)->ShallowCopy(written.irregular);
-  block.output(5)->ShallowCopy(quadrille::writeConstraints(placed, result.quads));
-  this->SetResult(resultText(result, written.irregular->GetNumberOfPoints()));
+  block.output(5)->ShallowCopy(quadrille::writeConstraints(asked.placed, result.quads));
+  const std::vector<quadrille::ConstraintWord> words = quadrille::judgeConstraints(
+    asked, result.quads, written.quads->GetPointData()->GetArray(quadrille::arrays::kSizing));
+  block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
+  this->SetResult(
+    resultText(result, written.irregular->GetNumberOfPoints()) + constraintText(words));
   report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
 }
 

@@ -25,6 +25,20 @@
  * 4. the irregular vertices of the quads as vertices, with `Valence` (number of edges), `Index` (edges that are missing
  *    to a regular vertex), `OnBoundary` and `QuadPointId`.
  * 5. what the constraints of the inputs 1 to 3 became on the surface, see QuadrilleConstraints.h.
+ * 6. a vtkTable with a row for each constraint, in the order of the input: those of the surface's arrays (guides,
+ *    feature edges, valences, sizes), then those of the inputs 1 to 3. `Id` (0, 1, ...), `Kind` ("guide array": a
+ *    connected region, "guide stroke", "feature curve": of `FeatureEdges` a connected set, "valence", "size": the
+ *    array), `SourceId` (line or point of its input; of arrays the first cell or point; -1 for sizes), `X`, `Y`, `Z`
+ *    (where it deviates most; the vertex of a valence), `Met` (0 or 1), `Deviation` in `Unit`, `Deviation95`, `Reason`
+ *    (why not met, else empty). What could not be measured is NaN.
+ *    - "degrees", guides: the angle between the asked direction at the centre of a face and the nearer of the two
+ *      families of edges of the quad there, in the plane of the face; the mean by area, and in `Deviation95` the 95th
+ *      percentile. Met: a mean of at most 5.
+ *    - "edge lengths", curves: the largest distance from the quads' edges, over the mean length of the edges near it.
+ *      Met: at most 0.1.
+ *    - "valence": the number of edges there, on boundaries one more, less the one asked for. Met: 0.
+ *    - "factor", sizes: by which the square root of a quad's area differs, over the median of all, from `Sizing` there;
+ *      mean by area and 95th percentile. Met: a mean of at most 1.25.
  *
  * Field data of output 0, beside that of the input: `LayoutPatchShape` (a patch: 0 four corners, 1 ring, 2 torus) and
  * `LayoutPatchSize` (2: quads along and across), `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`,
@@ -39,6 +53,8 @@
 #define vtkQuadRemesh_h
 
 #include "vtkQuadrilleSurfaceAlgorithm.h"
+
+class vtkTable;
 
 class QUADRILLEFILTERS_EXPORT vtkQuadRemesh : public vtkQuadrilleSurfaceAlgorithm
 {
@@ -277,17 +293,19 @@ public:
   }
   ///@}
 
-  /// Outputs 1 to 5.
+  /// Outputs 1 to 6.
   vtkPolyData* GetMappedSurface() { return this->GetPolyDataOutputAt(1); }
   vtkPolyData* GetLines() { return this->GetPolyDataOutputAt(2); }
   vtkPolyData* GetSeparatrices() { return this->GetPolyDataOutputAt(3); }
   vtkPolyData* GetIrregularVertices() { return this->GetPolyDataOutputAt(4); }
   vtkPolyData* GetConstraints() { return this->GetPolyDataOutputAt(5); }
+  vtkTable* GetConstraintTable();
 
 protected:
   vtkQuadRemesh();
   ~vtkQuadRemesh() override;
 
+  const char* GetBlockType(int outputPort) const override;
   void Execute(quadrille::Block& block) override;
   bool KeepsResult() override { return this->KeepLevels != 0; }
   void AddSettings(std::ostream& os) const override;

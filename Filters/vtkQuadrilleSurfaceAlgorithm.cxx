@@ -5,6 +5,7 @@
 #include "Pipeline/Pipeline.h"
 #include "QuadrilleArrayNames.h"
 #include "QuadrilleBlocks.h"
+#include "QuadrilleConstraintTable.h"
 #include "QuadrilleConstraints.h"
 #include "QuadrilleConvert.h"
 
@@ -48,7 +49,7 @@ void vtkQuadrilleSurfaceAlgorithm::SetPatchArrayName(const char* name)
 
 //------------------------------------------------------------------------------
 quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
-  quadrille::Block& block, std::vector<quadrille::PlacedConstraint>* placed)
+  quadrille::Block& block, quadrille::AskedConstraints* asked)
 {
   vtkPolyData* data = block.input(0);
   this->WarnOfUnusedArrays(block);
@@ -64,14 +65,18 @@ quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
   constraints.points = block.input(3);
   constraints.strokeWeight = this->StrokeWeight;
   constraints.valence = this->PointValence;
+  if (asked)
+  {
+    asked->arrays = quadrille::arrayConstraints(surface);
+  }
   quadrille::PlacedConstraints result = quadrille::applyConstraints(surface, constraints);
   for (const std::string& notice : result.notices)
   {
     this->AddWarning(notice);
   }
-  if (placed)
+  if (asked)
   {
-    *placed = std::move(result.placed);
+    asked->placed = std::move(result.placed);
   }
   return surface;
 }

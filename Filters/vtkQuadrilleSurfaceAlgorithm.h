@@ -32,8 +32,8 @@
 
 namespace quadrille
 {
+struct AskedConstraints;
 struct ConvertedSurface;
-struct PlacedConstraint;
 struct RemeshOptions;
 }
 
@@ -182,10 +182,10 @@ protected:
   double LeastAreaShare(std::size_t blocks) const override;
   void AddSettings(std::ostream& os) const override;
 
-  /// The surface and what is asked of it as Core takes them; warns of what is not used. placed, if given, gets the
-  /// constraints of ports 1 to 3.
+  /// The surface and what is asked of it as Core takes them; warns of what is not used. asked, if given, gets the
+  /// constraints of all ports.
   quadrille::ConvertedSurface ConvertInputs(
-    quadrille::Block& block, std::vector<quadrille::PlacedConstraint>* placed = nullptr);
+    quadrille::Block& block, quadrille::AskedConstraints* asked = nullptr);
   /// The properties in Core's units, with the block's part of the number of quads.
   quadrille::RemeshOptions MakeOptions(const quadrille::Block& block);
 

@@ -12,6 +12,7 @@
 #include <vtkFieldData.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
+#include <vtkTable.h>
 
 #include <array>
 #include <cmath>
@@ -145,6 +146,26 @@ void addSuccess(Json& json, vtkPolyData* quads)
   json["quality"] = qualityOf(quads);
 }
 
+/// A row of the Constraint Table each; see vtkQuadRemesh.
+Json constraintsOf(vtkTable* table)
+{
+  Json constraints = Json::array();
+  for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
+  {
+    const auto value = [&](const char* column)
+    { return number(table->GetValueByName(row, column).ToDouble()); };
+    const auto text = [&](const char* column)
+    { return table->GetValueByName(row, column).ToString(); };
+    constraints.push_back(
+      { { "id", value("Id") }, { "kind", text("Kind") }, { "source_id", value("SourceId") },
+        { "place", Json::array({ value("X"), value("Y"), value("Z") }) },
+        { "met", value("Met") != 0 }, { "deviation", value("Deviation") },
+        { "deviation_95", value("Deviation95") }, { "unit", text("Unit") },
+        { "reason", text("Reason") } });
+  }
+  return constraints;
+}
+
 Json beginReport(const RunFiles& files, ExitCode code, const std::string& error)
 {
   return { { "input", files.input }, { "output", files.output },
@@ -180,6 +201,7 @@ std::string makeReport(const RunFiles& files, RemeshRun& run, ExitCode code, con
   if (code == kValidQuads)
   {
     addSuccess(json, filter->GetOutput());
+    json["constraints"] = constraintsOf(filter->GetConstraintTable());
   }
   json["stages"] = stagesOf(run, times.read);
   json["stage_times"] = linesOf(filter->GetStageTimesText());

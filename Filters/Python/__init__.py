@@ -87,6 +87,24 @@ def info(quads):
     return result
 
 
+def _constraints(table):
+    """The rows of the constraint table as dicts, with the names of the command's report; None where not measured."""
+    names = (("id", "Id"), ("kind", "Kind"), ("source_id", "SourceId"), ("met", "Met"), ("deviation", "Deviation"),
+             ("deviation_95", "Deviation95"), ("unit", "Unit"), ("reason", "Reason"))
+
+    def known(number):
+        return None if number != number else number
+
+    rows = []
+    for i in range(table.GetNumberOfRows()):
+        row = {name: table.GetColumnByName(column).GetValue(i) for name, column in names}
+        row["place"] = tuple(table.GetColumnByName(axis).GetValue(i) for axis in "XYZ")
+        row["met"] = bool(row["met"])
+        row["deviation"], row["deviation_95"] = known(row["deviation"]), known(row["deviation_95"])
+        rows.append(row)
+    return rows
+
+
 _FINAL_QUALITIES = ("coarse", "intermediate", "input")
 
 
@@ -208,7 +226,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         part.
     progress: called as progress(fraction, text); a return value of False (not None) stops the run.
     everything: return a Remeshed with the mapped surface, the feature lines, the info dict and the lines of the layout,
-        too.
+        too. `constraints` of the info dict is a list of dicts, one for each guided region, stroke, curve, valence and
+        sizing: id, kind, source_id, place, met, deviation, deviation_95, unit and reason; see the user guide.
 
     Raises InvalidInput where the mesh or an argument is at fault, else RemeshError, with the reason.
     """
@@ -239,5 +258,6 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     _finish(run)
     result = run.GetOutput()
     if everything:
-        return Remeshed(result, run.GetMappedSurface(), run.GetLines(), info(result), run.GetSeparatrices())
+        told = dict(info(result), constraints=_constraints(run.GetConstraintTable()))
+        return Remeshed(result, run.GetMappedSurface(), run.GetLines(), told, run.GetSeparatrices())
     return result

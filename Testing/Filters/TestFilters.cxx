@@ -16,6 +16,7 @@
 #include <vtkPointData.h>
 #include <vtkQuadRemesh.h>
 #include <vtkStringArray.h>
+#include <vtkTable.h>
 #include <vtkTrivialProducer.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
@@ -523,6 +524,12 @@ std::vector<vtkIdType> sizesOf(vtkQuadRemesh* filter)
   for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
   {
     auto* data = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(port));
+    if (!data)
+    {
+      auto* table = vtkTable::SafeDownCast(filter->GetOutputDataObject(port));
+      sizes.insert(sizes.end(), { table->GetNumberOfRows(), table->GetNumberOfColumns() });
+      continue;
+    }
     sizes.insert(sizes.end(),
       { data->GetNumberOfPoints(), data->GetNumberOfCells(),
         vtkIdType{ data->GetPointData()->GetNumberOfArrays() },

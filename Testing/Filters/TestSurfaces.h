@@ -47,6 +47,20 @@ inline vtkSmartPointer<vtkPolyData> toPolyData(const Mesh& mesh)
   return data;
 }
 
+/// The mean of the corners of a cell.
+inline Vector3 cellCentre(vtkPolyData* data, vtkIdType cell)
+{
+  vtkIdType count = 0;
+  const vtkIdType* ids = nullptr;
+  data->GetCellPoints(cell, count, ids);
+  Vector3 sum = Vector3::Zero();
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    sum += Vector3(data->GetPoint(ids[i]));
+  }
+  return sum / static_cast<double>(count);
+}
+
 /// Collects errors and warnings of a filter, so that a test of a failure does not print them.
 class Messages
 {

@@ -16,6 +16,7 @@ import subprocess
 import unittest
 
 import quadrille
+from vtkmodules.vtkCommonCore import vtkIntArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkIOExodus import vtkExodusIIReader
 from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLWriter
@@ -477,12 +478,44 @@ class Report(Case):
         self.assertEqual(content["shortest_boundary_over_edge_length"], 0)
         self.assertTrue(content["quality"]["manifold"] and content["quality"]["closed"])
         self.assertIn("duplicate_faces", content["repair"])
+        self.assertEqual(content["constraints"], [])
         self.assertEqual(set(content["extraction"].values()), {0})
         stages = [s["stage"] for s in content["stages"]]
         self.assertEqual(stages[0], "read")
         for stage in ("repair", "phase1", "phase2", "field", "seamless", "quantize", "embed", "replay", "extract"):
             self.assertIn(stage, stages)
         self.assertLessEqual(sum(s["seconds"] for s in content["stages"]), 1.05 * content["seconds_total"] + 0.05)
+
+    def test_report_has_a_word_on_each_constraint(self):
+        points, faces = torus()
+        surface = quadrille.to_polydata(points, faces)
+        asked = vtkIntArray()
+        asked.SetName("TargetValence")
+        asked.SetNumberOfTuples(len(points))
+        asked.Fill(0)
+        wanted = {100: 5, 700: 3}
+        for point, valence in wanted.items():
+            asked.SetValue(point, valence)
+        surface.GetPointData().AddArray(asked)
+        writer = vtkXMLPolyDataWriter()
+        writer.SetInputData(surface)
+        writer.SetFileName(str(self.folder / "torus.vtp"))
+        writer.Write()
+        report, out = self.folder / "r.json", self.folder / "q.vtp"
+        self.run_quadrille(self.folder / "torus.vtp", out, "--quads", 800, "--report", report)
+        told = json.loads(report.read_text())["constraints"]
+        self.assertEqual([row["source_id"] for row in told], list(wanted))
+        quads = read(vtkXMLPolyDataReader(), out)
+        for row in told:
+            self.assertEqual(row["kind"], "valence")
+            self.assertIsNone(row["deviation_95"])
+            self.assertLess(math.dist(row["place"], points[row["source_id"]]), 1e-6)
+            nearest = quads.FindPoint(row["place"])
+            is_there = math.dist(quads.GetPoint(nearest), row["place"]) < 1e-6
+            got = quads.GetPointData().GetArray("Valence").GetTuple1(nearest) if is_there else 4
+            self.assertEqual(row["deviation"], got - wanted[row["source_id"]])
+            self.assertEqual(row["met"], row["deviation"] == 0)
+            self.assertEqual(row["met"], row["reason"] == "")
 
     def test_automatic_coarse_level(self):
         sizes = {}

@@ -284,6 +284,42 @@ class Requests(unittest.TestCase):
         plain = quadrille.remesh(self.mesh, quads=100)
         self.assertFalse(numpy.array_equal(quadrille.to_arrays(plain)[0], quadrille.to_arrays(result.quads)[0]))
 
+    def test_constraints_have_a_word_each(self):
+        """Guides and valences of the info dict against the quads, measured by numpy."""
+        centres = self.points[self.faces].mean(axis=1)
+        guided = numpy.linalg.norm(centres - (12, 8, 0), axis=1) < 5
+        direction = numpy.where(guided[:, None], (math.cos(0.4), math.sin(0.4), 0.0), 0.0)
+        valence_at = int(numpy.flatnonzero((self.points == (4, 12, 0)).all(axis=1))[0])
+        line = [[12, 0, 0], [12, 2, 0]]
+        result = quadrille.remesh(self.mesh, quads=400, guiding_direction=direction, target_valence={valence_at: 5},
+                                  curves=[line], everything=True)
+        told = result.info["constraints"]
+        self.assertEqual([row["kind"] for row in told], ["guide array", "valence", "feature curve"])
+        self.assertEqual([row["id"] for row in told], [0, 1, 2])
+        points, quads = quadrille.to_arrays(result.quads)
+        corners = points[quads]
+        middle = corners.mean(axis=1)
+        near = numpy.linalg.norm(centres[guided][:, None] - middle, axis=2).argmin(axis=1)
+        along = numpy.stack((corners[:, 1] + corners[:, 2] - corners[:, 0] - corners[:, 3],
+                             corners[:, 2] + corners[:, 3] - corners[:, 0] - corners[:, 1]), axis=1)[near]
+        angle = numpy.degrees(numpy.arctan2(along[:, :, 1], along[:, :, 0]) - 0.4)
+        off = numpy.abs(angle - 180 * numpy.round(angle / 180)).min(axis=1)
+        # The faces are of one size; the quad with the nearest centre is nearly always the one that holds the face's.
+        self.assertAlmostEqual(told[0]["deviation"], off.mean(), delta=1)
+        self.assertEqual(told[0]["met"], told[0]["deviation"] <= 5)
+        self.assertEqual(told[0]["unit"], "degrees")
+        distance = numpy.linalg.norm(points - told[1]["place"], axis=1)
+        numpy.testing.assert_array_equal(told[1]["place"], (4, 12, 0))
+        got = vtk_to_numpy(result.quads.GetPointData().GetArray("Valence"))[distance.argmin()]
+        got = got if distance.min() < 1e-6 else 4
+        self.assertEqual(told[1]["deviation"], got - 5)
+        self.assertEqual(told[1]["source_id"], valence_at)
+        self.assertTrue(told[2]["met"])
+        self.assertIsNone(told[2]["deviation_95"])
+        for row in told:
+            self.assertEqual(row["met"], row["reason"] == "")
+        self.assertEqual(quadrille.remesh(self.mesh, quads=100, everything=True).info["constraints"], [])
+
     def test_guiding_direction(self):
         direction = numpy.tile((1.0, 1.0, 0.0), (len(self.faces), 1))
         weight = numpy.full(len(self.faces), 0.5)

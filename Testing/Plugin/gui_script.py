@@ -19,7 +19,7 @@ try:
 
     # The first Apply shows the quads alone, with edges: Apply asks this of each output.
     controller = servermanager.vtkSMParaViewPipelineControllerWithRendering()
-    for port in range(6):
+    for port in range(7):
         chosen = controller.ShowInPreferredView(quads.SMProxy, port, view.SMProxy)
         check((chosen is not None) == (port == 0), f"output {port} shows at first Apply: {chosen}")
     check(simple.GetDisplayProperties(quads, view).Representation == "Surface With Edges", "the quads have no edges")

@@ -102,6 +102,10 @@ shown = servermanager.Fetch(drawn, idx=5)
 kinds = [int(shown.GetCellData().GetArray("Constraint").GetTuple1(i)) for i in range(shown.GetNumberOfCells())]
 check(kinds == [2, 1], f"constraints {kinds} where a valence that was met and a stroke were expected")
 check(shown.GetCellData().GetArray("Valence").GetTuple1(0) == 5, "the valence at the point is not 5")
+table = servermanager.Fetch(drawn, idx=6)
+words = [table.GetColumnByName("Kind").GetValue(i) for i in range(table.GetNumberOfRows())]
+check(words == ["guide stroke", "valence"], f"the constraint table has {words}")
+check(table.GetColumnByName("Met").GetValue(1) == 1, "the table says that the valence is not met")
 irregular = servermanager.Fetch(drawn, idx=4)
 valences = irregular.GetPointData().GetArray("Valence")
 index = sum(4 - valences.GetTuple1(i) for i in range(irregular.GetNumberOfPoints()))

@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QuadrilleArrayConstraints.h"
+
+#include "Base/DisjointSets.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// Places at which a constraint is measured, and all of them together, at most: a mean over so many does not change in
+/// the digits that are of interest.
+constexpr std::size_t kMostPlaces = 20000;
+constexpr std::size_t kMostPlacesOfAll = 200000;
+constexpr std::size_t kLeastPlaces = 100;
+
+/// Points at one place count as one, or the triangles of a soup were a region each.
+void joinSamePlaces(const SurfaceInput& input, const std::vector<bool>& used, DisjointSets& sets)
+{
+  std::vector<Index> points;
+  for (std::size_t i = 0; i < used.size(); ++i)
+  {
+    if (used[i])
+    {
+      points.push_back(static_cast<Index>(i));
+    }
+  }
+  const auto key = [&](Index i)
+  {
+    const Vector3& p = input.points[i];
+    return std::make_tuple(p.x(), p.y(), p.z(), i);
+  };
+  std::sort(points.begin(), points.end(), [&](Index a, Index b) { return key(a) < key(b); });
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+  {
+    if (input.points[points[i]] == input.points[points[i + 1]])
+    {
+      sets.join(points[i], points[i + 1]);
+    }
+  }
+}
+
+std::vector<ArrayConstraints::Region> guidedRegions(const ConvertedSurface& surface)
+{
+  const SurfaceInput& input = surface.input;
+  std::vector<Index> guided;
+  std::vector<bool> used(input.guideDirections.empty() ? 0 : input.points.size(), false);
+  for (std::size_t i = 0; i < input.guideDirections.size(); ++i)
+  {
+    const Index begin = input.polygonOffsets[i];
+    const Index end = input.polygonOffsets[i + 1];
+    if (end > begin && !input.guideDirections[i].isZero(0))
+    {
+      guided.push_back(static_cast<Index>(i));
+      for (Index k = begin; k < end; ++k)
+      {
+        used[input.polygonPoints[k]] = true;
+      }
+    }
+  }
+  std::vector<ArrayConstraints::Region> regions;
+  if (guided.empty())
+  {
+    return regions;
+  }
+  DisjointSets sets(input.points.size(), 1);
+  joinSamePlaces(input, used, sets);
+  for (const Index polygon : guided)
+  {
+    const Index begin = input.polygonOffsets[polygon];
+    for (Index i = begin + 1; i < input.polygonOffsets[polygon + 1]; ++i)
+    {
+      sets.join(input.polygonPoints[begin], input.polygonPoints[i]);
+    }
+  }
+  std::map<Index, std::size_t> regionOf;
+  for (const Index polygon : guided)
+  {
+    const Index root = sets.find(input.polygonPoints[input.polygonOffsets[polygon]]);
+    const auto [found, isNew] = regionOf.emplace(root, regions.size());
+    if (isNew)
+    {
+      regions.push_back({ surface.cell(polygon), {}, {} });
+    }
+    regions[found->second].polygons.push_back(polygon);
+  }
+  const std::size_t most = mostPlacesOf(regions.size());
+  for (ArrayConstraints::Region& region : regions)
+  {
+    const std::size_t stride = strideOf(region.polygons.size(), most);
+    for (std::size_t i = 0; i < region.polygons.size(); i += stride)
+    {
+      const Index polygon = region.polygons[i];
+      region.measured.push_back(guidedPolygon(input, polygon, input.guideDirections[polygon],
+        input.guideWeights.empty() ? 1 : input.guideWeights[polygon]));
+    }
+  }
+  return regions;
+}
+
+std::vector<ArrayConstraints::Curve> markedCurves(const SurfaceInput& input)
+{
+  std::vector<std::array<Index, 2>> edges;
+  for (std::size_t p = 0; p < input.featureEdges.size(); ++p)
+  {
+    const Index begin = input.polygonOffsets[p];
+    const Index corners = input.polygonOffsets[p + 1] - begin;
+    for (Index i = 0; i < std::min<Index>(corners, 8); ++i) // eight bits a polygon
+    {
+      const Index a = input.polygonPoints[begin + i];
+      const Index b = input.polygonPoints[begin + (i + 1) % corners];
+      if ((input.featureEdges[p] >> i & 1) != 0 && a != b)
+      {
+        edges.push_back({ std::min(a, b), std::max(a, b) });
+      }
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::vector<ArrayConstraints::Curve> curves;
+  if (edges.empty())
+  {
+    return curves;
+  }
+  DisjointSets sets(input.points.size(), 1);
+  std::vector<bool> used(input.points.size(), false);
+  for (const auto& [a, b] : edges)
+  {
+    sets.join(a, b);
+    used[a] = used[b] = true;
+  }
+  joinSamePlaces(input, used, sets);
+  std::map<Index, std::size_t> curveOf;
+  for (const auto& [a, b] : edges)
+  {
+    const auto [found, isNew] = curveOf.emplace(sets.find(a), curves.size());
+    if (isNew)
+    {
+      curves.push_back({ static_cast<vtkIdType>(a), {} });
+    }
+    curves[found->second].edges.push_back({ input.points[a], input.points[b] });
+  }
+  return curves;
+}
+
+std::vector<ArrayConstraints::Valence> askedValences(const SurfaceInput& input)
+{
+  std::vector<ArrayConstraints::Valence> valences;
+  if (std::all_of(
+        input.targetValences.begin(), input.targetValences.end(), [](int v) { return v == 0; }))
+  {
+    return valences;
+  }
+  std::vector<bool> isUsed(input.points.size(), false);
+  for (const Index p : input.polygonPoints)
+  {
+    isUsed[p] = true;
+  }
+  for (std::size_t i = 0; i < input.targetValences.size(); ++i)
+  {
+    if (input.targetValences[i] != 0)
+    {
+      valences.push_back(
+        { static_cast<vtkIdType>(i), input.points[i], input.targetValences[i], isUsed[i] });
+    }
+  }
+  return valences;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::size_t mostPlacesOf(std::size_t guides)
+{
+  return std::clamp(kMostPlacesOfAll / std::max<std::size_t>(guides, 1), kLeastPlaces, kMostPlaces);
+}
+
+std::size_t strideOf(std::size_t count, std::size_t most)
+{
+  return std::max<std::size_t>((count + most - 1) / most, 1);
+}
+
+ArrayConstraints arrayConstraints(const ConvertedSurface& surface)
+{
+  ArrayConstraints asked;
+  asked.guides = guidedRegions(surface);
+  asked.curves = markedCurves(surface.input);
+  asked.valences = askedValences(surface.input);
+  asked.sizes = !surface.input.sizing.empty();
+  return asked;
+}
+
+} // namespace quadrille

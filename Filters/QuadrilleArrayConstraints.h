@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What the arrays of a surface ask for, taken down before what is drawn beside it is added.
+#pragma once
+
+#include "QuadrilleConstraints.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace quadrille
+{
+
+/// What the arrays of the surface ask for, as the user gave it.
+struct ArrayConstraints
+{
+  struct Region
+  {
+    vtkIdType firstCell = 0;
+    std::vector<Index> polygons; ///< ascending
+    std::vector<GuidedPolygon>
+      measured; ///< some of them, evenly spread, where they are many; ascending
+  };
+  struct Curve
+  {
+    vtkIdType firstPoint = 0;
+    std::vector<std::array<Vector3, 2>> edges;
+  };
+  struct Valence
+  {
+    vtkIdType point = 0;
+    Vector3 place = Vector3::Zero();
+    int asked = 0;
+    bool isUsed = false; ///< by a polygon
+  };
+  std::vector<Region> guides; ///< connected by points
+  std::vector<Curve> curves;  ///< connected edges of FeatureEdges
+  std::vector<Valence> valences;
+  bool sizes = false;
+};
+
+/// The most places at which each of so many guides, or a curve, is measured.
+std::size_t mostPlacesOf(std::size_t guides);
+/// From one of `count` elements to the next, so that at most `most` are taken; at least 1.
+std::size_t strideOf(std::size_t count, std::size_t most);
+
+/// Of a surface to which no drawn constraint was added.
+ArrayConstraints arrayConstraints(const ConvertedSurface& surface);
+
+} // namespace quadrille

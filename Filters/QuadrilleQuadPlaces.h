@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The quads near a place: what is there of what a user asked for.
+#pragma once
+
+#include "Extraction/Extraction.h"
+
+#include <vtkGenericCell.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkStaticCellLocator.h>
+#include <vtkStaticPointLocator.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace quadrille
+{
+
+/// The valence of the quads at a place, on boundaries one more, as it is asked for there; regular where no point of
+/// theirs lies.
+class ReachedValences
+{
+public:
+  explicit ReachedValences(const QuadMesh& mesh);
+  int at(const Vector3& p) const;
+
+private:
+  const QuadMesh& mesh_;
+  vtkNew<vtkPolyData> data_;
+  vtkNew<vtkStaticPointLocator> locator_;
+  double tolerance_ = 0;
+};
+
+/// The quad nearest to a place, as two triangles.
+class NearestQuads
+{
+public:
+  struct Place
+  {
+    Index quad = kInvalidIndex;
+    /// Unit tangents of its two families of edges, blended from opposite edges.
+    std::array<Vector3, 2> along;
+  };
+
+  /// mesh: has quads.
+  explicit NearestQuads(const QuadMesh& mesh);
+  std::optional<Place> at(const Vector3& p) const;
+
+private:
+  const QuadMesh& mesh_;
+  vtkNew<vtkPolyData> data_;
+  vtkNew<vtkStaticCellLocator> locator_;
+  vtkNew<vtkGenericCell> cell_;
+};
+
+/// The edge of the quads nearest to a place.
+class NearestEdges
+{
+public:
+  struct Place
+  {
+    double distance = 0; ///< in units of the points
+    double length = 0;   ///< of the edge
+  };
+
+  /// mesh: has quads.
+  explicit NearestEdges(const QuadMesh& mesh);
+  std::optional<Place> at(const Vector3& p) const;
+
+private:
+  const QuadMesh& mesh_;
+  std::vector<std::array<Index, 2>> edges_;
+  vtkNew<vtkPolyData> data_;
+  vtkNew<vtkStaticCellLocator> locator_;
+  vtkNew<vtkGenericCell> cell_;
+};
+
+} // namespace quadrille
