@@ -15,10 +15,10 @@ namespace quadrille
 namespace
 {
 
-/// Places at which a constraint is measured, and all of them together, at most: a mean over so many does not change in
-/// the digits that are of interest.
-constexpr std::size_t kMostPlaces = 20000;
-constexpr std::size_t kMostPlacesOfAll = 200000;
+/// Places at which a constraint is measured, and all of them together, at most: a mean over so many has an error of a
+/// fiftieth of the spread, a tenth of a degree. More of them would take longer than the map of a scan.
+constexpr std::size_t kMostPlaces = 2500;
+constexpr std::size_t kMostPlacesOfAll = 20000;
 constexpr std::size_t kLeastPlaces = 100;
 
 /// Points at one place count as one, or the triangles of a soup were a region each.
