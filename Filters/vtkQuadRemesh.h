@@ -238,8 +238,8 @@ public:
   ///@{
   /**
    * With KeepLevels: whether the map starts from that of the last execution, which keeps whole numbers where irregular
-   * vertices and features stay, and whether other target valences begin at phase 2. The result then depends on what was
-   * made before, within the same certificate; off, on the inputs and properties alone. Default: off.
+   * vertices and features stay. The result then depends on what was made before, within the same certificate; off, on
+   * the inputs and properties alone. Default: off.
    */
   vtkSetMacro(WarmStart, vtkTypeBool);
   vtkGetMacro(WarmStart, vtkTypeBool);

@@ -53,8 +53,8 @@ struct RemeshOptions
   /// is not done another time.
   std::uint64_t knownMap = 0;
   int threads = 0; ///< 0: all; the result does not depend on it
-  /// With a memory only: field, map and phase 1 may start from those of the run before, so that the result may differ
-  /// from one without memory. Off: the same bytes as without.
+  /// With a memory only: the map may start from that of the run before, so that the result may differ from one without
+  /// memory. Off: the same bytes as without.
   bool warmStart = false;
   ProgressCallback progress;
 };
