@@ -275,7 +275,6 @@ ConstraintWord Judge::feature(vtkIdType source, const std::vector<std::array<Vec
 {
   ConstraintWord word = placed(
     unknownWord("feature curve", source, "edge lengths", "no quads were made"), curve.front()[0]);
-  word.deviation95 = kUnknown;
   if (mesh_.quads.empty())
   {
     return word;

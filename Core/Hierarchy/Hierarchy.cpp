@@ -182,6 +182,24 @@ double sizeAt(const std::vector<float>& sizing, Index v)
   return sizing.empty() ? 1.0 : double{ sizing[v] };
 }
 
+/// The vertices at which the mesh has smaller sizes than these, ascending.
+std::vector<Index> smallerThan(const Mesh& fine, const std::vector<float>& sizes)
+{
+  std::vector<Index> smaller;
+  if (fine.sizing.empty() && sizes.empty())
+  {
+    return smaller;
+  }
+  for (Index v = 0; v < fine.vertexCount(); ++v)
+  {
+    if (sizeAt(fine, v) < sizeAt(sizes, v))
+    {
+      smaller.push_back(v);
+    }
+  }
+  return smaller;
+}
+
 /// The vertex of the level that is vertex v of the finest one, if it is there.
 std::optional<Index> positionIn(const Level& level, Index v)
 {
@@ -409,14 +427,8 @@ private:
   /// Of these, and where quads are to be smaller than phase 1 had them, those that it has removed.
   std::vector<Index> missingVertices(const std::vector<Index>& vertices) const
   {
-    std::vector<Index> wanted = vertices;
-    for (Index v = 0; v < fine_.vertexCount() && byPhase1_.sizing != fine_.sizing; ++v)
-    {
-      if (sizeAt(fine_, v) < sizeAt(byPhase1_.sizing, v))
-      {
-        wanted.push_back(v);
-      }
-    }
+    std::vector<Index> wanted = smallerThan(fine_, byPhase1_.sizing);
+    wanted.insert(wanted.end(), vertices.begin(), vertices.end());
     wanted = sorted(std::move(wanted));
     std::vector<Index> missing;
     std::set_difference(wanted.begin(), wanted.end(), hierarchy_.intermediate.fineVertex.begin(),
@@ -597,12 +609,8 @@ private:
 
 bool isLocalChange(const Mesh& fine, const std::vector<float>& sizesBefore, std::size_t kept)
 {
-  std::size_t undone = kUndoneForKept * kept;
-  for (Index v = 0; v < fine.vertexCount() && sizesBefore != fine.sizing; ++v)
-  {
-    undone += sizeAt(fine, v) < sizeAt(sizesBefore, v) ? kUndoneForSize : 0;
-  }
-  return undone <= fine.vertexCount();
+  return kUndoneForKept * kept + kUndoneForSize * smallerThan(fine, sizesBefore).size() <=
+    fine.vertexCount();
 }
 
 Redecimation::Redecimation(

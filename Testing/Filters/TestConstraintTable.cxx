@@ -84,22 +84,6 @@ void guide(vtkPolyData* data, double degrees, const Where& where)
   data->GetCellData()->AddArray(directions);
 }
 
-vtkSmartPointer<vtkPolyData> line(const std::vector<Vector3>& points)
-{
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> coordinates;
-  coordinates->SetDataTypeToDouble();
-  vtkNew<vtkCellArray> lines;
-  lines->InsertNextCell(static_cast<int>(points.size()));
-  for (const Vector3& p : points)
-  {
-    lines->InsertCellPoint(coordinates->InsertNextPoint(p.data()));
-  }
-  data->SetPoints(coordinates);
-  data->SetLines(lines);
-  return data;
-}
-
 AskedConstraints ask(vtkPolyData* data, const ConstraintInputs& inputs = {})
 {
   ConvertedSurface surface = convertSurface(data, "");
@@ -178,7 +162,7 @@ TEST(ConstraintTable, AStrokeThatRunsOverARegionIsNamed)
 {
   const vtkSmartPointer<vtkPolyData> data = plate();
   guide(data, 45, everywhere);
-  const vtkSmartPointer<vtkPolyData> stroke = line({ { -4, 0, 0 }, { 4, 0, 0 } });
+  const vtkSmartPointer<vtkPolyData> stroke = test::polyline({ { -4, 0, 0 }, { 4, 0, 0 } });
   ConstraintInputs inputs;
   inputs.strokes = stroke;
   const auto words = judgeConstraints(ask(data, inputs), turnedGrid(20, 0), nullptr);
@@ -197,7 +181,7 @@ TEST(ConstraintTable, CurvesAreAsFarAsTheNearestEdges)
   const vtkSmartPointer<vtkPolyData> data = plate(); // its lines are half a quad apart
   for (const auto& [y, off] : { std::pair{ 1.0, 0.0 }, { 1.5, 0.5 } })
   {
-    const vtkSmartPointer<vtkPolyData> curve = line({ { -4, y, 0 }, { 4, y, 0 } });
+    const vtkSmartPointer<vtkPolyData> curve = test::polyline({ { -4, y, 0 }, { 4, y, 0 } });
     ConstraintInputs inputs;
     inputs.curves = curve;
     const auto words = judgeConstraints(ask(data, inputs), turnedGrid(20, 0), nullptr);
@@ -298,7 +282,7 @@ TEST(ConstraintTable, SizesAreComparedWithEachOther)
 TEST(ConstraintTable, WhatIsNotFollowedHasARowToo)
 {
   const vtkSmartPointer<vtkPolyData> data = plate();
-  const vtkSmartPointer<vtkPolyData> point = line({ { 1, 1, 0 }, { 1, 1, 0 } });
+  const vtkSmartPointer<vtkPolyData> point = test::polyline({ { 1, 1, 0 }, { 1, 1, 0 } });
   ConstraintInputs inputs;
   inputs.curves = point;
   inputs.strokes = point;
@@ -367,7 +351,7 @@ TEST(ConstraintTable, AgreesWithTheQuadsOfTheFilter)
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(40, 40));
   const auto isGuided = [](const Vector3& p) { return (p - Vector3(20, 20, 0)).norm() < 9; };
   guide(data, 30, isGuided);
-  const vtkSmartPointer<vtkPolyData> curve = line({ { 0, 5, 0 }, { 40, 5, 0 } });
+  const vtkSmartPointer<vtkPolyData> curve = test::polyline({ { 0, 5, 0 }, { 40, 5, 0 } });
   vtkNew<vtkPolyData> points;
   vtkNew<vtkPoints> coordinates;
   coordinates->InsertNextPoint(10, 32, 0);

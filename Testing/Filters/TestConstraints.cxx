@@ -20,22 +20,6 @@ namespace quadrille
 namespace
 {
 
-vtkSmartPointer<vtkPolyData> polyline(const std::vector<Vector3>& points)
-{
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> coordinates;
-  coordinates->SetDataTypeToDouble();
-  vtkNew<vtkCellArray> lines;
-  lines->InsertNextCell(static_cast<int>(points.size()));
-  for (const Vector3& p : points)
-  {
-    lines->InsertCellPoint(coordinates->InsertNextPoint(p.data()));
-  }
-  data->SetPoints(coordinates);
-  data->SetLines(lines);
-  return data;
-}
-
 /// What the user is told of curves on the first of the inputs.
 std::vector<std::string> applyCurves(ConvertedSurface& surface, vtkPolyData* curves)
 {
@@ -73,7 +57,7 @@ TEST(Constraints, FollowsAGridLineFromBothSides)
   const double y = 0.5 * (bounds[2] + bounds[3]);
   // Slightly off the grid line and off the plane: it is projected.
   const auto notices = applyCurves(
-    surface, polyline({ { bounds[0], y + 0.01, 0.02 }, { bounds[1], y - 0.01, 0.02 } }));
+    surface, test::polyline({ { bounds[0], y + 0.01, 0.02 }, { bounds[1], y - 0.01, 0.02 } }));
   EXPECT_TRUE(notices.empty());
   const auto edges = markedEdges(surface);
   EXPECT_EQ(edges.size(), 8u);
@@ -89,7 +73,7 @@ TEST(Constraints, FollowsAGridLineFromBothSides)
 TEST(Constraints, OtherTypesAreRefused)
 {
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(2, 2));
-  const vtkSmartPointer<vtkPolyData> curve = polyline({ { 0, 0, 0 }, { 1, 0, 0 } });
+  const vtkSmartPointer<vtkPolyData> curve = test::polyline({ { 0, 0, 0 }, { 1, 0, 0 } });
   vtkNew<vtkIntArray> type;
   type->SetName("ConstraintType");
   type->InsertNextValue(0);
@@ -103,7 +87,8 @@ TEST(Constraints, OtherTypesAreRefused)
 TEST(Constraints, StrokesGuideThePolygonsTheyRunOver)
 {
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(8, 8));
-  const vtkSmartPointer<vtkPolyData> curve = polyline({ { 0, 4, 0 }, { 4, 4, 0 }, { 8, 4, 0 } });
+  const vtkSmartPointer<vtkPolyData> curve =
+    test::polyline({ { 0, 4, 0 }, { 4, 4, 0 }, { 8, 4, 0 } });
   vtkNew<vtkIntArray> type;
   type->SetName("ConstraintType");
   type->InsertNextValue(1);
@@ -135,14 +120,14 @@ TEST(Constraints, NoPathBetweenComponentsIsAnError)
     test::disjointUnion(test::gridPlane(2, 2), test::gridPlane(2, 2), Vector3(0, 0, 5));
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(mesh);
   ConvertedSurface surface = convertSurface(data, "");
-  EXPECT_THROW(applyCurves(surface, polyline({ { 0, 0, 0 }, { 0, 0, 5 } })), InvalidInput);
+  EXPECT_THROW(applyCurves(surface, test::polyline({ { 0, 0, 0 }, { 0, 0, 5 } })), InvalidInput);
 }
 
 TEST(Constraints, FarFromTheSurfaceIsTold)
 {
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(4, 4));
   ConvertedSurface surface = convertSurface(data, "");
-  const auto notices = applyCurves(surface, polyline({ { 0, 0, 50 }, { 1, 1, 50 } }));
+  const auto notices = applyCurves(surface, test::polyline({ { 0, 0, 50 }, { 1, 1, 50 } }));
   EXPECT_EQ(notices.size(), 1u);
 }
 
@@ -164,7 +149,7 @@ TEST(Constraints, StrokesOfTheirOwnInputNeedNoArray)
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(8, 8));
   ConvertedSurface surface = convertSurface(data, "");
   ConstraintInputs inputs;
-  const vtkSmartPointer<vtkPolyData> stroke = polyline({ { 1, 4, 0.1 }, { 7, 4, 0.1 } });
+  const vtkSmartPointer<vtkPolyData> stroke = test::polyline({ { 1, 4, 0.1 }, { 7, 4, 0.1 } });
   inputs.strokes = stroke;
   inputs.strokeWeight = 0.25;
   const PlacedConstraints result = applyConstraints(surface, inputs);
@@ -196,7 +181,7 @@ TEST(Constraints, StrokesCrossTrianglesLargerThanTheirSegments)
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(1, 1));
   ConvertedSurface surface = convertSurface(data, "");
   ConstraintInputs inputs;
-  const vtkSmartPointer<vtkPolyData> stroke = polyline({ { 0.7, 0.1, 0 }, { 0.9, 0.3, 0 } });
+  const vtkSmartPointer<vtkPolyData> stroke = test::polyline({ { 0.7, 0.1, 0 }, { 0.9, 0.3, 0 } });
   inputs.strokes = stroke;
   applyConstraints(surface, inputs);
   int guided = 0;
@@ -380,7 +365,7 @@ TEST(ArrayNames, WeightsWithoutDirectionsAreTold)
 TEST(ArrayNames, ArraysOfLinesWithoutAPartnerAreTold)
 {
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(2, 2));
-  const vtkSmartPointer<vtkPolyData> curves = polyline({ { 0, 0, 0 }, { 1, 0, 0 } });
+  const vtkSmartPointer<vtkPolyData> curves = test::polyline({ { 0, 0, 0 }, { 1, 0, 0 } });
   addArray<vtkDoubleArray>(curves->GetCellData(), "GuidingWeight", 1);
   EXPECT_TRUE(partnerNotices(data, nullptr, curves).empty()); // strokes have weights
   ASSERT_EQ(partnerNotices(data, curves, nullptr).size(), 1u);

@@ -47,6 +47,22 @@ inline vtkSmartPointer<vtkPolyData> toPolyData(const Mesh& mesh)
   return data;
 }
 
+inline vtkSmartPointer<vtkPolyData> polyline(const std::vector<Vector3>& points)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> coordinates;
+  coordinates->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> lines;
+  lines->InsertNextCell(static_cast<int>(points.size()));
+  for (const Vector3& p : points)
+  {
+    lines->InsertCellPoint(coordinates->InsertNextPoint(p.data()));
+  }
+  data->SetPoints(coordinates);
+  data->SetLines(lines);
+  return data;
+}
+
 /// The mean of the corners of a cell.
 inline Vector3 cellCentre(vtkPolyData* data, vtkIdType cell)
 {
