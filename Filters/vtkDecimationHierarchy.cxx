@@ -90,7 +90,7 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
     const std::vector<quadrille::Vector3> inFrame = level.mesh.position;
     quadrille::leaveFrame(level, frame, positions);
     const auto data =
-      quadrille::writeLevel(level, quadrille::levelValences(surface, level.fineVertex));
+      quadrille::writeLevel(level, quadrille::levelValences(surface, level.mesh, level.fineVertex));
     quadrille::addFrame(data, frame, inFrame);
     return data;
   };

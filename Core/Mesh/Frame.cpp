@@ -275,6 +275,13 @@ FramedInput enterFrame(SurfaceInput input, int threads)
   {
     direction = frame.mirrored(direction);
   }
+  for (CurveRequest& curve : framed.input.curves)
+  {
+    for (Vector3& p : curve.points)
+    {
+      p = frame.fromUser(p);
+    }
+  }
   frame.reversed = looksInwards(framed.input, threads);
   framed.input.faceOrder = frame.reversed ? FaceOrder::Reversed : FaceOrder::FromLowest;
   framed.input.precision = std::max(1 / steps, std::ldexp(magnitude, floats ? -24 : -53) / unit);

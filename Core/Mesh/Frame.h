@@ -25,6 +25,7 @@ struct Frame
   bool reversed = false;            ///< faces run the other way round than those of the input
 
   Vector3 toUser(const Vector3& p) const { return centre + unit * sign.cwiseProduct(p); }
+  Vector3 fromUser(const Vector3& p) const { return sign.cwiseProduct((p - centre) / unit); }
   /// Vectors of any length, such as directions.
   Vector3 mirrored(const Vector3& direction) const { return sign.cwiseProduct(direction); }
   /// A length of the user's in the frame, kept to 40 bits: the way out (times unit) and in again gives the same number.

@@ -135,11 +135,14 @@ void checkRequests(const SurfaceInput& input)
     "the array of target valences", input.targetValences.size(), input.points.size(), "points");
   checkGuides(input);
   checkValences(input);
+  checkCurves(input);
 }
 
 void collectRequests(const SurfaceInput& input, PreparedSurface& surface)
 {
   surface.polygonGuides = guidesOf(input);
+  surface.curves = input.curves;
+  surface.regularElsewhere = input.regularElsewhere;
   if (input.targetValences.empty())
   {
     return;
@@ -229,16 +232,31 @@ std::vector<Index> indexVertices(const PreparedSurface& surface)
   return vertices;
 }
 
-std::vector<int> levelValences(const PreparedSurface& surface, const std::vector<Index>& fineVertex)
+std::vector<int> levelValences(
+  const PreparedSurface& surface, const Mesh& level, const std::vector<Index>& fineVertex)
 {
   std::vector<int> valences;
-  for (std::size_t i = 0; i < fineVertex.size() && !surface.valenceRequests.empty(); ++i)
+  if (surface.valenceRequests.empty() && !surface.regularElsewhere)
+  {
+    return valences;
+  }
+  valences.assign(fineVertex.size(), surface.regularElsewhere ? kRegularValence : 0);
+  for (Index h = 0; h < level.halfEdgeCount(); ++h)
+  {
+    if (level.isConstrained(h))
+    {
+      valences[level.origin[h]] = valences[level.target(h)] = 0;
+    }
+  }
+  for (std::size_t i = 0; i < fineVertex.size(); ++i)
   {
     const auto found =
       std::lower_bound(surface.valenceRequests.begin(), surface.valenceRequests.end(),
         fineVertex[i], [](const ValenceRequest& request, Index v) { return request.vertex < v; });
-    const bool asked = found != surface.valenceRequests.end() && found->vertex == fineVertex[i];
-    valences.push_back(asked ? found->valence : 0);
+    if (found != surface.valenceRequests.end() && found->vertex == fineVertex[i])
+    {
+      valences[i] = found->valence;
+    }
   }
   return valences;
 }

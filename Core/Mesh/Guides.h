@@ -13,6 +13,7 @@
 namespace quadrille
 {
 
+struct Mesh;
 struct SurfaceInput;
 struct PreparedSurface;
 
@@ -82,10 +83,10 @@ SurfaceGuides surfaceGuides(const PreparedSurface& surface);
 /// for that.
 std::vector<Index> indexVertices(const PreparedSurface& surface);
 
-/// Valences asked of the vertices of a level, given by their ids on the finest one; 0 where free. Empty when none is
-/// asked.
+/// Valences asked of the vertices of a level, given by their ids on the finest one; 0 where free. With regularElsewhere
+/// all others off the level's features and boundary are to be regular. Empty when none is asked.
 std::vector<int> levelValences(
-  const PreparedSurface& surface, const std::vector<Index>& fineVertex);
+  const PreparedSurface& surface, const Mesh& level, const std::vector<Index>& fineVertex);
 
 /// What became of requests that the surface cannot take; empty when all are honoured.
 std::vector<std::string> requestNotices(

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "Base/Progress.h"
+#include "Mesh/CurveRequests.h"
 #include "Mesh/Guides.h"
 #include "Mesh/Mesh.h"
 
@@ -42,6 +43,9 @@ struct SurfaceInput
   std::vector<int> targetValences; ///< empty or #points; 0: free, else see ValenceRequest
   /// Empty or #points: the edge length that quads should have there as a multiple of the target edge length, > 0.
   std::vector<float> sizing;
+  std::vector<CurveRequest> curves; ///< connections and cycles, in units of the points
+  /// Vertices inside, on no feature, that no target valence names are to be regular.
+  bool regularElsewhere = false;
   FaceOrder faceOrder = FaceOrder::AsGiven; ///< see Frame.h
   /// By how much coordinates may differ from what was meant, in units of the points, >= 0; 0: not known.
   double precision = 0;
@@ -118,6 +122,8 @@ struct PreparedSurface
   std::vector<PolygonGuide> polygonGuides;     ///< ascending by polygon; see surfaceGuides
   std::vector<ValenceRequest> valenceRequests; ///< ascending by vertex, one a vertex
   std::size_t unusedValences = 0;              ///< requests of points that no face uses
+  std::vector<CurveRequest> curves;            ///< as they were given, in the frame
+  bool regularElsewhere = false;               ///< as it was given
 
   /// Sub-stages with their seconds: repair, order, connectivity.
   std::vector<std::pair<std::string, double>> seconds;

@@ -33,6 +33,18 @@ void addRequests(const PreparedSurface& surface, KeyMaker& key)
     key.add(std::uint64_t{ request.vertex })
       .add(static_cast<std::uint64_t>(static_cast<std::int64_t>(request.valence)));
   }
+  if (surface.regularElsewhere)
+  {
+    key.add(std::uint64_t{ 1 });
+  }
+  for (const CurveRequest& curve : surface.curves)
+  {
+    key.add(static_cast<std::uint64_t>(curve.kind) + 2).add(std::uint64_t{ curve.points.size() });
+    for (const Vector3& p : curve.points)
+    {
+      key.add(p[0]).add(p[1]).add(p[2]);
+    }
+  }
 }
 
 /// Of all that a map depends on.
@@ -70,7 +82,8 @@ GridMapOptions mapOptions(RunContext& run, const Plan& plan, MapAttempt& made)
   options.targetQuads = plan.quads;
   options.anisotropyLimit = run.options.anisotropyLimit;
   options.guides = levels.coarse.guides;
-  options.targetValences = levelValences(*run.surface, levels.coarse.fineVertex);
+  options.targetValences =
+    levelValences(*run.surface, levels.coarse.mesh, levels.coarse.fineVertex);
   options.progress = subProgress(run.options.progress, 0.45, 0.8, "Mapping: ");
   if (run.options.distortionMetric) // on request
   {

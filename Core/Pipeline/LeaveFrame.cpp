@@ -112,6 +112,13 @@ void leaveFrame(PreparedSurface& surface, const Frame& frame, std::vector<Vector
   {
     guide.direction = frame.mirrored(guide.direction);
   }
+  for (CurveRequest& curve : surface.curves)
+  {
+    for (Vector3& p : curve.points)
+    {
+      p = frame.toUser(p);
+    }
+  }
   if (frame.reversed)
   {
     reverseFaces(surface);

@@ -54,7 +54,7 @@ double areaOverSizes(const PreparedSurface& surface)
   return surface.mesh.sizing.empty() ? surface.area : sizedArea(surface.mesh);
 }
 
-/// Of guides and valences, where closed handles move their corners.
+/// Of guides, valences and curves, where closed handles move their corners.
 ResultKey requestsKey(const SurfaceInput& input)
 {
   KeyMaker key;
@@ -62,7 +62,18 @@ ResultKey requestsKey(const SurfaceInput& input)
   {
     key.add(direction[0]).add(direction[1]).add(direction[2]);
   }
-  return key.add(input.guideWeights).add(input.targetValences).key();
+  for (const CurveRequest& curve : input.curves)
+  {
+    key.add(static_cast<std::uint64_t>(curve.kind));
+    for (const Vector3& p : curve.points)
+    {
+      key.add(p[0]).add(p[1]).add(p[2]);
+    }
+  }
+  return key.add(input.guideWeights)
+    .add(input.targetValences)
+    .add(std::uint64_t{ input.regularElsewhere ? 1U : 0U })
+    .key();
 }
 
 std::string smallComponentsText(const SmallComponents& small, std::size_t count, double edgeLength)

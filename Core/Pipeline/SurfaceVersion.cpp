@@ -19,7 +19,8 @@ std::size_t SurfaceMarks::bytes() const
 SurfaceMarks marksOf(const PreparedSurface& surface)
 {
   return { surface.mesh.flags, surface.mesh.sizing, surface.hash, surface.repair, surface.notice,
-    surface.polygonGuides, surface.valenceRequests, surface.unusedValences };
+    surface.polygonGuides, surface.valenceRequests, surface.unusedValences, surface.curves,
+    surface.regularElsewhere };
 }
 
 void putOn(const SurfaceMarks& marks, PreparedSurface& surface)
@@ -32,6 +33,8 @@ void putOn(const SurfaceMarks& marks, PreparedSurface& surface)
   surface.polygonGuides = marks.polygonGuides;
   surface.valenceRequests = marks.valenceRequests;
   surface.unusedValences = marks.unusedValences;
+  surface.curves = marks.curves;
+  surface.regularElsewhere = marks.regularElsewhere;
 }
 
 std::size_t bytesOf(const Mesh& mesh)
@@ -51,6 +54,8 @@ void forgetRequests(SurfaceMarks& marks)
   marks.polygonGuides.clear();
   marks.valenceRequests.clear();
   marks.unusedValences = 0;
+  marks.curves.clear();
+  marks.regularElsewhere = false;
 }
 
 RunSurface::RunSurface(std::shared_ptr<PreparedSurface> surface, ResultKey key, int threads)

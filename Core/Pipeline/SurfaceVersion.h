@@ -28,11 +28,13 @@ struct SurfaceMarks
   std::vector<PolygonGuide> polygonGuides;
   std::vector<ValenceRequest> valenceRequests;
   std::size_t unusedValences = 0;
+  std::vector<CurveRequest> curves;
+  bool regularElsewhere = false;
 
   std::size_t bytes() const;
 };
 SurfaceMarks marksOf(const PreparedSurface& surface);
-/// Guides and valences, which belong to the run and not to the surface.
+/// Guides, valences and curves, which belong to the run and not to the surface.
 void forgetRequests(SurfaceMarks& marks);
 void putOn(const SurfaceMarks& marks, PreparedSurface& surface);
 std::size_t bytesOf(const Mesh& mesh);
