@@ -34,6 +34,20 @@ struct CrossFieldOptions
   std::vector<int> targetValences;
 };
 
+/// A line of the map along an axis that joins two vertices, or closes on itself, along a way through the faces: the
+/// other coordinate is the same at both ends.
+struct Isoline
+{
+  Index start =
+    kInvalidIndex; ///< corner at the first vertex, in the first face; closed: any corner of that
+  Index end =
+    kInvalidIndex; ///< corner at the last vertex, in the last face; closed: that of `start`
+  std::vector<Index>
+    crossed;    ///< half-edges through which the way leaves its faces; none is constrained
+  int axis = 0; ///< quarter turns from the first axis of the first face
+  bool closed = false;
+};
+
 struct CrossField
 {
   std::vector<double> angle;          ///< #F, radians
@@ -49,6 +63,8 @@ struct CrossField
   /// #F or empty, set by who makes the map: the shape that a face should have in it is this, symmetric and in the plane
   /// of `angle`, times the flat face; see measureStretch.
   std::vector<Eigen::Matrix2d> stretch;
+  /// Set by who makes the map: lines that it has to have.
+  std::vector<Isoline> isolines;
 
   Status status;
   /// Vertices around which the mesh cannot carry the turns; empty when the status is ok. One vertex may

@@ -20,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 namespace quadrille
 {
@@ -106,7 +107,11 @@ struct Component
 class MapMaker
 {
 public:
-  MapMaker(const Mesh& mesh, const GridMapOptions& options) : mesh_(mesh), options_(options) {}
+  /// leftOut: empty, or the curves that are no equations.
+  MapMaker(const Mesh& mesh, const GridMapOptions& options, std::vector<std::string> leftOut = {})
+    : mesh_(mesh), options_(options), leftOut_(std::move(leftOut))
+  {
+  }
 
   GridMapResult run()
   {
@@ -117,6 +122,7 @@ public:
       result_.offenders = result_.field.offenders;
       return std::move(result_);
     }
+    addLines();
     split();
     if (options_.method == MapMethod::Seamless)
     {
@@ -151,7 +157,64 @@ private:
     fieldOptions.guides = options_.guides;
     fieldOptions.targetValences = options_.targetValences;
     result_.field = computeCrossField(mesh_, fieldOptions);
+    if (!options_.curves.empty() && result_.field.status.ok())
+    {
+      followCurves(fieldOptions);
+    }
     result_.field.stretch = options_.stretch;
+  }
+
+  /// The field once more, led along the curves. It keeps the irregular vertices that connections join, as they are
+  /// those that the user has seen.
+  void followCurves(CrossFieldOptions fieldOptions)
+  {
+    fieldOptions.guides = guidesWithCurves(mesh_, options_.curves, options_.guides);
+    fieldOptions.targetValences = valencesWithEnds(
+      mesh_, result_.field, options_.curves, options_.edgeLength, options_.targetValences);
+    CrossField led = computeCrossField(mesh_, fieldOptions);
+    if (led.status.ok())
+    {
+      result_.field = std::move(led);
+    }
+  }
+
+  void addLines()
+  {
+    for (std::size_t i = 0; i < options_.curves.size(); ++i)
+    {
+      lines_.push_back(lineOf(mesh_, result_.field, options_.curves[i], options_.edgeLength));
+      RequestedLine& line = lines_.back();
+      if (line.isWanted() && !leftOut_.empty() && !leftOut_[i].empty())
+      {
+        line.outcome.why = leftOut_[i];
+      }
+      else if (line.hasLine)
+      {
+        result_.field.isolines.push_back(line.line);
+      }
+    }
+  }
+
+  /// In the map as it came out, whatever was asked of it.
+  void judgeLines()
+  {
+    for (RequestedLine& line : lines_)
+    {
+      if (result_.status.ok() && line.isWanted() && options_.method == MapMethod::ScaleAware)
+      {
+        line.outcome.met = hasGridLine(mesh_, result_.field, result_.uv, line, options_.edgeLength);
+        if (!line.outcome.met && line.outcome.why.empty())
+        {
+          line.outcome.why =
+            "an irregular vertex stands in the way of the line: move it aside, or draw another way";
+        }
+      }
+      if (line.outcome.met)
+      {
+        line.outcome.why.clear();
+      }
+      result_.curves.push_back(line.outcome);
+    }
   }
 
   void split()
@@ -539,6 +602,7 @@ private:
         "the coarse map does not pass its certificate: " + result_.certificate.text() };
       result_.offenders = cornerVertices(mesh_, result_.certificate.worstFaces);
     }
+    judgeLines();
     if (options_.anisotropyLimit > 0 && result_.status.ok())
     {
       result_.beyondAnisotropyLimit = shareBeyondRatio(mesh_, result_.uv, options_.anisotropyLimit);
@@ -566,9 +630,43 @@ private:
 
   const Mesh& mesh_;
   const GridMapOptions& options_;
+  std::vector<std::string> leftOut_;
   GridMapResult result_;
+  std::vector<RequestedLine> lines_;
   std::vector<Component> components_;
 };
+
+/// With as many of the curves as a map can have, the earlier ones before the later ones. All is as without curves where
+/// there is no map even then: it is not they that are in the way.
+GridMapResult makeWithCurves(const Mesh& mesh, const GridMapOptions& options)
+{
+  GridMapResult all = MapMaker(mesh, options).run();
+  if (all.status.ok() || all.field.isolines.empty())
+  {
+    return all;
+  }
+  const std::string why =
+    "no map without inverted triangles has it beside the others (" + all.status.message + ")";
+  std::vector<std::string> leftOut(options.curves.size(), why);
+  GridMapResult best = MapMaker(mesh, options, leftOut).run();
+  best.addWork(all);
+  for (std::size_t i = 0; i + 1 < options.curves.size() && best.status.ok(); ++i)
+  {
+    leftOut[i].clear();
+    GridMapResult next = MapMaker(mesh, options, leftOut).run();
+    if (next.status.ok())
+    {
+      next.addWork(best);
+      best = std::move(next);
+    }
+    else
+    {
+      leftOut[i] = why;
+      best.addWork(next);
+    }
+  }
+  return best;
+}
 
 } // namespace
 
@@ -648,12 +746,12 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
     throw InvalidInput("grid map: " + std::to_string(options.stretch.size()) + " stretches for " +
       std::to_string(mesh.faceCount()) + " faces");
   }
-  GridMapResult result = MapMaker(mesh, options).run();
+  GridMapResult result = makeWithCurves(mesh, options);
   if (result.reuse.any() && !result.status.ok())
   {
     GridMapOptions cold = options;
     cold.previous = nullptr;
-    GridMapResult again = MapMaker(mesh, cold).run();
+    GridMapResult again = makeWithCurves(mesh, cold);
     again.addWork(result);
     return again;
   }

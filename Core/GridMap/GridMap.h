@@ -11,6 +11,7 @@
 #include "Base/Progress.h"
 #include "CrossField/CrossField.h"
 #include "GridMap/Certificate.h"
+#include "GridMap/CurveIsolines.h"
 #include "GridMap/PreviousMap.h"
 #include "Mesh/Mesh.h"
 
@@ -49,6 +50,9 @@ struct GridMapOptions
   Index maximumVertices = 100000;  ///< of the mesh; the solvers are made for coarse levels
   std::vector<Guide> guides;       ///< empty or #F, see CrossFieldOptions
   std::vector<int> targetValences; ///< empty or #V, the same
+  /// Connections and cycles, on or near the mesh. Where no map has them all, the newest ones are left out, which
+  /// GridMapResult::curves tells. Not by the methods that round.
+  std::vector<CurveRequest> curves;
   /// Empty or #F: how the surface that a face stands for is stretched against it, see CrossField::stretch.
   std::vector<Eigen::Matrix2d> stretch;
   /// An earlier map to start from (see PreviousMap.h), or null. The result is as valid as without, but may differ; it
@@ -77,7 +81,8 @@ struct GridMapResult
   MapReuse reuse;
   Status status;                ///< not ok: why and where; uv then holds the best that was reached
   std::vector<Index> offenders; ///< coarse vertices around which the triangulation lacks freedom
-  double refinement = 1;        ///< of the component whose sizes had to shrink most
+  std::vector<CurveOutcome> curves; ///< what became of GridMapOptions::curves
+  double refinement = 1;            ///< of the component whose sizes had to shrink most
   /// The share of the area whose ratio of stretches is above the limit after all; 0 without limit, or where the status
   /// is not ok.
   double beyondAnisotropyLimit = 0;

@@ -4,6 +4,8 @@
 
 #include "Mesh/Topology.h"
 
+#include <utility>
+
 namespace quadrille
 {
 namespace
@@ -76,6 +78,17 @@ std::vector<MeshPart> splitIntoParts(const Mesh& mesh, const CrossField& field)
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
     addFace(mesh, field, f, local, parts[component[f]]);
+  }
+  for (Isoline line : field.isolines)
+  {
+    CrossField& part = parts[component[Mesh::face(line.start)]].field;
+    line.start = local.halfEdge(line.start);
+    line.end = local.halfEdge(line.end);
+    for (Index& h : line.crossed)
+    {
+      h = local.halfEdge(h);
+    }
+    part.isolines.push_back(std::move(line));
   }
   return parts;
 }

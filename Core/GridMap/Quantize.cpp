@@ -6,6 +6,7 @@
 /// start is repaired before the scale is raised; shrinking steps begin large.
 #include "GridMap/Quantize.h"
 
+#include "GridMap/CurveIsolines.h"
 #include "GridMap/LockedVertices.h"
 #include "GridMap/QuantizeIntegers.h"
 #include "GridMap/UvDecimation.h"
@@ -159,6 +160,16 @@ IntegerStart startFrom(const std::vector<FixedVec2>& uv, const Mesh& mesh, const
   return integers.adopt(followed.uv) ? repairIntegers(integers) : IntegerStart{};
 }
 
+std::vector<FixedVec2> developedVectors(const UvMesh& map, const CrossField& field)
+{
+  std::vector<FixedVec2> vectors;
+  for (const Isoline& line : field.isolines)
+  {
+    vectors.push_back(developedVector(map, line));
+  }
+  return vectors;
+}
+
 Status tooFine(double growth)
 {
   return { StatusCode::NotConverged,
@@ -188,7 +199,15 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   UvEditor editor(uvMesh);
   LockedVertices locked =
     lockedVertices(mesh, uvMesh, integerVertices(mesh, field), options.watched);
+  const std::vector<FixedVec2> lines = developedVectors(uvMesh, field);
   decimateInUv(uvMesh, editor, locked.keep);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+  {
+    if (!lockLine(uvMesh, editor, locked.integer, mesh, field.isolines[i], lines[i]))
+    {
+      result.freeIsolines.push_back(i);
+    }
+  }
 
   IntegerMap integers(uvMesh, editor, locked.integer);
   IntegerStart start;

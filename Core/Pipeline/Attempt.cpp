@@ -84,6 +84,7 @@ GridMapOptions mapOptions(RunContext& run, const Plan& plan, MapAttempt& made)
   options.guides = levels.coarse.guides;
   options.targetValences =
     levelValences(*run.surface, levels.coarse.mesh, levels.coarse.fineVertex);
+  options.curves = run.surface->curves;
   options.progress = subProgress(run.options.progress, 0.45, 0.8, "Mapping: ");
   if (run.options.distortionMetric) // on request
   {
@@ -131,8 +132,21 @@ GridMapResult computeMap(RunContext& run, const Plan& plan, MapAttempt& made)
   return map;
 }
 
+void tellCurves(const RunContext& run, MapAttempt& made)
+{
+  for (std::size_t i = 0; i < made.curves.size(); ++i)
+  {
+    if (!made.curves[i].met)
+    {
+      made.notices.push_back(
+        curveText(run.surface->curves[i], i) + " is not met: " + made.curves[i].why);
+    }
+  }
+}
+
 /// What is left of a map on the coarse level.
-void recordCoarse(const Hierarchy& levels, GridMapResult& map, MapAttempt& made)
+void recordCoarse(
+  const RunContext& run, const Hierarchy& levels, GridMapResult& map, MapAttempt& made)
 {
   const std::size_t coarse = levels.coarse.mesh.faceCount();
   made.stages.add("field", map.secondsField, coarse, coarse);
@@ -147,6 +161,8 @@ void recordCoarse(const Hierarchy& levels, GridMapResult& map, MapAttempt& made)
     }
   }
   made.work = map.work;
+  made.curves = map.curves;
+  tellCurves(run, made);
   made.coarse = levels.coarse;
   made.coarseUv = std::move(map.uv);
   made.coarseTurns = map.field.turns;
@@ -299,7 +315,7 @@ std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan)
     made->reused.emplace_back("phase2");
   }
   GridMapResult map = computeMap(run, plan, *made);
-  recordCoarse(levels, map, *made);
+  recordCoarse(run, levels, map, *made);
   if (made->status.ok())
   {
     carryToSurface(run, map.field, *made);

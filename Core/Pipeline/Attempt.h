@@ -51,6 +51,7 @@ struct MapAttempt
   std::vector<Index> coarseOffenders;  ///< vertices of the surface, where the status is not ok
   std::vector<Vector3> coarseTroubles; ///< their positions
   std::size_t work = 0;                ///< GridMapResult::work
+  std::vector<CurveOutcome> curves;    ///< GridMapResult::curves
 
   // Where the status is ok.
   std::vector<FixedVec2> uv; ///< #H of the surface; empty while packed

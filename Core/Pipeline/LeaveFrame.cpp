@@ -173,6 +173,11 @@ void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vect
   parts.place = frame.toUser(parts.place);
   parts.boundary.shortest *= frame.unit;
   parts.boundary.place = frame.toUser(parts.boundary.place);
+  for (CurveOutcome& curve : result.curves)
+  {
+    curve.start = frame.toUser(curve.start);
+    curve.end = frame.toUser(curve.end);
+  }
   if (result.surface.mesh.position.empty())
   {
     return;

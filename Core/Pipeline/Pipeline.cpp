@@ -156,6 +156,7 @@ void takeAttempt(
   result.coarse = std::move(map.coarse);
   result.coarseUv = std::move(map.coarseUv);
   result.coarseTurns = std::move(map.coarseTurns);
+  result.curves = map.curves;
   result.coarseCertificate = map.coarseCertificate;
   result.certificate = map.certificate;
   result.transfer = std::move(map.transfer);

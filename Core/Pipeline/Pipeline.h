@@ -51,6 +51,8 @@ struct RemeshResult
   /// The share of the coarse level's area whose ratio of stretches is above the limit; 0 without limit.
   double beyondAnisotropyLimit = 0;
   SmallParts smallParts;
+  /// What became of the input's curves, in their order; vertices are those of the coarse mesh.
+  std::vector<CurveOutcome> curves;
   std::vector<StageRecord> stages; ///< see StageRecords; seconds are sums over all attempts
   /// Names of the stages that no attempt has computed, as the store had their results, and of those that started from
   /// an earlier map.

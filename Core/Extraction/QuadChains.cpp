@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Extraction/QuadChains.h"
+
+#include "Extraction/QuadHalfEdges.h"
+#include "Mesh/Distance.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr int kRegular = 4;
+
+Index originOf(const QuadMesh& quads, Index h)
+{
+  return quads.quads[h / 4][h % 4];
+}
+
+double distanceToLoop(const std::vector<Vector3>& polyline, const Vector3& p)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < polyline.size(); ++i)
+  {
+    least = std::min(least, distanceToSegment(p, polyline[i], polyline[(i + 1) % polyline.size()]));
+  }
+  return least;
+}
+
+} // namespace
+
+QuadChains::QuadChains(const QuadMesh& quads)
+  : quads_(quads), twin_(4 * quads.quads.size(), kInvalidIndex),
+    firstOf_(quads.points.size() + 1, 0)
+{
+  const Index count = static_cast<Index>(twin_.size());
+  for (Index h = 0; h < count; ++h)
+  {
+    ++firstOf_[originOf(quads, h) + 1];
+  }
+  for (std::size_t p = 1; p < firstOf_.size(); ++p)
+  {
+    firstOf_[p] += firstOf_[p - 1];
+  }
+  leaving_.resize(count);
+  std::vector<Index> place(firstOf_.begin(), firstOf_.end() - 1);
+  for (Index h = 0; h < count; ++h)
+  {
+    leaving_[place[originOf(quads, h)]++] = h;
+  }
+  for (Index h = 0; h < count; ++h)
+  {
+    for (Index i = firstOf_[end(h)]; i < firstOf_[end(h) + 1]; ++i)
+    {
+      if (end(leaving_[i]) == originOf(quads, h))
+      {
+        twin_[h] = leaving_[i];
+      }
+    }
+  }
+}
+
+Index QuadChains::end(Index h) const
+{
+  return originOf(quads_, nextInQuad(h));
+}
+
+/// The half-edge that leaves the end of h with two quads between them on that side; none on a boundary.
+std::optional<Index> QuadChains::straightOn(Index h, ChainSide side) const
+{
+  if (side == ChainSide::Left)
+  {
+    const Index across = twin_[nextInQuad(h)];
+    return across == kInvalidIndex ? std::nullopt : std::optional<Index>(nextInQuad(across));
+  }
+  const Index back = twin_[h];
+  const Index across = back == kInvalidIndex ? kInvalidIndex : twin_[previousInQuad(back)];
+  const Index on = across == kInvalidIndex ? kInvalidIndex : twin_[previousInQuad(across)];
+  return on == kInvalidIndex ? std::nullopt : std::optional<Index>(on);
+}
+
+bool QuadChains::isPassed(Index point) const
+{
+  return quads_.onBoundary[point] == 0 && quads_.valence[point] == kRegular;
+}
+
+std::vector<Index> QuadChains::between(Index a, Index b) const
+{
+  std::vector<Index> best;
+  for (Index i = firstOf_[a]; i < firstOf_[a + 1]; ++i)
+  {
+    std::vector<Index> chain{ a };
+    std::optional<Index> h = leaving_[i];
+    while (h && chain.size() <= quads_.points.size())
+    {
+      const Index p = end(*h);
+      chain.push_back(p);
+      if (p == b && (best.empty() || chain.size() < best.size()))
+      {
+        best = chain;
+      }
+      h = p != b && isPassed(p) ? straightOn(*h, ChainSide::Left) : std::nullopt;
+    }
+  }
+  return best;
+}
+
+std::vector<Index> QuadChains::toLine(Index a, const Vector3& place, double distance) const
+{
+  std::vector<std::uint8_t> onLine(quads_.points.size(), 0);
+  for (const QuadLine& line : quads_.lines)
+  {
+    onLine[line.a] = onLine[line.b] = 1;
+  }
+  for (Index i = firstOf_[a]; i < firstOf_[a + 1]; ++i)
+  {
+    std::vector<Index> chain{ a };
+    std::optional<Index> h = leaving_[i];
+    while (h && chain.size() <= quads_.points.size())
+    {
+      const Index p = end(*h);
+      chain.push_back(p);
+      if (onLine[p] != 0 && (quads_.points[p] - place).norm() <= distance)
+      {
+        return chain;
+      }
+      h = onLine[p] == 0 && isPassed(p) ? straightOn(*h, ChainSide::Left) : std::nullopt;
+    }
+  }
+  return {};
+}
+
+/// Empty unless it comes back to where it began.
+std::vector<Index> QuadChains::closedFrom(Index first, ChainSide side) const
+{
+  std::vector<Index> chain{ originOf(quads_, first) };
+  std::optional<Index> h = first;
+  do
+  {
+    chain.push_back(end(*h));
+    h = straightOn(*h, side);
+  } while (h && *h != first && chain.size() <= quads_.points.size());
+  return h && *h == first ? chain : std::vector<Index>{};
+}
+
+std::vector<Index> QuadChains::closedNear(
+  const std::vector<Vector3>& polyline, double distance) const
+{
+  std::vector<double> away(quads_.points.size());
+  for (std::size_t p = 0; p < away.size(); ++p)
+  {
+    away[p] = distanceToLoop(polyline, quads_.points[p]);
+  }
+  const auto isNear = [&](Index p) { return away[p] <= distance; };
+  std::vector<Index> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (Index h = 0; h < twin_.size(); ++h)
+  {
+    if (!isNear(originOf(quads_, h)) || !isNear(end(h)))
+    {
+      continue;
+    }
+    for (const ChainSide side : { ChainSide::Left, ChainSide::Right })
+    {
+      const std::vector<Index> chain = closedFrom(h, side);
+      double sum = 0;
+      for (const Index p : chain)
+      {
+        sum += away[p];
+      }
+      const double mean = chain.empty() ? least : sum / static_cast<double>(chain.size());
+      if (mean < least && std::all_of(chain.begin(), chain.end(), isNear))
+      {
+        least = mean;
+        best = chain;
+      }
+    }
+  }
+  return best;
+}
+
+Index QuadChains::nearestPoint(const Vector3& place) const
+{
+  Index best = 0;
+  for (Index p = 1; p < quads_.points.size(); ++p)
+  {
+    best = (quads_.points[p] - place).squaredNorm() < (quads_.points[best] - place).squaredNorm()
+      ? p
+      : best;
+  }
+  return best;
+}
+
+} // namespace quadrille
