@@ -177,7 +177,8 @@ std::vector<ReadArray> surfaceArrays(const std::string& patchArray)
   std::vector<ReadArray> read{ { arrays::kFeatureEdges, ArrayPlace::Cells, 1 },
     { arrays::kGuidingDirection, ArrayPlace::Cells, 3 },
     { arrays::kGuidingWeight, ArrayPlace::Cells, 1 },
-    { arrays::kTargetValence, ArrayPlace::Points, 1 }, { arrays::kSizing, ArrayPlace::Points, 1 } };
+    { arrays::kTargetValence, ArrayPlace::Points, 1 }, { arrays::kSizing, ArrayPlace::Points, 1 },
+    { arrays::kConnectId, ArrayPlace::Points, 1 } };
   if (patchArray == arrays::kPatchId)
   {
     read.push_back({ patchArray, ArrayPlace::Cells, 1 });
@@ -193,7 +194,8 @@ std::vector<ReadArray> lineArrays()
 
 std::vector<ReadArray> pointArrays()
 {
-  return { { arrays::kTargetValence, ArrayPlace::Points, 1 } };
+  return { { arrays::kTargetValence, ArrayPlace::Points, 1 },
+    { arrays::kConnectId, ArrayPlace::Points, 1 } };
 }
 
 std::vector<std::string> arrayNotices(

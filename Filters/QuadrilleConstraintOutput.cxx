@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/PlaceText.h"
 #include "QuadrilleConstraints.h"
+#include "QuadrilleLinesInQuads.h"
 #include "QuadrilleNewArray.h"
 #include "QuadrilleQuadPlaces.h"
 
@@ -25,8 +26,8 @@ namespace quadrille
 namespace
 {
 
-/// Beside the kinds: a valence that is not that of the quads.
-constexpr int kMissedValence = 3;
+/// Beside the kinds: what is not met, one above its kind.
+constexpr int kMissed = 1;
 
 /// Along the path at its point i.
 Vector3 directionAt(const std::vector<Vector3>& path, std::size_t i)
@@ -67,8 +68,8 @@ std::vector<std::string> missedValences(
   return missed;
 }
 
-vtkSmartPointer<vtkPolyData> writeConstraints(
-  const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh)
+vtkSmartPointer<vtkPolyData> writeConstraints(const std::vector<PlacedConstraint>& placed,
+  const std::vector<CurveOutcome>& outcomes, const QuadMesh& mesh)
 {
   auto kind = newArray<vtkIntArray>("Constraint");
   auto source = newArray<vtkIdTypeArray>("SourceId");
@@ -83,18 +84,22 @@ vtkSmartPointer<vtkPolyData> writeConstraints(
   vtkNew<vtkCellArray> lines;
   const QuadMesh none;
   const ReachedValences reached(asksForValences(placed) ? mesh : none);
+  const LinesInQuads chains(std::any_of(placed.begin(), placed.end(), isLine) ? mesh : none);
   const auto add = [&](const PlacedConstraint& constraint, vtkCellArray* cells)
   {
     const bool point = constraint.kind == ConstraintKind::Valence;
     const int there = point ? reached.at(constraint.path.front()) : 0;
-    const bool isMet = !point || there == constraint.valence;
-    cells->InsertNextCell(static_cast<int>(constraint.path.size()));
-    for (std::size_t i = 0; i < constraint.path.size(); ++i)
+    const std::vector<Vector3> chain =
+      isLine(constraint) ? chains.chainOf(constraint, outcomes) : std::vector<Vector3>{};
+    const std::vector<Vector3>& path = chain.empty() ? constraint.path : chain;
+    const bool isMet = isLine(constraint) ? !chain.empty() : !point || there == constraint.valence;
+    cells->InsertNextCell(static_cast<int>(path.size()));
+    for (std::size_t i = 0; i < path.size(); ++i)
     {
-      cells->InsertCellPoint(points->InsertNextPoint(constraint.path[i].data()));
-      direction->InsertNextTuple(directionAt(constraint.path, i).data());
+      cells->InsertCellPoint(points->InsertNextPoint(path[i].data()));
+      direction->InsertNextTuple(directionAt(path, i).data());
     }
-    kind->InsertNextValue(isMet ? static_cast<int>(constraint.kind) : kMissedValence);
+    kind->InsertNextValue(static_cast<int>(constraint.kind) + (isMet ? 0 : kMissed));
     source->InsertNextValue(constraint.source);
     distance->InsertNextValue(constraint.distance);
     weight->InsertNextValue(constraint.weight);

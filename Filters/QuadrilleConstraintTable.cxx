@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Base/Progress.h"
+#include "QuadrilleLinesInQuads.h"
 #include "QuadrilleNewArray.h"
 #include "QuadrilleQuadPlaces.h"
 
@@ -153,6 +154,7 @@ private:
     std::optional<std::size_t> stroke);
   ConstraintWord feature(vtkIdType source, const std::vector<std::array<Vector3, 2>>& edges);
   ConstraintWord valenceAt(vtkIdType source, const Vector3& place, int asked);
+  ConstraintWord line(const PlacedConstraint& constraint);
   std::string whyNotAlong(const std::vector<GuidedPolygon>& measured,
     const std::vector<Index>& polygons, std::optional<std::size_t> stroke,
     double irregularShare) const;
@@ -165,6 +167,7 @@ private:
   std::optional<ReachedValences> valences_; ///< these are made when they are needed first
   std::optional<NearestQuads> quads_;
   std::optional<NearestEdges> edges_;
+  std::optional<LinesInQuads> lines_;
 };
 
 bool Judge::isAtIrregularVertex(Index quad) const
@@ -404,6 +407,35 @@ ConstraintWord Judge::sizes(vtkDataArray* sizes) const
   return word;
 }
 
+/// A connection or a cycle: the chain of edges that it became, and how far that is from what was drawn.
+ConstraintWord Judge::line(const PlacedConstraint& constraint)
+{
+  ConstraintWord word = placed(
+    unknownWord(nameOf(constraint.kind), constraint.source, "edge lengths", "no quads were made"),
+    constraint.path.front());
+  if (mesh_.quads.empty() || constraint.curve >= asked_.curves.size())
+  {
+    return word;
+  }
+  if (!lines_)
+  {
+    lines_.emplace(mesh_);
+  }
+  const CurveOutcome& outcome = asked_.curves[constraint.curve];
+  const std::vector<Vector3> chain = lines_->chainOf(constraint, outcome);
+  word.isMet = !chain.empty();
+  word.reason = word.isMet ? ""
+    : outcome.why.empty()  ? "the quads have no straight chain of edges there"
+                           : outcome.why;
+  if (!chain.empty())
+  {
+    const auto [distance, place] = farthestFrom(constraint.path, chain);
+    word.deviation = distance / lines_->edgeLength();
+    word.place = place;
+  }
+  return word;
+}
+
 ConstraintWord Judge::drawn(std::size_t i)
 {
   const PlacedConstraint& constraint = asked_.placed[i];
@@ -413,6 +445,10 @@ ConstraintWord Judge::drawn(std::size_t i)
   if (constraint.kind == ConstraintKind::Valence)
   {
     return valenceAt(constraint.source, place, constraint.valence);
+  }
+  if (constraint.kind == ConstraintKind::Connection || constraint.kind == ConstraintKind::Cycle)
+  {
+    return line(constraint);
   }
   if (!constraint.whyNot.empty() || (isStroke && constraint.guided.empty()))
   {

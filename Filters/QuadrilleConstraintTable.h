@@ -22,6 +22,7 @@ struct AskedConstraints
 {
   ArrayConstraints arrays;
   std::vector<PlacedConstraint> placed;
+  std::vector<CurveOutcome> curves; ///< of the run, see PlacedConstraint::curve; empty before
 };
 
 /// A row of the table. What could not be measured is not a number.

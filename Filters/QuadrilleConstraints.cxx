@@ -3,7 +3,10 @@
 #include "QuadrilleConstraints.h"
 
 #include "Base/PlaceText.h"
+#include "Mesh/CurveRequests.h"
+#include "Mesh/Distance.h"
 #include "Mesh/Guides.h"
+#include "QuadrilleArrayNames.h"
 #include "QuadrilleRefuse.h"
 #include "QuadrilleSnapping.h"
 
@@ -98,6 +101,7 @@ public:
   void addFeature(const Polyline& line);
   void addStroke(const Polyline& line, double weight);
   void addValence(vtkIdType source, const Vector3& point, int valence);
+  void addCurve(vtkIdType source, CurveKind kind, std::vector<Vector3> points);
   PlacedConstraints finish();
 
 private:
@@ -363,6 +367,32 @@ void Placement::addValence(vtkIdType source, const Vector3& point, int valence)
   result_.placed.push_back(std::move(placed));
 }
 
+void Placement::addCurve(vtkIdType source, CurveKind kind, std::vector<Vector3> points)
+{
+  PlacedConstraint placed;
+  placed.kind = kind == CurveKind::Cycle ? ConstraintKind::Cycle : ConstraintKind::Connection;
+  placed.source = source;
+  placed.path = points;
+  if (kind == CurveKind::Cycle)
+  {
+    if (points.size() > 1 && points.front() == points.back())
+    {
+      points.pop_back();
+    }
+    placed.path = points;
+    placed.path.push_back(points.front());
+  }
+  for (const Vector3& p : points)
+  {
+    placed.distance = std::max(placed.distance, (snapper_.nearestPlace(p).point - p).norm());
+  }
+  placed.curve = input_.curves.size();
+  input_.curves.push_back({ kind, std::move(points) });
+  checkCurve(input_.curves.back(), static_cast<std::size_t>(source));
+  tellIfFar(nameOf(placed.kind), placed);
+  result_.placed.push_back(std::move(placed));
+}
+
 PlacedConstraints Placement::finish()
 {
   for (const auto& [polygon, bits] : features_)
@@ -392,19 +422,21 @@ bool hasPoints(vtkPolyData* data)
   return data && data->GetNumberOfPoints() > 0;
 }
 
-/// What cannot be honoured must not pass for done.
-bool isStroke(vtkDataArray* types, vtkIdType cell)
+/// What a line of the curves is, by the array. What cannot be honoured must not pass for done.
+ConstraintKind kindOf(vtkDataArray* types, vtkIdType cell)
 {
   const double type = types ? types->GetComponent(cell, 0) : 0;
-  if (type != static_cast<double>(ConstraintKind::Feature) &&
-    type != static_cast<double>(ConstraintKind::Stroke))
+  if (type == 0 || type == 1)
+  {
+    return type == 0 ? ConstraintKind::Feature : ConstraintKind::Stroke;
+  }
+  if (type != 2 && type != 3)
   {
     refuse("curve ", cell, " has ", arrays::kConstraintType, " ", type,
-      ", but only 0 (feature curve) and 1 (guiding stroke) can be asked for: correct the array, or "
-      "use the inputs Feature "
-      "Curves and Guiding Strokes without it");
+      ", but only 0 (feature curve), 1 (guiding stroke), 2 (connection) and 3 (cycle) can be asked "
+      "for: correct the array, or use the inputs Feature Curves and Guiding Strokes without it");
   }
-  return type == static_cast<double>(ConstraintKind::Stroke);
+  return type == 2 ? ConstraintKind::Connection : ConstraintKind::Cycle;
 }
 
 double weightOf(vtkDataArray* weights, vtkIdType cell, double otherwise)
@@ -424,15 +456,57 @@ void addCurves(vtkPolyData* curves, double strokeWeight, Placement& placement)
   vtkDataArray* weights = curves->GetCellData()->GetArray(arrays::kGuidingWeight);
   for (const Polyline& line : readLines(curves, "feature curve"))
   {
-    if (isStroke(types, line.cell))
+    switch (kindOf(types, line.cell))
     {
-      placement.addStroke(line, weightOf(weights, line.cell, strokeWeight));
-    }
-    else
-    {
-      placement.addFeature(line);
+      case ConstraintKind::Stroke:
+        placement.addStroke(line, weightOf(weights, line.cell, strokeWeight));
+        break;
+      case ConstraintKind::Connection:
+        placement.addCurve(line.cell, CurveKind::Connection, line.points);
+        break;
+      case ConstraintKind::Cycle:
+        placement.addCurve(line.cell, CurveKind::Cycle, line.points);
+        break;
+      default:
+        placement.addFeature(line);
     }
   }
+}
+
+/// Joins the two points of each value of ConnectId but 0.
+void addConnections(vtkPolyData* data, const char* what, Placement& placement)
+{
+  vtkDataArray* ids = data ? data->GetPointData()->GetArray(arrays::kConnectId) : nullptr;
+  if (!ids)
+  {
+    return;
+  }
+  requireWhole(ids, "point");
+  std::map<double, std::vector<vtkIdType>> groups;
+  for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
+  {
+    if (ids->GetComponent(i, 0) != 0)
+    {
+      groups[ids->GetComponent(i, 0)].push_back(i);
+    }
+  }
+  for (const auto& [id, points] : groups)
+  {
+    if (points.size() != 2)
+    {
+      refuse("the value ", id, " of ", arrays::kConnectId, " stands at ", points.size(),
+        " points of ", what, ", but a connection joins two: give each pair a value of its own");
+    }
+    std::vector<Vector3> ends(2);
+    data->GetPoint(points[0], ends[0].data());
+    data->GetPoint(points[1], ends[1].data());
+    placement.addCurve(static_cast<vtkIdType>(id), CurveKind::Connection, std::move(ends));
+  }
+}
+
+bool connects(vtkPolyData* data)
+{
+  return data && data->GetPointData()->HasArray(arrays::kConnectId);
 }
 
 void addStrokes(vtkPolyData* strokes, double strokeWeight, Placement& placement)
@@ -509,13 +583,31 @@ GuidedPolygon guidedPolygon(
   return guided;
 }
 
+const char* nameOf(ConstraintKind kind)
+{
+  switch (kind)
+  {
+    case ConstraintKind::Feature:
+      return "feature curve";
+    case ConstraintKind::Stroke:
+      return "guide stroke";
+    case ConstraintKind::Valence:
+      return "valence";
+    case ConstraintKind::Connection:
+      return "connection";
+    default:
+      return "cycle";
+  }
+}
+
 //------------------------------------------------------------------------------
 PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintInputs& inputs)
 {
   PlacedConstraints unused;
   tellUnused(inputs.curves, "Feature Curves", unused.notices);
   tellUnused(inputs.strokes, "Guiding Strokes", unused.notices);
-  const bool any = hasLines(inputs.curves) || hasLines(inputs.strokes) || hasPoints(inputs.points);
+  const bool any = hasLines(inputs.curves) || hasLines(inputs.strokes) ||
+    hasPoints(inputs.points) || connects(inputs.surface);
   if (!any || surface.input.polygonPoints.empty())
   {
     return unused;
@@ -531,8 +623,11 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
   }
   if (hasPoints(inputs.points))
   {
-    addPoints(inputs.points, inputs.valence, placement);
+    // Points that are there to be joined ask for a valence only where they say so.
+    addPoints(inputs.points, connects(inputs.points) ? 0 : inputs.valence, placement);
+    addConnections(inputs.points, "the valence points", placement);
   }
+  addConnections(inputs.surface, "the surface", placement);
   PlacedConstraints result = placement.finish();
   result.notices.insert(result.notices.begin(), unused.notices.begin(), unused.notices.end());
   return result;

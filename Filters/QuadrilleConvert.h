@@ -38,6 +38,7 @@ constexpr const char* kGuidingDirection = "GuidingDirection";
 constexpr const char* kGuidingWeight = "GuidingWeight";
 constexpr const char* kTargetValence = "TargetValence";
 constexpr const char* kConstraintType = "ConstraintType";
+constexpr const char* kConnectId = "ConnectId";
 constexpr const char* kSizing = "Sizing";
 constexpr const char* kIgm = "IGM";
 constexpr const char* kMatching = "Matching";

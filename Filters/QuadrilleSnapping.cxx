@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadrilleSnapping.h"
 
+#include "Mesh/Distance.h"
+
 #include "Base/PlaceText.h"
 #include "QuadrilleRefuse.h"
 
@@ -63,13 +65,6 @@ EdgeGraph makeEdgeGraph(const SurfaceInput& input)
       graph.uses[graph.first[b + 1]++] = { a, p, bit };
     });
   return graph;
-}
-double distanceToSegment(const Vector3& p, const Vector3& a, const Vector3& b)
-{
-  const Vector3 d = b - a;
-  const double length2 = d.squaredNorm();
-  const double t = length2 > 0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0;
-  return (p - (a + t * d)).norm();
 }
 std::vector<Index> findEdgePath(const SurfaceInput& input, const EdgeGraph& graph, Index a, Index b)
 {

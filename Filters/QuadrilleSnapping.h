@@ -35,8 +35,6 @@ struct EdgeGraph
 
 EdgeGraph makeEdgeGraph(const SurfaceInput& input);
 
-double distanceToSegment(const Vector3& p, const Vector3& a, const Vector3& b);
-
 /// Points from b back to a along edges, by Dijkstra's algorithm; edges cost more the farther they are from the straight
 /// segment.
 /// Empty: no path.

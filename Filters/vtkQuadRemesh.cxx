@@ -275,6 +275,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   report.numbers["TargetQuads"] = static_cast<double>(result.targetQuads);
   this->SetStageRecords(result.stages);
   this->SetCertificate(result.certificate);
+  asked.curves = result.curves;
   const quadrille::SmallParts& parts = result.smallParts;
   report.numbers["Handles"] = static_cast<double>(parts.handles);
   report.numbers["UnresolvedHandles"] = static_cast<double>(parts.unresolvedHandles);
@@ -334,7 +335,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   block.output(2)->ShallowCopy(written.lines);
   block.output(3)->ShallowCopy(written.separatrices);
   block.output(4)->ShallowCopy(written.irregular);
-  block.output(5)->ShallowCopy(quadrille::writeConstraints(asked.placed, result.quads));
+  block.output(5)->ShallowCopy(quadrille::writeConstraints(asked.placed, asked.curves, result.quads));
   const std::vector<quadrille::ConstraintWord> words = quadrille::judgeConstraints(
     asked, result.quads, written.quads->GetPointData()->GetArray(quadrille::arrays::kSizing));
   block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));

@@ -63,6 +63,7 @@ quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
   constraints.curves = block.input(1);
   constraints.strokes = block.input(2);
   constraints.points = block.input(3);
+  constraints.surface = data;
   constraints.strokeWeight = this->StrokeWeight;
   constraints.valence = this->PointValence;
   if (asked)
@@ -102,10 +103,6 @@ void vtkQuadrilleSurfaceAlgorithm::WarnOfUnusedArrays(const quadrille::Block& bl
     quadrille::partnerNotices(block.input(0), block.input(1), block.input(2)))
   {
     this->AddWarning(notice);
-  }
-  if (block.input(0)->GetPointData()->HasArray("ConnectId"))
-  {
-    this->AddWarning("array 'ConnectId' is not used by this version");
   }
 }
 

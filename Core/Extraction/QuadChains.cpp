@@ -182,6 +182,22 @@ std::vector<Index> QuadChains::closedNear(
   return best;
 }
 
+std::optional<Index> QuadChains::nearestIrregular(const Vector3& place) const
+{
+  std::optional<Index> best;
+  for (Index p = 0; p < quads_.points.size(); ++p)
+  {
+    const bool isIrregular = quads_.valence[p] != kRegular - (quads_.onBoundary[p] != 0 ? 1 : 0);
+    if (isIrregular &&
+      (!best ||
+        (quads_.points[p] - place).squaredNorm() < (quads_.points[*best] - place).squaredNorm()))
+    {
+      best = p;
+    }
+  }
+  return best;
+}
+
 Index QuadChains::nearestPoint(const Vector3& place) const
 {
   Index best = 0;

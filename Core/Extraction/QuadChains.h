@@ -39,6 +39,8 @@ public:
   std::vector<Index> closedNear(const std::vector<Vector3>& polyline, double distance) const;
   /// The point nearest to a place.
   Index nearestPoint(const Vector3& place) const;
+  /// The irregular point nearest to a place, which smoothing may have moved; none where there is none.
+  std::optional<Index> nearestIrregular(const Vector3& place) const;
 
 private:
   std::optional<Index> straightOn(Index h, ChainSide side) const;

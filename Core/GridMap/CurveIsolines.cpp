@@ -476,12 +476,13 @@ bool reachesCurve(const Mesh& mesh, const UvMesh& map, const std::vector<std::ui
 {
   const bool forward = integer[ends.from] != 0;
   const Index from = forward ? ends.from : ends.to;
+  const std::vector<std::uint8_t> onCurve = constrainedVertices(mesh);
   const Vector3 goal = mesh.position[forward ? ends.to : ends.from];
   for (const UvDirection& direction : axisDirections(map, from))
   {
     const LineEnd end = followThrough(map, direction, maximumLength, integer);
-    const bool atVertex =
-      end.vertex != kInvalidIndex && (mesh.position[end.vertex] - goal).norm() <= reach;
+    const bool atVertex = end.vertex != kInvalidIndex && onCurve[end.vertex] != 0 &&
+      (mesh.position[end.vertex] - goal).norm() <= reach;
     const bool atCurve = end.curve != kInvalidIndex &&
       distanceToSegment(goal, mesh.position[mesh.origin[end.curve]],
         mesh.position[mesh.target(end.curve)]) <= reach;
@@ -492,6 +493,94 @@ bool reachesCurve(const Mesh& mesh, const UvMesh& map, const std::vector<std::ui
   }
   return false;
 }
+
+/// Straight lines from one vertex to another, seen through the faces between them.
+class Sight
+{
+public:
+  Sight(const UvMesh& map, Index from, Index to, double maximumLength)
+    : map_(map), to_(to), maximumLength_(maximumLength)
+  {
+    for (const Index h : map.star(from))
+    {
+      const FixedVec2 eye = map.uv[h];
+      first_ = h;
+      meet(Mesh::next(h), { eye, map.uv[Mesh::next(h)] - eye, map.uv[Mesh::previous(h)] - eye });
+    }
+  }
+
+  struct Line
+  {
+    Index start = kInvalidIndex, end = kInvalidIndex; ///< corners
+    std::vector<Index> crossed;
+    FixedVec2 vector; ///< in the chart of the first face
+  };
+  const std::vector<Line>& lines() const { return lines_; }
+
+private:
+  /// What is seen between two directions, right and left, from a place in the chart of a face.
+  struct View
+  {
+    FixedVec2 eye, right, left;
+  };
+
+  static Int128 cross(FixedVec2 a, FixedVec2 b)
+  {
+    return Int128{ a.u } * b.v - Int128{ a.v } * b.u;
+  }
+
+  /// Through the half-edge `out` of the face that the view is in.
+  void meet(Index out, const View& view)
+  {
+    if (map_.twin[out] == kInvalidIndex || (map_.flags[out] & kUvConstrained) != 0 ||
+      ++steps_ > kMostSteps || isFar(out, view.eye))
+    {
+      return;
+    }
+    const Transition change = map_.transition(out);
+    const View next{ change.apply(view.eye), rotate(view.right, change.rotation),
+      rotate(view.left, change.rotation) };
+    const Index g = map_.twin[out];
+    const Index corner = Mesh::previous(g);
+    const FixedVec2 there = map_.uv[corner] - next.eye;
+    crossed_.push_back(out);
+    rotation_ += change.rotation;
+    const bool leftOfRight = cross(next.right, there) > 0;
+    const bool rightOfLeft = cross(there, next.left) > 0;
+    if (leftOfRight && rightOfLeft && map_.origin[corner] == to_)
+    {
+      lines_.push_back({ first_, corner, crossed_, rotate(there, -rotation_) });
+    }
+    // The face's other sides: next(g) lies right of the corner, as seen, previous(g) left of it.
+    if (leftOfRight)
+    {
+      meet(Mesh::next(g), { next.eye, next.right, rightOfLeft ? there : next.left });
+    }
+    if (rightOfLeft)
+    {
+      meet(Mesh::previous(g), { next.eye, leftOfRight ? there : next.right, next.left });
+    }
+    rotation_ -= change.rotation;
+    crossed_.pop_back();
+  }
+
+  bool isFar(Index h, FixedVec2 eye) const
+  {
+    return std::min(toDouble(map_.uv[h] - eye).norm(),
+             toDouble(map_.uv[Mesh::next(h)] - eye).norm()) > maximumLength_;
+  }
+
+  static constexpr std::size_t kMostSteps = 200000;
+
+  const UvMesh& map_;
+  Index to_;
+  double maximumLength_;
+  Index first_ = kInvalidIndex;
+  std::vector<Index> crossed_;
+  int rotation_ = 0;
+  std::size_t steps_ = 0;
+  std::vector<Line> lines_;
+};
 
 } // namespace
 
@@ -516,6 +605,17 @@ std::vector<Guide> guidesWithCurves(
     }
   }
   return guides;
+}
+
+std::vector<int> valencesOf(const Mesh& mesh, const CrossField& field, std::vector<int> valences)
+{
+  valences.resize(mesh.vertexCount(), 0);
+  const std::vector<std::uint8_t> onCurve = constrainedVertices(mesh);
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    valences[v] = valences[v] == 0 && onCurve[v] == 0 ? field.turns[v] : valences[v];
+  }
+  return valences;
 }
 
 std::vector<int> valencesWithEnds(const Mesh& mesh, const CrossField& field,
@@ -547,6 +647,45 @@ RequestedLine lineOf(
 {
   return curve.kind == CurveKind::Cycle ? cycleOf(mesh, field, curve)
                                         : connectionOf(mesh, field, curve, edgeLength);
+}
+
+std::optional<Isoline> straightWay(const Mesh& mesh, const CrossField& field,
+  const std::vector<FixedVec2>& seamlessUv, const CurveRequest& curve, const CurveOutcome& ends,
+  double edgeLength)
+{
+  constexpr double kMostOverStraight = 3;  // in quads, of a bent way and of sizes that differ
+  constexpr double kMostTangent = 0.7;     // of the angle to the axis, where 45 degrees are 1
+  constexpr double kPriceOfDistance = 0.1; // of an edge length from the curve
+  const UvMesh map = UvMesh::from(mesh, field, seamlessUv);
+  const double quads = (ends.end - ends.start).norm() / edgeLength;
+  const Sight sight(map, ends.from, ends.to, kMostOverStraight * quads + kReachOfIrregular);
+  const std::vector<Vector3> samples = sampleCurve(curve, edgeLength);
+  std::optional<Isoline> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Sight::Line& line : sight.lines())
+  {
+    const Vector2 vector = toDouble(line.vector);
+    const double tangent =
+      vector.cwiseAbs().minCoeff() / std::max(vector.cwiseAbs().maxCoeff(), 1e-300);
+    Isoline way{ line.start, line.end, line.crossed, axisOf(vector), false };
+    double away = 0;
+    for (const Vector3& p : placesOf(mesh, way))
+    {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i + 1 < samples.size(); ++i)
+      {
+        nearest = std::min(nearest, distanceToSegment(p, samples[i], samples[i + 1]));
+      }
+      away = std::max(away, nearest / edgeLength);
+    }
+    const double price = tangent + kPriceOfDistance * away;
+    if (tangent <= kMostTangent && price < least)
+    {
+      least = price;
+      best = std::move(way);
+    }
+  }
+  return best;
 }
 
 FixedVec2 developedVector(const UvMesh& map, const Isoline& line)

@@ -10,6 +10,7 @@
 #include "GridMap/UvRays.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@ struct CurveOutcome
 /// The guides that lead the field along the curves; those that are there stay. guides: #F or empty, the same back.
 std::vector<Guide> guidesWithCurves(
   const Mesh& mesh, const std::vector<CurveRequest>& curves, std::vector<Guide> guides);
+
+/// Target valences that hold all turns of a field off features and boundaries. valences: #V or empty; those that are
+/// asked for stay.
+std::vector<int> valencesOf(const Mesh& mesh, const CrossField& field, std::vector<int> valences);
 
 /// Target valences that hold the irregular vertices at the ends of connections where the field has them. valences: #V
 /// or empty, the same back; those that are asked for stay.
@@ -52,6 +57,12 @@ struct RequestedLine
 /// vertex within 1.5 s.
 RequestedLine lineOf(
   const Mesh& mesh, const CrossField& field, const CurveRequest& curve, double edgeLength);
+
+/// Another way between the same two vertices: the one nearest to the curve and to an axis of those that are straight
+/// lines in a seamless map without the line, so that nothing stands in its way. None where no such way is near an axis.
+std::optional<Isoline> straightWay(const Mesh& mesh, const CrossField& field,
+  const std::vector<FixedVec2>& seamlessUv, const CurveRequest& curve, const CurveOutcome& ends,
+  double edgeLength);
 
 /// The same way through the faces of a map: end(start), in units of 2^-24, of a line in the chart of its first face.
 FixedVec2 developedVector(const UvMesh& map, const Isoline& line);

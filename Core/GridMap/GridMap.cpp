@@ -108,8 +108,10 @@ class MapMaker
 {
 public:
   /// leftOut: empty, or the curves that are no equations.
-  MapMaker(const Mesh& mesh, const GridMapOptions& options, std::vector<std::string> leftOut = {})
-    : mesh_(mesh), options_(options), leftOut_(std::move(leftOut))
+  /// ways: empty, or in place of the ways of the curves where there are some.
+  MapMaker(const Mesh& mesh, const GridMapOptions& options, std::vector<std::string> leftOut,
+    std::vector<std::optional<Isoline>> ways)
+    : mesh_(mesh), options_(options), leftOut_(std::move(leftOut)), ways_(std::move(ways))
   {
   }
 
@@ -164,18 +166,33 @@ private:
     result_.field.stretch = options_.stretch;
   }
 
-  /// The field once more, led along the curves. It keeps the irregular vertices that connections join, as they are
-  /// those that the user has seen.
+  /// The field once more, led along the curves. All its irregular vertices stay, as they are those that the user has
+  /// seen; where a cycle cannot close between them, those at the ends of connections only.
   void followCurves(CrossFieldOptions fieldOptions)
   {
     fieldOptions.guides = guidesWithCurves(mesh_, options_.curves, options_.guides);
-    fieldOptions.targetValences = valencesWithEnds(
-      mesh_, result_.field, options_.curves, options_.edgeLength, options_.targetValences);
-    CrossField led = computeCrossField(mesh_, fieldOptions);
-    if (led.status.ok())
+    for (const bool all : { true, false })
     {
-      result_.field = std::move(led);
+      fieldOptions.targetValences = all ? valencesOf(mesh_, result_.field, options_.targetValences)
+                                        : valencesWithEnds(mesh_, result_.field, options_.curves,
+                                            options_.edgeLength, options_.targetValences);
+      CrossField led = computeCrossField(mesh_, fieldOptions);
+      if (led.status.ok() && (!all || cyclesClose(led)))
+      {
+        result_.field = std::move(led);
+        return;
+      }
     }
+  }
+
+  bool cyclesClose(const CrossField& field) const
+  {
+    return std::all_of(options_.curves.begin(), options_.curves.end(),
+      [&](const CurveRequest& curve)
+      {
+        return curve.kind != CurveKind::Cycle ||
+          lineOf(mesh_, field, curve, options_.edgeLength).hasLine;
+      });
   }
 
   void addLines()
@@ -190,6 +207,10 @@ private:
       }
       else if (line.hasLine)
       {
+        if (!ways_.empty() && ways_[i])
+        {
+          line.line = *ways_[i];
+        }
         result_.field.isolines.push_back(line.line);
       }
     }
@@ -631,42 +652,137 @@ private:
   const Mesh& mesh_;
   const GridMapOptions& options_;
   std::vector<std::string> leftOut_;
+  std::vector<std::optional<Isoline>> ways_;
   GridMapResult result_;
   std::vector<RequestedLine> lines_;
   std::vector<Component> components_;
 };
 
-/// With as many of the curves as a map can have, the earlier ones before the later ones. All is as without curves where
-/// there is no map even then: it is not they that are in the way.
-GridMapResult makeWithCurves(const Mesh& mesh, const GridMapOptions& options)
+std::size_t countUnmet(const GridMapResult& map)
 {
-  GridMapResult all = MapMaker(mesh, options).run();
-  if (all.status.ok() || all.field.isolines.empty())
-  {
-    return all;
-  }
-  const std::string why =
-    "no map without inverted triangles has it beside the others (" + all.status.message + ")";
-  std::vector<std::string> leftOut(options.curves.size(), why);
-  GridMapResult best = MapMaker(mesh, options, leftOut).run();
-  best.addWork(all);
-  for (std::size_t i = 0; i + 1 < options.curves.size() && best.status.ok(); ++i)
-  {
-    leftOut[i].clear();
-    GridMapResult next = MapMaker(mesh, options, leftOut).run();
-    if (next.status.ok())
-    {
-      next.addWork(best);
-      best = std::move(next);
-    }
-    else
-    {
-      leftOut[i] = why;
-      best.addWork(next);
-    }
-  }
-  return best;
+  return static_cast<std::size_t>(std::count_if(
+    map.curves.begin(), map.curves.end(), [](const CurveOutcome& curve) { return !curve.met; }));
 }
+
+/// Of two maps of the same mesh.
+bool hasMore(const GridMapResult& map, const GridMapResult& other)
+{
+  return map.status.ok() && (!other.status.ok() || countUnmet(map) < countUnmet(other));
+}
+
+/// A map with as many of the curves as it can have, the earlier ones before the later ones. Where there is no map even
+/// without them, it is not they that are in the way.
+class CurvedMap
+{
+public:
+  CurvedMap(const Mesh& mesh, const GridMapOptions& options) : mesh_(mesh), options_(options) {}
+
+  GridMapResult run()
+  {
+    GridMapResult first = make({}, {});
+    const bool isWhole = first.status.ok() && countUnmet(first) == 0;
+    if (isWhole || first.field.isolines.empty() || options_.method != MapMethod::ScaleAware)
+    {
+      return first;
+    }
+    std::vector<std::string> leftOut = reasons(first);
+    GridMapResult plain = make(leftOut, {});
+    if (!plain.status.ok())
+    {
+      return finish(first.status.ok() ? std::move(first) : std::move(plain));
+    }
+    const std::vector<Index> offenders = first.status.ok() ? std::vector<Index>{} : first.offenders;
+    const Ways ways = straightWays(plain, first.curves);
+    GridMapResult best = std::move(first);
+    if (std::any_of(ways.begin(), ways.end(), [](const auto& way) { return way.has_value(); }))
+    {
+      GridMapResult other = make({}, ways);
+      if (hasMore(other, best))
+      {
+        best = std::move(other);
+      }
+    }
+    if (!best.status.ok() || countUnmet(best) > 0)
+    {
+      // An equation without its line would only bend the map.
+      best = addOneByOne(std::move(plain), std::move(leftOut), ways);
+      best.curveOffenders = offenders;
+    }
+    return finish(std::move(best));
+  }
+
+private:
+  using Ways = std::vector<std::optional<Isoline>>;
+
+  GridMapResult make(const std::vector<std::string>& leftOut, const Ways& ways)
+  {
+    GridMapResult map = MapMaker(mesh_, options_, leftOut, ways).run();
+    taken_.addWork(map);
+    return map;
+  }
+
+  /// With what all tries have taken.
+  GridMapResult finish(GridMapResult map) const
+  {
+    map.takeWork(taken_);
+    return map;
+  }
+
+  /// Why each curve may be left out.
+  std::vector<std::string> reasons(const GridMapResult& map) const
+  {
+    std::vector<std::string> why;
+    for (const CurveOutcome& curve : map.curves)
+    {
+      why.push_back(map.status.ok() && !curve.met
+          ? curve.why
+          : "no map without inverted triangles has it beside the others (" + map.status.message +
+            ")");
+    }
+    return why;
+  }
+
+  /// Other ways for the connections that have failed.
+  Ways straightWays(const GridMapResult& plain, const std::vector<CurveOutcome>& told) const
+  {
+    Ways ways(options_.curves.size());
+    for (std::size_t i = 0; i < ways.size(); ++i)
+    {
+      const CurveOutcome& ends = told[i];
+      const bool connects = options_.curves[i].kind == CurveKind::Connection &&
+        ends.from != kInvalidIndex && ends.to != kInvalidIndex && ends.from != ends.to;
+      if (!ends.met && connects)
+      {
+        ways[i] = straightWay(
+          mesh_, plain.field, plain.seamlessUv, options_.curves[i], ends, options_.edgeLength);
+      }
+    }
+    return ways;
+  }
+
+  GridMapResult addOneByOne(GridMapResult best, std::vector<std::string> leftOut, const Ways& ways)
+  {
+    const std::size_t count = options_.curves.size();
+    for (std::size_t i = 0; i < count && count > 1; ++i)
+    {
+      const std::string why = std::exchange(leftOut[i], std::string());
+      GridMapResult next = make(leftOut, ways);
+      if (hasMore(next, best))
+      {
+        best = std::move(next);
+      }
+      else
+      {
+        leftOut[i] = why;
+      }
+    }
+    return best;
+  }
+
+  const Mesh& mesh_;
+  const GridMapOptions& options_;
+  GridMapResult taken_;
+};
 
 } // namespace
 
@@ -713,6 +829,21 @@ void GridMapResult::addWork(const GridMapResult& other)
   embedSteps += other.embedSteps;
 }
 
+void GridMapResult::takeWork(const GridMapResult& other)
+{
+  work = other.work;
+  secondsField = other.secondsField;
+  secondsSeamless = other.secondsSeamless;
+  secondsQuantize = other.secondsQuantize;
+  secondsEmbed = other.secondsEmbed;
+  processorField = other.processorField;
+  processorSeamless = other.processorSeamless;
+  processorQuantize = other.processorQuantize;
+  processorEmbed = other.processorEmbed;
+  seamlessSteps = other.seamlessSteps;
+  embedSteps = other.embedSteps;
+}
+
 GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
 {
   if (!(options.edgeLength > 0) || !std::isfinite(options.edgeLength))
@@ -746,12 +877,12 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
     throw InvalidInput("grid map: " + std::to_string(options.stretch.size()) + " stretches for " +
       std::to_string(mesh.faceCount()) + " faces");
   }
-  GridMapResult result = makeWithCurves(mesh, options);
+  GridMapResult result = CurvedMap(mesh, options).run();
   if (result.reuse.any() && !result.status.ok())
   {
     GridMapOptions cold = options;
     cold.previous = nullptr;
-    GridMapResult again = makeWithCurves(mesh, cold);
+    GridMapResult again = CurvedMap(mesh, cold).run();
     again.addWork(result);
     return again;
   }

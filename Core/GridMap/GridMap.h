@@ -82,7 +82,9 @@ struct GridMapResult
   Status status;                ///< not ok: why and where; uv then holds the best that was reached
   std::vector<Index> offenders; ///< coarse vertices around which the triangulation lacks freedom
   std::vector<CurveOutcome> curves; ///< what became of GridMapOptions::curves
-  double refinement = 1;            ///< of the component whose sizes had to shrink most
+  /// Coarse vertices round which the triangulation lacks freedom for all curves, where some were left out.
+  std::vector<Index> curveOffenders;
+  double refinement = 1; ///< of the component whose sizes had to shrink most
   /// The share of the area whose ratio of stretches is above the limit after all; 0 without limit, or where the status
   /// is not ok.
   double beyondAnisotropyLimit = 0;
@@ -96,6 +98,8 @@ struct GridMapResult
 
   /// Adds what another, failed try has taken.
   void addWork(const GridMapResult& other);
+  /// What it has taken is what another one says.
+  void takeWork(const GridMapResult& other);
 };
 /// The whole chain on one coarse mesh. Its connected components are solved one by one; each gets quads by its area, and
 /// all are tried, so that offenders tells about every one that fails.

@@ -18,6 +18,16 @@ std::string nameOf(CurveKind kind)
   return kind == CurveKind::Cycle ? "cycle" : "connection";
 }
 
+} // namespace
+
+std::string curveText(const CurveRequest& curve, std::size_t id)
+{
+  const std::string name = nameOf(curve.kind) + " " + std::to_string(id);
+  return curve.kind == CurveKind::Cycle
+    ? name + " through " + placeText(curve.points.front())
+    : name + " from " + placeText(curve.points.front()) + " to " + placeText(curve.points.back());
+}
+
 void checkCurve(const CurveRequest& curve, std::size_t id)
 {
   const std::string name = nameOf(curve.kind) + " " + std::to_string(id);
@@ -38,16 +48,6 @@ void checkCurve(const CurveRequest& curve, std::size_t id)
     throw InvalidInput(
       name + " has all its points at one place: draw it from one place to another.");
   }
-}
-
-} // namespace
-
-std::string curveText(const CurveRequest& curve, std::size_t id)
-{
-  const std::string name = nameOf(curve.kind) + " " + std::to_string(id);
-  return curve.kind == CurveKind::Cycle
-    ? name + " through " + placeText(curve.points.front())
-    : name + " from " + placeText(curve.points.front()) + " to " + placeText(curve.points.back());
 }
 
 void checkCurves(const SurfaceInput& input)

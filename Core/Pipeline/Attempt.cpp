@@ -162,6 +162,10 @@ void recordCoarse(
   }
   made.work = map.work;
   made.curves = map.curves;
+  for (const Index v : map.curveOffenders)
+  {
+    made.curveOffenders.push_back(levels.coarse.fineVertex[v]);
+  }
   tellCurves(run, made);
   made.coarse = levels.coarse;
   made.coarseUv = std::move(map.uv);
@@ -257,6 +261,12 @@ std::shared_ptr<MapAttempt> asReused(const MapAttempt& found)
 std::size_t MapAttempt::defects() const
 {
   return certificate.notPositive + certificate.wrongTurns + certificate.seamResiduals;
+}
+
+std::size_t MapAttempt::unmetCurves() const
+{
+  return static_cast<std::size_t>(std::count_if(
+    curves.begin(), curves.end(), [](const CurveOutcome& curve) { return !curve.met; }));
 }
 
 void MapAttempt::pack(const Mesh& surface)

@@ -52,6 +52,7 @@ struct MapAttempt
   std::vector<Vector3> coarseTroubles; ///< their positions
   std::size_t work = 0;                ///< GridMapResult::work
   std::vector<CurveOutcome> curves;    ///< GridMapResult::curves
+  std::vector<Index> curveOffenders; ///< GridMapResult::curveOffenders, as vertices of the surface
 
   // Where the status is ok.
   std::vector<FixedVec2> uv; ///< #H of the surface; empty while packed
@@ -68,6 +69,8 @@ struct MapAttempt
 
   /// Of the map on the surface: what keeps it from being valid.
   std::size_t defects() const;
+  /// Connections and cycles that it does not have.
+  std::size_t unmetCurves() const;
   void pack(const Mesh& surface);
   void unpack(const Mesh& surface);
   std::size_t bytes() const;

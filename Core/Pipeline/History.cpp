@@ -26,7 +26,9 @@ void History::addMap(const Plan& plan, std::shared_ptr<MapAttempt> map)
     return;
   }
   replays_ += last_.map->stages.has("replay") ? 1 : 0;
-  if (!best_.map || last_.map->defects() < best_.map->defects())
+  const auto faults = [](const MapAttempt& attempt)
+  { return std::pair(attempt.defects(), attempt.unmetCurves()); };
+  if (!best_.map || faults(*last_.map) < faults(*best_.map))
   {
     best_ = last_;
   }

@@ -138,4 +138,25 @@ std::optional<Plan> keptOffenders(const Trouble& trouble)
   return plan;
 }
 
+std::optional<Plan> roomForCurves(const Trouble& trouble)
+{
+  const History& history = trouble.history;
+  const MapAttempt& map = *history.last().map;
+  if (!history.lastIsBest() || map.curveOffenders.empty() ||
+    history.inRound("room for curves") == trouble.bound)
+  {
+    return std::nullopt;
+  }
+  RunContext& run = trouble.run;
+  run.surface.apply(history.last().plan);
+  const Hierarchy& levels = run.levels.make(levelOptions(run, history.last().plan));
+  Plan plan = history.last().plan;
+  const std::size_t before = plan.levels.keptVertices.size();
+  keepAlso(
+    ringsRound(levels.intermediate, map.curveOffenders, run.surface->mesh.vertexCount()), plan);
+  plan.levels.coarseVertices =
+    levels.coarse.mesh.vertexCount() + static_cast<Index>(plan.levels.keptVertices.size() - before);
+  return plan;
+}
+
 } // namespace quadrille

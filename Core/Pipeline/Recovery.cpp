@@ -19,8 +19,9 @@ struct Strategy
 };
 
 /// The strategies in the order in which they are asked.
-constexpr std::array<Strategy, 2> kForMaps{ {
+constexpr std::array<Strategy, 3> kForMaps{ {
   { "more freedom", 2, moreFreedom },
+  { "room for curves", 1, roomForCurves },
   { "kept offenders", 2, keptOffenders },
 } };
 constexpr std::array<Strategy, 3> kForRounds{ {

@@ -36,6 +36,11 @@ struct Trouble
 /// times one after the other.
 std::optional<Plan> moreFreedom(const Trouble& trouble);
 
+/// Where a map was made by leaving curves out, vertices round the places where it could not be made with them are kept
+/// on the coarse level.
+/// Bound: times in a round.
+std::optional<Plan> roomForCurves(const Trouble& trouble);
+
 /// Where the surface's triangles have no room for the map, their vertices are kept on all levels, so that the coarse
 /// map shows what there is.
 /// Bound: times in a round.

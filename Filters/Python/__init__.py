@@ -176,7 +176,7 @@ def _finish(run):
 
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
            guiding_direction=None, guiding_weight=None, target_valence=None, sizing=None, feature_edges=None,
-           patch_ids=None, curves=None, strokes=None, patch_array="PatchId", coarse_vertices=1000,
+           patch_ids=None, curves=None, strokes=None, connections=None, cycles=None, patch_array="PatchId", coarse_vertices=1000,
            threads=0, maximum_number_of_quads=10000000, smoothing_steps=5,
            memory_limit=0.0, time_limit=0.0, close_handles=0.0, small_components="keep", method="scale-aware",
            final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False,
@@ -199,8 +199,12 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         corner i to i + 1.
     patch_ids: #F whole numbers; edges between two values become edges of the quads.
     curves: a list of polylines (n by 3 points each), drawn along the nearest edges of the mesh, that become features;
-        or a vtkPolyData with lines and, if some are strokes, the cell array ConstraintType (0 feature, 1 stroke).
+        or a vtkPolyData with lines and, if some are no features, the cell array ConstraintType (0 feature, 1 stroke,
+        2 connection, 3 cycle).
     strokes: a list of polylines along which quads should run.
+    connections: a list of polylines from one irregular vertex to another, or to a feature or boundary, that a straight
+        chain of edges is to join; the course says which way round others it goes.
+    cycles: a list of closed polylines along which a chain of edges is to close.
     patch_array: name of a cell array of whole numbers of a vtkPolyData, whose borders become edges of the quads; None:
         not used.
     coarse_vertices: budget of the level where the layout is computed; 0: as many as the curvature needs.
@@ -247,7 +251,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         as_surface(mesh), guiding_direction=guiding_direction, guiding_weight=guiding_weight,
         target_valence=target_valence,
         sizing=sizing, feature_edges=feature_edges, patch_ids=patch_ids, patch_array=patch_array))
-    lines = as_curves(curves, strokes)
+    lines = as_curves(curves=curves, strokes=strokes, connections=connections, cycles=cycles)
     if lines is not None:
         run.SetCurvesData(lines)
     if progress is not None:

@@ -313,20 +313,21 @@ def _polylines(name, lines):
 
 
 #: Values of the array ConstraintType.
-_FEATURE, _STROKE = 0, 1
+_TYPES = {"curves": 0, "strokes": 1, "connections": 2, "cycles": 3}
 
 
-def as_curves(curves, strokes):
-    """The lines of both as one vtkPolyData with the array ConstraintType, or None. curves may be a vtkPolyData that has
+def as_curves(**given):
+    """The lines of all as one vtkPolyData with the array ConstraintType, or None. curves may be a vtkPolyData that has
     it already."""
-    ready = curves if isinstance(curves, vtkPolyData) else None
-    if ready is not None and strokes is None:
+    given = {name: lines for name, lines in given.items() if lines is not None}
+    ready = given.get("curves")
+    if isinstance(ready, vtkPolyData):
+        if len(given) > 1:
+            others = ", ".join(f"{name} ({_TYPES[name]})" for name in given if name != "curves")
+            raise InvalidInput(f"beside a vtkPolyData of curves there is no room for {others}: put them into it, with "
+                               "these numbers in its cell array ConstraintType")
         return ready
-    if ready is not None:
-        raise InvalidInput("strokes beside a vtkPolyData of curves: put them into it, with 1 in its cell array "
-                           "ConstraintType")
-    lines = [(line, _FEATURE) for line in _polylines("curves", curves if curves is not None else [])]
-    lines += [(line, _STROKE) for line in _polylines("strokes", strokes if strokes is not None else [])]
+    lines = [(line, _TYPES[name]) for name in given for line in _polylines(name, given[name])]
     if not lines:
         return None
     data = vtkPolyData()

@@ -296,7 +296,7 @@ TEST(ConstraintTable, WhatIsNotFollowedHasARowToo)
     EXPECT_NE(word.reason.find("is not followed"), std::string::npos);
     EXPECT_EQ(word.place, Vector3(1, 1, 0));
   }
-  EXPECT_EQ(writeConstraints(asked.placed, mesh)->GetNumberOfCells(), 0);
+  EXPECT_EQ(writeConstraints(asked.placed, {}, mesh)->GetNumberOfCells(), 0);
 }
 
 TEST(ConstraintTable, WithoutQuadsNothingIsMet)

@@ -282,7 +282,7 @@ TEST(Constraints, OutputTellsWhatWasReached)
   PlacedConstraint stroke;
   stroke.kind = ConstraintKind::Stroke;
   stroke.path = { { 0, 0, 0 }, { 1, 0, 0 } };
-  const vtkSmartPointer<vtkPolyData> data = writeConstraints({ stroke, met, missed }, mesh);
+  const vtkSmartPointer<vtkPolyData> data = writeConstraints({ stroke, met, missed }, {}, mesh);
   ASSERT_EQ(data->GetNumberOfVerts(), 2);
   ASSERT_EQ(data->GetNumberOfLines(), 1);
   vtkDataArray* kind = data->GetCellData()->GetScalars();

@@ -482,19 +482,25 @@ TEST(QuadRemesh, CoarsestIntegersMakeAFewQuads)
   EXPECT_NEAR(area, 6, 1e-6);
 }
 
-TEST(QuadRemeshFailure, UnusedConstraintArraysAreTold)
+TEST(QuadRemeshFailure, AConnectionJoinsTwoPoints)
 {
   const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(40, 20));
   vtkNew<vtkIntArray> connections;
   connections->SetName("ConnectId");
   connections->SetNumberOfTuples(input->GetNumberOfPoints());
   connections->Fill(0);
+  for (const vtkIdType point : { 3, 70, 200 })
+  {
+    connections->SetValue(point, 7);
+  }
   input->GetPointData()->AddArray(connections);
   vtkNew<vtkQuadRemesh> filter;
   const test::Messages messages(filter);
   run(filter, input, 200);
-  EXPECT_NE(messages.warnings.find("ConnectId"), std::string::npos);
-  EXPECT_NE(std::string(filter->GetNoticesText()).find("ConnectId"), std::string::npos);
+  EXPECT_NE(filter->GetOutcome(), vtkQuadRemesh::Succeeded);
+  EXPECT_NE(
+    std::string(filter->GetOutcomeText()).find("7 of ConnectId stands at 3"), std::string::npos)
+    << filter->GetOutcomeText();
 }
 
 /// Asks to stop at the first progress event; the next update must run again, not serve the empty output.

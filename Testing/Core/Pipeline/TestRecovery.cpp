@@ -138,8 +138,8 @@ std::vector<Index> twoRings(const Level& level, const std::vector<Index>& centre
 TEST(Recovery, StepsAreTriedInThisOrder)
 {
   EXPECT_EQ(recoverySteps(),
-    std::vector<std::string>(
-      { "more freedom", "kept offenders", "smaller quads near", "more quads", "fewer features" }));
+    std::vector<std::string>({ "more freedom", "room for curves", "kept offenders",
+      "smaller quads near", "more quads", "fewer features" }));
 }
 
 // The plan that a run begins with.
