@@ -473,6 +473,16 @@ void addCurves(vtkPolyData* curves, double strokeWeight, Placement& placement)
   }
 }
 
+void addCurves(vtkPolyData* data, CurveKind kind, Placement& placement)
+{
+  for (const Polyline& line : hasLines(data)
+      ? readLines(data, kind == CurveKind::Cycle ? "cycle" : "connection")
+      : std::vector<Polyline>{})
+  {
+    placement.addCurve(line.cell, kind, line.points);
+  }
+}
+
 /// Joins the two points of each value of ConnectId but 0.
 void addConnections(vtkPolyData* data, const char* what, Placement& placement)
 {
@@ -606,8 +616,11 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
   PlacedConstraints unused;
   tellUnused(inputs.curves, "Feature Curves", unused.notices);
   tellUnused(inputs.strokes, "Guiding Strokes", unused.notices);
+  tellUnused(inputs.connections, "Connections", unused.notices);
+  tellUnused(inputs.cycles, "Cycles", unused.notices);
   const bool any = hasLines(inputs.curves) || hasLines(inputs.strokes) ||
-    hasPoints(inputs.points) || connects(inputs.surface);
+    hasLines(inputs.connections) || hasLines(inputs.cycles) || hasPoints(inputs.points) ||
+    connects(inputs.surface);
   if (!any || surface.input.polygonPoints.empty())
   {
     return unused;
@@ -628,6 +641,8 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
     addConnections(inputs.points, "the valence points", placement);
   }
   addConnections(inputs.surface, "the surface", placement);
+  addCurves(inputs.connections, CurveKind::Connection, placement);
+  addCurves(inputs.cycles, CurveKind::Cycle, placement);
   PlacedConstraints result = placement.finish();
   result.notices.insert(result.notices.begin(), unused.notices.begin(), unused.notices.end());
   return result;

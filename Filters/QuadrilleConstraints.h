@@ -30,9 +30,11 @@ struct ConstraintInputs
   /// Two points with the same value of a point array ConnectId, other than 0, are joined; without TargetValence no
   /// valence is asked for at these.
   vtkPolyData* points = nullptr;
-  vtkPolyData* surface = nullptr; ///< for its array ConnectId
-  double strokeWeight = 1;        ///< in (0, 1]
-  int valence = 3;                ///< 2 to 8
+  vtkPolyData* connections = nullptr; ///< polylines, whatever their ConstraintType
+  vtkPolyData* cycles = nullptr;      ///< the same, closed or not
+  vtkPolyData* surface = nullptr;     ///< for its array ConnectId
+  double strokeWeight = 1;            ///< in (0, 1]
+  int valence = 3;                    ///< 2 to 8
 };
 
 enum class ConstraintKind

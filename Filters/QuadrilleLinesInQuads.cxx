@@ -13,9 +13,11 @@ namespace quadrille
 namespace
 {
 
-/// In edges of quads: how far a line that ends at a feature or boundary may end from the place asked for, and how far a
-/// closed one may lie from the curve.
+/// In edges of quads: how far a line that ends at a feature or boundary may end from the place asked for.
 constexpr double kReachInQuads = 3;
+/// How far a closed line may lie from the curve: it is straight in the map, the curve need not be. The table tells how
+/// far it does.
+constexpr double kReachOfCycle = 6;
 
 double meanQuadEdge(const QuadMesh& mesh)
 {
@@ -63,7 +65,7 @@ std::vector<Vector3> LinesInQuads::chainOf(
   if (constraint.kind == ConstraintKind::Cycle)
   {
     chain = chains_.closedNear(
-      std::vector<Vector3>(constraint.path.begin(), constraint.path.end() - 1), reach);
+      std::vector<Vector3>(constraint.path.begin(), constraint.path.end() - 1), kReachOfCycle * edgeLength_);
   }
   else if (outcome.from != kInvalidIndex)
   {

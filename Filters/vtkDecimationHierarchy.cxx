@@ -57,6 +57,10 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   recipe.featureAngle = options.featureAngle;
   recipe.patchArray = this->PatchArrayName;
   recipe.curveMarks = converted.curveMarks;
+  if (!framed.input.curves.empty())
+  {
+    this->AddWarning("connections and cycles are not made by the stage filters: use Quad Remesh");
+  }
   const auto made = std::make_shared<quadrille::SharedSurface>();
   made->key.input = quadrille::contentHash(framed.input, options.threads);
   options.progress =

@@ -168,6 +168,7 @@ void writeMapped(const quadrille::RemeshResult& result, const quadrille::RemeshO
 //------------------------------------------------------------------------------
 vtkQuadRemesh::vtkQuadRemesh()
 {
+  this->SetNumberOfInputPorts(6);
   this->SetNumberOfOutputPorts(7);
 }
 
@@ -335,7 +336,8 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   block.output(2)->ShallowCopy(written.lines);
   block.output(3)->ShallowCopy(written.separatrices);
   block.output(4)->ShallowCopy(written.irregular);
-  block.output(5)->ShallowCopy(quadrille::writeConstraints(asked.placed, asked.curves, result.quads));
+  block.output(5)->ShallowCopy(
+    quadrille::writeConstraints(asked.placed, asked.curves, result.quads));
   const std::vector<quadrille::ConstraintWord> words = quadrille::judgeConstraints(
     asked, result.quads, written.quads->GetPointData()->GetArray(quadrille::arrays::kSizing));
   block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));

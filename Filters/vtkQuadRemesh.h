@@ -301,6 +301,15 @@ public:
   vtkPolyData* GetConstraints() { return this->GetPolyDataOutputAt(5); }
   vtkTable* GetConstraintTable();
 
+  ///@{
+  /// Optional inputs: polylines between irregular vertices, or from one to a feature or boundary, that a straight chain
+  /// of edges is to join (port 4), and closed ones along which a chain of edges is to close (port 5). Their course says
+  /// which way round other irregular vertices, handles and holes.
+  void SetConnectionsConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(4, output); }
+  void SetConnectionsData(vtkDataObject* lines) { this->SetInputDataObject(4, lines); }
+  void SetCyclesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(5, output); }
+  void SetCyclesData(vtkDataObject* lines) { this->SetInputDataObject(5, lines); }
+  ///@}
 protected:
   vtkQuadRemesh();
   ~vtkQuadRemesh() override;

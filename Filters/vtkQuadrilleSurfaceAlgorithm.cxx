@@ -63,6 +63,11 @@ quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
   constraints.curves = block.input(1);
   constraints.strokes = block.input(2);
   constraints.points = block.input(3);
+  if (this->GetNumberOfInputPorts() > 5)
+  {
+    constraints.connections = block.input(4);
+    constraints.cycles = block.input(5);
+  }
   constraints.surface = data;
   constraints.strokeWeight = this->StrokeWeight;
   constraints.valence = this->PointValence;

@@ -19,7 +19,9 @@ namespace
 {
 
 constexpr float kConnectionWeight = 0.5F;
-constexpr float kCycleWeight = 1.0F;
+/// Far above what users can ask for: which way the field turns along a cycle decides whether it can close, so nothing
+/// may turn it, and quarter turns do not move across it.
+constexpr float kCycleWeight = 100.0F;
 /// In edges of quads: how far from an end of a connection the vertex may lie that it joins.
 constexpr double kReachOfIrregular = 3;
 constexpr double kReachOfCurve = 1.5;
@@ -601,7 +603,7 @@ std::vector<Guide> guidesWithCurves(
           nearestVertex(mesh, curve.points.back()));
     if (path)
     {
-      guideAlong(mesh, curve, *path, cycle ? kCycleWeight : kConnectionWeight, guides);
+      guideAlong(mesh, *path, cycle, cycle ? kCycleWeight : kConnectionWeight, guides);
     }
   }
   return guides;

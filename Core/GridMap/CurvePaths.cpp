@@ -6,6 +6,7 @@
 #include "Mesh/Topology.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <queue>
@@ -260,6 +261,91 @@ void trimEnds(const Mesh& mesh, Index a, Index b, FacePath& path)
   path.crossed = std::vector<Index>(at(begin), at(end));
 }
 
+/// Faces of a path laid out in the plane, one after the other.
+class Strip
+{
+public:
+  /// In the plane of face f, with the half-edge 3 f along x.
+  Strip(const Mesh& mesh, Index f) : mesh_(mesh)
+  {
+    const Vector3 a = mesh.edgeVector(3 * f);
+    corner_[0] = Vector2::Zero();
+    corner_[1] = { a.norm(), 0 };
+    corner_[2] = apex(3 * f, corner_[0], corner_[1]);
+    first_ = 3 * f;
+  }
+
+  /// The middle of half-edge h of the last face.
+  Vector2 middle(Index h) const { return (at(h) + at(Mesh::next(h))) / 2; }
+
+  /// Adds the face beyond half-edge h of the last one.
+  void cross(Index h)
+  {
+    const Vector2 a = at(h), b = at(Mesh::next(h));
+    const Index g = mesh_.twin[h];
+    first_ = g;
+    corner_ = { b, a, apex(g, b, a) };
+  }
+
+private:
+  Vector2 at(Index h) const
+  {
+    return h == first_ ? corner_[0] : h == Mesh::next(first_) ? corner_[1] : corner_[2];
+  }
+
+  /// The third corner of the face left of h, whose ends lie there.
+  Vector2 apex(Index h, const Vector2& a, const Vector2& b) const
+  {
+    const Vector3 edge = mesh_.edgeVector(h);
+    const Vector3 side = -mesh_.edgeVector(Mesh::previous(h));
+    const double length = edge.norm();
+    const double along = length > 0 ? edge.dot(side) / length : 0;
+    const double away = length > 0 ? edge.cross(side).norm() / length : 0;
+    const Vector2 x = (b - a).stableNormalized();
+    return a + along * x + away * Vector2(-x.y(), x.x());
+  }
+
+  const Mesh& mesh_;
+  Index first_ = kInvalidIndex; ///< half-edge of the last face whose origin lies at corner_[0]
+  std::array<Vector2, 3> corner_;
+};
+
+/// From where the path is a few faces before to where it is a few behind, in the plane of its face i, which is f.
+Vector2 chordAt(const Mesh& mesh, const FacePath& path, bool closed, Index f, std::size_t i)
+{
+  constexpr std::size_t kFacesOfChord = 4;
+  const std::size_t count = path.crossed.size();
+  const auto reach = [&](std::size_t toEnd)
+  { return closed ? std::min(kFacesOfChord, count) : std::min(kFacesOfChord, toEnd); };
+  Vector2 ahead = Vector2::Zero(), behind = Vector2::Zero();
+  Strip forward(mesh, f);
+  const std::size_t forwards = reach(count - std::min(i, count));
+  for (std::size_t k = 0; k < forwards; ++k)
+  {
+    const Index h = path.crossed[(i + k) % count];
+    ahead = forward.middle(h);
+    forward.cross(h);
+  }
+  Strip backward(mesh, f);
+  const std::size_t backwards = reach(i);
+  for (std::size_t k = 0; k < backwards; ++k)
+  {
+    const Index h = mesh.twin[path.crossed[(i + count - 1 - k) % count]];
+    behind = backward.middle(h);
+    backward.cross(h);
+  }
+  if (forwards > 0 && backwards > 0)
+  {
+    return ahead - behind;
+  }
+  // An end of the path: from, or to, the middle of the face.
+  const Strip here(mesh, f);
+  const Vector2 centre = (here.middle(3 * f) + here.middle(3 * f + 1) + here.middle(3 * f + 2)) / 3;
+  return forwards > 0 ? Vector2(ahead - centre)
+    : backwards > 0   ? Vector2(centre - behind)
+                      : Vector2(0, 0);
+}
+
 } // namespace
 
 std::vector<Index> FacePath::faces(const Mesh& mesh) const
@@ -331,32 +417,19 @@ std::optional<FacePath> closedPathAlong(const Mesh& mesh, const CurveRequest& cu
   return path.crossed.empty() ? std::nullopt : std::optional<FacePath>(std::move(path));
 }
 
-void guideAlong(const Mesh& mesh, const CurveRequest& curve, const FacePath& path, float weight,
-  std::vector<Guide>& guides)
+void guideAlong(
+  const Mesh& mesh, const FacePath& path, bool closed, float weight, std::vector<Guide>& guides)
 {
-  const std::vector<Vector3> samples = sampleCurve(curve, meanEdge(mesh));
-  for (const Index f : path.faces(mesh))
+  const std::vector<Index> faces = path.faces(mesh);
+  for (std::size_t i = 0; i < faces.size(); ++i)
   {
-    const Vector3 p = centreOf(mesh, f);
-    std::size_t nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i + 1 < samples.size(); ++i)
+    const Vector2 along = chordAt(mesh, path, closed, faces[i], i);
+    const Index h = 3 * faces[i];
+    if (guides[faces[i]].isFree() && along.squaredNorm() > 0)
     {
-      const double distance = distanceToSegment(p, samples[i], samples[i + 1]);
-      if (distance < least && samples[i] != samples[i + 1])
-      {
-        least = distance;
-        nearest = i;
-      }
-    }
-    const Vector3 normal =
-      mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).stableNormalized();
-    const Vector3 along = (samples[nearest + 1] - samples[nearest]).stableNormalized();
-    const Vector3 tangent = along - normal * normal.dot(along);
-    constexpr double kLeastPart = 0.1; // of a direction that says something about the face
-    if (guides[f].isFree() && tangent.norm() > kLeastPart)
-    {
-      guides[f] = { tangent.normalized(), weight };
+      const Vector3 x = mesh.edgeVector(h).stableNormalized();
+      const Vector3 y = x.cross(mesh.edgeVector(h + 1)).stableNormalized().cross(x);
+      guides[faces[i]] = { (along.x() * x + along.y() * y).stableNormalized(), weight };
     }
   }
 }

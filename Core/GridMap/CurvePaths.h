@@ -33,8 +33,8 @@ std::optional<FacePath> pathAlong(const Mesh& mesh, const CurveRequest& curve, I
 /// The closed way along a cycle. Empty where features cut it, or where it closes on nothing.
 std::optional<FacePath> closedPathAlong(const Mesh& mesh, const CurveRequest& curve);
 
-/// Gives the faces of the path that have no guide yet the direction of the curve. guides: #F.
-void guideAlong(const Mesh& mesh, const CurveRequest& curve, const FacePath& path, float weight,
-  std::vector<Guide>& guides);
+/// Gives the faces of the path that have no guide yet its direction, over some faces before and behind. guides: #F.
+void guideAlong(
+  const Mesh& mesh, const FacePath& path, bool closed, float weight, std::vector<Guide>& guides);
 
 } // namespace quadrille

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
 namespace quadrille
 {
@@ -105,8 +104,6 @@ TEST(Curves, AConnectionIsAStraightChainOfEdges)
     EXPECT_EQ(outcome.met, !chain.empty()) << outcome.why;
     EXPECT_EQ(outcome.met, outcome.why.empty());
     met += outcome.met ? 1 : 0;
-    std::cout << "from " << without.quads.points[a].transpose() << " to "
-              << without.quads.points[b].transpose() << ": " << outcome.why << "\n";
   }
   EXPECT_GE(met, pairs.size() - 1);
 }
