@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -93,8 +94,7 @@ class Placement
 {
 public:
   explicit Placement(ConvertedSurface& surface)
-    : surface_(surface), input_(surface.input), graph_(makeEdgeGraph(surface.input)),
-      snapper_(surface.input), diagonal_(diagonalOf(surface.input))
+    : surface_(surface), input_(surface.input), diagonal_(diagonalOf(surface.input))
   {
   }
 
@@ -105,17 +105,34 @@ public:
   PlacedConstraints finish();
 
 private:
+  const EdgeGraph& graph()
+  {
+    if (!madeGraph_)
+    {
+      madeGraph_.emplace(makeEdgeGraph(input_));
+    }
+    return *madeGraph_;
+  }
+  const Snapper& snapper()
+  {
+    if (!madeSnapper_)
+    {
+      madeSnapper_.emplace(input_);
+    }
+    return *madeSnapper_;
+  }
+
   struct Stroke
   {
     Vector3 direction = Vector3::Zero();
     double weight = 1;
   };
 
-  std::vector<Index> pathBetween(const char* what, vtkIdType line, Index a, Index b) const;
+  std::vector<Index> pathBetween(const char* what, vtkIdType line, Index a, Index b);
   /// Places below the straight segment from one to the other; none where the way jumps.
   std::vector<Snapper::Place> sampleBetween(
-    const Snapper::Place& first, const Snapper::Place& last) const;
-  bool isOnBoundary(Index point) const;
+    const Snapper::Place& first, const Snapper::Place& last);
+  bool isOnBoundary(Index point);
   void guide(const Snapper::Place& place, const Stroke& stroke);
   void guideAlong(const std::vector<Index>& path, const Stroke& stroke);
   void tellIfFar(const char* what, const PlacedConstraint& placed);
@@ -124,8 +141,9 @@ private:
 
   ConvertedSurface& surface_;
   SurfaceInput& input_;
-  EdgeGraph graph_;
-  Snapper snapper_;
+  std::optional<EdgeGraph>
+    madeGraph_; ///< these take as long as a run's map on a large surface: only where asked for
+  std::optional<Snapper> madeSnapper_;
   double diagonal_;
   std::map<Index, std::uint8_t> features_;
   std::map<Index, Stroke> strokes_;
@@ -133,9 +151,9 @@ private:
   PlacedConstraints result_;
 };
 
-std::vector<Index> Placement::pathBetween(const char* what, vtkIdType line, Index a, Index b) const
+std::vector<Index> Placement::pathBetween(const char* what, vtkIdType line, Index a, Index b)
 {
-  std::vector<Index> path = findEdgePath(input_, graph_, a, b);
+  std::vector<Index> path = findEdgePath(input_, graph(), a, b);
   if (path.empty())
   {
     refuse(what, " ", line, ": no path of edges leads from ", placeText(input_.points[a]), " to ",
@@ -169,12 +187,12 @@ void Placement::drop(const char* what, PlacedConstraint line, const std::string&
 }
 
 /// An edge from there has one polygon only.
-bool Placement::isOnBoundary(Index point) const
+bool Placement::isOnBoundary(Index point)
 {
   std::map<Index, int> polygons;
-  for (std::size_t i = graph_.first[point]; i < graph_.first[point + 1]; ++i)
+  for (std::size_t i = graph().first[point]; i < graph().first[point + 1]; ++i)
   {
-    ++polygons[graph_.uses[i].target];
+    ++polygons[graph().uses[i].target];
   }
   return std::any_of(
     polygons.begin(), polygons.end(), [](const auto& edge) { return edge.second == 1; });
@@ -188,7 +206,7 @@ void Placement::addFeature(const Polyline& line)
   Index previous = kInvalidIndex;
   for (const Vector3& p : line.points)
   {
-    const Index v = snapper_.nearestCorner(p);
+    const Index v = snapper().nearestCorner(p);
     placed.distance = std::max(placed.distance, (input_.points[v] - p).norm());
     if (previous == kInvalidIndex)
     {
@@ -197,7 +215,7 @@ void Placement::addFeature(const Polyline& line)
     else if (v != previous)
     {
       const std::vector<Index> path = pathBetween("feature curve", line.cell, previous, v);
-      markPath(graph_, path, features_);
+      markPath(graph(), path, features_);
       for (std::size_t i = 1; i < path.size(); ++i)
       {
         placed.path.push_back(input_.points[path[i]]);
@@ -217,7 +235,7 @@ void Placement::addFeature(const Polyline& line)
 }
 
 std::vector<Snapper::Place> Placement::sampleBetween(
-  const Snapper::Place& first, const Snapper::Place& last) const
+  const Snapper::Place& first, const Snapper::Place& last)
 {
   const Vector3& a = first.point;
   const Vector3& b = last.point;
@@ -228,7 +246,7 @@ std::vector<Snapper::Place> Placement::sampleBetween(
   std::vector<Snapper::Place> places{ first };
   for (int i = 0; i < count; ++i)
   {
-    places.push_back(snapper_.nearestPlace(a + (i + 0.5) / count * (b - a)));
+    places.push_back(snapper().nearestPlace(a + (i + 0.5) / count * (b - a)));
   }
   places.push_back(last);
   // Over a bulge places move apart, but where they jump the segment left this part of the surface.
@@ -273,11 +291,11 @@ void Placement::guideAlong(const std::vector<Index>& path, const Stroke& stroke)
 {
   for (std::size_t k = 0; k + 1 < path.size(); ++k)
   {
-    for (std::size_t i = graph_.first[path[k]]; i < graph_.first[path[k] + 1]; ++i)
+    for (std::size_t i = graph().first[path[k]]; i < graph().first[path[k] + 1]; ++i)
     {
-      if (graph_.uses[i].target == path[k + 1])
+      if (graph().uses[i].target == path[k + 1])
       {
-        ofThisStroke_[graph_.uses[i].polygon] = stroke;
+        ofThisStroke_[graph().uses[i].polygon] = stroke;
       }
     }
   }
@@ -293,7 +311,7 @@ void Placement::addStroke(const Polyline& line, double weight)
   ofThisStroke_.clear();
   for (const Vector3& p : line.points)
   {
-    ends.push_back(snapper_.nearestPlace(p));
+    ends.push_back(snapper().nearestPlace(p));
     placed.distance = std::max(placed.distance, (ends.back().point - p).norm());
   }
   for (std::size_t i = 0; i + 1 < ends.size(); ++i)
@@ -314,7 +332,7 @@ void Placement::addStroke(const Polyline& line, double weight)
     if (places.empty())
     {
       const std::vector<Index> path = pathBetween(
-        "guiding stroke", line.cell, snapper_.nearestCorner(a), snapper_.nearestCorner(b));
+        "guiding stroke", line.cell, snapper().nearestCorner(a), snapper().nearestCorner(b));
       guideAlong(path, stroke);
       for (const Index v : path)
       {
@@ -340,7 +358,7 @@ void Placement::addStroke(const Polyline& line, double weight)
 
 void Placement::addValence(vtkIdType source, const Vector3& point, int valence)
 {
-  const Index v = snapper_.nearestCorner(point);
+  const Index v = snapper().nearestCorner(point);
   if (valence == kLeastValence && isOnBoundary(v))
   {
     refuse("valence ", valence, " is asked for at ", placeText(input_.points[v]),
@@ -382,14 +400,9 @@ void Placement::addCurve(vtkIdType source, CurveKind kind, std::vector<Vector3> 
     placed.path = points;
     placed.path.push_back(points.front());
   }
-  for (const Vector3& p : points)
-  {
-    placed.distance = std::max(placed.distance, (snapper_.nearestPlace(p).point - p).norm());
-  }
   placed.curve = input_.curves.size();
   input_.curves.push_back({ kind, std::move(points) });
   checkCurve(input_.curves.back(), static_cast<std::size_t>(source));
-  tellIfFar(nameOf(placed.kind), placed);
   result_.placed.push_back(std::move(placed));
 }
 
