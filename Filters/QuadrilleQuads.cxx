@@ -543,4 +543,31 @@ QuadOutputs writeOutputs(const QuadMesh& mesh, const Mesh& mapped, const std::ve
   return outputs;
 }
 
+QuadOutputs writePreview(const QuadMesh& mesh)
+{
+  QuadOutputs outputs;
+  outputs.quads = vtkSmartPointer<vtkPolyData>::New();
+  vtkSmartPointer<vtkPoints> points = newPoints(mesh.points.size());
+  auto valence = newArray<vtkIntArray>(arrays::kValence, 1, mesh.points.size());
+  auto boundary = newArray<vtkUnsignedCharArray>(arrays::kOnBoundary, 1, mesh.points.size());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    const auto id = static_cast<vtkIdType>(i);
+    points->SetPoint(id, mesh.points[i].data());
+    valence->SetValue(id, mesh.valence[i]);
+    boundary->SetValue(id, mesh.onBoundary[i]);
+  }
+  auto corners = newArray<vtkIdTypeArray>("", 1, 4 * mesh.quads.size());
+  for (std::size_t i = 0; i < 4 * mesh.quads.size(); ++i)
+  {
+    corners->SetValue(static_cast<vtkIdType>(i), mesh.quads[i / 4][i % 4]);
+  }
+  outputs.quads->SetPoints(points);
+  outputs.quads->SetPolys(newCells(corners, 4));
+  outputs.quads->GetPointData()->AddArray(valence);
+  outputs.quads->GetPointData()->AddArray(boundary);
+  outputs.irregular = writeIrregular(mesh);
+  return outputs;
+}
+
 } // namespace quadrille

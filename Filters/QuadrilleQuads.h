@@ -80,4 +80,7 @@ struct QuadOutputs
 QuadOutputs writeOutputs(const QuadMesh& mesh, const Mesh& mapped, const std::vector<FixedVec2>& uv,
   const QuadSource& source);
 
+/// Of a preview: points with Valence and OnBoundary, quads, and the irregular vertices; the rest is null.
+QuadOutputs writePreview(const QuadMesh& mesh);
+
 } // namespace quadrille

@@ -235,6 +235,11 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   {
     throw quadrille::InvalidInput("SmoothingSteps must be at least 0");
   }
+  if (this->Preview && this->Method == METHOD_SEAMLESS)
+  {
+    throw quadrille::InvalidInput("the method 'seamless' makes no quads, so there is nothing to "
+                                  "preview: switch Preview off or choose another method");
+  }
   if (this->Method == METHOD_SEAMLESS && !this->ComputeMappedSurface)
   {
     throw quadrille::InvalidInput(
@@ -262,6 +267,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   options.progress = this->MakeProgress(0.02, 0.95);
 
   options.warmStart = this->WarmStart != 0;
+  options.preview = this->Preview != 0;
 
   quadrille::BlockReport& report = block.state->report;
   LevelMemory* memory = this->KeepLevels ? &block.state->memoryAs<LevelMemory>() : nullptr;
@@ -292,6 +298,11 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   }
   quadrille::requireOk(result.status, "remeshing");
 
+  if (options.preview)
+  {
+    this->WritePreview(block, asked, result);
+    return;
+  }
   quadrille::QuadSource source = sourceOf(result.surface, converted, input);
   source.cellDataFrom = static_cast<quadrille::CellDataFrom>(this->CellDataFrom);
   source.threads = this->NumberOfThreads;
@@ -347,6 +358,26 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
 }
 
 //------------------------------------------------------------------------------
+void vtkQuadRemesh::WritePreview(quadrille::Block& block, const quadrille::AskedConstraints& asked,
+  const quadrille::RemeshResult& result)
+{
+  const quadrille::QuadOutputs written = quadrille::writePreview(result.quads);
+  vtkPolyData* quads = block.output(0);
+  quads->ShallowCopy(written.quads);
+  addFieldData(quads, result);
+  quadrille::addText(quads, "Notices", this->GetBlockNotices());
+  block.output(4)->ShallowCopy(written.irregular);
+  block.output(5)->ShallowCopy(
+    quadrille::writeConstraints(asked.placed, asked.curves, result.quads));
+  const std::vector<quadrille::ConstraintWord> words =
+    quadrille::judgeConstraints(asked, result.quads, nullptr);
+  block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
+  this->SetResult("preview: " + resultText(result, written.irregular->GetNumberOfPoints()) +
+    constraintText(words));
+  block.state->report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
+}
+
+//------------------------------------------------------------------------------
 void vtkQuadRemesh::AddSettings(std::ostream& os) const
 {
   this->Superclass::AddSettings(os);
@@ -357,6 +388,7 @@ void vtkQuadRemesh::AddSettings(std::ostream& os) const
      << "CloseHandles " << this->CloseHandles << '\n'
      << "SmallComponents " << this->SmallComponents << '\n'
      << "WarmStart " << this->WarmStart << '\n'
+     << "Preview " << this->Preview << '\n'
      << "FinalQuality " << this->FinalQuality << '\n'
      << "DistortionMetric " << this->DistortionMetric << '\n'
      << "CellDataFrom " << this->CellDataFrom << '\n'
@@ -390,6 +422,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SmallComponents: " << this->SmallComponents << "\n";
   os << indent << "KeepLevels: " << this->KeepLevels << "\n";
   os << indent << "WarmStart: " << this->WarmStart << "\n";
+  os << indent << "Preview: " << this->Preview << "\n";
   os << indent << "ReusedStagesText: " << this->GetReusedStagesText() << "\n";
   os << indent << "RememberedMegabytes: " << this->GetRememberedMegabytes() << "\n";
   os << indent << "FinalQuality: " << this->FinalQuality << "\n";

@@ -246,6 +246,17 @@ public:
   vtkBooleanMacro(WarmStart, vtkTypeBool);
   ///@}
 
+  ///@{
+  /**
+   * Quads of the intermediate level in place of those of the surface: the same map with the same integers, made in a
+   * time that follows the number of quads and not the size of the surface. Only the quads (points with `Valence` and
+   * `OnBoundary`), the irregular vertices, the constraints and their table are made then. Default: off.
+   */
+  vtkSetMacro(Preview, vtkTypeBool);
+  vtkGetMacro(Preview, vtkTypeBool);
+  vtkBooleanMacro(Preview, vtkTypeBool);
+  ///@}
+
   /// Millions of bytes that are held for the next execution.
   double GetRememberedMegabytes() const;
   /// Stages that the last execution had, or began, from an earlier one, one a line; "all" where nothing had changed and
@@ -316,6 +327,8 @@ protected:
 
   const char* GetBlockType(int outputPort) const override;
   void Execute(quadrille::Block& block) override;
+  void WritePreview(quadrille::Block& block, const quadrille::AskedConstraints& asked,
+    const quadrille::RemeshResult& result);
   bool KeepsResult() override { return this->KeepLevels != 0; }
   void AddSettings(std::ostream& os) const override;
   bool AllowsEarlier(const quadrille::BlockReport& report) const override;
@@ -339,6 +352,7 @@ private:
   double CloseHandles = 0;
   int SmallComponents = KEEP_SMALL_COMPONENTS;
   vtkTypeBool KeepLevels = 1;
+  vtkTypeBool Preview = 0;
   vtkTypeBool WarmStart = 0;
   int FinalQuality = Coarse;
   vtkTypeBool DistortionMetric = 0;

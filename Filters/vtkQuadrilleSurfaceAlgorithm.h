@@ -38,6 +38,7 @@ namespace quadrille
 struct AskedConstraints;
 struct ConvertedSurface;
 struct RemeshOptions;
+struct RemeshResult;
 }
 
 class QUADRILLEFILTERS_EXPORT vtkQuadrilleSurfaceAlgorithm : public vtkQuadrilleAlgorithm

@@ -170,6 +170,7 @@ void recordCoarse(
   made.coarse = levels.coarse;
   made.coarseUv = std::move(map.uv);
   made.coarseTurns = map.field.turns;
+  made.coarseInteger = integerVertices(made.coarse.mesh, map.field);
   made.coarseCertificate = map.certificate;
   made.hopeless = map.status.code == StatusCode::TooLarge ||
     (map.status.code == StatusCode::Infeasible && map.offenders.empty());
@@ -184,7 +185,7 @@ void recordCoarse(
   }
 }
 
-void carryToSurface(RunContext& run, const CrossField& field, MapAttempt& made)
+void carryToSurface(RunContext& run, MapAttempt& made)
 {
   const Mesh& mesh = run.surface->mesh;
   double start = secondsNow();
@@ -200,13 +201,13 @@ void carryToSurface(RunContext& run, const CrossField& field, MapAttempt& made)
   start = secondsNow();
   made.turns = expectedTurns(mesh, made.coarse, made.coarseTurns);
   made.integerVertex.assign(mesh.vertexCount(), 0);
-  const std::vector<std::uint8_t> integer = integerVertices(made.coarse.mesh, field);
-  for (Index v = 0; v < integer.size(); ++v)
+  for (Index v = 0; v < made.coarseInteger.size(); ++v)
   {
-    made.integerVertex[made.coarse.fineVertex[v]] = integer[v];
+    made.integerVertex[made.coarse.fineVertex[v]] = made.coarseInteger[v];
   }
   made.certificate = certify(mesh, made.uv, made.turns, made.integerVertex, run.options.threads);
   made.stages.add("certify", secondsNow() - start, mesh.faceCount(), mesh.faceCount());
+  made.isCarried = true;
 }
 
 void tellOfRounding(MapMethod method, MapAttempt& made)
@@ -254,6 +255,28 @@ std::shared_ptr<MapAttempt> asReused(const MapAttempt& found)
   map->started.clear();
   map->stages = {};
   return map;
+}
+
+std::shared_ptr<MapAttempt> makeCoarseMap(RunContext& run, const Plan& plan, ResultKey key)
+{
+  auto made = std::make_shared<MapAttempt>();
+  made->key = key;
+  const Hierarchy& levels = run.levels.make(levelOptions(run, plan));
+  made->stages.add(run.levels.stages());
+  if (!made->stages.has("phase2"))
+  {
+    made->reused.emplace_back("phase2");
+  }
+  GridMapResult map = computeMap(run, plan, *made);
+  recordCoarse(run, levels, map, *made);
+  return made;
+}
+
+/// Whether the levels are those of the map; they are made where they are not there.
+bool hasLevelsOf(RunContext& run, const Plan& plan, const MapAttempt& map)
+{
+  run.levels.make(levelOptions(run, plan));
+  return run.levels.hierarchy().coarse.fineVertex == map.coarse.fineVertex;
 }
 
 } // namespace
@@ -309,29 +332,28 @@ std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan)
 {
   run.surface.apply(plan);
   const ResultKey key = mapKey(run, plan);
-  if (run.store != nullptr)
+  const auto found = run.store != nullptr ? run.store->find<MapAttempt>(key) : nullptr;
+  std::shared_ptr<MapAttempt> made = found ? asReused(*found) : makeCoarseMap(run, plan, key);
+  const bool isDone = !made->status.ok() || made->isCarried || run.options.preview;
+  if (!isDone && hasLevelsOf(run, plan, *made))
   {
-    if (const auto found = run.store->find<MapAttempt>(key))
-    {
-      return asReused(*found);
-    }
-  }
-  auto made = std::make_shared<MapAttempt>();
-  made->key = key;
-  const Hierarchy& levels = run.levels.make(levelOptions(run, plan));
-  made->stages.add(run.levels.stages());
-  if (!made->stages.has("phase2"))
-  {
-    made->reused.emplace_back("phase2");
-  }
-  GridMapResult map = computeMap(run, plan, *made);
-  recordCoarse(run, levels, map, *made);
-  if (made->status.ok())
-  {
-    carryToSurface(run, map.field, *made);
+    carryToSurface(run, *made);
     tellOfRounding(run.options.method, *made);
   }
-  keepMap(run, *made);
+  else if (!isDone)
+  {
+    // Levels that were made again may be others than those that a preview has left a map of.
+    made = makeCoarseMap(run, plan, key);
+    if (made->status.ok())
+    {
+      carryToSurface(run, *made);
+      tellOfRounding(run.options.method, *made);
+    }
+  }
+  if (!found || made->isCarried != found->isCarried)
+  {
+    keepMap(run, *made);
+  }
   return made;
 }
 

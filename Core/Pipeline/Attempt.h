@@ -45,8 +45,9 @@ struct MapAttempt
   Status status;         ///< of the coarse map
   bool hopeless = false; ///< no other triangulation can mend it
   Level coarse;
-  std::vector<FixedVec2> coarseUv; ///< #H of coarse.mesh; also where the status is not ok
-  std::vector<int> coarseTurns;    ///< #V of coarse.mesh
+  std::vector<FixedVec2> coarseUv;         ///< #H of coarse.mesh; also where the status is not ok
+  std::vector<int> coarseTurns;            ///< #V of coarse.mesh
+  std::vector<std::uint8_t> coarseInteger; ///< #V of coarse.mesh, see integerVertices
   Certificate coarseCertificate;
   std::vector<Index> coarseOffenders;  ///< vertices of the surface, where the status is not ok
   std::vector<Vector3> coarseTroubles; ///< their positions
@@ -54,7 +55,8 @@ struct MapAttempt
   std::vector<CurveOutcome> curves;    ///< GridMapResult::curves
   std::vector<Index> curveOffenders; ///< GridMapResult::curveOffenders, as vertices of the surface
 
-  // Where the status is ok.
+  // Where the status is ok and the map was carried to the surface, which for a preview it is not.
+  bool isCarried = false;
   std::vector<FixedVec2> uv; ///< #H of the surface; empty while packed
   PackedMap packed;
   std::vector<int> turns;                  ///< #V of the surface
@@ -109,6 +111,10 @@ std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan);
 
 /// The quads of a map with status ok, whose plan is on the surface; the levels are let go.
 std::shared_ptr<const QuadAttempt> makeQuads(RunContext& run, const Plan& plan, MapAttempt& map);
+
+/// The same on the intermediate level, for a preview.
+std::shared_ptr<const QuadAttempt> makePreview(
+  RunContext& run, const Plan& plan, const MapAttempt& map);
 
 /// Where quads of the coarse map touch themselves: round a small handle or a thin part, where a loop is one or two
 /// quads long, that shows on the coarse map already, and only smaller quads can help. None where this is not the cause

@@ -165,7 +165,10 @@ void reverseMatching(std::vector<std::int8_t>& matching)
   }
 }
 
-void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points)
+namespace
+{
+
+void leaveMeasures(RemeshResult& result, const Frame& frame)
 {
   result.targetEdgeLength *= frame.unit;
   SmallParts& parts = result.smallParts;
@@ -178,6 +181,31 @@ void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vect
     curve.start = frame.toUser(curve.start);
     curve.end = frame.toUser(curve.end);
   }
+}
+
+} // namespace
+
+void leaveFrameAlone(RemeshResult& result, const Frame& frame)
+{
+  leaveMeasures(result, frame);
+  QuadMesh& quads = result.quads;
+  for (Vector3& p : quads.points)
+  {
+    p = frame.toUser(p);
+  }
+  if (frame.reversed)
+  {
+    reverseQuads(quads);
+  }
+  quads.sourceFace.clear();
+  quads.sourceWeights.clear();
+  quads.quadSourceFace.clear();
+  quads.quadSourceWeights.clear();
+}
+
+void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points)
+{
+  leaveMeasures(result, frame);
   if (result.surface.mesh.position.empty())
   {
     return;

@@ -28,6 +28,9 @@ void reverseMap(std::vector<FixedVec2>& uv);
 /// The same of its matching, #H.
 void reverseMatching(std::vector<std::int8_t>& matching);
 
+/// Of a preview, which has no surface: quads and measures. What tells of the mapped mesh goes.
+void leaveFrameAlone(RemeshResult& result, const Frame& frame);
+
 /// All of a result. points: FramedInput::points.
 void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points);
 

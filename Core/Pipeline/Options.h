@@ -44,6 +44,9 @@ struct RemeshOptions
   /// measureStretch.
   bool distortionMetric = false;
   std::size_t maximumNumberOfQuads = 10000000;
+  /// Quads of the intermediate level in place of those of the surface: the same map with the same integers, in a time
+  /// that follows the number of quads. They tell nothing of the surface: no source faces, lines or attributes.
+  bool preview = false;
   int smoothingSteps = 5; ///< of the quads on the surface, see ExtractionOptions
   /// Bytes that the run may take by the estimate; none: what the machine has free.
   std::optional<double> memoryLimit;

@@ -95,7 +95,9 @@ void makeAttempts(RunContext& run, History& history)
     }
     const Attempt& best = history.ofRound();
     run.surface.apply(best.plan);
-    history.addQuads(history.roundHasMap() ? makeQuads(run, best.plan, *best.map) : nullptr);
+    history.addQuads(!history.roundHasMap() ? nullptr
+        : run.options.preview               ? makePreview(run, best.plan, *best.map)
+                                            : makeQuads(run, best.plan, *best.map));
   }
 }
 
@@ -249,9 +251,15 @@ void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& o
 }
 
 /// On the user's surface.
-void leave(SizedSurface& sized, const FramedInput& framed, bool keepsFrame, RemeshResult& result)
+void leave(SizedSurface& sized, const FramedInput& framed, bool keepsFrame, bool isPreview,
+  RemeshResult& result)
 {
   result.frame = framed.frame;
+  if (isPreview)
+  {
+    leaveFrameAlone(result, framed.frame);
+    return;
+  }
   // The store, if there is one, has its triangles for the next run.
   result.surface = sized.surface.use_count() > 1 ? *sized.surface : std::move(*sized.surface);
   if (keepsFrame && result.status.ok())
@@ -273,6 +281,7 @@ void run(SurfaceInput& input, RemeshOptions options, ResultStore* store, PlaceSc
   FramedInput framed = enterFrame(std::move(input), options.threads);
   const Frame& frame = framed.frame;
   places.set(frame.centre, frame.unit, frame.sign);
+  options.mergeCharts = options.mergeCharts && !options.preview;
   const std::optional<double> askedEdgeLength = options.edgeLength;
   if (askedEdgeLength)
   {
@@ -290,7 +299,7 @@ void run(SurfaceInput& input, RemeshOptions options, ResultStore* store, PlaceSc
   {
     runAttempts(sized, frame, options, store, result);
   }
-  leave(sized, framed, options.mergeCharts && !result.mapIsKnown, result);
+  leave(sized, framed, options.mergeCharts && !result.mapIsKnown, options.preview, result);
   if (askedEdgeLength && !options.quads)
   {
     result.targetEdgeLength = *askedEdgeLength; // with every bit

@@ -27,7 +27,7 @@ namespace quadrille
 struct RemeshResult
 {
   Status status;
-  QuadMesh quads;
+  QuadMesh quads; ///< of a preview without all that tells of the mapped mesh, which is then missing
   PreparedSurface
     surface; ///< the finest level that uv belongs to; its hash is that of the surface in its frame
   Frame frame; ///< that the run worked in; all else here is on the user's surface

@@ -6,6 +6,7 @@
 #include "Extraction/QuadShape.h"
 #include "Pipeline/Estimate.h"
 #include "Pipeline/Notices.h"
+#include "Transfer/Transfer.h"
 
 #include <algorithm>
 #include <utility>
@@ -235,6 +236,36 @@ std::shared_ptr<const QuadAttempt> makeQuads(RunContext& run, const Plan& plan, 
   {
     const std::size_t bytes = made->bytes();
     run.store->put(key, std::make_shared<QuadAttempt>(*made), bytes);
+  }
+  return made;
+}
+
+std::shared_ptr<const QuadAttempt> makePreview(
+  RunContext& run, const Plan& plan, const MapAttempt& map)
+{
+  auto made = std::make_shared<QuadAttempt>();
+  const Hierarchy& levels = run.levels.make(levelOptions(run, plan));
+  const double start = secondsNow();
+  TransferOptions transfer;
+  transfer.threads = run.options.threads;
+  const std::vector<FixedVec2> uv = transferToLevel(map.coarse, levels.intermediate,
+    levels.log.intermediateRounds, levels.log, map.coarseUv, transfer);
+  ExtractionOptions options;
+  options.maximumNumberOfQuads = run.options.maximumNumberOfQuads;
+  options.smoothingSteps = 0;
+  options.threads = run.options.threads;
+  ExtractionResult extracted = extractQuads(levels.intermediate.mesh, uv, options);
+  made->stages.add("preview", secondsNow() - start, levels.intermediate.mesh.faceCount(),
+    extracted.mesh.quads.size());
+  run.levels.letGo();
+  if (extracted.status.ok())
+  {
+    made->extraction = extracted;
+    made->quads = std::move(extracted.mesh);
+  }
+  else
+  {
+    made->status = failureOf(extracted.status, run.options.method, map.coarseCertificate);
   }
   return made;
 }

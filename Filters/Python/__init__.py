@@ -180,7 +180,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
            threads=0, maximum_number_of_quads=10000000, smoothing_steps=5,
            memory_limit=0.0, time_limit=0.0, close_handles=0.0, small_components="keep", method="scale-aware",
            final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False,
-           cell_data="centre",
+           cell_data="centre", preview=False,
            progress=None, everything=False):
     """Remeshes a surface with quads only and returns a vtkPolyData.
 
@@ -228,6 +228,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     cell_data: what cell arrays of the quads come from: "centre", the cell under the centre of a quad, or "area", all
         cells under it: the average of real numbers and colours, of whole numbers and strings that with the largest
         part.
+    preview: whether to make the quads of the intermediate level only: the same layout in a fraction of the time. Points
+        lie near the surface, and no arrays of it are carried.
     progress: called as progress(fraction, text); a return value of False (not None) stops the run.
     everything: return a Remeshed with the mapped surface, the feature lines, the info dict and the lines of the layout,
         too. `constraints` of the info dict is a list of dicts, one for each guided region, stroke, curve, valence and
@@ -245,6 +247,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
                cell_data=cell_data,
                small_components=small_components)
     run.SetDistortionMetric(bool(distortion_metric))
+    run.SetPreview(bool(preview))
     run.SetComputeMappedSurface(bool(everything))
     run.KeepLevelsOff()  # there is no next execution
     run.SetInputData(with_requests(
