@@ -3,6 +3,7 @@
 #include "QuadrilleArrayConstraints.h"
 
 #include "Base/DisjointSets.h"
+#include "Evaluation/ConstraintMeasures.h"
 
 #include <algorithm>
 #include <map>
@@ -14,12 +15,6 @@ namespace quadrille
 
 namespace
 {
-
-/// Places at which a constraint is measured, and all of them together, at most: a mean over so many has an error of a
-/// fiftieth of the spread, a tenth of a degree. More of them would take longer than the map of a scan.
-constexpr std::size_t kMostPlaces = 2500;
-constexpr std::size_t kMostPlacesOfAll = 20000;
-constexpr std::size_t kLeastPlaces = 100;
 
 /// Points at one place count as one, or the triangles of a soup were a region each.
 void joinSamePlaces(const SurfaceInput& input, const std::vector<bool>& used, DisjointSets& sets)
@@ -177,16 +172,6 @@ std::vector<ArrayConstraints::Valence> askedValences(const SurfaceInput& input)
 } // namespace
 
 //------------------------------------------------------------------------------
-std::size_t mostPlacesOf(std::size_t guides)
-{
-  return std::clamp(kMostPlacesOfAll / std::max<std::size_t>(guides, 1), kLeastPlaces, kMostPlaces);
-}
-
-std::size_t strideOf(std::size_t count, std::size_t most)
-{
-  return std::max<std::size_t>((count + most - 1) / most, 1);
-}
-
 ArrayConstraints arrayConstraints(const ConvertedSurface& surface)
 {
   ArrayConstraints asked;

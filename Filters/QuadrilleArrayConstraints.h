@@ -40,11 +40,6 @@ struct ArrayConstraints
   bool sizes = false;
 };
 
-/// The most places at which each of so many guides, or a curve, is measured.
-std::size_t mostPlacesOf(std::size_t guides);
-/// From one of `count` elements to the next, so that at most `most` are taken; at least 1.
-std::size_t strideOf(std::size_t count, std::size_t most);
-
 /// Of a surface to which no drawn constraint was added.
 ArrayConstraints arrayConstraints(const ConvertedSurface& surface);
 

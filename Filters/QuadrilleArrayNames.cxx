@@ -3,8 +3,8 @@
 #include "QuadrilleArrayNames.h"
 
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "QuadrilleConvert.h"
-#include "QuadrilleRefuse.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>

@@ -4,8 +4,8 @@
 
 #include "Pipeline/ResultStore.h"
 
+#include "Base/Refuse.h"
 #include "QuadrilleRanks.h"
-#include "QuadrilleRefuse.h"
 
 #include <vtkDataAssembly.h>
 #include <vtkDataObject.h>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/PlaceText.h"
+#include "Evaluation/LinesInQuads.h"
+#include "Evaluation/QuadPlaces.h"
 #include "QuadrilleConstraints.h"
-#include "QuadrilleLinesInQuads.h"
 #include "QuadrilleNewArray.h"
-#include "QuadrilleQuadPlaces.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

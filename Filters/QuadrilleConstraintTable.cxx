@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadrilleConstraintTable.h"
 
-#include "Base/Angles.h"
-#include "Base/Progress.h"
-#include "QuadrilleLinesInQuads.h"
+#include "Evaluation/ConstraintMeasures.h"
+#include "Evaluation/LinesInQuads.h"
 #include "QuadrilleNewArray.h"
-#include "QuadrilleQuadPlaces.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
@@ -30,26 +28,12 @@ namespace
 {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-/// Degrees on average, edge lengths at most, and the factor on average, up to which a constraint counts as met.
-constexpr double kMetAngle = 5;
-constexpr double kMetDistance = 0.1;
-constexpr double kMetFactor = 1.25;
 /// A share of a guided region above this is worth a word.
 constexpr double kNotableShare = 0.1;
-/// Places on each edge of a curve that is as long as an edge of the quads.
-constexpr double kPlacesAnEdge = 8;
-
-std::string textOf(double number)
+ConstraintWord worded(const char* kind, vtkIdType source, const ConstraintMeasure& measure)
 {
-  std::ostringstream text;
-  text.precision(3);
-  text << number;
-  return text.str();
-}
-
-std::string percentText(double share)
-{
-  return textOf(std::round(100 * share)) + " %";
+  return { kind, source, measure.place, measure.isMet, measure.deviation, measure.deviation95,
+    measure.unit, measure.reason };
 }
 
 ConstraintWord unknownWord(const char* kind, vtkIdType source, const char* unit, std::string reason)
@@ -63,55 +47,11 @@ ConstraintWord unknownWord(const char* kind, vtkIdType source, const char* unit,
   return word;
 }
 
-/// A deviation, and how much it counts.
-struct Measured
-{
-  double value = 0;
-  double weight = 0;
-};
-
-double meanOf(const std::vector<Measured>& values)
-{
-  double sum = 0, weights = 0;
-  for (const Measured& m : values)
-  {
-    sum += m.weight * m.value;
-    weights += m.weight;
-  }
-  return weights > 0 ? sum / weights : kUnknown;
-}
-
-/// The least value that is not exceeded by 95 % of the weight.
-double percentile95(std::vector<Measured> values)
-{
-  std::sort(values.begin(), values.end(),
-    [](const Measured& a, const Measured& b) { return a.value < b.value; });
-  double weights = 0;
-  for (const Measured& m : values)
-  {
-    weights += m.weight;
-  }
-  double below = 0;
-  for (const Measured& m : values)
-  {
-    below += m.weight;
-    if (below >= 0.95 * weights)
-    {
-      return m.value;
-    }
-  }
-  return kUnknown;
-}
-
-double angleBetweenLines(const Vector3& a, const Vector3& b)
-{
-  return std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
-}
-
 class Judge
 {
 public:
-  Judge(const AskedConstraints& asked, const QuadMesh& mesh) : asked_(asked), mesh_(mesh)
+  Judge(const AskedConstraints& asked, const QuadMesh& mesh)
+    : asked_(asked), mesh_(mesh), measures_(mesh)
   {
     std::size_t guides = asked.arrays.guides.size();
     for (std::size_t i = 0; i < asked.placed.size(); ++i)
@@ -152,88 +92,39 @@ private:
   ConstraintWord guide(const char* kind, vtkIdType source,
     const std::vector<GuidedPolygon>& measured, const std::vector<Index>& polygons,
     std::optional<std::size_t> stroke);
-  ConstraintWord feature(vtkIdType source, const std::vector<std::array<Vector3, 2>>& edges);
-  ConstraintWord valenceAt(vtkIdType source, const Vector3& place, int asked);
+  ConstraintWord feature(vtkIdType source, const std::vector<std::array<Vector3, 2>>& edges)
+  {
+    return worded("feature curve", source, measures_.curve(edges));
+  }
+  ConstraintWord valenceAt(vtkIdType source, const Vector3& place, int asked)
+  {
+    return worded("valence", source, measures_.valence(place, asked));
+  }
   ConstraintWord line(const PlacedConstraint& constraint);
   std::string whyNotAlong(const std::vector<GuidedPolygon>& measured,
     const std::vector<Index>& polygons, std::optional<std::size_t> stroke,
     double irregularShare) const;
-  bool isAtIrregularVertex(Index quad) const;
 
   const AskedConstraints& asked_;
   const QuadMesh& mesh_;
   std::map<Index, std::size_t> strokeOf_; ///< polygons under strokes
   std::size_t mostPlaces_ = mostPlacesOf(1);
-  std::optional<ReachedValences> valences_; ///< these are made when they are needed first
-  std::optional<NearestQuads> quads_;
-  std::optional<NearestEdges> edges_;
-  std::optional<LinesInQuads> lines_;
+  ConstraintMeasures measures_;
+  std::optional<LinesInQuads> lines_; ///< made when it is needed first
 };
-
-bool Judge::isAtIrregularVertex(Index quad) const
-{
-  return std::any_of(mesh_.quads[quad].begin(), mesh_.quads[quad].end(),
-    [this](Index p)
-    { return mesh_.valence[p] + (mesh_.onBoundary[p] != 0 ? 1 : 0) != kRegularValence; });
-}
 
 ConstraintWord Judge::guide(const char* kind, vtkIdType source,
   const std::vector<GuidedPolygon>& measured, const std::vector<Index>& polygons,
   std::optional<std::size_t> stroke)
 {
+  double irregularShare = 0;
   ConstraintWord word =
-    placed(unknownWord(kind, source, "degrees", "no quads were made"), measured.front().centre);
-  if (mesh_.quads.empty())
+    worded(kind, source, measures_.guide(measured, mostPlaces_, &irregularShare));
+  // Where nothing was measured the reason says why.
+  if (!word.isMet && !std::isnan(word.deviation))
   {
-    return word;
+    word.reason += whyNotAlong(measured, polygons, stroke, irregularShare);
   }
-  if (!quads_)
-  {
-    quads_.emplace(mesh_);
-  }
-  std::vector<Measured> angles;
-  double irregular = 0, area = 0, worst = -1;
-  const std::size_t stride = strideOf(measured.size(), mostPlaces_);
-  for (std::size_t i = 0; i < measured.size(); i += stride)
-  {
-    pollNowAndThen(i);
-    const GuidedPolygon& asked = measured[i];
-    if (!(asked.area > 0) || asked.direction.isZero(0))
-    {
-      continue;
-    }
-    const std::optional<NearestQuads::Place> there = quads_->at(asked.centre);
-    if (!there)
-    {
-      continue;
-    }
-    double angle = kPi / 2;
-    for (const Vector3& along : there->along)
-    {
-      const Vector3 inPlane = along - asked.normal * asked.normal.dot(along);
-      angle = std::min(angle, angleBetweenLines(inPlane, asked.direction));
-    }
-    angles.push_back({ angle * 180 / kPi, asked.area });
-    area += asked.area;
-    irregular += isAtIrregularVertex(there->quad) ? asked.area : 0;
-    if (angle > worst)
-    {
-      worst = angle;
-      word.place = asked.centre;
-    }
-  }
-  if (angles.empty())
-  {
-    word.reason = "its directions are normal to the surface everywhere: give directions along it";
-    return word;
-  }
-  word.deviation = meanOf(angles);
-  word.deviation95 = percentile95(std::move(angles));
-  word.isMet = word.deviation <= kMetAngle;
-  word.reason = word.isMet ? ""
-                           : "the quads' edges are " + textOf(word.deviation) +
-      " degrees off on average, at most " + textOf(kMetAngle) + " count as met" +
-      whyNotAlong(measured, polygons, stroke, irregular / area);
   return word;
 }
 
@@ -268,83 +159,10 @@ std::string Judge::whyNotAlong(const std::vector<GuidedPolygon>& measured,
   }
   if (least < 1)
   {
-    text << "; its weight is " << textOf(least) << (stroke ? "" : " at least")
+    text << "; its weight is " << shortText(least) << (stroke ? "" : " at least")
          << ", a larger one is followed more closely";
   }
   return text.str();
-}
-
-ConstraintWord Judge::feature(vtkIdType source, const std::vector<std::array<Vector3, 2>>& curve)
-{
-  ConstraintWord word = placed(
-    unknownWord("feature curve", source, "edge lengths", "no quads were made"), curve.front()[0]);
-  if (mesh_.quads.empty())
-  {
-    return word;
-  }
-  if (!edges_)
-  {
-    edges_.emplace(mesh_);
-  }
-  double length = 0;
-  for (const auto& [a, b] : curve)
-  {
-    length += (b - a).norm();
-  }
-  const auto first = edges_->at(curve.front()[0]);
-  const double step = std::max(
-    (first ? first->length : 0) / kPlacesAnEdge, length / static_cast<double>(mostPlacesOf(1)));
-  const std::size_t stride = strideOf(curve.size(), mostPlacesOf(1));
-  double farthest = -1, lengths = 0;
-  std::size_t places = 0;
-  for (std::size_t k = 0; k < curve.size(); k += stride)
-  {
-    pollNowAndThen(k);
-    const auto& [a, b] = curve[k];
-    const int parts = step > 0 ? static_cast<int>(std::ceil((b - a).norm() / step)) : 1;
-    for (int i = 0; i <= parts; ++i)
-    {
-      const Vector3 p = a + (b - a) * (parts > 0 ? static_cast<double>(i) / parts : 0);
-      const std::optional<NearestEdges::Place> there = edges_->at(p);
-      lengths += there ? there->length : 0;
-      places += there ? 1 : 0;
-      if (there && there->distance > farthest)
-      {
-        farthest = there->distance;
-        word.place = p;
-      }
-    }
-  }
-  if (places == 0 || !(lengths > 0))
-  {
-    word.reason = "no edges of quads were found near it";
-    return word;
-  }
-  word.deviation = farthest / (lengths / static_cast<double>(places));
-  word.isMet = word.deviation <= kMetDistance;
-  word.reason = word.isMet ? ""
-                           : "the quads' edges are up to " + textOf(word.deviation) +
-      " edge lengths away from it, at most " + textOf(kMetDistance) + " count as met";
-  return word;
-}
-
-ConstraintWord Judge::valenceAt(vtkIdType source, const Vector3& place, int asked)
-{
-  ConstraintWord word =
-    placed(unknownWord("valence", source, "valence", "no quads were made"), place);
-  if (mesh_.quads.empty())
-  {
-    return word;
-  }
-  if (!valences_)
-  {
-    valences_.emplace(mesh_);
-  }
-  const int got = valences_->at(place);
-  word.deviation = got - asked;
-  word.isMet = got == asked;
-  word.reason = word.isMet ? "" : "asked " + std::to_string(asked) + ", got " + std::to_string(got);
-  return word;
 }
 
 /// By how much the sizes of the quads differ, against each other, from those asked for: the logarithms of the ratios
@@ -356,7 +174,7 @@ ConstraintWord Judge::sizes(vtkDataArray* sizes) const
   {
     return word;
   }
-  std::vector<Measured> ratios;
+  std::vector<WeightedDeviation> ratios;
   std::vector<double> logarithms;
   std::vector<std::size_t> quadOf;
   for (std::size_t q = 0; q < mesh_.quads.size(); ++q)
@@ -403,7 +221,8 @@ ConstraintWord Judge::sizes(vtkDataArray* sizes) const
   word.isMet = word.deviation <= kMetFactor;
   word.reason = word.isMet ? ""
                            : "the sizes of the quads differ from those asked for by a factor of " +
-      textOf(word.deviation) + " on average, at most " + textOf(kMetFactor) + " counts as met";
+      shortText(word.deviation) + " on average, at most " + shortText(kMetFactor) +
+      " counts as met";
   return word;
 }
 

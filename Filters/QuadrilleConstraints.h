@@ -6,6 +6,7 @@
 
 #include "Extraction/Extraction.h"
 #include "GridMap/CurveIsolines.h"
+#include "Mesh/DrawnConstraints.h"
 #include "QuadrilleConvert.h"
 
 #include <vtkSmartPointer.h>
@@ -35,54 +36,6 @@ struct ConstraintInputs
   vtkPolyData* surface = nullptr;     ///< for its array ConnectId
   double strokeWeight = 1;            ///< in (0, 1]
   int valence = 3;                    ///< 2 to 8
-};
-
-enum class ConstraintKind
-{
-  Feature = 0,
-  Stroke = 1,
-  Valence = 2, ///< 3 in the output where it is not met; connections and cycles the same
-  Connection = 4,
-  Cycle = 6
-};
-
-/// What arrays and messages call it.
-const char* nameOf(ConstraintKind kind);
-
-/// A polygon with a direction that the quads' edges there should have.
-struct GuidedPolygon
-{
-  Index polygon = kInvalidIndex;
-  Vector3 centre = Vector3::Zero();
-  Vector3 normal = Vector3::Zero();    ///< unit; zero where the polygon has no area
-  Vector3 direction = Vector3::Zero(); ///< unit, in its plane; zero where it is normal to that
-  double area = 0;
-  double weight = 1; ///< in (0, 1]
-};
-
-/// polygon: with corners; direction: of any length but 0.
-GuidedPolygon guidedPolygon(
-  const SurfaceInput& input, Index polygon, const Vector3& direction, double weight);
-
-/// Where a constraint lies on the surface.
-struct PlacedConstraint
-{
-  ConstraintKind kind = ConstraintKind::Feature;
-  vtkIdType source = 0;      ///< line, or point, of its input
-  std::vector<Vector3> path; ///< of one point for a valence, and for what is not followed
-  double distance =
-    0; ///< of the farthest given point to its place on the surface, in units of the input
-  double weight = 0;                 ///< of strokes
-  int valence = 0;                   ///< asked for
-  std::vector<GuidedPolygon> guided; ///< of strokes: ascending by polygon
-  std::size_t curve = 0; ///< of connections and cycles: its place in SurfaceInput::curves
-  std::string whyNot;    ///< empty, or why it is not followed; its path is then a point
-};
-
-struct PlacedConstraints
-{
-  std::vector<PlacedConstraint> placed;
-  std::vector<std::string> notices; ///< what the user should know
 };
 
 /// Features: every point of a curve goes to the nearest point of the surface's polygons, and between two of them runs

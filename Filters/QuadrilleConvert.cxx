@@ -4,11 +4,11 @@
 
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "Mesh/Topology.h"
 #include "QuadrilleArrayNames.h"
 #include "QuadrilleAttributes.h"
 #include "QuadrilleNewArray.h"
-#include "QuadrilleRefuse.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -902,47 +902,6 @@ ConvertedSurface convertSurface(vtkPolyData* data, const std::string& patchArray
   surface.input.targetValences = pointValences(data);
   surface.input.sizing = pointSizes(data);
   return surface;
-}
-
-void addGuideMarks(SurfaceInput& input, const std::vector<GuideMark>& marks)
-{
-  if (marks.empty())
-  {
-    return;
-  }
-  const bool full = input.guideWeights.empty() &&
-    std::all_of(marks.begin(), marks.end(), [](const GuideMark& m) { return m.weight == 1; });
-  input.guideDirections.resize(polygonCount(input), Vector3::Zero());
-  if (!full)
-  {
-    input.guideWeights.resize(polygonCount(input), 1);
-  }
-  for (const GuideMark& mark : marks)
-  {
-    input.guideDirections[mark.polygon] = mark.direction;
-    if (!full)
-    {
-      input.guideWeights[mark.polygon] = mark.weight;
-    }
-  }
-}
-
-void addFeatureMarks(SurfaceInput& input, const std::vector<FeatureMark>& marks)
-{
-  if (marks.empty())
-  {
-    return;
-  }
-  input.featureEdges.resize(polygonCount(input));
-  for (const FeatureMark& mark : marks)
-  {
-    if (mark.polygon >= input.featureEdges.size())
-    {
-      refuse("a feature is marked on polygon ", mark.polygon, ", but there are only ",
-        input.featureEdges.size());
-    }
-    input.featureEdges[mark.polygon] |= mark.bits;
-  }
 }
 
 //------------------------------------------------------------------------------

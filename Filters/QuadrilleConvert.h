@@ -14,6 +14,7 @@
 #include "Base/FixedPoint.h"
 #include "GridMap/GridMap.h"
 #include "Hierarchy/Hierarchy.h"
+#include "Mesh/DrawnConstraints.h"
 #include "Mesh/Surface.h"
 
 #include <vtkSmartPointer.h>
@@ -62,21 +63,6 @@ constexpr const char* kLayoutPatch = "LayoutPatch";
 constexpr const char* kQuadNormals = "QuadNormals";
 }
 
-/// Feature bits of one polygon (see SurfaceInput::featureEdges).
-struct FeatureMark
-{
-  Index polygon = 0;
-  std::uint8_t bits = 0;
-};
-
-/// Direction that a guiding stroke gives to one polygon.
-struct GuideMark
-{
-  Index polygon = 0;
-  Vector3 direction = Vector3::Zero(); ///< unit
-  double weight = 1;                   ///< in (0, 1]
-};
-
 /// A surface as Core wants it and the way back from its polygons to the cells of the vtkPolyData.
 struct ConvertedSurface
 {
@@ -101,12 +87,6 @@ struct ConvertedSurface
 /// Throws InvalidInput naming the cell or array that is at fault.
 ConvertedSurface convertSurface(
   vtkPolyData* surface, const std::string& patchArray, int threads = 1);
-
-/// Sets directions and weights of polygons under strokes.
-void addGuideMarks(SurfaceInput& input, const std::vector<GuideMark>& marks);
-
-/// Sets the marks' bits in input.featureEdges; throws InvalidInput for a polygon out of range.
-void addFeatureMarks(SurfaceInput& input, const std::vector<FeatureMark>& marks);
 
 /// Points in double precision, triangles, FeatureEdges and Sizing where there are any.
 vtkSmartPointer<vtkPolyData> writeMesh(const Mesh& mesh);

@@ -4,10 +4,10 @@
 
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "Extraction/MapWelding.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleFrame.h"
-#include "QuadrilleRefuse.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleSharedLevels.h"
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadrilleSurfaces.h"
 
+#include "Base/Refuse.h"
 #include "Base/Types.h"
 #include "QuadrillePieces.h"
-#include "QuadrilleRefuse.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>

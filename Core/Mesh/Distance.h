@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Distances of points.
+/// Distances of points, and nearest places.
 #pragma once
 
 #include "Base/Types.h"
@@ -17,6 +17,34 @@ inline double distanceToSegment(const Vector3& p, const Vector3& a, const Vector
   const double squared = ab.squaredNorm();
   const double t = squared > 0 ? std::clamp((p - a).dot(ab) / squared, 0.0, 1.0) : 0.0;
   return (p - a - t * ab).norm();
+}
+
+/// The place on the triangle a b c nearest to p; the triangle may have no area.
+inline Vector3 nearestOnTriangle(
+  const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c)
+{
+  const auto onSegment = [&p](const Vector3& from, const Vector3& to) -> Vector3
+  {
+    const Vector3 along = to - from;
+    const double squared = along.squaredNorm();
+    const double t = squared > 0 ? std::clamp((p - from).dot(along) / squared, 0.0, 1.0) : 0.0;
+    return from + t * along;
+  };
+  const Vector3 normal = (b - a).cross(c - a);
+  const double area = normal.squaredNorm();
+  const double u = normal.dot((c - b).cross(p - b));
+  const double v = normal.dot((a - c).cross(p - c));
+  const double w = normal.dot((b - a).cross(p - a));
+  if (area > 0 && u >= 0 && v >= 0 && w >= 0)
+  {
+    return (u * a + v * b + w * c) / (u + v + w);
+  }
+  Vector3 nearest = onSegment(a, b);
+  for (const Vector3& other : { onSegment(b, c), onSegment(c, a) })
+  {
+    nearest = (p - other).squaredNorm() < (p - nearest).squaredNorm() ? other : nearest;
+  }
+  return nearest;
 }
 
 } // namespace quadrille

@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "QuadrilleQuadPlaces.h"
+#include "Evaluation/QuadPlaces.h"
 
+#include "Mesh/Distance.h"
 #include "Mesh/Guides.h"
-
-#include <vtkCellArray.h>
-#include <vtkPoints.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,35 +13,6 @@ namespace quadrille
 
 namespace
 {
-
-void setPoints(const QuadMesh& mesh, vtkPolyData* data)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (const Vector3& p : mesh.points)
-  {
-    points->InsertNextPoint(p.data());
-  }
-  data->SetPoints(points);
-}
-
-/// The nearest cell and the place on it.
-struct NearestCell
-{
-  vtkIdType cell = -1;
-  Vector3 point = Vector3::Zero();
-  double distance = 0;
-};
-
-NearestCell nearestCell(vtkStaticCellLocator* locator, vtkGenericCell* work, const Vector3& p)
-{
-  NearestCell found;
-  int part = 0;
-  double distance2 = 0;
-  locator->FindClosestPoint(p.data(), found.point.data(), work, found.cell, part, distance2);
-  found.distance = std::sqrt(distance2);
-  return found;
-}
 
 /// Weights of the corners in the plane of the triangle; a place on it has weights from 0 to 1.
 Vector3 weightsIn(const std::array<Vector3, 3>& corners, const Vector3& p)
@@ -69,61 +38,77 @@ Vector3 weightsIn(const std::array<Vector3, 3>& corners, const Vector3& p)
 //------------------------------------------------------------------------------
 ReachedValences::ReachedValences(const QuadMesh& mesh) : mesh_(mesh)
 {
-  setPoints(mesh, data_);
-  tolerance_ = 1e-6 * data_->GetLength();
-  if (!mesh.points.empty())
+  std::vector<BoxTree::Box> boxes;
+  BoxTree::Box all;
+  for (const Vector3& p : mesh.points)
   {
-    locator_->SetDataSet(data_);
-    locator_->BuildLocator();
+    all = boxes.empty() ? BoxTree::Box{ p, p } : all;
+    all = { all.low.cwiseMin(p), all.high.cwiseMax(p) };
+    boxes.push_back({ p, p });
   }
+  tolerance_ = 1e-6 * (all.high - all.low).norm();
+  tree_ = BoxTree(boxes, 1);
+}
+
+std::optional<Index> ReachedValences::pointAt(const Vector3& p) const
+{
+  const Index found =
+    tree_.nearest(p, [&](Index i) { return (mesh_.points[i] - p).squaredNorm(); });
+  if (found == kInvalidIndex || (mesh_.points[found] - p).norm() > tolerance_)
+  {
+    return std::nullopt;
+  }
+  return found;
 }
 
 int ReachedValences::at(const Vector3& p) const
 {
-  const vtkIdType found = mesh_.points.empty() ? -1 : locator_->FindClosestPoint(p.data());
-  if (found < 0 || (mesh_.points[static_cast<std::size_t>(found)] - p).norm() > tolerance_)
-  {
-    return kRegularValence;
-  }
-  const auto i = static_cast<std::size_t>(found);
-  return mesh_.valence[i] + (mesh_.onBoundary[i] != 0 ? 1 : 0);
+  const std::optional<Index> i = pointAt(p);
+  return i ? mesh_.valence[*i] + (mesh_.onBoundary[*i] != 0 ? 1 : 0) : kRegularValence;
 }
 
 //------------------------------------------------------------------------------
 NearestQuads::NearestQuads(const QuadMesh& mesh) : mesh_(mesh)
 {
-  setPoints(mesh, data_);
-  vtkNew<vtkCellArray> triangles;
-  for (const std::array<Index, 4>& quad : mesh.quads)
+  std::vector<BoxTree::Box> boxes(2 * mesh.quads.size());
+  for (Index i = 0; i < boxes.size(); ++i)
   {
-    for (const std::size_t last : { 2, 3 }) // 0 1 2 and 0 2 3
-    {
-      triangles->InsertNextCell({ static_cast<vtkIdType>(quad[0]),
-        static_cast<vtkIdType>(quad[last - 1]), static_cast<vtkIdType>(quad[last]) });
-    }
+    const std::array<Vector3, 3> corner = triangle(i);
+    boxes[i] = { corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]),
+      corner[0].cwiseMax(corner[1]).cwiseMax(corner[2]) };
   }
-  data_->SetPolys(triangles);
-  locator_->SetDataSet(data_);
-  locator_->BuildLocator();
+  tree_ = BoxTree(boxes, 1);
+}
+
+/// 0 1 2 and 0 2 3 of a quad.
+std::array<Vector3, 3> NearestQuads::triangle(Index i) const
+{
+  const std::array<Index, 4>& quad = mesh_.quads[i / 2];
+  const std::size_t second = i % 2 == 0 ? 1 : 2;
+  return { mesh_.points[quad[0]], mesh_.points[quad[second]], mesh_.points[quad[second + 1]] };
 }
 
 std::optional<NearestQuads::Place> NearestQuads::at(const Vector3& p) const
 {
-  const NearestCell nearest = nearestCell(locator_, cell_, p);
-  if (nearest.cell < 0)
+  const auto placeOn = [&](Index i)
+  {
+    const std::array<Vector3, 3> corner = triangle(i);
+    return nearestOnTriangle(p, corner[0], corner[1], corner[2]);
+  };
+  const Index nearest = tree_.nearest(p, [&](Index i) { return (placeOn(i) - p).squaredNorm(); });
+  if (nearest == kInvalidIndex)
   {
     return std::nullopt;
   }
   Place place;
-  place.quad = static_cast<Index>(nearest.cell / 2);
-  const bool isSecond = nearest.cell % 2 != 0;
+  place.quad = nearest / 2;
+  const bool isSecond = nearest % 2 != 0;
   const std::array<Index, 4>& quad = mesh_.quads[place.quad];
   std::array<Vector3, 4> corners;
   std::transform(
     quad.begin(), quad.end(), corners.begin(), [this](Index i) { return mesh_.points[i]; });
   // Coordinates in the unit square, where the corners are (0, 0), (1, 0), (1, 1), (0, 1).
-  const Vector3 weights =
-    weightsIn({ corners[0], corners[isSecond ? 2 : 1], corners[isSecond ? 3 : 2] }, nearest.point);
+  const Vector3 weights = weightsIn(triangle(nearest), placeOn(nearest));
   const double u = isSecond ? weights[1] : weights[1] + weights[2];
   const double v = isSecond ? weights[1] + weights[2] : weights[2];
   const Vector3 alongU = (1 - v) * (corners[1] - corners[0]) + v * (corners[2] - corners[3]);
@@ -146,26 +131,31 @@ NearestEdges::NearestEdges(const QuadMesh& mesh) : mesh_(mesh)
   }
   std::sort(edges_.begin(), edges_.end());
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-  setPoints(mesh, data_);
-  vtkNew<vtkCellArray> lines;
-  for (const std::array<Index, 2>& edge : edges_)
+  std::vector<BoxTree::Box> boxes;
+  for (const auto& [a, b] : edges_)
   {
-    lines->InsertNextCell({ static_cast<vtkIdType>(edge[0]), static_cast<vtkIdType>(edge[1]) });
+    boxes.push_back(
+      { mesh.points[a].cwiseMin(mesh.points[b]), mesh.points[a].cwiseMax(mesh.points[b]) });
   }
-  data_->SetLines(lines);
-  locator_->SetDataSet(data_);
-  locator_->BuildLocator();
+  tree_ = BoxTree(boxes, 1);
 }
 
 std::optional<NearestEdges::Place> NearestEdges::at(const Vector3& p) const
 {
-  const NearestCell nearest = nearestCell(locator_, cell_, p);
-  if (nearest.cell < 0)
+  const auto distance = [&](Index i)
+  { return distanceToSegment(p, mesh_.points[edges_[i][0]], mesh_.points[edges_[i][1]]); };
+  const Index nearest = tree_.nearest(p,
+    [&](Index i)
+    {
+      const double d = distance(i);
+      return d * d;
+    });
+  if (nearest == kInvalidIndex)
   {
     return std::nullopt;
   }
-  const std::array<Index, 2>& edge = edges_[static_cast<std::size_t>(nearest.cell)];
-  return Place{ nearest.distance, (mesh_.points[edge[0]] - mesh_.points[edge[1]]).norm() };
+  const std::array<Index, 2>& edge = edges_[nearest];
+  return Place{ distance(nearest), (mesh_.points[edge[0]] - mesh_.points[edge[1]]).norm() };
 }
 
 } // namespace quadrille

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "QuadrilleLinesInQuads.h"
+#include "Evaluation/LinesInQuads.h"
 
 #include "Mesh/Distance.h"
 
@@ -64,8 +64,9 @@ std::vector<Vector3> LinesInQuads::chainOf(
   std::vector<Index> chain;
   if (constraint.kind == ConstraintKind::Cycle)
   {
-    chain = chains_.closedNear(
-      std::vector<Vector3>(constraint.path.begin(), constraint.path.end() - 1), kReachOfCycle * edgeLength_);
+    chain =
+      chains_.closedNear(std::vector<Vector3>(constraint.path.begin(), constraint.path.end() - 1),
+        kReachOfCycle * edgeLength_);
   }
   else if (outcome.from != kInvalidIndex)
   {

@@ -4,12 +4,7 @@
 #pragma once
 
 #include "Extraction/Extraction.h"
-
-#include <vtkGenericCell.h>
-#include <vtkNew.h>
-#include <vtkPolyData.h>
-#include <vtkStaticCellLocator.h>
-#include <vtkStaticPointLocator.h>
+#include "Mesh/BoxTree.h"
 
 #include <array>
 #include <optional>
@@ -23,13 +18,15 @@ namespace quadrille
 class ReachedValences
 {
 public:
+  /// Here, and below, mesh stays as it is while the object is used.
   explicit ReachedValences(const QuadMesh& mesh);
   int at(const Vector3& p) const;
+  /// The point of the quads at the place, if there is one.
+  std::optional<Index> pointAt(const Vector3& p) const;
 
 private:
   const QuadMesh& mesh_;
-  vtkNew<vtkPolyData> data_;
-  vtkNew<vtkStaticPointLocator> locator_;
+  BoxTree tree_;
   double tolerance_ = 0;
 };
 
@@ -44,15 +41,14 @@ public:
     std::array<Vector3, 2> along;
   };
 
-  /// mesh: has quads.
   explicit NearestQuads(const QuadMesh& mesh);
   std::optional<Place> at(const Vector3& p) const;
 
 private:
+  std::array<Vector3, 3> triangle(Index i) const;
+
   const QuadMesh& mesh_;
-  vtkNew<vtkPolyData> data_;
-  vtkNew<vtkStaticCellLocator> locator_;
-  vtkNew<vtkGenericCell> cell_;
+  BoxTree tree_; ///< of two triangles a quad
 };
 
 /// The edge of the quads nearest to a place.
@@ -65,16 +61,13 @@ public:
     double length = 0;   ///< of the edge
   };
 
-  /// mesh: has quads.
   explicit NearestEdges(const QuadMesh& mesh);
   std::optional<Place> at(const Vector3& p) const;
 
 private:
   const QuadMesh& mesh_;
   std::vector<std::array<Index, 2>> edges_;
-  vtkNew<vtkPolyData> data_;
-  vtkNew<vtkStaticCellLocator> locator_;
-  vtkNew<vtkGenericCell> cell_;
+  BoxTree tree_;
 };
 
 } // namespace quadrille

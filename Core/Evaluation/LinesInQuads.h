@@ -4,7 +4,8 @@
 #pragma once
 
 #include "Extraction/QuadChains.h"
-#include "QuadrilleConstraints.h"
+#include "GridMap/CurveIsolines.h"
+#include "Mesh/DrawnConstraints.h"
 
 #include <utility>
 #include <vector>

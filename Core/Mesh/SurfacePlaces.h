@@ -3,15 +3,10 @@
 /// Places, edges and paths of a surface as the user handed it in, for what is drawn beside it.
 #pragma once
 
-#include "Base/Types.h"
+#include "Mesh/BoxTree.h"
 #include "Mesh/Surface.h"
 
-#include <vtkGenericCell.h>
-#include <vtkNew.h>
-#include <vtkPolyData.h>
-#include <vtkStaticCellLocator.h>
-#include <vtkStaticPointLocator.h>
-
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -47,9 +42,13 @@ double meanEdge(const SurfaceInput& input, Index polygon);
 /// The diagonal of the box round all points.
 double diagonalOf(const SurfaceInput& input);
 
+/// Throws InvalidInput, naming the polygon or the point, where offsets or ids are out of range, or a coordinate that a
+/// polygon uses is not finite.
+void requirePolygons(const SurfaceInput& input);
+
 /// The nearest place on the polygons, and the nearest of the points that they use: an isolated one would be nobody's
-/// edge.
-class Snapper
+/// edge. Of places that are equally near, that with the lowest id.
+class SurfacePlaces
 {
 public:
   struct Place
@@ -58,18 +57,28 @@ public:
     Vector3 point = Vector3::Zero();
   };
 
-  explicit Snapper(const SurfaceInput& input);
+  /// input: has a polygon with corners, and its points and polygons stay as they are while this is used. Throws as
+  /// requirePolygons does.
+  explicit SurfacePlaces(const SurfaceInput& input, int threads = 1);
+
   Index nearestCorner(const Vector3& p) const;
   /// Throws InvalidInput for a point that is not finite.
   Place nearestPlace(const Vector3& p) const;
+  const EdgeGraph& edges() const { return edges_; }
+  double diagonal() const { return diagonal_; }
+  /// An edge from the point has one polygon only.
+  bool isOnBoundary(Index point) const;
 
 private:
-  vtkNew<vtkPolyData> polygons_;
-  vtkNew<vtkStaticCellLocator> polygonLocator_;
-  vtkNew<vtkGenericCell> cell_;
-  vtkNew<vtkPolyData> corners_;
-  vtkNew<vtkStaticPointLocator> cornerLocator_;
-  std::vector<Index> id_;
+  std::array<Vector3, 3> triangle(Index i) const;
+
+  const SurfaceInput& input_;
+  std::vector<Index> corners_;         ///< points that polygons use
+  std::vector<Index> trianglePoints_;  ///< empty where all polygons are triangles
+  std::vector<Index> trianglePolygon_; ///< the same
+  BoxTree cornerTree_, triangleTree_;
+  EdgeGraph edges_;
+  double diagonal_ = 0;
 };
 
 } // namespace quadrille

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/BoxTree.h"
+
+#include "Base/Parallel.h"
+#include "Mesh/SpaceFillingOrder.h"
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr std::size_t kBoxChunk = 4096;
+
+} // namespace
+
+BoxTree::BoxTree(const std::vector<Box>& boxes, int threads)
+{
+  if (boxes.empty())
+  {
+    return;
+  }
+  std::vector<Vector3> centres(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+  {
+    centres[i] = 0.5 * (boxes[i].low + boxes[i].high);
+  }
+  items_ = spaceFillingOrder(centres, threads);
+  const auto addLevel = [&](std::size_t count, const auto& boxOf)
+  {
+    std::vector<Box> level((count + kChildren - 1) / kChildren);
+    parallelFor(level.size(), kBoxChunk, threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t k = begin; k < end; ++k)
+        {
+          level[k] = boxOf(kChildren * k);
+          for (std::size_t i = kChildren * k + 1; i < std::min(kChildren * (k + 1), count); ++i)
+          {
+            const Box& box = boxOf(i);
+            level[k].low = level[k].low.cwiseMin(box.low);
+            level[k].high = level[k].high.cwiseMax(box.high);
+          }
+        }
+      });
+    levels_.push_back(std::move(level));
+  };
+  addLevel(boxes.size(), [&](std::size_t i) -> const Box& { return boxes[items_[i]]; });
+  while (levels_.back().size() > 1)
+  {
+    const std::vector<Box> below = levels_.back();
+    addLevel(below.size(), [&](std::size_t i) -> const Box& { return below[i]; });
+  }
+}
+
+} // namespace quadrille

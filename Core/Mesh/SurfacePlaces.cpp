@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/SurfacePlaces.h"
+
+#include "Base/Error.h"
+#include "Base/PlaceText.h"
+#include "Base/Progress.h"
+#include "Mesh/Distance.h"
+#include "Mesh/Triangulate.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <queue>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// A path may be this many times longer than needed rather than leave the segment by its own length.
+constexpr double kDetourPenalty = 10;
+
+template <class Visit>
+void forEachEdge(const SurfaceInput& input, Visit visit)
+{
+  for (std::size_t p = 0; p + 1 < input.polygonOffsets.size(); ++p)
+  {
+    const Index begin = input.polygonOffsets[p];
+    const Index corners = input.polygonOffsets[p + 1] - begin;
+    for (Index i = 0; i < corners && i < 8; ++i) // eight bits a polygon
+    {
+      visit(static_cast<Index>(p), i, input.polygonPoints[begin + i],
+        input.polygonPoints[begin + (i + 1) % corners]);
+    }
+  }
+}
+
+} // namespace
+
+EdgeGraph makeEdgeGraph(const SurfaceInput& input)
+{
+  EdgeGraph graph;
+  graph.first.assign(input.points.size() + 2, 0);
+  forEachEdge(input,
+    [&](Index, Index, Index a, Index b)
+    {
+      ++graph.first[a + 2];
+      ++graph.first[b + 2];
+    });
+  for (std::size_t i = 2; i < graph.first.size(); ++i)
+  {
+    graph.first[i] += graph.first[i - 1];
+  }
+  graph.uses.resize(graph.first.back());
+  forEachEdge(input,
+    [&](Index p, Index i, Index a, Index b)
+    {
+      const auto bit = static_cast<std::uint8_t>(1 << i);
+      graph.uses[graph.first[a + 1]++] = { b, p, bit };
+      graph.uses[graph.first[b + 1]++] = { a, p, bit };
+    });
+  return graph;
+}
+
+std::vector<Index> findEdgePath(const SurfaceInput& input, const EdgeGraph& graph, Index a, Index b)
+{
+  struct Reached
+  {
+    double cost;
+    Index from;
+  };
+  using Entry = std::pair<double, Index>;
+  std::unordered_map<Index, Reached> reached; // only looked up, so its order does not matter
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+  const Vector3& start = input.points[a];
+  const Vector3& end = input.points[b];
+  const double scale = kDetourPenalty / std::max((end - start).norm(), 1e-300);
+  reached[a] = { 0, a };
+  front.push({ 0, a });
+  while (!front.empty() && front.top().second != b)
+  {
+    const auto [cost, v] = front.top();
+    front.pop();
+    if (cost > reached[v].cost)
+    {
+      continue;
+    }
+    for (std::size_t i = graph.first[v]; i < graph.first[v + 1]; ++i)
+    {
+      const Index w = graph.uses[i].target;
+      const Vector3& p = input.points[v];
+      const Vector3& q = input.points[w];
+      const double away = distanceToSegment(0.5 * (p + q), start, end);
+      const double next = cost + (q - p).norm() * (1 + scale * away);
+      const auto found = reached.find(w);
+      if (found == reached.end() || next < found->second.cost)
+      {
+        reached[w] = { next, v };
+        front.push({ next, w });
+      }
+    }
+  }
+  std::vector<Index> path;
+  if (!front.empty())
+  {
+    for (Index v = b; v != a; v = reached[v].from)
+    {
+      path.push_back(v);
+    }
+    path.push_back(a);
+  }
+  return path;
+}
+double meanEdge(const SurfaceInput& input, Index polygon)
+{
+  const Index begin = input.polygonOffsets[polygon];
+  const Index corners = input.polygonOffsets[polygon + 1] - begin;
+  double sum = 0;
+  for (Index i = 0; i < corners; ++i)
+  {
+    sum += (input.points[input.polygonPoints[begin + i]] -
+      input.points[input.polygonPoints[begin + (i + 1) % corners]])
+             .norm();
+  }
+  return sum / std::max<Index>(corners, 1);
+}
+
+double diagonalOf(const SurfaceInput& input)
+{
+  if (input.points.empty())
+  {
+    return 0;
+  }
+  Vector3 low = input.points.front();
+  Vector3 high = low;
+  for (const Vector3& p : input.points)
+  {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return (high - low).norm();
+}
+
+void requirePolygons(const SurfaceInput& input)
+{
+  const auto fail = [](const std::string& text) { throw InvalidInput(text + "."); };
+  for (std::size_t i = 0; i + 1 < input.polygonOffsets.size(); ++i)
+  {
+    if (input.polygonOffsets[i] > input.polygonOffsets[i + 1])
+    {
+      fail("polygon " + std::to_string(i) + " ends before it begins");
+    }
+  }
+  if (!input.polygonOffsets.empty() && input.polygonOffsets.back() > input.polygonPoints.size())
+  {
+    fail("the polygons have " + std::to_string(input.polygonOffsets.back()) +
+      " corners, but only " + std::to_string(input.polygonPoints.size()) + " are given");
+  }
+  for (std::size_t i = 0; i + 1 < input.polygonOffsets.size(); ++i)
+  {
+    pollNowAndThen(i);
+    for (Index k = input.polygonOffsets[i]; k < input.polygonOffsets[i + 1]; ++k)
+    {
+      const Index p = input.polygonPoints[k];
+      if (p >= input.points.size())
+      {
+        fail("polygon " + std::to_string(i) + " has the point " + std::to_string(p) +
+          ", but there are only " + std::to_string(input.points.size()));
+      }
+      if (!input.points[p].allFinite())
+      {
+        fail("point " + std::to_string(p) + " has a coordinate that is not finite");
+      }
+    }
+  }
+}
+
+SurfacePlaces::SurfacePlaces(const SurfaceInput& input, int threads) : input_(input)
+{
+  requirePolygons(input);
+  std::vector<std::uint8_t> used(input.points.size(), 0);
+  bool onlyTriangles = true;
+  for (std::size_t i = 0; i + 1 < input.polygonOffsets.size(); ++i)
+  {
+    onlyTriangles &= input.polygonOffsets[i + 1] - input.polygonOffsets[i] == 3;
+  }
+  for (const Index p : input.polygonPoints)
+  {
+    used[p] = 1;
+  }
+  std::vector<BoxTree::Box> boxes;
+  for (std::size_t i = 0; i < used.size(); ++i)
+  {
+    if (used[i] != 0)
+    {
+      corners_.push_back(static_cast<Index>(i));
+      boxes.push_back({ input.points[i], input.points[i] });
+    }
+  }
+  cornerTree_ = BoxTree(boxes, threads);
+  if (!onlyTriangles)
+  {
+    PreparedSurface triangles;
+    triangulate(input, triangles);
+    trianglePoints_ = std::move(triangles.mesh.origin);
+    trianglePolygon_ = std::move(triangles.sourcePolygon);
+  }
+  const std::size_t count = (onlyTriangles ? input.polygonPoints : trianglePoints_).size() / 3;
+  boxes.resize(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    pollNowAndThen(i);
+    const std::array<Vector3, 3> corner = triangle(static_cast<Index>(i));
+    boxes[i] = { corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]),
+      corner[0].cwiseMax(corner[1]).cwiseMax(corner[2]) };
+  }
+  triangleTree_ = BoxTree(boxes, threads);
+  edges_ = makeEdgeGraph(input);
+  diagonal_ = diagonalOf(input);
+}
+
+std::array<Vector3, 3> SurfacePlaces::triangle(Index i) const
+{
+  const std::vector<Index>& points =
+    trianglePoints_.empty() ? input_.polygonPoints : trianglePoints_;
+  const Index first =
+    trianglePoints_.empty() ? input_.polygonOffsets[i] : static_cast<Index>(3 * i);
+  return { input_.points[points[first]], input_.points[points[first + 1]],
+    input_.points[points[first + 2]] };
+}
+
+Index SurfacePlaces::nearestCorner(const Vector3& p) const
+{
+  return corners_[cornerTree_.nearest(
+    p, [&](Index i) { return (input_.points[corners_[i]] - p).squaredNorm(); })];
+}
+
+SurfacePlaces::Place SurfacePlaces::nearestPlace(const Vector3& p) const
+{
+  const auto placeOn = [&](Index i)
+  {
+    const std::array<Vector3, 3> corner = triangle(i);
+    return nearestOnTriangle(p, corner[0], corner[1], corner[2]);
+  };
+  const Index nearest =
+    triangleTree_.nearest(p, [&](Index i) { return (placeOn(i) - p).squaredNorm(); });
+  if (nearest == kInvalidIndex)
+  {
+    throw InvalidInput("no place on the surface was found for the point " + placeText(p));
+  }
+  return { trianglePolygon_.empty() ? nearest : trianglePolygon_[nearest], placeOn(nearest) };
+}
+
+bool SurfacePlaces::isOnBoundary(Index point) const
+{
+  std::map<Index, int> polygons;
+  for (std::size_t i = edges_.first[point]; i < edges_.first[point + 1]; ++i)
+  {
+    ++polygons[edges_.uses[i].target];
+  }
+  return std::any_of(
+    polygons.begin(), polygons.end(), [](const auto& edge) { return edge.second == 1; });
+}
+
+} // namespace quadrille
