@@ -22,6 +22,7 @@ MAY_INCLUDE = {
     "Extraction": ["GridMap"],
     "Evaluation": ["Transfer", "Extraction"],
     "Pipeline": ["Evaluation"],
+    "Session": ["Pipeline"],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 

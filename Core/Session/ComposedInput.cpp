@@ -1,0 +1,304 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Session/ComposedInput.h"
+
+#include "Base/PlaceText.h"
+#include "Base/Refuse.h"
+#include "Session/IrregularEdits.h"
+
+#include <algorithm>
+
+namespace quadrille
+{
+namespace
+{
+
+class Composition
+{
+public:
+  Composition(
+    const SurfaceInput& surface, const SurfacePlaces& places, const SessionConstraints& constraints)
+    : surface_(surface), places_(places), constraints_(constraints)
+  {
+    composed_.input = surface;
+    composed_.parts.resize(constraints.size());
+    for (std::size_t p = 0; p < surface.targetValences.size(); ++p)
+    {
+      if (surface.targetValences[p] != 0)
+      {
+        asked_[static_cast<Index>(p)] = { surface.targetValences[p], "the array of valences" };
+      }
+    }
+  }
+
+  ComposedInput run(const std::map<int, std::string>& leftOut)
+  {
+    for (std::size_t i = 0; i < constraints_.size(); ++i)
+    {
+      const SessionConstraint& constraint = *constraints_[i];
+      at_ = i;
+      part().place = placeOf(constraint.content).value_or(Vector3::Zero());
+      const auto found = leftOut.find(constraint.id);
+      if (found != leftOut.end())
+      {
+        part().whyNot = found->second;
+        continue;
+      }
+      try
+      {
+        std::visit(*this, constraint.content);
+      }
+      catch (const InvalidInput& error)
+      {
+        part().whyNot = error.what();
+      }
+    }
+    setValences();
+    return std::move(composed_);
+  }
+
+  void operator()(const FeatureLine& line)
+  {
+    ConstraintPlacement placement(surface_, places_);
+    placement.addFeature({ id(), line.points });
+    const PlacedConstraint& placed = takePlaced(placement);
+    if (part().whyNot.empty())
+    {
+      part().path = placed.path;
+      addFeatureMarks(composed_.input, placement.featureMarks());
+    }
+  }
+
+  void operator()(const GuideStroke& stroke)
+  {
+    ConstraintPlacement placement(surface_, places_);
+    placement.addStroke({ id(), stroke.points }, stroke.weight, stroke.radius);
+    const PlacedConstraint& placed = takePlaced(placement);
+    if (part().whyNot.empty())
+    {
+      part().guided = placed.guided;
+      takeGuides(placement.guideMarks());
+    }
+  }
+
+  void operator()(const GuideRegion& region)
+  {
+    std::vector<Index> polygons = region.polygons;
+    std::sort(polygons.begin(), polygons.end());
+    polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+    std::vector<GuideMark> marks;
+    for (const Index polygon : polygons)
+    {
+      if (surface_.polygonOffsets[polygon] == surface_.polygonOffsets[polygon + 1])
+      {
+        continue;
+      }
+      marks.push_back({ polygon, region.direction.stableNormalized(), region.weight });
+      part().guided.push_back(guidedPolygon(surface_, polygon, region.direction, region.weight));
+    }
+    if (marks.empty())
+    {
+      part().whyNot = "its polygons have no corners";
+      return;
+    }
+    part().place = part().guided.front().centre;
+    takeGuides(marks);
+  }
+
+  void operator()(const ValenceAt& at)
+  {
+    const Index point = places_.nearestCorner(at.point);
+    part().place = surface_.points[point];
+    part().points = { point };
+    if (at.valence == kLeastValence && places_.isOnBoundary(point))
+    {
+      refuse("valence ", at.valence, " is asked for at ", placeText(surface_.points[point]),
+        ", on the boundary, where the least is 3, a corner with one quad: ask for 3 or more");
+    }
+    const int by = list_.changedBy(point);
+    if (by != 0 && list_.valenceAt(point) != at.valence)
+    {
+      refuse("it asks for valence ", at.valence, " at ", placeText(surface_.points[point]),
+        ", where ", nameOf(by), " has made one of ", list_.valenceAt(point),
+        ": remove one of the two");
+    }
+    const auto [found, isNew] = asked_.emplace(point, Asked{ at.valence, name() });
+    if (!isNew && found->second.valence != at.valence)
+    {
+      refuse("it asks for valence ", at.valence, " at ", placeText(surface_.points[point]),
+        ", where ", found->second.by, " asks for ", found->second.valence,
+        ": remove one of the two");
+    }
+  }
+
+  void operator()(const SizeAt& at)
+  {
+    const Index nearest = places_.nearestCorner(at.point);
+    part().place = surface_.points[nearest];
+    std::vector<Index> points{ nearest };
+    for (std::size_t p = 0; at.radius > 0 && p < surface_.points.size(); ++p)
+    {
+      if (p != nearest && (surface_.points[p] - at.point).norm() <= at.radius)
+      {
+        points.push_back(static_cast<Index>(p));
+      }
+    }
+    takeSizes(std::move(points), at.factor);
+  }
+
+  void operator()(const SizeRegion& region)
+  {
+    std::vector<Index> points;
+    for (const Index polygon : region.polygons)
+    {
+      points.insert(points.end(), surface_.polygonPoints.begin() + surface_.polygonOffsets[polygon],
+        surface_.polygonPoints.begin() + surface_.polygonOffsets[polygon + 1]);
+    }
+    if (points.empty())
+    {
+      part().whyNot = "its polygons have no corners";
+      return;
+    }
+    part().place = surface_.points[points.front()];
+    takeSizes(std::move(points), region.factor);
+  }
+
+  void operator()(const IrregularEdit& edit)
+  {
+    IrregularList next = list_;
+    for (const IrregularEdit::Change& change : edit.changes)
+    {
+      part().points.push_back(change.point);
+      part().place = surface_.points[change.point];
+    }
+    part().whyNot = next.apply(id(), constraints_[at_]->revision, edit, surface_);
+    if (!part().whyNot.empty())
+    {
+      return;
+    }
+    for (const IrregularEdit::Change& change : edit.changes)
+    {
+      const auto found = asked_.find(change.point);
+      if (found != asked_.end() && found->second.valence != change.after)
+      {
+        refuse("it would make a vertex of valence ", change.after, " at ",
+          placeText(surface_.points[change.point]), ", where ", found->second.by, " asks for ",
+          found->second.valence, ": remove one of the two");
+      }
+    }
+    list_ = std::move(next);
+  }
+
+  void operator()(const Connection& connection)
+  {
+    composed_.input.curves.push_back({ CurveKind::Connection, connection.points });
+  }
+  void operator()(const Cycle& cycle)
+  {
+    composed_.input.curves.push_back({ CurveKind::Cycle, cycle.points });
+  }
+
+private:
+  struct Asked
+  {
+    int valence = 0;
+    std::string by;
+  };
+
+  PlacedPart& part() { return composed_.parts[at_]; }
+  int id() const { return constraints_[at_]->id; }
+  std::string name() const { return constraints_[at_]->name(); }
+  std::string nameOf(int id) const
+  {
+    const auto found = std::find_if(constraints_.begin(), constraints_.end(),
+      [id](const auto& constraint) { return constraint->id == id; });
+    return (*found)->name();
+  }
+
+  /// The only constraint of the placement.
+  const PlacedConstraint& takePlaced(const ConstraintPlacement& placement)
+  {
+    const PlacedConstraints& result = placement.result();
+    const PlacedConstraint& placed = result.placed.front();
+    part().whyNot = placed.whyNot;
+    part().place = placed.path.empty() ? part().place : placed.path.front();
+    composed_.notices.insert(composed_.notices.end(), result.notices.begin(), result.notices.end());
+    return placed;
+  }
+
+  void overrule(std::map<Index, std::size_t>& owners, Index element)
+  {
+    const auto [found, isNew] = owners.emplace(element, at_);
+    if (!isNew && found->second != at_)
+    {
+      PlacedPart& earlier = composed_.parts[found->second];
+      ++earlier.overruled;
+      earlier.overruledBy = id();
+      found->second = at_;
+    }
+  }
+
+  void takeGuides(const std::vector<GuideMark>& marks)
+  {
+    addGuideMarks(composed_.input, marks);
+    for (const GuideMark& mark : marks)
+    {
+      overrule(guideOf_, mark.polygon);
+    }
+  }
+
+  void takeSizes(std::vector<Index> points, double factor)
+  {
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    composed_.input.sizing.resize(surface_.points.size(), 1.0F);
+    for (const Index point : points)
+    {
+      composed_.input.sizing[point] = static_cast<float>(factor);
+      overrule(sizeOf_, point);
+    }
+    part().points = std::move(points);
+  }
+
+  /// Where the valences that are asked for keep the sum of indices, all vertices that no one names stay regular.
+  void setValences()
+  {
+    SurfaceInput& input = composed_.input;
+    if (asked_.empty() && !list_.isInForce())
+    {
+      return;
+    }
+    input.targetValences.assign(surface_.points.size(), 0);
+    for (const auto& [point, valence] : list_.valences())
+    {
+      input.targetValences[point] = valence;
+    }
+    int off = 0;
+    for (const auto& [point, asked] : asked_)
+    {
+      const bool isInside = !places_.isOnBoundary(point);
+      off += isInside ? list_.valenceAt(point) - asked.valence : 0;
+      input.targetValences[point] = asked.valence;
+    }
+    input.regularElsewhere = surface_.regularElsewhere || (list_.isInForce() && off == 0);
+  }
+
+  const SurfaceInput& surface_;
+  const SurfacePlaces& places_;
+  const SessionConstraints& constraints_;
+  std::size_t at_ = 0;
+  ComposedInput composed_;
+  std::map<Index, Asked> asked_;
+  std::map<Index, std::size_t> guideOf_, sizeOf_; ///< the constraint that counts
+  IrregularList list_;
+};
+
+} // namespace
+
+ComposedInput composeInput(const SurfaceInput& surface, const SurfacePlaces& places,
+  const SessionConstraints& constraints, const std::map<int, std::string>& leftOut)
+{
+  return Composition(surface, places, constraints).run(leftOut);
+}
+
+} // namespace quadrille

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// All constraints of a session, put on its surface.
+#pragma once
+
+#include "Mesh/DrawnConstraints.h"
+#include "Session/Constraints.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace quadrille
+{
+
+using SessionConstraints = std::vector<std::shared_ptr<const SessionConstraint>>;
+
+/// What became of one constraint.
+struct PlacedPart
+{
+  std::string whyNot;              ///< empty, or why it is left out
+  Vector3 place = Vector3::Zero(); ///< on the surface
+  std::vector<Vector3> path;       ///< of a feature
+  std::vector<GuidedPolygon> guided;
+  std::vector<Index> points; ///< of the input, whose valence or size it asks for
+  /// Elements (polygons, points) on which later constraints count in its place, by the id of one of these.
+  std::size_t overruled = 0;
+  int overruledBy = 0;
+};
+
+struct ComposedInput
+{
+  SurfaceInput input;
+  std::vector<PlacedPart> parts;    ///< in the order of the constraints
+  std::vector<std::string> notices; ///< what the user should know
+};
+
+/// leftOut: ids of constraints that are not put on, and why. Constraints that contradict an earlier one, or the
+/// surface, are left out as well.
+ComposedInput composeInput(const SurfaceInput& surface, const SurfacePlaces& places,
+  const SessionConstraints& constraints, const std::map<int, std::string>& leftOut);
+
+} // namespace quadrille

@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Session/ConstraintReports.h"
+
+#include "Evaluation/ConstraintMeasures.h"
+#include "Session/QuadChains.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace quadrille
+{
+namespace
+{
+
+class SessionJudge
+{
+public:
+  SessionJudge(const SurfaceInput& surface, const SessionConstraints& constraints,
+    const ComposedInput& composed, const QuadMesh& quads,
+    const std::vector<IrregularVertex>& irregular, double targetEdgeLength)
+    : surface_(surface), constraints_(constraints), composed_(composed), quads_(quads),
+      irregular_(irregular), targetEdgeLength_(targetEdgeLength), measures_(quads)
+  {
+    std::size_t guides = 0;
+    for (const PlacedPart& part : composed.parts)
+    {
+      guides += part.guided.empty() ? 0 : 1;
+    }
+    mostPlaces_ = mostPlacesOf(guides);
+  }
+
+  std::vector<ConstraintWord> run()
+  {
+    std::vector<ConstraintWord> words;
+    for (std::size_t i = 0; i < constraints_.size(); ++i)
+    {
+      part_ = &composed_.parts[i];
+      const SessionConstraint& constraint = *constraints_[i];
+      const ConstraintMeasure measure = measureOf(constraint);
+      words.push_back({ constraint.id, kindOf(constraint.content), constraint.name(), measure.place,
+        measure.isMet, measure.deviation, measure.deviation95, measure.unit, measure.reason });
+    }
+    return words;
+  }
+
+  ConstraintMeasure operator()(const FeatureLine&)
+  {
+    std::vector<std::array<Vector3, 2>> edges;
+    for (std::size_t k = 0; k + 1 < part_->path.size(); ++k)
+    {
+      edges.push_back({ part_->path[k], part_->path[k + 1] });
+    }
+    return measures_.curve(edges);
+  }
+  ConstraintMeasure operator()(const GuideStroke& stroke) { return guide(stroke.weight); }
+  ConstraintMeasure operator()(const GuideRegion& region) { return guide(region.weight); }
+  ConstraintMeasure operator()(const ValenceAt& at)
+  {
+    return measures_.valence(part_->place, at.valence);
+  }
+  ConstraintMeasure operator()(const SizeAt& at) { return size(at.factor); }
+  ConstraintMeasure operator()(const SizeRegion& region) { return size(region.factor); }
+  ConstraintMeasure operator()(const IrregularEdit& edit);
+  ConstraintMeasure operator()(const Connection& connection)
+  {
+    return chain(QuadChains(quads_).connection(connection.points),
+      "no chain of edges that is straight in the map leads from one end to the other");
+  }
+  ConstraintMeasure operator()(const Cycle& cycle)
+  {
+    return chain(QuadChains(quads_).cycle(cycle.points),
+      "no chain of edges that is straight in the map closes near it");
+  }
+
+private:
+  ConstraintMeasure measureOf(const SessionConstraint& constraint)
+  {
+    if (!part_->whyNot.empty())
+    {
+      return ConstraintMeasure::unknown(part_->place, "", part_->whyNot);
+    }
+    if (quads_.quads.empty())
+    {
+      return ConstraintMeasure::unknown(part_->place, "", "no quads were made");
+    }
+    ConstraintMeasure measure = std::visit(*this, constraint.content);
+    if (!measure.isMet && part_->overruled > 0)
+    {
+      std::ostringstream text;
+      text << "; on " << part_->overruled << " of its places constraint " << part_->overruledBy
+           << ", which is later, counts";
+      measure.reason += text.str();
+    }
+    return measure;
+  }
+
+  ConstraintMeasure guide(double weight)
+  {
+    if (part_->guided.empty())
+    {
+      return ConstraintMeasure::unknown(part_->place, "degrees", "it runs over no face");
+    }
+    double irregularShare = 0;
+    ConstraintMeasure measure = measures_.guide(part_->guided, mostPlaces_, &irregularShare);
+    constexpr double kNotableShare = 0.1;
+    if (!measure.isMet && irregularShare > kNotableShare)
+    {
+      measure.reason +=
+        "; " + percentText(irregularShare) + " of its area is in quads at irregular vertices";
+    }
+    if (!measure.isMet && weight < 1)
+    {
+      measure.reason +=
+        "; its weight is " + shortText(weight) + ", a larger one is followed more closely";
+    }
+    return measure;
+  }
+
+  ConstraintMeasure size(double factor);
+
+  ConstraintMeasure chain(const std::optional<double>& distance, const char* whyNot)
+  {
+    if (!distance)
+    {
+      return ConstraintMeasure::unknown(part_->place, "edge lengths", whyNot);
+    }
+    ConstraintMeasure measure;
+    measure.place = part_->place;
+    measure.unit = "edge lengths";
+    measure.deviation = targetEdgeLength_ > 0 ? *distance / targetEdgeLength_ : 0;
+    measure.deviation95 = std::numeric_limits<double>::quiet_NaN();
+    measure.isMet = true;
+    return measure;
+  }
+
+  const SurfaceInput& surface_;
+  const SessionConstraints& constraints_;
+  const ComposedInput& composed_;
+  const QuadMesh& quads_;
+  const std::vector<IrregularVertex>& irregular_;
+  double targetEdgeLength_;
+  ConstraintMeasures measures_;
+  std::size_t mostPlaces_ = 0;
+  const PlacedPart* part_ = nullptr;
+};
+
+/// The vertices that it changed have their valences; deviation counts those that have not.
+ConstraintMeasure SessionJudge::operator()(const IrregularEdit& edit)
+{
+  ConstraintMeasure measure;
+  measure.place = part_->place;
+  measure.unit = "valence";
+  measure.deviation95 = std::numeric_limits<double>::quiet_NaN();
+  std::size_t other = 0;
+  for (const IrregularEdit::Change& change : edit.changes)
+  {
+    // Regular ones move with the smoothing, so it is those of the map that tell.
+    const auto found = std::lower_bound(irregular_.begin(), irregular_.end(), change.point,
+      [](const IrregularVertex& vertex, Index point) { return vertex.point < point; });
+    const bool isIrregular = found != irregular_.end() && found->point == change.point;
+    const int valence = isIrregular ? found->valence : kRegularValence;
+    if (valence != change.after)
+    {
+      measure.place = surface_.points[change.point];
+      measure.reason = "asked " + std::to_string(change.after) + ", got " + std::to_string(valence);
+      ++other;
+    }
+  }
+  measure.deviation = static_cast<double>(other);
+  measure.isMet = other == 0;
+  return measure;
+}
+
+/// By which factor the edge lengths at the places, from the areas of the quads there, differ from those asked for.
+ConstraintMeasure SessionJudge::size(double factor)
+{
+  const NearestQuads nearest(quads_);
+  const auto lengthOf = [this](Index q)
+  {
+    const std::array<Index, 4>& quad = quads_.quads[q];
+    return std::sqrt(0.5 *
+      (quads_.points[quad[2]] - quads_.points[quad[0]])
+        .cross(quads_.points[quad[3]] - quads_.points[quad[1]])
+        .norm());
+  };
+  ConstraintMeasure measure =
+    ConstraintMeasure::unknown(part_->place, "factor", "the quads near it have no area");
+  std::vector<WeightedDeviation> logarithms;
+  double worst = -1;
+  const std::size_t stride = strideOf(part_->points.size(), mostPlacesOf(1));
+  for (std::size_t i = 0; i < part_->points.size(); i += stride)
+  {
+    const Vector3& p = surface_.points[part_->points[i]];
+    const auto there = nearest.at(p);
+    const double length = there ? lengthOf(there->quad) : 0;
+    if (length > 0)
+    {
+      const double off = std::abs(std::log(length / (factor * targetEdgeLength_)));
+      logarithms.push_back({ off, 1 });
+      if (off > worst)
+      {
+        worst = off;
+        measure.place = p;
+      }
+    }
+  }
+  if (logarithms.empty())
+  {
+    return measure;
+  }
+  measure.deviation = std::exp(meanOf(logarithms));
+  measure.deviation95 = std::exp(percentile95(std::move(logarithms)));
+  measure.isMet = measure.deviation <= kMetFactor;
+  measure.reason = measure.isMet
+    ? ""
+    : "the sizes of the quads differ from those asked for by a factor of " +
+      shortText(measure.deviation) + " on average, at most " + shortText(kMetFactor) +
+      " counts as met; sizes change only gradually from one place to the next";
+  return measure;
+}
+
+} // namespace
+
+std::vector<ConstraintWord> reportConstraints(const SurfaceInput& surface,
+  const SessionConstraints& constraints, const ComposedInput& composed, const QuadMesh& quads,
+  const std::vector<IrregularVertex>& irregular, double targetEdgeLength)
+{
+  return SessionJudge(surface, constraints, composed, quads, irregular, targetEdgeLength).run();
+}
+
+} // namespace quadrille

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// A word on each constraint of a session, measured in the quads.
+#pragma once
+
+#include "Session/ComposedInput.h"
+#include "Session/Session.h"
+
+#include <vector>
+
+namespace quadrille
+{
+
+/// quads: what was made, without quads where there are none. irregular: see irregularVertices.
+std::vector<ConstraintWord> reportConstraints(const SurfaceInput& surface,
+  const SessionConstraints& constraints, const ComposedInput& composed, const QuadMesh& quads,
+  const std::vector<IrregularVertex>& irregular, double targetEdgeLength);
+
+} // namespace quadrille

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Session/Constraints.h"
+
+#include "Base/Refuse.h"
+#include "Mesh/Guides.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+namespace
+{
+
+/// One function for each kind.
+template <class... Functions>
+struct ByKind : Functions...
+{
+  using Functions::operator()...;
+};
+template <class... Functions>
+ByKind(Functions...) -> ByKind<Functions...>;
+
+/// Checks of one constraint, by the name that messages have.
+class ConstraintCheck
+{
+public:
+  ConstraintCheck(const std::string& name, std::size_t polygonCount)
+    : name_(name), polygonCount_(polygonCount)
+  {
+  }
+
+  void operator()(const FeatureLine& line) const { requirePoints(line.points, 2); }
+  void operator()(const GuideStroke& stroke) const
+  {
+    requirePoints(stroke.points, 2);
+    requireWeight(stroke.weight);
+    requireLength("radius", stroke.radius);
+  }
+  void operator()(const GuideRegion& region) const
+  {
+    requireIds(region.polygons);
+    if (!region.direction.allFinite() || region.direction.isZero(0))
+    {
+      refuse(name_, " needs a direction that is finite and not zero");
+    }
+    requireWeight(region.weight);
+  }
+  void operator()(const ValenceAt& at) const
+  {
+    requirePoints({ at.point }, 1);
+    requireValence(at.valence);
+  }
+  void operator()(const SizeAt& at) const
+  {
+    requirePoints({ at.point }, 1);
+    requireLength("radius", at.radius);
+    requireFactor(at.factor);
+  }
+  void operator()(const SizeRegion& region) const
+  {
+    requireIds(region.polygons);
+    requireFactor(region.factor);
+  }
+  void operator()(const IrregularEdit& edit) const
+  {
+    const bool may3 = edit.operation == IrregularOperation::Merge;
+    const std::size_t count = edit.operation == IrregularOperation::Split ? 3 : 2;
+    requirePoints(edit.points, count);
+    if (edit.points.size() > count + (may3 ? 1 : 0))
+    {
+      refuse(name_, " has ", edit.points.size(), " points, but its operation takes ", count);
+    }
+    const bool takesValences =
+      edit.operation == IrregularOperation::Split || edit.operation == IrregularOperation::Add;
+    if (!edit.valences.empty() && (!takesValences || edit.valences.size() != 2))
+    {
+      refuse(name_, " has ", edit.valences.size(), " valences, but its operation takes ",
+        takesValences ? "two, or none" : "none");
+    }
+    std::for_each(edit.valences.begin(), edit.valences.end(), [this](int v) { requireValence(v); });
+  }
+  void operator()(const Connection& connection) const { requirePoints(connection.points, 2); }
+  void operator()(const Cycle& cycle) const { requirePoints(cycle.points, 3); }
+
+private:
+  void requirePoints(const std::vector<Vector3>& points, std::size_t least) const
+  {
+    if (points.size() < least)
+    {
+      refuse(name_, " has ", points.size(), " points, but needs at least ", least);
+    }
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      if (!points[i].allFinite())
+      {
+        refuse("point ", i, " of ", name_, " is not finite: place it anew");
+      }
+    }
+  }
+  void requireIds(const std::vector<Index>& polygons) const
+  {
+    if (polygons.empty())
+    {
+      refuse(name_, " names no polygon");
+    }
+    for (const Index polygon : polygons)
+    {
+      if (polygon >= polygonCount_)
+      {
+        refuse(name_, " names polygon ", polygon, ", but there are only ", polygonCount_);
+      }
+    }
+  }
+  void requireWeight(double weight) const
+  {
+    if (!(weight > 0 && weight <= 1))
+    {
+      refuse(name_, " has the weight ", weight, ", but it must be above 0 and at most 1");
+    }
+  }
+  void requireLength(const char* what, double length) const
+  {
+    if (!(length >= 0 && std::isfinite(length)))
+    {
+      refuse(name_, " has the ", what, " ", length, ", but it must be 0 or a positive number");
+    }
+  }
+  void requireFactor(double factor) const
+  {
+    if (!(factor > 0 && std::isfinite(static_cast<float>(factor)) &&
+          static_cast<float>(factor) > 0))
+    {
+      refuse(name_, " has the factor ", factor, ", but it must be a positive number");
+    }
+  }
+  void requireValence(int valence) const
+  {
+    if (valence < kLeastValence || valence > kMostValence)
+    {
+      refuse(name_, " asks for valence ", valence, ", but only ", kLeastValence, " to ",
+        kMostValence, " can be asked for");
+    }
+  }
+
+  const std::string& name_;
+  std::size_t polygonCount_;
+};
+
+} // namespace
+
+const char* kindOf(const ConstraintContent& content)
+{
+  constexpr const char* kNames[] = { "feature", "guide", "guide region", "valence", "size",
+    "size region", "irregular", "connection", "cycle" };
+  static_assert(std::variant_size_v<ConstraintContent> == std::size(kNames));
+  return kNames[content.index()];
+}
+
+std::optional<Vector3> placeOf(const ConstraintContent& content)
+{
+  const auto first = [](const auto& line) -> std::optional<Vector3>
+  { return line.points.empty() ? std::nullopt : std::optional<Vector3>(line.points.front()); };
+  return std::visit(
+    ByKind{ [](const ValenceAt& at) -> std::optional<Vector3> { return at.point; },
+      [](const SizeAt& at) -> std::optional<Vector3> { return at.point; },
+      [](const GuideRegion&) -> std::optional<Vector3> { return std::nullopt; },
+      [](const SizeRegion&) -> std::optional<Vector3> { return std::nullopt; }, first },
+    content);
+}
+
+void checkConstraint(
+  const ConstraintContent& content, const std::string& name, std::size_t polygonCount)
+{
+  std::visit(ConstraintCheck(name, polygonCount), content);
+}
+
+} // namespace quadrille

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a user can ask of a surface in a session. All places are in units of the input; a place means the nearest point
+/// of the input that a polygon uses, unless it says otherwise.
+#pragma once
+
+#include "Base/Types.h"
+#include "Mesh/CurveRequests.h"
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace quadrille
+{
+
+/// A polyline that becomes edges of the quads, see ConstraintPlacement::addFeature.
+struct FeatureLine
+{
+  std::vector<Vector3> points; ///< 2 or more
+};
+
+/// A polyline that edges of the quads should follow, see ConstraintPlacement::addStroke.
+struct GuideStroke
+{
+  std::vector<Vector3> points; ///< 2 or more
+  double weight = 1;           ///< in (0, 1]
+  double radius = 0;           ///< >= 0
+};
+
+/// Polygons with a direction that edges of the quads there should have.
+struct GuideRegion
+{
+  std::vector<Index> polygons;
+  Vector3 direction = Vector3::Zero(); ///< of any length but 0
+  double weight = 1;                   ///< in (0, 1]
+};
+
+struct ValenceAt
+{
+  Vector3 point = Vector3::Zero();
+  int valence = 4; ///< see ValenceRequest
+};
+
+/// Quads near a point have another size.
+struct SizeAt
+{
+  Vector3 point = Vector3::Zero();
+  double radius = 0; ///< >= 0: points of the input so near; 0: the nearest one
+  double factor = 1; ///< > 0: the edge length there as a multiple of the target edge length
+};
+
+/// Quads at the corners of polygons have another size.
+struct SizeRegion
+{
+  std::vector<Index> polygons;
+  double factor = 1; ///< see SizeAt
+};
+
+/// An irregular vertex inside of the surface, off its features.
+struct IrregularVertex
+{
+  Index point = kInvalidIndex; ///< of the input, the nearest one: the vertex's id
+  Vector3 place = Vector3::Zero();
+  int valence = 4;
+
+  bool operator==(const IrregularVertex& other) const
+  {
+    return point == other.point && place == other.place && valence == other.valence;
+  }
+};
+
+enum class IrregularOperation
+{
+  Move,  ///< the vertex nearest to points[0] goes to points[1]
+  Split, ///< that nearest to points[0] becomes two, at points[1] and points[2]
+  Merge, ///< those nearest to points[0] and points[1] become one, at points[2], or where the first one was
+  Cancel, ///< those nearest to points[0] and points[1], of opposite indices, become regular
+  Add     ///< two come to points[0] and points[1], of opposite indices
+};
+
+/// An operation on the irregular vertices of the quads. All others stay. The sum of indices (4 - valence) stays the
+/// same.
+struct IrregularEdit
+{
+  IrregularOperation operation = IrregularOperation::Move;
+  std::vector<Vector3> points;
+  /// Of Split and Add, empty or two: the valences; by default an even index is split in halves, and 3 and 5 are added.
+  std::vector<int> valences;
+
+  /// What the session makes of it when it is added, from the irregular vertices that there are then.
+  struct Change
+  {
+    Index point = kInvalidIndex;
+    int before = 4, after = 4; ///< valences
+  };
+  /// An operation that was in force then: its id, how often it had been changed, and what it did, so that it can be
+  /// taken back.
+  struct Link
+  {
+    int id = 0, revision = 0;
+    std::vector<Change> changes;
+
+    bool operator==(const Link& other) const
+    {
+      return id == other.id && revision == other.revision;
+    }
+  };
+  std::vector<IrregularVertex> before; ///< all of them, ascending by point
+  std::vector<Change> changes;         ///< ascending by point
+  std::vector<Link> upon;              ///< in their order
+};
+
+/// A chain of edges of quads, straight in the map, that joins two irregular vertices, features or boundaries.
+struct Connection
+{
+  std::vector<Vector3> points; ///< 2 or more, see CurveRequest
+};
+
+/// A closed chain of edges of quads, straight in the map.
+struct Cycle
+{
+  std::vector<Vector3> points; ///< 3 or more, see CurveRequest
+};
+
+using ConstraintContent = std::variant<FeatureLine, GuideStroke, GuideRegion, ValenceAt, SizeAt,
+  SizeRegion, IrregularEdit, Connection, Cycle>;
+
+/// "feature", "guide", "guide region", "valence", "size", "size region", "irregular", "connection", "cycle".
+const char* kindOf(const ConstraintContent& content);
+/// Where it is, for messages: its first point.
+std::optional<Vector3> placeOf(const ConstraintContent& content);
+
+/// Throws InvalidInput for numbers out of their range, too few points, and points that are not finite; polygonCount: of
+/// the input. name: for the message, such as "constraint 3".
+void checkConstraint(
+  const ConstraintContent& content, const std::string& name, std::size_t polygonCount);
+
+struct SessionConstraint
+{
+  int id = 0;       ///< never changes, and is never given again
+  int revision = 0; ///< how often it was changed
+  ConstraintContent content;
+
+  std::string name() const { return std::string(kindOf(content)) + " " + std::to_string(id); }
+};
+
+} // namespace quadrille

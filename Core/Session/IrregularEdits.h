@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Irregular vertices as things that can be moved, split, merged, cancelled and added.
+#pragma once
+
+#include "Mesh/SurfacePlaces.h"
+#include "Pipeline/Pipeline.h"
+#include "Session/Constraints.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Irregular vertices of a result inside of the surface, off its features, ascending by point of the input. They are
+/// those of the map: the quads have them at the same vertices of the surface, from which smoothing may move them.
+std::vector<IrregularVertex> irregularVertices(const RemeshResult& result);
+/// Points of the input on features and boundaries of a result, ascending.
+std::vector<Index> pointsOnCurves(const RemeshResult& result);
+
+/// Fills before and changes of the operation. fixedPoints: see pointsOnCurves. Throws InvalidInput, with name and
+/// place, where there is no such vertex, a place cannot be taken, a valence would be out of range, or the sum of
+/// indices would change.
+void resolveEdit(IrregularEdit& edit, const std::string& name, const SurfaceInput& surface,
+  const SurfacePlaces& places, const std::vector<IrregularVertex>& irregular,
+  const std::vector<Index>& fixedPoints);
+
+/// The irregular vertices that operations lead to, one after the other.
+class IrregularList
+{
+public:
+  bool isInForce() const { return isInForce_; }
+  /// Where the operation was made upon those that are in force here, its own list counts; else its changes are made in
+  /// the list that there is, or, where none is in force any more, in its own with those before it taken back. Returns
+  /// why not, or nothing.
+  std::string apply(int id, int revision, const IrregularEdit& edit, const SurfaceInput& surface);
+  /// Valences by point, also those that an operation has made regular.
+  const std::map<Index, int>& valences() const { return valences_; }
+  int valenceAt(Index point) const;
+  /// The operation in force that changed the point last; 0: none.
+  int changedBy(Index point) const;
+  /// The operations in force.
+  const std::vector<IrregularEdit::Link>& links() const { return links_; }
+
+private:
+  bool isInForce_ = false;
+  std::map<Index, int> valences_;
+  std::map<Index, int> changedBy_;
+  std::vector<IrregularEdit::Link> links_;
+};
+
+} // namespace quadrille

@@ -1,0 +1,679 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Session/Session.h"
+
+#include "Base/Clock.h"
+#include "Base/PlaceText.h"
+#include "Base/Refuse.h"
+#include "Mesh/ContentHash.h"
+#include "Mesh/SurfacePlaces.h"
+#include "Numerics/MinCostFlow.h"
+#include "Session/ComposedInput.h"
+#include "Session/ConstraintReports.h"
+#include "Session/IrregularEdits.h"
+#include "Session/SessionData.h"
+#include "Session/SessionJson.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr std::size_t kResultsShareOfMachine = 32;
+
+/// Constraints that can keep a run from a result; guides and sizes are followed as far as may be.
+bool mayFail(const SessionConstraint& constraint)
+{
+  const ConstraintContent& content = constraint.content;
+  return !std::holds_alternative<GuideStroke>(content) &&
+    !std::holds_alternative<GuideRegion>(content) && !std::holds_alternative<SizeAt>(content) &&
+    !std::holds_alternative<SizeRegion>(content);
+}
+
+void checkSettings(const RemeshOptions& settings)
+{
+  checkOptions(settings);
+  if (settings.smoothingSteps < 0)
+  {
+    refuse("the number of smoothing steps must be at least 0");
+  }
+  if (settings.maximumNumberOfQuads < 1)
+  {
+    refuse("the largest number of quads must be at least 1");
+  }
+}
+
+/// All runs that a state needs.
+class StateRun
+{
+public:
+  StateRun(SessionData& data, const SessionState& state) : data_(data), state_(state)
+  {
+    options_ = state.settings;
+    options_.threads = data.threads;
+    options_.memoryLimit = data.memoryLimit;
+    options_.progress = data.progress;
+    options_.mergeCharts = false;
+    options_.knownMap = 0;
+  }
+
+  /// Null where it was stopped.
+  std::shared_ptr<SessionResult> run()
+  {
+    const double start = secondsNow();
+    std::map<int, std::string> leftOut;
+    RemeshResult made = runWith(leftOut);
+    // Of those that cannot be met together with all that came before, each is left out.
+    while (mayBeForConstraints(made))
+    {
+      const auto culprit = lastOfShortestFailing(leftOut);
+      if (!culprit)
+      {
+        composed_ = composeInput(data_.surface, data_.places(), state_.constraints, leftOut);
+        break;
+      }
+      leftOut.insert(*culprit);
+      made = runWith(leftOut);
+    }
+    auto result = std::make_shared<SessionResult>();
+    SessionReport& report = result->report;
+    if (made.status.code == StatusCode::Cancelled)
+    {
+      stopped_ = made.status;
+      return nullptr;
+    }
+    report.status = made.status;
+    report.notices = composed_.notices;
+    report.notices.insert(report.notices.end(), made.notices.begin(), made.notices.end());
+    report.stages = stages_.all();
+    report.reused = made.reused;
+    report.reused.erase(std::remove_if(report.reused.begin(), report.reused.end(),
+                          [this](const std::string& name) { return stages_.has(name); }),
+      report.reused.end());
+    report.runs = runs_;
+    if (made.status.ok())
+    {
+      result->irregular = irregularVertices(made);
+      result->fixedPoints = pointsOnCurves(made);
+      result->quads = std::move(made.quads);
+    }
+    result->targetEdgeLength = made.targetEdgeLength;
+    result->targetQuads = made.targetQuads;
+    report.constraints = reportConstraints(data_.surface, state_.constraints, composed_,
+      result->quads, result->irregular, made.targetEdgeLength);
+    report.seconds = secondsNow() - start;
+    return result;
+  }
+
+  const Status& stopped() const { return stopped_; }
+
+private:
+  bool mayBeForConstraints(const RemeshResult& made) const
+  {
+    return !made.status.ok() && made.status.code != StatusCode::Cancelled &&
+      made.status.code != StatusCode::TooLarge;
+  }
+
+  RemeshResult runWith(const std::map<int, std::string>& leftOut)
+  {
+    composed_ = composeInput(data_.surface, data_.places(), state_.constraints, leftOut);
+    RemeshResult made = remesh(composed_.input, options_, data_.store);
+    for (const StageRecord& record : made.stages)
+    {
+      stages_.add(record.stage, record.seconds, record.elementsIn, record.elementsOut);
+    }
+    ++runs_;
+    return made;
+  }
+
+  /// Of the constraints that are not left out, in their order, the last one of the shortest row that has no result,
+  /// and why. None where there is none, as the surface has no result either.
+  std::optional<std::pair<int, std::string>> lastOfShortestFailing(
+    const std::map<int, std::string>& leftOut)
+  {
+    std::vector<std::size_t> rest;
+    for (std::size_t i = 0; i < state_.constraints.size(); ++i)
+    {
+      if (mayFail(*state_.constraints[i]) && composed_.parts[i].whyNot.empty())
+      {
+        rest.push_back(i);
+      }
+    }
+    std::map<int, std::string> without = leftOut;
+    std::string whyNot;
+    std::optional<std::size_t> last;
+    for (std::size_t count = rest.size(); count-- > 0;)
+    {
+      const int id = state_.constraints[rest[count]]->id;
+      without[id] = "not tried";
+      const RemeshResult made = runWith(without);
+      if (!mayBeForConstraints(made))
+      {
+        last = rest[count];
+        break;
+      }
+    }
+    if (!last)
+    {
+      return std::nullopt;
+    }
+    // The reason is that of the row with it.
+    const int id = state_.constraints[*last]->id;
+    without.erase(id);
+    whyNot = runWith(without).status.message;
+    std::string others;
+    for (const std::size_t i : rest)
+    {
+      if (i < *last)
+      {
+        others += (others.empty() ? "" : ", ") + state_.constraints[i]->name();
+      }
+    }
+    return std::make_pair(id,
+      "it cannot be met" + (others.empty() ? std::string() : " together with " + others) + ": " +
+        whyNot);
+  }
+
+  SessionData& data_;
+  const SessionState& state_;
+  RemeshOptions options_;
+  ComposedInput composed_;
+  StageRecords stages_;
+  Status stopped_;
+  int runs_ = 0;
+};
+
+std::vector<std::string> settingDifferences(const RemeshOptions& a, const RemeshOptions& b)
+{
+  const SessionJson first = settingsToJson(a);
+  const SessionJson second = settingsToJson(b);
+  std::vector<std::string> differences;
+  const auto textOf = [](const SessionJson& json, const std::string& key)
+  { return json.contains(key) ? json[key].dump() : std::string("none"); };
+  for (const auto& [key, value] : first.items())
+  {
+    if (!second.contains(key) || second[key] != value)
+    {
+      differences.push_back(key + ": " + value.dump() + ", " + textOf(second, key));
+    }
+  }
+  for (const auto& [key, value] : second.items())
+  {
+    if (!first.contains(key))
+    {
+      differences.push_back(key + ": none, " + value.dump());
+    }
+  }
+  return differences;
+}
+
+/// The earth mover's distance of the irregular vertices in straight lines. Both lists are ascending by point.
+void measureDistance(
+  const SessionResult& first, const SessionResult& second, StateComparison::Results& results)
+{
+  std::vector<std::pair<Vector3, int>> give,
+    take; // quarter turns that are over, and that are missing
+  const auto add = [&](const IrregularVertex& vertex, int index)
+  {
+    if (index != 0)
+    {
+      (index > 0 ? give : take).push_back({ vertex.place, std::abs(index) });
+    }
+  };
+  std::map<Index, std::pair<const IrregularVertex*, int>> indices;
+  for (const IrregularVertex& vertex : first.irregular)
+  {
+    indices[vertex.point] = { &vertex, 4 - vertex.valence };
+  }
+  for (const IrregularVertex& vertex : second.irregular)
+  {
+    auto& [known, index] = indices.emplace(vertex.point, std::make_pair(&vertex, 0)).first->second;
+    index -= 4 - vertex.valence;
+  }
+  for (const auto& [point, entry] : indices)
+  {
+    add(*entry.first, entry.second);
+  }
+  constexpr std::size_t kMostPairs = 4000000;
+  if (give.size() * take.size() > kMostPairs)
+  {
+    return;
+  }
+  double longest = 0;
+  for (const auto& [a, supply] : give)
+  {
+    for (const auto& [b, demand] : take)
+    {
+      longest = std::max(longest, (a - b).norm());
+    }
+  }
+  constexpr double kUnits = 1 << 24; // of the longest way
+  const double scale = longest > 0 ? kUnits / longest : 0;
+  MinCostFlow flow(static_cast<Index>(give.size() + take.size()));
+  for (std::size_t i = 0; i < give.size(); ++i)
+  {
+    for (std::size_t k = 0; k < take.size(); ++k)
+    {
+      flow.addArc(static_cast<Index>(i), static_cast<Index>(give.size() + k),
+        std::min(give[i].second, take[k].second),
+        std::llround(scale * (give[i].first - take[k].first).norm()));
+    }
+    flow.addSupply(static_cast<Index>(i), give[i].second);
+  }
+  for (std::size_t k = 0; k < take.size(); ++k)
+  {
+    flow.addSupply(static_cast<Index>(give.size() + k), -take[k].second);
+  }
+  const MinCostFlow::Result solved = flow.solve();
+  results.distance = scale > 0 ? static_cast<double>(solved.cost) / scale : 0;
+  for (std::size_t i = 0; i < give.size() + take.size(); ++i)
+  {
+    results.unmatched += std::abs(flow.remaining(static_cast<Index>(i)));
+  }
+}
+
+} // namespace
+
+std::size_t SessionResult::bytes() const
+{
+  return bytesOf(quads.points) + bytesOf(quads.quads) + bytesOf(quads.sourceFace) +
+    bytesOf(quads.sourceWeights) + bytesOf(quads.quadSourceFace) +
+    bytesOf(quads.quadSourceWeights) + bytesOf(quads.valence) + bytesOf(quads.onBoundary) +
+    bytesOf(quads.lines) + bytesOf(irregular) + bytesOf(fixedPoints) + sizeof(*this);
+}
+
+std::uint64_t surfaceHash(const SurfaceInput& surface, int threads)
+{
+  KeyMaker key(contentHash(surface, threads));
+  for (const Vector3& direction : surface.guideDirections)
+  {
+    key.add(direction[0]).add(direction[1]).add(direction[2]);
+  }
+  key.add(surface.guideWeights).add(surface.targetValences);
+  for (const CurveRequest& curve : surface.curves)
+  {
+    key.add(static_cast<std::uint64_t>(curve.kind));
+    for (const Vector3& p : curve.points)
+    {
+      key.add(p[0]).add(p[1]).add(p[2]);
+    }
+  }
+  return key.add(std::uint64_t{ surface.regularElsewhere ? 1U : 0U }).key();
+}
+
+//------------------------------------------------------------------------------
+SessionData::SessionData(SurfaceInput input) : surface(std::move(input))
+{
+  if (surface.polygonPoints.empty())
+  {
+    refuse("the surface has no polygon");
+  }
+  requirePolygons(surface);
+  maximumResultBytes = ResultStore::bytesOfMachine() / kResultsShareOfMachine;
+  history.push_back(std::make_shared<SessionState>());
+}
+
+const SurfacePlaces& SessionData::places()
+{
+  if (!places_)
+  {
+    places_ = std::make_unique<SurfacePlaces>(surface, threads);
+  }
+  return *places_;
+}
+
+std::shared_ptr<SessionResult> SessionData::resultOf(const SessionState& state)
+{
+  const auto found = results.find(state.key());
+  if (found == results.end())
+  {
+    return nullptr;
+  }
+  found->second.lastUse = ++uses;
+  return found->second.result;
+}
+
+void SessionData::keep(const SessionState& state, std::shared_ptr<SessionResult> result)
+{
+  resultBytes += result->bytes();
+  const std::string& key = state.key();
+  results[key] = { std::move(result), ++uses };
+  while (resultBytes > maximumResultBytes && results.size() > 1)
+  {
+    const auto oldest = std::min_element(results.begin(), results.end(),
+      [](const auto& a, const auto& b) { return a.second.lastUse < b.second.lastUse; });
+    resultBytes -= oldest->second.result->bytes();
+    results.erase(oldest);
+  }
+}
+
+void SessionData::enter(std::shared_ptr<SessionState> state)
+{
+  history.resize(at + 1);
+  history.push_back(std::move(state));
+  at = history.size() - 1;
+}
+
+SessionState SessionData::next() const
+{
+  SessionState state = now();
+  state.key_.clear();
+  return state;
+}
+
+SessionState& SessionData::named(const std::string& name) const
+{
+  if (name.empty())
+  {
+    return now();
+  }
+  const auto found = names.find(name);
+  if (found == names.end())
+  {
+    std::string all;
+    for (const auto& [known, state] : names)
+    {
+      all += (all.empty() ? "" : ", ") + known;
+    }
+    refuse(
+      "there is no state '", name, "'; ", all.empty() ? "none has a name" : "there are: " + all);
+  }
+  return *found->second;
+}
+
+std::vector<IrregularEdit::Link> SessionData::linksInForce() const
+{
+  IrregularList list;
+  for (const auto& constraint : now().constraints)
+  {
+    if (const auto* edit = std::get_if<IrregularEdit>(&constraint->content))
+    {
+      list.apply(constraint->id, constraint->revision, *edit, surface);
+    }
+  }
+  return list.links();
+}
+
+SessionConstraints::iterator SessionState::find(int id)
+{
+  const auto found = std::find_if(constraints.begin(), constraints.end(),
+    [id](const auto& constraint) { return constraint->id == id; });
+  if (found == constraints.end())
+  {
+    std::string all;
+    for (const auto& constraint : constraints)
+    {
+      all += (all.empty() ? "" : ", ") + std::to_string(constraint->id);
+    }
+    refuse(
+      "there is no constraint ", id, "; ", all.empty() ? "there are none" : "the ids are: " + all);
+  }
+  return found;
+}
+
+const std::string& SessionState::key() const
+{
+  if (key_.empty())
+  {
+    SessionJson json;
+    json["settings"] = settingsToJson(settings);
+    for (const auto& constraint : constraints)
+    {
+      json["constraints"].push_back(constraintToJson(*constraint));
+    }
+    key_ = json.dump();
+  }
+  return key_;
+}
+
+//------------------------------------------------------------------------------
+Session::Session(SurfaceInput surface, RemeshOptions settings)
+  : data_(std::make_unique<SessionData>(std::move(surface)))
+{
+  checkSettings(settings);
+  data_->threads = settings.threads;
+  data_->memoryLimit = settings.memoryLimit;
+  data_->progress = settings.progress;
+  data_->history.front()->settings = std::move(settings);
+}
+
+Session::Session(std::unique_ptr<SessionData> data) : data_(std::move(data)) {}
+Session::~Session() = default;
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+
+const SurfaceInput& Session::surface() const
+{
+  return data_->surface;
+}
+
+const RemeshOptions& Session::settings() const
+{
+  return data_->now().settings;
+}
+
+void Session::setSettings(const RemeshOptions& settings)
+{
+  checkSettings(settings);
+  if (settingDifferences(data_->now().settings, settings).empty())
+  {
+    return;
+  }
+  auto next = std::make_shared<SessionState>(data_->next());
+  next->settings = settings;
+  data_->enter(std::move(next));
+}
+
+void Session::setThreads(int threads)
+{
+  data_->threads = threads;
+}
+
+void Session::setMemoryLimit(std::optional<double> bytes)
+{
+  data_->memoryLimit = bytes;
+}
+
+void Session::setProgress(ProgressCallback progress)
+{
+  data_->progress = std::move(progress);
+}
+
+void Session::setMaximumBytes(std::size_t stages, std::size_t results)
+{
+  data_->store.setMaximumBytes(stages);
+  data_->maximumResultBytes =
+    results > 0 ? results : ResultStore::bytesOfMachine() / kResultsShareOfMachine;
+}
+
+int Session::add(ConstraintContent content)
+{
+  const int id = data_->nextId;
+  SessionConstraint constraint{ id, 0, std::move(content) };
+  const std::string name = constraint.name();
+  checkConstraint(constraint.content, name, data_->surface.polygonOffsets.size() - 1);
+  if (auto* edit = std::get_if<IrregularEdit>(&constraint.content))
+  {
+    update();
+    const std::shared_ptr<const SessionResult> now = result();
+    if (!now || !now->report.status.ok())
+    {
+      refuse(name, " needs quads whose irregular vertices it changes, but there are none: ",
+        now ? now->report.status.message : "the run was stopped");
+    }
+    resolveEdit(*edit, name, data_->surface, data_->places(), now->irregular, now->fixedPoints);
+    edit->upon = data_->linksInForce();
+  }
+  auto next = std::make_shared<SessionState>(data_->next());
+  next->constraints.push_back(std::make_shared<const SessionConstraint>(std::move(constraint)));
+  data_->enter(std::move(next));
+  ++data_->nextId;
+  return id;
+}
+
+void Session::edit(int id, ConstraintContent content)
+{
+  auto next = std::make_shared<SessionState>(data_->next());
+  const auto found = next->find(id);
+  const SessionConstraint& before = **found;
+  if (before.content.index() != content.index())
+  {
+    refuse(before.name(), " cannot become a ", kindOf(content), ": remove it, and add another one");
+  }
+  SessionConstraint constraint{ id, before.revision + 1, std::move(content) };
+  checkConstraint(constraint.content, before.name(), data_->surface.polygonOffsets.size() - 1);
+  if (auto* edit = std::get_if<IrregularEdit>(&constraint.content))
+  {
+    const auto& made = std::get<IrregularEdit>(before.content);
+    const std::shared_ptr<const SessionResult> now = result();
+    resolveEdit(*edit, before.name(), data_->surface, data_->places(), made.before,
+      now ? now->fixedPoints : std::vector<Index>{});
+    edit->upon = made.upon;
+  }
+  *found = std::make_shared<const SessionConstraint>(std::move(constraint));
+  data_->enter(std::move(next));
+}
+
+void Session::remove(int id)
+{
+  auto next = std::make_shared<SessionState>(data_->next());
+  next->constraints.erase(next->find(id));
+  data_->enter(std::move(next));
+}
+
+const std::vector<std::shared_ptr<const SessionConstraint>>& Session::constraints() const
+{
+  return data_->now().constraints;
+}
+
+const SessionReport& Session::update()
+{
+  SessionState& state = data_->now();
+  const double start = secondsNow();
+  if (const auto found = data_->resultOf(state))
+  {
+    SessionReport& report = found->report;
+    report.stages.clear();
+    report.reused = { "all" };
+    report.runs = 0;
+    report.seconds = secondsNow() - start;
+    return report;
+  }
+  StateRun run(*data_, state);
+  if (const auto made = run.run())
+  {
+    data_->keep(state, made);
+    return made->report;
+  }
+  data_->stopped = {};
+  data_->stopped.status = run.stopped();
+  return data_->stopped;
+}
+
+std::shared_ptr<const SessionResult> Session::result() const
+{
+  return data_->resultOf(data_->now());
+}
+
+bool Session::undo()
+{
+  if (!canUndo())
+  {
+    return false;
+  }
+  --data_->at;
+  return true;
+}
+
+bool Session::redo()
+{
+  if (!canRedo())
+  {
+    return false;
+  }
+  ++data_->at;
+  return true;
+}
+
+bool Session::canUndo() const
+{
+  return data_->at > 0;
+}
+
+bool Session::canRedo() const
+{
+  return data_->at + 1 < data_->history.size();
+}
+
+void Session::nameState(const std::string& name)
+{
+  if (name.empty())
+  {
+    refuse("a state needs a name that is not empty");
+  }
+  data_->names[name] = data_->history[data_->at];
+}
+
+void Session::goTo(const std::string& name)
+{
+  data_->enter(std::make_shared<SessionState>(data_->named(name)));
+}
+
+std::vector<std::string> Session::stateNames() const
+{
+  std::vector<std::string> names;
+  for (const auto& [name, state] : data_->names)
+  {
+    names.push_back(name);
+  }
+  return names;
+}
+
+StateComparison Session::compare(const std::string& first, const std::string& second) const
+{
+  const SessionState& a = data_->named(first);
+  const SessionState& b = data_->named(second);
+  StateComparison comparison;
+  comparison.settings = settingDifferences(a.settings, b.settings);
+  std::map<int, const SessionConstraint*> inFirst;
+  for (const auto& constraint : a.constraints)
+  {
+    inFirst[constraint->id] = constraint.get();
+  }
+  for (const auto& constraint : b.constraints)
+  {
+    const auto found = inFirst.find(constraint->id);
+    if (found == inFirst.end())
+    {
+      comparison.onlySecond.push_back(constraint->id);
+      continue;
+    }
+    if (constraintToJson(*found->second) != constraintToJson(*constraint))
+    {
+      comparison.changed.push_back(constraint->id);
+    }
+    inFirst.erase(found);
+  }
+  for (const auto& [id, constraint] : inFirst)
+  {
+    comparison.onlyFirst.push_back(id);
+  }
+  const auto resultA = data_->resultOf(a);
+  const auto resultB = data_->resultOf(b);
+  if (resultA && resultB)
+  {
+    StateComparison::Results& results = comparison.results.emplace();
+    results.quads[0] = resultA->quads.quads.size();
+    results.quads[1] = resultB->quads.quads.size();
+    results.irregular[0] = resultA->irregular.size();
+    results.irregular[1] = resultB->irregular.size();
+    measureDistance(*resultA, *resultB, results);
+  }
+  return comparison;
+}
+
+} // namespace quadrille

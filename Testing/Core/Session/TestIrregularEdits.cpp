@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Operations on irregular vertices, found again in the quads.
+#include "SessionHelpers.h"
+
+namespace quadrille
+{
+namespace
+{
+
+using namespace quadrille::test;
+
+class IrregularEdits : public ::testing::Test
+{
+protected:
+  IrregularEdits() : session_(dents(), sessionOptions(400))
+  {
+    EXPECT_TRUE(session_.update().status.ok());
+    before_ = session_.result()->irregular;
+  }
+
+  /// The one vertex whose neighbour among irregular ones is farthest.
+  const IrregularVertex& loneliest(int valence) const
+  {
+    const IrregularVertex* best = nullptr;
+    double farthest = -1;
+    for (const IrregularVertex& vertex : before_)
+    {
+      double nearest = 1e300;
+      for (const IrregularVertex& other : before_)
+      {
+        nearest = other.point == vertex.point
+          ? nearest
+          : std::min(nearest, (other.place - vertex.place).norm());
+      }
+      if (vertex.valence == valence && nearest > farthest)
+      {
+        farthest = nearest;
+        best = &vertex;
+      }
+    }
+    EXPECT_NE(best, nullptr);
+    return *best;
+  }
+
+  /// After the update: exactly these irregular vertices, in the map and in the quads.
+  void expectIrregular(std::map<Index, int> expected)
+  {
+    const SessionReport& report = session_.update();
+    ASSERT_TRUE(report.status.ok()) << report.status.message;
+    for (const ConstraintWord& word : report.constraints)
+    {
+      EXPECT_TRUE(word.isMet) << word.text << ": " << word.reason;
+    }
+    EXPECT_FALSE(hasRun(report, "phase1"));
+    const SessionResult& result = *session_.result();
+    EXPECT_EQ(valencesOf(result), expected);
+    EXPECT_EQ(indexSum(result.quads), 8); // of a sphere
+    std::size_t irregular = 0;
+    for (const int valence : result.quads.valence)
+    {
+      irregular += valence != 4;
+    }
+    EXPECT_EQ(irregular, expected.size());
+    for (const auto& [point, valence] : expected)
+    {
+      EXPECT_EQ(quadValenceAt(result.quads, session_.surface().points[point]), valence);
+    }
+  }
+
+  Index pointAt(const Vector3& p) const
+  {
+    const std::vector<Vector3>& points = session_.surface().points;
+    return static_cast<Index>(std::find(points.begin(), points.end(), p) - points.begin());
+  }
+
+  Session session_;
+  std::vector<IrregularVertex> before_;
+};
+
+TEST_F(IrregularEdits, AMovedVertexLeavesTheOthers)
+{
+  const IrregularVertex from = loneliest(3);
+  const Vector3 to = emptiestPlace(session_, before_);
+  session_.add(IrregularEdit{ IrregularOperation::Move, { from.place, to }, {}, {}, {}, {} });
+  std::map<Index, int> expected = valencesOf(*session_.result());
+  session_.undo();
+  expected = valencesOf(*session_.result());
+  session_.redo();
+  expected.erase(from.point);
+  expected[pointAt(to)] = 3;
+  expectIrregular(expected);
+}
+
+TEST_F(IrregularEdits, APairComesAndGoes)
+{
+  std::map<Index, int> expected = valencesOf(*session_.result());
+  const std::map<Index, int> first = expected;
+  const Vector3 a = emptiestPlace(session_, before_);
+  std::vector<IrregularVertex> with = before_;
+  with.push_back({ 0, a, 3 });
+  const Vector3 b = emptiestPlace(session_, with);
+  session_.add(IrregularEdit{ IrregularOperation::Add, { a, b }, {}, {}, {}, {} });
+  expected[pointAt(a)] = 3;
+  expected[pointAt(b)] = 5;
+  expectIrregular(expected);
+  session_.add(IrregularEdit{ IrregularOperation::Cancel, { b, a }, {}, {}, {}, {} });
+  expectIrregular(first);
+}
+
+TEST_F(IrregularEdits, VerticesMergeAndSplit)
+{
+  std::map<Index, int> expected = valencesOf(*session_.result());
+  const IrregularVertex a = loneliest(3);
+  // The nearest other one of valence 3.
+  const IrregularVertex* b = nullptr;
+  for (const IrregularVertex& vertex : before_)
+  {
+    if (vertex.valence == 3 && vertex.point != a.point &&
+      (!b || (vertex.place - a.place).norm() < (b->place - a.place).norm()))
+    {
+      b = &vertex;
+    }
+  }
+  ASSERT_NE(b, nullptr);
+  const std::map<Index, int> first = expected;
+  session_.add(IrregularEdit{ IrregularOperation::Merge, { a.place, b->place }, {}, {}, {}, {} });
+  expected[a.point] = 2;
+  expected.erase(b->point);
+  expectIrregular(expected);
+  session_.add(IrregularEdit{ IrregularOperation::Split,
+    { session_.surface().points[a.point], session_.surface().points[a.point],
+      session_.surface().points[b->point] },
+    {}, {}, {}, {} });
+  expectIrregular(first);
+}
+
+TEST_F(IrregularEdits, AnOperationThatIsTakenBackLeavesTheLaterOnes)
+{
+  std::map<Index, int> expected = valencesOf(*session_.result());
+  const Vector3 a = emptiestPlace(session_, before_);
+  std::vector<IrregularVertex> with = before_;
+  with.push_back({ 0, a, 3 });
+  const Vector3 b = emptiestPlace(session_, with);
+  const IrregularVertex from = loneliest(3);
+  const int move =
+    session_.add(IrregularEdit{ IrregularOperation::Move, { from.place, a }, {}, {}, {}, {} });
+  session_.update();
+  const IrregularVertex other = *std::find_if(before_.begin(), before_.end(),
+    [&](const IrregularVertex& v) { return v.valence == 3 && v.point != from.point; });
+  session_.add(IrregularEdit{ IrregularOperation::Move, { other.place, b }, {}, {}, {}, {} });
+  session_.update();
+  session_.remove(move);
+  expected.erase(other.point);
+  expected[pointAt(b)] = 3;
+  expectIrregular(expected);
+}
+
+TEST_F(IrregularEdits, RefusesWhatTheSumDoesNotAllow)
+{
+  const IrregularVertex from = loneliest(3);
+  const auto messageOf = [this](const IrregularEdit& edit)
+  {
+    try
+    {
+      session_.add(edit);
+    }
+    catch (const InvalidInput& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const Vector3 a = emptiestPlace(session_, before_);
+  EXPECT_NE(
+    messageOf({ IrregularOperation::Add, { a, from.place }, { 3, 4 }, {}, {}, {} }).find("by 1"),
+    std::string::npos);
+  EXPECT_NE(messageOf({ IrregularOperation::Split, { from.place, from.place, a }, {}, {}, {}, {} })
+              .find("no half"),
+    std::string::npos);
+  EXPECT_NE(messageOf({ IrregularOperation::Move, { from.place, from.place }, {}, {}, {}, {} })
+              .find("already"),
+    std::string::npos);
+  const IrregularVertex other = *std::find_if(before_.begin(), before_.end(),
+    [&](const IrregularVertex& v) { return v.valence == 3 && v.point != from.point; });
+  EXPECT_NE(messageOf({ IrregularOperation::Cancel, { from.place, other.place }, {}, {}, {}, {} })
+              .find("by -2"),
+    std::string::npos);
+  EXPECT_TRUE(session_.constraints().empty());
+}
+
+TEST_F(IrregularEdits, ValencesThatKeepTheSumLeaveTheOthersToo)
+{
+  const Vector3 a = emptiestPlace(session_, before_);
+  const IrregularVertex from = loneliest(3);
+  session_.add(IrregularEdit{ IrregularOperation::Move, { from.place, a }, {}, {}, {}, {} });
+  session_.update();
+  std::map<Index, int> expected = valencesOf(*session_.result());
+  const Vector3 b = emptiestPlace(session_, session_.result()->irregular);
+  std::vector<IrregularVertex> with = session_.result()->irregular;
+  with.push_back({ 0, b, 3 });
+  const Vector3 c = emptiestPlace(session_, with);
+  session_.add(ValenceAt{ b, 3 });
+  session_.add(ValenceAt{ c, 5 });
+  expected[pointAt(b)] = 3;
+  expected[pointAt(c)] = 5;
+  expectIrregular(expected);
+}
+
+TEST(IrregularEditsOnCurves, PlacesOnFeaturesAreRefused)
+{
+  Session session(toInput(unitCube(8)), sessionOptions(100));
+  ASSERT_TRUE(session.update().status.ok());
+  EXPECT_TRUE(session.result()->irregular.empty()); // those of a cube are on its features
+  EXPECT_THROW(session.add(IrregularEdit{
+                 IrregularOperation::Add, { { 0, 0, 0.5 }, { 0.5, 0.5, 0 } }, {}, {}, {}, {} }),
+    InvalidInput);
+  EXPECT_THROW(session.add(IrregularEdit{
+                 IrregularOperation::Move, { { 0, 0, 0.5 }, { 0.5, 0.5, 0 } }, {}, {}, {}, {} }),
+    InvalidInput);
+}
+
+} // namespace
+} // namespace quadrille

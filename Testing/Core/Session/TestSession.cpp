@@ -1,0 +1,266 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// States of a session, and what is made for them.
+#include "SessionHelpers.h"
+
+namespace quadrille
+{
+namespace
+{
+
+using namespace quadrille::test;
+
+const GuideStroke kStroke{ { { 0.9, -0.3, 0.3 }, { 0.9, 0.3, 0.4 } }, 1, 0.3 };
+
+TEST(Session, MakesOnlyWhatAStateNeeds)
+{
+  Session session(dents(), sessionOptions(400));
+  const SessionReport& cold = session.update();
+  ASSERT_TRUE(cold.status.ok()) << cold.status.message;
+  EXPECT_EQ(cold.runs, 1);
+  EXPECT_TRUE(hasRun(cold, "phase1"));
+  const QuadMesh first = session.result()->quads;
+
+  const SessionReport again = session.update();
+  EXPECT_EQ(again.runs, 0);
+  EXPECT_TRUE(again.stages.empty());
+  EXPECT_EQ(again.reused, std::vector<std::string>{ "all" });
+
+  session.add(kStroke);
+  const SessionReport guided = session.update();
+  ASSERT_TRUE(guided.status.ok());
+  for (const char* stage : { "repair", "order", "connectivity", "refine", "phase1" })
+  {
+    EXPECT_FALSE(hasRun(guided, stage)) << stage;
+  }
+  EXPECT_TRUE(hasRun(guided, "field"));
+  const QuadMesh second = session.result()->quads;
+  EXPECT_FALSE(areSame(first, second));
+
+  ASSERT_TRUE(session.undo());
+  EXPECT_FALSE(session.undo());
+  EXPECT_EQ(session.update().runs, 0);
+  EXPECT_TRUE(areSame(session.result()->quads, first));
+  ASSERT_TRUE(session.redo());
+  EXPECT_FALSE(session.redo());
+  EXPECT_EQ(session.update().runs, 0);
+  EXPECT_TRUE(areSame(session.result()->quads, second));
+}
+
+TEST(Session, IsTheSameAsFromNothing)
+{
+  Session session(dents(), sessionOptions(400));
+  session.update();
+  const int guide = session.add(kStroke);
+  session.add(ValenceAt{ { 0, 0, 1 }, 5 });
+  session.update();
+  GuideStroke turned = kStroke;
+  turned.points.back() = Vector3(0.9, 0.1, 0.6);
+  session.edit(guide, turned);
+  session.update();
+  session.remove(guide);
+  session.add(kStroke);
+  const SessionReport& report = session.update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+
+  Session fresh(dents(), sessionOptions(400));
+  fresh.add(ValenceAt{ { 0, 0, 1 }, 5 });
+  fresh.add(kStroke);
+  ASSERT_TRUE(fresh.update().status.ok());
+  EXPECT_TRUE(areSame(session.result()->quads, fresh.result()->quads));
+}
+
+TEST(Session, IdsStay)
+{
+  Session session(dents(), sessionOptions(400));
+  const int a = session.add(ValenceAt{ { 1, 0, 0 }, 5 });
+  const int b = session.add(ValenceAt{ { 0, 1, 0 }, 5 });
+  session.remove(a);
+  ASSERT_EQ(session.constraints().size(), 1u);
+  EXPECT_EQ(session.constraints()[0]->id, b);
+  session.undo();
+  session.undo();
+  const int c = session.add(ValenceAt{ { 0, 0, 1 }, 5 });
+  EXPECT_NE(c, a);
+  EXPECT_NE(c, b);
+  EXPECT_FALSE(session.canRedo());
+  EXPECT_THROW(session.remove(b), InvalidInput);
+  EXPECT_THROW(session.edit(c, kStroke), InvalidInput); // of another kind
+  EXPECT_EQ(session.constraints().back()->id, c);
+}
+
+TEST(Session, ValencesComeOutAndAreTold)
+{
+  Session session(dents(), sessionOptions(400));
+  const Vector3 place = session.surface().points[100];
+  session.add(ValenceAt{ place, 5 });
+  const SessionReport& report = session.update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  ASSERT_EQ(report.constraints.size(), 1u);
+  EXPECT_TRUE(report.constraints[0].isMet) << report.constraints[0].reason;
+  EXPECT_EQ(report.constraints[0].kind, "valence");
+  EXPECT_EQ(quadValenceAt(session.result()->quads, place), 5);
+  EXPECT_EQ(valencesOf(*session.result())[100], 5);
+}
+
+TEST(Session, TheLaterOfTwoThatContradictIsLeftOut)
+{
+  Session session(dents(), sessionOptions(400));
+  const Vector3 place = session.surface().points[100];
+  session.add(ValenceAt{ place, 5 });
+  session.add(ValenceAt{ place, 3 });
+  const SessionReport report = session.update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  EXPECT_TRUE(report.constraints[0].isMet);
+  EXPECT_FALSE(report.constraints[1].isMet);
+  EXPECT_EQ(report.constraints[1].text, "valence 2");
+  EXPECT_NE(report.constraints[1].reason.find("valence 1"), std::string::npos)
+    << report.constraints[1].reason;
+  session.remove(1);
+  EXPECT_TRUE(session.update().constraints[0].isMet);
+}
+
+TEST(Session, WhatIsInfeasibleWithTheRestIsLeftOut)
+{
+  // All points but the first asked to be regular leave the first one alone with the index of the sphere.
+  SurfaceInput input = toInput(sphere(3));
+  input.targetValences.assign(input.points.size(), 4);
+  for (std::size_t i = 0; i < 12; ++i)
+  {
+    input.targetValences[i] = 0;
+  }
+  Session session(input, sessionOptions(200));
+  std::vector<int> ids;
+  for (std::size_t i = 0; i < 12; ++i)
+  {
+    ids.push_back(session.add(ValenceAt{ input.points[i], 4 }));
+  }
+  const SessionReport report = session.update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  EXPECT_GT(report.runs, 1);
+  const auto missed = std::count_if(report.constraints.begin(), report.constraints.end(),
+    [](const ConstraintWord& word) { return !word.isMet; });
+  EXPECT_GT(missed, 0);
+  EXPECT_TRUE(report.constraints.front().isMet); // the later ones are left out
+  for (const ConstraintWord& word : report.constraints)
+  {
+    EXPECT_EQ(word.isMet, word.reason.empty()) << word.text;
+  }
+  EXPECT_NE(report.constraints.back().reason.find("valence 1"), std::string::npos)
+    << report.constraints.back().reason;
+}
+
+TEST(Session, LaterGuidesCountWhereTheyOverlap)
+{
+  Session session(dents(), sessionOptions(400));
+  session.add(kStroke);
+  GuideStroke across = kStroke;
+  across.points = { { 0.9, 0, 0 }, { 0.9, 0.2, 0.8 } };
+  session.add(across);
+  const SessionReport& report = session.update();
+  ASSERT_TRUE(report.status.ok());
+  ASSERT_FALSE(report.constraints[0].isMet);
+  EXPECT_NE(report.constraints[0].reason.find("constraint 2"), std::string::npos)
+    << report.constraints[0].reason;
+}
+
+TEST(Session, FeaturesBecomeEdges)
+{
+  Session session(toInput(gridPlane(16, 16)), sessionOptions(100));
+  session.add(FeatureLine{ { { 3, 0, 0 }, { 3, 16, 0 } } });
+  const SessionReport& report = session.update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  EXPECT_TRUE(report.constraints[0].isMet) << report.constraints[0].reason;
+  std::size_t onLine = 0;
+  for (const Vector3& p : session.result()->quads.points)
+  {
+    onLine += std::abs(p.x() - 3) < 1e-9;
+  }
+  EXPECT_GE(onLine, 5u);
+}
+
+TEST(Session, SizesMakeSmallerQuads)
+{
+  Session session(dents(), sessionOptions(600));
+  session.add(SizeAt{ { 0, 0, 1 }, 0.5, 0.4 });
+  const SessionReport& report = session.update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  const QuadMesh& quads = session.result()->quads;
+  double near = 0, far = 0;
+  std::size_t nearCount = 0, farCount = 0;
+  for (const std::array<Index, 4>& quad : quads.quads)
+  {
+    const double area = (quads.points[quad[2]] - quads.points[quad[0]])
+                          .cross(quads.points[quad[3]] - quads.points[quad[1]])
+                          .norm() /
+      2;
+    const bool isNear = (quads.points[quad[0]] - Vector3(0, 0, 1)).norm() < 0.3;
+    (isNear ? near : far) += area;
+    ++(isNear ? nearCount : farCount);
+  }
+  ASSERT_GT(nearCount, 0u);
+  EXPECT_LT(near / static_cast<double>(nearCount), 0.5 * far / static_cast<double>(farCount));
+}
+
+TEST(Session, StatesHaveNamesAndAreCompared)
+{
+  Session session(dents(), sessionOptions(400));
+  session.update();
+  session.nameState("plain");
+  const int guide = session.add(kStroke);
+  RemeshOptions finer = session.settings();
+  finer.quads = 500;
+  session.setSettings(finer);
+  session.update();
+  session.nameState("guided");
+  const StateComparison comparison = session.compare("plain", "guided");
+  EXPECT_EQ(comparison.settings, std::vector<std::string>{ "quads: 400, 500" });
+  EXPECT_EQ(comparison.onlySecond, std::vector<int>{ guide });
+  EXPECT_TRUE(comparison.onlyFirst.empty());
+  EXPECT_TRUE(comparison.changed.empty());
+  ASSERT_TRUE(comparison.results.has_value());
+  EXPECT_GT(comparison.results->quads[1], comparison.results->quads[0]);
+  // On a closed surface the sums of indices are equal.
+  EXPECT_EQ(comparison.results->unmatched, 0);
+  const StateComparison same = session.compare("guided", "");
+  EXPECT_TRUE(same.settings.empty() && same.onlyFirst.empty() && same.onlySecond.empty());
+  EXPECT_EQ(same.results->distance, 0.0);
+
+  session.goTo("plain");
+  EXPECT_TRUE(session.constraints().empty());
+  EXPECT_EQ(session.update().runs, 0);
+  session.undo();
+  EXPECT_EQ(session.constraints().size(), 1u);
+  EXPECT_THROW(session.goTo("nothing"), InvalidInput);
+}
+
+TEST(Session, AStopLeavesNoResult)
+{
+  Session session(dents(), sessionOptions(400));
+  session.setProgress([](double, const std::string&) { return false; });
+  EXPECT_EQ(session.update().status.code, StatusCode::Cancelled);
+  EXPECT_FALSE(session.result());
+  session.setProgress({});
+  EXPECT_TRUE(session.update().status.ok());
+}
+
+TEST(Session, RefusesWhatCannotBe)
+{
+  EXPECT_THROW(Session(SurfaceInput{}, sessionOptions(10)), InvalidInput);
+  RemeshOptions nothing;
+  nothing.quads = 0;
+  EXPECT_THROW(Session(dents(), nothing), InvalidInput);
+  Session session(dents(), sessionOptions(100));
+  EXPECT_THROW(session.add(FeatureLine{ { { 0, 0, 1 } } }), InvalidInput);
+  EXPECT_THROW(session.add(ValenceAt{ { 0, 0, 1 }, 9 }), InvalidInput);
+  EXPECT_THROW(session.add(ValenceAt{ { 0, 0, std::nan("") }, 5 }), InvalidInput);
+  EXPECT_THROW(session.add(GuideRegion{ { 1000000 }, { 1, 0, 0 }, 1 }), InvalidInput);
+  EXPECT_THROW(session.add(GuideRegion{ { 1 }, { 0, 0, 0 }, 1 }), InvalidInput);
+  EXPECT_THROW(session.add(SizeAt{ { 0, 0, 1 }, 0.1, 0 }), InvalidInput);
+  EXPECT_THROW(session.add(Cycle{ { { 0, 0, 1 }, { 1, 0, 0 } } }), InvalidInput);
+  EXPECT_TRUE(session.constraints().empty());
+  EXPECT_FALSE(session.canUndo());
+}
+
+} // namespace
+} // namespace quadrille
