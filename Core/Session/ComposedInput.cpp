@@ -54,6 +54,7 @@ public:
       }
     }
     setValences();
+    setEdits();
     return std::move(composed_);
   }
 
@@ -109,7 +110,6 @@ public:
   {
     const Index point = places_.nearestCorner(at.point);
     part().place = surface_.points[point];
-    part().points = { point };
     if (at.valence == kLeastValence && places_.isOnBoundary(point))
     {
       refuse("valence ", at.valence, " is asked for at ", placeText(surface_.points[point]),
@@ -168,7 +168,6 @@ public:
     IrregularList next = list_;
     for (const IrregularEdit::Change& change : edit.changes)
     {
-      part().points.push_back(change.point);
       part().place = surface_.points[change.point];
     }
     part().whyNot = next.apply(id(), constraints_[at_]->revision, edit, surface_);
@@ -281,6 +280,23 @@ private:
       input.targetValences[point] = asked.valence;
     }
     input.regularElsewhere = surface_.regularElsewhere || (list_.isInForce() && off == 0);
+  }
+
+  void setEdits()
+  {
+    for (std::size_t i = 0; i < constraints_.size(); ++i)
+    {
+      const auto* edit = std::get_if<IrregularEdit>(&constraints_[i]->content);
+      PlacedPart& placed = composed_.parts[i];
+      for (std::size_t k = 0; edit && placed.whyNot.empty() && k < edit->changes.size(); ++k)
+      {
+        const Index point = edit->changes[k].point;
+        if (list_.changedBy(point) == constraints_[i]->id)
+        {
+          placed.valences.emplace_back(point, list_.valenceAt(point));
+        }
+      }
+    }
   }
 
   const SurfaceInput& surface_;

@@ -24,7 +24,9 @@ struct PlacedPart
   Vector3 place = Vector3::Zero(); ///< on the surface
   std::vector<Vector3> path;       ///< of a feature
   std::vector<GuidedPolygon> guided;
-  std::vector<Index> points; ///< of the input, whose valence or size it asks for
+  std::vector<Index> points; ///< of the input, whose size it asks for
+  /// Of an irregular operation: points and their valences, but for those that a later operation has changed again.
+  std::vector<std::pair<Index, int>> valences;
   /// Elements (polygons, points) on which later constraints count in its place, by the id of one of these.
   std::size_t overruled = 0;
   int overruledBy = 0;

@@ -63,7 +63,7 @@ public:
   }
   ConstraintMeasure operator()(const SizeAt& at) { return size(at.factor); }
   ConstraintMeasure operator()(const SizeRegion& region) { return size(region.factor); }
-  ConstraintMeasure operator()(const IrregularEdit& edit);
+  ConstraintMeasure operator()(const IrregularEdit&);
   ConstraintMeasure operator()(const Connection& connection)
   {
     return chain(QuadChains(quads_).connection(connection.points),
@@ -147,25 +147,25 @@ private:
   const PlacedPart* part_ = nullptr;
 };
 
-/// The vertices that it changed have their valences; deviation counts those that have not.
-ConstraintMeasure SessionJudge::operator()(const IrregularEdit& edit)
+/// The vertices that it changed last have their valences; deviation counts those that have not.
+ConstraintMeasure SessionJudge::operator()(const IrregularEdit&)
 {
   ConstraintMeasure measure;
   measure.place = part_->place;
   measure.unit = "valence";
   measure.deviation95 = std::numeric_limits<double>::quiet_NaN();
   std::size_t other = 0;
-  for (const IrregularEdit::Change& change : edit.changes)
+  for (const auto& [point, asked] : part_->valences)
   {
     // Regular ones move with the smoothing, so it is those of the map that tell.
-    const auto found = std::lower_bound(irregular_.begin(), irregular_.end(), change.point,
-      [](const IrregularVertex& vertex, Index point) { return vertex.point < point; });
-    const bool isIrregular = found != irregular_.end() && found->point == change.point;
+    const auto found = std::lower_bound(irregular_.begin(), irregular_.end(), point,
+      [](const IrregularVertex& vertex, Index p) { return vertex.point < p; });
+    const bool isIrregular = found != irregular_.end() && found->point == point;
     const int valence = isIrregular ? found->valence : kRegularValence;
-    if (valence != change.after)
+    if (valence != asked)
     {
-      measure.place = surface_.points[change.point];
-      measure.reason = "asked " + std::to_string(change.after) + ", got " + std::to_string(valence);
+      measure.place = surface_.points[point];
+      measure.reason = "asked " + std::to_string(asked) + ", got " + std::to_string(valence);
       ++other;
     }
   }
