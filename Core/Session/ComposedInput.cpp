@@ -190,10 +190,12 @@ public:
 
   void operator()(const Connection& connection)
   {
+    part().curve = composed_.input.curves.size();
     composed_.input.curves.push_back({ CurveKind::Connection, connection.points });
   }
   void operator()(const Cycle& cycle)
   {
+    part().curve = composed_.input.curves.size();
     composed_.input.curves.push_back({ CurveKind::Cycle, cycle.points });
   }
 

@@ -8,6 +8,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,7 +25,8 @@ struct PlacedPart
   Vector3 place = Vector3::Zero(); ///< on the surface
   std::vector<Vector3> path;       ///< of a feature
   std::vector<GuidedPolygon> guided;
-  std::vector<Index> points; ///< of the input, whose size it asks for
+  std::vector<Index> points;        ///< of the input, whose size it asks for
+  std::optional<std::size_t> curve; ///< of connections and cycles: in the input's curves
   /// Of an irregular operation: points and their valences, but for those that a later operation has changed again.
   std::vector<std::pair<Index, int>> valences;
   /// Elements (polygons, points) on which later constraints count in its place, by the id of one of these.

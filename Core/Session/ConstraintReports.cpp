@@ -3,7 +3,8 @@
 #include "Session/ConstraintReports.h"
 
 #include "Evaluation/ConstraintMeasures.h"
-#include "Session/QuadChains.h"
+#include "Extraction/QuadChains.h"
+#include "Mesh/Distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +20,11 @@ class SessionJudge
 {
 public:
   SessionJudge(const SurfaceInput& surface, const SessionConstraints& constraints,
-    const ComposedInput& composed, const QuadMesh& quads,
-    const std::vector<IrregularVertex>& irregular, double targetEdgeLength)
-    : surface_(surface), constraints_(constraints), composed_(composed), quads_(quads),
-      irregular_(irregular), targetEdgeLength_(targetEdgeLength), measures_(quads)
+    const ComposedInput& composed, const RemeshResult& made,
+    const std::vector<IrregularVertex>& irregular)
+    : surface_(surface), constraints_(constraints), composed_(composed), quads_(made.quads),
+      curves_(made.curves), irregular_(irregular), targetEdgeLength_(made.targetEdgeLength),
+      measures_(made.quads)
   {
     std::size_t guides = 0;
     for (const PlacedPart& part : composed.parts)
@@ -64,16 +66,8 @@ public:
   ConstraintMeasure operator()(const SizeAt& at) { return size(at.factor); }
   ConstraintMeasure operator()(const SizeRegion& region) { return size(region.factor); }
   ConstraintMeasure operator()(const IrregularEdit&);
-  ConstraintMeasure operator()(const Connection& connection)
-  {
-    return chain(QuadChains(quads_).connection(connection.points),
-      "no chain of edges that is straight in the map leads from one end to the other");
-  }
-  ConstraintMeasure operator()(const Cycle& cycle)
-  {
-    return chain(QuadChains(quads_).cycle(cycle.points),
-      "no chain of edges that is straight in the map closes near it");
-  }
+  ConstraintMeasure operator()(const Connection& connection);
+  ConstraintMeasure operator()(const Cycle& cycle);
 
 private:
   ConstraintMeasure measureOf(const SessionConstraint& constraint)
@@ -121,25 +115,14 @@ private:
 
   ConstraintMeasure size(double factor);
 
-  ConstraintMeasure chain(const std::optional<double>& distance, const char* whyNot)
-  {
-    if (!distance)
-    {
-      return ConstraintMeasure::unknown(part_->place, "edge lengths", whyNot);
-    }
-    ConstraintMeasure measure;
-    measure.place = part_->place;
-    measure.unit = "edge lengths";
-    measure.deviation = targetEdgeLength_ > 0 ? *distance / targetEdgeLength_ : 0;
-    measure.deviation95 = std::numeric_limits<double>::quiet_NaN();
-    measure.isMet = true;
-    return measure;
-  }
+  ConstraintMeasure chainMeasure(
+    const std::vector<Index>& chain, std::vector<Vector3> line, bool isClosed) const;
 
   const SurfaceInput& surface_;
   const SessionConstraints& constraints_;
   const ComposedInput& composed_;
   const QuadMesh& quads_;
+  const std::vector<CurveOutcome>& curves_;
   const std::vector<IrregularVertex>& irregular_;
   double targetEdgeLength_;
   ConstraintMeasures measures_;
@@ -172,6 +155,80 @@ ConstraintMeasure SessionJudge::operator()(const IrregularEdit&)
   measure.deviation = static_cast<double>(other);
   measure.isMet = other == 0;
   return measure;
+}
+
+/// Met where there is a chain; how far it runs from what was drawn is told.
+ConstraintMeasure SessionJudge::chainMeasure(
+  const std::vector<Index>& chain, std::vector<Vector3> line, bool isClosed) const
+{
+  const CurveOutcome* outcome =
+    part_->curve && *part_->curve < curves_.size() ? &curves_[*part_->curve] : nullptr;
+  if (chain.empty())
+  {
+    return ConstraintMeasure::unknown(part_->place, "edge lengths",
+      outcome && !outcome->why.empty()
+        ? outcome->why
+        : "the quads have no straight chain of edges there: draw it nearer to one that could be");
+  }
+  if (isClosed)
+  {
+    line.push_back(line.front());
+  }
+  ConstraintMeasure measure;
+  measure.unit = "edge lengths";
+  measure.deviation = -1;
+  for (const Index p : chain)
+  {
+    double distance = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+    {
+      distance = std::min(distance, distanceToSegment(quads_.points[p], line[i], line[i + 1]));
+    }
+    if (distance / targetEdgeLength_ > measure.deviation)
+    {
+      measure.deviation = distance / targetEdgeLength_;
+      measure.place = quads_.points[p];
+    }
+  }
+  measure.deviation95 = std::numeric_limits<double>::quiet_NaN();
+  measure.isMet = true;
+  return measure;
+}
+
+/// The ends are where the map has taken them: to the nearest irregular vertex, feature or boundary.
+ConstraintMeasure SessionJudge::operator()(const Connection& connection)
+{
+  std::vector<Index> chain;
+  if (part_->curve && *part_->curve < curves_.size() && curves_[*part_->curve].met)
+  {
+    const CurveOutcome& outcome = curves_[*part_->curve];
+    const QuadChains chains(quads_);
+    const Index start = chains.nearestPoint(outcome.start);
+    chain = chains.between(start, chains.nearestPoint(outcome.end));
+    constexpr double kEdgesToLine = 3;
+    if (chain.empty())
+    {
+      chain = chains.toLine(start, outcome.end, kEdgesToLine * targetEdgeLength_);
+    }
+  }
+  return chainMeasure(chain, connection.points, false);
+}
+
+/// A closed chain that stays within a tenth of the cycle's length, or three edges.
+ConstraintMeasure SessionJudge::operator()(const Cycle& cycle)
+{
+  double length = 0;
+  for (std::size_t i = 0; i < cycle.points.size(); ++i)
+  {
+    length += (cycle.points[(i + 1) % cycle.points.size()] - cycle.points[i]).norm();
+  }
+  std::vector<Index> chain;
+  if (part_->curve && *part_->curve < curves_.size() && curves_[*part_->curve].met)
+  {
+    chain =
+      QuadChains(quads_).closedNear(cycle.points, std::max(0.1 * length, 3 * targetEdgeLength_));
+  }
+  return chainMeasure(chain, cycle.points, true);
 }
 
 /// By which factor the edge lengths at the places, from the areas of the quads there, differ from those asked for.
@@ -225,10 +282,10 @@ ConstraintMeasure SessionJudge::size(double factor)
 } // namespace
 
 std::vector<ConstraintWord> reportConstraints(const SurfaceInput& surface,
-  const SessionConstraints& constraints, const ComposedInput& composed, const QuadMesh& quads,
-  const std::vector<IrregularVertex>& irregular, double targetEdgeLength)
+  const SessionConstraints& constraints, const ComposedInput& composed, const RemeshResult& made,
+  const std::vector<IrregularVertex>& irregular)
 {
-  return SessionJudge(surface, constraints, composed, quads, irregular, targetEdgeLength).run();
+  return SessionJudge(surface, constraints, composed, made, irregular).run();
 }
 
 } // namespace quadrille

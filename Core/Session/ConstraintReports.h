@@ -11,9 +11,9 @@
 namespace quadrille
 {
 
-/// quads: what was made, without quads where there are none. irregular: see irregularVertices.
+/// made: for the composed input; without quads where there are none. irregular: see irregularVertices.
 std::vector<ConstraintWord> reportConstraints(const SurfaceInput& surface,
-  const SessionConstraints& constraints, const ComposedInput& composed, const QuadMesh& quads,
-  const std::vector<IrregularVertex>& irregular, double targetEdgeLength);
+  const SessionConstraints& constraints, const ComposedInput& composed, const RemeshResult& made,
+  const std::vector<IrregularVertex>& irregular);
 
 } // namespace quadrille

@@ -99,12 +99,12 @@ public:
     {
       result->irregular = irregularVertices(made);
       result->fixedPoints = pointsOnCurves(made);
-      result->quads = std::move(made.quads);
     }
     result->targetEdgeLength = made.targetEdgeLength;
     result->targetQuads = made.targetQuads;
-    report.constraints = reportConstraints(data_.surface, state_.constraints, composed_,
-      result->quads, result->irregular, made.targetEdgeLength);
+    report.constraints =
+      reportConstraints(data_.surface, state_.constraints, composed_, made, result->irregular);
+    result->quads = std::move(made.quads);
     report.seconds = secondsNow() - start;
     return result;
   }

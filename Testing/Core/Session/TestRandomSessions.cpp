@@ -47,7 +47,7 @@ private:
 
   void edit()
   {
-    switch (upTo(9))
+    switch (upTo(11))
     {
       case 0:
         session_.add(GuideStroke{ { place(), place() }, 1, 0.1 });
@@ -68,6 +68,12 @@ private:
       case 5:
         session_.add(
           IrregularEdit{ IrregularOperation::Move, { place(), place() }, {}, {}, {}, {} });
+        break;
+      case 9:
+        session_.add(Connection{ { place(), place() } });
+        break;
+      case 10:
+        session_.add(Cycle{ { place(), place(), place() } });
         break;
       case 6:
         session_.undo();

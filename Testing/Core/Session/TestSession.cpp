@@ -3,6 +3,8 @@
 /// States of a session, and what is made for them.
 #include "SessionHelpers.h"
 
+#include "Extraction/QuadChains.h"
+
 namespace quadrille
 {
 namespace
@@ -178,6 +180,64 @@ TEST(Session, FeaturesBecomeEdges)
     onLine += std::abs(p.x() - 3) < 1e-9;
   }
   EXPECT_GE(onLine, 5u);
+}
+
+TEST(Session, ConnectionsAreChainsOfEdges)
+{
+  Session session(dents(), sessionOptions(600));
+  session.update();
+  const SessionResult before = *session.result();
+  const QuadChains chains(before.quads);
+  // Two irregular vertices near each other that no chain joins.
+  const IrregularVertex *first = nullptr, *second = nullptr;
+  for (const IrregularVertex& a : before.irregular)
+  {
+    for (const IrregularVertex& b : before.irregular)
+    {
+      if (a.point < b.point &&
+        chains.between(chains.nearestPoint(a.place), chains.nearestPoint(b.place)).empty() &&
+        (!first || (a.place - b.place).norm() < (first->place - second->place).norm()))
+      {
+        first = &a;
+        second = &b;
+      }
+    }
+  }
+  ASSERT_NE(first, nullptr);
+  session.add(Connection{ { first->place, second->place } });
+  const SessionReport& report = session.update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  EXPECT_FALSE(hasRun(report, "phase1"));
+  ASSERT_TRUE(report.constraints[0].isMet) << report.constraints[0].reason;
+  const QuadMesh& quads = session.result()->quads;
+  const QuadChains after(quads);
+  bool isJoined = false;
+  for (const IrregularVertex& a : session.result()->irregular)
+  {
+    for (const IrregularVertex& b : session.result()->irregular)
+    {
+      const double apart = (a.place - first->place).norm() + (b.place - second->place).norm();
+      isJoined |= apart < 3 * session.result()->targetEdgeLength &&
+        !after.between(after.nearestPoint(a.place), after.nearestPoint(b.place)).empty();
+    }
+  }
+  EXPECT_TRUE(isJoined);
+}
+
+TEST(Session, CyclesClose)
+{
+  Session session(dents(), sessionOptions(600));
+  Cycle cycle;
+  for (int i = 0; i < 24; ++i)
+  {
+    const double t = 2 * kPi * i / 24;
+    cycle.points.push_back(Vector3(0.5 * std::sin(t), std::cos(t), 0.8 * std::sin(t)).normalized());
+  }
+  session.add(cycle);
+  const SessionReport& report = session.update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  EXPECT_TRUE(report.constraints[0].isMet) << report.constraints[0].reason;
+  EXPECT_FALSE(QuadChains(session.result()->quads).closedNear(cycle.points, 0.7).empty());
 }
 
 TEST(Session, SizesMakeSmallerQuads)
