@@ -468,6 +468,16 @@ void Session::setSettings(const RemeshOptions& settings)
   data_->enter(std::move(next));
 }
 
+int Session::threads() const
+{
+  return data_->threads;
+}
+
+std::optional<double> Session::memoryLimit() const
+{
+  return data_->memoryLimit;
+}
+
 void Session::setThreads(int threads)
 {
   data_->threads = threads;

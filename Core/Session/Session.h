@@ -100,8 +100,11 @@ public:
   const SurfaceInput& surface() const;
   const RemeshOptions& settings() const;
   void setSettings(const RemeshOptions& settings);
-  /// What no result depends on: threads, memoryLimit and progress of the settings; they are no state.
+  /// What no result depends on: threads, memoryLimit and progress of the settings; they are no state, and those of
+  /// settings() and setSettings() do not count.
+  int threads() const;
   void setThreads(int threads);
+  std::optional<double> memoryLimit() const;
   void setMemoryLimit(std::optional<double> bytes);
   void setProgress(ProgressCallback progress);
   /// Bytes that stages, and results of states, may hold; 0: a quarter and a 32nd of the machine's memory.

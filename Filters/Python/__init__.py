@@ -7,11 +7,15 @@
     quads = quadrille.remesh((points, faces), edge_length=0.5)  # arrays or lists in
     points, faces = quadrille.to_arrays(quads)
 
+    session = quadrille.Session(mesh, quads=5000)               # change one thing, and see what it does
+    session.set_valence(point, 5)
+    session.update()
+
     quadrille.check(QuadRemesh(Input=surface))                  # in a script of ParaView: raises where it fails
 
 The VTK classes themselves are here too: vtkQuadRemesh, vtkDecimationHierarchy, vtkIntegerGridMap,
-vtkIntegerGridMapUpmap, vtkQuadExtraction, and the readers vtkQuadrilleOFFReader and
-vtkQuadrillePLYReader.
+vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkQuadrilleSession, and the readers
+vtkQuadrilleOFFReader and vtkQuadrillePLYReader.
 """
 import collections
 
@@ -21,6 +25,7 @@ from ._errors import InvalidInput, RemeshError, one_of, real, whole
 from ._files import read
 from ._inputs import as_curves, as_surface, to_polydata, with_requests
 from ._proxies import check
+from ._session import Irregular, Session
 from .QuadrilleFilters import (
     vtkDecimationHierarchy,
     vtkIntegerGridMap,
@@ -29,12 +34,14 @@ from .QuadrilleFilters import (
     vtkQuadRemesh,
     vtkQuadrilleOFFReader,
     vtkQuadrillePLYReader,
+    vtkQuadrilleSession,
 )
 
 __all__ = [
-    "InvalidInput", "RemeshError", "Remeshed", "check", "info", "read", "remesh", "to_arrays", "to_polydata",
+    "InvalidInput", "Irregular", "RemeshError", "Remeshed", "Session", "check", "info", "read", "remesh", "to_arrays",
+    "to_polydata",
     "vtkDecimationHierarchy", "vtkIntegerGridMap", "vtkIntegerGridMapUpmap", "vtkQuadExtraction",
-    "vtkQuadRemesh", "vtkQuadrilleOFFReader", "vtkQuadrillePLYReader",
+    "vtkQuadRemesh", "vtkQuadrilleOFFReader", "vtkQuadrillePLYReader", "vtkQuadrilleSession",
 ]
 
 

@@ -1,0 +1,368 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkQuadrilleSession.h"
+
+#include "Base/Refuse.h"
+#include "QuadrilleConvert.h"
+#include "QuadrilleNewArray.h"
+#include "Session/SessionText.h"
+
+#include <vtkCellArray.h>
+#include <vtkCommand.h>
+#include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+#include <optional>
+#include <utility>
+
+vtkStandardNewMacro(vtkQuadrilleSession);
+
+//------------------------------------------------------------------------------
+struct vtkQuadrilleSession::Internals
+{
+  std::optional<quadrille::Session> Session;
+  std::string Report;
+  std::string Error;
+  bool ErrorIsInInput = false;
+  vtkNew<vtkPolyData> Quads, Irregular;
+  std::shared_ptr<const quadrille::SessionResult> Written; ///< what these two hold
+
+  quadrille::Session& Get()
+  {
+    if (!this->Session)
+    {
+      quadrille::refuse("the session has no surface: start it, or load one");
+    }
+    return *this->Session;
+  }
+
+  /// What `act` returns, or an empty value where it throws.
+  template <class Act>
+  auto Try(const Act& act) -> decltype(act())
+  {
+    this->Error.clear();
+    this->ErrorIsInInput = false;
+    try
+    {
+      return act();
+    }
+    catch (const quadrille::InvalidInput& error)
+    {
+      this->ErrorIsInInput = true;
+      this->Error = error.what();
+    }
+    catch (const std::exception& error)
+    {
+      this->Error = error.what();
+    }
+    return {};
+  }
+
+  void Write();
+};
+
+namespace
+{
+
+quadrille::SurfaceInput convertInput(vtkPolyData* surface, int threads)
+{
+  if (surface == nullptr)
+  {
+    quadrille::refuse("there is no surface");
+  }
+  return quadrille::convertSurface(surface, quadrille::arrays::kPatchId, threads).input;
+}
+
+vtkSmartPointer<vtkPoints> pointsOf(const std::vector<quadrille::Vector3>& places)
+{
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToDouble();
+  for (const quadrille::Vector3& p : places)
+  {
+    points->InsertNextPoint(p.data());
+  }
+  return points;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleSession::Internals::Write()
+{
+  const std::shared_ptr<const quadrille::SessionResult> result =
+    this->Session ? this->Session->result() : nullptr;
+  if (result == this->Written)
+  {
+    return;
+  }
+  this->Written = result;
+  this->Quads->Initialize();
+  this->Irregular->Initialize();
+  if (!result)
+  {
+    return;
+  }
+  const quadrille::QuadMesh& quads = result->quads;
+  auto valence = quadrille::newArray<vtkIntArray>(quadrille::arrays::kValence);
+  auto onBoundary = quadrille::newArray<vtkIntArray>(quadrille::arrays::kOnBoundary);
+  vtkNew<vtkCellArray> cells;
+  for (const std::array<quadrille::Index, 4>& quad : quads.quads)
+  {
+    cells->InsertNextCell({ static_cast<vtkIdType>(quad[0]), static_cast<vtkIdType>(quad[1]),
+      static_cast<vtkIdType>(quad[2]), static_cast<vtkIdType>(quad[3]) });
+  }
+  for (std::size_t i = 0; i < quads.points.size(); ++i)
+  {
+    valence->InsertNextValue(quads.valence[i]);
+    onBoundary->InsertNextValue(quads.onBoundary[i]);
+  }
+  this->Quads->SetPoints(pointsOf(quads.points));
+  this->Quads->SetPolys(cells);
+  this->Quads->GetPointData()->AddArray(valence);
+  this->Quads->GetPointData()->AddArray(onBoundary);
+
+  std::vector<quadrille::Vector3> places;
+  auto point = quadrille::newArray<vtkIdTypeArray>("PointId");
+  auto irregularValence = quadrille::newArray<vtkIntArray>(quadrille::arrays::kValence);
+  vtkNew<vtkCellArray> vertices;
+  for (const quadrille::IrregularVertex& vertex : result->irregular)
+  {
+    vertices->InsertNextCell({ static_cast<vtkIdType>(places.size()) });
+    places.push_back(vertex.place);
+    point->InsertNextValue(vertex.point);
+    irregularValence->InsertNextValue(vertex.valence);
+  }
+  this->Irregular->SetPoints(pointsOf(places));
+  this->Irregular->SetVerts(vertices);
+  this->Irregular->GetPointData()->AddArray(point);
+  this->Irregular->GetPointData()->AddArray(irregularValence);
+}
+
+//------------------------------------------------------------------------------
+vtkQuadrilleSession::vtkQuadrilleSession() : Data(new Internals) {}
+
+vtkQuadrilleSession::~vtkQuadrilleSession() = default;
+
+//------------------------------------------------------------------------------
+bool vtkQuadrilleSession::Start(vtkPolyData* surface, const std::string& settings)
+{
+  return this->Data->Try(
+    [&]
+    {
+      quadrille::RemeshOptions options;
+      quadrille::settingsFromText(settings, options);
+      this->Data->Session.emplace(convertInput(surface, options.threads), options);
+      this->Data->Report.clear();
+      return true;
+    });
+}
+
+//------------------------------------------------------------------------------
+bool vtkQuadrilleSession::Save(const std::string& fileName)
+{
+  return this->Data->Try(
+    [&]
+    {
+      this->Data->Get().save(fileName);
+      return true;
+    });
+}
+
+//------------------------------------------------------------------------------
+bool vtkQuadrilleSession::Load(const std::string& fileName, vtkPolyData* surface)
+{
+  return this->Data->Try(
+    [&]
+    {
+      this->Data->Session.emplace(quadrille::Session::load(fileName, convertInput(surface, 0)));
+      this->Data->Report.clear();
+      return true;
+    });
+}
+
+//------------------------------------------------------------------------------
+bool vtkQuadrilleSession::SetSettings(const std::string& settings)
+{
+  return this->Data->Try(
+    [&]
+    {
+      quadrille::Session& session = this->Data->Get();
+      quadrille::RemeshOptions options = session.settings();
+      options.threads = session.threads();
+      options.memoryLimit = session.memoryLimit();
+      quadrille::settingsFromText(settings, options);
+      session.setSettings(options);
+      session.setThreads(options.threads);
+      session.setMemoryLimit(options.memoryLimit);
+      return true;
+    });
+}
+
+std::string vtkQuadrilleSession::GetSettings()
+{
+  return this->Data->Try([&] { return quadrille::settingsText(this->Data->Get().settings()); });
+}
+
+//------------------------------------------------------------------------------
+int vtkQuadrilleSession::AddConstraint(const std::string& constraint)
+{
+  return this->Data->Try(
+    [&] { return this->Data->Get().add(quadrille::contentFromText(constraint)); });
+}
+
+bool vtkQuadrilleSession::EditConstraint(int id, const std::string& constraint)
+{
+  return this->Data->Try(
+    [&]
+    {
+      this->Data->Get().edit(id, quadrille::contentFromText(constraint));
+      return true;
+    });
+}
+
+bool vtkQuadrilleSession::RemoveConstraint(int id)
+{
+  return this->Data->Try(
+    [&]
+    {
+      this->Data->Get().remove(id);
+      return true;
+    });
+}
+
+std::string vtkQuadrilleSession::GetConstraints()
+{
+  return this->Data->Try([&] { return quadrille::constraintsText(this->Data->Get()); });
+}
+
+//------------------------------------------------------------------------------
+bool vtkQuadrilleSession::Update()
+{
+  return this->Data->Try(
+    [&]
+    {
+      quadrille::Session& session = this->Data->Get();
+      this->AbortUpdate = false;
+      session.setProgress(
+        [this](double fraction, const std::string&)
+        {
+          this->InvokeEvent(vtkCommand::ProgressEvent, &fraction);
+          return !this->AbortUpdate;
+        });
+      const quadrille::SessionReport& report = session.update();
+      this->Data->Report = quadrille::reportText(report);
+      this->Data->Error = report.status.message;
+      return report.status.ok();
+    });
+}
+
+std::string vtkQuadrilleSession::GetReport() const
+{
+  return this->Data->Report;
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkQuadrilleSession::GetQuads()
+{
+  this->Data->Write();
+  return this->Data->Quads;
+}
+
+vtkPolyData* vtkQuadrilleSession::GetIrregularVertices()
+{
+  this->Data->Write();
+  return this->Data->Irregular;
+}
+
+//------------------------------------------------------------------------------
+bool vtkQuadrilleSession::Undo()
+{
+  return this->Data->Try([&] { return this->Data->Get().undo(); });
+}
+
+bool vtkQuadrilleSession::Redo()
+{
+  return this->Data->Try([&] { return this->Data->Get().redo(); });
+}
+
+bool vtkQuadrilleSession::CanUndo()
+{
+  return this->Data->Try([&] { return this->Data->Get().canUndo(); });
+}
+
+bool vtkQuadrilleSession::CanRedo()
+{
+  return this->Data->Try([&] { return this->Data->Get().canRedo(); });
+}
+
+//------------------------------------------------------------------------------
+bool vtkQuadrilleSession::NameState(const std::string& name)
+{
+  return this->Data->Try(
+    [&]
+    {
+      this->Data->Get().nameState(name);
+      return true;
+    });
+}
+
+bool vtkQuadrilleSession::GoTo(const std::string& name)
+{
+  return this->Data->Try(
+    [&]
+    {
+      this->Data->Get().goTo(name);
+      return true;
+    });
+}
+
+int vtkQuadrilleSession::GetNumberOfNamedStates()
+{
+  return this->Data->Try([&] { return static_cast<int>(this->Data->Get().stateNames().size()); });
+}
+
+std::string vtkQuadrilleSession::GetStateName(int i)
+{
+  return this->Data->Try(
+    [&]
+    {
+      const std::vector<std::string> names = this->Data->Get().stateNames();
+      if (i < 0 || i >= static_cast<int>(names.size()))
+      {
+        quadrille::refuse("there is no state ", i, ", but ", names.size(), " have names");
+      }
+      return names[static_cast<std::size_t>(i)];
+    });
+}
+
+std::string vtkQuadrilleSession::Compare(const std::string& first, const std::string& second)
+{
+  return this->Data->Try(
+    [&] { return quadrille::comparisonText(this->Data->Get().compare(first, second)); });
+}
+
+//------------------------------------------------------------------------------
+std::string vtkQuadrilleSession::GetErrorText() const
+{
+  return this->Data->Error;
+}
+
+bool vtkQuadrilleSession::GetErrorIsInInput() const
+{
+  return this->Data->ErrorIsInInput;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleSession::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "AbortUpdate: " << this->AbortUpdate << "\n";
+  os << indent << "Report: " << this->Data->Report << "\n";
+  os << indent << "ErrorText: " << this->Data->Error << "\n";
+  os << indent << "ErrorIsInInput: " << this->Data->ErrorIsInInput << "\n";
+}

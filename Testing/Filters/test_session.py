@@ -1,0 +1,160 @@
+# SPDX-FileCopyrightText: The Quadrille maintainers
+# SPDX-License-Identifier: BSD-3-Clause
+"""quadrille.Session: numpy in and out, undo, files, and what is wrong with what is given."""
+import os
+import tempfile
+import unittest
+
+import numpy
+
+import quadrille
+
+
+def dents(columns=48, rows=24):
+    """A torus whose tube has dents, so that nothing is a tie."""
+    u, v = numpy.meshgrid(numpy.arange(columns) * 2 * numpy.pi / columns, numpy.arange(rows) * 2 * numpy.pi / rows)
+    tube = 0.4 + 0.05 * numpy.sin(3 * u) * numpy.cos(2 * v) + 0.03 * numpy.sin(u + v)
+    ring = 1 + tube * numpy.cos(v)
+    points = numpy.stack((ring * numpy.cos(u), ring * numpy.sin(u), tube * numpy.sin(v)), axis=2).reshape(-1, 3)
+    i, j = numpy.meshgrid(numpy.arange(columns), numpy.arange(rows))
+    right, up = (i + 1) % columns, (j + 1) % rows
+    a, b, c, d = (row * columns + column for row, column in ((j, i), (j, right), (up, right), (up, i)))
+    return points, numpy.concatenate((numpy.stack((a, b, c), axis=2).reshape(-1, 3),
+                                      numpy.stack((a, c, d), axis=2).reshape(-1, 3)))
+
+
+POINTS, FACES = dents()
+
+
+def session(quads=400, **more):
+    return quadrille.Session((POINTS, FACES), quads=quads, coarse_vertices=200, threads=2, **more)
+
+
+def same(first, second):
+    return all(numpy.array_equal(a, b) for a, b in zip(first, second))
+
+
+def valences(made):
+    return dict(zip(made.irregular().id.tolist(), made.irregular().valence.tolist()))
+
+
+class SessionTest(unittest.TestCase):
+    def test_undo_makes_nothing(self):
+        made = session()
+        first = made.quads
+        self.assertEqual(first[0].shape[1], 3)
+        self.assertEqual(first[1].shape[1], 4)
+        guide = made.add_guide(POINTS[[0, 30, 100]], radius=0.2)
+        report = made.update()
+        self.assertEqual(report["runs"], 1)
+        self.assertNotIn("phase1", report["stages"])
+        self.assertIn("phase1", report["reused"])
+        self.assertEqual([word["id"] for word in report["constraints"]], [guide])
+        second = made.quads
+        self.assertFalse(same(first, second))
+        self.assertTrue(made.undo())
+        self.assertFalse(made.undo())
+        self.assertEqual(made.update()["runs"], 0)
+        self.assertTrue(same(made.quads, first))
+        self.assertTrue(made.redo())
+        self.assertTrue(same(made.quads, second))
+        made.set_settings(quads=600)
+        self.assertEqual(made.settings()["quads"], 600)
+        self.assertAlmostEqual(made.settings()["feature_angle"], 40)
+        self.assertGreater(len(made.quads[1]), len(second[1]))
+
+    def test_each_kind(self):
+        made = session()
+        made.add_guide(POINTS[[0, 30]])
+        made.add_guide(faces=range(10), direction=(0, 0, 1), weight=0.5)
+        made.add_feature(POINTS[[300, 310]])
+        made.set_valence(500, 5)
+        made.set_size(800, 0.5, radius=0.2)
+        made.set_size(faces=[900, 901], factor=0.7)
+        made.connect(POINTS[100], 200)
+        made.connect(POINTS[[600, 610, 620]])
+        made.add_cycle(POINTS[numpy.arange(24) * 48])
+        report = made.update()
+        kinds = [word["kind"] for word in report["constraints"]]
+        self.assertEqual(kinds, ["guide", "guide region", "feature", "valence", "size", "size region", "connection",
+                                 "connection", "cycle"])
+        for word in report["constraints"]:
+            self.assertEqual(word["met"], word["reason"] == "", word)
+        listed = made.constraints()
+        self.assertEqual(listed[3]["valence"], 5)
+        numpy.testing.assert_array_equal(listed[3]["point"], POINTS[500])
+        self.assertEqual(listed[3]["met"], report["constraints"][3]["met"])
+
+    def test_irregular_vertices(self):
+        made = session()
+        before = valences(made)
+        a, b, c = 5, 600, 900
+        self.assertFalse({a, b, c} & set(before))
+        made.add_pair(POINTS[a], b)
+        self.assertEqual(valences(made), {**before, a: 3, b: 5})
+        made.move_irregular(a, c)
+        self.assertEqual(valences(made), {**before, c: 3, b: 5})
+        made.cancel_pair(c, b)
+        self.assertEqual(valences(made), before)
+        with self.assertRaisesRegex(quadrille.InvalidInput, "by 1"):
+            made.add_pair(a, b, valences=(3, 4))
+        with self.assertRaisesRegex(quadrille.InvalidInput, "points"):
+            made.merge_irregular(a, b, "here")
+
+    def test_files_and_states(self):
+        made = session()
+        made.state("plain")
+        made.update()
+        valence = made.set_valence(500, 5)
+        made.update()
+        comparison = made.compare("plain")
+        self.assertEqual(comparison["only_second"], [valence])
+        self.assertEqual(comparison["results"]["unmatched"], 0)
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "session.json")
+            made.save(file)
+            loaded = quadrille.Session.load(file, (POINTS, FACES))
+            self.assertTrue(same(loaded.quads, made.quads))
+            self.assertEqual(loaded.states(), ["plain"])
+            loaded.go_to("plain")
+            self.assertEqual(loaded.constraints(), [])
+            with self.assertRaisesRegex(quadrille.InvalidInput, "another surface"):
+                quadrille.Session.load(file, (2 * POINTS, FACES))
+            with self.assertRaisesRegex(quadrille.RemeshError, "cannot read"):
+                quadrille.Session.load(os.path.join(folder, "nothing"), (POINTS, FACES))
+
+    def test_edits_keep_ids(self):
+        made = session()
+        guide = made.add_guide(POINTS[[0, 30]])
+        self.assertEqual(made.add_guide(POINTS[[0, 40]], edit=guide), guide)
+        self.assertEqual(len(made.constraints()), 1)
+        with self.assertRaisesRegex(quadrille.InvalidInput, "no constraint 77"):
+            made.remove(77)
+        with self.assertRaises(quadrille.InvalidInput):
+            made.set_valence(5, 4, edit=guide)
+
+    def test_stops(self):
+        made = session(progress=lambda fraction: False)
+        with self.assertRaisesRegex(quadrille.RemeshError, "stopped"):
+            made.update()
+
+    def test_what_is_wrong_is_named(self):
+        for more, text in (({"quads": 0}, "quads"), ({"featureangle": 3}, "featureangle"),
+                           ({"method": "best"}, "method"), ({"feature_angle": 200}, "feature_angle")):
+            with self.assertRaisesRegex(quadrille.InvalidInput, text):
+                session(**more)
+        made = session()
+        for call, text in ((lambda: made.set_valence(len(POINTS), 5), "points 0 to"),
+                           (lambda: made.set_valence((0, 0), 5), "three numbers"),
+                           (lambda: made.set_valence(5, 11), "valence 11"),
+                           (lambda: made.add_guide(), "points"),
+                           (lambda: made.add_guide([[0, 0, 0]]), "at least 2"),
+                           (lambda: made.go_to("there"), "there"),
+                           (lambda: made.set_size(3, 0), "factor")):
+            with self.assertRaisesRegex(quadrille.InvalidInput, text):
+                call()
+        self.assertEqual(made.constraints(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
