@@ -251,7 +251,8 @@ bool vtkQuadrilleSession::Update()
       session.setProgress(
         [this](double fraction, const std::string&)
         {
-          this->InvokeEvent(vtkCommand::ProgressEvent, &fraction);
+          this->Progress = fraction;
+          this->InvokeEvent(vtkCommand::ProgressEvent, &this->Progress);
           return !this->AbortUpdate;
         });
       const quadrille::SessionReport& report = session.update();
@@ -362,6 +363,7 @@ void vtkQuadrilleSession::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "AbortUpdate: " << this->AbortUpdate << "\n";
+  os << indent << "Progress: " << this->Progress << "\n";
   os << indent << "Report: " << this->Data->Report << "\n";
   os << indent << "ErrorText: " << this->Data->Error << "\n";
   os << indent << "ErrorIsInInput: " << this->Data->ErrorIsInInput << "\n";

@@ -12,7 +12,7 @@
  * points, valences), "connection" (points), "cycle" (points). Python's quadrille.Session has a method for each.
  *
  * A method that fails returns false, 0 or an empty text; GetErrorText() says why. While Update() runs, the session
- * invokes ProgressEvent with the fraction as a double; AbortUpdateOn() in its observer stops the run.
+ * invokes ProgressEvent; GetProgress() is the fraction, and AbortUpdateOn() in an observer stops the run.
  */
 #ifndef vtkQuadrilleSession_h
 #define vtkQuadrilleSession_h
@@ -116,6 +116,9 @@ public:
   vtkBooleanMacro(AbortUpdate, bool);
   ///@}
 
+  /// Of the run that is on, from 0 to 1.
+  vtkGetMacro(Progress, double);
+
   /// Why the last call failed, and whether what was given is at fault; empty where it did not.
   std::string GetErrorText() const;
   bool GetErrorIsInInput() const;
@@ -131,6 +134,7 @@ private:
   struct Internals;
   std::unique_ptr<Internals> Data;
   bool AbortUpdate = false;
+  double Progress = 0;
 };
 
 #endif

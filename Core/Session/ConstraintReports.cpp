@@ -34,9 +34,9 @@ public:
     mostPlaces_ = mostPlacesOf(guides);
   }
 
-  std::vector<ConstraintWord> run()
+  std::vector<ConstraintReport> run()
   {
-    std::vector<ConstraintWord> words;
+    std::vector<ConstraintReport> words;
     for (std::size_t i = 0; i < constraints_.size(); ++i)
     {
       part_ = &composed_.parts[i];
@@ -281,7 +281,7 @@ ConstraintMeasure SessionJudge::size(double factor)
 
 } // namespace
 
-std::vector<ConstraintWord> reportConstraints(const SurfaceInput& surface,
+std::vector<ConstraintReport> reportConstraints(const SurfaceInput& surface,
   const SessionConstraints& constraints, const ComposedInput& composed, const RemeshResult& made,
   const std::vector<IrregularVertex>& irregular)
 {

@@ -12,7 +12,7 @@ namespace quadrille
 {
 
 /// made: for the composed input; without quads where there are none. irregular: see irregularVertices.
-std::vector<ConstraintWord> reportConstraints(const SurfaceInput& surface,
+std::vector<ConstraintReport> reportConstraints(const SurfaceInput& surface,
   const SessionConstraints& constraints, const ComposedInput& composed, const RemeshResult& made,
   const std::vector<IrregularVertex>& irregular);
 

@@ -18,7 +18,7 @@ namespace quadrille
 {
 
 /// A word on one constraint. What could not be measured is not a number.
-struct ConstraintWord
+struct ConstraintReport
 {
   int id = 0;
   std::string kind;
@@ -41,7 +41,7 @@ struct SessionReport
   int runs = 0;
   double seconds = 0;
   std::vector<std::string> notices;
-  std::vector<ConstraintWord> constraints; ///< in the order of the session
+  std::vector<ConstraintReport> constraints; ///< in the order of the session
 };
 
 /// What was made of one state.

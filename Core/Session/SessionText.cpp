@@ -102,7 +102,7 @@ std::string reportText(const SessionReport& report)
   json["seconds"] = report.seconds;
   json["notices"] = report.notices;
   json["constraints"] = SessionJson::array();
-  for (const ConstraintWord& word : report.constraints)
+  for (const ConstraintReport& word : report.constraints)
   {
     json["constraints"].push_back({ { "id", word.id }, { "kind", word.kind }, { "text", word.text },
       { "place", { word.place.x(), word.place.y(), word.place.z() } }, { "met", word.isMet },

@@ -87,10 +87,9 @@ class Session:
         points = surface.GetPoints()
         self._points = vtk_to_numpy(points.GetData()) if points else numpy.zeros((0, 3))
         if progress is not None:
-            def on_progress(caller, event, fraction):
-                if progress(fraction) is False:
+            def on_progress(caller, event):
+                if progress(caller.GetProgress()) is False:
                     caller.AbortUpdateOn()
-            on_progress.CallDataType = "double"
             self._session.AddObserver("ProgressEvent", on_progress)
 
     @classmethod

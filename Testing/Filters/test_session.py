@@ -6,6 +6,8 @@ import tempfile
 import unittest
 
 import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 import quadrille
 
@@ -23,11 +25,24 @@ def dents(columns=48, rows=24):
                                       numpy.stack((a, c, d), axis=2).reshape(-1, 3)))
 
 
+def ball():
+    """A ball with dents."""
+    source = vtkSphereSource()
+    source.SetThetaResolution(48)
+    source.SetPhiResolution(32)
+    source.SetRadius(1)
+    source.Update()
+    points = vtk_to_numpy(source.GetOutput().GetPoints().GetData()).astype(float)
+    faces = vtk_to_numpy(source.GetOutput().GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    dent = 1 + 0.15 * numpy.sin(4 * points[:, 0]) * numpy.cos(3 * points[:, 1] + points[:, 2])
+    return points * dent[:, None], faces
+
+
 POINTS, FACES = dents()
 
 
 def session(quads=400, **more):
-    return quadrille.Session((POINTS, FACES), quads=quads, coarse_vertices=200, threads=2, **more)
+    return quadrille.Session((POINTS, FACES), quads=quads, coarse_vertices=300, threads=2, **more)
 
 
 def same(first, second):
@@ -86,20 +101,39 @@ class SessionTest(unittest.TestCase):
         self.assertEqual(listed[3]["met"], report["constraints"][3]["met"])
 
     def test_irregular_vertices(self):
-        made = session()
+        points, faces = ball()
+        made = quadrille.Session((points, faces), quads=400, coarse_vertices=300, threads=2)
         before = valences(made)
-        a, b, c = 5, 600, 900
-        self.assertFalse({a, b, c} & set(before))
-        made.add_pair(POINTS[a], b)
+        self.assertEqual(sum(4 - valence for valence in before.values()), 8)
+        places = made.irregular().point
+        # Points far from all irregular vertices, one after the other.
+        empty = []
+        for _ in range(3):
+            nearest = numpy.min(numpy.linalg.norm(points[:, None] - places, axis=2), axis=1)
+            empty.append(int(numpy.argmax(nearest)))
+            places = numpy.concatenate((places, points[empty[-1:]]))
+        a, b, c = empty
+        made.add_pair(points[a], b)
         self.assertEqual(valences(made), {**before, a: 3, b: 5})
         made.move_irregular(a, c)
         self.assertEqual(valences(made), {**before, c: 3, b: 5})
         made.cancel_pair(c, b)
         self.assertEqual(valences(made), before)
+        self.assertTrue(all(word["met"] for word in made.update()["constraints"]))
         with self.assertRaisesRegex(quadrille.InvalidInput, "by 1"):
             made.add_pair(a, b, valences=(3, 4))
-        with self.assertRaisesRegex(quadrille.InvalidInput, "points"):
+        with self.assertRaisesRegex(quadrille.InvalidInput, "target"):
             made.merge_irregular(a, b, "here")
+
+    def test_what_no_surface_can_have_is_left_out(self):
+        # No quad mesh of a torus has just one vertex of valence 3 and one of valence 5.
+        made = session()
+        self.assertEqual(valences(made), {})
+        made.add_pair(5, 600)
+        report = made.update()
+        self.assertFalse(report["constraints"][0]["met"])
+        self.assertIn("cannot be met", report["constraints"][0]["reason"])
+        self.assertEqual(valences(made), {})
 
     def test_files_and_states(self):
         made = session()

@@ -48,7 +48,7 @@ protected:
   {
     const SessionReport& report = session_.update();
     ASSERT_TRUE(report.status.ok()) << report.status.message;
-    for (const ConstraintWord& word : report.constraints)
+    for (const ConstraintReport& word : report.constraints)
     {
       EXPECT_TRUE(word.isMet) << word.text << ": " << word.reason;
     }

@@ -92,7 +92,7 @@ private:
   void check(const SessionReport& report)
   {
     ASSERT_EQ(report.constraints.size(), session_.constraints().size());
-    for (const ConstraintWord& word : report.constraints)
+    for (const ConstraintReport& word : report.constraints)
     {
       EXPECT_EQ(word.isMet, word.reason.empty()) << word.text << ": " << word.reason;
     }

@@ -147,7 +147,7 @@ TEST(Session, WhatIsInfeasibleWithTheRestIsLeftOut)
   EXPECT_EQ(indexSum(session.result()->quads), 8);
   // With the partner it is met.
   session.add(ValenceAt{ input.points[1100], 3 });
-  for (const ConstraintWord& word : session.update().constraints)
+  for (const ConstraintReport& word : session.update().constraints)
   {
     EXPECT_TRUE(word.isMet) << word.text << ": " << word.reason;
   }
