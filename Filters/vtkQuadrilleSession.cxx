@@ -78,7 +78,7 @@ quadrille::SurfaceInput convertInput(vtkPolyData* surface, int threads)
   return quadrille::convertSurface(surface, quadrille::arrays::kPatchId, threads).input;
 }
 
-vtkSmartPointer<vtkPoints> pointsOf(const std::vector<quadrille::Vector3>& places)
+vtkSmartPointer<vtkPoints> vtkPointsAt(const std::vector<quadrille::Vector3>& places)
 {
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataTypeToDouble();
@@ -121,7 +121,7 @@ void vtkQuadrilleSession::Internals::Write()
     valence->InsertNextValue(quads.valence[i]);
     onBoundary->InsertNextValue(quads.onBoundary[i]);
   }
-  this->Quads->SetPoints(pointsOf(quads.points));
+  this->Quads->SetPoints(vtkPointsAt(quads.points));
   this->Quads->SetPolys(cells);
   this->Quads->GetPointData()->AddArray(valence);
   this->Quads->GetPointData()->AddArray(onBoundary);
@@ -137,7 +137,7 @@ void vtkQuadrilleSession::Internals::Write()
     point->InsertNextValue(vertex.point);
     irregularValence->InsertNextValue(vertex.valence);
   }
-  this->Irregular->SetPoints(pointsOf(places));
+  this->Irregular->SetPoints(vtkPointsAt(places));
   this->Irregular->SetVerts(vertices);
   this->Irregular->GetPointData()->AddArray(point);
   this->Irregular->GetPointData()->AddArray(irregularValence);

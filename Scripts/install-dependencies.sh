@@ -12,7 +12,7 @@ packages=(
   libopenmpi-dev openmpi-bin            # ParaView's CMake files ask for MPI::MPI_C
   libcgal-dev libeigen3-dev libsuitesparse-dev
   qttools5-dev qtxmlpatterns5-dev-tools # the pages behind the question mark in ParaView's panel
-  libcli11-dev nlohmann-json3-dev       # options and reports of the commands
+  libcli11-dev nlohmann-json3-dev       # options and reports of the commands, files of sessions
   libgtest-dev python3 python3-numpy python3-scipy
   clang-format clang-tidy               # the tests hold the sources against them
   xvfb xauth libqt5svg5 libgl1-mesa-dri # pictures without a screen

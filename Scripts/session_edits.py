@@ -33,6 +33,8 @@ class Edits:
         self.sizes = numpy.linalg.norm(self.points.max(axis=0) - self.points.min(axis=0))
         self.guides, self.ids = [], []
         self.problems = []
+        self.cold = None
+        self.seconds = {}
 
     def point(self):
         return self.points[self.random.randrange(len(self.points))]
@@ -134,6 +136,10 @@ class Edits:
         # Retries of an attempt may need phase 1 anew, which is no stage that the edit did not need.
         if report["runs"] <= 1 and ran & forbidden and "retries" not in ran:
             self.problems.append(f"edit {edit}: {sorted(ran & forbidden)} ran")
+        if self.cold is None:
+            self.cold = seconds
+        else:
+            self.seconds.setdefault(self.kind, []).append(seconds)
         met = sum(word["met"] for word in report["constraints"])
         print(f"{edit:>3}: {seconds:7.2f} s, {report['runs']} runs, {met} of {len(report['constraints'])} met, ran "
               f"{' '.join(report['stages']) or 'nothing'}")
@@ -149,6 +155,7 @@ class Edits:
             self.problems.append(f"edit {edit}: {what} ran {report['stages']}")
         if expected is not None and not all(map(numpy.array_equal, self.session.quads, expected)):
             self.problems.append(f"edit {edit}: {what} has other quads")
+        self.seconds.setdefault("undo or redo", []).append(seconds)
         print(f"     {what}: {seconds:.4f} s")
 
     def undo_and_redo(self, edit):
@@ -172,9 +179,11 @@ class Edits:
                 self.problems.append(f"edit {edit}: other quads than those of the same constraints from nothing")
 
     def run(self, count):
+        self.kind = "cold"
         self.update(0, set())
         for edit in range(1, count + 1):
             kind = self.KINDS[(edit - 1) % len(self.KINDS)]
+            self.kind = kind.__name__
             try:
                 forbidden = kind(self)
             except quadrille.InvalidInput as error:
@@ -188,6 +197,17 @@ class Edits:
                 self.compare_with_fresh(edit)
 
 
+    def tell(self):
+        """What is not met, and the times as shares of the cold run."""
+        for word in self.session.update()["constraints"]:
+            if not word["met"]:
+                print(f"not met: {word['text']}: {word['reason']}")
+        for kind, seconds in self.seconds.items():
+            median = sorted(seconds)[len(seconds) // 2]
+            print(f"{kind:>12}: {median:8.3f} s, {100 * median / self.cold:6.1f} % of the cold run, "
+                  f"median of {len(seconds)}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mesh")
@@ -198,6 +218,7 @@ def main():
     arguments = parser.parse_args()
     edits = Edits(quadrille.read(arguments.mesh), arguments.quads, arguments.seed, arguments.threads)
     edits.run(arguments.edits)
+    edits.tell()
     print("\n".join(edits.problems) or "session_edits: fine")
     return 1 if edits.problems else 0
 

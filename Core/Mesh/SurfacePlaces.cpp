@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <map>
 #include <queue>
 #include <string>
@@ -180,48 +181,63 @@ void requirePolygons(const SurfaceInput& input)
   }
 }
 
-SurfacePlaces::SurfacePlaces(const SurfaceInput& input, int threads) : input_(input)
+SurfacePlaces::SurfacePlaces(const SurfaceInput& input, int threads)
+  : input_(input), threads_(threads), diagonal_(diagonalOf(input)), isUsed_(input.points.size(), 0)
 {
   requirePolygons(input);
-  std::vector<std::uint8_t> used(input.points.size(), 0);
-  bool onlyTriangles = true;
-  for (std::size_t i = 0; i + 1 < input.polygonOffsets.size(); ++i)
-  {
-    onlyTriangles &= input.polygonOffsets[i + 1] - input.polygonOffsets[i] == 3;
-  }
   for (const Index p : input.polygonPoints)
   {
-    used[p] = 1;
+    isUsed_[p] = 1;
   }
+}
+
+void SurfacePlaces::makeCornerTree() const
+{
   std::vector<BoxTree::Box> boxes;
-  for (std::size_t i = 0; i < used.size(); ++i)
+  for (std::size_t i = 0; i < isUsed_.size(); ++i)
   {
-    if (used[i] != 0)
+    if (isUsed_[i] != 0)
     {
       corners_.push_back(static_cast<Index>(i));
-      boxes.push_back({ input.points[i], input.points[i] });
+      boxes.push_back({ input_.points[i], input_.points[i] });
     }
   }
-  cornerTree_ = BoxTree(boxes, threads);
+  cornerTree_.emplace(boxes, threads_);
+}
+
+void SurfacePlaces::makeTriangleTree() const
+{
+  bool onlyTriangles = true;
+  for (std::size_t i = 0; i + 1 < input_.polygonOffsets.size(); ++i)
+  {
+    onlyTriangles &= input_.polygonOffsets[i + 1] - input_.polygonOffsets[i] == 3;
+  }
   if (!onlyTriangles)
   {
     PreparedSurface triangles;
-    triangulate(input, triangles);
+    triangulate(input_, triangles);
     trianglePoints_ = std::move(triangles.mesh.origin);
     trianglePolygon_ = std::move(triangles.sourcePolygon);
   }
-  const std::size_t count = (onlyTriangles ? input.polygonPoints : trianglePoints_).size() / 3;
-  boxes.resize(count);
-  for (std::size_t i = 0; i < count; ++i)
+  std::vector<BoxTree::Box> boxes(
+    (onlyTriangles ? input_.polygonPoints : trianglePoints_).size() / 3);
+  for (std::size_t i = 0; i < boxes.size(); ++i)
   {
     pollNowAndThen(i);
     const std::array<Vector3, 3> corner = triangle(static_cast<Index>(i));
     boxes[i] = { corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]),
       corner[0].cwiseMax(corner[1]).cwiseMax(corner[2]) };
   }
-  triangleTree_ = BoxTree(boxes, threads);
-  edges_ = makeEdgeGraph(input);
-  diagonal_ = diagonalOf(input);
+  triangleTree_.emplace(boxes, threads_);
+}
+
+const EdgeGraph& SurfacePlaces::edges() const
+{
+  if (!edges_)
+  {
+    edges_ = makeEdgeGraph(input_);
+  }
+  return *edges_;
 }
 
 std::array<Vector3, 3> SurfacePlaces::triangle(Index i) const
@@ -236,19 +252,51 @@ std::array<Vector3, 3> SurfacePlaces::triangle(Index i) const
 
 Index SurfacePlaces::nearestCorner(const Vector3& p) const
 {
-  return corners_[cornerTree_.nearest(
-    p, [&](Index i) { return (input_.points[corners_[i]] - p).squaredNorm(); })];
+  constexpr int kQuestionsForTree = 16; // so many looks at all points take as long as making one
+  const auto squaredDistance = [&](std::size_t i) { return (input_.points[i] - p).squaredNorm(); };
+  Index nearest = kInvalidIndex;
+  if (!cornerTree_ && ++cornerQuestions_ > kQuestionsForTree)
+  {
+    makeCornerTree();
+  }
+  if (cornerTree_)
+  {
+    const Index i = cornerTree_->nearest(p, [&](Index k) { return squaredDistance(corners_[k]); });
+    nearest = i == kInvalidIndex ? i : corners_[i];
+  }
+  else
+  {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < isUsed_.size(); ++i)
+    {
+      const double squared = squaredDistance(i);
+      if (squared < least && isUsed_[i] != 0)
+      {
+        least = squared;
+        nearest = static_cast<Index>(i);
+      }
+    }
+  }
+  if (nearest == kInvalidIndex)
+  {
+    throw InvalidInput("no point of the surface was found near the place " + placeText(p));
+  }
+  return nearest;
 }
 
 SurfacePlaces::Place SurfacePlaces::nearestPlace(const Vector3& p) const
 {
+  if (!triangleTree_)
+  {
+    makeTriangleTree();
+  }
   const auto placeOn = [&](Index i)
   {
     const std::array<Vector3, 3> corner = triangle(i);
     return nearestOnTriangle(p, corner[0], corner[1], corner[2]);
   };
   const Index nearest =
-    triangleTree_.nearest(p, [&](Index i) { return (placeOn(i) - p).squaredNorm(); });
+    triangleTree_->nearest(p, [&](Index i) { return (placeOn(i) - p).squaredNorm(); });
   if (nearest == kInvalidIndex)
   {
     throw InvalidInput("no place on the surface was found for the point " + placeText(p));
@@ -258,10 +306,19 @@ SurfacePlaces::Place SurfacePlaces::nearestPlace(const Vector3& p) const
 
 bool SurfacePlaces::isOnBoundary(Index point) const
 {
-  std::map<Index, int> polygons;
-  for (std::size_t i = edges_.first[point]; i < edges_.first[point + 1]; ++i)
+  std::map<Index, int> polygons; // by the other end of the edge
+  for (std::size_t i = 0; i + 1 < input_.polygonOffsets.size(); ++i)
   {
-    ++polygons[edges_.uses[i].target];
+    const Index begin = input_.polygonOffsets[i];
+    const Index corners = input_.polygonOffsets[i + 1] - begin;
+    for (Index k = 0; k < corners; ++k)
+    {
+      if (input_.polygonPoints[begin + k] == point)
+      {
+        ++polygons[input_.polygonPoints[begin + (k + 1) % corners]];
+        ++polygons[input_.polygonPoints[begin + (k + corners - 1) % corners]];
+      }
+    }
   }
   return std::any_of(
     polygons.begin(), polygons.end(), [](const auto& edge) { return edge.second == 1; });

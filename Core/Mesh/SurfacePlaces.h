@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace quadrille
@@ -47,7 +48,8 @@ double diagonalOf(const SurfaceInput& input);
 void requirePolygons(const SurfaceInput& input);
 
 /// The nearest place on the polygons, and the nearest of the points that they use: an isolated one would be nobody's
-/// edge. Of places that are equally near, that with the lowest id.
+/// edge. Of places that are equally near, that with the lowest id. What a question needs is made when it is asked first:
+/// trees and edges of two million triangles take a tenth of a run. Not for several threads at once.
 class SurfacePlaces
 {
 public:
@@ -64,21 +66,26 @@ public:
   Index nearestCorner(const Vector3& p) const;
   /// Throws InvalidInput for a point that is not finite.
   Place nearestPlace(const Vector3& p) const;
-  const EdgeGraph& edges() const { return edges_; }
+  const EdgeGraph& edges() const;
   double diagonal() const { return diagonal_; }
   /// An edge from the point has one polygon only.
   bool isOnBoundary(Index point) const;
 
 private:
   std::array<Vector3, 3> triangle(Index i) const;
+  void makeCornerTree() const;
+  void makeTriangleTree() const;
 
   const SurfaceInput& input_;
-  std::vector<Index> corners_;         ///< points that polygons use
-  std::vector<Index> trianglePoints_;  ///< empty where all polygons are triangles
-  std::vector<Index> trianglePolygon_; ///< the same
-  BoxTree cornerTree_, triangleTree_;
-  EdgeGraph edges_;
+  int threads_;
   double diagonal_ = 0;
+  std::vector<std::uint8_t> isUsed_; ///< per point: by a polygon
+  mutable int cornerQuestions_ = 0;
+  mutable std::vector<Index> corners_;         ///< points that polygons use
+  mutable std::vector<Index> trianglePoints_;  ///< empty where all polygons are triangles
+  mutable std::vector<Index> trianglePolygon_; ///< the same
+  mutable std::optional<BoxTree> cornerTree_, triangleTree_;
+  mutable std::optional<EdgeGraph> edges_;
 };
 
 } // namespace quadrille

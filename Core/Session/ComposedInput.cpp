@@ -277,9 +277,12 @@ private:
     int off = 0;
     for (const auto& [point, asked] : asked_)
     {
-      const bool isInside = !places_.isOnBoundary(point);
-      off += isInside ? list_.valenceAt(point) - asked.valence : 0;
       input.targetValences[point] = asked.valence;
+      const int missing = list_.valenceAt(point) - asked.valence;
+      if (list_.isInForce() && missing != 0 && !places_.isOnBoundary(point))
+      {
+        off += missing;
+      }
     }
     input.regularElsewhere = surface_.regularElsewhere || (list_.isInForce() && off == 0);
   }

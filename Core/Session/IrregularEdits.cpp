@@ -33,19 +33,6 @@ std::array<Index, 3> pointsNearCorner(const PreparedSurface& surface, Index h)
     surface.sourcePoints[f][order[2]] };
 }
 
-std::vector<std::uint8_t> verticesOnCurves(const Mesh& mesh)
-{
-  std::vector<std::uint8_t> onCurve(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (mesh.isConstrained(h))
-    {
-      onCurve[mesh.origin[h]] = onCurve[mesh.target(h)] = 1;
-    }
-  }
-  return onCurve;
-}
-
 /// One operation, being applied.
 class EditResolution
 {
@@ -236,26 +223,42 @@ private:
 
 } // namespace
 
-std::vector<IrregularVertex> irregularVertices(const RemeshResult& result)
+std::vector<std::uint8_t> verticesOnCurves(const RemeshResult& result)
+{
+  const Mesh& mesh = result.surface.mesh;
+  std::vector<std::uint8_t> onCurve(mesh.vertexCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isConstrained(h))
+    {
+      onCurve[mesh.origin[h]] = onCurve[mesh.target(h)] = 1;
+    }
+  }
+  return onCurve;
+}
+
+std::vector<IrregularVertex> irregularVertices(
+  const RemeshResult& result, const std::vector<std::uint8_t>& onCurve)
 {
   const PreparedSurface& surface = result.surface;
   const Mesh& mesh = surface.mesh;
   std::vector<IrregularVertex> irregular;
-  if (result.turns.size() != mesh.vertexCount())
+  std::vector<std::uint8_t> isOpen(mesh.vertexCount(), 0);
+  bool isAny = false;
+  for (Index v = 0; v < result.turns.size(); ++v)
   {
-    return irregular;
+    isOpen[v] = onCurve[v] == 0 && result.turns[v] != kRegularValence;
+    isAny |= isOpen[v] != 0;
   }
-  const std::vector<std::uint8_t> onCurve = verticesOnCurves(mesh);
-  std::vector<std::uint8_t> isDone(mesh.vertexCount(), 0);
   std::map<Index, IrregularVertex> byPoint;
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  for (Index h = 0; isAny && h < mesh.halfEdgeCount(); ++h)
   {
     const Index v = mesh.origin[h];
-    if (isDone[v] != 0 || onCurve[v] != 0 || result.turns[v] == kRegularValence)
+    if (isOpen[v] == 0)
     {
       continue;
     }
-    isDone[v] = 1;
+    isOpen[v] = 0;
     const std::array<Index, 3> near = pointsNearCorner(surface, h);
     const auto free =
       std::find_if(near.begin(), near.end(), [&](Index p) { return byPoint.count(p) == 0; });
@@ -278,9 +281,9 @@ std::vector<IrregularVertex> irregularVertices(const RemeshResult& result)
   return irregular;
 }
 
-std::vector<Index> pointsOnCurves(const RemeshResult& result)
+std::vector<Index> pointsOnCurves(
+  const RemeshResult& result, const std::vector<std::uint8_t>& onCurve)
 {
-  const std::vector<std::uint8_t> onCurve = verticesOnCurves(result.surface.mesh);
   std::vector<Index> points;
   for (Index h = 0; h < result.surface.mesh.halfEdgeCount(); ++h)
   {

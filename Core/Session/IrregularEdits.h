@@ -16,9 +16,13 @@ namespace quadrille
 
 /// Irregular vertices of a result inside of the surface, off its features, ascending by point of the input. They are
 /// those of the map: the quads have them at the same vertices of the surface, from which smoothing may move them.
-std::vector<IrregularVertex> irregularVertices(const RemeshResult& result);
+std::vector<IrregularVertex> irregularVertices(
+  const RemeshResult& result, const std::vector<std::uint8_t>& onCurve);
 /// Points of the input on features and boundaries of a result, ascending.
-std::vector<Index> pointsOnCurves(const RemeshResult& result);
+std::vector<Index> pointsOnCurves(
+  const RemeshResult& result, const std::vector<std::uint8_t>& onCurve);
+/// Per vertex of its surface: on features and boundaries, for these two.
+std::vector<std::uint8_t> verticesOnCurves(const RemeshResult& result);
 
 /// Fills before and changes of the operation. fixedPoints: see pointsOnCurves. Throws InvalidInput, with name and
 /// place, where there is no such vertex, a place cannot be taken, a valence would be out of range, or the sum of

@@ -97,8 +97,9 @@ public:
     report.runs = runs_;
     if (made.status.ok())
     {
-      result->irregular = irregularVertices(made);
-      result->fixedPoints = pointsOnCurves(made);
+      const std::vector<std::uint8_t> onCurve = verticesOnCurves(made);
+      result->irregular = irregularVertices(made, onCurve);
+      result->fixedPoints = pointsOnCurves(made, onCurve);
     }
     result->targetEdgeLength = made.targetEdgeLength;
     result->targetQuads = made.targetQuads;

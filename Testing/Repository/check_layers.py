@@ -69,7 +69,7 @@ def selftest():
     assert violations("Numerics", "a", '#include "Mesh/Mesh.h"\n')
     assert violations("Pipeline", "a", "#include <vtkPolyData.h>\n")
     assert violations("Mesh", "a", '  #  include "Mesh.h"\n')
-    assert not violations("Pipeline", "a", "".join(f'#include "{m}/X.h"\n' for m in MAY_INCLUDE))
+    assert not violations("Session", "a", "".join(f'#include "{m}/X.h"\n' for m in MAY_INCLUDE))
 
 
 def main():
