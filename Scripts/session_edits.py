@@ -86,9 +86,12 @@ class Edits:
         return PREPARED
 
     def connect(self):
-        first, second = self.irregular(), self.irregular()
-        if first is None or numpy.array_equal(first, second):
+        """An irregular vertex and the one nearest to it."""
+        found = self.session.irregular()
+        if len(found.id) < 2:
             return self.guide()
+        first = found.point[self.random.randrange(len(found.id))]
+        second = found.point[numpy.argsort(numpy.linalg.norm(found.point - first, axis=1))[1]]
         self.ids.append(self.session.connect(first, second))
         return PREPARED
 

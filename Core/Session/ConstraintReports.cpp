@@ -3,8 +3,7 @@
 #include "Session/ConstraintReports.h"
 
 #include "Evaluation/ConstraintMeasures.h"
-#include "Extraction/QuadChains.h"
-#include "Mesh/Distance.h"
+#include "Evaluation/LinesInQuads.h"
 
 #include <algorithm>
 #include <cmath>
@@ -66,8 +65,16 @@ public:
   ConstraintMeasure operator()(const SizeAt& at) { return size(at.factor); }
   ConstraintMeasure operator()(const SizeRegion& region) { return size(region.factor); }
   ConstraintMeasure operator()(const IrregularEdit&);
-  ConstraintMeasure operator()(const Connection& connection);
-  ConstraintMeasure operator()(const Cycle& cycle);
+  ConstraintMeasure operator()(const Connection& connection)
+  {
+    return line(ConstraintKind::Connection, connection.points);
+  }
+  ConstraintMeasure operator()(const Cycle& cycle)
+  {
+    std::vector<Vector3> closed = cycle.points;
+    closed.push_back(closed.front());
+    return line(ConstraintKind::Cycle, std::move(closed));
+  }
 
 private:
   ConstraintMeasure measureOf(const SessionConstraint& constraint)
@@ -115,8 +122,7 @@ private:
 
   ConstraintMeasure size(double factor);
 
-  ConstraintMeasure chainMeasure(
-    const std::vector<Index>& chain, std::vector<Vector3> line, bool isClosed) const;
+  ConstraintMeasure line(ConstraintKind kind, std::vector<Vector3> path);
 
   const SurfaceInput& surface_;
   const SessionConstraints& constraints_;
@@ -126,6 +132,7 @@ private:
   const std::vector<IrregularVertex>& irregular_;
   double targetEdgeLength_;
   ConstraintMeasures measures_;
+  std::optional<LinesInQuads> lines_; ///< made when they are needed first
   std::size_t mostPlaces_ = 0;
   const PlacedPart* part_ = nullptr;
 };
@@ -157,78 +164,37 @@ ConstraintMeasure SessionJudge::operator()(const IrregularEdit&)
   return measure;
 }
 
-/// Met where there is a chain; how far it runs from what was drawn is told.
-ConstraintMeasure SessionJudge::chainMeasure(
-  const std::vector<Index>& chain, std::vector<Vector3> line, bool isClosed) const
+/// Met where there is a straight chain of edges; how far it runs from what was drawn is told.
+ConstraintMeasure SessionJudge::line(ConstraintKind kind, std::vector<Vector3> path)
 {
-  const CurveOutcome* outcome =
-    part_->curve && *part_->curve < curves_.size() ? &curves_[*part_->curve] : nullptr;
+  if (!part_->curve || *part_->curve >= curves_.size())
+  {
+    return ConstraintMeasure::unknown(
+      part_->place, "edge lengths", "the method has no connections and cycles: choose another one");
+  }
+  if (!lines_)
+  {
+    lines_.emplace(quads_);
+  }
+  const CurveOutcome& outcome = curves_[*part_->curve];
+  PlacedConstraint placed;
+  placed.kind = kind;
+  placed.curve = *part_->curve;
+  placed.path = std::move(path);
+  const std::vector<Vector3> chain = lines_->chainOf(placed, outcome);
   if (chain.empty())
   {
     return ConstraintMeasure::unknown(part_->place, "edge lengths",
-      outcome && !outcome->why.empty()
-        ? outcome->why
-        : "the quads have no straight chain of edges there: draw it nearer to one that could be");
+      outcome.why.empty() ? "the quads have no straight chain of edges there" : outcome.why);
   }
-  if (isClosed)
-  {
-    line.push_back(line.front());
-  }
+  const auto [distance, place] = farthestFrom(placed.path, chain);
   ConstraintMeasure measure;
+  measure.place = place;
   measure.unit = "edge lengths";
-  measure.deviation = -1;
-  for (const Index p : chain)
-  {
-    double distance = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i + 1 < line.size(); ++i)
-    {
-      distance = std::min(distance, distanceToSegment(quads_.points[p], line[i], line[i + 1]));
-    }
-    if (distance / targetEdgeLength_ > measure.deviation)
-    {
-      measure.deviation = distance / targetEdgeLength_;
-      measure.place = quads_.points[p];
-    }
-  }
+  measure.deviation = distance / lines_->edgeLength();
   measure.deviation95 = std::numeric_limits<double>::quiet_NaN();
   measure.isMet = true;
   return measure;
-}
-
-/// The ends are where the map has taken them: to the nearest irregular vertex, feature or boundary.
-ConstraintMeasure SessionJudge::operator()(const Connection& connection)
-{
-  std::vector<Index> chain;
-  if (part_->curve && *part_->curve < curves_.size() && curves_[*part_->curve].met)
-  {
-    const CurveOutcome& outcome = curves_[*part_->curve];
-    const QuadChains chains(quads_);
-    const Index start = chains.nearestPoint(outcome.start);
-    chain = chains.between(start, chains.nearestPoint(outcome.end));
-    constexpr double kEdgesToLine = 3;
-    if (chain.empty())
-    {
-      chain = chains.toLine(start, outcome.end, kEdgesToLine * targetEdgeLength_);
-    }
-  }
-  return chainMeasure(chain, connection.points, false);
-}
-
-/// A closed chain that stays within a tenth of the cycle's length, or three edges.
-ConstraintMeasure SessionJudge::operator()(const Cycle& cycle)
-{
-  double length = 0;
-  for (std::size_t i = 0; i < cycle.points.size(); ++i)
-  {
-    length += (cycle.points[(i + 1) % cycle.points.size()] - cycle.points[i]).norm();
-  }
-  std::vector<Index> chain;
-  if (part_->curve && *part_->curve < curves_.size() && curves_[*part_->curve].met)
-  {
-    chain =
-      QuadChains(quads_).closedNear(cycle.points, std::max(0.1 * length, 3 * targetEdgeLength_));
-  }
-  return chainMeasure(chain, cycle.points, true);
 }
 
 /// By which factor the edge lengths at the places, from the areas of the quads there, differ from those asked for.
