@@ -278,6 +278,10 @@ ConstraintContent emptyOfKind(const std::string& kind, const std::string& where)
       return content;
     }
   }
+  if (kind == "symmetry")
+  {
+    refuse(where, " asks for a symmetry, which is not built yet for sessions");
+  }
   refuse(where, " is of the kind \"", kind, "\", which this version does not know");
 }
 

@@ -205,6 +205,10 @@ class Session:
         """A straight chain of edges closes along a closed polyline, from its last point to the first."""
         return self._add({"kind": "cycle", "points": self._line("points", points)}, edit)
 
+    def set_symmetry(self, *plane, edit=None):
+        """Not built yet for sessions."""
+        return self._add({"kind": "symmetry"}, edit)
+
     def remove(self, constraint):
         self._report = None
         self._check(self._session.RemoveConstraint(whole("constraint", constraint, least=1)))

@@ -184,6 +184,7 @@ class SessionTest(unittest.TestCase):
                            (lambda: made.add_guide(), "points"),
                            (lambda: made.add_guide([[0, 0, 0]]), "at least 2"),
                            (lambda: made.go_to("there"), "there"),
+                           (lambda: made.set_symmetry(), "not built yet"),
                            (lambda: made.set_size(3, 0), "factor")):
             with self.assertRaisesRegex(quadrille.InvalidInput, text):
                 call()
