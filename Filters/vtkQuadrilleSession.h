@@ -5,8 +5,8 @@
  * @brief   a surface, what is asked of it, and every state that it has been through
  *
  * Constraints have ids that never change. Every change makes a state to which Undo() goes back; what was made of a
- * state is remembered, so that going back makes nothing, and Update() makes what the present state needs. The constraints are
- * texts in JSON: `{"kind": "guide", "points": [[x, y, z], ...], "weight": 1, "radius": 0}`, in the same way
+ * state is remembered, so that going back makes nothing, and Update() makes what the present state needs. The
+ * constraints are texts in JSON: `{"kind": "guide", "points": [[x, y, z], ...], "weight": 1, "radius": 0}`, in the same way
  * "feature" (points), "guide region" (polygons, direction, weight), "valence" (point, valence), "size" (point, radius,
  * factor), "size region" (polygons, factor), "irregular" (operation: "move", "split", "merge", "cancel" or "add";
  * points, valences), "connection" (points), "cycle" (points). Python's quadrille.Session has a method for each.
@@ -71,7 +71,8 @@ public:
   bool Update();
   /**
    * Of the last Update(): "ok", "status", "message", "stages" (that ran, with seconds), "reused", "runs" (0: nothing
-   * was to do), "seconds", "notices", "constraints" (id, kind, text, place, met, deviation, deviation_95, unit, reason).
+   * was to do), "seconds", "notices", "constraints" (id, kind, text, place, met, deviation, deviation_95, unit,
+   * reason).
    */
   std::string GetReport() const;
 
