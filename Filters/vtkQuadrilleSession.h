@@ -6,10 +6,10 @@
  *
  * Constraints have ids that never change. Every change makes a state to which Undo() goes back; what was made of a
  * state is remembered, so that going back makes nothing, and Update() makes what the present state needs. The
- * constraints are texts in JSON: `{"kind": "guide", "points": [[x, y, z], ...], "weight": 1, "radius": 0}`, in the same way
- * "feature" (points), "guide region" (polygons, direction, weight), "valence" (point, valence), "size" (point, radius,
- * factor), "size region" (polygons, factor), "irregular" (operation: "move", "split", "merge", "cancel" or "add";
- * points, valences), "connection" (points), "cycle" (points). Python's quadrille.Session has a method for each.
+ * constraints are texts in JSON: `{"kind": "guide", "points": [[x, y, z], ...], "weight": 1, "radius": 0}`, in the same
+ * way "feature" (points), "guide region" (polygons, direction, weight), "valence" (point, valence), "size" (point,
+ * radius, factor), "size region" (polygons, factor), "irregular" (operation: "move", "split", "merge", "cancel" or
+ * "add"; points, valences), "connection" (points), "cycle" (points). Python's quadrille.Session has a method for each.
  *
  * A method that fails returns false, 0 or an empty text; GetErrorText() says why. While Update() runs, the session
  * invokes ProgressEvent; GetProgress() is the fraction, and AbortUpdateOn() in an observer stops the run.
