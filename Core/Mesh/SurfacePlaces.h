@@ -48,7 +48,7 @@ double diagonalOf(const SurfaceInput& input);
 void requirePolygons(const SurfaceInput& input);
 
 /// The nearest place on the polygons, and the nearest of the points that they use: an isolated one would be nobody's
-/// edge. Of places that are equally near, that with the lowest id. What a question needs is made when it is asked first:
+/// edge. Of places that are equally near, the one with the lowest id. What a question needs is made with the first one:
 /// trees and edges of two million triangles take a tenth of a run. Not for several threads at once.
 class SurfacePlaces
 {

@@ -19,8 +19,8 @@ Irregular = collections.namedtuple("Irregular", "id point valence")
 
 #: Settings that go on as they are, by the names of remesh().
 _PLAIN = ("method", "integers", "small_components", "final_quality", "coarse_vertices", "close_handles",
-          "anisotropy_limit", "distortion_metric", "maximum_number_of_quads", "smoothing_steps", "warm_start", "threads",
-          "memory_limit")
+          "anisotropy_limit", "distortion_metric", "maximum_number_of_quads", "smoothing_steps", "warm_start",
+          "threads", "memory_limit")
 
 
 def _settings(quads=None, edge_length=None, relative_edge_length=None, **settings):
@@ -35,7 +35,8 @@ def _settings(quads=None, edge_length=None, relative_edge_length=None, **setting
         if name == "feature_angle":
             result[name] = None
             if value is not None:
-                result[name] = real(name, value, above=0, most=180, hint=" (None turns the detection off)") * math.pi / 180
+                degrees = real(name, value, above=0, most=180, hint=" (None turns the detection off)")
+                result[name] = degrees * math.pi / 180
         elif name == "memory_limit":
             megabytes = real(name, value, least=0)
             result[name] = 1e6 * megabytes if megabytes > 0 else None
