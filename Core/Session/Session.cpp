@@ -57,6 +57,7 @@ public:
     options_.threads = data.threads;
     options_.memoryLimit = data.memoryLimit;
     options_.progress = data.progress;
+    options_.preview = false;
     options_.mergeCharts = false;
     options_.knownMap = 0;
   }

@@ -432,8 +432,9 @@ SessionJson settingsToJson(const RemeshOptions& options)
   // By name, so that an option that is new has to be put on one side or the other here.
   const auto& [quads, edgeLength, relativeEdgeLength, featureAngle, method, coarsestIntegers,
     coarseVertices, closeHandles, removeSmallComponents, anisotropyLimit, finalQuality,
-    distortionMetric, maximumNumberOfQuads, smoothingSteps, memoryLimit, mergeCharts, knownMap,
-    threads, warmStart, progress] = options;
+    distortionMetric, maximumNumberOfQuads, preview, smoothingSteps, memoryLimit, mergeCharts,
+    knownMap, threads, warmStart, progress] = options;
+  static_cast<void>(preview);
   static_cast<void>(memoryLimit);
   static_cast<void>(mergeCharts);
   static_cast<void>(knownMap);
