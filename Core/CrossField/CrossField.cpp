@@ -315,6 +315,20 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
   return best;
 }
 
+std::vector<FieldGuide> fieldGuides(
+  const std::vector<Guide>& guides, const FieldConstraints& constraints)
+{
+  std::vector<FieldGuide> result(guides.size());
+  for (Index f = 0; f < guides.size(); ++f)
+  {
+    if (constraints.strength(f) > 0)
+    {
+      result[f] = { constraints.guideAngle[f], double{ guides[f].weight } };
+    }
+  }
+  return result;
+}
+
 } // namespace
 
 CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options)
@@ -338,6 +352,7 @@ CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options)
   field.angle = solveAngles(mesh, topology, constraints, solution.jump, solution.angle);
   // Angles never decide turns: the jumps do.
   assert(solution.turns == countTurns(mesh, topology, constraints, field.angle, solution.jump));
+  field.guides = fieldGuides(options.guides, constraints);
   field.alignment = constraints.alignment;
   field.matching = matchings(mesh, field.alignment, solution.jump);
   storeTurns(mesh, topology, solution.turns, field);

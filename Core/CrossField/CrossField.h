@@ -48,6 +48,14 @@ struct Isoline
   bool closed = false;
 };
 
+/// A guide that the field follows in a face.
+struct FieldGuide
+{
+  double angle = 0; ///< of its direction against half-edge 3f, radians
+  double weight =
+    0; ///< as Guide::weight; 0 where free, or where a constrained edge comes before it
+};
+
 struct CrossField
 {
   std::vector<double> angle;          ///< #F, radians
@@ -65,6 +73,7 @@ struct CrossField
   std::vector<Eigen::Matrix2d> stretch;
   /// Set by who makes the map: lines that it has to have.
   std::vector<Isoline> isolines;
+  std::vector<FieldGuide> guides; ///< #F, or empty without guides; the map follows them, too
 
   Status status;
   /// Vertices around which the mesh cannot carry the turns; empty when the status is ok. One vertex may

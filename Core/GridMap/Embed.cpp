@@ -134,7 +134,7 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
   {
     embedFromSeamless(mesh, field, locked, problem, options, untangled);
   }
-  limitAnisotropy(mesh, field, problem, options.anisotropyLimit, snap, options.progress, untangled);
+  followRequests(mesh, field, problem, options.anisotropyLimit, snap, options.progress, untangled);
   result.uv = std::move(untangled.uv);
   result.newtonSteps = untangled.newtonSteps;
   result.work = untangled.work;

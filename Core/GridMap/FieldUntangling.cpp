@@ -17,7 +17,9 @@ constexpr int kIdleRounds = 2;
 /// More defects than this, or than one per so many faces, have a cause that no weight mends.
 constexpr std::size_t kMany = 30;
 constexpr std::size_t kFacesPerDefect = 64;
-constexpr int kAnisotropySteps = 30;
+constexpr int kRequestSteps = 30;
+/// Of guides against the energy that the map has anyway.
+constexpr double kGuideWeight = 30;
 /// Of the way from 1 to the limit, where the penalty begins: it is zero there and small at first, so that triangles
 /// come to rest a little further on.
 constexpr double kAnisotropyStart = 0.85;
@@ -114,26 +116,31 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
   return best;
 }
 
-void limitAnisotropy(const Mesh& mesh, const CrossField& field, const UntangleProblem& problem,
+void followRequests(const Mesh& mesh, const CrossField& field, const UntangleProblem& problem,
   double limit, const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
   const ProgressCallback& progress, FieldUntangling& untangling)
 {
-  if (limit == 0 || !untangling.defects.none())
+  const bool hasGuides = !problem.offAxis.empty();
+  if ((limit == 0 && !hasGuides) || !untangling.defects.none())
   {
     return;
   }
   UntangleOptions options = fieldUntangleOptions(progress);
-  options.anisotropyLimit = 1 + kAnisotropyStart * (limit - 1);
-  options.limitedTriangles = mesh.faceCount();
-  options.polishSteps = kAnisotropySteps;
-  UntangleResult limited = untangle(problem, untangling.y, options);
-  untangling.newtonSteps += limited.steps;
-  untangling.work += limited.work;
-  std::vector<FixedVec2> uv = snap(limited.y);
+  if (limit > 0)
+  {
+    options.anisotropyLimit = 1 + kAnisotropyStart * (limit - 1);
+    options.limitedTriangles = mesh.faceCount();
+  }
+  options.axisWeight = hasGuides ? kGuideWeight : 0;
+  options.polishSteps = kRequestSteps;
+  UntangleResult shaped = untangle(problem, untangling.y, options);
+  untangling.newtonSteps += shaped.steps;
+  untangling.work += shaped.work;
+  std::vector<FixedVec2> uv = snap(shaped.y);
   if (findDefects(mesh, field, uv).none())
   {
     untangling.uv = std::move(uv);
-    untangling.y = std::move(limited.y);
+    untangling.y = std::move(shaped.y);
   }
 }
 

@@ -33,10 +33,10 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
   const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
   const ProgressCallback& progress);
 
-/// Newton steps from a map without defects that bring the ratio of the two stretches of the faces towards `limit`, >= 1
-/// or 0 for none; `untangling` changes only where the new map has no defects either. The first triangles of the problem
-/// are the faces.
-void limitAnisotropy(const Mesh& mesh, const CrossField& field, const UntangleProblem& problem,
+/// Newton steps from a map without defects that bring the isolines along the guides of the field, and the ratio of the
+/// two stretches of the faces towards `limit`, >= 1 or 0 for none; `untangling` changes only where the new map has no
+/// defects either. The first triangles of the problem are the faces. Without guides and limit nothing is done.
+void followRequests(const Mesh& mesh, const CrossField& field, const UntangleProblem& problem,
   double limit, const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
   const ProgressCallback& progress, FieldUntangling& untangling);
 

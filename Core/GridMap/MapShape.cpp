@@ -131,6 +131,24 @@ double stretchedLength(const Mesh& mesh, const CrossField& field, Index h)
   return length * sum / sides;
 }
 
+namespace
+{
+
+/// The derivative by J of the component off its axis of what the map makes of the guide of face f.
+Eigen::Vector4d offAxisOf(const FieldGuide& guide, double fieldAngle, int quarterTurns)
+{
+  const double against = guide.angle - fieldAngle;
+  // The field is within an eighth of a turn of one of the guide's four directions.
+  const double axis = (quarterTurns + std::round(against / kRightAngle)) * kRightAngle;
+  const double along = quarterTurns * kRightAngle + against;
+  const Vector2 normal = std::sqrt(guide.weight) * Vector2(-std::sin(axis), std::cos(axis));
+  Eigen::Vector4d result;
+  result << std::cos(along) * normal, std::sin(along) * normal;
+  return result;
+}
+
+} // namespace
+
 void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, const Mesh& mesh,
   const CrossField& field, Index f, int quarterTurns, double edgeLength)
 {
@@ -143,6 +161,12 @@ void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, c
   problem.triangles.push_back(points);
   problem.inverseReference.push_back(reference.inverse());
   problem.weight.push_back(reference.determinant() / 2);
+  if (!field.guides.empty())
+  {
+    problem.offAxis.push_back(field.guides[f].weight > 0
+        ? offAxisOf(field.guides[f], field.angle[f], quarterTurns)
+        : Eigen::Vector4d::Zero());
+  }
 }
 
 UntangleProblem referToMap(const UntangleProblem& problem, const CarriedMap& carried,

@@ -36,8 +36,8 @@ double stretchedArea(const Mesh& mesh, const CrossField& field);
 double stretchedLength(const Mesh& mesh, const CrossField& field, Index h);
 
 /// Appends face f to the problem: its points, its reference (in units of edgeLength times the size that the mesh wants
-/// there, stretched by the field, in the chart of the face turned by `quarterTurns`) and its weight, which is its area
-/// in quads.
+/// there, stretched by the field, in the chart of the face turned by `quarterTurns`), its weight, which is its area
+/// in quads, and its guide.
 void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, const Mesh& mesh,
   const CrossField& field, Index f, int quarterTurns, double edgeLength);
 

@@ -30,6 +30,10 @@ void addFace(
   {
     part.field.stretch.push_back(field.stretch[f]);
   }
+  if (!field.guides.empty())
+  {
+    part.field.guides.push_back(field.guides[f]);
+  }
   for (Index h = 3 * f; h < 3 * f + 3; ++h)
   {
     part.mesh.origin.push_back(local.vertex[mesh.origin[h]]);

@@ -50,7 +50,7 @@ std::size_t PreviousMap::bytes() const
   return bytesOf(mesh.position) + bytesOf(mesh.origin) + bytesOf(mesh.twin) + bytesOf(mesh.flags) +
     bytesOf(vertexIds) + bytesOf(field.angle) + bytesOf(field.matching) + bytesOf(field.alignment) +
     bytesOf(field.sectorTurns) + bytesOf(field.turns) + bytesOf(field.stretch) +
-    bytesOf(seamlessUv) + bytesOf(uv);
+    bytesOf(field.guides) + bytesOf(seamlessUv) + bytesOf(uv);
 }
 
 MapCarrier::MapCarrier(const PreviousMap& previous) : previous_(previous)

@@ -51,8 +51,8 @@ constexpr double kOperationsPerSecond = 5e9;
 constexpr double kUsualSteps = 4;
 /// From here on these estimates are asked before the exact ones.
 constexpr double kManyFaces = 3e6;
-/// Strength of a guide of weight 1 against the energy, as in the field.
-constexpr double kGuideStrength = 16;
+/// Strength of a guide of weight 1 against the energy, as in the map of the coarse level.
+constexpr double kGuideStrength = 100;
 
 /// The linear part of a triangle: J = E inverseReference with the edges E.
 struct Reference

@@ -161,7 +161,7 @@ SeamlessResult computeSeamlessMap(
   { return snapScaled(space, y, options.targetQuads); };
   FieldUntangling untangled = untangleAlongField(
     mesh, field, space.problem(), { start }, kSeamlessRounds, snap, options.progress);
-  limitAnisotropy(
+  followRequests(
     mesh, field, space.problem(), options.anisotropyLimit, snap, options.progress, untangled);
   result.uv = std::move(untangled.uv);
   result.solution = std::move(untangled.y);

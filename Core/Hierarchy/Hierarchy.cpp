@@ -643,6 +643,11 @@ std::size_t Redecimation::bytesAside() const
   return implementation_->bytesAside();
 }
 
+void Redecimation::replaceCoarseGuides(std::vector<Guide> guides)
+{
+  implementation_->hierarchy().coarse.guides = std::move(guides);
+}
+
 const Hierarchy& Redecimation::hierarchy() const
 {
   return implementation_->hierarchy();

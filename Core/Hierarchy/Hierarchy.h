@@ -132,6 +132,8 @@ public:
   const Hierarchy& update(const HierarchyOptions& options);
   /// The hierarchy after the last update().
   const Hierarchy& hierarchy() const;
+  /// Other guides for the coarse level (#F), until the next update().
+  void replaceCoarseGuides(std::vector<Guide> guides);
   /// Gives the hierarchy away; this object must not be used any more.
   Hierarchy take();
   /// Of what is held to go back to the level that phase 1 left; hierarchy() is not among it.

@@ -92,4 +92,18 @@ void RatioEnergy::derivatives(const Jacobian& j, Jacobian& gradient, Eigen::Matr
     gradient, hessian);
 }
 
+double AxisEnergy::value(double off) const
+{
+  return 2 * weight * off * off / (1 + std::hypot(1, off / knee));
+}
+
+void AxisEnergy::addDerivatives(
+  const Jacobian& off, const Jacobian& j, Jacobian& gradient, Eigen::Matrix4d& hessian) const
+{
+  const double c = off.dot(j);
+  const double root = std::hypot(1, c / knee);
+  gradient += 2 * weight * c / root * off;
+  hessian.noalias() += 2 * weight / (root * root * root) * off * off.transpose();
+}
+
 } // namespace quadrille

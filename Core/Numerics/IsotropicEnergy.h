@@ -45,4 +45,19 @@ struct RatioEnergy
   void derivatives(const Jacobian& j, Jacobian& gradient, Eigen::Matrix4d& hessian) const;
 };
 
+/// What a triangle pays where a direction of its reference is not on an axis of the map: 2 weight k^2
+/// (sqrt(1 + (c/k)^2) - 1) of the component c off the axis, about weight c^2 up to the knee k and linear further on, so
+/// that directions that no map has do not tear the rest along.
+struct AxisEnergy
+{
+  double weight = 0;
+  double knee = 0.2; ///< k
+
+  double value(double off) const;
+  /// Of a triangle with the component off.dot(j): adds to the gradient and to the Hessian by J, which is never
+  /// negative.
+  void addDerivatives(
+    const Jacobian& off, const Jacobian& j, Jacobian& gradient, Eigen::Matrix4d& hessian) const;
+};
+
 } // namespace quadrille

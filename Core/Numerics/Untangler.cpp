@@ -93,6 +93,7 @@ public:
       ratio_.weight = options.anisotropyWeight;
       ratio_.bound = (options.anisotropyLimit + 1 / options.anisotropyLimit) / 2;
     }
+    axis_.weight = options.axisWeight;
   }
 
   UntangleResult run();
@@ -104,6 +105,11 @@ private:
     // While some are inverted, the wall at det 0 would be one from both sides.
     return ratio_.weight > 0 && !(energy_.epsilon > 0) && t < options_.limitedTriangles &&
       ratio_.applies(j);
+  }
+  bool hasDirection(std::size_t t) const
+  {
+    return axis_.weight > 0 && !(energy_.epsilon > 0) && t < problem_.offAxis.size() &&
+      !problem_.offAxis[t].isZero(0);
   }
   bool valid() const { return lowest_ > options_.minimumDeterminant; }
   void lowerEpsilon(double gain);
@@ -117,6 +123,7 @@ private:
   ReducedTriangles system_;
   TriangleEnergy energy_;
   RatioEnergy ratio_;
+  AxisEnergy axis_;
   Vector y_;
   std::vector<Jacobian> jacobians_;
   double lowest_ = 0;
@@ -175,6 +182,10 @@ double Minimizer::total(const std::vector<Jacobian>& jacobians) const
     {
       sum += problem_.weight[t] * ratio_.value(jacobians[t]);
     }
+    if (hasDirection(t))
+    {
+      sum += problem_.weight[t] * axis_.value(problem_.offAxis[t].dot(jacobians[t]));
+    }
   }
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
 }
@@ -193,6 +204,10 @@ void Minimizer::assemble()
       ratio_.derivatives(jacobians_[t], gradient, hessian);
       gradients[t] += gradient;
       hessians[t] += hessian;
+    }
+    if (hasDirection(t))
+    {
+      axis_.addDerivatives(problem_.offAxis[t], jacobians_[t], gradients[t], hessians[t]);
     }
     gradients[t] *= problem_.weight[t];
     hessians[t] *= problem_.weight[t];

@@ -30,6 +30,9 @@ struct UntangleProblem
   /// Jacobian is J = [x1 - x0, x2 - x0] * inverseReference, ideally a unit matrix.
   std::vector<Eigen::Matrix2d> inverseReference;
   std::vector<double> weight; ///< per triangle, usually its area; > 0
+  /// Empty, or for the first triangles the derivative by J, column after column, of the component of a direction's
+  /// image off its axis, times the square root of the direction's weight; zero: no direction.
+  std::vector<Eigen::Vector4d> offAxis;
 };
 
 struct UntangleOptions
@@ -47,6 +50,8 @@ struct UntangleOptions
   double anisotropyWeight = 500;
   /// Triangles from this one on have no limit.
   std::size_t limitedTriangles = std::numeric_limits<std::size_t>::max();
+  /// Weight of the directions of the problem once all determinants are positive, see AxisEnergy; 0: they cost nothing.
+  double axisWeight = 0;
   /// det J below this fraction counts as inverted (the caller snaps to a grid afterwards).
   double minimumDeterminant = 1e-4;
   ProgressCallback progress;

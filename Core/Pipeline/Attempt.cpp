@@ -5,6 +5,7 @@
 #include "Extraction/QuadTopology.h"
 #include "GridMap/PreviousMap.h"
 #include "Pipeline/CoarsestMap.h"
+#include "Pipeline/GuidedMap.h"
 #include "Pipeline/Notices.h"
 #include "Transfer/ExpectedTurns.h"
 #include "Transfer/SurfaceStretch.h"
@@ -185,28 +186,46 @@ void recordCoarse(
   }
 }
 
-void carryToSurface(RunContext& run, MapAttempt& made)
+/// Fills transfer, uv and certificate. False where nothing was carried.
+bool carry(RunContext& run, bool alongGuides, MapAttempt& made)
 {
   const Mesh& mesh = run.surface->mesh;
+  const Hierarchy& levels = run.levels.hierarchy();
   double start = secondsNow();
   TransferOptions options;
   options.threads = run.options.threads;
   options.progress = subProgress(run.options.progress, 0.8, 0.9, "Mapping back: ");
-  made.transfer =
-    transferMap(mesh, made.coarse, run.levels.hierarchy().log, made.coarseUv, options);
+  std::optional<TransferResult> carried = alongGuides
+    ? transferAlongGuides(mesh, levels, made.coarseUv, made.turns, made.integerVertex, options)
+    : transferMap(mesh, made.coarse, levels.log, made.coarseUv, options);
+  if (!carried)
+  {
+    return false;
+  }
+  made.transfer = std::move(*carried);
   made.uv = std::move(made.transfer.uv);
   made.transfer.uv.clear();
   made.stages.add("replay", secondsNow() - start, made.coarse.mesh.faceCount(), mesh.faceCount());
-
   start = secondsNow();
+  made.certificate = certify(mesh, made.uv, made.turns, made.integerVertex, run.options.threads);
+  made.stages.add("certify", secondsNow() - start, mesh.faceCount(), mesh.faceCount());
+  return true;
+}
+
+void carryToSurface(RunContext& run, MapAttempt& made)
+{
+  const Mesh& mesh = run.surface->mesh;
   made.turns = expectedTurns(mesh, made.coarse, made.coarseTurns);
   made.integerVertex.assign(mesh.vertexCount(), 0);
   for (Index v = 0; v < made.coarseInteger.size(); ++v)
   {
     made.integerVertex[made.coarse.fineVertex[v]] = made.coarseInteger[v];
   }
-  made.certificate = certify(mesh, made.uv, made.turns, made.integerVertex, run.options.threads);
-  made.stages.add("certify", secondsNow() - start, mesh.faceCount(), mesh.faceCount());
+  const bool guided = run.options.method == MapMethod::ScaleAware && carry(run, true, made);
+  if (!guided || !made.certificate.valid())
+  {
+    carry(run, false, made);
+  }
   made.isCarried = true;
 }
 

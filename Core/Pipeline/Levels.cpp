@@ -3,6 +3,7 @@
 #include "Pipeline/Levels.h"
 
 #include "Base/Memory.h"
+#include "Transfer/SurfaceStretch.h"
 
 #include <utility>
 
@@ -110,6 +111,11 @@ const Hierarchy& Levels::make(const HierarchyOptions& options)
   {
     held_->made = 0; // what is stopped on the way is not made
     const Hierarchy& hierarchy = held_->levels->update(options);
+    if (!hierarchy.coarse.guides.empty())
+    {
+      held_->levels->replaceCoarseGuides(
+        gatherGuides(hierarchy.intermediate, hierarchy.coarse, hierarchy.log));
+    }
     held_->made = wanted;
     stages_.add("phase2", hierarchy.secondsPhase2, hierarchy.intermediate.mesh.faceCount(),
       hierarchy.coarse.mesh.faceCount());

@@ -290,46 +290,24 @@ Eigen::Matrix2d rotated(const Eigen::Matrix2d& symmetric, Complex r)
   return rotation * symmetric * rotation.transpose();
 }
 
+/// A fourth power of a direction, in another chart.
+Complex rotated(Complex fourthPower, Complex r)
+{
+  const Complex square = r * r;
+  return fourthPower * square * square;
+}
+
 /// Gives each coarse face its part of a finer face.
-class Distributor
+class PolygonSpread
 {
 public:
-  explicit Distributor(const CoarsePlanes& planes)
-    : planes_(planes), shares_(planes.mesh().faceCount())
-  {
-  }
+  explicit PolygonSpread(const CoarsePlanes& planes) : planes_(planes) {}
 
-  /// Corners of the finer face in the plane of coarse face `home` and in its own. False for one that has no area there.
-  bool add(Index home, const Complex* flat, const std::array<Complex, 3>& surface)
-  {
-    const double area = cross(flat[1] - flat[0], flat[2] - flat[0]);
-    if (!(area > 0))
-    {
-      return false;
-    }
-    Eigen::Matrix2d from;
-    from << (flat[1] - flat[0]).real(), (flat[2] - flat[0]).real(), (flat[1] - flat[0]).imag(),
-      (flat[2] - flat[0]).imag();
-    Eigen::Matrix2d to;
-    to << surface[1].real(), surface[2].real(), surface[1].imag(), surface[2].imag();
-    const Eigen::Matrix2d jacobian = to * from.inverse();
-    const Eigen::Matrix2d metric = jacobian.transpose() * jacobian;
-    ratio_ = std::max(jacobian.determinant(), 0.0);
-    const double root = std::sqrt(metric.trace() + 2 * ratio_);
-    if (!(root > 0) || !std::isfinite(root))
-    {
-      return false;
-    }
-    spread(home, kInvalidIndex, { flat[0], flat[1], flat[2] },
-      (metric + ratio_ * Eigen::Matrix2d::Identity()) / root, 0);
-    return true;
-  }
-
-  const std::vector<Share>& shares() const { return shares_; }
-
-private:
-  /// What lies beyond an edge goes to the face there; `entered` is the edge of f that the polygon came in by.
-  void spread(Index f, Index entered, Polygon polygon, const Eigen::Matrix2d& stretch, int depth)
+  /// add(f, area, value): what of the polygon lies on coarse face f, and the value in its plane. What lies beyond an
+  /// edge goes to the face there; `entered` is the edge of f that the polygon came in by.
+  template <typename Value, typename Add>
+  void operator()(Index f, Index entered, Polygon polygon, const Value& value, const Add& add,
+    int depth = 0) const
   {
     for (Index h = 3 * f; h < 3 * f + 3 && depth < kMostDepth; ++h)
     {
@@ -343,8 +321,8 @@ private:
         const Motion& across = planes_.across(h);
         const Index twin = planes_.mesh().twin[h];
         std::transform(beyond.begin(), beyond.end(), beyond.begin(), across);
-        spread(
-          Mesh::face(twin), twin, std::move(beyond), rotated(stretch, across.rotation), depth + 1);
+        (*this)(Mesh::face(twin), twin, std::move(beyond), rotated(value, across.rotation), add,
+          depth + 1);
       }
     }
     double area = 0;
@@ -352,12 +330,10 @@ private:
     {
       area += 0.5 * cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
     }
-    Share& share = shares_[f];
-    share.stretch += area * stretch;
-    share.covered += area;
-    share.surface += area * ratio_;
+    add(f, area, value);
   }
 
+private:
   /// Leaves what is on the inner side of h and returns the rest.
   Polygon cut(Polygon& polygon, Index h) const
   {
@@ -388,8 +364,66 @@ private:
   }
 
   const CoarsePlanes& planes_;
+};
+
+/// The map from a finer face's place on the coarse plane to its own plane; none for one that has no area there.
+std::optional<Eigen::Matrix2d> jacobianOf(
+  const Complex* flat, const std::array<Complex, 3>& surface)
+{
+  if (!(cross(flat[1] - flat[0], flat[2] - flat[0]) > 0))
+  {
+    return std::nullopt;
+  }
+  Eigen::Matrix2d from;
+  from << (flat[1] - flat[0]).real(), (flat[2] - flat[0]).real(), (flat[1] - flat[0]).imag(),
+    (flat[2] - flat[0]).imag();
+  Eigen::Matrix2d to;
+  to << surface[1].real(), surface[2].real(), surface[1].imag(), surface[2].imag();
+  return Eigen::Matrix2d(to * from.inverse());
+}
+
+/// Gives each coarse face the stretch of its part of a finer face.
+class Distributor
+{
+public:
+  explicit Distributor(const CoarsePlanes& planes)
+    : spread_(planes), shares_(planes.mesh().faceCount())
+  {
+  }
+
+  /// Corners of the finer face in the plane of coarse face `home` and in its own. False for one that has no area there.
+  bool add(Index home, const Complex* flat, const std::array<Complex, 3>& surface)
+  {
+    const std::optional<Eigen::Matrix2d> map = jacobianOf(flat, surface);
+    if (!map)
+    {
+      return false;
+    }
+    const Eigen::Matrix2d& jacobian = *map;
+    const Eigen::Matrix2d metric = jacobian.transpose() * jacobian;
+    const double ratio = std::max(jacobian.determinant(), 0.0); // of areas
+    const double root = std::sqrt(metric.trace() + 2 * ratio);
+    if (!(root > 0) || !std::isfinite(root))
+    {
+      return false;
+    }
+    spread_(home, kInvalidIndex, { flat[0], flat[1], flat[2] },
+      Eigen::Matrix2d((metric + ratio * Eigen::Matrix2d::Identity()) / root),
+      [&](Index f, double area, const Eigen::Matrix2d& stretch)
+      {
+        Share& share = shares_[f];
+        share.stretch += area * stretch;
+        share.covered += area;
+        share.surface += area * ratio;
+      });
+    return true;
+  }
+
+  const std::vector<Share>& shares() const { return shares_; }
+
+private:
+  PolygonSpread spread_;
   std::vector<Share> shares_;
-  double ratio_ = 1; ///< of areas, of the face that is added
 };
 
 void checkLevel(const Level& level, const DecimationLog& log)
@@ -405,10 +439,9 @@ void checkLevel(const Level& level, const DecimationLog& log)
   }
 }
 
-} // namespace
-
-SurfaceStretch measureStretch(
-  const Level& intermediate, const Level& coarse, const DecimationLog& log)
+/// The intermediate level on the planes of the coarse one.
+void layOutLevel(
+  const Level& intermediate, const Level& coarse, const DecimationLog& log, Layout& layout)
 {
   checkLevel(intermediate, log);
   checkLevel(coarse, log);
@@ -427,8 +460,6 @@ SurfaceStretch measureStretch(
     }
     return f;
   };
-  const CoarsePlanes planes(coarse.mesh);
-  Layout layout(planes, intermediate.mesh.faceCount());
   for (Index f = 0; f < coarse.mesh.faceCount(); ++f)
   {
     layout.place(localFace(coarse.fineFace[f]), f);
@@ -441,6 +472,96 @@ SurfaceStretch measureStretch(
       layout.goBack(log.blocks[i], [&](Index slot) { return 3 * localFace(slot / 3) + slot % 3; });
     }
   }
+}
+
+/// Of a coarse face: area times weight times the fourth powers of directions, and area times weight.
+struct GuideShare
+{
+  Complex direction = 0;
+  double weight = 0;
+  double area = 0;
+};
+
+/// The fourth power of what the guide of a finer face is on the coarse plane; 0 where it is nothing.
+Complex guideOnPlane(
+  const Mesh& mesh, Index f, const Guide& guide, const Eigen::Matrix2d& fromPlane)
+{
+  const Vector3 x = mesh.edgeVector(3 * f).normalized();
+  const Vector3 y = x.cross(mesh.edgeVector(3 * f + 1)).normalized().cross(x);
+  const Vector2 flat =
+    fromPlane.inverse() * Vector2(guide.direction.dot(x), guide.direction.dot(y));
+  const double length = flat.norm();
+  if (!(length > 0) || !std::isfinite(length))
+  {
+    return 0;
+  }
+  const Complex unit(flat.x() / length, flat.y() / length);
+  return unit * unit * unit * unit;
+}
+
+Guide guideInSpace(const Mesh& mesh, Index f, const GuideShare& share)
+{
+  const Vector3 x = mesh.edgeVector(3 * f).normalized();
+  const Vector3 y = x.cross(mesh.edgeVector(3 * f + 1)).normalized().cross(x);
+  const double angle = 0.25 * std::arg(share.direction);
+  return { std::cos(angle) * x + std::sin(angle) * y,
+    static_cast<float>(std::clamp(share.weight / share.area, 1e-30, 1.0)) };
+}
+
+} // namespace
+
+std::vector<Guide> gatherGuides(
+  const Level& intermediate, const Level& coarse, const DecimationLog& log)
+{
+  std::vector<Guide> guides = coarse.guides;
+  if (guides.empty() || intermediate.guides.empty())
+  {
+    return guides;
+  }
+  const CoarsePlanes planes(coarse.mesh);
+  Layout layout(planes, intermediate.mesh.faceCount());
+  layOutLevel(intermediate, coarse, log, layout);
+  const PolygonSpread spread(planes);
+  std::vector<GuideShare> shares(coarse.mesh.faceCount());
+  for (Index f = 0; f < intermediate.mesh.faceCount(); ++f)
+  {
+    pollNowAndThen(f);
+    const Guide& guide = intermediate.guides[f];
+    if (guide.isFree())
+    {
+      continue;
+    }
+    const Complex* const flat = layout.corners(f);
+    const std::optional<Eigen::Matrix2d> map = jacobianOf(flat, layOut(intermediate.mesh, f));
+    if (!map || !(map->determinant() > 0))
+    {
+      continue;
+    }
+    spread(layout.home(f), kInvalidIndex, { flat[0], flat[1], flat[2] },
+      guideOnPlane(intermediate.mesh, f, guide, *map),
+      [&](Index c, double area, Complex direction)
+      {
+        shares[c].direction += area * guide.weight * direction;
+        shares[c].weight += area * guide.weight;
+        shares[c].area += area;
+      });
+  }
+  for (Index f = 0; f < coarse.mesh.faceCount(); ++f)
+  {
+    if (!guides[f].isFree() && shares[f].area > 0 && std::abs(shares[f].direction) > 0)
+    {
+      guides[f] = guideInSpace(coarse.mesh, f, shares[f]);
+    }
+  }
+  return guides;
+}
+
+SurfaceStretch measureStretch(
+  const Level& intermediate, const Level& coarse, const DecimationLog& log)
+{
+  const CoarsePlanes planes(coarse.mesh);
+  Layout layout(planes, intermediate.mesh.faceCount());
+  layOutLevel(intermediate, coarse, log, layout);
   SurfaceStretch result;
   Distributor distributor(planes);
   for (Index f = 0; f < intermediate.mesh.faceCount(); ++f)

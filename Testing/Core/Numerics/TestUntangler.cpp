@@ -187,6 +187,35 @@ TEST(RatioEnergy, BeginsSmoothlyAtTheLimit)
   EXPECT_GT(energy.value(stretched(3)), 1e-3);
 }
 
+TEST(AxisEnergy, DerivativesAreThoseOfItsValue)
+{
+  AxisEnergy energy;
+  energy.weight = 3;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 0; i < 100; ++i)
+  {
+    const Jacobian j(uniform(random), uniform(random), uniform(random), uniform(random));
+    const Jacobian off(uniform(random), uniform(random), uniform(random), uniform(random));
+    Jacobian gradient = Jacobian::Zero();
+    Eigen::Matrix4d hessian = Eigen::Matrix4d::Zero();
+    energy.addDerivatives(off, j, gradient, hessian);
+    constexpr double kStep = 1e-5;
+    for (int k = 0; k < 4; ++k)
+    {
+      const Jacobian step = kStep * Jacobian::Unit(k);
+      // Central differences: the error is of the order of the step squared.
+      EXPECT_NEAR(gradient[k],
+        (energy.value(off.dot(j + step)) - energy.value(off.dot(j - step))) / (2 * kStep), 1e-7);
+      Jacobian before = Jacobian::Zero(), after = Jacobian::Zero();
+      Eigen::Matrix4d unused = Eigen::Matrix4d::Zero();
+      energy.addDerivatives(off, j - step, before, unused);
+      energy.addDerivatives(off, j + step, after, unused);
+      EXPECT_LT((hessian.col(k) - (after - before) / (2 * kStep)).norm(), 1e-6);
+    }
+  }
+}
+
 TEST(Untangler, ALimitLowersTheShareBeyondIt)
 {
   constexpr double kLimit = 1.4;

@@ -116,6 +116,34 @@ TEST(SurfaceStretch, OfWavesIsTheirLengthOverThatOfTheChord)
   EXPECT_LT(difference, 0.6 * withoutIt);
 }
 
+TEST(GatherGuides, OfOneDirectionInAPlaneIsThatDirection)
+{
+  Hierarchy h = decimate(gridPlane(40, 30), 4, 30);
+  const Vector3 direction = Vector3(1, 0.4, 0).normalized();
+  h.intermediate.guides.assign(h.intermediate.mesh.faceCount(), Guide{ direction, 0.5F });
+  // What phase 2 has carried is wrong on purpose; the last face is free and stays so.
+  h.coarse.guides.assign(h.coarse.mesh.faceCount(), Guide{ Vector3(0, 1, 0), 1.0F });
+  h.coarse.guides.back() = {};
+  const std::vector<Guide> guides = gatherGuides(h.intermediate, h.coarse, h.log);
+  ASSERT_EQ(guides.size(), h.coarse.mesh.faceCount());
+  EXPECT_TRUE(guides.back().isFree());
+  for (std::size_t f = 0; f + 1 < guides.size(); ++f)
+  {
+    // The four directions of a cross are one; weights of the log have 32 bits.
+    const double angle =
+      std::atan2(guides[f].direction.cross(direction).z(), guides[f].direction.dot(direction));
+    EXPECT_NEAR(std::sin(4 * angle), 0, 1e-6);
+    EXPECT_GT(std::cos(4 * angle), 0);
+    EXPECT_FLOAT_EQ(guides[f].weight, 0.5F);
+  }
+}
+
+TEST(GatherGuides, KeepsFacesWithoutGuidesAsTheyAre)
+{
+  const Hierarchy h = decimate(gridPlane(20, 20), 4, 30);
+  EXPECT_TRUE(gatherGuides(h.intermediate, h.coarse, h.log).empty());
+}
+
 TEST(SurfaceStretch, KeepsTheAreaOfTheSurface)
 {
   for (const Mesh& mesh : { sphere(5), torus(90, 45), markFeatures(unitCube(24), 0.6),

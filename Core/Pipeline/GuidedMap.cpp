@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/GuidedMap.h"
+
+#include "Base/Progress.h"
+#include "GridMap/RelaxMap.h"
+
+#include <algorithm>
+
+namespace quadrille
+{
+namespace
+{
+
+/// Edges of the intermediate level, each about half a quad, over which the map outside of guided regions gives way.
+constexpr int kRingsRoundRegions = 8;
+
+/// #V flags of the vertices that are farther from all guided faces than that.
+std::vector<std::uint8_t> farFromGuides(const Level& level)
+{
+  const Mesh& mesh = level.mesh;
+  std::vector<std::uint8_t> far(mesh.vertexCount(), 1);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (!level.guides[Mesh::face(h)].isFree())
+    {
+      far[mesh.origin[h]] = 0;
+    }
+  }
+  for (int ring = 0; ring < kRingsRoundRegions; ++ring)
+  {
+    const std::vector<std::uint8_t> before = far;
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      if (before[mesh.origin[h]] == 0)
+      {
+        far[mesh.target(h)] = far[mesh.origin[Mesh::previous(h)]] = 0;
+      }
+    }
+  }
+  return far;
+}
+
+} // namespace
+
+std::optional<TransferResult> transferAlongGuides(const Mesh& fine, const Hierarchy& levels,
+  const std::vector<FixedVec2>& coarseUv, const std::vector<int>& turns,
+  const std::vector<std::uint8_t>& integerVertex, const TransferOptions& options)
+{
+  const Level& level = levels.intermediate;
+  if (level.guides.empty())
+  {
+    return std::nullopt;
+  }
+  const std::size_t rounds = levels.log.intermediateRounds;
+  TransferOptions transfer = options;
+  transfer.progress = subProgress(options.progress, 0.0, 0.3);
+  std::vector<FixedVec2> uv =
+    transferToLevel(levels.coarse, level, rounds, levels.log, coarseUv, transfer);
+  std::vector<std::uint8_t> fixed = farFromGuides(level);
+  for (Index v = 0; v < level.mesh.vertexCount(); ++v)
+  {
+    fixed[v] |= integerVertex[level.fineVertex[v]];
+  }
+  RelaxOptions relax;
+  relax.guides = level.guides;
+  relax.threads = options.threads;
+  relax.progress = subProgress(options.progress, 0.3, 0.5);
+  if (!relaxMap(level.mesh, fixed, relax, uv).status.ok())
+  {
+    return std::nullopt;
+  }
+  transfer.progress = subProgress(options.progress, 0.5, 1.0);
+  return transferFromLevel(fine, level, rounds, levels.log, uv, turns, transfer);
+}
+
+} // namespace quadrille
