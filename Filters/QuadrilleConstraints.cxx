@@ -96,7 +96,7 @@ double weightOf(vtkDataArray* weights, vtkIdType cell, double otherwise)
   return weight;
 }
 
-void addCurves(vtkPolyData* curves, double strokeWeight, ConstraintPlacement& placement)
+void addCurves(vtkPolyData* curves, const ConstraintInputs& inputs, ConstraintPlacement& placement)
 {
   vtkDataArray* types = curves->GetCellData()->GetArray(arrays::kConstraintType);
   vtkDataArray* weights = curves->GetCellData()->GetArray(arrays::kGuidingWeight);
@@ -105,7 +105,8 @@ void addCurves(vtkPolyData* curves, double strokeWeight, ConstraintPlacement& pl
     switch (kindOf(types, line.source))
     {
       case ConstraintKind::Stroke:
-        placement.addStroke(line, weightOf(weights, line.source, strokeWeight));
+        placement.addStroke(
+          line, weightOf(weights, line.source, inputs.strokeWeight), inputs.strokeRadius);
         break;
       case ConstraintKind::Connection:
         placement.addCurve(line.source, CurveKind::Connection, line.points);
@@ -165,12 +166,13 @@ bool connects(vtkPolyData* data)
   return data && data->GetPointData()->HasArray(arrays::kConnectId);
 }
 
-void addStrokes(vtkPolyData* strokes, double strokeWeight, ConstraintPlacement& placement)
+void addStrokes(const ConstraintInputs& inputs, ConstraintPlacement& placement)
 {
-  vtkDataArray* weights = strokes->GetCellData()->GetArray(arrays::kGuidingWeight);
-  for (const DrawnLine& line : readLines(strokes, "guiding stroke"))
+  vtkDataArray* weights = inputs.strokes->GetCellData()->GetArray(arrays::kGuidingWeight);
+  for (const DrawnLine& line : readLines(inputs.strokes, "guiding stroke"))
   {
-    placement.addStroke(line, weightOf(weights, line.source, strokeWeight));
+    placement.addStroke(
+      line, weightOf(weights, line.source, inputs.strokeWeight), inputs.strokeRadius);
   }
 }
 
@@ -235,11 +237,11 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
   ConstraintPlacement placement(surface.input, places);
   if (hasLines(inputs.curves))
   {
-    addCurves(inputs.curves, inputs.strokeWeight, placement);
+    addCurves(inputs.curves, inputs, placement);
   }
   if (hasLines(inputs.strokes))
   {
-    addStrokes(inputs.strokes, inputs.strokeWeight, placement);
+    addStrokes(inputs, placement);
   }
   if (hasPoints(inputs.points))
   {

@@ -35,7 +35,9 @@ struct ConstraintInputs
   vtkPolyData* cycles = nullptr;      ///< the same, closed or not
   vtkPolyData* surface = nullptr;     ///< for its array ConnectId
   double strokeWeight = 1;            ///< in (0, 1]
-  int valence = 3;                    ///< 2 to 8
+  /// Polygons whose centre is within this distance of a stroke take its direction, too; >= 0, in units of the surface.
+  double strokeRadius = 0;
+  int valence = 3; ///< 2 to 8
 };
 
 /// Features: every point of a curve goes to the nearest point of the surface's polygons, and between two of them runs

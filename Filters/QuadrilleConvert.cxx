@@ -26,6 +26,8 @@
 #include <vtkSignedCharArray.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -902,6 +904,73 @@ ConvertedSurface convertSurface(vtkPolyData* data, const std::string& patchArray
   surface.input.targetValences = pointValences(data);
   surface.input.sizing = pointSizes(data);
   return surface;
+}
+
+namespace
+{
+
+/// A finite vector of an array of three numbers.
+Vector3 vectorAt(vtkDataArray* array, const char* element, vtkIdType i)
+{
+  Vector3 d;
+  array->GetTuple(i, d.data());
+  if (!d.allFinite())
+  {
+    refuse(element, " ", i, " has a vector in the guiding array '", array->GetName(),
+      "' that is not finite; correct it, or set it to zero to ask for nothing there");
+  }
+  return d;
+}
+
+/// The direction that the vectors have in common whatever their signs are; zero where all are.
+Vector3 mainDirection(vtkDataArray* array, const Index* begin, const Index* end)
+{
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Index* point = begin; point != end; ++point)
+  {
+    const Vector3 d = vectorAt(array, "point", *point).stableNormalized();
+    sum += d * d.transpose();
+  }
+  return sum.isZero(0)
+    ? Vector3(Vector3::Zero())
+    : Vector3(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(2));
+}
+
+} // namespace
+
+void addGuideArray(vtkPolyData* data, const std::string& name, ConvertedSurface& surface)
+{
+  vtkDataArray* const ofCells = data->GetCellData()->GetArray(name.c_str());
+  vtkDataArray* const array = ofCells ? ofCells : data->GetPointData()->GetArray(name.c_str());
+  if (!array)
+  {
+    refuse("there is no array named '", name,
+      "' on the cells or points of the surface to guide the quads: choose another one, or none");
+  }
+  if (array->GetNumberOfComponents() != 3)
+  {
+    refuse("the guiding array '", name, "' must have 3 numbers a cell or point, it has ",
+      array->GetNumberOfComponents());
+  }
+  SurfaceInput& input = surface.input;
+  input.guideDirections.resize(polygonCount(input), Vector3::Zero());
+  for (std::size_t i = 0; i < input.guideDirections.size(); ++i)
+  {
+    pollNowAndThen(i);
+    if (!input.guideDirections[i].isZero(0))
+    {
+      continue;
+    }
+    const auto polygon = static_cast<Index>(i);
+    const Index* const points = input.polygonPoints.data();
+    input.guideDirections[i] = ofCells ? vectorAt(array, "cell", surface.cell(polygon))
+                                       : mainDirection(array, points + input.polygonOffsets[i],
+                                           points + input.polygonOffsets[i + 1]);
+    if (!input.guideWeights.empty() && !input.guideDirections[i].isZero(0))
+    {
+      input.guideWeights[i] = 1;
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -88,6 +88,11 @@ struct ConvertedSurface
 ConvertedSurface convertSurface(
   vtkPolyData* surface, const std::string& patchArray, int threads = 1);
 
+/// Directions of an array of three numbers on the cells, or else on the points, of the converted vtkPolyData, with the
+/// weight 1, for polygons that have none; see vtkQuadrilleSurfaceAlgorithm::GuideArrayName. Throws InvalidInput naming
+/// the array, or the cell or point that is at fault.
+void addGuideArray(vtkPolyData* data, const std::string& name, ConvertedSurface& surface);
+
 /// Points in double precision, triangles, FeatureEdges and Sizing where there are any.
 vtkSmartPointer<vtkPolyData> writeMesh(const Mesh& mesh);
 /// Throws InvalidInput naming the cell that is no triangle, or the edge that is not manifold.

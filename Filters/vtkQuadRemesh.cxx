@@ -259,6 +259,17 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   options.method = static_cast<quadrille::MapMethod>(this->Method);
   options.coarsestIntegers = this->Integers == INTEGERS_COARSEST;
   options.anisotropyLimit = this->AnisotropyLimit;
+  if (this->ChordError > 0)
+  {
+    options.sizes.chordError = this->ChordError;
+  }
+  options.sizes.gapQuads = this->GapQuads;
+  options.sizes.smallest = this->SmallestSize;
+  options.sizes.largest = this->LargestSize;
+  if (this->CurvatureGuides)
+  {
+    options.curvatureGuides = this->LeastAnisotropy;
+  }
   options.closeHandles = this->CloseHandles;
   options.removeSmallComponents = this->SmallComponents == REMOVE_SMALL_COMPONENTS;
   options.finalQuality = static_cast<quadrille::FinalQuality>(this->FinalQuality);
@@ -384,6 +395,12 @@ void vtkQuadRemesh::AddSettings(std::ostream& os) const
   os << "Method " << this->Method << '\n'
      << "Integers " << this->Integers << '\n'
      << "AnisotropyLimit " << this->AnisotropyLimit << '\n'
+     << "ChordError " << this->ChordError << '\n'
+     << "GapQuads " << this->GapQuads << '\n'
+     << "SmallestSize " << this->SmallestSize << '\n'
+     << "LargestSize " << this->LargestSize << '\n'
+     << "CurvatureGuides " << this->CurvatureGuides << '\n'
+     << "LeastAnisotropy " << this->LeastAnisotropy << '\n'
      << "SmoothingSteps " << this->SmoothingSteps << '\n'
      << "CloseHandles " << this->CloseHandles << '\n'
      << "SmallComponents " << this->SmallComponents << '\n'
@@ -418,6 +435,12 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumNumberOfQuads: " << this->MaximumNumberOfQuads << "\n";
   os << indent << "SmoothingSteps: " << this->SmoothingSteps << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
+  os << indent << "ChordError: " << this->ChordError << "\n";
+  os << indent << "GapQuads: " << this->GapQuads << "\n";
+  os << indent << "SmallestSize: " << this->SmallestSize << "\n";
+  os << indent << "LargestSize: " << this->LargestSize << "\n";
+  os << indent << "CurvatureGuides: " << this->CurvatureGuides << "\n";
+  os << indent << "LeastAnisotropy: " << this->LeastAnisotropy << "\n";
   os << indent << "CloseHandles: " << this->CloseHandles << "\n";
   os << indent << "SmallComponents: " << this->SmallComponents << "\n";
   os << indent << "KeepLevels: " << this->KeepLevels << "\n";

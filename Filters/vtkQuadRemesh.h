@@ -147,6 +147,51 @@ public:
 
   ///@{
   /**
+   * By how much an edge of the quads may lie off the surface, in units of the input: on a normal curvature k edges are
+   * at most sqrt(8 ChordError / k) long, within SmallestSize and LargestSize. The curvature is taken over about a
+   * target edge length. With NumberOfQuads the quads are distributed so that there are as many. The array Sizing may
+   * ask for less. 0: edges do not depend on the curvature. Default: 0.
+   */
+  vtkSetClampMacro(ChordError, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(ChordError, double);
+  ///@}
+
+  ///@{
+  /**
+   * So many edges at least go into the thickness of the solid, and into the gap to an opposite sheet outside, within
+   * SmallestSize and LargestSize. The smallest of this, ChordError and the array Sizing counts. 0: edges do not depend
+   * on that. Default: 0.
+   */
+  vtkSetClampMacro(GapQuads, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(GapQuads, double);
+  ///@}
+
+  ///@{
+  /**
+   * The range of what ChordError and GapQuads ask for, over the target edge length: SmallestSize above 0 and at most 1,
+   * LargestSize at least 1. Defaults: 0.2 and 1.
+   */
+  vtkSetMacro(SmallestSize, double);
+  vtkGetMacro(SmallestSize, double);
+  vtkSetMacro(LargestSize, double);
+  vtkGetMacro(LargestSize, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether quads follow the principal curvature of the surface where no other guide is, wherever its anisotropy
+   * |k1 - k2| / (|k1| + |k2|) over about an edge length is above LeastAnisotropy, the more the larger it is. Defaults:
+   * off, 0.3.
+   */
+  vtkSetMacro(CurvatureGuides, vtkTypeBool);
+  vtkGetMacro(CurvatureGuides, vtkTypeBool);
+  vtkBooleanMacro(CurvatureGuides, vtkTypeBool);
+  vtkSetMacro(LeastAnisotropy, double);
+  vtkGetMacro(LeastAnisotropy, double);
+  ///@}
+
+  ///@{
+  /**
    * Handles that are shorter round or through than this, in target edge lengths, are cut along their shortest loop and
    * closed on both sides before the surface is mapped; 0 leaves all as they are. Quads need 3. Default: 0.
    */
@@ -351,6 +396,12 @@ private:
   double MemoryLimit = 0;
   double CloseHandles = 0;
   int SmallComponents = KEEP_SMALL_COMPONENTS;
+  double ChordError = 0;
+  double GapQuads = 0;
+  double SmallestSize = 0.2;
+  double LargestSize = 1;
+  vtkTypeBool CurvatureGuides = 0;
+  double LeastAnisotropy = 0.3;
   vtkTypeBool KeepLevels = 1;
   vtkTypeBool Preview = 0;
   vtkTypeBool WarmStart = 0;

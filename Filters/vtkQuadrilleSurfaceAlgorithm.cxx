@@ -48,6 +48,17 @@ void vtkQuadrilleSurfaceAlgorithm::SetPatchArrayName(const char* name)
 }
 
 //------------------------------------------------------------------------------
+void vtkQuadrilleSurfaceAlgorithm::SetGuideArrayName(const char* name)
+{
+  const std::string value = name ? name : "";
+  if (value != this->GuideArrayName)
+  {
+    this->GuideArrayName = value;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
 quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
   quadrille::Block& block, quadrille::AskedConstraints* asked)
 {
@@ -55,6 +66,10 @@ quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
   this->WarnOfUnusedArrays(block);
   quadrille::ConvertedSurface surface =
     quadrille::convertSurface(data, this->PatchArrayName, this->NumberOfThreads);
+  if (!this->GuideArrayName.empty() && this->GuideArrayName != "(none)")
+  {
+    quadrille::addGuideArray(data, this->GuideArrayName, surface);
+  }
   if (surface.ignoredCells > 0)
   {
     this->AddNotice(std::to_string(surface.ignoredCells) + " vertex and line cells are not used");
@@ -70,6 +85,7 @@ quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
   }
   constraints.surface = data;
   constraints.strokeWeight = this->StrokeWeight;
+  constraints.strokeRadius = this->StrokeRadius;
   constraints.valence = this->PointValence;
   if (asked)
   {
@@ -166,6 +182,8 @@ void vtkQuadrilleSurfaceAlgorithm::AddSettings(std::ostream& os) const
      << "PatchArrayName " << this->PatchArrayName << '\n'
      << "CoarseVertices " << this->CoarseVertices << '\n'
      << "StrokeWeight " << this->StrokeWeight << '\n'
+     << "StrokeRadius " << this->StrokeRadius << '\n'
+     << "GuideArrayName " << this->GuideArrayName << '\n'
      << "PointValence " << this->PointValence << '\n';
 }
 
@@ -183,5 +201,7 @@ void vtkQuadrilleSurfaceAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "PatchArrayName: " << this->PatchArrayName << "\n";
   os << indent << "CoarseVertices: " << this->CoarseVertices << "\n";
   os << indent << "StrokeWeight: " << this->StrokeWeight << "\n";
+  os << indent << "StrokeRadius: " << this->StrokeRadius << "\n";
+  os << indent << "GuideArrayName: " << this->GuideArrayName << "\n";
   os << indent << "PointValence: " << this->PointValence << "\n";
 }

@@ -77,6 +77,26 @@ public:
 
   ///@{
   /**
+   * The distance from a guiding stroke, in units of the input, up to which polygons take its direction, that of its
+   * nearest piece, reached over the surface. 0: those that it runs over. Default: 0.
+   */
+  vtkSetClampMacro(StrokeRadius, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(StrokeRadius, double);
+  ///@}
+
+  ///@{
+  /**
+   * Name of an array of three numbers on cells, or else on points, that guides the quads where `GuidingDirection` and
+   * strokes do not: stress, the direction of fibres. Signs and lengths do not count; a zero vector leaves a cell free,
+   * as do points that are all zero. Of the points of a cell their main direction is taken. An error where it is
+   * missing. Empty or "(none)": not used. Default: empty.
+   */
+  void SetGuideArrayName(const char* name);
+  const char* GetGuideArrayName() { return this->GuideArrayName.c_str(); }
+  ///@}
+
+  ///@{
+  /**
    * The valence that is asked for at the points of port 3 without `TargetValence`, 2 to 8. Default: 3.
    */
   vtkSetMacro(PointValence, int);
@@ -203,6 +223,8 @@ protected:
   std::string PatchArrayName = "PatchId";
   int CoarseVertices = 1000;
   double StrokeWeight = 1;
+  double StrokeRadius = 0;
+  std::string GuideArrayName;
   int PointValence = 3;
 
 private:

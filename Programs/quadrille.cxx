@@ -114,6 +114,21 @@ void addSizes(CommandOptions& options, vtkQuadRemesh* filter)
       filter->SetRelativeEdgeLength(length);
     },
     "target edge length over the bounding-box diagonal");
+  options.addNumber(
+    "chord-error", "E", { kSmallest, 1e300 },
+    [filter](double error) { filter->SetChordError(error); },
+    "by how much edges of the quads may lie off the surface, in units of the input: they are "
+    "shorter where it is curved; with --quads as many quads are distributed so");
+  options.addNumber(
+    "gap-quads", "N", { 0, 1000 }, [filter](double quads) { filter->SetGapQuads(quads); },
+    "so many edges at least go into the thickness of the solid and into gaps outside (default 0: "
+    "sizes do not depend on that)");
+  options.addNumber(
+    "smallest-size", "R", { 0.001, 1 }, [filter](double size) { filter->SetSmallestSize(size); },
+    "the least that both lead to, over the target edge length (default 0.2)");
+  options.addNumber(
+    "largest-size", "R", { 1, 1000 }, [filter](double size) { filter->SetLargestSize(size); },
+    "the most that both leave, over the target edge length (default 1)");
 }
 
 void addShape(CommandOptions& options, vtkQuadRemesh* filter)
@@ -143,6 +158,26 @@ void addShape(CommandOptions& options, vtkQuadRemesh* filter)
     "vertices of the level where the layout is computed (default 1000); auto: as many as the "
     "curvature of the surface "
     "needs, from 300 to 4000");
+  options.addText(
+    "guide", "NAME",
+    [filter](const std::string& name)
+    {
+      if (name == "curvature")
+      {
+        filter->CurvatureGuidesOn();
+      }
+      else
+      {
+        filter->SetGuideArrayName(name.c_str());
+      }
+    },
+    "where no GuidingDirection is given, quads follow the principal curvature of the surface "
+    "(curvature), or the array of three numbers on cells or points of this name");
+  options.addNumber(
+    "guide-anisotropy", "A", { 0, 0.99 },
+    [filter](double least) { filter->SetLeastAnisotropy(least); },
+    "with --guide curvature: where |k1 - k2| / (|k1| + |k2|) is above this, over about an edge "
+    "length (default 0.3)");
   addMethod(
     options, [filter](int method) { filter->SetMethod(method); },
     "how the map is made: scale-aware (default); mixed-integer and quadcover, which may leave "

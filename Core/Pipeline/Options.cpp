@@ -37,6 +37,11 @@ void checkOptions(const RemeshOptions& options)
   {
     throw InvalidInput("the memory limit must be a positive number of bytes");
   }
+  checkAdaptiveSizes(options.sizes);
+  if (options.curvatureGuides && !(*options.curvatureGuides >= 0 && *options.curvatureGuides < 1))
+  {
+    throw InvalidInput("the least anisotropy of curvature for guides must be from 0 to below 1");
+  }
   checkAnisotropyLimit(options.anisotropyLimit);
   if (options.anisotropyLimit > 0 &&
     (options.method == MapMethod::MixedInteger || options.method == MapMethod::QuadCover))

@@ -6,6 +6,7 @@
 #include "Base/Angles.h"
 #include "Base/Progress.h"
 #include "GridMap/GridMap.h"
+#include "Mesh/AdaptiveSizes.h"
 #include "Mesh/Mesh.h"
 #include "Pipeline/FinalQuality.h"
 
@@ -23,6 +24,11 @@ struct RemeshOptions
   std::optional<double> edgeLength; ///< target edge length in units of the input, > 0
   double relativeEdgeLength = 0.02; ///< target edge length over the bounding-box diagonal, > 0
   std::optional<double> featureAngle = radians(40); ///< radians; none: no detection
+  AdaptiveSizes
+    sizes; ///< smaller quads where the surface is curved or thin; lengths in units of the input
+  /// Where no guide is given, quads follow the principal curvature wherever its anisotropy, |k1 - k2| / (|k1| + |k2|)
+  /// over about an edge length, is above this; in [0, 1); none: off.
+  std::optional<double> curvatureGuides;
   MapMethod method = MapMethod::ScaleAware;
   /// The coarsest layout of quads in place of their size, see computeCoarsestMap; by the scale aware method only. The
   /// size asked for sets what the levels keep and how curves are followed.

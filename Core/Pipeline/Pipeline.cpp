@@ -287,6 +287,10 @@ void run(SurfaceInput& input, RemeshOptions options, ResultStore* store, PlaceSc
   {
     options.edgeLength = frame.lengthOf(*askedEdgeLength);
   }
+  if (options.sizes.chordError)
+  {
+    options.sizes.chordError = frame.lengthOf(*options.sizes.chordError);
+  }
   SizedSurface sized = sizeSurface(framed.input, options, store);
   tell(sized.notices, result);
   result.status = sized.status;

@@ -4,7 +4,9 @@
 
 #include "Base/Memory.h"
 #include "Base/PlaceText.h"
+#include "Mesh/AdaptiveSizing.h"
 #include "Mesh/ContentHash.h"
+#include "Mesh/CurvatureGuides.h"
 #include "Mesh/FeatureFilter.h"
 #include "Mesh/Frame.h"
 #include "Mesh/RepairText.h"
@@ -24,6 +26,14 @@ namespace quadrille
 namespace
 {
 
+/// Above this share of the area what is left is not worth a word, nor is a factor of lengths below the other one.
+constexpr double kMostOfArea = 0.94;
+constexpr double kToldFactor = 1.05;
+
+/// How often the edge length is chosen anew where sizes that grow gradually make too many quads, and when it is good.
+constexpr int kSizingRounds = 4;
+constexpr double kCountTolerance = 0.02;
+
 /// A prepared surface in the store: triangles, which sized surfaces may share, and its own marks.
 struct StoredPrepared
 {
@@ -38,6 +48,7 @@ struct StoredSized
   std::shared_ptr<PreparedSurface> surface;
   SurfaceMarks marks;
   bool hasRequests = false; ///< of its own, moved by what closed handles
+  double edgeLength = 0;    ///< s; adaptive sizes change it where a number of quads is asked for
   std::size_t targetQuads = 0;
   std::vector<std::string> notices;
 };
@@ -87,6 +98,15 @@ std::string smallComponentsText(const SmallComponents& small, std::size_t count,
   return text.str();
 }
 
+std::vector<float> multiplied(std::vector<float> lengths, double factor)
+{
+  for (float& length : lengths)
+  {
+    length = static_cast<float>(length * factor);
+  }
+  return lengths;
+}
+
 class SurfaceSizing
 {
 public:
@@ -108,6 +128,7 @@ public:
     input_ = {};
     if (made_.status.ok())
     {
+      guideByCurvature();
       tellRequests();
       countSmallComponents();
     }
@@ -174,6 +195,17 @@ private:
                   .add(requestsKey_)
                   .add(std::uint64_t{ options_.removeSmallComponents ? 1U : 0U })
                   .key();
+    if (options_.sizes.any())
+    {
+      const AdaptiveSizes& sizes = options_.sizes;
+      made_.key = KeyMaker(made_.key)
+                    .add(sizes.chordError.value_or(0))
+                    .add(sizes.gapQuads)
+                    .add(sizes.smallest)
+                    .add(sizes.largest)
+                    .add(std::uint64_t{ options_.quads ? 1U : 0U })
+                    .key();
+    }
     const auto found = prepared_ ? store_->find<StoredSized>(made_.key) : nullptr;
     if (!found || (!options_.quads && found->targetQuads > options_.maximumNumberOfQuads))
     {
@@ -185,6 +217,7 @@ private:
     {
       collectRequests(input_, *made_.surface);
     }
+    made_.edgeLength = found->edgeLength;
     made_.targetQuads = options_.quads ? *options_.quads : found->targetQuads;
     made_.notices = found->notices;
     reuse({ "refine" });
@@ -215,7 +248,14 @@ private:
         collectRequests(input_, *made_.surface);
       }
     }
-    limitSizes();
+    if (options_.sizes.any())
+    {
+      adaptSizes();
+    }
+    else
+    {
+      limitSizes();
+    }
     if (refuseTooMany())
     {
       return;
@@ -237,6 +277,7 @@ private:
     sized->marks = marksOf(*made_.surface);
     sized->hasRequests = hasRequests;
     sized->targetQuads = made_.targetQuads;
+    sized->edgeLength = made_.edgeLength;
     sized->notices = made_.notices;
     if (sameTriangles)
     {
@@ -268,6 +309,69 @@ private:
     {
       made_.targetQuads = predictedQuads(areaOverSizes(*made_.surface), made_.edgeLength);
     }
+  }
+
+  /// Sizes that the shape of the surface asks for. Where a number of quads is asked for, the edge length is the one
+  /// with which they make as many, and the lengths that the shape asks for stay what they are.
+  void adaptSizes()
+  {
+    Mesh& mesh = made_.surface->mesh;
+    const AdaptiveSizes& sizes = options_.sizes;
+    const double start = secondsNow();
+    // On faces no larger than quads, so that there are places to ask for sizes at.
+    refineSurface(*made_.surface, made_.edgeLength, {});
+    const double reach = options_.quads ? sizes.largest / sizes.smallest : sizes.largest;
+    const std::vector<float> asked = mesh.sizing;
+    const std::vector<float> lengths =
+      adaptiveLengths(mesh, sizes, made_.edgeLength, reach, options_.threads);
+    const double target = options_.quads ? static_cast<double>(*options_.quads) : 0;
+    double wanted = target, made = 0;
+    DistributedSizes shared;
+    for (int round = 0; round < kSizingRounds; ++round)
+    {
+      if (options_.quads)
+      {
+        shared = distributeSizes(mesh, asked, lengths, sizes, wanted);
+        made_.edgeLength = roundedLength(shared.edgeLength);
+      }
+      setAdaptiveSizes(
+        mesh, asked, multiplied(lengths, shared.lengthFactor), sizes, made_.edgeLength);
+      limitSizeGrowth(mesh, made_.edgeLength);
+      made = sizedArea(mesh) / (made_.edgeLength * made_.edgeLength);
+      if (!options_.quads || std::abs(made / target - 1) < kCountTolerance)
+      {
+        break;
+      }
+      wanted *= target / made; // sizes that grow gradually make more quads
+    }
+    if (!options_.quads)
+    {
+      made_.targetQuads = predictedQuads(made, 1);
+    }
+    made_.stages.add("sizes", secondsNow() - start, mesh.faceCount(), mesh.faceCount());
+    tell(adaptiveSizesNotice(mesh, lengths, shared.lengthFactor));
+  }
+
+  std::string adaptiveSizesNotice(
+    const Mesh& mesh, const std::vector<float>& lengths, double factor) const
+  {
+    const auto [least, most] = std::minmax_element(mesh.sizing.begin(), mesh.sizing.end());
+    std::ostringstream text;
+    text << std::setprecision(2) << "quads get sizes from " << double{ *least } << " to "
+         << double{ *most } << " times the target edge length";
+    if (factor > kToldFactor)
+    {
+      text << "; so few quads are longer than curvature and thickness ask for, by a factor of "
+           << factor << ": ask for " << std::setprecision(2) << factor * factor
+           << " times as many, or for a larger chord error";
+    }
+    const double share = shareOfLengthsMet(mesh, multiplied(lengths, factor), made_.edgeLength);
+    if (share < kMostOfArea)
+    {
+      text << "; on " << std::lround(100 * (1 - share))
+           << " % of the area the smallest size keeps them longer than these ask for";
+    }
+    return text.str();
   }
 
   bool refuseTooMany()
@@ -321,6 +425,20 @@ private:
     {
       tell(smallComponentsText(small, removed, made_.edgeLength) + ": removed, as was asked for");
     }
+  }
+
+  void guideByCurvature()
+  {
+    if (!options_.curvatureGuides)
+    {
+      return;
+    }
+    const double start = secondsNow();
+    PreparedSurface& surface = *made_.surface;
+    const std::size_t guided =
+      addCurvatureGuides(surface, made_.edgeLength, *options_.curvatureGuides, options_.threads);
+    made_.stages.add("guides", secondsNow() - start, surface.mesh.faceCount(), guided);
+    tell(std::to_string(guided) + " polygons are guided by the curvature of the surface");
   }
 
   void tellRequests()

@@ -169,6 +169,23 @@ def _set_names(run, *, patch_array, method, final_quality, integers, cell_data, 
     run.SetSmallComponents(one_of("small_components", small_components, SMALL_COMPONENTS))
 
 
+def _set_sizes(run, chord_error, gap_quads, smallest_size, largest_size):
+    if chord_error is not None:
+        run.SetChordError(real("chord_error", chord_error, above=0, hint=" (None leaves sizes as they are)"))
+    run.SetGapQuads(real("gap_quads", gap_quads, least=0))
+    run.SetSmallestSize(real("smallest_size", smallest_size, above=0, most=1))
+    run.SetLargestSize(real("largest_size", largest_size, least=1))
+
+
+def _set_guides(run, guide, guide_anisotropy, stroke_radius):
+    if guide is not None and not isinstance(guide, str):
+        raise InvalidInput('guide must be "curvature" or the name of an array')
+    run.SetCurvatureGuides(guide == "curvature")
+    run.SetGuideArrayName(guide if guide and guide != "curvature" else "")
+    run.SetLeastAnisotropy(real("guide_anisotropy", guide_anisotropy, least=0, most=0.99))
+    run.SetStrokeRadius(real("stroke_radius", stroke_radius, least=0))
+
+
 def _finish(run):
     """Runs it; the reason of a failure comes as an exception, so VTK need not print it as well."""
     for source in (run, run.GetExecutive()):
@@ -188,6 +205,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
            memory_limit=0.0, time_limit=0.0, close_handles=0.0, small_components="keep", method="scale-aware",
            final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False,
            cell_data="centre", preview=False,
+           chord_error=None, gap_quads=0.0, smallest_size=0.2, largest_size=1.0, guide=None,
+           guide_anisotropy=0.3, stroke_radius=0.0,
            progress=None, everything=False):
     """Remeshes a surface with quads only and returns a vtkPolyData.
 
@@ -237,6 +256,15 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         part.
     preview: whether to make the quads of the intermediate level only: the same layout in a fraction of the time. Points
         lie near the surface, and no arrays of it are carried.
+    chord_error: by how much edges of the quads may lie off the surface, in units of the mesh: they are shorter where it
+        is curved; with quads=N as many quads are distributed so. None: sizes do not depend on the curvature.
+    gap_quads: so many edges at least go into the thickness of the solid and into gaps outside; 0: sizes do not depend
+        on that. Of both and `sizing` the smallest counts.
+    smallest_size, largest_size: the range of what these two lead to, over the target edge length.
+    guide: what quads follow where guiding_direction and strokes are not given: "curvature", or the name of an array of
+        three numbers on cells or points of a vtkPolyData.
+    guide_anisotropy: with guide="curvature", where |k1 - k2| / (|k1| + |k2|) is above this, over about an edge length.
+    stroke_radius: polygons within this distance of a stroke take its direction; 0: those that it runs over.
     progress: called as progress(fraction, text); a return value of False (not None) stops the run.
     everything: return a Remeshed with the mapped surface, the feature lines, the info dict and the lines of the layout,
         too. `constraints` of the info dict is a list of dicts, one for each guided region, stroke, curve, valence and
@@ -253,6 +281,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     _set_names(run, patch_array=patch_array, method=method, final_quality=final_quality, integers=integers,
                cell_data=cell_data,
                small_components=small_components)
+    _set_sizes(run, chord_error, gap_quads, smallest_size, largest_size)
+    _set_guides(run, guide, guide_anisotropy, stroke_radius)
     run.SetDistortionMetric(bool(distortion_metric))
     run.SetPreview(bool(preview))
     run.SetComputeMappedSurface(bool(everything))

@@ -114,6 +114,73 @@ TEST(Constraints, StrokesGuideThePolygonsTheyRunOver)
   EXPECT_EQ(guided, 16u);
 }
 
+TEST(Constraints, AStrokeIsAsWideAsItsRadius)
+{
+  const Mesh mesh =
+    test::disjointUnion(test::gridPlane(8, 8), test::gridPlane(8, 8), Vector3(0, 0, 0.5));
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(mesh);
+  const vtkSmartPointer<vtkPolyData> stroke =
+    test::polyline({ { 0, 4, 0 }, { 4, 4, 0 }, { 4, 8, 0 } });
+  ConvertedSurface surface = convertSurface(data, "");
+  ConstraintInputs inputs;
+  inputs.strokes = stroke;
+  inputs.strokeRadius = 1.5;
+  const PlacedConstraints placed = applyConstraints(surface, inputs);
+  for (std::size_t i = 0; i < surface.input.guideDirections.size(); ++i)
+  {
+    Vector3 centre = Vector3::Zero();
+    for (int k = 0; k < 3; ++k)
+    {
+      centre += surface.input.points[surface.input.polygonPoints[3 * i + k]] / 3;
+    }
+    const double first = std::hypot(std::max(centre.x() - 4, 0.0), centre.y() - 4);
+    const double second = std::hypot(centre.x() - 4, std::max(4 - centre.y(), 0.0));
+    const bool isNear =
+      centre.z() < 0.25 && std::min(first, second) < 1.5; // the other sheet is nearer than that
+    const Vector3& direction = surface.input.guideDirections[i];
+    EXPECT_EQ(isNear, !direction.isZero(0)) << centre.transpose();
+    if (isNear && std::abs(first - second) > 1e-9)
+    {
+      EXPECT_EQ(direction, first < second ? Vector3(1, 0, 0) : Vector3(0, 1, 0));
+    }
+  }
+  ASSERT_EQ(placed.placed.size(), 1u);
+  EXPECT_GT(placed.placed[0].guided.size(), 32u); // more than twice those under it
+}
+
+TEST(Constraints, AnArrayOfVectorsGuides)
+{
+  const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(4, 4));
+  vtkNew<vtkDoubleArray> fibre;
+  fibre->SetName("Fibre");
+  fibre->SetNumberOfComponents(3);
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    const double x = data->GetPoint(i)[0];
+    // Signs do not count; on the left there is nothing.
+    fibre->InsertNextTuple3(x < 2 ? 0 : (i % 2 == 0 ? 3 : -1), 0, 0);
+  }
+  data->GetPointData()->AddArray(fibre);
+  ConvertedSurface surface = convertSurface(data, "");
+  surface.input.guideDirections.assign(32, Vector3::Zero());
+  surface.input.guideDirections[5] = Vector3(0, 2, 0);
+  addGuideArray(data, "Fibre", surface);
+  for (std::size_t i = 0; i < 32; ++i)
+  {
+    bool free = true;
+    for (int k = 0; k < 3; ++k)
+    {
+      free = free && surface.input.points[surface.input.polygonPoints[3 * i + k]].x() < 2;
+    }
+    const Vector3& d = surface.input.guideDirections[i];
+    EXPECT_EQ(d.cwiseAbs(), i == 5 ? Vector3(0, 2, 0) : free ? Vector3(0, 0, 0) : Vector3(1, 0, 0));
+  }
+  EXPECT_THROW(addGuideArray(data, "Fiber", surface), InvalidInput);
+  fibre->SetComponent(12, 1, std::nan(""));
+  ConvertedSurface other = convertSurface(data, "");
+  EXPECT_THROW(addGuideArray(data, "Fibre", other), InvalidInput);
+}
+
 TEST(Constraints, NoPathBetweenComponentsIsAnError)
 {
   const Mesh mesh =

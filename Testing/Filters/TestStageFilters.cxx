@@ -402,13 +402,17 @@ TEST(StageFilters, ChainHonoursGuidesAndValences)
 
   const vtkSmartPointer<vtkQuadRemesh> oneClick = inOneClick(input);
   ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
-  // The stages merge charts before the extraction, which changes the order of points and their last bits.
+  // The whole numbers are the same. Quad Remesh turns the map along the guides on the intermediate level, too, which
+  // moves points by less than half an edge.
   vtkPolyData* quads = chain.extraction->GetOutput();
   ASSERT_EQ(quads->GetNumberOfPoints(), oneClick->GetOutput()->GetNumberOfPoints());
+  EXPECT_EQ(quads->GetNumberOfPolys(), oneClick->GetOutput()->GetNumberOfPolys());
+  const double edge =
+    chain.hierarchy->GetOutput()->GetFieldData()->GetArray("TargetEdgeLength")->GetTuple1(0);
   for (const Vector3& p : pointsOf(quads))
   {
     const vtkIdType at = oneClick->GetOutput()->FindPoint(p.x(), p.y(), p.z());
-    EXPECT_LT((Vector3(oneClick->GetOutput()->GetPoint(at)) - p).norm(), 1e-12);
+    EXPECT_LT((Vector3(oneClick->GetOutput()->GetPoint(at)) - p).norm(), 0.5 * edge);
   }
   vtkDataArray* valence = oneClick->GetOutput()->GetPointData()->GetArray("Valence");
   for (const vtkIdType point : { 1530, 1820 })

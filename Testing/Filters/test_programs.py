@@ -645,6 +645,21 @@ class Report(Case):
         result = self.run_quadrille(source, self.folder / "q.obj", "--distortion-metric", "yes", expect=2)
         self.assertIn("on or off", result.stderr)
 
+    def test_sizes_and_guides_by_shape(self):
+        source = self.write_off()
+        report = self.folder / "r.json"
+        self.run_quadrille(source, self.folder / "q.obj", "--quads", 200, "--chord-error", 0.02, "--gap-quads", 2,
+                           "--smallest-size", 0.3, "--largest-size", 1.5, "--guide", "curvature", "--guide-anisotropy",
+                           0.1, "--report", report)
+        content = json.loads(report.read_text())
+        stages = [stage["stage"] for stage in content["stages"]]
+        self.assertIn("sizes", stages)
+        self.assertIn("guides", stages)
+        result = self.run_quadrille(source, self.folder / "q.obj", "--guide", "Stress", expect=2)
+        self.assertIn("Stress", result.stderr)
+        self.run_quadrille(source, self.folder / "q.obj", "--chord-error", 0, expect=2)
+        self.run_quadrille(source, self.folder / "q.obj", "--smallest-size", 2, expect=2)
+
     def test_cell_data(self):
         points, faces = torus()
         source, out = self.folder / "load.ply", self.folder / "q.vtp"

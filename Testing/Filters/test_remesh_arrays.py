@@ -284,6 +284,44 @@ class Requests(unittest.TestCase):
         plain = quadrille.remesh(self.mesh, quads=100)
         self.assertFalse(numpy.array_equal(quadrille.to_arrays(plain)[0], quadrille.to_arrays(result.quads)[0]))
 
+    def test_sizes_that_follow_the_shape(self):
+        sphere = vtkSphereSource()
+        sphere.SetThetaResolution(60)
+        sphere.SetPhiResolution(40)
+        sphere.SetRadius(1)
+        sphere.Update()
+        plain = quadrille.remesh(sphere.GetOutput(), edge_length=0.5)
+        fine = quadrille.remesh(sphere.GetOutput(), edge_length=0.5, chord_error=0.01)
+        # Edges of sqrt(8 e) = 0.28 in place of 0.5.
+        self.assertAlmostEqual(fine.GetNumberOfCells() / (4 * math.pi / 0.08), 1, delta=0.2)
+        self.assertLess(plain.GetNumberOfCells(), 0.6 * fine.GetNumberOfCells())
+        thick = quadrille.remesh(sphere.GetOutput(), edge_length=0.5, gap_quads=6, smallest_size=0.5)
+        self.assertGreater(thick.GetNumberOfCells(), 1.5 * plain.GetNumberOfCells())  # 2 / 6
+        for words, options in ((["chord_error", "above 0"], {"chord_error": 0}),
+                               (["gap_quads"], {"gap_quads": -1}), (["smallest_size"], {"smallest_size": 2}),
+                               (["largest_size"], {"largest_size": 0.5})):
+            self.assertRefused(words, **options)
+
+    def test_guides_by_name_and_by_curvature(self):
+        surface = quadrille.to_polydata(*self.mesh)
+        fibre = numpy_to_vtk(numpy.tile((math.cos(0.4), math.sin(0.4), 0.0), (len(self.points), 1)), deep=True)
+        fibre.SetName("Fibre")
+        surface.GetPointData().AddArray(fibre)
+        by_name = quadrille.remesh(surface, quads=100, guide="Fibre")
+        direction = numpy.tile((math.cos(0.4), math.sin(0.4), 0.0), (len(self.faces), 1))
+        given = quadrille.remesh(self.mesh, quads=100, guiding_direction=direction)
+        numpy.testing.assert_allclose(quadrille.to_arrays(by_name)[0], quadrille.to_arrays(given)[0], atol=1e-3)
+        flat = quadrille.remesh(self.mesh, quads=100, guide="curvature", everything=True)
+        self.assertIn("guides", flat.info["stages"])
+        numpy.testing.assert_array_equal(quadrille.to_arrays(flat.quads)[0],  # a plane has no direction
+                                         quadrille.to_arrays(quadrille.remesh(self.mesh, quads=100))[0])
+        self.assertRefused(["Fiber"], guide="Fiber")
+        self.assertRefused(["guide", "curvature"], guide=3)
+        stroke = [[5, 3, 0], [15, 13, 0]]
+        narrow = quadrille.remesh(self.mesh, quads=100, strokes=[stroke], everything=True)
+        wide = quadrille.remesh(self.mesh, quads=100, strokes=[stroke], stroke_radius=4, everything=True)
+        self.assertFalse(numpy.array_equal(quadrille.to_arrays(narrow.quads)[0], quadrille.to_arrays(wide.quads)[0]))
+
     def test_constraints_have_a_word_each(self):
         """Guides and valences of the info dict against the quads, measured by numpy."""
         centres = self.points[self.faces].mean(axis=1)

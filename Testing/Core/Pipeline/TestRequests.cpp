@@ -122,6 +122,28 @@ TEST(Requests, AHelixRoundATorusIsFollowed)
   EXPECT_EQ(again.quads.points, result.quads.points);
 }
 
+TEST(Requests, CurvatureGuidesAQuarterOfAnEllipse)
+{
+  // Half of an elliptic cylinder, cut askew at both ends: by its boundaries alone the quads would follow the cuts.
+  Mesh mesh = gridPlane(60, 60);
+  for (Vector3& p : mesh.position)
+  {
+    const double angle = kPi * p.x() / 60;
+    p = Vector3(std::cos(angle), 0.7 * std::sin(angle), p.y() / 15 + 0.8 * std::cos(angle));
+  }
+  RemeshOptions options;
+  options.quads = 600;
+  options.threads = 2;
+  options.featureAngle.reset();
+  const auto inside = [](const Vector3& p) { return p.y() > 0.3 && p.z() > 1.2 && p.z() < 2.8; };
+  const auto axis = [](const Vector3&) { return Vector3(0, 0, 1); };
+  const RemeshResult without = remesh(toInput(mesh), options);
+  options.curvatureGuides = 0.3;
+  const RemeshResult with = remesh(toInput(mesh), options);
+  ASSERT_TRUE(without.status.ok() && with.status.ok()) << with.status.message;
+  EXPECT_LT(meanAngle(with.quads, inside, axis), 0.5 * meanAngle(without.quads, inside, axis));
+}
+
 /// The valence of the quad vertex at exactly this place, or 0.
 int valenceAt(const QuadMesh& quads, const Vector3& p)
 {

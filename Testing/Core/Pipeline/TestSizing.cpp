@@ -174,6 +174,104 @@ TEST(Sizing, StepsAreSmoothedAndTold)
     [](const std::string& text) { return text.find("grow gradually") != std::string::npos; }));
 }
 
+/// An ellipsoid with the half axes 3, 1, 1: the curvature is 3 at its tips, and at most 1 round its middle.
+Mesh ellipsoid()
+{
+  Mesh mesh = sphere(5);
+  for (Vector3& p : mesh.position)
+  {
+    p.x() *= 3;
+  }
+  return mesh;
+}
+
+TEST(Sizing, TheChordErrorDistributesTheQuads)
+{
+  RemeshOptions options;
+  options.quads = 2500;
+  options.threads = 2;
+  options.featureAngle.reset();
+  options.sizes.chordError = 0.0015;
+  options.sizes.smallest = 0.1;
+  const RemeshResult result = remesh(toInput(ellipsoid()), options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_NEAR(static_cast<double>(result.quads.quads.size()), 2500, 0.12 * 2500);
+  const auto nearTip = [](const Vector3& p) { return std::abs(p.x()) > 2.9; };
+  const auto middle = [](const Vector3& p) { return std::abs(p.x()) < 0.5; };
+  // sqrt(3), less what growth and irregular vertices take.
+  EXPECT_GT(meanSize(result.quads, middle) / meanSize(result.quads, nearTip), 1.4);
+  EXPECT_TRUE(std::any_of(result.notices.begin(), result.notices.end(),
+    [](const std::string& text)
+    { return text.find("quads get sizes from") != std::string::npos; }));
+}
+
+TEST(Sizing, TheChordErrorIsMetWhereAnEdgeLengthIsAskedFor)
+{
+  RemeshOptions options;
+  options.edgeLength = 0.5;
+  options.threads = 2;
+  options.featureAngle.reset();
+  options.sizes.chordError = 0.005;
+  const RemeshResult result = remesh(toInput(sphere(5)), options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_EQ(result.targetEdgeLength, 0.5);
+  const auto everywhere = [](const Vector3&) { return true; };
+  const double wanted = std::sqrt(8 * 0.005);
+  EXPECT_NEAR(meanEdge(result.quads, everywhere), wanted, 0.1 * wanted);
+  double error = 0;
+  std::size_t count = 0;
+  for (const std::array<Index, 4>& quad : result.quads.quads)
+  {
+    for (std::size_t i = 0; i < 4; ++i, ++count)
+    {
+      error +=
+        1 - ((result.quads.points[quad[i]] + result.quads.points[quad[(i + 1) % 4]]) / 2).norm();
+    }
+  }
+  EXPECT_NEAR(error / static_cast<double>(count), 0.005, 0.001);
+}
+
+TEST(Sizing, ThinPartsGetAsManyQuadsAsAskedFor)
+{
+  Mesh mesh = unitCube(12);
+  for (Vector3& p : mesh.position)
+  {
+    p = Vector3(2 * p.x(), p.y(), 0.15 * p.z());
+  }
+  RemeshOptions options;
+  options.edgeLength = 0.15;
+  options.threads = 2;
+  options.sizes.gapQuads = 3;
+  const RemeshResult result = remesh(toInput(mesh), options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_NEAR(meanEdge(result.quads, [](const Vector3&) { return true; }), 0.05, 0.01);
+}
+
+TEST(Sizing, AdaptiveSizesDoNotDependOnThreadsOrMemory)
+{
+  const SurfaceInput input = toInput(ellipsoid());
+  RemeshOptions options;
+  options.quads = 800;
+  options.threads = 1;
+  options.sizes.chordError = 0.01;
+  const RemeshResult one = remesh(input, options);
+  ASSERT_TRUE(one.status.ok()) << one.status.message;
+  ResultStore store(1'000'000'000);
+  options.threads = 3;
+  for (int run = 0; run < 2; ++run)
+  {
+    const RemeshResult other = remesh(input, options, store);
+    EXPECT_EQ(other.quads.points, one.quads.points);
+    EXPECT_EQ(other.targetEdgeLength, one.targetEdgeLength);
+  }
+  options.sizes.chordError = 0.002;
+  const RemeshResult finer = remesh(input, options, store);
+  ASSERT_TRUE(finer.status.ok()) << finer.status.message;
+  EXPECT_NE(finer.quads.points, one.quads.points);
+  options.sizes = {};
+  EXPECT_EQ(remesh(input, options, store).quads.points, remesh(input, options).quads.points);
+}
+
 TEST(Sizing, SameResultForAnyNumberOfThreads)
 {
   const SurfaceInput input =

@@ -1,0 +1,257 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/AdaptiveSizing.h"
+
+#include "Base/Error.h"
+#include "Base/Parallel.h"
+#include "Base/Progress.h"
+#include "Mesh/OppositeSheets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace quadrille
+{
+namespace
+{
+
+/// Of an edge length: radius over which curvatures are averaged, and side of the patches. A disk of that radius is one
+/// edge wide.
+constexpr double kCurvatureRadius = 0.5;
+constexpr double kPatchSide = 0.25;
+constexpr double kMetTolerance = 1.05;
+/// Of a bisection for the edge length, and for the factor of the lengths.
+constexpr double kLengthTolerance = 1 + 1e-4;
+constexpr double kFactorTolerance = 1.01;
+constexpr double kMostFactor = 1e4;
+/// The share of the area that may be held at the smallest size before lengths are multiplied instead.
+constexpr double kMostStopped = 0.05;
+constexpr double kClearlyBelow = 0.99;
+
+constexpr float kNoLength = std::numeric_limits<float>::infinity();
+
+/// The smallest value of the patches round each vertex.
+std::vector<float> toVertices(
+  const Mesh& mesh, const SurfacePatches& patches, const std::vector<float>& ofPatch)
+{
+  std::vector<float> result(mesh.vertexCount(), kNoLength);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    pollNowAndThen(h);
+    float& value = result[mesh.origin[h]];
+    value = std::min(value, ofPatch[patches.patchOf[Mesh::face(h)]]);
+  }
+  return result;
+}
+
+double adaptedSize(float asked, float length, const AdaptiveSizes& sizes, double edgeLength)
+{
+  return std::min(double{ asked }, std::clamp(length / edgeLength, sizes.smallest, sizes.largest));
+}
+
+/// A third of the area of the faces at each vertex.
+std::vector<double> vertexAreas(const Mesh& mesh)
+{
+  std::vector<double> areas(mesh.vertexCount(), 0);
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    pollNowAndThen(f);
+    const double third = mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm() / 6;
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      areas[mesh.origin[h]] += third;
+    }
+  }
+  return areas;
+}
+
+/// How many quads the lengths make, and where the smallest size stops them.
+class Distribution
+{
+public:
+  Distribution(const Mesh& mesh, const std::vector<float>& asked, const std::vector<float>& lengths,
+    const AdaptiveSizes& sizes)
+    : asked_(asked), lengths_(lengths), sizes_(sizes), areas_(vertexAreas(mesh))
+  {
+    for (const double area : areas_)
+    {
+      area_ += area;
+    }
+  }
+
+  /// The longer s is, the fewer quads there are: each size times s grows with it, or stays. So s follows by bisection.
+  double edgeLength(double factor, double quads) const
+  {
+    double low = std::sqrt(area_ / quads), high = low;
+    while (quadsOf(factor, high) > quads)
+    {
+      high *= 2;
+    }
+    while (quadsOf(factor, low) < quads)
+    {
+      low /= 2;
+    }
+    while (high > kLengthTolerance * low)
+    {
+      const double middle = (low + high) / 2;
+      (quadsOf(factor, middle) > quads ? low : high) = middle;
+    }
+    return high;
+  }
+
+  /// The share of the area whose lengths are below the smallest size.
+  double stoppedShare(double factor, double edgeLength) const
+  {
+    double stopped = 0;
+    for (std::size_t v = 0; v < areas_.size(); ++v)
+    {
+      const bool isBelow = factor * lengths_[v] < kClearlyBelow * sizes_.smallest * edgeLength;
+      stopped += isBelow ? areas_[v] : 0;
+    }
+    return stopped / area_;
+  }
+
+private:
+  double quadsOf(double factor, double edgeLength) const
+  {
+    double sum = 0;
+    for (std::size_t v = 0; v < areas_.size(); ++v)
+    {
+      const double length = edgeLength *
+        adaptedSize(asked_.empty() ? kNoLength : asked_[v],
+          static_cast<float>(factor * lengths_[v]), sizes_, edgeLength);
+      sum += areas_[v] / (length * length);
+    }
+    return sum;
+  }
+
+  const std::vector<float>& asked_;
+  const std::vector<float>& lengths_;
+  const AdaptiveSizes& sizes_;
+  std::vector<double> areas_;
+  double area_ = 0;
+};
+
+} // namespace
+
+void checkAdaptiveSizes(const AdaptiveSizes& sizes)
+{
+  if (sizes.chordError && !(*sizes.chordError > 0 && std::isfinite(*sizes.chordError)))
+  {
+    throw InvalidInput("the chord error must be a positive number");
+  }
+  if (!(sizes.gapQuads >= 0 && std::isfinite(sizes.gapQuads)))
+  {
+    throw InvalidInput("the number of quads across a gap must be 0 or a positive number");
+  }
+  if (!(sizes.smallest > 0 && sizes.smallest <= 1))
+  {
+    throw InvalidInput("the smallest size must be above 0 and at most 1");
+  }
+  if (!(sizes.largest >= 1 && std::isfinite(sizes.largest)))
+  {
+    throw InvalidInput("the largest size must be a number from 1 on");
+  }
+}
+
+std::vector<float> lengthsByCurvature(
+  const Mesh& mesh, double chordError, double edgeLength, int threads)
+{
+  const SurfacePatches patches = findPatches(mesh, kPatchSide * edgeLength, threads);
+  std::vector<float> lengths;
+  for (const PatchCurvature& curvature :
+    patchCurvatures(mesh, patches, kCurvatureRadius * edgeLength, threads))
+  {
+    const double k = std::max(std::abs(curvature.largest), curvature.curve);
+    lengths.push_back(k > 0 ? static_cast<float>(std::sqrt(8 * chordError / k)) : kNoLength);
+  }
+  return toVertices(mesh, patches, lengths);
+}
+
+std::vector<float> lengthsByGap(
+  const Mesh& mesh, double quads, double edgeLength, double reach, int threads)
+{
+  const SurfacePatches patches = findPatches(mesh, kPatchSide * edgeLength, threads);
+  std::vector<float> lengths = distancesToOpposite(mesh, patches, reach, threads);
+  for (float& length : lengths)
+  {
+    length = static_cast<float>(length / quads);
+  }
+  return toVertices(mesh, patches, lengths);
+}
+
+std::vector<float> adaptiveLengths(
+  const Mesh& mesh, const AdaptiveSizes& sizes, double edgeLength, double reach, int threads)
+{
+  std::vector<float> lengths(mesh.vertexCount(), kNoLength);
+  const auto lower = [&](const std::vector<float>& other)
+  {
+    std::transform(lengths.begin(), lengths.end(), other.begin(), lengths.begin(),
+      [](float a, float b) { return std::min(a, b); });
+  };
+  if (sizes.chordError)
+  {
+    lower(lengthsByCurvature(mesh, *sizes.chordError, edgeLength, threads));
+  }
+  if (sizes.gapQuads > 0)
+  {
+    lower(
+      lengthsByGap(mesh, sizes.gapQuads, edgeLength, sizes.gapQuads * reach * edgeLength, threads));
+  }
+  return lengths;
+}
+
+void setAdaptiveSizes(Mesh& mesh, const std::vector<float>& asked,
+  const std::vector<float>& lengths, const AdaptiveSizes& sizes, double edgeLength)
+{
+  mesh.sizing.resize(mesh.vertexCount());
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    mesh.sizing[v] = static_cast<float>(
+      adaptedSize(asked.empty() ? kNoLength : asked[v], lengths[v], sizes, edgeLength));
+  }
+}
+
+DistributedSizes distributeSizes(const Mesh& mesh, const std::vector<float>& asked,
+  const std::vector<float>& lengths, const AdaptiveSizes& sizes, double quads)
+{
+  const Distribution distribution(mesh, asked, lengths, sizes);
+  DistributedSizes result;
+  result.edgeLength = distribution.edgeLength(1, quads);
+  if (distribution.stoppedShare(1, result.edgeLength) <= kMostStopped)
+  {
+    return result;
+  }
+  double low = 1, high = 2;
+  while (high < kMostFactor &&
+    distribution.stoppedShare(high, distribution.edgeLength(high, quads)) > kMostStopped)
+  {
+    low = high;
+    high *= 2;
+  }
+  while (high > kFactorTolerance * low)
+  {
+    const double middle = std::sqrt(low * high);
+    const bool isEnough =
+      distribution.stoppedShare(middle, distribution.edgeLength(middle, quads)) <= kMostStopped;
+    (isEnough ? high : low) = middle;
+  }
+  result.lengthFactor = high;
+  result.edgeLength = distribution.edgeLength(high, quads);
+  return result;
+}
+
+double shareOfLengthsMet(const Mesh& mesh, const std::vector<float>& lengths, double edgeLength)
+{
+  const std::vector<double> areas = vertexAreas(mesh);
+  double area = 0, met = 0;
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    area += areas[v];
+    met += edgeLength * double{ mesh.sizing[v] } <= kMetTolerance * lengths[v] ? areas[v] : 0;
+  }
+  return area > 0 ? met / area : 1;
+}
+
+} // namespace quadrille
