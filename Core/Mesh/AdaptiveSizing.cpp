@@ -28,6 +28,8 @@ constexpr double kMostFactor = 1e4;
 /// The share of the area that may be held at the smallest size before lengths are multiplied instead.
 constexpr double kMostStopped = 0.05;
 constexpr double kClearlyBelow = 0.99;
+/// Of lengths, by their logarithm: each is less than a hundredth wide for lengths from 1 to 10^8.
+constexpr std::size_t kBins = 4096;
 
 constexpr float kNoLength = std::numeric_limits<float>::infinity();
 
@@ -72,11 +74,21 @@ class Distribution
 public:
   Distribution(const Mesh& mesh, const std::vector<float>& asked, const std::vector<float>& lengths,
     const AdaptiveSizes& sizes)
-    : asked_(asked), lengths_(lengths), sizes_(sizes), areas_(vertexAreas(mesh))
+    : sizes_(sizes)
   {
-    for (const double area : areas_)
+    const std::vector<double> areas = vertexAreas(mesh);
+    for (const double area : areas)
     {
       area_ += area;
+    }
+    if (asked.empty())
+    {
+      addBins(areas, lengths);
+      return;
+    }
+    for (std::size_t v = 0; v < areas.size(); ++v)
+    {
+      entries_.push_back({ areas[v], lengths[v], asked[v] });
     }
   }
 
@@ -104,32 +116,69 @@ public:
   double stoppedShare(double factor, double edgeLength) const
   {
     double stopped = 0;
-    for (std::size_t v = 0; v < areas_.size(); ++v)
+    for (const Entry& entry : entries_)
     {
-      const bool isBelow = factor * lengths_[v] < kClearlyBelow * sizes_.smallest * edgeLength;
-      stopped += isBelow ? areas_[v] : 0;
+      const bool isBelow = factor * entry.length < kClearlyBelow * sizes_.smallest * edgeLength;
+      stopped += isBelow ? entry.area : 0;
     }
     return stopped / area_;
   }
 
 private:
+  struct Entry
+  {
+    double area = 0;
+    float length = kNoLength;
+    float asked = kNoLength;
+  };
+
+  /// Millions of vertices are few different lengths.
+  void addBins(const std::vector<double>& areas, const std::vector<float>& lengths)
+  {
+    float least = kNoLength, most = 0;
+    for (const float length : lengths)
+    {
+      least = std::min(least, length);
+      most = length < kNoLength ? std::max(most, length) : most;
+    }
+    const double scale = most > least ? kBins / std::log(double{ most } / double{ least }) : 0;
+    std::vector<double> area(kBins + 1, 0), sum(kBins + 1, 0);
+    double withoutLength = 0;
+    for (std::size_t v = 0; v < lengths.size(); ++v)
+    {
+      if (!(lengths[v] < kNoLength))
+      {
+        withoutLength += areas[v];
+        continue;
+      }
+      const auto bin = static_cast<std::size_t>(scale * std::log(double{ lengths[v] } / least));
+      area[std::min<std::size_t>(bin, kBins)] += areas[v];
+      sum[std::min<std::size_t>(bin, kBins)] += areas[v] * lengths[v];
+    }
+    for (std::size_t bin = 0; bin <= kBins; ++bin)
+    {
+      if (area[bin] > 0)
+      {
+        entries_.push_back({ area[bin], static_cast<float>(sum[bin] / area[bin]), kNoLength });
+      }
+    }
+    entries_.push_back({ withoutLength, kNoLength, kNoLength });
+  }
+
   double quadsOf(double factor, double edgeLength) const
   {
     double sum = 0;
-    for (std::size_t v = 0; v < areas_.size(); ++v)
+    for (const Entry& entry : entries_)
     {
       const double length = edgeLength *
-        adaptedSize(asked_.empty() ? kNoLength : asked_[v],
-          static_cast<float>(factor * lengths_[v]), sizes_, edgeLength);
-      sum += areas_[v] / (length * length);
+        adaptedSize(entry.asked, static_cast<float>(factor * entry.length), sizes_, edgeLength);
+      sum += entry.area / (length * length);
     }
     return sum;
   }
 
-  const std::vector<float>& asked_;
-  const std::vector<float>& lengths_;
   const AdaptiveSizes& sizes_;
-  std::vector<double> areas_;
+  std::vector<Entry> entries_;
   double area_ = 0;
 };
 

@@ -31,8 +31,8 @@ constexpr double kMostOfArea = 0.94;
 constexpr double kToldFactor = 1.05;
 
 /// How often the edge length is chosen anew where sizes that grow gradually make too many quads, and when it is good.
-constexpr int kSizingRounds = 4;
-constexpr double kCountTolerance = 0.02;
+constexpr int kSizingRounds = 3;
+constexpr double kCountTolerance = 0.03;
 
 /// A prepared surface in the store: triangles, which sized surfaces may share, and its own marks.
 struct StoredPrepared
