@@ -47,6 +47,30 @@ std::vector<float> toVertices(
   return result;
 }
 
+std::vector<float> patchLengthsByCurvature(const Mesh& mesh, const SurfacePatches& patches,
+  double chordError, double edgeLength, int threads)
+{
+  std::vector<float> lengths;
+  for (const PatchCurvature& curvature :
+    patchCurvatures(mesh, patches, kCurvatureRadius * edgeLength, threads))
+  {
+    const double k = std::max(std::abs(curvature.largest), curvature.curve);
+    lengths.push_back(k > 0 ? static_cast<float>(std::sqrt(8 * chordError / k)) : kNoLength);
+  }
+  return lengths;
+}
+
+std::vector<float> patchLengthsByGap(
+  const Mesh& mesh, const SurfacePatches& patches, double quads, double reach, int threads)
+{
+  std::vector<float> lengths = distancesToOpposite(mesh, patches, reach, threads);
+  for (float& length : lengths)
+  {
+    length = static_cast<float>(length / quads);
+  }
+  return lengths;
+}
+
 double adaptedSize(float asked, float length, const AdaptiveSizes& sizes, double edgeLength)
 {
   return std::min(double{ asked }, std::clamp(length / edgeLength, sizes.smallest, sizes.largest));
@@ -208,32 +232,22 @@ std::vector<float> lengthsByCurvature(
   const Mesh& mesh, double chordError, double edgeLength, int threads)
 {
   const SurfacePatches patches = findPatches(mesh, kPatchSide * edgeLength, threads);
-  std::vector<float> lengths;
-  for (const PatchCurvature& curvature :
-    patchCurvatures(mesh, patches, kCurvatureRadius * edgeLength, threads))
-  {
-    const double k = std::max(std::abs(curvature.largest), curvature.curve);
-    lengths.push_back(k > 0 ? static_cast<float>(std::sqrt(8 * chordError / k)) : kNoLength);
-  }
-  return toVertices(mesh, patches, lengths);
+  return toVertices(
+    mesh, patches, patchLengthsByCurvature(mesh, patches, chordError, edgeLength, threads));
 }
 
 std::vector<float> lengthsByGap(
   const Mesh& mesh, double quads, double edgeLength, double reach, int threads)
 {
   const SurfacePatches patches = findPatches(mesh, kPatchSide * edgeLength, threads);
-  std::vector<float> lengths = distancesToOpposite(mesh, patches, reach, threads);
-  for (float& length : lengths)
-  {
-    length = static_cast<float>(length / quads);
-  }
-  return toVertices(mesh, patches, lengths);
+  return toVertices(mesh, patches, patchLengthsByGap(mesh, patches, quads, reach, threads));
 }
 
 std::vector<float> adaptiveLengths(
   const Mesh& mesh, const AdaptiveSizes& sizes, double edgeLength, double reach, int threads)
 {
-  std::vector<float> lengths(mesh.vertexCount(), kNoLength);
+  const SurfacePatches patches = findPatches(mesh, kPatchSide * edgeLength, threads);
+  std::vector<float> lengths(patches.patches.size(), kNoLength);
   const auto lower = [&](const std::vector<float>& other)
   {
     std::transform(lengths.begin(), lengths.end(), other.begin(), lengths.begin(),
@@ -241,14 +255,14 @@ std::vector<float> adaptiveLengths(
   };
   if (sizes.chordError)
   {
-    lower(lengthsByCurvature(mesh, *sizes.chordError, edgeLength, threads));
+    lower(patchLengthsByCurvature(mesh, patches, *sizes.chordError, edgeLength, threads));
   }
   if (sizes.gapQuads > 0)
   {
-    lower(
-      lengthsByGap(mesh, sizes.gapQuads, edgeLength, sizes.gapQuads * reach * edgeLength, threads));
+    lower(patchLengthsByGap(
+      mesh, patches, sizes.gapQuads, sizes.gapQuads * reach * edgeLength, threads));
   }
-  return lengths;
+  return toVertices(mesh, patches, lengths);
 }
 
 void setAdaptiveSizes(Mesh& mesh, const std::vector<float>& asked,

@@ -175,9 +175,30 @@ SizingReport limitSizeGrowth(Mesh& mesh, double edgeLength)
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const std::vector<Index> outgoing = outgoingHalfEdges(mesh);
   const std::vector<float> asked = mesh.sizing;
+  const auto mostAt = [&](Index w, float size, Index v)
+  {
+    const double distance = (mesh.position[w] - mesh.position[v]).norm() / edgeLength;
+    return static_cast<float>(double{ size } + kSizeGrowth * distance);
+  };
+  // Only from where a neighbour is too large: what comes out does not depend on the order.
+  std::vector<std::uint8_t> isStart(mesh.vertexCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    pollNowAndThen(h);
+    const Index a = mesh.origin[h], b = mesh.target(h);
+    const Index v = mesh.sizing[a] <= mesh.sizing[b] ? a : b;
+    const Index w = v == a ? b : a;
+    if (mesh.sizing[v] < mesh.sizing[w] && mostAt(w, mesh.sizing[v], v) < mesh.sizing[w])
+    {
+      isStart[v] = 1;
+    }
+  }
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
-    queue.push({ mesh.sizing[v], v });
+    if (isStart[v] != 0)
+    {
+      queue.push({ mesh.sizing[v], v });
+    }
   }
   for (std::size_t steps = 0; !queue.empty(); ++steps)
   {
@@ -190,8 +211,7 @@ SizingReport limitSizeGrowth(Mesh& mesh, double edgeLength)
     }
     const auto reach = [&, size = size, v = v](Index w)
     {
-      const double distance = (mesh.position[w] - mesh.position[v]).norm() / edgeLength;
-      const auto most = static_cast<float>(double{ size } + kSizeGrowth * distance);
+      const float most = mostAt(w, size, v);
       if (most < mesh.sizing[w])
       {
         mesh.sizing[w] = most;
