@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// The triangle nearest to a place.
+#pragma once
+
+#include "Base/Types.h"
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Triangles by point ids; one with two equal ids is a segment.
+struct TriangleList
+{
+  std::vector<Vector3> points;
+  std::vector<std::array<Index, 3>> corners;
+};
+
+/// A tree of boxes, of Eigen's KdBVH. Several threads may ask; the answers depend on the triangles alone.
+class NearestTriangle
+{
+public:
+  struct Place
+  {
+    Index triangle = kInvalidIndex;
+    std::array<double, 3> weights{}; ///< barycentric, in [0, 1], sum 1
+    Vector3 point = Vector3::Zero();
+    double distance = 0;
+  };
+
+  explicit NearestTriangle(TriangleList triangles);
+  ~NearestTriangle();
+  NearestTriangle(const NearestTriangle&) = delete;
+  NearestTriangle& operator=(const NearestTriangle&) = delete;
+
+  /// None where there is no triangle within the distance. facing: only triangles whose normal is less than a right
+  /// angle from it count, such that places on a thin wall do not find the other side; zero: all.
+  std::optional<Place> at(const Vector3& p, const Vector3& facing = Vector3::Zero(),
+    double within = std::numeric_limits<double>::infinity()) const;
+  const TriangleList& triangles() const { return triangles_; }
+  std::size_t bytes() const;
+
+private:
+  struct Tree;
+
+  TriangleList triangles_;
+  std::unique_ptr<Tree> tree_;
+};
+
+} // namespace quadrille

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a user asks of a surface, asked of the half in front of a mirror plane.
+#pragma once
+
+#include "Mesh/MirrorCut.h"
+#include "Pipeline/MirrorFit.h"
+
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+struct MirrorTask
+{
+  const SearchedSurface& whole; ///< with its guides, valences and sizes
+  const MirrorPlane& plane;
+  double tolerance = 0; ///< within which places are in the plane
+  double deviation = 0; ///< of images from the surface, at most
+  int threads = 0;
+};
+
+/// Guides, valences and sizes of the half: its own, and, where it has none, the images of those behind the plane; a
+/// size of 1 counts as none. Where both ask for guides that differ by more than ten degrees, or for different valences,
+/// those in front are followed. In the plane a vertex of the half has half of the quads asked for; an odd number, which
+/// has no image, is not asked. Returns what the user should know.
+std::vector<std::string> askOfHalf(const MirrorTask& task, MirrorHalf& half);
+
+} // namespace quadrille
