@@ -7,12 +7,15 @@
 #include "Base/Progress.h"
 #include "Evaluation/QuadQuality.h"
 #include "Mesh/ContentHash.h"
+#include "Mesh/FeatureFilter.h"
 #include "Mesh/MirrorCut.h"
 #include "Mesh/RepairText.h"
+#include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
 #include "Pipeline/MirrorDouble.h"
 #include "Pipeline/MirrorFit.h"
 #include "Pipeline/MirrorRequests.h"
+#include "Pipeline/SizedSurface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,6 +74,72 @@ std::string shareText(double share)
   std::ostringstream text;
   text << std::setprecision(2) << share;
   return text.str();
+}
+
+/// Gives a mesh other flags for a while.
+class FlagsScope
+{
+public:
+  explicit FlagsScope(Mesh& mesh) : mesh_(mesh), before_(mesh.flags) {}
+  ~FlagsScope() { mesh_.flags = std::move(before_); }
+  FlagsScope(const FlagsScope&) = delete;
+  FlagsScope& operator=(const FlagsScope&) = delete;
+
+private:
+  Mesh& mesh_;
+  std::vector<std::uint8_t> before_;
+};
+
+/// Features that meet the plane count as requested, up to where they end or meet others: each half of one may be too
+/// short for the quads though it is not as a whole.
+void requestCutFeatures(Mesh& mesh, const MirrorPlane& plane, double tolerance)
+{
+  std::vector<Index> featuresAt(mesh.vertexCount(), 0);
+  std::vector<Index> next;
+  const auto take = [&](Index h)
+  {
+    for (const Index side : { h, mesh.twin[h] })
+    {
+      mesh.flags[side] |= kRequestedFeature;
+    }
+    next.push_back(h);
+  };
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isBoundary(h) || !mesh.isFeature(h))
+    {
+      continue;
+    }
+    ++featuresAt[mesh.origin[h]];
+    const double from = plane.height(mesh.position[mesh.origin[h]]);
+    const double to = plane.height(mesh.position[mesh.target(h)]);
+    if (h < mesh.twin[h] && std::min(from, to) <= tolerance && std::max(from, to) >= -tolerance)
+    {
+      take(h);
+    }
+  }
+  const std::vector<Index> outgoing = outgoingHalfEdges(mesh);
+  while (!next.empty())
+  {
+    const Index h = next.back();
+    next.pop_back();
+    for (const Index v : { mesh.origin[h], mesh.target(h) })
+    {
+      if (featuresAt[v] != 2)
+      {
+        continue;
+      }
+      Index g = outgoing[v];
+      do
+      {
+        if (!mesh.isBoundary(g) && mesh.isFeature(g) && (mesh.flags[g] & kRequestedFeature) == 0)
+        {
+          take(g);
+        }
+        g = mesh.rotateCounterclockwise(g);
+      } while (g != kInvalidIndex && g != outgoing[v]);
+    }
+  }
 }
 
 /// One run: each step leaves what the next ones need.
@@ -215,7 +284,14 @@ private:
         placeText(made_.plane.origin) + " with normal " + placeText(made_.plane.normal) +
         ": move the plane, or have it found");
     }
-    half_ = cutByMirror(surface().mesh, made_.plane, tolerance_);
+    Mesh& mesh = whole_->surface.mesh;
+    {
+      const FlagsScope scope(mesh);
+      const double sizedArea = mesh.sizing.empty() ? surface().area : quadrille::sizedArea(mesh);
+      removeUnresolvedFeatures(mesh, targetEdgeLength(options_, sizedArea, made_.diagonal));
+      requestCutFeatures(mesh, made_.plane, tolerance_);
+      half_ = cutByMirror(mesh, made_.plane, tolerance_);
+    }
     const MirrorTask task{ *whole_, made_.plane, tolerance_, made_.deviation.maximum,
       options_.threads };
     for (const std::string& notice : askOfHalf(task, half_))
@@ -483,8 +559,8 @@ private:
     {
       integer[v] = result.turns[v] != regular[v] ? 1 : 0;
     }
-    result.certificate = certify(
-      result.surface.mesh, result.uv, result.turns, integer, options_.threads);
+    result.certificate =
+      certify(result.surface.mesh, result.uv, result.turns, integer, options_.threads);
   }
 
   /// The map is as good in any frame: that of the box, with nothing turned.
