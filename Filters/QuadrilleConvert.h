@@ -60,6 +60,7 @@ constexpr const char* kValence = "Valence";
 constexpr const char* kPartial = "Partial";
 constexpr const char* kOnBoundary = "OnBoundary";
 constexpr const char* kLayoutPatch = "LayoutPatch";
+constexpr const char* kMirrorPoint = "MirrorPoint";
 constexpr const char* kQuadNormals = "QuadNormals";
 }
 

@@ -107,9 +107,14 @@ void writeGeometry(const QuadMesh& mesh, vtkPolyData* data)
 
 using PointFunction = std::function<PointOrigin(Index, const std::array<double, 3>&)>;
 
-/// Per point of the quads.
-std::vector<PointOrigin> originsOf(const QuadMesh& mesh, const PointFunction& origin, int threads)
+/// Per point of the quads. known: empty, or what it is.
+std::vector<PointOrigin> originsOf(const QuadMesh& mesh, const PointFunction& origin,
+  const std::vector<PointOrigin>& known, int threads)
 {
+  if (!known.empty())
+  {
+    return known;
+  }
   std::vector<PointOrigin> origins(mesh.points.size());
   parallelFor(origins.size(), kQuadChunk, threads,
     [&](std::size_t begin, std::size_t end)
@@ -122,10 +127,15 @@ std::vector<PointOrigin> originsOf(const QuadMesh& mesh, const PointFunction& or
   return origins;
 }
 
-/// Per quad the cell under its centre, then a cell under each polygon.
-std::vector<vtkIdType> centresOf(
-  const QuadMesh& mesh, const std::function<vtkIdType(Index)>& cellOf)
+/// Per quad the cell under its centre, then a cell under each polygon. known: empty, or those of the quads, where there
+/// are no polygons.
+std::vector<vtkIdType> centresOf(const QuadMesh& mesh,
+  const std::function<vtkIdType(Index)>& cellOf, const std::vector<vtkIdType>& known)
 {
+  if (!known.empty())
+  {
+    return known;
+  }
   std::vector<vtkIdType> cells(mesh.quads.size() + partialPolygonCount(mesh));
   const auto rest =
     std::transform(mesh.quadSourceFace.begin(), mesh.quadSourceFace.end(), cells.begin(), cellOf);
@@ -172,14 +182,15 @@ std::vector<std::string> carryArrays(const QuadMesh& mesh, const Mesh& mapped,
     source.cellDataFrom == CellDataFrom::Area
       ? carryCellArrays(
           from, cells, data->GetCellData(), areasOf(mesh, mapped, uv, source), source.threads)
-      : carryCellArrays(
-          from, cells, data->GetCellData(), centresOf(mesh, source.carrierCell), source.threads));
+      : carryCellArrays(from, cells, data->GetCellData(),
+          centresOf(mesh, source.carrierCell, source.quadCells), source.threads));
   return notCarried;
 }
 
-void addPointArrays(const QuadMesh& mesh, const std::function<vtkIdType(Index)>& cellOf,
+void addPointArrays(const QuadMesh& mesh, const QuadSource& source,
   const std::vector<PointOrigin>& origins, vtkPointData* data)
 {
+  const auto& cellOf = source.sourceCell ? source.sourceCell : source.carrierCell;
   const std::size_t count = mesh.points.size();
   auto valence = newArray<vtkIntArray>(arrays::kValence, 1, count);
   auto boundary = newArray<vtkUnsignedCharArray>(arrays::kOnBoundary, 1, count);
@@ -191,7 +202,8 @@ void addPointArrays(const QuadMesh& mesh, const std::function<vtkIdType(Index)>&
     const auto id = static_cast<vtkIdType>(i);
     valence->SetValue(id, mesh.valence[i]);
     boundary->SetValue(id, mesh.onBoundary[i]);
-    cell->SetValue(id, cellOf(mesh.sourceFace[i]));
+    cell->SetValue(
+      id, source.pointCells.empty() ? cellOf(mesh.sourceFace[i]) : source.pointCells[i]);
     ids->SetTypedTuple(id, origins[i].ids.data());
     weights->SetTypedTuple(id, origins[i].weights.data());
   }
@@ -234,10 +246,10 @@ void addNormals(const QuadMesh& mesh, vtkPointData* data)
   data->SetNormals(normals);
 }
 
-void addSourceCells(
-  const QuadMesh& mesh, const std::function<vtkIdType(Index)>& cellOf, vtkCellData* data)
+void addSourceCells(const QuadMesh& mesh, const QuadSource& source, vtkCellData* data)
 {
-  const std::vector<vtkIdType> cells = centresOf(mesh, cellOf);
+  const auto& cellOf = source.sourceCell ? source.sourceCell : source.carrierCell;
+  const std::vector<vtkIdType> cells = centresOf(mesh, cellOf, source.quadCells);
   auto cell = newArray<vtkIdTypeArray>(arrays::kSourceCellId, 1, cells.size());
   std::copy(cells.begin(), cells.end(), cell->GetPointer(0));
   data->AddArray(cell);
@@ -389,16 +401,16 @@ vtkSmartPointer<vtkPolyData> writeQuads(const QuadMesh& mesh, const Mesh& mapped
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
   writeGeometry(mesh, data);
-  std::vector<PointOrigin> origins = originsOf(mesh, source.carrierPoint, source.threads);
+  std::vector<PointOrigin> origins =
+    originsOf(mesh, source.carrierPoint, source.pointOrigins, source.threads);
   notCarried = carryArrays(mesh, mapped, uv, source, origins, data);
   if (source.sourcePoint)
   {
-    origins = originsOf(mesh, source.sourcePoint, source.threads);
+    origins = originsOf(mesh, source.sourcePoint, {}, source.threads);
   }
-  const auto& cellOf = source.sourceCell ? source.sourceCell : source.carrierCell;
-  addPointArrays(mesh, cellOf, origins, data->GetPointData());
+  addPointArrays(mesh, source, origins, data->GetPointData());
   addNormals(mesh, data->GetPointData());
-  addSourceCells(mesh, cellOf, data->GetCellData());
+  addSourceCells(mesh, source, data->GetCellData());
   addQuadFeatureEdges(mesh, data->GetCellData());
   data->GetFieldData()->PassData(source.carrier->GetFieldData());
   addLayout(layout, partialPolygonCount(mesh), data); // replaces that of a remeshed quad mesh
@@ -511,7 +523,12 @@ vtkSmartPointer<vtkPolyData> writeIrregular(const QuadMesh& mesh)
 PointOrigin pointOrigin(const PreparedSurface& surface, const ConvertedSurface& converted,
   vtkPolyData* data, Index face, const std::array<double, 3>& weights)
 {
-  const SourceLocation at = surface.locate(face, weights);
+  return pointOrigin(surface.locate(face, weights), converted, data);
+}
+
+PointOrigin pointOrigin(
+  const SourceLocation& at, const ConvertedSurface& converted, vtkPolyData* data)
+{
   PointOrigin origin{ { at.points[0], at.points[1], at.points[2] }, at.weights };
   if (const auto corners = converted.triangle(data, at.polygon))
   {

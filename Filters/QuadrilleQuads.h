@@ -40,6 +40,9 @@ struct QuadSource
   /// the carrier.
   std::function<PointOrigin(Index face, const std::array<double, 3>& weights)> sourcePoint;
   std::function<vtkIdType(Index face)> sourceCell;
+  /// Where points, and centres of quads, do not lie in their faces (mirror images): in their place. Empty, or one each.
+  std::vector<PointOrigin> pointOrigins;
+  std::vector<vtkIdType> pointCells, quadCells;
   std::string patchArray; ///< cell array of the carrier with patch ids, or empty
   CellDataFrom cellDataFrom = CellDataFrom::Centre;
   int threads = 0;
@@ -49,6 +52,9 @@ struct QuadSource
 /// come in the cell's own order. data: what was converted.
 PointOrigin pointOrigin(const PreparedSurface& surface, const ConvertedSurface& converted,
   vtkPolyData* data, Index face, const std::array<double, 3>& weights);
+/// The same of a place on the input.
+PointOrigin pointOrigin(
+  const SourceLocation& at, const ConvertedSurface& converted, vtkPolyData* data);
 
 /// Where there are polygons they are cells behind the quads, the cell array Partial is 1 on them, and they are in no
 /// layout patch (-1).

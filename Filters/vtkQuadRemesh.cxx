@@ -4,6 +4,7 @@
 
 #include "Pipeline/Pipeline.h"
 #include "Pipeline/ResultStore.h"
+#include "Pipeline/Symmetry.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleConstraintTable.h"
 #include "QuadrilleConstraints.h"
@@ -12,6 +13,7 @@
 #include "QuadrilleQuads.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleStamps.h"
+#include "QuadrilleSymmetry.h"
 
 #include "vtkFieldData.h"
 #include "vtkNew.h"
@@ -286,9 +288,26 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   {
     options.knownMap = memory->mapped.mapFor(input, this->TextureCoordinates);
   }
-  const quadrille::RemeshResult result = memory != nullptr
-    ? quadrille::remesh(std::move(converted.input), options, memory->levels)
-    : quadrille::remesh(std::move(converted.input), options);
+  quadrille::ResultStore* levels = memory != nullptr ? &memory->levels : nullptr;
+  const bool isSymmetric = this->Symmetry != SYMMETRY_NONE;
+  quadrille::SymmetricResult made;
+  if (isSymmetric)
+  {
+    quadrille::SymmetryOptions symmetry;
+    if (this->Symmetry == SYMMETRY_PLANE)
+    {
+      symmetry.plane = quadrille::MirrorPlane{ quadrille::Vector3(this->SymmetryOrigin),
+        quadrille::Vector3(this->SymmetryNormal) };
+    }
+    made = quadrille::remeshSymmetric(std::move(converted.input), options, symmetry, levels);
+  }
+  else
+  {
+    made.remeshed = levels != nullptr
+      ? quadrille::remesh(std::move(converted.input), options, *levels)
+      : quadrille::remesh(std::move(converted.input), options);
+  }
+  const quadrille::RemeshResult& result = made.remeshed;
   report.reusedStages = result.reused;
   report.numbers["TargetQuads"] = static_cast<double>(result.targetQuads);
   this->SetStageRecords(result.stages);
@@ -317,6 +336,10 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   quadrille::QuadSource source = sourceOf(result.surface, converted, input);
   source.cellDataFrom = static_cast<quadrille::CellDataFrom>(this->CellDataFrom);
   source.threads = this->NumberOfThreads;
+  if (isSymmetric)
+  {
+    quadrille::addMirrorSources(made, converted, input, source);
+  }
   const quadrille::QuadOutputs written =
     quadrille::writeOutputs(result.quads, result.surface.mesh, result.uv, source);
   for (const std::string& notice : written.notCarried)
@@ -332,6 +355,10 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   addFieldData(quads, result);
   quadrille::addMethod(quads, options.method);
   quadrille::addAnisotropy(quads, options.anisotropyLimit, result.beyondAnisotropyLimit);
+  if (isSymmetric)
+  {
+    quadrille::addSymmetry(quads, made);
+  }
   quadrille::addText(quads, "Notices", this->GetBlockNotices());
   if (this->ComputeMappedSurface)
   {
@@ -360,8 +387,12 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   block.output(4)->ShallowCopy(written.irregular);
   block.output(5)->ShallowCopy(
     quadrille::writeConstraints(asked.placed, asked.curves, result.quads));
-  const std::vector<quadrille::ConstraintWord> words = quadrille::judgeConstraints(
+  std::vector<quadrille::ConstraintWord> words = quadrille::judgeConstraints(
     asked, result.quads, written.quads->GetPointData()->GetArray(quadrille::arrays::kSizing));
+  if (isSymmetric)
+  {
+    words.push_back(quadrille::judgeSymmetry(made));
+  }
   block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
   this->SetResult(
     resultText(result, written.irregular->GetNumberOfPoints()) + constraintText(words));
@@ -392,6 +423,8 @@ void vtkQuadRemesh::WritePreview(quadrille::Block& block, const quadrille::Asked
 void vtkQuadRemesh::AddSettings(std::ostream& os) const
 {
   this->Superclass::AddSettings(os);
+  const double* origin = this->SymmetryOrigin;
+  const double* normal = this->SymmetryNormal;
   os << "Method " << this->Method << '\n'
      << "Integers " << this->Integers << '\n'
      << "AnisotropyLimit " << this->AnisotropyLimit << '\n'
@@ -409,6 +442,9 @@ void vtkQuadRemesh::AddSettings(std::ostream& os) const
      << "FinalQuality " << this->FinalQuality << '\n'
      << "DistortionMetric " << this->DistortionMetric << '\n'
      << "CellDataFrom " << this->CellDataFrom << '\n'
+     << "Symmetry " << this->Symmetry << '\n'
+     << "SymmetryOrigin " << origin[0] << ' ' << origin[1] << ' ' << origin[2] << '\n'
+     << "SymmetryNormal " << normal[0] << ' ' << normal[1] << ' ' << normal[2] << '\n'
      << "ComputeMappedSurface " << this->ComputeMappedSurface << '\n'
      << "TextureCoordinates " << this->TextureCoordinates << '\n';
   if (this->FinalQuality != Coarse)
@@ -451,6 +487,11 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FinalQuality: " << this->FinalQuality << "\n";
   os << indent << "DistortionMetric: " << this->DistortionMetric << "\n";
   os << indent << "CellDataFrom: " << this->CellDataFrom << "\n";
+  os << indent << "Symmetry: " << this->Symmetry << "\n";
+  os << indent << "SymmetryOrigin: " << this->SymmetryOrigin[0] << " " << this->SymmetryOrigin[1]
+     << " " << this->SymmetryOrigin[2] << "\n";
+  os << indent << "SymmetryNormal: " << this->SymmetryNormal[0] << " " << this->SymmetryNormal[1]
+     << " " << this->SymmetryNormal[2] << "\n";
   os << indent << "ComputeMappedSurface: " << this->ComputeMappedSurface << "\n";
   os << indent << "TextureCoordinates: " << this->TextureCoordinates << "\n";
   os << indent << "TargetQuads: " << this->GetTargetQuads() << "\n";

@@ -8,8 +8,9 @@
  * Models" (2016). Inputs: see vtkQuadrilleSurfaceAlgorithm. Outputs:
  *
  * 0. the quads. Points: `Valence`, `QuadNormals` (surfaces without features), `OnBoundary`, `SourceCellId`,
- *    `SourcePointIds` and `SourceBarycentric` (where the point lies on the input). Cells: `SourceCellId`,
- *    `FeatureEdges`, `LayoutPatch` (the patch of the base complex). Every array of the input: on points real numbers
+ *    `SourcePointIds` and `SourceBarycentric` (where the point lies on the input); with a Symmetry `MirrorPoint` (the
+ *    id of the point that is its mirror image, its own in the plane: an involution that maps quads to quads). Cells:
+ *    `SourceCellId`, `FeatureEdges`, `LayoutPatch` (the patch of the base complex). Every array of the input: on points real numbers
  *    and colours interpolated, whole numbers and strings from the nearest point; on cells see CellDataFrom.
  * 1. the input surface, repaired, with the integer-grid map: `IGM`, `Matching`, `Determinant` on cells, `Turns`,
  *    `Index` on points, and texture coordinates; `Charts` and `SeamEdges` in field data: one chart a component, with
@@ -37,6 +38,10 @@
  *    - "edge lengths", curves: the largest distance from the quads' edges, over the mean length of the edges near it.
  *      Met: at most 0.1.
  *    - "valence": the number of edges there, on boundaries one more, less the one asked for. Met: 0.
+ *    - "relative to the diagonal", the mirror symmetry (kind "symmetry", the last row, with a Symmetry): how far the
+ *      mirror image of the surface is from it, over the diagonal of its box, as the root of the mean square; in
+ *      `Deviation95` the largest distance. Met: the two sides have the same topology, and no quad is turned over where
+ *      points were put onto the surface.
  *    - "factor", sizes: by which the square root of a quad's area differs, over the median of all, from `Sizing` there;
  *      mean by area and 95th percentile. Met: a mean of at most 1.25.
  *
@@ -47,7 +52,10 @@
  * `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `CoarseVertices`, `Decimations`, `Replays`, `SurfaceFaces`,
  * `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`, `ShortestBoundaryOverEdgeLength` (see the getters of
  * the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`; with a FinalQuality other than Coarse
- * `DistortionNames`, `DistortionBefore`, `DistortionAfter`, `OptimizationSteps`.
+ * `DistortionNames`, `DistortionBefore`, `DistortionAfter`, `OptimizationSteps`; with a Symmetry `SymmetryOrigin` and
+ * `SymmetryNormal` of the plane, `SymmetryDeviation` (2: root of the mean square and maximum of the distance of the
+ * surface's mirror image, over the diagonal of its box), `SymmetryMovedPoints` and `SymmetryFarthestMoved` (points
+ * that were put onto the surface, and how far, over the diagonal).
  */
 #ifndef vtkQuadRemesh_h
 #define vtkQuadRemesh_h
@@ -280,6 +288,42 @@ public:
   void SetCellDataFromToArea() { this->SetCellDataFrom(CELL_DATA_FROM_AREA); }
   ///@}
 
+  /// The values of Symmetry, see there.
+  enum SymmetryTypes
+  {
+    SYMMETRY_NONE = 0,
+    SYMMETRY_PLANE = 1,
+    SYMMETRY_FOUND = 2
+  };
+
+  ///@{
+  /**
+   * Whether the quads are a mirror image of themselves, a SymmetryTypes: about the plane through SymmetryOrigin with
+   * SymmetryNormal, or about the plane that is found, about which the surface is nearest to its own image. The half in
+   * front of the plane, where the normal points to, is remeshed, and its quads and their images are one mesh, with the
+   * plane's curve on edges. Where the surface is symmetric to a millionth of its diagonal points are exact images, else
+   * those behind the plane are put onto the surface. Guides, valences and sizes of one side are asked of both, those in
+   * front go before; features are those in front. A surface that is not nearly symmetric is an error. Each block of
+   * composite data is taken by itself. Output 1 is the half and its image. Default: SYMMETRY_NONE.
+   */
+  vtkSetClampMacro(Symmetry, int, SYMMETRY_NONE, SYMMETRY_FOUND);
+  vtkGetMacro(Symmetry, int);
+  void SetSymmetryToNone() { this->SetSymmetry(SYMMETRY_NONE); }
+  void SetSymmetryToPlane() { this->SetSymmetry(SYMMETRY_PLANE); }
+  void SetSymmetryToFound() { this->SetSymmetry(SYMMETRY_FOUND); }
+  ///@}
+
+  ///@{
+  /**
+   * A point of the mirror plane, in units of the input, and its normal, of any length but 0; for SYMMETRY_PLANE.
+   * Defaults: (0, 0, 0) and (1, 0, 0).
+   */
+  vtkSetVector3Macro(SymmetryOrigin, double);
+  vtkGetVector3Macro(SymmetryOrigin, double);
+  vtkSetVector3Macro(SymmetryNormal, double);
+  vtkGetVector3Macro(SymmetryNormal, double);
+  ///@}
+
   ///@{
   /**
    * With KeepLevels: whether the map starts from that of the last execution, which keeps whole numbers where irregular
@@ -408,6 +452,9 @@ private:
   int FinalQuality = Coarse;
   vtkTypeBool DistortionMetric = 0;
   int CellDataFrom = CELL_DATA_FROM_CENTRE;
+  int Symmetry = SYMMETRY_NONE;
+  double SymmetryOrigin[3] = { 0, 0, 0 };
+  double SymmetryNormal[3] = { 1, 0, 0 };
   vtkTypeBool ComputeMappedSurface = 1;
   vtkTypeBool TextureCoordinates = 1;
 };

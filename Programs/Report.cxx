@@ -143,6 +143,23 @@ void addSuccess(Json& json, vtkPolyData* quads)
     json["distortion_after"] = pairs(quads, "DistortionNames", "DistortionAfter");
     json["optimization_steps"] = field("OptimizationSteps");
   }
+  if (quads->GetFieldData()->GetArray("SymmetryNormal"))
+  {
+    const auto values = [quads](const char* name)
+    {
+      vtkDataArray* array = quads->GetFieldData()->GetArray(name);
+      Json list = Json::array();
+      for (int i = 0; i < array->GetNumberOfComponents(); ++i)
+      {
+        list.push_back(number(array->GetComponent(0, i)));
+      }
+      return list;
+    };
+    json["symmetry"] = { { "origin", values("SymmetryOrigin") },
+      { "normal", values("SymmetryNormal") }, { "deviation", values("SymmetryDeviation") },
+      { "moved_points", field("SymmetryMovedPoints") },
+      { "farthest_moved", field("SymmetryFarthestMoved") } };
+  }
   json["quality"] = qualityOf(quads);
 }
 

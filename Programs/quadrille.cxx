@@ -15,6 +15,7 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -131,6 +132,32 @@ void addSizes(CommandOptions& options, vtkQuadRemesh* filter)
     "the most that both leave, over the target edge length (default 1)");
 }
 
+/// "found", or six numbers.
+void setSymmetry(vtkQuadRemesh* filter, const std::string& text)
+{
+  if (text == "found")
+  {
+    filter->SetSymmetryToFound();
+    return;
+  }
+  std::istringstream stream(text);
+  std::array<double, 6> numbers{};
+  bool isRead = true;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    char comma = ',';
+    isRead = isRead && (i == 0 || stream >> comma) && comma == ',' && stream >> numbers[i];
+  }
+  if (!isRead || stream.peek() != std::istringstream::traits_type::eof())
+  {
+    throw UsageError("--symmetry " + text +
+      ": give found, or a point of the plane and its normal as six numbers, x,y,z,nx,ny,nz");
+  }
+  filter->SetSymmetryToPlane();
+  filter->SetSymmetryOrigin(numbers.data());
+  filter->SetSymmetryNormal(numbers.data() + 3);
+}
+
 void addShape(CommandOptions& options, vtkQuadRemesh* filter)
 {
   options.beginGroup("what the quads are like:");
@@ -209,6 +236,12 @@ void addShape(CommandOptions& options, vtkQuadRemesh* filter)
     "what becomes of connected components with less area than the smallest block of quads has: "
     "keep (default), as about "
     "that many quads, or remove");
+  options.addText(
+    "symmetry", "PLANE", [filter](const std::string& text) { setSymmetry(filter, text); },
+    "quads that are their own mirror image: found, about the plane about which the surface is "
+    "nearest to its image, or "
+    "x,y,z,nx,ny,nz, a point of the plane and its normal, which points to the half that is "
+    "remeshed");
 }
 
 void addFinish(CommandOptions& options, vtkQuadRemesh* filter)

@@ -435,6 +435,7 @@ private:
     };
     const std::size_t front = inverted(0);
     const std::size_t back = inverted(half);
+    made_.isAlike = back <= front;
     notices_.push_back(std::to_string(fit.moved) +
       " mirrored points were put onto the surface, up to " +
       shareText(fit.farthest / made_.diagonal) + " of the diagonal away, from " +
@@ -602,6 +603,7 @@ private:
           std::to_string(topology.boundaryLoops) + " boundary loops and Euler characteristic " +
           std::to_string(topology.eulerCharacteristic);
       };
+      made_.isAlike = false;
       notices_.push_back("the half in front of the mirror plane and its image have " + text(made) +
         ", but the input has " + text(asked) +
         ": its two sides are not alike (turn the normal round to keep the other one)");

@@ -44,6 +44,8 @@ struct SymmetricResult
   std::vector<Index> quadPolygons;          ///< per quad, of the input
   std::size_t movedPoints = 0;              ///< that were put onto the surface
   double farthestMoved = 0;                 ///< of them, in units of the input
+  /// Both sides have the same topology, and no quad is turned over where points were put onto the surface.
+  bool isAlike = true;
 };
 
 /// As remesh(), which see; the target number of quads is that of the whole. Guides, valences and sizes of one side are

@@ -186,6 +186,26 @@ def _set_guides(run, guide, guide_anisotropy, stroke_radius):
     run.SetStrokeRadius(real("stroke_radius", stroke_radius, least=0))
 
 
+def _set_symmetry(run, symmetry):
+    if symmetry is None:
+        return
+    if isinstance(symmetry, str):
+        one_of("symmetry", symmetry, ("found",))
+        run.SetSymmetryToFound()
+        return
+    try:
+        origin, normal = ([real("symmetry", value) for value in vector] for vector in symmetry)
+    except (TypeError, ValueError) as error:
+        if isinstance(error, InvalidInput):
+            raise
+        raise InvalidInput(f"symmetry must be 'found' or a pair (origin, normal), not {symmetry!r}") from error
+    if len(origin) != 3 or len(normal) != 3:
+        raise InvalidInput(f"symmetry needs three numbers for the origin and three for the normal, not {symmetry!r}")
+    run.SetSymmetryToPlane()
+    run.SetSymmetryOrigin(origin)
+    run.SetSymmetryNormal(normal)
+
+
 def _finish(run):
     """Runs it; the reason of a failure comes as an exception, so VTK need not print it as well."""
     for source in (run, run.GetExecutive()):
@@ -204,7 +224,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
            threads=0, maximum_number_of_quads=10000000, smoothing_steps=5,
            memory_limit=0.0, time_limit=0.0, close_handles=0.0, small_components="keep", method="scale-aware",
            final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False,
-           cell_data="centre", preview=False,
+           cell_data="centre", preview=False, symmetry=None,
            chord_error=None, gap_quads=0.0, smallest_size=0.2, largest_size=1.0, guide=None,
            guide_anisotropy=0.3, stroke_radius=0.0,
            progress=None, everything=False):
@@ -265,6 +285,9 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         three numbers on cells or points of a vtkPolyData.
     guide_anisotropy: with guide="curvature", where |k1 - k2| / (|k1| + |k2|) is above this, over about an edge length.
     stroke_radius: polygons within this distance of a stroke take its direction; 0: those that it runs over.
+    symmetry: "found", or the mirror plane as (origin, normal), three numbers each: quads that are their own mirror
+        image. The half where the normal points to is remeshed; the point array MirrorPoint of the result has the id of
+        each point's image. Where the mesh is only nearly symmetric, points of the other half are put onto it.
     progress: called as progress(fraction, text); a return value of False (not None) stops the run.
     everything: return a Remeshed with the mapped surface, the feature lines, the info dict and the lines of the layout,
         too. `constraints` of the info dict is a list of dicts, one for each guided region, stroke, curve, valence and
@@ -283,6 +306,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
                small_components=small_components)
     _set_sizes(run, chord_error, gap_quads, smallest_size, largest_size)
     _set_guides(run, guide, guide_anisotropy, stroke_radius)
+    _set_symmetry(run, symmetry)
     run.SetDistortionMetric(bool(distortion_metric))
     run.SetPreview(bool(preview))
     run.SetComputeMappedSurface(bool(everything))

@@ -22,6 +22,8 @@ def other(value):
     """A value that the property does not have; at the upper end of its range the setter would keep it there."""
     if isinstance(value, str):
         return value + "x"
+    if isinstance(value, tuple):
+        return tuple(other(number) for number in value)
     return value - 1 if value >= 1 else value + 1
 
 

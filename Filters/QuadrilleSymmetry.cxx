@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QuadrilleSymmetry.h"
+
+#include "QuadrilleNewArray.h"
+#include "QuadrilleReport.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <initializer_list>
+
+namespace quadrille
+{
+
+namespace
+{
+
+void addTuple(vtkPolyData* data, const char* name, std::initializer_list<double> values)
+{
+  auto array = newArray<vtkDoubleArray>(name, static_cast<int>(values.size()), 1);
+  int component = 0;
+  for (const double value : values)
+  {
+    array->SetComponent(0, component++, value);
+  }
+  data->GetFieldData()->AddArray(array);
+}
+
+} // namespace
+
+void addMirrorSources(const SymmetricResult& made, const ConvertedSurface& converted,
+  vtkPolyData* input, QuadSource& source)
+{
+  for (const SourceLocation& at : made.pointSources)
+  {
+    source.pointOrigins.push_back(pointOrigin(at, converted, input));
+    source.pointCells.push_back(converted.cell(at.polygon));
+  }
+  for (const Index polygon : made.quadPolygons)
+  {
+    source.quadCells.push_back(converted.cell(polygon));
+  }
+}
+
+void addSymmetry(vtkPolyData* quads, const SymmetricResult& made)
+{
+  auto image = newArray<vtkIdTypeArray>(arrays::kMirrorPoint, 1, made.mirrorPoint.size());
+  for (std::size_t p = 0; p < made.mirrorPoint.size(); ++p)
+  {
+    image->SetValue(static_cast<vtkIdType>(p), made.mirrorPoint[p]);
+  }
+  quads->GetPointData()->AddArray(image);
+  const Vector3& origin = made.plane.origin;
+  const Vector3& normal = made.plane.normal;
+  addTuple(quads, "SymmetryOrigin", { origin.x(), origin.y(), origin.z() });
+  addTuple(quads, "SymmetryNormal", { normal.x(), normal.y(), normal.z() });
+  addTuple(quads, "SymmetryDeviation",
+    { made.deviation.rms / made.diagonal, made.deviation.maximum / made.diagonal });
+  addCount(quads, "SymmetryMovedPoints", made.movedPoints);
+  addNumber(quads, "SymmetryFarthestMoved", made.farthestMoved / made.diagonal);
+}
+
+ConstraintWord judgeSymmetry(const SymmetricResult& made)
+{
+  ConstraintWord word;
+  word.kind = "symmetry";
+  word.place = made.deviation.place;
+  word.isMet = made.isAlike;
+  word.deviation = made.deviation.rms / made.diagonal;
+  word.deviation95 = made.deviation.maximum / made.diagonal;
+  word.unit = "relative to the diagonal";
+  if (!word.isMet)
+  {
+    word.reason = "the two sides of the surface are not alike, see the notices";
+  }
+  return word;
+}
+
+} // namespace quadrille

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Symmetric quads as VTK data.
+#pragma once
+
+#include "Pipeline/Symmetry.h"
+#include "QuadrilleConstraintTable.h"
+#include "QuadrilleQuads.h"
+
+class vtkPolyData;
+
+namespace quadrille
+{
+
+/// Points and quads come from where they lie on the input, on both sides of the plane.
+void addMirrorSources(const SymmetricResult& made, const ConvertedSurface& converted,
+  vtkPolyData* input, QuadSource& source);
+
+/// MirrorPoint on points; field data: SymmetryOrigin, SymmetryNormal, SymmetryDeviation, SymmetryMovedPoints,
+/// SymmetryFarthestMoved, see vtkQuadRemesh.
+void addSymmetry(vtkPolyData* quads, const SymmetricResult& made);
+
+/// Its row of the constraint table.
+ConstraintWord judgeSymmetry(const SymmetricResult& made);
+
+} // namespace quadrille
