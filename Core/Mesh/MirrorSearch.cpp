@@ -20,12 +20,14 @@ namespace
 
 using Matrix3 = Eigen::Matrix3d;
 
-constexpr std::size_t kFirstSamples = 200;   ///< for all candidates
-constexpr std::size_t kMiddleSamples = 1000; ///< for the best of them
-constexpr std::size_t kLastSamples = 8000;   ///< for the result
-constexpr std::size_t kRefined = 8;          ///< candidates
-constexpr int kFewSteps = 12, kMostSteps = 40;
-constexpr std::size_t kMostPoints = 50000; ///< of the surface, for the maximum
+constexpr std::size_t kFirstSamples = 200;  ///< for all candidates
+constexpr std::size_t kMiddleSamples = 500; ///< for the best of them
+constexpr std::size_t kLastSamples = 4000;  ///< for the result
+constexpr std::size_t kRefined = 6;         ///< candidates
+constexpr int kFewSteps = 8, kMostSteps = 30;
+constexpr std::size_t kMostPoints = 20000; ///< of the surface, for the maximum
+/// Steps go on while they make the deviation less by this share, or it is rounding.
+constexpr double kStillBetter = 1e-3;
 constexpr std::size_t kMirrorChunk = 64;
 constexpr std::size_t kDirections = 100; ///< all round
 constexpr int kBetween = 36;             ///< normals between two axes, over half a turn
@@ -194,17 +196,20 @@ public:
   Candidate run(MirrorPlane plane, int steps) const
   {
     Candidate best;
+    int stalled = 0;
     for (int i = 0; i <= steps; ++i)
     {
       const auto places = nearestImages(surface_, plane, sampling_.samples, threads_);
       const double rms = rmsOf(places);
+      const bool isBetter = i == 0 || rms < (1 - kStillBetter) * best.rms;
+      stalled = isBetter ? 0 : stalled + 1;
       if (i == 0 || rms < best.rms)
       {
         best = { plane, rms };
       }
-      else if (i > 3 && rms > 1.5 * best.rms)
+      if (stalled > 2)
       {
-        break; // it runs away
+        break;
       }
       const Vector3 change = step(plane, places);
       plane = moved(plane, change);

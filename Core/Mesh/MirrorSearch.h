@@ -17,7 +17,7 @@ struct MirrorDeviation
   Vector3 place = Vector3::Zero(); ///< whose image is farthest
 };
 
-/// Of samples by area, and of up to 50,000 points.
+/// Of samples by area, and of up to 20,000 points.
 MirrorDeviation mirrorDeviation(
   const NearestTriangle& surface, const MirrorPlane& plane, int threads);
 

@@ -51,8 +51,9 @@ TriangleList linesOf(const Mesh& mesh, bool boundary)
 class ImageFit
 {
 public:
-  ImageFit(DoubledQuads& doubled, const SearchedSurface& whole, double tolerance, int threads)
-    : doubled_(doubled), quads_(doubled.quads), whole_(whole), tolerance_(tolerance),
+  ImageFit(DoubledQuads& doubled, const SearchedSurface& whole, double tolerance, double reach,
+    int threads)
+    : doubled_(doubled), quads_(doubled.quads), whole_(whole), tolerance_(tolerance), reach_(reach),
       threads_(threads), first_(doubled.halfPoints),
       count_(doubled.quads.points.size() - doubled.halfPoints)
   {
@@ -132,7 +133,7 @@ private:
       quads_.onBoundary[point] != 0 ? whole_.boundary : whole_.features;
     if (quads_.onBoundary[point] != 0 || onFeature_[point] != 0)
     {
-      if (const auto place = lines.at(targets_[i]))
+      if (const auto place = lines.at(targets_[i], Vector3::Zero(), reach_))
       {
         return place->point;
       }
@@ -214,7 +215,7 @@ private:
   DoubledQuads& doubled_;
   QuadMesh& quads_;
   const SearchedSurface& whole_;
-  double tolerance_;
+  double tolerance_, reach_;
   int threads_;
   std::size_t first_, count_;
   std::vector<Vector3> normals_; ///< per point
@@ -236,9 +237,9 @@ std::size_t SearchedSurface::bytes() const
 }
 
 MirrorFit fitImages(
-  DoubledQuads& doubled, const SearchedSurface& whole, double tolerance, int threads)
+  DoubledQuads& doubled, const SearchedSurface& whole, double tolerance, double reach, int threads)
 {
-  return ImageFit(doubled, whole, tolerance, threads).run();
+  return ImageFit(doubled, whole, tolerance, reach, threads).run();
 }
 
 } // namespace quadrille

@@ -37,10 +37,10 @@ struct MirrorFit
 };
 
 /// Points behind those of the half that are farther than `tolerance` from the surface are put there: those of features
-/// and boundaries onto the nearest one of their kind, others onto the nearest place that faces the same way. What a
-/// point is moved is first evened out with its neighbours', so that points keep their order. The rest stays where it
+/// and boundaries onto the nearest one of their kind where there is one within `reach`, others onto the nearest place
+/// that faces the same way. What a point is moved is first evened out with its neighbours', so that points keep their order. The rest stays where it
 /// is, an exact image.
 MirrorFit fitImages(
-  DoubledQuads& doubled, const SearchedSurface& whole, double tolerance, int threads);
+  DoubledQuads& doubled, const SearchedSurface& whole, double tolerance, double reach, int threads);
 
 } // namespace quadrille

@@ -31,6 +31,8 @@ namespace
 {
 
 constexpr std::size_t kImageChunk = 1024;
+/// The image of a feature may be farther from its counterpart than the image of the surface from the surface.
+constexpr double kFeatureReach = 3;
 
 using FaceWeights = std::array<std::array<double, 3>, 3>;
 constexpr FaceWeights kWholeFace{ { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
@@ -333,7 +335,8 @@ private:
       return;
     }
     locateHalf(result.quads);
-    const MirrorFit fit = fitImages(quads, *whole_, tolerance_, options_.threads);
+    const MirrorFit fit = fitImages(quads, *whole_, tolerance_,
+      kFeatureReach * made_.deviation.maximum + tolerance_, options_.threads);
     takeQuads(std::move(quads), fit);
     doubleSurface(doubled);
     tellTopology(doubled.mesh);
