@@ -6,6 +6,7 @@
 #include "Pipeline/SurfaceVersion.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace quadrille
@@ -14,7 +15,9 @@ namespace quadrille
 namespace
 {
 
-constexpr int kFitSweeps = 10;
+/// How often moves are evened out before points go to the nearest place again: first the surface is followed as a
+/// whole, then in its detail.
+constexpr std::array<int, 8> kEvenings{ 64, 32, 16, 8, 4, 2, 1, 1 };
 constexpr std::size_t kFitChunk = 256;
 
 TriangleList facesOf(const Mesh& mesh)
@@ -80,9 +83,13 @@ public:
         fit.place = exact[i];
       }
     }
-    for (int sweep = 0; fit.moved > 0 && sweep < kFitSweeps; ++sweep)
+    for (const int evenings : kEvenings)
     {
-      evenOut(exact, nearest);
+      if (fit.moved == 0)
+      {
+        break;
+      }
+      aim(exact, nearest, evenings);
       nearest = nearestPlaces();
     }
     for (std::size_t i = 0; i < count_; ++i)
@@ -155,30 +162,42 @@ private:
     return places;
   }
 
-  /// Each target becomes the exact image, moved by the mean of what it and its neighbours are moved.
-  void evenOut(const std::vector<Vector3>& exact, const std::vector<Vector3>& nearest)
+  /// Targets become the exact images, moved as the nearest places are, but evenly.
+  void aim(const std::vector<Vector3>& exact, const std::vector<Vector3>& nearest, int evenings)
   {
-    std::vector<Vector3> sum(quads_.points.size(), Vector3::Zero());
-    std::vector<double> weight(quads_.points.size(), 0);
-    const auto moveOf = [&](Index p) -> Vector3
+    std::vector<Vector3> moves(quads_.points.size(), Vector3::Zero());
+    for (std::size_t i = 0; i < count_; ++i)
     {
-      return p < first_ ? Vector3(Vector3::Zero())
-                        : Vector3(nearest[p - first_] - exact[p - first_]);
-    };
+      moves[first_ + i] = nearest[i] - exact[i];
+    }
+    for (int k = 0; k < evenings; ++k)
+    {
+      evenOut(moves);
+    }
+    for (std::size_t i = 0; i < count_; ++i)
+    {
+      targets_[i] = exact[i] + moves[first_ + i];
+    }
+  }
+
+  /// Each move becomes the mean over the quads round the point; points in the plane stay.
+  void evenOut(std::vector<Vector3>& moves) const
+  {
+    std::vector<Vector3> sum(moves.size(), Vector3::Zero());
+    std::vector<double> weight(moves.size(), 0);
     for (std::size_t q = quads_.quads.size() / 2; q < quads_.quads.size(); ++q)
     {
       const std::array<Index, 4>& quad = quads_.quads[q];
-      const Vector3 mean =
-        (moveOf(quad[0]) + moveOf(quad[1]) + moveOf(quad[2]) + moveOf(quad[3])) / 4;
+      const Vector3 mean = (moves[quad[0]] + moves[quad[1]] + moves[quad[2]] + moves[quad[3]]) / 4;
       for (const Index corner : quad)
       {
         sum[corner] += mean;
         weight[corner] += 1;
       }
     }
-    for (std::size_t i = 0; i < count_; ++i)
+    for (std::size_t p = first_; p < moves.size(); ++p)
     {
-      targets_[i] = exact[i] + sum[first_ + i] / std::max(weight[first_ + i], 1.0);
+      moves[p] = sum[p] / std::max(weight[p], 1.0);
     }
   }
 
