@@ -660,6 +660,20 @@ class Report(Case):
         self.run_quadrille(source, self.folder / "q.obj", "--chord-error", 0, expect=2)
         self.run_quadrille(source, self.folder / "q.obj", "--smallest-size", 2, expect=2)
 
+    def test_symmetry(self):
+        source, report = self.write_off(), self.folder / "r.json"
+        for plane in ("found", "0,0,0,0,0,1"):
+            self.run_quadrille(source, self.folder / "q.vtp", "--quads", 200, "--symmetry", plane, "--report", report)
+            told = json.loads(report.read_text())
+            self.assertEqual(told["symmetry"]["moved_points"], 0)
+            self.assertLess(told["symmetry"]["deviation"][1], 1e-6)
+            self.assertEqual([row["kind"] for row in told["constraints"]], ["symmetry"])
+            quads = read(vtkXMLPolyDataReader(), self.folder / "q.vtp")
+            self.assertTrue(quads.GetPointData().HasArray("MirrorPoint"))
+        for plane in ("lost", "0,0,0,0,0", "0,0,0,0,0,1,2", "0,0,0,0,0,x"):
+            result = self.run_quadrille(source, self.folder / "q.vtp", "--symmetry", plane, expect=2)
+            self.assertIn("x,y,z,nx,ny,nz", result.stderr)
+
     def test_cell_data(self):
         points, faces = torus()
         source, out = self.folder / "load.ply", self.folder / "q.vtp"

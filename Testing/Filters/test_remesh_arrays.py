@@ -159,6 +159,26 @@ class Mesh(unittest.TestCase):
         made = quadrille.remesh(mesh, quads=100.0, coarse_vertices=0, feature_angle=None)
         self.assertGreater(made.GetNumberOfCells(), 0)
 
+    def test_symmetry(self):
+        box = (numpy.array([(x, y, z) for x in (0, 1) for y in (0, 2) for z in (0, 3)], float),
+               [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])
+        for symmetry, axis in (((0.5, 1, 1.5), (0, -2, 0)), 1), ("found", None):
+            quads = quadrille.remesh(box, quads=200, symmetry=symmetry)
+            points, faces = quadrille.to_arrays(quads)
+            image = vtk_to_numpy(quads.GetPointData().GetArray("MirrorPoint"))
+            self.assertTrue((image[image] == numpy.arange(len(points))).all())
+            as_sets = {frozenset(face) for face in faces.tolist()}
+            self.assertEqual({frozenset(face) for face in image[faces].tolist()}, as_sets)
+            told = quadrille.info(quads)
+            axis = numpy.argmax(numpy.abs(told["SymmetryNormal"])) if axis is None else axis
+            mirrored = points.copy()
+            mirrored[:, axis] = 2 * told["SymmetryOrigin"][axis] - mirrored[:, axis]
+            self.assertLess(numpy.abs(mirrored - points[image]).max(), 1e-11)
+        for symmetry in ("x", 3, ((0, 0, 0), (0, 0)), ((0, 0, 0), (0, 0, math.nan)), ((0, 0, 0),)):
+            self.assertRefused(["symmetry"], box, symmetry=symmetry)
+        self.assertRefused(["normal", "mirror plane"], box, symmetry=((0.5, 1, 1.5), (0, 0, 0)))
+        self.assertRefused(["not symmetric"], box, symmetry=((0.9, 1, 1.5), (1, 0, 0)))
+
     def test_the_default_is_a_number_of_quads(self):
         result = quadrille.remesh((self.points, self.faces))
         self.assertEqual(quadrille.info(result)["TargetQuads"], 5000)
