@@ -10,8 +10,9 @@
  * 0. the quads. Points: `Valence`, `QuadNormals` (surfaces without features), `OnBoundary`, `SourceCellId`,
  *    `SourcePointIds` and `SourceBarycentric` (where the point lies on the input); with a Symmetry `MirrorPoint` (the
  *    id of the point that is its mirror image, its own in the plane: an involution that maps quads to quads). Cells:
- *    `SourceCellId`, `FeatureEdges`, `LayoutPatch` (the patch of the base complex). Every array of the input: on points real numbers
- *    and colours interpolated, whole numbers and strings from the nearest point; on cells see CellDataFrom.
+ *    `SourceCellId`, `FeatureEdges`, `LayoutPatch` (the patch of the base complex). Every array of the input: on points
+ *    real numbers and colours interpolated, whole numbers and strings from the nearest point; on cells see
+ *    CellDataFrom.
  * 1. the input surface, repaired, with the integer-grid map: `IGM`, `Matching`, `Determinant` on cells, `Turns`,
  *    `Index` on points, and texture coordinates; `Charts` and `SeamEdges` in field data: one chart a component, with
  *    seams between irregular vertices. Empty unless ComputeMappedSurface is on.

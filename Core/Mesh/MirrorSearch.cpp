@@ -28,6 +28,8 @@ constexpr int kFewSteps = 8, kMostSteps = 30;
 constexpr std::size_t kMostPoints = 20000; ///< of the surface, for the maximum
 /// Steps go on while they make the deviation less by this share, or it is rounding.
 constexpr double kStillBetter = 1e-3;
+/// Triangles, about, that stand for the surface until the last samples.
+constexpr std::size_t kFewTriangles = 50000;
 constexpr std::size_t kMirrorChunk = 64;
 constexpr std::size_t kDirections = 100; ///< all round
 constexpr int kBetween = 36;             ///< normals between two axes, over half a turn
@@ -169,6 +171,19 @@ double medianOf(const std::vector<NearestTriangle::Place>& places)
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());
   return *middle;
+}
+
+/// Every so manyth triangle.
+TriangleList thinnedOut(const TriangleList& list)
+{
+  const std::size_t stride = 1 + list.corners.size() / kFewTriangles;
+  TriangleList few;
+  few.points = list.points;
+  for (std::size_t t = 0; t < list.corners.size(); t += stride)
+  {
+    few.corners.push_back(list.corners[t]);
+  }
+  return few;
 }
 
 struct Candidate
@@ -354,18 +369,19 @@ MirrorDeviation mirrorDeviation(
 MirrorPlane findMirrorPlane(const NearestTriangle& surface, int threads)
 {
   Sampling sampling = sampleSurface(surface.triangles(), kFirstSamples);
+  const NearestTriangle few(thinnedOut(surface.triangles()));
   std::vector<Candidate> candidates;
   for (const MirrorPlane& plane : candidatePlanes(sampling))
   {
-    candidates.push_back(
-      { plane, rmsOf(nearestImages(surface, plane, sampling.samples, threads)) });
+    candidates.push_back({ plane, rmsOf(nearestImages(few, plane, sampling.samples, threads)) });
   }
   sortByRms(candidates, sampling.size);
   candidates.resize(std::min(candidates.size(), kRefined));
   sampling.samples = sample(surface.triangles(), kMiddleSamples);
   for (Candidate& candidate : candidates)
   {
-    candidate = Refinement(surface, sampling, threads).run(candidate.plane, kFewSteps);
+    candidate = Refinement(few, sampling, threads).run(candidate.plane, kFewSteps);
+    candidate.rms = rmsOf(nearestImages(surface, candidate.plane, sampling.samples, threads));
   }
   sortByRms(candidates, sampling.size);
   sampling.samples = sample(surface.triangles(), kLastSamples);

@@ -13,7 +13,7 @@ namespace quadrille
 namespace
 {
 
-using Box = Eigen::AlignedBox3d;
+using TriangleBox = Eigen::AlignedBox3d;
 using Corners = std::array<Vector3, 3>;
 
 /// Weights of the point of a triangle nearest to p, by the region of the plane that p lies over [Ericson 2005, 5.1.5].
@@ -66,6 +66,17 @@ Corners cornersOf(const TriangleList& triangles, Index t)
 {
   const std::array<Index, 3>& c = triangles.corners[t];
   return { triangles.points[c[0]], triangles.points[c[1]], triangles.points[c[2]] };
+}
+
+NearestTriangle::Place placeOn(const Corners& corners, Index t, const Vector3& p)
+{
+  NearestTriangle::Place place;
+  place.triangle = t;
+  place.weights = nearestWeights(corners, p);
+  place.point =
+    place.weights[0] * corners[0] + place.weights[1] * corners[1] + place.weights[2] * corners[2];
+  place.distance = (place.point - p).norm();
+  return place;
 }
 
 using BoxTree = Eigen::KdBVH<double, 3, Index>;
@@ -129,14 +140,12 @@ private:
     {
       return;
     }
-    const std::array<double, 3> weights = nearestWeights(corners, p_);
-    const Vector3 point =
-      weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
-    const double square = (point - p_).squaredNorm();
+    const NearestTriangle::Place place = placeOn(corners, t, p_);
+    const double square = (place.point - p_).squaredNorm();
     if (square < least_ || (square == least_ && t < best_.triangle))
     {
       least_ = square;
-      best_ = { t, weights, point, std::sqrt(square) };
+      best_ = place;
     }
   }
 
@@ -159,13 +168,13 @@ std::vector<Index> countUp(std::size_t count)
   return ids;
 }
 
-std::vector<Box> boxesOf(const TriangleList& triangles)
+std::vector<TriangleBox> boxesOf(const TriangleList& triangles)
 {
-  std::vector<Box> boxes;
+  std::vector<TriangleBox> boxes;
   boxes.reserve(triangles.corners.size());
   for (const std::array<Index, 3>& corners : triangles.corners)
   {
-    Box box(triangles.points[corners[0]]);
+    TriangleBox box(triangles.points[corners[0]]);
     box.extend(triangles.points[corners[1]]);
     box.extend(triangles.points[corners[2]]);
     boxes.push_back(box);
@@ -177,7 +186,7 @@ std::vector<Box> boxesOf(const TriangleList& triangles)
 
 struct NearestTriangle::Tree
 {
-  Tree(const std::vector<Index>& ids, const std::vector<Box>& boxesOfIds)
+  Tree(const std::vector<Index>& ids, const std::vector<TriangleBox>& boxesOfIds)
     : boxes(ids.begin(), ids.end(), boxesOfIds.begin(), boxesOfIds.end())
   {
   }
@@ -206,11 +215,17 @@ std::optional<NearestTriangle::Place> NearestTriangle::at(
   return best.triangle == kInvalidIndex ? std::nullopt : std::optional<Place>(best);
 }
 
+NearestTriangle::Place NearestTriangle::on(Index triangle, const Vector3& p) const
+{
+  return placeOn(cornersOf(triangles_, triangle), triangle, p);
+}
+
 std::size_t NearestTriangle::bytes() const
 {
   // A tree of n triangles has about n boxes and twice as many links.
   return triangles_.points.size() * sizeof(Vector3) +
-    triangles_.corners.size() * (sizeof(std::array<Index, 3>) + sizeof(Box) + 3 * sizeof(int));
+    triangles_.corners.size() *
+    (sizeof(std::array<Index, 3>) + sizeof(TriangleBox) + 3 * sizeof(int));
 }
 
 } // namespace quadrille

@@ -42,6 +42,8 @@ public:
   /// angle from it count, such that places on a thin wall do not find the other side; zero: all.
   std::optional<Place> at(const Vector3& p, const Vector3& facing = Vector3::Zero(),
     double within = std::numeric_limits<double>::infinity()) const;
+  /// Of one triangle.
+  Place on(Index triangle, const Vector3& p) const;
   const TriangleList& triangles() const { return triangles_; }
   std::size_t bytes() const;
 

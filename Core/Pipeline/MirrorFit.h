@@ -38,8 +38,8 @@ struct MirrorFit
 
 /// Points behind those of the half that are farther than `tolerance` from the surface are put there: those of features
 /// and boundaries onto the nearest one of their kind where there is one within `reach`, others onto the nearest place
-/// that faces the same way. What a point is moved is first evened out with its neighbours', so that points keep their order. The rest stays where it
-/// is, an exact image.
+/// that faces the same way. What points are moved is evened out with their neighbours', so that they keep their order.
+/// The rest stays where it is, an exact image.
 MirrorFit fitImages(
   DoubledQuads& doubled, const SearchedSurface& whole, double tolerance, double reach, int threads);
 

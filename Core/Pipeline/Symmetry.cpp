@@ -510,10 +510,12 @@ private:
     parallelFor(doubled.halfFaces, kImageChunk, options_.threads,
       [&](std::size_t begin, std::size_t end)
       {
+        Index near = kInvalidIndex;
         for (std::size_t f = begin; f < end; ++f)
         {
-          findImageSource(doubled.mesh, doubled.halfFaces + static_cast<Index>(f), images.face[f],
-            images.weights[f]);
+          near = findImageSource(
+            doubled.mesh, doubled.halfFaces + static_cast<Index>(f), near, images.weights[f]);
+          images.face[f] = near;
         }
       });
     if (store_ != nullptr)
@@ -524,7 +526,8 @@ private:
     return images;
   }
 
-  void findImageSource(const Mesh& mesh, Index f, Index& found, FaceWeights& weights) const
+  /// near: of a face nearby; invalid: none.
+  Index findImageSource(const Mesh& mesh, Index f, Index near, FaceWeights& weights) const
   {
     const Mesh& whole = surface().mesh;
     std::array<Vector3, 3> corners;
@@ -534,8 +537,12 @@ private:
     }
     const Vector3 centre = (corners[0] + corners[1] + corners[2]) / 3;
     const Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    const auto facing = whole_->faces.at(centre, normal);
-    found = (facing ? *facing : *whole_->faces.at(centre)).triangle;
+    Index found = near == kInvalidIndex ? near : climb(near, centre, normal);
+    if (found == kInvalidIndex)
+    {
+      const auto facing = whole_->faces.at(centre, normal);
+      found = (facing ? *facing : *whole_->faces.at(centre)).triangle;
+    }
     weights = {};
     for (std::size_t i = 0; i < 3; ++i)
     {
@@ -548,6 +555,34 @@ private:
       }
       weights[i][best] = 1;
     }
+    return found;
+  }
+
+  /// From face to face, nearer to the place each time: a hundredth of the time of a search in the tree, where the place
+  /// is beside the surface. Invalid where that ends too far away or on the other side of a wall.
+  Index climb(Index face, const Vector3& p, const Vector3& normal) const
+  {
+    const Mesh& whole = surface().mesh;
+    double distance = whole_->faces.on(face, p).distance;
+    for (bool moves = true; moves;)
+    {
+      moves = false;
+      for (Index h = 3 * face; h < 3 * face + 3; ++h)
+      {
+        const Index next = whole.isBoundary(h) ? face : Mesh::face(whole.twin[h]);
+        const double nearer = whole_->faces.on(next, p).distance;
+        if (nearer < distance)
+        {
+          face = next;
+          distance = nearer;
+          moves = true;
+          break;
+        }
+      }
+    }
+    const Vector3 across = whole.edgeVector(3 * face).cross(whole.edgeVector(3 * face + 1));
+    const bool isNear = distance <= made_.deviation.rms + 1e-3 * tolerance_;
+    return isNear && across.dot(normal) > 0 ? face : kInvalidIndex;
   }
 
   void certifyWhole()

@@ -58,7 +58,7 @@ vtkSmartPointer<vtkQuadRemesh> symmetricRun(vtkPolyData* data)
   return remesh;
 }
 
-Corners cornersOf(vtkPolyData* quads, vtkIdType cell)
+Corners cornersOfCell(vtkPolyData* quads, vtkIdType cell)
 {
   vtkNew<vtkIdList> ids;
   quads->GetCellPoints(cell, ids);
@@ -79,11 +79,11 @@ void expectMirrorPoints(vtkPolyData* quads)
   std::set<Corners> all;
   for (vtkIdType i = 0; i < quads->GetNumberOfCells(); ++i)
   {
-    all.insert(lowestFirst(cornersOf(quads, i)));
+    all.insert(lowestFirst(cornersOfCell(quads, i)));
   }
   for (vtkIdType i = 0; i < quads->GetNumberOfCells(); ++i)
   {
-    const Corners q = cornersOf(quads, i);
+    const Corners q = cornersOfCell(quads, i);
     EXPECT_EQ(
       all.count(lowestFirst({ imageOf(q[0]), imageOf(q[3]), imageOf(q[2]), imageOf(q[1]) })), 1U);
   }

@@ -31,7 +31,7 @@ Quad fromLowest(Quad quad)
   return quad;
 }
 
-RemeshOptions quadsOf(std::size_t quads)
+RemeshOptions aboutQuads(std::size_t quads)
 {
   RemeshOptions options;
   options.quads = quads;
@@ -194,7 +194,7 @@ TEST(Symmetry, SphereAboutAGivenPlane)
 {
   const SurfaceInput input = toInput(sphere(4));
   const SymmetricResult made =
-    remeshSymmetric(input, quadsOf(600), about(Vector3::Zero(), Vector3(0, 0, 3)));
+    remeshSymmetric(input, aboutQuads(600), about(Vector3::Zero(), Vector3(0, 0, 3)));
   expectSymmetric(made, input, 2, true);
   // The number asked for is that of the whole.
   EXPECT_NEAR(static_cast<double>(made.remeshed.quads.quads.size()), 600, 150);
@@ -206,7 +206,7 @@ TEST(Symmetry, APlaneThatCutsTrianglesAnywhere)
   // No vertex lies in the plane, and triangles behind it are no images of those in front.
   const SurfaceInput input = toInput(torus(50, 27));
   const SymmetricResult made = remeshSymmetric(
-    input, quadsOf(800), about(Vector3::Zero(), Vector3(std::cos(0.3), std::sin(0.3), 0)));
+    input, aboutQuads(800), about(Vector3::Zero(), Vector3(std::cos(0.3), std::sin(0.3), 0)));
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
   expectSymmetricConnectivity(made);
   expectPlaneOnEdges(made);
@@ -224,7 +224,7 @@ TEST(Symmetry, TorusAboutBothKindsOfPlanes)
   {
     SCOPED_TRACE(normal.transpose());
     const SymmetricResult made =
-      remeshSymmetric(input, quadsOf(800), about(Vector3::Zero(), normal));
+      remeshSymmetric(input, aboutQuads(800), about(Vector3::Zero(), normal));
     expectSymmetric(made, input, 0, true);
     EXPECT_EQ(made.remeshed.smallParts.handles, 1U);
   }
@@ -234,7 +234,7 @@ TEST(Symmetry, BoxKeepsItsFeatures)
 {
   const SurfaceInput input = toInput(unitCube(6));
   const SymmetricResult made =
-    remeshSymmetric(input, quadsOf(300), about(Vector3(0.5, 0.5, 0.5), Vector3(0, 1, 0)));
+    remeshSymmetric(input, aboutQuads(300), about(Vector3(0.5, 0.5, 0.5), Vector3(0, 1, 0)));
   expectSymmetric(made, input, 2, true);
   const QuadMesh& quads = made.remeshed.quads;
   double length = 0;
@@ -257,7 +257,7 @@ TEST(Symmetry, ARidgeInThePlaneStaysAFeature)
   // Two of the box's edges lie in the plane through opposite edges.
   const SurfaceInput input = toInput(unitCube(6));
   const SymmetricResult made =
-    remeshSymmetric(input, quadsOf(300), about(Vector3(0.5, 0.5, 0.5), Vector3(1, -1, 0)));
+    remeshSymmetric(input, aboutQuads(300), about(Vector3(0.5, 0.5, 0.5), Vector3(1, -1, 0)));
   expectSymmetric(made, input, 2, true);
   double length = 0;
   for (const QuadLine& line : made.remeshed.quads.lines)
@@ -270,11 +270,11 @@ TEST(Symmetry, ARidgeInThePlaneStaysAFeature)
 TEST(Symmetry, OpenSurfaces)
 {
   const SurfaceInput cylinder = toInput(openCylinder(48, 20));
-  expectSymmetric(
-    remeshSymmetric(cylinder, quadsOf(500), about({ 0, 0, 0 }, { 1, 0, 0 })), cylinder, 0, false);
+  expectSymmetric(remeshSymmetric(cylinder, aboutQuads(500), about({ 0, 0, 0 }, { 1, 0, 0 })),
+    cylinder, 0, false);
   const SurfaceInput plate = toInput(plateWithHole(4));
   expectSymmetric(
-    remeshSymmetric(plate, quadsOf(300), about({ 6, 6, 0 }, { 0, 1, 0 })), plate, 0, false);
+    remeshSymmetric(plate, aboutQuads(300), about({ 6, 6, 0 }, { 0, 1, 0 })), plate, 0, false);
 }
 
 TEST(Symmetry, TwoMirroredComponents)
@@ -282,7 +282,7 @@ TEST(Symmetry, TwoMirroredComponents)
   const SurfaceInput input =
     toInput(disjointUnion(lopsidedEllipsoid(3), lopsidedEllipsoid(3), Vector3(4, 0, 0)));
   const SymmetricResult made =
-    remeshSymmetric(input, quadsOf(600), about({ 2, 0, 0 }, { 1, 0, 0 }));
+    remeshSymmetric(input, aboutQuads(600), about({ 2, 0, 0 }, { 1, 0, 0 }));
   expectSymmetric(made, input, 4, true);
   for (Index p = 0; p < made.mirrorPoint.size(); ++p)
   {
@@ -295,7 +295,7 @@ TEST(Symmetry, PlaneIsFoundOfATurnedShape)
   const Vector3 axis(1, 2, -0.5);
   const Vector3 shift(10, -4, 3);
   const SurfaceInput input = toInput(turned(lopsidedEllipsoid(4), axis, 0.7, shift));
-  const SymmetricResult made = remeshSymmetric(input, quadsOf(600), {});
+  const SymmetricResult made = remeshSymmetric(input, aboutQuads(600), {});
   const Vector3 normal = Eigen::AngleAxisd(0.7, axis.normalized()) * Vector3::UnitX();
   // Point and normal as accurate as the coordinates.
   EXPECT_LE(made.plane.normal.cross(normal).norm(), 1e-12);
@@ -310,7 +310,7 @@ TEST(Symmetry, PlaneIsFoundWhereMomentsAreEqual)
   for (const Mesh& mesh : { unitCube(4), torus(40, 20), sphere(3) })
   {
     const SurfaceInput input = toInput(turned(mesh, Vector3(3, 1, 2), 0.4, Vector3(1, 2, 3)));
-    const SymmetricResult made = remeshSymmetric(input, quadsOf(400), {});
+    const SymmetricResult made = remeshSymmetric(input, aboutQuads(400), {});
     // A sphere of 642 points is its own image but for the sagitta of its triangles.
     EXPECT_LE(made.deviation.maximum, 0.005);
     EXPECT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
@@ -321,7 +321,7 @@ TEST(Symmetry, NearlySymmetricSurfaceIsFollowed)
 {
   const double noise = 0.005;
   const SurfaceInput input = toInput(withNoise(lopsidedEllipsoid(4), noise));
-  RemeshOptions options = quadsOf(600);
+  RemeshOptions options = aboutQuads(600);
   options.featureAngle.reset();
   const SymmetricResult made = remeshSymmetric(input, options, {});
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
@@ -341,7 +341,7 @@ TEST(Symmetry, NearlySymmetricSurfaceIsFollowed)
 TEST(Symmetry, SameForAnyThreadsAndWithAStore)
 {
   const SurfaceInput input = toInput(withNoise(lopsidedEllipsoid(3), 0.01));
-  RemeshOptions options = quadsOf(300);
+  RemeshOptions options = aboutQuads(300);
   options.featureAngle.reset();
   options.mergeCharts = true;
   const SymmetricResult first = remeshSymmetric(input, options, {});
@@ -378,7 +378,7 @@ TEST(Symmetry, ValencesOfTheOtherSideAreMirrored)
   input.targetValences[behind] = 5;
   input.targetValences[inPlane] = 6;
   const SymmetricResult made =
-    remeshSymmetric(input, quadsOf(800), about({ 0, 0, 0 }, { 1, 0, 0 }));
+    remeshSymmetric(input, aboutQuads(800), about({ 0, 0, 0 }, { 1, 0, 0 }));
   expectSymmetric(made, input, 2, true);
   const QuadMesh& quads = made.remeshed.quads;
   const MirrorPlane& plane = made.plane;
@@ -411,7 +411,7 @@ TEST(Symmetry, ContradictionsAreTold)
   input.targetValences[behind] = 5;
   input.targetValences[inPlane] = 5;
   const SymmetricResult made =
-    remeshSymmetric(input, quadsOf(800), about({ 0, 0, 0 }, { 1, 0, 0 }));
+    remeshSymmetric(input, aboutQuads(800), about({ 0, 0, 0 }, { 1, 0, 0 }));
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
   EXPECT_TRUE(hasNotice(made, "point " + std::to_string(behind)));
   EXPECT_TRUE(hasNotice(made, "the one in front of the mirror plane is followed"));
@@ -478,7 +478,7 @@ TEST(Symmetry, SizesOfTheOtherSideAreMirrored)
     input.sizing.push_back(p.x() < -0.5 ? 0.5F : 1.0F);
   }
   const SymmetricResult made =
-    remeshSymmetric(input, quadsOf(800), about({ 0, 0, 0 }, { 1, 0, 0 }));
+    remeshSymmetric(input, aboutQuads(800), about({ 0, 0, 0 }, { 1, 0, 0 }));
   expectSymmetric(made, input, 2, true);
   const QuadMesh& quads = made.remeshed.quads;
   double small = 0, large = 0;
@@ -502,7 +502,7 @@ std::string reasonOf(const SurfaceInput& input, const SymmetryOptions& symmetry)
 {
   try
   {
-    remeshSymmetric(input, quadsOf(100), symmetry);
+    remeshSymmetric(input, aboutQuads(100), symmetry);
   }
   catch (const InvalidInput& error)
   {
@@ -528,7 +528,7 @@ TEST(Symmetry, RefusesWhatIsNoPlane)
 
 TEST(Symmetry, StopsOnRequest)
 {
-  RemeshOptions options = quadsOf(300);
+  RemeshOptions options = aboutQuads(300);
   options.progress = [](double fraction, const std::string&) { return fraction < 0.05; };
   const SymmetricResult made = remeshSymmetric(toInput(sphere(4)), options, {});
   EXPECT_EQ(made.remeshed.status.code, StatusCode::Cancelled);
