@@ -225,7 +225,7 @@ DoubledQuads doubleQuads(const QuadMesh& half, const DoubledMesh& doubled, const
     result.status = { StatusCode::NotConverged,
       "the half in front of the mirror plane is one quad wide from plane to plane near " +
         placeText(quads.points[crowded]) +
-        ", so that with its image it would be two quads round: ask for more quads" };
+        ", so that with its image it would be two quads round: it needs more quads" };
   }
   return result;
 }

@@ -31,6 +31,8 @@ namespace
 {
 
 constexpr std::size_t kImageChunk = 1024;
+/// Times as many quads as were asked for, at most, where the half is too narrow for them.
+constexpr std::size_t kMostQuads = 4;
 /// The image of a feature may be farther from its counterpart than the image of the surface from the surface.
 constexpr double kFeatureReach = 3;
 
@@ -158,17 +160,11 @@ public:
     prepare(input);
     choosePlane();
     cut();
-    remeshHalf();
-    if (made_.remeshed.status.ok())
-    {
-      doubleUp();
-    }
+    remeshAndDouble();
     RemeshResult& result = made_.remeshed;
     result.notices.insert(result.notices.begin(), notices_.begin(), notices_.end());
     result.reused.insert(result.reused.begin(), reused_.begin(), reused_.end());
-    laps_.insert(laps_.end(), result.stages.begin(), result.stages.end());
-    result.stages = laps_;
-    result.stages.insert(result.stages.end(), lastLaps_.begin(), lastLaps_.end());
+    result.stages = laps_.all();
     return std::move(made_);
   }
 
@@ -210,7 +206,7 @@ private:
       {
         store_->put(key_, whole_, whole_->bytes());
       }
-      lap(laps_, "whole", start, input.polygonOffsets.size() - 1, surface().mesh.faceCount());
+      lap("whole", start, input.polygonOffsets.size() - 1, surface().mesh.faceCount());
     }
     for (const std::string& sentence : repairSentences(surface().repair))
     {
@@ -241,7 +237,7 @@ private:
       {
         store_->put(key, stored, sizeof(StoredPlane));
       }
-      lap(laps_, "plane", start, surface().mesh.faceCount(), 1);
+      lap("plane", start, surface().mesh.faceCount(), 1);
     }
     else
     {
@@ -300,21 +296,41 @@ private:
     {
       notices_.push_back(notice);
     }
-    lap(laps_, "cut", start, surface().mesh.faceCount(), half_.face.size());
+    lap("cut", start, surface().mesh.faceCount(), half_.face.size());
   }
 
-  void remeshHalf()
+  /// Where the half is one quad wide from plane to plane, with twice as many quads.
+  void remeshAndDouble()
+  {
+    for (std::size_t more = 1;; more *= 2)
+    {
+      remeshHalf(more);
+      for (const StageRecord& record : made_.remeshed.stages)
+      {
+        laps_.add(record);
+      }
+      const bool isCrowded = made_.remeshed.status.ok() && !doubleUp();
+      if (!isCrowded || more == kMostQuads)
+      {
+        break;
+      }
+    }
+  }
+
+  void remeshHalf(std::size_t more)
   {
     RemeshOptions options = options_;
     options.progress = subProgress(options_.progress, 0.1, 0.95);
     options.knownMap = 0; // it would be that of a whole
     if (options_.quads)
     {
-      options.quads = (*options_.quads + 1) / 2;
+      options.quads = more * ((*options_.quads + 1) / 2);
     }
-    else if (!options_.edgeLength)
+    else
     {
-      options.edgeLength = options_.relativeEdgeLength * made_.diagonal;
+      const double asked =
+        options_.edgeLength ? *options_.edgeLength : options_.relativeEdgeLength * made_.diagonal;
+      options.edgeLength = asked / std::sqrt(static_cast<double>(more));
     }
     options.maximumNumberOfQuads = std::max<std::size_t>(1, options_.maximumNumberOfQuads / 2);
     made_.remeshed =
@@ -322,7 +338,8 @@ private:
     made_.remeshed.targetQuads *= 2;
   }
 
-  void doubleUp()
+  /// Whether the quads and their images are a mesh.
+  bool doubleUp()
   {
     const double start = secondsNow();
     report(options_.progress, 0.95, "Mirroring the quads");
@@ -332,7 +349,9 @@ private:
     result.status = quads.status;
     if (!quads.status.ok())
     {
-      return;
+      notices_.push_back(quads.status.message);
+      result.quads = {};
+      return false;
     }
     locateHalf(result.quads);
     const MirrorFit fit = fitImages(quads, *whole_, tolerance_,
@@ -340,7 +359,8 @@ private:
     takeQuads(std::move(quads), fit);
     doubleSurface(doubled);
     tellTopology(doubled.mesh);
-    lap(lastLaps_, "mirror", start, result.quads.quads.size() / 2, result.quads.quads.size());
+    lap("mirror", start, result.quads.quads.size() / 2, result.quads.quads.size());
+    return true;
   }
 
   /// A triangle of the surface in front, in weights of the corners of a face of the whole.
@@ -648,10 +668,9 @@ private:
     }
   }
 
-  static void lap(std::vector<StageRecord>& laps, const char* stage, double start, std::size_t in,
-    std::size_t out)
+  void lap(const char* stage, double start, std::size_t in, std::size_t out)
   {
-    laps.push_back({ stage, secondsNow() - start, in, out });
+    laps_.add(stage, secondsNow() - start, in, out);
   }
 
   const RemeshOptions& options_;
@@ -663,7 +682,7 @@ private:
   MirrorHalf half_;
   SymmetricResult made_;
   std::vector<std::string> notices_, reused_;
-  std::vector<StageRecord> laps_, lastLaps_;
+  StageRecords laps_;
 };
 
 } // namespace

@@ -137,6 +137,19 @@ flat.CellDataFrom = "Area"
 flat.UpdatePipeline()
 check(flat.GetClientSideObject().GetCellDataFrom() == 1, "Cell Data From has no effect")
 
+# A mirror plane: found, or given; at first it stands in the middle of the input.
+mirrored = QuadRemesh(Input=ball, NumberOfQuads=400, Symmetry="Found")
+mirrored.UpdatePipeline()
+check(mirrored.PointData["MirrorPoint"] is not None, "no MirrorPoint")
+box = ball.GetDataInformation().GetBounds()
+middle = [(box[2 * i] + box[2 * i + 1]) / 2 for i in range(3)]
+check(all(abs(a - b) < 1e-9 for a, b in zip(mirrored.SymmetryOrigin, middle)),
+      f"the mirror plane stands at {mirrored.SymmetryOrigin}, not in the middle, {middle}")
+mirrored.Symmetry = "Plane"
+mirrored.SymmetryNormal = [0, 0, 2]
+mirrored.UpdatePipeline()
+check("mirror plane given" in mirrored.GetPropertyValue("Notices"), "the mirror plane is not told")
+
 # The four stages one by one.
 hierarchy = DecimationHierarchy(Input=mesh, TargetType="Number Of Quads", NumberOfQuads=400)
 grid = IntegerGridMap(Input=simple.OutputPort(hierarchy, 0))

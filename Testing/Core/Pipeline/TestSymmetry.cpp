@@ -526,6 +526,17 @@ TEST(Symmetry, RefusesWhatIsNoPlane)
     std::string::npos);
 }
 
+TEST(Symmetry, ATubeThatIsOneQuadWideGetsMore)
+{
+  // Half of it is 0.31 wide, as long as a quad asked for: an edge across would be its own image.
+  const SurfaceInput input = toInput(openCylinder(48, 40, 0.1, 4));
+  const SymmetricResult made =
+    remeshSymmetric(input, aboutQuads(24), about({ 0, 0, 0 }, { 1, 0, 0 }));
+  expectSymmetric(made, input, 0, false);
+  EXPECT_GT(made.remeshed.quads.quads.size(), 40U);
+  EXPECT_TRUE(hasNotice(made, "one quad wide"));
+}
+
 TEST(Symmetry, StopsOnRequest)
 {
   RemeshOptions options = aboutQuads(300);
