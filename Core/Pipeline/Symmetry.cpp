@@ -80,6 +80,14 @@ std::string shareText(double share)
   return text.str();
 }
 
+/// A face under a place, and the last place that was searched for in the tree.
+struct NearImage
+{
+  Index face = kInvalidIndex;
+  Vector3 searched = Vector3::Zero();
+  double distance = 0; ///< from there
+};
+
 /// Gives a mesh other flags for a while.
 class FlagsScope
 {
@@ -307,7 +315,7 @@ private:
       remeshHalf(more);
       for (const StageRecord& record : made_.remeshed.stages)
       {
-        laps_.add(record);
+        laps_.add(record.stage, record.seconds, record.elementsIn, record.elementsOut);
       }
       const bool isCrowded = made_.remeshed.status.ok() && !doubleUp();
       if (!isCrowded || more == kMostQuads)
@@ -530,12 +538,12 @@ private:
     parallelFor(doubled.halfFaces, kImageChunk, options_.threads,
       [&](std::size_t begin, std::size_t end)
       {
-        Index near = kInvalidIndex;
+        NearImage near;
         for (std::size_t f = begin; f < end; ++f)
         {
-          near = findImageSource(
+          findImageSource(
             doubled.mesh, doubled.halfFaces + static_cast<Index>(f), near, images.weights[f]);
-          images.face[f] = near;
+          images.face[f] = near.face;
         }
       });
     if (store_ != nullptr)
@@ -546,8 +554,8 @@ private:
     return images;
   }
 
-  /// near: of a face nearby; invalid: none.
-  Index findImageSource(const Mesh& mesh, Index f, Index near, FaceWeights& weights) const
+  /// near: of the face before, where it is near.
+  void findImageSource(const Mesh& mesh, Index f, NearImage& near, FaceWeights& weights) const
   {
     const Mesh& whole = surface().mesh;
     std::array<Vector3, 3> corners;
@@ -557,12 +565,13 @@ private:
     }
     const Vector3 centre = (corners[0] + corners[1] + corners[2]) / 3;
     const Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    Index found = near == kInvalidIndex ? near : climb(near, centre, normal);
-    if (found == kInvalidIndex)
+    if (!climb(near, centre, normal))
     {
       const auto facing = whole_->faces.at(centre, normal);
-      found = (facing ? *facing : *whole_->faces.at(centre)).triangle;
+      const NearestTriangle::Place place = facing ? *facing : *whole_->faces.at(centre);
+      near = { place.triangle, centre, place.distance };
     }
+    const Index found = near.face;
     weights = {};
     for (std::size_t i = 0; i < 3; ++i)
     {
@@ -575,13 +584,18 @@ private:
       }
       weights[i][best] = 1;
     }
-    return found;
   }
 
-  /// From face to face, nearer to the place each time: a hundredth of the time of a search in the tree, where the place
-  /// is beside the surface. Invalid where that ends too far away or on the other side of a wall.
-  Index climb(Index face, const Vector3& p, const Vector3& normal) const
+  /// From face to face, nearer to the place each time: a small part of the time of a search in the tree, where the
+  /// place is beside the surface. False where that ends too far away or on the other side of a wall: the distance can
+  /// have grown by no more than the way from where it was found.
+  bool climb(NearImage& near, const Vector3& p, const Vector3& normal) const
   {
+    if (near.face == kInvalidIndex)
+    {
+      return false;
+    }
+    Index face = near.face;
     const Mesh& whole = surface().mesh;
     double distance = whole_->faces.on(face, p).distance;
     for (bool moves = true; moves;)
@@ -601,8 +615,14 @@ private:
       }
     }
     const Vector3 across = whole.edgeVector(3 * face).cross(whole.edgeVector(3 * face + 1));
-    const bool isNear = distance <= made_.deviation.rms + 1e-3 * tolerance_;
-    return isNear && across.dot(normal) > 0 ? face : kInvalidIndex;
+    const double farther = std::min((p - near.searched).norm(), 2 * made_.deviation.rms);
+    const bool isNear = distance <= 1.25 * near.distance + farther + 1e-3 * tolerance_;
+    if (isNear && across.dot(normal) > 0)
+    {
+      near.face = face;
+      return true;
+    }
+    return false;
   }
 
   void certifyWhole()
