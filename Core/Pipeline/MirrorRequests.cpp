@@ -12,6 +12,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace quadrille
 {
@@ -341,6 +342,62 @@ std::vector<std::string> askOfHalf(const MirrorTask& task, MirrorHalf& half)
   }
   askSizes(task, half);
   return notices;
+}
+
+HalfCurves askCurvesOfHalf(const MirrorTask& task)
+{
+  HalfCurves asked;
+  const std::vector<CurveRequest>& curves = task.whole.surface.curves;
+  for (std::size_t i = 0; i < curves.size(); ++i)
+  {
+    // Drawn points need not lie on the surface: as far off as its image may be.
+    const double slack = task.deviation + task.tolerance;
+    double low = 0, high = 0;
+    for (const Vector3& p : curves[i].points)
+    {
+      low = std::min(low, task.plane.height(p));
+      high = std::max(high, task.plane.height(p));
+    }
+    if (low < -slack && high > slack)
+    {
+      continue;
+    }
+    const bool isImage = -low > high;
+    CurveRequest curve = curves[i];
+    for (Vector3& p : curve.points)
+    {
+      p = isImage ? task.plane.image(p) : p;
+    }
+    asked.curves.push_back(std::move(curve));
+    asked.ofWhole.push_back(static_cast<Index>(i));
+    asked.isImage.push_back(isImage ? 1 : 0);
+  }
+  return asked;
+}
+
+std::vector<CurveOutcome> outcomesOfWhole(
+  const MirrorTask& task, const HalfCurves& asked, const std::vector<CurveOutcome>& half)
+{
+  CurveOutcome crossing;
+  crossing.why = "it crosses the mirror plane, where quads are those of one side and their image: "
+                 "draw it on one side, or switch the symmetry off";
+  std::vector<CurveOutcome> outcomes(task.whole.surface.curves.size(), crossing);
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+  {
+    outcomes[i].start = task.whole.surface.curves[i].points.front();
+    outcomes[i].end = task.whole.surface.curves[i].points.back();
+  }
+  for (std::size_t i = 0; i < half.size(); ++i)
+  {
+    CurveOutcome& outcome = outcomes[asked.ofWhole[i]];
+    outcome = half[i];
+    if (asked.isImage[i] != 0)
+    {
+      outcome.start = task.plane.image(outcome.start);
+      outcome.end = task.plane.image(outcome.end);
+    }
+  }
+  return outcomes;
 }
 
 } // namespace quadrille

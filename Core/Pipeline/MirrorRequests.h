@@ -3,9 +3,11 @@
 /// What a user asks of a surface, asked of the half in front of a mirror plane.
 #pragma once
 
+#include "GridMap/CurveIsolines.h"
 #include "Mesh/MirrorCut.h"
 #include "Pipeline/MirrorFit.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,5 +28,18 @@ struct MirrorTask
 /// those in front are followed. In the plane a vertex of the half has half of the quads asked for; an odd number, which
 /// has no image, is not asked. Returns what the user should know.
 std::vector<std::string> askOfHalf(const MirrorTask& task, MirrorHalf& half);
+
+/// Which connections and cycles of the whole are asked of the half, and which of them as images.
+struct HalfCurves
+{
+  std::vector<CurveRequest> curves;
+  std::vector<Index> ofWhole;        ///< per curve: its place among those of the whole
+  std::vector<std::uint8_t> isImage; ///< per curve: it lies behind the plane
+};
+/// Those that lie on one side. One that crosses the plane has no place in the half.
+HalfCurves askCurvesOfHalf(const MirrorTask& task);
+/// Outcomes of all curves of the whole, on their own side, from those of the half.
+std::vector<CurveOutcome> outcomesOfWhole(
+  const MirrorTask& task, const HalfCurves& asked, const std::vector<CurveOutcome>& half);
 
 } // namespace quadrille

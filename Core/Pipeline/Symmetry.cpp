@@ -179,6 +179,11 @@ public:
 private:
   const PreparedSurface& surface() const { return whole_->surface; }
 
+  MirrorTask task() const
+  {
+    return { *whole_, made_.plane, tolerance_, made_.deviation.maximum, options_.threads };
+  }
+
   void prepare(SurfaceInput& input)
   {
     const double start = secondsNow();
@@ -298,12 +303,13 @@ private:
       requestCutFeatures(mesh, made_.plane, tolerance_);
       half_ = cutByMirror(mesh, made_.plane, tolerance_);
     }
-    const MirrorTask task{ *whole_, made_.plane, tolerance_, made_.deviation.maximum,
-      options_.threads };
-    for (const std::string& notice : askOfHalf(task, half_))
+    for (const std::string& notice : askOfHalf(task(), half_))
     {
       notices_.push_back(notice);
     }
+    curves_ = askCurvesOfHalf(task());
+    half_.input.curves = curves_.curves;
+    half_.input.regularElsewhere = surface().regularElsewhere;
     lap("cut", start, surface().mesh.faceCount(), half_.face.size());
   }
 
@@ -344,6 +350,7 @@ private:
     made_.remeshed =
       store_ != nullptr ? remesh(half_.input, options, *store_) : remesh(half_.input, options);
     made_.remeshed.targetQuads *= 2;
+    made_.remeshed.curves = outcomesOfWhole(task(), curves_, made_.remeshed.curves);
   }
 
   /// Whether the quads and their images are a mesh.
@@ -700,6 +707,7 @@ private:
   double tolerance_ = 0;
   std::shared_ptr<SearchedSurface> whole_;
   MirrorHalf half_;
+  HalfCurves curves_;
   SymmetricResult made_;
   std::vector<std::string> notices_, reused_;
   StageRecords laps_;

@@ -537,6 +537,29 @@ TEST(Symmetry, ATubeThatIsOneQuadWideGetsMore)
   EXPECT_TRUE(hasNotice(made, "one quad wide"));
 }
 
+TEST(Symmetry, CurvesOfTheOtherSideAreMirrored)
+{
+  SurfaceInput input = toInput(torus(60, 30));
+  CurveRequest behind{ CurveKind::Cycle, {} };
+  CurveRequest across{ CurveKind::Cycle, {} };
+  for (int i = 0; i < 24; ++i)
+  {
+    const double angle = i * kPi / 12;
+    const double radius = 1 + 0.4 * std::cos(angle);
+    behind.points.emplace_back(-radius, 0, 0.4 * std::sin(angle));
+    across.points.emplace_back(1.4 * std::cos(angle), 1.4 * std::sin(angle), 0);
+  }
+  input.curves = { across, behind };
+  const SymmetricResult made =
+    remeshSymmetric(input, aboutQuads(800), about({ 0, 0, 0 }, { 1, 0, 0 }));
+  expectSymmetric(made, input, 0, true);
+  ASSERT_EQ(made.remeshed.curves.size(), 2U);
+  EXPECT_FALSE(made.remeshed.curves[0].met);
+  EXPECT_NE(made.remeshed.curves[0].why.find("crosses the mirror plane"), std::string::npos);
+  EXPECT_TRUE(made.remeshed.curves[1].met) << made.remeshed.curves[1].why;
+  EXPECT_LT(made.remeshed.curves[1].start.x(), 0);
+}
+
 TEST(Symmetry, StopsOnRequest)
 {
   RemeshOptions options = aboutQuads(300);
