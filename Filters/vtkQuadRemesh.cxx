@@ -237,6 +237,11 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   {
     throw quadrille::InvalidInput("SmoothingSteps must be at least 0");
   }
+  if (this->Preview && this->Symmetry != SYMMETRY_NONE)
+  {
+    throw quadrille::InvalidInput(
+      "there is no preview of symmetric quads: switch Preview or Symmetry off");
+  }
   if (this->Preview && this->Method == METHOD_SEAMLESS)
   {
     throw quadrille::InvalidInput("the method 'seamless' makes no quads, so there is nothing to "

@@ -430,10 +430,10 @@ SessionConstraint constraintFromJson(const SessionJson& json, const std::string&
 SessionJson settingsToJson(const RemeshOptions& options)
 {
   // By name, so that an option that is new has to be put on one side or the other here.
-  const auto& [quads, edgeLength, relativeEdgeLength, featureAngle, method, coarsestIntegers,
-    coarseVertices, closeHandles, removeSmallComponents, anisotropyLimit, finalQuality,
-    distortionMetric, maximumNumberOfQuads, preview, smoothingSteps, memoryLimit, mergeCharts,
-    knownMap, threads, warmStart, progress] = options;
+  const auto& [quads, edgeLength, relativeEdgeLength, featureAngle, shapeSizes, curvatureGuides,
+    method, coarsestIntegers, coarseVertices, closeHandles, removeSmallComponents, anisotropyLimit,
+    finalQuality, distortionMetric, maximumNumberOfQuads, preview, smoothingSteps, memoryLimit,
+    mergeCharts, knownMap, threads, warmStart, progress] = options;
   static_cast<void>(preview);
   static_cast<void>(memoryLimit);
   static_cast<void>(mergeCharts);
@@ -454,6 +454,12 @@ SessionJson settingsToJson(const RemeshOptions& options)
     json["relative_edge_length"] = relativeEdgeLength;
   }
   json["feature_angle"] = featureAngle ? SessionJson(*featureAngle) : SessionJson(nullptr);
+  json["chord_error"] =
+    shapeSizes.chordError ? SessionJson(*shapeSizes.chordError) : SessionJson(nullptr);
+  json["gap_quads"] = shapeSizes.gapQuads;
+  json["smallest_size"] = shapeSizes.smallest;
+  json["largest_size"] = shapeSizes.largest;
+  json["curvature_guides"] = curvatureGuides ? SessionJson(*curvatureGuides) : SessionJson(nullptr);
   json["method"] = kMethods[static_cast<std::size_t>(method)];
   json["integers"] = coarsestIntegers ? "coarsest" : "keep-sizes";
   json["coarse_vertices"] = coarseVertices;
@@ -492,14 +498,23 @@ void settingsFromJson(const SessionJson& json, RemeshOptions& options, const std
     reader.read("edge_length", options.edgeLength.emplace());
   }
   reader.readIf("relative_edge_length", options.relativeEdgeLength);
-  if (reader.has("feature_angle"))
+  const auto readOptional = [&](const char* name, std::optional<double>& value)
   {
-    options.featureAngle.reset();
-    if (!reader.at("feature_angle").is_null())
+    if (reader.has(name))
     {
-      reader.read("feature_angle", options.featureAngle.emplace());
+      value.reset();
+      if (!reader.at(name).is_null())
+      {
+        reader.read(name, value.emplace());
+      }
     }
-  }
+  };
+  readOptional("feature_angle", options.featureAngle);
+  readOptional("chord_error", options.sizes.chordError);
+  readOptional("curvature_guides", options.curvatureGuides);
+  reader.readIf("gap_quads", options.sizes.gapQuads);
+  reader.readIf("smallest_size", options.sizes.smallest);
+  reader.readIf("largest_size", options.sizes.largest);
   constexpr std::array<const char*, 2> kIntegers{ "keep-sizes", "coarsest" };
   constexpr std::array<const char*, 2> kSmall{ "keep", "remove" };
   if (reader.has("method"))
