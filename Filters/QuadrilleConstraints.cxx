@@ -69,7 +69,7 @@ bool hasPoints(vtkPolyData* data)
 }
 
 /// What a line of the curves is, by the array. What cannot be honoured must not pass for done.
-ConstraintKind kindOf(vtkDataArray* types, vtkIdType cell)
+ConstraintKind kindOfLine(vtkDataArray* types, vtkIdType cell)
 {
   const double type = types ? types->GetComponent(cell, 0) : 0;
   if (type == 0 || type == 1)
@@ -102,7 +102,7 @@ void addCurves(vtkPolyData* curves, const ConstraintInputs& inputs, ConstraintPl
   vtkDataArray* weights = curves->GetCellData()->GetArray(arrays::kGuidingWeight);
   for (const DrawnLine& line : readLines(curves, "feature curve"))
   {
-    switch (kindOf(types, line.source))
+    switch (kindOfLine(types, line.source))
     {
       case ConstraintKind::Stroke:
         placement.addStroke(

@@ -13,9 +13,9 @@ namespace quadrille
 namespace
 {
 
-constexpr int kRegular = 4;
+constexpr int kRegularEdges = 4;
 
-Index originOf(const QuadMesh& quads, Index h)
+Index originInQuads(const QuadMesh& quads, Index h)
 {
   return quads.quads[h / 4][h % 4];
 }
@@ -39,7 +39,7 @@ QuadChains::QuadChains(const QuadMesh& quads)
   const Index count = static_cast<Index>(twin_.size());
   for (Index h = 0; h < count; ++h)
   {
-    ++firstOf_[originOf(quads, h) + 1];
+    ++firstOf_[originInQuads(quads, h) + 1];
   }
   for (std::size_t p = 1; p < firstOf_.size(); ++p)
   {
@@ -49,13 +49,13 @@ QuadChains::QuadChains(const QuadMesh& quads)
   std::vector<Index> place(firstOf_.begin(), firstOf_.end() - 1);
   for (Index h = 0; h < count; ++h)
   {
-    leaving_[place[originOf(quads, h)]++] = h;
+    leaving_[place[originInQuads(quads, h)]++] = h;
   }
   for (Index h = 0; h < count; ++h)
   {
     for (Index i = firstOf_[end(h)]; i < firstOf_[end(h) + 1]; ++i)
     {
-      if (end(leaving_[i]) == originOf(quads, h))
+      if (end(leaving_[i]) == originInQuads(quads, h))
       {
         twin_[h] = leaving_[i];
       }
@@ -65,7 +65,7 @@ QuadChains::QuadChains(const QuadMesh& quads)
 
 Index QuadChains::end(Index h) const
 {
-  return originOf(quads_, nextInQuad(h));
+  return originInQuads(quads_, nextInQuad(h));
 }
 
 /// The half-edge that leaves the end of h with two quads between them on that side; none on a boundary.
@@ -84,7 +84,7 @@ std::optional<Index> QuadChains::straightOn(Index h, ChainSide side) const
 
 bool QuadChains::isPassed(Index point) const
 {
-  return quads_.onBoundary[point] == 0 && quads_.valence[point] == kRegular;
+  return quads_.onBoundary[point] == 0 && quads_.valence[point] == kRegularEdges;
 }
 
 std::vector<Index> QuadChains::between(Index a, Index b) const
@@ -136,7 +136,7 @@ std::vector<Index> QuadChains::toLine(Index a, const Vector3& place, double dist
 /// Empty unless it comes back to where it began.
 std::vector<Index> QuadChains::closedFrom(Index first, ChainSide side) const
 {
-  std::vector<Index> chain{ originOf(quads_, first) };
+  std::vector<Index> chain{ originInQuads(quads_, first) };
   std::optional<Index> h = first;
   do
   {
@@ -159,7 +159,7 @@ std::vector<Index> QuadChains::closedNear(
   double least = std::numeric_limits<double>::infinity();
   for (Index h = 0; h < twin_.size(); ++h)
   {
-    if (!isNear(originOf(quads_, h)) || !isNear(end(h)))
+    if (!isNear(originInQuads(quads_, h)) || !isNear(end(h)))
     {
       continue;
     }
@@ -187,7 +187,7 @@ std::optional<Index> QuadChains::nearestIrregular(const Vector3& place) const
   std::optional<Index> best;
   for (Index p = 0; p < quads_.points.size(); ++p)
   {
-    const bool isIrregular = quads_.valence[p] != kRegular - (quads_.onBoundary[p] != 0 ? 1 : 0);
+    const bool isIrregular = quads_.valence[p] != kRegularEdges - (quads_.onBoundary[p] != 0 ? 1 : 0);
     if (isIrregular &&
       (!best ||
         (quads_.points[p] - place).squaredNorm() < (quads_.points[*best] - place).squaredNorm()))

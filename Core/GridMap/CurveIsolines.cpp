@@ -172,7 +172,7 @@ int axisOf(const Vector2& vector)
   return alongU ? (vector.x() >= 0 ? 0 : 2) : (vector.y() >= 0 ? 1 : 3);
 }
 
-void refuse(RequestedLine& line, const std::string& why)
+void leaveOut(RequestedLine& line, const std::string& why)
 {
   line.outcome.why = why;
 }
@@ -188,7 +188,7 @@ RequestedLine connectionOf(
   {
     if (end.vertex == kInvalidIndex)
     {
-      refuse(result,
+      leaveOut(result,
         "no irregular vertex, feature or boundary lies within " +
           std::to_string(static_cast<int>(kReachOfIrregular)) + " quads of " + placeText(place) +
           ": draw to one, or ask for a valence there");
@@ -201,20 +201,20 @@ RequestedLine connectionOf(
   result.outcome.end = mesh.position[b.vertex];
   if (a.vertex == b.vertex)
   {
-    refuse(result,
+    leaveOut(result,
       "both ends are nearest to the same vertex, at " + placeText(result.outcome.start) +
         ": draw between two");
     return result;
   }
   if (!a.isPoint && !b.isPoint)
   {
-    refuse(result, "neither end is near an irregular vertex: draw from one");
+    leaveOut(result, "neither end is near an irregular vertex: draw from one");
     return result;
   }
   const std::optional<FacePath> path = pathAlong(mesh, curve, a.vertex, b.vertex);
   if (!path)
   {
-    refuse(
+    leaveOut(
       result, "a feature or nothing at all lies between its ends: connections cross no feature");
     return result;
   }
@@ -236,14 +236,14 @@ RequestedLine cycleOf(const Mesh& mesh, const CrossField& field, const CurveRequ
   const std::optional<FacePath> path = closedPathAlong(mesh, curve);
   if (!path)
   {
-    refuse(result,
+    leaveOut(result,
       "a feature cuts it, or it closes on nothing: draw it round something, across no feature");
     return result;
   }
   const WayInField way = wayInField(mesh, field, *path, nullptr, nullptr);
   if (way.rotation != 0)
   {
-    refuse(result,
+    leaveOut(result,
       "the irregular vertices on one side of it turn the quads by " +
         std::to_string(90 * std::min(way.rotation, 4 - way.rotation)) +
         " degrees: 4 - valence of them has to sum up to 4; move one across it");
@@ -255,7 +255,7 @@ RequestedLine cycleOf(const Mesh& mesh, const CrossField& field, const CurveRequ
   result.line.closed = true;
   if (way.vector.norm() < kLeastAlong * way.length)
   {
-    refuse(result,
+    leaveOut(result,
       "the quads' edges do not run along it: guide them, or move irregular vertices away from it");
     return result;
   }

@@ -73,8 +73,8 @@ FixedVec2 developedVector(const UvMesh& map, const Isoline& line);
 bool lockLine(UvMesh& map, UvEditor& editor, const std::vector<std::uint8_t>& integer,
   const Mesh& mesh, const Isoline& line, FixedVec2 developed);
 
-/// Whether an integer-grid map has the line: from vertex to vertex, to a curve near the place asked for, or, of a closed
-/// one, a closed grid line in the faces of its way.
+/// Whether an integer-grid map has the line: from vertex to vertex, to a curve near the place asked for, or, of a
+/// closed one, a closed grid line in the faces of its way.
 bool hasGridLine(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv,
   const RequestedLine& wanted, double edgeLength);
 

@@ -43,7 +43,7 @@ struct Front
   int axis;
 };
 
-Front cross(const UvMesh& mesh, Index h, FixedVec2 start, int axis)
+Front enterThrough(const UvMesh& mesh, Index h, FixedVec2 start, int axis)
 {
   const Transition change = mesh.transition(h);
   return { mesh.twin[h], change.apply(start), (axis + change.rotation) & 3 };
@@ -124,7 +124,7 @@ UvRay followLine(
       return ray;
     }
     ray.crossed.push_back(out);
-    front = cross(mesh, out, front.start, front.axis);
+    front = enterThrough(mesh, out, front.start, front.axis);
     out = sideOut(mesh, front);
   }
   const Index corner = Mesh::previous(front.entry);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Boxes of many small things in a tree, to find the nearest one. The things are put along a Hilbert curve, and boxes of
-/// consecutive ones make the tree, so that it is built in linear time and is flat arrays.
+/// Boxes of many small things in a tree, to find the nearest one. The things are put along a Hilbert curve, and boxes
+/// of consecutive ones make the tree, so that it is built in linear time and is flat arrays.
 #pragma once
 
 #include "Base/Types.h"

@@ -13,7 +13,7 @@ namespace quadrille
 namespace
 {
 
-std::string nameOf(CurveKind kind)
+std::string nameOfKind(CurveKind kind)
 {
   return kind == CurveKind::Cycle ? "cycle" : "connection";
 }
@@ -22,7 +22,7 @@ std::string nameOf(CurveKind kind)
 
 std::string curveText(const CurveRequest& curve, std::size_t id)
 {
-  const std::string name = nameOf(curve.kind) + " " + std::to_string(id);
+  const std::string name = nameOfKind(curve.kind) + " " + std::to_string(id);
   return curve.kind == CurveKind::Cycle
     ? name + " through " + placeText(curve.points.front())
     : name + " from " + placeText(curve.points.front()) + " to " + placeText(curve.points.back());
@@ -30,7 +30,7 @@ std::string curveText(const CurveRequest& curve, std::size_t id)
 
 void checkCurve(const CurveRequest& curve, std::size_t id)
 {
-  const std::string name = nameOf(curve.kind) + " " + std::to_string(id);
+  const std::string name = nameOfKind(curve.kind) + " " + std::to_string(id);
   const std::size_t least = curve.kind == CurveKind::Cycle ? 3 : 2;
   if (curve.points.size() < least)
   {

@@ -31,9 +31,11 @@ struct CurveRequest
 /// "connection 2 from (0, 0, 1) to (1, 0, 0)", "cycle 0 through (0, 0, 1)"; places are those of PlaceText.h.
 std::string curveText(const CurveRequest& curve, std::size_t id);
 
-/// Throws InvalidInput, naming the curve by `id`, where it has too few points, a point that is not finite, or no length.
+/// Throws InvalidInput, naming the curve by `id`, where it has too few points, a point that is not finite, or no
+/// length.
 void checkCurve(const CurveRequest& curve, std::size_t id);
-/// The same for all of an input. Throws InvalidInput, naming the curve, where one has too few points, a point that is not finite, or no length.
+/// The same for all of an input. Throws InvalidInput, naming the curve, where one has too few points, a point that is
+/// not finite, or no length.
 void checkCurves(const SurfaceInput& input);
 
 } // namespace quadrille

@@ -50,7 +50,7 @@ struct Sampling
   double size = 0;                    ///< diagonal of the box
 };
 
-Vector3 areaVector(const TriangleList& list, std::size_t t)
+Vector3 faceAreaVector(const TriangleList& list, std::size_t t)
 {
   const std::array<Index, 3>& c = list.corners[t];
   return (list.points[c[1]] - list.points[c[0]]).cross(list.points[c[2]] - list.points[c[0]]) / 2;
@@ -62,7 +62,7 @@ std::vector<Sample> sample(const TriangleList& list, std::size_t count)
   double total = 0;
   for (std::size_t t = 0; t < list.corners.size(); ++t)
   {
-    total += areaVector(list, t).norm();
+    total += faceAreaVector(list, t).norm();
   }
   std::vector<Sample> samples;
   samples.reserve(count);
@@ -70,7 +70,7 @@ std::vector<Sample> sample(const TriangleList& list, std::size_t count)
   double a = 0.5, b = 0.5;
   for (std::size_t t = 0; t < list.corners.size(); ++t)
   {
-    const Vector3 across = areaVector(list, t);
+    const Vector3 across = faceAreaVector(list, t);
     area += across.norm();
     while (samples.size() < count &&
       area > (static_cast<double>(samples.size()) + 0.5) / static_cast<double>(count) * total)
@@ -98,7 +98,7 @@ void measureMoments(const TriangleList& list, Sampling& sampling)
   Vector3 high = low;
   for (std::size_t t = 0; t < list.corners.size(); ++t)
   {
-    const double area = areaVector(list, t).norm();
+    const double area = faceAreaVector(list, t).norm();
     total += area;
     for (const Index corner : list.corners[t])
     {
@@ -120,7 +120,7 @@ void measureMoments(const TriangleList& list, Sampling& sampling)
       sum += p;
       squares += p * p.transpose();
     }
-    second += areaVector(list, t).norm() / 12 * (squares + sum * sum.transpose());
+    second += faceAreaVector(list, t).norm() / 12 * (squares + sum * sum.transpose());
   }
   const Eigen::SelfAdjointEigenSolver<Matrix3> solver(second / total);
   sampling.axes = solver.eigenvectors().rowwise().reverse(); // ascending before
@@ -250,7 +250,7 @@ private:
     for (std::size_t i = 0; i < places.size(); ++i)
     {
       const Vector3& p = sampling_.samples[i].point;
-      const Vector3 across = areaVector(surface_.triangles(), places[i].triangle).normalized();
+      const Vector3 across = faceAreaVector(surface_.triangles(), places[i].triangle).normalized();
       const Vector3 arm = p - plane.origin;
       const double height = plane.height(p);
       const auto turned = [&](const Vector3& dn)

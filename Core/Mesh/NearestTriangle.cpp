@@ -79,14 +79,14 @@ NearestTriangle::Place placeOn(const Corners& corners, Index t, const Vector3& p
   return place;
 }
 
-using BoxTree = Eigen::KdBVH<double, 3, Index>;
+using TriangleTree = Eigen::KdBVH<double, 3, Index>;
 
 /// Depth first, the nearer box first. Eigen's BVMinimize takes the best of all boxes next, from a queue that is new for
 /// each place, and needs twice the time.
 class TreeSearch
 {
 public:
-  TreeSearch(const TriangleList& triangles, const BoxTree& tree, const Vector3& p,
+  TreeSearch(const TriangleList& triangles, const TriangleTree& tree, const Vector3& p,
     const Vector3& facing, double within)
     : triangles_(triangles), tree_(tree), p_(p), facing_(facing), isFacing_(!facing.isZero(0)),
       least_(within * within)
@@ -102,8 +102,8 @@ public:
 private:
   void visit(int node)
   {
-    BoxTree::VolumeIterator volume{}, volumeEnd{};
-    BoxTree::ObjectIterator triangle{}, triangleEnd{};
+    TriangleTree::VolumeIterator volume{}, volumeEnd{};
+    TriangleTree::ObjectIterator triangle{}, triangleEnd{};
     tree_.getChildren(node, volume, volumeEnd, triangle, triangleEnd);
     for (; triangle != triangleEnd; ++triangle)
     {
@@ -150,7 +150,7 @@ private:
   }
 
   const TriangleList& triangles_;
-  const BoxTree& tree_;
+  const TriangleTree& tree_;
   const Vector3& p_;
   const Vector3& facing_;
   bool isFacing_;
@@ -191,7 +191,7 @@ struct NearestTriangle::Tree
   {
   }
 
-  BoxTree boxes;
+  TriangleTree boxes;
 };
 
 NearestTriangle::NearestTriangle(TriangleList triangles) : triangles_(std::move(triangles))

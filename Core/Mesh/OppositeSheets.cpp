@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr std::size_t kRayChunk = 256;
-constexpr std::size_t kBoxChunk = 4096;
+constexpr std::size_t kSheetChunk = 4096;
 /// Faces in a leaf, and children of a node.
 constexpr Index kBranches = 8;
 const double kLeastOpposition = std::cos(kPi / 4);
@@ -51,10 +51,10 @@ double entryOf(const Eigen::AlignedBox3f& box, const SurfaceRay& ray)
   return enter <= leave ? enter : std::numeric_limits<double>::infinity();
 }
 
-class BoxTree
+class SheetTree
 {
 public:
-  BoxTree(const Mesh& mesh, int threads) : mesh_(mesh)
+  SheetTree(const Mesh& mesh, int threads) : mesh_(mesh)
   {
     makeLevel(mesh.faceCount(), threads, [&](Index f) { return boxOfFace(f); });
     while (levels_.back().size() > 1)
@@ -91,7 +91,7 @@ private:
   void makeLevel(std::size_t children, int threads, const BoxOf& boxOf)
   {
     std::vector<Eigen::AlignedBox3f> level((children + kBranches - 1) / kBranches);
-    parallelFor(level.size(), kBoxChunk, threads,
+    parallelFor(level.size(), kSheetChunk, threads,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
@@ -151,7 +151,7 @@ private:
 };
 
 /// Along the patch's normal either way.
-double distanceFrom(const Mesh& mesh, const BoxTree& tree, const SurfacePatch& patch, double reach)
+double distanceFrom(const Mesh& mesh, const SheetTree& tree, const SurfacePatch& patch, double reach)
 {
   const auto isOpposite = [&](Index f)
   {
@@ -170,7 +170,7 @@ double distanceFrom(const Mesh& mesh, const BoxTree& tree, const SurfacePatch& p
   return nearest < reach ? nearest : std::numeric_limits<double>::infinity();
 }
 
-float medianOf(std::vector<float>& values)
+float medianGap(std::vector<float>& values)
 {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -182,7 +182,7 @@ float medianOf(std::vector<float>& values)
 std::vector<float> distancesToOpposite(
   const Mesh& mesh, const SurfacePatches& patches, double reach, int threads)
 {
-  const BoxTree tree(mesh, threads);
+  const SheetTree tree(mesh, threads);
   std::vector<float> single(patches.patches.size(), std::numeric_limits<float>::infinity());
   parallelFor(single.size(), kRayChunk, threads,
     [&](std::size_t begin, std::size_t end)
@@ -207,7 +207,7 @@ std::vector<float> distancesToOpposite(
         {
           values.push_back(single[patches.neighbours[k]]);
         }
-        result[i] = medianOf(values);
+        result[i] = medianGap(values);
       }
     });
   return result;

@@ -220,7 +220,8 @@ def _finish(run):
 
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
            guiding_direction=None, guiding_weight=None, target_valence=None, sizing=None, feature_edges=None,
-           patch_ids=None, curves=None, strokes=None, connections=None, cycles=None, patch_array="PatchId", coarse_vertices=1000,
+           patch_ids=None, curves=None, strokes=None, connections=None, cycles=None,
+           patch_array="PatchId", coarse_vertices=1000,
            threads=0, maximum_number_of_quads=10000000, smoothing_steps=5,
            memory_limit=0.0, time_limit=0.0, close_handles=0.0, small_components="keep", method="scale-aware",
            final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False,

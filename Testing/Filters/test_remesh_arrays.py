@@ -430,7 +430,7 @@ class Requests(unittest.TestCase):
         self.assertRefused(["patch_ids"], patch_ids=[1])
         self.assertRefused(["curves[0]", "1 point(s)"], curves=[[[0, 0, 0]]])
         self.assertRefused(["strokes[1]", "n by 3"], strokes=[[[0, 0, 0], [1, 0, 0]], [[1, 2]] * 4])
-        self.assertRefused(["strokes beside"], curves=vtkPolyData(), strokes=[[[0, 0, 0], [1, 0, 0]]])
+        self.assertRefused(["no room for strokes (1)"], curves=vtkPolyData(), strokes=[[[0, 0, 0], [1, 0, 0]]])
 
 
 class Check(unittest.TestCase):

@@ -33,7 +33,7 @@ Mesh wavyPlane(int n, unsigned seed)
 }
 
 /// Each vertex at its place.
-UvMesh mapOf(const Mesh& mesh)
+UvMesh mapByPlace(const Mesh& mesh)
 {
   CrossField field;
   field.matching.assign(mesh.halfEdgeCount(), 0);
@@ -58,7 +58,7 @@ Index vertexAt(const Mesh& mesh, double x, double y)
 TEST(UvRays, AxesOfAPlaneMeetTheNeighbours)
 {
   const Mesh mesh = test::gridPlane(6, 6);
-  const UvMesh map = mapOf(mesh);
+  const UvMesh map = mapByPlace(mesh);
   const Index v = vertexAt(mesh, 3, 3);
   const std::vector<UvDirection> directions = axisDirections(map, v);
   ASSERT_EQ(directions.size(), 4U);
@@ -76,7 +76,7 @@ TEST(UvRays, AxesOfAPlaneMeetTheNeighbours)
 TEST(UvRays, GoStraightOnUpToTheBoundary)
 {
   const Mesh mesh = test::gridPlane(6, 6);
-  const UvMesh map = mapOf(mesh);
+  const UvMesh map = mapByPlace(mesh);
   for (UvDirection direction : axisDirections(map, vertexAt(mesh, 2, 3)))
   {
     std::int64_t length = 0;
@@ -95,7 +95,7 @@ TEST(UvRays, GoStraightOnUpToTheBoundary)
 TEST(UvRays, EndAtACurve)
 {
   Mesh mesh = test::gridPlane(6, 6);
-  UvMesh map = mapOf(mesh);
+  UvMesh map = mapByPlace(mesh);
   // From the middle of nowhere: no other vertex has this y.
   const Index v = vertexAt(mesh, 3, 3);
   for (Index h = 0; h < map.origin.size(); ++h)
@@ -123,7 +123,7 @@ TEST(UvRays, EdgesAlongLinesComeByFlipsAndGoByTheirUndoing)
     // Two vertices on a line that no other one lies on, across seven columns.
     const Index a = 4 * 9 + 1, b = 4 * 9 + 7;
     mesh.position[a].y() = mesh.position[b].y() = 4.137;
-    UvMesh map = mapOf(mesh);
+    UvMesh map = mapByPlace(mesh);
     const std::vector<FixedVec2> before = map.uv;
     const std::vector<Index> twins = map.twin;
     const auto directions = axisDirections(map, a);
