@@ -56,7 +56,7 @@ std::vector<std::string> missedValences(
   const ReachedValences reached(mesh);
   for (const PlacedConstraint& constraint : placed)
   {
-    const bool asks = constraint.kind == ConstraintKind::Valence;
+    const bool asks = constraint.kind == ConstraintKind::Valence && constraint.whyNot.empty();
     const int there = asks ? reached.at(constraint.path.front()) : 0;
     if (asks && there != constraint.valence)
     {

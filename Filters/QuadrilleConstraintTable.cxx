@@ -261,6 +261,10 @@ ConstraintWord Judge::drawn(std::size_t i)
   const bool isStroke = constraint.kind == ConstraintKind::Stroke;
   const Vector3 place =
     constraint.path.empty() ? Vector3(Vector3::Zero()) : constraint.path.front();
+  if (constraint.kind == ConstraintKind::Valence && !constraint.whyNot.empty())
+  {
+    return placed(unknownWord("valence", constraint.source, "valence", constraint.whyNot), place);
+  }
   if (constraint.kind == ConstraintKind::Valence)
   {
     return valenceAt(constraint.source, place, constraint.valence);

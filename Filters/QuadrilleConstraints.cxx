@@ -197,7 +197,15 @@ void addPoints(vtkPolyData* points, int valence, ConstraintPlacement& placement)
       refuse("the valence point at ", placeText(p), " asks for valence ", value, ", but only ",
         kLeastValence, " to ", kMostValence, ", and 0 for none, can be asked for");
     }
-    placement.addValence(i, p, static_cast<int>(value));
+    try
+    {
+      placement.addValence(i, p, static_cast<int>(value));
+    }
+    catch (const InvalidInput& error)
+    {
+      // Of two that contradict each other the later one goes, and the rest is done.
+      placement.leaveOutValence(i, p, static_cast<int>(value), error.what());
+    }
   }
 }
 

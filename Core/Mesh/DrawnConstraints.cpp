@@ -419,6 +419,19 @@ void ConstraintPlacement::addValence(std::int64_t source, const Vector3& point, 
   result_.placed.push_back(std::move(placed));
 }
 
+void ConstraintPlacement::leaveOutValence(
+  std::int64_t source, const Vector3& point, int valence, const std::string& whyNot)
+{
+  PlacedConstraint placed;
+  placed.kind = ConstraintKind::Valence;
+  placed.source = source;
+  placed.path = { input_.points[places_.nearestCorner(point)] };
+  placed.valence = valence;
+  placed.whyNot = whyNot;
+  result_.notices.push_back("valence point " + std::to_string(source) + " is left out: " + whyNot);
+  result_.placed.push_back(std::move(placed));
+}
+
 void ConstraintPlacement::addCurve(std::int64_t source, CurveKind kind, std::vector<Vector3> points)
 {
   PlacedConstraint placed;

@@ -115,6 +115,9 @@ public:
   /// valence already, and for a corner of no quads on the boundary.
   void addValence(std::int64_t source, const Vector3& point, int valence);
 
+  /// A valence that is not asked for, and why not: it contradicts an earlier one, say. The rest is done.
+  void leaveOutValence(
+    std::int64_t source, const Vector3& point, int valence, const std::string& whyNot);
   /// Stays as it is. Throws InvalidInput as checkCurve does.
   void addCurve(std::int64_t source, CurveKind kind, std::vector<Vector3> points);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Rays against a tree of boxes. The faces of a surface lie along a space-filling curve, so a tree over runs of them is
-/// as good as one that sorts them, and takes a twentieth of the memory.
+/// Rays against a tree of boxes. The faces of a surface lie along a space-filling curve, so a tree over runs of them
+/// needs no sorting.
 #include "Mesh/OppositeSheets.h"
 
 #include "Base/Angles.h"

@@ -346,6 +346,43 @@ double offInPlane(vtkPolyData* quads, const Vector3& place, double degrees)
   return std::nan("");
 }
 
+TEST(ConstraintTable, OfTwoContradictingValencesTheLaterOneIsLeftOut)
+{
+  vtkNew<vtkPolyData> points;
+  vtkNew<vtkPoints> coordinates;
+  vtkNew<vtkIntArray> valences;
+  valences->SetName("TargetValence");
+  const double given[4][3] = { { 10, 20, 5 }, { 30, 20, 3 }, { 10.1, 20.1, 3 }, { 0, 20, 2 } };
+  for (const double* p : given)
+  {
+    coordinates->InsertNextPoint(p[0], p[1], 0);
+    valences->InsertNextValue(static_cast<int>(p[2]));
+  }
+  points->SetPoints(coordinates);
+  points->GetPointData()->AddArray(valences);
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  filter->SetInputData(test::toPolyData(test::gridPlane(40, 40)));
+  filter->SetValencePointsData(points);
+  filter->SetNumberOfQuads(900);
+  filter->Update();
+  ASSERT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+  vtkTable* table = filter->GetConstraintTable();
+  ASSERT_EQ(table->GetNumberOfRows(), 4);
+  for (const vtkIdType row : { 0, 1 })
+  {
+    EXPECT_EQ(table->GetValueByName(row, "Met").ToInt(), 1);
+  }
+  const std::string contradiction = table->GetValueByName(2, "Reason").ToString();
+  EXPECT_EQ(table->GetValueByName(2, "Met").ToInt(), 0);
+  EXPECT_NE(contradiction.find("where 5 is asked for already"), std::string::npos) << contradiction;
+  // A corner of no quads.
+  EXPECT_EQ(table->GetValueByName(3, "Met").ToInt(), 0);
+  EXPECT_NE(
+    table->GetValueByName(3, "Reason").ToString().find("the least is 3"), std::string::npos);
+  EXPECT_NE(messages.warnings.find("is left out"), std::string::npos) << messages.warnings;
+}
+
 TEST(ConstraintTable, AgreesWithTheQuadsOfTheFilter)
 {
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(40, 40));

@@ -15,6 +15,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace quadrille
 {
 namespace
@@ -299,7 +301,7 @@ TEST(Constraints, WholeDoublesAreTargetValences)
   EXPECT_THROW(applyConstraints(again, inputs), InvalidInput);
 }
 
-TEST(Constraints, TwoValencesAtOnePlaceAreRefused)
+TEST(Constraints, OfTwoValencesAtOnePlaceTheLaterOneIsLeftOut)
 {
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(4, 4));
   vtkNew<vtkIntArray> valences;
@@ -311,10 +313,19 @@ TEST(Constraints, TwoValencesAtOnePlaceAreRefused)
   ConstraintInputs inputs;
   inputs.points = points;
   ConvertedSurface surface = convertSurface(data, "");
-  EXPECT_THROW(applyConstraints(surface, inputs), InvalidInput);
+  const PlacedConstraints made = applyConstraints(surface, inputs);
+  ASSERT_EQ(made.placed.size(), 2U);
+  EXPECT_EQ(made.placed[0].whyNot, "");
+  EXPECT_NE(made.placed[1].whyNot.find("3 is asked for already"), std::string::npos)
+    << made.placed[1].whyNot;
+  EXPECT_EQ(made.notices.size(), 1U);
+  EXPECT_EQ(
+    std::count(surface.input.targetValences.begin(), surface.input.targetValences.end(), 3), 1);
+  EXPECT_EQ(
+    std::count(surface.input.targetValences.begin(), surface.input.targetValences.end(), 5), 0);
 }
 
-TEST(Constraints, ValenceTwoOnTheBoundaryIsRefusedWithItsPlace)
+TEST(Constraints, ValenceTwoOnTheBoundaryIsLeftOutWithItsPlace)
 {
   const vtkSmartPointer<vtkPolyData> data = test::toPolyData(test::gridPlane(4, 4));
   ConvertedSurface surface = convertSurface(data, "");
@@ -322,15 +333,9 @@ TEST(Constraints, ValenceTwoOnTheBoundaryIsRefusedWithItsPlace)
   ConstraintInputs inputs;
   inputs.points = points;
   inputs.valence = 2;
-  try
-  {
-    applyConstraints(surface, inputs);
-    FAIL();
-  }
-  catch (const InvalidInput& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("(4, 2, 0)"), std::string::npos) << error.what();
-  }
+  const PlacedConstraints made = applyConstraints(surface, inputs);
+  ASSERT_EQ(made.placed.size(), 1U);
+  EXPECT_NE(made.placed[0].whyNot.find("(4, 2, 0)"), std::string::npos) << made.placed[0].whyNot;
 }
 
 TEST(Constraints, OutputTellsWhatWasReached)
