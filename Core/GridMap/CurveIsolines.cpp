@@ -690,6 +690,14 @@ std::optional<Isoline> straightWay(const Mesh& mesh, const CrossField& field,
   return best;
 }
 
+int axisAlong(const Mesh& mesh, const CrossField& field, const Isoline& way)
+{
+  const FacePath path{ Mesh::face(way.start), way.crossed };
+  const Vector3 begin = mesh.position[mesh.origin[way.start]];
+  const Vector3 end = mesh.position[mesh.origin[way.end]];
+  return axisOf(wayInField(mesh, field, path, &begin, &end).vector);
+}
+
 FixedVec2 developedVector(const UvMesh& map, const Isoline& line)
 {
   // From charts along the way to that of its first face.

@@ -64,6 +64,9 @@ std::optional<Isoline> straightWay(const Mesh& mesh, const CrossField& field,
   const std::vector<FixedVec2>& seamlessUv, const CurveRequest& curve, const CurveOutcome& ends,
   double edgeLength);
 
+/// Which axis of another field on the same mesh a way between two vertices runs along.
+int axisAlong(const Mesh& mesh, const CrossField& field, const Isoline& way);
+
 /// The same way through the faces of a map: end(start), in units of 2^-24, of a line in the chart of its first face.
 FixedVec2 developedVector(const UvMesh& map, const Isoline& line);
 

@@ -170,14 +170,26 @@ private:
   /// seen; where a cycle cannot close between them, those at the ends of connections only.
   void followCurves(CrossFieldOptions fieldOptions)
   {
-    fieldOptions.guides = guidesWithCurves(mesh_, options_.curves, options_.guides);
+    std::vector<CurveRequest> curves;
+    for (std::size_t i = 0; i < options_.curves.size(); ++i)
+    {
+      if (!isLeftOut(i))
+      {
+        curves.push_back(options_.curves[i]);
+      }
+    }
+    if (curves.empty())
+    {
+      return;
+    }
+    fieldOptions.guides = guidesWithCurves(mesh_, curves, options_.guides);
     for (const bool all : { true, false })
     {
       fieldOptions.targetValences = all ? valencesOf(mesh_, result_.field, options_.targetValences)
-                                        : valencesWithEnds(mesh_, result_.field, options_.curves,
+                                        : valencesWithEnds(mesh_, result_.field, curves,
                                             options_.edgeLength, options_.targetValences);
       CrossField led = computeCrossField(mesh_, fieldOptions);
-      if (led.status.ok() && (!all || cyclesClose(led)))
+      if (led.status.ok() && (!all || cyclesClose(led, curves)))
       {
         result_.field = std::move(led);
         return;
@@ -185,9 +197,11 @@ private:
     }
   }
 
-  bool cyclesClose(const CrossField& field) const
+  bool isLeftOut(std::size_t curve) const { return !leftOut_.empty() && !leftOut_[curve].empty(); }
+
+  bool cyclesClose(const CrossField& field, const std::vector<CurveRequest>& curves) const
   {
-    return std::all_of(options_.curves.begin(), options_.curves.end(),
+    return std::all_of(curves.begin(), curves.end(),
       [&](const CurveRequest& curve)
       {
         return curve.kind != CurveKind::Cycle ||
@@ -201,7 +215,7 @@ private:
     {
       lines_.push_back(lineOf(mesh_, result_.field, options_.curves[i], options_.edgeLength));
       RequestedLine& line = lines_.back();
-      if (line.isWanted() && !leftOut_.empty() && !leftOut_[i].empty())
+      if (isLeftOut(i))
       {
         line.outcome.why = leftOut_[i];
       }
@@ -210,6 +224,7 @@ private:
         if (!ways_.empty() && ways_[i])
         {
           line.line = *ways_[i];
+          line.line.axis = axisAlong(mesh_, result_.field, line.line);
         }
         result_.field.isolines.push_back(line.line);
       }
@@ -681,10 +696,11 @@ public:
   {
     GridMapResult first = make({}, {});
     const bool isWhole = first.status.ok() && countUnmet(first) == 0;
-    if (isWhole || first.field.isolines.empty() || options_.method != MapMethod::ScaleAware)
+    if (isWhole || options_.curves.empty() || options_.method != MapMethod::ScaleAware)
     {
       return first;
     }
+    // What is left out does not lead the field either.
     std::vector<std::string> leftOut = reasons(first);
     GridMapResult plain = make(leftOut, {});
     if (!plain.status.ok())
@@ -734,7 +750,7 @@ private:
     std::vector<std::string> why;
     for (const CurveOutcome& curve : map.curves)
     {
-      why.push_back(map.status.ok() && !curve.met
+      why.push_back(!curve.met && !curve.why.empty()
           ? curve.why
           : "no map without inverted triangles has it beside the others (" + map.status.message +
             ")");
