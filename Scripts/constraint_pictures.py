@@ -364,7 +364,7 @@ def renderer_of(half, view, centre, half_height):
         renderer.AddActor(tube_actor(line + 1.5 * thick * view.back, colour, width * thick))
     ball = min(max(0.3 * half.quads.length, 0.014 * half_height), 0.035 * half_height)
     for place, colour in half.places:
-        at = place + 4 * thick * view.back
+        at = place + (10 * ball + 4 * thick) * view.back
         renderer.AddActor(tube_actor(ring(view, at, 2.4 * ball), colour, min(0.8 * thick, 0.5 * ball)))
     if half.balls:
         for vertex, valence in zip(half.quads.irregular, half.quads.valence):
@@ -420,9 +420,9 @@ def save(path, view, halves, shown, least_height, margin=1.35):
     shot.SetInput(window)
     shot.ReadFrontBufferOff()
     shot.Update()
-    # Twenty levels a channel are enough and make the file smaller.
+    # Twenty-five levels a channel are enough and make the file smaller.
     pixels = vtk_to_numpy(shot.GetOutput().GetPointData().GetScalars())
-    pixels[:] = numpy.round(pixels / 12.75) * 12.75
+    pixels[:] = numpy.round(pixels / 10.2) * 10.2
     writer = vtk.vtkPNGWriter()
     writer.SetCompressionLevel(9)
     writer.SetFileName(path)
@@ -550,16 +550,23 @@ class Pictures:
         return [line for _, _, line in sorted(found, key=lambda entry: entry[:2])]
 
     def beside(self, line):
-        """The chain of edges of the quads before that leaves along the line where it begins, once round and a third,
-        and whether it closes."""
+        """The chain of edges of the quads before that leaves along the line where it begins, once round and a third;
+        None where it closes, or runs more than 20 degrees off the line."""
         quads = self.before
         start = int(numpy.argmin(distances(quads.points, [line[0]])))
         along = line[min(5, len(line) // 4)] - line[0]
-        following = max(quads.neighbours(start), key=lambda v: (quads.points[v] - quads.points[start]) @ along
-                        / numpy.linalg.norm(quads.points[v] - quads.points[start]))
+        along /= numpy.linalg.norm(along)
+
+        def cosine(v):
+            edge = quads.points[v] - quads.points[start]
+            return edge @ along / numpy.linalg.norm(edge)
+
+        following = max(quads.neighbours(start), key=cosine)
+        if cosine(following) < numpy.cos(numpy.radians(20)):
+            return None
         length = numpy.linalg.norm(numpy.diff(line, axis=0), axis=1).sum()
         chain = quads.chain(start, following, int(1.33 * length / quads.length))
-        return quads.points[chain], len(chain) > 3 and chain[-2:] == chain[:2]
+        return None if len(chain) < 4 or chain[-2:] == chain[:2] else quads.points[chain]
 
     def cycle(self):
         """Round a limb, where edges do not close yet if there is such a place."""
@@ -567,13 +574,14 @@ class Pictures:
         if not loops:
             print("constraint_pictures: no picture of a cycle: no closed section in view", file=sys.stderr)
             return
-        line = next((line for line in loops if not self.beside(line)[1]), loops[0])
-        chain, closes = self.beside(line)
+        line = next((line for line in loops if self.beside(line) is not None), loops[0])
+        chain = self.beside(line)
         line = numpy.concatenate([line, line[:1]])
         quads, became, reason = remeshed(self.surface, self.args.quads, lines_data([line], "cycle"))
-        text = "before, with the closed line" + ("" if closes else "; edges there (black) do not close")
-        self.save_near("cycle", Half(self.before, text).add_lines([line], ASKED).add_lines([chain], BESIDE, 0.8),
-                       Half(quads, "a chain of edges closes" + why(reason)).add_became(became), line)
+        before = Half(self.before, "before, with the closed line").add_lines([line], ASKED)
+        if chain is not None:
+            before.add_lines([chain], BESIDE, 0.8).text += "; edges there (black) do not close"
+        self.save_near("cycle", before, Half(quads, "a chain of edges closes" + why(reason)).add_became(became), line)
 
     def move(self):
         """The irregular vertex in view with the most room round it goes towards the free place."""
@@ -595,7 +603,8 @@ class Pictures:
         place = points[numpy.argmin(distances(points, [target]))]
         others = found[numpy.linalg.norm(found - origin, axis=1) > 0]
         farthest = distances(others, points).max() / before.length
-        text = f"it is there, all others stay (within {farthest:.2f} edge lengths)"
+        text = "it is there, all others " + (
+            "stay" if farthest < 0.005 else f"move by {farthest:.2f} edge lengths at most")
         self.save_near(
             "move", Half(before, "before, with where an irregular vertex is to go")
             .add_lines([line], ASKED).add_places([target], ASKED),
@@ -613,10 +622,12 @@ class Pictures:
         up = numpy.cross(normal, within)
         view = View(self.surface, within, up if up @ self.view.up > 0 else -up)
         lines = sections(self.surface, origin, normal)
+        # Half an edge length, and by how much the surface is off its own image.
+        tolerance = 0.5 * self.before.length + fields.GetArray("SymmetryDeviation").GetValue(1) * self.view.diagonal
         halves = []
         for mesh, colour, text in ((self.before, ASKED, "before: "),
                                    (quads, MET, "symmetric: ")):
-            alone = without_image(mesh, origin, normal)
+            alone = without_image(mesh, origin, normal, tolerance)
             text += f"{len(mesh.irregular) - len(alone)} of {len(mesh.irregular)} irregular vertices have an image"
             halves.append(Half(mesh, text + why(reason if mesh is quads else "")).add_lines(lines, colour, 0.6)
                           .add_places(alone[view.seen(alone, -1)], NOT_MET))
@@ -631,13 +642,13 @@ class Pictures:
             self.view.points, 0, 1.06)
 
 
-def without_image(quads, origin, normal):
-    """Irregular vertices that have none of the same valence within half an edge length of their mirror image."""
+def without_image(quads, origin, normal, tolerance):
+    """Irregular vertices that have none of the same valence near their mirror image."""
     points = quads.points[quads.irregular]
     images = points - 2 * ((points - origin) @ normal)[:, None] * normal
     apart = numpy.array([distances(points[quads.valence == valence], [image]).min()
                          for image, valence in zip(images, quads.valence)])
-    return points[apart > 0.5 * quads.length]
+    return points[apart > tolerance]
 
 
 def why(reason):
