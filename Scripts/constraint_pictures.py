@@ -9,9 +9,10 @@ same surface, seen by the same camera.
 
 On the left what is asked for, as it is drawn with the mouse in this view, in orange; on the right what became of it,
 in green, or in magenta if it is not met. Balls are irregular vertices: blue has three edges, red five, purple six or
-more, black two; in the picture of the symmetry those without a mirror image have a ring. Places are chosen by the
-surface: irregular vertices in view of the camera, or the place that is farthest from them. --view is the direction from
-the surface to the camera. FOLDER gets constraint-CLASS.png for the classes guide, valence, connection, cycle, move,
+more, black two; in the picture of the symmetry those without a mirror image have a ring; in that of the sizes quads are
+orange where they are smaller than the mean, and teal where they are larger. Places are chosen by the surface: irregular
+vertices in view of the camera, or the place that is farthest from them. --view is the direction from the surface to the
+camera. FOLDER gets constraint-CLASS.png for the classes guide, valence, connection, cycle, move,
 symmetry and sizing.
 """
 import argparse
@@ -28,6 +29,7 @@ SIDE = 600
 TEXT = 64  # pixels below each picture
 ASKED, MET, NOT_MET, BESIDE = (0.95, 0.50, 0.0), (0.0, 0.62, 0.25), (0.85, 0.0, 0.65), (0.1, 0.1, 0.1)
 VALENCES = {2: (0.05, 0.05, 0.05), 3: (0.12, 0.35, 0.85), 5: (0.85, 0.13, 0.13), 6: (0.55, 0.15, 0.65)}
+SIZES = ((1.0, 0.62, 0.25), (0.92, 0.92, 0.92), (0.35, 0.72, 0.68))  # of quads of half, once and twice the mean size
 CURVES = {"stroke": 1, "connection": 2, "cycle": 3}  # ConstraintType
 UNMET = (3, 5, 7)  # of the array Constraint of the output
 
@@ -259,10 +261,10 @@ def sections(surface, origin, normal):
 # --- one picture ------------------------------------------------------------------------------------------------------
 
 class Half:
-    """One side of a picture: quads, lines and places on top, and a text."""
+    """One side of a picture: quads, coloured by their size or not, lines and places on top, and a text."""
 
-    def __init__(self, quads, text):
-        self.quads, self.text, self.lines, self.places, self.balls = quads, text, [], [], True
+    def __init__(self, quads, text, sizes=False):
+        self.quads, self.text, self.lines, self.places, self.sizes = quads, text, [], [], sizes
 
     def add_lines(self, lines, colour, width=1.0):
         self.lines += [(numpy.asarray(line), colour, width) for line in lines]
@@ -298,12 +300,31 @@ def actor_of(algorithm, colour):
     return actor
 
 
-def surface_actor(quads):
+def colours_of_sizes(quads):
+    """The square roots of the areas against their mean: orange at half of it, grey, teal at twice."""
+    corners = quads.points[quads.corners]
+    areas = numpy.linalg.norm(numpy.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]), axis=1) / 2
+    sizes = numpy.sqrt(areas)
+    log = numpy.log2(numpy.maximum(sizes, 1e-3 * sizes.mean()) / sizes.mean())
+    colours = numpy.stack([numpy.interp(log, (-1, 0, 1), levels) for levels in zip(*SIZES)], axis=1)
+    result = numpy_to_vtk((255 * colours).astype(numpy.uint8), deep=True)
+    result.SetName("Colour")
+    return result
+
+
+def surface_actor(quads, sizes):
+    data = vtk.vtkPolyData()
+    data.ShallowCopy(quads.data)
+    if sizes:
+        data.GetCellData().SetScalars(colours_of_sizes(quads))
     normals = vtk.vtkPolyDataNormals()
-    normals.SetInputData(quads.data)
+    normals.SetInputData(data)
     normals.SetFeatureAngle(40)
     normals.ConsistencyOff()
-    actor = actor_of(normals, (0.92, 0.92, 0.92))
+    actor = actor_of(normals, SIZES[1])
+    if sizes:
+        actor.GetMapper().ScalarVisibilityOn()
+        actor.GetMapper().SetScalarModeToUseCellData()
     style = actor.GetProperty()
     style.EdgeVisibilityOn()
     style.SetEdgeColor(0.33, 0.33, 0.37)
@@ -358,7 +379,7 @@ def renderer_of(half, view, centre, half_height):
     """What lies on top is moved to the camera by its size, which a parallel camera does not see."""
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1, 1, 1)
-    renderer.AddActor(surface_actor(half.quads))
+    renderer.AddActor(surface_actor(half.quads, half.sizes))
     thick = 0.012 * half_height
     for line, colour, width in half.lines:
         renderer.AddActor(tube_actor(line + 1.5 * thick * view.back, colour, width * thick))
@@ -366,10 +387,9 @@ def renderer_of(half, view, centre, half_height):
     for place, colour in half.places:
         at = place + (10 * ball + 4 * thick) * view.back
         renderer.AddActor(tube_actor(ring(view, at, 2.4 * ball), colour, min(0.8 * thick, 0.5 * ball)))
-    if half.balls:
-        for vertex, valence in zip(half.quads.irregular, half.quads.valence):
-            at = half.quads.points[vertex] + ball * view.back
-            renderer.AddActor(ball_actor(at, VALENCES[min(max(valence, 2), 6)], ball))
+    for vertex, valence in zip(half.quads.irregular, half.quads.valence):
+        at = half.quads.points[vertex] + ball * view.back
+        renderer.AddActor(ball_actor(at, VALENCES[min(max(valence, 2), 6)], ball))
     camera = renderer.GetActiveCamera()
     camera.ParallelProjectionOn()
     camera.SetFocalPoint(*centre)
@@ -422,7 +442,7 @@ def save(path, view, halves, shown, least_height, margin=1.35):
     shot.Update()
     # Twenty-five levels a channel are enough and make the file smaller.
     pixels = vtk_to_numpy(shot.GetOutput().GetPointData().GetScalars())
-    pixels[:] = numpy.round(pixels / 10.2) * 10.2
+    pixels[:] = numpy.round(numpy.round(pixels / 10.2) * 10.2)
     writer = vtk.vtkPNGWriter()
     writer.SetCompressionLevel(9)
     writer.SetFileName(path)
@@ -637,8 +657,8 @@ class Pictures:
         error = self.args.chord_error or self.view.diagonal / 2000
         quads, _, reason = remeshed(self.surface, self.args.quads, ChordError=(error,))
         save(self.path("sizing"), self.view, (
-            Half(self.before, f"before: {len(self.before.corners):,} quads of one size"),
-            Half(quads, f"{len(quads.corners):,} quads, smaller where the surface is curved" + why(reason))),
+            Half(self.before, f"before: {len(self.before.corners):,} quads of one size", True),
+            Half(quads, f"{len(quads.corners):,} quads, smaller where the surface is curved" + why(reason), True)),
             self.view.points, 0, 1.06)
 
 
