@@ -26,6 +26,11 @@
 
 class vtkPolyData;
 
+namespace quadrille
+{
+class Session;
+}
+
 class QUADRILLEFILTERS_EXPORT vtkQuadrilleSession : public vtkObject
 {
 public:
@@ -87,6 +92,16 @@ public:
 
   ///@{
   /**
+   * Quads of the present state in a time that follows their number: those of the intermediate level, from which Update()
+   * goes on. They are not the state's quads, and the report stays. GetPreviewQuads() has those of the last call that
+   * returned true.
+   */
+  bool Preview();
+  vtkPolyData* GetPreviewQuads();
+  ///@}
+
+  ///@{
+  /**
    * To the state before, or after. False where there is none.
    */
   bool Undo();
@@ -133,6 +148,9 @@ private:
   void operator=(const vtkQuadrilleSession&) = delete;
 
   struct Internals;
+  /// Progress of its runs becomes events.
+  void TellProgress(quadrille::Session& session);
+
   std::unique_ptr<Internals> Data;
   bool AbortUpdate = false;
   double Progress = 0;

@@ -232,13 +232,23 @@ class Session:
         self._report = json.loads(text)
         return self._report
 
+    def preview(self):
+        """Points (n by 3) and quads (m by 4) from the intermediate level: the same layout as update() makes, in a time
+        that follows the number of quads. They lie near the mesh, not on it. update() afterwards goes on from there; the
+        report is not touched."""
+        self._check(self._session.Preview())
+        return self._arrays(self._session.GetPreviewQuads())
+
+    @staticmethod
+    def _arrays(data):
+        corners = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).copy()
+        return vtk_to_numpy(data.GetPoints().GetData()).copy(), corners.reshape(-1, 4)
+
     @property
     def quads(self):
         """Points (n by 3) and quads (m by 4) of the present state, as arrays of their own; update() is run before, if
         need be."""
-        data = self.polydata
-        corners = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).copy()
-        return vtk_to_numpy(data.GetPoints().GetData()).copy(), corners.reshape(-1, 4)
+        return self._arrays(self.polydata)
 
     @property
     def polydata(self):

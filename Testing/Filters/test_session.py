@@ -78,6 +78,19 @@ class SessionTest(unittest.TestCase):
         self.assertAlmostEqual(made.settings()["feature_angle"], 40)
         self.assertGreater(len(made.quads[1]), len(second[1]))
 
+    def test_preview(self):
+        made = session()
+        points, quads = made.preview()
+        self.assertEqual(points.shape[1], 3)
+        report = made.update()
+        self.assertNotIn("phase1", report["stages"])
+        self.assertIn("replay", report["stages"])
+        self.assertEqual(len(quads), len(made.quads[1]))
+        self.assertTrue(same(made.preview(), (points, quads)))
+        self.assertEqual(made.update()["runs"], 0)
+        with self.assertRaisesRegex(quadrille.RemeshError, "stopped"):
+            session(progress=lambda fraction: False).preview()
+
     def test_each_kind(self):
         made = session()
         made.add_guide(POINTS[[0, 30]])
