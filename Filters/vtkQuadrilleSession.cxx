@@ -130,6 +130,15 @@ void vtkQuadrilleSession::Internals::Write()
     return;
   }
   writeQuads(result->quads, this->Quads);
+  if (!result->mirrorPoint.empty())
+  {
+    auto image = quadrille::newArray<vtkIdTypeArray>(quadrille::arrays::kMirrorPoint);
+    for (const quadrille::Index point : result->mirrorPoint)
+    {
+      image->InsertNextValue(point);
+    }
+    this->Quads->GetPointData()->AddArray(image);
+  }
 
   std::vector<quadrille::Vector3> places;
   auto point = quadrille::newArray<vtkIdTypeArray>("PointId");

@@ -161,6 +161,11 @@ ConstraintMeasure SessionJudge::operator()(const IrregularEdit&)
       ++other;
     }
   }
+  if (other > 0 && symmetric_ != nullptr && symmetric_->plane.height(measure.place) < 0)
+  {
+    measure.reason += "; with a symmetry the operations in front of the mirror plane count: make "
+                      "it at the mirror image";
+  }
   measure.deviation = static_cast<double>(other);
   measure.isMet = other == 0;
   return measure;

@@ -6,6 +6,7 @@
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
 #include "Mesh/ContentHash.h"
+#include "Mesh/Guides.h"
 #include "Mesh/SurfacePlaces.h"
 #include "Numerics/MinCostFlow.h"
 #include "Pipeline/Symmetry.h"
@@ -104,6 +105,10 @@ public:
       result->irregular = irregularVertices(made, onCurve);
       result->fixedPoints = pointsOnCurves(made, onCurve);
     }
+    if (made.status.ok() && composed_.symmetry && composed_.input.regularElsewhere)
+    {
+      tellOtherIrregular(*result);
+    }
     result->targetEdgeLength = made.targetEdgeLength;
     result->targetQuads = made.targetQuads;
     if (!options_.preview)
@@ -146,6 +151,24 @@ private:
     }
     ++runs_;
     return made;
+  }
+
+  /// In the mirror plane the half has its boundary, where vertices may become irregular that no operation asks for.
+  void tellOtherIrregular(SessionResult& result) const
+  {
+    const std::vector<int>& asked = composed_.input.targetValences;
+    for (const IrregularVertex& vertex : result.irregular)
+    {
+      const int there = vertex.point < asked.size() ? asked[vertex.point] : 0;
+      const int valence = there != 0 ? there : kRegularValence;
+      if (mirrored_.plane.height(vertex.place) >= -kMirrorTolerance * mirrored_.diagonal &&
+        valence != vertex.valence)
+      {
+        result.report.notices.push_back("the operations leave valence " + std::to_string(valence) +
+          " at " + placeText(vertex.place) + ", but the symmetric quads have " +
+          std::to_string(vertex.valence) + " there");
+      }
+    }
   }
 
   void compose(std::map<int, std::string> leftOut)

@@ -129,7 +129,8 @@ public:
   std::shared_ptr<const SessionResult> result() const;
   /// Quads of the present state from the intermediate level, see RemeshOptions::preview, with a report that has no
   /// words on constraints; no irregular vertices. They are not the state's result, but an update() afterwards starts
-  /// from their map. A failure, a stop included, is the report's status. Throws InvalidInput as update(), and where a symmetry is asked for.
+  /// from their map. A failure, a stop included, is the report's status. Throws InvalidInput as update(), and where a
+  /// symmetry is asked for.
   SessionResult preview();
 
   /// False where there is nothing to go back, or forward, to.
