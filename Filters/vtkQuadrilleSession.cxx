@@ -29,7 +29,7 @@ struct vtkQuadrilleSession::Internals
   std::string Report;
   std::string Error;
   bool ErrorIsInInput = false;
-  vtkNew<vtkPolyData> Quads, Irregular;
+  vtkNew<vtkPolyData> Quads, Irregular, PreviewQuads;
   std::shared_ptr<const quadrille::SessionResult> Written; ///< what these two hold
 
   quadrille::Session& Get()
@@ -89,6 +89,28 @@ vtkSmartPointer<vtkPoints> vtkPointsAt(const std::vector<quadrille::Vector3>& pl
   return points;
 }
 
+void writeQuads(const quadrille::QuadMesh& quads, vtkPolyData* output)
+{
+  auto valence = quadrille::newArray<vtkIntArray>(quadrille::arrays::kValence);
+  auto onBoundary = quadrille::newArray<vtkIntArray>(quadrille::arrays::kOnBoundary);
+  vtkNew<vtkCellArray> cells;
+  for (const std::array<quadrille::Index, 4>& quad : quads.quads)
+  {
+    cells->InsertNextCell({ static_cast<vtkIdType>(quad[0]), static_cast<vtkIdType>(quad[1]),
+      static_cast<vtkIdType>(quad[2]), static_cast<vtkIdType>(quad[3]) });
+  }
+  for (std::size_t i = 0; i < quads.points.size(); ++i)
+  {
+    valence->InsertNextValue(quads.valence[i]);
+    onBoundary->InsertNextValue(quads.onBoundary[i]);
+  }
+  output->Initialize();
+  output->SetPoints(vtkPointsAt(quads.points));
+  output->SetPolys(cells);
+  output->GetPointData()->AddArray(valence);
+  output->GetPointData()->AddArray(onBoundary);
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -107,24 +129,16 @@ void vtkQuadrilleSession::Internals::Write()
   {
     return;
   }
-  const quadrille::QuadMesh& quads = result->quads;
-  auto valence = quadrille::newArray<vtkIntArray>(quadrille::arrays::kValence);
-  auto onBoundary = quadrille::newArray<vtkIntArray>(quadrille::arrays::kOnBoundary);
-  vtkNew<vtkCellArray> cells;
-  for (const std::array<quadrille::Index, 4>& quad : quads.quads)
+  writeQuads(result->quads, this->Quads);
+  if (!result->mirrorPoint.empty())
   {
-    cells->InsertNextCell({ static_cast<vtkIdType>(quad[0]), static_cast<vtkIdType>(quad[1]),
-      static_cast<vtkIdType>(quad[2]), static_cast<vtkIdType>(quad[3]) });
+    auto image = quadrille::newArray<vtkIdTypeArray>(quadrille::arrays::kMirrorPoint);
+    for (const quadrille::Index point : result->mirrorPoint)
+    {
+      image->InsertNextValue(point);
+    }
+    this->Quads->GetPointData()->AddArray(image);
   }
-  for (std::size_t i = 0; i < quads.points.size(); ++i)
-  {
-    valence->InsertNextValue(quads.valence[i]);
-    onBoundary->InsertNextValue(quads.onBoundary[i]);
-  }
-  this->Quads->SetPoints(vtkPointsAt(quads.points));
-  this->Quads->SetPolys(cells);
-  this->Quads->GetPointData()->AddArray(valence);
-  this->Quads->GetPointData()->AddArray(onBoundary);
 
   std::vector<quadrille::Vector3> places;
   auto point = quadrille::newArray<vtkIdTypeArray>("PointId");
@@ -241,25 +255,52 @@ std::string vtkQuadrilleSession::GetConstraints()
 }
 
 //------------------------------------------------------------------------------
+void vtkQuadrilleSession::TellProgress(quadrille::Session& session)
+{
+  this->AbortUpdate = false;
+  session.setProgress(
+    [this](double fraction, const std::string&)
+    {
+      this->Progress = fraction;
+      this->InvokeEvent(vtkCommand::ProgressEvent, &this->Progress);
+      return !this->AbortUpdate;
+    });
+}
+
 bool vtkQuadrilleSession::Update()
 {
   return this->Data->Try(
     [&]
     {
       quadrille::Session& session = this->Data->Get();
-      this->AbortUpdate = false;
-      session.setProgress(
-        [this](double fraction, const std::string&)
-        {
-          this->Progress = fraction;
-          this->InvokeEvent(vtkCommand::ProgressEvent, &this->Progress);
-          return !this->AbortUpdate;
-        });
+      this->TellProgress(session);
       const quadrille::SessionReport& report = session.update();
       this->Data->Report = quadrille::reportText(report);
       this->Data->Error = report.status.message;
       return report.status.ok();
     });
+}
+
+bool vtkQuadrilleSession::Preview()
+{
+  return this->Data->Try(
+    [&]
+    {
+      quadrille::Session& session = this->Data->Get();
+      this->TellProgress(session);
+      const quadrille::SessionResult made = session.preview();
+      this->Data->Error = made.report.status.message;
+      if (made.report.status.ok())
+      {
+        writeQuads(made.quads, this->Data->PreviewQuads);
+      }
+      return made.report.status.ok();
+    });
+}
+
+vtkPolyData* vtkQuadrilleSession::GetPreviewQuads()
+{
+  return this->Data->PreviewQuads;
 }
 
 std::string vtkQuadrilleSession::GetReport() const

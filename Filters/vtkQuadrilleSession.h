@@ -6,10 +6,11 @@
  *
  * Constraints have ids that never change. Every change makes a state to which Undo() goes back; what was made of a
  * state is remembered, so that going back makes nothing, and Update() makes what the present state needs. The
- * constraints are texts in JSON: `{"kind": "guide", "points": [[x, y, z], ...], "weight": 1, "radius": 0}`, in the same
- * way "feature" (points), "guide region" (polygons, direction, weight), "valence" (point, valence), "size" (point,
- * radius, factor), "size region" (polygons, factor), "irregular" (operation: "move", "split", "merge", "cancel" or
- * "add"; points, valences), "connection" (points), "cycle" (points). Python's quadrille.Session has a method for each.
+ * constraints are texts in JSON: `{"kind": "guide", "points": [[x, y, z], ...], "weight": 1, "radius": 0}`, in the
+ * same way "feature" (points), "guide region" (polygons, direction, weight), "valence" (point, valence), "size"
+ * (point, radius, factor), "size region" (polygons, factor), "irregular" (operation: "move", "split", "merge",
+ * "cancel" or "add"; points, valences), "connection" (points), "cycle" (points), "symmetry" (origin and normal of the
+ * plane, or neither: it is found). Python's quadrille.Session has a method for each.
  *
  * A method that fails returns false, 0 or an empty text; GetErrorText() says why. While Update() runs, the session
  * invokes ProgressEvent; GetProgress() is the fraction, and AbortUpdateOn() in an observer stops the run.
@@ -26,6 +27,11 @@
 
 class vtkPolyData;
 
+namespace quadrille
+{
+class Session;
+}
+
 class QUADRILLEFILTERS_EXPORT vtkQuadrilleSession : public vtkObject
 {
 public:
@@ -35,7 +41,8 @@ public:
 
   /**
    * Begins with a surface and the arrays that it has (see vtkQuadrilleSurfaceAlgorithm), and with settings as JSON: one
-   * of "quads", "edge_length" and "relative_edge_length", and "feature_angle" (radians; null: none), "method",
+   * of "quads", "edge_length" and "relative_edge_length", and "feature_angle" (radians; null: none), "chord_error"
+   * (null: off), "gap_quads", "smallest_size", "largest_size", "curvature_guides" (null: off), "method",
    * "integers", "coarse_vertices", "close_handles", "small_components", "anisotropy_limit", "final_quality",
    * "distortion_metric", "maximum_number_of_quads", "smoothing_steps", "warm_start", "threads", "memory_limit" (bytes).
    * What went before is let go.
@@ -78,11 +85,22 @@ public:
 
   ///@{
   /**
-   * Of the present state: the quads, with Valence and OnBoundary on points; the irregular vertices inside, off
-   * features, with PointId (of the surface, the vertex's id) and Valence. Empty before Update().
+   * Of the present state: the quads, with Valence and OnBoundary on points, and with a symmetry MirrorPoint; the
+   * irregular vertices inside, off features, with PointId (of the surface, the vertex's id) and Valence. Empty before
+   * Update().
    */
   vtkPolyData* GetQuads();
   vtkPolyData* GetIrregularVertices();
+  ///@}
+
+  ///@{
+  /**
+   * Quads of the present state in a time that follows their number: those of the intermediate level, from which
+   * Update() goes on. They are not the state's quads, and the report stays. Refused where a symmetry is asked for.
+   * GetPreviewQuads() has those of the last call that returned true.
+   */
+  bool Preview();
+  vtkPolyData* GetPreviewQuads();
   ///@}
 
   ///@{
@@ -133,6 +151,9 @@ private:
   void operator=(const vtkQuadrilleSession&) = delete;
 
   struct Internals;
+  /// Progress of its runs becomes events.
+  void TellProgress(quadrille::Session& session);
+
   std::unique_ptr<Internals> Data;
   bool AbortUpdate = false;
   double Progress = 0;

@@ -191,9 +191,11 @@ public:
         askInFront(request);
       }
     }
+    // All others regular: those in front say all, and an image that is off by a vertex would be one too many.
+    const bool isWhole = task_.whole.surface.regularElsewhere && !askedBy_.empty();
     for (const ValenceRequest& request : requests)
     {
-      if (pointOf_[request.vertex] == kInvalidIndex)
+      if (!isWhole && pointOf_[request.vertex] == kInvalidIndex)
       {
         askBehind(request);
       }

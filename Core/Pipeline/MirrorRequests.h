@@ -26,7 +26,8 @@ struct MirrorTask
 /// Guides, valences and sizes of the half: its own, and, where it has none, the images of those behind the plane; a
 /// size of 1 counts as none. Where both ask for guides that differ by more than ten degrees, or for different valences,
 /// those in front are followed. In the plane a vertex of the half has half of the quads asked for; an odd number, which
-/// has no image, is not asked. Returns what the user should know.
+/// has no image, is not asked. With regularElsewhere valences behind the plane are asked only where there are none in
+/// front. Returns what the user should know.
 std::vector<std::string> askOfHalf(const MirrorTask& task, MirrorHalf& half);
 
 /// Which connections and cycles of the whole are asked of the half, and which of them as images.

@@ -198,6 +198,16 @@ public:
     part().curve = composed_.input.curves.size();
     composed_.input.curves.push_back({ CurveKind::Cycle, cycle.points });
   }
+  void operator()(const MirrorSymmetry&)
+  {
+    if (composed_.symmetry)
+    {
+      const std::string earlier = constraints_[*composed_.symmetry]->name();
+      refuse("there is ", earlier, " already, and quads have one mirror plane: remove ", earlier,
+        " or ", name());
+    }
+    composed_.symmetry = at_;
+  }
 
 private:
   struct Asked

@@ -37,6 +37,8 @@ struct PlacedPart
 struct ComposedInput
 {
   SurfaceInput input;
+  /// The constraint that asks for a symmetry, its place in `parts`; none: the quads have not to be symmetric.
+  std::optional<std::size_t> symmetry;
   std::vector<PlacedPart> parts;    ///< in the order of the constraints
   std::vector<std::string> notices; ///< what the user should know
 };

@@ -20,10 +20,10 @@ class SessionJudge
 public:
   SessionJudge(const SurfaceInput& surface, const SessionConstraints& constraints,
     const ComposedInput& composed, const RemeshResult& made,
-    const std::vector<IrregularVertex>& irregular)
+    const std::vector<IrregularVertex>& irregular, const SymmetricResult* symmetric)
     : surface_(surface), constraints_(constraints), composed_(composed), quads_(made.quads),
       curves_(made.curves), irregular_(irregular), targetEdgeLength_(made.targetEdgeLength),
-      measures_(made.quads)
+      symmetric_(symmetric), measures_(made.quads)
   {
     std::size_t guides = 0;
     for (const PlacedPart& part : composed.parts)
@@ -75,6 +75,7 @@ public:
     closed.push_back(closed.front());
     return line(ConstraintKind::Cycle, std::move(closed));
   }
+  ConstraintMeasure operator()(const MirrorSymmetry&);
 
 private:
   ConstraintMeasure measureOf(const SessionConstraint& constraint)
@@ -131,6 +132,7 @@ private:
   const std::vector<CurveOutcome>& curves_;
   const std::vector<IrregularVertex>& irregular_;
   double targetEdgeLength_;
+  const SymmetricResult* symmetric_; ///< null: the quads were not made so
   ConstraintMeasures measures_;
   std::optional<LinesInQuads> lines_; ///< made when they are needed first
   std::size_t mostPlaces_ = 0;
@@ -159,8 +161,29 @@ ConstraintMeasure SessionJudge::operator()(const IrregularEdit&)
       ++other;
     }
   }
+  if (other > 0 && symmetric_ != nullptr && symmetric_->plane.height(measure.place) < 0)
+  {
+    measure.reason += "; with a symmetry the operations in front of the mirror plane count: make "
+                      "it at the mirror image";
+  }
   measure.deviation = static_cast<double>(other);
   measure.isMet = other == 0;
+  return measure;
+}
+
+/// Connectivity is symmetric whenever there are quads, so that it is the surface that deviates.
+ConstraintMeasure SessionJudge::operator()(const MirrorSymmetry&)
+{
+  if (symmetric_ == nullptr)
+  {
+    return ConstraintMeasure::unknown(part_->place, "diagonals", "the quads are not symmetric");
+  }
+  ConstraintMeasure measure;
+  measure.place = symmetric_->deviation.place;
+  measure.unit = "diagonals";
+  measure.deviation = symmetric_->deviation.rms / symmetric_->diagonal;
+  measure.deviation95 = std::numeric_limits<double>::quiet_NaN();
+  measure.isMet = true;
   return measure;
 }
 
@@ -249,9 +272,9 @@ ConstraintMeasure SessionJudge::size(double factor)
 
 std::vector<ConstraintReport> reportConstraints(const SurfaceInput& surface,
   const SessionConstraints& constraints, const ComposedInput& composed, const RemeshResult& made,
-  const std::vector<IrregularVertex>& irregular)
+  const std::vector<IrregularVertex>& irregular, const SymmetricResult* symmetric)
 {
-  return SessionJudge(surface, constraints, composed, made, irregular).run();
+  return SessionJudge(surface, constraints, composed, made, irregular, symmetric).run();
 }
 
 } // namespace quadrille

@@ -3,6 +3,7 @@
 /// A word on each constraint of a session, measured in the quads.
 #pragma once
 
+#include "Pipeline/Symmetry.h"
 #include "Session/ComposedInput.h"
 #include "Session/Session.h"
 
@@ -14,6 +15,6 @@ namespace quadrille
 /// made: for the composed input; without quads where there are none. irregular: see irregularVertices.
 std::vector<ConstraintReport> reportConstraints(const SurfaceInput& surface,
   const SessionConstraints& constraints, const ComposedInput& composed, const RemeshResult& made,
-  const std::vector<IrregularVertex>& irregular);
+  const std::vector<IrregularVertex>& irregular, const SymmetricResult* symmetric);
 
 } // namespace quadrille

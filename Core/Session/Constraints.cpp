@@ -83,6 +83,18 @@ public:
   }
   void operator()(const Connection& connection) const { requirePoints(connection.points, 2); }
   void operator()(const Cycle& cycle) const { requirePoints(cycle.points, 3); }
+  void operator()(const MirrorSymmetry& symmetry) const
+  {
+    if (symmetry.plane)
+    {
+      requirePoints({ symmetry.plane->origin }, 1);
+      const double length = symmetry.plane->normal.stableNorm();
+      if (!(length > 0 && std::isfinite(length)))
+      {
+        refuse(name_, " needs a normal that is finite and not zero, or no plane: then it is found");
+      }
+    }
+  }
 
 private:
   void requirePoints(const std::vector<Vector3>& points, std::size_t least) const
@@ -153,7 +165,7 @@ private:
 const char* kindOf(const ConstraintContent& content)
 {
   constexpr const char* kNames[] = { "feature", "guide", "guide region", "valence", "size",
-    "size region", "irregular", "connection", "cycle" };
+    "size region", "irregular", "connection", "cycle", "symmetry" };
   static_assert(std::variant_size_v<ConstraintContent> == std::size(kNames));
   return kNames[content.index()];
 }
@@ -166,7 +178,10 @@ std::optional<Vector3> placeOf(const ConstraintContent& content)
     ByKind{ [](const ValenceAt& at) -> std::optional<Vector3> { return at.point; },
       [](const SizeAt& at) -> std::optional<Vector3> { return at.point; },
       [](const GuideRegion&) -> std::optional<Vector3> { return std::nullopt; },
-      [](const SizeRegion&) -> std::optional<Vector3> { return std::nullopt; }, first },
+      [](const SizeRegion&) -> std::optional<Vector3> { return std::nullopt; },
+      [](const MirrorSymmetry& symmetry) -> std::optional<Vector3>
+      { return symmetry.plane ? std::optional<Vector3>(symmetry.plane->origin) : std::nullopt; },
+      first },
     content);
 }
 

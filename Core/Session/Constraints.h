@@ -6,6 +6,7 @@
 
 #include "Base/Types.h"
 #include "Mesh/CurveRequests.h"
+#include "Mesh/MirrorPlane.h"
 
 #include <optional>
 #include <string>
@@ -124,10 +125,18 @@ struct Cycle
   std::vector<Vector3> points; ///< 3 or more, see CurveRequest
 };
 
-using ConstraintContent = std::variant<FeatureLine, GuideStroke, GuideRegion, ValenceAt, SizeAt,
-  SizeRegion, IrregularEdit, Connection, Cycle>;
+/// Quads that are their own mirror image, see remeshSymmetric. One at most is in force.
+struct MirrorSymmetry
+{
+  /// The normal may have any length but 0. None: found, see findMirrorPlane.
+  std::optional<MirrorPlane> plane;
+};
 
-/// "feature", "guide", "guide region", "valence", "size", "size region", "irregular", "connection", "cycle".
+using ConstraintContent = std::variant<FeatureLine, GuideStroke, GuideRegion, ValenceAt, SizeAt,
+  SizeRegion, IrregularEdit, Connection, Cycle, MirrorSymmetry>;
+
+/// "feature", "guide", "guide region", "valence", "size", "size region", "irregular", "connection", "cycle",
+/// "symmetry".
 const char* kindOf(const ConstraintContent& content);
 /// Where it is, for messages: its first point.
 std::optional<Vector3> placeOf(const ConstraintContent& content);

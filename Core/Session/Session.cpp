@@ -6,8 +6,10 @@
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
 #include "Mesh/ContentHash.h"
+#include "Mesh/Guides.h"
 #include "Mesh/SurfacePlaces.h"
 #include "Numerics/MinCostFlow.h"
+#include "Pipeline/Symmetry.h"
 #include "Session/ComposedInput.h"
 #include "Session/ConstraintReports.h"
 #include "Session/IrregularEdits.h"
@@ -51,13 +53,14 @@ void checkSettings(const RemeshOptions& settings)
 class StateRun
 {
 public:
-  StateRun(SessionData& data, const SessionState& state) : data_(data), state_(state)
+  StateRun(SessionData& data, const SessionState& state, bool isPreview = false)
+    : data_(data), state_(state)
   {
     options_ = state.settings;
     options_.threads = data.threads;
     options_.memoryLimit = data.memoryLimit;
     options_.progress = data.progress;
-    options_.preview = false;
+    options_.preview = isPreview;
     options_.mergeCharts = false;
     options_.knownMap = 0;
   }
@@ -74,7 +77,7 @@ public:
       const auto culprit = lastOfShortestFailing(leftOut);
       if (!culprit)
       {
-        composed_ = composeInput(data_.surface, data_.places(), state_.constraints, leftOut);
+        compose(leftOut);
         break;
       }
       leftOut.insert(*culprit);
@@ -96,16 +99,27 @@ public:
                           [this](const std::string& name) { return stages_.has(name); }),
       report.reused.end());
     report.runs = runs_;
-    if (made.status.ok())
+    if (made.status.ok() && !options_.preview)
     {
       const std::vector<std::uint8_t> onCurve = verticesOnCurves(made);
       result->irregular = irregularVertices(made, onCurve);
       result->fixedPoints = pointsOnCurves(made, onCurve);
     }
+    if (made.status.ok() && composed_.symmetry && composed_.input.regularElsewhere)
+    {
+      tellOtherIrregular(*result);
+    }
     result->targetEdgeLength = made.targetEdgeLength;
     result->targetQuads = made.targetQuads;
-    report.constraints =
-      reportConstraints(data_.surface, state_.constraints, composed_, made, result->irregular);
+    if (!options_.preview)
+    {
+      report.constraints = reportConstraints(data_.surface, state_.constraints, composed_, made,
+        result->irregular, composed_.symmetry ? &mirrored_ : nullptr);
+    }
+    if (made.status.ok())
+    {
+      result->mirrorPoint = std::move(mirrored_.mirrorPoint);
+    }
     result->quads = std::move(made.quads);
     report.seconds = secondsNow() - start;
     return result;
@@ -122,14 +136,64 @@ private:
 
   RemeshResult runWith(const std::map<int, std::string>& leftOut)
   {
-    composed_ = composeInput(data_.surface, data_.places(), state_.constraints, leftOut);
-    RemeshResult made = remesh(composed_.input, options_, data_.store);
+    compose(leftOut);
+    mirrored_ = {};
+    std::optional<RemeshResult> symmetric;
+    while (composed_.symmetry && !symmetric)
+    {
+      symmetric = runSymmetric(leftOut);
+    }
+    RemeshResult made =
+      symmetric ? std::move(*symmetric) : remesh(composed_.input, options_, data_.store);
     for (const StageRecord& record : made.stages)
     {
       stages_.add(record.stage, record.seconds, record.elementsIn, record.elementsOut);
     }
     ++runs_;
     return made;
+  }
+
+  /// In the mirror plane the half has its boundary, where vertices may become irregular that no operation asks for.
+  void tellOtherIrregular(SessionResult& result) const
+  {
+    const std::vector<int>& asked = composed_.input.targetValences;
+    for (const IrregularVertex& vertex : result.irregular)
+    {
+      const int there = vertex.point < asked.size() ? asked[vertex.point] : 0;
+      const int valence = there != 0 ? there : kRegularValence;
+      if (mirrored_.plane.height(vertex.place) >= -kMirrorTolerance * mirrored_.diagonal &&
+        valence != vertex.valence)
+      {
+        result.report.notices.push_back("the operations leave valence " + std::to_string(valence) +
+          " at " + placeText(vertex.place) + ", but the symmetric quads have " +
+          std::to_string(vertex.valence) + " there");
+      }
+    }
+  }
+
+  void compose(std::map<int, std::string> leftOut)
+  {
+    leftOut.insert(refused_.begin(), refused_.end());
+    composed_ = composeInput(data_.surface, data_.places(), state_.constraints, leftOut);
+  }
+
+  /// None where the surface has no such symmetry, whatever else is asked of it: then it is left out of all runs. Were
+  /// the input at fault in another way, a run without it would say so.
+  std::optional<RemeshResult> runSymmetric(const std::map<int, std::string>& leftOut)
+  {
+    const SessionConstraint& constraint = *state_.constraints[*composed_.symmetry];
+    try
+    {
+      mirrored_ = remeshSymmetric(composed_.input, options_,
+        { std::get<MirrorSymmetry>(constraint.content).plane }, &data_.store);
+      return std::move(mirrored_.remeshed);
+    }
+    catch (const InvalidInput& error)
+    {
+      refused_[constraint.id] = error.what();
+      compose(leftOut);
+      return std::nullopt;
+    }
   }
 
   /// Of the constraints that are not left out, in their order, the last one of the shortest row that has no result,
@@ -184,6 +248,8 @@ private:
   const SessionState& state_;
   RemeshOptions options_;
   ComposedInput composed_;
+  SymmetricResult mirrored_;           ///< of the last run, without `remeshed`
+  std::map<int, std::string> refused_; ///< symmetries that the surface has not, and why
   StageRecords stages_;
   Status stopped_;
   int runs_ = 0;
@@ -285,7 +351,8 @@ std::size_t SessionResult::bytes() const
   return bytesOf(quads.points) + bytesOf(quads.quads) + bytesOf(quads.sourceFace) +
     bytesOf(quads.sourceWeights) + bytesOf(quads.quadSourceFace) +
     bytesOf(quads.quadSourceWeights) + bytesOf(quads.valence) + bytesOf(quads.onBoundary) +
-    bytesOf(quads.lines) + bytesOf(irregular) + bytesOf(fixedPoints) + sizeof(*this);
+    bytesOf(quads.lines) + bytesOf(irregular) + bytesOf(fixedPoints) + bytesOf(mirrorPoint) +
+    sizeof(*this);
 }
 
 std::uint64_t surfaceHash(const SurfaceInput& surface, int threads)
@@ -589,6 +656,26 @@ const SessionReport& Session::update()
 std::shared_ptr<const SessionResult> Session::result() const
 {
   return data_->resultOf(data_->now());
+}
+
+SessionResult Session::preview()
+{
+  for (const auto& constraint : constraints())
+  {
+    if (std::holds_alternative<MirrorSymmetry>(constraint->content))
+    {
+      refuse("there is no preview of symmetric quads: make the result, or remove ",
+        constraint->name(), " first");
+    }
+  }
+  StateRun run(*data_, data_->now(), true);
+  if (const auto made = run.run())
+  {
+    return std::move(*made);
+  }
+  SessionResult stopped;
+  stopped.report.status = run.stopped();
+  return stopped;
 }
 
 bool Session::undo()

@@ -27,7 +27,7 @@ struct ConstraintReport
   bool isMet = false;
   double deviation = 0;   ///< in unit
   double deviation95 = 0; ///< the 95th percentile of what deviation is the mean of
-  std::string unit;       ///< "degrees", "edge lengths", "valence", "factor"
+  std::string unit;       ///< "degrees", "edge lengths", "valence", "factor", "diagonals"
   std::string reason;     ///< empty where it is met
 };
 
@@ -53,6 +53,7 @@ struct SessionResult
   std::vector<Index> fixedPoints;         ///< of the input, on features and boundaries; ascending
   double targetEdgeLength = 0;
   std::size_t targetQuads = 0;
+  std::vector<Index> mirrorPoint; ///< per point of symmetric quads: its image; else empty
 
   std::size_t bytes() const;
 };
@@ -85,6 +86,8 @@ struct SessionData;
 /// Irregular operations act on the irregular vertices that there are when they are added; then all others stay, until
 /// a valence is asked for afterwards that the sum of indices does not allow with them: then all that no one names are
 /// free.
+///
+/// A symmetry that the surface has not is left out as others that cannot be met.
 ///
 /// Not for several threads at once.
 class Session
@@ -124,6 +127,11 @@ public:
   const SessionReport& update();
   /// Of the present state; null before its update.
   std::shared_ptr<const SessionResult> result() const;
+  /// Quads of the present state from the intermediate level, see RemeshOptions::preview, with a report that has no
+  /// words on constraints; no irregular vertices. They are not the state's result, but an update() afterwards starts
+  /// from their map. A failure, a stop included, is the report's status. Throws InvalidInput as update(), and where a
+  /// symmetry is asked for.
+  SessionResult preview();
 
   /// False where there is nothing to go back, or forward, to.
   bool undo();

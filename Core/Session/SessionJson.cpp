@@ -216,6 +216,14 @@ struct ContentWriter
     json["points"] = pointsToJson(connection.points);
   }
   void operator()(const Cycle& cycle) const { json["points"] = pointsToJson(cycle.points); }
+  void operator()(const MirrorSymmetry& symmetry) const
+  {
+    if (symmetry.plane)
+    {
+      json["origin"] = pointToJson(symmetry.plane->origin);
+      json["normal"] = pointToJson(symmetry.plane->normal);
+    }
+  }
 };
 
 struct ContentReader
@@ -259,6 +267,15 @@ struct ContentReader
   }
   void operator()(Connection& connection) const { json.read("points", connection.points); }
   void operator()(Cycle& cycle) const { json.read("points", cycle.points); }
+  void operator()(MirrorSymmetry& symmetry) const
+  {
+    if (json.has("origin") || json.has("normal"))
+    {
+      symmetry.plane.emplace();
+      json.read("origin", symmetry.plane->origin);
+      json.read("normal", symmetry.plane->normal);
+    }
+  }
 };
 
 /// An empty content of each kind, in the order of the variant.
@@ -277,10 +294,6 @@ ConstraintContent emptyOfKind(const std::string& kind, const std::string& where)
     {
       return content;
     }
-  }
-  if (kind == "symmetry")
-  {
-    refuse(where, " asks for a symmetry, which is not built yet for sessions");
   }
   refuse(where, " is of the kind \"", kind, "\", which this version does not know");
 }

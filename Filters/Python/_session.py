@@ -23,6 +23,12 @@ _PLAIN = ("method", "integers", "small_components", "final_quality", "coarse_ver
           "threads", "memory_limit")
 
 
+#: Settings of sizes and guides that follow from the shape: whether None turns them off, and their range.
+_SHAPE = {"chord_error": (True, {"above": 0}), "gap_quads": (False, {"least": 0}),
+          "smallest_size": (False, {"above": 0, "most": 1}), "largest_size": (False, {"least": 1}),
+          "curvature_guides": (True, {"least": 0})}
+
+
 def _settings(quads=None, edge_length=None, relative_edge_length=None, **settings):
     """The text that the class takes; what is not named stays."""
     sizes = {name: value for name, value in (("quads", quads), ("edge_length", edge_length),
@@ -40,9 +46,13 @@ def _settings(quads=None, edge_length=None, relative_edge_length=None, **setting
         elif name == "memory_limit":
             megabytes = real(name, value, least=0)
             result[name] = 1e6 * megabytes if megabytes > 0 else None
+        elif name in _SHAPE:
+            may_be_off, limits = _SHAPE[name]
+            result[name] = (None if value is None and may_be_off else
+                            real(name, value, hint=" (None turns it off)" if may_be_off else "", **limits))
         elif name not in _PLAIN:
             raise InvalidInput(f"there is no setting {name!r}; the settings are quads, edge_length, "
-                               f"relative_edge_length, feature_angle, {', '.join(_PLAIN)}")
+                               f"relative_edge_length, feature_angle, {', '.join(_SHAPE)}, {', '.join(_PLAIN)}")
         elif isinstance(value, (bool, str)):
             result[name] = value
         else:
@@ -70,8 +80,9 @@ class Session:
     def __init__(self, mesh, *, quads=None, edge_length=None, relative_edge_length=None, guiding_direction=None,
                  guiding_weight=None, target_valence=None, sizing=None, feature_edges=None, patch_ids=None,
                  progress=None, **settings):
-        """mesh and all others as remesh() has them; further settings: feature_angle (degrees, None: off), method,
-        integers, coarse_vertices, close_handles, small_components, anisotropy_limit, final_quality, distortion_metric,
+        """mesh and all others as remesh() has them; further settings: feature_angle (degrees, None: off),
+        chord_error (None: off), gap_quads, smallest_size, largest_size, curvature_guides (None: off), method, integers,
+        coarse_vertices, close_handles, small_components, anisotropy_limit, final_quality, distortion_metric,
         maximum_number_of_quads, smoothing_steps, warm_start, threads, memory_limit. 5,000 quads where no size is
         given. progress: called as progress(fraction); False (not None) stops the run."""
         if quads is None and edge_length is None and relative_edge_length is None:
@@ -206,9 +217,15 @@ class Session:
         """A straight chain of edges closes along a closed polyline, from its last point to the first."""
         return self._add({"kind": "cycle", "points": self._line("points", points)}, edit)
 
-    def set_symmetry(self, *plane, edit=None):
-        """Not built yet for sessions."""
-        return self._add({"kind": "symmetry"}, edit)
+    def set_symmetry(self, origin=None, normal=None, *, edit=None):
+        """Quads that are their own image in a mirror plane, given by a point in it and a normal, or found. The quads in
+        front of it are made, and mirrored. One symmetry at most is in force."""
+        if (origin is None) != (normal is None):
+            raise InvalidInput("a symmetry needs an origin and a normal, or neither: then the plane is found")
+        if origin is None:
+            return self._add({"kind": "symmetry"}, edit)
+        return self._add({"kind": "symmetry", "origin": self._place("origin", origin),
+                          "normal": self._place("normal", normal)}, edit)
 
     def remove(self, constraint):
         self._report = None
@@ -232,19 +249,36 @@ class Session:
         self._report = json.loads(text)
         return self._report
 
-    @property
-    def quads(self):
-        """Points (n by 3) and quads (m by 4) of the present state, as arrays of their own; update() is run before, if
-        need be."""
-        data = self.polydata
+    def preview(self):
+        """Points (n by 3) and quads (m by 4) from the intermediate level: the same layout as update() makes, in a time
+        that follows the number of quads. They lie near the mesh, not on it. update() afterwards goes on from there; the
+        report is not touched. Not with a symmetry."""
+        self._check(self._session.Preview())
+        return self._arrays(self._session.GetPreviewQuads())
+
+    @staticmethod
+    def _arrays(data):
         corners = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).copy()
         return vtk_to_numpy(data.GetPoints().GetData()).copy(), corners.reshape(-1, 4)
 
     @property
+    def quads(self):
+        """Points (n by 3) and quads (m by 4) of the present state, as arrays of their own; update() is run before, if
+        need be."""
+        return self._arrays(self.polydata)
+
+    @property
     def polydata(self):
-        """The same as a vtkPolyData, with Valence and OnBoundary on points."""
+        """The same as a vtkPolyData, with Valence and OnBoundary on points, and with a symmetry MirrorPoint."""
         self.update()
         return self._session.GetQuads()
+
+    @property
+    def mirror_point(self):
+        """Per point of the quads its mirror image, a permutation that is its own inverse; None without a symmetry. See
+        quads."""
+        array = self.polydata.GetPointData().GetArray("MirrorPoint")
+        return None if array is None else vtk_to_numpy(array).copy()
 
     def irregular(self):
         """Irregular vertices inside of the surface, off its features: ids, points, valences; see quads."""
@@ -263,7 +297,7 @@ class Session:
         listed = json.loads(self._check(self._session.GetConstraints()))
         words = {word["id"]: word for word in self._report["constraints"]} if self._report else {}
         for constraint in listed:
-            for name in ("points", "point", "direction"):
+            for name in ("points", "point", "direction", "origin", "normal"):
                 if name in constraint:
                     constraint[name] = numpy.array(constraint[name], dtype=float)
             constraint.update({name: value for name, value in words.get(constraint["id"], {}).items()

@@ -12,10 +12,11 @@ from vtkmodules.vtkFiltersSources import vtkSphereSource
 import quadrille
 
 
-def dents(columns=48, rows=24):
-    """A torus whose tube has dents, so that nothing is a tie."""
+def dents(columns=48, rows=24, even=False):
+    """A torus whose tube has dents, so that nothing is a tie; even: they are symmetric about z = 0."""
     u, v = numpy.meshgrid(numpy.arange(columns) * 2 * numpy.pi / columns, numpy.arange(rows) * 2 * numpy.pi / rows)
-    tube = 0.4 + 0.05 * numpy.sin(3 * u) * numpy.cos(2 * v) + 0.03 * numpy.sin(u + v)
+    tube = 0.4 + 0.05 * numpy.sin(3 * u) * numpy.cos(2 * v) + 0.03 * (
+        numpy.sin(u) * numpy.cos(v) if even else numpy.sin(u + v))
     ring = 1 + tube * numpy.cos(v)
     points = numpy.stack((ring * numpy.cos(u), ring * numpy.sin(u), tube * numpy.sin(v)), axis=2).reshape(-1, 3)
     i, j = numpy.meshgrid(numpy.arange(columns), numpy.arange(rows))
@@ -77,6 +78,54 @@ class SessionTest(unittest.TestCase):
         self.assertEqual(made.settings()["quads"], 600)
         self.assertAlmostEqual(made.settings()["feature_angle"], 40)
         self.assertGreater(len(made.quads[1]), len(second[1]))
+
+    def test_preview(self):
+        made = session()
+        points, quads = made.preview()
+        self.assertEqual(points.shape[1], 3)
+        report = made.update()
+        self.assertNotIn("phase1", report["stages"])
+        self.assertIn("replay", report["stages"])
+        self.assertEqual(len(quads), len(made.quads[1]))
+        self.assertTrue(same(made.preview(), (points, quads)))
+        self.assertEqual(made.update()["runs"], 0)
+        with self.assertRaisesRegex(quadrille.RemeshError, "stopped"):
+            session(progress=lambda fraction: False).preview()
+
+    def test_symmetry(self):
+        sheet, faces = dents(even=True)
+        made = quadrille.Session((sheet, faces), quads=400, coarse_vertices=300, threads=2)
+        self.assertIsNone(made.mirror_point)
+        symmetry = made.set_symmetry((0, 0, 0), (0, 0, 2))
+        word, = made.update()["constraints"]
+        self.assertTrue(word["met"], word)
+        self.assertEqual((word["kind"], word["id"], word["unit"]), ("symmetry", symmetry, "diagonals"))
+        image, (points, quads) = made.mirror_point, made.quads
+        numpy.testing.assert_array_equal(image[image], numpy.arange(len(points)))
+        # The diagonals of the faces are not symmetric: points are put onto the mesh, nearer than its faces are to the
+        # shape, about a 16th of the square of their edges, 0.1, over the radius of the tube.
+        numpy.testing.assert_allclose(points[image], points * (1, 1, -1), atol=5e-3)
+        self.assertEqual({tuple(sorted(quad)) for quad in image[quads].tolist()},
+                         {tuple(sorted(quad)) for quad in quads.tolist()})
+        with self.assertRaisesRegex(quadrille.InvalidInput, "symmetry 1"):
+            made.preview()
+        self.assertEqual(made.set_symmetry(edit=symmetry), symmetry)
+        self.assertTrue(made.update()["constraints"][0]["met"])
+        made.remove(symmetry)
+        self.assertIsNone(made.mirror_point)
+
+    def test_sizes_and_guides_from_the_shape(self):
+        made = session()
+        plain = made.quads
+        shape = {"chord_error": 0.02, "gap_quads": 3, "smallest_size": 0.3, "largest_size": 1.5,
+                 "curvature_guides": 0.2}
+        made.set_settings(**shape)
+        self.assertEqual({name: made.settings()[name] for name in shape}, shape)
+        shaped = made.quads
+        self.assertFalse(same(shaped, plain))
+        self.assertTrue(same(session(**shape).quads, shaped))
+        made.set_settings(chord_error=None, gap_quads=0, smallest_size=0.2, largest_size=1, curvature_guides=None)
+        self.assertTrue(same(made.quads, plain))
 
     def test_each_kind(self):
         made = session()
@@ -184,7 +233,13 @@ class SessionTest(unittest.TestCase):
                            (lambda: made.add_guide(), "points"),
                            (lambda: made.add_guide([[0, 0, 0]]), "at least 2"),
                            (lambda: made.go_to("there"), "there"),
-                           (lambda: made.set_symmetry(), "not built yet"),
+                           (lambda: made.set_symmetry((0, 0, 0)), "an origin and a normal"),
+                           (lambda: made.set_symmetry((0, 0, 0), (0, 0, 0)), "normal"),
+                           (lambda: made.set_settings(chord_error=0), "chord_error"),
+                           (lambda: made.set_settings(gap_quads=None), "gap_quads"),
+                           (lambda: made.set_settings(smallest_size=1.5), "smallest_size"),
+                           (lambda: made.set_settings(largest_size=0.5), "largest_size"),
+                           (lambda: made.set_settings(curvature_guides=1), "anisotropy"),
                            (lambda: made.set_size(3, 0), "factor")):
             with self.assertRaisesRegex(quadrille.InvalidInput, text):
                 call()

@@ -295,6 +295,51 @@ TEST(Session, StatesHaveNamesAndAreCompared)
   EXPECT_THROW(session.goTo("nothing"), InvalidInput);
 }
 
+TEST(Session, PreviewsAreOnTheWayToTheResult)
+{
+  Session session(dents(), sessionOptions(400));
+  session.add(kStroke);
+  const SessionResult preview = session.preview();
+  ASSERT_TRUE(preview.report.status.ok()) << preview.report.status.message;
+  EXPECT_TRUE(hasRun(preview.report, "preview"));
+  EXPECT_FALSE(hasRun(preview.report, "replay"));
+  EXPECT_FALSE(session.result());
+
+  // All up to the coarse map is there; its integers are those of the preview, and so is the number of quads.
+  const SessionReport& report = session.update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  for (const char* stage :
+    { "repair", "order", "phase1", "phase2", "field", "seamless", "quantize", "embed" })
+  {
+    EXPECT_TRUE(hasRun(preview.report, stage)) << stage;
+    EXPECT_FALSE(hasRun(report, stage)) << stage;
+  }
+  EXPECT_TRUE(hasRun(report, "replay"));
+  const QuadMesh quads = session.result()->quads;
+  EXPECT_EQ(preview.quads.quads.size(), quads.quads.size());
+
+  // With the result at hand it is still made, and the result stays.
+  const SessionResult again = session.preview();
+  ASSERT_TRUE(again.report.status.ok()) << again.report.status.message;
+  EXPECT_TRUE(areSame(again.quads, preview.quads));
+  EXPECT_EQ(session.update().runs, 0);
+  EXPECT_TRUE(areSame(session.result()->quads, quads));
+
+  Session fresh(dents(), sessionOptions(400));
+  fresh.add(kStroke);
+  ASSERT_TRUE(fresh.update().status.ok());
+  EXPECT_TRUE(areSame(fresh.result()->quads, quads));
+}
+
+TEST(Session, AStoppedPreviewSaysSo)
+{
+  Session session(dents(), sessionOptions(400));
+  session.setProgress([](double, const std::string&) { return false; });
+  const SessionResult preview = session.preview();
+  EXPECT_EQ(preview.report.status.code, StatusCode::Cancelled);
+  EXPECT_TRUE(preview.quads.quads.empty());
+}
+
 TEST(Session, AStopLeavesNoResult)
 {
   Session session(dents(), sessionOptions(400));
