@@ -89,7 +89,7 @@ vtkSmartPointer<vtkPoints> vtkPointsAt(const std::vector<quadrille::Vector3>& pl
   return points;
 }
 
-void writeQuads(const quadrille::QuadMesh& quads, vtkPolyData* output)
+void writeSessionQuads(const quadrille::QuadMesh& quads, vtkPolyData* output)
 {
   auto valence = quadrille::newArray<vtkIntArray>(quadrille::arrays::kValence);
   auto onBoundary = quadrille::newArray<vtkIntArray>(quadrille::arrays::kOnBoundary);
@@ -129,7 +129,7 @@ void vtkQuadrilleSession::Internals::Write()
   {
     return;
   }
-  writeQuads(result->quads, this->Quads);
+  writeSessionQuads(result->quads, this->Quads);
   if (!result->mirrorPoint.empty())
   {
     auto image = quadrille::newArray<vtkIdTypeArray>(quadrille::arrays::kMirrorPoint);
@@ -292,7 +292,7 @@ bool vtkQuadrilleSession::Preview()
       this->Data->Error = made.report.status.message;
       if (made.report.status.ok())
       {
-        writeQuads(made.quads, this->Data->PreviewQuads);
+        writeSessionQuads(made.quads, this->Data->PreviewQuads);
       }
       return made.report.status.ok();
     });
