@@ -187,7 +187,8 @@ std::optional<Index> QuadChains::nearestIrregular(const Vector3& place) const
   std::optional<Index> best;
   for (Index p = 0; p < quads_.points.size(); ++p)
   {
-    const bool isIrregular = quads_.valence[p] != kRegularEdges - (quads_.onBoundary[p] != 0 ? 1 : 0);
+    const bool isIrregular =
+      quads_.valence[p] != kRegularEdges - (quads_.onBoundary[p] != 0 ? 1 : 0);
     if (isIrregular &&
       (!best ||
         (quads_.points[p] - place).squaredNorm() < (quads_.points[*best] - place).squaredNorm()))

@@ -151,7 +151,8 @@ private:
 };
 
 /// Along the patch's normal either way.
-double distanceFrom(const Mesh& mesh, const SheetTree& tree, const SurfacePatch& patch, double reach)
+double distanceFrom(
+  const Mesh& mesh, const SheetTree& tree, const SurfacePatch& patch, double reach)
 {
   const auto isOpposite = [&](Index f)
   {
