@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The rotation of a transition from the two images of an edge.
+/// Quarter turns between charts: of vectors, and from the two images of an edge.
 #pragma once
 
 #include "Base/FixedPoint.h"
@@ -9,6 +9,22 @@
 
 namespace quadrille
 {
+
+/// Rotates by r quarter turns counterclockwise; r may be any integer.
+inline Vector2 rotate(const Vector2& p, int r)
+{
+  switch (r & 3)
+  {
+    case 1:
+      return { -p.y(), p.x() };
+    case 2:
+      return -p;
+    case 3:
+      return { p.y(), -p.x() };
+    default:
+      return p;
+  }
+}
 
 /// How many quarter turns carry `from` to `to`, 0 to 3, exactly; none where no number does, or where all do (length
 /// zero).

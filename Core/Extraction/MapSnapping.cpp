@@ -63,21 +63,6 @@ void checkSnapArguments(
   }
 }
 
-Vector2 rotated(const Vector2& p, int r)
-{
-  switch (r & 3)
-  {
-    case 1:
-      return { -p.y(), p.x() };
-    case 2:
-      return -p;
-    case 3:
-      return { p.y(), -p.x() };
-    default:
-      return p;
-  }
-}
-
 /// One rotation for an edge.
 struct Fit
 {
@@ -92,9 +77,8 @@ Fit fitOf(const Mesh& mesh, const std::vector<Vector2>& uv, Index h, int rotatio
   const Vector2 mine = uv[Mesh::next(h)] - uv[h];
   const Vector2 others = uv[g] - uv[Mesh::next(g)];
   Fit fit;
-  fit.residual = (rotated(mine, rotation) - others).norm();
-  const Vector2 t =
-    0.5 * (uv[Mesh::next(g)] + uv[g] - rotated(uv[h] + uv[Mesh::next(h)], rotation));
+  fit.residual = (rotate(mine, rotation) - others).norm();
+  const Vector2 t = 0.5 * (uv[Mesh::next(g)] + uv[g] - rotate(uv[h] + uv[Mesh::next(h)], rotation));
   const Vector2 whole(std::round(t.x()), std::round(t.y()));
   fit.fraction = (t - whole).lpNorm<Eigen::Infinity>();
   fit.transition = { rotation, { kOne * std::llround(whole.x()), kOne * std::llround(whole.y()) } };
@@ -431,9 +415,9 @@ private:
       const Transition back = transition.inverse();
       for (const Index side : { corner, Mesh::previous(corner) })
       {
-        Vector2 q = rotated(p, transition.rotation) + toDouble(transition.translation);
+        Vector2 q = rotate(p, transition.rotation) + toDouble(transition.translation);
         snapToIsoline(mesh_, uv_, side, isolineTolerance_, q);
-        p = rotated(q, back.rotation) + toDouble(back.translation);
+        p = rotate(q, back.rotation) + toDouble(back.translation);
       }
     }
     return p;

@@ -87,24 +87,37 @@ bool QuadChains::isPassed(Index point) const
   return quads_.onBoundary[point] == 0 && quads_.valence[point] == kRegularEdges;
 }
 
-std::vector<Index> QuadChains::between(Index a, Index b) const
+/// Goes along each chain that leaves a and calls visit(chain) at each of its points, which says whether to go on; chains
+/// pass regular points only.
+template <typename Visit>
+void QuadChains::followAll(Index a, Visit visit) const
 {
-  std::vector<Index> best;
   for (Index i = firstOf_[a]; i < firstOf_[a + 1]; ++i)
   {
     std::vector<Index> chain{ a };
     std::optional<Index> h = leaving_[i];
     while (h && chain.size() <= quads_.points.size())
     {
-      const Index p = end(*h);
-      chain.push_back(p);
-      if (p == b && (best.empty() || chain.size() < best.size()))
+      chain.push_back(end(*h));
+      const bool goesOn = visit(chain) && isPassed(chain.back());
+      h = goesOn ? straightOn(*h, ChainSide::Left) : std::nullopt;
+    }
+  }
+}
+
+std::vector<Index> QuadChains::between(Index a, Index b) const
+{
+  std::vector<Index> best;
+  followAll(a,
+    [&](const std::vector<Index>& chain)
+    {
+      const bool arrives = chain.back() == b;
+      if (arrives && (best.empty() || chain.size() < best.size()))
       {
         best = chain;
       }
-      h = p != b && isPassed(p) ? straightOn(*h, ChainSide::Left) : std::nullopt;
-    }
-  }
+      return !arrives;
+    });
   return best;
 }
 
@@ -115,22 +128,18 @@ std::vector<Index> QuadChains::toLine(Index a, const Vector3& place, double dist
   {
     onLine[line.a] = onLine[line.b] = 1;
   }
-  for (Index i = firstOf_[a]; i < firstOf_[a + 1]; ++i)
-  {
-    std::vector<Index> chain{ a };
-    std::optional<Index> h = leaving_[i];
-    while (h && chain.size() <= quads_.points.size())
+  std::vector<Index> first;
+  followAll(a,
+    [&](const std::vector<Index>& chain)
     {
-      const Index p = end(*h);
-      chain.push_back(p);
-      if (onLine[p] != 0 && (quads_.points[p] - place).norm() <= distance)
+      const bool arrives = onLine[chain.back()] != 0;
+      if (arrives && first.empty() && (quads_.points[chain.back()] - place).norm() <= distance)
       {
-        return chain;
+        first = chain;
       }
-      h = onLine[p] == 0 && isPassed(p) ? straightOn(*h, ChainSide::Left) : std::nullopt;
-    }
-  }
-  return {};
+      return !arrives;
+    });
+  return first;
 }
 
 /// Empty unless it comes back to where it began.

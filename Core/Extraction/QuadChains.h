@@ -45,6 +45,8 @@ public:
 private:
   std::optional<Index> straightOn(Index h, ChainSide side) const;
   bool isPassed(Index point) const;
+  template <typename Visit>
+  void followAll(Index a, Visit visit) const;
   Index end(Index h) const;
   std::vector<Index> closedFrom(Index h, ChainSide side) const;
 

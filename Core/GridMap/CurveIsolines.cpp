@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/CurveIsolines.h"
 
+#include "Base/ChartRotation.h"
 #include "Base/PlaceText.h"
 #include "Mesh/Distance.h"
 
@@ -115,21 +116,6 @@ Vector2 inField(const Mesh& mesh, const CrossField& field, Index f, const Vector
   return { c * p.dot(x) + s * p.dot(y), c * p.dot(y) - s * p.dot(x) };
 }
 
-Vector2 turned(const Vector2& p, int quarters)
-{
-  switch (quarters & 3)
-  {
-    case 1:
-      return { -p.y(), p.x() };
-    case 2:
-      return -p;
-    case 3:
-      return { p.y(), -p.x() };
-    default:
-      return p;
-  }
-}
-
 /// A way through the faces as the field sees it.
 struct WayInField
 {
@@ -149,7 +135,7 @@ WayInField wayInField(const Mesh& mesh, const CrossField& field, const FacePath&
   Vector3 at = begin != nullptr ? *begin : middle(path.crossed.back());
   const auto go = [&](const Vector3& to)
   {
-    way.vector += turned(inField(mesh, field, f, to - at), -way.rotation);
+    way.vector += rotate(inField(mesh, field, f, to - at), -way.rotation);
     way.length += (to - at).norm();
     at = to;
   };

@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A name in an anonymous namespace stands in one source of a folder only, as QUADRILLE_UNITY_BUILD compiles several of
 them as one. Two with the same signature would not compile; two functions with different ones would be overloads of each
-other, and a call could take another one than without it.
+other, and a call could take another one than without it. A type of Core stands in one header only: two of the same name
+are one for the linker, which takes the functions of either for both.
 
   check_unity.py SOURCE_DIR
 """
@@ -73,7 +74,22 @@ def problems(folder):
             "one, or share it in a header" for name, files in sorted(users.items()) if len(files) > 1]
 
 
+def typesOf(header):
+    """Types that a header defines in a namespace."""
+    return re.findall(r"^(?:struct|class|enum class) (\w+)[^;\n]*\n\{", header, flags=re.M)
+
+
+def typesTwice(core):
+    headers = collections.defaultdict(list)
+    for path in sorted(core.rglob("*.h")):
+        for name in typesOf(path.read_text()):
+            headers[name].append(str(path.relative_to(core)))
+    return [f"{core}: the type {name} stands in {', '.join(files)}: give it another name in one"
+            for name, files in sorted(headers.items()) if len(files) > 1]
+
+
 def selftest():
+    assert typesOf("struct A;\nstruct B : C\n{\n  struct D\n  {\n  };\n};\nenum class E : int\n{\n};\n") == ["B", "E"]
     names = anonymousNames("""namespace quadrille
 {
 void outside();
@@ -118,6 +134,7 @@ def main():
     if len(folders) < 10:
         sys.exit(f"check_unity: {root} has sources in {len(folders)} folders only; is it the source folder?")
     found = [problem for folder in sorted(folders) for problem in problems(folder)]
+    found += typesTwice(root / "Core")
     for problem in found:
         print(problem)
     print(f"check_unity: {len(folders)} folders, {len(found)} names more than once")
