@@ -11,7 +11,7 @@ namespace quadrille
 {
 
 /// Rotates by r quarter turns counterclockwise; r may be any integer.
-inline Vector2 rotate(const Vector2& p, int r)
+inline Vector2 turned(const Vector2& p, int r)
 {
   switch (r & 3)
   {

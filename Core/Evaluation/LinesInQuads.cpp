@@ -98,7 +98,7 @@ std::vector<Index> LinesInQuads::between(
   {
     for (const Index b : candidates(end))
     {
-      const std::vector<Index> chain = chains_.between(a, b);
+      std::vector<Index> chain = chains_.between(a, b);
       if (!chain.empty())
       {
         return chain;
@@ -108,7 +108,7 @@ std::vector<Index> LinesInQuads::between(
   for (const auto& [from, to] : { std::pair(start, end), std::pair(end, start) })
   {
     const Index a = candidates(from).front();
-    const std::vector<Index> chain =
+    std::vector<Index> chain =
       isIrregular(mesh_, a) ? chains_.toLine(a, to, reach) : std::vector<Index>{};
     if (!chain.empty())
     {

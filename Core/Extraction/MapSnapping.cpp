@@ -77,8 +77,8 @@ Fit fitOf(const Mesh& mesh, const std::vector<Vector2>& uv, Index h, int rotatio
   const Vector2 mine = uv[Mesh::next(h)] - uv[h];
   const Vector2 others = uv[g] - uv[Mesh::next(g)];
   Fit fit;
-  fit.residual = (rotate(mine, rotation) - others).norm();
-  const Vector2 t = 0.5 * (uv[Mesh::next(g)] + uv[g] - rotate(uv[h] + uv[Mesh::next(h)], rotation));
+  fit.residual = (turned(mine, rotation) - others).norm();
+  const Vector2 t = 0.5 * (uv[Mesh::next(g)] + uv[g] - turned(uv[h] + uv[Mesh::next(h)], rotation));
   const Vector2 whole(std::round(t.x()), std::round(t.y()));
   fit.fraction = (t - whole).lpNorm<Eigen::Infinity>();
   fit.transition = { rotation, { kOne * std::llround(whole.x()), kOne * std::llround(whole.y()) } };
@@ -415,9 +415,9 @@ private:
       const Transition back = transition.inverse();
       for (const Index side : { corner, Mesh::previous(corner) })
       {
-        Vector2 q = rotate(p, transition.rotation) + toDouble(transition.translation);
+        Vector2 q = turned(p, transition.rotation) + toDouble(transition.translation);
         snapToIsoline(mesh_, uv_, side, isolineTolerance_, q);
-        p = rotate(q, back.rotation) + toDouble(back.translation);
+        p = turned(q, back.rotation) + toDouble(back.translation);
       }
     }
     return p;

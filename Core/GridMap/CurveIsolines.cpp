@@ -135,7 +135,7 @@ WayInField wayInField(const Mesh& mesh, const CrossField& field, const FacePath&
   Vector3 at = begin != nullptr ? *begin : middle(path.crossed.back());
   const auto go = [&](const Vector3& to)
   {
-    way.vector += rotate(inField(mesh, field, f, to - at), -way.rotation);
+    way.vector += turned(inField(mesh, field, f, to - at), -way.rotation);
     way.length += (to - at).norm();
     at = to;
   };

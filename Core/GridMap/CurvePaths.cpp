@@ -262,11 +262,11 @@ void trimEnds(const Mesh& mesh, Index a, Index b, FacePath& path)
 }
 
 /// Faces of a path laid out in the plane, one after the other.
-class Strip
+class FaceStrip
 {
 public:
   /// In the plane of face f, with the half-edge 3 f along x.
-  Strip(const Mesh& mesh, Index f) : mesh_(mesh)
+  FaceStrip(const Mesh& mesh, Index f) : mesh_(mesh)
   {
     const Vector3 a = mesh.edgeVector(3 * f);
     corner_[0] = Vector2::Zero();
@@ -318,7 +318,7 @@ Vector2 chordAt(const Mesh& mesh, const FacePath& path, bool closed, Index f, st
   const auto reach = [&](std::size_t toEnd)
   { return closed ? std::min(kFacesOfChord, count) : std::min(kFacesOfChord, toEnd); };
   Vector2 ahead = Vector2::Zero(), behind = Vector2::Zero();
-  Strip forward(mesh, f);
+  FaceStrip forward(mesh, f);
   const std::size_t forwards = reach(count - std::min(i, count));
   for (std::size_t k = 0; k < forwards; ++k)
   {
@@ -326,7 +326,7 @@ Vector2 chordAt(const Mesh& mesh, const FacePath& path, bool closed, Index f, st
     ahead = forward.middle(h);
     forward.cross(h);
   }
-  Strip backward(mesh, f);
+  FaceStrip backward(mesh, f);
   const std::size_t backwards = reach(i);
   for (std::size_t k = 0; k < backwards; ++k)
   {
@@ -339,7 +339,7 @@ Vector2 chordAt(const Mesh& mesh, const FacePath& path, bool closed, Index f, st
     return ahead - behind;
   }
   // An end of the path: from, or to, the middle of the face.
-  const Strip here(mesh, f);
+  const FaceStrip here(mesh, f);
   const Vector2 centre = (here.middle(3 * f) + here.middle(3 * f + 1) + here.middle(3 * f + 2)) / 3;
   return forwards > 0 ? Vector2(ahead - centre)
     : backwards > 0   ? Vector2(centre - behind)
