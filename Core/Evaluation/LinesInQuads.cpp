@@ -73,6 +73,7 @@ std::vector<Vector3> LinesInQuads::chainOf(
     chain = between(outcome.start, outcome.end, reach);
   }
   std::vector<Vector3> points;
+  points.reserve(chain.size());
   for (const Index p : chain)
   {
     points.push_back(mesh_.points[p]);

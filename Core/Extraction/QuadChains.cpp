@@ -87,8 +87,8 @@ bool QuadChains::isPassed(Index point) const
   return quads_.onBoundary[point] == 0 && quads_.valence[point] == kRegularEdges;
 }
 
-/// Goes along each chain that leaves a and calls visit(chain) at each of its points, which says whether to go on; chains
-/// pass regular points only.
+/// Goes along each chain that leaves a and calls visit(chain) at each of its points, which says whether to go on;
+/// chains pass regular points only.
 template <typename Visit>
 void QuadChains::followAll(Index a, Visit visit) const
 {

@@ -38,6 +38,7 @@ std::size_t addCurvatureGuides(
   const std::vector<PatchCurvature> curvatures =
     patchCurvatures(mesh, patches, kTensorRadius * edgeLength, threads);
   std::vector<double> confidence;
+  confidence.reserve(curvatures.size());
   for (const PatchCurvature& curvature : curvatures)
   {
     confidence.push_back(confidenceOf(curvature, edgeLength, leastAnisotropy));

@@ -375,6 +375,7 @@ void ConstraintPlacement::addStroke(const DrawnLine& line, double weight, double
   if (radius > 0)
   {
     std::vector<Vector3> onSurface;
+    onSurface.reserve(ends.size());
     for (const SurfacePlaces::Place& end : ends)
     {
       onSurface.push_back(end.point);

@@ -765,12 +765,13 @@ StateComparison Session::compare(const std::string& first, const std::string& se
   const auto resultB = data_->resultOf(b);
   if (resultA && resultB)
   {
-    StateComparison::Results& results = comparison.results.emplace();
+    StateComparison::Results results;
     results.quads[0] = resultA->quads.quads.size();
     results.quads[1] = resultB->quads.quads.size();
     results.irregular[0] = resultA->irregular.size();
     results.irregular[1] = resultB->irregular.size();
     measureDistance(*resultA, *resultB, results);
+    comparison.results = std::move(results);
   }
   return comparison;
 }

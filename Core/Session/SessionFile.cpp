@@ -290,8 +290,9 @@ Session Session::load(const std::string& path, SurfaceInput surface)
   countIds(data->now());
   for (const auto& [name, state] : names.items())
   {
-    data->names[name] = std::make_shared<SessionState>(
-      stateFromJson(state, data->surface, "state '" + name + "' of " + where));
+    std::string place = "state '";
+    place.append(name).append("' of ").append(where);
+    data->names[name] = std::make_shared<SessionState>(stateFromJson(state, data->surface, place));
     countIds(*data->names[name]);
   }
   const SessionJson& next = memberOf(json, "next_id", where);
