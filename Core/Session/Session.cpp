@@ -771,7 +771,7 @@ StateComparison Session::compare(const std::string& first, const std::string& se
     results.irregular[0] = resultA->irregular.size();
     results.irregular[1] = resultB->irregular.size();
     measureDistance(*resultA, *resultB, results);
-    comparison.results = std::move(results);
+    comparison.results = results;
   }
   return comparison;
 }
