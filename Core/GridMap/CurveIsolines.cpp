@@ -254,12 +254,6 @@ std::int64_t lengthAlong(FixedVec2 p, int axis)
   return rotate(p, -axis).u;
 }
 
-struct Candidate
-{
-  UvDirection direction;
-  double distance;
-};
-
 void flagAsCurve(UvMesh& map, Index h)
 {
   map.flags[h] |= kUvConstrained;

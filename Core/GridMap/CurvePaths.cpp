@@ -3,7 +3,6 @@
 #include "GridMap/CurvePaths.h"
 
 #include "Mesh/Distance.h"
-#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <array>

@@ -159,7 +159,7 @@ private:
     fieldOptions.guides = options_.guides;
     fieldOptions.targetValences = options_.targetValences;
     result_.field = computeCrossField(mesh_, fieldOptions);
-    if (!options_.curves.empty() && result_.field.status.ok())
+    if (!options_.curves.empty() && makesLines() && result_.field.status.ok())
     {
       followCurves(fieldOptions);
     }
@@ -197,6 +197,9 @@ private:
     }
   }
 
+  /// The others round, or have no integers at all.
+  bool makesLines() const { return options_.method == MapMethod::ScaleAware; }
+
   bool isLeftOut(std::size_t curve) const { return !leftOut_.empty() && !leftOut_[curve].empty(); }
 
   bool cyclesClose(const CrossField& field, const std::vector<CurveRequest>& curves) const
@@ -219,7 +222,7 @@ private:
       {
         line.outcome.why = leftOut_[i];
       }
-      else if (line.hasLine)
+      else if (line.hasLine && makesLines())
       {
         if (!ways_.empty() && ways_[i])
         {
@@ -236,7 +239,7 @@ private:
   {
     for (RequestedLine& line : lines_)
     {
-      if (result_.status.ok() && line.isWanted() && options_.method == MapMethod::ScaleAware)
+      if (result_.status.ok() && line.isWanted() && makesLines())
       {
         line.outcome.met = hasGridLine(mesh_, result_.field, result_.uv, line, options_.edgeLength);
         if (!line.outcome.met && line.outcome.why.empty())
@@ -244,6 +247,11 @@ private:
           line.outcome.why =
             "an irregular vertex stands in the way of the line: move it aside, or draw another way";
         }
+      }
+      if (!makesLines())
+      {
+        line.outcome.why = std::string("the method '") + nameOf(options_.method) +
+          "' makes no connections and cycles: choose scale aware";
       }
       if (line.outcome.met)
       {

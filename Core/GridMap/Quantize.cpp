@@ -203,10 +203,8 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   decimateInUv(uvMesh, editor, locked.keep);
   for (std::size_t i = 0; i < lines.size(); ++i)
   {
-    if (!lockLine(uvMesh, editor, locked.integer, mesh, field.isolines[i], lines[i]))
-    {
-      result.freeIsolines.push_back(i);
-    }
+    // One that cannot be locked is not lost for certain: the map is asked for it in the end.
+    lockLine(uvMesh, editor, locked.integer, mesh, field.isolines[i], lines[i]);
   }
 
   IntegerMap integers(uvMesh, editor, locked.integer);

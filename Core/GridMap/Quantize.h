@@ -33,8 +33,6 @@ struct QuantizeResult
   double refinement = 1; ///< factor by which sizes had to grow to be valid
   std::size_t work = 0;  ///< steps from triangle to triangle that all searches have made
   bool startedFromPrevious = false;
-  /// Of CrossField::isolines those that the integers need not keep: a vertex or a curve stands in their way.
-  std::vector<std::size_t> freeIsolines;
 };
 /// Integers for a seamless map without a T-mesh [Coudert-Osmont et al. 2023].
 QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,

@@ -108,6 +108,27 @@ TEST(Curves, AConnectionIsAStraightChainOfEdges)
   EXPECT_GE(met, pairs.size() - 1);
 }
 
+TEST(Curves, MethodsThatRoundSayThatTheyMakeNone)
+{
+  RemeshOptions options = curveOptions(800);
+  const SurfaceInput input = toInput(bumpyEllipsoid());
+  options.method = MapMethod::MixedInteger;
+  const RemeshResult without = remesh(input, options);
+  ASSERT_TRUE(without.status.ok()) << without.status.message;
+  const auto pairs = pairsToJoin(without.quads, 1);
+  ASSERT_EQ(pairs.size(), 1U);
+  SurfaceInput asked = input;
+  asked.curves.push_back({ CurveKind::Connection,
+    { without.quads.points[pairs[0].first], without.quads.points[pairs[0].second] } });
+  const RemeshResult result = remesh(asked, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  // Nothing is done for it, and that is told.
+  EXPECT_TRUE(result.quads.points == without.quads.points);
+  ASSERT_EQ(result.curves.size(), 1U);
+  EXPECT_FALSE(result.curves[0].met);
+  EXPECT_NE(result.curves[0].why.find("scale aware"), std::string::npos) << result.curves[0].why;
+}
+
 TEST(Curves, ACycleIsAClosedLoopOfEdges)
 {
   // Round a sphere loops exist; a slanted one has to be asked for.
