@@ -121,7 +121,7 @@ private:
 };
 
 /// A vertex that turns may move to and from.
-struct Place
+struct ConePlace
 {
   Index fan = 0;
   Index vertex = 0;
@@ -160,11 +160,11 @@ std::vector<Index> regionsOf(const Mesh& mesh)
 }
 
 /// The irregular vertices, and others evenly in the order of the mesh, which runs along a space-filling curve.
-std::vector<Place> placesOf(const Mesh& mesh, const FieldTopology& topology,
+std::vector<ConePlace> placesOf(const Mesh& mesh, const FieldTopology& topology,
   const std::vector<int>& turns, const std::vector<int>& asked)
 {
   const std::vector<Index> region = regionsOf(mesh);
-  std::vector<Place> all;
+  std::vector<ConePlace> all;
   for (Index i = 0; i < topology.fans.size(); ++i)
   {
     const Fan& fan = topology.fans[i];
@@ -176,9 +176,9 @@ std::vector<Place> placesOf(const Mesh& mesh, const FieldTopology& topology,
     }
   }
   std::sort(
-    all.begin(), all.end(), [](const Place& a, const Place& b) { return a.vertex < b.vertex; });
+    all.begin(), all.end(), [](const ConePlace& a, const ConePlace& b) { return a.vertex < b.vertex; });
   const std::size_t step = all.size() / kMostPlaces + 1;
-  std::vector<Place> places;
+  std::vector<ConePlace> places;
   for (std::size_t i = 0; i < all.size(); ++i)
   {
     if (all[i].turns != 4 || i % step == 0)
@@ -193,7 +193,7 @@ std::vector<Place> placesOf(const Mesh& mesh, const FieldTopology& topology,
 class TurnPlacement
 {
 public:
-  TurnPlacement(const Mesh& mesh, std::vector<Place> places, const ConformalFactor& factor,
+  TurnPlacement(const Mesh& mesh, std::vector<ConePlace> places, const ConformalFactor& factor,
     const Eigen::VectorXd& start)
     : places_(std::move(places)), gain_(places_.size())
   {
@@ -220,7 +220,7 @@ public:
     }
     return any;
   }
-  const std::vector<Place>& places() const { return places_; }
+  const std::vector<ConePlace>& places() const { return places_; }
 
 private:
   /// product_ = columns^T weighted, which is symmetric: the blocks on the diagonal and above.
@@ -316,7 +316,7 @@ private:
     return true;
   }
 
-  std::vector<Place> places_;
+  std::vector<ConePlace> places_;
   std::vector<std::vector<Index>> neighbours_; ///< places joined by an edge
   Eigen::MatrixXd product_;                    ///< of the factors of single turns
   Eigen::VectorXd gain_;                       ///< products with the factor of all turns
@@ -348,7 +348,7 @@ std::vector<int> valencesForSizes(const Mesh& mesh, const FieldTopology& topolog
     int& target = targets[topology.fans[i].vertex];
     target = !topology.fans[i].sector && target == 0 ? turns[i] : target;
   }
-  for (const Place& place : placement.places())
+  for (const ConePlace& place : placement.places())
   {
     targets[place.vertex] = place.turns;
   }

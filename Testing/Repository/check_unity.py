@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A name in an anonymous namespace stands in one source of a folder only, as QUADRILLE_UNITY_BUILD compiles several of
 them as one. Two with the same signature would not compile; two functions with different ones would be overloads of each
-other, and a call could take another one than without it. A type of Core stands in one header only: two of the same name
-are one for the linker, which takes the functions of either for both.
+other, and a call could take another one than without it. Nor is such a name a type of one of Core's headers, which
+another source may include. A type of Core stands in one header only: two of the same name are one for the linker, which
+takes the functions of either for both.
 
   check_unity.py SOURCE_DIR
 """
@@ -62,7 +63,8 @@ def anonymousNames(text):
     return names - {None}
 
 
-def problems(folder):
+def problems(folder, shared):
+    """shared: type -> the header that defines it."""
     users = collections.defaultdict(list)
     for path in sorted(p for p in folder.iterdir() if p.suffix in (".cpp", ".cxx")):
         text = path.read_text()
@@ -70,7 +72,9 @@ def problems(folder):
             continue  # a program is a target of its own
         for name in anonymousNames(text):
             users[name].append(path.name)
-    return [f"{folder}: {name} stands in the anonymous namespaces of {', '.join(files)}: give it another name in "
+    hidden = [f"{folder}: {name} stands in the anonymous namespace of {', '.join(files)} and is a type of "
+              f"{shared[name]}: give it another name" for name, files in sorted(users.items()) if name in shared]
+    return hidden + [f"{folder}: {name} stands in the anonymous namespaces of {', '.join(files)}: give it another name in "
             "one, or share it in a header" for name, files in sorted(users.items()) if len(files) > 1]
 
 
@@ -79,11 +83,16 @@ def typesOf(header):
     return re.findall(r"^(?:struct|class|enum class) (\w+)[^;\n]*\n\{", header, flags=re.M)
 
 
-def typesTwice(core):
+def headersOfTypes(core):
+    """Type -> the headers of Core that define it."""
     headers = collections.defaultdict(list)
     for path in sorted(core.rglob("*.h")):
         for name in typesOf(path.read_text()):
             headers[name].append(str(path.relative_to(core)))
+    return headers
+
+
+def typesTwice(core, headers):
     return [f"{core}: the type {name} stands in {', '.join(files)}: give it another name in one"
             for name, files in sorted(headers.items()) if len(files) > 1]
 
@@ -133,8 +142,10 @@ def main():
     folders = {path.parent for top in FOLDERS for path in (root / top).rglob("*.c*") if path.suffix in (".cpp", ".cxx")}
     if len(folders) < 10:
         sys.exit(f"check_unity: {root} has sources in {len(folders)} folders only; is it the source folder?")
-    found = [problem for folder in sorted(folders) for problem in problems(folder)]
-    found += typesTwice(root / "Core")
+    headers = headersOfTypes(root / "Core")
+    shared = {name: files[0] for name, files in headers.items()}
+    found = [problem for folder in sorted(folders) for problem in problems(folder, shared)]
+    found += typesTwice(root / "Core", headers)
     for problem in found:
         print(problem)
     print(f"check_unity: {len(folders)} folders, {len(found)} names more than once")

@@ -24,7 +24,7 @@ namespace quadrille
 namespace
 {
 
-struct QuadTopology
+struct TopologyCounts
 {
   long long euler = 0;
   std::size_t boundaryEdges = 0;
@@ -33,7 +33,7 @@ struct QuadTopology
 };
 
 /// Independent of the extraction: counts from the quads alone.
-QuadTopology topologyOf(const QuadMesh& mesh)
+TopologyCounts topologyOf(const QuadMesh& mesh)
 {
   std::map<std::pair<Index, Index>, int> directed;
   std::set<Index> used;
@@ -45,7 +45,7 @@ QuadTopology topologyOf(const QuadMesh& mesh)
       ++directed[{ quad[i], quad[(i + 1) % 4] }];
     }
   }
-  QuadTopology topology;
+  TopologyCounts topology;
   std::size_t edges = 0;
   for (const auto& [edge, count] : directed)
   {
@@ -69,7 +69,7 @@ RemeshResult remeshAndCheck(const Mesh& mesh, std::size_t quads)
   EXPECT_TRUE(result.coarseCertificate.valid()) << result.coarseCertificate.text();
   EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
   const TopologySummary expected = summarizeTopology(mesh);
-  const QuadTopology actual = topologyOf(result.quads);
+  const TopologyCounts actual = topologyOf(result.quads);
   EXPECT_EQ(actual.euler, expected.eulerCharacteristic);
   EXPECT_TRUE(actual.oriented);
   EXPECT_EQ(actual.boundaryEdges > 0, expected.boundaryLoops > 0);
@@ -140,7 +140,7 @@ TEST(Pipeline, RingThatTwoQuadsWouldSurroundGetsMore)
   EXPECT_EQ(result.targetQuads, 80u);
   EXPECT_GT(result.quads.quads.size(), 120u);
   EXPECT_LT(result.quads.quads.size(), 400u);
-  const QuadTopology topology = topologyOf(result.quads);
+  const TopologyCounts topology = topologyOf(result.quads);
   EXPECT_EQ(topology.euler, 0);
   EXPECT_TRUE(topology.oriented);
   EXPECT_EQ(topology.boundaryEdges, 0u);
@@ -172,7 +172,7 @@ TEST(Pipeline, QuadsAreSmallerOnlyWhereTheyDoNotFit)
   EXPECT_EQ(result.targetQuads, 250u);
   // Doubled they are 500.
   EXPECT_LT(result.quads.quads.size(), 450u);
-  const QuadTopology topology = topologyOf(result.quads);
+  const TopologyCounts topology = topologyOf(result.quads);
   EXPECT_EQ(topology.euler, 0);
   EXPECT_TRUE(topology.oriented);
   EXPECT_EQ(topology.boundaryEdges, 0u);
@@ -193,7 +193,7 @@ TEST(Pipeline, CoarseLevelThatHasAllVerticesGetsMore)
   const RemeshResult result = remesh(test::toInput(mesh), options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_GT(result.decimations, 1); // else the case is none any more
-  const QuadTopology topology = topologyOf(result.quads);
+  const TopologyCounts topology = topologyOf(result.quads);
   EXPECT_EQ(topology.euler, 0);
   EXPECT_TRUE(topology.oriented);
 }
@@ -463,7 +463,7 @@ TEST(Pipeline, FeaturesThatLeaveNoRoomAreGivenUpOnlyWhereNobodyAskedForThem)
   EXPECT_TRUE(detected.status.ok()) << detected.status.message;
   EXPECT_TRUE(tells(detected, "leave no room")) << "no notice";
   EXPECT_TRUE(detected.certificate.valid()) << detected.certificate.text();
-  const QuadTopology topology = topologyOf(detected.quads);
+  const TopologyCounts topology = topologyOf(detected.quads);
   EXPECT_EQ(topology.euler, -20);
   EXPECT_TRUE(topology.oriented);
   EXPECT_EQ(topology.boundaryEdges, 0u);

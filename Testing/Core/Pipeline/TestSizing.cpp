@@ -20,9 +20,9 @@ namespace
 
 using namespace quadrille::test;
 
-using SizeAt = std::function<double(const Vector3&)>;
+using SizeNear = std::function<double(const Vector3&)>;
 
-SurfaceInput withSizes(const Mesh& mesh, const SizeAt& size)
+SurfaceInput withSizes(const Mesh& mesh, const SizeNear& size)
 {
   SurfaceInput input = toInput(mesh);
   for (const Vector3& p : input.points)
