@@ -264,17 +264,17 @@ void flagAsCurve(UvMesh& map, Index h)
 }
 
 /// Where a line ends that goes straight on through vertices that are not flagged.
-struct CurveEnd
+struct LineStop
 {
   Index vertex = kInvalidIndex; ///< the flagged one, or one on the boundary
   Index curve = kInvalidIndex;  ///< or the half-edge of a curve
   std::int64_t length = 0;      ///< to the vertex
 };
 
-CurveEnd followThrough(const UvMesh& map, UvDirection direction, std::int64_t maximumLength,
+LineStop followThrough(const UvMesh& map, UvDirection direction, std::int64_t maximumLength,
   const std::vector<std::uint8_t>& flags)
 {
-  CurveEnd end;
+  LineStop end;
   while (end.length < maximumLength)
   {
     const UvRay ray = followLine(map, direction, maximumLength - end.length, true);
@@ -351,7 +351,7 @@ std::optional<UvDirection> closedLine(const UvMesh& map, const std::vector<std::
     }
     for (const UvDirection& direction : axisDirections(map, v))
     {
-      const CurveEnd end = followThrough(map, direction, length, integer);
+      const LineStop end = followThrough(map, direction, length, integer);
       if (end.vertex == v && end.length == length)
       {
         best = direction;
@@ -368,7 +368,7 @@ std::optional<UvDirection> lineBetween(const UvMesh& map, const std::vector<std:
 {
   for (const UvDirection& direction : axisDirections(map, from))
   {
-    const CurveEnd end = followThrough(map, direction, length, integer);
+    const LineStop end = followThrough(map, direction, length, integer);
     if (end.vertex == to && end.length == length)
     {
       return direction;
@@ -462,7 +462,7 @@ bool reachesCurve(const Mesh& mesh, const UvMesh& map, const std::vector<std::ui
   const Vector3 goal = mesh.position[forward ? ends.to : ends.from];
   for (const UvDirection& direction : axisDirections(map, from))
   {
-    const CurveEnd end = followThrough(map, direction, maximumLength, integer);
+    const LineStop end = followThrough(map, direction, maximumLength, integer);
     const bool atVertex = end.vertex != kInvalidIndex && onCurve[end.vertex] != 0 &&
       (mesh.position[end.vertex] - goal).norm() <= reach;
     const bool atCurve = end.curve != kInvalidIndex &&
