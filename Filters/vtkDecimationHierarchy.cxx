@@ -65,7 +65,7 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   made->key.input = quadrille::contentHash(framed.input, options.threads);
   options.progress =
     this->MakeProgress(0.0, 1.8); // the levels end where half of a whole run is done
-  quadrille::SizedSurface sized = quadrille::sizeSurface(framed.input, options, nullptr);
+  quadrille::SizedSurface sized = quadrille::sizeSurface(framed.input, options);
   quadrille::requireOk(sized.status, "the levels");
   recipe.edgeLength = sized.edgeLength;
   made->key.featureAngle = recipe.featureAngle;

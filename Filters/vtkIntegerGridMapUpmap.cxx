@@ -105,7 +105,8 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   quadrille::SurfaceRecipe recipe = quadrille::readRecipe(logData);
   quadrille::ConvertedSurface converted =
     quadrille::convertSurface(source, recipe.patchArray, this->NumberOfThreads);
-  quadrille::addFeatureMarks(converted.input, recipe.curveMarks);
+  quadrille::addFeatureMarks(
+    converted.input, converted.input.polygonOffsets.size() - 1, recipe.curveMarks);
   quadrille::FramedInput framed =
     quadrille::enterFrame(std::move(converted.input), this->NumberOfThreads);
   const quadrille::Frame& frame = framed.frame;
@@ -203,7 +204,7 @@ void vtkIntegerGridMapUpmap::FindOrPrepare(quadrille::SurfaceInput& input,
     options.maximumNumberOfQuads = std::numeric_limits<std::size_t>::max();
     options.threads = this->NumberOfThreads;
     options.progress = this->MakeProgress(0.0, 3.3); // the surface is ready at 0.15 of a whole run
-    quadrille::SizedSurface sized = quadrille::sizeSurface(input, options, nullptr);
+    quadrille::SizedSurface sized = quadrille::sizeSurface(input, options);
     laps.add(sized.stages);
     made->surface = std::move(*sized.surface);
     held.surface = made;

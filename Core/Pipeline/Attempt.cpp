@@ -340,7 +340,7 @@ HierarchyOptions levelOptions(const RunContext& run, const Plan& plan)
   HierarchyOptions options;
   options.targetEdgeLength = plan.levels.edgeLength * run.edgeLength;
   options.coarseVertices = plan.levels.coarseVertices;
-  options.guides = surfaceGuides(*run.surface).faces;
+  options.guides = surfaceGuides(*run.surface, run.options.threads).faces;
   options.keepVertices = plan.levels.keptVertices;
   options.threads = run.options.threads;
   options.progress = subProgress(run.options.progress, 0.15, 0.45, "Decimating: ");

@@ -13,6 +13,18 @@ namespace quadrille
 namespace
 {
 
+SurfaceInput withoutGeometry(const SurfaceInput& surface)
+{
+  // By name, so that an array that is new has to be put on one side or the other here.
+  const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, guideDirections,
+    guideWeights, targetValences, sizing, curves, regularElsewhere, faceOrder, precision] = surface;
+  static_cast<void>(points);
+  static_cast<void>(polygonOffsets);
+  static_cast<void>(polygonPoints);
+  return { {}, {}, {}, featureEdges, patchIds, guideDirections, guideWeights, targetValences,
+    sizing, curves, regularElsewhere, faceOrder, precision };
+}
+
 class Composition
 {
 public:
@@ -20,7 +32,7 @@ public:
     const SurfaceInput& surface, const SurfacePlaces& places, const SessionConstraints& constraints)
     : surface_(surface), places_(places), constraints_(constraints)
   {
-    composed_.input = surface;
+    composed_.input = withoutGeometry(surface);
     composed_.parts.resize(constraints.size());
     for (std::size_t p = 0; p < surface.targetValences.size(); ++p)
     {
@@ -66,7 +78,7 @@ public:
     if (part().whyNot.empty())
     {
       part().path = placed.path;
-      addFeatureMarks(composed_.input, placement.featureMarks());
+      addFeatureMarks(composed_.input, polygons(), placement.featureMarks());
     }
   }
 
@@ -216,6 +228,7 @@ private:
     std::string by;
   };
 
+  std::size_t polygons() const { return surface_.polygonOffsets.size() - 1; }
   PlacedPart& part() { return composed_.parts[at_]; }
   int id() const { return constraints_[at_]->id; }
   std::string name() const { return constraints_[at_]->name(); }
@@ -251,7 +264,7 @@ private:
 
   void takeGuides(const std::vector<GuideMark>& marks)
   {
-    addGuideMarks(composed_.input, marks);
+    addGuideMarks(composed_.input, polygons(), marks);
     for (const GuideMark& mark : marks)
     {
       overrule(guideOf_, mark.polygon);

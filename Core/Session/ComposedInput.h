@@ -36,7 +36,7 @@ struct PlacedPart
 
 struct ComposedInput
 {
-  SurfaceInput input;
+  SurfaceInput input; ///< all but points and polygons, which are the surface's
   /// The constraint that asks for a symmetry, its place in `parts`; none: the quads have not to be symmetric.
   std::optional<std::size_t> symmetry;
   std::vector<PlacedPart> parts;    ///< in the order of the constraints
