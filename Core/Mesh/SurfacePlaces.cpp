@@ -81,13 +81,15 @@ std::vector<Index> findEdgePath(const SurfaceInput& input, const EdgeGraph& grap
   const Vector3& start = input.points[a];
   const Vector3& end = input.points[b];
   const double scale = kDetourPenalty / std::max((end - start).norm(), 1e-300);
+  const auto atLeast = [&](double cost, Index v) { return cost + (input.points[v] - end).norm(); };
   reached[a] = { 0, a };
-  front.push({ 0, a });
+  front.push({ atLeast(0, a), a });
   while (!front.empty() && front.top().second != b)
   {
-    const auto [cost, v] = front.top();
+    const auto [whole, v] = front.top();
     front.pop();
-    if (cost > reached[v].cost)
+    const double cost = reached[v].cost;
+    if (whole > atLeast(cost, v))
     {
       continue;
     }
@@ -102,7 +104,7 @@ std::vector<Index> findEdgePath(const SurfaceInput& input, const EdgeGraph& grap
       if (found == reached.end() || next < found->second.cost)
       {
         reached[w] = { next, v };
-        front.push({ next, w });
+        front.push({ atLeast(next, w), w });
       }
     }
   }

@@ -193,6 +193,7 @@ bool carry(RunContext& run, bool alongGuides, MapAttempt& made)
   const Hierarchy& levels = run.levels.hierarchy();
   double start = secondsNow();
   TransferOptions options;
+  options.spare = &run.spare;
   options.threads = run.options.threads;
   options.progress = subProgress(run.options.progress, 0.8, 0.9, "Mapping back: ");
   std::optional<TransferResult> carried = alongGuides

@@ -24,6 +24,12 @@ namespace quadrille
 namespace
 {
 
+/// The memory of the last map, for the next one.
+struct SpareMap
+{
+  std::vector<FixedVec2> uv;
+};
+
 /// Bytes that the store takes for a triangle of the input.
 constexpr double kBytesRemembered = 150;
 
@@ -232,12 +238,25 @@ void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& o
   {
     Levels levels(surface, store);
     RunContext run{ options, sized.edgeLength, sized.targetQuads, surface, levels, store, {} };
+    const auto spare = quadsAlone && store ? store->find<SpareMap>(0) : nullptr;
+    if (spare)
+    {
+      run.spare.swap(spare->uv);
+    }
     History history;
     findShortLoops(run, sized.stages, result.reused);
     makeAttempts(run, history);
     levels.letGo();
     result.smallParts = run.shortLoops.parts;
     takeAttempt(history.result(), options, quadsAlone, surface, result);
+    if (quadsAlone && store != nullptr)
+    {
+      std::vector<FixedVec2>& uv = history.result().map->uv;
+      auto kept = std::make_shared<SpareMap>();
+      kept->uv.swap(uv.empty() ? run.spare : uv);
+      const std::size_t bytes = bytesOf(kept->uv);
+      store->put(0, std::move(kept), bytes);
+    }
     tellAttempt(history.result(),
       { sized.edgeLength, frame.unit, sized.targetQuads, options.maximumNumberOfQuads }, result);
     takeHistory(history, levels, sized.stages, result);

@@ -25,12 +25,15 @@ SurfaceInput withoutGeometry(const SurfaceInput& surface)
     sizing, curves, regularElsewhere, faceOrder, precision };
 }
 
+/// Lines that are remembered; a stroke of ten thousand polygons takes a megabyte.
+constexpr std::size_t kMostPlacements = 256;
+
 class Composition
 {
 public:
-  Composition(
-    const SurfaceInput& surface, const SurfacePlaces& places, const SessionConstraints& constraints)
-    : surface_(surface), places_(places), constraints_(constraints)
+  Composition(const SurfaceInput& surface, const SurfacePlaces& places, LinePlacements& lines,
+    const SessionConstraints& constraints)
+    : surface_(surface), places_(places), lines_(lines), constraints_(constraints)
   {
     composed_.input = withoutGeometry(surface);
     composed_.parts.resize(constraints.size());
@@ -70,27 +73,23 @@ public:
     return std::move(composed_);
   }
 
-  void operator()(const FeatureLine& line)
+  void operator()(const FeatureLine&)
   {
-    ConstraintPlacement placement(surface_, places_);
-    placement.addFeature({ id(), line.points });
-    const PlacedConstraint& placed = takePlaced(placement);
+    const LinePlacements::Placed& placed = takePlaced();
     if (part().whyNot.empty())
     {
-      part().path = placed.path;
-      addFeatureMarks(composed_.input, polygons(), placement.featureMarks());
+      part().path = placed.line.path;
+      addFeatureMarks(composed_.input, polygons(), placed.features);
     }
   }
 
-  void operator()(const GuideStroke& stroke)
+  void operator()(const GuideStroke&)
   {
-    ConstraintPlacement placement(surface_, places_);
-    placement.addStroke({ id(), stroke.points }, stroke.weight, stroke.radius);
-    const PlacedConstraint& placed = takePlaced(placement);
+    const LinePlacements::Placed& placed = takePlaced();
     if (part().whyNot.empty())
     {
-      part().guided = placed.guided;
-      takeGuides(placement.guideMarks());
+      part().guided = placed.line.guided;
+      takeGuides(placed.guides);
     }
   }
 
@@ -239,14 +238,12 @@ private:
     return (*found)->name();
   }
 
-  /// The only constraint of the placement.
-  const PlacedConstraint& takePlaced(const ConstraintPlacement& placement)
+  const LinePlacements::Placed& takePlaced()
   {
-    const PlacedConstraints& result = placement.result();
-    const PlacedConstraint& placed = result.placed.front();
-    part().whyNot = placed.whyNot;
-    part().place = placed.path.empty() ? part().place : placed.path.front();
-    composed_.notices.insert(composed_.notices.end(), result.notices.begin(), result.notices.end());
+    const LinePlacements::Placed& placed = lines_.of(constraints_[at_], surface_, places_);
+    part().whyNot = placed.line.whyNot;
+    part().place = placed.line.path.empty() ? part().place : placed.line.path.front();
+    composed_.notices.insert(composed_.notices.end(), placed.notices.begin(), placed.notices.end());
     return placed;
   }
 
@@ -329,6 +326,7 @@ private:
 
   const SurfaceInput& surface_;
   const SurfacePlaces& places_;
+  LinePlacements& lines_;
   const SessionConstraints& constraints_;
   std::size_t at_ = 0;
   ComposedInput composed_;
@@ -339,10 +337,39 @@ private:
 
 } // namespace
 
-ComposedInput composeInput(const SurfaceInput& surface, const SurfacePlaces& places,
-  const SessionConstraints& constraints, const std::map<int, std::string>& leftOut)
+const LinePlacements::Placed& LinePlacements::of(
+  const std::shared_ptr<const SessionConstraint>& constraint, const SurfaceInput& surface,
+  const SurfacePlaces& places)
 {
-  return Composition(surface, places, constraints).run(leftOut);
+  const auto found = known_.find(constraint);
+  if (found != known_.end())
+  {
+    return found->second;
+  }
+  ConstraintPlacement placement(surface, places);
+  if (const auto* stroke = std::get_if<GuideStroke>(&constraint->content))
+  {
+    placement.addStroke({ constraint->id, stroke->points }, stroke->weight, stroke->radius);
+  }
+  else
+  {
+    const auto& line = std::get<FeatureLine>(constraint->content);
+    placement.addFeature({ constraint->id, line.points });
+  }
+  const PlacedConstraints& result = placement.result();
+  if (known_.size() >= kMostPlacements)
+  {
+    known_.clear();
+  }
+  return known_[constraint] = { result.placed.front(), result.notices, placement.guideMarks(),
+    placement.featureMarks() };
+}
+
+ComposedInput composeInput(const SurfaceInput& surface, const SurfacePlaces& places,
+  LinePlacements& lines, const SessionConstraints& constraints,
+  const std::map<int, std::string>& leftOut)
+{
+  return Composition(surface, places, lines, constraints).run(leftOut);
 }
 
 } // namespace quadrille

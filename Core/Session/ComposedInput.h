@@ -43,9 +43,30 @@ struct ComposedInput
   std::vector<std::string> notices; ///< what the user should know
 };
 
+/// Where drawn lines lie on the surface, which depends on nothing else.
+class LinePlacements
+{
+public:
+  struct Placed
+  {
+    PlacedConstraint line;
+    std::vector<std::string> notices;
+    std::vector<GuideMark> guides;
+    std::vector<FeatureMark> features;
+  };
+
+  /// Of a feature or a stroke.
+  const Placed& of(const std::shared_ptr<const SessionConstraint>& constraint,
+    const SurfaceInput& surface, const SurfacePlaces& places);
+
+private:
+  std::map<std::shared_ptr<const SessionConstraint>, Placed> known_;
+};
+
 /// leftOut: ids of constraints that are not put on, and why. Constraints that contradict an earlier one, or the
 /// surface, are left out as well.
 ComposedInput composeInput(const SurfaceInput& surface, const SurfacePlaces& places,
-  const SessionConstraints& constraints, const std::map<int, std::string>& leftOut);
+  LinePlacements& lines, const SessionConstraints& constraints,
+  const std::map<int, std::string>& leftOut);
 
 } // namespace quadrille

@@ -203,7 +203,8 @@ private:
   void compose(std::map<int, std::string> leftOut)
   {
     leftOut.insert(refused_.begin(), refused_.end());
-    composed_ = composeInput(data_.surface, data_.places(), state_.constraints, leftOut);
+    composed_ =
+      composeInput(data_.surface, data_.places(), data_.lines, state_.constraints, leftOut);
   }
 
   /// None where the surface has no such symmetry, whatever else is asked of it: then it is left out of all runs. Were

@@ -61,6 +61,7 @@ struct SessionData
   std::size_t at = 0; ///< of the present one
   std::map<std::string, std::shared_ptr<SessionState>> names;
   ResultStore store;
+  LinePlacements lines;
   SessionReport stopped; ///< of an update that was
 
   struct Kept
