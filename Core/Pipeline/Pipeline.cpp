@@ -30,9 +30,6 @@ struct SpareMap
   std::vector<FixedVec2> uv;
 };
 
-/// Bytes that the store takes for a triangle of the input.
-constexpr double kBytesRemembered = 150;
-
 std::size_t countTriangles(const SurfaceInput& input)
 {
   std::size_t triangles = 0;
@@ -74,10 +71,7 @@ ResultStore* storeIfRoom(
   {
     return nullptr;
   }
-  // What is held already is not free any more.
-  const double held = static_cast<double>(store->bytes());
-  const double needed =
-    result.estimate.bytes + std::max(0.0, kBytesRemembered * static_cast<double>(triangles) - held);
+  const double needed = bytesToRemember(result.estimate, triangles, store->bytes());
   if (needed <= options.memoryLimit.value_or(freeMemory()))
   {
     return store;
