@@ -312,13 +312,18 @@ public:
     }
     hierarchy_.coarse = {};
     hierarchy_.log.truncate(intermediateEnd_);
-    restore(removalsFrom(hierarchy_.log, missing), vertices, options);
+    if (!logPlaces_)
+    {
+      logPlaces_.emplace(hierarchy_.log);
+    }
+    restore(removalsFrom(hierarchy_.log, *logPlaces_, missing), vertices, options);
   }
 
   /// Of what is held only to go back to the level that phase 1 left.
   std::size_t bytesAside() const
   {
-    std::size_t bytes = fineCurves_.kind.size() * (sizeof(VertexKind) + sizeof(Index));
+    std::size_t bytes = fineCurves_.kind.size() * (sizeof(VertexKind) + sizeof(Index)) +
+      (logPlaces_ ? logPlaces_->bytes() : 0);
     if (asPhase1Left_)
     {
       for (const auto& [id, block] : asPhase1Left_->blocks)
@@ -604,8 +609,9 @@ private:
     std::vector<std::pair<std::size_t, BlockRecords>> blocks; ///< that records were taken from
   };
   std::optional<AsPhase1Left> asPhase1Left_;
-  FeatureCurves fineCurves_;      ///< for vertices that come back, when first needed
-  std::vector<float> fineDefect_; ///< for GaussianMemory, when first needed
+  FeatureCurves fineCurves_;           ///< for vertices that come back, when first needed
+  std::optional<LogPlaces> logPlaces_; ///< of phase 1, the same
+  std::vector<float> fineDefect_;      ///< for GaussianMemory, when first needed
   DecimationCost cost_ = DecimationCost::Gaussian; ///< that the cache was filled with
   std::vector<FaceGuide> guides_;                  ///< that the intermediate level has
   StarCache cache_;
