@@ -189,7 +189,8 @@ std::vector<ReadArray> surfaceArrays(const std::string& patchArray)
 std::vector<ReadArray> lineArrays()
 {
   return { { arrays::kConstraintType, ArrayPlace::Cells, 1 },
-    { arrays::kGuidingWeight, ArrayPlace::Cells, 1 } };
+    { arrays::kGuidingWeight, ArrayPlace::Cells, 1 },
+    { arrays::kGuidingRadius, ArrayPlace::Cells, 1 } };
 }
 
 std::vector<ReadArray> pointArrays()

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <optional>
 #include <string>
 
 namespace quadrille
@@ -36,11 +37,27 @@ Vector3 directionAt(const std::vector<Vector3>& path, std::size_t i)
   return along.norm() > 0 ? Vector3(along.normalized()) : Vector3(Vector3::Zero());
 }
 
+bool asksForValence(const PlacedConstraint& constraint)
+{
+  return constraint.kind == ConstraintKind::Valence || constraint.kind == ConstraintKind::Move;
+}
+
 /// The search for them is worth its time only then.
 bool asksForValences(const std::vector<PlacedConstraint>& placed)
 {
-  return std::any_of(placed.begin(), placed.end(),
-    [](const PlacedConstraint& constraint) { return constraint.kind == ConstraintKind::Valence; });
+  return std::any_of(placed.begin(), placed.end(), asksForValence);
+}
+
+/// Where it is shown as a vertex; nowhere if it is a line.
+std::optional<Vector3> vertexOf(const PlacedConstraint& constraint)
+{
+  if (constraint.kind == ConstraintKind::Move && constraint.whyNot.empty())
+  {
+    return constraint.path.back();
+  }
+  return asksForValence(constraint) || constraint.path.size() == 1
+    ? std::optional<Vector3>(constraint.path.front())
+    : std::nullopt;
 }
 
 } // namespace
@@ -69,8 +86,9 @@ std::vector<std::string> missedValences(
 }
 
 vtkSmartPointer<vtkPolyData> writeConstraints(const std::vector<PlacedConstraint>& placed,
-  const std::vector<CurveOutcome>& outcomes, const QuadMesh& mesh)
+  const std::vector<CurveOutcome>& outcomes, const QuadMesh& mesh, const std::vector<bool>& isMet)
 {
+  auto met = newArray<vtkIntArray>("Met");
   auto kind = newArray<vtkIntArray>("Constraint");
   auto source = newArray<vtkIdTypeArray>("SourceId");
   auto distance = newArray<vtkDoubleArray>("Distance");
@@ -85,40 +103,41 @@ vtkSmartPointer<vtkPolyData> writeConstraints(const std::vector<PlacedConstraint
   const QuadMesh none;
   const ReachedValences reached(asksForValences(placed) ? mesh : none);
   const LinesInQuads chains(std::any_of(placed.begin(), placed.end(), isLine) ? mesh : none);
-  const auto add = [&](const PlacedConstraint& constraint, vtkCellArray* cells)
+  const auto add = [&](std::size_t i, const std::vector<Vector3>& path, vtkCellArray* cells)
   {
-    const bool point = constraint.kind == ConstraintKind::Valence;
-    const int there = point ? reached.at(constraint.path.front()) : 0;
-    const std::vector<Vector3> chain =
-      isLine(constraint) ? chains.chainOf(constraint, outcomes) : std::vector<Vector3>{};
-    const std::vector<Vector3>& path = chain.empty() ? constraint.path : chain;
-    const bool isMet = isLine(constraint) ? !chain.empty() : !point || there == constraint.valence;
+    const PlacedConstraint& constraint = placed[i];
+    const bool hasTwoCodes =
+      constraint.kind != ConstraintKind::Feature && constraint.kind != ConstraintKind::Stroke;
     cells->InsertNextCell(static_cast<int>(path.size()));
-    for (std::size_t i = 0; i < path.size(); ++i)
+    for (std::size_t k = 0; k < path.size(); ++k)
     {
-      cells->InsertCellPoint(points->InsertNextPoint(path[i].data()));
-      direction->InsertNextTuple(directionAt(path, i).data());
+      cells->InsertCellPoint(points->InsertNextPoint(path[k].data()));
+      direction->InsertNextTuple(directionAt(path, k).data());
     }
-    kind->InsertNextValue(static_cast<int>(constraint.kind) + (isMet ? 0 : kMissed));
+    met->InsertNextValue(isMet.at(i) ? 1 : 0);
+    kind->InsertNextValue(
+      static_cast<int>(constraint.kind) + (hasTwoCodes && !isMet.at(i) ? kMissed : 0));
     source->InsertNextValue(constraint.source);
     distance->InsertNextValue(constraint.distance);
     weight->InsertNextValue(constraint.weight);
     asked->InsertNextValue(constraint.valence);
-    valence->InsertNextValue(there);
+    valence->InsertNextValue(asksForValence(constraint) ? reached.at(path.front()) : 0);
   };
   // Vertices come before lines in the order of cells.
-  for (const PlacedConstraint& constraint : placed)
+  for (std::size_t i = 0; i < placed.size(); ++i)
   {
-    if (constraint.kind == ConstraintKind::Valence)
+    if (const std::optional<Vector3> vertex = vertexOf(placed[i]))
     {
-      add(constraint, verts);
+      add(i, { *vertex }, verts);
     }
   }
-  for (const PlacedConstraint& constraint : placed)
+  for (std::size_t i = 0; i < placed.size(); ++i)
   {
-    if (constraint.kind != ConstraintKind::Valence && constraint.path.size() > 1)
+    if (!vertexOf(placed[i]) && placed[i].path.size() > 1)
     {
-      add(constraint, lines);
+      const std::vector<Vector3> chain =
+        isLine(placed[i]) ? chains.chainOf(placed[i], outcomes) : std::vector<Vector3>{};
+      add(i, chain.empty() ? placed[i].path : chain, lines);
     }
   }
   auto data = vtkSmartPointer<vtkPolyData>::New();
@@ -127,11 +146,11 @@ vtkSmartPointer<vtkPolyData> writeConstraints(const std::vector<PlacedConstraint
   data->SetLines(lines);
   data->GetPointData()->AddArray(direction);
   for (vtkDataArray* array :
-    std::initializer_list<vtkDataArray*>{ kind, source, distance, weight, asked, valence })
+    std::initializer_list<vtkDataArray*>{ met, kind, source, distance, weight, asked, valence })
   {
     data->GetCellData()->AddArray(array);
   }
-  data->GetCellData()->SetActiveScalars("Constraint");
+  data->GetCellData()->SetActiveScalars("Met");
   return data;
 }
 

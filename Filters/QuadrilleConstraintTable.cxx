@@ -269,6 +269,15 @@ ConstraintWord Judge::drawn(std::size_t i)
   {
     return valenceAt(constraint.source, place, constraint.valence);
   }
+  if (constraint.kind == ConstraintKind::Move && !constraint.whyNot.empty())
+  {
+    return placed(unknownWord("move", constraint.source, "valence", constraint.whyNot), place);
+  }
+  if (constraint.kind == ConstraintKind::Move)
+  {
+    return worded(
+      "move", constraint.source, measures_.valence(constraint.path.back(), constraint.valence));
+  }
   if (constraint.kind == ConstraintKind::Connection || constraint.kind == ConstraintKind::Cycle)
   {
     return line(constraint);
@@ -326,6 +335,17 @@ std::vector<ConstraintWord> judgeConstraints(
     words.push_back(judge.drawn(i));
   }
   return words;
+}
+
+std::vector<bool> metOfDrawn(
+  const std::vector<ConstraintWord>& words, const AskedConstraints& asked)
+{
+  std::vector<bool> met;
+  for (std::size_t i = words.size() - asked.placed.size(); i < words.size(); ++i)
+  {
+    met.push_back(words[i].isMet);
+  }
+  return met;
 }
 
 vtkSmartPointer<vtkTable> writeConstraintTable(const std::vector<ConstraintWord>& words)

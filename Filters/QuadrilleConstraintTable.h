@@ -43,6 +43,10 @@ struct ConstraintWord
 std::vector<ConstraintWord> judgeConstraints(
   const AskedConstraints& asked, const QuadMesh& mesh, vtkDataArray* sizes);
 
+/// Of the words, those on what was drawn, in their order: whether it is met.
+std::vector<bool> metOfDrawn(
+  const std::vector<ConstraintWord>& words, const AskedConstraints& asked);
+
 /// Columns Id (0, 1, ...), Kind, SourceId, X, Y, Z, Met (0 or 1), Deviation, Deviation95, Unit, Reason. See
 /// vtkQuadRemesh.
 vtkSmartPointer<vtkTable> writeConstraintTable(const std::vector<ConstraintWord>& words);

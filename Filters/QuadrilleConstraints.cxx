@@ -76,13 +76,17 @@ ConstraintKind kindOfLine(vtkDataArray* types, vtkIdType cell)
   {
     return type == 0 ? ConstraintKind::Feature : ConstraintKind::Stroke;
   }
-  if (type != 2 && type != 3)
+  if (type != 2 && type != 3 && type != 4)
   {
     refuse("curve ", cell, " has ", arrays::kConstraintType, " ", type,
-      ", but only 0 (feature curve), 1 (guiding stroke), 2 (connection) and 3 (cycle) can be asked "
-      "for: correct the array, or use the inputs Feature Curves and Guiding Strokes without it");
+      ", but only 0 (feature curve), 1 (guiding stroke), 2 (connection), 3 (cycle) and 4 (move of "
+      "an "
+      "irregular vertex) can be asked for: correct the array, or use the inputs Feature Curves and "
+      "Guiding Strokes without it");
   }
-  return type == 2 ? ConstraintKind::Connection : ConstraintKind::Cycle;
+  return type == 2 ? ConstraintKind::Connection
+    : type == 3    ? ConstraintKind::Cycle
+                   : ConstraintKind::Move;
 }
 
 double weightOf(vtkDataArray* weights, vtkIdType cell, double otherwise)
@@ -96,18 +100,32 @@ double weightOf(vtkDataArray* weights, vtkIdType cell, double otherwise)
   return weight;
 }
 
+double radiusOf(vtkDataArray* radii, vtkIdType cell, double otherwise)
+{
+  const double radius = radii ? radii->GetComponent(cell, 0) : otherwise;
+  if (!(radius >= 0) || std::isinf(radius))
+  {
+    refuse("guiding stroke ", cell, " has the ", arrays::kGuidingRadius, " ", radius,
+      ", but it must be a number of at least 0");
+  }
+  return radius;
+}
+
 void addCurves(vtkPolyData* curves, const ConstraintInputs& inputs, ConstraintPlacement& placement)
 {
   vtkDataArray* types = curves->GetCellData()->GetArray(arrays::kConstraintType);
   vtkDataArray* weights = curves->GetCellData()->GetArray(arrays::kGuidingWeight);
-  for (const DrawnLine& line : readLines(curves, "feature curve"))
+  vtkDataArray* radii = curves->GetCellData()->GetArray(arrays::kGuidingRadius);
+  for (const DrawnLine& line : readLines(curves, "curve"))
   {
     switch (kindOfLine(types, line.source))
     {
       case ConstraintKind::Stroke:
-        placement.addStroke(
-          line, weightOf(weights, line.source, inputs.strokeWeight), inputs.strokeRadius);
+        placement.addStroke(line, weightOf(weights, line.source, inputs.strokeWeight),
+          radiusOf(radii, line.source, inputs.strokeRadius));
         break;
+      case ConstraintKind::Move:
+        break; // see drawnMoves
       case ConstraintKind::Connection:
         placement.addCurve(line.source, CurveKind::Connection, line.points);
         break;
@@ -169,10 +187,11 @@ bool connects(vtkPolyData* data)
 void addStrokes(const ConstraintInputs& inputs, ConstraintPlacement& placement)
 {
   vtkDataArray* weights = inputs.strokes->GetCellData()->GetArray(arrays::kGuidingWeight);
+  vtkDataArray* radii = inputs.strokes->GetCellData()->GetArray(arrays::kGuidingRadius);
   for (const DrawnLine& line : readLines(inputs.strokes, "guiding stroke"))
   {
-    placement.addStroke(
-      line, weightOf(weights, line.source, inputs.strokeWeight), inputs.strokeRadius);
+    placement.addStroke(line, weightOf(weights, line.source, inputs.strokeWeight),
+      radiusOf(radii, line.source, inputs.strokeRadius));
   }
 }
 
@@ -209,6 +228,39 @@ void addPoints(vtkPolyData* points, int valence, ConstraintPlacement& placement)
   }
 }
 
+/// Points of the input of all classes ask for a valence by their array; without it those do that are no part of lines.
+int valenceOfMixed(vtkPolyData* mixed, int valence)
+{
+  return mixed->GetPointData()->HasArray(arrays::kTargetValence) || hasLines(mixed) ||
+      connects(mixed)
+    ? 0
+    : valence;
+}
+
+/// The lines of an input that are moves, as they are.
+void addMoves(vtkPolyData* data, PlacedConstraints& result)
+{
+  vtkDataArray* types = data ? data->GetCellData()->GetArray(arrays::kConstraintType) : nullptr;
+  for (const DrawnLine& line :
+    types&& hasLines(data) ? readLines(data, "move") : std::vector<DrawnLine>{})
+  {
+    if (kindOfLine(types, line.source) != ConstraintKind::Move)
+    {
+      continue;
+    }
+    if (line.points.size() < 2)
+    {
+      refuse("move ", line.source, " of an irregular vertex has ", line.points.size(),
+        " points, but it leads from one place to another: draw it anew");
+    }
+    PlacedConstraint move;
+    move.kind = ConstraintKind::Move;
+    move.source = line.source;
+    move.path = { line.points.front(), line.points.back() };
+    result.placed.push_back(std::move(move));
+  }
+}
+
 /// What of an input is not used.
 void tellUnused(vtkPolyData* data, const char* name, std::vector<std::string>& notices)
 {
@@ -236,7 +288,7 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
   tellUnused(inputs.cycles, "Cycles", unused.notices);
   const bool any = hasLines(inputs.curves) || hasLines(inputs.strokes) ||
     hasLines(inputs.connections) || hasLines(inputs.cycles) || hasPoints(inputs.points) ||
-    connects(inputs.surface);
+    hasPoints(inputs.mixed) || connects(inputs.surface);
   if (!any || surface.input.polygonPoints.empty())
   {
     return unused;
@@ -260,6 +312,12 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
   addConnections(inputs.surface, "the surface", placement);
   addCurves(inputs.connections, CurveKind::Connection, placement);
   addCurves(inputs.cycles, CurveKind::Cycle, placement);
+  if (hasPoints(inputs.mixed))
+  {
+    addCurves(inputs.mixed, inputs, placement);
+    addPoints(inputs.mixed, valenceOfMixed(inputs.mixed, inputs.valence), placement);
+    addConnections(inputs.mixed, "the constraints", placement);
+  }
   surface.curveMarks = placement.featureMarks();
   const std::size_t polygons = surface.input.polygonOffsets.size() - 1;
   addFeatureMarks(surface.input, polygons, surface.curveMarks);
@@ -267,6 +325,8 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
   placement.setValences(surface.input);
   placement.addCurves(surface.input);
   PlacedConstraints result = placement.result();
+  addMoves(inputs.curves, result);
+  addMoves(inputs.mixed, result);
   result.notices.insert(result.notices.begin(), unused.notices.begin(), unused.notices.end());
   return result;
 }

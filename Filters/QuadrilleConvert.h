@@ -37,6 +37,7 @@ constexpr const char* kFeatureEdges = "FeatureEdges";
 constexpr const char* kPatchId = "PatchId";
 constexpr const char* kGuidingDirection = "GuidingDirection";
 constexpr const char* kGuidingWeight = "GuidingWeight";
+constexpr const char* kGuidingRadius = "GuidingRadius";
 constexpr const char* kTargetValence = "TargetValence";
 constexpr const char* kConstraintType = "ConstraintType";
 constexpr const char* kConnectId = "ConnectId";

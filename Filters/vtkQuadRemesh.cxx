@@ -10,12 +10,14 @@
 #include "QuadrilleConstraints.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleFrame.h"
+#include "QuadrilleMoves.h"
 #include "QuadrilleQuads.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleStamps.h"
 #include "QuadrilleSymmetry.h"
 
 #include "vtkFieldData.h"
+#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -170,11 +172,21 @@ void writeMapped(const quadrille::RemeshResult& result, const quadrille::RemeshO
 //------------------------------------------------------------------------------
 vtkQuadRemesh::vtkQuadRemesh()
 {
-  this->SetNumberOfInputPorts(6);
+  this->SetNumberOfInputPorts(7);
   this->SetNumberOfOutputPorts(7);
 }
 
 vtkQuadRemesh::~vtkQuadRemesh() = default;
+
+//------------------------------------------------------------------------------
+int vtkQuadRemesh::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 6)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  }
+  return this->Superclass::FillInputPortInformation(port, info);
+}
 
 //------------------------------------------------------------------------------
 void vtkQuadRemesh::SetKeepLevels(vtkTypeBool on)
@@ -295,22 +307,30 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   }
   quadrille::ResultStore* levels = memory != nullptr ? &memory->levels : nullptr;
   const bool isSymmetric = this->Symmetry != SYMMETRY_NONE;
-  quadrille::SymmetricResult made;
-  if (isSymmetric)
+  const auto run = [&](quadrille::SurfaceInput surface, const quadrille::RemeshOptions& how)
   {
+    if (!isSymmetric)
+    {
+      quadrille::SymmetricResult plain;
+      plain.remeshed = levels != nullptr ? quadrille::remesh(std::move(surface), how, *levels)
+                                         : quadrille::remesh(std::move(surface), how);
+      return plain;
+    }
     quadrille::SymmetryOptions symmetry;
     if (this->Symmetry == SYMMETRY_PLANE)
     {
       symmetry.plane = quadrille::MirrorPlane{ quadrille::Vector3(this->SymmetryOrigin),
         quadrille::Vector3(this->SymmetryNormal) };
     }
-    made = quadrille::remeshSymmetric(std::move(converted.input), options, symmetry, levels);
-  }
-  else
+    return quadrille::remeshSymmetric(std::move(surface), how, symmetry, levels);
+  };
+  std::vector<std::string> notices;
+  const quadrille::SymmetricResult made = quadrille::asksForMoves(asked.placed)
+    ? quadrille::remeshWithMoves(converted.input, options, run, asked.placed, notices)
+    : run(std::move(converted.input), options);
+  for (const std::string& notice : notices)
   {
-    made.remeshed = levels != nullptr
-      ? quadrille::remesh(std::move(converted.input), options, *levels)
-      : quadrille::remesh(std::move(converted.input), options);
+    this->AddWarning(notice);
   }
   const quadrille::RemeshResult& result = made.remeshed;
   report.reusedStages = result.reused;
@@ -390,10 +410,10 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   block.output(2)->ShallowCopy(written.lines);
   block.output(3)->ShallowCopy(written.separatrices);
   block.output(4)->ShallowCopy(written.irregular);
-  block.output(5)->ShallowCopy(
-    quadrille::writeConstraints(asked.placed, asked.curves, result.quads));
   std::vector<quadrille::ConstraintWord> words = quadrille::judgeConstraints(
     asked, result.quads, written.quads->GetPointData()->GetArray(quadrille::arrays::kSizing));
+  block.output(5)->ShallowCopy(quadrille::writeConstraints(
+    asked.placed, asked.curves, result.quads, quadrille::metOfDrawn(words, asked)));
   if (isSymmetric)
   {
     words.push_back(quadrille::judgeSymmetry(made));
@@ -414,10 +434,10 @@ void vtkQuadRemesh::WritePreview(quadrille::Block& block, const quadrille::Asked
   addFieldData(quads, result);
   quadrille::addText(quads, "Notices", this->GetBlockNotices());
   block.output(4)->ShallowCopy(written.irregular);
-  block.output(5)->ShallowCopy(
-    quadrille::writeConstraints(asked.placed, asked.curves, result.quads));
   const std::vector<quadrille::ConstraintWord> words =
     quadrille::judgeConstraints(asked, result.quads, nullptr);
+  block.output(5)->ShallowCopy(quadrille::writeConstraints(
+    asked.placed, asked.curves, result.quads, quadrille::metOfDrawn(words, asked)));
   block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
   this->SetResult("preview: " + resultText(result, written.irregular->GetNumberOfPoints()) +
     constraintText(words));

@@ -26,9 +26,9 @@
  *    0: none), `Separatrix` (1: the straight line has an irregular end); `QuadPointId` on points.
  * 4. the irregular vertices of the quads as vertices, with `Valence` (number of edges), `Index` (edges that are missing
  *    to a regular vertex), `OnBoundary` and `QuadPointId`.
- * 5. what the constraints of the inputs 1 to 3 became on the surface, see QuadrilleConstraints.h.
+ * 5. what the constraints of the inputs 1 to 6 became on the surface, see QuadrilleConstraints.h.
  * 6. a vtkTable with a row for each constraint, in the order of the input: those of the surface's arrays (guides,
- *    feature edges, valences, sizes), then those of the inputs 1 to 3. `Id` (0, 1, ...), `Kind` ("guide array": a
+ *    feature edges, valences, sizes), then those of the inputs 1 to 6. `Id` (0, 1, ...), `Kind` ("guide array": a
  *    connected region, "guide stroke", "feature curve": of `FeatureEdges` a connected set, "valence", "size": the
  *    array), `SourceId` (line or point of its input; of arrays the first cell or point; -1 for sizes), `X`, `Y`, `Z`
  *    (where it deviates most; the vertex of a valence), `Met` (0 or 1), `Deviation` in `Unit`, `Deviation95`, `Reason`
@@ -411,10 +411,22 @@ public:
   void SetCyclesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(5, output); }
   void SetCyclesData(vtkDataObject* lines) { this->SetInputDataObject(5, lines); }
   ///@}
+
+  ///@{
+  /// Optional input with any number of connections (port 6): constraints of all classes, as vtkQuadConstraintSource
+  /// makes them. Lines by their cell array `ConstraintType` (0 or none: feature curve, 1 guiding stroke, 2 connection,
+  /// 3 cycle, 4 move: the irregular vertex nearest to the begin of the line goes to its end), points by their point
+  /// array `TargetValence`; without it, and without lines, all of them get PointValence.
+  void AddConstraintsConnection(vtkAlgorithmOutput* output) { this->AddInputConnection(6, output); }
+  void AddConstraintsData(vtkDataObject* data) { this->AddInputDataObject(6, data); }
+  void RemoveAllConstraints() { this->SetInputConnection(6, nullptr); }
+  ///@}
+
 protected:
   vtkQuadRemesh();
   ~vtkQuadRemesh() override;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   const char* GetBlockType(int outputPort) const override;
   void Execute(quadrille::Block& block) override;
   void WritePreview(quadrille::Block& block, const quadrille::AskedConstraints& asked,

@@ -362,8 +362,19 @@ void vtkQuadrilleAlgorithm::ReadInputs(Run& run, vtkInformationVector** inputs)
   run.input = vtkDataObject::GetData(inputs[0]);
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
-    vtkDataObject* data = vtkDataObject::GetData(inputs[port]);
-    run.trees.push_back(quadrille::blockTree(data));
+    run.trees.push_back(quadrille::blockTree(vtkDataObject::GetData(inputs[port])));
+    // Only a port whose data is shared by all blocks takes several connections.
+    for (int i = 1; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      for (auto& [path, node] :
+        quadrille::blockTree(vtkDataObject::GetData(inputs[port]->GetInformationObject(i))))
+      {
+        quadrille::BlockPath ofConnection{ std::numeric_limits<unsigned>::max(),
+          static_cast<unsigned>(i) };
+        ofConnection.insert(ofConnection.end(), path.begin(), path.end());
+        run.trees.back()[ofConnection] = node;
+      }
+    }
     if (this->GetPortRole(port) != PortRole::Shared)
     {
       continue;

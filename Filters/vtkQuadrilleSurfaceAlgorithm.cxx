@@ -83,6 +83,10 @@ quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
     constraints.connections = block.input(4);
     constraints.cycles = block.input(5);
   }
+  if (this->GetNumberOfInputPorts() > 6)
+  {
+    constraints.mixed = block.input(6);
+  }
   constraints.surface = data;
   constraints.strokeWeight = this->StrokeWeight;
   constraints.strokeRadius = this->StrokeRadius;
@@ -99,6 +103,14 @@ quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
   if (asked)
   {
     asked->placed = std::move(result.placed);
+  }
+  else if (std::any_of(result.placed.begin(), result.placed.end(),
+             [](const quadrille::PlacedConstraint& placed)
+             { return placed.kind == quadrille::ConstraintKind::Move; }))
+  {
+    throw quadrille::InvalidInput(
+      "an irregular vertex is to be moved, which needs the quads without "
+      "the move: only Quad Remesh can do this");
   }
   return surface;
 }
@@ -120,6 +132,15 @@ void vtkQuadrilleSurfaceAlgorithm::WarnOfUnusedArrays(const quadrille::Block& bl
   warn(1, "the feature curves", quadrille::lineArrays());
   warn(2, "the guiding strokes", quadrille::lineArrays());
   warn(3, "the valence points", quadrille::pointArrays());
+  if (this->GetNumberOfInputPorts() > 6)
+  {
+    std::vector<quadrille::ReadArray> all = quadrille::lineArrays();
+    for (const quadrille::ReadArray& array : quadrille::pointArrays())
+    {
+      all.push_back(array);
+    }
+    warn(6, "the constraints", all);
+  }
   for (const std::string& notice :
     quadrille::partnerNotices(block.input(0), block.input(1), block.input(2)))
   {

@@ -122,6 +122,8 @@ const char* nameOf(ConstraintKind kind)
       return "valence";
     case ConstraintKind::Connection:
       return "connection";
+    case ConstraintKind::Move:
+      return "move";
     default:
       return "cycle";
   }

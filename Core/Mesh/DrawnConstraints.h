@@ -22,7 +22,9 @@ enum class ConstraintKind
   Stroke = 1,
   Valence = 2, ///< 3 in outputs where it is not met; connections and cycles the same
   Connection = 4,
-  Cycle = 6
+  Cycle = 6,
+  Move =
+    8 ///< of an irregular vertex, see Session/IrregularEdits.h; its path leads from the old place to the new one
 };
 
 /// What arrays and messages call it.
@@ -74,7 +76,7 @@ struct PlacedConstraint
   double distance =
     0; ///< of the farthest given point to its place on the surface, in units of the input
   double weight = 0;                 ///< of strokes
-  int valence = 0;                   ///< asked for
+  int valence = 0;                   ///< asked for; of a move that of its vertex
   std::vector<GuidedPolygon> guided; ///< of strokes: ascending by polygon
   std::size_t curve = 0; ///< of connections and cycles: its place in SurfaceInput::curves
   std::string whyNot;    ///< empty, or why it is not followed; its path is then a point

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Moves of irregular vertices that are drawn: they need the quads without them, in which the vertices are found.
+#pragma once
+
+#include "Mesh/DrawnConstraints.h"
+#include "Pipeline/Symmetry.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// remesh() or remeshSymmetric().
+using RemeshRun = std::function<SymmetricResult(SurfaceInput, const RemeshOptions&)>;
+
+bool asksForMoves(const std::vector<PlacedConstraint>& placed);
+
+/// Makes the quads of the input, finds the irregular vertex nearest to the begin of each move, and makes the quads with
+/// it at the end instead; all other irregular vertices stay where they are. The moves are done in their order, each in
+/// what those before it have left. Those that cannot be met, together with what else is asked for, are left out, the
+/// last one first.
+/// placed: of its moves the path becomes the vertex's old place and its new one, the point of the input nearest to what
+/// was drawn, and they get the vertex's valence; or whyNot. notices: what the user should know.
+SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& options,
+  const RemeshRun& run, std::vector<PlacedConstraint>& placed, std::vector<std::string>& notices);
+
+} // namespace quadrille

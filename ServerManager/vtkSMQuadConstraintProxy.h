@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkSMQuadConstraintProxy
+ * @brief   a source of a constraint, which finds its Quad Remesh by itself in ParaView's window
+ *
+ * Three things that save actions in the window; in scripts, where no panel shows the source, none but the first is done:
+ *
+ * - Where its points are not given, they are put on the box round the surface that is selected, or that the selected
+ *   *Quad Remesh* has as its input.
+ * - When it is applied after all of its first points were moved, it becomes an input `Constraints` of the *Quad Remesh*
+ *   that was selected when it was made, else of the one behind what was selected, else of the last one that was made.
+ *   That happens once; with a property `Enabled` a constraint is taken out and put back, and with the window's *Change
+ *   Input* it goes for good. Sources of a state file are connected as the file has it.
+ * - While a point is dragged and ParaView's *Auto Apply* is on, the *Quad Remesh* behind it follows as a preview (see its
+ *   property `Preview`). The values of the properties stay as they are until the point is let go and all is applied, so
+ *   that one undo takes the drag back.
+ *
+ * A hint `<Points property="Points" shape="line"/>` names a property with coordinates of points, at most two times. shape
+ * says where they are at first: "point", "line" along the box, "loop" round its middle; "begin" and "end" of a line.
+ *
+ * In the XML of the server manager it is the element QuadConstraintProxy.
+ */
+#ifndef vtkSMQuadConstraintProxy_h
+#define vtkSMQuadConstraintProxy_h
+
+#include "QuadrilleServerManagerModule.h" // for the export macro
+#include "vtkSMSourceProxy.h"
+#include "vtkWeakPointer.h" // for the filter
+
+#include <string> // for names of properties
+#include <vector> // for points
+
+class QUADRILLESERVERMANAGER_EXPORT vtkSMQuadConstraintProxy : public vtkSMSourceProxy
+{
+public:
+  static vtkSMQuadConstraintProxy* New();
+  vtkTypeMacro(vtkSMQuadConstraintProxy, vtkSMSourceProxy);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// Called when properties are applied.
+  void UpdateVTKObjects() override;
+
+  /// Called when it comes from a state file, or comes back by an undo or redo.
+  int LoadXMLState(vtkPVXMLElement* element, vtkSMProxyLocator* locator) override;
+
+  /// Called when the proxy is made, see vtkSMQuadConstraintPlacement. Properties that were set since then stay.
+  void PlaceOnSurface(vtkMTimeType made);
+
+protected:
+  vtkSMQuadConstraintProxy();
+  ~vtkSMQuadConstraintProxy() override;
+
+  int ReadXMLAttributes(vtkSMSessionProxyManager* manager, vtkPVXMLElement* element) override;
+
+private:
+  vtkSMQuadConstraintProxy(const vtkSMQuadConstraintProxy&) = delete;
+  void operator=(const vtkSMQuadConstraintProxy&) = delete;
+
+  /// A property that the hints name, and the values that it had at first.
+  struct PointsProperty
+  {
+    std::string Name;
+    std::string Shape;
+    std::vector<double> First;
+  };
+  void ReadFirstValues();
+  bool IsShown();
+  bool IsPlaced();
+  void Attach();
+  vtkSMProxy* ConnectedFilter();
+  void Follow();
+  void EndFollowing();
+
+  std::vector<PointsProperty> PointsProperties;
+  vtkWeakPointer<vtkSMProxy> Filter; ///< that it belongs to when it is made
+  bool IsAttached = false;           ///< or need not be
+  bool IsFollowing = false;
+  bool IsBusy = false;
+};
+
+#endif
