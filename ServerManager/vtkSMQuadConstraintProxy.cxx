@@ -300,7 +300,14 @@ void vtkSMQuadConstraintProxy::UpdateVTKObjects()
 {
   this->EndFollowing();
   this->Superclass::UpdateVTKObjects();
-  if (!this->IsAttached && this->GetObjectsCreated() && this->IsShown() && this->IsPlaced())
+  if (!this->GetObjectsCreated() || !this->IsShown())
+  {
+    return;
+  }
+  // An undo puts the points back to where they were at first.
+  const bool isPlaced = this->IsPlaced();
+  this->IsAttached = this->IsAttached && isPlaced;
+  if (!this->IsAttached && isPlaced)
   {
     this->Attach();
   }
@@ -330,6 +337,18 @@ vtkSMProxy* vtkSMQuadConstraintProxy::ConnectedFilter()
 }
 
 //------------------------------------------------------------------------------
+bool vtkSMQuadConstraintProxy::IsChanging()
+{
+  return std::any_of(this->PointsProperties.begin(), this->PointsProperties.end(),
+    [this](const PointsProperty& points)
+    {
+      vtkSMPropertyHelper applied(this, points.Name.c_str());
+      vtkSMUncheckedPropertyHelper shown(this, points.Name.c_str());
+      return valuesOf(applied) != valuesOf(shown);
+    });
+}
+
+//------------------------------------------------------------------------------
 void vtkSMQuadConstraintProxy::Follow()
 {
   vtkSMSessionProxyManager* manager = this->GetSessionProxyManager();
@@ -338,7 +357,7 @@ void vtkSMQuadConstraintProxy::Follow()
     return;
   }
   vtkSMProxy* filter = this->ConnectedFilter();
-  if (!filter || !isAutoApplyOn(manager))
+  if (!filter || !this->IsChanging() || !isAutoApplyOn(manager))
   {
     return;
   }

@@ -69,6 +69,7 @@ private:
   bool IsPlaced();
   void Attach();
   vtkSMProxy* ConnectedFilter();
+  bool IsChanging(); ///< what the panel shows is not applied yet
   void Follow();
   void EndFollowing();
 

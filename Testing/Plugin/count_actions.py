@@ -1,0 +1,348 @@
+# SPDX-FileCopyrightText: The Quadrille maintainers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws a constraint of each class in ParaView's real window, by mouse and keyboard, and counts the actions.
+
+  count_actions.py XVFB PARAVIEW [TASK...]
+
+A click, a key, a drag and a typed value are one action each. Each task begins with quads that are selected in the
+pipeline; afterwards the table of constraints must say that what was asked for is met. Screenshots are left in the folder
+QUADRILLE_ARTIFACTS. What is there and where on the screen is asked of the window by a script that runs in it; asking is
+no action.
+"""
+import ast
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+import private_display
+import test_gui
+
+ARTIFACTS = pathlib.Path(os.environ["QUADRILLE_ARTIFACTS"])
+WIDTH, HEIGHT = 1920, 1080
+MOST = {"stroke": 8, "valence": 5, "move": 4, "connection": 7, "loop": 9, "undo": 1, "mirror": 4}
+SOURCES = ("Quad Connection", "Quad Feature Curve", "Quad Loop", "Quad Move", "Quad Stroke", "Quad Valence")
+
+
+class Window:
+    """The window, as a user's eyes and hands have it."""
+
+    def __init__(self, folder, display):
+        self.folder, self.display = folder, display
+        self.question = folder / "question"
+        self.actions = []
+        self.buttons = {}
+        self.origin = (0, 0)
+
+    def xdotool(self, *words):
+        subprocess.run(["xdotool", *[str(w) for w in words]], env=dict(os.environ, DISPLAY=self.display), check=True)
+
+    def ask(self, code, seconds=60):
+        """What the code prints in the window; it is idle then."""
+        time.sleep(0.25)  # the window takes up what was done before
+        part = self.folder / "question.part"
+        part.write_text(code, encoding="utf-8")
+        part.rename(self.question)
+        answer = self.folder / "question.answer"
+        end = time.time() + seconds
+        while not answer.exists():
+            if time.time() > end:
+                raise SystemExit("FAILED: the window does not answer")
+            time.sleep(0.05)
+        text = answer.read_text(encoding="utf-8")
+        answer.unlink()
+        if text.startswith("FAILED"):
+            raise SystemExit(text)
+        return text.strip()
+
+    def value(self, expression):
+        return ast.literal_eval(self.ask(f"print(repr({expression}))"))
+
+    def rows(self):
+        return test_gui.read_xwd(self.folder / "Xvfb_screen0")
+
+    def screenshot(self, name):
+        time.sleep(0.5)
+        test_gui.write_png(ARTIFACTS / f"actions-{name}.png", self.rows())
+
+    def act(self, what):
+        self.actions.append(what)
+
+    # Actions.
+    def click(self, place, what):
+        self.act("click " + what)
+        self.xdotool("mousemove", *place, "sleep", 0.1, "click", 1)
+        self.ask("pass")
+
+    def key(self, key, place=None, what=""):
+        self.act(f"key {key}" + (" " + what if what else ""))
+        if place:
+            self.xdotool("mousemove", *place, "sleep", 0.15)
+        self.xdotool("key", key)
+        self.ask("pass")
+
+    def alt_click(self, place):
+        self.act("Alt+click")
+        self.xdotool("mousemove", *place, "sleep", 0.1, "keydown", "alt", "click", 1, "keyup", "alt")
+        self.ask("pass")
+
+    def scroll(self, place, what):
+        self.act("scroll " + what)
+        self.xdotool("mousemove", *place, "sleep", 0.1, "click", "--repeat", 8, "--delay", 30, 5)
+        self.ask("pass")
+
+    def turn_round(self):
+        """Half the width of the view is half a turn."""
+        self.act("drag the view round")
+        width = self.value("view.ViewSize[0]")
+        x, y = self.origin[0] + width // 4, self.origin[1] - 40
+        self.xdotool("mousemove", x, y, "sleep", 0.1, "mousedown", 1)
+        for k in range(1, 9):
+            self.xdotool("mousemove", x + k * width // 16, y, "sleep", 0.05)
+        self.xdotool("mouseup", 1)
+        self.ask("pass")
+
+    def type(self, text, what):
+        self.act(f"type {text} {what}")
+        self.xdotool("type", text)
+        self.ask("pass")
+
+    def button(self, name):
+        time.sleep(0.7)
+        self.find_buttons()  # the tool bars before them grow and shrink with what is selected
+        self.click(self.buttons[name], f"the button {name}")
+
+    def apply(self):
+        self.key("alt+a", what="(Apply)")
+        self.ask("pass")
+
+    # Where things are.
+    def on_screen(self, place):
+        x, y = self.value(f"tuple(display({tuple(place)!r}))")
+        return round(self.origin[0] + x), round(self.origin[1] - y)
+
+    def find_origin(self):
+        """The lower left corner of the view: by where the view says the mouse is."""
+        place = (WIDTH // 2, HEIGHT // 2)
+        self.xdotool("mousemove", place[0] - 5, place[1], "sleep", 0.2, "mousemove", *place, "sleep", 0.2)
+        x, y = self.value("tuple(interactor.GetEventPosition())")
+        self.origin = (place[0] - x, place[1] + y)
+
+    def find_buttons(self):
+        """The last buttons of the second row of tool bars are those of the constraints, by the alphabet."""
+        rows = self.rows()
+        empty = 3 * (WIDTH - 10)
+        icons, start, last = [], None, 0
+        for x in range(WIDTH):
+            if any(rows[y][3 * x:3 * x + 3] != rows[y][empty:empty + 3] for y in range(70, 95)):
+                start, last = x if start is None else start, x
+            elif start is not None and x - last > 4:
+                icons.append((start, last))
+                start = None
+        icons = [(a, b) for a, b in icons if b - a >= 10]
+        for name, (a, b) in zip(SOURCES, icons[-len(SOURCES):]):
+            self.buttons[name] = ((a + b) // 2, 82)
+
+    def find_by_change(self, first, second):
+        """The right end of what looks different in the panel after the second of two pieces of code."""
+        self.ask(first)
+        time.sleep(0.7)
+        before = self.rows()
+        self.ask(second)
+        time.sleep(0.7)
+        after = self.rows()
+        self.ask(first)
+        panel = WIDTH // 6
+        changed = [(x, y) for y in range(HEIGHT // 3, HEIGHT) if before[y][:3 * panel] != after[y][:3 * panel]
+                   for x in range(panel) if before[y][3 * x:3 * x + 3] != after[y][3 * x:3 * x + 3]]
+        if not changed:
+            raise SystemExit("FAILED: nothing in the panel shows the change of " + second)
+        top = min(y for _, y in changed)
+        changed = [(x, y) for x, y in changed if y < top + 25]
+        return max(x for x, _ in changed) - 2, top + 5
+
+    def body(self, x, z):
+        """A place on the flank of the animal, towards the eye."""
+        return self.on_screen((x, -0.45, z))
+
+
+def met(window, kind):
+    rows = window.value("rows()")
+    found = [row for row in rows if row[0] == kind]
+    if len(found) != 1 or found[0][1] != "1":
+        raise SystemExit(f"FAILED: the table of constraints has {rows}")
+    return found[0]
+
+
+def stroke(window):
+    places = [window.body(*p) for p in ((-0.5, 0.4), (-0.2, 0.25), (0.1, 0.1), (0.4, -0.02))]
+    window.button("Quad Stroke")
+    window.key("ctrl+2", places[3])
+    window.key("ctrl+1", places[2])
+    for place in (places[1], places[0]):
+        window.alt_click(place)
+        window.key("ctrl+1", place)
+    window.apply()
+    return met(window, "guide stroke")
+
+
+def valence(window):
+    window.button("Quad Valence")
+    field = window.find_by_change("v = simple.GetActiveSource(); v.Valence = 3", "v.Valence = 8")
+    window.key("ctrl+p", window.body(-0.2, 0.1))
+    window.act("double click the field Valence")
+    window.xdotool("mousemove", *field, "click", "--repeat", 2, "--delay", 80, 1)
+    window.type("5", "into Valence")
+    window.apply()
+    if window.value("simple.GetActiveSource().Valence") != 5:
+        raise SystemExit("FAILED: the typed valence did not come in")
+    return met(window, "valence")
+
+
+def visible(window):
+    """Irregular vertices towards the eye, with their places on the screen."""
+    return [(p, v, window.on_screen(p)) for p, v in window.value("[x for x in irregular() if is_visible(x[0])]")]
+
+
+def move(window):
+    """The first one that can be moved up by two edge lengths, by trials that are no actions."""
+    for place, _, pixels in visible(window):
+        target = (place[0], place[1], place[2] + 0.12)
+        window.ask(f"trial = QuadMove(From={list(place)}, To={list(target)}); quads.Constraints = [trial]; "
+                   "quads.UpdatePipeline()")
+        rows = window.value("rows()")
+        window.ask("clear()")
+        if rows and rows[0][1] == "1":
+            break
+    else:
+        raise SystemExit("FAILED: no irregular vertex can be moved")
+    window.button("Quad Move")
+    window.key("ctrl+2", window.on_screen(target))
+    window.key("ctrl+1", pixels)  # to the nearest vertex
+    window.apply()
+    return met(window, "move")
+
+
+def connection(window):
+    found = visible(window)
+    pairs = sorted(((sum((a - b) ** 2 for a, b in zip(p[0], q[0])), p, q) for i, p in enumerate(found)
+                    for q in found[:i]), key=lambda pair: pair[0])
+    for _, p, q in pairs:
+        window.ask(f"trial = QuadConnection(Points={list(p[0]) + list(q[0])}); quads.Constraints = [trial]; "
+                   "quads.UpdatePipeline()")
+        rows = window.value("rows()")
+        window.ask("clear()")
+        if rows and rows[0][1] == "1":
+            break
+    else:
+        raise SystemExit("FAILED: no two irregular vertices can be connected")
+    window.button("Quad Connection")
+    window.key("ctrl+1", p[2])  # to the nearest vertex
+    window.key("ctrl+2", q[2])
+    window.apply()
+    return met(window, "connection")
+
+
+def loop(window):
+    """Round the body: two places on this side, two on the other."""
+    high, low = 0.35, -0.1
+    window.button("Quad Loop")
+    window.key("ctrl+2", window.on_screen((0, -0.35, high)))
+    window.key("ctrl+1", window.on_screen((0, -0.37, low)))
+    window.turn_round()
+    for z in (low, high):
+        place = window.on_screen((0, 0.36, z))
+        window.alt_click(place)
+        window.key("ctrl+1", place)
+    window.apply()
+    return met(window, "cycle")
+
+
+def undo(window):
+    before = window.value("fingerprint()")
+    window.button("Quad Valence")
+    window.key("ctrl+p", window.body(-0.2, 0.1))
+    window.apply()
+    if window.value("fingerprint()") == before:
+        raise SystemExit("FAILED: the valence changes nothing")
+    window.actions.clear()
+    window.key("ctrl+z")
+    if window.value("fingerprint()") != before:
+        raise SystemExit("FAILED: the undo did not bring the quads back")
+    return ("undo", "1", "0", "")
+
+
+def mirror(window):
+    """The plane is where it is at first: through the middle, with the normal along x; it could be dragged."""
+    window.ask("quads.SymmetryNormal = [0, 1, 0]")
+    window.scroll((150, 900), "the panel")
+    x, y = window.find_by_change("quads.Symmetry = 'None'", "quads.Symmetry = 'Found'")
+    window.click((x, y), "the list Symmetry")
+    window.click((x, y + 22), "Plane in it")
+    window.apply()
+    if not window.value("quads.Symmetry == 'Plane'"):
+        raise SystemExit("FAILED: the list gave " + window.ask("print(repr(quads.Symmetry), rows())"))
+    return met(window, "symmetry")
+
+
+TASKS = {"stroke": stroke, "valence": valence, "move": move, "connection": connection, "loop": loop, "undo": undo,
+         "mirror": mirror}
+
+
+def run(window, tasks):
+    window.ask("print(quads.GetDataInformation().GetNumberOfCells())", seconds=120)
+    window.find_origin()
+    bad = []
+    for name in tasks:
+        window.ask("clear()")
+        window.actions.clear()
+        state = TASKS[name](window)
+        actions = list(window.actions)
+        window.ask("show_constraints()")
+        window.screenshot(name)
+        print(f"{name}: {len(actions)} actions, at most {MOST[name]} ({', '.join(actions)}); met, deviation {state[2]}",
+              flush=True)
+        if len(actions) > MOST[name]:
+            bad.append(name)
+    return bad
+
+
+def main():
+    xvfb, paraview = sys.argv[1:3]
+    tasks = sys.argv[3:] or list(TASKS)
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        server, display = private_display.start(xvfb, "-screen", "0", f"{WIDTH}x{HEIGHT}x24", "-fbdir", str(folder))
+        window = Window(folder, display)
+        environment = dict(os.environ, DISPLAY=display, QUADRILLE_QUESTION=str(window.question), HOME=str(folder),
+                           XDG_CONFIG_HOME=str(folder), XDG_RUNTIME_DIR=str(folder),
+                           PV_PLUGIN_PATH=os.path.dirname(os.environ["QUADRILLE_PLUGIN"]))
+        script = pathlib.Path(__file__).with_name("actions_script.py")
+        with open(folder / "log", "w", encoding="utf-8") as output:
+            process = subprocess.Popen([paraview, "--dr", f"--script={script}"], env=environment, stdout=output,
+                                       stderr=subprocess.STDOUT)
+        try:
+            window.ask("pass", seconds=120)
+            window.xdotool("search", "--sync", "--onlyvisible", "--name", "ParaView", "windowsize", WIDTH, HEIGHT)
+            time.sleep(2)
+            bad = run(window, tasks)
+        except BaseException:
+            window.screenshot("failure")
+            raise
+        finally:
+            process.terminate()
+            try:
+                process.wait(timeout=15)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+            private_display.stop(server)
+            print((folder / "log").read_text(encoding="utf-8"))
+    if bad:
+        sys.exit("FAILED: too many actions for " + ", ".join(bad))
+
+
+if __name__ == "__main__":
+    main()
