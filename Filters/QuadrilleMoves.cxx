@@ -127,8 +127,7 @@ void tellLeftOut(const std::vector<PlacedConstraint>& placed, std::vector<std::s
   {
     if (isMove(constraint) && !constraint.whyNot.empty())
     {
-      notices.push_back("move " + std::to_string(constraint.source) +
-        " of an irregular vertex is left out: " + constraint.whyNot);
+      notices.push_back("an irregular vertex is not moved: " + constraint.whyNot);
     }
   }
 }

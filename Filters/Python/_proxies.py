@@ -19,7 +19,11 @@ def _inputs_of(proxy):
 
 def _outcome_of(algorithm):
     """(text, is bad input) of a filter of Quadrille that has failed, else None."""
-    if not hasattr(algorithm, "GetOutcomeText") or algorithm.GetOutcome() in (algorithm.NotRun, algorithm.Succeeded):
+    if not hasattr(algorithm, "GetOutcomeText"):
+        return None
+    if not hasattr(algorithm, "GetOutcome"):  # a reader
+        return (algorithm.GetOutcomeText(), True) if algorithm.GetOutcomeText() else None
+    if algorithm.GetOutcome() in (algorithm.NotRun, algorithm.Succeeded):
         return None
     return algorithm.GetOutcomeText(), algorithm.GetOutcome() == algorithm.BadInput
 

@@ -296,7 +296,12 @@ TEST(ConstraintTable, WhatIsNotFollowedHasARowToo)
     EXPECT_NE(word.reason.find("is not followed"), std::string::npos);
     EXPECT_EQ(word.place, Vector3(1, 1, 0));
   }
-  EXPECT_EQ(writeConstraints(asked.placed, {}, mesh)->GetNumberOfCells(), 0);
+  // What is not followed is shown where it was drawn.
+  const vtkSmartPointer<vtkPolyData> shown =
+    writeConstraints(asked.placed, {}, mesh, metOfDrawn(words, asked));
+  EXPECT_EQ(shown->GetNumberOfVerts(), 2);
+  EXPECT_EQ(shown->GetNumberOfCells(), 2);
+  EXPECT_EQ(shown->GetCellData()->GetScalars()->GetRange()[1], 0);
 }
 
 TEST(ConstraintTable, WithoutQuadsNothingIsMet)

@@ -354,10 +354,17 @@ TEST(Constraints, OutputTellsWhatWasReached)
   PlacedConstraint stroke;
   stroke.kind = ConstraintKind::Stroke;
   stroke.path = { { 0, 0, 0 }, { 1, 0, 0 } };
-  const vtkSmartPointer<vtkPolyData> data = writeConstraints({ stroke, met, missed }, {}, mesh);
+  const vtkSmartPointer<vtkPolyData> data =
+    writeConstraints({ stroke, met, missed }, {}, mesh, { true, true, false });
   ASSERT_EQ(data->GetNumberOfVerts(), 2);
   ASSERT_EQ(data->GetNumberOfLines(), 1);
-  vtkDataArray* kind = data->GetCellData()->GetScalars();
+  vtkDataArray* isMet = data->GetCellData()->GetScalars();
+  ASSERT_NE(isMet, nullptr);
+  EXPECT_STREQ(isMet->GetName(), "Met");
+  EXPECT_EQ(isMet->GetTuple1(0), 1);
+  EXPECT_EQ(isMet->GetTuple1(1), 0);
+  EXPECT_EQ(isMet->GetTuple1(2), 1);
+  vtkDataArray* kind = data->GetCellData()->GetArray("Constraint");
   ASSERT_NE(kind, nullptr);
   EXPECT_EQ(kind->GetTuple1(0), 2);
   EXPECT_EQ(kind->GetTuple1(1), 3);

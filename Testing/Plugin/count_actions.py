@@ -22,7 +22,7 @@ import test_gui
 
 ARTIFACTS = pathlib.Path(os.environ["QUADRILLE_ARTIFACTS"])
 WIDTH, HEIGHT = 1920, 1080
-MOST = {"stroke": 8, "valence": 5, "move": 4, "connection": 7, "loop": 9, "undo": 1, "mirror": 4}
+MOST = {"stroke": 8, "valence": 5, "move": 4, "connection": 7, "loop": 9, "undo": 1, "mirror": 4, "follow": 3}
 SOURCES = ("Quad Connection", "Quad Feature Curve", "Quad Loop", "Quad Move", "Quad Stroke", "Quad Valence")
 
 
@@ -41,7 +41,7 @@ class Window:
 
     def ask(self, code, seconds=60):
         """What the code prints in the window; it is idle then."""
-        time.sleep(0.25)  # the window takes up what was done before
+        time.sleep(0.15)  # the window takes up what was done before
         part = self.folder / "question.part"
         part.write_text(code, encoding="utf-8")
         part.rename(self.question)
@@ -287,8 +287,34 @@ def mirror(window):
     return met(window, "symmetry")
 
 
+def follow(window):
+    """No task of a bar: with Auto Apply on the quads follow a handle while it is dragged."""
+    window.ask("set_auto_apply(True)")
+    window.button("Quad Valence")
+    x, y = window.body(-0.2, 0.1)
+    window.key("ctrl+p", (x, y))
+    time.sleep(1)
+    window.ask("pass")
+    x, y = window.on_screen(window.value("tuple(simple.GetActiveSource().Point)"))
+    seen = [window.value("fingerprint()")]
+    window.act("drag the handle")
+    window.xdotool("mousemove", x, y, "sleep", 0.1, "mousedown", 1, "sleep", 0.1)
+    for k in range(1, 4):
+        window.xdotool("mousemove", x + 25 * k, y - 15 * k)
+        seen.append(window.value("fingerprint()"))
+    previews = window.value("previews")
+    window.xdotool("mouseup", 1)
+    time.sleep(1)
+    window.ask("set_auto_apply(False)")
+    if len(set(seen)) != len(seen) or previews == 0:
+        raise SystemExit(f"FAILED: while the handle was dragged there were {len(set(seen))} meshes, {previews} previews")
+    if window.value("quads.GetClientSideObject().GetPreview()") != 0:
+        raise SystemExit("FAILED: the preview is still on when the handle was let go")
+    return met(window, "valence")
+
+
 TASKS = {"stroke": stroke, "valence": valence, "move": move, "connection": connection, "loop": loop, "undo": undo,
-         "mirror": mirror}
+         "mirror": mirror, "follow": follow}
 
 
 def run(window, tasks):
@@ -296,14 +322,15 @@ def run(window, tasks):
     window.find_origin()
     bad = []
     for name in tasks:
+        start = time.time()
         window.ask("clear()")
         window.actions.clear()
         state = TASKS[name](window)
         actions = list(window.actions)
         window.ask("show_constraints()")
         window.screenshot(name)
-        print(f"{name}: {len(actions)} actions, at most {MOST[name]} ({', '.join(actions)}); met, deviation {state[2]}",
-              flush=True)
+        print(f"{name}: {len(actions)} actions, at most {MOST[name]} ({', '.join(actions)}); met, deviation {state[2]}; "
+              f"{time.time() - start:.1f} s", flush=True)
         if len(actions) > MOST[name]:
             bad.append(name)
     return bad
