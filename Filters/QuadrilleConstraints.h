@@ -64,7 +64,7 @@ std::vector<std::string> missedValences(
 /// strokes), TargetValence (0 on lines) and Valence (that of the quads there, on boundaries one more; 0 on lines).
 /// Points: Direction (unit vectors along lines, else zero). Connections and cycles are 4 and 6, drawn as the chain of
 /// edges that they became; 5 and 7 where there is none, as they were given. Moves of irregular vertices are 8, the
-/// vertex at its new place, and 9, where they begin. Lines that could not be put on the surface are their first point.
+/// vertex at its new place, and 9, where they begin; 10 is the mirror plane, see addMirrorLines. Lines that could not be put on the surface are their first point.
 /// outcomes: of connections and cycles. mesh: what was made. isMet: of each, see judgeConstraints.
 vtkSmartPointer<vtkPolyData> writeConstraints(const std::vector<PlacedConstraint>& placed,
   const std::vector<CurveOutcome>& outcomes, const QuadMesh& mesh, const std::vector<bool>& isMet);

@@ -5,19 +5,29 @@
 #include "QuadrilleNewArray.h"
 #include "QuadrilleReport.h"
 
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 
+#include <algorithm>
+#include <array>
 #include <initializer_list>
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace quadrille
 {
 
 namespace
 {
+
+constexpr int kMirrorPlane = 10; ///< of the array Constraint
 
 void addTuple(vtkPolyData* data, const char* name, std::initializer_list<double> values)
 {
@@ -62,6 +72,49 @@ void addSymmetry(vtkPolyData* quads, const SymmetricResult& made)
     { made.deviation.rms / made.diagonal, made.deviation.maximum / made.diagonal });
   addCount(quads, "SymmetryMovedPoints", made.movedPoints);
   addNumber(quads, "SymmetryFarthestMoved", made.farthestMoved / made.diagonal);
+}
+
+void addMirrorLines(vtkPolyData* constraints, const SymmetricResult& made, bool isMet)
+{
+  const QuadMesh& quads = made.remeshed.quads;
+  const auto isInPlane = [&made](Index p) { return made.mirrorPoint[p] == p; };
+  std::set<std::pair<Index, Index>> edges;
+  for (const std::array<Index, 4>& quad : quads.quads)
+  {
+    for (std::size_t i = 0; i < quad.size(); ++i)
+    {
+      const std::pair<Index, Index> edge = std::minmax(quad[i], quad[(i + 1) % quad.size()]);
+      if (isInPlane(edge.first) && isInPlane(edge.second))
+      {
+        edges.insert(edge);
+      }
+    }
+  }
+  const auto appendZero = [](vtkDataSetAttributes* attributes)
+  {
+    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+    {
+      vtkDataArray* array = attributes->GetArray(i);
+      const std::vector<double> zero(static_cast<std::size_t>(array->GetNumberOfComponents()), 0);
+      array->InsertNextTuple(zero.data());
+    }
+  };
+  for (const auto& [a, b] : edges)
+  {
+    constraints->GetLines()->InsertNextCell(2);
+    for (const Index p : { a, b })
+    {
+      constraints->GetLines()->InsertCellPoint(
+        constraints->GetPoints()->InsertNextPoint(quads.points[p].data()));
+      appendZero(constraints->GetPointData());
+    }
+    vtkCellData* cells = constraints->GetCellData();
+    appendZero(cells);
+    const vtkIdType cell = cells->GetArray("Met")->GetNumberOfTuples() - 1;
+    cells->GetArray("Met")->SetComponent(cell, 0, isMet ? 1 : 0);
+    cells->GetArray("Constraint")->SetComponent(cell, 0, kMirrorPlane);
+    cells->GetArray("SourceId")->SetComponent(cell, 0, -1);
+  }
 }
 
 ConstraintWord judgeSymmetry(const SymmetricResult& made)

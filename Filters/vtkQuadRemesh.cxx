@@ -417,6 +417,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   if (isSymmetric)
   {
     words.push_back(quadrille::judgeSymmetry(made));
+    quadrille::addMirrorLines(block.output(5), made, words.back().isMet);
   }
   block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
   this->SetResult(

@@ -184,4 +184,16 @@ check([row["Kind"] for row in rows(quads)] == ["cycle", "move"], f"without the s
 quads.Constraints = []
 quadrille.check(quads)
 check(numpy.array_equal(points_of(output(quads, 0)), points_of(output(plain, 0))), "without constraints: other quads")
+
+# A mirror plane is shown by the edges in it.
+quads = remeshed(Symmetry="Plane", SymmetryNormal=[0, 1, 0])
+check_met(quads, "symmetry")
+shown = output(quads, 5)
+image = vtk_to_numpy(output(quads, 0).GetPointData().GetArray("MirrorPoint"))
+corners, faces = quads_of(quads)
+inside = image == numpy.arange(len(image))
+edges = {frozenset((int(q[i]), int(q[(i + 1) % 4]))) for q in faces for i in range(4)}
+check(shown.GetNumberOfCells() == sum(all(inside[p] for p in edge) for edge in edges) > 20, "the plane is not shown")
+height = abs(points_of(shown)[:, 1] - quads.SymmetryOrigin[1]).max()
+check(height < 1e-6, f"the line is {height} off the plane")  # points of the quads are kept in single precision
 print("constraints: fine")
