@@ -6,15 +6,20 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkDecimationHierarchy.h>
+#include <vtkDoubleArray.h>
 #include <vtkIntArray.h>
 #include <vtkPointData.h>
+#include <vtkQuadConstraintSource.h>
 #include <vtkQuadRemesh.h>
 #include <vtkTable.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -238,6 +243,113 @@ TEST(Cycles, OfCurvesByTheirType)
   const vtkSmartPointer<vtkQuadRemesh> filter = makeFilter(bumpyBall());
   filter->SetCurvesData(lineOfType(slantedLoop(), 3));
   expectClosed(filter);
+}
+
+TEST(Cycles, AmongConstraintsOfAllClasses)
+{
+  const vtkSmartPointer<vtkPolyData> ball = bumpyBall();
+  const vtkSmartPointer<vtkQuadRemesh> filter = makeFilter(ball);
+  vtkNew<vtkQuadConstraintSource> loop;
+  loop->SetKind(vtkQuadConstraintSource::CYCLE);
+  vtkNew<vtkQuadConstraintSource> valence;
+  valence->SetKind(vtkQuadConstraintSource::VALENCE);
+  valence->SetValence(5);
+  const std::vector<Vector3> points = slantedLoop();
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) // it closes by itself
+  {
+    loop->SetPoint(static_cast<vtkIdType>(i), points[i].x(), points[i].y(), points[i].z());
+  }
+  double place[3];
+  ball->GetPoint(ball->FindPoint(0, 0, 2), place);
+  valence->SetPoint1(place[0], place[1], place[2]);
+  filter->AddConstraintsConnection(loop->GetOutputPort());
+  expectClosed(filter);
+  filter->AddConstraintsConnection(valence->GetOutputPort());
+  filter->Update();
+  vtkTable* table = filter->GetConstraintTable();
+  ASSERT_EQ(table->GetNumberOfRows(), 2); // lines come before points
+  EXPECT_EQ(table->GetValueByName(0, "Kind").ToString(), "cycle");
+  EXPECT_EQ(table->GetValueByName(1, "Kind").ToString(), "valence");
+  EXPECT_EQ(table->GetValueByName(1, "Met").ToInt(), 1);
+  loop->EnabledOff();
+  expectMet(filter, "valence");
+  filter->RemoveAllConstraints();
+  filter->Update();
+  EXPECT_EQ(filter->GetConstraintTable()->GetNumberOfRows(), 0);
+}
+
+/// Places and valences.
+std::vector<std::pair<Vector3, int>> irregularOf(vtkQuadRemesh* filter)
+{
+  std::vector<std::pair<Vector3, int>> found;
+  vtkPolyData* data = filter->GetIrregularVertices();
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    found.emplace_back(
+      data->GetPoint(i), static_cast<int>(data->GetPointData()->GetArray("Valence")->GetTuple1(i)));
+  }
+  return found;
+}
+
+TEST(Moves, OfCurvesByTheirType)
+{
+  const vtkSmartPointer<vtkPolyData> ball = bumpyBall();
+  const vtkSmartPointer<vtkQuadRemesh> filter = makeFilter(ball);
+  filter->Update();
+  const auto before = irregularOf(filter);
+  ASSERT_FALSE(before.empty());
+  const Vector3 from = before[0].first;
+  const Vector3 aside =
+    from + 0.25 * from.cross(Vector3(0.3, 0.5, 0.8)).normalized(); // two edges away
+  const Vector3 to(ball->GetPoint(ball->FindPoint(aside.x(), aside.y(), aside.z())));
+  filter->SetCurvesData(lineOfType({ from, to }, 4));
+  expectMet(filter, "move");
+  const auto after = irregularOf(filter);
+  EXPECT_EQ(after.size(), before.size());
+  const auto there = std::find_if(after.begin(), after.end(),
+    [&](const auto& vertex) { return (vertex.first - to).norm() < 1e-6; }); // single precision
+  ASSERT_NE(there, after.end());
+  EXPECT_EQ(there->second, before[0].second);
+  // The output shows it at its new place.
+  vtkPolyData* shown = filter->GetConstraints();
+  ASSERT_EQ(shown->GetNumberOfVerts(), 1);
+  EXPECT_EQ(shown->GetCellData()->GetArray("Constraint")->GetTuple1(0), 8);
+  EXPECT_EQ(Vector3(shown->GetPoint(0)), to);
+}
+
+/// Why it fails with these curves; the filter is used once.
+std::string failureOf(
+  const vtkSmartPointer<vtkQuadrilleSurfaceAlgorithm>& filter, vtkPolyData* curves)
+{
+  const test::Messages messages(filter);
+  filter->SetCurvesData(curves);
+  filter->Update();
+  EXPECT_NE(filter->GetOutcome(), vtkQuadRemesh::Succeeded);
+  return filter->GetOutcomeText();
+}
+
+void expectFailure(
+  const vtkSmartPointer<vtkQuadrilleSurfaceAlgorithm>& filter, vtkPolyData* curves, const char* why)
+{
+  const std::string text = failureOf(filter, curves);
+  EXPECT_NE(text.find(why), std::string::npos) << text;
+}
+
+TEST(Moves, SayWhatTheyLack)
+{
+  const vtkSmartPointer<vtkPolyData> ball = bumpyBall();
+  const auto decimation = vtkSmartPointer<vtkDecimationHierarchy>::New();
+  decimation->SetInputData(ball);
+  const std::vector<Vector3> points{ { 0, 0, 1 }, { 0, 1, 0 } };
+  expectFailure(decimation, lineOfType(points, 4), "only Quad Remesh");
+  expectFailure(makeFilter(ball), lineOfType({ points[0] }, 4), "draw it anew");
+  expectFailure(makeFilter(ball), lineOfType(points, 5), "only 0");
+  const vtkSmartPointer<vtkPolyData> stroke = lineOfType(points, 1);
+  vtkNew<vtkDoubleArray> radius;
+  radius->SetName("GuidingRadius");
+  radius->InsertNextValue(-1);
+  stroke->GetCellData()->AddArray(radius);
+  expectFailure(makeFilter(ball), stroke, "GuidingRadius -1");
 }
 
 } // namespace

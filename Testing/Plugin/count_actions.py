@@ -307,7 +307,7 @@ def follow(window):
     time.sleep(1)
     window.ask("set_auto_apply(False)")
     if len(set(seen)) != len(seen) or previews == 0:
-        raise SystemExit(f"FAILED: while the handle was dragged there were {len(set(seen))} meshes, {previews} previews")
+        raise SystemExit(f"FAILED: under the dragged handle there were {len(set(seen))} meshes, {previews} previews")
     if window.value("quads.GetClientSideObject().GetPreview()") != 0:
         raise SystemExit("FAILED: the preview is still on when the handle was let go")
     return met(window, "valence")
@@ -329,8 +329,8 @@ def run(window, tasks):
         actions = list(window.actions)
         window.ask("show_constraints()")
         window.screenshot(name)
-        print(f"{name}: {len(actions)} actions, at most {MOST[name]} ({', '.join(actions)}); met, deviation {state[2]}; "
-              f"{time.time() - start:.1f} s", flush=True)
+        print(f"{name}: {len(actions)} actions, at most {MOST[name]} ({', '.join(actions)}); met, deviation "
+              f"{state[2]}; {time.time() - start:.1f} s", flush=True)
         if len(actions) > MOST[name]:
             bad.append(name)
     return bad

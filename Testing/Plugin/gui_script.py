@@ -33,6 +33,14 @@ try:
           "valences have no colours of their own")
     blue, red = colours.IndexedColors[3:6], colours.IndexedColors[9:12]
     check(blue[2] > 0.8 > blue[0] and red[0] > 0.8 > red[2], f"3 and 5 are coloured {blue} and {red}")
+    # So are constraints by whether they are met.
+    quads.Constraints = [QuadValence(Point=[0, 0, 12], Valence=5)]
+    constraints = simple.Show(simple.OutputPort(quads, 5), view)
+    check(constraints.ColorArrayName[1] == "Met", f"constraints are coloured by {constraints.ColorArrayName}")
+    colours = simple.GetColorTransferFunction("Met")
+    check(list(colours.Annotations) == ["0", "not met", "1", "met"], f"the legend has {colours.Annotations}")
+    red, green = colours.IndexedColors[0:3], colours.IndexedColors[3:6]
+    check(red[0] > 0.5 > red[1] and green[1] > 0.5 > green[0], f"not met and met are coloured {red} and {green}")
     simple.SetActiveSource(quads)
     simple.ResetCamera(view)
     simple.Render(view)

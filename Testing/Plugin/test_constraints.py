@@ -93,7 +93,7 @@ for name, kind in kinds.items():
     source.Enabled = 0
     source.UpdatePipeline()
     check(servermanager.Fetch(source).GetNumberOfCells() == 0, f"{name} makes something though it is off")
-    check(source.SMProxy.GetNumberOfConsumers() == 0 or not len(plain.Constraints), f"{name} connects itself in a script")
+    check(not len(plain.Constraints), f"{name} connects itself in a script")
 
 # The first points are on the box round the selected surface; given ones stay.
 simple.SetActiveSource(plain)
@@ -118,7 +118,8 @@ for p, direction in zip(points_of(shown), vtk_to_numpy(shown.GetPointData().GetA
 check(numpy.mean(angles) < 7, f"the quads next to the stroke are {numpy.mean(angles):.1f} degrees off")
 
 # A valence at a place of the surface.
-place = points_of(output(plain, 1))[numpy.linalg.norm(points_of(output(plain, 1)) - [-0.2, -0.44, 0.1], axis=1).argmin()]
+vertices = points_of(output(plain, 1))
+place = vertices[numpy.linalg.norm(vertices - [-0.2, -0.44, 0.1], axis=1).argmin()]
 quads = remeshed(QuadValence(Point=list(place), Valence=5))
 check_met(quads, "valence")
 # Points of the quads are kept in single precision.

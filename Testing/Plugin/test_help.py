@@ -50,7 +50,8 @@ def look(group, name):
 
 for name in FILTERS:
     look("filters", name)
-for name in ("QuadrillePLYReader", "QuadrilleOFFReader"):
+for name in ("QuadrillePLYReader", "QuadrilleOFFReader", "QuadStroke", "QuadValence", "QuadMove", "QuadConnection",
+             "QuadLoop", "QuadFeatureCurve"):
     look("sources", name)
 # The window takes the pages from the plugin itself.
 text = base64.b64encode(qch.read_bytes())
