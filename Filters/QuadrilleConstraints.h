@@ -25,8 +25,8 @@ struct ConstraintInputs
   /// Polylines that become features. A line cell array ConstraintType may say 1: this one is a guiding stroke; 2: a
   /// connection; 3: a cycle; 4: the irregular vertex nearest to its begin goes to its end.
   vtkPolyData* curves = nullptr;
-  /// Polylines whose direction the quads follow. A line cell array GuidingWeight goes before strokeWeight, GuidingRadius
-  /// before strokeRadius.
+  /// Polylines whose direction the quads follow. A line cell array GuidingWeight goes before strokeWeight,
+  /// GuidingRadius before strokeRadius.
   vtkPolyData* strokes = nullptr;
   /// Points for which a valence is asked. A point array TargetValence goes before valence; 0 there: nothing is asked.
   /// Two points with the same value of a point array ConnectId, other than 0, are joined; without TargetValence no
@@ -64,7 +64,8 @@ std::vector<std::string> missedValences(
 /// strokes), TargetValence (0 on lines) and Valence (that of the quads there, on boundaries one more; 0 on lines).
 /// Points: Direction (unit vectors along lines, else zero). Connections and cycles are 4 and 6, drawn as the chain of
 /// edges that they became; 5 and 7 where there is none, as they were given. Moves of irregular vertices are 8, the
-/// vertex at its new place, and 9, where they begin; 10 is the mirror plane, see addMirrorLines. Lines that could not be put on the surface are their first point.
+/// vertex at its new place, and 9, where they begin; 10 is the mirror plane, see addMirrorLines. Lines
+/// that could not be put on the surface are their first point.
 /// outcomes: of connections and cycles. mesh: what was made. isMet: of each, see judgeConstraints.
 vtkSmartPointer<vtkPolyData> writeConstraints(const std::vector<PlacedConstraint>& placed,
   const std::vector<CurveOutcome>& outcomes, const QuadMesh& mesh, const std::vector<bool>& isMet);

@@ -60,12 +60,13 @@ void change(std::vector<IrregularVertex>& irregular,
 class MoveList
 {
 public:
-  MoveList(const SurfaceInput& surface, const SurfacePlaces& places, const RemeshResult& without)
+  MoveList(const SurfaceInput& surface, const SurfacePlaces& places, const RemeshResult& without,
+    int threads)
     : surface_(surface), places_(places)
   {
-    const std::vector<std::uint8_t> onCurve = verticesOnCurves(without);
-    irregular_ = irregularVertices(without, onCurve);
-    fixedPoints_ = pointsOnCurves(without, onCurve);
+    const OnCurves onCurves = findOnCurves(without.surface, threads);
+    irregular_ = irregularVertices(MadeSurface{ without.surface }, without.turns, onCurves);
+    fixedPoints_ = onCurves.points;
   }
 
   /// id: above 0. Fills the move's path and valence, or whyNot.
@@ -152,7 +153,7 @@ SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& 
     return made;
   }
   const SurfacePlaces places(input, options.threads);
-  MoveList list(input, places, made.remeshed);
+  MoveList list(input, places, made.remeshed, options.threads);
   for (std::size_t i = 0; i < placed.size(); ++i)
   {
     if (isMove(placed[i]))
@@ -161,9 +162,13 @@ SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& 
     }
   }
   std::map<int, std::string> leftOut;
+  LinePlacements lines;
   while (true)
   {
-    ComposedInput composed = composeInput(input, places, list.constraints(), leftOut);
+    ComposedInput composed = composeInput(input, places, lines, list.constraints(), leftOut);
+    composed.input.points = input.points;
+    composed.input.polygonOffsets = input.polygonOffsets;
+    composed.input.polygonPoints = input.polygonPoints;
     std::optional<int> last;
     for (std::size_t c = 0; c < list.constraints().size(); ++c)
     {

@@ -20,8 +20,8 @@ void addMirrorSources(const SymmetricResult& made, const ConvertedSurface& conve
 /// SymmetryFarthestMoved, see vtkQuadRemesh.
 void addSymmetry(vtkPolyData* quads, const SymmetricResult& made);
 
-/// The edges of the quads in the mirror plane, as lines of the output Constraints (see writeConstraints): Constraint 10,
-/// SourceId -1, all else 0.
+/// The edges of the quads in the mirror plane, as lines of the output Constraints (see writeConstraints): Constraint
+/// 10, SourceId -1, all else 0.
 void addMirrorLines(vtkPolyData* constraints, const SymmetricResult& made, bool isMet);
 
 /// Its row of the constraint table.

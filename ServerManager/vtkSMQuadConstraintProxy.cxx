@@ -131,13 +131,6 @@ std::vector<double> pointsOn(const vtkBoundingBox& box, const std::string& shape
   { points.insert(points.end(), point.begin(), point.end()); };
   constexpr double quarter = 0.25;
   constexpr double middle = 0.5;
-  if (shape == "loop")
-  {
-    append(at(0, middle, middle));
-    append(at(middle, 0, middle));
-    append(at(1, middle, middle));
-    append(at(middle, 1, middle));
-  }
   if (shape == "point")
   {
     append(at(middle, middle, 1));

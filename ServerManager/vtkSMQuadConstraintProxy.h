@@ -4,7 +4,8 @@
  * @class   vtkSMQuadConstraintProxy
  * @brief   a source of a constraint, which finds its Quad Remesh by itself in ParaView's window
  *
- * Three things that save actions in the window; in scripts, where no panel shows the source, none but the first is done:
+ * Three things that save actions in the window; in scripts, where no panel shows the source, none but the first is
+ * done:
  *
  * - Where its points are not given, they are put on the box round the surface that is selected, or that the selected
  *   *Quad Remesh* has as its input.
@@ -12,12 +13,13 @@
  *   that was selected when it was made, else of the one behind what was selected, else of the last one that was made.
  *   That happens once; with a property `Enabled` a constraint is taken out and put back, and with the window's *Change
  *   Input* it goes for good. Sources of a state file are connected as the file has it.
- * - While a point is dragged and ParaView's *Auto Apply* is on, the *Quad Remesh* behind it follows as a preview (see its
- *   property `Preview`). The values of the properties stay as they are until the point is let go and all is applied, so
- *   that one undo takes the drag back.
+ * - While a point is dragged and ParaView's *Auto Apply* is on, the *Quad Remesh* behind it follows as a preview (see
+ *   its property `Preview`). The values of the properties stay as they are until all is applied, so that an undo goes
+ *   back to what was applied before.
  *
- * A hint `<Points property="Points" shape="line"/>` names a property with coordinates of points, at most two times. shape
- * says where they are at first: "point", "line" along the box, "loop" round its middle; "begin" and "end" of a line.
+ * A hint `<Points property="Points" shape="line"/>` names a property with coordinates of points. shape says where they
+ * are at first: "point" on top of the box, "line" along it, "begin" and "end" of a line of two properties, whose
+ * methods are SetPoint1 and SetPoint2.
  *
  * In the XML of the server manager it is the element QuadConstraintProxy.
  */
