@@ -38,7 +38,8 @@
  *      percentile. Met: a mean of at most 5.
  *    - "edge lengths", curves: the largest distance from the quads' edges, over the mean length of the edges near it.
  *      Met: at most 0.1.
- *    - "valence": the number of edges there, on boundaries one more, less the one asked for. Met: 0.
+ *    - "valence", also of a move (kind "move") at its end: the number of edges there, on boundaries one more, less the
+ *      one asked for. Met: 0.
  *    - "relative to the diagonal", the mirror symmetry (kind "symmetry", the last row, with a Symmetry): how far the
  *      mirror image of the surface is from it, over the diagonal of its box, as the root of the mean square; in
  *      `Deviation95` the largest distance. Met: the two sides have the same topology, and no quad is turned over where

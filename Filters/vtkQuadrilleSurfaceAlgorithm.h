@@ -17,10 +17,10 @@
  *
  * Three optional inputs hold what is drawn beside the surface, see QuadrilleConstraints.h for how it is put there:
  * - port 1, feature curves: polylines that become features, along the edges of the surface nearest to them. The line
- *   cell array `ConstraintType` may say 1: a guiding stroke instead; 2: a connection; 3: a cycle (see vtkQuadRemesh,
- *   which has inputs for them, too); other values than 0 to 3 are an error;
+ *   cell array `ConstraintType` may say 1: a guiding stroke instead; 2: a connection; 3: a cycle; 4: a move of an
+ *   irregular vertex (see vtkQuadRemesh, which has inputs for them, too); other values than 0 to 4 are an error;
  * - port 2, guiding strokes: polylines whose direction the polygons below take with StrokeWeight, or with the line cell
- *   array `GuidingWeight`;
+ *   array `GuidingWeight`, as far as StrokeRadius, or the line cell array `GuidingRadius`, says;
  * - port 3, valence points: points, with cells or without. The vertex of the surface nearest to each gets PointValence,
  *   or what the point array `TargetValence` says.
  * Two points of the surface, or of port 3, with the same value of a point array `ConnectId` other than 0 are joined by

@@ -172,6 +172,14 @@ bool isAutoApplyOn(vtkSMSessionProxyManager* manager)
     isOn;
 }
 
+/// Symmetric quads, and the method Seamless, have none.
+bool hasPreview(vtkSMProxy* filter)
+{
+  constexpr int seamless = 3; // vtkQuadRemesh::METHOD_SEAMLESS
+  return vtkSMPropertyHelper(filter, "Symmetry").GetAsInt() == 0 &&
+    vtkSMPropertyHelper(filter, "Method").GetAsInt() != seamless;
+}
+
 /// Calls a method with a value on the object of the proxy, past its properties.
 template <class... Values>
 void invoke(vtkSMProxy* proxy, const char* method, Values... values)
@@ -350,7 +358,7 @@ void vtkSMQuadConstraintProxy::Follow()
     return;
   }
   vtkSMProxy* filter = this->ConnectedFilter();
-  if (!filter || !this->IsChanging() || !isAutoApplyOn(manager))
+  if (!filter || !hasPreview(filter) || !this->IsChanging() || !isAutoApplyOn(manager))
   {
     return;
   }

@@ -14,8 +14,8 @@
     quadrille.check(QuadRemesh(Input=surface))                  # in a script of ParaView: raises where it fails
 
 The VTK classes themselves are here too: vtkQuadRemesh, vtkDecimationHierarchy, vtkIntegerGridMap,
-vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkQuadrilleSession, and the readers
-vtkQuadrilleOFFReader and vtkQuadrillePLYReader.
+vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkQuadrilleSession, the source vtkQuadConstraintSource,
+and the readers vtkQuadrilleOFFReader and vtkQuadrillePLYReader.
 """
 import collections
 
@@ -30,6 +30,7 @@ from .QuadrilleFilters import (
     vtkDecimationHierarchy,
     vtkIntegerGridMap,
     vtkIntegerGridMapUpmap,
+    vtkQuadConstraintSource,
     vtkQuadExtraction,
     vtkQuadRemesh,
     vtkQuadrilleOFFReader,
@@ -40,8 +41,8 @@ from .QuadrilleFilters import (
 __all__ = [
     "InvalidInput", "Irregular", "RemeshError", "Remeshed", "Session", "check", "info", "read", "remesh", "to_arrays",
     "to_polydata",
-    "vtkDecimationHierarchy", "vtkIntegerGridMap", "vtkIntegerGridMapUpmap", "vtkQuadExtraction",
-    "vtkQuadRemesh", "vtkQuadrilleOFFReader", "vtkQuadrillePLYReader", "vtkQuadrilleSession",
+    "vtkDecimationHierarchy", "vtkIntegerGridMap", "vtkIntegerGridMapUpmap", "vtkQuadConstraintSource",
+    "vtkQuadExtraction", "vtkQuadRemesh", "vtkQuadrilleOFFReader", "vtkQuadrillePLYReader", "vtkQuadrilleSession",
 ]
 
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The sources of constraints in pvpython: what each makes, and that Quad Remesh does what it asks for."""
 import os
+import tempfile
 
 import numpy
 import quadrille
@@ -197,4 +198,20 @@ edges = {frozenset((int(q[i]), int(q[(i + 1) % 4]))) for q in faces for i in ran
 check(shown.GetNumberOfCells() == sum(all(inside[p] for p in edge) for edge in edges) > 20, "the plane is not shown")
 height = abs(points_of(shown)[:, 1] - quads.SymmetryOrigin[1]).max()
 check(height < 1e-6, f"the line is {height} off the plane")  # points of the quads are kept in single precision
+
+# A state file has the constraints and their connections.
+simple.RenameSource("V", QuadValence(Point=list(place), Valence=5))
+quads = remeshed(simple.FindSource("V"))
+simple.RenameSource("Q", quads)
+quads = None
+with tempfile.TemporaryDirectory() as folder:
+    servermanager.SaveState(os.path.join(folder, "constraints.pvsm"))
+    simple.ResetSession()
+    simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
+    simple.LoadState(os.path.join(folder, "constraints.pvsm"))
+loaded = simple.FindSource("Q")
+quadrille.check(loaded)
+check(len(loaded.Constraints) == 1, f"the state file gives the constraints {loaded.Constraints}")
+check(list(simple.FindSource("V").Point) == list(place), "the state file gives another place")
+check_met(loaded, "valence")
 print("constraints: fine")
