@@ -33,8 +33,8 @@ public:
   void SetSurfaceConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
   void SetLogConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
   /**
-   * The intermediate level of vtkDecimationHierarchy: optional. Where it has guides, the map is turned along them there,
-   * with the same integers, as Quad Remesh does.
+   * The intermediate level of vtkDecimationHierarchy: optional. Where it has guides, the map is turned along them
+   * there, with the same integers, as Quad Remesh does.
    */
   void SetIntermediateConnection(vtkAlgorithmOutput* output)
   {

@@ -16,7 +16,7 @@ packages=(
   libgtest-dev python3 python3-numpy python3-scipy
   clang-format clang-tidy               # the tests hold the sources against them
   xvfb xauth libqt5svg5 libgl1-mesa-dri # pictures without a screen
-  xdotool                               # mouse and keyboard in the tests of ParaView's window
+  xdotool                               # mouse and keyboard for Testing/Plugin/count_actions.py
 )
 
 missing=()

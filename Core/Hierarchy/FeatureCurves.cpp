@@ -15,10 +15,10 @@ namespace
 {
 
 /// Constrained neighbours of the vertices, in compressed rows; only vertices on curves have any.
-class CurveGraph
+class CurveEdges
 {
 public:
-  explicit CurveGraph(const Mesh& mesh) : offset_(mesh.vertexCount() + 1, 0)
+  explicit CurveEdges(const Mesh& mesh) : offset_(mesh.vertexCount() + 1, 0)
   {
     forEachEdge(mesh,
       [&](Index a, Index b)
@@ -72,7 +72,7 @@ struct Chain
   bool closed = false;
 };
 
-Chain followChain(const CurveGraph& graph, Index start, Index second, std::vector<char>& seen)
+Chain followChain(const CurveEdges& graph, Index start, Index second, std::vector<char>& seen)
 {
   Chain chain;
   chain.vertices = { start };
@@ -94,7 +94,7 @@ Chain followChain(const CurveGraph& graph, Index start, Index second, std::vecto
   return chain;
 }
 
-std::vector<Chain> collectChains(const Mesh& mesh, const CurveGraph& graph)
+std::vector<Chain> collectChains(const Mesh& mesh, const CurveEdges& graph)
 {
   std::vector<Chain> chains;
   std::vector<char> seen(mesh.vertexCount(), 0);
@@ -300,7 +300,7 @@ FeatureCurves traceFeatureCurves(const Mesh& mesh, double scale)
   {
     return curves;
   }
-  const CurveGraph graph(mesh);
+  const CurveEdges graph(mesh);
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
     pollNowAndThen(v);

@@ -28,8 +28,8 @@ struct LoggedRemoval
   std::size_t begin = 0, end = 0;
 };
 
-/// Where the blocks of a log lie on the finest mesh, whose faces and vertices are in the order of a space-filling curve:
-/// a search for what touches a place passes over most of the log.
+/// Where the blocks of a log lie on the finest mesh, whose faces and vertices are in the order of a space-filling
+/// curve: a search for what touches a place passes over most of the log.
 class LogPlaces
 {
 public:

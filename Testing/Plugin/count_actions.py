@@ -7,7 +7,7 @@
 A click, a key, a drag and a typed value are one action each. Each task begins with quads that are selected in the
 pipeline; afterwards the table of constraints must say that what was asked for is met. Screenshots are left in the
 folder QUADRILLE_ARTIFACTS. What is there and where on the screen is asked of the window by a script that runs in it;
-asking is no action.
+asking is no action. No test of ctest, as it takes more than a minute of a window of its own; needs Debian's xdotool.
 """
 import ast
 import os

@@ -74,8 +74,8 @@ def problems(folder, shared):
             users[name].append(path.name)
     hidden = [f"{folder}: {name} stands in the anonymous namespace of {', '.join(files)} and is a type of "
               f"{shared[name]}: give it another name" for name, files in sorted(users.items()) if name in shared]
-    return hidden + [f"{folder}: {name} stands in the anonymous namespaces of {', '.join(files)}: give it another name in "
-            "one, or share it in a header" for name, files in sorted(users.items()) if len(files) > 1]
+    return hidden + [f"{folder}: {name} stands in the anonymous namespaces of {', '.join(files)}: give it another name "
+                     "in one, or share it in a header" for name, files in sorted(users.items()) if len(files) > 1]
 
 
 def typesOf(header):
