@@ -26,7 +26,8 @@ import time
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkPlane
+from vtkmodules.vtkCommonCore import mutable, vtkLogger
+from vtkmodules.vtkCommonDataModel import vtkPlane, vtkStaticCellLocator
 from vtkmodules.vtkFiltersCore import vtkCutter, vtkStripper
 
 import quadrille
@@ -35,6 +36,8 @@ import quadrille
 CONNECTION = (3, 25)
 CYCLE = (8, 120)
 STROKE = (5, 10)
+#: Degrees; strokes that are off less count as met.
+MET_ANGLE = 5
 #: As the constraint table calls them.
 KINDS = ("connection", "cycle", "guide stroke", "valence")
 
@@ -109,10 +112,59 @@ class Chains:
         return None
 
 
-def random_strokes(mesh, chance):
+class Surface:
+    """A mesh whose places are looked up."""
+
+    def __init__(self, model):
+        self.mesh = quadrille.read(model)
+        self.points = vtk_to_numpy(self.mesh.GetPoints().GetData())
+        self.used = numpy.unique(vtk_to_numpy(self.mesh.GetPolys().GetConnectivityArray()))
+        self.size = float(numpy.linalg.norm(self.points.max(axis=0) - self.points.min(axis=0)))
+        self.triangles = vtk_to_numpy(self.mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+        self.cells = locator_of(self.mesh)
+
+    def point_near(self, place):
+        return int(self.used[numpy.argmin(((self.points[self.used] - place) ** 2).sum(axis=1))])
+
+    def corners_near(self, place):
+        return self.points[self.triangles[cell_near(self.cells, place)]]
+
+
+def locator_of(mesh):
+    locator = vtkStaticCellLocator()
+    locator.SetDataSet(mesh)
+    locator.BuildLocator()
+    return locator
+
+
+def cell_near(locator, place):
+    closest, cell, part, distance = [0.0, 0.0, 0.0], mutable(0), mutable(0), mutable(0.0)
+    locator.FindClosestPoint(place, closest, cell, part, distance)
+    return int(cell)
+
+
+def deviation(surface, chains, course):
+    """Degrees between a stroke and the quads' edges under it, in the planes of the surface's triangles, on average."""
+    angles = []
+    for a, b in zip(course[:-1], course[1:]):
+        for part in (0.125, 0.375, 0.625, 0.875):
+            corner = surface.corners_near((a + part * (b - a)).tolist())
+            normal = numpy.cross(corner[1] - corner[0], corner[2] - corner[0])
+            quad = chains.points[chains.quads[cell_near(chains.cells, corner.mean(axis=0).tolist())]]
+
+            def in_plane(vector, normal=normal / numpy.linalg.norm(normal)):
+                flat = vector - normal * normal.dot(vector)
+                return flat / numpy.linalg.norm(flat)
+
+            along = [quad[1] - quad[0] + quad[2] - quad[3], quad[3] - quad[0] + quad[2] - quad[1]]
+            cosine = max(abs(in_plane(b - a).dot(in_plane(edges))) for edges in along)
+            angles.append(numpy.degrees(numpy.arccos(min(1, cosine))))
+    return float(numpy.mean(angles))
+
+
+def random_strokes(surface, chance):
     """Settings that turn the field somewhere."""
-    points = vtk_to_numpy(mesh.GetPoints().GetData())
-    size = float(numpy.linalg.norm(points.max(axis=0) - points.min(axis=0)))
+    points, size = surface.points[surface.used], surface.size
     strokes = []
     for _ in range(chance.randint(1, 3)):
         start = points[chance.randrange(len(points))]
@@ -122,28 +174,26 @@ def random_strokes(mesh, chance):
     return {"strokes": strokes, "stroke_radius": chance.uniform(0.02, 0.06) * size}
 
 
-def chains_at(mesh, **settings):
-    made = quadrille.remesh(mesh, everything=True, **settings)
+def chains_at(surface, **settings):
+    made = quadrille.remesh(surface.mesh, everything=True, **settings)
     points, faces = quadrille.to_arrays(made.quads)
     line_points = vtk_to_numpy(made.lines.GetPoints().GetData()) if made.lines.GetNumberOfPoints() else []
     ids = {tuple(p): i for i, p in enumerate(points.tolist())}
     lines = sorted({ids[tuple(p)] for p in numpy.asarray(line_points, float).tolist() if tuple(p) in ids})
-    return Chains(points, faces, lines)
+    chains = Chains(points, faces, lines)
+    chains.cells = locator_of(made.quads)
+    return chains
 
 
-def reference(mesh, quads, chance):
+def reference(surface, quads, chance):
     """The quads at other settings."""
     settings = {"coarse_vertices": chance.randrange(600, 1600), "quads": round(quads * chance.uniform(0.9, 1.1))}
     way = chance.randrange(3)
     if way == 1:
         settings["guide"] = "curvature"
     elif way == 2:
-        settings.update(random_strokes(mesh, chance))
-    return chains_at(mesh, **settings)
-
-
-def nearest(points, place):
-    return int(numpy.argmin(((points - place) ** 2).sum(axis=1)))
+        settings.update(random_strokes(surface, chance))
+    return chains_at(surface, **settings)
 
 
 def some(items, most, chance):
@@ -152,12 +202,21 @@ def some(items, most, chance):
     return chance.sample(items, min(chance.randint(0, most), len(items)))
 
 
-def make_set(mesh, chains, chance):
+def met_stroke(surface, chains, chance):
+    """A chain that counts as met in its own quads, or None: on a rough surface triangles have other planes."""
+    for _ in range(10):
+        chain = chains.stroke(chance)
+        if chain and deviation(surface, chains, chains.points[chain]) <= MET_ANGLE:
+            return chain
+    return None
+
+
+def make_set(surface, chains, chance):
     """What is asked for, or None where the quads have not three of these things."""
-    points = vtk_to_numpy(mesh.GetPoints().GetData())
     connections = some(chains.connections(), 2, chance)
     cycles = some(chains.cycles(), 2, chance)
-    strokes = [stroke for stroke in (chains.stroke(chance) for _ in range(chance.randint(0, 2))) if stroke]
+    strokes = (met_stroke(surface, chains, chance) for _ in range(chance.randint(0, 2)))
+    strokes = [stroke for stroke in strokes if stroke]
     held = {p for chain in connections for p in (chain[0], chain[-1])}
     held.update(some(chains.irregular.tolist(), 3, chance))
     if len(connections) + len(cycles) + len(strokes) + len(held) < 3 or not connections + cycles:
@@ -167,17 +226,16 @@ def make_set(mesh, chains, chance):
         return [chains.points[chain].tolist() for chain in items]
 
     return {"connections": courses(connections), "cycles": courses(cycles), "strokes": courses(strokes),
-            "target_valence": {str(nearest(points, chains.points[p])): int(chains.valence[p]) for p in sorted(held)}}
+            "target_valence": {str(surface.point_near(chains.points[p])): int(chains.valence[p]) for p in sorted(held)}}
 
 
-def section(mesh, chance):
+def section(surface, chance):
     """A closed polyline where a plane cuts the surface, or None."""
-    points = vtk_to_numpy(mesh.GetPoints().GetData())
     plane = vtkPlane()
-    plane.SetOrigin(points[chance.randrange(len(points))].tolist())
+    plane.SetOrigin(surface.points[chance.choice(surface.used.tolist())].tolist())
     plane.SetNormal([chance.gauss(0, 1) for _ in range(3)])
     cutter, strips = vtkCutter(), vtkStripper()
-    cutter.SetInputData(mesh)
+    cutter.SetInputData(surface.mesh)
     cutter.SetCutFunction(plane)
     strips.SetInputConnection(cutter.GetOutputPort())
     strips.JoinContiguousSegmentsOn()
@@ -194,7 +252,7 @@ def section(mesh, chance):
     return chance.choice(loops) if loops else None
 
 
-def drawn_set(mesh, chains, chance):
+def drawn_set(surface, chains, chance):
     """One connection or one cycle, or None."""
     asked = {"connections": [], "cycles": [], "strokes": [], "target_valence": {}}
     if chance.random() < 0.5:
@@ -209,12 +267,11 @@ def drawn_set(mesh, chains, chance):
             return None
         asked["connections"] = [[a.tolist(), chains.points[chance.choice(near.tolist())].tolist()]]
         return asked
-    loop = section(mesh, chance)
+    loop = section(surface, chance)
     if loop is None:
         return None
     size = numpy.linalg.norm(numpy.roll(loop, 1, axis=0) - loop, axis=1).sum()
-    points = vtk_to_numpy(mesh.GetPoints().GetData())
-    if size < 0.05 * numpy.linalg.norm(points.max(axis=0) - points.min(axis=0)):
+    if size < 0.05 * surface.size:
         return None
     asked["cycles"] = [loop.tolist()]
     return asked
@@ -222,18 +279,18 @@ def drawn_set(mesh, chains, chance):
 
 def make(arguments):
     chance = random.Random(arguments.seed)
-    meshes = {model: quadrille.read(model) for model in arguments.models}
+    surfaces = {model: Surface(model) for model in arguments.models}
     plain = {}
     sets = []
     while len(sets) < arguments.sets:
         model = arguments.models[len(sets) % len(arguments.models)]
-        mesh = meshes[model]
+        surface = surfaces[model]
         if arguments.drawn:
             if model not in plain:
-                plain[model] = chains_at(mesh, quads=arguments.quads)
-            asked = drawn_set(mesh, plain[model], chance)
+                plain[model] = chains_at(surface, quads=arguments.quads)
+            asked = drawn_set(surface, plain[model], chance)
         else:
-            asked = make_set(mesh, reference(mesh, arguments.quads, chance), chance)
+            asked = make_set(surface, reference(surface, arguments.quads, chance), chance)
         if asked:
             sets.append(dict(asked, model=model, quads=arguments.quads))
     with open(arguments.file, "w", encoding="utf-8") as file:
@@ -337,6 +394,7 @@ def main():
     telling.add_argument("files", nargs="+")
     telling.set_defaults(call=tell)
     arguments = parser.parse_args()
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_WARNING)
     arguments.call(arguments)
     return 0
 
