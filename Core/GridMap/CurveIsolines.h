@@ -28,9 +28,18 @@ struct CurveOutcome
   Vector3 end = Vector3::Zero();
 };
 
-/// The guides that lead the field along the curves; those that are there stay. guides: #F or empty, the same back.
-std::vector<Guide> guidesWithCurves(
-  const Mesh& mesh, const std::vector<CurveRequest>& curves, std::vector<Guide> guides);
+/// What leads a field along curves.
+struct CurvesInField
+{
+  std::vector<Guide> guides;         ///< #F or empty
+  std::vector<FieldLine> lines;      ///< along which it does not turn
+  std::vector<std::uint8_t> regular; ///< #V: vertices that would stand in the way of the lines
+};
+
+/// guides: #F or empty; those that are there stay. field: of the same mesh without the curves, with the vertices at
+/// their ends. edgeLength: s.
+CurvesInField followedCurves(const Mesh& mesh, const CrossField& field,
+  const std::vector<CurveRequest>& curves, double edgeLength, std::vector<Guide> guides);
 
 /// Target valences that hold all turns of a field off features and boundaries. valences: #V or empty; those that are
 /// asked for stay.

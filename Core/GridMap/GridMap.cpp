@@ -182,7 +182,11 @@ private:
     {
       return;
     }
-    fieldOptions.guides = guidesWithCurves(mesh_, curves, options_.guides);
+    CurvesInField followed =
+      followedCurves(mesh_, result_.field, curves, options_.edgeLength, options_.guides);
+    fieldOptions.guides = std::move(followed.guides);
+    fieldOptions.lines = std::move(followed.lines);
+    fieldOptions.regular = std::move(followed.regular);
     for (const bool all : { true, false })
     {
       fieldOptions.targetValences = all ? valencesOf(mesh_, result_.field, options_.targetValences)
