@@ -602,17 +602,18 @@ private:
 } // namespace
 
 CurvesInField followedCurves(const Mesh& mesh, const CrossField& field,
-  const std::vector<CurveRequest>& curves, double edgeLength, std::vector<Guide> guides)
+  const std::vector<FollowedCurve>& curves, double edgeLength, std::vector<Guide> guides)
 {
   CurvesInField result;
   guides.resize(mesh.faceCount());
   result.regular.assign(mesh.vertexCount(), 0);
-  for (const CurveRequest& curve : curves)
+  for (const auto& [curve, way] : curves)
   {
     const bool cycle = curve.kind == CurveKind::Cycle;
     const CurveVertices ends = cycle ? CurveVertices{} : verticesOf(mesh, field, curve, edgeLength);
-    const std::optional<FacePath> path =
-      cycle ? closedPathAlong(mesh, curve) : pathAlong(mesh, curve, ends.from, ends.to);
+    const std::optional<FacePath> path = way ? FacePath{ Mesh::face(way->start), way->crossed }
+      : cycle                                ? closedPathAlong(mesh, curve)
+                                             : pathAlong(mesh, curve, ends.from, ends.to);
     if (path)
     {
       result.lines.push_back({ path->crossed, directionsAlong(mesh, *path, cycle) });
@@ -636,10 +637,10 @@ std::vector<int> valencesOf(const Mesh& mesh, const CrossField& field, std::vect
 }
 
 std::vector<int> valencesWithEnds(const Mesh& mesh, const CrossField& field,
-  const std::vector<CurveRequest>& curves, double edgeLength, std::vector<int> valences)
+  const std::vector<FollowedCurve>& curves, double edgeLength, std::vector<int> valences)
 {
   const std::vector<std::uint8_t> onCurve = constrainedVertices(mesh);
-  for (const CurveRequest& curve : curves)
+  for (const auto& [curve, way] : curves)
   {
     if (curve.kind != CurveKind::Connection)
     {
