@@ -6,6 +6,7 @@
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "GridMap/Embed.h"
+#include "GridMap/GuidesInMap.h"
 #include "GridMap/MapShape.h"
 #include "GridMap/MeshParts.h"
 #include "GridMap/Quantize.h"
@@ -710,12 +711,6 @@ std::size_t countUnmet(const GridMapResult& map)
     map.curves.begin(), map.curves.end(), [](const CurveOutcome& curve) { return !curve.met; }));
 }
 
-/// Of two maps of the same mesh.
-bool hasMore(const GridMapResult& map, const GridMapResult& other)
-{
-  return map.status.ok() && (!other.status.ok() || countUnmet(map) < countUnmet(other));
-}
-
 /// A map with as many of the curves as it can have, the earlier ones before the later ones. Where there is no map even
 /// without them, it is not they that are in the way.
 class CurvedMap
@@ -726,7 +721,8 @@ public:
   GridMapResult run()
   {
     GridMapResult first = make({});
-    if (isWhole(first) || options_.curves.empty() || options_.method != MapMethod::ScaleAware)
+    if (options_.curves.empty() || options_.method != MapMethod::ScaleAware ||
+      (isWhole(first) && countUnfollowed(first) == 0))
     {
       return first;
     }
@@ -737,6 +733,7 @@ public:
     {
       return finish(first.status.ok() ? std::move(first) : std::move(plain));
     }
+    const std::size_t unfollowed = countUnfollowed(plain); // whatever the curves are
     const std::vector<Index> offenders = first.status.ok() ? std::vector<Index>{} : first.offenders;
     const Ways ways = straightWays(plain, first.curves);
     const bool hasWays =
@@ -755,7 +752,7 @@ public:
     }
     for (const CurveTry& howto : tries)
     {
-      if (isWhole(best))
+      if (isWhole(best) && countUnfollowed(best) <= unfollowed)
       {
         break;
       }
@@ -788,6 +785,20 @@ private:
     GridMapResult map = MapMaker(mesh_, options_, howto).run();
     taken_.addWork(map);
     return map;
+  }
+
+  std::size_t countUnfollowed(const GridMapResult& map) const
+  {
+    return map.status.ok() ? unfollowedRegions(mesh_, options_.guides, map.uv) : 0;
+  }
+  std::size_t countMissed(const GridMapResult& map) const
+  {
+    return countUnmet(map) + countUnfollowed(map);
+  }
+  /// Of two maps of the same mesh.
+  bool hasMore(const GridMapResult& map, const GridMapResult& other) const
+  {
+    return map.status.ok() && (!other.status.ok() || countMissed(map) < countMissed(other));
   }
 
   static bool isWhole(const GridMapResult& map) { return map.status.ok() && countUnmet(map) == 0; }
