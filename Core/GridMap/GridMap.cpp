@@ -816,8 +816,9 @@ private:
     std::vector<std::string> why;
     for (const CurveOutcome& curve : map.curves)
     {
-      why.push_back(!curve.met && !curve.why.empty()
-          ? curve.why
+      why.push_back(!curve.met && !curve.why.empty() ? curve.why
+          : map.status.ok()
+          ? std::string("no map has it beside the others: move it, or take another one away")
           : "no map without inverted triangles has it beside the others (" + map.status.message +
             ")");
     }

@@ -15,7 +15,7 @@ namespace quadrille
 {
 
 /// Radians, on average over the area of a region.
-constexpr double kFollowedAngle = 0.08;
+constexpr double kFollowedAngle = 0.045;
 
 /// How many regions, that is connected sets of guided faces, the isolines leave by more than that. guides: empty or #F;
 /// uv: #H.
