@@ -212,6 +212,7 @@ private:
         result_.field = std::move(led);
         return;
       }
+      result_.curveOffenders = std::move(led.offenders);
     }
   }
 
@@ -734,8 +735,15 @@ public:
       return finish(first.status.ok() ? std::move(first) : std::move(plain));
     }
     const std::size_t unfollowed = countUnfollowed(plain); // whatever the curves are
-    const std::vector<Index> offenders = first.status.ok() ? std::vector<Index>{} : first.offenders;
-    const Ways ways = straightWays(plain, first.curves);
+    const std::vector<Index> offenders = first.status.ok() ? first.curveOffenders : first.offenders;
+    Ways ways = straightWays(plain, first.curves);
+    if (first.status.ok())
+    {
+      // Its equations have brought the ends nearer to an axis, if only for a way beside the one asked for.
+      const Ways bent = straightWays(first, first.curves);
+      std::transform(ways.begin(), ways.end(), bent.begin(), ways.begin(),
+        [](const auto& way, const auto& other) { return way ? way : other; });
+    }
     const bool hasWays =
       std::any_of(ways.begin(), ways.end(), [](const auto& way) { return way.has_value(); });
     GridMapResult best = std::move(first);
@@ -826,7 +834,7 @@ private:
   }
 
   /// Other ways for the connections that have failed.
-  Ways straightWays(const GridMapResult& plain, const std::vector<CurveOutcome>& told) const
+  Ways straightWays(const GridMapResult& map, const std::vector<CurveOutcome>& told) const
   {
     Ways ways(options_.curves.size());
     for (std::size_t i = 0; i < ways.size(); ++i)
@@ -837,7 +845,7 @@ private:
       if (!ends.met && connects)
       {
         ways[i] = straightWay(
-          mesh_, plain.field, plain.seamlessUv, options_.curves[i], ends, options_.edgeLength);
+          mesh_, map.field, map.seamlessUv, options_.curves[i], ends, options_.edgeLength);
       }
     }
     return ways;
