@@ -186,14 +186,18 @@ def chains_at(surface, **settings):
 
 
 def reference(surface, quads, chance):
-    """The quads at other settings."""
+    """The quads at other settings, or None where these have failed."""
     settings = {"coarse_vertices": chance.randrange(600, 1600), "quads": round(quads * chance.uniform(0.9, 1.1))}
     way = chance.randrange(3)
     if way == 1:
         settings["guide"] = "curvature"
     elif way == 2:
         settings.update(random_strokes(surface, chance))
-    return chains_at(surface, **settings)
+    try:
+        return chains_at(surface, **settings)
+    except quadrille.RemeshError as error:
+        print(f"no quads with {settings}: {error}", flush=True)
+        return None
 
 
 def some(items, most, chance):
@@ -290,7 +294,8 @@ def make(arguments):
                 plain[model] = chains_at(surface, quads=arguments.quads)
             asked = drawn_set(surface, plain[model], chance)
         else:
-            asked = make_set(surface, reference(surface, arguments.quads, chance), chance)
+            chains = reference(surface, arguments.quads, chance)
+            asked = chains and make_set(surface, chains, chance)
         if asked:
             sets.append(dict(asked, model=model, quads=arguments.quads))
     with open(arguments.file, "w", encoding="utf-8") as file:
