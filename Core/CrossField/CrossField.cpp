@@ -3,6 +3,7 @@
 #include "CrossField/CrossField.h"
 
 #include "Base/PlaceText.h"
+#include "CrossField/FieldLines.h"
 #include "CrossField/FieldTopology.h"
 #include "CrossField/PowerField.h"
 #include "CrossField/SizeCones.h"
@@ -65,6 +66,20 @@ std::vector<std::int8_t> matchings(
     matching[h] = static_cast<std::int8_t>(turns & 3);
   }
   return matching;
+}
+
+// An irregular vertex gives way by up to about so many times s to one that is to be regular.
+constexpr double kPriceInTheWay = 8;
+
+std::vector<double> priceOfIrregular(
+  const FieldTopology& topology, const std::vector<std::uint8_t>& regular)
+{
+  std::vector<double> price;
+  for (std::size_t i = 0; i < topology.fans.size() && !regular.empty(); ++i)
+  {
+    price.push_back(regular[topology.fans[i].vertex] != 0 ? kPriceInTheWay : 0.0);
+  }
+  return price;
 }
 
 // What a map cannot realize: a triangle's corner stays below half a turn.
@@ -230,7 +245,7 @@ void adaptToSizes(const Mesh& mesh, const FieldTopology& topology,
   }
   const RepairData data(mesh, topology, constraints, solution.angle, solution.jump);
   const TurnPrescription prescription = prescribeTurns(mesh, topology, targets);
-  if (!checkPrescription(mesh, topology, prescription, data.turns).ok())
+  if (!checkPrescription(mesh, topology, prescription, data.turns, *input.held).ok())
   {
     return;
   }
@@ -255,19 +270,24 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
   const double length = options.targetEdgeLength;
   const std::vector<double> natural = naturalTurns(topology, length);
   const std::vector<double> stiffness = stiffnessOf(topology, options.guides, constraints);
-  const auto inputOf = [&](const RepairData& data) -> TurnRepairInput {
-    return { &topology, &data.residual, &data.turns, &natural, length, &prescription, &stiffness };
+  const std::vector<double> irregularPrice = priceOfIrregular(topology, options.regular);
+  std::vector<std::uint8_t> held; // the same for all candidates
+  const auto inputOf = [&](const RepairData& data) -> TurnRepairInput
+  {
+    return { &topology, &data.residual, &data.turns, &natural, length, &prescription, &stiffness,
+      &held, &irregularPrice };
   };
   Solution best;
   std::vector<std::size_t> fewest;
   for (const std::vector<double>& candidate : fields.candidates)
   {
     Solution solution{ candidate, roundJumps(mesh, topology, candidate), {}, {}, {} };
+    held = holdJumps(mesh, topology, options.lines, candidate, solution.jump);
     const RepairData data(mesh, topology, constraints, candidate, solution.jump);
     if (best.angle.empty())
     {
       // The sums that matter are the same for all candidates.
-      solution.status = checkPrescription(mesh, topology, prescription, data.turns);
+      solution.status = checkPrescription(mesh, topology, prescription, data.turns, held);
       if (!solution.status.ok())
       {
         solution.turns = data.turns;
@@ -305,7 +325,9 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
   if (!mesh.sizing.empty() && best.status.ok())
   {
     adaptToSizes(mesh, topology, constraints,
-      { &topology, nullptr, nullptr, &natural, length, nullptr, &stiffness }, options, best);
+      { &topology, nullptr, nullptr, &natural, length, nullptr, &stiffness, &held,
+        &irregularPrice },
+      options, best);
   }
   const RepairData data(mesh, topology, constraints, best.angle, best.jump);
   TurnRepairResult complete{ std::vector<int>(topology.edges.size(), 0), best.turns };

@@ -23,6 +23,15 @@
 namespace quadrille
 {
 
+/// A line that the field runs along, through unconstrained edges, the same axis all the way.
+struct FieldLine
+{
+  std::vector<Index>
+    crossed; ///< half-edges through which it leaves its faces; a closed one comes back to the first
+  std::vector<Vector3>
+    along; ///< its direction, of any length, in each face; one more than `crossed`
+};
+
 struct CrossFieldOptions
 {
   double targetEdgeLength = 0; ///< s > 0; features of the field below this size are smoothed away
@@ -32,6 +41,11 @@ struct CrossFieldOptions
   std::vector<Guide> guides;
   /// Empty or #V: turns that vertices must have, met exactly; 0 where free, else see ValenceRequest.
   std::vector<int> targetValences;
+  /// Lines along which the field does not turn against their direction, so that a map can have them as isolines; guides
+  /// are to lead it there. No quarter turns move across them.
+  std::vector<FieldLine> lines;
+  /// Empty or #V flags: vertices that are to be regular as far as can be.
+  std::vector<std::uint8_t> regular;
 };
 
 /// A line of the map along an axis that joins two vertices, or closes on itself, along a way through the faces: the

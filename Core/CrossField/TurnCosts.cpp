@@ -25,7 +25,7 @@ int turnLimit(const Fan& fan)
   return 2 * static_cast<int>(fan.corners) - 1;
 }
 
-double fanCost(const Fan& fan, double natural, int turns)
+double fanCost(const Fan& fan, double natural, int turns, double irregular)
 {
   const int limit = turnLimit(fan);
   double cost = kForbiddenTurn * (std::max(0, 1 - turns) + std::max(0, turns - limit));
@@ -34,17 +34,17 @@ double fanCost(const Fan& fan, double natural, int turns)
     return cost + kUnnatural * (turns - natural) * (turns - natural) + kBend * std::abs(turns - 2);
   }
   const int away = std::abs(turns - 4);
-  cost += kCone * (turns - natural) * (turns - natural) + kIrregular * std::min(away, 1) +
-    kRare * std::max(away - 1, 0);
+  cost += kCone * (turns - natural) * (turns - natural) +
+    (kIrregular + irregular) * std::min(away, 1) + kRare * std::max(away - 1, 0);
   return cost + kForbiddenTurn * std::max(away - 2, 0);
 }
 
-int cheapestTurns(const Fan& fan, double natural)
+int cheapestTurns(const Fan& fan, double natural, double irregular)
 {
   int best = fan.sector ? 2 : 4;
   for (const int step : { 1, -1 })
   {
-    while (fanCost(fan, natural, best + step) < fanCost(fan, natural, best))
+    while (fanCost(fan, natural, best + step, irregular) < fanCost(fan, natural, best, irregular))
     {
       best += step;
     }

@@ -16,10 +16,11 @@ constexpr double kForbiddenTurn = 1e5; ///< what no map can realize, or a valenc
 int turnLimit(const Fan& fan);
 
 /// Convex in the turns.
-double fanCost(const Fan& fan, double natural, int turns);
+/// irregular: what the fan costs on top where it is irregular, >= 0.
+double fanCost(const Fan& fan, double natural, int turns, double irregular = 0);
 
 /// The turns of least cost.
-int cheapestTurns(const Fan& fan, double natural);
+int cheapestTurns(const Fan& fan, double natural, double irregular = 0);
 
 /// Growth of the weighted squared residual of topology edge e when its shift goes from `shift` to
 /// shift + step (1 or -1).

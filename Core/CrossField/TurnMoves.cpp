@@ -109,6 +109,10 @@ private:
   }
   double linkCost(const Link& link) const
   {
+    if (input_.isHeld(link.edge))
+    {
+      return kForbiddenTurn;
+    }
     // What an earlier shift would win back is not for this path to collect.
     return std::max(
       0.0, shiftCost(input_, link.edge, result_.shift[link.edge], link.forward ? 1 : -1));
@@ -123,7 +127,9 @@ private:
     }
     const Fan& fan = input_.topology->fans[i];
     const double natural = (*input_.natural)[i];
-    return fanCost(fan, natural, result_.turns[i] + step) - fanCost(fan, natural, result_.turns[i]);
+    const double irregular = input_.costOfIrregular(i);
+    return fanCost(fan, natural, result_.turns[i] + step, irregular) -
+      fanCost(fan, natural, result_.turns[i], irregular);
   }
   void apply(Index goal, const std::vector<std::optional<Link>>& entry)
   {

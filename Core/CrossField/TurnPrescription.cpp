@@ -29,11 +29,17 @@ std::vector<std::uint8_t> boundaryVertices(const Mesh& mesh)
 }
 
 // Sets of fans whose turns have a fixed sum.
-DisjointSets fansOfFixedSum(const FieldTopology& topology, const TurnPrescription& prescription)
+DisjointSets fansOfFixedSum(const FieldTopology& topology, const TurnPrescription& prescription,
+  const std::vector<std::uint8_t>& held)
 {
   DisjointSets sets(topology.fans.size(), 1);
-  for (const std::array<Index, 2>& edge : topology.edges)
+  for (std::size_t e = 0; e < topology.edges.size(); ++e)
   {
+    const std::array<Index, 2>& edge = topology.edges[e];
+    if (!held.empty() && held[e] != 0)
+    {
+      continue;
+    }
     sets.join(topology.fanOfCorner[edge[0]], topology.fanOfCorner[edge[1]]);
   }
   std::vector<Index> first(prescription.turns.size(), kInvalidIndex);
@@ -155,13 +161,14 @@ TurnPrescription prescribeTurns(
 }
 
 Status checkPrescription(const Mesh& mesh, const FieldTopology& topology,
-  const TurnPrescription& prescription, const std::vector<int>& turns)
+  const TurnPrescription& prescription, const std::vector<int>& turns,
+  const std::vector<std::uint8_t>& held)
 {
   if (prescription.turns.empty())
   {
     return {};
   }
-  DisjointSets sets = fansOfFixedSum(topology, prescription);
+  DisjointSets sets = fansOfFixedSum(topology, prescription, held);
   for (const SetSums& sum : sumUp(topology, prescription, turns, sets))
   {
     // Turns that the free fans have to make together.

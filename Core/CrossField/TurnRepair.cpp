@@ -54,10 +54,11 @@ public:
     result.complete = flow_.solve().unrouted == 0;
     result.turns = *input_.turns;
     Index arc = firstEdgeArc_;
-    for (const std::array<Index, 2>& edge : input_.topology->edges)
+    for (std::size_t e = 0; e < input_.topology->edges.size(); ++e)
     {
+      const std::array<Index, 2>& edge = input_.topology->edges[e];
       int shift = 0;
-      for (int step = 0; step < kEdgeSteps; ++step)
+      for (int step = 0; step < kEdgeSteps && !input_.isHeld(e); ++step)
       {
         shift += static_cast<int>(flow_.flow(arc++));
         shift -= static_cast<int>(flow_.flow(arc++));
@@ -84,7 +85,8 @@ private:
       return; // no edge can change it
     }
     const double natural = (*input_.natural)[i];
-    const int cheapest = cheapestTurns(fan, natural);
+    const double irregular = input_.costOfIrregular(i);
+    const int cheapest = cheapestTurns(fan, natural, irregular);
     const int excess = (*input_.turns)[i] - cheapest;
     flow_.addSupply(i, excess);
     if (!free)
@@ -93,11 +95,11 @@ private:
     }
     for (int step = 0; step < kNodeSteps; ++step)
     {
-      const double here = fanCost(fan, natural, cheapest + step);
-      const double more = fanCost(fan, natural, cheapest + step + 1);
+      const double here = fanCost(fan, natural, cheapest + step, irregular);
+      const double more = fanCost(fan, natural, cheapest + step + 1, irregular);
       addArc(i, sink, more - here);
-      const double low = fanCost(fan, natural, cheapest - step);
-      const double less = fanCost(fan, natural, cheapest - step - 1);
+      const double low = fanCost(fan, natural, cheapest - step, irregular);
+      const double less = fanCost(fan, natural, cheapest - step - 1, irregular);
       addArc(sink, i, less - low);
     }
   }
@@ -107,7 +109,7 @@ private:
     const std::array<Index, 2>& edge = input_.topology->edges[e];
     const Index head = input_.topology->fanOfCorner[edge[1]];
     const Index tail = input_.topology->fanOfCorner[edge[0]];
-    for (int step = 0; step < kEdgeSteps; ++step)
+    for (int step = 0; step < kEdgeSteps && !input_.isHeld(e); ++step)
     {
       addArc(head, tail, shiftCost(input_, e, step, 1));
       addArc(tail, head, shiftCost(input_, e, -step, -1));

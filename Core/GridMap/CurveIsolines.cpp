@@ -26,6 +26,8 @@ constexpr float kCycleWeight = 100.0F;
 /// In edges of quads: how far from an end of a connection the vertex may lie that it joins.
 constexpr double kReachOfIrregular = 3;
 constexpr double kReachOfCurve = 1.5;
+/// In edges of quads: how far from a curve vertices had better be regular.
+constexpr double kClearance = 1.5;
 /// A closed way along a field that does not go with it comes out short: the field turns, or runs across.
 constexpr double kLeastAlong = 0.5;
 /// A line is the one asked for where it is at most so many times longer than the way along the curve.
@@ -95,6 +97,39 @@ CurveEnd endNear(const Mesh& mesh, const CrossField& field, const Vector3& p, do
   const bool point = distance(irregular) <= distance(curve) + edgeLength;
   const Index v = point ? irregular : curve;
   return { v, v != kInvalidIndex && integer[v] != 0 };
+}
+
+struct CurveVertices
+{
+  Index from = kInvalidIndex, to = kInvalidIndex;
+};
+
+/// What a connection joins, or, where that is too far, what is nearest to its ends.
+CurveVertices verticesOf(
+  const Mesh& mesh, const CrossField& field, const CurveRequest& curve, double edgeLength)
+{
+  const auto vertexAt = [&](const Vector3& place)
+  {
+    const CurveEnd end = endNear(mesh, field, place, edgeLength);
+    return end.vertex != kInvalidIndex ? end.vertex : nearestVertex(mesh, place);
+  };
+  return { vertexAt(curve.points.front()), vertexAt(curve.points.back()) };
+}
+
+/// Flags the vertices near a curve but for its ends.
+void clearTheWay(const Mesh& mesh, const CurveRequest& curve, const CurveVertices& ends,
+  double edgeLength, std::vector<std::uint8_t>& regular)
+{
+  const std::vector<Vector3> samples = sampleCurve(curve, edgeLength);
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    for (std::size_t i = 0; i + 1 < samples.size() && v != ends.from && v != ends.to; ++i)
+    {
+      const bool isNear =
+        distanceToSegment(mesh.position[v], samples[i], samples[i + 1]) <= kClearance * edgeLength;
+      regular[v] |= isNear ? 1 : 0;
+    }
+  }
 }
 
 Index cornerAt(const Mesh& mesh, Index f, Index v)
@@ -566,27 +601,28 @@ private:
 
 } // namespace
 
-std::vector<Guide> guidesWithCurves(
-  const Mesh& mesh, const std::vector<CurveRequest>& curves, std::vector<Guide> guides)
+CurvesInField followedCurves(const Mesh& mesh, const CrossField& field,
+  const std::vector<FollowedCurve>& curves, double edgeLength, std::vector<Guide> guides)
 {
-  if (curves.empty())
-  {
-    return guides;
-  }
+  CurvesInField result;
   guides.resize(mesh.faceCount());
-  for (const CurveRequest& curve : curves)
+  result.regular.assign(mesh.vertexCount(), 0);
+  for (const auto& [curve, way] : curves)
   {
     const bool cycle = curve.kind == CurveKind::Cycle;
-    const std::optional<FacePath> path = cycle
-      ? closedPathAlong(mesh, curve)
-      : pathAlong(mesh, curve, nearestVertex(mesh, curve.points.front()),
-          nearestVertex(mesh, curve.points.back()));
+    const CurveVertices ends = cycle ? CurveVertices{} : verticesOf(mesh, field, curve, edgeLength);
+    const std::optional<FacePath> path = way ? FacePath{ Mesh::face(way->start), way->crossed }
+      : cycle                                ? closedPathAlong(mesh, curve)
+                                             : pathAlong(mesh, curve, ends.from, ends.to);
     if (path)
     {
+      result.lines.push_back({ path->crossed, directionsAlong(mesh, *path, cycle) });
       guideAlong(mesh, *path, cycle, cycle ? kCycleWeight : kConnectionWeight, guides);
+      clearTheWay(mesh, curve, ends, edgeLength, result.regular);
     }
   }
-  return guides;
+  result.guides = std::move(guides);
+  return result;
 }
 
 std::vector<int> valencesOf(const Mesh& mesh, const CrossField& field, std::vector<int> valences)
@@ -601,10 +637,10 @@ std::vector<int> valencesOf(const Mesh& mesh, const CrossField& field, std::vect
 }
 
 std::vector<int> valencesWithEnds(const Mesh& mesh, const CrossField& field,
-  const std::vector<CurveRequest>& curves, double edgeLength, std::vector<int> valences)
+  const std::vector<FollowedCurve>& curves, double edgeLength, std::vector<int> valences)
 {
   const std::vector<std::uint8_t> onCurve = constrainedVertices(mesh);
-  for (const CurveRequest& curve : curves)
+  for (const auto& [curve, way] : curves)
   {
     if (curve.kind != CurveKind::Connection)
     {

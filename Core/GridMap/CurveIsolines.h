@@ -28,9 +28,25 @@ struct CurveOutcome
   Vector3 end = Vector3::Zero();
 };
 
-/// The guides that lead the field along the curves; those that are there stay. guides: #F or empty, the same back.
-std::vector<Guide> guidesWithCurves(
-  const Mesh& mesh, const std::vector<CurveRequest>& curves, std::vector<Guide> guides);
+/// What leads a field along curves.
+struct CurvesInField
+{
+  std::vector<Guide> guides;         ///< #F or empty
+  std::vector<FieldLine> lines;      ///< along which it does not turn
+  std::vector<std::uint8_t> regular; ///< #V: vertices that would stand in the way of the lines
+};
+
+/// A curve that is to be followed.
+struct FollowedCurve
+{
+  CurveRequest curve;
+  std::optional<Isoline> way; ///< in place of the way along the curve
+};
+
+/// guides: #F or empty; those that are there stay. field: of the same mesh without the curves, with the vertices at
+/// their ends. edgeLength: s.
+CurvesInField followedCurves(const Mesh& mesh, const CrossField& field,
+  const std::vector<FollowedCurve>& curves, double edgeLength, std::vector<Guide> guides);
 
 /// Target valences that hold all turns of a field off features and boundaries. valences: #V or empty; those that are
 /// asked for stay.
@@ -39,7 +55,7 @@ std::vector<int> valencesOf(const Mesh& mesh, const CrossField& field, std::vect
 /// Target valences that hold the irregular vertices at the ends of connections where the field has them. valences: #V
 /// or empty, the same back; those that are asked for stay.
 std::vector<int> valencesWithEnds(const Mesh& mesh, const CrossField& field,
-  const std::vector<CurveRequest>& curves, double edgeLength, std::vector<int> valences);
+  const std::vector<FollowedCurve>& curves, double edgeLength, std::vector<int> valences);
 
 /// A curve's line in the map of a field, or why there is none.
 struct RequestedLine

@@ -416,19 +416,34 @@ std::optional<FacePath> closedPathAlong(const Mesh& mesh, const CurveRequest& cu
   return path.crossed.empty() ? std::nullopt : std::optional<FacePath>(std::move(path));
 }
 
-void guideAlong(
-  const Mesh& mesh, const FacePath& path, bool closed, float weight, std::vector<Guide>& guides)
+std::vector<Vector3> directionsAlong(const Mesh& mesh, const FacePath& path, bool closed)
 {
   const std::vector<Index> faces = path.faces(mesh);
+  std::vector<Vector3> directions(faces.size(), Vector3::Zero());
   for (std::size_t i = 0; i < faces.size(); ++i)
   {
     const Vector2 along = chordAt(mesh, path, closed, faces[i], i);
     const Index h = 3 * faces[i];
-    if (guides[faces[i]].isFree() && along.squaredNorm() > 0)
+    if (along.squaredNorm() > 0)
     {
       const Vector3 x = mesh.edgeVector(h).stableNormalized();
       const Vector3 y = x.cross(mesh.edgeVector(h + 1)).stableNormalized().cross(x);
-      guides[faces[i]] = { (along.x() * x + along.y() * y).stableNormalized(), weight };
+      directions[i] = (along.x() * x + along.y() * y).stableNormalized();
+    }
+  }
+  return directions;
+}
+
+void guideAlong(
+  const Mesh& mesh, const FacePath& path, bool closed, float weight, std::vector<Guide>& guides)
+{
+  const std::vector<Index> faces = path.faces(mesh);
+  const std::vector<Vector3> directions = directionsAlong(mesh, path, closed);
+  for (std::size_t i = 0; i < faces.size(); ++i)
+  {
+    if (guides[faces[i]].isFree() && !directions[i].isZero(0))
+    {
+      guides[faces[i]] = { directions[i], weight };
     }
   }
 }

@@ -33,7 +33,10 @@ std::optional<FacePath> pathAlong(const Mesh& mesh, const CurveRequest& curve, I
 /// The closed way along a cycle. Empty where features cut it, or where it closes on nothing.
 std::optional<FacePath> closedPathAlong(const Mesh& mesh, const CurveRequest& curve);
 
-/// Gives the faces of the path that have no guide yet its direction, over some faces before and behind. guides: #F.
+/// Its direction in each of its faces, over some faces before and behind; zero where it has none.
+std::vector<Vector3> directionsAlong(const Mesh& mesh, const FacePath& path, bool closed);
+
+/// Gives the faces of the path that have no guide yet its direction. guides: #F.
 void guideAlong(
   const Mesh& mesh, const FacePath& path, bool closed, float weight, std::vector<Guide>& guides);
 

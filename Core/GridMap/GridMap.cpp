@@ -6,6 +6,7 @@
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "GridMap/Embed.h"
+#include "GridMap/GuidesInMap.h"
 #include "GridMap/MapShape.h"
 #include "GridMap/MeshParts.h"
 #include "GridMap/Quantize.h"
@@ -104,14 +105,22 @@ struct Component
   }
 };
 
+/// How a map is made that has to have curves.
+struct CurveTry
+{
+  /// Empty, or for each curve why it is no equation; empty texts for those that are.
+  std::vector<std::string> leftOut;
+  /// Empty, or in place of the ways of the curves where there are some.
+  std::vector<std::optional<Isoline>> ways;
+  /// Whether all irregular vertices of the field without curves stay, or only those at ends of connections.
+  bool holdsIrregular = true;
+};
+
 class MapMaker
 {
 public:
-  /// leftOut: empty, or the curves that are no equations.
-  /// ways: empty, or in place of the ways of the curves where there are some.
-  MapMaker(const Mesh& mesh, const GridMapOptions& options, std::vector<std::string> leftOut,
-    std::vector<std::optional<Isoline>> ways)
-    : mesh_(mesh), options_(options), leftOut_(std::move(leftOut)), ways_(std::move(ways))
+  MapMaker(const Mesh& mesh, const GridMapOptions& options, CurveTry howto)
+    : mesh_(mesh), options_(options), try_(std::move(howto))
   {
   }
 
@@ -167,24 +176,33 @@ private:
   }
 
   /// The field once more, led along the curves. All its irregular vertices stay, as they are those that the user has
-  /// seen; where a cycle cannot close between them, those at the ends of connections only.
+  /// seen; where a cycle cannot close between them, and where no map has the lines so, those at the ends of connections
+  /// only.
   void followCurves(CrossFieldOptions fieldOptions)
   {
-    std::vector<CurveRequest> curves;
+    std::vector<FollowedCurve> curves;
     for (std::size_t i = 0; i < options_.curves.size(); ++i)
     {
       if (!isLeftOut(i))
       {
-        curves.push_back(options_.curves[i]);
+        curves.push_back({ options_.curves[i], wayOf(i) });
       }
     }
     if (curves.empty())
     {
       return;
     }
-    fieldOptions.guides = guidesWithCurves(mesh_, curves, options_.guides);
+    CurvesInField followed =
+      followedCurves(mesh_, result_.field, curves, options_.edgeLength, options_.guides);
+    fieldOptions.guides = std::move(followed.guides);
+    fieldOptions.lines = std::move(followed.lines);
+    fieldOptions.regular = std::move(followed.regular);
     for (const bool all : { true, false })
     {
+      if (all && !try_.holdsIrregular)
+      {
+        continue;
+      }
       fieldOptions.targetValences = all ? valencesOf(mesh_, result_.field, options_.targetValences)
                                         : valencesWithEnds(mesh_, result_.field, curves,
                                             options_.edgeLength, options_.targetValences);
@@ -194,21 +212,29 @@ private:
         result_.field = std::move(led);
         return;
       }
+      result_.curveOffenders = std::move(led.offenders);
     }
   }
 
   /// The others round, or have no integers at all.
   bool makesLines() const { return options_.method == MapMethod::ScaleAware; }
 
-  bool isLeftOut(std::size_t curve) const { return !leftOut_.empty() && !leftOut_[curve].empty(); }
+  bool isLeftOut(std::size_t curve) const
+  {
+    return !try_.leftOut.empty() && !try_.leftOut[curve].empty();
+  }
+  std::optional<Isoline> wayOf(std::size_t curve) const
+  {
+    return try_.ways.empty() ? std::nullopt : try_.ways[curve];
+  }
 
-  bool cyclesClose(const CrossField& field, const std::vector<CurveRequest>& curves) const
+  bool cyclesClose(const CrossField& field, const std::vector<FollowedCurve>& curves) const
   {
     return std::all_of(curves.begin(), curves.end(),
-      [&](const CurveRequest& curve)
+      [&](const FollowedCurve& followed)
       {
-        return curve.kind != CurveKind::Cycle ||
-          lineOf(mesh_, field, curve, options_.edgeLength).hasLine;
+        return followed.curve.kind != CurveKind::Cycle ||
+          lineOf(mesh_, field, followed.curve, options_.edgeLength).hasLine;
       });
   }
 
@@ -220,13 +246,13 @@ private:
       RequestedLine& line = lines_.back();
       if (isLeftOut(i))
       {
-        line.outcome.why = leftOut_[i];
+        line.outcome.why = try_.leftOut[i];
       }
       else if (line.hasLine && makesLines())
       {
-        if (!ways_.empty() && ways_[i])
+        if (const std::optional<Isoline> way = wayOf(i))
         {
-          line.line = *ways_[i];
+          line.line = *way;
           line.line.axis = axisAlong(mesh_, result_.field, line.line);
         }
         result_.field.isolines.push_back(line.line);
@@ -674,8 +700,7 @@ private:
 
   const Mesh& mesh_;
   const GridMapOptions& options_;
-  std::vector<std::string> leftOut_;
-  std::vector<std::optional<Isoline>> ways_;
+  CurveTry try_;
   GridMapResult result_;
   std::vector<RequestedLine> lines_;
   std::vector<Component> components_;
@@ -687,12 +712,6 @@ std::size_t countUnmet(const GridMapResult& map)
     map.curves.begin(), map.curves.end(), [](const CurveOutcome& curve) { return !curve.met; }));
 }
 
-/// Of two maps of the same mesh.
-bool hasMore(const GridMapResult& map, const GridMapResult& other)
-{
-  return map.status.ok() && (!other.status.ok() || countUnmet(map) < countUnmet(other));
-}
-
 /// A map with as many of the curves as it can have, the earlier ones before the later ones. Where there is no map even
 /// without them, it is not they that are in the way.
 class CurvedMap
@@ -702,34 +721,65 @@ public:
 
   GridMapResult run()
   {
-    GridMapResult first = make({}, {});
-    const bool isWhole = first.status.ok() && countUnmet(first) == 0;
-    if (isWhole || options_.curves.empty() || options_.method != MapMethod::ScaleAware)
+    GridMapResult first = make({});
+    if (options_.curves.empty() || options_.method != MapMethod::ScaleAware ||
+      (isWhole(first) && countUnfollowed(first) == 0))
     {
       return first;
     }
     // What is left out does not lead the field either.
     std::vector<std::string> leftOut = reasons(first);
-    GridMapResult plain = make(leftOut, {});
+    GridMapResult plain = make({ leftOut, {}, true });
     if (!plain.status.ok())
     {
       return finish(first.status.ok() ? std::move(first) : std::move(plain));
     }
-    const std::vector<Index> offenders = first.status.ok() ? std::vector<Index>{} : first.offenders;
-    const Ways ways = straightWays(plain, first.curves);
-    GridMapResult best = std::move(first);
-    if (std::any_of(ways.begin(), ways.end(), [](const auto& way) { return way.has_value(); }))
+    const std::size_t unfollowed = countUnfollowed(plain); // whatever the curves are
+    const std::vector<Index> offenders = first.status.ok() ? first.curveOffenders : first.offenders;
+    Ways ways = straightWays(plain, first.curves);
+    if (first.status.ok())
     {
-      GridMapResult other = make({}, ways);
+      // Its equations have brought the ends nearer to an axis, if only for a way beside the one asked for.
+      const Ways bent = straightWays(first, first.curves);
+      std::transform(ways.begin(), ways.end(), bent.begin(), ways.begin(),
+        [](const auto& way, const auto& other) { return way ? way : other; });
+    }
+    const bool hasWays =
+      std::any_of(ways.begin(), ways.end(), [](const auto& way) { return way.has_value(); });
+    GridMapResult best = std::move(first);
+    CurveTry bestTry;
+    std::vector<CurveTry> tries;
+    if (hasWays)
+    {
+      tries.push_back({ {}, ways, true });
+    }
+    tries.push_back({ {}, {}, false });
+    if (hasWays)
+    {
+      tries.push_back({ {}, ways, false });
+    }
+    for (const CurveTry& howto : tries)
+    {
+      if (isWhole(best) && countUnfollowed(best) <= unfollowed)
+      {
+        break;
+      }
+      GridMapResult other = make(howto);
       if (hasMore(other, best))
       {
         best = std::move(other);
+        bestTry = howto;
       }
     }
-    if (!best.status.ok() || countUnmet(best) > 0)
+    if (!isWhole(best))
     {
       // An equation without its line would only bend the map.
-      best = addOneByOne(std::move(plain), std::move(leftOut), ways);
+      GridMapResult some = withoutUnmet(best, bestTry);
+      best = addOneByOne(std::move(plain), { std::move(leftOut), ways, true });
+      if (hasMore(some, best))
+      {
+        best = std::move(some);
+      }
       best.curveOffenders = offenders;
     }
     return finish(std::move(best));
@@ -738,12 +788,28 @@ public:
 private:
   using Ways = std::vector<std::optional<Isoline>>;
 
-  GridMapResult make(const std::vector<std::string>& leftOut, const Ways& ways)
+  GridMapResult make(const CurveTry& howto)
   {
-    GridMapResult map = MapMaker(mesh_, options_, leftOut, ways).run();
+    GridMapResult map = MapMaker(mesh_, options_, howto).run();
     taken_.addWork(map);
     return map;
   }
+
+  std::size_t countUnfollowed(const GridMapResult& map) const
+  {
+    return map.status.ok() ? unfollowedRegions(mesh_, options_.guides, map.uv) : 0;
+  }
+  std::size_t countMissed(const GridMapResult& map) const
+  {
+    return countUnmet(map) + countUnfollowed(map);
+  }
+  /// Of two maps of the same mesh.
+  bool hasMore(const GridMapResult& map, const GridMapResult& other) const
+  {
+    return map.status.ok() && (!other.status.ok() || countMissed(map) < countMissed(other));
+  }
+
+  static bool isWhole(const GridMapResult& map) { return map.status.ok() && countUnmet(map) == 0; }
 
   /// With what all tries have taken.
   GridMapResult finish(GridMapResult map) const
@@ -758,8 +824,9 @@ private:
     std::vector<std::string> why;
     for (const CurveOutcome& curve : map.curves)
     {
-      why.push_back(!curve.met && !curve.why.empty()
-          ? curve.why
+      why.push_back(!curve.met && !curve.why.empty() ? curve.why
+          : map.status.ok()
+          ? std::string("no map has it beside the others: move it, or take another one away")
           : "no map without inverted triangles has it beside the others (" + map.status.message +
             ")");
     }
@@ -767,7 +834,7 @@ private:
   }
 
   /// Other ways for the connections that have failed.
-  Ways straightWays(const GridMapResult& plain, const std::vector<CurveOutcome>& told) const
+  Ways straightWays(const GridMapResult& map, const std::vector<CurveOutcome>& told) const
   {
     Ways ways(options_.curves.size());
     for (std::size_t i = 0; i < ways.size(); ++i)
@@ -778,26 +845,39 @@ private:
       if (!ends.met && connects)
       {
         ways[i] = straightWay(
-          mesh_, plain.field, plain.seamlessUv, options_.curves[i], ends, options_.edgeLength);
+          mesh_, map.field, map.seamlessUv, options_.curves[i], ends, options_.edgeLength);
       }
     }
     return ways;
   }
 
-  GridMapResult addOneByOne(GridMapResult best, std::vector<std::string> leftOut, const Ways& ways)
+  /// The same without the curves that it has not met.
+  GridMapResult withoutUnmet(const GridMapResult& map, CurveTry howto)
+  {
+    const std::vector<std::string> why = reasons(map);
+    howto.leftOut.resize(why.size());
+    for (std::size_t i = 0; i < why.size(); ++i)
+    {
+      howto.leftOut[i] = map.curves[i].met ? std::string() : why[i];
+    }
+    const bool hasSome = map.status.ok() && countUnmet(map) < why.size();
+    return hasSome ? make(howto) : map;
+  }
+
+  GridMapResult addOneByOne(GridMapResult best, CurveTry howto)
   {
     const std::size_t count = options_.curves.size();
     for (std::size_t i = 0; i < count && count > 1; ++i)
     {
-      const std::string why = std::exchange(leftOut[i], std::string());
-      GridMapResult next = make(leftOut, ways);
+      const std::string why = std::exchange(howto.leftOut[i], std::string());
+      GridMapResult next = make(howto);
       if (hasMore(next, best))
       {
         best = std::move(next);
       }
       else
       {
-        leftOut[i] = why;
+        howto.leftOut[i] = why;
       }
     }
     return best;

@@ -27,6 +27,9 @@ constexpr double kCornerLimit = 0.75 * kPi;
 /// A walk to the face below a point ends when so many steps have brought it no nearer.
 constexpr int kVainSteps = 24;
 constexpr std::size_t kRegionChunk = 256;
+/// What is thinner than this to each side, over `reach`, leads as much beside it as well: quads do not turn by
+/// a line of triangles much smaller than they are.
+constexpr double kHalfWidth = 3;
 
 Vector3 normalOf(const Mesh& mesh, Index f)
 {
@@ -124,11 +127,12 @@ private:
 /// A face that a spreading front may enter next: distance, face, source.
 using Front = std::pair<double, std::pair<Index, Index>>;
 
-/// Lets sources (entry i of `source` is a face) spread over the surface, nearest first, to the faces that `mayEnter`
-/// and whose middle is within `reach` of the source's. #F: the source that each face is reached from, or kInvalidIndex.
+/// Lets sources (entry i of `source` is a face) spread over the surface, nearest first, through the half-edges that
+/// `mayCross` to faces whose middle is within `reach` of the source's. #F: the source that each face is reached from,
+/// or kInvalidIndex.
 template <typename Predicate>
 std::vector<Index> spread(
-  const Mesh& mesh, const std::vector<Index>& source, double reach, const Predicate& mayEnter)
+  const Mesh& mesh, const std::vector<Index>& source, double reach, const Predicate& mayCross)
 {
   std::vector<Index> reached(mesh.faceCount(), kInvalidIndex);
   std::priority_queue<Front, std::vector<Front>, std::greater<Front>> queue;
@@ -149,7 +153,7 @@ std::vector<Index> spread(
     for (Index h = 3 * face; h < 3 * face + 3; ++h)
     {
       const Index g = mesh.isBoundary(h) ? kInvalidIndex : Mesh::face(mesh.twin[h]);
-      if (g != kInvalidIndex && reached[g] == kInvalidIndex && mayEnter(g))
+      if (g != kInvalidIndex && reached[g] == kInvalidIndex && mayCross(h))
       {
         const double distance = (middleOf(mesh, g) - start).norm();
         if (distance <= reach)
@@ -197,7 +201,7 @@ public:
 
   std::vector<Guide> run(double reach, int threads)
   {
-    findFacesBelow(4 * reach, threads);
+    findFacesBelow(6 * reach, threads);
     for (Index f = 0; f < below_.size(); ++f)
     {
       if (below_[f] != kInvalidIndex && guideOf_[below_[f]] != kInvalidIndex)
@@ -205,19 +209,10 @@ public:
         adopt(f, guides_[guideOf_[below_[f]]]);
       }
     }
-    const std::vector<Index> missed = missedFaces(reach);
-    if (!missed.empty())
-    {
-      const std::vector<Index> near =
-        spread(fine_, missed, reach, [&](Index g) { return guideOf_[g] == kInvalidIndex; });
-      for (Index f = 0; f < below_.size(); ++f)
-      {
-        if (result_[f].isFree() && below_[f] != kInvalidIndex && near[below_[f]] != kInvalidIndex)
-        {
-          adopt(f, guides_[guideOf_[missed[near[below_[f]]]]]);
-        }
-      }
-    }
+    const auto beyondGuides = [&](Index h) { return !isGuided(acrossOf(h)); };
+    adoptFrom(missedFaces(reach), reach, beyondGuides);
+    adoptFrom(thinFaces(kHalfWidth * reach), kHalfWidth * reach,
+      [&](Index h) { return beyondGuides(h) && !fine_.isConstrained(h); });
     const bool any = std::any_of(
       result_.begin(), result_.end(), [](const Guide& guide) { return !guide.isFree(); });
     return any ? std::move(result_) : std::vector<Guide>();
@@ -253,6 +248,61 @@ private:
     result_[f] = { (rotation * source.guide.direction).normalized(), source.guide.weight };
   }
 
+  bool isGuided(Index f) const { return guideOf_[f] != kInvalidIndex; }
+  Index acrossOf(Index h) const { return Mesh::face(fine_.twin[h]); }
+
+  /// Faces that are free take the guide of the nearest of some guided fine faces, within the reach.
+  template <typename Predicate>
+  void adoptFrom(const std::vector<Index>& sources, double reach, const Predicate& mayCross)
+  {
+    if (sources.empty())
+    {
+      return;
+    }
+    const std::vector<Index> near = spread(fine_, sources, reach, mayCross);
+    for (Index f = 0; f < below_.size(); ++f)
+    {
+      if (result_[f].isFree() && below_[f] != kInvalidIndex && near[below_[f]] != kInvalidIndex)
+      {
+        adopt(f, guides_[guideOf_[sources[near[below_[f]]]]]);
+      }
+    }
+  }
+
+  /// Guided fine faces in parts of regions that have no place farther than `halfWidth` from their border, as strokes.
+  std::vector<Index> thinFaces(double halfWidth) const
+  {
+    std::vector<Index> outside, inside, thin;
+    for (const FaceGuide& guide : guides_)
+    {
+      for (Index h = 3 * guide.face; h < 3 * guide.face + 3; ++h)
+      {
+        if (!fine_.isBoundary(h) && !isGuided(acrossOf(h)))
+        {
+          outside.push_back(acrossOf(h));
+        }
+      }
+    }
+    const auto toGuided = [&](Index h) { return isGuided(acrossOf(h)); };
+    const std::vector<Index> nearBorder = spread(fine_, outside, halfWidth, toGuided);
+    for (const FaceGuide& guide : guides_)
+    {
+      if (nearBorder[guide.face] == kInvalidIndex)
+      {
+        inside.push_back(guide.face);
+      }
+    }
+    const std::vector<Index> wide = spread(fine_, inside, 2 * halfWidth, toGuided);
+    for (const FaceGuide& guide : guides_)
+    {
+      if (wide[guide.face] == kInvalidIndex)
+      {
+        thin.push_back(guide.face);
+      }
+    }
+    return thin;
+  }
+
   /// Guided fine faces farther than `cover` from all middles of triangles that took a guide.
   std::vector<Index> missedFaces(double cover) const
   {
@@ -265,7 +315,7 @@ private:
       }
     }
     const std::vector<Index> covered =
-      spread(fine_, seen, cover, [&](Index g) { return guideOf_[g] != kInvalidIndex; });
+      spread(fine_, seen, cover, [&](Index h) { return isGuided(acrossOf(h)); });
     std::vector<Index> missed;
     for (const FaceGuide& guide : guides_)
     {

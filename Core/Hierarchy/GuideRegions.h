@@ -6,7 +6,8 @@
 ///
 /// Where we differ: phase 1 does not look at guides, so that a change of guides never repeats it. The triangles of the
 /// intermediate level, a little above s/2 long, take their guides from the finest level by their barycentres; what
-/// falls between them (a stroke along a line of faces) reaches s/4 to each side. Border vertices are removed like free
+/// falls between them (a stroke along a line of faces) reaches s/4 to each side. Parts of regions that are thinner than
+/// 3/4 s to each side lead so far beside them, up to features. Border vertices are removed like free
 /// ones, with the new border edge among the triangulation's: nothing has to lie on an isoline there.
 #pragma once
 
@@ -21,8 +22,8 @@ namespace quadrille
 class VertexRemoval;
 
 /// Guides of the faces of a level: that of the fine face at the barycentre. Guided fine faces that no triangle near by
-/// has taken a guide from give theirs to triangles whose barycentre is within `reach`. The direction is rotated with
-/// the normal.
+/// has taken a guide from give theirs to triangles whose barycentre is within `reach`, those of thin parts within three
+/// times that. The direction is rotated with the normal.
 /// fineGuides: ascending by face. Empty when no face has one.
 std::vector<Guide> guidesOfLevel(const Mesh& fine, const Level& level,
   const std::vector<FaceGuide>& fineGuides, double reach, int threads);

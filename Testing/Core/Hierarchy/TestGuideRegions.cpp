@@ -264,6 +264,33 @@ TEST(GuideRegions, AStrokeOneFaceWideSurvives)
   EXPECT_GE(covered, 0.85 * samples);
 }
 
+TEST(GuideRegions, StrokesLeadBesideThemAndWideRegionsDoNot)
+{
+  const Mesh mesh = gridPlane(60, 60);
+  Level level;
+  level.mesh = mesh;
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    level.fineVertex.push_back(v);
+  }
+  constexpr double kReach = 2;   // a stroke reaches three times as far,
+  constexpr double kAFace = 1.5; // give or take a triangle
+  for (const double halfWidth : { 0.5, 15.0 })
+  {
+    const auto away = [&](Index f) { return std::abs(middleOf(mesh, f).y() - 30.5) - halfWidth; };
+    const std::vector<FaceGuide> guides = guidesWhere(
+      mesh, [&](const Vector3& p) { return std::abs(p.y() - 30.5) < halfWidth; },
+      [](const Vector3&) { return kSlanted; });
+    const std::vector<Guide> led = guidesOfLevel(mesh, level, guides, kReach, 1);
+    for (Index f = 0; f < mesh.faceCount(); ++f)
+    {
+      const double reach = halfWidth < 1 ? 3 * kReach : 0;
+      EXPECT_TRUE(!led[f].isFree() || away(f) > std::max(0.0, reach - kAFace)) << f;
+      EXPECT_TRUE(led[f].isFree() || away(f) <= reach) << f;
+    }
+  }
+}
+
 void expectSame(const Hierarchy& a, const Hierarchy& b)
 {
   EXPECT_EQ(a.coarse.mesh.origin, b.coarse.mesh.origin);

@@ -149,5 +149,37 @@ TEST(Curves, ACycleIsAClosedLoopOfEdges)
   EXPECT_FALSE(QuadChains(result.quads).closedNear(cycle.points, 0.4).empty());
 }
 
+TEST(Curves, ACycleRoundOneIrregularVertexBringsOthersInside)
+{
+  // On one side of a closed line 4 - valence sums up to 4, whatever the field would have there.
+  const RemeshOptions options = curveOptions(800);
+  const Mesh mesh = bumpyEllipsoid();
+  const SurfaceInput input = toInput(mesh);
+  const RemeshResult without = remesh(input, options);
+  ASSERT_TRUE(without.status.ok()) << without.status.message;
+  const std::vector<Index> irregular = irregularPoints(without.quads);
+  ASSERT_GE(irregular.size(), 3U);
+  constexpr double kRadius = 0.4; // about five quads
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const Vector3 centre = without.quads.points[irregular[k * irregular.size() / 3]];
+    const Vector3 x = centre.unitOrthogonal();
+    const Vector3 y = centre.cross(x).normalized();
+    SurfaceInput asked = input;
+    asked.curves.push_back({ CurveKind::Cycle, {} });
+    for (int i = 0; i < 24; ++i)
+    {
+      const double t = 2 * kPi * i / 24;
+      asked.curves[0].points.push_back(centre + kRadius * (std::cos(t) * x + std::sin(t) * y));
+    }
+    const RemeshResult result = remesh(asked, options);
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    EXPECT_TRUE(result.certificate.valid());
+    ASSERT_EQ(result.curves.size(), 1U);
+    EXPECT_TRUE(result.curves[0].met) << result.curves[0].why;
+    EXPECT_FALSE(QuadChains(result.quads).closedNear(asked.curves[0].points, 0.4).empty());
+  }
+}
+
 } // namespace
 } // namespace quadrille
