@@ -32,6 +32,9 @@ struct CrossFieldOptions
   std::vector<Guide> guides;
   /// Empty or #V: turns that vertices must have, met exactly; 0 where free, else see ValenceRequest.
   std::vector<int> targetValences;
+  /// Empty or #H: quarter turns that the sector from a constrained half-edge on must make, met exactly; 0 where free. A
+  /// target valence of its vertex comes before it.
+  std::vector<int> sectorTurns;
 };
 
 /// A line of the map along an axis that joins two vertices, or closes on itself, along a way through the faces: the

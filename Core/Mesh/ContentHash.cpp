@@ -76,12 +76,15 @@ std::uint64_t contentHash(const SurfaceInput& input, int threads)
 {
   // By name, so that an array that is new has to be put on one side or the other here.
   const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, guideDirections,
-    guideWeights, targetValences, sizing, curves, regularElsewhere, faceOrder, precision] = input;
+    guideWeights, targetValences, sizing, curves, regularElsewhere, held, regularOnFeatures,
+    faceOrder, precision] = input;
   static_cast<void>(guideDirections);
   static_cast<void>(guideWeights);
   static_cast<void>(targetValences);
   static_cast<void>(curves);
   static_cast<void>(regularElsewhere);
+  static_cast<void>(held);
+  static_cast<void>(regularOnFeatures);
   std::uint64_t hash = hashVector(points, threads);
   hash = mix(hash, hashVector(polygonOffsets, threads));
   hash = mix(hash, hashVector(polygonPoints, threads));

@@ -283,6 +283,7 @@ FramedInput enterFrame(SurfaceInput input, int threads)
     }
   }
   frame.reversed = looksInwards(framed.input, threads);
+  enterFrame(framed.input.held, frame);
   framed.input.faceOrder = frame.reversed ? FaceOrder::Reversed : FaceOrder::FromLowest;
   framed.input.precision = std::max(1 / steps, std::ldexp(magnitude, floats ? -24 : -53) / unit);
   return framed;

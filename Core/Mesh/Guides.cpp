@@ -94,6 +94,11 @@ std::vector<ValenceRequest> cornerRequests(
 {
   std::vector<ValenceRequest> requests;
   const Mesh& mesh = surface.mesh;
+  std::vector<std::uint8_t> isHeld(input.points.size(), 0);
+  for (const HeldVertex& held : input.held)
+  {
+    isHeld[held.point] |= held.sectors.empty() ? 1 : 0;
+  }
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     pollNowAndThen(h);
@@ -102,7 +107,7 @@ std::vector<ValenceRequest> cornerRequests(
     const bool moved = !surface.refinedEntry.empty() &&
       surface.refinedEntry[Mesh::face(h)] != kInvalidIndex &&
       surface.cornerWeights[surface.refinedEntry[Mesh::face(h)]][h % 3][h % 3] != 1;
-    if (input.targetValences[point] != 0 && !moved)
+    if (input.targetValences[point] != 0 && !moved && isHeld[point] == 0)
     {
       requests.push_back({ mesh.origin[h], input.targetValences[point], point });
     }
@@ -143,6 +148,7 @@ void collectRequests(const SurfaceInput& input, PreparedSurface& surface)
   surface.polygonGuides = guidesOf(input);
   surface.curves = input.curves;
   surface.regularElsewhere = input.regularElsewhere;
+  surface.regularOnFeatures = input.regularOnFeatures;
   if (input.targetValences.empty())
   {
     return;
@@ -174,6 +180,14 @@ void collectRequests(const SurfaceInput& input, PreparedSurface& surface)
         std::to_string(request.point) + " at " + placeText(place) +
         " are one after repair, but ask for valences " + std::to_string(first.valence) + " and " +
         std::to_string(request.valence) + ": give both the same.");
+    }
+  }
+  if (!input.held.empty())
+  {
+    placeHeldVertices(input, surface, surface.valenceRequests, surface.sectorRequests);
+    for (const ValenceRequest& request : surface.valenceRequests)
+    {
+      used[request.point] = 1;
     }
   }
   for (std::size_t i = 0; i < used.size(); ++i)
@@ -229,6 +243,23 @@ std::vector<Index> indexVertices(const PreparedSurface& surface)
       vertices.push_back(request.vertex);
     }
   }
+  return vertices;
+}
+
+std::vector<Index> keptVertices(const PreparedSurface& surface)
+{
+  std::vector<Index> vertices = indexVertices(surface);
+  for (const SectorRequest& request : surface.sectorRequests)
+  {
+    // Junctions of features stay by themselves.
+    constexpr std::size_t kPassing = 2;
+    if (request.sectors.size() <= kPassing)
+    {
+      vertices.push_back(request.vertex);
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
 }
 

@@ -213,6 +213,7 @@ void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vect
   std::vector<Vector3> positions = userPositions(result.surface, frame, points);
   leaveFrame(result.quads, result.surface.mesh, frame, positions);
   leaveFrame(result.coarse, frame, positions);
+  leaveFrame(result.onFeatures, frame);
   leaveFrame(result.surface, frame, std::move(positions));
   if (frame.reversed)
   {

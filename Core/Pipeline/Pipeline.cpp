@@ -155,6 +155,7 @@ void takeAttempt(
   result.status = map.status;
   result.uv = std::move(map.uv);
   result.turns = std::move(map.turns);
+  result.onFeatures = map.onFeatures;
   result.coarse = std::move(map.coarse);
   result.coarseUv = std::move(map.coarseUv);
   result.coarseTurns = std::move(map.coarseTurns);

@@ -81,6 +81,20 @@ ResultKey requestsKey(const SurfaceInput& input)
       key.add(p[0]).add(p[1]).add(p[2]);
     }
   }
+  for (const HeldVertex& vertex : input.held)
+  {
+    key.add(std::uint64_t{ vertex.point }).add(std::uint64_t{ vertex.sectors.size() });
+    key.add(vertex.place[0]).add(vertex.place[1]).add(vertex.place[2]);
+    for (const HeldSector& sector : vertex.sectors)
+    {
+      key.add(sector.middle[0]).add(sector.middle[1]).add(sector.middle[2]);
+      key.add(static_cast<std::uint64_t>(sector.turns));
+    }
+  }
+  if (input.regularOnFeatures)
+  {
+    key.add(std::uint64_t{ 2 });
+  }
   return key.add(input.guideWeights)
     .add(input.targetValences)
     .add(std::uint64_t{ input.regularElsewhere ? 1U : 0U })

@@ -285,16 +285,47 @@ private:
       input.targetValences[point] = valence;
     }
     int off = 0;
+    std::size_t others = 0;
     for (const auto& [point, asked] : asked_)
     {
       input.targetValences[point] = asked.valence;
       const int missing = list_.valenceAt(point) - asked.valence;
+      others += missing != 0 ? 1 : 0;
       if (list_.isInForce() && missing != 0 && !places_.isOnBoundary(point))
       {
         off += missing;
       }
     }
     input.regularElsewhere = surface_.regularElsewhere || (list_.isInForce() && off == 0);
+    if (list_.isInForce())
+    {
+      composed_.irregular = list_.irregular(surface_);
+      composed_.lastOperation = list_.links().back().id;
+      hold(others == 0 && off == 0);
+    }
+  }
+
+  /// The vertices that operations lead to, at their places; and on features, where nothing else is asked of the
+  /// irregular vertices. A half of the surface has a boundary of its own, so that with a symmetry points have to do.
+  void hold(bool onFeatures)
+  {
+    SurfaceInput& input = composed_.input;
+    if (composed_.symmetry)
+    {
+      return;
+    }
+    for (const IrregularVertex& vertex : composed_.irregular)
+    {
+      if (asked_.count(vertex.point) == 0 && vertex.place != surface_.points[vertex.point])
+      {
+        input.held.push_back({ vertex.point, vertex.place, {} });
+      }
+    }
+    if (onFeatures)
+    {
+      input.held.insert(input.held.end(), list_.onFeatures().begin(), list_.onFeatures().end());
+      input.regularOnFeatures = true;
+    }
   }
 
   void setEdits()

@@ -18,6 +18,8 @@ namespace quadrille
 /// those of the map: the quads have them at the same vertices of the surface, from which smoothing may move them.
 std::vector<IrregularVertex> irregularVertices(
   const RemeshResult& result, const std::vector<std::uint8_t>& onCurve);
+/// Ends, corners and bends of features and boundaries, ascending by point of the input.
+std::vector<HeldVertex> featureVertices(const RemeshResult& result);
 /// Points of the input on features and boundaries of a result, ascending.
 std::vector<Index> pointsOnCurves(
   const RemeshResult& result, const std::vector<std::uint8_t>& onCurve);
@@ -43,6 +45,10 @@ public:
   /// Valences by point, also those that an operation has made regular.
   const std::map<Index, int>& valences() const { return valences_; }
   int valenceAt(Index point) const;
+  /// Those that are not regular, ascending by point, where they are on the surface.
+  std::vector<IrregularVertex> irregular(const SurfaceInput& surface) const;
+  /// Those on features and boundaries, of the last operation that brought its own list.
+  const std::vector<HeldVertex>& onFeatures() const { return onFeatures_; }
   /// The operation in force that changed the point last; 0: none.
   int changedBy(Index point) const;
   /// The operations in force.
@@ -52,6 +58,8 @@ private:
   bool isInForce_ = false;
   std::map<Index, int> valences_;
   std::map<Index, int> changedBy_;
+  std::map<Index, Vector3> places_; ///< of vertices that are not at their points
+  std::vector<HeldVertex> onFeatures_;
   std::vector<IrregularEdit::Link> links_;
 };
 

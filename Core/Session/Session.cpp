@@ -104,6 +104,7 @@ public:
       const std::vector<std::uint8_t> onCurve = verticesOnCurves(made);
       result->irregular = irregularVertices(made, onCurve);
       result->fixedPoints = pointsOnCurves(made, onCurve);
+      result->onFeatures = featureVertices(made);
     }
     if (made.status.ok() && composed_.symmetry && composed_.input.regularElsewhere)
     {
@@ -114,7 +115,7 @@ public:
     if (!options_.preview)
     {
       report.constraints = reportConstraints(data_.surface, state_.constraints, composed_, made,
-        result->irregular, composed_.symmetry ? &mirrored_ : nullptr);
+        *result, composed_.symmetry ? &mirrored_ : nullptr);
     }
     if (made.status.ok())
     {
@@ -351,8 +352,8 @@ std::size_t SessionResult::bytes() const
   return bytesOf(quads.points) + bytesOf(quads.quads) + bytesOf(quads.sourceFace) +
     bytesOf(quads.sourceWeights) + bytesOf(quads.quadSourceFace) +
     bytesOf(quads.quadSourceWeights) + bytesOf(quads.valence) + bytesOf(quads.onBoundary) +
-    bytesOf(quads.lines) + bytesOf(irregular) + bytesOf(fixedPoints) + bytesOf(mirrorPoint) +
-    sizeof(*this);
+    bytesOf(quads.lines) + bytesOf(irregular) + bytesOf(fixedPoints) + bytesOf(onFeatures) +
+    bytesOf(mirrorPoint) + sizeof(*this);
 }
 
 std::uint64_t surfaceHash(const SurfaceInput& surface, int threads)
@@ -586,6 +587,7 @@ int Session::add(ConstraintContent content)
     }
     resolveEdit(*edit, name, data_->surface, data_->places(), now->irregular, now->fixedPoints);
     edit->upon = data_->linksInForce();
+    edit->onFeatures = now->onFeatures;
   }
   auto next = std::make_shared<SessionState>(data_->next());
   next->constraints.push_back(std::make_shared<const SessionConstraint>(std::move(constraint)));
@@ -612,6 +614,7 @@ void Session::edit(int id, ConstraintContent content)
     resolveEdit(*edit, before.name(), data_->surface, data_->places(), made.before,
       now ? now->fixedPoints : std::vector<Index>{});
     edit->upon = made.upon;
+    edit->onFeatures = made.onFeatures;
   }
   *found = std::make_shared<const SessionConstraint>(std::move(constraint));
   data_->enter(std::move(next));
