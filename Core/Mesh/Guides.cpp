@@ -182,13 +182,9 @@ void collectRequests(const SurfaceInput& input, PreparedSurface& surface)
         std::to_string(request.valence) + ": give both the same.");
     }
   }
-  if (!input.held.empty())
+  for (const HeldVertex& held : input.held)
   {
-    placeHeldVertices(input, surface, surface.valenceRequests, surface.sectorRequests);
-    for (const ValenceRequest& request : surface.valenceRequests)
-    {
-      used[request.point] = 1;
-    }
+    used[held.point] |= held.sectors.empty() ? 1 : 0;
   }
   for (std::size_t i = 0; i < used.size(); ++i)
   {

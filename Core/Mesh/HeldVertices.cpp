@@ -206,6 +206,11 @@ void leaveFrame(std::vector<SectorRequest>& sectors, const Frame& frame)
 void placeHeldVertices(const SurfaceInput& input, const PreparedSurface& surface,
   std::vector<ValenceRequest>& requests, std::vector<SectorRequest>& sectors)
 {
+  sectors.clear();
+  if (input.held.empty())
+  {
+    return;
+  }
   std::vector<std::uint8_t> taken(surface.mesh.vertexCount(), 0);
   for (const ValenceRequest& request : requests)
   {

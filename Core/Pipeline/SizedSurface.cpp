@@ -230,6 +230,7 @@ private:
     if (!found->hasRequests)
     {
       collectRequests(input_, *made_.surface);
+      placeHeld();
     }
     made_.edgeLength = found->edgeLength;
     made_.targetQuads = options_.quads ? *options_.quads : found->targetQuads;
@@ -275,10 +276,18 @@ private:
       return;
     }
     refine();
+    placeHeld();
     if (store_ != nullptr)
     {
       keep(std::move(before), std::move(marks));
     }
+  }
+
+  /// On the triangles as they are to stay, unlike the other requests.
+  void placeHeld()
+  {
+    PreparedSurface& surface = *made_.surface;
+    placeHeldVertices(input_, surface, surface.valenceRequests, surface.sectorRequests);
   }
 
   /// Triangles that refinement left as they were are kept once.

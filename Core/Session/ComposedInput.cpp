@@ -299,10 +299,33 @@ private:
     input.regularElsewhere = surface_.regularElsewhere || (list_.isInForce() && off == 0);
     if (list_.isInForce())
     {
-      composed_.irregular = list_.irregular(surface_);
+      setIrregular();
       composed_.lastOperation = list_.links().back().id;
       hold(others == 0 && off == 0);
     }
+  }
+
+  /// Those that operations lead to, and the others that are asked for.
+  void setIrregular()
+  {
+    composed_.irregular = list_.irregular(surface_);
+    std::vector<IrregularVertex>& all = composed_.irregular;
+    all.erase(std::remove_if(all.begin(), all.end(),
+                [this](const IrregularVertex& vertex)
+                {
+                  const auto found = asked_.find(vertex.point);
+                  return found != asked_.end() && found->second.valence != vertex.valence;
+                }),
+      all.end());
+    for (const auto& [point, asked] : asked_)
+    {
+      if (asked.valence != kRegularValence && list_.valenceAt(point) != asked.valence)
+      {
+        all.push_back({ point, surface_.points[point], asked.valence });
+      }
+    }
+    std::sort(all.begin(), all.end(),
+      [](const IrregularVertex& a, const IrregularVertex& b) { return a.point < b.point; });
   }
 
   /// The vertices that operations lead to, at their places; and on features, where nothing else is asked of the

@@ -40,7 +40,8 @@ struct ComposedInput
   /// The constraint that asks for a symmetry, its place in `parts`; none: the quads have not to be symmetric.
   std::optional<std::size_t> symmetry;
   std::vector<PlacedPart> parts; ///< in the order of the constraints
-  /// Irregular vertices that operations lead to, ascending by point, and the last of these operations, its id.
+  /// Irregular vertices that operations and valences lead to, ascending by point, and the last operation in force, its
+  /// id.
   std::vector<IrregularVertex> irregular;
   int lastOperation = 0;            ///< 0: none
   std::vector<std::string> notices; ///< what the user should know
