@@ -129,13 +129,16 @@ std::vector<HeldCandidate> candidatesOf(const SurfaceInput& input, const Prepare
 {
   const Mesh& mesh = surface.mesh;
   std::vector<std::pair<Index, std::size_t>> byPoint;
-  std::vector<std::uint8_t> isHeld(input.points.size(), 0);
   for (std::size_t i = 0; i < input.held.size(); ++i)
   {
     byPoint.emplace_back(input.held[i].point, i);
-    isHeld[input.held[i].point] = 1;
   }
   std::sort(byPoint.begin(), byPoint.end());
+  std::vector<std::uint8_t> isHeld(byPoint.back().first + std::size_t{ 1 }, 0);
+  for (const auto& [point, held] : byPoint)
+  {
+    isHeld[point] = 1;
+  }
   const std::vector<Index> curves = firstConstrained(mesh);
   std::vector<HeldCandidate> candidates;
   const auto add = [&](Index point, Index v)
@@ -160,7 +163,8 @@ std::vector<HeldCandidate> candidatesOf(const SurfaceInput& input, const Prepare
       !surface.refinedEntry.empty() && surface.refinedEntry[f] != kInvalidIndex;
     for (int i = 0; i < 3; ++i)
     {
-      if (isHeld[points[i]] != 0 && (isRefined || static_cast<Index>(i) == h % 3))
+      if (points[i] < isHeld.size() && isHeld[points[i]] != 0 &&
+        (isRefined || static_cast<Index>(i) == h % 3))
       {
         add(points[i], mesh.origin[h]);
       }
@@ -229,7 +233,7 @@ void placeHeldVertices(const SurfaceInput& input, const PreparedSurface& surface
     {
       sectors.push_back({ candidate.vertex, held.sectors });
     }
-    else if (input.targetValences[held.point] != 0)
+    else if (held.point < input.targetValences.size() && input.targetValences[held.point] != 0)
     {
       requests.push_back({ candidate.vertex, input.targetValences[held.point], held.point });
     }

@@ -187,7 +187,11 @@ private:
     made_.surface = std::make_shared<PreparedSurface>(prepareSurface(input_, prepareOptions));
     const std::size_t polygons =
       input_.polygonOffsets.empty() ? 0 : input_.polygonOffsets.size() - 1;
-    input_ = {};
+    SurfaceInput later; // what placeHeld still needs
+    later.held = std::move(input_.held);
+    later.targetValences =
+      later.held.empty() ? std::vector<int>{} : std::move(input_.targetValences);
+    input_ = std::move(later);
     releaseFreedMemory();
     for (const auto& [name, seconds] : made_.surface->seconds)
     {
