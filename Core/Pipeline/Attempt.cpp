@@ -189,7 +189,9 @@ void recordCoarse(
   made.onFeatures =
     sectorsOf(made.coarse.mesh, map.field.sectorTurns, made.coarseInteger, made.coarse.fineVertex);
   made.coarseCertificate = map.certificate;
-  made.hopeless = map.status.code == StatusCode::TooLarge ||
+  // Where features are held, more freedom is what helps, see Session.
+  const bool isHeld = run.surface->regularOnFeatures && !map.status.ok();
+  made.hopeless = isHeld || map.status.code == StatusCode::TooLarge ||
     (map.status.code == StatusCode::Infeasible && map.offenders.empty());
   if (!map.status.ok())
   {

@@ -16,9 +16,9 @@ namespace
 class Composition
 {
 public:
-  Composition(
-    const SurfaceInput& surface, const SurfacePlaces& places, const SessionConstraints& constraints)
-    : surface_(surface), places_(places), constraints_(constraints)
+  Composition(const SurfaceInput& surface, const SurfacePlaces& places,
+    const SessionConstraints& constraints, bool holdFeatures)
+    : surface_(surface), places_(places), constraints_(constraints), holdFeatures_(holdFeatures)
   {
     composed_.input = surface;
     composed_.parts.resize(constraints.size());
@@ -190,14 +190,9 @@ public:
 
   void operator()(const Connection& connection)
   {
-    part().curve = composed_.input.curves.size();
-    composed_.input.curves.push_back({ CurveKind::Connection, connection.points });
+    addCurve({ CurveKind::Connection, connection.points });
   }
-  void operator()(const Cycle& cycle)
-  {
-    part().curve = composed_.input.curves.size();
-    composed_.input.curves.push_back({ CurveKind::Cycle, cycle.points });
-  }
+  void operator()(const Cycle& cycle) { addCurve({ CurveKind::Cycle, cycle.points }); }
   void operator()(const MirrorSymmetry&)
   {
     if (composed_.symmetry)
@@ -224,6 +219,14 @@ private:
     const auto found = std::find_if(constraints_.begin(), constraints_.end(),
       [id](const auto& constraint) { return constraint->id == id; });
     return (*found)->name();
+  }
+
+  void addCurve(CurveRequest curve)
+  {
+    std::vector<CurveRequest>& curves = composed_.input.curves;
+    checkCurve(curve, curves.size());
+    part().curve = curves.size();
+    curves.push_back(std::move(curve));
   }
 
   /// The only constraint of the placement.
@@ -344,7 +347,8 @@ private:
         input.held.push_back({ vertex.point, vertex.place, {} });
       }
     }
-    if (onFeatures)
+    composed_.onFeatures = onFeatures ? list_.onFeatures() : std::vector<HeldVertex>{};
+    if (onFeatures && holdFeatures_)
     {
       input.held.insert(input.held.end(), list_.onFeatures().begin(), list_.onFeatures().end());
       input.regularOnFeatures = true;
@@ -371,6 +375,7 @@ private:
   const SurfaceInput& surface_;
   const SurfacePlaces& places_;
   const SessionConstraints& constraints_;
+  bool holdFeatures_;
   std::size_t at_ = 0;
   ComposedInput composed_;
   std::map<Index, Asked> asked_;
@@ -381,9 +386,10 @@ private:
 } // namespace
 
 ComposedInput composeInput(const SurfaceInput& surface, const SurfacePlaces& places,
-  const SessionConstraints& constraints, const std::map<int, std::string>& leftOut)
+  const SessionConstraints& constraints, const std::map<int, std::string>& leftOut,
+  bool holdFeatures)
 {
-  return Composition(surface, places, constraints).run(leftOut);
+  return Composition(surface, places, constraints, holdFeatures).run(leftOut);
 }
 
 } // namespace quadrille

@@ -43,13 +43,18 @@ struct ComposedInput
   /// Irregular vertices that operations and valences lead to, ascending by point, and the last operation in force, its
   /// id.
   std::vector<IrregularVertex> irregular;
-  int lastOperation = 0;            ///< 0: none
+  int lastOperation = 0; ///< 0: none
+  /// Vertices on features and boundaries that these should leave, and why that was not possible.
+  std::vector<HeldVertex> onFeatures;
+  std::string whyNotHeld;
   std::vector<std::string> notices; ///< what the user should know
 };
 
 /// leftOut: ids of constraints that are not put on, and why. Constraints that contradict an earlier one, or the
-/// surface, are left out as well.
+/// surface, are left out as well. holdFeatures: whether irregular operations leave features and boundaries as they
+/// were.
 ComposedInput composeInput(const SurfaceInput& surface, const SurfacePlaces& places,
-  const SessionConstraints& constraints, const std::map<int, std::string>& leftOut);
+  const SessionConstraints& constraints, const std::map<int, std::string>& leftOut,
+  bool holdFeatures);
 
 } // namespace quadrille

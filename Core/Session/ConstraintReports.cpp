@@ -188,7 +188,9 @@ ConstraintMeasure SessionJudge::irregularEdit(int id)
       measure.place = wrong > 0 ? measure.place : others.front();
       measure.reason += (wrong > 0 ? "; " : "") + std::to_string(others.size()) +
         " other irregular vertices are not as they were, one at " + placeText(others.front()) +
-        ": choose places with more room between features and other irregular vertices";
+        (composed_.whyNotHeld.empty()
+            ? ": choose places with more room between features and other irregular vertices"
+            : ", as those on features and boundaries could not be held: " + composed_.whyNotHeld);
       wrong += others.size();
     }
   }
@@ -279,13 +281,12 @@ std::vector<Vector3> SessionJudge::otherChanges()
       places.push_back(irregular_[k].place);
     }
   }
-  if (composed_.input.regularOnFeatures)
+  if (!composed_.onFeatures.empty())
   {
-    std::vector<HeldVertex> expected;
-    std::copy_if(composed_.input.held.begin(), composed_.input.held.end(),
-      std::back_inserter(expected), [](const HeldVertex& held) { return !held.sectors.empty(); });
-    const std::vector<Vector3> there = differencesOnFeatures(expected, onFeatures_, reach);
-    places.insert(places.end(), there.begin(), there.end());
+    const std::vector<Vector3> there =
+      differencesOnFeatures(composed_.onFeatures, onFeatures_, reach);
+    std::copy_if(there.begin(), there.end(), std::back_inserter(places),
+      [&](const Vector3& p) { return !isAsked(p); });
   }
   return places;
 }

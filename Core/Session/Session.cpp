@@ -71,6 +71,11 @@ public:
     const double start = secondsNow();
     std::map<int, std::string> leftOut;
     RemeshResult made = runWith(leftOut);
+    if (mayBeForConstraints(made) && composed_.input.regularOnFeatures)
+    {
+      whyNotHeld_ = made.status.message;
+      made = runWith(leftOut);
+    }
     // Of those that cannot be met together with all that came before, each is left out.
     while (mayBeForConstraints(made))
     {
@@ -175,7 +180,9 @@ private:
   void compose(std::map<int, std::string> leftOut)
   {
     leftOut.insert(refused_.begin(), refused_.end());
-    composed_ = composeInput(data_.surface, data_.places(), state_.constraints, leftOut);
+    composed_ =
+      composeInput(data_.surface, data_.places(), state_.constraints, leftOut, whyNotHeld_.empty());
+    composed_.whyNotHeld = whyNotHeld_;
   }
 
   /// None where the surface has no such symmetry, whatever else is asked of it: then it is left out of all runs. Were
@@ -249,7 +256,8 @@ private:
   const SessionState& state_;
   RemeshOptions options_;
   ComposedInput composed_;
-  SymmetricResult mirrored_;           ///< of the last run, without `remeshed`
+  SymmetricResult mirrored_; ///< of the last run, without `remeshed`
+  std::string whyNotHeld_;   ///< vertices on features and boundaries; empty while they are
   std::map<int, std::string> refused_; ///< symmetries that the surface has not, and why
   StageRecords stages_;
   Status stopped_;
