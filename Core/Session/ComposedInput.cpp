@@ -347,7 +347,10 @@ private:
         input.held.push_back({ vertex.point, vertex.place, {} });
       }
     }
-    composed_.onFeatures = onFeatures ? list_.onFeatures() : std::vector<HeldVertex>{};
+    if (onFeatures)
+    {
+      composed_.onFeatures = list_.onFeatures();
+    }
     if (onFeatures && holdFeatures_)
     {
       input.held.insert(input.held.end(), list_.onFeatures().begin(), list_.onFeatures().end());

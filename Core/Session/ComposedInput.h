@@ -44,8 +44,9 @@ struct ComposedInput
   /// id.
   std::vector<IrregularVertex> irregular;
   int lastOperation = 0; ///< 0: none
-  /// Vertices on features and boundaries that these should leave, and why that was not possible.
-  std::vector<HeldVertex> onFeatures;
+  /// Vertices on features and boundaries that these should leave as they are all, and why that was not possible. None
+  /// where features are free.
+  std::optional<std::vector<HeldVertex>> onFeatures;
   std::string whyNotHeld;
   std::vector<std::string> notices; ///< what the user should know
 };

@@ -242,51 +242,63 @@ std::vector<Vector3> SessionJudge::otherChanges()
 {
   const IrregularMatch& match = irregularMatch();
   const double reach = kReachOfOperation * targetEdgeLength_;
-  std::vector<Vector3> asked;
+  const auto isNear = [&](const std::vector<Vector3>& all, const Vector3& p, double distance)
+  {
+    return std::any_of(
+      all.begin(), all.end(), [&](const Vector3& q) { return (p - q).norm() <= distance; });
+  };
+  std::vector<Vector3> told;   // of vertices with a word of their own
+  std::vector<Vector3> failed; // where that says what is there instead
+  std::vector<Vector3> drawn;  // on features
   bool isLater = false;
   for (std::size_t i = 0; i < constraints_.size(); ++i)
   {
+    const PlacedPart& part = composed_.parts[i];
     isLater = isLater || constraints_[i]->id == composed_.lastOperation;
     if (isLater) // a feature has ends, and corners with others
     {
-      const std::vector<Vector3>& path = composed_.parts[i].path;
-      asked.insert(asked.end(), path.begin(), path.end());
+      drawn.insert(drawn.end(), part.path.begin(), part.path.end());
     }
-    for (const auto& [point, valence] : composed_.parts[i].valences)
+    for (const auto& [point, valence] : part.valences)
     {
-      asked.push_back(placeOfPoint(point));
+      const Vector3 place = placeOfPoint(point);
+      told.push_back(place);
+      if (valenceNear(place, valence) != valence)
+      {
+        failed.push_back(place);
+      }
     }
     if (std::holds_alternative<ValenceAt>(constraints_[i]->content))
     {
-      asked.push_back(composed_.parts[i].place);
+      told.push_back(part.place);
+      drawn.push_back(part.place);
     }
   }
-  const auto isAsked = [&](const Vector3& p)
-  {
-    return std::any_of(
-      asked.begin(), asked.end(), [&](const Vector3& q) { return (p - q).norm() <= reach; });
-  };
   std::vector<Vector3> places;
   for (std::size_t i = 0; i < composed_.irregular.size(); ++i)
   {
-    if (!match.actual[i] && !isAsked(composed_.irregular[i].place))
+    const Vector3& place = composed_.irregular[i].place;
+    if (!match.actual[i] && !isNear(told, place, 0))
     {
-      places.push_back(composed_.irregular[i].place);
+      places.push_back(place);
     }
   }
   for (const std::size_t k : match.unexpected)
   {
-    if (!isAsked(irregular_[k].place))
+    if (!isNear(failed, irregular_[k].place, reach))
     {
       places.push_back(irregular_[k].place);
     }
   }
-  if (!composed_.onFeatures.empty())
+  if (composed_.onFeatures)
   {
-    const std::vector<Vector3> there =
-      differencesOnFeatures(composed_.onFeatures, onFeatures_, reach);
-    std::copy_if(there.begin(), there.end(), std::back_inserter(places),
-      [&](const Vector3& p) { return !isAsked(p); });
+    for (const Vector3& p : differencesOnFeatures(*composed_.onFeatures, onFeatures_, reach))
+    {
+      if (!isNear(drawn, p, reach))
+      {
+        places.push_back(p);
+      }
+    }
   }
   return places;
 }
