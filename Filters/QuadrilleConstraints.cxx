@@ -261,8 +261,9 @@ PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintIn
   addCurves(inputs.connections, CurveKind::Connection, placement);
   addCurves(inputs.cycles, CurveKind::Cycle, placement);
   surface.curveMarks = placement.featureMarks();
-  addFeatureMarks(surface.input, surface.curveMarks);
-  addGuideMarks(surface.input, placement.guideMarks());
+  const std::size_t polygons = surface.input.polygonOffsets.size() - 1;
+  addFeatureMarks(surface.input, polygons, surface.curveMarks);
+  addGuideMarks(surface.input, polygons, placement.guideMarks());
   placement.setValences(surface.input);
   placement.addCurves(surface.input);
   PlacedConstraints result = placement.result();

@@ -15,6 +15,7 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
@@ -1088,6 +1089,77 @@ std::vector<int> readTargetValences(vtkPolyData* data, const Mesh& mesh)
     result[vertex[i]] = std::max(result[vertex[i]], valences[i]);
   }
   return result;
+}
+
+void addCurveRequests(vtkPolyData* data, const std::vector<CurveRequest>& curves)
+{
+  if (curves.empty())
+  {
+    return;
+  }
+  auto kinds = newArray<vtkIntArray>(arrays::kCurveKinds, 1, curves.size());
+  auto sizes = newArray<vtkIntArray>(arrays::kCurveSizes, 1, curves.size());
+  vtkNew<vtkDoubleArray> points;
+  points->SetName(arrays::kCurvePoints);
+  points->SetNumberOfComponents(3);
+  for (std::size_t i = 0; i < curves.size(); ++i)
+  {
+    kinds->SetValue(static_cast<vtkIdType>(i), static_cast<int>(curves[i].kind));
+    sizes->SetValue(static_cast<vtkIdType>(i), static_cast<int>(curves[i].points.size()));
+    for (const Vector3& p : curves[i].points)
+    {
+      points->InsertNextTuple(p.data());
+    }
+  }
+  data->GetFieldData()->AddArray(kinds);
+  data->GetFieldData()->AddArray(sizes);
+  data->GetFieldData()->AddArray(points);
+}
+
+std::vector<CurveRequest> readCurveRequests(vtkPolyData* data)
+{
+  vtkFieldData* field = data->GetFieldData();
+  vtkDataArray* kinds = field->GetArray(arrays::kCurveKinds);
+  vtkDataArray* sizes = field->GetArray(arrays::kCurveSizes);
+  vtkDataArray* points = field->GetArray(arrays::kCurvePoints);
+  std::vector<CurveRequest> curves;
+  if (kinds == nullptr && sizes == nullptr && points == nullptr)
+  {
+    return curves;
+  }
+  const auto fail = []()
+  {
+    refuse("the field arrays '", arrays::kCurveKinds, "', '", arrays::kCurveSizes, "' and '",
+      arrays::kCurvePoints,
+      "' do not fit each other: take the coarse output of vtkDecimationHierarchy as it is, or "
+      "remove all three");
+  };
+  if (kinds == nullptr || sizes == nullptr || points == nullptr ||
+    points->GetNumberOfComponents() != 3 ||
+    kinds->GetNumberOfTuples() != sizes->GetNumberOfTuples())
+  {
+    fail();
+  }
+  vtkIdType next = 0;
+  for (vtkIdType i = 0; i < kinds->GetNumberOfTuples(); ++i)
+  {
+    const double kind = kinds->GetTuple1(i);
+    const double size = sizes->GetTuple1(i);
+    if ((kind != 0 && kind != 1) || !(size >= 0) ||
+      size > static_cast<double>(points->GetNumberOfTuples() - next))
+    {
+      fail();
+    }
+    CurveRequest curve;
+    curve.kind = kind == 0 ? CurveKind::Connection : CurveKind::Cycle;
+    for (double k = 0; k < size; ++k)
+    {
+      curve.points.emplace_back(points->GetTuple3(next++));
+    }
+    checkCurve(curve, static_cast<std::size_t>(i));
+    curves.push_back(std::move(curve));
+  }
+  return curves;
 }
 
 Level readLevel(vtkPolyData* data, const Mesh& fine)

@@ -47,6 +47,9 @@ constexpr const char* kDeterminant = "Determinant";
 constexpr const char* kTwin = "Twin";
 constexpr const char* kFineFace = "FineFace";
 constexpr const char* kFineVertex = "FineVertex";
+constexpr const char* kCurveKinds = "CurveKinds";
+constexpr const char* kCurveSizes = "CurveSizes";
+constexpr const char* kCurvePoints = "CurvePoints";
 constexpr const char* kTurns = "Turns";
 constexpr const char* kIndex = "Index";
 constexpr const char* kIntegerVertex = "IntegerVertex";
@@ -115,6 +118,12 @@ vtkSmartPointer<vtkPolyData> writeLevel(const Level& level, const std::vector<in
 std::vector<Guide> readGuides(vtkPolyData* data, const Mesh& mesh);
 /// TargetValence by the vertices of readMesh: #V, or empty where no point asks. Throws InvalidInput naming the point.
 std::vector<int> readTargetValences(vtkPolyData* data, const Mesh& mesh);
+/// Connections and cycles as field data, for the map of a coarse level: CurveKinds, CurveSizes, CurvePoints; nothing
+/// where there are none.
+void addCurveRequests(vtkPolyData* data, const std::vector<CurveRequest>& curves);
+/// The exact inverse. Throws InvalidInput where the arrays do not fit each other.
+std::vector<CurveRequest> readCurveRequests(vtkPolyData* data);
+
 /// Throws InvalidInput when an array is missing or an id is out of range.
 Level readLevel(vtkPolyData* data, const Mesh& fine);
 

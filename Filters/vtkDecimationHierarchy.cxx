@@ -5,6 +5,8 @@
 #include "Base/PlaceText.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Mesh/ContentHash.h"
+#include "Pipeline/EnterFrame.h"
+#include "Pipeline/Estimate.h"
 #include "Pipeline/FirstLevels.h"
 #include "Pipeline/LeaveFrame.h"
 #include "Pipeline/SizedSurface.h"
@@ -21,6 +23,26 @@
 #include "vtkTable.h"
 
 vtkStandardNewMacro(vtkDecimationHierarchy);
+
+namespace
+{
+
+/// What a block keeps for its next execution.
+struct HierarchyMemory : quadrille::SharedLevels
+{
+  quadrille::ResultStore levels;
+};
+
+bool hasRoom(const quadrille::SurfaceInput& input, const quadrille::RemeshOptions& options,
+  const quadrille::ResultStore& store)
+{
+  const std::size_t triangles = input.polygonPoints.size() / 3;
+  const double quads = static_cast<double>(options.quads.value_or(0));
+  const quadrille::RunEstimate run = quadrille::estimateRun(triangles, quads, options.threads);
+  return quadrille::bytesToRemember(run, triangles, store.bytes()) <= quadrille::freeMemory();
+}
+
+} // namespace
 
 //------------------------------------------------------------------------------
 vtkDecimationHierarchy::vtkDecimationHierarchy()
@@ -39,13 +61,23 @@ const char* vtkDecimationHierarchy::GetBlockType(int outputPort) const
 //------------------------------------------------------------------------------
 void vtkDecimationHierarchy::Execute(quadrille::Block& block)
 {
-  auto& held = block.state->memoryAs<quadrille::SharedLevels>();
-  held = {}; // before the new one takes its memory
+  auto& held = block.state->memoryAs<HierarchyMemory>();
+  held.surface.reset(); // before the new one takes its memory
+  held.map.reset();
   quadrille::ConvertedSurface converted = this->ConvertInputs(block);
   quadrille::RemeshOptions options = this->MakeOptions(block);
   quadrille::checkOptions(options);
-  quadrille::FramedInput framed =
-    quadrille::enterFrame(std::move(converted.input), options.threads);
+  const std::vector<quadrille::CurveRequest> curves = converted.input.curves;
+  quadrille::ResultStore* store = this->KeepLevels ? &held.levels : nullptr;
+  if (store != nullptr && !hasRoom(converted.input, options, *store))
+  {
+    store->clear();
+    store = nullptr;
+    this->AddNotice("stages are not remembered, as there is no room for them: a change will start "
+                    "from the beginning");
+  }
+  quadrille::EnteredInput entered = quadrille::enterFrame(converted.input, options, store);
+  quadrille::FramedInput& framed = entered.framed;
   const quadrille::Frame& frame = framed.frame;
   const quadrille::PlaceScope places(frame.centre, frame.unit, frame.sign);
   if (options.edgeLength)
@@ -57,26 +89,27 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   recipe.featureAngle = options.featureAngle;
   recipe.patchArray = this->PatchArrayName;
   recipe.curveMarks = converted.curveMarks;
-  if (!framed.input.curves.empty())
-  {
-    this->AddWarning("connections and cycles are not made by the stage filters: use Quad Remesh");
-  }
   const auto made = std::make_shared<quadrille::SharedSurface>();
-  made->key.input = quadrille::contentHash(framed.input, options.threads);
+  made->key.input = store != nullptr ? entered.known.inputHash
+                                     : quadrille::contentHash(framed.input, options.threads);
   options.progress =
     this->MakeProgress(0.0, 1.8); // the levels end where half of a whole run is done
-  quadrille::SizedSurface sized = quadrille::sizeSurface(framed.input, options, nullptr);
+  quadrille::SizedSurface sized = quadrille::sizeSurface(framed.input, options, entered.known);
   quadrille::requireOk(sized.status, "the levels");
   recipe.edgeLength = sized.edgeLength;
   made->key.featureAngle = recipe.featureAngle;
   made->key.edgeLength = recipe.edgeLength;
-  const quadrille::FirstLevels levels = quadrille::makeFirstLevels(sized, frame, options);
+  const quadrille::FirstLevels levels = quadrille::makeFirstLevels(sized, frame, options, store);
   const quadrille::Hierarchy& hierarchy = levels.hierarchy;
-  made->surface = std::move(*sized.surface);
+  // The store, if there is one, has its triangles for the next execution.
+  made->surface = store != nullptr ? *sized.surface : std::move(*sized.surface);
   const quadrille::PreparedSurface& surface = made->surface;
 
   sized.stages.add(levels.stages);
   this->SetStageRecords(sized.stages.all());
+  std::vector<std::string>& reused = block.state->report.reusedStages;
+  reused = sized.reused;
+  reused.insert(reused.end(), levels.reused.begin(), levels.reused.end());
   for (const std::vector<std::string>& notices : { sized.notices, levels.notices })
   {
     for (const std::string& notice : notices)
@@ -102,6 +135,8 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   coarse->ShallowCopy(write(hierarchy.coarse));
   quadrille::addNumber(coarse, "TargetEdgeLength", frame.unit * sized.edgeLength);
   quadrille::addCount(coarse, "TargetQuads", sized.targetQuads);
+  quadrille::addCurveRequests(coarse, curves);
+  quadrille::addText(coarse, "ReusedStages", reused);
   quadrille::addStages(coarse, sized.stages.all());
   quadrille::addRepair(coarse, surface.repair);
   quadrille::addText(coarse, "Notices", this->GetBlockNotices());
@@ -113,7 +148,22 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
 }
 
 //------------------------------------------------------------------------------
+void vtkDecimationHierarchy::SetKeepLevels(vtkTypeBool on)
+{
+  if (!on)
+  {
+    this->VisitStates([](quadrille::BlockState& state) { state.memory.reset(); });
+  }
+  if (this->KeepLevels != on)
+  {
+    this->KeepLevels = on;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkDecimationHierarchy::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "KeepLevels: " << this->KeepLevels << "\n";
 }

@@ -25,6 +25,23 @@ public:
   vtkTypeMacro(vtkDecimationHierarchy, vtkQuadrilleSurfaceAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  ///@{
+  /**
+   * Whether the filter holds on to what each stage has made, so that a change begins where it enters: guides and the
+   * number of coarse vertices at phase 2 of the decimation, the size of the quads at the refinement. Contents are
+   * compared, not times; the levels are the same as without. About 130 bytes a triangle; nothing where the machine has
+   * no room for that, which a notice says. Off lets all go. Default: on.
+   */
+  void SetKeepLevels(vtkTypeBool on);
+  vtkGetMacro(KeepLevels, vtkTypeBool);
+  vtkBooleanMacro(KeepLevels, vtkTypeBool);
+  ///@}
+
+  /**
+   * Names of the stages that the last execution took over; empty where it began from nothing.
+   */
+  const char* GetReusedStagesText() const { return this->GetReusedStages(); }
+
 protected:
   vtkDecimationHierarchy();
   ~vtkDecimationHierarchy() override;
@@ -35,6 +52,8 @@ protected:
 private:
   vtkDecimationHierarchy(const vtkDecimationHierarchy&) = delete;
   void operator=(const vtkDecimationHierarchy&) = delete;
+
+  vtkTypeBool KeepLevels = 1;
 };
 
 #endif

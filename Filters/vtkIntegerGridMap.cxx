@@ -83,6 +83,14 @@ void vtkIntegerGridMap::Execute(quadrille::Block& block)
     guide.direction = frame.mirrored(guide.direction);
   }
   options.targetValences = quadrille::readTargetValences(input, surface);
+  options.curves = quadrille::readCurveRequests(input);
+  for (quadrille::CurveRequest& curve : options.curves)
+  {
+    for (quadrille::Vector3& p : curve.points)
+    {
+      p = frame.fromUser(p);
+    }
+  }
   options.progress = this->MakeProgress(0.0, 0.95);
   const bool coarsest = this->Integers == INTEGERS_COARSEST;
   if (coarsest && this->Method != METHOD_SCALE_AWARE)
@@ -107,6 +115,15 @@ void vtkIntegerGridMap::Execute(quadrille::Block& block)
     if (!notice.empty())
     {
       this->AddNotice(notice);
+    }
+  }
+
+  for (std::size_t i = 0; i < map.curves.size(); ++i)
+  {
+    if (!map.curves[i].met)
+    {
+      this->AddNotice(
+        quadrille::curveText(options.curves[i], i) + " is not met: " + map.curves[i].why);
     }
   }
 

@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Mesh/ContentHash.h"
+#include "Pipeline/GuidedMap.h"
 #include "Pipeline/LeaveFrame.h"
 #include "Pipeline/SizedSurface.h"
 #include "Pipeline/StageRecords.h"
@@ -24,7 +25,10 @@
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
+#include <array>
 #include <limits>
+#include <optional>
+#include <utility>
 
 vtkStandardNewMacro(vtkIntegerGridMapUpmap);
 
@@ -69,6 +73,27 @@ Expectation expectationOf(
   return expected;
 }
 
+/// In the frame, with its guides.
+quadrille::Level intermediateLevel(
+  vtkPolyData* data, const quadrille::Mesh& fine, const quadrille::Frame& frame)
+{
+  quadrille::Level level = quadrille::readLevel(data, fine);
+  level.guides = quadrille::readGuides(data, level.mesh);
+  for (quadrille::Guide& guide : level.guides)
+  {
+    guide.direction = frame.mirrored(guide.direction);
+  }
+  for (std::size_t v = 0; v < level.fineVertex.size(); ++v)
+  {
+    level.mesh.position[v] = fine.position[level.fineVertex[v]];
+  }
+  if (frame.reversed)
+  {
+    quadrille::reverseFaces(level.mesh);
+  }
+  return level;
+}
+
 /// Whether the extraction takes the map as it is, bit for bit.
 bool isExact(const quadrille::Certificate& certificate)
 {
@@ -81,7 +106,7 @@ bool isExact(const quadrille::Certificate& certificate)
 //------------------------------------------------------------------------------
 vtkIntegerGridMapUpmap::vtkIntegerGridMapUpmap()
 {
-  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfInputPorts(4);
 }
 
 vtkIntegerGridMapUpmap::~vtkIntegerGridMapUpmap() = default;
@@ -89,7 +114,9 @@ vtkIntegerGridMapUpmap::~vtkIntegerGridMapUpmap() = default;
 //------------------------------------------------------------------------------
 vtkQuadrilleAlgorithm::PortRole vtkIntegerGridMapUpmap::GetPortRole(int port) const
 {
-  return port == 0 ? PortRole::Mesh : port == 1 ? PortRole::Surface : PortRole::Log;
+  constexpr std::array<PortRole, 4> kRoles = { PortRole::Mesh, PortRole::Surface, PortRole::Log,
+    PortRole::OptionalMesh };
+  return kRoles.at(static_cast<std::size_t>(port));
 }
 
 //------------------------------------------------------------------------------
@@ -105,7 +132,8 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   quadrille::SurfaceRecipe recipe = quadrille::readRecipe(logData);
   quadrille::ConvertedSurface converted =
     quadrille::convertSurface(source, recipe.patchArray, this->NumberOfThreads);
-  quadrille::addFeatureMarks(converted.input, recipe.curveMarks);
+  quadrille::addFeatureMarks(
+    converted.input, converted.input.polygonOffsets.size() - 1, recipe.curveMarks);
   quadrille::FramedInput framed =
     quadrille::enterFrame(std::move(converted.input), this->NumberOfThreads);
   const quadrille::Frame& frame = framed.frame;
@@ -117,9 +145,12 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   this->FindOrPrepare(framed.input, recipe, laps, held);
   const quadrille::PreparedSurface& surface = held.surface->surface;
 
-  const quadrille::DecimationLog log = quadrille::readLog(logData, surface.hash);
+  quadrille::Hierarchy levels;
+  levels.log = quadrille::readLog(logData, surface.hash);
+  const quadrille::DecimationLog& log = levels.log;
   laps.lap("log", 0, log.collapses + log.flips);
-  quadrille::Level coarse = quadrille::readLevel(coarseData, surface.mesh);
+  levels.coarse = quadrille::readLevel(coarseData, surface.mesh);
+  quadrille::Level& coarse = levels.coarse;
   std::vector<quadrille::FixedVec2> coarseUv = quadrille::readMap(coarseData);
   if (frame.reversed)
   {
@@ -130,14 +161,30 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   quadrille::TransferOptions options;
   options.threads = this->NumberOfThreads;
   options.progress = this->MakeProgress(0.5, 0.9);
-  quadrille::TransferResult map =
-    quadrille::transferMap(surface.mesh, coarse, log, coarseUv, options);
+  const auto certified = [&](const std::vector<quadrille::FixedVec2>& uv)
+  {
+    return quadrille::certify(
+      surface.mesh, uv, expected.turns, expected.integerVertex, this->NumberOfThreads);
+  };
+  std::optional<quadrille::TransferResult> alongGuides;
+  if (block.input(3) && quadrille::readMethod(coarseData) == quadrille::MapMethod::ScaleAware)
+  {
+    levels.intermediate = intermediateLevel(block.input(3), surface.mesh, frame);
+    alongGuides = quadrille::transferAlongGuides(
+      surface.mesh, levels, coarseUv, expected.turns, expected.integerVertex, options);
+    if (alongGuides && !certified(alongGuides->uv).valid())
+    {
+      alongGuides.reset();
+    }
+  }
+  quadrille::TransferResult map = alongGuides
+    ? std::move(*alongGuides)
+    : quadrille::transferMap(surface.mesh, coarse, log, coarseUv, options);
   laps.lap("replay", coarse.mesh.faceCount(), surface.mesh.faceCount());
   const quadrille::ChartCounts charts = quadrille::mergeCharts(surface.mesh, map.uv);
   laps.lap("charts", surface.mesh.faceCount(), charts.charts);
 
-  const quadrille::Certificate certificate = quadrille::certify(
-    surface.mesh, map.uv, expected.turns, expected.integerVertex, this->NumberOfThreads);
+  const quadrille::Certificate certificate = certified(map.uv);
   laps.lap("certify", surface.mesh.faceCount(), surface.mesh.faceCount());
   this->SetCertificate(certificate);
   if (!quadrille::hasPromised(certificate, quadrille::readMethod(coarseData)) ||
@@ -203,7 +250,7 @@ void vtkIntegerGridMapUpmap::FindOrPrepare(quadrille::SurfaceInput& input,
     options.maximumNumberOfQuads = std::numeric_limits<std::size_t>::max();
     options.threads = this->NumberOfThreads;
     options.progress = this->MakeProgress(0.0, 3.3); // the surface is ready at 0.15 of a whole run
-    quadrille::SizedSurface sized = quadrille::sizeSurface(input, options, nullptr);
+    quadrille::SizedSurface sized = quadrille::sizeSurface(input, options);
     laps.add(sized.stages);
     made->surface = std::move(*sized.surface);
     held.surface = made;

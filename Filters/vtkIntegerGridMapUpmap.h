@@ -5,7 +5,8 @@
  * @brief   carries the map of the coarse level to the input surface: the decimation log backwards
  *
  * Inputs: 0 the coarse level with `IGM` (vtkIntegerGridMap); 1 the surface that vtkDecimationHierarchy had;
- * 2 its log port. A log of another surface is refused. Output: the surface, repaired, with
+ * 2 its log port; 3, where guides are to be followed between the levels, its intermediate level. A log of another
+ * surface is refused. Output: the surface, repaired, with
  * `IGM`, `Matching`, `Determinant`, `Turns`, `Index`, `SourceCellId`, `SourcePointIds`, every array of the surface,
  * and, with TextureCoordinates, points doubled at the cuts. Field data: certificate, stage times, counts of the replay.
  */
@@ -31,6 +32,14 @@ public:
 
   void SetSurfaceConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
   void SetLogConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
+  /**
+   * The intermediate level of vtkDecimationHierarchy: optional. Where it has guides, the map is turned along them there,
+   * with the same integers, as Quad Remesh does.
+   */
+  void SetIntermediateConnection(vtkAlgorithmOutput* output)
+  {
+    this->SetInputConnection(3, output);
+  }
 
   ///@{
   /**

@@ -196,7 +196,7 @@ int vtkQuadrilleAlgorithm::FillInputPortInformation(int port, vtkInformation* in
     role == PortRole::Surface ? "vtkDataSet"
       : role == PortRole::Log ? "vtkTable"
                               : "vtkPolyData");
-  if (role == PortRole::Shared)
+  if (role == PortRole::Shared || role == PortRole::OptionalMesh)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }

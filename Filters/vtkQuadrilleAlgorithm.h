@@ -128,10 +128,11 @@ protected:
   /// What a port takes, and how composite data on it is understood.
   enum class PortRole
   {
-    Surface, ///< surfaces of any data sets; a block each, as port 0
-    Mesh,    ///< vtkPolyData made by a filter of Quadrille, taken as it is; a block each
-    Log,     ///< vtkTable; a block each
-    Shared   ///< vtkPolyData that says something of all surfaces, optional: blocks are put together
+    Surface,      ///< surfaces of any data sets; a block each, as port 0
+    Mesh,         ///< vtkPolyData made by a filter of Quadrille, taken as it is; a block each
+    OptionalMesh, ///< the same, or nothing
+    Log,          ///< vtkTable; a block each
+    Shared ///< vtkPolyData that says something of all surfaces, optional: blocks are put together
   };
   /// Default: Surface for port 0, Shared for all others.
   virtual PortRole GetPortRole(int port) const;

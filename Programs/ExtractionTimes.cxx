@@ -177,7 +177,7 @@ struct Way
 /// With one thread and with as many as asked for; the fast path only where it works.
 std::vector<Way> waysFor(const MappedMesh& mapped, int threads)
 {
-  const bool folded = checkMap({ mapped.mesh, mapped.uv }, threads).count[kNotPositive] > 0;
+  const bool folded = checkMap({ mapped.mesh, mapped.uv }, false, threads).count[kNotPositive] > 0;
   std::vector<Way> ways;
   for (const ExtractionPath path : { ExtractionPath::Fast, ExtractionPath::Folded })
   {

@@ -148,7 +148,6 @@ def own_runs():
         Run("part/3000/chain", part, quads(3000), make="chain", same_as="part/3000", quick=True),
         Run("beast/2000/chain", beast, quads(2000), make="chain", same_as="beast/2000"),
         Run("frame/1500/chain-coarsest", frame, quads(1500, Integers=1), make="chain", same_as="frame/1500/coarsest"),
-        # Not the same quads: the chain does not solve guided regions again, see Documentation/Design/Edits.md.
         Run("beast/2000/chain-directions", beast, quads(2000, directions="round z"), make="chain"),
         Run("frame/60/chain", frame, quads(60), make="chain"),
         Run("beast/warm-start", beast, quads(2000, WarmStart=1),
@@ -527,6 +526,7 @@ def with_chain(surface, run, steps):
         upmap.SetInputConnection(grid.GetOutputPort())
         upmap.SetInputData(1, surface)
         upmap.SetLogConnection(hierarchy.GetOutputPort(2))
+        upmap.SetIntermediateConnection(hierarchy.GetOutputPort(1))
         extraction.SetInputConnection(upmap.GetOutputPort())
         silence(*filters)
         begin = time.process_time()

@@ -175,8 +175,8 @@ std::vector<ConePlace> placesOf(const Mesh& mesh, const FieldTopology& topology,
       all.push_back({ i, fan.vertex, region[Mesh::face(fan.first)], turns[i] });
     }
   }
-  std::sort(
-    all.begin(), all.end(), [](const ConePlace& a, const ConePlace& b) { return a.vertex < b.vertex; });
+  std::sort(all.begin(), all.end(),
+    [](const ConePlace& a, const ConePlace& b) { return a.vertex < b.vertex; });
   const std::size_t step = all.size() / kMostPlaces + 1;
   std::vector<ConePlace> places;
   for (std::size_t i = 0; i < all.size(); ++i)

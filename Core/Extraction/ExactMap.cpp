@@ -98,7 +98,7 @@ void checkRange(const ExactMap& map, Index begin, Index end, MapCheck& check)
   }
 }
 
-void checkEdges(const ExactMap& map, Index begin, Index end, MapCheck& check)
+void checkTransitions(const ExactMap& map, Index begin, Index end, MapCheck& check)
 {
   for (Index h = 3 * begin; h < 3 * end; ++h)
   {
@@ -107,9 +107,20 @@ void checkEdges(const ExactMap& map, Index begin, Index end, MapCheck& check)
     {
       checkTransition(map, h, check);
     }
-    if (map.mesh.isConstrained(h) && (g == kInvalidIndex || g > h))
+  }
+}
+
+void checkCurves(const ExactMap& map, Index begin, Index end, MapCheck& check)
+{
+  for (Index h = 3 * begin; h < 3 * end; ++h)
+  {
+    if (map.mesh.isConstrained(h))
     {
-      checkConstrained(map, h, check);
+      const Index g = map.mesh.twin[h];
+      if (g == kInvalidIndex || g > h)
+      {
+        checkConstrained(map, h, check);
+      }
     }
   }
 }
@@ -151,7 +162,7 @@ MapCheck overFaces(Index faces, int threads, const Body& body)
 
 } // namespace
 
-MapCheck checkMap(const ExactMap& map, int threads)
+MapCheck checkMap(const ExactMap& map, bool isCertified, int threads)
 {
   const Index faces = map.mesh.faceCount();
   MapCheck whole = overFaces(faces, threads,
@@ -160,7 +171,14 @@ MapCheck checkMap(const ExactMap& map, int threads)
   {
     merge(whole,
       overFaces(faces, threads,
-        [&](Index begin, Index end, MapCheck& part) { checkEdges(map, begin, end, part); }));
+        [&](Index begin, Index end, MapCheck& part)
+        {
+          if (!isCertified)
+          {
+            checkTransitions(map, begin, end, part);
+          }
+          checkCurves(map, begin, end, part);
+        }));
   }
   return whole;
 }

@@ -114,7 +114,8 @@ struct MapCheck
   std::string text() const;
 };
 
-/// Linear and parallel; the result does not depend on the number of threads.
-MapCheck checkMap(const ExactMap& map, int threads);
+/// Linear and parallel; the result does not depend on the number of threads. isCertified: no edge has a defect, which
+/// the certificate of the map has shown; then transitions are not looked at.
+MapCheck checkMap(const ExactMap& map, bool isCertified, int threads);
 
 } // namespace quadrille

@@ -12,10 +12,9 @@
 #include "Extraction/QuadSmoothing.h"
 #include "Extraction/QuadTopology.h"
 #include "Extraction/QuadUntangling.h"
-#include "Mesh/Topology.h"
+#include "Extraction/SurfaceShape.h"
 
 #include <cmath>
-#include <map>
 #include <sstream>
 #include <utility>
 
@@ -88,15 +87,14 @@ std::string describePoints(const QuadMesh& mesh, const std::vector<Index>& point
 
 /// Compares with the input surface, of whose boundary loops some are covered. Empty when the quad
 /// mesh is the same surface.
-std::string compareTopology(const Mesh& mesh, const QuadMesh& quads, const QuadTopology& found,
-  std::size_t coveredLoops, int threads)
+std::string compareTopology(const TopologySummary& wanted, const QuadMesh& quads,
+  const QuadTopology& found, std::size_t coveredLoops)
 {
   std::string problem;
   if (!found.manifold())
   {
     append(problem, found.text() + " near " + describePoints(quads, found.offendingPoints));
   }
-  const TopologySummary wanted = summarizeTopology(mesh, threads);
   const auto differ = [&problem](const char* what, long long has, long long should)
   {
     if (has != should)
@@ -116,72 +114,6 @@ std::string compareTopology(const Mesh& mesh, const QuadMesh& quads, const QuadT
   return problem;
 }
 
-/// Shape of a graph of curves: what does not change when its edges are cut finer.
-struct CurveGraph
-{
-  std::map<int, std::size_t> nodes; ///< number of vertices per degree other than 2
-  long long cycles = 0;             ///< edges - vertices
-
-  CurveGraph(const std::vector<std::pair<Index, Index>>& edges, std::size_t vertices)
-  {
-    if (edges.empty())
-    {
-      return;
-    }
-    std::vector<int> degree(vertices, 0);
-    for (const auto& [a, b] : edges)
-    {
-      ++degree[a];
-      ++degree[b];
-    }
-    cycles = static_cast<long long>(edges.size());
-    for (const auto& [a, b] : edges)
-    {
-      countNode(std::exchange(degree[a], 0));
-      countNode(std::exchange(degree[b], 0));
-    }
-  }
-  void countNode(int degree)
-  {
-    cycles -= degree > 0 ? 1 : 0;
-    if (degree != 0 && degree != 2)
-    {
-      ++nodes[degree];
-    }
-  }
-  bool operator==(const CurveGraph& other) const
-  {
-    return nodes == other.nodes && cycles == other.cycles;
-  }
-};
-
-CurveGraph constrainedGraph(const Mesh& mesh, int threads)
-{
-  constexpr std::size_t kHalfEdgeChunk = std::size_t{ 1 } << 17;
-  std::vector<std::vector<Index>> parts(
-    (mesh.halfEdgeCount() + kHalfEdgeChunk - 1) / kHalfEdgeChunk);
-  parallelFor(mesh.halfEdgeCount(), kHalfEdgeChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (Index h = static_cast<Index>(begin); h < end; ++h)
-      {
-        if (mesh.isConstrained(h) && h < mesh.twin[h])
-        {
-          parts[begin / kHalfEdgeChunk].push_back(h);
-        }
-      }
-    });
-  std::vector<std::pair<Index, Index>> edges;
-  for (const std::vector<Index>& part : parts)
-  {
-    for (const Index h : part)
-    {
-      edges.emplace_back(mesh.origin[h], mesh.target(h));
-    }
-  }
-  return { edges, mesh.position.size() };
-}
-
 CurveGraph lineGraph(const QuadMesh& quads)
 {
   std::vector<std::pair<Index, Index>> edges;
@@ -193,8 +125,8 @@ CurveGraph lineGraph(const QuadMesh& quads)
 }
 
 /// Every unit of a constrained isoline must be a line of the quad mesh. Empty when so.
-std::string compareLines(const Mesh& mesh, const QuadMesh& quads, const QuadTopology& found,
-  const MapCheck& check, int threads)
+std::string compareLines(
+  const CurveGraph& wanted, const QuadMesh& quads, const QuadTopology& found, const MapCheck& check)
 {
   std::string problem;
   std::size_t boundary = 0;
@@ -216,7 +148,7 @@ std::string compareLines(const Mesh& mesh, const QuadMesh& quads, const QuadTopo
       std::to_string(quads.lines.size()) + " feature and boundary edges instead of " +
         std::to_string(check.constrainedLength));
   }
-  if (!(lineGraph(quads) == constrainedGraph(mesh, threads)))
+  if (!(lineGraph(quads) == wanted))
   {
     append(problem, "features or boundaries are interrupted");
   }
@@ -259,11 +191,11 @@ Status windsRound(const MapCheck& check)
 }
 
 /// Judges the result: what is wrong with it, and what in the map explains it.
-Status judge(const Mesh& mesh, const MapCheck& check, const QuadTopology& found,
-  const ExtractionResult& result, int threads)
+Status judge(const Mesh& mesh, const SurfaceShape& wanted, const MapCheck& check,
+  const QuadTopology& found, const ExtractionResult& result)
 {
-  std::string problem = compareTopology(mesh, result.mesh, found, 0, threads);
-  const std::string lines = compareLines(mesh, result.mesh, found, check, threads);
+  std::string problem = compareTopology(wanted.topology, result.mesh, found, 0);
+  const std::string lines = compareLines(wanted.curves, result.mesh, found, check);
   if (!lines.empty())
   {
     append(problem, lines);
@@ -307,8 +239,8 @@ Status judgeFree(const Mesh& mesh, const MapCheck& check, const QuadTopology& fo
   std::string problem;
   if (options.boundary == BoundaryMode::Polygons)
   {
-    problem =
-      compareTopology(mesh, result.mesh, found, report.loopsInCells.size(), options.threads);
+    problem = compareTopology(
+      summarizeTopology(mesh, options.threads), result.mesh, found, report.loopsInCells.size());
   }
   else if (!found.manifold())
   {
@@ -392,7 +324,7 @@ ExtractionResult extractQuads(
   ExtractionResult result;
 
   report(options.progress, 0, "checking the map");
-  const MapCheck check = checkMap(map, options.threads);
+  const MapCheck check = checkMap(map, options.mapIsCertified, options.threads);
   checkOutOfRange(check);
   result.status = checkSize(check, mesh, options);
   if (!result.status.ok())
@@ -448,8 +380,10 @@ ExtractionResult extractQuads(
   {
     result.features = findFeatureEnds(map);
   }
-  result.status = free ? judgeFree(mesh, check, topology, result, boundary, options)
-                       : judge(mesh, check, topology, result, options.threads);
+  result.status = free
+    ? judgeFree(mesh, check, topology, result, boundary, options)
+    : judge(mesh, options.shape ? *options.shape : shapeOf(mesh, options.threads), check, topology,
+        result);
   result.mesh.valence = std::move(topology.valence);
   result.mesh.onBoundary = std::move(topology.onBoundary);
   if (result.status.ok())

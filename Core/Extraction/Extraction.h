@@ -18,6 +18,8 @@
 namespace quadrille
 {
 
+struct SurfaceShape;
+
 /// How the quads are found.
 enum class ExtractionPath
 {
@@ -44,6 +46,9 @@ struct ExtractionOptions
   int smoothingSteps = 5;
   /// Vertices of the mesh, ascending, whose quad vertices smoothing must not move (irregular ones that were asked for).
   std::vector<Index> fixedVertices;
+  /// Whether the map's certificate is valid (GridMap/Certificate.h): then edges are not checked again.
+  bool mapIsCertified = false;
+  const SurfaceShape* shape = nullptr; ///< shapeOf the mesh, where the caller has it
   int threads = 0;
   ProgressCallback progress;
 };

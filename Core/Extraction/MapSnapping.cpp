@@ -463,7 +463,7 @@ std::vector<FixedVec2> onGrid(const std::vector<Vector2>& uv, int threads)
 /// Does the map need no change?
 bool fitsExactly(const Mesh& mesh, const std::vector<FixedVec2>& uv, int threads)
 {
-  const MapCheck check = checkMap({ mesh, uv }, threads);
+  const MapCheck check = checkMap({ mesh, uv }, false, threads);
   return check.count[kResidual] == 0 && check.count[kFractional] == 0 &&
     check.count[kOffIsoline] == 0;
 }

@@ -492,7 +492,7 @@ bool BudgetDecimation::plan(const Stage& stage, Work& work) const
 {
   VertexRemoval& removal = work.removal;
   work.key.assign(1, stage.number);
-  removal.addStarKey(work.key);
+  removal.addStarKey(work.key, options_.names);
   ++work.lookups;
   work.planned = cache_.find(work.key);
   if (work.planned != nullptr && (*work.planned == 0 || removal.loadPlan(work.planned + kPlanAt)))

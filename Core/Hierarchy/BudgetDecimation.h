@@ -23,6 +23,8 @@ struct BudgetOptions
   double edgeLength = 0; ///< s; for vertices = 0 only
   DecimationCost cost = DecimationCost::Gaussian;
   std::vector<Index> keepVertices;
+  /// #V: what the cache calls the vertices, so that it serves meshes that share vertices under other ids.
+  const std::vector<Index>* names = nullptr; ///< null: their ids
   std::vector<float> inputDefect; ///< #V angle defects of the input; for GaussianMemory only
   double curveTolerance = 0;      ///< see RemovalGuards
   double regionTolerance = 0;     ///< the same
@@ -39,8 +41,8 @@ struct BudgetResult
     0; ///< see kCurvatureShift, in units of the mesh; for costs that know curvature
 };
 
-/// Decimates. What the cache holds must come from calls with the same positions, curves and cost (guides may differ);
-/// the result does not depend on it.
+/// Decimates. What the cache holds must come from calls with the same cost in which vertices of one name had the same
+/// positions and curves (guides may differ); the result does not depend on it.
 BudgetResult decimateToBudget(DecimationMesh& mesh, const BudgetOptions& options, StarCache& cache);
 
 } // namespace quadrille

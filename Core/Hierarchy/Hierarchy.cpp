@@ -312,13 +312,18 @@ public:
     }
     hierarchy_.coarse = {};
     hierarchy_.log.truncate(intermediateEnd_);
-    restore(removalsFrom(hierarchy_.log, missing), vertices, options);
+    if (!logPlaces_)
+    {
+      logPlaces_.emplace(hierarchy_.log);
+    }
+    restore(removalsFrom(hierarchy_.log, *logPlaces_, missing), vertices, options);
   }
 
   /// Of what is held only to go back to the level that phase 1 left.
   std::size_t bytesAside() const
   {
-    std::size_t bytes = 0;
+    std::size_t bytes = fineCurves_.kind.size() * (sizeof(VertexKind) + sizeof(Index)) +
+      (logPlaces_ ? logPlaces_->bytes() : 0);
     if (asPhase1Left_)
     {
       for (const auto& [id, block] : asPhase1Left_->blocks)
@@ -442,8 +447,11 @@ private:
   {
     const RestoredLevel restored = undoRemovals(
       fine_, hierarchy_.intermediate, intermediate_->curveError, hierarchy_.log, removals);
-    const FeatureCurves fineCurves = traceFeatureCurves(fine_, kCornerScale * edgeLength_);
-    DecimationMesh mesh(restored.level.mesh, curvesOf(restored.level, fineCurves));
+    if (fineCurves_.kind.empty())
+    {
+      fineCurves_ = traceFeatureCurves(fine_, kCornerScale * edgeLength_);
+    }
+    DecimationMesh mesh(restored.level.mesh, curvesOf(restored.level, fineCurves_));
     mesh.curveError = restored.curveError;
     UniformOptions uniform = uniformOptions(options);
     uniform.candidates = restored.touched;
@@ -479,7 +487,7 @@ private:
     try
     {
       hierarchy_.intermediate = std::move(level);
-      makeIntermediate(fineCurves, mesh.curveError, ids);
+      makeIntermediate(fineCurves_, mesh.curveError, ids);
       hierarchy_.log.append(std::move(records), again.collapses, again.flips);
       endIntermediate();
     }
@@ -517,7 +525,6 @@ private:
     hierarchy_.log.intermediateRounds = hierarchy_.log.rounds.size();
     hierarchy_.intermediate.guides = {};
     guides_ = {};
-    cache_.clear();
   }
 
   /// Brings the guides to the intermediate level, where they have changed.
@@ -557,6 +564,7 @@ private:
         budget.inputDefect.push_back(fineDefect_[v]);
       }
     }
+    budget.names = &level.fineVertex; // which are the same on the level that vertices came back to
     budget.curveTolerance = kCurveTolerance * edgeLength_;
     budget.regionTolerance = kRegionTolerance * edgeLength_;
     budget.threads = options.threads;
@@ -601,7 +609,9 @@ private:
     std::vector<std::pair<std::size_t, BlockRecords>> blocks; ///< that records were taken from
   };
   std::optional<AsPhase1Left> asPhase1Left_;
-  std::vector<float> fineDefect_;                  ///< for GaussianMemory, when first needed
+  FeatureCurves fineCurves_;           ///< for vertices that come back, when first needed
+  std::optional<LogPlaces> logPlaces_; ///< of phase 1, the same
+  std::vector<float> fineDefect_;      ///< for GaussianMemory, when first needed
   DecimationCost cost_ = DecimationCost::Gaussian; ///< that the cache was filled with
   std::vector<FaceGuide> guides_;                  ///< that the intermediate level has
   StarCache cache_;

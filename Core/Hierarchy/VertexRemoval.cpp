@@ -189,7 +189,8 @@ bool VertexRemoval::triangulateStar(const RemovalGuards& guards)
   return true;
 }
 
-void VertexRemoval::addStarKey(std::vector<std::uint32_t>& words) const
+void VertexRemoval::addStarKey(
+  std::vector<std::uint32_t>& words, const std::vector<Index>* names) const
 {
   // Kinds and curves of vertices never change, so the ring implies them; but two vertices can be joined by a
   // constrained edge now and by a chord later.
@@ -199,13 +200,17 @@ void VertexRemoval::addStarKey(std::vector<std::uint32_t>& words) const
     const bool edge = mesh_.isConstrained(Mesh::next(slot_[index(i)]));
     constrained |= std::uint64_t{ edge ? 1U : 0U } << i;
   }
-  words.push_back(vertex_);
+  const auto nameOf = [names](Index v) { return names == nullptr ? v : (*names)[v]; };
+  words.push_back(nameOf(vertex_));
   words.push_back(static_cast<std::uint32_t>(ringSize_) | (boundary_ ? 1U << 8 : 0U) |
     (border_ ? 1U << 9 : 0U) |
     (onCurve_ || border_ ? static_cast<std::uint32_t>(curveEnd_) << 16 : 0U));
   words.push_back(static_cast<std::uint32_t>(constrained));
   words.push_back(static_cast<std::uint32_t>(constrained >> 32));
-  words.insert(words.end(), ring_.begin(), ring_.begin() + ringSize_);
+  for (int i = 0; i < ringSize_; ++i)
+  {
+    words.push_back(nameOf(ring_[index(i)]));
+  }
 }
 
 double VertexRemoval::sizeChange() const

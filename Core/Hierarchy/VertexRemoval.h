@@ -79,7 +79,8 @@ public:
   /// After planStar(): whether its outcome follows from what addStarKey() gives, and not from edges elsewhere.
   bool dependsOnStarOnly() const { return !metExistingDiagonal_; }
   /// Appends all that planStar() depends on besides the guards, except edges between ring vertices outside the star.
-  void addStarKey(std::vector<std::uint32_t>& words) const;
+  /// names: of the vertices, #V, or null where they have their ids.
+  void addStarKey(std::vector<std::uint32_t>& words, const std::vector<Index>* names) const;
   /// Appends the plan.
   void savePlan(std::vector<std::uint32_t>& words) const;
   /// Takes over a plan for this star. False when one of its diagonals is an edge of the mesh already.

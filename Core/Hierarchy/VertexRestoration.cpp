@@ -42,15 +42,35 @@ std::size_t collapseEnd(const BlockRecords& block, std::size_t begin, std::size_
   return end;
 }
 
+/// What a removal says of its star.
+struct StarOf
+{
+  StarOf(const BlockRecords& block, std::size_t begin, std::size_t end)
+    : slots(block.data() + begin)
+  {
+    const std::uint8_t* last = block.data() + collapseEnd(block, begin, end);
+    faces = last[-1];
+    vertex = removedVertex(last);
+  }
+  Index face(int i) const { return loadLittleEndian(slots + 4 * static_cast<std::size_t>(i)) / 3; }
+
+  const std::uint8_t* slots;
+  int faces = 0;
+  Index vertex = kInvalidIndex;
+};
+
 class Search
 {
 public:
-  Search(const DecimationLog& log, const std::vector<Index>& vertices)
-    : log_(log), touched_(log.fineFaces), wanted_(vertices.back() + 1)
+  Search(const DecimationLog& log, const LogPlaces& places, const std::vector<Index>& vertices)
+    : log_(log), places_(places), touched_(log.fineFaces), wanted_(vertices.back() + 1),
+      touchedPlaces_(LogPlaces::placesOf(log.fineFaces)),
+      wantedPlaces_(LogPlaces::placesOf(vertices.back()))
   {
     for (const Index v : vertices)
     {
       wanted_[v] = true;
+      wantedPlaces_[v >> LogPlaces::kPlaceBits] = true;
     }
   }
 
@@ -59,6 +79,10 @@ public:
     for (std::size_t block = 0; block < log_.blocks.size(); ++block)
     {
       poll();
+      if (!places_.mayMeet(block, wantedPlaces_, touchedPlaces_))
+      {
+        continue;
+      }
       findRemovals(log_.blocks[block], offsets_);
       for (std::size_t i = 0; i + 1 < offsets_.size(); ++i)
       {
@@ -75,28 +99,25 @@ private:
   /// Whether a removal is asked for, or meets one that is; its star counts as touched then.
   bool depends(std::size_t block, std::size_t begin, std::size_t end)
   {
-    const BlockRecords& records = log_.blocks[block];
-    const std::uint8_t* slots = records.data() + begin;
-    const std::uint8_t* last = records.data() + collapseEnd(records, begin, end);
-    const int faces = last[-1];
-    const auto face = [&](int i)
-    { return loadLittleEndian(slots + 4 * static_cast<std::size_t>(i)) / 3; };
-    const Index vertex = removedVertex(last);
-    bool meets = vertex < wanted_.size() && wanted_[vertex];
-    for (int i = 0; i < faces && !meets; ++i)
+    const StarOf star(log_.blocks[block], begin, end);
+    bool meets = star.vertex < wanted_.size() && wanted_[star.vertex];
+    for (int i = 0; i < star.faces && !meets; ++i)
     {
-      meets = touched_[face(i)];
+      meets = touched_[star.face(i)];
     }
-    for (int i = 0; i < faces && meets; ++i)
+    for (int i = 0; i < star.faces && meets; ++i)
     {
-      touched_[face(i)] = true;
+      touched_[star.face(i)] = true;
+      touchedPlaces_[star.face(i) >> LogPlaces::kPlaceBits] = true;
     }
     return meets;
   }
 
   const DecimationLog& log_;
+  const LogPlaces& places_;
   std::vector<bool> touched_; ///< faces of the finest mesh
   std::vector<bool> wanted_;  ///< vertices up to the last one that is asked for
+  std::vector<bool> touchedPlaces_, wantedPlaces_;
   std::vector<std::size_t> offsets_;
   std::vector<LoggedRemoval> found_;
 };
@@ -340,10 +361,67 @@ RestoredLevel Undoing::finish() const
 
 } // namespace
 
-std::vector<LoggedRemoval> removalsFrom(
-  const DecimationLog& log, const std::vector<Index>& vertices)
+LogPlaces::LogPlaces(const DecimationLog& log) : blocks_(log.blocks.size())
 {
-  return vertices.empty() ? std::vector<LoggedRemoval>{} : Search(log, vertices).run();
+  std::vector<std::size_t> offsets;
+  const auto sort = [](std::vector<Index>& places)
+  {
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    places.shrink_to_fit();
+  };
+  const auto add = [](std::vector<Index>& places, Index element)
+  {
+    const Index place = element >> kPlaceBits;
+    if (places.empty() || places.back() != place)
+    {
+      places.push_back(place);
+    }
+  };
+  for (std::size_t block = 0; block < blocks_.size(); ++block)
+  {
+    poll();
+    BlockPlaces& places = blocks_[block];
+    findRemovals(log.blocks[block], offsets);
+    for (std::size_t i = 0; i + 1 < offsets.size(); ++i)
+    {
+      const StarOf star(log.blocks[block], offsets[i], offsets[i + 1]);
+      add(places.vertices, star.vertex);
+      for (int k = 0; k < star.faces; ++k)
+      {
+        add(places.faces, star.face(k));
+      }
+    }
+    sort(places.vertices);
+    sort(places.faces);
+  }
+}
+
+bool LogPlaces::mayMeet(
+  std::size_t block, const std::vector<bool>& vertices, const std::vector<bool>& faces) const
+{
+  const auto anyOf = [](const std::vector<Index>& places, const std::vector<bool>& flags)
+  {
+    return std::any_of(places.begin(), places.end(),
+      [&](Index place) { return place < flags.size() && flags[place]; });
+  };
+  return anyOf(blocks_[block].vertices, vertices) || anyOf(blocks_[block].faces, faces);
+}
+
+std::size_t LogPlaces::bytes() const
+{
+  std::size_t bytes = blocks_.size() * sizeof(BlockPlaces);
+  for (const BlockPlaces& block : blocks_)
+  {
+    bytes += (block.vertices.size() + block.faces.size()) * sizeof(Index);
+  }
+  return bytes;
+}
+
+std::vector<LoggedRemoval> removalsFrom(
+  const DecimationLog& log, const LogPlaces& places, const std::vector<Index>& vertices)
+{
+  return vertices.empty() ? std::vector<LoggedRemoval>{} : Search(log, places, vertices).run();
 }
 
 RestoredLevel undoRemovals(const Mesh& fine, const Level& level,

@@ -28,10 +28,34 @@ struct LoggedRemoval
   std::size_t begin = 0, end = 0;
 };
 
+/// Where the blocks of a log lie on the finest mesh, whose faces and vertices are in the order of a space-filling curve:
+/// a search for what touches a place passes over most of the log.
+class LogPlaces
+{
+public:
+  explicit LogPlaces(const DecimationLog& log);
+
+  /// Elements of the finest mesh whose ids differ by this many bits below only are at one place.
+  static constexpr int kPlaceBits = 11;
+  static std::size_t placesOf(std::size_t elements) { return (elements >> kPlaceBits) + 1; }
+
+  /// Whether a block may remove a vertex at one of the places, or touch a face there; flags by place.
+  bool mayMeet(
+    std::size_t block, const std::vector<bool>& vertices, const std::vector<bool>& faces) const;
+  std::size_t bytes() const;
+
+private:
+  struct BlockPlaces
+  {
+    std::vector<Index> vertices, faces; ///< ascending
+  };
+  std::vector<BlockPlaces> blocks_;
+};
+
 /// The removals of these vertices (ids of the finest mesh, ascending) and all that depend on them, in the order of the
-/// log.
+/// log. places: of the log.
 std::vector<LoggedRemoval> removalsFrom(
-  const DecimationLog& log, const std::vector<Index>& vertices);
+  const DecimationLog& log, const LogPlaces& places, const std::vector<Index>& vertices);
 
 /// A level with removals undone.
 struct RestoredLevel

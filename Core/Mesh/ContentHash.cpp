@@ -72,12 +72,27 @@ std::uint64_t contentHash(const Mesh& mesh, int threads)
   return mix(hash, hashVector(mesh.flags, threads));
 }
 
+GeometryHash geometryHash(const SurfaceInput& input, int threads)
+{
+  return { hashVector(input.points, threads), hashVector(input.polygonOffsets, threads),
+    hashVector(input.polygonPoints, threads), static_cast<std::uint64_t>(input.faceOrder),
+    hashVector(std::vector<double>{ input.precision }, 1) };
+}
+
 std::uint64_t contentHash(const SurfaceInput& input, int threads)
+{
+  return contentHash(geometryHash(input, threads), input, threads);
+}
+
+std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& input, int threads)
 {
   // By name, so that an array that is new has to be put on one side or the other here.
   const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, guideDirections,
     guideWeights, targetValences, sizing, curves, regularElsewhere, held, regularOnFeatures,
     faceOrder, precision] = input;
+  static_cast<void>(points);
+  static_cast<void>(polygonOffsets);
+  static_cast<void>(polygonPoints);
   static_cast<void>(guideDirections);
   static_cast<void>(guideWeights);
   static_cast<void>(targetValences);
@@ -85,14 +100,14 @@ std::uint64_t contentHash(const SurfaceInput& input, int threads)
   static_cast<void>(regularElsewhere);
   static_cast<void>(held);
   static_cast<void>(regularOnFeatures);
-  std::uint64_t hash = hashVector(points, threads);
-  hash = mix(hash, hashVector(polygonOffsets, threads));
-  hash = mix(hash, hashVector(polygonPoints, threads));
+  static_cast<void>(faceOrder);
+  static_cast<void>(precision);
+  std::uint64_t hash = mix(geometry.points, geometry.polygonOffsets);
+  hash = mix(hash, geometry.polygonPoints);
   hash = mix(hash, hashVector(featureEdges, threads));
   hash = mix(hash, hashVector(patchIds, threads));
   hash = mix(hash, hashVector(sizing, threads));
-  hash = mix(hash, static_cast<std::uint64_t>(faceOrder));
-  return mix(hash, hashVector(std::vector<double>{ precision }, 1));
+  return mix(mix(hash, geometry.faceOrder), geometry.precision);
 }
 
 } // namespace quadrille

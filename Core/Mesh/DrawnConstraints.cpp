@@ -45,7 +45,7 @@ void markPath(
 }
 } // namespace
 
-void addGuideMarks(SurfaceInput& input, const std::vector<GuideMark>& marks)
+void addGuideMarks(SurfaceInput& input, std::size_t polygons, const std::vector<GuideMark>& marks)
 {
   if (marks.empty())
   {
@@ -53,10 +53,10 @@ void addGuideMarks(SurfaceInput& input, const std::vector<GuideMark>& marks)
   }
   const bool full = input.guideWeights.empty() &&
     std::all_of(marks.begin(), marks.end(), [](const GuideMark& m) { return m.weight == 1; });
-  input.guideDirections.resize(input.polygonOffsets.size() - 1, Vector3::Zero());
+  input.guideDirections.resize(polygons, Vector3::Zero());
   if (!full)
   {
-    input.guideWeights.resize(input.polygonOffsets.size() - 1, 1);
+    input.guideWeights.resize(polygons, 1);
   }
   for (const GuideMark& mark : marks)
   {
@@ -68,13 +68,14 @@ void addGuideMarks(SurfaceInput& input, const std::vector<GuideMark>& marks)
   }
 }
 
-void addFeatureMarks(SurfaceInput& input, const std::vector<FeatureMark>& marks)
+void addFeatureMarks(
+  SurfaceInput& input, std::size_t polygons, const std::vector<FeatureMark>& marks)
 {
   if (marks.empty())
   {
     return;
   }
-  input.featureEdges.resize(input.polygonOffsets.size() - 1);
+  input.featureEdges.resize(polygons);
   for (const FeatureMark& mark : marks)
   {
     if (mark.polygon >= input.featureEdges.size())

@@ -44,10 +44,11 @@ struct GuideMark
 };
 
 /// Sets directions and weights of polygons under strokes.
-void addGuideMarks(SurfaceInput& input, const std::vector<GuideMark>& marks);
+void addGuideMarks(SurfaceInput& input, std::size_t polygons, const std::vector<GuideMark>& marks);
 
 /// Sets the marks' bits in input.featureEdges; throws InvalidInput for a polygon out of range.
-void addFeatureMarks(SurfaceInput& input, const std::vector<FeatureMark>& marks);
+void addFeatureMarks(
+  SurfaceInput& input, std::size_t polygons, const std::vector<FeatureMark>& marks);
 
 /// A polygon with a direction that the quads' edges there should have.
 struct GuidedPolygon

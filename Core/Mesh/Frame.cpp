@@ -167,6 +167,23 @@ Vector3 signsOf(const std::vector<Vector3>& points, const Bytes& used, const Box
   return (sign.array() == 0).select(Vector3::Ones(), sign);
 }
 
+/// What is asked for at places and in directions.
+void requestsToFrame(FramedInput& framed)
+{
+  const Frame& frame = framed.frame;
+  for (Vector3& direction : framed.input.guideDirections)
+  {
+    direction = frame.mirrored(direction);
+  }
+  for (CurveRequest& curve : framed.input.curves)
+  {
+    for (Vector3& p : curve.points)
+    {
+      p = frame.fromUser(p);
+    }
+  }
+}
+
 /// Runs the first polygon, begun at its lowest point, against ascending ids?
 bool firstPolygonDescends(const SurfaceInput& input)
 {
@@ -271,23 +288,59 @@ FramedInput enterFrame(SurfaceInput input, int threads)
         framed.input.points[i] = frame.mirrored(framed.input.points[i]) / steps + Vector3::Zero();
       }
     });
-  for (Vector3& direction : framed.input.guideDirections)
-  {
-    direction = frame.mirrored(direction);
-  }
-  for (CurveRequest& curve : framed.input.curves)
-  {
-    for (Vector3& p : curve.points)
-    {
-      p = frame.fromUser(p);
-    }
-  }
+  requestsToFrame(framed);
   frame.reversed = looksInwards(framed.input, threads);
   enterFrame(framed.input.held, frame);
   framed.input.faceOrder = frame.reversed ? FaceOrder::Reversed : FaceOrder::FromLowest;
   framed.input.precision = std::max(1 / steps, std::ldexp(magnitude, floats ? -24 : -53) / unit);
   return framed;
 }
+
+FramedInput enterKnownFrame(SurfaceInput input, const FramedInput& known)
+{
+  FramedInput framed;
+  framed.frame = known.frame;
+  framed.points = std::move(input.points);
+  framed.input = std::move(input);
+  framed.input.faceOrder = known.input.faceOrder;
+  framed.input.precision = known.input.precision;
+  requestsToFrame(framed);
+  enterFrame(framed.input.held, framed.frame);
+  return framed;
+}
+
+namespace
+{
+
+/// At the corner where half-edge h begins.
+Vector3 userPositionAt(
+  const PreparedSurface& surface, Index h, const Frame& frame, const std::vector<Vector3>& points)
+{
+  std::array<double, 3> corner{};
+  corner[h % 3] = 1;
+  const SourceLocation source = surface.locate(Mesh::face(h), corner);
+  const Vector3 place = frame.toUser(surface.mesh.position[surface.mesh.origin[h]]);
+  Vector3 between = Vector3::Zero();
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    if (source.weights[k] == 1)
+    {
+      between = points[source.points[k]];
+      break;
+    }
+    between += source.weights[k] * (points[source.points[k]] - frame.centre);
+    if (k == 2)
+    {
+      between += frame.centre;
+    }
+  }
+  // Repair may have moved a corner: then its source is another point.
+  const double step = std::ldexp(frame.unit, -kGridBits);
+  const double last = std::ldexp(place.cwiseAbs().maxCoeff(), -50);
+  return (between - place).cwiseAbs().maxCoeff() <= 2 * step + last ? between : place;
+}
+
+} // namespace
 
 std::vector<Vector3> userPositions(
   const PreparedSurface& surface, const Frame& frame, const std::vector<Vector3>& points)
@@ -299,35 +352,34 @@ std::vector<Vector3> userPositions(
   {
     pollNowAndThen(h);
     const Index v = mesh.origin[h];
-    if (known[v] != 0)
+    if (known[v] == 0)
     {
-      continue;
+      known[v] = 1;
+      positions[v] = userPositionAt(surface, h, frame, points);
     }
-    known[v] = 1;
-    std::array<double, 3> corner{};
-    corner[h % 3] = 1;
-    const SourceLocation source = surface.locate(Mesh::face(h), corner);
-    const Vector3 place = frame.toUser(mesh.position[v]);
-    Vector3 between = Vector3::Zero();
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      if (source.weights[k] == 1)
-      {
-        between = points[source.points[k]];
-        break;
-      }
-      between += source.weights[k] * (points[source.points[k]] - frame.centre);
-      if (k == 2)
-      {
-        between += frame.centre;
-      }
-    }
-    // Repair may have moved a corner: then its source is another point.
-    const double step = std::ldexp(frame.unit, -kGridBits);
-    const double last = std::ldexp(place.cwiseAbs().maxCoeff(), -50);
-    positions[v] = (between - place).cwiseAbs().maxCoeff() <= 2 * step + last ? between : place;
   }
   return positions;
+}
+
+Vector3 userPosition(const PreparedSurface& surface, Index halfEdge, const Frame& frame,
+  const std::vector<Vector3>& points)
+{
+  // Of the corners of a vertex the first one counts, as for userPositions.
+  const Mesh& mesh = surface.mesh;
+  Index first = halfEdge;
+  Index h = halfEdge;
+  do
+  {
+    h = mesh.twin[Mesh::previous(h)];
+    first = h == kInvalidIndex ? first : std::min(first, h);
+  } while (h != kInvalidIndex && h != halfEdge);
+  for (Index g = h == kInvalidIndex ? mesh.twin[halfEdge] : kInvalidIndex; g != kInvalidIndex;)
+  {
+    const Index outgoing = Mesh::next(g);
+    first = std::min(first, outgoing);
+    g = mesh.twin[outgoing];
+  }
+  return userPositionAt(surface, first, frame, points);
 }
 
 void reverseFaces(Mesh& mesh)

@@ -49,10 +49,18 @@ struct FramedInput
 /// not. Throws InvalidInput as checkInput does.
 FramedInput enterFrame(SurfaceInput input, int threads);
 
+/// The same for points and polygons that have been put into the known frame before. The result's input has no points:
+/// it is for who has the surface that was made of them. The input must have passed checkInput.
+FramedInput enterKnownFrame(SurfaceInput input, const FramedInput& known);
+
 /// The user's positions of the vertices, #V: for points of the input their own numbers, for vertices that refinement
 /// made the place between them, for others (repair and closed handles) that of the frame. points: those of FramedInput.
 std::vector<Vector3> userPositions(
   const PreparedSurface& surface, const Frame& frame, const std::vector<Vector3>& points);
+
+/// That of one of them, at whose corner the half-edge begins.
+Vector3 userPosition(const PreparedSurface& surface, Index halfEdge, const Frame& frame,
+  const std::vector<Vector3>& points);
 
 /// Reverses all faces: corners 0 1 2 become 0 2 1. What belongs to corner i moves to reversedCorner(h), what belongs
 /// to half-edge i to reversedEdge(h). Twice is nothing.

@@ -3,6 +3,7 @@
 #include "Mesh/Guides.h"
 
 #include "Base/Error.h"
+#include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Mesh/Surface.h"
@@ -19,6 +20,9 @@ namespace
 
 /// Sine of the angle to the normal below which a direction says nothing about the plane: half a degree.
 constexpr double kLeastTangent = 0.01;
+/// Valence of a corner with one quad.
+constexpr int kLeastOnBoundary = 3;
+constexpr std::size_t kHalfEdgeChunk = 3 << 15;
 
 bool isGiven(const Vector3& direction)
 {
@@ -90,27 +94,37 @@ std::vector<PolygonGuide> guidesOf(const SurfaceInput& input)
 
 /// One entry per corner whose point asks for a valence, by vertex.
 std::vector<ValenceRequest> cornerRequests(
-  const SurfaceInput& input, const PreparedSurface& surface)
+  const SurfaceInput& input, const PreparedSurface& surface, int threads)
 {
-  std::vector<ValenceRequest> requests;
   const Mesh& mesh = surface.mesh;
-  std::vector<std::uint8_t> isHeld(input.points.size(), 0);
+  std::vector<std::uint8_t> isHeld(input.targetValences.size(), 0);
   for (const HeldVertex& held : input.held)
   {
     isHeld[held.point] |= held.sectors.empty() ? 1 : 0;
   }
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    const Index point = surface.sourcePoints[Mesh::face(h)][h % 3];
-    // A corner that a split of an edge made stands at no point of the input.
-    const bool moved = !surface.refinedEntry.empty() &&
-      surface.refinedEntry[Mesh::face(h)] != kInvalidIndex &&
-      surface.cornerWeights[surface.refinedEntry[Mesh::face(h)]][h % 3][h % 3] != 1;
-    if (input.targetValences[point] != 0 && !moved && isHeld[point] == 0)
+  std::vector<std::vector<ValenceRequest>> parts(
+    (mesh.halfEdgeCount() + kHalfEdgeChunk - 1) / kHalfEdgeChunk);
+  parallelFor(mesh.halfEdgeCount(), kHalfEdgeChunk, threads,
+    [&](std::size_t begin, std::size_t end)
     {
-      requests.push_back({ mesh.origin[h], input.targetValences[point], point });
-    }
+      for (Index h = static_cast<Index>(begin); h < end; ++h)
+      {
+        const Index f = Mesh::face(h);
+        const Index point = surface.sourcePoints[f][h % 3];
+        // A corner that a split of an edge made stands at no point of the input.
+        if (input.targetValences[point] != 0 && isHeld[point] == 0 &&
+          (surface.refinedEntry.empty() || surface.refinedEntry[f] == kInvalidIndex ||
+            surface.cornerWeights[surface.refinedEntry[f]][h % 3][h % 3] == 1))
+        {
+          parts[begin / kHalfEdgeChunk].push_back(
+            { mesh.origin[h], input.targetValences[point], point });
+        }
+      }
+    });
+  std::vector<ValenceRequest> requests;
+  for (const std::vector<ValenceRequest>& part : parts)
+  {
+    requests.insert(requests.end(), part.begin(), part.end());
   }
   std::sort(requests.begin(), requests.end(),
     [](const ValenceRequest& a, const ValenceRequest& b)
@@ -118,9 +132,23 @@ std::vector<ValenceRequest> cornerRequests(
   return requests;
 }
 
+std::vector<std::uint8_t> boundaryVertices(const Mesh& mesh)
+{
+  std::vector<std::uint8_t> boundary(mesh.vertexCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    pollNowAndThen(h);
+    if (mesh.isBoundary(h))
+    {
+      boundary[mesh.origin[h]] = boundary[mesh.target(h)] = 1;
+    }
+  }
+  return boundary;
+}
+
 void requireFit(const ValenceRequest& request, const Vector3& place, bool boundary)
 {
-  if (boundary && request.valence < 3)
+  if (boundary && request.valence < kLeastOnBoundary)
   {
     throw InvalidInput("point " + std::to_string(request.point) + " at " + placeText(place) +
       " asks for valence " + std::to_string(request.valence) +
@@ -143,7 +171,7 @@ void checkRequests(const SurfaceInput& input)
   checkCurves(input);
 }
 
-void collectRequests(const SurfaceInput& input, PreparedSurface& surface)
+void collectRequests(const SurfaceInput& input, PreparedSurface& surface, int threads)
 {
   surface.polygonGuides = guidesOf(input);
   surface.curves = input.curves;
@@ -153,20 +181,16 @@ void collectRequests(const SurfaceInput& input, PreparedSurface& surface)
   {
     return;
   }
-  std::vector<std::uint8_t> boundary(surface.mesh.vertexCount(), 0);
-  for (Index h = 0; h < surface.mesh.halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    if (surface.mesh.isBoundary(h))
-    {
-      boundary[surface.mesh.origin[h]] = boundary[surface.mesh.target(h)] = 1;
-    }
-  }
-  std::vector<std::uint8_t> used(input.points.size(), 0);
-  for (const ValenceRequest& request : cornerRequests(input, surface))
+  const std::vector<ValenceRequest> requests = cornerRequests(input, surface, threads);
+  const bool anyForInside = std::any_of(requests.begin(), requests.end(),
+    [](const ValenceRequest& request) { return request.valence < kLeastOnBoundary; });
+  const std::vector<std::uint8_t> boundary =
+    anyForInside ? boundaryVertices(surface.mesh) : std::vector<std::uint8_t>{};
+  std::vector<std::uint8_t> used(input.targetValences.size(), 0);
+  for (const ValenceRequest& request : requests)
   {
     const Vector3& place = surface.mesh.position[request.vertex];
-    requireFit(request, place, boundary[request.vertex] != 0);
+    requireFit(request, place, anyForInside && boundary[request.vertex] != 0);
     used[request.point] = 1;
     if (surface.valenceRequests.empty() || surface.valenceRequests.back().vertex != request.vertex)
     {
@@ -192,7 +216,7 @@ void collectRequests(const SurfaceInput& input, PreparedSurface& surface)
   }
 }
 
-SurfaceGuides surfaceGuides(const PreparedSurface& surface)
+SurfaceGuides surfaceGuides(const PreparedSurface& surface, int threads)
 {
   SurfaceGuides result;
   if (surface.polygonGuides.empty())
@@ -205,26 +229,38 @@ SurfaceGuides surfaceGuides(const PreparedSurface& surface)
   {
     guideOf[surface.polygonGuides[i].polygon] = static_cast<Index>(i);
   }
-  for (Index f = 0; f < surface.mesh.faceCount(); ++f)
+  const Mesh& mesh = surface.mesh;
+  constexpr std::size_t kFaceChunk = kHalfEdgeChunk / 3;
+  std::vector<SurfaceGuides> parts((mesh.faceCount() + kFaceChunk - 1) / kFaceChunk);
+  parallelFor(mesh.faceCount(), kFaceChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      SurfaceGuides& part = parts[begin / kFaceChunk];
+      for (Index f = static_cast<Index>(begin); f < end; ++f)
+      {
+        const Index polygon = surface.sourcePolygon[f];
+        if (polygon >= guideOf.size() || guideOf[polygon] == kInvalidIndex)
+        {
+          continue;
+        }
+        const PolygonGuide& guide = surface.polygonGuides[guideOf[polygon]];
+        const Vector3 normal =
+          mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).stableNormalized();
+        const Vector3 tangent = guide.direction - normal * normal.dot(guide.direction);
+        if (tangent.norm() > kLeastTangent)
+        {
+          part.faces.push_back({ f, { tangent.normalized(), guide.weight } });
+        }
+        else
+        {
+          ++part.dropped;
+        }
+      }
+    });
+  for (const SurfaceGuides& part : parts)
   {
-    pollNowAndThen(f);
-    const Index polygon = surface.sourcePolygon[f];
-    if (polygon >= guideOf.size() || guideOf[polygon] == kInvalidIndex)
-    {
-      continue;
-    }
-    const PolygonGuide& guide = surface.polygonGuides[guideOf[polygon]];
-    const Vector3 normal =
-      surface.mesh.edgeVector(3 * f).cross(surface.mesh.edgeVector(3 * f + 1)).stableNormalized();
-    const Vector3 tangent = guide.direction - normal * normal.dot(guide.direction);
-    if (tangent.norm() > kLeastTangent)
-    {
-      result.faces.push_back({ f, { tangent.normalized(), guide.weight } });
-    }
-    else
-    {
-      ++result.dropped;
-    }
+    result.faces.insert(result.faces.end(), part.faces.begin(), part.faces.end());
+    result.dropped += part.dropped;
   }
   return result;
 }

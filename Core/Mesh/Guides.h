@@ -69,7 +69,8 @@ void checkRequests(const SurfaceInput& input);
 
 /// Fills polygonGuides, valenceRequests and unusedValences of a surface that has its final corners. Throws InvalidInput
 /// where points that became one vertex ask for different valences, and for a valence below 3 on the boundary.
-void collectRequests(const SurfaceInput& input, PreparedSurface& surface);
+/// The same for any number of threads, as below.
+void collectRequests(const SurfaceInput& input, PreparedSurface& surface, int threads);
 
 /// Guides of the faces of the mesh, ascending by face.
 struct SurfaceGuides
@@ -77,7 +78,7 @@ struct SurfaceGuides
   std::vector<FaceGuide> faces;
   std::size_t dropped = 0; ///< faces whose direction is normal to them; they are free
 };
-SurfaceGuides surfaceGuides(const PreparedSurface& surface);
+SurfaceGuides surfaceGuides(const PreparedSurface& surface, int threads);
 
 /// Vertices that have to be irregular, ascending. They stay on every level; one that is to be regular needs not stay
 /// for that.

@@ -151,6 +151,14 @@ void append(std::string& text, std::size_t count, const char* singular, const ch
 
 } // namespace
 
+void checkArrays(const SurfaceInput& input)
+{
+  requireSize("the feature edge array", input.featureEdges.size(), input.polygonOffsets.size() - 1);
+  requireSize("the patch id array", input.patchIds.size(), input.polygonOffsets.size() - 1);
+  checkRequests(input);
+  checkSizing(input);
+}
+
 void checkInput(const SurfaceInput& input, int threads)
 {
   if (input.points.empty() || input.polygonOffsets.size() < 2 || input.polygonPoints.empty())
@@ -163,10 +171,7 @@ void checkInput(const SurfaceInput& input, int threads)
     throw InvalidInput("the surface has more than 4294967294 points or corners: reduce it first.");
   }
   checkOffsets(input);
-  requireSize("the feature edge array", input.featureEdges.size(), input.polygonOffsets.size() - 1);
-  requireSize("the patch id array", input.patchIds.size(), input.polygonOffsets.size() - 1);
-  checkRequests(input);
-  checkSizing(input);
+  checkArrays(input);
   checkIds(input, threads);
   checkCoordinates(input, threads);
 }

@@ -131,7 +131,7 @@ PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& 
   report(options.progress, 0.8, "Finding features");
   markFeatures(surface, input, options);
   measure(surface);
-  collectRequests(input, surface);
+  collectRequests(input, surface, options.threads);
   collectSizing(input, surface);
   surface.hash = contentHash(surface.mesh, options.threads);
   report(options.progress, 1, "Surface prepared");

@@ -81,28 +81,35 @@ std::vector<Index> findEdgePath(const SurfaceInput& input, const EdgeGraph& grap
   const Vector3& start = input.points[a];
   const Vector3& end = input.points[b];
   const double scale = kDetourPenalty / std::max((end - start).norm(), 1e-300);
+  const auto awayOf = [&](Index v) { return distanceToSegment(input.points[v], start, end); };
+  // A way back to the segment is as long as it is far, and what it costs beside it is the integral of the distance.
+  const auto atLeast = [&](double cost, Index v)
+  {
+    const double away = awayOf(v);
+    return cost + (input.points[v] - end).norm() + 0.5 * scale * away * away;
+  };
   reached[a] = { 0, a };
-  front.push({ 0, a });
+  front.push({ atLeast(0, a), a });
   while (!front.empty() && front.top().second != b)
   {
-    const auto [cost, v] = front.top();
+    const auto [whole, v] = front.top();
     front.pop();
-    if (cost > reached[v].cost)
+    const double cost = reached[v].cost;
+    if (whole > atLeast(cost, v))
     {
       continue;
     }
+    const double awayHere = awayOf(v);
     for (std::size_t i = graph.first[v]; i < graph.first[v + 1]; ++i)
     {
       const Index w = graph.uses[i].target;
-      const Vector3& p = input.points[v];
-      const Vector3& q = input.points[w];
-      const double away = distanceToSegment(0.5 * (p + q), start, end);
-      const double next = cost + (q - p).norm() * (1 + scale * away);
+      const double length = (input.points[w] - input.points[v]).norm();
+      const double next = cost + length * (1 + 0.5 * scale * (awayHere + awayOf(w)));
       const auto found = reached.find(w);
       if (found == reached.end() || next < found->second.cost)
       {
         reached[w] = { next, v };
-        front.push({ next, w });
+        front.push({ atLeast(next, w), w });
       }
     }
   }

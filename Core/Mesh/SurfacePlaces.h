@@ -31,9 +31,8 @@ struct EdgeGraph
 
 EdgeGraph makeEdgeGraph(const SurfaceInput& input);
 
-/// Points from b back to a along edges, by Dijkstra's algorithm; edges cost more the farther they are from the straight
-/// segment.
-/// Empty: no path.
+/// Points from b back to a along edges, by the A* algorithm [Hart, Nilsson, Raphael 1968] with the distance to b; edges
+/// cost more the farther they are from the straight segment. Empty: no path.
 std::vector<Index> findEdgePath(
   const SurfaceInput& input, const EdgeGraph& graph, Index a, Index b);
 

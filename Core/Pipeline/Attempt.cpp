@@ -211,6 +211,7 @@ bool carry(RunContext& run, bool alongGuides, MapAttempt& made)
   const Hierarchy& levels = run.levels.hierarchy();
   double start = secondsNow();
   TransferOptions options;
+  options.spare = &run.spare;
   options.threads = run.options.threads;
   options.progress = subProgress(run.options.progress, 0.8, 0.9, "Mapping back: ");
   std::optional<TransferResult> carried = alongGuides
@@ -358,7 +359,7 @@ HierarchyOptions levelOptions(const RunContext& run, const Plan& plan)
   HierarchyOptions options;
   options.targetEdgeLength = plan.levels.edgeLength * run.edgeLength;
   options.coarseVertices = plan.levels.coarseVertices;
-  options.guides = surfaceGuides(*run.surface).faces;
+  options.guides = surfaceGuides(*run.surface, run.options.threads).faces;
   options.keepVertices = plan.levels.keptVertices;
   options.threads = run.options.threads;
   options.progress = subProgress(run.options.progress, 0.15, 0.45, "Decimating: ");

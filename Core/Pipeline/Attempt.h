@@ -34,8 +34,9 @@ struct RunContext
   std::size_t targetQuads = 0; ///< asked for, or predicted from s
   RunSurface& surface;
   Levels& levels;
-  ResultStore* store = nullptr; ///< null: none
-  ShortLoops shortLoops;        ///< of the surface before any plan
+  ResultStore* store = nullptr;      ///< null: none
+  ShortLoops shortLoops;             ///< of the surface before any plan
+  std::vector<FixedVec2> spare = {}; ///< see TransferOptions
 };
 
 /// A map of the coarse level, carried to the surface where there is one.

@@ -27,6 +27,8 @@ constexpr double kSecondsQuad = 8e-6;
 constexpr double kBytesFixed = 30e6;
 constexpr double kBytesTriangle = 200;
 constexpr double kBytesQuad = 900;
+/// Bytes that the store takes for a triangle of the input.
+constexpr double kBytesRemembered = 150;
 
 } // namespace
 
@@ -38,6 +40,13 @@ RunEstimate estimateRun(std::size_t triangles, double quads, int threads)
   return { kSecondsFixed + (kSecondsSerial + kSecondsParallel / workers) * faces +
       kSecondsQuad * quads,
     kBytesFixed + kBytesTriangle * faces + kBytesQuad * quads };
+}
+
+double bytesToRemember(const RunEstimate& run, std::size_t triangles, std::size_t held)
+{
+  // What is held already is not free any more.
+  return run.bytes +
+    std::max(0.0, kBytesRemembered * static_cast<double>(triangles) - static_cast<double>(held));
 }
 
 double freeMemory()

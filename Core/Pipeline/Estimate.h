@@ -19,6 +19,9 @@ struct RunEstimate
 /// quadrille-bench measured on scans; surfaces whose features make the run try again take longer.
 RunEstimate estimateRun(std::size_t triangles, double quads, int threads);
 
+/// What a run of so many triangles takes when its stages are remembered, where so many bytes are held already.
+double bytesToRemember(const RunEstimate& run, std::size_t triangles, std::size_t held);
+
 /// Bytes that the machine can give to a process now without swapping; infinity where it cannot be found out.
 double freeMemory();
 

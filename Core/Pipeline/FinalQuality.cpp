@@ -31,10 +31,10 @@ bool noWorse(const Certificate& a, const Certificate& b)
 }
 
 /// One guide a face, or nothing where there is none at all.
-std::vector<Guide> guidesOf(const PreparedSurface& surface)
+std::vector<Guide> guidesOf(const PreparedSurface& surface, int threads)
 {
   std::vector<Guide> guides;
-  const SurfaceGuides found = surfaceGuides(surface);
+  const SurfaceGuides found = surfaceGuides(surface, threads);
   if (!found.faces.empty())
   {
     guides.resize(surface.mesh.faceCount());
@@ -141,7 +141,7 @@ private:
   {
     uv = carried_.uv;
     RelaxOptions relax = relaxOptions();
-    relax.guides = guidesOf(surface_);
+    relax.guides = guidesOf(surface_, options_.threads);
     return relaxMap(surface_.mesh, fixed_, relax, uv);
   }
 

@@ -46,14 +46,14 @@ void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::stri
   }
 }
 
-FirstLevels makeFirstLevels(SizedSurface& sized, const Frame& frame, const RemeshOptions& options)
+FirstLevels makeFirstLevels(
+  SizedSurface& sized, const Frame& frame, const RemeshOptions& options, ResultStore* store)
 {
   FirstLevels first;
   RunSurface surface(sized.surface, sized.key, options.threads);
-  Levels levels(surface, nullptr);
-  RunContext run{ options, sized.edgeLength, sized.targetQuads, surface, levels, nullptr, {} };
-  std::vector<std::string> reused;
-  findShortLoops(run, first.stages, reused);
+  Levels levels(surface, store);
+  RunContext run{ options, sized.edgeLength, sized.targetQuads, surface, levels, store, {} };
+  findShortLoops(run, first.stages, first.reused);
   first.smallParts = run.shortLoops.parts;
   const QuadSize size{ sized.edgeLength, frame.unit, sized.targetQuads,
     options.maximumNumberOfQuads };
@@ -61,7 +61,22 @@ FirstLevels makeFirstLevels(SizedSurface& sized, const Frame& frame, const Remes
   surface.apply(plan);
   levels.make(levelOptions(run, plan));
   first.stages.add(levels.stages());
-  first.hierarchy = levels.take();
+  for (const char* stage : { "phase1", "phase2" })
+  {
+    if (!first.stages.has(stage))
+    {
+      first.reused.emplace_back(stage);
+    }
+  }
+  if (store == nullptr)
+  {
+    first.hierarchy = levels.take();
+  }
+  else
+  {
+    first.hierarchy = levels.hierarchy();
+    levels.letGo();
+  }
   first.notices = { unresolvedHandlesText(first.smallParts, size),
     tinyHolesText(first.smallParts, size) };
   first.notices.insert(first.notices.end(), plan.notices.begin(), plan.notices.end());

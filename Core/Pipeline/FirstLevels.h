@@ -24,8 +24,10 @@ struct FirstLevels
   SmallParts smallParts; ///< lengths in the frame
   std::vector<std::string> notices;
   StageRecords stages;
+  std::vector<std::string> reused; ///< names of stages whose result the store had
 };
-/// The sized surface must be ok; it is as it was afterwards.
-FirstLevels makeFirstLevels(SizedSurface& sized, const Frame& frame, const RemeshOptions& options);
+/// The sized surface must be ok; it is as it was afterwards. store: what sizeSurface had, null: none.
+FirstLevels makeFirstLevels(SizedSurface& sized, const Frame& frame, const RemeshOptions& options,
+  ResultStore* store = nullptr);
 
 } // namespace quadrille

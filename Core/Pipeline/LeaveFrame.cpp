@@ -25,12 +25,13 @@ Vector3 between(const Mesh& mesh, Index f, const Weights& weights)
     weights[2] * mesh.position[mesh.origin[3 * f + 2]];
 }
 
-/// Where a point of the quads lies on the user's surface.
+/// Where a point of the quads lies on the user's surface. positionOf: of the vertex at a corner of the mapped mesh.
+template <typename PositionOf>
 class PlaceOnSurface
 {
 public:
-  PlaceOnSurface(const Mesh& mapped, const Frame& frame, const std::vector<Vector3>& positions)
-    : mapped_(mapped), frame_(frame), positions_(positions)
+  PlaceOnSurface(const Mesh& mapped, const Frame& frame, const PositionOf& positionOf)
+    : mapped_(mapped), frame_(frame), positionOf_(positionOf)
   {
   }
 
@@ -43,7 +44,7 @@ public:
     Vector3 place = Vector3::Zero();
     for (Index i = 0; i < 3; ++i)
     {
-      const Vector3& corner = positions_[mapped_.origin[3 * f + i]];
+      const Vector3 corner = positionOf_(3 * f + i);
       if (weights[i] == 1)
       {
         return corner;
@@ -56,8 +57,20 @@ public:
 private:
   const Mesh& mapped_;
   const Frame& frame_;
-  const std::vector<Vector3>& positions_;
+  const PositionOf& positionOf_;
 };
+
+template <typename PositionOf>
+void leaveFrameAt(
+  QuadMesh& quads, const Mesh& mapped, const Frame& frame, const PositionOf& positionOf)
+{
+  const PlaceOnSurface<PositionOf> place(mapped, frame, positionOf);
+  for (std::size_t p = 0; p < quads.points.size(); ++p)
+  {
+    pollNowAndThen(p);
+    quads.points[p] = place(quads.points[p], quads.sourceFace[p], quads.sourceWeights[p]);
+  }
+}
 
 void reverseQuads(QuadMesh& quads)
 {
@@ -128,12 +141,7 @@ void leaveFrame(PreparedSurface& surface, const Frame& frame, std::vector<Vector
 void leaveFrame(
   QuadMesh& quads, const Mesh& mapped, const Frame& frame, const std::vector<Vector3>& positions)
 {
-  const PlaceOnSurface place(mapped, frame, positions);
-  for (std::size_t p = 0; p < quads.points.size(); ++p)
-  {
-    pollNowAndThen(p);
-    quads.points[p] = place(quads.points[p], quads.sourceFace[p], quads.sourceWeights[p]);
-  }
+  leaveFrameAt(quads, mapped, frame, [&](Index h) { return positions[mapped.origin[h]]; });
   if (frame.reversed)
   {
     reverseQuads(quads);
@@ -181,6 +189,7 @@ void leaveMeasures(RemeshResult& result, const Frame& frame)
     curve.start = frame.toUser(curve.start);
     curve.end = frame.toUser(curve.end);
   }
+  leaveFrame(result.onFeatures, frame);
 }
 
 } // namespace
@@ -203,6 +212,18 @@ void leaveFrameAlone(RemeshResult& result, const Frame& frame)
   quads.quadSourceWeights.clear();
 }
 
+void leaveFrame(RemeshResult& result, const PreparedSurface& made, const Frame& frame,
+  const std::vector<Vector3>& points)
+{
+  leaveMeasures(result, frame);
+  leaveFrameAt(
+    result.quads, made.mesh, frame, [&](Index h) { return userPosition(made, h, frame, points); });
+  if (frame.reversed)
+  {
+    reverseQuads(result.quads);
+  }
+}
+
 void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points)
 {
   leaveMeasures(result, frame);
@@ -213,7 +234,6 @@ void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vect
   std::vector<Vector3> positions = userPositions(result.surface, frame, points);
   leaveFrame(result.quads, result.surface.mesh, frame, positions);
   leaveFrame(result.coarse, frame, positions);
-  leaveFrame(result.onFeatures, frame);
   leaveFrame(result.surface, frame, std::move(positions));
   if (frame.reversed)
   {

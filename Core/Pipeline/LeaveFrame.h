@@ -31,6 +31,10 @@ void reverseMatching(std::vector<std::int8_t>& matching);
 /// Of a preview, which has no surface: quads and measures. What tells of the mapped mesh goes.
 void leaveFrameAlone(RemeshResult& result, const Frame& frame);
 
+/// Of a result without its surface: quads and measures. made: the surface in the frame. points: FramedInput::points.
+void leaveFrame(RemeshResult& result, const PreparedSurface& made, const Frame& frame,
+  const std::vector<Vector3>& points);
+
 /// All of a result. points: FramedInput::points.
 void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points);
 

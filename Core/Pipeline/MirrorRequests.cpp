@@ -105,7 +105,7 @@ std::string conflictText(
 std::string askGuides(const MirrorTask& task, MirrorHalf& half)
 {
   const PreparedSurface& surface = task.whole.surface;
-  const SurfaceGuides guides = surfaceGuides(surface);
+  const SurfaceGuides guides = surfaceGuides(surface, task.threads);
   if (guides.faces.empty())
   {
     return {};

@@ -6,6 +6,7 @@
 #include "Base/Progress.h"
 #include "GridMap/MapShape.h"
 #include "Pipeline/Attempt.h"
+#include "Pipeline/EnterFrame.h"
 #include "Pipeline/FirstLevels.h"
 #include "Pipeline/FirstPlan.h"
 #include "Pipeline/History.h"
@@ -23,8 +24,11 @@ namespace quadrille
 namespace
 {
 
-/// Bytes that the store takes for a triangle of the input.
-constexpr double kBytesRemembered = 150;
+/// The memory of the last map, for the next one.
+struct SpareMap
+{
+  std::vector<FixedVec2> uv;
+};
 
 std::size_t countTriangles(const SurfaceInput& input)
 {
@@ -39,9 +43,8 @@ std::size_t countTriangles(const SurfaceInput& input)
 }
 
 /// Says what the run will cost; not ok where the memory is not there.
-Status estimate(const SurfaceInput& input, const RemeshOptions& options, RemeshResult& result)
+Status estimate(std::size_t triangles, const RemeshOptions& options, RemeshResult& result)
 {
-  const std::size_t triangles = countTriangles(input);
   const double quads =
     static_cast<double>(std::min(options.quads.value_or(0), options.maximumNumberOfQuads));
   result.estimate = estimateRun(triangles, quads, options.threads);
@@ -62,16 +65,13 @@ Status estimate(const SurfaceInput& input, const RemeshOptions& options, RemeshR
 
 /// Null where there is no room for both the run and the store.
 ResultStore* storeIfRoom(
-  ResultStore* store, const SurfaceInput& input, const RemeshOptions& options, RemeshResult& result)
+  ResultStore* store, std::size_t triangles, const RemeshOptions& options, RemeshResult& result)
 {
   if (store == nullptr)
   {
     return nullptr;
   }
-  // What is held already is not free any more.
-  const double held = static_cast<double>(store->bytes());
-  const double triangles = static_cast<double>(countTriangles(input));
-  const double needed = result.estimate.bytes + std::max(0.0, kBytesRemembered * triangles - held);
+  const double needed = bytesToRemember(result.estimate, triangles, store->bytes());
   if (needed <= options.memoryLimit.value_or(freeMemory()))
   {
     return store;
@@ -146,16 +146,19 @@ void tellAnisotropy(const RemeshOptions& options, RemeshResult& result)
 }
 
 /// The attempt that counts, in the frame.
-void takeAttempt(
-  const Attempt& attempt, const RemeshOptions& options, RunSurface& surface, RemeshResult& result)
+void takeAttempt(const Attempt& attempt, const RemeshOptions& options, bool quadsAlone,
+  RunSurface& surface, RemeshResult& result)
 {
   surface.apply(attempt.plan);
   MapAttempt& map = *attempt.map;
-  map.unpack(surface->mesh);
   result.status = map.status;
-  result.uv = std::move(map.uv);
   result.turns = std::move(map.turns);
   result.onFeatures = map.onFeatures;
+  if (!quadsAlone)
+  {
+    map.unpack(surface->mesh);
+    result.uv = std::move(map.uv);
+  }
   result.coarse = std::move(map.coarse);
   result.coarseUv = std::move(map.coarseUv);
   result.coarseTurns = std::move(map.coarseTurns);
@@ -224,18 +227,31 @@ void takeHistory(
 
 /// From the sized surface to the result, in the frame.
 void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& options,
-  ResultStore* store, RemeshResult& result)
+  ResultStore* store, bool quadsAlone, RemeshResult& result)
 {
   RunSurface surface(sized.surface, sized.key, options.threads);
   {
     Levels levels(surface, store);
     RunContext run{ options, sized.edgeLength, sized.targetQuads, surface, levels, store, {} };
+    const auto spare = quadsAlone && store ? store->find<SpareMap>(0) : nullptr;
+    if (spare)
+    {
+      run.spare.swap(spare->uv);
+    }
     History history;
     findShortLoops(run, sized.stages, result.reused);
     makeAttempts(run, history);
     levels.letGo();
     result.smallParts = run.shortLoops.parts;
-    takeAttempt(history.result(), options, surface, result);
+    takeAttempt(history.result(), options, quadsAlone, surface, result);
+    if (quadsAlone && store != nullptr)
+    {
+      std::vector<FixedVec2>& uv = history.result().map->uv;
+      auto kept = std::make_shared<SpareMap>();
+      kept->uv.swap(uv.empty() ? run.spare : uv);
+      const std::size_t bytes = bytesOf(kept->uv);
+      store->put(0, std::move(kept), bytes);
+    }
     tellAttempt(history.result(),
       { sized.edgeLength, frame.unit, sized.targetQuads, options.maximumNumberOfQuads }, result);
     takeHistory(history, levels, sized.stages, result);
@@ -252,37 +268,40 @@ void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& o
 }
 
 /// On the user's surface.
-void leave(SizedSurface& sized, const FramedInput& framed, bool keepsFrame, bool isPreview,
-  RemeshResult& result)
+void leave(SizedSurface& sized, const FramedInput& framed, const RemeshOptions& options,
+  bool quadsAlone, RemeshResult& result)
 {
   result.frame = framed.frame;
-  if (isPreview)
+  if (options.preview)
   {
     leaveFrameAlone(result, framed.frame);
     return;
   }
+  if (quadsAlone)
+  {
+    leaveFrame(result, *sized.surface, framed.frame, framed.points);
+    result.framed = sized.surface;
+    result.coarse = {};
+    result.coarseUv = {};
+    result.coarseTurns = {};
+    return;
+  }
   // The store, if there is one, has its triangles for the next run.
   result.surface = sized.surface.use_count() > 1 ? *sized.surface : std::move(*sized.surface);
-  if (keepsFrame && result.status.ok())
+  if (options.mergeCharts && !result.mapIsKnown && result.status.ok())
   {
     result.framePositions = result.surface.mesh.position;
   }
   leaveFrame(result, framed.frame, framed.points);
 }
 
-void run(SurfaceInput& input, RemeshOptions options, ResultStore* store, PlaceScope& places,
+/// What is in the frame already.
+void runEntered(EnteredInput& entered, RemeshOptions options, bool quadsAlone, PlaceScope& places,
   RemeshResult& result)
 {
-  result.status = estimate(input, options, result);
-  if (!result.status.ok())
-  {
-    return;
-  }
-  store = storeIfRoom(store, input, options, result);
-  FramedInput framed = enterFrame(std::move(input), options.threads);
-  const Frame& frame = framed.frame;
+  const Frame& frame = entered.framed.frame;
   places.set(frame.centre, frame.unit, frame.sign);
-  options.mergeCharts = options.mergeCharts && !options.preview;
+  options.mergeCharts = options.mergeCharts && !options.preview && !quadsAlone;
   const std::optional<double> askedEdgeLength = options.edgeLength;
   if (askedEdgeLength)
   {
@@ -292,7 +311,7 @@ void run(SurfaceInput& input, RemeshOptions options, ResultStore* store, PlaceSc
   {
     options.sizes.chordError = frame.lengthOf(*options.sizes.chordError);
   }
-  SizedSurface sized = sizeSurface(framed.input, options, store);
+  SizedSurface sized = sizeSurface(entered.framed.input, options, entered.known);
   tell(sized.notices, result);
   result.status = sized.status;
   result.targetEdgeLength = sized.edgeLength;
@@ -302,16 +321,18 @@ void run(SurfaceInput& input, RemeshOptions options, ResultStore* store, PlaceSc
   result.stages = sized.stages.all();
   if (result.status.ok())
   {
-    runAttempts(sized, frame, options, store, result);
+    runAttempts(sized, frame, options, entered.known.store, quadsAlone, result);
   }
-  leave(sized, framed, options.mergeCharts && !result.mapIsKnown, options.preview, result);
+  leave(sized, entered.framed, options, quadsAlone, result);
   if (askedEdgeLength && !options.quads)
   {
     result.targetEdgeLength = *askedEdgeLength; // with every bit
   }
 }
 
-RemeshResult remeshWith(SurfaceInput input, RemeshOptions options, ResultStore* store)
+/// Calls run(options, triangles, places, result), where there is the memory for it. Throws InvalidInput.
+template <typename Run>
+RemeshResult remeshWith(const SurfaceInput& input, RemeshOptions options, const Run& run)
 {
   checkOptions(options);
   PollScope poll(options.progress);
@@ -320,7 +341,12 @@ RemeshResult remeshWith(SurfaceInput input, RemeshOptions options, ResultStore* 
   RemeshResult result;
   try
   {
-    run(input, options, store, places, result);
+    const std::size_t triangles = countTriangles(input);
+    result.status = estimate(triangles, options, result);
+    if (result.status.ok())
+    {
+      run(options, triangles, places, result);
+    }
   }
   catch (const Cancelled&)
   {
@@ -333,16 +359,36 @@ RemeshResult remeshWith(SurfaceInput input, RemeshOptions options, ResultStore* 
   return result;
 }
 
+RemeshResult remeshAll(SurfaceInput& input, const RemeshOptions& options, ResultStore* store)
+{
+  return remeshWith(input, options,
+    [&](const RemeshOptions& asked, std::size_t triangles, PlaceScope& places, RemeshResult& result)
+    {
+      EnteredInput entered = enterFrame(input, asked, storeIfRoom(store, triangles, asked, result));
+      runEntered(entered, asked, false, places, result);
+    });
+}
+
 } // namespace
 
 RemeshResult remesh(SurfaceInput input, const RemeshOptions& options)
 {
-  return remeshWith(std::move(input), options, nullptr);
+  return remeshAll(input, options, nullptr);
 }
 
 RemeshResult remesh(SurfaceInput input, const RemeshOptions& options, ResultStore& store)
 {
-  return remeshWith(std::move(input), options, &store);
+  return remeshAll(input, options, &store);
+}
+
+RemeshResult remeshQuads(SurfaceInput& input, const RemeshOptions& options, ResultStore& store)
+{
+  return remeshWith(input, options,
+    [&](const RemeshOptions& asked, std::size_t triangles, PlaceScope& places, RemeshResult& result)
+    {
+      LentInput lent(input, asked, storeIfRoom(&store, triangles, asked, result));
+      runEntered(lent.entered(), asked, true, places, result);
+    });
 }
 
 } // namespace quadrille

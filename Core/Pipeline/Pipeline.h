@@ -18,6 +18,7 @@
 #include "Transfer/Charts.h"
 #include "Transfer/Transfer.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct RemeshResult
   PreparedSurface
     surface; ///< the finest level that uv belongs to; its hash is that of the surface in its frame
   Frame frame; ///< that the run worked in; all else here is on the user's surface
+  /// Of remeshQuads: the finest level in the frame, shared with the store; valid until the next run with that.
+  std::shared_ptr<const PreparedSurface> framed;
   /// #V of surface.mesh, in the frame; empty unless mergeCharts, or where mapIsKnown.
   std::vector<Vector3> framePositions;
   std::vector<FixedVec2> uv; ///< #H of surface.mesh
@@ -79,5 +82,12 @@ RemeshResult remesh(SurfaceInput input, const RemeshOptions& options);
 /// afterwards, whatever its status. The result is the same, bit for bit, unless options.warmStart is on. Where there is
 /// no room for both the run and the store, that is emptied and a notice says so.
 RemeshResult remesh(SurfaceInput input, const RemeshOptions& options, ResultStore& store);
+
+/// The quads alone, for who changes one thing after the other: `surface`, `uv`, `coarse` and what else is of the mapped
+/// mesh stay empty, and nothing is copied that the store holds. Points and polygons of the input are the caller's again
+/// afterwards, whatever happens; its other arrays are taken. options: mergeCharts and knownMap do not count. Quads,
+/// errors and messages are those of remesh(); sourceFace is that of `framed`, whose corners 1 and 2 change places where
+/// its faces run the other way round, as in sourceWeights.
+RemeshResult remeshQuads(SurfaceInput& input, const RemeshOptions& options, ResultStore& store);
 
 } // namespace quadrille

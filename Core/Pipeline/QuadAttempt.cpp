@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Extraction/QuadShape.h"
+#include "Extraction/SurfaceShape.h"
 #include "Pipeline/Estimate.h"
 #include "Pipeline/Notices.h"
 #include "Transfer/Transfer.h"
@@ -151,6 +152,23 @@ void countInverted(const RunContext& run, const MapAttempt& map, QuadAttempt& ma
     });
 }
 
+/// Of the surface as it is now, whatever its sizes are.
+std::shared_ptr<const SurfaceShape> shapeOfSurface(const RunContext& run)
+{
+  const ResultKey key = run.surface.keyWithoutSizes();
+  std::shared_ptr<SurfaceShape> shape =
+    run.store != nullptr ? run.store->find<SurfaceShape>(key) : nullptr;
+  if (!shape)
+  {
+    shape = std::make_shared<SurfaceShape>(shapeOf(run.surface->mesh, run.options.threads));
+    if (run.store != nullptr)
+    {
+      run.store->put(key, shape, sizeof(SurfaceShape));
+    }
+  }
+  return shape;
+}
+
 void extract(RunContext& run, const MapAttempt& map, QuadAttempt& made)
 {
   if (run.options.method == MapMethod::Seamless)
@@ -165,6 +183,9 @@ void extract(RunContext& run, const MapAttempt& map, QuadAttempt& made)
   options.maximumNumberOfQuads = run.options.maximumNumberOfQuads;
   options.smoothingSteps = run.options.smoothingSteps;
   options.fixedVertices = indexVertices(*run.surface);
+  options.mapIsCertified = map.certificate.valid();
+  const std::shared_ptr<const SurfaceShape> shape = shapeOfSurface(run);
+  options.shape = shape.get();
   options.threads = run.options.threads;
   options.progress = subProgress(run.options.progress, 0.9, 1.0, "Extracting: ");
   ExtractionResult extracted = extractQuads(mesh, map.uv, options);
@@ -247,6 +268,7 @@ std::shared_ptr<const QuadAttempt> makePreview(
   const Hierarchy& levels = run.levels.make(levelOptions(run, plan));
   const double start = secondsNow();
   TransferOptions transfer;
+  transfer.spare = &run.spare;
   transfer.threads = run.options.threads;
   const std::vector<FixedVec2> uv = transferToLevel(map.coarse, levels.intermediate,
     levels.log.intermediateRounds, levels.log, map.coarseUv, transfer);

@@ -5,7 +5,6 @@
 #include "Base/Memory.h"
 #include "Base/PlaceText.h"
 #include "Mesh/AdaptiveSizing.h"
-#include "Mesh/ContentHash.h"
 #include "Mesh/CurvatureGuides.h"
 #include "Mesh/FeatureFilter.h"
 #include "Mesh/Frame.h"
@@ -121,11 +120,17 @@ std::vector<float> multiplied(std::vector<float> lengths, double factor)
   return lengths;
 }
 
+ResultKey preparedKey(ResultKey inputHash, const RemeshOptions& options)
+{
+  return KeyMaker(inputHash).add(options.featureAngle.value_or(0)).key();
+}
+
 class SurfaceSizing
 {
 public:
-  SurfaceSizing(SurfaceInput& input, const RemeshOptions& options, ResultStore* store)
-    : input_(input), options_(options), store_(store)
+  SurfaceSizing(SurfaceInput& input, const RemeshOptions& options, const KnownInput& known)
+    : input_(input), options_(options), store_(known.store),
+      preparedKey_(preparedKey(known.inputHash, options))
   {
   }
 
@@ -167,12 +172,8 @@ private:
   {
     if (store_ != nullptr)
     {
-      preparedKey_ = KeyMaker(contentHash(input_, options_.threads))
-                       .add(options_.featureAngle.value_or(0))
-                       .key();
       if ((prepared_ = store_->find<StoredPrepared>(preparedKey_)))
       {
-        checkRequests(input_);
         sizedArea_ = prepared_->sizedArea;
         diagonal_ = prepared_->surface->boundingBoxDiagonal;
         reuse({ "repair", "order", "connectivity" });
@@ -233,7 +234,7 @@ private:
     putOn(found->marks, *made_.surface);
     if (!found->hasRequests)
     {
-      collectRequests(input_, *made_.surface);
+      collectRequests(input_, *made_.surface, options_.threads);
       placeHeld();
     }
     made_.edgeLength = found->edgeLength;
@@ -264,7 +265,7 @@ private:
       if (prepared_)
       {
         putOn(marks, *made_.surface);
-        collectRequests(input_, *made_.surface);
+        collectRequests(input_, *made_.surface, options_.threads);
       }
     }
     if (options_.sizes.any())
@@ -471,7 +472,8 @@ private:
   void tellRequests()
   {
     const PreparedSurface& surface = *made_.surface;
-    for (const std::string& notice : requestNotices(surface, surfaceGuides(surface)))
+    for (const std::string& notice :
+      requestNotices(surface, surfaceGuides(surface, options_.threads)))
     {
       tell(notice);
     }
@@ -525,7 +527,7 @@ private:
   const RemeshOptions& options_;
   ResultStore* store_;
   SizedSurface made_;
-  ResultKey preparedKey_ = 0, requestsKey_ = 0;
+  ResultKey preparedKey_, requestsKey_ = 0;
   std::shared_ptr<StoredPrepared> prepared_; ///< found in the store
   double sizedArea_ = 0, diagonal_ = 0;
 };
@@ -548,9 +550,15 @@ std::size_t predictedQuads(double sizedArea, double edgeLength)
   return static_cast<std::size_t>(std::max(1.0, std::min(quads, 1e15)));
 }
 
-SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, ResultStore* store)
+bool isPrepared(const KnownInput& known, const RemeshOptions& options)
 {
-  return SurfaceSizing(input, options, store).run();
+  return known.store != nullptr &&
+    known.store->find<StoredPrepared>(preparedKey(known.inputHash, options)) != nullptr;
+}
+
+SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, const KnownInput& known)
+{
+  return SurfaceSizing(input, options, known).run();
 }
 
 } // namespace quadrille

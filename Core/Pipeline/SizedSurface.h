@@ -31,9 +31,20 @@ struct SizedSurface
   int decimations = 0; ///< runs of phase 1 that closing handles took
 };
 
-/// Lengths in options are in the frame. The input is let go as soon as the surface is prepared. store: null: none.
-/// Throws InvalidInput as prepareSurface does.
-SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, ResultStore* store);
+/// Where earlier runs have left what they made of an input.
+struct KnownInput
+{
+  ResultStore* store = nullptr; ///< null: none
+  std::uint64_t inputHash = 0;  ///< contentHash of the input in its frame; where there is a store
+};
+
+/// Whether the store has the prepared surface of the input: then sizeSurface needs no points and polygons.
+bool isPrepared(const KnownInput& known, const RemeshOptions& options);
+
+/// Lengths in options are in the frame. The input is let go as soon as the surface is prepared. Throws InvalidInput as
+/// prepareSurface does.
+SizedSurface sizeSurface(
+  SurfaceInput& input, const RemeshOptions& options, const KnownInput& known = {});
 
 /// s for a number of quads, an edge length or a relative one, whichever the options ask for, kept to the bits of
 /// Frame::lengthOf.

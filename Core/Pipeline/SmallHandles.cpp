@@ -65,7 +65,7 @@ ClosedHandles closeSmallHandles(
     HierarchyOptions levels;
     levels.targetEdgeLength = edgeLength;
     levels.coarseVertices = options.coarseVertices;
-    levels.guides = surfaceGuides(surface).faces;
+    levels.guides = surfaceGuides(surface, options.threads).faces;
     levels.keepVertices = keptVertices(surface);
     levels.threads = options.threads;
     levels.progress = subProgress(options.progress, 0.15, 0.45, "Decimating: ");

@@ -205,7 +205,7 @@ private:
       PreparedSurface& surface = whole_->surface;
       surface.valenceRequests.clear();
       surface.unusedValences = 0;
-      collectRequests(input, surface);
+      collectRequests(input, surface, options_.threads);
       reused_.emplace_back("whole");
     }
     else

@@ -13,14 +13,31 @@ namespace quadrille
 namespace
 {
 
+SurfaceInput withoutGeometry(const SurfaceInput& surface)
+{
+  // By name, so that an array that is new has to be put on one side or the other here.
+  const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, guideDirections,
+    guideWeights, targetValences, sizing, curves, regularElsewhere, held, regularOnFeatures,
+    faceOrder, precision] = surface;
+  static_cast<void>(points);
+  static_cast<void>(polygonOffsets);
+  static_cast<void>(polygonPoints);
+  return { {}, {}, {}, featureEdges, patchIds, guideDirections, guideWeights, targetValences,
+    sizing, curves, regularElsewhere, held, regularOnFeatures, faceOrder, precision };
+}
+
+/// Lines that are remembered; a stroke of ten thousand polygons takes a megabyte.
+constexpr std::size_t kMostPlacements = 256;
+
 class Composition
 {
 public:
-  Composition(const SurfaceInput& surface, const SurfacePlaces& places,
+  Composition(const SurfaceInput& surface, const SurfacePlaces& places, LinePlacements& lines,
     const SessionConstraints& constraints, bool holdFeatures)
-    : surface_(surface), places_(places), constraints_(constraints), holdFeatures_(holdFeatures)
+    : surface_(surface), places_(places), lines_(lines), constraints_(constraints),
+      holdFeatures_(holdFeatures)
   {
-    composed_.input = surface;
+    composed_.input = withoutGeometry(surface);
     composed_.parts.resize(constraints.size());
     for (std::size_t p = 0; p < surface.targetValences.size(); ++p)
     {
@@ -58,27 +75,23 @@ public:
     return std::move(composed_);
   }
 
-  void operator()(const FeatureLine& line)
+  void operator()(const FeatureLine&)
   {
-    ConstraintPlacement placement(surface_, places_);
-    placement.addFeature({ id(), line.points });
-    const PlacedConstraint& placed = takePlaced(placement);
+    const LinePlacements::Placed& placed = takePlaced();
     if (part().whyNot.empty())
     {
-      part().path = placed.path;
-      addFeatureMarks(composed_.input, placement.featureMarks());
+      part().path = placed.line.path;
+      addFeatureMarks(composed_.input, polygons(), placed.features);
     }
   }
 
-  void operator()(const GuideStroke& stroke)
+  void operator()(const GuideStroke&)
   {
-    ConstraintPlacement placement(surface_, places_);
-    placement.addStroke({ id(), stroke.points }, stroke.weight, stroke.radius);
-    const PlacedConstraint& placed = takePlaced(placement);
+    const LinePlacements::Placed& placed = takePlaced();
     if (part().whyNot.empty())
     {
-      part().guided = placed.guided;
-      takeGuides(placement.guideMarks());
+      part().guided = placed.line.guided;
+      takeGuides(placed.guides);
     }
   }
 
@@ -211,6 +224,7 @@ private:
     std::string by;
   };
 
+  std::size_t polygons() const { return surface_.polygonOffsets.size() - 1; }
   PlacedPart& part() { return composed_.parts[at_]; }
   int id() const { return constraints_[at_]->id; }
   std::string name() const { return constraints_[at_]->name(); }
@@ -229,14 +243,12 @@ private:
     curves.push_back(std::move(curve));
   }
 
-  /// The only constraint of the placement.
-  const PlacedConstraint& takePlaced(const ConstraintPlacement& placement)
+  const LinePlacements::Placed& takePlaced()
   {
-    const PlacedConstraints& result = placement.result();
-    const PlacedConstraint& placed = result.placed.front();
-    part().whyNot = placed.whyNot;
-    part().place = placed.path.empty() ? part().place : placed.path.front();
-    composed_.notices.insert(composed_.notices.end(), result.notices.begin(), result.notices.end());
+    const LinePlacements::Placed& placed = lines_.of(constraints_[at_], surface_, places_);
+    part().whyNot = placed.line.whyNot;
+    part().place = placed.line.path.empty() ? part().place : placed.line.path.front();
+    composed_.notices.insert(composed_.notices.end(), placed.notices.begin(), placed.notices.end());
     return placed;
   }
 
@@ -254,7 +266,7 @@ private:
 
   void takeGuides(const std::vector<GuideMark>& marks)
   {
-    addGuideMarks(composed_.input, marks);
+    addGuideMarks(composed_.input, polygons(), marks);
     for (const GuideMark& mark : marks)
     {
       overrule(guideOf_, mark.polygon);
@@ -377,6 +389,7 @@ private:
 
   const SurfaceInput& surface_;
   const SurfacePlaces& places_;
+  LinePlacements& lines_;
   const SessionConstraints& constraints_;
   bool holdFeatures_;
   std::size_t at_ = 0;
@@ -388,11 +401,39 @@ private:
 
 } // namespace
 
-ComposedInput composeInput(const SurfaceInput& surface, const SurfacePlaces& places,
-  const SessionConstraints& constraints, const std::map<int, std::string>& leftOut,
-  bool holdFeatures)
+const LinePlacements::Placed& LinePlacements::of(
+  const std::shared_ptr<const SessionConstraint>& constraint, const SurfaceInput& surface,
+  const SurfacePlaces& places)
 {
-  return Composition(surface, places, constraints, holdFeatures).run(leftOut);
+  const auto found = known_.find(constraint);
+  if (found != known_.end())
+  {
+    return found->second;
+  }
+  ConstraintPlacement placement(surface, places);
+  if (const auto* stroke = std::get_if<GuideStroke>(&constraint->content))
+  {
+    placement.addStroke({ constraint->id, stroke->points }, stroke->weight, stroke->radius);
+  }
+  else
+  {
+    const auto& line = std::get<FeatureLine>(constraint->content);
+    placement.addFeature({ constraint->id, line.points });
+  }
+  const PlacedConstraints& result = placement.result();
+  if (known_.size() >= kMostPlacements)
+  {
+    known_.clear();
+  }
+  return known_[constraint] = { result.placed.front(), result.notices, placement.guideMarks(),
+    placement.featureMarks() };
+}
+
+ComposedInput composeInput(const SurfaceInput& surface, const SurfacePlaces& places,
+  LinePlacements& lines, const SessionConstraints& constraints,
+  const std::map<int, std::string>& leftOut, bool holdFeatures)
+{
+  return Composition(surface, places, lines, constraints, holdFeatures).run(leftOut);
 }
 
 } // namespace quadrille

@@ -36,7 +36,7 @@ struct PlacedPart
 
 struct ComposedInput
 {
-  SurfaceInput input;
+  SurfaceInput input; ///< all but points and polygons, which are the surface's
   /// The constraint that asks for a symmetry, its place in `parts`; none: the quads have not to be symmetric.
   std::optional<std::size_t> symmetry;
   std::vector<PlacedPart> parts; ///< in the order of the constraints
@@ -51,11 +51,31 @@ struct ComposedInput
   std::vector<std::string> notices; ///< what the user should know
 };
 
+/// Where drawn lines lie on the surface, which depends on nothing else.
+class LinePlacements
+{
+public:
+  struct Placed
+  {
+    PlacedConstraint line;
+    std::vector<std::string> notices;
+    std::vector<GuideMark> guides;
+    std::vector<FeatureMark> features;
+  };
+
+  /// Of a feature or a stroke.
+  const Placed& of(const std::shared_ptr<const SessionConstraint>& constraint,
+    const SurfaceInput& surface, const SurfacePlaces& places);
+
+private:
+  std::map<std::shared_ptr<const SessionConstraint>, Placed> known_;
+};
+
 /// leftOut: ids of constraints that are not put on, and why. Constraints that contradict an earlier one, or the
 /// surface, are left out as well. holdFeatures: whether irregular operations leave features and boundaries as they
 /// were.
 ComposedInput composeInput(const SurfaceInput& surface, const SurfacePlaces& places,
-  const SessionConstraints& constraints, const std::map<int, std::string>& leftOut,
-  bool holdFeatures);
+  LinePlacements& lines, const SessionConstraints& constraints,
+  const std::map<int, std::string>& leftOut, bool holdFeatures);
 
 } // namespace quadrille

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session/IrregularEdits.h"
 
+#include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
 #include "Mesh/Guides.h"
@@ -223,35 +224,66 @@ private:
 
 } // namespace
 
-std::vector<std::uint8_t> verticesOnCurves(const RemeshResult& result)
+OnCurves findOnCurves(const PreparedSurface& surface, int threads)
 {
-  const Mesh& mesh = result.surface.mesh;
-  std::vector<std::uint8_t> onCurve(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (mesh.isConstrained(h))
+  constexpr std::size_t kChunk = 3 << 15;
+  const Mesh& mesh = surface.mesh;
+  std::vector<std::vector<Index>> constrained((mesh.halfEdgeCount() + kChunk - 1) / kChunk);
+  parallelFor(mesh.halfEdgeCount(), kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
     {
-      onCurve[mesh.origin[h]] = onCurve[mesh.target(h)] = 1;
+      for (Index h = static_cast<Index>(begin); h < end; ++h)
+      {
+        if (mesh.isConstrained(h))
+        {
+          constrained[begin / kChunk].push_back(h);
+        }
+      }
+    });
+  OnCurves on;
+  on.vertices.assign(mesh.vertexCount(), 0);
+  for (const std::vector<Index>& part : constrained)
+  {
+    for (const Index h : part)
+    {
+      on.vertices[mesh.origin[h]] = on.vertices[mesh.target(h)] = 1;
     }
   }
-  return onCurve;
+  std::vector<std::vector<Index>> points(constrained.size());
+  parallelFor(mesh.halfEdgeCount(), kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (Index h = static_cast<Index>(begin); h < end; ++h)
+      {
+        if (on.vertices[mesh.origin[h]] != 0)
+        {
+          points[begin / kChunk].push_back(pointsNearCorner(surface, h)[0]);
+        }
+      }
+    });
+  for (const std::vector<Index>& part : points)
+  {
+    on.points.insert(on.points.end(), part.begin(), part.end());
+  }
+  std::sort(on.points.begin(), on.points.end());
+  on.points.erase(std::unique(on.points.begin(), on.points.end()), on.points.end());
+  return on;
 }
 
 std::vector<IrregularVertex> irregularVertices(
-  const RemeshResult& result, const std::vector<std::uint8_t>& onCurve)
+  const MadeSurface& made, const std::vector<int>& turns, const OnCurves& onCurves)
 {
-  const PreparedSurface& surface = result.surface;
-  const Mesh& mesh = surface.mesh;
+  const Mesh& mesh = made.surface.mesh;
   std::vector<IrregularVertex> irregular;
   std::vector<std::uint8_t> isOpen(mesh.vertexCount(), 0);
-  bool isAny = false;
-  for (Index v = 0; v < result.turns.size(); ++v)
+  std::size_t open = 0;
+  for (Index v = 0; v < turns.size(); ++v)
   {
-    isOpen[v] = onCurve[v] == 0 && result.turns[v] != kRegularValence;
-    isAny |= isOpen[v] != 0;
+    isOpen[v] = onCurves.vertices[v] == 0 && turns[v] != kRegularValence;
+    open += isOpen[v];
   }
   std::map<Index, IrregularVertex> byPoint;
-  for (Index h = 0; isAny && h < mesh.halfEdgeCount(); ++h)
+  for (Index h = 0; open > 0 && h < mesh.halfEdgeCount(); ++h)
   {
     const Index v = mesh.origin[h];
     if (isOpen[v] == 0)
@@ -259,16 +291,17 @@ std::vector<IrregularVertex> irregularVertices(
       continue;
     }
     isOpen[v] = 0;
-    const std::array<Index, 3> near = pointsNearCorner(surface, h);
+    --open;
+    const std::array<Index, 3> near = pointsNearCorner(made.surface, h);
     const auto free =
       std::find_if(near.begin(), near.end(), [&](Index p) { return byPoint.count(p) == 0; });
     if (free != near.end())
     {
-      byPoint[*free] = { *free, mesh.position[v], result.turns[v] };
+      byPoint[*free] = { *free, made.placeAt(h), turns[v] };
     }
     else // of three in one triangle of the input: they count as one with the first
     {
-      byPoint[near[0]].valence += result.turns[v] - kRegularValence;
+      byPoint[near[0]].valence += turns[v] - kRegularValence;
     }
   }
   for (const auto& [point, vertex] : byPoint)
@@ -281,40 +314,25 @@ std::vector<IrregularVertex> irregularVertices(
   return irregular;
 }
 
-std::vector<HeldVertex> featureVertices(const RemeshResult& result)
+std::vector<HeldVertex> featureVertices(
+  const MadeSurface& made, const std::vector<SectorRequest>& onFeatures)
 {
-  const Mesh& mesh = result.surface.mesh;
-  std::vector<Index> corner(result.onFeatures.empty() ? 0 : mesh.vertexCount(), kInvalidIndex);
+  const Mesh& mesh = made.surface.mesh;
+  std::vector<Index> corner(onFeatures.empty() ? 0 : mesh.vertexCount(), kInvalidIndex);
   for (Index h = 0; h < mesh.halfEdgeCount() && !corner.empty(); ++h)
   {
     Index& at = corner[mesh.origin[h]];
     at = at == kInvalidIndex ? h : at;
   }
   std::vector<HeldVertex> vertices;
-  for (const SectorRequest& request : result.onFeatures)
+  for (const SectorRequest& request : onFeatures)
   {
-    vertices.push_back({ pointsNearCorner(result.surface, corner[request.vertex])[0],
-      mesh.position[request.vertex], request.sectors });
+    const Index h = corner[request.vertex];
+    vertices.push_back({ pointsNearCorner(made.surface, h)[0], made.placeAt(h), request.sectors });
   }
   std::stable_sort(vertices.begin(), vertices.end(),
     [](const HeldVertex& a, const HeldVertex& b) { return a.point < b.point; });
   return vertices;
-}
-
-std::vector<Index> pointsOnCurves(
-  const RemeshResult& result, const std::vector<std::uint8_t>& onCurve)
-{
-  std::vector<Index> points;
-  for (Index h = 0; h < result.surface.mesh.halfEdgeCount(); ++h)
-  {
-    if (onCurve[result.surface.mesh.origin[h]] != 0)
-    {
-      points.push_back(pointsNearCorner(result.surface, h)[0]);
-    }
-  }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  return points;
 }
 
 void resolveEdit(IrregularEdit& edit, const std::string& name, const SurfaceInput& surface,

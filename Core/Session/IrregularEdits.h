@@ -14,19 +14,38 @@
 namespace quadrille
 {
 
+/// The surface under the quads of a run: still in its frame, where the run shares it with the store.
+struct MadeSurface
+{
+  const PreparedSurface& surface;
+  const Frame* frame = nullptr;                 ///< null: it is the user's
+  const std::vector<Vector3>* points = nullptr; ///< of the user's surface; where there is a frame
+
+  Vector3 placeAt(Index halfEdge) const
+  {
+    return frame == nullptr ? surface.mesh.position[surface.mesh.origin[halfEdge]]
+                            : userPosition(surface, halfEdge, *frame, *points);
+  }
+};
+
+/// The vertices and points of the user's surface that lie on features and boundaries.
+struct OnCurves
+{
+  std::vector<std::uint8_t> vertices; ///< #V of the surface under the quads; 1: on one
+  std::vector<Index> points;          ///< of the user's surface, ascending
+};
+OnCurves findOnCurves(const PreparedSurface& surface, int threads);
+
 /// Irregular vertices of a result inside of the surface, off its features, ascending by point of the input. They are
 /// those of the map: the quads have them at the same vertices of the surface, from which smoothing may move them.
+/// turns: RemeshResult::turns.
 std::vector<IrregularVertex> irregularVertices(
-  const RemeshResult& result, const std::vector<std::uint8_t>& onCurve);
-/// Ends, corners and bends of features and boundaries, ascending by point of the input.
-std::vector<HeldVertex> featureVertices(const RemeshResult& result);
-/// Points of the input on features and boundaries of a result, ascending.
-std::vector<Index> pointsOnCurves(
-  const RemeshResult& result, const std::vector<std::uint8_t>& onCurve);
-/// Per vertex of its surface: on features and boundaries, for these two.
-std::vector<std::uint8_t> verticesOnCurves(const RemeshResult& result);
+  const MadeSurface& made, const std::vector<int>& turns, const OnCurves& onCurves);
+/// Ends, corners and bends of features and boundaries, ascending by point of the input. onFeatures: of the RemeshResult.
+std::vector<HeldVertex> featureVertices(
+  const MadeSurface& made, const std::vector<SectorRequest>& onFeatures);
 
-/// Fills before and changes of the operation. fixedPoints: see pointsOnCurves. Throws InvalidInput, with name and
+/// Fills before and changes of the operation. fixedPoints: OnCurves::points. Throws InvalidInput, with name and
 /// place, where there is no such vertex, a place cannot be taken, a valence would be out of range, or the sum of
 /// indices would change.
 void resolveEdit(IrregularEdit& edit, const std::string& name, const SurfaceInput& surface,

@@ -49,6 +49,27 @@ void checkSettings(const RemeshOptions& settings)
   }
 }
 
+/// Points and polygons of a surface, in the hands of a run while this lives.
+class GeometryLoan
+{
+public:
+  GeometryLoan(SurfaceInput& from, SurfaceInput& to) : from_(from), to_(to) { exchange(); }
+  ~GeometryLoan() { exchange(); }
+  GeometryLoan(const GeometryLoan&) = delete;
+  GeometryLoan& operator=(const GeometryLoan&) = delete;
+
+private:
+  void exchange()
+  {
+    from_.points.swap(to_.points);
+    from_.polygonOffsets.swap(to_.polygonOffsets);
+    from_.polygonPoints.swap(to_.polygonPoints);
+  }
+
+  SurfaceInput& from_;
+  SurfaceInput& to_;
+};
+
 /// All runs that a state needs.
 class StateRun
 {
@@ -106,10 +127,13 @@ public:
     report.runs = runs_;
     if (made.status.ok() && !options_.preview)
     {
-      const std::vector<std::uint8_t> onCurve = verticesOnCurves(made);
-      result->irregular = irregularVertices(made, onCurve);
-      result->fixedPoints = pointsOnCurves(made, onCurve);
-      result->onFeatures = featureVertices(made);
+      const MadeSurface surface = made.framed
+        ? MadeSurface{ *made.framed, &made.frame, &data_.surface.points }
+        : MadeSurface{ made.surface };
+      const OnCurves& onCurves = data_.onCurvesOf(surface.surface);
+      result->irregular = irregularVertices(surface, made.turns, onCurves);
+      result->fixedPoints = onCurves.points;
+      result->onFeatures = featureVertices(surface, made.onFeatures);
     }
     if (made.status.ok() && composed_.symmetry && composed_.input.regularElsewhere)
     {
@@ -149,14 +173,19 @@ private:
     {
       symmetric = runSymmetric(leftOut);
     }
-    RemeshResult made =
-      symmetric ? std::move(*symmetric) : remesh(composed_.input, options_, data_.store);
+    RemeshResult made = symmetric ? std::move(*symmetric) : runQuads();
     for (const StageRecord& record : made.stages)
     {
       stages_.add(record.stage, record.seconds, record.elementsIn, record.elementsOut);
     }
     ++runs_;
     return made;
+  }
+
+  RemeshResult runQuads()
+  {
+    const GeometryLoan loan(data_.surface, composed_.input);
+    return remeshQuads(composed_.input, options_, data_.store);
   }
 
   /// In the mirror plane the half has its boundary, where vertices may become irregular that no operation asks for.
@@ -180,8 +209,8 @@ private:
   void compose(std::map<int, std::string> leftOut)
   {
     leftOut.insert(refused_.begin(), refused_.end());
-    composed_ =
-      composeInput(data_.surface, data_.places(), state_.constraints, leftOut, whyNotHeld_.empty());
+    composed_ = composeInput(
+      data_.surface, data_.places(), data_.lines, state_.constraints, leftOut, whyNotHeld_.empty());
     composed_.whyNotHeld = whyNotHeld_;
   }
 
@@ -192,6 +221,7 @@ private:
     const SessionConstraint& constraint = *state_.constraints[*composed_.symmetry];
     try
     {
+      const GeometryLoan loan(data_.surface, composed_.input);
       mirrored_ = remeshSymmetric(composed_.input, options_,
         { std::get<MirrorSymmetry>(constraint.content).plane }, &data_.store);
       return std::move(mirrored_.remeshed);
@@ -402,6 +432,16 @@ const SurfacePlaces& SessionData::places()
     places_ = std::make_unique<SurfacePlaces>(surface, threads);
   }
   return *places_;
+}
+
+const OnCurves& SessionData::onCurvesOf(const PreparedSurface& made)
+{
+  if (!onCurves_ || onCurvesHash_ != made.hash)
+  {
+    onCurves_ = std::make_unique<OnCurves>(findOnCurves(made, threads));
+    onCurvesHash_ = made.hash;
+  }
+  return *onCurves_;
 }
 
 std::shared_ptr<SessionResult> SessionData::resultOf(const SessionState& state)

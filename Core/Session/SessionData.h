@@ -6,6 +6,7 @@
 #include "Mesh/SurfacePlaces.h"
 #include "Pipeline/ResultStore.h"
 #include "Session/ComposedInput.h"
+#include "Session/IrregularEdits.h"
 #include "Session/Session.h"
 
 #include <map>
@@ -44,6 +45,8 @@ struct SessionData
   /// Empty: the present one.
   SessionState& named(const std::string& name) const;
   const SurfacePlaces& places();
+  /// Of the surface under the quads; kept until another one comes.
+  const OnCurves& onCurvesOf(const PreparedSurface& made);
   std::shared_ptr<SessionResult> resultOf(const SessionState& state);
   void keep(const SessionState& state, std::shared_ptr<SessionResult> result);
   /// Irregular operations of the present state that are in force.
@@ -58,6 +61,7 @@ struct SessionData
   std::size_t at = 0; ///< of the present one
   std::map<std::string, std::shared_ptr<SessionState>> names;
   ResultStore store;
+  LinePlacements lines;
   SessionReport stopped; ///< of an update that was
 
   struct Kept
@@ -71,6 +75,8 @@ struct SessionData
 
 private:
   std::unique_ptr<SurfacePlaces> places_; ///< made when they are needed first
+  std::unique_ptr<OnCurves> onCurves_;    ///< of the surface with the hash
+  std::uint64_t onCurvesHash_ = 0;
 };
 
 } // namespace quadrille

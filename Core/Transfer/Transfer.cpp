@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
+#include <utility>
 
 namespace quadrille
 {
@@ -40,9 +41,9 @@ void checkFaces(const Level& level, Index fineFaces)
   }
 }
 
-/// uv of the finest mesh's corners, set on the slots of the coarse level.
-std::vector<FixedVec2> spreadOnSlots(
-  const Level& coarse, const std::vector<FixedVec2>& coarseUv, Index fineFaces)
+/// uv of the finest mesh's corners, set on the slots of the coarse level; anything elsewhere.
+std::vector<FixedVec2> spreadOnSlots(const Level& coarse, const std::vector<FixedVec2>& coarseUv,
+  Index fineFaces, const TransferOptions& options)
 {
   checkFaces(coarse, fineFaces);
   if (coarseUv.size() != coarse.mesh.halfEdgeCount())
@@ -51,6 +52,10 @@ std::vector<FixedVec2> spreadOnSlots(
       " corners, but the coarse level has " + std::to_string(coarse.mesh.halfEdgeCount()) + ".");
   }
   std::vector<FixedVec2> uv;
+  if (options.spare != nullptr && options.spare->size() == 3 * std::size_t{ fineFaces })
+  {
+    uv.swap(*options.spare);
+  }
   growLarge(uv, 3 * std::size_t{ fineFaces });
   for (Index h = 0; h < coarse.mesh.halfEdgeCount(); ++h)
   {
@@ -128,13 +133,16 @@ TransferResult replayAndMend(const Mesh& fine, const Level& level, std::size_t r
 {
   const bool levelIsPositive = countNotPositive(levelUv, 1) == 0;
   TransferResult result;
-  result.uv = spreadOnSlots(level, levelUv, log.fineFaces);
+  result.uv = spreadOnSlots(level, levelUv, log.fineFaces, options);
   const ReplayCounts counts =
     replayRounds(log, { rounds, 0 }, result.uv, options.threads, options.progress);
   result.invertedStars = counts.invertedStars;
   result.movedToKernel = counts.movedToKernel;
   result.withoutKernel = counts.withoutKernel;
-  result.notPositive = countNotPositive(result.uv, options.threads);
+  // A replay leaves stars positive but for those that it counts, and nothing but what it was given.
+  const bool isPositive =
+    levelIsPositive && counts.withoutKernel == 0 && counts.lostTransitions == 0;
+  result.notPositive = isPositive ? 0 : countNotPositive(result.uv, options.threads);
   result.replayNotPositive = result.notPositive;
   // What was invalid already on the level is not a matter of a few triangles here.
   if ((result.notPositive > 0 || result.withoutKernel > 0) && levelIsPositive)
@@ -176,13 +184,17 @@ std::vector<FixedVec2> transferToLevel(const Level& coarse, const Level& level, 
   const DecimationLog& log, const std::vector<FixedVec2>& coarseUv, const TransferOptions& options)
 {
   checkFaces(level, log.fineFaces);
-  std::vector<FixedVec2> slots = spreadOnSlots(coarse, coarseUv, log.fineFaces);
+  std::vector<FixedVec2> slots = spreadOnSlots(coarse, coarseUv, log.fineFaces, options);
   replayRounds(log, { log.rounds.size(), rounds }, slots, options.threads, options.progress);
   std::vector<FixedVec2> uv(level.mesh.halfEdgeCount());
   for (Index h = 0; h < level.mesh.halfEdgeCount(); ++h)
   {
     pollNowAndThen(h);
     uv[h] = slots[3 * std::size_t{ level.fineFace[h / 3] } + h % 3];
+  }
+  if (options.spare != nullptr)
+  {
+    *options.spare = std::move(slots);
   }
   return uv;
 }

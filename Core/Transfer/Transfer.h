@@ -14,6 +14,9 @@ namespace quadrille
 
 struct TransferOptions
 {
+  /// Memory of a map that nobody needs any more, of whatever size and contents; it is taken. Fresh memory for two million
+  /// faces takes a twentieth of an edit. Null: none.
+  std::vector<FixedVec2>* spare = nullptr;
   int threads = 0;
   ProgressCallback progress;
 };

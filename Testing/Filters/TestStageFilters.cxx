@@ -16,6 +16,7 @@
 #include <vtkIntArray.h>
 #include <vtkIntegerGridMap.h>
 #include <vtkIntegerGridMapUpmap.h>
+#include <vtkMath.h>
 #include <vtkPointData.h>
 #include <vtkQuadExtraction.h>
 #include <vtkQuadRemesh.h>
@@ -49,6 +50,7 @@ struct Chain
     upmap->SetInputConnection(map->GetOutputPort());
     upmap->SetInputData(1, input);
     upmap->SetLogConnection(hierarchy->GetOutputPort(2));
+    upmap->SetIntermediateConnection(hierarchy->GetOutputPort(1));
     extraction->SetInputConnection(upmap->GetOutputPort());
   }
 };
@@ -402,30 +404,103 @@ TEST(StageFilters, ChainHonoursGuidesAndValences)
 
   const vtkSmartPointer<vtkQuadRemesh> oneClick = inOneClick(input);
   ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
-  // The whole numbers are the same, and so are the quads but for their places: Quad Remesh turns the map along the
-  // guides on the intermediate level, too.
   vtkPolyData* quads = chain.extraction->GetOutput();
-  ASSERT_EQ(quads->GetNumberOfPoints(), oneClick->GetOutput()->GetNumberOfPoints());
+  EXPECT_EQ(pointsOf(quads), pointsOf(oneClick->GetOutput()));
   EXPECT_EQ(quads->GetNumberOfPolys(), oneClick->GetOutput()->GetNumberOfPolys());
-  const auto valencesOf = [](vtkPolyData* data)
-  {
-    std::vector<double> all;
-    for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
-    {
-      all.push_back(data->GetPointData()->GetArray("Valence")->GetTuple1(i));
-    }
-    std::sort(all.begin(), all.end());
-    return all;
-  };
-  EXPECT_EQ(valencesOf(quads), valencesOf(oneClick->GetOutput()));
   vtkDataArray* valence = oneClick->GetOutput()->GetPointData()->GetArray("Valence");
   for (const vtkIdType point : { 1530, 1820 })
   {
-    const vtkIdType staged = quads->FindPoint(input->GetPoint(point));
-    EXPECT_EQ(Vector3(quads->GetPoint(staged)), Vector3(input->GetPoint(point)));
     const vtkIdType at = oneClick->GetOutput()->FindPoint(input->GetPoint(point));
     EXPECT_EQ(Vector3(oneClick->GetOutput()->GetPoint(at)), Vector3(input->GetPoint(point)));
     EXPECT_EQ(valence->GetTuple1(at), valences->GetValue(point));
+  }
+
+  // Without the intermediate level the map has the same whole numbers, but is not turned along the guides between.
+  const std::vector<Vector3> along = pointsOf(quads);
+  chain.upmap->SetInputConnection(3, nullptr);
+  chain.extraction->Update();
+  EXPECT_EQ(pointsOf(chain.extraction->GetOutput()).size(), along.size());
+  EXPECT_NE(pointsOf(chain.extraction->GetOutput()), along);
+}
+
+TEST(StageFilters, ChainMakesCycles)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(80, 40));
+  std::vector<Vector3> points; // round the tube, slanted
+  for (int i = 0; i <= 24; ++i)
+  {
+    const double angle = vtkMath::Pi() * (i % 24) / 12;
+    const double turn = 0.3 * std::cos(angle);
+    const double radius = 1 + 0.4 * std::cos(angle);
+    points.emplace_back(radius * std::cos(turn), radius * std::sin(turn), 0.4 * std::sin(angle));
+  }
+  const vtkSmartPointer<vtkPolyData> loop = test::polyline(points);
+  vtkNew<vtkIntArray> kind;
+  kind->SetName("ConstraintType");
+  kind->InsertNextValue(3);
+  loop->GetCellData()->AddArray(kind);
+  Chain chain(input);
+  chain.hierarchy->SetCurvesData(loop);
+  chain.extraction->Update();
+  ASSERT_EQ(chain.extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
+    << chain.hierarchy->GetOutcomeText() << chain.map->GetOutcomeText()
+    << chain.upmap->GetOutcomeText() << chain.extraction->GetOutcomeText();
+  EXPECT_STREQ(chain.hierarchy->GetNoticesText(), "");
+  EXPECT_STREQ(chain.map->GetNoticesText(), "");
+
+  const auto oneClick = vtkSmartPointer<vtkQuadRemesh>::New();
+  oneClick->SetInputData(input);
+  oneClick->SetCurvesData(loop);
+  oneClick->SetTargetTypeToNumberOfQuads();
+  oneClick->SetNumberOfQuads(500);
+  oneClick->Update();
+  ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+  EXPECT_EQ(oneClick->GetConstraintTable()->GetValueByName(0, "Met").ToInt(), 1);
+  EXPECT_EQ(pointsOf(chain.extraction->GetOutput()), pointsOf(oneClick->GetOutput()));
+}
+
+/// An array of the surface that changes is answered from the stage that it enters at, with the same levels.
+TEST(StageFilters, OtherGuidesBeginAtTheCoarseLevel)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::torus(80, 40));
+  const auto guided = [&](double x)
+  {
+    const auto data = vtkSmartPointer<vtkPolyData>::New();
+    data->ShallowCopy(input);
+    vtkNew<vtkDoubleArray> directions;
+    directions->SetName("GuidingDirection");
+    directions->SetNumberOfComponents(3);
+    for (vtkIdType i = 0; i < input->GetNumberOfCells(); ++i)
+    {
+      const Vector3 p(input->GetPoint(input->GetCell(i)->GetPointId(0)));
+      directions->InsertNextTuple3(p.x() > 0.9 ? x : 0, 0, p.x() > 0.9 ? 1 : 0);
+    }
+    data->GetCellData()->AddArray(directions);
+    return data;
+  };
+  const auto setInput = [](Chain& chain, vtkPolyData* data)
+  {
+    chain.hierarchy->SetInputData(data);
+    chain.upmap->SetInputData(1, data);
+    chain.extraction->Update();
+  };
+  Chain chain(guided(1));
+  chain.extraction->Update();
+  ASSERT_EQ(chain.extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+  EXPECT_STREQ(chain.hierarchy->GetReusedStagesText(), "");
+  for (const bool keepsLevels : { true, false })
+  {
+    chain.hierarchy->SetKeepLevels(keepsLevels);
+    setInput(chain, guided(keepsLevels ? -1 : 0.5));
+    ASSERT_EQ(chain.extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+    const std::string ran = chain.hierarchy->GetStageTimesText();
+    EXPECT_EQ(ran.find("phase1") == std::string::npos, keepsLevels) << ran;
+    EXPECT_EQ(ran.find("order") == std::string::npos, keepsLevels) << ran;
+    EXPECT_NE(ran.find("phase2"), std::string::npos) << ran;
+    EXPECT_FALSE(hasPrepared(chain.upmap)) << chain.upmap->GetStageTimesText();
+    Chain fresh(guided(keepsLevels ? -1 : 0.5));
+    fresh.extraction->Update();
+    expectSameData(chain.extraction->GetOutput(), fresh.extraction->GetOutput());
   }
 }
 

@@ -153,7 +153,8 @@ check("mirror plane given" in mirrored.GetPropertyValue("Notices"), "the mirror 
 # The four stages one by one.
 hierarchy = DecimationHierarchy(Input=mesh, TargetType="Number Of Quads", NumberOfQuads=400)
 grid = IntegerGridMap(Input=simple.OutputPort(hierarchy, 0))
-upmap = IntegerGridMapUpmap(Input=grid, Surface=mesh, Log=simple.OutputPort(hierarchy, 2))
+upmap = IntegerGridMapUpmap(Input=grid, Surface=mesh, Log=simple.OutputPort(hierarchy, 2),
+                            Intermediate=simple.OutputPort(hierarchy, 1))
 extraction = QuadExtraction(Input=upmap)
 extraction.UpdatePipeline()
 check(size_of(extraction) == cells, "the chain and the one click differ")

@@ -63,6 +63,26 @@ def run(port):
     check(size_of(extraction) == cells, "the chain gives another result on the server")
     check(quadrille.check(extraction) is extraction, "check does not return what it was given")
 
+    # An array upstream that changes is answered from the stage that it enters at, on the server, too.
+    guided = simple.Calculator(Input=mesh, AttributeType="Cell Data", ResultArrayName="GuidingDirection",
+                               Function="iHat")
+    hierarchy = DecimationHierarchy(Input=guided, TargetType="Number Of Quads", NumberOfQuads=400)
+    upmap = IntegerGridMapUpmap(Input=IntegerGridMap(Input=simple.OutputPort(hierarchy, 0)), Surface=guided,
+                                Log=simple.OutputPort(hierarchy, 2), Intermediate=simple.OutputPort(hierarchy, 1))
+    extraction = QuadExtraction(Input=upmap)
+    quads = QuadRemesh(Input=guided, TargetType="Number Of Quads", NumberOfQuads=400)
+    for function in ("iHat", "jHat"):
+        guided.Function = function
+        for last in (extraction, quads):
+            quadrille.check(last)
+            last.UpdatePipeline()
+        check(size_of(extraction) == size_of(quads), "guided quads of the chain are others")
+        for first in (hierarchy, quads):
+            first.UpdatePropertyInformation()
+            stages = str(first.StageTimes)
+            check(("phase1" in stages) == (function == "iHat") and "phase2" in stages,
+                  f"with {function} these stages ran: {stages}")
+
     # A failure on the server is raised on the client. The line that both print of it is wanted, hence the last.
     listening.clear()
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)

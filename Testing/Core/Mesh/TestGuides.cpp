@@ -38,7 +38,7 @@ TEST(Guides, CostNothingWhereNoneAreAsked)
   const PreparedSurface surface = prepareSurface(toInput(sphere(2)), {});
   EXPECT_EQ(surface.polygonGuides.capacity(), 0u);
   EXPECT_EQ(surface.valenceRequests.capacity(), 0u);
-  EXPECT_TRUE(surfaceGuides(surface).faces.empty());
+  EXPECT_TRUE(surfaceGuides(surface, 1).faces.empty());
 }
 
 TEST(Guides, DoNotChangeTheFinestLevel)
@@ -72,7 +72,7 @@ TEST(Guides, FollowTheirPolygonsThroughOrderAndRefinement)
     {
       refineSurface(surface, 0.1, {});
     }
-    const SurfaceGuides guides = surfaceGuides(surface);
+    const SurfaceGuides guides = surfaceGuides(surface, 1);
     EXPECT_EQ(guides.dropped, 0u);
     std::map<Index, Guide> guideOf;
     for (const FaceGuide& guide : guides.faces)
@@ -107,7 +107,7 @@ TEST(Guides, OfAPolygonHoldForAllItsTriangles)
     { { 0, 0, 0 }, { 2, 0, 0 }, { 3, 1, 0 }, { 2, 2, 0 }, { 0, 2, 0 } }, { { 0, 1, 2, 3, 4 } });
   input.guideDirections = { Vector3(0, 5, 0) };
   const PreparedSurface surface = prepareSurface(input, {});
-  const SurfaceGuides guides = surfaceGuides(surface);
+  const SurfaceGuides guides = surfaceGuides(surface, 1);
   ASSERT_EQ(guides.faces.size(), 3u);
   for (const FaceGuide& guide : guides.faces)
   {
@@ -122,7 +122,7 @@ TEST(Guides, NormalToTheFaceAreDroppedAndTold)
   input.guideDirections[4] = Vector3(0, 0, 1);
   input.guideDirections[5] = Vector3(1, 0, 1);
   const PreparedSurface surface = prepareSurface(input, {});
-  const SurfaceGuides guides = surfaceGuides(surface);
+  const SurfaceGuides guides = surfaceGuides(surface, 1);
   EXPECT_EQ(guides.faces.size(), 1u);
   EXPECT_EQ(guides.dropped, 1u);
   ASSERT_EQ(requestNotices(surface, guides).size(), 1u);
@@ -231,7 +231,7 @@ TEST(TargetValence, OfIsolatedPointsIsTold)
   const PreparedSurface surface = prepareSurface(input, {});
   EXPECT_TRUE(surface.valenceRequests.empty());
   EXPECT_EQ(surface.unusedValences, 1u);
-  EXPECT_EQ(requestNotices(surface, surfaceGuides(surface)).size(), 1u);
+  EXPECT_EQ(requestNotices(surface, surfaceGuides(surface, 1)).size(), 1u);
 }
 
 } // namespace
