@@ -244,7 +244,8 @@ void adaptToSizes(const Mesh& mesh, const FieldTopology& topology,
     return;
   }
   const RepairData data(mesh, topology, constraints, solution.angle, solution.jump);
-  const TurnPrescription prescription = prescribeTurns(mesh, topology, targets);
+  const TurnPrescription prescription =
+    prescribeTurns(mesh, topology, targets, options.sectorTurns);
   if (!checkPrescription(mesh, topology, prescription, data.turns, *input.held).ok())
   {
     return;
@@ -362,7 +363,8 @@ CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options)
   {
     addGuides(mesh, topology, options.guides, options.targetEdgeLength, constraints);
   }
-  const TurnPrescription prescription = prescribeTurns(mesh, topology, options.targetValences);
+  const TurnPrescription prescription =
+    prescribeTurns(mesh, topology, options.targetValences, options.sectorTurns);
   const PowerFields fields =
     powerFields(mesh, topology, constraints, { options.targetEdgeLength, options.progress });
   report(options.progress, 0.6, "cross field: turns");

@@ -46,6 +46,9 @@ struct CrossFieldOptions
   std::vector<FieldLine> lines;
   /// Empty or #V flags: vertices that are to be regular as far as can be.
   std::vector<std::uint8_t> regular;
+  /// Empty or #H: quarter turns that the sector from a constrained half-edge on must make, met exactly; 0 where free. A
+  /// target valence of its vertex comes before it.
+  std::vector<int> sectorTurns;
 };
 
 /// A line of the map along an axis that joins two vertices, or closes on itself, along a way through the faces: the

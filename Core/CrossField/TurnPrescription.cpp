@@ -98,9 +98,17 @@ std::vector<SetSums> sumUp(const FieldTopology& topology, const TurnPrescription
   return sums;
 }
 
-std::string textOfMissing(const Mesh& mesh, const SetSums& sum, long missing)
+std::string textOfMissing(const Mesh& mesh, const SetSums& sum, long missing, bool holdsFeatures)
 {
   std::ostringstream text;
+  if (holdsFeatures)
+  {
+    text << "irregular vertices cannot pass features and boundaries: on the part of the surface "
+         << "near " << placeText(mesh.position[sum.vertex]) << " that they bound, the sum of "
+         << "4 - valence would change by " << std::abs(missing)
+         << "; choose places on one side of them";
+    return text.str();
+  }
   text << "target valences: on the component near " << placeText(mesh.position[sum.vertex])
        << ", 4 - valence has to sum up to " << sum.regular - sum.turns
        << " over all irregular vertices; the " << sum.requests
@@ -118,16 +126,9 @@ std::string textOfMissing(const Mesh& mesh, const SetSums& sum, long missing)
   return text.str();
 }
 
-} // namespace
-
-TurnPrescription prescribeTurns(
-  const Mesh& mesh, const FieldTopology& topology, const std::vector<int>& targetValence)
+void prescribeValences(const Mesh& mesh, const FieldTopology& topology,
+  const std::vector<int>& targetValence, TurnPrescription& result)
 {
-  TurnPrescription result;
-  if (std::all_of(targetValence.begin(), targetValence.end(), [](int v) { return v == 0; }))
-  {
-    return result;
-  }
   if (targetValence.size() != mesh.vertexCount())
   {
     throw InvalidInput("cross field: " + std::to_string(targetValence.size()) +
@@ -135,7 +136,6 @@ TurnPrescription prescribeTurns(
   }
   const std::vector<std::uint8_t> boundary = boundaryVertices(mesh);
   std::vector<Index> groupOfVertex(mesh.vertexCount(), kInvalidIndex);
-  result.groupOfFan.assign(topology.fans.size(), kInvalidIndex);
   for (Index i = 0; i < topology.fans.size(); ++i)
   {
     const Index v = topology.fans[i].vertex;
@@ -157,6 +157,35 @@ TurnPrescription prescribeTurns(
     }
     result.groupOfFan[i] = groupOfVertex[v];
   }
+}
+
+} // namespace
+
+TurnPrescription prescribeTurns(const Mesh& mesh, const FieldTopology& topology,
+  const std::vector<int>& targetValence, const std::vector<int>& sectorTurns)
+{
+  TurnPrescription result;
+  const auto isFree = [](int turns) { return turns == 0; };
+  if (std::all_of(targetValence.begin(), targetValence.end(), isFree) &&
+    std::all_of(sectorTurns.begin(), sectorTurns.end(), isFree))
+  {
+    return result;
+  }
+  result.groupOfFan.assign(topology.fans.size(), kInvalidIndex);
+  if (!targetValence.empty())
+  {
+    prescribeValences(mesh, topology, targetValence, result);
+  }
+  result.valences = result.turns.size();
+  for (Index i = 0; i < topology.fans.size() && !sectorTurns.empty(); ++i)
+  {
+    const Fan& fan = topology.fans[i];
+    if (fan.sector && result.groupOfFan[i] == kInvalidIndex && sectorTurns[fan.first] != 0)
+    {
+      result.groupOfFan[i] = static_cast<Index>(result.turns.size());
+      result.turns.push_back(sectorTurns[fan.first]);
+    }
+  }
   return result;
 }
 
@@ -176,7 +205,8 @@ Status checkPrescription(const Mesh& mesh, const FieldTopology& topology,
     const long missing = left < sum.least ? sum.least - left : std::min(0L, sum.most - left);
     if (sum.requests > 0 && missing != 0)
     {
-      return { StatusCode::Infeasible, textOfMissing(mesh, sum, missing) };
+      return { StatusCode::Infeasible,
+        textOfMissing(mesh, sum, missing, prescription.turns.size() > prescription.valences) };
     }
   }
   return {};

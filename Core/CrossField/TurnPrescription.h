@@ -16,15 +16,16 @@ struct TurnPrescription
 {
   std::vector<Index> groupOfFan; ///< #fans, kInvalidIndex where free; empty when nothing is asked
   std::vector<int> turns;        ///< per group
+  std::size_t valences = 0;      ///< groups of vertices, which come before those of sectors
 
   bool isFree(Index fan) const { return groupOfFan.empty() || groupOfFan[fan] == kInvalidIndex; }
 };
 
 /// targetValence: empty or #V, 0 where free; on the boundary a vertex makes two turns less than its valence says
-/// (see ValenceRequest). Throws InvalidInput, naming the vertex, for a wrong size and for a valence below 2
+/// (see ValenceRequest). sectorTurns: empty or #H, see CrossFieldOptions. Throws InvalidInput, naming the vertex, for a wrong size and for a valence below 2
 /// (3 on the boundary).
-TurnPrescription prescribeTurns(
-  const Mesh& mesh, const FieldTopology& topology, const std::vector<int>& targetValence);
+TurnPrescription prescribeTurns(const Mesh& mesh, const FieldTopology& topology,
+  const std::vector<int>& targetValence, const std::vector<int>& sectorTurns = {});
 
 /// Shifts of jumps keep the sum of turns of all fans that unconstrained edges join (and that belong to one vertex with
 /// a prescription). Infeasible, with the place and what is missing, where the fans that are free cannot make up for

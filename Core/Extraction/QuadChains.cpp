@@ -164,6 +164,16 @@ std::vector<Index> QuadChains::closedNear(
     away[p] = distanceToLoop(polyline, quads_.points[p]);
   }
   const auto isNear = [&](Index p) { return away[p] <= distance; };
+  // A short loop beside a part of the polyline is not what goes round it.
+  const auto comesBy = [&](const std::vector<Index>& chain)
+  {
+    return std::all_of(polyline.begin(), polyline.end(),
+      [&](const Vector3& corner)
+      {
+        return std::any_of(chain.begin(), chain.end(),
+          [&](Index p) { return (quads_.points[p] - corner).norm() <= distance; });
+      });
+  };
   std::vector<Index> best;
   double least = std::numeric_limits<double>::infinity();
   for (Index h = 0; h < twin_.size(); ++h)
@@ -181,7 +191,7 @@ std::vector<Index> QuadChains::closedNear(
         sum += away[p];
       }
       const double mean = chain.empty() ? least : sum / static_cast<double>(chain.size());
-      if (mean < least && std::all_of(chain.begin(), chain.end(), isNear))
+      if (mean < least && std::all_of(chain.begin(), chain.end(), isNear) && comesBy(chain))
       {
         least = mean;
         best = chain;

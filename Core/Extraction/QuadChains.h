@@ -35,7 +35,8 @@ public:
   /// distance from the place; empty where there is none.
   std::vector<Index> toLine(Index a, const Vector3& place, double distance) const;
   /// A closed chain, straight on one side everywhere, whose points all lie within the distance from the closed
-  /// polyline; the first one stands at the end again. The nearest on average; empty where there is none.
+  /// polyline, and that comes as near to each of its corners; the first one stands at the end again. The nearest on
+  /// average; empty where there is none.
   std::vector<Index> closedNear(const std::vector<Vector3>& polyline, double distance) const;
   /// The point nearest to a place.
   Index nearestPoint(const Vector3& place) const;

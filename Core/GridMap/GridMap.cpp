@@ -167,6 +167,7 @@ private:
     fieldOptions.progress = subProgress(options_.progress, 0.0, 0.1);
     fieldOptions.guides = options_.guides;
     fieldOptions.targetValences = options_.targetValences;
+    fieldOptions.sectorTurns = options_.sectorTurns;
     result_.field = computeCrossField(mesh_, fieldOptions);
     if (!options_.curves.empty() && makesLines() && result_.field.status.ok())
     {

@@ -290,6 +290,7 @@ FramedInput enterFrame(SurfaceInput input, int threads)
     });
   requestsToFrame(framed);
   frame.reversed = looksInwards(framed.input, threads);
+  enterFrame(framed.input.held, frame);
   framed.input.faceOrder = frame.reversed ? FaceOrder::Reversed : FaceOrder::FromLowest;
   framed.input.precision = std::max(1 / steps, std::ldexp(magnitude, floats ? -24 : -53) / unit);
   return framed;
@@ -304,6 +305,7 @@ FramedInput enterKnownFrame(SurfaceInput input, const FramedInput& known)
   framed.input.faceOrder = known.input.faceOrder;
   framed.input.precision = known.input.precision;
   requestsToFrame(framed);
+  enterFrame(framed.input.held, framed.frame);
   return framed;
 }
 

@@ -97,6 +97,11 @@ std::vector<ValenceRequest> cornerRequests(
   const SurfaceInput& input, const PreparedSurface& surface, int threads)
 {
   const Mesh& mesh = surface.mesh;
+  std::vector<std::uint8_t> isHeld(input.targetValences.size(), 0);
+  for (const HeldVertex& held : input.held)
+  {
+    isHeld[held.point] |= held.sectors.empty() ? 1 : 0;
+  }
   std::vector<std::vector<ValenceRequest>> parts(
     (mesh.halfEdgeCount() + kHalfEdgeChunk - 1) / kHalfEdgeChunk);
   parallelFor(mesh.halfEdgeCount(), kHalfEdgeChunk, threads,
@@ -107,7 +112,7 @@ std::vector<ValenceRequest> cornerRequests(
         const Index f = Mesh::face(h);
         const Index point = surface.sourcePoints[f][h % 3];
         // A corner that a split of an edge made stands at no point of the input.
-        if (input.targetValences[point] != 0 &&
+        if (input.targetValences[point] != 0 && isHeld[point] == 0 &&
           (surface.refinedEntry.empty() || surface.refinedEntry[f] == kInvalidIndex ||
             surface.cornerWeights[surface.refinedEntry[f]][h % 3][h % 3] == 1))
         {
@@ -171,6 +176,7 @@ void collectRequests(const SurfaceInput& input, PreparedSurface& surface, int th
   surface.polygonGuides = guidesOf(input);
   surface.curves = input.curves;
   surface.regularElsewhere = input.regularElsewhere;
+  surface.regularOnFeatures = input.regularOnFeatures;
   if (input.targetValences.empty())
   {
     return;
@@ -199,6 +205,10 @@ void collectRequests(const SurfaceInput& input, PreparedSurface& surface, int th
         " are one after repair, but ask for valences " + std::to_string(first.valence) + " and " +
         std::to_string(request.valence) + ": give both the same.");
     }
+  }
+  for (const HeldVertex& held : input.held)
+  {
+    used[held.point] |= held.sectors.empty() ? 1 : 0;
   }
   for (std::size_t i = 0; i < used.size(); ++i)
   {
@@ -265,6 +275,23 @@ std::vector<Index> indexVertices(const PreparedSurface& surface)
       vertices.push_back(request.vertex);
     }
   }
+  return vertices;
+}
+
+std::vector<Index> keptVertices(const PreparedSurface& surface)
+{
+  std::vector<Index> vertices = indexVertices(surface);
+  for (const SectorRequest& request : surface.sectorRequests)
+  {
+    // Junctions of features stay by themselves.
+    constexpr std::size_t kPassing = 2;
+    if (request.sectors.size() <= kPassing)
+    {
+      vertices.push_back(request.vertex);
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
 }
 

@@ -84,6 +84,9 @@ SurfaceGuides surfaceGuides(const PreparedSurface& surface, int threads);
 /// for that.
 std::vector<Index> indexVertices(const PreparedSurface& surface);
 
+/// Those, and the held ones on features: all that have to stay on every level; ascending.
+std::vector<Index> keptVertices(const PreparedSurface& surface);
+
 /// Valences asked of the vertices of a level, given by their ids on the finest one; 0 where free. With regularElsewhere
 /// all others off the level's features and boundary are to be regular. Empty when none is asked.
 std::vector<int> levelValences(

@@ -7,6 +7,7 @@
 #include "Base/Progress.h"
 #include "Mesh/CurveRequests.h"
 #include "Mesh/Guides.h"
+#include "Mesh/HeldVertices.h"
 #include "Mesh/Mesh.h"
 
 #include <array>
@@ -46,6 +47,10 @@ struct SurfaceInput
   std::vector<CurveRequest> curves; ///< connections and cycles, in units of the points
   /// Vertices inside, on no feature, that no target valence names are to be regular.
   bool regularElsewhere = false;
+  /// Irregular vertices that stay, see HeldVertices.h.
+  std::vector<HeldVertex> held;
+  /// Curves that pass a vertex, features and boundaries, are to run straight there but for those that are held.
+  bool regularOnFeatures = false;
   FaceOrder faceOrder = FaceOrder::AsGiven; ///< see Frame.h
   /// By how much coordinates may differ from what was meant, in units of the points, >= 0; 0: not known.
   double precision = 0;
@@ -124,6 +129,8 @@ struct PreparedSurface
   std::size_t unusedValences = 0;              ///< requests of points that no face uses
   std::vector<CurveRequest> curves;            ///< as they were given, in the frame
   bool regularElsewhere = false;               ///< as it was given
+  std::vector<SectorRequest> sectorRequests;   ///< ascending by vertex
+  bool regularOnFeatures = false;              ///< as it was given
 
   /// Sub-stages with their seconds: repair, order, connectivity.
   std::vector<std::pair<std::string, double>> seconds;

@@ -38,6 +38,19 @@ void addRequests(const PreparedSurface& surface, KeyMaker& key)
   {
     key.add(std::uint64_t{ 1 });
   }
+  if (surface.regularOnFeatures)
+  {
+    key.add(std::uint64_t{ 2 }).add(std::uint64_t{ surface.sectorRequests.size() });
+    for (const SectorRequest& request : surface.sectorRequests)
+    {
+      key.add(std::uint64_t{ request.vertex }).add(std::uint64_t{ request.sectors.size() });
+      for (const HeldSector& sector : request.sectors)
+      {
+        key.add(sector.middle[0]).add(sector.middle[1]).add(sector.middle[2]);
+        key.add(static_cast<std::uint64_t>(sector.turns));
+      }
+    }
+  }
   for (const CurveRequest& curve : surface.curves)
   {
     key.add(static_cast<std::uint64_t>(curve.kind) + 2).add(std::uint64_t{ curve.points.size() });
@@ -85,6 +98,7 @@ GridMapOptions mapOptions(RunContext& run, const Plan& plan, MapAttempt& made)
   options.guides = levels.coarse.guides;
   options.targetValences =
     levelValences(*run.surface, levels.coarse.mesh, levels.coarse.fineVertex);
+  options.sectorTurns = levelSectors(*run.surface, levels.coarse.mesh, levels.coarse.fineVertex);
   options.curves = run.surface->curves;
   options.progress = subProgress(run.options.progress, 0.45, 0.8, "Mapping: ");
   if (run.options.distortionMetric) // on request
@@ -172,8 +186,12 @@ void recordCoarse(
   made.coarseUv = std::move(map.uv);
   made.coarseTurns = map.field.turns;
   made.coarseInteger = integerVertices(made.coarse.mesh, map.field);
+  made.onFeatures =
+    sectorsOf(made.coarse.mesh, map.field.sectorTurns, made.coarseInteger, made.coarse.fineVertex);
   made.coarseCertificate = map.certificate;
-  made.hopeless = map.status.code == StatusCode::TooLarge ||
+  // Where features are held, more freedom is what helps, see Session.
+  const bool isHeld = run.surface->regularOnFeatures && !map.status.ok();
+  made.hopeless = isHeld || map.status.code == StatusCode::TooLarge ||
     (map.status.code == StatusCode::Infeasible && map.offenders.empty());
   if (!map.status.ok())
   {

@@ -49,6 +49,8 @@ struct MapAttempt
   std::vector<FixedVec2> coarseUv;         ///< #H of coarse.mesh; also where the status is not ok
   std::vector<int> coarseTurns;            ///< #V of coarse.mesh
   std::vector<std::uint8_t> coarseInteger; ///< #V of coarse.mesh, see integerVertices
+  /// Ends, corners and bends of features and boundaries, by vertex of the surface.
+  std::vector<SectorRequest> onFeatures;
   Certificate coarseCertificate;
   std::vector<Index> coarseOffenders;  ///< vertices of the surface, where the status is not ok
   std::vector<Vector3> coarseTroubles; ///< their positions

@@ -95,7 +95,7 @@ double quadsFor(const RunContext& run, const Plan& plan, double sizedArea)
 Plan firstPlan(RunContext& run)
 {
   Plan plan;
-  plan.levels.keptVertices = indexVertices(*run.surface);
+  plan.levels.keptVertices = keptVertices(*run.surface);
   plan.levels.coarseVertices = run.options.coarseVertices;
   plan.nextLevels = plan.levels;
   plan.quads = quadsFor(run, plan, 0);

@@ -189,6 +189,7 @@ void leaveMeasures(RemeshResult& result, const Frame& frame)
     curve.start = frame.toUser(curve.start);
     curve.end = frame.toUser(curve.end);
   }
+  leaveFrame(result.onFeatures, frame);
 }
 
 } // namespace

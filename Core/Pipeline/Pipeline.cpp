@@ -153,6 +153,7 @@ void takeAttempt(const Attempt& attempt, const RemeshOptions& options, bool quad
   MapAttempt& map = *attempt.map;
   result.status = map.status;
   result.turns = std::move(map.turns);
+  result.onFeatures = map.onFeatures;
   if (!quadsAlone)
   {
     map.unpack(surface->mesh);

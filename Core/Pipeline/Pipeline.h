@@ -41,6 +41,8 @@ struct RemeshResult
   ResultKey mapKey = 0;
   bool mapIsKnown = false; ///< whether it is that of RemeshOptions::knownMap
   std::vector<int> turns;  ///< #V of surface.mesh
+  /// Ends, corners and bends of features and boundaries, ascending by vertex of surface.mesh.
+  std::vector<SectorRequest> onFeatures;
   Level coarse;            ///< coarse mesh
   std::vector<FixedVec2>
     coarseUv;                    ///< #H of coarse.mesh; also when the status is not ok, for a look

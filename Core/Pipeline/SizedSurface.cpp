@@ -80,6 +80,20 @@ ResultKey requestsKey(const SurfaceInput& input)
       key.add(p[0]).add(p[1]).add(p[2]);
     }
   }
+  for (const HeldVertex& vertex : input.held)
+  {
+    key.add(std::uint64_t{ vertex.point }).add(std::uint64_t{ vertex.sectors.size() });
+    key.add(vertex.place[0]).add(vertex.place[1]).add(vertex.place[2]);
+    for (const HeldSector& sector : vertex.sectors)
+    {
+      key.add(sector.middle[0]).add(sector.middle[1]).add(sector.middle[2]);
+      key.add(static_cast<std::uint64_t>(sector.turns));
+    }
+  }
+  if (input.regularOnFeatures)
+  {
+    key.add(std::uint64_t{ 2 });
+  }
   return key.add(input.guideWeights)
     .add(input.targetValences)
     .add(std::uint64_t{ input.regularElsewhere ? 1U : 0U })
@@ -174,7 +188,11 @@ private:
     made_.surface = std::make_shared<PreparedSurface>(prepareSurface(input_, prepareOptions));
     const std::size_t polygons =
       input_.polygonOffsets.empty() ? 0 : input_.polygonOffsets.size() - 1;
-    input_ = {};
+    SurfaceInput later; // what placeHeld still needs
+    later.held = std::move(input_.held);
+    later.targetValences =
+      later.held.empty() ? std::vector<int>{} : std::move(input_.targetValences);
+    input_ = std::move(later);
     releaseFreedMemory();
     for (const auto& [name, seconds] : made_.surface->seconds)
     {
@@ -217,6 +235,7 @@ private:
     if (!found->hasRequests)
     {
       collectRequests(input_, *made_.surface, options_.threads);
+      placeHeld();
     }
     made_.edgeLength = found->edgeLength;
     made_.targetQuads = options_.quads ? *options_.quads : found->targetQuads;
@@ -262,10 +281,18 @@ private:
       return;
     }
     refine();
+    placeHeld();
     if (store_ != nullptr)
     {
       keep(std::move(before), std::move(marks));
     }
+  }
+
+  /// On the triangles as they are to stay, unlike the other requests.
+  void placeHeld()
+  {
+    PreparedSurface& surface = *made_.surface;
+    placeHeldVertices(input_, surface, surface.valenceRequests, surface.sectorRequests);
   }
 
   /// Triangles that refinement left as they were are kept once.

@@ -66,7 +66,7 @@ ClosedHandles closeSmallHandles(
     levels.targetEdgeLength = edgeLength;
     levels.coarseVertices = options.coarseVertices;
     levels.guides = surfaceGuides(surface, options.threads).faces;
-    levels.keepVertices = indexVertices(surface);
+    levels.keepVertices = keptVertices(surface);
     levels.threads = options.threads;
     levels.progress = subProgress(options.progress, 0.15, 0.45, "Decimating: ");
     const Redecimation redecimation(surface.mesh, surface.hash, levels);

@@ -20,7 +20,7 @@ SurfaceMarks marksOf(const PreparedSurface& surface)
 {
   return { surface.mesh.flags, surface.mesh.sizing, surface.hash, surface.repair, surface.notice,
     surface.polygonGuides, surface.valenceRequests, surface.unusedValences, surface.curves,
-    surface.regularElsewhere };
+    surface.regularElsewhere, surface.sectorRequests, surface.regularOnFeatures };
 }
 
 void putOn(const SurfaceMarks& marks, PreparedSurface& surface)
@@ -35,6 +35,8 @@ void putOn(const SurfaceMarks& marks, PreparedSurface& surface)
   surface.unusedValences = marks.unusedValences;
   surface.curves = marks.curves;
   surface.regularElsewhere = marks.regularElsewhere;
+  surface.sectorRequests = marks.sectorRequests;
+  surface.regularOnFeatures = marks.regularOnFeatures;
 }
 
 std::size_t bytesOf(const Mesh& mesh)
@@ -56,6 +58,8 @@ void forgetRequests(SurfaceMarks& marks)
   marks.unusedValences = 0;
   marks.curves.clear();
   marks.regularElsewhere = false;
+  marks.sectorRequests.clear();
+  marks.regularOnFeatures = false;
 }
 
 RunSurface::RunSurface(std::shared_ptr<PreparedSurface> surface, ResultKey key, int threads)

@@ -30,6 +30,8 @@ struct SurfaceMarks
   std::size_t unusedValences = 0;
   std::vector<CurveRequest> curves;
   bool regularElsewhere = false;
+  std::vector<SectorRequest> sectorRequests;
+  bool regularOnFeatures = false;
 
   std::size_t bytes() const;
 };

@@ -17,12 +17,13 @@ SurfaceInput withoutGeometry(const SurfaceInput& surface)
 {
   // By name, so that an array that is new has to be put on one side or the other here.
   const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, guideDirections,
-    guideWeights, targetValences, sizing, curves, regularElsewhere, faceOrder, precision] = surface;
+    guideWeights, targetValences, sizing, curves, regularElsewhere, held, regularOnFeatures,
+    faceOrder, precision] = surface;
   static_cast<void>(points);
   static_cast<void>(polygonOffsets);
   static_cast<void>(polygonPoints);
   return { {}, {}, {}, featureEdges, patchIds, guideDirections, guideWeights, targetValences,
-    sizing, curves, regularElsewhere, faceOrder, precision };
+    sizing, curves, regularElsewhere, held, regularOnFeatures, faceOrder, precision };
 }
 
 /// Lines that are remembered; a stroke of ten thousand polygons takes a megabyte.
@@ -32,8 +33,9 @@ class Composition
 {
 public:
   Composition(const SurfaceInput& surface, const SurfacePlaces& places, LinePlacements& lines,
-    const SessionConstraints& constraints)
-    : surface_(surface), places_(places), lines_(lines), constraints_(constraints)
+    const SessionConstraints& constraints, bool holdFeatures)
+    : surface_(surface), places_(places), lines_(lines), constraints_(constraints),
+      holdFeatures_(holdFeatures)
   {
     composed_.input = withoutGeometry(surface);
     composed_.parts.resize(constraints.size());
@@ -201,14 +203,9 @@ public:
 
   void operator()(const Connection& connection)
   {
-    part().curve = composed_.input.curves.size();
-    composed_.input.curves.push_back({ CurveKind::Connection, connection.points });
+    addCurve({ CurveKind::Connection, connection.points });
   }
-  void operator()(const Cycle& cycle)
-  {
-    part().curve = composed_.input.curves.size();
-    composed_.input.curves.push_back({ CurveKind::Cycle, cycle.points });
-  }
+  void operator()(const Cycle& cycle) { addCurve({ CurveKind::Cycle, cycle.points }); }
   void operator()(const MirrorSymmetry&)
   {
     if (composed_.symmetry)
@@ -236,6 +233,14 @@ private:
     const auto found = std::find_if(constraints_.begin(), constraints_.end(),
       [id](const auto& constraint) { return constraint->id == id; });
     return (*found)->name();
+  }
+
+  void addCurve(CurveRequest curve)
+  {
+    std::vector<CurveRequest>& curves = composed_.input.curves;
+    checkCurve(curve, curves.size());
+    part().curve = curves.size();
+    curves.push_back(std::move(curve));
   }
 
   const LinePlacements::Placed& takePlaced()
@@ -295,16 +300,74 @@ private:
       input.targetValences[point] = valence;
     }
     int off = 0;
+    std::size_t others = 0;
     for (const auto& [point, asked] : asked_)
     {
       input.targetValences[point] = asked.valence;
       const int missing = list_.valenceAt(point) - asked.valence;
+      others += missing != 0 ? 1 : 0;
       if (list_.isInForce() && missing != 0 && !places_.isOnBoundary(point))
       {
         off += missing;
       }
     }
     input.regularElsewhere = surface_.regularElsewhere || (list_.isInForce() && off == 0);
+    if (list_.isInForce())
+    {
+      setIrregular();
+      composed_.lastOperation = list_.links().back().id;
+      hold(others == 0 && off == 0);
+    }
+  }
+
+  /// Those that operations lead to, and the others that are asked for.
+  void setIrregular()
+  {
+    composed_.irregular = list_.irregular(surface_);
+    std::vector<IrregularVertex>& all = composed_.irregular;
+    all.erase(std::remove_if(all.begin(), all.end(),
+                [this](const IrregularVertex& vertex)
+                {
+                  const auto found = asked_.find(vertex.point);
+                  return found != asked_.end() && found->second.valence != vertex.valence;
+                }),
+      all.end());
+    for (const auto& [point, asked] : asked_)
+    {
+      if (asked.valence != kRegularValence && list_.valenceAt(point) != asked.valence)
+      {
+        all.push_back({ point, surface_.points[point], asked.valence });
+      }
+    }
+    std::sort(all.begin(), all.end(),
+      [](const IrregularVertex& a, const IrregularVertex& b) { return a.point < b.point; });
+  }
+
+  /// The vertices that operations lead to, at their places; and on features, where nothing else is asked of the
+  /// irregular vertices. A half of the surface has a boundary of its own, so that with a symmetry points have to do.
+  void hold(bool onFeatures)
+  {
+    SurfaceInput& input = composed_.input;
+    if (composed_.symmetry)
+    {
+      return;
+    }
+    for (const IrregularVertex& vertex : composed_.irregular)
+    {
+      if (asked_.count(vertex.point) == 0 && vertex.place != surface_.points[vertex.point])
+      {
+        input.held.push_back({ vertex.point, vertex.place, {} });
+      }
+    }
+    if (onFeatures)
+    {
+      composed_.onFeatures = list_.onFeatures();
+    }
+    if (onFeatures && holdFeatures_)
+    {
+      input.held.insert(input.held.end(), list_.onFeatures().begin(), list_.onFeatures().end());
+      input.regularOnFeatures = true;
+    }
   }
 
   void setEdits()
@@ -328,6 +391,7 @@ private:
   const SurfacePlaces& places_;
   LinePlacements& lines_;
   const SessionConstraints& constraints_;
+  bool holdFeatures_;
   std::size_t at_ = 0;
   ComposedInput composed_;
   std::map<Index, Asked> asked_;
@@ -367,9 +431,9 @@ const LinePlacements::Placed& LinePlacements::of(
 
 ComposedInput composeInput(const SurfaceInput& surface, const SurfacePlaces& places,
   LinePlacements& lines, const SessionConstraints& constraints,
-  const std::map<int, std::string>& leftOut)
+  const std::map<int, std::string>& leftOut, bool holdFeatures)
 {
-  return Composition(surface, places, lines, constraints).run(leftOut);
+  return Composition(surface, places, lines, constraints, holdFeatures).run(leftOut);
 }
 
 } // namespace quadrille

@@ -39,7 +39,15 @@ struct ComposedInput
   SurfaceInput input; ///< all but points and polygons, which are the surface's
   /// The constraint that asks for a symmetry, its place in `parts`; none: the quads have not to be symmetric.
   std::optional<std::size_t> symmetry;
-  std::vector<PlacedPart> parts;    ///< in the order of the constraints
+  std::vector<PlacedPart> parts; ///< in the order of the constraints
+  /// Irregular vertices that operations and valences lead to, ascending by point, and the last operation in force, its
+  /// id.
+  std::vector<IrregularVertex> irregular;
+  int lastOperation = 0; ///< 0: none
+  /// Vertices on features and boundaries that these should leave as they are all, and why that was not possible. None
+  /// where features are free.
+  std::optional<std::vector<HeldVertex>> onFeatures;
+  std::string whyNotHeld;
   std::vector<std::string> notices; ///< what the user should know
 };
 
@@ -64,9 +72,10 @@ private:
 };
 
 /// leftOut: ids of constraints that are not put on, and why. Constraints that contradict an earlier one, or the
-/// surface, are left out as well.
+/// surface, are left out as well. holdFeatures: whether irregular operations leave features and boundaries as they
+/// were.
 ComposedInput composeInput(const SurfaceInput& surface, const SurfacePlaces& places,
   LinePlacements& lines, const SessionConstraints& constraints,
-  const std::map<int, std::string>& leftOut);
+  const std::map<int, std::string>& leftOut, bool holdFeatures);
 
 } // namespace quadrille

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session/ConstraintReports.h"
 
+#include "Base/PlaceText.h"
 #include "Evaluation/ConstraintMeasures.h"
 #include "Evaluation/LinesInQuads.h"
+#include "Session/IrregularMatch.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -15,15 +18,18 @@ namespace quadrille
 namespace
 {
 
+/// Edge lengths within which a vertex is the one that was meant.
+constexpr double kReachOfOperation = 2;
+
 class SessionJudge
 {
 public:
   SessionJudge(const SurfaceInput& surface, const SessionConstraints& constraints,
-    const ComposedInput& composed, const RemeshResult& made,
-    const std::vector<IrregularVertex>& irregular, const SymmetricResult* symmetric)
+    const ComposedInput& composed, const RemeshResult& made, const SessionResult& result,
+    const SymmetricResult* symmetric)
     : surface_(surface), constraints_(constraints), composed_(composed), quads_(made.quads),
-      curves_(made.curves), irregular_(irregular), targetEdgeLength_(made.targetEdgeLength),
-      symmetric_(symmetric), measures_(made.quads)
+      curves_(made.curves), irregular_(result.irregular), onFeatures_(result.onFeatures),
+      targetEdgeLength_(made.targetEdgeLength), symmetric_(symmetric), measures_(made.quads)
   {
     std::size_t guides = 0;
     for (const PlacedPart& part : composed.parts)
@@ -39,6 +45,7 @@ public:
     for (std::size_t i = 0; i < constraints_.size(); ++i)
     {
       part_ = &composed_.parts[i];
+      id_ = constraints_[i]->id;
       const SessionConstraint& constraint = *constraints_[i];
       const ConstraintMeasure measure = measureOf(constraint);
       words.push_back({ constraint.id, kindOf(constraint.content), constraint.name(), measure.place,
@@ -64,7 +71,7 @@ public:
   }
   ConstraintMeasure operator()(const SizeAt& at) { return size(at.factor); }
   ConstraintMeasure operator()(const SizeRegion& region) { return size(region.factor); }
-  ConstraintMeasure operator()(const IrregularEdit&);
+  ConstraintMeasure operator()(const IrregularEdit&) { return irregularEdit(id_); }
   ConstraintMeasure operator()(const Connection& connection)
   {
     return line(ConstraintKind::Connection, connection.points);
@@ -78,6 +85,12 @@ public:
   ConstraintMeasure operator()(const MirrorSymmetry&);
 
 private:
+  ConstraintMeasure irregularEdit(int id);
+  Vector3 placeOfPoint(Index point) const;
+  int valenceNear(const Vector3& place, int asked);
+  std::vector<Vector3> otherChanges();
+  const IrregularMatch& irregularMatch();
+
   ConstraintMeasure measureOf(const SessionConstraint& constraint)
   {
     if (!part_->whyNot.empty())
@@ -131,47 +144,176 @@ private:
   const QuadMesh& quads_;
   const std::vector<CurveOutcome>& curves_;
   const std::vector<IrregularVertex>& irregular_;
+  const std::vector<HeldVertex>& onFeatures_;
   double targetEdgeLength_;
   const SymmetricResult* symmetric_; ///< null: the quads were not made so
   ConstraintMeasures measures_;
-  std::optional<LinesInQuads> lines_; ///< made when they are needed first
+  std::optional<IrregularMatch> match_; ///< and this
+  std::optional<LinesInQuads> lines_;   ///< made when they are needed first
   std::size_t mostPlaces_ = 0;
   const PlacedPart* part_ = nullptr;
+  int id_ = 0; ///< of the constraint
 };
 
-/// The vertices that it changed last have their valences; deviation counts those that have not.
-ConstraintMeasure SessionJudge::operator()(const IrregularEdit&)
+/// The vertices that it changed last have their valences in the quads; and of the last operation: all others are
+/// where they were. deviation counts those that have not, or are not.
+ConstraintMeasure SessionJudge::irregularEdit(int id)
 {
   ConstraintMeasure measure;
   measure.place = part_->place;
   measure.unit = "valence";
   measure.deviation95 = std::numeric_limits<double>::quiet_NaN();
-  std::size_t other = 0;
+  std::size_t wrong = 0;
   for (const auto& [point, asked] : part_->valences)
   {
-    // Regular ones move with the smoothing, so it is those of the map that tell.
-    const auto found = std::lower_bound(irregular_.begin(), irregular_.end(), point,
-      [](const IrregularVertex& vertex, Index p) { return vertex.point < p; });
-    const bool isIrregular = found != irregular_.end() && found->point == point;
-    const int valence = isIrregular ? found->valence : kRegularValence;
-    if (valence != asked)
+    const Vector3 place = placeOfPoint(point);
+    const int got = valenceNear(place, asked);
+    if (got != asked)
     {
-      measure.place = surface_.points[point];
-      measure.reason = "asked " + std::to_string(asked) + ", got " + std::to_string(valence);
-      ++other;
+      measure.place = place;
+      measure.reason = "asked " + std::to_string(asked) + ", got " + std::to_string(got);
+      ++wrong;
     }
   }
-  if (other > 0 && symmetric_ != nullptr && symmetric_->plane.height(measure.place) < 0)
+  if (wrong > 0 && symmetric_ != nullptr && symmetric_->plane.height(measure.place) < 0)
   {
     measure.reason += "; with a symmetry the operations in front of the mirror plane count: make "
                       "it at the mirror image";
   }
-  measure.deviation = static_cast<double>(other);
-  measure.isMet = other == 0;
+  if (id == composed_.lastOperation && symmetric_ == nullptr && composed_.input.regularElsewhere)
+  {
+    const std::vector<Vector3> others = otherChanges();
+    if (!others.empty())
+    {
+      measure.place = wrong > 0 ? measure.place : others.front();
+      measure.reason += (wrong > 0 ? "; " : "") + std::to_string(others.size()) +
+        " other irregular vertices are not as they were, one at " + placeText(others.front()) +
+        (composed_.whyNotHeld.empty()
+            ? ": choose places with more room between features and other irregular vertices"
+            : ", as those on features and boundaries could not be held: " + composed_.whyNotHeld);
+      wrong += others.size();
+    }
+  }
+  measure.deviation = static_cast<double>(wrong);
+  measure.isMet = wrong == 0;
   return measure;
 }
 
-/// Connectivity is symmetric whenever there are quads, so that it is the surface that deviates.
+/// Where the vertex is that operations have put at a point of the input.
+Vector3 SessionJudge::placeOfPoint(Index point) const
+{
+  const auto found = std::lower_bound(composed_.irregular.begin(), composed_.irregular.end(), point,
+    [](const IrregularVertex& vertex, Index p) { return vertex.point < p; });
+  return found != composed_.irregular.end() && found->point == point ? found->place
+                                                                     : surface_.points[point];
+}
+
+/// Of the irregular vertex there, in the map and in the quads; regular where there is none. Another size of quads moves
+/// a vertex that lies in a triangle of the input to another place in it.
+int SessionJudge::valenceNear(const Vector3& place, int asked)
+{
+  const IrregularMatch& match = irregularMatch();
+  const IrregularVertex* best = nullptr;
+  for (std::size_t i = 0; i < composed_.irregular.size(); ++i)
+  {
+    if (match.actual[i] && composed_.irregular[i].place == place)
+    {
+      best = &irregular_[*match.actual[i]];
+    }
+  }
+  if (best)
+  {
+    return measures_.valence(best->place, asked).isMet ? best->valence : kRegularValence;
+  }
+  for (const std::size_t k : match.unexpected)
+  {
+    const double distance = (irregular_[k].place - place).norm();
+    if (distance <= kReachOfOperation * targetEdgeLength_ &&
+      (!best || distance < (best->place - place).norm()))
+    {
+      best = &irregular_[k];
+    }
+  }
+  return best ? best->valence : kRegularValence;
+}
+
+/// Places where irregular vertices came, went or moved though no constraint asks for it.
+std::vector<Vector3> SessionJudge::otherChanges()
+{
+  const IrregularMatch& match = irregularMatch();
+  const double reach = kReachOfOperation * targetEdgeLength_;
+  const auto isNear = [&](const std::vector<Vector3>& all, const Vector3& p, double distance)
+  {
+    return std::any_of(
+      all.begin(), all.end(), [&](const Vector3& q) { return (p - q).norm() <= distance; });
+  };
+  std::vector<Vector3> told;   // of vertices with a word of their own
+  std::vector<Vector3> failed; // where that says what is there instead
+  std::vector<Vector3> drawn;  // on features
+  bool isLater = false;
+  for (std::size_t i = 0; i < constraints_.size(); ++i)
+  {
+    const PlacedPart& part = composed_.parts[i];
+    isLater = isLater || constraints_[i]->id == composed_.lastOperation;
+    if (isLater) // a feature has ends, and corners with others
+    {
+      drawn.insert(drawn.end(), part.path.begin(), part.path.end());
+    }
+    for (const auto& [point, valence] : part.valences)
+    {
+      const Vector3 place = placeOfPoint(point);
+      told.push_back(place);
+      if (valenceNear(place, valence) != valence)
+      {
+        failed.push_back(place);
+      }
+    }
+    if (std::holds_alternative<ValenceAt>(constraints_[i]->content))
+    {
+      told.push_back(part.place);
+      drawn.push_back(part.place);
+    }
+  }
+  std::vector<Vector3> places;
+  for (std::size_t i = 0; i < composed_.irregular.size(); ++i)
+  {
+    const Vector3& place = composed_.irregular[i].place;
+    if (!match.actual[i] && !isNear(told, place, 0))
+    {
+      places.push_back(place);
+    }
+  }
+  for (const std::size_t k : match.unexpected)
+  {
+    if (!isNear(failed, irregular_[k].place, reach))
+    {
+      places.push_back(irregular_[k].place);
+    }
+  }
+  if (composed_.onFeatures)
+  {
+    for (const Vector3& p : differencesOnFeatures(*composed_.onFeatures, onFeatures_, reach))
+    {
+      if (!isNear(drawn, p, reach))
+      {
+        places.push_back(p);
+      }
+    }
+  }
+  return places;
+}
+
+const IrregularMatch& SessionJudge::irregularMatch()
+{
+  if (!match_)
+  {
+    match_ = matchIrregular(composed_.irregular, irregular_, kReachOfOperation * targetEdgeLength_);
+  }
+  return *match_;
+}
+
+/// Connectivity is symmetric whenever there are quads, so that it is the surface that deviates; where its two sides
+/// differ, what is made of the one behind is not what it was.
 ConstraintMeasure SessionJudge::operator()(const MirrorSymmetry&)
 {
   if (symmetric_ == nullptr)
@@ -183,7 +325,11 @@ ConstraintMeasure SessionJudge::operator()(const MirrorSymmetry&)
   measure.unit = "diagonals";
   measure.deviation = symmetric_->deviation.rms / symmetric_->diagonal;
   measure.deviation95 = std::numeric_limits<double>::quiet_NaN();
-  measure.isMet = true;
+  measure.isMet = symmetric_->isAlike;
+  measure.reason = measure.isMet
+    ? ""
+    : "the two sides of the surface are not alike, see the notices: give another plane, or turn "
+      "the normal round";
   return measure;
 }
 
@@ -272,9 +418,9 @@ ConstraintMeasure SessionJudge::size(double factor)
 
 std::vector<ConstraintReport> reportConstraints(const SurfaceInput& surface,
   const SessionConstraints& constraints, const ComposedInput& composed, const RemeshResult& made,
-  const std::vector<IrregularVertex>& irregular, const SymmetricResult* symmetric)
+  const SessionResult& result, const SymmetricResult* symmetric)
 {
-  return SessionJudge(surface, constraints, composed, made, irregular, symmetric).run();
+  return SessionJudge(surface, constraints, composed, made, result, symmetric).run();
 }
 
 } // namespace quadrille

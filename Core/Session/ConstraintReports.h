@@ -12,9 +12,10 @@
 namespace quadrille
 {
 
-/// made: for the composed input; without quads where there are none. irregular: see irregularVertices.
+/// made: for the composed input; without quads where there are none. result: irregular
+/// vertices, also those on features, are those that were made.
 std::vector<ConstraintReport> reportConstraints(const SurfaceInput& surface,
   const SessionConstraints& constraints, const ComposedInput& composed, const RemeshResult& made,
-  const std::vector<IrregularVertex>& irregular, const SymmetricResult* symmetric);
+  const SessionResult& result, const SymmetricResult* symmetric);
 
 } // namespace quadrille

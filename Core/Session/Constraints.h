@@ -6,6 +6,7 @@
 
 #include "Base/Types.h"
 #include "Mesh/CurveRequests.h"
+#include "Mesh/HeldVertices.h"
 #include "Mesh/MirrorPlane.h"
 
 #include <optional>
@@ -111,6 +112,8 @@ struct IrregularEdit
   std::vector<IrregularVertex> before; ///< all of them, ascending by point
   std::vector<Change> changes;         ///< ascending by point
   std::vector<Link> upon;              ///< in their order
+  /// Ends, corners and bends of features and boundaries then, ascending by point.
+  std::vector<HeldVertex> onFeatures = {};
 };
 
 /// A chain of edges of quads, straight in the map, that joins two irregular vertices, features or boundaries.

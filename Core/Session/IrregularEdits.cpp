@@ -314,6 +314,27 @@ std::vector<IrregularVertex> irregularVertices(
   return irregular;
 }
 
+std::vector<HeldVertex> featureVertices(
+  const MadeSurface& made, const std::vector<SectorRequest>& onFeatures)
+{
+  const Mesh& mesh = made.surface.mesh;
+  std::vector<Index> corner(onFeatures.empty() ? 0 : mesh.vertexCount(), kInvalidIndex);
+  for (Index h = 0; h < mesh.halfEdgeCount() && !corner.empty(); ++h)
+  {
+    Index& at = corner[mesh.origin[h]];
+    at = at == kInvalidIndex ? h : at;
+  }
+  std::vector<HeldVertex> vertices;
+  for (const SectorRequest& request : onFeatures)
+  {
+    const Index h = corner[request.vertex];
+    vertices.push_back({ pointsNearCorner(made.surface, h)[0], made.placeAt(h), request.sectors });
+  }
+  std::stable_sort(vertices.begin(), vertices.end(),
+    [](const HeldVertex& a, const HeldVertex& b) { return a.point < b.point; });
+  return vertices;
+}
+
 void resolveEdit(IrregularEdit& edit, const std::string& name, const SurfaceInput& surface,
   const SurfacePlaces& places, const std::vector<IrregularVertex>& irregular,
   const std::vector<Index>& fixedPoints)
@@ -326,6 +347,7 @@ std::string IrregularList::apply(
   int id, int revision, const IrregularEdit& edit, const SurfaceInput& surface)
 {
   std::map<Index, int> valences = valences_;
+  std::map<Index, Vector3> places = places_;
   const bool takesOwn = edit.upon == links_ || !isInForce_;
   if (takesOwn)
   {
@@ -333,9 +355,11 @@ std::string IrregularList::apply(
     {
       valence = kRegularValence; // unless the operation's list has it
     }
+    places.clear();
     for (const IrregularVertex& vertex : edit.before)
     {
       valences[vertex.point] = vertex.valence;
+      places[vertex.point] = vertex.place;
     }
   }
   for (std::size_t i = takesOwn && !(edit.upon == links_) ? edit.upon.size() : 0; i-- > 0;)
@@ -355,12 +379,21 @@ std::string IrregularList::apply(
         "the valence there is " + std::to_string(there) + ": remove it, or make it anew";
     }
     valences[change.point] = change.after;
+    if (change.before == kRegularValence || change.after == kRegularValence)
+    {
+      places.erase(change.point);
+    }
   }
   for (const IrregularEdit::Change& change : edit.changes)
   {
     changedBy_[change.point] = id;
   }
   valences_ = std::move(valences);
+  places_ = std::move(places);
+  if (takesOwn)
+  {
+    onFeatures_ = edit.onFeatures;
+  }
   links_.push_back({ id, revision, edit.changes });
   isInForce_ = true;
   return {};
@@ -370,6 +403,21 @@ int IrregularList::valenceAt(Index point) const
 {
   const auto found = valences_.find(point);
   return found == valences_.end() ? kRegularValence : found->second;
+}
+
+std::vector<IrregularVertex> IrregularList::irregular(const SurfaceInput& surface) const
+{
+  std::vector<IrregularVertex> vertices;
+  for (const auto& [point, valence] : valences_)
+  {
+    if (valence != kRegularValence)
+    {
+      const auto found = places_.find(point);
+      vertices.push_back(
+        { point, found == places_.end() ? surface.points[point] : found->second, valence });
+    }
+  }
+  return vertices;
 }
 
 int IrregularList::changedBy(Index point) const

@@ -41,6 +41,9 @@ OnCurves findOnCurves(const PreparedSurface& surface, int threads);
 /// turns: RemeshResult::turns.
 std::vector<IrregularVertex> irregularVertices(
   const MadeSurface& made, const std::vector<int>& turns, const OnCurves& onCurves);
+/// Ends, corners and bends of features and boundaries, ascending by point of the input. onFeatures: of the RemeshResult.
+std::vector<HeldVertex> featureVertices(
+  const MadeSurface& made, const std::vector<SectorRequest>& onFeatures);
 
 /// Fills before and changes of the operation. fixedPoints: OnCurves::points. Throws InvalidInput, with name and
 /// place, where there is no such vertex, a place cannot be taken, a valence would be out of range, or the sum of
@@ -61,6 +64,10 @@ public:
   /// Valences by point, also those that an operation has made regular.
   const std::map<Index, int>& valences() const { return valences_; }
   int valenceAt(Index point) const;
+  /// Those that are not regular, ascending by point, where they are on the surface.
+  std::vector<IrregularVertex> irregular(const SurfaceInput& surface) const;
+  /// Those on features and boundaries, of the last operation that brought its own list.
+  const std::vector<HeldVertex>& onFeatures() const { return onFeatures_; }
   /// The operation in force that changed the point last; 0: none.
   int changedBy(Index point) const;
   /// The operations in force.
@@ -70,6 +77,8 @@ private:
   bool isInForce_ = false;
   std::map<Index, int> valences_;
   std::map<Index, int> changedBy_;
+  std::map<Index, Vector3> places_; ///< of vertices that are not at their points
+  std::vector<HeldVertex> onFeatures_;
   std::vector<IrregularEdit::Link> links_;
 };
 

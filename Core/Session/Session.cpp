@@ -92,6 +92,11 @@ public:
     const double start = secondsNow();
     std::map<int, std::string> leftOut;
     RemeshResult made = runWith(leftOut);
+    if (mayBeForConstraints(made) && composed_.input.regularOnFeatures)
+    {
+      whyNotHeld_ = made.status.message;
+      made = runWith(leftOut);
+    }
     // Of those that cannot be met together with all that came before, each is left out.
     while (mayBeForConstraints(made))
     {
@@ -128,6 +133,7 @@ public:
       const OnCurves& onCurves = data_.onCurvesOf(surface.surface);
       result->irregular = irregularVertices(surface, made.turns, onCurves);
       result->fixedPoints = onCurves.points;
+      result->onFeatures = featureVertices(surface, made.onFeatures);
     }
     if (made.status.ok() && composed_.symmetry && composed_.input.regularElsewhere)
     {
@@ -138,7 +144,7 @@ public:
     if (!options_.preview)
     {
       report.constraints = reportConstraints(data_.surface, state_.constraints, composed_, made,
-        result->irregular, composed_.symmetry ? &mirrored_ : nullptr);
+        *result, composed_.symmetry ? &mirrored_ : nullptr);
     }
     if (made.status.ok())
     {
@@ -203,8 +209,9 @@ private:
   void compose(std::map<int, std::string> leftOut)
   {
     leftOut.insert(refused_.begin(), refused_.end());
-    composed_ =
-      composeInput(data_.surface, data_.places(), data_.lines, state_.constraints, leftOut);
+    composed_ = composeInput(
+      data_.surface, data_.places(), data_.lines, state_.constraints, leftOut, whyNotHeld_.empty());
+    composed_.whyNotHeld = whyNotHeld_;
   }
 
   /// None where the surface has no such symmetry, whatever else is asked of it: then it is left out of all runs. Were
@@ -279,7 +286,8 @@ private:
   const SessionState& state_;
   RemeshOptions options_;
   ComposedInput composed_;
-  SymmetricResult mirrored_;           ///< of the last run, without `remeshed`
+  SymmetricResult mirrored_; ///< of the last run, without `remeshed`
+  std::string whyNotHeld_;   ///< vertices on features and boundaries; empty while they are
   std::map<int, std::string> refused_; ///< symmetries that the surface has not, and why
   StageRecords stages_;
   Status stopped_;
@@ -382,8 +390,8 @@ std::size_t SessionResult::bytes() const
   return bytesOf(quads.points) + bytesOf(quads.quads) + bytesOf(quads.sourceFace) +
     bytesOf(quads.sourceWeights) + bytesOf(quads.quadSourceFace) +
     bytesOf(quads.quadSourceWeights) + bytesOf(quads.valence) + bytesOf(quads.onBoundary) +
-    bytesOf(quads.lines) + bytesOf(irregular) + bytesOf(fixedPoints) + bytesOf(mirrorPoint) +
-    sizeof(*this);
+    bytesOf(quads.lines) + bytesOf(irregular) + bytesOf(fixedPoints) + bytesOf(onFeatures) +
+    bytesOf(mirrorPoint) + sizeof(*this);
 }
 
 std::uint64_t surfaceHash(const SurfaceInput& surface, int threads)
@@ -627,6 +635,7 @@ int Session::add(ConstraintContent content)
     }
     resolveEdit(*edit, name, data_->surface, data_->places(), now->irregular, now->fixedPoints);
     edit->upon = data_->linksInForce();
+    edit->onFeatures = now->onFeatures;
   }
   auto next = std::make_shared<SessionState>(data_->next());
   next->constraints.push_back(std::make_shared<const SessionConstraint>(std::move(constraint)));
@@ -653,6 +662,7 @@ void Session::edit(int id, ConstraintContent content)
     resolveEdit(*edit, before.name(), data_->surface, data_->places(), made.before,
       now ? now->fixedPoints : std::vector<Index>{});
     edit->upon = made.upon;
+    edit->onFeatures = made.onFeatures;
   }
   *found = std::make_shared<const SessionConstraint>(std::move(constraint));
   data_->enter(std::move(next));

@@ -51,6 +51,7 @@ struct SessionResult
   QuadMesh quads;
   std::vector<IrregularVertex> irregular; ///< ascending by point
   std::vector<Index> fixedPoints;         ///< of the input, on features and boundaries; ascending
+  std::vector<HeldVertex> onFeatures;     ///< ends, corners and bends of these, ascending by point
   double targetEdgeLength = 0;
   std::size_t targetQuads = 0;
   std::vector<Index> mirrorPoint; ///< per point of symmetric quads: its image; else empty

@@ -97,6 +97,18 @@ void checkResolved(const IrregularEdit& edit, const std::string& name, std::size
   {
     require(vertex.point, std::clamp(vertex.valence, 2, 8)); // the surface may have others
   }
+  for (const HeldVertex& vertex : edit.onFeatures)
+  {
+    require(vertex.point, 4);
+    for (const HeldSector& sector : vertex.sectors)
+    {
+      if (sector.turns < 1 || !sector.middle.allFinite())
+      {
+        refuse(name, " has a sector at point ", vertex.point, " with ", sector.turns,
+          " quarter turns, but the least is 1, or its direction is not finite");
+      }
+    }
+  }
   requireChanges(edit.changes);
   for (const IrregularEdit::Link& link : edit.upon)
   {

@@ -333,7 +333,19 @@ SessionJson resolvedToJson(const IrregularEdit& edit)
     upon.push_back({ { "id", link.id }, { "revision", link.revision },
       { "changes", changesToJson(link.changes) } });
   }
-  return { { "before", before }, { "changes", changesToJson(edit.changes) }, { "upon", upon } };
+  SessionJson onFeatures = SessionJson::array();
+  for (const HeldVertex& vertex : edit.onFeatures)
+  {
+    SessionJson sectors = SessionJson::array();
+    for (const HeldSector& sector : vertex.sectors)
+    {
+      sectors.push_back({ { "middle", pointToJson(sector.middle) }, { "turns", sector.turns } });
+    }
+    onFeatures.push_back({ { "point", vertex.point }, { "place", pointToJson(vertex.place) },
+      { "sectors", sectors } });
+  }
+  return { { "before", before }, { "changes", changesToJson(edit.changes) }, { "upon", upon },
+    { "on_features", onFeatures } };
 }
 
 template <class Read>
@@ -365,6 +377,27 @@ void readChanges(
     });
 }
 
+void readOnFeatures(
+  const SessionJson& json, const std::string& where, std::vector<HeldVertex>& vertices)
+{
+  readEach(json, "\"on_features\" of " + where,
+    [&](ObjectReader& each)
+    {
+      HeldVertex vertex;
+      each.read("point", vertex.point);
+      each.read("place", vertex.place);
+      readEach(each.at("sectors"), "\"sectors\" of " + where,
+        [&](ObjectReader& eachSector)
+        {
+          HeldSector sector;
+          eachSector.read("middle", sector.middle);
+          eachSector.read("turns", sector.turns);
+          vertex.sectors.push_back(sector);
+        });
+      vertices.push_back(std::move(vertex));
+    });
+}
+
 void readResolved(const SessionJson& json, const std::string& where, IrregularEdit& edit)
 {
   ObjectReader reader(json, where);
@@ -387,6 +420,10 @@ void readResolved(const SessionJson& json, const std::string& where, IrregularEd
       readChanges(each.at("changes"), where, link.changes);
       edit.upon.push_back(link);
     });
+  if (reader.has("on_features")) // files of before have none
+  {
+    readOnFeatures(reader.at("on_features"), where, edit.onFeatures);
+  }
   reader.finish();
 }
 

@@ -3,6 +3,10 @@
 /// Operations on irregular vertices, found again in the quads.
 #include "SessionHelpers.h"
 
+#include "PlyFile.h"
+
+#include <memory>
+
 namespace quadrille
 {
 namespace
@@ -202,6 +206,79 @@ TEST_F(IrregularEdits, ValencesThatKeepTheSumLeaveTheOthersToo)
   expected[pointAt(b)] = 3;
   expected[pointAt(c)] = 5;
   expectIrregular(expected);
+}
+
+/// A flange, whose sides are bounded by sharp edges, with triangles larger than quads.
+class IrregularEditsOnAPart : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    const auto surface = loadPly(QUADRILLE_DATA "/part.ply");
+    ASSERT_TRUE(surface);
+    RemeshOptions options = sessionOptions(3000);
+    options.coarseVertices = 1000;
+    options.featureAngle = 40 * kDegree;
+    session_ = std::make_unique<Session>(*surface, options);
+    ASSERT_TRUE(session_->update().status.ok());
+    before_ = session_->result()->irregular;
+    // One on the flange's upper side.
+    const Vector3 there(-33.7, -43.1, kUpperSide);
+    from_ = *std::min_element(before_.begin(), before_.end(),
+      [&](const IrregularVertex& a, const IrregularVertex& b)
+      { return (a.place - there).norm() < (b.place - there).norm(); });
+    ASSERT_NEAR(from_.place.z(), kUpperSide, 1e-3);
+  }
+
+  static constexpr double kDegree = 3.14159265358979323846 / 180;
+  static constexpr double kUpperSide = 12;
+  std::unique_ptr<Session> session_;
+  std::vector<IrregularVertex> before_;
+  IrregularVertex from_;
+};
+
+TEST_F(IrregularEditsOnAPart, AllOthersStay)
+{
+  const auto isPoint = [&](const IrregularVertex& vertex)
+  { return session_->surface().points[vertex.point] == vertex.place; };
+  EXPECT_FALSE(std::all_of(before_.begin(), before_.end(), isPoint)) << "no triangle was refined";
+  const std::vector<HeldVertex> onFeatures = session_->result()->onFeatures;
+  const Vector3 aside = from_.place * 0.85 + Vector3(0, 0, 0.15 * kUpperSide);
+  session_->add(IrregularEdit{ IrregularOperation::Move, { from_.place, aside }, {}, {}, {}, {} });
+  const SessionReport& report = session_->update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  EXPECT_TRUE(report.constraints.front().isMet) << report.constraints.front().reason;
+  const std::vector<IrregularVertex>& after = session_->result()->irregular;
+  EXPECT_EQ(after.size(), before_.size());
+  for (const IrregularVertex& vertex : before_)
+  {
+    const bool stays = std::any_of(after.begin(), after.end(),
+      [&](const IrregularVertex& other)
+      { return other.place == vertex.place && other.valence == vertex.valence; });
+    EXPECT_EQ(stays, vertex.point != from_.point);
+  }
+  // Other triangles of the coarse level, the same turns.
+  const std::vector<HeldVertex>& there = session_->result()->onFeatures;
+  ASSERT_EQ(there.size(), onFeatures.size());
+  for (std::size_t i = 0; i < there.size(); ++i)
+  {
+    EXPECT_EQ(there[i].point, onFeatures[i].point);
+    EXPECT_EQ(there[i].place, onFeatures[i].place);
+    ASSERT_EQ(there[i].sectors.size(), onFeatures[i].sectors.size());
+  }
+}
+
+/// Between features the sum of indices is what it is.
+TEST_F(IrregularEditsOnAPart, TheWordOnAMoveAcrossAFeatureTellsWhatItChanges)
+{
+  const Vector3 onTheRim(-18.7, -49.8, 11.9);
+  session_->add(
+    IrregularEdit{ IrregularOperation::Move, { from_.place, onTheRim }, {}, {}, {}, {} });
+  const SessionReport& report = session_->update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  const ConstraintReport& word = report.constraints.front();
+  EXPECT_FALSE(word.isMet);
+  EXPECT_NE(word.reason.find("cannot pass features"), std::string::npos) << word.reason;
 }
 
 TEST(IrregularEditsOnCurves, PlacesOnFeaturesAreRefused)
