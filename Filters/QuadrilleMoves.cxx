@@ -65,8 +65,10 @@ public:
     : surface_(surface), places_(places)
   {
     const OnCurves onCurves = findOnCurves(without.surface, threads);
-    irregular_ = irregularVertices(MadeSurface{ without.surface }, without.turns, onCurves);
+    const MadeSurface made{ without.surface };
+    irregular_ = irregularVertices(made, without.turns, onCurves);
     fixedPoints_ = onCurves.points;
+    onFeatures_ = featureVertices(made, without.onFeatures);
   }
 
   /// id: above 0. Fills the move's path and valence, or whyNot.
@@ -92,6 +94,7 @@ public:
     move.distance = (move.path[1] - surface_.points[to]).norm();
     move.path = { from, surface_.points[to] };
     edit.upon = list_.links();
+    edit.onFeatures = onFeatures_;
     list_.apply(id, 0, edit, surface_);
     change(irregular_, edit.changes, surface_);
     for (const IrregularVertex& vertex : irregular_)
@@ -118,6 +121,7 @@ private:
   const SurfacePlaces& places_;
   std::vector<IrregularVertex> irregular_;
   std::vector<Index> fixedPoints_;
+  std::vector<HeldVertex> onFeatures_;
   IrregularList list_;
   SessionConstraints constraints_;
 };
@@ -163,9 +167,12 @@ SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& 
   }
   std::map<int, std::string> leftOut;
   LinePlacements lines;
+  bool holdsFeatures = true;
   while (true)
   {
-    ComposedInput composed = composeInput(input, places, lines, list.constraints(), leftOut);
+    ComposedInput composed =
+      composeInput(input, places, lines, list.constraints(), leftOut, holdsFeatures);
+    const bool isHeld = composed.input.regularOnFeatures;
     composed.input.points = input.points;
     composed.input.polygonOffsets = input.polygonOffsets;
     composed.input.polygonPoints = input.polygonPoints;
@@ -177,6 +184,14 @@ SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& 
       last = composed.parts[c].whyNot.empty() ? id : last;
     }
     made = run(std::move(composed.input), options);
+    if (!isForOtherReasons(made.remeshed.status) && isHeld)
+    {
+      notices.push_back(
+        "moves may change irregular vertices on features, as these cannot be held: " +
+        made.remeshed.status.message);
+      holdsFeatures = false;
+      continue;
+    }
     if (isForOtherReasons(made.remeshed.status) || !last)
     {
       tellLeftOut(placed, notices);

@@ -376,7 +376,7 @@ TEST(Prescription, WhatCannotBeCompletedIsRefusedWithTheSum)
   EXPECT_NE(regular.status.message.find("near ("), std::string::npos);
 
   // With eight vertices of the sphere left to it, it can be done, and in one way only.
-  const CrossField plain = computeCrossField(sphere(2), { kEdgeLength, {}, {}, {}, {}, {} });
+  const CrossField plain = computeCrossField(sphere(2), { kEdgeLength, {}, {}, {}, {}, {}, {} });
   const Index first = torus(24, 12).vertexCount();
   for (Index v = 0; v < plain.turns.size(); ++v)
   {
