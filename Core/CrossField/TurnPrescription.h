@@ -22,8 +22,8 @@ struct TurnPrescription
 };
 
 /// targetValence: empty or #V, 0 where free; on the boundary a vertex makes two turns less than its valence says
-/// (see ValenceRequest). sectorTurns: empty or #H, see CrossFieldOptions. Throws InvalidInput, naming the vertex, for a wrong size and for a valence below 2
-/// (3 on the boundary).
+/// (see ValenceRequest). sectorTurns: empty or #H, see CrossFieldOptions. Throws InvalidInput, naming the vertex, for a
+/// wrong size and for a valence below 2 (3 on the boundary).
 TurnPrescription prescribeTurns(const Mesh& mesh, const FieldTopology& topology,
   const std::vector<int>& targetValence, const std::vector<int>& sectorTurns = {});
 

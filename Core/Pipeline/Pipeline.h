@@ -43,7 +43,7 @@ struct RemeshResult
   std::vector<int> turns;  ///< #V of surface.mesh
   /// Ends, corners and bends of features and boundaries, ascending by vertex of surface.mesh.
   std::vector<SectorRequest> onFeatures;
-  Level coarse;            ///< coarse mesh
+  Level coarse; ///< coarse mesh
   std::vector<FixedVec2>
     coarseUv;                    ///< #H of coarse.mesh; also when the status is not ok, for a look
   std::vector<int> coarseTurns;  ///< #V of coarse.mesh

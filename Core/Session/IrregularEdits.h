@@ -41,7 +41,8 @@ OnCurves findOnCurves(const PreparedSurface& surface, int threads);
 /// turns: RemeshResult::turns.
 std::vector<IrregularVertex> irregularVertices(
   const MadeSurface& made, const std::vector<int>& turns, const OnCurves& onCurves);
-/// Ends, corners and bends of features and boundaries, ascending by point of the input. onFeatures: of the RemeshResult.
+/// Ends, corners and bends of features and boundaries, ascending by point of the input. onFeatures: of the
+/// RemeshResult.
 std::vector<HeldVertex> featureVertices(
   const MadeSurface& made, const std::vector<SectorRequest>& onFeatures);
 
