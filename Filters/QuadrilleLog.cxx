@@ -25,6 +25,7 @@ namespace
 constexpr const char* kLog = "DecimationLog";
 constexpr const char* kHash = "SurfaceHash";
 constexpr const char* kFeatureAngle = "RecipeFeatureAngle";
+constexpr const char* kFeatureCriterion = "RecipeFeatureCriterion";
 constexpr const char* kEdgeLength = "RecipeEdgeLength";
 constexpr const char* kPatchArray = "RecipePatchArray";
 constexpr const char* kCurveMarks = "RecipeCurveMarks";
@@ -56,6 +57,7 @@ void writeLog(const DecimationLog& log, const SurfaceRecipe& recipe, vtkDataObje
   addText(data, kHash, { hash });
   // Negative: no feature detection.
   addNumber(data, kFeatureAngle, recipe.featureAngle.value_or(-1));
+  addNumber(data, kFeatureCriterion, static_cast<double>(recipe.featureCriterion));
   addNumber(data, kEdgeLength, recipe.edgeLength);
   addText(data, kPatchArray, { recipe.patchArray });
   vtkNew<vtkIdTypeArray> marks;
@@ -77,6 +79,11 @@ SurfaceRecipe readRecipe(vtkDataObject* data)
   {
     recipe.featureAngle = angle;
   }
+  // Logs of earlier versions have none: there was the angle only.
+  auto* criterion =
+    vtkDataArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(kFeatureCriterion));
+  recipe.featureCriterion =
+    criterion && criterion->GetTuple1(0) == 0 ? FeatureCriterion::Creases : FeatureCriterion::Angle;
   recipe.edgeLength = require<vtkDataArray>(data, kEdgeLength)->GetTuple1(0);
   recipe.patchArray = require<vtkStringArray>(data, kPatchArray)->GetValue(0);
   // An array without tuples does not survive every file format, and says the same as none.

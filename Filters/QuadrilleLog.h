@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Hierarchy/DecimationLog.h"
+#include "Pipeline/Options.h"
 #include "QuadrilleConvert.h"
 
 #include <optional>
@@ -19,6 +20,7 @@ namespace quadrille
 struct SurfaceRecipe
 {
   std::optional<double> featureAngle; ///< radians
+  FeatureCriterion featureCriterion = FeatureCriterion::Creases;
   /// For the filter of features and the refinement; in the log in units of the user, where it is used in those of the
   /// surface's frame.
   double edgeLength = 0;

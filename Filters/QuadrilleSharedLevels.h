@@ -9,6 +9,7 @@
 
 #include "Mesh/Frame.h"
 #include "Mesh/Surface.h"
+#include "Pipeline/Options.h"
 #include "QuadrilleBlocks.h"
 
 #include <cstdint>
@@ -27,12 +28,13 @@ struct SurfaceKey
   std::uint64_t input =
     0; ///< contentHash of the converted surface with the marks of curves, in its frame
   std::optional<double> featureAngle;
+  FeatureCriterion featureCriterion = FeatureCriterion::Creases;
   double edgeLength = 0;
 
   bool operator==(const SurfaceKey& other) const
   {
     return input == other.input && featureAngle == other.featureAngle &&
-      edgeLength == other.edgeLength;
+      featureCriterion == other.featureCriterion && edgeLength == other.edgeLength;
   }
 };
 

@@ -87,6 +87,7 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
 
   quadrille::SurfaceRecipe recipe;
   recipe.featureAngle = options.featureAngle;
+  recipe.featureCriterion = options.featureCriterion;
   recipe.patchArray = this->PatchArrayName;
   recipe.curveMarks = converted.curveMarks;
   const auto made = std::make_shared<quadrille::SharedSurface>();
@@ -98,6 +99,7 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   quadrille::requireOk(sized.status, "the levels");
   recipe.edgeLength = sized.edgeLength;
   made->key.featureAngle = recipe.featureAngle;
+  made->key.featureCriterion = recipe.featureCriterion;
   made->key.edgeLength = recipe.edgeLength;
   const quadrille::FirstLevels levels = quadrille::makeFirstLevels(sized, frame, options, store);
   const quadrille::Hierarchy& hierarchy = levels.hierarchy;

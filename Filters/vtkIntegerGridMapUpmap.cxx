@@ -234,7 +234,7 @@ void vtkIntegerGridMapUpmap::FindOrPrepare(quadrille::SurfaceInput& input,
   const quadrille::SurfaceRecipe& recipe, quadrille::StageLaps& laps, quadrille::SharedLevels& held)
 {
   const quadrille::SurfaceKey key{ quadrille::contentHash(input, this->NumberOfThreads),
-    recipe.featureAngle, recipe.edgeLength };
+    recipe.featureAngle, recipe.featureCriterion, recipe.edgeLength };
   if (auto found = quadrille::findSharedSurface(key))
   {
     held.surface = std::move(found);
@@ -247,6 +247,7 @@ void vtkIntegerGridMapUpmap::FindOrPrepare(quadrille::SurfaceInput& input,
     quadrille::RemeshOptions options;
     options.edgeLength = recipe.edgeLength;
     options.featureAngle = recipe.featureAngle;
+    options.featureCriterion = recipe.featureCriterion;
     options.maximumNumberOfQuads = std::numeric_limits<std::size_t>::max();
     options.threads = this->NumberOfThreads;
     options.progress = this->MakeProgress(0.0, 3.3); // the surface is ready at 0.15 of a whole run

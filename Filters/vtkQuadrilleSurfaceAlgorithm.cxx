@@ -184,6 +184,9 @@ quadrille::RemeshOptions vtkQuadrilleSurfaceAlgorithm::MakeOptions(const quadril
   {
     options.featureAngle = vtkMath::RadiansFromDegrees(this->FeatureAngle);
   }
+  options.featureCriterion = this->FeatureCriterion == FEATURES_BY_ANGLE
+    ? quadrille::FeatureCriterion::Angle
+    : quadrille::FeatureCriterion::Creases;
   options.coarseVertices = static_cast<quadrille::Index>(this->CoarseVertices);
   options.threads = this->NumberOfThreads;
   return options;
@@ -200,6 +203,7 @@ void vtkQuadrilleSurfaceAlgorithm::AddSettings(std::ostream& os) const
      << "RelativeEdgeLength " << this->RelativeEdgeLength << '\n'
      << "DetectFeatures " << this->DetectFeatures << '\n'
      << "FeatureAngle " << this->FeatureAngle << '\n'
+     << "FeatureCriterion " << this->FeatureCriterion << '\n'
      << "PatchArrayName " << this->PatchArrayName << '\n'
      << "CoarseVertices " << this->CoarseVertices << '\n'
      << "StrokeWeight " << this->StrokeWeight << '\n'
@@ -219,6 +223,7 @@ void vtkQuadrilleSurfaceAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RelativeEdgeLength: " << this->RelativeEdgeLength << "\n";
   os << indent << "DetectFeatures: " << this->DetectFeatures << "\n";
   os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
+  os << indent << "FeatureCriterion: " << this->FeatureCriterion << "\n";
   os << indent << "PatchArrayName: " << this->PatchArrayName << "\n";
   os << indent << "CoarseVertices: " << this->CoarseVertices << "\n";
   os << indent << "StrokeWeight: " << this->StrokeWeight << "\n";

@@ -177,6 +177,26 @@ public:
   vtkGetMacro(FeatureAngle, double);
   ///@}
 
+  /// The values of FeatureCriterion, see there.
+  enum FeatureCriterionTypes
+  {
+    FEATURES_ARE_CREASES = 0,
+    FEATURES_BY_ANGLE = 1
+  };
+
+  ///@{
+  /**
+   * Which edges above the feature angle are features, a FeatureCriterionTypes. Creases: those of curves that are
+   * creases as a whole, long against the quads, smooth along their course and sharp over a distance, too; noise of
+   * scans makes none. By angle: all that stand out from their surroundings and that quads of this size can follow.
+   * Default: creases.
+   */
+  vtkSetClampMacro(FeatureCriterion, int, FEATURES_ARE_CREASES, FEATURES_BY_ANGLE);
+  vtkGetMacro(FeatureCriterion, int);
+  void SetFeatureCriterionToCreases() { this->SetFeatureCriterion(FEATURES_ARE_CREASES); }
+  void SetFeatureCriterionToAngle() { this->SetFeatureCriterion(FEATURES_BY_ANGLE); }
+  ///@}
+
   ///@{
   /**
    * Name of an integer cell array; edges between two of its values are features. The default "PatchId" may be
@@ -220,6 +240,7 @@ protected:
   double RelativeEdgeLength = 0.02;
   vtkTypeBool DetectFeatures = 1;
   double FeatureAngle = 40;
+  int FeatureCriterion = FEATURES_ARE_CREASES;
   std::string PatchArrayName = "PatchId";
   int CoarseVertices = 1000;
   double StrokeWeight = 1;

@@ -169,6 +169,11 @@ void addShape(CommandOptions& options, vtkQuadRemesh* filter)
       filter->SetFeatureAngle(angle);
     },
     "edges sharper than this become edges of the quads; 0 turns the detection off (default 40)");
+  options.addChoice(
+    "feature-criterion", "WORD", { "creases", "angle" },
+    [filter](int criterion) { filter->SetFeatureCriterion(criterion); },
+    "which edges above the angle are features: creases (default), those of curves that are creases "
+    "as a whole, which noise of scans is not, or all by their angle");
   options.addCountOrWord(
     "coarse-vertices", "N", { 4, 100000000 }, "auto",
     [filter](std::optional<long long> vertices)

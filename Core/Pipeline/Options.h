@@ -17,6 +17,13 @@
 namespace quadrille
 {
 
+/// Which edges above the feature angle are features.
+enum class FeatureCriterion
+{
+  Creases, ///< those of curves that are creases as a whole, see keepCreases
+  Angle    ///< all that stand out from their surroundings and that the edge length resolves
+};
+
 /// Exactly one of the three sizes is used: quads, else edgeLength, else relativeEdgeLength.
 struct RemeshOptions
 {
@@ -24,6 +31,7 @@ struct RemeshOptions
   std::optional<double> edgeLength; ///< target edge length in units of the input, > 0
   double relativeEdgeLength = 0.02; ///< target edge length over the bounding-box diagonal, > 0
   std::optional<double> featureAngle = radians(40); ///< radians; none: no detection
+  FeatureCriterion featureCriterion = FeatureCriterion::Creases;
   AdaptiveSizes
     sizes; ///< smaller quads where the surface is curved or thin; lengths in units of the input
   /// Where no guide is given, quads follow the principal curvature wherever its anisotropy, |k1 - k2| / (|k1| + |k2|)

@@ -5,6 +5,7 @@
 #include "Base/Memory.h"
 #include "Base/PlaceText.h"
 #include "Mesh/AdaptiveSizing.h"
+#include "Mesh/CreaseCurves.h"
 #include "Mesh/CurvatureGuides.h"
 #include "Mesh/FeatureFilter.h"
 #include "Mesh/Frame.h"
@@ -210,6 +211,7 @@ private:
     }
     made_.key = KeyMaker(preparedKey_)
                   .add(made_.edgeLength)
+                  .add(std::uint64_t{ judgesCreases(options_) ? 1U : 0U })
                   .add(options_.closeHandles)
                   .add(requestsKey_)
                   .add(std::uint64_t{ options_.removeSmallComponents ? 1U : 0U })
@@ -424,7 +426,7 @@ private:
     const std::size_t before = surface.mesh.faceCount();
     dropSmallComponents();
     tell(surface.facets.text());
-    tell(featureNotice(removeUnresolvedFeatures(surface.mesh, made_.edgeLength)));
+    filterFeatures();
     refineSurface(
       surface, made_.edgeLength, subProgress(options_.progress, 0.1, 0.15, "Refining: "));
     made_.stages.add("refine", secondsNow() - start, before, surface.mesh.faceCount());
@@ -438,6 +440,19 @@ private:
       made_.decimations += closed.decimations;
       made_.stages.add("close", secondsNow() - start, open, surface.mesh.faceCount());
     }
+  }
+
+  void filterFeatures()
+  {
+    Mesh& mesh = made_.surface->mesh;
+    FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, made_.edgeLength);
+    CreaseReport creases;
+    if (judgesCreases(options_))
+    {
+      creases = removeFalseCreases(mesh, made_.edgeLength, options_.threads, filtered);
+    }
+    tell(featureNotice(filtered));
+    tell(creases.text());
   }
 
   /// On request, before anything depends on them.
@@ -533,6 +548,11 @@ private:
 };
 
 } // namespace
+
+bool judgesCreases(const RemeshOptions& options)
+{
+  return options.featureAngle && options.featureCriterion == FeatureCriterion::Creases;
+}
 
 double targetEdgeLength(const RemeshOptions& options, double sizedArea, double boundingBoxDiagonal)
 {

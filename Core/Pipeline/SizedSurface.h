@@ -46,6 +46,9 @@ bool isPrepared(const KnownInput& known, const RemeshOptions& options);
 SizedSurface sizeSurface(
   SurfaceInput& input, const RemeshOptions& options, const KnownInput& known = {});
 
+/// Whether detected features are judged as creases, see removeFalseCreases.
+bool judgesCreases(const RemeshOptions& options);
+
 /// s for a number of quads, an edge length or a relative one, whichever the options ask for, kept to the bits of
 /// Frame::lengthOf.
 /// sizedArea: the surface's area over its sizes.

@@ -7,6 +7,7 @@
 #include "Base/Progress.h"
 #include "Evaluation/QuadQuality.h"
 #include "Mesh/ContentHash.h"
+#include "Mesh/CreaseCurves.h"
 #include "Mesh/FeatureFilter.h"
 #include "Mesh/MirrorCut.h"
 #include "Mesh/RepairText.h"
@@ -299,7 +300,12 @@ private:
     {
       const FlagsScope scope(mesh);
       const double sizedArea = mesh.sizing.empty() ? surface().area : quadrille::sizedArea(mesh);
-      removeUnresolvedFeatures(mesh, targetEdgeLength(options_, sizedArea, made_.diagonal));
+      const double edgeLength = targetEdgeLength(options_, sizedArea, made_.diagonal);
+      FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, edgeLength);
+      if (judgesCreases(options_))
+      {
+        removeFalseCreases(mesh, edgeLength, options_.threads, filtered);
+      }
       requestCutFeatures(mesh, made_.plane, tolerance_);
       half_ = cutByMirror(mesh, made_.plane, tolerance_);
     }

@@ -17,6 +17,7 @@ namespace
 constexpr std::array<const char*, 5> kOperations{ "move", "split", "merge", "cancel", "add" };
 constexpr std::array<const char*, 4> kMethods{ "scale-aware", "mixed-integer", "quadcover",
   "seamless" };
+constexpr std::array<const char*, 2> kFeatureCriteria{ "creases", "angle" };
 constexpr std::array<const char*, 3> kFinalQualities{ "coarse", "intermediate", "input" };
 
 SessionJson pointToJson(const Vector3& p)
@@ -480,10 +481,10 @@ SessionConstraint constraintFromJson(const SessionJson& json, const std::string&
 SessionJson settingsToJson(const RemeshOptions& options)
 {
   // By name, so that an option that is new has to be put on one side or the other here.
-  const auto& [quads, edgeLength, relativeEdgeLength, featureAngle, shapeSizes, curvatureGuides,
-    method, coarsestIntegers, coarseVertices, closeHandles, removeSmallComponents, anisotropyLimit,
-    finalQuality, distortionMetric, maximumNumberOfQuads, preview, smoothingSteps, memoryLimit,
-    mergeCharts, knownMap, threads, warmStart, progress] = options;
+  const auto& [quads, edgeLength, relativeEdgeLength, featureAngle, featureCriterion, shapeSizes,
+    curvatureGuides, method, coarsestIntegers, coarseVertices, closeHandles, removeSmallComponents,
+    anisotropyLimit, finalQuality, distortionMetric, maximumNumberOfQuads, preview, smoothingSteps,
+    memoryLimit, mergeCharts, knownMap, threads, warmStart, progress] = options;
   static_cast<void>(preview);
   static_cast<void>(memoryLimit);
   static_cast<void>(mergeCharts);
@@ -504,6 +505,7 @@ SessionJson settingsToJson(const RemeshOptions& options)
     json["relative_edge_length"] = relativeEdgeLength;
   }
   json["feature_angle"] = featureAngle ? SessionJson(*featureAngle) : SessionJson(nullptr);
+  json["feature_criterion"] = kFeatureCriteria[static_cast<std::size_t>(featureCriterion)];
   json["chord_error"] =
     shapeSizes.chordError ? SessionJson(*shapeSizes.chordError) : SessionJson(nullptr);
   json["gap_quads"] = shapeSizes.gapQuads;
@@ -560,6 +562,11 @@ void settingsFromJson(const SessionJson& json, RemeshOptions& options, const std
     }
   };
   readOptional("feature_angle", options.featureAngle);
+  if (reader.has("feature_criterion"))
+  {
+    options.featureCriterion =
+      static_cast<FeatureCriterion>(reader.readName("feature_criterion", kFeatureCriteria));
+  }
   readOptional("chord_error", options.sizes.chordError);
   readOptional("curvature_guides", options.curvatureGuides);
   reader.readIf("gap_quads", options.sizes.gapQuads);

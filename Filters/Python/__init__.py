@@ -59,6 +59,7 @@ FINAL_QUALITIES = ("coarse", "intermediate", "input")
 #: What cell arrays of the quads can come from, in the order of vtkQuadRemesh.CellDataFromTypes.
 CELL_DATA = ("centre", "area")
 SMALL_COMPONENTS = ("keep", "remove")
+FEATURE_CRITERIA = ("creases", "angle")
 
 #: What remesh(..., everything=True) returns: four vtkPolyData, and info() of the first.
 Remeshed = collections.namedtuple("Remeshed", "quads surface lines info separatrices")
@@ -161,13 +162,14 @@ def _set_numbers(run, *, feature_angle, coarse_vertices, threads, maximum_number
     run.SetAnisotropyLimit(limit)
 
 
-def _set_names(run, *, patch_array, method, final_quality, integers, cell_data, small_components):
+def _set_names(run, *, patch_array, method, final_quality, integers, cell_data, small_components, feature_criterion):
     run.SetPatchArrayName(patch_array or "")
     run.SetMethod(one_of("method", method, METHODS))
     run.SetFinalQuality(one_of("final_quality", final_quality, FINAL_QUALITIES))
     run.SetIntegers(one_of("integers", integers, INTEGERS))
     run.SetCellDataFrom(one_of("cell_data", cell_data, CELL_DATA))
     run.SetSmallComponents(one_of("small_components", small_components, SMALL_COMPONENTS))
+    run.SetFeatureCriterion(one_of("feature_criterion", feature_criterion, FEATURE_CRITERIA))
 
 
 def _set_sizes(run, chord_error, gap_quads, smallest_size, largest_size):
@@ -220,6 +222,7 @@ def _finish(run):
 
 
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
+           feature_criterion="creases",
            guiding_direction=None, guiding_weight=None, target_valence=None, sizing=None, feature_edges=None,
            patch_ids=None, curves=None, strokes=None, connections=None, cycles=None,
            patch_array="PatchId", coarse_vertices=1000,
@@ -238,6 +241,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     quads, edge_length, relative_edge_length: target number of quads, target edge length in units of the mesh, or over
         the diagonal of its bounding box; at most one of them; 5,000 quads when none is given.
     feature_angle: degrees; edges sharper than this become edges of the quads; None turns the detection off.
+    feature_criterion: which of these edges: "creases", those of curves that are creases as a whole, which the noise of
+        scans is not, or "angle", all that quads of this size can follow.
     guiding_direction: #F by 3; edges of the quads should run along this direction in the face; zero: free.
     guiding_weight: #F or one number, above 0 and at most 1: how strongly; 1 where it is not given.
     target_valence: #V whole numbers, or a dict from point ids to them: 0 free, 4 regular, 2, 3, 5 to 8 a vertex of this
@@ -305,7 +310,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
                  time_limit=time_limit, close_handles=close_handles, anisotropy_limit=anisotropy_limit)
     _set_names(run, patch_array=patch_array, method=method, final_quality=final_quality, integers=integers,
                cell_data=cell_data,
-               small_components=small_components)
+               small_components=small_components, feature_criterion=feature_criterion)
     _set_sizes(run, chord_error, gap_quads, smallest_size, largest_size)
     _set_guides(run, guide, guide_anisotropy, stroke_radius)
     _set_symmetry(run, symmetry)

@@ -18,7 +18,8 @@ from .QuadrilleFilters import vtkQuadrilleSession
 Irregular = collections.namedtuple("Irregular", "id point valence")
 
 #: Settings that go on as they are, by the names of remesh().
-_PLAIN = ("method", "integers", "small_components", "final_quality", "coarse_vertices", "close_handles",
+_PLAIN = ("feature_criterion", "method", "integers", "small_components", "final_quality", "coarse_vertices",
+          "close_handles",
           "anisotropy_limit", "distortion_metric", "maximum_number_of_quads", "smoothing_steps", "warm_start",
           "threads", "memory_limit")
 
@@ -81,6 +82,7 @@ class Session:
                  guiding_weight=None, target_valence=None, sizing=None, feature_edges=None, patch_ids=None,
                  progress=None, **settings):
         """mesh and all others as remesh() has them; further settings: feature_angle (degrees, None: off),
+        feature_criterion,
         chord_error (None: off), gap_quads, smallest_size, largest_size, curvature_guides (None: off), method, integers,
         coarse_vertices, close_handles, small_components, anisotropy_limit, final_quality, distortion_metric,
         maximum_number_of_quads, smoothing_steps, warm_start, threads, memory_limit. 5,000 quads where no size is

@@ -377,6 +377,7 @@ TEST(Convert, LogRecipeRoundTrip)
 {
   SurfaceRecipe recipe;
   recipe.featureAngle = 40 * test::kPi / 180;
+  recipe.featureCriterion = FeatureCriterion::Creases;
   recipe.edgeLength = 0.1;
   recipe.patchArray = "Body";
   recipe.curveMarks = { { 4, 1 }, { 7, 5 } };
@@ -386,6 +387,7 @@ TEST(Convert, LogRecipeRoundTrip)
   writeLog(log, recipe, table);
   const SurfaceRecipe back = readRecipe(table);
   EXPECT_EQ(back.featureAngle, recipe.featureAngle);
+  EXPECT_EQ(back.featureCriterion, FeatureCriterion::Creases);
   EXPECT_EQ(back.edgeLength, recipe.edgeLength);
   EXPECT_EQ(back.patchArray, recipe.patchArray);
   ASSERT_EQ(back.curveMarks.size(), 2u);
@@ -394,10 +396,16 @@ TEST(Convert, LogRecipeRoundTrip)
   EXPECT_EQ(readLog(table, log.fineHash).fineHash, log.fineHash);
   EXPECT_THROW(readLog(table, 1), InvalidInput);
 
+  // A log of an earlier version has no criterion: there was the angle alone.
+  table->GetFieldData()->RemoveArray("RecipeFeatureCriterion");
+  EXPECT_EQ(readRecipe(table).featureCriterion, FeatureCriterion::Angle);
+
   recipe.featureAngle.reset();
+  recipe.featureCriterion = FeatureCriterion::Angle;
   vtkNew<vtkTable> off;
   writeLog(log, recipe, off);
   EXPECT_FALSE(readRecipe(off).featureAngle.has_value());
+  EXPECT_EQ(readRecipe(off).featureCriterion, FeatureCriterion::Angle);
   vtkNew<vtkTable> nothing;
   EXPECT_THROW(readRecipe(nothing), InvalidInput);
 }

@@ -10,6 +10,7 @@ import math
 import os
 import pathlib
 import pty
+import random
 import shutil
 import struct
 import subprocess
@@ -633,6 +634,26 @@ class Report(Case):
         self.assertLess(means["input"], 1.2)
         result = self.run_quadrille(source, self.folder / "q.obj", "--final-quality", "best", expect=2)
         self.assertIn("coarse, intermediate or input", result.stderr)
+
+    def test_feature_criterion(self):
+        # A sheet with a ridge that is sharp and straight and ends free, through noise.
+        columns, rows, noise = 40, 24, random.Random(3)
+        points = [(x, y, -max(0, min(0.5, min(x - 8, 32 - x) / 4)) * abs(y - 12)
+                   + (noise.uniform(-0.25, 0.25) if y != 12 else 0)) for y in range(rows + 1) for x in range(columns + 1)]
+        corners = [(y * (columns + 1) + x, y * (columns + 1) + x + 1, (y + 1) * (columns + 1) + x + 1,
+                    (y + 1) * (columns + 1) + x) for y in range(rows) for x in range(columns)]
+        faces = [face for a, b, c, d in corners for face in ((a, b, c), (a, c, d))]
+        source = self.folder / "ridge.off"
+        source.write_text(f"OFF\n{len(points)} {len(faces)} 0\n" + "".join("%g %g %.17g\n" % p for p in points) +
+                          "".join("3 %d %d %d\n" % f for f in faces))
+        report = self.folder / "r.json"
+        for word in ("creases", "angle"):
+            self.run_quadrille(source, self.folder / "q.obj", "--quads", 300, "--feature-criterion", word, "--report",
+                               report)
+            notices = " ".join(json.loads(report.read_text())["notices"])
+            self.assertEqual("no crease" in notices, word == "creases", notices)
+        result = self.run_quadrille(source, self.folder / "q.obj", "--feature-criterion", "sharp", expect=2)
+        self.assertIn("creases or angle", result.stderr)
 
     def test_distortion_metric(self):
         source = self.write_off()

@@ -150,7 +150,7 @@ class Mesh(unittest.TestCase):
                 "close_handles": (-1, math.inf),
                 "anisotropy_limit": (-1, 0.5, math.nan),
                 "method": ("best", 0), "final_quality": ("finest",), "integers": ("few",), "cell_data": ("best",),
-                "small_components": ("shrink",)}.items():
+                "small_components": ("shrink",), "feature_criterion": ("sharp", 0)}.items():
             for value in values:
                 with self.subTest(name=name, value=value):
                     self.assertRefused([name, repr(value) if not isinstance(value, float) else str(value)], mesh,

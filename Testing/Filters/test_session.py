@@ -77,6 +77,9 @@ class SessionTest(unittest.TestCase):
         made.set_settings(quads=600)
         self.assertEqual(made.settings()["quads"], 600)
         self.assertAlmostEqual(made.settings()["feature_angle"], 40)
+        self.assertEqual(made.settings()["feature_criterion"], "creases")
+        made.set_settings(feature_criterion="angle")
+        self.assertEqual(made.settings()["feature_criterion"], "angle")
         self.assertGreater(len(made.quads[1]), len(second[1]))
 
     def test_preview(self):

@@ -10,7 +10,7 @@ from plugin_common import ARTIFACTS, PLUGIN, check, size_of, surface
 simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
 state = os.path.join(ARTIFACTS, "quadrille.pvsm")
 quads = QuadRemesh(registrationName="my quads", Input=surface(simple), TargetType="Number Of Quads", NumberOfQuads=350,
-                   FeatureAngle=55, CoarseVertices=600)
+                   FeatureAngle=55, FeatureCriterion="Angle", CoarseVertices=600)
 quads.UpdatePipeline()
 cells = size_of(quads)
 simple.SaveState(state)
@@ -19,7 +19,8 @@ simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
 simple.LoadState(state)
 again = simple.FindSource("my quads")
 check(again is not None, "the filter is not in the state")
-check(again.NumberOfQuads == 350 and again.FeatureAngle == 55 and again.CoarseVertices == 600, "properties are lost")
+check(again.NumberOfQuads == 350 and again.FeatureAngle == 55 and again.CoarseVertices == 600
+      and again.FeatureCriterion == "Angle", "properties are lost")
 check(again.TargetType == "Number Of Quads", "the target type is lost")
 again.UpdatePipeline()
 check(size_of(again) == cells > 0, "the state gives another result")

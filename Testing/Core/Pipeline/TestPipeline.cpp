@@ -17,6 +17,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <random>
 #include <set>
 
 namespace quadrille
@@ -405,6 +406,56 @@ TEST(Pipeline, QuadsRoundTheTipOfAConeAreNotInverted)
   options.smoothingSteps = 0; // the map alone has such quads
   const RemeshResult raw = remesh(cone, options);
   EXPECT_FALSE(invertedQuads(raw.quads.points, raw.quads.quads).empty());
+}
+
+/// A sheet of unit squares with a ridge from x = 10 to 30 that is sharp and straight, through noise.
+SurfaceInput ridgeInRoughSheet()
+{
+  Mesh mesh = test::gridPlane(40, 24);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> noise(-0.25, 0.25);
+  for (Vector3& p : mesh.position)
+  {
+    const double slope = std::clamp(std::min(p.x() - 8, 32 - p.x()) / 4, 0.0, 0.5);
+    p.z() = -slope * std::abs(p.y() - 12) + (p.y() != 12 ? noise(random) : 0.0);
+  }
+  return test::toInput(mesh);
+}
+
+TEST(Pipeline, FeaturesAreCreasesUnlessTheAngleIsAskedFor)
+{
+  const SurfaceInput input = ridgeInRoughSheet();
+  RemeshOptions options;
+  options.quads = 300;
+  options.threads = 1;
+  const RemeshResult creases = remesh(input, options);
+  ASSERT_TRUE(creases.status.ok()) << creases.status.message;
+  EXPECT_TRUE(tells(creases, "no crease"));
+  options.featureCriterion = FeatureCriterion::Angle;
+  const RemeshResult angle = remesh(input, options);
+  ASSERT_TRUE(angle.status.ok()) << angle.status.message;
+  EXPECT_FALSE(tells(angle, "no crease"));
+  options.featureAngle.reset();
+  const RemeshResult off = remesh(input, options);
+  ASSERT_TRUE(off.status.ok()) << off.status.message;
+  // Nothing is left to follow, so the quads are those without detection.
+  EXPECT_EQ(creases.quads.points, off.quads.points);
+  EXPECT_EQ(creases.quads.quads, off.quads.quads);
+  EXPECT_NE(angle.quads.points, off.quads.points);
+}
+
+TEST(Pipeline, EdgesOfSolidsAreCreases)
+{
+  RemeshOptions options;
+  options.quads = 600;
+  options.threads = 1;
+  const SurfaceInput input = test::toInput(test::unitCube(12));
+  const RemeshResult creases = remesh(input, options);
+  ASSERT_TRUE(creases.status.ok()) << creases.status.message;
+  options.featureCriterion = FeatureCriterion::Angle;
+  const RemeshResult angle = remesh(input, options);
+  EXPECT_EQ(creases.quads.points, angle.quads.points);
+  EXPECT_EQ(creases.notices, angle.notices);
 }
 
 #ifdef QUADRILLE_SHARED_DATA

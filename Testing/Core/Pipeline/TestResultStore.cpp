@@ -143,6 +143,8 @@ TEST(ResultStore, TheSameBytesFromTheStageThatIsAsked)
   expectCold(input, options, store, kPrepared);
   options.quads = 500;
   expectCold(input, options, store, with(kAll, { "metric" }));
+  options.featureCriterion = FeatureCriterion::Angle;
+  expectCold(input, options, store, kPrepared);
   options.featureAngle = 0.5;
   expectCold(input, options, store, {});
   input.points[7] *= 1.001;
