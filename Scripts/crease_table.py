@@ -13,9 +13,13 @@ lies on edges of the quads. A scan is judged against `off` (mean at most 2 % les
 vertices at most 2 % and 2 more), a part by `creases` (at least 98 %).
 
 A crease is found here from the triangles alone: edges with a dihedral angle above 40 degrees, traced between the
-vertices where other than two of them meet and on through these where one goes straight on (within 30 degrees), is one
-where it is longer than 3 s and at most 1.1 times as long as the polyline through its points s apart. A sample of it, ten
-to an edge length, is on the quads where an edge within 0.1 s has its direction within 20 degrees.
+vertices where other than two of them meet and on through these where one goes straight on (within 30 degrees). Such a
+curve is one where it is longer than 3 s, at most 1.1 times as long as the polyline through its points s apart, and
+stands out: round each of its places the normals of the surface within s / 2 are in two heaps, those nearer to the
+normal of either side; their mean angle to the mean of their heap is at most 0.06 of the angle between the means (a
+surface bent evenly has 0.25), and that at least half the dihedral angle, in the median of places. What is longer but
+does not stand out is told as `doubtful`, in edge lengths. A sample of a crease, ten to an edge length, is on the
+quads where an edge within 0.1 s has its direction within 20 degrees.
 """
 import argparse
 import csv
@@ -34,6 +38,8 @@ ANGLE = 40
 LONGEST_IN_S, JAGGED, STRAIGHT = 3.0, 1.1, 30
 NEAR, ALONG = 0.1, 20
 SAMPLES = 10
+MOST_SPREAD, LEAST_WIDE = 0.06, 0.5
+DENSITY, MOST_SAMPLES, PLACES = 60, 1000000, 60  # samples of the surface in s * s; at most; places on a curve
 MODES = {"automatic": [], "angle": ["--feature-criterion", "angle"], "off": ["--feature-angle", "0"]}
 SCAN_MEAN, SCAN_LEAST, SCAN_IRREGULAR, PART_SHARE = 0.02, 0.05, 0.02, 0.98
 
@@ -71,7 +77,7 @@ def read_quads(path):
 
 
 def sharp_edges(points, faces):
-    """Pairs of points where two faces meet at more than ANGLE."""
+    """Pairs of points where two faces meet at more than ANGLE, lower first, and the normals of both faces."""
     cross = numpy.cross(points[faces[:, 1]] - points[faces[:, 0]], points[faces[:, 2]] - points[faces[:, 0]])
     size = numpy.linalg.norm(cross, axis=1)
     normals = cross / numpy.maximum(size, 1e-300)[:, None]
@@ -89,7 +95,8 @@ def sharp_edges(points, faces):
     pairs = first[count == 2]
     a, b = owner[pairs], owner[pairs + 1]
     sharp = (numpy.einsum("ij,ij->i", normals[a], normals[b]) < numpy.cos(numpy.radians(ANGLE)))
-    return edges[pairs[sharp & reliable[a] & reliable[b]]]
+    kept = sharp & reliable[a] & reliable[b]
+    return edges[pairs[kept]], normals[a[kept]], normals[b[kept]]
 
 
 class Curves:
@@ -159,16 +166,64 @@ def resampled(path, step):
     return numpy.stack([numpy.interp(wanted, at, path[:, k]) for k in range(3)], axis=1), at[-1]
 
 
+def surface_samples(points, faces, s):
+    """Points spread evenly over the surface, and the normals there."""
+    a, b, c = points[faces[:, 0]], points[faces[:, 1]], points[faces[:, 2]]
+    cross = numpy.cross(b - a, c - a)
+    double = numpy.linalg.norm(cross, axis=1)
+    count = int(min(MOST_SAMPLES, DENSITY * 0.5 * double.sum() / s ** 2))
+    random = numpy.random.default_rng(0)
+    chosen = random.choice(len(faces), size=count, p=double / double.sum())
+    u, v = random.random((2, count, 1))
+    outside = u + v > 1
+    u, v = numpy.where(outside, 1 - u, u), numpy.where(outside, 1 - v, v)
+    return a[chosen] + u * (b - a)[chosen] + v * (c - a)[chosen], cross[chosen] / double[chosen, None]
+
+
+def stands_out(line, sides, tree, normals, s):
+    """Whether the normals beside a curve are in two heaps. sides: its edges' middles and the two normals of each."""
+    middles, left, right = sides
+    places = resampled(line, s / 2)[0]
+    places = places[numpy.linspace(0, len(places) - 1, min(len(places), PLACES)).astype(int)]
+    spreads, wides = [], []
+    _, edge_at = cKDTree(middles).query(places)
+    for near, edge in zip(tree.query_ball_point(places, s / 2), edge_at):
+        here = normals[near]
+        to_left = here @ left[edge] > here @ right[edge]
+        if to_left.sum() < 3 or (~to_left).sum() < 3:
+            continue
+        means = [heap.mean(axis=0) / max(numpy.linalg.norm(heap.mean(axis=0)), 1e-300)
+                 for heap in (here[to_left], here[~to_left])]
+        own = numpy.arccos(numpy.clip(left[edge] @ right[edge], -1, 1))
+        between = numpy.arccos(numpy.clip(means[0] @ means[1], -1, 1))
+        spread = [numpy.arccos(numpy.clip(heap @ mean, -1, 1)).mean()
+                  for heap, mean in zip((here[to_left], here[~to_left]), means)]
+        spreads.append(numpy.mean(spread) / max(between, 1e-3))
+        wides.append(between / own)
+    return bool(spreads) and numpy.median(spreads) <= MOST_SPREAD and numpy.median(wides) >= LEAST_WIDE
+
+
 def creases(points, faces, s):
-    """Long smooth curves of sharp edges, each as an array of points along it."""
-    found = []
-    for path in Curves(points, sharp_edges(points, faces), s).paths():
+    """Long smooth curves of sharp edges that stand out, each as points along it; and the length of those that do not,
+    over s."""
+    edges, left, right = sharp_edges(points, faces)
+    middles = 0.5 * (points[edges[:, 0]] + points[edges[:, 1]])
+    samples, normals = surface_samples(points, faces, s)
+    tree = cKDTree(samples)
+    found, doubtful = [], 0.0
+    number = {tuple(edge): i for i, edge in enumerate(edges.tolist())}
+    for path in Curves(points, edges, s).paths():
         line = points[path]
         stepped, length = resampled(line, s)
         chords = numpy.linalg.norm(numpy.diff(stepped, axis=0), axis=1).sum()
-        if length > LONGEST_IN_S * s and length <= JAGGED * chords:
+        if length <= LONGEST_IN_S * s or length > JAGGED * chords:
+            continue
+        own = [number[min(a, b), max(a, b)] for a, b in zip(path, path[1:])]
+        if stands_out(line, (middles[own], left[own], right[own]), tree, normals, s):
             found.append(line)
-    return found
+        else:
+            doubtful += length / s
+    return found, doubtful
 
 
 def share_on_quads(curves, points, edges, s):
@@ -221,8 +276,10 @@ def measure(arguments, path, mode, quads, is_part):
             points, faces = read_triangles(path)
             cross = numpy.cross(points[faces[:, 1]] - points[faces[:, 0]], points[faces[:, 2]] - points[faces[:, 0]])
             s = numpy.sqrt(0.5 * numpy.linalg.norm(cross, axis=1).sum() / quads)
-            share, length = share_on_quads(creases(points, faces, s), *read_quads(made), s)
-            row.update(creases=None if share is None else round(share, 4), crease_length=round(length, 1))
+            found, doubtful = creases(points, faces, s)
+            share, length = share_on_quads(found, *read_quads(made), s)
+            row.update(creases=None if share is None else round(share, 4), crease_length=round(length, 1),
+                       doubtful=round(doubtful, 1))
     return row
 
 
@@ -280,7 +337,8 @@ def main():
                     rows.append(row)
                     print("{kind:5} {model:22} {quads:6} {mode:10}".format(**row),
                           *(f"{name} {row.get(name)}" for name in ("irregular", "mean", "least", "creases",
-                                                                   "crease_length", "seconds")),
+                                                                   "crease_length", "doubtful",
+                                                                   "seconds")),
                           row["short"] and f"<-- {row['short']}", flush=True)
     if arguments.table:
         names = list(dict.fromkeys(name for row in rows for name in row))

@@ -31,7 +31,9 @@ constexpr double kBend = 0.6;
 constexpr double kLeastWide = 0.5;
 constexpr double kMostRough = 0.15;
 constexpr double kRoughPerLength = kMostRough / 25;
-constexpr double kMostRoughAtAll = 0.5;
+constexpr double kMostRoughWithOneEnd = 0.5;
+/// Noise makes no curve of so many edge lengths.
+constexpr double kLongCrease = 50;
 constexpr std::size_t kCurveChunk = 1;
 
 double angleBetween(const Vector3& a, const Vector3& b)
@@ -331,13 +333,12 @@ std::string lengthText(double length)
 
 bool CreaseCurve::isCrease() const
 {
-  if (angle == 0)
+  if (freeEnds == 0 || length >= kLongCrease)
   {
-    return true; // not in doubt
+    return true;
   }
-  const double most = freeEnds == 2
-    ? std::clamp(kRoughPerLength * length, kMostRough, kMostRoughAtAll)
-    : kMostRoughAtAll;
+  const double most =
+    freeEnds == 2 ? std::max(kMostRough, kRoughPerLength * length) : kMostRoughWithOneEnd;
   return wideAngle >= kLeastWide * angle && roughness <= most * angle;
 }
 
@@ -353,7 +354,7 @@ std::vector<CreaseCurve> traceCreases(const Mesh& mesh, double edgeLength, int t
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        if (curves[i].freeEnds > 0)
+        if (curves[i].freeEnds > 0 && curves[i].length < kLongCrease)
         {
           measureCurve(mesh, edgeLength, curves[i]);
         }

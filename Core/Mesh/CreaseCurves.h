@@ -19,7 +19,7 @@ struct CreaseCurve
   std::vector<Index> halfEdges; ///< one of each edge, in their order
   double length = 0;            ///< in edge lengths of the quads there
   int freeEnds = 0; ///< of its two ends, those from which no feature goes on; 0 for a closed one
-  /// What follows is measured where the judgement needs it, of curves with free ends, else 0; radians.
+  /// What follows is measured where the judgement needs it, of short curves with free ends, else 0; radians.
   double angle = 0; ///< mean angle between the two faces at its edges
   double wideAngle =
     0; ///< mean angle between the mean normals of both sides within half an edge length
@@ -46,11 +46,11 @@ struct CreaseReport
   std::string text() const;
 };
 
-/// Unmarks the curves that are no creases. One that closes, or ends at others or at the boundary, is one: noise makes
-/// no networks. More is asked of one that ends in the surface:
-/// - it is sharp over a distance, too: the mean normals on both sides differ by at least half the angle at its edges;
-/// - it stands out: within that distance both sides turn about its direction by no more than a part of its angle: 0.5
-///   where one end is free, 0.15 where both are, which grows with the length from 25 edge lengths on, to 0.5 at 83.
+/// Unmarks the curves that are no creases. One that closes, or ends at others or at the boundary, is one, as noise makes
+/// no networks, and so is one of at least 50 edge lengths. More is asked of others, which end in the surface:
+/// - they are sharp over a distance, too: the mean normals on both sides differ by at least half the angle at edges;
+/// - they stand out: within that distance both sides turn about their direction by no more than a part of the angle:
+///   0.5 where one end is free, 0.15 where both are, which grows with the length from 25 edge lengths on to 0.3.
 /// Repeated until nothing changes, as what ended at a curve that went has a free end now; with removeUnresolvedFeatures
 /// in between, as what is left of a network may be less than quads resolve. `filtered` gets what that removes.
 CreaseReport removeFalseCreases(

@@ -638,8 +638,9 @@ class Report(Case):
     def test_feature_criterion(self):
         # A sheet with a ridge that is sharp and straight and ends free, through noise.
         columns, rows, noise = 40, 24, random.Random(3)
-        points = [(x, y, -max(0, min(0.5, min(x - 8, 32 - x) / 4)) * abs(y - 12)
-                   + (noise.uniform(-0.25, 0.25) if y != 12 else 0)) for y in range(rows + 1) for x in range(columns + 1)]
+        points = [(x, y, -max(0, min(0.75, min(x - 8, 32 - x) / 4)) * abs(y - 12)
+                   + (noise.uniform(-0.3, 0.3) if y != 12 else 0))
+                  for y in range(rows + 1) for x in range(columns + 1)]
         corners = [(y * (columns + 1) + x, y * (columns + 1) + x + 1, (y + 1) * (columns + 1) + x + 1,
                     (y + 1) * (columns + 1) + x) for y in range(rows) for x in range(columns)]
         faces = [face for a, b, c, d in corners for face in ((a, b, c), (a, c, d))]

@@ -413,10 +413,10 @@ SurfaceInput ridgeInRoughSheet()
 {
   Mesh mesh = test::gridPlane(40, 24);
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> noise(-0.25, 0.25);
+  std::uniform_real_distribution<double> noise(-0.3, 0.3);
   for (Vector3& p : mesh.position)
   {
-    const double slope = std::clamp(std::min(p.x() - 8, 32 - p.x()) / 4, 0.0, 0.5);
+    const double slope = std::clamp(std::min(p.x() - 8, 32 - p.x()) / 4, 0.0, 0.75);
     p.z() = -slope * std::abs(p.y() - 12) + (p.y() != 12 ? noise(random) : 0.0);
   }
   return test::toInput(mesh);
