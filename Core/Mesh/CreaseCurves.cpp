@@ -47,7 +47,7 @@ double meanOf(const std::vector<double>& values)
     std::max<double>(1, static_cast<double>(values.size()));
 }
 
-double medianOf(std::vector<double> values)
+double middleValue(std::vector<double> values)
 {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -318,7 +318,7 @@ void measureCurve(const Mesh& mesh, double edgeLength, CreaseCurve& curve)
   }
   curve.angle = meanOf(angles);
   curve.wideAngle = meanOf(wide);
-  curve.roughness = medianOf(rough);
+  curve.roughness = middleValue(rough);
 }
 
 std::string lengthText(double length)

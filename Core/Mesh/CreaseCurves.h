@@ -46,8 +46,8 @@ struct CreaseReport
   std::string text() const;
 };
 
-/// Unmarks the curves that are no creases. One that closes, or ends at others or at the boundary, is one, as noise makes
-/// no networks, and so is one of at least 50 edge lengths. More is asked of others, which end in the surface:
+/// Unmarks the curves that are no creases. One that closes, or ends at others or at the boundary, is one, as noise
+/// makes no networks, and so is one of at least 50 edge lengths. More is asked of others, which end in the surface:
 /// - they are sharp over a distance, too: the mean normals on both sides differ by at least half the angle at edges;
 /// - they stand out: within that distance both sides turn about their direction by no more than a part of the angle:
 ///   0.5 where one end is free, 0.15 where both are, which grows with the length from 25 edge lengths on to 0.3.

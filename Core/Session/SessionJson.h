@@ -29,7 +29,8 @@ ConstraintContent contentFromJson(const SessionJson& json, const std::string& wh
 SessionJson constraintToJson(const SessionConstraint& constraint);
 SessionConstraint constraintFromJson(const SessionJson& json, const std::string& where);
 
-/// "quads" or "edge_length" or "relative_edge_length", "feature_angle" (radians; null: none), "feature_criterion", "method", and so on, by
+/// "quads" or "edge_length" or "relative_edge_length", "feature_angle" (radians; null: none),
+/// "feature_criterion", "method", and so on, by
 /// the names of Python's remesh(). Without threads, limits of memory and what only displays need.
 SessionJson settingsToJson(const RemeshOptions& options);
 /// Changes what the object names; a size takes the place of another one.
