@@ -416,10 +416,11 @@ std::string CreaseReport::text() const
     (removedCurves == 1 ? "" : " altogether, the longest of " + lengthText(longest)) + " near " +
     placeText(place) +
     ". What ends in the surface has to stand out from its roughness and to be sharp over half an "
-    "edge length, too; "
-    "kept were " +
-    std::to_string(keptCurves) + " of " + lengthText(keptLength) +
-    " edge lengths (Feature Criterion: Angle, --feature-criterion angle, keeps all; or mark edges)";
+    "edge length, too; " +
+    (keptCurves == 0 ? std::string("none is left")
+                     : std::to_string(keptCurves) + (keptCurves == 1 ? " curve" : " curves") +
+          " with " + lengthText(keptLength) + " edge lengths stayed") +
+    " (Feature Criterion Angle, --feature-criterion angle, keeps all; or mark edges)";
 }
 
 } // namespace quadrille
