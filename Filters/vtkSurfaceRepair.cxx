@@ -60,6 +60,7 @@ void vtkSurfaceRepair::Execute(quadrille::Block& block)
   quadrille::addCount(surface, "FilledHoles", report.filledHoles);
   quadrille::addCount(surface, "OpenBoundaries", report.openBoundaries);
   quadrille::addCount(surface, "Components", report.components);
+  quadrille::addCount(surface, "NeedsWrap", report.isHopeless(repaired.surface.corners.size()));
   for (const std::string& sentence : report.sentences())
   {
     this->AddNotice(sentence);

@@ -11,7 +11,8 @@
  *
  * Output: the triangles, with all arrays of the input from the nearest place, and the cell arrays `Filling` (1: made to
  * fill a hole) and, where it was looked for, `SelfIntersecting` (1: crosses another face); field data
- * `SelfIntersections` (pairs of faces; -1 where it was not looked for), `FilledHoles`, `OpenBoundaries`, `Components`.
+ * `SelfIntersections` (pairs of faces; -1 where it was not looked for), `FilledHoles`, `OpenBoundaries`, `Components`,
+ * and `NeedsWrap` (1: most faces cross others, or most stand alone, so that quads of a wrap have more sense).
  * GetNoticesText() tells counts and places.
  *
  * There only where Quadrille was built with CGAL, see QUADRILLE_USE_CGAL; with it the program is under the GPL.

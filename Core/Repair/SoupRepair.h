@@ -63,8 +63,8 @@ struct SoupReport
 
   /// One sentence for each kind of finding, with counts and places.
   std::vector<std::string> sentences() const;
-  /// The surface cannot be remeshed as it is with sense: the larger part of its faces cross others, or it falls into
-  /// more components than an eighth of its faces. A wrap helps.
+  /// A surface of so many faces is none that could be remeshed with sense, but wrapped: most faces
+  /// cross others, or most stand alone.
   bool isHopeless(std::size_t faces) const;
 };
 

@@ -81,7 +81,8 @@ std::vector<std::string> SoupReport::sentences() const
 
 bool SoupReport::isHopeless(std::size_t faces) const
 {
-  return faces == 0 || 2 * intersectingFaces > faces || 8 * components > faces;
+  constexpr std::size_t kSeveral = 8; // below, single faces may be meant
+  return 2 * intersectingFaces > faces || (components >= kSeveral && 2 * components > faces);
 }
 
 } // namespace quadrille

@@ -297,7 +297,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         each point's image. Where the mesh is only nearly symmetric, points of the other half are put onto it.
     wrap: a length: the quads are made of a wrap of the mesh with this alpha, and their points put back onto the mesh
         where they belong to it (see the function wrap, and the point array OnSurface of the result). "auto": only where
-        the mesh itself cannot be remeshed, with the default alpha; the field data then have WrapAlpha and WrapOffset.
+        the mesh itself cannot be remeshed, or most of its faces cross others or stand alone, with the default alpha;
+        the field data then have WrapAlpha and WrapOffset.
         Sharp edges, which a wrap rounds, are not looked for on it.
     progress: called as progress(fraction, text); a return value of False (not None) stops the run.
     everything: return a Remeshed with the mapped surface, the feature lines, the info dict and the lines of the layout,

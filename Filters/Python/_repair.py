@@ -100,9 +100,20 @@ class Wrapping:
         if alpha is not None:
             _filter("vtkSurfaceWrap")  # raises where there is none
 
+    def _needs_wrap(self):
+        """With "auto": what is no surface is wrapped at once."""
+        if not self._only_after_failure or not self._may_wrap:
+            return False
+        repaired = _filter("vtkSurfaceRepair")
+        try:
+            surface = _run(repaired, self._surface, 0.0, None)
+        except InvalidInput:
+            return False  # remesh tells what is wrong
+        return surface.GetFieldData().GetArray("NeedsWrap").GetTuple1(0) != 0
+
     def remeshed(self, run, finish):
         """The quads. run: the filter, with its input; finish: runs it, and raises where it fails."""
-        if self._alpha is None:
+        if self._alpha is None and not self._needs_wrap():
             try:
                 finish()
                 return run.GetOutput()

@@ -157,6 +157,32 @@ TEST(SoupRepair, RemovesDegenerateAndDoubleFaces)
   EXPECT_EQ(repaired.report.isolatedPoints, 1u);
 }
 
+TEST(SoupRepair, FacesThatStandAloneAreHopeless)
+{
+  SurfaceInput input;
+  for (int i = 0; i < 8; ++i)
+  {
+    const double x = 2 * i;
+    input.points.insert(input.points.end(), { { x, 0, 0 }, { x + 1, 0, 0 }, { x, 1, 0 } });
+  }
+  input.polygonPoints.resize(24);
+  std::iota(input.polygonPoints.begin(), input.polygonPoints.end(), 0);
+  input.polygonOffsets = { 0, 3, 6, 9, 12, 15, 18, 21, 24 };
+  const SoupReport eight = repairSoup(soupOf(input), {}).report;
+  EXPECT_EQ(eight.components, 8u);
+  EXPECT_TRUE(eight.isHopeless(8));
+  EXPECT_FALSE(repairSoup(soupOf(withoutFaces(input, 1)), {}).report.isHopeless(7));
+  // Two planes through each other: each of the four faces crosses two others.
+  SurfaceInput crossing;
+  crossing.points = { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 }, { -1, 0, -1 },
+    { 1, 0, -1 }, { 1, 0, 1 }, { -1, 0, 1 } };
+  crossing.polygonPoints = { 0, 1, 2, 3, 4, 5, 6, 7 };
+  crossing.polygonOffsets = { 0, 4, 8 };
+  const SoupReport planes = repairSoup(soupOf(crossing), {}).report;
+  EXPECT_EQ(planes.intersectingFaces, 4u);
+  EXPECT_TRUE(planes.isHopeless(4));
+}
+
 TEST(SoupRepair, RefusesWhatCannotBe)
 {
   SurfaceInput input;
