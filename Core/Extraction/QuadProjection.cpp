@@ -16,6 +16,10 @@ namespace
 
 using QuadList = std::vector<std::array<Index, 4>>;
 
+/// How far beyond a place the other side of a sheet lies at most, over the distance of a point before it. Walls with a
+/// thickness of a quarter of that have two sides of their own.
+constexpr double kSheet = 1.25;
+
 enum class PointFate : std::uint8_t
 {
   Moved,
@@ -80,8 +84,8 @@ struct PointTargets
     {
       return PointFate::Turned;
     }
-    // The other side of a sheet lies beyond the place, as far as this point does before it, or less.
-    const double behind = 1.5 * place->distance;
+    // The other side of a sheet lies beyond the place, about as far as this point does before it.
+    const double behind = kSheet * place->distance;
     if (behind > 0 && quads.at(place->point, -n, behind))
     {
       return PointFate::TwoSided;
