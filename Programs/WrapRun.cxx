@@ -132,8 +132,13 @@ ExitCode executeWrapped(RemeshRun& run, vtkPolyData* input, const WrapRequest& r
   run.addNotice("the wrap has " + std::to_string(surface->GetNumberOfPolys()) +
     " triangles, alpha " + lengthText(fieldNumber(surface, "WrapAlpha")) + ", offset " +
     lengthText(fieldNumber(surface, "WrapOffset")) +
-    "; sharp edges, which a wrap rounds, are not looked for on it");
-  run.filter()->DetectFeaturesOff();
+    (request.detectsFeatures ? ""
+                             : "; sharp edges, which a wrap rounds, are not looked for on it (give "
+                               "--feature-angle to have them)"));
+  if (!request.detectsFeatures)
+  {
+    run.filter()->DetectFeaturesOff();
+  }
   const ExitCode code = run.execute(surface);
   vtkPolyData* quads = run.filter()->GetOutput();
   if (code != kValidQuads || quads->GetNumberOfPolys() == 0)

@@ -16,6 +16,8 @@ struct WrapRequest
   bool isAsked = false;
   bool onlyAfterFailure = false; ///< the input itself comes first
   double alpha = 0;              ///< 0: the default of vtkSurfaceWrap
+  /// Sharp edges are looked for on the wrap, too, with the settings of the run: else not, as it rounds them.
+  bool detectsFeatures = false;
 };
 
 /// run.execute(), on the input or a wrap of it. The output of the filter then holds quads whose points lie on the input

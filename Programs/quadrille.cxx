@@ -590,6 +590,7 @@ ExitCode runCommand(int argc, char* argv[])
     return kBadInput;
   }
   checkTogether(options, run.filter(), request.files);
+  request.wrap.detectsFeatures = options.given("feature-angle");
   run.filter()->SetComputeMappedSurface(options.given("map"));
   return runAndReport(run, request);
 }
