@@ -172,6 +172,22 @@ std::vector<Face> properFaces(const SurfaceMesh& mesh, SoupReport& report)
   return faces;
 }
 
+/// Whether two faces have corners at one place, as where sheets were parted: there they touch.
+bool haveCommonPlace(const SurfaceMesh& mesh, Face a, Face b)
+{
+  for (const SurfaceMesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(a)))
+  {
+    for (const SurfaceMesh::Vertex_index w : mesh.vertices_around_face(mesh.halfedge(b)))
+    {
+      if (v != w && mesh.point(v) == mesh.point(w))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 Vector3 centreOf(const TriangleList& surface, std::size_t face)
 {
   const std::array<Index, 3>& c = surface.corners[face];
@@ -275,10 +291,13 @@ RepairedSoup repairSoup(const Soup& soup, const SoupRepairOptions& options)
     std::vector<std::pair<Face, Face>> pairs;
     pmp::self_intersections<CGAL::Sequential_tag>(faces, mesh,
       boost::make_function_output_iterator(
-        [&pairs](const std::pair<Face, Face>& pair)
+        [&](const std::pair<Face, Face>& pair)
         {
           poll();
-          pairs.push_back(pair);
+          if (!haveCommonPlace(mesh, pair.first, pair.second))
+          {
+            pairs.push_back(pair);
+          }
         }));
     tellIntersections(pairs, mesh, result);
   }

@@ -51,8 +51,9 @@ struct SoupReport
   std::size_t filledHoles = 0;
   std::size_t unfilledHoles = 0;  ///< short enough, but CGAL found no triangulation; they stay
   std::size_t openBoundaries = 0; ///< boundary loops that are left
-  std::size_t intersectingPairs =
-    0; ///< pairs of faces that cross or touch without being neighbours
+  /// Pairs of faces that cross or touch without being neighbours. Those with corners at one place, as where sheets were
+  /// parted, do not count.
+  std::size_t intersectingPairs = 0;
   std::size_t intersectingFaces = 0;    ///< that take part
   std::size_t intersectionPlaces = 0;   ///< connected regions of such faces
   std::vector<SoupPlace> intersections; ///< kMostPlaces at most, most faces first

@@ -138,6 +138,7 @@ TEST(SoupRepair, PartsWhatIsNotManifold)
   EXPECT_EQ(repaired.report.nonManifoldEdges, 1u);
   EXPECT_GT(repaired.report.copiedPoints, 0u);
   EXPECT_EQ(repairedMesh(repaired).faceCount(), 3u);
+  EXPECT_EQ(repaired.report.intersectingPairs, 0u); // they touch where they were parted
 }
 
 TEST(SoupRepair, RemovesDegenerateAndDoubleFaces)
