@@ -64,8 +64,9 @@ struct SoupReport
 
   /// One sentence for each kind of finding, with counts and places.
   std::vector<std::string> sentences() const;
-  /// A surface of so many faces is none that could be remeshed with sense, but wrapped: most faces
-  /// cross others, or most stand alone.
+  /// A surface of so many faces is none that could be remeshed with sense, but wrapped: bodies of
+  /// several faces most of which cross others, or shards of a surface, most of which stand alone.
+  /// Faces that do both are no part of a surface that a wrap could find.
   bool isHopeless(std::size_t faces) const;
 };
 

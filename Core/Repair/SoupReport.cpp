@@ -82,7 +82,9 @@ std::vector<std::string> SoupReport::sentences() const
 bool SoupReport::isHopeless(std::size_t faces) const
 {
   constexpr std::size_t kSeveral = 8; // below, single faces may be meant
-  return 2 * intersectingFaces > faces || (components >= kSeveral && 2 * components > faces);
+  const bool crossEachOther = 2 * intersectingFaces > faces;
+  const bool standAlone = components >= kSeveral && 2 * components > faces;
+  return crossEachOther != standAlone;
 }
 
 } // namespace quadrille

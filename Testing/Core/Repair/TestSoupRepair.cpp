@@ -173,6 +173,19 @@ TEST(SoupRepair, FacesThatStandAloneAreHopeless)
   EXPECT_EQ(eight.components, 8u);
   EXPECT_TRUE(eight.isHopeless(8));
   EXPECT_FALSE(repairSoup(soupOf(withoutFaces(input, 1)), {}).report.isHopeless(7));
+  // All through each other, too: no surface.
+  for (std::size_t i = 0; i < input.points.size(); ++i)
+  {
+    const double angle = kPi / 8 * static_cast<double>(i / 3);
+    const double side = i % 3 == 0 ? -1 : 1;
+    input.points[i] = i % 3 == 2
+      ? Vector3(0, 0, 1 + static_cast<double>(i))
+      : Vector3(side * std::cos(angle), side * std::sin(angle), -0.1 * static_cast<double>(i));
+  }
+  const SoupReport star = repairSoup(soupOf(input), {}).report;
+  EXPECT_EQ(star.components, 8u);
+  EXPECT_EQ(star.intersectingFaces, 8u); // all of them meet on the z axis
+  EXPECT_FALSE(star.isHopeless(8));
   // Two planes through each other: each of the four faces crosses two others.
   SurfaceInput crossing;
   crossing.points = { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 }, { -1, 0, -1 },
