@@ -38,7 +38,7 @@ RemeshRun::RemeshRun()
       const char* text = run->filter_->GetProgressText();
       run->closeGap();
       run->lastText_ = text ? text : "";
-      if (run->progress_ && !run->progress_(run->filter_->GetProgress(), text ? text : ""))
+      if (!run->tellProgress(run->filter_->GetProgress(), run->lastText_))
       {
         run->filter_->SetAbortExecute(1);
       }
@@ -51,6 +51,22 @@ RemeshRun::~RemeshRun() = default;
 void RemeshRun::onProgress(std::function<bool(double, const std::string&)> progress)
 {
   progress_ = std::move(progress);
+}
+
+bool RemeshRun::tellProgress(double fraction, const std::string& text)
+{
+  return !progress_ || progress_(fraction, text);
+}
+
+void RemeshRun::addNotice(const std::string& text)
+{
+  notices_ += text.empty() ? "" : text + "\n";
+}
+
+std::string RemeshRun::notices()
+{
+  const std::string own = filter_->GetNoticesText();
+  return notices_ + own;
 }
 
 void RemeshRun::closeGap()
@@ -91,6 +107,10 @@ ExitCode RemeshRun::execute(vtkPolyData* input)
 
 std::string RemeshRun::error() const
 {
+  if (!failure_.empty())
+  {
+    return failure_;
+  }
   const std::string outcome = vtkQuadRemesh::SafeDownCast(filter_.Get())->GetOutcomeText();
   if (!outcome.empty())
   {

@@ -44,7 +44,15 @@ public:
   /// Called with the fraction done and what is being done; false asks to stop.
   void onProgress(std::function<bool(double, const std::string&)> progress);
 
+  /// Calls it as the filter would, for filters beside it; false asks to stop.
+  bool tellProgress(double fraction, const std::string& text);
+
   ExitCode execute(vtkPolyData* input);
+  /// What else there is to know than the filter's own notices, and why there is no result though the filter has one.
+  void addNotice(const std::string& text);
+  void fail(const std::string& reason) { failure_ = reason; }
+  /// Those of the filter and the others, one a line.
+  std::string notices();
   /// The reason when execute() did not return kValidQuads.
   std::string error() const;
   /// The longest time of the last execution in which it could not have been stopped, in seconds, and the progress text
@@ -62,6 +70,8 @@ private:
   vtkNew<vtkCallbackCommand> onProgress_;
   std::function<bool(double, const std::string&)> progress_;
   std::string errors_;
+  std::string notices_;
+  std::string failure_;
   std::chrono::steady_clock::time_point lastCall_;
   double longestGap_ = 0;
   std::string longestGapText_;

@@ -132,6 +132,11 @@ void addSuccess(Json& json, vtkPolyData* quads)
     { "coarse_vertices", field("CoarseVertices") }, { "quad_points", quads->GetNumberOfPoints() } };
   json["certificate"] = { { "valid", fieldNumber(quads, "CertificateValid") != 0 } };
   json["certificate"].update(pairs(quads, "CertificateNames", "CertificateValues"));
+  if (quads->GetFieldData()->GetArray("WrapAlpha"))
+  {
+    json["wrap"] = { { "alpha", field("WrapAlpha") }, { "offset", field("WrapOffset") },
+      { "points_on_surface", field("PointsOnSurface") } };
+  }
   if (quads->GetFieldData()->GetArray("AnisotropyLimit"))
   {
     json["anisotropy_limit"] = field("AnisotropyLimit");
@@ -223,7 +228,7 @@ std::string makeReport(const RunFiles& files, RemeshRun& run, ExitCode code, con
   json["stages"] = stagesOf(run, times.read);
   json["stage_times"] = linesOf(filter->GetStageTimesText());
   json["certificate_text"] = filter->GetCertificateText();
-  json["notices"] = linesOf(filter->GetNoticesText());
+  json["notices"] = linesOf(run.notices());
   return textOf(json);
 }
 

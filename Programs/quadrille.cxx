@@ -6,6 +6,7 @@
 #include "RemeshRun.h"
 #include "Report.h"
 #include "Terminal.h"
+#include "WrapRun.h"
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -84,6 +85,7 @@ vtkSmartPointer<vtkPolyData> readGuarded(const std::string& path)
 struct Request
 {
   RunFiles files;
+  WrapRequest wrap;
   bool quiet = false;
 };
 
@@ -156,6 +158,31 @@ void setSymmetry(vtkQuadRemesh* filter, const std::string& text)
   filter->SetSymmetryToPlane();
   filter->SetSymmetryOrigin(numbers.data());
   filter->SetSymmetryNormal(numbers.data() + 3);
+}
+
+/// "auto", or a length.
+WrapRequest wrapRequestOf(const std::string& text)
+{
+  if (!canWrap())
+  {
+    throw UsageError("--wrap needs CGAL, which this build does not have: configure Quadrille with "
+                     "QUADRILLE_USE_CGAL=ON");
+  }
+  WrapRequest request;
+  request.isAsked = true;
+  request.onlyAfterFailure = text == "auto";
+  if (!request.onlyAfterFailure)
+  {
+    std::istringstream stream(text);
+    const bool isRead = static_cast<bool>(stream >> request.alpha);
+    if (!isRead || stream.peek() != std::istringstream::traits_type::eof() || !(request.alpha > 0))
+    {
+      throw UsageError("--wrap " + text +
+        ": give auto, or the radius of the ball that wraps, a "
+        "length above 0 in units of the input");
+    }
+  }
+  return request;
 }
 
 void addShape(CommandOptions& options, vtkQuadRemesh* filter)
@@ -285,6 +312,12 @@ void addFinish(CommandOptions& options, vtkQuadRemesh* filter)
 void addRun(CommandOptions& options, vtkQuadRemesh* filter, Request& request)
 {
   options.beginGroup("the run:");
+  options.addText(
+    "wrap", "WORD", [&request](const std::string& text) { request.wrap = wrapRequestOf(text); },
+    "auto: where the input itself cannot be remeshed, a closed wrap of it is (alpha: a hundredth "
+    "of the diagonal), and the points of the quads are put back onto the input where they belong "
+    "to it; a length: so from the start, with this alpha. Gaps narrower than alpha are closed, "
+    "sharp edges rounded");
   options.addCount(
     "threads", "N", { 0, 4096 },
     [filter](long long threads) { filter->SetNumberOfThreads(static_cast<int>(threads)); },
@@ -350,6 +383,11 @@ void checkTogether(const CommandOptions& options, vtkQuadRemesh* filter, RunFile
   }
   files.input = options.files()[0];
   files.output = seamless ? "" : options.files()[1];
+  if (options.given("wrap") && options.given("map"))
+  {
+    throw UsageError("--map writes the surface with its map, which with --wrap would be the wrap: "
+                     "give one of them only");
+  }
   if (!seamless && !canWrite(files.output))
   {
     throw UsageError(files.output + ": unknown extension; known are vtp, obj, ply, vtu and ex2");
@@ -439,7 +477,7 @@ std::string quadsSentence(RemeshRun& run, const RunFiles& files, double seconds)
 
 void printSummary(RemeshRun& run, const RunFiles& files, double seconds)
 {
-  printSentences(linesOf(run.filter()->GetNoticesText()));
+  printSentences(linesOf(run.notices()));
   vtkPolyData* mapped = run.filter()->GetMappedSurface();
   std::vector<std::string> results;
   if (!files.output.empty())
@@ -461,7 +499,7 @@ void printSummary(RemeshRun& run, const RunFiles& files, double seconds)
 /// Notices of a failed run often name its cause.
 void printFailure(RemeshRun& run, const RunFiles& files)
 {
-  printSentences(linesOf(run.filter()->GetNoticesText()));
+  printSentences(linesOf(run.notices()));
   const std::string text = "quadrille: " + files.input + ": " + run.error();
   const std::size_t width = terminalWidth();
   std::fprintf(stderr, "%s\n", width > 0 ? wrapText(text, width - 1, 2).c_str() : text.c_str());
@@ -482,7 +520,8 @@ ExitCode execute(RemeshRun& run, const Request& request)
       progress.show(fraction, text);
       return stopRequested == 0;
     });
-  const ExitCode code = run.execute(input);
+  const ExitCode code =
+    request.wrap.isAsked ? executeWrapped(run, input, request.wrap) : run.execute(input);
   progress.finish();
   times.total = secondsSince(start);
   if (code == kValidQuads)
@@ -556,6 +595,7 @@ ExitCode runCommand(int argc, char* argv[])
     return kBadInput;
   }
   checkTogether(options, run.filter(), request.files);
+  request.wrap.detectsFeatures = options.given("feature-angle");
   run.filter()->SetComputeMappedSurface(options.given("map"));
   return runAndReport(run, request);
 }

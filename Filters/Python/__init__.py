@@ -7,6 +7,9 @@
     quads = quadrille.remesh((points, faces), edge_length=0.5)  # arrays or lists in
     points, faces = quadrille.to_arrays(quads)
 
+    surface, findings = quadrille.repair(mesh)                  # damaged surfaces; both need a build with CGAL
+    surface = quadrille.wrap(mesh, alpha=0.1)
+
     session = quadrille.Session(mesh, quads=5000)               # change one thing, and see what it does
     session.set_valence(point, 5)
     session.update()
@@ -15,7 +18,8 @@
 
 The VTK classes themselves are here too: vtkQuadRemesh, vtkDecimationHierarchy, vtkIntegerGridMap,
 vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkQuadrilleSession, the source vtkQuadConstraintSource,
-and the readers vtkQuadrilleOFFReader and vtkQuadrillePLYReader.
+the readers vtkQuadrilleOFFReader and vtkQuadrillePLYReader, and in QuadrilleFilters, where there is CGAL,
+vtkSurfaceRepair, vtkSurfaceWrap and vtkQuadProjection.
 """
 import collections
 
@@ -25,6 +29,7 @@ from ._errors import InvalidInput, RemeshError, one_of, real, whole
 from ._files import read
 from ._inputs import as_curves, as_surface, to_polydata, with_requests
 from ._proxies import check
+from ._repair import Wrapping, has_cgal, repair, wrap
 from ._session import Irregular, Session
 from .QuadrilleFilters import (
     vtkDecimationHierarchy,
@@ -39,8 +44,8 @@ from .QuadrilleFilters import (
 )
 
 __all__ = [
-    "InvalidInput", "Irregular", "RemeshError", "Remeshed", "Session", "check", "info", "read", "remesh", "to_arrays",
-    "to_polydata",
+    "InvalidInput", "Irregular", "RemeshError", "Remeshed", "Session", "check", "has_cgal", "info", "read",
+    "remesh", "repair", "to_arrays", "to_polydata", "wrap",
     "vtkDecimationHierarchy", "vtkIntegerGridMap", "vtkIntegerGridMapUpmap", "vtkQuadConstraintSource",
     "vtkQuadExtraction", "vtkQuadRemesh", "vtkQuadrilleOFFReader", "vtkQuadrillePLYReader", "vtkQuadrilleSession",
 ]
@@ -66,13 +71,13 @@ Remeshed = collections.namedtuple("Remeshed", "quads surface lines info separatr
 
 
 def to_arrays(quads):
-    """Points (n by 3) and faces (m by 4) of a quad mesh, as numpy arrays of their own."""
+    """Points (n by 3) and faces (m by 4, of triangles m by 3) of a mesh, as numpy arrays of their own."""
     import numpy
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     points = vtk_to_numpy(quads.GetPoints().GetData()).copy() if quads.GetPoints() else numpy.zeros((0, 3))
     corners = vtk_to_numpy(quads.GetPolys().GetConnectivityArray()).copy()
-    return points, corners.reshape(-1, 4)
+    return points, corners.reshape(-1, 3 if quads.GetPolys().GetMaxCellSize() == 3 else 4)
 
 
 def info(quads):
@@ -231,7 +236,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
            final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False,
            cell_data="centre", preview=False, symmetry=None,
            chord_error=None, gap_quads=0.0, smallest_size=0.2, largest_size=1.0, guide=None,
-           guide_anisotropy=0.3, stroke_radius=0.0,
+           guide_anisotropy=0.3, stroke_radius=0.0, wrap=None,
            progress=None, everything=False):
     """Remeshes a surface with quads only and returns a vtkPolyData.
 
@@ -295,6 +300,11 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     symmetry: "found", or the mirror plane as (origin, normal), three numbers each: quads that are their own mirror
         image. The half where the normal points to is remeshed; the point array MirrorPoint of the result has the id of
         each point's image. Where the mesh is only nearly symmetric, points of the other half are put onto it.
+    wrap: a length: the quads are made of a wrap of the mesh with this alpha, and their points put back onto the mesh
+        where they belong to it (see the function wrap, and the point array OnSurface of the result). "auto": only where
+        the mesh itself cannot be remeshed, or most of its faces cross others or stand alone, with the default alpha;
+        the field data then have WrapAlpha and WrapOffset.
+        Sharp edges, which a wrap rounds, are not looked for on it.
     progress: called as progress(fraction, text); a return value of False (not None) stops the run.
     everything: return a Remeshed with the mapped surface, the feature lines, the info dict and the lines of the layout,
         too. `constraints` of the info dict is a list of dicts, one for each guided region, stroke, curve, valence and
@@ -318,8 +328,13 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     run.SetPreview(bool(preview))
     run.SetComputeMappedSurface(bool(everything))
     run.KeepLevelsOff()  # there is no next execution
+    surface = as_surface(mesh)
+    wrapping = Wrapping(wrap, surface, requests={
+        "guiding_direction": guiding_direction, "target_valence": target_valence, "sizing": sizing,
+        "feature_edges": feature_edges, "patch_ids": patch_ids, "curves": curves, "strokes": strokes,
+        "connections": connections, "cycles": cycles, "symmetry": symmetry})
     run.SetInputData(with_requests(
-        as_surface(mesh), guiding_direction=guiding_direction, guiding_weight=guiding_weight,
+        surface, guiding_direction=guiding_direction, guiding_weight=guiding_weight,
         target_valence=target_valence,
         sizing=sizing, feature_edges=feature_edges, patch_ids=patch_ids, patch_array=patch_array))
     lines = as_curves(curves=curves, strokes=strokes, connections=connections, cycles=cycles)
@@ -330,8 +345,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
             if progress(caller.GetProgress(), caller.GetProgressText() or "") is False:
                 caller.SetAbortExecute(1)
         run.AddObserver("ProgressEvent", on_progress)
-    _finish(run)
-    result = run.GetOutput()
+    result = wrapping.remeshed(run, lambda: _finish(run))
     if everything:
         told = dict(info(result), constraints=_constraints(run.GetConstraintTable()))
         return Remeshed(result, run.GetMappedSurface(), run.GetLines(), told, run.GetSeparatrices())

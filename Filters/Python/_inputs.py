@@ -150,6 +150,16 @@ def to_polydata(points, faces):
     return mesh
 
 
+def as_cloud(points):
+    """A vtkPolyData of points alone."""
+    array = as_points(points)
+    cloud = vtkPolyData()
+    cloud.SetPoints(vtkPoints())
+    cloud.GetPoints().SetData(numpy_to_vtk(array, deep=True))
+    cloud.SetVerts(_cells(numpy.ones(len(array), dtype=numpy.int64), numpy.arange(len(array))))
+    return cloud
+
+
 def as_surface(mesh):
     """The vtkPolyData of what remesh takes as its mesh. Raises InvalidInput that says what to do with anything else."""
     if isinstance(mesh, vtkPolyData):

@@ -696,6 +696,37 @@ class Report(Case):
             result = self.run_quadrille(source, self.folder / "q.vtp", "--symmetry", plane, expect=2)
             self.assertIn("x,y,z,nx,ny,nz", result.stderr)
 
+    def test_wrap(self):
+        points, faces = torus()
+        path, out, report = self.folder / "soup.off", self.folder / "q.vtp", self.folder / "r.json"
+        if not quadrille.has_cgal():
+            result = self.run_quadrille(self.write_off(), out, "--wrap", "auto", expect=2)
+            self.assertIn("QUADRILLE_USE_CGAL", result.stderr)
+            return
+        # Each face a little smaller, round its centre: none has a neighbour.
+        corners = []
+        for face in faces:
+            centre = [sum(points[i][k] for i in face) / 3 for k in range(3)]
+            corners += [tuple(0.9 * points[i][k] + 0.1 * centre[k] for k in range(3)) for i in face]
+        path.write_text(f"OFF\n{len(corners)} {len(faces)} 0\n" + "".join("%.17g %.17g %.17g\n" % p for p in corners) +
+                        "".join(f"3 {3 * i} {3 * i + 1} {3 * i + 2}\n" for i in range(len(faces))))
+        for wrap, reason in (("auto", "stand alone"), (0.1, "the wrap has")):
+            result = self.run_quadrille(path, out, "--quads", 400, "--wrap", wrap, "--report", report)
+            self.assertIn(reason, result.stderr.replace("\n", " "))
+            told = json.loads(report.read_text())
+            quads = read(vtkXMLPolyDataReader(), out)
+            self.assertTorusOfQuads(quads.GetNumberOfPoints(), faces_of(quads))
+            self.assertGreater(told["wrap"]["points_on_surface"], 0.9 * quads.GetNumberOfPoints())
+            self.assertEqual(told["quads_actual"], quads.GetNumberOfPolys())
+        # What has quads is left alone.
+        self.run_quadrille(self.write_off(), self.folder / "a.obj", "--quads", 400)
+        self.run_quadrille(self.write_off(), self.folder / "b.obj", "--quads", 400, "--wrap", "auto")
+        self.assertEqual((self.folder / "a.obj").read_bytes(), (self.folder / "b.obj").read_bytes())
+        for words in (("--wrap", "never"), ("--wrap", "0"), ("--wrap", "1e-9"),
+                      ("--wrap", "auto", "--map", self.folder / "m.vtp")):
+            self.run_quadrille(path, self.folder / "c.obj", *words, expect=2)
+            self.assertFalse((self.folder / "c.obj").exists())
+
     def test_cell_data(self):
         points, faces = torus()
         source, out = self.folder / "load.ply", self.folder / "q.vtp"

@@ -7,6 +7,8 @@ PLUGIN = os.environ["QUADRILLE_PLUGIN"]
 DATA = os.environ["QUADRILLE_DATA"]
 ARTIFACTS = os.environ["QUADRILLE_ARTIFACTS"]
 FILTERS = ("QuadRemesh", "DecimationHierarchy", "IntegerGridMap", "IntegerGridMapUpmap", "QuadExtraction")
+if os.environ.get("QUADRILLE_USE_CGAL") == "ON":
+    FILTERS += ("SurfaceRepair", "SurfaceWrap", "QuadProjection")
 
 
 def surface(simple, **options):

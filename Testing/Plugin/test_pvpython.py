@@ -210,6 +210,21 @@ with tempfile.TemporaryDirectory() as folder:
     check(size_of(of_sheet) > 0 and of_sheet.CellData["ColorIndex"].GetRange() == (0.0, 1.0), "no quads of an OFF file")
     check(of_sheet.CellData["FeatureEdges"].GetRange()[1] > 0, "the border between two colours is no feature")
 
+# What needs CGAL: a wrap of two balls that cross each other, its quads, and these on the balls again.
+if "SurfaceWrap" in FILTERS:
+    balls = simple.AppendGeometry(Input=[simple.Sphere(Center=(0, 0, 0), ThetaResolution=24, PhiResolution=16),
+                                         simple.Sphere(Center=(0.5, 0, 0), ThetaResolution=24, PhiResolution=16)])
+    repaired = SurfaceRepair(Input=balls)
+    repaired.UpdatePipeline()
+    check(repaired.CellData["SelfIntersecting"].GetRange() == (0.0, 1.0), "no face crosses another one")
+    check("cross each other" in number(repaired, "Notices"), "the panel does not tell what crosses")
+    wrap = SurfaceWrap(Input=balls, Alpha=0.05, Offset=0.01)
+    of_wrap = QuadRemesh(Input=wrap, TargetType="Number Of Quads", NumberOfQuads=300, DetectFeatures=0)
+    projected = QuadProjection(Input=of_wrap, Surface=balls)
+    projected.UpdatePipeline()
+    check(size_of(projected) == size_of(of_wrap) > 0, "no quads of a wrap")
+    check(projected.PointData["OnSurface"].GetRange()[1] == 1, "no point of the quads lies on the balls")
+
 # The raw class is the same behind the proxy, and without one.
 raw = quads.GetClientSideObject()
 check(isinstance(raw, quadrille.vtkQuadRemesh), f"the proxy holds a {type(raw)}")

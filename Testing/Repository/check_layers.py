@@ -23,6 +23,7 @@ MAY_INCLUDE = {
     "Evaluation": ["Transfer", "Extraction"],
     "Pipeline": ["Evaluation"],
     "Session": ["Pipeline"],
+    "Repair": ["Mesh"],  # with CGAL, and nothing of Core needs it: it can be left out
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 
@@ -69,7 +70,8 @@ def selftest():
     assert violations("Numerics", "a", '#include "Mesh/Mesh.h"\n')
     assert violations("Pipeline", "a", "#include <vtkPolyData.h>\n")
     assert violations("Mesh", "a", '  #  include "Mesh.h"\n')
-    assert not violations("Session", "a", "".join(f'#include "{m}/X.h"\n' for m in MAY_INCLUDE))
+    assert not violations("Session", "a", "".join(f'#include "{m}/X.h"\n' for m in MAY_INCLUDE if m != "Repair"))
+    assert violations("Session", "a", '#include "Repair/Soup.h"\n')
 
 
 def main():

@@ -15,6 +15,10 @@ import sys
 SOURCES = {".h", ".cpp", ".cxx", ".py", ".cmake", ".sh", ".xml"}
 SOURCE_NAMES = {"CMakeLists.txt", "run"}
 LICENSE_LINES = ("SPDX-FileCopyrightText:", "SPDX-License-Identifier: BSD-3-Clause")
+# Sources that include CGAL, whose packages are GPL, are GPL as well, and stand in one module that can be left out.
+GPL_LINES = ("SPDX-FileCopyrightText:", "SPDX-License-Identifier: GPL-3.0-or-later")
+CGAL_INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<CGAL/|"Repair/CgalMesh\.h")', re.MULTILINE)
+CGAL_FOLDER = pathlib.PurePath("Core/Repair")
 # Folders of people's machines; what every Linux has (/usr, /proc, ...) may be named.
 MACHINE_PATH = re.compile(r"(?<![\w.$}\])/])/(?:work|home|root|tmp|mnt|Users|workspace|builds?|data)/[\w.-]")
 TEST_NAME = re.compile(r"^(?:TEST|TEST_F|TEST_P|TYPED_TEST)\((\w+),\s*(?:DISABLED_)?(\w+)", re.MULTILINE)
@@ -41,7 +45,10 @@ def licenseProblem(path, text):
     if path.suffix not in SOURCES and path.name not in SOURCE_NAMES:
         return None
     head = "\n".join(text.splitlines()[:6])
-    missing = [line for line in LICENSE_LINES if line not in head]
+    includesCgal = path.suffix in (".h", ".cpp", ".cxx") and bool(CGAL_INCLUDE.search(text))
+    if includesCgal and path.parent != CGAL_FOLDER:
+        return f"{path}: includes CGAL; only {CGAL_FOLDER} does"
+    missing = [line for line in (GPL_LINES if includesCgal else LICENSE_LINES) if line not in head]
     return f"{path}: no \"{missing[0]}\" in its first lines" if missing else None
 
 
@@ -64,6 +71,11 @@ def selftest():
     assert not pathProblems("a", "a/work/b, #!/usr/bin/python3")
     assert testNameProblems(pathlib.Path("a.cpp"), "TEST(Some, thing)\n")
     assert not testNameProblems(pathlib.Path("a.cpp"), "TEST_P(Some, DISABLED_Thing2)\n")
+    gpl, bsd = (f"// {lines[0]}\n// {lines[1]}\n" for lines in (GPL_LINES, LICENSE_LINES))
+    cgal = "#include <CGAL/Surface_mesh.h>\n"
+    assert not licenseProblem(CGAL_FOLDER / "a.cpp", gpl + cgal) and licenseProblem(CGAL_FOLDER / "a.cpp", bsd + cgal)
+    assert licenseProblem(pathlib.PurePath("Core/Mesh/a.cpp"), gpl + cgal)
+    assert licenseProblem(CGAL_FOLDER / "a.cpp", gpl) and not licenseProblem(CGAL_FOLDER / "a.cpp", bsd)
     assert licenseProblem(pathlib.Path("a.h"), "#pragma once\n") and not licenseProblem(pathlib.Path("a.md"), "x")
 
 

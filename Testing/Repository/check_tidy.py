@@ -21,11 +21,13 @@ import time
 
 # Sources are included on purpose, in the file that this script writes.
 LEFT_OUT = "-bugprone-suspicious-include"
+# Sources with CGAL's headers would cost as much as all others together.
+CGAL_INCLUDE = re.compile(r'#include (?:<CGAL/|"Repair/CgalMesh\.h")')
 FINDING = re.compile(r"^(.+?:\d+:\d+: (?:warning|error): .+)$", re.MULTILINE)
 
 
 def sourcesOf(module):
-    return sorted(module.glob("*.cpp"))
+    return sorted(path for path in module.glob("*.cpp") if not CGAL_INCLUDE.search(path.read_text()))
 
 
 def findings(program, unit, filterOfNames, includes):
