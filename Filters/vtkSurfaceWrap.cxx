@@ -3,14 +3,17 @@
 #include "vtkSurfaceWrap.h"
 
 #include "QuadrilleBlocks.h"
+#include "QuadrilleConvert.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleSoup.h"
 #include "Repair/SurfaceWrap.h"
 
+#include "vtkCellData.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
 #include <sstream>
+#include <string>
 
 vtkStandardNewMacro(vtkSurfaceWrap);
 
@@ -40,6 +43,16 @@ void vtkSurfaceWrap::Execute(quadrille::Block& block)
     quadrille::carryFromNearest(block.input(), input, surface, this->NumberOfThreads))
   {
     this->AddWarning(text);
+  }
+  // From triangle to triangle their borders are jagged, and would be features.
+  for (const char* name : { quadrille::arrays::kPatchId, quadrille::arrays::kFeatureEdges })
+  {
+    if (surface->GetCellData()->HasArray(name))
+    {
+      surface->GetCellData()->RemoveArray(name);
+      this->AddNotice(std::string(name) +
+        " is not carried over: on the wrap it would mark jagged borders as features");
+    }
   }
   quadrille::addNumber(surface, "WrapAlpha", wrap.alpha);
   quadrille::addNumber(surface, "WrapOffset", wrap.offset);

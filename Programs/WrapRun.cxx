@@ -139,6 +139,7 @@ ExitCode executeWrapped(RemeshRun& run, vtkPolyData* input, const WrapRequest& r
   {
     run.filter()->DetectFeaturesOff();
   }
+  run.filter()->SetPatchArrayName("");
   const ExitCode code = run.execute(surface);
   vtkPolyData* quads = run.filter()->GetOutput();
   if (code != kValidQuads || quads->GetNumberOfPolys() == 0)

@@ -44,7 +44,7 @@ public:
     Vector3 place = Vector3::Zero();
     for (Index i = 0; i < 3; ++i)
     {
-      const Vector3 corner = positionOf_(3 * f + i);
+      Vector3 corner = positionOf_(3 * f + i);
       if (weights[i] == 1)
       {
         return corner;

@@ -123,6 +123,7 @@ class Wrapping:
                     raise
         run.SetInputData(wrap(self._surface, alpha=self._alpha))
         run.DetectFeaturesOff()
+        run.SetPatchArrayName("")
         finish()
         projection = QuadrilleFilters.vtkQuadProjection()
         projection.SetSurfaceData(self._surface)
