@@ -213,15 +213,19 @@ def visible(window):
     return [(p, v, window.on_screen(p)) for p, v in window.value("[x for x in irregular() if is_visible(x[0])]")]
 
 
+def can_be_met(window, constraint):
+    """Tries a constraint by the window's script; no action."""
+    window.ask(f"trial = {constraint}; quads.Constraints = [trial]; quads.UpdatePipeline()")
+    rows = window.value("rows()")
+    window.ask("clear()")
+    return bool(rows) and rows[0][1] == "1"
+
+
 def move(window):
     """The first one that can be moved up by two edge lengths, by trials that are no actions."""
     for place, _, pixels in visible(window):
         target = (place[0], place[1], place[2] + 0.12)
-        window.ask(f"trial = QuadMove(From={list(place)}, To={list(target)}); quads.Constraints = [trial]; "
-                   "quads.UpdatePipeline()")
-        rows = window.value("rows()")
-        window.ask("clear()")
-        if rows and rows[0][1] == "1":
+        if can_be_met(window, f"QuadMove(From={list(place)}, To={list(target)})"):
             break
     else:
         raise SystemExit("FAILED: no irregular vertex can be moved")
@@ -237,11 +241,7 @@ def connection(window):
     pairs = sorted(((sum((a - b) ** 2 for a, b in zip(p[0], q[0])), p, q) for i, p in enumerate(found)
                     for q in found[:i]), key=lambda pair: pair[0])
     for _, p, q in pairs:
-        window.ask(f"trial = QuadConnection(Points={list(p[0]) + list(q[0])}); quads.Constraints = [trial]; "
-                   "quads.UpdatePipeline()")
-        rows = window.value("rows()")
-        window.ask("clear()")
-        if rows and rows[0][1] == "1":
+        if can_be_met(window, f"QuadConnection(Points={list(p[0]) + list(q[0])})"):
             break
     else:
         raise SystemExit("FAILED: no two irregular vertices can be connected")
