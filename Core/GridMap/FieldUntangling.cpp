@@ -71,10 +71,11 @@ UntangleOptions fieldUntangleOptions(const ProgressCallback& progress)
 FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
   const UntangleProblem& problem, const std::vector<Eigen::VectorXd>& starts, int rounds,
   const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
-  const ProgressCallback& progress)
+  const ProgressCallback& progress, int maximumSteps)
 {
   FieldUntangling best;
-  const UntangleOptions options = fieldUntangleOptions(progress);
+  UntangleOptions options = fieldUntangleOptions(progress);
+  const int stepsOfAttempt = options.maximumSteps;
   UntangleProblem stiffened = problem;
   const int attempts = static_cast<int>(starts.size()) + rounds;
   int idle = 0;
@@ -82,6 +83,14 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
   for (int i = 0; i < attempts; ++i)
   {
     const bool given = i < static_cast<int>(starts.size());
+    if (maximumSteps > 0)
+    {
+      options.maximumSteps = std::min(stepsOfAttempt, maximumSteps - best.newtonSteps);
+    }
+    if (options.maximumSteps <= 0)
+    {
+      break;
+    }
     if (!given)
     {
       stiffen(mesh, best.defects, stiffened.weight);

@@ -27,11 +27,12 @@ struct FieldUntangling
 /// Tries the starts in turn. Seams fix the winding of a vertex modulo 4 only, so a start that is inverted there
 /// may end with a wrong one: then the references are fitted again with more weight round it [stiffening of
 /// Bommes et al. 2009], at most `rounds` times, until it winds rightly from the start. snap rounds
-/// unknowns to a map. The first triangles of the problem are the faces.
+/// unknowns to a map. The first triangles of the problem are the faces. maximumSteps: of Newton, of all attempts; 0 for
+/// no bound but that of each.
 FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
   const UntangleProblem& problem, const std::vector<Eigen::VectorXd>& starts, int rounds,
   const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
-  const ProgressCallback& progress);
+  const ProgressCallback& progress, int maximumSteps = 0);
 
 /// Newton steps from a map without defects that bring the isolines along the guides of the field, and the ratio of the
 /// two stretches of the faces towards `limit`, >= 1 or 0 for none; `untangling` changes only where the new map has no

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -40,6 +41,12 @@ constexpr double kLeastBesideBlocks = 0.5;
 /// A map with a component missing is none. That many failures in one stage have a common cause, which more work in
 /// later stages does not mend: the caller hears of them at once.
 constexpr std::size_t kHopeless = 4;
+/// Newton steps of the seamless map where other curves, or other ways of theirs, can still be tried: maps that hold
+/// take some 20, with strokes 200, those that never hold take 340.
+constexpr int kStepsOfTry = 140;
+constexpr int kStepsOfFirstTry = 220;
+/// How many times the steps of the map without curves that one with curves may need.
+constexpr int kStepsOverPlain = 5;
 
 /// Area of the map in quads.
 double mapArea(const Mesh& mesh, const std::vector<FixedVec2>& uv)
@@ -114,6 +121,7 @@ struct CurveTry
   std::vector<std::optional<Isoline>> ways;
   /// Whether all irregular vertices of the field without curves stay, or only those at ends of connections.
   bool holdsIrregular = true;
+  int maximumSteps = 0; ///< of the seamless map; 0: as many as it takes
 };
 
 class MapMaker
@@ -150,6 +158,9 @@ public:
     collect();
     return std::move(result_);
   }
+
+  /// Of the field that the last run led along the curves.
+  bool holdsIrregular() const { return holdsIrregular_; }
 
 private:
   ProgressCallback progressOf(std::size_t i, double begin, double end) const
@@ -210,6 +221,7 @@ private:
       CrossField led = computeCrossField(mesh_, fieldOptions);
       if (led.status.ok() && (!all || cyclesClose(led, curves)))
       {
+        holdsIrregular_ = all;
         result_.field = std::move(led);
         return;
       }
@@ -514,6 +526,7 @@ private:
     seamlessOptions.solution = component.hasIntegers ? &component.solution : nullptr;
     seamlessOptions.previous = component.earlier();
     seamlessOptions.anisotropyLimit = options_.anisotropyLimit;
+    seamlessOptions.maximumSteps = try_.maximumSteps;
     seamlessOptions.progress = progress;
     SeamlessResult seamless = computeSeamlessMap(part.mesh, part.field, seamlessOptions);
     result_.work += seamless.work;
@@ -703,6 +716,7 @@ private:
   const GridMapOptions& options_;
   CurveTry try_;
   GridMapResult result_;
+  bool holdsIrregular_ = false;
   std::vector<RequestedLine> lines_;
   std::vector<Component> components_;
 };
@@ -722,19 +736,21 @@ public:
 
   GridMapResult run()
   {
-    GridMapResult first = make({});
-    if (options_.curves.empty() || options_.method != MapMethod::ScaleAware ||
-      (isWhole(first) && countUnfollowed(first) == 0))
+    const bool hasCurves = !options_.curves.empty() && options_.method == MapMethod::ScaleAware;
+    GridMapResult first = make({ {}, {}, true, hasCurves ? kStepsOfFirstTry : 0 });
+    const bool firstHolds = holdsIrregular_;
+    if (!hasCurves || (isWhole(first) && countUnfollowed(first) == 0))
     {
       return first;
     }
     // What is left out does not lead the field either.
     std::vector<std::string> leftOut = reasons(first);
-    GridMapResult plain = make({ leftOut, {}, true });
+    GridMapResult plain = make({ leftOut, {}, true, 0 });
     if (!plain.status.ok())
     {
       return finish(first.status.ok() ? std::move(first) : std::move(plain));
     }
+    maximumSteps_ = std::max(kStepsOfTry, kStepsOverPlain * plain.seamlessSteps);
     const std::size_t unfollowed = countUnfollowed(plain); // whatever the curves are
     const std::vector<Index> offenders = first.status.ok() ? first.curveOffenders : first.offenders;
     Ways ways = straightWays(plain, first.curves);
@@ -752,12 +768,15 @@ public:
     std::vector<CurveTry> tries;
     if (hasWays)
     {
-      tries.push_back({ {}, ways, true });
+      tries.push_back({ {}, ways, true, maximumSteps_ });
     }
-    tries.push_back({ {}, {}, false });
+    if (firstHolds)
+    {
+      tries.push_back({ {}, {}, false, maximumSteps_ });
+    }
     if (hasWays)
     {
-      tries.push_back({ {}, ways, false });
+      tries.push_back({ {}, ways, false, maximumSteps_ });
     }
     for (const CurveTry& howto : tries)
     {
@@ -774,13 +793,7 @@ public:
     }
     if (!isWhole(best))
     {
-      // An equation without its line would only bend the map.
-      GridMapResult some = withoutUnmet(best, bestTry);
-      best = addOneByOne(std::move(plain), { std::move(leftOut), ways, true });
-      if (hasMore(some, best))
-      {
-        best = std::move(some);
-      }
+      best = withFewer(std::move(best), std::move(bestTry), std::move(plain), leftOut, ways);
       best.curveOffenders = offenders;
     }
     return finish(std::move(best));
@@ -791,8 +804,23 @@ private:
 
   GridMapResult make(const CurveTry& howto)
   {
-    GridMapResult map = MapMaker(mesh_, options_, howto).run();
+    MapMaker maker(mesh_, options_, howto);
+    GridMapResult map = maker.run();
+    holdsIrregular_ = maker.holdsIrregular();
     taken_.addWork(map);
+    if (getenv("DBG"))
+    {
+      int out = 0;
+      for (auto& t : howto.leftOut)
+        out += !t.empty();
+      fprintf(stderr,
+        "TRY curves %zu out %d ways %d holds %d: ok %d unmet %zu unfollowed %zu seamless %d embed "
+        "%d work %zu field %.3f seamless %.3f quant %.3f embed %.3f %s\n",
+        options_.curves.size(), out, !howto.ways.empty(), howto.holdsIrregular, map.status.ok(),
+        countUnmet(map), countUnfollowed(map), map.seamlessSteps, map.embedSteps, map.work,
+        map.secondsField, map.secondsSeamless, map.secondsQuantize, map.secondsEmbed,
+        map.status.message.substr(0, 100).c_str());
+    }
     return map;
   }
 
@@ -852,40 +880,88 @@ private:
     return ways;
   }
 
-  /// The same without the curves that it has not met.
-  GridMapResult withoutUnmet(const GridMapResult& map, CurveTry howto)
+  /// A map that lacks some curves gives way to one without the equations of these, which would only bend it, where
+  /// that one holds. Where there is no map, the curves come to the plain one bit by bit.
+  GridMapResult withFewer(GridMapResult best, CurveTry bestTry, GridMapResult plain,
+    std::vector<std::string> leftOut, const Ways& ways)
   {
-    const std::vector<std::string> why = reasons(map);
-    howto.leftOut.resize(why.size());
-    for (std::size_t i = 0; i < why.size(); ++i)
+    if (best.status.ok())
     {
-      howto.leftOut[i] = map.curves[i].met ? std::string() : why[i];
+      const std::size_t unmet = countUnmet(best);
+      if (unmet == best.curves.size())
+      {
+        return hasMore(best, plain) ? std::move(best) : std::move(plain);
+      }
+      bestTry.leftOut = reasons(best);
+      for (std::size_t i = 0; i < best.curves.size(); ++i)
+      {
+        if (best.curves[i].met)
+        {
+          bestTry.leftOut[i].clear();
+        }
+      }
+      bestTry.maximumSteps = maximumSteps_;
+      GridMapResult some = make(bestTry);
+      return hasMore(best, some) || !some.status.ok() ? std::move(best) : std::move(some);
     }
-    const bool hasSome = map.status.ok() && countUnmet(map) < why.size();
-    return hasSome ? make(howto) : map;
+    std::vector<std::size_t> all(leftOut.size());
+    std::iota(all.begin(), all.end(), std::size_t(0));
+    Adding adding{ std::move(plain), { std::move(leftOut), ways, true, maximumSteps_ },
+      all.size() };
+    if (all.size() > 1)
+    {
+      addHalves(all, adding);
+    }
+    return std::move(adding.map);
   }
 
-  GridMapResult addOneByOne(GridMapResult best, CurveTry howto)
+  /// A map to which curves are added.
+  struct Adding
   {
-    const std::size_t count = options_.curves.size();
-    for (std::size_t i = 0; i < count && count > 1; ++i)
+    GridMapResult map;
+    CurveTry howto;   ///< that led to it
+    std::size_t left; ///< how many maps may still be made
+  };
+
+  /// Adds as many of the curves as it can, the earlier half before the later one: with all of them there was no map.
+  void addHalves(const std::vector<std::size_t>& curves, Adding& to)
+  {
+    const auto middle = curves.begin() + static_cast<std::ptrdiff_t>((curves.size() + 1) / 2);
+    for (const std::vector<std::size_t>& half : { std::vector<std::size_t>(curves.begin(), middle),
+           std::vector<std::size_t>(middle, curves.end()) })
     {
-      const std::string why = std::exchange(howto.leftOut[i], std::string());
-      GridMapResult next = make(howto);
-      if (hasMore(next, best))
+      if (half.empty() || to.left == 0)
       {
-        best = std::move(next);
+        continue;
       }
-      else
+      --to.left;
+      CurveTry howto = to.howto;
+      for (const std::size_t i : half)
       {
-        howto.leftOut[i] = why;
+        howto.leftOut[i].clear();
+      }
+      GridMapResult next = make(howto);
+      if (hasMore(next, to.map))
+      {
+        // Those that it lacks are no equations of the next one.
+        for (const std::size_t i : half)
+        {
+          howto.leftOut[i] = next.curves[i].met ? std::string() : next.curves[i].why;
+        }
+        to.map = std::move(next);
+        to.howto = std::move(howto);
+      }
+      else if (half.size() > 1)
+      {
+        addHalves(half, to);
       }
     }
-    return best;
   }
 
   const Mesh& mesh_;
   const GridMapOptions& options_;
+  int maximumSteps_ = 0;        ///< of the seamless map of a try
+  bool holdsIrregular_ = false; ///< of the last one that was made
   GridMapResult taken_;
 };
 
