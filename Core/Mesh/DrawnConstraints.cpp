@@ -28,6 +28,8 @@ constexpr double kSamplesAnEdge = 3;
 constexpr double kMostSamples = 4096;
 /// Barycentric nearness to an edge of a sample that lies on it.
 constexpr double kOnEdge = 1e-6;
+/// Of the path under a stroke, which only says which polygons get the stroke's direction.
+constexpr double kHaste = 1.3;
 
 void markPath(
   const EdgeGraph& graph, const std::vector<Index>& path, std::map<Index, std::uint8_t>& marks)
@@ -131,9 +133,9 @@ const char* nameOf(ConstraintKind kind)
 
 //------------------------------------------------------------------------------
 std::vector<Index> ConstraintPlacement::pathBetween(
-  const char* what, std::int64_t line, Index a, Index b) const
+  const char* what, std::int64_t line, Index a, Index b, double haste) const
 {
-  std::vector<Index> path = findEdgePath(input_, places_.edges(), a, b);
+  std::vector<Index> path = findEdgePath(input_, places_.edges(), a, b, haste);
   if (path.empty())
   {
     refuse(what, " ", line, ": no path of edges leads from ", placeText(input_.points[a]), " to ",
@@ -183,7 +185,7 @@ void ConstraintPlacement::addFeature(const DrawnLine& line)
     }
     else if (v != previous)
     {
-      const std::vector<Index> path = pathBetween("feature curve", line.source, previous, v);
+      const std::vector<Index> path = pathBetween("feature curve", line.source, previous, v, 1);
       markPath(places_.edges(), path, marks);
       for (std::size_t i = 1; i < path.size(); ++i)
       {
@@ -360,7 +362,7 @@ void ConstraintPlacement::addStroke(const DrawnLine& line, double weight, double
     if (places.empty())
     {
       const std::vector<Index> path = pathBetween(
-        "guiding stroke", line.source, places_.nearestCorner(a), places_.nearestCorner(b));
+        "guiding stroke", line.source, places_.nearestCorner(a), places_.nearestCorner(b), kHaste);
       guideAlong(path, stroke, strokes);
       for (const Index v : path)
       {

@@ -139,7 +139,8 @@ private:
   };
   using Strokes = std::map<Index, Stroke>;
 
-  std::vector<Index> pathBetween(const char* what, std::int64_t line, Index a, Index b) const;
+  std::vector<Index> pathBetween(
+    const char* what, std::int64_t line, Index a, Index b, double haste) const;
   std::vector<SurfacePlaces::Place> sampleBetween(
     const SurfacePlaces::Place& first, const SurfacePlaces::Place& last) const;
   void guide(const SurfacePlaces::Place& place, const Stroke& stroke, Strokes& strokes) const;

@@ -68,7 +68,8 @@ EdgeGraph makeEdgeGraph(const SurfaceInput& input)
   return graph;
 }
 
-std::vector<Index> findEdgePath(const SurfaceInput& input, const EdgeGraph& graph, Index a, Index b)
+std::vector<Index> findEdgePath(
+  const SurfaceInput& input, const EdgeGraph& graph, Index a, Index b, double haste)
 {
   struct Reached
   {
@@ -86,7 +87,7 @@ std::vector<Index> findEdgePath(const SurfaceInput& input, const EdgeGraph& grap
   const auto atLeast = [&](double cost, Index v)
   {
     const double away = awayOf(v);
-    return cost + (input.points[v] - end).norm() + 0.5 * scale * away * away;
+    return cost + haste * ((input.points[v] - end).norm() + 0.5 * scale * away * away);
   };
   reached[a] = { 0, a };
   front.push({ atLeast(0, a), a });
