@@ -539,13 +539,15 @@ class RandomSession:
     def others(self, before, after, constraint):
         """After an operation that is told as met: irregular vertices of the quads that came or went elsewhere."""
         reach = REACH * max(before.length, after.length)
-        places = list(constraint["points"])
+        # Places beside the surface are taken to it first.
+        places = [self.points[numpy.argmin(numpy.linalg.norm(self.points - p, axis=1))] for p in constraint["points"]]
         if constraint["operation"] != "add":
-            # What it took was the nearest irregular vertex, which need not be near.
-            taken = constraint["points"][:2 if constraint["operation"] in ("merge", "cancel") else 1]
+            # What it took was the nearest irregular vertex that can move, which need not be near: its word has it.
+            taken = places[:2 if constraint["operation"] in ("merge", "cancel") else 1]
             irregular = numpy.flatnonzero(before.index != 0)
             places += [before.points[irregular[numpy.argsort(numpy.linalg.norm(
                 before.points[irregular] - p, axis=1))[:3]]] for p in taken]
+            places.append(constraint["place"])
         places = numpy.vstack(places)
 
         def unmatched(these, those):
