@@ -16,8 +16,10 @@
 #include <vtkExodusIIWriter.h>
 #include <vtkFieldData.h>
 #include <vtkGeometryFilter.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
+#include <vtkOutputWindow.h>
 #include <vtkPLYWriter.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -26,6 +28,8 @@
 #include <vtkQuadrilleOFFReader.h>
 #include <vtkQuadrillePLYReader.h>
 #include <vtkSTLReader.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringOutputWindow.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
@@ -45,6 +49,7 @@
 #include <fstream>
 #include <map>
 #include <memory>
+#include <sstream>
 
 namespace quadrille
 {
@@ -94,6 +99,47 @@ std::string withoutTail(const std::string& errors)
   return errors.size() > 2 ? errors.substr(0, errors.size() - 2) : errors;
 }
 
+/// Readers of VTK have parsers that report by themselves, and tell of cut files by warnings of nobody: all that is
+/// printed while this is there.
+class PrintedErrors
+{
+public:
+  PrintedErrors()
+    : before_(vtkOutputWindow::GetInstance()), level_(vtkLogger::GetCurrentVerbosityCutoff())
+  {
+    vtkOutputWindow::SetInstance(window_);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  PrintedErrors(const PrintedErrors&) = delete;
+  PrintedErrors& operator=(const PrintedErrors&) = delete;
+  ~PrintedErrors()
+  {
+    vtkLogger::SetStderrVerbosity(level_);
+    vtkOutputWindow::SetInstance(before_);
+  }
+
+  /// The first line that speaks of an error; empty where none does.
+  std::string first() const
+  {
+    std::istringstream lines(window_->GetOutput());
+    for (std::string line; std::getline(lines, line);)
+    {
+      const std::size_t body = line.find("): ");
+      const std::string text = body == std::string::npos ? line : line.substr(body + 3);
+      if (text.rfind("ERROR: In ", 0) != 0 && text.find("rror") != std::string::npos)
+      {
+        return text;
+      }
+    }
+    return {};
+  }
+
+private:
+  vtkNew<vtkStringOutputWindow> window_;
+  vtkSmartPointer<vtkOutputWindow> before_;
+  vtkLogger::Verbosity level_;
+};
+
 template <class Reader>
 vtkSmartPointer<vtkPolyData> readWith(const std::string& path)
 {
@@ -101,11 +147,16 @@ vtkSmartPointer<vtkPolyData> readWith(const std::string& path)
   const ErrorCollector errors(reader);
   const ErrorCollector pipelineErrors(reader->GetExecutive());
   reader->SetFileName(path.c_str());
-  reader->Update();
-  const std::string text = errors.text() + pipelineErrors.text();
-  if (!text.empty())
+  std::string printed;
   {
-    fail(path, withoutTail(text));
+    const PrintedErrors printing;
+    reader->Update();
+    printed = printing.first();
+  }
+  const std::string text = errors.text().empty() ? pipelineErrors.text() : errors.text();
+  if (!text.empty() || !printed.empty())
+  {
+    fail(path, printed.empty() ? withoutTail(text) : printed);
   }
   vtkSmartPointer<vtkPolyData> data = reader->GetOutput();
   if (!data)
@@ -153,6 +204,47 @@ void checkStl(const std::string& path)
     fail(path,
       "is no STL file, or cut off: it announces " + std::to_string(triangles) +
         " triangles and has " + std::to_string(size) + " bytes");
+  }
+}
+
+/// Compressed blocks hold at most about a thousand times their own bytes [zlib's documentation].
+constexpr double kMostCompressed = 1100;
+/// No array of a surface has more components; VTK's reader counts through all of them.
+constexpr double kMostComponents = 100000;
+
+/// What the elements of an XML file announce: NumberOfPoints="12" and the like.
+void checkXml(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  const double size = static_cast<double>(fs::file_size(path));
+  const std::string attribute = " NumberOf";
+  std::string block(std::size_t(1) << 20, '\0'), text;
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0)
+  {
+    text.append(block, 0, static_cast<std::size_t>(file.gcount()));
+    std::size_t from = 0;
+    for (std::size_t at = text.find(attribute); at != std::string::npos;
+         at = text.find(attribute, from))
+    {
+      from = at + attribute.size();
+      const std::size_t equals = text.find_first_of("=<> ", from);
+      if (equals == std::string::npos || text[equals] != '=' || equals + 1 >= text.size())
+      {
+        continue;
+      }
+      const double number = std::strtod(text.c_str() + equals + 2, nullptr);
+      const std::string what = text.substr(from, equals - from);
+      if (!(number <= (what == "Components" ? kMostComponents : kMostCompressed * size)) ||
+        number < 0)
+      {
+        std::ostringstream told;
+        told << "is damaged: it announces " << number << " " << what << " and has " << size
+             << " bytes";
+        fail(path, told.str());
+      }
+    }
+    text.erase(
+      0, text.size() > 200 ? text.size() - 200 : 0); // an attribute may reach into the next block
   }
 }
 
@@ -534,6 +626,7 @@ vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
   }
   if (extension == "vtp")
   {
+    checkXml(path);
     return readWith<vtkXMLPolyDataReader>(path);
   }
   if (extension == "vtk")

@@ -32,8 +32,8 @@ struct EdgeGraph
 EdgeGraph makeEdgeGraph(const SurfaceInput& input);
 
 /// Points from b back to a along edges, by the A* algorithm [Hart, Nilsson, Raphael 1968] with the distance to b; edges
-/// cost more the farther they are from the straight segment. Empty: no path. haste: >= 1; the path costs at most so many
-/// times what the best one does, and is found the sooner for it [weighted A*, Pohl 1970].
+/// cost more the farther they are from the straight segment. Empty: no path. haste: >= 1; the path costs at most so
+/// many times what the best one does, and is found the sooner for it [weighted A*, Pohl 1970].
 std::vector<Index> findEdgePath(
   const SurfaceInput& input, const EdgeGraph& graph, Index a, Index b, double haste = 1);
 

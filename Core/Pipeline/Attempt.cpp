@@ -184,10 +184,14 @@ void recordCoarse(
   tellCurves(run, made);
   made.coarse = levels.coarse;
   made.coarseUv = std::move(map.uv);
-  made.coarseTurns = map.field.turns;
-  made.coarseInteger = integerVertices(made.coarse.mesh, map.field);
-  made.onFeatures =
-    sectorsOf(made.coarse.mesh, map.field.sectorTurns, made.coarseInteger, made.coarse.fineVertex);
+  const bool hasField = !map.field.turns.empty(); // there is none where the level is too large for one
+  if (hasField)
+  {
+    made.coarseTurns = map.field.turns;
+    made.coarseInteger = integerVertices(made.coarse.mesh, map.field);
+    made.onFeatures = sectorsOf(
+      made.coarse.mesh, map.field.sectorTurns, made.coarseInteger, made.coarse.fineVertex);
+  }
   made.coarseCertificate = map.certificate;
   // Where features are held, more freedom is what helps, see Session.
   const bool isHeld = run.surface->regularOnFeatures && !map.status.ok();
