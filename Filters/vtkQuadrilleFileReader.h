@@ -29,6 +29,12 @@ public:
   const char* GetFileName() { return this->FileName.c_str(); }
   ///@}
 
+  /**
+   * Why VTK's reader of .stl, .vtp and .vtu should not be asked for a file: its headers announce more than its bytes can
+   * hold, for which these readers ask for memory, or count, before they look. Empty for all other files.
+   */
+  static std::string GetHeaderError(const char* path);
+
   /// Why the last execution gave nothing; empty after success.
   const char* GetOutcomeText() { return this->OutcomeText.c_str(); }
 

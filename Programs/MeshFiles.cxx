@@ -25,6 +25,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataReader.h>
+#include <vtkQuadrilleFileReader.h>
 #include <vtkQuadrilleOFFReader.h>
 #include <vtkQuadrillePLYReader.h>
 #include <vtkSTLReader.h>
@@ -183,71 +184,6 @@ vtkSmartPointer<vtkPolyData> readWithOurs(const std::string& path)
 }
 
 //------------------------------------------------------------------------------
-// Headers that promise more than the file holds: VTK's readers would ask for the memory first
-
-/// A binary STL file is 80 bytes of text, a count of four bytes, and 50 bytes a triangle.
-void checkStl(const std::string& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  unsigned char header[84] = {};
-  file.read(reinterpret_cast<char*>(header), sizeof(header));
-  const std::string start(reinterpret_cast<const char*>(header), 5);
-  if (start == "solid")
-  {
-    return; // text, or binary with a misleading name, which the reader tells apart
-  }
-  const std::uintmax_t size = fs::file_size(path);
-  const std::uintmax_t triangles = header[80] | (header[81] << 8) | (header[82] << 16) |
-    (static_cast<std::uintmax_t>(header[83]) << 24);
-  if (size < 84 || (size - 84) / 50 < triangles)
-  {
-    fail(path,
-      "is no STL file, or cut off: it announces " + std::to_string(triangles) +
-        " triangles and has " + std::to_string(size) + " bytes");
-  }
-}
-
-/// Compressed blocks hold at most about a thousand times their own bytes [zlib's documentation].
-constexpr double kMostCompressed = 1100;
-/// No array of a surface has more components; VTK's reader counts through all of them.
-constexpr double kMostComponents = 100000;
-
-/// What the elements of an XML file announce: NumberOfPoints="12" and the like.
-void checkXml(const std::string& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  const double size = static_cast<double>(fs::file_size(path));
-  const std::string attribute = " NumberOf";
-  std::string block(std::size_t(1) << 20, '\0'), text;
-  while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0)
-  {
-    text.append(block, 0, static_cast<std::size_t>(file.gcount()));
-    std::size_t from = 0;
-    for (std::size_t at = text.find(attribute); at != std::string::npos;
-         at = text.find(attribute, from))
-    {
-      from = at + attribute.size();
-      const std::size_t equals = text.find_first_of("=<> ", from);
-      if (equals == std::string::npos || text[equals] != '=' || equals + 1 >= text.size())
-      {
-        continue;
-      }
-      const double number = std::strtod(text.c_str() + equals + 2, nullptr);
-      const std::string what = text.substr(from, equals - from);
-      if (!(number <= (what == "Components" ? kMostComponents : kMostCompressed * size)) ||
-        number < 0)
-      {
-        std::ostringstream told;
-        told << "is damaged: it announces " << number << " " << what << " and has " << size
-             << " bytes";
-        fail(path, told.str());
-      }
-    }
-    text.erase(
-      0, text.size() > 200 ? text.size() - 200 : 0); // an attribute may reach into the next block
-  }
-}
-
 /// Far from the origin single precision has lost what tells points apart: where a coordinate is above so many sides of
 /// the box.
 constexpr double kFarSides = 4;
@@ -610,6 +546,11 @@ vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
   {
     fail(path, "cannot be opened for reading");
   }
+  if (const std::string damage = vtkQuadrilleFileReader::GetHeaderError(path.c_str());
+      !damage.empty())
+  {
+    fail(path, damage);
+  }
   const std::string extension = extensionOf(path);
   if (extension == "ply")
   {
@@ -621,12 +562,10 @@ vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
   }
   if (extension == "stl")
   {
-    checkStl(path);
     return readWith<vtkSTLReader>(path);
   }
   if (extension == "vtp")
   {
-    checkXml(path);
     return readWith<vtkXMLPolyDataReader>(path);
   }
   if (extension == "vtk")

@@ -60,6 +60,11 @@ def read(path):
     reader = _reader_for(os.path.splitext(path)[1].lower())
     if not os.path.isfile(path):
         raise InvalidInput(f"{path}: there is no such file")
+    from .QuadrilleFilters import vtkQuadrilleFileReader
+
+    damage = vtkQuadrilleFileReader.GetHeaderError(path)
+    if damage:
+        raise InvalidInput(f"{path}: {damage}")
     with _Silence() as silence:
         reader.SetFileName(path)
         reader.Update()

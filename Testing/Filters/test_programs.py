@@ -443,6 +443,10 @@ class ExitCodes(Case):
     def test_lying_headers(self):
         """Counts beyond the file must neither take the memory nor end in a crash."""
         huge = 123456789012
+        vtp = ('<?xml version="1.0"?><VTKFile type="PolyData" version="0.1"><PolyData>'
+               '<Piece NumberOfPoints="{0}" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="0">'
+               '<Points><DataArray type="Float32" NumberOfComponents="{1}" format="ascii">0 0 0</DataArray></Points>'
+               '</Piece></PolyData></VTKFile>')
         files = {
             "huge.ply": f"ply\nformat ascii 1.0\nelement vertex {huge}\nproperty float x\nproperty float y\n"
                         f"property float z\nelement face {huge}\nproperty list uchar int vertex_indices\nend_header\n"
@@ -450,6 +454,8 @@ class ExitCodes(Case):
             "huge.off": f"OFF\n{huge} {huge} 0\n0 0 0\n",
             "huge.vtk": f"# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS {huge} float\n0 0 0\n"
                         f"POLYGONS {huge} {4 * huge}\n3 0 0 0\n",
+            "points.vtp": vtp.format(huge, 3),
+            "components.vtp": vtp.format(1, 2147483648),
         }
         for name, text in files.items():
             with self.subTest(name):

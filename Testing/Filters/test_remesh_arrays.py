@@ -203,6 +203,12 @@ class Files(unittest.TestCase):
                 with self.assertRaises(quadrille.InvalidInput) as caught:
                     quadrille.read(path)
                 self.assertIn(path, str(caught.exception))
+            path = os.path.join(folder, "announced.vtp")
+            with open(path, "w") as file:
+                file.write('<VTKFile type="PolyData"><PolyData><Piece NumberOfPoints="4294967296">')
+            with self.assertRaises(quadrille.InvalidInput) as caught:
+                quadrille.read(path)
+            self.assertIn("4294967296 Points", str(caught.exception))
 
     def test_the_reader_keeps_what_vtk_leaves_out(self):
         path = os.path.join(os.path.dirname(__file__), "..", "..", "Data", "part.ply")
