@@ -30,8 +30,8 @@ public:
   ///@}
 
   /**
-   * Why VTK's reader of .stl, .vtp and .vtu should not be asked for a file: its headers announce more than its bytes can
-   * hold, for which these readers ask for memory, or count, before they look. Empty for all other files.
+   * Why VTK's reader of .stl, .vtp and .vtu should not be asked for a file: its headers announce more than its bytes
+   * can hold, for which these readers ask for memory, or count, before they look. Empty for all other files.
    */
   static std::string GetHeaderError(const char* path);
 

@@ -114,7 +114,8 @@ class Damage:
 
     def inserted(self, data):
         at = self.place(data)
-        return data[:at] + bytearray(self.random.randrange(256) for _ in range(self.random.choice((1, 3, 200)))) + data[at:]
+        count = self.random.choice((1, 3, 200))
+        return data[:at] + bytearray(self.random.randrange(256) for _ in range(count)) + data[at:]
 
     def zeros(self, data):
         at, count = self.place(data), self.random.choice((4, 64, 2000))
