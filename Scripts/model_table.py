@@ -34,8 +34,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
 COUNT_WITHIN = 0.15
-FIELDS = ("model", "quads", "code", "processor", "seconds", "attempts", "made", "mean", "least", "inverted", "irregular",
-          "topology", "map", "details", "error")
+FIELDS = ("model", "quads", "code", "processor", "seconds", "attempts", "made", "mean", "least", "inverted",
+          "irregular", "topology", "map", "details", "error")
 
 
 def topology(path):
