@@ -243,6 +243,10 @@ Resolution resolve(const ArcNetwork& network, Index id)
       !isFreeWithout(network, arc.ends[0], id) && !isFreeWithout(network, arc.ends[1], id);
     best = { { id }, arc.length + (pair ? kLossOfPair : 0) };
   }
+  else
+  {
+    best.loss = kLossOfPair; // it stays, and so do its ends
+  }
   if (arc.ends[0] != arc.ends[1])
   {
     best = lesser(std::move(best), endOfCurve(network, arc.ends[0], id));
@@ -298,9 +302,9 @@ bool simplifyOnce(Mesh& mesh, double edgeLength, NetworkReport& report)
       continue;
     }
     const Resolution resolution = resolve(network, id);
-    if (!(resolution.loss < kNever))
+    if (resolution.arcs.empty())
     {
-      continue; // asked for, or boundary
+      continue; // asked for, or boundary, and so is what meets it
     }
     ++report.shortArcs;
     any = true;

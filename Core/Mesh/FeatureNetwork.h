@@ -37,7 +37,8 @@ struct NetworkReport
 /// - one of its ends becomes an inner point of a curve: all other arcs there go but one, and the short arc is an end of
 ///   that one;
 /// - the arc itself goes.
-/// Where there are still two nodes or corners as near to each other afterwards, that counts as a loss of 3 s on top.
+/// Where there are still two nodes or corners as near to each other afterwards, that counts as a loss of 3 s on top; an
+/// arc that may not go stays with both of its ends where all else would lose more than that.
 /// Only detected features go (without kRequestedFeature), no boundaries. Shortest arcs first, in rounds of arcs that
 /// share no node, with removeUnresolvedFeatures in between, until nothing changes. `filtered` gets what that removes.
 /// Throws InvalidInput unless edgeLength is positive.
