@@ -29,8 +29,6 @@ constexpr double kMostJagged = 1.1;
 constexpr double kThinnestPatch = 0.25;
 /// Chains shorter than this part of a patch's longest one are its ends and not its sides.
 constexpr double kShortestSide = 0.5;
-/// Angles (radians) that differ by less are noise.
-constexpr double kAsBlunt = 0.05;
 
 /// A maximal run of constrained edges between nodes; `ends` is invalid for a closed loop.
 struct Chain
@@ -292,10 +290,6 @@ public:
         grow(Mesh::face(h), largest, thinnest);
       }
     }
-    if (!thin_.empty())
-    {
-      measurePatches();
-    }
   }
 
   /// For each of these patches the bluntest of its sides that has another patch beyond it; never two sides of the same
@@ -360,25 +354,6 @@ private:
     }
   }
 
-  /// Areas of all patches, whole.
-  void measurePatches()
-  {
-    patches_ = DisjointSets(mesh_.faceCount(), 1);
-    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
-    {
-      pollNowAndThen(h);
-      if (!mesh_.isConstrained(h))
-      {
-        patches_.join(Mesh::face(h), Mesh::face(mesh_.twin[h]));
-      }
-    }
-    patchArea_.assign(mesh_.faceCount(), 0);
-    for (Index f = 0; f < mesh_.faceCount(); ++f)
-    {
-      patchArea_[patches_.find(f)] += sizedArea(mesh_, f);
-    }
-  }
-
   void dropOne(
     const Thin& thin, std::vector<std::uint8_t>& touched, std::vector<Index>& result) const
   {
@@ -394,7 +369,18 @@ private:
     }
     std::sort(sides.begin(), sides.end());
     sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
-    const Index best = sideToDrop(thin, sides, kShortestSide * longest);
+    Index best = kInvalidIndex;
+    double bluntest = std::numeric_limits<double>::infinity();
+    for (const Index c : sides)
+    {
+      const bool isEnd = chains_[c].length < kShortestSide * longest;
+      const double sharpness = isEnd ? bluntest : sharpnessOf(chains_[c]);
+      if (sharpness < bluntest)
+      {
+        best = c;
+        bluntest = sharpness;
+      }
+    }
     if (best == kInvalidIndex)
     {
       return;
@@ -419,54 +405,6 @@ private:
         touched[p] = 1;
       }
     }
-  }
-
-  /// Of the sides that are no ends the bluntest; of those as blunt as that the one with the smallest patch beyond it,
-  /// so that of a step all round an engraving one of its two rims goes, and not parts of both.
-  Index sideToDrop(const Thin& thin, const std::vector<Index>& sides, double shortest) const
-  {
-    std::vector<std::pair<Index, double>> candidates;
-    double bluntest = std::numeric_limits<double>::infinity();
-    for (const Index c : sides)
-    {
-      if (chains_[c].length >= shortest)
-      {
-        candidates.emplace_back(c, sharpnessOf(chains_[c]));
-        bluntest = std::min(bluntest, candidates.back().second);
-      }
-    }
-    Index best = kInvalidIndex;
-    double smallest = std::numeric_limits<double>::infinity();
-    for (const auto& [c, sharpness] : candidates)
-    {
-      if (sharpness <= bluntest + kAsBlunt)
-      {
-        const double area = areaBeyond(thin, chains_[c]);
-        if (area < smallest)
-        {
-          best = c;
-          smallest = area;
-        }
-      }
-    }
-    return best;
-  }
-
-  /// The largest area of the patches on the other side of a chain than the thin one.
-  double areaBeyond(const Thin& thin, const Chain& chain) const
-  {
-    double area = 0;
-    for (const Index h : chain.halfEdges)
-    {
-      for (const Index f : { Mesh::face(h), Mesh::face(mesh_.twin[h]) })
-      {
-        if (patch_[f] != thin.patch)
-        {
-          area = std::max(area, patchArea_[patches_.find(f)]);
-        }
-      }
-    }
-    return area;
   }
 
   Index neighbour(Index h) const { return patch_[Mesh::face(mesh_.twin[h])]; }
@@ -494,8 +432,6 @@ private:
   std::vector<Index> chainOf_;       ///< #H
   std::vector<std::uint8_t> isThin_; ///< #patches
   std::vector<Thin> thin_;
-  mutable DisjointSets patches_{ 0, 1 }; ///< faces by their patch, where there is a thin one
-  std::vector<double> patchArea_;        ///< #F, at the face that stands for a patch
 };
 
 bool dropAlongThinPatches(

@@ -285,30 +285,6 @@ TEST(FeatureNetwork, InvalidEdgeLength)
   EXPECT_THROW(lostFeatures(mesh, {}), InvalidInput);
 }
 
-/// Of a step all round an engraving one rim goes, the one that has less beyond it, and no part of the other one.
-TEST(FeatureFilter, OfTwoRimsTheInnerOneGoes)
-{
-  Mesh mesh = test::gridPlane(40, 40);
-  const auto rectangle = [](double a, double b)
-  {
-    return [=](const Vector3& p, const Vector3& q)
-    {
-      const auto on = [=](const Vector3& x)
-      {
-        const double far = std::max(std::abs(x.x() - 20), std::abs(x.y() - 20));
-        return far == a && far == b;
-      };
-      return on(p) && on(q) && std::abs((q - p).norm() - 1) < 1e-12;
-    };
-  };
-  markEdges(mesh, kFeatureEdge, rectangle(10, 10));
-  markEdges(mesh, kFeatureEdge, rectangle(9, 9));
-  ASSERT_EQ(allFeatures(mesh), 152u);
-  const FeatureFilterReport report = removeUnresolvedFeatures(mesh, 6);
-  EXPECT_EQ(report.removedEdges, 72u);
-  EXPECT_EQ(featuresOn(mesh, rectangle(10, 10)), 80u);
-}
-
 TEST(GivenUpFeatures, CurvesAddUpToWhatWasLost)
 {
   // Any marks: what is told and what is left is what there was, edge by edge.
