@@ -536,6 +536,7 @@ private:
     {
       if (!component.hasIntegers)
       {
+        result_.collapsedFaces += seamless.collapsed;
         component.fail(seamless.status, std::move(seamless.uv),
           join(cornerVertices(part.mesh, seamless.inverted), seamless.offenders));
       }

@@ -82,6 +82,9 @@ struct GridMapResult
   MapReuse reuse;
   Status status;                ///< not ok: why and where; uv then holds the best that was reached
   std::vector<Index> offenders; ///< coarse vertices around which the triangulation lacks freedom
+  /// Faces that no map with the field gives any area, as the arcs of features round patches leave none; not from the
+  /// methods that round.
+  std::size_t collapsedFaces = 0;
   std::vector<CurveOutcome> curves; ///< what became of GridMapOptions::curves
   /// Coarse vertices round which the triangulation lacks freedom for all curves, where some were left out.
   std::vector<Index> curveOffenders;

@@ -210,6 +210,26 @@ bool bendsMost(
   return true;
 }
 
+/// Whether a vertex is nearer than `range` to a vertex where the chain ends: that one stays for both.
+bool isNearEnd(const ChainWalk& walk, std::size_t vertex, double range)
+{
+  const long i = static_cast<long>(vertex);
+  for (const long step : { -1L, 1L })
+  {
+    double walked = 0;
+    long j = i;
+    for (; walked < range && walk.has(j + step); j += step)
+    {
+      walked += (walk.at(j + step) - walk.at(j)).norm();
+    }
+    if (walked < range)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 void protectCorners(const Mesh& mesh, const Chain& chain, double scale, FeatureCurves& curves)
 {
   const ChainWalk walk(mesh, chain);
@@ -217,7 +237,7 @@ void protectCorners(const Mesh& mesh, const Chain& chain, double scale, FeatureC
   for (std::size_t i = 0; i < bend.size(); ++i)
   {
     const double range = 0.5 * scale * sizeAt(mesh, chain.vertices[i]);
-    if (bend[i] > kCornerAngle && bendsMost(walk, bend, i, range))
+    if (bend[i] > kCornerAngle && !isNearEnd(walk, i, range) && bendsMost(walk, bend, i, range))
     {
       curves.kind[chain.vertices[i]] = VertexKind::Protected;
     }

@@ -200,6 +200,7 @@ void recordCoarse(
   if (!map.status.ok())
   {
     made.status = { map.status.code, "no valid map of the coarse mesh: " + map.status.message };
+    made.collapsed = map.collapsedFaces > 0;
     made.coarseTroubles = positionsOf(levels.coarse.mesh, map.offenders);
     for (const Index v : map.offenders)
     {

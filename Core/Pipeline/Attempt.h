@@ -43,8 +43,9 @@ struct RunContext
 struct MapAttempt
 {
   ResultKey key = 0;
-  Status status;         ///< of the coarse map
-  bool hopeless = false; ///< no other triangulation can mend it
+  Status status;          ///< of the coarse map
+  bool hopeless = false;  ///< no other triangulation can mend it
+  bool collapsed = false; ///< arcs of features leave some coarse triangles no area
   Level coarse;
   std::vector<FixedVec2> coarseUv;         ///< #H of coarse.mesh; also where the status is not ok
   std::vector<int> coarseTurns;            ///< #V of coarse.mesh

@@ -184,6 +184,11 @@ void leaveMeasures(RemeshResult& result, const Frame& frame)
   parts.place = frame.toUser(parts.place);
   parts.boundary.shortest *= frame.unit;
   parts.boundary.place = frame.toUser(parts.boundary.place);
+  for (GivenUpCurve& curve : result.givenUpFeatures)
+  {
+    curve.place = frame.toUser(curve.place);
+    curve.length *= frame.unit;
+  }
   for (CurveOutcome& curve : result.curves)
   {
     curve.start = frame.toUser(curve.start);

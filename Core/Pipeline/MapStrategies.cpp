@@ -63,6 +63,13 @@ std::vector<Index> ringsRound(
   return found;
 }
 
+/// Whether features leave coarse triangles no area, and so many others are inverted that no few vertices will mend it.
+bool isMatterOfFeatures(const RunContext& run, const Attempt& attempt)
+{
+  return attempt.map->collapsed && attempt.map->coarseOffenders.size() >= kManyOffenders &&
+    !featuresNear(run, attempt.plan, attempt.map->coarseTroubles).empty();
+}
+
 } // namespace
 
 std::optional<Plan> moreFreedom(const Trouble& trouble)
@@ -78,6 +85,10 @@ std::optional<Plan> moreFreedom(const Trouble& trouble)
   }
   RunContext& run = trouble.run;
   run.surface.apply(last.plan);
+  if (isMatterOfFeatures(run, last))
+  {
+    return std::nullopt;
+  }
   const Hierarchy& levels = run.levels.make(levelOptions(run, last.plan));
   const Index coarse = levels.coarse.mesh.vertexCount();
   Plan plan = last.plan;

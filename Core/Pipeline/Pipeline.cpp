@@ -185,6 +185,23 @@ void takeAttempt(const Attempt& attempt, const RemeshOptions& options, bool quad
   }
 }
 
+/// The features that a plan has given up, which is on the surface.
+void addGivenUp(
+  const Plan& plan, const Mesh& mesh, double edgeLength, std::vector<GivenUpCurve>& givenUp)
+{
+  if (!plan.featuresGivenUp)
+  {
+    return;
+  }
+  std::vector<Index> edges = *plan.featuresGivenUp;
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  for (const GivenUpCurve& curve : givenUpCurves(mesh, edges, edgeLength, FeatureLoss::FailedMap))
+  {
+    givenUp.push_back(curve);
+  }
+}
+
 void tellAttempt(const Attempt& attempt, const QuadSize& size, RemeshResult& result)
 {
   const std::string handles = unresolvedHandlesText(result.smallParts, size);
@@ -244,6 +261,7 @@ void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& o
     levels.letGo();
     result.smallParts = run.shortLoops.parts;
     takeAttempt(history.result(), options, quadsAlone, surface, result);
+    addGivenUp(history.result().plan, surface->mesh, sized.edgeLength, result.givenUpFeatures);
     if (quadsAlone && store != nullptr)
     {
       std::vector<FixedVec2>& uv = history.result().map->uv;
@@ -318,6 +336,7 @@ void runEntered(EnteredInput& entered, RemeshOptions options, bool quadsAlone, P
   result.targetQuads = sized.targetQuads;
   result.decimations = sized.decimations;
   result.reused = sized.reused;
+  result.givenUpFeatures = sized.givenUpFeatures;
   result.stages = sized.stages.all();
   if (result.status.ok())
   {

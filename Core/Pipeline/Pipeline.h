@@ -8,6 +8,7 @@
 #include "GridMap/GridMap.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Mesh/Frame.h"
+#include "Mesh/GivenUpFeatures.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Estimate.h"
 #include "Pipeline/FinalQuality.h"
@@ -56,6 +57,7 @@ struct RemeshResult
   /// The share of the coarse level's area whose ratio of stretches is above the limit; 0 without limit.
   double beyondAnisotropyLimit = 0;
   SmallParts smallParts;
+  std::vector<GivenUpCurve> givenUpFeatures; ///< sharp edges that the quads do not follow
   /// What became of the input's curves, in their order; vertices are those of the coarse mesh.
   std::vector<CurveOutcome> curves;
   std::vector<StageRecord> stages; ///< see StageRecords; seconds are sums over all attempts

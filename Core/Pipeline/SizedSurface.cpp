@@ -8,6 +8,7 @@
 #include "Mesh/CreaseCurves.h"
 #include "Mesh/CurvatureGuides.h"
 #include "Mesh/FeatureFilter.h"
+#include "Mesh/FeatureNetwork.h"
 #include "Mesh/Frame.h"
 #include "Mesh/RepairText.h"
 #include "Mesh/Sizing.h"
@@ -51,6 +52,7 @@ struct StoredSized
   double edgeLength = 0;    ///< s; adaptive sizes change it where a number of quads is asked for
   std::size_t targetQuads = 0;
   std::vector<std::string> notices;
+  std::vector<GivenUpCurve> givenUpFeatures;
 };
 
 /// What a sized surface has of components that are too small for a block of quads.
@@ -242,6 +244,7 @@ private:
     made_.edgeLength = found->edgeLength;
     made_.targetQuads = options_.quads ? *options_.quads : found->targetQuads;
     made_.notices = found->notices;
+    made_.givenUpFeatures = found->givenUpFeatures;
     reuse({ "refine" });
     return !refuseTooMany();
   }
@@ -309,6 +312,7 @@ private:
     sized->targetQuads = made_.targetQuads;
     sized->edgeLength = made_.edgeLength;
     sized->notices = made_.notices;
+    sized->givenUpFeatures = made_.givenUpFeatures;
     if (sameTriangles)
     {
       putOn(sized->marks, *before);
@@ -325,7 +329,8 @@ private:
     prepared->sizedArea = sizedArea_;
     const std::size_t own = bytesOf(*prepared->surface) + prepared->marks.bytes();
     store_->put(preparedKey_, std::move(prepared), own);
-    const std::size_t bytes = sized->marks.bytes() + (sameTriangles ? 0 : bytesOf(*made_.surface));
+    const std::size_t bytes = sized->marks.bytes() + bytesOf(sized->givenUpFeatures) +
+      (sameTriangles ? 0 : bytesOf(*made_.surface));
     store_->put(made_.key, std::move(sized), bytes);
   }
 
@@ -445,14 +450,35 @@ private:
   void filterFeatures()
   {
     Mesh& mesh = made_.surface->mesh;
+    std::vector<std::uint8_t> before = mesh.flags;
     FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, made_.edgeLength);
+    noteGivenUp(FeatureLoss::Unresolved, before);
     CreaseReport creases;
     if (judgesCreases(options_))
     {
       creases = removeFalseCreases(mesh, made_.edgeLength, options_.threads, filtered);
+      noteGivenUp(FeatureLoss::NoCrease, before);
     }
+    const NetworkReport network = simplifyFeatureNetwork(mesh, made_.edgeLength, filtered);
+    noteGivenUp(FeatureLoss::ShortArc, before);
     tell(featureNotice(filtered));
     tell(creases.text());
+    tell(network.text());
+  }
+
+  /// What a step has unmarked; `before` becomes what it has left.
+  void noteGivenUp(FeatureLoss reason, std::vector<std::uint8_t>& before)
+  {
+    const Mesh& mesh = made_.surface->mesh;
+    const std::vector<Index> lost = lostFeatures(mesh, before);
+    if (!lost.empty())
+    {
+      for (const GivenUpCurve& curve : givenUpCurves(mesh, lost, made_.edgeLength, reason))
+      {
+        made_.givenUpFeatures.push_back(curve);
+      }
+      before = mesh.flags;
+    }
   }
 
   /// On request, before anything depends on them.

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "Base/Error.h"
+#include "Mesh/GivenUpFeatures.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Options.h"
 #include "Pipeline/ResultStore.h"
@@ -26,7 +27,8 @@ struct SizedSurface
   double edgeLength = 0;       ///< s, in the frame
   std::size_t targetQuads = 0; ///< predicted where an edge length was asked for
   std::vector<std::string> notices;
-  std::vector<std::string> reused; ///< names of stages whose result the store had
+  std::vector<GivenUpCurve> givenUpFeatures; ///< lengths and places in the frame
+  std::vector<std::string> reused;           ///< names of stages whose result the store had
   StageRecords stages;
   int decimations = 0; ///< runs of phase 1 that closing handles took
 };

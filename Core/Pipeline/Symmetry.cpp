@@ -9,6 +9,7 @@
 #include "Mesh/ContentHash.h"
 #include "Mesh/CreaseCurves.h"
 #include "Mesh/FeatureFilter.h"
+#include "Mesh/FeatureNetwork.h"
 #include "Mesh/MirrorCut.h"
 #include "Mesh/RepairText.h"
 #include "Mesh/Sizing.h"
@@ -306,6 +307,7 @@ private:
       {
         removeFalseCreases(mesh, edgeLength, options_.threads, filtered);
       }
+      simplifyFeatureNetwork(mesh, edgeLength, filtered);
       requestCutFeatures(mesh, made_.plane, tolerance_);
       half_ = cutByMirror(mesh, made_.plane, tolerance_);
     }

@@ -1,0 +1,391 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/FeatureNetwork.h"
+
+#include "Base/Error.h"
+#include "Base/PlaceText.h"
+#include "Base/Progress.h"
+#include "Mesh/FeatureFilter.h"
+#include "Mesh/Sizing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace quadrille
+{
+namespace
+{
+
+/// What two nodes that stay close to each other count as, in edge lengths.
+constexpr double kLossOfPair = 3;
+/// So far, in edge lengths, phase 1 may move a curve.
+constexpr double kMovable = 0.1;
+/// A curve goes straight on where it bends by less than this (radians) over half an edge length.
+constexpr double kStraightOn = 0.7;
+constexpr double kCourse = 0.5;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+struct NetworkArc
+{
+  std::vector<Index> halfEdges; ///< one of each edge, in their order
+  std::array<Index, 2> ends{};  ///< nodes
+  double length = 0;            ///< in edge lengths of the quads there
+  bool removable = true;
+};
+
+/// Constrained edges as arcs between nodes. Closed curves without nodes are none.
+class ArcNetwork
+{
+public:
+  ArcNetwork(const Mesh& mesh, double edgeLength) : mesh_(mesh), edgeLength_(edgeLength)
+  {
+    offset_.assign(mesh.vertexCount() + 1, 0);
+    forEachEdge(
+      [&](Index h)
+      {
+        ++offset_[mesh.origin[h] + 1];
+        ++offset_[mesh.target(h) + 1];
+      });
+    std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
+    incident_.resize(offset_.back());
+    std::vector<Index> fill(offset_.begin(), offset_.end() - 1);
+    forEachEdge(
+      [&](Index h)
+      {
+        incident_[fill[mesh.origin[h]]++] = h;
+        incident_[fill[mesh.target(h)]++] = h;
+      });
+    traceAll();
+  }
+
+  const std::vector<NetworkArc>& arcs() const { return arcs_; }
+  /// Arcs that end at a node; one that does so with both ends is there twice.
+  std::vector<Index> arcsAt(Index node) const
+  {
+    std::vector<Index> found;
+    for (Index i = offset_[node]; i < offset_[node + 1]; ++i)
+    {
+      found.push_back(arcOf_[incident_[i]]);
+    }
+    return found;
+  }
+
+  /// Whether two arcs that end at a node make one curve that goes straight on there.
+  bool goStraightOn(Index node, Index a, Index b) const
+  {
+    const double cosine = courseFrom(node, arcs_[a]).dot(courseFrom(node, arcs_[b]));
+    return -cosine > std::cos(kStraightOn);
+  }
+
+private:
+  template <typename Visitor>
+  void forEachEdge(Visitor&& visit) const
+  {
+    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    {
+      pollNowAndThen(h);
+      if (mesh_.isConstrained(h) && (mesh_.isBoundary(h) || h < mesh_.twin[h]))
+      {
+        visit(h);
+      }
+    }
+  }
+
+  Index degree(Index v) const { return offset_[v + 1] - offset_[v]; }
+  Index otherEnd(Index h, Index v) const
+  {
+    return mesh_.origin[h] == v ? mesh_.target(h) : mesh_.origin[h];
+  }
+
+  void traceAll()
+  {
+    arcOf_.assign(mesh_.halfEdgeCount(), kInvalidIndex);
+    for (Index v = 0; v < mesh_.vertexCount(); ++v)
+    {
+      pollNowAndThen(v);
+      for (Index i = offset_[v]; degree(v) != 2 && i < offset_[v + 1]; ++i)
+      {
+        if (arcOf_[incident_[i]] == kInvalidIndex)
+        {
+          trace(v, incident_[i]);
+        }
+      }
+    }
+  }
+
+  void trace(Index start, Index h)
+  {
+    const Index id = static_cast<Index>(arcs_.size());
+    NetworkArc arc;
+    Index v = start;
+    while (true)
+    {
+      arcOf_[h] = id;
+      arc.halfEdges.push_back(h);
+      arc.length += sizedLength(mesh_, h) / edgeLength_;
+      arc.removable =
+        arc.removable && !mesh_.isBoundary(h) && (mesh_.flags[h] & kRequestedFeature) == 0;
+      v = otherEnd(h, v);
+      if (degree(v) != 2)
+      {
+        break;
+      }
+      const Index first = incident_[offset_[v]];
+      h = first == h ? incident_[offset_[v] + 1] : first;
+    }
+    arc.ends = { start, v };
+    arcs_.push_back(std::move(arc));
+  }
+
+  /// Direction from a node along an arc, over half an edge length.
+  Vector3 courseFrom(Index node, const NetworkArc& arc) const
+  {
+    const bool forward = arc.ends[0] == node;
+    const std::size_t count = arc.halfEdges.size();
+    Index v = node;
+    double walked = 0;
+    for (std::size_t i = 0; i < count && walked < kCourse; ++i)
+    {
+      const Index h = arc.halfEdges[forward ? i : count - 1 - i];
+      walked += sizedLength(mesh_, h) / edgeLength_;
+      v = otherEnd(h, v);
+    }
+    return (mesh_.position[v] - mesh_.position[node]).stableNormalized();
+  }
+
+  const Mesh& mesh_;
+  double edgeLength_;
+  std::vector<Index> offset_, incident_; ///< edges at each vertex
+  std::vector<Index> arcOf_;             ///< #H, of one half-edge of each edge
+  std::vector<NetworkArc> arcs_;
+};
+
+/// What to take out for one short arc.
+struct Resolution
+{
+  std::vector<Index> arcs;
+  double loss = kNever; ///< in edge lengths
+};
+
+Resolution lesser(Resolution a, Resolution b)
+{
+  return b.loss < a.loss ? std::move(b) : std::move(a);
+}
+
+/// All arcs at `node` go but `arc` and one other, the one whose loss would be largest.
+Resolution endOfCurve(const ArcNetwork& network, Index node, Index arc)
+{
+  const std::vector<NetworkArc>& arcs = network.arcs();
+  std::vector<Index> others;
+  for (const Index a : network.arcsAt(node))
+  {
+    if (a != arc)
+    {
+      others.push_back(a);
+    }
+  }
+  std::sort(others.begin(), others.end());
+  Resolution best;
+  for (const Index kept : others)
+  {
+    Resolution made{ {}, 0 };
+    for (const Index a : others)
+    {
+      const bool again = !made.arcs.empty() && made.arcs.back() == a;
+      if (a != kept && !again)
+      {
+        made.arcs.push_back(a);
+        made.loss += arcs[a].removable ? arcs[a].length : kNever;
+      }
+    }
+    // A corner so near to the other end is as good as a node, unless a curve may be moved so far.
+    if (arcs[arc].length > kMovable && !network.goStraightOn(node, arc, kept))
+    {
+      made.loss += kLossOfPair;
+    }
+    // A loop that begins and ends here is no way on.
+    const bool loop = arcs[kept].ends[0] == arcs[kept].ends[1];
+    if (!loop)
+    {
+      best = lesser(std::move(best), std::move(made));
+    }
+  }
+  return best;
+}
+
+/// Whether without `arc` no node is left, and the curve that goes on there is no corner.
+bool isFreeWithout(const ArcNetwork& network, Index node, Index arc)
+{
+  std::vector<Index> rest;
+  for (const Index a : network.arcsAt(node))
+  {
+    if (a != arc)
+    {
+      rest.push_back(a);
+    }
+  }
+  return rest.empty() || (rest.size() == 2 && network.goStraightOn(node, rest[0], rest[1]));
+}
+
+Resolution resolve(const ArcNetwork& network, Index id)
+{
+  const NetworkArc& arc = network.arcs()[id];
+  Resolution best;
+  if (arc.removable)
+  {
+    const bool pair =
+      !isFreeWithout(network, arc.ends[0], id) && !isFreeWithout(network, arc.ends[1], id);
+    best = { { id }, arc.length + (pair ? kLossOfPair : 0) };
+  }
+  else
+  {
+    best.loss = kLossOfPair; // it stays, and so do its ends
+  }
+  if (arc.ends[0] != arc.ends[1])
+  {
+    best = lesser(std::move(best), endOfCurve(network, arc.ends[0], id));
+    best = lesser(std::move(best), endOfCurve(network, arc.ends[1], id));
+  }
+  return best;
+}
+
+/// Shortest first.
+std::vector<Index> shortArcs(const std::vector<NetworkArc>& arcs)
+{
+  std::vector<Index> found;
+  for (Index i = 0; i < arcs.size(); ++i)
+  {
+    if (arcs[i].length < kShortestArc)
+    {
+      found.push_back(i);
+    }
+  }
+  std::stable_sort(
+    found.begin(), found.end(), [&](Index a, Index b) { return arcs[a].length < arcs[b].length; });
+  return found;
+}
+
+void takeOut(Mesh& mesh, const NetworkArc& arc, NetworkReport& report)
+{
+  unmarkFeatures(mesh, arc.halfEdges);
+  ++report.removedCurves;
+  report.removedEdges += arc.halfEdges.size();
+  report.removedLength += arc.length;
+  if (arc.length > report.longest)
+  {
+    report.longest = arc.length;
+    const Index h = arc.halfEdges[arc.halfEdges.size() / 2];
+    report.place = 0.5 * (mesh.position[mesh.origin[h]] + mesh.position[mesh.target(h)]);
+  }
+}
+
+/// Arcs that share no node; returns whether there were any that something could be done about.
+bool simplifyOnce(Mesh& mesh, double edgeLength, NetworkReport& report)
+{
+  const ArcNetwork network(mesh, edgeLength);
+  const std::vector<NetworkArc>& arcs = network.arcs();
+  std::vector<std::uint8_t> touched(mesh.vertexCount(), 0);
+  const auto touch = [&](const NetworkArc& arc)
+  { touched[arc.ends[0]] = touched[arc.ends[1]] = 1; };
+  bool any = false;
+  for (const Index id : shortArcs(arcs))
+  {
+    poll();
+    if (touched[arcs[id].ends[0]] != 0 || touched[arcs[id].ends[1]] != 0)
+    {
+      continue;
+    }
+    const Resolution resolution = resolve(network, id);
+    if (resolution.arcs.empty())
+    {
+      continue; // asked for, or boundary, and so is what meets it
+    }
+    ++report.shortArcs;
+    any = true;
+    touch(arcs[id]);
+    for (const Index a : resolution.arcs)
+    {
+      touch(arcs[a]);
+      takeOut(mesh, arcs[a], report);
+    }
+  }
+  return any;
+}
+
+/// Most surfaces have no features, or none that nobody asked for.
+bool hasDetectedFeature(const Mesh& mesh)
+{
+  bool found = false;
+  for (Index h = 0; h < mesh.halfEdgeCount() && !found; ++h)
+  {
+    pollNowAndThen(h);
+    found = mesh.isFeature(h) && (mesh.flags[h] & kRequestedFeature) == 0;
+  }
+  return found;
+}
+
+std::string inQuads(double length)
+{
+  std::ostringstream text;
+  text.precision(length < 10 ? 2 : 3);
+  text << length;
+  return text.str();
+}
+
+} // namespace
+
+NetworkReport simplifyFeatureNetwork(Mesh& mesh, double edgeLength, FeatureFilterReport& filtered)
+{
+  if (!(edgeLength > 0))
+  {
+    throw InvalidInput("the edge length for simplifying features must be positive");
+  }
+  NetworkReport report;
+  while (hasDetectedFeature(mesh) && simplifyOnce(mesh, edgeLength, report))
+  {
+    const FeatureFilterReport more = removeUnresolvedFeatures(mesh, edgeLength);
+    filtered.removedEdges += more.removedEdges;
+    filtered.keptEdges = more.keptEdges;
+  }
+  if (report.removedCurves > 0)
+  {
+    report.keptLength = lengthOfFeatures(mesh, edgeLength);
+  }
+  return report;
+}
+
+double lengthOfFeatures(const Mesh& mesh, double edgeLength)
+{
+  double length = 0;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    pollNowAndThen(h);
+    const bool isFirst = !mesh.isBoundary(h) && h < mesh.twin[h];
+    length += mesh.isFeature(h) && isFirst ? sizedLength(mesh, h) / edgeLength : 0;
+  }
+  return length;
+}
+
+std::string NetworkReport::text() const
+{
+  if (removedCurves == 0)
+  {
+    return {};
+  }
+  return std::to_string(removedCurves) + (removedCurves == 1 ? " curve" : " curves") +
+    " of sharp edges with " + inQuads(removedLength) + " edge lengths" +
+    (removedCurves == 1 ? "" : " altogether, the longest of " + inQuads(longest)) + " near " +
+    placeText(place) + (removedCurves == 1 ? " was" : " were") +
+    " not used as features: junctions of features were nearer to each other than half a quad at " +
+    std::to_string(shortArcs) + (shortArcs == 1 ? " place" : " places") + ". Features of " +
+    inQuads(keptLength) +
+    " edge lengths stayed; ask for smaller quads, or mark the edges that are to stay";
+}
+
+} // namespace quadrille

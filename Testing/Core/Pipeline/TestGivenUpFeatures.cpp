@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a run tells of sharp edges that its quads do not follow.
+#include "Pipeline/Pipeline.h"
+
+#include "Base/Angles.h"
+#include "Mesh/FeatureNetwork.h"
+#include "MeshInput.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace quadrille
+{
+namespace
+{
+
+/// A block with a groove of one voxel and a step of one in its top: with s = 3 voxels the ends of both are arcs of s / 3.
+Mesh groovedBlock(double scale)
+{
+  Mesh mesh = test::voxelSurface({ 24, 16, 12 }, 1,
+    [](int i, int j, int k) { return k < 11 || (i > 12 && j != 8) || (k == 11 && i == 4); });
+  for (Vector3& p : mesh.position)
+  {
+    p *= scale;
+  }
+  return mesh;
+}
+
+RemeshOptions optionsFor(double edgeLength)
+{
+  RemeshOptions options;
+  options.edgeLength = edgeLength;
+  options.threads = 1;
+  return options;
+}
+
+double givenUpLength(const RemeshResult& result)
+{
+  double length = 0;
+  for (const GivenUpCurve& curve : result.givenUpFeatures)
+  {
+    length += curve.length;
+  }
+  return length;
+}
+
+TEST(GivenUpFeatures, WithThoseThatStayTheyAreAllThereWere)
+{
+  PrepareOptions prepare;
+  prepare.featureAngle = radians(40);
+  const Mesh block = groovedBlock(1);
+  const PreparedSurface before = prepareSurface(test::toInput(block), prepare);
+  RemeshOptions options = optionsFor(3);
+  options.featureAngle = radians(40);
+  const RemeshResult result = remesh(test::toInput(block), options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  ASSERT_FALSE(result.givenUpFeatures.empty());
+  // Lengths of the input, to the rounding of the frame's grid.
+  EXPECT_NEAR(givenUpLength(result) + lengthOfFeatures(result.surface.mesh, 1),
+    lengthOfFeatures(before.mesh, 1), 1e-4);
+  EXPECT_TRUE(std::any_of(result.givenUpFeatures.begin(), result.givenUpFeatures.end(),
+    [](const GivenUpCurve& curve) { return curve.reason == FeatureLoss::ShortArc; }));
+  EXPECT_TRUE(std::any_of(result.notices.begin(), result.notices.end(),
+    [](const std::string& text)
+    { return text.find("junctions of features were nearer") != std::string::npos; }));
+  for (const GivenUpCurve& curve : result.givenUpFeatures)
+  {
+    EXPECT_NEAR(curve.lengthInQuads, curve.length / result.targetEdgeLength, 1e-6);
+    EXPECT_TRUE((curve.place.array() >= -1e-4).all() && curve.place.x() < 24.0001 &&
+      curve.place.y() < 16.0001 && curve.place.z() < 12.0001);
+  }
+}
+
+TEST(GivenUpFeatures, ThreadsAndScaleChangeNothing)
+{
+  RemeshOptions options = optionsFor(3);
+  const RemeshResult one = remesh(test::toInput(groovedBlock(1)), options);
+  options.threads = 3;
+  ResultStore store;
+  for (int again = 0; again < 2; ++again) // the second time from the store
+  {
+    const RemeshResult other = remesh(test::toInput(groovedBlock(1)), options, store);
+    ASSERT_EQ(one.givenUpFeatures.size(), other.givenUpFeatures.size());
+    for (std::size_t i = 0; i < one.givenUpFeatures.size(); ++i)
+    {
+      EXPECT_EQ(one.givenUpFeatures[i].place, other.givenUpFeatures[i].place);
+      EXPECT_EQ(one.givenUpFeatures[i].length, other.givenUpFeatures[i].length);
+    }
+    EXPECT_EQ(one.quads.points, other.quads.points);
+  }
+  // A power of two changes no bit but the exponent's.
+  const RemeshResult large = remesh(test::toInput(groovedBlock(1024)), optionsFor(3 * 1024));
+  ASSERT_EQ(one.givenUpFeatures.size(), large.givenUpFeatures.size());
+  for (std::size_t i = 0; i < one.givenUpFeatures.size(); ++i)
+  {
+    EXPECT_EQ(1024 * one.givenUpFeatures[i].place, large.givenUpFeatures[i].place);
+    EXPECT_EQ(1024 * one.givenUpFeatures[i].length, large.givenUpFeatures[i].length);
+    EXPECT_EQ(one.givenUpFeatures[i].lengthInQuads, large.givenUpFeatures[i].lengthInQuads);
+  }
+}
+
+} // namespace
+} // namespace quadrille
