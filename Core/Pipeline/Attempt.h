@@ -106,6 +106,9 @@ struct Attempt
   std::shared_ptr<const QuadAttempt> quads; ///< null: none were made
 };
 
+/// Adds what the surface's guides, valences and curves ask for.
+void addRequests(const PreparedSurface& surface, KeyMaker& key);
+
 /// What a plan asks of the levels. The plan is on the surface.
 HierarchyOptions levelOptions(const RunContext& run, const Plan& plan);
 

@@ -15,7 +15,12 @@ constexpr double kMostGrowth = 1.6;
 
 /// The plan that a run begins with: smaller quads round loops that are too short for three, where that does not take
 /// too many. Waiting for the failure that most of them are would cost several maps.
+/// RemeshOptions::smallDetails may want it whatever it takes, up to the limit of quads, or never.
 Plan firstPlan(RunContext& run);
+
+/// Whether the first plan had smaller quads round all short loops of the run that are at least as long as `shortest`,
+/// in units of the mesh; true where there is none.
+bool resolvesLoops(RunContext& run, double shortest = 0);
 
 /// The number of quads that the map of a plan is scaled to. sizedArea: of the surface with the sizes of the plan; not
 /// asked without shrinks.

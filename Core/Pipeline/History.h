@@ -46,6 +46,8 @@ public:
   bool hasResult() const { return result_.quads != nullptr; }
 
   bool isSpent() const { return work_ >= kMaximumWork; }
+  /// Of all attempts, the first one's "first".
+  const std::vector<std::string>& steps() const { return steps_; }
   int replays() const { return replays_; } ///< maps that were carried to the surface
   /// Sizes of the result's stages, with the seconds of all attempts. Stages that only others have had are one,
   /// "retries".
@@ -69,6 +71,7 @@ private:
   Attempt result_;
   bool roundIsOver_ = true;
   std::vector<Summary> round_;
+  std::vector<std::string> steps_;
   StageRecords all_;
   std::vector<std::string> reused_;
   std::size_t work_ = 0;

@@ -184,6 +184,10 @@ void leaveMeasures(RemeshResult& result, const Frame& frame)
   parts.place = frame.toUser(parts.place);
   parts.boundary.shortest *= frame.unit;
   parts.boundary.place = frame.toUser(parts.boundary.place);
+  for (SmallDetail& detail : result.details)
+  {
+    detail.place = frame.toUser(detail.place);
+  }
   for (CurveOutcome& curve : result.curves)
   {
     curve.start = frame.toUser(curve.start);

@@ -7,12 +7,12 @@
 #include "GridMap/MapShape.h"
 #include "Pipeline/Attempt.h"
 #include "Pipeline/EnterFrame.h"
-#include "Pipeline/FirstLevels.h"
 #include "Pipeline/FirstPlan.h"
 #include "Pipeline/History.h"
 #include "Pipeline/LeaveFrame.h"
 #include "Pipeline/Notices.h"
 #include "Pipeline/Recovery.h"
+#include "Pipeline/SettledSurface.h"
 #include "Pipeline/SizedSurface.h"
 
 #include <algorithm>
@@ -213,6 +213,7 @@ void takeHistory(
   stages.add(history.stages());
   result.stages = stages.all();
   result.replays = history.replays();
+  result.attempts = history.steps();
   result.decimations += levels.decimations();
   std::vector<std::string> reused = std::move(result.reused);
   if (levels.recalled())
@@ -229,19 +230,23 @@ void takeHistory(
 void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& options,
   ResultStore* store, bool quadsAlone, RemeshResult& result)
 {
-  RunSurface surface(sized.surface, sized.key, options.threads);
+  Settled settled = settleDetails(sized, options, store, sized.stages, result.reused);
+  result.decimations += settled.decimations;
+  result.details.insert(result.details.end(), settled.details.begin(), settled.details.end());
+  tell({ detailsNotice(settled.details) }, result);
+  RunBench& bench = *settled.bench;
+  RunSurface& surface = bench.surface;
   {
-    Levels levels(surface, store);
-    RunContext run{ options, sized.edgeLength, sized.targetQuads, surface, levels, store, {} };
+    RunContext& run = bench.run;
     const auto spare = quadsAlone && store ? store->find<SpareMap>(0) : nullptr;
     if (spare)
     {
       run.spare.swap(spare->uv);
     }
     History history;
-    findShortLoops(run, sized.stages, result.reused);
     makeAttempts(run, history);
-    levels.letGo();
+    bench.levels.letGo();
+    result.targetQuads = run.targetQuads;
     result.smallParts = run.shortLoops.parts;
     takeAttempt(history.result(), options, quadsAlone, surface, result);
     if (quadsAlone && store != nullptr)
@@ -254,7 +259,9 @@ void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& o
     }
     tellAttempt(history.result(),
       { sized.edgeLength, frame.unit, sized.targetQuads, options.maximumNumberOfQuads }, result);
-    takeHistory(history, levels, sized.stages, result);
+    takeHistory(history, bench.levels, sized.stages, result);
+    // What only attempts need takes memory that the rest of the run needs.
+    std::vector<FixedVec2>().swap(run.spare);
   }
   if (options.mergeCharts && result.status.ok() && !result.mapIsKnown)
   {
@@ -317,6 +324,7 @@ void runEntered(EnteredInput& entered, RemeshOptions options, bool quadsAlone, P
   result.targetEdgeLength = sized.edgeLength;
   result.targetQuads = sized.targetQuads;
   result.decimations = sized.decimations;
+  result.details = sized.details;
   result.reused = sized.reused;
   result.stages = sized.stages.all();
   if (result.status.ok())

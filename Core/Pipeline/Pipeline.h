@@ -13,6 +13,7 @@
 #include "Pipeline/FinalQuality.h"
 #include "Pipeline/Options.h"
 #include "Pipeline/ResultStore.h"
+#include "Pipeline/SmallDetails.h"
 #include "Pipeline/SmallParts.h"
 #include "Pipeline/StageRecords.h"
 #include "Transfer/Charts.h"
@@ -56,6 +57,10 @@ struct RemeshResult
   /// The share of the coarse level's area whose ratio of stretches is above the limit; 0 without limit.
   double beyondAnisotropyLimit = 0;
   SmallParts smallParts;
+  /// What is smaller than the quads: handles and boundary loops shorter than kQuadsOfLoop s, small components.
+  std::vector<SmallDetail> details;
+  /// Names of the strategies by which the attempts were made, in their order; the first one's is "first".
+  std::vector<std::string> attempts;
   /// What became of the input's curves, in their order; vertices are those of the coarse mesh.
   std::vector<CurveOutcome> curves;
   std::vector<StageRecord> stages; ///< see StageRecords; seconds are sums over all attempts

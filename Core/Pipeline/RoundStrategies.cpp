@@ -53,7 +53,9 @@ std::string nearText(const std::vector<Vector3>& places)
 /// Where an earlier round has quads, of which some are inverted, a finer grid would cost more than it gives.
 bool asksForFinerGrid(const Trouble& trouble)
 {
-  return trouble.failed && !trouble.history.hasResult() && !trouble.run.options.coarsestIntegers;
+  const RemeshOptions& options = trouble.run.options;
+  return trouble.failed && !trouble.history.hasResult() && !options.coarsestIntegers &&
+    options.smallDetails != SmallDetails::Keep;
 }
 
 /// Whether quads that are smaller everywhere had no fewer defects. Along a tube that still too few quads go round there

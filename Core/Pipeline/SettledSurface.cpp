@@ -1,0 +1,312 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/SettledSurface.h"
+
+#include "Mesh/CloseHandles.h"
+#include "Mesh/FillHoles.h"
+#include "Mesh/SmallComponents.h"
+#include "Pipeline/FirstLevels.h"
+#include "Pipeline/FirstPlan.h"
+#include "Pipeline/SmallHandles.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+/// How often handles are looked for and cut: those whose loops meet others' have to wait.
+constexpr int kMostCuttings = 10;
+/// By how much the limit below which Automatic simplifies grows where smaller quads at the rest take too many.
+constexpr double kLimitStep = 0.5;
+
+/// A simplified surface in the store.
+struct StoredSettled
+{
+  std::shared_ptr<PreparedSurface> surface;
+  SurfaceMarks marks;
+  ResultKey key = 0;
+  std::vector<SmallDetail> simplified;
+};
+
+const char* whatBecomes(DetailKind kind)
+{
+  return kind == DetailKind::Handle ? "cut and closed" : "filled";
+}
+
+class Settling
+{
+public:
+  Settling(SizedSurface& sized, const RemeshOptions& options, ResultStore* store,
+    StageRecords& stages, std::vector<std::string>& reused)
+    : sized_(sized), options_(options), store_(store), stages_(stages), reused_(reused),
+      limit_(firstLimit())
+  {
+  }
+
+  Settled run()
+  {
+    if (maySimplify(options_) && !recall())
+    {
+      simplifyAll();
+      remember();
+    }
+    if (!made_.bench)
+    {
+      measure();
+    }
+    addRest();
+    return std::move(made_);
+  }
+
+private:
+  double firstLimit() const
+  {
+    return sized_.edgeLength *
+      (options_.smallDetails == SmallDetails::Simplify ? kQuadsOfLoop : kSimplifiedLoop);
+  }
+
+  void measure()
+  {
+    letGo();
+    made_.bench = std::make_unique<RunBench>(sized_, options_, store_);
+    findShortLoops(made_.bench->run, stages_, reused_);
+  }
+
+  /// Of a surface that has changed.
+  void letGo()
+  {
+    if (made_.bench)
+    {
+      made_.decimations += made_.bench->levels.decimations();
+      made_.bench.reset();
+    }
+  }
+
+  /// The surface as it was goes to the store's other users; a copy of it is changed.
+  PreparedSurface& own()
+  {
+    if (!isOwn_ && store_ != nullptr)
+    {
+      sized_.surface = std::make_shared<PreparedSurface>(*sized_.surface);
+    }
+    isOwn_ = true;
+    return *sized_.surface;
+  }
+
+  void note(DetailKind kind, double length, const Vector3& place)
+  {
+    made_.details.push_back(
+      { kind, DetailDecision::Simplify, length / sized_.edgeLength, place, whatBecomes(kind) });
+  }
+
+  /// Below the limit. Those of small components, which become blocks, are left to them.
+  std::vector<HandleLoop> shortBoundaryLoops() const
+  {
+    const PreparedSurface& surface = *sized_.surface;
+    std::vector<HandleLoop> loops = measureBoundary(surface.mesh, limit_).tooShort;
+    if (loops.empty())
+    {
+      return loops;
+    }
+    const SmallComponents small = findSmallComponents(surface, sized_.edgeLength);
+    if (small.count > 0)
+    {
+      std::vector<std::uint8_t> isSmall(surface.mesh.vertexCount(), 0);
+      for (Index h = 0; h < surface.mesh.halfEdgeCount(); ++h)
+      {
+        isSmall[surface.mesh.origin[h]] |= small.isSmall[Mesh::face(h)];
+      }
+      const auto isOfSmall = [&](const HandleLoop& loop)
+      { return isSmall[loop.vertices.front()] != 0; };
+      loops.erase(std::remove_if(loops.begin(), loops.end(), isOfSmall), loops.end());
+    }
+    return loops;
+  }
+
+  /// The number of holes that were filled.
+  std::size_t fill()
+  {
+    const double start = secondsNow();
+    const std::vector<HandleLoop> loops = shortBoundaryLoops();
+    if (loops.empty())
+    {
+      return 0;
+    }
+    std::vector<Vector3> places;
+    for (const HandleLoop& loop : loops)
+    {
+      places.push_back(sized_.surface->mesh.position[loop.vertices.front()]);
+    }
+    const std::size_t before = sized_.surface->mesh.faceCount();
+    const std::vector<std::size_t> filled = fillHoles(own(), loops);
+    for (const std::size_t i : filled)
+    {
+      note(DetailKind::BoundaryLoop, loops[i].length, places[i]);
+    }
+    finish(filled.size(), start, before);
+    return filled.size();
+  }
+
+  /// The number of handles below the limit that were cut. All were measured.
+  std::size_t cut()
+  {
+    const ShortLoops& found = made_.bench->run.shortLoops;
+    std::vector<std::vector<Index>> places;
+    std::vector<double> lengths;
+    std::vector<Vector3> at;
+    for (std::size_t i = 0; i < found.parts.unresolvedHandles; ++i)
+    {
+      const HandleLoop& loop = found.loops[i];
+      if (loop.length < limit_)
+      {
+        places.push_back(loop.vertices);
+        lengths.push_back(loop.length);
+        at.push_back(sized_.surface->mesh.position[loop.vertices.front()]);
+      }
+    }
+    if (places.empty())
+    {
+      return 0;
+    }
+    const double start = secondsNow();
+    const std::size_t before = sized_.surface->mesh.faceCount();
+    const std::vector<std::size_t> closed = closeHandles(own(), places, kLongerAlongEdges * limit_);
+    for (const std::size_t i : closed)
+    {
+      note(DetailKind::Handle, lengths[i], at[i]);
+    }
+    finish(closed.size(), start, before);
+    return closed.size();
+  }
+
+  /// What was closed becomes a surface with triangles no larger than quads, and a key of its own.
+  void finish(std::size_t changed, double start, std::size_t facesBefore)
+  {
+    if (changed == 0)
+    {
+      return;
+    }
+    letGo();
+    refineSurface(*sized_.surface, sized_.edgeLength, {});
+    sized_.key = KeyMaker(sized_.key).add(sized_.surface->hash).key();
+    stages_.add("simplify", secondsNow() - start, facesBefore, sized_.surface->mesh.faceCount());
+  }
+
+  /// The limit grows until smaller quads do for the loops that are at least as long.
+  void raiseLimit()
+  {
+    RunContext& run = made_.bench->run;
+    const double most = kQuadsOfLoop * sized_.edgeLength;
+    while (limit_ < most && !resolvesLoops(run, limit_))
+    {
+      limit_ = std::min(most, limit_ + kLimitStep * sized_.edgeLength);
+    }
+  }
+
+  /// Until no loop below the limit is left that can be closed.
+  void simplifyAll()
+  {
+    fill();
+    for (int cutting = 0; cutting < kMostCuttings; ++cutting)
+    {
+      measure();
+      if (options_.smallDetails == SmallDetails::Automatic)
+      {
+        raiseLimit();
+      }
+      if (cut() + fill() == 0)
+      {
+        return;
+      }
+    }
+    measure();
+  }
+
+  ResultKey storeKey() const
+  {
+    KeyMaker key(sized_.key);
+    key.add(sized_.edgeLength).add(static_cast<std::uint64_t>(options_.smallDetails) + 1);
+    addRequests(*sized_.surface, key);
+    return key.key();
+  }
+
+  bool recall()
+  {
+    if (store_ == nullptr)
+    {
+      return false;
+    }
+    key_ = storeKey();
+    const auto known = store_->find<StoredSettled>(key_);
+    if (!known)
+    {
+      return false;
+    }
+    sized_.surface = known->surface;
+    putOn(known->marks, *sized_.surface);
+    sized_.key = known->key;
+    made_.details = known->simplified;
+    reused_.emplace_back("simplify");
+    return true;
+  }
+
+  void remember()
+  {
+    if (store_ == nullptr || !isOwn_)
+    {
+      return;
+    }
+    auto stored = std::make_shared<StoredSettled>();
+    stored->surface = sized_.surface;
+    stored->marks = marksOf(*sized_.surface);
+    stored->key = sized_.key;
+    stored->simplified = made_.details;
+    const std::size_t bytes = bytesOf(*stored->surface) + stored->marks.bytes();
+    store_->put(key_, std::move(stored), bytes);
+  }
+
+  /// The loops that are left, which quads resolve where the first plan has sizes for them.
+  void addRest()
+  {
+    const RunContext& run = made_.bench->run;
+    const std::vector<HandleLoop>& loops = run.shortLoops.loops;
+    const bool resolved = !loops.empty() && resolvesLoops(made_.bench->run);
+    for (std::size_t i = 0; i < loops.size(); ++i)
+    {
+      const bool isHandle = i < run.shortLoops.parts.unresolvedHandles;
+      made_.details.push_back({ isHandle ? DetailKind::Handle : DetailKind::BoundaryLoop,
+        resolved ? DetailDecision::Resolve : DetailDecision::Keep, loops[i].length / run.edgeLength,
+        run.surface->mesh.position[loops[i].vertices.front()],
+        resolved ? "quads are smaller there" : "quads have the size that was asked for" });
+    }
+  }
+
+  SizedSurface& sized_;
+  const RemeshOptions& options_;
+  ResultStore* store_;
+  StageRecords& stages_;
+  std::vector<std::string>& reused_;
+  double limit_; ///< in units of the mesh
+  bool isOwn_ = false;
+  ResultKey key_ = 0;
+  Settled made_;
+};
+
+} // namespace
+
+RunBench::RunBench(const SizedSurface& sized, const RemeshOptions& options, ResultStore* store)
+  : surface(sized.surface, sized.key, options.threads), levels(surface, store), run{ options,
+      sized.edgeLength, sized.targetQuads, surface, levels, store, {} }
+{
+}
+
+Settled settleDetails(SizedSurface& sized, const RemeshOptions& options, ResultStore* store,
+  StageRecords& stages, std::vector<std::string>& reused)
+{
+  return Settling(sized, options, store, stages, reused).run();
+}
+
+} // namespace quadrille
