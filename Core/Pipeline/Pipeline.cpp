@@ -234,6 +234,12 @@ void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& o
   result.decimations += settled.decimations;
   result.details.insert(result.details.end(), settled.details.begin(), settled.details.end());
   tell({ detailsNotice(settled.details) }, result);
+  if (!settled.status.ok())
+  {
+    result.status = settled.status;
+    result.stages = sized.stages.all();
+    return;
+  }
   RunBench& bench = *settled.bench;
   RunSurface& surface = bench.surface;
   {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/SettledSurface.h"
 
+#include "Base/PlaceText.h"
 #include "Mesh/CloseHandles.h"
 #include "Mesh/FillHoles.h"
 #include "Mesh/SmallComponents.h"
@@ -10,6 +11,8 @@
 #include "Pipeline/SmallHandles.h"
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 #include <utility>
 
 namespace quadrille
@@ -19,6 +22,18 @@ namespace
 
 /// How often handles are looked for and cut: those whose loops meet others' have to wait.
 constexpr int kMostCuttings = 10;
+/// Where a round cuts less than this part of those it has tried, another one is not worth its phase 1.
+constexpr double kWorthwhile = 0.125;
+/// What the smallest block of a component may need, over the quads that its area is worth, so that maps are tried: with
+/// the handles that are left, and before any was cut. Small components of few handles become blocks anyway.
+constexpr double kMostBlock = 3;
+constexpr double kMostBlockBefore = 8;
+constexpr double kQuadsOfFewHandles = 64;
+/// From 512 handles on, that of twice as many before any was cut, the exact equations of a map take minutes: only where
+/// the area is worth the block.
+constexpr double kLargeBlock = 8192;
+constexpr double kLargeBlockBefore = 16384;
+constexpr double kWorthOfLargeBefore = 2;
 /// By how much the limit below which Automatic simplifies grows where smaller quads at the rest take too many.
 constexpr double kLimitStep = 0.5;
 
@@ -50,8 +65,17 @@ public:
   {
     if (maySimplify(options_) && !recall())
     {
+      fill();
+      if (isHopeless(false))
+      {
+        return std::move(made_);
+      }
       simplifyAll();
       remember();
+    }
+    if (maySimplify(options_) && isHopeless(true))
+    {
+      return std::move(made_);
     }
     if (!made_.bench)
     {
@@ -102,7 +126,7 @@ private:
       { kind, DetailDecision::Simplify, length / sized_.edgeLength, place, whatBecomes(kind) });
   }
 
-  /// Below the limit. Those of small components, which become blocks, are left to them.
+  /// Below the limit. Those of components with less area than a closed block of quads are left to them.
   std::vector<HandleLoop> shortBoundaryLoops() const
   {
     const PreparedSurface& surface = *sized_.surface;
@@ -111,7 +135,8 @@ private:
     {
       return loops;
     }
-    const SmallComponents small = findSmallComponents(surface, sized_.edgeLength);
+    const SmallComponents small =
+      findSmallComponents(surface, sized_.edgeLength, quadsOfBlock(2, 0));
     if (small.count > 0)
     {
       std::vector<std::uint8_t> isSmall(surface.mesh.vertexCount(), 0);
@@ -150,7 +175,7 @@ private:
     return filled.size();
   }
 
-  /// The number of handles below the limit that were cut. All were measured.
+  /// The number of handles below the limit that were cut; 0 where it is not worth going on. All were measured.
   std::size_t cut()
   {
     const ShortLoops& found = made_.bench->run.shortLoops;
@@ -179,7 +204,9 @@ private:
       note(DetailKind::Handle, lengths[i], at[i]);
     }
     finish(closed.size(), start, before);
-    return closed.size();
+    return static_cast<double>(closed.size()) < kWorthwhile * static_cast<double>(places.size())
+      ? 0
+      : closed.size();
   }
 
   /// What was closed becomes a surface with triangles no larger than quads, and a key of its own.
@@ -209,7 +236,6 @@ private:
   /// Until no loop below the limit is left that can be closed.
   void simplifyAll()
   {
-    fill();
     for (int cutting = 0; cutting < kMostCuttings; ++cutting)
     {
       measure();
@@ -223,6 +249,36 @@ private:
       }
     }
     measure();
+  }
+
+  /// A surface with more handles and holes than so many quads can go round ends in minutes of attempts that fail.
+  bool isHopeless(bool isCut)
+  {
+    const double quad = sized_.edgeLength * sized_.edgeLength;
+    const SmallComponents small = findSmallComponents(*sized_.surface, sized_.edgeLength);
+    const auto found = std::find_if(small.each.begin(), small.each.end(),
+      [&](const SmallComponent& component)
+      {
+        const double worth = component.area / quad;
+        const double block = component.block;
+        return block > kQuadsOfFewHandles &&
+          (isCut ? block > kMostBlock * worth || block > kLargeBlock
+                 : block > kMostBlockBefore * worth ||
+                (block > kLargeBlockBefore && block > kWorthOfLargeBefore * worth));
+      });
+    if (found == small.each.end())
+    {
+      return false;
+    }
+    std::ostringstream text;
+    text
+      << "the handles and boundary loops of the component near " << placeText(found->place)
+      << " need at least about " << std::llround(found->block) << " quads, but its area is that of "
+      << std::llround(found->area / quad)
+      << " of this size: simplify or wrap the surface (Surface Wrap), ask for more quads, or have "
+         "it tried (Small Details Resolve, --small-details resolve)";
+    made_.status = { StatusCode::Infeasible, text.str() };
+    return true;
   }
 
   ResultKey storeKey() const

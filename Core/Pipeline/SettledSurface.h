@@ -31,7 +31,10 @@ struct RunBench
 /// What settling told beside the bench.
 struct Settled
 {
-  std::unique_ptr<RunBench> bench; ///< the short loops are found
+  /// Infeasible where the surface has more handles and boundary loops than so many quads can go round, whatever is done;
+  /// only where details may be simplified.
+  Status status;
+  std::unique_ptr<RunBench> bench; ///< the short loops are found; null where the status is not ok
   /// Handles and boundary loops shorter than kQuadsOfLoop s, those that were simplified first.
   std::vector<SmallDetail> details;
   int decimations = 0; ///< runs of phase 1 before that of the bench
