@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string>
 #include <utility>
 
@@ -89,12 +88,14 @@ bool mayResolve(const RemeshOptions& options)
 
 } // namespace
 
-bool resolvesLoops(RunContext& run, double shortest)
+bool resolvesLoops(RunContext& run, const std::vector<HandleLoop>& loops, double most)
 {
-  std::vector<HandleLoop> loops;
-  std::copy_if(run.shortLoops.loops.begin(), run.shortLoops.loops.end(), std::back_inserter(loops),
-    [&](const HandleLoop& loop) { return loop.length >= shortest; });
-  return loops.empty() || (mayResolve(run.options) && knownSizesAtLoops(run, loops) != nullptr);
+  if (loops.empty())
+  {
+    return true;
+  }
+  const auto sizes = mayResolve(run.options) ? knownSizesAtLoops(run, loops) : nullptr;
+  return sizes && run.surface.sizedArea(*sizes) <= most * run.surface.sizedArea();
 }
 
 std::vector<float> sizesOfLoops(

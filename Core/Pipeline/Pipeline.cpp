@@ -213,7 +213,6 @@ void takeHistory(
   stages.add(history.stages());
   result.stages = stages.all();
   result.replays = history.replays();
-  result.attempts = history.steps();
   result.decimations += levels.decimations();
   std::vector<std::string> reused = std::move(result.reused);
   if (levels.recalled())
@@ -226,35 +225,64 @@ void takeHistory(
   result.reused.insert(result.reused.end(), started.begin(), started.end());
 }
 
+void tellDetails(const Settled& settled, RemeshResult& result)
+{
+  result.decimations += settled.decimations;
+  result.details.insert(result.details.end(), settled.details.begin(), settled.details.end());
+  tell({ detailsNotice(settled.details) }, result);
+}
+
+/// Attempts; where none has quads, again without the details that were left for them to resolve.
+void attemptAll(Settled& settled, SizedSurface& sized, const RemeshOptions& options,
+  ResultStore* store, bool quadsAlone, History& history, RemeshResult& result)
+{
+  const auto spare = quadsAlone && store ? store->find<SpareMap>(0) : nullptr;
+  if (spare)
+  {
+    settled.bench->run.spare.swap(spare->uv);
+  }
+  makeAttempts(settled.bench->run, history);
+  result.attempts = history.steps();
+  if (history.hasResult() ||
+    !simplifyRest(settled, sized, options, store, sized.stages, result.reused))
+  {
+    return;
+  }
+  double seconds = 0;
+  const StageRecords stages = history.stages();
+  for (const StageRecord& record : stages.all())
+  {
+    seconds += record.seconds;
+  }
+  history = {};
+  makeAttempts(settled.bench->run, history);
+  sized.stages.add("retries", seconds, 0, 0);
+  result.attempts.emplace_back("fewer details");
+  result.attempts.insert(result.attempts.end(), history.steps().begin() + 1, history.steps().end());
+}
+
 /// From the sized surface to the result, in the frame.
 void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& options,
   ResultStore* store, bool quadsAlone, RemeshResult& result)
 {
   Settled settled = settleDetails(sized, options, store, sized.stages, result.reused);
-  result.decimations += settled.decimations;
-  result.details.insert(result.details.end(), settled.details.begin(), settled.details.end());
-  tell({ detailsNotice(settled.details) }, result);
   if (!settled.status.ok())
   {
     result.status = settled.status;
+    tellDetails(settled, result);
     result.stages = sized.stages.all();
     return;
   }
-  RunBench& bench = *settled.bench;
-  RunSurface& surface = bench.surface;
   {
-    RunContext& run = bench.run;
-    const auto spare = quadsAlone && store ? store->find<SpareMap>(0) : nullptr;
-    if (spare)
-    {
-      run.spare.swap(spare->uv);
-    }
     History history;
-    makeAttempts(run, history);
+    attemptAll(settled, sized, options, store, quadsAlone, history, result);
+    tellDetails(settled, result);
+    RunBench& bench = *settled.bench;
+    RunContext& run = bench.run;
     bench.levels.letGo();
     result.targetQuads = run.targetQuads;
     result.smallParts = run.shortLoops.parts;
-    takeAttempt(history.result(), options, quadsAlone, surface, result);
+    takeAttempt(history.result(), options, quadsAlone, bench.surface, result);
     if (quadsAlone && store != nullptr)
     {
       std::vector<FixedVec2>& uv = history.result().map->uv;
@@ -266,15 +294,15 @@ void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& o
     tellAttempt(history.result(),
       { sized.edgeLength, frame.unit, sized.targetQuads, options.maximumNumberOfQuads }, result);
     takeHistory(history, bench.levels, sized.stages, result);
-    // What only attempts need takes memory that the rest of the run needs.
-    std::vector<FixedVec2>().swap(run.spare);
+    std::vector<FixedVec2>().swap(run.spare); // only attempts need it
   }
   if (options.mergeCharts && result.status.ok() && !result.mapIsKnown)
   {
     // After the extraction, so that the quads do not depend on it.
     const double start = secondsNow();
-    result.charts = mergeCharts(surface->mesh, result.uv);
-    const std::size_t faces = surface->mesh.faceCount();
+    const Mesh& mesh = sized.surface->mesh;
+    result.charts = mergeCharts(mesh, result.uv);
+    const std::size_t faces = mesh.faceCount();
     result.stages.push_back({ "charts", secondsNow() - start, faces, result.charts.charts });
   }
   tellAnisotropy(options, result);

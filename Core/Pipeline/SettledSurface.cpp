@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
@@ -22,6 +23,10 @@ namespace
 
 /// How often handles are looked for and cut: those whose loops meet others' have to wait.
 constexpr int kMostCuttings = 10;
+/// Where smaller quads round so many handles would make more than so many times the quads, they meet each other, and
+/// maps fail: measured on scans with 20 and more of them. Few handles are worth it, as a ring's own one is.
+constexpr std::size_t kCrowdOfHandles = 8;
+constexpr double kMostGrowthOfHandles = 1.15;
 /// Where a round cuts less than this part of those it has tried, another one is not worth its phase 1.
 constexpr double kWorthwhile = 0.125;
 /// What the smallest block of a component may need, over the quads that its area is worth, so that maps are tried: with
@@ -54,10 +59,11 @@ const char* whatBecomes(DetailKind kind)
 class Settling
 {
 public:
-  Settling(SizedSurface& sized, const RemeshOptions& options, ResultStore* store,
+  Settling(SizedSurface& sized, const RemeshOptions& options, ResultStore* store, bool takesAll,
     StageRecords& stages, std::vector<std::string>& reused)
-    : sized_(sized), options_(options), store_(store), stages_(stages), reused_(reused),
-      limit_(firstLimit())
+    : sized_(sized), options_(options), store_(store),
+      takesAll_(takesAll || options.smallDetails == SmallDetails::Simplify), stages_(stages),
+      reused_(reused), limit_(firstLimit()), handleLimit_(limit_)
   {
   }
 
@@ -88,8 +94,7 @@ public:
 private:
   double firstLimit() const
   {
-    return sized_.edgeLength *
-      (options_.smallDetails == SmallDetails::Simplify ? kQuadsOfLoop : kSimplifiedLoop);
+    return sized_.edgeLength * (takesAll_ ? kQuadsOfLoop : kSimplifiedLoop);
   }
 
   void measure()
@@ -185,7 +190,7 @@ private:
     for (std::size_t i = 0; i < found.parts.unresolvedHandles; ++i)
     {
       const HandleLoop& loop = found.loops[i];
-      if (loop.length < limit_)
+      if (loop.length < handleLimit_)
       {
         places.push_back(loop.vertices);
         lengths.push_back(loop.length);
@@ -198,7 +203,8 @@ private:
     }
     const double start = secondsNow();
     const std::size_t before = sized_.surface->mesh.faceCount();
-    const std::vector<std::size_t> closed = closeHandles(own(), places, kLongerAlongEdges * limit_);
+    const std::vector<std::size_t> closed =
+      closeHandles(own(), places, kLongerAlongEdges * handleLimit_);
     for (const std::size_t i : closed)
     {
       note(DetailKind::Handle, lengths[i], at[i]);
@@ -222,15 +228,35 @@ private:
     stages_.add("simplify", secondsNow() - start, facesBefore, sized_.surface->mesh.faceCount());
   }
 
-  /// The limit grows until smaller quads do for the loops that are at least as long.
+  /// The short loops that are at least as long as the limit: all, or those of handles only.
+  std::vector<HandleLoop> loopsAboveLimit(bool ofHandles) const
+  {
+    const ShortLoops& found = made_.bench->run.shortLoops;
+    const auto end = ofHandles
+      ? found.loops.begin() + static_cast<std::ptrdiff_t>(found.parts.unresolvedHandles)
+      : found.loops.end();
+    std::vector<HandleLoop> loops;
+    std::copy_if(found.loops.begin(), end, std::back_inserter(loops),
+      [&](const HandleLoop& loop) { return loop.length >= (ofHandles ? handleLimit_ : limit_); });
+    return loops;
+  }
+
+  /// The limit grows until smaller quads do for the loops that are at least as long. A crowd of handles is
+  /// resolved as a whole or cut.
   void raiseLimit()
   {
     RunContext& run = made_.bench->run;
     const double most = kQuadsOfLoop * sized_.edgeLength;
-    while (limit_ < most && !resolvesLoops(run, limit_))
+    const std::vector<HandleLoop> handles = loopsAboveLimit(true);
+    if (handles.size() >= kCrowdOfHandles && !resolvesLoops(run, handles, kMostGrowthOfHandles))
+    {
+      handleLimit_ = most;
+    }
+    while (limit_ < most && !resolvesLoops(run, loopsAboveLimit(false)))
     {
       limit_ = std::min(most, limit_ + kLimitStep * sized_.edgeLength);
     }
+    handleLimit_ = std::max(handleLimit_, limit_);
   }
 
   /// Until no loop below the limit is left that can be closed.
@@ -239,7 +265,7 @@ private:
     for (int cutting = 0; cutting < kMostCuttings; ++cutting)
     {
       measure();
-      if (options_.smallDetails == SmallDetails::Automatic)
+      if (!takesAll_)
       {
         raiseLimit();
       }
@@ -284,7 +310,7 @@ private:
   ResultKey storeKey() const
   {
     KeyMaker key(sized_.key);
-    key.add(sized_.edgeLength).add(static_cast<std::uint64_t>(options_.smallDetails) + 1);
+    key.add(sized_.edgeLength).add(std::uint64_t{ takesAll_ ? 2U : 1U });
     addRequests(*sized_.surface, key);
     return key.key();
   }
@@ -329,7 +355,7 @@ private:
   {
     const RunContext& run = made_.bench->run;
     const std::vector<HandleLoop>& loops = run.shortLoops.loops;
-    const bool resolved = !loops.empty() && resolvesLoops(made_.bench->run);
+    const bool resolved = !loops.empty() && resolvesLoops(made_.bench->run, loops);
     for (std::size_t i = 0; i < loops.size(); ++i)
     {
       const bool isHandle = i < run.shortLoops.parts.unresolvedHandles;
@@ -343,9 +369,11 @@ private:
   SizedSurface& sized_;
   const RemeshOptions& options_;
   ResultStore* store_;
+  bool takesAll_; ///< what is shorter than kQuadsOfLoop s, whatever smaller quads could do
   StageRecords& stages_;
   std::vector<std::string>& reused_;
-  double limit_; ///< in units of the mesh
+  double limit_;       ///< of boundary loops, in units of the mesh
+  double handleLimit_; ///< of handles
   bool isOwn_ = false;
   ResultKey key_ = 0;
   Settled made_;
@@ -362,7 +390,34 @@ RunBench::RunBench(const SizedSurface& sized, const RemeshOptions& options, Resu
 Settled settleDetails(SizedSurface& sized, const RemeshOptions& options, ResultStore* store,
   StageRecords& stages, std::vector<std::string>& reused)
 {
-  return Settling(sized, options, store, stages, reused).run();
+  return Settling(sized, options, store, false, stages, reused).run();
+}
+
+bool simplifyRest(Settled& settled, SizedSurface& sized, const RemeshOptions& options,
+  ResultStore* store, StageRecords& stages, std::vector<std::string>& reused)
+{
+  const auto isSimplified = [](const SmallDetail& detail)
+  { return detail.decision == DetailDecision::Simplify; };
+  std::vector<SmallDetail> before = settled.details;
+  const auto rest = std::stable_partition(before.begin(), before.end(), isSimplified);
+  if (options.smallDetails != SmallDetails::Automatic || !maySimplify(options) ||
+    rest == before.end())
+  {
+    return false;
+  }
+  before.erase(rest, before.end());
+  const int decimations = settled.decimations + settled.bench->levels.decimations();
+  settled.bench->surface.apply({}); // of the plan that was tried last
+  settled.bench.reset();
+  settled = Settling(sized, options, store, true, stages, reused).run();
+  settled.decimations += decimations;
+  if (!settled.bench)
+  {
+    settled.bench = std::make_unique<RunBench>(sized, options, store);
+  }
+  const bool isMore = std::any_of(settled.details.begin(), settled.details.end(), isSimplified);
+  settled.details.insert(settled.details.begin(), before.begin(), before.end());
+  return isMore && settled.status.ok();
 }
 
 } // namespace quadrille

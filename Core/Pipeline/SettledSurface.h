@@ -42,9 +42,15 @@ struct Settled
 
 /// Where nothing is to be simplified, `sized` and the levels are what they are without; else its surface is another one,
 /// with its key. Boundary loops are measured on the surface itself and filled at once. Handles are found on the
-/// intermediate level and cut, until no short one is left that can be. Automatic goes on with the next longer loops
-/// where smaller quads at all that are left would take too many.
+/// intermediate level and cut, until no short one is left that can be. Automatic goes on with the next longer boundary
+/// loops, or all short handles, where smaller quads at all that are left would take too many.
 Settled settleDetails(SizedSurface& sized, const RemeshOptions& options, ResultStore* store,
   StageRecords& stages, std::vector<std::string>& reused);
+
+/// Where Automatic has left details and no attempt has led to quads: takes them out, too. Where there are such details,
+/// the bench is another one afterwards, of the surface without any plan. False where nothing was taken out, so that no
+/// attempt would end otherwise.
+bool simplifyRest(Settled& settled, SizedSurface& sized, const RemeshOptions& options,
+  ResultStore* store, StageRecords& stages, std::vector<std::string>& reused);
 
 } // namespace quadrille
