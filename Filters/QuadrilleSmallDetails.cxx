@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadrilleSmallDetails.h"
 
-#include "Pipeline/Recovery.h"
 #include "QuadrilleNewArray.h"
 #include "QuadrilleReport.h"
 
@@ -59,13 +58,14 @@ void addAttempts(vtkDataObject* data, const std::vector<std::string>& attempts)
   addCount(data, "Attempts", attempts.size());
   std::vector<std::string> names;
   auto counts = newArray<vtkIdTypeArray>("RecoveryCounts");
-  for (const std::string& step : recoverySteps())
+  for (std::size_t i = 1; i < attempts.size(); ++i)
   {
-    const auto count = std::count(attempts.begin(), attempts.end(), step);
-    if (count > 0)
+    const std::string& step = attempts[i];
+    if (std::find(names.begin(), names.end(), step) == names.end())
     {
       names.push_back(step);
-      counts->InsertNextValue(static_cast<vtkIdType>(count));
+      counts->InsertNextValue(
+        static_cast<vtkIdType>(std::count(attempts.begin(), attempts.end(), step)));
     }
   }
   addText(data, "RecoveryNames", names);

@@ -58,8 +58,8 @@
  * `RepairCounts`, `ExtractionNames`, `ExtractionCounts`, `Notices`, `EstimatedSeconds`, `EstimatedMegabytes`,
  * `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `CoarseVertices`, `Decimations`, `Replays`, `SurfaceFaces`,
  * `Attempts` (maps that were tried), `RecoveryNames` and `RecoveryCounts` (the strategies that made all but the first
- * one), `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`, `ShortestBoundaryOverEdgeLength` (see the getters of
- * the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`; with a FinalQuality other than Coarse
+ * one), `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`, `ShortestBoundaryOverEdgeLength` (see the
+ * getters of the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`; with a FinalQuality other than Coarse
  * `DistortionNames`, `DistortionBefore`, `DistortionAfter`, `OptimizationSteps`; with a Symmetry `SymmetryOrigin` and
  * `SymmetryNormal` of the plane, `SymmetryDeviation` (2: root of the mean square and maximum of the distance of the
  * surface's mirror image, over the diagonal of its box), `SymmetryMovedPoints` and `SymmetryFarthestMoved` (points

@@ -116,7 +116,7 @@ void addSize(Mesh& mesh, double size)
 }
 
 /// Of the origins of half-edges.
-Vector3 meanOf(const Mesh& mesh, const std::vector<Index>& run)
+Vector3 meanOfOrigins(const Mesh& mesh, const std::vector<Index>& run)
 {
   Vector3 sum = Vector3::Zero();
   for (const Index h : run)
@@ -259,8 +259,8 @@ void cutAndClose(PreparedSurface& surface, const std::vector<Index>& loop)
     mesh.twin[mesh.twin[h]] = kInvalidIndex;
     mesh.twin[h] = kInvalidIndex;
   }
-  closeWithFan(surface, loop, meanOf(mesh, loop));
-  closeWithFan(surface, beyond, meanOf(mesh, beyond));
+  closeWithFan(surface, loop, meanOfOrigins(mesh, loop));
+  closeWithFan(surface, beyond, meanOfOrigins(mesh, beyond));
 }
 
 void fillWithFan(PreparedSurface& surface, const std::vector<Index>& loop, const Vector3& middle)

@@ -37,6 +37,8 @@ struct RunContext
   ResultStore* store = nullptr;      ///< null: none
   ShortLoops shortLoops;             ///< of the surface before any plan
   std::vector<FixedVec2> spare = {}; ///< see TransferOptions
+  /// Whether many details are left that can be taken out where no attempt holds: better than more quads everywhere.
+  bool hasCrowd = false;
 };
 
 /// A map of the coarse level, carried to the surface where there is one.

@@ -21,6 +21,10 @@ constexpr std::size_t kMaximumWork = 24000000;
 class History
 {
 public:
+  History() = default;
+  /// work: that was done before, and counts as if it were the history's own.
+  explicit History(std::size_t work) : work_(work) {}
+
   void addMap(const Plan& plan, std::shared_ptr<MapAttempt> map);
   /// Of the map ofRound(), or null where it was not carried to the surface; ends the round.
   void addQuads(std::shared_ptr<const QuadAttempt> quads);
@@ -45,6 +49,7 @@ public:
   const Attempt& result() const { return result_.quads ? result_ : last_; }
   bool hasResult() const { return result_.quads != nullptr; }
 
+  std::size_t work() const { return work_; } ///< GridMapResult::work of all attempts
   bool isSpent() const { return work_ >= kMaximumWork; }
   /// Of all attempts, the first one's "first".
   const std::vector<std::string>& steps() const { return steps_; }

@@ -254,10 +254,10 @@ void attemptAll(Settled& settled, SizedSurface& sized, const RemeshOptions& opti
   {
     seconds += record.seconds;
   }
-  history = {};
+  history = History(history.work() / 2); // so that both together end in one and a half times
   makeAttempts(settled.bench->run, history);
   sized.stages.add("retries", seconds, 0, 0);
-  result.attempts.emplace_back("fewer details");
+  result.attempts.emplace_back(kFewerDetails);
   result.attempts.insert(result.attempts.end(), history.steps().begin() + 1, history.steps().end());
 }
 

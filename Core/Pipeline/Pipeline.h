@@ -59,7 +59,8 @@ struct RemeshResult
   SmallParts smallParts;
   /// What is smaller than the quads: handles and boundary loops shorter than kQuadsOfLoop s, small components.
   std::vector<SmallDetail> details;
-  /// Names of the strategies by which the attempts were made, in their order; the first one's is "first".
+  /// Names of the strategies by which the attempts were made, in their order; the first one's is "first". Where they
+  /// began again without details, that of the first one then is kFewerDetails.
   std::vector<std::string> attempts;
   /// What became of the input's curves, in their order; vertices are those of the coarse mesh.
   std::vector<CurveOutcome> curves;

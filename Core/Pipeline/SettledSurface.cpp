@@ -355,6 +355,8 @@ private:
   {
     const RunContext& run = made_.bench->run;
     const std::vector<HandleLoop>& loops = run.shortLoops.loops;
+    made_.bench->run.hasCrowd =
+      maySimplify(options_) && !takesAll_ && loops.size() >= kCrowdOfHandles;
     const bool resolved = !loops.empty() && resolvesLoops(made_.bench->run, loops);
     for (std::size_t i = 0; i < loops.size(); ++i)
     {

@@ -15,8 +15,8 @@
 namespace quadrille
 {
 
-/// All that attempts work on: the surface, its levels, and the short loops that are left. Stays where it is made, as the
-/// parts refer to each other.
+/// All that attempts work on: the surface, its levels, and the short loops that are left. Stays where it is made, as
+/// the parts refer to each other.
 struct RunBench
 {
   RunBench(const SizedSurface& sized, const RemeshOptions& options, ResultStore* store);
@@ -28,11 +28,14 @@ struct RunBench
   RunContext run;
 };
 
+/// The step, in RemeshResult::attempts, by which attempts begin again after simplifyRest.
+constexpr const char* kFewerDetails = "fewer details";
+
 /// What settling told beside the bench.
 struct Settled
 {
-  /// Infeasible where the surface has more handles and boundary loops than so many quads can go round, whatever is done;
-  /// only where details may be simplified.
+  /// Infeasible where the surface has more handles and boundary loops than so many quads can go round, whatever is
+  /// done; only where details may be simplified.
   Status status;
   std::unique_ptr<RunBench> bench; ///< the short loops are found; null where the status is not ok
   /// Handles and boundary loops shorter than kQuadsOfLoop s, those that were simplified first.
@@ -40,8 +43,8 @@ struct Settled
   int decimations = 0; ///< runs of phase 1 before that of the bench
 };
 
-/// Where nothing is to be simplified, `sized` and the levels are what they are without; else its surface is another one,
-/// with its key. Boundary loops are measured on the surface itself and filled at once. Handles are found on the
+/// Where nothing is to be simplified, `sized` and the levels are what they are without; else its surface is another
+/// one, with its key. Boundary loops are measured on the surface itself and filled at once. Handles are found on the
 /// intermediate level and cut, until no short one is left that can be. Automatic goes on with the next longer boundary
 /// loops, or all short handles, where smaller quads at all that are left would take too many.
 Settled settleDetails(SizedSurface& sized, const RemeshOptions& options, ResultStore* store,

@@ -86,8 +86,8 @@ class Session:
         feature_criterion,
         chord_error (None: off), gap_quads, smallest_size, largest_size, curvature_guides (None: off), method, integers,
         coarse_vertices, close_handles, small_details, small_components, anisotropy_limit, final_quality,
-        distortion_metric, maximum_number_of_quads, smoothing_steps, warm_start, threads, memory_limit. 5,000 quads where no size is
-        given. progress: called as progress(fraction); False (not None) stops the run."""
+        distortion_metric, maximum_number_of_quads, smoothing_steps, warm_start, threads, memory_limit. 5,000 quads
+        where no size is given. progress: called as progress(fraction); False (not None) stops the run."""
         if quads is None and edge_length is None and relative_edge_length is None:
             quads = 5000
         self._begin(with_requests(

@@ -20,7 +20,7 @@ namespace quadrille
 namespace
 {
 
-RemeshResult remeshWith(const Mesh& mesh, std::size_t quads, SmallDetails decision)
+RemeshResult remeshBy(const Mesh& mesh, std::size_t quads, SmallDetails decision)
 {
   RemeshOptions options;
   options.quads = quads;
@@ -68,7 +68,7 @@ TEST(SmallDetails, HandleBelowAnEdgeLengthIsClosed)
 {
   const test::SphereWithHandle model = test::sphereWithHandle(5, kHandlePlace);
   const RemeshResult result =
-    remeshWith(model.mesh, quadsFor(model.mouthLength, 0.8), SmallDetails::Automatic);
+    remeshBy(model.mesh, quadsFor(model.mouthLength, 0.8), SmallDetails::Automatic);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_TRUE(result.certificate.valid()) << result.certificate.text();
   EXPECT_EQ(qualityOf(result).eulerCharacteristic, 2);
@@ -90,7 +90,7 @@ TEST(SmallDetails, LongerHandleIsResolved)
 {
   const test::SphereWithHandle model = test::sphereWithHandle(5, kHandlePlace);
   const RemeshResult result =
-    remeshWith(model.mesh, quadsFor(model.mouthLength, 2.5), SmallDetails::Automatic);
+    remeshBy(model.mesh, quadsFor(model.mouthLength, 2.5), SmallDetails::Automatic);
   EXPECT_EQ(count(result, DetailKind::Handle, DetailDecision::Resolve), 1U);
   EXPECT_EQ(result.details.size(), 1U);
   EXPECT_EQ(result.surface.repair.closedHandles, 0U);
@@ -101,7 +101,7 @@ TEST(SmallDetails, LongerHandleIsResolved)
 TEST(SmallDetails, HolesBelowAnEdgeLengthAreFilledAndLongerOnesResolved)
 {
   // s = 6: 0.67 edge lengths round the tiny ones, 2.7 round the other.
-  const RemeshResult result = remeshWith(plate(), 100, SmallDetails::Automatic);
+  const RemeshResult result = remeshBy(plate(), 100, SmallDetails::Automatic);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_EQ(qualityOf(result).boundaryLoops, 2U);
   EXPECT_EQ(result.surface.repair.filledHoles, 4U);
@@ -128,7 +128,7 @@ TEST(SmallDetails, HolesBelowAnEdgeLengthAreFilledAndLongerOnesResolved)
 
 TEST(SmallDetails, ResolveKeepsTheTopology)
 {
-  const RemeshResult result = remeshWith(plate(), 100, SmallDetails::Resolve);
+  const RemeshResult result = remeshBy(plate(), 100, SmallDetails::Resolve);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_EQ(qualityOf(result).boundaryLoops, 6U);
   EXPECT_EQ(count(result, DetailKind::BoundaryLoop, DetailDecision::Resolve), 5U);
@@ -140,13 +140,13 @@ TEST(SmallDetails, ResolveTakesAsManyQuadsAsItNeeds)
 {
   // Twenty-five holes a quarter of an edge length round: with four quads each there are many times the sixteen.
   const Mesh mesh = test::planeCells(40, 40, [](int x, int y) { return x % 8 != 4 || y % 8 != 4; });
-  const RemeshResult result = remeshWith(mesh, 16, SmallDetails::Resolve);
+  const RemeshResult result = remeshBy(mesh, 16, SmallDetails::Resolve);
   EXPECT_EQ(count(result, DetailKind::BoundaryLoop, DetailDecision::Resolve), 25U);
   EXPECT_GT(result.targetQuads, 2 * 16U);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_EQ(qualityOf(result).boundaryLoops, 26U);
   // Automatic fills them instead.
-  const RemeshResult filled = remeshWith(mesh, 16, SmallDetails::Automatic);
+  const RemeshResult filled = remeshBy(mesh, 16, SmallDetails::Automatic);
   ASSERT_TRUE(filled.status.ok()) << filled.status.message;
   EXPECT_EQ(filled.targetQuads, 16U);
   EXPECT_EQ(qualityOf(filled).boundaryLoops, 1U);
@@ -156,7 +156,7 @@ TEST(SmallDetails, AutomaticFillsLongerOnesWhereAllWouldTakeTooMany)
 {
   // Loops of 1.28 edge lengths, so close to each other that there would be small quads everywhere.
   const Mesh mesh = test::planeCells(40, 40, [](int x, int y) { return x % 4 != 2 || y % 4 != 2; });
-  const RemeshResult result = remeshWith(mesh, 150, SmallDetails::Automatic);
+  const RemeshResult result = remeshBy(mesh, 150, SmallDetails::Automatic);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_EQ(qualityOf(result).boundaryLoops, 1U);
   EXPECT_EQ(count(result, DetailKind::BoundaryLoop, DetailDecision::Simplify), 100U);
@@ -164,7 +164,7 @@ TEST(SmallDetails, AutomaticFillsLongerOnesWhereAllWouldTakeTooMany)
 
 TEST(SmallDetails, SimplifyTakesAllOut)
 {
-  const RemeshResult result = remeshWith(plate(), 100, SmallDetails::Simplify);
+  const RemeshResult result = remeshBy(plate(), 100, SmallDetails::Simplify);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_EQ(qualityOf(result).boundaryLoops, 1U);
   EXPECT_EQ(count(result, DetailKind::BoundaryLoop, DetailDecision::Simplify), 5U);
@@ -174,7 +174,7 @@ TEST(SmallDetails, SimplifyTakesAllOut)
 
 TEST(SmallDetails, KeepLeavesSurfaceAndSizes)
 {
-  const RemeshResult result = remeshWith(plate(), 100, SmallDetails::Keep);
+  const RemeshResult result = remeshBy(plate(), 100, SmallDetails::Keep);
   EXPECT_EQ(count(result, DetailKind::BoundaryLoop, DetailDecision::Keep), 5U);
   EXPECT_EQ(result.details.size(), 5U);
   EXPECT_EQ(result.surface.repair.filledHoles, 0U);
@@ -191,7 +191,7 @@ Mesh thinTorus()
 
 TEST(SmallDetails, KeepFailsWithTheReasonAndWithoutOtherSizes)
 {
-  const RemeshResult result = remeshWith(thinTorus(), kQuadsOfThinTorus, SmallDetails::Keep);
+  const RemeshResult result = remeshBy(thinTorus(), kQuadsOfThinTorus, SmallDetails::Keep);
   ASSERT_FALSE(result.status.ok());
   EXPECT_NE(result.status.message.find("1 of 1 handles are shorter round than three quads"),
     std::string::npos);
@@ -206,12 +206,11 @@ TEST(SmallDetails, KeepFailsWithTheReasonAndWithoutOtherSizes)
 
 TEST(SmallDetails, ThinTubeIsResolvedByAsManyQuadsAsItNeeds)
 {
-  const RemeshResult result = remeshWith(thinTorus(), kQuadsOfThinTorus, SmallDetails::Resolve);
+  const RemeshResult result = remeshBy(thinTorus(), kQuadsOfThinTorus, SmallDetails::Resolve);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_EQ(qualityOf(result).eulerCharacteristic, 0);
   EXPECT_EQ(count(result, DetailKind::Handle, DetailDecision::Resolve), 1U);
-  const RemeshResult automatic =
-    remeshWith(thinTorus(), kQuadsOfThinTorus, SmallDetails::Automatic);
+  const RemeshResult automatic = remeshBy(thinTorus(), kQuadsOfThinTorus, SmallDetails::Automatic);
   ASSERT_TRUE(automatic.status.ok()) << automatic.status.message;
   EXPECT_EQ(qualityOf(automatic).eulerCharacteristic, 2);
   EXPECT_LT(automatic.quads.quads.size(), result.quads.quads.size());
@@ -230,12 +229,12 @@ TEST(SmallDetails, SpecksAreLeftOutWhereTheirBlocksWouldSwampTheQuads)
     mesh = test::disjointUnion(mesh, speck, Vector3(2 + 0.1 * i, 0, 0));
   }
   // 40 blocks of six quads are fewer than 500, and more than 200.
-  const RemeshResult kept = remeshWith(mesh, 500, SmallDetails::Automatic);
+  const RemeshResult kept = remeshBy(mesh, 500, SmallDetails::Automatic);
   ASSERT_TRUE(kept.status.ok()) << kept.status.message;
   EXPECT_EQ(qualityOf(kept).components, 41U);
   EXPECT_EQ(count(kept, DetailKind::Component, DetailDecision::Simplify), 40U);
   EXPECT_EQ(kept.details.front().result, "made a block of about 6 quads");
-  const RemeshResult without = remeshWith(mesh, 200, SmallDetails::Automatic);
+  const RemeshResult without = remeshBy(mesh, 200, SmallDetails::Automatic);
   ASSERT_TRUE(without.status.ok()) << without.status.message;
   EXPECT_EQ(qualityOf(without).components, 1U);
   EXPECT_EQ(count(without, DetailKind::Component, DetailDecision::Simplify), 40U);
@@ -248,7 +247,7 @@ TEST(SmallDetails, SpecksAreLeftOutWhereTheirBlocksWouldSwampTheQuads)
     EXPECT_LT(detail.place.tail<2>().norm(), 1e-6);
   }
   EXPECT_TRUE(tellsOf(without, "40 of 41 connected components have less area than a quad"));
-  const RemeshResult resolved = remeshWith(mesh, 200, SmallDetails::Resolve);
+  const RemeshResult resolved = remeshBy(mesh, 200, SmallDetails::Resolve);
   ASSERT_TRUE(resolved.status.ok()) << resolved.status.message;
   EXPECT_EQ(qualityOf(resolved).components, 41U);
 }
@@ -258,7 +257,7 @@ TEST(SmallDetails, BoundaryOfSmallComponentsIsLeftToThem)
   // A flat chip with the area of half a quad beside the plate.
   Mesh chip = test::gridPlane(4, 4);
   const Mesh mesh = test::disjointUnion(test::gridPlane(60, 60), chip, Vector3(70, 0, 0));
-  const RemeshResult result = remeshWith(mesh, 100, SmallDetails::Simplify);
+  const RemeshResult result = remeshBy(mesh, 100, SmallDetails::Simplify);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_EQ(qualityOf(result).components, 2U);
   EXPECT_EQ(qualityOf(result).boundaryLoops, 2U);
@@ -270,7 +269,7 @@ TEST(SmallDetails, MoreHandlesThanQuadsCanGoRoundAreRefusedAtOnce)
   // A slab with 144 holes through it, of which 20 quads could go round one at most.
   const Mesh mesh = test::voxelSurface(
     { 25, 25, 1 }, 2, [](int x, int y, int) { return x % 2 == 0 || y % 2 == 0; });
-  const RemeshResult result = remeshWith(mesh, 20, SmallDetails::Automatic);
+  const RemeshResult result = remeshBy(mesh, 20, SmallDetails::Automatic);
   EXPECT_EQ(result.status.code, StatusCode::Infeasible);
   EXPECT_NE(result.status.message.find("need at least about 2304 quads"), std::string::npos)
     << result.status.message;
@@ -294,13 +293,13 @@ TEST(SmallDetails, CloseHandlesGoesBefore)
 TEST(SmallDetails, NothingToSimplifyChangesNothing)
 {
   const Mesh mesh = test::torus(60, 30);
-  const RemeshResult keep = remeshWith(mesh, 800, SmallDetails::Keep);
+  const RemeshResult keep = remeshBy(mesh, 800, SmallDetails::Keep);
   ASSERT_TRUE(keep.status.ok()) << keep.status.message;
   EXPECT_TRUE(keep.details.empty());
   for (const SmallDetails decision :
     { SmallDetails::Automatic, SmallDetails::Resolve, SmallDetails::Simplify })
   {
-    const RemeshResult result = remeshWith(mesh, 800, decision);
+    const RemeshResult result = remeshBy(mesh, 800, decision);
     EXPECT_EQ(result.quads.points, keep.quads.points);
     EXPECT_EQ(result.quads.quads, keep.quads.quads);
     EXPECT_EQ(result.notices, keep.notices);
