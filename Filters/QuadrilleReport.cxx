@@ -133,7 +133,7 @@ std::vector<std::pair<std::string, std::size_t>> repairCounts(const RepairReport
     { "isolated_points", r.isolatedPoints }, { "non_manifold_edges", r.nonManifoldEdges },
     { "non_manifold_vertices", r.nonManifoldVertices }, { "reoriented_faces", r.reorientedFaces },
     { "removed_components", r.removedComponents }, { "refined_faces", r.refinedFaces },
-    { "closed_handles", r.closedHandles } };
+    { "closed_handles", r.closedHandles }, { "filled_holes", r.filledHoles } };
 }
 
 void addText(vtkDataObject* data, const char* name, const std::vector<std::string>& lines)

@@ -66,6 +66,8 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   held.map.reset();
   quadrille::ConvertedSurface converted = this->ConvertInputs(block);
   quadrille::RemeshOptions options = this->MakeOptions(block);
+  // The log belongs to the surface as the next filters prepare it again.
+  options.smallDetails = quadrille::SmallDetails::Resolve;
   quadrille::checkOptions(options);
   const std::vector<quadrille::CurveRequest> curves = converted.input.curves;
   quadrille::ResultStore* store = this->KeepLevels ? &held.levels : nullptr;

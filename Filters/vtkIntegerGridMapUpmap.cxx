@@ -248,6 +248,7 @@ void vtkIntegerGridMapUpmap::FindOrPrepare(quadrille::SurfaceInput& input,
     options.edgeLength = recipe.edgeLength;
     options.featureAngle = recipe.featureAngle;
     options.featureCriterion = recipe.featureCriterion;
+    options.smallDetails = quadrille::SmallDetails::Resolve; // as those of the hierarchy
     options.maximumNumberOfQuads = std::numeric_limits<std::size_t>::max();
     options.threads = this->NumberOfThreads;
     options.progress = this->MakeProgress(0.0, 3.3); // the surface is ready at 0.15 of a whole run

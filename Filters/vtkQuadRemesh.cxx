@@ -13,6 +13,7 @@
 #include "QuadrilleMoves.h"
 #include "QuadrilleQuads.h"
 #include "QuadrilleReport.h"
+#include "QuadrilleSmallDetails.h"
 #include "QuadrilleStamps.h"
 #include "QuadrilleSymmetry.h"
 
@@ -140,6 +141,7 @@ void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
   quadrille::addCount(data, "Replays", static_cast<std::size_t>(result.replays));
   quadrille::addCount(data, "SurfaceFaces", result.surface.mesh.faceCount());
   quadrille::addSmallParts(data, result.smallParts, result.targetEdgeLength);
+  quadrille::addAttempts(data, result.attempts);
   quadrille::addFinalQuality(data, result.finalQuality);
 }
 
@@ -173,7 +175,7 @@ void writeMapped(const quadrille::RemeshResult& result, const quadrille::RemeshO
 vtkQuadRemesh::vtkQuadRemesh()
 {
   this->SetNumberOfInputPorts(7);
-  this->SetNumberOfOutputPorts(7);
+  this->SetNumberOfOutputPorts(8);
 }
 
 vtkQuadRemesh::~vtkQuadRemesh() = default;
@@ -290,6 +292,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
     options.curvatureGuides = this->LeastAnisotropy;
   }
   options.closeHandles = this->CloseHandles;
+  options.smallDetails = static_cast<quadrille::SmallDetails>(this->SmallDetails);
   options.removeSmallComponents = this->SmallComponents == REMOVE_SMALL_COMPONENTS;
   options.finalQuality = static_cast<quadrille::FinalQuality>(this->FinalQuality);
   options.distortionMetric = this->DistortionMetric != 0;
@@ -420,6 +423,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
     quadrille::addMirrorLines(block.output(5), made, words.back().isMet);
   }
   block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
+  block.output(7)->ShallowCopy(quadrille::writeSmallDetails(result.details));
   this->SetResult(
     resultText(result, written.irregular->GetNumberOfPoints()) + constraintText(words));
   report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
@@ -440,6 +444,7 @@ void vtkQuadRemesh::WritePreview(quadrille::Block& block, const quadrille::Asked
   block.output(5)->ShallowCopy(quadrille::writeConstraints(
     asked.placed, asked.curves, result.quads, quadrille::metOfDrawn(words, asked)));
   block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
+  block.output(7)->ShallowCopy(quadrille::writeSmallDetails(result.details));
   this->SetResult("preview: " + resultText(result, written.irregular->GetNumberOfPoints()) +
     constraintText(words));
   block.state->report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
@@ -462,6 +467,7 @@ void vtkQuadRemesh::AddSettings(std::ostream& os) const
      << "LeastAnisotropy " << this->LeastAnisotropy << '\n'
      << "SmoothingSteps " << this->SmoothingSteps << '\n'
      << "CloseHandles " << this->CloseHandles << '\n'
+     << "SmallDetails " << this->SmallDetails << '\n'
      << "SmallComponents " << this->SmallComponents << '\n'
      << "WarmStart " << this->WarmStart << '\n'
      << "Preview " << this->Preview << '\n'
@@ -504,6 +510,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CurvatureGuides: " << this->CurvatureGuides << "\n";
   os << indent << "LeastAnisotropy: " << this->LeastAnisotropy << "\n";
   os << indent << "CloseHandles: " << this->CloseHandles << "\n";
+  os << indent << "SmallDetails: " << this->SmallDetails << "\n";
   os << indent << "SmallComponents: " << this->SmallComponents << "\n";
   os << indent << "KeepLevels: " << this->KeepLevels << "\n";
   os << indent << "WarmStart: " << this->WarmStart << "\n";

@@ -46,14 +46,20 @@
  *      points were put onto the surface.
  *    - "factor", sizes: by which the square root of a quad's area differs, over the median of all, from `Sizing` there;
  *      mean by area and 95th percentile. Met: a mean of at most 1.25.
+ * 7. what of the surface is smaller than the quads, a vertex for each, those that SmallDetails, CloseHandles and
+ *    SmallComponents took out first. Points: `Kind` ("handle", "boundary loop", "component"), `Size` (the length of the
+ *    loop, of a component the square root of its area, over the target edge length and the sizes there), `Decision`
+ *    ("resolved": quads are smaller there, "simplified", "kept"), `Result` (what became of it), `DecisionId` (0
+ *    resolved, 1 simplified, 2 kept).
  *
  * Field data of output 0, beside that of the input: `LayoutPatchShape` (a patch: 0 four corners, 1 ring, 2 torus) and
  * `LayoutPatchSize` (2: quads along and across), `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`,
  * `ReusedStages`, `Certificate`, `CertificateValid`, `CertificateNames`, `CertificateValues`, `Method`, `RepairNames`,
  * `RepairCounts`, `ExtractionNames`, `ExtractionCounts`, `Notices`, `EstimatedSeconds`, `EstimatedMegabytes`,
  * `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `CoarseVertices`, `Decimations`, `Replays`, `SurfaceFaces`,
- * `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`, `ShortestBoundaryOverEdgeLength` (see the getters of
- * the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`; with a FinalQuality other than Coarse
+ * `Attempts` (maps that were tried), `RecoveryNames` and `RecoveryCounts` (the strategies that made all but the first
+ * one), `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`, `ShortestBoundaryOverEdgeLength` (see the
+ * getters of the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`; with a FinalQuality other than Coarse
  * `DistortionNames`, `DistortionBefore`, `DistortionAfter`, `OptimizationSteps`; with a Symmetry `SymmetryOrigin` and
  * `SymmetryNormal` of the plane, `SymmetryDeviation` (2: root of the mean square and maximum of the distance of the
  * surface's mirror image, over the diagonal of its box), `SymmetryMovedPoints` and `SymmetryFarthestMoved` (points
@@ -207,6 +213,35 @@ public:
    */
   vtkSetClampMacro(CloseHandles, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(CloseHandles, double);
+  ///@}
+
+  /// The values of SmallDetails, see there.
+  enum SmallDetailsTypes
+  {
+    SMALL_DETAILS_AUTOMATIC = 0,
+    SMALL_DETAILS_RESOLVE = 1,
+    SMALL_DETAILS_SIMPLIFY = 2,
+    SMALL_DETAILS_KEEP = 3
+  };
+  ///@{
+  /**
+   * What becomes of handles and boundary loops that are shorter round than three target edge lengths, which is found
+   * before the first map. SMALL_DETAILS_RESOLVE makes quads smaller there, whatever number of them it takes up to
+   * MaximumNumberOfQuads; SMALL_DETAILS_SIMPLIFY takes them out of the surface: handles are cut and closed (see
+   * CloseHandles), boundary loops filled; SMALL_DETAILS_KEEP leaves surface and sizes as they are, and the run fails
+   * where that is impossible. SMALL_DETAILS_AUTOMATIC simplifies those below one edge length and resolves the others,
+   * and where that would take more than 1.6 times the quads it simplifies the next longer ones, too; components with
+   * less area than a quad are left out where the smallest blocks for all small ones (see SmallComponents) would be more
+   * quads than are asked for. With METHOD_MIXED_INTEGER and QUADCOVER, INTEGERS_COARSEST and a Symmetry nothing is
+   * simplified by it, nor by SMALL_DETAILS_SIMPLIFY with a Symmetry. Output 7 has them all. Default:
+   * SMALL_DETAILS_AUTOMATIC.
+   */
+  vtkSetClampMacro(SmallDetails, int, SMALL_DETAILS_AUTOMATIC, SMALL_DETAILS_KEEP);
+  vtkGetMacro(SmallDetails, int);
+  void SetSmallDetailsToAutomatic() { this->SetSmallDetails(SMALL_DETAILS_AUTOMATIC); }
+  void SetSmallDetailsToResolve() { this->SetSmallDetails(SMALL_DETAILS_RESOLVE); }
+  void SetSmallDetailsToSimplify() { this->SetSmallDetails(SMALL_DETAILS_SIMPLIFY); }
+  void SetSmallDetailsToKeep() { this->SetSmallDetails(SMALL_DETAILS_KEEP); }
   ///@}
 
   /// The values of SmallComponents, see there.
@@ -402,6 +437,8 @@ public:
   vtkPolyData* GetIrregularVertices() { return this->GetPolyDataOutputAt(4); }
   vtkPolyData* GetConstraints() { return this->GetPolyDataOutputAt(5); }
   vtkTable* GetConstraintTable();
+  /// Output 7.
+  vtkPolyData* GetDetailPlaces() { return this->GetPolyDataOutputAt(7); }
 
   ///@{
   /// Optional inputs: polylines between irregular vertices, or from one to a feature or boundary, that a straight chain
@@ -453,6 +490,7 @@ private:
   int SmoothingSteps = 5;
   double MemoryLimit = 0;
   double CloseHandles = 0;
+  int SmallDetails = SMALL_DETAILS_AUTOMATIC;
   int SmallComponents = KEEP_SMALL_COMPONENTS;
   double ChordError = 0;
   double GapQuads = 0;

@@ -10,6 +10,7 @@
 #include <vtkCellArrayIterator.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
@@ -126,6 +127,8 @@ void addSuccess(Json& json, vtkPolyData* quads)
   json["target_edge_length"] = field("TargetEdgeLength");
   json["quads_asked"] = field("TargetQuads");
   json["quads_actual"] = quads->GetNumberOfPolys();
+  json["attempts"] = field("Attempts");
+  json["recoveries"] = pairs(quads, "RecoveryNames", "RecoveryCounts");
   json["repair"] = pairs(quads, "RepairNames", "RepairCounts");
   json["extraction"] = pairs(quads, "ExtractionNames", "ExtractionCounts");
   json["sizes"] = { { "surface_faces", field("SurfaceFaces") },
@@ -188,6 +191,25 @@ Json constraintsOf(vtkTable* table)
   return constraints;
 }
 
+/// A point of the output Small Details each; see vtkQuadRemesh.
+Json detailsOf(vtkPolyData* places)
+{
+  vtkPointData* data = places->GetPointData();
+  const auto text = [data](const char* name, vtkIdType i)
+  { return vtkStringArray::SafeDownCast(data->GetAbstractArray(name))->GetValue(i); };
+  Json details = Json::array();
+  for (vtkIdType i = 0; i < places->GetNumberOfPoints(); ++i)
+  {
+    std::array<double, 3> place{};
+    places->GetPoint(i, place.data());
+    details.push_back({ { "kind", text("Kind", i) },
+      { "place", Json::array({ number(place[0]), number(place[1]), number(place[2]) }) },
+      { "size", number(data->GetArray("Size")->GetTuple1(i)) }, { "decision", text("Decision", i) },
+      { "result", text("Result", i) } });
+  }
+  return details;
+}
+
 Json beginReport(const RunFiles& files, ExitCode code, const std::string& error)
 {
   return { { "input", files.input }, { "output", files.output },
@@ -224,6 +246,7 @@ std::string makeReport(const RunFiles& files, RemeshRun& run, ExitCode code, con
   {
     addSuccess(json, filter->GetOutput());
     json["constraints"] = constraintsOf(filter->GetConstraintTable());
+    json["details"] = detailsOf(filter->GetDetailPlaces());
   }
   json["stages"] = stagesOf(run, times.read);
   json["stage_times"] = linesOf(filter->GetStageTimesText());

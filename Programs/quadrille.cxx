@@ -259,6 +259,13 @@ void addShape(CommandOptions& options, vtkQuadRemesh* filter)
     "cut and close handles that are shorter round than R edge lengths of the quads, which need 3 "
     "(default 0: none)");
   options.addChoice(
+    "small-details", "WORD", { "automatic", "resolve", "simplify", "keep" },
+    [filter](int decision) { filter->SetSmallDetails(decision); },
+    "what becomes of handles and holes shorter round than 3 edge lengths of the quads: resolve, "
+    "quads are smaller there, simplify, they are closed and filled, keep, as they are, or a "
+    "failure; automatic (default): below one edge length simplify, else resolve where that takes "
+    "few quads");
+  options.addChoice(
     "small-components", "WORD", { "keep", "remove" },
     [filter](int remove)
     {

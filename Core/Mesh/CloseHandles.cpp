@@ -46,19 +46,20 @@ std::vector<Index> halfEdgesOf(const Mesh& mesh, const LoopSearch::Loop& loop)
 
 } // namespace
 
-std::size_t closeHandles(
+std::vector<std::size_t> closeHandles(
   PreparedSurface& surface, const std::vector<std::vector<Index>>& places, double bound)
 {
   // All loops are found first, as cuts change the surface; loops without a common vertex stay what they are.
   std::vector<std::vector<Index>> cuts;
+  std::vector<std::size_t> closed;
   {
     LoopSearch search(surface.mesh, LoopSearch::kInnerEdges);
     HandleBasis basis(2 * search.handles());
     std::vector<std::uint8_t> used(surface.mesh.vertexCount(), 0);
-    for (const std::vector<Index>& place : places)
+    for (std::size_t i = 0; i < places.size(); ++i)
     {
       poll();
-      const std::optional<LoopSearch::Loop> loop = shortestNear(search, place, bound);
+      const std::optional<LoopSearch::Loop> loop = shortestNear(search, places[i], bound);
       if (!loop ||
         std::any_of(
           loop->vertices.begin(), loop->vertices.end(), [&](Index v) { return used[v] != 0; }))
@@ -71,6 +72,7 @@ std::size_t closeHandles(
       if (basis.insert(sum, search.crossings(sum)))
       {
         cuts.push_back(halfEdgesOf(surface.mesh, *loop));
+        closed.push_back(i);
         for (const Index v : loop->vertices)
         {
           used[v] = 1;
@@ -93,7 +95,7 @@ std::size_t closeHandles(
     orderSurface(surface, 1);
     surface.hash = contentHash(surface.mesh, 1);
   }
-  return cuts.size();
+  return closed;
 }
 
 } // namespace quadrille

@@ -14,9 +14,9 @@ namespace quadrille
 /// handle, that meets one of these vertices, and is shorter than `bound` (units of the mesh), is cut and closed (see
 /// cutAndClose); the genus is one lower for each. Left out are places without such a loop away from the boundary, and
 /// loops that meet one that was cut before or would, together with these, cut the surface in two: another call may find
-/// them. Returns the number of handles that were closed; if there are any, order and hash are made anew, so vertices
-/// have other ids. Never makes two components of one.
-std::size_t closeHandles(
+/// them. Returns the entries whose handles were closed, ascending; if there are any, order and hash are made anew, so
+/// vertices have other ids. Never makes two components of one.
+std::vector<std::size_t> closeHandles(
   PreparedSurface& surface, const std::vector<std::vector<Index>>& places, double bound);
 
 } // namespace quadrille

@@ -238,6 +238,7 @@ std::string RepairReport::text() const
     "components too small to mesh removed");
   append(text, refinedFaces, "large face refined", "large faces refined");
   append(text, closedHandles, "small handle cut and closed", "small handles cut and closed");
+  append(text, filledHoles, "small hole filled", "small holes filled");
   return text;
 }
 

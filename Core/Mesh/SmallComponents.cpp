@@ -105,7 +105,8 @@ ComponentSizes measureComponents(const Mesh& mesh)
   return sizes;
 }
 
-SmallComponents findSmallComponents(const PreparedSurface& surface, double edgeLength)
+SmallComponents findSmallComponents(
+  const PreparedSurface& surface, double edgeLength, double mostQuads)
 {
   SmallComponents small;
   const Mesh& mesh = surface.mesh;
@@ -118,12 +119,17 @@ SmallComponents findSmallComponents(const PreparedSurface& surface, double edgeL
   const ComponentSizes sizes = measureComponents(mesh);
   small.components = sizes.area.size();
   Index largest = kInvalidIndex;
+  const auto isSmall = [&](Index c)
+  { return sizes.area[c] < std::min(sizes.block[c], mostQuads) * quad; };
+  std::vector<std::size_t> entry(sizes.area.size(), 0);
   for (Index c = 0; c < sizes.area.size(); ++c)
   {
-    if (sizes.area[c] >= sizes.block[c] * quad)
+    if (!isSmall(c))
     {
       continue;
     }
+    entry[c] = small.each.size();
+    small.each.push_back({ sizes.area[c], sizes.block[c], Vector3::Zero() });
     ++small.count;
     small.area += sizes.area[c];
     small.quads += sizes.block[c];
@@ -138,12 +144,18 @@ SmallComponents findSmallComponents(const PreparedSurface& surface, double edgeL
     return small;
   }
   small.isSmall.resize(mesh.faceCount());
+  std::vector<double> cornersOf(small.count, 0);
   double corners = 0;
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
     pollNowAndThen(f);
     const Index c = sizes.componentOfFace[f];
-    small.isSmall[f] = sizes.area[c] < sizes.block[c] * quad ? 1 : 0;
+    small.isSmall[f] = isSmall(c) ? 1 : 0;
+    for (Index h = 3 * f; h < 3 * f + 3 && isSmall(c); ++h)
+    {
+      small.each[entry[c]].place += mesh.position[mesh.origin[h]];
+      ++cornersOf[entry[c]];
+    }
     for (Index h = 3 * f; h < 3 * f + 3 && c == largest; ++h)
     {
       small.place += mesh.position[mesh.origin[h]];
@@ -151,6 +163,10 @@ SmallComponents findSmallComponents(const PreparedSurface& surface, double edgeL
     }
   }
   small.place /= corners;
+  for (std::size_t i = 0; i < small.each.size(); ++i)
+  {
+    small.each[i].place /= cornersOf[i];
+  }
   return small;
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace quadrille
@@ -34,6 +35,14 @@ struct ComponentSizes
 /// Linear. The mesh passes validate(), but for vertices without faces.
 ComponentSizes measureComponents(const Mesh& mesh);
 
+/// One of them.
+struct SmallComponent
+{
+  double area = 0;                 ///< over the sizes
+  double block = 0;                ///< quads, see quadsOfBlock
+  Vector3 place = Vector3::Zero(); ///< the middle of its corners
+};
+
 /// Components with less area than the quads of their smallest block have.
 struct SmallComponents
 {
@@ -44,9 +53,12 @@ struct SmallComponents
   double largest = 0;                ///< area of the largest small one
   Vector3 place = Vector3::Zero();   ///< the middle of its vertices
   std::vector<std::uint8_t> isSmall; ///< #F; empty where count is 0
+  std::vector<SmallComponent> each;  ///< by their lowest faces
 };
-/// For quads of edge length s > 0. Linear, and next to nothing for a large connected surface.
-SmallComponents findSmallComponents(const PreparedSurface& surface, double edgeLength);
+/// For quads of edge length s > 0; mostQuads: only those with less area than so many quads. Linear, and next to nothing
+/// for a large connected surface.
+SmallComponents findSmallComponents(const PreparedSurface& surface, double edgeLength,
+  double mostQuads = std::numeric_limits<double>::infinity());
 
 /// Removes the small components; at least one component stays, so where all are small all stay. Area, components and
 /// hash follow, and requests at their vertices go. Returns how many went.

@@ -321,6 +321,12 @@ void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
   }
   std::sort(surface.valenceRequests.begin(), surface.valenceRequests.end(),
     [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex < b.vertex; });
+  for (SectorRequest& request : surface.sectorRequests)
+  {
+    request.vertex = newId[request.vertex];
+  }
+  std::sort(surface.sectorRequests.begin(), surface.sectorRequests.end(),
+    [](const SectorRequest& a, const SectorRequest& b) { return a.vertex < b.vertex; });
 }
 
 /// Faces that are left, by their lowest vertex; ties keep their order.

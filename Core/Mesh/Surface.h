@@ -79,6 +79,7 @@ struct RepairReport
     0; ///< components too small to carry a quad (a closed one below 4 faces)
   std::size_t refinedFaces = 0;  ///< faces that were split by refineSurface
   std::size_t closedHandles = 0; ///< handles that closeHandles cut and closed
+  std::size_t filledHoles = 0;   ///< boundary loops that fillHoles closed
 
   /// "12 duplicate faces removed, 3 non-manifold edges split"; empty when nothing changed.
   std::string text() const;

@@ -115,19 +115,28 @@ void addSize(Mesh& mesh, double size)
   }
 }
 
-/// A fan over a closed run of boundary half-edges, each of which ends where the next one begins.
-void closeWithFan(PreparedSurface& surface, const std::vector<Index>& run)
+/// Of the origins of half-edges.
+Vector3 meanOfOrigins(const Mesh& mesh, const std::vector<Index>& run)
 {
-  Mesh& mesh = surface.mesh;
-  const Index middle = mesh.vertexCount();
   Vector3 sum = Vector3::Zero();
-  double sizes = 0;
   for (const Index h : run)
   {
     sum += mesh.position[mesh.origin[h]];
+  }
+  return sum / static_cast<double>(run.size());
+}
+
+/// A fan over a closed run of boundary half-edges, each of which ends where the next one begins.
+void closeWithFan(PreparedSurface& surface, const std::vector<Index>& run, const Vector3& place)
+{
+  Mesh& mesh = surface.mesh;
+  const Index middle = mesh.vertexCount();
+  double sizes = 0;
+  for (const Index h : run)
+  {
     sizes += sizeAt(mesh, mesh.origin[h]);
   }
-  mesh.position.push_back(sum / static_cast<double>(run.size()));
+  mesh.position.push_back(place);
   addSize(mesh, sizes / static_cast<double>(run.size()));
   const Index first = mesh.faceCount();
   for (const Index h : run)
@@ -250,8 +259,18 @@ void cutAndClose(PreparedSurface& surface, const std::vector<Index>& loop)
     mesh.twin[mesh.twin[h]] = kInvalidIndex;
     mesh.twin[h] = kInvalidIndex;
   }
-  closeWithFan(surface, loop);
-  closeWithFan(surface, beyond);
+  closeWithFan(surface, loop, meanOfOrigins(mesh, loop));
+  closeWithFan(surface, beyond, meanOfOrigins(mesh, beyond));
+}
+
+void fillWithFan(PreparedSurface& surface, const std::vector<Index>& loop, const Vector3& middle)
+{
+  assert(loop.size() >= 3);
+  for (const Index h : loop)
+  {
+    surface.mesh.flags[h] = 0;
+  }
+  closeWithFan(surface, loop, middle);
 }
 
 void removeFace(PreparedSurface& surface, Index f)

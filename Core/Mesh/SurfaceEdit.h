@@ -46,6 +46,10 @@ Index splitFace(PreparedSurface& surface, Index f);
 /// off its sources.
 void cutAndClose(PreparedSurface& surface, const std::vector<Index>& loop);
 
+/// Closes a boundary loop of at least 3 half-edges, each of which ends where the next one begins, with a fan round a
+/// new vertex at `middle`. Sources as in cutAndClose; the edges of the loop are features no more.
+void fillWithFan(PreparedSurface& surface, const std::vector<Index>& loop, const Vector3& middle);
+
 /// Removes a face; its edges become boundary.
 void removeFace(PreparedSurface& surface, Index f);
 

@@ -19,48 +19,6 @@ namespace quadrille
 namespace
 {
 
-void addRequests(const PreparedSurface& surface, KeyMaker& key)
-{
-  for (const PolygonGuide& guide : surface.polygonGuides)
-  {
-    key.add(std::uint64_t{ guide.polygon }).add(double{ guide.weight });
-    for (int i = 0; i < 3; ++i)
-    {
-      key.add(guide.direction[i]);
-    }
-  }
-  for (const ValenceRequest& request : surface.valenceRequests)
-  {
-    key.add(std::uint64_t{ request.vertex })
-      .add(static_cast<std::uint64_t>(static_cast<std::int64_t>(request.valence)));
-  }
-  if (surface.regularElsewhere)
-  {
-    key.add(std::uint64_t{ 1 });
-  }
-  if (surface.regularOnFeatures)
-  {
-    key.add(std::uint64_t{ 2 }).add(std::uint64_t{ surface.sectorRequests.size() });
-    for (const SectorRequest& request : surface.sectorRequests)
-    {
-      key.add(std::uint64_t{ request.vertex }).add(std::uint64_t{ request.sectors.size() });
-      for (const HeldSector& sector : request.sectors)
-      {
-        key.add(sector.middle[0]).add(sector.middle[1]).add(sector.middle[2]);
-        key.add(static_cast<std::uint64_t>(sector.turns));
-      }
-    }
-  }
-  for (const CurveRequest& curve : surface.curves)
-  {
-    key.add(static_cast<std::uint64_t>(curve.kind) + 2).add(std::uint64_t{ curve.points.size() });
-    for (const Vector3& p : curve.points)
-    {
-      key.add(p[0]).add(p[1]).add(p[2]);
-    }
-  }
-}
-
 /// Of all that a map depends on.
 ResultKey mapKey(const RunContext& run, const Plan& plan)
 {
@@ -323,6 +281,48 @@ bool hasLevelsOf(RunContext& run, const Plan& plan, const MapAttempt& map)
 }
 
 } // namespace
+
+void addRequests(const PreparedSurface& surface, KeyMaker& key)
+{
+  for (const PolygonGuide& guide : surface.polygonGuides)
+  {
+    key.add(std::uint64_t{ guide.polygon }).add(double{ guide.weight });
+    for (int i = 0; i < 3; ++i)
+    {
+      key.add(guide.direction[i]);
+    }
+  }
+  for (const ValenceRequest& request : surface.valenceRequests)
+  {
+    key.add(std::uint64_t{ request.vertex })
+      .add(static_cast<std::uint64_t>(static_cast<std::int64_t>(request.valence)));
+  }
+  if (surface.regularElsewhere)
+  {
+    key.add(std::uint64_t{ 1 });
+  }
+  if (surface.regularOnFeatures)
+  {
+    key.add(std::uint64_t{ 2 }).add(std::uint64_t{ surface.sectorRequests.size() });
+    for (const SectorRequest& request : surface.sectorRequests)
+    {
+      key.add(std::uint64_t{ request.vertex }).add(std::uint64_t{ request.sectors.size() });
+      for (const HeldSector& sector : request.sectors)
+      {
+        key.add(sector.middle[0]).add(sector.middle[1]).add(sector.middle[2]);
+        key.add(static_cast<std::uint64_t>(sector.turns));
+      }
+    }
+  }
+  for (const CurveRequest& curve : surface.curves)
+  {
+    key.add(static_cast<std::uint64_t>(curve.kind) + 2).add(std::uint64_t{ curve.points.size() });
+    for (const Vector3& p : curve.points)
+    {
+      key.add(p[0]).add(p[1]).add(p[2]);
+    }
+  }
+}
 
 std::size_t MapAttempt::defects() const
 {

@@ -37,6 +37,8 @@ struct RunContext
   ResultStore* store = nullptr;      ///< null: none
   ShortLoops shortLoops;             ///< of the surface before any plan
   std::vector<FixedVec2> spare = {}; ///< see TransferOptions
+  /// Whether many details are left that can be taken out where no attempt holds: better than more quads everywhere.
+  bool hasCrowd = false;
 };
 
 /// A map of the coarse level, carried to the surface where there is one.
@@ -106,6 +108,9 @@ struct Attempt
   std::shared_ptr<MapAttempt> map;
   std::shared_ptr<const QuadAttempt> quads; ///< null: none were made
 };
+
+/// Adds what the surface's guides, valences and curves ask for.
+void addRequests(const PreparedSurface& surface, KeyMaker& key);
 
 /// What a plan asks of the levels. The plan is on the surface.
 HierarchyOptions levelOptions(const RunContext& run, const Plan& plan);

@@ -52,7 +52,9 @@ FirstLevels makeFirstLevels(
   FirstLevels first;
   RunSurface surface(sized.surface, sized.key, options.threads);
   Levels levels(surface, store);
-  RunContext run{ options, sized.edgeLength, sized.targetQuads, surface, levels, store, {} };
+  RemeshOptions bounded = options; // smaller quads only where they are not many
+  bounded.smallDetails = SmallDetails::Automatic;
+  RunContext run{ bounded, sized.edgeLength, sized.targetQuads, surface, levels, store, {} };
   findShortLoops(run, first.stages, first.reused);
   first.smallParts = run.shortLoops.parts;
   const QuadSize size{ sized.edgeLength, frame.unit, sized.targetQuads,

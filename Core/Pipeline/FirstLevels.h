@@ -17,7 +17,8 @@ namespace quadrille
 /// Fills run.shortLoops, which are told on the intermediate level of the surface before any plan.
 void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::string>& reused);
 
-/// What a stage filter hands on of the first attempt; bit for bit what remesh() works with there.
+/// What a stage filter hands on of the first attempt; bit for bit what remesh() works with there, unless small details
+/// are simplified, which these levels leave in.
 struct FirstLevels
 {
   Hierarchy hierarchy;

@@ -26,14 +26,25 @@ struct StoredFirstSizes
   std::shared_ptr<const std::vector<float>> sizes; ///< null: they would make too many quads
 };
 
+/// How many times as many quads smaller ones may make.
+double mostGrowth(const RunContext& run)
+{
+  return run.options.smallDetails != SmallDetails::Resolve
+    ? kMostGrowth
+    : std::max(kMostGrowth,
+        static_cast<double>(run.options.maximumNumberOfQuads) /
+          static_cast<double>(run.targetQuads));
+}
+
 /// Null where they would make too many quads.
-std::shared_ptr<const std::vector<float>> sizesAtLoops(RunContext& run)
+std::shared_ptr<const std::vector<float>> sizesAtLoops(
+  RunContext& run, const std::vector<HandleLoop>& loops)
 {
   std::vector<float> sizes = run.surface.changedSizes(
     [&](Mesh& mesh)
     {
       const std::vector<float> factor =
-        sizesOfLoops(run.shortLoops.loops, run.edgeLength, kLeastShrink, mesh.vertexCount());
+        sizesOfLoops(loops, run.edgeLength, kLeastShrink, mesh.vertexCount());
       mesh.sizing.resize(mesh.vertexCount(), 1.0F);
       for (Index v = 0; v < mesh.vertexCount(); ++v)
       {
@@ -41,34 +52,51 @@ std::shared_ptr<const std::vector<float>> sizesAtLoops(RunContext& run)
       }
       limitSizeGrowth(mesh, run.edgeLength);
     });
-  return run.surface.sizedArea(sizes) > kMostGrowth * run.surface.sizedArea()
+  return run.surface.sizedArea(sizes) > mostGrowth(run) * run.surface.sizedArea()
     ? nullptr
     : std::make_shared<const std::vector<float>>(std::move(sizes));
 }
 
 /// The same, from the store where it has them.
-std::shared_ptr<const std::vector<float>> knownSizesAtLoops(RunContext& run)
+std::shared_ptr<const std::vector<float>> knownSizesAtLoops(
+  RunContext& run, const std::vector<HandleLoop>& loops)
 {
   if (run.store == nullptr)
   {
-    return sizesAtLoops(run);
+    return sizesAtLoops(run, loops);
   }
   KeyMaker key(run.surface.key());
-  key.add(run.edgeLength);
-  for (const HandleLoop& loop : run.shortLoops.loops)
+  key.add(run.edgeLength).add(mostGrowth(run));
+  for (const HandleLoop& loop : loops)
   {
     key.add(loop.length).add(loop.vertices);
   }
   auto known = run.store->find<StoredFirstSizes>(key.key());
   if (!known)
   {
-    known = std::make_shared<StoredFirstSizes>(StoredFirstSizes{ sizesAtLoops(run) });
+    known = std::make_shared<StoredFirstSizes>(StoredFirstSizes{ sizesAtLoops(run, loops) });
     run.store->put(key.key(), known, known->sizes ? bytesOf(*known->sizes) : 0);
   }
   return known->sizes;
 }
 
+bool mayResolve(const RemeshOptions& options)
+{
+  return options.smallDetails != SmallDetails::Keep && !options.coarsestIntegers &&
+    options.method == MapMethod::ScaleAware;
+}
+
 } // namespace
+
+bool resolvesLoops(RunContext& run, const std::vector<HandleLoop>& loops, double most)
+{
+  if (loops.empty())
+  {
+    return true;
+  }
+  const auto sizes = mayResolve(run.options) ? knownSizesAtLoops(run, loops) : nullptr;
+  return sizes && run.surface.sizedArea(*sizes) <= most * run.surface.sizedArea();
+}
 
 std::vector<float> sizesOfLoops(
   const std::vector<HandleLoop>& loops, double edgeLength, double least, Index vertexCount)
@@ -100,14 +128,21 @@ Plan firstPlan(RunContext& run)
   plan.nextLevels = plan.levels;
   plan.quads = quadsFor(run, plan, 0);
   const std::vector<HandleLoop>& loops = run.shortLoops.loops;
-  if (loops.empty() || run.options.coarsestIntegers || run.options.method != MapMethod::ScaleAware)
+  if (loops.empty() || !mayResolve(run.options))
   {
     return plan;
   }
-  plan.sizes = knownSizesAtLoops(run);
+  plan.sizes = knownSizesAtLoops(run, loops);
   if (!plan.sizes)
   {
     return plan;
+  }
+  const double growth = run.surface.sizedArea(*plan.sizes) / run.surface.sizedArea();
+  if (growth > kMostGrowth)
+  {
+    // With the same number of quads all others would be so much larger that there were other short loops.
+    run.targetQuads = static_cast<std::size_t>(std::llround(growth * plan.quads));
+    plan.quads = quadsFor(run, plan, 0);
   }
   plan.notices.push_back("quads are made smaller round " + std::to_string(loops.size()) +
     " handles and holes that are shorter round than three of the wanted size, one of them near " +

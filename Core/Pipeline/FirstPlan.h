@@ -5,6 +5,7 @@
 
 #include "Pipeline/Attempt.h"
 
+#include <limits>
 #include <vector>
 
 namespace quadrille
@@ -15,7 +16,13 @@ constexpr double kMostGrowth = 1.6;
 
 /// The plan that a run begins with: smaller quads round loops that are too short for three, where that does not take
 /// too many. Waiting for the failure that most of them are would cost several maps.
+/// RemeshOptions::smallDetails may want it whatever it takes, up to the limit of quads, or never.
 Plan firstPlan(RunContext& run);
+
+/// Whether the first plan had smaller quads round these short loops; true where there is none. most: how many times as
+/// many quads they may make, beside the bound that the plan has.
+bool resolvesLoops(RunContext& run, const std::vector<HandleLoop>& loops,
+  double most = std::numeric_limits<double>::infinity());
 
 /// The number of quads that the map of a plan is scaled to. sizedArea: of the surface with the sizes of the plan; not
 /// asked without shrinks.

@@ -16,6 +16,7 @@ void History::addMap(const Plan& plan, std::shared_ptr<MapAttempt> map)
     best_ = {};
     roundIsOver_ = false;
   }
+  steps_.emplace_back(plan.step);
   round_.push_back({ plan.step, map->coarseOffenders.size() });
   work_ += map->work;
   all_.add(map->stages);

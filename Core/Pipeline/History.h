@@ -21,6 +21,10 @@ constexpr std::size_t kMaximumWork = 24000000;
 class History
 {
 public:
+  History() = default;
+  /// work: that was done before, and counts as if it were the history's own.
+  explicit History(std::size_t work) : work_(work) {}
+
   void addMap(const Plan& plan, std::shared_ptr<MapAttempt> map);
   /// Of the map ofRound(), or null where it was not carried to the surface; ends the round.
   void addQuads(std::shared_ptr<const QuadAttempt> quads);
@@ -45,7 +49,10 @@ public:
   const Attempt& result() const { return result_.quads ? result_ : last_; }
   bool hasResult() const { return result_.quads != nullptr; }
 
+  std::size_t work() const { return work_; } ///< GridMapResult::work of all attempts
   bool isSpent() const { return work_ >= kMaximumWork; }
+  /// Of all attempts, the first one's "first".
+  const std::vector<std::string>& steps() const { return steps_; }
   int replays() const { return replays_; } ///< maps that were carried to the surface
   /// Sizes of the result's stages, with the seconds of all attempts. Stages that only others have had are one,
   /// "retries".
@@ -69,6 +76,7 @@ private:
   Attempt result_;
   bool roundIsOver_ = true;
   std::vector<Summary> round_;
+  std::vector<std::string> steps_;
   StageRecords all_;
   std::vector<std::string> reused_;
   std::size_t work_ = 0;

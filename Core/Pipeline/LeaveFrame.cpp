@@ -189,6 +189,10 @@ void leaveMeasures(RemeshResult& result, const Frame& frame)
     curve.place = frame.toUser(curve.place);
     curve.length *= frame.unit;
   }
+  for (SmallDetail& detail : result.details)
+  {
+    detail.place = frame.toUser(detail.place);
+  }
   for (CurveOutcome& curve : result.curves)
   {
     curve.start = frame.toUser(curve.start);

@@ -24,6 +24,16 @@ enum class FeatureCriterion
   Angle    ///< all that stand out from their surroundings and that the edge length resolves
 };
 
+/// What becomes of what is smaller than the quads: handles and boundary loops that are shorter round than kQuadsOfLoop
+/// edge lengths.
+enum class SmallDetails
+{
+  Automatic, ///< simplified below kSimplifiedLoop edge lengths, or where all of them would take too many quads
+  Resolve,  ///< quads are smaller there
+  Simplify, ///< handles are cut and closed, boundary loops filled
+  Keep ///< the surface and the size of the quads stay as they are, and a run fails where that is impossible
+};
+
 /// Exactly one of the three sizes is used: quads, else edgeLength, else relativeEdgeLength.
 struct RemeshOptions
 {
@@ -45,6 +55,9 @@ struct RemeshOptions
   /// Handles that are shorter round or through than so many target edge lengths are cut and closed before they are
   /// mapped, see closeHandles; >= 0, 0: none. Below kQuadsOfLoop there may remain some that quads cannot resolve.
   double closeHandles = 0;
+  /// Beside closeHandles, which goes before it. The methods that are not scale aware, and the coarsest integers, take
+  /// Automatic as Resolve.
+  SmallDetails smallDetails = SmallDetails::Automatic;
   /// Connected components with less area than the smallest block of quads has (six for a closed one without handles,
   /// see quadsOfBlock) go, unless all are such. Off: each becomes about that many quads. Both are told.
   bool removeSmallComponents = false;

@@ -7,12 +7,12 @@
 #include "GridMap/MapShape.h"
 #include "Pipeline/Attempt.h"
 #include "Pipeline/EnterFrame.h"
-#include "Pipeline/FirstLevels.h"
 #include "Pipeline/FirstPlan.h"
 #include "Pipeline/History.h"
 #include "Pipeline/LeaveFrame.h"
 #include "Pipeline/Notices.h"
 #include "Pipeline/Recovery.h"
+#include "Pipeline/SettledSurface.h"
 #include "Pipeline/SizedSurface.h"
 
 #include <algorithm>
@@ -242,26 +242,66 @@ void takeHistory(
   result.reused.insert(result.reused.end(), started.begin(), started.end());
 }
 
+void tellDetails(const Settled& settled, RemeshResult& result)
+{
+  result.decimations += settled.decimations;
+  result.details.insert(result.details.end(), settled.details.begin(), settled.details.end());
+  tell({ detailsNotice(settled.details) }, result);
+}
+
+/// Attempts; where none has quads, again without the details that were left for them to resolve.
+void attemptAll(Settled& settled, SizedSurface& sized, const RemeshOptions& options,
+  ResultStore* store, bool quadsAlone, History& history, RemeshResult& result)
+{
+  const auto spare = quadsAlone && store ? store->find<SpareMap>(0) : nullptr;
+  if (spare)
+  {
+    settled.bench->run.spare.swap(spare->uv);
+  }
+  makeAttempts(settled.bench->run, history);
+  result.attempts = history.steps();
+  if (history.hasResult() ||
+    !simplifyRest(settled, sized, options, store, sized.stages, result.reused))
+  {
+    return;
+  }
+  double seconds = 0;
+  const StageRecords stages = history.stages();
+  for (const StageRecord& record : stages.all())
+  {
+    seconds += record.seconds;
+  }
+  history = History(history.work() / 2); // so that both together end in one and a half times
+  makeAttempts(settled.bench->run, history);
+  sized.stages.add("retries", seconds, 0, 0);
+  result.attempts.emplace_back(kFewerDetails);
+  result.attempts.insert(result.attempts.end(), history.steps().begin() + 1, history.steps().end());
+}
+
 /// From the sized surface to the result, in the frame.
 void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& options,
   ResultStore* store, bool quadsAlone, RemeshResult& result)
 {
-  RunSurface surface(sized.surface, sized.key, options.threads);
+  Settled settled = settleDetails(sized, options, store, sized.stages, result.reused);
+  if (!settled.status.ok())
   {
-    Levels levels(surface, store);
-    RunContext run{ options, sized.edgeLength, sized.targetQuads, surface, levels, store, {} };
-    const auto spare = quadsAlone && store ? store->find<SpareMap>(0) : nullptr;
-    if (spare)
-    {
-      run.spare.swap(spare->uv);
-    }
+    result.status = settled.status;
+    tellDetails(settled, result);
+    result.stages = sized.stages.all();
+    return;
+  }
+  {
     History history;
-    findShortLoops(run, sized.stages, result.reused);
-    makeAttempts(run, history);
-    levels.letGo();
+    attemptAll(settled, sized, options, store, quadsAlone, history, result);
+    tellDetails(settled, result);
+    RunBench& bench = *settled.bench;
+    RunContext& run = bench.run;
+    bench.levels.letGo();
+    result.targetQuads = run.targetQuads;
     result.smallParts = run.shortLoops.parts;
-    takeAttempt(history.result(), options, quadsAlone, surface, result);
-    addGivenUp(history.result().plan, surface->mesh, sized.edgeLength, result.givenUpFeatures);
+    takeAttempt(history.result(), options, quadsAlone, bench.surface, result);
+    addGivenUp(
+      history.result().plan, bench.surface->mesh, sized.edgeLength, result.givenUpFeatures);
     if (quadsAlone && store != nullptr)
     {
       std::vector<FixedVec2>& uv = history.result().map->uv;
@@ -272,14 +312,16 @@ void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& o
     }
     tellAttempt(history.result(),
       { sized.edgeLength, frame.unit, sized.targetQuads, options.maximumNumberOfQuads }, result);
-    takeHistory(history, levels, sized.stages, result);
+    takeHistory(history, bench.levels, sized.stages, result);
+    std::vector<FixedVec2>().swap(run.spare); // only attempts need it
   }
   if (options.mergeCharts && result.status.ok() && !result.mapIsKnown)
   {
     // After the extraction, so that the quads do not depend on it.
     const double start = secondsNow();
-    result.charts = mergeCharts(surface->mesh, result.uv);
-    const std::size_t faces = surface->mesh.faceCount();
+    const Mesh& mesh = sized.surface->mesh;
+    result.charts = mergeCharts(mesh, result.uv);
+    const std::size_t faces = mesh.faceCount();
     result.stages.push_back({ "charts", secondsNow() - start, faces, result.charts.charts });
   }
   tellAnisotropy(options, result);
@@ -335,6 +377,7 @@ void runEntered(EnteredInput& entered, RemeshOptions options, bool quadsAlone, P
   result.targetEdgeLength = sized.edgeLength;
   result.targetQuads = sized.targetQuads;
   result.decimations = sized.decimations;
+  result.details = sized.details;
   result.reused = sized.reused;
   result.givenUpFeatures = sized.givenUpFeatures;
   result.stages = sized.stages.all();

@@ -14,6 +14,7 @@
 #include "Pipeline/FinalQuality.h"
 #include "Pipeline/Options.h"
 #include "Pipeline/ResultStore.h"
+#include "Pipeline/SmallDetails.h"
 #include "Pipeline/SmallParts.h"
 #include "Pipeline/StageRecords.h"
 #include "Transfer/Charts.h"
@@ -58,6 +59,11 @@ struct RemeshResult
   double beyondAnisotropyLimit = 0;
   SmallParts smallParts;
   std::vector<GivenUpCurve> givenUpFeatures; ///< sharp edges that the quads do not follow
+  /// What is smaller than the quads: handles and boundary loops shorter than kQuadsOfLoop s, small components.
+  std::vector<SmallDetail> details;
+  /// Names of the strategies by which the attempts were made, in their order; the first one's is "first". Where they
+  /// began again without details, that of the first one then is kFewerDetails.
+  std::vector<std::string> attempts;
   /// What became of the input's curves, in their order; vertices are those of the coarse mesh.
   std::vector<CurveOutcome> curves;
   std::vector<StageRecord> stages; ///< see StageRecords; seconds are sums over all attempts

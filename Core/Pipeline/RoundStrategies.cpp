@@ -53,7 +53,9 @@ std::string nearText(const std::vector<Vector3>& places)
 /// Where an earlier round has quads, of which some are inverted, a finer grid would cost more than it gives.
 bool asksForFinerGrid(const Trouble& trouble)
 {
-  return trouble.failed && !trouble.history.hasResult() && !trouble.run.options.coarsestIntegers;
+  const RemeshOptions& options = trouble.run.options;
+  return trouble.failed && !trouble.history.hasResult() && !options.coarsestIntegers &&
+    options.smallDetails != SmallDetails::Keep;
 }
 
 /// Whether quads that are smaller everywhere had no fewer defects. Along a tube that still too few quads go round there
@@ -151,7 +153,7 @@ std::optional<Plan> moreQuads(const Trouble& trouble)
   const bool afterSizes = finer.shrinks > 0 && finer.doublings == 0;
   const GridTroubles* grid = trouble.grid ? &*trouble.grid : nullptr;
   grid = afterSizes ? &finer.firstTroubles : grid;
-  if (!asksForFinerGrid(trouble) || grid == nullptr ||
+  if (!asksForFinerGrid(trouble) || grid == nullptr || run.hasCrowd ||
     static_cast<std::size_t>(finer.doublings) >= trouble.bound ||
     isNoMatterOfSize(plan, trouble.grid))
   {

@@ -31,6 +31,9 @@ namespace
 constexpr double kMostOfArea = 0.94;
 constexpr double kToldFactor = 1.05;
 
+/// Components with less area are left out where there are too many small ones.
+constexpr double kQuadsOfSpeck = 1;
+
 /// How often the edge length is chosen anew where sizes that grow gradually make too many quads, and when it is good.
 constexpr int kSizingRounds = 3;
 constexpr double kCountTolerance = 0.03;
@@ -53,6 +56,7 @@ struct StoredSized
   std::size_t targetQuads = 0;
   std::vector<std::string> notices;
   std::vector<GivenUpCurve> givenUpFeatures;
+  std::vector<SmallDetail> details;
 };
 
 /// What a sized surface has of components that are too small for a block of quads.
@@ -111,6 +115,19 @@ std::string smallComponentsText(const SmallComponents& small, std::size_t count,
           "largest with the area of "
        << std::setprecision(2) << small.largest / (edgeLength * edgeLength) << std::setprecision(6)
        << " quads near " << placeText(small.place);
+  return text.str();
+}
+
+std::string specksText(const SmallComponents& small, double edgeLength)
+{
+  std::ostringstream text;
+  text << small.count << " of " << small.components
+       << " connected components have less area than a quad of this size, the largest "
+       << std::setprecision(2) << small.largest / (edgeLength * edgeLength) << std::setprecision(6)
+       << " of one near " << placeText(small.place)
+       << ": left out, as the smallest blocks of quads for them, " << std::llround(small.quads)
+       << " altogether, are more than was asked for; ask for more quads, or have them kept (Small "
+          "Details Resolve, --small-details resolve)";
   return text.str();
 }
 
@@ -217,6 +234,8 @@ private:
                   .add(options_.closeHandles)
                   .add(requestsKey_)
                   .add(std::uint64_t{ options_.removeSmallComponents ? 1U : 0U })
+                  .add(std::uint64_t{ maySimplify(options_) ? 1U : 0U })
+                  .add(std::uint64_t{ maySimplify(options_) ? made_.targetQuads : 0 })
                   .key();
     if (options_.sizes.any())
     {
@@ -245,6 +264,7 @@ private:
     made_.targetQuads = options_.quads ? *options_.quads : found->targetQuads;
     made_.notices = found->notices;
     made_.givenUpFeatures = found->givenUpFeatures;
+    made_.details = found->details;
     reuse({ "refine" });
     return !refuseTooMany();
   }
@@ -304,8 +324,8 @@ private:
   void keep(std::shared_ptr<PreparedSurface> before, SurfaceMarks marks)
   {
     const bool hasRequests = options_.closeHandles > 0;
-    const bool sameTriangles = !hasRequests && !options_.removeSmallComponents &&
-      before->mesh.faceCount() == made_.surface->mesh.faceCount();
+    const bool sameTriangles =
+      !hasRequests && !hasDropped_ && before->mesh.faceCount() == made_.surface->mesh.faceCount();
     auto sized = std::make_shared<StoredSized>();
     sized->marks = marksOf(*made_.surface);
     sized->hasRequests = hasRequests;
@@ -313,6 +333,7 @@ private:
     sized->edgeLength = made_.edgeLength;
     sized->notices = made_.notices;
     sized->givenUpFeatures = made_.givenUpFeatures;
+    sized->details = made_.details;
     if (sameTriangles)
     {
       putOn(sized->marks, *before);
@@ -442,6 +463,7 @@ private:
       const std::size_t open = surface.mesh.faceCount();
       const ClosedHandles closed = closeSmallHandles(surface, made_.edgeLength, options_);
       tell(closed.notice);
+      made_.details.insert(made_.details.end(), closed.details.begin(), closed.details.end());
       made_.decimations += closed.decimations;
       made_.stages.add("close", secondsNow() - start, open, surface.mesh.faceCount());
     }
@@ -481,18 +503,44 @@ private:
     }
   }
 
-  /// On request, before anything depends on them.
+  /// On request, or where their blocks alone would be more quads than are asked for; before anything depends on them.
   void dropSmallComponents()
   {
-    if (!options_.removeSmallComponents)
+    const bool isAsked = options_.removeSmallComponents;
+    if (!isAsked && !maySimplify(options_))
     {
       return;
     }
-    const SmallComponents small = findSmallComponents(*made_.surface, made_.edgeLength);
-    const std::size_t removed = quadrille::removeSmallComponents(*made_.surface, small);
-    if (removed > 0)
+    SmallComponents small = findSmallComponents(*made_.surface, made_.edgeLength);
+    if (!isAsked)
     {
-      tell(smallComponentsText(small, removed, made_.edgeLength) + ": removed, as was asked for");
+      if (small.quads <= static_cast<double>(made_.targetQuads))
+      {
+        return;
+      }
+      small = findSmallComponents(*made_.surface, made_.edgeLength, kQuadsOfSpeck);
+    }
+    const std::size_t removed = quadrille::removeSmallComponents(*made_.surface, small);
+    hasDropped_ = removed > 0;
+    if (!hasDropped_)
+    {
+      return;
+    }
+    tell(isAsked
+        ? smallComponentsText(small, removed, made_.edgeLength) + ": removed, as was asked for"
+        : specksText(small, made_.edgeLength));
+    noteComponents(small, false);
+  }
+
+  void noteComponents(const SmallComponents& small, bool areBlocks)
+  {
+    for (const SmallComponent& component : small.each)
+    {
+      made_.details.push_back({ DetailKind::Component, DetailDecision::Simplify,
+        std::sqrt(component.area) / made_.edgeLength, component.place,
+        areBlocks
+          ? "made a block of about " + std::to_string(std::llround(component.block)) + " quads"
+          : "left out" });
     }
   }
 
@@ -556,6 +604,7 @@ private:
     }
     if (small.count > 0)
     {
+      noteComponents(small, true);
       tell(smallComponentsText(small, small.count, made_.edgeLength) +
         ": each was made of about the smallest block of quads there is, " +
         std::to_string(std::llround(small.quads)) +
@@ -571,6 +620,7 @@ private:
   ResultKey preparedKey_, requestsKey_ = 0;
   std::shared_ptr<StoredPrepared> prepared_; ///< found in the store
   double sizedArea_ = 0, diagonal_ = 0;
+  bool hasDropped_ = false; ///< components
 };
 
 } // namespace

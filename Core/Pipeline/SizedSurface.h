@@ -9,6 +9,7 @@
 #include "Mesh/Surface.h"
 #include "Pipeline/Options.h"
 #include "Pipeline/ResultStore.h"
+#include "Pipeline/SmallDetails.h"
 #include "Pipeline/StageRecords.h"
 #include "Pipeline/SurfaceVersion.h"
 
@@ -28,7 +29,9 @@ struct SizedSurface
   std::size_t targetQuads = 0; ///< predicted where an edge length was asked for
   std::vector<std::string> notices;
   std::vector<GivenUpCurve> givenUpFeatures; ///< lengths and places in the frame
-  std::vector<std::string> reused;           ///< names of stages whose result the store had
+  /// Small components, and handles that closeHandles has closed.
+  std::vector<SmallDetail> details;
+  std::vector<std::string> reused; ///< names of stages whose result the store had
   StageRecords stages;
   int decimations = 0; ///< runs of phase 1 that closing handles took
 };

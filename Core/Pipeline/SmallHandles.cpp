@@ -17,8 +17,6 @@ namespace
 
 /// How often handles are looked for and closed: those whose loops meet others' have to wait.
 constexpr int kMaximumClosings = 10;
-/// Along the edges of the surface a loop may be so much longer than on the intermediate level, which lies inside of it.
-constexpr double kLongerAlongEdges = 2;
 
 std::vector<std::vector<Index>> placesOf(const HandleReport& found, const Level& level)
 {
@@ -80,12 +78,23 @@ ClosedHandles closeSmallHandles(
     }
     const std::vector<std::vector<Index>> places = placesOf(found, level);
     place = place.value_or(surface.mesh.position[places.front().front()]);
-    const std::size_t closedHere = closeHandles(surface, places, kLongerAlongEdges * limit);
-    if (closedHere == 0)
+    std::vector<Vector3> at;
+    for (const std::vector<Index>& loop : places)
+    {
+      at.push_back(surface.mesh.position[loop.front()]);
+    }
+    const std::vector<std::size_t> closedHere =
+      closeHandles(surface, places, kLongerAlongEdges * limit);
+    if (closedHere.empty())
     {
       break;
     }
-    closed += closedHere;
+    closed += closedHere.size();
+    for (const std::size_t i : closedHere)
+    {
+      result.details.push_back({ DetailKind::Handle, DetailDecision::Simplify,
+        found.loops[i].length / edgeLength, at[i], "cut and closed, as was asked for" });
+    }
     refineSurface(surface, edgeLength, {});
   }
   result.notice = closedText(options.closeHandles, closed, left, place);

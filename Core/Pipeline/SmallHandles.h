@@ -5,16 +5,22 @@
 
 #include "Mesh/Surface.h"
 #include "Pipeline/Options.h"
+#include "Pipeline/SmallDetails.h"
 
 #include <string>
+#include <vector>
 
 namespace quadrille
 {
 
+/// Along the edges of the surface a loop may be so much longer than on the intermediate level, which lies inside of it.
+constexpr double kLongerAlongEdges = 2;
+
 struct ClosedHandles
 {
   std::string notice;
-  int decimations = 0; ///< runs of phase 1
+  std::vector<SmallDetail> details; ///< those that were closed
+  int decimations = 0;              ///< runs of phase 1
 };
 
 /// Handles that are shorter round, or through, than options.closeHandles edge lengths are found on the intermediate

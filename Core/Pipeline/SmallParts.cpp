@@ -86,8 +86,9 @@ std::string unresolvedHandlesText(const SmallParts& parts, const QuadSize& size)
   text << (parts.complete ? "" : "at least ") << parts.unresolvedHandles << " of " << parts.handles
        << " handles are shorter round than three quads, the shortest is ";
   appendLoop(text, parts.shortestLoop, parts.place, size);
-  text << "have them closed (Close Handles, --close-handles 3), or quads there have a poor shape "
-          "or fail";
+  text
+    << "have them closed (Small Details Simplify, --small-details simplify), or quads there have a "
+       "poor shape or fail";
   return text.str();
 }
 
@@ -102,7 +103,9 @@ std::string tinyHolesText(const SmallParts& parts, const QuadSize& size)
   text << boundary.shortLoops << " of " << boundary.loops
        << " boundary loops are shorter than three quads, the shortest is ";
   appendLoop(text, boundary.shortest, boundary.place, size);
-  text << "fill these holes in the surface, or quads there have a poor shape or fail";
+  text
+    << "have these holes filled (Small Details Simplify, --small-details simplify), or quads there "
+       "have a poor shape or fail";
   return text.str();
 }
 

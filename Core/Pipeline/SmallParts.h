@@ -15,6 +15,10 @@ namespace quadrille
 /// So many quads a loop needs, at least, round a handle, through it or round a hole: shorter ones are not resolved.
 constexpr double kQuadsOfLoop = 3;
 
+/// SmallDetails::Automatic: what is shorter round than so many edge lengths, below a third of a quad wide, is
+/// simplified.
+constexpr double kSimplifiedLoop = 1;
+
 /// What quads of the target edge length s cannot resolve. Measured on the intermediate level, whose edges are about s/2
 /// to s long: loops about as long as 3 s come out a tenth too short, those of one or two s up to 40 %.
 struct SmallParts

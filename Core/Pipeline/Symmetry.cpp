@@ -344,6 +344,10 @@ private:
     RemeshOptions options = options_;
     options.progress = subProgress(options_.progress, 0.1, 0.95);
     options.knownMap = 0; // it would be that of a whole
+    if (maySimplify(options))
+    {
+      options.smallDetails = SmallDetails::Resolve; // holes in the plane are cuts through the whole
+    }
     if (options_.quads)
     {
       options.quads = more * ((*options_.quads + 1) / 2);
@@ -523,6 +527,7 @@ private:
     both.repair = surface().repair;
     both.repair.refinedFaces += result.surface.repair.refinedFaces;
     both.repair.closedHandles += result.surface.repair.closedHandles;
+    both.repair.filledHoles += result.surface.repair.filledHoles;
     both.facets = result.surface.facets;
     both.area = 2 * result.surface.area;
     both.boundingBoxDiagonal = made_.diagonal;

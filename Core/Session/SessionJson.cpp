@@ -19,6 +19,7 @@ constexpr std::array<const char*, 4> kMethods{ "scale-aware", "mixed-integer", "
   "seamless" };
 constexpr std::array<const char*, 2> kFeatureCriteria{ "creases", "angle" };
 constexpr std::array<const char*, 3> kFinalQualities{ "coarse", "intermediate", "input" };
+constexpr std::array<const char*, 4> kSmallDetails{ "automatic", "resolve", "simplify", "keep" };
 
 SessionJson pointToJson(const Vector3& p)
 {
@@ -482,9 +483,10 @@ SessionJson settingsToJson(const RemeshOptions& options)
 {
   // By name, so that an option that is new has to be put on one side or the other here.
   const auto& [quads, edgeLength, relativeEdgeLength, featureAngle, featureCriterion, shapeSizes,
-    curvatureGuides, method, coarsestIntegers, coarseVertices, closeHandles, removeSmallComponents,
-    anisotropyLimit, finalQuality, distortionMetric, maximumNumberOfQuads, preview, smoothingSteps,
-    memoryLimit, mergeCharts, knownMap, threads, warmStart, progress] = options;
+    curvatureGuides, method, coarsestIntegers, coarseVertices, closeHandles, smallDetails,
+    removeSmallComponents, anisotropyLimit, finalQuality, distortionMetric, maximumNumberOfQuads,
+    preview, smoothingSteps, memoryLimit, mergeCharts, knownMap, threads, warmStart, progress] =
+    options;
   static_cast<void>(preview);
   static_cast<void>(memoryLimit);
   static_cast<void>(mergeCharts);
@@ -516,6 +518,7 @@ SessionJson settingsToJson(const RemeshOptions& options)
   json["integers"] = coarsestIntegers ? "coarsest" : "keep-sizes";
   json["coarse_vertices"] = coarseVertices;
   json["close_handles"] = closeHandles;
+  json["small_details"] = kSmallDetails[static_cast<std::size_t>(smallDetails)];
   json["small_components"] = removeSmallComponents ? "remove" : "keep";
   json["anisotropy_limit"] = anisotropyLimit;
   json["final_quality"] = kFinalQualities[static_cast<std::size_t>(finalQuality)];
@@ -581,6 +584,11 @@ void settingsFromJson(const SessionJson& json, RemeshOptions& options, const std
   if (reader.has("integers"))
   {
     options.coarsestIntegers = reader.readName("integers", kIntegers) == 1;
+  }
+  if (reader.has("small_details"))
+  {
+    options.smallDetails =
+      static_cast<SmallDetails>(reader.readName("small_details", kSmallDetails));
   }
   if (reader.has("small_components"))
   {

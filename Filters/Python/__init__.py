@@ -64,6 +64,9 @@ FINAL_QUALITIES = ("coarse", "intermediate", "input")
 #: What cell arrays of the quads can come from, in the order of vtkQuadRemesh.CellDataFromTypes.
 CELL_DATA = ("centre", "area")
 SMALL_COMPONENTS = ("keep", "remove")
+
+#: What becomes of handles and holes smaller than the quads, in the order of vtkQuadRemesh.SmallDetailsTypes.
+SMALL_DETAILS = ("automatic", "resolve", "simplify", "keep")
 FEATURE_CRITERIA = ("creases", "angle")
 
 #: What remesh(..., everything=True) returns: four vtkPolyData, and info() of the first.
@@ -98,7 +101,16 @@ def info(quads):
     result["stages"] = pairs("StageNames", "StageSeconds")
     result["repair"] = pairs("RepairNames", "RepairCounts")
     result["extraction"] = pairs("ExtractionNames", "ExtractionCounts")
+    result["recoveries"] = pairs("RecoveryNames", "RecoveryCounts")
     return result
+
+
+def _details(places):
+    """The points of the output Small Details as dicts, with the names of the command's report."""
+    names = (("kind", "Kind"), ("size", "Size"), ("decision", "Decision"), ("result", "Result"))
+    data = places.GetPointData()
+    return [dict({name: data.GetAbstractArray(array).GetValue(i) for name, array in names}, place=places.GetPoint(i))
+            for i in range(places.GetNumberOfPoints())]
 
 
 def _constraints(table):
@@ -167,12 +179,14 @@ def _set_numbers(run, *, feature_angle, coarse_vertices, threads, maximum_number
     run.SetAnisotropyLimit(limit)
 
 
-def _set_names(run, *, patch_array, method, final_quality, integers, cell_data, small_components, feature_criterion):
+def _set_names(run, *, patch_array, method, final_quality, integers, cell_data, small_details, small_components,
+               feature_criterion):
     run.SetPatchArrayName(patch_array or "")
     run.SetMethod(one_of("method", method, METHODS))
     run.SetFinalQuality(one_of("final_quality", final_quality, FINAL_QUALITIES))
     run.SetIntegers(one_of("integers", integers, INTEGERS))
     run.SetCellDataFrom(one_of("cell_data", cell_data, CELL_DATA))
+    run.SetSmallDetails(one_of("small_details", small_details, SMALL_DETAILS))
     run.SetSmallComponents(one_of("small_components", small_components, SMALL_COMPONENTS))
     run.SetFeatureCriterion(one_of("feature_criterion", feature_criterion, FEATURE_CRITERIA))
 
@@ -232,7 +246,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
            patch_ids=None, curves=None, strokes=None, connections=None, cycles=None,
            patch_array="PatchId", coarse_vertices=1000,
            threads=0, maximum_number_of_quads=10000000, smoothing_steps=5,
-           memory_limit=0.0, time_limit=0.0, close_handles=0.0, small_components="keep", method="scale-aware",
+           memory_limit=0.0, time_limit=0.0, close_handles=0.0, small_details="automatic",
+           small_components="keep", method="scale-aware",
            final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False,
            cell_data="centre", preview=False, symmetry=None,
            chord_error=None, gap_quads=0.0, smallest_size=0.2, largest_size=1.0, guide=None,
@@ -272,6 +287,10 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     memory_limit: refuse to start where more is needed by the estimate; millions of bytes; 0 means what is free.
     time_limit: seconds; 0 means none.
     close_handles: handles shorter round or through than so many target edge lengths are cut and closed; 0: none.
+    small_details: what becomes of handles and holes that are shorter round than three target edge lengths: "resolve",
+        quads are smaller there; "simplify", handles are closed and holes filled; "keep", as they are, or a RemeshError
+        where that is impossible; "automatic", below one edge length simplified, else resolved where that takes at most
+        1.6 times the quads.
     small_components: connected components with less area than the smallest block of quads has: "keep", as about that
         many quads, or "remove".
     method: how the map is made: "scale-aware", "mixed-integer" or "quadcover" (both may leave inverted triangles), or
@@ -320,7 +339,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
                  time_limit=time_limit, close_handles=close_handles, anisotropy_limit=anisotropy_limit)
     _set_names(run, patch_array=patch_array, method=method, final_quality=final_quality, integers=integers,
                cell_data=cell_data,
-               small_components=small_components, feature_criterion=feature_criterion)
+               small_details=small_details, small_components=small_components, feature_criterion=feature_criterion)
     _set_sizes(run, chord_error, gap_quads, smallest_size, largest_size)
     _set_guides(run, guide, guide_anisotropy, stroke_radius)
     _set_symmetry(run, symmetry)
@@ -347,6 +366,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         run.AddObserver("ProgressEvent", on_progress)
     result = wrapping.remeshed(run, lambda: _finish(run))
     if everything:
-        told = dict(info(result), constraints=_constraints(run.GetConstraintTable()))
+        told = dict(info(result), constraints=_constraints(run.GetConstraintTable()),
+                    details=_details(run.GetDetailPlaces()))
         return Remeshed(result, run.GetMappedSurface(), run.GetLines(), told, run.GetSeparatrices())
     return result

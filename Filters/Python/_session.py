@@ -18,7 +18,8 @@ from .QuadrilleFilters import vtkQuadrilleSession
 Irregular = collections.namedtuple("Irregular", "id point valence")
 
 #: Settings that go on as they are, by the names of remesh().
-_PLAIN = ("feature_criterion", "method", "integers", "small_components", "final_quality", "coarse_vertices",
+_PLAIN = ("feature_criterion", "method", "integers", "small_details", "small_components",
+          "final_quality", "coarse_vertices",
           "close_handles",
           "anisotropy_limit", "distortion_metric", "maximum_number_of_quads", "smoothing_steps", "warm_start",
           "threads", "memory_limit")
@@ -84,9 +85,9 @@ class Session:
         """mesh and all others as remesh() has them; further settings: feature_angle (degrees, None: off),
         feature_criterion,
         chord_error (None: off), gap_quads, smallest_size, largest_size, curvature_guides (None: off), method, integers,
-        coarse_vertices, close_handles, small_components, anisotropy_limit, final_quality, distortion_metric,
-        maximum_number_of_quads, smoothing_steps, warm_start, threads, memory_limit. 5,000 quads where no size is
-        given. progress: called as progress(fraction); False (not None) stops the run."""
+        coarse_vertices, close_handles, small_details, small_components, anisotropy_limit, final_quality,
+        distortion_metric, maximum_number_of_quads, smoothing_steps, warm_start, threads, memory_limit. 5,000 quads
+        where no size is given. progress: called as progress(fraction); False (not None) stops the run."""
         if quads is None and edge_length is None and relative_edge_length is None:
             quads = 5000
         self._begin(with_requests(

@@ -560,6 +560,23 @@ class Report(Case):
         self.run_quadrille(source, self.folder / "q.obj", "--close-handles", -1, expect=2)
 
 
+    def test_small_details_are_decided_on_and_told(self):
+        # Round the tube of the torus it is 2.5: 0.8 edge lengths.
+        source = self.write_off()
+        for words, decision, euler in (((), "simplified", 2), (("--small-details", "resolve"), "resolved", 0)):
+            with self.subTest(words):
+                report = self.folder / "r.json"
+                result = self.run_quadrille(source, self.folder / "q.obj", "--edge-length", 3, *words, "--report", report)
+                content = json.loads(report.read_text())
+                row, = [row for row in content["details"] if row["kind"] == "handle"]
+                self.assertEqual(row["decision"], decision)
+                self.assertTrue(0 < row["size"] < 0.9)
+                self.assertEqual(len(row["place"]), 3)
+                self.assertEqual(content["quality"]["euler_characteristic"], euler)
+                self.assertEqual(content["attempts"], 1 + sum(content["recoveries"].values()))
+                self.assertEqual("1 handle was cut and closed" in result.stderr, decision == "simplified")
+        self.run_quadrille(source, self.folder / "q.obj", "--small-details", "ignore", expect=2)
+
     def test_methods(self):
         source = self.write_off()
         map_file, out, report = (self.folder / name for name in ("m.vtp", "q.obj", "r.json"))

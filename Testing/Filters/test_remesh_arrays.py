@@ -150,7 +150,8 @@ class Mesh(unittest.TestCase):
                 "close_handles": (-1, math.inf),
                 "anisotropy_limit": (-1, 0.5, math.nan),
                 "method": ("best", 0), "final_quality": ("finest",), "integers": ("few",), "cell_data": ("best",),
-                "small_components": ("shrink",), "feature_criterion": ("sharp", 0)}.items():
+                "small_components": ("shrink",), "small_details": ("ignore", 1),
+                "feature_criterion": ("sharp", 0)}.items():
             for value in values:
                 with self.subTest(name=name, value=value):
                     self.assertRefused([name, repr(value) if not isinstance(value, float) else str(value)], mesh,
@@ -383,6 +384,22 @@ class Requests(unittest.TestCase):
         for row in told:
             self.assertEqual(row["met"], row["reason"] == "")
         self.assertEqual(quadrille.remesh(self.mesh, quads=100, everything=True).info["constraints"], [])
+
+    def test_small_details_have_a_row_each(self):
+        """A plate of 30 by 30 cells without one: the hole is 4 long round, 0.67 edge lengths of 25 quads."""
+        at = [(x, y) for y in range(30) for x in range(30) if (x, y) != (10, 20)]
+        corner = {p: i for i, p in enumerate((x, y) for y in range(31) for x in range(31))}
+        points = [(x, y, 0) for x, y in corner]
+        cells = [[corner[x, y], corner[x + 1, y], corner[x + 1, y + 1], corner[x, y + 1]] for x, y in at]
+        for decision, expected, loops in (("automatic", "simplified", 1), ("keep", "kept", 2)):
+            with self.subTest(decision):
+                made = quadrille.remesh((points, cells), quads=25, small_details=decision, everything=True)
+                row, = made.info["details"]
+                self.assertEqual((row["kind"], row["decision"]), ("boundary loop", expected))
+                self.assertAlmostEqual(row["size"] * made.info["TargetEdgeLength"], 4, delta=1e-5)
+                self.assertLess(numpy.linalg.norm(numpy.subtract(row["place"], (10.5, 20.5, 0))), 0.8)
+                self.assertEqual(made.info["repair"]["filled_holes"], 2 - loops)
+                self.assertEqual(made.info["Attempts"], 1 + sum(made.info["recoveries"].values()))
 
     def test_guiding_direction(self):
         direction = numpy.tile((1.0, 1.0, 0.0), (len(self.faces), 1))

@@ -191,6 +191,7 @@ TEST(Pipeline, CoarseLevelThatHasAllVerticesGetsMore)
   const Mesh mesh = test::torus(64, 64, 1, 0.9);
   RemeshOptions options;
   options.quads = 20;
+  options.smallDetails = SmallDetails::Resolve; // it would be cut through its hole
   const RemeshResult result = remesh(test::toInput(mesh), options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_GT(result.decimations, 1); // else the case is none any more
@@ -236,6 +237,7 @@ TEST(Pipeline, TinyHoleIsTold)
 {
   RemeshOptions options;
   options.quads = 36;
+  options.smallDetails = SmallDetails::Resolve;
   const RemeshResult result =
     remesh(test::toInput(test::planeCells(30, 30, [](int x, int y) { return x != 10 || y != 20; })),
       options);
@@ -252,6 +254,7 @@ TEST(Pipeline, TinyHandleOfASphereIsToldWithItsPlace)
   const test::SphereWithHandle model = test::sphereWithHandle(5, place);
   RemeshOptions options;
   options.quads = 300;
+  options.smallDetails = SmallDetails::Resolve;
   const RemeshResult result = remesh(test::toInput(model.mesh), options);
   EXPECT_EQ(result.smallParts.handles, 1u);
   EXPECT_EQ(result.smallParts.unresolvedHandles, 1u);

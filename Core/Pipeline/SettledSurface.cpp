@@ -1,0 +1,425 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/SettledSurface.h"
+
+#include "Base/PlaceText.h"
+#include "Mesh/CloseHandles.h"
+#include "Mesh/FillHoles.h"
+#include "Mesh/SmallComponents.h"
+#include "Pipeline/FirstLevels.h"
+#include "Pipeline/FirstPlan.h"
+#include "Pipeline/SmallHandles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <sstream>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+/// How often handles are looked for and cut: those whose loops meet others' have to wait.
+constexpr int kMostCuttings = 10;
+/// Where smaller quads round so many handles would make more than so many times the quads, they meet each other, and
+/// maps fail: measured on scans with 20 and more of them. Few handles are worth it, as a ring's own one is.
+constexpr std::size_t kCrowdOfHandles = 8;
+constexpr double kMostGrowthOfHandles = 1.15;
+/// Where a round cuts less than this part of those it has tried, another one is not worth its phase 1.
+constexpr double kWorthwhile = 0.125;
+/// What the smallest block of a component may need, over the quads that its area is worth, so that maps are tried: with
+/// the handles that are left, and before any was cut. Small components of few handles become blocks anyway.
+constexpr double kMostBlock = 3;
+constexpr double kMostBlockBefore = 8;
+constexpr double kQuadsOfFewHandles = 64;
+/// From 512 handles on, that of twice as many before any was cut, the exact equations of a map take minutes: only where
+/// the area is worth the block.
+constexpr double kLargeBlock = 8192;
+constexpr double kLargeBlockBefore = 16384;
+constexpr double kWorthOfLargeBefore = 2;
+/// By how much the limit below which Automatic simplifies grows where smaller quads at the rest take too many.
+constexpr double kLimitStep = 0.5;
+
+/// A simplified surface in the store.
+struct StoredSettled
+{
+  std::shared_ptr<PreparedSurface> surface;
+  SurfaceMarks marks;
+  ResultKey key = 0;
+  std::vector<SmallDetail> simplified;
+};
+
+const char* whatBecomes(DetailKind kind)
+{
+  return kind == DetailKind::Handle ? "cut and closed" : "filled";
+}
+
+class Settling
+{
+public:
+  Settling(SizedSurface& sized, const RemeshOptions& options, ResultStore* store, bool takesAll,
+    StageRecords& stages, std::vector<std::string>& reused)
+    : sized_(sized), options_(options), store_(store),
+      takesAll_(takesAll || options.smallDetails == SmallDetails::Simplify), stages_(stages),
+      reused_(reused), limit_(firstLimit()), handleLimit_(limit_)
+  {
+  }
+
+  Settled run()
+  {
+    if (maySimplify(options_) && !recall())
+    {
+      fill();
+      if (isHopeless(false))
+      {
+        return std::move(made_);
+      }
+      simplifyAll();
+      remember();
+    }
+    if (maySimplify(options_) && isHopeless(true))
+    {
+      return std::move(made_);
+    }
+    if (!made_.bench)
+    {
+      measure();
+    }
+    addRest();
+    return std::move(made_);
+  }
+
+private:
+  double firstLimit() const
+  {
+    return sized_.edgeLength * (takesAll_ ? kQuadsOfLoop : kSimplifiedLoop);
+  }
+
+  void measure()
+  {
+    letGo();
+    made_.bench = std::make_unique<RunBench>(sized_, options_, store_);
+    findShortLoops(made_.bench->run, stages_, reused_);
+  }
+
+  /// Of a surface that has changed.
+  void letGo()
+  {
+    if (made_.bench)
+    {
+      made_.decimations += made_.bench->levels.decimations();
+      made_.bench.reset();
+    }
+  }
+
+  /// The surface as it was goes to the store's other users; a copy of it is changed.
+  PreparedSurface& own()
+  {
+    if (!isOwn_ && store_ != nullptr)
+    {
+      sized_.surface = std::make_shared<PreparedSurface>(*sized_.surface);
+    }
+    isOwn_ = true;
+    return *sized_.surface;
+  }
+
+  void note(DetailKind kind, double length, const Vector3& place)
+  {
+    made_.details.push_back(
+      { kind, DetailDecision::Simplify, length / sized_.edgeLength, place, whatBecomes(kind) });
+  }
+
+  /// Below the limit. Those of components with less area than a closed block of quads are left to them.
+  std::vector<HandleLoop> shortBoundaryLoops() const
+  {
+    const PreparedSurface& surface = *sized_.surface;
+    std::vector<HandleLoop> loops = measureBoundary(surface.mesh, limit_).tooShort;
+    if (loops.empty())
+    {
+      return loops;
+    }
+    const SmallComponents small =
+      findSmallComponents(surface, sized_.edgeLength, quadsOfBlock(2, 0));
+    if (small.count > 0)
+    {
+      std::vector<std::uint8_t> isSmall(surface.mesh.vertexCount(), 0);
+      for (Index h = 0; h < surface.mesh.halfEdgeCount(); ++h)
+      {
+        isSmall[surface.mesh.origin[h]] |= small.isSmall[Mesh::face(h)];
+      }
+      const auto isOfSmall = [&](const HandleLoop& loop)
+      { return isSmall[loop.vertices.front()] != 0; };
+      loops.erase(std::remove_if(loops.begin(), loops.end(), isOfSmall), loops.end());
+    }
+    return loops;
+  }
+
+  /// The number of holes that were filled.
+  std::size_t fill()
+  {
+    const double start = secondsNow();
+    const std::vector<HandleLoop> loops = shortBoundaryLoops();
+    if (loops.empty())
+    {
+      return 0;
+    }
+    std::vector<Vector3> places;
+    for (const HandleLoop& loop : loops)
+    {
+      places.push_back(sized_.surface->mesh.position[loop.vertices.front()]);
+    }
+    const std::size_t before = sized_.surface->mesh.faceCount();
+    const std::vector<std::size_t> filled = fillHoles(own(), loops);
+    for (const std::size_t i : filled)
+    {
+      note(DetailKind::BoundaryLoop, loops[i].length, places[i]);
+    }
+    finish(filled.size(), start, before);
+    return filled.size();
+  }
+
+  /// The number of handles below the limit that were cut; 0 where it is not worth going on. All were measured.
+  std::size_t cut()
+  {
+    const ShortLoops& found = made_.bench->run.shortLoops;
+    std::vector<std::vector<Index>> places;
+    std::vector<double> lengths;
+    std::vector<Vector3> at;
+    for (std::size_t i = 0; i < found.parts.unresolvedHandles; ++i)
+    {
+      const HandleLoop& loop = found.loops[i];
+      if (loop.length < handleLimit_)
+      {
+        places.push_back(loop.vertices);
+        lengths.push_back(loop.length);
+        at.push_back(sized_.surface->mesh.position[loop.vertices.front()]);
+      }
+    }
+    if (places.empty())
+    {
+      return 0;
+    }
+    const double start = secondsNow();
+    const std::size_t before = sized_.surface->mesh.faceCount();
+    const std::vector<std::size_t> closed =
+      closeHandles(own(), places, kLongerAlongEdges * handleLimit_);
+    for (const std::size_t i : closed)
+    {
+      note(DetailKind::Handle, lengths[i], at[i]);
+    }
+    finish(closed.size(), start, before);
+    return static_cast<double>(closed.size()) < kWorthwhile * static_cast<double>(places.size())
+      ? 0
+      : closed.size();
+  }
+
+  /// What was closed becomes a surface with triangles no larger than quads, and a key of its own.
+  void finish(std::size_t changed, double start, std::size_t facesBefore)
+  {
+    if (changed == 0)
+    {
+      return;
+    }
+    letGo();
+    refineSurface(*sized_.surface, sized_.edgeLength, {});
+    sized_.key = KeyMaker(sized_.key).add(sized_.surface->hash).key();
+    stages_.add("simplify", secondsNow() - start, facesBefore, sized_.surface->mesh.faceCount());
+  }
+
+  /// The short loops that are at least as long as the limit: all, or those of handles only.
+  std::vector<HandleLoop> loopsAboveLimit(bool ofHandles) const
+  {
+    const ShortLoops& found = made_.bench->run.shortLoops;
+    const auto end = ofHandles
+      ? found.loops.begin() + static_cast<std::ptrdiff_t>(found.parts.unresolvedHandles)
+      : found.loops.end();
+    std::vector<HandleLoop> loops;
+    std::copy_if(found.loops.begin(), end, std::back_inserter(loops),
+      [&](const HandleLoop& loop) { return loop.length >= (ofHandles ? handleLimit_ : limit_); });
+    return loops;
+  }
+
+  /// The limit grows until smaller quads do for the loops that are at least as long. A crowd of handles is
+  /// resolved as a whole or cut.
+  void raiseLimit()
+  {
+    RunContext& run = made_.bench->run;
+    const double most = kQuadsOfLoop * sized_.edgeLength;
+    const std::vector<HandleLoop> handles = loopsAboveLimit(true);
+    if (handles.size() >= kCrowdOfHandles && !resolvesLoops(run, handles, kMostGrowthOfHandles))
+    {
+      handleLimit_ = most;
+    }
+    while (limit_ < most && !resolvesLoops(run, loopsAboveLimit(false)))
+    {
+      limit_ = std::min(most, limit_ + kLimitStep * sized_.edgeLength);
+    }
+    handleLimit_ = std::max(handleLimit_, limit_);
+  }
+
+  /// Until no loop below the limit is left that can be closed.
+  void simplifyAll()
+  {
+    for (int cutting = 0; cutting < kMostCuttings; ++cutting)
+    {
+      measure();
+      if (!takesAll_)
+      {
+        raiseLimit();
+      }
+      if (cut() + fill() == 0)
+      {
+        return;
+      }
+    }
+    measure();
+  }
+
+  /// A surface with more handles and holes than so many quads can go round ends in minutes of attempts that fail.
+  bool isHopeless(bool isCut)
+  {
+    const double quad = sized_.edgeLength * sized_.edgeLength;
+    const SmallComponents small = findSmallComponents(*sized_.surface, sized_.edgeLength);
+    const auto found = std::find_if(small.each.begin(), small.each.end(),
+      [&](const SmallComponent& component)
+      {
+        const double worth = component.area / quad;
+        const double block = component.block;
+        return block > kQuadsOfFewHandles &&
+          (isCut ? block > kMostBlock * worth || block > kLargeBlock
+                 : block > kMostBlockBefore * worth ||
+                (block > kLargeBlockBefore && block > kWorthOfLargeBefore * worth));
+      });
+    if (found == small.each.end())
+    {
+      return false;
+    }
+    std::ostringstream text;
+    text
+      << "the handles and boundary loops of the component near " << placeText(found->place)
+      << " need at least about " << std::llround(found->block) << " quads, but its area is that of "
+      << std::llround(found->area / quad)
+      << " of this size: simplify or wrap the surface (Surface Wrap), ask for more quads, or have "
+         "it tried (Small Details Resolve, --small-details resolve)";
+    made_.status = { StatusCode::Infeasible, text.str() };
+    return true;
+  }
+
+  ResultKey storeKey() const
+  {
+    KeyMaker key(sized_.key);
+    key.add(sized_.edgeLength).add(std::uint64_t{ takesAll_ ? 2U : 1U });
+    addRequests(*sized_.surface, key);
+    return key.key();
+  }
+
+  bool recall()
+  {
+    if (store_ == nullptr)
+    {
+      return false;
+    }
+    key_ = storeKey();
+    const auto known = store_->find<StoredSettled>(key_);
+    if (!known)
+    {
+      return false;
+    }
+    sized_.surface = known->surface;
+    putOn(known->marks, *sized_.surface);
+    sized_.key = known->key;
+    made_.details = known->simplified;
+    reused_.emplace_back("simplify");
+    return true;
+  }
+
+  void remember()
+  {
+    if (store_ == nullptr || !isOwn_)
+    {
+      return;
+    }
+    auto stored = std::make_shared<StoredSettled>();
+    stored->surface = sized_.surface;
+    stored->marks = marksOf(*sized_.surface);
+    stored->key = sized_.key;
+    stored->simplified = made_.details;
+    const std::size_t bytes = bytesOf(*stored->surface) + stored->marks.bytes();
+    store_->put(key_, std::move(stored), bytes);
+  }
+
+  /// The loops that are left, which quads resolve where the first plan has sizes for them.
+  void addRest()
+  {
+    const RunContext& run = made_.bench->run;
+    const std::vector<HandleLoop>& loops = run.shortLoops.loops;
+    made_.bench->run.hasCrowd =
+      maySimplify(options_) && !takesAll_ && loops.size() >= kCrowdOfHandles;
+    const bool resolved = !loops.empty() && resolvesLoops(made_.bench->run, loops);
+    for (std::size_t i = 0; i < loops.size(); ++i)
+    {
+      const bool isHandle = i < run.shortLoops.parts.unresolvedHandles;
+      made_.details.push_back({ isHandle ? DetailKind::Handle : DetailKind::BoundaryLoop,
+        resolved ? DetailDecision::Resolve : DetailDecision::Keep, loops[i].length / run.edgeLength,
+        run.surface->mesh.position[loops[i].vertices.front()],
+        resolved ? "quads are smaller there" : "quads have the size that was asked for" });
+    }
+  }
+
+  SizedSurface& sized_;
+  const RemeshOptions& options_;
+  ResultStore* store_;
+  bool takesAll_; ///< what is shorter than kQuadsOfLoop s, whatever smaller quads could do
+  StageRecords& stages_;
+  std::vector<std::string>& reused_;
+  double limit_;       ///< of boundary loops, in units of the mesh
+  double handleLimit_; ///< of handles
+  bool isOwn_ = false;
+  ResultKey key_ = 0;
+  Settled made_;
+};
+
+} // namespace
+
+RunBench::RunBench(const SizedSurface& sized, const RemeshOptions& options, ResultStore* store)
+  : surface(sized.surface, sized.key, options.threads), levels(surface, store), run{ options,
+      sized.edgeLength, sized.targetQuads, surface, levels, store, {} }
+{
+}
+
+Settled settleDetails(SizedSurface& sized, const RemeshOptions& options, ResultStore* store,
+  StageRecords& stages, std::vector<std::string>& reused)
+{
+  return Settling(sized, options, store, false, stages, reused).run();
+}
+
+bool simplifyRest(Settled& settled, SizedSurface& sized, const RemeshOptions& options,
+  ResultStore* store, StageRecords& stages, std::vector<std::string>& reused)
+{
+  const auto isSimplified = [](const SmallDetail& detail)
+  { return detail.decision == DetailDecision::Simplify; };
+  std::vector<SmallDetail> before = settled.details;
+  const auto rest = std::stable_partition(before.begin(), before.end(), isSimplified);
+  if (options.smallDetails != SmallDetails::Automatic || !maySimplify(options) ||
+    rest == before.end())
+  {
+    return false;
+  }
+  before.erase(rest, before.end());
+  const int decimations = settled.decimations + settled.bench->levels.decimations();
+  settled.bench->surface.apply({}); // of the plan that was tried last
+  settled.bench.reset();
+  settled = Settling(sized, options, store, true, stages, reused).run();
+  settled.decimations += decimations;
+  if (!settled.bench)
+  {
+    settled.bench = std::make_unique<RunBench>(sized, options, store);
+  }
+  const bool isMore = std::any_of(settled.details.begin(), settled.details.end(), isSimplified);
+  settled.details.insert(settled.details.begin(), before.begin(), before.end());
+  return isMore && settled.status.ok();
+}
+
+} // namespace quadrille
