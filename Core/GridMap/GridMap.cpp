@@ -126,6 +126,10 @@ public:
 
   GridMapResult run()
   {
+    if (!findSeams())
+    {
+      return std::move(result_);
+    }
     computeField();
     if (!result_.field.status.ok())
     {
@@ -167,13 +171,27 @@ private:
     fieldOptions.progress = subProgress(options_.progress, 0.0, 0.1);
     fieldOptions.guides = options_.guides;
     fieldOptions.targetValences = options_.targetValences;
-    fieldOptions.sectorTurns = options_.sectorTurns;
+    fieldOptions.sectorTurns = seamSectors(mesh_, seams_, options_.sectorTurns);
     result_.field = computeCrossField(mesh_, fieldOptions);
     if (!options_.curves.empty() && makesLines() && result_.field.status.ok())
     {
       followCurves(fieldOptions);
     }
     result_.field.stretch = options_.stretch;
+    result_.field.seams = seams_;
+  }
+
+  /// False where the mesh lacks one of them.
+  bool findSeams()
+  {
+    seams_ = quadrille::findSeams(mesh_, options_.seams);
+    if (std::any_of(seams_.begin(), seams_.end(), [](const SeamEdges& s) { return s.empty(); }))
+    {
+      result_.status = { StatusCode::Infeasible,
+        "the coarse mesh does not have the two sides of the cut" };
+      return false;
+    }
+    return true;
   }
 
   /// The field once more, led along the curves. All its irregular vertices stay, as they are those that the user has
@@ -704,6 +722,7 @@ private:
   CurveTry try_;
   GridMapResult result_;
   std::vector<RequestedLine> lines_;
+  std::vector<SeamEdges> seams_;
   std::vector<Component> components_;
 };
 

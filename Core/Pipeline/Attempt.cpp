@@ -51,6 +51,14 @@ void addRequests(const PreparedSurface& surface, KeyMaker& key)
       }
     }
   }
+  for (const SeamRequest& seam : surface.seams)
+  {
+    key.add(std::uint64_t{ 4 });
+    for (const Vector3& p : { seam.from, seam.to, seam.imageFrom, seam.imageTo })
+    {
+      key.add(p[0]).add(p[1]).add(p[2]);
+    }
+  }
   for (const CurveRequest& curve : surface.curves)
   {
     key.add(static_cast<std::uint64_t>(curve.kind) + 2).add(std::uint64_t{ curve.points.size() });
@@ -100,6 +108,7 @@ GridMapOptions mapOptions(RunContext& run, const Plan& plan, MapAttempt& made)
     levelValences(*run.surface, levels.coarse.mesh, levels.coarse.fineVertex);
   options.sectorTurns = levelSectors(*run.surface, levels.coarse.mesh, levels.coarse.fineVertex);
   options.curves = run.surface->curves;
+  options.seams = run.surface->seams;
   options.progress = subProgress(run.options.progress, 0.45, 0.8, "Mapping: ");
   if (run.options.distortionMetric) // on request
   {
