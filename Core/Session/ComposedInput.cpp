@@ -206,18 +206,21 @@ public:
     addCurve({ CurveKind::Connection, connection.points });
   }
   void operator()(const Cycle& cycle) { addCurve({ CurveKind::Cycle, cycle.points }); }
-  void operator()(const MirrorSymmetry&)
+  void operator()(const MirrorSymmetry&) { takeSymmetry(); }
+  void operator()(const RotationalSymmetry&) { takeSymmetry(); }
+
+private:
+  void takeSymmetry()
   {
     if (composed_.symmetry)
     {
       const std::string earlier = constraints_[*composed_.symmetry]->name();
-      refuse("there is ", earlier, " already, and quads have one mirror plane: remove ", earlier,
+      refuse("there is ", earlier, " already, and quads have one symmetry: remove ", earlier,
         " or ", name());
     }
     composed_.symmetry = at_;
   }
 
-private:
   struct Asked
   {
     int valence = 0;
