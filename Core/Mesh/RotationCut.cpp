@@ -23,7 +23,7 @@ namespace
 /// Half planes that are measured, over one step.
 constexpr int kHalfPlanes = 48;
 /// Of them, the shortest that are cut.
-constexpr std::size_t kMostCuts = 6;
+constexpr std::size_t kMostCuts = 12;
 
 using CornerWeights = SurfaceWedge::CornerWeights;
 
@@ -84,25 +84,20 @@ struct WedgeChain
   Vector3 middle = Vector3::Zero(); ///< mean over the length
 };
 
-/// Vertices of both sides that are images of each other: places along the chains.
-struct WedgePair
-{
-  std::size_t first = 0, second = 0;
-  bool ofFeatures = false; ///< of both
-};
-
 class WedgeBuilder
 {
 public:
   WedgeBuilder(const Mesh& mesh, const RotationAxis& axis, int order, double startAngle,
-    double tolerance, double reach)
-    : mesh_(mesh), axis_(axis), order_(order), tolerance_(tolerance), reach_(reach)
+    double tolerance, const WedgeReach& reach)
+    : mesh_(mesh), axis_(axis), order_(order), tolerance_(tolerance), reach_(reach.ofCuts),
+      alignReach_(reach.ofFeatures)
   {
     wedge_.startAngle = startAngle;
     const Vector3 start = axis.turned(axis.direction.unitOrthogonal(), startAngle);
     radial_ = { start, axis.imageOf(start, 1, order) };
     planes_[0] = { axis.origin, axis.direction.cross(radial_[0]) };
     planes_[1] = { axis.origin, -axis.direction.cross(radial_[1]) };
+    wedge_.planes = planes_;
   }
 
   SurfaceWedge build()
@@ -128,6 +123,7 @@ public:
     findPoles();
     findChains();
     matchChains();
+    splitForMarks();
     return std::move(wedge_);
   }
 
@@ -182,39 +178,38 @@ private:
       const double b = radial_[0].dot(input.points[to] - axis_.origin);
       if (std::min(a, b) < -tolerance_ && std::max(a, b) > tolerance_)
       {
-        splitEdge(h, a / (a - b));
+        const double share = a / (a - b);
+        splitEdge(h, axis_.foot(input.points[from] + share * connected.edgeVector(h)), share);
       }
     }
   }
 
-  /// Corner i of the triangle of h, the last one that its edge has: (p, q, c) becomes (p, x, c), and (x, q, c) a new
-  /// one.
-  void splitEdge(Index h, double share)
+  /// The triangle (p, q, c) with the edge from p to q becomes (p, x, c), and (x, q, c) a new one. Returns x.
+  Index splitEdge(Index h, const Vector3& place, double share)
   {
     SurfaceInput& input = wedge_.input;
     const Index t = Mesh::face(h);
     const std::size_t i = h % 3, j = (i + 1) % 3, k = (i + 2) % 3;
-    const std::array<Index, 3> corners{ input.polygonPoints[3 * t + i],
-      input.polygonPoints[3 * t + j], input.polygonPoints[3 * t + k] };
+    const Index q = input.polygonPoints[3 * t + j], c = input.polygonPoints[3 * t + k];
     const auto x = static_cast<Index>(input.points.size());
-    input.points.push_back(axis_.foot(
-      input.points[corners[0]] + share * (input.points[corners[1]] - input.points[corners[0]])));
+    input.points.push_back(place);
     input.polygonPoints[3 * t + j] = x;
     const std::uint8_t bits = input.featureEdges[t];
     const auto bit = [&](std::size_t edge) { return static_cast<unsigned>(bits >> edge & 1U); };
     input.featureEdges[t] = static_cast<std::uint8_t>(bits & ~(1U << j));
-    input.polygonPoints.insert(input.polygonPoints.end(), { x, corners[1], corners[2] });
+    input.polygonPoints.insert(input.polygonPoints.end(), { x, q, c });
     input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
     input.featureEdges.push_back(static_cast<std::uint8_t>(bit(i) | bit(j) << 1U));
-    CornerWeights weights = wedge_.weights[t];
+    const CornerWeights weights = wedge_.weights[t];
     std::array<double, 3> at{};
-    for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t corner = 0; corner < 3; ++corner)
     {
-      at[c] = (1 - share) * weights[i][c] + share * weights[j][c];
+      at[corner] = (1 - share) * weights[i][corner] + share * weights[j][corner];
     }
     wedge_.weights.push_back({ at, weights[j], weights[k] });
     wedge_.weights[t][j] = at;
     wedge_.face.push_back(wedge_.face[t]);
+    return x;
   }
 
   bool isIn(std::size_t side, Index point) const
@@ -397,15 +392,14 @@ private:
     std::vector<std::size_t> ends;
     for (std::size_t i = chain.closed ? 0 : 1; i < chain.edges.size(); ++i)
     {
-      // All edges at the vertex, from the one along the chain on.
-      bool ends_here = false;
+      bool isEnd = false;
       Index h = Mesh::previous(chain.edges[i]);
       while (!cut_.isBoundary(h))
       {
-        ends_here = ends_here || cut_.isFeature(h);
+        isEnd = isEnd || cut_.isFeature(h);
         h = Mesh::previous(cut_.twin[h]);
       }
-      if (ends_here)
+      if (isEnd)
       {
         ends.push_back(i);
       }
@@ -413,142 +407,271 @@ private:
     return ends;
   }
 
-  /// Of `candidates` along a chain the one nearest to a place.
-  std::optional<std::size_t> nearestOf(
-    const WedgeChain& chain, const std::vector<std::size_t>& candidates, const Vector3& p) const
+  /// The chain from a place on, in the second half plane against the order of the boundary.
+  struct Course
   {
-    std::optional<std::size_t> best;
-    for (const std::size_t i : candidates)
+    const WedgeChain* chain = nullptr;
+    bool backwards = false;
+    std::vector<double>
+      arc;            ///< per place along the chain: its way from the beginning, in chain order
+    double begin = 0; ///< of a closed one
+
+    double total() const { return arc.back(); }
+    /// Of place i of the chain, as the course runs.
+    double at(std::size_t i) const
     {
-      if (!best || (place(chain, i) - p).norm() < (place(chain, *best) - p).norm())
-      {
-        best = i;
-      }
+      double way = backwards ? total() - arc[i] : arc[i];
+      way -= chain->closed ? begin : 0;
+      return way < 0 ? way + total() : way;
     }
-    return best;
+  };
+
+  Course courseOf(const WedgeChain& chain, bool backwards) const
+  {
+    Course course{ &chain, backwards, { 0 }, 0 };
+    for (const Index h : chain.edges)
+    {
+      course.arc.push_back(course.arc.back() + cut_.edgeVector(h).norm());
+    }
+    return course;
   }
 
-  std::vector<std::size_t> inner(const WedgeChain& chain) const
+  /// Where the quads get a vertex on both sides: the ways along the two courses.
+  struct Mark
   {
-    std::vector<std::size_t> all(chain.edges.size());
-    std::iota(all.begin(), all.end(), std::size_t{ 0 });
-    if (!chain.closed)
-    {
-      all.erase(all.begin());
-    }
-    return all;
-  }
+    double first = 0, second = 0;
+  };
 
-  /// Where a feature ends on one side its image ends on the other one, or there is at least a vertex of the quads.
-  std::vector<WedgePair> pairEnds(const WedgeChain& first, const WedgeChain& second) const
+  /// Features that end on both sides at each other's images, as they come along the courses: those that lie within
+  /// reach, with the least sum of distances, where leaving two of them alone costs as much as the reach.
+  std::vector<Mark> alignFeatures(const Course& first, const std::vector<std::size_t>& here,
+    const Course& second, const std::vector<std::size_t>& there) const
   {
-    const std::vector<std::size_t> here = featureEnds(first), there = featureEnds(second);
-    std::vector<WedgePair> pairs, others;
-    std::vector<std::size_t> lone = there;
-    for (const std::size_t i : here)
+    const std::size_t n = here.size(), m = there.size();
+    const double alone = alignReach_ / 2;
+    std::vector<double> cost((n + 1) * (m + 1), 0);
+    const auto at = [m](std::size_t i, std::size_t j) { return i * (m + 1) + j; };
+    const auto pairCost = [&](std::size_t i, std::size_t j)
+    { return (imageOf(place(*first.chain, here[i])) - place(*second.chain, there[j])).norm(); };
+    for (std::size_t i = 0; i <= n; ++i)
     {
-      const Vector3 image = imageOf(place(first, i));
-      const auto feature = nearestOf(second, lone, image);
-      if (feature && (place(second, *feature) - image).norm() <= reach_)
+      for (std::size_t j = 0; j <= m; ++j)
       {
-        lone.erase(std::find(lone.begin(), lone.end(), *feature));
-        pairs.push_back({ i, *feature, true });
-      }
-      else if (const auto vertex = nearestOf(second, inner(second), image))
-      {
-        others.push_back({ i, *vertex, false });
-      }
-    }
-    for (const std::size_t i : lone)
-    {
-      if (const auto vertex =
-            nearestOf(first, inner(first), axis_.image(place(second, i), -1, order_)))
-      {
-        others.push_back({ *vertex, i, false });
+        double& best = cost[at(i, j)];
+        best = alone * static_cast<double>(i + j);
+        best = i > 0 ? std::min(best, cost[at(i - 1, j)] + alone) : best;
+        best = j > 0 ? std::min(best, cost[at(i, j - 1)] + alone) : best;
+        best =
+          i > 0 && j > 0 ? std::min(best, cost[at(i - 1, j - 1)] + pairCost(i - 1, j - 1)) : best;
       }
     }
-    pairs.insert(pairs.end(), others.begin(), others.end());
-    if (pairs.empty() && first.closed)
+    std::vector<Mark> marks;
+    for (std::size_t i = n, j = m; i > 0 && j > 0;)
     {
-      pairs.push_back({ 0, *nearestOf(second, inner(second), imageOf(place(first, 0))), false });
-    }
-    return pairs;
-  }
-
-  /// Those that come in the same order on both sides.
-  std::vector<WedgePair> inOrder(
-    const WedgeChain& first, const WedgeChain& second, const std::vector<WedgePair>& pairs) const
-  {
-    std::vector<WedgePair> ordered;
-    for (WedgePair pair : pairs)
-    {
-      if (first.closed)
+      if (cost[at(i, j)] == cost[at(i - 1, j - 1)] + pairCost(i - 1, j - 1))
       {
-        // From the first pair on, on the second side backwards.
-        const std::size_t n = first.edges.size(), m = second.edges.size();
-        pair.first = (pair.first + n - pairs.front().first) % n;
-        pair.second = (pairs.front().second + m - pair.second) % m;
+        marks.push_back({ first.at(here[--i]), second.at(there[--j]) });
+      }
+      else if (cost[at(i, j)] == cost[at(i - 1, j)] + alone)
+      {
+        --i;
       }
       else
       {
-        pair.second = second.edges.size() - pair.second;
-      }
-      const auto fits = [&](const WedgePair& other)
-      {
-        return (other.first < pair.first && other.second < pair.second) ||
-          (other.first > pair.first && other.second > pair.second);
-      };
-      if (std::all_of(ordered.begin(), ordered.end(), fits))
-      {
-        ordered.push_back(pair);
+        --j;
       }
     }
-    std::sort(ordered.begin(), ordered.end(),
-      [](const WedgePair& a, const WedgePair& b) { return a.first < b.first; });
-    return ordered;
+    std::reverse(marks.begin(), marks.end());
+    return marks;
   }
 
-  void addSeams(const WedgeChain& first, const WedgeChain& second)
+  /// Closed courses begin where features end at each other's images, else at a vertex and the place nearest to its
+  /// image.
+  void beginClosed(Course& first, const std::vector<std::size_t>& here, Course& second,
+    const std::vector<std::size_t>& there) const
   {
-    const std::vector<WedgePair> pairs = pairEnds(first, second);
-    std::vector<WedgePair> ordered = inOrder(first, second, pairs);
-    const std::size_t n = first.edges.size(), m = second.edges.size();
-    if (first.closed)
+    double nearest = alignReach_;
+    first.begin = 0;
+    bool found = false;
+    for (const std::size_t i : here)
     {
-      ordered.push_back({ n, m, false });
+      for (const std::size_t j : there)
+      {
+        const double distance = (imageOf(place(*first.chain, i)) - place(*second.chain, j)).norm();
+        if (distance <= nearest)
+        {
+          nearest = distance;
+          found = true;
+          first.begin = first.arc[i];
+          second.begin = second.total() - second.arc[j];
+        }
+      }
     }
-    else
+    if (!found)
     {
-      ordered.insert(ordered.begin(), WedgePair{ 0, 0, false });
-      ordered.push_back({ n, m, false });
+      second.begin = second.total() - nearestWay(second, imageOf(place(*first.chain, 0)));
     }
-    const auto placeOfFirst = [&](const WedgePair& pair)
+    const auto wrapped = [](Course& course)
+    { course.begin = course.begin >= course.total() ? 0 : course.begin; };
+    wrapped(first);
+    wrapped(second);
+  }
+
+  /// Of a place, along the chain.
+  double nearestWay(const Course& course, const Vector3& p) const
+  {
+    double nearest = std::numeric_limits<double>::infinity();
+    double way = 0;
+    for (std::size_t i = 0; i < course.chain->edges.size(); ++i)
     {
-      return first.closed ? place(first, (pair.first + pairs.front().first) % n)
-                          : place(first, pair.first);
+      const Vector3& from = place(*course.chain, i);
+      const Vector3 along = cut_.edgeVector(course.chain->edges[i]);
+      const double length = std::max(along.squaredNorm(), std::numeric_limits<double>::min());
+      const double share = std::clamp(along.dot(p - from) / length, 0.0, 1.0);
+      const double distance = (from + share * along - p).norm();
+      if (distance < nearest)
+      {
+        nearest = distance;
+        way = course.arc[i] + share * along.norm();
+      }
+    }
+    return way;
+  }
+
+  /// A mark for a feature that ends on one side only: on the other one between the same marks, as far along.
+  static void addLone(std::vector<Mark>& marks, double way, double Mark::*here, double Mark::*there)
+  {
+    const auto after = std::find_if(
+      marks.begin() + 1, marks.end(), [&](const Mark& mark) { return mark.*here >= way; });
+    const Mark& before = *(after - 1);
+    const double span = (*after).*here - before.*here;
+    if (after == marks.end() || !(way > before.*here) || !(way < (*after).*here) || !(span > 0))
+    {
+      return; // there is a mark
+    }
+    Mark mark;
+    mark.*here = way;
+    mark.*there = before.*there + (way - before.*here) / span * ((*after).*there - before.*there);
+    marks.insert(after, mark);
+  }
+
+  /// Where a feature ends on one side its image ends on the other one, or there is at least a vertex of the quads.
+  void addSeams(const WedgeChain& firstChain, const WedgeChain& secondChain)
+  {
+    Course first = courseOf(firstChain, false), second = courseOf(secondChain, true);
+    std::vector<std::size_t> here = featureEnds(firstChain), there = featureEnds(secondChain);
+    if (firstChain.closed)
+    {
+      beginClosed(first, here, second, there);
+    }
+    const auto sortAlong = [](const Course& course, std::vector<std::size_t>& ends)
+    {
+      std::sort(ends.begin(), ends.end(),
+        [&](std::size_t a, std::size_t b) { return course.at(a) < course.at(b); });
     };
-    const auto placeOfSecond = [&](const WedgePair& pair)
+    sortAlong(first, here);
+    sortAlong(second, there);
+    std::vector<Mark> marks{ { 0, 0 } };
+    std::size_t paired = 0;
+    for (const Mark& mark : alignFeatures(first, here, second, there))
     {
-      return first.closed ? place(second, (pairs.front().second + m - pair.second % m) % m)
-                          : place(second, m - pair.second);
-    };
-    for (std::size_t i = 0; i + 1 < ordered.size(); ++i)
+      // Of closed courses the first one is where they begin.
+      paired += mark.first > 0 && mark.second > 0 ? 0U : 1U;
+      if (mark.first > 0 && mark.second > 0)
+      {
+        marks.push_back(mark);
+      }
+    }
+    marks.push_back({ first.total(), second.total() });
+    wedge_.loneFeatures += here.size() + there.size() - 2 * (marks.size() - 2 + paired);
+    for (const std::size_t i : here)
     {
-      wedge_.input.seams.push_back({ placeOfFirst(ordered[i]), placeOfFirst(ordered[i + 1]),
-        placeOfSecond(ordered[i]), placeOfSecond(ordered[i + 1]) });
+      addLone(marks, first.at(i), &Mark::first, &Mark::second);
+    }
+    for (const std::size_t i : there)
+    {
+      addLone(marks, second.at(i), &Mark::second, &Mark::first);
+    }
+    std::vector<std::array<Vector3, 2>> places;
+    for (const Mark& mark : marks)
+    {
+      places.push_back({ markPlace(first, mark.first), markPlace(second, mark.second) });
+    }
+    for (std::size_t i = 0; i + 1 < places.size(); ++i)
+    {
+      wedge_.input.seams.push_back(
+        { places[i][0], places[i + 1][0], places[i][1], places[i + 1][1] });
+    }
+  }
+
+  /// The vertex there, or one to be made.
+  Vector3 markPlace(const Course& course, double way)
+  {
+    double along = way + (course.chain->closed ? course.begin : 0);
+    along -= course.chain->closed && along >= course.total() ? course.total() : 0;
+    along = course.backwards ? course.total() - along : along;
+    const auto after = std::upper_bound(course.arc.begin(), course.arc.end(), along);
+    const std::size_t last = course.chain->edges.size() - 1;
+    const std::size_t i = after == course.arc.begin()
+      ? 0
+      : std::min(last, static_cast<std::size_t>(after - course.arc.begin()) - 1);
+    const double length = course.arc[i + 1] - course.arc[i];
+    const double share = length > 0 ? (along - course.arc[i]) / length : 0;
+    if (share * length <= tolerance_ || (1 - share) * length <= tolerance_)
+    {
+      return place(*course.chain, share * length <= tolerance_ ? i : i + 1);
+    }
+    const Index h = course.chain->edges[i];
+    const Vector3 p = cut_.position[cut_.origin[h]] + share * cut_.edgeVector(h);
+    splits_.push_back({ h, share, p });
+    return p;
+  }
+
+  /// Vertices of marks between those of the surface. Of several on an edge the last one first, so that the rest of it
+  /// stays where it was.
+  void splitForMarks()
+  {
+    std::sort(splits_.begin(), splits_.end(),
+      [](const Split& a, const Split& b)
+      { return a.halfEdge != b.halfEdge ? a.halfEdge < b.halfEdge : a.share > b.share; });
+    double rest = 1;
+    for (std::size_t i = 0; i < splits_.size(); ++i)
+    {
+      const Split& split = splits_[i];
+      const bool isFirst = i == 0 || splits_[i - 1].halfEdge != split.halfEdge;
+      if (!isFirst && splits_[i - 1].share == split.share)
+      {
+        continue;
+      }
+      rest = isFirst ? 1 : splits_[i - 1].share;
+      const auto triangle = static_cast<Index>(wedge_.face.size());
+      const Index after = Mesh::next(split.halfEdge);
+      splitEdge(split.halfEdge, split.place, split.share / rest);
+      for (Split& other : splits_)
+      {
+        // Another edge of the triangle has become one of the new triangle.
+        other.halfEdge = other.halfEdge == after ? 3 * triangle + 1 : other.halfEdge;
+      }
     }
   }
 
   const Mesh& mesh_;
   const RotationAxis& axis_;
   int order_;
-  double tolerance_, reach_;
+  double tolerance_, reach_, alignReach_;
   std::array<Vector3, 2> radial_;
   std::array<MirrorPlane, 2> planes_;
   SurfaceWedge wedge_;
   Mesh cut_; ///< the wedge
   std::vector<WedgeSide> sides_;
   std::array<std::vector<WedgeChain>, 2> chains_; ///< in the first and in the second half plane
+  struct Split
+  {
+    Index halfEdge = kInvalidIndex; ///< of the wedge
+    double share = 0;
+    Vector3 place;
+  };
+  std::vector<Split> splits_;
 };
 
 /// Length of the curve that a half plane cuts out of the surface; none where faces lie in it.
@@ -602,9 +725,13 @@ std::vector<std::optional<double>> cutLengths(
 
 } // namespace
 
-SurfaceWedge cutWedge(
-  const Mesh& mesh, const RotationAxis& axis, int order, double tolerance, double reach)
+SurfaceWedge cutWedge(const Mesh& mesh, const RotationAxis& axis, int order, double tolerance,
+  const WedgeReach& reach, std::optional<double> startAngle)
 {
+  if (startAngle)
+  {
+    return WedgeBuilder(mesh, axis, order, *startAngle, tolerance, reach).build();
+  }
   std::vector<double> angles;
   for (int k = 0; k < kHalfPlanes; ++k)
   {
@@ -625,26 +752,28 @@ SurfaceWedge cutWedge(
   std::stable_sort(byLength.begin(), byLength.end(),
     [&](std::size_t a, std::size_t b)
     { return std::floor(*lengths[a] / unit) < std::floor(*lengths[b] / unit); });
-  std::optional<SurfaceWedge> first;
+  std::optional<SurfaceWedge> best;
   for (std::size_t i = 0; i < std::min(kMostCuts, byLength.size()); ++i)
   {
     SurfaceWedge wedge =
       WedgeBuilder(mesh, axis, order, angles[byLength[i]], tolerance, reach).build();
-    if (wedge.mismatch.empty())
+    const bool isBetter = !best || (!best->mismatch.empty() && wedge.mismatch.empty()) ||
+      (best->mismatch.empty() == wedge.mismatch.empty() && wedge.loneFeatures < best->loneFeatures);
+    if (isBetter)
     {
-      return wedge;
+      best = std::move(wedge);
     }
-    if (!first)
+    if (best->mismatch.empty() && best->loneFeatures == 0)
     {
-      first = std::move(wedge);
+      break;
     }
   }
-  if (!first)
+  if (!best)
   {
-    first.emplace();
-    first->mismatch = "faces of the surface lie in every half plane that could cut it";
+    best.emplace();
+    best->mismatch = "faces of the surface lie in every half plane that could cut it";
   }
-  return *first;
+  return std::move(*best);
 }
 
 } // namespace quadrille

@@ -3,10 +3,12 @@
 /// One of n wedges of a surface round an axis.
 #pragma once
 
+#include "Mesh/MirrorPlane.h"
 #include "Mesh/RotationAxis.h"
 #include "Mesh/Surface.h"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,15 +28,25 @@ struct SurfaceWedge
     weights;                  ///< per triangle: its corners in weights of the corners of that face
   std::vector<Vector3> poles; ///< where the axis meets the surface
   double startAngle = 0;      ///< of the first half plane, from the axis' own, radians
+  /// Features that end on one side of the wedge only.
+  std::size_t loneFeatures = 0;
+  std::array<MirrorPlane, 2> planes; ///< of the two half planes; their normals point into the wedge
   /// Empty, or why the wedges do not fit together, with a place.
   std::string mismatch;
 };
 
-/// Half planes are tried in the order of the length of the cut, the shortest first, until wedges fit together; where
-/// none do, the mismatch of the first one is told. Points that are no farther from a half plane than `tolerance` (units
-/// of the mesh) are put into it; places on one side of the wedge and images of those on the other are the same within
-/// `reach` (>= tolerance). order: at least 2.
-SurfaceWedge cutWedge(
-  const Mesh& mesh, const RotationAxis& axis, int order, double tolerance, double reach);
+/// How far places on one side of a wedge may be from images of those on the other side, in units of the mesh.
+struct WedgeReach
+{
+  double ofCuts = 0;     ///< ends and middles of what a half plane cuts
+  double ofFeatures = 0; ///< where features end; those without an image end on one side only
+};
+
+/// The first half plane of the wedge is at startAngle. None: half planes are tried in the order of the length of the cut,
+/// the shortest first, until wedges fit together and no feature ends on one side only; else the one with the fewest of
+/// these is taken. Where no wedges fit together, the mismatch of the first one is told. Points that are no farther from a
+/// half plane than `tolerance` (units of the mesh) are put into it. order: at least 2.
+SurfaceWedge cutWedge(const Mesh& mesh, const RotationAxis& axis, int order, double tolerance,
+  const WedgeReach& reach, std::optional<double> startAngle = std::nullopt);
 
 } // namespace quadrille

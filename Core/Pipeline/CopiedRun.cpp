@@ -46,6 +46,56 @@ std::string shareText(double share)
   return text.str();
 }
 
+void requestCutFeatures(Mesh& mesh, const MirrorPlane& plane, double tolerance)
+{
+  std::vector<Index> featuresAt(mesh.vertexCount(), 0);
+  std::vector<Index> next;
+  const auto take = [&](Index h)
+  {
+    for (const Index side : { h, mesh.twin[h] })
+    {
+      mesh.flags[side] |= kRequestedFeature;
+    }
+    next.push_back(h);
+  };
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isBoundary(h) || !mesh.isFeature(h))
+    {
+      continue;
+    }
+    ++featuresAt[mesh.origin[h]];
+    const double from = plane.height(mesh.position[mesh.origin[h]]);
+    const double to = plane.height(mesh.position[mesh.target(h)]);
+    if (h < mesh.twin[h] && std::min(from, to) <= tolerance && std::max(from, to) >= -tolerance)
+    {
+      take(h);
+    }
+  }
+  const std::vector<Index> outgoing = outgoingHalfEdges(mesh);
+  while (!next.empty())
+  {
+    const Index h = next.back();
+    next.pop_back();
+    for (const Index v : { mesh.origin[h], mesh.target(h) })
+    {
+      if (featuresAt[v] != 2)
+      {
+        continue;
+      }
+      Index g = outgoing[v];
+      do
+      {
+        if (!mesh.isBoundary(g) && mesh.isFeature(g) && (mesh.flags[g] & kRequestedFeature) == 0)
+        {
+          take(g);
+        }
+        g = mesh.rotateCounterclockwise(g);
+      } while (g != kInvalidIndex && g != outgoing[v]);
+    }
+  }
+}
+
 SymmetricResult CopiedRun::run(SurfaceInput& input)
 {
   prepare(input);

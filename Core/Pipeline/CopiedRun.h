@@ -49,6 +49,10 @@ struct NearImage
 /// "0.0012".
 std::string shareText(double share);
 
+/// Features that meet the plane count as requested, up to where they end or meet others: each half of one may be too
+/// short for the quads though it is not as a whole.
+void requestCutFeatures(Mesh& mesh, const MirrorPlane& plane, double tolerance);
+
 /// Gives a mesh other flags for a while.
 class FlagsScope
 {

@@ -120,20 +120,26 @@ void RotationRun::cut()
 {
   const double start = secondsNow();
   report(options_.progress, 0.08, "Cutting a wedge out of the surface");
-  const double reach =
-    kSeamFactor * made_.deviation.maximum + kSeamReach * made_.diagonal + tolerance_;
+  const double slack = kSeamReach * made_.diagonal + tolerance_;
+  const WedgeReach reach{ kSeamFactor * made_.deviation.maximum + slack,
+    kSeamFactor * made_.deviation.rms + slack };
   withFeatures(
     [&](Mesh& mesh)
     {
-      // A part of one may be too short for the quads though it is not as a whole.
-      for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
       {
-        if (mesh.isFeature(h))
+        // Which features the cut meets is not known before.
+        const FlagsScope all(mesh);
+        for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
         {
-          mesh.flags[h] |= kRequestedFeature;
+          mesh.flags[h] |= mesh.isFeature(h) ? kRequestedFeature : 0;
         }
+        wedge_ = cutWedge(mesh, made_.rotation->axis, order_, tolerance_, reach);
       }
-      wedge_ = cutWedge(mesh, made_.rotation->axis, order_, tolerance_, reach);
+      for (const MirrorPlane& plane : wedge_.planes)
+      {
+        requestCutFeatures(mesh, plane, tolerance_);
+      }
+      wedge_ = cutWedge(mesh, made_.rotation->axis, order_, tolerance_, reach, wedge_.startAngle);
     });
   if (!wedge_.mismatch.empty())
   {
