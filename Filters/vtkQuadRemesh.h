@@ -41,10 +41,10 @@
  *      Met: at most 0.1.
  *    - "valence", also of a move (kind "move") at its end: the number of edges there, on boundaries one more, less the
  *      one asked for. Met: 0.
- *    - "relative to the diagonal", the symmetry (kind "symmetry" or "rotation", the last row, with a Symmetry): how far the
- *      mirror image of the surface, or the surface turned by one step, is from it, over the diagonal of its box, as the
- *      root of the mean square; in `Deviation95` the largest distance. Met: the quads have the topology of the surface,
- *      and none is turned over where points were put onto the surface.
+ *    - "relative to the diagonal", the symmetry (kind "symmetry" or "rotation", the last row, with a Symmetry): how far
+ *      the mirror image of the surface, or the surface turned by one step, is from it, over the diagonal of its box, as
+ *      the root of the mean square; in `Deviation95` the largest distance. Met: the quads have the topology of the
+ *      surface, and none is turned over where points were put onto the surface.
  *    - "factor", sizes: by which the square root of a quad's area differs, over the median of all, from `Sizing` there;
  *      mean by area and 95th percentile. Met: a mean of at most 1.25.
  *
@@ -314,9 +314,9 @@ public:
    *
    * SYMMETRY_AXIS and SYMMETRY_AXIS_FOUND: quads that become themselves when they are turned by 1 / RotationOrder of a
    * whole turn round an axis, through SymmetryOrigin along SymmetryNormal, or found. A wedge is remeshed, between half
-   * planes where the cut is short, which are on edges, and its quads and those turned are one mesh. Where the axis meets
-   * the surface the number of quads is a multiple of the order. Of valences and guides those in the wedge go before.
-   * Output 1 is the wedges side by side, not joined at the cuts.
+   * planes where the cut is short, which are on edges, and its quads and those turned are one mesh. Where the axis
+   * meets the surface the number of quads is a multiple of the order. Of valences and guides those in the wedge go
+   * before. Output 1 is the wedges side by side, not joined at the cuts.
    */
   vtkSetClampMacro(Symmetry, int, SYMMETRY_NONE, SYMMETRY_AXIS_FOUND);
   vtkGetMacro(Symmetry, int);

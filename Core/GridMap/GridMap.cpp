@@ -171,6 +171,7 @@ private:
     fieldOptions.progress = subProgress(options_.progress, 0.0, 0.1);
     fieldOptions.guides = options_.guides;
     fieldOptions.targetValences = options_.targetValences;
+    fieldOptions.regular.assign(options_.fewIrregular ? mesh_.vertexCount() : 0, 1);
     fieldOptions.sectorTurns = seamSectors(mesh_, seams_, options_.sectorTurns);
     result_.field = computeCrossField(mesh_, fieldOptions);
     if (!options_.curves.empty() && makesLines() && result_.field.status.ok())
@@ -1002,6 +1003,17 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
       std::to_string(mesh.faceCount()) + " faces");
   }
   GridMapResult result = CurvedMap(mesh, options).run();
+  if (!result.status.ok() && !options.seams.empty() && !options.fewIrregular)
+  {
+    GridMapOptions fewer = options;
+    fewer.fewIrregular = true;
+    GridMapResult again = CurvedMap(mesh, fewer).run();
+    if (again.status.ok())
+    {
+      again.addWork(result);
+      return again;
+    }
+  }
   if (result.reuse.any() && !result.status.ok())
   {
     GridMapOptions cold = options;

@@ -172,10 +172,10 @@ std::vector<FixedVec2> developedVectors(const UvMesh& map, const CrossField& fie
 
 /// The mesh with its seams joined, as each one is an edge now: strips that leave by one part come back by its image, so
 /// that both keep the same length.
-class JoinedSeams
+class JoinedSides
 {
 public:
-  JoinedSeams(UvMesh& mesh, const Mesh& whole, const CrossField& field) : mesh_(mesh)
+  JoinedSides(UvMesh& mesh, const Mesh& whole, const CrossField& field) : mesh_(mesh)
   {
     for (const SeamEdges& seam : field.seams)
     {
@@ -287,7 +287,7 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   }
 
   const std::size_t decimated = editor.recordCount();
-  JoinedSeams seams(uvMesh, mesh, field);
+  JoinedSides seams(uvMesh, mesh, field);
   if (!seams.isWhole())
   {
     result.status = { StatusCode::NotConverged,

@@ -42,10 +42,10 @@ struct WedgeReach
   double ofFeatures = 0; ///< where features end; those without an image end on one side only
 };
 
-/// The first half plane of the wedge is at startAngle. None: half planes are tried in the order of the length of the cut,
-/// the shortest first, until wedges fit together and no feature ends on one side only; else the one with the fewest of
-/// these is taken. Where no wedges fit together, the mismatch of the first one is told. Points that are no farther from a
-/// half plane than `tolerance` (units of the mesh) are put into it. order: at least 2.
+/// The first half plane of the wedge is at startAngle. None: half planes are tried in the order of the length of the
+/// cut, the shortest first, until wedges fit together and no feature ends on one side only; else the one with the
+/// fewest of these is taken. Where no wedges fit together, the mismatch of the first one is told. Points that are no
+/// farther from a half plane than `tolerance` (units of the mesh) are put into it. order: at least 2.
 SurfaceWedge cutWedge(const Mesh& mesh, const RotationAxis& axis, int order, double tolerance,
   const WedgeReach& reach, std::optional<double> startAngle = std::nullopt);
 

@@ -15,8 +15,6 @@ namespace quadrille
 namespace
 {
 
-using Matrix3 = Eigen::Matrix3d;
-
 /// Triangles, about, that stand for the surface until the last samples.
 constexpr std::size_t kFewTriangles = 50000;
 constexpr std::size_t kDirections = 100; ///< all round
@@ -42,11 +40,11 @@ void measureMoments(const TriangleList& list, SurfaceSampling& sampling)
   }
   sampling.centre = first / total;
   sampling.size = (high - low).norm();
-  Matrix3 second = Matrix3::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   for (std::size_t t = 0; t < list.corners.size(); ++t)
   {
     Vector3 sum = Vector3::Zero();
-    Matrix3 squares = Matrix3::Zero();
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
     for (const Index corner : list.corners[t])
     {
       const Vector3 p = list.points[corner] - sampling.centre;
@@ -55,7 +53,7 @@ void measureMoments(const TriangleList& list, SurfaceSampling& sampling)
     }
     second += areaVectorOf(list, t).norm() / 12 * (squares + sum * sum.transpose());
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(second / total);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(second / total);
   sampling.axes = solver.eigenvectors().rowwise().reverse(); // ascending before
 }
 

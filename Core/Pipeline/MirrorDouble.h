@@ -35,7 +35,8 @@ std::vector<FixedVec2> doubleMap(const DoubledMesh& doubled, std::vector<FixedVe
 /// Its turns; those of both sides in the plane.
 std::vector<int> doubleTurns(const DoubledMesh& doubled, const std::vector<int>& turns);
 
-/// Valences and boundary of quads. Returns a point of an edge with more than two quads, kInvalidIndex where there is none.
+/// Valences and boundary of quads. Returns a point of an edge with more than two quads, kInvalidIndex where there is
+/// none.
 Index countEdges(QuadMesh& quads);
 
 struct DoubledQuads

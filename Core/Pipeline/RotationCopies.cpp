@@ -144,7 +144,8 @@ public:
     {
       turnToNearest(left, right);
     }
-    // Between two poles either part may be the one that the other is the image of. Of order 2 each is that of the other.
+    // Between two poles either part may be the one that the other is the image of. Of order 2 each is that of the
+    // other.
     const bool isImage = distance(left, right) <= 2 * distance(right, left);
     std::vector<SeamPoints> pairs;
     for (std::size_t i = 0; i < left.size(); ++i)
@@ -254,6 +255,13 @@ private:
         add(line.a, role);
         add(line.b, role);
       }
+    }
+    constexpr int kRegular = 4;
+    for (std::size_t p = 0; p < count; ++p)
+    {
+      // Where the map has it, and where it may have been asked for.
+      const bool isIrregular = quads_.onBoundary[p] == 0 && quads_.valence[p] != kRegular;
+      role_[p] = isIrregular ? Role::Stays : role_[p];
     }
     for (const SeamPoints& pair : pairs_)
     {

@@ -33,9 +33,9 @@ WedgeSeams pairSeams(const QuadMesh& quads, const Mesh& mesh,
 std::vector<std::uint8_t> fitSeams(QuadMesh& quads, const std::vector<SeamPoints>& pairs,
   const MadeRotation& rotation, const SearchedSurface& whole, double tolerance);
 
-/// Images behind; quad q of the wedge turned by k steps is k #Q + q. `image` of a point is it turned by one step. Not ok
-/// where a wedge is so narrow that edges of it and of its images would be the same. mesh: that the lines of the wedge are of; those in a cut are lines no more, unless they are
-/// features.
+/// Images behind; quad q of the wedge turned by k steps is k #Q + q. `image` of a point is it turned by one step. Not
+/// ok where a wedge is so narrow that edges of it and of its images would be the same. mesh: that the lines of the
+/// wedge are of; those in a cut are lines no more, unless they are features.
 DoubledQuads turnQuads(const QuadMesh& wedge, const Mesh& mesh,
   const std::vector<SeamPoints>& pairs, const MadeRotation& rotation);
 

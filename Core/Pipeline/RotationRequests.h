@@ -30,8 +30,8 @@ struct RotationTask
 
 /// Guides, valences and sizes of the wedge: its own, and, where it has none, those of the other wedges turned into it,
 /// by the fewest steps; a size of 1 counts as none. Where a valence cannot be asked, as points in a cut belong to two
-/// wedges, a notice tells. On the axis the valence of a pole is that of the wedge times the order. Returns what the user
-/// should know. input: that of the wedge.
+/// wedges, a notice tells. On the axis the valence of a pole is that of the wedge times the order. Returns what the
+/// user should know. input: that of the wedge.
 std::vector<std::string> askOfWedge(
   const RotationTask& task, const SurfaceWedge& wedge, SurfaceInput& input);
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Quads with a symmetry. Of a mirror symmetry: the half of the surface in front of a plane is remeshed, and its quads and their
-/// images are one mesh. The plane's curve is a boundary of the half, hence an isoline. Connectivity is symmetric by
-/// construction, whatever the surface is; points behind the plane are exact images where the surface is symmetric to
-/// within kMirrorTolerance, else they are put onto the surface.
+/// Quads with a symmetry. Of a mirror symmetry: the half of the surface in front of a plane is remeshed, and its quads
+/// and their images are one mesh. The plane's curve is a boundary of the half, hence an isoline. Connectivity is
+/// symmetric by construction, whatever the surface is; points behind the plane are exact images where the surface is
+/// symmetric to within kMirrorTolerance, else they are put onto the surface.
 ///
 /// Of a rotation: a wedge between two half planes is remeshed, with both cuts as boundaries that get the same number of
 /// edges (see Mesh/SeamRequests.h), and its quads and those turned by 1 to n - 1 steps are one mesh.
