@@ -65,6 +65,7 @@ constexpr const char* kPartial = "Partial";
 constexpr const char* kOnBoundary = "OnBoundary";
 constexpr const char* kLayoutPatch = "LayoutPatch";
 constexpr const char* kMirrorPoint = "MirrorPoint";
+constexpr const char* kRotatedPoint = "RotatedPoint";
 constexpr const char* kQuadNormals = "QuadNormals";
 }
 

@@ -58,16 +58,28 @@ void addMirrorSources(const SymmetricResult& made, const ConvertedSurface& conve
 
 void addSymmetry(vtkPolyData* quads, const SymmetricResult& made)
 {
-  auto image = newArray<vtkIdTypeArray>(arrays::kMirrorPoint, 1, made.mirrorPoint.size());
-  for (std::size_t p = 0; p < made.mirrorPoint.size(); ++p)
+  const std::vector<Index>& imageOf = made.rotation ? made.rotatedPoint : made.mirrorPoint;
+  auto image = newArray<vtkIdTypeArray>(
+    made.rotation ? arrays::kRotatedPoint : arrays::kMirrorPoint, 1, imageOf.size());
+  for (std::size_t p = 0; p < imageOf.size(); ++p)
   {
-    image->SetValue(static_cast<vtkIdType>(p), made.mirrorPoint[p]);
+    image->SetValue(static_cast<vtkIdType>(p), imageOf[p]);
   }
   quads->GetPointData()->AddArray(image);
-  const Vector3& origin = made.plane.origin;
-  const Vector3& normal = made.plane.normal;
-  addTuple(quads, "SymmetryOrigin", { origin.x(), origin.y(), origin.z() });
-  addTuple(quads, "SymmetryNormal", { normal.x(), normal.y(), normal.z() });
+  const auto addVector = [&](const char* name, const Vector3& vector) {
+    addTuple(quads, name, { vector.x(), vector.y(), vector.z() });
+  };
+  if (made.rotation)
+  {
+    addVector("SymmetryOrigin", made.rotation->axis.origin);
+    addVector("SymmetryDirection", made.rotation->axis.direction);
+    addCount(quads, "SymmetryOrder", static_cast<std::size_t>(made.rotation->order));
+  }
+  else
+  {
+    addVector("SymmetryOrigin", made.plane.origin);
+    addVector("SymmetryNormal", made.plane.normal);
+  }
   addTuple(quads, "SymmetryDeviation",
     { made.deviation.rms / made.diagonal, made.deviation.maximum / made.diagonal });
   addCount(quads, "SymmetryMovedPoints", made.movedPoints);
@@ -76,6 +88,10 @@ void addSymmetry(vtkPolyData* quads, const SymmetricResult& made)
 
 void addMirrorLines(vtkPolyData* constraints, const SymmetricResult& made, bool isMet)
 {
+  if (made.rotation)
+  {
+    return;
+  }
   const QuadMesh& quads = made.remeshed.quads;
   const auto isInPlane = [&made](Index p) { return made.mirrorPoint[p] == p; };
   std::set<std::pair<Index, Index>> edges;
@@ -120,7 +136,7 @@ void addMirrorLines(vtkPolyData* constraints, const SymmetricResult& made, bool 
 ConstraintWord judgeSymmetry(const SymmetricResult& made)
 {
   ConstraintWord word;
-  word.kind = "symmetry";
+  word.kind = made.rotation ? "rotation" : "symmetry";
   word.place = made.deviation.place;
   word.isMet = made.isAlike;
   word.deviation = made.deviation.rms / made.diagonal;
@@ -128,7 +144,8 @@ ConstraintWord judgeSymmetry(const SymmetricResult& made)
   word.unit = "relative to the diagonal";
   if (!word.isMet)
   {
-    word.reason = "the two sides of the surface are not alike, see the notices";
+    word.reason = made.rotation ? "the wedges of the surface are not alike, see the notices"
+                                : "the two sides of the surface are not alike, see the notices";
   }
   return word;
 }

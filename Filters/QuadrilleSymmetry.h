@@ -12,16 +12,16 @@ class vtkPolyData;
 namespace quadrille
 {
 
-/// Points and quads come from where they lie on the input, on both sides of the plane.
+/// Points and quads come from where they lie on the input, on both sides of the plane, or in all wedges.
 void addMirrorSources(const SymmetricResult& made, const ConvertedSurface& converted,
   vtkPolyData* input, QuadSource& source);
 
-/// MirrorPoint on points; field data: SymmetryOrigin, SymmetryNormal, SymmetryDeviation, SymmetryMovedPoints,
-/// SymmetryFarthestMoved, see vtkQuadRemesh.
+/// MirrorPoint or RotatedPoint on points; field data: SymmetryOrigin, SymmetryNormal or SymmetryDirection and
+/// SymmetryOrder, SymmetryDeviation, SymmetryMovedPoints, SymmetryFarthestMoved, see vtkQuadRemesh.
 void addSymmetry(vtkPolyData* quads, const SymmetricResult& made);
 
 /// The edges of the quads in the mirror plane, as lines of the output Constraints (see writeConstraints): Constraint
-/// 10, SourceId -1, all else 0.
+/// 10, SourceId -1, all else 0. Of a rotation none.
 void addMirrorLines(vtkPolyData* constraints, const SymmetricResult& made, bool isMet);
 
 /// Its row of the constraint table.

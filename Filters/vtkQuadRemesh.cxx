@@ -325,6 +325,15 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
       symmetry.plane = quadrille::MirrorPlane{ quadrille::Vector3(this->SymmetryOrigin),
         quadrille::Vector3(this->SymmetryNormal) };
     }
+    if (this->Symmetry == SYMMETRY_AXIS || this->Symmetry == SYMMETRY_AXIS_FOUND)
+    {
+      symmetry.rotation = quadrille::RotationRequest{ this->RotationOrder, std::nullopt };
+    }
+    if (this->Symmetry == SYMMETRY_AXIS)
+    {
+      symmetry.rotation->axis = quadrille::RotationAxis{ quadrille::Vector3(this->SymmetryOrigin),
+        quadrille::Vector3(this->SymmetryNormal) };
+    }
     return quadrille::remeshSymmetric(std::move(surface), how, symmetry, levels);
   };
   std::vector<std::string> notices;
@@ -477,6 +486,7 @@ void vtkQuadRemesh::AddSettings(std::ostream& os) const
      << "Symmetry " << this->Symmetry << '\n'
      << "SymmetryOrigin " << origin[0] << ' ' << origin[1] << ' ' << origin[2] << '\n'
      << "SymmetryNormal " << normal[0] << ' ' << normal[1] << ' ' << normal[2] << '\n'
+     << "RotationOrder " << this->RotationOrder << '\n'
      << "ComputeMappedSurface " << this->ComputeMappedSurface << '\n'
      << "TextureCoordinates " << this->TextureCoordinates << '\n';
   if (this->FinalQuality != Coarse)
@@ -525,6 +535,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
      << " " << this->SymmetryOrigin[2] << "\n";
   os << indent << "SymmetryNormal: " << this->SymmetryNormal[0] << " " << this->SymmetryNormal[1]
      << " " << this->SymmetryNormal[2] << "\n";
+  os << indent << "RotationOrder: " << this->RotationOrder << "\n";
   os << indent << "ComputeMappedSurface: " << this->ComputeMappedSurface << "\n";
   os << indent << "TextureCoordinates: " << this->TextureCoordinates << "\n";
   os << indent << "TargetQuads: " << this->GetTargetQuads() << "\n";

@@ -9,7 +9,8 @@
  *
  * 0. the quads. Points: `Valence`, `QuadNormals` (surfaces without features), `OnBoundary`, `SourceCellId`,
  *    `SourcePointIds` and `SourceBarycentric` (where the point lies on the input); with a Symmetry `MirrorPoint` (the
- *    id of the point that is its mirror image, its own in the plane: an involution that maps quads to quads). Cells:
+ *    id of the point that is its mirror image, its own in the plane: an involution that maps quads to quads), or, of a
+ *    rotation, `RotatedPoint` (the id of the point that it becomes when it is turned by one step). Cells:
  *    `SourceCellId`, `FeatureEdges`, `LayoutPatch` (the patch of the base complex). Every array of the input: on points
  *    real numbers and colours interpolated, whole numbers and strings from the nearest point; on cells see
  *    CellDataFrom.
@@ -40,10 +41,10 @@
  *      Met: at most 0.1.
  *    - "valence", also of a move (kind "move") at its end: the number of edges there, on boundaries one more, less the
  *      one asked for. Met: 0.
- *    - "relative to the diagonal", the mirror symmetry (kind "symmetry", the last row, with a Symmetry): how far the
- *      mirror image of the surface is from it, over the diagonal of its box, as the root of the mean square; in
- *      `Deviation95` the largest distance. Met: the two sides have the same topology, and no quad is turned over where
- *      points were put onto the surface.
+ *    - "relative to the diagonal", the symmetry (kind "symmetry" or "rotation", the last row, with a Symmetry): how far
+ *      the mirror image of the surface, or the surface turned by one step, is from it, over the diagonal of its box, as
+ *      the root of the mean square; in `Deviation95` the largest distance. Met: the quads have the topology of the
+ *      surface, and none is turned over where points were put onto the surface.
  *    - "factor", sizes: by which the square root of a quad's area differs, over the median of all, from `Sizing` there;
  *      mean by area and 95th percentile. Met: a mean of at most 1.25.
  * 7. what of the surface is smaller than the quads, a vertex for each, those that SmallDetails, CloseHandles and
@@ -61,8 +62,9 @@
  * one), `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`, `ShortestBoundaryOverEdgeLength` (see the
  * getters of the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`; with a FinalQuality other than Coarse
  * `DistortionNames`, `DistortionBefore`, `DistortionAfter`, `OptimizationSteps`; with a Symmetry `SymmetryOrigin` and
- * `SymmetryNormal` of the plane, `SymmetryDeviation` (2: root of the mean square and maximum of the distance of the
- * surface's mirror image, over the diagonal of its box), `SymmetryMovedPoints` and `SymmetryFarthestMoved` (points
+ * `SymmetryNormal` of the plane, or `SymmetryOrigin`, `SymmetryDirection` and `SymmetryOrder` of the rotation,
+ * `SymmetryDeviation` (2: root of the mean square and maximum of the distance of the surface's mirror image, or of the
+ * turned surface, over the diagonal of its box), `SymmetryMovedPoints` and `SymmetryFarthestMoved` (points
  * that were put onto the surface, and how far, over the diagonal).
  */
 #ifndef vtkQuadRemesh_h
@@ -330,7 +332,9 @@ public:
   {
     SYMMETRY_NONE = 0,
     SYMMETRY_PLANE = 1,
-    SYMMETRY_FOUND = 2
+    SYMMETRY_FOUND = 2,
+    SYMMETRY_AXIS = 3,
+    SYMMETRY_AXIS_FOUND = 4
   };
 
   ///@{
@@ -342,23 +346,40 @@ public:
    * those behind the plane are put onto the surface. Guides, valences and sizes of one side are asked of both, those in
    * front go before; features are those in front. A surface that is not nearly symmetric is an error. Each block of
    * composite data is taken by itself. Output 1 is the half and its image. Default: SYMMETRY_NONE.
+   *
+   * SYMMETRY_AXIS and SYMMETRY_AXIS_FOUND: quads that become themselves when they are turned by 1 / RotationOrder of a
+   * whole turn round an axis, through SymmetryOrigin along SymmetryNormal, or found. A wedge is remeshed, between half
+   * planes where the cut is short, which are on edges, and its quads and those turned are one mesh. Where the axis
+   * meets the surface the number of quads is a multiple of the order. Of valences and guides those in the wedge go
+   * before. Output 1 is the wedges side by side, not joined at the cuts.
    */
-  vtkSetClampMacro(Symmetry, int, SYMMETRY_NONE, SYMMETRY_FOUND);
+  vtkSetClampMacro(Symmetry, int, SYMMETRY_NONE, SYMMETRY_AXIS_FOUND);
   vtkGetMacro(Symmetry, int);
   void SetSymmetryToNone() { this->SetSymmetry(SYMMETRY_NONE); }
   void SetSymmetryToPlane() { this->SetSymmetry(SYMMETRY_PLANE); }
   void SetSymmetryToFound() { this->SetSymmetry(SYMMETRY_FOUND); }
+  void SetSymmetryToAxis() { this->SetSymmetry(SYMMETRY_AXIS); }
+  void SetSymmetryToAxisFound() { this->SetSymmetry(SYMMETRY_AXIS_FOUND); }
   ///@}
 
   ///@{
   /**
-   * A point of the mirror plane, in units of the input, and its normal, of any length but 0; for SYMMETRY_PLANE.
-   * Defaults: (0, 0, 0) and (1, 0, 0).
+   * A point of the mirror plane, in units of the input, and its normal, of any length but 0; for SYMMETRY_PLANE. For
+   * SYMMETRY_AXIS a point of the axis, and its direction. Defaults: (0, 0, 0) and (1, 0, 0).
    */
   vtkSetVector3Macro(SymmetryOrigin, double);
   vtkGetVector3Macro(SymmetryOrigin, double);
   vtkSetVector3Macro(SymmetryNormal, double);
   vtkGetVector3Macro(SymmetryNormal, double);
+  ///@}
+
+  ///@{
+  /**
+   * The order of the rotation of SYMMETRY_AXIS and SYMMETRY_AXIS_FOUND: so many steps are a whole turn. 2 to 64.
+   * Default: 2.
+   */
+  vtkSetClampMacro(RotationOrder, int, 2, 64);
+  vtkGetMacro(RotationOrder, int);
   ///@}
 
   ///@{
@@ -507,6 +528,7 @@ private:
   int Symmetry = SYMMETRY_NONE;
   double SymmetryOrigin[3] = { 0, 0, 0 };
   double SymmetryNormal[3] = { 1, 0, 0 };
+  int RotationOrder = 2;
   vtkTypeBool ComputeMappedSurface = 1;
   vtkTypeBool TextureCoordinates = 1;
 };

@@ -130,15 +130,20 @@ void vtkQuadrilleSession::Internals::Write()
     return;
   }
   writeSessionQuads(result->quads, this->Quads);
-  if (!result->mirrorPoint.empty())
+  const auto addImages = [this](const std::vector<quadrille::Index>& images, const char* name)
   {
-    auto image = quadrille::newArray<vtkIdTypeArray>(quadrille::arrays::kMirrorPoint);
-    for (const quadrille::Index point : result->mirrorPoint)
+    if (!images.empty())
     {
-      image->InsertNextValue(point);
+      auto image = quadrille::newArray<vtkIdTypeArray>(name);
+      for (const quadrille::Index point : images)
+      {
+        image->InsertNextValue(point);
+      }
+      this->Quads->GetPointData()->AddArray(image);
     }
-    this->Quads->GetPointData()->AddArray(image);
-  }
+  };
+  addImages(result->mirrorPoint, quadrille::arrays::kMirrorPoint);
+  addImages(result->rotatedPoint, quadrille::arrays::kRotatedPoint);
 
   std::vector<quadrille::Vector3> places;
   auto point = quadrille::newArray<vtkIdTypeArray>("PointId");

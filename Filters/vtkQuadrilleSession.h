@@ -10,7 +10,8 @@
  * same way "feature" (points), "guide region" (polygons, direction, weight), "valence" (point, valence), "size"
  * (point, radius, factor), "size region" (polygons, factor), "irregular" (operation: "move", "split", "merge",
  * "cancel" or "add"; points, valences), "connection" (points), "cycle" (points), "symmetry" (origin and normal of the
- * plane, or neither: it is found). Python's quadrille.Session has a method for each.
+ * plane, or neither: it is found), "rotation" (order; origin and direction of the axis, or neither).
+ * Python's quadrille.Session has a method for each.
  *
  * A method that fails returns false, 0 or an empty text; GetErrorText() says why. While Update() runs, the session
  * invokes ProgressEvent; GetProgress() is the fraction, and AbortUpdateOn() in an observer stops the run.

@@ -151,7 +151,7 @@ void addSuccess(Json& json, vtkPolyData* quads)
     json["distortion_after"] = pairs(quads, "DistortionNames", "DistortionAfter");
     json["optimization_steps"] = field("OptimizationSteps");
   }
-  if (quads->GetFieldData()->GetArray("SymmetryNormal"))
+  if (quads->GetFieldData()->GetArray("SymmetryOrigin"))
   {
     const auto values = [quads](const char* name)
     {
@@ -164,9 +164,18 @@ void addSuccess(Json& json, vtkPolyData* quads)
       return list;
     };
     json["symmetry"] = { { "origin", values("SymmetryOrigin") },
-      { "normal", values("SymmetryNormal") }, { "deviation", values("SymmetryDeviation") },
+      { "deviation", values("SymmetryDeviation") },
       { "moved_points", field("SymmetryMovedPoints") },
       { "farthest_moved", field("SymmetryFarthestMoved") } };
+    if (quads->GetFieldData()->GetArray("SymmetryNormal"))
+    {
+      json["symmetry"]["normal"] = values("SymmetryNormal");
+    }
+    else
+    {
+      json["symmetry"]["direction"] = values("SymmetryDirection");
+      json["symmetry"]["order"] = field("SymmetryOrder");
+    }
   }
   json["quality"] = qualityOf(quads);
 }

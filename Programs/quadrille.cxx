@@ -18,6 +18,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -134,30 +135,71 @@ void addSizes(CommandOptions& options, vtkQuadRemesh* filter)
     "the most that both leave, over the target edge length (default 1)");
 }
 
-/// "found", or six numbers.
-void setSymmetry(vtkQuadRemesh* filter, const std::string& text)
+/// So many numbers with commas between them; none where it is something else.
+template <std::size_t count>
+std::optional<std::array<double, count>> numbersIn(const std::string& text)
 {
-  if (text == "found")
-  {
-    filter->SetSymmetryToFound();
-    return;
-  }
   std::istringstream stream(text);
-  std::array<double, 6> numbers{};
+  std::array<double, count> numbers{};
   bool isRead = true;
   for (std::size_t i = 0; i < numbers.size(); ++i)
   {
     char comma = ',';
     isRead = isRead && (i == 0 || stream >> comma) && comma == ',' && stream >> numbers[i];
   }
-  if (!isRead || stream.peek() != std::istringstream::traits_type::eof())
+  const bool isAll = isRead && stream.peek() == std::istringstream::traits_type::eof();
+  return isAll ? std::optional(numbers) : std::nullopt;
+}
+
+/// The order, or the order and six numbers.
+void setRotation(vtkQuadRemesh* filter, const std::string& text)
+{
+  constexpr double kLeast = 2, kMost = 64;
+  const auto order = numbersIn<1>(text);
+  const auto all = numbersIn<7>(text);
+  const double steps = order ? order->front() : all ? all->front() : 0;
+  if (!(steps >= kLeast && steps <= kMost && steps == std::floor(steps)))
+  {
+    throw UsageError("--rotation " + text +
+      ": give the order, 2 to 64, for an axis that is found, or with a point of the axis and its "
+      "direction as seven numbers, n,x,y,z,dx,dy,dz");
+  }
+  if (filter->GetSymmetry() != vtkQuadRemesh::SYMMETRY_NONE)
+  {
+    throw UsageError("quads have one symmetry: give --symmetry or --rotation");
+  }
+  filter->SetRotationOrder(static_cast<int>(steps));
+  if (order)
+  {
+    filter->SetSymmetryToAxisFound();
+    return;
+  }
+  filter->SetSymmetryToAxis();
+  filter->SetSymmetryOrigin(all->data() + 1);
+  filter->SetSymmetryNormal(all->data() + 4);
+}
+
+/// "found", or six numbers.
+void setSymmetry(vtkQuadRemesh* filter, const std::string& text)
+{
+  if (filter->GetSymmetry() != vtkQuadRemesh::SYMMETRY_NONE)
+  {
+    throw UsageError("quads have one symmetry: give --symmetry or --rotation");
+  }
+  if (text == "found")
+  {
+    filter->SetSymmetryToFound();
+    return;
+  }
+  const auto numbers = numbersIn<6>(text);
+  if (!numbers)
   {
     throw UsageError("--symmetry " + text +
       ": give found, or a point of the plane and its normal as six numbers, x,y,z,nx,ny,nz");
   }
   filter->SetSymmetryToPlane();
-  filter->SetSymmetryOrigin(numbers.data());
-  filter->SetSymmetryNormal(numbers.data() + 3);
+  filter->SetSymmetryOrigin(numbers->data());
+  filter->SetSymmetryNormal(numbers->data() + 3);
 }
 
 /// "auto", or a length.
@@ -281,6 +323,11 @@ void addShape(CommandOptions& options, vtkQuadRemesh* filter)
     "nearest to its image, or "
     "x,y,z,nx,ny,nz, a point of the plane and its normal, which points to the half that is "
     "remeshed");
+  options.addText(
+    "rotation", "ORDER", [filter](const std::string& text) { setRotation(filter, text); },
+    "quads that become themselves when they are turned by one of so many steps of a whole turn, 2 "
+    "to 64, round the axis about which the surface is nearest to itself, or n,x,y,z,dx,dy,dz, with "
+    "a point of the axis and its direction");
 }
 
 void addFinish(CommandOptions& options, vtkQuadRemesh* filter)

@@ -415,6 +415,13 @@ std::vector<std::uint8_t> integerVertices(const Mesh& mesh, const CrossField& fi
     const bool constrained = sectors[v] > 0;
     integer[v] = constrained ? (bent[v] != 0 || sectors[v] != passing) : field.turns[v] != 4;
   }
+  for (const SeamEdges& seam : field.seams)
+  {
+    for (const std::vector<Index>& edges : { seam.left, seam.right })
+    {
+      integer[mesh.origin[edges.front()]] = integer[mesh.target(edges.back())] = 1;
+    }
+  }
   return integer;
 }
 

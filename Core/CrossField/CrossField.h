@@ -16,6 +16,7 @@
 #include "Base/Progress.h"
 #include "Mesh/Guides.h"
 #include "Mesh/Mesh.h"
+#include "Mesh/SeamRequests.h"
 
 #include <cstdint>
 #include <vector>
@@ -90,6 +91,8 @@ struct CrossField
   std::vector<Eigen::Matrix2d> stretch;
   /// Set by who makes the map: lines that it has to have.
   std::vector<Isoline> isolines;
+  /// The same: parts of the boundary that are equally long in the map, and whose ends are integer vertices.
+  std::vector<SeamEdges> seams;
   std::vector<FieldGuide> guides; ///< #F, or empty without guides; the map follows them, too
 
   Status status;
@@ -107,7 +110,7 @@ CrossField computeCrossField(const Mesh& mesh, const CrossFieldOptions& options)
 
 /// Vertices whose position in the map must be an integer point: interior ones with turns != 4, and
 /// constrained ones whose sectors are not all straight (a smooth feature has sectors 2 and 2, a smooth boundary 2),
-/// which includes feature ends, junctions and corners. #V flags.
+/// which includes feature ends, junctions and corners; also the ends of seams. #V flags.
 std::vector<std::uint8_t> integerVertices(const Mesh& mesh, const CrossField& field);
 
 } // namespace quadrille

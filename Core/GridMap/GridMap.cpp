@@ -134,6 +134,10 @@ public:
 
   GridMapResult run()
   {
+    if (!findSeams())
+    {
+      return std::move(result_);
+    }
     computeField();
     if (!result_.field.status.ok())
     {
@@ -178,13 +182,28 @@ private:
     fieldOptions.progress = subProgress(options_.progress, 0.0, 0.1);
     fieldOptions.guides = options_.guides;
     fieldOptions.targetValences = options_.targetValences;
-    fieldOptions.sectorTurns = options_.sectorTurns;
+    fieldOptions.regular.assign(options_.fewIrregular ? mesh_.vertexCount() : 0, 1);
+    fieldOptions.sectorTurns = seamSectors(mesh_, seams_, options_.sectorTurns);
     result_.field = computeCrossField(mesh_, fieldOptions);
     if (!options_.curves.empty() && makesLines() && result_.field.status.ok())
     {
       followCurves(fieldOptions);
     }
     result_.field.stretch = options_.stretch;
+    result_.field.seams = seams_;
+  }
+
+  /// False where the mesh lacks one of them.
+  bool findSeams()
+  {
+    seams_ = quadrille::findSeams(mesh_, options_.seams);
+    if (std::any_of(seams_.begin(), seams_.end(), [](const SeamEdges& s) { return s.empty(); }))
+    {
+      result_.status = { StatusCode::Infeasible,
+        "the coarse mesh does not have the two sides of the cut" };
+      return false;
+    }
+    return true;
   }
 
   /// The field once more, led along the curves. All its irregular vertices stay, as they are those that the user has
@@ -719,6 +738,7 @@ private:
   GridMapResult result_;
   bool holdsIrregular_ = false;
   std::vector<RequestedLine> lines_;
+  std::vector<SeamEdges> seams_;
   std::vector<Component> components_;
 };
 
@@ -1060,6 +1080,17 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
       std::to_string(mesh.faceCount()) + " faces");
   }
   GridMapResult result = CurvedMap(mesh, options).run();
+  if (!result.status.ok() && !options.seams.empty() && !options.fewIrregular)
+  {
+    GridMapOptions fewer = options;
+    fewer.fewIrregular = true;
+    GridMapResult again = CurvedMap(mesh, fewer).run();
+    if (again.status.ok())
+    {
+      again.addWork(result);
+      return again;
+    }
+  }
   if (result.reuse.any() && !result.status.ok())
   {
     GridMapOptions cold = options;

@@ -54,6 +54,11 @@ struct GridMapOptions
   /// Connections and cycles, on or near the mesh. Where no map has them all, the newest ones are left out, which
   /// GridMapResult::curves tells. Not by the methods that round.
   std::vector<CurveRequest> curves;
+  /// Parts of the boundary that get the same number of edges. Both of a pair must be of one component.
+  std::vector<SeamRequest> seams;
+  /// Irregular vertices give way to each other where they can. Where a mesh with seams has no map, this is tried: a
+  /// lone pair of valences 3 and 5 makes the two parts of a seam differ.
+  bool fewIrregular = false;
   /// Empty or #F: how the surface that a face stands for is stretched against it, see CrossField::stretch.
   std::vector<Eigen::Matrix2d> stretch;
   /// An earlier map to start from (see PreviousMap.h), or null. The result is as valid as without, but may differ; it

@@ -94,6 +94,18 @@ std::vector<MeshPart> splitIntoParts(const Mesh& mesh, const CrossField& field)
     }
     part.isolines.push_back(std::move(line));
   }
+  for (SeamEdges seam : field.seams)
+  {
+    CrossField& part = parts[component[Mesh::face(seam.left.front())]].field;
+    for (std::vector<Index>* edges : { &seam.left, &seam.right })
+    {
+      for (Index& h : *edges)
+      {
+        h = local.halfEdge(h);
+      }
+    }
+    part.seams.push_back(std::move(seam));
+  }
   return parts;
 }
 

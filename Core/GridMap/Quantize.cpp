@@ -170,6 +170,84 @@ std::vector<FixedVec2> developedVectors(const UvMesh& map, const CrossField& fie
   return vectors;
 }
 
+/// The mesh with its seams joined, as each one is an edge now: strips that leave by one part come back by its image, so
+/// that both keep the same length.
+class JoinedSides
+{
+public:
+  JoinedSides(UvMesh& mesh, const Mesh& whole, const CrossField& field) : mesh_(mesh)
+  {
+    for (const SeamEdges& seam : field.seams)
+    {
+      const Index a = edgeOf(whole, seam.left);
+      const Index b = edgeOf(whole, seam.right);
+      if (a == kInvalidIndex || b == kInvalidIndex || !join(a, b))
+      {
+        isWhole_ = false;
+        return;
+      }
+    }
+  }
+
+  bool isWhole() const { return isWhole_; }
+
+  void takeApart()
+  {
+    for (const Index h : joined_)
+    {
+      mesh_.twin[h] = kInvalidIndex;
+      mesh_.rotation[h] = 0;
+    }
+    joined_.clear();
+  }
+
+private:
+  Index edgeOf(const Mesh& whole, const std::vector<Index>& part) const
+  {
+    const Index h = mesh_.outgoing[whole.origin[part.front()]];
+    const bool isEdge = h != kInvalidIndex && mesh_.twin[h] == kInvalidIndex &&
+      mesh_.target(h) == whole.target(part.back());
+    return isEdge ? h : kInvalidIndex;
+  }
+
+  bool join(Index a, Index b)
+  {
+    for (int r = 0; r < 4; ++r)
+    {
+      if (mesh_.vector(b) == -rotate(mesh_.vector(a), r))
+      {
+        mesh_.twin[a] = b;
+        mesh_.twin[b] = a;
+        mesh_.rotation[a] = static_cast<std::int8_t>(r);
+        mesh_.rotation[b] = static_cast<std::int8_t>(-r & 3);
+        joined_.insert(joined_.end(), { a, b });
+        return true;
+      }
+    }
+    return false;
+  }
+
+  UvMesh& mesh_;
+  std::vector<Index> joined_;
+  bool isWhole_ = true;
+};
+
+/// A vertex between the ends of a seam that may lie anywhere on it is none that its image need have.
+void freeSeams(const Mesh& mesh, const CrossField& field, LockedVertices& locked)
+{
+  for (const SeamEdges& seam : field.seams)
+  {
+    for (const std::vector<Index>* part : { &seam.left, &seam.right })
+    {
+      for (std::size_t i = 1; i < part->size(); ++i)
+      {
+        const Index v = mesh.origin[(*part)[i]];
+        locked.keep[v] = locked.integer[v];
+      }
+    }
+  }
+}
+
 Status tooFine(double growth)
 {
   return { StatusCode::NotConverged,
@@ -199,6 +277,7 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   UvEditor editor(uvMesh);
   LockedVertices locked =
     lockedVertices(mesh, uvMesh, integerVertices(mesh, field), options.watched);
+  freeSeams(mesh, field, locked);
   const std::vector<FixedVec2> lines = developedVectors(uvMesh, field);
   decimateInUv(uvMesh, editor, locked.keep);
   for (std::size_t i = 0; i < lines.size(); ++i)
@@ -207,6 +286,14 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
     lockLine(uvMesh, editor, locked.integer, mesh, field.isolines[i], lines[i]);
   }
 
+  const std::size_t decimated = editor.recordCount();
+  JoinedSides seams(uvMesh, mesh, field);
+  if (!seams.isWhole())
+  {
+    result.status = { StatusCode::NotConverged,
+      "quantization: the two sides of the cut have not the same corners and ends of features" };
+    return result;
+  }
   IntegerMap integers(uvMesh, editor, locked.integer);
   IntegerStart start;
   if (options.previousUv != nullptr)
@@ -230,6 +317,8 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   result.work += improveIntegers(integers, options.progress);
   result.refinement = std::max(1.0, std::sqrt(integers.area() / wantedArea));
   integrate(integers, locked.integer, uvMesh);
+  editor.undoTo(decimated);
+  seams.takeApart();
   editor.undoAll();
   joinCharts(uvMesh);
   result.uv = uvMesh.uv;

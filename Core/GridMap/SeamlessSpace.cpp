@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -30,6 +31,10 @@ public:
     for (const Isoline& line : field.isolines)
     {
       addIsoline(line);
+    }
+    for (const SeamEdges& seam : field.seams)
+    {
+      addSeam(seam);
     }
   }
 
@@ -150,6 +155,40 @@ private:
     if (!row.empty())
     {
       rows_.push_back(std::move(row));
+    }
+  }
+
+  /// Both parts are equally long.
+  void addSeam(const SeamEdges& seam)
+  {
+    std::map<Index, std::int64_t> row;
+    const auto add = [&](Index h, std::int64_t sign)
+    {
+      const int direction = (field_.alignment[h] + graph_.comb[Mesh::face(h)]) & 3;
+      const Index coordinate = static_cast<Index>(direction & 1);
+      const std::int64_t along = direction < 2 ? sign : -sign;
+      row[2 * graph_.wedge[Mesh::next(h)] + coordinate] += along;
+      row[2 * graph_.wedge[h] + coordinate] -= along;
+    };
+    for (const Index h : seam.left)
+    {
+      add(h, 1);
+    }
+    for (const Index h : seam.right)
+    {
+      add(h, -1);
+    }
+    IntegerRow terms;
+    for (const auto& [variable, factor] : row)
+    {
+      if (factor != 0)
+      {
+        terms.emplace_back(variable, factor);
+      }
+    }
+    if (!terms.empty())
+    {
+      rows_.push_back(std::move(terms));
     }
   }
 

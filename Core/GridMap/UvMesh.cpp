@@ -403,9 +403,9 @@ void UvEditor::restore(const UvRecord& record)
   }
 }
 
-void UvEditor::undoAll()
+void UvEditor::undoTo(std::size_t count)
 {
-  while (!records_.empty())
+  while (records_.size() > count)
   {
     const UvRecord record = records_.back();
     switch (record.kind)

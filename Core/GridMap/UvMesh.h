@@ -102,7 +102,9 @@ public:
 
   /// Undoes everything, last first, on the mesh's current uv, whatever that has become: removed vertices
   /// return at their weights, rounded once, and faces that return get charts with whole translations.
-  void undoAll();
+  void undoAll() { undoTo(0); }
+  /// The same for all but the first so many operations.
+  void undoTo(std::size_t count);
 
 private:
   struct SlotState

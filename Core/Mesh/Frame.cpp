@@ -182,6 +182,13 @@ void requestsToFrame(FramedInput& framed)
       p = frame.fromUser(p);
     }
   }
+  for (SeamRequest& seam : framed.input.seams)
+  {
+    for (Vector3* p : { &seam.from, &seam.to, &seam.imageFrom, &seam.imageTo })
+    {
+      *p = frame.fromUser(*p);
+    }
+  }
 }
 
 /// Runs the first polygon, begun at its lowest point, against ascending ids?

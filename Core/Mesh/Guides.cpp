@@ -177,6 +177,7 @@ void collectRequests(const SurfaceInput& input, PreparedSurface& surface, int th
   surface.curves = input.curves;
   surface.regularElsewhere = input.regularElsewhere;
   surface.regularOnFeatures = input.regularOnFeatures;
+  surface.seams = input.seams;
   if (input.targetValences.empty())
   {
     return;
@@ -290,6 +291,8 @@ std::vector<Index> keptVertices(const PreparedSurface& surface)
       vertices.push_back(request.vertex);
     }
   }
+  const std::vector<Index> ends = seamVertices(surface.mesh, surface.seams);
+  vertices.insert(vertices.end(), ends.begin(), ends.end());
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/MirrorSearch.h"
 
-#include "Base/Angles.h"
 #include "Base/Parallel.h"
+#include "Mesh/SurfaceSamples.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -28,115 +27,13 @@ constexpr int kFewSteps = 8, kMostSteps = 30;
 constexpr std::size_t kMostPoints = 20000; ///< of the surface, for the maximum
 /// Steps go on while they make the deviation less by this share, or it is rounding.
 constexpr double kStillBetter = 1e-3;
-/// Triangles, about, that stand for the surface until the last samples.
-constexpr std::size_t kFewTriangles = 50000;
 constexpr std::size_t kMirrorChunk = 64;
-constexpr std::size_t kDirections = 100; ///< all round
-constexpr int kBetween = 36;             ///< normals between two axes, over half a turn
 /// Deviations that differ by less than this, over the size of the surface, are equal.
 constexpr double kEqual = 1e-9;
 
-struct Sample
-{
-  Vector3 point;
-  Vector3 normal; ///< unit
-};
-
-struct Sampling
-{
-  std::vector<Sample> samples; ///< each of the same area
-  Vector3 centre = Vector3::Zero();
-  Matrix3 axes = Matrix3::Identity(); ///< columns, the longest first
-  double size = 0;                    ///< diagonal of the box
-};
-
-Vector3 faceAreaVector(const TriangleList& list, std::size_t t)
-{
-  const std::array<Index, 3>& c = list.corners[t];
-  return (list.points[c[1]] - list.points[c[0]]).cross(list.points[c[2]] - list.points[c[0]]) / 2;
-}
-
-/// At equal steps of the area, in order of the triangles; places in triangles by the sequence R2 [Roberts 2018].
-std::vector<Sample> sample(const TriangleList& list, std::size_t count)
-{
-  double total = 0;
-  for (std::size_t t = 0; t < list.corners.size(); ++t)
-  {
-    total += faceAreaVector(list, t).norm();
-  }
-  std::vector<Sample> samples;
-  samples.reserve(count);
-  double area = 0;
-  double a = 0.5, b = 0.5;
-  for (std::size_t t = 0; t < list.corners.size(); ++t)
-  {
-    const Vector3 across = faceAreaVector(list, t);
-    area += across.norm();
-    while (samples.size() < count &&
-      area > (static_cast<double>(samples.size()) + 0.5) / static_cast<double>(count) * total)
-    {
-      a = std::fmod(a + 0.7548776662466927, 1);
-      b = std::fmod(b + 0.5698402909980532, 1);
-      const bool isBeyond = a + b > 1;
-      const double v = isBeyond ? 1 - a : a;
-      const double w = isBeyond ? 1 - b : b;
-      const std::array<Index, 3>& c = list.corners[t];
-      samples.push_back(
-        { (1 - v - w) * list.points[c[0]] + v * list.points[c[1]] + w * list.points[c[2]],
-          across.normalized() });
-    }
-  }
-  return samples;
-}
-
-/// Exact moments of the triangles.
-void measureMoments(const TriangleList& list, Sampling& sampling)
-{
-  double total = 0;
-  Vector3 first = Vector3::Zero();
-  Vector3 low = list.points[list.corners[0][0]];
-  Vector3 high = low;
-  for (std::size_t t = 0; t < list.corners.size(); ++t)
-  {
-    const double area = faceAreaVector(list, t).norm();
-    total += area;
-    for (const Index corner : list.corners[t])
-    {
-      first += area / 3 * list.points[corner];
-      low = low.cwiseMin(list.points[corner]);
-      high = high.cwiseMax(list.points[corner]);
-    }
-  }
-  sampling.centre = first / total;
-  sampling.size = (high - low).norm();
-  Matrix3 second = Matrix3::Zero();
-  for (std::size_t t = 0; t < list.corners.size(); ++t)
-  {
-    Vector3 sum = Vector3::Zero();
-    Matrix3 squares = Matrix3::Zero();
-    for (const Index corner : list.corners[t])
-    {
-      const Vector3 p = list.points[corner] - sampling.centre;
-      sum += p;
-      squares += p * p.transpose();
-    }
-    second += faceAreaVector(list, t).norm() / 12 * (squares + sum * sum.transpose());
-  }
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(second / total);
-  sampling.axes = solver.eigenvectors().rowwise().reverse(); // ascending before
-}
-
-Sampling sampleSurface(const TriangleList& list, std::size_t count)
-{
-  Sampling sampling;
-  measureMoments(list, sampling);
-  sampling.samples = sample(list, count);
-  return sampling;
-}
-
 /// Where the images of the samples lie beside the surface.
 std::vector<NearestTriangle::Place> nearestImages(const NearestTriangle& surface,
-  const MirrorPlane& plane, const std::vector<Sample>& samples, int threads)
+  const MirrorPlane& plane, const std::vector<SurfaceSample>& samples, int threads)
 {
   std::vector<NearestTriangle::Place> places(samples.size());
   parallelFor(samples.size(), kMirrorChunk, threads,
@@ -148,42 +45,6 @@ std::vector<NearestTriangle::Place> nearestImages(const NearestTriangle& surface
       }
     });
   return places;
-}
-
-double rmsOf(const std::vector<NearestTriangle::Place>& places)
-{
-  double sum = 0;
-  for (const NearestTriangle::Place& place : places)
-  {
-    sum += place.distance * place.distance;
-  }
-  return std::sqrt(sum / static_cast<double>(places.size()));
-}
-
-double medianOf(const std::vector<NearestTriangle::Place>& places)
-{
-  std::vector<double> distances;
-  distances.reserve(places.size());
-  for (const NearestTriangle::Place& place : places)
-  {
-    distances.push_back(place.distance);
-  }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
-}
-
-/// Every so manyth triangle.
-TriangleList thinnedOut(const TriangleList& list)
-{
-  const std::size_t stride = 1 + list.corners.size() / kFewTriangles;
-  TriangleList few;
-  few.points = list.points;
-  for (std::size_t t = 0; t < list.corners.size(); t += stride)
-  {
-    few.corners.push_back(list.corners[t]);
-  }
-  return few;
 }
 
 struct Candidate
@@ -202,7 +63,7 @@ std::array<Vector3, 2> tangents(const Vector3& n)
 class Refinement
 {
 public:
-  Refinement(const NearestTriangle& surface, const Sampling& sampling, int threads)
+  Refinement(const NearestTriangle& surface, const SurfaceSampling& sampling, int threads)
     : surface_(surface), sampling_(sampling), threads_(threads)
   {
   }
@@ -250,7 +111,7 @@ private:
     for (std::size_t i = 0; i < places.size(); ++i)
     {
       const Vector3& p = sampling_.samples[i].point;
-      const Vector3 across = faceAreaVector(surface_.triangles(), places[i].triangle).normalized();
+      const Vector3 across = areaVectorOf(surface_.triangles(), places[i].triangle).normalized();
       const Vector3 arm = p - plane.origin;
       const double height = plane.height(p);
       const auto turned = [&](const Vector3& dn)
@@ -283,39 +144,9 @@ private:
   }
 
   const NearestTriangle& surface_;
-  const Sampling& sampling_;
+  const SurfaceSampling& sampling_;
   int threads_;
 };
-
-std::vector<MirrorPlane> candidatePlanes(const Sampling& sampling)
-{
-  std::vector<MirrorPlane> planes;
-  const auto add = [&](const Vector3& normal) {
-    planes.push_back({ sampling.centre, normal.normalized() });
-  };
-  for (int i = 0; i < 3; ++i)
-  {
-    add(sampling.axes.col(i));
-  }
-  for (int i = 0; i < 3; ++i)
-  {
-    for (int k = 1; k < kBetween; ++k)
-    {
-      const double angle = k * kPi / kBetween;
-      add(
-        std::cos(angle) * sampling.axes.col(i) + std::sin(angle) * sampling.axes.col((i + 1) % 3));
-    }
-  }
-  for (std::size_t k = 0; k < kDirections; ++k)
-  {
-    // Half a sphere, by the golden angle.
-    const double z = (static_cast<double>(k) + 0.5) / kDirections;
-    const double angle = static_cast<double>(k) * kPi * (3 - std::sqrt(5.0));
-    const double r = std::sqrt(1 - z * z);
-    add(sampling.axes * Vector3(r * std::cos(angle), r * std::sin(angle), z));
-  }
-  return planes;
-}
 
 /// In their order, but those that are better by more than kEqual come first.
 void sortByRms(std::vector<Candidate>& candidates, double size)
@@ -326,25 +157,13 @@ void sortByRms(std::vector<Candidate>& candidates, double size)
     { return std::floor(a.rms / unit) < std::floor(b.rms / unit); });
 }
 
-Vector3 withSign(const Vector3& normal)
-{
-  for (int i = 0; i < 3; ++i)
-  {
-    if (std::abs(normal[i]) > 1e-3)
-    {
-      return normal[i] > 0 ? normal : Vector3(-normal);
-    }
-  }
-  return normal;
-}
-
 } // namespace
 
 MirrorDeviation mirrorDeviation(
   const NearestTriangle& surface, const MirrorPlane& plane, int threads)
 {
   const TriangleList& list = surface.triangles();
-  std::vector<Sample> samples = sample(list, kLastSamples);
+  std::vector<SurfaceSample> samples = sampleByArea(list, kLastSamples);
   const std::size_t byArea = samples.size();
   const std::size_t stride = 1 + list.points.size() / kMostPoints;
   for (std::size_t i = 0; i < list.points.size(); i += stride)
@@ -368,23 +187,24 @@ MirrorDeviation mirrorDeviation(
 
 MirrorPlane findMirrorPlane(const NearestTriangle& surface, int threads)
 {
-  Sampling sampling = sampleSurface(surface.triangles(), kFirstSamples);
+  SurfaceSampling sampling = sampleSurface(surface.triangles(), kFirstSamples);
   const NearestTriangle few(thinnedOut(surface.triangles()));
   std::vector<Candidate> candidates;
-  for (const MirrorPlane& plane : candidatePlanes(sampling))
+  for (const Vector3& normal : candidateDirections(sampling))
   {
+    const MirrorPlane plane{ sampling.centre, normal };
     candidates.push_back({ plane, rmsOf(nearestImages(few, plane, sampling.samples, threads)) });
   }
   sortByRms(candidates, sampling.size);
   candidates.resize(std::min(candidates.size(), kRefined));
-  sampling.samples = sample(surface.triangles(), kMiddleSamples);
+  sampling.samples = sampleByArea(surface.triangles(), kMiddleSamples);
   for (Candidate& candidate : candidates)
   {
     candidate = Refinement(few, sampling, threads).run(candidate.plane, kFewSteps);
     candidate.rms = rmsOf(nearestImages(surface, candidate.plane, sampling.samples, threads));
   }
   sortByRms(candidates, sampling.size);
-  sampling.samples = sample(surface.triangles(), kLastSamples);
+  sampling.samples = sampleByArea(surface.triangles(), kLastSamples);
   MirrorPlane plane =
     Refinement(surface, sampling, threads).run(candidates.front().plane, kMostSteps).plane;
   plane.origin = plane.foot(sampling.centre);

@@ -9,6 +9,7 @@
 #include "Mesh/Guides.h"
 #include "Mesh/HeldVertices.h"
 #include "Mesh/Mesh.h"
+#include "Mesh/SeamRequests.h"
 
 #include <array>
 #include <cstdint>
@@ -51,6 +52,8 @@ struct SurfaceInput
   std::vector<HeldVertex> held;
   /// Curves that pass a vertex, features and boundaries, are to run straight there but for those that are held.
   bool regularOnFeatures = false;
+  /// Parts of the boundary that get the same number of quads' edges, see SeamRequests.h.
+  std::vector<SeamRequest> seams;
   FaceOrder faceOrder = FaceOrder::AsGiven; ///< see Frame.h
   /// By how much coordinates may differ from what was meant, in units of the points, >= 0; 0: not known.
   double precision = 0;
@@ -132,6 +135,7 @@ struct PreparedSurface
   bool regularElsewhere = false;               ///< as it was given
   std::vector<SectorRequest> sectorRequests;   ///< ascending by vertex
   bool regularOnFeatures = false;              ///< as it was given
+  std::vector<SeamRequest> seams;              ///< as they were given, in the frame
 
   /// Sub-stages with their seconds: repair, order, connectivity.
   std::vector<std::pair<std::string, double>> seconds;

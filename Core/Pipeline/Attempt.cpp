@@ -58,6 +58,7 @@ GridMapOptions mapOptions(RunContext& run, const Plan& plan, MapAttempt& made)
     levelValences(*run.surface, levels.coarse.mesh, levels.coarse.fineVertex);
   options.sectorTurns = levelSectors(*run.surface, levels.coarse.mesh, levels.coarse.fineVertex);
   options.curves = run.surface->curves;
+  options.seams = run.surface->seams;
   options.progress = subProgress(run.options.progress, 0.45, 0.8, "Mapping: ");
   if (run.options.distortionMetric) // on request
   {
@@ -312,6 +313,14 @@ void addRequests(const PreparedSurface& surface, KeyMaker& key)
         key.add(sector.middle[0]).add(sector.middle[1]).add(sector.middle[2]);
         key.add(static_cast<std::uint64_t>(sector.turns));
       }
+    }
+  }
+  for (const SeamRequest& seam : surface.seams)
+  {
+    key.add(std::uint64_t{ 4 });
+    for (const Vector3& p : { seam.from, seam.to, seam.imageFrom, seam.imageTo })
+    {
+      key.add(p[0]).add(p[1]).add(p[2]);
     }
   }
   for (const CurveRequest& curve : surface.curves)

@@ -132,6 +132,13 @@ void leaveFrame(PreparedSurface& surface, const Frame& frame, std::vector<Vector
       p = frame.toUser(p);
     }
   }
+  for (SeamRequest& seam : surface.seams)
+  {
+    for (Vector3* p : { &seam.from, &seam.to, &seam.imageFrom, &seam.imageTo })
+    {
+      *p = frame.toUser(*p);
+    }
+  }
   if (frame.reversed)
   {
     reverseFaces(surface);

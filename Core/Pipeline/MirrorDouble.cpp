@@ -63,38 +63,6 @@ std::array<double, 3> imageWeights(const std::array<double, 3>& weights)
   return { weights[0], weights[2], weights[1] };
 }
 
-/// Valences and boundary. Returns a point of an edge with more than two quads, where there is one.
-Index countEdges(QuadMesh& quads)
-{
-  Index crowded = kInvalidIndex;
-  std::vector<std::pair<Index, Index>> edges;
-  edges.reserve(4 * quads.quads.size());
-  for (const std::array<Index, 4>& quad : quads.quads)
-  {
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      edges.push_back(std::minmax(quad[i], quad[(i + 1) % 4]));
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  quads.valence.assign(quads.points.size(), 0);
-  quads.onBoundary.assign(quads.points.size(), 0);
-  for (std::size_t i = 0, next = 0; i < edges.size(); i = next)
-  {
-    for (next = i; next < edges.size() && edges[next] == edges[i];)
-    {
-      ++next;
-    }
-    for (const Index p : { edges[i].first, edges[i].second })
-    {
-      ++quads.valence[p];
-      quads.onBoundary[p] = next == i + 1 ? 1 : quads.onBoundary[p];
-    }
-    crowded = next > i + 2 ? edges[i].first : crowded;
-  }
-  return crowded;
-}
-
 } // namespace
 
 Index DoubledMesh::imageOfCorner(Index h) const
@@ -169,10 +137,42 @@ std::vector<int> doubleTurns(const DoubledMesh& doubled, const std::vector<int>&
   return both;
 }
 
+Index countEdges(QuadMesh& quads)
+{
+  Index crowded = kInvalidIndex;
+  std::vector<std::pair<Index, Index>> edges;
+  edges.reserve(4 * quads.quads.size());
+  for (const std::array<Index, 4>& quad : quads.quads)
+  {
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      edges.push_back(std::minmax(quad[i], quad[(i + 1) % 4]));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  quads.valence.assign(quads.points.size(), 0);
+  quads.onBoundary.assign(quads.points.size(), 0);
+  for (std::size_t i = 0, next = 0; i < edges.size(); i = next)
+  {
+    for (next = i; next < edges.size() && edges[next] == edges[i];)
+    {
+      ++next;
+    }
+    for (const Index p : { edges[i].first, edges[i].second })
+    {
+      ++quads.valence[p];
+      quads.onBoundary[p] = next == i + 1 ? 1 : quads.onBoundary[p];
+    }
+    crowded = next > i + 2 ? edges[i].first : crowded;
+  }
+  return crowded;
+}
+
 DoubledQuads doubleQuads(const QuadMesh& half, const DoubledMesh& doubled, const MirrorPlane& plane)
 {
   DoubledQuads result;
   result.halfPoints = static_cast<Index>(half.points.size());
+  result.halfQuads = static_cast<Index>(half.quads.size());
   std::vector<std::uint8_t> inPlane(half.points.size(), 0);
   for (const QuadLine& line : half.lines)
   {

@@ -35,6 +35,10 @@ std::vector<FixedVec2> doubleMap(const DoubledMesh& doubled, std::vector<FixedVe
 /// Its turns; those of both sides in the plane.
 std::vector<int> doubleTurns(const DoubledMesh& doubled, const std::vector<int>& turns);
 
+/// Valences and boundary of quads. Returns a point of an edge with more than two quads, kInvalidIndex where there is
+/// none.
+Index countEdges(QuadMesh& quads);
+
 struct DoubledQuads
 {
   /// Not ok where an edge of the half joins two points in the plane through the inside, so that its image would be the
@@ -42,7 +46,8 @@ struct DoubledQuads
   Status status;
   QuadMesh quads;           ///< images behind; quad q of the half has the image #Q + q
   std::vector<Index> image; ///< per point; an involution
-  Index halfPoints = 0;
+  Index halfPoints = 0;     ///< of the half itself, before those of images
+  Index halfQuads = 0;
 };
 /// half: of the mesh that was doubled, without polygons. Sources of images are in the images of their faces. Lines in
 /// the plane are lines no more, unless they are features of the half.

@@ -185,7 +185,7 @@ private:
   {
     std::vector<Vector3> sum(moves.size(), Vector3::Zero());
     std::vector<double> weight(moves.size(), 0);
-    for (std::size_t q = quads_.quads.size() / 2; q < quads_.quads.size(); ++q)
+    for (std::size_t q = doubled_.halfQuads; q < quads_.quads.size(); ++q)
     {
       const std::array<Index, 4>& quad = quads_.quads[q];
       const Vector3 mean = (moves[quad[0]] + moves[quad[1]] + moves[quad[2]] + moves[quad[3]]) / 4;
@@ -204,7 +204,7 @@ private:
   void locate(MirrorFit& fit) const
   {
     fit.images.resize(count_);
-    fit.quadPolygons.resize(quads_.quads.size() / 2);
+    fit.quadPolygons.resize(quads_.quads.size() - doubled_.halfQuads);
     const PreparedSurface& surface = whole_.surface;
     parallelFor(count_, kFitChunk, threads_,
       [&](std::size_t begin, std::size_t end)
@@ -220,7 +220,7 @@ private:
       {
         for (std::size_t q = begin; q < end; ++q)
         {
-          const std::array<Index, 4>& quad = quads_.quads[fit.quadPolygons.size() + q];
+          const std::array<Index, 4>& quad = quads_.quads[doubled_.halfQuads + q];
           const Vector3 centre = (quads_.points[quad[0]] + quads_.points[quad[1]] +
                                    quads_.points[quad[2]] + quads_.points[quad[3]]) /
             4;

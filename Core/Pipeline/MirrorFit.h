@@ -30,9 +30,10 @@ struct MirrorFit
 {
   std::vector<SourceLocation>
     images; ///< per point behind those of the half: where it lies on the input
-  std::vector<Index> quadPolygons; ///< per quad of the half: the input's polygon under its image
-  std::size_t moved = 0;           ///< points that were farther than the tolerance from the surface
-  double farthest = 0;             ///< of them, in units of the surface
+  std::vector<Index>
+    quadPolygons;        ///< per quad behind those of the half: the input's polygon under it
+  std::size_t moved = 0; ///< points that were farther than the tolerance from the surface
+  double farthest = 0;   ///< of them, in units of the surface
   Vector3 place = Vector3::Zero(); ///< of that one, before
 };
 

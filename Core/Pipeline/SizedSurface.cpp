@@ -101,6 +101,14 @@ ResultKey requestsKey(const SurfaceInput& input)
   {
     key.add(std::uint64_t{ 2 });
   }
+  for (const SeamRequest& seam : input.seams)
+  {
+    key.add(std::uint64_t{ 4 });
+    for (const Vector3& p : { seam.from, seam.to, seam.imageFrom, seam.imageTo })
+    {
+      key.add(p[0]).add(p[1]).add(p[2]);
+    }
+  }
   return key.add(input.guideWeights)
     .add(input.targetValences)
     .add(std::uint64_t{ input.regularElsewhere ? 1U : 0U })

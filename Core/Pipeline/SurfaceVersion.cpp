@@ -20,7 +20,7 @@ SurfaceMarks marksOf(const PreparedSurface& surface)
 {
   return { surface.mesh.flags, surface.mesh.sizing, surface.hash, surface.repair, surface.notice,
     surface.polygonGuides, surface.valenceRequests, surface.unusedValences, surface.curves,
-    surface.regularElsewhere, surface.sectorRequests, surface.regularOnFeatures };
+    surface.regularElsewhere, surface.sectorRequests, surface.regularOnFeatures, surface.seams };
 }
 
 void putOn(const SurfaceMarks& marks, PreparedSurface& surface)
@@ -37,6 +37,7 @@ void putOn(const SurfaceMarks& marks, PreparedSurface& surface)
   surface.regularElsewhere = marks.regularElsewhere;
   surface.sectorRequests = marks.sectorRequests;
   surface.regularOnFeatures = marks.regularOnFeatures;
+  surface.seams = marks.seams;
 }
 
 std::size_t bytesOf(const Mesh& mesh)
@@ -60,6 +61,7 @@ void forgetRequests(SurfaceMarks& marks)
   marks.regularElsewhere = false;
   marks.sectorRequests.clear();
   marks.regularOnFeatures = false;
+  marks.seams.clear();
 }
 
 RunSurface::RunSurface(std::shared_ptr<PreparedSurface> surface, ResultKey key, int threads)

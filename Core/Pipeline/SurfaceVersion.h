@@ -32,6 +32,7 @@ struct SurfaceMarks
   bool regularElsewhere = false;
   std::vector<SectorRequest> sectorRequests;
   bool regularOnFeatures = false;
+  std::vector<SeamRequest> seams;
 
   std::size_t bytes() const;
 };

@@ -17,13 +17,13 @@ SurfaceInput withoutGeometry(const SurfaceInput& surface)
 {
   // By name, so that an array that is new has to be put on one side or the other here.
   const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, guideDirections,
-    guideWeights, targetValences, sizing, curves, regularElsewhere, held, regularOnFeatures,
+    guideWeights, targetValences, sizing, curves, regularElsewhere, held, regularOnFeatures, seams,
     faceOrder, precision] = surface;
   static_cast<void>(points);
   static_cast<void>(polygonOffsets);
   static_cast<void>(polygonPoints);
   return { {}, {}, {}, featureEdges, patchIds, guideDirections, guideWeights, targetValences,
-    sizing, curves, regularElsewhere, held, regularOnFeatures, faceOrder, precision };
+    sizing, curves, regularElsewhere, held, regularOnFeatures, seams, faceOrder, precision };
 }
 
 /// Lines that are remembered; a stroke of ten thousand polygons takes a megabyte.
@@ -206,18 +206,21 @@ public:
     addCurve({ CurveKind::Connection, connection.points });
   }
   void operator()(const Cycle& cycle) { addCurve({ CurveKind::Cycle, cycle.points }); }
-  void operator()(const MirrorSymmetry&)
+  void operator()(const MirrorSymmetry&) { takeSymmetry(); }
+  void operator()(const RotationalSymmetry&) { takeSymmetry(); }
+
+private:
+  void takeSymmetry()
   {
     if (composed_.symmetry)
     {
       const std::string earlier = constraints_[*composed_.symmetry]->name();
-      refuse("there is ", earlier, " already, and quads have one mirror plane: remove ", earlier,
+      refuse("there is ", earlier, " already, and quads have one symmetry: remove ", earlier,
         " or ", name());
     }
     composed_.symmetry = at_;
   }
 
-private:
   struct Asked
   {
     int valence = 0;

@@ -82,9 +82,19 @@ public:
     closed.push_back(closed.front());
     return line(ConstraintKind::Cycle, std::move(closed));
   }
-  ConstraintMeasure operator()(const MirrorSymmetry&);
+  ConstraintMeasure operator()(const MirrorSymmetry&)
+  {
+    return judgeSymmetry("the two sides of the surface are not alike, see the notices: give "
+                         "another plane, or turn the normal round");
+  }
+  ConstraintMeasure operator()(const RotationalSymmetry&)
+  {
+    return judgeSymmetry(
+      "the wedges of the surface are not alike, see the notices: give another axis or order");
+  }
 
 private:
+  ConstraintMeasure judgeSymmetry(const char* unlike) const;
   ConstraintMeasure irregularEdit(int id);
   Vector3 placeOfPoint(Index point) const;
   int valenceNear(const Vector3& place, int asked);
@@ -175,7 +185,8 @@ ConstraintMeasure SessionJudge::irregularEdit(int id)
       ++wrong;
     }
   }
-  if (wrong > 0 && symmetric_ != nullptr && symmetric_->plane.height(measure.place) < 0)
+  if (wrong > 0 && symmetric_ != nullptr && !symmetric_->rotation &&
+    symmetric_->plane.height(measure.place) < 0)
   {
     measure.reason += "; with a symmetry the operations in front of the mirror plane count: make "
                       "it at the mirror image";
@@ -314,7 +325,7 @@ const IrregularMatch& SessionJudge::irregularMatch()
 
 /// Connectivity is symmetric whenever there are quads, so that it is the surface that deviates; where its two sides
 /// differ, what is made of the one behind is not what it was.
-ConstraintMeasure SessionJudge::operator()(const MirrorSymmetry&)
+ConstraintMeasure SessionJudge::judgeSymmetry(const char* unlike) const
 {
   if (symmetric_ == nullptr)
   {
@@ -326,10 +337,7 @@ ConstraintMeasure SessionJudge::operator()(const MirrorSymmetry&)
   measure.deviation = symmetric_->deviation.rms / symmetric_->diagonal;
   measure.deviation95 = std::numeric_limits<double>::quiet_NaN();
   measure.isMet = symmetric_->isAlike;
-  measure.reason = measure.isMet
-    ? ""
-    : "the two sides of the surface are not alike, see the notices: give another plane, or turn "
-      "the normal round";
+  measure.reason = measure.isMet ? "" : unlike;
   return measure;
 }
 

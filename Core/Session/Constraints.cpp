@@ -4,6 +4,7 @@
 
 #include "Base/Refuse.h"
 #include "Mesh/Guides.h"
+#include "Pipeline/Symmetry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +96,24 @@ public:
       }
     }
   }
+  void operator()(const RotationalSymmetry& rotation) const
+  {
+    if (rotation.order < kLeastOrder || rotation.order > kMostOrder)
+    {
+      refuse(name_, " has the order ", rotation.order, ", but needs one of ", kLeastOrder, " to ",
+        kMostOrder);
+    }
+    if (rotation.axis)
+    {
+      requirePoints({ rotation.axis->origin }, 1);
+      const double length = rotation.axis->direction.stableNorm();
+      if (!(length > 0 && std::isfinite(length)))
+      {
+        refuse(
+          name_, " needs a direction that is finite and not zero, or no axis: then it is found");
+      }
+    }
+  }
 
 private:
   void requirePoints(const std::vector<Vector3>& points, std::size_t least) const
@@ -165,7 +184,7 @@ private:
 const char* kindOf(const ConstraintContent& content)
 {
   constexpr const char* kNames[] = { "feature", "guide", "guide region", "valence", "size",
-    "size region", "irregular", "connection", "cycle", "symmetry" };
+    "size region", "irregular", "connection", "cycle", "symmetry", "rotation" };
   static_assert(std::variant_size_v<ConstraintContent> == std::size(kNames));
   return kNames[content.index()];
 }
@@ -181,6 +200,8 @@ std::optional<Vector3> placeOf(const ConstraintContent& content)
       [](const SizeRegion&) -> std::optional<Vector3> { return std::nullopt; },
       [](const MirrorSymmetry& symmetry) -> std::optional<Vector3>
       { return symmetry.plane ? std::optional<Vector3>(symmetry.plane->origin) : std::nullopt; },
+      [](const RotationalSymmetry& rotation) -> std::optional<Vector3>
+      { return rotation.axis ? std::optional<Vector3>(rotation.axis->origin) : std::nullopt; },
       first },
     content);
 }

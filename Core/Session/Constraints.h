@@ -8,6 +8,7 @@
 #include "Mesh/CurveRequests.h"
 #include "Mesh/HeldVertices.h"
 #include "Mesh/MirrorPlane.h"
+#include "Mesh/RotationAxis.h"
 
 #include <optional>
 #include <string>
@@ -128,18 +129,26 @@ struct Cycle
   std::vector<Vector3> points; ///< 3 or more, see CurveRequest
 };
 
-/// Quads that are their own mirror image, see remeshSymmetric. One at most is in force.
+/// Quads that are their own mirror image, see remeshSymmetric. One symmetry at most is in force.
 struct MirrorSymmetry
 {
   /// The normal may have any length but 0. None: found, see findMirrorPlane.
   std::optional<MirrorPlane> plane;
 };
 
+/// Quads that are their own image when they are turned by one step of an order, see remeshSymmetric.
+struct RotationalSymmetry
+{
+  int order = 2; ///< in [kLeastOrder, kMostOrder]
+  /// The direction may have any length but 0. None: found, see findRotationAxis.
+  std::optional<RotationAxis> axis;
+};
+
 using ConstraintContent = std::variant<FeatureLine, GuideStroke, GuideRegion, ValenceAt, SizeAt,
-  SizeRegion, IrregularEdit, Connection, Cycle, MirrorSymmetry>;
+  SizeRegion, IrregularEdit, Connection, Cycle, MirrorSymmetry, RotationalSymmetry>;
 
 /// "feature", "guide", "guide region", "valence", "size", "size region", "irregular", "connection", "cycle",
-/// "symmetry".
+/// "symmetry", "rotation".
 const char* kindOf(const ConstraintContent& content);
 /// Where it is, for messages: its first point.
 std::optional<Vector3> placeOf(const ConstraintContent& content);

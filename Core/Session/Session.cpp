@@ -135,7 +135,8 @@ public:
       result->fixedPoints = onCurves.points;
       result->onFeatures = featureVertices(surface, made.onFeatures);
     }
-    if (made.status.ok() && composed_.symmetry && composed_.input.regularElsewhere)
+    if (made.status.ok() && composed_.symmetry && !mirrored_.rotation &&
+      composed_.input.regularElsewhere)
     {
       tellOtherIrregular(*result);
     }
@@ -149,6 +150,7 @@ public:
     if (made.status.ok())
     {
       result->mirrorPoint = std::move(mirrored_.mirrorPoint);
+      result->rotatedPoint = std::move(mirrored_.rotatedPoint);
     }
     result->quads = std::move(made.quads);
     report.seconds = secondsNow() - start;
@@ -222,8 +224,16 @@ private:
     try
     {
       const GeometryLoan loan(data_.surface, composed_.input);
-      mirrored_ = remeshSymmetric(composed_.input, options_,
-        { std::get<MirrorSymmetry>(constraint.content).plane }, &data_.store);
+      SymmetryOptions symmetry;
+      if (const auto* rotation = std::get_if<RotationalSymmetry>(&constraint.content))
+      {
+        symmetry.rotation = RotationRequest{ rotation->order, rotation->axis };
+      }
+      else
+      {
+        symmetry.plane = std::get<MirrorSymmetry>(constraint.content).plane;
+      }
+      mirrored_ = remeshSymmetric(composed_.input, options_, symmetry, &data_.store);
       return std::move(mirrored_.remeshed);
     }
     catch (const InvalidInput& error)
@@ -391,7 +401,7 @@ std::size_t SessionResult::bytes() const
     bytesOf(quads.sourceWeights) + bytesOf(quads.quadSourceFace) +
     bytesOf(quads.quadSourceWeights) + bytesOf(quads.valence) + bytesOf(quads.onBoundary) +
     bytesOf(quads.lines) + bytesOf(irregular) + bytesOf(fixedPoints) + bytesOf(onFeatures) +
-    bytesOf(mirrorPoint) + sizeof(*this);
+    bytesOf(mirrorPoint) + bytesOf(rotatedPoint) + sizeof(*this);
 }
 
 std::uint64_t surfaceHash(const SurfaceInput& surface, int threads)
@@ -713,7 +723,8 @@ SessionResult Session::preview()
 {
   for (const auto& constraint : constraints())
   {
-    if (std::holds_alternative<MirrorSymmetry>(constraint->content))
+    if (std::holds_alternative<MirrorSymmetry>(constraint->content) ||
+      std::holds_alternative<RotationalSymmetry>(constraint->content))
     {
       refuse("there is no preview of symmetric quads: make the result, or remove ",
         constraint->name(), " first");

@@ -54,7 +54,8 @@ struct SessionResult
   std::vector<HeldVertex> onFeatures;     ///< ends, corners and bends of these, ascending by point
   double targetEdgeLength = 0;
   std::size_t targetQuads = 0;
-  std::vector<Index> mirrorPoint; ///< per point of symmetric quads: its image; else empty
+  std::vector<Index> mirrorPoint;  ///< per point of symmetric quads: its mirror image; else empty
+  std::vector<Index> rotatedPoint; ///< the same for a rotation: its image turned by one step
 
   std::size_t bytes() const;
 };

@@ -226,6 +226,15 @@ struct ContentWriter
       json["normal"] = pointToJson(symmetry.plane->normal);
     }
   }
+  void operator()(const RotationalSymmetry& rotation) const
+  {
+    json["order"] = rotation.order;
+    if (rotation.axis)
+    {
+      json["origin"] = pointToJson(rotation.axis->origin);
+      json["direction"] = pointToJson(rotation.axis->direction);
+    }
+  }
 };
 
 struct ContentReader
@@ -276,6 +285,16 @@ struct ContentReader
       symmetry.plane.emplace();
       json.read("origin", symmetry.plane->origin);
       json.read("normal", symmetry.plane->normal);
+    }
+  }
+  void operator()(RotationalSymmetry& rotation) const
+  {
+    json.read("order", rotation.order);
+    if (json.has("origin") || json.has("direction"))
+    {
+      rotation.axis.emplace();
+      json.read("origin", rotation.axis->origin);
+      json.read("direction", rotation.axis->direction);
     }
   }
 };

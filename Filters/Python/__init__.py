@@ -208,7 +208,11 @@ def _set_guides(run, guide, guide_anisotropy, stroke_radius):
     run.SetStrokeRadius(real("stroke_radius", stroke_radius, least=0))
 
 
-def _set_symmetry(run, symmetry):
+def _set_symmetry(run, symmetry, rotation):
+    if rotation is not None:
+        if symmetry is not None:
+            raise InvalidInput("quads have one symmetry: give symmetry or rotation")
+        _set_rotation(run, rotation)
     if symmetry is None:
         return
     if isinstance(symmetry, str):
@@ -226,6 +230,28 @@ def _set_symmetry(run, symmetry):
     run.SetSymmetryToPlane()
     run.SetSymmetryOrigin(origin)
     run.SetSymmetryNormal(normal)
+
+
+def _set_rotation(run, rotation):
+    if isinstance(rotation, (list, tuple)):
+        try:
+            order, origin, direction = rotation
+            origin, direction = ([real("rotation", value) for value in vector] for vector in (origin, direction))
+        except (TypeError, ValueError) as error:
+            if isinstance(error, InvalidInput):
+                raise
+            raise InvalidInput(
+                f"rotation must be an order or a triple (order, origin, direction), not {rotation!r}") from error
+        if len(origin) != 3 or len(direction) != 3:
+            raise InvalidInput(
+                f"rotation needs three numbers for the origin and three for the direction, not {rotation!r}")
+        run.SetSymmetryToAxis()
+        run.SetSymmetryOrigin(origin)
+        run.SetSymmetryNormal(direction)
+    else:
+        order = rotation
+        run.SetSymmetryToAxisFound()
+    run.SetRotationOrder(whole("rotation", order, least=2, most=64))
 
 
 def _finish(run):
@@ -249,7 +275,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
            memory_limit=0.0, time_limit=0.0, close_handles=0.0, small_details="automatic",
            small_components="keep", method="scale-aware",
            final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False,
-           cell_data="centre", preview=False, symmetry=None,
+           cell_data="centre", preview=False, symmetry=None, rotation=None,
            chord_error=None, gap_quads=0.0, smallest_size=0.2, largest_size=1.0, guide=None,
            guide_anisotropy=0.3, stroke_radius=0.0, wrap=None,
            progress=None, everything=False):
@@ -319,6 +345,9 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     symmetry: "found", or the mirror plane as (origin, normal), three numbers each: quads that are their own mirror
         image. The half where the normal points to is remeshed; the point array MirrorPoint of the result has the id of
         each point's image. Where the mesh is only nearly symmetric, points of the other half are put onto it.
+    rotation: the order of a rotation, 2 to 64, round the axis that is found, or (order, origin, direction) with a point
+        of the axis and its direction: quads that become themselves when they are turned by one step. The point array
+        RotatedPoint of the result has the id of the point that each one becomes. Not with symmetry.
     wrap: a length: the quads are made of a wrap of the mesh with this alpha, and their points put back onto the mesh
         where they belong to it (see the function wrap, and the point array OnSurface of the result). "auto": only where
         the mesh itself cannot be remeshed, or most of its faces cross others or stand alone, with the default alpha;
@@ -342,7 +371,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
                small_details=small_details, small_components=small_components, feature_criterion=feature_criterion)
     _set_sizes(run, chord_error, gap_quads, smallest_size, largest_size)
     _set_guides(run, guide, guide_anisotropy, stroke_radius)
-    _set_symmetry(run, symmetry)
+    _set_symmetry(run, symmetry, rotation)
     run.SetDistortionMetric(bool(distortion_metric))
     run.SetPreview(bool(preview))
     run.SetComputeMappedSurface(bool(everything))
@@ -351,7 +380,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     wrapping = Wrapping(wrap, surface, requests={
         "guiding_direction": guiding_direction, "target_valence": target_valence, "sizing": sizing,
         "feature_edges": feature_edges, "patch_ids": patch_ids, "curves": curves, "strokes": strokes,
-        "connections": connections, "cycles": cycles, "symmetry": symmetry})
+        "connections": connections, "cycles": cycles, "symmetry": symmetry, "rotation": rotation})
     run.SetInputData(with_requests(
         surface, guiding_direction=guiding_direction, guiding_weight=guiding_weight,
         target_valence=target_valence,

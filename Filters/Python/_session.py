@@ -230,6 +230,18 @@ class Session:
         return self._add({"kind": "symmetry", "origin": self._place("origin", origin),
                           "normal": self._place("normal", normal)}, edit)
 
+    def set_rotation(self, order, origin=None, direction=None, *, edit=None):
+        """Quads that become themselves when they are turned by one step of an order, 2 to 64, round an axis, given by a
+        point of it and its direction, or found. The quads of one wedge are made, and turned. One symmetry at most is in
+        force, of a plane or of an axis."""
+        if (origin is None) != (direction is None):
+            raise InvalidInput("a rotation needs an origin and a direction, or neither: then the axis is found")
+        content = {"kind": "rotation", "order": whole("order", order, least=2, most=64)}
+        if origin is not None:
+            content["origin"] = self._place("origin", origin)
+            content["direction"] = self._place("direction", direction)
+        return self._add(content, edit)
+
     def remove(self, constraint):
         self._report = None
         self._check(self._session.RemoveConstraint(whole("constraint", constraint, least=1)))
@@ -281,6 +293,13 @@ class Session:
         """Per point of the quads its mirror image, a permutation that is its own inverse; None without a symmetry. See
         quads."""
         array = self.polydata.GetPointData().GetArray("MirrorPoint")
+        return None if array is None else vtk_to_numpy(array).copy()
+
+    @property
+    def rotated_point(self):
+        """Per point of the quads the one that it becomes when it is turned by one step; None without a rotation. See
+        quads."""
+        array = self.polydata.GetPointData().GetArray("RotatedPoint")
         return None if array is None else vtk_to_numpy(array).copy()
 
     def irregular(self):

@@ -719,6 +719,25 @@ class Report(Case):
             result = self.run_quadrille(source, self.folder / "q.vtp", "--symmetry", plane, expect=2)
             self.assertIn("x,y,z,nx,ny,nz", result.stderr)
 
+    def test_rotation(self):
+        source, report = self.write_off(), self.folder / "r.json"
+        for rotation in ("5", "5,0,0,0,0,0,2"):
+            self.run_quadrille(
+                source, self.folder / "q.vtp", "--quads", 300, "--rotation", rotation, "--report", report)
+            told = json.loads(report.read_text())
+            self.assertEqual(told["symmetry"]["order"], 5)
+            self.assertAlmostEqual(abs(told["symmetry"]["direction"][2]), 1)
+            self.assertEqual([row["kind"] for row in told["constraints"]], ["rotation"])
+            quads = read(vtkXMLPolyDataReader(), self.folder / "q.vtp")
+            self.assertTrue(quads.GetPointData().HasArray("RotatedPoint"))
+            self.assertEqual(quads.GetNumberOfCells() % 5, 0)
+        for rotation in ("found", "1", "65", "2.5", "3,0,0,0,0,0", "3,0,0,0,0,0,1,2"):
+            result = self.run_quadrille(source, self.folder / "q.vtp", "--rotation", rotation, expect=2)
+            self.assertIn("n,x,y,z,dx,dy,dz", result.stderr)
+        result = self.run_quadrille(
+            source, self.folder / "q.vtp", "--rotation", 3, "--symmetry", "found", expect=2)
+        self.assertIn("one symmetry", result.stderr)
+
     def test_wrap(self):
         points, faces = torus()
         path, out, report = self.folder / "soup.off", self.folder / "q.vtp", self.folder / "r.json"

@@ -180,6 +180,32 @@ class Mesh(unittest.TestCase):
         self.assertRefused(["normal", "mirror plane"], box, symmetry=((0.5, 1, 1.5), (0, 0, 0)))
         self.assertRefused(["not symmetric"], box, symmetry=((0.9, 1, 1.5), (1, 0, 0)))
 
+    def test_rotation(self):
+        box = (numpy.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 3)], float),
+               [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])
+        for rotation in ((4, (0.5, 0.5, 0), (0, 0, 1)), 4, (2, (0.5, 0.5, 0), (0, 0, -2))):
+            quads = quadrille.remesh(box, quads=300, rotation=rotation)
+            points, faces = quadrille.to_arrays(quads)
+            image = vtk_to_numpy(quads.GetPointData().GetArray("RotatedPoint"))
+            told = quadrille.info(quads)
+            order = int(told["SymmetryOrder"])
+            power = numpy.arange(len(points))
+            for _ in range(order):
+                power = image[power]
+            numpy.testing.assert_array_equal(power, numpy.arange(len(points)))
+            as_sets = {frozenset(face) for face in faces.tolist()}
+            self.assertEqual({frozenset(face) for face in image[faces].tolist()}, as_sets)
+            angle = 2 * math.pi / order * numpy.sign(told["SymmetryDirection"][2])
+            c, s = math.cos(angle), math.sin(angle)
+            turn = numpy.array([(c, -s, 0), (s, c, 0), (0, 0, 1)])
+            middle = numpy.array((0.5, 0.5, 0))
+            self.assertLess(numpy.abs((points - middle) @ turn.T + middle - points[image]).max(), 1e-11)
+        for rotation in ("x", 1, 65, (3, (0, 0, 0)), (3, (0, 0, 0), (0, 0)), (3, (0, 0, 0), (0, 0, math.nan))):
+            self.assertRefused(["rotation"], box, rotation=rotation)
+        self.assertRefused(["direction", "axis"], box, rotation=(4, (0.5, 0.5, 0), (0, 0, 0)))
+        self.assertRefused(["not symmetric"], box, rotation=(4, (0.5, 0.5, 1.5), (0, 1, 0)))
+        self.assertRefused(["one symmetry"], box, rotation=4, symmetry="found")
+
     def test_the_default_is_a_number_of_quads(self):
         result = quadrille.remesh((self.points, self.faces))
         self.assertEqual(quadrille.info(result)["TargetQuads"], 5000)

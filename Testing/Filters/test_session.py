@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
 """quadrille.Session: numpy in and out, undo, files, and what is wrong with what is given."""
+import math
 import os
 import tempfile
 import unittest
@@ -116,6 +117,34 @@ class SessionTest(unittest.TestCase):
         self.assertTrue(made.update()["constraints"][0]["met"])
         made.remove(symmetry)
         self.assertIsNone(made.mirror_point)
+
+    def test_rotation(self):
+        count = 12
+        ring = [(math.cos(2 * math.pi * k / count), math.sin(2 * math.pi * k / count)) for k in range(count)]
+        tube = numpy.array([(x, y, z / 4) for z in range(9) for x, y in ring])
+        faces = [(count * j + k, count * j + (k + 1) % count, count * (j + 1) + (k + 1) % count, count * (j + 1) + k)
+                 for j in range(8) for k in range(count)]
+        made = quadrille.Session((tube, faces), quads=200, coarse_vertices=300, threads=2, feature_angle=None)
+        self.assertIsNone(made.rotated_point)
+        rotation = made.set_rotation(3, (0, 0, 0), (0, 0, 1))
+        word, = made.update()["constraints"]
+        self.assertTrue(word["met"], word)
+        self.assertEqual((word["kind"], word["id"], word["unit"]), ("rotation", rotation, "diagonals"))
+        image, (points, quads) = made.rotated_point, made.quads
+        numpy.testing.assert_array_equal(image[image[image]], numpy.arange(len(points)))
+        self.assertEqual({tuple(sorted(quad)) for quad in image[quads].tolist()},
+                         {tuple(sorted(quad)) for quad in quads.tolist()})
+        self.assertIsNone(made.mirror_point)
+        with self.assertRaisesRegex(quadrille.InvalidInput, "rotation 1"):
+            made.preview()
+        # One symmetry is in force: the later one is told to be left out.
+        made.set_symmetry((0, 0, 0), (1, 0, 0))
+        self.assertFalse(made.update()["constraints"][1]["met"])
+        made.remove(rotation)
+        self.assertIsNone(made.rotated_point)
+        for arguments in ((1,), (65,), (3, (0, 0, 0)), (3, (0, 0, 0), (0, 0, 0))):
+            with self.assertRaises(quadrille.InvalidInput):
+                made.set_rotation(*arguments)
 
     def test_sizes_and_guides_from_the_shape(self):
         made = session()

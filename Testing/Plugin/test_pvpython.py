@@ -150,6 +150,16 @@ mirrored.SymmetryNormal = [0, 0, 2]
 mirrored.UpdatePipeline()
 check("mirror plane given" in mirrored.GetPropertyValue("Notices"), "the mirror plane is not told")
 
+# An axis, which the same properties give, or which is found.
+mirrored.Symmetry = "Rotation"
+mirrored.RotationOrder = 4
+mirrored.UpdatePipeline()
+check("axis of order 4 given" in mirrored.GetPropertyValue("Notices"), "the axis is not told")
+check(mirrored.PointData["RotatedPoint"] is not None, "no RotatedPoint")
+mirrored.Symmetry = "Rotation Found"
+mirrored.UpdatePipeline()
+check("axis of order 4 found" in mirrored.GetPropertyValue("Notices"), "the axis that is found is not told")
+
 # The four stages one by one.
 hierarchy = DecimationHierarchy(Input=mesh, TargetType="Number Of Quads", NumberOfQuads=400)
 grid = IntegerGridMap(Input=simple.OutputPort(hierarchy, 0))

@@ -94,6 +94,31 @@ TEST(SessionSymmetry, QuadsAreTheirOwnImage)
   expectMirrored(*session.result());
 }
 
+TEST(SessionSymmetry, QuadsAreTheirOwnTurnedImage)
+{
+  Session session(toInput(torus(40, 20)), sessionOptions(400));
+  const RotationalSymmetry fifth{ 5, RotationAxis{ Vector3::Zero(), Vector3(0, 0, 3) } };
+  const int id = session.add(fifth);
+  const SessionReport& report = session.update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  ASSERT_EQ(report.constraints.size(), 1u);
+  EXPECT_TRUE(report.constraints[0].isMet) << report.constraints[0].reason;
+  EXPECT_EQ(report.constraints[0].kind, "rotation");
+  const SymmetricResult direct = remeshSymmetric(toInput(torus(40, 20)), session.settings(),
+    { std::nullopt, RotationRequest{ fifth.order, fifth.axis } });
+  EXPECT_TRUE(areSame(direct.remeshed.quads, session.result()->quads));
+  EXPECT_EQ(direct.rotatedPoint, session.result()->rotatedPoint);
+  EXPECT_FALSE(direct.rotatedPoint.empty());
+  EXPECT_TRUE(session.result()->mirrorPoint.empty());
+  // Other orders are other quads, and undo makes nothing.
+  session.edit(id, RotationalSymmetry{ 2, std::nullopt });
+  ASSERT_TRUE(session.update().status.ok());
+  EXPECT_FALSE(areSame(direct.remeshed.quads, session.result()->quads));
+  session.undo();
+  EXPECT_EQ(session.update().runs, 0);
+  EXPECT_TRUE(areSame(direct.remeshed.quads, session.result()->quads));
+}
+
 TEST(SessionSymmetry, PlanesThatAreNoneAreLeftOutAndTold)
 {
   Session session(lopsided(), sessionOptions(400));
@@ -230,6 +255,18 @@ TEST(SessionSymmetry, GoesToAFileAndBack)
   EXPECT_EQ(plane->normal, given.plane->normal);
   ASSERT_TRUE(loaded.update().status.ok());
   EXPECT_TRUE(areSame(loaded.result()->quads, session.result()->quads));
+  const RotationalSymmetry half{ 2, RotationAxis{ Vector3(0, 1.0 / 3, 0), Vector3(0.7, 0, 0) } };
+  session.remove(id);
+  session.add(half);
+  session.add(RotationalSymmetry{ 3, std::nullopt });
+  session.save(path);
+  const Session turned = Session::load(path, lopsided());
+  const auto& rotation = std::get<RotationalSymmetry>(turned.constraints()[0]->content);
+  EXPECT_EQ(rotation.order, half.order);
+  ASSERT_TRUE(rotation.axis.has_value());
+  EXPECT_EQ(rotation.axis->origin, half.axis->origin);
+  EXPECT_EQ(rotation.axis->direction, half.axis->direction);
+  EXPECT_FALSE(std::get<RotationalSymmetry>(turned.constraints()[1]->content).axis.has_value());
   std::remove(path.c_str());
 }
 
@@ -240,6 +277,13 @@ TEST(SessionSymmetry, RefusesWhatIsNoPlane)
     session.add(MirrorSymmetry{ MirrorPlane{ Vector3::Zero(), Vector3::Zero() } }), InvalidInput);
   EXPECT_THROW(
     session.add(MirrorSymmetry{ MirrorPlane{ Vector3(std::nan(""), 0, 0), Vector3(1, 0, 0) } }),
+    InvalidInput);
+  for (const int order : { 1, 65 })
+  {
+    EXPECT_THROW(session.add(RotationalSymmetry{ order, std::nullopt }), InvalidInput);
+  }
+  EXPECT_THROW(
+    session.add(RotationalSymmetry{ 3, RotationAxis{ Vector3::Zero(), Vector3::Zero() } }),
     InvalidInput);
   EXPECT_TRUE(session.constraints().empty());
 }
