@@ -22,7 +22,28 @@
 namespace quadrille
 {
 
-vtkSmartPointer<vtkPolyData> writeSmallDetails(const std::vector<SmallDetail>& details)
+namespace
+{
+
+const char* whyNotFollowed(FeatureLoss reason)
+{
+  switch (reason)
+  {
+    case FeatureLoss::NoCrease:
+      return "not followed: its curve is no crease as a whole";
+    case FeatureLoss::ShortArc:
+      return "not followed: it ends at an arc that is too short for a quad";
+    case FeatureLoss::FailedMap:
+      return "not followed: with it there was no map, or no quads";
+    default:
+      return "not followed: too short, too tangled or too near another one";
+  }
+}
+
+} // namespace
+
+vtkSmartPointer<vtkPolyData> writeSmallDetails(
+  const std::vector<SmallDetail>& details, const std::vector<GivenUpCurve>& features)
 {
   auto kind = newArray<vtkStringArray>("Kind");
   auto size = newArray<vtkDoubleArray>("Size");
@@ -32,15 +53,25 @@ vtkSmartPointer<vtkPolyData> writeSmallDetails(const std::vector<SmallDetail>& d
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> vertices;
+  const auto add = [&](const Vector3& place, const char* what, double length,
+                     DetailDecision decided, const std::string& became)
+  {
+    const vtkIdType point = points->InsertNextPoint(place.data());
+    vertices->InsertNextCell(1, &point);
+    kind->InsertNextValue(what);
+    size->InsertNextValue(length);
+    decision->InsertNextValue(nameOf(decided));
+    result->InsertNextValue(became);
+    decisionId->InsertNextValue(static_cast<int>(decided));
+  };
   for (const SmallDetail& detail : details)
   {
-    const vtkIdType point = points->InsertNextPoint(detail.place.data());
-    vertices->InsertNextCell(1, &point);
-    kind->InsertNextValue(nameOf(detail.kind));
-    size->InsertNextValue(detail.size);
-    decision->InsertNextValue(nameOf(detail.decision));
-    result->InsertNextValue(detail.result);
-    decisionId->InsertNextValue(static_cast<int>(detail.decision));
+    add(detail.place, nameOf(detail.kind), detail.size, detail.decision, detail.result);
+  }
+  for (const GivenUpCurve& curve : features)
+  {
+    add(curve.place, "feature", curve.lengthInQuads, DetailDecision::Simplify,
+      whyNotFollowed(curve.reason));
   }
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(points);

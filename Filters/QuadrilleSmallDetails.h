@@ -3,6 +3,7 @@
 /// Small details of a surface as VTK data.
 #pragma once
 
+#include "Mesh/GivenUpFeatures.h"
 #include "Pipeline/SmallDetails.h"
 
 #include <vtkSmartPointer.h>
@@ -17,8 +18,10 @@ namespace quadrille
 {
 
 /// A vertex for each, in their order, with the point arrays Kind, Size, Decision, Result, and DecisionId (a
-/// DetailDecision) to colour by. See vtkQuadRemesh.
-vtkSmartPointer<vtkPolyData> writeSmallDetails(const std::vector<SmallDetail>& details);
+/// DetailDecision) to colour by; behind the details the sharp edges that quads do not follow, curve by curve, as the
+/// kind "feature", with their length over s. See vtkQuadRemesh.
+vtkSmartPointer<vtkPolyData> writeSmallDetails(
+  const std::vector<SmallDetail>& details, const std::vector<GivenUpCurve>& features);
 
 /// Field data: Attempts, and RecoveryNames with RecoveryCounts, how often each strategy made one of them. attempts: see
 /// RemeshResult.

@@ -432,7 +432,8 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
     quadrille::addMirrorLines(block.output(5), made, words.back().isMet);
   }
   block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
-  block.output(7)->ShallowCopy(quadrille::writeSmallDetails(result.details));
+  block.output(7)->ShallowCopy(
+    quadrille::writeSmallDetails(result.details, result.givenUpFeatures));
   this->SetResult(
     resultText(result, written.irregular->GetNumberOfPoints()) + constraintText(words));
   report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
@@ -453,7 +454,8 @@ void vtkQuadRemesh::WritePreview(quadrille::Block& block, const quadrille::Asked
   block.output(5)->ShallowCopy(quadrille::writeConstraints(
     asked.placed, asked.curves, result.quads, quadrille::metOfDrawn(words, asked)));
   block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
-  block.output(7)->ShallowCopy(quadrille::writeSmallDetails(result.details));
+  block.output(7)->ShallowCopy(
+    quadrille::writeSmallDetails(result.details, result.givenUpFeatures));
   this->SetResult("preview: " + resultText(result, written.irregular->GetNumberOfPoints()) +
     constraintText(words));
   block.state->report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
