@@ -24,6 +24,8 @@ namespace
 
 /// What two nodes that stay close to each other count as, in edge lengths.
 constexpr double kLossOfPair = 3;
+/// A gap shorter than this between two nodes gives a map no more room than the arc did.
+constexpr double kShortestGap = 0.25;
 /// So far, in edge lengths, phase 1 may move a curve.
 constexpr double kMovable = 0.1;
 /// A curve goes straight on where it bends by less than this (radians) over half an edge length.
@@ -236,16 +238,12 @@ bool isFreeWithout(const ArcNetwork& network, Index node, Index arc)
 Resolution resolve(const ArcNetwork& network, Index id)
 {
   const NetworkArc& arc = network.arcs()[id];
-  Resolution best;
-  if (arc.removable)
+  const bool pair =
+    !isFreeWithout(network, arc.ends[0], id) && !isFreeWithout(network, arc.ends[1], id);
+  Resolution best{ {}, kLossOfPair }; // it stays, and so do its ends
+  if (arc.removable && (!pair || arc.length >= kShortestGap))
   {
-    const bool pair =
-      !isFreeWithout(network, arc.ends[0], id) && !isFreeWithout(network, arc.ends[1], id);
     best = { { id }, arc.length + (pair ? kLossOfPair : 0) };
-  }
-  else
-  {
-    best.loss = kLossOfPair; // it stays, and so do its ends
   }
   if (arc.ends[0] != arc.ends[1])
   {
@@ -304,7 +302,7 @@ bool simplifyOnce(Mesh& mesh, double edgeLength, NetworkReport& report)
     const Resolution resolution = resolve(network, id);
     if (resolution.arcs.empty())
     {
-      continue; // asked for, or boundary, and so is what meets it
+      continue; // all that could go is asked for, boundary, or worth more
     }
     ++report.shortArcs;
     any = true;

@@ -31,14 +31,14 @@ struct NetworkReport
 };
 
 /// An arc runs between two nodes, the vertices where other than two constrained edges meet. A map gives each arc the
-/// length of a quad at least, and nodes are whole points of it: so an arc much shorter than s crushes what is beside it,
-/// and where the patches round it are rectangles, their sides may leave it no length at all. Each arc shorter than
+/// length of a quad at least, and nodes are whole points of it: so an arc much shorter than s crushes what is beside
+/// it, and where the patches round it are rectangles, their sides may leave it no length at all. Each arc shorter than
 /// kShortestArc s (times the size there) is resolved in the way that loses least length of features:
 /// - one of its ends becomes an inner point of a curve: all other arcs there go but one, and the short arc is an end of
-///   that one;
-/// - the arc itself goes.
-/// Where there are still two nodes or corners as near to each other afterwards, that counts as a loss of 3 s on top; an
-/// arc that may not go stays with both of its ends where all else would lose more than that.
+///   that one; where there would be a corner as near to the other end, that counts as a loss of 3 s on top;
+/// - the arc itself goes; where both ends are nodes or corners without it, too, that counts as a loss of 3 s on top,
+///   and they must be at least a quarter of s apart;
+/// - what would lose more than 3 s by the first way, and may not go by the second, stays as it is.
 /// Only detected features go (without kRequestedFeature), no boundaries. Shortest arcs first, in rounds of arcs that
 /// share no node, with removeUnresolvedFeatures in between, until nothing changes. `filtered` gets what that removes.
 /// Throws InvalidInput unless edgeLength is positive.

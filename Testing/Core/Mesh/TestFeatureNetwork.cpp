@@ -172,6 +172,18 @@ TEST(FeatureNetwork, BetweenTwoLongBranchesTheArcGoes)
   EXPECT_EQ(allFeatures(mesh), before - 1);
 }
 
+TEST(FeatureNetwork, WhereAllIsLongNoTinyGapIsMade)
+{
+  // The same, the arc being s / 8: its ends would be in each other's way without it, too.
+  Mesh mesh = test::gridPlane(60, 60);
+  markEdges(mesh, kFeatureEdge, onSegment(0, 30, 60, 30));
+  markEdges(mesh, kFeatureEdge, onSegment(30, 30, 30, 60));
+  markEdges(mesh, kFeatureEdge, onSegment(31, 0, 31, 30));
+  const Mesh before = mesh;
+  EXPECT_EQ(simplify(mesh, 8).removedCurves, 0u);
+  EXPECT_EQ(mesh.flags, before.flags);
+}
+
 TEST(FeatureNetwork, LongArcsStay)
 {
   Mesh mesh = test::gridPlane(44, 12);

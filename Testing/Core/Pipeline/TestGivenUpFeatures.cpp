@@ -18,7 +18,7 @@ namespace quadrille
 namespace
 {
 
-/// A block with a groove of one voxel and a step of one in its top: with s = 3 voxels the ends of both are arcs of s / 3.
+/// A block with a groove of one voxel and a step of one in its top: for s = 3 voxels their ends are arcs of s / 3.
 Mesh groovedBlock(double scale)
 {
   Mesh mesh = test::voxelSurface({ 24, 16, 12 }, 1,
@@ -30,7 +30,7 @@ Mesh groovedBlock(double scale)
   return mesh;
 }
 
-RemeshOptions optionsFor(double edgeLength)
+RemeshOptions quadsOfLength(double edgeLength)
 {
   RemeshOptions options;
   options.edgeLength = edgeLength;
@@ -54,7 +54,7 @@ TEST(GivenUpFeatures, WithThoseThatStayTheyAreAllThereWere)
   prepare.featureAngle = radians(40);
   const Mesh block = groovedBlock(1);
   const PreparedSurface before = prepareSurface(test::toInput(block), prepare);
-  RemeshOptions options = optionsFor(3);
+  RemeshOptions options = quadsOfLength(3);
   options.featureAngle = radians(40);
   const RemeshResult result = remesh(test::toInput(block), options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
@@ -77,7 +77,7 @@ TEST(GivenUpFeatures, WithThoseThatStayTheyAreAllThereWere)
 
 TEST(GivenUpFeatures, ThreadsAndScaleChangeNothing)
 {
-  RemeshOptions options = optionsFor(3);
+  RemeshOptions options = quadsOfLength(3);
   const RemeshResult one = remesh(test::toInput(groovedBlock(1)), options);
   options.threads = 3;
   ResultStore store;
@@ -93,7 +93,7 @@ TEST(GivenUpFeatures, ThreadsAndScaleChangeNothing)
     EXPECT_EQ(one.quads.points, other.quads.points);
   }
   // A power of two changes no bit but the exponent's.
-  const RemeshResult large = remesh(test::toInput(groovedBlock(1024)), optionsFor(3 * 1024));
+  const RemeshResult large = remesh(test::toInput(groovedBlock(1024)), quadsOfLength(3 * 1024));
   ASSERT_EQ(one.givenUpFeatures.size(), large.givenUpFeatures.size());
   for (std::size_t i = 0; i < one.givenUpFeatures.size(); ++i)
   {
