@@ -37,7 +37,7 @@ struct RunContext
   ResultStore* store = nullptr;      ///< null: none
   ShortLoops shortLoops;             ///< of the surface before any plan
   std::vector<FixedVec2> spare = {}; ///< see TransferOptions
-  /// Whether many details are left that can be taken out where no attempt holds: better than more quads everywhere.
+  /// Whether many details are left that can be taken out where a round has no quads: better than other rounds.
   bool hasCrowd = false;
 };
 

@@ -62,8 +62,8 @@ std::optional<Plan> nextPlan(RunContext& run, const History& history)
   const Attempt& attempt = history.last();
   const bool mapped = attempt.map->status.ok();
   const bool hasQuads = attempt.quads && attempt.quads->status.ok();
-  if (history.isSpent() || (mapped && isRounded(run.options.method)) ||
-    (hasQuads && !attempt.quads->invertedAtFolds))
+  if (history.isSpent() || (!hasQuads && run.hasCrowd) ||
+    (mapped && isRounded(run.options.method)) || (hasQuads && !attempt.quads->invertedAtFolds))
   {
     return std::nullopt;
   }

@@ -153,7 +153,7 @@ std::optional<Plan> moreQuads(const Trouble& trouble)
   const bool afterSizes = finer.shrinks > 0 && finer.doublings == 0;
   const GridTroubles* grid = trouble.grid ? &*trouble.grid : nullptr;
   grid = afterSizes ? &finer.firstTroubles : grid;
-  if (!asksForFinerGrid(trouble) || grid == nullptr || run.hasCrowd ||
+  if (!asksForFinerGrid(trouble) || grid == nullptr ||
     static_cast<std::size_t>(finer.doublings) >= trouble.bound ||
     isNoMatterOfSize(plan, trouble.grid))
   {

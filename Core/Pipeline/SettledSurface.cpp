@@ -25,8 +25,10 @@ namespace
 constexpr int kMostCuttings = 10;
 /// Where smaller quads round so many handles would make more than so many times the quads, they meet each other, and
 /// maps fail: measured on scans with 20 and more of them. Few handles are worth it, as a ring's own one is.
-constexpr std::size_t kCrowdOfHandles = 8;
-constexpr double kMostGrowthOfHandles = 1.15;
+constexpr std::size_t kSeveralHandles = 8;
+constexpr double kMostGrowthOfSeveral = 1.15;
+constexpr std::size_t kManyHandles = 24;
+constexpr double kMostGrowthOfMany = 1.05;
 /// Where a round cuts less than this part of those it has tried, another one is not worth its phase 1.
 constexpr double kWorthwhile = 0.125;
 /// What the smallest block of a component may need, over the quads that its area is worth, so that maps are tried: with
@@ -248,7 +250,8 @@ private:
     RunContext& run = made_.bench->run;
     const double most = kQuadsOfLoop * sized_.edgeLength;
     const std::vector<HandleLoop> handles = loopsAboveLimit(true);
-    if (handles.size() >= kCrowdOfHandles && !resolvesLoops(run, handles, kMostGrowthOfHandles))
+    const double growth = handles.size() >= kManyHandles ? kMostGrowthOfMany : kMostGrowthOfSeveral;
+    if (handles.size() >= kSeveralHandles && !resolvesLoops(run, handles, growth))
     {
       handleLimit_ = most;
     }
@@ -355,8 +358,7 @@ private:
   {
     const RunContext& run = made_.bench->run;
     const std::vector<HandleLoop>& loops = run.shortLoops.loops;
-    made_.bench->run.hasCrowd =
-      maySimplify(options_) && !takesAll_ && loops.size() >= kCrowdOfHandles;
+    made_.bench->run.hasCrowd = maySimplify(options_) && !takesAll_ && loops.size() >= kManyHandles;
     const bool resolved = !loops.empty() && resolvesLoops(made_.bench->run, loops);
     for (std::size_t i = 0; i < loops.size(); ++i)
     {

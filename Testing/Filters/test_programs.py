@@ -547,7 +547,8 @@ class Report(Case):
     def test_handles_are_closed_on_request(self):
         # Round the tube of the torus it is 2.5.
         source = self.write_off()
-        for words, unresolved, closed, euler in (((), 1, 0, 0), (("--close-handles", 3), 0, 1, 2)):
+        for words, unresolved, closed, euler in ((("--small-details", "resolve"), 1, 0, 0),
+                                                 (("--close-handles", 3), 0, 1, 2)):
             with self.subTest(words):
                 report = self.folder / "r.json"
                 result = self.run_quadrille(source, self.folder / "q.obj", "--edge-length", 0.9, *words, "--report",
