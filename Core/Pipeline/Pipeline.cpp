@@ -82,13 +82,28 @@ ResultStore* storeIfRoom(
   return nullptr;
 }
 
-/// Attempts, until one is good or nothing is left to try.
-void makeAttempts(RunContext& run, History& history)
+/// Attempts, until one is good or nothing is left to try. From the second one on, progress tells which it is, and what
+/// is tried.
+void makeAttempts(RunContext& given, History& history)
 {
+  std::string attempt;
+  RemeshOptions options = given.options;
+  if (options.progress)
+  {
+    options.progress = [&](double fraction, const std::string& text)
+    { return given.options.progress(fraction, attempt + text); };
+  }
+  RunContext run{ options, given.edgeLength, given.targetQuads, given.surface, given.levels,
+    given.store, std::move(given.shortLoops), std::move(given.spare), given.hasCrowd };
   for (std::optional<Plan> plan = firstPlan(run); plan; plan = nextPlan(run, history))
   {
     while (plan)
     {
+      if (!history.isEmpty())
+      {
+        attempt =
+          "Attempt " + std::to_string(history.steps().size() + 1) + ", " + plan->step + ": ";
+      }
       history.packMaps(run.surface->mesh);
       history.addMap(*plan, makeMap(run, *plan));
       plan = nextMapPlan(run, history);
@@ -99,6 +114,8 @@ void makeAttempts(RunContext& run, History& history)
         : run.options.preview               ? makePreview(run, best.plan, *best.map)
                                             : makeQuads(run, best.plan, *best.map));
   }
+  given.shortLoops = std::move(run.shortLoops);
+  given.spare = std::move(run.spare);
 }
 
 void tell(const std::vector<std::string>& notices, RemeshResult& result)

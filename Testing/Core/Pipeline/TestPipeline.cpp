@@ -192,9 +192,24 @@ TEST(Pipeline, CoarseLevelThatHasAllVerticesGetsMore)
   RemeshOptions options;
   options.quads = 20;
   options.smallDetails = SmallDetails::Resolve; // it would be cut through its hole
+  std::vector<std::string> attempts;            // that progress tells of
+  options.progress = [&](double, const std::string& text)
+  {
+    const std::string attempt = text.substr(0, text.find(": "));
+    if (attempt.rfind("Attempt ", 0) == 0 && (attempts.empty() || attempts.back() != attempt))
+    {
+      attempts.push_back(attempt);
+    }
+    return true;
+  };
   const RemeshResult result = remesh(test::toInput(mesh), options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_GT(result.decimations, 1); // else the case is none any more
+  ASSERT_EQ(attempts.size() + 1, result.attempts.size());
+  for (std::size_t i = 0; i < attempts.size(); ++i)
+  {
+    EXPECT_EQ(attempts[i], "Attempt " + std::to_string(i + 2) + ", " + result.attempts[i + 1]);
+  }
   const TopologyCounts topology = topologyOf(result.quads);
   EXPECT_EQ(topology.euler, 0);
   EXPECT_TRUE(topology.oriented);
