@@ -168,6 +168,7 @@ private:
       return 0;
     }
     std::vector<Vector3> places;
+    places.reserve(loops.size());
     for (const HandleLoop& loop : loops)
     {
       places.push_back(sized_.surface->mesh.position[loop.vertices.front()]);

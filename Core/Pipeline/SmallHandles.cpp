@@ -79,6 +79,7 @@ ClosedHandles closeSmallHandles(
     const std::vector<std::vector<Index>> places = placesOf(found, level);
     place = place.value_or(surface.mesh.position[places.front().front()]);
     std::vector<Vector3> at;
+    at.reserve(places.size());
     for (const std::vector<Index>& loop : places)
     {
       at.push_back(surface.mesh.position[loop.front()]);
