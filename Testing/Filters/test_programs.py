@@ -567,7 +567,8 @@ class Report(Case):
         for words, decision, euler in (((), "simplified", 2), (("--small-details", "resolve"), "resolved", 0)):
             with self.subTest(words):
                 report = self.folder / "r.json"
-                result = self.run_quadrille(source, self.folder / "q.obj", "--edge-length", 3, *words, "--report", report)
+                result = self.run_quadrille(source, self.folder / "q.obj", "--edge-length", 3, *words, "--report",
+                                            report)
                 content = json.loads(report.read_text())
                 row, = [row for row in content["details"] if row["kind"] == "handle"]
                 self.assertEqual(row["decision"], decision)
