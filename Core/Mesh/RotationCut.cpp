@@ -593,6 +593,7 @@ private:
       addLone(marks, second.at(i), &Mark::second, &Mark::first);
     }
     std::vector<std::array<Vector3, 2>> places;
+    places.reserve(marks.size());
     for (const Mark& mark : marks)
     {
       places.push_back({ markPlace(first, mark.first), markPlace(second, mark.second) });
@@ -622,7 +623,7 @@ private:
       return place(*course.chain, share * length <= tolerance_ ? i : i + 1);
     }
     const Index h = course.chain->edges[i];
-    const Vector3 p = cut_.position[cut_.origin[h]] + share * cut_.edgeVector(h);
+    Vector3 p = cut_.position[cut_.origin[h]] + share * cut_.edgeVector(h);
     splits_.push_back({ h, share, p });
     return p;
   }
@@ -733,6 +734,7 @@ SurfaceWedge cutWedge(const Mesh& mesh, const RotationAxis& axis, int order, dou
     return WedgeBuilder(mesh, axis, order, *startAngle, tolerance, reach).build();
   }
   std::vector<double> angles;
+  angles.reserve(kHalfPlanes);
   for (int k = 0; k < kHalfPlanes; ++k)
   {
     // Not through the vertices of evenly divided circles.
