@@ -114,6 +114,7 @@ void makeAttempts(RunContext& given, History& history)
         : run.options.preview               ? makePreview(run, best.plan, *best.map)
                                             : makeQuads(run, best.plan, *best.map));
   }
+  given.targetQuads = run.targetQuads;
   given.shortLoops = std::move(run.shortLoops);
   given.spare = std::move(run.spare);
 }

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -44,7 +45,64 @@ constexpr double kWorthOfLargeBefore = 2;
 /// By how much the limit below which Automatic simplifies grows where smaller quads at the rest take too many.
 constexpr double kLimitStep = 0.5;
 
-/// A simplified surface in the store.
+/// What is asked of a surface, with the places of the vertices.
+struct AskedOf
+{
+  explicit AskedOf(const PreparedSurface& surface) : marks(marksOf(surface))
+  {
+    for (const ValenceRequest& request : marks.valenceRequests)
+    {
+      valencePlaces.push_back(surface.mesh.position[request.vertex]);
+    }
+    for (const SectorRequest& request : marks.sectorRequests)
+    {
+      sectorPlaces.push_back(surface.mesh.position[request.vertex]);
+    }
+    marks.flags.clear();
+    marks.sizing.clear();
+  }
+
+  SurfaceMarks marks; ///< only the requests
+  std::vector<Vector3> valencePlaces, sectorPlaces;
+};
+
+/// The vertices at the same places of another surface, of several at one place that of the lowest id; a request without
+/// one is dropped. requests: ascending by vertex, before and afterwards.
+template <class Request>
+void moveRequests(
+  const Mesh& mesh, const std::vector<Vector3>& places, std::vector<Request>& requests)
+{
+  if (requests.empty())
+  {
+    return;
+  }
+  const auto isBefore = [](const Vector3& a, const Vector3& b)
+  { return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3); };
+  std::map<Vector3, Index, decltype(isBefore)> vertexAt(isBefore);
+  for (const Vector3& p : places)
+  {
+    vertexAt.emplace(p, kInvalidIndex);
+  }
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    const auto found = vertexAt.find(mesh.position[v]);
+    if (found != vertexAt.end() && found->second == kInvalidIndex)
+    {
+      found->second = v;
+    }
+  }
+  for (std::size_t i = 0; i < requests.size(); ++i)
+  {
+    requests[i].vertex = vertexAt.at(places[i]);
+  }
+  requests.erase(std::remove_if(requests.begin(), requests.end(),
+                   [](const Request& request) { return request.vertex == kInvalidIndex; }),
+    requests.end());
+  std::sort(requests.begin(), requests.end(),
+    [](const Request& a, const Request& b) { return a.vertex < b.vertex; });
+}
+
+/// A simplified surface in the store, without what was asked of it: guides, valences and curves change nothing of it.
 struct StoredSettled
 {
   std::shared_ptr<PreparedSurface> surface;
@@ -65,7 +123,7 @@ public:
     StageRecords& stages, std::vector<std::string>& reused)
     : sized_(sized), options_(options), store_(store),
       takesAll_(takesAll || options.smallDetails == SmallDetails::Simplify), stages_(stages),
-      reused_(reused), limit_(firstLimit()), handleLimit_(limit_)
+      reused_(reused), asked_(*sized.surface), limit_(firstLimit()), handleLimit_(limit_)
   {
   }
 
@@ -79,7 +137,11 @@ public:
         return std::move(made_);
       }
       simplifyAll();
-      remember();
+      if (isOwn_)
+      {
+        takeRequests();
+        remember();
+      }
     }
     if (maySimplify(options_) && isHopeless(true))
     {
@@ -315,7 +377,6 @@ private:
   {
     KeyMaker key(sized_.key);
     key.add(sized_.edgeLength).add(std::uint64_t{ takesAll_ ? 2U : 1U });
-    addRequests(*sized_.surface, key);
     return key.key();
   }
 
@@ -333,6 +394,7 @@ private:
     }
     sized_.surface = known->surface;
     putOn(known->marks, *sized_.surface);
+    takeRequests();
     sized_.key = known->key;
     made_.details = known->simplified;
     reused_.emplace_back("simplify");
@@ -341,17 +403,42 @@ private:
 
   void remember()
   {
-    if (store_ == nullptr || !isOwn_)
+    if (store_ == nullptr)
     {
       return;
     }
     auto stored = std::make_shared<StoredSettled>();
     stored->surface = sized_.surface;
     stored->marks = marksOf(*sized_.surface);
+    forgetRequests(stored->marks);
     stored->key = sized_.key;
     stored->simplified = made_.details;
     const std::size_t bytes = bytesOf(*stored->surface) + stored->marks.bytes();
     store_->put(key_, std::move(stored), bytes);
+  }
+
+  /// On the vertices of the surface as it is now, in the same way for one that was made and one from the store.
+  void takeRequests()
+  {
+    PreparedSurface& surface = *sized_.surface;
+    const std::vector<ValenceRequest> before = surface.valenceRequests;
+    surface.polygonGuides = asked_.marks.polygonGuides;
+    surface.valenceRequests = asked_.marks.valenceRequests;
+    surface.unusedValences = asked_.marks.unusedValences;
+    surface.curves = asked_.marks.curves;
+    surface.regularElsewhere = asked_.marks.regularElsewhere;
+    surface.sectorRequests = asked_.marks.sectorRequests;
+    surface.regularOnFeatures = asked_.marks.regularOnFeatures;
+    surface.seams = asked_.marks.seams;
+    moveRequests(surface.mesh, asked_.valencePlaces, surface.valenceRequests);
+    moveRequests(surface.mesh, asked_.sectorPlaces, surface.sectorRequests);
+    const bool isSame = std::equal(before.begin(), before.end(), surface.valenceRequests.begin(),
+      surface.valenceRequests.end(),
+      [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex == b.vertex; });
+    if (!isSame)
+    {
+      letGo(); // its levels hold other vertices
+    }
   }
 
   /// The loops that are left, which quads resolve where the first plan has sizes for them.
@@ -377,6 +464,7 @@ private:
   bool takesAll_; ///< what is shorter than kQuadsOfLoop s, whatever smaller quads could do
   StageRecords& stages_;
   std::vector<std::string>& reused_;
+  AskedOf asked_;
   double limit_;       ///< of boundary loops, in units of the mesh
   double handleLimit_; ///< of handles
   bool isOwn_ = false;
