@@ -355,6 +355,20 @@ TEST(SmallDetails, AreTheSameForAnyNumberOfThreadsAndWithAMemory)
   const RemeshResult cold = remesh(guided, options);
   EXPECT_EQ(warm.quads.points, cold.quads.points);
   EXPECT_NE(cold.quads.points, one.quads.points);
+  // No request is a reason to take details out anew.
+  EXPECT_EQ(warm.decimations, 0);
+  SurfaceInput asked = test::toInput(mesh);
+  asked.targetValences.assign(asked.points.size(), 0);
+  const Vector3 top(70, 0, 1);
+  const auto isNearer = [&](const Vector3& a, const Vector3& b)
+  { return (a - top).norm() < (b - top).norm(); };
+  const auto nearest = std::min_element(asked.points.begin(), asked.points.end(), isNearer);
+  asked.targetValences[static_cast<std::size_t>(nearest - asked.points.begin())] = 5;
+  const RemeshResult warmAsked = remesh(asked, options, memory);
+  const RemeshResult coldAsked = remesh(asked, options);
+  EXPECT_EQ(warmAsked.quads.points, coldAsked.quads.points);
+  EXPECT_NE(coldAsked.quads.points, one.quads.points);
+  EXPECT_EQ(warmAsked.decimations, 0);
 }
 
 TEST(SmallDetails, AreLeftToTheWholeWhereAMirrorHalvesIt)
