@@ -143,7 +143,8 @@ void recordCoarse(
   tellCurves(run, made);
   made.coarse = levels.coarse;
   made.coarseUv = std::move(map.uv);
-  const bool hasField = !map.field.turns.empty(); // there is none where the level is too large for one
+  const bool hasField =
+    !map.field.turns.empty(); // there is none where the level is too large for one
   if (hasField)
   {
     made.coarseTurns = map.field.turns;

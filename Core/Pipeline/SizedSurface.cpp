@@ -236,14 +236,17 @@ private:
     {
       requestsKey_ = options_.closeHandles > 0 ? requestsKey(input_) : 0;
     }
+    // Of details only components are taken out before the surface is sized.
+    const PreparedSurface& prepared = prepared_ ? *prepared_->surface : *made_.surface;
+    const bool mayDrop = maySimplify(options_) && prepared.components > 1;
     made_.key = KeyMaker(preparedKey_)
                   .add(made_.edgeLength)
                   .add(std::uint64_t{ judgesCreases(options_) ? 1U : 0U })
                   .add(options_.closeHandles)
                   .add(requestsKey_)
                   .add(std::uint64_t{ options_.removeSmallComponents ? 1U : 0U })
-                  .add(std::uint64_t{ maySimplify(options_) ? 1U : 0U })
-                  .add(std::uint64_t{ maySimplify(options_) ? made_.targetQuads : 0 })
+                  .add(std::uint64_t{ mayDrop ? 1U : 0U })
+                  .add(std::uint64_t{ mayDrop ? made_.targetQuads : 0 })
                   .key();
     if (options_.sizes.any())
     {

@@ -35,7 +35,10 @@ def main():
     for name in names:
         remesh = quadrille.vtkQuadRemesh()
         before = remesh.GetSettings()
-        getattr(remesh, "Set" + name)(other(getattr(remesh, "Get" + name)()))
+        value = getattr(remesh, "Get" + name)()
+        getattr(remesh, "Set" + name)(other(value))
+        if getattr(remesh, "Get" + name)() == value:
+            getattr(remesh, "Set" + name)(value + 1)  # the least of its range
         if (remesh.GetSettings() == before) != (name in NO_SETTINGS):
             missing.append(name)
     if missing:
