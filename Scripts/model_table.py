@@ -11,8 +11,8 @@ A row for each run: exit code, seconds of processor and of the clock, attempts, 
 irregular vertices, whether the topology is that of the input less what the report's table of small details lists, and
 whether the map on the input has no defect. The topology of the input is counted here, from its triangles with equal
 points joined: components, boundary loops and the Euler characteristic; where edges have more than two faces, or the
-repair has split vertices, taken faces away or joined points that are not equal, it is not judged. --json keeps the rows, and those that it has are not
-made again.
+repair has split vertices, taken faces away or joined points that are not equal, it is not judged. --json keeps the
+rows, and those that it has are not made again.
 """
 import argparse
 import concurrent.futures
