@@ -48,21 +48,19 @@ constexpr double kLimitStep = 0.5;
 /// What is asked of a surface, with the places of the vertices.
 struct AskedOf
 {
-  explicit AskedOf(const PreparedSurface& surface) : marks(marksOf(surface))
+  explicit AskedOf(const PreparedSurface& surface) : requests(requestsOf(surface))
   {
-    for (const ValenceRequest& request : marks.valenceRequests)
+    for (const ValenceRequest& request : requests.valenceRequests)
     {
       valencePlaces.push_back(surface.mesh.position[request.vertex]);
     }
-    for (const SectorRequest& request : marks.sectorRequests)
+    for (const SectorRequest& request : requests.sectorRequests)
     {
       sectorPlaces.push_back(surface.mesh.position[request.vertex]);
     }
-    marks.flags.clear();
-    marks.sizing.clear();
   }
 
-  SurfaceMarks marks; ///< only the requests
+  SurfaceRequests requests;
   std::vector<Vector3> valencePlaces, sectorPlaces;
 };
 
@@ -422,14 +420,7 @@ private:
   {
     PreparedSurface& surface = *sized_.surface;
     const std::vector<ValenceRequest> before = surface.valenceRequests;
-    surface.polygonGuides = asked_.marks.polygonGuides;
-    surface.valenceRequests = asked_.marks.valenceRequests;
-    surface.unusedValences = asked_.marks.unusedValences;
-    surface.curves = asked_.marks.curves;
-    surface.regularElsewhere = asked_.marks.regularElsewhere;
-    surface.sectorRequests = asked_.marks.sectorRequests;
-    surface.regularOnFeatures = asked_.marks.regularOnFeatures;
-    surface.seams = asked_.marks.seams;
+    putOn(asked_.requests, surface);
     moveRequests(surface.mesh, asked_.valencePlaces, surface.valenceRequests);
     moveRequests(surface.mesh, asked_.sectorPlaces, surface.sectorRequests);
     const bool isSame = std::equal(before.begin(), before.end(), surface.valenceRequests.begin(),

@@ -13,14 +13,32 @@ namespace quadrille
 
 std::size_t SurfaceMarks::bytes() const
 {
-  return bytesOf(flags) + bytesOf(sizing) + bytesOf(polygonGuides) + bytesOf(valenceRequests);
+  return bytesOf(flags) + bytesOf(sizing) + bytesOf(requests.polygonGuides) +
+    bytesOf(requests.valenceRequests);
+}
+
+SurfaceRequests requestsOf(const PreparedSurface& surface)
+{
+  return { surface.polygonGuides, surface.valenceRequests, surface.unusedValences, surface.curves,
+    surface.regularElsewhere, surface.sectorRequests, surface.regularOnFeatures, surface.seams };
+}
+
+void putOn(const SurfaceRequests& requests, PreparedSurface& surface)
+{
+  surface.polygonGuides = requests.polygonGuides;
+  surface.valenceRequests = requests.valenceRequests;
+  surface.unusedValences = requests.unusedValences;
+  surface.curves = requests.curves;
+  surface.regularElsewhere = requests.regularElsewhere;
+  surface.sectorRequests = requests.sectorRequests;
+  surface.regularOnFeatures = requests.regularOnFeatures;
+  surface.seams = requests.seams;
 }
 
 SurfaceMarks marksOf(const PreparedSurface& surface)
 {
   return { surface.mesh.flags, surface.mesh.sizing, surface.hash, surface.repair, surface.notice,
-    surface.polygonGuides, surface.valenceRequests, surface.unusedValences, surface.curves,
-    surface.regularElsewhere, surface.sectorRequests, surface.regularOnFeatures, surface.seams };
+    requestsOf(surface) };
 }
 
 void putOn(const SurfaceMarks& marks, PreparedSurface& surface)
@@ -30,14 +48,7 @@ void putOn(const SurfaceMarks& marks, PreparedSurface& surface)
   surface.hash = marks.hash;
   surface.repair = marks.repair;
   surface.notice = marks.notice;
-  surface.polygonGuides = marks.polygonGuides;
-  surface.valenceRequests = marks.valenceRequests;
-  surface.unusedValences = marks.unusedValences;
-  surface.curves = marks.curves;
-  surface.regularElsewhere = marks.regularElsewhere;
-  surface.sectorRequests = marks.sectorRequests;
-  surface.regularOnFeatures = marks.regularOnFeatures;
-  surface.seams = marks.seams;
+  putOn(marks.requests, surface);
 }
 
 std::size_t bytesOf(const Mesh& mesh)
@@ -54,14 +65,7 @@ std::size_t bytesOf(const PreparedSurface& surface)
 
 void forgetRequests(SurfaceMarks& marks)
 {
-  marks.polygonGuides.clear();
-  marks.valenceRequests.clear();
-  marks.unusedValences = 0;
-  marks.curves.clear();
-  marks.regularElsewhere = false;
-  marks.sectorRequests.clear();
-  marks.regularOnFeatures = false;
-  marks.seams.clear();
+  marks.requests = {};
 }
 
 RunSurface::RunSurface(std::shared_ptr<PreparedSurface> surface, ResultKey key, int threads)

@@ -17,14 +17,9 @@
 namespace quadrille
 {
 
-/// All of a prepared surface that refinement changes where it splits no face.
-struct SurfaceMarks
+/// Guides, valences and curves, which belong to the run and not to the surface.
+struct SurfaceRequests
 {
-  std::vector<std::uint8_t> flags; ///< of the mesh
-  std::vector<float> sizing;       ///< of the mesh
-  std::uint64_t hash = 0;
-  RepairReport repair;
-  std::string notice;
   std::vector<PolygonGuide> polygonGuides;
   std::vector<ValenceRequest> valenceRequests;
   std::size_t unusedValences = 0;
@@ -33,11 +28,23 @@ struct SurfaceMarks
   std::vector<SectorRequest> sectorRequests;
   bool regularOnFeatures = false;
   std::vector<SeamRequest> seams;
+};
+SurfaceRequests requestsOf(const PreparedSurface& surface);
+void putOn(const SurfaceRequests& requests, PreparedSurface& surface);
+
+/// All of a prepared surface that refinement changes where it splits no face.
+struct SurfaceMarks
+{
+  std::vector<std::uint8_t> flags; ///< of the mesh
+  std::vector<float> sizing;       ///< of the mesh
+  std::uint64_t hash = 0;
+  RepairReport repair;
+  std::string notice;
+  SurfaceRequests requests;
 
   std::size_t bytes() const;
 };
 SurfaceMarks marksOf(const PreparedSurface& surface);
-/// Guides, valences and curves, which belong to the run and not to the surface.
 void forgetRequests(SurfaceMarks& marks);
 void putOn(const SurfaceMarks& marks, PreparedSurface& surface);
 std::size_t bytesOf(const Mesh& mesh);
