@@ -20,6 +20,8 @@ import math
 import os
 import random
 import re
+import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -31,6 +33,8 @@ import numpy
 REACH = 4
 #: Below it a corner of a quad counts as inverted: its scaled Jacobian, which is 1 in a square.
 INVERTED = 0.0
+#: A session that waits, and does not compute, ends after so many times its limit.
+SLOWEST = 20
 
 
 class Quads:
@@ -605,13 +609,16 @@ def run_one(mesh, quads, seed, edits, limit):
     """In a process of its own, so that a crash is counted."""
     start = time.time()
     command = [sys.executable, os.path.abspath(__file__), mesh, "--quads", str(quads), "--seed", str(seed), "--edits",
-               str(edits), "--one"]
+               str(edits), "--limit", str(limit), "--one"]
     result = {"mesh": os.path.basename(mesh), "seed": seed}
+    waited = SLOWEST * limit
     try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=limit)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=waited)
     except subprocess.TimeoutExpired:
-        return dict(result, crash=f"not done after {limit} s", seconds=time.time() - start)
+        return dict(result, crash=f"not done after {waited:g} s", seconds=time.time() - start)
     result["seconds"] = time.time() - start
+    if done.returncode == -signal.SIGXCPU:
+        return dict(result, crash=f"not done after {limit:g} s of a processor")
     if done.returncode != 0 or not done.stdout.startswith("{"):
         return dict(result, crash=f"code {done.returncode}: {done.stderr[-2000:]}")
     return dict(result, **json.loads(done.stdout))
@@ -657,13 +664,16 @@ def main():
     parser.add_argument("--edits", type=int, default=10)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--limit", type=float, default=300, help="seconds for one session")
+    parser.add_argument("--limit", type=float, default=300,
+                        help="seconds of a processor for one session, whatever else the machine does")
     parser.add_argument("--json", help="file for all results")
     parser.add_argument("--one", action="store_true", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     quads = [int(text) for text in arguments.quads.split(",")]
     importlib.import_module("quadrille")  # where it is missing, that is told once
     if arguments.one:
+        seconds = math.ceil(arguments.limit)
+        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
         print(json.dumps(RandomSession(arguments.mesh[0], quads[0], arguments.seed).run(arguments.edits)))
         return 0
     quads = quads * len(arguments.mesh) if len(quads) == 1 else quads
