@@ -142,17 +142,20 @@ std::vector<Index> QuadChains::toLine(Index a, const Vector3& place, double dist
   return first;
 }
 
-/// Empty unless it comes back to where it began.
-std::vector<Index> QuadChains::closedFrom(Index first, ChainSide side) const
+/// Empty unless it comes back to where it began and passes points near the line alone. What it passes is marked: from
+/// none of it another chain goes on that side.
+std::vector<Index> QuadChains::closedFrom(Index first, ChainSide side,
+  const std::vector<double>& away, double distance, std::vector<std::uint8_t>& passed) const
 {
   std::vector<Index> chain{ originInQuads(quads_, first) };
   std::optional<Index> h = first;
   do
   {
+    passed[*h] = 1;
     chain.push_back(end(*h));
-    h = straightOn(*h, side);
-  } while (h && *h != first && chain.size() <= quads_.points.size());
-  return h && *h == first ? chain : std::vector<Index>{};
+    h = away[chain.back()] <= distance ? straightOn(*h, side) : std::nullopt;
+  } while (h && passed[*h] == 0);
+  return h == first ? chain : std::vector<Index>{};
 }
 
 std::vector<Index> QuadChains::closedNear(
@@ -163,7 +166,6 @@ std::vector<Index> QuadChains::closedNear(
   {
     away[p] = distanceToLoop(polyline, quads_.points[p]);
   }
-  const auto isNear = [&](Index p) { return away[p] <= distance; };
   // A short loop beside a part of the polyline is not what goes round it.
   const auto comesBy = [&](const std::vector<Index>& chain)
   {
@@ -176,22 +178,23 @@ std::vector<Index> QuadChains::closedNear(
   };
   std::vector<Index> best;
   double least = std::numeric_limits<double>::infinity();
-  for (Index h = 0; h < twin_.size(); ++h)
+  for (const ChainSide side : { ChainSide::Left, ChainSide::Right })
   {
-    if (!isNear(originInQuads(quads_, h)) || !isNear(end(h)))
+    std::vector<std::uint8_t> passed(twin_.size(), 0);
+    for (Index h = 0; h < twin_.size(); ++h)
     {
-      continue;
-    }
-    for (const ChainSide side : { ChainSide::Left, ChainSide::Right })
-    {
-      const std::vector<Index> chain = closedFrom(h, side);
+      if (passed[h] != 0 || away[originInQuads(quads_, h)] > distance)
+      {
+        continue;
+      }
+      const std::vector<Index> chain = closedFrom(h, side, away, distance, passed);
       double sum = 0;
       for (const Index p : chain)
       {
         sum += away[p];
       }
       const double mean = chain.empty() ? least : sum / static_cast<double>(chain.size());
-      if (mean < least && std::all_of(chain.begin(), chain.end(), isNear) && comesBy(chain))
+      if (mean < least && comesBy(chain))
       {
         least = mean;
         best = chain;

@@ -10,6 +10,7 @@
 
 #include "Extraction/Extraction.h"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -49,7 +50,8 @@ private:
   template <typename Visit>
   void followAll(Index a, Visit visit) const;
   Index end(Index h) const;
-  std::vector<Index> closedFrom(Index h, ChainSide side) const;
+  std::vector<Index> closedFrom(Index first, ChainSide side, const std::vector<double>& away,
+    double distance, std::vector<std::uint8_t>& passed) const;
 
   const QuadMesh& quads_;
   std::vector<Index> twin_;    ///< #H, see QuadHalfEdges.h
