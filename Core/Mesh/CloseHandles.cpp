@@ -5,6 +5,7 @@
 #include "Base/Progress.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/HandleBasis.h"
+#include "Mesh/HandleStubs.h"
 #include "Mesh/LoopSearch.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/SurfaceEdit.h"
@@ -81,13 +82,28 @@ std::vector<std::size_t> closeHandles(
     }
   }
   const Index facesBefore = surface.mesh.faceCount();
+  std::vector<std::pair<Index, double>> stubs; // a half-edge from the middle of each cap, its girth
   for (const std::vector<Index>& cut : cuts)
   {
+    double girth = 0;
+    for (const Index h : cut)
+    {
+      girth += surface.mesh.edgeVector(h).norm();
+    }
+    const Index first = surface.mesh.faceCount();
     cutAndClose(surface, cut);
+    const Index second = first + static_cast<Index>(cut.size());
+    stubs.push_back({ 3 * first + 2, girth });
+    stubs.push_back({ 3 * second + 2, girth });
   }
   for (Index h = 3 * facesBefore; h < surface.mesh.halfEdgeCount(); h += 3)
   {
     surface.area += surface.mesh.edgeVector(h).cross(surface.mesh.edgeVector(h + 1)).norm() / 2;
+  }
+  for (const auto& [h, girth] : stubs)
+  {
+    poll();
+    removeStub(surface, h, girth);
   }
   if (!cuts.empty())
   {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Removal of small handles: the surface is cut along a short loop and both sides are closed.
+/// Removal of small handles: the surface is cut along a short loop, both sides are closed, and what is left of the
+/// handle on each goes.
 #pragma once
 
 #include "Mesh/Surface.h"
@@ -14,8 +15,9 @@ namespace quadrille
 /// handle, that meets one of these vertices, and is shorter than `bound` (units of the mesh), is cut and closed (see
 /// cutAndClose); the genus is one lower for each. Left out are places without such a loop away from the boundary, and
 /// loops that meet one that was cut before or would, together with these, cut the surface in two: another call may find
-/// them. Returns the entries whose handles were closed, ascending; if there are any, order and hash are made anew, so
-/// vertices have other ids. Never makes two components of one.
+/// them. Pits and stubs behind the caps are taken out where they can be (see removeStub). Returns the entries whose
+/// handles were closed, ascending; if there are any, order and hash are made anew, so vertices have other ids. Never
+/// makes two components of one.
 std::vector<std::size_t> closeHandles(
   PreparedSurface& surface, const std::vector<std::vector<Index>>& places, double bound);
 

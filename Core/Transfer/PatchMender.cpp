@@ -7,10 +7,10 @@
 #include "Base/Progress.h"
 #include "GridMap/MapCheck.h"
 #include "Numerics/Untangler.h"
+#include "Transfer/ConeStart.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <array>
@@ -48,13 +48,6 @@ enum class Reference
   Surface,
   Equilateral
 };
-
-Eigen::Matrix2d equilateral(double side)
-{
-  Eigen::Matrix2d edges;
-  edges << side, 0.5 * side, 0, 0.8660254037844386 * side;
-  return edges;
-}
 
 /// How a vertex of a patch may move.
 enum class Freedom
@@ -106,6 +99,9 @@ private:
   std::size_t countDefectsInPatch() const;
 
   bool embedPatch();
+  bool embedRoundCone();
+  int mostSteps() const;
+  std::size_t placeInPatch(Index f) const;
   bool embedFrom(const UntangleProblem& problem, const Eigen::VectorXd& start);
   void collectFans();
   void addFan(Index corner);
@@ -406,42 +402,6 @@ std::size_t PatchMender::countDefectsInPatch() const
   return count;
 }
 
-/// The displacements of least Dirichlet energy: no valid map yet, but one that has forgotten any wrong winding.
-Eigen::VectorXd harmonicStart(const UntangleProblem& problem)
-{
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t t = 0; t < problem.triangles.size(); ++t)
-  {
-    const Eigen::Matrix2d& inverse = problem.inverseReference[t];
-    // Rows: how each corner enters the two columns of J.
-    Eigen::Matrix<double, 3, 2> gradient;
-    gradient.row(1) = inverse.row(0);
-    gradient.row(2) = inverse.row(1);
-    gradient.row(0) = -inverse.row(0) - inverse.row(1);
-    const Eigen::Matrix3d stiffness = problem.weight[t] * gradient * gradient.transpose();
-    for (int i = 0; i < 3; ++i)
-    {
-      for (int j = 0; j < 3; ++j)
-      {
-        for (int axis = 0; axis < 2; ++axis)
-        {
-          entries.emplace_back(2 * static_cast<int>(problem.triangles[t][i]) + axis,
-            2 * static_cast<int>(problem.triangles[t][j]) + axis, stiffness(i, j));
-        }
-      }
-    }
-  }
-  Eigen::SparseMatrix<double> energy(problem.offset.size(), problem.offset.size());
-  energy.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SparseMatrix<double> reduced = problem.basis.transpose() * energy * problem.basis;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(reduced);
-  if (solver.info() != Eigen::Success)
-  {
-    return Eigen::VectorXd::Zero(problem.basis.cols());
-  }
-  return solver.solve(-(problem.basis.transpose() * (energy * problem.offset)));
-}
-
 bool PatchMender::embedPatch()
 {
   collectFans();
@@ -457,15 +417,74 @@ bool PatchMender::embedPatch()
   bool improved = embedFrom(problem, Eigen::VectorXd::Zero(unknowns_));
   if (countDefectsInPatch() > 0)
   {
+    improved = embedRoundCone() || improved;
+  }
+  if (countDefectsInPatch() > 0)
+  {
     const UntangleProblem again = improved ? makeProblem(Reference::Surface) : problem;
-    improved = embedFrom(again, harmonicStart(again)) || improved;
+    improved = embedFrom(again, fitHarmonic(again)) || improved;
   }
   if (countDefectsInPatch() > 0)
   {
     const UntangleProblem even = makeProblem(Reference::Equilateral);
-    improved = embedFrom(even, harmonicStart(even)) || improved;
+    improved = embedFrom(even, fitHarmonic(even)) || improved;
   }
   return improved;
+}
+
+/// Where the patch has one irregular vertex inside, and nothing else that holds the map: a start from which it keeps its
+/// turns.
+bool PatchMender::embedRoundCone()
+{
+  const PatchVertex* cone = nullptr;
+  for (const PatchVertex& vertex : vertices_)
+  {
+    const auto first = fans_.begin() + static_cast<std::ptrdiff_t>(vertex.firstFan);
+    const bool isInside = std::all_of(first, first + static_cast<std::ptrdiff_t>(vertex.fanCount),
+      [&](const FanCorner& c) { return inPatch_[c.corner / 3] != 0; });
+    if (!vertex.interior || (vertex.freedom != Freedom::Plane && isInside && cone != nullptr) ||
+      vertex.freedom == Freedom::AlongU || vertex.freedom == Freedom::AlongV)
+    {
+      return false;
+    }
+    cone = vertex.freedom == Freedom::Fixed && isInside ? &vertex : cone;
+  }
+  if (cone == nullptr)
+  {
+    return false;
+  }
+  const Index v = mesh_.origin[fans_[cone->firstFan].corner];
+  const ConeStart start = startRoundCone({ mesh_, uv_, patch_, v, expectedTurns_[v] }, mostSteps());
+  work_ += patch_.size() * static_cast<std::size_t>(start.steps);
+  if (start.places.empty())
+  {
+    return false;
+  }
+  Eigen::VectorXd y(unknowns_);
+  for (const PatchVertex& vertex : vertices_)
+  {
+    if (vertex.freedom == Freedom::Plane)
+    {
+      const Index corner = fans_[vertex.firstFan].corner;
+      y.segment<2>(vertex.firstUnknown) =
+        start.places[3 * placeInPatch(corner / 3) + corner % 3] - toDouble(uv_[corner]);
+    }
+  }
+  return embedFrom(makeProblem(Reference::Surface), y) ||
+    embedFrom(makeProblem(Reference::Equilateral), y);
+}
+
+/// Of the untangler, for one try.
+int PatchMender::mostSteps() const
+{
+  return static_cast<int>(
+    std::clamp(kWorkPerTry / patch_.size(), kLeastSteps, kMostUntanglingSteps));
+}
+
+std::size_t PatchMender::placeInPatch(Index f) const
+{
+  return static_cast<std::size_t>(
+    std::lower_bound(patch_.begin(), patch_.end(), f) - patch_.begin());
 }
 
 bool PatchMender::embedFrom(const UntangleProblem& problem, const Eigen::VectorXd& start)
@@ -477,8 +496,7 @@ bool PatchMender::embedFrom(const UntangleProblem& problem, const Eigen::VectorX
     saved.insert(saved.end(), { uv_[3 * f], uv_[3 * f + 1], uv_[3 * f + 2] });
   }
   UntangleOptions options;
-  options.maximumSteps =
-    static_cast<int>(std::clamp(kWorkPerTry / patch_.size(), kLeastSteps, kMostUntanglingSteps));
+  options.maximumSteps = mostSteps();
   const UntangleResult result = untangle(problem, start, options);
   work_ += patch_.size() * static_cast<std::size_t>(result.steps);
   applyDisplacements(result.y);
@@ -628,14 +646,12 @@ UntangleProblem PatchMender::makeProblem(Reference reference) const
   double imageArea = 0;
   const double scale = referenceScale(imageArea);
   const Eigen::Matrix2d uniform =
-    equilateral(std::sqrt(imageArea / (0.433 * static_cast<double>(patch_.size())))).inverse();
+    equilateral(std::sqrt(imageArea / (kEquilateralArea * static_cast<double>(patch_.size()))))
+      .inverse();
   problem.offset = Eigen::VectorXd::Zero(2 * points);
   std::vector<Eigen::Triplet<double>> entries;
   const auto pointOf = [&](Index corner)
-  {
-    const auto face = std::lower_bound(patch_.begin(), patch_.end(), corner / 3);
-    return 3 * static_cast<int>(face - patch_.begin()) + static_cast<int>(corner % 3);
-  };
+  { return 3 * static_cast<int>(placeInPatch(corner / 3)) + static_cast<int>(corner % 3); };
   for (std::size_t i = 0; i < patch_.size(); ++i)
   {
     const Index f = patch_[i];

@@ -6,6 +6,9 @@
 #include "SurfaceInputs.h"
 #include "TestHandleMeshes.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace quadrille
 {
 namespace
@@ -45,8 +48,58 @@ TEST(CloseHandles, TinyHandleOfASphereIsGone)
   EXPECT_TRUE(test::contains(surface.repair.text(), "1 small handle cut and closed"));
   EXPECT_NE(surface.hash, hash);
   EXPECT_NEAR(surface.area, test::area(surface.mesh), 1e-12);
-  EXPECT_GT(surface.area, area);
+  EXPECT_LT(surface.area, area);
+  for (const Vector3& p : surface.mesh.position)
+  {
+    EXPECT_LT(p.norm(), 1 + 1e-12) << "what bowed out of the sphere is gone";
+  }
   expectSourcesFit(surface);
+}
+
+/// A plate of 9 x 9 x 3 with a hole of 1 x 1 through its middle.
+SurfaceInput drilledPlate()
+{
+  return test::toInput(
+    test::voxelSurface({ 9, 9, 3 }, 2, [](int x, int y, int) { return x != 4 || y != 4; }));
+}
+
+/// Of the vertices on the wall of the hole, between its mouths.
+std::size_t countInHole(const Mesh& mesh)
+{
+  return static_cast<std::size_t>(std::count_if(mesh.position.begin(), mesh.position.end(),
+    [](const Vector3& p)
+    {
+      return std::max(std::abs(p.x() - 4.5), std::abs(p.y() - 4.5)) < 0.6 && p.z() > 0 && p.z() < 3;
+    }));
+}
+
+TEST(CloseHandles, HoleThroughAPlateIsFilledUpToItsMouths)
+{
+  PreparedSurface surface = test::prepare(drilledPlate());
+  ASSERT_GT(countInHole(surface.mesh), 0u);
+  ASSERT_EQ(closeHandles(surface, placesOf(surface.mesh, 4.1), 8.2).size(), 1u);
+  EXPECT_EQ(validate(surface.mesh), "");
+  EXPECT_EQ(summarizeTopology(surface.mesh).eulerCharacteristic, 2);
+  EXPECT_EQ(countInHole(surface.mesh), 0u);
+  EXPECT_NEAR(surface.area, 2 * 81 + 4 * 27, 1e-9) << "a plate without a hole";
+  EXPECT_NEAR(surface.area, test::area(surface.mesh), 1e-9);
+  expectSourcesFit(surface);
+}
+
+TEST(CloseHandles, WhatIsAskedForInAHoleStays)
+{
+  SurfaceInput input = drilledPlate();
+  input.targetValences.assign(input.points.size(), 0);
+  for (std::size_t i = 0; i < input.points.size(); ++i)
+  {
+    input.targetValences[i] = input.points[i] == Vector3(4, 4, 1.5) ? 5 : 0;
+  }
+  PreparedSurface surface = test::prepare(input);
+  ASSERT_EQ(surface.valenceRequests.size(), 1u);
+  ASSERT_EQ(closeHandles(surface, placesOf(surface.mesh, 4.1), 8.2).size(), 1u);
+  EXPECT_EQ(validate(surface.mesh), "");
+  ASSERT_EQ(surface.valenceRequests.size(), 1u);
+  EXPECT_EQ(surface.mesh.position[surface.valenceRequests[0].vertex], Vector3(4, 4, 1.5));
 }
 
 TEST(CloseHandles, CapsTakeTheAttributesOfTheFacesBesideThem)

@@ -4,9 +4,14 @@
 #include "TestMeshes.h"
 #include "Transfer/PatchMender.h"
 
+#include "Base/Angles.h"
+
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <functional>
+#include <utility>
 #include <vector>
 
 using namespace quadrille;
@@ -26,7 +31,88 @@ void moveVertices(const Mesh& mesh, std::vector<FixedVec2>& uv, FixedVec2 by,
   }
 }
 
+/// Quadrants of n by n squares round a point, flat and of even shapes, with a map that has its irregular vertex one step
+/// beside the point: all others are where a map has them that has it in the point.
+struct ShiftedCone
+{
+  Mesh mesh;
+  std::vector<FixedVec2> uv;
+  std::vector<int> turns;
+};
+
+ShiftedCone shiftedCone(int quadrants, int n)
+{
+  // Of a quadrant the vertices with x >= 1; those with x = 0 are the next one's.
+  const auto at = [&](int quadrant, int x, int y)
+  {
+    const int q = x == 0 ? (quadrant + 1) % quadrants : quadrant;
+    const int i = x == 0 ? y : x;
+    const int j = x == 0 ? 0 : y;
+    return static_cast<Index>(i == 0 ? 0 : 1 + (q * n + i - 1) * n + j);
+  };
+  std::vector<Vector3> points{ Vector3::Zero() };
+  for (int q = 0; q < quadrants; ++q)
+  {
+    for (int i = 1; i <= n; ++i)
+    {
+      for (int j = 0; j < n; ++j)
+      {
+        const double angle = (q * kRightAngle + std::atan2(j, i)) * 4 / quadrants;
+        points.emplace_back(std::hypot(i, j) * Vector3(std::cos(angle), std::sin(angle), 0));
+      }
+    }
+  }
+  std::vector<Triangle> triangles;
+  std::vector<FixedVec2> around, uv;
+  const Index moved = at(0, 1, 0);
+  const auto add = [&](int q, const std::array<std::pair<int, int>, 3>& corners)
+  {
+    Triangle triangle{};
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const auto& [i, j] = corners[k];
+      triangle[k] = at(q, i, j);
+      around.push_back(rotate(FixedVec2{ i * kOne, j * kOne }, q));
+      uv.push_back(triangle[k] == moved ? FixedVec2{}
+          : triangle[k] == 0            ? FixedVec2{ -kOne / 8, kOne / 4 }
+                                        : around.back());
+    }
+    triangles.push_back(triangle);
+  };
+  for (int q = 0; q < quadrants; ++q)
+  {
+    for (int x = 0; x < n; ++x)
+    {
+      for (int y = 0; y + 1 < n; ++y)
+      {
+        add(q, { { { x, y }, { x + 1, y }, { x + 1, y + 1 } } });
+        add(q, { { { x, y }, { x + 1, y + 1 }, { x, y + 1 } } });
+      }
+    }
+  }
+  ShiftedCone made{ makeMesh(points, triangles), std::move(uv), {} };
+  made.turns = turnsOf(made.mesh, around);
+  std::swap(made.turns[0], made.turns[moved]);
+  return made;
+}
+
 } // namespace
+
+TEST(PatchMender, IrregularVertexBesideItsPlaceKeepsItsTurns)
+{
+  for (const int quadrants : { 5, 6, 7 })
+  {
+    SCOPED_TRACE(quadrants);
+    ShiftedCone model = shiftedCone(quadrants, 10);
+    ASSERT_EQ(seamResiduals(model.mesh, model.uv), 0U);
+    ASSERT_NE(turnsOf(model.mesh, model.uv), model.turns);
+    const MendResult result = mendPatches(model.mesh, model.uv, model.turns, 1, {});
+    EXPECT_EQ(result.notPositive, 0U);
+    EXPECT_TRUE(result.defects.empty());
+    EXPECT_EQ(seamResiduals(model.mesh, model.uv), 0U);
+    EXPECT_EQ(turnsOf(model.mesh, model.uv), model.turns);
+  }
+}
 
 TEST(PatchMender, LeavesAValidMapAlone)
 {
