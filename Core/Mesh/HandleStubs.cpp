@@ -32,7 +32,7 @@ constexpr double kLeastFacing = 0.1;
 constexpr std::size_t kMostVertices = 20000;
 
 /// A fan over the edge of a disc.
-struct Fan
+struct MouthFan
 {
   std::vector<Index>
     run; ///< half-edges of what is outside, each of which ends where the next one begins
@@ -70,7 +70,7 @@ public:
   }
 
   /// The faces to take out, and the fan in their place; none where there is no pit.
-  std::optional<std::pair<std::vector<Index>, Fan>> best() const
+  std::optional<std::pair<std::vector<Index>, MouthFan>> best() const
   {
     const auto beyond = [](const Disc& disc) { return disc.area - disc.fan.area; };
     const auto most = std::max_element(discs_.begin(), discs_.end(),
@@ -91,7 +91,7 @@ private:
   {
     std::size_t faces = 0; ///< the first ones
     double area = 0;
-    Fan fan;
+    MouthFan fan;
   };
 
   using Reached = std::pair<double, Index>; ///< distance, vertex
@@ -181,7 +181,7 @@ private:
   }
 
   /// False where the edge is not one loop, or the fan would fold.
-  bool makeFan(Fan& fan) const
+  bool makeFan(MouthFan& fan) const
   {
     std::map<Index, Index> from;
     for (const Index h : edge_)

@@ -6,8 +6,6 @@
 #include "Numerics/IsotropicEnergy.h"
 #include "Numerics/ReducedTriangles.h"
 
-#include <Eigen/SparseCholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -304,41 +302,6 @@ Vector fitReferences(const UntangleProblem& problem)
   assembleFit(problem, system);
   Vector result;
   return system.newtonStep(1e-12, result) ? result : Vector::Zero(system.unknowns());
-}
-
-Eigen::VectorXd fitHarmonic(const UntangleProblem& problem)
-{
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t t = 0; t < problem.triangles.size(); ++t)
-  {
-    const Eigen::Matrix2d& inverse = problem.inverseReference[t];
-    // Rows: how each corner enters the two columns of J.
-    Eigen::Matrix<double, 3, 2> gradient;
-    gradient.row(1) = inverse.row(0);
-    gradient.row(2) = inverse.row(1);
-    gradient.row(0) = -inverse.row(0) - inverse.row(1);
-    const Eigen::Matrix3d stiffness = problem.weight[t] * gradient * gradient.transpose();
-    for (int i = 0; i < 3; ++i)
-    {
-      for (int j = 0; j < 3; ++j)
-      {
-        for (int axis = 0; axis < 2; ++axis)
-        {
-          entries.emplace_back(2 * static_cast<int>(problem.triangles[t][i]) + axis,
-            2 * static_cast<int>(problem.triangles[t][j]) + axis, stiffness(i, j));
-        }
-      }
-    }
-  }
-  Eigen::SparseMatrix<double> energy(problem.offset.size(), problem.offset.size());
-  energy.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SparseMatrix<double> reduced = problem.basis.transpose() * energy * problem.basis;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(reduced);
-  if (solver.info() != Eigen::Success)
-  {
-    return Eigen::VectorXd::Zero(problem.basis.cols());
-  }
-  return solver.solve(-(problem.basis.transpose() * (energy * problem.offset)));
 }
 
 UntangleResult untangle(

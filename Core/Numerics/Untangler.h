@@ -72,10 +72,6 @@ struct UntangleResult
 /// equation of a parametrization). Throws InvalidInput when sizes disagree.
 Eigen::VectorXd fitReferences(const UntangleProblem& problem);
 
-/// The unknowns of least Dirichlet energy sum weight |J|^2, whatever the signs of the determinants: no valid map yet, but
-/// one that has forgotten any wrong winding. Zero where these do not determine them.
-Eigen::VectorXd fitHarmonic(const UntangleProblem& problem);
-
 /// Throws InvalidInput when sizes disagree, y0 has a non-finite entry or the anisotropy limit is neither 0 nor a number
 /// from 1 on.
 /// Deterministic.

@@ -2,20 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Transfer/PatchMender.h"
 
+#include "Base/Angles.h"
 #include "Base/ChartRotation.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "GridMap/FieldUntangling.h"
 #include "GridMap/MapCheck.h"
+#include "GridMap/MapShape.h"
 #include "Numerics/Untangler.h"
-#include "Transfer/ConeStart.h"
+#include "Transfer/PatchRotations.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace quadrille
@@ -29,7 +34,10 @@ constexpr std::array<int, 4> kGrowth{ 2, 4, 8, 16 };
 constexpr std::size_t kMaximumPatchFaces = 10000;
 /// Faces times steps of the untangler: of one try, and of all tries besides half the faces of the mesh.
 constexpr std::size_t kWorkPerTry = 200000;
-constexpr std::size_t kMaximumWork = 1000000;
+constexpr std::size_t kMaximumWork = 5000000;
+/// The same where so many faces are to be mended that their cause is no matter of a few places.
+constexpr std::size_t kWorkOnMany = 1000000;
+constexpr std::size_t kManySeeds = 4000;
 constexpr std::size_t kLeastSteps = 30;
 constexpr std::size_t kMostUntanglingSteps = 250;
 /// References flatter than this (2 area / longest edge squared) are replaced by equilateral ones.
@@ -38,6 +46,11 @@ constexpr double kFlattestReference = 0.1;
 constexpr std::size_t kMendChunk = 1 << 14;
 /// Defects that a wrong winding of positive triangles counts for.
 constexpr std::size_t kLostTurn = 16;
+/// What weighs most is no nearer than this, squared and over the largest distance of the patch.
+constexpr double kNearest = 1e-4;
+/// How often those at defects get more weight, and how much.
+constexpr int kTurnedRounds = 4;
+constexpr double kStiffening = 10;
 /// A patch vertex with more faces than this stays where it is.
 constexpr std::size_t kMaximumFan = 256;
 
@@ -46,8 +59,24 @@ constexpr std::size_t kMaximumFan = 256;
 enum class Reference
 {
   Surface,
-  Equilateral
+  Equilateral,
+  Turned ///< those of the surface, each turned as the map round the patch asks for
 };
+
+/// What the untangler minimizes, and when what comes of it is taken.
+enum class Energy
+{
+  Shape,  ///< whichever way triangles are turned; where fewer defects are left
+  Turned, ///< as those of the coarse map, which keep the rotation of their references; the same
+  Polish  ///< the first one from a map without defects; where it has none afterwards
+};
+
+Eigen::Matrix2d equilateral(double side)
+{
+  Eigen::Matrix2d edges;
+  edges << side, 0.5 * side, 0, 0.8660254037844386 * side;
+  return edges;
+}
 
 /// How a vertex of a patch may move.
 enum class Freedom
@@ -97,17 +126,21 @@ private:
   void growPatch();
   void addFacesAround(Index corner);
   std::size_t countDefectsInPatch() const;
+  std::vector<Index> defectVertices() const;
 
   bool embedPatch();
-  bool embedRoundCone();
-  int mostSteps() const;
-  std::size_t placeInPatch(Index f) const;
-  bool embedFrom(const UntangleProblem& problem, const Eigen::VectorXd& start);
+  bool embedTurned();
+  bool embedFrom(
+    const UntangleProblem& problem, const Eigen::VectorXd& start, Energy energy = Energy::Shape);
+  void stiffen(const std::vector<Index>& vertices, UntangleProblem& problem) const;
   void collectFans();
   void addFan(Index corner);
   bool walkFan(Index corner, std::vector<FanCorner>& fan, bool& interior) const;
   Freedom freedomOf(const std::vector<FanCorner>& fan, bool interior, bool closes) const;
-  UntangleProblem makeProblem(Reference reference) const;
+  std::vector<double> nearnessToFixed() const;
+  void guardCurves(const std::vector<double>& rotations, const std::vector<double>& nearness,
+    UntangleProblem& problem) const;
+  UntangleProblem makeProblem(Reference reference, const std::vector<double>& rotations = {}) const;
   Eigen::Matrix2d inverseReference(Index f, double scale) const;
   double referenceScale(double& imageArea) const;
   void applyDisplacements(const Eigen::VectorXd& y);
@@ -133,7 +166,8 @@ private:
   std::vector<PatchVertex> vertices_;
   std::vector<FanCorner> fans_;
   int unknowns_ = 0;
-  std::size_t work_ = 0; ///< faces times steps of all tries
+  std::vector<Index> left_; ///< vertices at the defects that the last try had in the end
+  std::size_t work_ = 0;    ///< faces times steps of all tries
 };
 
 /// All corners of the vertex of `corner`, counterclockwise, for a boundary vertex from its boundary half-edge on.
@@ -189,7 +223,8 @@ MendResult PatchMender::run(const ProgressCallback& progress)
   // Small patches of all places come first, so that a hopeless place does not use up the work of the others.
   MendResult result;
   std::vector<Index> seeds = findSeeds();
-  const std::size_t limit = kMaximumWork + mesh_.faceCount() / 2;
+  const std::size_t limit =
+    (seeds.size() > kManySeeds ? kWorkOnMany : kMaximumWork) + mesh_.faceCount() / 2;
   for (std::size_t growth = 0; growth < kGrowth.size() && !seeds.empty(); ++growth)
   {
     std::fill(tried_.begin(), tried_.end(), std::uint8_t{ 0 });
@@ -402,6 +437,64 @@ std::size_t PatchMender::countDefectsInPatch() const
   return count;
 }
 
+/// Of the patch: those of triangles that are not positive, and those of wrong turns.
+std::vector<Index> PatchMender::defectVertices() const
+{
+  std::vector<Index> found;
+  for (const Index f : patch_)
+  {
+    if (!isPositive(f))
+    {
+      found.insert(found.end(), &mesh_.origin[3 * f], &mesh_.origin[3 * f] + 3);
+    }
+  }
+  for (const PatchVertex& vertex : vertices_)
+  {
+    const Index corner = fans_[vertex.firstFan].corner;
+    if (vertex.fanCount > 1 && turnsRound(corner) != expectedTurns_[mesh_.origin[corner]])
+    {
+      found.push_back(mesh_.origin[corner]);
+    }
+  }
+  return found;
+}
+
+/// The displacements of least Dirichlet energy: no valid map yet, but one that has forgotten any wrong winding.
+Eigen::VectorXd harmonicStart(const UntangleProblem& problem)
+{
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t t = 0; t < problem.triangles.size(); ++t)
+  {
+    const Eigen::Matrix2d& inverse = problem.inverseReference[t];
+    // Rows: how each corner enters the two columns of J.
+    Eigen::Matrix<double, 3, 2> gradient;
+    gradient.row(1) = inverse.row(0);
+    gradient.row(2) = inverse.row(1);
+    gradient.row(0) = -inverse.row(0) - inverse.row(1);
+    const Eigen::Matrix3d stiffness = problem.weight[t] * gradient * gradient.transpose();
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        for (int axis = 0; axis < 2; ++axis)
+        {
+          entries.emplace_back(2 * static_cast<int>(problem.triangles[t][i]) + axis,
+            2 * static_cast<int>(problem.triangles[t][j]) + axis, stiffness(i, j));
+        }
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> energy(problem.offset.size(), problem.offset.size());
+  energy.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SparseMatrix<double> reduced = problem.basis.transpose() * energy * problem.basis;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(reduced);
+  if (solver.info() != Eigen::Success)
+  {
+    return Eigen::VectorXd::Zero(problem.basis.cols());
+  }
+  return solver.solve(-(problem.basis.transpose() * (energy * problem.offset)));
+}
+
 bool PatchMender::embedPatch()
 {
   collectFans();
@@ -417,77 +510,158 @@ bool PatchMender::embedPatch()
   bool improved = embedFrom(problem, Eigen::VectorXd::Zero(unknowns_));
   if (countDefectsInPatch() > 0)
   {
-    improved = embedRoundCone() || improved;
-  }
-  if (countDefectsInPatch() > 0)
-  {
     const UntangleProblem again = improved ? makeProblem(Reference::Surface) : problem;
-    improved = embedFrom(again, fitHarmonic(again)) || improved;
+    improved = embedFrom(again, harmonicStart(again)) || improved;
   }
   if (countDefectsInPatch() > 0)
   {
     const UntangleProblem even = makeProblem(Reference::Equilateral);
-    improved = embedFrom(even, fitHarmonic(even)) || improved;
+    improved = embedFrom(even, harmonicStart(even)) || improved;
+  }
+  if (countDefectsInPatch() > 0)
+  {
+    improved = embedTurned() || improved;
   }
   return improved;
 }
 
-/// Where the patch has one irregular vertex inside, and nothing else that holds the map: a start from which it keeps its
-/// turns.
-bool PatchMender::embedRoundCone()
+/// Triangles that know how they are to be turned do not wind once less round an irregular vertex, and those near to
+/// it, as they weigh more, go along with it to its whole point. Edges of curves that know it do not run back.
+bool PatchMender::embedTurned()
 {
-  const PatchVertex* cone = nullptr;
-  for (const PatchVertex& vertex : vertices_)
-  {
-    const auto first = fans_.begin() + static_cast<std::ptrdiff_t>(vertex.firstFan);
-    const bool isInside = std::all_of(first, first + static_cast<std::ptrdiff_t>(vertex.fanCount),
-      [&](const FanCorner& c) { return inPatch_[c.corner / 3] != 0; });
-    if (!vertex.interior || (vertex.freedom != Freedom::Plane && isInside && cone != nullptr) ||
-      vertex.freedom == Freedom::AlongU || vertex.freedom == Freedom::AlongV)
-    {
-      return false;
-    }
-    cone = vertex.freedom == Freedom::Fixed && isInside ? &vertex : cone;
-  }
-  if (cone == nullptr)
+  const std::vector<double> rotations = patchRotations(mesh_, uv_, patch_, inPatch_);
+  if (rotations.empty())
   {
     return false;
   }
-  const Index v = mesh_.origin[fans_[cone->firstFan].corner];
-  const ConeStart start = startRoundCone({ mesh_, uv_, patch_, v, expectedTurns_[v] }, mostSteps());
-  work_ += patch_.size() * static_cast<std::size_t>(start.steps);
-  if (start.places.empty())
+  UntangleProblem problem = makeProblem(Reference::Turned, rotations);
+  const std::vector<double> nearness = nearnessToFixed();
+  for (std::size_t i = 0; i < patch_.size(); ++i)
   {
-    return false;
+    problem.weight[i] *= nearness[i];
   }
-  Eigen::VectorXd y(unknowns_);
+  guardCurves(rotations, nearness, problem);
+  bool improved = false;
+  for (int round = 0; round < kTurnedRounds && countDefectsInPatch() > 0; ++round)
+  {
+    improved = embedFrom(problem, fitReferences(problem), Energy::Turned) || improved;
+    stiffen(left_, problem);
+  }
+  if (improved && countDefectsInPatch() == 0)
+  {
+    // From a valid map no vertex changes its winding.
+    embedFrom(makeProblem(Reference::Surface), Eigen::VectorXd::Zero(unknowns_), Energy::Polish);
+  }
+  return improved;
+}
+
+/// Faces that touch one of these vertices, or touch one that does, weigh more.
+void PatchMender::stiffen(const std::vector<Index>& vertices, UntangleProblem& problem) const
+{
+  std::vector<Index> near = vertices;
+  for (int ring = 0; ring < 2; ++ring)
+  {
+    std::sort(near.begin(), near.end());
+    std::vector<Index> touched;
+    for (std::size_t i = 0; i < patch_.size(); ++i)
+    {
+      const Index* v = &mesh_.origin[3 * patch_[i]];
+      if (std::any_of(
+            v, v + 3, [&](Index w) { return std::binary_search(near.begin(), near.end(), w); }))
+      {
+        touched.insert(touched.end(), v, v + 3);
+        problem.weight[i] *= ring == 1 ? kStiffening : 1;
+      }
+    }
+    near = std::move(touched);
+  }
+}
+
+/// Per face, one over its squared distance from the nearest vertex inside the patch that stays, in patch sizes.
+std::vector<double> PatchMender::nearnessToFixed() const
+{
+  std::vector<Vector3> fixed;
   for (const PatchVertex& vertex : vertices_)
   {
-    if (vertex.freedom == Freedom::Plane)
+    const auto begin = fans_.begin() + static_cast<std::ptrdiff_t>(vertex.firstFan);
+    const bool inside = std::all_of(begin, begin + static_cast<std::ptrdiff_t>(vertex.fanCount),
+      [&](const FanCorner& c) { return inPatch_[Mesh::face(c.corner)] != 0; });
+    if (vertex.freedom == Freedom::Fixed && inside)
     {
-      const Index corner = fans_[vertex.firstFan].corner;
-      y.segment<2>(vertex.firstUnknown) =
-        start.places[3 * placeInPatch(corner / 3) + corner % 3] - toDouble(uv_[corner]);
+      fixed.push_back(mesh_.position[mesh_.origin[begin->corner]]);
     }
   }
-  return embedFrom(makeProblem(Reference::Surface), y) ||
-    embedFrom(makeProblem(Reference::Equilateral), y);
+  std::vector<double> nearness(patch_.size(), 1);
+  if (fixed.empty())
+  {
+    return nearness;
+  }
+  double farthest = 0;
+  for (std::size_t i = 0; i < patch_.size(); ++i)
+  {
+    const auto corner = [&](Index k) { return mesh_.position[mesh_.origin[3 * patch_[i] + k]]; };
+    const Vector3 middle = (corner(0) + corner(1) + corner(2)) / 3;
+    double squared = std::numeric_limits<double>::infinity();
+    for (const Vector3& p : fixed)
+    {
+      squared = std::min(squared, (middle - p).squaredNorm());
+    }
+    nearness[i] = squared;
+    farthest = std::max(farthest, squared);
+  }
+  for (double& squared : nearness)
+  {
+    squared = farthest > 0 ? 1 / std::max(squared / farthest, kNearest) : 1;
+  }
+  return nearness;
 }
 
-/// Of the untangler, for one try.
-int PatchMender::mostSteps() const
+/// Edges of curves between vertices that may slide past each other otherwise.
+void PatchMender::guardCurves(const std::vector<double>& rotations,
+  const std::vector<double>& nearness, UntangleProblem& problem) const
 {
-  return static_cast<int>(
-    std::clamp(kWorkPerTry / patch_.size(), kLeastSteps, kMostUntanglingSteps));
+  double imageArea = 0;
+  const double scale = referenceScale(imageArea);
+  std::vector<Index> fixed;
+  for (const PatchVertex& vertex : vertices_)
+  {
+    if (vertex.freedom == Freedom::Fixed)
+    {
+      fixed.push_back(mesh_.origin[fans_[vertex.firstFan].corner]);
+    }
+  }
+  std::sort(fixed.begin(), fixed.end());
+  std::vector<GuardedEdge> edges;
+  std::vector<double> factors;
+  for (std::size_t i = 0; i < patch_.size(); ++i)
+  {
+    for (Index k = 0; k < 3; ++k)
+    {
+      const Index h = 3 * patch_[i] + k;
+      const double length = scale * mesh_.edgeVector(h).norm();
+      const bool stays = std::binary_search(fixed.begin(), fixed.end(), mesh_.origin[h]) &&
+        std::binary_search(fixed.begin(), fixed.end(), mesh_.target(h));
+      if (!mesh_.isConstrained(h) || stays || !(length > 0))
+      {
+        continue;
+      }
+      const double direction = rotations[i] + directionOf(mesh_, h);
+      const int axis = static_cast<int>(std::lround(direction / kRightAngle));
+      edges.push_back(
+        { static_cast<Index>(3 * i + k), static_cast<Index>(3 * i + (k + 1) % 3), axis, length });
+      factors.push_back(nearness[i]);
+    }
+  }
+  const std::size_t before = problem.weight.size();
+  guardEdges(problem, edges);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    problem.weight[before + i] *= factors[i];
+  }
 }
 
-std::size_t PatchMender::placeInPatch(Index f) const
-{
-  return static_cast<std::size_t>(
-    std::lower_bound(patch_.begin(), patch_.end(), f) - patch_.begin());
-}
-
-bool PatchMender::embedFrom(const UntangleProblem& problem, const Eigen::VectorXd& start)
+bool PatchMender::embedFrom(
+  const UntangleProblem& problem, const Eigen::VectorXd& start, Energy energy)
 {
   const std::size_t before = countDefectsInPatch();
   std::vector<FixedVec2> saved;
@@ -495,12 +669,21 @@ bool PatchMender::embedFrom(const UntangleProblem& problem, const Eigen::VectorX
   {
     saved.insert(saved.end(), { uv_[3 * f], uv_[3 * f + 1], uv_[3 * f + 2] });
   }
+  const int steps =
+    static_cast<int>(std::clamp(kWorkPerTry / patch_.size(), kLeastSteps, kMostUntanglingSteps));
   UntangleOptions options;
-  options.maximumSteps = mostSteps();
+  options.maximumSteps = steps;
+  if (energy == Energy::Turned)
+  {
+    options = fieldUntangleOptions({});
+    options.maximumSteps = std::min(options.maximumSteps, steps);
+  }
   const UntangleResult result = untangle(problem, start, options);
   work_ += patch_.size() * static_cast<std::size_t>(result.steps);
   applyDisplacements(result.y);
-  if (result.y.allFinite() && countDefectsInPatch() < before)
+  const std::size_t after = countDefectsInPatch();
+  left_ = defectVertices();
+  if (result.y.allFinite() && (energy == Energy::Polish ? after == 0 : after < before))
   {
     return true;
   }
@@ -638,7 +821,8 @@ Vector2 direction(bool alongU, int rotation)
   return { static_cast<double>(d.u), static_cast<double>(d.v) };
 }
 
-UntangleProblem PatchMender::makeProblem(Reference reference) const
+UntangleProblem PatchMender::makeProblem(
+  Reference reference, const std::vector<double>& rotations) const
 {
   // A point per corner, relative to its face's first corner: only differences inside a face matter.
   UntangleProblem problem;
@@ -646,19 +830,25 @@ UntangleProblem PatchMender::makeProblem(Reference reference) const
   double imageArea = 0;
   const double scale = referenceScale(imageArea);
   const Eigen::Matrix2d uniform =
-    equilateral(std::sqrt(imageArea / (kEquilateralArea * static_cast<double>(patch_.size()))))
-      .inverse();
+    equilateral(std::sqrt(imageArea / (0.433 * static_cast<double>(patch_.size())))).inverse();
   problem.offset = Eigen::VectorXd::Zero(2 * points);
   std::vector<Eigen::Triplet<double>> entries;
   const auto pointOf = [&](Index corner)
-  { return 3 * static_cast<int>(placeInPatch(corner / 3)) + static_cast<int>(corner % 3); };
+  {
+    const auto face = std::lower_bound(patch_.begin(), patch_.end(), corner / 3);
+    return 3 * static_cast<int>(face - patch_.begin()) + static_cast<int>(corner % 3);
+  };
   for (std::size_t i = 0; i < patch_.size(); ++i)
   {
     const Index f = patch_[i];
     const Index point = static_cast<Index>(3 * i);
     problem.triangles.push_back({ point, point + 1, point + 2 });
     problem.inverseReference.push_back(
-      reference == Reference::Surface ? inverseReference(f, scale) : uniform);
+      reference == Reference::Equilateral ? uniform : inverseReference(f, scale));
+    if (reference == Reference::Turned)
+    {
+      problem.inverseReference.back() *= Eigen::Rotation2Dd(-rotations[i]).toRotationMatrix();
+    }
     problem.weight.push_back(0.5 / std::abs(problem.inverseReference.back().determinant()));
     for (Index k = 0; k < 3; ++k)
     {

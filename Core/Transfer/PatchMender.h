@@ -8,6 +8,12 @@
 /// patch has. Inner vertices of curves slide along their isoline; the patch's border, irregular vertices
 /// and corners of curves stay. The untangler moves the rest, the result is rounded to the grid and tested
 /// exactly, and it is taken only if fewer defects are left.
+///
+/// Where its energy, which rotations cost nothing, leaves defects, that of the coarse map is tried, with triangles
+/// turned as the map round the patch asks for (PatchRotations.h): a cone that would otherwise pass its turns to a
+/// neighbour keeps them, and no vertex of a curve slides past the corner that the curve ends in. Triangles weigh one
+/// over their squared distance from the nearest vertex that stays, so that those round a cone go along with it to its
+/// whole point; those at what defects are left weigh more in the next round, as in FieldUntangling.h.
 #pragma once
 
 #include "Base/FixedPoint.h"

@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Base/Angles.h"
 #include "TestMaps.h"
 #include "TestMeshes.h"
 #include "Transfer/PatchMender.h"
-
-#include "Base/Angles.h"
+#include "Transfer/PatchRotations.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -31,8 +32,8 @@ void moveVertices(const Mesh& mesh, std::vector<FixedVec2>& uv, FixedVec2 by,
   }
 }
 
-/// Quadrants of n by n squares round a point, flat and of even shapes, with a map that has its irregular vertex one step
-/// beside the point: all others are where a map has them that has it in the point.
+/// Quadrants of n by n squares round a point, flat and of even shapes, with a map that has its irregular vertex one
+/// step beside the point: all others are where a map has them that has it in the point.
 struct ShiftedCone
 {
   Mesh mesh;
@@ -243,4 +244,186 @@ TEST(PatchMender, GivesUpOnWhatCannotBeMended)
   EXPECT_EQ(result.notPositive, notPositive(uv));
   EXPECT_GT(result.notPositive, 0U);
   EXPECT_EQ(seamResiduals(mesh, uv), 0U);
+}
+
+namespace
+{
+
+/// A disk round a vertex of valence 5: five squares of n by n quads, each with its own chart, all of whose corners
+/// (0, 0) are the middle. The v axis of one is the u axis of the next.
+struct Cone
+{
+  explicit Cone(int size) : n(size)
+  {
+    std::vector<Vector3> points{ Vector3::Zero() };
+    for (int k = 0; k < 5; ++k)
+    {
+      for (int y = 0; y < n; ++y)
+      {
+        for (int x = 1; x <= n; ++x)
+        {
+          const double angle = 0.8 * (std::atan2(y, x) + k * std::acos(0.0));
+          points.push_back(std::hypot(x, y) * Vector3(std::cos(angle), std::sin(angle), 0));
+        }
+      }
+    }
+    std::vector<Triangle> triangles;
+    for (int k = 0; k < 5; ++k)
+    {
+      for (int y = 0; y + 1 < n; ++y)
+      {
+        for (int x = 0; x < n; ++x)
+        {
+          const Index a = at(k, x, y), b = at(k, x + 1, y), c = at(k, x + 1, y + 1),
+                      d = at(k, x, y + 1);
+          triangles.push_back({ a, b, c });
+          triangles.push_back({ a, c, d });
+          place.insert(place.end(),
+            { { x, y }, { x + 1, y }, { x + 1, y + 1 }, { x, y }, { x + 1, y + 1 }, { x, y + 1 } });
+          chart.insert(chart.end(), 6, k);
+        }
+      }
+    }
+    mesh = makeMesh(points, triangles);
+  }
+
+  /// x = 0 is the axis of the next square.
+  Index at(int k, int x, int y) const
+  {
+    if (x == 0)
+    {
+      return y == 0 ? 0 : at((k + 1) % 5, y, 0);
+    }
+    return static_cast<Index>(1 + k * n * n + y * n + x - 1);
+  }
+
+  /// moved: vertex and displacement in the chart of `of`, turned into the charts beside it.
+  std::vector<FixedVec2> map(const std::vector<std::pair<Index, FixedVec2>>& moved, int of) const
+  {
+    std::vector<FixedVec2> uv;
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      uv.push_back({ place[h].first * kOne, place[h].second * kOne });
+      for (const auto& [vertex, by] : moved)
+      {
+        if (mesh.origin[h] == vertex)
+        {
+          uv.back() = uv.back() + rotate(by, chart[h] == (of + 1) % 5 ? 3 : chart[h] == of ? 0 : 1);
+        }
+      }
+    }
+    return uv;
+  }
+
+  int n;
+  Mesh mesh;
+  std::vector<std::pair<std::int64_t, std::int64_t>> place; ///< #H
+  std::vector<int> chart;                                   ///< #H
+};
+
+} // namespace
+
+TEST(PatchMender, KeepsTheTurnsOfACone)
+{
+  // The ring of the cone has been carried over it on one side, as a replay leaves it where the whole point of the cone
+  // lies beside the place that its triangles have room for. The cone must not pass four of its turns to a neighbour.
+  const Cone cone(8);
+  const std::vector<int> turns = turnsOf(cone.mesh, cone.map({}, 0));
+  ASSERT_EQ(turns[0], 5);
+  const FixedVec2 by{ -3 * kOne / 2, -5 * kOne / 4 };
+  std::vector<FixedVec2> uv =
+    cone.map({ { cone.at(0, 1, 1), by }, { cone.at(0, 1, 0), by }, { cone.at(0, 0, 1), by } }, 0);
+  ASSERT_GT(notPositive(uv), 0U);
+  ASSERT_EQ(seamResiduals(cone.mesh, uv), 0U);
+  const MendResult result = mendPatches(cone.mesh, uv, turns, 1, {});
+  EXPECT_TRUE(result.defects.empty());
+  EXPECT_EQ(notPositive(uv), 0U);
+  EXPECT_EQ(turnsOf(cone.mesh, uv), turns);
+  EXPECT_EQ(seamResiduals(cone.mesh, uv), 0U);
+}
+
+TEST(PatchRotations, KnowTheMapInsideFromThatRoundIt)
+{
+  // Inside the patch the map is scrambled, and only its transitions are used.
+  const Cone cone(8);
+  const std::vector<FixedVec2> whole = cone.map({}, 0);
+  const FixedVec2 by{ -3 * kOne / 2, -5 * kOne / 4 };
+  const std::vector<FixedVec2> scrambled =
+    cone.map({ { cone.at(0, 1, 1), by }, { cone.at(0, 1, 0), by }, { cone.at(0, 0, 1), by } }, 0);
+  std::vector<Index> patch;
+  std::vector<std::uint8_t> inPatch(cone.mesh.faceCount(), 0);
+  for (Index f = 0; f < cone.mesh.faceCount(); ++f)
+  {
+    const bool near = cone.place[3 * f].first < 4 && cone.place[3 * f].second < 4;
+    if (near)
+    {
+      patch.push_back(f);
+      inPatch[f] = 1;
+    }
+  }
+  const std::vector<double> rotations = patchRotations(cone.mesh, scrambled, patch, inPatch);
+  ASSERT_EQ(rotations.size(), patch.size());
+  for (std::size_t i = 0; i < patch.size(); ++i)
+  {
+    // The first edge, in the face laid out and in the map.
+    const Index h = 3 * patch[i];
+    const Vector2 image = toDouble(whole[h + 1] - whole[h]);
+    const double wanted = std::atan2(image.y(), image.x()) - directionOf(cone.mesh, h);
+    // Angles at the middle grow by a quarter, and the shear of a triangle turns its edges by less than that.
+    EXPECT_GT(std::cos(rotations[i] - wanted), std::cos(0.6)) << "face " << patch[i];
+  }
+}
+
+TEST(PatchRotations, NothingIsKnownWithoutASurrounding)
+{
+  const Mesh mesh = gridPlane(3, 3);
+  const std::vector<FixedVec2> uv =
+    mapByPosition(mesh, [](const Vector3& p) { return Vector2(p.x(), p.y()); });
+  std::vector<Index> all(mesh.faceCount());
+  std::iota(all.begin(), all.end(), Index{ 0 });
+  const std::vector<std::uint8_t> inPatch(mesh.faceCount(), 1);
+  EXPECT_TRUE(patchRotations(mesh, uv, all, inPatch).empty());
+}
+
+TEST(PatchMender, NoBoundaryVertexSlidesPastACorner)
+{
+  // Three quarters of a square round a corner of three quarter turns, which only two triangles meet.
+  const int n = 10;
+  std::vector<Vector3> points;
+  std::vector<Triangle> triangles;
+  std::vector<Index> id((2 * n + 1) * (2 * n + 1), kInvalidIndex);
+  const auto at = [&](int x, int y)
+  {
+    Index& v = id[static_cast<std::size_t>((y + n) * (2 * n + 1) + x + n)];
+    if (v == kInvalidIndex)
+    {
+      v = static_cast<Index>(points.size());
+      points.emplace_back(x, y, 0);
+    }
+    return v;
+  };
+  for (int y = -n; y < n; ++y)
+  {
+    for (int x = -n; x < n; ++x)
+    {
+      if (x >= 0 || y >= 0)
+      {
+        const Index a = at(x, y), b = at(x + 1, y), c = at(x + 1, y + 1), d = at(x, y + 1);
+        const bool other = (x == 0 && y == -1) || (x == -1 && y == 0); // no diagonal at the corner
+        triangles.push_back(other ? Triangle{ a, b, d } : Triangle{ a, b, c });
+        triangles.push_back(other ? Triangle{ b, c, d } : Triangle{ a, c, d });
+      }
+    }
+  }
+  const Mesh mesh = makeMesh(points, triangles);
+  std::vector<FixedVec2> uv =
+    mapByPosition(mesh, [](const Vector3& p) { return Vector2(p.x(), p.y()); });
+  const std::vector<int> turns = turnsOf(mesh, uv);
+  ASSERT_EQ(turns[at(0, 0)], 3);
+  moveVertices(
+    mesh, uv, { 5 * kOne / 4, 0 }, [](const Vector3& p) { return p == Vector3(-1, 0, 0); });
+  ASSERT_GT(notPositive(uv), 0U);
+  mendPatches(mesh, uv, turns, 1, {});
+  EXPECT_EQ(notPositive(uv), 0U);
+  EXPECT_EQ(turnsOf(mesh, uv), turns);
 }
