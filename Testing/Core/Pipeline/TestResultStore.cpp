@@ -268,11 +268,11 @@ TEST(ResultStore, WhatARetryFoundIsRememberedForTheNextEdit)
   Mesh mesh = test::sphere(5);
   for (Vector3& p : mesh.position)
   {
-    p *= 1 + 0.75 * std::sin(8 * p.x()) * std::cos(7 * p.y() + p.z());
+    p *= 1 + 0.9 * std::sin(8 * p.x()) * std::cos(7 * p.y() + p.z());
   }
   const SurfaceInput input = test::toInput(mesh);
-  RemeshOptions options = optionsFor(150);
-  options.coarseVertices = 250;
+  RemeshOptions options = optionsFor(100);
+  options.coarseVertices = 200;
   options.featureAngle.reset();
   const RemeshResult without = remesh(input, options);
   ASSERT_GT(without.replays, 1);
