@@ -33,6 +33,8 @@ import numpy
 REACH = 4
 #: Below it a corner of a quad counts as inverted: its scaled Jacobian, which is 1 in a square.
 INVERTED = 0.0
+#: Edge lengths from the nearest point of the quads, from which on a place is not at one.
+INSIDE = 0.1
 #: A session that waits, and does not compute, ends after so many times its limit.
 SLOWEST = 20
 
@@ -524,6 +526,10 @@ class RandomSession:
         kind = constraint["kind"]
         if kind == "valence":
             at = made.nearest(word["place"])
+            # Where nothing irregular is wanted the place lies inside a quad, or on an edge, as well as on a vertex.
+            inside = numpy.linalg.norm(made.points[at] - word["place"]) > INSIDE * made.length
+            if constraint["valence"] == 4 and inside:
+                return ""
             valence = int(made.valence[at] + made.boundary[at])
             return "" if valence == constraint["valence"] else f"the valence at {made.points[at]} is {valence}"
         if kind == "connection":
