@@ -109,6 +109,11 @@ struct StoredSettled
   std::vector<SmallDetail> simplified;
 };
 
+/// Of a surface that has no component of more handles than quads go round: an edit does not count them again.
+struct JudgedPossible
+{
+};
+
 const char* whatBecomes(DetailKind kind)
 {
   return kind == DetailKind::Handle ? "cut and closed" : "filled";
@@ -344,6 +349,12 @@ private:
   /// A surface with more handles and holes than so many quads can go round ends in minutes of attempts that fail.
   bool isHopeless(bool isCut)
   {
+    const ResultKey key =
+      KeyMaker(sized_.key).add(sized_.edgeLength).add(std::uint64_t{ isCut ? 1U : 0U }).key();
+    if (store_ != nullptr && store_->find<JudgedPossible>(key))
+    {
+      return false;
+    }
     const double quad = sized_.edgeLength * sized_.edgeLength;
     const SmallComponents small = findSmallComponents(*sized_.surface, sized_.edgeLength);
     const auto found = std::find_if(small.each.begin(), small.each.end(),
@@ -358,6 +369,10 @@ private:
       });
     if (found == small.each.end())
     {
+      if (store_ != nullptr)
+      {
+        store_->put(key, std::make_shared<JudgedPossible>(), sizeof(JudgedPossible));
+      }
       return false;
     }
     std::ostringstream text;
