@@ -13,11 +13,13 @@ in --keep.
 import argparse
 import collections
 import concurrent.futures
+import math
 import os
 import random
 import re
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -40,6 +42,8 @@ NUMBERS = ("nan", "inf", "-inf", "1e308", "-1e308", "1e-320", "0", "-1", "-0", "
            "abc", "3", "1000000")
 #: Bytes of address space, so that a length read from a damaged file cannot take the machine's memory.
 MEMORY = 6 << 30
+#: A run that waits, and does not compute, ends after so many times the limit.
+SLOWEST = 20
 
 
 def write_off(mesh, name):
@@ -169,20 +173,26 @@ def run_one(program, originals, seed, limit, keep):
         with open(damaged, "wb") as file:
             file.write(data)
         sanitized = "ASAN_OPTIONS" in os.environ
+
+        def bound():
+            seconds = math.ceil(limit)
+            resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
+            if not sanitized:
+                resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
         start = time.monotonic()
         try:
             done = subprocess.run(
                 [program, damaged, os.path.join(folder, "quads.vtp"), "--quads", "300", "--threads", "1"],
-                capture_output=True, timeout=limit, check=False, preexec_fn=None if sanitized else lambda: (
-                    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))))
+                capture_output=True, timeout=SLOWEST * limit, check=False, preexec_fn=bound)
             code, message = done.returncode, done.stderr.decode(errors="replace").strip()
+            code = None if code == -signal.SIGXCPU else code
         except subprocess.TimeoutExpired:
             code, message = None, ""
         seconds = time.monotonic() - start
         left = sorted(set(os.listdir(folder)) - {"damaged" + suffix})
         fault = None
         if code is None:
-            fault = f"not done after {limit} s"
+            fault = f"not done after {limit:g} s of a processor"
         elif code not in CODES:
             fault = f"exit code {code}: {message[-600:]}"
         elif code == 0 and left != ["quads.vtp"]:
@@ -206,7 +216,7 @@ def main():
     parser.add_argument("--files", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--limit", type=float, default=30)
+    parser.add_argument("--limit", type=float, default=30, help="seconds of a processor")
     parser.add_argument("--keep")
     parser.add_argument("--messages", action="store_true", help="print each message once, numbers left out")
     arguments = parser.parse_args()
