@@ -291,7 +291,11 @@ private:
       return;
     }
     letGo();
-    refineSurface(*sized_.surface, sized_.edgeLength, {});
+    // What was left long for its number stays so: the bound grows with the faces that there are now.
+    if (sized_.surface->notice.empty())
+    {
+      refineSurface(*sized_.surface, sized_.edgeLength, {});
+    }
     sized_.key = KeyMaker(sized_.key).add(sized_.surface->hash).key();
     stages_.add("simplify", secondsNow() - start, facesBefore, sized_.surface->mesh.faceCount());
   }
