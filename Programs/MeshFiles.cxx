@@ -19,6 +19,7 @@
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
+#include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkPLYWriter.h>
 #include <vtkPointData.h>
@@ -28,6 +29,7 @@
 #include <vtkQuadrilleFileReader.h>
 #include <vtkQuadrilleOFFReader.h>
 #include <vtkQuadrillePLYReader.h>
+#include <vtkQuadrilleUniquePoints.h>
 #include <vtkSTLReader.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringOutputWindow.h>
@@ -166,6 +168,18 @@ vtkSmartPointer<vtkPolyData> readWith(const std::string& path)
   }
   return data;
 }
+
+/// Joins equal points in time that grows with their number, wherever they lie.
+class StlReader : public vtkSTLReader
+{
+public:
+  static StlReader* New();
+  vtkTypeMacro(StlReader, vtkSTLReader);
+
+protected:
+  StlReader() { this->SetLocator(vtkNew<vtkQuadrilleUniquePoints>()); }
+};
+vtkStandardNewMacro(StlReader);
 
 /// With one of our own readers, whose texts name the file.
 template <class Reader>
@@ -562,7 +576,7 @@ vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
   }
   if (extension == "stl")
   {
-    return readWith<vtkSTLReader>(path);
+    return readWith<StlReader>(path);
   }
   if (extension == "vtp")
   {

@@ -15,7 +15,11 @@ def _reader_for(extension):
         return vtkQuadrilleOFFReader()
     if extension == ".stl":
         from vtkmodules.vtkIOGeometry import vtkSTLReader
-        return vtkSTLReader()
+
+        from .QuadrilleFilters import vtkQuadrilleUniquePoints
+        reader = vtkSTLReader()
+        reader.SetLocator(vtkQuadrilleUniquePoints())
+        return reader
     if extension == ".obj":
         from vtkmodules.vtkIOGeometry import vtkOBJReader
         return vtkOBJReader()

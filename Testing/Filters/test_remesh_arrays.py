@@ -12,6 +12,7 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     VTK_HEXAHEDRON, vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkUnstructuredGrid)
 from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkIOGeometry import vtkSTLReader, vtkSTLWriter
 from vtkmodules.vtkIOPLY import vtkPLYReader
 
 import quadrille
@@ -249,6 +250,33 @@ class Files(unittest.TestCase):
         self.assertEqual(ours.GetOutput().GetNumberOfPolys(), theirs.GetOutput().GetNumberOfPolys())
         for data in (ours.GetOutput(), theirs.GetOutput()):
             self.assertGreater(quadrille.remesh(data, quads=300).GetNumberOfCells(), 0)
+
+    def test_stl_with_a_point_far_off(self):
+        """Points are joined as VTK joins them, but none is looked for among all others."""
+        sphere = vtkSphereSource()
+        sphere.SetThetaResolution(40)
+        sphere.SetPhiResolution(40)
+        sphere.Update()
+        surface = sphere.GetOutput()
+        for far in (1.0, 1e30):
+            surface.GetPoints().SetPoint(0, 0, 0, far)
+            with tempfile.TemporaryDirectory() as folder:
+                name = os.path.join(folder, "far.stl")
+                writer = vtkSTLWriter()
+                writer.SetFileTypeToBinary()
+                writer.SetInputData(surface)
+                writer.SetFileName(name)
+                writer.Write()
+                theirs = vtkSTLReader()
+                theirs.SetFileName(name)
+                theirs.Update()
+                found = quadrille.read(name)
+            expected = theirs.GetOutput()
+            self.assertEqual(found.GetNumberOfPoints(), surface.GetNumberOfPoints())
+            numpy.testing.assert_array_equal(
+                vtk_to_numpy(found.GetPoints().GetData()), vtk_to_numpy(expected.GetPoints().GetData()))
+            numpy.testing.assert_array_equal(vtk_to_numpy(found.GetPolys().GetConnectivityArray()),
+                                             vtk_to_numpy(expected.GetPolys().GetConnectivityArray()))
 
     def test_off(self):
         texts = {
