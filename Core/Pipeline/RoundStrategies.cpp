@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Mesh/FeatureFilter.h"
+#include "Mesh/Guides.h"
 #include "Mesh/Sizing.h"
 #include "Pipeline/FirstPlan.h"
 
@@ -48,6 +49,13 @@ Plan withoutShrinks(Plan plan)
 std::string nearText(const std::vector<Vector3>& places)
 {
   return " near " + placeText(places.front()) + (places.size() > 1 ? " and other places" : "");
+}
+
+/// Whether a limit of the user stands in the way, which features have no part in.
+bool isTooLarge(const Attempt& attempt)
+{
+  return attempt.map->status.code == StatusCode::TooLarge ||
+    (attempt.quads && attempt.quads->status.code == StatusCode::TooLarge);
 }
 
 /// Where an earlier round has quads, of which some are inverted, a finer grid would cost more than it gives.
@@ -178,8 +186,6 @@ std::optional<Plan> fewerFeatures(const Trouble& trouble)
 {
   RunContext& run = trouble.run;
   const Attempt& attempt = trouble.attempt;
-  const bool tooLarge = attempt.map->status.code == StatusCode::TooLarge ||
-    (attempt.quads && attempt.quads->status.code == StatusCode::TooLarge);
   std::vector<Vector3> places = trouble.places;
   Plan plan = newRound(attempt.plan);
   if (trouble.failed)
@@ -193,7 +199,7 @@ std::optional<Plan> fewerFeatures(const Trouble& trouble)
     plan.quads = quadsFor(run, plan, 0);
   }
   const std::vector<Index> features = featuresNear(run, plan, places);
-  if (tooLarge || features.empty())
+  if (isTooLarge(attempt) || features.empty())
   {
     return std::nullopt;
   }
@@ -205,6 +211,52 @@ std::optional<Plan> fewerFeatures(const Trouble& trouble)
   plan.notices.push_back(std::to_string(features.size()) + " sharp edges" + nearText(places) +
     " leave no room for quads of this edge length and were not used as features");
   return plan;
+}
+
+std::optional<Plan> withoutFeatures(RunContext& run, const Plan& before)
+{
+  run.surface.apply(before);
+  const Mesh& mesh = run.surface->mesh;
+  auto givenUp = before.featuresGivenUp
+    ? std::make_shared<std::vector<Index>>(*before.featuresGivenUp)
+    : std::make_shared<std::vector<Index>>();
+  const std::size_t known = givenUp->size();
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (isDetectedFeature(mesh, h))
+    {
+      givenUp->push_back(h);
+    }
+  }
+  if (givenUp->size() == known)
+  {
+    return std::nullopt;
+  }
+  // From the beginning: what was kept and made smaller was for the sake of the features.
+  Plan plan = withoutShrinks(before);
+  plan.finer = {};
+  plan.levels = {};
+  plan.levels.keptVertices = keptVertices(*run.surface);
+  plan.levels.coarseVertices = run.options.coarseVertices;
+  plan.nextLevels = plan.levels;
+  plan.quads = quadsFor(run, plan, 0);
+  plan.featureDrops = static_cast<int>(kMostFeatureDrops);
+  plan.notices.push_back("with features no attempt has led to quads: all " +
+    std::to_string(givenUp->size()) +
+    " sharp edges that were found by their angle were not used as features; ask for smaller "
+    "quads, or mark the edges that are to stay");
+  plan.featuresGivenUp = std::move(givenUp);
+  plan.step = kNoFeatures;
+  return plan;
+}
+
+std::optional<Plan> noFeatures(const Trouble& trouble)
+{
+  const std::vector<std::string>& steps = trouble.history.steps();
+  const auto times = std::count(steps.begin(), steps.end(), kNoFeatures);
+  return static_cast<std::size_t>(times) >= trouble.bound || isTooLarge(trouble.attempt)
+    ? std::nullopt
+    : withoutFeatures(trouble.run, trouble.attempt.plan);
 }
 
 } // namespace quadrille
