@@ -59,6 +59,7 @@ GridMapOptions mapOptions(RunContext& run, const Plan& plan, MapAttempt& made)
   options.sectorTurns = levelSectors(*run.surface, levels.coarse.mesh, levels.coarse.fineVertex);
   options.curves = run.surface->curves;
   options.seams = run.surface->seams;
+  options.straight = run.surface->straight;
   options.progress = subProgress(run.options.progress, 0.45, 0.8, "Mapping: ");
   if (run.options.distortionMetric) // on request
   {
@@ -320,6 +321,14 @@ void addRequests(const PreparedSurface& surface, KeyMaker& key)
   {
     key.add(std::uint64_t{ 4 });
     for (const Vector3& p : { seam.from, seam.to, seam.imageFrom, seam.imageTo })
+    {
+      key.add(p[0]).add(p[1]).add(p[2]);
+    }
+  }
+  for (const StraightRequest& part : surface.straight)
+  {
+    key.add(std::uint64_t{ 5 });
+    for (const Vector3& p : { part.from, part.via, part.to })
     {
       key.add(p[0]).add(p[1]).add(p[2]);
     }

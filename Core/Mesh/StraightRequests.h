@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Parts of the boundary that are one straight side of the map: no corner and no irregular vertex lies on them. Such a
+/// side can be moved by half a quad without turning anything, see GridMap/RelaxMap.h.
+#pragma once
+
+#include "Base/Types.h"
+
+#include <vector>
+
+namespace quadrille
+{
+
+struct Mesh;
+
+/// By places of boundary vertices: the boundary between `from` and `to` that passes `via`, or, where from == to, all of
+/// the loop there. At its ends, where another part of the boundary begins, the map has a corner of one quarter turn.
+struct StraightRequest
+{
+  Vector3 from = Vector3::Zero();
+  Vector3 via = Vector3::Zero();
+  Vector3 to = Vector3::Zero();
+
+  bool isClosed() const { return from == to; }
+};
+
+/// The half-edges of each request on this mesh, which may be a coarser level or run the other way round, in the order of
+/// the boundary. None where the boundary does not join the ends.
+std::vector<std::vector<Index>> findStraightParts(
+  const Mesh& mesh, const std::vector<StraightRequest>& requests);
+
+/// The boundary vertices at all three places of the requests, ascending, each once.
+std::vector<Index> straightVertices(const Mesh& mesh, const std::vector<StraightRequest>& requests);
+
+/// Quarter turns of sectors (#H, see CrossFieldOptions::sectorTurns; may be empty) with those of straight parts: two in
+/// all at a vertex inside a part, one at its ends. Vertices where features leave fewer turns than they need are left as
+/// they are.
+std::vector<int> straightSectors(
+  const Mesh& mesh, const std::vector<std::vector<Index>>& parts, std::vector<int> sectorTurns);
+
+} // namespace quadrille
