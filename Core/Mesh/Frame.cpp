@@ -195,6 +195,7 @@ void requestsToFrame(FramedInput& framed)
     {
       *p = frame.fromUser(*p);
     }
+    part.outward = frame.mirrored(part.outward);
   }
 }
 

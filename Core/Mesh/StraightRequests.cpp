@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/StraightRequests.h"
 
-#include "Mesh/Mesh.h"
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -145,6 +143,43 @@ std::vector<Index> straightVertices(const Mesh& mesh, const std::vector<Straight
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
+}
+
+OutsetMesh withOutset(Mesh mesh, const std::vector<StraightRequest>& requests, double length)
+{
+  const std::vector<std::vector<Index>> parts = findStraightParts(mesh, requests);
+  const std::vector<Vector3> positions = mesh.position;
+  OutsetMesh result{ {}, requests };
+  std::vector<std::uint8_t> isMoved(mesh.vertexCount(), 0);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    const Vector3& outward = requests[i].outward;
+    const auto move = [&](Vector3& p, Index v)
+    { p += length * (mesh.sizing.empty() ? 1 : double{ mesh.sizing[v] }) * outward; };
+    if (parts[i].empty())
+    {
+      continue;
+    }
+    const Index start = mesh.origin[parts[i].front()], end = mesh.target(parts[i].back());
+    const bool isForth =
+      (positions[start] - requests[i].from).norm() <= (positions[end] - requests[i].from).norm();
+    for (const Index h : parts[i])
+    {
+      for (const Index v : { mesh.origin[h], mesh.target(h) })
+      {
+        if (isMoved[v] == 0)
+        {
+          isMoved[v] = 1;
+          move(mesh.position[v], v);
+        }
+      }
+    }
+    result.requests[i].from = mesh.position[isForth ? start : end];
+    result.requests[i].to = mesh.position[isForth ? end : start];
+    move(result.requests[i].via, start);
+  }
+  result.mesh = std::move(mesh);
+  return result;
 }
 
 std::vector<int> straightSectors(

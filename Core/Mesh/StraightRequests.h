@@ -4,14 +4,12 @@
 /// side can be moved by half a quad without turning anything, see GridMap/RelaxMap.h.
 #pragma once
 
-#include "Base/Types.h"
+#include "Mesh/Mesh.h"
 
 #include <vector>
 
 namespace quadrille
 {
-
-struct Mesh;
 
 /// By places of boundary vertices: the boundary between `from` and `to` that passes `via`, or, where from == to, all of
 /// the loop there. At its ends, where another part of the boundary begins, the map has a corner of one quarter turn.
@@ -20,6 +18,8 @@ struct StraightRequest
   Vector3 from = Vector3::Zero();
   Vector3 via = Vector3::Zero();
   Vector3 to = Vector3::Zero();
+  /// Unit: where the surface would go on beyond the part; zero where it ends there.
+  Vector3 outward = Vector3::Zero();
 
   bool isClosed() const { return from == to; }
 };
@@ -31,6 +31,15 @@ std::vector<std::vector<Index>> findStraightParts(
 
 /// The boundary vertices at all three places of the requests, ascending, each once.
 std::vector<Index> straightVertices(const Mesh& mesh, const std::vector<StraightRequest>& requests);
+
+struct OutsetMesh
+{
+  Mesh mesh;
+  std::vector<StraightRequest> requests; ///< with the places that their vertices have in it
+};
+/// The mesh with the vertices of parts moved outward by `length`, times the size there: what a map sees of a surface
+/// that goes on so far, and will lose a strip of that width again.
+OutsetMesh withOutset(Mesh mesh, const std::vector<StraightRequest>& requests, double length);
 
 /// Quarter turns of sectors (#H, see CrossFieldOptions::sectorTurns; may be empty) with those of straight parts: two in
 /// all at a vertex inside a part, one at its ends. Vertices where features leave fewer turns than they need are left as

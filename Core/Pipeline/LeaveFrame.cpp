@@ -145,6 +145,7 @@ void leaveFrame(PreparedSurface& surface, const Frame& frame, std::vector<Vector
     {
       *p = frame.toUser(*p);
     }
+    part.outward = frame.mirrored(part.outward);
   }
   if (frame.reversed)
   {

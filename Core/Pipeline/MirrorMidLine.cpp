@@ -26,7 +26,7 @@ namespace quadrille
 namespace
 {
 
-/// Rows of quads beside the plane that share what half a row leaves: each becomes wider by a sixteenth.
+/// Rows of quads beside the plane that move along.
 constexpr double kRows = 8;
 /// Fewer, halved each time, where the system for them would be too large.
 constexpr double kLeastRows = 1;
@@ -673,7 +673,7 @@ void askMidLine(MirrorHalf& half, const MirrorPlane& plane, double tolerance)
     const Index middle = chain[chain.size() / 2];
     const Vector3 via =
       chain.size() == 1 ? Vector3((points[from] + points[to]) / 2) : points[boundary.from(middle)];
-    input.straight.push_back({ points[from], via, points[to] });
+    input.straight.push_back({ points[from], via, points[to], -plane.normal });
   }
 }
 

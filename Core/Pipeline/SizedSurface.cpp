@@ -112,7 +112,7 @@ ResultKey requestsKey(const SurfaceInput& input)
   for (const StraightRequest& part : input.straight)
   {
     key.add(std::uint64_t{ 5 });
-    for (const Vector3& p : { part.from, part.via, part.to })
+    for (const Vector3& p : { part.from, part.via, part.to, part.outward })
     {
       key.add(p[0]).add(p[1]).add(p[2]);
     }
