@@ -207,8 +207,10 @@ class Mesh(unittest.TestCase):
         self.assertRefused(["plane_curve", "symmetry"], box, plane_curve="mid-line")
         self.assertRefused(["plane_curve", "mirror plane"], box, rotation=4, plane_curve="mid-line")
         # A tip in the plane where two sharp edges of each side end.
-        tip = ([(1, 1, 0), (-1, 1, 0), (-1, -1, 0), (1, -1, 0), (0, 0, 1.5)], [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)])
-        self.assertRefused(["several features", "isoline"], tip, symmetry=((0, 0, 0), (1, 0, 0)), plane_curve="mid-line")
+        tip = ([(1, 1, 0), (-1, 1, 0), (-1, -1, 0), (1, -1, 0), (0, 0, 1.5)],
+               [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)])
+        self.assertRefused(["several features", "isoline"], tip, symmetry=((0, 0, 0), (1, 0, 0)),
+                           plane_curve="mid-line")
 
     def test_rotation(self):
         box = (numpy.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 3)], float),
