@@ -342,8 +342,8 @@ public:
    * Whether the quads are a mirror image of themselves, a SymmetryTypes: about the plane through SymmetryOrigin with
    * SymmetryNormal, or about the plane that is found, about which the surface is nearest to its own image. The half in
    * front of the plane, where the normal points to, is remeshed, and its quads and their images are one mesh, with the
-   * plane's curve on edges, or half way between edges, see PlaneCurve. Where the surface is symmetric to a millionth of its diagonal points are exact images, else
-   * those behind the plane are put onto the surface. Guides, valences and sizes of one side are asked of both, those in
+   * plane's curve on edges, or half way between edges, see PlaneCurve. Where the surface is symmetric to a millionth of
+   * its diagonal points are exact images, else those behind the plane are put onto the surface. Guides, valences and sizes of one side are asked of both, those in
    * front go before; features are those in front. A surface that is not nearly symmetric is an error. Each block of
    * composite data is taken by itself. Output 1 is the half and its image. Default: SYMMETRY_NONE.
    *
