@@ -343,9 +343,10 @@ public:
    * SymmetryNormal, or about the plane that is found, about which the surface is nearest to its own image. The half in
    * front of the plane, where the normal points to, is remeshed, and its quads and their images are one mesh, with the
    * plane's curve on edges, or half way between edges, see PlaneCurve. Where the surface is symmetric to a millionth of
-   * its diagonal points are exact images, else those behind the plane are put onto the surface. Guides, valences and sizes of one side are asked of both, those in
-   * front go before; features are those in front. A surface that is not nearly symmetric is an error. Each block of
-   * composite data is taken by itself. Output 1 is the half and its image. Default: SYMMETRY_NONE.
+   * its diagonal points are exact images, else those behind the plane are put onto the surface. Guides, valences and
+   * sizes of one side are asked of both, those in front go before; features are those in front. A surface that is not
+   * nearly symmetric is an error. Each block of composite data is taken by itself. Output 1 is the half and its image.
+   * Default: SYMMETRY_NONE.
    *
    * SYMMETRY_AXIS and SYMMETRY_AXIS_FOUND: quads that become themselves when they are turned by 1 / RotationOrder of a
    * whole turn round an axis, through SymmetryOrigin along SymmetryNormal, or found. A wedge is remeshed, between half

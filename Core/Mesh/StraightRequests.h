@@ -24,8 +24,8 @@ struct StraightRequest
   bool isClosed() const { return from == to; }
 };
 
-/// The half-edges of each request on this mesh, which may be a coarser level or run the other way round, in the order of
-/// the boundary. None where the boundary does not join the ends.
+/// The half-edges of each request on this mesh, maybe a coarser level, or one that runs the other way round, in the
+/// order of the boundary. None where the boundary does not join the ends.
 std::vector<std::vector<Index>> findStraightParts(
   const Mesh& mesh, const std::vector<StraightRequest>& requests);
 

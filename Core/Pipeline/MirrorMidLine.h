@@ -37,16 +37,16 @@ struct MidLineOptions
   ProgressCallback progress;
 };
 
-/// The half's map (#H, changed in place) with its boundary in the plane half a quad inside. Some rows of quads beside it
-/// are evened out; irregular vertices and what lies beyond those rows stay. onFeatures: vertices that must not move
+/// The half's map (#H, changed in place) with its boundary in the plane half a quad inside. Rows of quads beside it are
+/// evened out; irregular vertices and what lies beyond those rows stay. onFeatures: vertices that must not move
 /// beside the irregular ones. Not ok where there is no room, with a place.
 Status insetPlane(const PreparedSurface& half, const DoubledMesh& doubled,
   const std::vector<int>& turns, const std::vector<Index>& onFeatures,
   const MidLineOptions& options, std::vector<FixedVec2>& uv);
 
 /// The quads of the doubled map as doubleQuads() has them: those of the half, their images, and then those that are
-/// their own images. extracted: of the doubled mesh; its points in front count, those behind become their images. Not ok
-/// where there is a pair of points in front and behind that belongs to two quads across the plane.
+/// their own images. extracted: of the doubled mesh; its points in front count, those behind become their images. Not
+/// ok where there is a pair of points in front and behind that belongs to two quads across the plane.
 DoubledQuads foldQuads(
   const QuadMesh& extracted, const DoubledMesh& doubled, const MirrorPlane& plane);
 
