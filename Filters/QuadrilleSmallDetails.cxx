@@ -35,6 +35,8 @@ const char* whyNotFollowed(FeatureLoss reason)
       return "not followed: it ends at an arc that is too short for a quad";
     case FeatureLoss::FailedMap:
       return "not followed: with it there was no map, or no quads";
+    case FeatureLoss::MidLine:
+      return "not followed: it lies in the mirror plane, which quads straddle";
     default:
       return "not followed: too short, too tangled or too near another one";
   }

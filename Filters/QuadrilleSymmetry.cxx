@@ -40,6 +40,34 @@ void addTuple(vtkPolyData* data, const char* name, std::initializer_list<double>
   data->GetFieldData()->AddArray(array);
 }
 
+/// Edges of which each point is its own image; of quads that are their own image the line between the middles of their
+/// two edges across the plane.
+std::vector<std::array<Vector3, 2>> linesInPlane(const SymmetricResult& made)
+{
+  const QuadMesh& quads = made.remeshed.quads;
+  const auto image = [&made](Index p) { return made.mirrorPoint[p]; };
+  std::set<std::pair<Index, Index>> edges;
+  std::vector<std::array<Vector3, 2>> lines;
+  for (const std::array<Index, 4>& quad : quads.quads)
+  {
+    for (std::size_t i = 0; i < quad.size(); ++i)
+    {
+      const Index a = quad[i], b = quad[(i + 1) % quad.size()];
+      const Index c = quad[(i + 2) % quad.size()], d = quad[(i + 3) % quad.size()];
+      if (image(a) == a && image(b) == b && edges.insert(std::minmax(a, b)).second)
+      {
+        lines.push_back({ quads.points[a], quads.points[b] });
+      }
+      if (image(a) == d && image(b) == c && a < d)
+      {
+        lines.push_back(
+          { (quads.points[a] + quads.points[d]) / 2, (quads.points[b] + quads.points[c]) / 2 });
+      }
+    }
+  }
+  return lines;
+}
+
 } // namespace
 
 void addMirrorSources(const SymmetricResult& made, const ConvertedSurface& converted,
@@ -92,20 +120,7 @@ void addMirrorLines(vtkPolyData* constraints, const SymmetricResult& made, bool 
   {
     return;
   }
-  const QuadMesh& quads = made.remeshed.quads;
-  const auto isInPlane = [&made](Index p) { return made.mirrorPoint[p] == p; };
-  std::set<std::pair<Index, Index>> edges;
-  for (const std::array<Index, 4>& quad : quads.quads)
-  {
-    for (std::size_t i = 0; i < quad.size(); ++i)
-    {
-      const std::pair<Index, Index> edge = std::minmax(quad[i], quad[(i + 1) % quad.size()]);
-      if (isInPlane(edge.first) && isInPlane(edge.second))
-      {
-        edges.insert(edge);
-      }
-    }
-  }
+  const std::vector<std::array<Vector3, 2>> lines = linesInPlane(made);
   const auto appendZero = [](vtkDataSetAttributes* attributes)
   {
     for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
@@ -115,13 +130,12 @@ void addMirrorLines(vtkPolyData* constraints, const SymmetricResult& made, bool 
       array->InsertNextTuple(zero.data());
     }
   };
-  for (const auto& [a, b] : edges)
+  for (const std::array<Vector3, 2>& line : lines)
   {
     constraints->GetLines()->InsertNextCell(2);
-    for (const Index p : { a, b })
+    for (const Vector3& p : line)
     {
-      constraints->GetLines()->InsertCellPoint(
-        constraints->GetPoints()->InsertNextPoint(quads.points[p].data()));
+      constraints->GetLines()->InsertCellPoint(constraints->GetPoints()->InsertNextPoint(p.data()));
       appendZero(constraints->GetPointData());
     }
     vtkCellData* cells = constraints->GetCellData();

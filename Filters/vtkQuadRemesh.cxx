@@ -324,6 +324,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
       return plain;
     }
     quadrille::SymmetryOptions symmetry;
+    symmetry.planeCurve = static_cast<quadrille::PlaneCurve>(this->PlaneCurve);
     if (this->Symmetry == SYMMETRY_PLANE)
     {
       symmetry.plane = quadrille::MirrorPlane{ quadrille::Vector3(this->SymmetryOrigin),
@@ -494,6 +495,7 @@ void vtkQuadRemesh::AddSettings(std::ostream& os) const
      << "DistortionMetric " << this->DistortionMetric << '\n'
      << "CellDataFrom " << this->CellDataFrom << '\n'
      << "Symmetry " << this->Symmetry << '\n'
+     << "PlaneCurve " << this->PlaneCurve << '\n'
      << "SymmetryOrigin " << origin[0] << ' ' << origin[1] << ' ' << origin[2] << '\n'
      << "SymmetryNormal " << normal[0] << ' ' << normal[1] << ' ' << normal[2] << '\n'
      << "RotationOrder " << this->RotationOrder << '\n'
@@ -541,6 +543,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "DistortionMetric: " << this->DistortionMetric << "\n";
   os << indent << "CellDataFrom: " << this->CellDataFrom << "\n";
   os << indent << "Symmetry: " << this->Symmetry << "\n";
+  os << indent << "PlaneCurve: " << this->PlaneCurve << "\n";
   os << indent << "SymmetryOrigin: " << this->SymmetryOrigin[0] << " " << this->SymmetryOrigin[1]
      << " " << this->SymmetryOrigin[2] << "\n";
   os << indent << "SymmetryNormal: " << this->SymmetryNormal[0] << " " << this->SymmetryNormal[1]

@@ -342,10 +342,11 @@ public:
    * Whether the quads are a mirror image of themselves, a SymmetryTypes: about the plane through SymmetryOrigin with
    * SymmetryNormal, or about the plane that is found, about which the surface is nearest to its own image. The half in
    * front of the plane, where the normal points to, is remeshed, and its quads and their images are one mesh, with the
-   * plane's curve on edges. Where the surface is symmetric to a millionth of its diagonal points are exact images, else
-   * those behind the plane are put onto the surface. Guides, valences and sizes of one side are asked of both, those in
-   * front go before; features are those in front. A surface that is not nearly symmetric is an error. Each block of
-   * composite data is taken by itself. Output 1 is the half and its image. Default: SYMMETRY_NONE.
+   * plane's curve on edges, or half way between edges, see PlaneCurve. Where the surface is symmetric to a millionth of
+   * its diagonal points are exact images, else those behind the plane are put onto the surface. Guides, valences and
+   * sizes of one side are asked of both, those in front go before; features are those in front. A surface that is not
+   * nearly symmetric is an error. Each block of composite data is taken by itself. Output 1 is the half and its image.
+   * Default: SYMMETRY_NONE.
    *
    * SYMMETRY_AXIS and SYMMETRY_AXIS_FOUND: quads that become themselves when they are turned by 1 / RotationOrder of a
    * whole turn round an axis, through SymmetryOrigin along SymmetryNormal, or found. A wedge is remeshed, between half
@@ -360,6 +361,27 @@ public:
   void SetSymmetryToFound() { this->SetSymmetry(SYMMETRY_FOUND); }
   void SetSymmetryToAxis() { this->SetSymmetry(SYMMETRY_AXIS); }
   void SetSymmetryToAxisFound() { this->SetSymmetry(SYMMETRY_AXIS_FOUND); }
+  ///@}
+
+  /// The values of PlaneCurve, see there.
+  enum PlaneCurveTypes
+  {
+    PLANE_CURVE_ISOLINE = 0,
+    PLANE_CURVE_MID_LINE = 1
+  };
+
+  ///@{
+  /**
+   * What the quads have where a mirror plane cuts the surface, a PlaneCurveTypes: edges in the plane, or quads across
+   * it, each its own image, with two corners in front and two behind. With a mid-line no point lies in the plane:
+   * features there are not followed, which a notice tells with their length, and valences and curves in the plane are
+   * not met. The map of output 1 has the plane's curve half way between two isolines. With a rotation a mid-line is an
+   * error. Default: PLANE_CURVE_ISOLINE.
+   */
+  vtkSetClampMacro(PlaneCurve, int, PLANE_CURVE_ISOLINE, PLANE_CURVE_MID_LINE);
+  vtkGetMacro(PlaneCurve, int);
+  void SetPlaneCurveToIsoline() { this->SetPlaneCurve(PLANE_CURVE_ISOLINE); }
+  void SetPlaneCurveToMidLine() { this->SetPlaneCurve(PLANE_CURVE_MID_LINE); }
   ///@}
 
   ///@{
@@ -526,6 +548,7 @@ private:
   vtkTypeBool DistortionMetric = 0;
   int CellDataFrom = CELL_DATA_FROM_CENTRE;
   int Symmetry = SYMMETRY_NONE;
+  int PlaneCurve = PLANE_CURVE_ISOLINE;
   double SymmetryOrigin[3] = { 0, 0, 0 };
   double SymmetryNormal[3] = { 1, 0, 0 };
   int RotationOrder = 2;

@@ -324,6 +324,11 @@ void addShape(CommandOptions& options, vtkQuadRemesh* filter)
     "nearest to its image, or "
     "x,y,z,nx,ny,nz, a point of the plane and its normal, which points to the half that is "
     "remeshed");
+  options.addChoice(
+    "plane-curve", "WORD", { "isoline", "mid-line" },
+    [filter](int curve) { filter->SetPlaneCurve(curve); },
+    "what quads with a mirror symmetry have in the plane: isoline (default), edges, or mid-line, "
+    "quads across it, each its own image");
   options.addText(
     "rotation", "ORDER", [filter](const std::string& text) { setRotation(filter, text); },
     "quads that become themselves when they are turned by one of so many steps of a whole turn, 2 "

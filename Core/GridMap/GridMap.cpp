@@ -182,7 +182,8 @@ private:
     fieldOptions.guides = options_.guides;
     fieldOptions.targetValences = options_.targetValences;
     fieldOptions.regular.assign(options_.fewIrregular ? mesh_.vertexCount() : 0, 1);
-    fieldOptions.sectorTurns = seamSectors(mesh_, seams_, options_.sectorTurns);
+    fieldOptions.sectorTurns =
+      straightSectors(mesh_, straight_, seamSectors(mesh_, seams_, options_.sectorTurns));
     result_.field = computeCrossField(mesh_, fieldOptions);
     if (!options_.curves.empty() && makesLines() && result_.field.status.ok())
     {
@@ -200,6 +201,14 @@ private:
     {
       result_.status = { StatusCode::Infeasible,
         "the coarse mesh does not have the two sides of the cut" };
+      return false;
+    }
+    straight_ = findStraightParts(mesh_, options_.straight);
+    if (std::any_of(
+          straight_.begin(), straight_.end(), [](const auto& part) { return part.empty(); }))
+    {
+      result_.status = { StatusCode::Infeasible,
+        "the coarse mesh does not have a part of the boundary that is to be straight" };
       return false;
     }
     return true;
@@ -733,6 +742,7 @@ private:
   bool holdsIrregular_ = false;
   std::vector<RequestedLine> lines_;
   std::vector<SeamEdges> seams_;
+  std::vector<std::vector<Index>> straight_;
   std::vector<Component> components_;
 };
 

@@ -14,6 +14,7 @@
 #include "GridMap/CurveIsolines.h"
 #include "GridMap/PreviousMap.h"
 #include "Mesh/Mesh.h"
+#include "Mesh/StraightRequests.h"
 
 #include <string>
 #include <vector>
@@ -56,6 +57,7 @@ struct GridMapOptions
   std::vector<CurveRequest> curves;
   /// Parts of the boundary that get the same number of edges. Both of a pair must be of one component.
   std::vector<SeamRequest> seams;
+  std::vector<StraightRequest> straight; ///< parts of the boundary
   /// Irregular vertices give way to each other where they can. Where a mesh with seams has no map, this is tried: a
   /// lone pair of valences 3 and 5 makes the two parts of a seam differ.
   bool fewIrregular = false;

@@ -4,6 +4,7 @@
 #include "GridMap/Certificate.h"
 
 #include "Base/Parallel.h"
+#include "Base/PlaceText.h"
 #include "GridMap/MapShape.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
@@ -51,6 +52,14 @@ constexpr double kOperationsPerSecond = 5e9;
 constexpr double kUsualSteps = 4;
 /// From here on these estimates are asked before the exact ones.
 constexpr double kManyFaces = 3e6;
+/// Half a quad.
+constexpr std::int64_t kInset = kOne / 2;
+/// Steps in which an inset boundary gets to its place, at most; where its vertices can take whole steps it is one.
+constexpr int kInsetSteps = 40;
+/// A step that brings it nearer by a smaller part of the way than this ends that.
+constexpr double kLeastInset = 1e-3;
+/// How often a whole step is halved before those of single vertices are shortened.
+constexpr int kInsetHalvings = 2;
 /// Strength of a guide of weight 1 against the energy, as in the map of the coarse level.
 constexpr double kGuideStrength = 100;
 
@@ -79,6 +88,7 @@ public:
   {
     lock(integerVertex);
     makeReferences();
+    findInset();
   }
 
   RelaxResult run();
@@ -90,6 +100,11 @@ private:
   void placeCorners(Index v);
   void lockIsoline(Index h);
   void hold(Index v);
+  void findInset();
+  bool moveInset(RelaxResult& result);
+  bool stepInset();
+  double insetLeft() const;
+  bool allowsAll() const;
   void makeReferences();
   void makeDirections();
   std::vector<double> unitLengths() const;
@@ -128,6 +143,8 @@ private:
   std::vector<FaceDirection> directions_; ///< empty or #F
   std::vector<Index> outgoing_;
   std::vector<FixedVec2> step_; ///< #V: candidate displacement, in the chart of the vertex
+  std::vector<FixedVec2>
+    inset_; ///< empty or #V: what vertices have yet to move, along axes that are not free
   std::unique_ptr<NestedSolver> solver_;
   double rise_ = 0; ///< by which a step may raise the energy of a crushed triangle; 0: any
   double area_ = 0;
@@ -218,6 +235,122 @@ void MapRelaxation::lockIsoline(Index h)
     const bool acrossV = (along.v == 0) == ((rotation_[corner] & 1) == 0);
     free_[v][acrossV ? 1 : 0] = 0;
   }
+}
+
+void MapRelaxation::findInset()
+{
+  if (options_.inset.empty())
+  {
+    return;
+  }
+  inset_.assign(mesh_.vertexCount(), {});
+  for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+  {
+    if (options_.inset[h] == 0)
+    {
+      continue;
+    }
+    const FixedVec2 along = uv_[Mesh::next(h)] - uv_[h];
+    const auto sign = [](std::int64_t x) { return static_cast<std::int64_t>(x > 0) - (x < 0); };
+    const FixedVec2 inside = rotate({ kInset * sign(along.u), kInset * sign(along.v) }, 1);
+    for (const Index corner : { h, Mesh::next(h) })
+    {
+      inset_[mesh_.origin[corner]] = rotate(inside, -rotation_[corner]);
+    }
+  }
+}
+
+/// The sum of the ways that are left, in quads.
+double MapRelaxation::insetLeft() const
+{
+  double sum = 0;
+  for (const FixedVec2& left : inset_)
+  {
+    sum += toDouble(left).norm();
+  }
+  return sum;
+}
+
+bool MapRelaxation::allowsAll() const
+{
+  for (Index f = 0; f < mesh_.faceCount(); ++f)
+  {
+    if (!allows(f))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// One step towards the place of the inset boundary, with what is free in its wake. False where nothing moves.
+bool MapRelaxation::stepInset()
+{
+  Eigen::VectorXd direction;
+  bool solved = solver_->unknowns() == 0;
+  for (double shift = 1e-9; shift < 1e3 && !solved; shift *= 1000)
+  {
+    solved = solver_->solve([this](Index f, NestedSolver::Matrix6& m, NestedSolver::Vector6& b)
+      { element(f, m, b); },
+      shift, options_.threads, direction);
+  }
+  if (!solved || !direction.allFinite())
+  {
+    return false;
+  }
+  double length = 1;
+  setStep(direction, length);
+  for (int halving = 0; halving < kInsetHalvings && !allowsAll(); ++halving)
+  {
+    length /= 2;
+    setStep(direction, length);
+  }
+  shortenSteps();
+  takeStep();
+  for (Index v = 0; v < mesh_.vertexCount(); ++v)
+  {
+    if (inset_[v] != FixedVec2{})
+    {
+      // The other axis is free, or does not move.
+      inset_[v] = { inset_[v].u == 0 ? 0 : inset_[v].u - step_[v].u,
+        inset_[v].v == 0 ? 0 : inset_[v].v - step_[v].v };
+    }
+  }
+  return true;
+}
+
+/// False, with the status, where the boundary does not get to its place.
+bool MapRelaxation::moveInset(RelaxResult& result)
+{
+  double left = insetLeft();
+  for (int step = 0; left > 0 && step < kInsetSteps; ++step)
+  {
+    report(options_.progress, 0, "moving the boundary by half a quad");
+    if (!stepInset())
+    {
+      break;
+    }
+    const double before = left;
+    left = insetLeft();
+    if (!(before - left > kLeastInset * before))
+    {
+      break;
+    }
+  }
+  if (!(left > 0))
+  {
+    inset_.clear();
+    return true;
+  }
+  Index farthest = 0;
+  for (Index v = 0; v < mesh_.vertexCount(); ++v)
+  {
+    farthest = toDouble(inset_[v]).norm() > toDouble(inset_[farthest]).norm() ? v : farthest;
+  }
+  result.status = { StatusCode::NotConverged,
+    "the boundary near " + placeText(mesh_.position[farthest]) +
+      " cannot move by half a quad between irregular vertices, features and other boundaries" };
+  return false;
 }
 
 /// Of each face the length on the surface, over its size, that one unit of its component's map stands for.
@@ -409,6 +542,13 @@ void MapRelaxation::element(
     }
   }
   matrix.noalias() = derivative.transpose() * (hessian * derivative);
+  if (!inset_.empty())
+  {
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      gradient += hessian * (cornerDerivative(h) * toDouble(inset_[mesh_.origin[h]]));
+    }
+  }
   rightSide.noalias() = -(derivative.transpose() * gradient);
 }
 
@@ -602,6 +742,10 @@ void MapRelaxation::setStep(const Eigen::VectorXd& direction, double length)
     }
     // A step of many quads is none; it would leave the range of exact determinants, too.
     step_[v] = d.norm() < 16 ? toFixed(d) : toFixed(Vector2(d.normalized() * 16));
+    if (!inset_.empty())
+    {
+      step_[v] = step_[v] + toFixed(Vector2(length * toDouble(inset_[v])));
+    }
   }
 }
 
@@ -790,6 +934,15 @@ RelaxResult MapRelaxation::run()
   {
     return result;
   }
+  if (!inset_.empty())
+  {
+    if (!moveInset(result))
+    {
+      return result;
+    }
+    current = totalEnergy(false);
+    result.before = scale * current;
+  }
   relaxCrushed();
   current = totalEnergy(false);
   while (result.steps < options_.maximumSteps && solver_->unknowns() > 0)
@@ -817,10 +970,11 @@ RelaxResult relaxMap(const Mesh& mesh, const std::vector<std::uint8_t>& integerV
   const RelaxOptions& options, std::vector<FixedVec2>& uv)
 {
   if (uv.size() != mesh.origin.size() || integerVertex.size() != mesh.position.size() ||
-    (!options.guides.empty() && options.guides.size() != mesh.faceCount()))
+    (!options.guides.empty() && options.guides.size() != mesh.faceCount()) ||
+    (!options.inset.empty() && (options.inset.size() != uv.size() || options.maximumSteps < 1)))
   {
-    throw InvalidInput(
-      "relaxing a map: the sizes of mesh, map, integer vertices and guides disagree");
+    throw InvalidInput("relaxing a map: the sizes of mesh, map, integer vertices, guides and inset "
+                       "boundary disagree");
   }
   return MapRelaxation(mesh, integerVertex, options, uv).run();
 }

@@ -37,13 +37,19 @@ struct RelaxOptions
   double maximumOperations = 2e11;
   /// Directions that the isolines should keep; empty or #F.
   std::vector<Guide> guides;
+  /// Empty or #H flags of boundary half-edges: in the map they move half a quad into the surface, so that an isoline
+  /// becomes a line half way between two of them. Their ends slide along what they meet there. With at least one
+  /// step.
+  std::vector<std::uint8_t> inset;
   int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;
 };
 
 struct RelaxResult
 {
-  Status status;     ///< TooLarge: nothing was done; the message tells what it would take
+  /// TooLarge: nothing was done; the message tells what it would take. NotConverged: an inset boundary did not get to
+  /// its place, as other vertices that must not move are in the way; the message has a place, uv is undefined.
+  Status status;
   double before = 0; ///< mean of the energy over the area, 1 where the map is an isometry
   double after = 0;
   int steps = 0;

@@ -89,7 +89,7 @@ std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& inpu
   // By name, so that an array that is new has to be put on one side or the other here.
   const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, guideDirections,
     guideWeights, targetValences, sizing, curves, regularElsewhere, held, regularOnFeatures, seams,
-    faceOrder, precision] = input;
+    straight, faceOrder, precision] = input;
   static_cast<void>(points);
   static_cast<void>(polygonOffsets);
   static_cast<void>(polygonPoints);
@@ -101,6 +101,7 @@ std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& inpu
   static_cast<void>(held);
   static_cast<void>(regularOnFeatures);
   static_cast<void>(seams);
+  static_cast<void>(straight);
   static_cast<void>(faceOrder);
   static_cast<void>(precision);
   std::uint64_t hash = mix(geometry.points, geometry.polygonOffsets);

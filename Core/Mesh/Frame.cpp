@@ -189,6 +189,14 @@ void requestsToFrame(FramedInput& framed)
       *p = frame.fromUser(*p);
     }
   }
+  for (StraightRequest& part : framed.input.straight)
+  {
+    for (Vector3* p : { &part.from, &part.via, &part.to })
+    {
+      *p = frame.fromUser(*p);
+    }
+    part.outward = frame.mirrored(part.outward);
+  }
 }
 
 /// Runs the first polygon, begun at its lowest point, against ascending ids?

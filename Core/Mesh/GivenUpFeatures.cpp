@@ -106,6 +106,8 @@ const char* nameOf(FeatureLoss reason)
       return "short arc";
     case FeatureLoss::FailedMap:
       return "failed map";
+    case FeatureLoss::MidLine:
+      return "mid-line";
     default:
       return "unresolved";
   }

@@ -18,9 +18,10 @@ enum class FeatureLoss : std::uint8_t
   Unresolved, ///< too short, too tangled, or beside another one: see removeUnresolvedFeatures
   NoCrease,   ///< noise that lies in a row: see removeFalseCreases
   ShortArc,   ///< for the sake of an arc shorter than quads can have: see simplifyFeatureNetwork
-  FailedMap   ///< near the place where a map, or its quads, failed
+  FailedMap,  ///< near the place where a map, or its quads, failed
+  MidLine     ///< in a mirror plane, where quads across it were asked for
 };
-/// "unresolved", "no crease", "short arc", "failed map".
+/// "unresolved", "no crease", "short arc", "failed map", "mid-line".
 const char* nameOf(FeatureLoss reason);
 
 /// A run of such edges, through vertices where two of them meet and nothing else.

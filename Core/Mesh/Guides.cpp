@@ -178,6 +178,7 @@ void collectRequests(const SurfaceInput& input, PreparedSurface& surface, int th
   surface.regularElsewhere = input.regularElsewhere;
   surface.regularOnFeatures = input.regularOnFeatures;
   surface.seams = input.seams;
+  surface.straight = input.straight;
   if (input.targetValences.empty())
   {
     return;
@@ -293,6 +294,8 @@ std::vector<Index> keptVertices(const PreparedSurface& surface)
   }
   const std::vector<Index> ends = seamVertices(surface.mesh, surface.seams);
   vertices.insert(vertices.end(), ends.begin(), ends.end());
+  const std::vector<Index> straight = straightVertices(surface.mesh, surface.straight);
+  vertices.insert(vertices.end(), straight.begin(), straight.end());
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;

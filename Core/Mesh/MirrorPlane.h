@@ -8,6 +8,13 @@
 namespace quadrille
 {
 
+/// What the quads have where a mirror plane cuts the surface.
+enum class PlaneCurve
+{
+  Isoline, ///< edges in the plane
+  MidLine  ///< quads across the plane, each its own image
+};
+
 struct MirrorPlane
 {
   Vector3 origin = Vector3::Zero();

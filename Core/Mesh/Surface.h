@@ -10,6 +10,7 @@
 #include "Mesh/HeldVertices.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/SeamRequests.h"
+#include "Mesh/StraightRequests.h"
 
 #include <array>
 #include <cstdint>
@@ -54,6 +55,8 @@ struct SurfaceInput
   bool regularOnFeatures = false;
   /// Parts of the boundary that get the same number of quads' edges, see SeamRequests.h.
   std::vector<SeamRequest> seams;
+  /// Parts of the boundary that are straight in the map, see StraightRequests.h.
+  std::vector<StraightRequest> straight;
   FaceOrder faceOrder = FaceOrder::AsGiven; ///< see Frame.h
   /// By how much coordinates may differ from what was meant, in units of the points, >= 0; 0: not known.
   double precision = 0;
@@ -136,6 +139,7 @@ struct PreparedSurface
   std::vector<SectorRequest> sectorRequests;   ///< ascending by vertex
   bool regularOnFeatures = false;              ///< as it was given
   std::vector<SeamRequest> seams;              ///< as they were given, in the frame
+  std::vector<StraightRequest> straight;       ///< as they were given, in the frame
 
   /// Sub-stages with their seconds: repair, order, connectivity.
   std::vector<std::pair<std::string, double>> seconds;

@@ -74,10 +74,19 @@ GridMapOptions mapOptions(RunContext& run, const Plan& plan, MapAttempt& made)
 GridMapResult computeMap(RunContext& run, const Plan& plan, MapAttempt& made)
 {
   const Level& coarse = run.levels.hierarchy().coarse;
+  // Half of the quads at a straight part will lie outside.
+  const bool isOutset = !run.surface->straight.empty();
+  OutsetMesh outset;
+  if (isOutset)
+  {
+    outset = withOutset(coarse.mesh, run.surface->straight, run.edgeLength / 2);
+  }
+  const Mesh& mesh = isOutset ? outset.mesh : coarse.mesh;
   GridMapOptions options = mapOptions(run, plan, made);
+  options.straight = std::move(outset.requests);
   if (run.options.coarsestIntegers)
   {
-    return computeCoarsestMap(coarse.mesh, options);
+    return computeCoarsestMap(mesh, options);
   }
   const bool remembers = run.store != nullptr && run.options.method == MapMethod::ScaleAware;
   const std::shared_ptr<PreviousMap> previous =
@@ -87,7 +96,7 @@ GridMapResult computeMap(RunContext& run, const Plan& plan, MapAttempt& made)
     options.previous = previous.get();
     options.vertexIds = coarse.fineVertex;
   }
-  GridMapResult map = computeGridMap(coarse.mesh, options);
+  GridMapResult map = computeGridMap(mesh, options);
   const auto reuseIf = [&](std::size_t components, const char* stage)
   {
     if (components > 0)
@@ -100,7 +109,7 @@ GridMapResult computeMap(RunContext& run, const Plan& plan, MapAttempt& made)
   reuseIf(map.reuse.embedded, "embed");
   if (remembers && map.status.ok())
   {
-    auto next = std::make_shared<PreviousMap>(previousMap(coarse.mesh, map, coarse.fineVertex));
+    auto next = std::make_shared<PreviousMap>(previousMap(mesh, map, coarse.fineVertex));
     const std::size_t bytes = next->bytes();
     run.store->put(warmKey(run, plan), std::move(next), bytes);
   }
@@ -365,6 +374,14 @@ void addRequests(const PreparedSurface& surface, KeyMaker& key)
   {
     key.add(std::uint64_t{ 4 });
     for (const Vector3& p : { seam.from, seam.to, seam.imageFrom, seam.imageTo })
+    {
+      key.add(p[0]).add(p[1]).add(p[2]);
+    }
+  }
+  for (const StraightRequest& part : surface.straight)
+  {
+    key.add(std::uint64_t{ 5 });
+    for (const Vector3& p : { part.from, part.via, part.to, part.outward })
     {
       key.add(p[0]).add(p[1]).add(p[2]);
     }

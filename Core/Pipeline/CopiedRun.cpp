@@ -98,6 +98,17 @@ void requestCutFeatures(Mesh& mesh, const MirrorPlane& plane, double tolerance)
   }
 }
 
+std::vector<std::uint8_t> irregularOf(const Mesh& mesh, const std::vector<int>& turns)
+{
+  const std::vector<int> regular = regularTurns(mesh);
+  std::vector<std::uint8_t> irregular(regular.size(), 0);
+  for (std::size_t v = 0; v < regular.size(); ++v)
+  {
+    irregular[v] = turns[v] != regular[v] ? 1 : 0;
+  }
+  return irregular;
+}
+
 SymmetricResult CopiedRun::run(SurfaceInput& input)
 {
   prepare(input);
@@ -210,20 +221,35 @@ void CopiedRun::remeshPart(std::size_t more)
   {
     options.smallDetails = SmallDetails::Resolve; // holes on the cuts go through to the other side
   }
+  double beside = 0, lengthShare = 1;
   if (options_.quads)
   {
     options.quads = more * ((*options_.quads + copies() - 1) / copies());
+    beside = std::round(
+      quadsBeside(std::sqrt(surface().area / static_cast<double>(copies() * *options.quads))));
+    *options.quads += static_cast<std::size_t>(beside);
   }
   else
   {
     const double asked =
       options_.edgeLength ? *options_.edgeLength : options_.relativeEdgeLength * made_.diagonal;
     options.edgeLength = asked / std::sqrt(static_cast<double>(more));
+    beside = quadsBeside(*options.edgeLength);
+    const double share =
+      surface().area / (static_cast<double>(copies()) * *options.edgeLength * *options.edgeLength);
+    if (beside > 0)
+    {
+      lengthShare = std::sqrt(share / (share + beside));
+      *options.edgeLength *= lengthShare;
+    }
   }
   options.maximumNumberOfQuads = std::max<std::size_t>(1, options_.maximumNumberOfQuads / copies());
   made_.remeshed =
     store_ != nullptr ? remesh(part_.input, options, *store_) : remesh(part_.input, options);
+  made_.remeshed.targetQuads -=
+    std::min(static_cast<std::size_t>(beside), made_.remeshed.targetQuads - 1);
   made_.remeshed.targetQuads *= copies();
+  made_.remeshed.targetEdgeLength /= lengthShare;
   made_.remeshed.curves = outcomes(made_.remeshed.curves);
 }
 
@@ -492,14 +518,8 @@ void CopiedRun::certifyWhole()
   {
     return; // nothing of it is whole, and what the part has is what its images have
   }
-  const std::vector<int> regular = regularTurns(result.surface.mesh);
-  std::vector<std::uint8_t> integer(regular.size(), 0);
-  for (std::size_t v = 0; v < regular.size(); ++v)
-  {
-    integer[v] = result.turns[v] != regular[v] ? 1 : 0;
-  }
-  result.certificate =
-    certify(result.surface.mesh, result.uv, result.turns, integer, options_.threads);
+  result.certificate = certify(result.surface.mesh, result.uv, result.turns,
+    irregularOf(result.surface.mesh, result.turns), options_.threads);
 }
 
 /// The map is as good in any frame: that of the box, with nothing turned.

@@ -53,6 +53,9 @@ std::string shareText(double share);
 /// short for the quads though it is not as a whole.
 void requestCutFeatures(Mesh& mesh, const MirrorPlane& plane, double tolerance);
 
+/// #V flags of vertices that have other turns than regular ones.
+std::vector<std::uint8_t> irregularOf(const Mesh& mesh, const std::vector<int>& turns);
+
 /// Gives a mesh other flags for a while.
 class FlagsScope
 {
@@ -91,6 +94,12 @@ protected:
   virtual ResultKey keyOf(ResultKey of) const = 0;
   /// Outcomes of all curves of the whole from those of the part.
   virtual std::vector<CurveOutcome> outcomes(const std::vector<CurveOutcome>& ofPart) const = 0;
+  /// Quads that the part needs beside its share of the whole's, at this edge length.
+  virtual double quadsBeside(double edgeLength) const
+  {
+    static_cast<void>(edgeLength);
+    return 0;
+  }
   /// The quads of the part and their images become the result's, by takeQuads() and takeSurface(). False where they
   /// are no mesh and more quads would help.
   virtual bool copy() = 0;

@@ -139,6 +139,14 @@ void leaveFrame(PreparedSurface& surface, const Frame& frame, std::vector<Vector
       *p = frame.toUser(*p);
     }
   }
+  for (StraightRequest& part : surface.straight)
+  {
+    for (Vector3* p : { &part.from, &part.via, &part.to })
+    {
+      *p = frame.toUser(*p);
+    }
+    part.outward = frame.mirrored(part.outward);
+  }
   if (frame.reversed)
   {
     reverseFaces(surface);

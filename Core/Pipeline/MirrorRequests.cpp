@@ -222,6 +222,16 @@ private:
     int valence = request.valence;
     if (task_.plane.height(half_.input.points[point]) <= task_.tolerance)
     {
+      if (task_.midLine)
+      {
+        if (valence != kRegularValence)
+        {
+          notices_.push_back(textOf(request) +
+            ", but lies in the mirror plane, which quads straddle, so that no point of them is "
+            "there: it was not asked (move it aside, or choose an isoline for the plane's curve)");
+        }
+        return;
+      }
       if (valence % 2 != 0)
       {
         notices_.push_back(textOf(request) +
@@ -328,6 +338,12 @@ void askSizes(const MirrorTask& task, MirrorHalf& half)
     });
 }
 
+bool liesInPlane(const MirrorTask& task, const CurveRequest& curve)
+{
+  return std::all_of(curve.points.begin(), curve.points.end(),
+    [&](const Vector3& p) { return std::abs(task.plane.height(p)) <= task.tolerance; });
+}
+
 } // namespace
 
 std::vector<std::string> askOfHalf(const MirrorTask& task, MirrorHalf& half)
@@ -360,7 +376,7 @@ HalfCurves askCurvesOfHalf(const MirrorTask& task)
       low = std::min(low, task.plane.height(p));
       high = std::max(high, task.plane.height(p));
     }
-    if (low < -slack && high > slack)
+    if ((low < -slack && high > slack) || (task.midLine && liesInPlane(task, curves[i])))
     {
       continue;
     }
@@ -388,6 +404,12 @@ std::vector<CurveOutcome> outcomesOfWhole(
   {
     outcomes[i].start = task.whole.surface.curves[i].points.front();
     outcomes[i].end = task.whole.surface.curves[i].points.back();
+    if (task.midLine && liesInPlane(task, task.whole.surface.curves[i]))
+    {
+      outcomes[i].why =
+        "it lies in the mirror plane, which quads straddle: draw it beside the plane, or choose an "
+        "isoline for the plane's curve";
+    }
   }
   for (std::size_t i = 0; i < half.size(); ++i)
   {

@@ -21,6 +21,7 @@ struct MirrorTask
   double tolerance = 0; ///< within which places are in the plane
   double deviation = 0; ///< of images from the surface, at most
   int threads = 0;
+  bool midLine = false; ///< quads straddle the plane, so that there is nothing of them in it
 };
 
 /// Guides, valences and sizes of the half: its own, and, where it has none, the images of those behind the plane; a

@@ -109,6 +109,14 @@ ResultKey requestsKey(const SurfaceInput& input)
       key.add(p[0]).add(p[1]).add(p[2]);
     }
   }
+  for (const StraightRequest& part : input.straight)
+  {
+    key.add(std::uint64_t{ 5 });
+    for (const Vector3& p : { part.from, part.via, part.to, part.outward })
+    {
+      key.add(p[0]).add(p[1]).add(p[2]);
+    }
+  }
   return key.add(input.guideWeights)
     .add(input.targetValences)
     .add(std::uint64_t{ input.regularElsewhere ? 1U : 0U })

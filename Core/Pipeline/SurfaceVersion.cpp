@@ -20,7 +20,8 @@ std::size_t SurfaceMarks::bytes() const
 SurfaceRequests requestsOf(const PreparedSurface& surface)
 {
   return { surface.polygonGuides, surface.valenceRequests, surface.unusedValences, surface.curves,
-    surface.regularElsewhere, surface.sectorRequests, surface.regularOnFeatures, surface.seams };
+    surface.regularElsewhere, surface.sectorRequests, surface.regularOnFeatures, surface.seams,
+    surface.straight };
 }
 
 void putOn(const SurfaceRequests& requests, PreparedSurface& surface)
@@ -33,6 +34,7 @@ void putOn(const SurfaceRequests& requests, PreparedSurface& surface)
   surface.sectorRequests = requests.sectorRequests;
   surface.regularOnFeatures = requests.regularOnFeatures;
   surface.seams = requests.seams;
+  surface.straight = requests.straight;
 }
 
 SurfaceMarks marksOf(const PreparedSurface& surface)

@@ -28,6 +28,7 @@ struct SurfaceRequests
   std::vector<SectorRequest> sectorRequests;
   bool regularOnFeatures = false;
   std::vector<SeamRequest> seams;
+  std::vector<StraightRequest> straight;
 };
 SurfaceRequests requestsOf(const PreparedSurface& surface);
 void putOn(const SurfaceRequests& requests, PreparedSurface& surface);

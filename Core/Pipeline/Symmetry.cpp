@@ -5,12 +5,16 @@
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Mesh/MirrorCut.h"
+#include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
 #include "Pipeline/CopiedRun.h"
+#include "Pipeline/Estimate.h"
 #include "Pipeline/MirrorDouble.h"
 #include "Pipeline/MirrorFit.h"
+#include "Pipeline/MirrorMidLine.h"
 #include "Pipeline/MirrorRequests.h"
 #include "Pipeline/RotationRun.h"
+#include "Pipeline/SizedSurface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,8 +60,9 @@ void requirePlane(const MirrorPlane& plane)
 class MirrorRun : public CopiedRun
 {
 public:
-  MirrorRun(const RemeshOptions& options, std::optional<MirrorPlane> plane, ResultStore* store)
-    : CopiedRun(options, store), given_(std::move(plane))
+  MirrorRun(const RemeshOptions& options, const SymmetryOptions& symmetry, ResultStore* store)
+    : CopiedRun(options, store), given_(symmetry.plane),
+      midLine_(symmetry.planeCurve == PlaneCurve::MidLine)
   {
     if (given_)
     {
@@ -68,7 +73,11 @@ public:
 
 protected:
   std::size_t copies() const override { return 2; }
-  ResultKey keyOf(ResultKey of) const override { return planeKey(of, made_.plane); }
+  ResultKey keyOf(ResultKey of) const override
+  {
+    const ResultKey key = planeKey(of, made_.plane);
+    return midLine_ ? KeyMaker(key).add(std::uint64_t{ 1 }).key() : key;
+  }
   std::vector<CurveOutcome> outcomes(const std::vector<CurveOutcome>& ofPart) const override
   {
     return outcomesOfWhole(task(), curves_, ofPart);
@@ -127,8 +136,16 @@ protected:
       [&](Mesh& mesh)
       {
         requestCutFeatures(mesh, made_.plane, tolerance_);
+        if (midLine_)
+        {
+          giveUpFeatures(mesh);
+        }
         half_ = cutByMirror(mesh, made_.plane, tolerance_);
       });
+    if (midLine_)
+    {
+      askMidLine(half_, made_.plane, tolerance_);
+    }
     for (const std::string& notice : askOfHalf(task(), half_))
     {
       notices_.push_back(notice);
@@ -136,6 +153,7 @@ protected:
     curves_ = askCurvesOfHalf(task());
     half_.input.curves = curves_.curves;
     half_.input.regularElsewhere = surface().regularElsewhere;
+    inPlane_ = midLine_ ? midLineLength(half_, made_.plane, tolerance_) : 0;
     part_.input = std::move(half_.input);
     half_.input.polygonPoints = part_.input.polygonPoints; // for the weights of corners
     part_.face = half_.face;
@@ -143,13 +161,19 @@ protected:
     lap("cut", start, surface().mesh.faceCount(), part_.face.size());
   }
 
+  /// All quads across the plane are in the half's map before it is moved, and half of them are in front.
+  double quadsBeside(double edgeLength) const override { return inPlane_ / (2 * edgeLength); }
+
   bool copy() override
   {
     const double start = secondsNow();
     report(options_.progress, 0.95, "Mirroring the quads");
     RemeshResult& result = made_.remeshed;
+    result.givenUpFeatures.insert(result.givenUpFeatures.end(), givenUp_.begin(), givenUp_.end());
     const DoubledMesh doubled = doubleMesh(result.surface.mesh, made_.plane, tolerance_);
-    DoubledQuads quads = doubleQuads(result.quads, doubled, made_.plane);
+    CopiedMesh whole{ doubled.mesh, doubled.halfFaces, {}, doubleTurns(doubled, result.turns) };
+    DoubledQuads quads =
+      midLine_ ? quadsAcross(doubled, whole) : doubleQuads(result.quads, doubled, made_.plane);
     result.status = quads.status;
     if (!quads.status.ok())
     {
@@ -157,12 +181,15 @@ protected:
       result.quads = {};
       return false;
     }
-    locatePart(result.quads);
+    locatePart(midLine_ ? halfOf(quads) : result.quads);
     const MirrorFit fit = fitImages(quads, *whole_, tolerance_,
       kFeatureReach * made_.deviation.maximum + tolerance_, options_.threads);
     takeQuads(std::move(quads), fit);
-    takeSurface({ doubled.mesh, doubled.halfFaces, doubleMap(doubled, std::move(result.uv)),
-      doubleTurns(doubled, result.turns) });
+    if (!midLine_)
+    {
+      whole.uv = doubleMap(doubled, std::move(result.uv));
+    }
+    takeSurface(std::move(whole));
     tellTopology(summarizeTopology(result.surface.mesh, options_.threads),
       "the half in front of the mirror plane and its image have ");
     lap("mirror", start, result.quads.quads.size() / 2, result.quads.quads.size());
@@ -172,10 +199,112 @@ protected:
 private:
   MirrorTask task() const
   {
-    return { *whole_, made_.plane, tolerance_, made_.deviation.maximum, options_.threads };
+    return { *whole_, made_.plane, tolerance_, made_.deviation.maximum, options_.threads,
+      midLine_ };
+  }
+
+  /// What of the whole lies in the plane, where quads will have nothing. mesh: of the whole, with its features.
+  void giveUpFeatures(Mesh& mesh)
+  {
+    const std::vector<Index> inPlane = featuresInPlane(mesh, made_.plane, tolerance_);
+    for (const Index h : inPlane)
+    {
+      for (const Index side : { h, mesh.twin[h] })
+      {
+        mesh.flags[side] &= static_cast<std::uint8_t>(~(kFeatureEdge | kRequestedFeature));
+      }
+    }
+    const double sized = mesh.sizing.empty() ? surface().area : quadrille::sizedArea(mesh);
+    givenUp_ = givenUpCurves(
+      mesh, inPlane, targetEdgeLength(options_, sized, made_.diagonal), FeatureLoss::MidLine);
+    if (givenUp_.empty())
+    {
+      return;
+    }
+    double length = 0;
+    for (const GivenUpCurve& curve : givenUp_)
+    {
+      length += curve.length;
+    }
+    const auto longest = std::max_element(givenUp_.begin(), givenUp_.end(),
+      [](const GivenUpCurve& a, const GivenUpCurve& b) { return a.length < b.length; });
+    notices_.push_back("features of the length " + shareText(length) +
+      " lie in the mirror plane, which quads straddle, and are not followed; the longest one, of " +
+      shareText(longest->lengthInQuads) + " edge lengths, is near " + placeText(longest->place) +
+      ": choose an isoline for the plane's curve to keep them");
+  }
+
+  /// The map of the whole, with the half's boundary in the plane moved by half a quad, and its quads.
+  DoubledQuads quadsAcross(const DoubledMesh& doubled, CopiedMesh& whole)
+  {
+    const RemeshResult& half = made_.remeshed;
+    DoubledQuads failed;
+    std::vector<Index> onFeatures;
+    for (const SectorRequest& request : half.onFeatures)
+    {
+      onFeatures.push_back(request.vertex);
+    }
+    std::vector<FixedVec2> uv = half.uv;
+    const Certificate before = half.certificate;
+    MidLineOptions inset;
+    inset.maximumBytes = options_.memoryLimit.value_or(freeMemory());
+    inset.threads = options_.threads;
+    inset.progress = subProgress(options_.progress, 0.95, 0.97);
+    failed.status = insetPlane(half.surface, doubled, half.turns, onFeatures, inset, uv);
+    if (!failed.status.ok())
+    {
+      return failed;
+    }
+    whole.uv = doubleMap(doubled, std::move(uv));
+    const Certificate after = certify(
+      whole.mesh, whole.uv, whole.turns, irregularOf(whole.mesh, whole.turns), options_.threads);
+    if (after.notPositive > 2 * before.notPositive || after.wrongTurns > 2 * before.wrongTurns ||
+      !after.whole())
+    {
+      failed.status = { StatusCode::NotConverged,
+        "the map with a mid-line in the mirror plane is no integer-grid map: " + after.text() };
+      return failed;
+    }
+    ExtractionOptions extraction;
+    extraction.maximumNumberOfQuads = options_.maximumNumberOfQuads;
+    extraction.smoothingSteps = options_.smoothingSteps;
+    extraction.fixedVertices = indexVertices(half.surface);
+    for (const Index v : indexVertices(half.surface))
+    {
+      extraction.fixedVertices.push_back(doubled.image[v]);
+    }
+    std::sort(extraction.fixedVertices.begin(), extraction.fixedVertices.end());
+    extraction.mapIsCertified = after.valid();
+    extraction.threads = options_.threads;
+    extraction.progress = subProgress(options_.progress, 0.97, 0.98);
+    const ExtractionResult extracted = extractQuads(whole.mesh, whole.uv, extraction);
+    if (!extracted.status.ok())
+    {
+      failed.status = { extracted.status.code,
+        "no quads across the mirror plane: " + extracted.status.message };
+      return failed;
+    }
+    return foldQuads(extracted.mesh, doubled, made_.plane);
+  }
+
+  /// For its sources only.
+  static QuadMesh halfOf(const DoubledQuads& quads)
+  {
+    QuadMesh half;
+    const QuadMesh& all = quads.quads;
+    half.points.assign(all.points.begin(), all.points.begin() + quads.halfPoints);
+    half.sourceFace.assign(all.sourceFace.begin(), all.sourceFace.begin() + quads.halfPoints);
+    half.sourceWeights.assign(
+      all.sourceWeights.begin(), all.sourceWeights.begin() + quads.halfPoints);
+    half.quadSourceFace.assign(
+      all.quadSourceFace.begin(), all.quadSourceFace.begin() + quads.halfQuads);
+    return half;
   }
 
   std::optional<MirrorPlane> given_; ///< normal: unit
+  bool midLine_;
+  std::vector<GivenUpCurve> givenUp_; ///< in the plane
+  double inPlane_ = 0; ///< length of the plane's curve over the sizes; without mid-line 0
   MirrorHalf half_;
   HalfCurves curves_;
 };
@@ -194,13 +323,23 @@ SymmetricResult remeshSymmetric(SurfaceInput input, const RemeshOptions& options
   ownOptions.progress = poll.callback();
   try
   {
+    if (symmetry.planeCurve == PlaneCurve::MidLine && symmetry.rotation)
+    {
+      throw InvalidInput("a mid-line of quads belongs to a mirror plane, and a rotation has none: "
+                         "choose an isoline, or a mirror plane");
+    }
+    if (symmetry.planeCurve == PlaneCurve::MidLine && options.method == MapMethod::Seamless)
+    {
+      throw InvalidInput("the method 'seamless' makes no quads, and a mid-line is made of them: "
+                         "choose scale aware, or an isoline for the plane's curve");
+    }
     if (symmetry.rotation)
     {
       run = std::make_unique<RotationRun>(ownOptions, *symmetry.rotation, store);
     }
     else
     {
-      run = std::make_unique<MirrorRun>(ownOptions, symmetry.plane, store);
+      run = std::make_unique<MirrorRun>(ownOptions, symmetry, store);
     }
     return run->run(input);
   }

@@ -44,6 +44,8 @@ struct SymmetryOptions
   std::optional<MirrorPlane> plane;
   /// In place of a mirror plane.
   std::optional<RotationRequest> rotation = std::nullopt;
+  /// Of a mirror plane only.
+  PlaneCurve planeCurve = PlaneCurve::Isoline;
 };
 
 /// A rotation that quads have.

@@ -18,12 +18,13 @@ SurfaceInput withoutGeometry(const SurfaceInput& surface)
   // By name, so that an array that is new has to be put on one side or the other here.
   const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, guideDirections,
     guideWeights, targetValences, sizing, curves, regularElsewhere, held, regularOnFeatures, seams,
-    faceOrder, precision] = surface;
+    straight, faceOrder, precision] = surface;
   static_cast<void>(points);
   static_cast<void>(polygonOffsets);
   static_cast<void>(polygonPoints);
   return { {}, {}, {}, featureEdges, patchIds, guideDirections, guideWeights, targetValences,
-    sizing, curves, regularElsewhere, held, regularOnFeatures, seams, faceOrder, precision };
+    sizing, curves, regularElsewhere, held, regularOnFeatures, seams, straight, faceOrder,
+    precision };
 }
 
 /// Lines that are remembered; a stroke of ten thousand polygons takes a megabyte.

@@ -134,6 +134,7 @@ struct MirrorSymmetry
 {
   /// The normal may have any length but 0. None: found, see findMirrorPlane.
   std::optional<MirrorPlane> plane;
+  PlaneCurve planeCurve = PlaneCurve::Isoline;
 };
 
 /// Quads that are their own image when they are turned by one step of an order, see remeshSymmetric.

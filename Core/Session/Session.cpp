@@ -239,7 +239,9 @@ private:
       }
       else
       {
-        symmetry.plane = std::get<MirrorSymmetry>(constraint.content).plane;
+        const auto& mirror = std::get<MirrorSymmetry>(constraint.content);
+        symmetry.plane = mirror.plane;
+        symmetry.planeCurve = mirror.planeCurve;
       }
       mirrored_ = remeshSymmetric(composed_.input, options_, symmetry, &data_.store);
       return std::move(mirrored_.remeshed);

@@ -19,6 +19,7 @@ constexpr std::array<const char*, 4> kMethods{ "scale-aware", "mixed-integer", "
   "seamless" };
 constexpr std::array<const char*, 2> kFeatureCriteria{ "creases", "angle" };
 constexpr std::array<const char*, 3> kFinalQualities{ "coarse", "intermediate", "input" };
+constexpr std::array<const char*, 2> kPlaneCurves{ "isoline", "mid-line" };
 constexpr std::array<const char*, 4> kSmallDetails{ "automatic", "resolve", "simplify", "keep" };
 
 SessionJson pointToJson(const Vector3& p)
@@ -225,6 +226,11 @@ struct ContentWriter
       json["origin"] = pointToJson(symmetry.plane->origin);
       json["normal"] = pointToJson(symmetry.plane->normal);
     }
+    // Files without it are read as before.
+    if (symmetry.planeCurve != PlaneCurve::Isoline)
+    {
+      json["plane_curve"] = kPlaneCurves[static_cast<std::size_t>(symmetry.planeCurve)];
+    }
   }
   void operator()(const RotationalSymmetry& rotation) const
   {
@@ -285,6 +291,10 @@ struct ContentReader
       symmetry.plane.emplace();
       json.read("origin", symmetry.plane->origin);
       json.read("normal", symmetry.plane->normal);
+    }
+    if (json.has("plane_curve"))
+    {
+      symmetry.planeCurve = static_cast<PlaneCurve>(json.readName("plane_curve", kPlaneCurves));
     }
   }
   void operator()(RotationalSymmetry& rotation) const

@@ -208,7 +208,11 @@ def _set_guides(run, guide, guide_anisotropy, stroke_radius):
     run.SetStrokeRadius(real("stroke_radius", stroke_radius, least=0))
 
 
-def _set_symmetry(run, symmetry, rotation):
+def _set_symmetry(run, symmetry, rotation, plane_curve):
+    one_of("plane_curve", plane_curve, ("isoline", "mid-line"))
+    if plane_curve == "mid-line" and symmetry is None:
+        raise InvalidInput("plane_curve 'mid-line' belongs to a mirror plane: give symmetry, too")
+    run.SetPlaneCurve(int(plane_curve == "mid-line"))
     if rotation is not None:
         if symmetry is not None:
             raise InvalidInput("quads have one symmetry: give symmetry or rotation")
@@ -276,7 +280,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
            small_components="keep", method="scale-aware",
            final_quality="coarse", integers="keep-sizes", anisotropy_limit=0.0, distortion_metric=False,
            cell_data="centre", preview=False, symmetry=None, rotation=None,
-           chord_error=None, gap_quads=0.0, smallest_size=0.2, largest_size=1.0, guide=None,
+           plane_curve="isoline", chord_error=None, gap_quads=0.0, smallest_size=0.2, largest_size=1.0, guide=None,
            guide_anisotropy=0.3, stroke_radius=0.0, wrap=None,
            progress=None, everything=False):
     """Remeshes a surface with quads only and returns a vtkPolyData.
@@ -345,6 +349,8 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     symmetry: "found", or the mirror plane as (origin, normal), three numbers each: quads that are their own mirror
         image. The half where the normal points to is remeshed; the point array MirrorPoint of the result has the id of
         each point's image. Where the mesh is only nearly symmetric, points of the other half are put onto it.
+    plane_curve: what quads with a symmetry have in the mirror plane: "isoline", edges, or "mid-line", quads across it,
+        each its own image; then no point lies in the plane, and features there are not followed.
     rotation: the order of a rotation, 2 to 64, round the axis that is found, or (order, origin, direction) with a point
         of the axis and its direction: quads that become themselves when they are turned by one step. The point array
         RotatedPoint of the result has the id of the point that each one becomes. Not with symmetry.
@@ -373,7 +379,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
                small_details=small_details, small_components=small_components, feature_criterion=feature_criterion)
     _set_sizes(run, chord_error, gap_quads, smallest_size, largest_size)
     _set_guides(run, guide, guide_anisotropy, stroke_radius)
-    _set_symmetry(run, symmetry, rotation)
+    _set_symmetry(run, symmetry, rotation, plane_curve)
     run.SetDistortionMetric(bool(distortion_metric))
     run.SetPreview(bool(preview))
     run.SetComputeMappedSurface(bool(everything))

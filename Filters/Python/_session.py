@@ -10,7 +10,7 @@ import os
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from ._errors import InvalidInput, RemeshError, real, whole
+from ._errors import InvalidInput, RemeshError, one_of, real, whole
 from ._inputs import as_points, as_surface, with_requests
 from .QuadrilleFilters import vtkQuadrilleSession
 
@@ -220,15 +220,20 @@ class Session:
         """A straight chain of edges closes along a closed polyline, from its last point to the first."""
         return self._add({"kind": "cycle", "points": self._line("points", points)}, edit)
 
-    def set_symmetry(self, origin=None, normal=None, *, edit=None):
+    def set_symmetry(self, origin=None, normal=None, *, plane_curve="isoline", edit=None):
         """Quads that are their own image in a mirror plane, given by a point in it and a normal, or found. The quads in
-        front of it are made, and mirrored. One symmetry at most is in force."""
+        front of it are made, and mirrored. plane_curve: "isoline", edges lie in the plane, or "mid-line", quads lie
+        across it, each its own image. One symmetry at most is in force."""
+        one_of("plane_curve", plane_curve, ("isoline", "mid-line"))
         if (origin is None) != (normal is None):
             raise InvalidInput("a symmetry needs an origin and a normal, or neither: then the plane is found")
-        if origin is None:
-            return self._add({"kind": "symmetry"}, edit)
-        return self._add({"kind": "symmetry", "origin": self._place("origin", origin),
-                          "normal": self._place("normal", normal)}, edit)
+        content = {"kind": "symmetry"}
+        if origin is not None:
+            content["origin"] = self._place("origin", origin)
+            content["normal"] = self._place("normal", normal)
+        if plane_curve != "isoline":
+            content["plane_curve"] = plane_curve
+        return self._add(content, edit)
 
     def set_rotation(self, order, origin=None, direction=None, *, edit=None):
         """Quads that become themselves when they are turned by one step of an order, 2 to 64, round an axis, given by a

@@ -100,6 +100,50 @@ void expectMirrorPoints(vtkPolyData* quads)
   }
 }
 
+TEST(SymmetricQuads, LieAcrossThePlaneWithAMidLine)
+{
+  const auto data = ringWithArrays();
+  const auto remesh = symmetricRun(data);
+  remesh->SetPlaneCurveToMidLine();
+  remesh->Update();
+  ASSERT_EQ(remesh->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << remesh->GetOutcomeText();
+  vtkPolyData* quads = remesh->GetOutput();
+  expectMirrorPoints(quads);
+  vtkDataArray* image = quads->GetPointData()->GetArray("MirrorPoint");
+  vtkDataArray* place = quads->GetPointData()->GetArray("Place");
+  for (vtkIdType p = 0; p < quads->GetNumberOfPoints(); ++p)
+  {
+    EXPECT_NE(static_cast<vtkIdType>(image->GetTuple1(p)), p);
+    EXPECT_NEAR(place->GetTuple1(p), quads->GetPoint(p)[0], 1e-9);
+  }
+  std::size_t across = 0;
+  for (vtkIdType i = 0; i < quads->GetNumberOfCells(); ++i)
+  {
+    const Corners q = cornersOfCell(quads, i);
+    const auto front =
+      std::count_if(q.begin(), q.end(), [&](vtkIdType p) { return quads->GetPoint(p)[0] > 0; });
+    EXPECT_EQ(front % 2, 0);
+    across += front == 2 ? 1 : 0;
+  }
+  // The lines of the output Constraints are the middles of these quads.
+  vtkPolyData* lines = remesh->GetConstraints();
+  ASSERT_NE(lines, nullptr);
+  std::size_t inPlane = 0;
+  for (vtkIdType i = 0; i < lines->GetNumberOfCells(); ++i)
+  {
+    const bool isMirror = lines->GetCellData()->GetArray("Constraint")->GetTuple1(i) == 10;
+    inPlane += isMirror ? 1 : 0;
+    EXPECT_TRUE(!isMirror || std::abs(test::cellCentre(lines, i).x()) < 1e-12);
+  }
+  EXPECT_EQ(inPlane, across);
+  EXPECT_GT(across, 0U);
+  remesh->SetSymmetryToAxis();
+  remesh->Update();
+  EXPECT_NE(
+    std::string(remesh->GetOutcomeText()).find("a mid-line of quads belongs to a mirror plane"),
+    std::string::npos);
+}
+
 TEST(SymmetricQuads, HaveThePermutationAndArraysOfBothSides)
 {
   const auto data = ringWithArrays();

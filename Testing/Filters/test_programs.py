@@ -720,6 +720,13 @@ class Report(Case):
         for plane in ("lost", "0,0,0,0,0", "0,0,0,0,0,1,2", "0,0,0,0,0,x"):
             result = self.run_quadrille(source, self.folder / "q.vtp", "--symmetry", plane, expect=2)
             self.assertIn("x,y,z,nx,ny,nz", result.stderr)
+        self.run_quadrille(source, self.folder / "q.vtp", "--quads", 200, "--symmetry", "0,0,0,0,0,1",
+                           "--plane-curve", "mid-line")
+        image = read(vtkXMLPolyDataReader(), self.folder / "q.vtp").GetPointData().GetArray("MirrorPoint")
+        self.assertFalse(any(image.GetValue(p) == p for p in range(image.GetNumberOfTuples())))
+        result = self.run_quadrille(source, self.folder / "q.vtp", "--plane-curve", "edges", "--symmetry", "found",
+                                    expect=2)
+        self.assertIn("mid-line", result.stderr)
 
     def test_rotation(self):
         source, report = self.write_off(), self.folder / "r.json"

@@ -216,6 +216,37 @@ class Mesh(unittest.TestCase):
         self.assertRefused(["normal", "mirror plane"], box, symmetry=((0.5, 1, 1.5), (0, 0, 0)))
         self.assertRefused(["not symmetric"], box, symmetry=((0.9, 1, 1.5), (1, 0, 0)))
 
+    def test_mid_line(self):
+        box = (numpy.array([(x, y, z) for x in (0, 1) for y in (0, 2) for z in (0, 3)], float),
+               [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])
+        plane = ((0.5, 1, 1.5), (0, -2, 0))
+        quads = quadrille.remesh(box, quads=200, symmetry=plane, plane_curve="mid-line")
+        points, faces = quadrille.to_arrays(quads)
+        image = vtk_to_numpy(quads.GetPointData().GetArray("MirrorPoint"))
+        self.assertTrue((image[image] == numpy.arange(len(points))).all())
+        self.assertFalse((image == numpy.arange(len(points))).any())
+        as_sets = {frozenset(face) for face in faces.tolist()}
+        self.assertEqual({frozenset(face) for face in image[faces].tolist()}, as_sets)
+        self.assertLess(numpy.abs(points * (1, -1, 1) + (0, 2, 0) - points[image]).max(), 1e-11)
+        # A strip round the box, with two corners on each side; it is 8 round, of quads about as long as wide.
+        across = [face for face in faces if frozenset(image[face]) == frozenset(face)]
+        sides = numpy.sign(points[across][:, :, 1] - 1)
+        self.assertTrue((numpy.abs(sides).sum(axis=1) == 4).all() and (sides.sum(axis=1) == 0).all())
+        width = numpy.median(2 * numpy.abs(points[across][:, :, 1] - 1))
+        self.assertAlmostEqual(width * len(across) / 8, 1, delta=0.3)
+        isoline = quadrille.remesh(box, quads=200, symmetry=plane, plane_curve="isoline")
+        plain = quadrille.remesh(box, quads=200, symmetry=plane)
+        for made, same in zip(quadrille.to_arrays(isoline), quadrille.to_arrays(plain)):
+            numpy.testing.assert_array_equal(made, same)
+        self.assertRefused(["plane_curve"], box, symmetry=plane, plane_curve="edges")
+        self.assertRefused(["plane_curve", "symmetry"], box, plane_curve="mid-line")
+        self.assertRefused(["plane_curve", "mirror plane"], box, rotation=4, plane_curve="mid-line")
+        # A tip in the plane where two sharp edges of each side end.
+        tip = ([(1, 1, 0), (-1, 1, 0), (-1, -1, 0), (1, -1, 0), (0, 0, 1.5)],
+               [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)])
+        self.assertRefused(["several features", "isoline"], tip, symmetry=((0, 0, 0), (1, 0, 0)),
+                           plane_curve="mid-line")
+
     def test_rotation(self):
         box = (numpy.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 3)], float),
                [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])

@@ -118,6 +118,35 @@ class SessionTest(unittest.TestCase):
         made.remove(symmetry)
         self.assertIsNone(made.mirror_point)
 
+    def test_mid_line(self):
+        mesh = dents(even=True)
+        made = quadrille.Session(mesh, quads=400, coarse_vertices=300, threads=2)
+        symmetry = made.set_symmetry((0, 0, 0), (0, 0, 2))
+        isoline = made.quads
+        self.assertTrue((made.mirror_point == numpy.arange(len(isoline[0]))).any())
+        self.assertEqual(made.set_symmetry((0, 0, 0), (0, 0, 2), plane_curve="mid-line", edit=symmetry), symmetry)
+        self.assertTrue(made.update()["constraints"][0]["met"])
+        image, (points, quads) = made.mirror_point, made.quads
+        numpy.testing.assert_array_equal(image[image], numpy.arange(len(points)))
+        self.assertFalse((image == numpy.arange(len(points))).any())
+        across = (numpy.sort(image[quads], axis=1) == numpy.sort(quads, axis=1)).all(axis=1)
+        self.assertTrue(across.any())
+        self.assertTrue((numpy.sign(points[quads[across]][:, :, 2]).sum(axis=1) == 0).all())
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "s.json")
+            made.save(path)
+            with open(path) as file:
+                self.assertIn('"plane_curve": "mid-line"', file.read())
+            again = quadrille.Session.load(path, mesh)
+            numpy.testing.assert_array_equal(again.quads[0], points)
+            numpy.testing.assert_array_equal(again.quads[1], quads)
+        made.undo()
+        numpy.testing.assert_array_equal(made.quads[0], isoline[0])
+        made.redo()
+        numpy.testing.assert_array_equal(made.quads[0], points)
+        with self.assertRaisesRegex(quadrille.InvalidInput, "plane_curve"):
+            made.set_symmetry(plane_curve="edges")
+
     def test_rotation(self):
         count = 12
         ring = [(math.cos(2 * math.pi * k / count), math.sin(2 * math.pi * k / count)) for k in range(count)]

@@ -150,6 +150,12 @@ mirrored.SymmetryNormal = [0, 0, 2]
 mirrored.UpdatePipeline()
 check("mirror plane given" in mirrored.GetPropertyValue("Notices"), "the mirror plane is not told")
 
+mirrored.PlaneCurve = "Mid-Line"
+mirrored.UpdatePipeline()
+image = servermanager.Fetch(mirrored).GetPointData().GetArray("MirrorPoint")
+check(all(image.GetValue(p) != p for p in range(image.GetNumberOfTuples())), "points in the plane with a mid-line")
+mirrored.PlaneCurve = "Isoline"
+
 # An axis, which the same properties give, or which is found.
 mirrored.Symmetry = "Rotation"
 mirrored.RotationOrder = 4

@@ -269,3 +269,50 @@ TEST(RelaxMap, StopsOnRequest)
   options.progress = [&](double, const std::string&) { return ++reports < 3; };
   EXPECT_THROW(relaxMap(plane.mesh, plane.integer, options, plane.uv), Cancelled);
 }
+
+TEST(RelaxMap, MovesASideInByHalfAQuad)
+{
+  ShakenPlane plane(12, 0.2);
+  RelaxOptions options = thorough();
+  options.inset.assign(plane.uv.size(), 0);
+  for (Index h = 0; h < plane.mesh.halfEdgeCount(); ++h)
+  {
+    const bool atSide = plane.mesh.position[plane.mesh.origin[h]].y() == 0 &&
+      plane.mesh.position[plane.mesh.target(h)].y() == 0;
+    options.inset[h] = plane.mesh.isBoundary(h) && atSide ? 1 : 0;
+  }
+  const RelaxResult result = relaxMap(plane.mesh, plane.integer, options, plane.uv);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  for (Index h = 0; h < plane.mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3& p = plane.mesh.position[plane.mesh.origin[h]];
+    // Between two parallel sides the least distortion is the same everywhere.
+    const Vector2 even(p.x(), 0.5 + p.y() * 11.5 / 12);
+    EXPECT_LT((toDouble(plane.uv[h]) - even).norm(), 1e-4);
+    if (p.y() == 0)
+    {
+      EXPECT_EQ(plane.uv[h].v, kOne / 2); // with every bit
+    }
+  }
+}
+
+TEST(RelaxMap, TellsWhereASideHasNoRoom)
+{
+  // One quad wide, and both sides are to move towards each other.
+  ShakenPlane plane(1, 0);
+  RelaxOptions options = thorough();
+  options.inset.assign(plane.uv.size(), 0);
+  for (Index h = 0; h < plane.mesh.halfEdgeCount(); ++h)
+  {
+    options.inset[h] = plane.mesh.isBoundary(h) &&
+        plane.mesh.position[plane.mesh.origin[h]].y() ==
+          plane.mesh.position[plane.mesh.target(h)].y()
+      ? 1
+      : 0;
+  }
+  const RelaxResult result = relaxMap(plane.mesh, plane.integer, options, plane.uv);
+  EXPECT_EQ(result.status.code, StatusCode::NotConverged);
+  EXPECT_NE(result.status.message.find("cannot move by half a quad"), std::string::npos);
+  options.maximumSteps = 0;
+  EXPECT_THROW(relaxMap(plane.mesh, plane.integer, options, plane.uv), InvalidInput);
+}

@@ -270,6 +270,35 @@ TEST(SessionSymmetry, GoesToAFileAndBack)
   std::remove(path.c_str());
 }
 
+TEST(SessionSymmetry, AMidLineIsKeptInFilesAndTakenBack)
+{
+  const std::string path = ::testing::TempDir() + "quadrille-mid-line.json";
+  Session session(lopsided(), sessionOptions(400));
+  const int id = session.add(kAcrossX);
+  ASSERT_TRUE(session.update().status.ok());
+  const QuadMesh isoline = session.result()->quads;
+  MirrorSymmetry across = kAcrossX;
+  across.planeCurve = PlaneCurve::MidLine;
+  session.edit(id, across);
+  ASSERT_TRUE(session.update().status.ok());
+  const std::vector<Index>& image = session.result()->mirrorPoint;
+  for (Index p = 0; p < image.size(); ++p)
+  {
+    EXPECT_NE(image[p], p);
+    EXPECT_EQ(image[image[p]], p);
+  }
+  session.save(path);
+  Session loaded = Session::load(path, lopsided());
+  EXPECT_EQ(
+    std::get<MirrorSymmetry>(loaded.constraints()[0]->content).planeCurve, PlaneCurve::MidLine);
+  ASSERT_TRUE(loaded.update().status.ok());
+  EXPECT_TRUE(areSame(loaded.result()->quads, session.result()->quads));
+  session.undo();
+  ASSERT_TRUE(session.update().status.ok());
+  EXPECT_TRUE(areSame(session.result()->quads, isoline));
+  std::remove(path.c_str());
+}
+
 TEST(SessionSymmetry, RefusesWhatIsNoPlane)
 {
   Session session(lopsided(), sessionOptions(100));
