@@ -192,6 +192,7 @@ void BlockReport::pack(Packer& packer) const
   packer.count(static_cast<std::uint64_t>(outcome));
   packer.text(outcomeText);
   packer.count(mayPass);
+  packer.count(isSoFar);
   packer.text(result);
   packer.text(stageTimes);
   packer.text(certificate);
@@ -211,6 +212,7 @@ BlockReport BlockReport::unpack(Unpacker& unpacker)
   report.outcome = static_cast<int>(unpacker.count());
   report.outcomeText = unpacker.text();
   report.mayPass = unpacker.count() != 0;
+  report.isSoFar = unpacker.count() != 0;
   report.result = unpacker.text();
   report.stageTimes = unpacker.text();
   report.certificate = unpacker.text();

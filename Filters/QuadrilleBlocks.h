@@ -31,6 +31,8 @@ struct BlockReport
 {
   int outcome = 0; ///< a vtkQuadrilleAlgorithm::OutcomeType
   std::string outcomeText;
+  bool isSoFar =
+    false; ///< stopped with the best so far, which is the result; the next execution makes it anew
   std::string result; ///< what was made, in a sentence
   bool mayPass =
     false; ///< a failure that may pass by itself, as for lack of memory: the next execution tries again

@@ -152,6 +152,12 @@ SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& 
   first.mergeCharts = false;
   first.knownMap = 0;
   SymmetricResult made = run(input, first);
+  if (!made.remeshed.stopped.empty())
+  {
+    // Quads without the moves are none that were asked for.
+    made = {};
+    made.remeshed.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+  }
   if (!made.remeshed.status.ok())
   {
     return made;

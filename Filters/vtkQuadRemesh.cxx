@@ -142,6 +142,10 @@ void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
   quadrille::addCount(data, "SurfaceFaces", result.surface.mesh.faceCount());
   quadrille::addSmallParts(data, result.smallParts, result.targetEdgeLength);
   quadrille::addAttempts(data, result.attempts);
+  if (!result.stopped.empty())
+  {
+    quadrille::addText(data, "Stopped", { result.stopped });
+  }
   quadrille::addFinalQuality(data, result.finalQuality);
 }
 
@@ -345,6 +349,10 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
     this->AddWarning(notice);
   }
   const quadrille::RemeshResult& result = made.remeshed;
+  if (!result.stopped.empty())
+  {
+    this->KeepSoFar();
+  }
   report.reusedStages = result.reused;
   report.numbers["TargetQuads"] = static_cast<double>(result.targetQuads);
   this->SetStageRecords(result.stages);

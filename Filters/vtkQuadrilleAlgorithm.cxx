@@ -781,6 +781,7 @@ void vtkQuadrilleAlgorithm::RunBlock(Work& work)
   state.report = {};
   state.report.notices = work.notices;
   this->Report = &state.report;
+  this->IsBlockSoFar = false;
   try
   {
     if (!work.error.empty())
@@ -788,7 +789,13 @@ void vtkQuadrilleAlgorithm::RunBlock(Work& work)
       throw quadrille::InvalidInput(work.error);
     }
     this->ExecuteBlock(work.block);
-    if (this->KeepsResult())
+    if (this->IsBlockSoFar)
+    {
+      state.report.isSoFar = true;
+      state.report.outcome = this->TimeIsOver ? TimedOut : Aborted;
+      state.report.outcomeText = this->StopText() + "; these are the best quads so far";
+    }
+    else if (this->KeepsResult())
     {
       wanted.report = state.report;
       wanted.result = state.lastResult;
@@ -864,14 +871,20 @@ void vtkQuadrilleAlgorithm::FailBlock(
 //------------------------------------------------------------------------------
 void vtkQuadrilleAlgorithm::FailBlockAsStopped(quadrille::BlockState& state)
 {
+  this->IsBlockSoFar = false; // what comes after the stop has been stopped, too
+  this->FailBlock(state, this->TimeIsOver ? TimedOut : Aborted, this->StopText());
+}
+
+//------------------------------------------------------------------------------
+std::string vtkQuadrilleAlgorithm::StopText() const
+{
   if (!this->TimeIsOver)
   {
-    this->FailBlock(state, Aborted, "stopped on request");
-    return;
+    return "stopped on request";
   }
   std::ostringstream text;
   text << "stopped after the time limit of " << this->TimeLimit << " s";
-  this->FailBlock(state, TimedOut, text.str());
+  return text.str();
 }
 
 //------------------------------------------------------------------------------
@@ -958,13 +971,21 @@ int vtkQuadrilleAlgorithm::Conclude(const Run& run, vtkInformationVector* output
   {
     return 1;
   }
-  if (run.anew)
+  const auto hasResult = [](const quadrille::BlockReport& report)
+  { return report.outcome == Succeeded || report.isSoFar; };
+  if (run.anew && std::all_of(this->Reports.begin(), this->Reports.end(), hasResult))
+  {
+    if (this->IsRoot)
+    {
+      vtkWarningMacro(<< this->OutcomeText);
+    }
+  }
+  else if (run.anew)
   {
     this->ReportFailure(this->OutcomeText);
   }
   // The results of the other blocks are valid and have to be seen.
-  return std::any_of(this->Reports.begin(), this->Reports.end(),
-    [](const quadrille::BlockReport& report) { return report.outcome == Succeeded; });
+  return std::any_of(this->Reports.begin(), this->Reports.end(), hasResult);
 }
 
 //------------------------------------------------------------------------------
@@ -999,8 +1020,11 @@ void vtkQuadrilleAlgorithm::SetReports(
     addLines(this->CertificateText, name, report.certificate);
     addLines(this->NoticesText, name, joinLines(report.notices));
     const std::string made = report.result.empty() ? "Done" : report.result;
-    addLines(
-      this->ResultText, name, report.outcome == Succeeded ? made : "Failed: " + report.outcomeText);
+    addLines(this->ResultText, name,
+      report.isSoFar                  ? made + "; " + report.outcomeText
+        : report.outcome == Succeeded ? made
+                                      : "Failed: " + report.outcomeText);
+    this->IsSoFar = this->IsSoFar || report.isSoFar;
     for (const std::string& notice : report.notices)
     {
       addLines(this->ResultText, name, "Note: " + notice);
@@ -1031,8 +1055,12 @@ bool vtkQuadrilleAlgorithm::ShowProgressAndGoOn()
 {
   this->UpdateProgress(this->FarthestProgress);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - this->Started;
-  this->TimeIsOver = this->TimeLimit > 0 && spent.count() > this->TimeLimit;
-  return !this->TimeIsOver && !this->CheckAbort();
+  // What is left to do after a stop that has kept something must not make another kind of stop of it.
+  if (!this->IsBlockSoFar)
+  {
+    this->TimeIsOver = this->TimeLimit > 0 && spent.count() > this->TimeLimit;
+  }
+  return this->IsBlockSoFar || (!this->TimeIsOver && !this->CheckAbort());
 }
 
 //------------------------------------------------------------------------------
@@ -1114,6 +1142,8 @@ void vtkQuadrilleAlgorithm::ResetOutcome()
 {
   this->Outcome = NotRun;
   this->TimeIsOver = false;
+  this->IsSoFar = false;
+  this->IsBlockSoFar = false;
   this->FarthestProgress = 0;
   this->Started = std::chrono::steady_clock::now();
   this->Reports.clear();

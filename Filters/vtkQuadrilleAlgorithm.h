@@ -9,8 +9,9 @@
  * taken.
  *
  * Any failure is reported through vtkErrorMacro with the element that is at fault, and GetOutcome() says what kind of
- * failure it was. The outputs then hold the previous result, unchanged, as they do after a stop on request; they are
- * empty where there was none. A block that fails keeps its own previous result, and the others get theirs; the error
+ * failure it was. The outputs then hold the previous result, unchanged; they are empty where there was none. After a
+ * stop, on request or by TimeLimit, they hold the best result so far where the filter has one by then (GetIsSoFar()),
+ * else the previous one. A block that fails keeps its own previous result, and the others get theirs; the error
  * names the blocks. Texts of several blocks begin each line with the name of the block.
  *
  * In a parallel run each rank has its part of the input. The pieces of a surface are brought to one rank and put
@@ -79,8 +80,9 @@ public:
 
   ///@{
   /**
-   * The filter gives up, with an error, after this many seconds; 0, the default, means no limit.
-   * It is looked at whenever a stage reports progress.
+   * The filter gives up after this many seconds; 0, the default, means no limit. It is looked at whenever a stage
+   * reports progress. Where there is a result by then that was still to be made better, the outputs hold it, with a
+   * warning; else it is an error.
    */
   vtkSetClampMacro(TimeLimit, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(TimeLimit, double);
@@ -105,6 +107,9 @@ public:
 
   /// An OutcomeType.
   vtkGetMacro(Outcome, int);
+  /// Whether the last execution was stopped, on request or by TimeLimit, and the outputs hold the best that there was by
+  /// then. The next execution makes the result anew.
+  bool GetIsSoFar() const { return this->IsSoFar; }
   /// The reason of a failure, and what the outputs hold; empty after success.
   const char* GetOutcomeText() { return this->OutcomeText.c_str(); }
   /// Seconds and sizes of the stages of the last execution, one stage a line.
@@ -174,6 +179,9 @@ protected:
   void SetStageRecords(const std::vector<quadrille::StageRecord>& stages);
   void SetCertificate(const quadrille::Certificate& certificate);
   void AddNotice(const std::string& text);
+  /// The stage was stopped and has the best so far, which becomes the block's result: from now on nothing asks to stop
+  /// any more until the block is done.
+  void KeepSoFar() { this->IsBlockSoFar = true; }
   /// A notice of something that the user asked for and does not get: a warning, too.
   void AddWarning(const std::string& text);
   void SetResult(const std::string& text);
@@ -214,6 +222,7 @@ private:
   void ExecuteBlock(quadrille::Block& block);
   void FailBlock(quadrille::BlockState& state, OutcomeType outcome, const std::string& text);
   void FailBlockAsStopped(quadrille::BlockState& state);
+  std::string StopText() const;
   void ExchangeReports(Run& run);
   int Conclude(const Run& run, vtkInformationVector* outputs);
   int ReportFailure(const std::string& text);
@@ -224,6 +233,8 @@ private:
 
   int Outcome = NotRun;
   bool TimeIsOver = false;
+  bool IsSoFar = false;
+  bool IsBlockSoFar = false; ///< of the block that is executed
   double FarthestProgress = 0;
   double BlockBegin = 0; ///< of the filter's progress
   double BlockEnd = 1;

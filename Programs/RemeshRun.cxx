@@ -101,7 +101,8 @@ ExitCode RemeshRun::execute(vtkPolyData* input)
     case vtkQuadrilleAlgorithm::BadInput:
       return kBadInput;
     default:
-      return kNoValidResult;
+      return filter_->GetIsSoFar() && filter_->GetOutput()->GetNumberOfPolys() > 0 ? kStoppedQuads
+                                                                                   : kNoValidResult;
   }
 }
 

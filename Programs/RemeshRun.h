@@ -23,8 +23,15 @@ enum ExitCode
 {
   kValidQuads = 0,
   kBadInput = 2,
-  kNoValidResult = 3
+  kNoValidResult = 3,
+  kStoppedQuads = 4 ///< stopped, with the best valid quads so far
 };
+
+/// Whether there are quads to be written.
+inline bool hasQuads(ExitCode code)
+{
+  return code == kValidQuads || code == kStoppedQuads;
+}
 
 struct StageRow
 {

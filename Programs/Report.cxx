@@ -251,7 +251,7 @@ std::string makeReport(const RunFiles& files, RemeshRun& run, ExitCode code, con
   json["unresolved_handles"] = filter->GetUnresolvedHandles();
   json["shortest_loop_over_edge_length"] = number(filter->GetShortestLoopOverEdgeLength());
   json["shortest_boundary_over_edge_length"] = number(filter->GetShortestBoundaryOverEdgeLength());
-  if (code == kValidQuads)
+  if (hasQuads(code))
   {
     addSuccess(json, filter->GetOutput());
     json["constraints"] = constraintsOf(filter->GetConstraintTable());

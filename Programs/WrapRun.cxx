@@ -142,6 +142,11 @@ ExitCode executeWrapped(RemeshRun& run, vtkPolyData* input, const WrapRequest& r
   run.filter()->SetPatchArrayName("");
   const ExitCode code = run.execute(surface);
   vtkPolyData* quads = run.filter()->GetOutput();
+  if (code == kStoppedQuads)
+  {
+    run.fail(run.error() + " of the wrap, which were not put onto the input any more");
+    return kNoValidResult;
+  }
   if (code != kValidQuads || quads->GetNumberOfPolys() == 0)
   {
     return code;

@@ -40,8 +40,9 @@ Remeshes a triangle surface with quads only.
 
 )";
 
-constexpr const char* kClosing =
-  "exit code: 0 valid quads (seamless: a valid map); 2 bad input or arguments; 3 no valid result";
+constexpr const char* kClosing = "exit code: 0 valid quads (seamless: a valid map); 2 bad input or "
+                                 "arguments; 3 no valid result; 4 stopped, by a signal "
+                                 "or the time limit: the valid quads of the best attempt so far";
 
 volatile std::sig_atomic_t stopRequested = 0;
 
@@ -578,7 +579,7 @@ ExitCode execute(RemeshRun& run, const Request& request)
     request.wrap.isAsked ? executeWrapped(run, input, request.wrap) : run.execute(input);
   progress.finish();
   times.total = secondsSince(start);
-  if (code == kValidQuads)
+  if (hasQuads(code))
   {
     if (!files.output.empty())
     {

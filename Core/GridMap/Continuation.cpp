@@ -109,7 +109,6 @@ private:
     const UntangleResult untangled =
       untangle(problem_, invertedAhead <= invertedHere ? ahead : y_, options_);
     result.newtonSteps += untangled.steps;
-    result.work += untangled.work;
     result.blocked.clear();
     for (const Index t : untangled.inverted)
     {

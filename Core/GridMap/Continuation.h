@@ -20,7 +20,6 @@ struct ContinuationResult
   /// Unknowns of the integer map; none when the way was blocked.
   std::optional<Eigen::VectorXd> y;
   int newtonSteps = 0;
-  std::size_t work = 0;       ///< as UntangleResult::work
   double reached = 0;         ///< how far it came, 1 is the end
   std::vector<Index> blocked; ///< the faces that could not be mended when it was blocked
 };

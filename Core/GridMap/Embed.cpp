@@ -71,14 +71,12 @@ void embedFromSeamless(const Mesh& mesh, const CrossField& field, const LockedMa
   const ContinuationResult way =
     continueToIntegers(mesh, field, *options.seamlessUv, locked, options.progress);
   untangling.newtonSteps += way.newtonSteps;
-  untangling.work += way.work;
   if (!way.y)
   {
     return;
   }
   const UntangleResult polished = untangle(problem, *way.y, fieldUntangleOptions(options.progress));
   untangling.newtonSteps += polished.steps;
-  untangling.work += polished.work;
   for (const Eigen::VectorXd* y : { &polished.y, &*way.y })
   {
     std::vector<FixedVec2> uv = locked.snap(*y);
@@ -137,7 +135,6 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
   followRequests(mesh, field, problem, options.anisotropyLimit, snap, options.progress, untangled);
   result.uv = std::move(untangled.uv);
   result.newtonSteps = untangled.newtonSteps;
-  result.work = untangled.work;
   if (!untangled.defects.none())
   {
     failEmbedding(

@@ -35,7 +35,6 @@ struct EmbedResult
   std::vector<Index>
     offenders; ///< vertices round which the triangulation leaves no map with these integers
   int newtonSteps = 0;
-  std::size_t work = 0; ///< as UntangleResult::work
   bool startedFromPrevious = false;
 };
 /// Moves everything but integers (integer vertices, isoline values, translations) so that every det > 0.

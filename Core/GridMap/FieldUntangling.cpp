@@ -98,13 +98,11 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
     UntangleResult attempt =
       untangle(stiffened, given ? starts[i] : fitReferences(stiffened), options);
     best.newtonSteps += attempt.steps;
-    best.work += attempt.work;
     if (!given && findDefects(mesh, field, snap(attempt.y)).none())
     {
       // From a valid map no vertex can change its winding any more, whatever the weights.
       attempt = untangle(problem, attempt.y, options);
       best.newtonSteps += attempt.steps;
-      best.work += attempt.work;
     }
     std::vector<FixedVec2> uv = snap(attempt.y);
     MapDefects defects = findDefects(mesh, field, uv);
@@ -144,7 +142,6 @@ void followRequests(const Mesh& mesh, const CrossField& field, const UntanglePro
   options.polishSteps = kRequestSteps;
   UntangleResult shaped = untangle(problem, untangling.y, options);
   untangling.newtonSteps += shaped.steps;
-  untangling.work += shaped.work;
   std::vector<FixedVec2> uv = snap(shaped.y);
   if (findDefects(mesh, field, uv).none())
   {

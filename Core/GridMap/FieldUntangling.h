@@ -21,7 +21,6 @@ struct FieldUntangling
   Eigen::VectorXd y;         ///< its unknowns
   MapDefects defects;
   int newtonSteps = 0;
-  std::size_t work = 0; ///< as UntangleResult::work
 };
 
 /// Tries the starts in turn. Seams fix the winding of a vertex modulo 4 only, so a start that is inverted there

@@ -5,6 +5,7 @@
 #include "Base/Clock.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Base/WorkCount.h"
 #include "GridMap/Embed.h"
 #include "GridMap/GuidesInMap.h"
 #include "GridMap/MapShape.h"
@@ -29,8 +30,6 @@ namespace quadrille
 namespace
 {
 
-/// A step of a search takes about as long as a fortieth of what a Newton step takes for one triangle.
-constexpr std::size_t kSearchStepsPerNewtonTriangle = 40;
 constexpr int kMaximumScalings = 4;
 /// How often other integers are tried where embedding fails.
 constexpr std::size_t kMaximumEmbeddings = 4;
@@ -548,7 +547,6 @@ private:
     seamlessOptions.maximumSteps = try_.maximumSteps;
     seamlessOptions.progress = progress;
     SeamlessResult seamless = computeSeamlessMap(part.mesh, part.field, seamlessOptions);
-    result_.work += seamless.work;
     result_.seamlessSteps += seamless.newtonSteps;
     component.seamlessReused = component.seamlessReused || seamless.startedFromPrevious;
     if (!seamless.status.ok())
@@ -597,10 +595,7 @@ private:
     quantizeOptions.previousUv =
       !again && component.previous.isMap ? &component.previous.uv : nullptr;
     quantizeOptions.progress = progress;
-    QuantizeResult result =
-      quantizeMap(component.part.mesh, component.part.field, seamlessUv, quantizeOptions);
-    result_.work += result.work / kSearchStepsPerNewtonTriangle;
-    return result;
+    return quantizeMap(component.part.mesh, component.part.field, seamlessUv, quantizeOptions);
   }
 
   void embed()
@@ -635,7 +630,6 @@ private:
       {
         const TimedScope timed(result_.secondsEmbed, result_.processorEmbed);
         embedded = embedMap(part.mesh, part.field, component.uv, embedOptions);
-        result_.work += embedded.work;
         result_.embedSteps += embedded.newtonSteps;
       }
       component.embedReused = embedded.startedFromPrevious;
@@ -825,23 +819,12 @@ private:
 
   GridMapResult make(const CurveTry& howto)
   {
+    const WorkScope work;
     MapMaker maker(mesh_, options_, howto);
     GridMapResult map = maker.run();
+    map.work = work.done();
     holdsIrregular_ = maker.holdsIrregular();
     taken_.addWork(map);
-    if (getenv("DBG"))
-    {
-      int out = 0;
-      for (auto& t : howto.leftOut)
-        out += !t.empty();
-      fprintf(stderr,
-        "TRY curves %zu out %d ways %d holds %d: ok %d unmet %zu unfollowed %zu seamless %d embed "
-        "%d work %zu field %.3f seamless %.3f quant %.3f embed %.3f %s\n",
-        options_.curves.size(), out, !howto.ways.empty(), howto.holdsIrregular, map.status.ok(),
-        countUnmet(map), countUnfollowed(map), map.seamlessSteps, map.embedSteps, map.work,
-        map.secondsField, map.secondsSeamless, map.secondsQuantize, map.secondsEmbed,
-        map.status.message.substr(0, 100).c_str());
-    }
     return map;
   }
 

@@ -98,7 +98,7 @@ struct GridMapResult
   /// is not ok.
   double beyondAnisotropyLimit = 0;
   std::size_t components = 0, failedComponents = 0;
-  /// Of all solves, as UntangleResult::work, and what quantization took in the same unit.
+  /// What all of it has counted by countWork().
   std::size_t work = 0;
   double secondsField = 0, secondsSeamless = 0, secondsQuantize = 0, secondsEmbed = 0;
   /// The same in processor time of the whole process, which other programs on the machine do not disturb.

@@ -299,22 +299,20 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   if (options.previousUv != nullptr)
   {
     start = startFrom(*options.previousUv, mesh, field, editor, integers);
-    result.work = start.work;
     result.startedFromPrevious = start.valid;
   }
   if (!start.valid)
   {
     start = findValidIntegers(integers, 1, kMaximumScale, options.progress);
-    result.work += start.work;
   }
   if (!start.valid)
   {
     result.status = { StatusCode::NotConverged,
-      "quantization: no valid integers up to scale " + std::to_string(kMaximumScale) };
+      "quantization: no valid integers up to scale " + std::to_string(std::min(start.scale, kMaximumScale)) };
     return result;
   }
   integers.setPull(options.pull);
-  result.work += improveIntegers(integers, options.progress);
+  improveIntegers(integers, options.progress);
   result.refinement = std::max(1.0, std::sqrt(integers.area() / wantedArea));
   integrate(integers, locked.integer, uvMesh);
   editor.undoTo(decimated);

@@ -31,7 +31,6 @@ struct QuantizeResult
   std::vector<FixedVec2> uv;
   Status status;
   double refinement = 1; ///< factor by which sizes had to grow to be valid
-  std::size_t work = 0;  ///< steps from triangle to triangle that all searches have made
   bool startedFromPrevious = false;
 };
 /// Integers for a seamless map without a T-mesh [Coudert-Osmont et al. 2023].

@@ -19,6 +19,9 @@ namespace
 constexpr double kLeastGain = 1e-7;
 /// Sweeps over all half-edges with one length of step; they end by themselves long before.
 constexpr int kMaximumSweeps = 100;
+/// Steps of the repairs at all scales, a face; each one's own bound is a quarter of it. What fails at four scales in
+/// full fails at the others, too.
+constexpr std::size_t kMostStepsOfScales = 20000;
 /// Rounds of improvement with a new triangulation each.
 constexpr int kMaximumRounds = 6;
 
@@ -195,7 +198,7 @@ public:
   {
   }
 
-  std::size_t work() const { return search_.work(); }
+  std::size_t steps() const { return search_.work(); }
 
   bool run()
   {
@@ -388,8 +391,6 @@ public:
     : map_(map), search_(map, StripCost::KeepSound), changed_(map.mesh().alive.size(), 0)
   {
   }
-
-  std::size_t work() const { return search_.work(); }
 
   void run(const ProgressCallback& progress)
   {
@@ -590,18 +591,16 @@ IntegerStart repairIntegers(IntegerMap& map)
   IntegerStart start;
   StripSearch search(map, StripCost::Repair);
   const bool closed = closeTriangles(map, search);
-  start.work = search.work();
   if (closed)
   {
     Repair repair(map);
     start.valid = repair.run() && map.isValid();
-    start.work += repair.work();
+    start.steps = repair.steps();
   }
   if (start.valid && map.shortageOfLoops() > 0)
   {
     StripSearch lengthening(map, StripCost::KeepSound);
     lengthenLoops(map, lengthening);
-    start.work += lengthening.work();
   }
   return start;
 }
@@ -615,9 +614,9 @@ IntegerStart findValidIntegers(
     report(progress, 0.2, "rounding at scale " + std::to_string(start.scale));
     map.round(start.scale);
     const IntegerStart repaired = repairIntegers(map);
-    start.work += repaired.work;
+    start.steps += repaired.steps;
     start.valid = repaired.valid;
-    if (start.valid)
+    if (start.valid || start.steps > kMostStepsOfScales * map.faces().size())
     {
       return start;
     }
@@ -625,11 +624,9 @@ IntegerStart findValidIntegers(
   return start;
 }
 
-std::size_t improveIntegers(IntegerMap& map, const ProgressCallback& progress)
+void improveIntegers(IntegerMap& map, const ProgressCallback& progress)
 {
-  Improvement improvement(map);
-  improvement.run(progress);
-  return improvement.work();
+  Improvement(map).run(progress);
 }
 
 } // namespace quadrille

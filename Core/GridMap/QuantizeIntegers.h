@@ -13,8 +13,8 @@ namespace quadrille
 struct IntegerStart
 {
   bool valid = false;
-  double scale = 1;     ///< of the wanted displacements, at which the map became valid
-  std::size_t work = 0; ///< StripSearch::work of all searches
+  double scale = 1;      ///< of the wanted displacements, at which the map became valid
+  std::size_t steps = 0; ///< StripSearch::work of the repairs
 };
 
 /// Rounds, closes and repairs at scales that grow from `scale` by sqrt 2 up to maximumScale until valid.
@@ -24,7 +24,7 @@ IntegerStart findValidIntegers(
 /// Closes and repairs the displacements that the map has, whose scale is 1; not valid where that does not succeed.
 IntegerStart repairIntegers(IntegerMap& map);
 
-/// Lowers the energy of a valid map until nothing helps; it stays valid. Returns StripSearch::work of its searches.
-std::size_t improveIntegers(IntegerMap& map, const ProgressCallback& progress);
+/// Lowers the energy of a valid map until nothing helps; it stays valid.
+void improveIntegers(IntegerMap& map, const ProgressCallback& progress);
 
 } // namespace quadrille

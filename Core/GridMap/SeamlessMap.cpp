@@ -167,7 +167,6 @@ SeamlessResult computeSeamlessMap(
   result.uv = std::move(untangled.uv);
   result.solution = std::move(untangled.y);
   result.newtonSteps = untangled.newtonSteps;
-  result.work = untangled.work;
   if (!untangled.defects.none())
   {
     explain(mesh, space, untangled.defects, result);

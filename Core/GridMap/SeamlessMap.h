@@ -40,7 +40,6 @@ struct SeamlessResult
   /// untangled.
   std::size_t collapsed = 0;
   int newtonSteps = 0;
-  std::size_t work = 0; ///< as UntangleResult::work
   bool startedFromPrevious = false;
 };
 /// A seamless map without inverted triangles that follows the field: transitions are quarter turns plus any

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/StripSearch.h"
 
+#include "Base/WorkCount.h"
+
 #include <algorithm>
 #include <functional>
 #include <tuple>
@@ -17,6 +19,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kStepCost = 1e-6;
 /// Steps that an improving search may settle.
 constexpr std::size_t kFarthest = 4000;
+/// Steps that count as work at a time, and the units that they are, see WorkCount.h.
+constexpr std::size_t kCountedSteps = 1000;
+constexpr std::size_t kWorkOfCountedSteps = 160;
 
 } // namespace
 
@@ -77,7 +82,10 @@ bool StripSearch::pop(Index& state, double& cost)
     heap_.pop_back();
     if (!settled_[state])
     {
-      ++work_;
+      if (++work_ % kCountedSteps == 0)
+      {
+        countWork(kWorkOfCountedSteps);
+      }
       settled_[state] = 1;
       return true;
     }

@@ -479,6 +479,12 @@ FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength)
   return report;
 }
 
+bool isDetectedFeature(const Mesh& mesh, Index h)
+{
+  return mesh.isFeature(h) && !mesh.isBoundary(h) && h < mesh.twin[h] &&
+    (mesh.flags[h] & kRequestedFeature) == 0;
+}
+
 std::vector<Index> detectedFeaturesNear(
   const Mesh& mesh, const std::vector<Vector3>& points, double radius)
 {
@@ -489,8 +495,7 @@ std::vector<Index> detectedFeaturesNear(
   std::vector<Index> found;
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
-    if (!mesh.isFeature(h) || mesh.isBoundary(h) || mesh.twin[h] < h ||
-      (mesh.flags[h] & kRequestedFeature) != 0)
+    if (!isDetectedFeature(mesh, h))
     {
       continue;
     }

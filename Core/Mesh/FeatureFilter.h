@@ -25,6 +25,8 @@ struct FeatureFilterReport
 /// Throws InvalidInput when edgeLength is not positive.
 FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength);
 
+/// Whether h is that half-edge of a feature that stands for it, and nobody asked for the feature (kRequestedFeature).
+bool isDetectedFeature(const Mesh& mesh, Index h);
 /// One half-edge of each feature that nobody asked for (without kRequestedFeature) and that comes closer than `radius`
 /// to one of the points. Throws InvalidInput when radius is not positive.
 std::vector<Index> detectedFeaturesNear(

@@ -63,7 +63,7 @@ struct UntangleResult
   std::vector<Index> inverted;   ///< triangles with !(det > 0), worst first; empty on success
   double minimumDeterminant = 0; ///< of J over all triangles
   int steps = 0;
-  /// Newton steps times triangles, and the factorizations in the same unit: global unknowns, as surfaces of high genus
+  /// As counted by countWork(), of the triangles and of the factorizations: global unknowns, as surfaces of high genus
   /// have, fill the factor, and these then take far more than the triangles.
   std::size_t work = 0;
 };

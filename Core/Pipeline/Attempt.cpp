@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/Attempt.h"
 
+#include "Base/WorkCount.h"
 #include "Extraction/QuadTopology.h"
 #include "GridMap/PreviousMap.h"
 #include "Pipeline/CoarsestMap.h"
@@ -134,7 +135,6 @@ void recordCoarse(
       made.notices.push_back(notice);
     }
   }
-  made.work = map.work;
   made.curves = map.curves;
   for (const Index v : map.curveOffenders)
   {
@@ -260,7 +260,27 @@ std::shared_ptr<MapAttempt> asReused(const MapAttempt& found)
   return map;
 }
 
-std::shared_ptr<MapAttempt> makeCoarseMap(RunContext& run, const Plan& plan, ResultKey key)
+/// A map that was interrupted is that of another run with the same allowance only.
+ResultKey interruptedKey(ResultKey key, std::size_t allowance)
+{
+  return KeyMaker(key).add(std::uint64_t{ allowance }).key();
+}
+
+void interrupt(const Hierarchy& levels, std::size_t allowance, MapAttempt& made)
+{
+  made.key = interruptedKey(made.key, allowance);
+  made.isInterrupted = true;
+  made.hopeless = true; // more freedom would take longer
+  made.work = allowance;
+  made.coarse = levels.coarse;
+  made.status = { StatusCode::NotConverged,
+    "the map of the coarse mesh was not done within the work that a surface of this size is "
+    "worth; ask for smaller quads, for fewer features (a larger feature angle, or none) or for "
+    "fewer coarse vertices" };
+}
+
+std::shared_ptr<MapAttempt> makeCoarseMap(
+  RunContext& run, const Plan& plan, ResultKey key, std::size_t allowance)
 {
   auto made = std::make_shared<MapAttempt>();
   made->key = key;
@@ -270,9 +290,34 @@ std::shared_ptr<MapAttempt> makeCoarseMap(RunContext& run, const Plan& plan, Res
   {
     made->reused.emplace_back("phase2");
   }
-  GridMapResult map = computeMap(run, plan, *made);
-  recordCoarse(run, levels, map, *made);
+  const double start = secondsNow();
+  try
+  {
+    const WorkScope scope(allowance);
+    GridMapResult map = computeMap(run, plan, *made);
+    made->work = scope.done();
+    recordCoarse(run, levels, map, *made);
+  }
+  catch (const WorkSpent&)
+  {
+    interrupt(levels, allowance, *made);
+    const std::size_t faces = levels.coarse.mesh.faceCount();
+    made->stages.add("interrupted", secondsNow() - start, faces, faces);
+  }
   return made;
+}
+
+/// From the store, as a run without one would make it.
+std::shared_ptr<MapAttempt> findMap(const RunContext& run, ResultKey key, std::size_t allowance)
+{
+  if (run.store == nullptr)
+  {
+    return nullptr;
+  }
+  const auto found = run.store->find<MapAttempt>(key);
+  return found && found->work <= allowance
+    ? found
+    : run.store->find<MapAttempt>(interruptedKey(key, allowance));
 }
 
 /// Whether the levels are those of the map; they are made where they are not there.
@@ -381,12 +426,13 @@ HierarchyOptions levelOptions(const RunContext& run, const Plan& plan)
   return options;
 }
 
-std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan)
+std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan, std::size_t allowance)
 {
   run.surface.apply(plan);
   const ResultKey key = mapKey(run, plan);
-  const auto found = run.store != nullptr ? run.store->find<MapAttempt>(key) : nullptr;
-  std::shared_ptr<MapAttempt> made = found ? asReused(*found) : makeCoarseMap(run, plan, key);
+  const auto found = findMap(run, key, allowance);
+  std::shared_ptr<MapAttempt> made =
+    found ? asReused(*found) : makeCoarseMap(run, plan, key, allowance);
   const bool isDone = !made->status.ok() || made->isCarried || run.options.preview;
   if (!isDone && hasLevelsOf(run, plan, *made))
   {
@@ -396,7 +442,7 @@ std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan)
   else if (!isDone)
   {
     // Levels that were made again may be others than those that a preview has left a map of.
-    made = makeCoarseMap(run, plan, key);
+    made = makeCoarseMap(run, plan, key, allowance);
     if (made->status.ok())
     {
       carryToSurface(run, *made);

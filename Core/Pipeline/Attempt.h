@@ -15,6 +15,7 @@
 #include "Pipeline/SmallParts.h"
 #include "Pipeline/StageRecords.h"
 #include "Pipeline/SurfaceVersion.h"
+#include "Pipeline/WorkBound.h"
 #include "Transfer/PackedMap.h"
 #include "Transfer/Transfer.h"
 
@@ -57,7 +58,8 @@ struct MapAttempt
   Certificate coarseCertificate;
   std::vector<Index> coarseOffenders;  ///< vertices of the surface, where the status is not ok
   std::vector<Vector3> coarseTroubles; ///< their positions
-  std::size_t work = 0;                ///< GridMapResult::work
+  std::size_t work = 0;                ///< see Base/WorkCount.h; of the map of the coarse level
+  bool isInterrupted = false;          ///< as the work was spent
   std::vector<CurveOutcome> curves;    ///< GridMapResult::curves
   std::vector<Index> curveOffenders; ///< GridMapResult::curveOffenders, as vertices of the surface
 
@@ -115,8 +117,10 @@ void addRequests(const PreparedSurface& surface, KeyMaker& key);
 /// What a plan asks of the levels. The plan is on the surface.
 HierarchyOptions levelOptions(const RunContext& run, const Plan& plan);
 
-/// Levels, map, and map of the surface by the plan, which is put on the surface.
-std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan);
+/// Levels, map, and map of the surface by the plan, which is put on the surface. allowance: work that the map of the
+/// coarse level may take; one that would take more is interrupted and has failed.
+std::shared_ptr<MapAttempt> makeMap(
+  RunContext& run, const Plan& plan, std::size_t allowance = WorkBound::kNone);
 
 /// The quads of a map with status ok, whose plan is on the surface; the levels are let go.
 std::shared_ptr<const QuadAttempt> makeQuads(RunContext& run, const Plan& plan, MapAttempt& map);

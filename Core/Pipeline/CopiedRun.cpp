@@ -105,6 +105,11 @@ SymmetricResult CopiedRun::run(SurfaceInput& input)
   cut();
   remeshAndCopy();
   RemeshResult& result = made_.remeshed;
+  if (isStopped() && !result.status.ok())
+  {
+    // With more quads there might have been some.
+    throw Cancelled();
+  }
   result.notices.insert(result.notices.begin(), notices_.begin(), notices_.end());
   result.reused.insert(result.reused.begin(), reused_.begin(), reused_.end());
   result.stages = laps_.all();
@@ -189,7 +194,7 @@ void CopiedRun::remeshAndCopy()
       laps_.add(record.stage, record.seconds, record.elementsIn, record.elementsOut);
     }
     const bool isCrowded = made_.remeshed.status.ok() && !copy();
-    if (!isCrowded || more == kMostQuads)
+    if (!isCrowded || isStopped() || more == kMostQuads)
     {
       break;
     }

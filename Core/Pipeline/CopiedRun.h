@@ -77,6 +77,8 @@ public:
   CopiedRun& operator=(const CopiedRun&) = delete;
 
   SymmetricResult run(SurfaceInput& input);
+  /// Whether the run of the part was stopped with quads, see RemeshResult::stopped.
+  bool isStopped() const { return !made_.remeshed.stopped.empty(); }
 
 protected:
   /// The symmetry: given or found; told, and refused where the surface has not got it.

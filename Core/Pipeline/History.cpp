@@ -18,7 +18,8 @@ void History::addMap(const Plan& plan, std::shared_ptr<MapAttempt> map)
   }
   steps_.emplace_back(plan.step);
   round_.push_back({ plan.step, map->coarseOffenders.size() });
-  work_ += map->work;
+  workOfLast_ = map->work + bound_.ofAttempt;
+  work_ += workOfLast_;
   all_.add(map->stages);
   reused_.insert(reused_.end(), map->reused.begin(), map->reused.end());
   last_ = { plan, std::move(map), nullptr };
@@ -66,6 +67,20 @@ void History::packMaps(const Mesh& surface)
       attempt->map->pack(surface);
     }
   }
+}
+
+bool History::isSpent() const
+{
+  return attempts() >= bound_.attempts || work_ + (hasSomething() ? workOfLast_ : 0) >= bound_.work;
+}
+
+std::size_t History::allowance() const
+{
+  if (!hasSomething())
+  {
+    return bound_.ofMap;
+  }
+  return bound_.work > work_ ? bound_.work - work_ : 0;
 }
 
 std::size_t History::inRound(const std::string& step) const

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Pipeline/Attempt.h"
+#include "Pipeline/WorkBound.h"
 
 #include <cstddef>
 #include <string>
@@ -12,9 +13,6 @@
 namespace quadrille
 {
 
-/// Work on maps (GridMapResult::work) after which nothing is tried again; about a minute.
-constexpr std::size_t kMaximumWork = 24000000;
-
 /// Attempts come in rounds: maps until one is good or no other would be better, then the quads of the best map. Of the
 /// maps of the surface at most three are held, two of them packed: the last one, the best of the round, and that of the
 /// result so far.
@@ -22,8 +20,11 @@ class History
 {
 public:
   History() = default;
-  /// work: that was done before, and counts as if it were the history's own.
-  explicit History(std::size_t work) : work_(work) {}
+  /// work, attempts: that were made before, and count as if they were the history's own.
+  explicit History(const WorkBound& bound, std::size_t work = 0, std::size_t attempts = 0)
+    : bound_(bound), work_(work), attemptsBefore_(attempts)
+  {
+  }
 
   void addMap(const Plan& plan, std::shared_ptr<MapAttempt> map);
   /// Of the map ofRound(), or null where it was not carried to the surface; ends the round.
@@ -49,8 +50,14 @@ public:
   const Attempt& result() const { return result_.quads ? result_ : last_; }
   bool hasResult() const { return result_.quads != nullptr; }
 
-  std::size_t work() const { return work_; } ///< GridMapResult::work of all attempts
-  bool isSpent() const { return work_ >= kMaximumWork; }
+  std::size_t work() const { return work_; } ///< of all attempts
+  std::size_t attempts() const { return attemptsBefore_ + steps_.size(); }
+  const WorkBound& bound() const { return bound_; }
+  /// Whether no attempt may begin any more. Where there are quads, or a map that they can be made of, one that would
+  /// take as much as the last one has to fit into the bound.
+  bool isSpent() const;
+  /// What the map of the next attempt may take.
+  std::size_t allowance() const;
   /// Of all attempts, the first one's "first".
   const std::vector<std::string>& steps() const { return steps_; }
   int replays() const { return replays_; } ///< maps that were carried to the surface
@@ -79,7 +86,12 @@ private:
   std::vector<std::string> steps_;
   StageRecords all_;
   std::vector<std::string> reused_;
+  bool hasSomething() const { return result_.quads != nullptr || roundHasMap(); }
+
+  WorkBound bound_;
   std::size_t work_ = 0;
+  std::size_t workOfLast_ = 0;
+  std::size_t attemptsBefore_ = 0;
   int replays_ = 0;
 };
 

@@ -14,6 +14,9 @@ namespace
 
 /// From this number of offenders on, an attempt must have halved that of the one before to deserve another.
 constexpr std::size_t kManyOffenders = 100;
+/// A failure at no place in particular is worth another try with more vertices only where it took less than this part of
+/// the bound of work: integers that are searched for long and not found are a matter of features.
+constexpr double kCheapFailure = 0.25;
 /// Rings of intermediate vertices that are kept around an offender.
 constexpr int kFreedomRings = 2;
 
@@ -85,7 +88,10 @@ std::optional<Plan> moreFreedom(const Trouble& trouble)
   }
   RunContext& run = trouble.run;
   run.surface.apply(last.plan);
-  if (isMatterOfFeatures(run, last))
+  if (isMatterOfFeatures(run, last) ||
+    (offenders == 0 &&
+      static_cast<double>(last.map->work) >
+        kCheapFailure * static_cast<double>(history.bound().work)))
   {
     return std::nullopt;
   }

@@ -3,6 +3,7 @@
 #include "Pipeline/Notices.h"
 
 #include "Base/PlaceText.h"
+#include "Extraction/QuadShape.h"
 
 #include <iomanip>
 #include <sstream>
@@ -80,6 +81,15 @@ std::string defectsText(const Certificate& certificate)
   append(text, certificate.fractionalTransitions, " edge has a shift that is not whole",
     " edges have shifts that are not whole");
   return text;
+}
+
+std::string invertedText(const QuadMesh& quads)
+{
+  const std::vector<Index> inverted = invertedQuads(quads.points, quads.quads);
+  return inverted.empty()
+    ? ""
+    : std::to_string(inverted.size()) + (inverted.size() == 1 ? " of them is" : " of them are") +
+      " inverted, one near " + placeText(quads.points[quads.quads[inverted.front()].front()]);
 }
 
 std::string mapNotice(const Mesh& mesh, const Certificate& certificate)

@@ -4,6 +4,7 @@
 /// nothing to tell.
 #pragma once
 
+#include "Extraction/Extraction.h"
 #include "GridMap/GridMap.h"
 #include "Mesh/FeatureFilter.h"
 
@@ -26,5 +27,9 @@ std::string defectsText(const Certificate& certificate);
 
 /// What is wrong with the map on the input surface, with the place of its worst triangle and what it means.
 std::string mapNotice(const Mesh& mesh, const Certificate& certificate);
+
+/// Of quads that are not what the attempts were to end with: how many are inverted, and where one is. Empty where none
+/// is.
+std::string invertedText(const QuadMesh& quads);
 
 } // namespace quadrille

@@ -14,6 +14,7 @@
 #include "Pipeline/Recovery.h"
 #include "Pipeline/SettledSurface.h"
 #include "Pipeline/SizedSurface.h"
+#include "Pipeline/Strategies.h"
 
 #include <algorithm>
 #include <optional>
@@ -82,42 +83,111 @@ ResultStore* storeIfRoom(
   return nullptr;
 }
 
-/// Attempts, until one is good or nothing is left to try. From the second one on, progress tells which it is, and what
-/// is tried.
-void makeAttempts(RunContext& given, History& history)
+/// The rounds of attempts of a run on one bench.
+class Attempts
 {
-  std::string attempt;
-  RemeshOptions options = given.options;
-  if (options.progress)
+public:
+  /// isLast: where no attempt has quads, nothing follows. stopped: RemeshResult::stopped; once it is not empty, progress
+  /// does not ask to stop any more.
+  Attempts(RunContext& given, History& history, bool isLast, std::string& stopped)
+    : given_(given), options_(given.options), history_(history), isLast_(isLast),
+      stopped_(stopped), run_{ options_, given.edgeLength, given.targetQuads, given.surface,
+        given.levels, given.store, std::move(given.shortLoops), std::move(given.spare),
+        given.hasCrowd }
   {
-    options.progress = [&](double fraction, const std::string& text)
-    { return given.options.progress(fraction, attempt + text); };
+    if (given.options.progress)
+    {
+      // From the second attempt on, progress tells which it is, what is tried, and why.
+      options_.progress = [this](double fraction, const std::string& text)
+      { return given_.options.progress(fraction, (tried_.empty() ? "" : tried_ + ": ") + text); };
+    }
   }
-  RunContext run{ options, given.edgeLength, given.targetQuads, given.surface, given.levels,
-    given.store, std::move(given.shortLoops), std::move(given.spare), given.hasCrowd };
-  for (std::optional<Plan> plan = firstPlan(run); plan; plan = nextPlan(run, history))
+
+  ~Attempts()
+  {
+    given_.targetQuads = run_.targetQuads;
+    given_.shortLoops = std::move(run_.shortLoops);
+    given_.spare = std::move(run_.spare);
+  }
+  Attempts(const Attempts&) = delete;
+  Attempts& operator=(const Attempts&) = delete;
+
+  /// Until one is good or nothing is left to try. begin: none for the first plan of the surface.
+  void run(std::optional<Plan> begin = std::nullopt)
+  {
+    try
+    {
+      for (std::optional<Plan> plan = begin ? std::move(begin) : firstPlan(run_); plan;
+           plan = nextPlan(run_, history_, isLast_))
+      {
+        makeRound(std::move(plan));
+      }
+    }
+    catch (const Cancelled&)
+    {
+      keepWhatIsThere();
+    }
+  }
+
+private:
+  void makeRound(std::optional<Plan> plan)
   {
     while (plan)
     {
-      if (!history.isEmpty())
+      if (history_.attempts() > 0)
       {
-        attempt =
-          "Attempt " + std::to_string(history.steps().size() + 1) + ", " + plan->step + ": ";
+        tried_ = "Attempt " + std::to_string(history_.attempts() + 1) + " of at most " +
+          std::to_string(history_.bound().attempts) + ", " + plan->step +
+          (plan->why.empty() ? "" : " (" + plan->why + ")");
       }
-      history.packMaps(run.surface->mesh);
-      history.addMap(*plan, makeMap(run, *plan));
-      plan = nextMapPlan(run, history);
+      history_.packMaps(run_.surface->mesh);
+      history_.addMap(*plan, makeMap(run_, *plan, history_.allowance()));
+      plan = nextMapPlan(run_, history_);
     }
-    const Attempt& best = history.ofRound();
-    run.surface.apply(best.plan);
-    history.addQuads(!history.roundHasMap() ? nullptr
-        : run.options.preview               ? makePreview(run, best.plan, *best.map)
-                                            : makeQuads(run, best.plan, *best.map));
+    makeQuadsOfRound();
   }
-  given.targetQuads = run.targetQuads;
-  given.shortLoops = std::move(run.shortLoops);
-  given.spare = std::move(run.spare);
-}
+
+  void makeQuadsOfRound()
+  {
+    makesQuads_ = true;
+    const Attempt& best = history_.ofRound();
+    run_.surface.apply(best.plan);
+    history_.addQuads(!history_.roundHasMap() ? nullptr
+        : run_.options.preview                ? makePreview(run_, best.plan, *best.map)
+                                              : makeQuads(run_, best.plan, *best.map));
+    makesQuads_ = false;
+  }
+
+  /// After a stop: the quads so far, or those of a map that is there already. Stops without any.
+  void keepWhatIsThere()
+  {
+    // A stop while quads are made may leave their map half solved.
+    const bool hasMap = history_.roundHasMap() && !makesQuads_;
+    if (!history_.hasResult() && !hasMap)
+    {
+      throw;
+    }
+    stopped_ = tried_.empty() ? "attempt 1" : tried_;
+    if (!history_.hasResult())
+    {
+      makeQuadsOfRound();
+    }
+    if (!history_.hasResult())
+    {
+      stopped_.clear();
+      throw;
+    }
+  }
+
+  RunContext& given_;
+  RemeshOptions options_;
+  History& history_;
+  bool isLast_;
+  std::string& stopped_;
+  RunContext run_;
+  std::string tried_; ///< what the attempt is; empty for the first one
+  bool makesQuads_ = false;
+};
 
 void tell(const std::vector<std::string>& notices, RemeshResult& result)
 {
@@ -241,6 +311,26 @@ void tellAttempt(const Attempt& attempt, const QuadSize& size, RemeshResult& res
   }
 }
 
+/// Why no other attempt was made though the quads leave something to be wished.
+void tellEnd(const History& history, RemeshResult& result)
+{
+  const std::string inverted = result.status.ok() ? invertedText(result.quads) : "";
+  const std::string those = inverted.empty() ? "" : "; " + inverted;
+  if (!result.stopped.empty())
+  {
+    tell({ "stopped on request (" + result.stopped +
+           "): these are the best quads so far, others were still being tried" + those },
+      result);
+  }
+  else if (history.isSpent() && !inverted.empty())
+  {
+    tell({ "the work that a surface of this size is worth was done after " +
+           std::to_string(history.attempts()) + " attempts; these are the best quads of them" +
+           those },
+      result);
+  }
+}
+
 void takeHistory(
   const History& history, const Levels& levels, const StageRecords& sized, RemeshResult& result)
 {
@@ -267,6 +357,14 @@ void tellDetails(const Settled& settled, RemeshResult& result)
   tell({ detailsNotice(settled.details) }, result);
 }
 
+/// Of the attempts before the rest of the details is taken out: the last third is for those after it.
+WorkBound boundBeforeRest(WorkBound bound)
+{
+  bound.work = bound.work / 3 * 2;
+  bound.attempts = bound.attempts / 3 * 2;
+  return bound;
+}
+
 /// Attempts; where none has quads, again without the details that were left for them to resolve.
 void attemptAll(Settled& settled, SizedSurface& sized, const RemeshOptions& options,
   ResultStore* store, bool quadsAlone, History& history, RemeshResult& result)
@@ -276,10 +374,24 @@ void attemptAll(Settled& settled, SizedSurface& sized, const RemeshOptions& opti
   {
     settled.bench->run.spare.swap(spare->uv);
   }
-  makeAttempts(settled.bench->run, history);
+  const WorkBound bound = workBound(sized.surface->mesh.faceCount(), sized.targetQuads);
+  const bool isLast = !hasRest(settled, options);
+  history = History(isLast ? bound : boundBeforeRest(bound));
+  Attempts(settled.bench->run, history, isLast, result.stopped).run();
   result.attempts = history.steps();
-  if (history.hasResult() ||
-    !simplifyRest(settled, sized, options, store, sized.stages, result.reused))
+  if (history.hasResult() || isLast)
+  {
+    return;
+  }
+  const bool isOther = simplifyRest(settled, sized, options, store, sized.stages, result.reused);
+  std::optional<Plan> begin;
+  if (!isOther && settled.status.ok())
+  {
+    // On the same surface all would fail again but the last resort.
+    RunContext& run = settled.bench->run;
+    begin = withoutFeatures(run, firstPlan(run));
+  }
+  if (!settled.status.ok() || (!isOther && !begin))
   {
     return;
   }
@@ -289,8 +401,8 @@ void attemptAll(Settled& settled, SizedSurface& sized, const RemeshOptions& opti
   {
     seconds += record.seconds;
   }
-  history = History(history.work() / 2); // so that both together end in one and a half times
-  makeAttempts(settled.bench->run, history);
+  history = History(bound, history.work(), history.attempts());
+  Attempts(settled.bench->run, history, true, result.stopped).run(std::move(begin));
   sized.stages.add("retries", seconds, 0, 0);
   result.attempts.emplace_back(kFewerDetails);
   result.attempts.insert(result.attempts.end(), history.steps().begin() + 1, history.steps().end());
@@ -328,6 +440,7 @@ void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& o
       const std::size_t bytes = bytesOf(kept->uv);
       store->put(0, std::move(kept), bytes);
     }
+    tellEnd(history, result);
     tellAttempt(history.result(),
       { sized.edgeLength, frame.unit, sized.targetQuads, options.maximumNumberOfQuads }, result);
     takeHistory(history, bench.levels, sized.stages, result);
@@ -415,10 +528,14 @@ template <typename Run>
 RemeshResult remeshWith(const SurfaceInput& input, RemeshOptions options, const Run& run)
 {
   checkOptions(options);
-  PollScope poll(options.progress);
+  RemeshResult result;
+  // What is left to do after a stop that has kept quads is short, and does not ask again.
+  const ProgressCallback asked = options.progress;
+  PollScope poll(!asked ? ProgressCallback()
+                        : [&](double fraction, const std::string& text)
+      { return !result.stopped.empty() || asked(fraction, text); });
   options.progress = poll.callback();
   PlaceScope places;
-  RemeshResult result;
   try
   {
     const std::size_t triangles = countTriangles(input);

@@ -30,6 +30,9 @@ namespace quadrille
 struct RemeshResult
 {
   Status status;
+  /// Where the callback asked to stop and there were quads by then, which are the result with status ok: what was still
+  /// being tried. Another run may end with others, so who remembers results must not take it for the final one.
+  std::string stopped;
   QuadMesh quads; ///< of a preview without all that tells of the mapped mesh, which is then missing
   PreparedSurface
     surface; ///< the finest level that uv belongs to; its hash is that of the surface in its frame
@@ -82,7 +85,8 @@ struct RemeshResult
 
 /// Runs everything, in coordinates of its own (see Mesh/Frame.h): of a surface that is shifted, scaled or mirrored it
 /// makes the same quads, shifted, scaled or mirrored, up to rounding. Throws InvalidInput for bad input or options; any
-/// other failure, cancel included, is a status and leaves `quads` empty. The input's memory (about 30 bytes a triangle)
+/// other failure, a stop before there are quads included, is a status and leaves `quads` empty; a stop later keeps the
+/// best quads so far, see RemeshResult::stopped. The input's memory (about 30 bytes a triangle)
 /// is let go as soon as the surface is prepared: move it in where it is not needed any more.
 RemeshResult remesh(SurfaceInput input, const RemeshOptions& options);
 

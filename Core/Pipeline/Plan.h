@@ -52,6 +52,8 @@ struct Plan
   const char* step =
     "first"; ///< what made it of the one before, a name of the table in Recovery.cpp
 
+  std::string why; ///< what was wrong with the attempt before, for the progress text
+
   LevelPlan levels;
   /// Of the next round: without what was kept for the sake of the map on the surface, but with all that the coarse map
   /// could not do without, so that another round need not find that out again.

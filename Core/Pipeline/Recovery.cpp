@@ -30,6 +30,35 @@ constexpr std::array<Strategy, 3> kForRounds{ {
   { "fewer features", kMostFeatureDrops, fewerFeatures },
 } };
 
+/// Where no round has quads and none of the others is left, or may be tried any more.
+constexpr std::array<Strategy, 1> kLastResort{ {
+  { kNoFeatures, 1, noFeatures },
+} };
+
+/// What is wrong with an attempt, in a few words.
+std::string whyNotGood(const Attempt& attempt)
+{
+  const MapAttempt& map = *attempt.map;
+  if (map.isInterrupted)
+  {
+    return "the map took too long";
+  }
+  if (!map.status.ok())
+  {
+    return "no valid map of the coarse level";
+  }
+  if (attempt.quads && !attempt.quads->status.ok())
+  {
+    return "no valid quads";
+  }
+  if (attempt.quads)
+  {
+    return std::to_string(attempt.quads->invertedQuads) + " quads inverted";
+  }
+  return map.defects() > 0 ? std::to_string(map.defects()) + " defects of the map"
+                           : "curves that are not met";
+}
+
 template <typename Strategies>
 std::optional<Plan> firstOffer(const Strategies& strategies, Trouble& trouble)
 {
@@ -39,6 +68,7 @@ std::optional<Plan> firstOffer(const Strategies& strategies, Trouble& trouble)
     if (std::optional<Plan> plan = strategy.next(trouble))
     {
       plan->step = strategy.name;
+      plan->why = whyNotGood(trouble.attempt);
       return plan;
     }
   }
@@ -57,13 +87,13 @@ std::optional<Plan> nextMapPlan(RunContext& run, const History& history)
   return firstOffer(kForMaps, trouble);
 }
 
-std::optional<Plan> nextPlan(RunContext& run, const History& history)
+std::optional<Plan> nextPlan(RunContext& run, const History& history, bool isLast)
 {
   const Attempt& attempt = history.last();
   const bool mapped = attempt.map->status.ok();
   const bool hasQuads = attempt.quads && attempt.quads->status.ok();
-  if (history.isSpent() || (!hasQuads && run.hasCrowd) ||
-    (mapped && isRounded(run.options.method)) || (hasQuads && !attempt.quads->invertedAtFolds))
+  if ((!hasQuads && run.hasCrowd) || (mapped && isRounded(run.options.method)) ||
+    (hasQuads && !attempt.quads->invertedAtFolds))
   {
     return std::nullopt;
   }
@@ -75,7 +105,12 @@ std::optional<Plan> nextPlan(RunContext& run, const History& history)
   {
     trouble.grid = gridTroubles(run, *attempt.map);
   }
-  return firstOffer(kForRounds, trouble);
+  std::optional<Plan> plan;
+  if (!history.isSpent())
+  {
+    plan = firstOffer(kForRounds, trouble);
+  }
+  return plan || !isLast || history.hasResult() ? plan : firstOffer(kLastResort, trouble);
 }
 
 std::vector<std::string> recoverySteps()
@@ -87,6 +122,10 @@ std::vector<std::string> recoverySteps()
     names.emplace_back(strategy.name);
   }
   for (const Strategy& strategy : kForRounds)
+  {
+    names.emplace_back(strategy.name);
+  }
+  for (const Strategy& strategy : kLastResort)
   {
     names.emplace_back(strategy.name);
   }

@@ -18,8 +18,9 @@ namespace quadrille
 /// Another map in this round, before quads are made; none where the last one is good, or another would not be better.
 std::optional<Plan> nextMapPlan(RunContext& run, const History& history);
 
-/// Another round; none where the quads are good, or another would not be better.
-std::optional<Plan> nextPlan(RunContext& run, const History& history);
+/// Another round; none where the quads are good, or another would not be better. isLast: nothing else follows where
+/// there are no quads, so that the last resort is tried, too, whatever the work.
+std::optional<Plan> nextPlan(RunContext& run, const History& history, bool isLast = true);
 
 /// Of the plans of a run, the names of the steps that made them, in the order in which they are tried.
 std::vector<std::string> recoverySteps();

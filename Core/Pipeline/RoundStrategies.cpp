@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Mesh/FeatureFilter.h"
+#include "Mesh/Guides.h"
 #include "Mesh/Sizing.h"
 #include "Pipeline/FirstPlan.h"
 
@@ -205,6 +206,53 @@ std::optional<Plan> fewerFeatures(const Trouble& trouble)
   plan.notices.push_back(std::to_string(features.size()) + " sharp edges" + nearText(places) +
     " leave no room for quads of this edge length and were not used as features");
   return plan;
+}
+
+std::optional<Plan> withoutFeatures(RunContext& run, const Plan& before)
+{
+  run.surface.apply(before);
+  const Mesh& mesh = run.surface->mesh;
+  auto givenUp = before.featuresGivenUp
+    ? std::make_shared<std::vector<Index>>(*before.featuresGivenUp)
+    : std::make_shared<std::vector<Index>>();
+  const std::size_t known = givenUp->size();
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (isDetectedFeature(mesh, h))
+    {
+      givenUp->push_back(h);
+    }
+  }
+  if (givenUp->size() == known)
+  {
+    return std::nullopt;
+  }
+  // From the beginning: what was kept and made smaller was for the sake of the features.
+  Plan plan = withoutShrinks(before);
+  plan.finer = {};
+  plan.levels = {};
+  plan.levels.keptVertices = keptVertices(*run.surface);
+  plan.levels.coarseVertices = run.options.coarseVertices;
+  plan.nextLevels = plan.levels;
+  plan.quads = quadsFor(run, plan, 0);
+  plan.featureDrops = static_cast<int>(kMostFeatureDrops);
+  plan.notices.push_back("with features no attempt has led to quads: all " +
+    std::to_string(givenUp->size()) +
+    " sharp edges that were found by their angle were not used as features; ask for smaller "
+    "quads, or mark the edges that are to stay");
+  plan.featuresGivenUp = std::move(givenUp);
+  plan.step = kNoFeatures;
+  return plan;
+}
+
+std::optional<Plan> noFeatures(const Trouble& trouble)
+{
+  const std::vector<std::string>& steps = trouble.history.steps();
+  const auto times = std::count(steps.begin(), steps.end(), kNoFeatures);
+  return static_cast<std::size_t>(times) >= trouble.bound ||
+      trouble.attempt.map->status.code == StatusCode::TooLarge
+    ? std::nullopt
+    : withoutFeatures(trouble.run, trouble.attempt.plan);
 }
 
 } // namespace quadrille

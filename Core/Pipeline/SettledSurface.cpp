@@ -114,6 +114,11 @@ struct JudgedPossible
 {
 };
 
+bool isSimplified(const SmallDetail& detail)
+{
+  return detail.decision == DetailDecision::Simplify;
+}
+
 const char* whatBecomes(DetailKind kind)
 {
   return kind == DetailKind::Handle ? "cut and closed" : "filled";
@@ -496,19 +501,21 @@ Settled settleDetails(SizedSurface& sized, const RemeshOptions& options, ResultS
   return Settling(sized, options, store, false, stages, reused).run();
 }
 
+bool hasRest(const Settled& settled, const RemeshOptions& options)
+{
+  return options.smallDetails == SmallDetails::Automatic && maySimplify(options) &&
+    !std::all_of(settled.details.begin(), settled.details.end(), isSimplified);
+}
+
 bool simplifyRest(Settled& settled, SizedSurface& sized, const RemeshOptions& options,
   ResultStore* store, StageRecords& stages, std::vector<std::string>& reused)
 {
-  const auto isSimplified = [](const SmallDetail& detail)
-  { return detail.decision == DetailDecision::Simplify; };
   std::vector<SmallDetail> before = settled.details;
-  const auto rest = std::stable_partition(before.begin(), before.end(), isSimplified);
-  if (options.smallDetails != SmallDetails::Automatic || !maySimplify(options) ||
-    rest == before.end())
+  if (!hasRest(settled, options))
   {
     return false;
   }
-  before.erase(rest, before.end());
+  before.erase(std::stable_partition(before.begin(), before.end(), isSimplified), before.end());
   const int decimations = settled.decimations + settled.bench->levels.decimations();
   settled.bench->surface.apply({}); // of the plan that was tried last
   settled.bench.reset();

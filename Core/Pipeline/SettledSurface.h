@@ -50,6 +50,9 @@ struct Settled
 Settled settleDetails(SizedSurface& sized, const RemeshOptions& options, ResultStore* store,
   StageRecords& stages, std::vector<std::string>& reused);
 
+/// Whether Automatic has left details that simplifyRest would take out.
+bool hasRest(const Settled& settled, const RemeshOptions& options);
+
 /// Where Automatic has left details and no attempt has led to quads: takes them out, too. Where there are such details,
 /// the bench is another one afterwards, of the surface without any plan. False where nothing was taken out, so that no
 /// attempt would end otherwise.

@@ -58,6 +58,14 @@ std::optional<Plan> moreQuads(const Trouble& trouble);
 /// quads are inverted, further round them each time. Bound: times in all.
 std::optional<Plan> fewerFeatures(const Trouble& trouble);
 
+/// Where nothing else has led to quads: all features that only the dihedral angle asked for are given up. Bound: times
+/// in all.
+std::optional<Plan> noFeatures(const Trouble& trouble);
+
+/// The plan of noFeatures; none where there is no such feature.
+constexpr const char* kNoFeatures = "no features";
+std::optional<Plan> withoutFeatures(RunContext& run, const Plan& before);
+
 /// Features that can be given up near the places.
 std::vector<Index> featuresNear(
   const RunContext& run, const Plan& plan, const std::vector<Vector3>& places);

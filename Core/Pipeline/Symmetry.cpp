@@ -185,16 +185,24 @@ private:
 SymmetricResult remeshSymmetric(SurfaceInput input, const RemeshOptions& options,
   const SymmetryOptions& symmetry, ResultStore* store)
 {
-  PollScope poll(options.progress);
+  std::unique_ptr<CopiedRun> run;
+  // What is left to do after a stop that has kept the quads of the part is short, and does not ask again.
+  PollScope poll(!options.progress ? ProgressCallback()
+                                   : [&](double fraction, const std::string& text)
+      { return (run && run->isStopped()) || options.progress(fraction, text); });
   RemeshOptions ownOptions = options;
   ownOptions.progress = poll.callback();
   try
   {
     if (symmetry.rotation)
     {
-      return RotationRun(ownOptions, *symmetry.rotation, store).run(input);
+      run = std::make_unique<RotationRun>(ownOptions, *symmetry.rotation, store);
     }
-    return MirrorRun(ownOptions, symmetry.plane, store).run(input);
+    else
+    {
+      run = std::make_unique<MirrorRun>(ownOptions, symmetry.plane, store);
+    }
+    return run->run(input);
   }
   catch (const Cancelled&)
   {

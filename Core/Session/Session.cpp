@@ -117,6 +117,7 @@ public:
       return nullptr;
     }
     report.status = made.status;
+    report.stopped = made.stopped;
     report.notices = composed_.notices;
     report.notices.insert(report.notices.end(), made.notices.begin(), made.notices.end());
     report.stages = stages_.all();
@@ -168,6 +169,12 @@ private:
 
   RemeshResult runWith(const std::map<int, std::string>& leftOut)
   {
+    if (wasStopped_)
+    {
+      RemeshResult none;
+      none.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+      return none;
+    }
     compose(leftOut);
     mirrored_ = {};
     std::optional<RemeshResult> symmetric;
@@ -176,6 +183,7 @@ private:
       symmetric = runSymmetric(leftOut);
     }
     RemeshResult made = symmetric ? std::move(*symmetric) : runQuads();
+    wasStopped_ = made.status.code == StatusCode::Cancelled || !made.stopped.empty();
     for (const StageRecord& record : made.stages)
     {
       stages_.add(record.stage, record.seconds, record.elementsIn, record.elementsOut);
@@ -301,6 +309,7 @@ private:
   std::map<int, std::string> refused_; ///< symmetries that the surface has not, and why
   StageRecords stages_;
   Status stopped_;
+  bool wasStopped_ = false; ///< no run may follow
   int runs_ = 0;
 };
 
@@ -637,7 +646,7 @@ int Session::add(ConstraintContent content)
   if (auto* edit = std::get_if<IrregularEdit>(&constraint.content))
   {
     update();
-    const std::shared_ptr<const SessionResult> now = result();
+    const std::shared_ptr<const SessionResult> now = data_->resultOf(data_->now());
     if (!now || !now->report.status.ok())
     {
       refuse(name, " needs quads whose irregular vertices it changes, but there are none: ",
@@ -706,6 +715,13 @@ const SessionReport& Session::update()
   StateRun run(*data_, state);
   if (const auto made = run.run())
   {
+    data_->soFar.reset();
+    if (!made->report.stopped.empty())
+    {
+      data_->soFar = made;
+      data_->stateOfSoFar = state.key();
+      return made->report;
+    }
     data_->keep(state, made);
     return made->report;
   }
@@ -716,7 +732,9 @@ const SessionReport& Session::update()
 
 std::shared_ptr<const SessionResult> Session::result() const
 {
-  return data_->resultOf(data_->now());
+  const SessionState& now = data_->now();
+  const auto found = data_->resultOf(now);
+  return !found && data_->soFar && data_->stateOfSoFar == now.key() ? data_->soFar : found;
 }
 
 SessionResult Session::preview()

@@ -39,6 +39,9 @@ struct SessionReport
   std::vector<std::string> reused; ///< stages whose results were there; "all": nothing was to do
   /// Of the pipeline: none where nothing was to do, more than one where constraints had to be left out.
   int runs = 0;
+  /// Stopped with the best quads so far, see RemeshResult::stopped: what was still being tried. The next update makes
+  /// the state's result.
+  std::string stopped;
   double seconds = 0;
   std::vector<std::string> notices;
   std::vector<ConstraintReport> constraints; ///< in the order of the session
@@ -124,10 +127,11 @@ public:
   void remove(int id);
   const std::vector<std::shared_ptr<const SessionConstraint>>& constraints() const;
 
-  /// Makes what is not there. A failure of the run is the report's status; a stop on request leaves the state without a
-  /// result. Throws InvalidInput for what checkOptions and the surface do not allow.
+  /// Makes what is not there. A failure of the run is the report's status. A stop on request leaves the state with the
+  /// best quads so far, where there are any by then, until another update makes its result; else without one. Throws InvalidInput for what checkOptions and the surface do not allow.
   const SessionReport& update();
-  /// Of the present state; null before its update.
+  /// Of the present state; null before its update. After a stop it may be that of the best quads so far, which its report
+  /// tells.
   std::shared_ptr<const SessionResult> result() const;
   /// Quads of the present state from the intermediate level, see RemeshOptions::preview, with a report that has no
   /// words on constraints; no irregular vertices. They are not the state's result, but an update() afterwards starts

@@ -63,6 +63,9 @@ struct SessionData
   ResultStore store;
   LinePlacements lines;
   SessionReport stopped; ///< of an update that was
+  /// Of one that was stopped with quads, and the key of its state; they count until that has a result.
+  std::shared_ptr<SessionResult> soFar;
+  std::string stateOfSoFar;
 
   struct Kept
   {

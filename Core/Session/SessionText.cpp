@@ -99,6 +99,7 @@ std::string reportText(const SessionReport& report)
   }
   json["reused"] = report.reused;
   json["runs"] = report.runs;
+  json["stopped"] = report.stopped;
   json["seconds"] = report.seconds;
   json["notices"] = report.notices;
   json["constraints"] = SessionJson::array();

@@ -262,7 +262,7 @@ def _finish(run):
     run.Update()
     if run.GetOutcome() == vtkQuadRemesh.BadInput:
         raise InvalidInput(run.GetOutcomeText())
-    if run.GetOutcome() != vtkQuadRemesh.Succeeded:
+    if run.GetOutcome() != vtkQuadRemesh.Succeeded and not run.GetIsSoFar():
         raise RemeshError(run.GetOutcomeText() or "no quads were made")
 
 

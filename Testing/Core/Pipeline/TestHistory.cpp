@@ -197,17 +197,68 @@ TEST(History, StepsAndOffendersAreThoseOfTheRound)
   EXPECT_EQ(history.offendersBefore(), 0U);
 }
 
+WorkBound boundOf(std::size_t work)
+{
+  WorkBound bound;
+  bound.work = work;
+  bound.ofMap = 2 * work;
+  bound.ofAttempt = 10;
+  bound.attempts = 5;
+  return bound;
+}
+
+std::shared_ptr<MapAttempt> ofWork(std::shared_ptr<MapAttempt> map, std::size_t work)
+{
+  map->work = work;
+  return map;
+}
+
 TEST(History, IsSpentByTheWorkOfAllRounds)
 {
-  History history;
-  const auto first = failedMap(), second = carriedMap(1), third = carriedMap(1);
-  first->work = kMaximumWork / 2;
-  second->work = kMaximumWork - first->work - 1;
-  third->work = 1;
-  history.addMap(planOf("first"), first);
-  addRound(history, planOf("more freedom"), second, quadsWith(1));
+  History history(boundOf(1000));
+  addRound(history, planOf("first"), ofWork(failedMap(), 489), nullptr);
   EXPECT_FALSE(history.isSpent());
-  history.addMap(planOf("fewer features"), third);
+  addRound(history, planOf("fewer features"), ofWork(failedMap(), 490), nullptr);
+  EXPECT_EQ(history.work(), 999U); // with what attempts take beside their maps
+  EXPECT_FALSE(history.isSpent());
+  addRound(history, planOf("fewer features"), ofWork(failedMap(), 0), nullptr);
+  EXPECT_TRUE(history.isSpent());
+}
+
+TEST(History, WithQuadsAnotherAttemptHasToFit)
+{
+  for (const std::size_t work : { 489U, 490U })
+  {
+    History history(boundOf(1000));
+    addRound(history, planOf("first"), ofWork(carriedMap(1), work), quadsWith(1));
+    EXPECT_EQ(history.isSpent(), work == 490U);
+    EXPECT_EQ(history.allowance(), 1000 - work - 10);
+    // Those before count, too.
+    EXPECT_TRUE(History(boundOf(1000), 1000).isSpent());
+    EXPECT_EQ(History(boundOf(1000), 600).allowance(), 2000U);
+  }
+}
+
+TEST(History, AMapThatQuadsCanBeMadeOfCountsAsQuads)
+{
+  History history(boundOf(1000));
+  EXPECT_EQ(history.allowance(), 2000U);
+  history.addMap(planOf("first"), ofWork(failedMap(), 690));
+  EXPECT_EQ(history.allowance(), 2000U);
+  EXPECT_FALSE(history.isSpent());
+  history.addMap(planOf("more freedom"), ofWork(carriedMap(1), 190));
+  EXPECT_EQ(history.allowance(), 100U);
+  EXPECT_TRUE(history.isSpent()); // another one like it would take 200
+}
+
+TEST(History, IsSpentByTheNumberOfAttempts)
+{
+  History history(boundOf(1000), 0, 3);
+  EXPECT_EQ(history.attempts(), 3U);
+  addRound(history, planOf("first"), failedMap(), nullptr);
+  EXPECT_FALSE(history.isSpent());
+  addRound(history, planOf("fewer features"), failedMap(), nullptr);
+  EXPECT_EQ(history.attempts(), 5U);
   EXPECT_TRUE(history.isSpent());
 }
 

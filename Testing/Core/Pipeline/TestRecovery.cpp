@@ -139,7 +139,7 @@ TEST(Recovery, StepsAreTriedInThisOrder)
 {
   EXPECT_EQ(recoverySteps(),
     std::vector<std::string>({ "more freedom", "room for curves", "kept offenders",
-      "smaller quads near", "more quads", "fewer features" }));
+      "smaller quads near", "more quads", "fewer features", "no features" }));
 }
 
 // The plan that a run begins with.
@@ -895,15 +895,74 @@ TEST(Recovery, GoodQuadsNeedNothing)
 TEST(Recovery, NothingIsTriedOnceTheWorkIsSpent)
 {
   CubeRun run;
-  for (const std::size_t work : { kMaximumWork - 1, kMaximumWork })
+  WorkBound bound;
+  bound.work = 1000;
+  for (const std::size_t work : { 499U, 500U })
   {
     const auto map = mapWithOffenders({ run.onEdge() });
     map->work = work;
-    History history;
+    History history(bound);
     history.addMap(run.first(), map);
-    EXPECT_EQ(nextMapPlan(run.context, history).has_value(), work < kMaximumWork);
-    history.addQuads(failedQuads());
-    EXPECT_EQ(nextPlan(run.context, history).has_value(), work < kMaximumWork);
+    EXPECT_EQ(nextMapPlan(run.context, history).has_value(), 2 * work < 1000);
+    history.addQuads(quadsWith(1));
+    EXPECT_EQ(nextPlan(run.context, history).has_value(), 2 * work < 1000);
+  }
+}
+
+TEST(Recovery, WithoutQuadsTheLastResortIsTriedWhateverTheWork)
+{
+  CubeRun run;
+  WorkBound bound;
+  bound.work = 1000;
+  const auto failed = failedMap();
+  failed->work = 1000;
+  History history(bound);
+  Plan first = run.first();
+  first.levels.keptVertices = { run.inFace() };
+  first.levels.coarseVertices = 7;
+  history.addMap(first, failed);
+  EXPECT_FALSE(nextMapPlan(run.context, history));
+  history.addQuads(nullptr);
+  EXPECT_FALSE(nextPlan(run.context, history, false)); // something else follows
+  const std::optional<Plan> next = nextPlan(run.context, history);
+  expectStep(next, "no features");
+  EXPECT_EQ(next->why, "no valid map of the coarse level");
+  ASSERT_TRUE(next->featuresGivenUp);
+  EXPECT_EQ(next->featuresGivenUp->size(), 12U * 8U); // all edges of the cube
+  EXPECT_EQ(next->levels.keptVertices, run.first().levels.keptVertices);
+  EXPECT_EQ(next->levels.coarseVertices, run.first().levels.coarseVertices);
+  // Once only, and there is nothing left to give up.
+  history.addMap(*next, failed);
+  history.addQuads(nullptr);
+  EXPECT_FALSE(nextPlan(run.context, history));
+}
+
+TEST(Recovery, TheLastResortLeavesFeaturesThatWereAskedFor)
+{
+  CubeRun run;
+  Mesh& mesh = const_cast<Mesh&>(run.mesh());
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    mesh.flags[h] |= mesh.isFeature(h) ? kRequestedFeature : 0;
+  }
+  EXPECT_FALSE(run.nextAfter(run.first(), failedMap()));
+}
+
+TEST(Recovery, AnExpensiveFailureAtNoPlaceIsNoMatterOfFreedom)
+{
+  SphereRun run;
+  WorkBound bound;
+  bound.work = 1000;
+  for (const std::size_t work : { 250U, 251U })
+  {
+    for (const bool hasPlace : { false, true })
+    {
+      const auto map = hasPlace ? failedMap({ 0 }) : failedMap();
+      map->work = work;
+      History history(bound);
+      history.addMap(run.first(), map);
+      EXPECT_EQ(nextMapPlan(run.context, history).has_value(), hasPlace || work == 250U);
+    }
   }
 }
 

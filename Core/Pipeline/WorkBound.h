@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// When a run ends by itself: bounds that follow from the size of the surface and the number of quads, in units of work
+/// (see Base/WorkCount.h), so that they are the same on every machine. How they were measured is in
+/// Documentation/Design/Recovery.md.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+namespace quadrille
+{
+
+struct WorkBound
+{
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  /// No attempt begins beyond it; where there are quads, or a map that they can be made of, one that is under way ends
+  /// there, too.
+  std::size_t work = kNone;
+  /// What the map of one attempt may take where there is neither.
+  std::size_t ofMap = kNone;
+  std::size_t attempts = kNone; ///< that a run makes at most
+  std::size_t ofAttempt =
+    0; ///< what an attempt takes beside its map: levels, the way to the surface, quads
+};
+
+/// Attempts that a run makes at most.
+constexpr std::size_t kMostAttempts = 16;
+
+/// faces: of the surface that is mapped; quads: that the map is made for at first.
+inline WorkBound workBound(std::size_t faces, std::size_t quads)
+{
+  constexpr std::size_t kOfAnyRun = 8000000;
+  constexpr std::size_t kOfFace = 4;
+  constexpr std::size_t kOfQuad = 100;
+  constexpr std::size_t kMapsOverRun = 2;
+  constexpr std::size_t kAttemptOfFace = 1;
+  constexpr std::size_t kAttemptOfQuad = 20;
+  WorkBound bound;
+  bound.work = kOfAnyRun + kOfFace * faces + kOfQuad * quads;
+  bound.ofMap = kMapsOverRun * bound.work;
+  bound.attempts = kMostAttempts;
+  bound.ofAttempt = kAttemptOfFace * faces + kAttemptOfQuad * quads;
+  return bound;
+}
+
+} // namespace quadrille
