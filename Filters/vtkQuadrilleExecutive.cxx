@@ -3,6 +3,7 @@
 #include "vtkQuadrilleExecutive.h"
 
 #include "QuadrilleRanks.h"
+#include "vtkQuadrilleAlgorithm.h"
 
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
@@ -12,6 +13,20 @@ vtkStandardNewMacro(vtkQuadrilleExecutive);
 //------------------------------------------------------------------------------
 vtkQuadrilleExecutive::vtkQuadrilleExecutive() = default;
 vtkQuadrilleExecutive::~vtkQuadrilleExecutive() = default;
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkQuadrilleExecutive::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const vtkTypeBool done = this->Superclass::ProcessRequest(request, inputs, outputs);
+  auto* filter = vtkQuadrilleAlgorithm::SafeDownCast(this->GetAlgorithm());
+  if (request->Has(REQUEST_DATA()) && filter &&
+    filter->GetOutcome() == vtkQuadrilleAlgorithm::Aborted)
+  {
+    this->DataTime = vtkTimeStamp();
+  }
+  return done;
+}
 
 //------------------------------------------------------------------------------
 int vtkQuadrilleExecutive::ForwardUpstream(vtkInformation* request)

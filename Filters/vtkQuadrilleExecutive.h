@@ -23,6 +23,11 @@ public:
   /// Whether something upstream failed in the last request for data.
   vtkGetMacro(UpstreamFailed, bool);
 
+  /// After a stop on request the filter is out of date, so that the next update makes what is missing; VTK's own
+  /// executive takes any execution for one that has brought the outputs up to date.
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
 protected:
   vtkQuadrilleExecutive();
   ~vtkQuadrilleExecutive() override;

@@ -87,7 +87,7 @@ class Session:
         chord_error (None: off), gap_quads, smallest_size, largest_size, curvature_guides (None: off), method, integers,
         coarse_vertices, close_handles, small_details, small_components, anisotropy_limit, final_quality,
         distortion_metric, maximum_number_of_quads, smoothing_steps, warm_start, threads, memory_limit. 5,000 quads
-        where no size is given. progress: called as progress(fraction); False (not None) stops the run."""
+        where no size is given. progress: called as progress(fraction); False (not None) stops the run, see update."""
         if quads is None and edge_length is None and relative_edge_length is None:
             quads = 5000
         self._begin(with_requests(
@@ -257,7 +257,8 @@ class Session:
         """Makes what the present state needs, and returns the report, a dict: "stages" that ran, with their seconds,
         "reused" stages ("all": nothing was to do), "runs", "seconds", "notices", and "constraints", a list of dicts
         with id, kind, text, place, met, deviation, deviation_95, unit and reason. Raises RemeshError where there are no
-        quads."""
+        quads. "stopped" is empty, or says what was being tried when a stop left the best quads so far; the next update
+        makes the result."""
         ok = self._session.Update()
         text = self._session.GetReport()
         self._check(ok)

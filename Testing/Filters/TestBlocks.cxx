@@ -157,6 +157,43 @@ TEST(Blocks, AFailingBlockKeepsItsOwnResult)
   EXPECT_EQ(test::tally(blockOf(filter, 1)).eulerCharacteristic, 0);
 }
 
+TEST(Blocks, AStopTellsWhichBlocksAreDone)
+{
+  vtkNew<vtkMultiBlockDataSet> input;
+  setBlock(input, 0, test::toPolyData(test::torus(40, 20)), "Done");
+  setBlock(input, 1, test::sphereWithoutRoomData(), "So far");
+  setBlock(input, 2, test::toPolyData(test::torus(40, 20)), "Not made");
+  vtkNew<vtkQuadRemesh> filter;
+  const test::Messages messages(filter);
+  filter->SetInputData(input);
+  filter->SetTargetTypeToNumberOfQuads();
+  filter->SetNumberOfQuads(600);
+  {
+    const test::StopAt stop(filter, "Attempt 2 of at most ");
+    filter->Update();
+  }
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Aborted);
+  EXPECT_TRUE(filter->GetIsSoFar());
+  const std::string text = filter->GetOutcomeText();
+  EXPECT_EQ(text.find("Done: "), std::string::npos) << text;
+  EXPECT_NE(
+    text.find("So far: stopped on request; these are the best quads so far"), std::string::npos)
+    << text;
+  EXPECT_NE(text.find("Not made: stopped on request; there is no result"), std::string::npos)
+    << text;
+  EXPECT_GT(blockOf(filter, 0)->GetNumberOfCells(), 0);
+  EXPECT_GT(blockOf(filter, 1)->GetNumberOfCells(), 0);
+  EXPECT_EQ(blockOf(filter, 2)->GetNumberOfCells(), 0);
+  filter->SetAbortExecute(0);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+  EXPECT_FALSE(filter->GetIsSoFar());
+  for (const unsigned block : { 0U, 1U, 2U })
+  {
+    EXPECT_GT(blockOf(filter, block)->GetNumberOfCells(), 0) << block;
+  }
+}
+
 /// Any way to cut a surface gives the same quads, to the bit, and a closed one.
 TEST(Blocks, PiecesOfASurfaceAreOneSurface)
 {

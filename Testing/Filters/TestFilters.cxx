@@ -523,6 +523,52 @@ TEST(QuadRemeshFailure, AbortLeavesTheFilterOutOfDate)
   EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 0);
 }
 
+/// The points of quads, for a comparison.
+std::vector<double> pointsOf(vtkPolyData* quads)
+{
+  std::vector<double> points;
+  for (vtkIdType p = 0; p < quads->GetNumberOfPoints(); ++p)
+  {
+    points.insert(points.end(), quads->GetPoint(p), quads->GetPoint(p) + 3);
+  }
+  return points;
+}
+
+TEST(QuadRemeshFailure, AStopKeepsTheQuadsSoFar)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::sphereWithoutRoomData();
+  vtkNew<vtkQuadRemesh> fresh;
+  run(fresh, input, 300);
+  ASSERT_EQ(fresh->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << fresh->GetOutcomeText();
+  EXPECT_FALSE(fresh->GetIsSoFar());
+  for (const bool keepsLevels : { true, false })
+  {
+    vtkNew<vtkQuadRemesh> filter;
+    filter->SetKeepLevels(keepsLevels);
+    const test::Messages messages(filter);
+    {
+      const test::StopAt stop(filter, "Attempt 2 of at most ");
+      run(filter, input, 300);
+    }
+    EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Aborted);
+    EXPECT_TRUE(filter->GetIsSoFar());
+    EXPECT_NE(std::string(filter->GetOutcomeText()).find("best quads so far"), std::string::npos);
+    EXPECT_NE(std::string(filter->GetNoticesText()).find("stopped on request (Attempt 2"),
+      std::string::npos);
+    EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 200);
+    EXPECT_GT(filter->GetMappedSurface()->GetNumberOfCells(), 0);
+    EXPECT_NE(filter->GetOutput()->GetFieldData()->GetAbstractArray("Stopped"), nullptr);
+    EXPECT_EQ(messages.errors.find("In vtkQuad"), std::string::npos);
+    // The next update is not served with them.
+    filter->SetAbortExecute(0);
+    filter->Update();
+    EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+    EXPECT_FALSE(filter->GetIsSoFar());
+    EXPECT_EQ(filter->GetOutput()->GetFieldData()->GetAbstractArray("Stopped"), nullptr);
+    EXPECT_EQ(pointsOf(filter->GetOutput()), pointsOf(fresh->GetOutput()));
+  }
+}
+
 /// What a filter's outputs hold, for a comparison.
 std::vector<vtkIdType> sizesOf(vtkQuadRemesh* filter)
 {

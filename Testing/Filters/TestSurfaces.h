@@ -3,6 +3,7 @@
 /// Surfaces for the tests of the filters, from the meshes that the tests of Core share.
 #pragma once
 
+#include "SphereWithoutRoom.h"
 #include "TestMeshes.h"
 
 #include "Extraction/Extraction.h"
@@ -13,7 +14,9 @@
 #include <vtkCellArrayIterator.h>
 #include <vtkCommand.h>
 #include <vtkExecutive.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -46,6 +49,65 @@ inline vtkSmartPointer<vtkPolyData> toPolyData(const Mesh& mesh)
   data->SetPolys(polys);
   return data;
 }
+
+/// With the array TargetValence.
+inline vtkSmartPointer<vtkPolyData> sphereWithoutRoomData()
+{
+  const SurfaceInput input = sphereWithoutRoom();
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkIntArray> valences;
+  valences->SetName("TargetValence");
+  for (std::size_t p = 0; p < input.points.size(); ++p)
+  {
+    points->InsertNextPoint(input.points[p].data());
+    valences->InsertNextValue(input.targetValences[p]);
+  }
+  vtkNew<vtkCellArray> polys;
+  for (std::size_t i = 0; i < input.polygonPoints.size(); i += 3)
+  {
+    polys->InsertNextCell({ static_cast<vtkIdType>(input.polygonPoints[i]),
+      static_cast<vtkIdType>(input.polygonPoints[i + 1]),
+      static_cast<vtkIdType>(input.polygonPoints[i + 2]) });
+  }
+  data->SetPoints(points);
+  data->SetPolys(polys);
+  data->GetPointData()->AddArray(valences);
+  return data;
+}
+
+/// Asks to stop once, when the progress text begins so.
+class StopAt
+{
+public:
+  StopAt(vtkAlgorithm* filter, std::string begin) : filter_(filter), begin_(std::move(begin))
+  {
+    command_->SetClientData(this);
+    command_->SetCallback(
+      [](vtkObject*, unsigned long, void* data, void*)
+      {
+        auto* own = static_cast<StopAt*>(data);
+        const char* text = own->filter_->GetProgressText();
+        if (!own->hasStopped_ && text && std::string(text).rfind(own->begin_, 0) == 0)
+        {
+          own->hasStopped_ = true;
+          own->filter_->SetAbortExecute(1);
+        }
+      });
+    tag_ = filter->AddObserver(vtkCommand::ProgressEvent, command_);
+  }
+  ~StopAt() { filter_->RemoveObserver(tag_); }
+  StopAt(const StopAt&) = delete;
+  StopAt& operator=(const StopAt&) = delete;
+
+private:
+  vtkAlgorithm* filter_;
+  std::string begin_;
+  vtkNew<vtkCallbackCommand> command_;
+  unsigned long tag_ = 0;
+  bool hasStopped_ = false;
+};
 
 inline vtkSmartPointer<vtkPolyData> polyline(const std::vector<Vector3>& points)
 {

@@ -5,8 +5,7 @@
 #include "Pipeline/Symmetry.h"
 #include "Pipeline/WorkBound.h"
 
-#include "MeshInput.h"
-#include "TestMeshes.h"
+#include "SphereWithoutRoom.h"
 
 #include <gtest/gtest.h>
 
@@ -18,26 +17,7 @@ namespace quadrille
 namespace
 {
 
-/// A sphere with a vertex of three triangles that is to become one of seven quads: each triangle has less than two
-/// right angles, so three have room for five quads at most. The coarse level has a map, that of the surface has folds
-/// there whatever is tried.
-SurfaceInput sphereWithoutRoom()
-{
-  SurfaceInput input = test::toInput(test::sphere(3));
-  const Index middle = static_cast<Index>(input.points.size());
-  const std::array<Index, 3> t{ input.polygonPoints[0], input.polygonPoints[1],
-    input.polygonPoints[2] };
-  input.points.push_back((input.points[t[0]] + input.points[t[1]] + input.points[t[2]]) / 3);
-  input.polygonPoints[2] = middle;
-  for (const std::size_t i : { 1U, 2U })
-  {
-    input.polygonPoints.insert(input.polygonPoints.end(), { t[i], t[(i + 1) % 3], middle });
-    input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
-  }
-  input.targetValences.assign(input.points.size(), 0);
-  input.targetValences[middle] = 7;
-  return input;
-}
+using test::sphereWithoutRoom;
 
 RemeshOptions optionsOf(std::size_t quads)
 {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// States of a session, and what is made for them.
 #include "SessionHelpers.h"
+#include "SphereWithoutRoom.h"
 
 #include "Extraction/QuadChains.h"
 
@@ -348,6 +349,44 @@ TEST(Session, AStopLeavesNoResult)
   EXPECT_FALSE(session.result());
   session.setProgress({});
   EXPECT_TRUE(session.update().status.ok());
+}
+
+TEST(Session, AStopKeepsTheQuadsSoFarUntilTheNextUpdate)
+{
+  Session fresh(test::sphereWithoutRoom(), sessionOptions(300));
+  ASSERT_TRUE(fresh.update().status.ok());
+  ASSERT_TRUE(fresh.update().stopped.empty());
+
+  Session session(test::sphereWithoutRoom(), sessionOptions(300));
+  bool isOver = false;
+  session.setProgress(
+    [&](double, const std::string& text)
+    {
+      isOver = isOver || text.rfind("Attempt 2", 0) == 0;
+      return !isOver;
+    });
+  const SessionReport& report = session.update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  EXPECT_EQ(report.stopped.rfind("Attempt 2", 0), 0U) << report.stopped;
+  ASSERT_TRUE(session.result());
+  EXPECT_GT(session.result()->quads.quads.size(), 200U);
+  // A change of the state has none.
+  RemeshOptions other = session.settings();
+  other.quads = 350;
+  session.setSettings(other);
+  EXPECT_FALSE(session.result());
+  ASSERT_TRUE(session.undo());
+  EXPECT_TRUE(session.result());
+  // An operation on irregular vertices needs the result itself.
+  IrregularEdit edit;
+  edit.operation = IrregularOperation::Move;
+  edit.points = { { 1, 0, 0 }, { 0, 1, 0 } };
+  isOver = false;
+  EXPECT_THROW(session.add(edit), InvalidInput);
+
+  session.setProgress({});
+  EXPECT_TRUE(session.update().stopped.empty());
+  EXPECT_TRUE(areSame(session.result()->quads, fresh.result()->quads));
 }
 
 TEST(Session, RefusesWhatCannotBe)
