@@ -19,9 +19,9 @@ namespace
 constexpr double kLeastGain = 1e-7;
 /// Sweeps over all half-edges with one length of step; they end by themselves long before.
 constexpr int kMaximumSweeps = 100;
-/// Steps of the repairs at all scales, a face; each one's own bound is a quarter of it. What fails at four scales in
-/// full fails at the others, too.
-constexpr std::size_t kMostStepsOfScales = 20000;
+/// Steps of the repairs at all scales, a face; each one's own bound is half of it. What fails at two scales in full
+/// fails at the others, too.
+constexpr std::size_t kMostStepsOfScales = 10000;
 /// Rounds of improvement with a new triangulation each.
 constexpr int kMaximumRounds = 6;
 
@@ -591,11 +591,12 @@ IntegerStart repairIntegers(IntegerMap& map)
   IntegerStart start;
   StripSearch search(map, StripCost::Repair);
   const bool closed = closeTriangles(map, search);
+  start.steps = search.work();
   if (closed)
   {
     Repair repair(map);
     start.valid = repair.run() && map.isValid();
-    start.steps = repair.steps();
+    start.steps += repair.steps();
   }
   if (start.valid && map.shortageOfLoops() > 0)
   {

@@ -14,7 +14,7 @@ struct IntegerStart
 {
   bool valid = false;
   double scale = 1;      ///< of the wanted displacements, at which the map became valid
-  std::size_t steps = 0; ///< StripSearch::work of the repairs
+  std::size_t steps = 0; ///< StripSearch::work of closing and repairs
 };
 
 /// Rounds, closes and repairs at scales that grow from `scale` by sqrt 2 up to maximumScale until valid.

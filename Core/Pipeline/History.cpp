@@ -71,7 +71,14 @@ void History::packMaps(const Mesh& surface)
 
 bool History::isSpent() const
 {
-  return attempts() >= bound_.attempts || work_ + (hasSomething() ? workOfLast_ : 0) >= bound_.work;
+  return attempts() + bound_.attemptsOfLastResort >= bound_.attempts ||
+    work_ + (hasSomething() ? workOfLast_ : 0) >= bound_.work;
+}
+
+void History::beginLastResort()
+{
+  bound_.attemptsOfLastResort = 0;
+  bound_.work = std::max(bound_.work, work_ + bound_.workOfLastResort);
 }
 
 std::size_t History::allowance() const

@@ -56,6 +56,8 @@ public:
   /// Whether no attempt may begin any more. Where there are quads, or a map that they can be made of, one that would
   /// take as much as the last one has to fit into the bound.
   bool isSpent() const;
+  /// From now on what was reserved for the last resort may be spent.
+  void beginLastResort();
   /// What the map of the next attempt may take.
   std::size_t allowance() const;
   /// Of all attempts, the first one's "first".

@@ -140,6 +140,10 @@ private:
           std::to_string(history_.bound().attempts) + ", " + plan->step +
           (plan->why.empty() ? "" : " (" + plan->why + ")");
       }
+      if (plan->step == std::string(kNoFeatures))
+      {
+        history_.beginLastResort();
+      }
       history_.packMaps(run_.surface->mesh);
       history_.addMap(*plan, makeMap(run_, *plan, history_.allowance()));
       plan = nextMapPlan(run_, history_);
@@ -362,6 +366,7 @@ WorkBound boundBeforeRest(WorkBound bound)
 {
   bound.work = bound.work / 3 * 2;
   bound.attempts = bound.attempts / 3 * 2;
+  bound.attemptsOfLastResort = 0;
   return bound;
 }
 

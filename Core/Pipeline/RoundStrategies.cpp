@@ -51,6 +51,13 @@ std::string nearText(const std::vector<Vector3>& places)
   return " near " + placeText(places.front()) + (places.size() > 1 ? " and other places" : "");
 }
 
+/// Whether a limit of the user stands in the way, which features have no part in.
+bool isTooLarge(const Attempt& attempt)
+{
+  return attempt.map->status.code == StatusCode::TooLarge ||
+    (attempt.quads && attempt.quads->status.code == StatusCode::TooLarge);
+}
+
 /// Where an earlier round has quads, of which some are inverted, a finer grid would cost more than it gives.
 bool asksForFinerGrid(const Trouble& trouble)
 {
@@ -179,8 +186,6 @@ std::optional<Plan> fewerFeatures(const Trouble& trouble)
 {
   RunContext& run = trouble.run;
   const Attempt& attempt = trouble.attempt;
-  const bool tooLarge = attempt.map->status.code == StatusCode::TooLarge ||
-    (attempt.quads && attempt.quads->status.code == StatusCode::TooLarge);
   std::vector<Vector3> places = trouble.places;
   Plan plan = newRound(attempt.plan);
   if (trouble.failed)
@@ -194,7 +199,7 @@ std::optional<Plan> fewerFeatures(const Trouble& trouble)
     plan.quads = quadsFor(run, plan, 0);
   }
   const std::vector<Index> features = featuresNear(run, plan, places);
-  if (tooLarge || features.empty())
+  if (isTooLarge(attempt) || features.empty())
   {
     return std::nullopt;
   }
@@ -249,8 +254,7 @@ std::optional<Plan> noFeatures(const Trouble& trouble)
 {
   const std::vector<std::string>& steps = trouble.history.steps();
   const auto times = std::count(steps.begin(), steps.end(), kNoFeatures);
-  return static_cast<std::size_t>(times) >= trouble.bound ||
-      trouble.attempt.map->status.code == StatusCode::TooLarge
+  return static_cast<std::size_t>(times) >= trouble.bound || isTooLarge(trouble.attempt)
     ? std::nullopt
     : withoutFeatures(trouble.run, trouble.attempt.plan);
 }

@@ -21,6 +21,9 @@ struct WorkBound
   /// What the map of one attempt may take where there is neither.
   std::size_t ofMap = kNone;
   std::size_t attempts = kNone; ///< that a run makes at most
+  // Of these, for the attempt that is the last resort and those after it; work as many units more than was done before.
+  std::size_t attemptsOfLastResort = 0;
+  std::size_t workOfLastResort = 0;
   std::size_t ofAttempt =
     0; ///< what an attempt takes beside its map: levels, the way to the surface, quads
 };
@@ -35,12 +38,15 @@ inline WorkBound workBound(std::size_t faces, std::size_t quads)
   constexpr std::size_t kOfFace = 4;
   constexpr std::size_t kOfQuad = 100;
   constexpr std::size_t kMapsOverRun = 2;
+  constexpr std::size_t kAttemptsOfLastResort = 4;
   constexpr std::size_t kAttemptOfFace = 1;
   constexpr std::size_t kAttemptOfQuad = 20;
   WorkBound bound;
   bound.work = kOfAnyRun + kOfFace * faces + kOfQuad * quads;
   bound.ofMap = kMapsOverRun * bound.work;
   bound.attempts = kMostAttempts;
+  bound.attemptsOfLastResort = kAttemptsOfLastResort;
+  bound.workOfLastResort = bound.work / 2;
   bound.ofAttempt = kAttemptOfFace * faces + kAttemptOfQuad * quads;
   return bound;
 }

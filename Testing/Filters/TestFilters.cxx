@@ -524,7 +524,7 @@ TEST(QuadRemeshFailure, AbortLeavesTheFilterOutOfDate)
 }
 
 /// The points of quads, for a comparison.
-std::vector<double> pointsOf(vtkPolyData* quads)
+std::vector<double> coordinatesOf(vtkPolyData* quads)
 {
   std::vector<double> points;
   for (vtkIdType p = 0; p < quads->GetNumberOfPoints(); ++p)
@@ -565,7 +565,7 @@ TEST(QuadRemeshFailure, AStopKeepsTheQuadsSoFar)
     EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
     EXPECT_FALSE(filter->GetIsSoFar());
     EXPECT_EQ(filter->GetOutput()->GetFieldData()->GetAbstractArray("Stopped"), nullptr);
-    EXPECT_EQ(pointsOf(filter->GetOutput()), pointsOf(fresh->GetOutput()));
+    EXPECT_EQ(coordinatesOf(filter->GetOutput()), coordinatesOf(fresh->GetOutput()));
   }
 }
 

@@ -43,6 +43,41 @@ def hexahedra():
     return grid
 
 
+def sphere_without_room():
+    """Points, faces and target valences of a sphere with a vertex of three triangles that is to have seven quads, which
+    no attempt has room for."""
+    source = vtkSphereSource()
+    source.SetThetaResolution(24)
+    source.SetPhiResolution(24)
+    source.Update()
+    points, faces = quadrille.to_arrays(source.GetOutput())
+    face = faces[len(faces) // 2]
+    middle = len(points)
+    points = numpy.concatenate((points, points[face].mean(axis=0, keepdims=True)))
+    star = [[face[i], face[(i + 1) % 3], middle] for i in range(3)]
+    faces = numpy.concatenate((numpy.delete(faces, len(faces) // 2, axis=0), star))
+    return points, faces, {middle: 7}
+
+
+class Stops(unittest.TestCase):
+    def test_a_stop_keeps_the_quads_so_far(self):
+        points, faces, valences = sphere_without_room()
+
+        def until_second(fraction, text):
+            return not text.startswith("Attempt 2 of at most ")
+
+        quads = quadrille.remesh((points, faces), quads=300, target_valence=valences, progress=until_second)
+        self.assertGreater(quads.GetNumberOfPolys(), 200)
+        self.assertTrue(quadrille.info(quads)["Stopped"].startswith("Attempt 2 of at most "))
+        whole = quadrille.remesh((points, faces), quads=300, target_valence=valences)
+        self.assertNotIn("Stopped", quadrille.info(whole))
+
+    def test_a_stop_before_there_are_any_is_an_error(self):
+        points, faces = plate()
+        with self.assertRaisesRegex(quadrille.RemeshError, "stopped"):
+            quadrille.remesh((points, faces), quads=150, progress=lambda fraction, text: False)
+
+
 class Mesh(unittest.TestCase):
     def setUp(self):
         self.points, self.faces = plate()

@@ -253,6 +253,9 @@ class SessionTest(unittest.TestCase):
         with self.assertRaisesRegex(quadrille.RemeshError, "stopped"):
             made.update()
 
+    def test_reports_tell_no_stop_where_there_was_none(self):
+        self.assertEqual(session().update()["stopped"], "")
+
     def test_what_is_wrong_is_named(self):
         for more, text in (({"quads": 0}, "quads"), ({"featureangle": 3}, "featureangle"),
                            ({"method": "best"}, "method"), ({"feature_angle": 200}, "feature_angle")):

@@ -203,7 +203,9 @@ WorkBound boundOf(std::size_t work)
   bound.work = work;
   bound.ofMap = 2 * work;
   bound.ofAttempt = 10;
-  bound.attempts = 5;
+  bound.attempts = 8;
+  bound.attemptsOfLastResort = 4;
+  bound.workOfLastResort = 500;
   return bound;
 }
 
@@ -253,12 +255,26 @@ TEST(History, AMapThatQuadsCanBeMadeOfCountsAsQuads)
 
 TEST(History, IsSpentByTheNumberOfAttempts)
 {
-  History history(boundOf(1000), 0, 3);
-  EXPECT_EQ(history.attempts(), 3U);
+  History history(boundOf(1000), 0, 2);
+  EXPECT_EQ(history.attempts(), 2U);
   addRound(history, planOf("first"), failedMap(), nullptr);
   EXPECT_FALSE(history.isSpent());
   addRound(history, planOf("fewer features"), failedMap(), nullptr);
-  EXPECT_EQ(history.attempts(), 5U);
+  // Four are left for the last resort.
+  EXPECT_EQ(history.attempts(), 4U);
+  EXPECT_TRUE(history.isSpent());
+  history.beginLastResort();
+  EXPECT_FALSE(history.isSpent());
+}
+
+TEST(History, TheLastResortHasWorkOfItsOwn)
+{
+  History history(boundOf(1000), 2000);
+  EXPECT_TRUE(history.isSpent());
+  history.beginLastResort();
+  addRound(history, planOf("no features"), ofWork(failedMap(), 240), nullptr);
+  EXPECT_FALSE(history.isSpent());
+  addRound(history, planOf("smaller quads near"), ofWork(failedMap(), 240), nullptr);
   EXPECT_TRUE(history.isSpent());
 }
 

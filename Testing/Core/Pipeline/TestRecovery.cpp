@@ -55,12 +55,12 @@ struct TestRun
   Plan first() { return firstPlan(context); }
   /// After a round of this map only, and its quads.
   std::optional<Plan> nextAfter(const Plan& plan, const std::shared_ptr<MapAttempt>& map,
-    std::shared_ptr<const QuadAttempt> quads = nullptr)
+    std::shared_ptr<const QuadAttempt> quads = nullptr, bool isLast = false)
   {
     History history;
     history.addMap(plan, map);
     history.addQuads(std::move(quads));
-    return nextPlan(context, history);
+    return nextPlan(context, history, isLast);
   }
 
   RemeshOptions options;
@@ -945,7 +945,14 @@ TEST(Recovery, TheLastResortLeavesFeaturesThatWereAskedFor)
   {
     mesh.flags[h] |= mesh.isFeature(h) ? kRequestedFeature : 0;
   }
-  EXPECT_FALSE(run.nextAfter(run.first(), failedMap()));
+  EXPECT_FALSE(run.nextAfter(run.first(), failedMap(), nullptr, true));
+}
+
+TEST(Recovery, TheLastResortIsNoHelpAgainstALimitOfQuads)
+{
+  CubeRun run;
+  EXPECT_TRUE(run.nextAfter(run.first(), carriedMap(0), failedQuads(), true));
+  EXPECT_FALSE(run.nextAfter(run.first(), carriedMap(0), failedQuads(StatusCode::TooLarge), true));
 }
 
 TEST(Recovery, AnExpensiveFailureAtNoPlaceIsNoMatterOfFreedom)
