@@ -107,8 +107,8 @@ public:
 
   /// An OutcomeType.
   vtkGetMacro(Outcome, int);
-  /// Whether the last execution was stopped, on request or by TimeLimit, and the outputs hold the best that there was by
-  /// then. The next execution makes the result anew.
+  /// Whether the last execution was stopped, on request or by TimeLimit, and the outputs hold the best that there was
+  /// by then. The next execution makes the result anew.
   bool GetIsSoFar() const { return this->IsSoFar; }
   /// The reason of a failure, and what the outputs hold; empty after success.
   const char* GetOutcomeText() { return this->OutcomeText.c_str(); }

@@ -72,7 +72,7 @@ void History::packMaps(const Mesh& surface)
 bool History::isSpent() const
 {
   return attempts() + bound_.attemptsOfLastResort >= bound_.attempts ||
-    work_ + (hasSomething() ? workOfLast_ : 0) >= bound_.work;
+    work_ + (hasSomething() ? workOfLast_ / 2 : 0) >= bound_.work;
 }
 
 void History::beginLastResort()

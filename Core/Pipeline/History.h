@@ -53,8 +53,8 @@ public:
   std::size_t work() const { return work_; } ///< of all attempts
   std::size_t attempts() const { return attemptsBefore_ + steps_.size(); }
   const WorkBound& bound() const { return bound_; }
-  /// Whether no attempt may begin any more. Where there are quads, or a map that they can be made of, one that would
-  /// take as much as the last one has to fit into the bound.
+  /// Whether no attempt may begin any more. Where there are quads, or a map that they can be made of, half of
+  /// what the last one took has to be left, as features or offenders that went often make another one shorter.
   bool isSpent() const;
   /// From now on what was reserved for the last resort may be spent.
   void beginLastResort();

@@ -353,9 +353,9 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
         the mesh itself cannot be remeshed, or most of its faces cross others or stand alone, with the default alpha;
         the field data then have WrapAlpha and WrapOffset.
         Sharp edges, which a wrap rounds, are not looked for on it.
-    progress: called as progress(fraction, text); a return value of False (not None) stops the run. Where there are quads
-        by then that were still to be made better, these are returned, and their field data have Stopped, which tells
-        what was being tried; else RemeshError is raised. The same holds for time_limit.
+    progress: called as progress(fraction, text); a return value of False (not None) stops the run. Where there are
+        quads by then that were still to be made better, these are returned, and their field data have Stopped, which
+        tells what was being tried; else RemeshError is raised. The same holds for time_limit.
     everything: return a Remeshed with the mapped surface, the feature lines, the info dict and the lines of the layout,
         too. `constraints` of the info dict is a list of dicts, one for each guided region, stroke, curve, valence and
         sizing: id, kind, source_id, place, met, deviation, deviation_95, unit and reason; see the user guide.

@@ -38,7 +38,7 @@ ProgressCallback stopAt(const std::string& begin)
   };
 }
 
-bool tellsOf(const RemeshResult& result, const std::string& text)
+bool isTold(const RemeshResult& result, const std::string& text)
 {
   return std::any_of(result.notices.begin(), result.notices.end(),
     [&](const std::string& notice) { return notice.find(text) != std::string::npos; });
@@ -65,7 +65,7 @@ TEST(BestSoFar, AStopKeepsTheQuadsOfTheAttemptsBefore)
     const RemeshResult stopped = remesh(input, options);
     ASSERT_TRUE(stopped.status.ok()) << stopped.status.message;
     EXPECT_EQ(stopped.stopped.rfind(name, 0), 0U) << stopped.stopped;
-    EXPECT_TRUE(tellsOf(stopped, "stopped on request (" + stopped.stopped + ")"));
+    EXPECT_TRUE(isTold(stopped, "stopped on request (" + stopped.stopped + ")"));
     EXPECT_EQ(stopped.attempts.size(), attempt - 1);
     // None of the others is better.
     expectSameQuads(stopped, whole);

@@ -229,11 +229,11 @@ TEST(History, IsSpentByTheWorkOfAllRounds)
 
 TEST(History, WithQuadsAnotherAttemptHasToFit)
 {
-  for (const std::size_t work : { 489U, 490U })
+  for (const std::size_t work : { 656U, 657U })
   {
     History history(boundOf(1000));
     addRound(history, planOf("first"), ofWork(carriedMap(1), work), quadsWith(1));
-    EXPECT_EQ(history.isSpent(), work == 490U);
+    EXPECT_EQ(history.isSpent(), work == 657U); // which makes 667, and half of it 333
     EXPECT_EQ(history.allowance(), 1000 - work - 10);
     // Those before count, too.
     EXPECT_TRUE(History(boundOf(1000), 1000).isSpent());
@@ -250,7 +250,7 @@ TEST(History, AMapThatQuadsCanBeMadeOfCountsAsQuads)
   EXPECT_FALSE(history.isSpent());
   history.addMap(planOf("more freedom"), ofWork(carriedMap(1), 190));
   EXPECT_EQ(history.allowance(), 100U);
-  EXPECT_TRUE(history.isSpent()); // another one like it would take 200
+  EXPECT_TRUE(history.isSpent()); // half of another one like it would take 100
 }
 
 TEST(History, IsSpentByTheNumberOfAttempts)

@@ -897,15 +897,15 @@ TEST(Recovery, NothingIsTriedOnceTheWorkIsSpent)
   CubeRun run;
   WorkBound bound;
   bound.work = 1000;
-  for (const std::size_t work : { 499U, 500U })
+  for (const std::size_t work : { 666U, 667U })
   {
     const auto map = mapWithOffenders({ run.onEdge() });
     map->work = work;
     History history(bound);
     history.addMap(run.first(), map);
-    EXPECT_EQ(nextMapPlan(run.context, history).has_value(), 2 * work < 1000);
+    EXPECT_EQ(nextMapPlan(run.context, history).has_value(), work + work / 2 < 1000);
     history.addQuads(quadsWith(1));
-    EXPECT_EQ(nextPlan(run.context, history).has_value(), 2 * work < 1000);
+    EXPECT_EQ(nextPlan(run.context, history).has_value(), work + work / 2 < 1000);
   }
 }
 
