@@ -308,7 +308,8 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   if (!start.valid)
   {
     result.status = { StatusCode::NotConverged,
-      "quantization: no valid integers up to scale " + std::to_string(std::min(start.scale, kMaximumScale)) };
+      "quantization: no valid integers up to scale " +
+        std::to_string(std::min(start.scale, kMaximumScale)) };
     return result;
   }
   integers.setPull(options.pull);

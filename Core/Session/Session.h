@@ -128,10 +128,11 @@ public:
   const std::vector<std::shared_ptr<const SessionConstraint>>& constraints() const;
 
   /// Makes what is not there. A failure of the run is the report's status. A stop on request leaves the state with the
-  /// best quads so far, where there are any by then, until another update makes its result; else without one. Throws InvalidInput for what checkOptions and the surface do not allow.
+  /// best quads so far, where there are any by then, until another update makes its result; else without one. Throws
+  /// InvalidInput for what checkOptions and the surface do not allow.
   const SessionReport& update();
-  /// Of the present state; null before its update. After a stop it may be that of the best quads so far, which its report
-  /// tells.
+  /// Of the present state; null before its update. After a stop it may be that of the best quads so far, which its
+  /// report tells.
   std::shared_ptr<const SessionResult> result() const;
   /// Quads of the present state from the intermediate level, see RemeshOptions::preview, with a report that has no
   /// words on constraints; no irregular vertices. They are not the state's result, but an update() afterwards starts
