@@ -87,8 +87,8 @@ ResultStore* storeIfRoom(
 class Attempts
 {
 public:
-  /// isLast: where no attempt has quads, nothing follows. stopped: RemeshResult::stopped; once it is not empty, progress
-  /// does not ask to stop any more.
+  /// isLast: where no attempt has quads, nothing follows. stopped: RemeshResult::stopped; once it is not empty,
+  /// progress does not ask to stop any more.
   Attempts(RunContext& given, History& history, bool isLast, std::string& stopped)
     : given_(given), options_(given.options), history_(history), isLast_(isLast),
       stopped_(stopped), run_{ options_, given.edgeLength, given.targetQuads, given.surface,
