@@ -24,8 +24,8 @@ using Vector = Eigen::VectorXd;
 /// epsilon, below the second one no further step pays.
 constexpr double kConverged = 1e-3;
 constexpr double kStalled = 1e-5;
-/// Units of work, see WorkCount.h: what a Newton step does for one triangle without the factorization, and what a million
-/// operations of that are. Fitted to seven maps, which they meet within 30 %.
+/// Units of work, see WorkCount.h: what a Newton step does for one triangle without the factorization, and what a
+/// million operations of that are. Fitted to seven maps, which they meet within 30 %.
 constexpr double kWorkOfTriangle = 0.35;
 constexpr double kWorkOfMegaflop = 380;
 

@@ -14,8 +14,8 @@ namespace
 
 /// From this number of offenders on, an attempt must have halved that of the one before to deserve another.
 constexpr std::size_t kManyOffenders = 100;
-/// A failure at no place in particular is worth another try with more vertices only where it took less than this part of
-/// the bound of work: integers that are searched for long and not found are a matter of features.
+/// A failure at no place in particular is worth another try with more vertices only where it took less than this part
+/// of the bound of work: integers that are searched for long and not found are a matter of features.
 constexpr double kCheapFailure = 0.25;
 /// Rings of intermediate vertices that are kept around an offender.
 constexpr int kFreedomRings = 2;
