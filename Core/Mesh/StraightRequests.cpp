@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/StraightRequests.h"
 
+#include "Mesh/Distance.h"
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -15,14 +16,6 @@ namespace
 
 constexpr int kAlongStraightPart = 2;
 constexpr int kAtItsEnd = 1;
-
-double distanceToSegment(const Vector3& p, const Vector3& a, const Vector3& b)
-{
-  const Vector3 along = b - a;
-  const double squared = along.squaredNorm();
-  const double t = squared > 0 ? std::clamp(along.dot(p - a) / squared, 0.0, 1.0) : 0;
-  return (a + t * along - p).norm();
-}
 
 /// Walks along the boundary of a mesh between places.
 class StraightFinder

@@ -728,7 +728,7 @@ Status insetPlane(const PreparedSurface& half, const DoubledMesh& doubled,
   {
     return {};
   }
-  const Status straight = checkStraight(mesh, doubled, turns);
+  Status straight = checkStraight(mesh, doubled, turns);
   if (!straight.ok())
   {
     return straight;

@@ -491,11 +491,13 @@ TEST(Pipeline, InvertedQuadsNearFoldsAreTriedAgain)
     GTEST_SKIP() << "no " << path;
   }
   RemeshOptions options;
-  options.quads = 2200;
+  options.quads = 1800;
   const RemeshResult result = remesh(*input, options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
-  EXPECT_TRUE(tells(result, "leave no room"));
-  EXPECT_TRUE(invertedQuads(result.quads.points, result.quads.quads).empty());
+  EXPECT_EQ(
+    std::count(result.attempts.begin(), result.attempts.end(), std::string("fewer features")), 1);
+  // What was given up counts only where it halved their number.
+  EXPECT_LE(invertedQuads(result.quads.points, result.quads.quads).size(), 1U);
 }
 
 // Four quads are inverted near folds. To have three instead, 800 of 2,800 sharp edges would go: that is not worth
