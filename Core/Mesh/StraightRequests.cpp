@@ -3,6 +3,7 @@
 #include "Mesh/StraightRequests.h"
 
 #include "Mesh/Distance.h"
+
 #include <algorithm>
 #include <limits>
 #include <optional>
