@@ -10,41 +10,36 @@
 #include <cstring>
 #include <unordered_map>
 
-namespace
-{
-
-/// Of three coordinates in single precision. Compared as bits, so that what is no number equals itself.
-using SinglePoint = std::array<std::uint32_t, 3>;
-
-SinglePoint inSingle(const double x[3])
-{
-  SinglePoint bits{};
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    const float single = static_cast<float>(x[i]) + 0.0F; // both zeros are one coordinate
-    std::memcpy(&bits[i], &single, sizeof(single));
-  }
-  return bits;
-}
-
-struct HashOfPoint
-{
-  std::size_t operator()(const SinglePoint& p) const
-  {
-    std::uint64_t hash = 0;
-    for (const std::uint32_t b : p)
-    {
-      hash = (hash ^ b) * 0x9e3779b97f4a7c15ULL;
-      hash ^= hash >> 32;
-    }
-    return static_cast<std::size_t>(hash);
-  }
-};
-
-} // namespace
-
 struct vtkQuadrilleUniquePoints::Internals
 {
+  /// Three coordinates in single precision. Compared as bits, so that what is no number equals itself.
+  using SinglePoint = std::array<std::uint32_t, 3>;
+
+  struct HashOfPoint
+  {
+    std::size_t operator()(const SinglePoint& p) const
+    {
+      std::uint64_t hash = 0;
+      for (const std::uint32_t b : p)
+      {
+        hash = (hash ^ b) * 0x9e3779b97f4a7c15ULL;
+        hash ^= hash >> 32;
+      }
+      return static_cast<std::size_t>(hash);
+    }
+  };
+
+  static SinglePoint InSingle(const double x[3])
+  {
+    SinglePoint bits{};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const float single = static_cast<float>(x[i]) + 0.0F; // both zeros are one coordinate
+      std::memcpy(&bits[i], &single, sizeof(single));
+    }
+    return bits;
+  }
+
   std::unordered_map<SinglePoint, vtkIdType, HashOfPoint> Known;
 };
 
@@ -74,7 +69,7 @@ int vtkQuadrilleUniquePoints::InitPointInsertion(
 int vtkQuadrilleUniquePoints::InsertUniquePoint(const double x[3], vtkIdType& id)
 {
   const auto [known, isNew] =
-    this->Ids->Known.try_emplace(inSingle(x), this->Points->GetNumberOfPoints());
+    this->Ids->Known.try_emplace(Internals::InSingle(x), this->Points->GetNumberOfPoints());
   id = known->second;
   if (isNew)
   {
@@ -86,7 +81,7 @@ int vtkQuadrilleUniquePoints::InsertUniquePoint(const double x[3], vtkIdType& id
 //------------------------------------------------------------------------------
 vtkIdType vtkQuadrilleUniquePoints::IsInsertedPoint(const double x[3])
 {
-  const auto known = this->Ids->Known.find(inSingle(x));
+  const auto known = this->Ids->Known.find(Internals::InSingle(x));
   return known == this->Ids->Known.end() ? -1 : known->second;
 }
 
