@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/SeamRequests.h"
 
-#include "Mesh/Mesh.h"
+#include "Mesh/BoundaryPlaces.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace quadrille
 {
@@ -20,22 +19,13 @@ class SeamFinder
 {
 public:
   SeamFinder(const Mesh& mesh, const std::vector<SeamRequest>& requests)
-    : mesh_(mesh), requests_(requests), isEnd_(mesh.vertexCount(), 0),
-      outgoing_(mesh.vertexCount(), kInvalidIndex)
+    : mesh_(mesh), requests_(requests), isEnd_(mesh.vertexCount(), 0), boundary_(mesh)
   {
-    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-    {
-      if (mesh.isBoundary(h))
-      {
-        outgoing_[mesh.origin[h]] = h;
-        boundary_.push_back(mesh.origin[h]);
-      }
-    }
     for (const SeamRequest& request : requests)
     {
       for (const Vector3& place : { request.from, request.to, request.imageFrom, request.imageTo })
       {
-        ends_.push_back(vertexAt(place));
+        ends_.push_back(boundary_.nearest(place));
         if (ends_.back() != kInvalidIndex)
         {
           isEnd_[ends_.back()] = 1;
@@ -59,22 +49,6 @@ public:
   const std::vector<Index>& ends() const { return ends_; }
 
 private:
-  Index vertexAt(const Vector3& place) const
-  {
-    Index best = kInvalidIndex;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Index v : boundary_)
-    {
-      const double distance = (mesh_.position[v] - place).squaredNorm();
-      if (distance < nearest)
-      {
-        nearest = distance;
-        best = v;
-      }
-    }
-    return best;
-  }
-
   /// The boundary up to the next end; none where that is another one.
   std::vector<Index> walk(Index from, Index to) const
   {
@@ -82,7 +56,7 @@ private:
     Index v = from;
     do
     {
-      const Index h = v == kInvalidIndex ? kInvalidIndex : outgoing_[v];
+      const Index h = v == kInvalidIndex ? kInvalidIndex : boundary_.outgoing(v);
       if (h == kInvalidIndex)
       {
         return {};
@@ -97,8 +71,7 @@ private:
   const std::vector<SeamRequest>& requests_;
   std::vector<Index> ends_; ///< four a request
   std::vector<std::uint8_t> isEnd_;
-  std::vector<Index> outgoing_; ///< per vertex: its boundary half-edge
-  std::vector<Index> boundary_; ///< vertices
+  BoundaryPlaces boundary_;
 };
 
 } // namespace

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/StraightRequests.h"
 
+#include "Mesh/BoundaryPlaces.h"
 #include "Mesh/Distance.h"
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace quadrille
@@ -22,49 +22,25 @@ constexpr int kAtItsEnd = 1;
 class StraightFinder
 {
 public:
-  explicit StraightFinder(const Mesh& mesh)
-    : mesh_(mesh), outgoing_(mesh.vertexCount(), kInvalidIndex)
-  {
-    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-    {
-      if (mesh.isBoundary(h))
-      {
-        outgoing_[mesh.origin[h]] = h;
-        boundary_.push_back(mesh.origin[h]);
-      }
-    }
-  }
+  explicit StraightFinder(const Mesh& mesh) : mesh_(mesh), boundary_(mesh) {}
 
-  std::optional<Index> vertexAt(const Vector3& place) const
-  {
-    std::optional<Index> best;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Index v : boundary_)
-    {
-      const double distance = (mesh_.position[v] - place).squaredNorm();
-      if (distance < nearest)
-      {
-        nearest = distance;
-        best = v;
-      }
-    }
-    return best;
-  }
+  /// kInvalidIndex where there is no boundary.
+  Index vertexAt(const Vector3& place) const { return boundary_.nearest(place); }
 
   std::vector<Index> find(const StraightRequest& request) const
   {
-    const std::optional<Index> from = vertexAt(request.from);
-    const std::optional<Index> to = vertexAt(request.to);
-    if (!from || !to)
+    const Index from = vertexAt(request.from);
+    const Index to = vertexAt(request.to);
+    if (from == kInvalidIndex || to == kInvalidIndex)
     {
       return {};
     }
-    std::vector<Index> there = walk(*from, *to);
+    std::vector<Index> there = walk(from, to);
     if (request.isClosed())
     {
       return there;
     }
-    std::vector<Index> back = walk(*to, *from);
+    std::vector<Index> back = walk(to, from);
     return distance(there, request.via) <= distance(back, request.via) ? there : back;
   }
 
@@ -76,7 +52,7 @@ private:
     Index v = from;
     do
     {
-      const Index h = outgoing_[v];
+      const Index h = boundary_.outgoing(v);
       edges.push_back(h);
       v = mesh_.target(h);
     } while (v != to && v != from);
@@ -95,8 +71,7 @@ private:
   }
 
   const Mesh& mesh_;
-  std::vector<Index> outgoing_; ///< per vertex: its boundary half-edge
-  std::vector<Index> boundary_; ///< vertices
+  BoundaryPlaces boundary_;
 };
 
 } // namespace
@@ -128,9 +103,9 @@ std::vector<Index> straightVertices(const Mesh& mesh, const std::vector<Straight
   {
     for (const Vector3& place : { request.from, request.via, request.to })
     {
-      if (const std::optional<Index> v = finder.vertexAt(place))
+      if (const Index v = finder.vertexAt(place); v != kInvalidIndex)
       {
-        vertices.push_back(*v);
+        vertices.push_back(v);
       }
     }
   }
