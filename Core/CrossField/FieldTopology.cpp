@@ -13,10 +13,35 @@ namespace quadrille
 namespace
 {
 
+// Of an edge without length, which still joins its faces: a face of such edges would be free to turn. Others have about
+// 1.
+constexpr double kLeastWeight = 1e-9;
+
 // Unlike acos, atan2 stays accurate for slivers.
 double angleBetween(const Vector3& a, const Vector3& b)
 {
   return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// Where two corners of a face lie in one place, no direction gives their angles; they still have to add up to half a
+/// turn, or the turns counted round a vertex would not be those of the matchings. Such a face counts as the limit of an
+/// isosceles one, and a face in one point as equilateral.
+void closeAngles(FieldTopology& topology, Index f)
+{
+  const auto isShort = [&](Index h) { return !(topology.edgeLength[h] > 0); };
+  const Index first = 3 * f;
+  for (Index h = first; h < first + 3; ++h)
+  {
+    if (isShort(first) && isShort(first + 1) && isShort(first + 2))
+    {
+      topology.cornerAngle[h] = kPi / 3;
+    }
+    else if (isShort(h))
+    {
+      topology.cornerAngle[h] = topology.cornerAngle[Mesh::next(h)] = kPi / 2;
+      topology.cornerAngle[Mesh::previous(h)] = 0;
+    }
+  }
 }
 
 /// In the metric of the sizes: angles at corners, lengths and areas without their least value.
@@ -60,6 +85,10 @@ void measureFaces(const Mesh& mesh, FieldTopology& topology)
     }
     lengthSum += topology.edgeLength[h];
   }
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    closeAngles(topology, f);
+  }
   topology.meanEdgeLength = halfEdges > 0 ? lengthSum / halfEdges : 0;
   // A face without area still needs a mass; a millionth of a typical one leaves others untouched.
   const double smallest = 1e-6 * topology.meanEdgeLength * topology.meanEdgeLength;
@@ -99,7 +128,7 @@ void measureEdges(const Mesh& mesh, FieldTopology& topology)
     // Length over the distance of the barycentres; unlike cotangents it is positive for any triangle.
     const double length = topology.edgeLength[h];
     const double areas = topology.area[Mesh::face(h)] + topology.area[Mesh::face(twin)];
-    const double weight = 1.5 * length * length / areas;
+    const double weight = std::max(kLeastWeight, 1.5 * length * length / areas);
     topology.edgeWeight[h] = topology.edgeWeight[twin] = weight;
   }
 }

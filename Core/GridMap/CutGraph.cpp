@@ -3,6 +3,7 @@
 #include "GridMap/CutGraph.h"
 
 #include "Base/Error.h"
+#include "Base/PlaceText.h"
 #include "Mesh/Topology.h"
 
 #include <numeric>
@@ -56,8 +57,9 @@ void checkVertices(const Mesh& mesh, const CrossField& field)
   {
     if (interior[v] && ((sum[v] + field.turns[v]) & 3) != 0)
     {
-      throw InvalidInput("cross field: the matchings round vertex " + std::to_string(v) +
-        " contradict its " + std::to_string(field.turns[v]) + " quarter turns");
+      throw InvalidInput("cross field: the matchings round the vertex near " +
+        placeText(mesh.position[v]) + " contradict its " + std::to_string(field.turns[v]) +
+        " quarter turns");
     }
   }
 }

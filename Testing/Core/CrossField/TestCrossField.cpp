@@ -137,6 +137,23 @@ TEST(CrossField, ClosedSurfacesHaveIndexSumFourChi)
   }
 }
 
+// Scans have such faces at their smallest components: the turns round their vertices are counts all the same.
+TEST(CrossField, FacesWithCornersInOnePlaceKeepTurnsAndMatchingsTogether)
+{
+  for (const bool wholeFace : { false, true })
+  {
+    for (Mesh mesh : { sphere(1), torus(8, 6), twoComponents() })
+    {
+      mesh.position[mesh.target(0)] = mesh.position[mesh.origin[0]];
+      if (wholeFace)
+      {
+        mesh.position[mesh.origin[2]] = mesh.position[mesh.origin[0]];
+      }
+      expectValid(mesh, fieldOf(mesh));
+    }
+  }
+}
+
 TEST(CrossField, SphereHasEightIrregularVertices)
 {
   const CrossField field = fieldOf(sphere(3));
