@@ -3,10 +3,13 @@
 #include "Evaluation/SingularityDistance.h"
 
 #include "Base/Error.h"
+#include "Base/Parallel.h"
+#include "Evaluation/GeodesicGraph.h"
 #include "Mesh/Topology.h"
 #include "Numerics/MinCostFlow.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -16,20 +19,8 @@ namespace quadrille
 namespace
 {
 
-/// Integer units that the mean edge gets: finer than any edge's length matters.
-constexpr double kUnitsPerEdge = 1024;
-/// More than all quarter turns of any field together.
-constexpr std::int64_t kUnlimited = std::int64_t{ 1 } << 40;
-
-double meanEdgeLength(const Mesh& mesh)
-{
-  double sum = 0;
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    sum += mesh.edgeVector(h).norm();
-  }
-  return sum / std::max<Index>(mesh.halfEdgeCount(), 1);
-}
+/// Units that the longest way gets as an integer cost.
+constexpr double kUnitsOfLongest = 1e6;
 
 void requireTurns(const Mesh& mesh, const std::vector<int>& turns)
 {
@@ -37,6 +28,95 @@ void requireTurns(const Mesh& mesh, const std::vector<int>& turns)
   {
     throw InvalidInput("There are quarter turns for " + std::to_string(turns.size()) +
       " vertices, but the mesh has " + std::to_string(mesh.vertexCount()) + ".");
+  }
+}
+
+/// Vertices where one field has more quarter turns than the other one, with how many.
+struct Excess
+{
+  std::vector<Index> vertices;
+  std::vector<int> turns;
+};
+
+Excess excessOf(const std::vector<int>& turns, const std::vector<int>& otherTurns)
+{
+  Excess excess;
+  for (Index v = 0; v < turns.size(); ++v)
+  {
+    if (turns[v] > otherTurns[v])
+    {
+      excess.vertices.push_back(v);
+      excess.turns.push_back(turns[v] - otherTurns[v]);
+    }
+  }
+  return excess;
+}
+
+/// Way by way from each source (row) to each sink (column); infinite between components.
+std::vector<std::vector<double>> waysBetween(
+  const Mesh& mesh, const Excess& sources, const Excess& sinks, int threads)
+{
+  const GeodesicGraph graph(mesh);
+  std::vector<std::vector<double>> ways(sources.vertices.size());
+  parallelFor(ways.size(), 1, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        ways[i] = graph.distances(sources.vertices[i], sinks.vertices);
+      }
+    });
+  return ways;
+}
+
+/// The transport problem between sources and sinks; only the longest way sets its unit.
+void transport(const Excess& sources, const Excess& sinks,
+  const std::vector<std::vector<double>>& ways, SingularityDistance& result)
+{
+  double longest = 0;
+  for (const std::vector<double>& row : ways)
+  {
+    for (const double way : row)
+    {
+      longest = std::isfinite(way) ? std::max(longest, way) : longest;
+    }
+  }
+  const double unit = longest > 0 ? longest / kUnitsOfLongest : 1;
+  const Index count = static_cast<Index>(sources.vertices.size());
+  const Index sinkCount = static_cast<Index>(sinks.vertices.size());
+  MinCostFlow flow(count + sinkCount);
+  std::vector<std::array<Index, 2>> ends; // of each arc
+  for (Index i = 0; i < count; ++i)
+  {
+    flow.addSupply(i, sources.turns[i]);
+    for (Index k = 0; k < sinkCount; ++k)
+    {
+      if (std::isfinite(ways[i][k]))
+      {
+        const int most = std::min(sources.turns[i], sinks.turns[k]);
+        flow.addArc(i, count + k, most, std::llround(ways[i][k] / unit));
+        ends.push_back({ i, k });
+      }
+    }
+  }
+  for (Index k = 0; k < sinkCount; ++k)
+  {
+    flow.addSupply(count + k, -sinks.turns[k]);
+  }
+  flow.solve();
+  for (Index arc = 0; arc < ends.size(); ++arc)
+  {
+    const auto [i, k] = ends[arc];
+    if (const std::int64_t turns = flow.flow(arc))
+    {
+      result.moves.push_back(
+        { sources.vertices[i], sinks.vertices[k], static_cast<int>(turns), ways[i][k] });
+      result.work += static_cast<double>(turns) * ways[i][k];
+    }
+  }
+  for (Index node = 0; node < count + sinkCount; ++node)
+  {
+    result.unmatched += std::abs(flow.remaining(node));
   }
 }
 
@@ -58,43 +138,16 @@ std::map<int, std::size_t> singularityHistogram(const Mesh& mesh, const std::vec
 }
 
 SingularityDistance singularityDistance(
-  const Mesh& mesh, const std::vector<int>& turns, const std::vector<int>& otherTurns)
+  const Mesh& mesh, const std::vector<int>& turns, const std::vector<int>& otherTurns, int threads)
 {
   requireTurns(mesh, turns);
   requireTurns(mesh, otherTurns);
-  const double mean = meanEdgeLength(mesh);
-  if (!(mean > 0))
-  {
-    return {};
-  }
-  MinCostFlow flow(mesh.vertexCount());
-  const auto addArc = [&](Index from, Index to, double length)
-  { flow.addArc(from, to, kUnlimited, std::llround(kUnitsPerEdge * length / mean)); };
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    const double length = mesh.edgeVector(h).norm();
-    addArc(mesh.origin[h], mesh.target(h), length);
-    if (mesh.isBoundary(h))
-    {
-      addArc(mesh.target(h), mesh.origin[h], length);
-    }
-  }
-  for (Index v = 0; v < mesh.vertexCount(); ++v)
-  {
-    if (turns[v] != otherTurns[v])
-    {
-      flow.addSupply(
-        v, otherTurns[v] - turns[v]); // the index is what is missing to a regular vertex
-    }
-  }
-  const MinCostFlow::Result result = flow.solve();
-  SingularityDistance distance;
-  distance.work = static_cast<double>(result.cost) * mean / kUnitsPerEdge;
-  for (Index v = 0; v < mesh.vertexCount(); ++v)
-  {
-    distance.unmatched += std::abs(flow.remaining(v));
-  }
-  return distance;
+  // The index of a vertex is what it lacks to a regular one, so it goes from where turns are more afterwards.
+  const Excess sources = excessOf(otherTurns, turns);
+  const Excess sinks = excessOf(turns, otherTurns);
+  SingularityDistance result;
+  transport(sources, sinks, waysBetween(mesh, sources, sinks, threads), result);
+  return result;
 }
 
 } // namespace quadrille

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Evaluation/Distribution.h"
+
+#include "Base/Error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+
+Distribution::Distribution(const std::vector<double>& values, const std::vector<double>& weights)
+{
+  if (values.size() != weights.size())
+  {
+    throw InvalidInput("distribution: there are " + std::to_string(values.size()) +
+      " values, but " + std::to_string(weights.size()) + " weights");
+  }
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    if (!std::isfinite(values[i]) || !std::isfinite(weights[i]))
+    {
+      throw InvalidInput("distribution: a value or a weight is not finite");
+    }
+    if (weights[i] > 0)
+    {
+      entries_.emplace_back(values[i], weights[i]);
+      total_ += weights[i];
+    }
+  }
+  std::sort(entries_.begin(), entries_.end());
+}
+
+double Distribution::mean() const
+{
+  double sum = 0;
+  for (const auto& [value, weight] : entries_)
+  {
+    sum += value * weight;
+  }
+  return isEmpty() ? 0 : sum / total_;
+}
+
+double Distribution::minimum() const
+{
+  return isEmpty() ? 0 : entries_.front().first;
+}
+
+double Distribution::maximum() const
+{
+  return isEmpty() ? 0 : entries_.back().first;
+}
+
+double Distribution::quantile(double part) const
+{
+  double below = 0;
+  for (const auto& [value, weight] : entries_)
+  {
+    below += weight;
+    if (below >= part * total_)
+    {
+      return value;
+    }
+  }
+  return maximum();
+}
+
+std::vector<double> Distribution::histogram(const std::vector<double>& edges) const
+{
+  if (edges.size() < 2 || !std::is_sorted(edges.begin(), edges.end()))
+  {
+    throw InvalidInput("histogram: it needs two edges of bins at least, and they have to ascend");
+  }
+  std::vector<double> shares(edges.size() - 1, 0.0);
+  for (const auto& [value, weight] : entries_)
+  {
+    const auto above = std::upper_bound(edges.begin(), edges.end(), value) - edges.begin();
+    const auto bin =
+      std::clamp<std::ptrdiff_t>(above - 1, 0, static_cast<std::ptrdiff_t>(shares.size()) - 1);
+    shares[static_cast<std::size_t>(bin)] += weight / total_;
+  }
+  return shares;
+}
+
+double wassersteinDistance(const Distribution& a, const Distribution& b)
+{
+  if (a.isEmpty() != b.isEmpty())
+  {
+    throw InvalidInput("Wasserstein distance: one of the two distributions is empty");
+  }
+  double sum = 0, last = 0, shareA = 0, shareB = 0;
+  auto i = a.entries().begin();
+  auto j = b.entries().begin();
+  while (i != a.entries().end() || j != b.entries().end())
+  {
+    const bool fromA = j == b.entries().end() || (i != a.entries().end() && i->first <= j->first);
+    const double value = fromA ? i->first : j->first;
+    sum += std::abs(shareA - shareB) * (value - last);
+    last = value;
+    if (fromA)
+    {
+      shareA += i->second / a.total();
+      ++i;
+    }
+    else
+    {
+      shareB += j->second / b.total();
+      ++j;
+    }
+  }
+  return sum;
+}
+
+} // namespace quadrille

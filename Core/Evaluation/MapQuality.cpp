@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Evaluation/MapQuality.h"
+
+#include "Base/Angles.h"
+#include "Base/Error.h"
+#include "Base/Progress.h"
+#include "Mesh/Sizing.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr int kSizingBins = 32; ///< eight an octave
+constexpr int kAnisotropyBins = 30;
+constexpr int kShearBins = 18;
+
+/// The edges at corner 0 of the face in its plane, over its sizes, as columns.
+Eigen::Matrix2d flatEdges(const Mesh& mesh, Index f)
+{
+  const SizedTriangle triangle = sizedTriangle(mesh, f);
+  Eigen::Matrix2d edges;
+  edges << triangle.width, triangle.apex.x(), 0, triangle.apex.y();
+  return edges;
+}
+
+Eigen::Matrix2d mappedEdges(const std::vector<FixedVec2>& uv, Index f)
+{
+  Eigen::Matrix2d edges;
+  edges << toDouble(uv[3 * f + 1] - uv[3 * f]), toDouble(uv[3 * f + 2] - uv[3 * f]);
+  return edges;
+}
+
+/// j: the gradient of g, with a determinant other than 0.
+FaceMapQuality qualityOf(const Eigen::Matrix2d& j, double edgeLength)
+{
+  const double det = j.determinant();
+  // Of a 2 by 2 matrix: the squared singular values are the roots of x^2 - |j|^2 x + det^2.
+  const double half = j.squaredNorm() / 2;
+  const double root = std::sqrt(std::max(0.0, (half - std::abs(det)) * (half + std::abs(det))));
+  FaceMapQuality quality;
+  quality.sizing = det / (edgeLength * edgeLength);
+  quality.anisotropy = (half + root) / std::abs(det);
+  quality.shear = std::atan2(det, std::abs(j.col(0).dot(j.col(1))));
+  return quality;
+}
+
+std::vector<double> evenBins(int count, double first, double last)
+{
+  std::vector<double> edges;
+  for (int i = 0; i <= count; ++i)
+  {
+    edges.push_back(first + (last - first) * i / count);
+  }
+  return edges;
+}
+
+} // namespace
+
+MapQuality measureMapQuality(const Mesh& mesh, const std::vector<FixedVec2>& uv, double edgeLength)
+{
+  if (uv.size() != mesh.origin.size())
+  {
+    throw InvalidInput("map quality: the map has not the size of the mesh");
+  }
+  if (!(edgeLength > 0) || !std::isfinite(edgeLength))
+  {
+    throw InvalidInput("map quality: the edge length has to be positive and finite");
+  }
+  MapQuality result;
+  result.faces.resize(mesh.faceCount());
+  result.areas.assign(mesh.faceCount(), 0.0);
+  std::vector<double> sizing, anisotropy, shear, weights;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    pollNowAndThen(f);
+    const Eigen::Matrix2d flat = flatEdges(mesh, f);
+    const Eigen::Matrix2d mapped = mappedEdges(uv, f);
+    const Eigen::Matrix2d j = flat * mapped.inverse();
+    if (!(flat.determinant() > 0) || mapped.determinant() == 0 || !(j.determinant() != 0) ||
+      !j.allFinite())
+    {
+      ++result.degenerate;
+      continue;
+    }
+    result.faces[f] = qualityOf(j, edgeLength);
+    result.areas[f] = sizedArea(mesh, f);
+    if (result.faces[f].sizing < 0)
+    {
+      ++result.inverted;
+      continue;
+    }
+    sizing.push_back(result.faces[f].sizing);
+    anisotropy.push_back(result.faces[f].anisotropy);
+    shear.push_back(result.faces[f].shear);
+    weights.push_back(result.areas[f]);
+  }
+  result.sizing = Distribution(sizing, weights);
+  result.anisotropy = Distribution(anisotropy, weights);
+  result.shear = Distribution(shear, weights);
+  return result;
+}
+
+std::vector<double> sizingBins()
+{
+  std::vector<double> edges = evenBins(kSizingBins, -2, 2);
+  for (double& edge : edges)
+  {
+    edge = std::exp2(edge);
+  }
+  return edges;
+}
+
+std::vector<double> anisotropyBins()
+{
+  return evenBins(kAnisotropyBins, 1, 4);
+}
+
+std::vector<double> shearBins()
+{
+  return evenBins(kShearBins, 0, kPi / 2);
+}
+
+} // namespace quadrille

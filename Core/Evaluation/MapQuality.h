@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Sizing, anisotropy and shear of a map, face by face [Ebke et al. 2016, Section 8].
+#pragma once
+
+#include "Base/FixedPoint.h"
+#include "Evaluation/Distribution.h"
+#include "Mesh/Mesh.h"
+
+#include <vector>
+
+namespace quadrille
+{
+
+/// Of the linear map g of a face from the parameter domain, whose unit is a quad, to the surface; where the surface
+/// asks for sizes, lengths on it are over them.
+struct FaceMapQuality
+{
+  /// det(grad g) / s^2: the area of a quad there over that of a square of edge length s; 1 is wanted. Negative where the
+  /// face is inverted.
+  double sizing = 0;
+  /// The larger singular value of grad g over the smaller one, >= 1; 1 where the map keeps angles.
+  double anisotropy = 0;
+  /// The arc sine of the scaled Jacobian of g, that is the angle between the isolines where it is at most a right one,
+  /// else what it lacks to two right ones; radians in [-pi/2, pi/2], negative where the face is inverted.
+  double shear = 0;
+};
+
+struct MapQuality
+{
+  std::vector<FaceMapQuality> faces;      ///< #F; zeros for faces that are not counted
+  std::vector<double> areas;              ///< #F; over the sizes; 0 for faces that are not counted
+  Distribution sizing, anisotropy, shear; ///< over the areas, upright faces only
+  std::size_t inverted = 0;               ///< faces with an area and a negative determinant
+  std::size_t degenerate = 0;             ///< faces without an area on the surface or in the map
+};
+
+/// uv: #H. edgeLength: s > 0, in units of the mesh. Throws InvalidInput where sizes disagree or s is no such number.
+MapQuality measureMapQuality(const Mesh& mesh, const std::vector<FixedVec2>& uv, double edgeLength);
+
+/// Edges of the bins in which the three measures are drawn and compared: sizing from 1/4 to 4 in equal ratios,
+/// anisotropy from 1 to 4 in equal steps, shear from 0 to pi/2 in steps of 5 degrees. The bins of the paper's figures
+/// are not given there.
+std::vector<double> sizingBins();
+std::vector<double> anisotropyBins();
+std::vector<double> shearBins();
+
+} // namespace quadrille
