@@ -5,7 +5,9 @@
 #include "Base/Angles.h"
 #include "Base/Error.h"
 #include "Base/Progress.h"
+#include "GridMap/MapCheck.h"
 #include "Mesh/Sizing.h"
+#include "Mesh/Topology.h"
 
 #include <Eigen/LU>
 
@@ -17,10 +19,6 @@ namespace quadrille
 {
 namespace
 {
-
-constexpr int kSizingBins = 32; ///< eight an octave
-constexpr int kAnisotropyBins = 30;
-constexpr int kShearBins = 18;
 
 /// The edges at corner 0 of the face in its plane, over its sizes, as columns.
 Eigen::Matrix2d flatEdges(const Mesh& mesh, Index f)
@@ -52,12 +50,12 @@ FaceMapQuality qualityOf(const Eigen::Matrix2d& j, double edgeLength)
   return quality;
 }
 
-std::vector<double> evenBins(int count, double first, double last)
+std::vector<double> evenBins(double first, double last)
 {
   std::vector<double> edges;
-  for (int i = 0; i <= count; ++i)
+  for (int i = 0; i <= kQualityBins; ++i)
   {
-    edges.push_back(first + (last - first) * i / count);
+    edges.push_back(first + (last - first) * i / kQualityBins);
   }
   return edges;
 }
@@ -108,9 +106,35 @@ MapQuality measureMapQuality(const Mesh& mesh, const std::vector<FixedVec2>& uv,
   return result;
 }
 
+std::vector<int> turnsOfMap(const Mesh& mesh, const std::vector<FixedVec2>& uv)
+{
+  if (uv.size() != mesh.origin.size())
+  {
+    throw InvalidInput("turns of a map: the map has not the size of the mesh");
+  }
+  std::vector<int> turns(mesh.vertexCount(), 0);
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    pollNowAndThen(f);
+    const FixedVec2* p = &uv[3 * std::size_t{ f }];
+    const int sign = orientation(p[0], p[1], p[2]);
+    const std::array<std::int8_t, 3> entered = quadrantsEnteredByAll(p, sign);
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      turns[mesh.origin[3 * f + i]] += entered[i];
+    }
+  }
+  const std::vector<int> regular = regularTurns(mesh);
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    turns[v] = regular[v] == 4 ? turns[v] : regular[v];
+  }
+  return turns;
+}
+
 std::vector<double> sizingBins()
 {
-  std::vector<double> edges = evenBins(kSizingBins, -2, 2);
+  std::vector<double> edges = evenBins(-2, 2);
   for (double& edge : edges)
   {
     edge = std::exp2(edge);
@@ -120,12 +144,12 @@ std::vector<double> sizingBins()
 
 std::vector<double> anisotropyBins()
 {
-  return evenBins(kAnisotropyBins, 1, 4);
+  return evenBins(1, 4.6);
 }
 
 std::vector<double> shearBins()
 {
-  return evenBins(kShearBins, 0, kPi / 2);
+  return evenBins(0, kPi / 2);
 }
 
 } // namespace quadrille

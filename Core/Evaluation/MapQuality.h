@@ -38,9 +38,14 @@ struct MapQuality
 /// uv: #H. edgeLength: s > 0, in units of the mesh. Throws InvalidInput where sizes disagree or s is no such number.
 MapQuality measureMapQuality(const Mesh& mesh, const std::vector<FixedVec2>& uv, double edgeLength);
 
-/// Edges of the bins in which the three measures are drawn and compared: sizing from 1/4 to 4 in equal ratios,
-/// anisotropy from 1 to 4 in equal steps, shear from 0 to pi/2 in steps of 5 degrees. The bins of the paper's figures
-/// are not given there.
+/// #V: the quarter turns of the map round each inner vertex, its valence; round a boundary vertex those of a regular one
+/// (2), as a boundary off the axes has no whole number of them. Exact where the images of edges agree up to quarter
+/// turns. uv: #H. Throws InvalidInput where sizes disagree.
+std::vector<int> turnsOfMap(const Mesh& mesh, const std::vector<FixedVec2>& uv);
+
+/// Edges of the kQualityBins bins in which the three measures are drawn and compared: sizing from 1/4 to 4 in equal
+/// ratios, anisotropy from 1 to 4.6 and shear from 0 to a right angle in equal steps. The paper does not give its own.
+constexpr int kQualityBins = 36;
 std::vector<double> sizingBins();
 std::vector<double> anisotropyBins();
 std::vector<double> shearBins();

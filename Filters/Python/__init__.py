@@ -17,9 +17,9 @@
     quadrille.check(QuadRemesh(Input=surface))                  # in a script of ParaView: raises where it fails
 
 The VTK classes themselves are here too: vtkQuadRemesh, vtkDecimationHierarchy, vtkIntegerGridMap,
-vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkQuadrilleSession, the source vtkQuadConstraintSource,
-the readers vtkQuadrilleOFFReader and vtkQuadrillePLYReader, and in QuadrilleFilters, where there is CGAL,
-vtkSurfaceRepair, vtkSurfaceWrap and vtkQuadProjection.
+vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkIntegerGridMapQuality, vtkIntegerGridMapComparison, vtkQuadrilleSession,
+the source vtkQuadConstraintSource, the readers vtkQuadrilleOFFReader and vtkQuadrillePLYReader, and in
+QuadrilleFilters, where there is CGAL, vtkSurfaceRepair, vtkSurfaceWrap and vtkQuadProjection.
 """
 import collections
 
