@@ -36,7 +36,7 @@ MeasuredMap measureMap(vtkPolyData* data, double edgeLength, double textureScale
 struct MeasureColumn
 {
   const char* name;
-  const Distribution& distribution;
+  const WeightedDistribution& distribution;
   std::vector<double> edges; ///< of the bins
   double unit;               ///< what a value is multiplied with to be shown
 };

@@ -42,6 +42,21 @@ bool hasRoom(const quadrille::SurfaceInput& input, const quadrille::RemeshOption
   return quadrille::bytesToRemember(run, triangles, store.bytes()) <= quadrille::freeMemory();
 }
 
+quadrille::DecimationCost costOf(int type)
+{
+  switch (type)
+  {
+    case vtkDecimationHierarchy::COST_GAUSSIAN_MEMORY:
+      return quadrille::DecimationCost::GaussianMemory;
+    case vtkDecimationHierarchy::COST_QUADRIC:
+      return quadrille::DecimationCost::Quadric;
+    case vtkDecimationHierarchy::COST_UNIFORM:
+      return quadrille::DecimationCost::Uniform;
+    default:
+      return quadrille::DecimationCost::Gaussian;
+  }
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -68,6 +83,7 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   quadrille::RemeshOptions options = this->MakeOptions(block);
   // The log belongs to the surface as the next filters prepare it again.
   options.smallDetails = quadrille::SmallDetails::Resolve;
+  options.decimationCost = costOf(this->DecimationCost);
   quadrille::checkOptions(options);
   const std::vector<quadrille::CurveRequest> curves = converted.input.curves;
   quadrille::ResultStore* store = this->KeepLevels ? &held.levels : nullptr;
@@ -166,8 +182,16 @@ void vtkDecimationHierarchy::SetKeepLevels(vtkTypeBool on)
 }
 
 //------------------------------------------------------------------------------
+void vtkDecimationHierarchy::AddSettings(std::ostream& os) const
+{
+  this->Superclass::AddSettings(os);
+  os << "DecimationCost " << this->DecimationCost << '\n';
+}
+
+//------------------------------------------------------------------------------
 void vtkDecimationHierarchy::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "KeepLevels: " << this->KeepLevels << "\n";
+  os << indent << "DecimationCost: " << this->DecimationCost << "\n";
 }

@@ -37,6 +37,26 @@ public:
   vtkBooleanMacro(KeepLevels, vtkTypeBool);
   ///@}
 
+  /// The values of DecimationCost, see there.
+  enum DecimationCostType
+  {
+    COST_GAUSSIAN = 0,
+    COST_GAUSSIAN_MEMORY,
+    COST_QUADRIC,
+    COST_UNIFORM
+  };
+
+  ///@{
+  /**
+   * What the removal of a vertex costs on the way from the intermediate to the coarse level, a DecimationCostType
+   * [Ebke et al. 2016, Section 5.1]: the change of Gaussian curvature against the level so far (E_G) or against the
+   * surface (E_G,mem), the quadric error (E_QEM), the length of the shortest edge (E_uni). The last two concentrate
+   * curvature at single vertices, and are there to compare with. Default: COST_GAUSSIAN.
+   */
+  vtkSetClampMacro(DecimationCost, int, COST_GAUSSIAN, COST_UNIFORM);
+  vtkGetMacro(DecimationCost, int);
+  ///@}
+
   /**
    * Names of the stages that the last execution took over; empty where it began from nothing.
    */
@@ -47,6 +67,7 @@ protected:
   ~vtkDecimationHierarchy() override;
 
   const char* GetBlockType(int outputPort) const override;
+  void AddSettings(std::ostream& os) const override;
   void Execute(quadrille::Block& block) override;
 
 private:
@@ -54,6 +75,7 @@ private:
   void operator=(const vtkDecimationHierarchy&) = delete;
 
   vtkTypeBool KeepLevels = 1;
+  int DecimationCost = COST_GAUSSIAN;
 };
 
 #endif

@@ -58,7 +58,7 @@ void writeSummary(const quadrille::MapQuality& quality, vtkTable* table)
   std::vector<double> mean, minimum, low, median, high, maximum;
   for (const quadrille::MeasureColumn& column : quadrille::measureColumns(quality))
   {
-    const quadrille::Distribution& d = column.distribution;
+    const quadrille::WeightedDistribution& d = column.distribution;
     names.emplace_back(column.name);
     mean.push_back(column.unit * d.mean());
     minimum.push_back(column.unit * d.minimum());

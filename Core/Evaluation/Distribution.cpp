@@ -10,7 +10,8 @@
 namespace quadrille
 {
 
-Distribution::Distribution(const std::vector<double>& values, const std::vector<double>& weights)
+WeightedDistribution::WeightedDistribution(
+  const std::vector<double>& values, const std::vector<double>& weights)
 {
   if (values.size() != weights.size())
   {
@@ -32,7 +33,7 @@ Distribution::Distribution(const std::vector<double>& values, const std::vector<
   std::sort(entries_.begin(), entries_.end());
 }
 
-double Distribution::mean() const
+double WeightedDistribution::mean() const
 {
   double sum = 0;
   for (const auto& [value, weight] : entries_)
@@ -42,17 +43,17 @@ double Distribution::mean() const
   return isEmpty() ? 0 : sum / total_;
 }
 
-double Distribution::minimum() const
+double WeightedDistribution::minimum() const
 {
   return isEmpty() ? 0 : entries_.front().first;
 }
 
-double Distribution::maximum() const
+double WeightedDistribution::maximum() const
 {
   return isEmpty() ? 0 : entries_.back().first;
 }
 
-double Distribution::quantile(double part) const
+double WeightedDistribution::quantile(double part) const
 {
   double below = 0;
   for (const auto& [value, weight] : entries_)
@@ -66,7 +67,7 @@ double Distribution::quantile(double part) const
   return maximum();
 }
 
-std::vector<double> Distribution::histogram(const std::vector<double>& edges) const
+std::vector<double> WeightedDistribution::histogram(const std::vector<double>& edges) const
 {
   if (edges.size() < 2 || !std::is_sorted(edges.begin(), edges.end()))
   {
@@ -83,7 +84,7 @@ std::vector<double> Distribution::histogram(const std::vector<double>& edges) co
   return shares;
 }
 
-double wassersteinDistance(const Distribution& a, const Distribution& b)
+double wassersteinDistance(const WeightedDistribution& a, const WeightedDistribution& b)
 {
   if (a.isEmpty() != b.isEmpty())
   {

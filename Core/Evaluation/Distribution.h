@@ -10,13 +10,13 @@
 namespace quadrille
 {
 
-class Distribution
+class WeightedDistribution
 {
 public:
-  Distribution() = default;
+  WeightedDistribution() = default;
   /// Values and their weights, as many of one as of the other. Entries without a weight above 0 are left out. Throws
   /// InvalidInput where the sizes differ or a number is not finite.
-  Distribution(const std::vector<double>& values, const std::vector<double>& weights);
+  WeightedDistribution(const std::vector<double>& values, const std::vector<double>& weights);
 
   bool isEmpty() const { return entries_.empty(); }
   std::size_t size() const { return entries_.size(); }
@@ -44,6 +44,6 @@ private:
 /// The first Wasserstein distance of two distributions, each with its total as 1: the area between the two cumulative
 /// distribution functions, in units of the values; exact, not of histograms [Rubner et al. 1998]. 0 where both are
 /// empty; throws InvalidInput where only one is.
-double wassersteinDistance(const Distribution& a, const Distribution& b);
+double wassersteinDistance(const WeightedDistribution& a, const WeightedDistribution& b);
 
 } // namespace quadrille

@@ -13,12 +13,13 @@
 namespace quadrille
 {
 
-/// A shortest path on a polyhedron is straight when the triangles that it crosses are laid out in a plane, and bends at
-/// vertices only [Mitchell, Mount, Papadimitriou 1987]. Arcs join a vertex to all that see it through a strip of at most
-/// kMostCrossings + 1 triangles; a longer straight line is followed by several of them, which bend at vertices near it.
-/// So distances are never too short, and too long by 1 / cos of half the angle between neighbouring directions at most:
-/// 1 % on the triangles of an even sampling (some ninety arcs a vertex), 1.4 % on a grid of right-angled ones (fifty), and 2.5 % over a few edges of an uneven one.
-/// Exact windows would give that last per cent for hundred times the work.
+/// A shortest path on a polyhedron is straight when the triangles that it crosses are laid out in a plane, and bends
+/// at vertices only [Mitchell, Mount, Papadimitriou 1987]. Arcs join a vertex to all that see it through a strip of at
+/// most kMostCrossings + 1 triangles; a longer straight line is followed by several of them, which bend at vertices
+/// near it. So distances are never too short, and too long by 1 / cos of half the angle between neighbouring directions
+/// at most: 1 % on the triangles of an even sampling (some ninety arcs a vertex), 1.4 % on a grid of right-angled ones
+/// (fifty), and 2.5 % over a few edges of an uneven one. Exact windows would give that last per cent for hundred times
+/// the work.
 class GeodesicGraph
 {
 public:

@@ -100,9 +100,9 @@ MapQuality measureMapQuality(const Mesh& mesh, const std::vector<FixedVec2>& uv,
     shear.push_back(result.faces[f].shear);
     weights.push_back(result.areas[f]);
   }
-  result.sizing = Distribution(sizing, weights);
-  result.anisotropy = Distribution(anisotropy, weights);
-  result.shear = Distribution(shear, weights);
+  result.sizing = WeightedDistribution(sizing, weights);
+  result.anisotropy = WeightedDistribution(anisotropy, weights);
+  result.shear = WeightedDistribution(shear, weights);
   return result;
 }
 

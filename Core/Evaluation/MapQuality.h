@@ -16,8 +16,8 @@ namespace quadrille
 /// asks for sizes, lengths on it are over them.
 struct FaceMapQuality
 {
-  /// det(grad g) / s^2: the area of a quad there over that of a square of edge length s; 1 is wanted. Negative where the
-  /// face is inverted.
+  /// det(grad g) / s^2: the area of a quad there over that of a square of edge length s; 1 is wanted. Negative where
+  /// the face is inverted.
   double sizing = 0;
   /// The larger singular value of grad g over the smaller one, >= 1; 1 where the map keeps angles.
   double anisotropy = 0;
@@ -28,18 +28,18 @@ struct FaceMapQuality
 
 struct MapQuality
 {
-  std::vector<FaceMapQuality> faces;      ///< #F; zeros for faces that are not counted
-  std::vector<double> areas;              ///< #F; over the sizes; 0 for faces that are not counted
-  Distribution sizing, anisotropy, shear; ///< over the areas, upright faces only
-  std::size_t inverted = 0;               ///< faces with an area and a negative determinant
-  std::size_t degenerate = 0;             ///< faces without an area on the surface or in the map
+  std::vector<FaceMapQuality> faces; ///< #F; zeros for faces that are not counted
+  std::vector<double> areas;         ///< #F; over the sizes; 0 for faces that are not counted
+  WeightedDistribution sizing, anisotropy, shear; ///< over the areas, upright faces only
+  std::size_t inverted = 0;                       ///< faces with an area and a negative determinant
+  std::size_t degenerate = 0; ///< faces without an area on the surface or in the map
 };
 
 /// uv: #H. edgeLength: s > 0, in units of the mesh. Throws InvalidInput where sizes disagree or s is no such number.
 MapQuality measureMapQuality(const Mesh& mesh, const std::vector<FixedVec2>& uv, double edgeLength);
 
-/// #V: the quarter turns of the map round each inner vertex, its valence; round a boundary vertex those of a regular one
-/// (2), as a boundary off the axes has no whole number of them. Exact where the images of edges agree up to quarter
+/// #V: the quarter turns of the map round each inner vertex, its valence; round a boundary vertex those of a regular
+/// one (2), as a boundary off the axes has no whole number of them. Exact where the images of edges agree up to quarter
 /// turns. uv: #H. Throws InvalidInput where sizes disagree.
 std::vector<int> turnsOfMap(const Mesh& mesh, const std::vector<FixedVec2>& uv);
 

@@ -27,6 +27,7 @@ ResultKey mapKey(const RunContext& run, const Plan& plan)
   KeyMaker key(run.surface.key());
   key.add(run.edgeLength).add(plan.levelsKey());
   key.add(static_cast<std::uint64_t>(options.method))
+    .add(static_cast<std::uint64_t>(options.decimationCost))
     .add(std::uint64_t{ options.coarsestIntegers ? 1U : 0U })
     .add(std::uint64_t{ options.distortionMetric ? 1U : 0U })
     .add(std::uint64_t{ options.warmStart ? 1U : 0U })
@@ -436,6 +437,7 @@ HierarchyOptions levelOptions(const RunContext& run, const Plan& plan)
   HierarchyOptions options;
   options.targetEdgeLength = plan.levels.edgeLength * run.edgeLength;
   options.coarseVertices = plan.levels.coarseVertices;
+  options.cost = run.options.decimationCost;
   options.guides = surfaceGuides(*run.surface, run.options.threads).faces;
   options.keepVertices = plan.levels.keptVertices;
   options.threads = run.options.threads;

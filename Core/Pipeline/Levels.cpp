@@ -25,7 +25,7 @@ ResultKey phase2Key(const HierarchyOptions& options)
       key.add(guide.guide.direction[i]);
     }
   }
-  return key.add(std::uint64_t{ 1 }).key();
+  return key.add(static_cast<std::uint64_t>(options.cost)).add(std::uint64_t{ 1 }).key();
 }
 
 } // namespace

@@ -512,10 +512,11 @@ SessionJson settingsToJson(const RemeshOptions& options)
 {
   // By name, so that an option that is new has to be put on one side or the other here.
   const auto& [quads, edgeLength, relativeEdgeLength, featureAngle, featureCriterion, shapeSizes,
-    curvatureGuides, method, coarsestIntegers, coarseVertices, closeHandles, smallDetails,
-    removeSmallComponents, anisotropyLimit, finalQuality, distortionMetric, maximumNumberOfQuads,
-    preview, smoothingSteps, memoryLimit, mergeCharts, knownMap, threads, warmStart, progress] =
-    options;
+    curvatureGuides, method, coarsestIntegers, coarseVertices, decimationCost, closeHandles,
+    smallDetails, removeSmallComponents, anisotropyLimit, finalQuality, distortionMetric,
+    maximumNumberOfQuads, preview, smoothingSteps, memoryLimit, mergeCharts, knownMap, threads,
+    warmStart, progress] = options;
+  static_cast<void>(decimationCost); // sessions have the default one
   static_cast<void>(preview);
   static_cast<void>(memoryLimit);
   static_cast<void>(mergeCharts);

@@ -524,6 +524,31 @@ TEST(StageFilters, LevelsAreSubsamplingsOfTheSurface)
   EXPECT_EQ(summarizeTopology(mesh).eulerCharacteristic, 0);
 }
 
+TEST(StageFilters, CostsOfTheDecimationGiveOtherLevelsAndTheSameOnesAgain)
+{
+  Chain chain(test::toPolyData(test::torus(80, 40)));
+  std::vector<std::vector<Vector3>> levels;
+  for (const int cost : { vtkDecimationHierarchy::COST_GAUSSIAN,
+         vtkDecimationHierarchy::COST_GAUSSIAN_MEMORY, vtkDecimationHierarchy::COST_QUADRIC,
+         vtkDecimationHierarchy::COST_UNIFORM, vtkDecimationHierarchy::COST_GAUSSIAN })
+  {
+    chain.hierarchy->SetCoarseVertices(200);
+    chain.hierarchy->SetDecimationCost(cost);
+    chain.upmap->Update();
+    ASSERT_EQ(chain.upmap->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
+      << chain.upmap->GetOutcomeText();
+    levels.push_back(pointsOf(vtkPolyData::SafeDownCast(chain.hierarchy->GetOutputDataObject(0))));
+  }
+  for (std::size_t i = 0; i + 1 < levels.size(); ++i)
+  {
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      EXPECT_NE(levels[i], levels[j]) << i << " and " << j;
+    }
+  }
+  EXPECT_EQ(levels.front(), levels.back());
+}
+
 TEST(StageFilters, LogOfAnotherSurfaceIsRefused)
 {
   Chain chain(test::toPolyData(test::torus(80, 40)));

@@ -15,9 +15,9 @@ using namespace quadrille;
 namespace
 {
 
-constexpr double kRounding = 1e-12;
+constexpr double kSumRounding = 1e-12;
 
-Distribution randomDistribution(std::mt19937& random, std::size_t count)
+WeightedDistribution randomDistribution(std::mt19937& random, std::size_t count)
 {
   std::uniform_real_distribution<double> number(0, 1);
   std::vector<double> values, weights;
@@ -33,10 +33,10 @@ Distribution randomDistribution(std::mt19937& random, std::size_t count)
 
 TEST(Distribution, CountsByWeight)
 {
-  const Distribution d({ 3, 1, 2, 9 }, { 1, 2, 1, 0 });
+  const WeightedDistribution d({ 3, 1, 2, 9 }, { 1, 2, 1, 0 });
   EXPECT_EQ(d.size(), 3U);
-  EXPECT_NEAR(d.total(), 4, kRounding);
-  EXPECT_NEAR(d.mean(), 7.0 / 4, kRounding);
+  EXPECT_NEAR(d.total(), 4, kSumRounding);
+  EXPECT_NEAR(d.mean(), 7.0 / 4, kSumRounding);
   EXPECT_EQ(d.minimum(), 1);
   EXPECT_EQ(d.maximum(), 3);
   EXPECT_EQ(d.quantile(0), 1);
@@ -47,27 +47,28 @@ TEST(Distribution, CountsByWeight)
 
 TEST(Distribution, HistogramHoldsAllOfTheWeight)
 {
-  const Distribution d({ -5, 0, 1, 1.5, 2, 7 }, { 1, 1, 1, 1, 1, 3 });
+  const WeightedDistribution d({ -5, 0, 1, 1.5, 2, 7 }, { 1, 1, 1, 1, 1, 3 });
   const std::vector<double> shares = d.histogram({ 0, 1, 2 });
   ASSERT_EQ(shares.size(), 2U);
-  EXPECT_NEAR(shares[0], 2.0 / 8, kRounding); // -5 and 0
-  EXPECT_NEAR(shares[1], 6.0 / 8, kRounding); // 1, 1.5, 2 and 7
+  EXPECT_NEAR(shares[0], 2.0 / 8, kSumRounding); // -5 and 0
+  EXPECT_NEAR(shares[1], 6.0 / 8, kSumRounding); // 1, 1.5, 2 and 7
   EXPECT_THROW(d.histogram({ 1 }), InvalidInput);
   EXPECT_THROW(d.histogram({ 2, 1 }), InvalidInput);
-  EXPECT_EQ(Distribution().histogram({ 0, 1 }), std::vector<double>{ 0 });
+  EXPECT_EQ(WeightedDistribution().histogram({ 0, 1 }), std::vector<double>{ 0 });
 }
 
 TEST(Distribution, RefusesWhatIsNoNumber)
 {
-  EXPECT_THROW(Distribution({ 1 }, {}), InvalidInput);
-  EXPECT_THROW(Distribution({ std::nan("") }, { 1 }), InvalidInput);
-  EXPECT_THROW(Distribution({ 1 }, { std::numeric_limits<double>::infinity() }), InvalidInput);
+  EXPECT_THROW(WeightedDistribution({ 1 }, {}), InvalidInput);
+  EXPECT_THROW(WeightedDistribution({ std::nan("") }, { 1 }), InvalidInput);
+  EXPECT_THROW(
+    WeightedDistribution({ 1 }, { std::numeric_limits<double>::infinity() }), InvalidInput);
 }
 
 TEST(WassersteinDistance, OfAShiftIsItsLength)
 {
   std::mt19937 random(1);
-  const Distribution a = randomDistribution(random, 40);
+  const WeightedDistribution a = randomDistribution(random, 40);
   for (const double shift : { -2.5, 0.0, 0.125, 3.0 })
   {
     std::vector<double> values, weights;
@@ -96,20 +97,20 @@ TEST(WassersteinDistance, OfEqualWeightsIsThatOfSortedPairs)
   {
     sum += std::abs(a[i] - b[i]) / 25;
   }
-  EXPECT_NEAR(distance, sum, kRounding);
+  EXPECT_NEAR(distance, sum, kSumRounding);
 }
 
 TEST(WassersteinDistance, IsAMetric)
 {
   std::mt19937 random(3);
-  const Distribution a = randomDistribution(random, 30);
-  const Distribution b = randomDistribution(random, 17);
-  const Distribution c = randomDistribution(random, 5);
+  const WeightedDistribution a = randomDistribution(random, 30);
+  const WeightedDistribution b = randomDistribution(random, 17);
+  const WeightedDistribution c = randomDistribution(random, 5);
   EXPECT_EQ(wassersteinDistance(a, a), 0);
-  EXPECT_NEAR(wassersteinDistance(a, b), wassersteinDistance(b, a), kRounding);
+  EXPECT_NEAR(wassersteinDistance(a, b), wassersteinDistance(b, a), kSumRounding);
   EXPECT_GT(wassersteinDistance(a, b), 0);
-  EXPECT_LE(
-    wassersteinDistance(a, c), wassersteinDistance(a, b) + wassersteinDistance(b, c) + kRounding);
+  EXPECT_LE(wassersteinDistance(a, c),
+    wassersteinDistance(a, b) + wassersteinDistance(b, c) + kSumRounding);
   EXPECT_EQ(wassersteinDistance({}, {}), 0);
   EXPECT_THROW(wassersteinDistance(a, {}), InvalidInput);
 }

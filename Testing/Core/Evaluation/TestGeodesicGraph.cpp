@@ -19,11 +19,11 @@ namespace
 {
 
 /// Lengths of arcs are single precision.
-constexpr double kRounding = 1e-6;
+constexpr double kArcRounding = 1e-6;
 /// What GeodesicGraph promises: on a grid, on an uneven one and on an even sampling.
-constexpr double kDetour = 1.014;
-constexpr double kUnevenDetour = 1.025;
-constexpr double kEvenDetour = 1.01;
+constexpr double kGridDetour = 1.014;
+constexpr double kUnevenGridDetour = 1.025;
+constexpr double kSphereDetour = 1.01;
 
 std::vector<Index> allVertices(const Mesh& mesh)
 {
@@ -56,8 +56,8 @@ TEST(GeodesicGraph, IsStraightInThePlane)
       for (Index v = 0; v < mesh.vertexCount(); ++v)
       {
         const double straight = (mesh.position[v] - mesh.position[source]).norm();
-        EXPECT_GE(d[v], straight * (1 - kRounding));
-        EXPECT_LE(d[v], straight * (uneven ? kUnevenDetour : kDetour) + kRounding);
+        EXPECT_GE(d[v], straight * (1 - kArcRounding));
+        EXPECT_LE(d[v], straight * (uneven ? kUnevenGridDetour : kGridDetour) + kArcRounding);
       }
     }
   }
@@ -75,7 +75,7 @@ TEST(GeodesicGraph, FollowsGreatCircles)
     const double arc = radius * std::acos(std::clamp(cosine, -1.0, 1.0));
     // The polyhedron is smaller than the sphere: at level 4 its edges are 0.9995 of their arcs or more.
     EXPECT_GE(d[v], arc * 0.999);
-    EXPECT_LE(d[v], arc * kEvenDetour + kRounding);
+    EXPECT_LE(d[v], arc * kSphereDetour + kArcRounding);
   }
 }
 
@@ -94,8 +94,8 @@ TEST(GeodesicGraph, GoesRoundTheBendOfAnLAndStaysOnItsComponent)
   };
   const GeodesicGraph graph(plate);
   const double way = graph.distances(at(1, 8), { at(8, 1) }).front();
-  EXPECT_GE(way, 2 * std::hypot(3, 4) * (1 - kRounding));
-  EXPECT_LE(way, 2 * std::hypot(3, 4) * kDetour);
+  EXPECT_GE(way, 2 * std::hypot(3, 4) * (1 - kArcRounding));
+  EXPECT_LE(way, 2 * std::hypot(3, 4) * kGridDetour);
 
   const Mesh two = disjointUnion(gridPlane(2, 2), gridPlane(2, 2), Vector3(5, 0, 0));
   EXPECT_TRUE(std::isinf(GeodesicGraph(two).distances(0, { two.vertexCount() - 1 }).front()));

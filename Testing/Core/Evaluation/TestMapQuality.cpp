@@ -17,7 +17,7 @@ namespace
 {
 
 /// Positions of a map are multiples of 2^-24; those below are multiples of 2^-6, so only rounding is left.
-constexpr double kRounding = 1e-9;
+constexpr double kMapRounding = 1e-9;
 
 /// (x, y) of the points times a matrix.
 std::vector<FixedVec2> mappedBy(const Mesh& mesh, const Eigen::Matrix2d& m)
@@ -37,11 +37,11 @@ Eigen::Matrix2d matrix(double a, double b, double c, double d)
   return m;
 }
 
-void expectEverywhere(const Distribution& d, double value)
+void expectEverywhere(const WeightedDistribution& d, double value)
 {
-  EXPECT_NEAR(d.minimum(), value, kRounding);
-  EXPECT_NEAR(d.mean(), value, kRounding);
-  EXPECT_NEAR(d.maximum(), value, kRounding);
+  EXPECT_NEAR(d.minimum(), value, kMapRounding);
+  EXPECT_NEAR(d.mean(), value, kMapRounding);
+  EXPECT_NEAR(d.maximum(), value, kMapRounding);
 }
 
 } // namespace
@@ -56,7 +56,7 @@ TEST(MapQuality, OfQuadsOfTheSizeAskedForIsOne)
     expectEverywhere(q.anisotropy, 1);
     expectEverywhere(q.shear, kPi / 2);
     EXPECT_EQ(q.inverted + q.degenerate, 0U);
-    EXPECT_NEAR(q.sizing.total(), 24, kRounding);
+    EXPECT_NEAR(q.sizing.total(), 24, kMapRounding);
   }
 }
 
@@ -120,9 +120,9 @@ TEST(MapQuality, WeighsByArea)
     }
   }
   const MapQuality q = measureMapQuality(mesh, uv, 1);
-  EXPECT_NEAR(q.sizing.mean(), (3 + 0.5) / 4, kRounding);
-  EXPECT_NEAR(q.sizing.quantile(0.25), 0.5, kRounding);
-  EXPECT_NEAR(q.anisotropy.mean(), (3 + 2.0) / 4, kRounding);
+  EXPECT_NEAR(q.sizing.mean(), (3 + 0.5) / 4, kMapRounding);
+  EXPECT_NEAR(q.sizing.quantile(0.25), 0.5, kMapRounding);
+  EXPECT_NEAR(q.anisotropy.mean(), (3 + 2.0) / 4, kMapRounding);
 }
 
 TEST(MapQuality, CountsInvertedAndDegenerateFaces)
@@ -134,7 +134,7 @@ TEST(MapQuality, CountsInvertedAndDegenerateFaces)
   const MapQuality q = measureMapQuality(mesh, uv, 1);
   EXPECT_EQ(q.inverted, 1U);
   EXPECT_EQ(q.degenerate, 1U);
-  EXPECT_NEAR(q.faces[0].sizing, -1, kRounding);
+  EXPECT_NEAR(q.faces[0].sizing, -1, kMapRounding);
   EXPECT_LT(q.faces[0].shear, 0);
   EXPECT_EQ(q.areas[1], 0);
   EXPECT_EQ(q.sizing.size(), 6U);
@@ -163,7 +163,7 @@ TEST(MapQuality, BinsAscend)
     ASSERT_GE(bins.size(), 2U);
     EXPECT_TRUE(std::is_sorted(bins.begin(), bins.end()));
   }
-  EXPECT_NEAR(sizingBins().front(), 0.25, kRounding);
-  EXPECT_NEAR(sizingBins().back(), 4, kRounding);
-  EXPECT_NEAR(shearBins().back(), kPi / 2, kRounding);
+  EXPECT_NEAR(sizingBins().front(), 0.25, kMapRounding);
+  EXPECT_NEAR(sizingBins().back(), 4, kMapRounding);
+  EXPECT_NEAR(shearBins().back(), kPi / 2, kMapRounding);
 }

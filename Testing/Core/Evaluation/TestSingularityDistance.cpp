@@ -30,9 +30,9 @@ Index at(const Mesh& mesh, double x, double y)
 }
 
 /// Ways along an axis of the grid are exact but for single precision.
-constexpr double kRounding = 1e-5;
+constexpr double kWayRounding = 1e-5;
 /// What a way may be longer than the geodesic, see GeodesicGraph.
-constexpr double kDetour = 1.01;
+constexpr double kWayDetour = 1.01;
 
 /// A vertex of the mesh near a point.
 Index nearest(const Mesh& mesh, const Vector3& p)
@@ -84,9 +84,9 @@ TEST(SingularityDistance, IsTheWayASingularityMovedTimesItsIndex)
     before[at(mesh, 3, 5)] = 4 - index;
     after[at(mesh, 15, 5)] = 4 - index;
     EXPECT_NEAR(
-      singularityDistance(mesh, before, after).work, 12.0 * std::abs(index), 2 * kRounding);
+      singularityDistance(mesh, before, after).work, 12.0 * std::abs(index), 2 * kWayRounding);
     EXPECT_NEAR(
-      singularityDistance(mesh, after, before).work, 12.0 * std::abs(index), 2 * kRounding);
+      singularityDistance(mesh, after, before).work, 12.0 * std::abs(index), 2 * kWayRounding);
   }
 }
 
@@ -100,7 +100,7 @@ TEST(SingularityDistance, SplitsAndPairsCostTheirWaysOnly)
   after[at(mesh, 7, 5)] = 3;
   after[at(mesh, 14, 2)] = 3; // and a new pair, one edge apart
   after[at(mesh, 15, 2)] = 5;
-  EXPECT_NEAR(singularityDistance(mesh, before, after).work, 5, kRounding);
+  EXPECT_NEAR(singularityDistance(mesh, before, after).work, 5, kWayRounding);
 }
 
 TEST(SingularityDistance, TellsSumsThatDiffer)
@@ -142,7 +142,7 @@ TEST(SingularityDistance, AlongAGreatCircleIsItsLength)
     after[to] = 3;
     const SingularityDistance d = singularityDistance(mesh, before, after);
     EXPECT_GE(d.work, arc * 0.999); // the polyhedron lies inside the sphere
-    EXPECT_LE(d.work, arc * kDetour);
+    EXPECT_LE(d.work, arc * kWayDetour);
     ASSERT_EQ(d.moves.size(), 1U);
     EXPECT_EQ(d.moves[0].from, from);
     EXPECT_EQ(d.moves[0].to, to);
@@ -167,7 +167,7 @@ TEST(SingularityDistance, AlongTheOuterEquatorOfATorusIsItsLength)
     after[to] = 5;
     const double work = singularityDistance(mesh, before, after).work;
     EXPECT_GE(work, arc * 0.995); // 60 chords round
-    EXPECT_LE(work, arc * kDetour);
+    EXPECT_LE(work, arc * kWayDetour);
   }
 }
 
