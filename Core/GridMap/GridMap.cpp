@@ -394,10 +394,11 @@ private:
     }
   }
 
-  /// A component whose share is less than a block of quads gets that block.
+  /// A component whose share is less than a block of quads gets that block. With no number wanted all follow the edge
+  /// length.
   static bool isBlock(const Component& component, double wanted)
   {
-    return wanted * component.share < component.block;
+    return wanted > 0 && wanted * component.share < component.block;
   }
   static double quadsOf(const Component& component, double wanted)
   {

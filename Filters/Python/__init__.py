@@ -34,6 +34,8 @@ from ._session import Irregular, Session
 from .QuadrilleFilters import (
     vtkDecimationHierarchy,
     vtkIntegerGridMap,
+    vtkIntegerGridMapComparison,
+    vtkIntegerGridMapQuality,
     vtkIntegerGridMapUpmap,
     vtkQuadConstraintSource,
     vtkQuadExtraction,
@@ -46,8 +48,9 @@ from .QuadrilleFilters import (
 __all__ = [
     "InvalidInput", "Irregular", "RemeshError", "Remeshed", "Session", "check", "has_cgal", "info", "read",
     "remesh", "repair", "to_arrays", "to_polydata", "wrap",
-    "vtkDecimationHierarchy", "vtkIntegerGridMap", "vtkIntegerGridMapUpmap", "vtkQuadConstraintSource",
-    "vtkQuadExtraction", "vtkQuadRemesh", "vtkQuadrilleOFFReader", "vtkQuadrillePLYReader", "vtkQuadrilleSession",
+    "vtkDecimationHierarchy", "vtkIntegerGridMap", "vtkIntegerGridMapComparison", "vtkIntegerGridMapQuality",
+    "vtkIntegerGridMapUpmap", "vtkQuadConstraintSource", "vtkQuadExtraction", "vtkQuadRemesh",
+    "vtkQuadrilleOFFReader", "vtkQuadrillePLYReader", "vtkQuadrilleSession",
 ]
 
 

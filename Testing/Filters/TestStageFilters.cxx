@@ -549,6 +549,23 @@ TEST(StageFilters, CostsOfTheDecimationGiveOtherLevelsAndTheSameOnesAgain)
   EXPECT_EQ(levels.front(), levels.back());
 }
 
+TEST(StageFilters, AnEdgeLengthOfTheMapsOwnGivesQuadsOfThatSize)
+{
+  Chain chain(test::toPolyData(test::torus(80, 40)));
+  chain.hierarchy->Update();
+  vtkDataArray* target = chain.hierarchy->GetOutput()->GetFieldData()->GetArray("TargetEdgeLength");
+  ASSERT_NE(target, nullptr);
+  for (const double factor : { 1.0, 1.5 })
+  {
+    chain.map->SetEdgeLength(factor * target->GetTuple1(0));
+    chain.extraction->Update();
+    ASSERT_EQ(chain.extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
+      << chain.extraction->GetOutcomeText();
+    const double quads = static_cast<double>(chain.extraction->GetOutput()->GetNumberOfCells());
+    EXPECT_NEAR(quads * factor * factor / 500, 1, 0.15);
+  }
+}
+
 TEST(StageFilters, LogOfAnotherSurfaceIsRefused)
 {
   Chain chain(test::toPolyData(test::torus(80, 40)));
