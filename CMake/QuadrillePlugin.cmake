@@ -67,6 +67,12 @@ if(PARAVIEW_USE_PYTHON)
     install(FILES "${CMAKE_SOURCE_DIR}/Filters/Python/${file}.py"
       DESTINATION "${QUADRILLE_PYTHON_DIR}/quadrille")
   endforeach()
+  foreach(file IN ITEMS __init__ meshes page study)
+    configure_file("${CMAKE_SOURCE_DIR}/Filters/Python/evaluation/${file}.py"
+      "${CMAKE_BINARY_DIR}/${QUADRILLE_PYTHON_DIR}/quadrille/evaluation/${file}.py" COPYONLY)
+    install(FILES "${CMAKE_SOURCE_DIR}/Filters/Python/evaluation/${file}.py"
+      DESTINATION "${QUADRILLE_PYTHON_DIR}/quadrille/evaluation")
+  endforeach()
 else()
   message(FATAL_ERROR "This ParaView was built without Python, which the package `quadrille` needs.")
 endif()

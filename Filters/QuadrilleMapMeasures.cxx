@@ -5,9 +5,13 @@
 #include "Base/Angles.h"
 #include "Base/Refuse.h"
 #include "Evaluation/SingularityDistance.h"
+#include "QuadrilleArrayNames.h"
+#include "QuadrilleConvert.h"
 #include "QuadrilleMappedInput.h"
 #include "QuadrilleNewArray.h"
+#include "QuadrilleReport.h"
 
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -50,18 +54,28 @@ double targetEdgeLength(vtkPolyData* data)
 
 MeasuredMap measureMap(vtkPolyData* data, double edgeLength, double textureScale, int threads)
 {
-  MappedInput input = readMappedInput(data, textureScale, threads);
   MeasuredMap result;
+  std::vector<FixedVec2> uv;
+  if (readMethod(data) == MapMethod::Seamless && data->GetCellData()->HasArray(arrays::kIgm))
+  {
+    result.mesh = readMesh(data, threads); // there is nothing whole in it to be checked
+    uv = readMap(data, threads);
+  }
+  else
+  {
+    MappedInput input = readMappedInput(data, textureScale, threads);
+    result.notice = input.notice();
+    result.mesh = std::move(input.mesh);
+    uv = std::move(input.map.uv);
+  }
   result.edgeLength = edgeLength > 0 ? edgeLength : targetEdgeLength(data);
   if (!(result.edgeLength > 0))
   {
-    result.edgeLength = naturalEdgeLength(input.mesh, input.map.uv);
+    result.edgeLength = naturalEdgeLength(result.mesh, uv);
   }
-  result.quality = measureMapQuality(input.mesh, input.map.uv, result.edgeLength);
-  result.turns = turnsOfMap(input.mesh, input.map.uv);
-  result.valences = singularityHistogram(input.mesh, result.turns);
-  result.notice = input.notice();
-  result.mesh = std::move(input.mesh);
+  result.quality = measureMapQuality(result.mesh, uv, result.edgeLength);
+  result.turns = turnsOfMap(result.mesh, uv);
+  result.valences = singularityHistogram(result.mesh, result.turns);
   return result;
 }
 

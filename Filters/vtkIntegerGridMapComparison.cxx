@@ -87,7 +87,7 @@ void writeMeasures(
   const MeasuredMap& map, const MeasuredMap& reference, double emd, vtkTable* table)
 {
   std::vector<std::string> names;
-  std::vector<double> ours, theirs, distances;
+  std::vector<double> ours, theirs, distances, medians, otherMedians;
   const auto columns = quadrille::measureColumns(map.quality);
   const auto others = quadrille::measureColumns(reference.quality);
   for (std::size_t i = 0; i < columns.size(); ++i)
@@ -95,6 +95,8 @@ void writeMeasures(
     names.emplace_back(columns[i].name);
     ours.push_back(columns[i].unit * columns[i].distribution.mean());
     theirs.push_back(others[i].unit * others[i].distribution.mean());
+    medians.push_back(columns[i].unit * columns[i].distribution.quantile(0.5));
+    otherMedians.push_back(others[i].unit * others[i].distribution.quantile(0.5));
     distances.push_back(columns[i].unit *
       quadrille::wassersteinDistance(columns[i].distribution, others[i].distribution));
   }
@@ -119,10 +121,17 @@ void writeMeasures(
   ours.push_back(static_cast<double>(map.quality.inverted));
   theirs.push_back(static_cast<double>(reference.quality.inverted));
   distances.push_back(std::abs(ours.back() - theirs.back()));
+  // Counts have no median; they stand in all columns of a side.
+  medians.insert(
+    medians.end(), ours.begin() + static_cast<std::ptrdiff_t>(columns.size()), ours.end());
+  otherMedians.insert(
+    otherMedians.end(), theirs.begin() + static_cast<std::ptrdiff_t>(columns.size()), theirs.end());
   quadrille::addTextColumn(table, "Measure", names);
   quadrille::addNumberColumn(table, "Map", ours);
   quadrille::addNumberColumn(table, "Reference", theirs);
   quadrille::addNumberColumn(table, "Distance", distances);
+  quadrille::addNumberColumn(table, "MapMedian", medians);
+  quadrille::addNumberColumn(table, "ReferenceMedian", otherMedians);
 }
 
 void writeBothHistograms(const MeasuredMap& map, const MeasuredMap& reference, vtkTable* table)
