@@ -153,12 +153,12 @@ def _measure(outcome, mapped, reference, edge_length, threads):
     outcome.certificate, outcome.valid = _certificate(mapped)
 
 
-def _reference(chain, first, edge_length, method, threads):
-    """The map without decimation where the surface is small enough, else that of the intermediate level: (mapped
-    surface, outcome, note)."""
+def _reference(chain, first, edge_length, method, threads, largest):
+    """The map without decimation where the surface has at most `largest` points, else that of the intermediate level:
+    (mapped surface, outcome, note)."""
     outcome = Outcome("without decimation")
     start = time.perf_counter()
-    if first.GetNumberOfPoints() <= LARGEST:
+    if first.GetNumberOfPoints() <= largest:
         grid = quadrille.vtkIntegerGridMap()
         grid.SetInputData(_without_map(first))
         grid.SetMethod(quadrille.METHODS.index(method))
@@ -170,7 +170,7 @@ def _reference(chain, first, edge_length, method, threads):
         outcome.seconds = _stages(grid)
     else:
         mapped = _copy(chain.run("COST_GAUSSIAN", ALL))
-        note = f"map of the intermediate level, as the surface has more than {LARGEST:,} points"
+        note = f"map of the intermediate level, as the surface has more than {largest:,} points"
         outcome.name = "intermediate level"
         _levels(chain, outcome)
     outcome.seconds["whole"] = time.perf_counter() - start
@@ -184,20 +184,22 @@ def _levels(chain, outcome):
         outcome.seconds.update(_stages(run))
 
 
-def study(surface, model, quads, budgets=(500, 2000, 4000, 0), method="seamless", threads=0, tell=print):
+def study(surface, model, quads, budgets=(500, 2000, 4000, 0), method="seamless", threads=0, tell=print, costs=COSTS,
+          largest=LARGEST):
     """All maps of a surface: the reference, one by each cost with a budget of BUDGET vertices, and one by E_G with each
     of `budgets` (0: as many as the curvature needs). A map that cannot be made is an outcome with its error. method: a
     name of quadrille.METHODS; seamless ones differ by the levels only, not by whole numbers. tell is called with a
-    line now and then."""
+    line now and then. costs: those of COSTS that are looked at; largest: points of a surface that is mapped without
+    decimation."""
     chain = _Chain(surface, quads, method, threads)
     tell(f"{model}: levels")
     first = _copy(chain.run("COST_GAUSSIAN", BUDGET))
     edge_length = chain.hierarchy.GetOutput().GetFieldData().GetArray("TargetEdgeLength").GetTuple1(0)
     tell(f"{model}: reference")
-    reference, outcome, note = _reference(chain, first, edge_length, method, threads)
+    reference, outcome, note = _reference(chain, first, edge_length, method, threads, largest)
     _measure(outcome, reference, reference, edge_length, threads)
     result = Study(model, first.GetNumberOfCells(), quads, edge_length, method, note, [outcome])
-    runs = [(name, cost, BUDGET) for name, cost in COSTS]
+    runs = [(name, cost, BUDGET) for name, cost in costs]
     runs += [(f"E_G, {'automatic' if budget == 0 else budget}", "COST_GAUSSIAN", budget) for budget in budgets]
     for name, cost, budget in runs:
         tell(f"{model}: {name}")
