@@ -11,8 +11,8 @@
  *    the map; cell arrays `Turns` (how many quarter turns) and `Length` (of the way along the surface);
  * 1. a table of measures: `Measure`, `Map`, `Reference`, `Distance`, `MapMedian`, `ReferenceMedian`. For sizing,
  *    anisotropy and shear means and medians by area and the first Wasserstein distance of the two distributions over
- *    the area; for the irregular vertices their numbers and the earth mover's distance in quarter turns times edge lengths;
- *    those of other valences than 3 and 5; inverted triangles;
+ *    the area; for the irregular vertices their numbers and the earth mover's distance in quarter turns times edge
+ *    lengths; those of other valences than 3 and 5; inverted triangles;
  * 2. a table of histograms: for each measure the middle of the bin, and the shares of both maps in percent;
  * 3. a table of valences: `Valence`, `Map`, `Reference`.
  *

@@ -28,7 +28,7 @@ public:
   double maximum() const;
   /// The least value that has at least this part of the weight at or below it; part in [0, 1].
   double quantile(double part) const;
-  /// The share of the weight in each bin: bin i holds values in [edges[i], edges[i + 1]); what is beyond the ends counts
+  /// The share of the weight in each bin: bin i holds values in [edges[i], edges[i + 1]); what is beyond the ends is
   /// in the first and the last bin, so that the shares add up to 1 (to 0 where empty). Throws InvalidInput unless there
   /// are two edges at least and they ascend.
   std::vector<double> histogram(const std::vector<double>& edges) const;

@@ -53,8 +53,8 @@ public:
   }
 
 private:
-  /// The edge that is looked through, from `from` to `to` counterclockwise as seen from the origin, and what of it is in
-  /// sight: between the directions `right` and `left`.
+  /// The edge that is looked through, from `from` to `to` counterclockwise as seen from the origin, and what of it is
+  /// in sight: between the directions `right` and `left`.
   struct Window
   {
     Index halfEdge; ///< of the face on this side
@@ -177,6 +177,7 @@ std::vector<double> GeodesicGraph::distances(Index source, const std::vector<Ind
     }
   }
   std::vector<double> result;
+  result.reserve(targets.size());
   for (const Index v : targets)
   {
     result.push_back(distance[v]);

@@ -53,7 +53,8 @@ struct RemeshOptions
   /// size asked for sets what the levels keep and how curves are followed.
   bool coarsestIntegers = false;
   Index coarseVertices = 1000; ///< budget of the coarse level; 0: as many as its curvature needs
-  DecimationCost decimationCost = DecimationCost::Gaussian; ///< of phase 2; others are there to compare with
+  DecimationCost decimationCost =
+    DecimationCost::Gaussian; ///< of phase 2; others are there to compare with
   /// Handles that are shorter round or through than so many target edge lengths are cut and closed before they are
   /// mapped, see closeHandles; >= 0, 0: none. Below kQuadsOfLoop there may remain some that quads cannot resolve.
   double closeHandles = 0;

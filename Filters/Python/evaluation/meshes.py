@@ -257,7 +257,8 @@ def _distance(mesh, surface, result):
 
 def measure(mesh, surface=None):
     """All that can be said of a mesh, as a dictionary of numbers; distances where there is a surface, also a Mesh.
-    Points at one place count as one. Scaled Jacobians and angles are of the quads alone; `other_faces` counts the rest."""
+    Points at one place count as one. Scaled Jacobians and angles are of the quads alone; `other_faces` is the
+    rest."""
     mesh = _joined(mesh)
     result = {"faces": len(mesh.sizes), "quads": int((mesh.sizes == 4).sum())}
     result["other_faces"] = result["faces"] - result["quads"]
