@@ -418,6 +418,8 @@ void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& o
   ResultStore* store, bool quadsAlone, RemeshResult& result)
 {
   Settled settled = settleDetails(sized, options, store, sized.stages, result.reused);
+  result.details.insert(result.details.end(), sized.blocks.begin(), sized.blocks.end());
+  tell({ sized.blocksNotice }, result);
   if (!settled.status.ok())
   {
     result.status = settled.status;

@@ -6,6 +6,7 @@
 #include "Mesh/CloseHandles.h"
 #include "Mesh/FillHoles.h"
 #include "Mesh/SmallComponents.h"
+#include "Mesh/ThinParts.h"
 #include "Pipeline/FirstLevels.h"
 #include "Pipeline/FirstPlan.h"
 #include "Pipeline/SmallHandles.h"
@@ -44,6 +45,11 @@ constexpr double kLargeBlockBefore = 16384;
 constexpr double kWorthOfLargeBefore = 2;
 /// By how much the limit below which Automatic simplifies grows where smaller quads at the rest take too many.
 constexpr double kLimitStep = 0.5;
+
+/// Of the stubs that a crowd of handles leaves, those with less area than so many quads are cut off, and how often
+/// others are looked for that were inside or beside them.
+constexpr double kQuadsOfThinPart = 6;
+constexpr int kMostThinnings = 6;
 
 /// What is asked of a surface, with the places of the vertices.
 struct AskedOf
@@ -118,6 +124,9 @@ bool isSimplified(const SmallDetail& detail)
 {
   return detail.decision == DetailDecision::Simplify;
 }
+
+constexpr const char* kCutOff = "cut off";
+constexpr const char* kCutInTwo = "cut in two";
 
 const char* whatBecomes(DetailKind kind)
 {
@@ -283,6 +292,7 @@ private:
       note(DetailKind::Handle, lengths[i], at[i]);
     }
     finish(closed.size(), start, before);
+    handlesCut_ += closed.size();
     return static_cast<double>(closed.size()) < kWorthwhile * static_cast<double>(places.size())
       ? 0
       : closed.size();
@@ -302,7 +312,17 @@ private:
       refineSurface(*sized_.surface, sized_.edgeLength, {});
     }
     sized_.key = KeyMaker(sized_.key).add(sized_.surface->hash).key();
+    countBlocksAgain();
     stages_.add("simplify", secondsNow() - start, facesBefore, sized_.surface->mesh.faceCount());
+  }
+
+  /// Handles that were cut need no quads.
+  void countBlocksAgain()
+  {
+    if (!sized_.blocks.empty())
+    {
+      countBlocks(sized_, options_, store_);
+    }
   }
 
   /// The short loops that are at least as long as the limit: all, or those of handles only.
@@ -349,10 +369,53 @@ private:
       }
       if (cut() + fill() == 0)
       {
-        return;
+        break;
       }
     }
-    measure();
+    if (!made_.bench)
+    {
+      measure();
+    }
+    for (int thinning = 0; thinning < kMostThinnings && thin() > 0; ++thinning)
+    {
+      measure();
+    }
+  }
+
+  /// What a crowd of handles leaves where they were cut are stubs all over: on a coarse level these would have more
+  /// vertices than all else, and no room. The number of those that were cut off.
+  std::size_t thin()
+  {
+    if (handlesCut_ < kManyHandles)
+    {
+      return 0;
+    }
+    const double start = secondsNow();
+    const Level& level = made_.bench->levels.makeIntermediate(levelOptions(made_.bench->run, {}));
+    const double quad = sized_.edgeLength * sized_.edgeLength;
+    std::vector<ThinPart> parts = findThinParts(
+      level.mesh, { handleLimit_, kSimplifiedLoop * sized_.edgeLength, kQuadsOfThinPart * quad });
+    std::vector<Vector3> at;
+    for (ThinPart& part : parts)
+    {
+      at.push_back(level.mesh.position[part.loop.front()]);
+      for (Index& v : part.loop)
+      {
+        v = level.fineVertex[v];
+      }
+      part.tip = level.fineVertex[part.tip];
+      part.outside = level.fineVertex[part.outside];
+    }
+    const std::size_t before = sized_.surface->mesh.faceCount();
+    const std::vector<std::size_t> removed =
+      parts.empty() ? std::vector<std::size_t>() : cutThinParts(own(), parts, kLongerAlongEdges);
+    for (const std::size_t i : removed)
+    {
+      note(DetailKind::ThinPart, parts[i].length, at[i]);
+      made_.details.back().result = parts[i].isLarge ? kCutInTwo : kCutOff;
+    }
+    finish(removed.size(), start, before);
+    return removed.size();
   }
 
   /// A surface with more handles and holes than so many quads can go round ends in minutes of attempts that fail.
@@ -418,6 +481,7 @@ private:
     putOn(known->marks, *sized_.surface);
     takeRequests();
     sized_.key = known->key;
+    countBlocksAgain();
     made_.details = known->simplified;
     reused_.emplace_back("simplify");
     return true;
@@ -482,6 +546,7 @@ private:
   AskedOf asked_;
   double limit_;       ///< of boundary loops, in units of the mesh
   double handleLimit_; ///< of handles
+  std::size_t handlesCut_ = 0;
   bool isOwn_ = false;
   ResultKey key_ = 0;
   Settled made_;
