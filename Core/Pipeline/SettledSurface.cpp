@@ -5,6 +5,7 @@
 #include "Base/PlaceText.h"
 #include "Mesh/CloseHandles.h"
 #include "Mesh/FillHoles.h"
+#include "Mesh/Handles.h"
 #include "Mesh/SmallComponents.h"
 #include "Mesh/ThinParts.h"
 #include "Pipeline/FirstLevels.h"
@@ -50,6 +51,10 @@ constexpr double kLimitStep = 0.5;
 /// others are looked for that were inside or beside them.
 constexpr double kQuadsOfThinPart = 6;
 constexpr int kMostThinnings = 6;
+
+/// Handles that are cut where nothing else has led to quads, in edge lengths. Loops of the intermediate level are up to
+/// a tenth too short, and of four quads round a handle a map may leave two: then they touch themselves.
+constexpr double kLoopOfRest = 4;
 
 /// What is asked of a surface, with the places of the vertices.
 struct AskedOf
@@ -136,11 +141,13 @@ const char* whatBecomes(DetailKind kind)
 class Settling
 {
 public:
-  Settling(SizedSurface& sized, const RemeshOptions& options, ResultStore* store, bool takesAll,
+  /// isRest: nothing else has led to quads.
+  Settling(SizedSurface& sized, const RemeshOptions& options, ResultStore* store, bool isRest,
     StageRecords& stages, std::vector<std::string>& reused)
-    : sized_(sized), options_(options), store_(store),
-      takesAll_(takesAll || options.smallDetails == SmallDetails::Simplify), stages_(stages),
-      reused_(reused), asked_(*sized.surface), limit_(firstLimit()), handleLimit_(limit_)
+    : sized_(sized), options_(options), store_(store), isRest_(isRest),
+      takesAll_(isRest || options.smallDetails == SmallDetails::Simplify), stages_(stages),
+      reused_(reused), asked_(*sized.surface), limit_(firstLimit()),
+      handleLimit_(isRest ? kLoopOfRest * sized.edgeLength : limit_)
   {
   }
 
@@ -262,22 +269,43 @@ private:
     return filled.size();
   }
 
+  /// With vertices of the surface. The run knows those of up to kQuadsOfLoop edge lengths.
+  std::vector<HandleLoop> handlesBelowLimit() const
+  {
+    RunBench& bench = *made_.bench;
+    if (handleLimit_ > kQuadsOfLoop * sized_.edgeLength)
+    {
+      const Level& level = bench.levels.makeIntermediate(levelOptions(bench.run, {}));
+      std::vector<HandleLoop> loops = findHandles(level.mesh, handleLimit_).loops;
+      for (HandleLoop& loop : loops)
+      {
+        for (Index& v : loop.vertices)
+        {
+          v = level.fineVertex[v];
+        }
+      }
+      return loops;
+    }
+    const ShortLoops& found = bench.run.shortLoops;
+    std::vector<HandleLoop> loops;
+    std::copy_if(found.loops.begin(),
+      found.loops.begin() + static_cast<std::ptrdiff_t>(found.parts.unresolvedHandles),
+      std::back_inserter(loops),
+      [&](const HandleLoop& loop) { return loop.length < handleLimit_; });
+    return loops;
+  }
+
   /// The number of handles below the limit that were cut; 0 where it is not worth going on. All were measured.
   std::size_t cut()
   {
-    const ShortLoops& found = made_.bench->run.shortLoops;
     std::vector<std::vector<Index>> places;
     std::vector<double> lengths;
     std::vector<Vector3> at;
-    for (std::size_t i = 0; i < found.parts.unresolvedHandles; ++i)
+    for (HandleLoop& loop : handlesBelowLimit())
     {
-      const HandleLoop& loop = found.loops[i];
-      if (loop.length < handleLimit_)
-      {
-        places.push_back(loop.vertices);
-        lengths.push_back(loop.length);
-        at.push_back(sized_.surface->mesh.position[loop.vertices.front()]);
-      }
+      lengths.push_back(loop.length);
+      at.push_back(sized_.surface->mesh.position[loop.vertices.front()]);
+      places.push_back(std::move(loop.vertices));
     }
     if (places.empty())
     {
@@ -461,7 +489,7 @@ private:
   ResultKey storeKey() const
   {
     KeyMaker key(sized_.key);
-    key.add(sized_.edgeLength).add(std::uint64_t{ takesAll_ ? 2U : 1U });
+    key.add(sized_.edgeLength).add(std::uint64_t{ isRest_ ? 3U : takesAll_ ? 2U : 1U });
     return key.key();
   }
 
@@ -540,6 +568,7 @@ private:
   SizedSurface& sized_;
   const RemeshOptions& options_;
   ResultStore* store_;
+  bool isRest_;
   bool takesAll_; ///< what is shorter than kQuadsOfLoop s, whatever smaller quads could do
   StageRecords& stages_;
   std::vector<std::string>& reused_;
