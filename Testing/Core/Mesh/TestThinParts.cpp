@@ -12,8 +12,8 @@ namespace quadrille
 namespace
 {
 
-/// Of the three edges that the thin part is behind: an equilateral triangle in the plane x + y + z = 1, with its corners
-/// so far along the axes from its foot.
+/// Of the three edges that the thin part is behind: an equilateral triangle in the plane x + y + z = 1, with its
+/// corners so far along the axes from its foot.
 constexpr double kRing = 0.05;
 
 /// Rings of three points along the direction (1, 1, 1), joined by two triangles for each edge.
