@@ -48,10 +48,10 @@
  *    - "factor", sizes: by which the square root of a quad's area differs, over the median of all, from `Sizing` there;
  *      mean by area and 95th percentile. Met: a mean of at most 1.25.
  * 7. what of the surface is smaller than the quads, a vertex for each, those that SmallDetails, CloseHandles and
- *    SmallComponents took out first. Points: `Kind` ("handle", "boundary loop", "component"), `Size` (the length of the
- *    loop, of a component the square root of its area, over the target edge length and the sizes there), `Decision`
- *    ("resolved": quads are smaller there, "simplified", "kept"), `Result` (what became of it), `DecisionId` (0
- *    resolved, 1 simplified, 2 kept).
+ *    SmallComponents took out first. Points: `Kind` ("handle", "boundary loop", "component", "thin part"), `Size`
+ *    (the length of the loop, of a component the square root of its area, over the target edge length and the
+ *    sizes there), `Decision` ("resolved": quads are smaller there, "simplified", "kept"), `Result` (what became
+ *    of it), `DecisionId` (0 resolved, 1 simplified, 2 kept).
  *
  * Field data of output 0, beside that of the input: `LayoutPatchShape` (a patch: 0 four corners, 1 ring, 2 torus) and
  * `LayoutPatchSize` (2: quads along and across), `StageNames`, `StageSeconds`, `StageElementsIn`, `StageElementsOut`,

@@ -89,6 +89,10 @@ def compare(known, report):
             continue
         if detail["kind"] == "handle":
             wanted["euler"] += 2
+        elif detail["kind"] == "thin part":
+            if detail["result"] == "cut in two":
+                wanted["components"] += 1
+                wanted["euler"] += 2
         elif detail["kind"] == "boundary loop":
             wanted["euler"] += 1
             wanted["loops"] -= 1

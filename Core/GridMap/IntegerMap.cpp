@@ -22,11 +22,6 @@ double angleBetween(const Vector2& a, const Vector2& b)
   return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
 }
 
-Vector2 inQuads(FixedVec2 q)
-{
-  return Vector2(static_cast<double>(q.u), static_cast<double>(q.v)) / double(kGrain);
-}
-
 /// The number nearest to x that is residue modulo kGrain.
 std::int64_t nearest(double x, std::int64_t residue)
 {
@@ -42,13 +37,6 @@ std::int64_t nearestWithSign(double x, std::int64_t residue)
     n += x < 0 ? -kGrain : kGrain;
   }
   return n;
-}
-
-/// Whether an edge of a curve still runs the way that it should. No determinant tells: on a staircase of corners that
-/// turn by one and three quarters in turn, a step backwards makes three of one, and all triangles stay positive.
-bool isAlong(std::int64_t step, double wanted)
-{
-  return wanted > 0 ? step > 0 : step < 0;
 }
 
 } // namespace
@@ -337,19 +325,6 @@ void IntegerMap::shift(Index h, FixedVec2 e)
   shortage_ += shortageOf(loop_[h]);
 }
 
-bool IntegerMap::mayShift(Index h, FixedVec2 e) const
-{
-  switch (axis_[h])
-  {
-    case kOnlyU:
-      return e.v == 0 && isAlong(q_[h].u + e.u, wanted_[h].x());
-    case kOnlyV:
-      return e.u == 0 && isAlong(q_[h].v + e.v, wanted_[h].y());
-    default:
-      return true;
-  }
-}
-
 void IntegerMap::moveVertex(Index v, FixedVec2 e)
 {
   visitStar(
@@ -495,12 +470,6 @@ void IntegerMap::makeDelaunay()
       stack.insert(stack.end(), { h, Mesh::previous(h), g, Mesh::previous(g) });
     }
   }
-}
-
-double IntegerMap::energyChange(Index h, FixedVec2 e) const
-{
-  const Vector2 d = inQuads(e);
-  return weight_[h] * d.dot(2 * (inQuads(q_[h]) - pull_ * wanted_[h]) + d);
 }
 
 double IntegerMap::energy() const

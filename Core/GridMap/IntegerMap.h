@@ -112,6 +112,13 @@ private:
 
   static constexpr std::int64_t kLeastLoop = 3 * kGrain;
 
+  static Vector2 inQuads(FixedVec2 q)
+  {
+    return Vector2(static_cast<double>(q.u), static_cast<double>(q.v)) / double(kGrain);
+  }
+  /// Whether an edge of a curve still runs the way that it should. No determinant tells: on a staircase of corners that
+  /// turn by one and three quarters in turn, a step backwards makes three of one, and all triangles stay positive.
+  static bool isAlong(std::int64_t step, double wanted) { return wanted > 0 ? step > 0 : step < 0; }
   void findLoops();
   void measureLoops();
   std::int64_t shortageOf(Index loop) const
@@ -151,6 +158,27 @@ private:
 inline FixedVec2 stepVector(int direction, std::int64_t length)
 {
   return rotate(FixedVec2{ length, 0 }, direction);
+}
+
+// The two that searches for strips spend most of their time in.
+
+inline bool IntegerMap::mayShift(Index h, FixedVec2 e) const
+{
+  switch (axis_[h])
+  {
+    case kOnlyU:
+      return e.v == 0 && isAlong(q_[h].u + e.u, wanted_[h].x());
+    case kOnlyV:
+      return e.u == 0 && isAlong(q_[h].v + e.v, wanted_[h].y());
+    default:
+      return true;
+  }
+}
+
+inline double IntegerMap::energyChange(Index h, FixedVec2 e) const
+{
+  const Vector2 d = inQuads(e);
+  return weight_[h] * d.dot(2 * (inQuads(q_[h]) - pull_ * wanted_[h]) + d);
 }
 
 } // namespace quadrille

@@ -5,8 +5,6 @@
 #include "Base/WorkCount.h"
 
 #include <algorithm>
-#include <functional>
-#include <tuple>
 
 namespace quadrille
 {
@@ -22,14 +20,14 @@ constexpr std::size_t kFarthest = 4000;
 /// Steps that count as work at a time, and the units that they are, see WorkCount.h.
 constexpr std::size_t kCountedSteps = 1000;
 constexpr std::size_t kWorkOfCountedSteps = 160;
+constexpr std::size_t kChildren = 4;
 
 } // namespace
 
 StripSearch::StripSearch(
   const IntegerMap& map, StripCost cost, const std::vector<double>* faceWeight)
   : map_(map), mesh_(map.mesh()), cost_(cost), faceWeight_(faceWeight),
-    distance_(4 * map.mesh().origin.size()), parent_(distance_.size()), stamp_(distance_.size(), 0),
-    settled_(distance_.size(), 0), visitStamp_(map.mesh().alive.size(), 0)
+    reached_(4 * map.mesh().origin.size()), visitStamp_(map.mesh().alive.size(), 0)
 {
 }
 
@@ -59,34 +57,77 @@ Index StripSearch::stateOf(Index h, FixedVec2 e)
   return 4 * h + direction;
 }
 
+void StripSearch::push(Entry entry)
+{
+  std::size_t i = heap_.size();
+  heap_.push_back(entry);
+  while (i > 0)
+  {
+    const std::size_t above = (i - 1) / kChildren;
+    if (!entry.isBefore(heap_[above]))
+    {
+      break;
+    }
+    heap_[i] = heap_[above];
+    i = above;
+  }
+  heap_[i] = entry;
+}
+
+StripSearch::Entry StripSearch::popFirst()
+{
+  const Entry first = heap_.front();
+  const Entry last = heap_.back();
+  heap_.pop_back();
+  const std::size_t count = heap_.size();
+  std::size_t i = 0;
+  for (std::size_t child = 1; child < count; child = kChildren * i + 1)
+  {
+    std::size_t least = child;
+    for (std::size_t other = child + 1; other < std::min(child + kChildren, count); ++other)
+    {
+      least = heap_[other].isBefore(heap_[least]) ? other : least;
+    }
+    if (!heap_[least].isBefore(last))
+    {
+      break;
+    }
+    heap_[i] = heap_[least];
+    i = least;
+  }
+  if (count > 0)
+  {
+    heap_[i] = last;
+  }
+  return first;
+}
+
 void StripSearch::relax(Index state, double cost, Index parent)
 {
-  if (stamp_[state] == round_ && distance_[state] <= cost)
+  Reached& reached = reached_[state];
+  if (reached.stamp / 2 == round_ && reached.distance <= cost)
   {
     return;
   }
-  stamp_[state] = round_;
-  settled_[state] = 0;
-  distance_[state] = cost;
-  parent_[state] = parent;
-  heap_.emplace_back(cost, state);
-  std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+  reached = { cost, parent, 2 * round_ };
+  push({ cost, state });
 }
 
 bool StripSearch::pop(Index& state, double& cost)
 {
   while (!heap_.empty())
   {
-    std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
-    std::tie(cost, state) = heap_.back();
-    heap_.pop_back();
-    if (!settled_[state])
+    const Entry first = popFirst();
+    cost = first.cost;
+    state = first.state;
+    std::uint32_t& stamp = reached_[state].stamp;
+    if (stamp % 2 == 0)
     {
       if (++work_ % kCountedSteps == 0)
       {
         countWork(kWorkOfCountedSteps);
       }
-      settled_[state] = 1;
+      ++stamp;
       return true;
     }
   }
@@ -144,6 +185,10 @@ void StripSearch::explore(Index h, FixedVec2 e, double bound, End& closed, End& 
         continue;
       }
       const double crossed = cost + crossingCost(in, carried, out, state == start);
+      if (!(crossed < bound))
+      {
+        continue;
+      }
       if (out == last)
       {
         if (carried == closing && crossed < std::min(closed.cost, bound))
@@ -177,7 +222,7 @@ void StripSearch::appendPath(const End& end, std::vector<StripStep>& steps) cons
   {
     steps.push_back({ end.exit, end.exitVector });
   }
-  for (Index state = end.state; state != kInvalidIndex; state = parent_[state])
+  for (Index state = end.state; state != kInvalidIndex; state = reached_[state].parent)
   {
     steps.push_back({ state / 4, vectorOf(state) });
   }

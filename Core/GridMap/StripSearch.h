@@ -67,7 +67,28 @@ private:
     FixedVec2 exitVector;
   };
 
+  /// A state as a search has left it.
+  struct Reached
+  {
+    double distance = 0;
+    Index parent = kInvalidIndex;
+    std::uint32_t stamp =
+      0; ///< twice the round that reached it, and one more where that has settled it
+  };
+  struct Entry
+  {
+    double cost;
+    Index state;
+
+    bool isBefore(const Entry& other) const
+    {
+      return cost < other.cost || (cost == other.cost && state < other.state);
+    }
+  };
+
   void restart();
+  void push(Entry entry);
+  Entry popFirst();
   void visit(Index f);
   static Index stateOf(Index h, FixedVec2 e);
   FixedVec2 vectorOf(Index state) const;
@@ -83,13 +104,11 @@ private:
   const UvMesh& mesh_;
   StripCost cost_;
   const std::vector<double>* faceWeight_;
-  std::int64_t length_ = 1; ///< of the vectors of the current search
-  std::vector<double> distance_;
-  std::vector<Index> parent_;
-  std::vector<std::uint32_t> stamp_;
-  std::vector<std::uint8_t> settled_;
+  std::int64_t length_ = 1;      ///< of the vectors of the current search
+  std::vector<Reached> reached_; ///< by state
   std::uint32_t round_ = 0;
-  std::vector<std::pair<double, Index>> heap_;
+  std::vector<Entry>
+    heap_; ///< a heap of four children each: half as deep, and those lie side by side
   std::vector<Index> visited_;
   std::vector<std::size_t> visitStamp_; ///< #F: the search that visited the face last
   std::size_t searches_ = 0;

@@ -69,11 +69,16 @@ std::vector<Index> ringsRound(
 /// Whether features leave coarse triangles no area, and so many others are inverted that no few vertices will mend it.
 bool isMatterOfFeatures(const RunContext& run, const Attempt& attempt)
 {
-  return attempt.map->collapsed && attempt.map->coarseOffenders.size() >= kManyOffenders &&
+  return leavesNoArea(*attempt.map) &&
     !featuresNear(run, attempt.plan, attempt.map->coarseTroubles).empty();
 }
 
 } // namespace
+
+bool leavesNoArea(const MapAttempt& map)
+{
+  return map.collapsed && map.coarseOffenders.size() >= kManyOffenders;
+}
 
 std::optional<Plan> moreFreedom(const Trouble& trouble)
 {

@@ -388,11 +388,13 @@ void attemptAll(Settled& settled, SizedSurface& sized, const RemeshOptions& opti
   {
     return;
   }
+  const bool isMatterOfFeatures = leavesNoArea(*history.last().map);
   const bool isOther = simplifyRest(settled, sized, options, store, sized.stages, result.reused);
   std::optional<Plan> begin;
-  if (!isOther && settled.status.ok())
+  if ((!isOther || isMatterOfFeatures) && settled.status.ok())
   {
-    // On the same surface all would fail again but the last resort.
+    // All would fail again but the last resort: on the same surface, or where features alone leave no area to so many
+    // triangles.
     RunContext& run = settled.bench->run;
     begin = withoutFeatures(run, firstPlan(run));
   }
@@ -418,6 +420,8 @@ void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& o
   ResultStore* store, bool quadsAlone, RemeshResult& result)
 {
   Settled settled = settleDetails(sized, options, store, sized.stages, result.reused);
+  result.details.insert(result.details.end(), sized.blocks.begin(), sized.blocks.end());
+  tell({ sized.blocksNotice }, result);
   if (!settled.status.ok())
   {
     result.status = settled.status;

@@ -5,7 +5,9 @@
 #include "Base/PlaceText.h"
 #include "Mesh/CloseHandles.h"
 #include "Mesh/FillHoles.h"
+#include "Mesh/Handles.h"
 #include "Mesh/SmallComponents.h"
+#include "Mesh/ThinParts.h"
 #include "Pipeline/FirstLevels.h"
 #include "Pipeline/FirstPlan.h"
 #include "Pipeline/SmallHandles.h"
@@ -44,6 +46,15 @@ constexpr double kLargeBlockBefore = 16384;
 constexpr double kWorthOfLargeBefore = 2;
 /// By how much the limit below which Automatic simplifies grows where smaller quads at the rest take too many.
 constexpr double kLimitStep = 0.5;
+
+/// Of the stubs that a crowd of handles leaves, those with less area than so many quads are cut off, and how often
+/// others are looked for that were inside or beside them.
+constexpr double kQuadsOfThinPart = 6;
+constexpr int kMostThinnings = 6;
+
+/// Handles that are cut where nothing else has led to quads, in edge lengths. Loops of the intermediate level are up to
+/// a tenth too short, and of four quads round a handle a map may leave two: then they touch themselves.
+constexpr double kLoopOfRest = 4;
 
 /// What is asked of a surface, with the places of the vertices.
 struct AskedOf
@@ -119,6 +130,9 @@ bool isSimplified(const SmallDetail& detail)
   return detail.decision == DetailDecision::Simplify;
 }
 
+constexpr const char* kCutOff = "cut off";
+constexpr const char* kCutInTwo = "cut in two";
+
 const char* whatBecomes(DetailKind kind)
 {
   return kind == DetailKind::Handle ? "cut and closed" : "filled";
@@ -127,11 +141,13 @@ const char* whatBecomes(DetailKind kind)
 class Settling
 {
 public:
-  Settling(SizedSurface& sized, const RemeshOptions& options, ResultStore* store, bool takesAll,
+  /// isRest: nothing else has led to quads.
+  Settling(SizedSurface& sized, const RemeshOptions& options, ResultStore* store, bool isRest,
     StageRecords& stages, std::vector<std::string>& reused)
-    : sized_(sized), options_(options), store_(store),
-      takesAll_(takesAll || options.smallDetails == SmallDetails::Simplify), stages_(stages),
-      reused_(reused), asked_(*sized.surface), limit_(firstLimit()), handleLimit_(limit_)
+    : sized_(sized), options_(options), store_(store), isRest_(isRest),
+      takesAll_(isRest || options.smallDetails == SmallDetails::Simplify), stages_(stages),
+      reused_(reused), asked_(*sized.surface), limit_(firstLimit()),
+      handleLimit_(isRest ? kLoopOfRest * sized.edgeLength : limit_)
   {
   }
 
@@ -253,22 +269,43 @@ private:
     return filled.size();
   }
 
+  /// With vertices of the surface. The run knows those of up to kQuadsOfLoop edge lengths.
+  std::vector<HandleLoop> handlesBelowLimit() const
+  {
+    RunBench& bench = *made_.bench;
+    if (handleLimit_ > kQuadsOfLoop * sized_.edgeLength)
+    {
+      const Level& level = bench.levels.makeIntermediate(levelOptions(bench.run, {}));
+      std::vector<HandleLoop> loops = findHandles(level.mesh, handleLimit_).loops;
+      for (HandleLoop& loop : loops)
+      {
+        for (Index& v : loop.vertices)
+        {
+          v = level.fineVertex[v];
+        }
+      }
+      return loops;
+    }
+    const ShortLoops& found = bench.run.shortLoops;
+    std::vector<HandleLoop> loops;
+    std::copy_if(found.loops.begin(),
+      found.loops.begin() + static_cast<std::ptrdiff_t>(found.parts.unresolvedHandles),
+      std::back_inserter(loops),
+      [&](const HandleLoop& loop) { return loop.length < handleLimit_; });
+    return loops;
+  }
+
   /// The number of handles below the limit that were cut; 0 where it is not worth going on. All were measured.
   std::size_t cut()
   {
-    const ShortLoops& found = made_.bench->run.shortLoops;
     std::vector<std::vector<Index>> places;
     std::vector<double> lengths;
     std::vector<Vector3> at;
-    for (std::size_t i = 0; i < found.parts.unresolvedHandles; ++i)
+    for (HandleLoop& loop : handlesBelowLimit())
     {
-      const HandleLoop& loop = found.loops[i];
-      if (loop.length < handleLimit_)
-      {
-        places.push_back(loop.vertices);
-        lengths.push_back(loop.length);
-        at.push_back(sized_.surface->mesh.position[loop.vertices.front()]);
-      }
+      lengths.push_back(loop.length);
+      at.push_back(sized_.surface->mesh.position[loop.vertices.front()]);
+      places.push_back(std::move(loop.vertices));
     }
     if (places.empty())
     {
@@ -283,6 +320,7 @@ private:
       note(DetailKind::Handle, lengths[i], at[i]);
     }
     finish(closed.size(), start, before);
+    handlesCut_ += closed.size();
     return static_cast<double>(closed.size()) < kWorthwhile * static_cast<double>(places.size())
       ? 0
       : closed.size();
@@ -302,7 +340,17 @@ private:
       refineSurface(*sized_.surface, sized_.edgeLength, {});
     }
     sized_.key = KeyMaker(sized_.key).add(sized_.surface->hash).key();
+    countBlocksAgain();
     stages_.add("simplify", secondsNow() - start, facesBefore, sized_.surface->mesh.faceCount());
+  }
+
+  /// Handles that were cut need no quads.
+  void countBlocksAgain()
+  {
+    if (!sized_.blocks.empty())
+    {
+      countBlocks(sized_, options_, store_);
+    }
   }
 
   /// The short loops that are at least as long as the limit: all, or those of handles only.
@@ -349,10 +397,53 @@ private:
       }
       if (cut() + fill() == 0)
       {
-        return;
+        break;
       }
     }
-    measure();
+    if (!made_.bench)
+    {
+      measure();
+    }
+    for (int thinning = 0; thinning < kMostThinnings && thin() > 0; ++thinning)
+    {
+      measure();
+    }
+  }
+
+  /// What a crowd of handles leaves where they were cut are stubs all over: on a coarse level these would have more
+  /// vertices than all else, and no room. The number of those that were cut off.
+  std::size_t thin()
+  {
+    if (handlesCut_ < kManyHandles)
+    {
+      return 0;
+    }
+    const double start = secondsNow();
+    const Level& level = made_.bench->levels.makeIntermediate(levelOptions(made_.bench->run, {}));
+    const double quad = sized_.edgeLength * sized_.edgeLength;
+    std::vector<ThinPart> parts = findThinParts(
+      level.mesh, { handleLimit_, kSimplifiedLoop * sized_.edgeLength, kQuadsOfThinPart * quad });
+    std::vector<Vector3> at;
+    for (ThinPart& part : parts)
+    {
+      at.push_back(level.mesh.position[part.loop.front()]);
+      for (Index& v : part.loop)
+      {
+        v = level.fineVertex[v];
+      }
+      part.tip = level.fineVertex[part.tip];
+      part.outside = level.fineVertex[part.outside];
+    }
+    const std::size_t before = sized_.surface->mesh.faceCount();
+    const std::vector<std::size_t> removed =
+      parts.empty() ? std::vector<std::size_t>() : cutThinParts(own(), parts, kLongerAlongEdges);
+    for (const std::size_t i : removed)
+    {
+      note(DetailKind::ThinPart, parts[i].length, at[i]);
+      made_.details.back().result = parts[i].isLarge ? kCutInTwo : kCutOff;
+    }
+    finish(removed.size(), start, before);
+    return removed.size();
   }
 
   /// A surface with more handles and holes than so many quads can go round ends in minutes of attempts that fail.
@@ -398,7 +489,7 @@ private:
   ResultKey storeKey() const
   {
     KeyMaker key(sized_.key);
-    key.add(sized_.edgeLength).add(std::uint64_t{ takesAll_ ? 2U : 1U });
+    key.add(sized_.edgeLength).add(std::uint64_t{ isRest_ ? 3U : takesAll_ ? 2U : 1U });
     return key.key();
   }
 
@@ -418,6 +509,7 @@ private:
     putOn(known->marks, *sized_.surface);
     takeRequests();
     sized_.key = known->key;
+    countBlocksAgain();
     made_.details = known->simplified;
     reused_.emplace_back("simplify");
     return true;
@@ -476,12 +568,14 @@ private:
   SizedSurface& sized_;
   const RemeshOptions& options_;
   ResultStore* store_;
+  bool isRest_;
   bool takesAll_; ///< what is shorter than kQuadsOfLoop s, whatever smaller quads could do
   StageRecords& stages_;
   std::vector<std::string>& reused_;
   AskedOf asked_;
   double limit_;       ///< of boundary loops, in units of the mesh
   double handleLimit_; ///< of handles
+  std::size_t handlesCut_ = 0;
   bool isOwn_ = false;
   ResultKey key_ = 0;
   Settled made_;

@@ -161,6 +161,35 @@ ResultKey preparedKey(ResultKey inputHash, const RemeshOptions& options)
   return KeyMaker(inputHash).add(options.featureAngle.value_or(0)).key();
 }
 
+template <class Text>
+void noteComponents(const SmallComponents& small, double edgeLength, const Text& whatBecomes,
+  std::vector<SmallDetail>& details)
+{
+  for (const SmallComponent& component : small.each)
+  {
+    details.push_back({ DetailKind::Component, DetailDecision::Simplify,
+      std::sqrt(component.area) / edgeLength, component.place, whatBecomes(component) });
+  }
+}
+
+/// From the store where it has them.
+StoredSmallComponents smallComponents(const SizedSurface& sized, ResultStore* store)
+{
+  const auto known = store != nullptr ? store->find<StoredSmallComponents>(sized.key) : nullptr;
+  if (known)
+  {
+    return *known;
+  }
+  StoredSmallComponents found{ findSmallComponents(*sized.surface, sized.edgeLength),
+    areaOverSizes(*sized.surface) };
+  found.small.isSmall = {};
+  if (store != nullptr)
+  {
+    store->put(sized.key, std::make_shared<StoredSmallComponents>(found), sizeof(found));
+  }
+  return found;
+}
+
 class SurfaceSizing
 {
 public:
@@ -185,7 +214,7 @@ public:
     {
       guideByCurvature();
       tellRequests();
-      countSmallComponents();
+      countBlocks(made_, options_, store_);
     }
     return std::move(made_);
   }
@@ -548,19 +577,8 @@ private:
     tell(isAsked
         ? smallComponentsText(small, removed, made_.edgeLength) + ": removed, as was asked for"
         : specksText(small, made_.edgeLength));
-    noteComponents(small, false);
-  }
-
-  void noteComponents(const SmallComponents& small, bool areBlocks)
-  {
-    for (const SmallComponent& component : small.each)
-    {
-      made_.details.push_back({ DetailKind::Component, DetailDecision::Simplify,
-        std::sqrt(component.area) / made_.edgeLength, component.place,
-        areBlocks
-          ? "made a block of about " + std::to_string(std::llround(component.block)) + " quads"
-          : "left out" });
-    }
+    noteComponents(
+      small, made_.edgeLength, [](const SmallComponent&) { return "left out"; }, made_.details);
   }
 
   void guideByCurvature()
@@ -591,47 +609,6 @@ private:
     }
   }
 
-  /// From the store where it has them.
-  StoredSmallComponents smallComponents()
-  {
-    const auto known = store_ != nullptr ? store_->find<StoredSmallComponents>(made_.key) : nullptr;
-    if (known)
-    {
-      return *known;
-    }
-    StoredSmallComponents found{ findSmallComponents(*made_.surface, made_.edgeLength),
-      areaOverSizes(*made_.surface) };
-    found.small.isSmall = {};
-    if (store_ != nullptr)
-    {
-      store_->put(made_.key, std::make_shared<StoredSmallComponents>(found), sizeof(found));
-    }
-    return found;
-  }
-
-  /// What of the surface is left after the removal, or becomes blocks, sets the number of quads where an edge length is
-  /// asked for.
-  void countSmallComponents()
-  {
-    const double quad = made_.edgeLength * made_.edgeLength;
-    const StoredSmallComponents known = smallComponents();
-    const SmallComponents& small = known.small;
-    if (!options_.quads)
-    {
-      const double quads = (known.area - small.area) / quad + small.quads;
-      made_.targetQuads = predictedQuads(quads, 1);
-    }
-    if (small.count > 0)
-    {
-      noteComponents(small, true);
-      tell(smallComponentsText(small, small.count, made_.edgeLength) +
-        ": each was made of about the smallest block of quads there is, " +
-        std::to_string(std::llround(small.quads)) +
-        " altogether; ask for more quads to resolve them, or have them removed (Small Components, "
-        "--small-components remove)");
-    }
-  }
-
   SurfaceInput& input_;
   const RemeshOptions& options_;
   ResultStore* store_;
@@ -643,6 +620,36 @@ private:
 };
 
 } // namespace
+
+/// What of the surface is left after the removal, or becomes blocks, sets the number of quads where an edge length is
+/// asked for.
+void countBlocks(SizedSurface& sized, const RemeshOptions& options, ResultStore* store)
+{
+  const double quad = sized.edgeLength * sized.edgeLength;
+  const StoredSmallComponents known = smallComponents(sized, store);
+  const SmallComponents& small = known.small;
+  sized.blocks.clear();
+  sized.blocksNotice.clear();
+  if (!options.quads)
+  {
+    const double quads = (known.area - small.area) / quad + small.quads;
+    sized.targetQuads = predictedQuads(quads, 1);
+  }
+  if (small.count > 0)
+  {
+    noteComponents(
+      small, sized.edgeLength,
+      [](const SmallComponent& component) {
+        return "made a block of about " + std::to_string(std::llround(component.block)) + " quads";
+      },
+      sized.blocks);
+    sized.blocksNotice = smallComponentsText(small, small.count, sized.edgeLength) +
+      ": each was made of about the smallest block of quads there is, " +
+      std::to_string(std::llround(small.quads)) +
+      " altogether; ask for more quads to resolve them, or have them removed (Small Components, "
+      "--small-components remove)";
+  }
+}
 
 bool judgesCreases(const RemeshOptions& options)
 {

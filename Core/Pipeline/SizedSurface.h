@@ -29,8 +29,11 @@ struct SizedSurface
   std::size_t targetQuads = 0; ///< predicted where an edge length was asked for
   std::vector<std::string> notices;
   std::vector<GivenUpCurve> givenUpFeatures; ///< lengths and places in the frame
-  /// Small components, and handles that closeHandles has closed.
+  /// Components that were left out, and handles that closeHandles has closed.
   std::vector<SmallDetail> details;
+  /// Components that become the smallest blocks of quads, and a word on them, see countBlocks.
+  std::vector<SmallDetail> blocks;
+  std::string blocksNotice;
   std::vector<std::string> reused; ///< names of stages whose result the store had
   StageRecords stages;
   int decimations = 0; ///< runs of phase 1 that closing handles took
@@ -50,6 +53,10 @@ bool isPrepared(const KnownInput& known, const RemeshOptions& options);
 /// prepareSurface does.
 SizedSurface sizeSurface(
   SurfaceInput& input, const RemeshOptions& options, const KnownInput& known = {});
+
+/// Counts the components that become blocks on the surface as it is: handles that were cut need no quads. Where an edge
+/// length is asked for, the number of quads follows.
+void countBlocks(SizedSurface& sized, const RemeshOptions& options, ResultStore* store);
 
 /// Whether detected features are judged as creases, see removeFalseCreases.
 bool judgesCreases(const RemeshOptions& options);

@@ -21,16 +21,18 @@ struct SimplifiedCount
 };
 
 /// Components have a notice of their own.
-constexpr std::array<SimplifiedCount, 2> kSimplifiedCounts{ {
+constexpr std::array<SimplifiedCount, 3> kSimplifiedCounts{ {
   { DetailKind::Handle, "handle was cut and closed", "handles were cut and closed" },
   { DetailKind::BoundaryLoop, "hole was filled", "holes were filled" },
+  { DetailKind::ThinPart, "thin part was cut off", "thin parts were cut off" },
 } };
 
 } // namespace
 
 const char* nameOf(DetailKind kind)
 {
-  constexpr std::array<const char*, 3> kNames{ "handle", "boundary loop", "component" };
+  constexpr std::array<const char*, 4> kNames{ "handle", "boundary loop", "component",
+    "thin part" };
   return kNames[static_cast<std::size_t>(kind)];
 }
 

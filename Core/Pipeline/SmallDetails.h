@@ -17,7 +17,8 @@ enum class DetailKind
 {
   Handle,       ///< a loop round or through it; its length
   BoundaryLoop, ///< its length
-  Component     ///< connected; the square root of its area
+  Component,    ///< connected; the square root of its area
+  ThinPart      ///< behind a short loop that cuts the surface in two; the loop's length
 };
 
 enum class DetailDecision
@@ -36,7 +37,7 @@ struct SmallDetail
   std::string result;              ///< what became of it: "filled"
 };
 
-/// "handle", "boundary loop", "component"; "resolved", "simplified", "kept".
+/// "handle", "boundary loop", "component", "thin part"; "resolved", "simplified", "kept".
 const char* nameOf(DetailKind kind);
 const char* nameOf(DetailDecision decision);
 

@@ -66,6 +66,9 @@ std::optional<Plan> noFeatures(const Trouble& trouble);
 constexpr const char* kNoFeatures = "no features";
 std::optional<Plan> withoutFeatures(RunContext& run, const Plan& before);
 
+/// Whether features leave coarse triangles no area at so many places that no other vertices mend it.
+bool leavesNoArea(const MapAttempt& map);
+
 /// Features that can be given up near the places.
 std::vector<Index> featuresNear(
   const RunContext& run, const Plan& plan, const std::vector<Vector3>& places);
