@@ -225,7 +225,7 @@ void mendFewPlaces(RunContext& run, MapAttempt& made)
   std::sort(offenders.begin(), offenders.end());
   offenders.erase(std::unique(offenders.begin(), offenders.end()), offenders.end());
   made.certificate = certify(mesh, made.uv, made.turns, made.integerVertex, run.options.threads);
-  made.stages.add("mend", secondsNow() - start, mesh.faceCount(), mended.patches);
+  made.stages.add("replay", secondsNow() - start, made.coarse.mesh.faceCount(), mesh.faceCount());
 }
 
 void carryToSurface(RunContext& run, MapAttempt& made)

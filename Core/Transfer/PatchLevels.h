@@ -48,8 +48,8 @@ struct PatchStar
   const PatchCorner* end = nullptr;
 };
 
-/// Makes a map of the faces `patch` of a mesh valid, in place; false where it cannot, and then uv may be anything. turns:
-/// #V, of the vertices of these faces what is expected. Vertices that other faces touch stay.
+/// Makes a map of the faces `patch` of a mesh valid, in place; false where it cannot, and then uv may be anything.
+/// turns: #V, of the vertices of these faces what is expected. Vertices that other faces touch stay.
 using PatchSolver = std::function<bool(const Mesh& mesh, const std::vector<Index>& patch,
   const std::vector<int>& turns, std::vector<FixedVec2>& uv)>;
 

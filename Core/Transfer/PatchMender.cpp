@@ -34,7 +34,7 @@ namespace
 constexpr std::array<int, 4> kGrowth{ 2, 4, 8, 16 };
 constexpr std::size_t kMaximumPatchFaces = 10000;
 /// Vertices of the level between that a patch has that is solved by levels, the smallest one first, and its faces.
-constexpr std::array<std::size_t, 3> kVerticesOfLevels{ 16, 64, 256 };
+constexpr std::array<std::size_t, 2> kVerticesOfLevels{ 16, 64 };
 constexpr std::size_t kMaximumFacesOfLevels = 60000;
 /// More faces that are left of all patches have another cause.
 constexpr std::size_t kManySeedsOfLevels = 200;
@@ -46,6 +46,7 @@ constexpr std::size_t kWorkOnMany = 1000000;
 constexpr std::size_t kManySeeds = 4000;
 constexpr std::size_t kLeastSteps = 30;
 constexpr std::size_t kMostUntanglingSteps = 250;
+constexpr int kSettlingSteps = 40;
 /// Faces of a chunk of the pass over the mesh; their uv fit a second level cache.
 constexpr std::size_t kMendChunk = 1 << 14;
 /// Defects that a wrong winding of positive triangles counts for.
@@ -72,7 +73,8 @@ enum class Energy
 {
   Shape,  ///< whichever way triangles are turned; where fewer defects are left
   Turned, ///< as those of the coarse map, which keep the rotation of their references; the same
-  Polish  ///< the first one from a map without defects; where it has none afterwards
+  Polish, ///< the first one from a map without defects; where it has none afterwards
+  Settle ///< the same for longer: from a level with few triangles shapes are farther from those of the surface
 };
 
 Eigen::Matrix2d equilateral(double side)
@@ -638,7 +640,7 @@ bool PatchMender::embedByLevels()
   }
   if (patch_.size() <= kMaximumPatchFaces)
   {
-    embedFrom(makeProblem(Reference::Surface), Eigen::VectorXd::Zero(unknowns_), Energy::Polish);
+    embedFrom(makeProblem(Reference::Surface), Eigen::VectorXd::Zero(unknowns_), Energy::Settle);
   }
   return true;
 }
@@ -806,17 +808,23 @@ bool PatchMender::embedFrom(
     static_cast<int>(std::clamp(kWorkPerTry / patch_.size(), kLeastSteps, kMostUntanglingSteps));
   UntangleOptions options;
   options.maximumSteps = steps;
+  const bool isValid = energy == Energy::Polish || energy == Energy::Settle;
   if (energy == Energy::Turned)
   {
     options = fieldUntangleOptions({});
     options.maximumSteps = std::min(options.maximumSteps, steps);
+  }
+  if (energy == Energy::Settle)
+  {
+    options.polishSteps = kSettlingSteps;
+    options.maximumSteps = kSettlingSteps;
   }
   const UntangleResult result = untangle(problem, start, options);
   work_ += patch_.size() * static_cast<std::size_t>(result.steps);
   applyDisplacements(result.y);
   const std::size_t after = countDefectsInPatch();
   left_ = defectVertices();
-  if (result.y.allFinite() && (energy == Energy::Polish ? after == 0 : after < before))
+  if (result.y.allFinite() && (isValid ? after == 0 : after < before))
   {
     return true;
   }
