@@ -34,7 +34,7 @@ namespace
 constexpr std::array<int, 4> kGrowth{ 2, 4, 8, 16 };
 constexpr std::size_t kMaximumPatchFaces = 10000;
 /// Vertices of the level between that a patch has that is solved by levels, the smallest one first, and its faces.
-constexpr std::array<std::size_t, 2> kVerticesOfLevels{ 16, 64 };
+constexpr std::array<std::size_t, 3> kVerticesOfLevels{ 16, 64, 256 };
 constexpr std::size_t kMaximumFacesOfLevels = 60000;
 /// More faces that are left of all patches have another cause.
 constexpr std::size_t kManySeedsOfLevels = 200;
