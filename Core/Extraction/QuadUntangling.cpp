@@ -17,7 +17,7 @@ namespace
 {
 
 /// So many rings of quads round those that are inverted may move; the next number where some are left.
-constexpr int kRings[] = { 1, 2 };
+constexpr int kRings[] = { 1, 2, 4, 8 };
 constexpr int kMaximumSweeps = 30;
 /// A sweep that lowers the badness of a place by less than this part is the last one.
 constexpr double kLeastProgress = 0.01;

@@ -21,8 +21,8 @@ struct UntanglingResult
 };
 
 /// Where a map is valid, but a quad of it spans a sharp tip, a crease or a thin part of the surface, the corners of the
-/// quad may make it inverted in space. Points within two rings of such quads move over the faces of the mesh, those
-/// of features and boundaries along their curves (see QuadMoves.h), so that the areas at the corners of the quads
+/// quad may make it inverted in space. Points within up to eight rings of such quads move over the faces of the mesh,
+/// those of features and boundaries along their curves (see QuadMoves.h), so that the areas at the corners of the quads
 /// become positive, the worst ones first. The points round a place keep their moves only if fewer quads are inverted
 /// there.
 /// Nothing changes where no quad is inverted, or away from these places. The result does not depend on the number of

@@ -9,6 +9,7 @@
 #include "Pipeline/GuidedMap.h"
 #include "Pipeline/Notices.h"
 #include "Transfer/ExpectedTurns.h"
+#include "Transfer/PatchMender.h"
 #include "Transfer/SurfaceStretch.h"
 
 #include <algorithm>
@@ -206,6 +207,28 @@ bool carry(RunContext& run, bool alongGuides, MapAttempt& made)
   return true;
 }
 
+/// A few places that the transfer could not mend, with the vertices of the level between.
+void mendFewPlaces(RunContext& run, MapAttempt& made)
+{
+  const Mesh& mesh = run.surface->mesh;
+  const double start = secondsNow();
+  const MendResult mended =
+    mendPatchesByLevels(mesh, made.uv, made.turns, run.levels.hierarchy().intermediate.fineVertex,
+      run.options.threads, subProgress(run.options.progress, 0.8, 0.9, "Mapping back: "));
+  made.transfer.mendedPatches += mended.patches;
+  made.transfer.notPositive = mended.notPositive;
+  std::vector<Index>& offenders = made.transfer.offenders;
+  offenders.clear();
+  for (const Index f : mended.defects)
+  {
+    offenders.insert(offenders.end(), &mesh.origin[3 * f], &mesh.origin[3 * f] + 3);
+  }
+  std::sort(offenders.begin(), offenders.end());
+  offenders.erase(std::unique(offenders.begin(), offenders.end()), offenders.end());
+  made.certificate = certify(mesh, made.uv, made.turns, made.integerVertex, run.options.threads);
+  made.stages.add("replay", secondsNow() - start, made.coarse.mesh.faceCount(), mesh.faceCount());
+}
+
 void carryToSurface(RunContext& run, MapAttempt& made)
 {
   const Mesh& mesh = run.surface->mesh;
@@ -219,6 +242,10 @@ void carryToSurface(RunContext& run, MapAttempt& made)
   if (!guided || !made.certificate.valid())
   {
     carry(run, false, made);
+  }
+  if (run.options.method == MapMethod::ScaleAware && !made.transfer.offenders.empty())
+  {
+    mendFewPlaces(run, made);
   }
   made.isCarried = true;
 }

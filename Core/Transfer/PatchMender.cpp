@@ -10,6 +10,7 @@
 #include "GridMap/MapCheck.h"
 #include "GridMap/MapShape.h"
 #include "Numerics/Untangler.h"
+#include "Transfer/PatchLevels.h"
 #include "Transfer/PatchRotations.h"
 
 #include <Eigen/Geometry>
@@ -32,6 +33,11 @@ namespace
 /// Rings of faces round the inverted ones, in the order of the attempts.
 constexpr std::array<int, 4> kGrowth{ 2, 4, 8, 16 };
 constexpr std::size_t kMaximumPatchFaces = 10000;
+/// Vertices of the level between that a patch has that is solved by levels, the smallest one first, and its faces.
+constexpr std::array<std::size_t, 3> kVerticesOfLevels{ 16, 64, 256 };
+constexpr std::size_t kMaximumFacesOfLevels = 60000;
+/// More faces that are left of all patches have another cause.
+constexpr std::size_t kManySeedsOfLevels = 200;
 /// Faces times steps of the untangler: of one try, and of all tries besides half the faces of the mesh.
 constexpr std::size_t kWorkPerTry = 200000;
 constexpr std::size_t kMaximumWork = 5000000;
@@ -40,8 +46,7 @@ constexpr std::size_t kWorkOnMany = 1000000;
 constexpr std::size_t kManySeeds = 4000;
 constexpr std::size_t kLeastSteps = 30;
 constexpr std::size_t kMostUntanglingSteps = 250;
-/// References flatter than this (2 area / longest edge squared) are replaced by equilateral ones.
-constexpr double kFlattestReference = 0.1;
+constexpr int kSettlingSteps = 40;
 /// Faces of a chunk of the pass over the mesh; their uv fit a second level cache.
 constexpr std::size_t kMendChunk = 1 << 14;
 /// Defects that a wrong winding of positive triangles counts for.
@@ -68,7 +73,8 @@ enum class Energy
 {
   Shape,  ///< whichever way triangles are turned; where fewer defects are left
   Turned, ///< as those of the coarse map, which keep the rotation of their references; the same
-  Polish  ///< the first one from a map without defects; where it has none afterwards
+  Polish, ///< the first one from a map without defects; where it has none afterwards
+  Settle ///< the same for longer: from a level with few triangles shapes are farther from those of the surface
 };
 
 Eigen::Matrix2d equilateral(double side)
@@ -77,22 +83,6 @@ Eigen::Matrix2d equilateral(double side)
   edges << side, 0.5 * side, 0, 0.8660254037844386 * side;
   return edges;
 }
-
-/// How a vertex of a patch may move.
-enum class Freedom
-{
-  Fixed,
-  AlongU, ///< in the chart of its first corner
-  AlongV,
-  Plane
-};
-
-/// A corner of a vertex and the rotation from the chart of the fan's first corner to its own.
-struct FanCorner
-{
-  Index corner = 0;
-  int rotation = 0;
-};
 
 class PatchMender
 {
@@ -105,6 +95,10 @@ public:
   }
 
   MendResult run(const ProgressCallback& progress);
+  MendResult runByLevels(const std::vector<Index>& between, const ProgressCallback& progress);
+
+  /// Tries to mend a patch; true where it has no defects any more. work: what that took, faces times steps.
+  bool solve(const std::vector<Index>& patch, std::size_t& work);
 
 private:
   bool isPositive(Index f) const
@@ -122,21 +116,25 @@ private:
   bool isDefect(Index f) const;
   std::vector<Index> seedsLeft(std::vector<Index> seeds);
   bool mendAround(Index seed, int rings);
+  MendResult resultOf(std::vector<Index> seeds, std::size_t patches) const;
+  bool mendWithLevels(Index seed, std::size_t vertices);
   void collectCluster(Index seed);
-  void growPatch();
+  void growPatch(std::size_t maximumFaces);
   void addFacesAround(Index corner);
   std::size_t countDefectsInPatch() const;
   std::vector<Index> defectVertices() const;
 
   bool embedPatch();
+  bool embedWhole();
   bool embedTurned();
+  bool embedByLevels();
   bool embedFrom(
     const UntangleProblem& problem, const Eigen::VectorXd& start, Energy energy = Energy::Shape);
   void stiffen(const std::vector<Index>& vertices, UntangleProblem& problem) const;
   void collectFans();
   void addFan(Index corner);
-  bool walkFan(Index corner, std::vector<FanCorner>& fan, bool& interior) const;
-  Freedom freedomOf(const std::vector<FanCorner>& fan, bool interior, bool closes) const;
+  bool walkFan(Index corner, std::vector<PatchCorner>& fan, bool& interior) const;
+  PatchFreedom freedomOf(const std::vector<PatchCorner>& fan, bool interior, bool closes) const;
   std::vector<double> nearnessToFixed() const;
   void guardCurves(const std::vector<double>& rotations, const std::vector<double>& nearness,
     UntangleProblem& problem) const;
@@ -144,10 +142,12 @@ private:
   Eigen::Matrix2d inverseReference(Index f, double scale) const;
   double referenceScale(double& imageArea) const;
   void applyDisplacements(const Eigen::VectorXd& y);
+  std::vector<FixedVec2> cornersOfPatch() const;
+  void restore(const std::vector<FixedVec2>& corners);
 
   struct PatchVertex
   {
-    Freedom freedom = Freedom::Fixed;
+    PatchFreedom freedom = PatchFreedom::Fixed;
     bool interior = false;
     std::size_t firstFan = 0; ///< range of fans_
     std::size_t fanCount = 0;
@@ -158,13 +158,14 @@ private:
   std::vector<FixedVec2>& uv_;
   const std::vector<int>& expectedTurns_;
   int threads_;
+  std::vector<std::uint8_t> isBetween_; ///< #V flags, or empty
   std::vector<std::uint8_t> inPatch_;
   std::vector<std::uint8_t> seenVertex_;
   std::vector<std::uint8_t> tried_; ///< faces that were in a cluster of this growth, or touched one
   std::vector<Index> patch_;        ///< faces, sorted
   std::vector<Index> changed_;      ///< faces of the patches that were improved in this growth
   std::vector<PatchVertex> vertices_;
-  std::vector<FanCorner> fans_;
+  std::vector<PatchCorner> fans_;
   int unknowns_ = 0;
   std::vector<Index> left_; ///< vertices at the defects that the last try had in the end
   std::size_t work_ = 0;    ///< faces times steps of all tries
@@ -221,7 +222,7 @@ void forEachCorner(const Mesh& mesh, Index corner, Visit visit)
 MendResult PatchMender::run(const ProgressCallback& progress)
 {
   // Small patches of all places come first, so that a hopeless place does not use up the work of the others.
-  MendResult result;
+  std::size_t patches = 0;
   std::vector<Index> seeds = findSeeds();
   const std::size_t limit =
     (seeds.size() > kManySeeds ? kWorkOnMany : kMaximumWork) + mesh_.faceCount() / 2;
@@ -233,11 +234,18 @@ MendResult PatchMender::run(const ProgressCallback& progress)
       report(progress, double(growth) / double(kGrowth.size()), "mending the map");
       if (work_ < limit && tried_[f] == 0)
       {
-        result.patches += mendAround(f, kGrowth[growth]) ? 1U : 0U;
+        patches += mendAround(f, kGrowth[growth]) ? 1U : 0U;
       }
     }
     seeds = seedsLeft(std::move(seeds));
   }
+  return resultOf(std::move(seeds), patches);
+}
+
+MendResult PatchMender::resultOf(std::vector<Index> seeds, std::size_t patches) const
+{
+  MendResult result;
+  result.patches = patches;
   std::vector<Index> bad;
   std::copy_if(
     seeds.begin(), seeds.end(), std::back_inserter(bad), [&](Index f) { return !isPositive(f); });
@@ -338,7 +346,7 @@ bool PatchMender::mendAround(Index seed, int rings)
   collectCluster(seed);
   for (int i = 0; i < rings; ++i)
   {
-    growPatch();
+    growPatch(kMaximumPatchFaces);
     if (i == 0)
     {
       // What touches the cluster need not be tried again; a wrong winding has no inverted face to begin with.
@@ -349,6 +357,69 @@ bool PatchMender::mendAround(Index seed, int rings)
     }
   }
   const bool improved = patch_.size() <= kMaximumPatchFaces && embedPatch();
+  if (improved)
+  {
+    changed_.insert(changed_.end(), patch_.begin(), patch_.end());
+  }
+  for (const Index f : patch_)
+  {
+    inPatch_[f] = 0;
+  }
+  return improved;
+}
+
+MendResult PatchMender::runByLevels(
+  const std::vector<Index>& between, const ProgressCallback& progress)
+{
+  std::vector<Index> seeds = findSeeds();
+  std::size_t patches = 0;
+  isBetween_.assign(mesh_.vertexCount(), 0);
+  for (const Index v : between)
+  {
+    isBetween_[v] = 1;
+  }
+  for (const std::size_t vertices : kVerticesOfLevels)
+  {
+    std::fill(tried_.begin(), tried_.end(), std::uint8_t{ 0 });
+    for (const Index f : seeds)
+    {
+      report(progress, 1, "mending the map");
+      if (tried_[f] == 0 && seeds.size() <= kManySeedsOfLevels && work_ < kMaximumWork)
+      {
+        patches += mendWithLevels(f, vertices) ? 1U : 0U;
+      }
+    }
+    seeds = seedsLeft(std::move(seeds));
+  }
+  return resultOf(std::move(seeds), patches);
+}
+
+bool PatchMender::mendWithLevels(Index seed, std::size_t vertices)
+{
+  collectCluster(seed);
+  std::size_t inside = 0, before = 0;
+  do
+  {
+    before = patch_.size();
+    growPatch(kMaximumFacesOfLevels);
+    inside = 0;
+    for (const Index f : patch_)
+    {
+      tried_[f] = 1;
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        inside += isBetween_[mesh_.origin[h]];
+      }
+    }
+    // Each vertex has about six corners.
+  } while (
+    inside < 6 * vertices && patch_.size() < kMaximumFacesOfLevels && patch_.size() > before);
+  bool improved = false;
+  if (patch_.size() < kMaximumFacesOfLevels)
+  {
+    collectFans();
+    improved = unknowns_ > 0 && countDefectsInPatch() > 0 && embedByLevels();
+  }
   if (improved)
   {
     changed_.insert(changed_.end(), patch_.begin(), patch_.end());
@@ -383,10 +454,10 @@ void PatchMender::collectCluster(Index seed)
   }
 }
 
-void PatchMender::growPatch()
+void PatchMender::growPatch(std::size_t maximumFaces)
 {
   const std::size_t size = patch_.size();
-  for (std::size_t i = 0; i < size && patch_.size() <= kMaximumPatchFaces; ++i)
+  for (std::size_t i = 0; i < size && patch_.size() <= maximumFaces; ++i)
   {
     for (Index h = 3 * patch_[i]; h < 3 * patch_[i] + 3; ++h)
     {
@@ -502,10 +573,12 @@ bool PatchMender::embedPatch()
   {
     return false;
   }
-  if (countDefectsInPatch() == 0)
-  {
-    return false; // mended as part of another patch
-  }
+  return countDefectsInPatch() > 0 && embedWhole(); // else mended as part of another patch
+}
+
+/// From the map as it is, and from others.
+bool PatchMender::embedWhole()
+{
   const UntangleProblem problem = makeProblem(Reference::Surface);
   bool improved = embedFrom(problem, Eigen::VectorXd::Zero(unknowns_));
   if (countDefectsInPatch() > 0)
@@ -523,6 +596,72 @@ bool PatchMender::embedPatch()
     improved = embedTurned() || improved;
   }
   return improved;
+}
+
+bool PatchMender::solve(const std::vector<Index>& patch, std::size_t& work)
+{
+  patch_ = patch;
+  for (const Index f : patch_)
+  {
+    inPatch_[f] = 1;
+  }
+  embedPatch();
+  work = work_;
+  return countDefectsInPatch() == 0;
+}
+
+/// With fewer triangles first; what has come back then keeps its turns.
+bool PatchMender::embedByLevels()
+{
+  std::vector<PatchStar> stars;
+  for (const PatchVertex& vertex : vertices_)
+  {
+    const PatchCorner* begin = fans_.data() + vertex.firstFan;
+    stars.push_back({ vertex.freedom, isBetween_[mesh_.origin[begin->corner]] != 0, begin,
+      begin + vertex.fanCount });
+  }
+  const PatchSolver solver = [&](const Mesh& mesh, const std::vector<Index>& patch,
+                               const std::vector<int>& turns, std::vector<FixedVec2>& uv)
+  {
+    std::size_t work = 0;
+    const bool solved = PatchMender(mesh, uv, turns, 1).solve(patch, work);
+    work_ += work;
+    return solved;
+  };
+  std::vector<FixedVec2> saved = cornersOfPatch();
+  double imageArea = 0;
+  const PatchLevelsResult result =
+    solveByLevels(mesh_, patch_, stars, expectedTurns_, referenceScale(imageArea), solver, uv_);
+  work_ += result.work;
+  if (!result.valid || countDefectsInPatch() > 0)
+  {
+    restore(saved);
+    return false;
+  }
+  if (patch_.size() <= kMaximumPatchFaces)
+  {
+    embedFrom(makeProblem(Reference::Surface), Eigen::VectorXd::Zero(unknowns_), Energy::Settle);
+  }
+  return true;
+}
+
+/// uv of the corners of the patch, face after face.
+std::vector<FixedVec2> PatchMender::cornersOfPatch() const
+{
+  std::vector<FixedVec2> corners;
+  for (const Index f : patch_)
+  {
+    corners.insert(corners.end(), { uv_[3 * f], uv_[3 * f + 1], uv_[3 * f + 2] });
+  }
+  return corners;
+}
+
+void PatchMender::restore(const std::vector<FixedVec2>& corners)
+{
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    uv_[3 * patch_[i / 3] + i % 3] = corners[i];
+  }
 }
 
 /// Triangles that know how they are to be turned do not wind once less round an irregular vertex, and those near to
@@ -585,8 +724,8 @@ std::vector<double> PatchMender::nearnessToFixed() const
   {
     const auto begin = fans_.begin() + static_cast<std::ptrdiff_t>(vertex.firstFan);
     const bool inside = std::all_of(begin, begin + static_cast<std::ptrdiff_t>(vertex.fanCount),
-      [&](const FanCorner& c) { return inPatch_[Mesh::face(c.corner)] != 0; });
-    if (vertex.freedom == Freedom::Fixed && inside)
+      [&](const PatchCorner& c) { return inPatch_[Mesh::face(c.corner)] != 0; });
+    if (vertex.freedom == PatchFreedom::Fixed && inside)
     {
       fixed.push_back(mesh_.position[mesh_.origin[begin->corner]]);
     }
@@ -625,7 +764,7 @@ void PatchMender::guardCurves(const std::vector<double>& rotations,
   std::vector<Index> fixed;
   for (const PatchVertex& vertex : vertices_)
   {
-    if (vertex.freedom == Freedom::Fixed)
+    if (vertex.freedom == PatchFreedom::Fixed)
     {
       fixed.push_back(mesh_.origin[fans_[vertex.firstFan].corner]);
     }
@@ -664,33 +803,32 @@ bool PatchMender::embedFrom(
   const UntangleProblem& problem, const Eigen::VectorXd& start, Energy energy)
 {
   const std::size_t before = countDefectsInPatch();
-  std::vector<FixedVec2> saved;
-  for (const Index f : patch_)
-  {
-    saved.insert(saved.end(), { uv_[3 * f], uv_[3 * f + 1], uv_[3 * f + 2] });
-  }
+  const std::vector<FixedVec2> saved = cornersOfPatch();
   const int steps =
     static_cast<int>(std::clamp(kWorkPerTry / patch_.size(), kLeastSteps, kMostUntanglingSteps));
   UntangleOptions options;
   options.maximumSteps = steps;
+  const bool isValid = energy == Energy::Polish || energy == Energy::Settle;
   if (energy == Energy::Turned)
   {
     options = fieldUntangleOptions({});
     options.maximumSteps = std::min(options.maximumSteps, steps);
+  }
+  if (energy == Energy::Settle)
+  {
+    options.polishSteps = kSettlingSteps;
+    options.maximumSteps = kSettlingSteps;
   }
   const UntangleResult result = untangle(problem, start, options);
   work_ += patch_.size() * static_cast<std::size_t>(result.steps);
   applyDisplacements(result.y);
   const std::size_t after = countDefectsInPatch();
   left_ = defectVertices();
-  if (result.y.allFinite() && (energy == Energy::Polish ? after == 0 : after < before))
+  if (result.y.allFinite() && (isValid ? after == 0 : after < before))
   {
     return true;
   }
-  for (std::size_t i = 0; i < saved.size(); ++i)
-  {
-    uv_[3 * patch_[i / 3] + i % 3] = saved[i];
-  }
+  restore(saved);
   return false;
 }
 
@@ -721,18 +859,18 @@ void PatchMender::collectFans()
 
 void PatchMender::addFan(Index corner)
 {
-  std::vector<FanCorner> fan;
+  std::vector<PatchCorner> fan;
   PatchVertex vertex;
   const bool closes = walkFan(corner, fan, vertex.interior);
   vertex.freedom = freedomOf(fan, vertex.interior, closes);
   vertex.firstFan = fans_.size();
   vertex.fanCount = fan.size();
   vertex.firstUnknown = unknowns_;
-  if (vertex.freedom == Freedom::Plane)
+  if (vertex.freedom == PatchFreedom::Plane)
   {
     unknowns_ += 2;
   }
-  else if (vertex.freedom != Freedom::Fixed)
+  else if (vertex.freedom != PatchFreedom::Fixed)
   {
     unknowns_ += 1;
   }
@@ -741,7 +879,7 @@ void PatchMender::addFan(Index corner)
 }
 
 /// False when the vertex must stay for what its transitions are: irregular, or one that has no unique rotation.
-bool PatchMender::walkFan(Index corner, std::vector<FanCorner>& fan, bool& interior) const
+bool PatchMender::walkFan(Index corner, std::vector<PatchCorner>& fan, bool& interior) const
 {
   std::vector<Index> corners;
   if (!collectCorners(mesh_, corner, corners, interior))
@@ -768,18 +906,19 @@ bool PatchMender::walkFan(Index corner, std::vector<FanCorner>& fan, bool& inter
   return closes && (!interior || (rotation & 3) == 0);
 }
 
-Freedom PatchMender::freedomOf(const std::vector<FanCorner>& fan, bool interior, bool closes) const
+PatchFreedom PatchMender::freedomOf(
+  const std::vector<PatchCorner>& fan, bool interior, bool closes) const
 {
   if (!closes ||
     std::any_of(
-      fan.begin(), fan.end(), [&](const FanCorner& c) { return inPatch_[c.corner / 3] == 0; }))
+      fan.begin(), fan.end(), [&](const PatchCorner& c) { return inPatch_[c.corner / 3] == 0; }))
   {
-    return Freedom::Fixed;
+    return PatchFreedom::Fixed;
   }
   // Irregular vertices lie on whole points, also those of curves that look as if the curve passed.
   if (expectedTurns_[mesh_.origin[fan.front().corner]] != (interior ? 4 : 2))
   {
-    return Freedom::Fixed;
+    return PatchFreedom::Fixed;
   }
   int constrained = 0;
   bool alongU = true;
@@ -791,7 +930,7 @@ Freedom PatchMender::freedomOf(const std::vector<FanCorner>& fan, bool interior,
     alongU = alongU && inFirst.v == 0;
     alongV = alongV && inFirst.u == 0;
   };
-  for (const FanCorner& c : fan)
+  for (const PatchCorner& c : fan)
   {
     if (mesh_.isConstrained(c.corner))
     {
@@ -805,13 +944,13 @@ Freedom PatchMender::freedomOf(const std::vector<FanCorner>& fan, bool interior,
   }
   if (constrained == 0)
   {
-    return Freedom::Plane;
+    return PatchFreedom::Plane;
   }
   if (constrained != 2 || alongU == alongV)
   {
-    return Freedom::Fixed;
+    return PatchFreedom::Fixed;
   }
-  return alongU ? Freedom::AlongU : Freedom::AlongV;
+  return alongU ? PatchFreedom::AlongU : PatchFreedom::AlongV;
 }
 
 /// The displacement of unknown direction (1, 0) or (0, 1) in a corner's chart.
@@ -857,14 +996,14 @@ UntangleProblem PatchMender::makeProblem(
   }
   for (const PatchVertex& vertex : vertices_)
   {
-    for (std::size_t i = 0; i < vertex.fanCount && vertex.freedom != Freedom::Fixed; ++i)
+    for (std::size_t i = 0; i < vertex.fanCount && vertex.freedom != PatchFreedom::Fixed; ++i)
     {
-      const FanCorner& c = fans_[vertex.firstFan + i];
+      const PatchCorner& c = fans_[vertex.firstFan + i];
       const int row = 2 * pointOf(c.corner);
       int column = vertex.firstUnknown;
       for (const bool alongU : { true, false })
       {
-        if (vertex.freedom == (alongU ? Freedom::AlongV : Freedom::AlongU))
+        if (vertex.freedom == (alongU ? PatchFreedom::AlongV : PatchFreedom::AlongU))
         {
           continue;
         }
@@ -900,20 +1039,7 @@ Eigen::Matrix2d PatchMender::inverseReference(Index f, double scale) const
 {
   const Vector3 ab = scale * mesh_.edgeVector(3 * f);
   const Vector3 ac = -scale * mesh_.edgeVector(3 * f + 2);
-  const double longest = std::max({ ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm() });
-  const double doubled = ab.cross(ac).norm();
-  Eigen::Matrix2d reference;
-  if (doubled > kFlattestReference * longest)
-  {
-    const double length = ab.norm();
-    reference << length, ab.dot(ac) / length, 0, doubled / length;
-  }
-  else
-  {
-    // A tenth of the longest edge keeps the weight of a sliver small without letting it vanish.
-    reference = equilateral(0.1 * std::sqrt(std::max(longest, 1e-12)));
-  }
-  return reference.inverse();
+  return inverseOfTriangle(ab, ac);
 }
 
 void PatchMender::applyDisplacements(const Eigen::VectorXd& y)
@@ -924,23 +1050,23 @@ void PatchMender::applyDisplacements(const Eigen::VectorXd& y)
   }
   for (const PatchVertex& vertex : vertices_)
   {
-    if (vertex.freedom == Freedom::Fixed)
+    if (vertex.freedom == PatchFreedom::Fixed)
     {
       continue;
     }
     int next = vertex.firstUnknown;
     FixedVec2 d;
-    if (vertex.freedom != Freedom::AlongV)
+    if (vertex.freedom != PatchFreedom::AlongV)
     {
       d.u = toFixed(y[next++]);
     }
-    if (vertex.freedom != Freedom::AlongU)
+    if (vertex.freedom != PatchFreedom::AlongU)
     {
       d.v = toFixed(y[next]);
     }
     for (std::size_t i = 0; i < vertex.fanCount; ++i)
     {
-      const FanCorner& c = fans_[vertex.firstFan + i];
+      const PatchCorner& c = fans_[vertex.firstFan + i];
       uv_[c.corner] = uv_[c.corner] + rotate(d, c.rotation);
     }
   }
@@ -952,6 +1078,13 @@ MendResult mendPatches(const Mesh& mesh, std::vector<FixedVec2>& uv,
   const std::vector<int>& expectedTurns, int threads, const ProgressCallback& progress)
 {
   return PatchMender(mesh, uv, expectedTurns, threads).run(progress);
+}
+
+MendResult mendPatchesByLevels(const Mesh& mesh, std::vector<FixedVec2>& uv,
+  const std::vector<int>& expectedTurns, const std::vector<Index>& between, int threads,
+  const ProgressCallback& progress)
+{
+  return PatchMender(mesh, uv, expectedTurns, threads).runByLevels(between, progress);
 }
 
 } // namespace quadrille
