@@ -7,8 +7,10 @@
 import csv
 import json
 import math
+import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -22,8 +24,9 @@ CUBE = numpy.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], 
 FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 
 
-def run(*words):
-    return subprocess.run([COMMAND, *map(str, words)], capture_output=True, text=True, timeout=280)
+def run(*words, environment=None):
+    return subprocess.run([COMMAND, *map(str, words)], capture_output=True, text=True, timeout=280,
+                          env={**os.environ, **(environment or {})})
 
 
 def write_obj(path, points=CUBE, faces=FACES):
@@ -131,6 +134,23 @@ class Evaluate(unittest.TestCase):
         row = self.rows("meshes.csv")[0]
         self.assertGreaterEqual(float(row["distance_mean"]), 10 / math.sqrt(3))
         self.assertLessEqual(float(row["distance_largest"]), 100 * 0.1 + 1e-9)  # a corner: 0.1 sqrt 3 of sqrt 3
+
+    def test_gmsh_is_asked_for_where_it_is_not_there(self):
+        done = run(DATA / "part.ply", "--gmsh", "--out", self.folder / "out", environment={"PATH": "/nowhere"})
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("gmsh is not there", done.stderr)
+        self.assertFalse((self.folder / "out").exists())
+
+    @unittest.skipUnless(shutil.which("gmsh"), "Gmsh is not installed")
+    def test_quads_beside_those_of_gmsh(self):
+        done = run(DATA / "part.ply", "--gmsh", "--quads", 600, "--out", self.folder / "out")
+        self.assertIn(done.returncode, (0, 3), done.stderr)
+        rows = self.rows("meshes.csv")
+        self.assertEqual([row["mesh"] for row in rows],
+                         ["part: Quadrille", "part: Gmsh, recombined", "part: Gmsh, full quad"])
+        self.assertEqual((rows[0]["other_faces"], rows[0]["error"]), ("0", ""))
+        for row in rows[1:]:
+            self.assertTrue(row["error"] or int(row["quads"]) > 0)
 
     def test_errors_name_the_file_and_leave_nothing(self):
         (self.folder / "bad.msh").write_text("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 2 1 2\n")

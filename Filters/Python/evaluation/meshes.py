@@ -94,12 +94,16 @@ def _read_gmsh(path):
                                          "and 4.1")
         used = sorted({tag for face in faces for tag in face})
         place = {tag: i for i, tag in enumerate(used)}
+        missing = [tag for tag in used if tag not in points]
+        if missing:
+            raise quadrille.InvalidInput(f"{path}: faces have the node {missing[0]}, which the file does not have")
         return _from_faces([points[tag] for tag in used], [[place[tag] for tag in face] for face in faces])
     except (KeyError, IndexError, ValueError) as error:
         raise quadrille.InvalidInput(f"{path}: damaged file of Gmsh ({error})") from error
 
 
-def _from_poly_data(data):
+def from_poly_data(data):
+    """The polygons of a vtkPolyData."""
     polys = data.GetPolys()
     return Mesh(vtk_to_numpy(data.GetPoints().GetData()).astype(float),
                 vtk_to_numpy(polys.GetConnectivityArray()).astype(numpy.int64),
@@ -137,7 +141,7 @@ def read(path):
     elif extension == ".vtu":
         mesh = _read_grid(path)
     else:
-        mesh = _from_poly_data(quadrille.read(path))
+        mesh = from_poly_data(quadrille.read(path))
     if len(mesh.sizes) == 0:
         raise quadrille.InvalidInput(f"{path}: the mesh has no faces")
     if not numpy.isfinite(mesh.points).all():

@@ -162,7 +162,7 @@ MESH_COLUMNS = (("mesh", "mesh"), ("quads", "quads"), ("others", "other_faces"),
                 ("components", "components"), ("loops", "boundary_loops"), ("χ", "euler"), ("SJ mean", "sj_mean"),
                 ("SJ least", "sj_least"), ("SJ ≤ 0", "sj_not_positive"), ("angle mean", "angle_mean"),
                 ("angle 5 %", "angle_5"), ("CV", "edge_cv"), ("distance %", "distance_mean"),
-                ("largest %", "distance_largest"), ("", "error"))
+                ("largest %", "distance_largest"), ("s", "seconds"), ("", "error"))
 STYLE = """body { font-family: sans-serif; max-width: 75em; margin: 2em auto; line-height: 1.4 }
 table { border-collapse: collapse; font-size: 85% } td, th { padding: 0.2em 0.6em; text-align: right }
 td:first-child, th:first-child { text-align: left } tr:nth-child(even) { background: #f2f4f6 }
