@@ -51,6 +51,9 @@ constexpr double kLimitStep = 0.5;
 /// others are looked for that were inside or beside them.
 constexpr double kQuadsOfThinPart = 6;
 constexpr int kMostThinnings = 6;
+/// They are cut off where the three vertices of each take more than this part of the coarse level's budget, which
+/// leaves no room for a map, and where nothing else has led to quads: every cut changes the surface.
+constexpr double kMostOfBudget = 0.5;
 
 /// Handles that are cut where nothing else has led to quads, in edge lengths. Loops of the intermediate level are up to
 /// a tenth too short, and of four quads round a handle a map may leave two: then they touch themselves.
@@ -423,6 +426,11 @@ private:
     const double quad = sized_.edgeLength * sized_.edgeLength;
     std::vector<ThinPart> parts = findThinParts(
       level.mesh, { handleLimit_, kSimplifiedLoop * sized_.edgeLength, kQuadsOfThinPart * quad });
+    isThinning_ = isThinning_ || isRest_ || 3 * parts.size() > kMostOfBudget * coarseBudget();
+    if (!isThinning_)
+    {
+      return 0;
+    }
     std::vector<Vector3> at;
     for (ThinPart& part : parts)
     {
@@ -444,6 +452,12 @@ private:
     }
     finish(removed.size(), start, before);
     return removed.size();
+  }
+
+  /// Of the coarse level; where the curvature sets it, the default one.
+  double coarseBudget() const
+  {
+    return options_.coarseVertices > 0 ? options_.coarseVertices : RemeshOptions().coarseVertices;
   }
 
   /// A surface with more handles and holes than so many quads can go round ends in minutes of attempts that fail.
@@ -576,6 +590,7 @@ private:
   double limit_;       ///< of boundary loops, in units of the mesh
   double handleLimit_; ///< of handles
   std::size_t handlesCut_ = 0;
+  bool isThinning_ = false; ///< thin parts are too many, or nothing else has led to quads
   bool isOwn_ = false;
   ResultKey key_ = 0;
   Settled made_;
