@@ -47,8 +47,8 @@ std::vector<Index> halfEdgesOf(const Mesh& mesh, const LoopSearch::Loop& loop)
 
 } // namespace
 
-std::vector<std::size_t> closeHandles(
-  PreparedSurface& surface, const std::vector<std::vector<Index>>& places, double bound)
+std::vector<std::size_t> closeHandles(PreparedSurface& surface,
+  const std::vector<std::vector<Index>>& places, double bound, double opening)
 {
   // All loops are found first, as cuts change the surface; loops without a common vertex stay what they are.
   std::vector<std::vector<Index>> cuts;
@@ -103,7 +103,7 @@ std::vector<std::size_t> closeHandles(
   for (const auto& [h, girth] : stubs)
   {
     poll();
-    removeStub(surface, h, girth);
+    removeStub(surface, h, girth, opening);
   }
   if (!cuts.empty())
   {

@@ -6,6 +6,7 @@
 
 #include "Mesh/Surface.h"
 
+#include <limits>
 #include <vector>
 
 namespace quadrille
@@ -18,7 +19,9 @@ namespace quadrille
 /// them. Pits and stubs behind the caps are taken out where they can be (see removeStub). Returns the entries whose
 /// handles were closed, ascending; if there are any, order and hash are made anew, so vertices have other ids. Never
 /// makes two components of one.
-std::vector<std::size_t> closeHandles(
-  PreparedSurface& surface, const std::vector<std::vector<Index>>& places, double bound);
+/// opening: see removeStub.
+std::vector<std::size_t> closeHandles(PreparedSurface& surface,
+  const std::vector<std::vector<Index>>& places, double bound,
+  double opening = std::numeric_limits<double>::infinity());
 
 } // namespace quadrille

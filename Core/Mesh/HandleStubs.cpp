@@ -43,8 +43,8 @@ struct MouthFan
 class StubSearch
 {
 public:
-  StubSearch(const PreparedSurface& surface, Index h, double girth)
-    : surface_(surface), mesh_(surface.mesh), girth_(girth)
+  StubSearch(const PreparedSurface& surface, Index h, double girth, double opening)
+    : surface_(surface), mesh_(surface.mesh), girth_(girth), open_(std::min(kOpen * girth, opening))
   {
     reached_.push({ 0, mesh_.origin[h] });
     leaving_[mesh_.origin[h]] = { 0, h };
@@ -53,7 +53,7 @@ public:
   /// False where discs do not open.
   bool run()
   {
-    while (!reached_.empty() && inside_.size() < kMostVertices && length_ <= kOpen * girth_)
+    while (!reached_.empty() && inside_.size() < kMostVertices && length_ <= open_)
     {
       const auto [distance, v] = reached_.top();
       reached_.pop();
@@ -66,7 +66,7 @@ public:
         measure();
       }
     }
-    return length_ > kOpen * girth_;
+    return length_ > open_;
   }
 
   /// The faces to take out, and the fan in their place; none where there is no pit.
@@ -215,7 +215,7 @@ private:
 
   const PreparedSurface& surface_;
   const Mesh& mesh_;
-  double girth_;
+  double girth_, open_;
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> reached_;
   std::unordered_map<Index, std::pair<double, Index>>
     leaving_; ///< distance, a half-edge from there
@@ -229,14 +229,14 @@ private:
 
 } // namespace
 
-bool removeStub(PreparedSurface& surface, Index h, double girth)
+bool removeStub(PreparedSurface& surface, Index h, double girth, double opening)
 {
   Mesh& mesh = surface.mesh;
   if (mesh.origin[h] == kInvalidIndex)
   {
     return false; // it was in another one
   }
-  StubSearch search(surface, h, girth);
+  StubSearch search(surface, h, girth, opening);
   if (!search.run())
   {
     return false;

@@ -5,6 +5,8 @@
 
 #include "Mesh/Surface.h"
 
+#include <limits>
+
 namespace quadrille
 {
 
@@ -15,6 +17,9 @@ namespace quadrille
 /// where one would take away what was asked for (features, valences, sectors) or meet the boundary; where the fan would
 /// fold; or where there is no pit to speak of. Returns whether something was taken out: then slots of faces are empty
 /// until orderSurface.
-bool removeStub(PreparedSurface& surface, Index h, double girth);
+/// A disc whose edge is longer than `opening`, in units of the mesh, has opened whatever the girth is: what is that
+/// thick is no stub but a limb that quads show.
+bool removeStub(PreparedSurface& surface, Index h, double girth,
+  double opening = std::numeric_limits<double>::infinity());
 
 } // namespace quadrille

@@ -547,9 +547,9 @@ private:
 class PartCutting
 {
 public:
-  explicit PartCutting(PreparedSurface& surface)
-    : surface_(surface), mesh_(surface.mesh), outgoing_(outgoingOf(surface.mesh)),
-      used_(surface.mesh.vertexCount(), 0)
+  PartCutting(PreparedSurface& surface, double mostArea)
+    : surface_(surface), mesh_(surface.mesh), mostArea_(mostArea),
+      outgoing_(outgoingOf(surface.mesh)), used_(surface.mesh.vertexCount(), 0)
   {
   }
 
@@ -617,9 +617,11 @@ private:
       edges.insert(mesh_.twin[h]);
     }
     std::vector<Index> faces{ first };
+    double area = 0;
     for (std::size_t i = 0; i < faces.size(); ++i)
     {
-      if (faces.size() > kMostFacesNear)
+      area += mesh_.edgeVector(3 * faces[i]).cross(mesh_.edgeVector(3 * faces[i] + 1)).norm() / 2;
+      if (faces.size() > kMostFacesNear || area > mostArea_)
       {
         return std::nullopt;
       }
@@ -715,6 +717,7 @@ private:
 
   PreparedSurface& surface_;
   Mesh& mesh_;
+  double mostArea_;
   std::vector<Index> outgoing_;
   std::vector<std::uint8_t> used_; ///< #V; of a part that is gone, or of its cap
 };
@@ -727,10 +730,10 @@ std::vector<ThinPart> findThinParts(const Mesh& mesh, const ThinPartLimits& limi
 }
 
 std::vector<std::size_t> cutThinParts(
-  PreparedSurface& surface, const std::vector<ThinPart>& parts, double longer)
+  PreparedSurface& surface, const std::vector<ThinPart>& parts, double longer, double mostArea)
 {
   std::vector<std::size_t> done;
-  PartCutting cutting(surface);
+  PartCutting cutting(surface, mostArea);
   for (std::size_t i = 0; i < parts.size(); ++i)
   {
     poll();

@@ -46,9 +46,10 @@ std::vector<ThinPart> findThinParts(const Mesh& mesh, const ThinPartLimits& limi
 /// `tip` from `outside`, all of them vertices of the surface, and closes it with fans round the mean of the loop. Of
 /// discs the part goes, large ones become a component. A part stays as it is where there is no such loop of less than
 /// `longer` times its girth, where another one that was cut is in the way, and a disc where what is beyond the loop is
-/// none or has something that was asked for (features, valences, sectors). Returns the entries that were cut,
-/// ascending; if there are any, order and hash are made anew, so vertices have other ids.
+/// none, has more area than `mostArea` (units of the mesh: the shortest loop may lie far from the part's own, with a
+/// limb beyond it), or has something that was asked for (features, valences, sectors). Returns the entries that were
+/// cut, ascending; if there are any, order and hash are made anew, so vertices have other ids.
 std::vector<std::size_t> cutThinParts(
-  PreparedSurface& surface, const std::vector<ThinPart>& parts, double longer);
+  PreparedSurface& surface, const std::vector<ThinPart>& parts, double longer, double mostArea);
 
 } // namespace quadrille

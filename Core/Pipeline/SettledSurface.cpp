@@ -316,8 +316,8 @@ private:
     }
     const double start = secondsNow();
     const std::size_t before = sized_.surface->mesh.faceCount();
-    const std::vector<std::size_t> closed =
-      closeHandles(own(), places, kLongerAlongEdges * handleLimit_);
+    const std::vector<std::size_t> closed = closeHandles(
+      own(), places, kLongerAlongEdges * handleLimit_, kGirthOfLimb * sized_.edgeLength);
     for (const std::size_t i : closed)
     {
       note(DetailKind::Handle, lengths[i], at[i]);
@@ -443,8 +443,9 @@ private:
       part.outside = level.fineVertex[part.outside];
     }
     const std::size_t before = sized_.surface->mesh.faceCount();
-    const std::vector<std::size_t> removed =
-      parts.empty() ? std::vector<std::size_t>() : cutThinParts(own(), parts, kLongerAlongEdges);
+    const std::vector<std::size_t> removed = parts.empty()
+      ? std::vector<std::size_t>()
+      : cutThinParts(own(), parts, kLongerAlongEdges, kQuadsOfThinPart * quad);
     for (const std::size_t i : removed)
     {
       note(DetailKind::ThinPart, parts[i].length, at[i]);

@@ -85,7 +85,7 @@ ClosedHandles closeSmallHandles(
       at.push_back(surface.mesh.position[loop.front()]);
     }
     const std::vector<std::size_t> closedHere =
-      closeHandles(surface, places, kLongerAlongEdges * limit);
+      closeHandles(surface, places, kLongerAlongEdges * limit, kGirthOfLimb * edgeLength);
     if (closedHere.empty())
     {
       break;

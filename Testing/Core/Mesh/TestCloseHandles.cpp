@@ -86,6 +86,16 @@ TEST(CloseHandles, HoleThroughAPlateIsFilledUpToItsMouths)
   expectSourcesFit(surface);
 }
 
+TEST(CloseHandles, WhatIsThickEnoughForQuadsIsNoStub)
+{
+  PreparedSurface surface = test::prepare(drilledPlate());
+  const std::size_t before = countInHole(surface.mesh);
+  ASSERT_EQ(closeHandles(surface, placesOf(surface.mesh, 4.1), 8.2, 3.9).size(), 1u);
+  EXPECT_EQ(validate(surface.mesh), "");
+  EXPECT_EQ(summarizeTopology(surface.mesh).eulerCharacteristic, 2);
+  EXPECT_GE(countInHole(surface.mesh), before); // both pits stay, with the caps between them
+}
+
 TEST(CloseHandles, WhatIsAskedForInAHoleStays)
 {
   SurfaceInput input = drilledPlate();

@@ -139,7 +139,7 @@ TEST(ThinParts, DropOnAStalkIsFoundAndCutOff)
     EXPECT_NEAR(surface.mesh.position[v].sum(), 1, 1e-7); // the foot, and not the neck
   }
   const double area = surface.area;
-  EXPECT_EQ(cutThinParts(surface, parts, 2), std::vector<std::size_t>{ 0 });
+  EXPECT_EQ(cutThinParts(surface, parts, 2, 1), std::vector<std::size_t>{ 0 });
   EXPECT_EQ(validate(surface.mesh), "");
   EXPECT_EQ(summarizeTopology(surface.mesh).eulerCharacteristic, 2);
   EXPECT_EQ(surface.mesh.faceCount(), 7U + 12 + 3); // the octahedron, round the foot, the fan
@@ -164,7 +164,17 @@ TEST(ThinParts, WhatWasAskedForStays)
   ASSERT_EQ(parts.size(), 1U);
   surface.valenceRequests = { { parts[0].tip, 3 } };
   const Index faces = surface.mesh.faceCount();
-  EXPECT_TRUE(cutThinParts(surface, parts, 2).empty());
+  EXPECT_TRUE(cutThinParts(surface, parts, 2, 1).empty());
+  EXPECT_EQ(surface.mesh.faceCount(), faces);
+}
+
+TEST(ThinParts, WhatHasMoreAreaOnTheSurfaceStays)
+{
+  PreparedSurface surface = test::prepare(withDrop());
+  const std::vector<ThinPart> parts = findThinParts(surface.mesh, { 1.01 * kGirth, 0, 1 });
+  ASSERT_EQ(parts.size(), 1U);
+  const Index faces = surface.mesh.faceCount();
+  EXPECT_TRUE(cutThinParts(surface, parts, 2, 0.99 * parts[0].area).empty());
   EXPECT_EQ(surface.mesh.faceCount(), faces);
 }
 
@@ -176,7 +186,7 @@ TEST(ThinParts, BridgeBetweenLargePartsIsCutInTwo)
   const std::vector<ThinPart> parts = findThinParts(surface.mesh, { 0, 1.01 * kGirth, 1 });
   ASSERT_EQ(parts.size(), 1U); // both ends of the bridge are three edges round
   EXPECT_TRUE(parts[0].isLarge);
-  EXPECT_EQ(cutThinParts(surface, parts, 2).size(), 1U);
+  EXPECT_EQ(cutThinParts(surface, parts, 2, 1).size(), 1U);
   EXPECT_EQ(validate(surface.mesh), "");
   EXPECT_EQ(summarizeTopology(surface.mesh).eulerCharacteristic, 4);
   EXPECT_EQ(surface.components, 2U);
