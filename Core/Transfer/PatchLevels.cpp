@@ -616,6 +616,7 @@ bool PatchLevels::place(Index v)
   const std::vector<Index> corners = cornersAround(v);
   const bool closed = isClosed(v);
   std::vector<FixedVec2> ring;
+  ring.reserve(corners.size() + 1);
   for (const Index c : corners)
   {
     ring.push_back(toOwn(c, image(Mesh::next(c))));
