@@ -98,6 +98,8 @@ def _read_gmsh(path):
         if missing:
             raise quadrille.InvalidInput(f"{path}: faces have the node {missing[0]}, which the file does not have")
         return _from_faces([points[tag] for tag in used], [[place[tag] for tag in face] for face in faces])
+    except quadrille.InvalidInput:
+        raise
     except (KeyError, IndexError, ValueError) as error:
         raise quadrille.InvalidInput(f"{path}: damaged file of Gmsh ({error})") from error
 
