@@ -79,6 +79,16 @@ MeasuredMap measureMap(vtkPolyData* data, double edgeLength, double textureScale
   return result;
 }
 
+std::size_t irregularCount(const MeasuredMap& map)
+{
+  std::size_t sum = 0;
+  for (const auto& [turns, count] : map.valences)
+  {
+    sum += count;
+  }
+  return sum;
+}
+
 std::vector<MeasureColumn> measureColumns(const MapQuality& quality)
 {
   return { { "Sizing", quality.sizing, sizingBins(), 1 },

@@ -32,6 +32,9 @@ struct MeasuredMap
 /// with which the map has as many quads as squares of that size cover the surface. Throws InvalidInput.
 MeasuredMap measureMap(vtkPolyData* data, double edgeLength, double textureScale, int threads);
 
+/// All of MeasuredMap::valences.
+std::size_t irregularCount(const MeasuredMap& map);
+
 /// One of the three measures as users see it: shear in degrees.
 struct MeasureColumn
 {

@@ -72,16 +72,6 @@ void writeMoves(
   output->GetCellData()->AddArray(length);
 }
 
-std::size_t irregularCount(const MeasuredMap& map)
-{
-  std::size_t sum = 0;
-  for (const auto& [turns, count] : map.valences)
-  {
-    sum += count;
-  }
-  return sum;
-}
-
 /// emd: in quarter turns times edge lengths. The rows "valence below 3 or above 5" are the extreme ones.
 void writeMeasures(
   const MeasuredMap& map, const MeasuredMap& reference, double emd, vtkTable* table)
@@ -110,8 +100,8 @@ void writeMeasures(
     return static_cast<double>(sum);
   };
   names.emplace_back("Irregular vertices");
-  ours.push_back(static_cast<double>(irregularCount(map)));
-  theirs.push_back(static_cast<double>(irregularCount(reference)));
+  ours.push_back(static_cast<double>(quadrille::irregularCount(map)));
+  theirs.push_back(static_cast<double>(quadrille::irregularCount(reference)));
   distances.push_back(emd);
   names.emplace_back("Extreme valences");
   ours.push_back(extreme(map));
@@ -242,8 +232,9 @@ void vtkIntegerGridMapComparison::Execute(quadrille::Block& block)
 
   std::ostringstream text;
   text.precision(4);
-  text << irregularCount(map) << " irregular vertices against " << irregularCount(reference) << ", "
-       << emd << " quarter turns times edge lengths apart";
+  text << quadrille::irregularCount(map) << " irregular vertices against "
+       << quadrille::irregularCount(reference) << ", " << emd
+       << " quarter turns times edge lengths apart";
   this->SetResult(text.str());
 }
 

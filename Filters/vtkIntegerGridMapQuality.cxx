@@ -146,16 +146,11 @@ void vtkIntegerGridMapQuality::Execute(quadrille::Block& block)
   writeSummary(quality, block.outputTable(2));
   writeValences(measured.valences, block.outputTable(3));
 
-  std::size_t irregular = 0;
-  for (const auto& [turns, count] : measured.valences)
-  {
-    irregular += count;
-  }
   std::ostringstream text;
   text.precision(4);
   text << "means by area: sizing " << quality.sizing.mean() << ", anisotropy "
        << quality.anisotropy.mean() << ", shear " << quality.shear.mean() * 180 / quadrille::kPi
-       << " degrees; " << irregular << " irregular vertices";
+       << " degrees; " << quadrille::irregularCount(measured) << " irregular vertices";
   if (quality.inverted > 0)
   {
     text << "; " << quality.inverted << " triangles are inverted";

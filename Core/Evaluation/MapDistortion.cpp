@@ -4,14 +4,14 @@
 
 #include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Evaluation/Distribution.h"
 #include "GridMap/MapShape.h"
 #include "Mesh/Sizing.h"
 
 #include <Eigen/LU>
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
+#include <vector>
 
 namespace quadrille
 {
@@ -23,21 +23,6 @@ double mappedArea(const std::vector<FixedVec2>& uv, Index f)
   const Vector2 a = toDouble(uv[3 * f + 1] - uv[3 * f]);
   const Vector2 b = toDouble(uv[3 * f + 2] - uv[3 * f]);
   return (a.x() * b.y() - a.y() * b.x()) / 2;
-}
-
-/// The value below which this part of the weight lies; entries ascend.
-double quantile(const std::vector<std::pair<double, double>>& entries, double part, double total)
-{
-  double below = 0;
-  for (const auto& [value, weight] : entries)
-  {
-    below += weight;
-    if (below >= part * total)
-    {
-      return value;
-    }
-  }
-  return entries.empty() ? 0 : entries.back().first;
 }
 
 } // namespace
@@ -57,7 +42,7 @@ MapDistortion measureDistortion(const Mesh& mesh, const std::vector<FixedVec2>& 
   }
   const double unit = area > 0 && mapped > 0 ? std::sqrt(area / mapped) : 1;
   MapDistortion result;
-  std::vector<std::pair<double, double>> energies; // and weights
+  std::vector<double> energies, weights;
   double total = 0;
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
@@ -73,8 +58,9 @@ MapDistortion measureDistortion(const Mesh& mesh, const std::vector<FixedVec2>& 
     const Eigen::Matrix2d j = unit * edges * flattenFace(mesh, f).inverse();
     const double d = j.determinant();
     const double squared = j.squaredNorm();
-    energies.emplace_back(squared * (1 + 1 / (d * d)) / 4, weight);
-    result.mean += weight * energies.back().first;
+    energies.push_back(squared * (1 + 1 / (d * d)) / 4);
+    weights.push_back(weight);
+    result.mean += weight * energies.back();
     result.angle += weight * squared / (2 * d);
     result.size += weight * std::abs(std::log2(d));
     total += weight;
@@ -85,10 +71,10 @@ MapDistortion measureDistortion(const Mesh& mesh, const std::vector<FixedVec2>& 
     result.angle /= total;
     result.size /= total;
   }
-  std::sort(energies.begin(), energies.end());
-  result.median = quantile(energies, 0.5, total);
-  result.p90 = quantile(energies, 0.9, total);
-  result.p99 = quantile(energies, 0.99, total);
+  const WeightedDistribution distribution(energies, weights);
+  result.median = distribution.quantile(0.5);
+  result.p90 = distribution.quantile(0.9);
+  result.p99 = distribution.quantile(0.99);
   return result;
 }
 

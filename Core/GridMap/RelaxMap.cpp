@@ -102,6 +102,7 @@ private:
   void hold(Index v);
   void findInset();
   bool moveInset(RelaxResult& result);
+  bool solveStep(Eigen::VectorXd& direction);
   bool stepInset();
   double insetLeft() const;
   bool allowsAll() const;
@@ -283,18 +284,24 @@ bool MapRelaxation::allowsAll() const
   return true;
 }
 
-/// One step towards the place of the inset boundary, with what is free in its wake. False where nothing moves.
-bool MapRelaxation::stepInset()
+/// The step of Newton's method, with the least shift that has one; false where none has.
+bool MapRelaxation::solveStep(Eigen::VectorXd& direction)
 {
-  Eigen::VectorXd direction;
-  bool solved = solver_->unknowns() == 0;
+  bool solved = false;
   for (double shift = 1e-9; shift < 1e3 && !solved; shift *= 1000)
   {
     solved = solver_->solve([this](Index f, NestedSolver::Matrix6& m, NestedSolver::Vector6& b)
       { element(f, m, b); },
       shift, options_.threads, direction);
   }
-  if (!solved || !direction.allFinite())
+  return solved && direction.allFinite();
+}
+
+/// One step towards the place of the inset boundary, with what is free in its wake. False where nothing moves.
+bool MapRelaxation::stepInset()
+{
+  Eigen::VectorXd direction;
+  if (solver_->unknowns() > 0 && !solveStep(direction))
   {
     return false;
   }
@@ -681,14 +688,7 @@ void MapRelaxation::takeStep()
 bool MapRelaxation::newtonStep(double& current)
 {
   Eigen::VectorXd direction;
-  bool solved = false;
-  for (double shift = 1e-9; shift < 1e3 && !solved; shift *= 1000)
-  {
-    solved = solver_->solve([this](Index f, NestedSolver::Matrix6& m, NestedSolver::Vector6& b)
-      { element(f, m, b); },
-      shift, options_.threads, direction);
-  }
-  if (!solved || !direction.allFinite())
+  if (!solveStep(direction))
   {
     return false;
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/HandleStubs.h"
 
+#include "Mesh/AskedVertices.h"
 #include "Mesh/SurfaceEdit.h"
 
 #include <algorithm>
@@ -104,7 +105,7 @@ private:
     Index g = first;
     do
     {
-      if (mesh_.isBoundary(g) || isAsked(v))
+      if (mesh_.isBoundary(g) || isAskedFor(surface_, v))
       {
         return false;
       }
@@ -124,17 +125,6 @@ private:
       g = mesh_.rotateCounterclockwise(g);
     } while (g != kInvalidIndex && g != first);
     return g == first;
-  }
-
-  bool isAsked(Index v) const
-  {
-    const auto names = [v](const auto& requests)
-    {
-      const auto at = std::lower_bound(requests.begin(), requests.end(), v,
-        [](const auto& request, Index vertex) { return request.vertex < vertex; });
-      return at != requests.end() && at->vertex == v;
-    };
-    return names(surface_.valenceRequests) || names(surface_.sectorRequests);
   }
 
   bool take(Index f)

@@ -3,6 +3,7 @@
 #include "Mesh/ThinParts.h"
 
 #include "Base/Progress.h"
+#include "Mesh/AskedVertices.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/SpaceFillingOrder.h"
@@ -629,7 +630,7 @@ private:
       {
         const bool isEdge = edges.count(h) != 0;
         if (mesh_.isBoundary(h) || (mesh_.flags[h] & kRequestedFeature) != 0 ||
-          used_[mesh_.origin[h]] != 0 || isAsked(mesh_.origin[h]))
+          used_[mesh_.origin[h]] != 0 || isAskedFor(surface_, mesh_.origin[h]))
         {
           return std::nullopt;
         }
@@ -646,17 +647,6 @@ private:
       return std::nullopt;
     }
     return faces;
-  }
-
-  bool isAsked(Index v) const
-  {
-    const auto names = [v](const auto& requests)
-    {
-      const auto at = std::lower_bound(requests.begin(), requests.end(), v,
-        [](const auto& request, Index vertex) { return request.vertex < vertex; });
-      return at != requests.end() && at->vertex == v;
-    };
-    return names(surface_.valenceRequests) || names(surface_.sectorRequests);
   }
 
   void take(const std::vector<Index>& faces, std::vector<Index> run)
