@@ -67,7 +67,7 @@ if(PARAVIEW_USE_PYTHON)
     install(FILES "${CMAKE_SOURCE_DIR}/Filters/Python/${file}.py"
       DESTINATION "${QUADRILLE_PYTHON_DIR}/quadrille")
   endforeach()
-  foreach(file IN ITEMS __init__ meshes page study tools)
+  foreach(file IN ITEMS __init__ features guided layout meshes page study tools)
     configure_file("${CMAKE_SOURCE_DIR}/Filters/Python/evaluation/${file}.py"
       "${CMAKE_BINARY_DIR}/${QUADRILLE_PYTHON_DIR}/quadrille/evaluation/${file}.py" COPYONLY)
     install(FILES "${CMAKE_SOURCE_DIR}/Filters/Python/evaluation/${file}.py"

@@ -26,7 +26,6 @@ such a move has been seen to do, not zero:
 import argparse
 import concurrent.futures
 import json
-import math
 import os
 import pathlib
 import re
@@ -34,9 +33,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-
-import numpy
-from scipy.spatial import cKDTree
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TABLE = ROOT / "Testing" / "Figures.json"
@@ -55,8 +51,6 @@ PARTS = {"phase 1": "quadrille::decimateUniformly", "phase 2": "quadrille::Redec
 
 #: Folders whose sharp edges are lines of the shape; those of scans are noise.
 OF_PARTS = ("Data", "cad")
-#: Sharp edges of a surface, in degrees; how near an edge of the quads has to be, in edge lengths.
-ANGLE, NEAR = 40, 0.1
 #: By figure: which way is worse (1: more, -1: less), what may be relative, what absolute.
 LIMITS = {"code": (1, 0, 0), "topology": (1, 0, 0), "folds": (1, 0, 0), "inverted": (1, 0, 0), "attempts": (1, 0, 0),
           "count_off": (1, 0, 0.03), "irregular": (1, 0.05, 2), "mean": (-1, 0, 0.005), "least": (-1, 0, 0.1),
@@ -75,39 +69,12 @@ def worse(name, old, new):
     return int(change > allowed) - int(-change > allowed)
 
 
-def sharp_edges(mesh):
-    """Ends of the edges of a triangle mesh whose faces differ by more than ANGLE, n by 2 by 3."""
-    faces = mesh.of_size(3)
-    points, names = numpy.unique(mesh.points, axis=0, return_inverse=True)
-    faces = names.ravel()[faces]
-    normals = numpy.cross(points[faces[:, 1]] - points[faces[:, 0]], points[faces[:, 2]] - points[faces[:, 0]])
-    normals /= numpy.maximum(numpy.linalg.norm(normals, axis=1), 1e-300)[:, None]
-    ends = numpy.sort(numpy.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
-    owner = numpy.tile(numpy.arange(len(faces)), 3)
-    order = numpy.lexsort((ends[:, 1], ends[:, 0]))
-    ends, owner = ends[order], owner[order]
-    pair = numpy.flatnonzero((ends[1:] == ends[:-1]).all(axis=1))
-    cosine = (normals[owner[pair]] * normals[owner[pair + 1]]).sum(axis=1)
-    return points[ends[pair[cosine < math.cos(math.radians(ANGLE))]]]
-
-
-def along(ends, count):
-    """Places on straight lines, n * count by 3."""
-    part = (numpy.arange(count) + 0.5) / count
-    return (ends[:, None, 0] + part[:, None] * (ends[:, None, 1] - ends[:, None, 0])).reshape(-1, 3)
-
-
 def sharp_on_edges(surface, quads):
     """The share of the length of the surface's sharp edges that is near to an edge of the quads; None without any."""
-    sharp = sharp_edges(surface)
-    if len(sharp) == 0:
-        return None
-    corners = quads.of_size(4)
-    ends = quads.points[numpy.concatenate([corners[:, [k, (k + 1) % 4]] for k in range(4)])]
-    near = NEAR * numpy.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).mean()
-    far, _ = cKDTree(along(ends, 16)).query(along(sharp, 4), distance_upper_bound=near)
-    length = numpy.repeat(numpy.linalg.norm(sharp[:, 1] - sharp[:, 0], axis=1), 4)
-    return float(length[numpy.isfinite(far)].sum() / length.sum())
+    from quadrille.evaluation import features
+
+    found = features.deviation(surface, quads)
+    return None if found is None else found[2]
 
 
 def one(program, path, quads):

@@ -108,7 +108,8 @@ class Evaluate(unittest.TestCase):
                              ("6", "0", "1", "0", "2"))
             self.assertEqual((row["irregular"], row["non_manifold_edges"], row["turned_edges"]), ("8", "0", "0"))
             for name, value in (("sj_mean", 1), ("sj_least", 1), ("angle_mean", 90), ("edge_mean", 1), ("edge_cv", 0),
-                                ("distance_mean", 0), ("distance_largest", 0)):
+                                ("distance_mean", 0), ("distance_largest", 0), ("patches", 6), ("feature_mean", 0),
+                                ("feature_largest", 0), ("feature_share", 1)):
                 self.assertAlmostEqual(float(row[name]), value, places=6, msg=name)
 
     def test_what_is_wrong_with_a_mesh_is_counted(self):
@@ -134,6 +135,64 @@ class Evaluate(unittest.TestCase):
         row = self.rows("meshes.csv")[0]
         self.assertGreaterEqual(float(row["distance_mean"]), 10 / math.sqrt(3))
         self.assertLessEqual(float(row["distance_largest"]), 100 * 0.1 + 1e-9)  # a corner: 0.1 sqrt 3 of sqrt 3
+
+    def test_blocks_of_a_mesh(self):
+        def sheet(name, cells):
+            points = [(i, k, 0) for k in range(5) for i in range(5)]
+            write_obj(self.folder / name, points,
+                      [(i + 5 * k, i + 1 + 5 * k, i + 6 + 5 * k, i + 5 + 5 * k) for i, k in cells])
+        cells = [(i, k) for i in range(4) for k in range(4)]
+        sheet("square.obj", cells)
+        sheet("corner.obj", [(i, k) for i, k in cells if i < 2 or k < 2])  # its inner corner draws two lines
+        sheet("ring.obj", [(i, k) for i, k in cells if i in (0, 3) or k in (0, 3)])  # four inner corners, eight
+        write_obj(self.folder / "triangle.obj", CUBE, [*FACES[1:], (0, 1, 3), (0, 3, 2)])
+        names = ("square.obj", "corner.obj", "ring.obj", "triangle.obj")
+        done = run("--meshes", *(self.folder / name for name in names), "--out", self.folder / "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([row["patches"] for row in self.rows("meshes.csv")], ["1", "3", "8", ""])
+
+    def test_sharp_edges_are_as_far_as_the_mesh_is_moved(self):
+        write_obj(self.folder / "cube.obj")
+        write_obj(self.folder / "moved.obj", CUBE + [0.3, 0, 0])
+        done = run("--meshes", self.folder / "moved.obj", "--surface", self.folder / "cube.obj", "--out",
+                   self.folder / "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        row = self.rows("meshes.csv")[0]
+        # A third each: edges along x lie on the moved ones but for 0.3; those at x = 0 are 0.3 off; those at x = 1 too,
+        # but for both ends, where the moved edges along x come by. Places are the middles of parts of an edge.
+        percent = 100 / math.sqrt(3)
+        self.assertAlmostEqual(float(row["feature_mean"]), percent * (0.045 + 0.3 + 0.3 - 2 * 0.045) / 3, delta=0.01)
+        self.assertAlmostEqual(float(row["feature_largest"]), percent * 0.3, places=6)
+        self.assertAlmostEqual(float(row["feature_share"]), (1 - 0.2) / 3, delta=0.01)
+
+    def test_maps_with_guides(self):
+        done = run(DATA / "beast.ply", "--quads", 600, "--budgets", "600", "--guides", "--out", self.folder / "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = self.rows("evaluation.csv")
+        free = [row for row in rows if row["model"] == "beast"]
+        asked = [row for row in rows if row["model"] == "beast-guided"]
+        self.assertEqual([row["map"] for row in asked], ["without decimation", "E_G,mem", "E_G", "E_QEM", "E_uni"])
+        self.assertEqual({row["guides"] for row in free}, {""})
+        for row in asked:  # any two directions are 22.5 degrees apart in the mean
+            self.assertGreaterEqual(float(row["guides"]), 0)
+            self.assertLess(float(row["guides"]), 15)
+
+    def test_figures_of_other_tools_beside_ours(self):
+        table = self.folder / "tools.csv"
+        table.write_text("model,asked,mesh,quads,irregular,sj_mean,note\npart,600,Tool,590,80,0.9,hole lost\n"
+                         "part,2500,Tool,2500,80,0.9,\nother,600,Tool,590,80,0.9,\n")
+        done = run(DATA / "part.ply", "--beside", table, "--quads", 600, "--out", self.folder / "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = self.rows("meshes.csv")
+        self.assertEqual([row["mesh"] for row in rows], ["part: Quadrille", "part: Tool (table)"])
+        self.assertEqual((rows[1]["quads"], rows[1]["irregular"], rows[1]["note"]), ("590", "80", "hole lost"))
+        self.assertIn("hole lost", (self.folder / "out" / "index.html").read_text(encoding="utf-8"))
+        for text, wrong in (("model,mesh\na,b\n", "'asked'"), ("model,asked,mesh,quads\npart,600,Tool,many\n", "line 2")):
+            table.write_text(text)
+            done = run(DATA / "part.ply", "--beside", table, "--out", self.folder / "wrong")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(wrong, done.stderr)
+            self.assertFalse((self.folder / "wrong").exists())
 
     def test_gmsh_is_asked_for_where_it_is_not_there(self):
         done = run(DATA / "part.ply", "--gmsh", "--out", self.folder / "out", environment={"PATH": "/nowhere"})

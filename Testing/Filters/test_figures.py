@@ -11,7 +11,7 @@ import numpy
 
 sys.path.insert(0, sys.argv.pop(1))
 import figures  # noqa: E402  (the folder comes first)
-from quadrille.evaluation import meshes  # noqa: E402
+from quadrille.evaluation import features, meshes  # noqa: E402
 
 
 def cube(n):
@@ -57,7 +57,7 @@ class Figures(unittest.TestCase):
         quads = cube(6)
         triangles = numpy.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
         surface = mesh_of(list(triangles))
-        self.assertAlmostEqual(numpy.linalg.norm(numpy.diff(figures.sharp_edges(surface), axis=1), axis=2).sum(), 12)
+        self.assertAlmostEqual(numpy.linalg.norm(numpy.diff(features.sharp_edges(surface), axis=1), axis=2).sum(), 12)
         self.assertAlmostEqual(figures.sharp_on_edges(surface, mesh_of(list(quads))), 1)
         moved = [quad + [0.05, 0, 0] for quad in quads]  # 0.3 of an edge off: only edges along x stay
         self.assertAlmostEqual(figures.sharp_on_edges(surface, mesh_of(moved)), 1 / 3, delta=0.03)

@@ -15,6 +15,8 @@ from vtkmodules.vtkFiltersCore import vtkImplicitPolyDataDistance, vtkTriangleFi
 
 import quadrille
 
+from . import features, layout
+
 #: Places on each surface that distances are taken at.
 SAMPLES = 20000
 #: Corners of a face that a file of Gmsh has, by its type of element; others are no faces.
@@ -259,12 +261,16 @@ def _distance(mesh, surface, result):
     back = _distances(_samples(theirs, SAMPLES), ours)
     result.update(distance_mean=50 * (there.mean() + back.mean()) / diagonal,
                   distance_largest=100 * max(there.max(), back.max()) / diagonal)
+    sharp = features.deviation(_joined(from_poly_data(theirs)), mesh)
+    if sharp is not None:
+        result.update(feature_mean=100 * sharp[0] / diagonal, feature_largest=100 * sharp[1] / diagonal,
+                      feature_share=sharp[2])
 
 
 def measure(mesh, surface=None):
-    """All that can be said of a mesh, as a dictionary of numbers; distances where there is a surface, also a Mesh.
-    Points at one place count as one. Scaled Jacobians and angles are of the quads alone; `other_faces` is the
-    rest."""
+    """All that can be said of a mesh, as a dictionary of numbers; where there is a surface, also a Mesh, distances, and
+    those of its sharp edges from the edges of the mesh. Points at one place count as one. Scaled Jacobians and angles
+    are of the quads alone; `other_faces` is the rest. `patches`: of the base complex, of meshes of quads only."""
     mesh = _joined(mesh)
     result = {"faces": len(mesh.sizes), "quads": int((mesh.sizes == 4).sum())}
     result["other_faces"] = result["faces"] - result["quads"]
@@ -273,6 +279,9 @@ def measure(mesh, surface=None):
     result["valences"] = {int(v): int(n) for v, n in zip(valences, counts)}
     result["irregular"] = int(counts[valences != 4].sum())
     result["irregular_boundary"] = int((faces_at[on_boundary] != 2).sum())
+    patches = layout.patches(mesh)
+    if patches is not None:
+        result["patches"] = patches
     _shape(mesh, result)
     if surface is not None:
         _distance(mesh, _joined(surface), result)

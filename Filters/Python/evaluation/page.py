@@ -83,9 +83,12 @@ def draw_distortion(study, folder):
 
 
 def draw_budgets(study, folder):
-    """What the budget of the coarse level changes: the means and the distance of the irregular vertices."""
+    """What the budget of the coarse level changes: the means and the distance of the irregular vertices. None where
+    there is one budget alone."""
     outcomes = sorted((each for each in study.outcomes[1:] if each.name.startswith("E_G") and not each.error and
                        not each.name.startswith("E_G,m")), key=lambda each: each.vertices)
+    if len(outcomes) < 2:
+        return None
     figure, axes = plt.subplots(1, 3, figsize=(9, 2.6), layout="constrained")
     vertices = [each.vertices for each in outcomes]
     for axis, measure in zip(axes, ("Anisotropy", "Shear", "Irregular vertices")):
@@ -102,7 +105,7 @@ def draw_budgets(study, folder):
 
 ROW = ("model", "map", "vertices", "triangles", "irregular", "extreme", "emd", "emd_percent", "sizing", "anisotropy",
        "shear", "sizing_median", "anisotropy_median", "shear_median", "sizing_distance", "anisotropy_distance",
-       "shear_distance", "inverted", "seconds_levels", "seconds_map", "seconds_carry", "error")
+       "shear_distance", "guides", "inverted", "seconds_levels", "seconds_map", "seconds_carry", "error")
 
 
 def row_of(study, outcome):
@@ -115,7 +118,8 @@ def row_of(study, outcome):
     row.update(
         vertices=outcome.vertices, triangles=outcome.triangles, irregular=sum(outcome.valences.values()),
         extreme=outcome.extreme, emd=round(outcome.distance["Irregular vertices"], 1),
-        emd_percent="" if far is None else round(far), inverted=outcome.inverted)
+        emd_percent="" if far is None else round(far), inverted=outcome.inverted,
+        guides="" if outcome.guides is None else round(outcome.guides, 2))
     for measure in MEASURES:
         row[measure.lower()] = round(outcome.means[measure], 4)
         row[measure.lower() + "_median"] = round(outcome.medians[measure], 4)
@@ -156,13 +160,15 @@ STUDY_COLUMNS = (("map", "map"), ("vertices", "vertices"), ("irregular", "irregu
                  ("EMD", "emd"), ("EMD %", "emd_percent"), ("sizing", "sizing"), ("anisotropy", "anisotropy"),
                  ("median", "anisotropy_median"), ("shear", "shear"), ("median", "shear_median"),
                  ("W₁ sizing", "sizing_distance"), ("W₁ anisotropy", "anisotropy_distance"),
-                 ("W₁ shear", "shear_distance"), ("t_d s", "seconds_levels"), ("t_p s", "seconds_map"),
+                 ("W₁ shear", "shear_distance"), ("guides °", "guides"), ("t_d s", "seconds_levels"),
+                 ("t_p s", "seconds_map"),
                  ("t_m s", "seconds_carry"), ("", "error"))
 MESH_COLUMNS = (("mesh", "mesh"), ("quads", "quads"), ("others", "other_faces"), ("irregular", "irregular"),
-                ("components", "components"), ("loops", "boundary_loops"), ("χ", "euler"), ("SJ mean", "sj_mean"),
+                ("patches", "patches"), ("components", "components"), ("loops", "boundary_loops"), ("χ", "euler"), ("SJ mean", "sj_mean"),
                 ("SJ least", "sj_least"), ("SJ ≤ 0", "sj_not_positive"), ("angle mean", "angle_mean"),
                 ("angle 5 %", "angle_5"), ("CV", "edge_cv"), ("distance %", "distance_mean"),
-                ("largest %", "distance_largest"), ("s", "seconds"), ("", "error"))
+                ("largest %", "distance_largest"), ("sharp %", "feature_mean"), ("largest %", "feature_largest"),
+                ("on edges", "feature_share"), ("s", "seconds"), ("", "note"), ("", "error"))
 STYLE = """body { font-family: sans-serif; max-width: 75em; margin: 2em auto; line-height: 1.4 }
 table { border-collapse: collapse; font-size: 85% } td, th { padding: 0.2em 0.6em; text-align: right }
 td:first-child, th:first-child { text-align: left } tr:nth-child(even) { background: #f2f4f6 }
@@ -184,13 +190,14 @@ def write_page(studies, meshes, about, folder):
             f"<h2>{html.escape(study.model)}</h2>\n<p>{study.triangles:,} triangles, {study.quads:,} quads asked for, "
             f"method {study.method}. Reference (red): {html.escape(study.reference_note)}. EMD: earth mover's distance "
             "of the irregular vertices, in quarter turns times edge lengths, and relative to E_G,mem. Means and "
-            "distances are over the area.</p>")
+            "distances are over the area; guides: the mean angle between them and the isolines.</p>")
         parts.append(_table([_shown(row_of(study, outcome)) for outcome in study.outcomes], STUDY_COLUMNS))
-        parts += [f'<p><img src="{html.escape(name)}" alt="{html.escape(name)}"></p>' for name in figures]
+        parts += [f'<p><img src="{html.escape(name)}" alt="{html.escape(name)}"></p>' for name in figures if name]
     if meshes:
         parts.append("<h2>Meshes</h2>\n<p>Distances are means of both ways, and the largest, in percent of the "
-                     "surface's diagonal; SJ: scaled Jacobian of the quads; CV: deviation of edge lengths over their "
-                     "mean.</p>")
+                     "surface's diagonal; sharp: the same from its edges above 40 degrees to the edges of the mesh, and "
+                     "the share of their length that is on these; patches: of the base complex; SJ: scaled Jacobian of "
+                     "the quads; CV: deviation of edge lengths over their mean.</p>")
         parts.append(_table([_shown(mesh) for mesh in meshes], MESH_COLUMNS))
     with open(os.path.join(folder, "index.html"), "w", encoding="utf-8") as file:
         file.write('<!DOCTYPE html>\n<html lang="en">\n<head><meta charset="utf-8"><title>Evaluation</title>\n'

@@ -9,6 +9,8 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 import quadrille
 
+from . import guided
+
 #: Costs of phase 2, in the order of the paper's figures: its names, and what the filter calls them.
 COSTS = (("E_G,mem", "COST_GAUSSIAN_MEMORY"), ("E_G", "COST_GAUSSIAN"), ("E_QEM", "COST_QUADRIC"),
          ("E_uni", "COST_UNIFORM"))
@@ -24,7 +26,8 @@ ALL = 2 ** 31 - 1
 class Outcome:
     """One map, carried to the surface. seconds: of the stages, by name. distance: from the reference, by measure; that
     of the irregular vertices in quarter turns times edge lengths. histograms: (middles of the bins, percent) by
-    measure. error: empty, or why there is no map; then all else is empty."""
+    measure. guides: degrees between guides and isolines, None without guides. error: empty, or why there is no map; then
+    all else is empty."""
     name: str
     budget: int = 0
     vertices: int = 0  # of the level that the map was made on
@@ -36,6 +39,7 @@ class Outcome:
     distance: dict = dataclasses.field(default_factory=dict)
     histograms: dict = dataclasses.field(default_factory=dict)
     inverted: int = 0
+    guides: float = None
     certificate: str = ""
     valid: bool = False
     error: str = ""
@@ -150,6 +154,7 @@ def _measure(outcome, mapped, reference, edge_length, threads):
                         if count}
     bins = _table(compare.GetHistograms())
     outcome.histograms = {name: (bins[name + "Bin"], bins[name + "Map"]) for name in MEASURES}
+    outcome.guides = guided.deviation(mapped)
     outcome.certificate, outcome.valid = _certificate(mapped)
 
 

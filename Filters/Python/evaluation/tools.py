@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Quad meshes of a surface by this package and by Gmsh, what a user of finite elements would take instead."""
+"""Quad meshes of a surface by this package, by Gmsh, what a user of finite elements would take instead, and figures of
+other tools that were taken elsewhere."""
+import csv
 import os
 import shutil
 import subprocess
@@ -74,8 +76,34 @@ def _by_gmsh(surface, edge_length, algorithm):
             raise quadrille.RemeshError("gmsh's mesh cannot be used: " + str(error).split(": ", 1)[-1]) from error
 
 
-def compare(surface, model, quads, threads=0, tell=print):
-    """A row for each tool, as meshes.measure() has it, with `mesh` and `seconds`; a tool that fails has its error."""
+def read_figures(path):
+    """Rows of a table (CSV) of meshes that others made: `model` and `asked` (the number of quads) say what of, `mesh`
+    the tool, the other columns are those of meshes.measure(). Raises InvalidInput."""
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise quadrille.InvalidInput(f"{path}: cannot be read ({error})") from error
+    missing = [name for name in ("model", "asked", "mesh") if not rows or name not in rows[0]]
+    if missing:
+        raise quadrille.InvalidInput(f"{path}: the table has no column {missing[0]!r}, or no row")
+    words = ("model", "mesh", "note")
+    for line, row in enumerate(rows, 2):
+        for name in [name for name, value in row.items() if value in (None, "")]:
+            del row[name]
+        for name, value in row.items():
+            if name not in words:
+                try:
+                    row[name] = float(value) if "." in value else int(value)
+                except (TypeError, ValueError) as error:
+                    raise quadrille.InvalidInput(f"{path}, line {line}: {name} is {value!r}, which is no "
+                                                 "number") from error
+    return rows
+
+
+def compare(surface, model, quads, threads=0, tell=print, gmsh=True, figures=()):
+    """A row for each tool, as meshes.measure() has it, with `mesh` and `seconds`; a tool that fails has its error.
+    figures: rows of read_figures(), of which those of this model and number of quads are put behind."""
     original = meshes.from_poly_data(surface)
     tell(f"{model}: Quadrille")
     start = time.perf_counter()
@@ -83,7 +111,7 @@ def compare(surface, model, quads, threads=0, tell=print):
     seconds = time.perf_counter() - start
     rows = [{"mesh": f"{model}: Quadrille", "seconds": round(seconds, 2),
              **meshes.measure(meshes.from_poly_data(made.quads), original), "error": ""}]
-    for name, algorithm in GMSH:
+    for name, algorithm in GMSH if gmsh else ():
         tell(f"{model}: {name}")
         row = {"mesh": f"{model}: {name}"}
         try:
@@ -92,4 +120,8 @@ def compare(surface, model, quads, threads=0, tell=print):
         except (quadrille.RemeshError, quadrille.InvalidInput) as error:
             row["error"] = str(error)
         rows.append(row)
+    for told in figures:
+        if told["model"] == model and told["asked"] == quads:
+            row = {key: value for key, value in told.items() if key not in ("model", "asked")}
+            rows.append({**row, "mesh": f"{model}: {told['mesh']} (table)"})
     return rows
