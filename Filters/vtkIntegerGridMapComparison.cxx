@@ -70,6 +70,7 @@ void writeMoves(
   output->SetLines(lines);
   output->GetCellData()->AddArray(turns);
   output->GetCellData()->AddArray(length);
+  output->GetCellData()->SetActiveScalars(length->GetName());
 }
 
 /// emd: in quarter turns times edge lengths. The rows "valence below 3 or above 5" are the extreme ones.

@@ -40,6 +40,8 @@ void addCellArrays(vtkPolyData* output, const quadrille::MapQuality& quality)
   {
     output->GetCellData()->AddArray(array);
   }
+  // What ParaView shows first; the others may have triangles that leave no colours to the rest.
+  output->GetCellData()->SetActiveScalars(shear->GetName());
 }
 
 void writeHistograms(const quadrille::MapQuality& quality, vtkTable* table)

@@ -41,6 +41,15 @@ try:
     check(list(colours.Annotations) == ["0", "not met", "1", "met"], f"the legend has {colours.Annotations}")
     red, green = colours.IndexedColors[0:3], colours.IndexedColors[3:6]
     check(red[0] > 0.5 > red[1] and green[1] > 0.5 > green[0], f"not met and met are coloured {red} and {green}")
+    # The measures of a map open no spreadsheets, and colour the surface.
+    levels = DecimationHierarchy(registrationName="levels", Input=part, TargetType="Number Of Quads", NumberOfQuads=2000)
+    grid = IntegerGridMap(registrationName="grid", Input=levels)
+    quality = IntegerGridMapQuality(registrationName="quality", Input=grid)
+    for port in range(4):
+        chosen = controller.ShowInPreferredView(quality.SMProxy, port, view.SMProxy)
+        check((chosen is not None) == (port == 0), f"output {port} of the map's quality shows at first Apply: {chosen}")
+    check(simple.GetDisplayProperties(quality, view).ColorArrayName[1] == "Shear", "the map's quality has no colours")
+    simple.Hide(quality, view)
     simple.SetActiveSource(quads)
     simple.ResetCamera(view)
     simple.Render(view)
