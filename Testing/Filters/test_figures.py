@@ -2,16 +2,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Whether Scripts/figures.py tells worse figures from others.
 
-  test_figures.py SCRIPTS
+  test_figures.py SCRIPTS DATA
 """
+import os
 import sys
 import unittest
+import unittest.mock
 
 import numpy
 
+DATA = sys.argv.pop(2)
 sys.path.insert(0, sys.argv.pop(1))
 import figures  # noqa: E402  (the folder comes first)
-from quadrille.evaluation import features, meshes  # noqa: E402
+import quadrille  # noqa: E402
+from quadrille.evaluation import features, meshes, study  # noqa: E402
 
 
 def cube(n):
@@ -61,6 +65,14 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(figures.sharp_on_edges(surface, mesh_of(list(quads))), 1)
         moved = [quad + [0.05, 0, 0] for quad in quads]  # 0.3 of an edge off: only edges along x stay
         self.assertAlmostEqual(figures.sharp_on_edges(surface, mesh_of(moved)), 1 / 3, delta=0.03)
+
+    def test_a_study_without_a_map_of_the_surface_says_so(self):
+        surface = quadrille.read(os.path.join(DATA, "beast.ply"))
+        with unittest.mock.patch.object(study, "_whole_map", side_effect=quadrille.RemeshError("near (1, 2, 3): flat")):
+            made = study.study(surface, "beast", 600, budgets=(), tell=lambda text: None, costs=study.COSTS[1:2])
+        self.assertIn("near (1, 2, 3): flat", made.reference_note)
+        self.assertEqual([outcome.name for outcome in made.outcomes], ["intermediate level", "E_G"])
+        self.assertEqual([outcome.error for outcome in made.outcomes], ["", ""])
 
 
 if __name__ == "__main__":

@@ -158,24 +158,33 @@ def _measure(outcome, mapped, reference, edge_length, threads):
     outcome.certificate, outcome.valid = _certificate(mapped)
 
 
+def _whole_map(first, edge_length, method, threads, outcome):
+    """The map of the surface without decimation."""
+    grid = quadrille.vtkIntegerGridMap()
+    grid.SetInputData(_without_map(first))
+    grid.SetMethod(quadrille.METHODS.index(method))
+    grid.SetEdgeLength(edge_length)
+    grid.SetNumberOfThreads(threads)
+    quadrille.check(grid)
+    outcome.vertices, outcome.triangles = first.GetNumberOfPoints(), first.GetNumberOfCells()
+    outcome.seconds = _stages(grid)
+    return _copy(grid.GetOutput())
+
+
 def _reference(chain, first, edge_length, method, threads, largest):
-    """The map without decimation where the surface has at most `largest` points, else that of the intermediate level:
-    (mapped surface, outcome, note)."""
+    """The map without decimation where the surface has at most `largest` points and it can be made, else that of the
+    intermediate level: (mapped surface, outcome, note)."""
     outcome = Outcome("without decimation")
+    mapped, note = None, f"map of the intermediate level, as the surface has more than {largest:,} points"
     start = time.perf_counter()
     if first.GetNumberOfPoints() <= largest:
-        grid = quadrille.vtkIntegerGridMap()
-        grid.SetInputData(_without_map(first))
-        grid.SetMethod(quadrille.METHODS.index(method))
-        grid.SetEdgeLength(edge_length)
-        grid.SetNumberOfThreads(threads)
-        quadrille.check(grid)
-        mapped, note = _copy(grid.GetOutput()), "map of the surface without decimation"
-        outcome.vertices, outcome.triangles = first.GetNumberOfPoints(), first.GetNumberOfCells()
-        outcome.seconds = _stages(grid)
-    else:
+        try:
+            mapped = _whole_map(first, edge_length, method, threads, outcome)
+            note = "map of the surface without decimation"
+        except quadrille.RemeshError as error:
+            note = f"map of the intermediate level, as there is none of the surface without decimation: {error}"
+    if mapped is None:
         mapped = _copy(chain.run("COST_GAUSSIAN", ALL))
-        note = f"map of the intermediate level, as the surface has more than {largest:,} points"
         outcome.name = "intermediate level"
         _levels(chain, outcome)
     outcome.seconds["whole"] = time.perf_counter() - start
