@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -208,6 +209,18 @@ void DecimationLog::append(BlockRecords records, std::size_t newCollapses, std::
   blocks.push_back(std::move(records));
   collapses += newCollapses;
   flips += newFlips;
+}
+
+void DecimationLog::append(DecimationLog more)
+{
+  for (Round round : more.rounds)
+  {
+    round.firstBlock += blocks.size();
+    rounds.push_back(round);
+  }
+  std::move(more.blocks.begin(), more.blocks.end(), std::back_inserter(blocks));
+  collapses += more.collapses;
+  flips += more.flips;
 }
 
 std::size_t DecimationLog::recordBytes() const

@@ -56,6 +56,8 @@ public:
   void truncate(const End& end);
   /// Adds a round of one block, if it has any records.
   void append(BlockRecords records, std::size_t newCollapses, std::size_t newFlips);
+  /// Adds all rounds of another log of the same mesh.
+  void append(DecimationLog more);
   /// Bytes of all records.
   std::size_t recordBytes() const;
 

@@ -18,16 +18,28 @@ template <typename AnyMesh>
 std::vector<float> defectsOf(const AnyMesh& mesh)
 {
   const Index corners = static_cast<Index>(mesh.origin.size());
-  std::vector<double> defect(mesh.position.size(), 2 * kPi);
+  std::vector<double> defect(mesh.position.size(), 0.0);
+  const auto isDead = [&](Index h) { return mesh.origin[h - h % 3] == kInvalidIndex; };
   for (Index h = 0; h < corners; ++h)
   {
-    if (mesh.isBoundary(h))
+    if (!isDead(h))
+    {
+      defect[mesh.origin[h]] = 2 * kPi;
+    }
+  }
+  for (Index h = 0; h < corners; ++h)
+  {
+    if (!isDead(h) && mesh.isBoundary(h))
     {
       defect[mesh.origin[h]] = kPi;
     }
   }
   for (Index h = 0; h < corners; ++h)
   {
+    if (isDead(h))
+    {
+      continue;
+    }
     const Vector3& p = mesh.position[mesh.origin[h]];
     const Vector3 a = mesh.position[mesh.target(h)] - p;
     const Vector3 b = mesh.position[mesh.origin[Mesh::previous(h)]] - p;

@@ -23,7 +23,7 @@
 namespace quadrille
 {
 
-/// #V, radians: 2 pi, or pi on the boundary, less the sum of angles. The mesh must not have dead faces.
+/// #V, radians: 2 pi, or pi on the boundary, less the sum of angles; 0 at vertices without faces, like removed ones.
 std::vector<float> angleDefects(const Mesh& mesh);
 std::vector<float> angleDefects(const DecimationMesh& mesh);
 

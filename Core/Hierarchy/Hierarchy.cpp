@@ -41,6 +41,8 @@ constexpr double kCurveTolerance = 0.1;
 constexpr double kRegionTolerance = 0.5;
 /// How far a guide reaches beyond its face on the way to the intermediate level, in s.
 constexpr double kGuideReach = 0.25;
+/// Vertices that phase 1 leaves on the area of a square with its edge length.
+constexpr double kVerticesPerSquare = 0.35;
 /// Distance on both sides over which the bend at a corner is measured, in s.
 constexpr double kCornerScale = 0.25;
 /// Faces of a chunk of the passes over the mesh.
@@ -361,6 +363,7 @@ public:
         markGuideRegions(mesh, hierarchy_.intermediate.guides, edgeLength_);
       budget.keepVertices.insert(budget.keepVertices.end(), corners.begin(), corners.end());
     }
+    thinOutFurther(mesh, options.mostOrdered, budget);
     BudgetResult result = decimateToBudget(mesh, budget, cache_);
     hierarchy_.notice = std::move(result.notice);
     hierarchy_.cache = result.cache;
@@ -570,6 +573,38 @@ private:
     budget.threads = options.threads;
     budget.progress = subProgress(options.progress, 0.6, 1.0);
     return budget;
+  }
+
+  /// Rounds like those of phase 1 on its level, until about so many vertices are left, more where guides are: their
+  /// regions wait for phase 2, which carries them.
+  void thinOutFurther(DecimationMesh& mesh, Index mostOrdered, const BudgetOptions& budget)
+  {
+    const Mesh& level = hierarchy_.intermediate.mesh;
+    if (level.vertexCount() <= mostOrdered)
+    {
+      return;
+    }
+    UniformOptions uniform;
+    uniform.edgeLength = std::sqrt(kVerticesPerSquare * sizedArea(level) / mostOrdered);
+    uniform.scale = vertexScales(level, 2 * uniform.edgeLength, budget.threads).scale;
+    uniform.curveTolerance = budget.curveTolerance;
+    uniform.keepVertices = budget.keepVertices;
+    for (std::size_t h = 0; h < mesh.guides.size() * 3; ++h)
+    {
+      if (!mesh.guides[h / 3].isFree())
+      {
+        uniform.keepVertices.push_back(mesh.origin[h]);
+      }
+    }
+    uniform.threads = budget.threads;
+    uniform.progress = subProgress(budget.progress, 0.0, 0.5);
+    LogBuilder builder;
+    decimateUniformly(mesh, uniform, builder);
+    DecimationLog rounds = builder.finish();
+    parallelFor(rounds.blocks.size(), 1, budget.threads,
+      [&](std::size_t i, std::size_t)
+      { rounds.blocks[i] = inFineTerms(std::move(rounds.blocks[i]), hierarchy_.intermediate); });
+    hierarchy_.log.append(std::move(rounds));
   }
 
   /// Adds the records of phase 2, whose slots are the intermediate level's.

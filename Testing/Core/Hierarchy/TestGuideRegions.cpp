@@ -76,9 +76,8 @@ struct Square
   }
 };
 
-TEST(GuideRegions, CoarseTrianglesAreInsideOrOutside)
+void expectRegion(const Square& square)
 {
-  const Square square;
   const Hierarchy hierarchy = buildHierarchy(square.mesh, 1, square.options);
   const Mesh& coarse = hierarchy.coarse.mesh;
   ASSERT_EQ(hierarchy.coarse.guides.size(), coarse.faceCount());
@@ -132,6 +131,20 @@ TEST(GuideRegions, CoarseTrianglesAreInsideOrOutside)
   {
     EXPECT_EQ(coarse.isConstrained(h), coarse.isBoundary(h));
   }
+}
+
+TEST(GuideRegions, CoarseTrianglesAreInsideOrOutside)
+{
+  expectRegion(Square());
+}
+
+TEST(GuideRegions, RegionsOfLargeLevelsWaitForTheOrder)
+{
+  Square square;
+  square.options.mostOrdered = 300;
+  const Hierarchy hierarchy = buildHierarchy(square.mesh, 1, square.options);
+  EXPECT_GT(hierarchy.log.rounds.size(), hierarchy.log.intermediateRounds + 1);
+  expectRegion(square);
 }
 
 TEST(GuideRegions, DirectionsAreCarriedOverCurvedSurfaces)

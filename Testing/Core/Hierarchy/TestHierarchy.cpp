@@ -396,6 +396,56 @@ TEST(Hierarchy, RedecimationGivesWhatStartingAnewGives)
   }
 }
 
+TEST(Hierarchy, LargeLevelsAreThinnedOutBeforeTheOrder)
+{
+  for (const Mesh& mesh : { bumpySphere(5), torus(120, 60), plateWithHole(40),
+         markFeatures(unitCube(30), kFeatureAngle), twoComponents() })
+  {
+    const double s = 0.02 * (mesh.position.back() - mesh.position.front()).norm();
+    HierarchyOptions options = makeOptions(s, 80);
+    options.mostOrdered = 600;
+    options.keepVertices = { 3, mesh.vertexCount() / 2, mesh.vertexCount() - 5 };
+    const Hierarchy one = buildHierarchy(mesh, 9, options);
+    expectHierarchy(mesh, one);
+    if (one.intermediate.mesh.vertexCount() <= options.mostOrdered)
+    {
+      EXPECT_EQ(one.log.rounds.size(), one.log.intermediateRounds + 1);
+      continue;
+    }
+    EXPECT_GT(one.log.rounds.size(), one.log.intermediateRounds + 3);
+    for (const Index v : options.keepVertices)
+    {
+      EXPECT_TRUE(
+        std::binary_search(one.coarse.fineVertex.begin(), one.coarse.fineVertex.end(), v));
+    }
+    const std::vector<std::uint8_t> bytes = one.log.serialize();
+    EXPECT_EQ(DecimationLog::deserialize(bytes, 9).serialize(), bytes); // walks all records
+    options.threads = 4;
+    EXPECT_EQ(buildHierarchy(mesh, 9, options).log.serialize(), bytes);
+  }
+}
+
+TEST(Hierarchy, RedecimationOfALargeLevelGivesWhatStartingAnewGives)
+{
+  const Mesh mesh = bumpySphere(5);
+  for (const DecimationCost cost : { DecimationCost::Gaussian, DecimationCost::GaussianMemory,
+         DecimationCost::Quadric, DecimationCost::Uniform })
+  {
+    HierarchyOptions options = makeOptions(0.05, 150);
+    options.cost = cost;
+    options.mostOrdered = 800;
+    Redecimation levels(mesh, 3, options);
+    const Hierarchy first = levels.update(options);
+    ASSERT_GT(first.intermediate.mesh.vertexCount(), options.mostOrdered);
+    EXPECT_EQ(first.coarse.mesh.vertexCount(), 150U);
+    HierarchyOptions other = options;
+    other.keepVertices = someIntermediateVertices(first);
+    const Hierarchy updated = levels.update(other);
+    EXPECT_EQ(updated.log.serialize(), buildHierarchy(mesh, 3, other).log.serialize());
+    EXPECT_EQ(levels.update(options).log.serialize(), first.log.serialize());
+  }
+}
+
 TEST(Hierarchy, RedecimationLogsAreWellFormed)
 {
   const Mesh mesh = bumpySphere(4);
