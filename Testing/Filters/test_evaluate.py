@@ -187,7 +187,8 @@ class Evaluate(unittest.TestCase):
         self.assertEqual([row["mesh"] for row in rows], ["part: Quadrille", "part: Tool (table)"])
         self.assertEqual((rows[1]["quads"], rows[1]["irregular"], rows[1]["note"]), ("590", "80", "hole lost"))
         self.assertIn("hole lost", (self.folder / "out" / "index.html").read_text(encoding="utf-8"))
-        for text, wrong in (("model,mesh\na,b\n", "'asked'"), ("model,asked,mesh,quads\npart,600,Tool,many\n", "line 2")):
+        for text, wrong in (("model,mesh\na,b\n", "'asked'"),
+                            ("model,asked,mesh,quads\npart,600,Tool,many\n", "line 2")):
             table.write_text(text)
             done = run(DATA / "part.ply", "--beside", table, "--out", self.folder / "wrong")
             self.assertEqual(done.returncode, 2)

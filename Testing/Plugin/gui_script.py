@@ -42,7 +42,8 @@ try:
     red, green = colours.IndexedColors[0:3], colours.IndexedColors[3:6]
     check(red[0] > 0.5 > red[1] and green[1] > 0.5 > green[0], f"not met and met are coloured {red} and {green}")
     # The measures of a map open no spreadsheets, and colour the surface.
-    levels = DecimationHierarchy(registrationName="levels", Input=part, TargetType="Number Of Quads", NumberOfQuads=2000)
+    levels = DecimationHierarchy(registrationName="levels", Input=part, TargetType="Number Of Quads",
+                                 NumberOfQuads=2000)
     grid = IntegerGridMap(registrationName="grid", Input=levels)
     quality = IntegerGridMapQuality(registrationName="quality", Input=grid)
     for port in range(4):

@@ -26,7 +26,8 @@ ALL = 2 ** 31 - 1
 class Outcome:
     """One map, carried to the surface. seconds: of the stages, by name. distance: from the reference, by measure; that
     of the irregular vertices in quarter turns times edge lengths. histograms: (middles of the bins, percent) by
-    measure. guides: degrees between guides and isolines, None without guides. error: empty, or why there is no map; then
+    measure. guides: degrees between guides and isolines, None without guides. error: empty, or why there is no map;
+    then
     all else is empty."""
     name: str
     budget: int = 0
