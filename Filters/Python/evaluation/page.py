@@ -161,14 +161,14 @@ STUDY_COLUMNS = (("map", "map"), ("vertices", "vertices"), ("irregular", "irregu
                  ("median", "anisotropy_median"), ("shear", "shear"), ("median", "shear_median"),
                  ("W₁ sizing", "sizing_distance"), ("W₁ anisotropy", "anisotropy_distance"),
                  ("W₁ shear", "shear_distance"), ("guides °", "guides"), ("t_d s", "seconds_levels"),
-                 ("t_p s", "seconds_map"),
-                 ("t_m s", "seconds_carry"), ("", "error"))
+                 ("t_p s", "seconds_map"), ("t_m s", "seconds_carry"), ("", "error"))
 MESH_COLUMNS = (("mesh", "mesh"), ("quads", "quads"), ("others", "other_faces"), ("irregular", "irregular"),
-                ("patches", "patches"), ("components", "components"), ("loops", "boundary_loops"), ("χ", "euler"), ("SJ mean", "sj_mean"),
-                ("SJ least", "sj_least"), ("SJ ≤ 0", "sj_not_positive"), ("angle mean", "angle_mean"),
+                ("patches", "patches"), ("components", "components"), ("loops", "boundary_loops"), ("χ", "euler"),
+                ("SJ mean", "sj_mean"), ("SJ least", "sj_least"), ("SJ ≤ 0", "sj_not_positive"), ("angle mean", "angle_mean"),
                 ("angle 5 %", "angle_5"), ("CV", "edge_cv"), ("distance %", "distance_mean"),
                 ("largest %", "distance_largest"), ("sharp %", "feature_mean"), ("largest %", "feature_largest"),
-                ("on edges", "feature_share"), ("s", "seconds"), ("", "note"), ("", "error"))
+                ("on edges", "feature_share"),
+                ("s", "seconds"), ("", "note"), ("", "error"))
 STYLE = """body { font-family: sans-serif; max-width: 75em; margin: 2em auto; line-height: 1.4 }
 table { border-collapse: collapse; font-size: 85% } td, th { padding: 0.2em 0.6em; text-align: right }
 td:first-child, th:first-child { text-align: left } tr:nth-child(even) { background: #f2f4f6 }
@@ -195,9 +195,9 @@ def write_page(studies, meshes, about, folder):
         parts += [f'<p><img src="{html.escape(name)}" alt="{html.escape(name)}"></p>' for name in figures if name]
     if meshes:
         parts.append("<h2>Meshes</h2>\n<p>Distances are means of both ways, and the largest, in percent of the "
-                     "surface's diagonal; sharp: the same from its edges above 40 degrees to the edges of the mesh, and "
-                     "the share of their length that is on these; patches: of the base complex; SJ: scaled Jacobian of "
-                     "the quads; CV: deviation of edge lengths over their mean.</p>")
+                     "surface's diagonal; sharp: the same from its edges above 40 degrees to the edges of the mesh, "
+                     "and the share of their length that is on these; patches: of the base complex; SJ: scaled Jacobian "
+                     "of the quads; CV: deviation of edge lengths over their mean.</p>")
         parts.append(_table([_shown(mesh) for mesh in meshes], MESH_COLUMNS))
     with open(os.path.join(folder, "index.html"), "w", encoding="utf-8") as file:
         file.write('<!DOCTYPE html>\n<html lang="en">\n<head><meta charset="utf-8"><title>Evaluation</title>\n'

@@ -27,8 +27,7 @@ class Outcome:
     """One map, carried to the surface. seconds: of the stages, by name. distance: from the reference, by measure; that
     of the irregular vertices in quarter turns times edge lengths. histograms: (middles of the bins, percent) by
     measure. guides: degrees between guides and isolines, None without guides. error: empty, or why there is no map;
-    then
-    all else is empty."""
+    then all else is empty."""
     name: str
     budget: int = 0
     vertices: int = 0  # of the level that the map was made on
