@@ -164,7 +164,8 @@ STUDY_COLUMNS = (("map", "map"), ("vertices", "vertices"), ("irregular", "irregu
                  ("t_p s", "seconds_map"), ("t_m s", "seconds_carry"), ("", "error"))
 MESH_COLUMNS = (("mesh", "mesh"), ("quads", "quads"), ("others", "other_faces"), ("irregular", "irregular"),
                 ("patches", "patches"), ("components", "components"), ("loops", "boundary_loops"), ("χ", "euler"),
-                ("SJ mean", "sj_mean"), ("SJ least", "sj_least"), ("SJ ≤ 0", "sj_not_positive"), ("angle mean", "angle_mean"),
+                ("SJ mean", "sj_mean"), ("SJ least", "sj_least"), ("SJ ≤ 0", "sj_not_positive"),
+                ("angle mean", "angle_mean"),
                 ("angle 5 %", "angle_5"), ("CV", "edge_cv"), ("distance %", "distance_mean"),
                 ("largest %", "distance_largest"), ("sharp %", "feature_mean"), ("largest %", "feature_largest"),
                 ("on edges", "feature_share"),
@@ -196,8 +197,8 @@ def write_page(studies, meshes, about, folder):
     if meshes:
         parts.append("<h2>Meshes</h2>\n<p>Distances are means of both ways, and the largest, in percent of the "
                      "surface's diagonal; sharp: the same from its edges above 40 degrees to the edges of the mesh, "
-                     "and the share of their length that is on these; patches: of the base complex; SJ: scaled Jacobian "
-                     "of the quads; CV: deviation of edge lengths over their mean.</p>")
+                     "and the share of their length that is on these; patches: of the base complex; SJ: scaled "
+                     "Jacobian of the quads; CV: deviation of edge lengths over their mean.</p>")
         parts.append(_table([_shown(mesh) for mesh in meshes], MESH_COLUMNS))
     with open(os.path.join(folder, "index.html"), "w", encoding="utf-8") as file:
         file.write('<!DOCTYPE html>\n<html lang="en">\n<head><meta charset="utf-8"><title>Evaluation</title>\n'
