@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Refine.h"
 
+#include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/Sizing.h"
@@ -11,7 +12,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <functional>
 #include <queue>
+#include <utility>
+#include <vector>
 
 namespace quadrille
 {
@@ -28,6 +33,9 @@ constexpr double kSmallEnd = 4e6;
 constexpr double kMostFaces = 1e8;
 
 constexpr std::size_t kSplitsBetweenReports = 100000;
+constexpr std::size_t kChunkFaces = std::size_t{ 1 } << 16;
+/// A connected surface of so many squares of the maximum edge length has no small component.
+constexpr double kSurelyLarge = 1e4;
 
 struct LongEdge
 {
@@ -41,48 +49,112 @@ struct LongEdge
   }
 };
 
+/// Long edges, longest first, as one heap would have them: in buckets by length, of which only the topmost is a heap, so
+/// that a push into a million others writes one place.
+class LongEdgeBuckets
+{
+public:
+  explicit LongEdgeBuckets(double squaredLimit) : limit_(squaredLimit), buckets_(kBuckets) {}
+
+  void push(const LongEdge& edge)
+  {
+    const std::size_t bucket = bucketOf(edge.squaredLength);
+    if (bucket >= current_)
+    {
+      top_.push(edge);
+    }
+    else
+    {
+      buckets_[bucket].push_back(edge);
+    }
+  }
+  /// Whether there is one; it is in `edge` then.
+  bool pop(LongEdge& edge)
+  {
+    while (top_.empty() && current_ > 0)
+    {
+      --current_;
+      top_ = std::priority_queue<LongEdge>(std::less<LongEdge>(), std::move(buckets_[current_]));
+      buckets_[current_] = {};
+    }
+    if (top_.empty())
+    {
+      return false;
+    }
+    edge = top_.top();
+    top_.pop();
+    return true;
+  }
+
+private:
+  /// 32 buckets for each power of two of the squared length over the limit, by the bits of the ratio.
+  static constexpr int kShift = 23 - 5;
+  static constexpr std::size_t kBuckets = 2048;
+
+  std::size_t bucketOf(double squaredLength) const
+  {
+    const float ratio = static_cast<float>(squaredLength / limit_);
+    std::uint32_t bits = 0, one = 0;
+    constexpr float kOne = 1;
+    std::memcpy(&bits, &ratio, sizeof(bits));
+    std::memcpy(&one, &kOne, sizeof(one));
+    return bits <= one ? 0 : std::min<std::size_t>((bits - one) >> kShift, kBuckets - 1);
+  }
+
+  double limit_;
+  std::vector<std::vector<LongEdge>> buckets_;
+  std::priority_queue<LongEdge> top_;
+  std::size_t current_ = kBuckets; ///< those from here on are in top_
+};
+
 class LongEdgeQueue
 {
 public:
-  LongEdgeQueue(const Mesh& mesh, double maximumLength)
-    : mesh_(mesh), limit_(maximumLength * maximumLength), faces_(mesh.faceCount())
+  LongEdgeQueue(const PreparedSurface& surface, double maximumLength, int threads)
+    : mesh_(surface.mesh), limit_(maximumLength * maximumLength), faces_(mesh_.faceCount()),
+      queue_(limit_)
   {
-    findScales(maximumLength);
-    for (Index f = 0; f < mesh.faceCount(); ++f)
+    findScales(surface, maximumLength);
+    std::vector<std::vector<LongEdge>> found(faces_ / kChunkFaces + 1);
+    parallelFor(faces_, kChunkFaces, threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t h = 3 * begin; h < 3 * end; ++h)
+        {
+          const double length = squaredLength(static_cast<Index>(h));
+          if (length > limit_ && (mesh_.isBoundary(h) || h < mesh_.twin[h]))
+          {
+            found[begin / kChunkFaces].push_back({ length, static_cast<Index>(h) });
+          }
+        }
+      });
+    for (const std::vector<LongEdge>& edges : found)
     {
-      pollNowAndThen(f);
-      pushEdgesOf(f);
+      for (const LongEdge& edge : edges)
+      {
+        queue_.push(edge);
+      }
     }
   }
 
-  /// Faces that were appended since are parts of f or of a neighbour of it.
-  void pushNewFaces(Index f)
+  /// The edges that the split of h made, or gave another name; g: its twin before, or kInvalidIndex.
+  void pushSplit(Index h, Index g)
   {
-    const Index before = faces_;
+    const Index added = faces_;
     faces_ = mesh_.faceCount();
     if (!scale_.empty())
     {
-      scale_.resize(faces_, scale_[f]);
+      scale_.resize(faces_, scale_[Mesh::face(h)]);
     }
-    for (Index g = before; g < faces_; ++g)
+    const Index other = 3 * added + h % 3;
+    for (const Index k : { h, Mesh::next(h), other, Mesh::next(other) })
     {
-      pushEdgesOf(g);
+      pushEdge(k);
     }
-  }
-
-  void pushEdgesOf(Index f)
-  {
-    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    if (g != kInvalidIndex)
     {
-      const double length = squaredLength(h);
-      if (length > limit_ && (mesh_.isBoundary(h) || h < mesh_.twin[h]))
-      {
-        queue_.push({ length, h });
-      }
-      else if (length > limit_)
-      {
-        queue_.push({ length, mesh_.twin[h] });
-      }
+      pushEdge(Mesh::next(g));
+      pushEdge(Mesh::next(3 * (added + 1) + g % 3));
     }
   }
 
@@ -90,10 +162,9 @@ public:
   /// has not the length it was queued with is old.
   Index pop()
   {
-    while (!queue_.empty())
+    LongEdge top{};
+    while (queue_.pop(top))
     {
-      const LongEdge top = queue_.top();
-      queue_.pop();
       if (squaredLength(top.halfEdge) == top.squaredLength)
       {
         return top.halfEdge;
@@ -103,8 +174,22 @@ public:
   }
 
 private:
-  void findScales(double maximumLength)
+  void pushEdge(Index h)
   {
+    const double length = squaredLength(h);
+    if (length > limit_)
+    {
+      queue_.push({ length, mesh_.isBoundary(h) ? h : std::min(h, mesh_.twin[h]) });
+    }
+  }
+
+  void findScales(const PreparedSurface& surface, double maximumLength)
+  {
+    if (surface.components == 1 && mesh_.sizing.empty() &&
+      surface.area > kSurelyLarge * maximumLength * maximumLength)
+    {
+      return;
+    }
     const ComponentSizes sizes = measureComponents(mesh_);
     const auto scale = [&](Index c) { return triangulationScale(sizes.area[c], maximumLength); };
     std::vector<double> ofComponent;
@@ -134,8 +219,21 @@ private:
   double limit_;
   Index faces_;
   std::vector<double> scale_; ///< #F, squared; empty where no component is small
-  std::priority_queue<LongEdge> queue_;
+  LongEdgeBuckets queue_;
 };
+
+/// Whether features or boundaries are anywhere.
+bool anyConstraint(const Mesh& mesh, int threads)
+{
+  const std::size_t faces = mesh.faceCount();
+  return firstRefused(faces, kChunkFaces, threads,
+           [&](std::size_t f)
+           {
+             const Index h = static_cast<Index>(3 * f);
+             return !mesh.isConstrained(h) && !mesh.isConstrained(h + 1) &&
+               !mesh.isConstrained(h + 2);
+           }) < faces;
+}
 
 std::vector<std::uint8_t> verticesOnConstraints(const Mesh& mesh)
 {
@@ -178,10 +276,10 @@ std::size_t countRefined(
 } // namespace
 
 bool splitLongEdges(PreparedSurface& surface, double maximumLength, std::size_t mostFaces,
-  const ProgressCallback& progress)
+  const ProgressCallback& progress, int threads)
 {
   const Mesh& mesh = surface.mesh;
-  LongEdgeQueue queue(mesh, maximumLength);
+  LongEdgeQueue queue(surface, maximumLength, threads);
   const double firstFaces = mesh.faceCount();
   std::size_t splits = 0;
   for (Index h = queue.pop(); h != kInvalidIndex; h = queue.pop())
@@ -192,12 +290,7 @@ bool splitLongEdges(PreparedSurface& surface, double maximumLength, std::size_t 
     }
     const Index g = mesh.twin[h];
     splitEdge(surface, h);
-    queue.pushEdgesOf(Mesh::face(h));
-    if (g != kInvalidIndex)
-    {
-      queue.pushEdgesOf(Mesh::face(g));
-    }
-    queue.pushNewFaces(Mesh::face(h));
+    queue.pushSplit(h, g);
     if (++splits % kSplitsBetweenReports == 0)
     {
       report(progress, 0.8 * (mesh.faceCount() - firstFaces) / (mostFaces - firstFaces),
@@ -238,7 +331,7 @@ void splitChords(PreparedSurface& surface)
 }
 
 void refineSurface(
-  PreparedSurface& surface, double maximumEdgeLength, const ProgressCallback& progress)
+  PreparedSurface& surface, double maximumEdgeLength, const ProgressCallback& progress, int threads)
 {
   if (!(maximumEdgeLength > 0) || !std::isfinite(maximumEdgeLength))
   {
@@ -248,7 +341,7 @@ void refineSurface(
   const std::vector<Index> entriesBefore = surface.refinedEntry;
   report(progress, 0, "Splitting long edges");
   const std::size_t limit = faceLimit(surface, maximumEdgeLength);
-  if (!splitLongEdges(surface, maximumEdgeLength, limit, progress))
+  if (!splitLongEdges(surface, maximumEdgeLength, limit, progress, threads))
   {
     surface.notice = "Refinement stopped at " + std::to_string(limit) +
       " faces with edges longer than " + std::to_string(maximumEdgeLength) +
@@ -256,15 +349,18 @@ void refineSurface(
       "better quads.";
   }
   report(progress, 0.8, "Splitting chords between features");
-  splitEnclosedFaces(surface);
-  splitChords(surface);
+  if (anyConstraint(surface.mesh, threads))
+  {
+    splitEnclosedFaces(surface);
+    splitChords(surface);
+  }
   if (surface.mesh.faceCount() != facesBefore)
   {
     surface.repair.refinedFaces += countRefined(surface, entriesBefore, facesBefore);
     report(progress, 0.9, "Ordering the refined surface");
-    orderSurface(surface, 1);
+    orderSurface(surface, threads);
   }
-  surface.hash = contentHash(surface.mesh, 1); // the caller may have changed features before
+  surface.hash = contentHash(surface.mesh, threads); // the caller may have changed features before
   report(progress, 1, "Surface refined");
 }
 

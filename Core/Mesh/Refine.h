@@ -13,7 +13,7 @@ namespace quadrille
 /// bisection [Rivara 1984], with the whole surface as one queue: the edge is then the longest of both of
 /// its faces and the smallest angle at most halves. Ends early at mostFaces; false then.
 bool splitLongEdges(PreparedSurface& surface, double maximumLength, std::size_t mostFaces,
-  const ProgressCallback& progress);
+  const ProgressCallback& progress, int threads = 1);
 
 /// Gives faces with three constrained edges a vertex inside.
 void splitEnclosedFaces(PreparedSurface& surface);

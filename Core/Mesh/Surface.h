@@ -163,8 +163,8 @@ PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& 
 /// does not change: new vertices lie on the old triangles. Long thin triangles can multiply; past
 /// about 16 #F + 20 area / maximumEdgeLength^2 faces (160 #F up to four million) the longest edges are
 /// split and the rest is left, which `notice` tells. Throws InvalidInput unless maximumEdgeLength is
-/// positive and finite. The hash is taken anew.
-void refineSurface(
-  PreparedSurface& surface, double maximumEdgeLength, const ProgressCallback& progress);
+/// positive and finite. The hash is taken anew. threads: 0: all; the result does not depend on it.
+void refineSurface(PreparedSurface& surface, double maximumEdgeLength,
+  const ProgressCallback& progress, int threads = 1);
 
 } // namespace quadrille

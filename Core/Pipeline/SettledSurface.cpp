@@ -340,7 +340,7 @@ private:
     // What was left long for its number stays so: the bound grows with the faces that there are now.
     if (sized_.surface->notice.empty())
     {
-      refineSurface(*sized_.surface, sized_.edgeLength, {});
+      refineSurface(*sized_.surface, sized_.edgeLength, {}, options_.threads);
     }
     sized_.key = KeyMaker(sized_.key).add(sized_.surface->hash).key();
     countBlocksAgain();

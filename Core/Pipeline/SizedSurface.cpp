@@ -423,7 +423,7 @@ private:
     const AdaptiveSizes& sizes = options_.sizes;
     const double start = secondsNow();
     // On faces no larger than quads, so that there are places to ask for sizes at.
-    refineSurface(*made_.surface, made_.edgeLength, {});
+    refineSurface(*made_.surface, made_.edgeLength, {}, options_.threads);
     const double reach = options_.quads ? sizes.largest / sizes.smallest : sizes.largest;
     const std::vector<float> asked = mesh.sizing;
     const std::vector<float> lengths =
@@ -501,8 +501,8 @@ private:
     dropSmallComponents();
     tell(surface.facets.text());
     filterFeatures();
-    refineSurface(
-      surface, made_.edgeLength, subProgress(options_.progress, 0.1, 0.15, "Refining: "));
+    refineSurface(surface, made_.edgeLength,
+      subProgress(options_.progress, 0.1, 0.15, "Refining: "), options_.threads);
     made_.stages.add("refine", secondsNow() - start, before, surface.mesh.faceCount());
     tell(surface.notice);
     if (options_.closeHandles > 0)

@@ -96,7 +96,7 @@ ClosedHandles closeSmallHandles(
       result.details.push_back({ DetailKind::Handle, DetailDecision::Simplify,
         found.loops[i].length / edgeLength, at[i], "cut and closed, as was asked for" });
     }
-    refineSurface(surface, edgeLength, {});
+    refineSurface(surface, edgeLength, {}, options.threads);
   }
   result.notice = closedText(options.closeHandles, closed, left, place);
   return result;
