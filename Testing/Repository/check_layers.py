@@ -21,6 +21,7 @@ MAY_INCLUDE = {
     "Transfer": ["Hierarchy", "GridMap"],
     "Extraction": ["GridMap"],
     "Evaluation": ["Transfer", "Extraction"],
+    "Export": ["Base"],  # files need no more than the elements
     "Pipeline": ["Evaluation"],
     "Session": ["Pipeline"],
     "Repair": ["Mesh"],  # with CGAL, and nothing of Core needs it: it can be left out
