@@ -29,7 +29,8 @@ std::string defaultPatchName(std::int64_t number)
                     : "PATCH_" + std::to_string(number);
 }
 
-std::vector<ElementSet> patchSets(const ElementMesh& mesh)
+/// Also the set of each element.
+std::vector<ElementSet> patchSets(const ElementMesh& mesh, std::vector<Index>& setOfElement)
 {
   std::vector<Index> order(mesh.patches.size());
   std::iota(order.begin(), order.end(), Index{ 0 });
@@ -57,6 +58,14 @@ std::vector<ElementSet> patchSets(const ElementMesh& mesh)
   sets.erase(std::remove_if(sets.begin(), sets.end(),
                [](const ElementSet& set) { return set.elements.empty(); }),
     sets.end());
+  growLarge(setOfElement, mesh.elementCount(), Index{ 0 });
+  for (std::size_t i = 0; i < sets.size(); ++i)
+  {
+    for (const Index e : sets[i].elements)
+    {
+      setOfElement[e] = static_cast<Index>(i);
+    }
+  }
   return sets;
 }
 
@@ -65,7 +74,8 @@ std::vector<ElementSet> patchSets(const ElementMesh& mesh)
 class SetNetwork
 {
 public:
-  SetNetwork(const ElementMesh& mesh, MeshSets& sets) : mesh_(mesh), edges_(mesh), sets_(sets)
+  SetNetwork(const ElementMesh& mesh, const std::vector<Index>& setOfElement, MeshSets& sets)
+    : mesh_(mesh), setOfElement_(setOfElement), edges_(mesh), sets_(sets)
   {
     collect();
     findCorners();
@@ -263,6 +273,13 @@ private:
     {
       chain.middles.push_back(mesh_.middle(kept / 4, kept % 4));
     }
+    const Index here = setOfElement_[kept / 4];
+    const Index twin = edges_.twin(kept);
+    if (twin == kInvalidIndex || setOfElement_[twin / 4] != here)
+    {
+      chain.patches.push_back(here);
+      chain.patches.push_back(twin == kInvalidIndex ? here : setOfElement_[twin / 4]);
+    }
   }
 
   /// Chains of a walk, cut at corners.
@@ -281,6 +298,9 @@ private:
     chain.closed = isRing;
     const auto finish = [&]
     {
+      std::sort(chain.patches.begin(), chain.patches.end());
+      chain.patches.erase(
+        std::unique(chain.patches.begin(), chain.patches.end()), chain.patches.end());
       if (!isRing)
       {
         chain.startCorner = corner(chain.nodes.front());
@@ -339,6 +359,7 @@ private:
   }
 
   const ElementMesh& mesh_;
+  const std::vector<Index>& setOfElement_;
   const ElementEdges edges_;
   MeshSets& sets_;
   std::vector<Index> elementsAt_; ///< #nodes
@@ -353,8 +374,9 @@ MeshSets setsOf(const ElementMesh& mesh)
 {
   requireValid(mesh);
   MeshSets sets;
-  sets.patches = patchSets(mesh);
-  SetNetwork network(mesh, sets);
+  std::vector<Index> setOfElement;
+  sets.patches = patchSets(mesh, setOfElement);
+  SetNetwork network(mesh, setOfElement, sets);
   return sets;
 }
 

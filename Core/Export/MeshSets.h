@@ -29,8 +29,9 @@ struct EdgeChain
   bool closed = false;
   std::vector<Index>
     nodes; ///< corners of elements in their order; a closed chain does not repeat the first one
-  std::vector<Index> middles;        ///< of each edge; empty for elements of first order
-  std::vector<ElementSide> sides;    ///< of each edge: the element with the lowest id, and its side
+  std::vector<Index> middles;     ///< of each edge; empty for elements of first order
+  std::vector<ElementSide> sides; ///< of each edge: the element with the lowest id, and its side
+  std::vector<Index> patches;     ///< in MeshSets::patches, ascending: those that it is a border of
   Index startCorner = kInvalidIndex; ///< in MeshSets::corners; both are there or none
   Index endCorner = kInvalidIndex;
 };

@@ -41,6 +41,15 @@ void writeThenRename(
     removeQuietly(temporary);
     throw WriteError(path + ": " + error.code().message());
   }
+  catch (const WriteError& error)
+  {
+    removeQuietly(temporary);
+    // The user knows the file by its own name.
+    std::string text = error.what();
+    const std::size_t at = text.find(temporary.string());
+    throw WriteError(
+      at == std::string::npos ? text : text.replace(at, temporary.string().size(), path));
+  }
   catch (...)
   {
     removeQuietly(temporary);
