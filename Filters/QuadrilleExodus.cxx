@@ -329,7 +329,8 @@ std::vector<std::string> writeExodus(
   const ErrorCollector errors(writer);
   if (!writer->Write() || !errors.text().empty())
   {
-    throw WriteError(path + ": cannot be written: " + errors.sentence());
+    throw WriteError(
+      path + ": cannot be written (is there room on the disk?): " + errors.sentence());
   }
   std::vector<std::string> notices;
   if (!leftOut.empty())

@@ -7,6 +7,7 @@
 
 #include <vtkCellData.h>
 #include <vtkCellType.h>
+#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkPLYWriter.h>
 #include <vtkPointData.h>
@@ -22,16 +23,21 @@ namespace quadrille
 namespace
 {
 
-template <class Writer>
-void runWriter(Writer* writer, const std::string& path)
+/// Into memory first: where a disk is full, the writers of XML files may end the process, or tell nothing.
+void runXmlWriter(vtkXMLWriter* writer, const std::string& path)
 {
+  // Appended, the default, cannot be read back with the libexpat of an updated Debian 12.
+  writer->SetDataModeToBinary();
+  writer->WriteToOutputStringOn();
   const ErrorCollector errors(writer);
-  writer->SetFileName(path.c_str());
-  const int written = writer->Write();
-  if (!errors.text().empty() || !written)
+  const ErrorCollector executiveErrors(writer->GetExecutive()); // repeats the others at length
+  if (!writer->Write() || !errors.text().empty())
   {
     throw WriteError(path + ": cannot be written: " + errors.sentence());
   }
+  OutputFile file(path);
+  file << writer->GetOutputString();
+  file.close();
 }
 
 } // namespace
@@ -40,9 +46,7 @@ void writeVtp(vtkPolyData* mesh, const std::string& path)
 {
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(mesh);
-  // Appended, the default, cannot be read back with the libexpat of an updated Debian 12.
-  writer->SetDataModeToBinary();
-  runWriter(writer.Get(), path);
+  runXmlWriter(writer, path);
 }
 
 void writeVtu(vtkDataSet* mesh, const std::string& path)
@@ -60,8 +64,7 @@ void writeVtu(vtkDataSet* mesh, const std::string& path)
   }
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputData(grid);
-  writer->SetDataModeToBinary();
-  runWriter(writer.Get(), path);
+  runXmlWriter(writer, path);
 }
 
 void writePlainPly(vtkPolyData* mesh, const std::string& path)
@@ -69,7 +72,15 @@ void writePlainPly(vtkPolyData* mesh, const std::string& path)
   vtkNew<vtkPLYWriter> writer;
   writer->SetInputData(mesh);
   writer->SetFileTypeToBinary();
-  runWriter(writer.Get(), path);
+  writer->WriteToOutputStringOn();
+  const ErrorCollector errors(writer);
+  if (!writer->Write() || !errors.text().empty())
+  {
+    throw WriteError(path + ": cannot be written: " + errors.sentence());
+  }
+  OutputFile file(path);
+  file << writer->GetOutputString();
+  file.close();
 }
 
 } // namespace quadrille

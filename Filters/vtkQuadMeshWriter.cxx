@@ -205,7 +205,7 @@ void vtkQuadMeshWriter::WriteData()
 {
   this->OutcomeText.clear();
   this->NoticesText.clear();
-  unsigned long code = vtkErrorCode::UnknownError;
+  this->Outcome = Succeeded;
   try
   {
     auto* mesh = vtkDataSet::SafeDownCast(this->GetInput());
@@ -225,24 +225,28 @@ void vtkQuadMeshWriter::WriteData()
   }
   catch (const quadrille::Cancelled&)
   {
+    this->Outcome = Stopped;
     this->OutcomeText = this->FileName + ": not written, as it was stopped";
   }
   catch (const quadrille::WriteError& error)
   {
+    this->Outcome = CannotWrite;
     this->OutcomeText = error.what();
-    code = vtkErrorCode::CannotOpenFileError;
   }
   catch (const std::bad_alloc&)
   {
+    this->Outcome = CannotWrite;
     this->OutcomeText = this->FileName + ": there is not enough memory to write it";
   }
   catch (const std::exception& error)
   {
+    this->Outcome = BadInput;
     this->OutcomeText = this->FileName.empty() || !CanWriteFile(this->FileName.c_str())
       ? error.what()
       : this->FileName + ": " + error.what();
   }
-  this->SetErrorCode(code);
+  this->SetErrorCode(
+    this->Outcome == CannotWrite ? vtkErrorCode::CannotOpenFileError : vtkErrorCode::UserError);
   vtkErrorMacro(<< this->OutcomeText);
 }
 
@@ -256,6 +260,7 @@ void vtkQuadMeshWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Dialect: " << this->Dialect << "\n";
   os << indent << "Material: " << this->Material << "\n";
   os << indent << "MshVersion: " << this->MshVersion << "\n";
+  os << indent << "Outcome: " << this->Outcome << "\n";
   os << indent << "OutcomeText: " << this->OutcomeText << "\n";
   os << indent << "NoticesText: " << this->NoticesText << "\n";
 }

@@ -115,6 +115,15 @@ public:
   void SetMshVersionTo22() { this->SetMshVersion(MSH_2_2); }
   ///@}
 
+  /// How the last call of Write() went.
+  enum Outcomes
+  {
+    Succeeded = 0,
+    BadInput = 1,    ///< the mesh or a setting is at fault
+    CannotWrite = 2, ///< the file is
+    Stopped = 3
+  };
+  int GetOutcome() { return this->Outcome; }
   /// Why the last call of Write() wrote nothing; empty after success.
   const char* GetOutcomeText() { return this->OutcomeText.c_str(); }
   /// What else there is to know of it, one sentence a line.
@@ -141,6 +150,7 @@ private:
   int Dialect = CALCULIX;
   std::string Material = "MATERIAL";
   int MshVersion = MSH_4_1;
+  int Outcome = Succeeded;
   std::string OutcomeText;
   std::string NoticesText;
 };

@@ -5,14 +5,14 @@
 /// Source: Abaqus Keywords Reference, CalculiX CrunchiX User's Manual 2.20. Numbers have at most 20 characters, which is
 /// what both read, so that some coordinates lose their last digit. What is in the file:
 ///
-///   NALL, EALL             all nodes, all elements; both numbered from 1 in the order of the mesh
-///   element sets           one a patch; of each boundary loop NAME_E1 to NAME_E4, the elements that have their side 1 to
-///                          4 on it, for *DLOAD with EDNOR1 to EDNOR4
-///   node sets              one a boundary loop, feature curve and corner, with the nodes in the middle of edges
-///   surfaces               one a boundary loop, NAME_EDGES
-///   thickness              up to 64 different values: element sets THICKNESS_n with a section each; more: *NODAL
-///                          THICKNESS, of each node the average of its elements by area
-///   axis                   *ORIENTATION: the first direction is the axis, the second one the normal times the axis
+///   NALL, EALL     all nodes, all elements; both numbered from 1 in the order of the mesh
+///   element sets   one a patch; of each boundary loop NAME_E1 to NAME_E4, the elements that have their side 1 to 4 on
+///                  it, for *DLOAD with EDNOR1 to EDNOR4
+///   node sets      one a boundary loop, feature curve and corner, with the nodes in the middle of edges
+///   surfaces       one a boundary loop, NAME_EDGES
+///   thickness      up to 64 different values: a section each; more: *NODAL THICKNESS, of each node the average of its
+///                  elements by area
+///   axis           *ORIENTATION: the first direction is the axis, the second one the normal times the axis
 #pragma once
 
 #include "Base/Progress.h"
@@ -27,8 +27,8 @@ namespace quadrille
 /// Where the two programs differ.
 enum class InpDialect
 {
-  /// Sides of shells in surfaces are S3 to S6. Distributions of axes are for plane elements only; for shells there is an
-  /// orientation and a section for each pair of axis and normal.
+  /// Sides of shells in surfaces are S3 to S6. Distributions of axes are for plane elements only, as those of shells are
+  /// read and not used; shells have an orientation and a section for each pair of axis and normal.
   Calculix,
   Abaqus ///< Sides of shells in surfaces are E1 to E4. Axes are a *DISTRIBUTION with its table
 };

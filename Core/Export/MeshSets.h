@@ -4,9 +4,9 @@
 /// alone.
 ///
 /// Edges of one element are boundary, marked edges between elements are features. Corners are the nodes where other
-/// than two of both meet (a feature ends, branches, or runs into the boundary), and those where a loop or curve bends by
-/// more than 40 degrees and the elements do not go on straight: not two of them on the side of the mesh, on a feature
-/// not two on each side. A round hole of few edges thus has no corners, a rectangular plate has four.
+/// than two of both meet (a feature ends, branches, or runs into the boundary), and those where a loop or curve bends
+/// by more than 40 degrees and the elements do not go on straight: not two of them at a node of the boundary, on a
+/// feature not two on each side. A round hole of few edges thus has no corners, a rectangular plate has four.
 #pragma once
 
 #include "Export/ElementMesh.h"

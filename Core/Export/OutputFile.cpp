@@ -46,9 +46,13 @@ void writeThenRename(
     removeQuietly(temporary);
     // The user knows the file by its own name.
     std::string text = error.what();
-    const std::size_t at = text.find(temporary.string());
-    throw WriteError(
-      at == std::string::npos ? text : text.replace(at, temporary.string().size(), path));
+    const std::string name = temporary.string();
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at))
+    {
+      text.replace(at, name.size(), path);
+      at += path.size();
+    }
+    throw WriteError(text);
   }
   catch (...)
   {

@@ -68,8 +68,8 @@ private:
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-/// The shortest text that reads back to the same bits; where it is longer than `most` characters (at least 12), the most
-/// digits that fit. With a decimal point or an exponent.
+/// The shortest text that reads back to the same bits; where it is longer than `most` characters (at least 12), the
+/// most digits that fit. With a decimal point or an exponent.
 std::string realText(double number, std::size_t most = 32);
 
 } // namespace quadrille

@@ -22,7 +22,7 @@ MAY_INCLUDE = {
     "Extraction": ["GridMap"],
     "Evaluation": ["Transfer", "Extraction"],
     "Export": ["Base"],  # files need no more than the elements
-    "Pipeline": ["Evaluation"],
+    "Pipeline": ["Evaluation", "Export"],
     "Session": ["Pipeline"],
     "Repair": ["Mesh"],  # with CGAL, and nothing of Core needs it: it can be left out
 }
