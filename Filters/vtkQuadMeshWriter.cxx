@@ -73,7 +73,8 @@ void vtkQuadMeshWriter::SetFileName(const char* name)
 //------------------------------------------------------------------------------
 void vtkQuadMeshWriter::SetPatchArrayName(const char* name)
 {
-  this->SetText(this->PatchArrayName, name);
+  const std::string text = name ? name : "";
+  this->SetText(this->PatchArrayName, text == "(automatic)" ? "" : text.c_str());
 }
 
 //------------------------------------------------------------------------------
