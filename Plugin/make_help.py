@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pages that the question mark in ParaView's panel opens, one for each filter and reader:
+"""The pages that the question mark in ParaView's panel opens, one for each filter, reader and writer:
 
   make_help.py FOLDER XML...
 
@@ -86,7 +86,7 @@ def main(folder, *files):
                if proxy.get("class")}
     pathlib.Path(folder).mkdir(parents=True, exist_ok=True)
     for (group, name), proxy in proxies.items():
-        if group in ("filters", "sources"):
+        if group in ("filters", "sources", "writers"):
             pathlib.Path(folder, f"{group}.{name}.html").write_text(page_of(proxy, proxies), encoding="utf-8")
 
 

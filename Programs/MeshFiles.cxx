@@ -2,30 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshFiles.h"
 
+#include "Export/OutputFile.h"
+#include "QuadrilleFar.h"
+#include "QuadrilleVtkErrors.h"
+
 #include <vtkAlgorithm.h>
-#include <vtkAppendFilter.h>
-#include <vtkCallbackCommand.h>
-#include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
-#include <vtkCellData.h>
-#include <vtkCommand.h>
-#include <vtkDataArray.h>
-#include <vtkDataSetAttributes.h>
-#include <vtkDoubleArray.h>
 #include <vtkExecutive.h>
-#include <vtkExodusIIWriter.h>
-#include <vtkFieldData.h>
-#include <vtkGeometryFilter.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
-#include <vtkPLYWriter.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataReader.h>
+#include <vtkQuadMeshWriter.h>
 #include <vtkQuadrilleFileReader.h>
 #include <vtkQuadrilleOFFReader.h>
 #include <vtkQuadrillePLYReader.h>
@@ -33,25 +24,16 @@
 #include <vtkSTLReader.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringOutputWindow.h>
-#include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
-#include <vtkXMLPolyDataWriter.h>
-#include <vtkXMLUnstructuredGridWriter.h>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <memory>
 #include <sstream>
 
 namespace quadrille
@@ -62,44 +44,9 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// Collects what a VTK object reports as errors and warnings instead of letting it print them.
-class ErrorCollector
-{
-public:
-  explicit ErrorCollector(vtkObject* object)
-  {
-    callback_->SetClientData(&text_);
-    callback_->SetCallback([](vtkObject*, unsigned long, void* client, void* data)
-      { *static_cast<std::string*>(client) += firstLine(static_cast<const char*>(data)); });
-    object->AddObserver(vtkCommand::ErrorEvent, callback_);
-  }
-  const std::string& text() const { return text_; }
-
-private:
-  /// VTK's messages: "ERROR: In file, line n\nvtkClass (0x...): what is wrong\n\n".
-  static std::string firstLine(const char* message)
-  {
-    std::string text = message ? message : "";
-    const std::size_t body = text.find("): ");
-    if (body != std::string::npos)
-    {
-      text = text.substr(body + 3);
-    }
-    return text.substr(0, text.find('\n')) + "; ";
-  }
-
-  vtkNew<vtkCallbackCommand> callback_;
-  std::string text_;
-};
-
 [[noreturn]] void fail(const std::string& path, const std::string& reason)
 {
   throw FileError(path + ": " + reason);
-}
-
-std::string withoutTail(const std::string& errors)
-{
-  return errors.size() > 2 ? errors.substr(0, errors.size() - 2) : errors;
 }
 
 /// Readers of VTK have parsers that report by themselves, and tell of cut files by warnings of nobody: all that is
@@ -156,10 +103,10 @@ vtkSmartPointer<vtkPolyData> readWith(const std::string& path)
     reader->Update();
     printed = printing.first();
   }
-  const std::string text = errors.text().empty() ? pipelineErrors.text() : errors.text();
+  const std::string text = errors.text().empty() ? pipelineErrors.sentence() : errors.sentence();
   if (!text.empty() || !printed.empty())
   {
-    fail(path, printed.empty() ? withoutTail(text) : printed);
+    fail(path, printed.empty() ? text : printed);
   }
   vtkSmartPointer<vtkPolyData> data = reader->GetOutput();
   if (!data)
@@ -195,25 +142,6 @@ vtkSmartPointer<vtkPolyData> readWithOurs(const std::string& path)
     throw FileError(reader->GetOutcomeText());
   }
   return reader->GetOutput();
-}
-
-//------------------------------------------------------------------------------
-/// Far from the origin single precision has lost what tells points apart: where a coordinate is above so many sides of
-/// the box.
-constexpr double kFarSides = 4;
-
-bool isFar(vtkPolyData* mesh)
-{
-  double box[6];
-  mesh->GetBounds(box);
-  double side = 0;
-  double largest = 0;
-  for (int k = 0; k < 3; ++k)
-  {
-    side = std::max(side, box[2 * k + 1] - box[2 * k]);
-    largest = std::max({ largest, std::abs(box[2 * k]), std::abs(box[2 * k + 1]) });
-  }
-  return largest > kFarSides * side;
 }
 
 //------------------------------------------------------------------------------
@@ -324,215 +252,6 @@ vtkSmartPointer<vtkPolyData> readObj(const std::string& path)
   return data;
 }
 
-//------------------------------------------------------------------------------
-// Writers
-
-template <class Write>
-void writeThenRename(const std::string& path, Write write)
-{
-  // The extension stays last, as some writers look at it.
-  const fs::path target(path);
-  const fs::path temporary = target.parent_path() /
-    (target.stem().string() + ".part" + std::to_string(::getpid()) + target.extension().string());
-  try
-  {
-    write(temporary.string());
-    fs::rename(temporary, target);
-  }
-  catch (const fs::filesystem_error& error)
-  {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    fail(path, error.code().message());
-  }
-  catch (...)
-  {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw;
-  }
-}
-
-struct CloseFile
-{
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
-File openForWriting(const std::string& path)
-{
-  File file(std::fopen(path.c_str(), "wb"));
-  if (!file)
-  {
-    fail(path, std::string("cannot be written: ") + std::strerror(errno));
-  }
-  return file;
-}
-
-void finish(File& file, const std::string& path)
-{
-  const bool failed = std::ferror(file.get()) != 0;
-  if (std::fclose(file.release()) != 0 || failed)
-  {
-    fail(path, std::string("cannot be written: ") + std::strerror(errno));
-  }
-}
-
-/// vtkOBJWriter wants a texture and writes floats; 17 digits keep every bit of a double.
-void writeObj(vtkPolyData* mesh, const std::string& path)
-{
-  File file = openForWriting(path);
-  std::fprintf(file.get(), "# quad mesh made by Quadrille: %lld points, %lld faces\n",
-    static_cast<long long>(mesh->GetNumberOfPoints()),
-    static_cast<long long>(mesh->GetNumberOfPolys()));
-  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    mesh->GetPoint(i, p);
-    std::fprintf(file.get(), "v %.17g %.17g %.17g\n", p[0], p[1], p[2]);
-  }
-  auto cells = vtk::TakeSmartPointer(mesh->GetPolys()->NewIterator());
-  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
-  {
-    vtkIdType count = 0;
-    const vtkIdType* ids = nullptr;
-    cells->GetCurrentCell(count, ids);
-    std::fputc('f', file.get());
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      std::fprintf(file.get(), " %lld", static_cast<long long>(ids[i] + 1));
-    }
-    std::fputc('\n', file.get());
-  }
-  finish(file, path);
-}
-
-template <class Writer>
-void runWriter(Writer* writer, const std::string& path)
-{
-  const ErrorCollector errors(writer);
-  writer->SetFileName(path.c_str());
-  const int written = writer->Write();
-  if (!errors.text().empty() || !written)
-  {
-    fail(path, "cannot be written: " + withoutTail(errors.text()));
-  }
-}
-
-vtkSmartPointer<vtkUnstructuredGrid> toGrid(vtkPolyData* mesh)
-{
-  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  grid->SetPoints(mesh->GetPoints());
-  grid->SetCells(VTK_QUAD, mesh->GetPolys());
-  grid->GetPointData()->ShallowCopy(mesh->GetPointData());
-  grid->GetCellData()->ShallowCopy(mesh->GetCellData());
-  grid->GetFieldData()->ShallowCopy(mesh->GetFieldData());
-  return grid;
-}
-
-void writeVtp(vtkPolyData* mesh, const std::string& path)
-{
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputData(mesh);
-  // Appended, the default, cannot be read back with the libexpat of an updated Debian 12.
-  writer->SetDataModeToBinary();
-  runWriter(writer.Get(), path);
-}
-
-void writeVtu(vtkPolyData* mesh, const std::string& path)
-{
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetInputData(toGrid(mesh));
-  writer->SetDataModeToBinary();
-  runWriter(writer.Get(), path);
-}
-
-template <class Value>
-void writeValue(std::FILE* file, Value value)
-{
-  std::fwrite(&value, sizeof(value), 1, file);
-}
-
-/// vtkPLYWriter writes floats only. Points and faces, in the byte order of this machine, which is little-endian.
-void writePlyInDouble(vtkPolyData* mesh, const std::string& path)
-{
-  File file = openForWriting(path);
-  std::fprintf(file.get(),
-    "ply\nformat binary_little_endian 1.0\ncomment quad mesh made by Quadrille\n"
-    "element vertex %lld\nproperty double x\nproperty double y\nproperty double z\n"
-    "element face %lld\nproperty list uchar int vertex_indices\nend_header\n",
-    static_cast<long long>(mesh->GetNumberOfPoints()),
-    static_cast<long long>(mesh->GetNumberOfPolys()));
-  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    mesh->GetPoint(i, p);
-    std::fwrite(p, sizeof(p), 1, file.get());
-  }
-  auto cells = vtk::TakeSmartPointer(mesh->GetPolys()->NewIterator());
-  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
-  {
-    vtkIdType count = 0;
-    const vtkIdType* ids = nullptr;
-    cells->GetCurrentCell(count, ids);
-    writeValue(file.get(), static_cast<unsigned char>(count));
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      writeValue(file.get(), static_cast<std::int32_t>(ids[i]));
-    }
-  }
-  finish(file, path);
-}
-
-void writePly(vtkPolyData* mesh, const std::string& path)
-{
-  if (isFar(mesh))
-  {
-    writePlyInDouble(mesh, path);
-    return;
-  }
-  vtkNew<vtkPLYWriter> writer;
-  writer->SetInputData(mesh);
-  writer->SetFileTypeToBinary();
-  runWriter(writer.Get(), path);
-}
-
-/// The Exodus writer takes the precision of the points from the first array of real numbers that it finds, whatever it
-/// is told of doubles.
-void toDouble(vtkDataSetAttributes* attributes)
-{
-  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
-  {
-    vtkDataArray* array = attributes->GetArray(i);
-    if (array && array->GetDataType() == VTK_FLOAT)
-    {
-      vtkNew<vtkDoubleArray> copy;
-      copy->DeepCopy(array);
-      copy->SetName(array->GetName());
-      attributes->AddArray(copy); // in the place of the one of this name
-    }
-  }
-}
-
-/// Exodus knows whole numbers only as ids and maps, hence every array as real numbers; field data with
-/// text has no place in it.
-void writeExodus(vtkPolyData* mesh, const std::string& path)
-{
-  vtkSmartPointer<vtkUnstructuredGrid> grid = toGrid(mesh);
-  grid->GetFieldData()->Initialize();
-  if (isFar(mesh))
-  {
-    toDouble(grid->GetPointData());
-    toDouble(grid->GetCellData());
-  }
-  vtkNew<vtkExodusIIWriter> writer;
-  writer->SetInputData(grid);
-  writer->WriteOutBlockIdArrayOn();
-  writer->WriteOutGlobalNodeIdArrayOn();
-  writer->WriteOutGlobalElementIdArrayOn();
-  runWriter(writer.Get(), path);
-}
-
 } // namespace
 
 std::string extensionOf(const std::string& path)
@@ -545,8 +264,12 @@ std::string extensionOf(const std::string& path)
 
 bool canWrite(const std::string& path)
 {
-  const std::string e = extensionOf(path);
-  return e == "vtp" || e == "obj" || e == "ply" || e == "vtu" || e == "ex2";
+  return vtkQuadMeshWriter::CanWriteFile(path.c_str());
+}
+
+std::string writtenExtensions()
+{
+  return vtkQuadMeshWriter::GetExtensions();
 }
 
 vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
@@ -593,48 +316,40 @@ vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
   fail(path, "unknown extension; known are ply, obj, stl, off, vtp and vtk");
 }
 
-void writeMeshFile(vtkPolyData* mesh, const std::string& path)
+std::string writeMeshFile(vtkDataSet* mesh, const std::string& path, vtkQuadMeshWriter* writer)
 {
-  const std::string extension = extensionOf(path);
-  writeThenRename(path,
-    [mesh, &extension, &path](const std::string& temporary)
-    {
-      if (extension == "vtp")
-      {
-        writeVtp(mesh, temporary);
-      }
-      else if (extension == "obj")
-      {
-        writeObj(mesh, temporary);
-      }
-      else if (extension == "ply")
-      {
-        writePly(mesh, temporary);
-      }
-      else if (extension == "vtu")
-      {
-        writeVtu(mesh, temporary);
-      }
-      else if (extension == "ex2")
-      {
-        writeExodus(mesh, temporary);
-      }
-      else
-      {
-        fail(path, "unknown extension; known are vtp, obj, ply, vtu and ex2");
-      }
-    });
+  const ErrorCollector errors(writer);
+  writer->SetInputData(mesh);
+  writer->SetFileName(path.c_str());
+  writer->Write();
+  if (*writer->GetOutcomeText() != '\0')
+  {
+    throw FileError(writer->GetOutcomeText());
+  }
+  return writer->GetNoticesText();
+}
+
+void writeMeshFile(vtkDataSet* mesh, const std::string& path)
+{
+  writeMeshFile(mesh, path, vtkNew<vtkQuadMeshWriter>());
 }
 
 void writeTextFile(const std::string& text, const std::string& path)
 {
-  writeThenRename(path,
-    [&text](const std::string& temporary)
-    {
-      File file = openForWriting(temporary);
-      std::fwrite(text.data(), 1, text.size(), file.get());
-      finish(file, temporary);
-    });
+  try
+  {
+    writeThenRename(path,
+      [&text](const std::string& temporary)
+      {
+        OutputFile file(temporary);
+        file << text;
+        file.close();
+      });
+  }
+  catch (const WriteError& error)
+  {
+    throw FileError(error.what());
+  }
 }
 
 } // namespace quadrille

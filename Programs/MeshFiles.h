@@ -8,7 +8,9 @@
 #include <stdexcept>
 #include <string>
 
+class vtkDataSet;
 class vtkPolyData;
+class vtkQuadMeshWriter;
 
 namespace quadrille
 {
@@ -23,15 +25,18 @@ public:
 /// Lower case, without the dot; empty when there is none.
 std::string extensionOf(const std::string& path);
 
-/// Whether writeMeshFile knows the extension of the path: vtp obj ply vtu ex2.
+/// Whether writeMeshFile knows the extension of the path, and which ones it knows, with commas.
 bool canWrite(const std::string& path);
+std::string writtenExtensions();
 
 /// Reads ply, obj, stl, off, vtp or vtk. Throws FileError.
 vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path);
 
 /// Writes to a temporary file beside the target and renames it, so that a file of that name is always
-/// whole. Throws FileError.
-void writeMeshFile(vtkPolyData* mesh, const std::string& path);
+/// whole. Returns what the user should know, one sentence a line. Throws FileError.
+std::string writeMeshFile(vtkDataSet* mesh, const std::string& path, vtkQuadMeshWriter* writer);
+/// With a writer as it is by default.
+void writeMeshFile(vtkDataSet* mesh, const std::string& path);
 /// The same for text.
 void writeTextFile(const std::string& text, const std::string& path);
 

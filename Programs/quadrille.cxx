@@ -12,6 +12,7 @@
 #include <vtkFieldData.h>
 #include <vtkObject.h>
 #include <vtkPolyData.h>
+#include <vtkQuadMeshWriter.h>
 #include <vtkStringArray.h>
 
 #include <unistd.h>
@@ -33,7 +34,7 @@ namespace
 using namespace quadrille;
 
 constexpr const char* kIntroduction =
-  R"(usage: quadrille IN.{ply,obj,stl,off,vtp,vtk} OUT.{vtp,obj,ply,vtu,ex2} [options]
+  R"(usage: quadrille IN.{ply,obj,stl,off,vtp,vtk} OUT.{vtp,vtu,ex2,e,inp,msh,mesh,obj,ply,stl} [options]
        quadrille IN.{ply,obj,stl,off,vtp,vtk} --method seamless --map MAP.vtp [options]
 
 Remeshes a triangle surface with quads only.
@@ -88,6 +89,7 @@ vtkSmartPointer<vtkPolyData> readGuarded(const std::string& path)
 struct Request
 {
   RunFiles files;
+  vtkNew<vtkQuadMeshWriter> writer;
   WrapRequest wrap;
   bool quiet = false;
 };
@@ -370,6 +372,33 @@ void addFinish(CommandOptions& options, vtkQuadRemesh* filter)
     "under it: the average of real numbers, the most frequent label");
 }
 
+/// What only some formats have.
+void addFormats(CommandOptions& options, vtkQuadMeshWriter* writer)
+{
+  options.beginGroup("the output file:");
+  options.addText(
+    "patch-array", "NAME",
+    [writer](const std::string& name) { writer->SetPatchArrayName(name.c_str()); },
+    "sets of elements by the cell array of this name, whole numbers or strings, that the input "
+    "has, "
+    "or LayoutPatch (default: PatchId, else PatchNames, else LayoutPatch)");
+  options.addText(
+    "element", "TYPE", [writer](const std::string& type) { writer->SetElementType(type.c_str()); },
+    "inp: the type of the elements: S4 (default), S4R, CPS4, CPS4R, CPE4, CPE4R; of second order "
+    "S8R (default), S8, CPS8, CPS8R, CPE8, CPE8R, S9R5");
+  options.addChoice(
+    "inp-dialect", "WORD", { "calculix", "abaqus" },
+    [writer](int dialect) { writer->SetDialect(dialect); },
+    "inp: calculix (default) or abaqus: how sides of shells are named, and axes of elements given");
+  options.addText(
+    "material", "NAME", [writer](const std::string& name) { writer->SetMaterial(name.c_str()); },
+    "inp: the material that sections name, where elements have a thickness or an axis (default "
+    "MATERIAL)");
+  options.addChoice(
+    "msh-version", "V", { "4.1", "2.2" }, [writer](int version) { writer->SetMshVersion(version); },
+    "msh: the version of Gmsh's format (default 4.1)");
+}
+
 void addRun(CommandOptions& options, vtkQuadRemesh* filter, Request& request)
 {
   options.beginGroup("the run:");
@@ -451,7 +480,7 @@ void checkTogether(const CommandOptions& options, vtkQuadRemesh* filter, RunFile
   }
   if (!seamless && !canWrite(files.output))
   {
-    throw UsageError(files.output + ": unknown extension; known are vtp, obj, ply, vtu and ex2");
+    throw UsageError(files.output + ": unknown extension; known are " + writtenExtensions());
   }
   if (options.given("map") && extensionOf(files.map) != "vtp")
   {
@@ -589,7 +618,9 @@ ExitCode execute(RemeshRun& run, const Request& request)
   {
     if (!files.output.empty())
     {
-      writeMeshFile(run.filter()->GetOutput(), files.output);
+      const std::string notices =
+        writeMeshFile(run.filter()->GetOutput(), files.output, request.writer);
+      run.addNotice(notices.substr(0, notices.find_last_not_of('\n') + 1));
     }
     if (!files.map.empty())
     {
@@ -644,6 +675,7 @@ ExitCode runCommand(int argc, char* argv[])
   addSizes(options, run.filter());
   addShape(options, run.filter());
   addFinish(options, run.filter());
+  addFormats(options, request.writer);
   addRun(options, run.filter(), request);
   if (const std::optional<std::string> text = options.parse(argc, argv))
   {

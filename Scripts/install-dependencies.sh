@@ -15,6 +15,7 @@ packages=(
   libcli11-dev nlohmann-json3-dev       # options and reports of the commands, files of sessions
   libgtest-dev python3 python3-numpy python3-scipy
   python3-matplotlib                    # figures of quadrille-evaluate
+  gmsh python3-gmsh python3-meshio calculix-ccx # the test of formats reads files back with them
   valgrind                              # instructions, for Scripts/figures.py
   clang-format clang-tidy               # the tests hold the sources against them
   xvfb xauth libqt5svg5 libgl1-mesa-dri # pictures without a screen

@@ -6,6 +6,7 @@
     quads = quadrille.remesh(quadrille.read("part.ply"))        # vtkPolyData in, vtkPolyData out; about 5,000 quads
     quads = quadrille.remesh((points, faces), edge_length=0.5)  # arrays or lists in
     points, faces = quadrille.to_arrays(quads)
+    quadrille.write(quads, "part.inp")                          # with sets for CalculiX, Gmsh, Exodus II, ...
 
     surface, findings = quadrille.repair(mesh)                  # damaged surfaces; both need a build with CGAL
     surface = quadrille.wrap(mesh, alpha=0.1)
@@ -18,15 +19,15 @@
 
 The VTK classes themselves are here too: vtkQuadRemesh, vtkDecimationHierarchy, vtkIntegerGridMap,
 vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkIntegerGridMapQuality, vtkIntegerGridMapComparison, vtkQuadrilleSession,
-the source vtkQuadConstraintSource, the readers vtkQuadrilleOFFReader and vtkQuadrillePLYReader, and in
-QuadrilleFilters, where there is CGAL, vtkSurfaceRepair, vtkSurfaceWrap and vtkQuadProjection.
+the source vtkQuadConstraintSource, the readers vtkQuadrilleOFFReader and vtkQuadrillePLYReader, the writer
+vtkQuadMeshWriter, and in QuadrilleFilters, where there is CGAL, vtkSurfaceRepair, vtkSurfaceWrap and vtkQuadProjection.
 """
 import collections
 
 from vtkmodules import vtkCommonExecutionModel as _execution_model  # base classes of the filters
 
 from ._errors import InvalidInput, RemeshError, one_of, real, whole
-from ._files import read
+from ._files import read, write
 from ._inputs import as_curves, as_surface, to_polydata, with_requests
 from ._proxies import check
 from ._repair import Wrapping, has_cgal, repair, wrap
@@ -39,6 +40,7 @@ from .QuadrilleFilters import (
     vtkIntegerGridMapUpmap,
     vtkQuadConstraintSource,
     vtkQuadExtraction,
+    vtkQuadMeshWriter,
     vtkQuadRemesh,
     vtkQuadrilleOFFReader,
     vtkQuadrillePLYReader,
@@ -47,9 +49,9 @@ from .QuadrilleFilters import (
 
 __all__ = [
     "InvalidInput", "Irregular", "RemeshError", "Remeshed", "Session", "check", "has_cgal", "info", "read",
-    "remesh", "repair", "to_arrays", "to_polydata", "wrap",
+    "remesh", "repair", "to_arrays", "to_polydata", "wrap", "write",
     "vtkDecimationHierarchy", "vtkIntegerGridMap", "vtkIntegerGridMapComparison", "vtkIntegerGridMapQuality",
-    "vtkIntegerGridMapUpmap", "vtkQuadConstraintSource", "vtkQuadExtraction", "vtkQuadRemesh",
+    "vtkIntegerGridMapUpmap", "vtkQuadConstraintSource", "vtkQuadExtraction", "vtkQuadMeshWriter", "vtkQuadRemesh",
     "vtkQuadrilleOFFReader", "vtkQuadrillePLYReader", "vtkQuadrilleSession",
 ]
 

@@ -53,6 +53,8 @@ for name in FILTERS:
 for name in ("QuadrillePLYReader", "QuadrilleOFFReader", "QuadStroke", "QuadValence", "QuadMove", "QuadConnection",
              "QuadLoop", "QuadFeatureCurve"):
     look("sources", name)
+for name in ("QuadInpWriter", "QuadMshWriter", "QuadMeditWriter", "QuadExodusWriter"):
+    look("writers", name)
 # The window takes the pages from the plugin itself.
 text = base64.b64encode(qch.read_bytes())
 check(text[:2000] in pathlib.Path(PLUGIN).read_bytes(), "the plugin does not hold the pages")

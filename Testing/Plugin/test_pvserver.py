@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 import threading
 import traceback
 
@@ -55,6 +56,13 @@ def run(port):
     data = servermanager.Fetch(quads)
     check(data.GetNumberOfCells() == cells and data.GetPointData().HasArray("Valence"),
           "the quads do not reach the client")
+    # The server writes, by a writer of the plugin.
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "quads.inp")
+        simple.SaveData(path, proxy=quads, ElementType="S4R")
+        with open(path) as file:
+            text = file.read()
+    check("TYPE=S4R," in text and f"{cells} elements" in text, "Save Data on the server wrote something else")
     hierarchy = DecimationHierarchy(Input=mesh, TargetType="Number Of Quads", NumberOfQuads=400)
     upmap = IntegerGridMapUpmap(Input=IntegerGridMap(Input=simple.OutputPort(hierarchy, 0)), Surface=mesh,
                                 Log=simple.OutputPort(hierarchy, 2))

@@ -21,7 +21,8 @@ MAY_INCLUDE = {
     "Transfer": ["Hierarchy", "GridMap"],
     "Extraction": ["GridMap"],
     "Evaluation": ["Transfer", "Extraction"],
-    "Pipeline": ["Evaluation"],
+    "Export": ["Base"],  # files need no more than the elements
+    "Pipeline": ["Evaluation", "Export"],
     "Session": ["Pipeline"],
     "Repair": ["Mesh"],  # with CGAL, and nothing of Core needs it: it can be left out
 }

@@ -1,0 +1,416 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Export/MeshSets.h"
+
+#include "Base/Angles.h"
+#include "Base/LargeArray.h"
+#include "Export/ElementEdges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// Bends above this may be corners, as on feature curves of the input (Hierarchy/FeatureCurves.h).
+constexpr double kBend = radians(40);
+
+std::string defaultPatchName(std::int64_t number)
+{
+  // Without the sign of the text, as -number does not exist for the lowest one.
+  return number < 0 ? "PATCH_MINUS_" + std::to_string(number).substr(1)
+                    : "PATCH_" + std::to_string(number);
+}
+
+/// Also the set of each element.
+std::vector<ElementSet> patchSets(const ElementMesh& mesh, std::vector<Index>& setOfElement)
+{
+  std::vector<Index> order(mesh.patches.size());
+  std::iota(order.begin(), order.end(), Index{ 0 });
+  std::stable_sort(order.begin(), order.end(),
+    [&](Index a, Index b) { return mesh.patches[a].number < mesh.patches[b].number; });
+  std::map<std::string, Index> setOfName;
+  std::vector<ElementSet> sets;
+  std::vector<Index> setOf(mesh.patches.size());
+  for (const Index p : order)
+  {
+    const MeshPatch& patch = mesh.patches[p];
+    const std::string name = patch.name.empty() ? defaultPatchName(patch.number) : patch.name;
+    const auto [found, isNew] = setOfName.emplace(name, static_cast<Index>(sets.size()));
+    if (isNew)
+    {
+      sets.push_back({ name, patch.number, {} });
+    }
+    setOf[p] = found->second;
+  }
+  for (std::size_t e = 0; e < mesh.elementCount(); ++e)
+  {
+    pollNowAndThen(e);
+    sets[setOf[mesh.patch(e)]].elements.push_back(static_cast<Index>(e));
+  }
+  sets.erase(std::remove_if(sets.begin(), sets.end(),
+               [](const ElementSet& set) { return set.elements.empty(); }),
+    sets.end());
+  growLarge(setOfElement, mesh.elementCount(), Index{ 0 });
+  for (std::size_t i = 0; i < sets.size(); ++i)
+  {
+    for (const Index e : sets[i].elements)
+    {
+      setOfElement[e] = static_cast<Index>(i);
+    }
+  }
+  return sets;
+}
+
+//------------------------------------------------------------------------------
+/// The boundary and the features as a graph, its corners, and its chains.
+class SetNetwork
+{
+public:
+  SetNetwork(const ElementMesh& mesh, const std::vector<Index>& setOfElement, MeshSets& sets)
+    : mesh_(mesh), setOfElement_(setOfElement), edges_(mesh), sets_(sets)
+  {
+    collect();
+    findCorners();
+    growLarge(done_, edges_.halfEdgeCount(), std::uint8_t{ 0 });
+    traceBoundaries();
+    traceFeatures();
+  }
+
+private:
+  /// Network edges at a node; `count` may be more than are kept.
+  struct AtNode
+  {
+    Index count = 0;
+    Index first = kInvalidIndex,
+          second = kInvalidIndex; ///< half-edges, each the lowest of its edge
+  };
+
+  bool isInNetwork(Index h) const { return edges_.isBoundary(h) || edges_.isFeature(h); }
+
+  void collect()
+  {
+    growLarge(elementsAt_, mesh_.nodes.size(), Index{ 0 });
+    for (Index h = 0; h < edges_.halfEdgeCount(); ++h)
+    {
+      pollNowAndThen(h);
+      ++elementsAt_[edges_.start(h)];
+      if (!edges_.isLowest(h) || !isInNetwork(h))
+      {
+        continue;
+      }
+      for (const Index node : { edges_.start(h), edges_.end(h) })
+      {
+        AtNode& at = at_[node];
+        (at.count == 0 ? at.first : at.second) = h;
+        ++at.count;
+      }
+    }
+  }
+
+  double bend(Index node, const AtNode& at) const
+  {
+    const Vector3& p = mesh_.nodes[node];
+    const Vector3 in = p - mesh_.nodes[edges_.otherEnd(at.first, node)];
+    const Vector3 out = mesh_.nodes[edges_.otherEnd(at.second, node)] - p;
+    return std::atan2(in.cross(out).norm(), in.dot(out));
+  }
+
+  /// From an edge of the network at the node through elements to the next one: that one and how many elements are
+  /// between; none where an element comes again.
+  std::optional<std::pair<Index, Index>> across(Index h, Index node) const
+  {
+    Index side = edges_.otherSide(h, node);
+    for (Index count = 1; count <= elementsAt_[node]; ++count)
+    {
+      if (isInNetwork(side) || edges_.twin(side) == kInvalidIndex)
+      {
+        return std::make_pair(side, count);
+      }
+      side = edges_.otherSide(edges_.twin(side), node);
+    }
+    return std::nullopt;
+  }
+
+  bool goesStraightOn(Index node, const AtNode& at) const
+  {
+    if (edges_.isBoundary(at.first))
+    {
+      return elementsAt_[node] == 2;
+    }
+    const auto found = across(at.first, node);
+    return found && found->second == 2 && elementsAt_[node] == 4;
+  }
+
+  void findCorners()
+  {
+    for (const auto& [node, at] : at_) // by ids of nodes
+    {
+      const bool isEnd =
+        at.count != 2 || edges_.isBoundary(at.first) != edges_.isBoundary(at.second);
+      if (isEnd || (bend(node, at) > kBend && !goesStraightOn(node, at)))
+      {
+        cornerOf_[node] = static_cast<Index>(sets_.corners.size());
+        sets_.corners.push_back({ "CORNER_" + std::to_string(sets_.corners.size() + 1), node });
+      }
+    }
+  }
+
+  Index corner(Index node) const
+  {
+    const auto found = cornerOf_.find(node);
+    return found == cornerOf_.end() ? kInvalidIndex : found->second;
+  }
+
+  /// The half-edge of the edge that is kept for `done_` and in sides.
+  Index lowest(Index h) const
+  {
+    return edges_.twin(h) == kInvalidIndex ? h : std::min(h, edges_.twin(h));
+  }
+
+  /// The boundary edge after h at the node, round the elements between them; none at a place that is no manifold.
+  std::optional<Index> nextOnBoundary(Index h, Index node) const
+  {
+    Index side = edges_.otherSide(h, node);
+    for (Index count = 0; count < elementsAt_[node]; ++count)
+    {
+      if (edges_.isBoundary(side))
+      {
+        return side;
+      }
+      if (edges_.twin(side) == kInvalidIndex)
+      {
+        return std::nullopt;
+      }
+      side = edges_.otherSide(edges_.twin(side), node);
+    }
+    return std::nullopt;
+  }
+
+  /// The other feature edge at a node that is no corner.
+  std::optional<Index> nextOnFeature(Index h, Index node) const
+  {
+    if (corner(node) != kInvalidIndex)
+    {
+      return std::nullopt;
+    }
+    const AtNode& at = at_.at(node);
+    return lowest(at.first) == lowest(h) ? at.second : at.first;
+  }
+
+  /// Edges one after the other and the nodes before each of them and behind the last.
+  struct Walk
+  {
+    std::vector<Index> halfEdges;
+    std::vector<Index> nodes;
+    bool closed = false;
+  };
+
+  template <class Next>
+  Walk follow(Index first, Index from, const Next& next)
+  {
+    Walk walk{ {}, { from }, false };
+    for (std::optional<Index> h = first; h;)
+    {
+      pollNowAndThen(walk.nodes.size());
+      done_[lowest(*h)] = 1;
+      walk.halfEdges.push_back(*h);
+      walk.nodes.push_back(edges_.otherEnd(*h, walk.nodes.back()));
+      h = next(*h, walk.nodes.back());
+      if (h && lowest(*h) == lowest(first))
+      {
+        walk.closed = true;
+        walk.nodes.pop_back();
+        break;
+      }
+    }
+    return walk;
+  }
+
+  /// Also what lies before the first edge, where it does not close.
+  template <class Next>
+  Walk followBothWays(Index first, const Next& next)
+  {
+    Walk walk = follow(first, edges_.start(first), next);
+    if (walk.closed)
+    {
+      return walk;
+    }
+    const Walk back = follow(first, edges_.end(first), next);
+    Walk whole;
+    whole.nodes.assign(back.nodes.rbegin(), back.nodes.rend() - 1);
+    whole.halfEdges.assign(back.halfEdges.rbegin(), back.halfEdges.rend() - 1);
+    whole.nodes.insert(whole.nodes.end(), walk.nodes.begin() + 1, walk.nodes.end());
+    whole.halfEdges.insert(whole.halfEdges.end(), walk.halfEdges.begin(), walk.halfEdges.end());
+    return whole;
+  }
+
+  /// Begins a closed walk at its first corner, if it has one.
+  void rotateToCorner(Walk& walk) const
+  {
+    const auto found = std::find_if(walk.nodes.begin(), walk.nodes.end(),
+      [this](Index node) { return corner(node) != kInvalidIndex; });
+    if (found != walk.nodes.end())
+    {
+      const auto by = found - walk.nodes.begin();
+      std::rotate(walk.nodes.begin(), found, walk.nodes.end());
+      std::rotate(walk.halfEdges.begin(), walk.halfEdges.begin() + by, walk.halfEdges.end());
+    }
+  }
+
+  void addEdge(EdgeChain& chain, Index h) const
+  {
+    const Index kept = lowest(h);
+    chain.sides.push_back({ kept / 4, kept % 4 });
+    if (mesh_.nodesPerElement > 4)
+    {
+      chain.middles.push_back(mesh_.middle(kept / 4, kept % 4));
+    }
+    const Index here = setOfElement_[kept / 4];
+    const Index twin = edges_.twin(kept);
+    if (twin == kInvalidIndex || setOfElement_[twin / 4] != here)
+    {
+      chain.patches.push_back(here);
+      chain.patches.push_back(twin == kInvalidIndex ? here : setOfElement_[twin / 4]);
+    }
+  }
+
+  /// Chains of a walk, cut at corners.
+  void addChains(Walk walk, CurveSet& curve)
+  {
+    if (walk.closed)
+    {
+      rotateToCorner(walk);
+    }
+    const bool isRing = walk.closed && corner(walk.nodes.front()) == kInvalidIndex;
+    if (walk.closed && !isRing)
+    {
+      walk.nodes.push_back(walk.nodes.front());
+    }
+    EdgeChain chain;
+    chain.closed = isRing;
+    const auto finish = [&]
+    {
+      std::sort(chain.patches.begin(), chain.patches.end());
+      chain.patches.erase(
+        std::unique(chain.patches.begin(), chain.patches.end()), chain.patches.end());
+      if (!isRing)
+      {
+        chain.startCorner = corner(chain.nodes.front());
+        chain.endCorner = corner(chain.nodes.back());
+      }
+      curve.chains.push_back(static_cast<Index>(sets_.chains.size()));
+      sets_.chains.push_back(std::move(chain));
+    };
+    chain.nodes.push_back(walk.nodes.front());
+    for (std::size_t i = 0; i < walk.halfEdges.size(); ++i)
+    {
+      addEdge(chain, walk.halfEdges[i]);
+      if (isRing && i + 1 == walk.halfEdges.size())
+      {
+        break;
+      }
+      chain.nodes.push_back(walk.nodes[i + 1]);
+      if (corner(walk.nodes[i + 1]) != kInvalidIndex && i + 1 < walk.halfEdges.size())
+      {
+        finish();
+        chain = EdgeChain();
+        chain.nodes.push_back(walk.nodes[i + 1]);
+      }
+    }
+    finish();
+  }
+
+  void traceBoundaries()
+  {
+    const auto next = [this](Index h, Index node) { return nextOnBoundary(h, node); };
+    for (Index h = 0; h < edges_.halfEdgeCount(); ++h)
+    {
+      pollNowAndThen(h);
+      if (edges_.isBoundary(h) && !done_[h])
+      {
+        CurveSet loop{ "BOUNDARY_" + std::to_string(sets_.boundaries.size() + 1), {} };
+        addChains(followBothWays(h, next), loop);
+        sets_.boundaries.push_back(std::move(loop));
+      }
+    }
+  }
+
+  void traceFeatures()
+  {
+    const auto next = [this](Index h, Index node) { return nextOnFeature(h, node); };
+    for (Index h = 0; h < edges_.halfEdgeCount(); ++h)
+    {
+      pollNowAndThen(h);
+      if (edges_.isFeature(h) && edges_.isLowest(h) && !done_[h])
+      {
+        CurveSet curve{ "CURVE_" + std::to_string(sets_.curves.size() + 1), {} };
+        addChains(followBothWays(h, next), curve);
+        sets_.curves.push_back(std::move(curve));
+      }
+    }
+  }
+
+  const ElementMesh& mesh_;
+  const std::vector<Index>& setOfElement_;
+  const ElementEdges edges_;
+  MeshSets& sets_;
+  std::vector<Index> elementsAt_; ///< #nodes
+  std::map<Index, AtNode> at_;    ///< nodes of the network
+  std::map<Index, Index> cornerOf_;
+  std::vector<std::uint8_t> done_; ///< by lowest half-edge
+};
+
+} // namespace
+
+MeshSets setsOf(const ElementMesh& mesh)
+{
+  requireValid(mesh);
+  MeshSets sets;
+  std::vector<Index> setOfElement;
+  sets.patches = patchSets(mesh, setOfElement);
+  SetNetwork network(mesh, setOfElement, sets);
+  return sets;
+}
+
+std::vector<Index> nodesOf(const MeshSets& sets, const CurveSet& curve)
+{
+  std::vector<Index> nodes;
+  std::set<Index> corners; // a loop may come through one more than once
+  for (const Index c : curve.chains)
+  {
+    const EdgeChain& chain = sets.chains[c];
+    for (std::size_t i = 0; i < chain.nodes.size(); ++i)
+    {
+      const bool isEnd = !chain.closed && (i == 0 || i + 1 == chain.nodes.size());
+      if (!isEnd || corners.insert(chain.nodes[i]).second)
+      {
+        nodes.push_back(chain.nodes[i]);
+      }
+      if (i < chain.middles.size())
+      {
+        nodes.push_back(chain.middles[i]);
+      }
+    }
+  }
+  return nodes;
+}
+
+std::vector<ElementSide> sidesOf(const MeshSets& sets, const CurveSet& curve)
+{
+  std::vector<ElementSide> sides;
+  for (const Index c : curve.chains)
+  {
+    sides.insert(sides.end(), sets.chains[c].sides.begin(), sets.chains[c].sides.end());
+  }
+  return sides;
+}
+
+} // namespace quadrille

@@ -1,0 +1,480 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Export/MshWriter.h"
+
+#include "Base/LargeArray.h"
+#include "Export/OutputFile.h"
+#include "Export/SetNames.h"
+
+#include <algorithm>
+#include <array>
+
+namespace quadrille
+{
+
+namespace
+{
+
+using Tag = std::uint64_t;
+
+struct PhysicalGroup
+{
+  int dimension = 0;
+  Tag tag = 0;
+  std::string name;
+};
+
+/// Points of entities: the corners, and where closed curves begin, which are in no group.
+struct MshPoint
+{
+  Index node = 0;
+  bool isCorner = false;
+};
+
+/// A box that is empty at first.
+struct MshBox
+{
+  Vector3 low = Vector3::Constant(std::numeric_limits<double>::max());
+  Vector3 high = Vector3::Constant(std::numeric_limits<double>::lowest());
+
+  void add(const Vector3& p)
+  {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+};
+
+class MshFile
+{
+public:
+  MshFile(const ElementMesh& mesh, const MeshSets& sets, const std::string& path)
+    : mesh_(mesh), sets_(sets), file_(path), names_(kGmshNames)
+  {
+    for (const CornerSet& corner : sets.corners)
+    {
+      points_.push_back({ corner.node, true });
+    }
+    for (const EdgeChain& chain : sets.chains)
+    {
+      startOf_.push_back(chain.closed ? points_.size() : chain.startCorner);
+      endOf_.push_back(chain.closed ? points_.size() : chain.endCorner);
+      if (chain.closed)
+      {
+        points_.push_back({ chain.nodes.front(), false });
+      }
+    }
+    nameGroups();
+    groupCurves();
+  }
+
+  void writeV41(const ProgressCallback& progress)
+  {
+    const std::string text = progressText();
+    report(progress, 0, text);
+    writeHeader("4.1");
+    writeNames();
+    writeEntities();
+    report(progress, kAfterEntities, text);
+    writeNodesByEntity();
+    report(progress, kAfterNodes, text);
+    writeElementsByEntity();
+    file_.close();
+    report(progress, 1, text);
+  }
+
+  void writeV22(const ProgressCallback& progress)
+  {
+    const std::string text = progressText();
+    report(progress, 0, text);
+    writeHeader("2.2");
+    writeNames();
+    writeNodeList();
+    report(progress, kAfterNodes, text);
+    writeElementList();
+    file_.close();
+    report(progress, 1, text);
+  }
+
+  std::vector<std::string> notices() const
+  {
+    const std::string notice = names_.notice("this format");
+    return notice.empty() ? std::vector<std::string>{} : std::vector<std::string>{ notice };
+  }
+
+private:
+  static constexpr double kAfterEntities = 0.1, kAfterNodes = 0.5;
+  static constexpr int kPoint = 15;
+
+  std::string progressText() const
+  {
+    return "writing " + std::to_string(mesh_.elementCount()) + " elements";
+  }
+  int lineType() const { return mesh_.nodesPerElement == 4 ? 1 : 8; }
+  int quadType() const
+  {
+    return mesh_.nodesPerElement == 4 ? 3 : mesh_.nodesPerElement == 8 ? 16 : 10;
+  }
+
+  template <class Set>
+  void addGroups(int dimension, const std::vector<Set>& sets, Tag firstTag)
+  {
+    std::vector<std::string> wanted;
+    for (const Set& set : sets)
+    {
+      wanted.push_back(set.name);
+    }
+    const std::vector<std::string> names = names_.unique(wanted);
+    for (std::size_t i = 0; i < names.size(); ++i)
+    {
+      groups_.push_back({ dimension, firstTag + i, names[i] });
+    }
+  }
+
+  void nameGroups()
+  {
+    addGroups(0, sets_.corners, 1);
+    addGroups(1, sets_.boundaries, 1);
+    addGroups(1, sets_.curves, 1 + sets_.boundaries.size());
+    addGroups(2, sets_.patches, 1);
+  }
+
+  void groupCurves()
+  {
+    groupOf_.resize(sets_.chains.size());
+    Tag group = 0;
+    for (const auto* curves : { &sets_.boundaries, &sets_.curves })
+    {
+      for (const CurveSet& curve : *curves)
+      {
+        ++group;
+        for (const Index chain : curve.chains)
+        {
+          groupOf_[chain] = group;
+        }
+      }
+    }
+  }
+
+  void writeHeader(const char* version)
+  {
+    file_ << "$MeshFormat\n" << version << " 0 8\n$EndMeshFormat\n";
+  }
+
+  void writeNames()
+  {
+    file_ << "$PhysicalNames\n" << Tag{ groups_.size() } << '\n';
+    for (const PhysicalGroup& group : groups_)
+    {
+      file_ << group.dimension << ' ' << group.tag << " \"" << group.name << "\"\n";
+    }
+    file_ << "$EndPhysicalNames\n";
+  }
+
+  void writePlace(const Vector3& p) { file_ << p[0] << ' ' << p[1] << ' ' << p[2]; }
+
+  void writeBox(const MshBox& box)
+  {
+    writePlace(box.low);
+    file_ << ' ';
+    writePlace(box.high);
+  }
+
+  //----------------------------------------------------------------------------
+  // 4.1
+
+  void writeEntities()
+  {
+    file_ << "$Entities\n"
+          << Tag{ points_.size() } << ' ' << Tag{ sets_.chains.size() } << ' '
+          << Tag{ sets_.patches.size() } << " 0\n";
+    for (std::size_t i = 0; i < points_.size(); ++i)
+    {
+      file_ << Tag{ i + 1 } << ' ';
+      writePlace(mesh_.nodes[points_[i].node]);
+      file_ << (points_[i].isCorner ? " 1 " + std::to_string(i + 1) : " 0") << '\n';
+    }
+    for (std::size_t i = 0; i < sets_.chains.size(); ++i)
+    {
+      MshBox box;
+      for (const auto* nodes : { &sets_.chains[i].nodes, &sets_.chains[i].middles })
+      {
+        std::for_each(
+          nodes->begin(), nodes->end(), [&](Index node) { box.add(mesh_.nodes[node]); });
+      }
+      file_ << Tag{ i + 1 } << ' ';
+      writeBox(box);
+      file_ << " 1 " << groupOf_[i] << " 2 " << Tag{ startOf_[i] + 1 } << " -"
+            << Tag{ endOf_[i] + 1 } << '\n';
+    }
+    writeSurfaces();
+    file_ << "$EndEntities\n";
+  }
+
+  void writeSurfaces()
+  {
+    std::vector<std::vector<Index>> curvesOf(sets_.patches.size());
+    for (std::size_t i = 0; i < sets_.chains.size(); ++i)
+    {
+      for (const Index patch : sets_.chains[i].patches)
+      {
+        curvesOf[patch].push_back(static_cast<Index>(i));
+      }
+    }
+    for (std::size_t i = 0; i < sets_.patches.size(); ++i)
+    {
+      MshBox box;
+      for (const Index e : sets_.patches[i].elements)
+      {
+        pollNowAndThen(e);
+        for (int k = 0; k < mesh_.nodesPerElement; ++k)
+        {
+          box.add(mesh_.nodes[mesh_.element(e)[k]]);
+        }
+      }
+      file_ << Tag{ i + 1 } << ' ';
+      writeBox(box);
+      file_ << " 1 " << Tag{ i + 1 } << ' ' << Tag{ curvesOf[i].size() };
+      for (const Index curve : curvesOf[i])
+      {
+        file_ << ' ' << curve + 1;
+      }
+      file_ << '\n';
+    }
+  }
+
+  /// Entities in the order of dimensions and tags; nodes of a block ascend.
+  struct NodeBlock
+  {
+    int dimension = 0;
+    Tag tag = 0;
+    std::vector<Index> nodes;
+  };
+
+  /// Each node is in the block of the entity of the lowest dimension that it lies on, of several surfaces the first.
+  std::vector<NodeBlock> nodeBlocks() const
+  {
+    std::vector<std::uint8_t> isTaken;
+    growLarge(isTaken, mesh_.nodes.size(), std::uint8_t{ 0 });
+    std::vector<NodeBlock> blocks;
+    const auto take = [&isTaken](NodeBlock& block, Index node)
+    {
+      if (!isTaken[node])
+      {
+        isTaken[node] = 1;
+        block.nodes.push_back(node);
+      }
+    };
+    for (std::size_t i = 0; i < points_.size(); ++i)
+    {
+      blocks.push_back({ 0, i + 1, {} });
+      take(blocks.back(), points_[i].node);
+    }
+    for (std::size_t i = 0; i < sets_.chains.size(); ++i)
+    {
+      blocks.push_back({ 1, i + 1, {} });
+      for (const auto* nodes : { &sets_.chains[i].nodes, &sets_.chains[i].middles })
+      {
+        std::for_each(nodes->begin(), nodes->end(), [&](Index node) { take(blocks.back(), node); });
+      }
+    }
+    for (std::size_t i = 0; i < sets_.patches.size(); ++i)
+    {
+      blocks.push_back({ 2, i + 1, {} });
+      for (const Index e : sets_.patches[i].elements)
+      {
+        pollNowAndThen(e);
+        for (int k = 0; k < mesh_.nodesPerElement; ++k)
+        {
+          take(blocks.back(), mesh_.element(e)[k]);
+        }
+      }
+    }
+    for (std::size_t i = 0; i < isTaken.size() && !blocks.empty(); ++i)
+    {
+      take(blocks.back(), static_cast<Index>(i)); // nodes without an element
+    }
+    blocks.erase(std::remove_if(blocks.begin(), blocks.end(),
+                   [](const NodeBlock& block) { return block.nodes.empty(); }),
+      blocks.end());
+    return blocks;
+  }
+
+  void writeNodesByEntity()
+  {
+    std::vector<NodeBlock> blocks = nodeBlocks();
+    const Tag count = mesh_.nodes.size();
+    file_ << "$Nodes\n"
+          << Tag{ blocks.size() } << ' ' << count << ' ' << Tag{ count > 0 ? 1U : 0U } << ' '
+          << count << '\n';
+    for (NodeBlock& block : blocks)
+    {
+      std::sort(block.nodes.begin(), block.nodes.end());
+      file_ << block.dimension << ' ' << block.tag << " 0 " << Tag{ block.nodes.size() } << '\n';
+      for (const Index node : block.nodes)
+      {
+        pollNowAndThen(node);
+        file_ << node + 1 << '\n';
+      }
+      for (const Index node : block.nodes)
+      {
+        pollNowAndThen(node);
+        writePlace(mesh_.nodes[node]);
+        file_ << '\n';
+      }
+    }
+    file_ << "$EndNodes\n";
+  }
+
+  std::size_t lineCount() const
+  {
+    std::size_t count = 0;
+    for (const EdgeChain& chain : sets_.chains)
+    {
+      count += chain.sides.size();
+    }
+    return count;
+  }
+
+  void writeLineNodes(const EdgeChain& chain, std::size_t edge)
+  {
+    file_ << ' ' << chain.nodes[edge] + 1 << ' '
+          << chain.nodes[(edge + 1) % chain.nodes.size()] + 1;
+    if (!chain.middles.empty())
+    {
+      file_ << ' ' << chain.middles[edge] + 1;
+    }
+    file_ << '\n';
+  }
+
+  void writeQuadNodes(Index e)
+  {
+    for (int k = 0; k < mesh_.nodesPerElement; ++k)
+    {
+      file_ << ' ' << mesh_.element(e)[k] + 1;
+    }
+    file_ << '\n';
+  }
+
+  void writeElementsByEntity()
+  {
+    const Tag quads = mesh_.elementCount();
+    const Tag count = quads + lineCount() + sets_.corners.size();
+    file_ << "$Elements\n"
+          << Tag{ sets_.corners.size() + sets_.chains.size() + sets_.patches.size() } << ' '
+          << count << ' ' << Tag{ count > 0 ? 1U : 0U } << ' ' << count << '\n';
+    Tag next = quads; // quads have the first tags, though they come last
+    for (std::size_t i = 0; i < sets_.corners.size(); ++i)
+    {
+      file_ << "0 " << Tag{ i + 1 } << ' ' << kPoint << " 1\n"
+            << ++next << ' ' << sets_.corners[i].node + 1 << '\n';
+    }
+    for (std::size_t i = 0; i < sets_.chains.size(); ++i)
+    {
+      const EdgeChain& chain = sets_.chains[i];
+      file_ << "1 " << Tag{ i + 1 } << ' ' << lineType() << ' ' << Tag{ chain.sides.size() }
+            << '\n';
+      for (std::size_t k = 0; k < chain.sides.size(); ++k)
+      {
+        file_ << ++next;
+        writeLineNodes(chain, k);
+      }
+    }
+    for (std::size_t i = 0; i < sets_.patches.size(); ++i)
+    {
+      file_ << "2 " << Tag{ i + 1 } << ' ' << quadType() << ' '
+            << Tag{ sets_.patches[i].elements.size() } << '\n';
+      for (const Index e : sets_.patches[i].elements)
+      {
+        pollNowAndThen(e);
+        file_ << e + 1;
+        writeQuadNodes(e);
+      }
+    }
+    file_ << "$EndElements\n";
+  }
+
+  //----------------------------------------------------------------------------
+  // 2.2
+
+  void writeNodeList()
+  {
+    file_ << "$Nodes\n" << Tag{ mesh_.nodes.size() } << '\n';
+    for (std::size_t i = 0; i < mesh_.nodes.size(); ++i)
+    {
+      pollNowAndThen(i);
+      file_ << Tag{ i + 1 } << ' ';
+      writePlace(mesh_.nodes[i]);
+      file_ << '\n';
+    }
+    file_ << "$EndNodes\n";
+  }
+
+  /// The number, the type, and two tags: the physical group and the entity.
+  void beginElement(Tag number, int type, Tag group, Tag entity)
+  {
+    file_ << number << ' ' << type << " 2 " << group << ' ' << entity;
+  }
+
+  void writeElementList()
+  {
+    const Tag quads = mesh_.elementCount();
+    file_ << "$Elements\n" << Tag{ quads + lineCount() + sets_.corners.size() } << '\n';
+    std::vector<Tag> surfaceOf(mesh_.elementCount());
+    for (std::size_t i = 0; i < sets_.patches.size(); ++i)
+    {
+      for (const Index e : sets_.patches[i].elements)
+      {
+        surfaceOf[e] = i + 1;
+      }
+    }
+    for (std::size_t e = 0; e < mesh_.elementCount(); ++e)
+    {
+      pollNowAndThen(e);
+      beginElement(e + 1, quadType(), surfaceOf[e], surfaceOf[e]);
+      writeQuadNodes(static_cast<Index>(e));
+    }
+    Tag next = quads;
+    for (std::size_t i = 0; i < sets_.chains.size(); ++i)
+    {
+      for (std::size_t k = 0; k < sets_.chains[i].sides.size(); ++k)
+      {
+        beginElement(++next, lineType(), groupOf_[i], i + 1);
+        writeLineNodes(sets_.chains[i], k);
+      }
+    }
+    for (std::size_t i = 0; i < sets_.corners.size(); ++i)
+    {
+      beginElement(++next, kPoint, i + 1, i + 1);
+      file_ << ' ' << sets_.corners[i].node + 1 << '\n';
+    }
+    file_ << "$EndElements\n";
+  }
+
+  const ElementMesh& mesh_;
+  const MeshSets& sets_;
+  OutputFile file_;
+  SetNames names_;
+  std::vector<MshPoint> points_;
+  std::vector<std::size_t> startOf_, endOf_; ///< per chain, in points_
+  std::vector<PhysicalGroup> groups_;
+  std::vector<Tag> groupOf_; ///< per chain
+};
+
+} // namespace
+
+std::vector<std::string> writeMsh(const ElementMesh& mesh, const MeshSets& sets,
+  const std::string& path, MshVersion version, const ProgressCallback& progress)
+{
+  MshFile file(mesh, sets, path);
+  if (version == MshVersion::V41)
+  {
+    file.writeV41(progress);
+  }
+  else
+  {
+    file.writeV22(progress);
+  }
+  return file.notices();
+}
+
+} // namespace quadrille
