@@ -202,7 +202,7 @@ vtkSmartPointer<vtkPolyData> readWithOurs(const std::string& path)
 /// the box.
 constexpr double kFarSides = 4;
 
-bool isFar(vtkPolyData* mesh)
+bool isFar(vtkDataSet* mesh)
 {
   double box[6];
   mesh->GetBounds(box);
@@ -419,9 +419,16 @@ void runWriter(Writer* writer, const std::string& path)
   }
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> toGrid(vtkPolyData* mesh)
+/// A shallow copy where it is one.
+vtkSmartPointer<vtkUnstructuredGrid> toGrid(vtkDataSet* data)
 {
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkPolyData* const mesh = vtkPolyData::SafeDownCast(data);
+  if (!mesh)
+  {
+    grid->ShallowCopy(data);
+    return grid;
+  }
   grid->SetPoints(mesh->GetPoints());
   grid->SetCells(VTK_QUAD, mesh->GetPolys());
   grid->GetPointData()->ShallowCopy(mesh->GetPointData());
@@ -439,7 +446,7 @@ void writeVtp(vtkPolyData* mesh, const std::string& path)
   runWriter(writer.Get(), path);
 }
 
-void writeVtu(vtkPolyData* mesh, const std::string& path)
+void writeVtu(vtkDataSet* mesh, const std::string& path)
 {
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputData(toGrid(mesh));
@@ -516,7 +523,7 @@ void toDouble(vtkDataSetAttributes* attributes)
 
 /// Exodus knows whole numbers only as ids and maps, hence every array as real numbers; field data with
 /// text has no place in it.
-void writeExodus(vtkPolyData* mesh, const std::string& path)
+void writeExodus(vtkDataSet* mesh, const std::string& path)
 {
   vtkSmartPointer<vtkUnstructuredGrid> grid = toGrid(mesh);
   grid->GetFieldData()->Initialize();
@@ -546,7 +553,13 @@ std::string extensionOf(const std::string& path)
 bool canWrite(const std::string& path)
 {
   const std::string e = extensionOf(path);
-  return e == "vtp" || e == "obj" || e == "ply" || e == "vtu" || e == "ex2";
+  return e == "vtp" || e == "obj" || e == "ply" || canWriteElements(path);
+}
+
+bool canWriteElements(const std::string& path)
+{
+  const std::string e = extensionOf(path);
+  return e == "vtu" || e == "ex2" || e == "e";
 }
 
 vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
@@ -593,11 +606,16 @@ vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
   fail(path, "unknown extension; known are ply, obj, stl, off, vtp and vtk");
 }
 
-void writeMeshFile(vtkPolyData* mesh, const std::string& path)
+void writeMeshFile(vtkDataSet* data, const std::string& path)
 {
   const std::string extension = extensionOf(path);
+  vtkPolyData* const mesh = vtkPolyData::SafeDownCast(data);
+  if (!mesh && !canWriteElements(path))
+  {
+    fail(path, "elements of an unstructured grid need the extension vtu, ex2 or e");
+  }
   writeThenRename(path,
-    [mesh, &extension, &path](const std::string& temporary)
+    [data, mesh, &extension, &path](const std::string& temporary)
     {
       if (extension == "vtp")
       {
@@ -613,15 +631,15 @@ void writeMeshFile(vtkPolyData* mesh, const std::string& path)
       }
       else if (extension == "vtu")
       {
-        writeVtu(mesh, temporary);
+        writeVtu(data, temporary);
       }
-      else if (extension == "ex2")
+      else if (extension == "ex2" || extension == "e")
       {
-        writeExodus(mesh, temporary);
+        writeExodus(data, temporary);
       }
       else
       {
-        fail(path, "unknown extension; known are vtp, obj, ply, vtu and ex2");
+        fail(path, "unknown extension; known are vtp, obj, ply, vtu, ex2 and e");
       }
     });
 }

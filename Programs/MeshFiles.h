@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+class vtkDataSet;
 class vtkPolyData;
 
 namespace quadrille
@@ -23,15 +24,18 @@ public:
 /// Lower case, without the dot; empty when there is none.
 std::string extensionOf(const std::string& path);
 
-/// Whether writeMeshFile knows the extension of the path: vtp obj ply vtu ex2.
+/// Whether writeMeshFile knows the extension of the path: vtp obj ply vtu ex2 e.
 bool canWrite(const std::string& path);
+/// The same of a vtkUnstructuredGrid: vtu ex2 e.
+bool canWriteElements(const std::string& path);
 
 /// Reads ply, obj, stl, off, vtp or vtk. Throws FileError.
 vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path);
 
 /// Writes to a temporary file beside the target and renames it, so that a file of that name is always
 /// whole. Throws FileError.
-void writeMeshFile(vtkPolyData* mesh, const std::string& path);
+/// mesh: a vtkPolyData, or a vtkUnstructuredGrid where canWriteElements(path).
+void writeMeshFile(vtkDataSet* mesh, const std::string& path);
 /// The same for text.
 void writeTextFile(const std::string& text, const std::string& path);
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// The command for people without ParaView's window: a mesh file in, a quad mesh out.
+#include "ElementRun.h"
 #include "MeshFiles.h"
 #include "Options.h"
 #include "RemeshRun.h"
@@ -9,6 +10,7 @@
 #include "WrapRun.h"
 
 #include <vtkDataArray.h>
+#include <vtkDataSet.h>
 #include <vtkFieldData.h>
 #include <vtkObject.h>
 #include <vtkPolyData.h>
@@ -33,7 +35,7 @@ namespace
 using namespace quadrille;
 
 constexpr const char* kIntroduction =
-  R"(usage: quadrille IN.{ply,obj,stl,off,vtp,vtk} OUT.{vtp,obj,ply,vtu,ex2} [options]
+  R"(usage: quadrille IN.{ply,obj,stl,off,vtp,vtk} OUT.{vtp,obj,ply,vtu,ex2,e} [options]
        quadrille IN.{ply,obj,stl,off,vtp,vtk} --method seamless --map MAP.vtp [options]
 
 Remeshes a triangle surface with quads only.
@@ -89,6 +91,7 @@ struct Request
 {
   RunFiles files;
   WrapRequest wrap;
+  ElementRun elements;
   bool quiet = false;
 };
 
@@ -451,7 +454,7 @@ void checkTogether(const CommandOptions& options, vtkQuadRemesh* filter, RunFile
   }
   if (!seamless && !canWrite(files.output))
   {
-    throw UsageError(files.output + ": unknown extension; known are vtp, obj, ply, vtu and ex2");
+    throw UsageError(files.output + ": unknown extension; known are vtp, obj, ply, vtu, ex2 and e");
   }
   if (options.given("map") && extensionOf(files.map) != "vtp")
   {
@@ -566,7 +569,7 @@ void printFailure(RemeshRun& run, const RunFiles& files)
   std::fprintf(stderr, "%s\n", width > 0 ? wrapText(text, width - 1, 2).c_str() : text.c_str());
 }
 
-ExitCode execute(RemeshRun& run, const Request& request)
+ExitCode execute(RemeshRun& run, Request& request)
 {
   const Clock::time_point start = Clock::now();
   const RunFiles& files = request.files;
@@ -581,15 +584,21 @@ ExitCode execute(RemeshRun& run, const Request& request)
       progress.show(fraction, text);
       return stopRequested == 0;
     });
-  const ExitCode code =
+  ExitCode code =
     request.wrap.isAsked ? executeWrapped(run, input, request.wrap) : run.execute(input);
+  vtkSmartPointer<vtkDataSet> result = run.filter()->GetOutput();
+  if (hasQuads(code) && request.elements.isAsked())
+  {
+    result = request.elements.execute(run, input);
+    code = result ? code : kNoValidResult;
+  }
   progress.finish();
   times.total = secondsSince(start);
   if (hasQuads(code))
   {
     if (!files.output.empty())
     {
-      writeMeshFile(run.filter()->GetOutput(), files.output);
+      writeMeshFile(result, files.output);
     }
     if (!files.map.empty())
     {
@@ -611,7 +620,7 @@ ExitCode execute(RemeshRun& run, const Request& request)
   return code;
 }
 
-ExitCode runAndReport(RemeshRun& run, const Request& request)
+ExitCode runAndReport(RemeshRun& run, Request& request)
 {
   const auto fail = [&request](ExitCode code, const std::string& reason)
   {
@@ -644,6 +653,7 @@ ExitCode runCommand(int argc, char* argv[])
   addSizes(options, run.filter());
   addShape(options, run.filter());
   addFinish(options, run.filter());
+  request.elements.addOptions(options);
   addRun(options, run.filter(), request);
   if (const std::optional<std::string> text = options.parse(argc, argv))
   {
@@ -656,8 +666,10 @@ ExitCode runCommand(int argc, char* argv[])
     return kBadInput;
   }
   checkTogether(options, run.filter(), request.files);
+  request.elements.check(options, request.files.output);
   request.wrap.detectsFeatures = options.given("feature-angle");
   run.filter()->SetComputeMappedSurface(options.given("map"));
+  request.elements.prepare(run, request.wrap.isAsked);
   return runAndReport(run, request);
 }
 
