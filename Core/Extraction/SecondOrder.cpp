@@ -53,10 +53,10 @@ void checkQuads(const QuadsOnSurface& quads, const SecondOrderOptions& options)
 }
 
 /// The edges of the quads, numbered by their first quad.
-class ElementEdges
+class QuadEdgeList
 {
 public:
-  ElementEdges(const QuadsOnSurface& quads, SecondOrderNodes& nodes)
+  QuadEdgeList(const QuadsOnSurface& quads, SecondOrderNodes& nodes)
   {
     struct Side
     {
@@ -228,12 +228,12 @@ private:
     {
       if (const auto chain = chainOf(edge))
       {
-        put(edge, chain->at(surface_, 0.5).onSurface());
+        put(edge, chain->middle(surface_).onSurface());
         return;
       }
       fates_[edge] = Fate::WithoutCurve;
     }
-    if (const auto middle = halfwayOnSection(surface_, from, to, normalAt(edge)))
+    if (const auto middle = middleOnSection(surface_, from, to, normalAt(edge)))
     {
       put(edge, *middle);
       return;
@@ -264,7 +264,7 @@ private:
       {
         continue;
       }
-      if (const auto middle = halfwayOnSection(surface_, from, to, normalAt(n)))
+      if (const auto middle = middleOnSection(surface_, from, to, normalAt(n)))
       {
         put(n, *middle);
         return;
@@ -540,7 +540,7 @@ private:
   const QuadsOnSurface& quads_;
   const SecondOrderOptions& options_;
   SecondOrderNodes nodes_;
-  ElementEdges edges_;
+  QuadEdgeList edges_;
   QuadraticShape shape_;
   std::vector<MoveLevel> levels_; ///< per node
   std::vector<Fate> fates_;       ///< per node

@@ -28,7 +28,7 @@ struct QuadsOnSurface
 /// Where a node between the corners lies.
 enum class NodePlace : std::uint8_t
 {
-  Surface = 0,    ///< halfway, on the surface, or on the curve of its edge
+  Surface = 0,    ///< in the middle, on the surface, or on the curve of its edge
   MovedAlong = 1, ///< on the surface or curve, but nearer to the straight edge's middle
   MovedOff = 2    ///< off the surface, towards the straight edge's middle or on it
 };
@@ -60,9 +60,10 @@ struct SecondOrderNodes
     invertedQuads; ///< ascending; their corners alone have a determinant that is not positive
 };
 
-/// A node between two corners lies halfway between them, by length: on an edge that lies on a feature or boundary
-/// along its curve (see chainBetween), on any other along the section of the surface with the plane that contains the
-/// edge and the normals of its quads. The node in a quad's centre lies halfway between those of two of its edges.
+/// A node between two corners lies halfway between them: in the plane that is perpendicular to the straight edge in its
+/// middle, on an edge that lies on a feature or boundary on its curve (see chainBetween), on any other on the section of
+/// the surface with the plane that contains the edge and the normal of its quads. The node in a quad's centre lies so
+/// between those of two of its edges.
 ///
 /// Then no element whose corners allow it has a determinant that is not positive at its nodes and Gauss points, see
 /// QuadraticShape: of an element that has one a node moves towards the middle of its straight edge, at first along the

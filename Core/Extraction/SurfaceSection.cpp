@@ -53,6 +53,29 @@ void forEachCorner(const Mesh& mesh, Index corner, const Visitor& visit)
   }
 }
 
+/// The plane halfway between two places that is perpendicular to their connection.
+class MiddlePlane
+{
+public:
+  MiddlePlane(const Vector3& a, const Vector3& b) : middle_(a + (b - a) / 2), along_(b - a) {}
+
+  /// At which part of the way from a to b it is crossed; none where both are on one side.
+  std::optional<double> crossing(const Vector3& a, const Vector3& b) const
+  {
+    const double before = (a - middle_).dot(along_);
+    const double behind = (b - middle_).dot(along_);
+    if ((before < 0) == (behind < 0))
+    {
+      return std::nullopt;
+    }
+    return before / (before - behind);
+  }
+  double squaredDistance(const Vector3& p) const { return (p - middle_).squaredNorm(); }
+
+private:
+  Vector3 middle_, along_;
+};
+
 //------------------------------------------------------------------------------
 /// The section of a surface with a plane, followed from face to face. Vertices in the plane count as above it, so that
 /// each face that is cut has two edges that are.
@@ -66,7 +89,7 @@ public:
   }
 
   /// The shorter of the ways that reach the target.
-  std::optional<SurfacePoint> halfway()
+  std::optional<SurfacePoint> middle()
   {
     for (const Index f : facesAt(mesh_, from_))
     {
@@ -76,7 +99,7 @@ public:
       }
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
       {
-        if (isCut(h) && (crossing(h) - start_).dot(end_ - start_) > 0)
+        if (isCut(h)) // both ways, as the shorter one may begin away from the target
         {
           follow(h);
         }
@@ -158,25 +181,30 @@ private:
 
   std::optional<SurfacePoint> middleOfWay() const
   {
-    double rest = best_ / 2;
+    const MiddlePlane middle(start_, end_);
+    std::optional<SurfacePoint> best;
+    double least = std::numeric_limits<double>::infinity();
     SurfacePoint last = from_;
     Vector3 here = start_;
-    for (const Index h : way_)
+    const auto look = [&](Index f, const SurfacePoint& next)
     {
-      const SurfacePoint next = cutOf(h).onSurface();
       const Vector3 there = positionOf(mesh_, next);
-      const double step = (there - here).norm();
-      if (rest <= step)
+      const std::optional<double> part = middle.crossing(here, there);
+      const auto point = part ? between(f, last, next, *part) : std::nullopt;
+      if (point && middle.squaredDistance(positionOf(mesh_, *point)) < least)
       {
-        return between(Mesh::face(h), last, next, step > 0 ? rest / step : 0);
+        best = point;
+        least = middle.squaredDistance(positionOf(mesh_, *point));
       }
-      rest -= step;
       last = next;
       here = there;
+    };
+    for (const Index h : way_)
+    {
+      look(Mesh::face(h), cutOf(h).onSurface());
     }
-    const double step = (end_ - here).norm();
-    return between(
-      Mesh::face(mesh_.twin[way_.back()]), last, to_, step > 0 ? std::min(1.0, rest / step) : 0);
+    look(Mesh::face(mesh_.twin[way_.back()]), to_);
+    return best;
   }
 
   const Mesh& mesh_;
@@ -460,7 +488,7 @@ std::vector<Index> facesAt(const Mesh& mesh, const SurfacePoint& point)
   return faces;
 }
 
-std::optional<SurfacePoint> halfwayOnSection(
+std::optional<SurfacePoint> middleOnSection(
   const Mesh& mesh, const SurfacePoint& from, const SurfacePoint& to, const Vector3& normal)
 {
   const Vector3 along = positionOf(mesh, to) - positionOf(mesh, from);
@@ -469,7 +497,7 @@ std::optional<SurfacePoint> halfwayOnSection(
   {
     return std::nullopt;
   }
-  return PlaneSection(mesh, from, to, plane).halfway();
+  return PlaneSection(mesh, from, to, plane).middle();
 }
 
 SurfacePoint approach(const Mesh& mesh, SurfacePoint from, const Vector3& target)
@@ -498,21 +526,27 @@ SurfacePoint approach(const Mesh& mesh, SurfacePoint from, const Vector3& target
   return from;
 }
 
-CurvePoint CurveChain::at(const Mesh& mesh, double part) const
+CurvePoint CurveChain::middle(const Mesh& mesh) const
 {
-  double rest = part * length;
+  const MiddlePlane plane(
+    positionOf(mesh, points.front().onSurface()), positionOf(mesh, points.back().onSurface()));
+  CurvePoint best = points.front();
+  double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < points.size(); i += 2)
   {
     const CurvePoint& a = points[i];
     const CurvePoint& b = points[i + 1];
-    const double step = std::abs(b.t - a.t) * mesh.edgeVector(a.h).norm();
-    if (rest <= step && step > 0)
+    const std::optional<double> part =
+      plane.crossing(positionOf(mesh, a.onSurface()), positionOf(mesh, b.onSurface()));
+    const CurvePoint here{ a.h, a.t + part.value_or(0) * (b.t - a.t) };
+    const double distance = plane.squaredDistance(positionOf(mesh, here.onSurface()));
+    if (part && distance < least)
     {
-      return { a.h, a.t + rest / step * (b.t - a.t) };
+      least = distance;
+      best = here;
     }
-    rest -= step;
   }
-  return points.back();
+  return best;
 }
 
 CurvePoint CurveChain::nearest(const Mesh& mesh, const Vector3& p) const

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The middle of the way between two places of a surface, over its faces or along edges of it.
+/// The middle of ways between two places of a surface, over its faces or along edges of it.
 #pragma once
 
 #include "Extraction/SurfaceWalk.h"
@@ -18,10 +18,11 @@ std::optional<SurfacePoint> inFace(const Mesh& mesh, const SurfacePoint& point, 
 /// All faces that the point lies in: one, two on an edge, the fan of a vertex. Weights of 1e-9 and less count as zero.
 std::vector<Index> facesAt(const Mesh& mesh, const SurfacePoint& point);
 
-/// Halfway, by length, along the section of the surface with the plane through both places that contains `normal`. The
+/// The section of the surface with the plane through both places that contains `normal`, where it crosses the plane
+/// halfway between them that is perpendicular to their connection; of several points the one nearest to the middle. The
 /// section is followed from face to face, so that the other side of a thin wall is never met. None where it leaves the
 /// surface over a boundary, or is longer than three times the distance of the places.
-std::optional<SurfacePoint> halfwayOnSection(
+std::optional<SurfacePoint> middleOnSection(
   const Mesh& mesh, const SurfacePoint& from, const SurfacePoint& to, const Vector3& normal);
 
 /// Walks from the place straight towards `target` over the faces as long as that leads nearer to it; stays on features
@@ -34,8 +35,9 @@ struct CurveChain
   std::vector<CurvePoint> points; ///< two for each segment: its ends on its own half-edge
   double length = 0;
 
-  /// At this part of the length, in [0, 1].
-  CurvePoint at(const Mesh& mesh, double part) const;
+  /// Where it crosses the plane halfway between its ends that is perpendicular to their connection; of several points
+  /// the one nearest to the middle.
+  CurvePoint middle(const Mesh& mesh) const;
   /// The place of the chain nearest to p; of several the first.
   CurvePoint nearest(const Mesh& mesh, const Vector3& p) const;
 };

@@ -298,7 +298,7 @@ TEST(SecondOrder, NodesOfFeaturesLieOnThem)
   EXPECT_EQ(nodes.withoutCurve, boundary);
 }
 
-/// A bent crease: the nodes lie on the polyline, halfway along it, not where the straight way over the faces goes.
+/// A bent crease: the nodes lie on the polyline, in its middle, not where the straight way over the faces goes.
 TEST(SecondOrder, FollowsABentCrease)
 {
   // A disc of radius 1 on a cylinder: the rim is a feature, and a way over the flat disc would be shorter.
@@ -345,38 +345,56 @@ TEST(SecondOrder, FollowsABentCrease)
   EXPECT_TRUE(nodes.withoutCurve.empty());
 }
 
-/// A deep notch in the boundary makes its middle, by length, lie near one end, and the element folded.
-TEST(SecondOrder, MovesNodesBackAlongTheCurve)
+/// One quad on a trapezoid 20 wide at the top, 14 at the bottom and 10 high, whose bottom has a spike: the vertex
+/// `column` of 20 lies `depth` below.
+struct SpikedTrapezoid
 {
   Mesh mesh = gridPlane(20, 10);
-  double right = 0, top = 0;
-  for (const Vector3& p : mesh.position)
-  {
-    right = std::max(right, p.x());
-    top = std::max(top, p.y());
-  }
-  const std::array<Vector3, 4> corners{ Vector3{ 0, 0, 0 }, Vector3{ right, 0, 0 },
-    Vector3{ right, top, 0 }, Vector3{ 0, top, 0 } };
   QuadsOnSurface quads;
-  for (const Vector3& p : corners)
+
+  SpikedTrapezoid(int column, double depth)
   {
-    const Index v = vertexAt(mesh, p);
-    quads.points.push_back(p);
-    quads.places.push_back(atVertex(mesh, v));
+    const std::array<Index, 4> corners{ vertexAt(mesh, { 0, 0, 0 }), vertexAt(mesh, { 20, 0, 0 }),
+      vertexAt(mesh, { 20, 10, 0 }), vertexAt(mesh, { 0, 10, 0 }) };
+    const Index spike = vertexAt(mesh, { static_cast<double>(column), 0, 0 });
+    for (Vector3& p : mesh.position)
+    {
+      p.x() = 10 + (p.x() - 10) * (0.7 + 0.03 * p.y());
+    }
+    mesh.position[spike].y() = -depth;
+    for (const Index v : corners)
+    {
+      quads.points.push_back(mesh.position[v]);
+      quads.places.push_back(atVertex(mesh, v));
+    }
+    quads.quads = { { 0, 1, 2, 3 } };
   }
-  quads.quads = { { 0, 1, 2, 3 } };
-  // So deep that the middle lies behind a quarter of the edge, and the way round the other sides is still longer.
-  mesh.position[vertexAt(mesh, { 2 * right / 20, 0, 0 })].y() = -0.4 * right;
+};
+
+/// The middle by length would be on the way back from the spike, and the element folded.
+TEST(SecondOrder, LongDetoursOfACurveDoNotShiftItsMiddle)
+{
+  const SpikedTrapezoid c(2, 8);
+  const SecondOrderNodes nodes = placed(c.mesh, c.quads, 9);
+  EXPECT_EQ(nodes.kinds, std::vector<NodePlace>(5, NodePlace::Surface));
+  EXPECT_LT((nodes.points[0] - Vector3(10, 0, 0)).norm(), 1e-12);
+  expectGood(c.mesh, c.quads, nodes);
+}
+
+/// With the spike in the middle the tangents at the corners go down steeply, and the sides lean over them.
+TEST(SecondOrder, MovesNodesBackAlongTheCurve)
+{
+  const SpikedTrapezoid c(10, 12); // deeper, the way round the other sides would be shorter
   for (const int count : { 8, 9 })
   {
-    const SecondOrderNodes nodes = placed(mesh, quads, count);
+    const SecondOrderNodes nodes = placed(c.mesh, c.quads, count);
     EXPECT_EQ(nodes.kinds[0], NodePlace::MovedAlong);
-    EXPECT_LT((nodes.points[0] - Vector3(right / 2, 0, 0)).norm(), 1e-12 * right);
+    EXPECT_LT((nodes.points[0] - Vector3(10, 0, 0)).norm(), 1); // a side of the spike is that near
     for (std::size_t e = 1; e < 4; ++e)
     {
       EXPECT_EQ(nodes.kinds[e], NodePlace::Surface);
     }
-    expectGood(mesh, quads, nodes);
+    expectGood(c.mesh, c.quads, nodes);
   }
 }
 
