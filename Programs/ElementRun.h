@@ -22,12 +22,13 @@ namespace quadrille
 class ElementRun
 {
 public:
-  /// Adds --order and --nodes.
+  /// Adds --order, --nodes, --quality, --require, --worst, --thickness, --axis, --axis-fallback and --local-vectors.
   void addOptions(CommandOptions& options);
   /// What no option can check for itself, before the run. output: path of the mesh. Throws UsageError.
   void check(const CommandOptions& options, const std::string& output) const;
-  /// Switches on what the run must make for the elements. isWrapped: of a wrap may be quads, too.
-  void prepare(RemeshRun& run, bool isWrapped);
+  /// Switches on what the run must make for the elements. isWrapped: the quads may be of a wrap. hasCellData: whether
+  /// the user says what cell arrays come from.
+  void prepare(RemeshRun& run, bool isWrapped, bool hasCellData);
 
   /// Whether there is anything to be made of the quads.
   bool isAsked() const;
@@ -35,11 +36,22 @@ public:
   /// it fails, and the run has the reason.
   vtkSmartPointer<vtkDataSet> execute(RemeshRun& run, vtkPolyData* input);
 
-  vtkQuadElements* filter() { return filter_; }
+  /// Whether all elements keep what --require asks for; true before execute().
+  bool isGood() const { return isGood_; }
+  /// How many elements do not, and where the worst are; empty where all do.
+  std::string failure() const;
+  /// What execute() has made; null before it.
+  vtkQuadElements* filter() const { return isDone_ ? filter_.Get() : nullptr; }
 
 private:
+  void tellWorst(RemeshRun& run);
+
   vtkNew<vtkQuadElements> filter_;
+  bool isWanted_ = false; ///< an option other than the order asks for elements
+  bool tellsWorst_ = false;
   bool usesMappedSurface_ = false;
+  bool isDone_ = false;
+  bool isGood_ = true;
 };
 
 } // namespace quadrille

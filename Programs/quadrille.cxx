@@ -43,7 +43,7 @@ Remeshes a triangle surface with quads only.
 )";
 
 constexpr const char* kClosing = "exit code: 0 valid quads (seamless: a valid map); 2 bad input or "
-                                 "arguments; 3 no valid result;\n"
+                                 "arguments; 3 no valid result, or elements that fail --require;\n"
                                  "           4 stopped, by a signal or the time limit: the valid "
                                  "quads of the best attempt so far";
 
@@ -615,7 +615,13 @@ ExitCode execute(RemeshRun& run, Request& request)
   }
   if (!files.report.empty())
   {
-    writeTextFile(makeReport(files, run, code, times), files.report);
+    writeTextFile(makeReport(files, run, request.elements, code, times), files.report);
+  }
+  if (!request.elements.isGood())
+  {
+    std::fprintf(
+      stderr, "quadrille: %s: %s\n", files.output.c_str(), request.elements.failure().c_str());
+    return kNoValidResult;
   }
   return code;
 }
@@ -669,7 +675,7 @@ ExitCode runCommand(int argc, char* argv[])
   request.elements.check(options, request.files.output);
   request.wrap.detectsFeatures = options.given("feature-angle");
   run.filter()->SetComputeMappedSurface(options.given("map"));
-  request.elements.prepare(run, request.wrap.isAsked);
+  request.elements.prepare(run, request.wrap.isAsked, options.given("cell-data"));
   return runAndReport(run, request);
 }
 
