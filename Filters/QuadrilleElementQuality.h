@@ -31,7 +31,9 @@ struct ElementMeasure
   bool isBetterLarge; ///< whether the worst element is the one with the least value
 };
 
-/// scaled-jacobian, aspect-ratio, skew, warpage, taper, edge-ratio, minimum-angle, maximum-angle; angles in degrees.
+/// scaled-jacobian, aspect-ratio, skew, warpage, taper, edge-ratio, minimum-angle, maximum-angle; angles in degrees. As
+/// vtkMeshQuality has them, warpage is the cube of the least cosine between normals of opposite corners: 1 for a plane
+/// quad.
 const std::array<ElementMeasure, kMeasureCount>& elementMeasures();
 
 /// A limit that all elements have to keep.
