@@ -5,16 +5,15 @@
 #include "Base/Refuse.h"
 #include "Extraction/QuadProjection.h"
 #include "QuadrilleBlocks.h"
+#include "QuadrilleElementGrid.h"
 #include "QuadrilleNewArray.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleSoup.h"
 
-#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkIdList.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -31,28 +30,6 @@ namespace
 {
 
 constexpr double kPartOfDiagonal = 1.0 / 300; // twice the offset of a wrap by default
-
-std::vector<std::array<quadrille::Index, 4>> readQuads(vtkPolyData* data)
-{
-  std::vector<std::array<quadrille::Index, 4>> quads;
-  vtkNew<vtkIdList> ids;
-  for (vtkIdType i = 0; i < data->GetNumberOfPolys(); ++i)
-  {
-    data->GetPolys()->GetCellAtId(i, ids);
-    if (ids->GetNumberOfIds() != 4)
-    {
-      quadrille::refuse("polygon ", i, " has ", ids->GetNumberOfIds(),
-        " corners: the first input must be quads, as of Quad Remesh");
-    }
-    std::array<quadrille::Index, 4> quad{};
-    for (std::size_t k = 0; k < 4; ++k)
-    {
-      quad[k] = static_cast<quadrille::Index>(ids->GetId(static_cast<vtkIdType>(k)));
-    }
-    quads.push_back(quad);
-  }
-  return quads;
-}
 
 double offsetOf(vtkPolyData* quads)
 {
@@ -112,7 +89,7 @@ vtkQuadrilleAlgorithm::PortRole vtkQuadProjection::GetPortRole(int port) const
 void vtkQuadProjection::Execute(quadrille::Block& block)
 {
   vtkPolyData* quads = block.input();
-  const std::vector<std::array<quadrille::Index, 4>> corners = readQuads(quads);
+  const std::vector<std::array<quadrille::Index, 4>> corners = quadrille::readQuads(quads);
   if (!block.input(1))
   {
     quadrille::refuse("there is no surface to put the quads onto: connect the second input");

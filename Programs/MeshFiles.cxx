@@ -272,6 +272,12 @@ std::string writtenExtensions()
   return vtkQuadMeshWriter::GetExtensions();
 }
 
+bool canWriteElements(const std::string& path)
+{
+  const std::string e = extensionOf(path);
+  return canWrite(path) && e != "vtp" && e != "obj" && e != "ply" && e != "mesh";
+}
+
 vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
 {
   std::error_code code;

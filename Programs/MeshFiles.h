@@ -28,12 +28,15 @@ std::string extensionOf(const std::string& path);
 /// Whether writeMeshFile knows the extension of the path, and which ones it knows, with commas.
 bool canWrite(const std::string& path);
 std::string writtenExtensions();
+/// Whether the format has elements of second order.
+bool canWriteElements(const std::string& path);
 
 /// Reads ply, obj, stl, off, vtp or vtk. Throws FileError.
 vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path);
 
 /// Writes to a temporary file beside the target and renames it, so that a file of that name is always
 /// whole. Returns what the user should know, one sentence a line. Throws FileError.
+/// mesh: a vtkPolyData, or a vtkUnstructuredGrid; of second order where canWriteElements(path).
 std::string writeMeshFile(vtkDataSet* mesh, const std::string& path, vtkQuadMeshWriter* writer);
 /// With a writer as it is by default.
 void writeMeshFile(vtkDataSet* mesh, const std::string& path);

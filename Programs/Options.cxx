@@ -126,19 +126,19 @@ struct CommandOptions::Parser
     names.push_back(name);
   }
 
-  /// An option with one value, given once at most.
+  /// An option with one value, given once at most, or, with mayRepeat, several times.
   void addValue(const std::string& name, const std::string& unit,
-    std::function<void(const std::string&)> use, const std::string& help)
+    std::function<void(const std::string&)> use, const std::string& help, bool mayRepeat = false)
   {
     CLI::Option* option = app.add_option(
       "--" + name,
-      [name, use](const CLI::results_t& values)
+      [name, use, mayRepeat](const CLI::results_t& values)
       {
-        if (values.size() > 1)
+        if (values.size() > 1 && !mayRepeat)
         {
           throw UsageError("--" + name + " is given twice");
         }
-        use(values.front());
+        std::for_each(values.begin(), values.end(), use);
         return true;
       },
       wrapText(help, kHelpWidth - kTextColumn, 0));
@@ -256,6 +256,12 @@ void CommandOptions::addText(const std::string& name, const std::string& unit,
   std::function<void(const std::string&)> set, const std::string& help)
 {
   parser_->addValue(name, unit, std::move(set), help);
+}
+
+void CommandOptions::addTexts(const std::string& name, const std::string& unit,
+  std::function<void(const std::string&)> set, const std::string& help)
+{
+  parser_->addValue(name, unit, std::move(set), help, true);
 }
 
 void CommandOptions::addFlag(

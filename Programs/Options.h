@@ -56,6 +56,9 @@ public:
     const std::vector<std::string>& words, std::function<void(int)> set, const std::string& help);
   void addText(const std::string& name, const std::string& unit,
     std::function<void(const std::string&)> set, const std::string& help);
+  /// A text that may be given several times; the setter gets one after the other.
+  void addTexts(const std::string& name, const std::string& unit,
+    std::function<void(const std::string&)> set, const std::string& help);
   void addFlag(const std::string& name, std::function<void()> set, const std::string& help);
 
   /// What to print in place of a run, where --help or --version is given. Throws UsageError for an option that is none

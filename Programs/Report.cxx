@@ -8,16 +8,22 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVariant.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace quadrille
@@ -219,6 +225,93 @@ Json detailsOf(vtkPolyData* places)
   return details;
 }
 
+/// The least, the mean and the largest value of each measure, and its histogram.
+Json measuresOf(vtkQuadElements* filter)
+{
+  Json json = Json::object();
+  vtkTable* histograms = filter->GetHistograms();
+  for (vtkIdType c = 0; c + 2 < histograms->GetNumberOfColumns(); c += 3)
+  {
+    const std::string column = histograms->GetColumnName(c);
+    const std::string name = column.substr(0, column.size() - std::string("From").size());
+    vtkDataArray* values = filter->GetElements()->GetCellData()->GetArray(name.c_str());
+    double least = std::numeric_limits<double>::infinity(), most = -least, sum = 0;
+    for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+    {
+      least = std::min(least, values->GetTuple1(i));
+      most = std::max(most, values->GetTuple1(i));
+      sum += values->GetTuple1(i);
+    }
+    Json bounds = Json::array({ number(histograms->GetValue(0, c).ToDouble()) });
+    Json counts = Json::array();
+    for (vtkIdType row = 0; row < histograms->GetNumberOfRows(); ++row)
+    {
+      bounds.push_back(number(histograms->GetValue(row, c + 1).ToDouble()));
+      counts.push_back(number(histograms->GetValue(row, c + 2).ToDouble()));
+    }
+    json[name] = { { "least", number(least) },
+      { "mean", number(sum / static_cast<double>(values->GetNumberOfTuples())) },
+      { "most", number(most) }, { "histogram_bounds", bounds }, { "histogram_counts", counts } };
+  }
+  return json;
+}
+
+Json worstOf(vtkPolyData* places)
+{
+  Json worst = Json::array();
+  vtkPointData* data = places->GetPointData();
+  for (vtkIdType i = 0; i < places->GetNumberOfPoints(); ++i)
+  {
+    std::array<double, 3> place{};
+    places->GetPoint(i, place.data());
+    worst.push_back({ { "element", number(data->GetArray("ElementId")->GetTuple1(i)) },
+      { "measure", data->GetAbstractArray("Measure")->GetVariantValue(i).ToString() },
+      { "value", number(data->GetArray("Value")->GetTuple1(i)) },
+      { "place", Json::array({ number(place[0]), number(place[1]), number(place[2]) }) } });
+  }
+  return worst;
+}
+
+Json requirementsOf(vtkFieldData* data)
+{
+  Json requirements = Json::array();
+  auto* texts = vtkStringArray::SafeDownCast(data->GetAbstractArray("Requirements"));
+  vtkDataArray* failed = data->GetArray("FailedElements");
+  for (vtkIdType i = 0; texts && failed && i < texts->GetNumberOfValues(); ++i)
+  {
+    requirements.push_back({ { "requirement", std::string(texts->GetValue(i)) },
+      { "failed_elements", number(failed->GetTuple1(i)) } });
+  }
+  return requirements;
+}
+
+/// Ids of elements count from 0.
+Json elementsOf(vtkQuadElements* filter)
+{
+  vtkUnstructuredGrid* grid = filter->GetElements();
+  vtkFieldData* data = grid->GetFieldData();
+  Json json = { { "order", filter->GetOrder() }, { "elements", grid->GetNumberOfCells() },
+    { "nodes", grid->GetNumberOfPoints() } };
+  for (const auto& [name, array] : { std::pair("nodes_per_element", "NodesPerElement"),
+         std::pair("nodes_moved_along", "NodesMovedAlong"),
+         std::pair("nodes_moved_off", "NodesMovedOff"),
+         std::pair("nodes_by_nearest", "NodesByNearest"),
+         std::pair("edges_without_curve", "EdgesWithoutCurve"),
+         std::pair("inverted_elements", "InvertedElements"),
+         std::pair("elements_without_direction", "ElementsWithoutDirection") })
+  {
+    if (vtkDataArray* value = data->GetArray(array))
+    {
+      json[name] = number(value->GetTuple1(0));
+    }
+  }
+  json["measures"] = measuresOf(filter);
+  json["requirements"] = requirementsOf(data);
+  json["failed_elements"] = filter->GetNumberOfFailedElements();
+  json["worst"] = worstOf(filter->GetWorstElements());
+  return json;
+}
+
 Json beginReport(const RunFiles& files, ExitCode code, const std::string& error)
 {
   return { { "input", files.input }, { "output", files.output },
@@ -239,11 +332,16 @@ double fieldNumber(vtkPolyData* data, const char* name)
   return array && array->GetNumberOfTuples() > 0 ? array->GetTuple1(0) : 0;
 }
 
-std::string makeReport(const RunFiles& files, RemeshRun& run, ExitCode code, const RunTimes& times)
+std::string makeReport(const RunFiles& files, RemeshRun& run, const ElementRun& elements,
+  ExitCode code, const RunTimes& times)
 {
   vtkQuadRemesh* filter = run.filter();
   vtkPolyData* input = vtkPolyData::SafeDownCast(filter->GetInput());
-  Json json = beginReport(files, code, code == kValidQuads ? "" : run.error());
+  const ExitCode exitCode = elements.isGood() ? code : kNoValidResult;
+  Json json = beginReport(files, exitCode,
+    !elements.isGood()      ? elements.failure()
+      : code == kValidQuads ? ""
+                            : run.error());
   json["input_points"] = input->GetNumberOfPoints();
   json["input_cells"] = input->GetNumberOfCells();
   json["seconds_total"] = number(times.total);
@@ -256,6 +354,10 @@ std::string makeReport(const RunFiles& files, RemeshRun& run, ExitCode code, con
     addSuccess(json, filter->GetOutput());
     json["constraints"] = constraintsOf(filter->GetConstraintTable());
     json["details"] = detailsOf(filter->GetDetailPlaces());
+    if (elements.filter())
+    {
+      json["elements"] = elementsOf(elements.filter());
+    }
   }
   json["stages"] = stagesOf(run, times.read);
   json["stage_times"] = linesOf(filter->GetStageTimesText());

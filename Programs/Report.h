@@ -3,6 +3,7 @@
 /// The report of the command quadrille, as JSON.
 #pragma once
 
+#include "ElementRun.h"
 #include "RemeshRun.h"
 
 #include <string>
@@ -29,7 +30,9 @@ struct RunTimes
 };
 
 /// What the run made, or why it made nothing. To be called after RemeshRun::execute().
-std::string makeReport(const RunFiles& files, RemeshRun& run, ExitCode code, const RunTimes& times);
+/// elements: of the run; code: of the quads.
+std::string makeReport(const RunFiles& files, RemeshRun& run, const ElementRun& elements,
+  ExitCode code, const RunTimes& times);
 
 /// The report of a run that ended before there was a mesh.
 std::string makeFailureReport(const RunFiles& files, ExitCode code, const std::string& error);

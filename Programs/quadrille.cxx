@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// The command for people without ParaView's window: a mesh file in, a quad mesh out.
+#include "ElementRun.h"
 #include "MeshFiles.h"
 #include "Options.h"
 #include "RemeshRun.h"
@@ -9,6 +10,7 @@
 #include "WrapRun.h"
 
 #include <vtkDataArray.h>
+#include <vtkDataSet.h>
 #include <vtkFieldData.h>
 #include <vtkObject.h>
 #include <vtkPolyData.h>
@@ -42,7 +44,7 @@ Remeshes a triangle surface with quads only.
 )";
 
 constexpr const char* kClosing = "exit code: 0 valid quads (seamless: a valid map); 2 bad input or "
-                                 "arguments; 3 no valid result;\n"
+                                 "arguments; 3 no valid result, or elements that fail --require;\n"
                                  "           4 stopped, by a signal or the time limit: the valid "
                                  "quads of the best attempt so far";
 
@@ -91,6 +93,7 @@ struct Request
   RunFiles files;
   vtkNew<vtkQuadMeshWriter> writer;
   WrapRequest wrap;
+  ElementRun elements;
   bool quiet = false;
 };
 
@@ -595,7 +598,7 @@ void printFailure(RemeshRun& run, const RunFiles& files)
   std::fprintf(stderr, "%s\n", width > 0 ? wrapText(text, width - 1, 2).c_str() : text.c_str());
 }
 
-ExitCode execute(RemeshRun& run, const Request& request)
+ExitCode execute(RemeshRun& run, Request& request)
 {
   const Clock::time_point start = Clock::now();
   const RunFiles& files = request.files;
@@ -610,16 +613,21 @@ ExitCode execute(RemeshRun& run, const Request& request)
       progress.show(fraction, text);
       return stopRequested == 0;
     });
-  const ExitCode code =
+  ExitCode code =
     request.wrap.isAsked ? executeWrapped(run, input, request.wrap) : run.execute(input);
+  vtkSmartPointer<vtkDataSet> result = run.filter()->GetOutput();
+  if (hasQuads(code) && request.elements.isAsked())
+  {
+    result = request.elements.execute(run, input);
+    code = result ? code : kNoValidResult;
+  }
   progress.finish();
   times.total = secondsSince(start);
   if (hasQuads(code))
   {
     if (!files.output.empty())
     {
-      const std::string notices =
-        writeMeshFile(run.filter()->GetOutput(), files.output, request.writer);
+      const std::string notices = writeMeshFile(result, files.output, request.writer);
       run.addNotice(notices.substr(0, notices.find_last_not_of('\n') + 1));
     }
     if (!files.map.empty())
@@ -637,12 +645,21 @@ ExitCode execute(RemeshRun& run, const Request& request)
   }
   if (!files.report.empty())
   {
-    writeTextFile(makeReport(files, run, code, times), files.report);
+    writeTextFile(makeReport(files, run, request.elements, code, times), files.report);
+  }
+  if (!request.elements.isGood())
+  {
+    // The summary has it already.
+    const std::string reason = request.quiet
+      ? request.elements.failure()
+      : "elements fail --require, see above; the mesh was written";
+    std::fprintf(stderr, "quadrille: %s: %s\n", files.output.c_str(), reason.c_str());
+    return kNoValidResult;
   }
   return code;
 }
 
-ExitCode runAndReport(RemeshRun& run, const Request& request)
+ExitCode runAndReport(RemeshRun& run, Request& request)
 {
   const auto fail = [&request](ExitCode code, const std::string& reason)
   {
@@ -676,6 +693,7 @@ ExitCode runCommand(int argc, char* argv[])
   addShape(options, run.filter());
   addFinish(options, run.filter());
   addFormats(options, request.writer);
+  request.elements.addOptions(options);
   addRun(options, run.filter(), request);
   if (const std::optional<std::string> text = options.parse(argc, argv))
   {
@@ -688,8 +706,10 @@ ExitCode runCommand(int argc, char* argv[])
     return kBadInput;
   }
   checkTogether(options, run.filter(), request.files);
+  request.elements.check(options, request.files.output);
   request.wrap.detectsFeatures = options.given("feature-angle");
   run.filter()->SetComputeMappedSurface(options.given("map"));
+  request.elements.prepare(run, request.wrap.isAsked, options.given("cell-data"));
   return runAndReport(run, request);
 }
 

@@ -11,6 +11,8 @@
     surface, findings = quadrille.repair(mesh)                  # damaged surfaces; both need a build with CGAL
     surface = quadrille.wrap(mesh, alpha=0.1)
 
+    elements = quadrille.elements(quads, surface, order=2)      # vtkUnstructuredGrid of second order, for simulation
+
     session = quadrille.Session(mesh, quads=5000)               # change one thing, and see what it does
     session.set_valence(point, 5)
     session.update()
@@ -18,14 +20,16 @@
     quadrille.check(QuadRemesh(Input=surface))                  # in a script of ParaView: raises where it fails
 
 The VTK classes themselves are here too: vtkQuadRemesh, vtkDecimationHierarchy, vtkIntegerGridMap,
-vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkIntegerGridMapQuality, vtkIntegerGridMapComparison, vtkQuadrilleSession,
-the source vtkQuadConstraintSource, the readers vtkQuadrilleOFFReader and vtkQuadrillePLYReader, the writer
-vtkQuadMeshWriter, and in QuadrilleFilters, where there is CGAL, vtkSurfaceRepair, vtkSurfaceWrap and vtkQuadProjection.
+vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkQuadElements, vtkIntegerGridMapQuality, vtkIntegerGridMapComparison,
+vtkQuadrilleSession, the source vtkQuadConstraintSource, the readers vtkQuadrilleOFFReader and vtkQuadrillePLYReader, the
+writer vtkQuadMeshWriter, and in QuadrilleFilters, where there is CGAL, vtkSurfaceRepair, vtkSurfaceWrap and
+vtkQuadProjection.
 """
 import collections
 
 from vtkmodules import vtkCommonExecutionModel as _execution_model  # base classes of the filters
 
+from ._elements import FailedElements, elements
 from ._errors import InvalidInput, RemeshError, one_of, real, whole
 from ._files import read, write
 from ._inputs import as_curves, as_surface, to_polydata, with_requests
@@ -39,6 +43,7 @@ from .QuadrilleFilters import (
     vtkIntegerGridMapQuality,
     vtkIntegerGridMapUpmap,
     vtkQuadConstraintSource,
+    vtkQuadElements,
     vtkQuadExtraction,
     vtkQuadMeshWriter,
     vtkQuadRemesh,
@@ -48,10 +53,11 @@ from .QuadrilleFilters import (
 )
 
 __all__ = [
-    "InvalidInput", "Irregular", "RemeshError", "Remeshed", "Session", "check", "has_cgal", "info", "read",
-    "remesh", "repair", "to_arrays", "to_polydata", "wrap", "write",
+    "FailedElements", "InvalidInput", "Irregular", "RemeshError", "Remeshed", "Session", "check", "elements",
+    "has_cgal", "info", "read", "remesh", "repair", "to_arrays", "to_polydata", "wrap", "write",
     "vtkDecimationHierarchy", "vtkIntegerGridMap", "vtkIntegerGridMapComparison", "vtkIntegerGridMapQuality",
-    "vtkIntegerGridMapUpmap", "vtkQuadConstraintSource", "vtkQuadExtraction", "vtkQuadMeshWriter", "vtkQuadRemesh",
+    "vtkIntegerGridMapUpmap", "vtkQuadConstraintSource", "vtkQuadElements", "vtkQuadExtraction", "vtkQuadMeshWriter",
+    "vtkQuadRemesh",
     "vtkQuadrilleOFFReader", "vtkQuadrillePLYReader", "vtkQuadrilleSession",
 ]
 
