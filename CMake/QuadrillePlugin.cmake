@@ -39,6 +39,7 @@ paraview_plugin_build(
   LIBRARY_SUBDIRECTORY "${PARAVIEW_PLUGIN_SUBDIR}"
   DISABLE_XML_DOCUMENTATION ${quadrille_no_help}
   PLUGINS_FILE_NAME    "quadrille.plugins.xml"
+  AUTOLOAD             Quadrille
   PLUGINS_COMPONENT    Plugin
   TARGET_COMPONENT     Plugin
   PLUGINS              ${quadrille_plugins})

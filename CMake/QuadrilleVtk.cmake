@@ -44,8 +44,8 @@ else()
   # modules for files only the libraries are linked, see Programs/CMakeLists.txt.
   find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore FiltersGeometry
     ParallelCore Python WrappingPythonCore WrappingTools)
-  message(STATUS "VTK: plain VTK ${VTK_VERSION} in ${VTK_PREFIX_PATH}, without the plugin of ParaView (QUADRILLE_VTK is "
-    "${QUADRILLE_VTK}${quadrille_paraview_reason})")
+  message(STATUS "VTK: plain VTK ${VTK_VERSION} in ${VTK_PREFIX_PATH}, without the plugin of ParaView "
+    "(QUADRILLE_VTK is ${QUADRILLE_VTK}${quadrille_paraview_reason})")
 endif()
 if(NOT PARAVIEW_USE_PYTHON AND NOT VTK_WRAP_PYTHON)
   message(FATAL_ERROR "This VTK was built without Python, which the package `quadrille` needs.")

@@ -10,8 +10,8 @@
 namespace quadrille
 {
 
-/// The corners of a cell: ids, `count` of them, valid as long as the cells and `copy` are. Several threads may ask, each
-/// with a `copy` of its own.
+/// The corners of a cell: `count` ids, valid as long as the cells and `copy` are. Several threads may ask, each with a
+/// `copy` of its own.
 template <class CellArray>
 auto getCorners(CellArray* cells, vtkIdType cell, vtkIdType& count, const vtkIdType*& ids,
   vtkIdList* copy) -> decltype(cells->GetCellAtId(cell, count, ids, copy))

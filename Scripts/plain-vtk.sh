@@ -25,10 +25,17 @@ libraries=$folder/usr/lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)
 
 if [[ ! -f $folder/complete ]]; then
   mkdir -p "$folder/packages"
-  (cd "$folder/packages" && apt-get download -q "${packages[@]}")
+  # Where the lists of packages are missing or old, root can renew them.
+  (cd "$folder/packages" && { apt-get download -q "${packages[@]}" || {
+    [[ $(id -u) -eq 0 ]] && apt-get update -q && apt-get download -q "${packages[@]}"; }; }) || {
+    echo "plain-vtk: the packages cannot be downloaded; sudo apt-get update may help" >&2
+    exit 1
+  }
   for package in "$folder"/packages/*.deb; do
     dpkg -x "$package" "$folder"
   done
+  # dpkg-shlibdeps takes from there which package the libraries are of.
+  dpkg -e "$folder"/packages/libvtk9.1_*.deb "$folder/DEBIAN"
   rm -r "$folder/packages"
   # What the libraries need beside each other is not unpacked: ParaView depends on nearly all of it.
   missing=$(for library in "$libraries"/libvtk{Common,Filters,IO,Parallel,Wrapping}*.so.1; do

@@ -60,8 +60,8 @@ struct QuadOptions
   int smoothingSteps = 5;              ///< sweeps in which the points move over the surface, >= 0
   std::size_t maximumQuads = 10000000; ///< more are refused, >= 1
   int threads = 0;                     ///< 0: all; the result does not depend on it
-  /// Called on the caller's thread with the part that is done, from 0 to 1, and what is being done, at least every 50 ms
-  /// or so. Returning false stops the run. It must not throw.
+  /// Called on the caller's thread, many times a second, with the part that is done, from 0 to 1, and what is being
+  /// done. Returning false stops the run. It must not throw.
   std::function<bool(double fraction, const std::string& what)> progress;
 };
 
