@@ -74,12 +74,12 @@ inside "xvfb-run -a pvbatch lists.py"
 cat >"$root/root/window.py" <<'PY'
 import os
 from paraview import simple
-with open("/tmp/window", "w") as file:
+with open("window", "w") as file:
     file.write(str("QuadRemesh" in dir(simple)))
 os._exit(0)
 PY
-inside "timeout 120 xvfb-run -a paraview --dr --script=/root/window.py >/dev/null 2>&1; cat /tmp/window; echo"
-[[ $(<"$root/tmp/window") == True ]] || { echo "check-packages: ParaView's window has no Quad Remesh" >&2; exit 1; }
+inside "timeout 120 xvfb-run -a paraview --dr --script=window.py >/dev/null 2>&1; cat window; echo"
+[[ $(<"$root/root/window") == True ]] || { echo "check-packages: ParaView's window has no Quad Remesh" >&2; exit 1; }
 use_commands()
 {
   inside "quadrille --version"
