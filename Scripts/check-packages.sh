@@ -15,7 +15,7 @@ command -v mmdebstrap >/dev/null || { echo "check-packages: mmdebstrap is missin
 [[ ${CHECK_PACKAGES_MOUNTS:-} ]] || CHECK_PACKAGES_MOUNTS=1 exec unshare --mount --fork "$0" "$packages"
 
 work=$(mktemp -d)
-trap 'umount -q "$work"/*/proc "$work"/*/dev "$work"/*/sys || true; rm -rf --one-file-system "$work"' EXIT
+trap 'umount -R -l -q "$work"/*/proc "$work"/*/dev "$work"/*/sys || true; rm -rf --one-file-system "$work"' EXIT
 mirror=http://deb.debian.org/debian
 mmdebstrap --quiet --variant=minbase --include=ca-certificates bookworm "$work/base.tar" \
   "deb $mirror bookworm main" "deb $mirror bookworm-updates main" "deb $mirror-security bookworm-security main"
@@ -38,9 +38,11 @@ run_inside() { chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin
   DEBIAN_FRONTEND=noninteractive bash -c "cd /root && $1"; }
 inside() { echo "# $1"; run_inside "$1"; }
 quietly() { echo "# $*"; run_inside "$*" >"$work/log" 2>&1 || { tail -40 "$work/log" >&2; return 1; }; }
-# All that is there but caches, logs and the folders of this script; and what dpkg knows of our packages.
-files() { run_inside 'find / -xdev \( -path /proc -o -path /dev -o -path /sys -o -path /tmp -o -path /root -o \
-  -path /var/cache -o -path /var/log -o -path /var/lib/apt \) -prune -o -print | sort'; }
+# All that is there but caches, logs and the folders of this script; what dpkg knows of packages is in it. Some packages
+# of Debian that come along add a system group and leave the copy of the list that was before.
+files() { run_inside 'find / -xdev \( -path /proc -o -path /dev -o -path /sys -o -path /run -o -path /tmp -o \
+  -path /root -o -path /var/cache -o -path /var/log -o -path /var/lib/apt -o -path "/etc/*shadow-" -o \
+  -path "/etc/group-" \) -prune -o -print | sort'; }
 nothing_left()
 {
   quietly apt-get purge -y "$@"
