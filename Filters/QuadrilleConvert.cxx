@@ -9,6 +9,7 @@
 #include "QuadrilleArrayNames.h"
 #include "QuadrilleAttributes.h"
 #include "QuadrilleNewArray.h"
+#include "QuadrilleVtkVersions.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -873,7 +874,7 @@ std::optional<std::array<Index, 3>> ConvertedSurface::triangle(
   vtkIdType count = 0;
   const vtkIdType* ids = nullptr;
   vtkNew<vtkIdList> copy;
-  surface->GetPolys()->GetCellAtId(polygon, count, ids, copy);
+  getCorners(surface->GetPolys(), polygon, count, ids, copy);
   if (count != 3)
   {
     return std::nullopt;

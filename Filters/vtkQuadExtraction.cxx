@@ -12,6 +12,7 @@
 #include "QuadrilleMappedInput.h"
 #include "QuadrilleQuads.h"
 #include "QuadrilleReport.h"
+#include "QuadrilleVtkVersions.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -42,7 +43,7 @@ PointOrigin carrierPoint(vtkPolyData* data, Index face, const Weights& weights)
   vtkIdType count = 0;
   const vtkIdType* ids = nullptr;
   vtkNew<vtkIdList> copy;
-  data->GetPolys()->GetCellAtId(face, count, ids, copy);
+  quadrille::getCorners(data->GetPolys(), face, count, ids, copy);
   return { { ids[0], ids[1], ids[2] }, weights };
 }
 

@@ -11,6 +11,7 @@
 #include "QuadrilleShared.h"
 #include "QuadrilleStamps.h"
 #include "QuadrilleSurfaces.h"
+#include "QuadrilleVtkVersions.h"
 #include "vtkQuadrilleExecutive.h"
 
 #include "vtkBoundingBox.h"
@@ -958,8 +959,7 @@ int vtkQuadrilleAlgorithm::Conclude(const Run& run, vtkInformationVector* output
   {
     // No error: it is what the user asked for. Returning 0 leaves the filter out of date.
     // The flags have done their duty; left standing they would make the executive empty the outputs.
-    this->SetAbortExecute(0);
-    this->SetAbortOutput(false);
+    quadrille::forgetStop(this);
     if (this->IsRoot)
     {
       vtkWarningMacro(<< this->OutcomeText);
@@ -1060,7 +1060,7 @@ bool vtkQuadrilleAlgorithm::ShowProgressAndGoOn()
   {
     this->TimeIsOver = this->TimeLimit > 0 && spent.count() > this->TimeLimit;
   }
-  return this->IsBlockSoFar || (!this->TimeIsOver && !this->CheckAbort());
+  return this->IsBlockSoFar || (!this->TimeIsOver && !quadrille::isAskedToStop(this));
 }
 
 //------------------------------------------------------------------------------

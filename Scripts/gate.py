@@ -571,10 +571,12 @@ def make_run(run, shared):
 
 def recorded_in_process(run, arguments):
     packages = pathlib.Path(arguments.python).resolve() / "lib/python3/dist-packages"
+    # Beside the build plain VTK may be on the path, which Python does not find by itself.
+    folders = [str(packages), *filter(None, [os.environ.get("PYTHONPATH")])]
     command = [sys.executable, __file__, "run", run.name, "--shared", str(arguments.shared)]
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=RUN_LIMIT,
-                              env={**os.environ, "PYTHONPATH": str(packages)})
+                              env={**os.environ, "PYTHONPATH": os.pathsep.join(folders)})
     except subprocess.TimeoutExpired:
         return {"steps": {"": {"status": f"stopped after {RUN_LIMIT} s"}}}
     try:

@@ -29,6 +29,10 @@ import collections
 
 from vtkmodules import vtkCommonExecutionModel as _execution_model  # base classes of the filters
 
+from . import _vtk
+
+__path__ = _vtk.folders(__path__)  # before anything else is imported from there
+
 from ._elements import FailedElements, elements
 from ._errors import InvalidInput, RemeshError, one_of, real, whole
 from ._files import read, write

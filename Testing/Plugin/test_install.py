@@ -45,4 +45,12 @@ build_paths = [line for line in run("readelf", "-d", plugin, one("bin/quadrille"
                if "PATH" in line and os.path.realpath(build) in line]
 if build_paths:
     sys.exit(f"FAILED: installed files look into the build folder: {build_paths}")
+listed = run(pvpython, "-c", "from paraview import simple; print('QuadRemesh' in dir(simple))",
+             PV_PLUGIN_CONFIG_FILE=one("lib*/**/quadrille.plugins.xml"))
+if "True" not in listed.split():
+    sys.exit(f"FAILED: pvpython does not load the plugin of PV_PLUGIN_CONFIG_FILE: {listed}")
+out.unlink()
+run(cmake, "--build", build, "--target", "uninstall")
+if os.path.exists(prefix):
+    sys.exit(f"FAILED: after uninstall there is {[str(path) for path in pathlib.Path(prefix).rglob('*')]}")
 print("install: fine")

@@ -80,7 +80,7 @@ def problems(folder, shared):
 
 def typesOf(header):
     """Types that a header defines in a namespace."""
-    return re.findall(r"^(?:struct|class|enum class) (\w+)[^;\n]*\n\{", header, flags=re.M)
+    return re.findall(r"^(?:struct|class|enum class) (?:[A-Z]+_[A-Z]+ )?(\w+)[^;\n]*\n\{", header, flags=re.M)
 
 
 def headersOfTypes(core):
@@ -98,7 +98,8 @@ def typesTwice(core, headers):
 
 
 def selftest():
-    assert typesOf("struct A;\nstruct B : C\n{\n  struct D\n  {\n  };\n};\nenum class E : int\n{\n};\n") == ["B", "E"]
+    assert typesOf("struct A;\nstruct B : C\n{\n  struct D\n  {\n  };\n};\nenum class E : int\n{\n};\n"
+                   "class MY_API F : public C\n{\n};\n") == ["B", "E", "F"]
     names = anonymousNames("""namespace quadrille
 {
 void outside();

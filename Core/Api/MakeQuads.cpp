@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Api/quadrille/quadrille.h"
+
+#include "Base/Angles.h"
+#include "Base/Error.h"
+#include "Pipeline/Pipeline.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace quadrille
+{
+
+namespace
+{
+
+constexpr std::size_t kQuadsWithoutSize = 5000;
+
+template <class Values>
+void requireOneEach(
+  const Values& values, std::size_t count, const std::string& name, const std::string& element)
+{
+  if (!values.empty() && values.size() != count)
+  {
+    throw InvalidInput(name + " has " + std::to_string(values.size()) + " values, but there are " +
+      std::to_string(count) + " " + element + ": it has to have one each, or none");
+  }
+}
+
+std::vector<Vector3> vectorsOf(const std::vector<std::array<double, 3>>& tuples)
+{
+  std::vector<Vector3> vectors(tuples.size());
+  std::transform(tuples.begin(), tuples.end(), vectors.begin(),
+    [](const std::array<double, 3>& t) { return Vector3(t[0], t[1], t[2]); });
+  return vectors;
+}
+
+SurfaceInput inputOf(const TriangleMesh& mesh)
+{
+  const std::size_t triangles = mesh.triangles.size();
+  requireOneEach(mesh.featureEdges, triangles, "featureEdges", "triangles");
+  requireOneEach(mesh.patchIds, triangles, "patchIds", "triangles");
+  requireOneEach(mesh.guidingDirections, triangles, "guidingDirections", "triangles");
+  requireOneEach(mesh.sizing, mesh.points.size(), "sizing", "points");
+  // Corners of triangles are half-edges of the mesh, whose ids have 32 bits.
+  if (triangles >= kInvalidIndex / 3 || mesh.points.size() >= kInvalidIndex)
+  {
+    throw InvalidInput("the mesh has " + std::to_string(triangles) + " triangles and " +
+      std::to_string(mesh.points.size()) + " points: that is more than 32-bit ids can name");
+  }
+  SurfaceInput input;
+  input.points = vectorsOf(mesh.points);
+  input.polygonOffsets.resize(triangles + 1);
+  input.polygonPoints.reserve(3 * triangles);
+  for (std::size_t t = 0; t < triangles; ++t)
+  {
+    input.polygonOffsets[t + 1] = static_cast<Index>(3 * (t + 1));
+    input.polygonPoints.insert(
+      input.polygonPoints.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  }
+  input.featureEdges = mesh.featureEdges;
+  input.patchIds = mesh.patchIds;
+  input.guideDirections = vectorsOf(mesh.guidingDirections);
+  input.sizing = mesh.sizing;
+  return input;
+}
+
+RemeshOptions runOptionsOf(const QuadOptions& options)
+{
+  if (options.quads.has_value() + options.edgeLength.has_value() +
+      options.relativeEdgeLength.has_value() >
+    1)
+  {
+    throw InvalidInput("only one of quads, edgeLength and relativeEdgeLength can be given");
+  }
+  if (options.featureAngle && !(*options.featureAngle > 0 && *options.featureAngle <= 180))
+  {
+    throw InvalidInput("featureAngle is " + std::to_string(*options.featureAngle) +
+      ", but has to be above 0 and at most 180 degrees, or none");
+  }
+  RemeshOptions run;
+  run.quads = options.quads;
+  run.edgeLength = options.edgeLength;
+  if (options.relativeEdgeLength)
+  {
+    run.relativeEdgeLength = *options.relativeEdgeLength;
+  }
+  else if (!options.quads && !options.edgeLength)
+  {
+    run.quads = kQuadsWithoutSize;
+  }
+  run.featureAngle.reset();
+  if (options.featureAngle)
+  {
+    run.featureAngle = radians(*options.featureAngle);
+  }
+  run.smoothingSteps = options.smoothingSteps;
+  run.maximumNumberOfQuads = options.maximumQuads;
+  run.threads = options.threads;
+  run.progress = options.progress;
+  return run;
+}
+
+QuadResult resultOf(RemeshResult& run)
+{
+  const QuadMesh& mesh = run.quads;
+  QuadResult result;
+  result.points.resize(mesh.points.size());
+  result.pointPlaces.resize(mesh.points.size());
+  for (std::size_t p = 0; p < mesh.points.size(); ++p)
+  {
+    const Vector3& point = mesh.points[p];
+    result.points[p] = { point.x(), point.y(), point.z() };
+    const SourceLocation at = run.surface.locate(mesh.sourceFace[p], mesh.sourceWeights[p]);
+    result.pointPlaces[p] = { at.polygon, at.points, at.weights };
+  }
+  result.quads = mesh.quads;
+  result.quadTriangles.resize(mesh.quads.size());
+  std::transform(mesh.quadSourceFace.begin(), mesh.quadSourceFace.end(),
+    result.quadTriangles.begin(), [&run](Index f) { return run.surface.sourcePolygon[f]; });
+  for (const QuadLine& line : mesh.lines)
+  {
+    if (!line.boundary)
+    {
+      result.featureEdges.push_back({ line.a, line.b });
+    }
+  }
+  result.edgeLength = run.targetEdgeLength;
+  result.notices = std::move(run.notices);
+  result.stopped = std::move(run.stopped);
+  return result;
+}
+
+} // namespace
+
+QuadResult makeQuads(const TriangleMesh& mesh, const QuadOptions& options)
+{
+  try
+  {
+    RemeshResult run = remesh(inputOf(mesh), runOptionsOf(options));
+    if (run.status.code == StatusCode::Cancelled)
+    {
+      throw StoppedError(run.status.message);
+    }
+    if (!run.status.ok())
+    {
+      throw NoQuadsError(run.status.message);
+    }
+    return resultOf(run);
+  }
+  catch (const InvalidInput& error)
+  {
+    throw InputError(error.what());
+  }
+}
+
+const char* libraryVersion()
+{
+  return QUADRILLE_VERSION;
+}
+
+} // namespace quadrille
