@@ -16,6 +16,8 @@ packages=(
   libgtest-dev python3 python3-numpy python3-scipy
   python3-matplotlib                    # figures of quadrille-evaluate
   valgrind                              # instructions, for Scripts/figures.py
+  calculix-ccx                          # solves what Scripts/solved_example.py sets up
+  gmsh                                  # its meshes beside ours, in the solved example and in quadrille-evaluate
   clang-format clang-tidy               # the tests hold the sources against them
   xvfb xauth libqt5svg5 libgl1-mesa-dri # pictures without a screen
   xdotool                               # mouse and keyboard for Testing/Plugin/count_actions.py

@@ -7,6 +7,8 @@ import subprocess
 import numpy as np
 
 LIMIT = 1800  # seconds that a solution may take
+#: Displacements of all nodes for us; with stresses, at the nodes of shells and plane elements, for viewers.
+OUTPUT = ["*NODE PRINT, NSET=NALL", "U", "*NODE FILE, OUTPUT=2D", "U", "*EL FILE, OUTPUT=2D", "S"]
 
 
 class SolverError(RuntimeError):
@@ -16,6 +18,10 @@ class SolverError(RuntimeError):
 def version():
     done = subprocess.run(["ccx", "-v"], capture_output=True, text=True, check=False)
     return re.search(r"Version (\S+)", done.stdout).group(1)
+
+
+def write(folder, job, lines):
+    (folder / f"{job}.inp").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def solve(folder, job):

@@ -19,6 +19,13 @@ LIMIT = 600  # seconds that a mesher may take
 
 
 @dataclass
+class NodeSet:
+    """A set in a deck, with the lines that make it, none where the mesh's file has it."""
+    name: str
+    lines: list
+
+
+@dataclass
 class Mesh:
     """Nodes (#nodes by 3) with their numbers in the file, elements by number of nodes (#elements by nodes, places in
     `points`), and node sets by name (places in `points`)."""
@@ -26,6 +33,23 @@ class Mesh:
     numbers: np.ndarray
     blocks: dict
     node_sets: dict = field(default_factory=dict)
+
+    def set_of(self, places, name):
+        """The node set that has these nodes and no other; a new one of this name if there is none."""
+        for known, members in self.node_sets.items():
+            if np.array_equal(members, places):
+                return NodeSet(known, [])
+        return NodeSet(name, [f"*NSET, NSET={name}", *(f"{number}," for number in self.numbers[places])])
+
+    def irregular(self):
+        """Vertices of quads inside, with other than four quads; None with triangles."""
+        if any(elements.CORNERS[nodes] == 3 for nodes in self.blocks):
+            return None
+        valence = np.zeros(len(self.points), int)
+        for block in self.blocks.values():
+            np.add.at(valence, block[:, :4], 1)
+        outer = {node for edge in self.boundary_edges() for node in edge}
+        return sum(1 for node, count in enumerate(valence) if count not in (0, 4) and node not in outer)
 
     def count(self):
         return sum(len(block) for block in self.blocks.values())
@@ -126,26 +150,28 @@ def write_inp(mesh, types, path):
     pathlib.Path(path).write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def write_ply(mesh, path):
+def write_vtk(mesh, sizes, path):
+    """The triangles as legacy VTK file, with the point array `Sizing` unless it is None."""
     triangles = mesh.blocks[3]
-    head = ["ply", "format ascii 1.0", f"element vertex {len(mesh.points)}", "property double x", "property double y",
-            "property double z", f"element face {len(triangles)}", "property list uchar int vertex_indices",
-            "end_header"]
     with open(path, "w", encoding="utf-8") as file:
-        file.write("\n".join(head) + "\n")
+        file.write("# vtk DataFile Version 3.0\ntriangles\nASCII\nDATASET POLYDATA\n"
+                   f"POINTS {len(mesh.points)} double\n")
         np.savetxt(file, mesh.points, fmt="%.17g")
+        file.write(f"POLYGONS {len(triangles)} {4 * len(triangles)}\n")
         np.savetxt(file, np.column_stack([np.full(len(triangles), 3), triangles]), fmt="%d")
+        if sizes is not None:
+            file.write(f"POINT_DATA {len(mesh.points)}\nSCALARS Sizing double 1\nLOOKUP_TABLE default\n")
+            np.savetxt(file, sizes, fmt="%.17g")
 
 
 # ---- meshers
 
-def gmsh(geometry, folder, name, size, algorithm, recombination, order=1):
-    """The mesh of a geometry (words of Gmsh's language) with edges of about `size`."""
-    source = folder / f"{name}.geo"
+def gmsh(geometry, folder, name, algorithm, recombination, order=1):
+    """The mesh of a geometry in Gmsh's language, which has the sizes, too."""
+    source, target = folder / f"{name}.geo", folder / f"{name}.msh"
     source.write_text(geometry, encoding="utf-8")
-    target = folder / f"{name}.msh"
-    options = {"Mesh.Algorithm": algorithm, "Mesh.MeshSizeMin": 0, "Mesh.MeshSizeMax": size,
-               "Mesh.MeshSizeExtendFromBoundary": 0, "Mesh.ElementOrder": order, "Mesh.SecondOrderIncomplete": 1}
+    options = {"Mesh.Algorithm": algorithm, "Mesh.MeshSizeFromPoints": 0, "Mesh.MeshSizeExtendFromBoundary": 0,
+               "Mesh.ElementOrder": order, "Mesh.SecondOrderIncomplete": 1}
     if recombination is not None:
         options |= {"Mesh.RecombineAll": 1, "Mesh.RecombinationAlgorithm": recombination}
     run(["gmsh", source, "-2", "-o", target, "-format", "msh22", "-nt", 1, "-v", 2]
@@ -153,10 +179,21 @@ def gmsh(geometry, folder, name, size, algorithm, recombination, order=1):
     return read_msh(target)
 
 
-def gmsh_elements(geometry, folder, name, wanted, area, mesher, order):
-    """As many elements as wanted, about: Gmsh takes a size only, so the second run corrects the size of the first."""
+def gmsh_mesh(problem, folder, job, mesher, count, order):
+    """As many elements as wanted, about: Gmsh takes sizes only, so two runs correct the size of the third."""
     algorithm, recombination = GMSH[mesher]
-    size = (area / wanted) ** 0.5
+    size = problem.first_size(count)
     for _ in range(2):
-        size *= (gmsh(geometry, folder, name, size, algorithm, recombination).count() / wanted) ** 0.5
-    return gmsh(geometry, folder, name, size, algorithm, recombination, order)
+        found = gmsh(problem.geometry(float(size)), folder, job, algorithm, recombination).count()
+        size *= (found / count) ** 0.5
+    mesh = gmsh(problem.geometry(float(size)), folder, job, algorithm, recombination, order)
+    write_inp(mesh, problem.types[order], folder / f"{job}_mesh.inp")
+    return mesh
+
+
+def quadrille_mesh(program, surface, problem, folder, job, count, order):
+    """The deck as Quadrille writes it is what is solved."""
+    target = folder / f"{job}_mesh.inp"
+    run([program, surface, target, "--quads", count, "--order", order, "--element", problem.types[order][4 * order],
+         "--quiet"], folder)
+    return read_inp(target)

@@ -3,36 +3,26 @@
 """A square piece of an infinite plate with a circular hole under tension, in plane stress [Kirsch 1898].
 
 The exact stresses of the infinite plate are put onto the outer edges as tractions, so the exact solution of the piece
-is known in closed form and is smooth: the error of finite elements has the theory's slope. Stress at the hole: three
-times the tension.
+is known in closed form and is smooth, and the error of finite elements has the theory's slope. The stress at the hole is
+three times the tension.
 """
 import numpy as np
 
-from . import calculix, elements
+from . import calculix, elements, meshes
 
-TITLE = "Plate with a hole"
 HALF_SIDE, RADIUS, TENSION = 4.0, 1.0, 1.0
+#: Thin, so that what CalculiX makes a solid of has plane stress: errors of (THICKNESS / RADIUS)^2 times 1e-2.
 YOUNG, POISSON, THICKNESS = 1.0, 0.3, 0.02
 CONCENTRATION = 3.0
-AREA = 4 * HALF_SIDE ** 2 - np.pi * RADIUS ** 2
-SIZES = (150, 600, 2400, 9600)
-TYPES = {1: {3: "CPS3", 4: "CPS4"}, 2: {6: "CPS6", 8: "CPS8"}}
-FREEDOMS = 2  # of a node
-#: Of the energy norm: h^1 and h^2, where h^2 is the inverse of the degrees of freedom.
-SLOPES = {1: 0.5, 2: 1.0}
-MEASURE = "error of the stress in the energy norm"
-GEOMETRY = f"""SetFactory("OpenCASCADE");
+COMPLIANCE = np.array([[1, -POISSON, 0], [-POISSON, 1, 0], [0, 0, 2 * (1 + POISSON)]]) / YOUNG
+_GEOMETRY = f"""SetFactory("OpenCASCADE");
 Rectangle(1) = {{-{HALF_SIDE}, -{HALF_SIDE}, 0, {2 * HALF_SIDE}, {2 * HALF_SIDE}}};
 Disk(2) = {{0, 0, 0, {RADIUS}}};
 BooleanDifference(3) = {{ Surface{{1}}; Delete; }}{{ Surface{{2}}; Delete; }};
-"""
-#: The triangles that Quadrille gets: edges of the hole of 0.01 lie within 1.3e-5 of the circle.
-FINE = GEOMETRY + f"""Field[1] = MathEval;
-Field[1].F = "0.01 + 0.03 * (Sqrt(x * x + y * y) - {RADIUS})";
+Field[1] = MathEval;
+Field[1].F = "%s";
 Background Field = 1;
 """
-FINE_SIZE = 0.1
-PLANE_STRESS = np.array([[1, -POISSON, 0], [-POISSON, 1, 0], [0, 0, 2 * (1 + POISSON)]]) / YOUNG
 
 
 def exact_stress(x, y):
@@ -47,15 +37,20 @@ def exact_stress(x, y):
 
 
 def boundary(mesh):
-    """(edges of the outer boundary, nodes of the hole), as places in the mesh's points."""
+    """(edges of the outer boundary, nodes of the hole, ascending), as places in the mesh's points."""
     outer, hole = [], set()
     for edge in mesh.boundary_edges():
-        ends = mesh.points[list(edge), :2]
-        if np.all(np.hypot(*ends.T) < 1.5 * RADIUS):
+        if np.all(np.hypot(*mesh.points[list(edge), :2].T) < 1.5 * RADIUS):
             hole.update(edge)
         else:
             outer.append(edge)
     return outer, np.array(sorted(hole))
+
+
+def corners(mesh):
+    """The nodes at the lower left and the lower right corner."""
+    distance = [np.hypot(mesh.points[:, 0] - x, mesh.points[:, 1] + HALF_SIDE) for x in (-HALF_SIDE, HALF_SIDE)]
+    return [int(np.argmin(d)) for d in distance]
 
 
 def forces(mesh):
@@ -72,23 +67,11 @@ def forces(mesh):
     return force
 
 
-def deck(mesh, include):
-    """The analysis: three displacements are held, those of a rigid body; loads are in equilibrium."""
-    corners = [mesh.numbers[np.argmin(np.hypot(mesh.points[:, 0] - x, mesh.points[:, 1] + HALF_SIDE))]
-               for x in (-HALF_SIDE, HALF_SIDE)]
-    force = forces(mesh)
-    lines = [f"*INCLUDE, INPUT={include}", "*NSET, NSET=SOLVED", *(f"{number}," for number in mesh.numbers),
-             "*MATERIAL, NAME=SHEET", "*ELASTIC", f"{YOUNG}, {POISSON}",
-             "*SOLID SECTION, ELSET=EALL, MATERIAL=SHEET", f"{THICKNESS}",
-             "*BOUNDARY", f"{corners[0]}, 1, 2", f"{corners[1]}, 2, 2", "*STEP", "*STATIC", "*CLOAD"]
-    for i in np.flatnonzero(np.any(force != 0, 1)):
-        lines += [f"{mesh.numbers[i]}, {k + 1}, {force[i, k]:.12g}" for k in range(2)]
-    lines += ["*NODE PRINT, NSET=SOLVED", "U", "*NODE FILE, OUTPUT=2D", "U", "*EL FILE, OUTPUT=2D", "S", "*END STEP"]
-    return "\n".join(lines) + "\n"
-
-
 def element_errors(mesh, displacement):
-    """(squared energy of the error, that of the exact solution, area), #elements each, in the order of the blocks."""
+    """(squared energy of the error, that of the exact solution, area), #elements each, in the order of the blocks.
+
+    The stresses are those of the displacements that CalculiX prints, at more points than the elements' own.
+    """
     rows = []
     for nodes, block in mesh.blocks.items():
         r, s, weights = elements.quadrature(nodes)
@@ -100,20 +83,72 @@ def element_errors(mesh, displacement):
         gradient = np.einsum("end,qnk,eqkj->eqdj", displacement[block, :2], slopes, np.linalg.inv(jacobian))
         strain = np.stack([gradient[..., 0, 0], gradient[..., 1, 1], gradient[..., 0, 1] + gradient[..., 1, 0]], -1)
         exact = exact_stress(*place.reshape(-1, 2).T).reshape(strain.shape)
-        error = strain @ np.linalg.inv(PLANE_STRESS) - exact
-        rows.append(np.stack([np.einsum("eqi,ij,eqj,eq->e", error, PLANE_STRESS, error, area),
-                              np.einsum("eqi,ij,eqj,eq->e", exact, PLANE_STRESS, exact, area), area.sum(1)], 1))
+        error = strain @ np.linalg.inv(COMPLIANCE) - exact
+        rows.append(np.stack([np.einsum("eqi,ij,eqj,eq->e", error, COMPLIANCE, error, area),
+                              np.einsum("eqi,ij,eqj,eq->e", exact, COMPLIANCE, exact, area), area.sum(1)], 1))
     return np.concatenate(rows).T
 
 
-def measures(folder, job, mesh):
-    displacement = calculix.displacements(folder, job, mesh)
-    stress = calculix.nodal_stresses(folder, job, mesh)
-    error, energy, _ = element_errors(mesh, displacement)
+def hole_stress(mesh, stress):
+    """(#hole nodes, tangential stress there as CalculiX hands it to viewers, the exact one)."""
     hole = boundary(mesh)[1]
     x, y = mesh.points[hole, 0], mesh.points[hole, 1]
     r2 = x * x + y * y
-    along = (stress[hole, 0] * y * y + stress[hole, 1] * x * x - 2 * stress[hole, 3] * x * y) / r2
-    return {"error": (error.sum() / energy.sum()) ** 0.5,
-            "concentration": along.max() / TENSION,
-            "hole": np.sqrt(np.mean((along - TENSION * (1 - 2 * (x * x - y * y) / r2)) ** 2)) / TENSION}
+    found = (stress[hole, 0] * y * y + stress[hole, 1] * x * x - 2 * stress[hole, 3] * x * y) / r2
+    return hole, found, TENSION * (1 - 2 * (x * x - y * y) / r2)
+
+
+class Plate:
+    """Sizes are even, or grow as the distance from the centre, the same for all meshers."""
+    sizes = (150, 600, 2400, 9600)
+    types = {1: {3: "CPS3", 4: "CPS4"}, 2: {6: "CPS6", 8: "CPS8"}}
+    freedoms = 2  # of a node
+    #: Exponents of the degrees of freedom: the energy norm has h^1 and h^2, and there are 1 / h^2 degrees of freedom.
+    slopes = {1: 0.5, 2: 1.0}
+    measure = "error of the stress, energy norm"
+    local = "concentration"
+    local_name = "stress concentration"
+    local_exact = CONCENTRATION
+
+    fine = 0.01  # edges of the triangles at the hole
+
+    def __init__(self, graded):
+        self.graded = graded
+        self.name = "plate-graded" if graded else "plate-even"
+        self.title = "Plate with a hole, " + ("edges as long as far from the centre" if graded else "even edges")
+
+    def geometry(self, size):
+        """For Gmsh; `size`: edge length, of graded ones at the hole."""
+        return _GEOMETRY % (f"{size!r} * Sqrt(x * x + y * y) / {RADIUS}" if self.graded else f"{size!r}")
+
+    def first_size(self, count):
+        """The edge length of so many squares."""
+        if self.graded:  # the number is the integral of 1 / (size r)^2
+            angle = np.linspace(0, np.pi / 4, 1001)
+            return (8 * np.trapz(np.log(HALF_SIDE / np.cos(angle) / RADIUS), angle) / count) ** 0.5 * RADIUS
+        return ((4 * HALF_SIDE ** 2 - np.pi * RADIUS ** 2) / count) ** 0.5
+
+    def surface(self, folder):
+        """The triangles that Quadrille gets, with sizes (None: even). Edges of 0.01 lie within 1.3e-5 of the circle."""
+        fine = meshes.gmsh(_GEOMETRY % f"{self.fine} * (1 + 3 * (Sqrt(x * x + y * y) - {RADIUS}))", folder, "fine", 6,
+                           None)
+        return fine, np.hypot(*fine.points[:, :2].T) if self.graded else None
+
+    def deck(self, mesh, include):
+        """The analysis: three displacements are held, those of a rigid body, as the loads are in equilibrium."""
+        left, right = (mesh.set_of([corner], f"SUPPORT_{i}") for i, corner in enumerate(corners(mesh)))
+        force = forces(mesh)
+        lines = [f"*INCLUDE, INPUT={include}", *left.lines, *right.lines,
+                 "*MATERIAL, NAME=SHEET", "*ELASTIC", f"{YOUNG}, {POISSON}",
+                 "*SOLID SECTION, ELSET=EALL, MATERIAL=SHEET", f"{THICKNESS}",
+                 "*BOUNDARY", f"{left.name}, 1, 2", f"{right.name}, 2, 2", "*STEP", "*STATIC", "*CLOAD"]
+        for i in np.flatnonzero(np.any(force != 0, 1)):
+            lines += [f"{mesh.numbers[i]}, {k + 1}, {force[i, k]:.12e}" for k in range(2)]
+        return lines + calculix.OUTPUT + ["*END STEP"]
+
+    def measures(self, folder, job, mesh, order):  # pylint: disable=unused-argument
+        displacement = calculix.displacements(folder, job, mesh)
+        error, energy, _ = element_errors(mesh, displacement)
+        _, found, exact = hole_stress(mesh, calculix.nodal_stresses(folder, job, mesh))
+        return {"error": (error.sum() / energy.sum()) ** 0.5, "concentration": found.max() / TENSION,
+                "hole": np.sqrt(np.mean((found - exact) ** 2)) / TENSION}
