@@ -11,8 +11,8 @@ all meshes, decks and results, results.csv, the plots, and Simulation.md, the pa
 measured section in its place. With --documentation the page and its pictures in the checkout are replaced. With
 --drawn-again nothing is solved: page and pictures are made of what is in OUT.
 
-Needs ccx and gmsh (Debian: calculix-ccx, gmsh) and a build of Quadrille in build/ (or --quadrille PATH). Takes about ten
-minutes on one core; CalculiX has to read every deck without a warning.
+Needs ccx and gmsh (Debian: calculix-ccx, gmsh) and a build of Quadrille in build/ (or --quadrille PATH). Takes about
+ten minutes on one core; CalculiX has to read every deck without a warning.
 """
 import argparse
 import pathlib
@@ -34,8 +34,9 @@ def solve_all(problems, program, folder):
                 for count in problem.sizes:
                     row = study.solve(problem, program, surface, folder, mesher, order, count)
                     rows.append(row)
-                    print(f"{problem.name}, {mesher}, order {order}: {row['elements']} elements, {row['freedoms']} "
-                          f"degrees of freedom, error {row['error']:.3e}, {problem.local} {row['local']:.4f}", flush=True)
+                    print(f"{problem.name}, {mesher}, order {order}: {row['elements']} elements, "
+                          f"{row['freedoms']} degrees of freedom, error {row['error']:.3e}, "
+                          f"{problem.local} {row['local']:.4f}", flush=True)
     return rows
 
 
@@ -57,17 +58,21 @@ def draw(problems, rows, folder):
                                for mesher in (study.OURS, "Gmsh, recombined")], target, "simulation-errors")
 
 
+def require_programs(parser, quadrille):
+    for program, remedy in (("ccx", "apt-get install calculix-ccx"), ("gmsh", "apt-get install gmsh"),
+                            (str(quadrille), "build it, or give --quadrille")):
+        if not shutil.which(program):
+            parser.error(f"{program} is not there: {remedy}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", type=pathlib.Path, help="folder, made if it is not there")
     parser.add_argument("--quadrille", type=pathlib.Path, default=HERE.parent / "build" / "bin" / "quadrille")
-    parser.add_argument("--documentation", action="store_true", help="replace the page and its pictures in the checkout")
+    parser.add_argument("--documentation", action="store_true", help="replace page and pictures in the checkout")
     parser.add_argument("--drawn-again", action="store_true", help="solve nothing; take what is in OUT")
     chosen = parser.parse_args()
-    for program in ("ccx", "gmsh", str(chosen.quadrille)):
-        if not shutil.which(program):
-            parser.error(f"{program} is not there" + (f": apt-get install {'calculix-ccx' if program == 'ccx' else program}"
-                                                      if program in ("ccx", "gmsh") else ", build it or give --quadrille"))
+    require_programs(parser, chosen.quadrille)
     folder = chosen.out.resolve()
     folder.mkdir(parents=True, exist_ok=True)
     problems = plate.Plate(graded=False), plate.Plate(graded=True), roof.Roof()

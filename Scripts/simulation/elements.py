@@ -76,7 +76,7 @@ def quadrature(nodes):
 
 
 def edges(nodes):
-    """The edges of the element with so many nodes, each as places in its list: begin, end and, if it has one, middle."""
+    """The edges of the element with so many nodes, as places in its list: begin, end and, if there is one, middle."""
     corners = CORNERS[nodes]
     middle = [(corners + i,) for i in range(corners)] if nodes > corners else [()] * corners
     return [(i, (i + 1) % corners) + middle[i] for i in range(corners)]

@@ -113,9 +113,12 @@ def read_inp(path):
         for value in values:  # a number, or the name of a set that is part of this one
             flat += [place[int(value)]] if str(value).isdigit() else members[str(value).upper()]
         members[name] = flat
-    return Mesh(np.array(points), np.array(numbers),
-                {nodes: np.array([[place[n] for n in element] for element in block]) for nodes, block in blocks.items()},
+    return Mesh(np.array(points), np.array(numbers), _placed(blocks, place),
                 {name: np.array(sorted(set(flat)), int) for name, flat in members.items()})
+
+
+def _placed(blocks, place):
+    return {nodes: np.array([[place[n] for n in element] for element in block]) for nodes, block in blocks.items()}
 
 
 def read_msh(path):
@@ -130,8 +133,7 @@ def read_msh(path):
             blocks.setdefault(GMSH_NODES[words[1]], []).append(words[3 + words[2]:])
     used = sorted({node for block in blocks.values() for element in block for node in element})
     place = {number: i for i, number in enumerate(used)}
-    return Mesh(np.array([coordinates[number] for number in used]), np.arange(1, len(used) + 1),
-                {count: np.array([[place[n] for n in element] for element in block]) for count, block in blocks.items()})
+    return Mesh(np.array([coordinates[number] for number in used]), np.arange(1, len(used) + 1), _placed(blocks, place))
 
 
 def write_inp(mesh, types, path):

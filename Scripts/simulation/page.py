@@ -22,7 +22,8 @@ def _versions(program):
     def said(command):
         done = subprocess.run(command, capture_output=True, text=True, check=True)
         return re.search(r"\d+(?:\.\d+)+", done.stdout + done.stderr).group()
-    return f"Quadrille {said([program, '--version'])}, CalculiX {calculix.version()}, Gmsh {said(['gmsh', '--version'])}."
+    ours, gmsh = said([program, "--version"]), said(["gmsh", "--version"])
+    return f"Quadrille {ours}, CalculiX {calculix.version()}, Gmsh {gmsh}."
 
 
 def _table(head, lines):

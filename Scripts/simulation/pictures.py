@@ -31,8 +31,8 @@ def _panel(axes, rows, problem, order):
     low = min(np.min(e * f ** problem.slopes[order]) for f, e in known) * 0.6
     axes.loglog(ends, low * ends ** -problem.slopes[order], "k--", lw=1,
                 label=f"theory: dof$^{{-{problem.slopes[order]:g}}}$")
-    axes.set_title(f"{problem.title}\n{' and '.join(problem.types[order][n] for n in sorted(problem.types[order])[::-1])}",
-                   fontsize=10)
+    types = " and ".join(name for _, name in sorted(problem.types[order].items(), reverse=True))
+    axes.set_title(f"{problem.title}\n{types}", fontsize=10)
     axes.set_xlabel(f"degrees of freedom ({problem.freedoms} a node)")
     axes.set_ylabel(problem.measure)
     axes.grid(True, which="both", color="#dddddd", lw=0.5)

@@ -3,8 +3,8 @@
 """A square piece of an infinite plate with a circular hole under tension, in plane stress [Kirsch 1898].
 
 The exact stresses of the infinite plate are put onto the outer edges as tractions, so the exact solution of the piece
-is known in closed form and is smooth, and the error of finite elements has the theory's slope. The stress at the hole is
-three times the tension.
+is known in closed form and is smooth, and the error of finite elements has the theory's slope. The stress at the hole
+is three times the tension.
 """
 import numpy as np
 

@@ -9,8 +9,8 @@ from . import calculix, meshes
 
 OURS = "Quadrille"
 MESHERS = (OURS, *meshes.GMSH)
-COLUMNS = ("problem", "mesher", "order", "count", "elements", "triangles", "irregular", "nodes", "freedoms", "equations",
-           "error", "local", "hole")
+COLUMNS = ("problem", "mesher", "order", "count", "elements", "triangles", "irregular", "nodes", "freedoms",
+           "equations", "error", "local", "hole")
 
 
 def job_name(problem, mesher, order, count):
@@ -55,7 +55,9 @@ def read_rows(path):
     def value(name, word):
         if word == "":
             return None
-        return word if name in ("problem", "mesher") else float(word) if name in ("error", "local", "hole") else int(word)
+        if name in ("problem", "mesher"):
+            return word
+        return float(word) if name in ("error", "local", "hole") else int(word)
 
     with open(path, encoding="utf-8", newline="") as file:
         return [{name: value(name, word) for name, word in row.items()} for row in csv.DictReader(file)]
