@@ -17,6 +17,8 @@ packages=(
   python3-matplotlib                    # figures of quadrille-evaluate
   gmsh python3-gmsh python3-meshio calculix-ccx # the test of formats reads files back with them
   valgrind                              # instructions, for Scripts/figures.py
+  calculix-ccx                          # solves what Scripts/solved_example.py sets up
+  gmsh                                  # its meshes beside ours, in the solved example and in quadrille-evaluate
   clang-format clang-tidy               # the tests hold the sources against them
   xvfb xauth libqt5svg5 libgl1-mesa-dri # pictures without a screen
   xdotool                               # mouse and keyboard for Testing/Plugin/count_actions.py
