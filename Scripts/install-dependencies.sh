@@ -15,10 +15,9 @@ packages=(
   libcli11-dev nlohmann-json3-dev       # options and reports of the commands, files of sessions
   libgtest-dev python3 python3-numpy python3-scipy
   python3-matplotlib                    # figures of quadrille-evaluate
-  gmsh python3-gmsh python3-meshio calculix-ccx # the test of formats reads files back with them
+  gmsh python3-gmsh python3-meshio calculix-ccx # the test of formats reads files back with them; the first and the last
+                                        # are what Scripts/solved_example.py compares with and solves by
   valgrind                              # instructions, for Scripts/figures.py
-  calculix-ccx                          # solves what Scripts/solved_example.py sets up
-  gmsh                                  # its meshes beside ours, in the solved example and in quadrille-evaluate
   clang-format clang-tidy               # the tests hold the sources against them
   xvfb xauth libqt5svg5 libgl1-mesa-dri # pictures without a screen
   xdotool                               # mouse and keyboard for Testing/Plugin/count_actions.py

@@ -100,10 +100,10 @@ def solutions(plate_mesh, stress, roof_mesh, displacement, folder, name):
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])
     axes.set_zlim(low[2] - 4, high[2])
-    axes.set_box_aspect((high - low + [0, 0, 4]), zoom=1.25)
+    axes.set_box_aspect((high - low + [0, 0, 4]), zoom=1.05)
     axes.view_init(28, -58)
     axes.set_axis_off()
-    axes.set_title(f"deflection; the shape is drawn {factor} times as far")
+    axes.set_title(f"deflection, drawn {factor} times as large")
     figure.colorbar(shown, ax=axes, shrink=0.8)
     figure.tight_layout()
     save(figure, folder, name, ("png",))
@@ -115,11 +115,11 @@ def _closed(polygons):
 
 def where_errors_are(panels, folder, name):
     """Panels of a plate: (title, mesh, displacement), round the hole: the error of the stress in each element."""
-    figure, axes = plt.subplots(1, len(panels), figsize=(5.4 * len(panels) + 0.8, 5.4))
+    figure, axes = plt.subplots(1, len(panels), figsize=(5.4 * len(panels) + 0.8, 5.4), layout="constrained")
     for panel, (title, mesh, displacement) in zip(axes, panels):
         error, energy, area = plate.element_errors(mesh, displacement)
-        shown = PolyCollection([polygon[:, :2] for polygon in _outlines(mesh)], array=np.sqrt(error / area),
-                               cmap="magma_r", edgecolors="#666666", linewidths=0.4)
+        shown = PolyCollection([polygon[:, :2] for polygon in _outlines(mesh)], cmap="magma_r", edgecolors="#666666",
+                               linewidths=0.4)
         mean_stress = np.sqrt(energy.sum() / area.sum())
         shown.set_array(np.sqrt(error / area) / mean_stress)
         shown.set_clim(0, 0.04)
@@ -129,5 +129,5 @@ def where_errors_are(panels, folder, name):
         panel.set_aspect("equal")
         panel.set_axis_off()
         panel.set_title(title)
-    figure.colorbar(shown, ax=axes, shrink=0.8, label="error of the stress over the mean stress")
+    figure.colorbar(shown, ax=axes, shrink=0.9, label="error of the stress over the mean stress")
     save(figure, folder, name, ("png",))

@@ -115,7 +115,7 @@ class Plate:
     def __init__(self, graded):
         self.graded = graded
         self.name = "plate-graded" if graded else "plate-even"
-        self.title = "Plate with a hole, " + ("edges as long as far from the centre" if graded else "even edges")
+        self.title = "Plate with a hole, " + ("edges graded towards it" if graded else "even edges")
 
     def geometry(self, size):
         """For Gmsh; `size`: edge length, of graded ones at the hole."""
@@ -146,7 +146,7 @@ class Plate:
             lines += [f"{mesh.numbers[i]}, {k + 1}, {force[i, k]:.12e}" for k in range(2)]
         return lines + calculix.OUTPUT + ["*END STEP"]
 
-    def measures(self, folder, job, mesh, order):  # pylint: disable=unused-argument
+    def measures(self, folder, job, mesh):
         displacement = calculix.displacements(folder, job, mesh)
         error, energy, _ = element_errors(mesh, displacement)
         _, found, exact = hole_stress(mesh, calculix.nodal_stresses(folder, job, mesh))

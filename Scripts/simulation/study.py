@@ -35,7 +35,7 @@ def solve(problem, program, surface, folder, mesher, order, count):
         mesh = meshes.gmsh_mesh(problem, folder, job, mesher, wanted, order)
     calculix.write(folder, job, problem.deck(mesh, f"{job}_mesh.inp"))
     equations = calculix.solve(folder, job)
-    measured = problem.measures(folder, job, mesh, order)
+    measured = problem.measures(folder, job, mesh)
     row = {"problem": problem.name, "mesher": mesher, "order": order, "count": count, "elements": mesh.count(),
            "triangles": sum(len(block) for nodes, block in mesh.blocks.items() if nodes in (3, 6)),
            "irregular": mesh.irregular(), "nodes": len(mesh.points), "freedoms": problem.freedoms * len(mesh.points),
