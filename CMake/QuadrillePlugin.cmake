@@ -61,7 +61,7 @@ if(PARAVIEW_USE_PYTHON)
     LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}/${PARAVIEW_PLUGIN_SUBDIR}/Quadrille"
     INSTALL_HEADERS     OFF
     BUILD_STATIC        OFF)
-  foreach(file IN ITEMS __init__ _errors _files _inputs _proxies _repair _session)
+  foreach(file IN ITEMS __init__ _elements _errors _files _inputs _proxies _repair _session)
     configure_file("${CMAKE_SOURCE_DIR}/Filters/Python/${file}.py"
       "${CMAKE_BINARY_DIR}/${QUADRILLE_PYTHON_DIR}/quadrille/${file}.py" COPYONLY)
     install(FILES "${CMAKE_SOURCE_DIR}/Filters/Python/${file}.py"

@@ -80,7 +80,7 @@ const std::array<ElementMeasure, kMeasureCount>& elementMeasures()
   static const std::array<ElementMeasure, kMeasureCount> measures{
     ElementMeasure{ "scaled-jacobian", "ScaledJacobian", true },
     ElementMeasure{ "aspect-ratio", "AspectRatio", false }, ElementMeasure{ "skew", "Skew", false },
-    ElementMeasure{ "warpage", "Warpage", false }, ElementMeasure{ "taper", "Taper", false },
+    ElementMeasure{ "warpage", "Warpage", true }, ElementMeasure{ "taper", "Taper", false },
     ElementMeasure{ "edge-ratio", "EdgeRatio", false },
     ElementMeasure{ "minimum-angle", "MinimumAngle", true },
     ElementMeasure{ "maximum-angle", "MaximumAngle", false }

@@ -619,8 +619,11 @@ ExitCode execute(RemeshRun& run, Request& request)
   }
   if (!request.elements.isGood())
   {
-    std::fprintf(
-      stderr, "quadrille: %s: %s\n", files.output.c_str(), request.elements.failure().c_str());
+    // The summary has it already.
+    const std::string reason = request.quiet
+      ? request.elements.failure()
+      : "elements fail --require, see above; the mesh was written";
+    std::fprintf(stderr, "quadrille: %s: %s\n", files.output.c_str(), reason.c_str());
     return kNoValidResult;
   }
   return code;

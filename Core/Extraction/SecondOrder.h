@@ -61,9 +61,9 @@ struct SecondOrderNodes
 };
 
 /// A node between two corners lies halfway between them: in the plane that is perpendicular to the straight edge in its
-/// middle, on an edge that lies on a feature or boundary on its curve (see chainBetween), on any other on the section of
-/// the surface with the plane that contains the edge and the normal of its quads. The node in a quad's centre lies so
-/// between those of two of its edges.
+/// middle, on an edge that lies on a feature or boundary on its curve (see chainBetween), on any other on the section
+/// of the surface with the plane that contains the edge and the normal of its quads. The node in a quad's centre lies
+/// so between those of two of its edges.
 ///
 /// Then no element whose corners allow it has a determinant that is not positive at its nodes and Gauss points, see
 /// QuadraticShape: of an element that has one a node moves towards the middle of its straight edge, at first along the

@@ -10,6 +10,8 @@
     surface, findings = quadrille.repair(mesh)                  # damaged surfaces; both need a build with CGAL
     surface = quadrille.wrap(mesh, alpha=0.1)
 
+    elements = quadrille.elements(quads, surface, order=2)      # vtkUnstructuredGrid of second order, for simulation
+
     session = quadrille.Session(mesh, quads=5000)               # change one thing, and see what it does
     session.set_valence(point, 5)
     session.update()
@@ -17,14 +19,15 @@
     quadrille.check(QuadRemesh(Input=surface))                  # in a script of ParaView: raises where it fails
 
 The VTK classes themselves are here too: vtkQuadRemesh, vtkDecimationHierarchy, vtkIntegerGridMap,
-vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkIntegerGridMapQuality, vtkIntegerGridMapComparison, vtkQuadrilleSession,
-the source vtkQuadConstraintSource, the readers vtkQuadrilleOFFReader and vtkQuadrillePLYReader, and in
-QuadrilleFilters, where there is CGAL, vtkSurfaceRepair, vtkSurfaceWrap and vtkQuadProjection.
+vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkQuadElements, vtkIntegerGridMapQuality, vtkIntegerGridMapComparison,
+vtkQuadrilleSession, the source vtkQuadConstraintSource, the readers vtkQuadrilleOFFReader and vtkQuadrillePLYReader,
+and in QuadrilleFilters, where there is CGAL, vtkSurfaceRepair, vtkSurfaceWrap and vtkQuadProjection.
 """
 import collections
 
 from vtkmodules import vtkCommonExecutionModel as _execution_model  # base classes of the filters
 
+from ._elements import FailedElements, elements
 from ._errors import InvalidInput, RemeshError, one_of, real, whole
 from ._files import read
 from ._inputs import as_curves, as_surface, to_polydata, with_requests
@@ -38,6 +41,7 @@ from .QuadrilleFilters import (
     vtkIntegerGridMapQuality,
     vtkIntegerGridMapUpmap,
     vtkQuadConstraintSource,
+    vtkQuadElements,
     vtkQuadExtraction,
     vtkQuadRemesh,
     vtkQuadrilleOFFReader,
@@ -46,10 +50,10 @@ from .QuadrilleFilters import (
 )
 
 __all__ = [
-    "InvalidInput", "Irregular", "RemeshError", "Remeshed", "Session", "check", "has_cgal", "info", "read",
-    "remesh", "repair", "to_arrays", "to_polydata", "wrap",
+    "FailedElements", "InvalidInput", "Irregular", "RemeshError", "Remeshed", "Session", "check", "elements",
+    "has_cgal", "info", "read", "remesh", "repair", "to_arrays", "to_polydata", "wrap",
     "vtkDecimationHierarchy", "vtkIntegerGridMap", "vtkIntegerGridMapComparison", "vtkIntegerGridMapQuality",
-    "vtkIntegerGridMapUpmap", "vtkQuadConstraintSource", "vtkQuadExtraction", "vtkQuadRemesh",
+    "vtkIntegerGridMapUpmap", "vtkQuadConstraintSource", "vtkQuadElements", "vtkQuadExtraction", "vtkQuadRemesh",
     "vtkQuadrilleOFFReader", "vtkQuadrillePLYReader", "vtkQuadrilleSession",
 ]
 
