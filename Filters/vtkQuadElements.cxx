@@ -356,10 +356,12 @@ vtkSmartPointer<vtkUnstructuredGrid> vtkQuadElements::MakeSecondOrder(
   }
   if (!nodes.byNearest.empty())
   {
-    this->AddNotice("no way over the faces leads to " +
+    this->AddNotice("no short way over the faces leads to " +
       countText(nodes.byNearest.size(), "node", "nodes") + ", the first at " +
       nodePlace(nodes, nodes.byNearest.front()) +
-      ": taken to the nearest face with the same side outside");
+      ": taken to the nearest face with the same side outside, or left on the straight edge; "
+      "smaller "
+      "quads would follow the surface there");
   }
   if (!nodes.invertedQuads.empty())
   {

@@ -30,7 +30,7 @@ void ElementRun::addOptions(CommandOptions& options)
   options.addCount(
     "nodes", "N", { 8, 9 },
     [this](long long nodes) { filter_->SetNodesPerElement(static_cast<int>(nodes)); },
-    "with --order 2: 8 nodes an element (default), or 9, with one in the centre");
+    "with --order 2: 8 nodes an element (default), or 9, with one in the centre (vtu only)");
   options.addFlag(
     "quality",
     [this]
@@ -115,6 +115,12 @@ void ElementRun::check(const CommandOptions& options, const std::string& output)
   if (isAsked() && output.empty())
   {
     throw UsageError("the method seamless makes no quads, so there are no elements");
+  }
+  const std::string extension = extensionOf(output);
+  if (isSecond && filter_->GetNodesPerElement() == 9 && (extension == "ex2" || extension == "e"))
+  {
+    throw UsageError(
+      "VTK writes no elements of 9 nodes to Exodus files: give --nodes 8, or a vtu file");
   }
   if (isSecond && !canWriteElements(output))
   {

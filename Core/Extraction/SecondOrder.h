@@ -53,8 +53,9 @@ struct SecondOrderNodes
 
   /// Edges of features or of the boundary that no curve of the surface is found for: their nodes lie on the surface.
   std::vector<Index> withoutCurve; ///< ascending
-  /// Nodes that no way over the faces leads to: on the nearest place that faces them, or, where there is none, off the
-  /// surface.
+  /// Nodes that no way over the faces leads to, or only one that goes farther from the straight edge than half its
+  /// length: on the nearest place on the same side outside, or, where there is none as near, off the surface, in the
+  /// middle of the straight edge.
   std::vector<Index> byNearest; ///< ascending
   std::vector<Index>
     invertedQuads; ///< ascending; their corners alone have a determinant that is not positive

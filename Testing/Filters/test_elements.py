@@ -46,27 +46,28 @@ class TestCommand(unittest.TestCase):
             self.assertIn('"good": 2', result.stdout)
 
     def test_exodus_has_the_elements_of_vtu(self):
-        for nodes, kind in ((8, VTK_QUADRATIC_QUAD), (9, VTK_BIQUADRATIC_QUAD)):
-            grids = []
-            for name in ("part.vtu", "part.ex2"):
-                out = self.work / name
-                options = ("--quads", 300, "--order", 2, "--nodes", nodes, "--quiet")
-                self.assertEqual(run(self.part, out, *options).returncode, 0)
-                if name == "part.vtu":
-                    grids.append(read(out))
-                    continue
-                reader = vtkExodusIIReader()
-                reader.SetFileName(str(out))
-                reader.Update()
-                grids.append(reader.GetOutput().GetBlock(0).GetBlock(0))
-            self.assertEqual({grid.GetCellType(0) for grid in grids}, {kind})
-            # Node by node of each element, as the reader numbers points by their use.
-            points = [vtk_to_numpy(grid.GetPoints().GetData())[vtk_to_numpy(grid.GetCells().GetConnectivityArray())]
-                      for grid in grids]
-            self.assertEqual(points[0].shape, points[1].shape)
-            size = numpy.ptp(points[0], axis=0).max()
-            # Exodus files of small models are in single precision.
-            self.assertLess(abs(points[0] - points[1]).max(), 1e-6 * size)
+        grids = []
+        for name in ("part.vtu", "part.ex2"):
+            out = self.work / name
+            self.assertEqual(run(self.part, out, "--quads", 300, "--order", 2, "--quiet").returncode, 0)
+            if name == "part.vtu":
+                grids.append(read(out))
+                continue
+            reader = vtkExodusIIReader()
+            reader.SetFileName(str(out))
+            reader.Update()
+            grids.append(reader.GetOutput().GetBlock(0).GetBlock(0))
+        self.assertEqual({grid.GetCellType(0) for grid in grids}, {VTK_QUADRATIC_QUAD})
+        # Node by node of each element, as the reader numbers points by their use.
+        points = [vtk_to_numpy(grid.GetPoints().GetData())[vtk_to_numpy(grid.GetCells().GetConnectivityArray())]
+                  for grid in grids]
+        self.assertEqual(points[0].shape, points[1].shape)
+        size = numpy.ptp(points[0], axis=0).max()
+        # Exodus files of small models are in single precision.
+        self.assertLess(abs(points[0] - points[1]).max(), 1e-6 * size)
+        result = run(self.part, self.work / "nine.ex2", "--order", 2, "--nodes", 9)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("9 nodes", result.stderr)
 
     def test_limits(self):
         out, report = self.work / "limits.vtp", self.work / "limits.json"
@@ -135,7 +136,13 @@ class TestCommand(unittest.TestCase):
 
 
 class TestFunction(unittest.TestCase):
+    def with_nodes(self, nodes):
+        surface = quadrille.read(str(GIVEN.data / "frame.ply"))
+        made = quadrille.remesh(surface, quads=300, everything=True)
+        return quadrille.elements(made.quads, made.surface, order=2, nodes=nodes)
+
     def test_elements(self):
+        self.assertEqual(self.with_nodes(9).GetCellType(0), VTK_BIQUADRATIC_QUAD)
         surface = quadrille.read(str(GIVEN.data / "part.ply"))
         quads = quadrille.remesh(surface, quads=300)
         grid = quadrille.elements(quads, surface, order=2, quality=True, require="scaled-jacobian>0")
