@@ -25,8 +25,8 @@ enum class AxisFallback
   Element = 4 ///< from the middle of its edge 3 to that of edge 1
 };
 
-/// The frame of an element, at the centre of the quad of its corners. Rows: axis 1, axis 2 = axis 3 x axis 1, axis 3 the
-/// normal. NaN for an element without a normal.
+/// The frame of an element, at the centre of the quad of its corners. Rows: axis 1, axis 2 = axis 3 x axis 1, axis 3
+/// the normal. NaN for an element without a normal.
 using ElementFrame = Eigen::Matrix3d;
 
 /// With axis 1 from the middle of the element's edge 3 to that of edge 1. threads: 0 for all.
@@ -39,9 +39,9 @@ struct ElementNotice
   vtkIdType first = 0;   ///< of them
 };
 
-/// Adds the cell array Thickness: the cell array of the name as it is, or the mean of the point array over each element.
-/// Returns the elements whose thickness is not positive. Throws InvalidInput for an array that is missing or has more
-/// than one number.
+/// Adds the cell array Thickness: the cell array of the name as it is, or the mean of the point array over each
+/// element. Returns the elements whose thickness is not positive. Throws InvalidInput for an array that is missing or
+/// has more than one number.
 ElementNotice addThickness(vtkUnstructuredGrid* grid, const std::string& name, int threads);
 
 /// Turns axis 1 of the frames into the direction of the cell or point array of the name, projected into the element,

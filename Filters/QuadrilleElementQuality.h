@@ -58,8 +58,8 @@ struct ElementRequirement
   bool isLowBad() const;
 };
 
-/// "scaled-jacobian>0.2"; spaces do not count, and array names count as names. Throws InvalidInput that says what it may
-/// be.
+/// "scaled-jacobian>0.2"; spaces do not count, and array names count as names. Throws InvalidInput that says what it
+/// may be.
 ElementRequirement parseRequirement(const std::string& text);
 
 /// Values of one measure, an element each.
@@ -68,8 +68,8 @@ std::vector<double> measureElements(vtkUnstructuredGrid* grid, std::size_t measu
 /// Adds a value to each element as the cell array of the measure.
 void addMeasure(vtkUnstructuredGrid* grid, std::size_t measure, const std::vector<double>& values);
 
-/// Columns <Measure>From, <Measure>To and <Measure>Elements of `bins` equal parts of the range of the values. What is no
-/// number, or without bound (Verdict: 1e30), is left out.
+/// Columns <Measure>From, <Measure>To and <Measure>Elements of `bins` equal parts of the range of the values. What is
+/// no number, or without bound (Verdict: 1e30), is left out.
 void addHistogram(
   vtkTable* table, std::size_t measure, const std::vector<double>& values, int bins);
 

@@ -33,7 +33,7 @@ namespace
 using quadrille::Index;
 
 /// "3 nodes", "1 node".
-std::string countOf(std::size_t count, const std::string& one, const std::string& several)
+std::string countText(std::size_t count, const std::string& one, const std::string& several)
 {
   return std::to_string(count) + " " + (count == 1 ? one : several);
 }
@@ -119,7 +119,7 @@ public:
   {
     const std::vector<double>& values = valuesOf(requirement.measure);
     std::ostringstream text;
-    text << failed << " of " << countOf(values.size(), "element", "elements")
+    text << failed << " of " << countText(values.size(), "element", "elements")
          << (failed == 1 ? " fails " : " fail ") << requirement.text;
     const char* separator = ", the worst: ";
     for (const vtkIdType id :
@@ -334,7 +334,7 @@ vtkSmartPointer<vtkUnstructuredGrid> vtkQuadElements::MakeSecondOrder(
   if (found.offSurface > 0)
   {
     std::ostringstream text;
-    text << countOf(found.offSurface, "point of the quads lies", "points of the quads lie")
+    text << countText(found.offSurface, "point of the quads lies", "points of the quads lie")
          << " off the surface, by up to " << found.farthest << " at "
          << quadrille::placeText(quads.points[static_cast<std::size_t>(found.farthestPoint)])
          << ": is it the surface that they were made of?";
@@ -342,7 +342,7 @@ vtkSmartPointer<vtkUnstructuredGrid> vtkQuadElements::MakeSecondOrder(
   }
   if (moved.along + moved.off > 0)
   {
-    this->AddNotice(countOf(moved.along + moved.off, "node", "nodes") +
+    this->AddNotice(countText(moved.along + moved.off, "node", "nodes") +
       " moved back towards the straight edge, so that no element is folded: " +
       std::to_string(moved.along) + " along the surface, " + std::to_string(moved.off) + " off it" +
       (moved.off > 0 ? ", the first at " + nodePlace(nodes, moved.firstOff) : ""));
@@ -350,21 +350,23 @@ vtkSmartPointer<vtkUnstructuredGrid> vtkQuadElements::MakeSecondOrder(
   if (!nodes.withoutCurve.empty())
   {
     this->AddNotice("no curve of the surface was found along " +
-      countOf(nodes.withoutCurve.size(), "edge", "edges") +
+      countText(nodes.withoutCurve.size(), "edge", "edges") +
       " of a feature or boundary, the first at " + nodePlace(nodes, nodes.withoutCurve.front()) +
       ": the nodes lie on the surface alone");
   }
   if (!nodes.byNearest.empty())
   {
-    this->AddNotice("no way over the faces leads to " +
-      countOf(nodes.byNearest.size(), "node", "nodes") + ", the first at " +
+    this->AddNotice("no short way over the faces leads to " +
+      countText(nodes.byNearest.size(), "node", "nodes") + ", the first at " +
       nodePlace(nodes, nodes.byNearest.front()) +
-      ": taken to the nearest face with the same side outside");
+      ": taken to the nearest face with the same side outside, or left on the straight edge; "
+      "smaller "
+      "quads would follow the surface there");
   }
   if (!nodes.invertedQuads.empty())
   {
     const Index first = nodes.invertedQuads.front();
-    this->AddWarning(countOf(nodes.invertedQuads.size(), "element is", "elements are") +
+    this->AddWarning(countText(nodes.invertedQuads.size(), "element is", "elements are") +
       " folded at a corner whatever its nodes are, the first is element " + std::to_string(first) +
       " at " + quadrille::placeText(quads.points[quads.quads[first][0]]));
   }
@@ -385,7 +387,7 @@ void vtkQuadElements::AddProperties(vtkUnstructuredGrid* grid)
       quadrille::addThickness(grid, this->ThicknessArrayName, this->NumberOfThreads);
     if (wrong.count > 0)
     {
-      this->AddWarning("the thickness of " + countOf(wrong.count, "element", "elements") +
+      this->AddWarning("the thickness of " + countText(wrong.count, "element", "elements") +
         " is not positive, the first is " + placeOf(wrong.first));
     }
   }
@@ -405,7 +407,7 @@ void vtkQuadElements::AddProperties(vtkUnstructuredGrid* grid)
       constexpr std::array<const char*, 5> kNames{ "", "the x axis", "the y axis", "the z axis",
         "their own direction" };
       this->AddNotice("the direction '" + this->AxisArrayName +
-        "' is zero or along the normal of " + countOf(replaced.count, "element", "elements") +
+        "' is zero or along the normal of " + countText(replaced.count, "element", "elements") +
         ", the first is " + placeOf(replaced.first) + ": they got " +
         kNames[static_cast<std::size_t>(this->AxisFallback)]);
     }

@@ -4,20 +4,20 @@
  * @class   vtkQuadElements
  * @brief   quads as elements for simulation, of first or second order
  *
- * Input port 0 takes quads, as of vtkQuadRemesh. Port 1 takes the surface that they were made of, for elements of second
- * order: the input of vtkQuadRemesh, or its output 1, the mapped surface, which also has the curves that were drawn and
- * is without the handles and holes that were closed.
+ * Input port 0 takes quads, as of vtkQuadRemesh. Port 1 takes the surface that they were made of, for elements of
+ * second order: the input of vtkQuadRemesh, or its output 1, the mapped surface, which also has the curves that were
+ * drawn and is without the handles and holes that were closed.
  *
  * Output 0 is a vtkUnstructuredGrid of VTK_QUAD, VTK_QUADRATIC_QUAD or VTK_BIQUADRATIC_QUAD with the points of the
- * quads, by their ids, and behind them the nodes of edges and of centres; with all arrays of the quads. Nodes lie on the
- * surface, on features and boundaries on their curves, see Extraction/SecondOrder.h. Where an element would be folded at
- * a node or Gauss point, nodes move back towards the middle of the straight edge; the point array MovedBack has 0 where
- * a node stayed, 1 where it moved along the surface or curve, 2 where it left it. Point arrays at new nodes are those of
- * the same name of the surface there, others the mean of the corners; Valence is 0.
+ * quads, by their ids, and behind them the nodes of edges and of centres; with all arrays of the quads. Nodes lie on
+ * the surface, on features and boundaries on their curves, see Extraction/SecondOrder.h. Where an element would be
+ * folded at a node or Gauss point, nodes move back towards the middle of the straight edge; the point array MovedBack
+ * has 0 where a node stayed, 1 where it moved along the surface or curve, 2 where it left it. Point arrays at new nodes
+ * are those of the same name of the surface there, others the mean of the corners; Valence is 0.
  *
- * On request the cell arrays ScaledJacobian, AspectRatio, Skew, Warpage, Taper, EdgeRatio, MinimumAngle and MaximumAngle
- * are added, as Verdict defines them (vtkMeshQuality), of the quad of the corners; Thickness, ElementAxis, and vectors in
- * the frame of each element.
+ * On request the cell arrays ScaledJacobian, AspectRatio, Skew, Warpage, Taper, EdgeRatio, MinimumAngle and
+ * MaximumAngle are added, as Verdict defines them (vtkMeshQuality), of the quad of the corners; Thickness, ElementAxis,
+ * and vectors in the frame of each element.
  *
  * Output 1 is a vtkTable with the histograms of the measures: columns <Measure>From, <Measure>To, <Measure>Elements.
  * Output 2 is a vtkPolyData with vertices at the worst elements: point arrays ElementId, Measure, Value.
@@ -121,7 +121,8 @@ public:
 
   ///@{
   /**
-   * The measure by which the worst elements are told beside those of requirements, a Measures. Default: SCALED_JACOBIAN.
+   * The measure by which the worst elements are told beside those of requirements, a Measures. Default:
+   * SCALED_JACOBIAN.
    */
   vtkSetClampMacro(WorstMeasure, int, SCALED_JACOBIAN, MAXIMUM_ANGLE);
   vtkGetMacro(WorstMeasure, int);
@@ -137,10 +138,10 @@ public:
 
   ///@{
   /**
-   * Limits that all elements have to keep: a measure, <, <=, > or >=, and a number, as in "scaled-jacobian>0.2". Measures
-   * are scaled-jacobian, aspect-ratio, skew, warpage, taper, edge-ratio, minimum-angle and maximum-angle, angles in
-   * degrees. A value that is no number keeps none. Elements that do not are counted and told by a warning with the
-   * worst places; the outputs are made all the same. Default: none.
+   * Limits that all elements have to keep: a measure, <, <=, > or >=, and a number, as in "scaled-jacobian>0.2".
+   * Measures are scaled-jacobian, aspect-ratio, skew, warpage, taper, edge-ratio, minimum-angle and maximum-angle,
+   * angles in degrees. A value that is no number keeps none. Elements that do not are counted and told by a warning
+   * with the worst places; the outputs are made all the same. Default: none.
    */
   void AddRequirement(const char* text);
   void RemoveAllRequirements();
@@ -154,8 +155,8 @@ public:
 
   ///@{
   /**
-   * A cell or point array of the quads with one number that becomes the cell array Thickness: of cells as it is, which is
-   * the mean by area where the quads were made with CellDataFrom Area, of points the mean over the element. "", the
+   * A cell or point array of the quads with one number that becomes the cell array Thickness: of cells as it is, which
+   * is the mean by area where the quads were made with CellDataFrom Area, of points the mean over the element. "", the
    * default: none.
    */
   vtkSetStdStringFromCharMacro(ThicknessArrayName);
@@ -164,9 +165,9 @@ public:
 
   ///@{
   /**
-   * A cell or point array of the quads with three numbers, as GuidingDirection, that becomes the cell array ElementAxis:
-   * its direction in the plane of the element, of the length 1. The plane is that of the normal at the centre of the
-   * quad of the corners. "", the default: none.
+   * A cell or point array of the quads with three numbers, as GuidingDirection, that becomes the cell array
+   * ElementAxis: its direction in the plane of the element, of the length 1. The plane is that of the normal at the
+   * centre of the quad of the corners. "", the default: none.
    */
   vtkSetStdStringFromCharMacro(AxisArrayName);
   vtkGetCharFromStdStringMacro(AxisArrayName);
@@ -183,8 +184,8 @@ public:
 
   ///@{
   /**
-   * What elements get whose direction is zero or along the normal, an AxisFallbacks; how many they are is told. Default:
-   * AXIS_REQUIRED.
+   * What elements get whose direction is zero or along the normal, an AxisFallbacks; how many they are is told.
+   * Default: AXIS_REQUIRED.
    */
   vtkSetClampMacro(AxisFallback, int, AXIS_REQUIRED, AXIS_OF_ELEMENT);
   vtkGetMacro(AxisFallback, int);

@@ -15,6 +15,7 @@ import json
 import pathlib
 import subprocess
 import sys
+import tempfile
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -117,7 +118,7 @@ def main():
     arguments.add_argument("models", nargs="+", type=pathlib.Path)
     arguments.add_argument("--quads", type=int, default=2500)
     arguments.add_argument("--nodes", type=int, default=8)
-    arguments.add_argument("--work", type=pathlib.Path, default=pathlib.Path("/tmp/second_order"))
+    arguments.add_argument("--work", type=pathlib.Path, default=pathlib.Path(tempfile.gettempdir()) / "second_order")
     options = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
     given = arguments.parse_args(sys.argv[1:sys.argv.index("--")] if "--" in sys.argv else None)
     given.work.mkdir(parents=True, exist_ok=True)

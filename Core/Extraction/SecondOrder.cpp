@@ -201,6 +201,31 @@ private:
     return place;
   }
 
+  /// How far from its straight place a node may lie, but on a curve: as on a half circle over the edge, and a little
+  /// more for rounding. What is farther, as behind a wall that the straight edge goes through, would be a spike.
+  double reachOf(std::size_t n) const
+  {
+    constexpr double kHalfCircle = 0.51;
+    const auto length = [this](Index edge) {
+      return (quads_.points[nodes_.edges[edge][1]] - quads_.points[nodes_.edges[edge][0]]).norm();
+    };
+    if (!isCentre(n))
+    {
+      return kHalfCircle * length(static_cast<Index>(n));
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (const Index edge : nodes_.edgesOfQuad[quadOfCentre(n)])
+    {
+      least = std::min(least, length(edge));
+    }
+    return kHalfCircle * least;
+  }
+
+  bool isNear(std::size_t n, const Vector3& p) const
+  {
+    return (p - straightPlace(n)).norm() <= reachOf(n);
+  }
+
   void place(std::size_t first, std::size_t last)
   {
     parallelFor(last - first, kNodeChunk, options_.threads,
@@ -233,7 +258,8 @@ private:
       }
       fates_[edge] = Fate::WithoutCurve;
     }
-    if (const auto middle = middleOnSection(surface_, from, to, normalAt(edge)))
+    const auto middle = middleOnSection(surface_, from, to, normalAt(edge));
+    if (middle && isNear(edge, positionOf(surface_, *middle)))
     {
       put(edge, *middle);
       return;
@@ -264,7 +290,8 @@ private:
       {
         continue;
       }
-      if (const auto middle = middleOnSection(surface_, from, to, normalAt(n)))
+      const auto middle = middleOnSection(surface_, from, to, normalAt(n));
+      if (middle && isNear(n, positionOf(surface_, *middle)))
       {
         put(n, *middle);
         return;
@@ -311,7 +338,7 @@ private:
         for (std::size_t i = begin; i < end; ++i)
         {
           const Vector3 wanted = straightPlace(lost[i]);
-          if (const auto near = tree_->at(wanted, normalAt(lost[i])))
+          if (const auto near = tree_->at(wanted, normalAt(lost[i]), reachOf(lost[i])))
           {
             put(lost[i], { near->triangle, near->weights });
           }

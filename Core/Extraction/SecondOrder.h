@@ -53,17 +53,18 @@ struct SecondOrderNodes
 
   /// Edges of features or of the boundary that no curve of the surface is found for: their nodes lie on the surface.
   std::vector<Index> withoutCurve; ///< ascending
-  /// Nodes that no way over the faces leads to: on the nearest place that faces them, or, where there is none, off the
-  /// surface.
+  /// Nodes that no way over the faces leads to, or only one that goes farther from the straight edge than half its
+  /// length: on the nearest place on the same side outside, or, where there is none as near, off the surface, in the
+  /// middle of the straight edge.
   std::vector<Index> byNearest; ///< ascending
   std::vector<Index>
     invertedQuads; ///< ascending; their corners alone have a determinant that is not positive
 };
 
 /// A node between two corners lies halfway between them: in the plane that is perpendicular to the straight edge in its
-/// middle, on an edge that lies on a feature or boundary on its curve (see chainBetween), on any other on the section of
-/// the surface with the plane that contains the edge and the normal of its quads. The node in a quad's centre lies so
-/// between those of two of its edges.
+/// middle, on an edge that lies on a feature or boundary on its curve (see chainBetween), on any other on the section
+/// of the surface with the plane that contains the edge and the normal of its quads. The node in a quad's centre lies
+/// so between those of two of its edges.
 ///
 /// Then no element whose corners allow it has a determinant that is not positive at its nodes and Gauss points, see
 /// QuadraticShape: of an element that has one a node moves towards the middle of its straight edge, at first along the
