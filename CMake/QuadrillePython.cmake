@@ -24,7 +24,7 @@ vtk_module_wrap_python(
   COMPONENT           "${QUADRILLE_COMPONENT}"
   INSTALL_HEADERS     OFF
   BUILD_STATIC        OFF)
-foreach(file IN ITEMS __init__ _errors _files _inputs _proxies _repair _session
+foreach(file IN ITEMS __init__ _elements _errors _files _inputs _proxies _repair _session
     evaluation/__init__ evaluation/features evaluation/guided evaluation/layout evaluation/meshes evaluation/page
     evaluation/study evaluation/tools)
   get_filename_component(folder "${file}" DIRECTORY)

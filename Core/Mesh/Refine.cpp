@@ -34,8 +34,6 @@ constexpr double kMostFaces = 1e8;
 
 constexpr std::size_t kSplitsBetweenReports = 100000;
 constexpr std::size_t kChunkFaces = std::size_t{ 1 } << 16;
-/// A connected surface of so many squares of the maximum edge length has no small component.
-constexpr double kSurelyLarge = 1e4;
 
 struct LongEdge
 {
@@ -49,8 +47,8 @@ struct LongEdge
   }
 };
 
-/// Long edges, longest first, as one heap would have them: in buckets by length, of which only the topmost is a heap, so
-/// that a push into a million others writes one place.
+/// Long edges, longest first, as one heap would have them: in buckets by length, of which only the topmost is a heap,
+/// so that a push into a million others writes one place.
 class LongEdgeBuckets
 {
 public:
@@ -186,7 +184,7 @@ private:
   void findScales(const PreparedSurface& surface, double maximumLength)
   {
     if (surface.components == 1 && mesh_.sizing.empty() &&
-      surface.area > kSurelyLarge * maximumLength * maximumLength)
+      surface.area > kSurelyLargeSurface * maximumLength * maximumLength)
     {
       return;
     }

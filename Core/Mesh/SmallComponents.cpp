@@ -23,8 +23,6 @@ constexpr double kQuadsOfSphere = 6;
 constexpr double kQuadsOfDisc = 4;
 constexpr double kQuadsOfHandle = 16;
 constexpr double kQuadsOfLoop = 8;
-/// A connected surface with the area of so many quads is not small, whatever its topology.
-constexpr double kSurelyLarge = 1e4;
 
 /// Loops of the boundary in each component.
 std::vector<std::size_t> countLoops(const Mesh& mesh, const ComponentSizes& sizes)
@@ -112,7 +110,7 @@ SmallComponents findSmallComponents(
   const Mesh& mesh = surface.mesh;
   const double quad = edgeLength * edgeLength;
   small.components = surface.components;
-  if (surface.components <= 1 && mesh.sizing.empty() && surface.area > kSurelyLarge * quad)
+  if (surface.components <= 1 && mesh.sizing.empty() && surface.area > kSurelyLargeSurface * quad)
   {
     return small;
   }

@@ -17,6 +17,9 @@ namespace quadrille
 /// all levels are what a cross field with eight irregular vertices needs.
 constexpr double kQuadsOfSmallTriangulation = 26;
 
+/// A connected surface with the area of so many quads is not small, whatever its topology.
+constexpr double kSurelyLargeSurface = 1e4;
+
 /// Factor on the edge length s for the triangles of a component with this area (over its sizes); at most 1.
 double triangulationScale(double area, double edgeLength);
 

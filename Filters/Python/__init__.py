@@ -21,8 +21,8 @@
 
 The VTK classes themselves are here too: vtkQuadRemesh, vtkDecimationHierarchy, vtkIntegerGridMap,
 vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkQuadElements, vtkIntegerGridMapQuality, vtkIntegerGridMapComparison,
-vtkQuadrilleSession, the source vtkQuadConstraintSource, the readers vtkQuadrilleOFFReader and vtkQuadrillePLYReader, the
-writer vtkQuadMeshWriter, and in QuadrilleFilters, where there is CGAL, vtkSurfaceRepair, vtkSurfaceWrap and
+vtkQuadrilleSession, the source vtkQuadConstraintSource, the readers vtkQuadrilleOFFReader and vtkQuadrillePLYReader,
+the writer vtkQuadMeshWriter, and in QuadrilleFilters, where there is CGAL, vtkSurfaceRepair, vtkSurfaceWrap and
 vtkQuadProjection.
 """
 import collections
