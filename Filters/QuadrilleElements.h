@@ -34,10 +34,10 @@ struct PatchSource
 PatchSource patchSource(vtkDataSet* data, const std::string& name);
 
 /// Points in double precision; cells VTK_QUAD, VTK_QUADRATIC_QUAD or VTK_BIQUADRATIC_QUAD, all of one kind; of the cell
-/// arrays FeatureEdges, Thickness, ElementAxis, and the patches of the source. Names of patches come from the cell array
-/// PatchNames (strings; where elements of a patch differ, the one of most of them, which a notice tells), or else from
-/// the field data PatchNames (strings) with PatchNumbers; without PatchNumbers name i is of patch i, or, where patch
-/// numbers go from 1 to the number of names, of patch i + 1. Throws InvalidInput naming the cell or array.
+/// arrays FeatureEdges, Thickness, ElementAxis, and the patches of the source. Names of patches come from the cell
+/// array PatchNames (strings; where elements of a patch differ, the one of most of them, which a notice tells), or else
+/// from the field data PatchNames (strings) with PatchNumbers; without PatchNumbers name i is of patch i, or, where
+/// patch numbers go from 1 to the number of names, of patch i + 1. Throws InvalidInput naming the cell or array.
 ElementMesh readElements(
   vtkDataSet* data, const PatchSource& patches, std::vector<std::string>& notices);
 

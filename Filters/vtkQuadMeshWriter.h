@@ -8,7 +8,7 @@
  * From these alone it makes sets: elements by patch; the boundary loops; feature curves, of the cell array
  * `FeatureEdges` (bit i: the edge from corner i to i + 1), cut at corners; the corners. Patches have the names of the
  * string array `PatchNames`, of the cells or in the field data, there with `PatchNumbers` for the patch that each name
- * is of; else PATCH_n. Boundary loops, feature curves and corners are BOUNDARY_n, CURVE_n and CORNER_n, numbered from 1.
+ * is of; else PATCH_n. Boundary loops, feature curves and corners are BOUNDARY_n, CURVE_n and CORNER_n, from 1 on.
  *
  * | extension | format | sets |
  * |---|---|---|
@@ -55,8 +55,8 @@ public:
 
   ///@{
   /**
-   * The cell array of patches, whole numbers or strings. Default: empty, which means `PatchId`, or else `PatchNames`, or
-   * else `LayoutPatch`, whichever is there first; without any, all elements are one set.
+   * The cell array of patches, whole numbers or strings. Default: empty, as is "(automatic)", which means `PatchId`, or
+   * else `PatchNames`, or else `LayoutPatch`, whichever is there first; without any, all elements are one set.
    */
   void SetPatchArrayName(const char* name);
   const char* GetPatchArrayName() { return this->PatchArrayName.c_str(); }

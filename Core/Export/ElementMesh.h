@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Quads as elements for simulation, as the file formats take them.
 ///
-///   3 --- 6 --- 2      corners, middles of the edges 01 12 23 30, centre: the order of VTK, Exodus II, Abaqus and Gmsh.
+///   3 --- 6 --- 2      corners, middles of the edges 01 12 23 30, centre: the order of VTK, Exodus II, Abaqus, Gmsh.
 ///   |           |      Side i runs from corner i to corner i + 1.
 ///   7     8     5
 ///   |           |

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Input decks for Abaqus and CalculiX: nodes, elements, sets; sections where thickness or axes are known.
 ///
-/// Source: Abaqus Keywords Reference, CalculiX CrunchiX User's Manual 2.20. Numbers have at most 20 characters, which is
-/// what both read, so that some coordinates lose their last digit. What is in the file:
+/// Source: Abaqus Keywords Reference, CalculiX CrunchiX User's Manual 2.20. Numbers have at most 20 characters, which
+/// is what both read, so that some coordinates lose their last digits. What is in the file:
 ///
 ///   NALL, EALL     all nodes, all elements; both numbered from 1 in the order of the mesh
 ///   element sets   one a patch; of each boundary loop NAME_E1 to NAME_E4, the elements that have their side 1 to 4 on
@@ -27,8 +27,8 @@ namespace quadrille
 /// Where the two programs differ.
 enum class InpDialect
 {
-  /// Sides of shells in surfaces are S3 to S6. Distributions of axes are for plane elements only, as those of shells are
-  /// read and not used; shells have an orientation and a section for each pair of axis and normal.
+  /// Sides of shells in surfaces are S3 to S6. Distributions of axes are for plane elements only, as those of shells
+  /// are read and not used; shells have an orientation and a section for each pair of axis and normal.
   Calculix,
   Abaqus ///< Sides of shells in surfaces are E1 to E4. Axes are a *DISTRIBUTION with its table
 };

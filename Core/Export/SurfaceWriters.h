@@ -20,15 +20,15 @@ namespace quadrille
 std::vector<std::string> writeMedit(const ElementMesh& mesh, const MeshSets& sets,
   const std::string& path, const ProgressCallback& progress);
 
-/// OBJ, with 17 digits. withGroups: a line "g NAME" where the set of patches changes; elements keep their order. Source:
-/// Wavefront, Advanced Visualizer Manual, appendix B1. First order only, else InvalidInput.
+/// OBJ, with 17 digits. withGroups: a line "g NAME" where the set of patches changes; elements keep their order. Of
+/// first order only, else InvalidInput. Source: Wavefront, Advanced Visualizer Manual, appendix B1.
 std::vector<std::string> writeObj(const ElementMesh& mesh, const MeshSets& sets, bool withGroups,
   const std::string& path, const ProgressCallback& progress);
 
-/// PLY, binary in the byte order of this machine, which is little-endian; single precision, or double. patchProperty: the
-/// name of an int property of faces with the number of the patch, and comments say the names of the sets; empty: none.
-/// Source: G. Turk, The PLY Polygon File Format, 1994. Throws InvalidInput for elements of second order, and for numbers
-/// of patches that an int cannot hold.
+/// PLY, binary in the byte order of this machine, which is little-endian; single precision, or double. patchProperty:
+/// the name of an int property of faces with the number of the patch, and comments say the names of the sets; empty:
+/// none. Throws InvalidInput for elements of second order, and for numbers of patches that an int cannot hold. Source:
+/// G. Turk, The PLY Polygon File Format, 1994.
 std::vector<std::string> writePly(const ElementMesh& mesh, const MeshSets& sets,
   const std::string& patchProperty, bool inDouble, const std::string& path,
   const ProgressCallback& progress);
