@@ -120,8 +120,7 @@ class NodePlacer
 {
 public:
   NodePlacer(const Mesh& surface, const QuadsOnSurface& quads, const SecondOrderOptions& options)
-    : surface_(surface), quads_(quads), options_(options), edges_(quads, nodes_),
-      shape_(options.nodes)
+    : surface_(surface), quads_(quads), options_(options), edges_(quads, nodes_)
   {
   }
 
@@ -136,10 +135,18 @@ public:
     fates_.assign(all, Fate::Found);
     report(options_.progress, 0, "nodes between corners");
     place(0, edges);
-    report(options_.progress, 0.5, "nodes in centres");
-    place(edges, all);
-    report(options_.progress, 0.7, "determinants");
+    report(options_.progress, 0.5, "determinants");
     straighten();
+    if (options_.nodes == 9)
+    {
+      // Between nodes that do not fold the element, as far as they alone can.
+      count_ = 9;
+      shape_ = QuadraticShape(9);
+      report(options_.progress, 0.7, "nodes in centres");
+      place(edges, all);
+      report(options_.progress, 0.9, "determinants");
+      straighten();
+    }
     tell();
     return std::move(nodes_);
   }
@@ -361,7 +368,7 @@ private:
       x[i] = quads_.points[quads_.quads[q][i]];
       x[4 + i] = nodes_.points[nodes_.edgesOfQuad[q][i]];
     }
-    x[8] = options_.nodes == 9 ? nodes_.points[nodes_.edges.size() + q] : x[0];
+    x[8] = count_ == 9 ? nodes_.points[nodes_.edges.size() + q] : x[0];
     return x;
   }
 
@@ -424,7 +431,7 @@ private:
     double most = -std::numeric_limits<double>::infinity();
     for (MoveLevel level = kAlong; level <= kStraight; ++level)
     {
-      for (std::size_t slot = 4; slot < static_cast<std::size_t>(options_.nodes); ++slot)
+      for (std::size_t slot = 4; slot < count_; ++slot)
       {
         const std::size_t n = slot < 8 ? nodes_.edgesOfQuad[q][slot - 4] : nodes_.edges.size() + q;
         if (levels_[n] >= level)
@@ -433,6 +440,10 @@ private:
         }
         QuadraticNodes x = nodesOf(q);
         x[slot] = nodeAt(n, level).first;
+        if (slot < 8)
+        {
+          followWithCentre(q, x);
+        }
         const double least = shape_.leastDeterminant(x);
         if (least > most || !best)
         {
@@ -446,6 +457,20 @@ private:
       }
     }
     return best;
+  }
+
+  /// A centre off the surface follows the edges of its quad, also where these are only tried.
+  void followWithCentre(Index q, QuadraticNodes& x) const
+  {
+    const std::size_t n = nodes_.edges.size() + q;
+    if (count_ != 9 || levels_[n] <= kAlong)
+    {
+      return;
+    }
+    const Vector3 straight = (x[4] + x[5] + x[6] + x[7]) / 2 - (x[0] + x[1] + x[2] + x[3]) / 4;
+    x[8] = nodes_.places[n].face == kInvalidIndex
+      ? straight
+      : Vector3(straight + kLeft[levels_[n]] * (positionOf(surface_, nodes_.places[n]) - straight));
   }
 
   /// Rounds of moves, each of which only raises levels, so that they end. With all edges straight the element is that
@@ -538,7 +563,7 @@ private:
   void straightenCentre(Index q)
   {
     const std::size_t n = nodes_.edges.size() + q;
-    if (options_.nodes == 9 && levels_[n] > kAlong)
+    if (count_ == 9 && levels_[n] > kAlong)
     {
       nodes_.points[n] = nodeAt(n, levels_[n]).first;
     }
@@ -568,7 +593,8 @@ private:
   const SecondOrderOptions& options_;
   SecondOrderNodes nodes_;
   QuadEdgeList edges_;
-  QuadraticShape shape_;
+  std::size_t count_ = 8; ///< nodes of an element that are placed
+  QuadraticShape shape_{ 8 };
   std::vector<MoveLevel> levels_; ///< per node
   std::vector<Fate> fates_;       ///< per node
   std::unique_ptr<NearestTriangle> tree_;

@@ -6,7 +6,8 @@ import os
 PLUGIN = os.environ["QUADRILLE_PLUGIN"]
 DATA = os.environ["QUADRILLE_DATA"]
 ARTIFACTS = os.environ["QUADRILLE_ARTIFACTS"]
-FILTERS = ("QuadRemesh", "DecimationHierarchy", "IntegerGridMap", "IntegerGridMapUpmap", "QuadExtraction")
+FILTERS = ("QuadRemesh", "DecimationHierarchy", "IntegerGridMap", "IntegerGridMapUpmap", "QuadExtraction",
+           "QuadElements")
 if os.environ.get("QUADRILLE_USE_CGAL") == "ON":
     FILTERS += ("SurfaceRepair", "SurfaceWrap", "QuadProjection")
 
