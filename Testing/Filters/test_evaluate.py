@@ -162,7 +162,8 @@ class Evaluate(unittest.TestCase):
         # but for both ends, where the moved edges along x come by. Places are the middles of parts of an edge.
         percent = 100 / math.sqrt(3)
         self.assertAlmostEqual(float(row["feature_mean"]), percent * (0.045 + 0.3 + 0.3 - 2 * 0.045) / 3, delta=0.01)
-        self.assertAlmostEqual(float(row["feature_largest"]), percent * 0.3, places=6)
+        # VTK 9.1 reads .obj in single precision: 0.3 is off by up to 2^-26.
+        self.assertAlmostEqual(float(row["feature_largest"]), percent * 0.3, delta=percent * 2**-26)
         self.assertAlmostEqual(float(row["feature_share"]), (1 - 0.2) / 3, delta=0.01)
 
     def test_maps_with_guides(self):
