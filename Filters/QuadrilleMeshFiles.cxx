@@ -17,6 +17,12 @@
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
 namespace quadrille
 {
 
@@ -38,6 +44,41 @@ void runXmlWriter(vtkXMLWriter* writer, const std::string& path)
   OutputFile file(path);
   file << writer->GetOutputString();
   file.close();
+}
+
+/// Bytes of a binary PLY file of this mesh by its own header; 0 where that is not whole.
+std::uintmax_t plyBytes(vtkPolyData* mesh, const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::uintmax_t bytes = 0, elements = 0;
+  bool isFace = false;
+  for (std::string line; std::getline(file, line);)
+  {
+    std::istringstream words(line);
+    std::string first, second;
+    words >> first >> second;
+    if (first == "end_header")
+    {
+      return bytes + static_cast<std::uintmax_t>(file.tellg());
+    }
+    if (first == "element")
+    {
+      isFace = second == "face";
+      words >> elements;
+    }
+    else if (first == "property" && second == "list")
+    {
+      bytes += isFace ? elements +
+          sizeof(std::int32_t) *
+            static_cast<std::uintmax_t>(mesh->GetPolys()->GetNumberOfConnectivityIds())
+                      : 0;
+    }
+    else if (first == "property")
+    {
+      bytes += elements * (second == "uchar" ? 1 : second == "double" ? 8 : 4);
+    }
+  }
+  return 0;
 }
 
 } // namespace
@@ -72,15 +113,17 @@ void writePlainPly(vtkPolyData* mesh, const std::string& path)
   vtkNew<vtkPLYWriter> writer;
   writer->SetInputData(mesh);
   writer->SetFileTypeToBinary();
-  writer->WriteToOutputStringOn();
+  writer->SetFileName(path.c_str());
   const ErrorCollector errors(writer);
   if (!writer->Write() || !errors.text().empty())
   {
     throw WriteError(path + ": cannot be written: " + errors.sentence());
   }
-  OutputFile file(path);
-  file << writer->GetOutputString();
-  file.close();
+  // The writer does not look whether its bytes have arrived.
+  if (std::filesystem::file_size(path) != plyBytes(mesh, path))
+  {
+    throw WriteError(path + ": cannot be written as a whole: is the disk full?");
+  }
 }
 
 } // namespace quadrille

@@ -374,7 +374,7 @@ class ExitCodes(Case):
             self.assertIn("--quads", options)
             self.assertLessEqual(max(map(len, text.splitlines())), 120)
             for option in options:
-                if option in ("--quiet", "--version"):
+                if option in ("--quiet", "--version", "--quality"):
                     continue
                 # Each is known: what is wrong is its value.
                 result = subprocess.run([program, "in.off", "out.obj", option], capture_output=True, text=True,
@@ -388,7 +388,7 @@ class ExitCodes(Case):
         for words in ((), (source,), (source, out, "--quads"), (source, out, "--quads", "many"),
                       (source, out, "--quads", "0"), (source, out, "--quads", "5", "--edge-length", "1"),
                       (source, out, "--edge-length", "-1"), (source, out, "--nonsense", "1"),
-                      (source, self.folder / "q.stl"), (source, self.folder / "missing" / "q.obj"),
+                      (source, self.folder / "q.dae"), (source, self.folder / "missing" / "q.obj"),
                       (source, out, "--feature-angle", "200"), (source, out, "--quads", "10", "--quads", "20")):
             with self.subTest(words):
                 self.assertIn("quadrille", self.run_quadrille(*words, expect=2).stderr)
