@@ -988,6 +988,37 @@ U
         self.assertIn("cannot be of type S8", bad.stderr)
         self.assertFalse((self.work / "c.inp").exists())
 
+    def test_command_of_second_order(self):
+        """--order 2 in all formats that have such elements: the same nodes and elements everywhere."""
+        source = pathlib.Path(ARGS.data) / "part.ply"
+        for nodes in (8, 9):
+            with self.subTest(nodes):
+                for extension in ("vtu", "msh", "ex2", "inp"):
+                    options = ["--inp-dialect", "abaqus"] if nodes == 9 and extension == "inp" else []
+                    subprocess.run([ARGS.quadrille, source, self.work / f"a.{extension}", "--quads", "1500", "--order",
+                                    "2", "--nodes", str(nodes), "--quiet", *options], check=True)
+                reader = vtkXMLUnstructuredGridReader()
+                reader.SetFileName(str(self.work / "a.vtu"))
+                reader.Update()
+                data = data_of(reader.GetOutput())
+                self.assertEqual(data.elements.shape[1], nodes)
+                with Gmsh(self.work / "a.msh") as read:
+                    self.assertEqual(read.log, [])
+                    numpy.testing.assert_array_equal(read.points(), data.points)
+                    rows = read.elements(2)
+                    self.same_elements([rows[tag] for tag in sorted(rows)], data)
+                    self.gmsh_sets(read, data)
+                points, elements, _, found, _ = exodus_by_netcdf(self.work / "a.ex2")
+                numpy.testing.assert_array_equal(points, data.points)
+                self.same_elements(elements, data)
+                self.assertEqual(by_kind(found), Sets(data).node_sets())
+                if nodes == 8:
+                    read = read_silently(self.work / "a.inp")
+                    numpy.testing.assert_allclose(read.points, data.points, rtol=1e-12, atol=1e-14)
+                    self.same_elements(read.cells[0].data, data)
+                else:
+                    self.assertIn("TYPE=S9R5", (self.work / "a.inp").read_text())
+
     def test_same_bytes(self):
         """A file depends on the mesh alone."""
         for extension in ("inp", "msh", "mesh", "obj", "ply", "stl"):
