@@ -267,7 +267,8 @@ void CommandOptions::addTexts(const std::string& name, const std::string& unit,
 void CommandOptions::addFlag(
   const std::string& name, std::function<void()> set, const std::string& help)
 {
-  CLI::Option* option = parser_->app.add_flag_callback("--" + name, std::move(set), help);
+  CLI::Option* option = parser_->app.add_flag_callback(
+    "--" + name, std::move(set), wrapText(help, kHelpWidth - kTextColumn, 0));
   parser_->describe(option, name);
   parser_->flags.push_back(name);
 }
