@@ -26,7 +26,7 @@ void ElementRun::addOptions(CommandOptions& options)
   options.addCount(
     "order", "N", { 1, 2 }, [this](long long order) { filter_->SetOrder(static_cast<int>(order)); },
     "1 (default), or 2: elements of second order, with nodes between the corners that lie on the "
-    "surface and on the curves of features and boundaries (vtu, ex2, e)");
+    "surface and on the curves of features and boundaries (vtu, ex2, e, inp, msh)");
   options.addCount(
     "nodes", "N", { 8, 9 },
     [this](long long nodes) { filter_->SetNodesPerElement(static_cast<int>(nodes)); },

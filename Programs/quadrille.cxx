@@ -45,9 +45,8 @@ Remeshes a triangle surface with quads only.
 
 constexpr const char* kClosing =
   "exit code: 0 valid quads (seamless: a valid map); 2 bad input or arguments; 3 no valid result,\n"
-  "           or elements that fail --require; 4 stopped, by a signal or the time limit: the "
-  "valid\n"
-  "           quads of the best attempt so far";
+  "           or elements that fail --require; 4 stopped, by a signal or the time limit: the\n"
+  "           valid quads of the best attempt so far";
 
 volatile std::sig_atomic_t stopRequested = 0;
 
