@@ -100,7 +100,7 @@ def solutions(plate_mesh, stress, roof_mesh, displacement, folder, name):
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])
     axes.set_zlim(low[2] - 4, high[2])
-    axes.set_box_aspect((high - low + [0, 0, 4]), zoom=1.05)
+    axes.set_box_aspect((high - low + [0, 0, 4]), zoom=0.97)
     axes.view_init(28, -58)
     axes.set_axis_off()
     axes.set_title(f"deflection, drawn {factor} times as large")
