@@ -74,13 +74,13 @@ def section(problems, rows, program):
                  f"*{name}*: `Mesh.Algorithm` {algorithm}"
                  + ("" if recombination is None else f", `Mesh.RecombinationAlgorithm` {recombination}")
                  for name, (algorithm, recombination) in meshes.GMSH.items())
-             + ". The sizes asked for hold everywhere (`Mesh.MeshSizeFromPoints` and `Mesh.MeshSizeExtendFromBoundary` 0) "
-             "and are corrected twice so that about as many elements come as Quadrille makes. All other settings of all "
-             "programs are their defaults."]
+             + ". The sizes asked for hold everywhere (`Mesh.MeshSizeFromPoints` and "
+             "`Mesh.MeshSizeExtendFromBoundary` 0) and are corrected twice so that about as many elements come as "
+             "Quadrille makes. All other settings of all programs are their defaults."]
     for problem in problems:
         parts += [f"### {problem.title}", f"Error of Quadrille, and of the others over it at equal degrees of freedom "
                   f"({problem.measure}); above 1, Quadrille's is smaller.", _comparison(problem, rows),
-                  f"All meshes; *irregular*: vertices inside without four quads. By the reference the {problem.local_name} "
-                  f"is {problem.local_exact:g}.", _figures(problem, rows)]
+                  "All meshes; *irregular*: vertices inside without four quads. By the reference the "
+                  f"{problem.local_name} is {problem.local_exact:g}.", _figures(problem, rows)]
     return "\n\n".join(part if part.startswith("|") else textwrap.fill(part, COLUMNS, break_on_hyphens=False)
                        for part in parts) + "\n"
