@@ -11,6 +11,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: E402
 
 from . import elements, plate, study  # noqa: E402
 
+plt.rcParams["svg.hashsalt"] = "quadrille"  # the same figures are the same bytes
 COLOURS = {"Quadrille": "#1f5fa8", "Gmsh, recombined": "#d9822b", "Gmsh, full quad": "#b03a48", "triangles": "#777777"}
 MARKERS = {"Quadrille": "o", "Gmsh, recombined": "s", "Gmsh, full quad": "D", "triangles": "^"}
 
