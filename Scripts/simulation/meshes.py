@@ -12,8 +12,8 @@ from . import elements
 
 #: Element types of Gmsh's file format 2.2 that the example has: numbers of nodes.
 GMSH_NODES = {2: 3, 3: 4, 9: 6, 16: 8}
-#: Mesh.Algorithm and Mesh.RecombinationAlgorithm. Frontal-Delaunay for quads (8) crashes in Gmsh 4.8.4 of Debian 12 on
-#: any surface; 9, packing of parallelograms, is the other one that places points for quads.
+#: Mesh.Algorithm and Mesh.RecombinationAlgorithm. Frontal-Delaunay for quads (8) crashes in Gmsh 4.8.4 of Debian 12;
+#: 9, packing of parallelograms, is the other one that places points for quads.
 GMSH = {"Gmsh, recombined": (9, 1), "Gmsh, full quad": (6, 3), "triangles": (6, None)}
 LIMIT = 600  # seconds that a mesher may take
 

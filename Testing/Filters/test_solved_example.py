@@ -13,7 +13,7 @@ import unittest
 
 import numpy as np
 
-PROGRAM, SCRIPTS = pathlib.Path(sys.argv.pop(1)), pathlib.Path(sys.argv.pop(1))
+PROGRAM, SCRIPTS = pathlib.Path(sys.argv.pop(1)).resolve(), pathlib.Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SCRIPTS))
 from simulation import calculix, elements, meshes, page, plate, roof, study  # noqa: E402
 
