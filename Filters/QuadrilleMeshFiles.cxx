@@ -5,6 +5,7 @@
 #include "Export/OutputFile.h"
 #include "QuadrilleVtkErrors.h"
 
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkExecutive.h>
@@ -22,6 +23,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace quadrille
 {
@@ -97,7 +99,14 @@ void writeVtu(vtkDataSet* mesh, const std::string& path)
   {
     auto quads = vtkSmartPointer<vtkUnstructuredGrid>::New();
     quads->SetPoints(surface->GetPoints());
-    quads->SetCells(VTK_QUAD, surface->GetPolys());
+    vtkCellArray* const polygons = surface->GetPolys();
+    std::vector<int> types;
+    for (vtkIdType i = 0; i < polygons->GetNumberOfCells(); ++i)
+    {
+      const vtkIdType corners = polygons->GetCellSize(i);
+      types.push_back(corners == 4 ? VTK_QUAD : corners == 3 ? VTK_TRIANGLE : VTK_POLYGON);
+    }
+    quads->SetCells(types.data(), polygons);
     quads->GetPointData()->ShallowCopy(mesh->GetPointData());
     quads->GetCellData()->ShallowCopy(mesh->GetCellData());
     quads->GetFieldData()->ShallowCopy(mesh->GetFieldData());

@@ -791,6 +791,20 @@ U
         add_strings(mesh.GetFieldData(), "PatchNames", [self.NAMES[i] for i in range(10)])
         return mesh
 
+    def test_vtu_of_mixed_faces(self):
+        """Boundaries in the old shape leave faces of three and more than four corners."""
+        points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0.5, 0), (0.5, 2, 0), (1.5, 1.5, 0)]
+        faces = [(0, 1, 2, 3), (1, 4, 2), (3, 2, 4, 6, 5)]
+        path = self.folder / "mixed.vtu"
+        quadrille.write(quadrille.to_polydata(points, faces), str(path))
+        reader = vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(path))
+        reader.Update()
+        mesh = reader.GetOutput()
+        self.assertEqual([mesh.GetCellType(i) for i in range(3)], [9, 5, 7])  # VTK_QUAD, VTK_TRIANGLE, VTK_POLYGON
+        self.assertEqual([tuple(mesh.GetCell(i).GetPointId(k) for k in range(len(face)))
+                          for i, face in enumerate(faces)], faces)
+
     def test_names(self):
         """Blanks, commas, other letters, long names, names that are one after cleaning: told once, and all sets there.
         Two patches of one name are one set."""
