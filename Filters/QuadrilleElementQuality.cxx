@@ -156,13 +156,16 @@ std::vector<double> measureElements(vtkUnstructuredGrid* grid, std::size_t measu
       for (std::size_t i = begin; i < end; ++i)
       {
         cells->GetCellAtId(static_cast<vtkIdType>(i), ids);
+        bool isFinite = true;
         for (vtkIdType k = 0; k < 4; ++k)
         {
           std::array<double, 3> p{};
           grid->GetPoints()->GetPoint(ids->GetId(k), p.data());
           quad->GetPoints()->SetPoint(k, p.data());
+          isFinite = isFinite && std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
         }
-        values[i] = function(quad);
+        // Verdict of VTK 9.1 has numbers for what has no place.
+        values[i] = isFinite ? function(quad) : std::numeric_limits<double>::quiet_NaN();
       }
     });
   return values;
