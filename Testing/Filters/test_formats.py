@@ -795,7 +795,7 @@ U
         """Boundaries in the old shape leave faces of three and more than four corners."""
         points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0.5, 0), (0.5, 2, 0), (1.5, 1.5, 0)]
         faces = [(0, 1, 2, 3), (1, 4, 2), (3, 2, 4, 6, 5)]
-        path = self.folder / "mixed.vtu"
+        path = self.work / "mixed.vtu"
         quadrille.write(quadrille.to_polydata(points, faces), str(path))
         reader = vtkXMLUnstructuredGridReader()
         reader.SetFileName(str(path))
