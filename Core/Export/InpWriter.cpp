@@ -36,7 +36,7 @@ std::string typeOf(const ElementMesh& mesh, const InpOptions& options)
   {
     return types.front();
   }
-  const std::string type = upperCased(options.elementType);
+  std::string type = upperCased(options.elementType);
   if (std::find(types.begin(), types.end(), type) == types.end())
   {
     std::string known;
@@ -171,6 +171,7 @@ template <class Set>
 std::vector<std::string> inpNamesOf(const std::vector<Set>& sets)
 {
   std::vector<std::string> names;
+  names.reserve(sets.size());
   for (const Set& set : sets)
   {
     names.push_back(set.name);

@@ -119,6 +119,7 @@ private:
   void addGroups(int dimension, const std::vector<Set>& sets, Tag firstTag)
   {
     std::vector<std::string> wanted;
+    wanted.reserve(sets.size());
     for (const Set& set : sets)
     {
       wanted.push_back(set.name);

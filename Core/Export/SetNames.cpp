@@ -94,7 +94,7 @@ std::string SetNames::numbered(const std::string& name, std::size_t longest) con
   for (std::size_t number = 2;; ++number)
   {
     const std::string tail = "_" + std::to_string(number);
-    const std::string candidate = cut(name, longest - tail.size()) + tail;
+    std::string candidate = cut(name, longest - tail.size()) + tail;
     if (taken_.count(keyOf(candidate)) == 0)
     {
       return candidate;

@@ -36,6 +36,7 @@ template <class Set>
 std::vector<std::string> wantedNames(const std::vector<Set>& sets)
 {
   std::vector<std::string> names;
+  names.reserve(sets.size());
   for (const Set& set : sets)
   {
     names.push_back(set.name);

@@ -742,6 +742,29 @@ U
         self.same_elements([row[1:5] for row in rows], data)
         self.assertIn(b"comment PatchId 3: PATCH_3\n", path.read_bytes())
 
+    def test_ply_without_patches(self):
+        """As VTK writes it, and whole or not there: its writer does not tell of a full disk."""
+        mesh = quadrille.to_polydata(box().points, box().elements)
+        reader = vtkPLYReader()
+        reader.SetFileName(str(self.write(mesh, "plain.ply")))
+        reader.Update()
+        self.same_elements(vtk_to_numpy(reader.GetOutput().GetPolys().GetConnectivityArray()).reshape(-1, 4), box())
+        size = (self.work / "plain.ply").stat().st_size
+        (self.work / "plain.ply").unlink()
+        limit = resource.getrlimit(resource.RLIMIT_FSIZE)
+        before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        try:
+            for room in (100, size // 2, size - 1):
+                resource.setrlimit(resource.RLIMIT_FSIZE, (room, limit[1]))
+                try:
+                    with self.assertRaises(OSError):
+                        quadrille.write(mesh, self.work / "plain.ply")
+                finally:
+                    resource.setrlimit(resource.RLIMIT_FSIZE, limit)
+                self.assertEqual(list(self.work.iterdir()), [])
+        finally:
+            signal.signal(signal.SIGXFSZ, before)
+
     def test_stl(self):
         """Triangles have the area and the direction of the quads; a quad that is not convex is cut inside."""
         dart = Mesh(numpy.array([(0, 0, 0), (4, 0, 0), (1, 1, 0), (0, 4, 0)], float), numpy.array([(0, 1, 2, 3)]), [0],
