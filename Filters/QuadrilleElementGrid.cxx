@@ -155,14 +155,16 @@ std::unique_ptr<NearestTriangle> treeOf(const Mesh& mesh)
   return std::make_unique<NearestTriangle>(std::move(list));
 }
 
-/// The nearest place that faces the same way, or of all where there is none; `known` where that is as near.
+/// The nearest place that faces the same way; of all where there is none, or where p lies on the surface elsewhere, as
+/// beside a fold; `known` where that is as near.
 SurfacePoint nearestPlace(const NearestTriangle& tree, const Mesh& mesh, const Vector3& p,
-  const Vector3& normal, const SurfacePoint& known)
+  const Vector3& normal, const SurfacePoint& known, double near)
 {
   auto place = tree.at(p, normal);
-  if (!place)
+  if (!place || place->distance > near)
   {
-    place = tree.at(p); // there is a triangle, and no bound
+    const auto any = tree.at(p); // there is a triangle, and no bound
+    place = !place || any->distance <= near ? any : place;
   }
   if (known.face != kInvalidIndex && (positionOf(mesh, known) - p).norm() <= place->distance)
   {
@@ -607,7 +609,7 @@ FoundPlaces findPlaces(vtkPolyData* quads, const std::vector<std::array<Index, 4
         for (std::size_t k = begin; k < end; ++k)
         {
           SurfacePoint& place = found.places[lost[k]];
-          place = nearestPlace(*tree, mesh, points[lost[k]], normals[lost[k]], place);
+          place = nearestPlace(*tree, mesh, points[lost[k]], normals[lost[k]], place, near);
         }
       });
   }

@@ -57,7 +57,7 @@ struct FoundPlaces
 
 /// By SourceCellId, SourcePointIds and SourceBarycentric of the quads' points where these name a place of `surface`
 /// that the point lies on; else the nearest place on a face with about the same side outside, of all faces where there
-/// is none.
+/// is none or where the point lies on another one.
 FoundPlaces findPlaces(vtkPolyData* quads, const std::vector<std::array<Index, 4>>& corners,
   const ElementSurface& surface, int threads);
 

@@ -61,7 +61,7 @@ def determinants(points, cells):
         u = numpy.einsum("n,qnk->qk", along, x)
         v = numpy.einsum("n,qnk->qk", across, x)
         result.append(numpy.einsum("qk,qk->q", numpy.cross(u, v), normal) / area[:, 0])
-    corners = [numpy.einsum("qk,qk->q", numpy.cross(x[:, i] - x[:, i - 1], x[:, (i + 1) % 4] - x[:, i]), normal)
+    corners = [numpy.einsum("qk,qk->q", numpy.cross(x[:, i] - x[:, (i + 3) % 4], x[:, (i + 1) % 4] - x[:, i]), normal)
                for i in range(4)]
     return numpy.array(result).T, numpy.array(corners).T
 
