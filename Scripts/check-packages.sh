@@ -16,9 +16,12 @@ command -v mmdebstrap >/dev/null || { echo "check-packages: mmdebstrap is missin
 
 work=$(mktemp -d)
 trap 'umount -R -l -q "$work"/*/proc "$work"/*/dev "$work"/*/sys || true; rm -rf --one-file-system "$work"' EXIT
-mirror=http://deb.debian.org/debian
-mmdebstrap --quiet --variant=minbase --include=ca-certificates bookworm "$work/base.tar" \
-  "deb $mirror bookworm main" "deb $mirror bookworm-updates main" "deb $mirror-security bookworm-security main"
+# The sources of this machine, which has to be Debian 12.
+sources=()
+for file in /etc/apt/sources.list /etc/apt/sources.list.d/debian.sources; do
+  [[ -f $file ]] && sources+=("$file")
+done
+mmdebstrap --quiet --variant=minbase --include=ca-certificates bookworm "$work/base.tar" "${sources[@]}"
 
 make_root() # NAME: a clean system, which `inside` uses from here on
 {
