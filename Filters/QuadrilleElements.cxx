@@ -268,6 +268,12 @@ void readPatches(vtkDataSet* data, const PatchSource& patches, ElementMesh& mesh
   if (!patches.array)
   {
     mesh.patches.push_back({ 1, {} });
+    if (patches.leftOut > 0)
+    {
+      notices.push_back("all elements are one set, as the layout has " +
+        std::to_string(patches.leftOut) + " patches; to have these as sets, ask for the array " +
+        arrays::kLayoutPatch);
+    }
     return;
   }
   PatchReader reader(mesh);
@@ -289,6 +295,14 @@ void readPatches(vtkDataSet* data, const PatchSource& patches, ElementMesh& mesh
   }
 }
 
+/// Numbers from 0 on; -1 is no patch.
+int layoutPatches(vtkAbstractArray* array)
+{
+  auto* numbers = vtkDataArray::SafeDownCast(array);
+  return numbers && numbers->GetNumberOfTuples() > 0 ? static_cast<int>(numbers->GetRange()[1]) + 1
+                                                     : 0;
+}
+
 } // namespace
 
 PatchSource patchSource(vtkDataSet* data, const std::string& name)
@@ -306,7 +320,7 @@ PatchSource patchSource(vtkDataSet* data, const std::string& name)
       refuse("the cell array '", name, "' has ", array->GetNumberOfComponents(),
         " values a cell, but the number of a patch, or its name, is one");
     }
-    return { array, name != arrays::kLayoutPatch };
+    return { array, name != arrays::kLayoutPatch, 0 };
   }
   for (const char* known : { arrays::kPatchId, arrays::kPatchNames, arrays::kLayoutPatch })
   {
@@ -314,7 +328,9 @@ PatchSource patchSource(vtkDataSet* data, const std::string& name)
     const bool isString = vtkStringArray::SafeDownCast(array) != nullptr;
     if (array && array->GetNumberOfComponents() == 1 && isString == (known == arrays::kPatchNames))
     {
-      return { array, known != arrays::kLayoutPatch };
+      const int layout = known == arrays::kLayoutPatch ? layoutPatches(array) : 0;
+      return layout > kMostLayoutPatches ? PatchSource{ nullptr, false, layout }
+                                         : PatchSource{ array, known != arrays::kLayoutPatch, 0 };
     }
   }
   return {};

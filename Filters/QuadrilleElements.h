@@ -27,10 +27,15 @@ struct PatchSource
 {
   vtkAbstractArray* array = nullptr; ///< whole numbers, or strings; null: there is none
   bool isAsked = false;              ///< the user's, and not LayoutPatch, which every result has
+  int leftOut = 0; ///< patches of the layout, where these are more than kMostLayoutPatches
 };
 
-/// name: the array of this name; empty: PatchId, or else PatchNames, or else LayoutPatch, whichever is there first.
-/// Throws InvalidInput where there is none of the name.
+/// Sets nobody asked for: with more patches than this the layout is no division that a user works with, and VTK takes
+/// 40 s for an Exodus file of 4,800 blocks.
+constexpr int kMostLayoutPatches = 200;
+
+/// name: the array of this name; empty: PatchId, or else PatchNames, or else LayoutPatch, whichever is there first;
+/// LayoutPatch with at most kMostLayoutPatches. Throws InvalidInput where there is none of the name.
 PatchSource patchSource(vtkDataSet* data, const std::string& name);
 
 /// Points in double precision; cells VTK_QUAD, VTK_QUADRATIC_QUAD or VTK_BIQUADRATIC_QUAD, all of one kind; of the cell

@@ -133,7 +133,11 @@ void vtkQuadMeshWriter::WriteElements(vtkDataSet* mesh, const std::string& path)
   };
   PollScope polling(progress);
   const ProgressCallback told = polling.callback();
-  const PatchSource patches = patchSource(mesh, this->PatchArrayName);
+  PatchSource patches = patchSource(mesh, this->PatchArrayName);
+  if (extension == "obj" || extension == "ply" || extension == "stl")
+  {
+    patches.leftOut = 0; // they have groups only where these are asked for
+  }
   const ElementMesh elements = readElements(mesh, patches, notices);
   const MeshSets sets = setsOf(elements);
   if (extension == "inp")

@@ -56,7 +56,8 @@ public:
   ///@{
   /**
    * The cell array of patches, whole numbers or strings. Default: empty, as is "(automatic)", which means `PatchId`, or
-   * else `PatchNames`, or else `LayoutPatch`, whichever is there first; without any, all elements are one set.
+   * else `PatchNames`, or else `LayoutPatch` where it has at most 200 patches, whichever is there first; without any,
+   * all elements are one set.
    */
   void SetPatchArrayName(const char* name);
   const char* GetPatchArrayName() { return this->PatchArrayName.c_str(); }

@@ -384,7 +384,8 @@ void addFormats(CommandOptions& options, vtkQuadMeshWriter* writer)
     [writer](const std::string& name) { writer->SetPatchArrayName(name.c_str()); },
     "sets of elements by the cell array of this name, whole numbers or strings, that the input "
     "has, "
-    "or LayoutPatch (default: PatchId, else PatchNames, else LayoutPatch)");
+    "or LayoutPatch (default: PatchId, else PatchNames, else LayoutPatch where it has at most 200 "
+    "patches)");
   options.addText(
     "element", "TYPE", [writer](const std::string& type) { writer->SetElementType(type.c_str()); },
     "inp: the type of the elements: S4 (default), S4R, CPS4, CPS4R, CPE4, CPE4R; of second order "

@@ -93,8 +93,8 @@ def write(mesh, path, *, patch_array=None, element=None, dialect="calculix", mat
     path: its extension says the format: .inp (CalculiX, Abaqus), .msh (Gmsh), .mesh (MEDIT), .ex2, .e, .exo (Exodus
         II), .vtu, .vtp, .obj, .ply, .stl. The file is whole or not there.
     patch_array: the cell array, whole numbers or strings, whose values are the sets of elements; None: PatchId, else
-        PatchNames, else LayoutPatch, whichever is there first. Names of patches: string array PatchNames of the cells,
-        or in the field data, there with PatchNumbers.
+        PatchNames, else LayoutPatch where it has at most 200 patches, whichever is there first. Names of patches:
+        string array PatchNames of the cells, or in the field data, there with PatchNumbers.
     element: inp: the type of the elements, "S4", "S4R", "CPS4", "CPE8R", ...; None: S4, S8R or S9R5 by the nodes.
     dialect: inp: "calculix" or "abaqus".
     material: inp: the name of the material in sections, which are there where the mesh has the cell array Thickness or

@@ -326,6 +326,8 @@ class FormatTest(unittest.TestCase):
 
     def write(self, mesh, name, **options):
         path = self.work / name
+        if not mesh.GetCellData().HasArray("PatchId") and mesh.GetCellData().HasArray("LayoutPatch"):
+            options.setdefault("patch_array", "LayoutPatch")  # by default not of so many patches
         self.assertEqual(quadrille.write(mesh, path, **options), [])
         self.assertEqual([p.name for p in self.work.glob("*.part*")], [])
         return path
@@ -813,6 +815,23 @@ U
         mesh = grid(box())
         add_strings(mesh.GetFieldData(), "PatchNames", [self.NAMES[i] for i in range(10)])
         return mesh
+
+    def test_a_layout_of_many_patches_is_one_set(self):
+        data = box(12)
+        for count, sets in ((200, 200), (201, 1)):
+            mesh = grid(data)
+            mesh.GetCellData().RemoveArray("PatchId")
+            array = vtkIntArray()
+            array.SetName("LayoutPatch")
+            for i in range(mesh.GetNumberOfCells()):
+                array.InsertNextValue(i % count)
+            mesh.GetCellData().AddArray(array)
+            path = self.work / "layout.inp"
+            notices = quadrille.write(mesh, path)
+            self.assertEqual(len(re.findall(r"ELSET=PATCH_", path.read_text())), sets)
+            self.assertEqual(["201 patches" in notice for notice in notices], [True] if sets == 1 else [])
+            quadrille.write(mesh, path, patch_array="LayoutPatch")
+            self.assertEqual(len(re.findall(r"ELSET=PATCH_", path.read_text())), count)
 
     def test_vtu_of_mixed_faces(self):
         """Boundaries in the old shape leave faces of three and more than four corners."""
