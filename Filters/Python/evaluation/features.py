@@ -37,9 +37,7 @@ def along(ends, count):
 
 def mesh_edges(mesh):
     """Ends of the edges of a mesh, each once, n by 2 by 3."""
-    after = numpy.arange(1, len(mesh.corners) + 1)
-    after[mesh.first[1:] - 1] = mesh.first[:-1]
-    ends = numpy.sort(numpy.stack([mesh.corners, mesh.corners[after]], axis=1), axis=1)
+    ends = numpy.sort(numpy.stack(mesh.half_edges, axis=1), axis=1)
     return mesh.points[numpy.unique(ends, axis=0)]
 
 

@@ -34,6 +34,13 @@ class Mesh:
     def sizes(self):
         return numpy.diff(self.first)
 
+    @property
+    def half_edges(self):
+        """(from, to) of each corner along its face."""
+        after = numpy.arange(1, len(self.corners) + 1)
+        after[self.first[1:] - 1] = self.first[:-1]
+        return self.corners, self.corners[after]
+
     def of_size(self, size):
         """Corners of the faces with so many of them, a row each."""
         starts = self.first[:-1][self.sizes == size]
@@ -160,16 +167,9 @@ def _joined(mesh):
     return Mesh(points, names.ravel()[corners], mesh.first)
 
 
-def _half_edges(mesh):
-    """(from, to) of each corner along its face."""
-    after = numpy.arange(1, len(mesh.corners) + 1)
-    after[mesh.first[1:] - 1] = mesh.first[:-1]
-    return mesh.corners, mesh.corners[after]
-
-
 def _topology(mesh, result):
     """Counts, and per point the number of its faces and whether it is on a boundary."""
-    tail, head = _half_edges(mesh)
+    tail, head = mesh.half_edges
     low, high = numpy.minimum(tail, head), numpy.maximum(tail, head)
     keys, edge, uses = numpy.unique(low * len(mesh.points) + high, return_inverse=True, return_counts=True)
     forward = numpy.bincount(edge, weights=tail < head, minlength=len(keys))
@@ -215,7 +215,7 @@ def _shape(mesh, result):
         result.update(sj_mean=float(jacobians.mean()), sj_least=float(jacobians.min()),
                       sj_not_positive=int((jacobians <= 0).sum()), angle_mean=float(angles.min(axis=1).mean()),
                       angle_5=float(numpy.percentile(angles.min(axis=1), 5)), angle_largest=float(angles.max()))
-    tail, head = _half_edges(mesh)
+    tail, head = mesh.half_edges
     lengths = numpy.linalg.norm(mesh.points[tail] - mesh.points[head], axis=1)
     result.update(edge_mean=float(lengths.mean()), edge_cv=float(lengths.std() / lengths.mean()))
 
