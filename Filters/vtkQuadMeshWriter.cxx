@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 #include <new>
 
 vtkStandardNewMacro(vtkQuadMeshWriter);
@@ -28,14 +27,6 @@ namespace
 
 constexpr const char* kExtensions[] = { "vtp", "vtu", "ex2", "e", "exo", "inp", "msh", "mesh",
   "obj", "ply", "stl" };
-
-std::string extensionOfName(const std::string& path)
-{
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension.empty() ? extension : extension.substr(1);
-}
 
 /// The name of a property of a PLY file is one word.
 std::string plyProperty(const quadrille::PatchSource& patches)
@@ -92,7 +83,7 @@ void vtkQuadMeshWriter::SetMaterial(const char* name)
 //------------------------------------------------------------------------------
 bool vtkQuadMeshWriter::CanWriteFile(const char* name)
 {
-  const std::string extension = extensionOfName(name ? name : "");
+  const std::string extension = quadrille::extensionOf(name ? name : "");
   return std::find(std::begin(kExtensions), std::end(kExtensions), extension) !=
     std::end(kExtensions);
 }
@@ -121,7 +112,7 @@ int vtkQuadMeshWriter::FillInputPortInformation(int, vtkInformation* info)
 void vtkQuadMeshWriter::WriteElements(vtkDataSet* mesh, const std::string& path)
 {
   using namespace quadrille;
-  const std::string extension = extensionOfName(path);
+  const std::string extension = quadrille::extensionOf(path);
   std::vector<std::string> notices;
   const auto add = [&notices](const std::vector<std::string>& more)
   { notices.insert(notices.end(), more.begin(), more.end()); };
@@ -179,7 +170,7 @@ void vtkQuadMeshWriter::WriteElements(vtkDataSet* mesh, const std::string& path)
 //------------------------------------------------------------------------------
 void vtkQuadMeshWriter::WriteFile(vtkDataSet* mesh, const std::string& path)
 {
-  const std::string extension = extensionOfName(path);
+  const std::string extension = quadrille::extensionOf(path);
   auto* surface = vtkPolyData::SafeDownCast(mesh);
   if (extension == "vtu")
   {

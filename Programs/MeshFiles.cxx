@@ -254,14 +254,6 @@ vtkSmartPointer<vtkPolyData> readObj(const std::string& path)
 
 } // namespace
 
-std::string extensionOf(const std::string& path)
-{
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-    [](unsigned char c) { return std::tolower(c); });
-  return extension.empty() ? extension : extension.substr(1);
-}
-
 bool canWrite(const std::string& path)
 {
   return vtkQuadMeshWriter::CanWriteFile(path.c_str());

@@ -3,6 +3,8 @@
 /// Files of surfaces and quad meshes, by their extension.
 #pragma once
 
+#include "Export/OutputFile.h" // for extensionOf
+
 #include <vtkSmartPointer.h>
 
 #include <stdexcept>
@@ -21,9 +23,6 @@ class FileError : public std::runtime_error
 public:
   using std::runtime_error::runtime_error;
 };
-
-/// Lower case, without the dot; empty when there is none.
-std::string extensionOf(const std::string& path);
 
 /// Whether writeMeshFile knows the extension of the path, and which ones it knows, with commas.
 bool canWrite(const std::string& path);

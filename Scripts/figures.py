@@ -69,14 +69,6 @@ def worse(name, old, new):
     return int(change > allowed) - int(-change > allowed)
 
 
-def sharp_on_edges(surface, quads):
-    """The share of the length of the surface's sharp edges that is near to an edge of the quads; None without any."""
-    from quadrille.evaluation import features
-
-    found = features.deviation(surface, quads)
-    return None if found is None else found[2]
-
-
 def one(program, path, quads):
     """The figures of a run."""
     from quadrille.evaluation import meshes
@@ -91,9 +83,7 @@ def one(program, path, quads):
         with open(report, encoding="utf-8") as file:
             told = json.load(file)
         quality, certificate = told["quality"], told["certificate"]
-        surface = meshes.read(str(path))
-        made = meshes.read(output)
-        measured = meshes.measure(made, surface)
+        measured = meshes.measure(meshes.read(output), meshes.read(str(path)))
         figures.update(
             attempts=told["attempts"], count_off=round(abs(told["quads_actual"] / quads - 1), 4),
             irregular=quality["irregular_vertices"], mean=round(quality["mean_scaled_jacobian"], 5),
@@ -101,9 +91,8 @@ def one(program, path, quads):
             folds=certificate["not_positive"] + certificate["wrong_turns"],
             topology=int(not quality["manifold"]) + measured["other_faces"],
             distance=round(measured["distance_mean"], 5))
-        creases = sharp_on_edges(surface, made) if path.parent.name in OF_PARTS else None
-        if creases is not None:
-            figures["creases"] = round(creases, 4)
+        if path.parent.name in OF_PARTS and "feature_share" in measured:
+            figures["creases"] = round(measured["feature_share"], 4)
         return figures
 
 

@@ -4,6 +4,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -24,6 +26,14 @@ void removeQuietly(const fs::path& path)
 }
 
 } // namespace
+
+std::string extensionOf(const std::string& path)
+{
+  std::string extension = fs::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension.empty() ? extension : extension.substr(1);
+}
 
 void writeThenRename(
   const std::string& path, const std::function<void(const std::string& temporary)>& write)

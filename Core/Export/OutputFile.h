@@ -17,6 +17,9 @@
 namespace quadrille
 {
 
+/// The extension of a path in lower case, without the dot; empty when there is none.
+std::string extensionOf(const std::string& path);
+
 /// A file that cannot be written; the message names the file and the reason.
 class WriteError : public std::runtime_error
 {

@@ -62,9 +62,9 @@ class Figures(unittest.TestCase):
         triangles = numpy.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
         surface = mesh_of(list(triangles))
         self.assertAlmostEqual(numpy.linalg.norm(numpy.diff(features.sharp_edges(surface), axis=1), axis=2).sum(), 12)
-        self.assertAlmostEqual(figures.sharp_on_edges(surface, mesh_of(list(quads))), 1)
+        self.assertAlmostEqual(features.deviation(surface, mesh_of(list(quads)))[2], 1)
         moved = [quad + [0.05, 0, 0] for quad in quads]  # 0.3 of an edge off: only edges along x stay
-        self.assertAlmostEqual(figures.sharp_on_edges(surface, mesh_of(moved)), 1 / 3, delta=0.03)
+        self.assertAlmostEqual(features.deviation(surface, mesh_of(moved))[2], 1 / 3, delta=0.03)
 
     def test_a_study_without_a_map_of_the_surface_says_so(self):
         surface = quadrille.read(os.path.join(DATA, "beast.ply"))

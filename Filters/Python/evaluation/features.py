@@ -11,6 +11,8 @@ from scipy.spatial import cKDTree
 ANGLE, NEAR, TURN = 40, 0.1, 20
 #: Places on each edge of the mesh by which the nearest ones are found, and how many of these are looked at.
 PLACES, NEAREST = 16, 16
+#: Places that are looked at together, so that memory does not grow with the surface.
+CHUNK = 50000
 
 
 def sharp_edges(surface):
@@ -45,6 +47,14 @@ def distances_to_lines(points, ends, directions):
     """From each of n points to the straight lines between `ends`, m by 2 by 3: the distance of the nearest, and of the
     nearest of those within TURN of the direction there, a unit vector (infinite where there is none)."""
     tree = cKDTree(along(ends, PLACES))
+    far, beside = numpy.empty(len(points)), numpy.empty(len(points))
+    for first in range(0, len(points), CHUNK):
+        part = slice(first, first + CHUNK)
+        far[part], beside[part] = _to_nearest(tree, points[part], ends, directions[part])
+    return far, beside
+
+
+def _to_nearest(tree, points, ends, directions):
     _, near = tree.query(points, k=min(NEAREST, tree.n))
     near = numpy.asarray(near).reshape(len(points), -1) // PLACES
     start, way = ends[near, 0], ends[near, 1] - ends[near, 0]
