@@ -290,9 +290,37 @@ void copyTriangles(const SurfaceInput& input, PreparedSurface& surface)
   }
 }
 
-} // namespace
+/// The edges that detectedFeatures names, by the points at their ends.
+void markDetected(const SurfaceInput& input, PreparedSurface& surface)
+{
+  if (input.detectedFeatures.empty())
+  {
+    return;
+  }
+  for (Index f = 0; f < surface.mesh.faceCount(); ++f)
+  {
+    pollNowAndThen(f);
+    const Index polygon = surface.sourcePolygon[f];
+    const Index begin = input.polygonOffsets[polygon];
+    const Index corners = input.polygonOffsets[polygon + 1] - begin;
+    const unsigned bits = input.detectedFeatures[polygon];
+    for (Index i = 0; i < std::min<Index>(corners, 8); ++i)
+    {
+      const Index a = input.polygonPoints[begin + i];
+      const Index b = input.polygonPoints[begin + (i + 1) % corners];
+      for (Index h = 3 * f; h < 3 * f + 3 && (bits >> i & 1U) != 0; ++h)
+      {
+        const Index from = surface.mesh.origin[h], to = surface.mesh.target(h);
+        if ((from == a && to == b) || (from == b && to == a))
+        {
+          surface.mesh.flags[h] |= kFeatureEdge;
+        }
+      }
+    }
+  }
+}
 
-void triangulate(const SurfaceInput& input, PreparedSurface& surface)
+void makeTriangles(const SurfaceInput& input, PreparedSurface& surface)
 {
   const Index polygons = static_cast<Index>(input.polygonOffsets.size() - 1);
   copyLarge(input.points, surface.mesh.position);
@@ -320,6 +348,14 @@ void triangulate(const SurfaceInput& input, PreparedSurface& surface)
       triangulatePolygon(input, polygon, surface);
     }
   }
+}
+
+} // namespace
+
+void triangulate(const SurfaceInput& input, PreparedSurface& surface)
+{
+  makeTriangles(input, surface);
+  markDetected(input, surface);
 }
 
 } // namespace quadrille

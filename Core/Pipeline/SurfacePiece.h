@@ -44,8 +44,17 @@ struct PieceOptions
   double edgeLength = 0; ///< edgeLengthOfPieces, > 0
   /// As RemeshOptions::featureAngle: edges that are sharp on the piece are kept as curves.
   std::optional<double> featureAngle;
+  FeatureCriterion featureCriterion = FeatureCriterion::Creases; ///< as there
   int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;
+};
+
+/// An edge of a thinned piece that it has in common with another one.
+struct BorderEdge
+{
+  Index triangle = kInvalidIndex;
+  Index corner = 0;                 ///< the edge runs from this corner to the next one
+  Vector3 normal = Vector3::Zero(); ///< of the piece beside it, before it was thinned; of length 1
 };
 
 /// A thinned piece.
@@ -57,6 +66,7 @@ struct PieceLevel
   std::vector<std::array<Index, 3>> triangles; ///< #F
   std::vector<std::uint8_t>
     detectedFeatures; ///< #F; bit i: the edge from corner i to i + 1 was found to be a feature
+  std::vector<BorderEdge> border;              ///< where PieceOptions::featureAngle is set
   std::vector<std::uint8_t> requestedFeatures; ///< #F; the same of features that the input names
 };
 
@@ -70,8 +80,9 @@ struct PiecePlace
 class SurfacePiece
 {
 public:
-  /// Repairs and orders the piece. input: as for remesh(); guides, valences, sizes and curves in it do not count.
-  /// Throws InvalidInput as prepareSurface does; an input without polygons is no piece.
+  /// Repairs and orders the piece. input: as for remesh(); of its arrays features, patches and sizes count:
+  /// where quads are to be smaller, so are the triangles.
+  /// Throws InvalidInput as prepareSurface does, also for an input without polygons.
   SurfacePiece(SurfaceInput input, const PieceOptions& options);
   ~SurfacePiece();
   SurfacePiece(SurfacePiece&&) noexcept;
@@ -115,7 +126,8 @@ struct JoinedPieces
 
 /// Joins pieces at their shared points. ids: of each piece empty, or of each of its points a number that is the same
 /// where points of several pieces are (global ids); without, points with the same coordinates are. Edges between two
-/// pieces that are sharper than featureAngle (radians) become features.
+/// pieces that are sharper than featureAngle (radians) on the pieces become features. Throws InvalidInput where the
+/// numbers of ids are not those of the points.
 JoinedPieces joinPieces(const std::vector<PieceLevel>& pieces,
   const std::vector<std::vector<std::int64_t>>& ids, std::optional<double> featureAngle);
 
