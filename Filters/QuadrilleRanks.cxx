@@ -281,6 +281,17 @@ void Ranks::receive(std::string& bytes, int rank) const
   }
 }
 
+void Ranks::sum(std::vector<vtkIdType>& numbers) const
+{
+  if (size() > 1)
+  {
+    const std::vector<vtkIdType> mine = numbers;
+    controller_->AllReduce(
+      mine.data(), numbers.data(), static_cast<vtkIdType>(mine.size()), vtkCommunicator::SUM_OP);
+    count(mine.size() * sizeof(vtkIdType), mine.size() * sizeof(vtkIdType));
+  }
+}
+
 std::vector<std::string> Ranks::exchange(std::vector<std::string> bytes) const
 {
   const auto ranks = static_cast<std::size_t>(size());

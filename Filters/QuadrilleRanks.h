@@ -7,6 +7,7 @@
 #pragma once
 
 #include <vtkSmartPointer.h>
+#include <vtkType.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -61,6 +62,8 @@ public:
   /// Does a step that may fail on some ranks: where it does, all ranks throw what the first of them has thrown. The text
   /// then begins with `place` and names the rank where there are several. Cancelled on one rank is Cancelled on all.
   void together(const std::string& place, const std::function<void()>& step) const;
+  /// The sums over all ranks.
+  void sum(std::vector<vtkIdType>& numbers) const;
   /// bytes[r] goes to rank r; returns what each rank has sent to this one. In pairs of ranks, so that none holds more
   /// than what it sends and receives.
   std::vector<std::string> exchange(std::vector<std::string> bytes) const;

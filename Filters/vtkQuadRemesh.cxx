@@ -14,6 +14,7 @@
 #include "QuadrilleQuads.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleSmallDetails.h"
+#include "QuadrilleSpread.h"
 #include "QuadrilleStamps.h"
 #include "QuadrilleSymmetry.h"
 
@@ -284,13 +285,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   options.method = static_cast<quadrille::MapMethod>(this->Method);
   options.coarsestIntegers = this->Integers == INTEGERS_COARSEST;
   options.anisotropyLimit = this->AnisotropyLimit;
-  if (this->ChordError > 0)
-  {
-    options.sizes.chordError = this->ChordError;
-  }
-  options.sizes.gapQuads = this->GapQuads;
-  options.sizes.smallest = this->SmallestSize;
-  options.sizes.largest = this->LargestSize;
+  this->SetSizes(options);
   if (this->CurvatureGuides)
   {
     options.curvatureGuides = this->LeastAnisotropy;
@@ -449,6 +444,55 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
 }
 
 //------------------------------------------------------------------------------
+void vtkQuadRemesh::SetSizes(quadrille::RemeshOptions& options) const
+{
+  if (this->ChordError > 0)
+  {
+    options.sizes.chordError = this->ChordError;
+  }
+  options.sizes.gapQuads = this->GapQuads;
+  options.sizes.smallest = this->SmallestSize;
+  options.sizes.largest = this->LargestSize;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkQuadRemesh::ReasonNotToSpread(
+  const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const
+{
+  if (this->Symmetry != SYMMETRY_NONE)
+  {
+    return "symmetric quads need the whole surface";
+  }
+  if (this->Preview)
+  {
+    return "a preview has no quads on the surface";
+  }
+  if (this->Method == METHOD_SEAMLESS)
+  {
+    return "the method 'seamless' makes no quads";
+  }
+  if (this->CellDataFrom != CELL_DATA_FROM_CENTRE)
+  {
+    return "cell data by area need all cells under a quad";
+  }
+  return quadrille::reasonNotToSpread(pieces, this->GetGuideArrayInUse());
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::PlanSpread(const quadrille::Block& block, const quadrille::SpreadSize& size,
+  quadrille::SpreadPlan& plan) const
+{
+  quadrille::RemeshOptions options = this->MakeOptions(block);
+  this->SetSizes(options);
+  plan.piece.edgeLength = quadrille::edgeLengthOfPieces(options, size.area, size.diagonal);
+  plan.piece.featureAngle = options.featureAngle;
+  plan.piece.featureCriterion = options.featureCriterion;
+  plan.patchArray = this->PatchArrayName;
+  plan.guideArray = this->GetGuideArrayInUse();
+  plan.memoryLimit = 1e6 * this->MemoryLimit;
+}
+
+//------------------------------------------------------------------------------
 void vtkQuadRemesh::WritePreview(quadrille::Block& block, const quadrille::AskedConstraints& asked,
   const quadrille::RemeshResult& result)
 {
@@ -489,6 +533,7 @@ void vtkQuadRemesh::AddSettings(std::ostream& os) const
      << "CloseHandles " << this->CloseHandles << '\n'
      << "SmallDetails " << this->SmallDetails << '\n'
      << "SmallComponents " << this->SmallComponents << '\n'
+     << "SpreadSurfaces " << this->SpreadSurfaces << '\n'
      << "WarmStart " << this->WarmStart << '\n'
      << "Preview " << this->Preview << '\n'
      << "FinalQuality " << this->FinalQuality << '\n'
@@ -534,6 +579,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CloseHandles: " << this->CloseHandles << "\n";
   os << indent << "SmallDetails: " << this->SmallDetails << "\n";
   os << indent << "SmallComponents: " << this->SmallComponents << "\n";
+  os << indent << "SpreadSurfaces: " << this->SpreadSurfaces << "\n";
   os << indent << "KeepLevels: " << this->KeepLevels << "\n";
   os << indent << "WarmStart: " << this->WarmStart << "\n";
   os << indent << "Preview: " << this->Preview << "\n";

@@ -426,6 +426,28 @@ public:
   vtkBooleanMacro(Preview, vtkTypeBool);
   ///@}
 
+  /// See SetSpreadSurfaces().
+  enum SpreadSurfacesType
+  {
+    SPREAD_AUTOMATIC = 0,
+    SPREAD_ALWAYS = 1,
+    SPREAD_NEVER = 2
+  };
+  ///@{
+  /**
+   * Whether a surface that comes in pieces, one or more a rank, stays spread over the ranks, a SpreadSurfacesType. Then
+   * no rank ever holds all of it: pieces are thinned out where they are, the quads are made on the joined thin pieces,
+   * by one rank, and each rank has the quads with their centre on its pieces, with global ids of points and cells,
+   * ghost points, and ghost cells where they are asked for. Output 1 is then the joined surface, and outputs 1 to 7 lie
+   * on that rank. Automatic: with several ranks and more than 2,000,000 cells on all of them. What cannot be spread
+   * (directions on cells, symmetry, previews, CellDataFrom by area, the method without quads, surfaces of volumes) is
+   * brought to one rank, with a notice; with Always it is an error. Never: the pieces are always brought to one rank and
+   * put together there; the quads are then the same for any number of ranks. Default: Automatic.
+   */
+  vtkSetClampMacro(SpreadSurfaces, int, SPREAD_AUTOMATIC, SPREAD_NEVER);
+  vtkGetMacro(SpreadSurfaces, int);
+  ///@}
+
   /// Millions of bytes that are held for the next execution.
   double GetRememberedMegabytes() const;
   /// Stages that the last execution had, or began, from an earlier one, one a line; "all" where nothing had changed and
@@ -512,6 +534,11 @@ protected:
   void Execute(quadrille::Block& block) override;
   void WritePreview(quadrille::Block& block, const quadrille::AskedConstraints& asked,
     const quadrille::RemeshResult& result);
+  int GetSpreadMode() const override { return this->SpreadSurfaces; }
+  std::string ReasonNotToSpread(
+    const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const override;
+  void PlanSpread(const quadrille::Block& block, const quadrille::SpreadSize& size,
+    quadrille::SpreadPlan& plan) const override;
   bool KeepsResult() override { return this->KeepLevels != 0; }
   void AddSettings(std::ostream& os) const override;
   bool AllowsEarlier(const quadrille::BlockReport& report) const override;
@@ -521,6 +548,7 @@ private:
   void operator=(const vtkQuadRemesh&) = delete;
 
   vtkPolyData* GetPolyDataOutputAt(int port);
+  void SetSizes(quadrille::RemeshOptions& options) const;
   vtkIdType CountOverBlocks(const char* number) const
   {
     return static_cast<vtkIdType>(this->SumOverBlocks(number));
@@ -541,6 +569,7 @@ private:
   double LargestSize = 1;
   vtkTypeBool CurvatureGuides = 0;
   double LeastAnisotropy = 0.3;
+  int SpreadSurfaces = SPREAD_AUTOMATIC;
   vtkTypeBool KeepLevels = 1;
   vtkTypeBool Preview = 0;
   vtkTypeBool WarmStart = 0;

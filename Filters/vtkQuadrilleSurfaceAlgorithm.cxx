@@ -59,6 +59,12 @@ void vtkQuadrilleSurfaceAlgorithm::SetGuideArrayName(const char* name)
 }
 
 //------------------------------------------------------------------------------
+std::string vtkQuadrilleSurfaceAlgorithm::GetGuideArrayInUse() const
+{
+  return this->GuideArrayName == "(none)" ? "" : this->GuideArrayName;
+}
+
+//------------------------------------------------------------------------------
 quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
   quadrille::Block& block, quadrille::AskedConstraints* asked)
 {
@@ -66,7 +72,7 @@ quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
   this->WarnOfUnusedArrays(block);
   quadrille::ConvertedSurface surface =
     quadrille::convertSurface(data, this->PatchArrayName, this->NumberOfThreads);
-  if (!this->GuideArrayName.empty() && this->GuideArrayName != "(none)")
+  if (!this->GetGuideArrayInUse().empty())
   {
     quadrille::addGuideArray(data, this->GuideArrayName, surface);
   }
@@ -158,7 +164,8 @@ double vtkQuadrilleSurfaceAlgorithm::LeastAreaShare(std::size_t blocks) const
 }
 
 //------------------------------------------------------------------------------
-quadrille::RemeshOptions vtkQuadrilleSurfaceAlgorithm::MakeOptions(const quadrille::Block& block)
+quadrille::RemeshOptions vtkQuadrilleSurfaceAlgorithm::MakeOptions(
+  const quadrille::Block& block) const
 {
   quadrille::RemeshOptions options;
   if (this->TargetType == TARGET_NUMBER_OF_QUADS)

@@ -231,7 +231,9 @@ protected:
   quadrille::ConvertedSurface ConvertInputs(
     quadrille::Block& block, quadrille::AskedConstraints* asked = nullptr);
   /// The properties in Core's units, with the block's part of the number of quads.
-  quadrille::RemeshOptions MakeOptions(const quadrille::Block& block);
+  quadrille::RemeshOptions MakeOptions(const quadrille::Block& block) const;
+  /// GuideArrayName, or empty where none is to be used.
+  std::string GetGuideArrayInUse() const;
 
   int TargetType = TARGET_NUMBER_OF_QUADS;
   vtkIdType NumberOfQuads = 5000;

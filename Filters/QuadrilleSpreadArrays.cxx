@@ -1,0 +1,292 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QuadrilleSpreadArrays.h"
+
+#include "QuadrilleNewArray.h"
+#include "QuadrillePacking.h"
+#include "QuadrillePieces.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <tuple>
+
+namespace quadrille
+{
+
+namespace
+{
+
+std::string nameOf(vtkAbstractArray* array)
+{
+  return array->GetName() ? array->GetName() : "";
+}
+
+/// An array that some pieces have.
+struct AgreedArray
+{
+  vtkSmartPointer<vtkAbstractArray> model; ///< without tuples
+  std::size_t pieces = 0;                  ///< that have it
+  bool differs = false;
+  bool cannotBeSent = false;
+};
+
+struct AgreedAttributes
+{
+  std::vector<AgreedArray> arrays; ///< in the order in which they were met
+  std::array<std::string, vtkDataSetAttributes::NUM_ATTRIBUTES> active;
+  std::array<std::size_t, vtkDataSetAttributes::NUM_ATTRIBUTES> activeOn{}; ///< pieces
+
+  AgreedArray* find(const std::string& name)
+  {
+    const auto found = std::find_if(arrays.begin(), arrays.end(),
+      [&name](const AgreedArray& array) { return nameOf(array.model) == name; });
+    return found == arrays.end() ? nullptr : &*found;
+  }
+};
+
+/// Copies without tuples; the ghost array stays behind.
+void packModels(vtkDataSetAttributes* attributes, Packer& packer)
+{
+  vtkNew<vtkFieldData> models;
+  std::vector<std::string> notSent;
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = attributes->GetAbstractArray(i);
+    const std::string name = nameOf(array);
+    if (name == vtkDataSetAttributes::GhostArrayName() || name == kVolumeFace)
+    {
+      continue;
+    }
+    if (name.empty() || !canBePacked(array))
+    {
+      notSent.push_back(name);
+      continue;
+    }
+    auto model = vtk::TakeSmartPointer(vtkAbstractArray::CreateArray(array->GetDataType()));
+    model->SetName(name.c_str());
+    model->SetNumberOfComponents(array->GetNumberOfComponents());
+    model->CopyComponentNames(array);
+    models->AddArray(model);
+  }
+  packArrays(models, packer);
+  packer.count(notSent.size());
+  for (const std::string& name : notSent)
+  {
+    packer.text(name);
+  }
+  for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+  {
+    vtkAbstractArray* active = attributes->GetAbstractAttribute(type);
+    packer.text(active ? nameOf(active) : "");
+  }
+}
+
+void takeModels(Unpacker& unpacker, AgreedAttributes& agreed, std::set<std::string>& notSent)
+{
+  vtkNew<vtkFieldData> models;
+  unpackArrays(unpacker, models);
+  for (int i = 0; i < models->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* model = models->GetAbstractArray(i);
+    AgreedArray* array = agreed.find(nameOf(model));
+    if (!array)
+    {
+      array = &agreed.arrays.emplace_back();
+      array->model = model;
+    }
+    ++array->pieces;
+    array->differs = array->differs || model->GetDataType() != array->model->GetDataType() ||
+      model->GetNumberOfComponents() != array->model->GetNumberOfComponents();
+  }
+  const std::uint64_t lost = unpacker.count();
+  for (std::uint64_t i = 0; i < lost; ++i)
+  {
+    notSent.insert(unpacker.text());
+  }
+  for (std::size_t type = 0; type < agreed.active.size(); ++type)
+  {
+    const std::string name = unpacker.text();
+    agreed.activeOn[type] += name.empty() ? 0 : 1;
+    agreed.active[type] = agreed.active[type].empty() ? name : agreed.active[type];
+  }
+}
+
+bool isFactor(const std::string& name)
+{
+  return name == arrays::kSizing || name == arrays::kGuidingWeight;
+}
+
+void tell(const AgreedAttributes& agreed, const std::set<std::string>& notSent, std::size_t pieces,
+  std::vector<std::string>& notices)
+{
+  for (const std::string& name : notSent)
+  {
+    notices.push_back(name.empty()
+        ? "arrays without a name are left behind, as those of several ranks cannot be told apart"
+        : "array '" + name + "' cannot be sent between ranks and is left behind");
+  }
+  for (const AgreedArray& array : agreed.arrays)
+  {
+    const std::string name = nameOf(array.model);
+    if (array.differs)
+    {
+      notices.push_back("array '" + name + "' differs between pieces and is left behind");
+    }
+    else if (array.pieces < pieces)
+    {
+      notices.push_back("array '" + name + "' is missing on some pieces; " +
+        (isFactor(name) ? "1" : "0 or nothing") + " stands for it there");
+    }
+  }
+}
+
+/// The arrays of `from` in the order that was agreed on.
+void takeArrays(const AgreedAttributes& agreed, vtkDataSetAttributes* from, vtkIdType tuples,
+  std::size_t pieces, vtkDataSetAttributes* to)
+{
+  for (const AgreedArray& array : agreed.arrays)
+  {
+    if (array.differs)
+    {
+      continue;
+    }
+    const std::string name = nameOf(array.model);
+    vtkSmartPointer<vtkAbstractArray> mine = from ? from->GetAbstractArray(name.c_str()) : nullptr;
+    if (!mine || mine->GetNumberOfTuples() < tuples)
+    {
+      mine = vtk::TakeSmartPointer(array.model->NewInstance());
+      mine->SetName(name.c_str());
+      mine->SetNumberOfComponents(array.model->GetNumberOfComponents());
+      mine->CopyComponentNames(array.model);
+      mine->SetNumberOfTuples(tuples);
+      if (auto* numbers = vtkDataArray::SafeDownCast(mine))
+      {
+        numbers->Fill(isFactor(name) ? 1 : 0);
+      }
+    }
+    to->AddArray(mine);
+  }
+  for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+  {
+    const std::string& name = agreed.active[static_cast<std::size_t>(type)];
+    // Ids of some pieces only say nothing of the points that two of them have.
+    const bool isOnAll = type != vtkDataSetAttributes::GLOBALIDS ||
+      agreed.activeOn[static_cast<std::size_t>(type)] == pieces;
+    if (!name.empty() && isOnAll && to->HasArray(name.c_str()))
+    {
+      to->SetActiveAttribute(name.c_str(), type);
+    }
+  }
+}
+
+} // namespace
+
+vtkSmartPointer<vtkPolyData> agreeOnArrays(
+  const Ranks& ranks, std::vector<SpreadPiece>& pieces, std::vector<std::string>& notices)
+{
+  Packer packer;
+  packer.count(pieces.size());
+  for (const SpreadPiece& piece : pieces)
+  {
+    packModels(piece.data->GetPointData(), packer);
+    packModels(piece.data->GetCellData(), packer);
+  }
+  AgreedAttributes ofPoints, ofCells;
+  std::set<std::string> notSent;
+  std::size_t all = 0;
+  for (const std::string& bytes : ranks.gather(packer.bytes()))
+  {
+    Unpacker unpacker(bytes);
+    const std::uint64_t count = unpacker.count();
+    for (std::uint64_t p = 0; p < count; ++p)
+    {
+      takeModels(unpacker, ofPoints, notSent);
+      takeModels(unpacker, ofCells, notSent);
+    }
+    all += count;
+  }
+  tell(ofPoints, notSent, all, notices);
+  tell(ofCells, {}, all, notices);
+  for (SpreadPiece& piece : pieces)
+  {
+    auto data = vtkSmartPointer<vtkPolyData>::New();
+    data->CopyStructure(piece.data);
+    data->GetFieldData()->PassData(piece.data->GetFieldData());
+    takeArrays(
+      ofPoints, piece.data->GetPointData(), data->GetNumberOfPoints(), all, data->GetPointData());
+    takeArrays(
+      ofCells, piece.data->GetCellData(), data->GetNumberOfCells(), all, data->GetCellData());
+    piece.data = data;
+  }
+  auto model = vtkSmartPointer<vtkPolyData>::New();
+  takeArrays(ofPoints, nullptr, 0, all, model->GetPointData());
+  takeArrays(ofCells, nullptr, 0, all, model->GetCellData());
+  return model;
+}
+
+std::vector<std::string> sharedOf(const std::vector<std::string>& received)
+{
+  struct Use
+  {
+    std::uint64_t number;
+    std::uint32_t list;
+    std::uint32_t place;
+  };
+  std::vector<Use> uses;
+  std::vector<std::vector<std::uint8_t>> isShared; // of each list
+  std::vector<std::size_t> listsOfRank;
+  for (const std::string& bytes : received)
+  {
+    Unpacker unpacker(bytes);
+    const std::size_t first = isShared.size();
+    while (!unpacker.isAtEnd())
+    {
+      const auto numbers = unpacker.values<std::uint64_t>();
+      const auto list = static_cast<std::uint32_t>(isShared.size());
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+      {
+        uses.push_back({ numbers[i], list, static_cast<std::uint32_t>(i) });
+      }
+      isShared.emplace_back(numbers.size(), 0);
+    }
+    listsOfRank.push_back(isShared.size() - first);
+  }
+  std::sort(uses.begin(), uses.end(),
+    [](const Use& a, const Use& b)
+    { return std::tie(a.number, a.list) < std::tie(b.number, b.list); });
+  for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end)
+  {
+    while (end < uses.size() && uses[end].number == uses[begin].number)
+    {
+      ++end;
+    }
+    const bool several = uses[end - 1].list != uses[begin].list;
+    for (std::size_t i = begin; several && i < end; ++i)
+    {
+      isShared[uses[i].list][uses[i].place] = 1;
+    }
+  }
+  std::vector<std::string> answers;
+  std::size_t list = 0;
+  for (const std::size_t lists : listsOfRank)
+  {
+    Packer packer;
+    for (std::size_t i = 0; i < lists; ++i)
+    {
+      packer.values(isShared[list++]);
+    }
+    answers.push_back(packer.take());
+  }
+  return answers;
+}
+
+} // namespace quadrille
