@@ -5,8 +5,6 @@
 #include "Base/Error.h"
 #include "Base/Memory.h"
 #include "Hierarchy/Hierarchy.h"
-#include "Mesh/CreaseCurves.h"
-#include "Mesh/FeatureFilter.h"
 #include "Mesh/Features.h"
 #include "Pipeline/ResultStore.h"
 #include "Pipeline/SurfaceVersion.h"
@@ -24,8 +22,6 @@ namespace
 /// Edges over the smallest ones of quads that are asked for, where these are much smaller than s: those of the
 /// intermediate level.
 constexpr double kEdgeOfSmallest = 0.5;
-/// Features are judged for quads of this size over s: what is noise for these is noise for all, wherever a piece ends.
-constexpr double kJudgedSize = 0.5;
 
 } // namespace
 
@@ -67,12 +63,6 @@ public:
   void thinOut(const std::vector<Index>& shared)
   {
     Mesh& mesh = surface_.mesh;
-    const double edgeOfQuads = options_.edgeLength / kEdgeOfPiece;
-    FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, kJudgedSize * edgeOfQuads);
-    if (options_.featureAngle && options_.featureCriterion == FeatureCriterion::Creases)
-    {
-      removeFalseCreases(mesh, kJudgedSize * edgeOfQuads, options_.threads, filtered);
-    }
     const std::vector<BorderNormal> border = borderNormals(shared);
     HierarchyOptions hierarchy;
     hierarchy.targetEdgeLength = 2 * options_.edgeLength; // phase 1 ends at a half of it

@@ -42,9 +42,9 @@ double edgeLengthOfPieces(const RemeshOptions& options, double area, double boun
 struct PieceOptions
 {
   double edgeLength = 0; ///< edgeLengthOfPieces, > 0
-  /// As RemeshOptions::featureAngle: edges that are sharp on the piece are kept as curves.
+  /// As RemeshOptions::featureAngle: edges that are sharp on the piece are kept as curves, all of them. Which of them
+  /// the quads can follow is judged on the whole surface: where a piece ends a curve may end without being noise.
   std::optional<double> featureAngle;
-  FeatureCriterion featureCriterion = FeatureCriterion::Creases; ///< as there
   int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;
 };
