@@ -81,6 +81,7 @@ public:
     releaseFreedMemory();
     tellLevel(shared);
     tellBorder(border);
+    letGo();
   }
 
   std::vector<SourceLocation> carry(const std::vector<PiecePlace>& places)
@@ -108,6 +109,15 @@ public:
   }
 
 private:
+  /// What only the decimation needed: to carry a place takes the log, and the polygon of each face.
+  void letGo()
+  {
+    surface_.mesh = {};
+    std::vector<Index>().swap(inputPoint_);
+    std::vector<Index>().swap(boundary_);
+    releaseFreedMemory();
+  }
+
   /// The normal beside a boundary edge between shared points.
   struct BorderNormal
   {

@@ -94,7 +94,7 @@ public:
   /// What repair changed, see RepairReport::text().
   std::string repairText() const;
 
-  /// Decimates until the edges exceed the edge length; shared points (ids of the input, ascending) and the edges
+  /// Decimates until the edges exceed the edge length, and lets the rest of the piece go, boundary() included; shared points (ids of the input, ascending) and the edges
   /// between them that are on the boundary stay. To be called once.
   void thinOut(const std::vector<Index>& shared);
   const PieceLevel& level() const;
