@@ -357,6 +357,7 @@ struct Part
   /// Of a piece that is still to be thinned, as its boundary may be that of another one: the points there that are not
   /// shared so far, their numbers in the source and in the piece.
   std::vector<std::pair<Index, Index>> open;
+  StageRecords stages;
 };
 
 class PiecesRun
@@ -664,8 +665,15 @@ private:
       [&](std::size_t p, std::size_t)
       {
         carryPart(p, places[p], whose[p]);
+        parts_[p].stages = parts_[p].piece->stages();
         parts_[p].piece.reset();
       });
+    StageRecords sum;
+    for (const Part& part : parts_)
+    {
+      sum.add(part.stages);
+    }
+    result_.piecesStages = sum.all();
     releaseFreedMemory();
   }
 

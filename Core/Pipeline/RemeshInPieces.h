@@ -52,6 +52,9 @@ struct PiecesResult
   /// as where a handle was closed, has kInvalidIndex there and the place that it has on the joined surface.
   std::vector<SourceLocation> pointSource; ///< #points of the quads
   std::vector<SourceLocation> quadSource;  ///< #quads; the same of their centres
+  /// What the pieces took together: repair, order, connectivity, phase1, carry; seconds are sums over the pieces, of
+  /// which as many run side by side as there are threads.
+  std::vector<StageRecord> piecesStages;
   std::size_t pieces = 0;
   std::size_t joinedTriangles = 0;
 };

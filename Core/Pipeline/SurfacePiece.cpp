@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/SurfacePiece.h"
 
+#include "Base/Clock.h"
 #include "Base/Error.h"
-#include "Base/Memory.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Mesh/Features.h"
 #include "Pipeline/ResultStore.h"
@@ -49,13 +49,18 @@ public:
     prepare.threads = options.threads;
     prepare.progress = options.progress;
     surface_ = prepareSurface(input, prepare);
+    const std::size_t polygons = input.polygonOffsets.size() - 1;
     input = {};
-    releaseFreedMemory();
+    for (const auto& [name, seconds] : surface_.seconds)
+    {
+      stages_.add(name, seconds, polygons, surface_.mesh.faceCount());
+    }
     findInputPoints();
     findBoundary();
   }
 
   const std::vector<Index>& boundary() const { return boundary_; }
+  const StageRecords& stages() const { return stages_; }
   const PreparedSurface& surface() const { return surface_; }
   const PieceLevel& level() const { return told_; }
   void forgetLevel() { told_ = {}; }
@@ -75,10 +80,11 @@ public:
         hierarchy.keepVertices.push_back(v);
       }
     }
+    Stopwatch watch;
     Hierarchy made = Redecimation(mesh, surface_.hash, hierarchy).take();
+    stages_.add("phase1", watch.lap(), mesh.faceCount(), made.intermediate.mesh.faceCount());
     level_ = std::move(made.intermediate);
     log_ = std::move(made.log);
-    releaseFreedMemory();
     tellLevel(shared);
     tellBorder(border);
     letGo();
@@ -91,11 +97,12 @@ public:
       [](const PiecePlace& place) {
         return FacePlace{ place.triangle, place.weights };
       });
+    Stopwatch watch;
     const std::vector<FacePlace> onPiece =
       carryPlaces(level_, log_, log_.rounds.size(), onLevel, options_.threads, options_.progress);
+    stages_.add("carry", watch.lap(), places.size(), places.size());
     log_ = {};
     level_ = {};
-    releaseFreedMemory();
     std::vector<SourceLocation> result(places.size());
     std::transform(onPiece.begin(), onPiece.end(), result.begin(),
       [this](const FacePlace& place) { return surface_.locate(place.face, place.weights); });
@@ -115,7 +122,6 @@ private:
     surface_.mesh = {};
     std::vector<Index>().swap(inputPoint_);
     std::vector<Index>().swap(boundary_);
-    releaseFreedMemory();
   }
 
   /// The normal beside a boundary edge between shared points.
@@ -239,6 +245,7 @@ private:
   Level level_;
   DecimationLog log_;
   PieceLevel told_;
+  StageRecords stages_;
 };
 
 SurfacePiece::SurfacePiece(SurfaceInput input, const PieceOptions& options)
@@ -258,6 +265,11 @@ const std::vector<Index>& SurfacePiece::boundary() const
 std::string SurfacePiece::repairText() const
 {
   return implementation_->surface().repair.text();
+}
+
+const StageRecords& SurfacePiece::stages() const
+{
+  return implementation_->stages();
 }
 
 void SurfacePiece::thinOut(const std::vector<Index>& shared)

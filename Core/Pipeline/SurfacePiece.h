@@ -20,6 +20,7 @@
 #include "Base/Progress.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Options.h"
+#include "Pipeline/StageRecords.h"
 
 #include <array>
 #include <cstdint>
@@ -93,6 +94,9 @@ public:
   const std::vector<Index>& boundary() const;
   /// What repair changed, see RepairReport::text().
   std::string repairText() const;
+
+  /// Repair, order, connectivity, phase1 and carry, as far as they are done.
+  const StageRecords& stages() const;
 
   /// Decimates until the edges exceed the edge length, and lets the rest of the piece go, boundary() included; shared points (ids of the input, ascending) and the edges
   /// between them that are on the boundary stay. To be called once.
