@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/SurfacePiece.h"
 
+#include "Base/Clock.h"
 #include "Base/Error.h"
-#include "Base/Memory.h"
 #include "Hierarchy/Hierarchy.h"
-#include "Mesh/CreaseCurves.h"
-#include "Mesh/FeatureFilter.h"
 #include "Mesh/Features.h"
 #include "Pipeline/ResultStore.h"
 #include "Pipeline/SurfaceVersion.h"
@@ -24,8 +22,6 @@ namespace
 /// Edges over the smallest ones of quads that are asked for, where these are much smaller than s: those of the
 /// intermediate level.
 constexpr double kEdgeOfSmallest = 0.5;
-/// Features are judged for quads of this size over s: what is noise for these is noise for all, wherever a piece ends.
-constexpr double kJudgedSize = 0.5;
 
 } // namespace
 
@@ -53,13 +49,18 @@ public:
     prepare.threads = options.threads;
     prepare.progress = options.progress;
     surface_ = prepareSurface(input, prepare);
+    const std::size_t polygons = input.polygonOffsets.size() - 1;
     input = {};
-    releaseFreedMemory();
+    for (const auto& [name, seconds] : surface_.seconds)
+    {
+      stages_.add(name, seconds, polygons, surface_.mesh.faceCount());
+    }
     findInputPoints();
     findBoundary();
   }
 
   const std::vector<Index>& boundary() const { return boundary_; }
+  const StageRecords& stages() const { return stages_; }
   const PreparedSurface& surface() const { return surface_; }
   const PieceLevel& level() const { return told_; }
   void forgetLevel() { told_ = {}; }
@@ -67,12 +68,6 @@ public:
   void thinOut(const std::vector<Index>& shared)
   {
     Mesh& mesh = surface_.mesh;
-    const double edgeOfQuads = options_.edgeLength / kEdgeOfPiece;
-    FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, kJudgedSize * edgeOfQuads);
-    if (options_.featureAngle && options_.featureCriterion == FeatureCriterion::Creases)
-    {
-      removeFalseCreases(mesh, kJudgedSize * edgeOfQuads, options_.threads, filtered);
-    }
     const std::vector<BorderNormal> border = borderNormals(shared);
     HierarchyOptions hierarchy;
     hierarchy.targetEdgeLength = 2 * options_.edgeLength; // phase 1 ends at a half of it
@@ -85,12 +80,14 @@ public:
         hierarchy.keepVertices.push_back(v);
       }
     }
+    Stopwatch watch;
     Hierarchy made = Redecimation(mesh, surface_.hash, hierarchy).take();
+    stages_.add("phase1", watch.lap(), mesh.faceCount(), made.intermediate.mesh.faceCount());
     level_ = std::move(made.intermediate);
     log_ = std::move(made.log);
-    releaseFreedMemory();
     tellLevel(shared);
     tellBorder(border);
+    letGo();
   }
 
   std::vector<SourceLocation> carry(const std::vector<PiecePlace>& places)
@@ -100,11 +97,12 @@ public:
       [](const PiecePlace& place) {
         return FacePlace{ place.triangle, place.weights };
       });
+    Stopwatch watch;
     const std::vector<FacePlace> onPiece =
       carryPlaces(level_, log_, log_.rounds.size(), onLevel, options_.threads, options_.progress);
+    stages_.add("carry", watch.lap(), places.size(), places.size());
     log_ = {};
     level_ = {};
-    releaseFreedMemory();
     std::vector<SourceLocation> result(places.size());
     std::transform(onPiece.begin(), onPiece.end(), result.begin(),
       [this](const FacePlace& place) { return surface_.locate(place.face, place.weights); });
@@ -118,6 +116,14 @@ public:
   }
 
 private:
+  /// What only the decimation needed: to carry a place takes the log, and the polygon of each face.
+  void letGo()
+  {
+    surface_.mesh = {};
+    std::vector<Index>().swap(inputPoint_);
+    std::vector<Index>().swap(boundary_);
+  }
+
   /// The normal beside a boundary edge between shared points.
   struct BorderNormal
   {
@@ -239,6 +245,7 @@ private:
   Level level_;
   DecimationLog log_;
   PieceLevel told_;
+  StageRecords stages_;
 };
 
 SurfacePiece::SurfacePiece(SurfaceInput input, const PieceOptions& options)
@@ -258,6 +265,11 @@ const std::vector<Index>& SurfacePiece::boundary() const
 std::string SurfacePiece::repairText() const
 {
   return implementation_->surface().repair.text();
+}
+
+const StageRecords& SurfacePiece::stages() const
+{
+  return implementation_->stages();
 }
 
 void SurfacePiece::thinOut(const std::vector<Index>& shared)

@@ -20,6 +20,7 @@
 #include "Base/Progress.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Options.h"
+#include "Pipeline/StageRecords.h"
 
 #include <array>
 #include <cstdint>
@@ -42,9 +43,9 @@ double edgeLengthOfPieces(const RemeshOptions& options, double area, double boun
 struct PieceOptions
 {
   double edgeLength = 0; ///< edgeLengthOfPieces, > 0
-  /// As RemeshOptions::featureAngle: edges that are sharp on the piece are kept as curves.
+  /// As RemeshOptions::featureAngle: edges that are sharp on the piece are kept as curves, all of them. Which of them
+  /// the quads can follow is judged on the whole surface: where a piece ends a curve may end without being noise.
   std::optional<double> featureAngle;
-  FeatureCriterion featureCriterion = FeatureCriterion::Creases; ///< as there
   int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;
 };
@@ -94,7 +95,10 @@ public:
   /// What repair changed, see RepairReport::text().
   std::string repairText() const;
 
-  /// Decimates until the edges exceed the edge length; shared points (ids of the input, ascending) and the edges
+  /// Repair, order, connectivity, phase1 and carry, as far as they are done.
+  const StageRecords& stages() const;
+
+  /// Decimates until the edges exceed the edge length, and lets the rest of the piece go, boundary() included; shared points (ids of the input, ascending) and the edges
   /// between them that are on the boundary stay. To be called once.
   void thinOut(const std::vector<Index>& shared);
   const PieceLevel& level() const;

@@ -8,6 +8,7 @@
 #include "Transfer/PlaneReplay.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -16,27 +17,73 @@ namespace quadrille
 namespace
 {
 
-double cross(Complex a, Complex b)
+/// A point of a plane, in single precision: coordinates are those of one triangle of the level, and what is fine
+/// against it still has three digits where a million triangles lie on it.
+struct FlatPoint
 {
-  return a.real() * b.imag() - a.imag() * b.real();
+  float x = 0, y = 0;
+
+  friend FlatPoint operator+(FlatPoint a, FlatPoint b) { return { a.x + b.x, a.y + b.y }; }
+  friend FlatPoint operator-(FlatPoint a, FlatPoint b) { return { a.x - b.x, a.y - b.y }; }
+  /// As complex numbers: the first one rotates where it has length 1.
+  friend FlatPoint operator*(FlatPoint a, FlatPoint b)
+  {
+    return { a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x };
+  }
+};
+
+FlatPoint conjugate(FlatPoint p)
+{
+  return { p.x, -p.y };
 }
+
+float cross(FlatPoint a, FlatPoint b)
+{
+  return a.x * b.y - a.y * b.x;
+}
+
+/// As the one of complex numbers.
+FlatPoint rotationBetween(FlatPoint a, FlatPoint b)
+{
+  const FlatPoint rotation = b * conjugate(a);
+  const float length = std::sqrt(rotation.x * rotation.x + rotation.y * rotation.y);
+  return length > 0 ? FlatPoint{ rotation.x / length, rotation.y / length } : FlatPoint{ 1, 0 };
+}
+
+/// Charts that are planes of faces of the level. A star has so few faces that products of rotations keep their length.
+struct FlatCharts
+{
+  using Point = FlatPoint;
+  using Rotation = FlatPoint;
+
+  static Rotation none() { return { 1, 0 }; }
+  static Rotation between(Point from, Point to) { return rotationBetween(from, to); }
+  static Rotation after(Rotation second, Rotation first) { return second * first; }
+  static Point rotate(Rotation r, Point p) { return r * p; }
+  static Point rotateBack(Rotation r, Point p) { return conjugate(r) * p; }
+  static Point scaled(Point difference, std::uint32_t weight)
+  {
+    const float w = std::ldexp(static_cast<float>(weight), -32);
+    return { w * difference.x, w * difference.y };
+  }
+};
 
 /// A triangle of a star or of two faces at an edge.
 struct Candidate
 {
   Index face = kInvalidIndex;
-  std::array<Complex, 3> corner{};
+  std::array<FlatPoint, 3> corner{};
 
   /// Barycentric coordinates of p, in the order of the corners; not finite for a triangle without area.
-  std::array<double, 3> weightsOf(Complex p) const
+  std::array<double, 3> weightsOf(FlatPoint p) const
   {
     const double area = cross(corner[1] - corner[0], corner[2] - corner[0]);
-    const double second = cross(p - corner[0], corner[2] - corner[0]) / area;
-    const double third = cross(corner[1] - corner[0], p - corner[0]) / area;
+    const double second = double{ cross(p - corner[0], corner[2] - corner[0]) } / area;
+    const double third = double{ cross(corner[1] - corner[0], p - corner[0]) } / area;
     return { 1 - second - third, second, third };
   }
   /// The least of them: below 0 outside. Triangles without area hold nothing, nor do inverted ones.
-  double depthOf(Complex p) const
+  double depthOf(FlatPoint p) const
   {
     if (!(cross(corner[1] - corner[0], corner[2] - corner[0]) > 0))
     {
@@ -76,9 +123,9 @@ private:
 /// What all blocks work on.
 struct Carried
 {
-  std::vector<Complex>
+  std::vector<FlatPoint>
     corner; ///< #H of the finest mesh, in charts that are planes of the level's faces
-  std::vector<Complex> at; ///< of each place, in the chart of its face
+  std::vector<FlatPoint> at; ///< of each place, in the chart of its face
   PlaceLists lists;
 };
 
@@ -109,10 +156,10 @@ private:
   struct Moving
   {
     Index place;
-    Complex at; ///< in the common chart
+    FlatPoint at; ///< in the common chart
   };
 
-  std::vector<Complex>& corner() { return carried_.corner; }
+  std::vector<FlatPoint>& corner() { return carried_.corner; }
 
   /// Takes the places of a face; toCommon: from its chart.
   template <typename ToCommon>
@@ -158,39 +205,39 @@ private:
     const Index f = Mesh::face(h), other = Mesh::face(g);
     const bool isEmpty =
       carried_.lists.first(f) == kInvalidIndex && carried_.lists.first(other) == kInvalidIndex;
-    const Complex dInF = corner()[nextH];
-    const Complex dInG = corner()[Mesh::previous(g)];
-    const Complex rotation =
+    const FlatPoint dInF = corner()[nextH];
+    const FlatPoint dInG = corner()[Mesh::previous(g)];
+    const FlatPoint rotation =
       rotationBetween(corner()[nextG] - dInG, corner()[Mesh::previous(h)] - dInF);
     if (!isEmpty)
     {
-      take(f, [](Complex p) { return p; });
-      take(other, [&](Complex p) { return dInF + rotation * (p - dInG); });
+      take(f, [](FlatPoint p) { return p; });
+      take(other, [&](FlatPoint p) { return dInF + rotation * (p - dInG); });
     }
-    const Complex bInF = dInF + rotation * (corner()[g] - dInG);
+    const FlatPoint bInF = dInF + rotation * (corner()[g] - dInG);
     star_.unflip(h, g);
     if (isEmpty)
     {
       return;
     }
-    const Complex a = corner()[h], c = corner()[Mesh::previous(h)];
+    const FlatPoint a = corner()[h], c = corner()[Mesh::previous(h)];
     candidates_ = { { f, { a, bInF, c } }, { other, { bInF, a, dInF } } };
-    putAll([&](std::size_t i, Complex p)
-      { return i == 0 ? p : dInG + std::conj(rotation) * (p - dInF); });
+    putAll([&](std::size_t i, FlatPoint p)
+      { return i == 0 ? p : dInG + conjugate(rotation) * (p - dInF); });
   }
 
   void uncollapse()
   {
-    const Complex p = intoKernel(star_, record_, star_.unfold(record_));
+    const FlatPoint p = intoStar(star_.unfold(record_));
     const int first = record_.firstSurvivor();
     const int last = record_.lastSurvivor();
-    std::array<Complex, kMaximumRing> base; // where the vertex of the collapse is in the charts
+    std::array<FlatPoint, kMaximumRing> base; // where the vertex of the collapse is in the charts
     for (int i = first; i <= last; ++i)
     {
-      const Complex from = corner()[slot(i)];
-      const Complex rotation = star_.rotation(i);
+      const FlatPoint from = corner()[slot(i)];
+      const FlatPoint rotation = star_.rotation(i);
       base[static_cast<std::size_t>(i)] = from;
-      take(slot(i) / 3, [&](Complex q) { return rotation * (q - from); });
+      take(slot(i) / 3, [&](FlatPoint q) { return rotation * (q - from); });
     }
     if (!moving_.empty())
     {
@@ -202,16 +249,37 @@ private:
       return;
     }
     putAll(
-      [&](std::size_t i, Complex q)
+      [&](std::size_t i, FlatPoint q)
       {
         // Faces that come back have the chart of their neighbour.
         const int chart = std::clamp(static_cast<int>(i), first, last);
-        return base[static_cast<std::size_t>(chart)] + std::conj(star_.rotation(chart)) * q;
+        return base[static_cast<std::size_t>(chart)] + conjugate(star_.rotation(chart)) * q;
       });
   }
 
+  /// p, or where that would invert the star a point in its kernel, if there is one.
+  FlatPoint intoStar(FlatPoint p) const
+  {
+    const auto& ring = star_.ring();
+    const auto count = static_cast<std::size_t>(record_.ringSize());
+    bool isPositive = true;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(record_.faces); ++i)
+    {
+      isPositive = isPositive && cross(ring[i] - p, ring[(i + 1) % count] - p) > 0;
+    }
+    if (isPositive)
+    {
+      return p;
+    }
+    std::array<Complex, kMaximumRing + 1> wide;
+    std::transform(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(count), wide.begin(),
+      [](FlatPoint q) { return Complex(q.x, q.y); });
+    const Complex moved = intoKernel(wide.data(), record_, Complex(p.x, p.y));
+    return { static_cast<float>(moved.real()), static_cast<float>(moved.imag()) };
+  }
+
   /// The star of the vertex at p, in the chart of the ring.
-  void makeStar(Complex p)
+  void makeStar(FlatPoint p)
   {
     const auto& ring = star_.ring();
     const auto count = static_cast<std::size_t>(record_.ringSize());
@@ -226,7 +294,7 @@ private:
   Index slot(int i) const { return record_.slot[static_cast<std::size_t>(i)]; }
 
   Carried& carried_;
-  StarReplay<PlaneCharts> star_;
+  StarReplay<FlatCharts> star_;
   CollapseRecord record_;
   std::vector<Moving> moving_;
   std::vector<Candidate> candidates_;
@@ -282,15 +350,18 @@ std::vector<FacePlace> carryPlaces(const Level& level, const DecimationLog& log,
   const std::vector<FacePlace>& places, int threads, const ProgressCallback& progress)
 {
   check(level, log, rounds, places);
-  Carried carried{ {}, std::vector<Complex>(places.size()),
+  Carried carried{ {}, std::vector<FlatPoint>(places.size()),
     PlaceLists(log.fineFaces, places.size()) };
   growLarge(carried.corner, 3 * std::size_t{ log.fineFaces });
   for (Index f = 0; f < level.mesh.faceCount(); ++f)
   {
     pollNowAndThen(f);
     const std::array<Complex, 3> corners = layOut(level.mesh, f);
-    std::copy(
-      corners.begin(), corners.end(), &carried.corner[3 * std::size_t{ level.fineFace[f] }]);
+    std::transform(corners.begin(), corners.end(),
+      &carried.corner[3 * std::size_t{ level.fineFace[f] }],
+      [](Complex p) {
+        return FlatPoint{ static_cast<float>(p.real()), static_cast<float>(p.imag()) };
+      });
   }
   for (std::size_t i = 0; i < places.size(); ++i)
   {
@@ -298,7 +369,9 @@ std::vector<FacePlace> carryPlaces(const Level& level, const DecimationLog& log,
     const Index face = level.fineFace[places[i].face];
     for (std::size_t k = 0; k < 3; ++k)
     {
-      carried.at[i] += places[i].weights[k] * carried.corner[3 * std::size_t{ face } + k];
+      const FlatPoint corner = carried.corner[3 * std::size_t{ face } + k];
+      const auto weight = static_cast<float>(places[i].weights[k]);
+      carried.at[i] = carried.at[i] + FlatPoint{ weight * corner.x, weight * corner.y };
     }
     carried.lists.put(face, static_cast<Index>(i));
   }
@@ -317,7 +390,7 @@ std::vector<FacePlace> carryPlaces(const Level& level, const DecimationLog& log,
     pollNowAndThen(f);
     for (Index i = carried.lists.first(f); i != kInvalidIndex; i = carried.lists.next(i))
     {
-      const Complex* const p = &carried.corner[3 * std::size_t{ f }];
+      const FlatPoint* const p = &carried.corner[3 * std::size_t{ f }];
       result[i] = { f, inside(Candidate{ f, { p[0], p[1], p[2] } }.weightsOf(carried.at[i])) };
     }
   }

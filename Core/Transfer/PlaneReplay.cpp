@@ -46,14 +46,13 @@ Complex PlaneCharts::scaled(Complex difference, std::uint32_t weight)
   return std::ldexp(double(weight), -32) * difference;
 }
 
-Complex intoKernel(const StarReplay<PlaneCharts>& star, const CollapseRecord& record, Complex p)
+Complex intoKernel(const Complex* unfolded, const CollapseRecord& record, Complex p)
 {
   const int count = record.ringSize();
-  const auto& unfolded = star.ring();
   double extent = 0;
   for (int i = 0; i < count; ++i)
   {
-    extent = std::max(extent, std::abs(unfolded[static_cast<std::size_t>(i)]));
+    extent = std::max(extent, std::abs(unfolded[i]));
   }
   if (!(extent > 0))
   {
@@ -62,7 +61,7 @@ Complex intoKernel(const StarReplay<PlaneCharts>& star, const CollapseRecord& re
   const auto onGrid = [&](Complex q)
   { return toFixed(Vector2(q.real(), q.imag()) * (kKernelScale / extent)); };
   std::array<FixedVec2, kMaximumRing + 1> ring;
-  std::transform(unfolded.begin(), unfolded.begin() + count, ring.begin(), onGrid);
+  std::transform(unfolded, unfolded + count, ring.begin(), onGrid);
   const bool closed = record.kind == CollapseKind::Interior;
   if (starIsPositive(ring.data(), count, closed, onGrid(p)))
   {

@@ -151,7 +151,8 @@ public:
 private:
   void uncollapse()
   {
-    star_.write(record_, intoKernel(star_, record_, star_.unfold(record_)));
+    const Complex p = star_.unfold(record_);
+    star_.write(record_, intoKernel(star_.ring().data(), record_, p));
     const int first = record_.firstSurvivor();
     const int last = record_.lastSurvivor();
     if (first == 1)
