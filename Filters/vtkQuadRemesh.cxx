@@ -486,7 +486,6 @@ void vtkQuadRemesh::PlanSpread(const quadrille::Block& block, const quadrille::S
   this->SetSizes(options);
   plan.piece.edgeLength = quadrille::edgeLengthOfPieces(options, size.area, size.diagonal);
   plan.piece.featureAngle = options.featureAngle;
-  plan.piece.featureCriterion = options.featureCriterion;
   plan.patchArray = this->PatchArrayName;
   plan.guideArray = this->GetGuideArrayInUse();
   plan.memoryLimit = 1e6 * this->MemoryLimit;
