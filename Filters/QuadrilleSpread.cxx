@@ -55,20 +55,22 @@ std::uint64_t mixed(std::uint64_t x)
   return x ^ (x >> 31U);
 }
 
-/// A number for the place of a point, the same on all pieces that have it.
-std::uint64_t placeHash(vtkPolyData* data, Index point)
+/// A number for a point that is the same on all pieces that have it: of its global id where there are these, else of
+/// its rounded place. Two of a billion points have the same one with a probability of three per cent; both then stay,
+/// and where they were shared would be joined, which the filter would tell as a surface that is no manifold.
+std::int64_t pointNumber(const SpreadPiece& piece, Index point, bool byIds, double unit)
 {
-  Vector3 x;
-  data->GetPoint(point, x.data());
-  std::uint64_t hash = 0;
-  for (double coordinate : x)
+  if (byIds)
   {
-    coordinate += 0.0; // -0 is 0
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &coordinate, sizeof(bits));
+    return static_cast<std::int64_t>(
+      piece.data->GetPointData()->GetGlobalIds()->GetComponent(point, 0));
+  }
+  std::uint64_t hash = 0;
+  for (const std::uint64_t bits : placeKey(piece.data, point, unit))
+  {
     hash = mixed(hash ^ bits);
   }
-  return hash;
+  return static_cast<std::int64_t>(hash);
 }
 
 std::vector<double> flat(const std::vector<Vector3>& points)
@@ -228,6 +230,7 @@ void SpreadSurface::measure()
   Packer packer;
   std::size_t cells = 0;
   double area = 0;
+  bool inDouble = false;
   vtkBoundingBox box;
   for (const SpreadPiece& piece : pieces_)
   {
@@ -235,12 +238,14 @@ void SpreadSurface::measure()
       static_cast<std::size_t>(piece.data->GetNumberOfPolys() + piece.data->GetNumberOfStrips());
     area += areaOf(piece.data);
     box.AddBounds(piece.data->GetBounds());
+    inDouble = inDouble || needsDouble(piece.data);
   }
   double bounds[6];
   box.IsValid() ? box.GetBounds(bounds) : vtkMath::UninitializeBounds(bounds);
   packer.count(cells);
   packer.number(area);
   packer.values(bounds, 6);
+  packer.count(inDouble ? 1 : 0);
   vtkBoundingBox whole;
   for (const std::string& bytes : ranks_.gather(packer.bytes()))
   {
@@ -249,12 +254,14 @@ void SpreadSurface::measure()
     size_.area += unpacker.number();
     const auto part = unpacker.values<double>();
     whole.AddBounds(part.data()); // ignores what is uninitialized
+    inDouble = unpacker.count() != 0 || inDouble;
   }
   if (whole.IsValid())
   {
     whole.GetBounds(size_.bounds);
   }
   size_.diagonal = whole.IsValid() ? whole.GetDiagonalLength() : 0;
+  unit_ = unitOfPlaces(size_.diagonal, inDouble);
   figures_.faces = cells;
 }
 
@@ -281,7 +288,7 @@ vtkSmartPointer<vtkPolyData> SpreadSurface::join(
     {
       piece.piece.reset();
     }
-    pieces_ = redistributeCells(ranks_, std::move(pieces_), model_, figures_);
+    pieces_ = redistributeCells(ranks_, std::move(pieces_), model_, unit_, figures_);
     isRedistributed_ = true;
     makePieces();
     findShared();
@@ -345,11 +352,7 @@ void SpreadSurface::findShared()
   std::vector<std::vector<std::vector<std::uint64_t>>> asked(
     ranks, std::vector<std::vector<std::uint64_t>>(pieces_.size()));
   const auto hashOf = [&](const SpreadPiece& piece, Index point)
-  {
-    vtkDataArray* ids = hasGlobalIds_ ? piece.data->GetPointData()->GetGlobalIds() : nullptr;
-    return ids ? mixed(static_cast<std::uint64_t>(ids->GetComponent(point, 0)))
-               : placeHash(piece.data, point);
-  };
+  { return mixed(static_cast<std::uint64_t>(pointNumber(piece, point, hasGlobalIds_, unit_))); };
   figures_.borderPoints = 0;
   for (std::size_t p = 0; p < pieces_.size(); ++p)
   {
@@ -458,10 +461,9 @@ std::string SpreadSurface::packLevels()
     packLevel(level, packer);
     vtkPointData* arrays = piece.data->GetPointData();
     std::vector<std::int64_t> ids;
-    for (std::size_t i = 0; hasGlobalIds_ && i < level.inputPoint.size(); ++i)
+    for (const Index point : level.inputPoint)
     {
-      ids.push_back(
-        static_cast<std::int64_t>(arrays->GetGlobalIds()->GetComponent(level.inputPoint[i], 0)));
+      ids.push_back(pointNumber(piece, point, hasGlobalIds_, unit_));
     }
     packer.values(ids);
     vtkNew<vtkFieldData> tuples;

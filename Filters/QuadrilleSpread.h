@@ -122,6 +122,7 @@ private:
   int owner_;
   SpreadPlan plan_;
   SpreadSize size_;
+  double unit_ = 0; ///< see unitOfPlaces
   std::vector<SpreadPiece> pieces_;
   SpreadFigures figures_;
   vtkSmartPointer<vtkPolyData> model_; ///< the arrays of all pieces, without tuples

@@ -23,7 +23,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <numeric>
 #include <tuple>
 
@@ -237,25 +236,19 @@ void packPiece(vtkPolyData* data, const std::vector<std::uint32_t>& bins,
 }
 
 /// What tells points apart: their place, or their global id.
-std::array<std::uint64_t, 3> pointKey(vtkPolyData* data, vtkIdType point, vtkDataArray* ids)
+std::array<std::uint64_t, 3> pointKey(
+  vtkPolyData* data, vtkIdType point, vtkDataArray* ids, double unit)
 {
   if (ids)
   {
     return { static_cast<std::uint64_t>(ids->GetComponent(point, 0)), 0, 0 };
   }
-  double x[3];
-  data->GetPoint(point, x);
-  std::array<std::uint64_t, 3> key{};
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    const double coordinate = x[i] + 0.0; // -0 is 0
-    std::memcpy(&key[i], &coordinate, sizeof(coordinate));
-  }
-  return key;
+  return placeKey(data, point, unit);
 }
 
 /// One piece of parts with common points.
-SpreadPiece merge(const std::vector<vtkSmartPointer<vtkPolyData>>& parts, vtkPolyData* model)
+SpreadPiece merge(
+  const std::vector<vtkSmartPointer<vtkPolyData>>& parts, vtkPolyData* model, double unit)
 {
   struct Use
   {
@@ -272,7 +265,7 @@ SpreadPiece merge(const std::vector<vtkSmartPointer<vtkPolyData>>& parts, vtkPol
       modelIds ? parts[p]->GetPointData()->GetArray(modelIds->GetName()) : nullptr;
     for (vtkIdType i = 0; i < parts[p]->GetNumberOfPoints(); ++i)
     {
-      uses.push_back({ pointKey(parts[p], i, ids), { p, i } });
+      uses.push_back({ pointKey(parts[p], i, ids, unit), { p, i } });
     }
     joined.emplace_back(static_cast<std::size_t>(parts[p]->GetNumberOfPoints()));
     inDouble = inDouble || parts[p]->GetPoints()->GetDataType() != VTK_FLOAT;
@@ -354,8 +347,8 @@ void gatherInModelsOrder(const std::vector<vtkDataSetAttributes*>& sources,
   }
 }
 
-std::vector<SpreadPiece> redistributeCells(
-  const Ranks& ranks, std::vector<SpreadPiece> pieces, vtkPolyData* model, SpreadFigures& figures)
+std::vector<SpreadPiece> redistributeCells(const Ranks& ranks, std::vector<SpreadPiece> pieces,
+  vtkPolyData* model, double unit, SpreadFigures& figures)
 {
   std::vector<vtkSmartPointer<vtkPolyData>> data;
   std::vector<std::vector<std::uint32_t>> bins;
@@ -414,7 +407,7 @@ std::vector<SpreadPiece> redistributeCells(
       }
       if (!sourceCell.empty())
       {
-        pieces.push_back(merge(parts, model));
+        pieces.push_back(merge(parts, model, unit));
         pieces.back().sourceRank = std::move(sourceRank);
         pieces.back().sourceCell = std::move(sourceCell);
       }

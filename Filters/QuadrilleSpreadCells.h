@@ -15,11 +15,11 @@ namespace quadrille
 {
 
 /// Sends each polygon, with its arrays, to the rank that has its part of a space-filling curve through the cell centres;
-/// the parts have about the same number of polygons. Points at the same place, or with the same global id where `model`
+/// the parts have about the same number of polygons. Points at the same place, rounded to multiples of `unit`, or with the same global id where `model`
 /// has these, become one. pieces: with the arrays of `model`; their SurfacePieces go. Returns this rank's piece, or none
 /// where it gets no polygon. Collective.
-std::vector<SpreadPiece> redistributeCells(
-  const Ranks& ranks, std::vector<SpreadPiece> pieces, vtkPolyData* model, SpreadFigures& figures);
+std::vector<SpreadPiece> redistributeCells(const Ranks& ranks, std::vector<SpreadPiece> pieces,
+  vtkPolyData* model, double unit, SpreadFigures& figures);
 
 /// A tuple for each origin, as gatherArrays, of sources that all have the arrays of `model`: in its order, with those
 /// active that are so there.
