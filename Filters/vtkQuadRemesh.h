@@ -72,7 +72,14 @@
 
 #include "vtkQuadrilleSurfaceAlgorithm.h"
 
+#include <memory> // for std::unique_ptr
+
 class vtkTable;
+
+namespace quadrille
+{
+class TriangleSource;
+}
 
 class QUADRILLEFILTERS_EXPORT vtkQuadRemesh : public vtkQuadrilleSurfaceAlgorithm
 {
@@ -448,6 +455,28 @@ public:
   vtkGetMacro(SpreadSurfaces, int);
   ///@}
 
+  /// See SetPieces().
+  enum PiecesType
+  {
+    PIECES_AUTOMATIC = 0,
+    PIECES_ALWAYS = 1,
+    PIECES_NEVER = 2
+  };
+  ///@{
+  /**
+   * Whether a surface in one process is cut into compact pieces of about a million triangles, a PiecesType. Each is
+   * prepared and thinned out by itself, to triangles that are small against the quads, one piece a thread; the quads
+   * are made on the thinned pieces together, and their points go back to the surface. That takes about a third of the
+   * memory and less time, and holds nothing of the surface for the next execution. Automatic: from 1,500,000 triangles
+   * on, where a quad has at least 66 of them, and with KeepLevels from 10,000,000 on; where properties or inputs need
+   * the whole surface (constraints, symmetry, previews, the mapped surface, CellDataFrom by area, FinalQuality on the
+   * input, the method without quads, polygons with more than three corners), it stays whole. Always: also where it is
+   * smaller; what needs the whole surface is an error. Never: the surface stays whole. Default: Automatic.
+   */
+  vtkSetClampMacro(Pieces, int, PIECES_AUTOMATIC, PIECES_NEVER);
+  vtkGetMacro(Pieces, int);
+  ///@}
+
   /// Millions of bytes that are held for the next execution.
   double GetRememberedMegabytes() const;
   /// Stages that the last execution had, or began, from an earlier one, one a line; "all" where nothing had changed and
@@ -549,6 +578,9 @@ private:
 
   vtkPolyData* GetPolyDataOutputAt(int port);
   void SetSizes(quadrille::RemeshOptions& options) const;
+  std::string ReasonNotToCut(const quadrille::Block& block) const;
+  std::unique_ptr<quadrille::TriangleSource> TrianglesToCut(
+    const quadrille::Block& block, const quadrille::RemeshOptions& options) const;
   vtkIdType CountOverBlocks(const char* number) const
   {
     return static_cast<vtkIdType>(this->SumOverBlocks(number));
@@ -570,6 +602,7 @@ private:
   vtkTypeBool CurvatureGuides = 0;
   double LeastAnisotropy = 0.3;
   int SpreadSurfaces = SPREAD_AUTOMATIC;
+  int Pieces = PIECES_AUTOMATIC;
   vtkTypeBool KeepLevels = 1;
   vtkTypeBool Preview = 0;
   vtkTypeBool WarmStart = 0;

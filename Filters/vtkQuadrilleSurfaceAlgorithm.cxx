@@ -8,6 +8,7 @@
 #include "QuadrilleConstraintTable.h"
 #include "QuadrilleConstraints.h"
 #include "QuadrilleConvert.h"
+#include "QuadrilleInPieces.h"
 
 #include "vtkCellData.h"
 #include "vtkMath.h"
@@ -76,10 +77,7 @@ quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
   {
     quadrille::addGuideArray(data, this->GuideArrayName, surface);
   }
-  if (surface.ignoredCells > 0)
-  {
-    this->AddNotice(std::to_string(surface.ignoredCells) + " vertex and line cells are not used");
-  }
+  this->TellIgnored(surface);
   quadrille::ConstraintInputs constraints;
   constraints.curves = block.input(1);
   constraints.strokes = block.input(2);
@@ -119,6 +117,25 @@ quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
       "the move: only Quad Remesh can do this");
   }
   return surface;
+}
+
+//------------------------------------------------------------------------------
+quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertForPieces(
+  const quadrille::Block& block)
+{
+  this->WarnOfUnusedArrays(block);
+  quadrille::ConvertedSurface surface = quadrille::polygonsOf(block.input(0));
+  this->TellIgnored(surface);
+  return surface;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleSurfaceAlgorithm::TellIgnored(const quadrille::ConvertedSurface& surface)
+{
+  if (surface.ignoredCells > 0)
+  {
+    this->AddNotice(std::to_string(surface.ignoredCells) + " vertex and line cells are not used");
+  }
 }
 
 //------------------------------------------------------------------------------

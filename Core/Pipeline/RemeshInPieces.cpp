@@ -82,6 +82,57 @@ private:
   std::vector<Vector3> places_;
 };
 
+void requireFinite(const Vector3& p, Index id)
+{
+  constexpr double kLargest = 1e150; // as for any surface
+  if (!(p.cwiseAbs().maxCoeff() < kLargest))
+  {
+    throw InvalidInput("point " + std::to_string(id) +
+      " has a coordinate that is not finite or exceeds 1e150: remove the point and the polygons "
+      "at it, or correct it.");
+  }
+}
+
+struct Extent
+{
+  Box box;
+  double area = 0;
+
+  double diagonal() const { return (box.high - box.low).norm(); }
+};
+
+/// Of all triangles; throws InvalidInput for a point that is not finite.
+Extent extentOf(const TriangleSource& source, int threads)
+{
+  const std::size_t faces = source.triangleCount();
+  std::vector<Extent> parts((faces + kChunk - 1) / kChunk);
+  parallelFor(faces, kChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      ChunkReader reader(source);
+      reader.read(begin, end);
+      Extent part;
+      for (std::size_t i = 0; i < end - begin; ++i)
+      {
+        const Vector3* const p = reader.places(i);
+        for (int k = 0; k < 3; ++k)
+        {
+          requireFinite(p[k], reader.ids(i)[k]);
+          part.box.add(p[k]);
+        }
+        part.area += 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
+      }
+      parts[begin / kChunk] = part;
+    });
+  Extent all;
+  for (const Extent& part : parts)
+  {
+    all.box.add(part.box);
+    all.area += part.area;
+  }
+  return all;
+}
+
 /// The triangles by pieces.
 struct Cut
 {
@@ -103,7 +154,10 @@ public:
 
   Cut run()
   {
-    findBox();
+    const Extent extent = extentOf(source_, threads_);
+    box_ = extent.box;
+    cut_.area = extent.area;
+    cut_.diagonal = extent.diagonal();
     findCells();
     std::vector<std::uint16_t> pieceOf = cutCells();
     std::vector<std::size_t> at = cut_.first;
@@ -117,51 +171,6 @@ public:
   }
 
 private:
-  void findBox()
-  {
-    const std::size_t faces = source_.triangleCount();
-    const std::size_t chunks = (faces + kChunk - 1) / kChunk;
-    std::vector<Box> boxes(chunks);
-    std::vector<double> areas(chunks, 0);
-    parallelFor(faces, kChunk, threads_,
-      [&](std::size_t begin, std::size_t end)
-      {
-        ChunkReader reader(source_);
-        reader.read(begin, end);
-        Box box;
-        double area = 0;
-        for (std::size_t i = 0; i < end - begin; ++i)
-        {
-          const Vector3* const p = reader.places(i);
-          for (int k = 0; k < 3; ++k)
-          {
-            requireFinite(p[k], reader.ids(i)[k]);
-            box.add(p[k]);
-          }
-          area += 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
-        }
-        boxes[begin / kChunk] = box;
-        areas[begin / kChunk] = area;
-      });
-    for (const Box& box : boxes)
-    {
-      box_.add(box);
-    }
-    cut_.area = std::accumulate(areas.begin(), areas.end(), 0.0);
-    cut_.diagonal = (box_.high - box_.low).norm();
-  }
-
-  static void requireFinite(const Vector3& p, Index id)
-  {
-    constexpr double kLargest = 1e150; // as for any surface
-    if (!(p.cwiseAbs().maxCoeff() < kLargest))
-    {
-      throw InvalidInput("point " + std::to_string(id) +
-        " has a coordinate that is not finite or exceeds 1e150: remove the point and the polygons "
-        "at it, or correct it.");
-    }
-  }
-
   void findCells()
   {
     const std::size_t faces = source_.triangleCount();
@@ -719,6 +728,27 @@ private:
 };
 
 } // namespace
+
+bool isWorthPieces(const TriangleSource& source, const RemeshOptions& options)
+{
+  const std::size_t triangles = source.triangleCount();
+  if (triangles < kTrianglesWorthPieces)
+  {
+    return false;
+  }
+  double quads = 0;
+  if (options.quads)
+  {
+    quads = static_cast<double>(*options.quads);
+  }
+  else
+  {
+    const Extent extent = extentOf(source, options.threads);
+    const double s = edgeLengthOfPieces(options, extent.area, extent.diagonal()) / kEdgeOfPiece;
+    quads = extent.area / (s * s);
+  }
+  return static_cast<double>(triangles) >= kTrianglesOfQuad * quads;
+}
 
 PiecesResult remeshInPieces(
   const TriangleSource& source, const RemeshOptions& options, const PiecesOptions& pieces)

@@ -35,8 +35,10 @@ public:
   virtual void positions(const Index* ids, std::size_t count, Vector3* places) const = 0;
 };
 
-/// From how many triangles on a surface is worth to be cut.
-constexpr std::size_t kTrianglesWorthPieces = 4000000;
+/// From how many triangles on a surface is worth to be cut, and from how many of them a quad: thinned pieces have about
+/// 22.
+constexpr std::size_t kTrianglesWorthPieces = 1500000;
+constexpr double kTrianglesOfQuad = 66;
 constexpr std::size_t kTrianglesOfPiece = 1000000;
 
 struct PiecesOptions
@@ -58,6 +60,9 @@ struct PiecesResult
   std::size_t pieces = 0;
   std::size_t joinedTriangles = 0;
 };
+
+/// Whether it saves time and memory to cut this surface for these quads.
+bool isWorthPieces(const TriangleSource& source, const RemeshOptions& options);
 
 /// Makes the quads. options: as for remesh(), on the surface as it is: guides, valences, sizes and curves that an input
 /// can name are not taken. Throws InvalidInput as remesh() does, naming points and triangles of the source; cancel and
