@@ -339,8 +339,8 @@ std::vector<int> pointValences(vtkPolyData* data)
 /// Only the pieces of a spread surface have them, as QuadrilleSpread.h writes them.
 void readDetectedFeatures(vtkPolyData* data, ConvertedSurface& surface)
 {
-  auto* array = vtkUnsignedCharArray::SafeDownCast(
-    data->GetCellData()->GetArray(arrays::kDetectedFeatures));
+  auto* array =
+    vtkUnsignedCharArray::SafeDownCast(data->GetCellData()->GetArray(arrays::kDetectedFeatures));
   if (!array)
   {
     return;
