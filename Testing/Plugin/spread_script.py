@@ -439,6 +439,100 @@ def modes():
     check(first is None or first.digest() == again.digest(), "the quads depend on what was made before")
 
 
+def blocks():
+    """Composite data: each block is spread; and a surface that comes in several pieces a rank."""
+    from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkPartitionedDataSet
+    rng = np.random.default_rng(4)
+    whole = [sphere(30), torus(24)]
+    parts = [random_blobs(*surface_, RANKS, rng) for surface_ in whole]
+    data = vtkMultiBlockDataSet()
+    for i, ((points, triangles), part) in enumerate(zip(whole, parts)):
+        mine = part == RANK
+        data.SetBlock(i, piece(points, triangles, mine)[0] if mine.any() else vtkPolyData())
+    remesh = remesher(data, 600)
+    quads = run(remesh)
+    check(remesh.GetOutcome() == SUCCEEDED, remesh.GetOutcomeText())
+    total = 0
+    for i, characteristic in enumerate((2, 0)):
+        copy = vtkPolyData()
+        if quads.GetBlock(i):
+            copy.ShallowCopy(quads.GetBlock(i))
+        copy.GetFieldData().Initialize()
+        gathered = gather(copy)
+        if gathered is not None:
+            try:
+                mesh = Joined(gathered)
+                mesh.check_manifold(characteristic)
+                total += len(mesh.quads)
+            except AssertionError as error:
+                check(False, f"block {i}: {error}")
+    check(RANK > 0 or total == remesh.GetActualQuads(), "the blocks do not have the quads that are told")
+    points, triangles = whole[1]
+    part = random_blobs(points, triangles, 3 * RANKS, rng)
+    data = vtkPartitionedDataSet()
+    for k in range(3):
+        mine = part == 3 * RANK + k
+        if mine.any():
+            data.SetPartition(data.GetNumberOfPartitions(), piece(points, triangles, mine)[0])
+    remesh = remesher(data, 300)
+    quads = run(remesh)
+    check(remesh.GetOutcome() == SUCCEEDED, remesh.GetOutcomeText())
+    copy = vtkPolyData()
+    if quads.GetNumberOfPartitions() and quads.GetPartition(0):
+        copy.ShallowCopy(quads.GetPartition(0))
+    copy.GetFieldData().Initialize()
+    gathered = gather(copy)
+    if gathered is not None:
+        try:
+            Joined(gathered).check_manifold(0)
+        except AssertionError as error:
+            check(False, f"several pieces a rank: {error}")
+
+
+def kinds():
+    """Pieces with ghost cells, of quads, of strips, with lines beside them; volumes are refused."""
+    from vtkmodules.vtkFiltersCore import vtkStripper
+    from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
+    points, triangles = torus(30)
+    part = stripes(points, triangles, RANKS)
+    # A layer of ghost cells on each side, flagged as ParaView does.
+    at_border = np.isin(triangles, np.unique(triangles[part == RANK])).any(1)
+    data, used, faces = piece(points, triangles, (part == RANK) | at_border)
+    flags = np.where(part[faces] == RANK, 0, 1).astype(np.uint8)
+    add(data.GetCellData(), "vtkGhostType", flags)
+    remesh = remesher(data, 400)
+    ghosted = joined(remesh, "ghost cells", 0)
+    check(("ghost cells were left out" in remesh.GetNoticesText()) == (RANKS > 1), "ghost cells are not told")
+    plain = joined(remesher(stripe(points, triangles)[0], 400), "no ghost cells", 0)
+    check(plain is None or plain.digest() == ghosted.digest(), "ghost cells change the quads")
+    stripper = vtkStripper()
+    data, used, faces = stripe(points, triangles)
+    add(data.GetCellData(), "face", faces.astype(np.int64))
+    stripper.SetInputData(data)
+    stripper.PassCellDataAsFieldDataOff()
+    stripper.Update()
+    check(stripper.GetOutput().GetNumberOfStrips() > 0, "there are no strips")
+    joined(remesher(stripper.GetOutput(), 400), "strips", 0)
+    # Faces dealt out at random, so that they are redistributed; first as quads.
+    count = 80
+    at = lambda i, j: (i % (2 * count)) * count + j % count
+    dense = torus(count)[0]
+    quads = np.array([(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1))
+                      for i in range(2 * count) for j in range(count)])
+    mine = quads[np.random.default_rng(6).integers(0, RANKS, len(quads)) == RANK]
+    used, corners = np.unique(mine, return_inverse=True)
+    data = surface(dense[used], np.empty((0, 3), int))
+    for quad in corners.reshape(-1, 4).tolist():
+        data.GetPolys().InsertNextCell(4, quad)
+    remesh = remesher(data, 200)
+    joined(remesh, "quads", 0)
+    check(("redistributed" in remesh.GetNoticesText()) == (RANKS > 1), "quads were not redistributed")
+    source = vtkRTAnalyticSource()
+    source.SetWholeExtent(0, 6, 0, 6, 0, 6)
+    source.UpdatePiece(RANK, RANKS, 0)
+    fails(remesher(source.GetOutput(), 300), BAD_INPUT, "Extract Surface", "a volume")
+
+
 def pipeline():
     """Between filters of ParaView: surfaces as its sources and filters cut them, and filters that use the quads."""
     from paraview import servermanager, simple
@@ -489,7 +583,8 @@ CASES = {
     "splits-closed": lambda: splits(("sphere", "torus"), 25), "splits-open": lambda: splits(("plane", "box"), 25),
     "repeat": repeat, "dense": dense, "scattered": scattered, "attributes": attributes, "ids": ids,
     "constraints": constraints, "features": features, "ghosts": ghosts, "sums": sums, "faults": faults,
-    "cancel": cancel, "modes": modes, "pipeline": pipeline,
+    "cancel": cancel, "modes": modes, "blocks": blocks, "kinds": kinds,
+    "pipeline": pipeline,
 }
 
 if __name__ == "__main__":
