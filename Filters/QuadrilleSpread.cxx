@@ -47,32 +47,6 @@ double expectedVertices(double area, double edgeLength)
   return area / (0.5 * std::sqrt(3.0) * edgeLength * edgeLength);
 }
 
-std::uint64_t mixed(std::uint64_t x)
-{
-  x += 0x9e3779b97f4a7c15U;
-  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31U);
-}
-
-/// A number for a point that is the same on all pieces that have it: of its global id where there are these, else of
-/// its rounded place. Two of a billion points have the same one with a probability of three per cent; both then stay,
-/// and where they were shared would be joined, which the filter would tell as a surface that is no manifold.
-std::int64_t pointNumber(const SpreadPiece& piece, Index point, bool byIds, double unit)
-{
-  if (byIds)
-  {
-    return static_cast<std::int64_t>(
-      piece.data->GetPointData()->GetGlobalIds()->GetComponent(point, 0));
-  }
-  std::uint64_t hash = 0;
-  for (const std::uint64_t bits : placeKey(piece.data, point, unit))
-  {
-    hash = mixed(hash ^ bits);
-  }
-  return static_cast<std::int64_t>(hash);
-}
-
 std::vector<double> flat(const std::vector<Vector3>& points)
 {
   std::vector<double> numbers;
@@ -242,6 +216,7 @@ SpreadSurface::SpreadSurface(
     {
       pieces_.emplace_back();
       pieces_.back().data = piece;
+      pieces_.back().ofVolume = piece->GetCellData()->GetArray(kVolumeFace);
     }
   }
   measure();
@@ -297,11 +272,12 @@ vtkSmartPointer<vtkPolyData> SpreadSurface::join(
     const SpreadTimer timer(figures_, "prepare");
     model_ = agreeOnArrays(ranks_, pieces_, notices);
     hasGlobalIds_ = model_->GetPointData()->GetGlobalIds() != nullptr;
+    dropInnerFaces(ranks_, pieces_, hasGlobalIds_, unit_, notices);
     makePieces();
   }
   {
     const SpreadTimer timer(figures_, "exchange");
-    findShared();
+    findSharedPoints();
   }
   if (isScattered())
   {
@@ -315,7 +291,7 @@ vtkSmartPointer<vtkPolyData> SpreadSurface::join(
     pieces_ = redistributeCells(ranks_, std::move(pieces_), model_, unit_, figures_);
     isRedistributed_ = true;
     makePieces();
-    findShared();
+    findSharedPoints();
   }
   {
     const SpreadTimer timer(figures_, "thin");
@@ -369,59 +345,37 @@ void SpreadSurface::makePieces()
   }
 }
 
-void SpreadSurface::findShared()
+void SpreadSurface::findSharedPoints()
 {
-  const auto ranks = static_cast<std::size_t>(ranks_.size());
-  // What each rank is asked about: of each piece its numbers, in the order of the piece's boundary.
-  std::vector<std::vector<std::vector<std::uint64_t>>> asked(
-    ranks, std::vector<std::vector<std::uint64_t>>(pieces_.size()));
-  const auto hashOf = [&](const SpreadPiece& piece, Index point)
-  { return mixed(static_cast<std::uint64_t>(pointNumber(piece, point, hasGlobalIds_, unit_))); };
-  figures_.borderPoints = 0;
+  std::vector<std::vector<std::uint64_t>> numbers(pieces_.size());
+  ranks_.together("the boundaries of the pieces",
+    [&]
+    {
+      figures_.borderPoints = 0;
+      for (std::size_t p = 0; p < pieces_.size(); ++p)
+      {
+        for (const Index point : pieces_[p].piece->boundary())
+        {
+          numbers[p].push_back(
+            static_cast<std::uint64_t>(pointNumber(pieces_[p], point, hasGlobalIds_, unit_)));
+        }
+        figures_.borderPoints += numbers[p].size();
+      }
+    });
+  const std::vector<std::vector<std::uint8_t>> isShared = findShared(ranks_, numbers);
+  figures_.sharedPoints = 0;
   for (std::size_t p = 0; p < pieces_.size(); ++p)
   {
-    for (const Index point : pieces_[p].piece->boundary())
+    pieces_[p].kept.clear();
+    for (std::size_t i = 0; i < isShared[p].size(); ++i)
     {
-      const std::uint64_t hash = hashOf(pieces_[p], point);
-      asked[hash % ranks][p].push_back(hash);
-    }
-    figures_.borderPoints += pieces_[p].piece->boundary().size();
-  }
-  std::vector<std::string> questions(ranks);
-  for (std::size_t r = 0; r < ranks; ++r)
-  {
-    Packer packer;
-    for (const std::vector<std::uint64_t>& hashes : asked[r])
-    {
-      packer.values(hashes);
-    }
-    questions[r] = packer.take();
-  }
-  asked.clear();
-  const std::vector<std::string> received = ranks_.exchange(std::move(questions));
-  const std::vector<std::string> answers = ranks_.exchange(sharedOf(received));
-  std::vector<Unpacker> unpackers(answers.begin(), answers.end());
-  std::size_t shared = 0;
-  for (SpreadPiece& piece : pieces_)
-  {
-    std::vector<std::vector<std::uint8_t>> isShared;
-    for (Unpacker& unpacker : unpackers)
-    {
-      isShared.push_back(unpacker.values<std::uint8_t>());
-    }
-    std::vector<std::size_t> next(ranks, 0);
-    piece.kept.clear();
-    for (const Index point : piece.piece->boundary())
-    {
-      const std::size_t r = hashOf(piece, point) % ranks;
-      if (isShared[r][next[r]++] != 0)
+      if (isShared[p][i] != 0)
       {
-        piece.kept.push_back(point);
+        pieces_[p].kept.push_back(pieces_[p].piece->boundary()[i]);
       }
     }
-    shared += piece.kept.size();
+    figures_.sharedPoints += pieces_[p].kept.size();
   }
-  figures_.sharedPoints = shared;
 }
 
 void SpreadSurface::keepWhatAsks()
@@ -604,15 +558,6 @@ std::string reasonNotToSpread(
         return "the directions of the cell array '" + name +
           "' cannot be carried over to thinned "
           "pieces";
-      }
-    }
-    vtkDataArray* ofVolume = cells->GetArray(kVolumeFace);
-    for (vtkIdType i = 0; ofVolume && i < ofVolume->GetNumberOfTuples(); ++i)
-    {
-      if (ofVolume->GetComponent(i, 0) != 0)
-      {
-        return "it is the surface of cells with a volume, of which each rank has its part (Extract "
-               "Surface makes one of it)";
       }
     }
   }

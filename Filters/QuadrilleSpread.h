@@ -14,6 +14,7 @@
 #include "QuadrilleRanks.h"
 #include "QuadrilleSpreadFigures.h"
 
+#include <vtkDataArray.h>
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
@@ -65,8 +66,9 @@ struct SpreadPlan
 /// A piece of this rank.
 struct SpreadPiece
 {
-  vtkSmartPointer<vtkPolyData> data; ///< with the arrays of the model, in its order
-  ConvertedSurface converted;        ///< without its input
+  vtkSmartPointer<vtkPolyData> data;      ///< with the arrays of the model, in its order
+  vtkSmartPointer<vtkDataArray> ofVolume; ///< 1 on faces of volume cells; null where there are none
+  ConvertedSurface converted;             ///< without its input
   std::unique_ptr<SurfacePiece> piece;
   std::vector<Index> kept; ///< points that stay, ascending
   /// Only after a redistribution, of each cell: the rank that the user has it on, and its id there.
@@ -105,7 +107,7 @@ private:
 
   void measure();
   void makePieces();
-  void findShared();
+  void findSharedPoints();
   void keepWhatAsks();
   bool isScattered() const;
   vtkSmartPointer<vtkPolyData> gatherLevels(std::vector<std::string>& notices);
@@ -139,8 +141,7 @@ private:
 /// Whether a surface is one that SpreadSurface::join() made.
 bool isJoined(vtkPolyData* surface);
 
-/// Why pieces cannot stay spread: arrays on them that ask for what is not to be had so, or volumes that they are the
-/// surface of; empty where they can.
+/// Why pieces cannot stay spread: arrays on them that ask for what is not to be had so; empty where they can.
 std::string reasonNotToSpread(
   const std::vector<vtkSmartPointer<vtkPolyData>>& pieces, const std::string& guideArray);
 

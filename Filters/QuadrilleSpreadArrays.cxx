@@ -238,6 +238,143 @@ vtkSmartPointer<vtkPolyData> agreeOnArrays(
 namespace
 {
 
+/// received: of each rank, lists of numbers, one for each of its pieces. Returns for each rank lists of the same sizes:
+/// 1 where another list has the number, too.
+std::vector<std::string> sharedOf(const std::vector<std::string>& received)
+{
+  struct Use
+  {
+    std::uint64_t number;
+    std::uint32_t list;
+    std::uint32_t place;
+  };
+  std::vector<Use> uses;
+  std::vector<std::vector<std::uint8_t>> isShared; // of each list
+  std::vector<std::size_t> listsOfRank;
+  for (const std::string& bytes : received)
+  {
+    Unpacker unpacker(bytes);
+    const std::size_t first = isShared.size();
+    while (!unpacker.isAtEnd())
+    {
+      const auto numbers = unpacker.values<std::uint64_t>();
+      const auto list = static_cast<std::uint32_t>(isShared.size());
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+      {
+        uses.push_back({ numbers[i], list, static_cast<std::uint32_t>(i) });
+      }
+      isShared.emplace_back(numbers.size(), 0);
+    }
+    listsOfRank.push_back(isShared.size() - first);
+  }
+  std::sort(uses.begin(), uses.end(),
+    [](const Use& a, const Use& b)
+    { return std::tie(a.number, a.list) < std::tie(b.number, b.list); });
+  for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end)
+  {
+    while (end < uses.size() && uses[end].number == uses[begin].number)
+    {
+      ++end;
+    }
+    const bool several = uses[end - 1].list != uses[begin].list;
+    for (std::size_t i = begin; several && i < end; ++i)
+    {
+      isShared[uses[i].list][uses[i].place] = 1;
+    }
+  }
+  std::vector<std::string> answers;
+  std::size_t list = 0;
+  for (const std::size_t lists : listsOfRank)
+  {
+    Packer packer;
+    for (std::size_t i = 0; i < lists; ++i)
+    {
+      packer.values(isShared[list++]);
+    }
+    answers.push_back(packer.take());
+  }
+  return answers;
+}
+
+std::uint64_t mixed(std::uint64_t x)
+{
+  x += 0x9e3779b97f4a7c15U;
+  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+  return x ^ (x >> 31U);
+}
+
+} // namespace
+
+std::int64_t pointNumber(const SpreadPiece& piece, vtkIdType point, bool byIds, double unit)
+{
+  if (byIds)
+  {
+    return static_cast<std::int64_t>(
+      piece.data->GetPointData()->GetGlobalIds()->GetComponent(point, 0));
+  }
+  std::uint64_t hash = 0;
+  for (const std::uint64_t bits : placeKey(piece.data, point, unit))
+  {
+    hash = mixed(hash ^ bits);
+  }
+  return static_cast<std::int64_t>(hash);
+}
+
+std::vector<std::vector<std::uint8_t>> findShared(
+  const Ranks& ranks, const std::vector<std::vector<std::uint64_t>>& numbers)
+{
+  const auto count = static_cast<std::size_t>(ranks.size());
+  const auto rankOf = [count](std::uint64_t number) { return mixed(number) % count; };
+  std::vector<std::string> messages(count);
+  ranks.together("finding what pieces share",
+    [&]
+    {
+      std::vector<Packer> packers(count);
+      for (const std::vector<std::uint64_t>& ofPiece : numbers)
+      {
+        std::vector<std::vector<std::uint64_t>> ofRank(count);
+        for (const std::uint64_t number : ofPiece)
+        {
+          ofRank[rankOf(number)].push_back(number);
+        }
+        for (std::size_t r = 0; r < count; ++r)
+        {
+          packers[r].values(ofRank[r]);
+        }
+      }
+      std::transform(packers.begin(), packers.end(), messages.begin(),
+        [](Packer& packer) { return packer.take(); });
+    });
+  messages = ranks.exchange(std::move(messages));
+  ranks.together("finding what pieces share", [&] { messages = sharedOf(messages); });
+  messages = ranks.exchange(std::move(messages));
+  std::vector<std::vector<std::uint8_t>> isShared(numbers.size());
+  ranks.together("finding what pieces share",
+    [&]
+    {
+      std::vector<Unpacker> unpackers(messages.begin(), messages.end());
+      for (std::size_t p = 0; p < numbers.size(); ++p)
+      {
+        std::vector<std::vector<std::uint8_t>> ofRank;
+        for (Unpacker& unpacker : unpackers)
+        {
+          ofRank.push_back(unpacker.values<std::uint8_t>());
+        }
+        std::vector<std::size_t> next(count, 0);
+        for (const std::uint64_t number : numbers[p])
+        {
+          const std::size_t r = rankOf(number);
+          isShared[p].push_back(ofRank[r][next[r]++]);
+        }
+      }
+    });
+  return isShared;
+}
+
+namespace
+{
+
 /// A polygon at an edge.
 struct PatchEdge
 {
@@ -357,62 +494,6 @@ void markPatchBorders(const std::vector<std::vector<BorderPatch>>& patches, Join
       bits = static_cast<std::uint8_t>(bits | 1U << use->corner);
     }
   }
-}
-
-std::vector<std::string> sharedOf(const std::vector<std::string>& received)
-{
-  struct Use
-  {
-    std::uint64_t number;
-    std::uint32_t list;
-    std::uint32_t place;
-  };
-  std::vector<Use> uses;
-  std::vector<std::vector<std::uint8_t>> isShared; // of each list
-  std::vector<std::size_t> listsOfRank;
-  for (const std::string& bytes : received)
-  {
-    Unpacker unpacker(bytes);
-    const std::size_t first = isShared.size();
-    while (!unpacker.isAtEnd())
-    {
-      const auto numbers = unpacker.values<std::uint64_t>();
-      const auto list = static_cast<std::uint32_t>(isShared.size());
-      for (std::size_t i = 0; i < numbers.size(); ++i)
-      {
-        uses.push_back({ numbers[i], list, static_cast<std::uint32_t>(i) });
-      }
-      isShared.emplace_back(numbers.size(), 0);
-    }
-    listsOfRank.push_back(isShared.size() - first);
-  }
-  std::sort(uses.begin(), uses.end(),
-    [](const Use& a, const Use& b)
-    { return std::tie(a.number, a.list) < std::tie(b.number, b.list); });
-  for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end)
-  {
-    while (end < uses.size() && uses[end].number == uses[begin].number)
-    {
-      ++end;
-    }
-    const bool several = uses[end - 1].list != uses[begin].list;
-    for (std::size_t i = begin; several && i < end; ++i)
-    {
-      isShared[uses[i].list][uses[i].place] = 1;
-    }
-  }
-  std::vector<std::string> answers;
-  std::size_t list = 0;
-  for (const std::size_t lists : listsOfRank)
-  {
-    Packer packer;
-    for (std::size_t i = 0; i < lists; ++i)
-    {
-      packer.values(isShared[list++]);
-    }
-    answers.push_back(packer.take());
-  }
-  return answers;
 }
 
 } // namespace quadrille

@@ -18,9 +18,15 @@ namespace quadrille
 vtkSmartPointer<vtkPolyData> agreeOnArrays(
   const Ranks& ranks, std::vector<SpreadPiece>& pieces, std::vector<std::string>& notices);
 
-/// received: of each rank, lists of numbers, one for each of its pieces. Returns for each rank lists of the same sizes:
-/// 1 where another list has the number, too.
-std::vector<std::string> sharedOf(const std::vector<std::string>& received);
+/// A number for a point that is the same on all pieces that have it: of its global id where the model has these, else
+/// of its rounded place. Two of a billion places have the same one with a probability of three per cent; both then
+/// stay, and where they were shared would be joined, which the filter would tell as a surface that is no manifold.
+std::int64_t pointNumber(const SpreadPiece& piece, vtkIdType point, bool byIds, double unit);
+
+/// numbers: of each piece. 1 where another piece, of any rank, has the number, too. A number is sent to the rank that
+/// it names modulo their number, which answers, so that no rank gets all of them. Collective.
+std::vector<std::vector<std::uint8_t>> findShared(
+  const Ranks& ranks, const std::vector<std::vector<std::uint64_t>>& numbers);
 
 /// The patch beside an edge that a thinned piece has in common with others.
 struct BorderPatch
