@@ -138,8 +138,32 @@ PieceLevel unpackLevel(Unpacker& unpacker)
   return level;
 }
 
+void packPatches(const std::vector<BorderPatch>& patches, Packer& packer)
+{
+  std::vector<std::int64_t> numbers;
+  for (const BorderPatch& edge : patches)
+  {
+    numbers.insert(numbers.end(),
+      { static_cast<std::int64_t>(edge.triangle), static_cast<std::int64_t>(edge.corner),
+        edge.patch });
+  }
+  packer.values(numbers);
+}
+
+std::vector<BorderPatch> unpackPatches(Unpacker& unpacker)
+{
+  const auto numbers = unpacker.values<std::int64_t>();
+  std::vector<BorderPatch> patches;
+  for (std::size_t i = 0; i < numbers.size(); i += 3)
+  {
+    patches.push_back(
+      { static_cast<Index>(numbers[i]), static_cast<Index>(numbers[i + 1]), numbers[i + 2] });
+  }
+  return patches;
+}
+
 /// The arrays of one point of a piece each.
-void copyTuples(vtkDataSetAttributes* from, const std::vector<std::string>& names,
+void copyArrays(vtkDataSetAttributes* from, const std::vector<std::string>& names,
   const std::vector<Index>& ids, vtkFieldData* to)
 {
   for (const std::string& name : names)
@@ -466,8 +490,9 @@ std::string SpreadSurface::packLevels()
       ids.push_back(pointNumber(piece, point, hasGlobalIds_, unit_));
     }
     packer.values(ids);
+    packPatches(borderPatches(piece), packer);
     vtkNew<vtkFieldData> tuples;
-    copyTuples(arrays, asking, level.inputPoint, tuples);
+    copyArrays(arrays, asking, level.inputPoint, tuples);
     packArrays(tuples, packer);
     piece.piece->forgetLevel();
     const std::string text = piece.piece->repairText();
@@ -502,6 +527,7 @@ vtkSmartPointer<vtkPolyData> SpreadSurface::joinLevels(
 {
   std::vector<PieceLevel> levels;
   std::vector<std::vector<std::int64_t>> ids;
+  std::vector<std::vector<BorderPatch>> patches;
   std::vector<vtkSmartPointer<vtkPolyData>> asking; // its point arrays
   vtkNew<vtkFieldData> field;
   rankOf_.clear();
@@ -514,6 +540,7 @@ vtkSmartPointer<vtkPolyData> SpreadSurface::joinLevels(
     {
       levels.push_back(unpackLevel(unpacker));
       ids.push_back(unpacker.values<std::int64_t>());
+      patches.push_back(unpackPatches(unpacker));
       asking.push_back(vtkSmartPointer<vtkPolyData>::New());
       unpackArrays(unpacker, asking.back()->GetPointData());
       rankOf_.push_back({ static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(p) });
@@ -536,7 +563,8 @@ vtkSmartPointer<vtkPolyData> SpreadSurface::joinLevels(
     notices.push_back(std::to_string(repairedRanks) + " ranks repaired their pieces, of which " +
       std::to_string(kMostRankNotices) + " are told here");
   }
-  const JoinedPieces joined = quadrille::joinPieces(levels, ids, plan_.piece.featureAngle);
+  JoinedPieces joined = quadrille::joinPieces(levels, ids, plan_.piece.featureAngle);
+  markPatchBorders(patches, joined);
   firstTriangle_ = joined.firstTriangle;
   vtkSmartPointer<vtkPolyData> data = writeJoined(joined.surface);
   std::vector<vtkDataSetAttributes*> sources;

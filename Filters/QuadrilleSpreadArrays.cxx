@@ -6,6 +6,8 @@
 #include "QuadrillePacking.h"
 #include "QuadrillePieces.h"
 
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
@@ -25,7 +27,7 @@ namespace quadrille
 namespace
 {
 
-std::string nameOf(vtkAbstractArray* array)
+std::string arrayName(vtkAbstractArray* array)
 {
   return array->GetName() ? array->GetName() : "";
 }
@@ -48,7 +50,7 @@ struct AgreedAttributes
   AgreedArray* find(const std::string& name)
   {
     const auto found = std::find_if(arrays.begin(), arrays.end(),
-      [&name](const AgreedArray& array) { return nameOf(array.model) == name; });
+      [&name](const AgreedArray& array) { return arrayName(array.model) == name; });
     return found == arrays.end() ? nullptr : &*found;
   }
 };
@@ -61,7 +63,7 @@ void packModels(vtkDataSetAttributes* attributes, Packer& packer)
   for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = attributes->GetAbstractArray(i);
-    const std::string name = nameOf(array);
+    const std::string name = arrayName(array);
     if (name == vtkDataSetAttributes::GhostArrayName() || name == kVolumeFace)
     {
       continue;
@@ -86,7 +88,7 @@ void packModels(vtkDataSetAttributes* attributes, Packer& packer)
   for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
   {
     vtkAbstractArray* active = attributes->GetAbstractAttribute(type);
-    packer.text(active ? nameOf(active) : "");
+    packer.text(active ? arrayName(active) : "");
   }
 }
 
@@ -97,7 +99,7 @@ void takeModels(Unpacker& unpacker, AgreedAttributes& agreed, std::set<std::stri
   for (int i = 0; i < models->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* model = models->GetAbstractArray(i);
-    AgreedArray* array = agreed.find(nameOf(model));
+    AgreedArray* array = agreed.find(arrayName(model));
     if (!array)
     {
       array = &agreed.arrays.emplace_back();
@@ -136,7 +138,7 @@ void tell(const AgreedAttributes& agreed, const std::set<std::string>& notSent, 
   }
   for (const AgreedArray& array : agreed.arrays)
   {
-    const std::string name = nameOf(array.model);
+    const std::string name = arrayName(array.model);
     if (array.differs)
     {
       notices.push_back("array '" + name + "' differs between pieces and is left behind");
@@ -159,7 +161,7 @@ void takeArrays(const AgreedAttributes& agreed, vtkDataSetAttributes* from, vtkI
     {
       continue;
     }
-    const std::string name = nameOf(array.model);
+    const std::string name = arrayName(array.model);
     vtkSmartPointer<vtkAbstractArray> mine = from ? from->GetAbstractArray(name.c_str()) : nullptr;
     if (!mine || mine->GetNumberOfTuples() < tuples)
     {
@@ -231,6 +233,130 @@ vtkSmartPointer<vtkPolyData> agreeOnArrays(
   takeArrays(ofPoints, nullptr, 0, all, model->GetPointData());
   takeArrays(ofCells, nullptr, 0, all, model->GetCellData());
   return model;
+}
+
+namespace
+{
+
+/// A polygon at an edge.
+struct PatchEdge
+{
+  std::array<Index, 2> ends; ///< ascending
+  std::int64_t patch = 0;
+};
+
+PatchEdge patchEdge(Index a, Index b, std::int64_t patch)
+{
+  return { { std::min(a, b), std::max(a, b) }, patch };
+}
+
+bool hasLowerEnds(const PatchEdge& a, const PatchEdge& b)
+{
+  return a.ends < b.ends;
+}
+
+/// Of edges between points that are kept, ascending by their ends, those of one polygon only.
+std::vector<PatchEdge> borderOf(const SpreadPiece& piece, vtkDataArray* patches)
+{
+  std::vector<PatchEdge> uses;
+  const auto isKept = [&piece](vtkIdType point)
+  { return std::binary_search(piece.kept.begin(), piece.kept.end(), static_cast<Index>(point)); };
+  const vtkIdType first = piece.data->GetNumberOfVerts() + piece.data->GetNumberOfLines();
+  auto cells = vtk::TakeSmartPointer(piece.data->GetPolys()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    cells->GetCurrentCell(count, ids);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const vtkIdType next = ids[(i + 1) % count];
+      if (isKept(ids[i]) && isKept(next))
+      {
+        uses.push_back(patchEdge(static_cast<Index>(ids[i]), static_cast<Index>(next),
+          static_cast<std::int64_t>(patches->GetComponent(first + cells->GetCurrentCellId(), 0))));
+      }
+    }
+  }
+  std::sort(uses.begin(), uses.end(), hasLowerEnds);
+  std::vector<PatchEdge> border;
+  for (std::size_t i = 0; i < uses.size(); ++i)
+  {
+    const bool isAlone = (i == 0 || uses[i].ends != uses[i - 1].ends) &&
+      (i + 1 == uses.size() || uses[i].ends != uses[i + 1].ends);
+    if (isAlone)
+    {
+      border.push_back(uses[i]);
+    }
+  }
+  return border;
+}
+
+} // namespace
+
+std::vector<BorderPatch> borderPatches(const SpreadPiece& piece)
+{
+  vtkDataArray* patches = piece.converted.patchArray.empty()
+    ? nullptr
+    : piece.data->GetCellData()->GetArray(piece.converted.patchArray.c_str());
+  std::vector<BorderPatch> found;
+  if (!patches || piece.kept.empty())
+  {
+    return found;
+  }
+  const std::vector<PatchEdge> border = borderOf(piece, patches);
+  const PieceLevel& level = piece.piece->level();
+  for (std::size_t f = 0; f < level.triangles.size(); ++f)
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const PatchEdge wanted = patchEdge(level.inputPoint[level.triangles[f][i]],
+        level.inputPoint[level.triangles[f][(i + 1) % 3]], 0);
+      const auto at = std::lower_bound(border.begin(), border.end(), wanted, hasLowerEnds);
+      if (at != border.end() && at->ends == wanted.ends)
+      {
+        found.push_back({ static_cast<Index>(f), static_cast<Index>(i), at->patch });
+      }
+    }
+  }
+  return found;
+}
+
+void markPatchBorders(const std::vector<std::vector<BorderPatch>>& patches, JoinedPieces& joined)
+{
+  struct Use : PatchEdge
+  {
+    Index triangle = 0;
+    Index corner = 0;
+  };
+  std::vector<Use> uses;
+  SurfaceInput& surface = joined.surface;
+  for (std::size_t p = 0; p < patches.size(); ++p)
+  {
+    for (const BorderPatch& edge : patches[p])
+    {
+      const Index triangle = joined.firstTriangle[p] + edge.triangle;
+      const Index* corners = surface.polygonPoints.data() + 3 * std::size_t{ triangle };
+      uses.push_back({ patchEdge(corners[edge.corner], corners[(edge.corner + 1) % 3], edge.patch),
+        triangle, edge.corner });
+    }
+  }
+  std::sort(uses.begin(), uses.end(),
+    [](const Use& a, const Use& b)
+    { return std::tie(a.ends, a.triangle, a.corner) < std::tie(b.ends, b.triangle, b.corner); });
+  for (std::size_t i = 1; i < uses.size(); ++i)
+  {
+    if (uses[i].ends != uses[i - 1].ends || uses[i].patch == uses[i - 1].patch)
+    {
+      continue;
+    }
+    surface.featureEdges.resize(surface.polygonOffsets.size() - 1, 0);
+    for (const Use* use : { &uses[i - 1], &uses[i] })
+    {
+      std::uint8_t& bits = surface.featureEdges[use->triangle];
+      bits = static_cast<std::uint8_t>(bits | 1U << use->corner);
+    }
+  }
 }
 
 std::vector<std::string> sharedOf(const std::vector<std::string>& received)

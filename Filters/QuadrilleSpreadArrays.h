@@ -5,6 +5,7 @@
 
 #include "QuadrilleSpread.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,5 +21,20 @@ vtkSmartPointer<vtkPolyData> agreeOnArrays(
 /// received: of each rank, lists of numbers, one for each of its pieces. Returns for each rank lists of the same sizes:
 /// 1 where another list has the number, too.
 std::vector<std::string> sharedOf(const std::vector<std::string>& received);
+
+/// The patch beside an edge that a thinned piece has in common with others.
+struct BorderPatch
+{
+  Index triangle = kInvalidIndex;
+  Index corner = 0; ///< the edge runs from this corner to the next one
+  std::int64_t patch = 0;
+};
+
+/// Of the edges of the piece's level between points of piece.kept that one polygon only has; nothing where the piece has
+/// no patch array.
+std::vector<BorderPatch> borderPatches(const SpreadPiece& piece);
+
+/// Makes edges between two patches features of the joined surface. patches: of each piece.
+void markPatchBorders(const std::vector<std::vector<BorderPatch>>& patches, JoinedPieces& joined);
 
 } // namespace quadrille

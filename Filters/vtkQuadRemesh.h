@@ -448,8 +448,8 @@ public:
    * ghost points, and ghost cells where they are asked for. Output 1 is then the joined surface, and outputs 1 to 7 lie
    * on that rank. Automatic: with several ranks and more than 2,000,000 cells on all of them. What cannot be spread
    * (directions on cells, symmetry, previews, CellDataFrom by area, the method without quads, surfaces of volumes) is
-   * brought to one rank, with a notice; with Always it is an error. Never: the pieces are always brought to one rank and
-   * put together there; the quads are then the same for any number of ranks. Default: Automatic.
+   * brought to one rank, with a notice; with Always it is an error. Never: the pieces are always brought to one rank
+   * and put together there; the quads are then the same for any number of ranks. Default: Automatic.
    */
   vtkSetClampMacro(SpreadSurfaces, int, SPREAD_AUTOMATIC, SPREAD_NEVER);
   vtkGetMacro(SpreadSurfaces, int);

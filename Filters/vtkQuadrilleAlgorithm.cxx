@@ -768,7 +768,19 @@ void vtkQuadrilleAlgorithm::JoinSpread(Run& run)
 //------------------------------------------------------------------------------
 void vtkQuadrilleAlgorithm::WaitForAll(Run& run)
 {
-  run.stop.join([this] { return !quadrille::isAskedToStop(this); });
+  // Observers of progress may ask to stop on a rank that waits, too.
+  auto last = std::chrono::steady_clock::now();
+  run.stop.join(
+    [&]
+    {
+      const auto now = std::chrono::steady_clock::now();
+      if (now - last > quadrille::PollScope::kInterval)
+      {
+        last = now;
+        this->UpdateProgress(this->FarthestProgress);
+      }
+      return !quadrille::isAskedToStop(this);
+    });
   this->Stop = nullptr;
 }
 

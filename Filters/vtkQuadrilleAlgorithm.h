@@ -173,8 +173,8 @@ protected:
 
   ///@{
   /**
-   * Whether the surface of a block stays spread over the ranks, a quadrille::SpreadMode; default: Never. The filter then
-   * gets the thinned pieces joined, and its output 0, quads with SourceCellId, is spread over the ranks again. Why
+   * Whether the surface of a block stays spread over the ranks, a quadrille::SpreadMode; default: Never. The filter
+   * then gets the thinned pieces joined, and its output 0, quads with SourceCellId, is spread over the ranks again. Why
    * these pieces of a rank cannot stay spread; empty where they can. What the pieces are thinned out by.
    */
   virtual int GetSpreadMode() const;

@@ -3,6 +3,7 @@
 """Run by every rank, see test_spread.py: spread_script.py CASE..."""
 import os
 import sys
+import time
 
 import numpy as np
 import quadrille
@@ -124,7 +125,8 @@ def dense():
         gathered.append((values[:, names.index("gathered_bytes")].sum(), len(triangles)))
     (first, few), _, (last, many) = gathered
     # Boundaries of pieces are as long as the square root of the faces; the rest is a matter of the quads.
-    check(last / first < 1.2 * (many / few) ** 0.5, f"{first:.0f} bytes are gathered of {few} faces, {last:.0f} of {many}")
+    check(last / first < 1.2 * (many / few) ** 0.5,
+          f"{first:.0f} bytes are gathered of {few} faces, {last:.0f} of {many}")
 
 
 def scattered():
@@ -187,16 +189,19 @@ def attributes():
 
 
 def ids():
-    """Global ids of the input decide which points are one: here two spheres at the same place stay two."""
-    points, triangles = sphere(20)
-    twice = np.vstack([triangles, triangles + len(points)])
+    """Global ids of the input decide which points are one: here those of pieces are not at the same place."""
+    points, triangles = sphere(30)
     part = random_blobs(points, triangles, RANKS, np.random.default_rng(2))
-    part = np.concatenate([part, RANKS - 1 - part])
-    data, used, faces = piece(np.vstack([points, points]), twice, part == RANK)
-    data.GetPointData().SetGlobalIds(add(data.GetPointData(), "ids", used.astype(np.int64)))
-    mesh = joined(remesher(data, 400), "global ids", 4)
-    if mesh is not None:
-        print(f"ids: {len(mesh.quads)} quads", flush=True)
+    data, used, faces = piece(points * (1 + 1e-5 * RANK), triangles, part == RANK)
+    data.GetPointData().SetGlobalIds(add(data.GetPointData(), "ids", 7 * used.astype(np.int64)))
+    joined(remesher(data, 400), "global ids")
+    if RANKS > 1:  # without them the pieces are no sphere
+        plain = piece(points * (1 + 1e-5 * RANK), triangles, part == RANK)[0]
+        remesh = remesher(plain, 400)
+        quads = run(remesh)
+        boundary = quads.GetPointData().GetArray("OnBoundary")
+        check(remesh.GetOutcome() != SUCCEEDED or not boundary or np.any(vtk_to_numpy(boundary)),
+              "pieces are joined where they do not meet")
 
 
 def constraints():
@@ -232,7 +237,9 @@ def constraints():
             line = mesh.points[np.abs(mesh.points[:, axis] - 0.5) < 1e-9]
             check(len(line) >= 10, f"the border of the patches is not followed: {len(line)} points on it")
             across = (mesh.points[mesh.quads][:, :, axis] - 0.5)
-            check(not ((across.min(1) < -1e-9) & (across.max(1) > 1e-9)).any(), "quads cross the border of patches")
+            crossing = np.minimum(-across.min(1), across.max(1))
+            check(crossing.max() < 1e-6, f"quads cross the border of patches along {axis} by {crossing.max()}: "
+                  f"{across[np.argmax(crossing)]}")
     # What cannot be had is refused on all ranks alike.
     data, used, faces = stripe(points, triangles)
     add(data.GetCellData(), "GuidingDirection", np.tile([1.0, 1.0, 0.0], (len(faces), 1)))
@@ -258,7 +265,6 @@ def features():
 
 def ghosts():
     """Rings of ghost cells, as VTK's own generator makes them of the global ids; filters that need them work."""
-    from vtkmodules.vtkFiltersParallel import vtkPConnectivityFilter  # noqa: F401, it must be there
     from vtkmodules.vtkFiltersParallelDIY2 import vtkGhostCellsGenerator
     points, triangles = torus(40)
     data, used, faces = stripe(points, triangles)
@@ -293,12 +299,12 @@ def ghosts():
 
 def sums():
     """A filter over all ranks counts nothing twice: the area of the quads."""
-    from vtkmodules.vtkFiltersParallel import vtkPIntegrateAttributes  # noqa: F401
+    from vtkmodules.vtkFiltersParallel import vtkIntegrateAttributes
     points, triangles = sphere(60)
     data, used, faces = stripe(points, triangles)
     for levels in (0, 2):
         quads = run(remesher(data, 500), levels)
-        integrate = vtkPIntegrateAttributes()
+        integrate = vtkIntegrateAttributes()
         integrate.SetInputDataObject(quads)
         integrate.UpdatePiece(RANK, RANKS, 0)
         if RANK == 0:
@@ -350,6 +356,7 @@ def faults():
     parts = gather(copy)
     check(parts is None or Joined(parts).digest() == before.digest(), "the result before is not kept")
     remesh.SetMemoryLimit(0)
+    remesh.Modified()  # on all ranks
     joined(remesh, "with memory again")
     # Ranks without data, all of it on one rank, a piece of one triangle, and nothing anywhere.
     points, triangles = sphere(24)
@@ -363,14 +370,16 @@ def faults():
 
 
 class Stop:
-    """Asks the filter to stop when it reports progress at all, or from some progress on."""
+    """Asks the filter to stop, once, when it reports progress for the first time from some progress, or some seconds,
+    on."""
 
-    def __init__(self, remesh, begin):
-        self.remesh, self.begin = remesh, begin
+    def __init__(self, remesh, begin, after=0):
+        self.begin, self.time, self.is_done = begin, time.time() + after, False
         remesh.AddObserver(vtkCommand.ProgressEvent, self.look)
 
     def look(self, caller, event):
-        if caller.GetProgress() >= self.begin:
+        if caller.GetProgress() >= self.begin and time.time() >= self.time and not self.is_done:
+            self.is_done = True
             caller.SetAbortExecute(1)
 
 
@@ -381,13 +390,15 @@ def cancel():
     for rank in {0, last()}:
         remesh = remesher(data, 2000)
         before = joined(remesh, "before the stop")
-        remesh.SetNumberOfQuads(3000)
-        if RANK == rank:
-            stop = Stop(remesh, 0)
-        fails(remesh, ABORTED, "stopped on request", f"a stop on rank {rank}")
-        check("previous result is kept" in remesh.GetOutcomeText(), remesh.GetOutcomeText())
-        remesh.RemoveAllObservers()
-        joined(remesh, "after the stop")
+        for begin in (0, 0.03) if rank == 0 else (0,):
+            remesh.SetNumberOfQuads(remesh.GetNumberOfQuads() + 500)
+            stop = Stop(remesh, begin) if RANK == rank else None
+            fails(remesh, ABORTED, "stopped on request", f"a stop on rank {rank}")
+            check("previous result is kept" in remesh.GetOutcomeText(), remesh.GetOutcomeText())
+            check(stop is None or stop.is_done, "nobody asked to stop")
+            remesh.RemoveAllObservers()
+            joined(remesh, "after the stop")
+    waits()
     for limit in (1e-9, 0.05):
         late = remesher(data, 30000, TimeLimit=limit)
         run(late)
@@ -396,8 +407,22 @@ def cancel():
         same_on_all(late.GetOutcomeText(), "time limit")
 
 
+def waits():
+    """A stop on a rank that waits for the others reaches the one that works."""
+    points, triangles = sphere(150)
+    data, used, faces = stripe(points, triangles)
+    remesh = remesher(data, 60000)
+    begin = time.time()
+    run(remesh)
+    whole = time.time() - begin
+    remesh = remesher(data, 60000)
+    stop = Stop(remesh, 0, after=0.3 * whole) if RANK == last() else None
+    fails(remesh, ABORTED, "stopped on request", "a stop while waiting")
+    check(stop is None or stop.is_done, "the rank that waits was not asked")
+
+
 def modes():
-    """Automatic keeps small surfaces in one place; from one mode to the other each result takes the place of the last."""
+    """Automatic keeps small surfaces in one place; a result of one mode takes the place of one of the other."""
     points, triangles = sphere(30)
     data, used, faces = stripe(points, triangles)
     remesh = remesher(data, 300)
@@ -414,11 +439,57 @@ def modes():
     check(first is None or first.digest() == again.digest(), "the quads depend on what was made before")
 
 
+def pipeline():
+    """Between filters of ParaView: surfaces as its sources and filters cut them, and filters that use the quads."""
+    from paraview import servermanager, simple
+    servermanager.ProxyNamespace.getDocumentation = lambda self, name: ""  # half of a rank's start
+    from plugin_common import DATA, PLUGIN
+    simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
+
+    def remeshed(source, what, characteristic, quads=600):
+        proxy = QuadRemesh(Input=source, TargetType="Number Of Quads", NumberOfQuads=quads, SpreadSurfaces="Always")
+        proxy.UpdatePipeline()
+        remesh = proxy.GetClientSideObject()
+        check(remesh.GetOutcome() == SUCCEEDED, f"{what}: {remesh.GetOutcomeText()}")
+        copy = vtkPolyData()
+        copy.ShallowCopy(remesh.GetOutputDataObject(0))
+        copy.GetFieldData().Initialize()
+        parts = gather(copy)
+        if parts is not None:
+            try:
+                Joined(parts).check_manifold(characteristic)
+            except AssertionError as error:
+                check(False, f"{what}: {error}")
+        return proxy
+
+    pieces = simple.Sphere(ThetaResolution=60, PhiResolution=50)  # each rank computes its part
+    remeshed(pieces, "source", 2)
+    frame = simple.PLYReader(FileNames=[os.path.join(DATA, "frame.ply")])  # all of it on the first rank
+    frame.UpdatePipeline()
+    whole = frame.GetClientSideObject().GetOutputDataObject(0)
+    characteristic = euler(arrays_of(whole)[1]) if RANK == 0 else None
+    remeshed(frame, "file", characteristic, 1500)
+    torus_source = simple.Triangulate(Input=simple.Superquadric(
+        Toroidal=1, ThetaResolution=96, PhiResolution=48, PhiRoundness=1, ThetaRoundness=1, Thickness=0.6))
+    proxy = remeshed(simple.RedistributeDataSet(Input=torus_source), "redistributed", 0)
+    connected = simple.Connectivity(Input=proxy)
+    connected.UpdatePipeline()
+    regions = connected.PointData["RegionId"] if RANK == 0 else None
+    check(regions is None or regions.GetRange() == (0, 0), "the quads are in several parts")
+    area = simple.IntegrateVariables(Input=simple.RedistributeDataSet(Input=proxy))
+    area.UpdatePipeline()
+    given = simple.IntegrateVariables(Input=torus_source)
+    given.UpdatePipeline()
+    if RANK == 0:
+        ratio = area.CellData["Area"].GetRange()[0] / given.CellData["Area"].GetRange()[0]
+        check(abs(ratio - 1) < 0.02, f"the quads have {ratio:.3f} of the area of the surface")
+
+
 CASES = {
     "splits-closed": lambda: splits(("sphere", "torus"), 25), "splits-open": lambda: splits(("plane", "box"), 25),
     "repeat": repeat, "dense": dense, "scattered": scattered, "attributes": attributes, "ids": ids,
     "constraints": constraints, "features": features, "ghosts": ghosts, "sums": sums, "faults": faults,
-    "cancel": cancel, "modes": modes,
+    "cancel": cancel, "modes": modes, "pipeline": pipeline,
 }
 
 if __name__ == "__main__":
