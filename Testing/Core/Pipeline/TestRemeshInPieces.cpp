@@ -60,7 +60,7 @@ PiecesOptions piecesOf(std::size_t triangles)
 }
 
 /// The Euler characteristic of quads whose edges have two quads at most.
-long long eulerCharacteristic(const QuadMesh& mesh)
+long long eulerOfQuads(const QuadMesh& mesh)
 {
   std::map<std::pair<Index, Index>, int> edges;
   for (const std::array<Index, 4>& quad : mesh.quads)
@@ -105,7 +105,7 @@ TEST(RemeshInPieces, TorusOfManyPieces)
   EXPECT_LT(made.joinedTriangles, source.triangleCount());
   EXPECT_TRUE(made.remeshed.certificate.valid());
   EXPECT_NEAR(static_cast<double>(made.remeshed.quads.quads.size()), 500, 100);
-  EXPECT_EQ(eulerCharacteristic(made.remeshed.quads), 0);
+  EXPECT_EQ(eulerOfQuads(made.remeshed.quads), 0);
   expectSources(made, source.input());
 }
 
@@ -151,7 +151,7 @@ TEST(RemeshInPieces, AnOpenSurfaceKeepsItsBoundary)
   const PiecesResult made = remeshInPieces(source, aboutQuads(300), piecesOf(2500));
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
   EXPECT_GT(made.pieces, 4U);
-  EXPECT_EQ(eulerCharacteristic(made.remeshed.quads), 1);
+  EXPECT_EQ(eulerOfQuads(made.remeshed.quads), 1);
   expectSources(made, source.input());
 }
 
@@ -182,7 +182,7 @@ TEST(RemeshInPieces, BoundariesInTheSamePlaceAreJoined)
   InputTriangles source(std::move(whole));
   const PiecesResult made = remeshInPieces(source, aboutQuads(500), piecesOf(2000));
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
-  EXPECT_EQ(eulerCharacteristic(made.remeshed.quads), 0);
+  EXPECT_EQ(eulerOfQuads(made.remeshed.quads), 0);
   EXPECT_TRUE(std::none_of(made.remeshed.quads.onBoundary.begin(),
     made.remeshed.quads.onBoundary.end(), [](std::uint8_t on) { return on != 0; }));
 }
