@@ -41,8 +41,8 @@ vtkSmartPointer<vtkPolyData> withoutMarks(vtkPolyData* piece);
 /// they are.
 bool needsDouble(vtkPolyData* piece);
 
-/// What coordinates are rounded to multiples of, see above, for a surface with this diagonal of the box around it. 0: no
-/// rounding.
+/// What coordinates are rounded to multiples of, see above, for a surface with this diagonal of the box around it. 0:
+/// no rounding.
 double unitOfPlaces(double diagonal, bool inDouble);
 
 /// A point's coordinates rounded, as numbers that are the same where these are, and in their order.

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The ranks of a parallel run that work together on one execution of a filter. Without a controller there is one rank.
 ///
-/// All functions of Ranks from gather() on are collective: every rank calls them in the same order, also one that has no
-/// data or has failed.
+/// All functions of Ranks from gather() on are collective: every rank calls them in the same order, also one that has
+/// no data or has failed.
 #pragma once
 
 #include <vtkSmartPointer.h>
@@ -59,8 +59,9 @@ public:
   std::vector<std::string> gather(const std::string& bytes) const;
   /// Throws InvalidInput with the first text that is not empty, on all ranks.
   void agree(const std::string& error) const;
-  /// Does a step that may fail on some ranks: where it does, all ranks throw what the first of them has thrown. The text
-  /// then begins with `place` and names the rank where there are several. Cancelled on one rank is Cancelled on all.
+  /// Does a step that may fail on some ranks: where it does, all ranks throw what the first of them has thrown. The
+  /// text then begins with `place` and names the rank where there are several. Cancelled on one rank is Cancelled on
+  /// all.
   void together(const std::string& place, const std::function<void()>& step) const;
   /// The sums over all ranks.
   void sum(std::vector<vtkIdType>& numbers) const;

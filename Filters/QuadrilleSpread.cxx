@@ -586,6 +586,11 @@ vtkSmartPointer<vtkPolyData> SpreadSurface::joinLevels(
   return data;
 }
 
+bool isJoined(vtkPolyData* surface)
+{
+  return surface->GetCellData()->HasArray(arrays::kDetectedFeatures) != 0;
+}
+
 std::string reasonNotToSpread(
   const std::vector<vtkSmartPointer<vtkPolyData>>& pieces, const std::string& guideArray)
 {

@@ -90,9 +90,9 @@ public:
   /// ask for something. Notices are told on the owner.
   vtkSmartPointer<vtkPolyData> join(const SpreadPlan& plan, std::vector<std::string>& notices);
 
-  /// quads: on the owner, what the filter made of the joined surface. Returns this rank's quads: those with their centre
-  /// on its pieces, and so many rings of ghost cells around them. others: outputs with a point array QuadPointId, on
-  /// the owner; their points are put to where those of the quads are on the pieces.
+  /// quads: on the owner, what the filter made of the joined surface. Returns this rank's quads: those with their
+  /// centre on its pieces, and so many rings of ghost cells around them. others: outputs with a point array
+  /// QuadPointId, on the owner; their points are put to where those of the quads are on the pieces.
   vtkSmartPointer<vtkPolyData> spread(
     vtkPolyData* quads, const std::vector<vtkPolyData*>& others, int ghostLevels);
 
@@ -135,6 +135,9 @@ private:
   std::vector<std::array<std::uint32_t, 2>>
     rankOf_; ///< of each piece its rank, and its number there
 };
+
+/// Whether a surface is one that SpreadSurface::join() made.
+bool isJoined(vtkPolyData* surface);
 
 /// Why pieces cannot stay spread: arrays on them that ask for what is not to be had so, or volumes that they are the
 /// surface of; empty where they can.

@@ -30,8 +30,8 @@ struct BorderPatch
   std::int64_t patch = 0;
 };
 
-/// Of the edges of the piece's level between points of piece.kept that one polygon only has; nothing where the piece has
-/// no patch array.
+/// Of the edges of the piece's level between points of piece.kept that one polygon only has; nothing where the piece
+/// has no patch array.
 std::vector<BorderPatch> borderPatches(const SpreadPiece& piece);
 
 /// Makes edges between two patches features of the joined surface. patches: of each piece.

@@ -32,7 +32,8 @@ namespace quadrille
 namespace
 {
 
-/// Cells of the box along each axis, as a power of two: with 2^18 of them the parts are even, and their counts take 2 MB.
+/// Cells of the box along each axis, as a power of two: with 2^18 of them the parts are even, and their counts take 2
+/// MB.
 constexpr unsigned kBits = 6;
 constexpr std::size_t kBins = std::size_t{ 1 } << (3 * kBits);
 
@@ -63,7 +64,7 @@ std::size_t curveBin(const Vector3& x, const vtkBoundingBox& box)
 constexpr const char* kStripCell = "QuadrilleStripCell";
 
 /// Strips as triangles.
-vtkSmartPointer<vtkPolyData> polygonsOf(vtkPolyData* data)
+vtkSmartPointer<vtkPolyData> withoutStrips(vtkPolyData* data)
 {
   if (data->GetNumberOfStrips() == 0)
   {
@@ -356,7 +357,7 @@ std::vector<SpreadPiece> redistributeCells(const Ranks& ranks, std::vector<Sprea
   for (SpreadPiece& piece : pieces)
   {
     piece.piece.reset();
-    data.push_back(polygonsOf(piece.data));
+    data.push_back(withoutStrips(piece.data));
   }
   const vtkBoundingBox box = commonBox(ranks, data);
   for (vtkPolyData* one : data)

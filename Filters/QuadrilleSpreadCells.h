@@ -15,9 +15,9 @@ namespace quadrille
 {
 
 /// Sends each polygon, with its arrays, to the rank that has its part of a space-filling curve through the centres of
-/// polygons; the parts have about the same number of them. Points at the same place, rounded to multiples of `unit`, or with the same global id where `model`
-/// has these, become one. pieces: with the arrays of `model`; their SurfacePieces go. Returns this rank's piece, or none
-/// where it gets no polygon. Collective.
+/// polygons; the parts have about the same number of them. Points at the same place, rounded to multiples of `unit`, or
+/// with the same global id where `model` has these, become one. pieces: with the arrays of `model`; their SurfacePieces
+/// go. Returns this rank's piece, or none where it gets no polygon. Collective.
 std::vector<SpreadPiece> redistributeCells(const Ranks& ranks, std::vector<SpreadPiece> pieces,
   vtkPolyData* model, double unit, SpreadFigures& figures);
 

@@ -53,8 +53,8 @@ private:
 double peakMemory();
 
 /// Field array SpreadFigures, a tuple a rank, with a name for each component: faces, level_faces, border_points,
-/// shared_points, quads, gathered_bytes, redistributed_bytes, sent_bytes, received_bytes, peak_bytes, and seconds of the
-/// stages.
+/// shared_points, quads, gathered_bytes, redistributed_bytes, sent_bytes, received_bytes, peak_bytes, and seconds of
+/// the stages.
 void addSpreadFigures(vtkDataObject* data, const std::vector<SpreadFigures>& figures);
 /// "spread prepare: 0.52 s" of the slowest rank, one stage a line, and the bytes and the memory of the rank that has
 /// most.

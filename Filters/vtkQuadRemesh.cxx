@@ -513,7 +513,7 @@ std::unique_ptr<quadrille::TriangleSource> vtkQuadRemesh::TrianglesToCut(
   vtkPolyData* input = block.input();
   const auto cells = static_cast<std::size_t>(input->GetNumberOfPolys());
   constexpr std::size_t leastWithLevels = 10000000; // what is held of the whole would be gigabytes
-  if (this->Pieces == PIECES_NEVER ||
+  if (this->Pieces == PIECES_NEVER || quadrille::isJoined(input) ||
     (this->Pieces == PIECES_AUTOMATIC &&
       cells < (this->KeepLevels ? leastWithLevels : quadrille::kTrianglesWorthPieces)))
   {

@@ -98,8 +98,8 @@ public:
   /// Repair, order, connectivity, phase1 and carry, as far as they are done.
   const StageRecords& stages() const;
 
-  /// Decimates until the edges exceed the edge length, and lets the rest of the piece go, boundary() included; shared points (ids of the input, ascending) and the edges
-  /// between them that are on the boundary stay. To be called once.
+  /// Decimates until the edges exceed the edge length, and lets the rest of the piece go, boundary() included; shared
+  /// points (ids of the input, ascending) and the edges between them that are on the boundary stay. To be called once.
   void thinOut(const std::vector<Index>& shared);
   const PieceLevel& level() const;
   /// Lets level() go, which is not needed to carry places.

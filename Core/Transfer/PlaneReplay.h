@@ -37,8 +37,8 @@ struct PlaneCharts
   static Complex scaled(Complex difference, std::uint32_t weight);
 };
 
-/// p beside the ring of the record's vertex, as it was unfolded, or where it would invert its star a point well inside of
-/// it, if there is one. ring: record.ringSize() points.
+/// p beside the ring of the record's vertex, as it was unfolded, or where it would invert its star a point well inside
+/// of it, if there is one. ring: record.ringSize() points.
 Complex intoKernel(const Complex* ring, const CollapseRecord& record, Complex p);
 
 } // namespace quadrille
