@@ -159,8 +159,29 @@ struct VertexScales
   bool anySmallComponent = false; ///< else they are the sizes that are asked for
 };
 
-VertexScales vertexScales(const Mesh& fine, double edgeLength, int threads)
+/// Whether a connected mesh surely is no small component, by the faces up to where that is clear.
+bool isSurelyLarge(const Mesh& fine, double edgeLength)
 {
+  constexpr double kSurely = 2 * kQuadsOfSmallTriangulation;
+  double doubledArea = 0;
+  for (Index h = 0; h < fine.halfEdgeCount(); h += 3)
+  {
+    pollNowAndThen(h);
+    doubledArea += fine.edgeVector(h).cross(fine.edgeVector(h + 1)).norm();
+    if (doubledArea > 2 * kSurely * edgeLength * edgeLength)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+VertexScales vertexScales(const Mesh& fine, double edgeLength, bool isConnected, int threads)
+{
+  if (isConnected && fine.sizing.empty() && isSurelyLarge(fine, edgeLength))
+  {
+    return {};
+  }
   DisjointSets components = componentsOf(fine, threads);
   const std::vector<double> area = componentAreas(fine, components, threads);
   const auto scale = [&](Index root) { return triangulationScale(area[root], edgeLength); };
@@ -383,7 +404,7 @@ private:
     DecimationMesh mesh(
       fine_, traceFeatureCurves(fine_, kCornerScale * edgeLength_), options.threads);
     UniformOptions uniform = uniformOptions(options);
-    VertexScales scales = vertexScales(fine_, edgeLength_, options.threads);
+    VertexScales scales = vertexScales(fine_, edgeLength_, options.isConnected, options.threads);
     anySmallComponent_ = scales.anySmallComponent;
     uniform.scale = std::move(scales.scale);
     uniform.keepVertices = byPhase1_.kept;
@@ -465,7 +486,8 @@ private:
     uniform.scale = restored.level.mesh.sizing;
     if (anySmallComponent_)
     {
-      const VertexScales scales = vertexScales(fine_, edgeLength_, options.threads);
+      const VertexScales scales =
+        vertexScales(fine_, edgeLength_, options.isConnected, options.threads);
       uniform.scale.clear();
       for (const Index v : restored.level.fineVertex)
       {
@@ -586,7 +608,7 @@ private:
     }
     UniformOptions uniform;
     uniform.edgeLength = std::sqrt(kVerticesPerSquare * sizedArea(level) / mostOrdered);
-    uniform.scale = vertexScales(level, 2 * uniform.edgeLength, budget.threads).scale;
+    uniform.scale = vertexScales(level, 2 * uniform.edgeLength, false, budget.threads).scale;
     uniform.curveTolerance = budget.curveTolerance;
     uniform.keepVertices = budget.keepVertices;
     for (std::size_t h = 0; h < mesh.guides.size() * 3; ++h)

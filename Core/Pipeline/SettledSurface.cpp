@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <utility>
@@ -232,7 +233,7 @@ private:
       return loops;
     }
     const SmallComponents small =
-      findSmallComponents(surface, sized_.edgeLength, quadsOfBlock(2, 0));
+      findSmallComponents(surface, sized_.edgeLength, quadsOfBlock(2, 0), options_.threads);
     if (small.count > 0)
     {
       std::vector<std::uint8_t> isSmall(surface.mesh.vertexCount(), 0);
@@ -471,7 +472,8 @@ private:
       return false;
     }
     const double quad = sized_.edgeLength * sized_.edgeLength;
-    const SmallComponents small = findSmallComponents(*sized_.surface, sized_.edgeLength);
+    const SmallComponents small = findSmallComponents(*sized_.surface, sized_.edgeLength,
+      std::numeric_limits<double>::infinity(), options_.threads);
     const auto found = std::find_if(small.each.begin(), small.each.end(),
       [&](const SmallComponent& component)
       {
