@@ -156,6 +156,9 @@ struct PreparedSurface
 /// checkRequests, collectRequests and checkSizing do.
 PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& options);
 
+/// The same without a copy: the points and polygons of the input are used up.
+PreparedSurface prepareSurface(SurfaceInput&& input, const PrepareOptions& options);
+
 /// Splits edges longer than maximumEdgeLength times the size there, and times triangulationScale() in small components
 /// (conforming, at edge midpoints, longest first), and
 /// chords: unconstrained edges whose two ends lie on constrained edges, that no decimation could ever

@@ -253,9 +253,10 @@ private:
     prepareOptions.threads = options_.threads;
     prepareOptions.progress = subProgress(options_.progress, 0.0, 0.1, "Preparing: ");
     requestsKey_ = options_.closeHandles > 0 ? requestsKey(input_) : 0;
-    made_.surface = std::make_shared<PreparedSurface>(prepareSurface(input_, prepareOptions));
     const std::size_t polygons =
       input_.polygonOffsets.empty() ? 0 : input_.polygonOffsets.size() - 1;
+    made_.surface =
+      std::make_shared<PreparedSurface>(prepareSurface(std::move(input_), prepareOptions));
     SurfaceInput later; // what placeHeld still needs
     later.held = std::move(input_.held);
     later.targetValences =
