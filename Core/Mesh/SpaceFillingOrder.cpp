@@ -277,6 +277,22 @@ std::vector<Index> dropUnused(Mesh& mesh, int threads)
   return kept;
 }
 
+/// newId: of each element; kInvalidIndex for those that go. Elements behind the names have none.
+void orderNames(const std::vector<Index>& newId, std::size_t count, std::vector<Index>& names)
+{
+  names.resize(newId.size(), kInvalidIndex);
+  std::vector<Index> ordered(count);
+  for (std::size_t i = 0; i < newId.size(); ++i)
+  {
+    pollNowAndThen(i);
+    if (newId[i] != kInvalidIndex)
+    {
+      ordered[newId[i]] = names[i];
+    }
+  }
+  names.swap(ordered);
+}
+
 /// Puts the vertices that have a face into curve order and renames the corners.
 void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
 {
@@ -298,6 +314,10 @@ void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
           newId[kept.empty() ? order[i] : kept[order[i]]] = static_cast<Index>(i);
         }
       });
+    if (surface.namesBefore)
+    {
+      orderNames(newId, order.size(), surface.namesBefore->vertex);
+    }
   }
   parallelFor(mesh.origin.size(), kOrderChunk, threads,
     [&](std::size_t begin, std::size_t end)
@@ -451,6 +471,11 @@ void orderFaces(PreparedSurface& surface, Permuter& permute, int threads)
 {
   Mesh& mesh = surface.mesh;
   const std::vector<Index> order = facesByLowestVertex(mesh, threads);
+  if (surface.namesBefore)
+  {
+    surface.namesBefore->face.resize(mesh.faceCount(), kInvalidIndex);
+    permute.operator()<1>(surface.namesBefore->face, order);
+  }
   orderTwins(mesh, order, permute);
   permute.operator()<3>(mesh.origin, order);
   permute.operator()<3>(mesh.flags, order);

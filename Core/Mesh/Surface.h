@@ -9,6 +9,7 @@
 #include "Mesh/Guides.h"
 #include "Mesh/HeldVertices.h"
 #include "Mesh/Mesh.h"
+#include "Mesh/NamesBefore.h"
 #include "Mesh/SeamRequests.h"
 #include "Mesh/StraightRequests.h"
 
@@ -140,6 +141,9 @@ struct PreparedSurface
   bool regularOnFeatures = false;              ///< as it was given
   std::vector<SeamRequest> seams;              ///< as they were given, in the frame
   std::vector<StraightRequest> straight;       ///< as they were given, in the frame
+
+  /// Set by who wants to know what becomes of the elements; orderSurface keeps it.
+  std::optional<NamesBefore> namesBefore;
 
   /// Sub-stages with their seconds: repair, order, connectivity.
   std::vector<std::pair<std::string, double>> seconds;
