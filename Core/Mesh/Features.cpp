@@ -139,7 +139,7 @@ void markFeaturesByAngle(Mesh& mesh, double angle, int threads, double precision
 std::vector<Vector3> normalsBeside(
   const Mesh& mesh, const std::vector<Index>& halfEdges, int threads, double precision)
 {
-  const FaceNormals normals = computeNormals(mesh, precision, threads);
+  const FaceNormals normals(mesh, precision, threads);
   std::vector<Vector3> result;
   result.reserve(halfEdges.size());
   for (const Index h : halfEdges)
