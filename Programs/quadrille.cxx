@@ -81,10 +81,10 @@ private:
   }
 };
 
-vtkSmartPointer<vtkPolyData> readGuarded(const std::string& path)
+vtkSmartPointer<vtkPolyData> readGuarded(const std::string& path, int threads)
 {
   const ReaderGuard guard;
-  return readMeshFile(path);
+  return readMeshFile(path, threads);
 }
 
 /// What the command line asks for beside the settings of the filter.
@@ -610,7 +610,8 @@ ExitCode execute(RemeshRun& run, Request& request)
 {
   const Clock::time_point start = Clock::now();
   const RunFiles& files = request.files;
-  const vtkSmartPointer<vtkPolyData> input = readGuarded(files.input);
+  const vtkSmartPointer<vtkPolyData> input =
+    readGuarded(files.input, run.filter()->GetNumberOfThreads());
   RunTimes times;
   times.read = secondsSince(start);
 

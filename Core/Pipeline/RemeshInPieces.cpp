@@ -9,6 +9,7 @@
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Mesh/SpaceFillingOrder.h"
+#include "Pipeline/Estimate.h"
 #include "Pipeline/SurfacePiece.h"
 
 #include <algorithm>
@@ -85,7 +86,7 @@ private:
 void requireFinite(const Vector3& p, Index id)
 {
   constexpr double kLargest = 1e150; // as for any surface
-  if (!(p.cwiseAbs().maxCoeff() < kLargest))
+  if (!p.allFinite() || !(p.cwiseAbs().maxCoeff() < kLargest))
   {
     throw InvalidInput("point " + std::to_string(id) +
       " has a coordinate that is not finite or exceeds 1e150: remove the point and the polygons "
@@ -366,7 +367,6 @@ struct Part
   /// Of a piece that is still to be thinned, as its boundary may be that of another one: the points there that are not
   /// shared so far, their numbers in the source and in the piece.
   std::vector<std::pair<Index, Index>> open;
-  StageRecords stages;
 };
 
 class PiecesRun
@@ -381,13 +381,31 @@ public:
       throw InvalidInput("pieces of a surface must have at least 1000 triangles.");
     }
     StageLaps laps;
-    report(options.progress, 0, "Cutting the surface");
+    const double quads =
+      static_cast<double>(std::min(options.quads.value_or(0), options.maximumNumberOfQuads));
+    result_.estimate =
+      estimateInPieces(source.triangleCount(), pieces.trianglesOfPiece, quads, options.threads);
+    result_.remeshed.status = memoryStatus(result_.estimate, source.triangleCount(), options);
+    if (!result_.remeshed.status.ok())
+    {
+      result_.remeshed.estimate = result_.estimate;
+      return;
+    }
+    report(options.progress, 0,
+      "Cutting the surface: " + estimateText(result_.estimate) + " for " +
+        std::to_string(source.triangleCount()) + " triangles");
     cut_ = Cutter(source, pieces.trianglesOfPiece, options.threads).run();
     shared_ = std::make_unique<SharedPoints>(source, cut_, options.threads);
     laps.lap("cut", source.triangleCount(), cut_.pieces());
     parts_.resize(cut_.pieces());
     thinParts();
     laps.lap("thin", source.triangleCount(), countTriangles());
+    const StageRecords ofParts = stagesOfParts();
+    for (const StageRecord& record : ofParts.all())
+    {
+      laps.records.add(
+        "thin:" + record.stage, record.seconds, record.elementsIn, record.elementsOut);
+    }
     const JoinedPieces joined = join();
     result_.pieces = cut_.pieces();
     result_.joinedTriangles = joined.surface.polygonOffsets.size() - 1;
@@ -561,6 +579,30 @@ private:
     }
   }
 
+  /// Of all pieces together: numbers of elements are their sums, too.
+  StageRecords stagesOfParts() const
+  {
+    std::vector<StageRecord> sums;
+    for (const Part& part : parts_)
+    {
+      const std::vector<StageRecord>& records = part.piece->stages().all();
+      sums.resize(std::max(sums.size(), records.size()));
+      for (std::size_t i = 0; i < records.size(); ++i)
+      {
+        sums[i].stage = records[i].stage;
+        sums[i].seconds += records[i].seconds;
+        sums[i].elementsIn += records[i].elementsIn;
+        sums[i].elementsOut += records[i].elementsOut;
+      }
+    }
+    StageRecords all;
+    for (const StageRecord& sum : sums)
+    {
+      all.add(sum.stage, sum.seconds, sum.elementsIn, sum.elementsOut);
+    }
+    return all;
+  }
+
   std::size_t countTriangles() const
   {
     return std::accumulate(parts_.begin(), parts_.end(), std::size_t{ 0 },
@@ -588,6 +630,7 @@ private:
     options.progress = subProgress(options_.progress, 0.6, 0.9);
     options.mergeCharts = false;
     result_.remeshed = remesh(joined.surface, options);
+    result_.remeshed.estimate = result_.estimate;
   }
 
   /// The place of a point of the joined surface, and its piece; none where it does not lie on one of its triangles.
@@ -674,15 +717,8 @@ private:
       [&](std::size_t p, std::size_t)
       {
         carryPart(p, places[p], whose[p]);
-        parts_[p].stages = parts_[p].piece->stages();
         parts_[p].piece.reset();
       });
-    StageRecords sum;
-    for (const Part& part : parts_)
-    {
-      sum.add(part.stages);
-    }
-    result_.piecesStages = sum.all();
     releaseFreedMemory();
   }
 

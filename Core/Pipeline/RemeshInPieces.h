@@ -48,15 +48,16 @@ struct PiecesOptions
 
 struct PiecesResult
 {
-  /// Of the joined surface; points and sources of the quads: see below. Its surface has the thinned triangles.
+  /// Of the joined surface; points and sources of the quads: see below. Its surface has the thinned triangles. Stages
+  /// are cut, thin, join, those of remesh(), and carry; within thin there are thin:repair, thin:order,
+  /// thin:connectivity and thin:phase1, whose seconds are sums over the pieces, of which as many run side by side as
+  /// there are threads.
   RemeshResult remeshed;
   /// Where the points of the quads lie on the triangles of the source. A point whose triangle is none of the source's,
   /// as where a handle was closed, has kInvalidIndex there and the place that it has on the joined surface.
   std::vector<SourceLocation> pointSource; ///< #points of the quads
   std::vector<SourceLocation> quadSource;  ///< #quads; the same of their centres
-  /// What the pieces took together: repair, order, connectivity, phase1, carry; seconds are sums over the pieces, of
-  /// which as many run side by side as there are threads.
-  std::vector<StageRecord> piecesStages;
+  RunEstimate estimate;                    ///< made before the run
   std::size_t pieces = 0;
   std::size_t joinedTriangles = 0;
 };

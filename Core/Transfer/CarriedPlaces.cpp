@@ -300,13 +300,16 @@ private:
   std::vector<Candidate> candidates_;
 };
 
+/// Weights below it are rounding of single precision: the place is on the edge, or at the corner.
+constexpr double kOnEdge = 1e-5;
+
 /// None below 0, sum 1.
 std::array<double, 3> inside(std::array<double, 3> weights)
 {
   double sum = 0;
   for (double& weight : weights)
   {
-    weight = weight > 0 ? weight : 0; // also where it is no number
+    weight = weight > kOnEdge ? weight : 0; // also where it is no number
     sum += weight;
   }
   if (!(sum > 0) || !(sum <= std::numeric_limits<double>::max()))
