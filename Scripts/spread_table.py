@@ -14,10 +14,10 @@ Never.
 
 The table has a row for each run: faces; quads; irregular vertices and distance (mean, over the diagonal of the box),
 and both over those of the serial run; megabytes gathered on one rank, redistributed, and sent by the rank that sends
-most; megabytes of memory at the peak of the rank that has most, before the filter ran, and what is allowed (the rank's share
-of the faces times 200 bytes, and 300 MB); and seconds of the stages, of the slowest rank. It is printed as Markdown and
-written as CSV. What a
-rank of Python and VTK takes before it does anything, some 100 MB, counts. A rank has one thread.
+most; megabytes of memory at the peak of the rank that has most, before the filter ran, and what is allowed (the rank's
+share of the faces times 200 bytes, and 300 MB); and seconds of the stages, of the slowest rank. It is printed as
+Markdown and written as CSV. What a rank of Python and VTK takes before it does anything, some 100 MB, counts. A rank
+has one thread.
 """
 import argparse
 import csv
