@@ -28,7 +28,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::uint64_t kHeaderBytes = 84;
+constexpr std::uint64_t kStlHeaderBytes = 84;
 constexpr std::size_t kRowBytes = 50;
 constexpr std::uint64_t kMostTriangles =
   400000000; // their corners, and the places of a table, have 31 bits
@@ -38,8 +38,8 @@ constexpr std::size_t kCornerChunk = std::size_t{ 1 } << 16;
 std::uint64_t announcedTriangles(const std::string& path)
 {
   std::ifstream file(path, std::ios::binary);
-  std::array<unsigned char, kHeaderBytes> header{};
-  file.read(reinterpret_cast<char*>(header.data()), kHeaderBytes);
+  std::array<unsigned char, kStlHeaderBytes> header{};
+  file.read(reinterpret_cast<char*>(header.data()), kStlHeaderBytes);
   std::uint64_t count = 0;
   for (std::size_t i = 4; file && i-- > 0;)
   {
@@ -204,8 +204,8 @@ bool isBinaryStl(const std::string& path)
 {
   std::error_code code;
   const std::uint64_t size = std::filesystem::file_size(path, code);
-  const std::uint64_t triangles = code || size < kHeaderBytes ? 0 : announcedTriangles(path);
-  return triangles > 0 && size == kHeaderBytes + kRowBytes * triangles;
+  const std::uint64_t triangles = code || size < kStlHeaderBytes ? 0 : announcedTriangles(path);
+  return triangles > 0 && size == kStlHeaderBytes + kRowBytes * triangles;
 }
 
 vtkSmartPointer<vtkPolyData> readBinaryStl(const std::string& path, int threads)
@@ -219,7 +219,7 @@ vtkSmartPointer<vtkPolyData> readBinaryStl(const std::string& path, int threads)
   }
   std::vector<float> coordinates(9 * triangles);
   constexpr std::size_t kNormalBytes = 12, kCornerBytes = 36;
-  const std::size_t read = readFixedRows(path, kHeaderBytes, triangles, kRowBytes, threads,
+  const std::size_t read = readFixedRows(path, kStlHeaderBytes, triangles, kRowBytes, threads,
     [&](std::size_t first, std::size_t rows, const unsigned char* bytes)
     {
       for (std::size_t i = 0; i < rows; ++i)
