@@ -74,6 +74,14 @@
 
 class vtkTable;
 
+namespace quadrille
+{
+class ResultStore;
+struct JoinedParts;
+struct SurfaceInput;
+struct SymmetricResult;
+}
+
 class QUADRILLEFILTERS_EXPORT vtkQuadRemesh : public vtkQuadrilleSurfaceAlgorithm
 {
 public:
@@ -426,6 +434,22 @@ public:
   vtkBooleanMacro(Preview, vtkTypeBool);
   ///@}
 
+  ///@{
+  /**
+   * Whether quads of blocks of composite data fit together where blocks meet. Blocks with edges in common, that is
+   * whose ends are at the same places up to a millionth of the box round all blocks, are made in one run: the common
+   * curves become edges of the quads, with the same points, to the bit, in all blocks. Each block keeps its share of
+   * the quads (see QuadsAre and QuadsOfBlocks, by sizes where they differ from the shares of areas), its arrays and its
+   * orientation; what the run tells as a whole stands at the first block of those that hang together, and
+   * `ConformingWith` in the field data names the others. Where an edge would have more than two faces, as where three
+   * sheets or two solids meet, it is an error that names place and blocks. Not with a Symmetry, nor with moves of
+   * irregular vertices; Preview does not count for such blocks. Default: off.
+   */
+  vtkSetMacro(Conforming, vtkTypeBool);
+  vtkGetMacro(Conforming, vtkTypeBool);
+  vtkBooleanMacro(Conforming, vtkTypeBool);
+  ///@}
+
   /// Millions of bytes that are held for the next execution.
   double GetRememberedMegabytes() const;
   /// Stages that the last execution had, or began, from an earlier one, one a line; "all" where nothing had changed and
@@ -510,6 +534,9 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   const char* GetBlockType(int outputPort) const override;
   void Execute(quadrille::Block& block) override;
+  bool JoinsBlocks() const override { return this->Conforming != 0; }
+  std::vector<Together> FindTogether(const std::vector<quadrille::Block*>& blocks) override;
+  void ExecuteTogether(const std::vector<quadrille::Block*>& blocks) override;
   void WritePreview(quadrille::Block& block, const quadrille::AskedConstraints& asked,
     const quadrille::RemeshResult& result);
   bool KeepsResult() override { return this->KeepLevels != 0; }
@@ -519,6 +546,20 @@ protected:
 private:
   vtkQuadRemesh(const vtkQuadRemesh&) = delete;
   void operator=(const vtkQuadRemesh&) = delete;
+
+  struct RunOfBlock;
+  void CheckProperties() const;
+  quadrille::RemeshOptions MakeRunOptions(const quadrille::Block& block);
+  quadrille::SymmetricResult RunPipeline(quadrille::SurfaceInput surface,
+    const quadrille::RemeshOptions& options, quadrille::ResultStore* levels);
+  void TellRun(quadrille::Block& block, const quadrille::RemeshResult& result);
+  void WriteQuads(quadrille::Block& block, const RunOfBlock& run);
+  /// The options get the number of quads of all blocks; shares: of each, sum 1; sizes: of its quads for that share,
+  /// over the mean.
+  void ShareQuads(const std::vector<quadrille::Block*>& blocks, quadrille::RemeshOptions& options,
+    std::vector<double>& shares, std::vector<double>& sizes);
+  quadrille::RemeshResult RunJoined(quadrille::Block& first, quadrille::JoinedParts& joined,
+    const quadrille::RemeshOptions& options, const std::vector<double>& sizes);
 
   vtkPolyData* GetPolyDataOutputAt(int port);
   vtkIdType CountOverBlocks(const char* number) const
@@ -543,6 +584,7 @@ private:
   double LeastAnisotropy = 0.3;
   vtkTypeBool KeepLevels = 1;
   vtkTypeBool Preview = 0;
+  vtkTypeBool Conforming = 0;
   vtkTypeBool WarmStart = 0;
   int FinalQuality = Coarse;
   vtkTypeBool DistortionMetric = 0;
