@@ -684,15 +684,27 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
 void vtkQuadRemesh::ShareQuads(const std::vector<quadrille::Block*>& blocks,
   quadrille::RemeshOptions& options, std::vector<double>& shares, std::vector<double>& sizes)
 {
+  // The least number that a small block gets for itself is no matter here: those without a number of their own have
+  // one edge length.
+  const bool isShared = this->QuadsAre == QUADS_ARE_SHARED_BY_AREA;
   std::vector<double> areas;
-  double area = 0, all = 0;
+  double area = 0, all = 0, sharedArea = 0, sharedQuads = 0;
   for (const quadrille::Block* block : blocks)
   {
     areas.push_back(quadrille::areaOf(block->input()));
-    const std::optional<std::size_t> own = this->MakeOptions(*block).quads;
-    shares.push_back(own ? static_cast<double>(*own) : areas.back());
+    const std::optional<std::size_t> quads = this->MakeOptions(*block).quads;
+    shares.push_back(quads ? static_cast<double>(*quads) : areas.back());
     area += areas.back();
     all += shares.back();
+    sharedArea += block->ownTarget > 0 ? 0 : areas.back();
+    sharedQuads += block->ownTarget > 0 ? 0 : shares.back();
+  }
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+  {
+    if (isShared && !(blocks[i]->ownTarget > 0) && sharedArea > 0)
+    {
+      shares[i] = sharedQuads * areas[i] / sharedArea;
+    }
   }
   if (options.quads)
   {
