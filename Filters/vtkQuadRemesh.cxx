@@ -157,6 +157,15 @@ std::vector<std::string> namesOfOthers(
   return names;
 }
 
+/// Whether a block has far more or fewer quads than were asked for.
+bool isFarFrom(std::size_t target, quadrille::Block& block)
+{
+  constexpr double factor = 1.5;
+  const auto quads = static_cast<double>(block.output(0)->GetNumberOfPolys());
+  const auto wanted = static_cast<double>(target);
+  return quads > factor * wanted || factor * quads < wanted;
+}
+
 /// Of conforming blocks, at the first one.
 std::string togetherText(
   const std::vector<quadrille::Block*>& blocks, const quadrille::PartContacts& contacts)
@@ -500,6 +509,13 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   const RunOfBlock whole{ converted, asked, result,
     this->Symmetry != SYMMETRY_NONE ? &made : nullptr };
   this->WriteQuads(block, whole);
+  if (!block.path.empty() && options.quads && !options.coarsestIntegers &&
+    isFarFrom(*options.quads, block))
+  {
+    this->AddNotice("has " + std::to_string(result.quads.quads.size()) +
+      " quads where its share is " + std::to_string(*options.quads) +
+      ": its topology and its features take so many");
+  }
   if (this->ComputeMappedSurface)
   {
     vtkPolyData* mapped = block.output(1);
@@ -672,6 +688,13 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
     quadrille::reverseQuads(block.output(0), results[i].reversed);
     quadrille::addText(block.output(0), "ConformingWith", namesOfOthers(blocks, i));
     block.state->report.numbers["TargetQuads"] = static_cast<double>(own.targetQuads);
+    if (options.quads && !options.coarsestIntegers && isFarFrom(own.targetQuads, block))
+    {
+      this->SayOf(block);
+      this->AddNotice("has " + std::to_string(own.quads.quads.size()) +
+        " quads where its share is " + std::to_string(own.targetQuads) +
+        ": where it meets others it has as many edges as they have");
+    }
     if (this->ComputeMappedSurface)
     {
       writeMapped(own, options,

@@ -15,9 +15,9 @@ namespace quadrille
 struct PartResult
 {
   /// surface: its faces, without requests and hash; sourcePolygon and sourcePoints are those of the part, and its
-  /// border to other parts is boundary. framePositions, uv, turns (at the border those within the part), quads: of
-  /// that surface. curves: of the part. details, givenUpFeatures: those that lie nearest to it. charts and targetQuads are 0,
-  /// the levels are empty, and what else there is tells of the whole run.
+  /// border to other parts is boundary. framePositions, uv, turns (at the border those within the part) and quads are
+  /// those of that surface, curves those of the part, details and givenUpFeatures those that lie nearest to it. charts
+  /// and targetQuads are 0, the levels are empty, and what else there is tells of the whole run.
   RemeshResult result;
   /// Per quad, whether the part's own polygons there run the other way round: repair gives all parts that hang
   /// together one orientation.
