@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Mesh/JoinParts.h"
+#include "Mesh/JointSheets.h"
 #include "Pipeline/PartSplit.h"
 #include "Pipeline/Pipeline.h"
 #include "Pipeline/ResultStore.h"
@@ -33,6 +34,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -186,23 +188,40 @@ std::string togetherText(
   return text.str();
 }
 
-void refuseManyFaced(
-  const quadrille::PartContacts& contacts, const std::vector<quadrille::Block*>& blocks)
+/// Of the polygons, each in triangles from its first corner.
+double areaOfPolygons(const quadrille::SurfaceInput& input)
 {
-  if (contacts.manyFaced == 0)
+  double area = 0;
+  for (std::size_t i = 0; i + 1 < input.polygonOffsets.size(); ++i)
   {
-    return;
+    const quadrille::Index first = input.polygonOffsets[i];
+    const quadrille::Vector3& a = input.points[input.polygonPoints[first]];
+    for (quadrille::Index k = first + 2; k < input.polygonOffsets[i + 1]; ++k)
+    {
+      area += 0.5 *
+        (input.points[input.polygonPoints[k - 1]] - a)
+          .cross(input.points[input.polygonPoints[k]] - a)
+          .norm();
+    }
   }
-  std::string names;
-  for (const quadrille::Index part : contacts.manyFacedParts)
+  return area;
+}
+
+std::string sheetsText(const quadrille::MetSheets& met)
+{
+  std::ostringstream text;
+  text << met.segments << " curves are common to more than two sheets";
+  if (met.strips > 0)
   {
-    names += (names.empty() ? "'" : "' and '") + blocks[part]->name;
+    text << "; " << met.strips
+         << (met.strips == 1 ? " strip of quads was" : " strips of quads were")
+         << " put in so that all sheets have the same points there";
   }
-  throw quadrille::InvalidInput(std::to_string(contacts.manyFaced) +
-    " edges that blocks have in common have more than two faces, one of " + names + "' at " +
-    quadrille::placeText(contacts.manyFacedPlace) +
-    ": conforming blocks must be one surface there. Take one of them out, or leave the faces in "
-    "which they touch away, or switch Conforming off");
+  if (met.inverted > 0)
+  {
+    text << "; " << met.inverted << " quads are inverted: more quads often help";
+  }
+  return text.str();
 }
 
 /// Of the joint surface, with a factor a part; the smaller one counts where parts meet. asked: those of the points
@@ -263,7 +282,10 @@ void writeMapped(const quadrille::RemeshResult& result, const quadrille::RemeshO
     quadrille::matchingOf(result.surface.mesh, result.uv, options.threads), result.turns,
     source.input, *source.converted, source.textureCoordinates, options.threads, nullptr,
     source.earlier));
-  quadrille::addFrame(mapped, result.frame, result.framePositions);
+  if (!result.framePositions.empty()) // of sheets that were moved there are none
+  {
+    quadrille::addFrame(mapped, result.frame, result.framePositions);
+  }
   quadrille::addMethod(mapped, options.method);
   quadrille::addAnisotropy(mapped, options.anisotropyLimit, result.beyondAnisotropyLimit);
   quadrille::addCertificate(mapped, result.certificate);
@@ -662,22 +684,57 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
   }
   this->SayOf(*blocks.front());
   const quadrille::PartContacts contacts = quadrille::findContacts(addressesOf(parts));
-  refuseManyFaced(contacts, blocks);
+  const bool hasSheets = contacts.manyFaced > 0;
+  if (hasSheets)
+  {
+    this->CheckSheets(parts, contacts, blocks);
+  }
   quadrille::RemeshOptions options = this->MakeRunOptions(*blocks.front());
   options.preview = false; // what it leaves out is needed to take the quads apart
   std::vector<double> shares, sizes;
   this->ShareQuads(blocks, options, shares, sizes);
   quadrille::JoinedParts joined = quadrille::joinParts(std::move(parts), contacts);
   this->AddNotice(togetherText(blocks, contacts));
-  const quadrille::RemeshResult result = this->RunJoined(*blocks.front(), joined, options, sizes);
+  // Faces that several blocks share are made once, but are quads of each.
+  double oncePerFace = 1;
+  std::optional<quadrille::JointSheets> sheets;
+  const std::vector<quadrille::Vector3> jointPoints = joined.input.points;
+  if (hasSheets)
+  {
+    oncePerFace = areaOfPolygons(quadrille::cutIntoSheets(joined.input, std::nullopt).input) /
+      areaOfPolygons(joined.input);
+    if (options.quads)
+    {
+      options.quads = static_cast<std::size_t>(
+        std::max(1L, std::lround(oncePerFace * static_cast<double>(*options.quads))));
+    }
+    else if (this->TargetType == TARGET_RELATIVE_EDGE_LENGTH && !options.edgeLength)
+    {
+      options.edgeLength = this->RelativeEdgeLength * quadrille::diagonalOf(joined.input);
+    }
+    sheets.emplace();
+  }
+  quadrille::RemeshResult result = this->RunJoined(*blocks.front(), joined, options, sizes, sheets);
   this->TellRun(*blocks.front(), result);
-  std::vector<quadrille::PartResult> results = quadrille::splitParts(result, joined);
+  std::vector<quadrille::PartResult> results;
+  if (sheets)
+  {
+    const quadrille::MetSheets met = quadrille::meetAtJoints(
+      result, *sheets, jointPoints, this->SmoothingSteps, this->NumberOfThreads);
+    quadrille::requireOk(met.status, "conforming blocks");
+    this->AddNotice(sheetsText(met));
+    results = quadrille::splitSheets(result, joined, *sheets, met);
+  }
+  else
+  {
+    results = quadrille::splitParts(result, joined);
+  }
   for (std::size_t i = 0; i < blocks.size(); ++i)
   {
     quadrille::Block& block = *blocks[i];
     const quadrille::RemeshResult& own = results[i].result;
-    results[i].result.targetQuads =
-      static_cast<std::size_t>(std::lround(shares[i] * static_cast<double>(result.targetQuads)));
+    results[i].result.targetQuads = static_cast<std::size_t>(
+      std::lround(shares[i] * static_cast<double>(result.targetQuads) / oncePerFace));
     asked[i].curves = own.curves;
     if (own.quads.quads.empty() && this->Method != METHOD_SEAMLESS)
     {
@@ -741,18 +798,54 @@ void vtkQuadRemesh::ShareQuads(const std::vector<quadrille::Block*>& blocks,
 }
 
 //------------------------------------------------------------------------------
+void vtkQuadRemesh::CheckSheets(const std::vector<quadrille::SurfaceInput>& parts,
+  const quadrille::PartContacts& contacts, const std::vector<quadrille::Block*>& blocks) const
+{
+  std::string names;
+  for (const quadrille::Index part : contacts.manyFacedParts)
+  {
+    names += (names.empty() ? "'" : "' and '") + blocks[part]->name;
+  }
+  const std::string where = "more than two sheets meet, of " + names + "' near " +
+    quadrille::placeText(contacts.manyFacedPlace);
+  if (this->Method == METHOD_SEAMLESS)
+  {
+    throw quadrille::InvalidInput(where +
+      ", which takes quads to be conforming: choose another method than 'seamless', or switch "
+      "Conforming off");
+  }
+  if (std::any_of(parts.begin(), parts.end(),
+        [](const quadrille::SurfaceInput& part) { return !part.curves.empty(); }))
+  {
+    throw quadrille::InvalidInput(where +
+      ": there are no connections and cycles with that. Take them away, or switch Conforming off");
+  }
+}
+
+//------------------------------------------------------------------------------
 quadrille::RemeshResult vtkQuadRemesh::RunJoined(quadrille::Block& first,
   quadrille::JoinedParts& joined, const quadrille::RemeshOptions& options,
-  const std::vector<double>& sizes)
+  const std::vector<double>& sizes, std::optional<quadrille::JointSheets>& sheets)
 {
   quadrille::ResultStore* levels =
     this->KeepLevels ? &first.state->memoryAs<LevelMemory>().levels : nullptr;
+  const auto run = [&]()
+  {
+    if (!sheets)
+    {
+      return this->RunPipeline(joined.input, options, levels).remeshed;
+    }
+    sheets = quadrille::cutIntoSheets(joined.input, options.featureAngle);
+    const quadrille::PlaceFold fold(
+      [&sheets](const quadrille::Vector3& place) { return sheets->movedBack(place); });
+    return this->RunPipeline(std::move(sheets->input), options, levels).remeshed;
+  };
   constexpr double nothing = 0.01;
   const bool isUniform = std::all_of(
     sizes.begin(), sizes.end(), [](double size) { return std::abs(size - 1) < nothing; });
   if (isUniform)
   {
-    return this->RunPipeline(std::move(joined.input), options, levels).remeshed;
+    return run();
   }
   // Sizes that differ between parts may leave no map, as they ask for irregular vertices where features leave no room:
   // then the parts get sizes half as far from each other, and at last one.
@@ -766,8 +859,7 @@ quadrille::RemeshResult vtkQuadRemesh::RunJoined(quadrille::Block& first,
     }
     joined.input.sizing = share > 0 ? sizesOf(joined, asked, factors) : asked;
     const bool isLast = share == 0;
-    quadrille::RemeshResult result =
-      this->RunPipeline(isLast ? std::move(joined.input) : joined.input, options, levels).remeshed;
+    quadrille::RemeshResult result = run();
     if (isLast || result.status.ok() || result.status.code == quadrille::StatusCode::Cancelled ||
       result.status.code == quadrille::StatusCode::TooLarge)
     {

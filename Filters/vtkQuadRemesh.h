@@ -72,12 +72,16 @@
 
 #include "vtkQuadrilleSurfaceAlgorithm.h"
 
+#include <optional> // for std::optional
+
 class vtkTable;
 
 namespace quadrille
 {
 class ResultStore;
 struct JoinedParts;
+struct JointSheets;
+struct PartContacts;
 struct SurfaceInput;
 struct SymmetricResult;
 }
@@ -441,9 +445,11 @@ public:
    * curves become edges of the quads, with the same points, to the bit, in all blocks. Each block keeps its share of
    * the quads (see QuadsAre and QuadsOfBlocks, by sizes where they differ from the shares of areas), its arrays and its
    * orientation; what the run tells as a whole stands at the first block of those that hang together, and
-   * `ConformingWith` in the field data names the others. Where an edge would have more than two faces, as where three
-   * sheets or two solids meet, it is an error that names place and blocks. Not with a Symmetry, nor with moves of
-   * irregular vertices; Preview does not count for such blocks. Default: off.
+   * `ConformingWith` in the field data names the others. Where more than two sheets meet, as at a rib, they are made
+   * apart and get strips of quads until all have the same points there; faces that two solids share, with the same
+   * triangles, become the same quads of both. An error names the place where a block meets itself at such a curve. Not
+   * with a Symmetry, nor with moves of irregular vertices, nor, where more than two sheets meet, with connections and
+   * cycles; Preview does not count for such blocks. Default: off.
    */
   vtkSetMacro(Conforming, vtkTypeBool);
   vtkGetMacro(Conforming, vtkTypeBool);
@@ -558,8 +564,13 @@ private:
   /// over the mean.
   void ShareQuads(const std::vector<quadrille::Block*>& blocks, quadrille::RemeshOptions& options,
     std::vector<double>& shares, std::vector<double>& sizes);
+  /// Refuses what is not possible where more than two sheets meet.
+  void CheckSheets(const std::vector<quadrille::SurfaceInput>& parts,
+    const quadrille::PartContacts& contacts, const std::vector<quadrille::Block*>& blocks) const;
+  /// sheets: where there is a value, the run is one of sheets, which it becomes.
   quadrille::RemeshResult RunJoined(quadrille::Block& first, quadrille::JoinedParts& joined,
-    const quadrille::RemeshOptions& options, const std::vector<double>& sizes);
+    const quadrille::RemeshOptions& options, const std::vector<double>& sizes,
+    std::optional<quadrille::JointSheets>& sheets);
 
   vtkPolyData* GetPolyDataOutputAt(int port);
   vtkIdType CountOverBlocks(const char* number) const

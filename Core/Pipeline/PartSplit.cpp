@@ -20,30 +20,79 @@ namespace quadrille
 namespace
 {
 
-/// Faces of one part, and where they are in it.
+/// What is cut up: a result, with what says whose its polygons and points are.
+struct CutSource
+{
+  const RemeshResult& result;
+  const JoinedParts& joined;
+  const JointSheets* sheets = nullptr; ///< where the surface is of sheets
+  const MetSheets* met = nullptr;
+
+  /// Polygons of the joint surface at a face.
+  std::vector<Index> polygonsAt(Index face) const
+  {
+    const Index polygon = result.surface.sourcePolygon[face];
+    return sheets != nullptr ? sheets->polygons[polygon] : std::vector<Index>{ polygon };
+  }
+  Index jointPoint(Index point) const
+  {
+    return sheets != nullptr ? sheets->jointPoint[point] : point;
+  }
+  /// The lowest point of the quads that is the same.
+  Index same(Index point) const { return met != nullptr ? met->same[point] : point; }
+};
+
+/// Whose the faces are: of one part, or, where parts share a face, of several.
 class FaceParts
 {
 public:
-  FaceParts(const PreparedSurface& surface, const JoinedParts& joined)
-    : partOf_(surface.mesh.faceCount()), ownFace_(surface.mesh.faceCount()),
-      faces_(joined.parts.size())
+  explicit FaceParts(const CutSource& source)
+    : first_(source.result.surface.mesh.faceCount() + 1, 0), faces_(source.joined.parts.size())
   {
-    for (Index f = 0; f < surface.mesh.faceCount(); ++f)
+    for (Index f = 0; f + 1 < first_.size(); ++f)
     {
       pollNowAndThen(f);
-      partOf_[f] = joined.partOf(surface.sourcePolygon[f]);
-      ownFace_[f] = static_cast<Index>(faces_[partOf_[f]].size());
-      faces_[partOf_[f]].push_back(f);
+      for (const Index polygon : source.polygonsAt(f))
+      {
+        const Index part = source.joined.partOf(polygon);
+        owners_.push_back({ part, static_cast<Index>(faces_[part].size()), polygon });
+        faces_[part].push_back(f);
+      }
+      first_[f + 1] = static_cast<Index>(owners_.size());
     }
   }
 
-  Index partOf(Index face) const { return partOf_[face]; }
-  Index ownFace(Index face) const { return ownFace_[face]; }
-  Index ownHalfEdge(Index h) const { return 3 * ownFace_[h / 3] + h % 3; }
+  struct Owner
+  {
+    Index part, face; ///< the face's id in the part
+    Index polygon;    ///< of the joint surface
+  };
+
+  /// Null where the part does not have the face.
+  const Owner* ownerIn(Index part, Index face) const
+  {
+    for (Index i = first_[face]; i < first_[face + 1]; ++i)
+    {
+      if (owners_[i].part == part)
+      {
+        return &owners_[i];
+      }
+    }
+    return nullptr;
+  }
+  bool has(Index part, Index face) const { return ownerIn(part, face) != nullptr; }
+  Index ownFace(Index part, Index face) const { return ownerIn(part, face)->face; }
+  Index ownHalfEdge(Index part, Index h) const { return 3 * ownFace(part, h / 3) + h % 3; }
   const std::vector<Index>& faces(std::size_t part) const { return faces_[part]; }
+  template <class Visit>
+  void forEachOwner(Index face, const Visit& visit) const
+  {
+    std::for_each(owners_.begin() + first_[face], owners_.begin() + first_[face + 1], visit);
+  }
 
 private:
-  std::vector<Index> partOf_, ownFace_;
+  std::vector<Index> first_; ///< per face, in owners_
+  std::vector<Owner> owners_;
   std::vector<std::vector<Index>> faces_;
 };
 
@@ -65,13 +114,13 @@ int turnsWithin(const std::vector<FixedVec2>& uv, const std::vector<Index>& corn
 class PartSurface
 {
 public:
-  PartSurface(const RemeshResult& result, const FaceParts& faceParts, std::size_t part)
-    : result_(result), whole_(result.surface.mesh), faceParts_(faceParts),
-      faces_(faceParts.faces(part)), part_(static_cast<Index>(part))
+  PartSurface(const CutSource& source, const FaceParts& faceParts, std::size_t part)
+    : source_(source), result_(source.result), whole_(source.result.surface.mesh),
+      faceParts_(faceParts), faces_(faceParts.faces(part)), part_(static_cast<Index>(part))
   {
   }
 
-  void write(const JoinedParts& joined, RemeshResult& to)
+  void write(RemeshResult& to)
   {
     Mesh& mesh = to.surface.mesh;
     mesh.origin.assign(3 * faces_.size(), kInvalidIndex);
@@ -80,8 +129,8 @@ public:
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
       {
         const Index g = whole_.twin[h];
-        const bool isInside = g != kInvalidIndex && faceParts_.partOf(Mesh::face(g)) == part_;
-        mesh.twin.push_back(isInside ? faceParts_.ownHalfEdge(g) : kInvalidIndex);
+        const bool isInside = g != kInvalidIndex && faceParts_.has(part_, Mesh::face(g));
+        mesh.twin.push_back(isInside ? faceParts_.ownHalfEdge(part_, g) : kInvalidIndex);
         mesh.flags.push_back(whole_.flags[h]);
         if (!result_.uv.empty())
         {
@@ -90,6 +139,7 @@ public:
       }
     }
     writeVertices(to);
+    const JoinedParts& joined = source_.joined;
     writeSources(joined.parts[part_], joined.firstPolygon[part_], to.surface);
     faceComponents(mesh, to.surface.components);
     to.surface.boundingBoxDiagonal = result_.surface.boundingBoxDiagonal;
@@ -146,12 +196,12 @@ private:
     const PreparedSurface& from = result_.surface;
     for (const Index f : faces_)
     {
-      const Index polygon = from.sourcePolygon[f] - firstPolygon;
+      const Index polygon = faceParts_.ownerIn(part_, f)->polygon - firstPolygon;
       surface.sourcePolygon.push_back(polygon);
       std::array<Index, 3> points{};
       for (std::size_t i = 0; i < 3; ++i)
       {
-        points[i] = own.ownPoint(from.sourcePoints[f][i]);
+        points[i] = own.ownPoint(source_.jointPoint(from.sourcePoints[f][i]));
         if (points[i] == kInvalidIndex)
         {
           // Repair has moved the corner to a point that only another part has.
@@ -174,6 +224,7 @@ private:
     }
   }
 
+  const CutSource& source_;
   const RemeshResult& result_;
   const Mesh& whole_;
   const FaceParts& faceParts_;
@@ -200,7 +251,7 @@ public:
   Place in(Index part, Index point, Index near) const
   {
     const Index f = quads_.sourceFace[point];
-    if (faceParts_.partOf(f) == part)
+    if (faceParts_.has(part, f))
     {
       return { f, quads_.sourceWeights[point] };
     }
@@ -212,7 +263,7 @@ public:
       visitFan(h,
         [&](Index g)
         {
-          if (faceParts_.partOf(g) == part)
+          if (faceParts_.has(part, g))
           {
             const Place place = placeOn(g, quads_.points[point]);
             const double found = distance(place, point);
@@ -278,139 +329,6 @@ private:
   const FaceParts& faceParts_;
 };
 
-/// The quads of one part as a mesh of its own.
-class PartQuads
-{
-public:
-  PartQuads(const QuadMesh& whole, const FaceParts& faceParts, const PartPlaces& places, Index part)
-    : whole_(whole), faceParts_(faceParts), places_(places), part_(part)
-  {
-  }
-
-  void write(const std::vector<Index>& quads, QuadMesh& to)
-  {
-    for (const Index q : quads)
-    {
-      to.quads.push_back(whole_.quads[q]);
-      to.quadSourceFace.push_back(faceParts_.ownFace(whole_.quadSourceFace[q]));
-      to.quadSourceWeights.push_back(whole_.quadSourceWeights[q]);
-    }
-    namePoints(to);
-    const QuadTopology topology = analyzeQuads(to.quads, to.points.size());
-    to.valence = topology.valence;
-    to.onBoundary = topology.onBoundary;
-    writeLines(topology, to);
-  }
-
-private:
-  /// Points of this part, in the order of the whole mesh; one for each fan.
-  void namePoints(QuadMesh& to)
-  {
-    const QuadTopology topology = analyzeQuads(to.quads, whole_.points.size());
-    const auto corners = static_cast<Index>(4 * to.quads.size());
-    const auto cornerAfter = [](Index h) { return h - h % 4 + (h + 1) % 4; };
-    DisjointSets fans(corners, 1);
-    for (Index h = 0; h < corners; ++h)
-    {
-      if (topology.twin[h] != kInvalidIndex)
-      {
-        fans.join(h, cornerAfter(topology.twin[h]));
-      }
-    }
-    std::vector<std::pair<Index, Index>> points; // of the whole mesh, a corner
-    for (Index h = 0; h < corners; ++h)
-    {
-      if (fans.find(h) == h)
-      {
-        points.emplace_back(to.quads[h / 4][h % 4], h);
-      }
-    }
-    std::sort(points.begin(), points.end());
-    std::vector<Index> name(corners);
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      const auto [point, corner] = points[i];
-      name[corner] = static_cast<Index>(i);
-      wholePoint_.push_back(point);
-      to.points.push_back(whole_.points[point]);
-      const Index near = faceOf(to, corner / 4);
-      const PartPlaces::Place place = places_.in(part_, point, near);
-      to.sourceFace.push_back(faceParts_.ownFace(place.face));
-      to.sourceWeights.push_back(place.weights);
-    }
-    for (Index h = 0; h < corners; ++h)
-    {
-      to.quads[h / 4][h % 4] = name[fans.find(h)];
-    }
-  }
-
-  /// Of the whole surface, under a quad of this part.
-  Index faceOf(const QuadMesh& to, Index quad) const
-  {
-    return faceParts_.faces(part_)[to.quadSourceFace[quad]];
-  }
-
-  /// Features and boundary: lines of the whole mesh, and what its features did not follow.
-  void writeLines(const QuadTopology& topology, QuadMesh& to) const
-  {
-    using Edge = std::pair<Index, Index>;
-    std::vector<std::pair<Edge, Index>> edges; // by points of the whole mesh, with a half-edge
-    for (Index h = 0; h < 4 * to.quads.size(); ++h)
-    {
-      if (topology.twin[h] == kInvalidIndex || h < topology.twin[h])
-      {
-        const Index a = wholePoint_[to.quads[h / 4][h % 4]];
-        const Index b = wholePoint_[to.quads[h / 4][(h + 1) % 4]];
-        edges.push_back({ { std::min(a, b), std::max(a, b) }, h });
-      }
-    }
-    std::sort(edges.begin(), edges.end());
-    std::vector<std::uint8_t> hasLine(4 * to.quads.size(), 0);
-    const auto add = [&](Index h, Index halfEdge)
-    {
-      hasLine[h] = 1;
-      to.lines.push_back({ to.quads[h / 4][h % 4], to.quads[h / 4][(h + 1) % 4], halfEdge,
-        topology.twin[h] == kInvalidIndex });
-    };
-    for (const QuadLine& line : whole_.lines)
-    {
-      const Edge edge{ std::min(line.a, line.b), std::max(line.a, line.b) };
-      for (auto found =
-             std::lower_bound(edges.begin(), edges.end(), std::make_pair(edge, Index{ 0 }));
-           found != edges.end() && found->first == edge; ++found)
-      {
-        add(found->second, ownHalfEdge(line.halfEdge, to.quadSourceFace[found->second / 4]));
-      }
-    }
-    for (const auto& [edge, h] : edges)
-    {
-      if (topology.twin[h] == kInvalidIndex && hasLine[h] == 0)
-      {
-        add(h, 3 * to.quadSourceFace[h / 4]);
-      }
-    }
-  }
-
-  /// On the side of this part; where the line is on none of its faces, of the face under the quad.
-  Index ownHalfEdge(Index h, Index face) const
-  {
-    for (const Index side : { h, places_.twin(h) })
-    {
-      if (side != kInvalidIndex && faceParts_.partOf(Mesh::face(side)) == part_)
-      {
-        return faceParts_.ownHalfEdge(side);
-      }
-    }
-    return 3 * face;
-  }
-
-  const QuadMesh& whole_;
-  const FaceParts& faceParts_;
-  const PartPlaces& places_;
-  Index part_;
-  std::vector<Index> wholePoint_; ///< per point of the part
-};
-
 /// Whether the polygon under a face of the part has its corners the other way round; 0 where repair has changed them.
 int orientationIn(const JoinedParts::Part& part, const PreparedSurface& surface, Index face)
 {
@@ -457,6 +375,175 @@ std::vector<std::uint8_t> reversedQuads(const JoinedParts::Part& part, const Rem
   return reversed;
 }
 
+/// The quads of one part as a mesh of its own.
+class PartQuads
+{
+public:
+  PartQuads(
+    const CutSource& source, const FaceParts& faceParts, const PartPlaces& places, Index part)
+    : source_(source), whole_(source.result.quads), faceParts_(faceParts), places_(places),
+      part_(part)
+  {
+  }
+
+  /// to: with its surface.
+  void write(const std::vector<Index>& quads, RemeshResult& to)
+  {
+    QuadMesh& own = to.quads;
+    for (const Index q : quads)
+    {
+      own.quads.push_back(whole_.quads[q]);
+      own.quadSourceFace.push_back(faceParts_.ownFace(part_, whole_.quadSourceFace[q]));
+      own.quadSourceWeights.push_back(whole_.quadSourceWeights[q]);
+    }
+    if (source_.met != nullptr)
+    {
+      orientSheets(to);
+    }
+    namePoints(own);
+    const QuadTopology topology = analyzeQuads(own.quads, own.points.size());
+    own.valence = topology.valence;
+    own.onBoundary = topology.onBoundary;
+    writeLines(topology, own);
+  }
+
+private:
+  /// Each sheet as the part's own polygons run, as only then its quads fit to those of other sheets.
+  void orientSheets(RemeshResult& to) const
+  {
+    to.quads.points.resize(whole_.points.size());
+    const std::vector<std::uint8_t> reversed = reversedQuads(source_.joined.parts[part_], to);
+    to.quads.points.clear();
+    for (std::size_t q = 0; q < reversed.size(); ++q)
+    {
+      if (reversed[q] != 0)
+      {
+        std::array<Index, 4>& quad = to.quads.quads[q];
+        quad = { quad[1], quad[0], quad[3], quad[2] };
+      }
+    }
+  }
+
+  /// Points of this part, in the order of the whole mesh; one for each fan.
+  void namePoints(QuadMesh& to)
+  {
+    const auto corners = static_cast<Index>(4 * to.quads.size());
+    std::vector<Index> wholeCorner(corners); // before points that are the same became one
+    for (Index h = 0; h < corners; ++h)
+    {
+      wholeCorner[h] = to.quads[h / 4][h % 4];
+      to.quads[h / 4][h % 4] = source_.same(wholeCorner[h]);
+    }
+    const QuadTopology topology = analyzeQuads(to.quads, whole_.points.size());
+    const auto cornerAfter = [](Index h) { return h - h % 4 + (h + 1) % 4; };
+    DisjointSets fans(corners, 1);
+    for (Index h = 0; h < corners; ++h)
+    {
+      if (topology.twin[h] != kInvalidIndex)
+      {
+        fans.join(h, cornerAfter(topology.twin[h]));
+      }
+    }
+    std::vector<std::pair<Index, Index>> points; // of the whole mesh, a corner
+    for (Index h = 0; h < corners; ++h)
+    {
+      if (fans.find(h) == h)
+      {
+        points.emplace_back(to.quads[h / 4][h % 4], h);
+      }
+    }
+    std::sort(points.begin(), points.end());
+    std::vector<Index> name(corners);
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const auto [point, corner] = points[i];
+      name[corner] = static_cast<Index>(i);
+      wholePoint_.push_back(point);
+      to.points.push_back(whole_.points[point]);
+      const PartPlaces::Place place =
+        places_.in(part_, wholeCorner[corner], faceOf(to, corner / 4));
+      to.sourceFace.push_back(faceParts_.ownFace(part_, place.face));
+      to.sourceWeights.push_back(place.weights);
+    }
+    for (Index h = 0; h < corners; ++h)
+    {
+      to.quads[h / 4][h % 4] = name[fans.find(h)];
+    }
+  }
+
+  /// Of the whole surface, under a quad of this part.
+  Index faceOf(const QuadMesh& to, Index quad) const
+  {
+    return faceParts_.faces(part_)[to.quadSourceFace[quad]];
+  }
+
+  /// Features and boundary: lines of the whole mesh, and what its features did not follow.
+  void writeLines(const QuadTopology& topology, QuadMesh& to) const
+  {
+    using Edge = std::pair<Index, Index>;
+    std::vector<std::pair<Edge, Index>> edges; // by points of the whole mesh, with a half-edge
+    for (Index h = 0; h < 4 * to.quads.size(); ++h)
+    {
+      if (topology.twin[h] == kInvalidIndex || h < topology.twin[h])
+      {
+        const Index a = wholePoint_[to.quads[h / 4][h % 4]];
+        const Index b = wholePoint_[to.quads[h / 4][(h + 1) % 4]];
+        edges.push_back({ { std::min(a, b), std::max(a, b) }, h });
+      }
+    }
+    std::sort(edges.begin(), edges.end());
+    std::vector<std::uint8_t> hasLine(4 * to.quads.size(), 0);
+    const auto add = [&](Index h, Index halfEdge)
+    {
+      if (hasLine[h] != 0)
+      {
+        return; // of another sheet
+      }
+      hasLine[h] = 1;
+      to.lines.push_back({ to.quads[h / 4][h % 4], to.quads[h / 4][(h + 1) % 4], halfEdge,
+        topology.twin[h] == kInvalidIndex });
+    };
+    for (const QuadLine& line : whole_.lines)
+    {
+      const Index a = source_.same(line.a), b = source_.same(line.b);
+      const Edge edge{ std::min(a, b), std::max(a, b) };
+      for (auto found =
+             std::lower_bound(edges.begin(), edges.end(), std::make_pair(edge, Index{ 0 }));
+           found != edges.end() && found->first == edge; ++found)
+      {
+        add(found->second, ownHalfEdge(line.halfEdge, to.quadSourceFace[found->second / 4]));
+      }
+    }
+    for (const auto& [edge, h] : edges)
+    {
+      if (topology.twin[h] == kInvalidIndex && hasLine[h] == 0)
+      {
+        add(h, 3 * to.quadSourceFace[h / 4]);
+      }
+    }
+  }
+
+  /// On the side of this part; where the line is on none of its faces, of the face under the quad.
+  Index ownHalfEdge(Index h, Index face) const
+  {
+    for (const Index side : { h, places_.twin(h) })
+    {
+      if (side != kInvalidIndex && faceParts_.has(part_, Mesh::face(side)))
+      {
+        return faceParts_.ownHalfEdge(part_, side);
+      }
+    }
+    return 3 * face;
+  }
+
+  const CutSource& source_;
+  const QuadMesh& whole_;
+  const FaceParts& faceParts_;
+  const PartPlaces& places_;
+  Index part_;
+  std::vector<Index> wholePoint_; ///< per point of the part
+};
+
 /// What a run tells as a whole.
 void copyReport(const RemeshResult& from, RemeshResult& to)
 {
@@ -501,7 +588,7 @@ public:
       if (distance < least)
       {
         least = distance;
-        nearest = faceParts_.partOf(f);
+        faceParts_.forEachOwner(f, [&](const FaceParts::Owner& owner) { nearest = owner.part; });
       }
     }
     return nearest;
@@ -512,15 +599,16 @@ private:
   const FaceParts& faceParts_;
 };
 
-} // namespace
-
-std::vector<PartResult> splitParts(const RemeshResult& result, const JoinedParts& joined)
+std::vector<PartResult> cutUp(const CutSource& source)
 {
-  const FaceParts faceParts(result.surface, joined);
+  const RemeshResult& result = source.result;
+  const JoinedParts& joined = source.joined;
+  const FaceParts faceParts(source);
   std::vector<std::vector<Index>> quads(joined.parts.size());
   for (std::size_t q = 0; q < result.quads.quads.size(); ++q)
   {
-    quads[faceParts.partOf(result.quads.quadSourceFace[q])].push_back(static_cast<Index>(q));
+    faceParts.forEachOwner(result.quads.quadSourceFace[q],
+      [&](const FaceParts::Owner& owner) { quads[owner.part].push_back(static_cast<Index>(q)); });
   }
   const PartPlaces places(result, faceParts);
   std::vector<PartResult> parts(joined.parts.size());
@@ -529,9 +617,10 @@ std::vector<PartResult> splitParts(const RemeshResult& result, const JoinedParts
     poll();
     RemeshResult& own = parts[p].result;
     copyReport(result, own);
-    PartSurface(result, faceParts, p).write(joined, own);
-    PartQuads(result.quads, faceParts, places, static_cast<Index>(p)).write(quads[p], own.quads);
-    parts[p].reversed = reversedQuads(joined.parts[p], own);
+    PartSurface(source, faceParts, p).write(own);
+    PartQuads(source, faceParts, places, static_cast<Index>(p)).write(quads[p], own);
+    parts[p].reversed = source.met == nullptr ? reversedQuads(joined.parts[p], own)
+                                              : std::vector<std::uint8_t>(quads[p].size(), 0);
     if (!result.curves.empty())
     {
       const auto first = result.curves.begin();
@@ -549,6 +638,19 @@ std::vector<PartResult> splitParts(const RemeshResult& result, const JoinedParts
     parts[nearest.to(curve.place)].result.givenUpFeatures.push_back(curve);
   }
   return parts;
+}
+
+} // namespace
+
+std::vector<PartResult> splitParts(const RemeshResult& result, const JoinedParts& joined)
+{
+  return cutUp({ result, joined, nullptr, nullptr });
+}
+
+std::vector<PartResult> splitSheets(const RemeshResult& result, const JoinedParts& joined,
+  const JointSheets& sheets, const MetSheets& met)
+{
+  return cutUp({ result, joined, &sheets, &met });
 }
 
 } // namespace quadrille

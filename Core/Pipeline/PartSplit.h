@@ -5,6 +5,7 @@
 
 #include "Mesh/JoinParts.h"
 #include "Pipeline/Pipeline.h"
+#include "Pipeline/SheetJoints.h"
 
 #include <vector>
 
@@ -28,5 +29,11 @@ struct PartResult
 /// parts have is at the same place, to the bit, in each. Where quads of a part meet in a point only, each fan has a
 /// point of its own.
 std::vector<PartResult> splitParts(const RemeshResult& result, const JoinedParts& joined);
+
+/// The same of a surface that was cut into sheets, which meet again: faces and quads of a polygon that several parts
+/// have go to each of them. Sheets of a part have one orientation, and their quads one point where they meet; the
+/// surface of a part stays cut there.
+std::vector<PartResult> splitSheets(const RemeshResult& result, const JoinedParts& joined,
+  const JointSheets& sheets, const MetSheets& met);
 
 } // namespace quadrille

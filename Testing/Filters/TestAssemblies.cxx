@@ -547,29 +547,129 @@ TEST(ConformingParts, ABlockThatTouchesNoneIsMadeAlone)
   EXPECT_FALSE(partOf(filter, 6)->GetFieldData()->HasArray("ConformingWith"));
 }
 
-TEST(ConformingParts, ThreeSheetsAtACurveAreRefusedWithThePlace)
+/// The cube with a fin that goes on from one of its edges.
+vtkSmartPointer<vtkMultiBlockDataSet> cubeWithFin(int n)
 {
-  const vtkSmartPointer<vtkMultiBlockDataSet> input = cubeOfSix(4);
-  const Mesh fin = test::gridPlane(4, 4); // in the plane z = 0, moved on from one edge of the cube
-  auto sheet = test::toPolyData(fin);
+  const vtkSmartPointer<vtkMultiBlockDataSet> input = cubeOfSix(n);
+  auto sheet = test::toPolyData(test::gridPlane(n, n)); // in the plane z = 0
   double bounds[6];
   input->GetBounds(bounds);
-  double own[6];
-  sheet->GetBounds(own);
   for (vtkIdType i = 0; i < sheet->GetNumberOfPoints(); ++i)
   {
     const double* p = sheet->GetPoint(i);
-    sheet->GetPoints()->SetPoint(i, bounds[1] + (p[0] - own[0]) / (own[1] - own[0]),
-      bounds[2] + (p[1] - own[2]) / (own[3] - own[2]) * (bounds[3] - bounds[2]), bounds[5]);
+    sheet->GetPoints()->SetPoint(
+      i, bounds[1] + p[0] / n, bounds[2] + p[1] / n * (bounds[3] - bounds[2]), bounds[5]);
   }
   setPart(input, 6, sheet, "Fin");
+  return input;
+}
+
+TEST(ConformingParts, ThreeSheetsMeetAtACurve)
+{
+  vtkNew<vtkQuadRemesh> filter;
+  filter->SetQuadsOfBlocks("Fin = 40"); // fewer edges than the others have there
+  remeshTogether(filter, cubeWithFin(8), 600);
+  ASSERT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+  const Union all(filter);
+  // All but the borders of the fin are edges of two quads or, where it stands, of three.
+  const test::QuadTally fin = test::tally(partOf(filter, 6));
+  EXPECT_EQ(fin.eulerCharacteristic, 1);
+  EXPECT_EQ(fin.badEdges, 0U);
+  EXPECT_GT(all.edgesOf(3), 5);
+  EXPECT_EQ(all.edgesOf(1) + all.edgesOf(3), static_cast<int>(fin.boundaryEdges));
+  EXPECT_EQ(all.edgesOf(1) + all.edgesOf(2) + all.edgesOf(3), static_cast<int>(all.edges.size()));
+  EXPECT_EQ(all.euler(), 2); // of the cube; the fin adds a disc along a curve
+  EXPECT_TRUE(tells(filter->GetNoticesText(), "common to more than two sheets"))
+    << filter->GetNoticesText();
+}
+
+/// Voxels that `isIn` chooses, as a solid; two of them have the same triangles where they touch.
+vtkSmartPointer<vtkPolyData> solidOf(const std::function<bool(int, int, int)>& isIn)
+{
+  return test::toPolyData(test::voxelSurface({ 12, 6, 6 }, 1, isIn));
+}
+
+/// Each solid is closed, and what they share are the same quads: an edge has two quads of each solid that it is on.
+TEST(ConformingParts, TouchingSolidsShareTheirQuads)
+{
+  for (const bool areEqual : { true, false })
+  {
+    SCOPED_TRACE(areEqual);
+    vtkNew<vtkMultiBlockDataSet> input;
+    setPart(input, 0, solidOf([](int i, int, int) { return i < 6; }), "A");
+    setPart(input, 1,
+      solidOf(
+        [&](int i, int j, int k) { return i >= 6 && (areEqual || (j >= 1 && j < 5 && k >= 2)); }),
+      "B");
+    vtkNew<vtkQuadRemesh> filter;
+    remeshTogether(filter, input, 900);
+    ASSERT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+    std::vector<std::set<std::set<PointPlace>>> quads(2);
+    for (unsigned part = 0; part < 2; ++part)
+    {
+      vtkPolyData* solid = partOf(filter, part);
+      const test::QuadTally t = test::tally(solid);
+      EXPECT_EQ(t.boundaryEdges, 0U);
+      EXPECT_EQ(t.badEdges, 0U);
+      EXPECT_EQ(t.eulerCharacteristic, 2);
+      double volume = 0; // positive: the quads look outwards, as the triangles did
+      for (vtkIdType c = 0; c < solid->GetNumberOfCells(); ++c)
+      {
+        vtkIdType count = 0;
+        const vtkIdType* ids = nullptr;
+        solid->GetCellPoints(c, count, ids);
+        std::set<PointPlace> corners;
+        for (int i = 0; i < 4; ++i)
+        {
+          corners.insert(placeOf(solid, ids[i]));
+        }
+        quads[part].insert(corners);
+        const Vector3 a(placeOf(solid, ids[0]).data()), b(placeOf(solid, ids[1]).data()),
+          d(placeOf(solid, ids[2]).data()), e(placeOf(solid, ids[3]).data());
+        volume += (a.dot(b.cross(d)) + a.dot(d.cross(e))) / 6;
+      }
+      EXPECT_NEAR(volume, part == 0 || areEqual ? 216 : 6 * 4 * 4, 1e-6);
+    }
+    double shared = 0;
+    for (const std::set<PointPlace>& quad : quads[0])
+    {
+      shared += quads[1].count(quad) != 0 ? 1 : 0;
+    }
+    EXPECT_GT(shared, 20);
+    // The faces that both have are those at x = 6, all of them.
+    for (unsigned part = 0; part < 2; ++part)
+    {
+      for (const std::set<PointPlace>& quad : quads[part])
+      {
+        const bool isInPlane = std::all_of(
+          quad.begin(), quad.end(), [](const PointPlace& p) { return std::abs(p[0] - 6) < 1e-9; });
+        const bool isOnB = std::all_of(quad.begin(), quad.end(),
+          [&](const PointPlace& p)
+          { return areEqual || (p[1] > 1 - 1e-9 && p[1] < 5 + 1e-9 && p[2] > 2 - 1e-9); });
+        EXPECT_EQ(quads[1 - part].count(quad) != 0, isInPlane && isOnB);
+      }
+    }
+  }
+}
+
+TEST(ConformingParts, ASheetThatMeetsItselfIsRefusedWithThePlace)
+{
+  vtkNew<vtkMultiBlockDataSet> input;
+  setPart(input, 0, test::toPolyData(test::gridPlane(6, 6)), "Floor");
+  auto fin = test::toPolyData(test::gridPlane(2, 2));
+  for (vtkIdType i = 0; i < fin->GetNumberOfPoints(); ++i)
+  {
+    const double* p = fin->GetPoint(i);
+    fin->GetPoints()->SetPoint(i, 3, 2 + p[0], p[1]);
+  }
+  setPart(input, 1, fin, "Fin");
   vtkNew<vtkQuadRemesh> filter;
   const test::Messages messages(filter);
-  remeshTogether(filter, input, 600);
+  remeshTogether(filter, input, 300);
   EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::BadInput);
-  EXPECT_TRUE(tells(filter->GetOutcomeText(), "4 edges that blocks have in common"))
+  EXPECT_TRUE(tells(filter->GetOutcomeText(), "Floor: a sheet meets itself"))
     << filter->GetOutcomeText();
-  EXPECT_TRUE(tells(filter->GetOutcomeText(), "and 'Fin' at (")) << filter->GetOutcomeText();
+  EXPECT_TRUE(tells(filter->GetOutcomeText(), "(3, 2.5, 0)")) << filter->GetOutcomeText();
 }
 
 TEST(ConformingParts, CurvesWithOtherPointsAreTold)
