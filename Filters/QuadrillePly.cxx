@@ -3,6 +3,7 @@
 #include "QuadrillePly.h"
 
 #include "Base/Error.h"
+#include "QuadrillePlyRows.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -13,12 +14,16 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkType.h>
+#include <vtkTypeInt32Array.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -103,16 +108,35 @@ const std::vector<Bundle>& bundles()
   return all;
 }
 
+/// What is read at first, for the header.
+constexpr std::uint64_t kHeaderBytes = 65536;
+
+using Columns = std::vector<vtkSmartPointer<vtkDataArray>>;
+
 class PlyReader
 {
 public:
-  PlyReader(const std::string& path, std::string bytes) : path_(path), bytes_(std::move(bytes)) {}
+  PlyReader(const std::string& path, int threads) : path_(path), threads_(threads)
+  {
+    std::error_code code;
+    size_ = std::filesystem::file_size(path, code);
+    if (code || !std::ifstream(path))
+    {
+      throw InvalidInput(path + ": cannot be opened for reading");
+    }
+    load(kHeaderBytes);
+  }
 
   vtkSmartPointer<vtkPolyData> read()
   {
     readHeader();
     for (const Element& element : elements_)
     {
+      if (readFixed(element))
+      {
+        continue;
+      }
+      load(size_);
       if (element.name == "vertex")
       {
         readVertices(element);
@@ -143,11 +167,32 @@ private:
     fail(element.name + " " + std::to_string(i) + " " + reason);
   }
 
+  /// The first bytes of the file, at least so many where it has them.
+  void load(std::uint64_t count)
+  {
+    count = std::min<std::uint64_t>(count, size_);
+    if (bytes_.size() >= count)
+    {
+      return;
+    }
+    bytes_.resize(count);
+    std::ifstream file(path_, std::ios::binary);
+    file.read(bytes_.data(), static_cast<std::streamsize>(count));
+    if (file.gcount() != static_cast<std::streamsize>(count))
+    {
+      fail("cannot be read to its end");
+    }
+  }
+
   //----------------------------------------------------------------------------
   // Header
 
   std::string nextLine()
   {
+    if (bytes_.find('\n', position_) == std::string::npos)
+    {
+      load(size_);
+    }
     if (position_ >= bytes_.size())
     {
       fail("the header has no end");
@@ -262,10 +307,10 @@ private:
     {
       fail("the element " + element.name + " has no property");
     }
-    if (least > 0 && static_cast<std::size_t>(element.count) > bytes_.size() / least)
+    if (least > 0 && static_cast<std::size_t>(element.count) > size_ / least)
     {
       fail("announces " + std::to_string(element.count) + " of the element " + element.name +
-        ", more than fit into its " + std::to_string(bytes_.size()) + " bytes");
+        ", more than fit into its " + std::to_string(size_) + " bytes");
     }
   }
 
@@ -378,19 +423,201 @@ private:
   }
 
   //----------------------------------------------------------------------------
+  // Elements whose rows have one length
+
+  /// Whether it is one of those, and read. Whatever else there is to say about it, the other way says.
+  bool readFixed(const Element& element)
+  {
+    const bool isVertex = element.name == "vertex";
+    if (*format_ == Format::Text || element.count == 0 || (!isVertex && element.name != "face"))
+    {
+      return false;
+    }
+    return isVertex ? readFixedVertices(element) : readTriangles(element);
+  }
+
+  bool isSwapped() const { return *format_ == Format::BigEndian; } // x86 and ARM are little-endian
+
+  bool readFixedVertices(const Element& element)
+  {
+    std::size_t rowBytes = 0;
+    std::vector<std::size_t> offsets;
+    for (const Property& property : element.properties)
+    {
+      if (property.isList())
+      {
+        return false;
+      }
+      offsets.push_back(rowBytes);
+      rowBytes += sizeOf(property.type);
+    }
+    std::array<std::size_t, 3> xyz{};
+    constexpr std::array<const char*, 3> kNames{ "x", "y", "z" };
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const auto found = std::find_if(element.properties.begin(), element.properties.end(),
+        [&](const Property& property) { return property.name == kNames[k]; });
+      xyz[k] = static_cast<std::size_t>(found - element.properties.begin());
+      if (found == element.properties.end() || found->type != element.properties[xyz[0]].type ||
+        (found->type != VTK_FLOAT && found->type != VTK_DOUBLE))
+      {
+        return false;
+      }
+    }
+    vtkNew<vtkPoints> points;
+    points->SetDataType(element.properties[xyz[0]].type);
+    points->SetNumberOfPoints(element.count);
+    auto* to = static_cast<unsigned char*>(points->GetVoidPointer(0));
+    const std::size_t size = sizeOf(element.properties[xyz[0]].type);
+    Columns columns;
+    std::vector<RowTarget> targets;
+    for (std::size_t p = 0; p < offsets.size(); ++p)
+    {
+      const auto axis = std::find(xyz.begin(), xyz.end(), p);
+      if (axis != xyz.end())
+      {
+        targets.push_back(
+          { offsets[p], size, to + size * static_cast<std::size_t>(axis - xyz.begin()), 3 * size });
+        continue;
+      }
+      columns.push_back(columnOf(element, element.properties[p]));
+      targets.push_back(targetOf(columns.back(), offsets[p]));
+    }
+    if (!readAll(element, rowBytes,
+          [&](std::size_t first, std::size_t rows, const unsigned char* bytes)
+          {
+            copyRows(bytes, first, rows, rowBytes, isSwapped(), targets);
+            return rows;
+          }))
+    {
+      return false;
+    }
+    data_->SetPoints(points);
+    addColumns(columns, data_->GetPointData());
+    return true;
+  }
+
+  bool readTriangles(const Element& element)
+  {
+    constexpr vtkIdType kMostIds = std::numeric_limits<std::int32_t>::max();
+    if (element.count > kMostIds / 3 || vertexCount() > kMostIds)
+    {
+      return false;
+    }
+    const Property* corners = nullptr;
+    std::size_t rowBytes = 0, cornersAt = 0;
+    Columns columns;
+    std::vector<RowTarget> targets;
+    for (const Property& property : element.properties)
+    {
+      if (!property.isList())
+      {
+        columns.push_back(columnOf(element, property));
+        targets.push_back(targetOf(columns.back(), rowBytes));
+        rowBytes += sizeOf(property.type);
+        continue;
+      }
+      const bool isWhole = property.type == VTK_INT || property.type == VTK_UNSIGNED_INT;
+      if (corners != nullptr || !isWhole || !isListOfCorners(property))
+      {
+        return false;
+      }
+      corners = &property;
+      cornersAt = rowBytes;
+      rowBytes += sizeOf(property.countType) + 3 * sizeOf(property.type);
+    }
+    if (corners == nullptr)
+    {
+      return false;
+    }
+    vtkNew<vtkTypeInt32Array> offsets, ids;
+    offsets->SetNumberOfValues(element.count + 1);
+    ids->SetNumberOfValues(3 * element.count);
+    const std::size_t countBytes = sizeOf(corners->countType);
+    auto* to = reinterpret_cast<unsigned char*>(ids->GetPointer(0));
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      targets.push_back({ cornersAt + countBytes + 4 * i, 4, to + 4 * i, 12 });
+    }
+    std::array<unsigned char, 4> three{};
+    three[isSwapped() ? countBytes - 1 : 0] = 3;
+    if (!readAll(element, rowBytes,
+          [&](std::size_t first, std::size_t rows, const unsigned char* bytes)
+          {
+            for (std::size_t i = 0; i < rows; ++i)
+            {
+              if (std::memcmp(bytes + i * rowBytes + cornersAt, three.data(), countBytes) != 0)
+              {
+                return i;
+              }
+            }
+            copyRows(bytes, first, rows, rowBytes, isSwapped(), targets);
+            for (std::size_t f = first; f < first + rows; ++f)
+            {
+              offsets->SetValue(static_cast<vtkIdType>(f), static_cast<std::int32_t>(3 * f));
+              for (std::size_t i = 3 * f; i < 3 * f + 3; ++i)
+              {
+                const std::int32_t id = ids->GetValue(static_cast<vtkIdType>(i));
+                if (id < 0 || id >= vertexCount())
+                {
+                  return f - first;
+                }
+              }
+            }
+            return rows;
+          }))
+    {
+      return false;
+    }
+    offsets->SetValue(element.count, static_cast<std::int32_t>(3 * element.count));
+    vtkNew<vtkCellArray> faces;
+    faces->SetData(offsets, ids);
+    data_->SetPolys(faces);
+    addColumns(columns, data_->GetCellData());
+    return true;
+  }
+
+  /// Whether body took all rows of an element; the position is behind it then.
+  template <class Body>
+  bool readAll(const Element& element, std::size_t rowBytes, const Body& body)
+  {
+    const std::size_t rows = static_cast<std::size_t>(element.count);
+    const bool isRead = readFixedRows(path_, position_, rows, rowBytes, threads_, body) == rows;
+    position_ += isRead ? rows * rowBytes : 0;
+    return isRead;
+  }
+
+  static vtkSmartPointer<vtkDataArray> columnOf(const Element& element, const Property& property)
+  {
+    auto column = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(property.type));
+    column->SetName(property.name.c_str());
+    column->SetNumberOfTuples(element.count);
+    return column;
+  }
+
+  static RowTarget targetOf(vtkDataArray* column, std::size_t offset)
+  {
+    const std::size_t size = sizeOf(column->GetDataType());
+    return { offset, size, static_cast<unsigned char*>(column->GetVoidPointer(0)), size };
+  }
+
+  static bool isListOfCorners(const Property& property)
+  {
+    return property.name == "vertex_indices" || property.name == "vertex_index";
+  }
+
+  //----------------------------------------------------------------------------
   // Elements
 
-  static std::vector<vtkSmartPointer<vtkDataArray>> columnsOf(const Element& element)
+  static Columns columnsOf(const Element& element)
   {
-    std::vector<vtkSmartPointer<vtkDataArray>> columns;
+    Columns columns;
     for (const Property& property : element.properties)
     {
       columns.push_back(nullptr);
       if (!property.isList())
       {
-        columns.back() = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(property.type));
-        columns.back()->SetName(property.name.c_str());
-        columns.back()->SetNumberOfTuples(element.count);
+        columns.back() = columnOf(element, property);
       }
     }
     return columns;
@@ -398,9 +625,9 @@ private:
 
   /// Reads all values of an element; the list of this name goes to onList.
   template <class OnList>
-  std::vector<vtkSmartPointer<vtkDataArray>> readRows(const Element& element, OnList onList)
+  Columns readRows(const Element& element, OnList onList)
   {
-    const std::vector<vtkSmartPointer<vtkDataArray>> columns = columnsOf(element);
+    Columns columns = columnsOf(element);
     std::vector<vtkIdType> values;
     for (vtkIdType i = 0; i < element.count; ++i)
     {
@@ -413,7 +640,7 @@ private:
           continue;
         }
         list(element, i, property, values);
-        if (property.name == "vertex_indices" || property.name == "vertex_index")
+        if (isListOfCorners(property))
         {
           onList(i, values);
         }
@@ -526,8 +753,6 @@ private:
   //----------------------------------------------------------------------------
   // Arrays
 
-  using Columns = std::vector<vtkSmartPointer<vtkDataArray>>;
-
   static vtkDataArray* take(const Columns& columns, const std::string& name)
   {
     for (const auto& column : columns)
@@ -595,8 +820,10 @@ private:
   }
 
   std::string path_;
-  std::string bytes_;
-  std::size_t position_ = 0;
+  int threads_;
+  std::uint64_t size_ = 0;   ///< of the file
+  std::string bytes_;        ///< its first ones; all where its rows are not of one length
+  std::size_t position_ = 0; ///< in the file
   std::optional<Format> format_;
   std::vector<Element> elements_;
   vtkSmartPointer<vtkPolyData> data_ = vtkSmartPointer<vtkPolyData>::New();
@@ -604,16 +831,9 @@ private:
 
 } // namespace
 
-vtkSmartPointer<vtkPolyData> readPly(const std::string& path)
+vtkSmartPointer<vtkPolyData> readPly(const std::string& path, int threads)
 {
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-  {
-    throw InvalidInput(path + ": cannot be opened for reading");
-  }
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  return PlyReader(path, bytes.str()).read();
+  return PlyReader(path, threads).read();
 }
 
 } // namespace quadrille

@@ -17,6 +17,7 @@ namespace quadrille
 /// their own type and name; nx ny nz become Normals, red green blue (alpha) RGB or RGBA, and pairs of texture
 /// coordinates TCoords. `tristrips` become triangle strips. Throws InvalidInput naming the file and the line of the
 /// header or the element that is damaged, before it asks for more memory than the file can fill.
-vtkSmartPointer<vtkPolyData> readPly(const std::string& path);
+/// threads: 0: all.
+vtkSmartPointer<vtkPolyData> readPly(const std::string& path, int threads = 0);
 
 } // namespace quadrille

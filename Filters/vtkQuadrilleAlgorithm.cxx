@@ -12,6 +12,7 @@
 #include "QuadrilleRanks.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleShared.h"
+#include "QuadrilleSpread.h"
 #include "QuadrilleStamps.h"
 #include "QuadrilleSurfaces.h"
 #include "QuadrilleVtkVersions.h"
@@ -33,6 +34,7 @@
 #include <algorithm>
 #include <limits>
 #include <new>
+#include <set>
 #include <sstream>
 
 using Executive = vtkStreamingDemandDrivenPipeline;
@@ -49,6 +51,13 @@ int requestedPiece(vtkInformationVector* outputs)
   vtkInformation* info = outputs->GetInformationObject(0);
   return info->Has(Executive::UPDATE_PIECE_NUMBER()) ? info->Get(Executive::UPDATE_PIECE_NUMBER())
                                                      : 0;
+}
+
+int requestedGhostLevels(vtkInformationVector* outputs)
+{
+  vtkInformation* info = outputs->GetInformationObject(0);
+  const auto key = Executive::UPDATE_NUMBER_OF_GHOST_LEVELS();
+  return info->Has(key) ? std::max(0, info->Get(key)) : 0;
 }
 
 int requestedPieces(vtkInformationVector* outputs)
@@ -146,17 +155,23 @@ struct vtkQuadrilleAlgorithm::Work
   std::size_t group = 0; ///< the first work that this one may have to be executed together with
   std::size_t cells = 0; ///< of all ranks
   bool isChanged = true;
-  std::vector<quadrille::Stamp> stamps; ///< of this rank's pieces
-  std::string error;                    ///< why the inputs could not be had
-  std::vector<std::string> notices;     ///< on the inputs
+  std::vector<quadrille::Stamp> stamps;             ///< of this rank's pieces
+  std::string error;                                ///< why the inputs could not be had
+  std::vector<std::string> notices;                 ///< on the inputs
+  std::unique_ptr<quadrille::SpreadSurface> spread; ///< where the surface stays spread
+  std::exception_ptr failure;                       ///< of what came before the filter's own work
+  bool isMade = false;                              ///< by the filter's own work, on the owner
+  bool isSpread = false;                            ///< the result is
 };
 
 /// One execution: the structure of the input and its blocks.
 struct vtkQuadrilleAlgorithm::Run
 {
-  explicit Run(vtkMultiProcessController* controller) : ranks(controller) {}
+  explicit Run(vtkMultiProcessController* controller) : ranks(controller), stop(controller) {}
 
   quadrille::Ranks ranks;
+  quadrille::SharedStop stop;
+  int ghostLevels = 0;                                ///< that the outputs are asked for
   std::vector<quadrille::BlockTree> trees;            ///< by input port, with this rank's pieces
   std::vector<vtkSmartPointer<vtkDataObject>> shared; ///< by input port
   std::vector<std::string> notices;                   ///< on shared inputs
@@ -289,6 +304,7 @@ int vtkQuadrilleAlgorithm::RequestData(
 {
   this->ResetOutcome();
   Run run(quadrille::controllerOf(outputs));
+  run.ghostLevels = requestedGhostLevels(outputs);
   if (!run.ranks.isParallel() && requestedPiece(outputs) > 0)
   {
     initializeOutputs(outputs);
@@ -344,22 +360,38 @@ int vtkQuadrilleAlgorithm::RunBlocks(
   {
     this->GatherInputs(run);
     this->MeasureBlocks(run);
+    this->JoinSpread(run);
     this->ShareOut(run);
+  }
+  std::set<std::size_t> changed; // what is executed together is changed together
+  for (const Work& work : run.works)
+  {
+    if (work.isChanged)
+    {
+      changed.insert(work.group);
+    }
   }
   std::map<std::size_t, std::vector<Work*>> mine; // by group
   for (Work& work : run.works)
   {
+    work.isChanged = changed.count(work.group) != 0;
     if (run.owns(work))
     {
       mine[work.group].push_back(&work);
     }
   }
+  this->Stop = run.anew ? &run.stop : nullptr;
   double begin = 0;
   for (const auto& [group, works] : mine)
   {
     this->BlockBegin = begin / static_cast<double>(mine.size());
     this->BlockEnd = ++begin / static_cast<double>(mine.size());
     this->RunWorks(works);
+  }
+  if (run.anew)
+  {
+    this->WaitForAll(run);
+    this->SpreadResults(run);
   }
   this->ExchangeReports(run);
   return this->Conclude(run, outputs);
@@ -551,7 +583,8 @@ void vtkQuadrilleAlgorithm::TakeStates(Run& run)
     work.stamps = groupStamps[work.group];
     const quadrille::BlockState& state = *work.block.state;
     packer.count(!state.lastResult.empty());
-    packer.count(this->KeepsResult() && work.stamps == state.lastStamps);
+    packer.count(this->KeepsResult() && work.stamps == state.lastStamps &&
+      (!state.isSpread || state.ghostLevels == run.ghostLevels));
     // Where another port asks for what failed, the report says already why there is nothing.
     packer.count(work.stamps == state.failedStamps);
   }
@@ -698,6 +731,14 @@ void vtkQuadrilleAlgorithm::GatherPort(Run& run, Work& work, int port)
     counts.volumeCells += unpacker.count();
     counts.ghostCells += unpacker.count();
   }
+  if (isSurface && port == 0 && work.error.empty() && this->StaysSpread(run, work, pieces))
+  {
+    for (const std::string& notice : counts.notices())
+    {
+      work.notices.push_back(notice);
+    }
+    return;
+  }
   pieces = run.ranks.collect(pieces, work.owner);
   if (!run.owns(work) || !work.error.empty())
   {
@@ -738,6 +779,196 @@ void vtkQuadrilleAlgorithm::GatherPort(Run& run, Work& work, int port)
 }
 
 //------------------------------------------------------------------------------
+int vtkQuadrilleAlgorithm::GetSpreadMode() const
+{
+  return static_cast<int>(quadrille::SpreadMode::Never);
+}
+
+//------------------------------------------------------------------------------
+std::string vtkQuadrilleAlgorithm::ReasonNotToSpread(
+  const std::vector<vtkSmartPointer<vtkPolyData>>& /*pieces*/) const
+{
+  return {};
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::PlanSpread(const quadrille::Block& /*block*/,
+  const quadrille::SpreadSize& /*size*/, quadrille::SpreadPlan& /*plan*/) const
+{
+}
+
+//------------------------------------------------------------------------------
+bool vtkQuadrilleAlgorithm::StaysSpread(
+  Run& run, Work& work, const std::vector<vtkSmartPointer<vtkDataObject>>& pieces)
+{
+  const auto mode = static_cast<quadrille::SpreadMode>(this->GetSpreadMode());
+  const bool isLarge = run.ranks.size() > 1 && work.cells > quadrille::kSpreadFaces;
+  if (mode == quadrille::SpreadMode::Never ||
+    (mode == quadrille::SpreadMode::Automatic && !isLarge))
+  {
+    return false;
+  }
+  std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
+  for (vtkDataObject* piece : pieces)
+  {
+    surfaces.emplace_back(vtkPolyData::SafeDownCast(piece));
+  }
+  const bool isTogether = std::count_if(run.works.begin(), run.works.end(),
+                            [&](const Work& other) { return other.group == work.group; }) > 1;
+  std::string reason = isTogether ? "it may be made together with blocks that it meets" : "";
+  for (const std::string& text : run.ranks.gather(this->ReasonNotToSpread(surfaces)))
+  {
+    reason = reason.empty() ? text : reason;
+  }
+  if (reason.empty())
+  {
+    work.spread = std::make_unique<quadrille::SpreadSurface>(run.ranks, work.owner, surfaces);
+    if (work.spread->size().cells == 0)
+    {
+      work.spread.reset(); // the filter says what is missing
+    }
+    return work.spread != nullptr;
+  }
+  if (mode == quadrille::SpreadMode::Always)
+  {
+    work.error = "the surface cannot stay spread over the ranks: " + reason +
+      "; set Spread Surfaces to Never, which brings all of it to one rank";
+  }
+  else
+  {
+    work.notices.push_back("the surface was brought to one rank and not left spread, as " + reason);
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::JoinSpread(Run& run)
+{
+  for (Work& work : run.works)
+  {
+    if (!work.spread)
+    {
+      continue;
+    }
+    try
+    {
+      quadrille::SpreadPlan plan;
+      plan.piece.threads = this->NumberOfThreads;
+      plan.piece.progress = this->MakeProgress(0, 0.02);
+      this->PlanSpread(work.block, work.spread->size(), plan);
+      work.block.inputs[0] = work.spread->join(plan, work.notices);
+    }
+    catch (const quadrille::Cancelled&)
+    {
+      // Whether time was over on any rank: it may not yet be so on the one that tells it.
+      for (const std::string& isOver : run.ranks.gather(this->TimeIsOver ? "1" : ""))
+      {
+        this->TimeIsOver = this->TimeIsOver || !isOver.empty();
+      }
+      work.failure = std::current_exception();
+    }
+    catch (const std::exception&)
+    {
+      work.failure = std::current_exception(); // on all ranks alike
+    }
+    if (work.failure)
+    {
+      work.spread.reset();
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::WaitForAll(Run& run)
+{
+  // Observers of progress may ask to stop on a rank that waits, too.
+  auto last = std::chrono::steady_clock::now();
+  run.stop.join(
+    [&]
+    {
+      const auto now = std::chrono::steady_clock::now();
+      if (now - last > quadrille::PollScope::kInterval)
+      {
+        last = now;
+        this->UpdateProgress(this->FarthestProgress);
+      }
+      return !quadrille::isAskedToStop(this);
+    });
+  this->Stop = nullptr;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::SpreadResults(Run& run)
+{
+  for (Work& work : run.works)
+  {
+    if (!work.spread)
+    {
+      continue;
+    }
+    const char made = work.isMade ? (work.block.state->report.isSoFar ? 's' : 'm') : '-';
+    const std::string told =
+      run.ranks.gather(std::string(1, made))[static_cast<std::size_t>(work.owner)];
+    if (told == "-")
+    {
+      continue;
+    }
+    // What is left to do after a stop that has kept something must not be stopped.
+    this->IsBlockSoFar = told == "s";
+    try
+    {
+      this->SpreadResult(run, work);
+    }
+    catch (const std::exception&)
+    {
+      if (run.owns(work))
+      {
+        this->FailBlockBy(*work.block.state, std::current_exception());
+      }
+    }
+    this->IsBlockSoFar = false;
+    work.spread.reset();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::SpreadResult(Run& run, Work& work)
+{
+  std::vector<vtkSmartPointer<vtkDataObject>>& outputs = work.block.outputs;
+  if (!run.owns(work))
+  {
+    outputs.clear();
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+    {
+      outputs.push_back(
+        vtk::TakeSmartPointer(vtkDataObjectTypes::NewDataObject(this->GetBlockType(port))));
+    }
+  }
+  std::vector<vtkPolyData*> others;
+  for (std::size_t port = 1; port < outputs.size(); ++port)
+  {
+    if (auto* data = vtkPolyData::SafeDownCast(outputs[port]))
+    {
+      others.push_back(data);
+    }
+  }
+  const vtkSmartPointer<vtkPolyData> quads =
+    work.spread->spread(vtkPolyData::SafeDownCast(outputs[0]), others, run.ghostLevels);
+  const std::vector<quadrille::SpreadFigures> figures = work.spread->figures();
+  quadrille::addSpreadFigures(quads, figures);
+  outputs[0] = quads;
+  quadrille::BlockState& state = *work.block.state;
+  state.lastResult = outputs;
+  state.isSpread = true;
+  work.isSpread = true;
+  state.ghostLevels = run.ghostLevels;
+  if (run.owns(work))
+  {
+    state.report.stageTimes += "\n" + quadrille::spreadText(figures);
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkQuadrilleAlgorithm::MeasureBlocks(Run& run)
 {
   if (run.works.size() < 2 || !this->HasCommonTarget())
@@ -748,9 +979,14 @@ void vtkQuadrilleAlgorithm::MeasureBlocks(Run& run)
   for (const Work& work : run.works)
   {
     vtkPolyData* surface = run.owns(work) ? work.block.input() : nullptr;
-    packer.number(surface ? quadrille::areaOf(surface) : 0);
+    const bool isSpread = run.owns(work) && work.spread;
+    packer.number(isSpread ? work.spread->size().area : surface ? quadrille::areaOf(surface) : 0);
     vtkBoundingBox box;
     double bounds[6];
+    if (isSpread)
+    {
+      box.SetBounds(work.spread->size().bounds);
+    }
     if (surface && surface->GetNumberOfPoints() > 0)
     {
       surface->GetBounds(bounds);
@@ -996,13 +1232,12 @@ void vtkQuadrilleAlgorithm::RunWorks(const std::vector<Work*>& works)
   std::vector<Work*> whole;
   for (Work* work : works)
   {
-    work->isChanged = true;
     work->block.state->report = {};
     work->block.state->report.notices = work->notices;
     // What cannot be had, and what has no faces, is not executed together with others.
     vtkPolyData* surface =
       this->GetPortRole(0) == PortRole::Surface ? work->block.input() : nullptr;
-    if (work->error.empty() && surface &&
+    if (work->error.empty() && !work->failure && surface &&
       surface->GetNumberOfPolys() + surface->GetNumberOfStrips() > 0)
     {
       whole.push_back(work);
@@ -1037,7 +1272,7 @@ void vtkQuadrilleAlgorithm::RunWorks(const std::vector<Work*>& works)
 //------------------------------------------------------------------------------
 bool vtkQuadrilleAlgorithm::TakeEarlier(Work& work, bool andUse)
 {
-  if (!this->KeepsResult() || !work.error.empty())
+  if (!this->KeepsResult() || !work.error.empty() || work.failure || work.spread)
   {
     return false;
   }
@@ -1050,6 +1285,7 @@ bool vtkQuadrilleAlgorithm::TakeEarlier(Work& work, bool andUse)
   if (andUse)
   {
     state.lastResult = earlier->result;
+    state.isSpread = false;
     state.report = earlier->report;
     state.report.reusedStages = { "all" };
   }
@@ -1070,26 +1306,15 @@ void vtkQuadrilleAlgorithm::RunTogether(
   Work& first = *works.front();
   this->Report = &first.block.state->report;
   this->IsBlockSoFar = false;
-  const auto fail = [&](OutcomeType outcome, const std::string& text)
-  {
-    for (Work* work : works)
-    {
-      this->FailBlock(*work->block.state, outcome,
-        work == &first ? text : "is made together with '" + first.block.name + "', which failed");
-    }
-  };
-  const auto failAsStopped = [&]()
-  {
-    for (Work* work : works)
-    {
-      this->FailBlockAsStopped(*work->block.state);
-    }
-  };
   try
   {
     if (!first.error.empty())
     {
       throw quadrille::InvalidInput(first.error);
+    }
+    if (first.failure)
+    {
+      std::rethrow_exception(first.failure);
     }
     for (const std::string& notice : notices)
     {
@@ -1107,35 +1332,65 @@ void vtkQuadrilleAlgorithm::RunTogether(
       this->ConcludeBlock(*work);
     }
   }
+  catch (const std::exception&)
+  {
+    this->FailBlockBy(*first.block.state, std::current_exception());
+    const quadrille::BlockReport& report = first.block.state->report;
+    for (Work* work : works)
+    {
+      if (work != &first && (report.outcome == Aborted || report.outcome == TimedOut))
+      {
+        this->FailBlockAsStopped(*work->block.state);
+      }
+      else if (work != &first)
+      {
+        this->FailBlock(*work->block.state, static_cast<OutcomeType>(report.outcome),
+          "is made together with '" + first.block.name + "', which failed");
+        work->block.state->report.mayPass = report.mayPass;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::FailBlockBy(
+  quadrille::BlockState& state, const std::exception_ptr& failure)
+{
+  try
+  {
+    std::rethrow_exception(failure);
+  }
   catch (const quadrille::InvalidInput& error)
   {
-    fail(BadInput, error.what());
+    this->FailBlock(state, BadInput, error.what());
   }
   catch (const quadrille::Cancelled&)
   {
-    failAsStopped();
+    this->FailBlockAsStopped(state);
   }
-  catch (const quadrille::StageFailure& failure)
+  catch (const quadrille::StageFailure& error)
   {
-    if (failure.code == quadrille::StatusCode::Cancelled)
+    if (error.code == quadrille::StatusCode::Cancelled)
     {
-      failAsStopped();
+      this->FailBlockAsStopped(state);
       return;
     }
-    const bool tooLarge = failure.code == quadrille::StatusCode::TooLarge;
-    fail(tooLarge ? TooLarge : NoValidResult, failure.what());
+    const bool tooLarge = error.code == quadrille::StatusCode::TooLarge;
+    this->FailBlock(state, tooLarge ? TooLarge : NoValidResult, error.what());
+  }
+  catch (const quadrille::OutOfMemory& error)
+  {
+    this->FailBlock(state, NoValidResult, error.what());
+    state.report.mayPass = true;
   }
   catch (const std::bad_alloc&)
   {
-    fail(NoValidResult, "out of memory; ask for fewer quads or free memory");
-    for (Work* work : works)
-    {
-      work->block.state->report.mayPass = true;
-    }
+    this->FailBlock(state, NoValidResult, "out of memory; ask for fewer quads or free memory");
+    state.report.mayPass = true;
   }
   catch (const std::exception& error)
   {
-    fail(NoValidResult, std::string("internal error: ") + error.what());
+    this->FailBlock(state, NoValidResult, std::string("internal error: ") + error.what());
   }
 }
 
@@ -1169,15 +1424,20 @@ void vtkQuadrilleAlgorithm::ExecuteBlock(quadrille::Block& block)
 void vtkQuadrilleAlgorithm::ConcludeBlock(Work& work)
 {
   quadrille::BlockState& state = *work.block.state;
-  state.lastResult = work.block.outputs;
   state.report.outcome = Succeeded;
+  work.isMade = true;
+  if (!work.spread)
+  {
+    state.lastResult = work.block.outputs;
+    state.isSpread = false;
+  }
   if (this->IsBlockSoFar)
   {
     state.report.isSoFar = true;
     state.report.outcome = this->TimeIsOver ? TimedOut : Aborted;
     state.report.outcomeText = this->StopText() + "; these are the best quads so far";
   }
-  else if (this->KeepsResult())
+  else if (this->KeepsResult() && !work.spread)
   {
     quadrille::EarlierResult made = this->ResultFor(work);
     made.report = state.report;
@@ -1246,6 +1506,13 @@ void vtkQuadrilleAlgorithm::ExchangeReports(Run& run)
   {
     quadrille::BlockState& state = *work.block.state;
     const bool hasSucceeded = state.report.outcome == Succeeded;
+    const bool isMade = work.isChanged && (hasSucceeded || state.report.isSoFar);
+    if (isMade && state.isSpread && !work.isSpread)
+    {
+      // The result is in one place again, with the owner; the others let their parts go.
+      state.isSpread = false;
+      state.lastResult.clear();
+    }
     const bool failsAgain =
       !hasSucceeded && state.report.outcome != Aborted && !state.report.mayPass;
     state.lastStamps = hasSucceeded ? work.stamps : std::vector<quadrille::Stamp>{};
@@ -1266,7 +1533,7 @@ int vtkQuadrilleAlgorithm::Conclude(const Run& run, vtkInformationVector* output
     std::map<quadrille::BlockPath, vtkSmartPointer<vtkDataObject>> results;
     for (const Work& work : run.works)
     {
-      if (!run.owns(work))
+      if (!run.owns(work) && !work.block.state->isSpread)
       {
         continue;
       }
@@ -1296,6 +1563,10 @@ int vtkQuadrilleAlgorithm::Conclude(const Run& run, vtkInformationVector* output
       vtkWarningMacro(<< this->OutcomeText);
     }
     return 0;
+  }
+  if (run.ranks.size() > 1 && quadrille::isAskedToStop(this))
+  {
+    quadrille::forgetStop(this); // it came when all was done, and on this rank only
   }
   this->UpdateProgress(1.0);
   if (this->Outcome == Succeeded)
@@ -1391,7 +1662,13 @@ bool vtkQuadrilleAlgorithm::ShowProgressAndGoOn()
   {
     this->TimeIsOver = this->TimeLimit > 0 && spent.count() > this->TimeLimit;
   }
-  return this->IsBlockSoFar || (!this->TimeIsOver && !quadrille::isAskedToStop(this));
+  bool isAsked = quadrille::isAskedToStop(this);
+  if (this->Stop && isAsked)
+  {
+    this->Stop->tell();
+  }
+  isAsked = isAsked || (this->Stop && this->Stop->isTold());
+  return this->IsBlockSoFar || (!this->TimeIsOver && !isAsked);
 }
 
 //------------------------------------------------------------------------------

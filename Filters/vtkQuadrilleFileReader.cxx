@@ -163,5 +163,6 @@ void vtkQuadrilleFileReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << this->FileName << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "OutcomeText: " << this->OutcomeText << "\n";
 }

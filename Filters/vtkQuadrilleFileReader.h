@@ -29,6 +29,14 @@ public:
   const char* GetFileName() { return this->FileName.c_str(); }
   ///@}
 
+  ///@{
+  /**
+   * Threads to read with; 0 means all. The result does not depend on it. Default: 0.
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
   /**
    * Why VTK's reader of .stl, .vtp and .vtu should not be asked for a file: its headers announce more than its bytes
    * can hold, for which these readers ask for memory, or count, before they look. Empty for all other files.
@@ -44,6 +52,8 @@ protected:
 
   int RequestData(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  int NumberOfThreads = 0;
 
   /// The surface in the file; throws a std::exception whose text names the file and the place.
   virtual vtkSmartPointer<vtkPolyData> ReadSurface(const std::string& path) = 0;

@@ -28,7 +28,7 @@ int vtkQuadrillePLYReader::CanReadFile(const char* name)
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> vtkQuadrillePLYReader::ReadSurface(const std::string& path)
 {
-  return quadrille::readPly(path);
+  return quadrille::readPly(path, this->NumberOfThreads);
 }
 
 //------------------------------------------------------------------------------

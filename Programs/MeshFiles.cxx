@@ -130,9 +130,10 @@ vtkStandardNewMacro(StlReader);
 
 /// With one of our own readers, whose texts name the file.
 template <class Reader>
-vtkSmartPointer<vtkPolyData> readWithOurs(const std::string& path)
+vtkSmartPointer<vtkPolyData> readWithOurs(const std::string& path, int threads)
 {
   vtkNew<Reader> reader;
+  reader->SetNumberOfThreads(threads);
   const ErrorCollector errors(reader);
   const ErrorCollector pipelineErrors(reader->GetExecutive());
   reader->SetFileName(path.c_str());
@@ -270,7 +271,7 @@ bool canWriteElements(const std::string& path)
   return canWrite(path) && e != "vtp" && e != "obj" && e != "ply" && e != "mesh";
 }
 
-vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
+vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path, int threads)
 {
   std::error_code code;
   if (!fs::is_regular_file(path, code))
@@ -289,7 +290,7 @@ vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
   const std::string extension = extensionOf(path);
   if (extension == "ply")
   {
-    return readWithOurs<vtkQuadrillePLYReader>(path);
+    return readWithOurs<vtkQuadrillePLYReader>(path, threads);
   }
   if (extension == "obj")
   {
@@ -309,7 +310,7 @@ vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path)
   }
   if (extension == "off")
   {
-    return readWithOurs<vtkQuadrilleOFFReader>(path);
+    return readWithOurs<vtkQuadrilleOFFReader>(path, threads);
   }
   fail(path, "unknown extension; known are ply, obj, stl, off, vtp and vtk");
 }

@@ -30,8 +30,8 @@ std::string writtenExtensions();
 /// Whether the format has elements of second order.
 bool canWriteElements(const std::string& path);
 
-/// Reads ply, obj, stl, off, vtp or vtk. Throws FileError.
-vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path);
+/// Reads ply, obj, stl, off, vtp or vtk. threads: 0: all. Throws FileError.
+vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path, int threads = 0);
 
 /// Writes to a temporary file beside the target and renames it, so that a file of that name is always
 /// whole. Returns what the user should know, one sentence a line. Throws FileError.

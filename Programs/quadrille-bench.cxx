@@ -285,7 +285,7 @@ int runOnce(const std::string& mesh, long long repeat, const Request& request)
   try
   {
     const double start = secondsNow();
-    const vtkSmartPointer<vtkPolyData> input = readMeshFile(mesh);
+    const vtkSmartPointer<vtkPolyData> input = readMeshFile(mesh, request.threads);
     const double read = secondsNow() - start;
     RemeshRun run;
     run.filter()->SetTargetTypeToNumberOfQuads();

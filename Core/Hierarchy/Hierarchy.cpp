@@ -7,6 +7,7 @@
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Hierarchy/BudgetDecimation.h"
+#include "Hierarchy/ChangedMesh.h"
 #include "Hierarchy/DecimationMesh.h"
 #include "Hierarchy/GaussianCurvatureCost.h"
 #include "Hierarchy/GuideRegions.h"
@@ -159,8 +160,29 @@ struct VertexScales
   bool anySmallComponent = false; ///< else they are the sizes that are asked for
 };
 
-VertexScales vertexScales(const Mesh& fine, double edgeLength, int threads)
+/// Whether a connected mesh surely is no small component, by the faces up to where that is clear.
+bool isSurelyLarge(const Mesh& fine, double edgeLength)
 {
+  constexpr double kSurely = 2 * kQuadsOfSmallTriangulation;
+  double doubledArea = 0;
+  for (Index h = 0; h < fine.halfEdgeCount(); h += 3)
+  {
+    pollNowAndThen(h);
+    doubledArea += fine.edgeVector(h).cross(fine.edgeVector(h + 1)).norm();
+    if (doubledArea > 2 * kSurely * edgeLength * edgeLength)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+VertexScales vertexScales(const Mesh& fine, double edgeLength, bool isConnected, int threads)
+{
+  if (isConnected && fine.sizing.empty() && isSurelyLarge(fine, edgeLength))
+  {
+    return {};
+  }
   DisjointSets components = componentsOf(fine, threads);
   const std::vector<double> area = componentAreas(fine, components, threads);
   const auto scale = [&](Index root) { return triangulationScale(area[root], edgeLength); };
@@ -274,7 +296,7 @@ class Redecimation::Implementation
 {
 public:
   Implementation(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options)
-    : fine_(fine), edgeLength_(options.targetEdgeLength), order_(options.order),
+    : fine_(&fine), edgeLength_(options.targetEdgeLength), order_(options.order),
       draws_(options.draws), byPhase1_{ sorted(options.keepVertices), fine.sizing }
   {
     checkOptions(fine, options);
@@ -298,17 +320,17 @@ public:
   /// has now. All else is as phase 1 has left it.
   void putOnLevel(const std::vector<Index>& vertices, const HierarchyOptions& options)
   {
-    if ((asPhase1Left_ ? byRestoration_ : byPhase1_).is(vertices, fine_))
+    if ((asPhase1Left_ ? byRestoration_ : byPhase1_).is(vertices, *fine_))
     {
       return;
     }
     returnToPhase1();
-    if (byPhase1_.is(vertices, fine_))
+    if (byPhase1_.is(vertices, *fine_))
     {
       return;
     }
     const std::vector<Index> missing = missingVertices(vertices);
-    if (missing.empty() && byPhase1_.sizing == fine_.sizing)
+    if (missing.empty() && byPhase1_.sizing == fine_->sizing)
     {
       return;
     }
@@ -319,6 +341,55 @@ public:
       logPlaces_.emplace(hierarchy_.log);
     }
     restore(removalsFrom(hierarchy_.log, *logPlaces_, missing), vertices, options);
+  }
+
+  /// See Redecimation::follow.
+  bool follow(const Mesh& fine, std::uint64_t fineHash, const NamesBefore& names,
+    const HierarchyOptions& options)
+  {
+    const Stopwatch watch;
+    returnToPhase1();
+    hierarchy_.coarse = {};
+    hierarchy_.log.truncate(intermediateEnd_);
+    const ChangedMesh changed(fine, names, options.threads);
+    fineCurves_ = traceFeatureCurves(fine, kCornerScale * edgeLength_);
+    std::vector<Index> wanted = changed.wanted();
+    for (Index v = 0; v < fine.vertexCount(); ++v)
+    {
+      // The change may have made an end of a curve of a vertex that was none.
+      if (fineCurves_.kind[v] == VertexKind::Protected && names.vertex[v] != kInvalidIndex)
+      {
+        wanted.push_back(names.vertex[v]);
+      }
+    }
+    wanted = sorted(std::move(wanted));
+    std::vector<Index> missing;
+    std::set_difference(wanted.begin(), wanted.end(), hierarchy_.intermediate.fineVertex.begin(),
+      hierarchy_.intermediate.fineVertex.end(), std::back_inserter(missing));
+    if (kUndoneForKept * missing.size() > fine.vertexCount())
+    {
+      return false;
+    }
+    const std::vector<LoggedRemoval> removals =
+      removalsFrom(hierarchy_.log, LogPlaces(hierarchy_.log), missing);
+    const RestoredLevel level = changed.apply(
+      undoRemovals(hierarchy_.intermediate, intermediate_->curveError, hierarchy_.log, removals));
+    takeOut(hierarchy_.log, removals);
+    changed.rename(hierarchy_.log, options.threads);
+    hierarchy_.log.fineHash = fineHash;
+    hierarchy_.log.fineFaces = fine.faceCount();
+    fine_ = &fine;
+    byPhase1_ = { {}, fine.sizing };
+    byRestoration_ = {};
+    logPlaces_.reset();
+    fineDefect_.clear();
+    cache_.clear();
+    anySmallComponent_ =
+      vertexScales(fine, edgeLength_, options.isConnected, options.threads).anySmallComponent;
+    putThere(thinOutAgain(level, {}, options));
+    fineCurves_ = {};
+    hierarchy_.secondsPhase1 += watch.seconds();
+    return true;
   }
 
   /// Of what is held only to go back to the level that phase 1 left.
@@ -344,7 +415,7 @@ public:
       throw InvalidInput("The coarse level cannot be made anew: the edge length or the order of "
                          "phase 1 has changed.");
     }
-    checkPhase2(fine_, options);
+    checkPhase2(*fine_, options);
     const Stopwatch watch;
     putOnLevel(sorted(options.keepVertices), options);
     if (cost_ != options.cost)
@@ -381,9 +452,9 @@ private:
   void thinOut(std::uint64_t fineHash, const HierarchyOptions& options)
   {
     DecimationMesh mesh(
-      fine_, traceFeatureCurves(fine_, kCornerScale * edgeLength_), options.threads);
+      *fine_, traceFeatureCurves(*fine_, kCornerScale * edgeLength_), options.threads);
     UniformOptions uniform = uniformOptions(options);
-    VertexScales scales = vertexScales(fine_, edgeLength_, options.threads);
+    VertexScales scales = vertexScales(*fine_, edgeLength_, options.isConnected, options.threads);
     anySmallComponent_ = scales.anySmallComponent;
     uniform.scale = std::move(scales.scale);
     uniform.keepVertices = byPhase1_.kept;
@@ -407,7 +478,7 @@ private:
     makeIntermediate(mesh.curves, mesh.curveError, level.fineVertex);
     hierarchy_.log = log.finish();
     hierarchy_.log.fineHash = fineHash;
-    hierarchy_.log.fineFaces = fine_.faceCount();
+    hierarchy_.log.fineFaces = fine_->faceCount();
     intermediateEnd_ = hierarchy_.log.end();
   }
 
@@ -435,7 +506,7 @@ private:
   /// Of these, and where quads are to be smaller than phase 1 had them, those that it has removed.
   std::vector<Index> missingVertices(const std::vector<Index>& vertices) const
   {
-    std::vector<Index> wanted = smallerThan(fine_, byPhase1_.sizing);
+    std::vector<Index> wanted = smallerThan(*fine_, byPhase1_.sizing);
     wanted.insert(wanted.end(), vertices.begin(), vertices.end());
     wanted = sorted(std::move(wanted));
     std::vector<Index> missing;
@@ -449,11 +520,40 @@ private:
     const HierarchyOptions& options)
   {
     const RestoredLevel restored = undoRemovals(
-      fine_, hierarchy_.intermediate, intermediate_->curveError, hierarchy_.log, removals);
+      *fine_, hierarchy_.intermediate, intermediate_->curveError, hierarchy_.log, removals);
     if (fineCurves_.kind.empty())
     {
-      fineCurves_ = traceFeatureCurves(fine_, kCornerScale * edgeLength_);
+      fineCurves_ = traceFeatureCurves(*fine_, kCornerScale * edgeLength_);
     }
+    ThinnedAgain again = thinOutAgain(restored, vertices, options);
+    asPhase1Left_.emplace(AsPhase1Left{ std::move(hierarchy_.intermediate),
+      std::move(intermediate_), intermediateEnd_, takeOut(hierarchy_.log, removals) });
+    try
+    {
+      putThere(std::move(again));
+    }
+    catch (...)
+    {
+      returnToPhase1();
+      throw;
+    }
+    byRestoration_ = { vertices, fine_->sizing };
+  }
+
+  /// What uniform decimation near some places leads to, in terms of the finest mesh.
+  struct ThinnedAgain
+  {
+    Level level;
+    std::vector<float> curveError; ///< of the vertices of the level before
+    std::vector<Index> ids;        ///< that those of the level have there
+    BlockRecords records;
+    std::size_t collapses = 0, flips = 0;
+  };
+
+  /// Thins out where the level was touched, but for these vertices of the finest mesh.
+  ThinnedAgain thinOutAgain(const RestoredLevel& restored, const std::vector<Index>& vertices,
+    const HierarchyOptions& options)
+  {
     DecimationMesh mesh(restored.level.mesh, curvesOf(restored.level, fineCurves_));
     mesh.curveError = restored.curveError;
     UniformOptions uniform = uniformOptions(options);
@@ -465,7 +565,8 @@ private:
     uniform.scale = restored.level.mesh.sizing;
     if (anySmallComponent_)
     {
-      const VertexScales scales = vertexScales(fine_, edgeLength_, options.threads);
+      const VertexScales scales =
+        vertexScales(*fine_, edgeLength_, options.isConnected, options.threads);
       uniform.scale.clear();
       for (const Index v : restored.level.fineVertex)
       {
@@ -474,32 +575,29 @@ private:
     }
     LogBuilder builder;
     decimateUniformly(mesh, uniform, builder);
-    const DecimationLog again = builder.finish();
-    BlockRecords records;
-    for (const BlockRecords& block : again.blocks)
+    const DecimationLog log = builder.finish();
+    ThinnedAgain again;
+    for (const BlockRecords& block : log.blocks)
     {
-      records.insert(records.end(), block.begin(), block.end());
+      again.records.insert(again.records.end(), block.begin(), block.end());
     }
-    Level level = mesh.extract();
-    const std::vector<Index> ids = level.fineVertex;
-    level = inFineTerms(std::move(level), restored.level);
-    records = inFineTerms(std::move(records), restored.level);
+    again.collapses = log.collapses;
+    again.flips = log.flips;
+    again.level = mesh.extract();
+    again.ids = again.level.fineVertex;
+    again.curveError = std::move(mesh.curveError);
+    again.level = inFineTerms(std::move(again.level), restored.level);
+    again.records = inFineTerms(std::move(again.records), restored.level);
+    return again;
+  }
 
-    asPhase1Left_.emplace(AsPhase1Left{ std::move(hierarchy_.intermediate),
-      std::move(intermediate_), intermediateEnd_, takeOut(hierarchy_.log, removals) });
-    try
-    {
-      hierarchy_.intermediate = std::move(level);
-      makeIntermediate(fineCurves_, mesh.curveError, ids);
-      hierarchy_.log.append(std::move(records), again.collapses, again.flips);
-      endIntermediate();
-    }
-    catch (...)
-    {
-      returnToPhase1();
-      throw;
-    }
-    byRestoration_ = { vertices, fine_.sizing };
+  /// As the intermediate level.
+  void putThere(ThinnedAgain again)
+  {
+    hierarchy_.intermediate = std::move(again.level);
+    makeIntermediate(fineCurves_, again.curveError, again.ids);
+    hierarchy_.log.append(std::move(again.records), again.collapses, again.flips);
+    endIntermediate();
   }
 
   /// The intermediate level and its log without what was brought back.
@@ -541,7 +639,7 @@ private:
     guides_ = {};
     hierarchy_.intermediate.guides = {};
     hierarchy_.intermediate.guides = guidesOfLevel(
-      fine_, hierarchy_.intermediate, options.guides, kGuideReach * edgeLength_, options.threads);
+      *fine_, hierarchy_.intermediate, options.guides, kGuideReach * edgeLength_, options.threads);
     guides_ = options.guides;
   }
 
@@ -560,7 +658,7 @@ private:
     {
       if (fineDefect_.empty())
       {
-        fineDefect_ = angleDefects(fine_);
+        fineDefect_ = angleDefects(*fine_);
       }
       for (const Index v : level.fineVertex)
       {
@@ -586,7 +684,7 @@ private:
     }
     UniformOptions uniform;
     uniform.edgeLength = std::sqrt(kVerticesPerSquare * sizedArea(level) / mostOrdered);
-    uniform.scale = vertexScales(level, 2 * uniform.edgeLength, budget.threads).scale;
+    uniform.scale = vertexScales(level, 2 * uniform.edgeLength, false, budget.threads).scale;
     uniform.curveTolerance = budget.curveTolerance;
     uniform.keepVertices = budget.keepVertices;
     for (std::size_t h = 0; h < mesh.guides.size() * 3; ++h)
@@ -614,7 +712,7 @@ private:
       inFineTerms(records.bytes(), hierarchy_.intermediate), records.collapses(), records.flips());
   }
 
-  const Mesh& fine_;
+  const Mesh* fine_;
   double edgeLength_ = 0;
   DecimationOrder order_ = DecimationOrder::Sweeps;
   RandomDraws draws_;
@@ -667,6 +765,12 @@ Redecimation::Redecimation(
 Redecimation::~Redecimation() = default;
 Redecimation::Redecimation(Redecimation&&) noexcept = default;
 Redecimation& Redecimation::operator=(Redecimation&&) noexcept = default;
+
+bool Redecimation::follow(const Mesh& fine, std::uint64_t fineHash, const NamesBefore& names,
+  const HierarchyOptions& options)
+{
+  return implementation_->follow(fine, fineHash, names, options);
+}
 
 bool Redecimation::allows(const HierarchyOptions& options) const
 {

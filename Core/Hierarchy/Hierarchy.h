@@ -7,6 +7,7 @@
 #include "Hierarchy/DecimationLog.h"
 #include "Mesh/Guides.h"
 #include "Mesh/Mesh.h"
+#include "Mesh/NamesBefore.h"
 
 #include <memory>
 #include <string>
@@ -75,6 +76,8 @@ struct HierarchyOptions
   /// Guides of faces of the finest mesh, ascending by face (see surfaceGuides). Their regions keep their borders and
   /// corners in phase 2, which carries the directions to the coarse level.
   std::vector<FaceGuide> guides;
+  /// The finest mesh is known to have one component, which saves looking for small ones; the result is the same.
+  bool isConnected = false;
   int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;
 };
@@ -125,6 +128,13 @@ public:
   Redecimation(Redecimation&&) noexcept;
   Redecimation& operator=(Redecimation&&) noexcept;
 
+  /// Takes the levels along when few places of the finest mesh have changed: they are then those of `fine`, which must
+  /// outlive this object in place of the mesh before, that need not be there any more. Phase 1 must have kept no
+  /// vertices. What it would do anew near the changed places is done there alone, so the levels are as good as new ones
+  /// and not the same. options: of which threads and isConnected count. False where too many vertices would have to
+  /// come back; this object is of no use then. Cancelled leaves it so, too.
+  bool follow(const Mesh& fine, std::uint64_t fineHash, const NamesBefore& names,
+    const HierarchyOptions& options);
   /// Whether update() can honour the options: target edge length and order are those of phase 1. All else may change.
   bool allows(const HierarchyOptions& options) const;
   /// The intermediate level as phase 1 left it, without vertices that were brought back. Valid until update().

@@ -126,8 +126,8 @@ private:
 class Undoing
 {
 public:
-  Undoing(const Mesh& fine, const Level& level, const std::vector<float>& curveError)
-    : fine_(fine), levelFaces_(level.fineFace), origin_(level.mesh.origin), twin_(level.mesh.twin),
+  Undoing(const Level& level, const std::vector<float>& curveError)
+    : levelFaces_(level.fineFace), origin_(level.mesh.origin), twin_(level.mesh.twin),
       flags_(level.mesh.flags), fineVertex_(level.fineVertex), fineFace_(level.fineFace),
       curveError_(curveError), touched_(level.mesh.vertexCount(), false)
   {
@@ -196,7 +196,6 @@ private:
   void reviveLast(const CollapseRecord& record, Index vertex, Index target);
   void markCurve(const CollapseRecord& record, Index vertex);
 
-  const Mesh& fine_;
   const std::vector<Index>& levelFaces_;
   std::vector<Index> origin_, twin_;
   std::vector<std::uint8_t> flags_;
@@ -332,13 +331,8 @@ RestoredLevel Undoing::finish() const
   Level& level = result.level;
   for (std::size_t i = 0; i < vertices.size(); ++i)
   {
-    const Index v = vertices[i], fine = fineVertex_[v];
-    level.fineVertex.push_back(fine);
-    level.mesh.position.push_back(fine_.position[fine]);
-    if (!fine_.sizing.empty())
-    {
-      level.mesh.sizing.push_back(fine_.sizing[fine]);
-    }
+    const Index v = vertices[i];
+    level.fineVertex.push_back(fineVertex_[v]);
     result.curveError.push_back(curveError_[v]);
     if (touched_[v])
     {
@@ -428,7 +422,22 @@ RestoredLevel undoRemovals(const Mesh& fine, const Level& level,
   const std::vector<float>& curveError, const DecimationLog& log,
   const std::vector<LoggedRemoval>& removals)
 {
-  Undoing undoing(fine, level, curveError);
+  RestoredLevel restored = undoRemovals(level, curveError, log, removals);
+  for (const Index v : restored.level.fineVertex)
+  {
+    restored.level.mesh.position.push_back(fine.position[v]);
+    if (!fine.sizing.empty())
+    {
+      restored.level.mesh.sizing.push_back(fine.sizing[v]);
+    }
+  }
+  return restored;
+}
+
+RestoredLevel undoRemovals(const Level& level, const std::vector<float>& curveError,
+  const DecimationLog& log, const std::vector<LoggedRemoval>& removals)
+{
+  Undoing undoing(level, curveError);
   for (auto removal = removals.rbegin(); removal != removals.rend(); ++removal)
   {
     const std::uint8_t* records = log.blocks[removal->block].data();

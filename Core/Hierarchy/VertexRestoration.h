@@ -66,7 +66,11 @@ struct RestoredLevel
   std::vector<Index> touched; ///< vertices of faces that were in a star, ascending
 };
 
-/// The level that the log leads to, without these removals: a set as removalsFrom() gives it.
+/// The level that the log leads to, without these removals: a set as removalsFrom() gives it. Without positions and
+/// sizes, which only the finest mesh has.
+RestoredLevel undoRemovals(const Level& level, const std::vector<float>& curveError,
+  const DecimationLog& log, const std::vector<LoggedRemoval>& removals);
+/// The same with them.
 RestoredLevel undoRemovals(const Mesh& fine, const Level& level,
   const std::vector<float>& curveError, const DecimationLog& log,
   const std::vector<LoggedRemoval>& removals);

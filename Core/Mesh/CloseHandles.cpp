@@ -6,6 +6,7 @@
 #include "Mesh/ContentHash.h"
 #include "Mesh/HandleBasis.h"
 #include "Mesh/HandleStubs.h"
+#include "Mesh/LoopNeighbourhood.h"
 #include "Mesh/LoopSearch.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/SurfaceEdit.h"
@@ -19,19 +20,72 @@ namespace quadrille
 namespace
 {
 
-std::optional<LoopSearch::Loop> shortestNear(
-  LoopSearch& search, const std::vector<Index>& place, double bound)
+/// The search for loops near the places, on the part of the surface where they run if that is small.
+class NearSearch
 {
-  std::optional<LoopSearch::Loop> best;
-  for (const Index root : place)
+public:
+  NearSearch(
+    const Mesh& mesh, const std::vector<std::vector<Index>>& places, double bound, int threads)
+    : part_(loopNeighbourhood(mesh, all(places), kMoreThanRounding * bound / 2, threads)),
+      search_(part_ ? part_->mesh : mesh, LoopSearch::kInnerEdges), bound_(bound)
   {
-    if (std::optional<LoopSearch::Loop> loop = search.shortest(root, best ? best->length : bound))
-    {
-      best = std::move(loop);
-    }
   }
-  return best;
-}
+
+  /// In terms of what is searched.
+  std::optional<LoopSearch::Loop> shortestNear(const std::vector<Index>& place)
+  {
+    std::optional<LoopSearch::Loop> best;
+    for (const Index root : place)
+    {
+      if (std::optional<LoopSearch::Loop> loop =
+            search_.shortest(inPart(root), best ? best->length : bound_))
+      {
+        best = std::move(loop);
+      }
+    }
+    return best;
+  }
+
+  const LoopSearch& search() const { return search_; }
+
+  LoopSearch::Loop onSurface(LoopSearch::Loop loop) const
+  {
+    for (Index& v : loop.vertices)
+    {
+      v = part_ ? part_->vertex[v] : v;
+    }
+    for (LoopSearch::Arc& arc : loop.arcs)
+    {
+      arc.halfEdge = part_ ? part_->halfEdge(arc.halfEdge) : arc.halfEdge;
+    }
+    return loop;
+  }
+
+private:
+  static constexpr double kMoreThanRounding = 1 + 1e-9;
+
+  static std::vector<Index> all(const std::vector<std::vector<Index>>& places)
+  {
+    std::vector<Index> vertices;
+    for (const std::vector<Index>& place : places)
+    {
+      vertices.insert(vertices.end(), place.begin(), place.end());
+    }
+    return vertices;
+  }
+
+  Index inPart(Index v) const
+  {
+    return part_
+      ? static_cast<Index>(
+          std::lower_bound(part_->vertex.begin(), part_->vertex.end(), v) - part_->vertex.begin())
+      : v;
+  }
+
+  std::optional<LoopNeighbourhood> part_;
+  LoopSearch search_;
+  double bound_;
+};
 
 /// The half-edges from each vertex of the loop to the next one.
 std::vector<Index> halfEdgesOf(const Mesh& mesh, const LoopSearch::Loop& loop)
@@ -48,33 +102,37 @@ std::vector<Index> halfEdgesOf(const Mesh& mesh, const LoopSearch::Loop& loop)
 } // namespace
 
 std::vector<std::size_t> closeHandles(PreparedSurface& surface,
-  const std::vector<std::vector<Index>>& places, double bound, double opening)
+  const std::vector<std::vector<Index>>& places, double bound, double opening, int threads)
 {
   // All loops are found first, as cuts change the surface; loops without a common vertex stay what they are.
   std::vector<std::vector<Index>> cuts;
   std::vector<std::size_t> closed;
   {
-    LoopSearch search(surface.mesh, LoopSearch::kInnerEdges);
-    HandleBasis basis(2 * search.handles());
+    NearSearch near(surface.mesh, places, bound, threads);
+    HandleBasis basis(2 * near.search().handles());
     std::vector<std::uint8_t> used(surface.mesh.vertexCount(), 0);
     for (std::size_t i = 0; i < places.size(); ++i)
     {
       poll();
-      const std::optional<LoopSearch::Loop> loop = shortestNear(search, places[i], bound);
-      if (!loop ||
-        std::any_of(
-          loop->vertices.begin(), loop->vertices.end(), [&](Index v) { return used[v] != 0; }))
+      const std::optional<LoopSearch::Loop> found = near.shortestNear(places[i]);
+      if (!found)
+      {
+        continue;
+      }
+      const LoopSearch::Loop loop = near.onSurface(*found);
+      if (std::any_of(
+            loop.vertices.begin(), loop.vertices.end(), [&](Index v) { return used[v] != 0; }))
       {
         continue;
       }
       // Disjoint loops cross nowhere, so being new to the basis means that all cuts together leave the surface in one
       // piece.
-      const LoopSearch::Class sum = search.classOf(*loop);
-      if (basis.insert(sum, search.crossings(sum)))
+      const LoopSearch::Class sum = near.search().classOf(*found);
+      if (basis.insert(sum, near.search().crossings(sum)))
       {
-        cuts.push_back(halfEdgesOf(surface.mesh, *loop));
+        cuts.push_back(halfEdgesOf(surface.mesh, loop));
         closed.push_back(i);
-        for (const Index v : loop->vertices)
+        for (const Index v : loop.vertices)
         {
           used[v] = 1;
         }
@@ -108,8 +166,8 @@ std::vector<std::size_t> closeHandles(PreparedSurface& surface,
   if (!cuts.empty())
   {
     surface.repair.closedHandles += cuts.size();
-    orderSurface(surface, 1);
-    surface.hash = contentHash(surface.mesh, 1);
+    orderSurface(surface, threads);
+    surface.hash = contentHash(surface.mesh, threads);
   }
   return closed;
 }

@@ -19,9 +19,9 @@ namespace quadrille
 /// them. Pits and stubs behind the caps are taken out where they can be (see removeStub). Returns the entries whose
 /// handles were closed, ascending; if there are any, order and hash are made anew, so vertices have other ids. Never
 /// makes two components of one.
-/// opening: see removeStub.
+/// opening: see removeStub. threads: 0: all.
 std::vector<std::size_t> closeHandles(PreparedSurface& surface,
   const std::vector<std::vector<Index>>& places, double bound,
-  double opening = std::numeric_limits<double>::infinity());
+  double opening = std::numeric_limits<double>::infinity(), int threads = 1);
 
 } // namespace quadrille

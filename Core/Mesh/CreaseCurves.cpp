@@ -7,6 +7,7 @@
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Mesh/Sizing.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <array>
@@ -58,8 +59,14 @@ double middleValue(std::vector<double> values)
 class CreaseNetwork
 {
 public:
-  CreaseNetwork(const Mesh& mesh, double edgeLength) : mesh_(mesh), edgeLength_(edgeLength)
+  CreaseNetwork(const Mesh& mesh, double edgeLength, int threads)
+    : mesh_(mesh), edgeLength_(edgeLength), edges_(constrainedEdges(mesh, threads))
   {
+    if (std::none_of(edges_.begin(), edges_.end(), [this](Index h) { return isDetected(h); }))
+    {
+      edges_.clear(); // nothing to judge
+      return;
+    }
     offset_.assign(mesh.vertexCount() + 1, 0);
     forEachEdge(
       [&](Index h)
@@ -81,7 +88,7 @@ public:
   std::vector<CreaseCurve> curves() const
   {
     std::vector<CreaseCurve> result;
-    std::vector<std::uint8_t> done(mesh_.halfEdgeCount(), 0);
+    std::vector<std::uint8_t> done(edges_.empty() ? 0 : mesh_.halfEdgeCount(), 0);
     forEachEdge(
       [&](Index h)
       {
@@ -97,13 +104,10 @@ private:
   template <typename Visitor>
   void forEachEdge(Visitor&& visit) const
   {
-    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    for (std::size_t i = 0; i < edges_.size(); ++i)
     {
-      pollNowAndThen(h);
-      if (mesh_.isConstrained(h) && (mesh_.isBoundary(h) || h < mesh_.twin[h]))
-      {
-        visit(h);
-      }
+      pollNowAndThen(i);
+      visit(edges_[i]);
     }
   }
 
@@ -219,6 +223,7 @@ private:
 
   const Mesh& mesh_;
   double edgeLength_;
+  std::vector<Index> edges_;
   std::vector<Index> offset_, incident_; ///< edges at each vertex
 };
 
@@ -348,7 +353,7 @@ std::vector<CreaseCurve> traceCreases(const Mesh& mesh, double edgeLength, int t
   {
     throw InvalidInput("the edge length for judging creases must be positive");
   }
-  std::vector<CreaseCurve> curves = CreaseNetwork(mesh, edgeLength).curves();
+  std::vector<CreaseCurve> curves = CreaseNetwork(mesh, edgeLength, threads).curves();
   parallelFor(curves.size(), kCurveChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
@@ -395,7 +400,7 @@ CreaseReport removeFalseCreases(
     }
     if (again)
     {
-      const FeatureFilterReport more = removeUnresolvedFeatures(mesh, edgeLength);
+      const FeatureFilterReport more = removeUnresolvedFeatures(mesh, edgeLength, threads);
       filtered.removedEdges += more.removedEdges;
       filtered.keptEdges = more.keptEdges;
     }

@@ -48,6 +48,8 @@ std::uint64_t sortKey(const EdgeRuns::Entry& entry)
   return std::uint64_t{ entry.other } << 32 | entry.halfEdge;
 }
 
+} // namespace
+
 void sortBucket(EdgeRuns::Entry* bucket, std::size_t count)
 {
   if (count > kSmallBucket)
@@ -74,8 +76,6 @@ void sortBucket(EdgeRuns::Entry* bucket, std::size_t count)
     bucket[place[i]] = entry[i];
   }
 }
-
-} // namespace
 
 EdgeRuns::EdgeRuns(const std::vector<Index>& origin, Index vertexCount, int threads)
 {

@@ -67,4 +67,7 @@ private:
   std::vector<Entry> entries_;
 };
 
+/// Sorts the entries of one lower vertex by the higher one, then by half-edge.
+void sortBucket(EdgeRuns::Entry* bucket, std::size_t count);
+
 } // namespace quadrille

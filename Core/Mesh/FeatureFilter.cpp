@@ -7,6 +7,7 @@
 #include "Base/Progress.h"
 #include "Mesh/Distance.h"
 #include "Mesh/Sizing.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +46,9 @@ struct Chain
 class FeatureGraph
 {
 public:
-  FeatureGraph(const Mesh& mesh, double edgeLength) : mesh_(mesh), edgeLength_(edgeLength)
+  /// edges: constrainedEdges of the mesh.
+  FeatureGraph(const Mesh& mesh, double edgeLength, const std::vector<Index>& edges)
+    : mesh_(mesh), edgeLength_(edgeLength), edges_(edges)
   {
     countDegrees();
     listIncidentEdges();
@@ -67,22 +70,13 @@ public:
 private:
   Index degree(Index v) const { return offset_[v + 1] - offset_[v]; }
 
-  bool isEdge(Index h) const
-  {
-    return mesh_.isConstrained(h) && (mesh_.isBoundary(h) || h < mesh_.twin[h]);
-  }
-
   void countDegrees()
   {
     offset_.assign(mesh_.vertexCount() + 1, 0);
-    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    for (const Index h : edges_)
     {
-      pollNowAndThen(h);
-      if (isEdge(h))
-      {
-        ++offset_[mesh_.origin[h] + 1];
-        ++offset_[mesh_.target(h) + 1];
-      }
+      ++offset_[mesh_.origin[h] + 1];
+      ++offset_[mesh_.target(h) + 1];
     }
     std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
   }
@@ -91,14 +85,10 @@ private:
   {
     incident_.resize(offset_.back());
     std::vector<Index> fill(offset_.begin(), offset_.end() - 1);
-    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    for (const Index h : edges_)
     {
-      pollNowAndThen(h);
-      if (isEdge(h))
-      {
-        incident_[fill[mesh_.origin[h]]++] = h;
-        incident_[fill[mesh_.target(h)]++] = h;
-      }
+      incident_[fill[mesh_.origin[h]]++] = h;
+      incident_[fill[mesh_.target(h)]++] = h;
     }
   }
 
@@ -107,10 +97,11 @@ private:
     std::vector<std::uint8_t> done(mesh_.halfEdgeCount(), 0);
     for (const bool loops : { false, true })
     {
-      for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+      for (std::size_t i = 0; i < edges_.size(); ++i)
       {
-        pollNowAndThen(h);
-        if (!isEdge(h) || done[h])
+        pollNowAndThen(i);
+        const Index h = edges_[i];
+        if (done[h] != 0)
         {
           continue;
         }
@@ -193,6 +184,7 @@ private:
 
   const Mesh& mesh_;
   double edgeLength_;
+  const std::vector<Index>& edges_;
   std::vector<Index> offset_;
   std::vector<Index> incident_;
   std::vector<Chain> chains_;
@@ -447,10 +439,15 @@ bool dropAlongThinPatches(
 }
 
 /// One pass; returns whether anything went. Most scans have nothing to drop, and patches take memory for each
-/// half-edge.
-bool removeOnce(Mesh& mesh, double edgeLength, FeatureFilterReport& report)
+/// half-edge. edges: constrainedEdges of the mesh.
+bool removeOnce(
+  Mesh& mesh, double edgeLength, const std::vector<Index>& edges, FeatureFilterReport& report)
 {
-  const FeatureGraph graph(mesh, edgeLength);
+  if (std::none_of(edges.begin(), edges.end(), [&](Index h) { return isDetectedFeature(mesh, h); }))
+  {
+    return false;
+  }
+  const FeatureGraph graph(mesh, edgeLength, edges);
   const std::vector<Chain>& chains = graph.chains();
   const bool any =
     std::any_of(chains.begin(), chains.end(), [](const Chain& chain) { return chain.removable; });
@@ -461,21 +458,21 @@ bool removeOnce(Mesh& mesh, double edgeLength, FeatureFilterReport& report)
 
 } // namespace
 
-FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength)
+FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength, int threads)
 {
   if (!(edgeLength > 0))
   {
     throw InvalidInput("the edge length for filtering features must be positive");
   }
   FeatureFilterReport report;
-  while (removeOnce(mesh, edgeLength, report))
+  std::vector<Index> edges = constrainedEdges(mesh, threads);
+  const auto isFree = [&](Index h) { return !mesh.isConstrained(h); };
+  while (removeOnce(mesh, edgeLength, edges, report))
   {
+    edges.erase(std::remove_if(edges.begin(), edges.end(), isFree), edges.end());
   }
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    report.keptEdges += mesh.isFeature(h) && h < mesh.twin[h];
-  }
+  report.keptEdges = static_cast<std::size_t>(
+    std::count_if(edges.begin(), edges.end(), [&](Index h) { return mesh.isFeature(h); }));
   return report;
 }
 

@@ -23,7 +23,7 @@ struct FeatureFilterReport
 /// / 4. Chains run between vertices where other than two constrained edges meet. Features that the user gave stay.
 /// Repeated until nothing changes.
 /// Throws InvalidInput when edgeLength is not positive.
-FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength);
+FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength, int threads = 1);
 
 /// Whether h is that half-edge of a feature that stands for it, and nobody asked for the feature (kRequestedFeature).
 bool isDetectedFeature(const Mesh& mesh, Index h);

@@ -7,6 +7,7 @@
 #include "Base/Progress.h"
 #include "Mesh/FeatureFilter.h"
 #include "Mesh/Sizing.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <array>
@@ -45,7 +46,8 @@ struct NetworkArc
 class ArcNetwork
 {
 public:
-  ArcNetwork(const Mesh& mesh, double edgeLength) : mesh_(mesh), edgeLength_(edgeLength)
+  ArcNetwork(const Mesh& mesh, double edgeLength)
+    : mesh_(mesh), edgeLength_(edgeLength), edges_(constrainedEdges(mesh))
   {
     offset_.assign(mesh.vertexCount() + 1, 0);
     forEachEdge(
@@ -89,13 +91,10 @@ private:
   template <typename Visitor>
   void forEachEdge(Visitor&& visit) const
   {
-    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    for (std::size_t i = 0; i < edges_.size(); ++i)
     {
-      pollNowAndThen(h);
-      if (mesh_.isConstrained(h) && (mesh_.isBoundary(h) || h < mesh_.twin[h]))
-      {
-        visit(h);
-      }
+      pollNowAndThen(i);
+      visit(edges_[i]);
     }
   }
 
@@ -163,6 +162,7 @@ private:
 
   const Mesh& mesh_;
   double edgeLength_;
+  std::vector<Index> edges_;
   std::vector<Index> offset_, incident_; ///< edges at each vertex
   std::vector<Index> arcOf_;             ///< #H, of one half-edge of each edge
   std::vector<NetworkArc> arcs_;
@@ -319,13 +319,9 @@ bool simplifyOnce(Mesh& mesh, double edgeLength, NetworkReport& report)
 /// Most surfaces have no features, or none that nobody asked for.
 bool hasDetectedFeature(const Mesh& mesh)
 {
-  bool found = false;
-  for (Index h = 0; h < mesh.halfEdgeCount() && !found; ++h)
-  {
-    pollNowAndThen(h);
-    found = mesh.isFeature(h) && (mesh.flags[h] & kRequestedFeature) == 0;
-  }
-  return found;
+  constexpr std::uint8_t kBits = kFeatureEdge | kRequestedFeature;
+  return std::any_of(mesh.flags.begin(), mesh.flags.end(),
+    [](std::uint8_t flags) { return (flags & kBits) == kFeatureEdge; });
 }
 
 std::string inQuads(double length)

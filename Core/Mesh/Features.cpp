@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Features.h"
 
-#include "Base/LargeArray.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Mesh/Creases.h"
 #include "Mesh/FeatureFilter.h"
+#include "Mesh/PointSets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,8 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kFeatureChunk = 65536;
+/// Faces, whose normals fit a second level cache.
+constexpr std::size_t kFeatureChunk = 16384;
 
 /// Coordinates often come as float, even where they are double now: below this height over the size of the surface a
 /// face's normal can be off by degrees.
@@ -27,48 +28,39 @@ constexpr double kReliableSteps = 16;
 
 constexpr int kMostSliversInARow = 16;
 
-struct FaceNormals
+struct FaceNormal
 {
-  std::vector<Vector3> normal;        ///< #F, unit
-  std::vector<std::uint8_t> reliable; ///< #F
+  Vector3 direction; ///< unit
+  bool isReliable;
 };
 
-double sizeOf(const Mesh& mesh)
+/// Normals, computed when they are asked for: an array of them would be the largest of all.
+class FaceNormals
 {
-  Vector3 low = mesh.position.front();
-  Vector3 high = low;
-  for (const Vector3& p : mesh.position)
+public:
+  FaceNormals(const Mesh& mesh, double precision, int threads) : mesh_(mesh)
   {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
+    const PointBox box = boxOfPoints(mesh.position, threads);
+    height_ = std::max(kReliableHeight * (box.high - box.low).norm(), kReliableSteps * precision);
   }
-  return (high - low).norm();
-}
 
-FaceNormals computeNormals(const Mesh& mesh, double precision, int threads)
-{
-  const double height = std::max(kReliableHeight * sizeOf(mesh), kReliableSteps * precision);
-  FaceNormals normals;
-  normals.reliable.resize(mesh.faceCount());
-  growLarge(normals.normal, mesh.faceCount());
-  parallelFor(mesh.faceCount(), kFeatureChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const Index h = static_cast<Index>(3 * i);
-        const Vector3 a = mesh.edgeVector(h), b = mesh.edgeVector(h + 1),
-                      c = mesh.edgeVector(h + 2);
-        const Vector3 n = a.cross(b);
-        const double doubleArea = n.norm();
-        const double longest =
-          std::sqrt(std::max({ a.squaredNorm(), b.squaredNorm(), c.squaredNorm() }));
-        normals.normal[i] = n / doubleArea;
-        normals.reliable[i] = doubleArea > height * longest;
-      }
-    });
-  return normals;
-}
+  FaceNormal of(Index f) const
+  {
+    const Vector3& p = mesh_.position[mesh_.origin[3 * f]];
+    const Vector3& q = mesh_.position[mesh_.origin[3 * f + 1]];
+    const Vector3& r = mesh_.position[mesh_.origin[3 * f + 2]];
+    const Vector3 a = q - p, b = r - q, c = p - r;
+    const Vector3 n = a.cross(b);
+    const double doubleArea = n.norm();
+    const double longest =
+      std::sqrt(std::max({ a.squaredNorm(), b.squaredNorm(), c.squaredNorm() }));
+    return { n / doubleArea, doubleArea > height_ * longest };
+  }
+
+private:
+  const Mesh& mesh_;
+  double height_;
+};
 
 /// Half-edges of a face, longest first.
 std::array<Index, 3> byLength(const Mesh& mesh, Index f)
@@ -85,7 +77,7 @@ Index beyondSlivers(const Mesh& mesh, const FaceNormals& normals, Index f)
 {
   Index previous = kInvalidIndex;
   Index current = f;
-  for (int step = 0; step < kMostSliversInARow && normals.reliable[current] == 0; ++step)
+  for (int step = 0; step < kMostSliversInARow && !normals.of(current).isReliable; ++step)
   {
     const std::array<Index, 3> edges = byLength(mesh, current);
     const auto leadsOn = [&](Index h)
@@ -101,9 +93,10 @@ Index beyondSlivers(const Mesh& mesh, const FaceNormals& normals, Index f)
   return current;
 }
 
-const Vector3& normalOf(const Mesh& mesh, const FaceNormals& normals, Index f)
+Vector3 normalOf(const Mesh& mesh, const FaceNormals& normals, Index f)
 {
-  return normals.normal[normals.reliable[f] != 0 ? f : beyondSlivers(mesh, normals, f)];
+  const FaceNormal own = normals.of(f);
+  return own.isReliable ? own.direction : normals.of(beyondSlivers(mesh, normals, f)).direction;
 }
 
 void markSharpEdges(Mesh& mesh, const FaceNormals& normals, double angle, int threads)
@@ -112,6 +105,11 @@ void markSharpEdges(Mesh& mesh, const FaceNormals& normals, double angle, int th
   parallelFor(mesh.faceCount(), kFeatureChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
+      std::vector<Vector3> known(end - begin); // faces next to each other are mostly in one chunk
+      for (std::size_t f = begin; f < end; ++f)
+      {
+        known[f - begin] = normalOf(mesh, normals, static_cast<Index>(f));
+      }
       for (Index h = static_cast<Index>(3 * begin); h < 3 * end; ++h)
       {
         const Index twin = mesh.twin[h];
@@ -119,8 +117,10 @@ void markSharpEdges(Mesh& mesh, const FaceNormals& normals, double angle, int th
         {
           continue; // an edge is marked from its lower half-edge
         }
-        const Vector3& here = normalOf(mesh, normals, Mesh::face(h));
-        if (here.dot(normalOf(mesh, normals, Mesh::face(twin))) < limit)
+        const Index beyond = Mesh::face(twin);
+        const double cosine = known[Mesh::face(h) - begin].dot(
+          beyond < end ? known[beyond - begin] : normalOf(mesh, normals, beyond));
+        if (cosine < limit)
         {
           mesh.flags[h] |= kFeatureEdge;
           mesh.flags[twin] |= kFeatureEdge;
@@ -133,12 +133,25 @@ void markSharpEdges(Mesh& mesh, const FaceNormals& normals, double angle, int th
 
 void markFeaturesByAngle(Mesh& mesh, double angle, int threads, double precision)
 {
-  markSharpEdges(mesh, computeNormals(mesh, precision, threads), angle, threads);
+  markSharpEdges(mesh, FaceNormals(mesh, precision, threads), angle, threads);
+}
+
+std::vector<Vector3> normalsBeside(
+  const Mesh& mesh, const std::vector<Index>& halfEdges, int threads, double precision)
+{
+  const FaceNormals normals(mesh, precision, threads);
+  std::vector<Vector3> result;
+  result.reserve(halfEdges.size());
+  for (const Index h : halfEdges)
+  {
+    result.push_back(normalOf(mesh, normals, Mesh::face(h)));
+  }
+  return result;
 }
 
 FacetReport markCreases(Mesh& mesh, double angle, int threads, double precision)
 {
-  const FaceNormals normals = computeNormals(mesh, precision, threads);
+  const FaceNormals normals(mesh, precision, threads);
   markSharpEdges(mesh, normals, angle, threads);
   const auto angleOf = [&](Index h)
   {

@@ -5,6 +5,7 @@
 #include "Base/LargeArray.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Mesh/PointSets.h"
 #include "Mesh/Repair.h"
 
 #include <algorithm>
@@ -32,42 +33,6 @@ constexpr std::size_t kEdgeSamples = std::size_t{ 1 } << 20;
 constexpr double kUp = 0.618;
 /// An enclosed volume below this part of what its terms add up to says nothing.
 constexpr double kNoVolume = 1e-6;
-
-using Bytes = std::vector<std::uint8_t>;
-
-struct Box
-{
-  Vector3 low = Vector3::Zero();
-  Vector3 high = Vector3::Zero();
-};
-
-Bytes usedPoints(const SurfaceInput& input)
-{
-  Bytes used(input.points.size(), 0);
-  for (std::size_t i = 0; i < input.polygonPoints.size(); ++i)
-  {
-    pollNowAndThen(i);
-    used[input.polygonPoints[i]] = 1;
-  }
-  return used;
-}
-
-Box boxOf(const std::vector<Vector3>& points, const Bytes& used)
-{
-  Box box;
-  bool first = true;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    pollNowAndThen(i);
-    if (used[i] != 0)
-    {
-      box.low = first ? points[i] : Vector3(box.low.cwiseMin(points[i]));
-      box.high = first ? points[i] : Vector3(box.high.cwiseMax(points[i]));
-      first = false;
-    }
-  }
-  return box;
-}
 
 /// Takes differences of coordinates of some magnitude back to the binary fractions that they were before a shift
 /// rounded them: of a surface in single precision, say, that was moved in double precision.
@@ -150,7 +115,7 @@ void toGrid(FramedInput& framed, const Snap& snap, double steps, int threads)
 }
 
 /// Of each axis: the side on which the first point lies that is half way or more to the end.
-Vector3 signsOf(const std::vector<Vector3>& points, const Bytes& used, const Box& box)
+Vector3 signsOf(const std::vector<Vector3>& points, const UsedPoints& used, const PointBox& box)
 {
   Vector3 sign = Vector3::Zero();
   for (std::size_t i = 0; i < points.size() && (sign.array() == 0).any(); ++i)
@@ -158,7 +123,7 @@ Vector3 signsOf(const std::vector<Vector3>& points, const Bytes& used, const Box
     for (int k = 0; k < 3; ++k)
     {
       const double x = points[i][k];
-      if (sign[k] == 0 && used[i] != 0 && std::abs(x) * 4 >= box.high[k] - box.low[k])
+      if (sign[k] == 0 && used.has(i) && std::abs(x) * 4 >= box.high[k] - box.low[k])
       {
         sign[k] = x < 0 ? -1 : 1;
       }
@@ -269,8 +234,9 @@ FramedInput enterFrame(SurfaceInput input, int threads)
 {
   checkInput(input, threads);
   FramedInput framed;
-  const Bytes used = usedPoints(input);
-  const Box box = boxOf(input.points, used);
+  const UsedPoints used(input.polygonPoints, input.points.size(), threads);
+  const auto isUsed = [&](std::size_t i) { return used.has(i); };
+  const PointBox box = boxOfPoints(input.points, threads, isUsed);
   const double magnitude = std::max(box.high.cwiseAbs().maxCoeff(), box.low.cwiseAbs().maxCoeff());
   Frame& frame = framed.frame;
   const Snap snap(magnitude > 0 ? magnitude : 1.0);
@@ -293,7 +259,8 @@ FramedInput enterFrame(SurfaceInput input, int threads)
   framed.points = std::move(input.points);
   framed.input = std::move(input);
   toGrid(framed, snap, steps, threads);
-  frame.sign = signsOf(framed.input.points, used, boxOf(framed.input.points, used));
+  frame.sign =
+    signsOf(framed.input.points, used, boxOfPoints(framed.input.points, threads, isUsed));
   parallelFor(framed.input.points.size(), kFrameChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
@@ -327,28 +294,34 @@ FramedInput enterKnownFrame(SurfaceInput input, const FramedInput& known)
 namespace
 {
 
-/// At the corner where half-edge h begins.
-Vector3 userPositionAt(
+/// Where the corner at which half-edge h begins lies between the points that its face comes from.
+Vector3 placeBetween(
   const PreparedSurface& surface, Index h, const Frame& frame, const std::vector<Vector3>& points)
 {
   std::array<double, 3> corner{};
   corner[h % 3] = 1;
   const SourceLocation source = surface.locate(Mesh::face(h), corner);
-  const Vector3 place = frame.toUser(surface.mesh.position[surface.mesh.origin[h]]);
   Vector3 between = Vector3::Zero();
   for (std::size_t k = 0; k < 3; ++k)
   {
     if (source.weights[k] == 1)
     {
-      between = points[source.points[k]];
-      break;
+      return points[source.points[k]];
     }
     between += source.weights[k] * (points[source.points[k]] - frame.centre);
-    if (k == 2)
-    {
-      between += frame.centre;
-    }
   }
+  return between + frame.centre;
+}
+
+/// At the corner where half-edge h begins.
+Vector3 userPositionAt(
+  const PreparedSurface& surface, Index h, const Frame& frame, const std::vector<Vector3>& points)
+{
+  const Index f = Mesh::face(h);
+  const Vector3 place = frame.toUser(surface.mesh.position[surface.mesh.origin[h]]);
+  const bool isWhole = surface.refinedEntry.empty() || surface.refinedEntry[f] == kInvalidIndex;
+  const Vector3 between =
+    isWhole ? points[surface.sourcePoints[f][h % 3]] : placeBetween(surface, h, frame, points);
   // Repair may have moved a corner: then its source is another point.
   const double step = std::ldexp(frame.unit, -kGridBits);
   const double last = std::ldexp(place.cwiseAbs().maxCoeff(), -50);
@@ -357,22 +330,30 @@ Vector3 userPositionAt(
 
 } // namespace
 
-std::vector<Vector3> userPositions(
-  const PreparedSurface& surface, const Frame& frame, const std::vector<Vector3>& points)
+std::vector<Vector3> userPositions(const PreparedSurface& surface, const Frame& frame,
+  const std::vector<Vector3>& points, int threads)
 {
   const Mesh& mesh = surface.mesh;
-  std::vector<Vector3> positions(mesh.vertexCount());
-  Bytes known(mesh.vertexCount(), 0);
+  std::vector<Index> first(mesh.vertexCount(), kInvalidIndex);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     pollNowAndThen(h);
-    const Index v = mesh.origin[h];
-    if (known[v] == 0)
-    {
-      known[v] = 1;
-      positions[v] = userPositionAt(surface, h, frame, points);
-    }
+    Index& corner = first[mesh.origin[h]];
+    corner = std::min(corner, h);
   }
+  std::vector<Vector3> positions;
+  growLarge(positions, mesh.vertexCount(), Vector3(Vector3::Zero()));
+  parallelFor(mesh.vertexCount(), kFrameChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        if (first[v] != kInvalidIndex)
+        {
+          positions[v] = userPositionAt(surface, first[v], frame, points);
+        }
+      }
+    });
   return positions;
 }
 

@@ -55,8 +55,9 @@ FramedInput enterKnownFrame(SurfaceInput input, const FramedInput& known);
 
 /// The user's positions of the vertices, #V: for points of the input their own numbers, for vertices that refinement
 /// made the place between them, for others (repair and closed handles) that of the frame. points: those of FramedInput.
-std::vector<Vector3> userPositions(
-  const PreparedSurface& surface, const Frame& frame, const std::vector<Vector3>& points);
+/// threads: 0: all.
+std::vector<Vector3> userPositions(const PreparedSurface& surface, const Frame& frame,
+  const std::vector<Vector3>& points, int threads = 1);
 
 /// That of one of them, at whose corner the half-edge begins.
 Vector3 userPosition(const PreparedSurface& surface, Index halfEdge, const Frame& frame,

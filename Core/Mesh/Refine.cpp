@@ -11,6 +11,7 @@
 #include "Mesh/SurfaceEdit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -31,6 +32,9 @@ constexpr double kFacesPerFace = 16;
 constexpr double kFacesPerFaceOfSmall = 160;
 constexpr double kSmallEnd = 4e6;
 constexpr double kMostFaces = 1e8;
+
+/// A connected surface with the area of so many squares of the maximum edge length is not small.
+constexpr double kSurelyNotSmall = 2 * kQuadsOfSmallTriangulation;
 
 constexpr std::size_t kSplitsBetweenReports = 100000;
 constexpr std::size_t kChunkFaces = std::size_t{ 1 } << 16;
@@ -112,17 +116,21 @@ public:
     : mesh_(surface.mesh), limit_(maximumLength * maximumLength), faces_(mesh_.faceCount()),
       queue_(limit_)
   {
-    findScales(surface, maximumLength);
+    findScales(surface, maximumLength, threads);
     std::vector<std::vector<LongEdge>> found(faces_ / kChunkFaces + 1);
     parallelFor(faces_, kChunkFaces, threads,
       [&](std::size_t begin, std::size_t end)
       {
-        for (std::size_t h = 3 * begin; h < 3 * end; ++h)
+        for (Index f = static_cast<Index>(begin); f < end; ++f)
         {
-          const double length = squaredLength(static_cast<Index>(h));
-          if (length > limit_ && (mesh_.isBoundary(h) || h < mesh_.twin[h]))
+          const std::array<double, 3> lengths = squaredLengths(f);
+          for (Index i = 0; i < 3; ++i)
           {
-            found[begin / kChunkFaces].push_back({ length, static_cast<Index>(h) });
+            // The twin of a boundary half-edge is above all others.
+            if (lengths[i] > limit_ && 3 * f + i < mesh_.twin[3 * f + i])
+            {
+              found[begin / kChunkFaces].push_back({ lengths[i], 3 * f + i });
+            }
           }
         }
       });
@@ -181,14 +189,14 @@ private:
     }
   }
 
-  void findScales(const PreparedSurface& surface, double maximumLength)
+  void findScales(const PreparedSurface& surface, double maximumLength, int threads)
   {
     if (surface.components == 1 && mesh_.sizing.empty() &&
-      surface.area > kSurelyLargeSurface * maximumLength * maximumLength)
+      surface.area > kSurelyNotSmall * maximumLength * maximumLength)
     {
       return;
     }
-    const ComponentSizes sizes = measureComponents(mesh_);
+    const ComponentSizes sizes = measureComponents(mesh_, threads);
     const auto scale = [&](Index c) { return triangulationScale(sizes.area[c], maximumLength); };
     std::vector<double> ofComponent;
     bool anySmall = false;
@@ -201,6 +209,19 @@ private:
     {
       scale_.push_back(ofComponent[sizes.componentOfFace[f]]);
     }
+  }
+
+  /// Of the three edges of a face.
+  std::array<double, 3> squaredLengths(Index f) const
+  {
+    if (!mesh_.sizing.empty() || !scale_.empty())
+    {
+      return { squaredLength(3 * f), squaredLength(3 * f + 1), squaredLength(3 * f + 2) };
+    }
+    const Vector3& a = mesh_.position[mesh_.origin[3 * f]];
+    const Vector3& b = mesh_.position[mesh_.origin[3 * f + 1]];
+    const Vector3& c = mesh_.position[mesh_.origin[3 * f + 2]];
+    return { (b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm() };
   }
 
   /// In sizes, the same from both sides.

@@ -23,6 +23,8 @@ constexpr double kQuadsOfSphere = 6;
 constexpr double kQuadsOfDisc = 4;
 constexpr double kQuadsOfHandle = 16;
 constexpr double kQuadsOfLoop = 8;
+/// An area is known to this factor without summing it up anew.
+constexpr double kMoreThanRounding = 1.001;
 
 /// Loops of the boundary in each component.
 std::vector<std::size_t> countLoops(const Mesh& mesh, const ComponentSizes& sizes)
@@ -65,6 +67,17 @@ std::vector<long long> countEuler(const Mesh& mesh, const ComponentSizes& sizes)
   return twice;
 }
 
+/// quadsOfBlock for a mesh of one component in which each vertex has a face.
+double blockOfConnected(const Mesh& mesh, int threads)
+{
+  const std::vector<Index> boundary = boundaryHalfEdges(mesh, threads);
+  const auto edges =
+    static_cast<long long>((std::size_t{ mesh.halfEdgeCount() } + boundary.size()) / 2);
+  return quadsOfBlock(
+    static_cast<long long>(mesh.vertexCount()) - edges + static_cast<long long>(mesh.faceCount()),
+    countBoundaryLoops(mesh, boundary));
+}
+
 } // namespace
 
 double triangulationScale(double area, double edgeLength)
@@ -83,11 +96,11 @@ double quadsOfBlock(long long eulerCharacteristic, std::size_t boundaryLoops)
   return kQuadsOfDisc + kQuadsOfLoop * (loops - 1) + kQuadsOfHandle * handles;
 }
 
-ComponentSizes measureComponents(const Mesh& mesh)
+ComponentSizes measureComponents(const Mesh& mesh, int threads)
 {
   ComponentSizes sizes;
   Index count = 0;
-  sizes.componentOfFace = faceComponents(mesh, count);
+  sizes.componentOfFace = faceComponents(mesh, count, threads);
   sizes.area.assign(count, 0.0);
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
@@ -104,17 +117,19 @@ ComponentSizes measureComponents(const Mesh& mesh)
 }
 
 SmallComponents findSmallComponents(
-  const PreparedSurface& surface, double edgeLength, double mostQuads)
+  const PreparedSurface& surface, double edgeLength, double mostQuads, int threads)
 {
   SmallComponents small;
   const Mesh& mesh = surface.mesh;
   const double quad = edgeLength * edgeLength;
   small.components = surface.components;
-  if (surface.components <= 1 && mesh.sizing.empty() && surface.area > kSurelyLargeSurface * quad)
+  if (surface.components <= 1 && mesh.sizing.empty() &&
+    (surface.area > kSurelyLargeSurface * quad ||
+      surface.area > kMoreThanRounding * blockOfConnected(mesh, threads) * quad))
   {
     return small;
   }
-  const ComponentSizes sizes = measureComponents(mesh);
+  const ComponentSizes sizes = measureComponents(mesh, threads);
   small.components = sizes.area.size();
   Index largest = kInvalidIndex;
   const auto isSmall = [&](Index c)

@@ -36,7 +36,7 @@ struct ComponentSizes
   std::vector<double> block;          ///< see quadsOfBlock
 };
 /// Linear. The mesh passes validate(), but for vertices without faces.
-ComponentSizes measureComponents(const Mesh& mesh);
+ComponentSizes measureComponents(const Mesh& mesh, int threads = 1);
 
 /// One of them.
 struct SmallComponent
@@ -59,9 +59,9 @@ struct SmallComponents
   std::vector<SmallComponent> each;  ///< by their lowest faces
 };
 /// For quads of edge length s > 0; mostQuads: only those with less area than so many quads. Linear, and next to nothing
-/// for a large connected surface.
+/// for a large connected surface. threads: 0: all.
 SmallComponents findSmallComponents(const PreparedSurface& surface, double edgeLength,
-  double mostQuads = std::numeric_limits<double>::infinity());
+  double mostQuads = std::numeric_limits<double>::infinity(), int threads = 1);
 
 /// Removes the small components; at least one component stays, so where all are small all stay. Area, components and
 /// hash follow, and requests at their vertices go. Returns how many went.

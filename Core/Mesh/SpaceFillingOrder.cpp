@@ -5,6 +5,7 @@
 #include "Base/LargeArray.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Mesh/PointSets.h"
 
 #include <algorithm>
 #include <cstring>
@@ -92,14 +93,9 @@ std::uint64_t interleave(const Cells<kCount>& cell, std::size_t i)
 
 std::vector<std::uint64_t> computeKeys(const std::vector<Vector3>& points, int threads)
 {
-  Vector3 low = Vector3::Constant(std::numeric_limits<double>::max());
-  Vector3 high = -low;
-  for (const Vector3& p : points)
-  {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const double extent = points.empty() ? 0 : (high - low).maxCoeff();
+  const PointBox box = boxOfPoints(points, threads);
+  const Vector3& low = box.low;
+  const double extent = (box.high - box.low).maxCoeff();
   const double last = (1 << kCellBits) - 1;
   const double scale = extent > 0 ? last / extent : 0;
 
@@ -255,25 +251,18 @@ bool isRemoved(const Mesh& mesh, Index f)
 }
 
 /// Drops the vertices without a face; returns the old ids of the others, or nothing when all stay.
-std::vector<Index> dropUnused(Mesh& mesh)
+std::vector<Index> dropUnused(Mesh& mesh, int threads)
 {
-  std::vector<std::uint8_t> used(mesh.vertexCount(), 0);
-  for (const Index v : mesh.origin)
-  {
-    if (v != kInvalidIndex)
-    {
-      used[v] = 1;
-    }
-  }
+  const UsedPoints used(mesh.origin, mesh.vertexCount(), threads);
   std::vector<Index> kept;
-  if (std::find(used.begin(), used.end(), std::uint8_t{ 0 }) == used.end())
+  if (used.hasAll(threads))
   {
     return kept;
   }
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
     pollNowAndThen(v);
-    if (used[v] != 0)
+    if (used.has(v))
     {
       mesh.position[kept.size()] = mesh.position[v];
       if (!mesh.sizing.empty())
@@ -288,12 +277,28 @@ std::vector<Index> dropUnused(Mesh& mesh)
   return kept;
 }
 
+/// newId: of each element; kInvalidIndex for those that go. Elements behind the names have none.
+void orderNames(const std::vector<Index>& newId, std::size_t count, std::vector<Index>& names)
+{
+  names.resize(newId.size(), kInvalidIndex);
+  std::vector<Index> ordered(count);
+  for (std::size_t i = 0; i < newId.size(); ++i)
+  {
+    pollNowAndThen(i);
+    if (newId[i] != kInvalidIndex)
+    {
+      ordered[newId[i]] = names[i];
+    }
+  }
+  names.swap(ordered);
+}
+
 /// Puts the vertices that have a face into curve order and renames the corners.
 void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
 {
   Mesh& mesh = surface.mesh;
   std::vector<Index> newId(mesh.vertexCount(), kInvalidIndex);
-  const std::vector<Index> kept = dropUnused(mesh);
+  const std::vector<Index> kept = dropUnused(mesh, threads);
   {
     const std::vector<Index> order = spaceFillingOrder(mesh.position, threads);
     permute.operator()<1>(mesh.position, order);
@@ -301,10 +306,17 @@ void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
     {
       permute.operator()<1>(mesh.sizing, order);
     }
-    for (Index i = 0; i < order.size(); ++i)
+    parallelFor(order.size(), kOrderChunk, threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          newId[kept.empty() ? order[i] : kept[order[i]]] = static_cast<Index>(i);
+        }
+      });
+    if (surface.namesBefore)
     {
-      pollNowAndThen(i);
-      newId[kept.empty() ? order[i] : kept[order[i]]] = i;
+      orderNames(newId, order.size(), surface.namesBefore->vertex);
     }
   }
   parallelFor(mesh.origin.size(), kOrderChunk, threads,
@@ -329,34 +341,93 @@ void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
     [](const SectorRequest& a, const SectorRequest& b) { return a.vertex < b.vertex; });
 }
 
-/// Faces that are left, by their lowest vertex; ties keep their order.
-std::vector<Index> facesByLowestVertex(const Mesh& mesh)
+/// A face under the name of its lowest vertex.
+struct NamedFace
 {
-  const auto lowest = [&mesh](Index f) {
-    return std::min({ mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2] });
-  };
-  std::vector<Index> begin(std::size_t{ mesh.vertexCount() } + 1, 0);
-  for (Index f = 0; f < mesh.faceCount(); ++f)
+  Index lowest;
+  Index face;
+};
+
+/// Sorts the faces of a bucket, whose lowest vertices are in [first, first + width), by these; ties keep their order.
+void sortFaceBucket(
+  const NamedFace* faces, std::size_t count, Index first, std::size_t width, Index* order)
+{
+  std::vector<Index> begin(width + 1, 0);
+  for (std::size_t i = 0; i < count; ++i)
   {
-    pollNowAndThen(f);
-    if (!isRemoved(mesh, f))
-    {
-      ++begin[lowest(f) + 1];
-    }
+    ++begin[faces[i].lowest - first + 1];
   }
-  for (std::size_t v = 1; v < begin.size(); ++v)
+  for (std::size_t v = 1; v <= width; ++v)
   {
     begin[v] += begin[v - 1];
   }
-  std::vector<Index> order(begin.back());
-  for (Index f = 0; f < mesh.faceCount(); ++f)
+  for (std::size_t i = 0; i < count; ++i)
   {
-    pollNowAndThen(f);
-    if (!isRemoved(mesh, f))
+    order[begin[faces[i].lowest - first]++] = faces[i].face;
+  }
+}
+
+/// Faces that are left, by their lowest vertex; ties keep their order. First into buckets of vertices, chunk by chunk,
+/// then each bucket by itself.
+std::vector<Index> facesByLowestVertex(const Mesh& mesh, int threads)
+{
+  const auto lowest = [&mesh](std::size_t f) {
+    return std::min({ mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2] });
+  };
+  const std::size_t width = mesh.vertexCount() / kBuckets + 1;
+  const std::size_t chunks = (std::size_t{ mesh.faceCount() } + kOrderChunk - 1) / kOrderChunk;
+  std::vector<std::array<Index, kBuckets>> next(chunks);
+  parallelFor(mesh.faceCount(), kOrderChunk, threads,
+    [&](std::size_t begin, std::size_t end)
     {
-      order[begin[lowest(f)]++] = f;
+      std::array<Index, kBuckets>& count = next[begin / kOrderChunk];
+      count.fill(0);
+      for (std::size_t f = begin; f < end; ++f)
+      {
+        if (!isRemoved(mesh, static_cast<Index>(f)))
+        {
+          ++count[lowest(f) / width];
+        }
+      }
+    });
+  std::vector<Index> begin(kBuckets + 1);
+  Index sum = 0;
+  for (std::size_t bucket = 0; bucket < kBuckets; ++bucket)
+  {
+    begin[bucket] = sum;
+    for (std::array<Index, kBuckets>& chunk : next)
+    {
+      sum += chunk[bucket];
+      chunk[bucket] = sum - chunk[bucket];
     }
   }
+  begin[kBuckets] = sum;
+  std::vector<NamedFace> faces;
+  growLarge(faces, sum);
+  parallelFor(mesh.faceCount(), kOrderChunk, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      std::array<Index, kBuckets>& place = next[first / kOrderChunk];
+      for (std::size_t f = first; f < last; ++f)
+      {
+        if (!isRemoved(mesh, static_cast<Index>(f)))
+        {
+          const Index v = lowest(f);
+          faces[place[v / width]++] = { v, static_cast<Index>(f) };
+        }
+      }
+    });
+  std::vector<Index> order;
+  growLarge(order, sum);
+  parallelFor(kBuckets, 16, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t b = first; b < last; ++b)
+      {
+        sortFaceBucket(faces.data() + begin[b], begin[b + 1] - begin[b],
+          static_cast<Index>(b * width), width, order.data() + begin[b]);
+      }
+    });
   return order;
 }
 
@@ -396,10 +467,15 @@ void orderTwins(Mesh& mesh, const std::vector<Index>& order, Permuter& permute)
   }
 }
 
-void orderFaces(PreparedSurface& surface, Permuter& permute)
+void orderFaces(PreparedSurface& surface, Permuter& permute, int threads)
 {
   Mesh& mesh = surface.mesh;
-  const std::vector<Index> order = facesByLowestVertex(mesh);
+  const std::vector<Index> order = facesByLowestVertex(mesh, threads);
+  if (surface.namesBefore)
+  {
+    surface.namesBefore->face.resize(mesh.faceCount(), kInvalidIndex);
+    permute.operator()<1>(surface.namesBefore->face, order);
+  }
   orderTwins(mesh, order, permute);
   permute.operator()<3>(mesh.origin, order);
   permute.operator()<3>(mesh.flags, order);
@@ -443,7 +519,7 @@ void orderSurface(PreparedSurface& surface, int threads)
 {
   Permuter permute(threads);
   orderVertices(surface, permute, threads);
-  orderFaces(surface, permute);
+  orderFaces(surface, permute, threads);
 }
 
 } // namespace quadrille

@@ -4,15 +4,21 @@
 
 #include "Base/Angles.h"
 #include "Base/Clock.h"
+#include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Mesh/CleanSurface.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/EdgeRuns.h"
 #include "Mesh/Features.h"
+#include "Mesh/PointSets.h"
 #include "Mesh/Repair.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/Triangulate.h"
+
+#include <algorithm>
+#include <utility>
 
 namespace quadrille
 {
@@ -44,31 +50,49 @@ void markFeatures(
   {
     markFeaturesByPatch(surface, input.patchIds);
   }
-  if (options.featureAngle)
+  if (options.featureAngle && input.detectedFeatures.empty())
   {
     surface.facets =
       markCreases(surface.mesh, *options.featureAngle, options.threads, input.precision);
   }
-  makeFlagsSymmetric(surface.mesh);
+  if (!input.patchIds.empty() || !input.featureEdges.empty())
+  {
+    makeFlagsSymmetric(surface.mesh); // features by angle are already
+  }
 }
 
-void measure(PreparedSurface& surface)
+/// The sum in the order of the faces.
+double areaOf(const Mesh& mesh, int threads)
 {
-  const Mesh& mesh = surface.mesh;
-  surface.area = 0;
-  for (Index h = 0; h < mesh.halfEdgeCount(); h += 3)
+  constexpr std::size_t kFacesAtOnce = std::size_t{ 1 } << 19;
+  constexpr std::size_t kAreaChunk = std::size_t{ 1 } << 15;
+  std::vector<double> areas(std::min<std::size_t>(kFacesAtOnce, mesh.faceCount()));
+  double area = 0;
+  for (std::size_t first = 0; first < mesh.faceCount(); first += kFacesAtOnce)
   {
-    pollNowAndThen(h);
-    surface.area += mesh.edgeVector(h).cross(mesh.edgeVector(h + 1)).norm() / 2;
+    const std::size_t count = std::min(kFacesAtOnce, mesh.faceCount() - first);
+    parallelFor(count, kAreaChunk, threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const Index h = static_cast<Index>(3 * (first + i));
+          areas[i] = mesh.edgeVector(h).cross(mesh.edgeVector(h + 1)).norm() / 2;
+        }
+      });
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      area += areas[i];
+    }
   }
-  Vector3 low = mesh.position.front();
-  Vector3 high = low;
-  for (const Vector3& p : mesh.position)
-  {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  surface.boundingBoxDiagonal = (high - low).norm();
+  return area;
+}
+
+void measure(PreparedSurface& surface, int threads)
+{
+  surface.area = areaOf(surface.mesh, threads);
+  const PointBox box = boxOfPoints(surface.mesh.position, threads);
+  surface.boundingBoxDiagonal = (box.high - box.low).norm();
 }
 
 } // namespace
@@ -105,32 +129,46 @@ SourceLocation PreparedSurface::locate(Index f, const std::array<double, 3>& wei
 
 PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& options)
 {
+  return prepareSurface(SurfaceInput(input), options);
+}
+
+PreparedSurface prepareSurface(SurfaceInput&& input, const PrepareOptions& options)
+{
   PreparedSurface surface;
   Stopwatch watch;
   checkOptions(options);
   report(options.progress, 0, "Checking the surface");
   checkInput(input, options.threads);
   poll();
-  triangulate(input, surface);
+  triangulate(input, surface, options.threads);
   requireFaces(surface);
+  const std::size_t points = input.points.size();
+  surface.mesh.position.swap(input.points);
+  std::vector<Index>().swap(input.polygonOffsets);
+  std::vector<Index>().swap(input.polygonPoints);
   double repairSeconds = watch.lap();
 
   report(options.progress, 0.2, "Ordering the surface");
   orderSurface(surface, options.threads);
-  surface.repair.isolatedPoints = input.points.size() - surface.mesh.vertexCount();
+  surface.repair.isolatedPoints = points - surface.mesh.vertexCount();
   const double orderSeconds = watch.lap();
 
   report(options.progress, 0.5, "Connecting the surface");
-  EdgeRuns runs(surface.mesh.origin, surface.mesh.vertexCount(), options.threads);
+  const bool isClean = connectCleanSurface(surface, options.threads);
   const double connectivitySeconds = watch.lap();
-  repairSurface(surface, std::move(runs), options.threads);
-  poll();
-  requireFaces(surface);
-  repairSeconds += watch.lap();
+  if (!isClean)
+  {
+    std::vector<Index>().swap(surface.mesh.twin);
+    repairSurface(surface,
+      EdgeRuns(surface.mesh.origin, surface.mesh.vertexCount(), options.threads), options.threads);
+    poll();
+    requireFaces(surface);
+    repairSeconds += watch.lap();
+  }
 
   report(options.progress, 0.8, "Finding features");
   markFeatures(surface, input, options);
-  measure(surface);
+  measure(surface, options.threads);
   collectRequests(input, surface, options.threads);
   collectSizing(input, surface);
   surface.hash = contentHash(surface.mesh, options.threads);

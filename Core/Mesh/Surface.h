@@ -9,6 +9,7 @@
 #include "Mesh/Guides.h"
 #include "Mesh/HeldVertices.h"
 #include "Mesh/Mesh.h"
+#include "Mesh/NamesBefore.h"
 #include "Mesh/SeamRequests.h"
 #include "Mesh/StraightRequests.h"
 
@@ -39,6 +40,9 @@ struct SurfaceInput
   std::vector<std::uint8_t>
     featureEdges; ///< empty or #P; bit i: edge from corner i to i+1 is a feature
   std::vector<std::int64_t> patchIds; ///< empty or #P; an edge between two values is a feature
+  /// Empty or #P; bits as in featureEdges: what was found on a finer surface that these polygons stand for. They are
+  /// features that nobody asked for, in place of those of PrepareOptions::featureAngle.
+  std::vector<std::uint8_t> detectedFeatures;
   /// Empty or #P: a direction that edges of the quads should have in the polygon, of any length; zero: free.
   std::vector<Vector3> guideDirections;
   std::vector<double>
@@ -141,6 +145,9 @@ struct PreparedSurface
   std::vector<SeamRequest> seams;              ///< as they were given, in the frame
   std::vector<StraightRequest> straight;       ///< as they were given, in the frame
 
+  /// Set by who wants to know what becomes of the elements; orderSurface keeps it.
+  std::optional<NamesBefore> namesBefore;
+
   /// Sub-stages with their seconds: repair, order, connectivity.
   std::vector<std::pair<std::string, double>> seconds;
   /// Empty, or why refineSurface left edges longer than it was asked to.
@@ -155,6 +162,9 @@ struct PreparedSurface
 /// a face of it), when nothing is left after repair, and for guides, valences and sizes as
 /// checkRequests, collectRequests and checkSizing do.
 PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& options);
+
+/// The same without a copy: the points and polygons of the input are used up.
+PreparedSurface prepareSurface(SurfaceInput&& input, const PrepareOptions& options);
 
 /// Splits edges longer than maximumEdgeLength times the size there, and times triangulationScale() in small components
 /// (conforming, at edge midpoints, longest first), and

@@ -166,6 +166,33 @@ std::string checkFans(const Mesh& mesh)
   return {};
 }
 
+/// The half-edges for which select(h) holds, ascending.
+template <typename Select>
+std::vector<Index> selectHalfEdges(const Mesh& mesh, int threads, const Select& select)
+{
+  constexpr std::size_t kSelectChunk = std::size_t{ 1 } << 17;
+  const std::size_t halfEdges = mesh.halfEdgeCount();
+  std::vector<std::vector<Index>> parts((halfEdges + kSelectChunk - 1) / kSelectChunk);
+  parallelFor(halfEdges, kSelectChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<Index>& part = parts[begin / kSelectChunk];
+      for (Index h = static_cast<Index>(begin); h < end; ++h)
+      {
+        if (select(h))
+        {
+          part.push_back(h);
+        }
+      }
+    });
+  std::vector<Index> selected;
+  for (const std::vector<Index>& part : parts)
+  {
+    selected.insert(selected.end(), part.begin(), part.end());
+  }
+  return selected;
+}
+
 /// The boundary half-edges, ascending, and the number of components.
 std::vector<Index> joinFaces(const Mesh& mesh, int threads, Index& components)
 {
@@ -198,22 +225,6 @@ std::vector<Index> joinFaces(const Mesh& mesh, int threads, Index& components)
     boundary.insert(boundary.end(), part.begin(), part.end());
   }
   return boundary;
-}
-
-Index countBoundaryLoops(const Mesh& mesh, const std::vector<Index>& boundary)
-{
-  Index loops = 0;
-  std::vector<bool> visited(boundary.empty() ? 0 : mesh.halfEdgeCount(), false);
-  for (std::size_t i = 0; i < boundary.size(); ++i)
-  {
-    pollNowAndThen(i);
-    loops += visited[boundary[i]] ? 0 : 1;
-    for (Index e = boundary[i]; !visited[e]; e = nextOnBoundary(mesh, e))
-    {
-      visited[e] = true;
-    }
-  }
-  return loops;
 }
 
 } // namespace
@@ -268,6 +279,34 @@ std::vector<Index> outgoingHalfEdges(const Mesh& mesh)
   return outgoing;
 }
 
+std::vector<Index> constrainedEdges(const Mesh& mesh, int threads)
+{
+  // The twin of a boundary half-edge is above all others.
+  return selectHalfEdges(
+    mesh, threads, [&](Index h) { return mesh.isConstrained(h) && h < mesh.twin[h]; });
+}
+
+std::vector<Index> boundaryHalfEdges(const Mesh& mesh, int threads)
+{
+  return selectHalfEdges(mesh, threads, [&](Index h) { return mesh.isBoundary(h); });
+}
+
+Index countBoundaryLoops(const Mesh& mesh, const std::vector<Index>& boundary)
+{
+  Index loops = 0;
+  std::vector<bool> visited(boundary.empty() ? 0 : mesh.halfEdgeCount(), false);
+  for (std::size_t i = 0; i < boundary.size(); ++i)
+  {
+    pollNowAndThen(i);
+    loops += visited[boundary[i]] ? 0 : 1;
+    for (Index e = boundary[i]; !visited[e]; e = nextOnBoundary(mesh, e))
+    {
+      visited[e] = true;
+    }
+  }
+  return loops;
+}
+
 std::vector<int> regularTurns(const Mesh& mesh)
 {
   std::vector<int> turns(mesh.vertexCount(), 4);
@@ -292,36 +331,31 @@ Index nextOnBoundary(const Mesh& mesh, Index h)
   return e;
 }
 
-std::vector<Index> faceComponents(const Mesh& mesh, Index& componentCount)
+std::vector<Index> faceComponents(const Mesh& mesh, Index& componentCount, int threads)
 {
-  std::vector<Index> component(mesh.faceCount(), kInvalidIndex);
-  std::vector<Index> stack;
-  std::size_t visited = 0;
-  componentCount = 0;
-  for (Index seed = 0; seed < mesh.faceCount(); ++seed)
-  {
-    pollNowAndThen(seed);
-    if (component[seed] != kInvalidIndex)
+  constexpr std::size_t kComponentChunk = std::size_t{ 1 } << 15;
+  DisjointSets faces(mesh.faceCount(), threads);
+  parallelFor(mesh.faceCount(), kComponentChunk, threads,
+    [&](std::size_t begin, std::size_t end)
     {
-      continue;
-    }
-    component[seed] = componentCount;
-    stack.push_back(seed);
-    while (!stack.empty())
-    {
-      pollNowAndThen(++visited);
-      const Index f = stack.back();
-      stack.pop_back();
-      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      for (Index f = static_cast<Index>(begin); f < end; ++f)
       {
-        if (!mesh.isBoundary(h) && component[Mesh::face(mesh.twin[h])] == kInvalidIndex)
+        for (Index h = 3 * f; h < 3 * f + 3; ++h)
         {
-          component[Mesh::face(mesh.twin[h])] = componentCount;
-          stack.push_back(Mesh::face(mesh.twin[h]));
+          if (mesh.twin[h] < h)
+          {
+            faces.join(f, Mesh::face(mesh.twin[h]));
+          }
         }
       }
-    }
-    ++componentCount;
+    });
+  std::vector<Index> component(mesh.faceCount());
+  componentCount = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    pollNowAndThen(f);
+    const Index root = faces.find(f); // the lowest face of its component
+    component[f] = root == f ? componentCount++ : component[root];
   }
   return component;
 }

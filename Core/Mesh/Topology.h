@@ -21,6 +21,9 @@ std::vector<Index> pairHalfEdges(
 /// (so that rotating counterclockwise visits the whole fan), kInvalidIndex for an isolated vertex.
 std::vector<Index> outgoingHalfEdges(const Mesh& mesh);
 
+/// One half-edge, the lower one, of each edge that is a feature or on the boundary; ascending.
+std::vector<Index> constrainedEdges(const Mesh& mesh, int threads = 1);
+
 /// Quarter turns of a map round each vertex (#V) where none is irregular: 4, on a boundary 2.
 std::vector<int> regularTurns(const Mesh& mesh);
 
@@ -28,7 +31,13 @@ std::vector<int> regularTurns(const Mesh& mesh);
 Index nextOnBoundary(const Mesh& mesh, Index h);
 
 /// Component id per face, numbered by lowest face id; the count comes back in componentCount.
-std::vector<Index> faceComponents(const Mesh& mesh, Index& componentCount);
+std::vector<Index> faceComponents(const Mesh& mesh, Index& componentCount, int threads = 1);
+
+/// The boundary half-edges, ascending.
+std::vector<Index> boundaryHalfEdges(const Mesh& mesh, int threads = 1);
+
+/// Loops of the boundary; halfEdges: boundaryHalfEdges of the mesh.
+Index countBoundaryLoops(const Mesh& mesh, const std::vector<Index>& halfEdges);
 
 struct TopologySummary
 {

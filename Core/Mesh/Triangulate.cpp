@@ -3,6 +3,7 @@
 #include "Mesh/Triangulate.h"
 
 #include "Base/LargeArray.h"
+#include "Base/Parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,8 @@ namespace quadrille
 
 namespace
 {
+
+constexpr std::size_t kTriangleChunk = 65536;
 
 /// One polygon's corner: the input point, and whether the edge to the next corner is a feature.
 struct Corner
@@ -254,51 +257,77 @@ bool isProperTriangle(const SurfaceInput& input, Index polygon)
     p[1] != p[2] && p[2] != p[0];
 }
 
-bool hasOnlyTriangles(const SurfaceInput& input)
+bool hasOnlyTriangles(const SurfaceInput& input, int threads)
 {
-  const Index polygons = static_cast<Index>(input.polygonOffsets.size() - 1);
-  Index polygon = 0;
-  while (polygon < polygons && isProperTriangle(input, polygon))
-  {
-    pollNowAndThen(polygon);
-    ++polygon;
-  }
-  return polygon == polygons;
+  const std::size_t polygons = input.polygonOffsets.size() - 1;
+  return firstRefused(polygons, kTriangleChunk, threads,
+           [&](std::size_t polygon)
+           { return isProperTriangle(input, static_cast<Index>(polygon)); }) == polygons;
 }
 
 /// The common case by whole arrays; element by element it took as long as the pairing of half-edges.
-void copyTriangles(const SurfaceInput& input, PreparedSurface& surface)
+void copyTriangles(const SurfaceInput& input, PreparedSurface& surface, int threads)
 {
   const std::size_t faces = input.polygonOffsets.size() - 1;
   growLarge(surface.mesh.origin, 3 * faces);
   growLarge(surface.mesh.flags, 3 * faces);
-  surface.sourcePoints.reserve(faces);
-  surface.sourcePolygon.reserve(faces);
-  for (std::size_t f = 0; f < faces; ++f)
+  growLarge(surface.sourcePoints, faces);
+  growLarge(surface.sourcePolygon, faces);
+  parallelFor(faces, kTriangleChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t f = begin; f < end; ++f)
+      {
+        const Triangle triangle = orderedTriangle(input.polygonPoints.data() + 3 * f,
+          input.featureEdges.empty() ? 0 : input.featureEdges[f], input.faceOrder);
+        surface.sourcePoints[f] = triangle.points;
+        surface.sourcePolygon[f] = static_cast<Index>(f);
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+          surface.mesh.origin[3 * f + i] = triangle.points[i];
+          surface.mesh.flags[3 * f + i] =
+            (triangle.features >> i & 1) != 0 ? kFeatureEdge | kRequestedFeature : 0;
+        }
+      }
+    });
+}
+
+/// The edges that detectedFeatures names, by the points at their ends.
+void markDetected(const SurfaceInput& input, PreparedSurface& surface)
+{
+  if (input.detectedFeatures.empty())
+  {
+    return;
+  }
+  for (Index f = 0; f < surface.mesh.faceCount(); ++f)
   {
     pollNowAndThen(f);
-    const Triangle triangle = orderedTriangle(input.polygonPoints.data() + 3 * f,
-      input.featureEdges.empty() ? 0 : input.featureEdges[f], input.faceOrder);
-    surface.sourcePoints.push_back(triangle.points);
-    surface.sourcePolygon.push_back(static_cast<Index>(f));
-    for (std::size_t i = 0; i < 3; ++i)
+    const Index polygon = surface.sourcePolygon[f];
+    const Index begin = input.polygonOffsets[polygon];
+    const Index corners = input.polygonOffsets[polygon + 1] - begin;
+    const unsigned bits = input.detectedFeatures[polygon];
+    for (Index i = 0; i < std::min<Index>(corners, 8); ++i)
     {
-      surface.mesh.origin[3 * f + i] = triangle.points[i];
-      surface.mesh.flags[3 * f + i] =
-        (triangle.features >> i & 1) != 0 ? kFeatureEdge | kRequestedFeature : 0;
+      const Index a = input.polygonPoints[begin + i];
+      const Index b = input.polygonPoints[begin + (i + 1) % corners];
+      for (Index h = 3 * f; h < 3 * f + 3 && (bits >> i & 1U) != 0; ++h)
+      {
+        const Index from = surface.mesh.origin[h], to = surface.mesh.target(h);
+        if ((from == a && to == b) || (from == b && to == a))
+        {
+          surface.mesh.flags[h] |= kFeatureEdge;
+        }
+      }
     }
   }
 }
 
-} // namespace
-
-void triangulate(const SurfaceInput& input, PreparedSurface& surface)
+void makeTriangles(const SurfaceInput& input, PreparedSurface& surface, int threads)
 {
   const Index polygons = static_cast<Index>(input.polygonOffsets.size() - 1);
-  copyLarge(input.points, surface.mesh.position);
-  if (hasOnlyTriangles(input))
+  if (hasOnlyTriangles(input, threads))
   {
-    copyTriangles(input, surface);
+    copyTriangles(input, surface, threads);
     return;
   }
   surface.mesh.origin.reserve(input.polygonPoints.size());
@@ -320,6 +349,14 @@ void triangulate(const SurfaceInput& input, PreparedSurface& surface)
       triangulatePolygon(input, polygon, surface);
     }
   }
+}
+
+} // namespace
+
+void triangulate(const SurfaceInput& input, PreparedSurface& surface, int threads)
+{
+  makeTriangles(input, surface, threads);
+  markDetected(input, surface);
 }
 
 } // namespace quadrille

@@ -8,10 +8,9 @@
 namespace quadrille
 {
 
-/// Fills mesh.position (all input points), mesh.origin (input point ids), mesh.flags (explicit
-/// features), sourcePolygon and sourcePoints of an empty surface, and counts triangulated and
-/// degenerate polygons. Corners that repeat their predecessor are dropped before. The input's sizes
-/// and ids must have been checked.
-void triangulate(const SurfaceInput& input, PreparedSurface& surface);
+/// Fills mesh.origin (input point ids), mesh.flags (explicit features), sourcePolygon and sourcePoints of an empty
+/// surface, whose mesh.position is left to the caller, and counts triangulated and degenerate polygons. Corners that
+/// repeat their predecessor are dropped before. The input's sizes and ids must have been checked. threads: 0: all.
+void triangulate(const SurfaceInput& input, PreparedSurface& surface, int threads = 1);
 
 } // namespace quadrille

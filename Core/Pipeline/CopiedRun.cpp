@@ -185,7 +185,7 @@ void CopiedRun::withFeatures(const std::function<void(Mesh&)>& act)
   const FlagsScope scope(mesh);
   const double sizedArea = mesh.sizing.empty() ? surface().area : quadrille::sizedArea(mesh);
   const double edgeLength = targetEdgeLength(options_, sizedArea, made_.diagonal);
-  FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, edgeLength);
+  FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, edgeLength, options_.threads);
   if (judgesCreases(options_))
   {
     removeFalseCreases(mesh, edgeLength, options_.threads, filtered);

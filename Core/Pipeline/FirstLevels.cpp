@@ -18,7 +18,10 @@ struct StoredShortLoops
 
 void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::string>& reused)
 {
-  const ResultKey key = KeyMaker(run.surface.key()).add(run.edgeLength).key();
+  const ResultKey key = KeyMaker(run.surface.key())
+                          .add(run.edgeLength)
+                          .add(std::uint64_t{ run.levels.hasFollowed() ? 1U : 0U })
+                          .key();
   if (run.store != nullptr)
   {
     if (const auto known = run.store->find<StoredShortLoops>(key))

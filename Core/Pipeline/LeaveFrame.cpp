@@ -248,14 +248,15 @@ void leaveFrame(RemeshResult& result, const PreparedSurface& made, const Frame& 
   }
 }
 
-void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points)
+void leaveFrame(
+  RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points, int threads)
 {
   leaveMeasures(result, frame);
   if (result.surface.mesh.position.empty())
   {
     return;
   }
-  std::vector<Vector3> positions = userPositions(result.surface, frame, points);
+  std::vector<Vector3> positions = userPositions(result.surface, frame, points, threads);
   leaveFrame(result.quads, result.surface.mesh, frame, positions);
   leaveFrame(result.coarse, frame, positions);
   leaveFrame(result.surface, frame, std::move(positions));

@@ -36,6 +36,7 @@ void leaveFrame(RemeshResult& result, const PreparedSurface& made, const Frame& 
   const std::vector<Vector3>& points);
 
 /// All of a result. points: FramedInput::points.
-void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points);
+void leaveFrame(
+  RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points, int threads = 1);
 
 } // namespace quadrille

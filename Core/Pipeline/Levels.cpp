@@ -28,6 +28,18 @@ ResultKey phase2Key(const HierarchyOptions& options)
   return key.add(static_cast<std::uint64_t>(options.cost)).add(std::uint64_t{ 1 }).key();
 }
 
+/// Of phase 1 without anything that is to be kept.
+ResultKey keyOfPlain(ResultKey surface, double edgeLength)
+{
+  return KeyMaker(surface).add(edgeLength).key();
+}
+
+/// Of levels that have followed.
+ResultKey keyOfFollowed(ResultKey surface, double edgeLength)
+{
+  return KeyMaker(keyOfPlain(surface, edgeLength)).add(std::uint64_t{ 1 }).key();
+}
+
 } // namespace
 
 std::size_t StoredLevels::bytes() const
@@ -47,7 +59,7 @@ bool Levels::recall(ResultKey wanted)
   }
   std::shared_ptr<StoredLevels> found =
     store_ != nullptr ? store_->find<StoredLevels>(wanted) : nullptr;
-  if (!found || found->surface != surface_.pointer())
+  if (!found || !found->levels || found->surface != surface_.pointer())
   {
     return false;
   }
@@ -79,7 +91,11 @@ void Levels::obtain(const HierarchyOptions& options)
 {
   stages_ = {};
   HierarchyOptions phase1 = options;
-  if (!isLocalChange(surface_->mesh, surface_.sizesBefore(), options.keepVertices.size()))
+  if (hasFollowed_ && (!isPlain(options) || plainKey(options) != heldKey_))
+  {
+    letGo();
+  }
+  if (!isPlain(options))
   {
     const ResultKey key =
       KeyMaker(surface_.key()).add(options.targetEdgeLength).add(options.keepVertices).key();
@@ -89,12 +105,60 @@ void Levels::obtain(const HierarchyOptions& options)
     }
     return;
   }
-  const ResultKey key = KeyMaker(surface_.keyWithoutSizes()).add(options.targetEdgeLength).key();
+  const ResultKey key = plainKey(options);
   if (!recall(key))
   {
     phase1.keepVertices.clear();
     surface_.withSizesBefore([&] { decimate(phase1, key); });
   }
+}
+
+bool Levels::isPlain(const HierarchyOptions& options) const
+{
+  return isLocalChange(surface_->mesh, surface_.sizesBefore(), options.keepVertices.size());
+}
+
+ResultKey Levels::plainKey(const HierarchyOptions& options) const
+{
+  return (hasFollowed_ ? keyOfFollowed : keyOfPlain)(
+    surface_.keyWithoutSizes(), options.targetEdgeLength);
+}
+
+std::unique_ptr<Redecimation> Levels::giveToFollow(const HierarchyOptions& options)
+{
+  if (!held_ || !isPlain(options) || heldKey_ != plainKey(options))
+  {
+    return nullptr;
+  }
+  std::unique_ptr<Redecimation> levels = std::move(held_->levels);
+  held_.reset(); // the store may have the rest, which counts as not there
+  return levels;
+}
+
+void Levels::follow(std::unique_ptr<Redecimation> levels, const HierarchyOptions& options)
+{
+  auto stored = std::make_shared<StoredLevels>();
+  stored->surface = surface_.pointer();
+  stored->levels = std::move(levels);
+  hasFollowed_ = true;
+  held_ = std::move(stored);
+  heldKey_ = plainKey(options);
+}
+
+std::shared_ptr<StoredLevels> Levels::findFollowed(ResultStore& store,
+  const std::shared_ptr<PreparedSurface>& surface, ResultKey surfaceKey, double edgeLength)
+{
+  std::shared_ptr<StoredLevels> found =
+    store.find<StoredLevels>(keyOfFollowed(surfaceKey, edgeLength));
+  return found && found->levels && found->surface == surface ? found : nullptr;
+}
+
+void Levels::follow(std::shared_ptr<StoredLevels> found, const HierarchyOptions& options)
+{
+  hasFollowed_ = true;
+  recalled_ = true;
+  held_ = std::move(found);
+  heldKey_ = plainKey(options);
 }
 
 const Level& Levels::makeIntermediate(const HierarchyOptions& options)
@@ -138,6 +202,7 @@ void Levels::letGo()
     store_->put(heldKey_, std::move(held_), bytes);
   }
   held_.reset();
+  hasFollowed_ = false;
 }
 
 } // namespace quadrille

@@ -48,6 +48,18 @@ public:
   /// Gives away what was made last; not where there is a store.
   Hierarchy take();
 
+  /// Levels that have followed a change by which the surface was made (Redecimation::follow) are others than those that
+  /// phase 1 makes of it. So that it does not matter what a store still has, they count only until they are let go.
+  /// Gives the levels of the surface without a plan away, from before a change; null where others are held.
+  std::unique_ptr<Redecimation> giveToFollow(const HierarchyOptions& options);
+  /// Takes them back, of a surface that has followed. options: those of makeIntermediate.
+  void follow(std::unique_ptr<Redecimation> levels, const HierarchyOptions& options);
+  bool hasFollowed() const { return hasFollowed_; }
+  /// The same from the store, which has them; null there where it has not.
+  static std::shared_ptr<StoredLevels> findFollowed(ResultStore& store,
+    const std::shared_ptr<PreparedSurface>& surface, ResultKey surfaceKey, double edgeLength);
+  void follow(std::shared_ptr<StoredLevels> found, const HierarchyOptions& options);
+
   int decimations() const { return decimations_; } ///< runs of phase 1
   bool recalled() const { return recalled_; }      ///< whether phase 1 was in the store
   /// Of the last make(): seconds and sizes of what was computed.
@@ -55,6 +67,8 @@ public:
 
 private:
   void obtain(const HierarchyOptions& options);
+  bool isPlain(const HierarchyOptions& options) const;
+  ResultKey plainKey(const HierarchyOptions& options) const;
   bool recall(ResultKey wanted);
   void decimate(const HierarchyOptions& options, ResultKey key);
 
@@ -64,6 +78,7 @@ private:
   ResultKey heldKey_ = 0;
   int decimations_ = 0;
   bool recalled_ = false;
+  bool hasFollowed_ = false;
   StageRecords stages_;
 };
 

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <utility>
@@ -121,6 +122,7 @@ struct StoredSettled
   SurfaceMarks marks;
   ResultKey key = 0;
   std::vector<SmallDetail> simplified;
+  bool hasFollowed = false; ///< its levels follow those of the surface before, see Levels
 };
 
 /// Of a surface that has no component of more handles than quads go round: an edit does not count them again.
@@ -192,7 +194,41 @@ private:
   {
     letGo();
     made_.bench = std::make_unique<RunBench>(sized_, options_, store_);
+    Levels& levels = made_.bench->levels;
+    if (levels_)
+    {
+      levels.follow(std::move(levels_), levelOptions(made_.bench->run, {}));
+    }
+    else if (storedLevels_)
+    {
+      levels.follow(std::move(storedLevels_), levelOptions(made_.bench->run, {}));
+    }
     findShortLoops(made_.bench->run, stages_, reused_);
+  }
+
+  /// Before the surface is changed: its elements are followed where there are levels that can be.
+  void beginChange()
+  {
+    PreparedSurface& surface = own();
+    if (made_.bench || levels_)
+    {
+      surface.namesBefore = NamesBefore::of(surface.mesh.vertexCount(), surface.mesh.faceCount());
+    }
+  }
+
+  /// Afterwards: takes the levels along, or lets them go.
+  void endChange(std::unique_ptr<Redecimation> levels)
+  {
+    PreparedSurface& surface = *sized_.surface;
+    HierarchyOptions options;
+    options.threads = options_.threads;
+    options.isConnected = surface.components == 1;
+    if (levels && surface.namesBefore &&
+      levels->follow(surface.mesh, surface.hash, *surface.namesBefore, options))
+    {
+      levels_ = std::move(levels);
+    }
+    surface.namesBefore.reset();
   }
 
   /// Of a surface that has changed.
@@ -232,7 +268,7 @@ private:
       return loops;
     }
     const SmallComponents small =
-      findSmallComponents(surface, sized_.edgeLength, quadsOfBlock(2, 0));
+      findSmallComponents(surface, sized_.edgeLength, quadsOfBlock(2, 0), options_.threads);
     if (small.count > 0)
     {
       std::vector<std::uint8_t> isSmall(surface.mesh.vertexCount(), 0);
@@ -263,6 +299,7 @@ private:
       places.push_back(sized_.surface->mesh.position[loop.vertices.front()]);
     }
     const std::size_t before = sized_.surface->mesh.faceCount();
+    beginChange();
     const std::vector<std::size_t> filled = fillHoles(own(), loops);
     for (const std::size_t i : filled)
     {
@@ -316,8 +353,9 @@ private:
     }
     const double start = secondsNow();
     const std::size_t before = sized_.surface->mesh.faceCount();
-    const std::vector<std::size_t> closed = closeHandles(
-      own(), places, kLongerAlongEdges * handleLimit_, kGirthOfLimb * sized_.edgeLength);
+    beginChange();
+    const std::vector<std::size_t> closed = closeHandles(own(), places,
+      kLongerAlongEdges * handleLimit_, kGirthOfLimb * sized_.edgeLength, options_.threads);
     for (const std::size_t i : closed)
     {
       note(DetailKind::Handle, lengths[i], at[i]);
@@ -334,7 +372,13 @@ private:
   {
     if (changed == 0)
     {
+      sized_.surface->namesBefore.reset();
       return;
+    }
+    std::unique_ptr<Redecimation> levels = std::move(levels_);
+    if (made_.bench)
+    {
+      levels = made_.bench->levels.giveToFollow(levelOptions(made_.bench->run, {}));
     }
     letGo();
     // What was left long for its number stays so: the bound grows with the faces that there are now.
@@ -343,6 +387,7 @@ private:
       refineSurface(*sized_.surface, sized_.edgeLength, {}, options_.threads);
     }
     sized_.key = KeyMaker(sized_.key).add(sized_.surface->hash).key();
+    endChange(std::move(levels));
     countBlocksAgain();
     stages_.add("simplify", secondsNow() - start, facesBefore, sized_.surface->mesh.faceCount());
   }
@@ -443,6 +488,10 @@ private:
       part.outside = level.fineVertex[part.outside];
     }
     const std::size_t before = sized_.surface->mesh.faceCount();
+    if (!parts.empty())
+    {
+      beginChange();
+    }
     const std::vector<std::size_t> removed = parts.empty()
       ? std::vector<std::size_t>()
       : cutThinParts(own(), parts, kLongerAlongEdges, kQuadsOfThinPart * quad);
@@ -471,7 +520,8 @@ private:
       return false;
     }
     const double quad = sized_.edgeLength * sized_.edgeLength;
-    const SmallComponents small = findSmallComponents(*sized_.surface, sized_.edgeLength);
+    const SmallComponents small = findSmallComponents(*sized_.surface, sized_.edgeLength,
+      std::numeric_limits<double>::infinity(), options_.threads);
     const auto found = std::find_if(small.each.begin(), small.each.end(),
       [&](const SmallComponent& component)
       {
@@ -520,6 +570,14 @@ private:
     {
       return false;
     }
+    if (known->hasFollowed)
+    {
+      storedLevels_ = Levels::findFollowed(*store_, known->surface, known->key, sized_.edgeLength);
+      if (!storedLevels_)
+      {
+        return false;
+      }
+    }
     sized_.surface = known->surface;
     putOn(known->marks, *sized_.surface);
     takeRequests();
@@ -542,6 +600,7 @@ private:
     forgetRequests(stored->marks);
     stored->key = sized_.key;
     stored->simplified = made_.details;
+    stored->hasFollowed = made_.bench && made_.bench->levels.hasFollowed();
     const std::size_t bytes = bytesOf(*stored->surface) + stored->marks.bytes();
     store_->put(key_, std::move(stored), bytes);
   }
@@ -557,7 +616,7 @@ private:
     const bool isSame = std::equal(before.begin(), before.end(), surface.valenceRequests.begin(),
       surface.valenceRequests.end(),
       [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex == b.vertex; });
-    if (!isSame)
+    if (!isSame && !(made_.bench && made_.bench->levels.hasFollowed()))
     {
       letGo(); // its levels hold other vertices
     }
@@ -594,6 +653,8 @@ private:
   bool isThinning_ = false; ///< thin parts are too many, or nothing else has led to quads
   bool isOwn_ = false;
   ResultKey key_ = 0;
+  std::unique_ptr<Redecimation> levels_;       ///< that have followed, for the next bench
+  std::shared_ptr<StoredLevels> storedLevels_; ///< the same from the store
   Settled made_;
 };
 

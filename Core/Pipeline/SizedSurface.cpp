@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -33,6 +34,7 @@ constexpr double kToldFactor = 1.05;
 
 /// Components with less area are left out where there are too many small ones.
 constexpr double kQuadsOfSpeck = 1;
+constexpr double kAnyNumber = std::numeric_limits<double>::infinity();
 
 /// How often the edge length is chosen anew where sizes that grow gradually make too many quads, and when it is good.
 constexpr int kSizingRounds = 3;
@@ -173,14 +175,15 @@ void noteComponents(const SmallComponents& small, double edgeLength, const Text&
 }
 
 /// From the store where it has them.
-StoredSmallComponents smallComponents(const SizedSurface& sized, ResultStore* store)
+StoredSmallComponents smallComponents(const SizedSurface& sized, ResultStore* store, int threads)
 {
   const auto known = store != nullptr ? store->find<StoredSmallComponents>(sized.key) : nullptr;
   if (known)
   {
     return *known;
   }
-  StoredSmallComponents found{ findSmallComponents(*sized.surface, sized.edgeLength),
+  StoredSmallComponents found{ findSmallComponents(
+                                 *sized.surface, sized.edgeLength, kAnyNumber, threads),
     areaOverSizes(*sized.surface) };
   found.small.isSmall = {};
   if (store != nullptr)
@@ -250,9 +253,10 @@ private:
     prepareOptions.threads = options_.threads;
     prepareOptions.progress = subProgress(options_.progress, 0.0, 0.1, "Preparing: ");
     requestsKey_ = options_.closeHandles > 0 ? requestsKey(input_) : 0;
-    made_.surface = std::make_shared<PreparedSurface>(prepareSurface(input_, prepareOptions));
     const std::size_t polygons =
       input_.polygonOffsets.empty() ? 0 : input_.polygonOffsets.size() - 1;
+    made_.surface =
+      std::make_shared<PreparedSurface>(prepareSurface(std::move(input_), prepareOptions));
     SurfaceInput later; // what placeHeld still needs
     later.held = std::move(input_.held);
     later.targetValences =
@@ -521,24 +525,29 @@ private:
   {
     Mesh& mesh = made_.surface->mesh;
     std::vector<std::uint8_t> before = mesh.flags;
-    FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, made_.edgeLength);
-    noteGivenUp(FeatureLoss::Unresolved, before);
+    FeatureFilterReport filtered =
+      removeUnresolvedFeatures(mesh, made_.edgeLength, options_.threads);
+    noteGivenUp(FeatureLoss::Unresolved, filtered.removedEdges > 0, before);
     CreaseReport creases;
     if (judgesCreases(options_))
     {
       creases = removeFalseCreases(mesh, made_.edgeLength, options_.threads, filtered);
-      noteGivenUp(FeatureLoss::NoCrease, before);
+      noteGivenUp(FeatureLoss::NoCrease, creases.removedEdges > 0, before);
     }
     const NetworkReport network = simplifyFeatureNetwork(mesh, made_.edgeLength, filtered);
-    noteGivenUp(FeatureLoss::ShortArc, before);
+    noteGivenUp(FeatureLoss::ShortArc, network.removedEdges > 0, before);
     tell(featureNotice(filtered));
     tell(creases.text());
     tell(network.text());
   }
 
-  /// What a step has unmarked; `before` becomes what it has left.
-  void noteGivenUp(FeatureLoss reason, std::vector<std::uint8_t>& before)
+  /// What a step has unmarked, where it did; `before` becomes what it has left.
+  void noteGivenUp(FeatureLoss reason, bool any, std::vector<std::uint8_t>& before)
   {
+    if (!any)
+    {
+      return;
+    }
     const Mesh& mesh = made_.surface->mesh;
     const std::vector<Index> lost = lostFeatures(mesh, before);
     if (!lost.empty())
@@ -559,14 +568,16 @@ private:
     {
       return;
     }
-    SmallComponents small = findSmallComponents(*made_.surface, made_.edgeLength);
+    SmallComponents small =
+      findSmallComponents(*made_.surface, made_.edgeLength, kAnyNumber, options_.threads);
     if (!isAsked)
     {
       if (small.quads <= static_cast<double>(made_.targetQuads))
       {
         return;
       }
-      small = findSmallComponents(*made_.surface, made_.edgeLength, kQuadsOfSpeck);
+      small =
+        findSmallComponents(*made_.surface, made_.edgeLength, kQuadsOfSpeck, options_.threads);
     }
     const std::size_t removed = quadrille::removeSmallComponents(*made_.surface, small);
     hasDropped_ = removed > 0;
@@ -626,7 +637,7 @@ private:
 void countBlocks(SizedSurface& sized, const RemeshOptions& options, ResultStore* store)
 {
   const double quad = sized.edgeLength * sized.edgeLength;
-  const StoredSmallComponents known = smallComponents(sized, store);
+  const StoredSmallComponents known = smallComponents(sized, store, options.threads);
   const SmallComponents& small = known.small;
   sized.blocks.clear();
   sized.blocksNotice.clear();

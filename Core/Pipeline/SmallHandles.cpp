@@ -84,8 +84,8 @@ ClosedHandles closeSmallHandles(
     {
       at.push_back(surface.mesh.position[loop.front()]);
     }
-    const std::vector<std::size_t> closedHere =
-      closeHandles(surface, places, kLongerAlongEdges * limit, kGirthOfLimb * edgeLength);
+    const std::vector<std::size_t> closedHere = closeHandles(
+      surface, places, kLongerAlongEdges * limit, kGirthOfLimb * edgeLength, options.threads);
     if (closedHere.empty())
     {
       break;
