@@ -3,7 +3,7 @@
 #include "QuadrillePly.h"
 
 #include "Base/Error.h"
-#include "QuadrillePlyRows.h"
+#include "QuadrilleFixedRows.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

@@ -20,6 +20,7 @@
 #include <vtkQuadrilleFileReader.h>
 #include <vtkQuadrilleOFFReader.h>
 #include <vtkQuadrillePLYReader.h>
+#include <vtkQuadrilleSTLReader.h>
 #include <vtkQuadrilleUniquePoints.h>
 #include <vtkSTLReader.h>
 #include <vtkSmartPointer.h>
@@ -298,7 +299,9 @@ vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path, int threads)
   }
   if (extension == "stl")
   {
-    return readWith<StlReader>(path);
+    return vtkQuadrilleSTLReader::CanReadFile(path.c_str())
+      ? readWithOurs<vtkQuadrilleSTLReader>(path, threads)
+      : readWith<StlReader>(path);
   }
   if (extension == "vtp")
   {

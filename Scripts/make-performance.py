@@ -11,21 +11,26 @@ into four and its points moved at random by up to a tenth of their shortest edge
 alternate, so that a busy machine disturbs all alike; a figure is the median of the repeats. The tables replace what
 stands between the two marks in the page; what is around them is written by hand. --replay writes the table of the
 replay over all scans of --data instead, --coarse that of the coarse level over all of its scan, cad and open,
---extraction that of the extraction from DATA/scan/bunny_ct.ply. Needs Debian's python3 with numpy.
+--extraction that of the extraction from DATA/scan/bunny_ct.ply, --sizes that of whole runs of the command over four
+sizes of that scan, from file to file. Needs Debian's python3 with numpy; --sizes also the Python module quadrille.
 """
 import argparse
 import csv
 import io
+import json
+import os
 import pathlib
 import statistics
 import subprocess
 import sys
+import tempfile
+import time
 
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Names of the marks round generated parts of the page.
-TABLES, REPLAY, COARSE, EXTRACTION = "tables", "replay", "coarse", "extraction"
+TABLES, REPLAY, COARSE, EXTRACTION, ANY_SIZE = "tables", "replay", "coarse", "extraction", "sizes"
 REPLAY_QUADS = [1000, 2500, 10000]
 COARSE_QUADS = 2500
 COARSE_LIMIT = 1200 # vertices; levels that features or handles hold above are not what the aims are about
@@ -82,15 +87,20 @@ def shuffled(points, faces):
     return points[order], place[faces][random.permutation(len(faces))]
 
 
-def subdivided(points, faces):
-    """Every face into four, every point moved at random by up to a tenth of its shortest edge."""
+def cutInFour(points, faces):
+    """Every face into four by the middles of its edges."""
     edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
     keys, inverse = np.unique(edges[:, 0] * len(points) + edges[:, 1], return_inverse=True)
     first, second = keys // len(points), keys % len(points)
     ab, bc, ca = len(points) + inverse.reshape(3, -1)
     a, b, c = faces.T
     finer = np.concatenate([np.stack(f, 1) for f in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
-    every = np.concatenate([points, 0.5 * (points[first] + points[second])])
+    return np.concatenate([points, 0.5 * (points[first] + points[second])]), finer
+
+
+def subdivided(points, faces):
+    """Every face into four, every point moved at random by up to a tenth of its shortest edge."""
+    every, finer = cutInFour(points, faces)
     reach = np.full(len(every), np.inf)
     for i, j in ((0, 1), (1, 2), (2, 0)):
         length = np.linalg.norm(every[finer[:, i]] - every[finer[:, j]], axis=1)
@@ -279,6 +289,101 @@ def extractionTable(seconds):
     return "\n".join(lines)
 
 
+# Faces of the scan's versions that are coarser than it is.
+COARSER = {"125 k": 125000, "500 k": 500000}
+# The rows of the table over sizes: a name and the stages whose seconds it adds up; the rest of the run is "other".
+PARTS = [("read", ["read"]), ("repair", ["repair"]), ("order", ["order"]), ("connectivity", ["connectivity"]),
+         ("refine", ["refine"]), ("phase 1", ["phase1"]), ("handles", ["handles", "simplify"]), ("phase 2", ["phase2"]),
+         ("field and map", ["field", "seamless", "quantize", "embed"]), ("replay", ["replay"]),
+         ("certify", ["certify"]), ("extract", ["extract"])]
+
+
+def coarser(scan, faces):
+    """The scan thinned out by our own decimation to about so many faces, which leaves it a manifold."""
+    import quadrille
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    levels = quadrille.vtkDecimationHierarchy()
+    levels.SetInputData(quadrille.read(str(scan)))
+    quads = faces / 2.8 # phase 1 leaves 1.4 vertices a quad
+    for _ in range(3):
+        levels.SetNumberOfQuads(round(quads))
+        levels.SetTargetTypeToNumberOfQuads()
+        levels.Update()
+        level = levels.GetOutput(1)
+        quads *= faces / level.GetNumberOfPolys()
+    return (vtk_to_numpy(level.GetPoints().GetData()),
+            vtk_to_numpy(level.GetPolys().GetConnectivityArray()).reshape(-1, 3))
+
+
+def makeSizes(folder, scan):
+    folder.mkdir(parents=True, exist_ok=True)
+    meshes = {}
+    for name, faces in COARSER.items():
+        meshes[name] = folder / f"bunny_ct_{name.replace(' ', '')}.ply"
+        if not meshes[name].exists():
+            print(f"making {meshes[name]}", flush=True)
+            writePly(meshes[name], *coarser(scan, faces))
+    meshes["2 M"] = scan
+    meshes["8 M"] = folder / "bunny_ct_in_four.ply"
+    if not meshes["8 M"].exists():
+        print(f"making {meshes['8 M']}", flush=True)
+        writePly(meshes["8 M"], *cutInFour(*readPly(scan)))
+    return meshes
+
+
+def wholeRuns(program, meshes, threads, repeat, quads):
+    """{(mesh, threads): figures of each run}: seconds of the stages and of the process, faces, peak memory."""
+    results = {}
+    with tempfile.TemporaryDirectory() as folder:
+        report, output = os.path.join(folder, "report.json"), os.path.join(folder, "quads.vtp")
+        for turn in range(repeat):
+            for name, path in meshes.items():
+                for count in threads:
+                    print(f"run {turn + 1} of {repeat}: {name}, {count} threads", flush=True)
+                    start = time.perf_counter()
+                    run = subprocess.Popen([program, path, output, "--quads", str(quads), "--threads", str(count),
+                                            "--report", report, "--quiet"])
+                    _, status, usage = os.wait4(run.pid, 0)
+                    seconds = time.perf_counter() - start
+                    if status != 0:
+                        raise SystemExit(f"{path} gave no quads")
+                    with open(report, encoding="utf-8") as file:
+                        told = json.load(file)
+                    stages = {}
+                    for row in told["stages"]:
+                        stages[row["stage"]] = stages.get(row["stage"], 0) + row["seconds"]
+                    figures = {part: sum(stages.get(stage, 0) for stage in of) for part, of in PARTS}
+                    figures["other"] = seconds - sum(figures.values())
+                    figures.update(whole=seconds, processor=usage.ru_utime + usage.ru_stime,
+                                   faces=told["input_cells"], memory=usage.ru_maxrss * 1024)
+                    results.setdefault((name, count), []).append(figures)
+    return results
+
+
+def sizesTable(results, threads):
+    names = [name for name, count in results if count == threads]
+    lines = ["| stage | " + " | ".join(names) + " |", "|---|" + "---:|" * len(names)]
+
+    def middle(name, figure):
+        return statistics.median(run[figure] for run in results[name, threads])
+
+    def line(title, value):
+        lines.append(f"| {title} | " + " | ".join(value(name) for name in names) + " |")
+
+    line("faces", lambda name: f"{int(middle(name, 'faces')):,}")
+    for part in [part for part, _ in PARTS] + ["other"]:
+        line(part, lambda name: f"{middle(name, part):.3f}")
+    line("**whole run**", lambda name: f"{middle(name, 'whole'):.2f}")
+    line("processor", lambda name: f"{middle(name, 'processor'):.2f}")
+    line("whole run over phase 1", lambda name: "{:.2f}".format(
+        statistics.median(run["whole"] / run["phase 1"] for run in results[name, threads])))
+    line("whole run, ns a face", lambda name: f"{middle(name, 'whole') / middle(name, 'faces') * 1e9:.0f}")
+    line("processor, ns a face", lambda name: f"{middle(name, 'processor') / middle(name, 'faces') * 1e9:.0f}")
+    line("peak memory, bytes a face", lambda name: f"{middle(name, 'memory') / middle(name, 'faces'):.0f}")
+    return "\n".join(lines)
+
+
 def hasReplay(row):
     """A model whose map never got to the surface has no counts at all."""
     return row["ok"] == 1 or row["inverted_stars"] > 0
@@ -309,6 +414,9 @@ def main():
                         help="only the table of the coarse level over DATA/scan, cad and open")
     parser.add_argument("--extraction", action="store_true",
                         help="only the table of the extraction from DATA/scan/bunny_ct.ply")
+    parser.add_argument("--sizes", action="store_true",
+                        help="only the table of whole runs over sizes of DATA/scan/bunny_ct.ply, by the command "
+                             "quadrille beside quadrille-bench")
     arguments = parser.parse_args()
     page = pathlib.Path(arguments.markdown)
     if arguments.coarse:
@@ -324,6 +432,17 @@ def main():
             raise SystemExit("--extraction needs --data with scan/bunny_ct.ply")
         writePart(page, EXTRACTION, extractionTable(extractionRows(arguments.command, scan, arguments.repeat,
                                                                    arguments.quads)))
+        return 0
+    if arguments.sizes:
+        scan = pathlib.Path(arguments.data or "") / "scan" / "bunny_ct.ply"
+        if not arguments.data or not scan.exists():
+            raise SystemExit("--sizes needs --data with scan/bunny_ct.ply")
+        program = pathlib.Path(arguments.command).with_name("quadrille")
+        results = wholeRuns(program, makeSizes(pathlib.Path(arguments.out), scan), arguments.threads, arguments.repeat,
+                            arguments.quads)
+        writePart(page, ANY_SIZE, "\n\n".join(
+            f"Seconds with {count} thread{'s' if count > 1 else ''}, medians of {arguments.repeat}:\n\n"
+            f"{sizesTable(results, count)}" for count in arguments.threads))
         return 0
     if arguments.replay:
         scans = sorted((pathlib.Path(arguments.data or "") / "scan").glob("*.ply"))

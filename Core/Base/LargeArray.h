@@ -28,6 +28,13 @@ void growLarge(std::vector<T>& values, std::size_t count, const Value&... value)
   }
 }
 
+/// Room for a few elements more than `count`, so that changes at single places later move no array of this size.
+template <typename T>
+void reserveWithRoom(std::vector<T>& values, std::size_t count)
+{
+  values.reserve(count + count / 256 + 1024);
+}
+
 /// values.assign(count, value), with poll() in between.
 template <typename T>
 void fillLarge(std::vector<T>& values, std::size_t count, const T& value)

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
 #include <numeric>
 
 namespace quadrille
@@ -21,7 +22,7 @@ namespace
 
 /// Vertices of a block. Its half-edges, about six times as many, take 800 kB.
 constexpr Index kBlockVertices = 16384;
-constexpr std::size_t kFaceChunk = std::size_t{ 1 } << 15;
+constexpr std::size_t kCleanChunk = std::size_t{ 1 } << 15;
 
 Index lowestCorner(const Mesh& mesh, Index f)
 {
@@ -51,6 +52,7 @@ public:
   bool connect(std::vector<Index>& open)
   {
     passOn();
+    reserveWithRoom(mesh_.twin, mesh_.origin.size());
     growLarge(mesh_.twin, mesh_.origin.size());
     std::vector<std::vector<Index>> opens(count_);
     parallelFor(count_, 1, threads_,
@@ -209,71 +211,80 @@ private:
   std::atomic<bool> isClean_{ true };
 };
 
-/// Whether no half-edge of the same fan round the origin of h has a lower id. Looks both ways at once, so that even in
-/// a fan whose ids ascend or descend all the way round somebody's walk is long only where others' are short.
-bool isFirstOfFan(const Mesh& mesh, Index h)
+/// Half-edges of the fan of h round its origin.
+std::size_t fanSize(const Mesh& mesh, Index h)
 {
-  Index left = h, right = h;
-  while (left != kInvalidIndex || right != kInvalidIndex)
+  std::size_t count = 0;
+  Index g = h;
+  do
   {
-    for (const bool isLeft : { true, false })
+    ++count;
+    g = mesh.rotateCounterclockwise(g);
+  } while (g != h && g != kInvalidIndex);
+  if (g == kInvalidIndex)
+  {
+    for (g = mesh.rotateClockwise(h); g != kInvalidIndex; g = mesh.rotateClockwise(g))
     {
-      Index& g = isLeft ? left : right;
-      if (g == kInvalidIndex)
-      {
-        continue;
-      }
-      g = isLeft ? mesh.rotateCounterclockwise(g) : mesh.rotateClockwise(g);
-      if (g <= h)
-      {
-        return g == h;
-      }
+      ++count;
     }
   }
-  return true;
+  return count;
 }
 
-/// What one chunk of faces has.
-struct Part
+/// Whether each vertex has one fan: then any one of its fans has all of its half-edges.
+bool hasSingleFans(const Mesh& mesh, const std::atomic<Index>* outgoing, int threads)
 {
-  std::size_t fans = 0;
-  bool anyDegenerate = false;
-};
+  std::vector<std::size_t> counts((mesh.vertexCount() + kBlockVertices - 1) / kBlockVertices, 0);
+  parallelFor(mesh.vertexCount(), kBlockVertices, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::size_t count = 0;
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        const Index h = outgoing[v].load(std::memory_order_relaxed);
+        count += h == kInvalidIndex ? 0 : fanSize(mesh, h);
+      }
+      counts[begin / kBlockVertices] = count;
+    });
+  return std::accumulate(counts.begin(), counts.end(), std::size_t{ 0 }) == mesh.origin.size();
+}
 
 /// Whether no face is degenerate and each vertex has one fan; counts the components.
-bool isManifold(PreparedSurface& surface, int threads)
+bool isManifoldWithoutSlivers(PreparedSurface& surface, int threads)
 {
   const Mesh& mesh = surface.mesh;
   DisjointSets components(mesh.faceCount(), threads);
-  std::vector<Part> parts((mesh.faceCount() + kFaceChunk - 1) / kFaceChunk);
-  parallelFor(mesh.faceCount(), kFaceChunk, threads,
+  std::unique_ptr<std::atomic<Index>[]> outgoing(new std::atomic<Index>[mesh.vertexCount()]);
+  parallelFor(mesh.vertexCount(), kBlockVertices, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      Part& part = parts[begin / kFaceChunk];
-      for (Index f = static_cast<Index>(begin); f < end && !part.anyDegenerate; ++f)
+      for (std::size_t v = begin; v < end; ++v)
       {
-        part.anyDegenerate = isDegenerate(mesh, f);
-        for (Index h = 3 * f; h < 3 * f + 3; ++h)
-        {
-          part.fans += isFirstOfFan(mesh, h) ? 1 : 0;
-          if (mesh.twin[h] < h)
-          {
-            components.join(f, Mesh::face(mesh.twin[h]));
-          }
-        }
+        outgoing[v].store(kInvalidIndex, std::memory_order_relaxed);
       }
     });
-  std::size_t fans = 0;
-  for (const Part& part : parts)
-  {
-    if (part.anyDegenerate)
+  const std::size_t faces = mesh.faceCount();
+  const std::size_t refused = firstRefused(faces, kCleanChunk, threads,
+    [&](std::size_t face)
     {
-      return false;
-    }
-    fans += part.fans;
+      const Index f = static_cast<Index>(face);
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        // Which half-edge of a vertex stays there does not matter.
+        outgoing[mesh.origin[h]].store(h, std::memory_order_relaxed);
+        if (mesh.twin[h] < h)
+        {
+          components.join(f, Mesh::face(mesh.twin[h]));
+        }
+      }
+      return !isDegenerate(mesh, f);
+    });
+  if (refused < faces || !hasSingleFans(mesh, outgoing.get(), threads))
+  {
+    return false;
   }
   surface.components = static_cast<Index>(components.countSets());
-  return fans == mesh.vertexCount();
+  return true;
 }
 
 } // namespace
@@ -283,7 +294,7 @@ bool connectCleanSurface(PreparedSurface& surface, int threads)
   std::vector<Index> open;
   // A closed component of less than four faces would have two that are the same.
   return EdgeBlocks(surface.mesh, threads).connect(open) && !wouldMerge(surface.mesh, open) &&
-    isManifold(surface, threads);
+    isManifoldWithoutSlivers(surface, threads);
 }
 
 } // namespace quadrille

@@ -17,7 +17,7 @@ namespace quadrille
 /// cutAndClose); the genus is one lower for each. Left out are places without such a loop away from the boundary, and
 /// loops that meet one that was cut before or would, together with these, cut the surface in two: another call may find
 /// them. Pits and stubs behind the caps are taken out where they can be (see removeStub). Returns the entries whose
-/// handles were closed, ascending; if there are any, order and hash are made anew, so vertices have other ids. Never
+/// handles were closed, ascending; if there are any, the hash is made anew and vertices may have other ids. Never
 /// makes two components of one.
 /// opening: see removeStub. threads: 0: all.
 std::vector<std::size_t> closeHandles(PreparedSurface& surface,

@@ -16,7 +16,7 @@ namespace quadrille
 /// measureBoundary). A fan round the mean of a loop's vertices does: of what is smaller than a quad nothing but its
 /// topology is seen. Faces of a fan have the sources of the faces that they are joined to (see fillWithFan), and
 /// features on a loop go with it. Loops whose fan would have a triangle without area, such as slits, stay open. Returns
-/// the entries that were filled, ascending; if there are any, area, order and hash are made anew, so vertices have
+/// the entries that were filled, ascending; if there are any, area and hash are made anew, and vertices may have
 /// other ids. Linear.
 std::vector<std::size_t> fillHoles(PreparedSurface& surface, const std::vector<HandleLoop>& loops);
 

@@ -99,6 +99,7 @@ bool areFloats(const std::vector<Vector3>& points, int threads)
 /// The points in steps of the grid round the centre, whole numbers.
 void toGrid(FramedInput& framed, const Snap& snap, double steps, int threads)
 {
+  reserveWithRoom(framed.input.points, framed.points.size());
   growLarge(framed.input.points, framed.points.size());
   parallelFor(framed.points.size(), kFrameChunk, threads,
     [&](std::size_t begin, std::size_t end)
@@ -330,8 +331,13 @@ Vector3 userPositionAt(
 
 } // namespace
 
-std::vector<Vector3> userPositions(const PreparedSurface& surface, const Frame& frame,
-  const std::vector<Vector3>& points, int threads)
+namespace
+{
+
+/// Calls put(v, position) for each vertex that has a face, from several threads.
+template <typename Put>
+void forEachUserPosition(const PreparedSurface& surface, const Frame& frame,
+  const std::vector<Vector3>& points, int threads, const Put& put)
 {
   const Mesh& mesh = surface.mesh;
   std::vector<Index> first(mesh.vertexCount(), kInvalidIndex);
@@ -341,8 +347,6 @@ std::vector<Vector3> userPositions(const PreparedSurface& surface, const Frame& 
     Index& corner = first[mesh.origin[h]];
     corner = std::min(corner, h);
   }
-  std::vector<Vector3> positions;
-  growLarge(positions, mesh.vertexCount(), Vector3(Vector3::Zero()));
   parallelFor(mesh.vertexCount(), kFrameChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
@@ -350,11 +354,31 @@ std::vector<Vector3> userPositions(const PreparedSurface& surface, const Frame& 
       {
         if (first[v] != kInvalidIndex)
         {
-          positions[v] = userPositionAt(surface, first[v], frame, points);
+          put(v, userPositionAt(surface, first[v], frame, points));
         }
       }
     });
+}
+
+} // namespace
+
+std::vector<Vector3> userPositions(const PreparedSurface& surface, const Frame& frame,
+  const std::vector<Vector3>& points, int threads)
+{
+  std::vector<Vector3> positions;
+  growLarge(positions, surface.mesh.vertexCount(), Vector3(Vector3::Zero()));
+  forEachUserPosition(surface, frame, points, threads,
+    [&](std::size_t v, const Vector3& position) { positions[v] = position; });
   return positions;
+}
+
+void putUserPositions(
+  PreparedSurface& surface, const Frame& frame, const std::vector<Vector3>& points, int threads)
+{
+  // What is put at a vertex depends on what was there, and on no other vertex.
+  std::vector<Vector3>& positions = surface.mesh.position;
+  forEachUserPosition(surface, frame, points, threads,
+    [&](std::size_t v, const Vector3& position) { positions[v] = position; });
 }
 
 Vector3 userPosition(const PreparedSurface& surface, Index halfEdge, const Frame& frame,

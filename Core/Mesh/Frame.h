@@ -59,6 +59,10 @@ FramedInput enterKnownFrame(SurfaceInput input, const FramedInput& known);
 std::vector<Vector3> userPositions(const PreparedSurface& surface, const Frame& frame,
   const std::vector<Vector3>& points, int threads = 1);
 
+/// The same in place of those of the frame.
+void putUserPositions(PreparedSurface& surface, const Frame& frame,
+  const std::vector<Vector3>& points, int threads = 1);
+
 /// That of one of them, at whose corner the half-edge begins.
 Vector3 userPosition(const PreparedSurface& surface, Index halfEdge, const Frame& frame,
   const std::vector<Vector3>& points);

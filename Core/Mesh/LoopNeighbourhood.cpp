@@ -20,7 +20,7 @@ namespace
 
 /// A part of more than so much of the surface is not worth it.
 constexpr std::size_t kLeastShare = 4;
-constexpr std::size_t kFaceChunk = std::size_t{ 1 } << 15;
+constexpr std::size_t kPieceChunk = std::size_t{ 1 } << 15;
 
 class Neighbourhood
 {
@@ -169,12 +169,75 @@ private:
       std::lower_bound(part.vertex.begin(), part.vertex.end(), v) - part.vertex.begin());
   }
 
-  /// By the pieces of the rest, the loops that it has in common with the part: vertices in the order of the part's
-  /// half-edges.
+  /// The loops that the part has in common with the rest: vertices in the order of the part's half-edges, and one of
+  /// these.
+  struct Loop
+  {
+    std::vector<Index> vertices;
+    Index halfEdge;
+  };
+  std::vector<Loop> rimLoops() const
+  {
+    std::vector<Loop> loops;
+    std::vector<Index> seen; // half-edges of loops so far
+    for (const Index f : faces_)
+    {
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        if (!isRim(h) || std::binary_search(seen.begin(), seen.end(), h))
+        {
+          continue;
+        }
+        Loop loop{ {}, h };
+        Index e = h;
+        do
+        {
+          loop.vertices.push_back(mesh_.origin[e]);
+          seen.push_back(e);
+          e = Mesh::next(e);
+          while (!isRim(e))
+          {
+            e = Mesh::next(mesh_.twin[e]);
+          }
+        } while (e != h);
+        std::sort(seen.begin(), seen.end());
+        loops.push_back(std::move(loop));
+      }
+    }
+    return loops;
+  }
+
+  /// The loops by the pieces of the rest.
   std::vector<std::vector<std::vector<Index>>> loopsOfPieces() const
   {
+    std::vector<Loop> loops = rimLoops();
+    std::map<Index, std::vector<std::vector<Index>>> loopsOf;
+    if (loops.size() > 1)
+    {
+      DisjointSets pieces = piecesOfRest();
+      for (Loop& loop : loops)
+      {
+        loopsOf[pieces.find(Mesh::face(mesh_.twin[loop.halfEdge]))].push_back(
+          std::move(loop.vertices));
+      }
+    }
+    else if (!loops.empty())
+    {
+      loopsOf[0].push_back(std::move(loops.front().vertices));
+    }
+    std::vector<std::vector<std::vector<Index>>> result;
+    for (auto& [piece, ofPiece] : loopsOf)
+    {
+      result.push_back(std::move(ofPiece));
+    }
+    return result;
+  }
+
+  /// Faces outside that hang together.
+  DisjointSets piecesOfRest() const
+  {
     DisjointSets pieces(mesh_.faceCount(), threads_);
-    parallelFor(mesh_.faceCount(), kFaceChunk, threads_,
+    parallelFor(mesh_.faceCount(), kPieceChunk, threads_,
       [&](std::size_t begin, std::size_t end)
       {
         for (Index f = static_cast<Index>(begin); f < end; ++f)
@@ -189,38 +252,7 @@ private:
           }
         }
       });
-    std::map<Index, std::vector<std::vector<Index>>> loopsOf;
-    std::vector<Index> seen; // half-edges of loops so far
-    for (const Index f : faces_)
-    {
-      for (Index h = 3 * f; h < 3 * f + 3; ++h)
-      {
-        if (!isRim(h) || std::binary_search(seen.begin(), seen.end(), h))
-        {
-          continue;
-        }
-        std::vector<Index> loop;
-        Index e = h;
-        do
-        {
-          loop.push_back(mesh_.origin[e]);
-          seen.push_back(e);
-          e = Mesh::next(e);
-          while (!isRim(e))
-          {
-            e = Mesh::next(mesh_.twin[e]);
-          }
-        } while (e != h);
-        std::sort(seen.begin(), seen.end());
-        loopsOf[pieces.find(Mesh::face(mesh_.twin[h]))].push_back(std::move(loop));
-      }
-    }
-    std::vector<std::vector<std::vector<Index>>> result;
-    for (auto& [piece, loops] : loopsOf)
-    {
-      result.push_back(std::move(loops));
-    }
-    return result;
+    return pieces;
   }
 
   /// A fan for each loop; from one to the next a face of each, with a hole in its middle that is that of the other.

@@ -293,6 +293,23 @@ void orderNames(const std::vector<Index>& newId, std::size_t count, std::vector<
   names.swap(ordered);
 }
 
+template <typename NewId>
+void renameRequests(PreparedSurface& surface, const NewId& newId)
+{
+  for (ValenceRequest& request : surface.valenceRequests)
+  {
+    request.vertex = newId(request.vertex);
+  }
+  std::sort(surface.valenceRequests.begin(), surface.valenceRequests.end(),
+    [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex < b.vertex; });
+  for (SectorRequest& request : surface.sectorRequests)
+  {
+    request.vertex = newId(request.vertex);
+  }
+  std::sort(surface.sectorRequests.begin(), surface.sectorRequests.end(),
+    [](const SectorRequest& a, const SectorRequest& b) { return a.vertex < b.vertex; });
+}
+
 /// Puts the vertices that have a face into curve order and renames the corners.
 void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
 {
@@ -327,22 +344,11 @@ void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
         mesh.origin[h] = mesh.origin[h] == kInvalidIndex ? kInvalidIndex : newId[mesh.origin[h]];
       }
     });
-  for (ValenceRequest& request : surface.valenceRequests)
-  {
-    request.vertex = newId[request.vertex];
-  }
-  std::sort(surface.valenceRequests.begin(), surface.valenceRequests.end(),
-    [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex < b.vertex; });
-  for (SectorRequest& request : surface.sectorRequests)
-  {
-    request.vertex = newId[request.vertex];
-  }
-  std::sort(surface.sectorRequests.begin(), surface.sectorRequests.end(),
-    [](const SectorRequest& a, const SectorRequest& b) { return a.vertex < b.vertex; });
+  renameRequests(surface, [&](Index v) { return newId[v]; });
 }
 
 /// A face under the name of its lowest vertex.
-struct NamedFace
+struct FaceByLowest
 {
   Index lowest;
   Index face;
@@ -350,7 +356,7 @@ struct NamedFace
 
 /// Sorts the faces of a bucket, whose lowest vertices are in [first, first + width), by these; ties keep their order.
 void sortFaceBucket(
-  const NamedFace* faces, std::size_t count, Index first, std::size_t width, Index* order)
+  const FaceByLowest* faces, std::size_t count, Index first, std::size_t width, Index* order)
 {
   std::vector<Index> begin(width + 1, 0);
   for (std::size_t i = 0; i < count; ++i)
@@ -402,7 +408,7 @@ std::vector<Index> facesByLowestVertex(const Mesh& mesh, int threads)
     }
   }
   begin[kBuckets] = sum;
-  std::vector<NamedFace> faces;
+  std::vector<FaceByLowest> faces;
   growLarge(faces, sum);
   parallelFor(mesh.faceCount(), kOrderChunk, threads,
     [&](std::size_t first, std::size_t last)
@@ -485,6 +491,141 @@ void orderFaces(PreparedSurface& surface, Permuter& permute, int threads)
   orderWeights(surface);
 }
 
+/// Which of the last elements takes the place of which one that goes; `goes` ascending, of `count` elements.
+struct Moves
+{
+  Index count = 0;                            ///< of elements that stay
+  std::vector<std::pair<Index, Index>> moved; ///< from, ascending, and to
+
+  /// Of an element that stays.
+  Index newId(Index i) const
+  {
+    return i < count
+      ? i
+      : std::lower_bound(moved.begin(), moved.end(), std::pair<Index, Index>{ i, 0 })->second;
+  }
+};
+
+Moves fillHoles(const std::vector<Index>& goes, Index count)
+{
+  Moves moves;
+  moves.count = count - static_cast<Index>(goes.size());
+  auto hole = goes.begin();
+  auto behind = std::lower_bound(goes.begin(), goes.end(), moves.count);
+  for (Index from = moves.count; from < count; ++from)
+  {
+    if (behind != goes.end() && *behind == from)
+    {
+      ++behind;
+      continue;
+    }
+    moves.moved.emplace_back(from, *hole++);
+  }
+  return moves;
+}
+
+/// kWidth values an element; empty arrays stay empty.
+template <std::size_t kWidth, typename T>
+void moveElements(std::vector<T>& values, const Moves& moves)
+{
+  if (values.empty())
+  {
+    return;
+  }
+  for (const auto& [from, to] : moves.moved)
+  {
+    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(kWidth * from), kWidth,
+      values.begin() + static_cast<std::ptrdiff_t>(kWidth * to));
+  }
+  values.resize(kWidth * moves.count);
+}
+
+/// The indices below count for which goes(i) holds, ascending.
+template <typename Goes>
+std::vector<Index> whatGoes(std::size_t count, int threads, const Goes& goes)
+{
+  std::vector<std::vector<Index>> parts((count + kOrderChunk - 1) / kOrderChunk);
+  parallelFor(count, kOrderChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        if (goes(i))
+        {
+          parts[begin / kOrderChunk].push_back(static_cast<Index>(i));
+        }
+      }
+    });
+  std::vector<Index> all;
+  for (const std::vector<Index>& part : parts)
+  {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+void compactFaces(PreparedSurface& surface, int threads)
+{
+  Mesh& mesh = surface.mesh;
+  const Moves moves =
+    fillHoles(whatGoes(mesh.faceCount(), threads,
+                [&](std::size_t f) { return isRemoved(mesh, static_cast<Index>(f)); }),
+      mesh.faceCount());
+  const auto newSlot = [&](Index h) { return 3 * moves.newId(h / 3) + h % 3; };
+  for (const auto& [from, to] : moves.moved)
+  {
+    for (Index h = 3 * from; h < 3 * from + 3; ++h)
+    {
+      const Index g = mesh.twin[h];
+      if (g == kInvalidIndex)
+      {
+        continue;
+      }
+      if (Mesh::face(g) < moves.count) // else it is moved itself
+      {
+        mesh.twin[g] = newSlot(h);
+      }
+      mesh.twin[h] = newSlot(g);
+    }
+  }
+  if (surface.namesBefore)
+  {
+    surface.namesBefore->face.resize(mesh.faceCount(), kInvalidIndex);
+    moveElements<1>(surface.namesBefore->face, moves);
+  }
+  moveElements<3>(mesh.origin, moves);
+  moveElements<3>(mesh.twin, moves);
+  moveElements<3>(mesh.flags, moves);
+  moveElements<1>(surface.sourcePolygon, moves);
+  moveElements<1>(surface.sourcePoints, moves);
+  moveElements<1>(surface.refinedEntry, moves);
+}
+
+void compactVertices(PreparedSurface& surface, int threads)
+{
+  Mesh& mesh = surface.mesh;
+  const UsedPoints used(mesh.origin, mesh.vertexCount(), threads);
+  const Moves moves =
+    fillHoles(whatGoes(mesh.vertexCount(), threads, [&](std::size_t v) { return !used.has(v); }),
+      mesh.vertexCount());
+  if (surface.namesBefore)
+  {
+    surface.namesBefore->vertex.resize(mesh.vertexCount(), kInvalidIndex);
+    moveElements<1>(surface.namesBefore->vertex, moves);
+  }
+  moveElements<1>(mesh.position, moves);
+  moveElements<1>(mesh.sizing, moves);
+  parallelFor(mesh.origin.size(), kOrderChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t h = begin; h < end; ++h)
+      {
+        mesh.origin[h] = moves.newId(mesh.origin[h]);
+      }
+    });
+  renameRequests(surface, [&](Index v) { return moves.newId(v); });
+}
+
 } // namespace
 
 std::uint64_t hilbertKey(std::array<std::uint32_t, 3> cell, int bits)
@@ -520,6 +661,12 @@ void orderSurface(PreparedSurface& surface, int threads)
   Permuter permute(threads);
   orderVertices(surface, permute, threads);
   orderFaces(surface, permute, threads);
+}
+
+void compactSurface(PreparedSurface& surface, int threads)
+{
+  compactFaces(surface, threads);
+  compactVertices(surface, threads);
 }
 
 } // namespace quadrille

@@ -62,7 +62,7 @@ void markFeatures(
 }
 
 /// The sum in the order of the faces.
-double areaOf(const Mesh& mesh, int threads)
+double sumOfAreas(const Mesh& mesh, int threads)
 {
   constexpr std::size_t kFacesAtOnce = std::size_t{ 1 } << 19;
   constexpr std::size_t kAreaChunk = std::size_t{ 1 } << 15;
@@ -90,7 +90,7 @@ double areaOf(const Mesh& mesh, int threads)
 
 void measure(PreparedSurface& surface, int threads)
 {
-  surface.area = areaOf(surface.mesh, threads);
+  surface.area = sumOfAreas(surface.mesh, threads);
   const PointBox box = boxOfPoints(surface.mesh.position, threads);
   surface.boundingBoxDiagonal = (box.high - box.low).norm();
 }

@@ -734,7 +734,7 @@ std::vector<std::size_t> cutThinParts(
   }
   if (!done.empty())
   {
-    orderSurface(surface, 1);
+    compactSurface(surface, 1);
     surface.hash = contentHash(surface.mesh, 1);
   }
   return done;

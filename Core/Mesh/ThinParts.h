@@ -48,7 +48,7 @@ std::vector<ThinPart> findThinParts(const Mesh& mesh, const ThinPartLimits& limi
 /// `longer` times its girth, where another one that was cut is in the way, and a disc where what is beyond the loop is
 /// none, has more area than `mostArea` (units of the mesh: the shortest loop may lie far from the part's own, with a
 /// limb beyond it), or has something that was asked for (features, valences, sectors). Returns the entries that were
-/// cut, ascending; if there are any, order and hash are made anew, so vertices have other ids.
+/// cut, ascending; if there are any, the hash is made anew and vertices may have other ids.
 std::vector<std::size_t> cutThinParts(
   PreparedSurface& surface, const std::vector<ThinPart>& parts, double longer, double mostArea);
 

@@ -256,10 +256,16 @@ void leaveFrame(
   {
     return;
   }
-  std::vector<Vector3> positions = userPositions(result.surface, frame, points, threads);
-  leaveFrame(result.quads, result.surface.mesh, frame, positions);
-  leaveFrame(result.coarse, frame, positions);
-  leaveFrame(result.surface, frame, std::move(positions));
+  PreparedSurface& surface = result.surface;
+  leaveFrameAt(result.quads, surface.mesh, frame,
+    [&](Index h) { return userPosition(surface, h, frame, points); });
+  if (frame.reversed)
+  {
+    reverseQuads(result.quads);
+  }
+  putUserPositions(surface, frame, points, threads);
+  leaveFrame(result.coarse, frame, surface.mesh.position);
+  leaveFrame(surface, frame, std::move(surface.mesh.position));
   if (frame.reversed)
   {
     reverseMap(result.uv);

@@ -201,6 +201,11 @@ void Levels::letGo()
     const std::size_t bytes = held_->bytes();
     store_->put(heldKey_, std::move(held_), bytes);
   }
+  else if (held_)
+  {
+    held_.reset();
+    releaseFreedMemory(); // the log is a tenth of all
+  }
   held_.reset();
   hasFollowed_ = false;
 }

@@ -21,9 +21,9 @@
 
 The VTK classes themselves are here too: vtkQuadRemesh, vtkDecimationHierarchy, vtkIntegerGridMap,
 vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkQuadElements, vtkIntegerGridMapQuality, vtkIntegerGridMapComparison,
-vtkQuadrilleSession, the source vtkQuadConstraintSource, the readers vtkQuadrilleOFFReader and vtkQuadrillePLYReader,
-the writer vtkQuadMeshWriter, and in QuadrilleFilters, where there is CGAL, vtkSurfaceRepair, vtkSurfaceWrap and
-vtkQuadProjection.
+vtkQuadrilleSession, the source vtkQuadConstraintSource, the readers vtkQuadrilleOFFReader, vtkQuadrillePLYReader and
+vtkQuadrilleSTLReader, the writer vtkQuadMeshWriter, and in QuadrilleFilters, where there is CGAL, vtkSurfaceRepair,
+vtkSurfaceWrap and vtkQuadProjection.
 """
 import collections
 
@@ -53,6 +53,7 @@ from .QuadrilleFilters import (
     vtkQuadRemesh,
     vtkQuadrilleOFFReader,
     vtkQuadrillePLYReader,
+    vtkQuadrilleSTLReader,
     vtkQuadrilleSession,
 )
 
@@ -62,7 +63,8 @@ __all__ = [
     "vtkDecimationHierarchy", "vtkIntegerGridMap", "vtkIntegerGridMapComparison", "vtkIntegerGridMapQuality",
     "vtkIntegerGridMapUpmap", "vtkQuadConstraintSource", "vtkQuadElements", "vtkQuadExtraction", "vtkQuadMeshWriter",
     "vtkQuadRemesh",
-    "vtkQuadrilleOFFReader", "vtkQuadrillePLYReader", "vtkQuadrilleSession",
+    "vtkQuadrilleOFFReader", "vtkQuadrillePLYReader", "vtkQuadrilleSTLReader",
+    "vtkQuadrilleSession",
 ]
 
 

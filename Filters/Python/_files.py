@@ -7,7 +7,8 @@ from ._errors import InvalidInput, RemeshError, one_of
 from ._inputs import to_polydata
 
 
-def _reader_for(extension):
+def _reader_for(path):
+    extension = os.path.splitext(path)[1].lower()
     if extension == ".ply":
         from .QuadrilleFilters import vtkQuadrillePLYReader
         return vtkQuadrillePLYReader()
@@ -17,7 +18,9 @@ def _reader_for(extension):
     if extension == ".stl":
         from vtkmodules.vtkIOGeometry import vtkSTLReader
 
-        from .QuadrilleFilters import vtkQuadrilleUniquePoints
+        from .QuadrilleFilters import vtkQuadrilleSTLReader, vtkQuadrilleUniquePoints
+        if vtkQuadrilleSTLReader.CanReadFile(path):
+            return vtkQuadrilleSTLReader()
         reader = vtkSTLReader()
         reader.SetLocator(vtkQuadrilleUniquePoints())
         return reader
@@ -62,7 +65,7 @@ def read(path):
     """The surface in a file as a vtkPolyData: .ply and .off with all properties of their vertices and faces, .obj,
     .stl, .vtp or .vtk. Raises InvalidInput where the file is missing, damaged or of another kind."""
     path = os.fspath(path)
-    reader = _reader_for(os.path.splitext(path)[1].lower())
+    reader = _reader_for(path)
     if not os.path.isfile(path):
         raise InvalidInput(f"{path}: there is no such file")
     from .QuadrilleFilters import vtkQuadrilleFileReader

@@ -317,6 +317,134 @@ class Files(unittest.TestCase):
         for data in (ours.GetOutput(), theirs.GetOutput()):
             self.assertGreater(quadrille.remesh(data, quads=300).GetNumberOfCells(), 0)
 
+    def test_binary_ply_is_what_its_text_is(self):
+        """Rows of one length are read by several threads, all others one after the other: text is the measure."""
+        random = numpy.random.default_rng(3)
+        points = random.standard_normal((5000, 3)).astype("<f4").astype("<f8")
+        triangles = random.integers(0, len(points), (90000, 3))
+        quads = [tuple(row) for row in random.integers(0, len(points), (3, 4))]
+        names = {"f4": "float", "f8": "double", "u1": "uchar", "i2": "short", "u2": "ushort", "i4": "int", "u4": "uint"}
+
+        def header(form, real, scalars, count, index, faces):
+            lines = ["ply", f"format {form} 1.0", "comment made by a test", f"element vertex {len(points)}",
+                     f"property {names[real]} x", "property short before", f"property {names[real]} y",
+                     f"property {names[real]} z", "property uchar after", f"element face {faces}"]
+            lines += [f"property {names[kind]} {name}" for name, kind in scalars[:1]]
+            lines += [f"property list {names[count]} {names[index]} vertex_indices"]
+            lines += [f"property {names[kind]} {name}" for name, kind in scalars[1:]]
+            return "\n".join(lines + ["end_header", ""]).encode("ascii")
+
+        def write(path, order, real, scalars, count, index, polygons, values):
+            form = {"<": "binary_little_endian", ">": "binary_big_endian", "": "ascii"}[order]
+            with open(path, "wb") as file:
+                file.write(header(form, real, scalars, count, index, len(polygons)))
+                if order == "":
+                    for i, (x, y, z) in enumerate(points):
+                        file.write(f"{float(x)!r} {i % 300} {float(y)!r} {float(z)!r} {i % 256}\n".encode("ascii"))
+                    for corners, row in zip(polygons, values):
+                        words = [*row[:1], len(corners), *corners, *row[1:]]
+                        file.write((" ".join(str(word) for word in words) + "\n").encode("ascii"))
+                    return
+                table = numpy.zeros(len(points), [("x", order + real), ("before", order + "i2"), ("y", order + real),
+                                                  ("z", order + real), ("after", "u1")])
+                table["x"], table["y"], table["z"] = points.T
+                table["before"], table["after"] = numpy.arange(len(points)) % 300, numpy.arange(len(points)) % 256
+                file.write(table.tobytes())
+                for corners, row in zip(polygons, values):
+                    file.write(b"".join(numpy.array(v, order + kind).tobytes()
+                                        for v, (_, kind) in list(zip(row, scalars))[:1]))
+                    file.write(numpy.array(len(corners), order + count).tobytes())
+                    file.write(numpy.array(corners, order + index).tobytes())
+                    file.write(b"".join(numpy.array(v, order + kind).tobytes()
+                                        for v, (_, kind) in list(zip(row, scalars))[1:]))
+
+        def read(path, threads):
+            reader = quadrille.vtkQuadrillePLYReader()
+            reader.SetNumberOfThreads(threads)
+            reader.SetFileName(path)
+            reader.Update()
+            self.assertEqual(reader.GetOutcomeText(), "")
+            return reader.GetOutput()
+
+        layouts = [("f4", [], "u1", "i4"), ("f8", [("part", "i4")], "i4", "u4"),
+                   ("f4", [("part", "u1"), ("weight", "f8")], "u2", "i4"), ("f4", [("part", "i2")], "u1", "u2")]
+        with tempfile.TemporaryDirectory() as folder:
+            for real, scalars, count, index in layouts:
+                # One polygon that is no triangle, at the end, sends all faces the other way.
+                for polygons in ([tuple(t) for t in triangles], [tuple(t) for t in triangles[:300]] + quads):
+                    values = [tuple((i * (k + 7)) % 100 for k in range(len(scalars))) for i in range(len(polygons))]
+                    data = {}
+                    for order in ("", "<", ">"):
+                        path = os.path.join(folder, "mesh.ply")
+                        write(path, order, real, scalars, count, index, polygons, values)
+                        data[order] = read(path, 1)
+                        again = read(path, 3)
+                        numpy.testing.assert_array_equal(vtk_to_numpy(again.GetPolys().GetConnectivityArray()),
+                                                         vtk_to_numpy(data[order].GetPolys().GetConnectivityArray()))
+                    for order in ("<", ">"):
+                        ours, text = data[order], data[""]
+                        self.assertEqual(ours.GetPoints().GetDataType(), text.GetPoints().GetDataType())
+                        pairs = [(ours.GetPoints().GetData(), text.GetPoints().GetData()),
+                                 (ours.GetPolys().GetConnectivityArray(), text.GetPolys().GetConnectivityArray()),
+                                 (ours.GetPolys().GetOffsetsArray(), text.GetPolys().GetOffsetsArray())]
+                        for name in ("before", "after"):
+                            pairs.append((ours.GetPointData().GetArray(name), text.GetPointData().GetArray(name)))
+                        for name, _ in scalars:
+                            pairs.append((ours.GetCellData().GetArray(name), text.GetCellData().GetArray(name)))
+                            self.assertEqual(pairs[-1][0].GetDataType(), pairs[-1][1].GetDataType())
+                        for mine, theirs in pairs:
+                            numpy.testing.assert_array_equal(vtk_to_numpy(mine), vtk_to_numpy(theirs))
+            # Damage is told as it is of rows that are read one after the other.
+            whole = os.path.join(folder, "whole.ply")
+            broken = [tuple(t) for t in triangles]
+            broken[70000] = (0, 1, len(points))
+            write(whole, "<", "f4", [], "u1", "i4", broken, [()] * len(broken))
+            with self.assertRaisesRegex(quadrille.InvalidInput, "face 70000 refers to vertex 5000"):
+                quadrille.read(whole)
+            write(whole, "<", "f4", [], "u1", "i4", [tuple(t) for t in triangles], [()] * len(triangles))
+            with open(whole, "rb") as file:
+                content = file.read()
+            cut = os.path.join(folder, "cut.ply")
+            with open(cut, "wb") as file:
+                file.write(content[:-7])
+            with self.assertRaisesRegex(quadrille.InvalidInput, "face 89999 has no valid vertex_indices"):
+                quadrille.read(cut)
+
+    def test_binary_stl_is_what_vtk_reads(self):
+        """Random triangles on a few points: equal ones everywhere, triangles with a point twice, both zeros, NaN."""
+        random = numpy.random.default_rng(4)
+        lattice = numpy.array([-1.0, -0.0, 0.0, 0.5, 1e30, numpy.nan], "<f4")
+        table = numpy.zeros(40000, [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("bytes", "<u2")])
+        table["corners"] = lattice[random.integers(0, len(lattice), (len(table), 3, 3))]
+        table["corners"][::3] = random.standard_normal((len(table[::3]), 3, 3)).astype("<f4")
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "soup.stl")
+            with open(path, "wb") as file:
+                file.write(b"binary".ljust(80) + numpy.array(len(table), "<u4").tobytes() + table.tobytes())
+            self.assertTrue(quadrille.vtkQuadrilleSTLReader.CanReadFile(path))
+            theirs = vtkSTLReader()
+            theirs.SetLocator(quadrille.QuadrilleFilters.vtkQuadrilleUniquePoints())
+            theirs.SetFileName(path)
+            theirs.Update()
+            for threads in (1, 3):
+                ours = quadrille.vtkQuadrilleSTLReader()
+                ours.SetNumberOfThreads(threads)
+                ours.SetFileName(path)
+                ours.Update()
+                self.assertEqual(ours.GetOutcomeText(), "")
+                found, expected = ours.GetOutput(), theirs.GetOutput()
+                self.assertLess(found.GetNumberOfPolys(), len(table))
+                numpy.testing.assert_array_equal(
+                    vtk_to_numpy(found.GetPoints().GetData()), vtk_to_numpy(expected.GetPoints().GetData()))
+                numpy.testing.assert_array_equal(vtk_to_numpy(found.GetPolys().GetConnectivityArray()),
+                                                 vtk_to_numpy(expected.GetPolys().GetConnectivityArray()))
+            with open(path, "ab") as file:
+                file.write(b"more than its triangles")
+            self.assertFalse(quadrille.vtkQuadrilleSTLReader.CanReadFile(path))
+            ours.Modified()
+            ours.Update()
+            self.assertIn("soup.stl", ours.GetOutcomeText())
+
     def test_stl_with_a_point_far_off(self):
         """Points are joined as VTK joins them, but none is looked for among all others."""
         sphere = vtkSphereSource()

@@ -22,7 +22,7 @@ namespace quadrille
 namespace
 {
 
-HierarchyOptions optionsOf(double edgeLength, int threads)
+HierarchyOptions levelOptionsOf(double edgeLength, int threads)
 {
   HierarchyOptions options;
   options.targetEdgeLength = edgeLength;
@@ -67,14 +67,14 @@ void expectLogOf(const Mesh& fine, const Hierarchy& hierarchy)
 void expectToFollow(
   PreparedSurface surface, double edgeLength, const std::function<bool(PreparedSurface&)>& change)
 {
-  Redecimation levels(surface.mesh, surface.hash, optionsOf(edgeLength, 1));
-  levels.update(optionsOf(edgeLength, 1)); // what phase 2 has made does not matter
+  Redecimation levels(surface.mesh, surface.hash, levelOptionsOf(edgeLength, 1));
+  levels.update(levelOptionsOf(edgeLength, 1)); // what phase 2 has made does not matter
   surface.namesBefore = NamesBefore::of(surface.mesh.vertexCount(), surface.mesh.faceCount());
   ASSERT_TRUE(change(surface));
   const NamesBefore names = *surface.namesBefore;
   ASSERT_EQ(names.vertex.size(), surface.mesh.vertexCount());
   ASSERT_EQ(names.face.size(), surface.mesh.faceCount());
-  ASSERT_TRUE(levels.follow(surface.mesh, surface.hash, names, optionsOf(edgeLength, 2)));
+  ASSERT_TRUE(levels.follow(surface.mesh, surface.hash, names, levelOptionsOf(edgeLength, 2)));
 
   const Level& level = levels.hierarchy().intermediate;
   EXPECT_EQ(validate(level.mesh), "");
@@ -86,11 +86,11 @@ void expectToFollow(
   EXPECT_EQ(coarse.boundaryLoops, fine.boundaryLoops);
   EXPECT_EQ(coarse.components, fine.components);
 
-  const Redecimation anew(surface.mesh, surface.hash, optionsOf(edgeLength, 1));
+  const Redecimation anew(surface.mesh, surface.hash, levelOptionsOf(edgeLength, 1));
   const double vertices = anew.hierarchy().intermediate.mesh.vertexCount();
   EXPECT_NEAR(level.mesh.vertexCount(), vertices, 0.05 * vertices);
 
-  const Hierarchy& both = levels.update(optionsOf(edgeLength, 1));
+  const Hierarchy& both = levels.update(levelOptionsOf(edgeLength, 1));
   EXPECT_EQ(validate(both.coarse.mesh), "");
   EXPECT_EQ(summarizeTopology(both.coarse.mesh).eulerCharacteristic, fine.eulerCharacteristic);
 }
@@ -153,10 +153,10 @@ TEST(ChangedMesh, LevelsFollowAFilledHole)
 TEST(ChangedMesh, NothingChangedIsNothingToDo)
 {
   PreparedSurface surface = prepared(test::sphere(5));
-  Redecimation levels(surface.mesh, surface.hash, optionsOf(0.2, 1));
+  Redecimation levels(surface.mesh, surface.hash, levelOptionsOf(0.2, 1));
   const Hierarchy before = levels.hierarchy();
   ASSERT_TRUE(levels.follow(surface.mesh, surface.hash,
-    NamesBefore::of(surface.mesh.vertexCount(), surface.mesh.faceCount()), optionsOf(0.2, 1)));
+    NamesBefore::of(surface.mesh.vertexCount(), surface.mesh.faceCount()), levelOptionsOf(0.2, 1)));
   EXPECT_EQ(levels.hierarchy().log.blocks, before.log.blocks);
   EXPECT_EQ(levels.hierarchy().intermediate.fineFace, before.intermediate.fineFace);
   EXPECT_EQ(levels.hierarchy().intermediate.mesh.origin, before.intermediate.mesh.origin);
@@ -166,10 +166,11 @@ TEST(ChangedMesh, NothingChangedIsNothingToDo)
 TEST(ChangedMesh, WhereMuchHasChangedNewLevelsAreLess)
 {
   PreparedSurface surface = prepared(test::sphere(3));
-  Redecimation levels(surface.mesh, surface.hash, optionsOf(0.5, 1));
+  Redecimation levels(surface.mesh, surface.hash, levelOptionsOf(0.5, 1));
   surface.namesBefore = NamesBefore::of(surface.mesh.vertexCount(), surface.mesh.faceCount());
   refineSurface(surface, 0.1, {}); // splits all edges
-  EXPECT_FALSE(levels.follow(surface.mesh, surface.hash, *surface.namesBefore, optionsOf(0.5, 1)));
+  EXPECT_FALSE(
+    levels.follow(surface.mesh, surface.hash, *surface.namesBefore, levelOptionsOf(0.5, 1)));
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Elements of a binary PLY file all of whose rows have the same length, read by several threads and without the file
-/// in memory: vertices, and faces that are triangles. That is nearly every large file.
+/// Parts of a binary file all of whose rows have the same length, read by several threads and without the file in
+/// memory: the triangles of an STL file; of a PLY file vertices, and faces where all are triangles.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "QuadrillePlyRows.h"
+#include "QuadrilleFixedRows.h"
 
 #include "Base/Parallel.h"
 
