@@ -373,12 +373,13 @@ class Stop:
     """Asks the filter to stop, once, when it reports progress for the first time from some progress, or some seconds,
     on."""
 
-    def __init__(self, remesh, begin, after=0):
-        self.begin, self.time, self.is_done = begin, time.time() + after, False
+    def __init__(self, remesh, begin, after=0, text=""):
+        self.begin, self.time, self.text, self.is_done = begin, time.time() + after, text, False
         remesh.AddObserver(vtkCommand.ProgressEvent, self.look)
 
     def look(self, caller, event):
-        if caller.GetProgress() >= self.begin and time.time() >= self.time and not self.is_done:
+        is_far = caller.GetProgress() >= self.begin and self.text in (caller.GetProgressText() or "")
+        if is_far and time.time() >= self.time and not self.is_done:
             self.is_done = True
             caller.SetAbortExecute(1)
 
@@ -419,6 +420,34 @@ def waits():
     stop = Stop(remesh, 0, after=0.3 * whole) if RANK == last() else None
     fails(remesh, ABORTED, "stopped on request", "a stop while waiting")
     check(stop is None or stop.is_done, "the rank that waits was not asked")
+
+
+def so_far():
+    """A stop after the first quads keeps them, on all ranks."""
+    points, triangles = sphere(16)
+    # A vertex of three triangles that is to become one of seven quads, for which it has no room.
+    middle = len(points)
+    points = np.vstack([points, points[triangles[100]].mean(0)])
+    a, b, c = triangles[100]
+    triangles[100] = (a, b, middle)
+    triangles = np.vstack([triangles, [(b, c, middle), (c, a, middle)]])
+    data, used, faces = stripe(points, triangles)
+    add(data.GetPointData(), "TargetValence", np.where(used == middle, 7, 0).astype(np.int32))
+    remesh = remesher(data, 300)
+    stop = Stop(remesh, 0, text="Attempt 2 of at most ") if RANK == 0 else None
+    quads = run(remesh)
+    check(remesh.GetOutcome() == ABORTED and remesh.GetIsSoFar(), f"quads so far: {remesh.GetOutcomeText()}")
+    check(stop is None or stop.is_done, "there was no second attempt")
+    same_on_all(remesh.GetOutcomeText(), "quads so far")
+    copy = vtkPolyData()
+    copy.ShallowCopy(quads)
+    copy.GetFieldData().Initialize()
+    parts = gather(copy)
+    if parts is not None:
+        try:
+            Joined(parts).check_manifold(2)
+        except AssertionError as error:
+            check(False, f"quads so far: {error}")
 
 
 def modes():
@@ -586,7 +615,7 @@ CASES = {
     "splits-closed": lambda: splits(("sphere", "torus"), 25), "splits-open": lambda: splits(("plane", "box"), 25),
     "repeat": repeat, "dense": dense, "scattered": scattered, "attributes": attributes, "ids": ids,
     "constraints": constraints, "features": features, "ghosts": ghosts, "sums": sums, "faults": faults,
-    "cancel": cancel, "modes": modes, "blocks": blocks, "kinds": kinds,
+    "cancel": cancel, "so-far": so_far, "modes": modes, "blocks": blocks, "kinds": kinds,
     "pipeline": pipeline,
 }
 
