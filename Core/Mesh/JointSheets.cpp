@@ -330,7 +330,8 @@ private:
     for (std::size_t i = 0; i < sheets_.offset.size(); ++i)
     {
       const int n = static_cast<int>(i);
-      sheets_.offset[i] = step * Vector3(n % side, n / side % side, n / side / side);
+      const int column = n % side, row = n / side % side, layer = n / side / side;
+      sheets_.offset[i] = step * Vector3(column, row, layer);
     }
     sheets_.centre = 0.5 * (low + high);
     for (std::size_t i = 0; i < sheets_.input.points.size(); ++i)

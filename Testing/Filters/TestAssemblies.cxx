@@ -652,6 +652,56 @@ TEST(ConformingParts, TouchingSolidsShareTheirQuads)
   }
 }
 
+/// Planes cut a box into two to four solids, some of them thin: each is closed, and every edge has two quads of each
+/// solid that it is on.
+TEST(ConformingParts, BoxesCutByPlanesConform)
+{
+  using Cut = std::pair<int, int>; // axis, and the first voxel beyond
+  const std::vector<std::vector<Cut>> boxes{ { { 0, 5 } }, { { 0, 4 }, { 1, 3 } },
+    { { 1, 2 }, { 2, 1 }, { 0, 1 } }, { { 0, 5 }, { 1, 3 }, { 2, 1 } } };
+  for (std::size_t b = 0; b < boxes.size(); ++b)
+  {
+    const std::vector<Cut>& cuts = boxes[b];
+    vtkNew<vtkMultiBlockDataSet> input;
+    for (std::size_t solid = 0; solid <= cuts.size(); ++solid)
+    {
+      // Beyond the last cut that it is beyond of; 0: beyond none.
+      setPart(input, static_cast<unsigned>(solid),
+        test::toPolyData(test::voxelSurface({ 8, 6, 4 }, 1,
+          [&](int i, int j, int k)
+          {
+            const std::array<int, 3> at{ i, j, k };
+            std::size_t first = 0;
+            while (first < cuts.size() &&
+              at[static_cast<std::size_t>(cuts[first].first)] < cuts[first].second)
+            {
+              ++first;
+            }
+            return first == solid;
+          })),
+        "Solid " + std::to_string(solid));
+    }
+    for (const vtkIdType number : { 300, 1100 })
+    {
+      SCOPED_TRACE(std::to_string(b) + " with " + std::to_string(number));
+      vtkNew<vtkQuadRemesh> filter;
+      remeshTogether(filter, input, number);
+      ASSERT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+      for (unsigned solid = 0; solid <= cuts.size(); ++solid)
+      {
+        const test::QuadTally t = test::tally(partOf(filter, solid));
+        EXPECT_EQ(t.boundaryEdges, 0U);
+        EXPECT_EQ(t.badEdges, 0U);
+        EXPECT_EQ(t.eulerCharacteristic, 2);
+      }
+      const Union all(filter);
+      EXPECT_TRUE(std::all_of(
+        all.edges.begin(), all.edges.end(), [](const auto& edge) { return edge.second % 2 == 0; }));
+      EXPECT_GT(all.edgesOf(4), 10);
+    }
+  }
+}
+
 TEST(ConformingParts, ASheetThatMeetsItselfIsRefusedWithThePlace)
 {
   vtkNew<vtkMultiBlockDataSet> input;
