@@ -511,6 +511,50 @@ void gatherInModelsOrder(const std::vector<vtkDataSetAttributes*>& sources,
   }
 }
 
+std::size_t estimatedBorder(const SpreadPiece& piece, bool byIds, double unit)
+{
+  // One of so many edges is looked at, the same in all polygons that have it.
+  constexpr std::uint64_t share = 64;
+  std::vector<std::uint64_t> numbers(static_cast<std::size_t>(piece.data->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    numbers[i] =
+      static_cast<std::uint64_t>(pointNumber(piece, static_cast<vtkIdType>(i), byIds, unit)) *
+      0x9e3779b97f4a7c15U;
+  }
+  std::vector<std::uint64_t> edges;
+  visitPolygons(piece.data,
+    [&](vtkIdType, vtkIdType count, const vtkIdType* ids)
+    {
+      for (vtkIdType i = 0; i < count; ++i)
+      {
+        const std::array<vtkIdType, 2> ends{ ids[i], ids[(i + 1) % count] };
+        if (std::min(ends[0], ends[1]) < 0 ||
+          std::max(ends[0], ends[1]) >= static_cast<vtkIdType>(numbers.size()))
+        {
+          return; // is refused when the piece is converted
+        }
+        const std::uint64_t edge = (numbers[static_cast<std::size_t>(ends[0])] +
+                                     numbers[static_cast<std::size_t>(ends[1])]) *
+          0xbf58476d1ce4e5b9U;
+        if ((edge >> 32U) % share == 0)
+        {
+          edges.push_back(edge);
+        }
+      }
+    });
+  std::sort(edges.begin(), edges.end());
+  std::size_t alone = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    alone +=
+      (i == 0 || edges[i] != edges[i - 1]) && (i + 1 == edges.size() || edges[i] != edges[i + 1])
+      ? 1
+      : 0;
+  }
+  return share * alone;
+}
+
 std::vector<SpreadPiece> redistributeCells(const Ranks& ranks, std::vector<SpreadPiece> pieces,
   vtkPolyData* model, double unit, SpreadFigures& figures)
 {
