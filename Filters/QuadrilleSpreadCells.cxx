@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadrilleSpreadCells.h"
 
+#include "Base/Memory.h"
 #include "QuadrilleNewArray.h"
 #include "QuadrillePacking.h"
 #include "QuadrillePieces.h"
@@ -258,6 +259,13 @@ SpreadPiece merge(
     TupleOrigin origin;
   };
   std::vector<Use> uses;
+  std::size_t pointCount = 0, cellCount = 0;
+  for (vtkPolyData* part : parts)
+  {
+    pointCount += static_cast<std::size_t>(part->GetNumberOfPoints());
+    cellCount += static_cast<std::size_t>(part->GetNumberOfPolys());
+  }
+  uses.reserve(pointCount);
   std::vector<std::vector<vtkIdType>> joined; // of each part, of each point
   bool inDouble = false;
   vtkDataArray* modelIds = model->GetPointData()->GetGlobalIds();
@@ -279,6 +287,7 @@ SpreadPiece merge(
         std::tie(b.key, b.origin.source, b.origin.tuple);
     });
   std::vector<TupleOrigin> ofPoints, ofCells;
+  ofCells.reserve(cellCount);
   for (std::size_t i = 0; i < uses.size(); ++i)
   {
     if (i == 0 || uses[i].key != uses[i - 1].key)
@@ -288,6 +297,7 @@ SpreadPiece merge(
     joined[uses[i].origin.source][static_cast<std::size_t>(uses[i].origin.tuple)] =
       static_cast<vtkIdType>(ofPoints.size()) - 1;
   }
+  std::vector<Use>().swap(uses);
   SpreadPiece piece;
   piece.data = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;
@@ -603,14 +613,16 @@ std::vector<SpreadPiece> redistributeCells(const Ranks& ranks, std::vector<Sprea
     });
   pieces.clear();
   data.clear();
-  const std::vector<std::string> received = ranks.exchange(std::move(messages));
+  bins.clear();
+  releaseFreedMemory();
+  std::vector<std::string> received = ranks.exchange(std::move(messages));
   ranks.together("redistributing the surface",
     [&]
     {
       std::vector<vtkSmartPointer<vtkPolyData>> parts;
       std::vector<int> sourceRank;
       std::vector<vtkIdType> sourceCell;
-      for (const std::string& bytes : received)
+      for (std::string& bytes : received)
       {
         Unpacker unpacker(bytes);
         while (!unpacker.isAtEnd())
@@ -621,12 +633,15 @@ std::vector<SpreadPiece> redistributeCells(const Ranks& ranks, std::vector<Sprea
           sourceRank.insert(sourceRank.end(), fromRank.begin(), fromRank.end());
           sourceCell.insert(sourceCell.end(), fromCell.begin(), fromCell.end());
         }
+        std::string().swap(bytes);
       }
       if (!sourceCell.empty())
       {
         pieces.push_back(merge(parts, model, unit));
         pieces.back().sourceRank = std::move(sourceRank);
         pieces.back().sourceCell = std::move(sourceCell);
+        parts.clear();
+        releaseFreedMemory();
       }
     });
   return pieces;
