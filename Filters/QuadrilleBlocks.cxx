@@ -10,6 +10,7 @@
 #include <vtkDataAssembly.h>
 #include <vtkDataObject.h>
 #include <vtkDataObjectTypes.h>
+#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
@@ -40,17 +41,27 @@ BlockPath childOf(const BlockPath& path, unsigned index)
 }
 
 template <class Composite>
-std::string nameOfChild(Composite* data, unsigned index)
+vtkInformation* metaDataOf(Composite* data, unsigned index)
 {
-  if (!data->HasMetaData(index) || !data->GetMetaData(index)->Has(vtkCompositeDataSet::NAME()))
-  {
-    return "";
-  }
-  const char* name = data->GetMetaData(index)->Get(vtkCompositeDataSet::NAME());
+  return data->HasMetaData(index) ? data->GetMetaData(index) : nullptr;
+}
+
+std::string nameIn(vtkInformation* metaData)
+{
+  const char* name = metaData && metaData->Has(vtkCompositeDataSet::NAME())
+    ? metaData->Get(vtkCompositeDataSet::NAME())
+    : nullptr;
   return name ? name : "";
 }
 
 void addNodes(BlockTree& tree, const BlockPath& path, const std::string& name, vtkDataObject* data);
+
+/// A child with what its parent says of it.
+void addChild(BlockTree& tree, const BlockPath& path, vtkInformation* metaData, vtkDataObject* data)
+{
+  addNodes(tree, path, nameIn(metaData), data);
+  tree[path].metaData = metaData;
+}
 
 /// A multiblock for each level of an adaptive mesh, as quads are no grids.
 void addLevels(BlockTree& tree, const BlockPath& path, vtkUniformGridAMR* data)
@@ -58,7 +69,8 @@ void addLevels(BlockTree& tree, const BlockPath& path, vtkUniformGridAMR* data)
   for (unsigned level = 0; level < data->GetNumberOfLevels(); ++level)
   {
     const BlockPath levelPath = childOf(path, level);
-    tree[levelPath] = { "vtkMultiBlockDataSet", "Level " + std::to_string(level), false, {} };
+    tree[levelPath].type = "vtkMultiBlockDataSet";
+    tree[levelPath].name = "Level " + std::to_string(level);
     for (unsigned i = 0; i < data->GetNumberOfDataSets(level); ++i)
     {
       addNodes(
@@ -77,6 +89,7 @@ void addNodes(BlockTree& tree, const BlockPath& path, const std::string& name, v
   }
   node.type = compositeTypeFor(data);
   node.isBlock = node.type.empty() || data->IsA("vtkPartitionedDataSet");
+  node.fieldData = node.type.empty() ? nullptr : data->GetFieldData();
   if (auto* partitions = vtkPartitionedDataSet::SafeDownCast(data))
   {
     for (unsigned i = 0; i < partitions->GetNumberOfPartitions(); ++i)
@@ -91,15 +104,15 @@ void addNodes(BlockTree& tree, const BlockPath& path, const std::string& name, v
   {
     for (unsigned i = 0; i < blocks->GetNumberOfBlocks(); ++i)
     {
-      addNodes(tree, childOf(path, i), nameOfChild(blocks, i), blocks->GetBlock(i));
+      addChild(tree, childOf(path, i), metaDataOf(blocks, i), blocks->GetBlock(i));
     }
   }
   else if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(data))
   {
     for (unsigned i = 0; i < collection->GetNumberOfPartitionedDataSets(); ++i)
     {
-      addNodes(
-        tree, childOf(path, i), nameOfChild(collection, i), collection->GetPartitionedDataSet(i));
+      addChild(
+        tree, childOf(path, i), metaDataOf(collection, i), collection->GetPartitionedDataSet(i));
     }
   }
   else if (auto* levels = vtkUniformGridAMR::SafeDownCast(data))
@@ -112,25 +125,30 @@ void addNodes(BlockTree& tree, const BlockPath& path, const std::string& name, v
   }
 }
 
-void setName(vtkInformation* metaData, const std::string& name)
+/// What is told of a node, with its name, which another rank may have told.
+void setMetaData(vtkInformation* metaData, const BlockNode& node)
 {
-  if (!name.empty())
+  if (node.metaData)
   {
-    metaData->Set(vtkCompositeDataSet::NAME(), name.c_str());
+    metaData->Append(node.metaData);
+  }
+  if (!node.name.empty())
+  {
+    metaData->Set(vtkCompositeDataSet::NAME(), node.name.c_str());
   }
 }
 
-void setChild(vtkDataObject* parent, unsigned index, vtkDataObject* child, const std::string& name)
+void setChild(vtkDataObject* parent, unsigned index, vtkDataObject* child, const BlockNode& node)
 {
   if (auto* blocks = vtkMultiBlockDataSet::SafeDownCast(parent))
   {
     blocks->SetBlock(index, child);
-    setName(blocks->GetMetaData(index), name);
+    setMetaData(blocks->GetMetaData(index), node);
   }
   else if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(parent))
   {
     collection->SetPartitionedDataSet(index, vtkPartitionedDataSet::SafeDownCast(child));
-    setName(collection->GetMetaData(index), name);
+    setMetaData(collection->GetMetaData(index), node);
   }
 }
 
@@ -146,6 +164,10 @@ vtkSmartPointer<vtkDataObject> nodeObject(
   if (node.isBlock && block)
   {
     vtkPartitionedDataSet::SafeDownCast(object)->SetPartition(0, block);
+  }
+  if (node.fieldData)
+  {
+    object->GetFieldData()->PassData(node.fieldData);
   }
   return object;
 }
@@ -317,7 +339,7 @@ void writeBlocks(const BlockTree& tree,
     if (!path.empty())
     {
       const BlockPath parent(path.begin(), path.end() - 1);
-      setChild(made[parent], path.back(), object, node.name);
+      setChild(made[parent], path.back(), object, node);
     }
     else if (object)
     {

@@ -13,6 +13,8 @@
 #include <vector>
 
 class vtkDataObject;
+class vtkFieldData;
+class vtkInformation;
 class vtkPolyData;
 class vtkTable;
 
@@ -122,6 +124,8 @@ struct Block
   double areaShare = 1;
   /// Diagonal of the box round all blocks; 0 where it is the only one.
   double wholeDiagonal = 0;
+  /// Its own part of the target, see vtkQuadrilleAlgorithm::ReadOwnTarget; 0 where it has none.
+  double ownTarget = 0;
 
   vtkPolyData* input(int port = 0) const;
   vtkTable* inputTable(int port) const;
@@ -137,6 +141,8 @@ struct BlockNode
   std::string name;     ///< "" where it has none
   bool isBlock = false; ///< a data set, or data that is one surface in several partitions
   std::vector<vtkSmartPointer<vtkDataObject>> pieces; ///< of a block
+  vtkSmartPointer<vtkFieldData> fieldData;            ///< of composite data on this rank, or null
+  vtkSmartPointer<vtkInformation> metaData; ///< what its parent says of it on this rank, or null
 };
 
 /// The structure of an input, in the order of a walk from the root down.
@@ -154,8 +160,8 @@ std::string blockName(const BlockTree& tree, const BlockPath& path);
 /// Class name of what an output is for an input like this: composite data of the same kind, or "" for a plain data set.
 std::string compositeTypeFor(vtkDataObject* input);
 
-/// Empties `output` and gives it the structure of `tree` with these blocks; other leaves stay empty. input: what the
-/// tree is of.
+/// Empties `output` and gives it the structure of `tree` with these blocks; other leaves stay empty. Field data of
+/// composite data and what it says of its children come along. input: what the tree is of.
 void writeBlocks(const BlockTree& tree,
   const std::map<BlockPath, vtkSmartPointer<vtkDataObject>>& blocks, vtkDataObject* input,
   vtkDataObject* output);

@@ -560,6 +560,50 @@ QuadOutputs writeOutputs(const QuadMesh& mesh, const Mesh& mapped, const std::ve
   return outputs;
 }
 
+void reverseQuads(vtkPolyData* quads, const std::vector<std::uint8_t>& reversed)
+{
+  if (std::none_of(reversed.begin(), reversed.end(), [](std::uint8_t r) { return r != 0; }))
+  {
+    return;
+  }
+  auto connectivity = newArray<vtkIdTypeArray>("", 1, 4 * reversed.size());
+  auto* bits =
+    vtkUnsignedCharArray::SafeDownCast(quads->GetCellData()->GetArray(arrays::kFeatureEdges));
+  auto* normals =
+    vtkFloatArray::SafeDownCast(quads->GetPointData()->GetArray(arrays::kQuadNormals));
+  std::vector<std::uint8_t> isTurned(static_cast<std::size_t>(quads->GetNumberOfPoints()), 0);
+  for (std::size_t q = 0; q < reversed.size(); ++q)
+  {
+    const auto id = static_cast<vtkIdType>(q);
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    quads->GetCellPoints(id, count, ids);
+    // The first side stays the first one: b a d c of a b c d.
+    const std::array<vtkIdType, 4> corners = reversed[q] != 0
+      ? std::array<vtkIdType, 4>{ ids[1], ids[0], ids[3], ids[2] }
+      : std::array<vtkIdType, 4>{ ids[0], ids[1], ids[2], ids[3] };
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      connectivity->SetValue(4 * id + static_cast<vtkIdType>(i), corners[i]);
+      isTurned[static_cast<std::size_t>(corners[i])] |= reversed[q];
+    }
+    if (reversed[q] != 0)
+    {
+      const int old = bits->GetValue(id);
+      bits->SetValue(id, static_cast<unsigned char>((old & 5) | (old & 2) << 2 | (old & 8) >> 2));
+    }
+  }
+  quads->SetPolys(newCells(connectivity, 4));
+  for (std::size_t p = 0; normals && p < isTurned.size(); ++p)
+  {
+    for (vtkIdType i = 3 * static_cast<vtkIdType>(p);
+         isTurned[p] != 0 && i < 3 * static_cast<vtkIdType>(p) + 3; ++i)
+    {
+      normals->SetValue(i, -normals->GetValue(i));
+    }
+  }
+}
+
 QuadOutputs writePreview(const QuadMesh& mesh)
 {
   QuadOutputs outputs;

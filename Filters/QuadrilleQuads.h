@@ -86,6 +86,9 @@ struct QuadOutputs
 QuadOutputs writeOutputs(const QuadMesh& mesh, const Mesh& mapped, const std::vector<FixedVec2>& uv,
   const QuadSource& source);
 
+/// Turns quads of writeOutputs().quads over, with FeatureEdges and QuadNormals. reversed: a flag a quad.
+void reverseQuads(vtkPolyData* quads, const std::vector<std::uint8_t>& reversed);
+
 /// Of a preview: points with Valence and OnBoundary, quads, and the irregular vertices; the rest is null.
 QuadOutputs writePreview(const QuadMesh& mesh);
 

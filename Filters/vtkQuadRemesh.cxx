@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadRemesh.h"
 
+#include "Base/PlaceText.h"
+#include "Mesh/JoinParts.h"
+#include "Mesh/JointSheets.h"
+#include "Pipeline/PartSplit.h"
 #include "Pipeline/Pipeline.h"
 #include "Pipeline/ResultStore.h"
 #include "Pipeline/Symmetry.h"
@@ -17,6 +21,7 @@
 #include "QuadrilleSmallDetails.h"
 #include "QuadrilleSpread.h"
 #include "QuadrilleStamps.h"
+#include "QuadrilleSurfaces.h"
 #include "QuadrilleSymmetry.h"
 
 #include "vtkFieldData.h"
@@ -28,7 +33,12 @@
 #include "vtkTable.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -126,6 +136,113 @@ std::string constraintText(const std::vector<quadrille::ConstraintWord>& words)
   return text.str();
 }
 
+std::vector<const quadrille::SurfaceInput*> addressesOf(
+  const std::vector<quadrille::SurfaceInput>& parts)
+{
+  std::vector<const quadrille::SurfaceInput*> addresses;
+  for (const quadrille::SurfaceInput& part : parts)
+  {
+    addresses.push_back(&part);
+  }
+  return addresses;
+}
+
+std::vector<std::string> namesOfOthers(
+  const std::vector<quadrille::Block*>& blocks, std::size_t than)
+{
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+  {
+    if (i != than)
+    {
+      names.push_back(blocks[i]->name);
+    }
+  }
+  return names;
+}
+
+/// Whether a block has far more or fewer quads than were asked for.
+bool isFarFrom(std::size_t target, quadrille::Block& block)
+{
+  constexpr double factor = 1.5;
+  const auto quads = static_cast<double>(block.output(0)->GetNumberOfPolys());
+  const auto wanted = static_cast<double>(target);
+  return quads > factor * wanted || factor * quads < wanted;
+}
+
+/// Of conforming blocks, at the first one.
+std::string togetherText(
+  const std::vector<quadrille::Block*>& blocks, const quadrille::PartContacts& contacts)
+{
+  constexpr std::size_t told = 8;
+  const std::vector<std::string> names = namesOfOthers(blocks, 0);
+  std::ostringstream text;
+  text << "conforming, made in one run with ";
+  for (std::size_t i = 0; i < std::min(names.size(), told); ++i)
+  {
+    text << (i == 0 ? "'" : ", '") << names[i] << "'";
+  }
+  if (names.size() > told)
+  {
+    text << " and " << names.size() - told << " others";
+  }
+  text << ": they have " << contacts.edges << " edges in common";
+  return text.str();
+}
+
+/// Of the polygons, each in triangles from its first corner.
+double areaOfPolygons(const quadrille::SurfaceInput& input)
+{
+  double area = 0;
+  for (std::size_t i = 0; i + 1 < input.polygonOffsets.size(); ++i)
+  {
+    const quadrille::Index first = input.polygonOffsets[i];
+    const quadrille::Vector3& a = input.points[input.polygonPoints[first]];
+    for (quadrille::Index k = first + 2; k < input.polygonOffsets[i + 1]; ++k)
+    {
+      area += 0.5 *
+        (input.points[input.polygonPoints[k - 1]] - a)
+          .cross(input.points[input.polygonPoints[k]] - a)
+          .norm();
+    }
+  }
+  return area;
+}
+
+std::string sheetsText(const quadrille::MetSheets& met)
+{
+  std::ostringstream text;
+  text << met.segments << " curves are common to more than two sheets";
+  if (met.strips > 0)
+  {
+    text << "; " << met.strips
+         << (met.strips == 1 ? " strip of quads was" : " strips of quads were")
+         << " put in so that all sheets have the same points there";
+  }
+  if (met.inverted > 0)
+  {
+    text << "; " << met.inverted << " quads are inverted: more quads often help";
+  }
+  return text.str();
+}
+
+/// Of the joint surface, with a factor a part; the smaller one counts where parts meet. asked: those of the points
+/// without it, or empty.
+std::vector<float> sizesOf(const quadrille::JoinedParts& joined, const std::vector<float>& asked,
+  const std::vector<double>& factors)
+{
+  std::vector<float> sizes(joined.input.points.size(), std::numeric_limits<float>::max());
+  for (std::size_t p = 0; p < joined.parts.size(); ++p)
+  {
+    for (const auto& [joint, own] : joined.parts[p].points)
+    {
+      const float size = asked.empty() ? 1.0F : asked[joint];
+      sizes[joint] = std::min(sizes[joint], size * static_cast<float>(factors[p]));
+    }
+  }
+  return sizes;
+}
+
 void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
 {
   quadrille::addStages(data, result.stages);
@@ -167,7 +284,10 @@ void writeMapped(const quadrille::RemeshResult& result, const quadrille::RemeshO
     quadrille::matchingOf(result.surface.mesh, result.uv, options.threads), result.turns,
     source.input, *source.converted, source.textureCoordinates, options.threads, nullptr,
     source.earlier));
-  quadrille::addFrame(mapped, result.frame, result.framePositions);
+  if (!result.framePositions.empty()) // of sheets that were moved there are none
+  {
+    quadrille::addFrame(mapped, result.frame, result.framePositions);
+  }
   quadrille::addMethod(mapped, options.method);
   quadrille::addAnisotropy(mapped, options.anisotropyLimit, result.beyondAnisotropyLimit);
   quadrille::addCertificate(mapped, result.certificate);
@@ -176,6 +296,16 @@ void writeMapped(const quadrille::RemeshResult& result, const quadrille::RemeshO
 }
 
 } // namespace
+
+/// What is written of one block.
+struct vtkQuadRemesh::RunOfBlock
+{
+  const quadrille::ConvertedSurface& converted;
+  const quadrille::AskedConstraints& asked;
+  const quadrille::RemeshResult& result;
+  const quadrille::SymmetricResult* symmetric; ///< null where nothing symmetric was asked for
+  const quadrille::PiecesResult* pieces;       ///< null where the surface was not cut
+};
 
 //------------------------------------------------------------------------------
 vtkQuadRemesh::vtkQuadRemesh()
@@ -247,7 +377,7 @@ vtkTable* vtkQuadRemesh::GetConstraintTable()
 }
 
 //------------------------------------------------------------------------------
-void vtkQuadRemesh::Execute(quadrille::Block& block)
+void vtkQuadRemesh::CheckProperties() const
 {
   if (this->MaximumNumberOfQuads < 1)
   {
@@ -273,7 +403,11 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
       "the method 'seamless' makes no quads, and its result, the mapped surface, is "
       "switched off: switch ComputeMappedSurface on or choose another method");
   }
-  vtkPolyData* input = block.input();
+}
+
+//------------------------------------------------------------------------------
+quadrille::RemeshOptions vtkQuadRemesh::MakeRunOptions(const quadrille::Block& block)
+{
   quadrille::RemeshOptions options = this->MakeOptions(block);
   options.maximumNumberOfQuads = static_cast<std::size_t>(this->MaximumNumberOfQuads);
   options.smoothingSteps = this->SmoothingSteps;
@@ -296,76 +430,53 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   options.distortionMetric = this->DistortionMetric != 0;
   options.mergeCharts = this->ComputeMappedSurface != 0;
   options.progress = this->MakeProgress(0.02, 0.95);
-
   options.warmStart = this->WarmStart != 0;
   options.preview = this->Preview != 0;
+  return options;
+}
 
-  quadrille::AskedConstraints asked;
-  const std::unique_ptr<quadrille::TriangleSource> toCut = this->TrianglesToCut(block, options);
-  quadrille::ConvertedSurface converted =
-    toCut ? this->ConvertForPieces(block) : this->ConvertInputs(block, &asked);
-  quadrille::PiecesResult pieces;
+//------------------------------------------------------------------------------
+quadrille::SymmetricResult vtkQuadRemesh::RunPipeline(quadrille::SurfaceInput surface,
+  const quadrille::RemeshOptions& options, quadrille::ResultStore* levels)
+{
+  if (this->Symmetry == SYMMETRY_NONE)
+  {
+    quadrille::SymmetricResult plain;
+    plain.remeshed = levels != nullptr ? quadrille::remesh(std::move(surface), options, *levels)
+                                       : quadrille::remesh(std::move(surface), options);
+    return plain;
+  }
+  quadrille::SymmetryOptions symmetry;
+  symmetry.planeCurve = static_cast<quadrille::PlaneCurve>(this->PlaneCurve);
+  if (this->Symmetry == SYMMETRY_PLANE)
+  {
+    symmetry.plane = quadrille::MirrorPlane{ quadrille::Vector3(this->SymmetryOrigin),
+      quadrille::Vector3(this->SymmetryNormal) };
+  }
+  if (this->Symmetry == SYMMETRY_AXIS || this->Symmetry == SYMMETRY_AXIS_FOUND)
+  {
+    symmetry.rotation = quadrille::RotationRequest{ this->RotationOrder, std::nullopt };
+  }
+  if (this->Symmetry == SYMMETRY_AXIS)
+  {
+    symmetry.rotation->axis = quadrille::RotationAxis{ quadrille::Vector3(this->SymmetryOrigin),
+      quadrille::Vector3(this->SymmetryNormal) };
+  }
+  return quadrille::remeshSymmetric(std::move(surface), options, symmetry, levels);
+}
 
-  quadrille::BlockReport& report = block.state->report;
-  LevelMemory* memory = this->KeepLevels ? &block.state->memoryAs<LevelMemory>() : nullptr;
-  if (memory != nullptr && options.mergeCharts)
-  {
-    options.knownMap = memory->mapped.mapFor(input, this->TextureCoordinates);
-  }
-  quadrille::ResultStore* levels = memory != nullptr ? &memory->levels : nullptr;
-  const bool isSymmetric = this->Symmetry != SYMMETRY_NONE;
-  const auto run = [&](quadrille::SurfaceInput surface, const quadrille::RemeshOptions& how)
-  {
-    if (toCut)
-    {
-      pieces = quadrille::remeshInPieces(*toCut, how);
-      quadrille::SymmetricResult plain;
-      plain.remeshed = std::move(pieces.remeshed);
-      return plain;
-    }
-    if (!isSymmetric)
-    {
-      quadrille::SymmetricResult plain;
-      plain.remeshed = levels != nullptr ? quadrille::remesh(std::move(surface), how, *levels)
-                                         : quadrille::remesh(std::move(surface), how);
-      return plain;
-    }
-    quadrille::SymmetryOptions symmetry;
-    symmetry.planeCurve = static_cast<quadrille::PlaneCurve>(this->PlaneCurve);
-    if (this->Symmetry == SYMMETRY_PLANE)
-    {
-      symmetry.plane = quadrille::MirrorPlane{ quadrille::Vector3(this->SymmetryOrigin),
-        quadrille::Vector3(this->SymmetryNormal) };
-    }
-    if (this->Symmetry == SYMMETRY_AXIS || this->Symmetry == SYMMETRY_AXIS_FOUND)
-    {
-      symmetry.rotation = quadrille::RotationRequest{ this->RotationOrder, std::nullopt };
-    }
-    if (this->Symmetry == SYMMETRY_AXIS)
-    {
-      symmetry.rotation->axis = quadrille::RotationAxis{ quadrille::Vector3(this->SymmetryOrigin),
-        quadrille::Vector3(this->SymmetryNormal) };
-    }
-    return quadrille::remeshSymmetric(std::move(surface), how, symmetry, levels);
-  };
-  std::vector<std::string> notices;
-  const quadrille::SymmetricResult made = quadrille::asksForMoves(asked.placed)
-    ? quadrille::remeshWithMoves(converted.input, options, run, asked.placed, notices)
-    : run(std::move(converted.input), options);
-  for (const std::string& notice : notices)
-  {
-    this->AddWarning(notice);
-  }
-  const quadrille::RemeshResult& result = made.remeshed;
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::TellRun(quadrille::Block& block, const quadrille::RemeshResult& result)
+{
   if (!result.stopped.empty())
   {
     this->KeepSoFar();
   }
+  quadrille::BlockReport& report = block.state->report;
   report.reusedStages = result.reused;
   report.numbers["TargetQuads"] = static_cast<double>(result.targetQuads);
   this->SetStageRecords(result.stages);
   this->SetCertificate(result.certificate);
-  asked.curves = result.curves;
   const quadrille::SmallParts& parts = result.smallParts;
   report.numbers["Handles"] = static_cast<double>(parts.handles);
   report.numbers["UnresolvedHandles"] = static_cast<double>(parts.unresolvedHandles);
@@ -380,47 +491,62 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
     this->AddNotice(notice);
   }
   quadrille::requireOk(result.status, "remeshing");
+}
 
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::Execute(quadrille::Block& block)
+{
+  this->CheckProperties();
+  vtkPolyData* input = block.input();
+  quadrille::RemeshOptions options = this->MakeRunOptions(block);
+  quadrille::AskedConstraints asked;
+  const std::unique_ptr<quadrille::TriangleSource> toCut = this->TrianglesToCut(block, options);
+  quadrille::ConvertedSurface converted =
+    toCut ? this->ConvertForPieces(block) : this->ConvertInputs(block, &asked);
+  quadrille::PiecesResult pieces;
+  LevelMemory* memory = this->KeepLevels ? &block.state->memoryAs<LevelMemory>() : nullptr;
+  if (memory != nullptr && options.mergeCharts)
+  {
+    options.knownMap = memory->mapped.mapFor(input, this->TextureCoordinates);
+  }
+  quadrille::ResultStore* levels = memory != nullptr ? &memory->levels : nullptr;
+  const auto run = [&](quadrille::SurfaceInput surface, const quadrille::RemeshOptions& how)
+  {
+    if (!toCut)
+    {
+      return this->RunPipeline(std::move(surface), how, levels);
+    }
+    pieces = quadrille::remeshInPieces(*toCut, how);
+    quadrille::SymmetricResult plain;
+    plain.remeshed = std::move(pieces.remeshed);
+    return plain;
+  };
+  std::vector<std::string> notices;
+  const quadrille::SymmetricResult made = quadrille::asksForMoves(asked.placed)
+    ? quadrille::remeshWithMoves(converted.input, options, run, asked.placed, notices)
+    : run(std::move(converted.input), options);
+  for (const std::string& notice : notices)
+  {
+    this->AddWarning(notice);
+  }
+  const quadrille::RemeshResult& result = made.remeshed;
+  asked.curves = result.curves;
+  this->TellRun(block, result);
   if (options.preview)
   {
     this->WritePreview(block, asked, result);
     return;
   }
-  quadrille::QuadSource source = sourceOf(result.surface, converted, input);
-  source.cellDataFrom = static_cast<quadrille::CellDataFrom>(this->CellDataFrom);
-  source.threads = this->NumberOfThreads;
-  if (isSymmetric)
+  const RunOfBlock whole{ converted, asked, result,
+    this->Symmetry != SYMMETRY_NONE ? &made : nullptr, toCut ? &pieces : nullptr };
+  this->WriteQuads(block, whole);
+  if (!block.path.empty() && options.quads && !options.coarsestIntegers &&
+    isFarFrom(*options.quads, block))
   {
-    quadrille::addMirrorSources(made, converted, input, source);
+    this->AddNotice("has " + std::to_string(result.quads.quads.size()) +
+      " quads where its share is " + std::to_string(*options.quads) +
+      ": its topology and its features take so many");
   }
-  if (toCut)
-  {
-    quadrille::addPieceSources(pieces, result.quads, converted, input, source);
-    this->AddNotice("the surface was cut into " + std::to_string(pieces.pieces) +
-      " pieces, which were thinned out to " + std::to_string(pieces.joinedTriangles) +
-      " triangles before quads were made; the certificate is that of their map (Pieces Never, "
-      "--pieces never, keeps the surface whole)");
-  }
-  const quadrille::QuadOutputs written =
-    quadrille::writeOutputs(result.quads, result.surface.mesh, result.uv, source);
-  for (const std::string& notice : written.notCarried)
-  {
-    this->AddNotice(notice);
-  }
-  for (const std::string& warning : quadrille::missedValences(asked.placed, result.quads))
-  {
-    this->AddWarning(warning);
-  }
-  vtkPolyData* quads = block.output(0);
-  quads->ShallowCopy(written.quads);
-  addFieldData(quads, result);
-  quadrille::addMethod(quads, options.method);
-  quadrille::addAnisotropy(quads, options.anisotropyLimit, result.beyondAnisotropyLimit);
-  if (isSymmetric)
-  {
-    quadrille::addSymmetry(quads, made);
-  }
-  quadrille::addText(quads, "Notices", this->GetBlockNotices());
   if (this->ComputeMappedSurface)
   {
     vtkPolyData* mapped = block.output(1);
@@ -443,24 +569,329 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
       memory->mapped.surface->ShallowCopy(mapped);
     }
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const RunOfBlock& run)
+{
+  const quadrille::RemeshResult& result = run.result;
+  vtkPolyData* input = block.input();
+  quadrille::QuadSource source = sourceOf(result.surface, run.converted, input);
+  source.cellDataFrom = static_cast<quadrille::CellDataFrom>(this->CellDataFrom);
+  source.threads = this->NumberOfThreads;
+  if (run.symmetric != nullptr)
+  {
+    quadrille::addMirrorSources(*run.symmetric, run.converted, input, source);
+  }
+  if (run.pieces != nullptr)
+  {
+    quadrille::addPieceSources(*run.pieces, result.quads, run.converted, input, source);
+    this->AddNotice("the surface was cut into " + std::to_string(run.pieces->pieces) +
+      " pieces, which were thinned out to " + std::to_string(run.pieces->joinedTriangles) +
+      " triangles before quads were made; the certificate is that of their map (Pieces Never, "
+      "--pieces never, keeps the surface whole)");
+  }
+  const quadrille::QuadOutputs written =
+    quadrille::writeOutputs(result.quads, result.surface.mesh, result.uv, source);
+  std::vector<std::string>& notices = block.state->report.notices;
+  notices.insert(notices.end(), written.notCarried.begin(), written.notCarried.end());
+  for (const std::string& warning : quadrille::missedValences(run.asked.placed, result.quads))
+  {
+    notices.push_back(warning);
+    vtkWarningMacro(<< warning);
+  }
+  vtkPolyData* quads = block.output(0);
+  quads->ShallowCopy(written.quads);
+  addFieldData(quads, result);
+  quadrille::addMethod(quads, static_cast<quadrille::MapMethod>(this->Method));
+  quadrille::addAnisotropy(quads, this->AnisotropyLimit, result.beyondAnisotropyLimit);
+  if (run.symmetric != nullptr)
+  {
+    quadrille::addSymmetry(quads, *run.symmetric);
+  }
+  quadrille::addText(quads, "Notices", notices);
   block.output(2)->ShallowCopy(written.lines);
   block.output(3)->ShallowCopy(written.separatrices);
   block.output(4)->ShallowCopy(written.irregular);
   std::vector<quadrille::ConstraintWord> words = quadrille::judgeConstraints(
-    asked, result.quads, written.quads->GetPointData()->GetArray(quadrille::arrays::kSizing));
+    run.asked, result.quads, written.quads->GetPointData()->GetArray(quadrille::arrays::kSizing));
   block.output(5)->ShallowCopy(quadrille::writeConstraints(
-    asked.placed, asked.curves, result.quads, quadrille::metOfDrawn(words, asked)));
-  if (isSymmetric)
+    run.asked.placed, run.asked.curves, result.quads, quadrille::metOfDrawn(words, run.asked)));
+  if (run.symmetric != nullptr)
   {
-    words.push_back(quadrille::judgeSymmetry(made));
-    quadrille::addMirrorLines(block.output(5), made, words.back().isMet);
+    words.push_back(quadrille::judgeSymmetry(*run.symmetric));
+    quadrille::addMirrorLines(block.output(5), *run.symmetric, words.back().isMet);
   }
   block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
   block.output(7)->ShallowCopy(
     quadrille::writeSmallDetails(result.details, result.givenUpFeatures));
-  this->SetResult(
-    resultText(result, written.irregular->GetNumberOfPoints()) + constraintText(words));
-  report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
+  block.state->report.result =
+    resultText(result, written.irregular->GetNumberOfPoints()) + constraintText(words);
+  block.state->report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
+}
+
+//------------------------------------------------------------------------------
+std::vector<vtkQuadrilleAlgorithm::Together> vtkQuadRemesh::FindTogether(
+  const std::vector<quadrille::Block*>& blocks)
+{
+  if (!this->Conforming || blocks.size() < 2)
+  {
+    return this->Superclass::FindTogether(blocks);
+  }
+  // What cannot be read is executed alone, where it says why.
+  std::vector<quadrille::SurfaceInput> parts;
+  for (const quadrille::Block* block : blocks)
+  {
+    try
+    {
+      parts.push_back(quadrille::convertSurface(block->input(), "", this->NumberOfThreads).input);
+    }
+    catch (const quadrille::InvalidInput&)
+    {
+      parts.emplace_back();
+    }
+  }
+  const quadrille::PartContacts contacts = quadrille::findContacts(addressesOf(parts));
+  std::map<quadrille::Index, Together> groups;
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+  {
+    groups[contacts.group[i]].blocks.push_back(i);
+  }
+  if (contacts.loosePoints > 0)
+  {
+    std::ostringstream text;
+    text << contacts.loosePoints << " points of blocks lie at points of others where no edges have "
+         << "equal ends, one of '" << blocks[contacts.looseParts[0]]->name << "' and '"
+         << blocks[contacts.looseParts[1]]->name << "' at "
+         << quadrille::placeText(contacts.loosePlace)
+         << ": quads do not meet there; along a common curve both need the same points";
+    groups[contacts.group[contacts.looseParts[0]]].notices.push_back(text.str());
+  }
+  std::vector<Together> all;
+  for (const auto& [first, together] : groups)
+  {
+    all.push_back(together);
+  }
+  return all;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks)
+{
+  this->CheckProperties();
+  if (this->Symmetry != SYMMETRY_NONE)
+  {
+    throw quadrille::InvalidInput(
+      "conforming blocks cannot be made symmetric: switch Conforming or "
+      "Symmetry off");
+  }
+  std::vector<quadrille::ConvertedSurface> converted;
+  std::vector<quadrille::AskedConstraints> asked(blocks.size());
+  std::vector<quadrille::SurfaceInput> parts;
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+  {
+    this->SayOf(*blocks[i]);
+    converted.push_back(this->ConvertInputs(*blocks[i], &asked[i]));
+    parts.push_back(std::move(converted.back().input));
+    if (quadrille::asksForMoves(asked[i].placed))
+    {
+      throw quadrille::InvalidInput("irregular vertices of conforming blocks cannot be moved: take "
+                                    "the moves away, or switch Conforming off");
+    }
+  }
+  this->SayOf(*blocks.front());
+  const quadrille::PartContacts contacts = quadrille::findContacts(addressesOf(parts));
+  const bool hasSheets = contacts.manyFaced > 0;
+  if (hasSheets)
+  {
+    this->CheckSheets(parts, contacts, blocks);
+  }
+  quadrille::RemeshOptions options = this->MakeRunOptions(*blocks.front());
+  options.preview = false; // what it leaves out is needed to take the quads apart
+  std::vector<double> shares, sizes;
+  this->ShareQuads(blocks, options, shares, sizes);
+  quadrille::JoinedParts joined = quadrille::joinParts(std::move(parts), contacts);
+  this->AddNotice(togetherText(blocks, contacts));
+  // Faces that several blocks share are made once, but are quads of each.
+  double oncePerFace = 1;
+  std::optional<quadrille::JointSheets> sheets;
+  const std::vector<quadrille::Vector3> jointPoints = joined.input.points;
+  if (hasSheets)
+  {
+    oncePerFace = areaOfPolygons(quadrille::cutIntoSheets(joined.input, std::nullopt).input) /
+      areaOfPolygons(joined.input);
+    if (options.quads)
+    {
+      options.quads = static_cast<std::size_t>(
+        std::max(1L, std::lround(oncePerFace * static_cast<double>(*options.quads))));
+    }
+    else if (this->TargetType == TARGET_RELATIVE_EDGE_LENGTH && !options.edgeLength)
+    {
+      options.edgeLength = this->RelativeEdgeLength * quadrille::diagonalOf(joined.input);
+    }
+    sheets.emplace();
+  }
+  quadrille::RemeshResult result = this->RunJoined(*blocks.front(), joined, options, sizes, sheets);
+  this->TellRun(*blocks.front(), result);
+  std::vector<quadrille::PartResult> results;
+  if (sheets)
+  {
+    const quadrille::MetSheets met = quadrille::meetAtJoints(
+      result, *sheets, jointPoints, this->SmoothingSteps, this->NumberOfThreads);
+    quadrille::requireOk(met.status, "conforming blocks");
+    this->AddNotice(sheetsText(met));
+    results = quadrille::splitSheets(result, joined, *sheets, met);
+  }
+  else
+  {
+    results = quadrille::splitParts(result, joined);
+  }
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+  {
+    quadrille::Block& block = *blocks[i];
+    const quadrille::RemeshResult& own = results[i].result;
+    results[i].result.targetQuads = static_cast<std::size_t>(
+      std::lround(shares[i] * static_cast<double>(result.targetQuads) / oncePerFace));
+    asked[i].curves = own.curves;
+    if (own.quads.quads.empty() && this->Method != METHOD_SEAMLESS)
+    {
+      throw quadrille::InvalidInput("no quads are left for the block '" + block.name +
+        "', which is smaller than one: ask for more quads, or take it out");
+    }
+    this->WriteQuads(block, { converted[i], asked[i], own, nullptr, nullptr });
+    quadrille::reverseQuads(block.output(0), results[i].reversed);
+    quadrille::addText(block.output(0), "ConformingWith", namesOfOthers(blocks, i));
+    block.state->report.numbers["TargetQuads"] = static_cast<double>(own.targetQuads);
+    if (options.quads && !options.coarsestIntegers && isFarFrom(own.targetQuads, block))
+    {
+      this->SayOf(block);
+      this->AddNotice("has " + std::to_string(own.quads.quads.size()) +
+        " quads where its share is " + std::to_string(own.targetQuads) +
+        ": where it meets others it has as many edges as they have");
+    }
+    if (this->ComputeMappedSurface)
+    {
+      writeMapped(own, options,
+        { block.input(), &converted[i], this->TextureCoordinates != 0, nullptr }, block.output(1));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::ShareQuads(const std::vector<quadrille::Block*>& blocks,
+  quadrille::RemeshOptions& options, std::vector<double>& shares, std::vector<double>& sizes)
+{
+  // The least number that a small block gets for itself is no matter here: those without a number of their own have
+  // one edge length.
+  const bool isShared = this->QuadsAre == QUADS_ARE_SHARED_BY_AREA;
+  std::vector<double> areas;
+  double area = 0, all = 0, sharedArea = 0, sharedQuads = 0;
+  for (const quadrille::Block* block : blocks)
+  {
+    areas.push_back(quadrille::areaOf(block->input()));
+    const std::optional<std::size_t> quads = this->MakeOptions(*block).quads;
+    shares.push_back(quads ? static_cast<double>(*quads) : areas.back());
+    area += areas.back();
+    all += shares.back();
+    sharedArea += block->ownTarget > 0 ? 0 : areas.back();
+    sharedQuads += block->ownTarget > 0 ? 0 : shares.back();
+  }
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+  {
+    if (isShared && !(blocks[i]->ownTarget > 0) && sharedArea > 0)
+    {
+      shares[i] = sharedQuads * areas[i] / sharedArea;
+    }
+  }
+  if (options.quads)
+  {
+    options.quads = static_cast<std::size_t>(std::lround(all));
+  }
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+  {
+    shares[i] /= all;
+    sizes.push_back(std::sqrt(areas[i] / area / shares[i]));
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::CheckSheets(const std::vector<quadrille::SurfaceInput>& parts,
+  const quadrille::PartContacts& contacts, const std::vector<quadrille::Block*>& blocks) const
+{
+  std::string names;
+  for (const quadrille::Index part : contacts.manyFacedParts)
+  {
+    names += (names.empty() ? "'" : "' and '") + blocks[part]->name;
+  }
+  const std::string where = "more than two sheets meet, of " + names + "' near " +
+    quadrille::placeText(contacts.manyFacedPlace);
+  if (this->Method == METHOD_SEAMLESS)
+  {
+    throw quadrille::InvalidInput(where +
+      ", which takes quads to be conforming: choose another method than 'seamless', or switch "
+      "Conforming off");
+  }
+  if (std::any_of(parts.begin(), parts.end(),
+        [](const quadrille::SurfaceInput& part) { return !part.curves.empty(); }))
+  {
+    throw quadrille::InvalidInput(where +
+      ": there are no connections and cycles with that. Take them away, or switch Conforming off");
+  }
+}
+
+//------------------------------------------------------------------------------
+quadrille::RemeshResult vtkQuadRemesh::RunJoined(quadrille::Block& first,
+  quadrille::JoinedParts& joined, const quadrille::RemeshOptions& options,
+  const std::vector<double>& sizes, std::optional<quadrille::JointSheets>& sheets)
+{
+  quadrille::ResultStore* levels =
+    this->KeepLevels ? &first.state->memoryAs<LevelMemory>().levels : nullptr;
+  const auto run = [&]()
+  {
+    if (!sheets)
+    {
+      return this->RunPipeline(joined.input, options, levels).remeshed;
+    }
+    sheets = quadrille::cutIntoSheets(joined.input, options.featureAngle);
+    const quadrille::PlaceFold fold(
+      [&sheets](const quadrille::Vector3& place) { return sheets->movedBack(place); });
+    return this->RunPipeline(std::move(sheets->input), options, levels).remeshed;
+  };
+  constexpr double nothing = 0.01;
+  const bool isUniform = std::all_of(
+    sizes.begin(), sizes.end(), [](double size) { return std::abs(size - 1) < nothing; });
+  if (isUniform)
+  {
+    return run();
+  }
+  // Sizes that differ between parts may leave no map, as they ask for irregular vertices where features leave no room:
+  // then the parts get sizes half as far from each other, and at last one.
+  const std::vector<float> asked = joined.input.sizing;
+  for (const double share : { 1.0, 0.5, 0.0 })
+  {
+    std::vector<double> factors;
+    for (const double size : sizes)
+    {
+      factors.push_back(std::pow(size, share));
+    }
+    joined.input.sizing = share > 0 ? sizesOf(joined, asked, factors) : asked;
+    const bool isLast = share == 0;
+    quadrille::RemeshResult result = run();
+    if (isLast || result.status.ok() || result.status.code == quadrille::StatusCode::Cancelled ||
+      result.status.code == quadrille::StatusCode::TooLarge)
+    {
+      if (share < 1)
+      {
+        this->AddNotice(
+          std::string("with the sizes that the blocks' own numbers of quads ask for there "
+                      "is no map: ") +
+          (isLast ? "all blocks have quads of one size"
+                  : "the sizes differ half as much between blocks"));
+      }
+      return result;
+    }
+  }
+  throw std::logic_error("no run was the last one");
 }
 
 //------------------------------------------------------------------------------
@@ -634,6 +1065,7 @@ void vtkQuadRemesh::AddSettings(std::ostream& os) const
      << "Pieces " << this->Pieces << '\n'
      << "WarmStart " << this->WarmStart << '\n'
      << "Preview " << this->Preview << '\n'
+     << "Conforming " << this->Conforming << '\n'
      << "FinalQuality " << this->FinalQuality << '\n'
      << "DistortionMetric " << this->DistortionMetric << '\n'
      << "CellDataFrom " << this->CellDataFrom << '\n'
@@ -682,6 +1114,7 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "KeepLevels: " << this->KeepLevels << "\n";
   os << indent << "WarmStart: " << this->WarmStart << "\n";
   os << indent << "Preview: " << this->Preview << "\n";
+  os << indent << "Conforming: " << this->Conforming << "\n";
   os << indent << "ReusedStagesText: " << this->GetReusedStagesText() << "\n";
   os << indent << "RememberedMegabytes: " << this->GetRememberedMegabytes() << "\n";
   os << indent << "FinalQuality: " << this->FinalQuality << "\n";

@@ -72,13 +72,20 @@
 
 #include "vtkQuadrilleSurfaceAlgorithm.h"
 
-#include <memory> // for std::unique_ptr
+#include <memory>   // for std::unique_ptr
+#include <optional> // for std::optional
 
 class vtkTable;
 
 namespace quadrille
 {
+class ResultStore;
 class TriangleSource;
+struct JoinedParts;
+struct JointSheets;
+struct PartContacts;
+struct SurfaceInput;
+struct SymmetricResult;
 }
 
 class QUADRILLEFILTERS_EXPORT vtkQuadRemesh : public vtkQuadrilleSurfaceAlgorithm
@@ -433,6 +440,24 @@ public:
   vtkBooleanMacro(Preview, vtkTypeBool);
   ///@}
 
+  ///@{
+  /**
+   * Whether quads of blocks of composite data fit together where blocks meet. Blocks with edges in common, that is
+   * whose ends are at the same places up to a millionth of the box round all blocks, are made in one run: the common
+   * curves become edges of the quads, with the same points, to the bit, in all blocks. Each block keeps its share of
+   * the quads (see QuadsAre and QuadsOfBlocks, by sizes where they differ from the shares of areas), its arrays and its
+   * orientation; what the run tells as a whole stands at the first block of those that hang together, and
+   * `ConformingWith` in the field data names the others. Where more than two sheets meet, as at a rib, they are made
+   * apart and get strips of quads until all have the same points there; faces that two solids share, with the same
+   * triangles, become the same quads of both. An error names the place where a block meets itself at such a curve. Not
+   * with a Symmetry, nor with moves of irregular vertices, nor, where more than two sheets meet, with connections and
+   * cycles; Preview does not count for such blocks. Default: off.
+   */
+  vtkSetMacro(Conforming, vtkTypeBool);
+  vtkGetMacro(Conforming, vtkTypeBool);
+  vtkBooleanMacro(Conforming, vtkTypeBool);
+  ///@}
+
   /// See SetSpreadSurfaces().
   enum SpreadSurfacesType
   {
@@ -467,7 +492,7 @@ public:
    * Whether a surface in one process is cut into compact pieces of about a million triangles, a PiecesType. Each is
    * prepared and thinned out by itself, to triangles that are small against the quads, one piece a thread; the quads
    * are made on the thinned pieces together, and their points go back to the surface. That takes about a third of the
-   * memory and less time, and holds nothing of the surface for the next execution. Automatic: from 1,500,000 triangles
+   * memory and less time, and holds nothing of the surface for the next execution. Automatic: from 4,000,000 triangles
    * on, where a quad has at least 66 of them, and with KeepLevels from 10,000,000 on; where properties or inputs need
    * the whole surface (constraints, symmetry, previews, the mapped surface, CellDataFrom by area, FinalQuality on the
    * input, the method without quads, polygons with more than three corners), it stays whole. Always: also where it is
@@ -561,6 +586,9 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
   const char* GetBlockType(int outputPort) const override;
   void Execute(quadrille::Block& block) override;
+  bool JoinsBlocks() const override { return this->Conforming != 0; }
+  std::vector<Together> FindTogether(const std::vector<quadrille::Block*>& blocks) override;
+  void ExecuteTogether(const std::vector<quadrille::Block*>& blocks) override;
   void WritePreview(quadrille::Block& block, const quadrille::AskedConstraints& asked,
     const quadrille::RemeshResult& result);
   int GetSpreadMode() const override { return this->SpreadSurfaces; }
@@ -575,6 +603,25 @@ protected:
 private:
   vtkQuadRemesh(const vtkQuadRemesh&) = delete;
   void operator=(const vtkQuadRemesh&) = delete;
+
+  struct RunOfBlock;
+  void CheckProperties() const;
+  quadrille::RemeshOptions MakeRunOptions(const quadrille::Block& block);
+  quadrille::SymmetricResult RunPipeline(quadrille::SurfaceInput surface,
+    const quadrille::RemeshOptions& options, quadrille::ResultStore* levels);
+  void TellRun(quadrille::Block& block, const quadrille::RemeshResult& result);
+  void WriteQuads(quadrille::Block& block, const RunOfBlock& run);
+  /// The options get the number of quads of all blocks; shares: of each, sum 1; sizes: of its quads for that share,
+  /// over the mean.
+  void ShareQuads(const std::vector<quadrille::Block*>& blocks, quadrille::RemeshOptions& options,
+    std::vector<double>& shares, std::vector<double>& sizes);
+  /// Refuses what is not possible where more than two sheets meet.
+  void CheckSheets(const std::vector<quadrille::SurfaceInput>& parts,
+    const quadrille::PartContacts& contacts, const std::vector<quadrille::Block*>& blocks) const;
+  /// sheets: where there is a value, the run is one of sheets, which it becomes.
+  quadrille::RemeshResult RunJoined(quadrille::Block& first, quadrille::JoinedParts& joined,
+    const quadrille::RemeshOptions& options, const std::vector<double>& sizes,
+    std::optional<quadrille::JointSheets>& sheets);
 
   vtkPolyData* GetPolyDataOutputAt(int port);
   void SetSizes(quadrille::RemeshOptions& options) const;
@@ -605,6 +652,7 @@ private:
   int Pieces = PIECES_AUTOMATIC;
   vtkTypeBool KeepLevels = 1;
   vtkTypeBool Preview = 0;
+  vtkTypeBool Conforming = 0;
   vtkTypeBool WarmStart = 0;
   int FinalQuality = Coarse;
   vtkTypeBool DistortionMetric = 0;

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadrilleAlgorithm.h"
 
+#include "Base/DisjointSets.h"
+#include "Base/Refuse.h"
 #include "GridMap/GridMap.h"
+#include "Mesh/JoinParts.h"
 #include "Pipeline/Pipeline.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrillePieces.h"
@@ -19,6 +22,8 @@
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkDataObjectTypes.h"
+#include "vtkDataSet.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMath.h"
@@ -29,6 +34,7 @@
 #include <algorithm>
 #include <limits>
 #include <new>
+#include <set>
 #include <sstream>
 
 using Executive = vtkStreamingDemandDrivenPipeline;
@@ -146,6 +152,7 @@ struct vtkQuadrilleAlgorithm::Work
   quadrille::Block block; ///< inputs and outputs on the owner only
   std::string key;
   int owner = 0;
+  std::size_t group = 0; ///< the first work that this one may have to be executed together with
   std::size_t cells = 0; ///< of all ranks
   bool isChanged = true;
   std::vector<quadrille::Stamp> stamps;             ///< of this rank's pieces
@@ -344,6 +351,8 @@ int vtkQuadrilleAlgorithm::RunBlocks(
   }
   run.ranks.agree(error);
   this->ListBlocks(run);
+  this->ReadOwnTargets(run);
+  this->GroupBlocks(run);
   this->TakeStates(run);
   run.anew = std::any_of(
     run.works.begin(), run.works.end(), [](const Work& work) { return work.isChanged; });
@@ -354,20 +363,30 @@ int vtkQuadrilleAlgorithm::RunBlocks(
     this->JoinSpread(run);
     this->ShareOut(run);
   }
-  std::vector<Work*> mine;
+  std::set<std::size_t> changed; // what is executed together is changed together
+  for (const Work& work : run.works)
+  {
+    if (work.isChanged)
+    {
+      changed.insert(work.group);
+    }
+  }
+  std::map<std::size_t, std::vector<Work*>> mine; // by group
   for (Work& work : run.works)
   {
+    work.isChanged = changed.count(work.group) != 0;
     if (run.owns(work))
     {
-      mine.push_back(&work);
+      mine[work.group].push_back(&work);
     }
   }
   this->Stop = run.anew ? &run.stop : nullptr;
-  for (std::size_t i = 0; i < mine.size(); ++i)
+  double begin = 0;
+  for (const auto& [group, works] : mine)
   {
-    this->BlockBegin = static_cast<double>(i) / static_cast<double>(mine.size());
-    this->BlockEnd = static_cast<double>(i + 1) / static_cast<double>(mine.size());
-    this->RunBlock(*mine[i]);
+    this->BlockBegin = begin / static_cast<double>(mine.size());
+    this->BlockEnd = ++begin / static_cast<double>(mine.size());
+    this->RunWorks(works);
   }
   if (run.anew)
   {
@@ -470,6 +489,62 @@ void vtkQuadrilleAlgorithm::ListBlocks(Run& run)
 }
 
 //------------------------------------------------------------------------------
+double vtkQuadrilleAlgorithm::ReadOwnTarget(const std::string&, vtkFieldData*) const
+{
+  return 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::CheckBlockNames(const std::vector<std::string>&) const {}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::ReadOwnTargets(Run& run)
+{
+  std::vector<std::string> names;
+  quadrille::Packer packer;
+  for (const Work& work : run.works)
+  {
+    names.push_back(work.block.name);
+    double target = 0;
+    std::string error;
+    try
+    {
+      const quadrille::BlockNode& node = run.trees[0].at(work.block.path);
+      std::vector<vtkFieldData*> told{ node.fieldData };
+      for (vtkDataObject* piece : node.pieces)
+      {
+        told.push_back(piece->GetFieldData());
+      }
+      // Pieces of one surface may each say it, or one for all; the name of a block counts where none does.
+      for (vtkFieldData* fieldData : told)
+      {
+        if (!work.block.path.empty())
+        {
+          target = std::max(target, this->ReadOwnTarget(work.block.name, fieldData));
+        }
+      }
+    }
+    catch (const std::exception& failure)
+    {
+      error = failure.what();
+    }
+    packer.number(target);
+    packer.text(error);
+  }
+  for (const std::string& bytes : run.ranks.gather(packer.bytes()))
+  {
+    quadrille::Unpacker unpacker(bytes);
+    for (Work& work : run.works)
+    {
+      work.block.ownTarget = std::max(work.block.ownTarget, unpacker.number());
+      const std::string error = unpacker.text();
+      work.error = work.error.empty() ? error : work.error;
+    }
+  }
+  this->CheckBlockNames(names);
+}
+
+//------------------------------------------------------------------------------
 void vtkQuadrilleAlgorithm::TakeStates(Run& run)
 {
   std::map<std::string, std::unique_ptr<quadrille::BlockState>> states;
@@ -483,6 +558,7 @@ void vtkQuadrilleAlgorithm::TakeStates(Run& run)
     }
     work.block.state = state.get();
     work.stamps = run.stamps;
+    work.stamps.emplace_back(nullptr, static_cast<vtkMTimeType>(work.block.ownTarget));
     for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
     {
       for (vtkDataObject* piece : run.pieces(work, port))
@@ -490,13 +566,28 @@ void vtkQuadrilleAlgorithm::TakeStates(Run& run)
         quadrille::addStamps(piece, work.stamps);
       }
     }
-    packer.count(!state->lastResult.empty());
-    packer.count(this->KeepsResult() && work.stamps == state->lastStamps &&
-      (!state->isSpread || state->ghostLevels == run.ghostLevels));
-    // Where another port asks for what failed, the report says already why there is nothing.
-    packer.count(work.stamps == state->failedStamps);
   }
   this->States = std::move(states);
+  // What is executed together depends on the inputs of all.
+  std::map<std::size_t, std::vector<quadrille::Stamp>> groupStamps;
+  for (const Work& work : run.works)
+  {
+    // Those of the filter and of what all share stand at the beginning of each, and once of a group.
+    auto& stamps = groupStamps[work.group];
+    const std::size_t shared = stamps.empty() ? 0 : run.stamps.size();
+    stamps.insert(
+      stamps.end(), work.stamps.begin() + static_cast<std::ptrdiff_t>(shared), work.stamps.end());
+  }
+  for (Work& work : run.works)
+  {
+    work.stamps = groupStamps[work.group];
+    const quadrille::BlockState& state = *work.block.state;
+    packer.count(!state.lastResult.empty());
+    packer.count(this->KeepsResult() && work.stamps == state.lastStamps &&
+      (!state.isSpread || state.ghostLevels == run.ghostLevels));
+    // Where another port asks for what failed, the report says already why there is nothing.
+    packer.count(work.stamps == state.failedStamps);
+  }
   // A block stays where its result and its memory are; the others go to the rank with the least to do, large ones
   // first.
   std::vector<std::size_t> load(static_cast<std::size_t>(run.ranks.size()), 0);
@@ -522,21 +613,41 @@ void vtkQuadrilleAlgorithm::TakeStates(Run& run)
       work.isChanged = !hasResult[w] && !hasFailed[w];
     }
   }
-  std::vector<Work*> free;
+  // All of a group go to the rank of the first one that has a rank.
+  std::map<std::size_t, std::vector<Work*>> groups;
   for (Work& work : run.works)
   {
-    if (work.owner < 0)
+    groups[work.group].push_back(&work);
+  }
+  std::vector<std::pair<std::size_t, const std::vector<Work*>*>> free; // cells, works
+  for (const auto& [group, works] : groups)
+  {
+    std::size_t cells = 0;
+    int owner = -1;
+    for (const Work* work : works)
     {
-      free.push_back(&work);
+      cells += work->cells;
+      owner = owner < 0 ? work->owner : owner;
+    }
+    for (Work* work : works)
+    {
+      work->owner = owner;
+    }
+    if (owner < 0)
+    {
+      free.emplace_back(cells, &works);
     }
   }
   std::stable_sort(
-    free.begin(), free.end(), [](const Work* a, const Work* b) { return a->cells > b->cells; });
-  for (Work* work : free)
+    free.begin(), free.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (const auto& [cells, works] : free)
   {
     const auto least = std::min_element(load.begin(), load.end());
-    work->owner = static_cast<int>(least - load.begin());
-    *least += work->cells;
+    for (Work* work : *works)
+    {
+      work->owner = static_cast<int>(least - load.begin());
+    }
+    *least += cells;
   }
 }
 
@@ -702,7 +813,9 @@ bool vtkQuadrilleAlgorithm::StaysSpread(
   {
     surfaces.emplace_back(vtkPolyData::SafeDownCast(piece));
   }
-  std::string reason;
+  const bool isTogether = std::count_if(run.works.begin(), run.works.end(),
+                            [&](const Work& other) { return other.group == work.group; }) > 1;
+  std::string reason = isTogether ? "it may be made together with blocks that it meets" : "";
   for (const std::string& text : run.ranks.gather(this->ReasonNotToSpread(surfaces)))
   {
     reason = reason.empty() ? text : reason;
@@ -901,14 +1014,45 @@ void vtkQuadrilleAlgorithm::MeasureBlocks(Run& run)
       whole.AddBounds(bounds); // ignores what is uninitialized
     }
   }
-  const std::vector<double> shares = sharesOf(areas, this->LeastAreaShare(areas.size()));
-  for (std::size_t i = 0; i < areas.size(); ++i)
+  this->ShareTarget(run, areas);
+  for (Work& work : run.works)
   {
-    Work& work = run.works[i];
-    work.block.areaShare = shares[i];
     work.block.wholeDiagonal = whole.IsValid() ? whole.GetDiagonalLength() : 0;
     work.isChanged = work.isChanged || work.block.areaShare != work.block.state->lastAreaShare ||
       work.block.wholeDiagonal != work.block.state->lastWholeDiagonal;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::ShareTarget(Run& run, const std::vector<double>& areas)
+{
+  // What blocks have of their own is taken off first.
+  const double target = this->GetSharedTarget();
+  double own = 0;
+  std::vector<double> otherAreas;
+  for (std::size_t i = 0; i < areas.size(); ++i)
+  {
+    own += run.works[i].block.ownTarget;
+    if (!(run.works[i].block.ownTarget > 0))
+    {
+      otherAreas.push_back(areas[i]);
+    }
+  }
+  const double rest = target > 0 ? target - own : 1;
+  if (!otherAreas.empty() && !(rest > 0))
+  {
+    quadrille::refuse("the own numbers of quads of ", areas.size() - otherAreas.size(),
+      " blocks add up to ", own, ", so that nothing of the ", target,
+      " quads for all is left for the other ", otherAreas.size(),
+      " blocks: ask for more quads, or give those numbers of their own, too");
+  }
+  const std::vector<double> shares =
+    sharesOf(otherAreas, this->LeastAreaShare(otherAreas.size(), rest));
+  std::size_t next = 0;
+  for (Work& work : run.works)
+  {
+    const bool isOwn = work.block.ownTarget > 0;
+    work.block.areaShare = isOwn ? 1 : shares[next++] * (target > 0 ? rest / target : 1);
   }
 }
 
@@ -978,69 +1122,233 @@ void vtkQuadrilleAlgorithm::ShareOut(Run& run)
 }
 
 //------------------------------------------------------------------------------
-void vtkQuadrilleAlgorithm::RunBlock(Work& work)
+std::vector<vtkQuadrilleAlgorithm::Together> vtkQuadrilleAlgorithm::FindTogether(
+  const std::vector<quadrille::Block*>& blocks)
 {
-  quadrille::BlockState& state = *work.block.state;
-  if (!work.isChanged)
+  std::vector<Together> all;
+  for (std::size_t i = 0; i < blocks.size(); ++i)
   {
-    if (state.report.outcome == Succeeded)
+    all.push_back({ { i }, {} });
+  }
+  return all;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::ExecuteTogether(const std::vector<quadrille::Block*>& blocks)
+{
+  for (quadrille::Block* block : blocks)
+  {
+    this->Execute(*block);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::GroupBlocks(Run& run)
+{
+  for (std::size_t i = 0; i < run.works.size(); ++i)
+  {
+    run.works[i].group = i;
+  }
+  if (!this->JoinsBlocks() || run.works.size() < 2)
+  {
+    return;
+  }
+  quadrille::Packer packer;
+  for (const Work& work : run.works)
+  {
+    vtkBoundingBox box;
+    for (vtkDataObject* piece : run.pieces(work, 0))
     {
-      state.report.reusedStages = { "all" };
+      auto* set = vtkDataSet::SafeDownCast(piece);
+      if (set && set->GetNumberOfPoints() > 0)
+      {
+        box.AddBounds(set->GetBounds());
+      }
+    }
+    double bounds[6];
+    box.IsValid() ? box.GetBounds(bounds) : vtkMath::UninitializeBounds(bounds);
+    for (const double bound : bounds)
+    {
+      packer.number(bound);
+    }
+  }
+  vtkBoundingBox whole;
+  std::vector<vtkBoundingBox> boxes(run.works.size());
+  for (const std::string& bytes : run.ranks.gather(packer.bytes()))
+  {
+    quadrille::Unpacker unpacker(bytes);
+    for (vtkBoundingBox& box : boxes)
+    {
+      double bounds[6];
+      for (double& bound : bounds)
+      {
+        bound = unpacker.number();
+      }
+      box.AddBounds(bounds); // ignores what is uninitialized
+      whole.AddBox(box);
+    }
+  }
+  const double margin = whole.IsValid() ? quadrille::kSamePlace * whole.GetDiagonalLength() : 0;
+  quadrille::DisjointSets groups(run.works.size(), 1);
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+  {
+    vtkBoundingBox box = boxes[i];
+    box.Inflate(margin);
+    for (std::size_t k = 0; k < i; ++k)
+    {
+      if (box.IsValid() && boxes[k].IsValid() && box.Intersects(boxes[k]))
+      {
+        groups.join(static_cast<quadrille::Index>(i), static_cast<quadrille::Index>(k));
+      }
+    }
+  }
+  for (std::size_t i = 0; i < run.works.size(); ++i)
+  {
+    run.works[i].group = groups.find(static_cast<quadrille::Index>(i));
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::RunWorks(const std::vector<Work*>& works)
+{
+  const auto all = [&works](const auto& holds)
+  { return std::all_of(works.begin(), works.end(), holds); };
+  if (all([](const Work* work) { return !work->isChanged; }))
+  {
+    for (Work* work : works)
+    {
+      if (work->block.state->report.outcome == Succeeded)
+      {
+        work->block.state->report.reusedStages = { "all" };
+      }
     }
     return;
   }
-  quadrille::EarlierResult wanted{ this->GetSettings(),
-    { work.stamps.begin() + 1, work.stamps.end() }, work.block.areaShare, work.block.wholeDiagonal,
-    {}, {} }; // the first stamp is the filter's
-  if (this->KeepsResult() && work.error.empty() && !work.failure && !work.spread)
+  if (all([this](Work* work) { return this->TakeEarlier(*work, false); }))
   {
-    const quadrille::EarlierResult* earlier = state.findEarlier(wanted);
-    if (earlier && this->AllowsEarlier(earlier->report))
+    all([this](Work* work) { return this->TakeEarlier(*work, true); });
+    return;
+  }
+  std::vector<Work*> whole;
+  for (Work* work : works)
+  {
+    work->block.state->report = {};
+    work->block.state->report.notices = work->notices;
+    // What cannot be had, and what has no faces, is not executed together with others.
+    vtkPolyData* surface =
+      this->GetPortRole(0) == PortRole::Surface ? work->block.input() : nullptr;
+    if (work->error.empty() && !work->failure && surface &&
+      surface->GetNumberOfPolys() + surface->GetNumberOfStrips() > 0)
     {
-      state.lastResult = earlier->result;
-      state.isSpread = false;
-      state.report = earlier->report;
-      state.report.reusedStages = { "all" };
-      return;
+      whole.push_back(work);
+    }
+    else
+    {
+      this->RunTogether({ work }, {});
     }
   }
-  state.report = {};
-  state.report.notices = work.notices;
-  this->Report = &state.report;
+  std::vector<quadrille::Block*> blocks;
+  for (Work* work : whole)
+  {
+    blocks.push_back(&work->block);
+  }
+  const double begin = this->BlockBegin, end = this->BlockEnd;
+  double done = 0;
+  for (const Together& together : this->FindTogether(blocks))
+  {
+    std::vector<Work*> members;
+    for (const std::size_t i : together.blocks)
+    {
+      members.push_back(whole[i]);
+    }
+    const auto count = static_cast<double>(whole.size());
+    this->BlockBegin = begin + (end - begin) * done / count;
+    done += static_cast<double>(members.size());
+    this->BlockEnd = begin + (end - begin) * done / count;
+    this->RunTogether(members, together.notices);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkQuadrilleAlgorithm::TakeEarlier(Work& work, bool andUse)
+{
+  if (!this->KeepsResult() || !work.error.empty() || work.failure || work.spread)
+  {
+    return false;
+  }
+  quadrille::BlockState& state = *work.block.state;
+  const quadrille::EarlierResult* earlier = state.findEarlier(this->ResultFor(work));
+  if (!earlier || !this->AllowsEarlier(earlier->report))
+  {
+    return false;
+  }
+  if (andUse)
+  {
+    state.lastResult = earlier->result;
+    state.isSpread = false;
+    state.report = earlier->report;
+    state.report.reusedStages = { "all" };
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+quadrille::EarlierResult vtkQuadrilleAlgorithm::ResultFor(const Work& work) const
+{
+  return { this->GetSettings(), { work.stamps.begin() + 1, work.stamps.end() },
+    work.block.areaShare, work.block.wholeDiagonal, {}, {} }; // the first stamp is the filter's
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::RunTogether(
+  const std::vector<Work*>& works, const std::vector<std::string>& notices)
+{
+  Work& first = *works.front();
+  this->Report = &first.block.state->report;
   this->IsBlockSoFar = false;
   try
   {
-    if (!work.error.empty())
+    if (!first.error.empty())
     {
-      throw quadrille::InvalidInput(work.error);
+      throw quadrille::InvalidInput(first.error);
     }
-    if (work.failure)
+    if (first.failure)
     {
-      std::rethrow_exception(work.failure);
+      std::rethrow_exception(first.failure);
     }
-    this->ExecuteBlock(work.block);
-    work.isMade = true;
-    if (!work.spread)
+    for (const std::string& notice : notices)
     {
-      state.lastResult = work.block.outputs;
-      state.isSpread = false;
+      this->AddNotice(notice);
     }
-    if (this->IsBlockSoFar)
+    std::vector<quadrille::Block*> blocks;
+    for (Work* work : works)
     {
-      state.report.isSoFar = true;
-      state.report.outcome = this->TimeIsOver ? TimedOut : Aborted;
-      state.report.outcomeText = this->StopText() + "; these are the best quads so far";
+      this->PrepareOutputs(work->block);
+      blocks.push_back(&work->block);
     }
-    else if (this->KeepsResult() && !work.spread)
+    works.size() == 1 ? this->ExecuteBlock(first.block) : this->ExecuteTogether(blocks);
+    for (Work* work : works)
     {
-      wanted.report = state.report;
-      wanted.result = state.lastResult;
-      state.keepEarlier(std::move(wanted));
+      this->ConcludeBlock(*work);
     }
   }
   catch (const std::exception&)
   {
-    this->FailBlockBy(state, std::current_exception());
+    this->FailBlockBy(*first.block.state, std::current_exception());
+    const quadrille::BlockReport& report = first.block.state->report;
+    for (Work* work : works)
+    {
+      if (work != &first && (report.outcome == Aborted || report.outcome == TimedOut))
+      {
+        this->FailBlockAsStopped(*work->block.state);
+      }
+      else if (work != &first)
+      {
+        this->FailBlock(*work->block.state, static_cast<OutcomeType>(report.outcome),
+          "is made together with '" + first.block.name + "', which failed");
+        work->block.state->report.mayPass = report.mayPass;
+      }
+    }
   }
 }
 
@@ -1087,13 +1395,18 @@ void vtkQuadrilleAlgorithm::FailBlockBy(
 }
 
 //------------------------------------------------------------------------------
-void vtkQuadrilleAlgorithm::ExecuteBlock(quadrille::Block& block)
+void vtkQuadrilleAlgorithm::PrepareOutputs(quadrille::Block& block)
 {
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
     block.outputs.push_back(
       vtk::TakeSmartPointer(vtkDataObjectTypes::NewDataObject(this->GetBlockType(port))));
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::ExecuteBlock(quadrille::Block& block)
+{
   // Composite data may have blocks of points and lines, and grids that finer ones replace: no error, but told.
   vtkPolyData* surface =
     this->GetPortRole(0) == PortRole::Surface && !block.path.empty() ? block.input() : nullptr;
@@ -1105,7 +1418,32 @@ void vtkQuadrilleAlgorithm::ExecuteBlock(quadrille::Block& block)
   {
     this->Execute(block);
   }
-  block.state->report.outcome = Succeeded;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::ConcludeBlock(Work& work)
+{
+  quadrille::BlockState& state = *work.block.state;
+  state.report.outcome = Succeeded;
+  work.isMade = true;
+  if (!work.spread)
+  {
+    state.lastResult = work.block.outputs;
+    state.isSpread = false;
+  }
+  if (this->IsBlockSoFar)
+  {
+    state.report.isSoFar = true;
+    state.report.outcome = this->TimeIsOver ? TimedOut : Aborted;
+    state.report.outcomeText = this->StopText() + "; these are the best quads so far";
+  }
+  else if (this->KeepsResult() && !work.spread)
+  {
+    quadrille::EarlierResult made = this->ResultFor(work);
+    made.report = state.report;
+    made.result = state.lastResult;
+    state.keepEarlier(std::move(made));
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -1349,6 +1687,12 @@ void vtkQuadrilleAlgorithm::SetCertificate(const quadrille::Certificate& certifi
 void vtkQuadrilleAlgorithm::AddNotice(const std::string& text)
 {
   this->Report->notices.push_back(text);
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::SayOf(quadrille::Block& block)
+{
+  this->Report = &block.state->report;
 }
 
 //------------------------------------------------------------------------------

@@ -36,12 +36,15 @@
 #include <utility>    // for std::pair
 #include <vector>     // for std::vector
 
+class vtkFieldData;
+
 namespace quadrille
 {
 struct Block;
 struct BlockReport;
 struct BlockState;
 struct Certificate;
+struct EarlierResult;
 class SharedStop;
 struct SpreadPlan;
 struct SpreadSize;
@@ -168,8 +171,15 @@ protected:
   /// Whether the target size is one for all blocks together, so that a block has to know its part (Block::areaShare,
   /// Block::wholeDiagonal). Default: no.
   virtual bool HasCommonTarget() const { return false; }
-  /// The least part of the target that a block gets, however small it is, with this number of blocks. Default: 0.
-  virtual double LeastAreaShare(std::size_t /*blocks*/) const { return 0; }
+  /// The target that blocks share, where it is a number to be divided; else 0. Default: 0.
+  virtual double GetSharedTarget() const { return 0; }
+  /// The least part of a target that a block gets, however small it is, with this number of blocks. Default: 0.
+  virtual double LeastAreaShare(std::size_t /*blocks*/, double /*target*/) const { return 0; }
+  /// The target that a block of composite data has of its own, which it does not share with others; 0 where it has
+  /// none. fieldData: of one of its pieces. Throws InvalidInput. Default: 0.
+  virtual double ReadOwnTarget(const std::string& block, vtkFieldData* fieldData) const;
+  /// Throws InvalidInput where properties name blocks that are not there. Default: nothing.
+  virtual void CheckBlockNames(const std::vector<std::string>& names) const;
 
   ///@{
   /**
@@ -187,6 +197,21 @@ protected:
   /// The filter's own work on one block: fills its outputs. Throws on any failure, which becomes the block's error.
   virtual void Execute(quadrille::Block& block) = 0;
 
+  /// Whether blocks that meet are executed together: those whose boxes touch go to one rank, and FindTogether() is
+  /// asked. Default: no.
+  virtual bool JoinsBlocks() const { return false; }
+  /// Blocks that hang together, by their ids in a list, and what is to be told of it.
+  struct Together
+  {
+    std::vector<std::size_t> blocks; ///< ascending
+    std::vector<std::string> notices;
+  };
+  /// The blocks of a list, each of them once. Default: each for itself.
+  virtual std::vector<Together> FindTogether(const std::vector<quadrille::Block*>& blocks);
+  /// The same as Execute for two blocks or more that hang together. What is said of the block that is executed is said
+  /// of the first one.
+  virtual void ExecuteTogether(const std::vector<quadrille::Block*>& blocks);
+
   /// A callback for Core that maps a stage's own fraction to [begin, end] of the progress of the block that is executed
   /// and stops the stage on abort or when the time is over.
   std::function<bool(double, const std::string&)> MakeProgress(double begin, double end);
@@ -196,6 +221,8 @@ protected:
   void SetStageRecords(const std::vector<quadrille::StageRecord>& stages);
   void SetCertificate(const quadrille::Certificate& certificate);
   void AddNotice(const std::string& text);
+  /// From now on, of blocks that are executed together, what is said is said of this one.
+  void SayOf(quadrille::Block& block);
   /// The stage was stopped and has the best so far, which becomes the block's result: from now on nothing asks to stop
   /// any more until the block is done.
   void KeepSoFar() { this->IsBlockSoFar = true; }
@@ -229,6 +256,7 @@ private:
   int RunBlocks(Run& run, vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ReadInputs(Run& run, vtkInformationVector** inputs);
   void ListBlocks(Run& run);
+  void ReadOwnTargets(Run& run);
   void TakeStates(Run& run);
   void GatherInputs(Run& run);
   bool IsPutInOrder(const Run& run) const;
@@ -239,9 +267,16 @@ private:
   void SpreadResult(Run& run, Work& work);
   void WaitForAll(Run& run);
   void MeasureBlocks(Run& run);
+  void ShareTarget(Run& run, const std::vector<double>& areas);
   void ShareOut(Run& run);
-  void RunBlock(Work& work);
+  void GroupBlocks(Run& run);
+  void RunWorks(const std::vector<Work*>& works);
+  bool TakeEarlier(Work& work, bool andUse);
+  quadrille::EarlierResult ResultFor(const Work& work) const;
+  void RunTogether(const std::vector<Work*>& works, const std::vector<std::string>& notices);
+  void PrepareOutputs(quadrille::Block& block);
   void ExecuteBlock(quadrille::Block& block);
+  void ConcludeBlock(Work& work);
   void FailBlock(quadrille::BlockState& state, OutcomeType outcome, const std::string& text);
   void FailBlockAsStopped(quadrille::BlockState& state);
   void FailBlockBy(quadrille::BlockState& state, const std::exception_ptr& failure);

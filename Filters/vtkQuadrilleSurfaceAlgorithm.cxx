@@ -4,6 +4,7 @@
 
 #include "Pipeline/Pipeline.h"
 #include "QuadrilleArrayNames.h"
+#include "QuadrilleBlockQuads.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleConstraintTable.h"
 #include "QuadrilleConstraints.h"
@@ -172,12 +173,55 @@ void vtkQuadrilleSurfaceAlgorithm::WarnOfUnusedArrays(const quadrille::Block& bl
 }
 
 //------------------------------------------------------------------------------
-double vtkQuadrilleSurfaceAlgorithm::LeastAreaShare(std::size_t blocks) const
+void vtkQuadrilleSurfaceAlgorithm::SetQuadsOfBlocks(const char* pairs)
+{
+  const std::string value = pairs ? pairs : "";
+  if (value != this->QuadsOfBlocks)
+  {
+    this->QuadsOfBlocks = value;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+double vtkQuadrilleSurfaceAlgorithm::GetSharedTarget() const
+{
+  return this->TargetType == TARGET_NUMBER_OF_QUADS ? static_cast<double>(this->NumberOfQuads) : 0;
+}
+
+//------------------------------------------------------------------------------
+double vtkQuadrilleSurfaceAlgorithm::LeastAreaShare(std::size_t blocks, double target) const
 {
   // Fewer quads than this are no shape of a part, whatever the others are.
   constexpr double leastQuads = 50;
-  return std::min(leastQuads / std::max(1.0, static_cast<double>(this->NumberOfQuads)),
-    0.5 / static_cast<double>(blocks));
+  const double quads =
+    this->TargetType == TARGET_NUMBER_OF_QUADS ? target : static_cast<double>(this->NumberOfQuads);
+  return std::min(leastQuads / std::max(1.0, quads),
+    0.5 / static_cast<double>(std::max(blocks, std::size_t{ 1 })));
+}
+
+//------------------------------------------------------------------------------
+double vtkQuadrilleSurfaceAlgorithm::ReadOwnTarget(
+  const std::string& block, vtkFieldData* fieldData) const
+{
+  if (this->TargetType != TARGET_NUMBER_OF_QUADS)
+  {
+    return 0;
+  }
+  for (const quadrille::BlockQuads& pair : quadrille::readBlockQuads(this->QuadsOfBlocks))
+  {
+    if (quadrille::isNamed(block, pair.block))
+    {
+      return pair.quads;
+    }
+  }
+  return quadrille::quadsInFieldData(fieldData);
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleSurfaceAlgorithm::CheckBlockNames(const std::vector<std::string>& names) const
+{
+  quadrille::checkBlockQuads(quadrille::readBlockQuads(this->QuadsOfBlocks), names);
 }
 
 //------------------------------------------------------------------------------
@@ -191,7 +235,9 @@ quadrille::RemeshOptions vtkQuadrilleSurfaceAlgorithm::MakeOptions(
     {
       throw quadrille::InvalidInput("NumberOfQuads must be at least 1");
     }
-    const double share = block.areaShare * static_cast<double>(this->NumberOfQuads);
+    const double share = block.ownTarget > 0
+      ? block.ownTarget
+      : block.areaShare * static_cast<double>(this->NumberOfQuads);
     options.quads = static_cast<std::size_t>(std::max(1.0, std::round(share)));
   }
   else if (this->TargetType == TARGET_EDGE_LENGTH)
@@ -223,6 +269,7 @@ void vtkQuadrilleSurfaceAlgorithm::AddSettings(std::ostream& os) const
   os << "TargetType " << this->TargetType << '\n'
      << "NumberOfQuads " << this->NumberOfQuads << '\n'
      << "QuadsAre " << this->QuadsAre << '\n'
+     << "QuadsOfBlocks " << this->QuadsOfBlocks.size() << ' ' << this->QuadsOfBlocks << '\n'
      << "EdgeLength " << this->EdgeLength << '\n'
      << "RelativeEdgeLength " << this->RelativeEdgeLength << '\n'
      << "DetectFeatures " << this->DetectFeatures << '\n'
@@ -243,6 +290,7 @@ void vtkQuadrilleSurfaceAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TargetType: " << this->TargetType << "\n";
   os << indent << "NumberOfQuads: " << this->NumberOfQuads << "\n";
   os << indent << "QuadsAre: " << this->QuadsAre << "\n";
+  os << indent << "QuadsOfBlocks: " << this->QuadsOfBlocks << "\n";
   os << indent << "EdgeLength: " << this->EdgeLength << "\n";
   os << indent << "RelativeEdgeLength: " << this->RelativeEdgeLength << "\n";
   os << indent << "DetectFeatures: " << this->DetectFeatures << "\n";

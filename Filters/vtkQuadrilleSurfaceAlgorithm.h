@@ -145,6 +145,19 @@ public:
 
   ///@{
   /**
+   * Numbers of quads that blocks of composite data have of their own: pairs "name = number", one a line or with ';'
+   * between them. The name is that of the block, or all of its path as in messages ("Car/Wheel"); whole numbers of at
+   * least 1. A field data array `NumberOfQuads` of a block, or of its partitioned data set, with one such number says
+   * the same where the text does not name the block. They count where the target is a number of quads; the other
+   * blocks share what is left of NumberOfQuads, or get NumberOfQuads each, see QuadsAre. An error where a name is that
+   * of no block, or nothing is left. Default: empty.
+   */
+  void SetQuadsOfBlocks(const char* pairs);
+  const char* GetQuadsOfBlocks() { return this->QuadsOfBlocks.c_str(); }
+  ///@}
+
+  ///@{
+  /**
    * Target edge length in units of the input, positive. Default: 1.
    */
   vtkSetMacro(EdgeLength, double);
@@ -223,7 +236,10 @@ protected:
 
   bool HasCommonTarget() const override { return this->QuadsAre == QUADS_ARE_SHARED_BY_AREA; }
 
-  double LeastAreaShare(std::size_t blocks) const override;
+  double GetSharedTarget() const override;
+  double LeastAreaShare(std::size_t blocks, double target) const override;
+  double ReadOwnTarget(const std::string& block, vtkFieldData* fieldData) const override;
+  void CheckBlockNames(const std::vector<std::string>& names) const override;
   void AddSettings(std::ostream& os) const override;
 
   /// The surface and what is asked of it as Core takes them; warns of what is not used. asked, if given, gets the
@@ -240,6 +256,7 @@ protected:
   int TargetType = TARGET_NUMBER_OF_QUADS;
   vtkIdType NumberOfQuads = 5000;
   int QuadsAre = QUADS_ARE_SHARED_BY_AREA;
+  std::string QuadsOfBlocks;
   double EdgeLength = 1;
   double RelativeEdgeLength = 0.02;
   vtkTypeBool DetectFeatures = 1;

@@ -421,7 +421,7 @@ void addRun(CommandOptions& options, vtkQuadRemesh* filter, Request& request)
     [filter](int pieces) { filter->SetPieces(pieces); },
     "whether the surface is cut into pieces of about a million triangles, each thinned out by "
     "itself before the quads are made, which takes less time and a third of the memory: automatic "
-    "(default), from 1500000 triangles on, where a quad has at least 66 of them and nothing needs "
+    "(default), from 4000000 triangles on, where a quad has at least 66 of them and nothing needs "
     "the whole surface, as constraints, a symmetry or --map do; always; never");
   options.addNumber(
     "memory-limit", "MB", { 0, 1e12 },

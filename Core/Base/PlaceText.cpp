@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace quadrille
 {
@@ -13,6 +14,7 @@ namespace
 {
 
 thread_local PlaceScope* currentPlaceScope = nullptr;
+thread_local PlaceFold* currentPlaceFold = nullptr;
 
 /// What a stream takes by default.
 constexpr int kLeastDigits = 6;
@@ -49,6 +51,17 @@ void PlaceScope::set(const Vector3& centre, double unit, const Vector3& sign)
   sign_ = sign;
 }
 
+PlaceFold::PlaceFold(std::function<Vector3(const Vector3&)> fold)
+  : fold_(std::move(fold)), outer_(currentPlaceFold)
+{
+  currentPlaceFold = this;
+}
+
+PlaceFold::~PlaceFold()
+{
+  currentPlaceFold = outer_;
+}
+
 std::string placeText(const Vector3& p)
 {
   std::ostringstream text;
@@ -57,6 +70,10 @@ std::string placeText(const Vector3& p)
   {
     place = scope->centre_ + scope->unit_ * scope->sign_.cwiseProduct(p);
     text.precision(digitsFor(scope->centre_.cwiseAbs().maxCoeff(), scope->unit_));
+  }
+  if (currentPlaceFold != nullptr)
+  {
+    place = currentPlaceFold->fold_(place);
   }
   text << "(" << place.x() << ", " << place.y() << ", " << place.z() << ")";
   return text.str();

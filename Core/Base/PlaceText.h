@@ -5,6 +5,7 @@
 
 #include "Base/Types.h"
 
+#include <functional>
 #include <string>
 
 namespace quadrille
@@ -30,6 +31,23 @@ private:
   double unit_;
   Vector3 sign_;
   PlaceScope* outer_;
+};
+
+/// What was moved before a run, as sheets that must not meet, is named where it was: places in the coordinates of the
+/// user go through the function, of this thread and while this lives. The innermost one counts.
+class PlaceFold
+{
+public:
+  explicit PlaceFold(std::function<Vector3(const Vector3&)> fold);
+  ~PlaceFold();
+  PlaceFold(const PlaceFold&) = delete;
+  PlaceFold& operator=(const PlaceFold&) = delete;
+
+private:
+  friend std::string placeText(const Vector3& p);
+
+  std::function<Vector3(const Vector3&)> fold_;
+  PlaceFold* outer_;
 };
 
 /// "(x, y, z)", with as many digits as it takes to tell places apart that lie a thousandth of the surface's size from

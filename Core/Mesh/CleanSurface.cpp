@@ -8,6 +8,8 @@
 #include "Mesh/DegenerateFaces.h"
 #include "Mesh/EdgeRuns.h"
 #include "Mesh/MergePoints.h"
+#include "Mesh/Sheets.h"
+#include "Mesh/SpaceFillingOrder.h"
 
 #include <algorithm>
 #include <atomic>
@@ -249,8 +251,8 @@ bool hasSingleFans(const Mesh& mesh, const std::atomic<Index>* outgoing, int thr
   return std::accumulate(counts.begin(), counts.end(), std::size_t{ 0 }) == mesh.origin.size();
 }
 
-/// Whether no face is degenerate and each vertex has one fan; counts the components.
-bool isManifoldWithoutSlivers(PreparedSurface& surface, int threads)
+/// Whether no face is degenerate. Counts the components, and splits vertices of several fans.
+bool isWithoutSlivers(PreparedSurface& surface, int threads)
 {
   const Mesh& mesh = surface.mesh;
   DisjointSets components(mesh.faceCount(), threads);
@@ -279,11 +281,16 @@ bool isManifoldWithoutSlivers(PreparedSurface& surface, int threads)
       }
       return !isDegenerate(mesh, f);
     });
-  if (refused < faces || !hasSingleFans(mesh, outgoing.get(), threads))
+  if (refused < faces)
   {
     return false;
   }
   surface.components = static_cast<Index>(components.countSets());
+  if (!hasSingleFans(mesh, outgoing.get(), threads))
+  {
+    surface.repair.nonManifoldVertices += splitVertexFans(surface.mesh);
+    orderSurface(surface, threads);
+  }
   return true;
 }
 
@@ -294,7 +301,7 @@ bool connectCleanSurface(PreparedSurface& surface, int threads)
   std::vector<Index> open;
   // A closed component of less than four faces would have two that are the same.
   return EdgeBlocks(surface.mesh, threads).connect(open) && !wouldMerge(surface.mesh, open) &&
-    isManifoldWithoutSlivers(surface, threads);
+    isWithoutSlivers(surface, threads);
 }
 
 } // namespace quadrille

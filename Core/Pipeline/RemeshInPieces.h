@@ -37,7 +37,7 @@ public:
 
 /// From how many triangles on a surface is worth to be cut, and from how many of them a quad: thinned pieces have about
 /// 22.
-constexpr std::size_t kTrianglesWorthPieces = 1500000;
+constexpr std::size_t kTrianglesWorthPieces = 4000000;
 constexpr double kTrianglesOfQuad = 66;
 constexpr std::size_t kTrianglesOfPiece = 1000000;
 

@@ -156,6 +156,28 @@ def collection():
                                 OutputType="vtkPartitionedDataSetCollection")
 
 
+def sides(n=10):
+    """The six sides of a box, each a block with points of its own, each of which all ranks have a part of."""
+    corners = [((0, 0, 0), (0, 1, 0), (1, 0, 0)), ((0, 0, 1), (1, 0, 1), (0, 1, 1)), ((0, 0, 0), (1, 0, 0), (0, 0, 1)),
+               ((0, 1, 0), (0, 1, 1), (1, 1, 0)), ((0, 0, 0), (0, 0, 1), (0, 1, 0)), ((1, 0, 0), (1, 1, 0), (1, 0, 1))]
+    return [simple.Plane(Origin=list(o), Point1=list(a), Point2=list(b), XResolution=n, YResolution=n)
+            for o, a, b in corners]
+
+
+def tell_closed(name, filter_proxy):
+    """What tell() tells, and on the first rank, where all conforming blocks lie, how often edges are used."""
+    raw = tell(name, filter_proxy)
+    uses = {}
+    for _, data in blocks(raw.GetOutputDataObject(0)):
+        for c in range(data.GetNumberOfCells() if data is not None else 0):
+            places = [data.GetPoint(data.GetCell(c).GetPointId(k)) for k in range(4)]
+            for pair in zip(places, places[1:] + places[:1]):
+                edge = frozenset(pair)
+                uses[edge] = uses.get(edge, 0) + 1
+    check(set(uses.values()) <= {2, 4}, f"{name}: edges are used {sorted(set(uses.values()))} times")
+    return raw
+
+
 CASES = {
     "sources": lambda: [tell("sphere", remesh(sphere())), tell("torus", remesh(torus()))],
     "files": lambda: [tell("ply", remesh(ply())), tell("vtu", remesh(tetrahedra()))],
@@ -171,6 +193,11 @@ CASES = {
                                                    simple.Plane(XResolution=9, YResolution=9)), 900)),
                        tell("per block", remesh(group(sphere(), simple.Cylinder(Resolution=24)), 300,
                                                 QuadsAre="Per Block"))],
+    "conforming": lambda: [
+        tell_closed("conforming", remesh(group(*sides(), sphere(Center=[9, 0, 0])), 900, Conforming=1)),
+        tell_closed("touching solids", remesh(group(
+            *(simple.Triangulate(Input=simple.Box(Center=[x, 0, 0])) for x in (0, 1))), 600, Conforming=1)),
+        tell_closed("own numbers", remesh(group(*sides()), 700, Conforming=1, QuadsOfBlocks="Plane1 = 40"))],
     "partitions": lambda: [tell("partitions", remesh(partitioned()))],
     "collections": lambda: [tell("collection", remesh(collection(), 700))],
     "stages": lambda: [tell("stages", chain(sphere())), tell("stages of blocks", chain(group(sphere(), torus())))],
