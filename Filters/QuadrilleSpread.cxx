@@ -273,24 +273,26 @@ vtkSmartPointer<vtkPolyData> SpreadSurface::join(
     model_ = agreeOnArrays(ranks_, pieces_, notices);
     hasGlobalIds_ = model_->GetPointData()->GetGlobalIds() != nullptr;
     dropInnerFaces(ranks_, pieces_, hasGlobalIds_, unit_, notices);
+  }
+  std::size_t border = 0;
+  ranks_.together("the boundaries of the pieces",
+    [&]
+    {
+      for (const SpreadPiece& piece : pieces_)
+      {
+        border += estimatedBorder(piece, hasGlobalIds_, unit_);
+      }
+    });
+  if (isScattered(border))
+  {
+    redistribute(notices);
+  }
+  {
+    const SpreadTimer timer(figures_, "prepare");
     makePieces();
   }
   {
     const SpreadTimer timer(figures_, "exchange");
-    findSharedPoints();
-  }
-  if (isScattered())
-  {
-    const SpreadTimer timer(figures_, "redistribute");
-    notices.emplace_back("the pieces of the surface have so long boundaries that they were "
-                         "redistributed among the ranks first; SourcePointIds are left out");
-    for (SpreadPiece& piece : pieces_)
-    {
-      piece.piece.reset();
-    }
-    pieces_ = redistributeCells(ranks_, std::move(pieces_), model_, unit_, figures_);
-    isRedistributed_ = true;
-    makePieces();
     findSharedPoints();
   }
   {
@@ -307,6 +309,15 @@ vtkSmartPointer<vtkPolyData> SpreadSurface::join(
       });
   }
   return gatherLevels(notices);
+}
+
+void SpreadSurface::redistribute(std::vector<std::string>& notices)
+{
+  const SpreadTimer timer(figures_, "redistribute");
+  notices.emplace_back("the pieces of the surface have so long boundaries that they were "
+                       "redistributed among the ranks first; SourcePointIds are left out");
+  pieces_ = redistributeCells(ranks_, std::move(pieces_), model_, unit_, figures_);
+  isRedistributed_ = true;
 }
 
 void SpreadSurface::makePieces()
@@ -406,7 +417,7 @@ void SpreadSurface::keepWhatAsks()
   }
 }
 
-bool SpreadSurface::isScattered() const
+bool SpreadSurface::isScattered(std::size_t borderPoints) const
 {
   Packer packer;
   double perimeter = 0; // of compact pieces, in points
@@ -415,16 +426,20 @@ bool SpreadSurface::isScattered() const
     perimeter += 8 * std::sqrt(static_cast<double>(piece.data->GetNumberOfPolys()));
   }
   packer.number(perimeter);
-  packer.count(figures_.sharedPoints);
+  packer.count(borderPoints);
+  packer.count(pieces_.size());
   perimeter = 0;
-  double shared = 0;
+  double border = 0;
+  std::size_t pieces = 0;
   for (const std::string& bytes : ranks_.gather(packer.bytes()))
   {
     Unpacker unpacker(bytes);
     perimeter += unpacker.number();
-    shared += static_cast<double>(unpacker.count());
+    border += static_cast<double>(unpacker.count());
+    pieces += unpacker.count();
   }
-  return shared > perimeter && shared > 0.5 * expectedVertices(size_.area, plan_.piece.edgeLength);
+  return pieces > 1 && border > perimeter &&
+    border > 0.5 * expectedVertices(size_.area, plan_.piece.edgeLength);
 }
 
 std::string SpreadSurface::packLevels()

@@ -109,7 +109,8 @@ private:
   void makePieces();
   void findSharedPoints();
   void keepWhatAsks();
-  bool isScattered() const;
+  bool isScattered(std::size_t borderPoints) const;
+  void redistribute(std::vector<std::string>& notices);
   vtkSmartPointer<vtkPolyData> gatherLevels(std::vector<std::string>& notices);
   std::string packLevels();
   vtkSmartPointer<vtkPolyData> joinLevels(

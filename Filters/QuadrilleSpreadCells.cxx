@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadrilleSpreadCells.h"
 
+#include "Base/Memory.h"
 #include "QuadrilleNewArray.h"
 #include "QuadrillePacking.h"
 #include "QuadrillePieces.h"
@@ -258,6 +259,13 @@ SpreadPiece merge(
     TupleOrigin origin;
   };
   std::vector<Use> uses;
+  std::size_t pointCount = 0, cellCount = 0;
+  for (vtkPolyData* part : parts)
+  {
+    pointCount += static_cast<std::size_t>(part->GetNumberOfPoints());
+    cellCount += static_cast<std::size_t>(part->GetNumberOfPolys());
+  }
+  uses.reserve(pointCount);
   std::vector<std::vector<vtkIdType>> joined; // of each part, of each point
   bool inDouble = false;
   vtkDataArray* modelIds = model->GetPointData()->GetGlobalIds();
@@ -279,6 +287,7 @@ SpreadPiece merge(
         std::tie(b.key, b.origin.source, b.origin.tuple);
     });
   std::vector<TupleOrigin> ofPoints, ofCells;
+  ofCells.reserve(cellCount);
   for (std::size_t i = 0; i < uses.size(); ++i)
   {
     if (i == 0 || uses[i].key != uses[i - 1].key)
@@ -288,6 +297,7 @@ SpreadPiece merge(
     joined[uses[i].origin.source][static_cast<std::size_t>(uses[i].origin.tuple)] =
       static_cast<vtkIdType>(ofPoints.size()) - 1;
   }
+  std::vector<Use>().swap(uses);
   SpreadPiece piece;
   piece.data = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;
@@ -511,6 +521,50 @@ void gatherInModelsOrder(const std::vector<vtkDataSetAttributes*>& sources,
   }
 }
 
+std::size_t estimatedBorder(const SpreadPiece& piece, bool byIds, double unit)
+{
+  // One of so many edges is looked at, the same in all polygons that have it.
+  constexpr std::uint64_t share = 64;
+  std::vector<std::uint64_t> numbers(static_cast<std::size_t>(piece.data->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    numbers[i] =
+      static_cast<std::uint64_t>(pointNumber(piece, static_cast<vtkIdType>(i), byIds, unit)) *
+      0x9e3779b97f4a7c15U;
+  }
+  std::vector<std::uint64_t> edges;
+  visitPolygons(piece.data,
+    [&](vtkIdType, vtkIdType count, const vtkIdType* ids)
+    {
+      for (vtkIdType i = 0; i < count; ++i)
+      {
+        const std::array<vtkIdType, 2> ends{ ids[i], ids[(i + 1) % count] };
+        if (std::min(ends[0], ends[1]) < 0 ||
+          std::max(ends[0], ends[1]) >= static_cast<vtkIdType>(numbers.size()))
+        {
+          return; // is refused when the piece is converted
+        }
+        const std::uint64_t edge = (numbers[static_cast<std::size_t>(ends[0])] +
+                                     numbers[static_cast<std::size_t>(ends[1])]) *
+          0xbf58476d1ce4e5b9U;
+        if ((edge >> 32U) % share == 0)
+        {
+          edges.push_back(edge);
+        }
+      }
+    });
+  std::sort(edges.begin(), edges.end());
+  std::size_t alone = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    alone +=
+      (i == 0 || edges[i] != edges[i - 1]) && (i + 1 == edges.size() || edges[i] != edges[i + 1])
+      ? 1
+      : 0;
+  }
+  return share * alone;
+}
+
 std::vector<SpreadPiece> redistributeCells(const Ranks& ranks, std::vector<SpreadPiece> pieces,
   vtkPolyData* model, double unit, SpreadFigures& figures)
 {
@@ -559,14 +613,16 @@ std::vector<SpreadPiece> redistributeCells(const Ranks& ranks, std::vector<Sprea
     });
   pieces.clear();
   data.clear();
-  const std::vector<std::string> received = ranks.exchange(std::move(messages));
+  bins.clear();
+  releaseFreedMemory();
+  std::vector<std::string> received = ranks.exchange(std::move(messages));
   ranks.together("redistributing the surface",
     [&]
     {
       std::vector<vtkSmartPointer<vtkPolyData>> parts;
       std::vector<int> sourceRank;
       std::vector<vtkIdType> sourceCell;
-      for (const std::string& bytes : received)
+      for (std::string& bytes : received)
       {
         Unpacker unpacker(bytes);
         while (!unpacker.isAtEnd())
@@ -577,12 +633,15 @@ std::vector<SpreadPiece> redistributeCells(const Ranks& ranks, std::vector<Sprea
           sourceRank.insert(sourceRank.end(), fromRank.begin(), fromRank.end());
           sourceCell.insert(sourceCell.end(), fromCell.begin(), fromCell.end());
         }
+        std::string().swap(bytes);
       }
       if (!sourceCell.empty())
       {
         pieces.push_back(merge(parts, model, unit));
         pieces.back().sourceRank = std::move(sourceRank);
         pieces.back().sourceCell = std::move(sourceCell);
+        parts.clear();
+        releaseFreedMemory();
       }
     });
   return pieces;

@@ -15,6 +15,9 @@ class vtkPolyData;
 namespace quadrille
 {
 
+/// About how many points the piece has on its boundary, by a part of its edges; points at the same place count as one.
+std::size_t estimatedBorder(const SpreadPiece& piece, bool byIds, double unit);
+
 /// Sends each polygon, with its arrays, to the rank that has its part of a space-filling curve through the centres of
 /// polygons; the parts have about the same number of them. Points at the same place, rounded to multiples of `unit`, or
 /// with the same global id where `model` has these, become one. pieces: with the arrays of `model`; their SurfacePieces

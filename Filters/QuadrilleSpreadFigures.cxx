@@ -86,6 +86,13 @@ SpreadTimer::SpreadTimer(SpreadFigures& figures, const char* stage)
 SpreadTimer::~SpreadTimer()
 {
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin_;
+  const auto known = std::find_if(figures_.seconds.begin(), figures_.seconds.end(),
+    [this](const auto& stage) { return stage.first == stage_; });
+  if (known != figures_.seconds.end())
+  {
+    known->second += spent.count();
+    return;
+  }
   figures_.seconds.emplace_back(std::move(stage_), spent.count());
 }
 

@@ -37,7 +37,7 @@ FlatPoint conjugate(FlatPoint p)
   return { p.x, -p.y };
 }
 
-float cross(FlatPoint a, FlatPoint b)
+float flatCross(FlatPoint a, FlatPoint b)
 {
   return a.x * b.y - a.y * b.x;
 }
@@ -77,15 +77,15 @@ struct Candidate
   /// Barycentric coordinates of p, in the order of the corners; not finite for a triangle without area.
   std::array<double, 3> weightsOf(FlatPoint p) const
   {
-    const double area = cross(corner[1] - corner[0], corner[2] - corner[0]);
-    const double second = double{ cross(p - corner[0], corner[2] - corner[0]) } / area;
-    const double third = double{ cross(corner[1] - corner[0], p - corner[0]) } / area;
+    const double area = flatCross(corner[1] - corner[0], corner[2] - corner[0]);
+    const double second = double{ flatCross(p - corner[0], corner[2] - corner[0]) } / area;
+    const double third = double{ flatCross(corner[1] - corner[0], p - corner[0]) } / area;
     return { 1 - second - third, second, third };
   }
   /// The least of them: below 0 outside. Triangles without area hold nothing, nor do inverted ones.
   double depthOf(FlatPoint p) const
   {
-    if (!(cross(corner[1] - corner[0], corner[2] - corner[0]) > 0))
+    if (!(flatCross(corner[1] - corner[0], corner[2] - corner[0]) > 0))
     {
       return -std::numeric_limits<double>::infinity();
     }
@@ -265,7 +265,7 @@ private:
     bool isPositive = true;
     for (std::size_t i = 0; i < static_cast<std::size_t>(record_.faces); ++i)
     {
-      isPositive = isPositive && cross(ring[i] - p, ring[(i + 1) % count] - p) > 0;
+      isPositive = isPositive && flatCross(ring[i] - p, ring[(i + 1) % count] - p) > 0;
     }
     if (isPositive)
     {

@@ -123,7 +123,7 @@ TEST(InPieces, VerticesAndLinesShiftTheCells)
   }
 }
 
-std::string failureOf(vtkQuadRemesh* filter)
+std::string failureOfPieces(vtkQuadRemesh* filter)
 {
   filter->SetGlobalWarningDisplay(0);
   filter->Update();
@@ -140,7 +140,7 @@ TEST(InPieces, SaysWhatNeedsTheWholeSurface)
     vtkNew<vtkQuadRemesh> filter;
     setUp(filter, input);
     change(filter.Get());
-    return failureOf(filter);
+    return failureOfPieces(filter);
   };
   const auto has = [](const std::string& text, const char* part)
   { return text.find(part) != std::string::npos; };

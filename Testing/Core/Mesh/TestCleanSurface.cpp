@@ -45,8 +45,8 @@ std::string damageOf(RepairReport repair)
   return repair.text();
 }
 
-/// The surface is clean where the repair does nothing else than split vertices, and is then connected as the repair does
-/// it.
+/// The surface is clean where the repair does nothing else than split vertices, and is then connected as the repair
+/// does it.
 Verdict expectAsRepaired(const SurfaceInput& input, int threads = 1)
 {
   PreparedSurface clean = ordered(input);
