@@ -36,13 +36,13 @@ constexpr double kSamePart = 1e-9;
 /// Arrays that describe the source itself and would be wrong on anything made from it.
 bool isOwn(const std::string& name)
 {
-  static const std::array<const char*, 23> own = { arrays::kFeatureEdges, arrays::kIgm,
-    arrays::kMatching, arrays::kDeterminant, arrays::kTwin, arrays::kFineFace, arrays::kFineVertex,
-    arrays::kTurns, arrays::kIndex, arrays::kIntegerVertex, arrays::kSurfacePointId,
-    arrays::kTextureCoordinates, arrays::kSourcePointIds, arrays::kSourceWeights,
-    arrays::kSourceBarycentric, arrays::kValence, arrays::kOnBoundary, arrays::kLayoutPatch,
-    arrays::kPartial, arrays::kQuadNormals, arrays::kFramePosition, arrays::kMirrorPoint,
-    arrays::kRotatedPoint };
+  static const std::array<const char*, 24> own = { arrays::kFeatureEdges, arrays::kDetectedFeatures,
+    arrays::kIgm, arrays::kMatching, arrays::kDeterminant, arrays::kTwin, arrays::kFineFace,
+    arrays::kFineVertex, arrays::kTurns, arrays::kIndex, arrays::kIntegerVertex,
+    arrays::kSurfacePointId, arrays::kTextureCoordinates, arrays::kSourcePointIds,
+    arrays::kSourceWeights, arrays::kSourceBarycentric, arrays::kValence, arrays::kOnBoundary,
+    arrays::kLayoutPatch, arrays::kPartial, arrays::kQuadNormals, arrays::kFramePosition,
+    arrays::kMirrorPoint, arrays::kRotatedPoint };
   return std::any_of(own.begin(), own.end(), [&name](const char* n) { return name == n; });
 }
 

@@ -83,6 +83,9 @@ struct BlockState
   std::vector<std::pair<const void*, vtkMTimeType>> failedStamps;
   double lastAreaShare = 1;
   double lastWholeDiagonal = 0;
+  /// Whether the result is spread: each rank has its own part of it, with so many rings of ghost cells.
+  bool isSpread = false;
+  int ghostLevels = 0;
   /// Results of earlier settings, the last used one at the end, so that going back to them is a look-up. Bounded in
   /// number and bytes: at most an eighth of the machine's memory.
   std::vector<EarlierResult> earlier;

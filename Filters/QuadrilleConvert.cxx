@@ -336,6 +336,22 @@ std::vector<int> pointValences(vtkPolyData* data)
   return valences;
 }
 
+/// Only the pieces of a spread surface have them, as QuadrilleSpread.h writes them.
+void readDetectedFeatures(vtkPolyData* data, ConvertedSurface& surface)
+{
+  auto* array =
+    vtkUnsignedCharArray::SafeDownCast(data->GetCellData()->GetArray(arrays::kDetectedFeatures));
+  if (!array)
+  {
+    return;
+  }
+  surface.input.detectedFeatures.resize(polygonCount(surface.input));
+  for (std::size_t i = 0; i < surface.input.detectedFeatures.size(); ++i)
+  {
+    surface.input.detectedFeatures[i] = array->GetValue(surface.cell(static_cast<Index>(i)));
+  }
+}
+
 /// The bits name corners of a polygon, so that they say nothing about a strip.
 void readFeatureEdges(vtkPolyData* data, ConvertedSurface& surface, int threads)
 {
@@ -901,6 +917,7 @@ ConvertedSurface convertSurface(vtkPolyData* data, const std::string& patchArray
   readPolygons(data, surface, threads);
   readStrips(data, surface);
   readFeatureEdges(data, surface, threads);
+  readDetectedFeatures(data, surface);
   readPatchIds(data, patchArray, surface, threads);
   readGuides(data, surface);
   surface.input.targetValences = pointValences(data);

@@ -48,29 +48,8 @@ std::uint64_t orderedBits(double value)
 
 using PointKey = std::array<std::uint64_t, 3>;
 
-/// Whether a coordinate needs double precision; filters upstream may have changed the type of the numbers, not what
-/// they are.
-bool needsDouble(vtkPolyData* piece)
-{
-  if (!piece->GetPoints() || piece->GetPoints()->GetDataType() == VTK_FLOAT)
-  {
-    return false;
-  }
-  for (vtkIdType i = 0; i < piece->GetNumberOfPoints(); ++i)
-  {
-    Vector3 x;
-    piece->GetPoint(i, x.data());
-    if (x.cast<float>().cast<double>() != x)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// What coordinates are rounded to multiples of: sources compute the points of a cut anew for each piece, and their
-/// last bits differ, above all of those that should be 0. A power of two, 2^-25 to 2^-26 of the diagonal where all
-/// coordinates are single, else 2^-31 to 2^-32: no more than their own last bit in most single ones. 0: no rounding.
+/// Of the box around all pieces: sources compute the points of a cut anew for each piece, and their last bits differ,
+/// above all of those that should be 0.
 double unitOfPlaces(const std::vector<vtkSmartPointer<vtkPolyData>>& pieces)
 {
   vtkBoundingBox box;
@@ -83,13 +62,7 @@ double unitOfPlaces(const std::vector<vtkSmartPointer<vtkPolyData>>& pieces)
       inDouble = inDouble || needsDouble(piece);
     }
   }
-  const double diagonal = box.IsValid() ? box.GetDiagonalLength() : 0;
-  if (!(diagonal > 0) || !std::isfinite(diagonal))
-  {
-    return 0;
-  }
-  // The factor keeps diagonals that are powers of two, up to their last bits, off the edge between two units.
-  return std::exp2(std::ceil(std::log2(0.73 * diagonal)) - (inDouble ? 32 : 26));
+  return quadrille::unitOfPlaces(box.IsValid() ? box.GetDiagonalLength() : 0, inDouble);
 }
 
 Vector3 roundedPoint(vtkPolyData* piece, vtkIdType id, double unit)
@@ -176,8 +149,7 @@ void PieceJoin::findPlaces()
     firstPoint_.push_back(static_cast<vtkIdType>(keys.size()));
     for (vtkIdType i = 0; i < pieces_[p]->GetNumberOfPoints(); ++i)
     {
-      const Vector3 x = roundedPoint(pieces_[p], i, unit);
-      keys.push_back({ orderedBits(x[0]), orderedBits(x[1]), orderedBits(x[2]) });
+      keys.push_back(placeKey(pieces_[p], i, unit));
       origins.push_back({ p, i });
     }
   }
@@ -471,6 +443,42 @@ vtkSmartPointer<vtkAbstractArray> gatherArray(
 }
 
 } // namespace
+
+bool needsDouble(vtkPolyData* piece)
+{
+  if (!piece->GetPoints() || piece->GetPoints()->GetDataType() == VTK_FLOAT)
+  {
+    return false;
+  }
+  for (vtkIdType i = 0; i < piece->GetNumberOfPoints(); ++i)
+  {
+    Vector3 x;
+    piece->GetPoint(i, x.data());
+    if (x.cast<float>().cast<double>() != x)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// A power of two, 2^-25 to 2^-26 of the diagonal where all coordinates are single, else 2^-31 to 2^-32: no more than
+/// their own last bit in most single ones.
+double unitOfPlaces(double diagonal, bool inDouble)
+{
+  if (!(diagonal > 0) || !std::isfinite(diagonal))
+  {
+    return 0;
+  }
+  // The factor keeps diagonals that are powers of two, up to their last bits, off the edge between two units.
+  return std::exp2(std::ceil(std::log2(0.73 * diagonal)) - (inDouble ? 32 : 26));
+}
+
+std::array<std::uint64_t, 3> placeKey(vtkPolyData* piece, vtkIdType point, double unit)
+{
+  const Vector3 x = roundedPoint(piece, point, unit);
+  return { orderedBits(x[0]), orderedBits(x[1]), orderedBits(x[2]) };
+}
 
 vtkSmartPointer<vtkPolyData> withoutMarks(vtkPolyData* piece)
 {

@@ -13,6 +13,8 @@
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,6 +36,17 @@ vtkSmartPointer<vtkPolyData> joinPieces(
 
 /// The piece itself, or a copy that lacks kVolumeFace where it has that.
 vtkSmartPointer<vtkPolyData> withoutMarks(vtkPolyData* piece);
+
+/// Whether a coordinate needs double precision; filters upstream may have changed the type of the numbers, not what
+/// they are.
+bool needsDouble(vtkPolyData* piece);
+
+/// What coordinates are rounded to multiples of, see above, for a surface with this diagonal of the box around it. 0:
+/// no rounding.
+double unitOfPlaces(double diagonal, bool inDouble);
+
+/// A point's coordinates rounded, as numbers that are the same where these are, and in their order.
+std::array<std::uint64_t, 3> placeKey(vtkPolyData* piece, vtkIdType point, double unit);
 
 /// A tuple of the arrays of one of several sources.
 struct TupleOrigin

@@ -26,6 +26,13 @@ public:
   StatusCode code;
 };
 
+/// There was too little memory: the next execution may pass.
+class OutOfMemory : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Throws StageFailure unless the status is ok; `stage` says who failed when the message does not.
 void requireOk(const Status& status, const std::string& stage);
 

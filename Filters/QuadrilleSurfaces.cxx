@@ -19,6 +19,7 @@
 #include <vtkPolyData.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -81,8 +82,14 @@ void markFaces(vtkPolyData* surface, vtkDataSet* data, const CellDimensions& dim
   surface->GetCellData()->AddArray(marks);
 }
 
+/// 0 where a corner is no point; whoever takes the surface refuses it.
 double triangleArea(vtkPolyData* surface, vtkIdType i, vtkIdType j, vtkIdType k)
 {
+  const vtkIdType points = surface->GetNumberOfPoints();
+  if (std::min({ i, j, k }) < 0 || std::max({ i, j, k }) >= points)
+  {
+    return 0;
+  }
   Vector3 a, b, c;
   surface->GetPoint(i, a.data());
   surface->GetPoint(j, b.data());

@@ -10,10 +10,12 @@
 #include "QuadrilleConstraints.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleFrame.h"
+#include "QuadrilleInPieces.h"
 #include "QuadrilleMoves.h"
 #include "QuadrilleQuads.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleSmallDetails.h"
+#include "QuadrilleSpread.h"
 #include "QuadrilleStamps.h"
 #include "QuadrilleSymmetry.h"
 
@@ -272,8 +274,6 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
       "switched off: switch ComputeMappedSurface on or choose another method");
   }
   vtkPolyData* input = block.input();
-  quadrille::AskedConstraints asked;
-  quadrille::ConvertedSurface converted = this->ConvertInputs(block, &asked);
   quadrille::RemeshOptions options = this->MakeOptions(block);
   options.maximumNumberOfQuads = static_cast<std::size_t>(this->MaximumNumberOfQuads);
   options.smoothingSteps = this->SmoothingSteps;
@@ -284,13 +284,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   options.method = static_cast<quadrille::MapMethod>(this->Method);
   options.coarsestIntegers = this->Integers == INTEGERS_COARSEST;
   options.anisotropyLimit = this->AnisotropyLimit;
-  if (this->ChordError > 0)
-  {
-    options.sizes.chordError = this->ChordError;
-  }
-  options.sizes.gapQuads = this->GapQuads;
-  options.sizes.smallest = this->SmallestSize;
-  options.sizes.largest = this->LargestSize;
+  this->SetSizes(options);
   if (this->CurvatureGuides)
   {
     options.curvatureGuides = this->LeastAnisotropy;
@@ -308,6 +302,12 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   options.warmStart = this->WarmStart != 0;
   options.preview = this->Preview != 0;
 
+  quadrille::AskedConstraints asked;
+  const std::unique_ptr<quadrille::TriangleSource> toCut = this->TrianglesToCut(block, options);
+  quadrille::ConvertedSurface converted =
+    toCut ? this->ConvertForPieces(block) : this->ConvertInputs(block, &asked);
+  quadrille::PiecesResult pieces;
+
   quadrille::BlockReport& report = block.state->report;
   LevelMemory* memory = this->KeepLevels ? &block.state->memoryAs<LevelMemory>() : nullptr;
   if (memory != nullptr && options.mergeCharts)
@@ -318,6 +318,13 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   const bool isSymmetric = this->Symmetry != SYMMETRY_NONE;
   const auto run = [&](quadrille::SurfaceInput surface, const quadrille::RemeshOptions& how)
   {
+    if (toCut)
+    {
+      pieces = quadrille::remeshInPieces(*toCut, how);
+      quadrille::SymmetricResult plain;
+      plain.remeshed = std::move(pieces.remeshed);
+      return plain;
+    }
     if (!isSymmetric)
     {
       quadrille::SymmetricResult plain;
@@ -388,6 +395,14 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   {
     quadrille::addMirrorSources(made, converted, input, source);
   }
+  if (toCut)
+  {
+    quadrille::addPieceSources(pieces, result.quads, converted, input, source);
+    this->AddNotice("the surface was cut into " + std::to_string(pieces.pieces) +
+      " pieces, which were thinned out to " + std::to_string(pieces.joinedTriangles) +
+      " triangles before quads were made; the certificate is that of their map (Pieces Never, "
+      "--pieces never, keeps the surface whole)");
+  }
   const quadrille::QuadOutputs written =
     quadrille::writeOutputs(result.quads, result.surface.mesh, result.uv, source);
   for (const std::string& notice : written.notCarried)
@@ -451,6 +466,132 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
 }
 
 //------------------------------------------------------------------------------
+std::string vtkQuadRemesh::ReasonNotToCut(const quadrille::Block& block) const
+{
+  if (this->Symmetry != SYMMETRY_NONE)
+  {
+    return "symmetric quads need the whole surface";
+  }
+  if (this->Preview)
+  {
+    return "a preview has no quads on the surface";
+  }
+  if (this->Method == METHOD_SEAMLESS)
+  {
+    return "the method 'seamless' makes no quads";
+  }
+  if (this->ComputeMappedSurface)
+  {
+    return "the mapped surface is that of the whole (Compute Mapped Surface)";
+  }
+  if (this->FinalQuality == Input)
+  {
+    return "final quality on the input needs the map of the whole surface";
+  }
+  if (this->CellDataFrom != CELL_DATA_FROM_CENTRE)
+  {
+    return "cell data by area need all cells under a quad";
+  }
+  if (!this->GetGuideArrayInUse().empty())
+  {
+    return "directions by an array are those of the whole surface";
+  }
+  for (std::size_t port = 1; port < block.inputs.size(); ++port)
+  {
+    vtkPolyData* constraints = block.input(static_cast<int>(port));
+    if (constraints && constraints->GetNumberOfPoints() > 0)
+    {
+      return "constraints are drawn on the whole surface";
+    }
+  }
+  const std::string array = quadrille::constrainingArray(block.input(), this->PatchArrayName);
+  return array.empty() ? "" : "the array " + array + " constrains the whole surface";
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<quadrille::TriangleSource> vtkQuadRemesh::TrianglesToCut(
+  const quadrille::Block& block, const quadrille::RemeshOptions& options) const
+{
+  vtkPolyData* input = block.input();
+  const auto cells = static_cast<std::size_t>(input->GetNumberOfPolys());
+  constexpr std::size_t leastWithLevels = 10000000; // what is held of the whole would be gigabytes
+  if (this->Pieces == PIECES_NEVER || quadrille::isJoined(input) ||
+    (this->Pieces == PIECES_AUTOMATIC &&
+      cells < (this->KeepLevels ? leastWithLevels : quadrille::kTrianglesWorthPieces)))
+  {
+    return nullptr;
+  }
+  std::string reason = this->ReasonNotToCut(block);
+  std::unique_ptr<quadrille::TriangleSource> triangles;
+  if (reason.empty())
+  {
+    triangles = quadrille::trianglesOf(input);
+    reason = triangles ? ""
+                       : "it has polygons that are no triangles, or points that are not float "
+                         "or double";
+  }
+  if (this->Pieces == PIECES_AUTOMATIC)
+  {
+    return triangles && quadrille::isWorthPieces(*triangles, options) ? std::move(triangles)
+                                                                      : nullptr;
+  }
+  if (!triangles)
+  {
+    throw quadrille::InvalidInput(
+      "the surface cannot be cut into pieces: " + reason + "; set Pieces to Automatic or Never");
+  }
+  return triangles;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::SetSizes(quadrille::RemeshOptions& options) const
+{
+  if (this->ChordError > 0)
+  {
+    options.sizes.chordError = this->ChordError;
+  }
+  options.sizes.gapQuads = this->GapQuads;
+  options.sizes.smallest = this->SmallestSize;
+  options.sizes.largest = this->LargestSize;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkQuadRemesh::ReasonNotToSpread(
+  const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const
+{
+  if (this->Symmetry != SYMMETRY_NONE)
+  {
+    return "symmetric quads need the whole surface";
+  }
+  if (this->Preview)
+  {
+    return "a preview has no quads on the surface";
+  }
+  if (this->Method == METHOD_SEAMLESS)
+  {
+    return "the method 'seamless' makes no quads";
+  }
+  if (this->CellDataFrom != CELL_DATA_FROM_CENTRE)
+  {
+    return "cell data by area need all cells under a quad";
+  }
+  return quadrille::reasonNotToSpread(pieces, this->GetGuideArrayInUse());
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::PlanSpread(const quadrille::Block& block, const quadrille::SpreadSize& size,
+  quadrille::SpreadPlan& plan) const
+{
+  quadrille::RemeshOptions options = this->MakeOptions(block);
+  this->SetSizes(options);
+  plan.piece.edgeLength = quadrille::edgeLengthOfPieces(options, size.area, size.diagonal);
+  plan.piece.featureAngle = options.featureAngle;
+  plan.patchArray = this->PatchArrayName;
+  plan.guideArray = this->GetGuideArrayInUse();
+  plan.memoryLimit = 1e6 * this->MemoryLimit;
+}
+
+//------------------------------------------------------------------------------
 void vtkQuadRemesh::WritePreview(quadrille::Block& block, const quadrille::AskedConstraints& asked,
   const quadrille::RemeshResult& result)
 {
@@ -491,6 +632,8 @@ void vtkQuadRemesh::AddSettings(std::ostream& os) const
      << "CloseHandles " << this->CloseHandles << '\n'
      << "SmallDetails " << this->SmallDetails << '\n'
      << "SmallComponents " << this->SmallComponents << '\n'
+     << "SpreadSurfaces " << this->SpreadSurfaces << '\n'
+     << "Pieces " << this->Pieces << '\n'
      << "WarmStart " << this->WarmStart << '\n'
      << "Preview " << this->Preview << '\n'
      << "FinalQuality " << this->FinalQuality << '\n'
@@ -536,6 +679,8 @@ void vtkQuadRemesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CloseHandles: " << this->CloseHandles << "\n";
   os << indent << "SmallDetails: " << this->SmallDetails << "\n";
   os << indent << "SmallComponents: " << this->SmallComponents << "\n";
+  os << indent << "SpreadSurfaces: " << this->SpreadSurfaces << "\n";
+  os << indent << "Pieces: " << this->Pieces << "\n";
   os << indent << "KeepLevels: " << this->KeepLevels << "\n";
   os << indent << "WarmStart: " << this->WarmStart << "\n";
   os << indent << "Preview: " << this->Preview << "\n";

@@ -72,7 +72,14 @@
 
 #include "vtkQuadrilleSurfaceAlgorithm.h"
 
+#include <memory> // for std::unique_ptr
+
 class vtkTable;
+
+namespace quadrille
+{
+class TriangleSource;
+}
 
 class QUADRILLEFILTERS_EXPORT vtkQuadRemesh : public vtkQuadrilleSurfaceAlgorithm
 {
@@ -426,6 +433,50 @@ public:
   vtkBooleanMacro(Preview, vtkTypeBool);
   ///@}
 
+  /// See SetSpreadSurfaces().
+  enum SpreadSurfacesType
+  {
+    SPREAD_AUTOMATIC = 0,
+    SPREAD_ALWAYS = 1,
+    SPREAD_NEVER = 2
+  };
+  ///@{
+  /**
+   * Whether a surface that comes in pieces, one or more a rank, stays spread over the ranks, a SpreadSurfacesType. Then
+   * no rank ever holds all of it: pieces are thinned out where they are, the quads are made on the joined thin pieces,
+   * by one rank, and each rank has the quads with their centre on its pieces, with global ids of points and cells,
+   * ghost points, and ghost cells where they are asked for. Output 1 is then the joined surface, and outputs 1 to 7 lie
+   * on that rank. Automatic: with several ranks and more than 2,000,000 cells on all of them. What cannot be spread
+   * (directions on cells, symmetry, previews, CellDataFrom by area, the method without quads) is
+   * brought to one rank, with a notice; with Always it is an error. Never: the pieces are always brought to one rank
+   * and put together there; the quads are then the same for any number of ranks. Default: Automatic.
+   */
+  vtkSetClampMacro(SpreadSurfaces, int, SPREAD_AUTOMATIC, SPREAD_NEVER);
+  vtkGetMacro(SpreadSurfaces, int);
+  ///@}
+
+  /// See SetPieces().
+  enum PiecesType
+  {
+    PIECES_AUTOMATIC = 0,
+    PIECES_ALWAYS = 1,
+    PIECES_NEVER = 2
+  };
+  ///@{
+  /**
+   * Whether a surface in one process is cut into compact pieces of about a million triangles, a PiecesType. Each is
+   * prepared and thinned out by itself, to triangles that are small against the quads, one piece a thread; the quads
+   * are made on the thinned pieces together, and their points go back to the surface. That takes about a third of the
+   * memory and less time, and holds nothing of the surface for the next execution. Automatic: from 1,500,000 triangles
+   * on, where a quad has at least 66 of them, and with KeepLevels from 10,000,000 on; where properties or inputs need
+   * the whole surface (constraints, symmetry, previews, the mapped surface, CellDataFrom by area, FinalQuality on the
+   * input, the method without quads, polygons with more than three corners), it stays whole. Always: also where it is
+   * smaller; what needs the whole surface is an error. Never: the surface stays whole. Default: Automatic.
+   */
+  vtkSetClampMacro(Pieces, int, PIECES_AUTOMATIC, PIECES_NEVER);
+  vtkGetMacro(Pieces, int);
+  ///@}
+
   /// Millions of bytes that are held for the next execution.
   double GetRememberedMegabytes() const;
   /// Stages that the last execution had, or began, from an earlier one, one a line; "all" where nothing had changed and
@@ -512,6 +563,11 @@ protected:
   void Execute(quadrille::Block& block) override;
   void WritePreview(quadrille::Block& block, const quadrille::AskedConstraints& asked,
     const quadrille::RemeshResult& result);
+  int GetSpreadMode() const override { return this->SpreadSurfaces; }
+  std::string ReasonNotToSpread(
+    const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const override;
+  void PlanSpread(const quadrille::Block& block, const quadrille::SpreadSize& size,
+    quadrille::SpreadPlan& plan) const override;
   bool KeepsResult() override { return this->KeepLevels != 0; }
   void AddSettings(std::ostream& os) const override;
   bool AllowsEarlier(const quadrille::BlockReport& report) const override;
@@ -521,6 +577,10 @@ private:
   void operator=(const vtkQuadRemesh&) = delete;
 
   vtkPolyData* GetPolyDataOutputAt(int port);
+  void SetSizes(quadrille::RemeshOptions& options) const;
+  std::string ReasonNotToCut(const quadrille::Block& block) const;
+  std::unique_ptr<quadrille::TriangleSource> TrianglesToCut(
+    const quadrille::Block& block, const quadrille::RemeshOptions& options) const;
   vtkIdType CountOverBlocks(const char* number) const
   {
     return static_cast<vtkIdType>(this->SumOverBlocks(number));
@@ -541,6 +601,8 @@ private:
   double LargestSize = 1;
   vtkTypeBool CurvatureGuides = 0;
   double LeastAnisotropy = 0.3;
+  int SpreadSurfaces = SPREAD_AUTOMATIC;
+  int Pieces = PIECES_AUTOMATIC;
   vtkTypeBool KeepLevels = 1;
   vtkTypeBool Preview = 0;
   vtkTypeBool WarmStart = 0;

@@ -9,6 +9,7 @@
 #include "QuadrilleRanks.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleShared.h"
+#include "QuadrilleSpread.h"
 #include "QuadrilleStamps.h"
 #include "QuadrilleSurfaces.h"
 #include "QuadrilleVtkVersions.h"
@@ -44,6 +45,13 @@ int requestedPiece(vtkInformationVector* outputs)
   vtkInformation* info = outputs->GetInformationObject(0);
   return info->Has(Executive::UPDATE_PIECE_NUMBER()) ? info->Get(Executive::UPDATE_PIECE_NUMBER())
                                                      : 0;
+}
+
+int requestedGhostLevels(vtkInformationVector* outputs)
+{
+  vtkInformation* info = outputs->GetInformationObject(0);
+  const auto key = Executive::UPDATE_NUMBER_OF_GHOST_LEVELS();
+  return info->Has(key) ? std::max(0, info->Get(key)) : 0;
 }
 
 int requestedPieces(vtkInformationVector* outputs)
@@ -140,17 +148,23 @@ struct vtkQuadrilleAlgorithm::Work
   int owner = 0;
   std::size_t cells = 0; ///< of all ranks
   bool isChanged = true;
-  std::vector<quadrille::Stamp> stamps; ///< of this rank's pieces
-  std::string error;                    ///< why the inputs could not be had
-  std::vector<std::string> notices;     ///< on the inputs
+  std::vector<quadrille::Stamp> stamps;             ///< of this rank's pieces
+  std::string error;                                ///< why the inputs could not be had
+  std::vector<std::string> notices;                 ///< on the inputs
+  std::unique_ptr<quadrille::SpreadSurface> spread; ///< where the surface stays spread
+  std::exception_ptr failure;                       ///< of what came before the filter's own work
+  bool isMade = false;                              ///< by the filter's own work, on the owner
+  bool isSpread = false;                            ///< the result is
 };
 
 /// One execution: the structure of the input and its blocks.
 struct vtkQuadrilleAlgorithm::Run
 {
-  explicit Run(vtkMultiProcessController* controller) : ranks(controller) {}
+  explicit Run(vtkMultiProcessController* controller) : ranks(controller), stop(controller) {}
 
   quadrille::Ranks ranks;
+  quadrille::SharedStop stop;
+  int ghostLevels = 0;                                ///< that the outputs are asked for
   std::vector<quadrille::BlockTree> trees;            ///< by input port, with this rank's pieces
   std::vector<vtkSmartPointer<vtkDataObject>> shared; ///< by input port
   std::vector<std::string> notices;                   ///< on shared inputs
@@ -283,6 +297,7 @@ int vtkQuadrilleAlgorithm::RequestData(
 {
   this->ResetOutcome();
   Run run(quadrille::controllerOf(outputs));
+  run.ghostLevels = requestedGhostLevels(outputs);
   if (!run.ranks.isParallel() && requestedPiece(outputs) > 0)
   {
     initializeOutputs(outputs);
@@ -336,6 +351,7 @@ int vtkQuadrilleAlgorithm::RunBlocks(
   {
     this->GatherInputs(run);
     this->MeasureBlocks(run);
+    this->JoinSpread(run);
     this->ShareOut(run);
   }
   std::vector<Work*> mine;
@@ -346,11 +362,17 @@ int vtkQuadrilleAlgorithm::RunBlocks(
       mine.push_back(&work);
     }
   }
+  this->Stop = run.anew ? &run.stop : nullptr;
   for (std::size_t i = 0; i < mine.size(); ++i)
   {
     this->BlockBegin = static_cast<double>(i) / static_cast<double>(mine.size());
     this->BlockEnd = static_cast<double>(i + 1) / static_cast<double>(mine.size());
     this->RunBlock(*mine[i]);
+  }
+  if (run.anew)
+  {
+    this->WaitForAll(run);
+    this->SpreadResults(run);
   }
   this->ExchangeReports(run);
   return this->Conclude(run, outputs);
@@ -469,7 +491,8 @@ void vtkQuadrilleAlgorithm::TakeStates(Run& run)
       }
     }
     packer.count(!state->lastResult.empty());
-    packer.count(this->KeepsResult() && work.stamps == state->lastStamps);
+    packer.count(this->KeepsResult() && work.stamps == state->lastStamps &&
+      (!state->isSpread || state->ghostLevels == run.ghostLevels));
     // Where another port asks for what failed, the report says already why there is nothing.
     packer.count(work.stamps == state->failedStamps);
   }
@@ -597,6 +620,14 @@ void vtkQuadrilleAlgorithm::GatherPort(Run& run, Work& work, int port)
     counts.volumeCells += unpacker.count();
     counts.ghostCells += unpacker.count();
   }
+  if (isSurface && port == 0 && work.error.empty() && this->StaysSpread(run, work, pieces))
+  {
+    for (const std::string& notice : counts.notices())
+    {
+      work.notices.push_back(notice);
+    }
+    return;
+  }
   pieces = run.ranks.collect(pieces, work.owner);
   if (!run.owns(work) || !work.error.empty())
   {
@@ -637,6 +668,194 @@ void vtkQuadrilleAlgorithm::GatherPort(Run& run, Work& work, int port)
 }
 
 //------------------------------------------------------------------------------
+int vtkQuadrilleAlgorithm::GetSpreadMode() const
+{
+  return static_cast<int>(quadrille::SpreadMode::Never);
+}
+
+//------------------------------------------------------------------------------
+std::string vtkQuadrilleAlgorithm::ReasonNotToSpread(
+  const std::vector<vtkSmartPointer<vtkPolyData>>& /*pieces*/) const
+{
+  return {};
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::PlanSpread(const quadrille::Block& /*block*/,
+  const quadrille::SpreadSize& /*size*/, quadrille::SpreadPlan& /*plan*/) const
+{
+}
+
+//------------------------------------------------------------------------------
+bool vtkQuadrilleAlgorithm::StaysSpread(
+  Run& run, Work& work, const std::vector<vtkSmartPointer<vtkDataObject>>& pieces)
+{
+  const auto mode = static_cast<quadrille::SpreadMode>(this->GetSpreadMode());
+  const bool isLarge = run.ranks.size() > 1 && work.cells > quadrille::kSpreadFaces;
+  if (mode == quadrille::SpreadMode::Never ||
+    (mode == quadrille::SpreadMode::Automatic && !isLarge))
+  {
+    return false;
+  }
+  std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
+  for (vtkDataObject* piece : pieces)
+  {
+    surfaces.emplace_back(vtkPolyData::SafeDownCast(piece));
+  }
+  std::string reason;
+  for (const std::string& text : run.ranks.gather(this->ReasonNotToSpread(surfaces)))
+  {
+    reason = reason.empty() ? text : reason;
+  }
+  if (reason.empty())
+  {
+    work.spread = std::make_unique<quadrille::SpreadSurface>(run.ranks, work.owner, surfaces);
+    if (work.spread->size().cells == 0)
+    {
+      work.spread.reset(); // the filter says what is missing
+    }
+    return work.spread != nullptr;
+  }
+  if (mode == quadrille::SpreadMode::Always)
+  {
+    work.error = "the surface cannot stay spread over the ranks: " + reason +
+      "; set Spread Surfaces to Never, which brings all of it to one rank";
+  }
+  else
+  {
+    work.notices.push_back("the surface was brought to one rank and not left spread, as " + reason);
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::JoinSpread(Run& run)
+{
+  for (Work& work : run.works)
+  {
+    if (!work.spread)
+    {
+      continue;
+    }
+    try
+    {
+      quadrille::SpreadPlan plan;
+      plan.piece.threads = this->NumberOfThreads;
+      plan.piece.progress = this->MakeProgress(0, 0.02);
+      this->PlanSpread(work.block, work.spread->size(), plan);
+      work.block.inputs[0] = work.spread->join(plan, work.notices);
+    }
+    catch (const quadrille::Cancelled&)
+    {
+      // Whether time was over on any rank: it may not yet be so on the one that tells it.
+      for (const std::string& isOver : run.ranks.gather(this->TimeIsOver ? "1" : ""))
+      {
+        this->TimeIsOver = this->TimeIsOver || !isOver.empty();
+      }
+      work.failure = std::current_exception();
+    }
+    catch (const std::exception&)
+    {
+      work.failure = std::current_exception(); // on all ranks alike
+    }
+    if (work.failure)
+    {
+      work.spread.reset();
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::WaitForAll(Run& run)
+{
+  // Observers of progress may ask to stop on a rank that waits, too.
+  auto last = std::chrono::steady_clock::now();
+  run.stop.join(
+    [&]
+    {
+      const auto now = std::chrono::steady_clock::now();
+      if (now - last > quadrille::PollScope::kInterval)
+      {
+        last = now;
+        this->UpdateProgress(this->FarthestProgress);
+      }
+      return !quadrille::isAskedToStop(this);
+    });
+  this->Stop = nullptr;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::SpreadResults(Run& run)
+{
+  for (Work& work : run.works)
+  {
+    if (!work.spread)
+    {
+      continue;
+    }
+    const char made = work.isMade ? (work.block.state->report.isSoFar ? 's' : 'm') : '-';
+    const std::string told =
+      run.ranks.gather(std::string(1, made))[static_cast<std::size_t>(work.owner)];
+    if (told == "-")
+    {
+      continue;
+    }
+    // What is left to do after a stop that has kept something must not be stopped.
+    this->IsBlockSoFar = told == "s";
+    try
+    {
+      this->SpreadResult(run, work);
+    }
+    catch (const std::exception&)
+    {
+      if (run.owns(work))
+      {
+        this->FailBlockBy(*work.block.state, std::current_exception());
+      }
+    }
+    this->IsBlockSoFar = false;
+    work.spread.reset();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::SpreadResult(Run& run, Work& work)
+{
+  std::vector<vtkSmartPointer<vtkDataObject>>& outputs = work.block.outputs;
+  if (!run.owns(work))
+  {
+    outputs.clear();
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+    {
+      outputs.push_back(
+        vtk::TakeSmartPointer(vtkDataObjectTypes::NewDataObject(this->GetBlockType(port))));
+    }
+  }
+  std::vector<vtkPolyData*> others;
+  for (std::size_t port = 1; port < outputs.size(); ++port)
+  {
+    if (auto* data = vtkPolyData::SafeDownCast(outputs[port]))
+    {
+      others.push_back(data);
+    }
+  }
+  const vtkSmartPointer<vtkPolyData> quads =
+    work.spread->spread(vtkPolyData::SafeDownCast(outputs[0]), others, run.ghostLevels);
+  const std::vector<quadrille::SpreadFigures> figures = work.spread->figures();
+  quadrille::addSpreadFigures(quads, figures);
+  outputs[0] = quads;
+  quadrille::BlockState& state = *work.block.state;
+  state.lastResult = outputs;
+  state.isSpread = true;
+  work.isSpread = true;
+  state.ghostLevels = run.ghostLevels;
+  if (run.owns(work))
+  {
+    state.report.stageTimes += "\n" + quadrille::spreadText(figures);
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkQuadrilleAlgorithm::MeasureBlocks(Run& run)
 {
   if (run.works.size() < 2 || !this->HasCommonTarget())
@@ -647,9 +866,14 @@ void vtkQuadrilleAlgorithm::MeasureBlocks(Run& run)
   for (const Work& work : run.works)
   {
     vtkPolyData* surface = run.owns(work) ? work.block.input() : nullptr;
-    packer.number(surface ? quadrille::areaOf(surface) : 0);
+    const bool isSpread = run.owns(work) && work.spread;
+    packer.number(isSpread ? work.spread->size().area : surface ? quadrille::areaOf(surface) : 0);
     vtkBoundingBox box;
     double bounds[6];
+    if (isSpread)
+    {
+      box.SetBounds(work.spread->size().bounds);
+    }
     if (surface && surface->GetNumberOfPoints() > 0)
     {
       surface->GetBounds(bounds);
@@ -768,12 +992,13 @@ void vtkQuadrilleAlgorithm::RunBlock(Work& work)
   quadrille::EarlierResult wanted{ this->GetSettings(),
     { work.stamps.begin() + 1, work.stamps.end() }, work.block.areaShare, work.block.wholeDiagonal,
     {}, {} }; // the first stamp is the filter's
-  if (this->KeepsResult() && work.error.empty())
+  if (this->KeepsResult() && work.error.empty() && !work.failure && !work.spread)
   {
     const quadrille::EarlierResult* earlier = state.findEarlier(wanted);
     if (earlier && this->AllowsEarlier(earlier->report))
     {
       state.lastResult = earlier->result;
+      state.isSpread = false;
       state.report = earlier->report;
       state.report.reusedStages = { "all" };
       return;
@@ -789,19 +1014,43 @@ void vtkQuadrilleAlgorithm::RunBlock(Work& work)
     {
       throw quadrille::InvalidInput(work.error);
     }
+    if (work.failure)
+    {
+      std::rethrow_exception(work.failure);
+    }
     this->ExecuteBlock(work.block);
+    work.isMade = true;
+    if (!work.spread)
+    {
+      state.lastResult = work.block.outputs;
+      state.isSpread = false;
+    }
     if (this->IsBlockSoFar)
     {
       state.report.isSoFar = true;
       state.report.outcome = this->TimeIsOver ? TimedOut : Aborted;
       state.report.outcomeText = this->StopText() + "; these are the best quads so far";
     }
-    else if (this->KeepsResult())
+    else if (this->KeepsResult() && !work.spread)
     {
       wanted.report = state.report;
       wanted.result = state.lastResult;
       state.keepEarlier(std::move(wanted));
     }
+  }
+  catch (const std::exception&)
+  {
+    this->FailBlockBy(state, std::current_exception());
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleAlgorithm::FailBlockBy(
+  quadrille::BlockState& state, const std::exception_ptr& failure)
+{
+  try
+  {
+    std::rethrow_exception(failure);
   }
   catch (const quadrille::InvalidInput& error)
   {
@@ -811,15 +1060,20 @@ void vtkQuadrilleAlgorithm::RunBlock(Work& work)
   {
     this->FailBlockAsStopped(state);
   }
-  catch (const quadrille::StageFailure& failure)
+  catch (const quadrille::StageFailure& error)
   {
-    if (failure.code == quadrille::StatusCode::Cancelled)
+    if (error.code == quadrille::StatusCode::Cancelled)
     {
       this->FailBlockAsStopped(state);
       return;
     }
-    const bool tooLarge = failure.code == quadrille::StatusCode::TooLarge;
-    this->FailBlock(state, tooLarge ? TooLarge : NoValidResult, failure.what());
+    const bool tooLarge = error.code == quadrille::StatusCode::TooLarge;
+    this->FailBlock(state, tooLarge ? TooLarge : NoValidResult, error.what());
+  }
+  catch (const quadrille::OutOfMemory& error)
+  {
+    this->FailBlock(state, NoValidResult, error.what());
+    state.report.mayPass = true;
   }
   catch (const std::bad_alloc&)
   {
@@ -851,7 +1105,6 @@ void vtkQuadrilleAlgorithm::ExecuteBlock(quadrille::Block& block)
   {
     this->Execute(block);
   }
-  block.state->lastResult = block.outputs;
   block.state->report.outcome = Succeeded;
 }
 
@@ -915,6 +1168,13 @@ void vtkQuadrilleAlgorithm::ExchangeReports(Run& run)
   {
     quadrille::BlockState& state = *work.block.state;
     const bool hasSucceeded = state.report.outcome == Succeeded;
+    const bool isMade = work.isChanged && (hasSucceeded || state.report.isSoFar);
+    if (isMade && state.isSpread && !work.isSpread)
+    {
+      // The result is in one place again, with the owner; the others let their parts go.
+      state.isSpread = false;
+      state.lastResult.clear();
+    }
     const bool failsAgain =
       !hasSucceeded && state.report.outcome != Aborted && !state.report.mayPass;
     state.lastStamps = hasSucceeded ? work.stamps : std::vector<quadrille::Stamp>{};
@@ -935,7 +1195,7 @@ int vtkQuadrilleAlgorithm::Conclude(const Run& run, vtkInformationVector* output
     std::map<quadrille::BlockPath, vtkSmartPointer<vtkDataObject>> results;
     for (const Work& work : run.works)
     {
-      if (!run.owns(work))
+      if (!run.owns(work) && !work.block.state->isSpread)
       {
         continue;
       }
@@ -965,6 +1225,10 @@ int vtkQuadrilleAlgorithm::Conclude(const Run& run, vtkInformationVector* output
       vtkWarningMacro(<< this->OutcomeText);
     }
     return 0;
+  }
+  if (run.ranks.size() > 1 && quadrille::isAskedToStop(this))
+  {
+    quadrille::forgetStop(this); // it came when all was done, and on this rank only
   }
   this->UpdateProgress(1.0);
   if (this->Outcome == Succeeded)
@@ -1060,7 +1324,13 @@ bool vtkQuadrilleAlgorithm::ShowProgressAndGoOn()
   {
     this->TimeIsOver = this->TimeLimit > 0 && spent.count() > this->TimeLimit;
   }
-  return this->IsBlockSoFar || (!this->TimeIsOver && !quadrille::isAskedToStop(this));
+  bool isAsked = quadrille::isAskedToStop(this);
+  if (this->Stop && isAsked)
+  {
+    this->Stop->tell();
+  }
+  isAsked = isAsked || (this->Stop && this->Stop->isTold());
+  return this->IsBlockSoFar || (!this->TimeIsOver && !isAsked);
 }
 
 //------------------------------------------------------------------------------

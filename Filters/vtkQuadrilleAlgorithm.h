@@ -28,6 +28,7 @@
 #include "vtkSmartPointer.h" // for vtkSmartPointer
 
 #include <chrono>     // for std::chrono::steady_clock
+#include <exception>  // for std::exception_ptr
 #include <functional> // for std::function
 #include <map>        // for std::map
 #include <memory>     // for std::unique_ptr
@@ -41,6 +42,9 @@ struct Block;
 struct BlockReport;
 struct BlockState;
 struct Certificate;
+class SharedStop;
+struct SpreadPlan;
+struct SpreadSize;
 struct StageRecord;
 }
 
@@ -167,6 +171,19 @@ protected:
   /// The least part of the target that a block gets, however small it is, with this number of blocks. Default: 0.
   virtual double LeastAreaShare(std::size_t /*blocks*/) const { return 0; }
 
+  ///@{
+  /**
+   * Whether the surface of a block stays spread over the ranks, a quadrille::SpreadMode; default: Never. The filter
+   * then gets the thinned pieces joined, and its output 0, quads with SourceCellId, is spread over the ranks again. Why
+   * these pieces of a rank cannot stay spread; empty where they can. What the pieces are thinned out by.
+   */
+  virtual int GetSpreadMode() const;
+  virtual std::string ReasonNotToSpread(
+    const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const;
+  virtual void PlanSpread(const quadrille::Block& block, const quadrille::SpreadSize& size,
+    quadrille::SpreadPlan& plan) const;
+  ///@}
+
   /// The filter's own work on one block: fills its outputs. Throws on any failure, which becomes the block's error.
   virtual void Execute(quadrille::Block& block) = 0;
 
@@ -216,12 +233,18 @@ private:
   void GatherInputs(Run& run);
   bool IsPutInOrder(const Run& run) const;
   void GatherPort(Run& run, Work& work, int port);
+  bool StaysSpread(Run& run, Work& work, const std::vector<vtkSmartPointer<vtkDataObject>>& pieces);
+  void JoinSpread(Run& run);
+  void SpreadResults(Run& run);
+  void SpreadResult(Run& run, Work& work);
+  void WaitForAll(Run& run);
   void MeasureBlocks(Run& run);
   void ShareOut(Run& run);
   void RunBlock(Work& work);
   void ExecuteBlock(quadrille::Block& block);
   void FailBlock(quadrille::BlockState& state, OutcomeType outcome, const std::string& text);
   void FailBlockAsStopped(quadrille::BlockState& state);
+  void FailBlockBy(quadrille::BlockState& state, const std::exception_ptr& failure);
   std::string StopText() const;
   void ExchangeReports(Run& run);
   int Conclude(const Run& run, vtkInformationVector* outputs);
@@ -239,6 +262,7 @@ private:
   double BlockBegin = 0; ///< of the filter's progress
   double BlockEnd = 1;
   std::chrono::steady_clock::time_point Started;
+  quadrille::SharedStop* Stop = nullptr; ///< while each rank works on its own blocks
   bool IsRoot = true; ///< of the ranks of the last execution; it alone prints messages
   std::map<std::string, std::unique_ptr<quadrille::BlockState>>
     States;                                    ///< by place and name of the block

@@ -8,6 +8,7 @@
 #include "QuadrilleConstraintTable.h"
 #include "QuadrilleConstraints.h"
 #include "QuadrilleConvert.h"
+#include "QuadrilleInPieces.h"
 
 #include "vtkCellData.h"
 #include "vtkMath.h"
@@ -59,6 +60,12 @@ void vtkQuadrilleSurfaceAlgorithm::SetGuideArrayName(const char* name)
 }
 
 //------------------------------------------------------------------------------
+std::string vtkQuadrilleSurfaceAlgorithm::GetGuideArrayInUse() const
+{
+  return this->GuideArrayName == "(none)" ? "" : this->GuideArrayName;
+}
+
+//------------------------------------------------------------------------------
 quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
   quadrille::Block& block, quadrille::AskedConstraints* asked)
 {
@@ -66,14 +73,11 @@ quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
   this->WarnOfUnusedArrays(block);
   quadrille::ConvertedSurface surface =
     quadrille::convertSurface(data, this->PatchArrayName, this->NumberOfThreads);
-  if (!this->GuideArrayName.empty() && this->GuideArrayName != "(none)")
+  if (!this->GetGuideArrayInUse().empty())
   {
     quadrille::addGuideArray(data, this->GuideArrayName, surface);
   }
-  if (surface.ignoredCells > 0)
-  {
-    this->AddNotice(std::to_string(surface.ignoredCells) + " vertex and line cells are not used");
-  }
+  this->TellIgnored(surface);
   quadrille::ConstraintInputs constraints;
   constraints.curves = block.input(1);
   constraints.strokes = block.input(2);
@@ -113,6 +117,25 @@ quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
       "the move: only Quad Remesh can do this");
   }
   return surface;
+}
+
+//------------------------------------------------------------------------------
+quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertForPieces(
+  const quadrille::Block& block)
+{
+  this->WarnOfUnusedArrays(block);
+  quadrille::ConvertedSurface surface = quadrille::polygonsOf(block.input(0));
+  this->TellIgnored(surface);
+  return surface;
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadrilleSurfaceAlgorithm::TellIgnored(const quadrille::ConvertedSurface& surface)
+{
+  if (surface.ignoredCells > 0)
+  {
+    this->AddNotice(std::to_string(surface.ignoredCells) + " vertex and line cells are not used");
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -158,7 +181,8 @@ double vtkQuadrilleSurfaceAlgorithm::LeastAreaShare(std::size_t blocks) const
 }
 
 //------------------------------------------------------------------------------
-quadrille::RemeshOptions vtkQuadrilleSurfaceAlgorithm::MakeOptions(const quadrille::Block& block)
+quadrille::RemeshOptions vtkQuadrilleSurfaceAlgorithm::MakeOptions(
+  const quadrille::Block& block) const
 {
   quadrille::RemeshOptions options;
   if (this->TargetType == TARGET_NUMBER_OF_QUADS)

@@ -230,8 +230,12 @@ protected:
   /// constraints of all ports.
   quadrille::ConvertedSurface ConvertInputs(
     quadrille::Block& block, quadrille::AskedConstraints* asked = nullptr);
+  /// What ConvertInputs gives, and tells, of a surface that Core reads by itself: without polygons and constraints.
+  quadrille::ConvertedSurface ConvertForPieces(const quadrille::Block& block);
   /// The properties in Core's units, with the block's part of the number of quads.
-  quadrille::RemeshOptions MakeOptions(const quadrille::Block& block);
+  quadrille::RemeshOptions MakeOptions(const quadrille::Block& block) const;
+  /// GuideArrayName, or empty where none is to be used.
+  std::string GetGuideArrayInUse() const;
 
   int TargetType = TARGET_NUMBER_OF_QUADS;
   vtkIdType NumberOfQuads = 5000;
@@ -253,6 +257,7 @@ private:
   void operator=(const vtkQuadrilleSurfaceAlgorithm&) = delete;
 
   void WarnOfUnusedArrays(const quadrille::Block& block);
+  void TellIgnored(const quadrille::ConvertedSurface& surface);
 };
 
 #endif

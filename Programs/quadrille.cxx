@@ -416,6 +416,13 @@ void addRun(CommandOptions& options, vtkQuadRemesh* filter, Request& request)
     "threads", "N", { 0, 4096 },
     [filter](long long threads) { filter->SetNumberOfThreads(static_cast<int>(threads)); },
     "threads to compute with; 0 means all (default 0)");
+  options.addChoice(
+    "pieces", "WORD", { "automatic", "always", "never" },
+    [filter](int pieces) { filter->SetPieces(pieces); },
+    "whether the surface is cut into pieces of about a million triangles, each thinned out by "
+    "itself before the quads are made, which takes less time and a third of the memory: automatic "
+    "(default), from 1500000 triangles on, where a quad has at least 66 of them and nothing needs "
+    "the whole surface, as constraints, a symmetry or --map do; always; never");
   options.addNumber(
     "memory-limit", "MB", { 0, 1e12 },
     [filter](double megabytes) { filter->SetMemoryLimit(megabytes); },

@@ -136,6 +136,19 @@ void markFeaturesByAngle(Mesh& mesh, double angle, int threads, double precision
   markSharpEdges(mesh, FaceNormals(mesh, precision, threads), angle, threads);
 }
 
+std::vector<Vector3> normalsBeside(
+  const Mesh& mesh, const std::vector<Index>& halfEdges, int threads, double precision)
+{
+  const FaceNormals normals(mesh, precision, threads);
+  std::vector<Vector3> result;
+  result.reserve(halfEdges.size());
+  for (const Index h : halfEdges)
+  {
+    result.push_back(normalOf(mesh, normals, Mesh::face(h)));
+  }
+  return result;
+}
+
 FacetReport markCreases(Mesh& mesh, double angle, int threads, double precision)
 {
   const FaceNormals normals(mesh, precision, threads);

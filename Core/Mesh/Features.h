@@ -17,6 +17,11 @@ void markFeaturesByAngle(Mesh& mesh, double angle, int threads, double precision
 /// the facets of a coarse or noisy sampling of a smooth surface. Features that were marked before stay.
 FacetReport markCreases(Mesh& mesh, double angle, int threads, double precision = 0);
 
+/// The normals that count for these half-edges, one each: of their faces, or where these are slivers of the face that
+/// stands for them, as in markFeaturesByAngle.
+std::vector<Vector3> normalsBeside(
+  const Mesh& mesh, const std::vector<Index>& halfEdges, int threads, double precision = 0);
+
 /// Flags the edges between faces whose source polygons have different patch ids.
 void markFeaturesByPatch(PreparedSurface& surface, const std::vector<std::int64_t>& patchIds);
 

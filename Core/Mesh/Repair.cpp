@@ -154,6 +154,8 @@ void append(std::string& text, std::size_t count, const char* singular, const ch
 void checkArrays(const SurfaceInput& input)
 {
   requireSize("the feature edge array", input.featureEdges.size(), input.polygonOffsets.size() - 1);
+  requireSize("the array of detected features", input.detectedFeatures.size(),
+    input.polygonOffsets.size() - 1);
   requireSize("the patch id array", input.patchIds.size(), input.polygonOffsets.size() - 1);
   checkRequests(input);
   checkSizing(input);

@@ -50,7 +50,7 @@ void markFeatures(
   {
     markFeaturesByPatch(surface, input.patchIds);
   }
-  if (options.featureAngle)
+  if (options.featureAngle && input.detectedFeatures.empty())
   {
     surface.facets =
       markCreases(surface.mesh, *options.featureAngle, options.threads, input.precision);

@@ -40,6 +40,9 @@ struct SurfaceInput
   std::vector<std::uint8_t>
     featureEdges; ///< empty or #P; bit i: edge from corner i to i+1 is a feature
   std::vector<std::int64_t> patchIds; ///< empty or #P; an edge between two values is a feature
+  /// Empty or #P; bits as in featureEdges: what was found on a finer surface that these polygons stand for. They are
+  /// features that nobody asked for, in place of those of PrepareOptions::featureAngle.
+  std::vector<std::uint8_t> detectedFeatures;
   /// Empty or #P: a direction that edges of the quads should have in the polygon, of any length; zero: free.
   std::vector<Vector3> guideDirections;
   std::vector<double>

@@ -296,9 +296,37 @@ void copyTriangles(const SurfaceInput& input, PreparedSurface& surface, int thre
     });
 }
 
-} // namespace
+/// The edges that detectedFeatures names, by the points at their ends.
+void markDetected(const SurfaceInput& input, PreparedSurface& surface)
+{
+  if (input.detectedFeatures.empty())
+  {
+    return;
+  }
+  for (Index f = 0; f < surface.mesh.faceCount(); ++f)
+  {
+    pollNowAndThen(f);
+    const Index polygon = surface.sourcePolygon[f];
+    const Index begin = input.polygonOffsets[polygon];
+    const Index corners = input.polygonOffsets[polygon + 1] - begin;
+    const unsigned bits = input.detectedFeatures[polygon];
+    for (Index i = 0; i < std::min<Index>(corners, 8); ++i)
+    {
+      const Index a = input.polygonPoints[begin + i];
+      const Index b = input.polygonPoints[begin + (i + 1) % corners];
+      for (Index h = 3 * f; h < 3 * f + 3 && (bits >> i & 1U) != 0; ++h)
+      {
+        const Index from = surface.mesh.origin[h], to = surface.mesh.target(h);
+        if ((from == a && to == b) || (from == b && to == a))
+        {
+          surface.mesh.flags[h] |= kFeatureEdge;
+        }
+      }
+    }
+  }
+}
 
-void triangulate(const SurfaceInput& input, PreparedSurface& surface, int threads)
+void makeTriangles(const SurfaceInput& input, PreparedSurface& surface, int threads)
 {
   const Index polygons = static_cast<Index>(input.polygonOffsets.size() - 1);
   if (hasOnlyTriangles(input, threads))
@@ -325,6 +353,14 @@ void triangulate(const SurfaceInput& input, PreparedSurface& surface, int thread
       triangulatePolygon(input, polygon, surface);
     }
   }
+}
+
+} // namespace
+
+void triangulate(const SurfaceInput& input, PreparedSurface& surface, int threads)
+{
+  makeTriangles(input, surface, threads);
+  markDetected(input, surface);
 }
 
 } // namespace quadrille

@@ -27,6 +27,12 @@ constexpr double kSecondsQuad = 8e-6;
 constexpr double kBytesFixed = 30e6;
 constexpr double kBytesTriangle = 200;
 constexpr double kBytesQuad = 900;
+// The same of pieces: all that a triangle takes is shared by the threads. Bytes that stay of each, and those of a piece
+// under work; thinned triangles of a quad.
+constexpr double kSecondsInPiece = 0.95e-6;
+constexpr double kBytesStaying = 48;
+constexpr double kBytesInPiece = 165;
+constexpr double kThinnedOfQuad = 22;
 /// Bytes that the store takes for a triangle of the input.
 constexpr double kBytesRemembered = 150;
 
@@ -40,6 +46,18 @@ RunEstimate estimateRun(std::size_t triangles, double quads, int threads)
   return { kSecondsFixed + (kSecondsSerial + kSecondsParallel / workers) * faces +
       kSecondsQuad * quads,
     kBytesFixed + kBytesTriangle * faces + kBytesQuad * quads };
+}
+
+RunEstimate estimateInPieces(
+  std::size_t triangles, std::size_t trianglesOfPiece, double quads, int threads)
+{
+  const double faces = static_cast<double>(triangles);
+  const double pieces = std::max(1.0, std::round(faces / static_cast<double>(trianglesOfPiece)));
+  const double workers = std::min(pieces, static_cast<double>(resolveThreads(threads)));
+  const double thinned = std::min(faces, kThinnedOfQuad * quads);
+  const RunEstimate joined = estimateRun(static_cast<std::size_t>(thinned), quads, threads);
+  return { joined.seconds + kSecondsInPiece * faces / workers,
+    kBytesStaying * faces + std::max(joined.bytes, kBytesInPiece * workers * faces / pieces) };
 }
 
 double bytesToRemember(const RunEstimate& run, std::size_t triangles, std::size_t held)
@@ -61,6 +79,21 @@ double freeMemory()
     }
   }
   return std::numeric_limits<double>::infinity();
+}
+
+Status memoryStatus(
+  const RunEstimate& estimate, std::size_t triangles, const RemeshOptions& options)
+{
+  const double limit = options.memoryLimit.value_or(freeMemory());
+  if (estimate.bytes <= limit)
+  {
+    return {};
+  }
+  return { StatusCode::TooLarge,
+    "about " + bytesText(estimate.bytes) + " of memory would be needed for " +
+      std::to_string(triangles) + " triangles, but " + bytesText(limit) +
+      (options.memoryLimit ? " are allowed" : " are free") +
+      "; free memory, raise the memory limit, or decimate the surface first" };
 }
 
 std::string bytesText(double bytes)

@@ -52,16 +52,7 @@ Status estimate(std::size_t triangles, const RemeshOptions& options, RemeshResul
   report(options.progress, 0,
     "Preparing: " + estimateText(result.estimate) + " for " + std::to_string(triangles) +
       " triangles");
-  const double limit = options.memoryLimit.value_or(freeMemory());
-  if (result.estimate.bytes <= limit)
-  {
-    return {};
-  }
-  return { StatusCode::TooLarge,
-    "about " + bytesText(result.estimate.bytes) + " of memory would be needed for " +
-      std::to_string(triangles) + " triangles, but " + bytesText(limit) +
-      (options.memoryLimit ? " are allowed" : " are free") +
-      "; free memory, raise the memory limit, or decimate the surface first" };
+  return memoryStatus(result.estimate, triangles, options);
 }
 
 /// Null where there is no room for both the run and the store.

@@ -314,6 +314,12 @@ private:
 SymmetricResult remeshSymmetric(SurfaceInput input, const RemeshOptions& options,
   const SymmetryOptions& symmetry, ResultStore* store)
 {
+  if (!input.detectedFeatures.empty())
+  {
+    throw InvalidInput(
+      "features that were detected on a finer surface cannot be cut by a symmetry: "
+      "give them as feature edges.");
+  }
   std::unique_ptr<CopiedRun> run;
   // What is left to do after a stop that has kept the quads of the part is short, and does not ask again.
   PollScope poll(!options.progress ? ProgressCallback()

@@ -76,6 +76,9 @@ public:
   /// The ring that was unfolded, record.ringSize() points.
   const std::array<Point, kMaximumRing + 1>& ring() const { return ring_; }
 
+  /// From the chart of the i-th face to the one that the ring was unfolded in; of faces that are left only.
+  Rotation rotation(int i) const { return rotation_[at(i)]; }
+
   /// Gives the star that was unfolded its vertex back, at p beside its ring.
   void write(const CollapseRecord& record, Point p)
   {

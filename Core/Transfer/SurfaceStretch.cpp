@@ -3,18 +3,15 @@
 #include "Transfer/SurfaceStretch.h"
 
 #include "Base/Error.h"
-#include "Base/FixedPoint.h"
 #include "Base/Progress.h"
 #include "Hierarchy/LogRecords.h"
-#include "Transfer/RingKernel.h"
-#include "Transfer/StarReplay.h"
+#include "Transfer/PlaneReplay.h"
 
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <optional>
 #include <string>
 
@@ -24,8 +21,6 @@ namespace quadrille
 namespace
 {
 
-/// A point or vector of a plane; a product with one of length 1 rotates it.
-using Complex = std::complex<double>;
 using Polygon = std::vector<Complex>;
 
 /// Steps from triangle to triangle after which a walk stays where it is: only triangles without area make it go in
@@ -33,20 +28,10 @@ using Polygon = std::vector<Complex>;
 constexpr int kMostSteps = 64;
 /// Triangles through which a face may reach; what is farther counts for the last one.
 constexpr int kMostDepth = 24;
-/// Half the extent of a star, in units of the grid on which its kernel is looked for.
-constexpr double kKernelScale = 64;
 
 double cross(Complex a, Complex b)
 {
   return a.real() * b.imag() - a.imag() * b.real();
-}
-
-/// The rotation from a to b; none where one of them has no length.
-Complex rotationBetween(Complex a, Complex b)
-{
-  const Complex rotation = b * std::conj(a);
-  const double length = std::abs(rotation);
-  return length > 0 ? rotation / length : Complex(1);
 }
 
 /// A change of the chart.
@@ -56,16 +41,6 @@ struct Motion
   Complex translation = 0;
   Complex operator()(Complex p) const { return rotation * p + translation; }
 };
-
-/// Corners of a face in the plane whose first axis is half-edge 3f.
-std::array<Complex, 3> layOut(const Mesh& mesh, Index f)
-{
-  const Vector3 a = mesh.edgeVector(3 * f);
-  const Vector3 b = -mesh.edgeVector(3 * f + 2);
-  const double width = a.norm();
-  return { Complex(0), Complex(width),
-    width > 0 ? Complex(a.dot(b) / width, a.cross(b).norm() / width) : Complex(b.norm()) };
-}
 
 /// The coarse triangles, each in its own plane.
 class CoarsePlanes
@@ -122,27 +97,6 @@ private:
   std::vector<Motion> across_;  ///< #H
 };
 
-/// Charts that are planes of coarse faces.
-struct PlaneCharts
-{
-  using Point = Complex;
-  using Rotation = Complex; ///< of length 1
-
-  static Complex none() { return 1; }
-  static Complex between(Complex from, Complex to) { return rotationBetween(from, to); }
-  static Complex after(Complex second, Complex first)
-  {
-    const Complex both = second * first;
-    return both / std::abs(both);
-  }
-  static Complex rotate(Complex r, Complex p) { return r * p; }
-  static Complex rotateBack(Complex r, Complex p) { return std::conj(r) * p; }
-  static Complex scaled(Complex difference, std::uint32_t weight)
-  {
-    return std::ldexp(double(weight), -32) * difference;
-  }
-};
-
 /// The finer faces on the coarse planes, while the log goes back.
 class Layout
 {
@@ -197,7 +151,8 @@ public:
 private:
   void uncollapse()
   {
-    star_.write(record_, intoKernel(star_.unfold(record_)));
+    const Complex p = star_.unfold(record_);
+    star_.write(record_, intoKernel(star_.ring().data(), record_, p));
     const int first = record_.firstSurvivor();
     const int last = record_.lastSurvivor();
     if (first == 1)
@@ -212,41 +167,6 @@ private:
     {
       goHome(faceOf(i));
     }
-  }
-
-  /// p, or where it would invert its star a point well inside of it, if there is one.
-  Complex intoKernel(Complex p) const
-  {
-    const int count = record_.ringSize();
-    const auto& unfolded = star_.ring();
-    double extent = 0;
-    for (int i = 0; i < count; ++i)
-    {
-      extent = std::max(extent, std::abs(unfolded[static_cast<std::size_t>(i)]));
-    }
-    if (!(extent > 0))
-    {
-      return p;
-    }
-    const auto onGrid = [&](Complex q)
-    { return toFixed(Vector2(q.real(), q.imag()) * (kKernelScale / extent)); };
-    std::array<FixedVec2, kMaximumRing + 1> ring;
-    std::transform(unfolded.begin(), unfolded.begin() + count, ring.begin(), onGrid);
-    const bool closed = record_.kind == CollapseKind::Interior;
-    if (starIsPositive(ring.data(), count, closed, onGrid(p)))
-    {
-      return p;
-    }
-    const std::optional<FixedVec2> moved = record_.onCurve
-      ? kernelPointOnSegment(
-          ring.data(), count, closed, ring[record_.ring[0]], ring[record_.ring[1]])
-      : kernelPoint(ring.data(), count, closed);
-    if (!moved)
-    {
-      return p;
-    }
-    const Vector2 q = toDouble(*moved) * (extent / kKernelScale);
-    return { q.x(), q.y() };
   }
 
   /// To the plane of the coarse face that holds the middle of f. Done whenever f moves, as a way that is short does not
