@@ -429,6 +429,8 @@ quadrille::RemeshOptions vtkQuadRemesh::MakeRunOptions(const quadrille::Block& b
   options.finalQuality = static_cast<quadrille::FinalQuality>(this->FinalQuality);
   options.distortionMetric = this->DistortionMetric != 0;
   options.mergeCharts = this->ComputeMappedSurface != 0;
+  options.keepsPositions = this->ComputeMappedSurface != 0 || this->Symmetry != SYMMETRY_NONE ||
+    this->CellDataFrom != CELL_DATA_FROM_CENTRE;
   options.progress = this->MakeProgress(0.02, 0.95);
   options.warmStart = this->WarmStart != 0;
   options.preview = this->Preview != 0;

@@ -4,6 +4,7 @@
 /// take to stop.
 #pragma once
 
+#include "Base/Memory.h"
 #include "Base/Progress.h"
 
 #include <algorithm>
@@ -28,18 +29,32 @@ void growLarge(std::vector<T>& values, std::size_t count, const Value&... value)
   }
 }
 
+/// values.reserve(count), of fresh memory that several threads ask for (0: all). The arrays of a large mesh wait for it
+/// otherwise, on one thread.
+template <typename T>
+void reserveLarge(std::vector<T>& values, std::size_t count, int threads)
+{
+  if (values.capacity() < count)
+  {
+    values.reserve(count);
+    provideMemory(static_cast<void*>(values.data() + values.size()),
+      (values.capacity() - values.size()) * sizeof(T), threads);
+  }
+}
+
 /// Room for a few elements more than `count`, so that changes at single places later move no array of this size.
 template <typename T>
-void reserveWithRoom(std::vector<T>& values, std::size_t count)
+void reserveWithRoom(std::vector<T>& values, std::size_t count, int threads)
 {
-  values.reserve(count + count / 256 + 1024);
+  reserveLarge(values, count + count / 256 + 1024, threads);
 }
 
 /// values.assign(count, value), with poll() in between.
 template <typename T>
-void fillLarge(std::vector<T>& values, std::size_t count, const T& value)
+void fillLarge(std::vector<T>& values, std::size_t count, const T& value, int threads = 1)
 {
   values.clear();
+  reserveLarge(values, count, threads);
   growLarge(values, count, value);
 }
 

@@ -2,10 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Base/Memory.h"
 
+#include "Base/Parallel.h"
+
+#include <cstdint>
+
 #include <cstdlib> // defines __GLIBC__ where there is one
 
 #if defined(__GLIBC__)
 #include <malloc.h>
+#endif
+#if defined(__linux__)
+#include <sys/mman.h>
 #endif
 
 namespace quadrille
@@ -15,6 +22,33 @@ void releaseFreedMemory()
 {
 #if defined(__GLIBC__)
   malloc_trim(0);
+#endif
+}
+
+void provideMemory(void* begin, std::size_t bytes, int threads)
+{
+#if defined(__linux__)
+  constexpr std::uintptr_t kPage = 4096;
+  constexpr std::size_t kStep = std::size_t{ 1 } << 22;
+  constexpr int kPopulateWrite =
+    23; // MADV_POPULATE_WRITE; a kernel before 5.14 refuses it, and pages come later
+  const std::uintptr_t first =
+    (reinterpret_cast<std::uintptr_t>(begin) + kPage - 1) / kPage * kPage;
+  const std::uintptr_t last = (reinterpret_cast<std::uintptr_t>(begin) + bytes) / kPage * kPage;
+  if (last <= first || last - first < kStep)
+  {
+    return;
+  }
+  parallelFor(last - first, kStep, threads,
+    [first](std::size_t from, std::size_t to)
+    {
+      // NOLINTNEXTLINE(performance-no-int-to-ptr): an address of the same array
+      static_cast<void>(madvise(reinterpret_cast<void*>(first + from), to - from, kPopulateWrite));
+    });
+#else
+  static_cast<void>(begin);
+  static_cast<void>(bytes);
+  static_cast<void>(threads);
 #endif
 }
 

@@ -3,6 +3,8 @@
 /// Memory that was freed and that the C library keeps.
 #pragma once
 
+#include <cstddef>
+
 namespace quadrille
 {
 
@@ -10,5 +12,9 @@ namespace quadrille
 /// After phase 1 the GNU library holds back 17 bytes a face, as holes between the blocks of the log. Does nothing with
 /// other libraries.
 void releaseFreedMemory();
+
+/// Has the kernel provide fresh memory by several threads (0: all) in place of page by page when it is written first,
+/// where it can; what is there stays.
+void provideMemory(void* begin, std::size_t bytes, int threads);
 
 } // namespace quadrille

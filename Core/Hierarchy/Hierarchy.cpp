@@ -338,7 +338,7 @@ public:
     hierarchy_.log.truncate(intermediateEnd_);
     if (!logPlaces_)
     {
-      logPlaces_.emplace(hierarchy_.log);
+      logPlaces_.emplace(hierarchy_.log, options.threads);
     }
     restore(removalsFrom(hierarchy_.log, *logPlaces_, missing), vertices, options);
   }
@@ -371,7 +371,7 @@ public:
       return false;
     }
     const std::vector<LoggedRemoval> removals =
-      removalsFrom(hierarchy_.log, LogPlaces(hierarchy_.log), missing);
+      removalsFrom(hierarchy_.log, LogPlaces(hierarchy_.log, options.threads), missing);
     const RestoredLevel level = changed.apply(
       undoRemovals(hierarchy_.intermediate, intermediate_->curveError, hierarchy_.log, removals));
     takeOut(hierarchy_.log, removals);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/VertexRestoration.h"
 
+#include "Base/Parallel.h"
 #include "Base/Progress.h"
 
 #include <algorithm>
@@ -355,9 +356,8 @@ RestoredLevel Undoing::finish() const
 
 } // namespace
 
-LogPlaces::LogPlaces(const DecimationLog& log) : blocks_(log.blocks.size())
+LogPlaces::LogPlaces(const DecimationLog& log, int threads) : blocks_(log.blocks.size())
 {
-  std::vector<std::size_t> offsets;
   const auto sort = [](std::vector<Index>& places)
   {
     std::sort(places.begin(), places.end());
@@ -372,23 +372,24 @@ LogPlaces::LogPlaces(const DecimationLog& log) : blocks_(log.blocks.size())
       places.push_back(place);
     }
   };
-  for (std::size_t block = 0; block < blocks_.size(); ++block)
-  {
-    poll();
-    BlockPlaces& places = blocks_[block];
-    findRemovals(log.blocks[block], offsets);
-    for (std::size_t i = 0; i + 1 < offsets.size(); ++i)
+  parallelFor(blocks_.size(), 1, threads,
+    [&](std::size_t block, std::size_t)
     {
-      const StarOf star(log.blocks[block], offsets[i], offsets[i + 1]);
-      add(places.vertices, star.vertex);
-      for (int k = 0; k < star.faces; ++k)
+      BlockPlaces& places = blocks_[block];
+      std::vector<std::size_t> offsets;
+      findRemovals(log.blocks[block], offsets);
+      for (std::size_t i = 0; i + 1 < offsets.size(); ++i)
       {
-        add(places.faces, star.face(k));
+        const StarOf star(log.blocks[block], offsets[i], offsets[i + 1]);
+        add(places.vertices, star.vertex);
+        for (int k = 0; k < star.faces; ++k)
+        {
+          add(places.faces, star.face(k));
+        }
       }
-    }
-    sort(places.vertices);
-    sort(places.faces);
-  }
+      sort(places.vertices);
+      sort(places.faces);
+    });
 }
 
 bool LogPlaces::mayMeet(

@@ -33,7 +33,7 @@ struct LoggedRemoval
 class LogPlaces
 {
 public:
-  explicit LogPlaces(const DecimationLog& log);
+  explicit LogPlaces(const DecimationLog& log, int threads = 1);
 
   /// Elements of the finest mesh whose ids differ by this many bits below only are at one place.
   static constexpr int kPlaceBits = 11;

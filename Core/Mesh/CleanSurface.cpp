@@ -54,7 +54,7 @@ public:
   bool connect(std::vector<Index>& open)
   {
     passOn();
-    reserveWithRoom(mesh_.twin, mesh_.origin.size());
+    reserveWithRoom(mesh_.twin, mesh_.origin.size(), threads_);
     growLarge(mesh_.twin, mesh_.origin.size());
     std::vector<std::vector<Index>> opens(count_);
     parallelFor(count_, 1, threads_,

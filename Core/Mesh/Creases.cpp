@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Base/DisjointSets.h"
+#include "Base/LargeArray.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Mesh/Topology.h"
@@ -52,13 +53,13 @@ struct Neighbour
 class Facets
 {
 public:
-  Facets(const Mesh& mesh, double featureAngle, const std::function<double(Index)>& angleOf)
+  Facets(
+    const Mesh& mesh, double featureAngle, const std::function<double(Index)>& angleOf, int threads)
     : mesh_(mesh), bluntAngle_(kBlunt * featureAngle), angleOf_(angleOf)
   {
-    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    for (const Index h : constrainedEdges(mesh, threads))
     {
-      pollNowAndThen(h);
-      if (isDetected(h) && h < mesh.twin[h])
+      if (isDetected(h))
       {
         const Vector3 along = mesh.edgeVector(h);
         const double length = along.norm();
@@ -73,13 +74,13 @@ public:
     {
       return {};
     }
-    indexOf_.assign(mesh_.halfEdgeCount(), kInvalidIndex);
+    fillLarge(indexOf_, mesh_.halfEdgeCount(), kInvalidIndex, threads);
     for (Index i = 0; i < edges_.size(); ++i)
     {
       indexOf_[edges_[i].halfEdge] = i;
       indexOf_[mesh_.twin[edges_[i].halfEdge]] = i;
     }
-    outgoing_ = outgoingHalfEdges(mesh_);
+    outgoing_ = outgoingHalfEdges(mesh_, threads);
     lookRound(threads);
     keepLines();
     while (rounds_++ < kMostRounds && dropOnce())
@@ -371,7 +372,7 @@ private:
 std::vector<Index> edgesOfFacets(
   const Mesh& mesh, double featureAngle, const std::function<double(Index)>& angleOf, int threads)
 {
-  return Facets(mesh, featureAngle, angleOf).find(threads);
+  return Facets(mesh, featureAngle, angleOf, threads).find(threads);
 }
 
 } // namespace quadrille

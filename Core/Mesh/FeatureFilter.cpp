@@ -92,16 +92,22 @@ private:
     }
   }
 
+  std::size_t placeOf(Index h) const
+  {
+    return static_cast<std::size_t>(
+      std::lower_bound(edges_.begin(), edges_.end(), h) - edges_.begin());
+  }
+
   void traceChains()
   {
-    std::vector<std::uint8_t> done(mesh_.halfEdgeCount(), 0);
+    std::vector<std::uint8_t> done(edges_.size(), 0);
     for (const bool loops : { false, true })
     {
       for (std::size_t i = 0; i < edges_.size(); ++i)
       {
         pollNowAndThen(i);
         const Index h = edges_[i];
-        if (done[h] != 0)
+        if (done[i] != 0)
         {
           continue;
         }
@@ -127,7 +133,7 @@ private:
     std::vector<Index> path{ start };
     while (true)
     {
-      done[h] = 1;
+      done[placeOf(h)] = 1;
       chain.halfEdges.push_back(h);
       chain.length += mesh_.edgeVector(h).norm();
       chain.sizedLength += sizedLength(mesh_, h);
@@ -141,7 +147,7 @@ private:
       }
       const Index a = incident_[offset_[v]];
       const Index next = a == h ? incident_[offset_[v] + 1] : a;
-      if (done[next])
+      if (done[placeOf(next)] != 0)
       {
         break; // a closed loop without a node
       }

@@ -99,7 +99,7 @@ bool areFloats(const std::vector<Vector3>& points, int threads)
 /// The points in steps of the grid round the centre, whole numbers.
 void toGrid(FramedInput& framed, const Snap& snap, double steps, int threads)
 {
-  reserveWithRoom(framed.input.points, framed.points.size());
+  reserveWithRoom(framed.input.points, framed.points.size(), threads);
   growLarge(framed.input.points, framed.points.size());
   parallelFor(framed.points.size(), kFrameChunk, threads,
     [&](std::size_t begin, std::size_t end)

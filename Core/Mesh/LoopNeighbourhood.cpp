@@ -26,7 +26,7 @@ class Neighbourhood
 {
 public:
   Neighbourhood(const Mesh& mesh, int threads)
-    : mesh_(mesh), threads_(threads), outgoing_(outgoingHalfEdges(mesh)),
+    : mesh_(mesh), threads_(threads), outgoing_(outgoingHalfEdges(mesh, threads)),
       inside_(mesh.faceCount(), 0)
   {
   }

@@ -218,6 +218,7 @@ public:
     }
     constexpr std::size_t kBytes = kWidth * sizeof(T);
     const std::size_t bytes = values.size() * sizeof(T);
+    reserveLarge(buffer_, bytes, threads_);
     growLarge(buffer_, std::max(buffer_.size(), bytes));
     parallelFor(bytes, kBytes * kOrderChunk, threads_,
       [&](std::size_t begin, std::size_t end)

@@ -8,6 +8,8 @@
 #include "Base/Progress.h"
 #include "Mesh/EdgeRuns.h"
 
+#include <atomic>
+#include <memory>
 #include <utility>
 
 namespace quadrille
@@ -15,6 +17,49 @@ namespace quadrille
 
 namespace
 {
+
+constexpr std::size_t kOutgoingChunk = std::size_t{ 1 } << 17;
+
+/// See outgoingHalfEdges.
+std::vector<Index> outgoingByThreads(const Mesh& mesh, int threads)
+{
+  const std::size_t vertices = mesh.vertexCount();
+  std::unique_ptr<std::atomic<Index>[]> first(new std::atomic<Index>[vertices]);
+  parallelFor(vertices, kOutgoingChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        first[v].store(kInvalidIndex, std::memory_order_relaxed);
+      }
+    });
+  parallelFor(mesh.halfEdgeCount(), kOutgoingChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (Index h = static_cast<Index>(begin); h < end; ++h)
+      {
+        std::atomic<Index>& lowest = first[mesh.origin[h]];
+        Index known = lowest.load(std::memory_order_relaxed);
+        while (h < known && !lowest.compare_exchange_weak(known, h, std::memory_order_relaxed))
+        {
+        }
+      }
+    });
+  std::vector<Index> outgoing(vertices);
+  parallelFor(vertices, kOutgoingChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        outgoing[v] = first[v].load(std::memory_order_relaxed);
+      }
+    });
+  for (const Index h : boundaryHalfEdges(mesh, threads))
+  {
+    outgoing[mesh.origin[h]] = h; // in their order, as on one thread
+  }
+  return outgoing;
+}
 
 std::string edgeName(Index a, Index b)
 {
@@ -264,8 +309,12 @@ std::vector<Index> pairHalfEdges(const std::vector<Index>& origin, Index vertexC
   return twin;
 }
 
-std::vector<Index> outgoingHalfEdges(const Mesh& mesh)
+std::vector<Index> outgoingHalfEdges(const Mesh& mesh, int threads)
 {
+  if (resolveThreads(threads) > 1 && mesh.halfEdgeCount() > kOutgoingChunk)
+  {
+    return outgoingByThreads(mesh, threads);
+  }
   std::vector<Index> outgoing(mesh.vertexCount(), kInvalidIndex);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {

@@ -18,8 +18,8 @@ std::vector<Index> pairHalfEdges(
   const std::vector<Index>& origin, Index vertexCount, int threads = 1);
 
 /// One half-edge that leaves each vertex (#V): for a boundary vertex the boundary half-edge itself
-/// (so that rotating counterclockwise visits the whole fan), kInvalidIndex for an isolated vertex.
-std::vector<Index> outgoingHalfEdges(const Mesh& mesh);
+/// (so that rotating counterclockwise visits the whole fan), kInvalidIndex for an isolated vertex. Else the lowest one.
+std::vector<Index> outgoingHalfEdges(const Mesh& mesh, int threads = 1);
 
 /// One half-edge, the lower one, of each edge that is a feature or on the boundary; ascending.
 std::vector<Index> constrainedEdges(const Mesh& mesh, int threads = 1);

@@ -269,10 +269,10 @@ bool hasOnlyTriangles(const SurfaceInput& input, int threads)
 void copyTriangles(const SurfaceInput& input, PreparedSurface& surface, int threads)
 {
   const std::size_t faces = input.polygonOffsets.size() - 1;
-  reserveWithRoom(surface.mesh.origin, 3 * faces);
-  reserveWithRoom(surface.mesh.flags, 3 * faces);
-  reserveWithRoom(surface.sourcePoints, faces);
-  reserveWithRoom(surface.sourcePolygon, faces);
+  reserveWithRoom(surface.mesh.origin, 3 * faces, threads);
+  reserveWithRoom(surface.mesh.flags, 3 * faces, threads);
+  reserveWithRoom(surface.sourcePoints, faces, threads);
+  reserveWithRoom(surface.sourcePolygon, faces, threads);
   growLarge(surface.mesh.origin, 3 * faces);
   growLarge(surface.mesh.flags, 3 * faces);
   growLarge(surface.sourcePoints, faces);

@@ -248,8 +248,8 @@ void leaveFrame(RemeshResult& result, const PreparedSurface& made, const Frame& 
   }
 }
 
-void leaveFrame(
-  RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points, int threads)
+void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points,
+  bool keepsPositions, int threads)
 {
   leaveMeasures(result, frame);
   if (result.surface.mesh.position.empty())
@@ -263,8 +263,23 @@ void leaveFrame(
   {
     reverseQuads(result.quads);
   }
-  putUserPositions(surface, frame, points, threads);
-  leaveFrame(result.coarse, frame, surface.mesh.position);
+  if (keepsPositions)
+  {
+    putUserPositions(surface, frame, points, threads);
+    leaveFrame(result.coarse, frame, surface.mesh.position);
+  }
+  else
+  {
+    std::vector<Vector3>().swap(surface.mesh.position);
+    for (Vector3& p : result.coarse.mesh.position)
+    {
+      p = frame.toUser(p);
+    }
+    if (frame.reversed)
+    {
+      reverseFaces(result.coarse.mesh);
+    }
+  }
   leaveFrame(surface, frame, std::move(surface.mesh.position));
   if (frame.reversed)
   {

@@ -35,8 +35,9 @@ void leaveFrameAlone(RemeshResult& result, const Frame& frame);
 void leaveFrame(RemeshResult& result, const PreparedSurface& made, const Frame& frame,
   const std::vector<Vector3>& points);
 
-/// All of a result. points: FramedInput::points.
-void leaveFrame(
-  RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points, int threads = 1);
+/// All of a result, or all but the positions of its surface, which go; the coarse level has those of the frame then.
+/// points: FramedInput::points.
+void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points,
+  bool keepsPositions, int threads);
 
 } // namespace quadrille

@@ -80,6 +80,8 @@ struct RemeshOptions
   int smoothingSteps = 5; ///< of the quads on the surface, see ExtractionOptions
   /// Bytes that the run may take by the estimate; none: what the machine has free.
   std::optional<double> memoryLimit;
+  /// Whether the vertices of RemeshResult::surface have positions; the quads do not depend on it.
+  bool keepsPositions = true;
   bool mergeCharts =
     false; ///< of the map on the surface, for display; the quads do not depend on it
   /// RemeshResult::mapKey of a map that the caller still has with its charts merged: where it is the result again, that

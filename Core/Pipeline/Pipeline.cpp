@@ -483,7 +483,7 @@ void leave(SizedSurface& sized, const FramedInput& framed, const RemeshOptions& 
   {
     result.framePositions = result.surface.mesh.position;
   }
-  leaveFrame(result, framed.frame, framed.points, options.threads);
+  leaveFrame(result, framed.frame, framed.points, options.keepsPositions, options.threads);
 }
 
 /// What is in the frame already.

@@ -514,11 +514,12 @@ SessionJson settingsToJson(const RemeshOptions& options)
   const auto& [quads, edgeLength, relativeEdgeLength, featureAngle, featureCriterion, shapeSizes,
     curvatureGuides, method, coarsestIntegers, coarseVertices, decimationCost, closeHandles,
     smallDetails, removeSmallComponents, anisotropyLimit, finalQuality, distortionMetric,
-    maximumNumberOfQuads, preview, smoothingSteps, memoryLimit, mergeCharts, knownMap, threads,
-    warmStart, progress] = options;
+    maximumNumberOfQuads, preview, smoothingSteps, memoryLimit, keepsPositions, mergeCharts,
+    knownMap, threads, warmStart, progress] = options;
   static_cast<void>(decimationCost); // sessions have the default one
   static_cast<void>(preview);
   static_cast<void>(memoryLimit);
+  static_cast<void>(keepsPositions);
   static_cast<void>(mergeCharts);
   static_cast<void>(knownMap);
   static_cast<void>(threads);

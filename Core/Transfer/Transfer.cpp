@@ -56,6 +56,7 @@ std::vector<FixedVec2> spreadOnSlots(const Level& coarse, const std::vector<Fixe
   {
     uv.swap(*options.spare);
   }
+  reserveLarge(uv, 3 * std::size_t{ fineFaces }, options.threads);
   growLarge(uv, 3 * std::size_t{ fineFaces });
   for (Index h = 0; h < coarse.mesh.halfEdgeCount(); ++h)
   {
