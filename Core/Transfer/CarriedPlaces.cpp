@@ -43,7 +43,7 @@ float flatCross(FlatPoint a, FlatPoint b)
 }
 
 /// As the one of complex numbers.
-FlatPoint rotationBetween(FlatPoint a, FlatPoint b)
+FlatPoint flatRotation(FlatPoint a, FlatPoint b)
 {
   const FlatPoint rotation = b * conjugate(a);
   const float length = std::sqrt(rotation.x * rotation.x + rotation.y * rotation.y);
@@ -57,7 +57,7 @@ struct FlatCharts
   using Rotation = FlatPoint;
 
   static Rotation none() { return { 1, 0 }; }
-  static Rotation between(Point from, Point to) { return rotationBetween(from, to); }
+  static Rotation between(Point from, Point to) { return flatRotation(from, to); }
   static Rotation after(Rotation second, Rotation first) { return second * first; }
   static Point rotate(Rotation r, Point p) { return r * p; }
   static Point rotateBack(Rotation r, Point p) { return conjugate(r) * p; }
@@ -208,7 +208,7 @@ private:
     const FlatPoint dInF = corner()[nextH];
     const FlatPoint dInG = corner()[Mesh::previous(g)];
     const FlatPoint rotation =
-      rotationBetween(corner()[nextG] - dInG, corner()[Mesh::previous(h)] - dInF);
+      flatRotation(corner()[nextG] - dInG, corner()[Mesh::previous(h)] - dInF);
     if (!isEmpty)
     {
       take(f, [](FlatPoint p) { return p; });
