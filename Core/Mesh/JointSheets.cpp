@@ -246,6 +246,7 @@ private:
     for (const std::vector<Index>& same : sheets_.polygons)
     {
       std::vector<std::int64_t> ids;
+      ids.reserve(same.size());
       for (const Index polygon : same)
       {
         ids.push_back(joint_.patchIds[polygon]);

@@ -226,6 +226,7 @@ private:
       loopsOf[0].push_back(std::move(loops.front().vertices));
     }
     std::vector<std::vector<std::vector<Index>>> result;
+    result.reserve(loopsOf.size());
     for (auto& [piece, ofPiece] : loopsOf)
     {
       result.push_back(std::move(ofPiece));
