@@ -191,6 +191,13 @@ void PieceJoin::readFaces()
       face.ofVolume = ofVolume && ofVolume->GetTuple1(face.origin.tuple) != 0;
       for (vtkIdType i = 0; i < count; ++i)
       {
+        if (ids[i] < 0 || ids[i] >= pieces_[p]->GetNumberOfPoints())
+        {
+          throw InvalidInput("cell " + std::to_string(face.origin.tuple) +
+            " of a piece uses point " + std::to_string(ids[i]) + ", but the piece has only " +
+            std::to_string(pieces_[p]->GetNumberOfPoints()) +
+            " points: remove the cell or add the point.");
+        }
         corners_.push_back(place_[firstPoint_[p] + ids[i]]);
       }
       orient(face);

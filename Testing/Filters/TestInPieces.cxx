@@ -18,6 +18,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -175,6 +176,25 @@ TEST(InPieces, SaysWhatNeedsTheWholeSurface)
   filter->Update();
   EXPECT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
   EXPECT_EQ(std::string(filter->GetNoticesText()).find("pieces"), std::string::npos);
+}
+
+/// Surfaces that are put into an order of their own read all ids first.
+TEST(InPieces, AnIdOutOfRangeIsAnError)
+{
+  for (const int pieces : { vtkQuadRemesh::PIECES_ALWAYS, vtkQuadRemesh::PIECES_NEVER })
+  {
+    for (const vtkIdType id : { vtkIdType{ -1 }, vtkIdType{ 1000000 } })
+    {
+      const vtkSmartPointer<vtkPolyData> input = sphereWithArrays(VTK_FLOAT);
+      input->GetPolys()->ReplaceCellAtId(7, 3, std::array<vtkIdType, 3>{ 0, 1, id }.data());
+      vtkNew<vtkQuadRemesh> filter;
+      setUp(filter, input);
+      filter->SetPieces(pieces);
+      filter->SetRankIndependent(
+        pieces == vtkQuadRemesh::PIECES_NEVER ? vtkQuadRemesh::Always : vtkQuadRemesh::Never);
+      EXPECT_NE(failureOfPieces(filter).find(" 7 "), std::string::npos) << filter->GetOutcomeText();
+    }
+  }
 }
 
 TEST(InPieces, OnlyTrianglesAreSources)
