@@ -343,7 +343,7 @@ def wholeRuns(program, meshes, threads, repeat, quads):
                     print(f"run {turn + 1} of {repeat}: {name}, {count} threads", flush=True)
                     start = time.perf_counter()
                     run = subprocess.Popen([program, path, output, "--quads", str(quads), "--threads", str(count),
-                                            "--report", report, "--quiet"])
+                                            "--pieces", "never", "--report", report, "--quiet"])
                     _, status, usage = os.wait4(run.pid, 0)
                     seconds = time.perf_counter() - start
                     if status != 0:
@@ -440,8 +440,9 @@ def main():
         program = pathlib.Path(arguments.command).with_name("quadrille")
         results = wholeRuns(program, makeSizes(pathlib.Path(arguments.out), scan), arguments.threads, arguments.repeat,
                             arguments.quads)
+        runs = f"medians of {arguments.repeat}" if arguments.repeat > 1 else "one run each"
         writePart(page, ANY_SIZE, "\n\n".join(
-            f"Seconds with {count} thread{'s' if count > 1 else ''}, medians of {arguments.repeat}:\n\n"
+            f"Seconds with {count} thread{'s' if count > 1 else ''}, {runs}:\n\n"
             f"{sizesTable(results, count)}" for count in arguments.threads))
         return 0
     if arguments.replay:

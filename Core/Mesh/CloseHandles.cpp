@@ -166,7 +166,7 @@ std::vector<std::size_t> closeHandles(PreparedSurface& surface,
   if (!cuts.empty())
   {
     surface.repair.closedHandles += cuts.size();
-    compactSurface(surface, threads);
+    orderAfterChanges(surface, cuts.size(), threads);
     surface.hash = contentHash(surface.mesh, threads);
   }
   return closed;

@@ -94,7 +94,7 @@ std::vector<std::size_t> fillHoles(PreparedSurface& surface, const std::vector<H
   if (!filled.empty())
   {
     surface.repair.filledHoles += filled.size();
-    compactSurface(surface, 1);
+    orderAfterChanges(surface, filled.size(), 1);
     surface.hash = contentHash(mesh, 1);
   }
   return filled;

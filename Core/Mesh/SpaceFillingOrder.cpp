@@ -670,4 +670,12 @@ void compactSurface(PreparedSurface& surface, int threads)
   compactVertices(surface, threads);
 }
 
+void orderAfterChanges(PreparedSurface& surface, std::size_t places, int threads)
+{
+  constexpr std::size_t kFewPlaces = 8;
+  constexpr Index kLarge = Index{ 1 } << 18; // faces
+  const bool isLittle = places <= kFewPlaces && surface.mesh.faceCount() >= kLarge;
+  isLittle ? compactSurface(surface, threads) : orderSurface(surface, threads);
+}
+
 } // namespace quadrille

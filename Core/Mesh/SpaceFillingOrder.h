@@ -27,4 +27,7 @@ void orderSurface(PreparedSurface& surface, int threads);
 /// places of those that go, and what was added stays where it is. Nothing else moves.
 void compactSurface(PreparedSurface& surface, int threads);
 
+/// The one or the other, by the number of places where the surface was changed: few of a large one need no new order.
+void orderAfterChanges(PreparedSurface& surface, std::size_t places, int threads);
+
 } // namespace quadrille

@@ -734,7 +734,7 @@ std::vector<std::size_t> cutThinParts(
   }
   if (!done.empty())
   {
-    compactSurface(surface, 1);
+    orderSurface(surface, 1);
     surface.hash = contentHash(surface.mesh, 1);
   }
   return done;

@@ -25,6 +25,11 @@ namespace quadrille
 namespace
 {
 
+/// Levels follow the changes of up to so many places, of surfaces of so many faces at least: on smaller ones phase 1
+/// costs next to nothing. Of skull, with 287 handles cut at 3,000 quads, maps held on new levels and not on those that
+/// had followed.
+constexpr std::size_t kMostFollowed = 8;
+constexpr Index kLeastFollowed = Index{ 1 } << 18;
 /// How often handles are looked for and cut: those whose loops meet others' have to wait.
 constexpr int kMostCuttings = 10;
 /// Where smaller quads round so many handles would make more than so many times the quads, they meet each other, and
@@ -206,11 +211,16 @@ private:
     findShortLoops(made_.bench->run, stages_, reused_);
   }
 
+  bool mayFollow() const
+  {
+    return changes_ <= kMostFollowed && sized_.surface->mesh.faceCount() >= kLeastFollowed;
+  }
+
   /// Before the surface is changed: its elements are followed where there are levels that can be.
   void beginChange()
   {
     PreparedSurface& surface = own();
-    if (made_.bench || levels_)
+    if ((made_.bench || levels_) && mayFollow())
     {
       surface.namesBefore = NamesBefore::of(surface.mesh.vertexCount(), surface.mesh.faceCount());
     }
@@ -223,7 +233,7 @@ private:
     HierarchyOptions options;
     options.threads = options_.threads;
     options.isConnected = surface.components == 1;
-    if (levels && surface.namesBefore &&
+    if (levels && mayFollow() && surface.namesBefore &&
       levels->follow(surface.mesh, surface.hash, *surface.namesBefore, options))
     {
       levels_ = std::move(levels);
@@ -376,7 +386,8 @@ private:
       return;
     }
     std::unique_ptr<Redecimation> levels = std::move(levels_);
-    if (made_.bench)
+    changes_ += changed;
+    if (made_.bench && mayFollow())
     {
       levels = made_.bench->levels.giveToFollow(levelOptions(made_.bench->run, {}));
     }
@@ -650,6 +661,7 @@ private:
   double limit_;       ///< of boundary loops, in units of the mesh
   double handleLimit_; ///< of handles
   std::size_t handlesCut_ = 0;
+  std::size_t changes_ = 0; ///< places where the surface was changed
   bool isThinning_ = false; ///< thin parts are too many, or nothing else has led to quads
   bool isOwn_ = false;
   ResultKey key_ = 0;

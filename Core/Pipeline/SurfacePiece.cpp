@@ -48,8 +48,8 @@ public:
     prepare.featureAngle = options.featureAngle;
     prepare.threads = options.threads;
     prepare.progress = options.progress;
-    surface_ = prepareSurface(input, prepare);
-    const std::size_t polygons = input.polygonOffsets.size() - 1;
+    const std::size_t polygons = input.polygonOffsets.empty() ? 0 : input.polygonOffsets.size() - 1;
+    surface_ = prepareSurface(std::move(input), prepare);
     input = {};
     for (const auto& [name, seconds] : surface_.seconds)
     {
