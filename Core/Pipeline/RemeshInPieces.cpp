@@ -301,7 +301,7 @@ public:
     points_.clear();
     points_.reserve(expected + expected / 8);
     std::size_t size = 1024;
-    while (size < 2 * expected)
+    while (size < 3 * expected)
     {
       size *= 2;
     }
@@ -328,10 +328,14 @@ private:
   /// The slot of the id, or the free one where it belongs.
   std::size_t slotOf(Index id) const
   {
-    // Ids of neighbours are near each other, and so are their slots; the blocks of ids are scattered.
-    constexpr std::uint64_t kScatter = 0x9e3779b97f4a7c15U;
+    // Ids of neighbours are near each other, and so are their slots; blocks of ids are scattered by the mixer of
+    // MurmurHash3, as one multiplication puts the rows of a grid onto each other.
+    std::uint64_t block = id >> 3;
+    block = (block ^ block >> 33) * 0xff51afd7ed558ccdU;
+    block = (block ^ block >> 33) * 0xc4ceb9fe1a85ec53U;
+    block ^= block >> 33;
     const std::size_t mask = slots_.size() - 1;
-    std::size_t at = (((id >> 4) * kScatter >> 32) * 16 + (id & 15U)) & mask;
+    std::size_t at = (block << 3 | (id & 7U)) & mask;
     while (slots_[at].first != kInvalidIndex && slots_[at].first != id)
     {
       at = (at + 1) & mask;
