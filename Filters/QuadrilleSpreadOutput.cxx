@@ -33,12 +33,7 @@
 namespace quadrille
 {
 
-namespace
-{
-
-/// A point of the quads lies on its triangle where it is not farther off than this, as a multiple of the quads' edges:
-/// far more than rounding, far less than what anybody sees.
-constexpr double kOnTriangle = 1e-4;
+// Not in the anonymous namespace, as members of SpreadSurface consist of them.
 
 /// Items, points or quads, that lie on pieces of one rank.
 struct PlacedItems
@@ -84,6 +79,13 @@ struct CarriedItems
   std::vector<Vector3> places;
   vtkSmartPointer<vtkPointData> arrays = vtkSmartPointer<vtkPointData>::New();
 };
+
+namespace
+{
+
+/// A point of the quads lies on its triangle where it is not farther off than this, as a multiple of the quads' edges:
+/// far more than rounding, far less than what anybody sees.
+constexpr double kOnTriangle = 1e-4;
 
 Vector3 pointAt(vtkPolyData* data, vtkIdType id)
 {
