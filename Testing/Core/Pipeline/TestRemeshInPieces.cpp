@@ -75,7 +75,7 @@ long long eulerOfQuads(const QuadMesh& mesh)
 }
 
 /// Points lie where their sources say, and the triangle is one of the surface.
-void expectSources(const PiecesResult& made, const SurfaceInput& input)
+void expectPlacesOfSources(const PiecesResult& made, const SurfaceInput& input)
 {
   const QuadMesh& quads = made.remeshed.quads;
   ASSERT_EQ(made.pointSource.size(), quads.points.size());
@@ -106,7 +106,7 @@ TEST(RemeshInPieces, TorusOfManyPieces)
   EXPECT_TRUE(made.remeshed.certificate.valid());
   EXPECT_NEAR(static_cast<double>(made.remeshed.quads.quads.size()), 500, 100);
   EXPECT_EQ(eulerOfQuads(made.remeshed.quads), 0);
-  expectSources(made, source.input());
+  expectPlacesOfSources(made, source.input());
 }
 
 TEST(RemeshInPieces, TheSameForAnyNumberOfThreads)
@@ -152,7 +152,7 @@ TEST(RemeshInPieces, AnOpenSurfaceKeepsItsBoundary)
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
   EXPECT_GT(made.pieces, 4U);
   EXPECT_EQ(eulerOfQuads(made.remeshed.quads), 1);
-  expectSources(made, source.input());
+  expectPlacesOfSources(made, source.input());
 }
 
 /// Two halves whose points along the cut are in the same places and are not the same, as parts that were put together.
