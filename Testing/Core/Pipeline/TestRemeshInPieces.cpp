@@ -44,7 +44,7 @@ private:
   SurfaceInput input_;
 };
 
-RemeshOptions aboutQuads(std::size_t quads, int threads = 1)
+RemeshOptions askForQuads(std::size_t quads, int threads = 1)
 {
   RemeshOptions options;
   options.quads = quads;
@@ -99,7 +99,7 @@ void expectPlacesOfSources(const PiecesResult& made, const SurfaceInput& input)
 TEST(RemeshInPieces, TorusOfManyPieces)
 {
   InputTriangles source(toInput(torus(160, 80, 2, 1)));
-  const PiecesResult made = remeshInPieces(source, aboutQuads(500), piecesOf(2000));
+  const PiecesResult made = remeshInPieces(source, askForQuads(500), piecesOf(2000));
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
   EXPECT_GT(made.pieces, 8U);
   EXPECT_LT(made.joinedTriangles, source.triangleCount());
@@ -112,8 +112,8 @@ TEST(RemeshInPieces, TorusOfManyPieces)
 TEST(RemeshInPieces, TheSameForAnyNumberOfThreads)
 {
   InputTriangles source(toInput(torus(160, 80, 2, 1)));
-  const PiecesResult one = remeshInPieces(source, aboutQuads(400, 1), piecesOf(3000));
-  const PiecesResult four = remeshInPieces(source, aboutQuads(400, 4), piecesOf(3000));
+  const PiecesResult one = remeshInPieces(source, askForQuads(400, 1), piecesOf(3000));
+  const PiecesResult four = remeshInPieces(source, askForQuads(400, 4), piecesOf(3000));
   ASSERT_EQ(one.remeshed.quads.quads, four.remeshed.quads.quads);
   EXPECT_EQ(one.remeshed.quads.points, four.remeshed.quads.points);
   for (std::size_t v = 0; v < one.pointSource.size(); ++v)
@@ -126,7 +126,7 @@ TEST(RemeshInPieces, TheSameForAnyNumberOfThreads)
 TEST(RemeshInPieces, EdgesOfACubeStaySharp)
 {
   InputTriangles source(toInput(unitCube(40)));
-  const PiecesResult made = remeshInPieces(source, aboutQuads(600), piecesOf(1500));
+  const PiecesResult made = remeshInPieces(source, askForQuads(600), piecesOf(1500));
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
   EXPECT_GT(made.pieces, 6U);
   // All eight corners are points of the quads, and each edge of the cube is a line of them.
@@ -148,7 +148,7 @@ TEST(RemeshInPieces, EdgesOfACubeStaySharp)
 TEST(RemeshInPieces, AnOpenSurfaceKeepsItsBoundary)
 {
   InputTriangles source(toInput(gridPlane(90, 90)));
-  const PiecesResult made = remeshInPieces(source, aboutQuads(300), piecesOf(2500));
+  const PiecesResult made = remeshInPieces(source, askForQuads(300), piecesOf(2500));
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
   EXPECT_GT(made.pieces, 4U);
   EXPECT_EQ(eulerOfQuads(made.remeshed.quads), 1);
@@ -180,7 +180,7 @@ TEST(RemeshInPieces, BoundariesInTheSamePlaceAreJoined)
     }
   }
   InputTriangles source(std::move(whole));
-  const PiecesResult made = remeshInPieces(source, aboutQuads(500), piecesOf(2000));
+  const PiecesResult made = remeshInPieces(source, askForQuads(500), piecesOf(2000));
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
   EXPECT_EQ(eulerOfQuads(made.remeshed.quads), 0);
   EXPECT_TRUE(std::none_of(made.remeshed.quads.onBoundary.begin(),
@@ -193,7 +193,7 @@ TEST(RemeshInPieces, RefusesWhatIsNoSurface)
   {
     try
     {
-      remeshInPieces(source, aboutQuads(100), piecesOf(1000));
+      remeshInPieces(source, askForQuads(100), piecesOf(1000));
     }
     catch (const InvalidInput& error)
     {
@@ -212,7 +212,7 @@ TEST(RemeshInPieces, RefusesWhatIsNoSurface)
   InputTriangles empty(nothing);
   EXPECT_NE(messageOf(empty).find("0 triangles"), std::string::npos);
   InputTriangles good(toInput(sphere(4)));
-  EXPECT_THROW(remeshInPieces(good, aboutQuads(100), piecesOf(10)), InvalidInput);
+  EXPECT_THROW(remeshInPieces(good, askForQuads(100), piecesOf(10)), InvalidInput);
 }
 
 /// Sizes that no array here could have: refused by their numbers, before anything is read.
@@ -233,7 +233,7 @@ TEST(RemeshInPieces, RefusesMoreThanNumbersTell)
   for (const auto& [points, triangles] : { std::pair<std::size_t, std::size_t>(10, 0xffffffffU),
          { 0xffffffffU, 10 }, { 0x100000003U, 10 }, { 10, 0x100000003U } })
   {
-    EXPECT_THROW(remeshInPieces(Fake(points, triangles), aboutQuads(100)), InvalidInput);
+    EXPECT_THROW(remeshInPieces(Fake(points, triangles), askForQuads(100)), InvalidInput);
   }
 }
 
@@ -242,7 +242,7 @@ TEST(RemeshInPieces, StopsOnRequest)
   InputTriangles source(toInput(torus(160, 80, 2, 1)));
   for (const double at : { 0.0, 0.2, 0.7, 0.9 })
   {
-    RemeshOptions options = aboutQuads(500);
+    RemeshOptions options = askForQuads(500);
     bool hasAsked = false;
     options.progress = [&](double fraction, const std::string&)
     {
@@ -258,7 +258,7 @@ TEST(RemeshInPieces, StopsOnRequest)
 TEST(RemeshInPieces, TellsWhereMemoryIsShort)
 {
   InputTriangles source(toInput(torus(160, 80, 2, 1)));
-  RemeshOptions options = aboutQuads(500);
+  RemeshOptions options = askForQuads(500);
   options.memoryLimit = 1e6;
   const PiecesResult made = remeshInPieces(source, options, piecesOf(2000));
   EXPECT_EQ(made.remeshed.status.code, StatusCode::TooLarge);
