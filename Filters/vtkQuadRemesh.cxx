@@ -897,7 +897,7 @@ quadrille::RemeshResult vtkQuadRemesh::RunJoined(quadrille::Block& first,
 }
 
 //------------------------------------------------------------------------------
-std::string vtkQuadRemesh::ReasonNotToCut(const quadrille::Block& block) const
+std::string vtkQuadRemesh::ReasonForWhole() const
 {
   if (this->Symmetry != SYMMETRY_NONE)
   {
@@ -911,6 +911,21 @@ std::string vtkQuadRemesh::ReasonNotToCut(const quadrille::Block& block) const
   {
     return "the method 'seamless' makes no quads";
   }
+  if (this->CellDataFrom != CELL_DATA_FROM_CENTRE)
+  {
+    return "cell data by area need all cells under a quad";
+  }
+  return {};
+}
+
+//------------------------------------------------------------------------------
+std::string vtkQuadRemesh::ReasonNotToCut(const quadrille::Block& block) const
+{
+  const std::string reason = this->ReasonForWhole();
+  if (!reason.empty())
+  {
+    return reason;
+  }
   if (this->ComputeMappedSurface)
   {
     return "the mapped surface is that of the whole (Compute Mapped Surface)";
@@ -918,10 +933,6 @@ std::string vtkQuadRemesh::ReasonNotToCut(const quadrille::Block& block) const
   if (this->FinalQuality == Input)
   {
     return "final quality on the input needs the map of the whole surface";
-  }
-  if (this->CellDataFrom != CELL_DATA_FROM_CENTRE)
-  {
-    return "cell data by area need all cells under a quad";
   }
   if (!this->GetGuideArrayInUse().empty())
   {
@@ -990,23 +1001,8 @@ void vtkQuadRemesh::SetSizes(quadrille::RemeshOptions& options) const
 std::string vtkQuadRemesh::ReasonNotToSpread(
   const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const
 {
-  if (this->Symmetry != SYMMETRY_NONE)
-  {
-    return "symmetric quads need the whole surface";
-  }
-  if (this->Preview)
-  {
-    return "a preview has no quads on the surface";
-  }
-  if (this->Method == METHOD_SEAMLESS)
-  {
-    return "the method 'seamless' makes no quads";
-  }
-  if (this->CellDataFrom != CELL_DATA_FROM_CENTRE)
-  {
-    return "cell data by area need all cells under a quad";
-  }
-  return quadrille::reasonNotToSpread(pieces, this->GetGuideArrayInUse());
+  const std::string reason = this->ReasonForWhole();
+  return reason.empty() ? quadrille::reasonNotToSpread(pieces, this->GetGuideArrayInUse()) : reason;
 }
 
 //------------------------------------------------------------------------------

@@ -625,6 +625,8 @@ private:
 
   vtkPolyData* GetPolyDataOutputAt(int port);
   void SetSizes(quadrille::RemeshOptions& options) const;
+  /// Of the properties, why quads need the surface in one place; empty where they do not.
+  std::string ReasonForWhole() const;
   std::string ReasonNotToCut(const quadrille::Block& block) const;
   std::unique_ptr<quadrille::TriangleSource> TrianglesToCut(
     const quadrille::Block& block, const quadrille::RemeshOptions& options) const;
