@@ -464,8 +464,11 @@ std::string SpreadSurface::packLevels()
     copyArrays(arrays, asking, level.inputPoint, tuples);
     packArrays(tuples, packer);
     piece.piece->forgetLevel();
-    const std::string text = piece.piece->repairText();
-    repaired += (repaired.empty() || text.empty() ? "" : "; ") + text;
+    for (const std::string& text :
+      { piece.piece->repairText(), detailsNotice(piece.piece->closedHandles()) })
+    {
+      repaired += (repaired.empty() || text.empty() ? "" : "; ") + text;
+    }
   }
   packer.text(repaired);
   vtkNew<vtkFieldData> none;

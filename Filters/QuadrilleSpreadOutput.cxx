@@ -628,26 +628,26 @@ SpreadSurface::Carried SpreadSurface::carry(const Orders& orders)
     const ItemsOfPiece points(orders.points, k), quads(orders.quads, k);
     std::vector<PiecePlace> places = points.places;
     places.insert(places.end(), quads.places.begin(), quads.places.end());
-    const std::vector<SourceLocation> found = piece.piece->carry(places);
+    const std::vector<CarriedPlace> found = piece.piece->carry(places);
     std::vector<PointOrigin> originsHere;
     std::vector<vtkIdType> cellsHere;
     for (std::size_t i = 0; i < points.items.size(); ++i)
     {
       const std::size_t item = points.items[i];
-      origins[item] = pointOrigin(found[i], piece.converted, piece.data);
+      origins[item] = pointOrigin(found[i].source, piece.converted, piece.data);
       originsHere.push_back(origins[item]);
-      pointCells[item] = piece.converted.cell(found[i].polygon);
+      pointCells[item] = piece.converted.cell(found[i].source.polygon);
       pointTuple[item] = { k, static_cast<vtkIdType>(i) };
       Vector3 x = Vector3::Zero();
       for (std::size_t c = 0; c < 3; ++c)
       {
         x += origins[item].weights[c] * pointAt(piece.data, origins[item].ids[c]);
       }
-      carried.points.places[item] = x;
+      carried.points.places[item] = found[i].offInput.value_or(x);
     }
     for (std::size_t i = 0; i < quads.items.size(); ++i)
     {
-      const Index polygon = found[points.items.size() + i].polygon;
+      const Index polygon = found[points.items.size() + i].source.polygon;
       quadCells[quads.items[i]] = piece.converted.cell(polygon);
       cellsHere.push_back(quadCells[quads.items[i]]);
       quadTuple[quads.items[i]] = { k, static_cast<vtkIdType>(i) };

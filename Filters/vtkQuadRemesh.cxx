@@ -1011,8 +1011,7 @@ void vtkQuadRemesh::PlanSpread(const quadrille::Block& block, const quadrille::S
 {
   quadrille::RemeshOptions options = this->MakeOptions(block);
   this->SetSizes(options);
-  plan.piece.edgeLength = quadrille::edgeLengthOfPieces(options, size.area, size.diagonal);
-  plan.piece.featureAngle = options.featureAngle;
+  plan.piece = quadrille::pieceOptionsOf(options, size.area, size.diagonal);
   plan.patchArray = this->PatchArrayName;
   plan.guideArray = this->GetGuideArrayInUse();
   plan.memoryLimit = 1e6 * this->MemoryLimit;

@@ -853,9 +853,9 @@ void vtkQuadrilleAlgorithm::JoinSpread(Run& run)
     try
     {
       quadrille::SpreadPlan plan;
+      this->PlanSpread(work.block, work.spread->size(), plan);
       plan.piece.threads = this->NumberOfThreads;
       plan.piece.progress = this->MakeProgress(0, 0.02);
-      this->PlanSpread(work.block, work.spread->size(), plan);
       work.block.inputs[0] = work.spread->join(plan, work.notices);
     }
     catch (const quadrille::Cancelled&)

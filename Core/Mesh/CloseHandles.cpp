@@ -6,8 +6,7 @@
 #include "Mesh/ContentHash.h"
 #include "Mesh/HandleBasis.h"
 #include "Mesh/HandleStubs.h"
-#include "Mesh/LoopNeighbourhood.h"
-#include "Mesh/LoopSearch.h"
+#include "Mesh/NearLoops.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/SurfaceEdit.h"
 
@@ -19,73 +18,6 @@ namespace quadrille
 
 namespace
 {
-
-/// The search for loops near the places, on the part of the surface where they run if that is small.
-class NearSearch
-{
-public:
-  NearSearch(
-    const Mesh& mesh, const std::vector<std::vector<Index>>& places, double bound, int threads)
-    : part_(loopNeighbourhood(mesh, all(places), kMoreThanRounding * bound / 2, threads)),
-      search_(part_ ? part_->mesh : mesh, LoopSearch::kInnerEdges), bound_(bound)
-  {
-  }
-
-  /// In terms of what is searched.
-  std::optional<LoopSearch::Loop> shortestNear(const std::vector<Index>& place)
-  {
-    std::optional<LoopSearch::Loop> best;
-    for (const Index root : place)
-    {
-      if (std::optional<LoopSearch::Loop> loop =
-            search_.shortest(inPart(root), best ? best->length : bound_))
-      {
-        best = std::move(loop);
-      }
-    }
-    return best;
-  }
-
-  const LoopSearch& search() const { return search_; }
-
-  LoopSearch::Loop onSurface(LoopSearch::Loop loop) const
-  {
-    for (Index& v : loop.vertices)
-    {
-      v = part_ ? part_->vertex[v] : v;
-    }
-    for (LoopSearch::Arc& arc : loop.arcs)
-    {
-      arc.halfEdge = part_ ? part_->halfEdge(arc.halfEdge) : arc.halfEdge;
-    }
-    return loop;
-  }
-
-private:
-  static constexpr double kMoreThanRounding = 1 + 1e-9;
-
-  static std::vector<Index> all(const std::vector<std::vector<Index>>& places)
-  {
-    std::vector<Index> vertices;
-    for (const std::vector<Index>& place : places)
-    {
-      vertices.insert(vertices.end(), place.begin(), place.end());
-    }
-    return vertices;
-  }
-
-  Index inPart(Index v) const
-  {
-    return part_
-      ? static_cast<Index>(
-          std::lower_bound(part_->vertex.begin(), part_->vertex.end(), v) - part_->vertex.begin())
-      : v;
-  }
-
-  std::optional<LoopNeighbourhood> part_;
-  LoopSearch search_;
-  double bound_;
-};
 
 /// The half-edges from each vertex of the loop to the next one.
 std::vector<Index> halfEdgesOf(const Mesh& mesh, const LoopSearch::Loop& loop)
@@ -108,7 +40,7 @@ std::vector<std::size_t> closeHandles(PreparedSurface& surface,
   std::vector<std::vector<Index>> cuts;
   std::vector<std::size_t> closed;
   {
-    NearSearch near(surface.mesh, places, bound, threads);
+    NearLoops near(surface.mesh, places, bound, LoopSearch::kInnerEdges, threads);
     HandleBasis basis(2 * near.search().handles());
     std::vector<std::uint8_t> used(surface.mesh.vertexCount(), 0);
     for (std::size_t i = 0; i < places.size(); ++i)

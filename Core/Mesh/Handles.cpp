@@ -110,16 +110,17 @@ HandleLoop boundaryLoop(const Mesh& mesh, Index start, double length)
   return loop;
 }
 
-} // namespace
-
-HandleReport findHandles(const Mesh& mesh, double limit)
+void requireLimit(double limit)
 {
   if (!(limit > 0))
   {
     throw InvalidInput("the length below which handles are looked for must be positive");
   }
-  HandleReport report;
-  LoopSearch search(mesh, LoopSearch::kStraightened);
+}
+
+/// One short loop for each handle that has any. The rest of the report is left alone.
+void collectShortLoops(LoopSearch& search, double limit, HandleReport& report)
+{
   report.handles = search.handles();
   HandleBasis basis(2 * report.handles);
   for (LoopSearch::Loop& loop : shortLoops(search, limit, report.complete))
@@ -135,6 +136,25 @@ HandleReport findHandles(const Mesh& mesh, double limit)
       report.loops.push_back({ std::move(loop.vertices), loop.length });
     }
   }
+}
+
+} // namespace
+
+std::vector<HandleLoop> findShortHandles(const Mesh& mesh, double limit)
+{
+  requireLimit(limit);
+  HandleReport report;
+  LoopSearch search(mesh, LoopSearch::kStraightened);
+  collectShortLoops(search, limit, report);
+  return std::move(report.loops);
+}
+
+HandleReport findHandles(const Mesh& mesh, double limit)
+{
+  requireLimit(limit);
+  HandleReport report;
+  LoopSearch search(mesh, LoopSearch::kStraightened);
+  collectShortLoops(search, limit, report);
   if (!report.loops.empty())
   {
     report.shortest = report.loops.front();

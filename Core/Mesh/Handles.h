@@ -36,6 +36,8 @@ struct HandleReport
 /// handle; bounded by counts of steps, so that the same mesh has the same loops. The mesh passes validate(). Throws
 /// InvalidInput unless the limit is positive.
 HandleReport findHandles(const Mesh& mesh, double limit);
+/// The same loops alone.
+std::vector<HandleLoop> findShortHandles(const Mesh& mesh, double limit);
 
 struct BoundaryReport
 {

@@ -415,6 +415,7 @@ public:
     result_.joinedTriangles = joined.surface.polygonOffsets.size() - 1;
     laps.lap("join", result_.joinedTriangles, joined.surface.points.size());
     remeshJoined(joined);
+    tellClosedHandles();
     laps.add(recordsOf(result_.remeshed));
     if (result_.remeshed.status.ok())
     {
@@ -437,9 +438,7 @@ private:
 
   PieceOptions pieceOptions() const
   {
-    PieceOptions piece;
-    piece.edgeLength = edgeLengthOfPieces(options_, cut_.area, cut_.diagonal);
-    piece.featureAngle = options_.featureAngle;
+    PieceOptions piece = pieceOptionsOf(options_, cut_.area, cut_.diagonal);
     piece.threads = 1; // each thread has a piece
     return piece;
   }
@@ -466,8 +465,8 @@ private:
         if (parts_[p].open.empty())
         {
           thinOut(p);
+          tell();
         }
-        tell();
       });
     joinOpenBoundaries();
     parallelFor(parts_.size(), 1, options_.threads,
@@ -476,6 +475,7 @@ private:
         if (parts_[p].level.points.empty())
         {
           thinOut(p);
+          tell();
         }
       });
     releaseFreedMemory();
@@ -637,6 +637,23 @@ private:
     result_.remeshed.estimate = result_.estimate;
   }
 
+  /// Those that were cut before the pieces were thinned.
+  void tellClosedHandles()
+  {
+    std::vector<SmallDetail> closed;
+    for (const Part& part : parts_)
+    {
+      const std::vector<SmallDetail>& here = part.piece->closedHandles();
+      closed.insert(closed.end(), here.begin(), here.end());
+    }
+    if (!closed.empty())
+    {
+      result_.remeshed.notices.insert(result_.remeshed.notices.begin(), detailsNotice(closed));
+      result_.remeshed.details.insert(
+        result_.remeshed.details.begin(), closed.begin(), closed.end());
+    }
+  }
+
   /// The place of a point of the joined surface, and its piece; none where it does not lie on one of its triangles.
   struct OnPiece
   {
@@ -734,11 +751,11 @@ private:
       return;
     }
     QuadMesh& quads = result_.remeshed.quads;
-    const std::vector<SourceLocation> carried = parts_[p].piece->carry(places);
+    const std::vector<CarriedPlace> carried = parts_[p].piece->carry(places);
     const std::vector<Index>& points = parts_[p].points;
     for (std::size_t i = 0; i < carried.size(); ++i)
     {
-      SourceLocation at = carried[i];
+      SourceLocation at = carried[i].source;
       at.polygon = cut_.order[cut_.first[p] + at.polygon];
       for (Index& point : at.points)
       {
@@ -749,9 +766,14 @@ private:
         result_.quadSource[whose[i] - quads.points.size()] = at;
         continue;
       }
+      Vector3& place = quads.points[whose[i]];
+      if (carried[i].offInput)
+      {
+        place = *carried[i].offInput;
+        continue;
+      }
       std::array<Vector3, 3> corner;
       source_.positions(at.points.data(), 3, corner.data());
-      Vector3& place = quads.points[whose[i]];
       place = at.weights[0] * corner[0] + at.weights[1] * corner[1] + at.weights[2] * corner[2];
       result_.pointSource[whose[i]] = at;
     }
@@ -784,7 +806,8 @@ bool isWorthPieces(const TriangleSource& source, const RemeshOptions& options)
   else
   {
     const Extent extent = extentOf(source, options.threads);
-    const double s = edgeLengthOfPieces(options, extent.area, extent.diagonal()) / kEdgeOfPiece;
+    const double s =
+      pieceOptionsOf(options, extent.area, extent.diagonal()).edgeLength / kEdgeOfPiece;
     quads = extent.area / (s * s);
   }
   return static_cast<double>(triangles) >= kTrianglesOfQuad * quads;

@@ -145,7 +145,7 @@ constexpr const char* kCutInTwo = "cut in two";
 
 const char* whatBecomes(DetailKind kind)
 {
-  return kind == DetailKind::Handle ? "cut and closed" : "filled";
+  return kind == DetailKind::Handle ? kCutAndClosed : "filled";
 }
 
 class Settling

@@ -37,6 +37,9 @@ struct SmallDetail
   std::string result;              ///< what became of it: "filled"
 };
 
+/// What became of a handle that was simplified.
+constexpr const char* kCutAndClosed = "cut and closed";
+
 /// "handle", "boundary loop", "component", "thin part"; "resolved", "simplified", "kept".
 const char* nameOf(DetailKind kind);
 const char* nameOf(DetailDecision decision);

@@ -3,8 +3,11 @@
 #include "Pipeline/SmallParts.h"
 
 #include "Base/PlaceText.h"
+#include "Mesh/NearLoops.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 
 namespace quadrille
@@ -14,6 +17,43 @@ namespace
 
 /// Handles with loops below so many edge lengths are sure to be among the places where quads meet themselves.
 constexpr double kHopelessLoop = 2;
+/// Loops of up to so many times the length that decides are measured on the finest mesh.
+constexpr double kMostTightened = 2;
+
+/// Decimation moves a loop off the shortest way round a handle, by chance: at the length that decides about a cut the
+/// finest mesh has the last word, where it says that the loop is short. loops: of the level, shortest first, before and
+/// afterwards.
+void tighten(std::vector<HandleLoop>& loops, const Level& level, const Mesh& finest,
+  double edgeLength, int threads)
+{
+  const double limit = kSimplifiedLoop * edgeLength;
+  const auto isBelow = [](const HandleLoop& loop, double length) { return loop.length < length; };
+  const auto begin = std::lower_bound(loops.begin(), loops.end(), limit, isBelow);
+  const auto end = std::lower_bound(begin, loops.end(), kMostTightened * limit, isBelow);
+  if (begin == end)
+  {
+    return;
+  }
+  std::vector<std::vector<Index>> places;
+  std::transform(begin, end, std::back_inserter(places),
+    [&](const HandleLoop& loop)
+    {
+      std::vector<Index> place;
+      std::transform(loop.vertices.begin(), loop.vertices.end(), std::back_inserter(place),
+        [&](Index v) { return level.fineVertex[v]; });
+      return place;
+    });
+  if (const auto lengths = lengthsNear(finest, places, limit, threads))
+  {
+    for (std::size_t i = 0; i < lengths->size(); ++i)
+    {
+      HandleLoop& loop = begin[static_cast<std::ptrdiff_t>(i)];
+      loop.length = (*lengths)[i] > 0 ? (*lengths)[i] : loop.length;
+    }
+    std::stable_sort(loops.begin(), loops.end(),
+      [](const HandleLoop& a, const HandleLoop& b) { return a.length < b.length; });
+  }
+}
 
 void collectHandles(
   const HandleReport& found, const Level& level, double edgeLength, ShortLoops& loops)
@@ -51,11 +91,17 @@ void appendLoop(std::ostringstream& text, double length, const Vector3& place, c
 
 } // namespace
 
-ShortLoops measureSmallParts(const Level& intermediate, const Mesh& finest, double edgeLength)
+ShortLoops measureSmallParts(
+  const Level& intermediate, const Mesh& finest, double edgeLength, int threads)
 {
   const double limit = kQuadsOfLoop * edgeLength;
   const Mesh& mesh = intermediate.mesh;
-  const HandleReport found = findHandles(mesh, limit);
+  HandleReport found = findHandles(mesh, limit);
+  tighten(found.loops, intermediate, finest, edgeLength, threads);
+  if (!found.loops.empty())
+  {
+    found.shortest = found.loops.front();
+  }
   ShortLoops loops;
   SmallParts& parts = loops.parts;
   parts.handles = found.handles;

@@ -43,8 +43,10 @@ struct ShortLoops
   std::vector<Vector3> hopelessPlaces;
 };
 
-/// edgeLength: s, in units of the meshes.
-ShortLoops measureSmallParts(const Level& intermediate, const Mesh& finest, double edgeLength);
+/// edgeLength: s, in units of the meshes. Loops that might be short enough to be cut are measured on the finest mesh,
+/// too. threads: 0: all.
+ShortLoops measureSmallParts(
+  const Level& intermediate, const Mesh& finest, double edgeLength, int threads);
 
 /// The size of quads as messages tell it.
 struct QuadSize

@@ -20,6 +20,7 @@
 #include "Base/Progress.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Options.h"
+#include "Pipeline/SmallDetails.h"
 #include "Pipeline/StageRecords.h"
 
 #include <array>
@@ -36,19 +37,25 @@ namespace quadrille
 /// intermediate level, so that features, handles and curvature are what they are on the surface itself.
 constexpr double kEdgeOfPiece = 0.2;
 
-/// The length that edges of thinned pieces exceed, for a surface of this area and diagonal of the box around it, all
-/// pieces together: kEdgeOfPiece times s, smaller where the options ask for smaller sizes. In units of the input.
-double edgeLengthOfPieces(const RemeshOptions& options, double area, double boundingBoxDiagonal);
-
 struct PieceOptions
 {
-  double edgeLength = 0; ///< edgeLengthOfPieces, > 0
+  double edgeLength = 0; ///< that edges of the thinned piece exceed, > 0, in units of the input
+  double quadEdge = 0;   ///< s, in units of the input; only where handles are to be cut
+  /// Handles that are shorter round than this, in units of the input, are cut and closed before the piece is thinned,
+  /// as on thinned triangles they come out longer. 0: none. Those near shared points are left to the whole surface, and
+  /// all of a piece with shared points away from its boundary.
+  double closedLoop = 0;
   /// As RemeshOptions::featureAngle: edges that are sharp on the piece are kept as curves, all of them. Which of them
   /// the quads can follow is judged on the whole surface: where a piece ends a curve may end without being noise.
   std::optional<double> featureAngle;
   int threads = 0; ///< 0: all; the result does not depend on it
   ProgressCallback progress;
 };
+
+/// What the options of a run mean for the pieces of a surface of this area and diagonal of the box around it, all pieces
+/// together: the edge length is kEdgeOfPiece times s, smaller where smaller sizes are asked for. `threads` and
+/// `progress` are left as they are by default.
+PieceOptions pieceOptionsOf(const RemeshOptions& options, double area, double boundingBoxDiagonal);
 
 /// An edge of a thinned piece that it has in common with another one.
 struct BorderEdge
@@ -61,8 +68,10 @@ struct BorderEdge
 /// A thinned piece.
 struct PieceLevel
 {
-  std::vector<Vector3> points;                 ///< #V; those of the input, bit for bit
-  std::vector<Index> inputPoint;               ///< #V; their ids in the input
+  std::vector<Vector3>
+    points; ///< #V; those of the input, bit for bit, but for the middles of closed handles
+  std::vector<Index>
+    inputPoint; ///< #V; their ids in the input, of new points that of one beside it
   std::vector<std::uint8_t> shared;            ///< #V; 1: one of the shared points
   std::vector<std::array<Index, 3>> triangles; ///< #F
   std::vector<std::uint8_t>
@@ -76,6 +85,14 @@ struct PiecePlace
 {
   Index triangle = kInvalidIndex;
   std::array<double, 3> weights{}; ///< barycentric, sum 1, none below 0
+};
+
+/// Where a place of a PieceLevel lies on the piece.
+struct CarriedPlace
+{
+  SourceLocation source; ///< polygon, points and weights of the input
+  /// The place itself where the input has none, as a handle was cut and closed there: source is beside it then.
+  std::optional<Vector3> offInput;
 };
 
 class SurfacePiece
@@ -94,6 +111,8 @@ public:
   const std::vector<Index>& boundary() const;
   /// What repair changed, see RepairReport::text().
   std::string repairText() const;
+  /// The handles that thinOut() has cut and closed.
+  const std::vector<SmallDetail>& closedHandles() const;
 
   /// Repair, order, connectivity, phase1 and carry, as far as they are done.
   const StageRecords& stages() const;
@@ -105,9 +124,9 @@ public:
   /// Lets level() go, which is not needed to carry places.
   void forgetLevel();
 
-  /// Where places of level() lie on the piece: polygon, points and weights of the input, one each. Throws InvalidInput
-  /// for a triangle out of range. To be called once: it uses the log up.
-  std::vector<SourceLocation> carry(const std::vector<PiecePlace>& places);
+  /// Where places of level() lie on the piece, one each. Throws InvalidInput for a triangle out of range. To be called
+  /// once: it uses the log up.
+  std::vector<CarriedPlace> carry(const std::vector<PiecePlace>& places);
 
   /// Bytes held now.
   std::size_t bytes() const;

@@ -5,6 +5,7 @@
 #include "Base/Error.h"
 #include "MeshInput.h"
 #include "Pipeline/Pipeline.h"
+#include "TestHandleMeshes.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -98,15 +99,11 @@ struct Spread
   JoinedPieces joined;
 };
 
-Spread thinPieces(const SurfaceInput& whole, std::size_t count, const PieceOf& pieceOf,
-  double edgeLength, std::optional<double> featureAngle, int threads = 1)
+Spread thinPieces(
+  const SurfaceInput& whole, std::size_t count, const PieceOf& pieceOf, const PieceOptions& options)
 {
   Spread spread;
   spread.parts = split(whole, count, pieceOf);
-  PieceOptions options;
-  options.edgeLength = edgeLength;
-  options.featureAngle = featureAngle;
-  options.threads = threads;
   for (const Part& part : spread.parts)
   {
     spread.pieces.emplace_back(part.input, options);
@@ -117,8 +114,18 @@ Spread thinPieces(const SurfaceInput& whole, std::size_t count, const PieceOf& p
     spread.pieces[p].thinOut(shared[p]);
     spread.levels.push_back(spread.pieces[p].level());
   }
-  spread.joined = joinPieces(spread.levels, {}, featureAngle);
+  spread.joined = joinPieces(spread.levels, {}, options.featureAngle);
   return spread;
+}
+
+Spread thinPieces(const SurfaceInput& whole, std::size_t count, const PieceOf& pieceOf,
+  double edgeLength, std::optional<double> featureAngle, int threads = 1)
+{
+  PieceOptions options;
+  options.edgeLength = edgeLength;
+  options.featureAngle = featureAngle;
+  options.threads = threads;
+  return thinPieces(whole, count, pieceOf, options);
 }
 
 /// V - E + F, with each edge used at most twice.
@@ -297,15 +304,18 @@ TEST(SurfacePiece, PlacesComeBackWhereTheyWere)
         isCorner.push_back(weights[0] != weights[1]);
       }
     }
-    const std::vector<SourceLocation> carried = spread.pieces[p].carry(places);
+    const std::vector<CarriedPlace> carried = spread.pieces[p].carry(places);
     ASSERT_EQ(carried.size(), places.size());
     for (std::size_t i = 0; i < places.size(); ++i)
     {
-      const double moved = (pointOf(spread.parts[p].input, carried[i]) - before[i]).norm();
+      const double moved = (pointOf(spread.parts[p].input, carried[i].source) - before[i]).norm();
       // A corner stays, but for rounding; the middle of a triangle is within the sagitta and a part of its size.
       EXPECT_LT(moved, isCorner[i] ? 1e-9 : 0.1);
-      EXPECT_NEAR(carried[i].weights[0] + carried[i].weights[1] + carried[i].weights[2], 1, 1e-12);
-      EXPECT_GE(*std::min_element(carried[i].weights.begin(), carried[i].weights.end()), 0);
+      EXPECT_NEAR(
+        carried[i].source.weights[0] + carried[i].source.weights[1] + carried[i].source.weights[2],
+        1, 1e-12);
+      EXPECT_GE(
+        *std::min_element(carried[i].source.weights.begin(), carried[i].source.weights.end()), 0);
     }
   }
 }
@@ -330,11 +340,12 @@ TEST(SurfacePiece, WhatIsCarriedCoversTheSurfaceOnce)
       }
     }
   }
-  const std::vector<SourceLocation> carried = spread.pieces[0].carry(places);
+  const std::vector<CarriedPlace> carried = spread.pieces[0].carry(places);
   const auto at = [&](std::size_t first, int i, int j)
   {
     const int before = i * (kSteps + 1) - i * (i - 1) / 2;
-    return pointOf(spread.parts[0].input, carried[first + static_cast<std::size_t>(before + j)]);
+    return pointOf(
+      spread.parts[0].input, carried[first + static_cast<std::size_t>(before + j)].source);
   };
   const std::size_t each = (kSteps + 1) * (kSteps + 2) / 2;
   double area = 0, opposed = 0;
@@ -383,8 +394,8 @@ TEST(SurfacePiece, TheSameForAnyNumberOfThreads)
     const auto b = four.pieces[p].carry(places);
     for (std::size_t i = 0; i < places.size(); ++i)
     {
-      EXPECT_EQ(a[i].polygon, b[i].polygon);
-      EXPECT_EQ(a[i].weights, b[i].weights);
+      EXPECT_EQ(a[i].source.polygon, b[i].source.polygon);
+      EXPECT_EQ(a[i].source.weights, b[i].source.weights);
     }
   }
 }
@@ -396,7 +407,7 @@ TEST(SurfacePiece, QuadsOfAllPieces)
   RemeshOptions options;
   options.quads = 600;
   options.threads = 1;
-  const double edgeLength = edgeLengthOfPieces(options, areaOf(whole), 8);
+  const double edgeLength = pieceOptionsOf(options, areaOf(whole), 8).edgeLength;
   EXPECT_NEAR(edgeLength, 0.2 * std::sqrt(areaOf(whole) / 600), 1e-12);
   Spread spread = thinPieces(
     whole, 4, [](const Vector3& middle, Index) { return byX(middle, -3, 3, 4); }, edgeLength,
@@ -426,13 +437,107 @@ TEST(SurfacePiece, QuadsOfAllPieces)
   for (std::size_t p = 0; p < 4; ++p)
   {
     EXPECT_GT(places[p].size(), 50U);
-    for (const SourceLocation& location : spread.pieces[p].carry(places[p]))
+    for (const CarriedPlace& carried : spread.pieces[p].carry(places[p]))
     {
-      const Vector3 point = pointOf(spread.parts[p].input, location);
+      const Vector3 point = pointOf(spread.parts[p].input, carried.source);
       const Vector3 ring = 2 * Vector3(point.x(), point.y(), 0).normalized();
       EXPECT_NEAR((point - ring).norm(), 1, 2e-3); // the facets of 75 sides
     }
   }
+}
+
+/// Pieces of the unit sphere with a handle at a place, whose mouth is a tenth of the sphere, for quads of 0.4.
+Spread piecesWithHandle(const Vector3& place, double closedLoop)
+{
+  PieceOptions options;
+  options.edgeLength = 0.08;
+  options.quadEdge = 0.4;
+  options.closedLoop = closedLoop;
+  options.threads = 1;
+  return thinPieces(
+    toInput(sphereWithHandle(5, place).mesh), 2,
+    [](const Vector3& middle, Index) { return middle.x() < 0 ? 0 : 1; }, options);
+}
+
+TEST(SurfacePiece, ShortHandlesAreCutBeforeTheyAreThinned)
+{
+  const Vector3 place = Vector3(1, 0.2, 0.3).normalized();
+  EXPECT_EQ(eulerCharacteristic(piecesWithHandle(place, 0).joined.surface), 0);
+  EXPECT_EQ(eulerCharacteristic(piecesWithHandle(place, 0.05).joined.surface), 0); // it is longer
+  Spread cut = piecesWithHandle(place, 0.4);
+  EXPECT_EQ(eulerCharacteristic(cut.joined.surface), 2);
+  EXPECT_TRUE(cut.pieces[0].closedHandles().empty());
+  ASSERT_EQ(cut.pieces[1].closedHandles().size(), 1U);
+  const SmallDetail& handle = cut.pieces[1].closedHandles().front();
+  EXPECT_EQ(handle.kind, DetailKind::Handle);
+  EXPECT_EQ(handle.decision, DetailDecision::Simplify);
+  EXPECT_GT(handle.size, 0.1);
+  EXPECT_LT(handle.size, 1);
+  EXPECT_LT((handle.place - place).norm(), 0.2);
+  EXPECT_EQ(cut.pieces[1].repairText(), "");
+}
+
+TEST(SurfacePiece, PlacesWhereAHandleWasAreTold)
+{
+  const Vector3 place = Vector3(1, 0.2, 0.3).normalized();
+  Spread cut = piecesWithHandle(place, 0.4);
+  std::vector<PiecePlace> places;
+  constexpr int kSteps = 12;
+  const PieceLevel& level = cut.levels[1];
+  for (Index t = 0; t < level.triangles.size(); ++t)
+  {
+    for (int i = 0; i < kSteps; ++i)
+    {
+      for (int j = 0; j < kSteps - i; ++j)
+      {
+        const double a = (i + 0.3) / kSteps, b = (j + 0.3) / kSteps;
+        places.push_back({ t, { 1 - a - b, a, b } });
+      }
+    }
+  }
+  std::size_t off = 0;
+  for (const CarriedPlace& carried : cut.pieces[1].carry(places))
+  {
+    const Vector3 beside = pointOf(cut.parts[1].input, carried.source);
+    const Vector3 at = carried.offInput.value_or(beside);
+    EXPECT_NEAR(at.norm(), 1, 0.01); // nothing of the handle, which is a tenth high, is left
+    EXPECT_LT((at - beside).norm(), 0.2);
+    off += carried.offInput ? 1 : 0;
+  }
+  EXPECT_GT(off, 0U);
+  EXPECT_LT(off, places.size() / 20);
+}
+
+/// There the points that are kept are near each other, so that the whole surface shows the handle as it is.
+TEST(SurfacePiece, HandlesNearSharedPointsAreLeftToTheWhole)
+{
+  Spread spread = piecesWithHandle(Vector3(0.1, 1, 0).normalized(), 0.4);
+  EXPECT_EQ(eulerCharacteristic(spread.joined.surface), 0);
+  EXPECT_TRUE(spread.pieces[1].closedHandles().empty());
+}
+
+TEST(SurfacePiece, OptionsOfPieces)
+{
+  RemeshOptions options;
+  options.quads = 100;
+  const PieceOptions piece = pieceOptionsOf(options, 4, 7);
+  EXPECT_DOUBLE_EQ(piece.quadEdge, 0.2);
+  EXPECT_DOUBLE_EQ(piece.edgeLength, 0.04);
+  EXPECT_DOUBLE_EQ(piece.closedLoop, 0.2);
+  options.smallDetails = SmallDetails::Simplify;
+  EXPECT_DOUBLE_EQ(pieceOptionsOf(options, 4, 7).closedLoop, 0.6);
+  for (const SmallDetails kept : { SmallDetails::Resolve, SmallDetails::Keep })
+  {
+    options.smallDetails = kept;
+    EXPECT_EQ(pieceOptionsOf(options, 4, 7).closedLoop, 0);
+  }
+  options.smallDetails = SmallDetails::Simplify;
+  options.sizes.smallest = 0.1;
+  options.sizes.largest = 1;
+  options.sizes.gapQuads = 1;
+  ASSERT_TRUE(options.sizes.any());
+  EXPECT_EQ(pieceOptionsOf(options, 4, 7).closedLoop, 0);
+  EXPECT_DOUBLE_EQ(pieceOptionsOf(options, 4, 7).edgeLength, 0.01);
 }
 
 TEST(SurfacePiece, IdsDecideWherePiecesHaveThem)
