@@ -503,6 +503,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   quadrille::RemeshOptions options = this->MakeRunOptions(block);
   quadrille::AskedConstraints asked;
   const std::unique_ptr<quadrille::TriangleSource> toCut = this->TrianglesToCut(block, options);
+  const bool isThinned = !toCut && this->IsWorthThinning(block, options);
   quadrille::ConvertedSurface converted =
     toCut ? this->ConvertForPieces(block) : this->ConvertInputs(block, &asked);
   quadrille::PiecesResult pieces;
@@ -514,11 +515,12 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   quadrille::ResultStore* levels = memory != nullptr ? &memory->levels : nullptr;
   const auto run = [&](quadrille::SurfaceInput surface, const quadrille::RemeshOptions& how)
   {
-    if (!toCut)
+    if (!toCut && !isThinned)
     {
       return this->RunPipeline(std::move(surface), how, levels);
     }
-    pieces = quadrille::remeshInPieces(*toCut, how);
+    pieces = toCut ? quadrille::remeshInPieces(*toCut, how)
+                   : quadrille::remeshThinned(std::move(surface), how);
     quadrille::SymmetricResult plain;
     plain.remeshed = std::move(pieces.remeshed);
     return plain;
@@ -540,7 +542,7 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
     return;
   }
   const RunOfBlock whole{ converted, asked, result,
-    this->Symmetry != SYMMETRY_NONE ? &made : nullptr, toCut ? &pieces : nullptr };
+    this->Symmetry != SYMMETRY_NONE ? &made : nullptr, toCut || isThinned ? &pieces : nullptr };
   this->WriteQuads(block, whole);
   if (!block.path.empty() && options.quads && !options.coarsestIntegers &&
     isFarFrom(*options.quads, block))
@@ -588,8 +590,10 @@ void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const RunOfBlock& run)
   if (run.pieces != nullptr)
   {
     quadrille::addPieceSources(*run.pieces, result.quads, run.converted, input, source);
-    this->AddNotice("the surface was cut into " + std::to_string(run.pieces->pieces) +
-      " pieces, which were thinned out to " + std::to_string(run.pieces->joinedTriangles) +
+    const std::string cut = run.pieces->pieces > 1
+      ? "the surface was cut into " + std::to_string(run.pieces->pieces) + " pieces, which were"
+      : "the surface was";
+    this->AddNotice(cut + " thinned out to " + std::to_string(run.pieces->joinedTriangles) +
       " triangles before quads were made; the certificate is that of their map (Pieces Never, "
       "--pieces never, keeps the surface whole)");
   }
@@ -983,6 +987,21 @@ std::unique_ptr<quadrille::TriangleSource> vtkQuadRemesh::TrianglesToCut(
       "the surface cannot be cut into pieces: " + reason + "; set Pieces to Automatic or Never");
   }
   return triangles;
+}
+
+//------------------------------------------------------------------------------
+bool vtkQuadRemesh::IsWorthThinning(
+  const quadrille::Block& block, const quadrille::RemeshOptions& options) const
+{
+  vtkPolyData* input = block.input();
+  if (this->Pieces != PIECES_AUTOMATIC || this->KeepLevels || quadrille::isJoined(input) ||
+    static_cast<std::size_t>(input->GetNumberOfPolys()) < quadrille::kTrianglesWorthThinning ||
+    !this->ReasonNotToCut(block).empty())
+  {
+    return false;
+  }
+  const std::unique_ptr<quadrille::TriangleSource> triangles = quadrille::trianglesOf(input);
+  return triangles && quadrille::isWorthThinning(*triangles, options);
 }
 
 //------------------------------------------------------------------------------

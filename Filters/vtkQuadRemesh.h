@@ -628,6 +628,9 @@ private:
   /// Of the properties, why quads need the surface in one place; empty where they do not.
   std::string ReasonForWhole() const;
   std::string ReasonNotToCut(const quadrille::Block& block) const;
+  /// Of a surface that is not cut, whether it is thinned out before the quads are made.
+  bool IsWorthThinning(
+    const quadrille::Block& block, const quadrille::RemeshOptions& options) const;
   std::unique_ptr<quadrille::TriangleSource> TrianglesToCut(
     const quadrille::Block& block, const quadrille::RemeshOptions& options) const;
   vtkIdType CountOverBlocks(const char* number) const

@@ -12,9 +12,12 @@
 #include "Pipeline/LeaveFrame.h"
 #include "Pipeline/Notices.h"
 #include "Pipeline/Recovery.h"
+#include "Pipeline/RemeshInPieces.h"
 #include "Pipeline/SettledSurface.h"
 #include "Pipeline/SizedSurface.h"
 #include "Pipeline/Strategies.h"
+#include "Pipeline/SurfacePiece.h"
+#include "Pipeline/ThinnedSurface.h"
 
 #include <algorithm>
 #include <optional>
@@ -486,23 +489,23 @@ void leave(SizedSurface& sized, const FramedInput& framed, const RemeshOptions& 
   leaveFrame(result, framed.frame, framed.points, options.keepsPositions, options.threads);
 }
 
-/// What is in the frame already.
-void runEntered(EnteredInput& entered, RemeshOptions options, bool quadsAlone, PlaceScope& places,
-  RemeshResult& result)
+/// Lengths in the frame.
+RemeshOptions inFrame(RemeshOptions options, const Frame& frame)
 {
-  const Frame& frame = entered.framed.frame;
-  places.set(frame.centre, frame.unit, frame.sign);
-  options.mergeCharts = options.mergeCharts && !options.preview && !quadsAlone;
-  const std::optional<double> askedEdgeLength = options.edgeLength;
-  if (askedEdgeLength)
+  if (options.edgeLength)
   {
-    options.edgeLength = frame.lengthOf(*askedEdgeLength);
+    options.edgeLength = frame.lengthOf(*options.edgeLength);
   }
   if (options.sizes.chordError)
   {
     options.sizes.chordError = frame.lengthOf(*options.sizes.chordError);
   }
-  SizedSurface sized = sizeSurface(entered.framed.input, options, entered.known);
+  return options;
+}
+
+void runSized(SizedSurface& sized, const Frame& frame, const RemeshOptions& options,
+  ResultStore* store, bool quadsAlone, RemeshResult& result)
+{
   tell(sized.notices, result);
   result.status = sized.status;
   result.targetEdgeLength = sized.edgeLength;
@@ -514,12 +517,102 @@ void runEntered(EnteredInput& entered, RemeshOptions options, bool quadsAlone, P
   result.stages = sized.stages.all();
   if (result.status.ok())
   {
-    runAttempts(sized, frame, options, entered.known.store, quadsAlone, result);
+    runAttempts(sized, frame, options, store, quadsAlone, result);
   }
+}
+
+/// What is in the frame already.
+void runEntered(EnteredInput& entered, const RemeshOptions& given, bool quadsAlone,
+  PlaceScope& places, RemeshResult& result)
+{
+  const Frame& frame = entered.framed.frame;
+  places.set(frame.centre, frame.unit, frame.sign);
+  RemeshOptions options = inFrame(given, frame);
+  options.mergeCharts = options.mergeCharts && !options.preview && !quadsAlone;
+  SizedSurface sized = sizeSurface(entered.framed.input, options, entered.known);
+  runSized(sized, frame, options, entered.known.store, quadsAlone, result);
   leave(sized, entered.framed, options, quadsAlone, result);
-  if (askedEdgeLength && !options.quads)
+  if (given.edgeLength && !options.quads)
   {
-    result.targetEdgeLength = *askedEdgeLength; // with every bit
+    result.targetEdgeLength = *given.edgeLength; // with every bit
+  }
+}
+
+/// The surface in the frame, thinned out.
+ThinnedSurface thinOut(SurfaceInput& input, const RemeshOptions& options, StageRecords& stages)
+{
+  PrepareOptions prepare;
+  prepare.featureAngle = options.featureAngle;
+  prepare.threads = options.threads;
+  prepare.progress = subProgress(options.progress, 0.0, 0.25, "Preparing: ");
+  const std::size_t polygons = input.polygonOffsets.empty() ? 0 : input.polygonOffsets.size() - 1;
+  PreparedSurface fine = prepareSurface(std::move(input), prepare);
+  input = {};
+  const std::size_t faces = fine.mesh.faceCount();
+  for (const auto& [name, seconds] : fine.seconds)
+  {
+    stages.add(name, seconds, polygons, faces);
+  }
+  Stopwatch watch;
+  const double edgeLength = edgeLengthOfPieces(options, fine.area, fine.boundingBoxDiagonal);
+  ThinnedSurface thinned(std::move(fine), edgeLength, options.threads,
+    subProgress(options.progress, 0.25, 0.6, "Thinning: "));
+  stages.add("thin", watch.lap(), faces, thinned.faceCount());
+  return thinned;
+}
+
+/// Points of the quads go from the thinned surface, where result has them, to that of the user.
+void carryToInput(ThinnedSurface& thinned, const std::vector<Vector3>& userPoints,
+  const std::vector<Vector3>& points, const RemeshOptions& options, RemeshResult& made,
+  PiecesResult& result)
+{
+  if (!made.status.ok())
+  {
+    return;
+  }
+  Stopwatch watch;
+  ThinnedSurface::Places places = thinned.carry(made.quads, made.surface, userPoints,
+    options.threads, subProgress(options.progress, 0.9, 1.0, "Carrying points: "));
+  putOnInput(places.ofPoints, points, made.quads.points);
+  result.pointSource = std::move(places.ofPoints);
+  result.quadSource = std::move(places.ofQuads);
+  made.stages.push_back(
+    { "carry", watch.lap(), result.pointSource.size(), result.quadSource.size() });
+}
+
+/// What is in the frame already. result: all but what remesh() makes.
+void runThinned(FramedInput& framed, const RemeshOptions& given, PlaceScope& places,
+  RemeshResult& made, PiecesResult& result)
+{
+  const Frame& frame = framed.frame;
+  places.set(frame.centre, frame.unit, frame.sign);
+  RemeshOptions options = inFrame(given, frame);
+  options.mergeCharts = false;
+  StageRecords stages;
+  ThinnedSurface thinned = thinOut(framed.input, options, stages);
+  result.pieces = 1;
+  result.joinedTriangles = thinned.faceCount();
+  const std::vector<Vector3> userPoints = thinned.userPoints(frame, framed.points);
+  options.progress = subProgress(given.progress, 0.6, 0.9);
+  SizedSurface sized = sizePrepared(thinned.surface(options.threads), stages, options);
+  runSized(sized, frame, options, nullptr, false, made);
+  leave(sized, { frame, {}, userPoints }, options, false, made);
+  carryToInput(thinned, userPoints, framed.points, given, made, result);
+  if (given.edgeLength && !options.quads)
+  {
+    made.targetEdgeLength = *given.edgeLength;
+  }
+}
+
+/// What needs the whole surface, see remeshThinned.
+void requireNothingPlaced(const SurfaceInput& input)
+{
+  if (!input.guideDirections.empty() || !input.targetValences.empty() || !input.curves.empty() ||
+    !input.held.empty() || !input.seams.empty() || !input.straight.empty() ||
+    input.regularElsewhere || input.regularOnFeatures)
+  {
+    throw InvalidInput("guides, valences and curves are those of the whole surface: do not have it "
+                       "thinned out.");
   }
 }
 
@@ -586,6 +679,20 @@ RemeshResult remeshQuads(SurfaceInput& input, const RemeshOptions& options, Resu
       LentInput lent(input, asked, storeIfRoom(&store, triangles, asked, result));
       runEntered(lent.entered(), asked, true, places, result);
     });
+}
+
+PiecesResult remeshThinned(SurfaceInput input, const RemeshOptions& options)
+{
+  requireNothingPlaced(input);
+  PiecesResult made;
+  made.remeshed = remeshWith(input, options,
+    [&](const RemeshOptions& asked, std::size_t, PlaceScope& places, RemeshResult& remeshed)
+    {
+      EnteredInput entered = enterFrame(input, asked, nullptr);
+      runThinned(entered.framed, asked, places, remeshed, made);
+    });
+  made.estimate = made.remeshed.estimate;
+  return made;
 }
 
 } // namespace quadrille

@@ -789,15 +789,9 @@ private:
     sameAs_; ///< ids of the source, ascending, and the first one in that place
 };
 
-} // namespace
-
-bool isWorthPieces(const TriangleSource& source, const RemeshOptions& options)
+/// Whether thinned triangles would be far fewer.
+bool hasFineTriangles(const TriangleSource& source, const RemeshOptions& options)
 {
-  const std::size_t triangles = source.triangleCount();
-  if (triangles < kTrianglesWorthPieces)
-  {
-    return false;
-  }
   double quads = 0;
   if (options.quads)
   {
@@ -810,7 +804,19 @@ bool isWorthPieces(const TriangleSource& source, const RemeshOptions& options)
       pieceOptionsOf(options, extent.area, extent.diagonal()).edgeLength / kEdgeOfPiece;
     quads = extent.area / (s * s);
   }
-  return static_cast<double>(triangles) >= kTrianglesOfQuad * quads;
+  return static_cast<double>(source.triangleCount()) >= kTrianglesOfQuad * quads;
+}
+
+} // namespace
+
+bool isWorthPieces(const TriangleSource& source, const RemeshOptions& options)
+{
+  return source.triangleCount() >= kTrianglesWorthPieces && hasFineTriangles(source, options);
+}
+
+bool isWorthThinning(const TriangleSource& source, const RemeshOptions& options)
+{
+  return source.triangleCount() >= kTrianglesWorthThinning && hasFineTriangles(source, options);
 }
 
 PiecesResult remeshInPieces(

@@ -40,6 +40,8 @@ public:
 constexpr std::size_t kTrianglesWorthPieces = 4000000;
 constexpr double kTrianglesOfQuad = 66;
 constexpr std::size_t kTrianglesOfPiece = 1000000;
+/// From how many triangles on a surface that is not worth to be cut is thinned out as a whole.
+constexpr std::size_t kTrianglesWorthThinning = 1000000;
 
 struct PiecesOptions
 {
@@ -64,6 +66,15 @@ struct PiecesResult
 
 /// Whether it saves time and memory to cut this surface for these quads.
 bool isWorthPieces(const TriangleSource& source, const RemeshOptions& options);
+
+/// Whether it saves time to thin out this surface, as a whole, before these quads are made.
+bool isWorthThinning(const TriangleSource& source, const RemeshOptions& options);
+
+/// Makes the quads of a surface that is thinned out first, in one piece (ThinnedSurface.h): stages are repair, order,
+/// connectivity, thin, those of remesh() from refine on, and carry. Of a surface that is shifted, scaled or mirrored it
+/// makes the same quads, as remesh() does; else as remeshInPieces(). input: of its arrays features, patches and sizes
+/// count; throws InvalidInput where it asks for guides, valences or curves.
+PiecesResult remeshThinned(SurfaceInput input, const RemeshOptions& options);
 
 /// Makes the quads. options: as for remesh(), on the surface as it is: guides, valences, sizes and curves that an input
 /// can name are not taken. Throws InvalidInput as remesh() does, naming points and triangles of the source; cancel and

@@ -205,6 +205,20 @@ public:
   SizedSurface run()
   {
     prepare();
+    return sizeAll();
+  }
+
+  SizedSurface run(PreparedSurface surface, const StageRecords& stages)
+  {
+    made_.surface = std::make_shared<PreparedSurface>(std::move(surface));
+    made_.stages = stages;
+    measure();
+    return sizeAll();
+  }
+
+private:
+  SizedSurface sizeAll()
+  {
     made_.edgeLength = targetEdgeLength(options_, sizedArea_, diagonal_);
     made_.targetQuads =
       options_.quads ? *options_.quads : predictedQuads(sizedArea_, made_.edgeLength);
@@ -222,7 +236,12 @@ public:
     return std::move(made_);
   }
 
-private:
+  void measure()
+  {
+    sizedArea_ = areaOverSizes(*made_.surface);
+    diagonal_ = made_.surface->boundingBoxDiagonal;
+  }
+
   void tell(const std::string& notice)
   {
     if (!notice.empty())
@@ -267,8 +286,7 @@ private:
     {
       made_.stages.add(name, seconds, polygons, made_.surface->mesh.faceCount());
     }
-    sizedArea_ = areaOverSizes(*made_.surface);
-    diagonal_ = made_.surface->boundingBoxDiagonal;
+    measure();
   }
 
   bool findSized()
@@ -692,6 +710,13 @@ bool isPrepared(const KnownInput& known, const RemeshOptions& options)
 SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, const KnownInput& known)
 {
   return SurfaceSizing(input, options, known).run();
+}
+
+SizedSurface sizePrepared(
+  PreparedSurface surface, const StageRecords& stages, const RemeshOptions& options)
+{
+  SurfaceInput none;
+  return SurfaceSizing(none, options, {}).run(std::move(surface), stages);
 }
 
 } // namespace quadrille

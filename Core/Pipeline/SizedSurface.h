@@ -54,6 +54,10 @@ bool isPrepared(const KnownInput& known, const RemeshOptions& options);
 SizedSurface sizeSurface(
   SurfaceInput& input, const RemeshOptions& options, const KnownInput& known = {});
 
+/// The same of a surface that is prepared, which stays nowhere else. stages: those that have led to it.
+SizedSurface sizePrepared(
+  PreparedSurface surface, const StageRecords& stages, const RemeshOptions& options);
+
 /// Counts the components that become blocks on the surface as it is: handles that were cut need no quads. Where an edge
 /// length is asked for, the number of quads follows.
 void countBlocks(SizedSurface& sized, const RemeshOptions& options, ResultStore* store);
