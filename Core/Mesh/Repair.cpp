@@ -65,13 +65,7 @@ void checkIds(const SurfaceInput& input, int threads)
       {
         for (Index i = input.polygonOffsets[polygon]; i < input.polygonOffsets[polygon + 1]; ++i)
         {
-          if (input.polygonPoints[i] >= input.points.size())
-          {
-            throw InvalidInput("polygon " + std::to_string(polygon) + " uses point " +
-              std::to_string(input.polygonPoints[i]) + ", but there are only " +
-              std::to_string(input.points.size()) +
-              " points: remove the polygon or add the point.");
-          }
+          requirePoint(polygon, input.polygonPoints[i], input.points.size());
         }
       }
     });
@@ -79,19 +73,12 @@ void checkIds(const SurfaceInput& input, int threads)
 
 void checkCoordinates(const SurfaceInput& input, int threads)
 {
-  // The squared size of the box must be finite too, or every length would overflow.
-  constexpr double kLargest = 1e150;
   parallelFor(input.points.size(), kRepairChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        if (!(input.points[i].cwiseAbs().maxCoeff() < kLargest) || !input.points[i].allFinite())
-        {
-          throw InvalidInput("point " + std::to_string(i) +
-            " has a coordinate that is not finite or exceeds 1e150: remove the point and the "
-            "polygons at it, or correct it.");
-        }
+        requireCoordinates(i, input.points[i]);
       }
     });
 }

@@ -8,9 +8,12 @@
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Mesh/Repair.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Pipeline/Estimate.h"
 #include "Pipeline/SurfacePiece.h"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <atomic>
@@ -34,23 +37,6 @@ constexpr std::size_t kChunk = 65536;
 constexpr int kCellBits = 7;
 constexpr std::size_t kCells = std::size_t{ 1 } << (3 * kCellBits);
 
-struct Box
-{
-  Vector3 low = Vector3::Constant(std::numeric_limits<double>::max());
-  Vector3 high = Vector3::Constant(std::numeric_limits<double>::lowest());
-
-  void add(const Vector3& p)
-  {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  void add(const Box& other)
-  {
-    low = low.cwiseMin(other.low);
-    high = high.cwiseMax(other.high);
-  }
-};
-
 /// The triangles of a chunk with their places.
 class ChunkReader
 {
@@ -65,12 +51,7 @@ public:
     const std::size_t points = source_.pointCount();
     for (std::size_t i = 0; i < ids_.size(); ++i)
     {
-      if (ids_[i] >= points)
-      {
-        throw InvalidInput("polygon " + std::to_string(begin + i / 3) + " uses point " +
-          std::to_string(ids_[i]) + ", but there are only " + std::to_string(points) +
-          " points: remove the polygon or add the point.");
-      }
+      requirePoint(begin + i / 3, ids_[i], points);
     }
     source_.positions(ids_.data(), ids_.size(), places_.data());
   }
@@ -83,23 +64,12 @@ private:
   std::vector<Vector3> places_;
 };
 
-void requireFinite(const Vector3& p, Index id)
-{
-  constexpr double kLargest = 1e150; // as for any surface
-  if (!p.allFinite() || !(p.cwiseAbs().maxCoeff() < kLargest))
-  {
-    throw InvalidInput("point " + std::to_string(id) +
-      " has a coordinate that is not finite or exceeds 1e150: remove the point and the polygons "
-      "at it, or correct it.");
-  }
-}
-
 struct Extent
 {
-  Box box;
+  Eigen::AlignedBox3d box;
   double area = 0;
 
-  double diagonal() const { return (box.high - box.low).norm(); }
+  double diagonal() const { return box.diagonal().norm(); }
 };
 
 /// Of all triangles; throws InvalidInput for a point that is not finite.
@@ -118,8 +88,8 @@ Extent extentOf(const TriangleSource& source, int threads)
         const Vector3* const p = reader.places(i);
         for (int k = 0; k < 3; ++k)
         {
-          requireFinite(p[k], reader.ids(i)[k]);
-          part.box.add(p[k]);
+          requireCoordinates(reader.ids(i)[k], p[k]);
+          part.box.extend(p[k]);
         }
         part.area += 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
       }
@@ -128,7 +98,7 @@ Extent extentOf(const TriangleSource& source, int threads)
   Extent all;
   for (const Extent& part : parts)
   {
-    all.box.add(part.box);
+    all.box.extend(part.box);
     all.area += part.area;
   }
   return all;
@@ -176,7 +146,7 @@ private:
   {
     const std::size_t faces = source_.triangleCount();
     growLarge(cell_, faces);
-    const double width = (box_.high - box_.low).maxCoeff();
+    const double width = box_.diagonal().maxCoeff();
     const double scale = width > 0 ? (1 << kCellBits) / width : 0;
     parallelFor(faces, kChunk, threads_,
       [&](std::size_t begin, std::size_t end)
@@ -186,7 +156,7 @@ private:
         for (std::size_t i = 0; i < end - begin; ++i)
         {
           const Vector3* const p = reader.places(i);
-          const Vector3 middle = ((p[0] + p[1] + p[2]) / 3 - box_.low) * scale;
+          const Vector3 middle = ((p[0] + p[1] + p[2]) / 3 - box_.min()) * scale;
           std::uint32_t cell = 0;
           for (int k = 0; k < 3; ++k)
           {
@@ -244,7 +214,7 @@ private:
   const TriangleSource& source_;
   std::size_t trianglesOfPiece_;
   int threads_;
-  Box box_;
+  Eigen::AlignedBox3d box_;
   std::vector<std::uint32_t> cell_; ///< #F
   Cut cut_;
 };
@@ -563,10 +533,9 @@ private:
       {
         ++end;
       }
-      if (open[begin].piece == open[end - 1].piece &&
-        std::all_of(open.begin() + static_cast<std::ptrdiff_t>(begin),
-          open.begin() + static_cast<std::ptrdiff_t>(end),
-          [&](const Open& o) { return o.piece == open[begin].piece; }))
+      if (std::all_of(open.begin() + static_cast<std::ptrdiff_t>(begin),
+            open.begin() + static_cast<std::ptrdiff_t>(end),
+            [&](const Open& o) { return o.piece == open[begin].piece; }))
       {
         continue;
       }
