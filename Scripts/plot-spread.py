@@ -15,7 +15,8 @@ import math
 import sys
 from xml.sax.saxutils import escape
 
-SERIES = (("gathered_mb", "gathered on one rank", "#1f5fa8"), ("sent_mb", "sent by the rank that sends most", "#d9822b"))
+SERIES = (("gathered_mb", "gathered on one rank", "#1f5fa8"),
+          ("sent_mb", "sent by the rank that sends most", "#d9822b"))
 WIDTH, HEIGHT, LEFT, TOP, GAP = 300, 220, 70, 60, 100
 
 

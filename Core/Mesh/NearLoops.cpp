@@ -12,7 +12,7 @@ namespace quadrille
 namespace
 {
 
-constexpr double kMoreThanRounding = 1 + 1e-9;
+constexpr double kBeyondRounding = 1 + 1e-9;
 
 std::vector<Index> allOf(const std::vector<std::vector<Index>>& places)
 {
@@ -27,7 +27,7 @@ std::vector<Index> allOf(const std::vector<std::vector<Index>>& places)
 std::optional<LoopNeighbourhood> partNear(
   const Mesh& mesh, const std::vector<std::vector<Index>>& places, double bound, int threads)
 {
-  return loopNeighbourhood(mesh, allOf(places), kMoreThanRounding * bound / 2, threads);
+  return loopNeighbourhood(mesh, allOf(places), kBeyondRounding * bound / 2, threads);
 }
 
 Index idInPart(const LoopNeighbourhood& part, Index v)

@@ -52,8 +52,8 @@ struct PieceOptions
   ProgressCallback progress;
 };
 
-/// What the options of a run mean for the pieces of a surface of this area and diagonal of the box around it, all pieces
-/// together: the edge length is kEdgeOfPiece times s, smaller where smaller sizes are asked for. `threads` and
+/// What the options of a run mean for the pieces of a surface of this area and diagonal of the box around it, all of
+/// them together: the edge length is kEdgeOfPiece times s, smaller where smaller sizes are asked for. `threads` and
 /// `progress` are left as they are by default.
 PieceOptions pieceOptionsOf(const RemeshOptions& options, double area, double boundingBoxDiagonal);
 

@@ -275,12 +275,29 @@ def _set_rotation(run, rotation):
     run.SetRotationOrder(whole("rotation", order, least=2, most=64))
 
 
-def _finish(run):
-    """Runs it; the reason of a failure comes as an exception, so VTK need not print it as well."""
+def _spread(run, wrap):
+    """Asks for quads of a surface over ranks; returns this rank and their number."""
+    from vtkmodules.vtkParallelCore import vtkMultiProcessController
+    controller = vtkMultiProcessController.GetGlobalController()
+    if controller is None:
+        raise InvalidInput("spread needs VTK's global controller: initialize a vtkMPIController, and give it to "
+                           "vtkMultiProcessController.SetGlobalController")
+    if wrap is not None:
+        raise InvalidInput("a wrap is made of a surface in one place: leave out wrap, or spread")
+    run.SetSpreadSurfaces(1)  # always
+    return controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
+
+
+def _finish(run, ranks=None):
+    """Runs it, as one of the ranks where there are several; the reason of a failure comes as an exception, so VTK need
+    not print it as well."""
     for source in (run, run.GetExecutive()):
         source.AddObserver("ErrorEvent", lambda caller, event: None)
         source.AddObserver("WarningEvent", lambda caller, event: None)
-    run.Update()
+    if ranks is None:
+        run.Update()
+    else:
+        run.UpdatePiece(*ranks, 0)
     if run.GetOutcome() == vtkQuadRemesh.BadInput:
         raise InvalidInput(run.GetOutcomeText())
     if run.GetOutcome() != vtkQuadRemesh.Succeeded and not run.GetIsSoFar():
@@ -299,7 +316,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
            cell_data="centre", preview=False, symmetry=None, rotation=None,
            plane_curve="isoline", chord_error=None, gap_quads=0.0, smallest_size=0.2, largest_size=1.0, guide=None,
            guide_anisotropy=0.3, stroke_radius=0.0, wrap=None,
-           progress=None, everything=False):
+           progress=None, everything=False, spread=False):
     """Remeshes a surface with quads only and returns a vtkPolyData.
 
     mesh: a vtkPolyData (of another vtkDataSet the surface is taken), or a pair (points, faces) of arrays or lists:
@@ -382,6 +399,10 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     everything: return a Remeshed with the mapped surface, the feature lines, the info dict and the lines of the layout,
         too. `constraints` of the info dict is a list of dicts, one for each guided region, stroke, curve, valence and
         sizing: id, kind, source_id, place, met, deviation, deviation_95, unit and reason; see the user guide.
+    spread: whether the mesh is this rank's piece of a surface that all ranks of VTK's global controller hold together
+        (vtkMPIController under mpirun): all of them call remesh with the same arguments, an empty piece included. Each
+        gets its share of the quads, with GlobalPointIds and GlobalCellIds, which tell where shares meet. An error is
+        raised on all ranks. Not with wrap.
 
     Raises InvalidInput where the mesh or an argument is at fault, else RemeshError, with the reason.
     """
@@ -401,6 +422,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
     run.SetPreview(bool(preview))
     run.SetComputeMappedSurface(bool(everything))
     run.KeepLevelsOff()  # there is no next execution
+    ranks = _spread(run, wrap) if spread else None
     surface = as_surface(mesh)
     wrapping = Wrapping(wrap, surface, requests={
         "guiding_direction": guiding_direction, "target_valence": target_valence, "sizing": sizing,
@@ -418,7 +440,7 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
             if progress(caller.GetProgress(), caller.GetProgressText() or "") is False:
                 caller.SetAbortExecute(1)
         run.AddObserver("ProgressEvent", on_progress)
-    result = wrapping.remeshed(run, lambda: _finish(run))
+    result = wrapping.remeshed(run, lambda: _finish(run, ranks))
     if everything:
         told = dict(info(result), constraints=_constraints(run.GetConstraintTable()),
                     details=_details(run.GetDetailPlaces()))

@@ -57,6 +57,11 @@ def joined(remesh, what, characteristic=None, ghost_levels=0):
     quads = run(remesh, ghost_levels)
     check(remesh.GetOutcome() == SUCCEEDED, f"{what}: {remesh.GetOutcomeText()}")
     same_on_all(remesh.GetNoticesText() + remesh.GetResultText(), f"{what}: what is told")
+    return mesh_of(quads, remesh.GetActualQuads(), what, characteristic)
+
+
+def mesh_of(quads, count, what, characteristic=None):
+    """Of the quads that each rank has, and their number."""
     copy = vtkPolyData()
     copy.ShallowCopy(quads)
     copy.GetFieldData().Initialize()
@@ -68,8 +73,8 @@ def joined(remesh, what, characteristic=None, ghost_levels=0):
         mesh.check_manifold(2 if characteristic is None else characteristic)
         if sum(sum_of_piece(part) for part in parts) != mesh.sum_of_quads():
             raise AssertionError("the sum of the pieces is not that of the mesh")
-        if len(mesh.quads) != remesh.GetActualQuads():
-            raise AssertionError(f"{len(mesh.quads)} quads, {remesh.GetActualQuads()} are told")
+        if len(mesh.quads) != count:
+            raise AssertionError(f"{len(mesh.quads)} quads, {count} are told")
     except AssertionError as error:
         check(False, f"{what}: {error}")
     return mesh
@@ -611,12 +616,35 @@ def pipeline():
         check(abs(ratio - 1) < 0.02, f"the quads have {ratio:.3f} of the area of the surface")
 
 
+def function():
+    """quadrille.remesh with spread, which tells of errors on all ranks."""
+    points, triangles = sphere(40)
+    data, used, faces = stripe(points, triangles)
+    quads = quadrille.remesh(data, quads=400, spread=True, threads=1)
+    mesh = mesh_of(quads, quadrille.info(quads)["ActualQuads"], "the function")
+    if mesh is not None:
+        check(abs(len(mesh.quads) - 400) < 80, f"{len(mesh.quads)} quads for 400")
+        check(np.abs(np.linalg.norm(mesh.points, axis=1) - 1).max() < 0.01, "points are off the sphere")
+    arrays = quadrille.remesh(arrays_of(data), quads=400, spread=True, threads=1)
+    check(arrays.GetNumberOfCells() == quads.GetNumberOfCells(), "arrays and VTK's data have other quads")
+    alone = quadrille.remesh((points, triangles), quads=400)
+    check(quadrille.info(alone)["ActualQuads"] == alone.GetNumberOfCells(), "without spread each rank is alone")
+    for arguments, expected in (((damaged("number"), {}), f"rank {last()}: point 5" if RANKS > 1 else "point 5"),
+                                ((data, {"wrap": 0.2}), "leave out wrap")):
+        try:
+            quadrille.remesh(arguments[0], quads=400, spread=True, **arguments[1])
+        except quadrille.InvalidInput as error:
+            check(expected in str(error), f"{expected!r} is not in {error}")
+        else:
+            check(False, f"no error where {expected!r} was expected")
+
+
 CASES = {
     "splits-closed": lambda: splits(("sphere", "torus"), 25), "splits-open": lambda: splits(("plane", "box"), 25),
     "repeat": repeat, "dense": dense, "scattered": scattered, "attributes": attributes, "ids": ids,
     "constraints": constraints, "features": features, "ghosts": ghosts, "sums": sums, "faults": faults,
     "cancel": cancel, "so-far": so_far, "modes": modes, "blocks": blocks, "kinds": kinds,
-    "pipeline": pipeline,
+    "pipeline": pipeline, "function": function,
 }
 
 if __name__ == "__main__":
