@@ -554,7 +554,7 @@ ThinnedSurface thinOut(SurfaceInput& input, const RemeshOptions& options, StageR
     stages.add(name, seconds, polygons, faces);
   }
   Stopwatch watch;
-  const double edgeLength = edgeLengthOfPieces(options, fine.area, fine.boundingBoxDiagonal);
+  const double edgeLength = pieceOptionsOf(options, fine.area, fine.boundingBoxDiagonal).edgeLength;
   ThinnedSurface thinned(std::move(fine), edgeLength, options.threads,
     subProgress(options.progress, 0.25, 0.6, "Thinning: "));
   stages.add("thin", watch.lap(), faces, thinned.faceCount());

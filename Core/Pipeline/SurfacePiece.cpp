@@ -5,12 +5,9 @@
 #include "Base/Clock.h"
 #include "Base/Error.h"
 #include "Hierarchy/Hierarchy.h"
-#include "Mesh/CloseHandles.h"
 #include "Mesh/Features.h"
-#include "Mesh/Handles.h"
-#include "Mesh/NearLoops.h"
+#include "Pipeline/HandlesOfPiece.h"
 #include "Pipeline/ResultStore.h"
-#include "Pipeline/SmallHandles.h"
 #include "Pipeline/SmallParts.h"
 #include "Pipeline/SurfaceVersion.h"
 #include "Transfer/CarriedPlaces.h"
@@ -27,8 +24,6 @@ namespace
 /// Edges over the smallest ones of quads that are asked for, where these are much smaller than s: those of the
 /// intermediate level.
 constexpr double kEdgeOfSmallest = 0.5;
-/// Handles that are cut are so many times the length below which they are from shared points.
-constexpr double kReachOfLoop = 1;
 
 } // namespace
 
@@ -55,7 +50,8 @@ PieceOptions pieceOptionsOf(const RemeshOptions& options, double area, double bo
 class SurfacePiece::Implementation
 {
 public:
-  Implementation(SurfaceInput input, const PieceOptions& options) : options_(options)
+  Implementation(SurfaceInput input, const PieceOptions& options)
+    : options_(options), handles_(options.closedLoop, options.quadEdge)
   {
     if (!(options.edgeLength > 0) || !std::isfinite(options.edgeLength))
     {
@@ -77,7 +73,7 @@ public:
 
   const std::vector<Index>& boundary() const { return boundary_; }
   const StageRecords& stages() const { return stages_; }
-  const std::vector<SmallDetail>& closedHandles() const { return closed_; }
+  const std::vector<SmallDetail>& closedHandles() const { return handles_.closed(); }
   const PreparedSurface& surface() const { return surface_; }
   const PieceLevel& level() const { return told_; }
   void forgetLevel() { told_ = {}; }
@@ -88,11 +84,11 @@ public:
     Stopwatch watch;
     Hierarchy made = decimate(shared);
     stages_.add("phase1", watch.lap(), mesh.faceCount(), made.intermediate.mesh.faceCount());
-    if (closeShortHandles(made.intermediate, shared))
+    if (closeHandles(made.intermediate, shared))
     {
       made = decimate(shared);
     }
-    stages_.add("handles", watch.lap(), mesh.faceCount(), closed_.size());
+    stages_.add("handles", watch.lap(), mesh.faceCount(), handles_.closed().size());
     const std::vector<BorderNormal> border = borderNormals(shared);
     level_ = std::move(made.intermediate);
     log_ = std::move(made.log);
@@ -117,7 +113,7 @@ public:
     std::vector<CarriedPlace> result(places.size());
     std::transform(onPiece.begin(), onPiece.end(), result.begin(),
       [this](const FacePlace& place) {
-        return CarriedPlace{ surface_.locate(place.face, place.weights), offInput(place) };
+        return CarriedPlace{ surface_.locate(place.face, place.weights), handles_.offInput(place) };
       });
     return result;
   }
@@ -147,146 +143,33 @@ private:
 
   bool isShared(Index v, const std::vector<Index>& shared) const
   {
-    return (isNew_.empty() || isNew_[v] == 0) &&
-      std::binary_search(shared.begin(), shared.end(), inputPoint_[v]);
+    return !handles_.isNew(v) && std::binary_search(shared.begin(), shared.end(), inputPoint_[v]);
   }
 
-  /// Whether a shared point is nearer to the place, vertices of the surface, than a loop there reaches.
-  bool isNearShared(const std::vector<Index>& place, const std::vector<Vector3>& shared) const
+  std::vector<Vector3> placesOf(const std::vector<Index>& shared) const
   {
-    const auto isNear = [&](Index v)
-    {
-      return std::any_of(shared.begin(), shared.end(),
-        [&](const Vector3& p)
-        { return (surface_.mesh.position[v] - p).norm() < kReachOfLoop * options_.closedLoop; });
-    };
-    return std::any_of(place.begin(), place.end(), isNear);
-  }
-
-  /// Handles that are short on the piece itself, found on the level. Returns whether the surface has changed.
-  bool closeShortHandles(const Level& level, const std::vector<Index>& shared)
-  {
-    if (!(options_.closedLoop > 0) ||
-      !std::includes(boundary_.begin(), boundary_.end(), shared.begin(), shared.end()))
-    {
-      return false;
-    }
-    std::vector<Vector3> sharedPlaces;
+    std::vector<Vector3> places;
     for (Index v = 0; v < surface_.mesh.vertexCount(); ++v)
     {
       if (isShared(v, shared))
       {
-        sharedPlaces.push_back(surface_.mesh.position[v]);
+        places.push_back(surface_.mesh.position[v]);
       }
-    }
-    std::vector<std::vector<Index>> places;
-    for (const HandleLoop& loop :
-      findShortHandles(level.mesh, kLongerAlongEdges * options_.closedLoop))
-    {
-      std::vector<Index> place;
-      for (const Index v : loop.vertices)
-      {
-        place.push_back(level.fineVertex[v]);
-      }
-      if (!isNearShared(place, sharedPlaces))
-      {
-        places.push_back(std::move(place));
-      }
-    }
-    const std::vector<double> lengths =
-      lengthsNear(surface_.mesh, places, options_.closedLoop, options_.threads)
-        .value_or(std::vector<double>(places.size(), 0));
-    std::vector<std::vector<Index>> shortOnes;
-    for (std::size_t i = 0; i < places.size(); ++i)
-    {
-      if (lengths[i] > 0)
-      {
-        closed_.push_back(
-          { DetailKind::Handle, DetailDecision::Simplify, lengths[i] / options_.quadEdge,
-            surface_.mesh.position[places[i].front()], kCutAndClosed });
-        shortOnes.push_back(std::move(places[i]));
-      }
-    }
-    if (shortOnes.empty())
-    {
-      return false;
-    }
-    const std::vector<Vector3> before = placesOfPoints();
-    std::vector<SmallDetail> closed;
-    for (const std::size_t i :
-      closeHandles(surface_, shortOnes, kLongerAlongEdges * options_.closedLoop,
-        kGirthOfLimb * options_.quadEdge, options_.threads))
-    {
-      closed.push_back(closed_[i]);
-    }
-    closed_ = std::move(closed);
-    surface_.repair.closedHandles = 0; // told as details
-    if (!closed_.empty())
-    {
-      findInputPoints();
-      findNewVertices(before);
-    }
-    return !closed_.empty();
-  }
-
-  /// A face with a vertex that the input does not have.
-  struct OffFace
-  {
-    Index face = kInvalidIndex;
-    std::array<Vector3, 3> corners;
-  };
-
-  /// By id in the input.
-  std::vector<Vector3> placesOfPoints() const
-  {
-    std::vector<Vector3> places;
-    for (Index h = 0; h < surface_.mesh.halfEdgeCount(); ++h)
-    {
-      pollNowAndThen(h);
-      const Index point = surface_.sourcePoints[Mesh::face(h)][h % 3];
-      places.resize(std::max(places.size(), std::size_t{ point } + 1));
-      places[point] = surface_.mesh.position[surface_.mesh.origin[h]];
     }
     return places;
   }
 
-  /// The middles of caps: their faces have the sources of the faces beside them.
-  void findNewVertices(const std::vector<Vector3>& placesBefore)
+  /// Returns whether the surface has changed.
+  bool closeHandles(const Level& level, const std::vector<Index>& shared)
   {
-    const Mesh& mesh = surface_.mesh;
-    isNew_.assign(mesh.vertexCount(), 0);
-    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    if (!(options_.closedLoop > 0) ||
+      !std::includes(boundary_.begin(), boundary_.end(), shared.begin(), shared.end()) ||
+      !handles_.close(surface_, level, placesOf(shared), options_.threads))
     {
-      pollNowAndThen(h);
-      const Index v = mesh.origin[h];
-      if (placesBefore[surface_.sourcePoints[Mesh::face(h)][h % 3]] != mesh.position[v])
-      {
-        isNew_[v] = 1;
-      }
+      return false;
     }
-    for (Index f = 0; f < mesh.faceCount(); ++f)
-    {
-      pollNowAndThen(f);
-      const std::array<Index, 3> v{ mesh.origin[3 * f], mesh.origin[3 * f + 1],
-        mesh.origin[3 * f + 2] };
-      if (std::any_of(v.begin(), v.end(), [&](Index corner) { return isNew_[corner] != 0; }))
-      {
-        offFaces_.push_back(
-          { f, { mesh.position[v[0]], mesh.position[v[1]], mesh.position[v[2]] } });
-      }
-    }
-  }
-
-  std::optional<Vector3> offInput(const FacePlace& place) const
-  {
-    const auto found = std::lower_bound(offFaces_.begin(), offFaces_.end(), place.face,
-      [](const OffFace& off, Index face) { return off.face < face; });
-    if (found == offFaces_.end() || found->face != place.face)
-    {
-      return std::nullopt;
-    }
-    return Vector3(place.weights[0] * found->corners[0] + place.weights[1] * found->corners[1] +
-      place.weights[2] * found->corners[2]);
+    findInputPoints();
+    return true;
   }
 
   /// What only the decimation needed: to carry a place takes the log, and the polygon of each face.
@@ -295,7 +178,6 @@ private:
     surface_.mesh = {};
     std::vector<Index>().swap(inputPoint_);
     std::vector<Index>().swap(boundary_);
-    std::vector<std::uint8_t>().swap(isNew_);
   }
 
   /// The normal beside a boundary edge between shared points.
@@ -417,9 +299,7 @@ private:
   Level level_;
   DecimationLog log_;
   PieceLevel told_;
-  std::vector<SmallDetail> closed_;
-  std::vector<std::uint8_t> isNew_; ///< #V; empty: no vertex is
-  std::vector<OffFace> offFaces_;   ///< ascending by face
+  HandlesOfPiece handles_;
   StageRecords stages_;
 };
 

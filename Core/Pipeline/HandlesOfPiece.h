@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Handles of a surface that is thinned out before its quads are made: on thinned triangles short ones come out longer,
+/// so those that no quads can show are cut on the surface itself.
+#pragma once
+
+#include "Hierarchy/Hierarchy.h"
+#include "Mesh/Surface.h"
+#include "Pipeline/SmallDetails.h"
+#include "Transfer/CarriedPlaces.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace quadrille
+{
+
+class HandlesOfPiece
+{
+public:
+  /// closedLoop: handles that are shorter round are cut, in units of the surface; 0: none. quadEdge: s.
+  HandlesOfPiece(double closedLoop, double quadEdge) : closedLoop_(closedLoop), quadEdge_(quadEdge)
+  {
+  }
+
+  /// Cuts and closes those that are found on the level, a thinned surface; not those beside one of the kept places,
+  /// which the level shows as they are. Returns whether the surface has changed: its ids are others then. To be called
+  /// once.
+  bool close(
+    PreparedSurface& surface, const Level& level, const std::vector<Vector3>& kept, int threads);
+
+  const std::vector<SmallDetail>& closed() const { return closed_; }
+  /// Whether a vertex of the surface is the middle of a cap, which the input does not have.
+  bool isNew(Index v) const { return !isNew_.empty() && isNew_[v] != 0; }
+  /// The place itself where the face has such a vertex: its source is beside it then.
+  std::optional<Vector3> offInput(const FacePlace& place) const;
+
+private:
+  /// A face with a vertex that the input does not have.
+  struct OffFace
+  {
+    Index face = kInvalidIndex;
+    std::array<Vector3, 3> corners;
+  };
+
+  bool isNear(
+    const Mesh& mesh, const std::vector<Index>& place, const std::vector<Vector3>& kept) const;
+  std::vector<std::vector<Index>> placesOnSurface(
+    const Mesh& mesh, const Level& level, const std::vector<Vector3>& kept) const;
+  void findNewVertices(const PreparedSurface& surface, const std::vector<Vector3>& placesBefore);
+
+  double closedLoop_;
+  double quadEdge_;
+  std::vector<SmallDetail> closed_;
+  std::vector<std::uint8_t> isNew_; ///< #V; empty: no vertex is
+  std::vector<OffFace> offFaces_;   ///< ascending by face
+};
+
+} // namespace quadrille
