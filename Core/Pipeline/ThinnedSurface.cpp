@@ -86,6 +86,7 @@ ThinnedSurface::ThinnedSurface(
 {
   HierarchyOptions options;
   options.targetEdgeLength = 2 * edgeLength; // phase 1 ends at a half of it
+  options.isRough = true;
   options.isConnected = fine_.components == 1;
   options.threads = threads;
   options.progress = progress;
