@@ -162,7 +162,7 @@ ThinnedSurface::Places ThinnedSurface::carry(const QuadMesh& quads, const Prepar
       made.ofQuads[q]);
   }
   const std::vector<FacePlace> onFine =
-    carryPlaces(level_, log_, log_.rounds.size(), places, threads, progress);
+    carryPlaces(fine_.mesh, level_, log_, places, threads, progress);
   log_ = {};
   for (std::size_t i = 0; i < onFine.size(); ++i)
   {
