@@ -3,6 +3,7 @@
 /// Seconds and sizes of the stages, as CSV on standard output. Every run is a process of its own, so that
 /// its peak memory is its own; the peak is the same on each row of a run.
 #include "Base/Clock.h"
+#include "Base/Memory.h"
 #include "Base/Parallel.h"
 #include "CoarseTimes.h"
 #include "ExtractionTimes.h"
@@ -382,6 +383,7 @@ int runAll(const std::vector<std::string>& meshes, const Request& request)
 
 int main(int argc, char* argv[])
 {
+  keepFreedMemory(); // as the command does
   try
   {
     Request request;

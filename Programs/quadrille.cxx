@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// The command for people without ParaView's window: a mesh file in, a quad mesh out.
+#include "Base/Memory.h"
 #include "ElementRun.h"
 #include "MeshFiles.h"
 #include "Options.h"
@@ -726,6 +727,7 @@ ExitCode runCommand(int argc, char* argv[])
 
 int main(int argc, char* argv[])
 {
+  quadrille::keepFreedMemory();
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
   try

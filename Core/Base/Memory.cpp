@@ -18,10 +18,43 @@
 namespace quadrille
 {
 
+namespace
+{
+
+/// Below this, freed memory is worth more to what comes next than to others: fresh pages take longer than much of what
+/// is done with them.
+constexpr std::size_t kWorthReleasing = std::size_t{ 1 } << 28;
+/// The largest threshold that the GNU library takes.
+[[maybe_unused]] constexpr int kLargestThreshold = 1 << 25;
+
+#if defined(__GLIBC__)
+bool isWorthReleasing()
+{
+#if __GLIBC_PREREQ(2, 33)
+  return mallinfo2().fordblks >= kWorthReleasing;
+#else
+  return true;
+#endif
+}
+#endif
+
+} // namespace
+
 void releaseFreedMemory()
 {
 #if defined(__GLIBC__)
-  malloc_trim(0);
+  if (isWorthReleasing())
+  {
+    malloc_trim(0);
+  }
+#endif
+}
+
+void keepFreedMemory()
+{
+#if defined(__GLIBC__)
+  mallopt(M_MMAP_THRESHOLD, kLargestThreshold);
+  mallopt(M_TRIM_THRESHOLD, static_cast<int>(kWorthReleasing));
 #endif
 }
 

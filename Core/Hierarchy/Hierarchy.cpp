@@ -458,6 +458,7 @@ private:
     anySmallComponent_ = scales.anySmallComponent;
     uniform.scale = std::move(scales.scale);
     uniform.keepVertices = byPhase1_.kept;
+    uniform.isRough = options.isRough;
     uniform.progress = subProgress(options.progress, 0.0, 0.6);
     LogBuilder log;
     switch (options.order)

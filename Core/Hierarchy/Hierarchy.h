@@ -76,6 +76,9 @@ struct HierarchyOptions
   /// Guides of faces of the finest mesh, ascending by face (see surfaceGuides). Their regions keep their borders and
   /// corners in phase 2, which carries the directions to the coarse level.
   std::vector<FaceGuide> guides;
+  /// Phase 1 by sweeps may leave some edges shorter than s/2, where that costs more time than it saves later: for a
+  /// level that is thinned out again.
+  bool isRough = false;
   /// The finest mesh is known to have one component, which saves looking for small ones; the result is the same.
   bool isConnected = false;
   int threads = 0; ///< 0: all; the result does not depend on it

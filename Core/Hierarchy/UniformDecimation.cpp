@@ -29,6 +29,8 @@ constexpr double kThresholdStep = 1.5;
 constexpr int kSweepsPerRound = 2;
 /// Rounds at the last threshold, at most.
 constexpr int kLastRounds = 40;
+/// A rough end is one where a round removes less than this part of the vertices.
+constexpr std::size_t kRoughPart = 16;
 /// How many visits ahead the memory is asked for a star, and twice that for its vertex.
 constexpr std::size_t kAhead = 6;
 /// Lock of a vertex that must stay.
@@ -93,6 +95,7 @@ private:
   double shortestEdge() const;
   double largestScale() const;
   void finish(double threshold);
+  void finishRoughly(double threshold);
   void forget();
   std::size_t round(double threshold, bool serial);
   std::vector<Block> makeBlocks(bool serial);
@@ -127,6 +130,11 @@ void UniformDecimation::run()
     round(threshold, isLocal());
   }
   report(options_.progress, (steps + 1) / (steps + 2), "uniform decimation");
+  if (options_.isRough)
+  {
+    finishRoughly(last);
+    return;
+  }
   finish(last);
   // Noise of scans folds the surface; a star that is folded itself may be replaced by one that is no worse.
   guards_.allowOldFolds = true;
@@ -152,6 +160,17 @@ void UniformDecimation::finish(double threshold)
       serial = true;
       forget(); // once more what the valences forbade; they have changed since
     }
+  }
+}
+
+/// The first of these rounds, which are as parallel as those before, remove nearly all that goes at last.
+void UniformDecimation::finishRoughly(double threshold)
+{
+  std::size_t removed = alive_.size();
+  for (int i = 0; i < kLastRounds && removed * kRoughPart >= alive_.size(); ++i)
+  {
+    poll();
+    removed = round(threshold, isLocal());
   }
 }
 

@@ -86,6 +86,7 @@ ThinnedSurface::ThinnedSurface(
 {
   HierarchyOptions options;
   options.targetEdgeLength = 2 * edgeLength; // phase 1 ends at a half of it
+  options.isRough = true;
   options.isConnected = fine_.components == 1;
   options.threads = threads;
   options.progress = progress;
@@ -161,7 +162,7 @@ ThinnedSurface::Places ThinnedSurface::carry(const QuadMesh& quads, const Prepar
       made.ofQuads[q]);
   }
   const std::vector<FacePlace> onFine =
-    carryPlaces(level_, log_, log_.rounds.size(), places, threads, progress);
+    carryPlaces(fine_.mesh, level_, log_, places, threads, progress);
   log_ = {};
   for (std::size_t i = 0; i < onFine.size(); ++i)
   {
