@@ -36,6 +36,10 @@ constexpr double kMostFaces = 1e8;
 /// A connected surface with the area of so many squares of the maximum edge length is not small.
 constexpr double kSurelyNotSmall = 2 * kQuadsOfSmallTriangulation;
 
+/// Of a large surface so few new faces stay at its end: where they lie costs nothing then, and to order it anew does.
+constexpr Index kLargeSurface = Index{ 1 } << 18;
+constexpr Index kFewAmong = 256;
+
 constexpr std::size_t kSplitsBetweenReports = 100000;
 constexpr std::size_t kChunkFaces = std::size_t{ 1 } << 16;
 
@@ -377,7 +381,11 @@ void refineSurface(
   {
     surface.repair.refinedFaces += countRefined(surface, entriesBefore, facesBefore);
     report(progress, 0.9, "Ordering the refined surface");
-    orderSurface(surface, threads);
+    if (facesBefore < kLargeSurface ||
+      surface.mesh.faceCount() - facesBefore > facesBefore / kFewAmong)
+    {
+      orderSurface(surface, threads);
+    }
   }
   surface.hash = contentHash(surface.mesh, threads); // the caller may have changed features before
   report(progress, 1, "Surface refined");

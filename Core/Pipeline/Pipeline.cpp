@@ -554,17 +554,17 @@ ThinnedSurface thinOut(SurfaceInput& input, const RemeshOptions& options, StageR
     stages.add(name, seconds, polygons, faces);
   }
   Stopwatch watch;
-  const double edgeLength = pieceOptionsOf(options, fine.area, fine.boundingBoxDiagonal).edgeLength;
-  ThinnedSurface thinned(std::move(fine), edgeLength, options.threads,
-    subProgress(options.progress, 0.25, 0.6, "Thinning: "));
+  PieceOptions piece = pieceOptionsOf(options, fine.area, fine.boundingBoxDiagonal);
+  piece.threads = options.threads;
+  piece.progress = subProgress(options.progress, 0.25, 0.6, "Thinning: ");
+  ThinnedSurface thinned(std::move(fine), piece);
   stages.add("thin", watch.lap(), faces, thinned.faceCount());
   return thinned;
 }
 
 /// Points of the quads go from the thinned surface, where result has them, to that of the user.
 void carryToInput(ThinnedSurface& thinned, const std::vector<Vector3>& userPoints,
-  const std::vector<Vector3>& points, const RemeshOptions& options, RemeshResult& made,
-  PiecesResult& result)
+  const FramedInput& framed, const RemeshOptions& options, RemeshResult& made, PiecesResult& result)
 {
   if (!made.status.ok())
   {
@@ -573,7 +573,11 @@ void carryToInput(ThinnedSurface& thinned, const std::vector<Vector3>& userPoint
   Stopwatch watch;
   ThinnedSurface::Places places = thinned.carry(made.quads, made.surface, userPoints,
     options.threads, subProgress(options.progress, 0.9, 1.0, "Carrying points: "));
-  putOnInput(places.ofPoints, points, made.quads.points);
+  putOnInput(places.ofPoints, framed.points, made.quads.points);
+  for (const auto& [point, place] : places.offInput)
+  {
+    made.quads.points[point] = framed.frame.toUser(place);
+  }
   result.pointSource = std::move(places.ofPoints);
   result.quadSource = std::move(places.ofQuads);
   made.stages.push_back(
@@ -596,8 +600,9 @@ void runThinned(FramedInput& framed, const RemeshOptions& given, PlaceScope& pla
   options.progress = subProgress(given.progress, 0.6, 0.9);
   SizedSurface sized = sizePrepared(thinned.surface(options.threads), stages, options);
   runSized(sized, frame, options, nullptr, false, made);
+  tellClosedHandles(thinned.closedHandles(), made);
   leave(sized, { frame, {}, userPoints }, options, false, made);
-  carryToInput(thinned, userPoints, framed.points, given, made, result);
+  carryToInput(thinned, userPoints, framed, given, made, result);
   if (given.edgeLength && !options.quads)
   {
     made.targetEdgeLength = *given.edgeLength;

@@ -11,6 +11,7 @@
 #include "Mesh/Repair.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Pipeline/Estimate.h"
+#include "Pipeline/PlaceOnSource.h"
 #include "Pipeline/SurfacePiece.h"
 
 #include <Eigen/Geometry>
@@ -385,7 +386,7 @@ public:
     result_.joinedTriangles = joined.surface.polygonOffsets.size() - 1;
     laps.lap("join", result_.joinedTriangles, joined.surface.points.size());
     remeshJoined(joined);
-    tellClosedHandles();
+    tellHandlesOfParts();
     laps.add(recordsOf(result_.remeshed));
     if (result_.remeshed.status.ok())
     {
@@ -607,7 +608,7 @@ private:
   }
 
   /// Those that were cut before the pieces were thinned.
-  void tellClosedHandles()
+  void tellHandlesOfParts()
   {
     std::vector<SmallDetail> closed;
     for (const Part& part : parts_)
@@ -615,60 +616,7 @@ private:
       const std::vector<SmallDetail>& here = part.piece->closedHandles();
       closed.insert(closed.end(), here.begin(), here.end());
     }
-    if (!closed.empty())
-    {
-      result_.remeshed.notices.insert(result_.remeshed.notices.begin(), detailsNotice(closed));
-      result_.remeshed.details.insert(
-        result_.remeshed.details.begin(), closed.begin(), closed.end());
-    }
-  }
-
-  /// The place of a point of the joined surface, and its piece; none where it does not lie on one of its triangles.
-  struct OnPiece
-  {
-    std::size_t piece = 0;
-    PiecePlace place;
-  };
-  std::optional<OnPiece> onPiece(const JoinedPieces& joined, Index face,
-    const std::array<double, 3>& weights, const Vector3* point) const
-  {
-    const SourceLocation at = result_.remeshed.surface.locate(face, weights);
-    const SurfaceInput& surface = joined.surface;
-    if (at.polygon >= surface.polygonOffsets.size() - 1)
-    {
-      return std::nullopt;
-    }
-    const Index* const corners = &surface.polygonPoints[3 * std::size_t{ at.polygon }];
-    OnPiece found;
-    const auto& first = joined.firstTriangle;
-    found.piece = static_cast<std::size_t>(
-      std::upper_bound(first.begin(), first.end(), at.polygon) - first.begin() - 1);
-    found.place.triangle = at.polygon - first[found.piece];
-    Vector3 place = Vector3::Zero();
-    double sum = 0, size = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const auto corner = std::find(at.points.begin(), at.points.end(), corners[k]);
-      if (corner == at.points.end())
-      {
-        return std::nullopt;
-      }
-      double& weight = found.place.weights[k];
-      weight = std::max(0.0, at.weights[static_cast<std::size_t>(corner - at.points.begin())]);
-      sum += weight;
-      place += weight * surface.points[corners[k]];
-      size = std::max(size, (surface.points[corners[k]] - surface.points[corners[0]]).norm());
-    }
-    constexpr double kSamePlace = 1e-6; // of the triangle's size
-    if (!(sum > 0) || (point != nullptr && !((place / sum - *point).norm() <= kSamePlace * size)))
-    {
-      return std::nullopt;
-    }
-    for (double& weight : found.place.weights)
-    {
-      weight /= sum;
-    }
-    return found;
+    tellClosedHandles(closed, result_.remeshed);
   }
 
   void carry(const JoinedPieces& joined)
@@ -679,28 +627,31 @@ private:
     result_.quadSource.resize(quads.quads.size());
     std::vector<std::vector<PiecePlace>> places(parts_.size());
     std::vector<std::vector<std::size_t>> whose(parts_.size());
-    const auto add = [&](const std::optional<OnPiece>& on, std::size_t who)
+    const auto add = [&](const std::optional<FacePlace>& on, std::size_t who)
     {
       if (on)
       {
-        places[on->piece].push_back(on->place);
-        whose[on->piece].push_back(who);
+        const auto& first = joined.firstTriangle;
+        const auto piece = static_cast<std::size_t>(
+          std::upper_bound(first.begin(), first.end(), on->face) - first.begin() - 1);
+        places[piece].push_back({ on->face - first[piece], on->weights });
+        whose[piece].push_back(who);
       }
     };
+    const PreparedSurface& mapped = result_.remeshed.surface;
+    const SourceTriangles source{ joined.surface.polygonPoints, joined.surface.points };
     for (std::size_t v = 0; v < points; ++v)
     {
       pollNowAndThen(v);
-      add(onPiece(joined, quads.sourceFace[v], quads.sourceWeights[v], &quads.points[v]), v);
+      add(placeOnSource(
+            mapped, quads.sourceFace[v], quads.sourceWeights[v], source, &quads.points[v]),
+        v);
     }
     for (std::size_t q = 0; q < quads.quads.size(); ++q)
     {
       pollNowAndThen(q);
-      std::array<double, 3> weights = quads.quadSourceWeights[q];
-      if (!(weights[0] + weights[1] + weights[2] > 0))
-      {
-        weights = { 1.0 / 3, 1.0 / 3, 1.0 / 3 };
-      }
-      add(onPiece(joined, quads.quadSourceFace[q], weights, nullptr), points + q);
+      add(middleOnSource(mapped, quads.quadSourceFace[q], quads.quadSourceWeights[q], source),
+        points + q);
     }
     report(options_.progress, 0.9, "Carrying points to the surface");
     parallelFor(parts_.size(), 1, options_.threads,
@@ -777,6 +728,15 @@ bool hasFineTriangles(const TriangleSource& source, const RemeshOptions& options
 }
 
 } // namespace
+
+void tellClosedHandles(const std::vector<SmallDetail>& closed, RemeshResult& result)
+{
+  if (!closed.empty())
+  {
+    result.notices.insert(result.notices.begin(), detailsNotice(closed));
+    result.details.insert(result.details.begin(), closed.begin(), closed.end());
+  }
+}
 
 bool isWorthPieces(const TriangleSource& source, const RemeshOptions& options)
 {

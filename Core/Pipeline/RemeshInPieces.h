@@ -64,6 +64,9 @@ struct PiecesResult
   std::size_t joinedTriangles = 0;
 };
 
+/// Tells of handles that were cut before the surface was thinned out: they come first.
+void tellClosedHandles(const std::vector<SmallDetail>& closed, RemeshResult& result);
+
 /// Whether it saves time and memory to cut this surface for these quads.
 bool isWorthPieces(const TriangleSource& source, const RemeshOptions& options);
 

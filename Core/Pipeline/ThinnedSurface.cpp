@@ -4,95 +4,35 @@
 
 #include "Base/Progress.h"
 #include "Mesh/ContentHash.h"
+#include "Pipeline/PlaceOnSource.h"
 #include "Transfer/CarriedPlaces.h"
 
-#include <algorithm>
 #include <optional>
 #include <utility>
 
 namespace quadrille
 {
-namespace
+ThinnedSurface::ThinnedSurface(PreparedSurface fine, const PieceOptions& options)
+  : fine_(std::move(fine)), handles_(options.closedLoop, options.quadEdge)
 {
-
-/// By how much a point may be off the place that its source names, over the size of the triangle.
-constexpr double kSamePlace = 1e-6;
-
-/// What carries places of the mapped surface to triangles of the thinned one.
-class OnThinned
-{
-public:
-  OnThinned(const Mesh& thinned, const PreparedSurface& mapped, const std::vector<Vector3>& points)
-    : thinned_(thinned), mapped_(mapped), points_(points)
+  Hierarchy made = decimate(options);
+  if (handles_.close(fine_, made.intermediate, {}, options.threads))
   {
+    made = decimate(options);
   }
-
-  /// None where the place is on no triangle, or where `point` lies elsewhere.
-  std::optional<FacePlace> find(
-    Index face, const std::array<double, 3>& weights, const Vector3* point) const
-  {
-    const SourceLocation at = mapped_.locate(face, weights);
-    if (at.polygon >= thinned_.faceCount())
-    {
-      return std::nullopt;
-    }
-    const Index* const corners = &thinned_.origin[3 * std::size_t{ at.polygon }];
-    FacePlace found;
-    found.face = at.polygon;
-    Vector3 place = Vector3::Zero();
-    double sum = 0, size = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const auto corner = std::find(at.points.begin(), at.points.end(), corners[k]);
-      if (corner == at.points.end())
-      {
-        return std::nullopt;
-      }
-      double& weight = found.weights[k];
-      weight = std::max(0.0, at.weights[static_cast<std::size_t>(corner - at.points.begin())]);
-      sum += weight;
-      place += weight * points_[corners[k]];
-      size = std::max(size, (points_[corners[k]] - points_[corners[0]]).norm());
-    }
-    if (!(sum > 0) || (point != nullptr && !((place / sum - *point).norm() <= kSamePlace * size)))
-    {
-      return std::nullopt;
-    }
-    for (double& weight : found.weights)
-    {
-      weight /= sum;
-    }
-    return found;
-  }
-
-private:
-  const Mesh& thinned_;
-  const PreparedSurface& mapped_;
-  const std::vector<Vector3>& points_;
-};
-
-/// Of a quad that is no unit square of the map its face is all that is known.
-std::array<double, 3> centreWeights(const std::array<double, 3>& weights)
-{
-  return weights[0] + weights[1] + weights[2] > 0 ? weights
-                                                  : std::array{ 1.0 / 3, 1.0 / 3, 1.0 / 3 };
-}
-
-} // namespace
-
-ThinnedSurface::ThinnedSurface(
-  PreparedSurface fine, double edgeLength, int threads, const ProgressCallback& progress)
-  : fine_(std::move(fine))
-{
-  HierarchyOptions options;
-  options.targetEdgeLength = 2 * edgeLength; // phase 1 ends at a half of it
-  options.isRough = true;
-  options.isConnected = fine_.components == 1;
-  options.threads = threads;
-  options.progress = progress;
-  Hierarchy made = Redecimation(fine_.mesh, fine_.hash, options).take();
   level_ = std::move(made.intermediate);
   log_ = std::move(made.log);
+}
+
+Hierarchy ThinnedSurface::decimate(const PieceOptions& piece) const
+{
+  HierarchyOptions options;
+  options.targetEdgeLength = 2 * piece.edgeLength; // phase 1 ends at a half of it
+  options.isRough = true;
+  options.isConnected = fine_.components == 1;
+  options.threads = piece.threads;
+  options.progress = piece.progress;
+  return Redecimation(fine_.mesh, fine_.hash, options).take();
 }
 
 PreparedSurface ThinnedSurface::surface(int threads) const
@@ -137,36 +77,48 @@ std::vector<Vector3> ThinnedSurface::userPoints(
 ThinnedSurface::Places ThinnedSurface::carry(const QuadMesh& quads, const PreparedSurface& mapped,
   const std::vector<Vector3>& userPoints, int threads, const ProgressCallback& progress)
 {
-  const OnThinned onThinned(level_.mesh, mapped, userPoints);
+  const SourceTriangles source{ level_.mesh.origin, userPoints };
   Places made;
   made.ofPoints.resize(quads.points.size());
   made.ofQuads.resize(quads.quads.size());
   std::vector<FacePlace> places;
-  std::vector<SourceLocation*> whose;
-  const auto add = [&](const std::optional<FacePlace>& place, SourceLocation& who)
+  std::vector<std::size_t> whose; // points, then quads
+  const auto add = [&](const std::optional<FacePlace>& place, std::size_t who)
   {
     if (place)
     {
       places.push_back(*place);
-      whose.push_back(&who);
+      whose.push_back(who);
     }
   };
-  for (std::size_t p = 0; p < quads.points.size(); ++p)
+  const std::size_t points = quads.points.size();
+  for (std::size_t p = 0; p < points; ++p)
   {
-    add(onThinned.find(quads.sourceFace[p], quads.sourceWeights[p], &quads.points[p]),
-      made.ofPoints[p]);
+    add(
+      placeOnSource(mapped, quads.sourceFace[p], quads.sourceWeights[p], source, &quads.points[p]),
+      p);
   }
   for (std::size_t q = 0; q < quads.quads.size(); ++q)
   {
-    add(onThinned.find(quads.quadSourceFace[q], centreWeights(quads.quadSourceWeights[q]), nullptr),
-      made.ofQuads[q]);
+    add(middleOnSource(mapped, quads.quadSourceFace[q], quads.quadSourceWeights[q], source),
+      points + q);
   }
   const std::vector<FacePlace> onFine =
     carryPlaces(fine_.mesh, level_, log_, places, threads, progress);
   log_ = {};
   for (std::size_t i = 0; i < onFine.size(); ++i)
   {
-    *whose[i] = fine_.locate(onFine[i].face, onFine[i].weights);
+    const SourceLocation at = fine_.locate(onFine[i].face, onFine[i].weights);
+    if (whose[i] >= points)
+    {
+      made.ofQuads[whose[i] - points] = at;
+      continue;
+    }
+    made.ofPoints[whose[i]] = at;
+    if (const auto off = handles_.offInput(onFine[i]))
+    {
+      made.offInput.emplace_back(whose[i], *off);
+    }
   }
   return made;
 }

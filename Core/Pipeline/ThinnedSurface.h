@@ -10,7 +10,10 @@
 #include "Hierarchy/Hierarchy.h"
 #include "Mesh/Frame.h"
 #include "Mesh/Surface.h"
+#include "Pipeline/HandlesOfPiece.h"
+#include "Pipeline/SurfacePiece.h"
 
+#include <utility>
 #include <vector>
 
 namespace quadrille
@@ -19,14 +22,16 @@ namespace quadrille
 class ThinnedSurface
 {
 public:
-  /// Decimates until the edges exceed the edge length. fine: without guides, valences and curves.
-  ThinnedSurface(
-    PreparedSurface fine, double edgeLength, int threads, const ProgressCallback& progress);
+  /// Decimates until the edges exceed the edge length, without handles that are too short. fine: without guides,
+  /// valences and curves. options: the lengths are those of `fine`.
+  ThinnedSurface(PreparedSurface fine, const PieceOptions& options);
 
   /// The thinned surface as one by itself: its polygons are its own triangles, its input's points its own vertices. It
   /// has what was found on the surface: area, diagonal, components, features, sizes, what repair did.
   PreparedSurface surface(int threads) const;
   std::size_t faceCount() const { return level_.fineFace.size(); }
+  /// The handles that were cut and closed; places of `fine`.
+  const std::vector<SmallDetail>& closedHandles() const { return handles_.closed(); }
 
   /// The user's positions of its vertices. points: of the user's input, see FramedInput.
   std::vector<Vector3> userPoints(const Frame& frame, const std::vector<Vector3>& points) const;
@@ -34,6 +39,8 @@ public:
   struct Places
   {
     std::vector<SourceLocation> ofPoints, ofQuads;
+    /// Points whose source is beside them, as a handle was closed there, ascending, with their places on `fine`.
+    std::vector<std::pair<std::size_t, Vector3>> offInput;
   };
 
   /// Where points and centres of quads lie on the input. quads: of `mapped`, which was made of surface(); both with
@@ -43,7 +50,10 @@ public:
     const std::vector<Vector3>& userPoints, int threads, const ProgressCallback& progress);
 
 private:
+  Hierarchy decimate(const PieceOptions& options) const;
+
   PreparedSurface fine_;
+  HandlesOfPiece handles_;
   Level level_;
   DecimationLog log_;
 };

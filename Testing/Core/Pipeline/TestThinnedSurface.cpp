@@ -5,6 +5,7 @@
 #include "Base/Error.h"
 #include "MeshInput.h"
 #include "Pipeline/RemeshInPieces.h"
+#include "TestHandleMeshes.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -100,6 +101,29 @@ TEST(ThinnedSurface, AShiftedMirrorImageHasTheSameQuads)
     EXPECT_LT((Vector3(64 - p.x(), p.y(), p.z()) - made.remeshed.quads.points[v]).norm(), 1e-9);
   }
   expectOnSources(mirrored, image);
+}
+
+TEST(ThinnedSurface, HandlesBelowAQuadAreCutFirst)
+{
+  const Vector3 place = Vector3(1, 0.2, 0.3).normalized();
+  SurfaceInput input = toInput(sphereWithHandle(5, place).mesh);
+  for (Vector3& p : input.points)
+  {
+    p = 3 * p + Vector3(10, 20, 30);
+  }
+  const PiecesResult made = remeshThinned(input, askThinnedFor(80));
+  const RemeshResult& remeshed = made.remeshed;
+  ASSERT_TRUE(remeshed.status.ok()) << remeshed.status.message;
+  EXPECT_EQ(remeshed.quads.points.size(), remeshed.quads.quads.size() + 2); // a sphere
+  ASSERT_EQ(remeshed.details.size(), 1U);
+  EXPECT_EQ(remeshed.details.front().decision, DetailDecision::Simplify);
+  EXPECT_LT((remeshed.details.front().place - Vector3(10, 20, 30) - 3 * place).norm(), 0.6);
+  ASSERT_FALSE(remeshed.notices.empty());
+  EXPECT_NE(remeshed.notices.front().find("1 handle was cut and closed"), std::string::npos);
+  for (const Vector3& p : remeshed.quads.points)
+  {
+    EXPECT_NEAR((p - Vector3(10, 20, 30)).norm(), 3, 0.03);
+  }
 }
 
 TEST(ThinnedSurface, EdgesOfACubeStaySharp)
