@@ -493,10 +493,11 @@ public:
    * prepared and thinned out by itself, to triangles that are small against the quads, one piece a thread; the quads
    * are made on the thinned pieces together, and their points go back to the surface. That takes about a third of the
    * memory and less time, and holds nothing of the surface for the next execution. Automatic: from 4,000,000 triangles
-   * on, where a quad has at least 66 of them, and with KeepLevels from 10,000,000 on; where properties or inputs need
-   * the whole surface (constraints, symmetry, previews, the mapped surface, CellDataFrom by area, FinalQuality on the
-   * input, the method without quads, polygons with more than three corners), it stays whole. Always: also where it is
-   * smaller; what needs the whole surface is an error. Never: the surface stays whole. Default: Automatic.
+   * on, where a quad has at least 66 of them, and with KeepLevels from 10,000,000 on; without KeepLevels a surface of
+   * 1,000,000 triangles or more is thinned out without being cut; where properties or inputs need the whole surface
+   * (constraints, symmetry, previews, the mapped surface, CellDataFrom by area, FinalQuality on the input, the method
+   * without quads, polygons with more than three corners), it stays whole. Always: also where it is smaller; what needs
+   * the whole surface is an error. Never: the surface stays whole. Default: Automatic.
    */
   vtkSetClampMacro(Pieces, int, PIECES_AUTOMATIC, PIECES_NEVER);
   vtkGetMacro(Pieces, int);

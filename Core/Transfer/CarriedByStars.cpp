@@ -400,7 +400,7 @@ private:
   std::vector<FlatTriangle> triangles_;
 };
 
-void check(const Mesh& fine, const Level& level, const DecimationLog& log,
+void checkCarried(const Mesh& fine, const Level& level, const DecimationLog& log,
   const std::vector<FacePlace>& places)
 {
   if (fine.faceCount() != log.fineFaces ||
@@ -426,7 +426,7 @@ void check(const Mesh& fine, const Level& level, const DecimationLog& log,
 std::vector<FacePlace> carryPlaces(Mesh& fine, const Level& level, const DecimationLog& log,
   const std::vector<FacePlace>& places, int threads, const ProgressCallback& progress)
 {
-  check(fine, level, log, places);
+  checkCarried(fine, level, log, places);
   PlacesByFace state{ fine.origin, std::unique_ptr<Index[]>(new Index[log.fineFaces]), {} };
   for (Index f = 0; f < level.mesh.faceCount(); ++f)
   {
