@@ -226,6 +226,18 @@ std::string sheetsText(const quadrille::MetSheets& met)
   return text.str();
 }
 
+std::string touchingText(const quadrille::JointSheets& sheets)
+{
+  std::ostringstream text;
+  text
+    << "sheets that go on beyond touch at " << sheets.touching << " edges, one of them near "
+    << quadrille::placeText(sheets.touchingPlace)
+    << ", as solids do that have a curve in common and no face: there is no result with the same "
+       "points in all of them there, so they are not made to meet at these edges; ask for more "
+       "quads, or cut the blocks in two there";
+  return text.str();
+}
+
 /// Of the joint surface, with a factor a part; the smaller one counts where parts meet. asked: those of the points
 /// without it, or empty.
 std::vector<float> sizesOf(const quadrille::JoinedParts& joined, const std::vector<float>& asked,
@@ -716,8 +728,6 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
   this->AddNotice(togetherText(blocks, contacts));
   // Faces that several blocks share are made once, but are quads of each.
   double oncePerFace = 1;
-  std::optional<quadrille::JointSheets> sheets;
-  const std::vector<quadrille::Vector3> jointPoints = joined.input.points;
   if (hasSheets)
   {
     oncePerFace = areaOfPolygons(quadrille::cutIntoSheets(joined.input, std::nullopt).input) /
@@ -731,21 +741,25 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
     {
       options.edgeLength = this->RelativeEdgeLength * quadrille::diagonalOf(joined.input);
     }
-    sheets.emplace();
   }
-  quadrille::RemeshResult result = this->RunJoined(*blocks.front(), joined, options, sizes, sheets);
-  this->TellRun(*blocks.front(), result);
+  quadrille::RemeshResult result;
   std::vector<quadrille::PartResult> results;
-  if (sheets)
+  if (hasSheets)
   {
-    const quadrille::MetSheets met = quadrille::meetAtJoints(
-      result, *sheets, jointPoints, this->SmoothingSteps, this->NumberOfThreads);
+    quadrille::JointSheets sheets;
+    quadrille::MetSheets met;
+    result = this->RunSheets(*blocks.front(), joined, options, sizes, sheets, met);
+    this->TellRun(*blocks.front(), result);
     quadrille::requireOk(met.status, "conforming blocks");
     this->AddNotice(sheetsText(met));
-    results = quadrille::splitSheets(result, joined, *sheets, met);
+    results = quadrille::splitSheets(result, joined, sheets, met);
   }
   else
   {
+    std::optional<quadrille::JointSheets> none;
+    result = this->RunJoined(
+      *blocks.front(), joined, options, sizes, none, quadrille::TouchingSheets::Joined);
+    this->TellRun(*blocks.front(), result);
     results = quadrille::splitParts(result, joined);
   }
   for (std::size_t i = 0; i < blocks.size(); ++i)
@@ -757,8 +771,10 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
     asked[i].curves = own.curves;
     if (own.quads.quads.empty() && this->Method != METHOD_SEAMLESS)
     {
-      throw quadrille::InvalidInput("no quads are left for the block '" + block.name +
-        "', which is smaller than one: ask for more quads, or take it out");
+      this->SayOf(block);
+      this->AddNotice(
+        "no quads are left for this block, which is narrower than one: its place went "
+        "to quads of the blocks beside it; ask for more quads, or take it out");
     }
     this->WriteQuads(block, { converted[i], asked[i], own, nullptr, nullptr });
     quadrille::reverseQuads(block.output(0), results[i].reversed);
@@ -844,7 +860,8 @@ void vtkQuadRemesh::CheckSheets(const std::vector<quadrille::SurfaceInput>& part
 //------------------------------------------------------------------------------
 quadrille::RemeshResult vtkQuadRemesh::RunJoined(quadrille::Block& first,
   quadrille::JoinedParts& joined, const quadrille::RemeshOptions& options,
-  const std::vector<double>& sizes, std::optional<quadrille::JointSheets>& sheets)
+  const std::vector<double>& sizes, std::optional<quadrille::JointSheets>& sheets,
+  quadrille::TouchingSheets touching)
 {
   quadrille::ResultStore* levels =
     this->KeepLevels ? &first.state->memoryAs<LevelMemory>().levels : nullptr;
@@ -854,7 +871,7 @@ quadrille::RemeshResult vtkQuadRemesh::RunJoined(quadrille::Block& first,
     {
       return this->RunPipeline(joined.input, options, levels).remeshed;
     }
-    sheets = quadrille::cutIntoSheets(joined.input, options.featureAngle);
+    sheets = quadrille::cutIntoSheets(joined.input, options.featureAngle, touching);
     const quadrille::PlaceFold fold(
       [&sheets](const quadrille::Vector3& place) { return sheets->movedBack(place); });
     return this->RunPipeline(std::move(sheets->input), options, levels).remeshed;
@@ -879,6 +896,7 @@ quadrille::RemeshResult vtkQuadRemesh::RunJoined(quadrille::Block& first,
     joined.input.sizing = share > 0 ? sizesOf(joined, asked, factors) : asked;
     const bool isLast = share == 0;
     quadrille::RemeshResult result = run();
+    joined.input.sizing = asked;
     if (isLast || result.status.ok() || result.status.code == quadrille::StatusCode::Cancelled ||
       result.status.code == quadrille::StatusCode::TooLarge)
     {
@@ -894,6 +912,50 @@ quadrille::RemeshResult vtkQuadRemesh::RunJoined(quadrille::Block& first,
     }
   }
   throw std::logic_error("no run was the last one");
+}
+
+//------------------------------------------------------------------------------
+quadrille::RemeshResult vtkQuadRemesh::RunSheets(quadrille::Block& first,
+  quadrille::JoinedParts& joined, const quadrille::RemeshOptions& options,
+  const std::vector<double>& sizes, quadrille::JointSheets& sheets, quadrille::MetSheets& met)
+{
+  const std::vector<quadrille::Vector3> jointPoints = joined.input.points;
+  quadrille::RemeshResult result;
+  for (const auto touching : { quadrille::TouchingSheets::Joined, quadrille::TouchingSheets::Left })
+  {
+    std::optional<quadrille::JointSheets> cut;
+    cut.emplace();
+    quadrille::RemeshResult made = this->RunJoined(first, joined, options, sizes, cut, touching);
+    const bool hasQuads = made.status.ok();
+    const bool isStopped = made.status.code == quadrille::StatusCode::Cancelled ||
+      made.status.code == quadrille::StatusCode::TooLarge;
+    quadrille::MetSheets meeting;
+    if (hasQuads)
+    {
+      meeting = quadrille::meetAtJoints(
+        made, *cut, jointPoints, this->SmoothingSteps, this->NumberOfThreads);
+    }
+    const bool isFirst = touching == quadrille::TouchingSheets::Joined;
+    const bool isGood = hasQuads && meeting.status.ok();
+    if (isFirst || isGood)
+    {
+      sheets = std::move(*cut);
+      met = std::move(meeting);
+      result = std::move(made);
+    }
+    if (isGood && sheets.touching > 0)
+    {
+      this->AddNotice(touchingText(sheets));
+    }
+    if (isGood || isStopped ||
+      (isFirst &&
+        quadrille::cutIntoSheets(joined.input, std::nullopt, quadrille::TouchingSheets::Left)
+            .touching == 0))
+    {
+      break;
+    }
+  }
+  return result;
 }
 
 //------------------------------------------------------------------------------

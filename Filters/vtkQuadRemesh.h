@@ -72,6 +72,7 @@
 
 #include "vtkQuadrilleSurfaceAlgorithm.h"
 
+#include <cstdint>  // for std::uint8_t
 #include <memory>   // for std::unique_ptr
 #include <optional> // for std::optional
 
@@ -83,9 +84,11 @@ class ResultStore;
 class TriangleSource;
 struct JoinedParts;
 struct JointSheets;
+struct MetSheets;
 struct PartContacts;
 struct SurfaceInput;
 struct SymmetricResult;
+enum class TouchingSheets : std::uint8_t;
 }
 
 class QUADRILLEFILTERS_EXPORT vtkQuadRemesh : public vtkQuadrilleSurfaceAlgorithm
@@ -621,7 +624,11 @@ private:
   /// sheets: where there is a value, the run is one of sheets, which it becomes.
   quadrille::RemeshResult RunJoined(quadrille::Block& first, quadrille::JoinedParts& joined,
     const quadrille::RemeshOptions& options, const std::vector<double>& sizes,
-    std::optional<quadrille::JointSheets>& sheets);
+    std::optional<quadrille::JointSheets>& sheets, quadrille::TouchingSheets touching);
+  /// A run of sheets, which then meet: they are joints also where sheets only touch, unless that has no quads.
+  quadrille::RemeshResult RunSheets(quadrille::Block& first, quadrille::JoinedParts& joined,
+    const quadrille::RemeshOptions& options, const std::vector<double>& sizes,
+    quadrille::JointSheets& sheets, quadrille::MetSheets& met);
 
   vtkPolyData* GetPolyDataOutputAt(int port);
   void SetSizes(quadrille::RemeshOptions& options) const;

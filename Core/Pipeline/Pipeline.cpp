@@ -131,7 +131,7 @@ private:
           std::to_string(history_.bound().attempts) + ", " + plan->step +
           (plan->why.empty() ? "" : " (" + plan->why + ")");
       }
-      if (plan->step == std::string(kNoFeatures))
+      if (plan->step == std::string(kNoFeatures) || plan->step == std::string(kNoBorders))
       {
         history_.beginLastResort();
       }
@@ -291,6 +291,7 @@ void tellAttempt(const Attempt& attempt, const QuadSize& size, RemeshResult& res
   const std::string holes = tinyHolesText(result.smallParts, size);
   tell({ handles, holes }, result);
   tell(attempt.plan.notices, result);
+  tell({ attempt.plan.borderNotice }, result);
   tell(attempt.map->notices, result);
   if (attempt.quads)
   {
@@ -388,6 +389,7 @@ void attemptAll(Settled& settled, SizedSurface& sized, const RemeshOptions& opti
     // triangles.
     RunContext& run = settled.bench->run;
     begin = withoutFeatures(run, firstPlan(run));
+    begin = begin ? std::move(begin) : withFewerBorders(run, firstPlan(run), {});
   }
   if (!settled.status.ok() || (!isOther && !begin))
   {
