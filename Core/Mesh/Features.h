@@ -22,8 +22,8 @@ FacetReport markCreases(Mesh& mesh, double angle, int threads, double precision 
 std::vector<Vector3> normalsBeside(
   const Mesh& mesh, const std::vector<Index>& halfEdges, int threads, double precision = 0);
 
-/// Flags, on both half-edges, the edges between faces whose source polygons have different patch ids. yields: those that
-/// nothing else has asked for may be given up (kYieldingFeature).
+/// Flags, on both half-edges, the edges between faces whose source polygons have different patch ids. yields: those
+/// that nothing else has asked for may be given up (kYieldingFeature).
 void markFeaturesByPatch(
   PreparedSurface& surface, const std::vector<std::int64_t>& patchIds, bool yields = false);
 

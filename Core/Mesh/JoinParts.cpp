@@ -38,9 +38,9 @@ struct PartEdge
   Index part = 0;
 };
 
-/// Places at which several parts have a point. Points at exactly the same place go first: where a part has points nearer
-/// to each other than the tolerance, such as the corners of a sliver, only these tell which is which. Others go to the
-/// nearest place.
+/// Places at which several parts have a point. Points at exactly the same place go first: where a part has points
+/// nearer to each other than the tolerance, such as the corners of a sliver, only these tell which is which. Others go
+/// to the nearest place.
 class CommonPlaces
 {
 public:

@@ -73,7 +73,8 @@ bool isMatterOfFeatures(const RunContext& run, const Attempt& attempt)
   const std::vector<Vector3>& places = attempt.map->coarseTroubles;
   return leavesNoArea(*attempt.map) &&
     (!featuresNear(run, attempt.plan, places).empty() ||
-      !yieldingFeaturesNear(run.surface->mesh, places, run.edgeLength).empty());
+      (attempt.plan.borderDrops > 0 &&
+        !yieldingFeaturesNear(run.surface->mesh, places, run.edgeLength).empty()));
 }
 
 } // namespace

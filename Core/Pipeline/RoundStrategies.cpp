@@ -376,7 +376,7 @@ std::optional<Plan> fewerFeatures(const Trouble& trouble)
 
 std::optional<Plan> fewerBorders(const Trouble& trouble)
 {
-  return trouble.failed && !isTooLarge(trouble.attempt)
+  return trouble.failed && !isTooLarge(trouble.attempt) && trouble.attempt.plan.borderDrops > 0
     ? withFewerBorders(trouble.run, trouble.attempt.plan, trouble.places)
     : std::nullopt;
 }
@@ -446,7 +446,7 @@ std::optional<Plan> noBorders(const Trouble& trouble)
   RunContext& run = trouble.run;
   const Plan& before = trouble.attempt.plan;
   const std::vector<Index> all = allOf(run.surface->mesh, isYieldingFeature);
-  if (all.empty() || isTooLarge(trouble.attempt))
+  if (all.empty() || isTooLarge(trouble.attempt) || before.borderDrops == 0)
   {
     return std::nullopt;
   }
