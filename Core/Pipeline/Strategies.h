@@ -62,10 +62,11 @@ std::optional<Plan> fewerFeatures(const Trouble& trouble);
 /// After a failure, features that were asked for but yield (kYieldingFeature), borders of patches, change: first those
 /// whose junctions are too near to each other are led together, then those are given up that quads of this size cannot
 /// resolve, by the rules for detected ones, then those near the places of the failure, then those that larger quads
-/// could not resolve. Bound: times in all.
+/// could not resolve. Only after a plan of withFewerBorders, with which attempts begin again where none has had quads
+/// with all borders. Bound: times in all.
 constexpr const char* kFewerBorders = "fewer borders";
 std::optional<Plan> fewerBorders(const Trouble& trouble);
-/// The same of a plan, where there are such features.
+/// The next of these steps of a plan; none where nothing yields. places: of the failure.
 std::optional<Plan> withFewerBorders(
   RunContext& run, const Plan& before, const std::vector<Vector3>& places);
 
