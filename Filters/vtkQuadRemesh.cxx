@@ -33,6 +33,7 @@
 #include "vtkTable.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -207,6 +208,27 @@ double areaOfPolygons(const quadrille::SurfaceInput& input)
     }
   }
   return area;
+}
+
+/// Blocks that are narrower than a quad, where no quads follow their borders.
+std::string withoutQuadsText(
+  const std::vector<quadrille::Block*>& blocks, const std::vector<std::size_t>& withoutQuads)
+{
+  const auto largest = *std::max_element(withoutQuads.begin(), withoutQuads.end(),
+    [&blocks](std::size_t a, std::size_t b)
+    { return quadrille::areaOf(blocks[a]->input()) < quadrille::areaOf(blocks[b]->input()); });
+  std::array<double, 6> box{};
+  blocks[largest]->input()->GetBounds(box.data());
+  const quadrille::Vector3 middle(
+    0.5 * (box[0] + box[1]), 0.5 * (box[2] + box[3]), 0.5 * (box[4] + box[5]));
+  std::ostringstream text;
+  text << withoutQuads.size() << " of " << blocks.size() << " blocks "
+       << (withoutQuads.size() == 1 ? "is" : "are")
+       << " too small or too narrow for a quad and have none, the largest of them '"
+       << blocks[largest]->name << "' near " << quadrille::placeText(middle)
+       << ": their place went to quads of blocks beside; ask for more quads, or join these blocks "
+          "with others";
+  return text.str();
 }
 
 std::string sheetsText(const quadrille::MetSheets& met)
@@ -762,6 +784,7 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
     this->TellRun(*blocks.front(), result);
     results = quadrille::splitParts(result, joined);
   }
+  std::vector<std::size_t> withoutQuads;
   for (std::size_t i = 0; i < blocks.size(); ++i)
   {
     quadrille::Block& block = *blocks[i];
@@ -771,10 +794,7 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
     asked[i].curves = own.curves;
     if (own.quads.quads.empty() && this->Method != METHOD_SEAMLESS)
     {
-      this->SayOf(block);
-      this->AddNotice(
-        "no quads are left for this block, which is narrower than one: its place went "
-        "to quads of the blocks beside it; ask for more quads, or take it out");
+      withoutQuads.push_back(i);
     }
     this->WriteQuads(block, { converted[i], asked[i], own, nullptr, nullptr });
     quadrille::reverseQuads(block.output(0), results[i].reversed);
@@ -792,6 +812,11 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
       writeMapped(own, options,
         { block.input(), &converted[i], this->TextureCoordinates != 0, nullptr }, block.output(1));
     }
+  }
+  if (!withoutQuads.empty())
+  {
+    this->SayOf(*blocks.front());
+    this->AddNotice(withoutQuadsText(blocks, withoutQuads));
   }
 }
 

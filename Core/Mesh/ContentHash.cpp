@@ -88,8 +88,8 @@ std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& inpu
 {
   // By name, so that an array that is new has to be put on one side or the other here.
   const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, patchesYield,
-    detectedFeatures, guideDirections, guideWeights, targetValences, sizing, curves, regularElsewhere, held,
-    regularOnFeatures, seams, straight, faceOrder, precision] = input;
+    detectedFeatures, guideDirections, guideWeights, targetValences, sizing, curves,
+    regularElsewhere, held, regularOnFeatures, seams, straight, faceOrder, precision] = input;
   static_cast<void>(points);
   static_cast<void>(polygonOffsets);
   static_cast<void>(polygonPoints);
