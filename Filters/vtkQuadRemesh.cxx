@@ -33,6 +33,7 @@
 #include "vtkTable.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -209,6 +210,27 @@ double areaOfPolygons(const quadrille::SurfaceInput& input)
   return area;
 }
 
+/// Blocks that are narrower than a quad, where no quads follow their borders.
+std::string withoutQuadsText(
+  const std::vector<quadrille::Block*>& blocks, const std::vector<std::size_t>& withoutQuads)
+{
+  const auto largest = *std::max_element(withoutQuads.begin(), withoutQuads.end(),
+    [&blocks](std::size_t a, std::size_t b)
+    { return quadrille::areaOf(blocks[a]->input()) < quadrille::areaOf(blocks[b]->input()); });
+  std::array<double, 6> box{};
+  blocks[largest]->input()->GetBounds(box.data());
+  const quadrille::Vector3 middle(
+    0.5 * (box[0] + box[1]), 0.5 * (box[2] + box[3]), 0.5 * (box[4] + box[5]));
+  std::ostringstream text;
+  text << withoutQuads.size() << " of " << blocks.size() << " blocks "
+       << (withoutQuads.size() == 1 ? "is" : "are")
+       << " too small or too narrow for a quad and have none, the largest of them '"
+       << blocks[largest]->name << "' near " << quadrille::placeText(middle)
+       << ": their place went to quads of blocks beside; ask for more quads, or join these blocks "
+          "with others";
+  return text.str();
+}
+
 std::string sheetsText(const quadrille::MetSheets& met)
 {
   std::ostringstream text;
@@ -223,6 +245,18 @@ std::string sheetsText(const quadrille::MetSheets& met)
   {
     text << "; " << met.inverted << " quads are inverted: more quads often help";
   }
+  return text.str();
+}
+
+std::string touchingText(const quadrille::JointSheets& sheets)
+{
+  std::ostringstream text;
+  text
+    << "sheets that go on beyond touch at " << sheets.touching << " edges, one of them near "
+    << quadrille::placeText(sheets.touchingPlace)
+    << ", as solids do that have a curve in common and no face: there is no result with the same "
+       "points in all of them there, so they are not made to meet at these edges; ask for more "
+       "quads, or cut the blocks in two there";
   return text.str();
 }
 
@@ -720,8 +754,6 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
   this->AddNotice(togetherText(blocks, contacts));
   // Faces that several blocks share are made once, but are quads of each.
   double oncePerFace = 1;
-  std::optional<quadrille::JointSheets> sheets;
-  const std::vector<quadrille::Vector3> jointPoints = joined.input.points;
   if (hasSheets)
   {
     oncePerFace = areaOfPolygons(quadrille::cutIntoSheets(joined.input, std::nullopt).input) /
@@ -735,23 +767,28 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
     {
       options.edgeLength = this->RelativeEdgeLength * quadrille::diagonalOf(joined.input);
     }
-    sheets.emplace();
   }
-  quadrille::RemeshResult result = this->RunJoined(*blocks.front(), joined, options, sizes, sheets);
-  this->TellRun(*blocks.front(), result);
+  quadrille::RemeshResult result;
   std::vector<quadrille::PartResult> results;
-  if (sheets)
+  if (hasSheets)
   {
-    const quadrille::MetSheets met = quadrille::meetAtJoints(
-      result, *sheets, jointPoints, this->SmoothingSteps, this->NumberOfThreads);
+    quadrille::JointSheets sheets;
+    quadrille::MetSheets met;
+    result = this->RunSheets(*blocks.front(), joined, options, sizes, sheets, met);
+    this->TellRun(*blocks.front(), result);
     quadrille::requireOk(met.status, "conforming blocks");
     this->AddNotice(sheetsText(met));
-    results = quadrille::splitSheets(result, joined, *sheets, met);
+    results = quadrille::splitSheets(result, joined, sheets, met);
   }
   else
   {
+    std::optional<quadrille::JointSheets> none;
+    result = this->RunJoined(
+      *blocks.front(), joined, options, sizes, none, quadrille::TouchingSheets::Joined);
+    this->TellRun(*blocks.front(), result);
     results = quadrille::splitParts(result, joined);
   }
+  std::vector<std::size_t> withoutQuads;
   for (std::size_t i = 0; i < blocks.size(); ++i)
   {
     quadrille::Block& block = *blocks[i];
@@ -761,8 +798,7 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
     asked[i].curves = own.curves;
     if (own.quads.quads.empty() && this->Method != METHOD_SEAMLESS)
     {
-      throw quadrille::InvalidInput("no quads are left for the block '" + block.name +
-        "', which is smaller than one: ask for more quads, or take it out");
+      withoutQuads.push_back(i);
     }
     this->WriteQuads(block, { converted[i], asked[i], own, nullptr, nullptr });
     quadrille::reverseQuads(block.output(0), results[i].reversed);
@@ -780,6 +816,11 @@ void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks
       writeMapped(own, options,
         { block.input(), &converted[i], this->TextureCoordinates != 0, nullptr }, block.output(1));
     }
+  }
+  if (!withoutQuads.empty())
+  {
+    this->SayOf(*blocks.front());
+    this->AddNotice(withoutQuadsText(blocks, withoutQuads));
   }
 }
 
@@ -848,7 +889,8 @@ void vtkQuadRemesh::CheckSheets(const std::vector<quadrille::SurfaceInput>& part
 //------------------------------------------------------------------------------
 quadrille::RemeshResult vtkQuadRemesh::RunJoined(quadrille::Block& first,
   quadrille::JoinedParts& joined, const quadrille::RemeshOptions& options,
-  const std::vector<double>& sizes, std::optional<quadrille::JointSheets>& sheets)
+  const std::vector<double>& sizes, std::optional<quadrille::JointSheets>& sheets,
+  quadrille::TouchingSheets touching)
 {
   quadrille::ResultStore* levels =
     this->KeepLevels ? &first.state->memoryAs<LevelMemory>().levels : nullptr;
@@ -858,7 +900,7 @@ quadrille::RemeshResult vtkQuadRemesh::RunJoined(quadrille::Block& first,
     {
       return this->RunPipeline(joined.input, options, levels).remeshed;
     }
-    sheets = quadrille::cutIntoSheets(joined.input, options.featureAngle);
+    sheets = quadrille::cutIntoSheets(joined.input, options.featureAngle, touching);
     const quadrille::PlaceFold fold(
       [&sheets](const quadrille::Vector3& place) { return sheets->movedBack(place); });
     return this->RunPipeline(std::move(sheets->input), options, levels).remeshed;
@@ -883,6 +925,7 @@ quadrille::RemeshResult vtkQuadRemesh::RunJoined(quadrille::Block& first,
     joined.input.sizing = share > 0 ? sizesOf(joined, asked, factors) : asked;
     const bool isLast = share == 0;
     quadrille::RemeshResult result = run();
+    joined.input.sizing = asked;
     if (isLast || result.status.ok() || result.status.code == quadrille::StatusCode::Cancelled ||
       result.status.code == quadrille::StatusCode::TooLarge)
     {
@@ -898,6 +941,50 @@ quadrille::RemeshResult vtkQuadRemesh::RunJoined(quadrille::Block& first,
     }
   }
   throw std::logic_error("no run was the last one");
+}
+
+//------------------------------------------------------------------------------
+quadrille::RemeshResult vtkQuadRemesh::RunSheets(quadrille::Block& first,
+  quadrille::JoinedParts& joined, const quadrille::RemeshOptions& options,
+  const std::vector<double>& sizes, quadrille::JointSheets& sheets, quadrille::MetSheets& met)
+{
+  const std::vector<quadrille::Vector3> jointPoints = joined.input.points;
+  quadrille::RemeshResult result;
+  for (const auto touching : { quadrille::TouchingSheets::Joined, quadrille::TouchingSheets::Left })
+  {
+    std::optional<quadrille::JointSheets> cut;
+    cut.emplace();
+    quadrille::RemeshResult made = this->RunJoined(first, joined, options, sizes, cut, touching);
+    const bool hasQuads = made.status.ok();
+    const bool isStopped = made.status.code == quadrille::StatusCode::Cancelled ||
+      made.status.code == quadrille::StatusCode::TooLarge;
+    quadrille::MetSheets meeting;
+    if (hasQuads)
+    {
+      meeting = quadrille::meetAtJoints(
+        made, *cut, jointPoints, this->SmoothingSteps, this->NumberOfThreads);
+    }
+    const bool isFirst = touching == quadrille::TouchingSheets::Joined;
+    const bool isGood = hasQuads && meeting.status.ok();
+    if (isFirst || isGood)
+    {
+      sheets = std::move(*cut);
+      met = std::move(meeting);
+      result = std::move(made);
+    }
+    if (isGood && sheets.touching > 0)
+    {
+      this->AddNotice(touchingText(sheets));
+    }
+    if (isGood || isStopped ||
+      (isFirst &&
+        quadrille::cutIntoSheets(joined.input, std::nullopt, quadrille::TouchingSheets::Left)
+            .touching == 0))
+    {
+      break;
+    }
+  }
+  return result;
 }
 
 //------------------------------------------------------------------------------

@@ -72,6 +72,7 @@
 
 #include "vtkQuadrilleSurfaceAlgorithm.h"
 
+#include <cstdint>  // for std::uint8_t
 #include <memory>   // for std::unique_ptr
 #include <optional> // for std::optional
 
@@ -83,9 +84,11 @@ class ResultStore;
 class TriangleSource;
 struct JoinedParts;
 struct JointSheets;
+struct MetSheets;
 struct PartContacts;
 struct SurfaceInput;
 struct SymmetricResult;
+enum class TouchingSheets : std::uint8_t;
 }
 
 class QUADRILLEFILTERS_EXPORT vtkQuadRemesh : public vtkQuadrilleSurfaceAlgorithm
@@ -449,9 +452,11 @@ public:
    * orientation; what the run tells as a whole stands at the first block of those that hang together, and
    * `ConformingWith` in the field data names the others. Where more than two sheets meet, as at a rib, they are made
    * apart and get strips of quads until all have the same points there; faces that two solids share, with the same
-   * triangles, become the same quads of both. An error names the place where a block meets itself at such a curve. Not
-   * with a Symmetry, nor with moves of irregular vertices, nor, where more than two sheets meet, with connections and
-   * cycles; Preview does not count for such blocks. Default: off.
+   * triangles, become the same quads of both. An error names the place where a block meets itself at such a curve.
+   * Where there is no map with all borders, as blocks or the gaps between their corners are far smaller than a quad,
+   * some are not followed: the blocks have the same points on edges of quads beside them, a block narrower than a quad
+   * may have none, and notices tell lengths and places. Not with a Symmetry, nor with moves of irregular vertices, nor,
+   * where more than two sheets meet, with connections and cycles; Preview does not count for such blocks. Default: off.
    */
   vtkSetMacro(Conforming, vtkTypeBool);
   vtkGetMacro(Conforming, vtkTypeBool);
@@ -622,7 +627,11 @@ private:
   /// sheets: where there is a value, the run is one of sheets, which it becomes.
   quadrille::RemeshResult RunJoined(quadrille::Block& first, quadrille::JoinedParts& joined,
     const quadrille::RemeshOptions& options, const std::vector<double>& sizes,
-    std::optional<quadrille::JointSheets>& sheets);
+    std::optional<quadrille::JointSheets>& sheets, quadrille::TouchingSheets touching);
+  /// A run of sheets, which then meet: they are joints also where sheets only touch, unless that has no quads.
+  quadrille::RemeshResult RunSheets(quadrille::Block& first, quadrille::JoinedParts& joined,
+    const quadrille::RemeshOptions& options, const std::vector<double>& sizes,
+    quadrille::JointSheets& sheets, quadrille::MetSheets& met);
 
   vtkPolyData* GetPolyDataOutputAt(int port);
   void SetSizes(quadrille::RemeshOptions& options) const;

@@ -19,9 +19,11 @@ namespace quadrille
 namespace
 {
 
-/// Least cotangent, so that slivers leave the matrix positive.
+/// Least cotangent, so that slivers leave the matrix positive, and largest one, beside which the pull is not lost.
 constexpr double kLeastCotangent = 1e-3;
-/// Share of a vertex's area in its row: only to make the matrix positive, the mean is taken off afterwards.
+constexpr double kMostCotangent = 1e6;
+/// Share of a vertex in the area of its component, in its row: only to make the matrix positive, the mean is taken off
+/// afterwards. A share of the whole area would be lost in rounding where a component is a tiny part of the surface.
 constexpr double kPull = 1e-6;
 /// Vertices that turns may move between, about; each is a solve.
 constexpr std::size_t kMostPlaces = 500;
@@ -50,17 +52,20 @@ public:
     {
       const int a = static_cast<int>(mesh.origin[h]);
       const int b = static_cast<int>(mesh.target(h));
-      const double weight =
-        0.5 * std::max(kLeastCotangent, 1 / std::tan(topology.cornerAngle[Mesh::previous(h)]));
+      const double cotangent = 1 / std::tan(topology.cornerAngle[Mesh::previous(h)]);
+      const double weight = 0.5 * std::clamp(cotangent, kLeastCotangent, kMostCotangent);
       entries.emplace_back(a, a, weight);
       entries.emplace_back(b, b, weight);
       entries.emplace_back(a, b, -weight);
       entries.emplace_back(b, a, -weight);
       mass_(a) += topology.area[Mesh::face(h)] / (3 * topology.totalArea);
     }
+    const std::vector<double> whole = massOfComponents();
     for (int v = 0; v < static_cast<int>(mass_.size()); ++v)
     {
-      entries.emplace_back(v, v, mass_(v) > 0 ? kPull * mass_(v) : 1.0);
+      const Index component = component_[static_cast<std::size_t>(v)];
+      const double share = component != kInvalidIndex && mass_(v) > 0 ? whole[component] : 0;
+      entries.emplace_back(v, v, share > 0 ? kPull * (mass_(v) / share) : 1.0);
     }
     Eigen::SparseMatrix<double> matrix(mass_.size(), mass_.size());
     matrix.setFromTriplets(entries.begin(), entries.end());
@@ -94,6 +99,21 @@ public:
   double meanSquare(const Eigen::VectorXd& factor) const { return factor.cwiseAbs2().dot(mass_); }
 
 private:
+  /// 1 where there is only one.
+  std::vector<double> massOfComponents() const
+  {
+    std::vector<double> whole(components_, components_ == 1 ? 1.0 : 0.0);
+    for (Eigen::Index v = 0; v < mass_.size() && components_ > 1; ++v)
+    {
+      const Index component = component_[static_cast<std::size_t>(v)];
+      if (component != kInvalidIndex)
+      {
+        whole[component] += mass_(v);
+      }
+    }
+    return whole;
+  }
+
   /// A factor that is constant on a component says nothing: the scale of the map is free.
   Eigen::VectorXd withoutMeans(Eigen::VectorXd factor) const
   {

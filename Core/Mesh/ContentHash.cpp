@@ -87,9 +87,9 @@ std::uint64_t contentHash(const SurfaceInput& input, int threads)
 std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& input, int threads)
 {
   // By name, so that an array that is new has to be put on one side or the other here.
-  const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, detectedFeatures,
-    guideDirections, guideWeights, targetValences, sizing, curves, regularElsewhere, held,
-    regularOnFeatures, seams, straight, faceOrder, precision] = input;
+  const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, patchesYield,
+    detectedFeatures, guideDirections, guideWeights, targetValences, sizing, curves,
+    regularElsewhere, held, regularOnFeatures, seams, straight, faceOrder, precision] = input;
   static_cast<void>(points);
   static_cast<void>(polygonOffsets);
   static_cast<void>(polygonPoints);
@@ -108,6 +108,7 @@ std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& inpu
   hash = mix(hash, geometry.polygonPoints);
   hash = mix(hash, hashVector(featureEdges, threads));
   hash = mix(hash, hashVector(patchIds, threads));
+  hash = patchesYield ? mix(hash, 1) : hash;
   hash = mix(hash, hashVector(detectedFeatures, threads));
   hash = mix(hash, hashVector(sizing, threads));
   return mix(mix(hash, geometry.faceOrder), geometry.precision);

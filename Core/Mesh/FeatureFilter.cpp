@@ -462,6 +462,32 @@ bool removeOnce(
       dropAlongThinPatches(mesh, edgeLength, chains, report));
 }
 
+/// One half-edge of each feature that `isOne` says so of and that comes closer than `radius` to one of the points.
+std::vector<Index> featuresNear(const Mesh& mesh, const std::vector<Vector3>& points, double radius,
+  bool (*isOne)(const Mesh&, Index))
+{
+  if (!(radius > 0))
+  {
+    throw InvalidInput("the radius for removing features must be positive");
+  }
+  std::vector<Index> found;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (!isOne(mesh, h))
+    {
+      continue;
+    }
+    const Vector3& a = mesh.position[mesh.origin[h]];
+    const Vector3& b = mesh.position[mesh.target(h)];
+    if (std::any_of(points.begin(), points.end(),
+          [&](const Vector3& p) { return distanceToSegment(p, a, b) < radius; }))
+    {
+      found.push_back(h);
+    }
+  }
+  return found;
+}
+
 } // namespace
 
 FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength, int threads)
@@ -491,26 +517,30 @@ bool isDetectedFeature(const Mesh& mesh, Index h)
 std::vector<Index> detectedFeaturesNear(
   const Mesh& mesh, const std::vector<Vector3>& points, double radius)
 {
-  if (!(radius > 0))
+  return featuresNear(mesh, points, radius, isDetectedFeature);
+}
+
+bool isYieldingFeature(const Mesh& mesh, Index h)
+{
+  return mesh.isFeature(h) && !mesh.isBoundary(h) && h < mesh.twin[h] &&
+    (mesh.flags[h] & kYieldingFeature) != 0;
+}
+
+std::vector<Index> yieldingFeaturesNear(
+  const Mesh& mesh, const std::vector<Vector3>& points, double radius)
+{
+  return featuresNear(mesh, points, radius, isYieldingFeature);
+}
+
+void markYielding(Mesh& mesh, const std::vector<Index>& halfEdges)
+{
+  for (const Index h : halfEdges)
   {
-    throw InvalidInput("the radius for removing features must be positive");
-  }
-  std::vector<Index> found;
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (!isDetectedFeature(mesh, h))
+    for (const Index side : { h, mesh.twin[h] })
     {
-      continue;
-    }
-    const Vector3& a = mesh.position[mesh.origin[h]];
-    const Vector3& b = mesh.position[mesh.target(h)];
-    if (std::any_of(points.begin(), points.end(),
-          [&](const Vector3& p) { return distanceToSegment(p, a, b) < radius; }))
-    {
-      found.push_back(h);
+      mesh.flags[side] |= kFeatureEdge | kRequestedFeature | kYieldingFeature;
     }
   }
-  return found;
 }
 
 void unmarkFeatures(Mesh& mesh, const std::vector<Index>& halfEdges)

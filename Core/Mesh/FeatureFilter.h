@@ -32,6 +32,17 @@ bool isDetectedFeature(const Mesh& mesh, Index h);
 std::vector<Index> detectedFeaturesNear(
   const Mesh& mesh, const std::vector<Vector3>& points, double radius);
 
+/// Whether h is that half-edge of a feature that stands for it, and the feature may be given up though it was asked for
+/// (kYieldingFeature).
+bool isYieldingFeature(const Mesh& mesh, Index h);
+/// One half-edge of each of these that comes closer than `radius` to one of the points. Throws InvalidInput when radius
+/// is not positive.
+std::vector<Index> yieldingFeaturesNear(
+  const Mesh& mesh, const std::vector<Vector3>& points, double radius);
+
+/// These half-edges and their twins become features that were asked for and yield. They must not be on the boundary.
+void markYielding(Mesh& mesh, const std::vector<Index>& halfEdges);
+
 /// These half-edges and their twins are no features any more.
 void unmarkFeatures(Mesh& mesh, const std::vector<Index>& halfEdges);
 

@@ -12,8 +12,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <optional>
+#include <queue>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -40,6 +45,7 @@ struct NetworkArc
   std::array<Index, 2> ends{};  ///< nodes
   double length = 0;            ///< in edge lengths of the quads there
   bool removable = true;
+  bool yields = true; ///< kYieldingFeature all along
 };
 
 /// Constrained edges as arcs between nodes. Closed curves without nodes are none.
@@ -132,6 +138,7 @@ private:
       arc.length += sizedLength(mesh_, h) / edgeLength_;
       arc.removable =
         arc.removable && !mesh_.isBoundary(h) && (mesh_.flags[h] & kRequestedFeature) == 0;
+      arc.yields = arc.yields && !mesh_.isBoundary(h) && (mesh_.flags[h] & kYieldingFeature) != 0;
       v = otherEnd(h, v);
       if (degree(v) != 2)
       {
@@ -316,6 +323,209 @@ bool simplifyOnce(Mesh& mesh, double edgeLength, NetworkReport& report)
   return any;
 }
 
+/// Leads branches of junctions to others, see mergeNearJunctions.
+class JunctionMerge
+{
+public:
+  JunctionMerge(Mesh& mesh, double edgeLength)
+    : mesh_(mesh), edgeLength_(edgeLength), network_(mesh, edgeLength),
+      touched_(mesh.vertexCount(), 0), isConstrained_(mesh.vertexCount(), 0),
+      outgoing_(mesh.vertexCount(), kInvalidIndex)
+  {
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      pollNowAndThen(h);
+      Index& first = outgoing_[mesh.origin[h]];
+      first = first == kInvalidIndex || mesh.isBoundary(h) ? h : first;
+      if (mesh.isConstrained(h))
+      {
+        isConstrained_[mesh.origin[h]] = isConstrained_[mesh.target(h)] = 1;
+      }
+    }
+  }
+
+  MovedFeatures merge()
+  {
+    for (const Index id : shortArcs(network_.arcs()))
+    {
+      poll();
+      const NetworkArc& arc = network_.arcs()[id];
+      const auto [a, b] = arc.ends;
+      if (a != b && touched_[a] == 0 && touched_[b] == 0)
+      {
+        // A branch that leaves a curve which goes straight on is the one that moves, if there is one.
+        static_cast<void>(moveFrom(b, a, id, true) || moveFrom(a, b, id, true) ||
+          moveFrom(b, a, id, false) || moveFrom(a, b, id, false));
+      }
+    }
+    return std::move(moved_);
+  }
+
+private:
+  bool moveFrom(Index node, Index to, Index arc, bool straightOn)
+  {
+    const std::vector<Index> at = network_.arcsAt(node);
+    if (at.size() != 3)
+    {
+      return false;
+    }
+    std::vector<Index> others;
+    std::copy_if(
+      at.begin(), at.end(), std::back_inserter(others), [arc](Index a) { return a != arc; });
+    if (others.size() != 2 || others[0] == others[1])
+    {
+      return false;
+    }
+    std::sort(others.begin(), others.end());
+    for (const std::size_t i : { std::size_t{ 0 }, std::size_t{ 1 } })
+    {
+      const Index branch = others[i], kept = others[1 - i];
+      const std::array<Index, 2>& ends = network_.arcs()[branch].ends;
+      const bool isOnItsOwn = ends[0] != to && ends[1] != to && ends[0] != ends[1];
+      if (network_.arcs()[branch].yields && isOnItsOwn &&
+        (!straightOn || network_.goStraightOn(node, arc, kept)) && leadTo(node, to, branch))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Half-edges of an arc from a node on, each leaving the vertex before.
+  std::vector<Index> edgesFrom(Index node, const NetworkArc& arc) const
+  {
+    std::vector<Index> edges = arc.halfEdges;
+    if (arc.ends[0] != node)
+    {
+      std::reverse(edges.begin(), edges.end());
+    }
+    Index v = node;
+    for (Index& h : edges)
+    {
+      h = mesh_.origin[h] == v ? h : mesh_.twin[h];
+      v = mesh_.target(h);
+    }
+    return edges;
+  }
+
+  bool leadTo(Index node, Index to, Index branch)
+  {
+    const std::vector<Index> edges = edgesFrom(node, network_.arcs()[branch]);
+    std::map<Index, std::size_t> goals; // inner vertices of the branch, with their place in it
+    std::vector<double> along{ 0 };
+    for (std::size_t i = 0; i + 1 < edges.size(); ++i)
+    {
+      along.push_back(along.back() + sizedLength(mesh_, edges[i]) / edgeLength_);
+      if (along.back() > kReach && !goals.empty())
+      {
+        break;
+      }
+      goals[mesh_.target(edges[i])] = i + 1;
+    }
+    const std::optional<std::vector<Index>> way = wayTo(to, goals, along);
+    if (!way)
+    {
+      return false;
+    }
+    const std::size_t upTo = goals.at(mesh_.target(way->back()));
+    for (std::size_t i = 0; i < upTo; ++i)
+    {
+      moved_.off.push_back(standingFor(edges[i]));
+    }
+    unmarkFeatures(mesh_, { edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(upTo) });
+    touched_[node] = touched_[to] = 1;
+    for (const Index h : *way)
+    {
+      moved_.on.push_back(standingFor(h));
+      isConstrained_[mesh_.target(h)] = 1;
+    }
+    markYielding(mesh_, *way);
+    if (moved_.junctions++ == 0)
+    {
+      moved_.place = mesh_.position[node];
+    }
+    return true;
+  }
+
+  Index standingFor(Index h) const { return std::min(h, mesh_.twin[h]); }
+
+  /// The cheapest way over free edges to one of the goals, where what is left of the branch within reach counts, too.
+  std::optional<std::vector<Index>> wayTo(
+    Index from, const std::map<Index, std::size_t>& goals, const std::vector<double>& along) const
+  {
+    using Entry = std::pair<double, Index>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    std::map<Index, std::pair<double, Index>> known; // by vertex: its distance, the half-edge to it
+    open.push({ 0, from });
+    known[from] = { 0, kInvalidIndex };
+    std::optional<Index> best;
+    double least = kNever;
+    while (!open.empty() && open.top().first < std::min(least, kFarthest))
+    {
+      const auto [distance, v] = open.top();
+      open.pop();
+      const auto goal = goals.find(v);
+      if (goal != goals.end() && distance + along.back() - along[goal->second] < least)
+      {
+        least = distance + along.back() - along[goal->second];
+        best = v;
+      }
+      if (distance > known[v].first || (v != from && isConstrained_[v] != 0))
+      {
+        continue;
+      }
+      forEachOutgoing(v,
+        [&, d = distance](Index h)
+        {
+          const Index w = mesh_.target(h);
+          const bool mayPass = !mesh_.isConstrained(h) && w != from && touched_[w] == 0 &&
+            (isConstrained_[w] == 0 || goals.count(w) != 0);
+          const double there = d + sizedLength(mesh_, h) / edgeLength_;
+          const auto old = known.find(w);
+          if (mayPass && (old == known.end() || there < old->second.first))
+          {
+            known[w] = { there, h };
+            open.push({ there, w });
+          }
+        });
+    }
+    if (!best)
+    {
+      return std::nullopt;
+    }
+    std::vector<Index> way;
+    for (Index v = *best; v != from; v = mesh_.origin[way.back()])
+    {
+      way.push_back(known[v].second);
+    }
+    std::reverse(way.begin(), way.end());
+    return way;
+  }
+
+  /// Of an edge that has a face beyond; a boundary edge is constrained, so the one beside it is no way.
+  template <typename Visit>
+  void forEachOutgoing(Index v, const Visit& visit) const
+  {
+    Index h = outgoing_[v];
+    do
+    {
+      visit(h);
+      h = mesh_.rotateCounterclockwise(h);
+    } while (h != kInvalidIndex && h != outgoing_[v]);
+  }
+
+  static constexpr double kReach = 1.5;
+  static constexpr double kFarthest = 3;
+
+  Mesh& mesh_;
+  double edgeLength_;
+  ArcNetwork network_;
+  std::vector<std::uint8_t> touched_, isConstrained_;
+  std::vector<Index>
+    outgoing_; ///< a half-edge that leaves the vertex, on the boundary the first one
+  MovedFeatures moved_;
+};
+
 /// Most surfaces have no features, or none that nobody asked for.
 bool hasDetectedFeature(const Mesh& mesh)
 {
@@ -352,6 +562,15 @@ NetworkReport simplifyFeatureNetwork(Mesh& mesh, double edgeLength, FeatureFilte
     report.keptLength = lengthOfFeatures(mesh, edgeLength);
   }
   return report;
+}
+
+MovedFeatures mergeNearJunctions(Mesh& mesh, double edgeLength)
+{
+  if (!(edgeLength > 0))
+  {
+    throw InvalidInput("the edge length for merging junctions must be positive");
+  }
+  return JunctionMerge(mesh, edgeLength).merge();
 }
 
 double lengthOfFeatures(const Mesh& mesh, double edgeLength)

@@ -171,17 +171,25 @@ FacetReport markCreases(Mesh& mesh, double angle, int threads, double precision)
   return report;
 }
 
-void markFeaturesByPatch(PreparedSurface& surface, const std::vector<std::int64_t>& patchIds)
+void markFeaturesByPatch(
+  PreparedSurface& surface, const std::vector<std::int64_t>& patchIds, bool yields)
 {
   Mesh& mesh = surface.mesh;
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     pollNowAndThen(h);
-    if (!mesh.isBoundary(h) &&
-      patchIds[surface.sourcePolygon[Mesh::face(h)]] !=
-        patchIds[surface.sourcePolygon[Mesh::face(mesh.twin[h])]])
+    const Index g = mesh.twin[h];
+    if (mesh.isBoundary(h) || h > g ||
+      patchIds[surface.sourcePolygon[Mesh::face(h)]] ==
+        patchIds[surface.sourcePolygon[Mesh::face(g)]])
     {
-      mesh.flags[h] |= kFeatureEdge | kRequestedFeature;
+      continue;
+    }
+    const bool isAsked = ((mesh.flags[h] | mesh.flags[g]) & kRequestedFeature) != 0;
+    const std::uint8_t yielding = yields && !isAsked ? kYieldingFeature : 0;
+    for (const Index side : { h, g })
+    {
+      mesh.flags[side] |= kFeatureEdge | kRequestedFeature | yielding;
     }
   }
 }

@@ -11,8 +11,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace quadrille
 {
@@ -36,7 +38,9 @@ struct PartEdge
   Index part = 0;
 };
 
-/// Places at which several parts have a point.
+/// Places at which several parts have a point. Points at exactly the same place go first: where a part has points
+/// nearer to each other than the tolerance, such as the corners of a sliver, only these tell which is which. Others go
+/// to the nearest place.
 class CommonPlaces
 {
 public:
@@ -46,11 +50,22 @@ public:
     measure();
     for (std::size_t p = 0; p < parts_.size(); ++p)
     {
-      addPart(p);
+      forEachNear(p, [&](Index point, const Vector3& at) { addExactly(point, at, p); });
+    }
+    for (const Index place : places_)
+    {
+      if (isCommon_[place] != 0)
+      {
+        cells_[cellKey(cellOf(position(place)), 0)].push_back(place);
+      }
+    }
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+    {
+      forEachNear(p, [&](Index point, const Vector3& at) { addNearly(point, at, p); });
     }
   }
 
-  /// Per point the lowest one at its place.
+  /// Per point one of those at its place.
   Index place(Index point) const { return placeOf_[point]; }
   /// Whether several parts have a point at the place of this one.
   bool isCommon(Index point) const { return isCommon_[placeOf_[point]] != 0; }
@@ -79,11 +94,15 @@ private:
     tolerance_ = kSamePlace * whole.diagonal().norm();
     lowest_ = whole.min();
     isCommon_.assign(placeOf_.size(), 0);
-    partAt_.assign(placeOf_.size(), kInvalidIndex);
+    for (Index i = 0; i < placeOf_.size(); ++i)
+    {
+      placeOf_[i] = i;
+    }
   }
 
-  /// Points in the box of another part look for one of a part before it.
-  void addPart(std::size_t part)
+  /// Points in the box of another part.
+  template <class Visit>
+  void forEachNear(std::size_t part, const Visit& visit) const
   {
     std::vector<PartBox> others;
     for (std::size_t other = 0; other < parts_.size(); ++other)
@@ -103,47 +122,90 @@ private:
     for (std::size_t i = 0; i < points.size(); ++i)
     {
       pollNowAndThen(i);
-      const Index point = firstPoint_[part] + static_cast<Index>(i);
-      placeOf_[point] = point;
       if (points[i].allFinite() &&
         std::any_of(others.begin(), others.end(),
           [&](const PartBox& box) { return box.contains(points[i]); }))
       {
-        addPoint(point, points[i], static_cast<Index>(part));
+        visit(firstPoint_[part] + static_cast<Index>(i), points[i]);
       }
     }
   }
 
-  void addPoint(Index point, const Vector3& p, Index part)
+  /// A place takes one point of each part: those of one part are different however near they are.
+  bool take(Index place, std::size_t part)
   {
-    const Eigen::Array3d cell = (p - lowest_).array() / cellSize() - 0.5;
+    return taken_.insert(std::uint64_t{ place } << 32 | part).second;
+  }
+
+  void addExactly(Index point, const Vector3& p, std::size_t part)
+  {
+    std::uint64_t hash = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double x = p[axis] + 0.0; // 0 and -0 are the same
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &x, sizeof(bits));
+      hash = (hash ^ bits) * 0x9E3779B97F4A7C15ULL;
+      hash ^= hash >> 32;
+    }
+    std::vector<Index>& bucket = exact_[hash];
+    for (const Index place : bucket)
+    {
+      if (position(place) == p && take(place, part))
+      {
+        placeOf_[point] = place;
+        isCommon_[place] = 1;
+        return;
+      }
+    }
+    bucket.push_back(point);
+    places_.push_back(point);
+    take(point, part);
+  }
+
+  /// Of points that are alone so far.
+  void addNearly(Index point, const Vector3& p, std::size_t part)
+  {
+    if (placeOf_[point] != point || isCommon_[point] != 0)
+    {
+      return;
+    }
+    const Eigen::Array3d cell = cellOf(p);
+    Index nearest = kInvalidIndex;
+    double least = tolerance_;
     for (int corner = 0; corner < 8; ++corner)
     {
-      const auto bucket = cells_.find(key(cell, corner));
+      const auto bucket = cells_.find(cellKey(cell - 0.5, corner));
       if (bucket == cells_.end())
       {
         continue;
       }
       for (const Index place : bucket->second)
       {
-        // A place takes one point of each part: those of one part are different however near they are.
-        if (partAt_[place] != part && (position(place) - p).norm() <= tolerance_)
+        const double distance = (position(place) - p).norm();
+        const bool isNearer = nearest == kInvalidIndex ? distance <= least : distance < least;
+        if (isNearer && taken_.count(std::uint64_t{ place } << 32 | part) == 0)
         {
-          placeOf_[point] = place;
-          partAt_[place] = part;
-          isCommon_[place] = 1;
-          return;
+          nearest = place;
+          least = distance;
         }
       }
     }
-    partAt_[point] = part;
-    cells_[key(cell + 0.5, 0)].push_back(point);
+    if (nearest == kInvalidIndex)
+    {
+      cells_[cellKey(cell, 0)].push_back(point);
+      return;
+    }
+    take(nearest, part);
+    placeOf_[point] = nearest;
+    isCommon_[nearest] = 1;
   }
 
+  Eigen::Array3d cellOf(const Vector3& p) const { return (p - lowest_).array() / cellSize(); }
   double cellSize() const { return tolerance_ > 0 ? 2 * tolerance_ : 1; }
 
   /// Of the cell, or one of its neighbours in front.
-  static std::uint64_t key(const Eigen::Array3d& cell, int corner)
+  static std::uint64_t cellKey(const Eigen::Array3d& cell, int corner)
   {
     constexpr int bits = 21; // 1 / (2 kSamePlace) cells along the diagonal, and some
     std::uint64_t result = 0;
@@ -168,9 +230,11 @@ private:
   double tolerance_ = 0;
   Vector3 lowest_;
   std::vector<Index> placeOf_;
-  std::vector<Index> partAt_; ///< per place: the last part that has a point there
+  std::vector<Index> places_; ///< of points at exactly the same place, the first
   std::vector<std::uint8_t> isCommon_;
-  std::unordered_map<std::uint64_t, std::vector<Index>> cells_; ///< looked up, never walked through
+  // Looked up, never walked through.
+  std::unordered_set<std::uint64_t> taken_; ///< place and part
+  std::unordered_map<std::uint64_t, std::vector<Index>> exact_, cells_;
 };
 
 /// All edges between common places, those of the same one after the other.
@@ -349,6 +413,7 @@ JoinedParts joinParts(std::vector<SurfaceInput> parts, const PartContacts& conta
   }
   JoinedParts joined;
   SurfaceInput& all = joined.input;
+  all.patchesYield = true;
   const bool features = anyHas(parts, &SurfaceInput::featureEdges);
   const bool guides = anyHas(parts, &SurfaceInput::guideDirections);
   const bool weights = anyHas(parts, &SurfaceInput::guideWeights);

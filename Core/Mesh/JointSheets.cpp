@@ -31,8 +31,9 @@ struct PolygonSide
 class SheetCutter
 {
 public:
-  SheetCutter(const SurfaceInput& joint, std::optional<double> featureAngle)
-    : joint_(joint), featureAngle_(featureAngle)
+  SheetCutter(
+    const SurfaceInput& joint, std::optional<double> featureAngle, TouchingSheets touching)
+    : joint_(joint), featureAngle_(featureAngle), touching_(touching)
   {
   }
 
@@ -40,6 +41,10 @@ public:
   {
     keepOnce();
     cutUp();
+    for (const auto& [begin, end] : joints_)
+    {
+      sheets_.edges.emplace_back(sides_[begin].low, sides_[begin].high);
+    }
     writePoints();
     writePolygons();
     if (featureAngle_)
@@ -124,7 +129,6 @@ private:
   {
     DisjointSets sets(polygonCount(), 1);
     joints_.clear();
-    sheets_.edges.clear();
     sheets_.sheetOf.clear();
     for (std::size_t begin = 0, end = 0; begin < sides_.size(); begin = end)
     {
@@ -142,7 +146,6 @@ private:
       else if (end - begin >= 2)
       {
         joints_.emplace_back(begin, end);
-        sheets_.edges.emplace_back(side.low, side.high);
       }
     }
     std::vector<Index> number(polygonCount(), kInvalidIndex);
@@ -154,6 +157,44 @@ private:
       sheets_.sheetOf.push_back(sheet);
     }
     sheets_.offset.assign(count, Vector3::Zero());
+    if (touching_ == TouchingSheets::Left)
+    {
+      leaveTouching();
+    }
+  }
+
+  std::vector<Index> sheetsAt(const std::pair<std::size_t, std::size_t>& joint) const
+  {
+    std::vector<Index> at;
+    for (std::size_t i = joint.first; i < joint.second; ++i)
+    {
+      at.push_back(sheets_.sheetOf[sides_[i].polygon]);
+    }
+    std::sort(at.begin(), at.end());
+    return at;
+  }
+
+  void leaveTouching()
+  {
+    const auto isTouching = [this](const std::pair<std::size_t, std::size_t>& joint)
+    {
+      const std::vector<Index> at = sheetsAt(joint);
+      bool goOn = at.size() > 2 && at.size() % 2 == 0;
+      for (std::size_t i = 0; i + 1 < at.size() && goOn; i += 2)
+      {
+        goOn = at[i] == at[i + 1];
+      }
+      return goOn;
+    };
+    const auto left = std::stable_partition(joints_.begin(), joints_.end(),
+      [&](const std::pair<std::size_t, std::size_t>& joint) { return !isTouching(joint); });
+    sheets_.touching = static_cast<std::size_t>(joints_.end() - left);
+    if (left != joints_.end())
+    {
+      const PolygonSide& side = sides_[left->first];
+      sheets_.touchingPlace = 0.5 * (joint_.points[side.low] + joint_.points[side.high]);
+    }
+    joints_.erase(left, joints_.end());
   }
 
   /// Per polygon, whether its sheet meets itself; all 0 where none does. first: the joint where one does.
@@ -162,17 +203,14 @@ private:
     std::vector<std::uint8_t> sheetMeets(sheets_.offset.size(), 0);
     for (std::size_t j = joints_.size(); j-- > 0;)
     {
-      std::vector<Index> at;
-      for (std::size_t i = joints_[j].first; i < joints_[j].second; ++i)
+      const std::vector<Index> at = sheetsAt(joints_[j]);
+      for (std::size_t i = 0; i + 1 < at.size(); ++i)
       {
-        at.push_back(sheets_.sheetOf[sides_[i].polygon]);
-      }
-      std::sort(at.begin(), at.end());
-      const auto same = std::adjacent_find(at.begin(), at.end());
-      if (same != at.end())
-      {
-        sheetMeets[*same] = 1;
-        first = joints_[j].first;
+        if (at[i] == at[i + 1])
+        {
+          sheetMeets[at[i]] = 1;
+          first = joints_[j].first;
+        }
       }
     }
     std::vector<std::uint8_t> meets;
@@ -197,6 +235,11 @@ private:
       return;
     }
     findSheets(meets);
+    if (any(meetThemselves(first)) && touching_ == TouchingSheets::Joined)
+    {
+      touching_ = TouchingSheets::Left;
+      findSheets(meets);
+    }
     if (any(meetThemselves(first)))
     {
       refuse("a sheet meets itself at a curve of more than two sheets, near ",
@@ -265,6 +308,7 @@ private:
       copy(joint_.guideDirections, input.guideDirections);
       copy(joint_.guideWeights, input.guideWeights);
     }
+    input.patchesYield = joint_.patchesYield;
     input.curves = joint_.curves;
   }
 
@@ -343,6 +387,7 @@ private:
 
   const SurfaceInput& joint_;
   std::optional<double> featureAngle_;
+  TouchingSheets touching_;
   JointSheets sheets_;
   /// Of the polygons that are kept, those of an edge one after the other.
   std::vector<PolygonSide> sides_;
@@ -367,9 +412,10 @@ Vector3 JointSheets::movedBack(const Vector3& place) const
   return best;
 }
 
-JointSheets cutIntoSheets(const SurfaceInput& joint, std::optional<double> featureAngle)
+JointSheets cutIntoSheets(
+  const SurfaceInput& joint, std::optional<double> featureAngle, TouchingSheets touching)
 {
-  return SheetCutter(joint, featureAngle).cut();
+  return SheetCutter(joint, featureAngle, touching).cut();
 }
 
 } // namespace quadrille

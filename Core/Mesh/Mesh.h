@@ -24,7 +24,8 @@ enum HalfEdgeFlag : std::uint8_t
   kRequestedFeature =
     2, ///< the user asked for this feature; without it, the dihedral angle alone did
   kRegionBorder =
-    4 ///< parts guided from free faces on a level of the hierarchy; constrains decimation only
+    4, ///< parts guided from free faces on a level of the hierarchy; constrains decimation only
+  kYieldingFeature = 8 ///< asked for, but may be given up where quads cannot follow it
 };
 
 struct Mesh

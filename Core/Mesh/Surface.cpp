@@ -48,7 +48,7 @@ void markFeatures(
 {
   if (!input.patchIds.empty())
   {
-    markFeaturesByPatch(surface, input.patchIds);
+    markFeaturesByPatch(surface, input.patchIds, input.patchesYield);
   }
   if (options.featureAngle && input.detectedFeatures.empty())
   {

@@ -40,6 +40,8 @@ struct SurfaceInput
   std::vector<std::uint8_t>
     featureEdges; ///< empty or #P; bit i: edge from corner i to i+1 is a feature
   std::vector<std::int64_t> patchIds; ///< empty or #P; an edge between two values is a feature
+  /// Whether these features may be given up where no quads can follow them (kYieldingFeature).
+  bool patchesYield = false;
   /// Empty or #P; bits as in featureEdges: what was found on a finer surface that these polygons stand for. They are
   /// features that nobody asked for, in place of those of PrepareOptions::featureAngle.
   std::vector<std::uint8_t> detectedFeatures;

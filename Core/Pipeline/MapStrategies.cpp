@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/Strategies.h"
 
+#include "Mesh/FeatureFilter.h"
 #include "Mesh/Mesh.h"
 
 #include <algorithm>
@@ -69,8 +70,11 @@ std::vector<Index> ringsRound(
 /// Whether features leave coarse triangles no area, and so many others are inverted that no few vertices will mend it.
 bool isMatterOfFeatures(const RunContext& run, const Attempt& attempt)
 {
+  const std::vector<Vector3>& places = attempt.map->coarseTroubles;
   return leavesNoArea(*attempt.map) &&
-    !featuresNear(run, attempt.plan, attempt.map->coarseTroubles).empty();
+    (!featuresNear(run, attempt.plan, places).empty() ||
+      (attempt.plan.borderDrops > 0 &&
+        !yieldingFeaturesNear(run.surface->mesh, places, run.edgeLength).empty()));
 }
 
 } // namespace

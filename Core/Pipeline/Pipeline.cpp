@@ -134,7 +134,7 @@ private:
           std::to_string(history_.bound().attempts) + ", " + plan->step +
           (plan->why.empty() ? "" : " (" + plan->why + ")");
       }
-      if (plan->step == std::string(kNoFeatures))
+      if (plan->step == std::string(kNoFeatures) || plan->step == std::string(kNoBorders))
       {
         history_.beginLastResort();
       }
@@ -294,6 +294,7 @@ void tellAttempt(const Attempt& attempt, const QuadSize& size, RemeshResult& res
   const std::string holes = tinyHolesText(result.smallParts, size);
   tell({ handles, holes }, result);
   tell(attempt.plan.notices, result);
+  tell({ attempt.plan.borderNotice }, result);
   tell(attempt.map->notices, result);
   if (attempt.quads)
   {
@@ -364,8 +365,19 @@ WorkBound boundBeforeRest(WorkBound bound)
   return bound;
 }
 
+double secondsOf(const History& history)
+{
+  double seconds = 0;
+  const StageRecords stages = history.stages();
+  for (const StageRecord& record : stages.all())
+  {
+    seconds += record.seconds;
+  }
+  return seconds;
+}
+
 /// Attempts; where none has quads, again without the details that were left for them to resolve.
-void attemptAll(Settled& settled, SizedSurface& sized, const RemeshOptions& options,
+void attemptWithBorders(Settled& settled, SizedSurface& sized, const RemeshOptions& options,
   ResultStore* store, bool quadsAlone, History& history, RemeshResult& result)
 {
   const auto spare = quadsAlone && store ? store->find<SpareMap>(0) : nullptr;
@@ -396,17 +408,39 @@ void attemptAll(Settled& settled, SizedSurface& sized, const RemeshOptions& opti
   {
     return;
   }
-  double seconds = 0;
-  const StageRecords stages = history.stages();
-  for (const StageRecord& record : stages.all())
-  {
-    seconds += record.seconds;
-  }
+  const double seconds = secondsOf(history);
   history = History(bound, history.work(), history.attempts());
   Attempts(settled.bench->run, history, true, result.stopped).run(std::move(begin));
   sized.stages.add("retries", seconds, 0, 0);
   result.attempts.emplace_back(kFewerDetails);
   result.attempts.insert(result.attempts.end(), history.steps().begin() + 1, history.steps().end());
+}
+
+/// The same; where nothing has quads, again with borders of patches that give way, as much as before.
+void attemptAll(Settled& settled, SizedSurface& sized, const RemeshOptions& options,
+  ResultStore* store, bool quadsAlone, History& history, RemeshResult& result)
+{
+  attemptWithBorders(settled, sized, options, store, quadsAlone, history, result);
+  const auto isTooLarge = [](const Status& status) { return status.code == StatusCode::TooLarge; };
+  const Attempt& last = history.last();
+  if (history.hasResult() || !settled.status.ok() || isTooLarge(last.map->status) ||
+    (last.quads && isTooLarge(last.quads->status)))
+  {
+    return;
+  }
+  RunContext& run = settled.bench->run;
+  std::optional<Plan> begin = withFewerBorders(run, firstPlan(run), {});
+  if (!begin)
+  {
+    return;
+  }
+  const double seconds = secondsOf(history);
+  const std::vector<std::string> before = result.attempts;
+  history = History(workBound(sized.surface->mesh.faceCount(), sized.targetQuads));
+  Attempts(run, history, true, result.stopped).run(std::move(begin));
+  sized.stages.add("retries", seconds, 0, 0);
+  result.attempts = before;
+  result.attempts.insert(result.attempts.end(), history.steps().begin(), history.steps().end());
 }
 
 /// From the sized surface to the result, in the frame.

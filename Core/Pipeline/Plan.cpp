@@ -17,6 +17,10 @@ ResultKey Plan::surfaceKey() const
   {
     key.add(*featuresGivenUp);
   }
+  if (moved)
+  {
+    key.add(moved->off).add(moved->on);
+  }
   return key.key();
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "Base/Types.h"
+#include "Mesh/FeatureNetwork.h"
 #include "Pipeline/ResultStore.h"
 
 #include <cstddef>
@@ -62,13 +63,17 @@ struct Plan
   // Of the surface, see RunSurface.
   std::shared_ptr<const std::vector<float>> sizes;           ///< #V; null: those of the surface
   std::shared_ptr<const std::vector<Index>> featuresGivenUp; ///< half-edges; null: none
-  int featureDrops = 0;                                      ///< how often features were given up
+  /// Borders of patches that other edges stand for; null: none.
+  std::shared_ptr<const MovedFeatures> moved;
+  int featureDrops = 0; ///< how often detected features were given up
+  int borderDrops = 0;  ///< how often features that were asked for but yield were
 
   // Of the map.
   double quads = 0; ///< that it is scaled to
   FinerGrid finer;
 
   std::vector<std::string> notices; ///< what the user should know of the choices
+  std::string borderNotice;         ///< of all borders of patches that are given up
 
   /// Of sizes and features.
   ResultKey surfaceKey() const;

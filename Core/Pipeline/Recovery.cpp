@@ -24,15 +24,17 @@ constexpr std::array<Strategy, 3> kForMaps{ {
   { "room for curves", 1, roomForCurves },
   { "kept offenders", 2, keptOffenders },
 } };
-constexpr std::array<Strategy, 3> kForRounds{ {
+constexpr std::array<Strategy, 4> kForRounds{ {
   { "smaller quads near", 4, smallerQuadsNear },
   { "more quads", 3, moreQuads },
+  { kFewerBorders, kMostBorderDrops, fewerBorders },
   { "fewer features", kMostFeatureDrops, fewerFeatures },
 } };
 
 /// Where no round has quads and none of the others is left, or may be tried any more.
-constexpr std::array<Strategy, 1> kLastResort{ {
+constexpr std::array<Strategy, 2> kLastResort{ {
   { kNoFeatures, 1, noFeatures },
+  { kNoBorders, 2, noBorders },
 } };
 
 /// What is wrong with an attempt, in a few words.

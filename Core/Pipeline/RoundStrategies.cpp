@@ -3,13 +3,18 @@
 #include "Pipeline/Strategies.h"
 
 #include "Base/PlaceText.h"
+#include "Base/Progress.h"
 #include "Mesh/FeatureFilter.h"
+#include "Mesh/FeatureNetwork.h"
+#include "Mesh/GivenUpFeatures.h"
 #include "Mesh/Guides.h"
 #include "Mesh/Sizing.h"
 #include "Pipeline/FirstPlan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -28,6 +33,29 @@ constexpr double kShrinkRadius = 1.5; ///< edge lengths round a place
 constexpr double kLeastSizeOfLoop = 0.02;
 /// Features are given up within this part of the edge length the first time, then twice as far each time.
 constexpr double kFirstFeatureDrop = 0.5;
+
+/// What becomes of borders of patches, one step after the other. size: quads so many times as large as they are to be
+/// have to resolve them; or within so many edge lengths of a failure.
+struct BorderStep
+{
+  enum class Way : std::uint8_t
+  {
+    Merge,      ///< junctions next to each other become one
+    Unresolved, ///< by the rules for detected features
+    Near
+  } way;
+  double size = 1;
+};
+constexpr std::array<BorderStep, kMostBorderDrops> kBorderSteps{ {
+  { BorderStep::Way::Merge, 1 },
+  { BorderStep::Way::Unresolved, 1 },
+  { BorderStep::Way::Near, 0.5 },
+  { BorderStep::Way::Near, 1 },
+  { BorderStep::Way::Unresolved, 2 },
+  { BorderStep::Way::Unresolved, 4 },
+} };
+/// Of the last resort, before all of them go.
+constexpr double kLastBorderSize = 8;
 
 Plan newRound(Plan plan)
 {
@@ -89,6 +117,142 @@ std::vector<HandleLoop> loopsNear(const RunContext& run, const std::vector<Vecto
     }
   }
   return near;
+}
+
+/// With the first levels, sizes and number of quads: what was kept and made smaller was for the sake of features.
+Plan fromTheBeginning(const RunContext& run, const Plan& before)
+{
+  Plan plan = withoutShrinks(before);
+  plan.finer = {};
+  plan.levels = {};
+  plan.levels.keptVertices = keptVertices(*run.surface);
+  plan.levels.coarseVertices = run.options.coarseVertices;
+  plan.nextLevels = plan.levels;
+  plan.quads = quadsFor(run, plan, 0);
+  return plan;
+}
+
+void giveUp(const std::vector<Index>& features, Plan& plan)
+{
+  auto all = plan.featuresGivenUp ? std::make_shared<std::vector<Index>>(*plan.featuresGivenUp)
+                                  : std::make_shared<std::vector<Index>>();
+  all->insert(all->end(), features.begin(), features.end());
+  plan.featuresGivenUp = std::move(all);
+}
+
+/// Features that quads so many times as large as they are to be cannot resolve, where those that yield count as
+/// detected ones.
+std::vector<Index> unresolvedWithBorders(const RunContext& run, double times)
+{
+  Mesh mesh = run.surface->mesh;
+  for (std::uint8_t& flags : mesh.flags)
+  {
+    flags &= (flags & kYieldingFeature) != 0 ? static_cast<std::uint8_t>(~kRequestedFeature) : 0xFF;
+  }
+  const std::vector<std::uint8_t> before = mesh.flags;
+  const double edgeLength = times * run.edgeLength;
+  FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, edgeLength, run.options.threads);
+  simplifyFeatureNetwork(mesh, edgeLength, filtered);
+  return lostFeatures(mesh, before);
+}
+
+/// Junctions of borders that are too near to each other for quads become one; null where there are none.
+std::shared_ptr<const MovedFeatures> mergedJunctions(const RunContext& run)
+{
+  constexpr int mostRounds = 4;
+  Mesh mesh = run.surface->mesh;
+  const std::vector<std::uint8_t> before = mesh.flags;
+  auto all = std::make_shared<MovedFeatures>();
+  for (int round = 0; round < mostRounds; ++round)
+  {
+    const MovedFeatures moved = mergeNearJunctions(mesh, run.edgeLength);
+    if (moved.junctions == 0)
+    {
+      break;
+    }
+    all->place = all->junctions == 0 ? moved.place : all->place;
+    all->junctions += moved.junctions;
+  }
+  if (all->junctions == 0)
+  {
+    return nullptr;
+  }
+  all->off = lostFeatures(mesh, before);
+  const std::vector<std::uint8_t> after = mesh.flags;
+  mesh.flags = before;
+  all->on = lostFeatures(mesh, after);
+  return all;
+}
+
+std::string mergedNotice(const MovedFeatures& moved)
+{
+  const bool isOne = moved.junctions == 1;
+  return std::to_string(moved.junctions) + (isOne ? " junction" : " junctions") +
+    " of borders between patches, nearer to another one than half a quad, " +
+    (isOne ? "" : "the first ") + "near " + placeText(moved.place) +
+    (isOne ? ", counts" : ", count") +
+    " as one with it, as there is no map with both: borders that end there run beside where they "
+    "were; ask for more quads for all borders to be followed";
+}
+
+/// All borders of patches that a plan gives up, in a sentence.
+std::string borderNotice(const RunContext& run, const Plan& plan)
+{
+  const Mesh& mesh = run.surface->mesh;
+  std::vector<Index> borders;
+  for (const Index h : *plan.featuresGivenUp)
+  {
+    if ((mesh.flags[h] & kYieldingFeature) != 0)
+    {
+      borders.push_back(h);
+    }
+  }
+  std::sort(borders.begin(), borders.end());
+  borders.erase(std::unique(borders.begin(), borders.end()), borders.end());
+  const std::vector<GivenUpCurve> curves =
+    givenUpCurves(mesh, borders, run.edgeLength, FeatureLoss::FailedMap);
+  const auto longest = std::max_element(curves.begin(), curves.end(),
+    [](const GivenUpCurve& a, const GivenUpCurve& b) { return a.lengthInQuads < b.lengthInQuads; });
+  if (longest == curves.end())
+  {
+    return {};
+  }
+  double length = 0, all = 0;
+  for (const GivenUpCurve& curve : curves)
+  {
+    length += curve.lengthInQuads;
+  }
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    pollNowAndThen(h);
+    const bool isBorder =
+      !mesh.isBoundary(h) && h < mesh.twin[h] && (mesh.flags[h] & kYieldingFeature) != 0;
+    all += isBorder ? sizedLength(mesh, h) / run.edgeLength : 0;
+  }
+  std::ostringstream text;
+  text
+    << std::setprecision(3) << length << " of " << all
+    << " edge lengths of borders between patches, the longest curve with " << longest->lengthInQuads
+    << " near " << placeText(longest->place)
+    << ", leave no room for quads of this size: quads do not follow them, and the patches meet at "
+       "edges of quads beside; ask for more quads, or for patches that are wider than a quad, for "
+       "all borders to be followed";
+  return text.str();
+}
+
+/// The half-edges that `isOne` says so of.
+std::vector<Index> allOf(const Mesh& mesh, bool (*isOne)(const Mesh&, Index))
+{
+  std::vector<Index> found;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    pollNowAndThen(h);
+    if (isOne(mesh, h))
+    {
+      found.push_back(h);
+    }
+  }
+  return found;
 }
 
 } // namespace
@@ -204,49 +368,95 @@ std::optional<Plan> fewerFeatures(const Trouble& trouble)
     return std::nullopt;
   }
   ++plan.featureDrops;
-  auto givenUp = plan.featuresGivenUp ? std::make_shared<std::vector<Index>>(*plan.featuresGivenUp)
-                                      : std::make_shared<std::vector<Index>>();
-  givenUp->insert(givenUp->end(), features.begin(), features.end());
-  plan.featuresGivenUp = std::move(givenUp);
+  giveUp(features, plan);
   plan.notices.push_back(std::to_string(features.size()) + " sharp edges" + nearText(places) +
     " leave no room for quads of this edge length and were not used as features");
   return plan;
 }
 
-std::optional<Plan> withoutFeatures(RunContext& run, const Plan& before)
+std::optional<Plan> fewerBorders(const Trouble& trouble)
+{
+  return trouble.failed && !isTooLarge(trouble.attempt) && trouble.attempt.plan.borderDrops > 0
+    ? withFewerBorders(trouble.run, trouble.attempt.plan, trouble.places)
+    : std::nullopt;
+}
+
+std::optional<Plan> withFewerBorders(
+  RunContext& run, const Plan& before, const std::vector<Vector3>& places)
 {
   run.surface.apply(before);
   const Mesh& mesh = run.surface->mesh;
-  auto givenUp = before.featuresGivenUp
-    ? std::make_shared<std::vector<Index>>(*before.featuresGivenUp)
-    : std::make_shared<std::vector<Index>>();
-  const std::size_t known = givenUp->size();
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (isDetectedFeature(mesh, h))
-    {
-      givenUp->push_back(h);
-    }
-  }
-  if (givenUp->size() == known)
+  if (allOf(mesh, isYieldingFeature).empty())
   {
     return std::nullopt;
   }
-  // From the beginning: what was kept and made smaller was for the sake of the features.
-  Plan plan = withoutShrinks(before);
-  plan.finer = {};
-  plan.levels = {};
-  plan.levels.keptVertices = keptVertices(*run.surface);
-  plan.levels.coarseVertices = run.options.coarseVertices;
-  plan.nextLevels = plan.levels;
-  plan.quads = quadsFor(run, plan, 0);
+  Plan plan = fromTheBeginning(run, before);
+  plan.step = kFewerBorders;
+  while (static_cast<std::size_t>(plan.borderDrops) < kBorderSteps.size())
+  {
+    const BorderStep& step = kBorderSteps[static_cast<std::size_t>(plan.borderDrops++)];
+    if (step.way == BorderStep::Way::Merge && (plan.moved = mergedJunctions(run)))
+    {
+      plan.notices.push_back(mergedNotice(*plan.moved));
+      return plan;
+    }
+    std::vector<Index> features;
+    if (step.way == BorderStep::Way::Unresolved)
+    {
+      features = unresolvedWithBorders(run, step.size);
+    }
+    else if (step.way == BorderStep::Way::Near && !places.empty())
+    {
+      features = yieldingFeaturesNear(mesh, places, step.size * run.edgeLength);
+      const std::vector<Index> detected =
+        detectedFeaturesNear(mesh, places, step.size * run.edgeLength);
+      features.insert(features.end(), detected.begin(), detected.end());
+    }
+    if (!features.empty())
+    {
+      giveUp(features, plan);
+      plan.borderNotice = borderNotice(run, plan);
+      return plan;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Plan> withoutFeatures(RunContext& run, const Plan& before)
+{
+  run.surface.apply(before);
+  const std::vector<Index> features = allOf(run.surface->mesh, isDetectedFeature);
+  if (features.empty())
+  {
+    return std::nullopt;
+  }
+  Plan plan = fromTheBeginning(run, before);
   plan.featureDrops = static_cast<int>(kMostFeatureDrops);
+  giveUp(features, plan);
   plan.notices.push_back("with features no attempt has led to quads: all " +
-    std::to_string(givenUp->size()) +
+    std::to_string(plan.featuresGivenUp->size()) +
     " sharp edges that were found by their angle were not used as features; ask for smaller "
     "quads, or mark the edges that are to stay");
-  plan.featuresGivenUp = std::move(givenUp);
   plan.step = kNoFeatures;
+  return plan;
+}
+
+std::optional<Plan> noBorders(const Trouble& trouble)
+{
+  RunContext& run = trouble.run;
+  const Plan& before = trouble.attempt.plan;
+  const std::vector<Index> all = allOf(run.surface->mesh, isYieldingFeature);
+  if (all.empty() || isTooLarge(trouble.attempt) || before.borderDrops == 0)
+  {
+    return std::nullopt;
+  }
+  const std::vector<Index> some = static_cast<std::size_t>(before.borderDrops) <= kMostBorderDrops
+    ? unresolvedWithBorders(run, kLastBorderSize)
+    : std::vector<Index>{};
+  Plan plan = fromTheBeginning(run, before);
+  plan.borderDrops = static_cast<int>(kMostBorderDrops) + 1;
+  giveUp(some.empty() ? all : some, plan);
+  plan.borderNotice = borderNotice(run, plan);
   return plan;
 }
 

@@ -14,8 +14,9 @@
 namespace quadrille
 {
 
-/// How often features are given up.
+/// How often features are given up, and borders of patches.
 constexpr std::size_t kMostFeatureDrops = 4;
+constexpr std::size_t kMostBorderDrops = 6;
 
 /// What there is to mend.
 struct Trouble
@@ -58,6 +59,17 @@ std::optional<Plan> moreQuads(const Trouble& trouble);
 /// quads are inverted, further round them each time. Bound: times in all.
 std::optional<Plan> fewerFeatures(const Trouble& trouble);
 
+/// After a failure, features that were asked for but yield (kYieldingFeature), borders of patches, change: first those
+/// whose junctions are too near to each other are led together, then those are given up that quads of this size cannot
+/// resolve, by the rules for detected ones, then those near the places of the failure, then those that larger quads
+/// could not resolve. Only after a plan of withFewerBorders, with which attempts begin again where none has had quads
+/// with all borders. Bound: times in all.
+constexpr const char* kFewerBorders = "fewer borders";
+std::optional<Plan> fewerBorders(const Trouble& trouble);
+/// The next of these steps of a plan; none where nothing yields. places: of the failure.
+std::optional<Plan> withFewerBorders(
+  RunContext& run, const Plan& before, const std::vector<Vector3>& places);
+
 /// Where nothing else has led to quads: all features that only the dihedral angle asked for are given up. Bound: times
 /// in all.
 std::optional<Plan> noFeatures(const Trouble& trouble);
@@ -65,6 +77,11 @@ std::optional<Plan> noFeatures(const Trouble& trouble);
 /// The plan of noFeatures; none where there is no such feature.
 constexpr const char* kNoFeatures = "no features";
 std::optional<Plan> withoutFeatures(RunContext& run, const Plan& before);
+
+/// Where that has not led to quads either: features that yield are given up but for long ones far from each other, and
+/// then all. Bound: times in all.
+constexpr const char* kNoBorders = "no borders";
+std::optional<Plan> noBorders(const Trouble& trouble);
 
 /// Whether features leave coarse triangles no area at so many places that no other vertices mend it.
 bool leavesNoArea(const MapAttempt& map);

@@ -77,7 +77,7 @@ RunSurface::RunSurface(std::shared_ptr<PreparedSurface> surface, ResultKey key, 
 
 void RunSurface::apply(const Plan& plan)
 {
-  const bool asItWas = !plan.sizes && !plan.featuresGivenUp;
+  const bool asItWas = !plan.sizes && !plan.featuresGivenUp && !plan.moved;
   const ResultKey key = asItWas ? key_ : KeyMaker(key_).add(plan.surfaceKey()).key();
   if (key == planKey_)
   {
@@ -96,13 +96,23 @@ void RunSurface::apply(const Plan& plan)
   {
     mesh.sizing = *plan.sizes;
   }
+  featuresKey_ = key_;
+  if (plan.moved)
+  {
+    markYielding(mesh, plan.moved->on);
+    unmarkFeatures(mesh, plan.moved->off);
+    featuresKey_ = KeyMaker(featuresKey_).add(plan.moved->off).add(plan.moved->on).key();
+  }
   if (plan.featuresGivenUp)
   {
     unmarkFeatures(mesh, *plan.featuresGivenUp);
+    featuresKey_ = KeyMaker(featuresKey_).add(*plan.featuresGivenUp).key();
+  }
+  if (plan.moved || plan.featuresGivenUp)
+  {
     surface_->hash = contentHash(mesh, threads_);
   }
   planKey_ = key;
-  featuresKey_ = plan.featuresGivenUp ? KeyMaker(key_).add(*plan.featuresGivenUp).key() : key_;
 }
 
 void RunSurface::withSizesBefore(const std::function<void()>& act)

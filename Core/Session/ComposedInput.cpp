@@ -16,15 +16,15 @@ namespace
 SurfaceInput withoutGeometry(const SurfaceInput& surface)
 {
   // By name, so that an array that is new has to be put on one side or the other here.
-  const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, detectedFeatures,
-    guideDirections, guideWeights, targetValences, sizing, curves, regularElsewhere, held,
-    regularOnFeatures, seams, straight, faceOrder, precision] = surface;
+  const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, patchesYield,
+    detectedFeatures, guideDirections, guideWeights, targetValences, sizing, curves,
+    regularElsewhere, held, regularOnFeatures, seams, straight, faceOrder, precision] = surface;
   static_cast<void>(points);
   static_cast<void>(polygonOffsets);
   static_cast<void>(polygonPoints);
-  return { {}, {}, {}, featureEdges, patchIds, detectedFeatures, guideDirections, guideWeights,
-    targetValences, sizing, curves, regularElsewhere, held, regularOnFeatures, seams, straight,
-    faceOrder, precision };
+  return { {}, {}, {}, featureEdges, patchIds, patchesYield, detectedFeatures, guideDirections,
+    guideWeights, targetValences, sizing, curves, regularElsewhere, held, regularOnFeatures, seams,
+    straight, faceOrder, precision };
 }
 
 /// Lines that are remembered; a stroke of ten thousand polygons takes a megabyte.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Parts of assemblies: their shares of the quads, what is kept of them, and quads that fit together where they meet.
 #include "PlyFile.h"
+#include "StaggeredTube.h"
 #include "TestSurfaces.h"
 
 #include "Base/Angles.h"
@@ -700,6 +701,68 @@ TEST(ConformingParts, BoxesCutByPlanesConform)
       EXPECT_GT(all.edgesOf(4), 10);
     }
   }
+}
+
+/// Patches that no map has with all their borders: borders give way where they end next to each other, which is told
+/// with the place, and the blocks are as watertight as ever. With quads small enough for the gap they all stay.
+TEST(ConformingParts, BordersWithoutRoomGiveWay)
+{
+  const auto remesh = [](vtkQuadRemesh* filter, double gap, vtkIdType number)
+  {
+    const test::PatchedMesh tube = test::staggeredTube(gap);
+    remeshTogether(filter,
+      cutApart(tube.mesh, 4, [&tube](Index f) { return static_cast<unsigned>(tube.patch[f]); }),
+      number);
+    ASSERT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+    // An open tube: its two ends are all that is open.
+    const Union all(filter);
+    EXPECT_EQ(all.euler(), 0);
+    EXPECT_EQ(all.edgesOf(1) + all.edgesOf(2), static_cast<int>(all.edges.size()));
+    std::size_t open = 0;
+    for (const auto& [edge, uses] : all.edges)
+    {
+      const bool isEnd = std::abs(std::abs(edge.first[0]) - 1) < 1e-6 &&
+        std::abs(edge.first[0] - edge.second[0]) < 1e-6;
+      EXPECT_EQ(uses == 1, isEnd);
+      open += uses == 1 ? 1 : 0;
+    }
+    EXPECT_GT(open, 12U);
+    for (unsigned part = 0; part < 4; ++part)
+    {
+      const test::QuadTally t = test::tally(partOf(filter, part));
+      EXPECT_EQ(t.badEdges, 0U);
+      EXPECT_EQ(t.eulerCharacteristic, 1); // a disc
+    }
+  };
+  vtkNew<vtkQuadRemesh> coarse, fine;
+  remesh(coarse, 0.02, 300);
+  EXPECT_TRUE(tells(coarse->GetNoticesText(), "of borders between patches"))
+    << coarse->GetNoticesText();
+  EXPECT_TRUE(tells(coarse->GetNoticesText(), "near ("));
+  EXPECT_TRUE(tells(coarse->GetNoticesText(), "ask for more quads"));
+  remesh(fine, 0.3, 1500);
+  EXPECT_FALSE(tells(fine->GetNoticesText(), "of borders between patches"))
+    << fine->GetNoticesText();
+}
+
+/// Two solids with an edge in common and no face have nothing to be cut at: each is closed, and a notice tells.
+TEST(ConformingParts, SolidsThatTouchAtAnEdgeAreEachClosed)
+{
+  vtkNew<vtkMultiBlockDataSet> input;
+  setPart(input, 0, solidOf([](int i, int j, int) { return i < 6 && j < 3; }), "A");
+  setPart(input, 1, solidOf([](int i, int j, int) { return i >= 6 && j >= 3; }), "B");
+  vtkNew<vtkQuadRemesh> filter;
+  remeshTogether(filter, input, 600);
+  ASSERT_EQ(filter->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded) << filter->GetOutcomeText();
+  for (unsigned part = 0; part < 2; ++part)
+  {
+    const test::QuadTally t = test::tally(partOf(filter, part));
+    EXPECT_EQ(t.boundaryEdges, 0U);
+    EXPECT_EQ(t.badEdges, 0U);
+    EXPECT_EQ(t.eulerCharacteristic, 2);
+  }
+  EXPECT_TRUE(tells(filter->GetNoticesText(), "touch at 6 edges, one of them near (6, 3, "))
+    << filter->GetNoticesText();
 }
 
 TEST(ConformingParts, ASheetThatMeetsItselfIsRefusedWithThePlace)

@@ -123,5 +123,31 @@ TEST(SizeCones, FieldTakesThem)
   EXPECT_EQ(std::count(plain.turns.begin(), plain.turns.end(), 5), 0);
 }
 
+/// Parts without number, some of them so small that a share of the whole area is nothing, and a triangle without area.
+TEST(SizeCones, TinyComponentsAndDegenerateTrianglesHaveAFactorToo)
+{
+  Mesh mesh = gridPlane(12, 12);
+  Mesh speck = gridPlane(3, 3);
+  for (Vector3& p : speck.position)
+  {
+    p *= 1e-7;
+  }
+  speck.position[5] = 0.5 * (speck.position[4] + speck.position[6]);
+  speck.position[9] = speck.position[5];
+  for (int i = 0; i < 5; ++i)
+  {
+    mesh = disjointUnion(mesh, speck, Vector3(20 + i, 0, 0));
+  }
+  mesh = withSizes(mesh, [](const Vector3& p) { return p.x() < 6 ? 1.0 : 0.5; });
+  const FieldTopology topology = buildFieldTopology(mesh);
+  const double error = sizeError(mesh, topology, turnsWith(topology, {}));
+  EXPECT_TRUE(std::isfinite(error));
+  // As large as without them, as they have no area.
+  const Mesh alone =
+    withSizes(gridPlane(12, 12), [](const Vector3& p) { return p.x() < 6 ? 1.0 : 0.5; });
+  const FieldTopology own = buildFieldTopology(alone);
+  EXPECT_NEAR(error, sizeError(alone, own, turnsWith(own, {})), 1e-3);
+}
+
 } // namespace
 } // namespace quadrille

@@ -352,5 +352,91 @@ TEST(GivenUpFeatures, CurvesEndWhereTheyMeet)
   EXPECT_EQ(givenUpCurves(mesh, lostFeatures(mesh, bar), 2, FeatureLoss::NoCrease).size(), 1u);
 }
 
+constexpr std::uint8_t kYields = kAsked | kYieldingFeature;
+
+/// A curve along y = 20 with a branch up at x = 20 and one down at x = 21.
+Mesh staggeredBranches(std::uint8_t rail, std::uint8_t branches)
+{
+  Mesh mesh = test::gridPlane(40, 40);
+  markEdges(mesh, rail, onSegment(0, 20, 40, 20));
+  markEdges(mesh, branches, onSegment(20, 20, 20, 40));
+  markEdges(mesh, branches, onSegment(21, 0, 21, 20));
+  return mesh;
+}
+
+std::vector<Index> nodesInside(const Mesh& mesh)
+{
+  std::map<Index, int> degree;
+  std::set<Index> outside;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isBoundary(h))
+    {
+      outside.insert(mesh.origin[h]);
+    }
+    else if (mesh.isFeature(h) && h < mesh.twin[h])
+    {
+      ++degree[mesh.origin[h]];
+      ++degree[mesh.target(h)];
+    }
+  }
+  std::vector<Index> nodes;
+  for (const auto& [v, edges] : degree)
+  {
+    if (edges != 2 && outside.count(v) == 0)
+    {
+      nodes.push_back(v);
+    }
+  }
+  return nodes;
+}
+
+TEST(MergedJunctions, CurvesThatEndNextToEachOtherCross)
+{
+  Mesh mesh = staggeredBranches(kYields, kYields);
+  const Mesh before = mesh;
+  ASSERT_EQ(nodesInside(before).size(), 2U);
+  const MovedFeatures moved = mergeNearJunctions(mesh, 3);
+  EXPECT_EQ(moved.junctions, 1U);
+  const std::vector<Index> nodes = nodesInside(mesh);
+  ASSERT_EQ(nodes.size(), 1U); // where the curves cross; no curve ends anywhere else
+  EXPECT_EQ(mesh.position[nodes[0]].y(), 20);
+  // What is off was on, what is on was off, and nothing is farther from where it was than the gap.
+  EXPECT_FALSE(moved.on.empty());
+  for (const Index h : moved.off)
+  {
+    EXPECT_TRUE(before.isFeature(h) && !mesh.isFeature(h) && !mesh.isFeature(mesh.twin[h]));
+  }
+  for (const Index h : moved.on)
+  {
+    EXPECT_TRUE(!before.isFeature(h) && mesh.isFeature(h) && mesh.isFeature(mesh.twin[h]));
+    EXPECT_EQ(mesh.flags[h] & kYields, kYields);
+    EXPECT_TRUE(std::abs(mesh.position[mesh.origin[h]].x() - 20.5) < 0.51);
+    EXPECT_TRUE(std::abs(mesh.position[mesh.origin[h]].y() - 20) < 1.5 * 3 + 1);
+  }
+  EXPECT_EQ(allFeatures(mesh) + moved.off.size(), allFeatures(before) + moved.on.size());
+  // The far ends stay.
+  EXPECT_EQ(featuresOn(mesh, onSegment(20, 30, 20, 40)), 10U);
+  EXPECT_EQ(featuresOn(mesh, onSegment(21, 0, 21, 10)), 10U);
+  EXPECT_EQ(featuresOn(mesh, onSegment(0, 20, 40, 20)), 40U);
+}
+
+TEST(MergedJunctions, OthersStay)
+{
+  // Quads small enough for the gap; what was detected, or was asked for and does not yield.
+  for (const auto& [flags, edgeLength] :
+    { std::pair<std::uint8_t, double>{ kYields, 1.9 }, { kFeatureEdge, 3.0 }, { kAsked, 3.0 } })
+  {
+    Mesh mesh = staggeredBranches(flags, flags);
+    const std::vector<std::uint8_t> before = mesh.flags;
+    EXPECT_EQ(mergeNearJunctions(mesh, edgeLength).junctions, 0U);
+    EXPECT_EQ(mesh.flags, before);
+  }
+  Mesh mesh = staggeredBranches(kAsked, kYields); // only branches move
+  EXPECT_EQ(mergeNearJunctions(mesh, 3).junctions, 1U);
+  EXPECT_EQ(featuresOn(mesh, onSegment(0, 20, 40, 20)), 40U);
+  EXPECT_THROW(mergeNearJunctions(mesh, 0), InvalidInput);
+}
+
 } // namespace
 } // namespace quadrille

@@ -87,6 +87,34 @@ TEST(JoinParts, NearPointsAreOne)
   }
 }
 
+/// A part with a sliver at its border, narrower than the tolerance: the other one has the far corner of it.
+TEST(JoinParts, CornersOfASliverAreTold)
+{
+  constexpr double width = 1e-7;
+  const Vector3 near = kX, far = (1 + width) * kX, top = kX + kY;
+  SurfaceInput left, right;
+  left.points = { Vector3::Zero(), near, top, far };
+  left.polygonOffsets = { 0, 3, 6 };
+  left.polygonPoints = { 0, 1, 2, 1, 3, 2 };
+  right.points = { far, 2 * kX, top };
+  right.polygonOffsets = { 0, 3 };
+  right.polygonPoints = { 0, 1, 2 };
+  for (const bool isLeftFirst : { true, false })
+  {
+    const PartContacts contacts =
+      isLeftFirst ? contactsOf({ left, right }) : contactsOf({ right, left });
+    EXPECT_EQ(contacts.edges, 1U);
+    EXPECT_EQ(contacts.manyFaced, 0U);
+    EXPECT_EQ(contacts.loosePoints, 0U);
+    EXPECT_EQ(contacts.pointOf,
+      isLeftFirst ? (std::vector<Index>{ 0, 1, 2, 3, 3, 5, 2 })
+                  : (std::vector<Index>{ 0, 1, 2, 3, 4, 2, 0 }));
+  }
+  // Not to the last bit, but nearer than the other corner.
+  right.points[0] += 0.2 * width * kX;
+  EXPECT_EQ(contactsOf({ left, right }).pointOf, (std::vector<Index>{ 0, 1, 2, 3, 3, 5, 2 }));
+}
+
 TEST(JoinParts, PatchesOfPartsStayApart)
 {
   std::vector<SurfaceInput> parts{ squareSheet(2, Vector3::Zero(), kX, kY),

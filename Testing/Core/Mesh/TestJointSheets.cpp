@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace quadrille
@@ -110,6 +111,49 @@ TEST(JointSheets, ASheetThatMeetsItselfIsRefused)
     EXPECT_NE(std::string(error.what()).find("a sheet meets itself"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("(3, 2.5, 0)"), std::string::npos) << error.what();
   }
+}
+
+/// Two cubes have an edge in common and no face: each goes on round it, and there is no border to cut them at.
+TEST(JointSheets, SolidsThatTouchAtACurveGoOn)
+{
+  SurfaceInput other = cubeAt(1);
+  for (Vector3& p : other.points)
+  {
+    p.y() += 1;
+  }
+  const JointSheets sheets = cutIntoSheets(jointOf({ cubeAt(0), other }), std::nullopt);
+  EXPECT_EQ(sheets.offset.size(), 2U);
+  EXPECT_TRUE(sheets.edges.empty());
+  EXPECT_EQ(sheets.touching, 2U);
+  EXPECT_EQ(sheets.touchingPlace.head<2>(), Eigen::Vector2d(1, 1));
+}
+
+/// Where there are borders to cut at, whoever asks decides.
+TEST(JointSheets, TouchingSheetsAreJoinedOrLeft)
+{
+  SurfaceInput cube = cubeAt(0), other = cubeAt(1);
+  for (Vector3& p : other.points)
+  {
+    p.y() += 1;
+  }
+  for (SurfaceInput* part : { &cube, &other }) // a patch for each side of the cube
+  {
+    const Mesh mesh = test::unitCube(2);
+    for (Index f = 0; f < mesh.faceCount(); ++f)
+    {
+      const Vector3 n = test::faceNormal(mesh, f);
+      part->patchIds.push_back(std::lround(n.x() + 2 * n.y() + 3 * n.z()));
+    }
+  }
+  const SurfaceInput joint = jointOf({ cube, other });
+  const JointSheets joined = cutIntoSheets(joint, std::nullopt);
+  EXPECT_EQ(joined.offset.size(), 12U);
+  EXPECT_EQ(joined.touching, 0U);
+  EXPECT_FALSE(joined.edges.empty());
+  const JointSheets left = cutIntoSheets(joint, std::nullopt, TouchingSheets::Left);
+  EXPECT_EQ(left.offset.size(), 2U);
+  EXPECT_EQ(left.touching, 2U);
+  EXPECT_TRUE(left.edges.empty());
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "Base/Angles.h"
 #include "Mesh/FeatureNetwork.h"
 #include "MeshInput.h"
+#include "StaggeredTube.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -101,6 +102,41 @@ TEST(GivenUpFeatures, ThreadsAndScaleChangeNothing)
     EXPECT_EQ(1024 * one.givenUpFeatures[i].length, large.givenUpFeatures[i].length);
     EXPECT_EQ(one.givenUpFeatures[i].lengthInQuads, large.givenUpFeatures[i].lengthInQuads);
   }
+}
+
+/// Four patches that no map has with all their borders, see there.
+TEST(GivenUpFeatures, BordersOfPatchesYieldWhereTheyMay)
+{
+  const test::PatchedMesh tube = test::staggeredTube(0.02);
+  SurfaceInput input = test::toInput(tube.mesh);
+  input.patchIds = tube.patch;
+  RemeshOptions options;
+  options.quads = 300;
+  options.threads = 1;
+  EXPECT_FALSE(remesh(input, options).status.ok()); // what was asked for stays
+  input.patchesYield = true;
+  const RemeshResult result = remesh(input, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_NE(std::find(result.attempts.begin(), result.attempts.end(), "fewer borders"),
+    result.attempts.end());
+  EXPECT_TRUE(std::any_of(result.notices.begin(), result.notices.end(),
+    [](const std::string& text) {
+      return text.find("of borders between patches, nearer to another one") != std::string::npos;
+    }));
+  options.threads = 4;
+  const RemeshResult again = remesh(input, options);
+  EXPECT_EQ(again.quads.quads, result.quads.quads);
+  EXPECT_EQ(again.quads.points, result.quads.points);
+  // With a gap that quads fit into nothing gives way, and the result is the one without the permission.
+  const test::PatchedMesh wide = test::staggeredTube(0.3);
+  SurfaceInput other = test::toInput(wide.mesh);
+  other.patchIds = wide.patch;
+  options.quads = 1500;
+  const RemeshResult asked = remesh(other, options);
+  other.patchesYield = true;
+  const RemeshResult yielding = remesh(other, options);
+  ASSERT_TRUE(asked.status.ok()) << asked.status.message;
+  EXPECT_EQ(yielding.quads.points, asked.quads.points);
 }
 
 } // namespace

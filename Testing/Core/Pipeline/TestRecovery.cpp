@@ -138,8 +138,9 @@ std::vector<Index> twoRings(const Level& level, const std::vector<Index>& centre
 TEST(Recovery, StepsAreTriedInThisOrder)
 {
   EXPECT_EQ(recoverySteps(),
-    std::vector<std::string>({ "more freedom", "room for curves", "kept offenders",
-      "smaller quads near", "more quads", "fewer features", "no features" }));
+    std::vector<std::string>(
+      { "more freedom", "room for curves", "kept offenders", "smaller quads near", "more quads",
+        "fewer borders", "fewer features", "no features", "no borders" }));
 }
 
 // The plan that a run begins with.
