@@ -85,6 +85,10 @@ bool HandlesOfPiece::close(
     return false;
   }
   const std::vector<Vector3> before = placesOfPoints(surface);
+  if (shortOnes.size() <= kMostFollowed && surface.mesh.faceCount() >= kLeastFollowed)
+  {
+    surface.namesBefore = NamesBefore::of(surface.mesh.vertexCount(), surface.mesh.faceCount());
+  }
   for (const std::size_t i : closeHandles(
          surface, shortOnes, kLongerAlongEdges * closedLoop_, kGirthOfLimb * quadEdge_, threads))
   {

@@ -26,8 +26,8 @@ public:
   }
 
   /// Cuts and closes those that are found on the level, a thinned surface; not those beside one of the kept places,
-  /// which the level shows as they are. Returns whether the surface has changed: its ids are others then. To be called
-  /// once.
+  /// which the level shows as they are. Returns whether the surface has changed: its ids are others then, and it has
+  /// namesBefore where levels may follow. To be called once.
   bool close(
     PreparedSurface& surface, const Level& level, const std::vector<Vector3>& kept, int threads);
 

@@ -168,6 +168,7 @@ private:
     {
       return false;
     }
+    surface_.namesBefore.reset(); // levels with kept vertices do not follow
     findInputPoints();
     return true;
   }

@@ -15,24 +15,23 @@ namespace quadrille
 ThinnedSurface::ThinnedSurface(PreparedSurface fine, const PieceOptions& options)
   : fine_(std::move(fine)), handles_(options.closedLoop, options.quadEdge)
 {
-  Hierarchy made = decimate(options);
-  if (handles_.close(fine_, made.intermediate, {}, options.threads))
+  HierarchyOptions thinning;
+  thinning.targetEdgeLength = 2 * options.edgeLength; // phase 1 ends at a half of it
+  thinning.isRough = true;
+  thinning.isConnected = fine_.components == 1;
+  thinning.threads = options.threads;
+  thinning.progress = options.progress;
+  Redecimation thinned(fine_.mesh, fine_.hash, thinning);
+  const Level& level = thinned.intermediateOfPhase1();
+  if (handles_.close(fine_, level, {}, options.threads) &&
+    !(fine_.namesBefore && thinned.follow(fine_.mesh, fine_.hash, *fine_.namesBefore, thinning)))
   {
-    made = decimate(options);
+    thinned = Redecimation(fine_.mesh, fine_.hash, thinning);
   }
+  fine_.namesBefore.reset();
+  Hierarchy made = thinned.take();
   level_ = std::move(made.intermediate);
   log_ = std::move(made.log);
-}
-
-Hierarchy ThinnedSurface::decimate(const PieceOptions& piece) const
-{
-  HierarchyOptions options;
-  options.targetEdgeLength = 2 * piece.edgeLength; // phase 1 ends at a half of it
-  options.isRough = true;
-  options.isConnected = fine_.components == 1;
-  options.threads = piece.threads;
-  options.progress = piece.progress;
-  return Redecimation(fine_.mesh, fine_.hash, options).take();
 }
 
 PreparedSurface ThinnedSurface::surface(int threads) const

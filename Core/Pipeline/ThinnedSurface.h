@@ -50,8 +50,6 @@ public:
     const std::vector<Vector3>& userPoints, int threads, const ProgressCallback& progress);
 
 private:
-  Hierarchy decimate(const PieceOptions& options) const;
-
   PreparedSurface fine_;
   HandlesOfPiece handles_;
   Level level_;
