@@ -25,7 +25,7 @@ def text(x, y, words, size=11, anchor="middle"):
 
 
 def number(value):
-    return f"{value / 1e6:g} M" if value >= 1e6 else f"{value:,.0f}" if value >= 10 else f"{value:g}"
+    return f"{value / 1e6:.3g} M" if value >= 1e6 else f"{value:,.0f}" if value >= 10 else f"{value:g}"
 
 
 class Axis:
@@ -93,7 +93,7 @@ def main():
         parts.append(text(LEFT + 200 * i + 18, 20, words, 12, "start"))
     parts.append(f'<path d="M{LEFT + 440} 16h24" stroke="#555555" stroke-dasharray="4 4"/>')
     parts.append(text(LEFT + 470, 20, "in proportion", 12, "start"))
-    quads, faces = number(float(by_triangles[0]["quads"])), number(round(float(by_quads[0]["faces"]) / 1e5) * 1e5)
+    quads, faces = number(round(float(by_triangles[0]["quads"]), -3)), number(float(by_quads[0]["faces"]))
     parts += panel(LEFT, by_triangles, "faces", f"triangles, about {quads} quads")
     parts += panel(LEFT + WIDTH + GAP, by_quads, "quads", f"quads of {faces} triangles")
     with open(sys.argv[3], "w", encoding="utf-8") as file:

@@ -34,7 +34,8 @@ void findShortLoops(RunContext& run, StageRecords& stages, std::vector<std::stri
   const Level& intermediate = run.levels.makeIntermediate(levelOptions(run, {}));
   stages.add(run.levels.stages());
   const double start = secondsNow();
-  run.shortLoops = measureSmallParts(intermediate, run.surface->mesh, run.edgeLength, run.options.threads);
+  run.shortLoops =
+    measureSmallParts(intermediate, run.surface->mesh, run.edgeLength, run.options.threads);
   stages.add(
     "handles", secondsNow() - start, intermediate.mesh.faceCount(), run.shortLoops.parts.handles);
   if (run.store != nullptr)
