@@ -10,7 +10,7 @@ namespace
 {
 
 /// By how much a point may be off the place that its source names, over the size of the triangle.
-constexpr double kSamePlace = 1e-6;
+constexpr double kSameSpot = 1e-6;
 
 } // namespace
 
@@ -40,7 +40,7 @@ std::optional<FacePlace> placeOnSource(const PreparedSurface& mapped, Index face
     place += weight * source.points[corners[k]];
     size = std::max(size, (source.points[corners[k]] - source.points[corners[0]]).norm());
   }
-  if (!(sum > 0) || (point != nullptr && !((place / sum - *point).norm() <= kSamePlace * size)))
+  if (!(sum > 0) || (point != nullptr && !((place / sum - *point).norm() <= kSameSpot * size)))
   {
     return std::nullopt;
   }
