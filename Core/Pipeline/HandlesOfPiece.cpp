@@ -13,25 +13,6 @@
 
 namespace quadrille
 {
-namespace
-{
-
-/// By id in the input.
-std::vector<Vector3> placesOfPoints(const PreparedSurface& surface)
-{
-  std::vector<Vector3> places;
-  for (Index h = 0; h < surface.mesh.halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    const Index point = surface.sourcePoints[Mesh::face(h)][h % 3];
-    places.resize(std::max(places.size(), std::size_t{ point } + 1));
-    places[point] = surface.mesh.position[surface.mesh.origin[h]];
-  }
-  return places;
-}
-
-} // namespace
-
 bool HandlesOfPiece::isNear(
   const Mesh& mesh, const std::vector<Index>& place, const std::vector<Vector3>& kept) const
 {
@@ -84,11 +65,7 @@ bool HandlesOfPiece::close(
   {
     return false;
   }
-  const std::vector<Vector3> before = placesOfPoints(surface);
-  if (shortOnes.size() <= kMostFollowed && surface.mesh.faceCount() >= kLeastFollowed)
-  {
-    surface.namesBefore = NamesBefore::of(surface.mesh.vertexCount(), surface.mesh.faceCount());
-  }
+  surface.namesBefore = NamesBefore::of(surface.mesh.vertexCount(), surface.mesh.faceCount());
   for (const std::size_t i : closeHandles(
          surface, shortOnes, kLongerAlongEdges * closedLoop_, kGirthOfLimb * quadEdge_, threads))
   {
@@ -97,25 +74,23 @@ bool HandlesOfPiece::close(
   surface.repair.closedHandles -= closed_.size(); // told as details
   if (!closed_.empty())
   {
-    findNewVertices(surface, before);
+    findNewVertices(surface);
+  }
+  if (closed_.empty() || closed_.size() > kMostFollowed ||
+    surface.mesh.faceCount() < kLeastFollowed)
+  {
+    surface.namesBefore.reset();
   }
   return !closed_.empty();
 }
 
-/// The middles of caps: their faces have the sources of the faces beside them.
-void HandlesOfPiece::findNewVertices(
-  const PreparedSurface& surface, const std::vector<Vector3>& placesBefore)
+void HandlesOfPiece::findNewVertices(const PreparedSurface& surface)
 {
   const Mesh& mesh = surface.mesh;
   isNew_.assign(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
-    pollNowAndThen(h);
-    const Index v = mesh.origin[h];
-    if (placesBefore[surface.sourcePoints[Mesh::face(h)][h % 3]] != mesh.position[v])
-    {
-      isNew_[v] = 1;
-    }
+    isNew_[v] = surface.namesBefore->vertex[v] == kInvalidIndex ? 1 : 0;
   }
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {

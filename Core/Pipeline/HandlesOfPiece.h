@@ -32,7 +32,8 @@ public:
     PreparedSurface& surface, const Level& level, const std::vector<Vector3>& kept, int threads);
 
   const std::vector<SmallDetail>& closed() const { return closed_; }
-  /// Whether a vertex of the surface is the middle of a cap, which the input does not have.
+  /// Whether a vertex of the surface was made by a cut: the middle of a cap, which the input does not have, or the copy
+  /// of a vertex on its edge.
   bool isNew(Index v) const { return !isNew_.empty() && isNew_[v] != 0; }
   /// The place itself where the face has such a vertex: its source is beside it then.
   std::optional<Vector3> offInput(const FacePlace& place) const;
@@ -49,7 +50,7 @@ private:
     const Mesh& mesh, const std::vector<Index>& place, const std::vector<Vector3>& kept) const;
   std::vector<std::vector<Index>> placesOnSurface(
     const Mesh& mesh, const Level& level, const std::vector<Vector3>& kept) const;
-  void findNewVertices(const PreparedSurface& surface, const std::vector<Vector3>& placesBefore);
+  void findNewVertices(const PreparedSurface& surface);
 
   double closedLoop_;
   double quadEdge_;
