@@ -13,74 +13,96 @@
 
 namespace quadrille
 {
-bool HandlesOfPiece::isNear(
-  const Mesh& mesh, const std::vector<Index>& place, const std::vector<Vector3>& kept) const
+namespace
+{
+
+bool isBeside(const Mesh& mesh, const std::vector<Index>& place, const std::vector<Vector3>& kept,
+  double distance)
 {
   return std::any_of(place.begin(), place.end(),
     [&](Index v)
     {
       return std::any_of(kept.begin(), kept.end(),
-        [&](const Vector3& p) { return (mesh.position[v] - p).norm() < closedLoop_; });
+        [&](const Vector3& p) { return (mesh.position[v] - p).norm() < distance; });
     });
 }
 
-std::vector<std::vector<Index>> HandlesOfPiece::placesOnSurface(
-  const Mesh& mesh, const Level& level, const std::vector<Vector3>& kept) const
+std::vector<Index> onFinest(const std::vector<Index>& vertices, const Level& level)
 {
-  std::vector<std::vector<Index>> places;
-  for (const HandleLoop& loop : findShortHandles(level.mesh, kLongerAlongEdges * closedLoop_))
+  std::vector<Index> place(vertices.size());
+  std::transform(
+    vertices.begin(), vertices.end(), place.begin(), [&](Index v) { return level.fineVertex[v]; });
+  return place;
+}
+
+} // namespace
+
+std::vector<ShortHandle> findShortHandles(const Mesh& mesh, const Level& level, double closedLoop,
+  double quadEdge, const std::vector<Vector3>& kept, int threads)
+{
+  std::vector<ShortHandle> handles;
+  if (!(closedLoop > 0))
   {
-    std::vector<Index> place(loop.vertices.size());
-    std::transform(loop.vertices.begin(), loop.vertices.end(), place.begin(),
-      [&](Index v) { return level.fineVertex[v]; });
-    if (!isNear(mesh, place, kept))
+    return handles;
+  }
+  std::vector<std::vector<Index>> onLevel, places;
+  for (HandleLoop& loop : findShortHandles(level.mesh, kLongerAlongEdges * closedLoop))
+  {
+    std::vector<Index> place = onFinest(loop.vertices, level);
+    if (!isBeside(mesh, place, kept, closedLoop))
     {
       places.push_back(std::move(place));
+      onLevel.push_back(std::move(loop.vertices));
     }
   }
-  return places;
+  const auto lengths = lengthsNear(mesh, places, closedLoop, threads);
+  for (std::size_t i = 0; lengths && i < places.size(); ++i)
+  {
+    if ((*lengths)[i] > 0)
+    {
+      handles.push_back({ std::move(onLevel[i]),
+        { DetailKind::Handle, DetailDecision::Simplify, (*lengths)[i] / quadEdge,
+          mesh.position[places[i].front()], kCutAndClosed } });
+    }
+  }
+  return handles;
+}
+
+std::vector<SmallDetail> cutShortHandles(PreparedSurface& surface,
+  const std::vector<ShortHandle>& handles, const std::vector<std::vector<Index>>& places,
+  double closedLoop, double quadEdge, int threads)
+{
+  std::vector<SmallDetail> closed;
+  for (const std::size_t i :
+    closeHandles(surface, places, kLongerAlongEdges * closedLoop, kGirthOfLimb * quadEdge, threads))
+  {
+    closed.push_back(handles[i].detail);
+  }
+  surface.repair.closedHandles -= closed.size(); // told as details
+  return closed;
 }
 
 bool HandlesOfPiece::close(
   PreparedSurface& surface, const Level& level, const std::vector<Vector3>& kept, int threads)
 {
-  if (!(closedLoop_ > 0))
+  const std::vector<ShortHandle> handles =
+    findShortHandles(surface.mesh, level, closedLoop_, quadEdge_, kept, threads);
+  if (handles.empty())
   {
     return false;
   }
-  const std::vector<std::vector<Index>> places = placesOnSurface(surface.mesh, level, kept);
-  const auto lengths = lengthsNear(surface.mesh, places, closedLoop_, threads);
-  std::vector<std::vector<Index>> shortOnes;
-  std::vector<SmallDetail> found;
-  for (std::size_t i = 0; lengths && i < places.size(); ++i)
+  std::vector<std::vector<Index>> places;
+  for (const ShortHandle& handle : handles)
   {
-    if ((*lengths)[i] > 0)
-    {
-      found.push_back({ DetailKind::Handle, DetailDecision::Simplify, (*lengths)[i] / quadEdge_,
-        surface.mesh.position[places[i].front()], kCutAndClosed });
-      shortOnes.push_back(places[i]);
-    }
-  }
-  if (shortOnes.empty())
-  {
-    return false;
+    places.push_back(onFinest(handle.onLevel, level));
   }
   surface.namesBefore = NamesBefore::of(surface.mesh.vertexCount(), surface.mesh.faceCount());
-  for (const std::size_t i : closeHandles(
-         surface, shortOnes, kLongerAlongEdges * closedLoop_, kGirthOfLimb * quadEdge_, threads))
-  {
-    closed_.push_back(found[i]);
-  }
-  surface.repair.closedHandles -= closed_.size(); // told as details
+  closed_ = cutShortHandles(surface, handles, places, closedLoop_, quadEdge_, threads);
   if (!closed_.empty())
   {
     findNewVertices(surface);
   }
-  if (closed_.empty() || closed_.size() > kMostFollowed ||
-    surface.mesh.faceCount() < kLeastFollowed)
-  {
-    surface.namesBefore.reset();
-  }
+  surface.namesBefore.reset();
   return !closed_.empty();
 }
 

@@ -17,6 +17,23 @@
 namespace quadrille
 {
 
+/// A handle that is to be cut.
+struct ShortHandle
+{
+  std::vector<Index> onLevel; ///< vertices of the level near it
+  SmallDetail detail;
+};
+
+/// Handles found on the level, a thinned surface, that are shorter round than closedLoop on the surface itself, in units
+/// of both; not those beside one of the kept places, which the level shows as they are. quadEdge: s.
+std::vector<ShortHandle> findShortHandles(const Mesh& mesh, const Level& level, double closedLoop,
+  double quadEdge, const std::vector<Vector3>& kept, int threads);
+
+/// Cuts and closes them near these places, vertices of the surface, one each. Returns those that were cut.
+std::vector<SmallDetail> cutShortHandles(PreparedSurface& surface,
+  const std::vector<ShortHandle>& handles, const std::vector<std::vector<Index>>& places,
+  double closedLoop, double quadEdge, int threads);
+
 class HandlesOfPiece
 {
 public:
@@ -25,9 +42,8 @@ public:
   {
   }
 
-  /// Cuts and closes those that are found on the level, a thinned surface; not those beside one of the kept places,
-  /// which the level shows as they are. Returns whether the surface has changed: its ids are others then, and it has
-  /// namesBefore where levels may follow. To be called once.
+  /// Cuts and closes those that findShortHandles finds, on the surface itself. Returns whether the surface has changed:
+  /// its ids are others then. To be called once.
   bool close(
     PreparedSurface& surface, const Level& level, const std::vector<Vector3>& kept, int threads);
 
@@ -46,10 +62,6 @@ private:
     std::array<Vector3, 3> corners;
   };
 
-  bool isNear(
-    const Mesh& mesh, const std::vector<Index>& place, const std::vector<Vector3>& kept) const;
-  std::vector<std::vector<Index>> placesOnSurface(
-    const Mesh& mesh, const Level& level, const std::vector<Vector3>& kept) const;
   void findNewVertices(const PreparedSurface& surface);
 
   double closedLoop_;

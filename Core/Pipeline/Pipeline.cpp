@@ -598,7 +598,8 @@ ThinnedSurface thinOut(SurfaceInput& input, const RemeshOptions& options, StageR
 
 /// Points of the quads go from the thinned surface, where result has them, to that of the user.
 void carryToInput(ThinnedSurface& thinned, const std::vector<Vector3>& userPoints,
-  const FramedInput& framed, const RemeshOptions& options, RemeshResult& made, PiecesResult& result)
+  const std::vector<Vector3>& points, const RemeshOptions& options, RemeshResult& made,
+  PiecesResult& result)
 {
   if (!made.status.ok())
   {
@@ -607,11 +608,7 @@ void carryToInput(ThinnedSurface& thinned, const std::vector<Vector3>& userPoint
   Stopwatch watch;
   ThinnedSurface::Places places = thinned.carry(made.quads, made.surface, userPoints,
     options.threads, subProgress(options.progress, 0.9, 1.0, "Carrying points: "));
-  putOnInput(places.ofPoints, framed.points, made.quads.points);
-  for (const auto& [point, place] : places.offInput)
-  {
-    made.quads.points[point] = framed.frame.toUser(place);
-  }
+  putOnInput(places.ofPoints, points, made.quads.points);
   result.pointSource = std::move(places.ofPoints);
   result.quadSource = std::move(places.ofQuads);
   made.stages.push_back(
@@ -632,11 +629,12 @@ void runThinned(FramedInput& framed, const RemeshOptions& given, PlaceScope& pla
   result.joinedTriangles = thinned.faceCount();
   const std::vector<Vector3> userPoints = thinned.userPoints(frame, framed.points);
   options.progress = subProgress(given.progress, 0.6, 0.9);
-  SizedSurface sized = sizePrepared(thinned.surface(options.threads), stages, options);
+  std::vector<SmallDetail> closed;
+  SizedSurface sized = sizePrepared(thinned.surface(options.threads, closed), stages, options);
   runSized(sized, frame, options, nullptr, false, made);
-  tellClosedHandles(thinned.closedHandles(), made);
+  tellClosedHandles(closed, made);
   leave(sized, { frame, {}, userPoints }, options, false, made);
-  carryToInput(thinned, userPoints, framed, given, made, result);
+  carryToInput(thinned, userPoints, framed.points, given, made, result);
   if (given.edgeLength && !options.quads)
   {
     made.targetEdgeLength = *given.edgeLength;

@@ -19,12 +19,6 @@ constexpr double kLongerAlongEdges = 2;
 /// quads show: the jaw of a skull hangs on two joints, and both may be handles below the limit.
 constexpr double kGirthOfLimb = 4.5;
 
-/// Levels follow the changes of up to so many places, of surfaces of so many faces at least: on smaller ones phase 1
-/// costs next to nothing. Of skull, with 287 handles cut at 3,000 quads, maps held on new levels and not on those that
-/// had followed.
-constexpr std::size_t kMostFollowed = 8;
-constexpr Index kLeastFollowed = Index{ 1 } << 18;
-
 struct ClosedHandles
 {
   std::string notice;

@@ -168,7 +168,6 @@ private:
     {
       return false;
     }
-    surface_.namesBefore.reset(); // levels with kept vertices do not follow
     findInputPoints();
     return true;
   }

@@ -13,7 +13,7 @@
 namespace quadrille
 {
 ThinnedSurface::ThinnedSurface(PreparedSurface fine, const PieceOptions& options)
-  : fine_(std::move(fine)), handles_(options.closedLoop, options.quadEdge)
+  : fine_(std::move(fine)), closedLoop_(options.closedLoop), quadEdge_(options.quadEdge)
 {
   HierarchyOptions thinning;
   thinning.targetEdgeLength = 2 * options.edgeLength; // phase 1 ends at a half of it
@@ -21,20 +21,13 @@ ThinnedSurface::ThinnedSurface(PreparedSurface fine, const PieceOptions& options
   thinning.isConnected = fine_.components == 1;
   thinning.threads = options.threads;
   thinning.progress = options.progress;
-  Redecimation thinned(fine_.mesh, fine_.hash, thinning);
-  const Level& level = thinned.intermediateOfPhase1();
-  if (handles_.close(fine_, level, {}, options.threads) &&
-    !(fine_.namesBefore && thinned.follow(fine_.mesh, fine_.hash, *fine_.namesBefore, thinning)))
-  {
-    thinned = Redecimation(fine_.mesh, fine_.hash, thinning);
-  }
-  fine_.namesBefore.reset();
-  Hierarchy made = thinned.take();
+  Hierarchy made = Redecimation(fine_.mesh, fine_.hash, thinning).take();
   level_ = std::move(made.intermediate);
   log_ = std::move(made.log);
+  handles_ = findShortHandles(fine_.mesh, level_, closedLoop_, quadEdge_, {}, options.threads);
 }
 
-PreparedSurface ThinnedSurface::surface(int threads) const
+PreparedSurface ThinnedSurface::surface(int threads, std::vector<SmallDetail>& closed) const
 {
   PreparedSurface thinned;
   thinned.mesh = level_.mesh;
@@ -50,6 +43,15 @@ PreparedSurface ThinnedSurface::surface(int threads) const
     thinned.sourcePolygon.push_back(f);
     thinned.sourcePoints.push_back(
       { mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2] });
+  }
+  if (!handles_.empty())
+  {
+    std::vector<std::vector<Index>> places;
+    for (const ShortHandle& handle : handles_)
+    {
+      places.push_back(handle.onLevel);
+    }
+    closed = cutShortHandles(thinned, handles_, places, closedLoop_, quadEdge_, threads);
   }
   return thinned;
 }
@@ -107,17 +109,9 @@ ThinnedSurface::Places ThinnedSurface::carry(const QuadMesh& quads, const Prepar
   log_ = {};
   for (std::size_t i = 0; i < onFine.size(); ++i)
   {
-    const SourceLocation at = fine_.locate(onFine[i].face, onFine[i].weights);
-    if (whose[i] >= points)
-    {
-      made.ofQuads[whose[i] - points] = at;
-      continue;
-    }
-    made.ofPoints[whose[i]] = at;
-    if (const auto off = handles_.offInput(onFine[i]))
-    {
-      made.offInput.emplace_back(whose[i], *off);
-    }
+    SourceLocation& at =
+      whose[i] < points ? made.ofPoints[whose[i]] : made.ofQuads[whose[i] - points];
+    at = fine_.locate(onFine[i].face, onFine[i].weights);
   }
   return made;
 }

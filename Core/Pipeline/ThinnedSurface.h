@@ -13,7 +13,6 @@
 #include "Pipeline/HandlesOfPiece.h"
 #include "Pipeline/SurfacePiece.h"
 
-#include <utility>
 #include <vector>
 
 namespace quadrille
@@ -27,11 +26,11 @@ public:
   ThinnedSurface(PreparedSurface fine, const PieceOptions& options);
 
   /// The thinned surface as one by itself: its polygons are its own triangles, its input's points its own vertices. It
-  /// has what was found on the surface: area, diagonal, components, features, sizes, what repair did.
-  PreparedSurface surface(int threads) const;
+  /// has what was found on the surface: area, diagonal, components, features, sizes, what repair did. Handles that are
+  /// too short on the surface itself are cut and closed; on thinned triangles they come out longer. closed: gets them,
+  /// with places on `fine`.
+  PreparedSurface surface(int threads, std::vector<SmallDetail>& closed) const;
   std::size_t faceCount() const { return level_.fineFace.size(); }
-  /// The handles that were cut and closed; places of `fine`.
-  const std::vector<SmallDetail>& closedHandles() const { return handles_.closed(); }
 
   /// The user's positions of its vertices. points: of the user's input, see FramedInput.
   std::vector<Vector3> userPoints(const Frame& frame, const std::vector<Vector3>& points) const;
@@ -39,8 +38,6 @@ public:
   struct Places
   {
     std::vector<SourceLocation> ofPoints, ofQuads;
-    /// Points whose source is beside them, as a handle was closed there, ascending, with their places on `fine`.
-    std::vector<std::pair<std::size_t, Vector3>> offInput;
   };
 
   /// Where points and centres of quads lie on the input. quads: of `mapped`, which was made of surface(); both with
@@ -51,7 +48,8 @@ public:
 
 private:
   PreparedSurface fine_;
-  HandlesOfPiece handles_;
+  double closedLoop_, quadEdge_;
+  std::vector<ShortHandle> handles_;
   Level level_;
   DecimationLog log_;
 };
