@@ -24,8 +24,8 @@ struct ShortHandle
   SmallDetail detail;
 };
 
-/// Handles found on the level, a thinned surface, that are shorter round than closedLoop on the surface itself, in units
-/// of both; not those beside one of the kept places, which the level shows as they are. quadEdge: s.
+/// Handles found on the level, a thinned surface, that are shorter round than closedLoop on the surface itself, in the
+/// units of both; not those beside one of the kept places, which the level shows as they are. quadEdge: s.
 std::vector<ShortHandle> findShortHandles(const Mesh& mesh, const Level& level, double closedLoop,
   double quadEdge, const std::vector<Vector3>& kept, int threads);
 
