@@ -91,11 +91,9 @@ bool HandlesOfPiece::close(
   {
     return false;
   }
-  std::vector<std::vector<Index>> places;
-  for (const ShortHandle& handle : handles)
-  {
-    places.push_back(onFinest(handle.onLevel, level));
-  }
+  std::vector<std::vector<Index>> places(handles.size());
+  std::transform(handles.begin(), handles.end(), places.begin(),
+    [&](const ShortHandle& handle) { return onFinest(handle.onLevel, level); });
   surface.namesBefore = NamesBefore::of(surface.mesh.vertexCount(), surface.mesh.faceCount());
   closed_ = cutShortHandles(surface, handles, places, closedLoop_, quadEdge_, threads);
   if (!closed_.empty())

@@ -7,6 +7,7 @@
 #include "Pipeline/PlaceOnSource.h"
 #include "Transfer/CarriedPlaces.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -46,11 +47,9 @@ PreparedSurface ThinnedSurface::surface(int threads, std::vector<SmallDetail>& c
   }
   if (!handles_.empty())
   {
-    std::vector<std::vector<Index>> places;
-    for (const ShortHandle& handle : handles_)
-    {
-      places.push_back(handle.onLevel);
-    }
+    std::vector<std::vector<Index>> places(handles_.size());
+    std::transform(handles_.begin(), handles_.end(), places.begin(),
+      [](const ShortHandle& handle) { return handle.onLevel; });
     closed = cutShortHandles(thinned, handles_, places, closedLoop_, quadEdge_, threads);
   }
   return thinned;
