@@ -36,6 +36,22 @@ Index idInPart(const LoopNeighbourhood& part, Index v)
     std::lower_bound(part.vertex.begin(), part.vertex.end(), v) - part.vertex.begin());
 }
 
+/// The shortest loop below the bound that meets a vertex of the place. part: what is searched; null: all.
+std::optional<LoopSearch::Loop> shortestAt(
+  LoopSearch& search, const LoopNeighbourhood* part, const std::vector<Index>& place, double bound)
+{
+  std::optional<LoopSearch::Loop> best;
+  for (const Index root : place)
+  {
+    const Index from = part != nullptr ? idInPart(*part, root) : root;
+    if (std::optional<LoopSearch::Loop> loop = search.shortest(from, best ? best->length : bound))
+    {
+      best = std::move(loop);
+    }
+  }
+  return best;
+}
+
 } // namespace
 
 NearLoops::NearLoops(const Mesh& mesh, const std::vector<std::vector<Index>>& places, double bound,
@@ -47,16 +63,7 @@ NearLoops::NearLoops(const Mesh& mesh, const std::vector<std::vector<Index>>& pl
 
 std::optional<LoopSearch::Loop> NearLoops::shortestNear(const std::vector<Index>& place)
 {
-  std::optional<LoopSearch::Loop> best;
-  for (const Index root : place)
-  {
-    const Index from = part_ ? idInPart(*part_, root) : root;
-    if (std::optional<LoopSearch::Loop> loop = search_.shortest(from, best ? best->length : bound_))
-    {
-      best = std::move(loop);
-    }
-  }
-  return best;
+  return shortestAt(search_, part_ ? &*part_ : nullptr, place, bound_);
 }
 
 LoopSearch::Loop NearLoops::onSurface(LoopSearch::Loop loop) const
@@ -89,15 +96,8 @@ std::optional<std::vector<double>> lengthsNear(
   for (const std::vector<Index>& place : places)
   {
     poll();
-    double best = 0;
-    for (const Index root : place)
-    {
-      if (const auto loop = search.shortest(idInPart(*part, root), best > 0 ? best : bound))
-      {
-        best = loop->length;
-      }
-    }
-    lengths.push_back(best);
+    const auto loop = shortestAt(search, &*part, place, bound);
+    lengths.push_back(loop ? loop->length : 0);
   }
   return lengths;
 }

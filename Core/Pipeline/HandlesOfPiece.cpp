@@ -27,14 +27,6 @@ bool isBeside(const Mesh& mesh, const std::vector<Index>& place, const std::vect
     });
 }
 
-std::vector<Index> onFinest(const std::vector<Index>& vertices, const Level& level)
-{
-  std::vector<Index> place(vertices.size());
-  std::transform(
-    vertices.begin(), vertices.end(), place.begin(), [&](Index v) { return level.fineVertex[v]; });
-  return place;
-}
-
 } // namespace
 
 std::vector<ShortHandle> findShortHandles(const Mesh& mesh, const Level& level, double closedLoop,

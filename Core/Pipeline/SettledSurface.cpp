@@ -329,10 +329,7 @@ private:
       std::vector<HandleLoop> loops = findHandles(level.mesh, handleLimit_).loops;
       for (HandleLoop& loop : loops)
       {
-        for (Index& v : loop.vertices)
-        {
-          v = level.fineVertex[v];
-        }
+        loop.vertices = onFinest(loop.vertices, level);
       }
       return loops;
     }

@@ -7,6 +7,7 @@
 #include "Mesh/CloseHandles.h"
 #include "Mesh/Handles.h"
 
+#include <algorithm>
 #include <optional>
 #include <sstream>
 
@@ -20,15 +21,9 @@ constexpr int kMaximumClosings = 10;
 
 std::vector<std::vector<Index>> placesOf(const HandleReport& found, const Level& level)
 {
-  std::vector<std::vector<Index>> places;
-  for (const HandleLoop& loop : found.loops)
-  {
-    places.emplace_back();
-    for (const Index v : loop.vertices)
-    {
-      places.back().push_back(level.fineVertex[v]);
-    }
-  }
+  std::vector<std::vector<Index>> places(found.loops.size());
+  std::transform(found.loops.begin(), found.loops.end(), places.begin(),
+    [&](const HandleLoop& loop) { return onFinest(loop.vertices, level); });
   return places;
 }
 
@@ -50,6 +45,14 @@ std::string closedText(
 }
 
 } // namespace
+
+std::vector<Index> onFinest(const std::vector<Index>& vertices, const Level& level)
+{
+  std::vector<Index> finest(vertices.size());
+  std::transform(
+    vertices.begin(), vertices.end(), finest.begin(), [&](Index v) { return level.fineVertex[v]; });
+  return finest;
+}
 
 ClosedHandles closeSmallHandles(
   PreparedSurface& surface, double edgeLength, const RemeshOptions& options)

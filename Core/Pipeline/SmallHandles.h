@@ -3,6 +3,7 @@
 /// Handles that are too short for quads, cut and closed on request.
 #pragma once
 
+#include "Hierarchy/Hierarchy.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Options.h"
 #include "Pipeline/SmallDetails.h"
@@ -18,6 +19,9 @@ constexpr double kLongerAlongEdges = 2;
 /// What is left of a handle that was cut, and is longer round than so many edge lengths, is no stub but a limb that
 /// quads show: the jaw of a skull hangs on two joints, and both may be handles below the limit.
 constexpr double kGirthOfLimb = 4.5;
+
+/// Vertices of the level on the finest mesh.
+std::vector<Index> onFinest(const std::vector<Index>& vertices, const Level& level);
 
 struct ClosedHandles
 {

@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Mesh/NearLoops.h"
+#include "Pipeline/SmallHandles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,13 +37,7 @@ void tighten(std::vector<HandleLoop>& loops, const Level& level, const Mesh& fin
   }
   std::vector<std::vector<Index>> places;
   std::transform(begin, end, std::back_inserter(places),
-    [&](const HandleLoop& loop)
-    {
-      std::vector<Index> place;
-      std::transform(loop.vertices.begin(), loop.vertices.end(), std::back_inserter(place),
-        [&](Index v) { return level.fineVertex[v]; });
-      return place;
-    });
+    [&](const HandleLoop& loop) { return onFinest(loop.vertices, level); });
   if (const auto lengths = lengthsNear(finest, places, limit, threads))
   {
     for (std::size_t i = 0; i < lengths->size(); ++i)

@@ -146,10 +146,11 @@ private:
     return !handles_.isNew(v) && std::binary_search(shared.begin(), shared.end(), inputPoint_[v]);
   }
 
-  std::vector<Vector3> placesOf(const std::vector<Index>& shared) const
+  /// Of shared points, all of which the level has.
+  std::vector<Vector3> placesOf(const std::vector<Index>& shared, const Level& level) const
   {
     std::vector<Vector3> places;
-    for (Index v = 0; v < surface_.mesh.vertexCount(); ++v)
+    for (const Index v : level.fineVertex)
     {
       if (isShared(v, shared))
       {
@@ -164,7 +165,7 @@ private:
   {
     if (!(options_.closedLoop > 0) ||
       !std::includes(boundary_.begin(), boundary_.end(), shared.begin(), shared.end()) ||
-      !handles_.close(surface_, level, placesOf(shared), options_.threads))
+      !handles_.close(surface_, level, placesOf(shared, level), options_.threads))
     {
       return false;
     }

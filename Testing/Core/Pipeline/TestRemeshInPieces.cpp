@@ -4,6 +4,7 @@
 
 #include "Base/Error.h"
 #include "MeshInput.h"
+#include "PiecesChecks.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -44,14 +45,6 @@ private:
   SurfaceInput input_;
 };
 
-RemeshOptions askForQuads(std::size_t quads, int threads = 1)
-{
-  RemeshOptions options;
-  options.quads = quads;
-  options.threads = threads;
-  return options;
-}
-
 PiecesOptions piecesOf(std::size_t triangles)
 {
   PiecesOptions pieces;
@@ -72,28 +65,6 @@ long long eulerOfQuads(const QuadMesh& mesh)
   }
   return static_cast<long long>(mesh.points.size()) - static_cast<long long>(edges.size()) +
     static_cast<long long>(mesh.quads.size());
-}
-
-/// Points lie where their sources say, and the triangle is one of the surface.
-void expectPlacesOfSources(const PiecesResult& made, const SurfaceInput& input)
-{
-  const QuadMesh& quads = made.remeshed.quads;
-  ASSERT_EQ(made.pointSource.size(), quads.points.size());
-  ASSERT_EQ(made.quadSource.size(), quads.quads.size());
-  for (std::size_t v = 0; v < quads.points.size(); ++v)
-  {
-    const SourceLocation& at = made.pointSource[v];
-    ASSERT_LT(at.polygon, input.polygonOffsets.size() - 1);
-    const auto corners = input.polygonPoints.begin() + 3 * static_cast<std::ptrdiff_t>(at.polygon);
-    Vector3 place = Vector3::Zero();
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      EXPECT_NE(std::find(corners, corners + 3, at.points[k]), corners + 3);
-      EXPECT_GE(at.weights[k], 0);
-      place += at.weights[k] * input.points[at.points[k]];
-    }
-    EXPECT_LT((place - quads.points[v]).norm(), 1e-12);
-  }
 }
 
 TEST(RemeshInPieces, TorusOfManyPieces)

@@ -4,6 +4,7 @@
 
 #include "Base/Error.h"
 #include "MeshInput.h"
+#include "PiecesChecks.h"
 #include "Pipeline/RemeshInPieces.h"
 #include "TestHandleMeshes.h"
 #include "TestMeshes.h"
@@ -21,53 +22,23 @@ namespace
 
 using namespace quadrille::test;
 
-RemeshOptions askThinnedFor(std::size_t quads, int threads = 1)
-{
-  RemeshOptions options;
-  options.quads = quads;
-  options.threads = threads;
-  return options;
-}
-
-/// Points lie where their sources say, and the triangle is one of the surface.
-void expectOnSources(const PiecesResult& made, const SurfaceInput& input)
-{
-  const QuadMesh& quads = made.remeshed.quads;
-  ASSERT_EQ(made.pointSource.size(), quads.points.size());
-  ASSERT_EQ(made.quadSource.size(), quads.quads.size());
-  for (std::size_t v = 0; v < quads.points.size(); ++v)
-  {
-    const SourceLocation& at = made.pointSource[v];
-    ASSERT_LT(at.polygon, input.polygonOffsets.size() - 1);
-    const auto corners = input.polygonPoints.begin() + 3 * static_cast<std::ptrdiff_t>(at.polygon);
-    Vector3 place = Vector3::Zero();
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      EXPECT_NE(std::find(corners, corners + 3, at.points[k]), corners + 3);
-      EXPECT_GE(at.weights[k], 0);
-      place += at.weights[k] * input.points[at.points[k]];
-    }
-    EXPECT_LT((place - quads.points[v]).norm(), 1e-12);
-  }
-}
-
 TEST(ThinnedSurface, TorusHasItsQuadsOnTheInput)
 {
   const SurfaceInput input = toInput(torus(160, 80, 2, 1));
-  const PiecesResult made = remeshThinned(input, askThinnedFor(500));
+  const PiecesResult made = remeshThinned(input, askForQuads(500));
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
   EXPECT_LT(made.joinedTriangles, input.polygonOffsets.size() - 1);
   EXPECT_TRUE(made.remeshed.certificate.valid());
   EXPECT_EQ(made.remeshed.certificate.triangles, made.remeshed.surface.mesh.faceCount());
   EXPECT_NEAR(static_cast<double>(made.remeshed.quads.quads.size()), 500, 100);
-  expectOnSources(made, input);
+  expectPlacesOfSources(made, input);
 }
 
 TEST(ThinnedSurface, TheSameForAnyNumberOfThreads)
 {
   const SurfaceInput input = toInput(torus(160, 80, 2, 1));
-  const PiecesResult one = remeshThinned(input, askThinnedFor(400, 1));
-  const PiecesResult four = remeshThinned(input, askThinnedFor(400, 4));
+  const PiecesResult one = remeshThinned(input, askForQuads(400, 1));
+  const PiecesResult four = remeshThinned(input, askForQuads(400, 4));
   ASSERT_TRUE(one.remeshed.status.ok()) << one.remeshed.status.message;
   EXPECT_EQ(one.remeshed.quads.quads, four.remeshed.quads.quads);
   EXPECT_EQ(one.remeshed.quads.points, four.remeshed.quads.points);
@@ -91,8 +62,8 @@ TEST(ThinnedSurface, AShiftedMirrorImageHasTheSameQuads)
   {
     p = Vector3(64 - p.x(), p.y(), p.z());
   }
-  const PiecesResult made = remeshThinned(input, askThinnedFor(400));
-  const PiecesResult mirrored = remeshThinned(image, askThinnedFor(400));
+  const PiecesResult made = remeshThinned(input, askForQuads(400));
+  const PiecesResult mirrored = remeshThinned(image, askForQuads(400));
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
   ASSERT_EQ(mirrored.remeshed.quads.points.size(), made.remeshed.quads.points.size());
   for (std::size_t v = 0; v < made.pointSource.size(); ++v)
@@ -100,7 +71,7 @@ TEST(ThinnedSurface, AShiftedMirrorImageHasTheSameQuads)
     const Vector3& p = mirrored.remeshed.quads.points[v];
     EXPECT_LT((Vector3(64 - p.x(), p.y(), p.z()) - made.remeshed.quads.points[v]).norm(), 1e-9);
   }
-  expectOnSources(mirrored, image);
+  expectPlacesOfSources(mirrored, image);
 }
 
 TEST(ThinnedSurface, HandlesBelowAQuadAreCutFirst)
@@ -111,7 +82,7 @@ TEST(ThinnedSurface, HandlesBelowAQuadAreCutFirst)
   {
     p = 3 * p + Vector3(10, 20, 30);
   }
-  const PiecesResult made = remeshThinned(input, askThinnedFor(80));
+  const PiecesResult made = remeshThinned(input, askForQuads(80));
   const RemeshResult& remeshed = made.remeshed;
   ASSERT_TRUE(remeshed.status.ok()) << remeshed.status.message;
   EXPECT_EQ(remeshed.quads.points.size(), remeshed.quads.quads.size() + 2); // a sphere
@@ -128,7 +99,7 @@ TEST(ThinnedSurface, HandlesBelowAQuadAreCutFirst)
 
 TEST(ThinnedSurface, EdgesOfACubeStaySharp)
 {
-  const PiecesResult made = remeshThinned(toInput(unitCube(40)), askThinnedFor(600));
+  const PiecesResult made = remeshThinned(toInput(unitCube(40)), askForQuads(600));
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
   // Each edge of the cube is a line of the quads.
   const QuadMesh& quads = made.remeshed.quads;
@@ -143,7 +114,7 @@ TEST(ThinnedSurface, EdgesOfACubeStaySharp)
 TEST(ThinnedSurface, AnOpenSurfaceKeepsItsBoundary)
 {
   const SurfaceInput input = toInput(gridPlane(90, 90));
-  const PiecesResult made = remeshThinned(input, askThinnedFor(300));
+  const PiecesResult made = remeshThinned(input, askForQuads(300));
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
   double length = 0;
   for (const QuadLine& line : made.remeshed.quads.lines)
@@ -154,7 +125,7 @@ TEST(ThinnedSurface, AnOpenSurfaceKeepsItsBoundary)
   const double width = std::max_element(input.points.begin(), input.points.end(), byX)->x() -
     std::min_element(input.points.begin(), input.points.end(), byX)->x();
   EXPECT_NEAR(length, 4 * width, 1e-6 * width);
-  expectOnSources(made, input);
+  expectPlacesOfSources(made, input);
 }
 
 /// Two components and points that no polygon uses: what repair drops and orders is told in terms of the input.
@@ -180,19 +151,19 @@ TEST(ThinnedSurface, SourcesAreThoseOfTheInput)
       input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
     }
   }
-  const PiecesResult made = remeshThinned(input, askThinnedFor(800));
+  const PiecesResult made = remeshThinned(input, askForQuads(800));
   ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
-  expectOnSources(made, input);
+  expectPlacesOfSources(made, input);
 }
 
 TEST(ThinnedSurface, RefusesWhatIsPlacedOnTheSurface)
 {
   SurfaceInput input = toInput(sphere(4));
   input.targetValences.assign(input.points.size(), 0);
-  EXPECT_THROW(remeshThinned(input, askThinnedFor(100)), InvalidInput);
+  EXPECT_THROW(remeshThinned(input, askForQuads(100)), InvalidInput);
   SurfaceInput broken = toInput(sphere(4));
   broken.polygonPoints[300] = 123456;
-  EXPECT_THROW(remeshThinned(broken, askThinnedFor(100)), InvalidInput);
+  EXPECT_THROW(remeshThinned(broken, askForQuads(100)), InvalidInput);
 }
 
 TEST(ThinnedSurface, StopsOnRequest)
@@ -200,7 +171,7 @@ TEST(ThinnedSurface, StopsOnRequest)
   const SurfaceInput input = toInput(torus(160, 80, 2, 1));
   for (const double at : { 0.0, 0.2, 0.5, 0.7 })
   {
-    RemeshOptions options = askThinnedFor(500);
+    RemeshOptions options = askForQuads(500);
     bool hasAsked = false;
     options.progress = [&](double fraction, const std::string&)
     {
