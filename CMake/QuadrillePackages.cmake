@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-# Debian packages by CPack, see Scripts/make-packages.sh: paraview-quadrille (component Plugin) from a build with
-# ParaView's VTK, quadrille (Command) from one with plain VTK, libquadrille-dev (Library) from either.
+# Debian packages by CPack, see Scripts/build/make-packages.sh: paraview-quadrille (component Plugin) from a build with
+# ParaView's VTK, quadrille (Command) from one with plain VTK; from either libquadrille and the major version
+# (SharedLibrary) and libquadrille-dev (Library).
 set(QUADRILLE_PACKAGE_CONTACT "The Quadrille maintainers <maintainers@quadrille.invalid>" CACHE STRING
   "Name and address of who makes the packages, as Debian's field Maintainer wants them")
 
@@ -17,7 +18,7 @@ endif()
 
 set(CPACK_COMPONENTS_ALL "${QUADRILLE_COMPONENT}")
 if(TARGET quadrille_api)
-  list(APPEND CPACK_COMPONENTS_ALL Library)
+  list(APPEND CPACK_COMPONENTS_ALL SharedLibrary Library)
 endif()
 
 # Copyright and changelog of each package. What is built with Core/Repair is under the GPL as a whole.
@@ -42,7 +43,7 @@ macro(quadrille_package component name)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME "${name}")
   set(package_gpl "${GPL_PART}")
   set(package_license "${BINARY_LICENSE}")
-  if("${component}" STREQUAL "Library") # has no part of Core/Repair
+  if("${component}" MATCHES "Library") # has no part of Core/Repair
     set(package_gpl "")
     set(package_license "BSD-3-Clause")
   endif()
@@ -77,7 +78,10 @@ Turns a triangle surface of up to several million faces into a pure quad
 mesh: filters, sources and readers in ParaView's menus and in its Python
 modules. ParaView loads the plugin as it starts.")
   set(CPACK_DEBIAN_PLUGIN_PACKAGE_SECTION science)
-  set(CPACK_DEBIAN_PLUGIN_PACKAGE_DEPENDS "paraview (<< 5.12~)")
+  # The plugin is for the ParaView that it was built with, up to its next minor version.
+  math(EXPR next_minor "${ParaView_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PLUGIN_PACKAGE_DEPENDS
+    "paraview (>= ${ParaView_VERSION_SIMPLE}~), paraview (<< ${ParaView_VERSION_MAJOR}.${next_minor}~)")
   set(CPACK_DEBIAN_PLUGIN_PACKAGE_RECOMMENDS "python3-paraview, python3-numpy")
   set(CPACK_DEBIAN_PLUGIN_PACKAGE_SUGGESTS "quadrille")
 else()
@@ -96,7 +100,11 @@ python3 (<< ${Python3_VERSION_MAJOR}.${QUADRILLE_NEXT_PYTHON}~), python3-numpy, 
   set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "paraview-quadrille, python3-vedo")
 endif()
 install(FILES "${PROJECT_SOURCE_DIR}/Documentation/UserGuide.md" "${PROJECT_SOURCE_DIR}/Documentation/Installation.md"
+  "${PROJECT_SOURCE_DIR}/Documentation/Formats.md" "${PROJECT_SOURCE_DIR}/Documentation/Simulation.md"
   DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${QUADRILLE_PACKAGE}" COMPONENT "${QUADRILLE_COMPONENT}")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/Documentation/Guide"
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${QUADRILLE_PACKAGE}" COMPONENT "${QUADRILLE_COMPONENT}"
+  FILES_MATCHING PATTERN "*.md")
 # Byte code that Python has written belongs to no package, so each removes its own.
 foreach(script IN ITEMS postinst prerm)
   configure_file("${PROJECT_SOURCE_DIR}/Packaging/${script}.in"
@@ -107,17 +115,27 @@ foreach(script IN ITEMS postinst prerm)
 endforeach()
 
 if(TARGET quadrille_api)
+  set(shared_package "libquadrille${PROJECT_VERSION_MAJOR}")
+  quadrille_package(SharedLibrary "${shared_package}")
+  set(CPACK_DEBIAN_SHAREDLIBRARY_DESCRIPTION "quad remeshing of triangle surfaces, shared library
+Turns a triangle surface of up to several million faces into a pure quad
+mesh. What programs that use libquadrille-dev need to run.")
+  set(CPACK_DEBIAN_SHAREDLIBRARY_PACKAGE_SECTION libs)
+  # For dpkg-shlibdeps of others.
+  file(WRITE "${CMAKE_BINARY_DIR}/Packaging/${shared_package}/shlibs"
+    "libquadrille ${PROJECT_VERSION_MAJOR} ${shared_package} (>= ${PROJECT_VERSION})\n")
+  set(CPACK_DEBIAN_SHAREDLIBRARY_PACKAGE_CONTROL_EXTRA "${CMAKE_BINARY_DIR}/Packaging/${shared_package}/shlibs")
+
   quadrille_package(Library libquadrille-dev)
-  set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "quad remeshing of triangle surfaces, library for C++
+  set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "quad remeshing of triangle surfaces, for C++ programs
 Turns a triangle surface of up to several million faces into a pure quad
 mesh: one function with its options and result, in types of the standard
-library. The shared library, its header and the files for CMake's
-find_package(Quadrille); an example is in the folder of documents.")
+library. The header and the files for CMake's find_package(Quadrille); an
+example is in the folder of documents.")
   set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
-  # For dpkg-shlibdeps of others.
-  file(WRITE "${CMAKE_BINARY_DIR}/Packaging/libquadrille-dev/shlibs"
-    "libquadrille ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} libquadrille-dev (>= ${PROJECT_VERSION})\n")
-  set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${CMAKE_BINARY_DIR}/Packaging/libquadrille-dev/shlibs")
+  set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS OFF) # no program or library is in it
+  set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
+    "${shared_package} (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/Documentation/Examples/library"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/libquadrille-dev/examples" COMPONENT Library)
 endif()

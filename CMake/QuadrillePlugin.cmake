@@ -17,10 +17,12 @@ foreach(module IN LISTS quadrille_required_modules)
 endforeach()
 # The pages behind the question mark in the panel. ParaView's CMake functions compile them with the tools of Qt, and
 # fail without; /usr/bin/xmlpatterns may be a link of qtchooser to nothing, so it is run.
+quadrille_help_tools()
 set(QUADRILLE_HELP OFF)
 find_program(qt_xmlpatterns_executable NAMES xmlpatterns-qt5 xmlpatterns) # the name that ParaView looks it up by
 find_package(Qt5Help QUIET)
-if(PARAVIEW_USE_QT AND qt_xmlpatterns_executable AND Qt5Help_FOUND AND TARGET Qt5::qhelpgenerator)
+if(PARAVIEW_USE_QT AND ParaView_VERSION VERSION_LESS 6 AND qt_xmlpatterns_executable AND Qt5Help_FOUND
+    AND TARGET Qt5::qhelpgenerator)
   execute_process(COMMAND "${qt_xmlpatterns_executable}" -version RESULT_VARIABLE result OUTPUT_QUIET ERROR_QUIET)
   if(result EQUAL 0)
     set(QUADRILLE_HELP ON)
@@ -30,7 +32,8 @@ if(QUADRILLE_HELP)
   set(quadrille_no_help OFF)
 else()
   message(STATUS
-    "No help pages in ParaView: xmlpatterns (qtxmlpatterns5-dev-tools) or Qt5Help (qttools5-dev) is missing")
+    "No help pages in ParaView: xmlpatterns (qtxmlpatterns5-dev-tools) or Qt5Help (qttools5-dev) is missing, or it is "
+    "ParaView 6, which makes them otherwise")
   set(quadrille_no_help ON)
 endif()
 paraview_plugin_build(

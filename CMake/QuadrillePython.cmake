@@ -24,7 +24,8 @@ vtk_module_wrap_python(
   COMPONENT           "${QUADRILLE_COMPONENT}"
   INSTALL_HEADERS     OFF
   BUILD_STATIC        OFF)
-foreach(file IN ITEMS __init__ _elements _errors _files _inputs _proxies _repair _session
+foreach(file IN ITEMS __init__ _arrays _backend _backend_vtk _elements _errors _files _inputs _mesh _options _proxies
+    _repair _session _vtk_data
     evaluation/__init__ evaluation/features evaluation/guided evaluation/layout evaluation/meshes evaluation/page
     evaluation/study evaluation/tools)
   get_filename_component(folder "${file}" DIRECTORY)
@@ -33,10 +34,18 @@ foreach(file IN ITEMS __init__ _elements _errors _files _inputs _proxies _repair
   install(FILES "${CMAKE_SOURCE_DIR}/Filters/Python/${file}.py"
     DESTINATION "${QUADRILLE_PYTHON_DIR}/quadrille/${folder}" COMPONENT "${QUADRILLE_COMPONENT}")
 endforeach()
-configure_file("${CMAKE_SOURCE_DIR}/Filters/Python/_vtk.py.in"
-  "${CMAKE_BINARY_DIR}/${QUADRILLE_PYTHON_DIR}/quadrille/_vtk.py" @ONLY)
-install(FILES "${CMAKE_BINARY_DIR}/${QUADRILLE_PYTHON_DIR}/quadrille/_vtk.py"
-  DESTINATION "${QUADRILLE_PYTHON_DIR}/quadrille" COMPONENT "${QUADRILLE_COMPONENT}")
+foreach(file IN ITEMS _version _vtk)
+  configure_file("${CMAKE_SOURCE_DIR}/Filters/Python/${file}.py.in"
+    "${CMAKE_BINARY_DIR}/${QUADRILLE_PYTHON_DIR}/quadrille/${file}.py" @ONLY)
+  install(FILES "${CMAKE_BINARY_DIR}/${QUADRILLE_PYTHON_DIR}/quadrille/${file}.py"
+    DESTINATION "${QUADRILLE_PYTHON_DIR}/quadrille" COMPONENT "${QUADRILLE_COMPONENT}")
+endforeach()
+foreach(file IN ITEMS __init__.pyi py.typed)
+  configure_file("${CMAKE_SOURCE_DIR}/Filters/Python/${file}"
+    "${CMAKE_BINARY_DIR}/${QUADRILLE_PYTHON_DIR}/quadrille/${file}" COPYONLY)
+  install(FILES "${CMAKE_SOURCE_DIR}/Filters/Python/${file}"
+    DESTINATION "${QUADRILLE_PYTHON_DIR}/quadrille" COMPONENT "${QUADRILLE_COMPONENT}")
+endforeach()
 
 # What VTK generates for each class costs little beside its headers.
 quadrille_unity(QuadrilleFiltersPython 16)

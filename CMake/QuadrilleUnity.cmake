@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # A whole build in three fifths of the time: much of what a source costs are the headers of Eigen, VTK and the standard
 # library, so several sources of a target are compiled as one. Off by default, as a change of one file then costs its
-# whole batch, and clang-tidy wants a file at a time; Scripts/build.sh turns it on for a fresh build folder.
+# whole batch, and clang-tidy wants a file at a time; Scripts/build/build.sh turns it on for a fresh build folder.
 #
 # What stands in the anonymous namespaces of a target is one scope then. A name that stands in two of its files does not
 # compile (or, with another signature, would be an overload of the other), so Testing/Repository/check_unity.py holds

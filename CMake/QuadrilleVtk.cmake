@@ -9,6 +9,8 @@ if(NOT QUADRILLE_VTK MATCHES "^(auto|ParaView|VTK)$")
   message(FATAL_ERROR "QUADRILLE_VTK is \"${QUADRILLE_VTK}\", but it has to be auto, ParaView or VTK.")
 endif()
 
+include(CMake/QuadrilleVtkVersions.cmake)
+
 set(quadrille_paraview_reason)
 if(NOT QUADRILLE_VTK STREQUAL "VTK")
   # ParaView's server manager was built with double-conversion and its package asks for it; nothing here includes or
@@ -21,6 +23,7 @@ if(NOT QUADRILLE_VTK STREQUAL "VTK")
   if(QUADRILLE_VTK STREQUAL "auto")
     set(quadrille_how QUIET)
   endif()
+  quadrille_python_exports(ParaView vtk/VTKPython ParaViewPython ParaViewPythonIncubator)
   # Naming components keeps Qt, GDAL and ffmpeg out of what a build needs.
   find_package(ParaView 5.11 ${quadrille_how} COMPONENTS RemotingCore RemotingServerManager)
   if(NOT ParaView_FOUND)
@@ -36,10 +39,7 @@ if(ParaView_FOUND AND NOT QUADRILLE_VTK STREQUAL "VTK")
   set(QUADRILLE_WITH_PARAVIEW ON)
   message(STATUS "VTK: that of ParaView ${ParaView_VERSION}, with the plugin (QUADRILLE_VTK is ${QUADRILLE_VTK})")
 else()
-  # Debian's own interpreter: another python3 on the PATH does not find Debian's VTK.
-  if(NOT Python3_EXECUTABLE AND EXISTS "/usr/bin/python3")
-    set(Python3_EXECUTABLE "/usr/bin/python3" CACHE FILEPATH "The interpreter that has the Python modules of VTK")
-  endif()
+  quadrille_python_exports(VTK VTKPython)
   # Components alone keep the packages of all other modules (Java, MySQL, Qt, ...) out of what a build needs. Of the
   # modules for files only the libraries are linked, see Programs/CMakeLists.txt.
   find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore FiltersGeometry
@@ -47,6 +47,7 @@ else()
   message(STATUS "VTK: plain VTK ${VTK_VERSION} in ${VTK_PREFIX_PATH}, without the plugin of ParaView "
     "(QUADRILLE_VTK is ${QUADRILLE_VTK}${quadrille_paraview_reason})")
 endif()
+quadrille_find_mpi()
 if(NOT PARAVIEW_USE_PYTHON AND NOT VTK_WRAP_PYTHON)
   message(FATAL_ERROR "This VTK was built without Python, which the package `quadrille` needs.")
 endif()
