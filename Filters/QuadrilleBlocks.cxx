@@ -6,6 +6,7 @@
 
 #include "Base/Refuse.h"
 #include "QuadrilleRanks.h"
+#include "QuadrilleVtkVersions.h"
 
 #include <vtkDataAssembly.h>
 #include <vtkDataObject.h>
@@ -71,10 +72,9 @@ void addLevels(BlockTree& tree, const BlockPath& path, vtkUniformGridAMR* data)
     const BlockPath levelPath = childOf(path, level);
     tree[levelPath].type = "vtkMultiBlockDataSet";
     tree[levelPath].name = "Level " + std::to_string(level);
-    for (unsigned i = 0; i < data->GetNumberOfDataSets(level); ++i)
+    for (unsigned i = 0; i < gridCount(data, level); ++i)
     {
-      addNodes(
-        tree, childOf(levelPath, i), "Grid " + std::to_string(i), data->GetDataSet(level, i));
+      addNodes(tree, childOf(levelPath, i), "Grid " + std::to_string(i), gridOf(data, level, i));
     }
   }
 }
@@ -90,7 +90,11 @@ void addNodes(BlockTree& tree, const BlockPath& path, const std::string& name, v
   node.type = compositeTypeFor(data);
   node.isBlock = node.type.empty() || data->IsA("vtkPartitionedDataSet");
   node.fieldData = node.type.empty() ? nullptr : data->GetFieldData();
-  if (auto* partitions = vtkPartitionedDataSet::SafeDownCast(data))
+  if (auto* levels = vtkUniformGridAMR::SafeDownCast(data)) // by VTK 9.6 on a collection, too
+  {
+    addLevels(tree, path, levels);
+  }
+  else if (auto* partitions = vtkPartitionedDataSet::SafeDownCast(data))
   {
     for (unsigned i = 0; i < partitions->GetNumberOfPartitions(); ++i)
     {
@@ -114,10 +118,6 @@ void addNodes(BlockTree& tree, const BlockPath& path, const std::string& name, v
       addChild(
         tree, childOf(path, i), metaDataOf(collection, i), collection->GetPartitionedDataSet(i));
     }
-  }
-  else if (auto* levels = vtkUniformGridAMR::SafeDownCast(data))
-  {
-    addLevels(tree, path, levels);
   }
   else
   {
@@ -309,6 +309,10 @@ std::string compositeTypeFor(vtkDataObject* input)
   {
     return "";
   }
+  if (input->IsA("vtkUniformGridAMR")) // first, as by VTK 9.6 on it is a collection, too
+  {
+    return "vtkMultiBlockDataSet";
+  }
   // Kinds of multiblock and partitioned data have classes of their own, which quads can be in.
   for (const char* type : { "vtkMultiPieceDataSet", "vtkPartitionedDataSet",
          "vtkPartitionedDataSetCollection", "vtkMultiBlockDataSet" })
@@ -317,10 +321,6 @@ std::string compositeTypeFor(vtkDataObject* input)
     {
       return type;
     }
-  }
-  if (input->IsA("vtkUniformGridAMR"))
-  {
-    return "vtkMultiBlockDataSet";
   }
   refuse("the input is a ", input->GetClassName(), ", which is not supported");
 }

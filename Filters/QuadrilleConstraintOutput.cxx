@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Base/PlaceText.h"
 #include "Evaluation/LinesInQuads.h"
 #include "Evaluation/QuadPlaces.h"
 #include "QuadrilleConstraints.h"
@@ -61,29 +60,6 @@ std::optional<Vector3> vertexOf(const PlacedConstraint& constraint)
 }
 
 } // namespace
-
-std::vector<std::string> missedValences(
-  const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh)
-{
-  std::vector<std::string> missed;
-  if (mesh.quads.empty() || !asksForValences(placed))
-  {
-    return missed;
-  }
-  const ReachedValences reached(mesh);
-  for (const PlacedConstraint& constraint : placed)
-  {
-    const bool asks = constraint.kind == ConstraintKind::Valence && constraint.whyNot.empty();
-    const int there = asks ? reached.at(constraint.path.front()) : 0;
-    if (asks && there != constraint.valence)
-    {
-      missed.push_back("valence " + std::to_string(constraint.valence) + " was asked for at " +
-        placeText(constraint.path.front()) + ", but the quads have " + std::to_string(there) +
-        " there: move the point away from sharp edges and other points, or ask for smaller quads");
-    }
-  }
-  return missed;
-}
 
 vtkSmartPointer<vtkPolyData> writeConstraints(const std::vector<PlacedConstraint>& placed,
   const std::vector<CurveOutcome>& outcomes, const QuadMesh& mesh, const std::vector<bool>& isMet)

@@ -4,9 +4,9 @@
 
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
-#include "Mesh/CurveRequests.h"
-#include "Mesh/Guides.h"
 #include "QuadrilleArrayNames.h"
+#include "Requests/CurveRequests.h"
+#include "Requests/Guides.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -257,6 +257,7 @@ void addMoves(vtkPolyData* data, PlacedConstraints& result)
     move.kind = ConstraintKind::Move;
     move.source = line.source;
     move.path = { line.points.front(), line.points.back() };
+    move.given = move.path;
     result.placed.push_back(std::move(move));
   }
 }

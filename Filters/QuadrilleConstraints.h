@@ -5,9 +5,9 @@
 #pragma once
 
 #include "Extraction/Extraction.h"
-#include "GridMap/CurveIsolines.h"
-#include "Mesh/DrawnConstraints.h"
+#include "Integers/CurveIsolines.h"
 #include "QuadrilleConvert.h"
+#include "Requests/DrawnConstraints.h"
 
 #include <vtkSmartPointer.h>
 
@@ -54,10 +54,6 @@ struct ConstraintInputs
 /// Moves: as they are, see QuadrilleMoves.h.
 /// Throws InvalidInput, with the place, for values that cannot be asked for and for a curve that cannot be followed.
 PlacedConstraints applyConstraints(ConvertedSurface& surface, const ConstraintInputs& inputs);
-
-/// What to do about valences that the quads do not have, with place and both numbers. mesh: what was made.
-std::vector<std::string> missedValences(
-  const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh);
 
 /// Lines and vertices where the constraints lie. Cells: Met (active: 0 or 1), Constraint (0 feature, 1 stroke, 2 a
 /// valence that was met, 3 one that was not), SourceId (line or point of its input), Distance, GuidingWeight (0 but on

@@ -10,6 +10,8 @@
 #include "QuadrilleAttributes.h"
 #include "QuadrilleNewArray.h"
 #include "QuadrilleVtkVersions.h"
+#include "Requests/AskedValues.h"
+#include "Requests/CurveRequests.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -106,17 +108,23 @@ void checkPointId(vtkIdType id, vtkIdType pointCount, vtkIdType cell)
   }
 }
 
+template <class Id>
+void copyOffsets(const Id* offsets, int threads, SurfaceInput& input)
+{
+  Index* const own = input.polygonOffsets.edit();
+  forEachIndex(input.polygonOffsets.size(), threads,
+    [&](std::size_t i) { own[i] = static_cast<Index>(offsets[i]); });
+}
+
 /// The first place in the connectivity with a point that is not there; the number of places where there is none.
 template <class Id>
-std::size_t copyPolygons(
-  const Id* offsets, const Id* ids, vtkIdType points, int threads, SurfaceInput& input)
+std::size_t copyPolygonPoints(const Id* ids, vtkIdType points, int threads, SurfaceInput& input)
 {
-  forEachIndex(input.polygonOffsets.size(), threads,
-    [&](std::size_t i) { input.polygonOffsets[i] = static_cast<Index>(offsets[i]); });
+  Index* const own = input.polygonPoints.edit();
   return firstRefused(input.polygonPoints.size(), kChunk, threads,
     [&](std::size_t i)
     {
-      input.polygonPoints[i] = static_cast<Index>(ids[i]);
+      own[i] = static_cast<Index>(ids[i]);
       return ids[i] >= 0 && ids[i] < points;
     });
 }
@@ -132,11 +140,10 @@ void readPolygons(vtkPolyData* data, ConvertedSurface& surface, int threads)
   {
     return;
   }
-  const std::size_t refused = polys->IsStorage64Bit()
-    ? copyPolygons(polys->GetOffsetsArray64()->GetPointer(0),
-        polys->GetConnectivityArray64()->GetPointer(0), points, threads, input)
-    : copyPolygons(polys->GetOffsetsArray32()->GetPointer(0),
-        polys->GetConnectivityArray32()->GetPointer(0), points, threads, input);
+  withIds(plainIds(polys->GetOffsetsArray()),
+    [&](const auto* offsets) { copyOffsets(offsets, threads, input); });
+  const std::size_t refused = withIds(plainIds(polys->GetConnectivityArray()),
+    [&](const auto* ids) { return copyPolygonPoints(ids, points, threads, input); });
   if (refused < input.polygonPoints.size())
   {
     const auto after =
@@ -230,22 +237,14 @@ public:
   {
     Vector3 d;
     directions_->GetTuple(cell, d.data());
-    if (!d.allFinite())
-    {
-      refuse("cell ", cell, " has a ", arrays::kGuidingDirection,
-        " that is not finite; correct it, or set it to zero to leave the cell free");
-    }
+    requireDirection(cell, d);
     return d;
   }
   /// Of a cell with a direction.
   double weight(vtkIdType cell) const
   {
     const double weight = weights_ ? weights_->GetTuple1(cell) : 1;
-    if (!(weight > 0 && weight <= 1))
-    {
-      refuse("cell ", cell, " has the ", arrays::kGuidingWeight, " ", weight,
-        ", but it must be above 0 and at most 1; set the direction to zero to leave the cell free");
-    }
+    requireGuideWeight(cell, weight);
     return weight;
   }
 
@@ -288,15 +287,8 @@ std::vector<float> pointSizes(vtkPolyData* data)
   for (std::size_t i = 0; i < sizes.size(); ++i)
   {
     pollNowAndThen(i);
-    const double size = array->GetTuple1(static_cast<vtkIdType>(i));
-    sizes[i] = static_cast<float>(size);
-    // Written so that NaN is refused as well, and what is 0 or infinite as a float.
-    if (!(sizes[i] > 0) || !std::isfinite(sizes[i]))
-    {
-      refuse("point ", i, " has the ", arrays::kSizing, " ", size,
-        ", but it must be positive and finite: 1 leaves the quads there as they are, 0.5 makes "
-        "their edges half as long");
-    }
+    const auto point = static_cast<vtkIdType>(i);
+    sizes[i] = requireSize(point, array->GetTuple1(point));
   }
   return sizes;
 }
@@ -322,15 +314,9 @@ std::vector<int> pointValences(vtkPolyData* data)
   valences.resize(static_cast<std::size_t>(data->GetNumberOfPoints()));
   for (std::size_t i = 0; i < valences.size(); ++i)
   {
-    const double valence = array->GetTuple1(static_cast<vtkIdType>(i));
-    if (valence != 0 && !(valence >= kLeastValence && valence <= kMostValence))
-    {
-      double p[3];
-      data->GetPoint(static_cast<vtkIdType>(i), p);
-      refuse("point ", i, " at (", p[0], ", ", p[1], ", ", p[2], ") has the ",
-        arrays::kTargetValence, " ", valence, ", but only 0 (free) and ", kLeastValence, " to ",
-        kMostValence, " can be asked for");
-    }
+    const auto point = static_cast<vtkIdType>(i);
+    const double valence = array->GetTuple1(point);
+    requireValence(point, Vector3(data->GetPoint(point)), valence);
     valences[i] = static_cast<int>(valence);
   }
   return valences;
@@ -583,7 +569,7 @@ bool readTwins(vtkPolyData* data, Mesh& mesh)
     {
       return false; // some filter in between took or reordered cells
     }
-    mesh.twin[h] = static_cast<Index>(g);
+    mesh.twin.edit()[h] = static_cast<Index>(g);
   }
   return true;
 }
@@ -605,6 +591,7 @@ void readFlags(vtkPolyData* data, Mesh& mesh, int threads)
     const int bits = values ? values[f * stride] : static_cast<int>(array->GetComponent(f, 0));
     return ((bits >> (h % 3)) & 1) != 0;
   };
+  std::uint8_t* const flags = mesh.flags.edit();
   parallelFor(mesh.halfEdgeCount(), kChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
@@ -612,16 +599,16 @@ void readFlags(vtkPolyData* data, Mesh& mesh, int threads)
       {
         if (isMarked(h) || (!mesh.isBoundary(h) && isMarked(mesh.twin[h])))
         {
-          mesh.flags[h] |= kFeatureEdge;
+          flags[h] |= kFeatureEdge;
         }
       }
     });
 }
 
 /// The first cell that is no triangle of points that there are; the number of cells where all are.
-template <class Id>
+template <class Offset, class Id>
 std::size_t copyTriangles(
-  const Id* offsets, const Id* ids, vtkIdType points, int threads, std::vector<Index>& corners)
+  const Offset* offsets, const Id* ids, vtkIdType points, int threads, std::vector<Index>& corners)
 {
   return firstRefused(corners.size() / 3, kChunk, threads,
     [=, &corners](std::size_t f)
@@ -665,11 +652,13 @@ std::vector<Index> readTriangles(vtkPolyData* data, int threads = 1)
   vtkCellArray* cells = data->GetPolys();
   const vtkIdType points = data->GetNumberOfPoints();
   std::vector<Index> corners(3 * static_cast<std::size_t>(cells->GetNumberOfCells()));
-  const std::size_t refused = cells->IsStorage64Bit()
-    ? copyTriangles(cells->GetOffsetsArray64()->GetPointer(0),
-        cells->GetConnectivityArray64()->GetPointer(0), points, threads, corners)
-    : copyTriangles(cells->GetOffsetsArray32()->GetPointer(0),
-        cells->GetConnectivityArray32()->GetPointer(0), points, threads, corners);
+  const vtkSmartPointer<vtkDataArray> plainCorners = plainIds(cells->GetConnectivityArray());
+  const std::size_t refused = withIds(plainIds(cells->GetOffsetsArray()),
+    [&](const auto* offsets)
+    {
+      return withIds(plainCorners,
+        [&](const auto* ids) { return copyTriangles(offsets, ids, points, threads, corners); });
+    });
   if (3 * refused < corners.size())
   {
     refuseTriangle(data, static_cast<vtkIdType>(refused));
@@ -701,8 +690,8 @@ void weldSplitPoints(vtkPolyData* data, Mesh& mesh, int threads)
       sizing[id[i]] = mesh.sizing[i];
     }
   }
-  forEachIndex(
-    mesh.origin.size(), threads, [&](std::size_t h) { mesh.origin[h] = id[mesh.origin[h]]; });
+  Index* const origin = mesh.origin.edit();
+  forEachIndex(mesh.origin.size(), threads, [&](std::size_t h) { origin[h] = id[origin[h]]; });
   mesh.position = std::move(position);
   mesh.sizing = std::move(sizing);
 }
@@ -1299,7 +1288,7 @@ vtkSmartPointer<vtkPolyData> writeMappedSurface(const PreparedSurface& surface,
     pointVertex = identity(mesh.vertexCount());
   }
   data->SetPoints(writePoints(mesh, pointVertex, threads));
-  data->SetPolys(writeTriangles(splitSeams ? corners : mesh.origin, threads));
+  data->SetPolys(writeTriangles(splitSeams ? corners : mesh.origin.vector(), threads));
   std::vector<std::string> left =
     carryToSurface(data, surface, source, converted, pointVertex, threads);
   if (notCarried)

@@ -14,8 +14,8 @@
 #include "Base/FixedPoint.h"
 #include "GridMap/GridMap.h"
 #include "Hierarchy/Hierarchy.h"
-#include "Mesh/DrawnConstraints.h"
 #include "Mesh/Surface.h"
+#include "Requests/DrawnConstraints.h"
 
 #include <vtkSmartPointer.h>
 #include <vtkType.h>

@@ -4,11 +4,12 @@
 
 #include "Base/Parallel.h"
 #include "Base/Refuse.h"
-#include "Extraction/QuadShape.h"
 #include "Mesh/NearestTriangle.h"
+#include "Prepare/Prepare.h"
 #include "QuadrilleAttributes.h"
 #include "QuadrilleNewArray.h"
 #include "QuadrilleQuads.h"
+#include "Quads/QuadShape.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

@@ -3,7 +3,7 @@
 /// Quads as elements: a vtkUnstructuredGrid of first or second order, with what the quads carry.
 #pragma once
 
-#include "Extraction/SecondOrder.h"
+#include "Elements/SecondOrder.h"
 #include "Mesh/Surface.h"
 #include "QuadrilleConvert.h"
 

@@ -37,10 +37,16 @@ constexpr double kUnbounded = 1e30; ///< what Verdict says of a measure that is 
 
 using MeasureFunction = double (*)(vtkCell*);
 
+// Functions of VTK 9.6 have a second argument with a default, so their own addresses are of another type.
 constexpr std::array<MeasureFunction, kMeasureCount> kFunctions{
-  &vtkMeshQuality::QuadScaledJacobian, &vtkMeshQuality::QuadAspectRatio, &vtkMeshQuality::QuadSkew,
-  &vtkMeshQuality::QuadWarpage, &vtkMeshQuality::QuadTaper, &vtkMeshQuality::QuadEdgeRatio,
-  &vtkMeshQuality::QuadMinAngle, &vtkMeshQuality::QuadMaxAngle
+  [](vtkCell* cell) { return vtkMeshQuality::QuadScaledJacobian(cell); },
+  [](vtkCell* cell) { return vtkMeshQuality::QuadAspectRatio(cell); },
+  [](vtkCell* cell) { return vtkMeshQuality::QuadSkew(cell); },
+  [](vtkCell* cell) { return vtkMeshQuality::QuadWarpage(cell); },
+  [](vtkCell* cell) { return vtkMeshQuality::QuadTaper(cell); },
+  [](vtkCell* cell) { return vtkMeshQuality::QuadEdgeRatio(cell); },
+  [](vtkCell* cell) { return vtkMeshQuality::QuadMinAngle(cell); },
+  [](vtkCell* cell) { return vtkMeshQuality::QuadMaxAngle(cell); },
 };
 
 std::string withoutSpaces(const std::string& text)

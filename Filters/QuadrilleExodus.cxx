@@ -290,16 +290,6 @@ void addSets(const MeshSets& sets, SetNames& names, ExodusWriter* writer)
   }
 }
 
-std::string listed(const std::vector<std::string>& names)
-{
-  std::string list;
-  for (const std::string& name : names)
-  {
-    list += (list.empty() ? "'" : ", '") + name + "'";
-  }
-  return list;
-}
-
 } // namespace
 
 std::vector<std::string> writeExodus(
@@ -335,7 +325,7 @@ std::vector<std::string> writeExodus(
   std::vector<std::string> notices;
   if (!leftOut.empty())
   {
-    notices.push_back("arrays that an Exodus file cannot have are left out: " + listed(leftOut));
+    notices.push_back("arrays that an Exodus file cannot have are left out: " + quoted(leftOut));
   }
   if (const std::string notice = names.notice("this format"); !notice.empty())
   {

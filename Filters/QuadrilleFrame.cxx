@@ -140,7 +140,7 @@ Frame enterFrame(vtkPolyData* data, Mesh& mesh)
     }
   }
   const Frame frame = ownFrame(mesh);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p = (p - frame.centre) / frame.unit;
   }

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The frame of a surface (see Mesh/Frame.h) between the stage filters: their outputs lie on the user's surface, and
+/// The frame of a surface (see Prepare/Frame.h) between the stage filters: their outputs lie on the user's surface, and
 /// the arrays Frame (field: centre, unit, signs, reversed) and FramePosition (points) give back, to the last bit, what
 /// the stage before has computed with.
 #pragma once
 
-#include "Mesh/Frame.h"
+#include "Prepare/Frame.h"
 
 #include <vector>
 

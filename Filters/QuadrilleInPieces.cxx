@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadrilleInPieces.h"
 
-#include "Base/Parallel.h"
 #include "QuadrilleArrayNames.h"
+#include "QuadrilleVtkVersions.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -23,14 +24,14 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kOffsetChunk = std::size_t{ 1 } << 20;
-
 template <typename Coordinate, typename Id>
 class PolyDataTriangles : public TriangleSource
 {
 public:
-  PolyDataTriangles(vtkPolyData* surface, const Coordinate* points, const Id* corners)
-    : points_(points), corners_(corners),
+  /// ids: what holds the corners, which may be a copy.
+  PolyDataTriangles(vtkPolyData* surface, const Coordinate* points,
+    const vtkSmartPointer<vtkDataArray>& ids, const Id* corners)
+    : points_(points), ids_(ids), corners_(corners),
       pointCount_(static_cast<std::size_t>(surface->GetNumberOfPoints())),
       triangleCount_(static_cast<std::size_t>(surface->GetNumberOfPolys()))
   {
@@ -58,33 +59,27 @@ public:
 
 private:
   const Coordinate* points_;
+  vtkSmartPointer<vtkDataArray> ids_;
   const Id* corners_;
   std::size_t pointCount_, triangleCount_;
 };
-
-template <typename Id>
-bool hasThreeEach(const Id* offsets, std::size_t triangles)
-{
-  return firstRefused(triangles + 1, kOffsetChunk, 0,
-           [&](std::size_t i) { return offsets[i] == static_cast<Id>(3 * i); }) == triangles + 1;
-}
 
 template <typename Coordinate>
 std::unique_ptr<TriangleSource> trianglesOf(vtkPolyData* surface, const Coordinate* points)
 {
   vtkCellArray* const cells = surface->GetPolys();
-  const auto triangles = static_cast<std::size_t>(cells->GetNumberOfCells());
-  if (cells->IsStorage64Bit())
+  if (cells->IsHomogeneous() != 3 ||
+    cells->GetNumberOfConnectivityIds() != 3 * cells->GetNumberOfCells())
   {
-    const vtkTypeInt64* const corners = cells->GetConnectivityArray64()->GetPointer(0);
-    return hasThreeEach(cells->GetOffsetsArray64()->GetPointer(0), triangles)
-      ? std::make_unique<PolyDataTriangles<Coordinate, vtkTypeInt64>>(surface, points, corners)
-      : nullptr;
+    return nullptr;
   }
-  const vtkTypeInt32* const corners = cells->GetConnectivityArray32()->GetPointer(0);
-  return hasThreeEach(cells->GetOffsetsArray32()->GetPointer(0), triangles)
-    ? std::make_unique<PolyDataTriangles<Coordinate, vtkTypeInt32>>(surface, points, corners)
-    : nullptr;
+  const vtkSmartPointer<vtkDataArray> ids = plainIds(cells->GetConnectivityArray());
+  return withIds(ids,
+    [&](const auto* corners) -> std::unique_ptr<TriangleSource>
+    {
+      using Id = std::remove_const_t<std::remove_pointer_t<decltype(corners)>>;
+      return std::make_unique<PolyDataTriangles<Coordinate, Id>>(surface, points, ids, corners);
+    });
 }
 
 } // namespace
@@ -111,6 +106,10 @@ std::string constrainingArray(vtkPolyData* surface, const std::string& patchArra
 {
   std::vector<ReadArray> read = surfaceArrays(patchArray);
   read.push_back({ arrays::kDetectedFeatures, ArrayPlace::Cells, 1 });
+  if (!patchArray.empty())
+  {
+    read.push_back({ patchArray, ArrayPlace::Cells, 1 });
+  }
   for (const ReadArray& array : read)
   {
     vtkDataSetAttributes* data = surface->GetPointData();
@@ -138,25 +137,7 @@ ConvertedSurface polygonsOf(vtkPolyData* surface)
 void addPieceSources(const PiecesResult& made, const QuadMesh& mesh,
   const ConvertedSurface& converted, vtkPolyData* surface, QuadSource& source)
 {
-  std::vector<SourceLocation> ofPoints = made.pointSource;
-  const auto isMissing = [](const SourceLocation& at) { return at.polygon == kInvalidIndex; };
-  for (bool hasChanged = true; hasChanged;)
-  {
-    hasChanged = false;
-    for (const std::array<Index, 4>& quad : mesh.quads)
-    {
-      for (std::size_t i = 0; i < 4; ++i)
-      {
-        SourceLocation& at = ofPoints[quad[i]];
-        const SourceLocation& next = ofPoints[quad[(i + 1) % 4]];
-        if (isMissing(at) && !isMissing(next))
-        {
-          at = next;
-          hasChanged = true;
-        }
-      }
-    }
-  }
+  const std::vector<SourceLocation> ofPoints = sourcesOfPoints(made, mesh);
   for (const SourceLocation& at : ofPoints)
   {
     source.pointOrigins.push_back(pointOrigin(at, converted, surface));
@@ -164,9 +145,7 @@ void addPieceSources(const PiecesResult& made, const QuadMesh& mesh,
   }
   for (std::size_t q = 0; q < mesh.quads.size(); ++q)
   {
-    const SourceLocation& at = made.quadSource[q];
-    source.quadCells.push_back(
-      converted.cell(isMissing(at) ? ofPoints[mesh.quads[q][0]].polygon : at.polygon));
+    source.quadCells.push_back(converted.cell(sourceOfQuad(made, mesh, ofPoints, q)));
   }
 }
 

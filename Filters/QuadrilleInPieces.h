@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Surfaces that are cut into pieces in one process (Pipeline/RemeshInPieces.h): the arrays of VTK as they are, and the
+/// Surfaces that are cut into pieces in one process (Pieces/RemeshInPieces.h): the arrays of VTK as they are, and the
 /// sources of the quads.
 #pragma once
 
-#include "Pipeline/RemeshInPieces.h"
+#include "Pieces/RemeshInPieces.h"
 #include "QuadrilleQuads.h"
 
 #include <memory>

@@ -5,7 +5,7 @@
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
-#include "Extraction/MapWelding.h"
+#include "ForeignMaps/MapWelding.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleFrame.h"
 #include "QuadrilleReport.h"
@@ -224,10 +224,10 @@ Mesh onSurface(const Mesh& inFrame, const Frame& frame, vtkPolyData* data, int t
   Mesh mesh = inFrame;
   const std::vector<Vector3> points = readPointPositions(data, threads);
   vtkDataArray* split = data->GetPointData()->GetArray(arrays::kSurfacePointId);
+  Vector3* const position = mesh.position.edit();
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    mesh
-      .position[split ? static_cast<std::size_t>(split->GetTuple1(static_cast<vtkIdType>(i))) : i] =
+    position[split ? static_cast<std::size_t>(split->GetTuple1(static_cast<vtkIdType>(i))) : i] =
       points[i];
   }
   if (frame.reversed)

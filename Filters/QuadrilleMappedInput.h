@@ -3,9 +3,9 @@
 /// A surface with an integer-grid map, of ours or of another program, as the extraction wants it.
 #pragma once
 
-#include "Extraction/MapSnapping.h"
-#include "Mesh/Frame.h"
+#include "ForeignMaps/MapSnapping.h"
 #include "Mesh/Mesh.h"
+#include "Prepare/Frame.h"
 
 #include <memory>
 #include <string>

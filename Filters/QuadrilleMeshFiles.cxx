@@ -3,14 +3,17 @@
 #include "QuadrilleMeshFiles.h"
 
 #include "Export/OutputFile.h"
+#include "QuadrilleElements.h"
 #include "QuadrilleVtkErrors.h"
 
+#include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
+#include <vtkDataArray.h>
 #include <vtkExecutive.h>
 #include <vtkFieldData.h>
-#include <vtkPLYWriter.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -18,10 +21,7 @@
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -48,39 +48,56 @@ void runXmlWriter(vtkXMLWriter* writer, const std::string& path)
   file.close();
 }
 
-/// Bytes of a binary PLY file of this mesh by its own header; 0 where that is not whole.
-std::uintmax_t plyBytes(vtkPolyData* mesh, const std::string& path)
+/// What programs without VTK read: numbers with a name. meshio ends at texts, bits and field data without values; VTK
+/// names an array without a name by its address.
+bool isReadByAll(vtkAbstractArray* array)
 {
-  std::ifstream file(path, std::ios::binary);
-  std::uintmax_t bytes = 0, elements = 0;
-  bool isFace = false;
-  for (std::string line; std::getline(file, line);)
+  const char* name = array->GetName();
+  return vtkDataArray::SafeDownCast(array) && array->GetDataType() != VTK_BIT && name &&
+    *name != '\0' && array->GetNumberOfValues() > 0;
+}
+
+/// Returns the names of the arrays that it removes.
+std::vector<std::string> keepWhatAllRead(vtkFieldData* arrays)
+{
+  std::vector<std::string> removed;
+  for (int i = arrays->GetNumberOfArrays() - 1; i >= 0; --i)
   {
-    std::istringstream words(line);
-    std::string first, second;
-    words >> first >> second;
-    if (first == "end_header")
+    vtkAbstractArray* array = arrays->GetAbstractArray(i);
+    if (!isReadByAll(array))
     {
-      return bytes + static_cast<std::uintmax_t>(file.tellg());
-    }
-    if (first == "element")
-    {
-      isFace = second == "face";
-      words >> elements;
-    }
-    else if (first == "property" && second == "list")
-    {
-      bytes += isFace ? elements +
-          sizeof(std::int32_t) *
-            static_cast<std::uintmax_t>(mesh->GetPolys()->GetNumberOfConnectivityIds())
-                      : 0;
-    }
-    else if (first == "property")
-    {
-      bytes += elements * (second == "uchar" ? 1 : second == "double" ? 8 : 4);
+      removed.insert(removed.begin(), array->GetName() ? array->GetName() : "");
+      arrays->RemoveArray(i);
     }
   }
-  return 0;
+  return removed;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> gridOf(vtkDataSet* mesh)
+{
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  if (auto* surface = vtkPolyData::SafeDownCast(mesh))
+  {
+    grid->SetPoints(surface->GetPoints());
+    vtkCellArray* const polygons = surface->GetPolys();
+    std::vector<int> types;
+    for (vtkIdType i = 0; i < polygons->GetNumberOfCells(); ++i)
+    {
+      const vtkIdType corners = polygons->GetCellSize(i);
+      types.push_back(corners == 4 ? VTK_QUAD : corners == 3 ? VTK_TRIANGLE : VTK_POLYGON);
+    }
+    grid->SetCells(types.data(), polygons);
+    grid->GetPointData()->ShallowCopy(mesh->GetPointData());
+    grid->GetCellData()->ShallowCopy(mesh->GetCellData());
+  }
+  else
+  {
+    grid->ShallowCopy(mesh);
+  }
+  vtkNew<vtkFieldData> fields; // of its own, whatever a shallow copy shares
+  fields->ShallowCopy(mesh->GetFieldData());
+  grid->SetFieldData(fields);
+  return grid;
 }
 
 } // namespace
@@ -92,47 +109,44 @@ void writeVtp(vtkPolyData* mesh, const std::string& path)
   runXmlWriter(writer, path);
 }
 
-void writeVtu(vtkDataSet* mesh, const std::string& path)
+std::vector<std::string> writeVtu(vtkDataSet* mesh, bool withDetails, const std::string& path)
 {
-  vtkSmartPointer<vtkDataSet> grid = mesh;
-  if (auto* surface = vtkPolyData::SafeDownCast(mesh))
+  const auto grid = gridOf(mesh);
+  std::vector<std::string> leftOut;
+  if (!withDetails)
   {
-    auto quads = vtkSmartPointer<vtkUnstructuredGrid>::New();
-    quads->SetPoints(surface->GetPoints());
-    vtkCellArray* const polygons = surface->GetPolys();
-    std::vector<int> types;
-    for (vtkIdType i = 0; i < polygons->GetNumberOfCells(); ++i)
+    const std::vector<std::string> ofFields = keepWhatAllRead(grid->GetFieldData());
+    for (vtkFieldData* arrays : { static_cast<vtkFieldData*>(grid->GetPointData()),
+           static_cast<vtkFieldData*>(grid->GetCellData()) })
     {
-      const vtkIdType corners = polygons->GetCellSize(i);
-      types.push_back(corners == 4 ? VTK_QUAD : corners == 3 ? VTK_TRIANGLE : VTK_POLYGON);
+      const std::vector<std::string> names = keepWhatAllRead(arrays);
+      leftOut.insert(leftOut.end(), names.begin(), names.end());
     }
-    quads->SetCells(types.data(), polygons);
-    quads->GetPointData()->ShallowCopy(mesh->GetPointData());
-    quads->GetCellData()->ShallowCopy(mesh->GetCellData());
-    quads->GetFieldData()->ShallowCopy(mesh->GetFieldData());
-    grid = quads;
+    // Other texts of field data are those of the run, which its report has.
+    if (std::count(ofFields.begin(), ofFields.end(), arrays::kPatchNames) > 0)
+    {
+      leftOut.emplace_back(arrays::kPatchNames);
+    }
   }
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputData(grid);
   runXmlWriter(writer, path);
+  if (leftOut.empty())
+  {
+    return {};
+  }
+  return { "arrays that many readers of vtu stop at are left out: " + quoted(leftOut) +
+    "; to have them, ask for the details of the file, or write vtp" };
 }
 
-void writePlainPly(vtkPolyData* mesh, const std::string& path)
+std::string quoted(const std::vector<std::string>& names)
 {
-  vtkNew<vtkPLYWriter> writer;
-  writer->SetInputData(mesh);
-  writer->SetFileTypeToBinary();
-  writer->SetFileName(path.c_str());
-  const ErrorCollector errors(writer);
-  if (!writer->Write() || !errors.text().empty())
+  std::string list;
+  for (const std::string& name : names)
   {
-    throw WriteError(path + ": cannot be written: " + errors.sentence());
+    list += (list.empty() ? "'" : ", '") + name + "'";
   }
-  // The writer does not look whether its bytes have arrived.
-  if (std::filesystem::file_size(path) != plyBytes(mesh, path))
-  {
-    throw WriteError(path + ": cannot be written as a whole: is the disk full?");
-  }
+  return list;
 }
 
 } // namespace quadrille

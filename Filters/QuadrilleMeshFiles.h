@@ -16,15 +16,17 @@ namespace quadrille
 
 /// These throw WriteError.
 void writeVtp(vtkPolyData* mesh, const std::string& path);
-/// Of a vtkPolyData its quads.
-void writeVtu(vtkDataSet* mesh, const std::string& path);
-/// In single precision, without patches.
-void writePlainPly(vtkPolyData* mesh, const std::string& path);
+/// Of a vtkPolyData its polygons. withDetails: all arrays, else those that every reader takes: numbers, with a name.
+/// Returns what the user should know.
+std::vector<std::string> writeVtu(vtkDataSet* mesh, bool withDetails, const std::string& path);
 
 /// Exodus II: an element block for each patch, a side set for each boundary loop and feature curve, node sets for these
 /// and the corners, and all arrays of numbers as variables. Elements go by blocks, and an element map has their ids
 /// from 1. Returns what the user should know.
 std::vector<std::string> writeExodus(
   vtkDataSet* mesh, const ElementMesh& elements, const MeshSets& sets, const std::string& path);
+
+/// "'one', 'two'".
+std::string quoted(const std::vector<std::string>& names);
 
 } // namespace quadrille

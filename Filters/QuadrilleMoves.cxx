@@ -3,8 +3,8 @@
 #include "QuadrilleMoves.h"
 
 #include "Base/Error.h"
-#include "Mesh/Guides.h"
-#include "Mesh/SurfacePlaces.h"
+#include "Requests/Guides.h"
+#include "Requests/SurfacePlaces.h"
 #include "Session/ComposedInput.h"
 #include "Session/IrregularEdits.h"
 

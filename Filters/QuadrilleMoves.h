@@ -3,8 +3,8 @@
 /// Moves of irregular vertices that are drawn: they need the quads without them, in which the vertices are found.
 #pragma once
 
-#include "Mesh/DrawnConstraints.h"
-#include "Pipeline/Symmetry.h"
+#include "Requests/DrawnConstraints.h"
+#include "Symmetry/Symmetry.h"
 
 #include <functional>
 #include <string>

@@ -389,16 +389,16 @@ vtkSmartPointer<vtkPolyData> PieceJoin::run(std::vector<std::string>& notices)
 }
 
 /// An array of several sources.
-struct SharedArray
+struct CommonArray
 {
   vtkAbstractArray* model = nullptr;
   std::vector<vtkAbstractArray*> ofSource; ///< null where it is missing
   bool differs = false;
 };
 
-std::map<std::string, SharedArray> sharedArrays(const std::vector<vtkDataSetAttributes*>& sources)
+std::map<std::string, CommonArray> commonArrays(const std::vector<vtkDataSetAttributes*>& sources)
 {
-  std::map<std::string, SharedArray> arrays;
+  std::map<std::string, CommonArray> arrays;
   for (std::size_t s = 0; s < sources.size(); ++s)
   {
     for (int i = 0; i < sources[s]->GetNumberOfArrays(); ++i)
@@ -409,7 +409,7 @@ std::map<std::string, SharedArray> sharedArrays(const std::vector<vtkDataSetAttr
       {
         continue;
       }
-      SharedArray& shared = arrays[name];
+      CommonArray& shared = arrays[name];
       shared.ofSource.resize(sources.size());
       shared.ofSource[s] = array;
       shared.model = shared.model ? shared.model : array;
@@ -421,7 +421,7 @@ std::map<std::string, SharedArray> sharedArrays(const std::vector<vtkDataSetAttr
 }
 
 vtkSmartPointer<vtkAbstractArray> gatherArray(
-  const SharedArray& shared, const std::vector<TupleOrigin>& origins, double missing)
+  const CommonArray& shared, const std::vector<TupleOrigin>& origins, double missing)
 {
   auto result = vtk::TakeSmartPointer(vtkAbstractArray::CreateArray(shared.model->GetDataType()));
   result->SetName(shared.model->GetName());
@@ -514,7 +514,7 @@ void gatherArrays(const std::vector<vtkDataSetAttributes*>& sources,
   {
     ++used[origin.source];
   }
-  for (const auto& [name, shared] : sharedArrays(sources))
+  for (const auto& [name, shared] : commonArrays(sources))
   {
     if (shared.differs)
     {

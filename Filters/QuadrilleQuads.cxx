@@ -4,9 +4,9 @@
 
 #include "Base/Parallel.h"
 #include "Extraction/QuadCoverage.h"
-#include "Extraction/QuadLayout.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleNewArray.h"
+#include "Quads/QuadLayout.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -275,48 +275,11 @@ void addLayout(const QuadLayout& layout, std::size_t polygons, vtkPolyData* data
   data->GetFieldData()->AddArray(size);
 }
 
-using Edge = std::pair<Index, Index>;
-
-Edge sortedEdge(Index a, Index b)
-{
-  return { std::min(a, b), std::max(a, b) };
-}
-
 void addQuadFeatureEdges(const QuadMesh& mesh, vtkCellData* data)
 {
-  std::vector<Edge> features;
-  for (const QuadLine& line : mesh.lines)
-  {
-    if (!line.boundary)
-    {
-      features.push_back(sortedEdge(line.a, line.b));
-    }
-  }
-  std::sort(features.begin(), features.end());
-  const auto bitsOf = [&features](const Index* corners, std::size_t count)
-  {
-    constexpr std::size_t kBits = 8; // a polygon may have more edges
-    int bits = 0;
-    for (std::size_t i = 0; i < std::min(count, kBits); ++i)
-    {
-      const Edge edge = sortedEdge(corners[i], corners[(i + 1) % count]);
-      bits |= std::binary_search(features.begin(), features.end(), edge) ? 1 << i : 0;
-    }
-    return static_cast<unsigned char>(bits);
-  };
-  auto array = newArray<vtkUnsignedCharArray>(
-    arrays::kFeatureEdges, 1, mesh.quads.size() + partialPolygonCount(mesh));
-  vtkIdType next = 0;
-  for (const std::array<Index, 4>& quad : mesh.quads)
-  {
-    array->SetValue(next++, bitsOf(quad.data(), 4));
-  }
-  for (std::size_t i = 0; i < partialPolygonCount(mesh); ++i)
-  {
-    const Index first = mesh.polygonOffsets[i];
-    array->SetValue(
-      next++, bitsOf(mesh.polygonPoints.data() + first, mesh.polygonOffsets[i + 1] - first));
-  }
+  const std::vector<std::uint8_t> bits = featureEdgeBits(mesh);
+  auto array = newArray<vtkUnsignedCharArray>(arrays::kFeatureEdges, 1, bits.size());
+  std::copy(bits.begin(), bits.end(), array->GetPointer(0));
   data->AddArray(array);
 }
 

@@ -10,8 +10,8 @@
 #include <vtkStringArray.h>
 
 #include <cstdio>
-#include <functional>
 #include <sstream>
+#include <variant>
 
 namespace quadrille
 {
@@ -45,18 +45,6 @@ void addNumbers(vtkDataObject* data, const char* name, const std::vector<double>
     array->InsertNextValue(value);
   }
   addArray(data, array);
-}
-
-template <class Value>
-std::vector<Value> column(
-  const std::vector<StageRecord>& stages, const std::function<Value(const StageRecord&)>& of)
-{
-  std::vector<Value> values;
-  for (const StageRecord& stage : stages)
-  {
-    values.push_back(of(stage));
-  }
-  return values;
 }
 
 } // namespace
@@ -126,16 +114,6 @@ std::vector<std::string> splitLines(const std::string& text)
   return lines;
 }
 
-std::vector<std::pair<std::string, std::size_t>> repairCounts(const RepairReport& r)
-{
-  return { { "triangulated_polygons", r.triangulatedPolygons }, { "merged_points", r.mergedPoints },
-    { "degenerate_faces", r.degenerateFaces }, { "duplicate_faces", r.duplicateFaces },
-    { "isolated_points", r.isolatedPoints }, { "non_manifold_edges", r.nonManifoldEdges },
-    { "non_manifold_vertices", r.nonManifoldVertices }, { "reoriented_faces", r.reorientedFaces },
-    { "removed_components", r.removedComponents }, { "refined_faces", r.refinedFaces },
-    { "closed_handles", r.closedHandles }, { "filled_holes", r.filledHoles } };
-}
-
 void addText(vtkDataObject* data, const char* name, const std::vector<std::string>& lines)
 {
   vtkNew<vtkStringArray> array;
@@ -157,102 +135,24 @@ void addCount(vtkDataObject* data, const char* name, std::size_t value)
   addCounts(data, name, { value });
 }
 
-void addStages(vtkDataObject* data, const std::vector<StageRecord>& stages)
+void addFields(vtkDataObject* data, const RunFields& fields)
 {
-  addText(
-    data, "StageNames", column<std::string>(stages, [](const StageRecord& s) { return s.stage; }));
-  addNumbers(
-    data, "StageSeconds", column<double>(stages, [](const StageRecord& s) { return s.seconds; }));
-  addCounts(data, "StageElementsIn",
-    column<std::size_t>(stages, [](const StageRecord& s) { return s.elementsIn; }));
-  addCounts(data, "StageElementsOut",
-    column<std::size_t>(stages, [](const StageRecord& s) { return s.elementsOut; }));
-}
-
-void addCertificate(vtkDataObject* data, const Certificate& c)
-{
-  addText(data, "Certificate", { c.text() });
-  addCount(data, "CertificateValid", c.valid() ? 1 : 0);
-  addText(data, "CertificateNames",
-    { "triangles", "not_positive", "wrong_turns", "seam_residuals", "off_axes", "off_isolines",
-      "off_integers", "fractional_transitions", "minimum_determinant", "area" });
-  addNumbers(data, "CertificateValues",
-    { static_cast<double>(c.triangles), static_cast<double>(c.notPositive),
-      static_cast<double>(c.wrongTurns), static_cast<double>(c.seamResiduals),
-      static_cast<double>(c.offAxes), static_cast<double>(c.offIsolines),
-      static_cast<double>(c.offIntegers), static_cast<double>(c.fractionalTransitions),
-      c.minimumDeterminant, c.area });
-}
-
-void addSmallParts(vtkDataObject* data, const SmallParts& parts, double edgeLength)
-{
-  const auto coordinates = [](const Vector3& p) { return std::vector{ p.x(), p.y(), p.z() }; };
-  addCount(data, "Handles", parts.handles);
-  addCount(data, "UnresolvedHandles", parts.unresolvedHandles);
-  addNumber(data, "ShortestLoopOverEdgeLength", parts.shortestLoop / edgeLength);
-  addNumbers(data, "ShortestLoopPlace", coordinates(parts.place));
-  addNumber(data, "ShortestBoundaryOverEdgeLength", parts.boundary.shortest / edgeLength);
-  addNumbers(data, "ShortestBoundaryPlace", coordinates(parts.boundary.place));
-}
-
-void addAnisotropy(vtkDataObject* data, double limit, double beyond)
-{
-  if (limit > 0)
+  for (const RunField& field : fields)
   {
-    addNumber(data, "AnisotropyLimit", limit);
-    addNumber(data, "BeyondAnisotropyLimit", beyond);
+    const char* name = field.name.c_str();
+    if (const auto* texts = std::get_if<std::vector<std::string>>(&field.values))
+    {
+      addText(data, name, *texts);
+    }
+    else if (const auto* counts = std::get_if<std::vector<std::size_t>>(&field.values))
+    {
+      addCounts(data, name, *counts);
+    }
+    else
+    {
+      addNumbers(data, name, std::get<std::vector<double>>(field.values));
+    }
   }
-}
-
-void addFinalQuality(vtkDataObject* data, const FinalQualityReport& report)
-{
-  if (report.level == FinalQuality::Coarse)
-  {
-    return;
-  }
-  const auto values = [](const MapDistortion& d)
-  {
-    return std::vector{ d.mean, d.median, d.p90, d.p99, d.angle, d.size,
-      static_cast<double>(d.left) };
-  };
-  addText(data, "DistortionNames", { "mean", "median", "p90", "p99", "angle", "size", "left" });
-  addNumbers(data, "DistortionBefore", values(report.before));
-  addNumbers(data, "DistortionAfter", values(report.after));
-  addCount(data, "OptimizationSteps", static_cast<std::size_t>(report.steps));
-}
-
-namespace
-{
-
-void addNamedCounts(vtkDataObject* data, const char* namesArray, const char* countsArray,
-  const std::vector<std::pair<std::string, std::size_t>>& namedCounts)
-{
-  std::vector<std::string> names;
-  std::vector<std::size_t> counts;
-  for (const auto& [name, count] : namedCounts)
-  {
-    names.push_back(name);
-    counts.push_back(count);
-  }
-  addText(data, namesArray, names);
-  addCounts(data, countsArray, counts);
-}
-
-} // namespace
-
-void addRepair(vtkDataObject* data, const RepairReport& repair)
-{
-  addNamedCounts(data, "RepairNames", "RepairCounts", repairCounts(repair));
-}
-
-void addExtraction(vtkDataObject* data, const ExtractionCounts& counts)
-{
-  addNamedCounts(data, "ExtractionNames", "ExtractionCounts", namedCounts(counts));
-}
-
-void addMethod(vtkDataObject* data, MapMethod method)
-{
-  addText(data, "Method", { nameOf(method) });
 }
 
 MapMethod readMethod(vtkDataObject* data)

@@ -6,11 +6,10 @@
 #include "Base/Error.h"
 #include "GridMap/GridMap.h"
 #include "Mesh/Surface.h"
-#include "Pipeline/Pipeline.h"
+#include "Pipeline/RunFields.h"
 
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 class vtkDataObject;
@@ -46,32 +45,14 @@ std::string wrapLines(const std::string& text, std::size_t width);
 /// The lines of a text without empty ones.
 std::vector<std::string> splitLines(const std::string& text);
 
-/// Every count of repair with its name, in the order of the struct.
-std::vector<std::pair<std::string, std::size_t>> repairCounts(const RepairReport& repair);
-
 /// Field arrays. Existing ones of the same name are replaced.
 void addText(vtkDataObject* data, const char* name, const std::vector<std::string>& lines);
 void addNumber(vtkDataObject* data, const char* name, double value);
 void addCount(vtkDataObject* data, const char* name, std::size_t value);
 
-/// StageNames, StageSeconds, StageElementsIn, StageElementsOut: one tuple a stage.
-void addStages(vtkDataObject* data, const std::vector<StageRecord>& stages);
-/// Certificate (text), CertificateValid (0 or 1), CertificateNames and CertificateValues.
-void addCertificate(vtkDataObject* data, const Certificate& certificate);
-/// Handles, UnresolvedHandles, ShortestLoopOverEdgeLength and ShortestLoopPlace, ShortestBoundaryOverEdgeLength and
-/// ShortestBoundaryPlace.
-void addSmallParts(vtkDataObject* data, const SmallParts& parts, double edgeLength);
-/// Method: the name of it.
-void addMethod(vtkDataObject* data, MapMethod method);
-/// What addMethod wrote; the default where there is nothing.
+void addFields(vtkDataObject* data, const RunFields& fields);
+
+/// What methodFields told; the default where there is nothing.
 MapMethod readMethod(vtkDataObject* data);
-/// AnisotropyLimit and BeyondAnisotropyLimit, a share; nothing without limit.
-void addAnisotropy(vtkDataObject* data, double limit, double beyond);
-/// DistortionNames, DistortionBefore, DistortionAfter and OptimizationSteps; nothing for FinalQuality::Coarse.
-void addFinalQuality(vtkDataObject* data, const FinalQualityReport& report);
-/// RepairNames and RepairCounts.
-void addRepair(vtkDataObject* data, const RepairReport& repair);
-/// ExtractionNames and ExtractionCounts.
-void addExtraction(vtkDataObject* data, const ExtractionCounts& counts);
 
 } // namespace quadrille

@@ -7,9 +7,9 @@
 /// behind a filter that has changed the data.
 #pragma once
 
-#include "Mesh/Frame.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Options.h"
+#include "Prepare/Frame.h"
 #include "QuadrilleBlocks.h"
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 /// Small details of a surface as VTK data.
 #pragma once
 
-#include "Mesh/GivenUpFeatures.h"
+#include "Features/GivenUpFeatures.h"
 #include "Pipeline/SmallDetails.h"
 
 #include <vtkSmartPointer.h>
@@ -22,9 +22,5 @@ namespace quadrille
 /// kind "feature", with their length over s. See vtkQuadRemesh.
 vtkSmartPointer<vtkPolyData> writeSmallDetails(
   const std::vector<SmallDetail>& details, const std::vector<GivenUpCurve>& features);
-
-/// Field data: Attempts, and RecoveryNames with RecoveryCounts, how often each strategy made one of them. attempts: see
-/// RemeshResult.
-void addAttempts(vtkDataObject* data, const std::vector<std::string>& attempts);
 
 } // namespace quadrille

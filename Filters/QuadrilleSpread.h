@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// A surface that stays spread over the ranks of a parallel run: none ever holds all of it.
 ///
-/// Each rank thins its pieces out (Pipeline/SurfacePiece.h). The thinned pieces are joined on one rank, the owner, and
+/// Each rank thins its pieces out (Pieces/SurfacePiece.h). The thinned pieces are joined on one rank, the owner, and
 /// the filter runs there on the joined surface as if that were its input. Then the points of the quads and their
 /// centres go to the ranks whose pieces they lie on, get place and attributes there, and each rank gets the quads with
 /// their centre on its pieces. What is sent grows with the quads, but for eight bytes for each point on the boundary of
 /// a piece.
 #pragma once
 
-#include "Pipeline/SurfacePiece.h"
+#include "Pieces/SurfacePiece.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleRanks.h"
 #include "QuadrilleSpreadFigures.h"

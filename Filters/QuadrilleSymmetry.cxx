@@ -147,21 +147,4 @@ void addMirrorLines(vtkPolyData* constraints, const SymmetricResult& made, bool 
   }
 }
 
-ConstraintWord judgeSymmetry(const SymmetricResult& made)
-{
-  ConstraintWord word;
-  word.kind = made.rotation ? "rotation" : "symmetry";
-  word.place = made.deviation.place;
-  word.isMet = made.isAlike;
-  word.deviation = made.deviation.rms / made.diagonal;
-  word.deviation95 = made.deviation.maximum / made.diagonal;
-  word.unit = "relative to the diagonal";
-  if (!word.isMet)
-  {
-    word.reason = made.rotation ? "the wedges of the surface are not alike, see the notices"
-                                : "the two sides of the surface are not alike, see the notices";
-  }
-  return word;
-}
-
 } // namespace quadrille

@@ -3,9 +3,9 @@
 /// Symmetric quads as VTK data.
 #pragma once
 
-#include "Pipeline/Symmetry.h"
 #include "QuadrilleConstraintTable.h"
 #include "QuadrilleQuads.h"
+#include "Symmetry/Symmetry.h"
 
 class vtkPolyData;
 
@@ -23,8 +23,5 @@ void addSymmetry(vtkPolyData* quads, const SymmetricResult& made);
 /// The edges of the quads in the mirror plane, or the mid-lines of those across it, as lines of the output Constraints
 /// (see writeConstraints): Constraint 10, SourceId -1, all else 0. Of a rotation none.
 void addMirrorLines(vtkPolyData* constraints, const SymmetricResult& made, bool isMet);
-
-/// Its row of the constraint table.
-ConstraintWord judgeSymmetry(const SymmetricResult& made);
 
 } // namespace quadrille

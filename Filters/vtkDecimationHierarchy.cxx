@@ -16,6 +16,7 @@
 #include "QuadrilleLog.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleSharedLevels.h"
+#include "Requests/Guides.h"
 
 #include "vtkFieldData.h"
 #include "vtkObjectFactory.h"
@@ -157,8 +158,8 @@ void vtkDecimationHierarchy::Execute(quadrille::Block& block)
   quadrille::addCount(coarse, "TargetQuads", sized.targetQuads);
   quadrille::addCurveRequests(coarse, curves);
   quadrille::addText(coarse, "ReusedStages", reused);
-  quadrille::addStages(coarse, sized.stages.all());
-  quadrille::addRepair(coarse, surface.repair);
+  quadrille::addFields(coarse, quadrille::stageFields(sized.stages.all()));
+  quadrille::addFields(coarse, quadrille::repairFields(surface.repair));
   quadrille::addText(coarse, "Notices", this->GetBlockNotices());
   block.output(1)->ShallowCopy(write(hierarchy.intermediate));
   recipe.edgeLength *= frame.unit;

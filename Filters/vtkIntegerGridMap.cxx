@@ -12,6 +12,7 @@
 #include "QuadrilleConvert.h"
 #include "QuadrilleFrame.h"
 #include "QuadrilleReport.h"
+#include "Requests/CurveRequests.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -145,10 +146,11 @@ void vtkIntegerGridMap::Execute(quadrille::Block& block)
   quadrille::addMap(output, map.uv);
   quadrille::addMatching(output, map.field.matching);
   quadrille::addTurns(output, surface, map.field.turns);
-  quadrille::addStages(output, stages.all());
-  quadrille::addCertificate(output, map.certificate);
-  quadrille::addMethod(output, options.method);
-  quadrille::addAnisotropy(output, options.anisotropyLimit, map.beyondAnisotropyLimit);
+  quadrille::addFields(output, quadrille::stageFields(stages.all()));
+  quadrille::addFields(output, quadrille::certificateFields(map.certificate));
+  quadrille::addFields(output, quadrille::methodFields(options.method));
+  quadrille::addFields(
+    output, quadrille::anisotropyFields(options.anisotropyLimit, map.beyondAnisotropyLimit));
   if (map.certificate.notPositive > 0)
   {
     const std::string text = std::string("the method '") + quadrille::nameOf(options.method) +

@@ -85,7 +85,7 @@ quadrille::Level intermediateLevel(
   }
   for (std::size_t v = 0; v < level.fineVertex.size(); ++v)
   {
-    level.mesh.position[v] = fine.position[level.fineVertex[v]];
+    level.mesh.position.edit()[v] = fine.position[level.fineVertex[v]];
   }
   if (frame.reversed)
   {
@@ -219,8 +219,8 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   this->SetStageRecords(laps.records.all());
   output->GetFieldData()->PassData(coarseData->GetFieldData());
   quadrille::addFrame(output, frame, surface.mesh.position);
-  quadrille::addStages(output, laps.records.all());
-  quadrille::addCertificate(output, certificate);
+  quadrille::addFields(output, quadrille::stageFields(laps.records.all()));
+  quadrille::addFields(output, quadrille::certificateFields(certificate));
   quadrille::addCount(output, "Charts", charts.charts);
   quadrille::addCount(output, "SeamEdges", charts.seamEdges);
   quadrille::addCount(output, "ReplayInvertedStars", map.invertedStars);

@@ -4,7 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
-#include "Extraction/SecondOrder.h"
+#include "Elements/SecondOrder.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleElementFrames.h"
 #include "QuadrilleElementGrid.h"

@@ -10,7 +10,7 @@
  *
  * Output 0 is a vtkUnstructuredGrid of VTK_QUAD, VTK_QUADRATIC_QUAD or VTK_BIQUADRATIC_QUAD with the points of the
  * quads, by their ids, and behind them the nodes of edges and of centres; with all arrays of the quads. Nodes lie on
- * the surface, on features and boundaries on their curves, see Extraction/SecondOrder.h. Where an element would be
+ * the surface, on features and boundaries on their curves, see Elements/SecondOrder.h. Where an element would be
  * folded at a node or Gauss point, nodes move back towards the middle of the straight edge; the point array MovedBack
  * has 0 where a node stayed, 1 where it moved along the surface or curve, 2 where it left it. Point arrays at new nodes
  * are those of the same name of the surface there, others the mean of the corners; Valence is 0.

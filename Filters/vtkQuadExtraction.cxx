@@ -244,11 +244,11 @@ void vtkQuadExtraction::Execute(quadrille::Block& block)
   vtkPolyData* quads = block.output(0);
   quads->ShallowCopy(written.quads);
   quads->GetFieldData()->RemoveArray(quadrille::arrays::kFrame); // of the mapped surface
-  quadrille::addStages(quads, laps.records.all());
+  quadrille::addFields(quads, quadrille::stageFields(laps.records.all()));
   quadrille::addMapReport(quads, mapped);
   addBoundaryReport(quads, result, mesh);
   quadrille::addText(quads, "Notices", this->GetBlockNotices());
-  quadrille::addExtraction(quads, result);
+  quadrille::addFields(quads, quadrille::extractionFields(result));
   quadrille::addCount(quads, "ActualQuads", result.mesh.quads.size());
   this->SetResult(std::to_string(result.mesh.quads.size()) + " quads, " +
     std::to_string(written.irregular->GetNumberOfPoints()) + " irregular vertices");

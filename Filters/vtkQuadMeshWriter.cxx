@@ -25,17 +25,38 @@ vtkStandardNewMacro(vtkQuadMeshWriter);
 namespace
 {
 
-constexpr const char* kExtensions[] = { "vtp", "vtu", "ex2", "e", "exo", "inp", "msh", "mesh",
-  "obj", "ply", "stl" };
+constexpr const char* kExtensions[] = { "vtp", "vtu", "ex2", "e", "exo", "exodus", "inp", "msh",
+  "mesh", "obj", "ply", "stl" };
 
 /// The name of a property of a PLY file is one word.
 std::string plyProperty(const quadrille::PatchSource& patches)
 {
-  const char* name = patches.isAsked ? patches.array->GetName() : nullptr;
+  const char* name = patches.array ? patches.array->GetName() : nullptr;
   const std::string word = name ? name : "";
   const bool isWord =
     std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isgraph(c) != 0; });
   return isWord || word.empty() ? word : "PatchId";
+}
+
+/// Graphics formats have patches where these are the user's, PLY where it is asked for them, too; STL has none.
+quadrille::PatchSource patchesOfFormat(
+  const quadrille::PatchSource& patches, const std::string& extension, bool withDetails)
+{
+  const bool isGraphics = extension == "obj" || extension == "ply" || extension == "stl";
+  const bool hasPatches = extension == "obj" || (extension == "ply" && withDetails);
+  return isGraphics && !(hasPatches && patches.isAsked) ? quadrille::PatchSource{} : patches;
+}
+
+/// Those of a format without sets are not derived, which takes longer than writing it.
+quadrille::MeshSets setsOfFormat(const quadrille::ElementMesh& mesh,
+  const quadrille::PatchSource& patches, const std::string& extension)
+{
+  if (patches.array || (extension != "obj" && extension != "ply" && extension != "stl"))
+  {
+    return quadrille::setsOf(mesh);
+  }
+  quadrille::requireValid(mesh);
+  return {};
 }
 
 } // namespace
@@ -124,13 +145,10 @@ void vtkQuadMeshWriter::WriteElements(vtkDataSet* mesh, const std::string& path)
   };
   PollScope polling(progress);
   const ProgressCallback told = polling.callback();
-  PatchSource patches = patchSource(mesh, this->PatchArrayName);
-  if (extension == "obj" || extension == "ply" || extension == "stl")
-  {
-    patches.leftOut = 0; // they have groups only where these are asked for
-  }
+  const PatchSource patches =
+    patchesOfFormat(patchSource(mesh, this->PatchArrayName), extension, this->FileDetails);
   const ElementMesh elements = readElements(mesh, patches, notices);
-  const MeshSets sets = setsOf(elements);
+  const MeshSets sets = setsOfFormat(elements, patches, extension);
   if (extension == "inp")
   {
     add(writeInp(elements, sets, path,
@@ -147,7 +165,7 @@ void vtkQuadMeshWriter::WriteElements(vtkDataSet* mesh, const std::string& path)
   }
   else if (extension == "obj")
   {
-    add(writeObj(elements, sets, patches.isAsked, path, told));
+    add(writeObj(elements, sets, patches.array != nullptr, path, told));
   }
   else if (extension == "ply")
   {
@@ -161,6 +179,12 @@ void vtkQuadMeshWriter::WriteElements(vtkDataSet* mesh, const std::string& path)
   {
     add(writeExodus(mesh, elements, sets, path));
   }
+  this->AddNotices(notices);
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadMeshWriter::AddNotices(const std::vector<std::string>& notices)
+{
   for (const std::string& notice : notices)
   {
     this->NoticesText += notice + "\n";
@@ -171,24 +195,19 @@ void vtkQuadMeshWriter::WriteElements(vtkDataSet* mesh, const std::string& path)
 void vtkQuadMeshWriter::WriteFile(vtkDataSet* mesh, const std::string& path)
 {
   const std::string extension = quadrille::extensionOf(path);
-  auto* surface = vtkPolyData::SafeDownCast(mesh);
   if (extension == "vtu")
   {
-    quadrille::writeVtu(mesh, path);
+    this->AddNotices(quadrille::writeVtu(mesh, this->FileDetails, path));
   }
   else if (extension == "vtp")
   {
+    auto* surface = vtkPolyData::SafeDownCast(mesh);
     if (!surface)
     {
       throw quadrille::InvalidInput("a vtp file holds a vtkPolyData, but this is a " +
         std::string(mesh->GetClassName()) + ": write vtu");
     }
     quadrille::writeVtp(surface, path);
-  }
-  else if (extension == "ply" && surface && !quadrille::isFar(surface) &&
-    !quadrille::patchSource(mesh, this->PatchArrayName).isAsked)
-  {
-    quadrille::writePlainPly(surface, path); // with its colours
   }
   else
   {
@@ -256,6 +275,7 @@ void vtkQuadMeshWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Dialect: " << this->Dialect << "\n";
   os << indent << "Material: " << this->Material << "\n";
   os << indent << "MshVersion: " << this->MshVersion << "\n";
+  os << indent << "FileDetails: " << this->FileDetails << "\n";
   os << indent << "Outcome: " << this->Outcome << "\n";
   os << indent << "OutcomeText: " << this->OutcomeText << "\n";
   os << indent << "NoticesText: " << this->NoticesText << "\n";

@@ -15,9 +15,11 @@
  * | inp | Abaqus, CalculiX | element sets, node sets, surfaces; thickness and axes |
  * | msh | Gmsh 4.1 or 2.2 | physical groups of points, curves and surfaces |
  * | mesh | MEDIT | references; corners, ridges, required vertices |
- * | ex2, e, exo | Exodus II | element blocks, side sets, node sets |
- * | vtu, vtp | VTK | all arrays as they are |
- * | obj, ply | | groups, a face property; of patches that the user has given |
+ * | ex2, e, exo, exodus | Exodus II | element blocks, side sets, node sets |
+ * | vtp | VTK | all arrays as they are |
+ * | vtu | VTK | all arrays of numbers; with FileDetails all arrays |
+ * | obj | Wavefront | groups, of patches that the user has given |
+ * | ply | | with FileDetails a property of faces, the same |
  * | stl | binary STL | none; triangles |
  *
  * A file is written beside its place and renamed: what is there is whole. What is wrong with the mesh is an error that
@@ -30,6 +32,7 @@
 #include "vtkWriter.h"
 
 #include <string> // for std::string
+#include <vector> // for std::vector
 
 class vtkDataSet;
 
@@ -116,6 +119,17 @@ public:
   void SetMshVersionTo22() { this->SetMshVersion(MSH_2_2); }
   ///@}
 
+  ///@{
+  /**
+   * vtu, ply: what many programs stop at, so that it is in the file only where this is on. vtu: arrays of texts and
+   * bits, arrays without a name, and field data without values. ply: patches that the user has given, as a property of
+   * faces, and comments with their names. Default: off.
+   */
+  vtkSetMacro(FileDetails, bool);
+  vtkGetMacro(FileDetails, bool);
+  vtkBooleanMacro(FileDetails, bool);
+  ///@}
+
   /// How the last call of Write() went.
   enum Outcomes
   {
@@ -144,6 +158,7 @@ private:
   void SetText(std::string& member, const char* value);
   void WriteFile(vtkDataSet* mesh, const std::string& path);
   void WriteElements(vtkDataSet* mesh, const std::string& path);
+  void AddNotices(const std::vector<std::string>& notices);
 
   std::string FileName;
   std::string PatchArrayName;
@@ -151,6 +166,7 @@ private:
   int Dialect = CALCULIX;
   std::string Material = "MATERIAL";
   int MshVersion = MSH_4_1;
+  bool FileDetails = false;
   int Outcome = Succeeded;
   std::string OutcomeText;
   std::string NoticesText;

@@ -3,12 +3,12 @@
 #include "vtkQuadProjection.h"
 
 #include "Base/Refuse.h"
-#include "Extraction/QuadProjection.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleElementGrid.h"
 #include "QuadrilleNewArray.h"
 #include "QuadrilleReport.h"
 #include "QuadrilleSoup.h"
+#include "Quads/QuadProjection.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

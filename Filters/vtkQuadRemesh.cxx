@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadRemesh.h"
 
+#include "Assembly/JoinParts.h"
+#include "Assembly/JointSheets.h"
+#include "Assembly/PartSplit.h"
 #include "Base/PlaceText.h"
-#include "Mesh/JoinParts.h"
-#include "Mesh/JointSheets.h"
-#include "Pipeline/PartSplit.h"
 #include "Pipeline/Pipeline.h"
 #include "Pipeline/ResultStore.h"
-#include "Pipeline/Symmetry.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrilleConstraintTable.h"
 #include "QuadrilleConstraints.h"
@@ -23,6 +22,7 @@
 #include "QuadrilleStamps.h"
 #include "QuadrilleSurfaces.h"
 #include "QuadrilleSymmetry.h"
+#include "Symmetry/Symmetry.h"
 
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -128,11 +128,15 @@ std::string constraintText(const std::vector<quadrille::ConstraintWord>& words)
 {
   const auto met = std::count_if(
     words.begin(), words.end(), [](const quadrille::ConstraintWord& word) { return word.isMet; });
+  const auto off = std::count_if(words.begin(), words.end(),
+    [](const quadrille::ConstraintWord& word) { return word.isOffSurface; });
   std::ostringstream text;
   if (!words.empty())
   {
     text << ", " << met << " of " << words.size() << " constraints met"
-         << (static_cast<std::size_t>(met) < words.size() ? " (see Constraint Table)" : "");
+         << (off > 0 ? ", " + std::to_string(off) + " with a point off the surface" : "")
+         << (off > 0 || static_cast<std::size_t>(met) < words.size() ? " (see Constraint Table)"
+                                                                     : "");
   }
   return text.str();
 }
@@ -277,31 +281,6 @@ std::vector<float> sizesOf(const quadrille::JoinedParts& joined, const std::vect
   return sizes;
 }
 
-void addFieldData(vtkPolyData* data, const quadrille::RemeshResult& result)
-{
-  quadrille::addStages(data, result.stages);
-  quadrille::addText(data, "ReusedStages", result.reused);
-  quadrille::addCertificate(data, result.certificate);
-  quadrille::addRepair(data, result.surface.repair);
-  quadrille::addExtraction(data, result.extraction);
-  quadrille::addNumber(data, "EstimatedSeconds", result.estimate.seconds);
-  quadrille::addNumber(data, "EstimatedMegabytes", 1e-6 * result.estimate.bytes);
-  quadrille::addNumber(data, "TargetEdgeLength", result.targetEdgeLength);
-  quadrille::addCount(data, "TargetQuads", result.targetQuads);
-  quadrille::addCount(data, "ActualQuads", result.quads.quads.size());
-  quadrille::addCount(data, "CoarseVertices", result.coarse.mesh.vertexCount());
-  quadrille::addCount(data, "Decimations", static_cast<std::size_t>(result.decimations));
-  quadrille::addCount(data, "Replays", static_cast<std::size_t>(result.replays));
-  quadrille::addCount(data, "SurfaceFaces", result.surface.mesh.faceCount());
-  quadrille::addSmallParts(data, result.smallParts, result.targetEdgeLength);
-  quadrille::addAttempts(data, result.attempts);
-  if (!result.stopped.empty())
-  {
-    quadrille::addText(data, "Stopped", { result.stopped });
-  }
-  quadrille::addFinalQuality(data, result.finalQuality);
-}
-
 /// What the surface's own arrays come from.
 struct MappedSource
 {
@@ -322,9 +301,10 @@ void writeMapped(const quadrille::RemeshResult& result, const quadrille::RemeshO
   {
     quadrille::addFrame(mapped, result.frame, result.framePositions);
   }
-  quadrille::addMethod(mapped, options.method);
-  quadrille::addAnisotropy(mapped, options.anisotropyLimit, result.beyondAnisotropyLimit);
-  quadrille::addCertificate(mapped, result.certificate);
+  quadrille::addFields(mapped, quadrille::methodFields(options.method));
+  quadrille::addFields(
+    mapped, quadrille::anisotropyFields(options.anisotropyLimit, result.beyondAnisotropyLimit));
+  quadrille::addFields(mapped, quadrille::certificateFields(result.certificate));
   quadrille::addCount(mapped, "Charts", result.charts.charts);
   quadrille::addCount(mapped, "SeamEdges", result.charts.seamEdges);
 }
@@ -642,19 +622,24 @@ void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const RunOfBlock& run)
   }
   vtkPolyData* quads = block.output(0);
   quads->ShallowCopy(written.quads);
-  addFieldData(quads, result);
-  quadrille::addMethod(quads, static_cast<quadrille::MapMethod>(this->Method));
-  quadrille::addAnisotropy(quads, this->AnisotropyLimit, result.beyondAnisotropyLimit);
+  quadrille::addFields(quads, quadrille::runFields(result));
+  quadrille::addFields(
+    quads, quadrille::methodFields(static_cast<quadrille::MapMethod>(this->Method)));
+  quadrille::addFields(
+    quads, quadrille::anisotropyFields(this->AnisotropyLimit, result.beyondAnisotropyLimit));
   if (run.symmetric != nullptr)
   {
     quadrille::addSymmetry(quads, *run.symmetric);
   }
-  quadrille::addText(quads, "Notices", notices);
   block.output(2)->ShallowCopy(written.lines);
   block.output(3)->ShallowCopy(written.separatrices);
   block.output(4)->ShallowCopy(written.irregular);
-  std::vector<quadrille::ConstraintWord> words = quadrille::judgeConstraints(
-    run.asked, result.quads, written.quads->GetPointData()->GetArray(quadrille::arrays::kSizing));
+  std::vector<quadrille::ConstraintWord> words =
+    quadrille::judgeConstraints(run.asked, result.quads,
+      quadrille::valuesOf(written.quads->GetPointData()->GetArray(quadrille::arrays::kSizing)));
+  const std::vector<std::string> off = quadrille::offSurfaceNotices(words);
+  notices.insert(notices.end(), off.begin(), off.end());
+  quadrille::addText(quads, "Notices", notices);
   block.output(5)->ShallowCopy(quadrille::writeConstraints(
     run.asked.placed, run.asked.curves, result.quads, quadrille::metOfDrawn(words, run.asked)));
   if (run.symmetric != nullptr)
@@ -1130,11 +1115,11 @@ void vtkQuadRemesh::WritePreview(quadrille::Block& block, const quadrille::Asked
   const quadrille::QuadOutputs written = quadrille::writePreview(result.quads);
   vtkPolyData* quads = block.output(0);
   quads->ShallowCopy(written.quads);
-  addFieldData(quads, result);
+  quadrille::addFields(quads, quadrille::runFields(result));
   quadrille::addText(quads, "Notices", this->GetBlockNotices());
   block.output(4)->ShallowCopy(written.irregular);
   const std::vector<quadrille::ConstraintWord> words =
-    quadrille::judgeConstraints(asked, result.quads, nullptr);
+    quadrille::judgeConstraints(asked, result.quads, {});
   block.output(5)->ShallowCopy(quadrille::writeConstraints(
     asked.placed, asked.curves, result.quads, quadrille::metOfDrawn(words, asked)));
   block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadrilleAlgorithm.h"
 
+#include "Assembly/JoinParts.h"
 #include "Base/DisjointSets.h"
 #include "Base/Refuse.h"
 #include "GridMap/GridMap.h"
-#include "Mesh/JoinParts.h"
 #include "Pipeline/Pipeline.h"
 #include "QuadrilleBlocks.h"
 #include "QuadrillePieces.h"

@@ -3,10 +3,14 @@
 #include "vtkQuadrilleFileReader.h"
 
 #include "Base/Error.h"
+#include "QuadrilleObjDigits.h"
+#include "QuadrilleXmlReaders.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkPolyData.h"
+#include "vtkXMLPolyDataReader.h"
+#include "vtkXMLUnstructuredGridReader.h"
 
 #include <algorithm>
 #include <cctype>
@@ -92,6 +96,28 @@ std::string headerErrorOfXml(std::istream& file, std::uintmax_t size)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+bool vtkQuadrilleFileReader::RestoreObjDigits(vtkPolyData* surface, const char* path)
+{
+  return quadrille::restoreObjDigits(surface, path);
+}
+
+//------------------------------------------------------------------------------
+vtkAlgorithm* vtkQuadrilleFileReader::NewXMLReader(const char* extension)
+{
+  vtkSmartPointer<vtkAlgorithm> reader;
+  if (extension != nullptr && std::string(extension) == ".vtp")
+  {
+    reader = quadrille::newPolyDataReader();
+  }
+  else
+  {
+    reader = quadrille::newUnstructuredGridReader();
+  }
+  reader->Register(nullptr);
+  return reader;
+}
 
 //------------------------------------------------------------------------------
 std::string vtkQuadrilleFileReader::GetHeaderError(const char* path)

@@ -43,6 +43,21 @@ public:
    */
   static std::string GetHeaderError(const char* path);
 
+  /**
+   * Versions of vtkOBJReader give points in single precision, in double precision, or in either by the file. Gives
+   * those of a surface that one of them has read the digits of the file, in double precision. False where that cannot
+   * be: points are one in single precision, and the reader has made copies of some at seams of textures.
+   */
+  static bool RestoreObjDigits(vtkPolyData* surface, const char* path);
+
+  /**
+   * A new reader of VTK's XML files of polygons (.vtp), or for other extensions of unstructured grids (.vtu), which
+   * reads appended data with any libexpat. VTK's own ones up to 9.3.0 cannot with that of Debian 12 and its security
+   * updates.
+   */
+  VTK_NEWINSTANCE
+  static vtkAlgorithm* NewXMLReader(const char* extension);
+
   /// Why the last execution gave nothing; empty after success.
   const char* GetOutcomeText() { return this->OutcomeText.c_str(); }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadrilleOFFReader.h"
 
-#include "QuadrilleOff.h"
+#include "QuadrilleSurfaceFile.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
@@ -31,7 +31,7 @@ int vtkQuadrilleOFFReader::CanReadFile(const char* name)
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> vtkQuadrilleOFFReader::ReadSurface(const std::string& path)
 {
-  return quadrille::readOff(path);
+  return quadrille::polyDataOf(quadrille::readOff(path));
 }
 
 //------------------------------------------------------------------------------

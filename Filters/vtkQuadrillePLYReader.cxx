@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadrillePLYReader.h"
 
-#include "QuadrillePly.h"
+#include "QuadrilleSurfaceFile.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
@@ -28,7 +28,7 @@ int vtkQuadrillePLYReader::CanReadFile(const char* name)
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> vtkQuadrillePLYReader::ReadSurface(const std::string& path)
 {
-  return quadrille::readPly(path, this->NumberOfThreads);
+  return quadrille::polyDataOf(quadrille::readPly(path, this->NumberOfThreads));
 }
 
 //------------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadrilleSTLReader.h"
 
-#include "QuadrilleStl.h"
+#include "QuadrilleSurfaceFile.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
@@ -22,7 +22,7 @@ int vtkQuadrilleSTLReader::CanReadFile(const char* name)
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> vtkQuadrilleSTLReader::ReadSurface(const std::string& path)
 {
-  return quadrille::readBinaryStl(path, this->NumberOfThreads);
+  return quadrille::polyDataOf(quadrille::readBinaryStl(path, this->NumberOfThreads));
 }
 
 //------------------------------------------------------------------------------

@@ -210,14 +210,7 @@ bool vtkQuadrilleSession::SetSettings(const std::string& settings)
   return this->Data->Try(
     [&]
     {
-      quadrille::Session& session = this->Data->Get();
-      quadrille::RemeshOptions options = session.settings();
-      options.threads = session.threads();
-      options.memoryLimit = session.memoryLimit();
-      quadrille::settingsFromText(settings, options);
-      session.setSettings(options);
-      session.setThreads(options.threads);
-      session.setMemoryLimit(options.memoryLimit);
+      quadrille::changeSettings(this->Data->Get(), settings);
       return true;
     });
 }

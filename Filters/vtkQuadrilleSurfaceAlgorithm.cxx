@@ -98,7 +98,8 @@ quadrille::ConvertedSurface vtkQuadrilleSurfaceAlgorithm::ConvertInputs(
   constraints.valence = this->PointValence;
   if (asked)
   {
-    asked->arrays = quadrille::arrayConstraints(surface);
+    asked->arrays = quadrille::arrayConstraints(
+      surface.input, [&surface](quadrille::Index polygon) { return surface.cell(polygon); });
   }
   quadrille::PlacedConstraints result = quadrille::applyConstraints(surface, constraints);
   for (const std::string& notice : result.notices)

@@ -89,18 +89,18 @@ MappedMesh subdivided(const MappedMesh& coarse)
     const Index g = mesh.twin[h];
     const Index corner = lower(h);                // (origin, middle of h, middle of the one before)
     const Index inner = 12 * (h / 3) + 9 + h % 3; // from the middle of h to that of the next one
-    fine.mesh.origin[corner] = mesh.origin[h];
-    fine.mesh.origin[corner + 1] = fine.mesh.origin[inner] = middle[h];
-    fine.mesh.origin[corner + 2] = middle[p];
+    fine.mesh.origin.edit()[corner] = mesh.origin[h];
+    fine.mesh.origin.edit()[corner + 1] = fine.mesh.origin.edit()[inner] = middle[h];
+    fine.mesh.origin.edit()[corner + 2] = middle[p];
     fine.uv[corner] = map.at(h);
     fine.uv[corner + 1] = fine.uv[inner] = middleUv[h];
     fine.uv[corner + 2] = middleUv[p];
-    fine.mesh.twin[corner] = g == kInvalidIndex ? g : upper(g);
-    fine.mesh.twin[upper(h)] = g == kInvalidIndex ? g : lower(g);
-    fine.mesh.flags[corner] = fine.mesh.flags[upper(h)] = mesh.flags[h];
+    fine.mesh.twin.edit()[corner] = g == kInvalidIndex ? g : upper(g);
+    fine.mesh.twin.edit()[upper(h)] = g == kInvalidIndex ? g : lower(g);
+    fine.mesh.flags.edit()[corner] = fine.mesh.flags.edit()[upper(h)] = mesh.flags[h];
     const Index across = 12 * (h / 3) + 9 + p % 3; // from the middle of the one before to that of h
-    fine.mesh.twin[corner + 1] = across;
-    fine.mesh.twin[across] = corner + 1;
+    fine.mesh.twin.edit()[corner + 1] = across;
+    fine.mesh.twin.edit()[across] = corner + 1;
   }
   return fine;
 }

@@ -3,9 +3,11 @@
 #include "FieldCounts.h"
 
 #include "CrossField/CrossField.h"
-#include "Mesh/FeatureFilter.h"
+#include "Features/FeatureFilter.h"
 #include "MeshFiles.h"
 #include "Pipeline/Pipeline.h"
+#include "Prepare/Prepare.h"
+#include "Prepare/Refine.h"
 #include "QuadrilleConvert.h"
 
 #include <vtkPolyData.h>

@@ -5,6 +5,7 @@
 #include "Export/OutputFile.h"
 #include "QuadrilleFar.h"
 #include "QuadrilleVtkErrors.h"
+#include "QuadrilleXmlReaders.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkExecutive.h>
@@ -13,7 +14,6 @@
 #include <vtkOBJReader.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataReader.h>
 #include <vtkQuadMeshWriter.h>
@@ -28,13 +28,10 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <sstream>
 
 namespace quadrille
@@ -92,9 +89,9 @@ private:
 };
 
 template <class Reader>
-vtkSmartPointer<vtkPolyData> readWith(const std::string& path)
+vtkSmartPointer<vtkPolyData> readWith(
+  const std::string& path, const vtkSmartPointer<Reader>& reader = vtkSmartPointer<Reader>::New())
 {
-  vtkNew<Reader> reader;
   const ErrorCollector errors(reader);
   const ErrorCollector pipelineErrors(reader->GetExecutive());
   reader->SetFileName(path.c_str());
@@ -146,111 +143,16 @@ vtkSmartPointer<vtkPolyData> readWithOurs(const std::string& path, int threads)
   return reader->GetOutput();
 }
 
-//------------------------------------------------------------------------------
-// Digits that VTK's OBJ reader leaves out
-
-using Coordinates = std::array<double, 3>;
-
-/// Of the lines "v x y z".
-std::vector<Coordinates> readObjPoints(const std::string& path)
-{
-  std::vector<Coordinates> points;
-  std::ifstream file(path);
-  std::string line;
-  while (std::getline(file, line))
-  {
-    Coordinates p{};
-    if (std::sscanf(line.c_str(), " v %lf %lf %lf", &p[0], &p[1], &p[2]) == 3)
-    {
-      points.push_back(p);
-    }
-  }
-  return points;
-}
-
-std::array<float, 3> inSinglePrecision(const Coordinates& p)
-{
-  return { static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]) };
-}
-
-/// Points of the file by those of the reader: in their order where the reader keeps it, else by their values, as it
-/// makes copies at seams of textures. Empty where two points of the file are one in single precision.
-std::vector<Coordinates> matchObjPoints(const std::vector<Coordinates>& inFile, vtkPoints* read)
-{
-  const auto count = static_cast<std::size_t>(read->GetNumberOfPoints());
-  std::vector<std::array<float, 3>> values(count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    Coordinates p{};
-    read->GetPoint(static_cast<vtkIdType>(i), p.data());
-    values[i] = inSinglePrecision(p);
-  }
-  const auto fits = [&](std::size_t i) { return inSinglePrecision(inFile[i]) == values[i]; };
-  bool inOrder = count == inFile.size();
-  for (std::size_t i = 0; inOrder && i < count; ++i)
-  {
-    inOrder = fits(i);
-  }
-  if (inOrder)
-  {
-    return inFile;
-  }
-  std::map<std::array<float, 3>, Coordinates> byValue;
-  for (const Coordinates& p : inFile)
-  {
-    if (byValue.emplace(inSinglePrecision(p), p).first->second != p)
-    {
-      return {};
-    }
-  }
-  std::vector<Coordinates> matched(count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const auto found = byValue.find(values[i]);
-    if (found == byValue.end())
-    {
-      return {};
-    }
-    matched[i] = found->second;
-  }
-  return matched;
-}
-
-bool isMoreThanFloat(const Coordinates& p)
-{
-  return std::any_of(
-    p.begin(), p.end(), [](double x) { return static_cast<double>(static_cast<float>(x)) != x; });
-}
-
-/// vtkOBJReader keeps single precision: far from the origin the digits of the file are read again.
 vtkSmartPointer<vtkPolyData> readObj(const std::string& path)
 {
   vtkSmartPointer<vtkPolyData> data = readWith<vtkOBJReader>(path);
-  if (data->GetNumberOfPoints() == 0 || !isFar(data))
-  {
-    return data;
-  }
-  const std::vector<Coordinates> inFile = readObjPoints(path);
-  if (std::none_of(inFile.begin(), inFile.end(), isMoreThanFloat))
-  {
-    return data;
-  }
-  const std::vector<Coordinates> points = matchObjPoints(inFile, data->GetPoints());
-  if (points.empty())
+  if (!vtkQuadrilleFileReader::RestoreObjDigits(data, path.c_str()) && isFar(data))
   {
     fail(path,
       "lies so far from the origin that its points are not told apart in single precision, which "
-      "is what its "
-      "reader has: remove the texture coordinates, move it to the origin, or save it as PLY or VTP "
-      "in double precision");
+      "is what its reader has: remove the texture coordinates, move it to the origin, or save it "
+      "as PLY or VTP in double precision");
   }
-  vtkNew<vtkPoints> inDouble;
-  inDouble->SetDataTypeToDouble();
-  for (const Coordinates& p : points)
-  {
-    inDouble->InsertNextPoint(p.data());
-  }
-  data->SetPoints(inDouble);
   return data;
 }
 
@@ -305,7 +207,7 @@ vtkSmartPointer<vtkPolyData> readMeshFile(const std::string& path, int threads)
   }
   if (extension == "vtp")
   {
-    return readWith<vtkXMLPolyDataReader>(path);
+    return readWith<vtkXMLPolyDataReader>(path, quadrille::newPolyDataReader());
   }
   if (extension == "vtk")
   {

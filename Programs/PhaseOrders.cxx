@@ -3,8 +3,10 @@
 #include "PhaseOrders.h"
 
 #include "Base/Parallel.h"
-#include "Mesh/FeatureFilter.h"
+#include "Features/FeatureFilter.h"
 #include "MeshFiles.h"
+#include "Prepare/Prepare.h"
+#include "Prepare/Refine.h"
 #include "QuadrilleConvert.h"
 
 #include <vtkPolyData.h>

@@ -3,8 +3,7 @@
 #include "Report.h"
 
 #include "Evaluation/QuadQuality.h"
-
-#include <nlohmann/json.hpp>
+#include "QuadrilleVtkJson.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>

@@ -130,7 +130,7 @@ def manual(name, version, what, parts):
         title, _, rest = " ".join(line.strip() for line in block).partition(": ")
         lines += [f".SH {title.upper()}", escaped(rest)]
     lines += [".SH SEE ALSO", "Formats, arrays and methods are described in the user guide, "
-              "/usr/share/doc/quadrille/UserGuide.md where the Debian package is installed."]
+              "/usr/share/doc/quadrille/UserGuide.md with its folder Guide where the Debian package is installed."]
     return "\n".join(lines) + "\n"
 
 

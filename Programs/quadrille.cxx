@@ -402,6 +402,11 @@ void addFormats(CommandOptions& options, vtkQuadMeshWriter* writer)
   options.addChoice(
     "msh-version", "V", { "4.1", "2.2" }, [writer](int version) { writer->SetMshVersion(version); },
     "msh: the version of Gmsh's format (default 4.1)");
+  options.addFlag(
+    "file-details", [writer] { writer->FileDetailsOn(); },
+    "vtu, ply: also what many programs stop at: in vtu arrays of texts, as the names of patches "
+    "and "
+    "the notices of the run; in ply the patches of faces");
 }
 
 void addRun(CommandOptions& options, vtkQuadRemesh* filter, Request& request)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pure quad remeshing of triangle surfaces, in pvpython and in the system's python3.
+"""Pure quad remeshing of triangle surfaces, in pvpython, in the system's python3, and by pip without VTK.
 
     import quadrille
     quads = quadrille.remesh(quadrille.read("part.ply"))        # vtkPolyData in, vtkPolyData out; about 5,000 quads
@@ -19,6 +19,10 @@
 
     quadrille.check(QuadRemesh(Input=surface))                  # in a script of ParaView: raises where it fails
 
+Where this package was built for a VTK, meshes are data of VTK. The wheel quadrille-mesh needs NumPy alone: there a
+mesh is a Mesh of arrays, which is the pair (points, faces) as well; data of VTK that go in come out as such.
+repair(), wrap(), elements(), check(), spread=True and what follows are not in the wheel.
+
 The VTK classes themselves are here too: vtkQuadRemesh, vtkDecimationHierarchy, vtkIntegerGridMap,
 vtkIntegerGridMapUpmap, vtkQuadExtraction, vtkQuadElements, vtkIntegerGridMapQuality, vtkIntegerGridMapComparison,
 vtkQuadrilleSession, the source vtkQuadConstraintSource, the readers vtkQuadrilleOFFReader, vtkQuadrillePLYReader and
@@ -26,65 +30,41 @@ vtkQuadrilleSTLReader, the writer vtkQuadMeshWriter, and in QuadrilleFilters, wh
 vtkSurfaceWrap and vtkQuadProjection.
 """
 import collections
+from importlib.util import find_spec
 
-from vtkmodules import vtkCommonExecutionModel as _execution_model  # base classes of the filters
+if find_spec(__name__ + "._vtk"):
+    from . import _vtk
 
-from . import _vtk
+    __path__ = _vtk.folders(__path__)  # before anything else is imported from there
 
-__path__ = _vtk.folders(__path__)  # before anything else is imported from there
-
+from ._backend import backend
 from ._elements import FailedElements, elements
-from ._errors import InvalidInput, RemeshError, one_of, real, whole
+from ._errors import InvalidInput, RemeshError
 from ._files import read, write
 from ._inputs import as_curves, as_surface, to_polydata, with_requests
+from ._mesh import Mesh
+from ._options import (
+    CELL_DATA, FEATURE_CRITERIA, FINAL_QUALITIES, INTEGERS, METHODS, SMALL_COMPONENTS, SMALL_DETAILS, checked)
 from ._proxies import check
-from ._repair import Wrapping, has_cgal, repair, wrap
+from ._repair import has_cgal, repair, wrap
 from ._session import Irregular, Session
-from .QuadrilleFilters import (
-    vtkDecimationHierarchy,
-    vtkIntegerGridMap,
-    vtkIntegerGridMapComparison,
-    vtkIntegerGridMapQuality,
-    vtkIntegerGridMapUpmap,
-    vtkQuadConstraintSource,
-    vtkQuadElements,
-    vtkQuadExtraction,
-    vtkQuadMeshWriter,
-    vtkQuadRemesh,
-    vtkQuadrilleOFFReader,
-    vtkQuadrillePLYReader,
-    vtkQuadrilleSTLReader,
-    vtkQuadrilleSession,
-)
+from ._version import __version__
 
 __all__ = [
-    "FailedElements", "InvalidInput", "Irregular", "RemeshError", "Remeshed", "Session", "check", "elements",
-    "has_cgal", "info", "read", "remesh", "repair", "to_arrays", "to_polydata", "wrap", "write",
-    "vtkDecimationHierarchy", "vtkIntegerGridMap", "vtkIntegerGridMapComparison", "vtkIntegerGridMapQuality",
-    "vtkIntegerGridMapUpmap", "vtkQuadConstraintSource", "vtkQuadElements", "vtkQuadExtraction", "vtkQuadMeshWriter",
-    "vtkQuadRemesh",
-    "vtkQuadrilleOFFReader", "vtkQuadrillePLYReader", "vtkQuadrilleSTLReader",
-    "vtkQuadrilleSession",
+    "FailedElements", "InvalidInput", "Irregular", "Mesh", "RemeshError", "Remeshed", "Session", "check", "elements",
+    "has_cgal", "info", "read", "remesh", "repair", "to_arrays", "to_polydata", "wrap", "write", "__version__",
+    *backend.CLASSES,
 ]
 
 
-#: How the map can be made, in the order of vtkQuadRemesh.Methods.
-METHODS = ("scale-aware", "mixed-integer", "quadcover", "seamless")
+def __getattr__(name):
+    """Classes of VTK, where there are any."""
+    if name in backend.CLASSES:
+        return getattr(backend.filters, name)
+    if name.startswith("vtk") and not backend.CLASSES:
+        raise AttributeError(str(backend.missing(name)))
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
-#: What the whole numbers of the map can aim at, in the order of vtkQuadRemesh.IntegersTypes.
-INTEGERS = ("keep-sizes", "coarsest")
-
-
-#: The level on which the map is solved at last, in the order of vtkQuadRemesh.FinalQualityTypes.
-FINAL_QUALITIES = ("coarse", "intermediate", "input")
-
-#: What cell arrays of the quads can come from, in the order of vtkQuadRemesh.CellDataFromTypes.
-CELL_DATA = ("centre", "area")
-SMALL_COMPONENTS = ("keep", "remove")
-
-#: What becomes of handles and holes smaller than the quads, in the order of vtkQuadRemesh.SmallDetailsTypes.
-SMALL_DETAILS = ("automatic", "resolve", "simplify", "keep")
-FEATURE_CRITERIA = ("creases", "angle")
 
 #: What remesh(..., everything=True) returns: four vtkPolyData, and info() of the first.
 Remeshed = collections.namedtuple("Remeshed", "quads surface lines info separatrices")
@@ -92,24 +72,12 @@ Remeshed = collections.namedtuple("Remeshed", "quads surface lines info separatr
 
 def to_arrays(quads):
     """Points (n by 3) and faces (m by 4, of triangles m by 3) of a mesh, as numpy arrays of their own."""
-    import numpy
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-
-    points = vtk_to_numpy(quads.GetPoints().GetData()).copy() if quads.GetPoints() else numpy.zeros((0, 3))
-    corners = vtk_to_numpy(quads.GetPolys().GetConnectivityArray()).copy()
-    return points, corners.reshape(-1, 3 if quads.GetPolys().GetMaxCellSize() == 3 else 4)
+    return backend.arrays_of(quads)
 
 
 def info(quads):
     """The field data of a result as a dict: numbers, texts and lists; `stages` and `repair` as dicts."""
-    fields = quads.GetFieldData()
-    result = {}
-    for i in range(fields.GetNumberOfArrays()):
-        array = fields.GetAbstractArray(i)
-        values = [array.GetVariantValue(k) for k in range(array.GetNumberOfValues())]
-        values = [v.ToString() if v.IsString() else (v.ToDouble() if v.IsFloat() or v.IsDouble() else v.ToTypeInt64())
-                  for v in values]
-        result[array.GetName()] = values[0] if len(values) == 1 else values
+    result = {name: values[0] if len(values) == 1 else values for name, values in backend.fields_of(quads).items()}
 
     def pairs(names, values):
         names, values = result.get(names, []), result.get(values, [])
@@ -120,188 +88,6 @@ def info(quads):
     result["extraction"] = pairs("ExtractionNames", "ExtractionCounts")
     result["recoveries"] = pairs("RecoveryNames", "RecoveryCounts")
     return result
-
-
-def _details(places):
-    """The points of the output Small Details as dicts, with the names of the command's report."""
-    names = (("kind", "Kind"), ("size", "Size"), ("decision", "Decision"), ("result", "Result"))
-    data = places.GetPointData()
-    return [dict({name: data.GetAbstractArray(array).GetValue(i) for name, array in names}, place=places.GetPoint(i))
-            for i in range(places.GetNumberOfPoints())]
-
-
-def _constraints(table):
-    """The rows of the constraint table as dicts, with the names of the command's report; None where not measured."""
-    names = (("id", "Id"), ("kind", "Kind"), ("source_id", "SourceId"), ("met", "Met"), ("deviation", "Deviation"),
-             ("deviation_95", "Deviation95"), ("unit", "Unit"), ("reason", "Reason"))
-
-    def known(number):
-        return None if number != number else number
-
-    rows = []
-    for i in range(table.GetNumberOfRows()):
-        row = {name: table.GetColumnByName(column).GetValue(i) for name, column in names}
-        row["place"] = tuple(table.GetColumnByName(axis).GetValue(i) for axis in "XYZ")
-        row["met"] = bool(row["met"])
-        row["deviation"], row["deviation_95"] = known(row["deviation"]), known(row["deviation_95"])
-        rows.append(row)
-    return rows
-
-
-_FINAL_QUALITIES = ("coarse", "intermediate", "input")
-
-
-#: What `quads` is where no size is given.
-DEFAULT_QUADS = 5000
-
-
-def _set_size(run, quads, edge_length, relative_edge_length):
-    given = [name for name, value in (("quads", quads), ("edge_length", edge_length),
-                                      ("relative_edge_length", relative_edge_length)) if value is not None]
-    if len(given) > 1:
-        raise InvalidInput("give only one of " + " and ".join(given))
-    if edge_length is not None:
-        run.SetTargetTypeToEdgeLength()
-        run.SetEdgeLength(real("edge_length", edge_length, above=0))
-    elif relative_edge_length is not None:
-        run.SetTargetTypeToRelativeEdgeLength()
-        run.SetTargetTypeToRelativeEdgeLength()
-        run.SetRelativeEdgeLength(real("relative_edge_length", relative_edge_length, above=0, most=1,
-                                       hint=" (it is a part of the diagonal of the bounding box)"))
-    else:
-        run.SetTargetTypeToNumberOfQuads()
-        run.SetNumberOfQuads(whole("quads", DEFAULT_QUADS if quads is None else quads, least=1))
-
-
-def _set_numbers(run, *, feature_angle, coarse_vertices, threads, maximum_number_of_quads, smoothing_steps,
-                 memory_limit, time_limit,
-                 close_handles, anisotropy_limit):
-    run.SetDetectFeatures(feature_angle is not None)
-    if feature_angle is not None:
-        run.SetFeatureAngle(real("feature_angle", feature_angle, above=0, most=180,
-                                 hint=" (None turns the detection off)"))
-    coarse = whole("coarse_vertices", coarse_vertices, least=0)
-    if 0 < coarse < 4:
-        raise InvalidInput(f"coarse_vertices must be 0 (as many as the curvature needs) or at least 4, not {coarse}")
-    run.SetCoarseVertices(coarse)
-    run.SetNumberOfThreads(whole("threads", threads, least=0))
-    run.SetMaximumNumberOfQuads(whole("maximum_number_of_quads", maximum_number_of_quads, least=1))
-    run.SetSmoothingSteps(whole("smoothing_steps", smoothing_steps, least=0))
-    run.SetMemoryLimit(real("memory_limit", memory_limit, least=0))
-    run.SetTimeLimit(real("time_limit", time_limit, least=0))
-    run.SetCloseHandles(real("close_handles", close_handles, least=0))
-    limit = real("anisotropy_limit", anisotropy_limit, least=0)
-    if 0 < limit < 1:
-        raise InvalidInput(f"anisotropy_limit must be 0 (none) or at least 1, not {limit}")
-    run.SetAnisotropyLimit(limit)
-
-
-def _set_names(run, *, patch_array, method, final_quality, integers, cell_data, small_details, small_components,
-               feature_criterion):
-    run.SetPatchArrayName(patch_array or "")
-    run.SetMethod(one_of("method", method, METHODS))
-    run.SetFinalQuality(one_of("final_quality", final_quality, FINAL_QUALITIES))
-    run.SetIntegers(one_of("integers", integers, INTEGERS))
-    run.SetCellDataFrom(one_of("cell_data", cell_data, CELL_DATA))
-    run.SetSmallDetails(one_of("small_details", small_details, SMALL_DETAILS))
-    run.SetSmallComponents(one_of("small_components", small_components, SMALL_COMPONENTS))
-    run.SetFeatureCriterion(one_of("feature_criterion", feature_criterion, FEATURE_CRITERIA))
-
-
-def _set_sizes(run, chord_error, gap_quads, smallest_size, largest_size):
-    if chord_error is not None:
-        run.SetChordError(real("chord_error", chord_error, above=0, hint=" (None leaves sizes as they are)"))
-    run.SetGapQuads(real("gap_quads", gap_quads, least=0))
-    run.SetSmallestSize(real("smallest_size", smallest_size, above=0, most=1))
-    run.SetLargestSize(real("largest_size", largest_size, least=1))
-
-
-def _set_guides(run, guide, guide_anisotropy, stroke_radius):
-    if guide is not None and not isinstance(guide, str):
-        raise InvalidInput('guide must be "curvature" or the name of an array')
-    run.SetCurvatureGuides(guide == "curvature")
-    run.SetGuideArrayName(guide if guide and guide != "curvature" else "")
-    run.SetLeastAnisotropy(real("guide_anisotropy", guide_anisotropy, least=0, most=0.99))
-    run.SetStrokeRadius(real("stroke_radius", stroke_radius, least=0))
-
-
-def _set_symmetry(run, symmetry, rotation, plane_curve):
-    one_of("plane_curve", plane_curve, ("isoline", "mid-line"))
-    if plane_curve == "mid-line" and symmetry is None:
-        raise InvalidInput("plane_curve 'mid-line' belongs to a mirror plane: give symmetry, too")
-    run.SetPlaneCurve(int(plane_curve == "mid-line"))
-    if rotation is not None:
-        if symmetry is not None:
-            raise InvalidInput("quads have one symmetry: give symmetry or rotation")
-        _set_rotation(run, rotation)
-    if symmetry is None:
-        return
-    if isinstance(symmetry, str):
-        one_of("symmetry", symmetry, ("found",))
-        run.SetSymmetryToFound()
-        return
-    try:
-        origin, normal = ([real("symmetry", value) for value in vector] for vector in symmetry)
-    except (TypeError, ValueError) as error:
-        if isinstance(error, InvalidInput):
-            raise
-        raise InvalidInput(f"symmetry must be 'found' or a pair (origin, normal), not {symmetry!r}") from error
-    if len(origin) != 3 or len(normal) != 3:
-        raise InvalidInput(f"symmetry needs three numbers for the origin and three for the normal, not {symmetry!r}")
-    run.SetSymmetryToPlane()
-    run.SetSymmetryOrigin(origin)
-    run.SetSymmetryNormal(normal)
-
-
-def _set_rotation(run, rotation):
-    if isinstance(rotation, (list, tuple)):
-        try:
-            order, origin, direction = rotation
-            origin, direction = ([real("rotation", value) for value in vector] for vector in (origin, direction))
-        except (TypeError, ValueError) as error:
-            if isinstance(error, InvalidInput):
-                raise
-            raise InvalidInput(
-                f"rotation must be an order or a triple (order, origin, direction), not {rotation!r}") from error
-        if len(origin) != 3 or len(direction) != 3:
-            raise InvalidInput(
-                f"rotation needs three numbers for the origin and three for the direction, not {rotation!r}")
-        run.SetSymmetryToAxis()
-        run.SetSymmetryOrigin(origin)
-        run.SetSymmetryNormal(direction)
-    else:
-        order = rotation
-        run.SetSymmetryToAxisFound()
-    run.SetRotationOrder(whole("rotation", order, least=2, most=64))
-
-
-def _spread(run, wrap):
-    """Asks for quads of a surface over ranks; returns this rank and their number."""
-    from vtkmodules.vtkParallelCore import vtkMultiProcessController
-    controller = vtkMultiProcessController.GetGlobalController()
-    if controller is None:
-        raise InvalidInput("spread needs VTK's global controller: initialize a vtkMPIController, and give it to "
-                           "vtkMultiProcessController.SetGlobalController")
-    if wrap is not None:
-        raise InvalidInput("a wrap is made of a surface in one place: leave out wrap, or spread")
-    run.SetSpreadSurfaces(1)  # always
-    return controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
-
-
-def _finish(run, ranks=None):
-    """Runs it, as one of the ranks where there are several; the reason of a failure comes as an exception, so VTK need
-    not print it as well."""
-    for source in (run, run.GetExecutive()):
-        source.AddObserver("ErrorEvent", lambda caller, event: None)
-        source.AddObserver("WarningEvent", lambda caller, event: None)
-    if ranks is None:
-        run.Update()
-    else:
-        run.UpdatePiece(*ranks, 0)
-    if run.GetOutcome() == vtkQuadRemesh.BadInput:
-        raise InvalidInput(run.GetOutcomeText())
-    if run.GetOutcome() != vtkQuadRemesh.Succeeded and not run.GetIsSoFar():
-        raise RemeshError(run.GetOutcomeText() or "no quads were made")
 
 
 def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, feature_angle=40.0,
@@ -317,11 +103,11 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
            plane_curve="isoline", chord_error=None, gap_quads=0.0, smallest_size=0.2, largest_size=1.0, guide=None,
            guide_anisotropy=0.3, stroke_radius=0.0, wrap=None,
            progress=None, everything=False, spread=False):
-    """Remeshes a surface with quads only and returns a vtkPolyData.
+    """Remeshes a surface with quads only and returns a vtkPolyData; without VTK, of arrays, a Mesh.
 
-    mesh: a vtkPolyData (of another vtkDataSet the surface is taken), or a pair (points, faces) of arrays or lists:
-        points #V by 3, faces #F by 3 or by 4, or one list of point ids a face, also as VTK has them, with the number of
-        corners before the corners; or an object with `vertices` and `faces`.
+    mesh: a vtkPolyData (of another vtkDataSet the surface is taken), a Mesh, or a pair (points, faces) of arrays or
+        lists: points #V by 3, faces #F by 3 or by 4, or one list of point ids a face, also as VTK has them, with the
+        number of corners before the corners; or an object with `vertices` and `faces`.
     quads, edge_length, relative_edge_length: target number of quads, target edge length in units of the mesh, or over
         the diagonal of its bounding box; at most one of them; 5,000 quads when none is given.
     feature_angle: degrees; edges sharper than this become edges of the quads; None turns the detection off.
@@ -406,43 +192,27 @@ def remesh(mesh, *, quads=None, edge_length=None, relative_edge_length=None, fea
 
     Raises InvalidInput where the mesh or an argument is at fault, else RemeshError, with the reason.
     """
-    run = vtkQuadRemesh()
-    _set_size(run, quads, edge_length, relative_edge_length)
-    _set_numbers(run, feature_angle=feature_angle, coarse_vertices=coarse_vertices, threads=threads,
-                 maximum_number_of_quads=maximum_number_of_quads, smoothing_steps=smoothing_steps,
-                 memory_limit=memory_limit,
-                 time_limit=time_limit, close_handles=close_handles, anisotropy_limit=anisotropy_limit)
-    _set_names(run, patch_array=patch_array, method=method, final_quality=final_quality, integers=integers,
-               cell_data=cell_data,
-               small_details=small_details, small_components=small_components, feature_criterion=feature_criterion)
-    _set_sizes(run, chord_error, gap_quads, smallest_size, largest_size)
-    _set_guides(run, guide, guide_anisotropy, stroke_radius)
-    _set_symmetry(run, symmetry, rotation, plane_curve)
-    run.SetDistortionMetric(bool(distortion_metric))
-    run.SetPreview(bool(preview))
-    run.SetComputeMappedSurface(bool(everything))
-    run.KeepLevelsOff()  # there is no next execution
-    ranks = _spread(run, wrap) if spread else None
-    surface = as_surface(mesh)
-    wrapping = Wrapping(wrap, surface, requests={
+    options = checked(
+        quads=quads, edge_length=edge_length, relative_edge_length=relative_edge_length, feature_angle=feature_angle,
+        feature_criterion=feature_criterion, patch_array=patch_array, coarse_vertices=coarse_vertices, threads=threads,
+        maximum_number_of_quads=maximum_number_of_quads, smoothing_steps=smoothing_steps, memory_limit=memory_limit,
+        time_limit=time_limit, close_handles=close_handles, small_details=small_details,
+        small_components=small_components, method=method, final_quality=final_quality, integers=integers,
+        anisotropy_limit=anisotropy_limit, distortion_metric=distortion_metric, cell_data=cell_data, preview=preview,
+        symmetry=symmetry, rotation=rotation, plane_curve=plane_curve, chord_error=chord_error, gap_quads=gap_quads,
+        smallest_size=smallest_size, largest_size=largest_size, guide=guide, guide_anisotropy=guide_anisotropy,
+        stroke_radius=stroke_radius, everything=everything)
+    surface = with_requests(
+        as_surface(mesh), guiding_direction=guiding_direction, guiding_weight=guiding_weight,
+        target_valence=target_valence, sizing=sizing, feature_edges=feature_edges, patch_ids=patch_ids,
+        patch_array=patch_array)
+    requests = {
         "guiding_direction": guiding_direction, "target_valence": target_valence, "sizing": sizing,
         "feature_edges": feature_edges, "patch_ids": patch_ids, "curves": curves, "strokes": strokes,
-        "connections": connections, "cycles": cycles, "symmetry": symmetry, "rotation": rotation})
-    run.SetInputData(with_requests(
-        surface, guiding_direction=guiding_direction, guiding_weight=guiding_weight,
-        target_valence=target_valence,
-        sizing=sizing, feature_edges=feature_edges, patch_ids=patch_ids, patch_array=patch_array))
+        "connections": connections, "cycles": cycles, "symmetry": symmetry, "rotation": rotation}
     lines = as_curves(curves=curves, strokes=strokes, connections=connections, cycles=cycles)
-    if lines is not None:
-        run.SetCurvesData(lines)
-    if progress is not None:
-        def on_progress(caller, event):
-            if progress(caller.GetProgress(), caller.GetProgressText() or "") is False:
-                caller.SetAbortExecute(1)
-        run.AddObserver("ProgressEvent", on_progress)
-    result = wrapping.remeshed(run, lambda: _finish(run, ranks))
-    if everything:
-        told = dict(info(result), constraints=_constraints(run.GetConstraintTable()),
-                    details=_details(run.GetDetailPlaces()))
-        return Remeshed(result, run.GetMappedSurface(), run.GetLines(), told, run.GetSeparatrices())
-    return result
+    made = backend.remesh(surface, options, lines, wrap=wrap, requests=requests, spread=spread, progress=progress)
+    if not everything:
+        return made
+    result, mapped, drawn, told, separatrices = made
+    return Remeshed(result, mapped, drawn, {**info(result), **told}, separatrices)

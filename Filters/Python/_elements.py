@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
 """Quads as elements for simulation."""
+from ._backend import backend
 from ._errors import InvalidInput, RemeshError, one_of, whole
 from ._inputs import as_surface
-from .QuadrilleFilters import vtkQuadElements
 
 #: What elements get that have no direction, in the order of vtkQuadElements.AxisFallbacks.
 AXIS_FALLBACKS = ("none", "x", "y", "z", "element")
@@ -53,7 +53,9 @@ def elements(quads, surface=None, *, order=1, nodes=8, patch_array="PatchId", qu
 
     Raises InvalidInput where an argument is at fault, else RemeshError, with the reason.
     """
-    run = vtkQuadElements()
+    if not backend.CLASSES:
+        raise backend.missing("elements")
+    run = backend.filters.vtkQuadElements()
     run.SetOrder(whole("order", order, least=1, most=2))
     run.SetNodesPerElement(whole("nodes", nodes, least=8, most=9))
     run.SetPatchArrayName(patch_array or "")

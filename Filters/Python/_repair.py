@@ -3,20 +3,23 @@
 """Damaged surfaces: repaired, or wrapped. Both need a build with CGAL."""
 import numpy
 
-from . import QuadrilleFilters
+from ._arrays import as_points
+from ._backend import backend
 from ._errors import InvalidInput, RemeshError, real
-from ._inputs import as_cloud, as_surface
+from ._inputs import as_surface
 
 
 def has_cgal():
     """Whether this build has repair() and wrap()."""
-    return hasattr(QuadrilleFilters, "vtkSurfaceWrap")
+    return bool(backend.CLASSES) and hasattr(backend.filters, "vtkSurfaceWrap")
 
 
 def _filter(name):
+    if not backend.CLASSES:
+        raise backend.missing("repair and no wrap")
     if not has_cgal():
         raise RemeshError("this build of Quadrille has no CGAL: configure it with QUADRILLE_USE_CGAL=ON")
-    return getattr(QuadrilleFilters, name)()
+    return getattr(backend.filters, name)()
 
 
 def _given(name, length):
@@ -60,7 +63,8 @@ def wrap(mesh, *, alpha=None, offset=None, time_limit=0.0, progress=None):
     surface_filter.SetAlpha(_given("alpha", alpha))
     surface_filter.SetOffset(_given("offset", offset))
     is_cloud = isinstance(mesh, numpy.ndarray) and mesh.ndim == 2
-    return _run(surface_filter, as_cloud(mesh) if is_cloud else as_surface(mesh), time_limit, progress)
+    surface = backend.cloud_of(as_points(mesh)) if is_cloud else as_surface(mesh)
+    return _run(surface_filter, surface, time_limit, progress)
 
 
 def repair(mesh, *, fill_holes_below=0.0, find_self_intersections=True, time_limit=0.0, progress=None):
@@ -125,6 +129,6 @@ class Wrapping:
         run.DetectFeaturesOff()
         run.SetPatchArrayName("")
         finish()
-        projection = QuadrilleFilters.vtkQuadProjection()
+        projection = backend.filters.vtkQuadProjection()
         projection.SetSurfaceData(self._surface)
         return _run(projection, run.GetOutput(), 0.0, None)

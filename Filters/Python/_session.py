@@ -8,11 +8,11 @@ import numbers
 import os
 
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
 
+from ._arrays import as_points
+from ._backend import backend
 from ._errors import InvalidInput, RemeshError, one_of, real, whole
-from ._inputs import as_points, as_surface, with_requests
-from .QuadrilleFilters import vtkQuadrilleSession
+from ._inputs import as_surface, with_requests
 
 #: Irregular vertices: ids (points of the surface), points (n by 3) and valences.
 Irregular = collections.namedtuple("Irregular", "id point valence")
@@ -96,16 +96,10 @@ class Session:
         self._check(self._session.Start(self._surface, _settings(quads, edge_length, relative_edge_length, **settings)))
 
     def _begin(self, surface, progress):
-        self._session = vtkQuadrilleSession()
+        self._session = backend.session(progress)
         self._surface = surface
         self._report = None
-        points = surface.GetPoints()
-        self._points = vtk_to_numpy(points.GetData()) if points else numpy.zeros((0, 3))
-        if progress is not None:
-            def on_progress(caller, event):
-                if progress(caller.GetProgress()) is False:
-                    caller.AbortUpdateOn()
-            self._session.AddObserver("ProgressEvent", on_progress)
+        self._points = backend.points_of(surface)
 
     @classmethod
     def load(cls, file, mesh, *, progress=None, **arrays):
@@ -121,8 +115,8 @@ class Session:
 
     def _check(self, ok):
         if not ok:
-            error = InvalidInput if self._session.GetErrorIsInInput() else RemeshError
-            raise error(self._session.GetErrorText() or "the session failed")
+            text, is_in_input = backend.session_error(self._session)
+            raise (InvalidInput if is_in_input else RemeshError)(text or "the session failed")
         return ok
 
     def _place(self, name, value):
@@ -275,49 +269,37 @@ class Session:
         that follows the number of quads. They lie near the mesh, not on it. update() afterwards goes on from there; the
         report is not touched. Not with a symmetry."""
         self._check(self._session.Preview())
-        return self._arrays(self._session.GetPreviewQuads())
-
-    @staticmethod
-    def _arrays(data):
-        corners = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).copy()
-        return vtk_to_numpy(data.GetPoints().GetData()).copy(), corners.reshape(-1, 4)
+        return backend.preview_arrays(self._session)
 
     @property
     def quads(self):
         """Points (n by 3) and quads (m by 4) of the present state, as arrays of their own; update() is run before, if
         need be."""
-        return self._arrays(self.polydata)
+        return backend.session_arrays(self.polydata)
 
     @property
     def polydata(self):
-        """The same as a vtkPolyData, with Valence and OnBoundary on points, and with a symmetry MirrorPoint."""
+        """The same as a vtkPolyData (without VTK a Mesh), with Valence and OnBoundary on points, and with a symmetry
+        MirrorPoint."""
         self.update()
-        return self._session.GetQuads()
+        return backend.session_mesh(self._session, self._surface)
 
     @property
     def mirror_point(self):
         """Per point of the quads its mirror image, a permutation that is its own inverse; None without a symmetry. See
         quads."""
-        array = self.polydata.GetPointData().GetArray("MirrorPoint")
-        return None if array is None else vtk_to_numpy(array).copy()
+        return backend.session_point_array(self.polydata, "MirrorPoint")
 
     @property
     def rotated_point(self):
         """Per point of the quads the one that it becomes when it is turned by one step; None without a rotation. See
         quads."""
-        array = self.polydata.GetPointData().GetArray("RotatedPoint")
-        return None if array is None else vtk_to_numpy(array).copy()
+        return backend.session_point_array(self.polydata, "RotatedPoint")
 
     def irregular(self):
         """Irregular vertices inside of the surface, off its features: ids, points, valences; see quads."""
         self.update()
-        data = self._session.GetIrregularVertices()
-
-        def values(array):
-            return vtk_to_numpy(array).copy()
-
-        return Irregular(values(data.GetPointData().GetArray("PointId")), values(data.GetPoints().GetData()),
-                         values(data.GetPointData().GetArray("Valence")))
+        return Irregular(*backend.session_irregular(self._session))
 
     def constraints(self):
         """Dicts with id, revision, kind and what was given; once update() has been run, also with what its report says
@@ -355,7 +337,7 @@ class Session:
         self._check(self._session.NameState(name))
 
     def states(self):
-        return [self._session.GetStateName(i) for i in range(self._session.GetNumberOfNamedStates())]
+        return backend.session_states(self._session)
 
     def go_to(self, name):
         """To a state with a name; undo() comes back."""

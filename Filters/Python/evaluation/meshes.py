@@ -123,11 +123,13 @@ def from_poly_data(data):
 
 def _read_grid(path):
     """Faces of an unstructured grid in VTK's XML format."""
-    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+    import vtkmodules.vtkIOXML  # noqa: F401, so that Python knows the class of the reader
+
+    from quadrille.QuadrilleFilters import vtkQuadrilleFileReader
 
     if not os.path.isfile(path):
         raise quadrille.InvalidInput(f"{path}: there is no such file")
-    reader = vtkXMLUnstructuredGridReader()
+    reader = vtkQuadrilleFileReader.NewXMLReader(".vtu")
     reader.SetFileName(path)
     reader.Update()
     grid = reader.GetOutput()

@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Native/RemeshCall.h"
+
+#include "Native/Arrays.h"
+#include "Native/Errors.h"
+#include "Native/ProgressCall.h"
+#include "Native/Results.h"
+#include "Requests/DrawnConstraints.h"
+#include "Session/SessionText.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadrille::native
+{
+
+namespace
+{
+
+/// The triangles of a surface as they are.
+class InputTriangles : public TriangleSource
+{
+public:
+  explicit InputTriangles(const SurfaceInput& input) : input_(input) {}
+
+  std::size_t pointCount() const override { return input_.points.size(); }
+  std::size_t triangleCount() const override { return input_.polygonOffsets.size() - 1; }
+  void corners(std::size_t begin, std::size_t end, Index* ids) const override
+  {
+    std::copy(input_.polygonPoints.data() + 3 * begin, input_.polygonPoints.data() + 3 * end, ids);
+  }
+  void positions(const Index* ids, std::size_t count, Vector3* places) const override
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      places[i] = input_.points[ids[i]];
+    }
+  }
+
+private:
+  const SurfaceInput& input_;
+};
+
+bool hasOnlyTriangles(const SurfaceInput& input)
+{
+  for (std::size_t i = 0; i < input.polygonOffsets.size(); ++i)
+  {
+    if (input.polygonOffsets[i] != 3 * i)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool asksForNothing(const SurfaceInput& input)
+{
+  return input.featureEdges.empty() && input.patchIds.empty() && input.guideDirections.empty() &&
+    input.targetValences.empty() && input.sizing.empty() && input.curves.empty();
+}
+
+/// What the run is asked for beside the surface and the settings.
+struct HowToRun
+{
+  bool preview = false;
+  bool everything = false;
+  double timeLimit = 0;
+  double strokeRadius = 0;
+  std::optional<SymmetryOptions> symmetry;
+};
+
+template <class Value>
+Value valueOr(const py::dict& how, const char* name, Value otherwise)
+{
+  return how.contains(name) ? how[name].cast<Value>() : otherwise;
+}
+
+/// Two vectors.
+std::pair<Vector3, Vector3> vectorPair(const py::handle& pair)
+{
+  const std::vector<Vector3> both = vectorsFrom(pair.cast<ArrayOf<double>>());
+  return { both.at(0), both.at(1) };
+}
+
+HowToRun howToRun(const py::dict& how)
+{
+  HowToRun run;
+  run.preview = valueOr(how, "preview", false);
+  run.everything = valueOr(how, "everything", false);
+  run.timeLimit = valueOr(how, "time_limit", 0.0);
+  run.strokeRadius = valueOr(how, "stroke_radius", 0.0);
+  if (how.contains("symmetry"))
+  {
+    run.symmetry.emplace();
+    run.symmetry->planeCurve = static_cast<PlaneCurve>(valueOr(how, "plane_curve", 0));
+    if (how.contains("symmetry_plane"))
+    {
+      const auto [origin, normal] = vectorPair(how["symmetry_plane"]);
+      run.symmetry->plane = MirrorPlane{ origin, normal };
+    }
+  }
+  if (how.contains("rotation_order"))
+  {
+    run.symmetry.emplace();
+    run.symmetry->rotation = RotationRequest{ how["rotation_order"].cast<int>(), std::nullopt };
+    if (how.contains("rotation_axis"))
+    {
+      const auto [origin, direction] = vectorPair(how["rotation_axis"]);
+      run.symmetry->rotation->axis = RotationAxis{ origin, direction };
+    }
+  }
+  return run;
+}
+
+std::vector<std::pair<int, std::vector<Vector3>>> drawnLines(const py::list& lines)
+{
+  std::vector<std::pair<int, std::vector<Vector3>>> drawn;
+  for (const py::handle& line : lines)
+  {
+    const auto pair = line.cast<py::tuple>();
+    drawn.emplace_back(pair[0].cast<int>(), vectorsFrom(pair[1].cast<ArrayOf<double>>()));
+  }
+  return drawn;
+}
+
+/// Puts the lines on the surface.
+PlacedConstraints placeLines(
+  SurfaceInput& input, std::vector<std::pair<int, std::vector<Vector3>>> lines, double strokeRadius)
+{
+  if (lines.empty() || input.polygonPoints.empty())
+  {
+    return {};
+  }
+  requirePolygons(input);
+  const SurfacePlaces places(input);
+  ConstraintPlacement placement(input, places);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+  {
+    const auto source = static_cast<std::int64_t>(i);
+    auto& [kind, points] = lines[i];
+    switch (kind)
+    {
+      case 0:
+        placement.addFeature({ source, std::move(points) });
+        break;
+      case 1:
+        placement.addStroke({ source, std::move(points) }, 1, strokeRadius);
+        break;
+      default:
+        placement.addCurve(
+          source, kind == 2 ? CurveKind::Connection : CurveKind::Cycle, std::move(points));
+    }
+  }
+  const std::size_t polygons = input.polygonOffsets.size() - 1;
+  addFeatureMarks(input, polygons, placement.featureMarks());
+  addGuideMarks(input, polygons, placement.guideMarks());
+  placement.addCurves(input);
+  return placement.result();
+}
+
+/// The surface is cut into pieces or thinned out where that is worth it, as vtkQuadRemesh does.
+std::optional<PiecesResult> runInPieces(
+  SurfaceInput& input, const HowToRun& how, const RemeshOptions& options)
+{
+  if (how.symmetry || how.preview || how.everything || options.method == MapMethod::Seamless ||
+    options.finalQuality == FinalQuality::Input || !asksForNothing(input) ||
+    input.polygonOffsets.size() <= kTrianglesWorthThinning || !hasOnlyTriangles(input))
+  {
+    return std::nullopt;
+  }
+  const InputTriangles triangles(input);
+  if (triangles.triangleCount() >= kTrianglesWorthPieces && isWorthPieces(triangles, options))
+  {
+    return remeshInPieces(triangles, options);
+  }
+  if (isWorthThinning(triangles, options))
+  {
+    return remeshThinned(std::move(input), options);
+  }
+  return std::nullopt;
+}
+
+void run(SurfaceInput input, const HowToRun& how, Remeshed& remeshed)
+{
+  remeshed.pieces = runInPieces(input, how, remeshed.options);
+  if (remeshed.pieces)
+  {
+    remeshed.made.remeshed = std::move(remeshed.pieces->remeshed);
+  }
+  else if (how.symmetry)
+  {
+    remeshed.made = remeshSymmetric(std::move(input), remeshed.options, *how.symmetry);
+  }
+  else
+  {
+    remeshed.made.remeshed = remesh(std::move(input), remeshed.options);
+  }
+}
+
+} // namespace
+
+py::dict remeshCall(const py::dict& surface, const std::string& settings, const py::dict& how,
+  const py::list& lines, const py::object& progress)
+{
+  const HowToRun howTo = howToRun(how);
+  Remeshed remeshed;
+  remeshed.isSymmetric = howTo.symmetry.has_value();
+  remeshed.everything = howTo.everything;
+  RemeshOptions& options = remeshed.options;
+  settingsFromText(settings, options);
+  options.preview = howTo.preview;
+  options.mergeCharts = howTo.everything;
+  options.keepsPositions = howTo.everything || howTo.symmetry;
+  ProgressCall call(progress, true, howTo.timeLimit);
+  options.progress = call.callback(0.02, 0.95);
+  SurfaceInput input = surfaceFrom(surface);
+  auto drawn = drawnLines(lines);
+  withoutLock(
+    [&]
+    {
+      remeshed.asked.arrays = arrayConstraints(input);
+      remeshed.sizing = input.sizing;
+      PlacedConstraints placed = placeLines(input, std::move(drawn), howTo.strokeRadius);
+      remeshed.asked.placed = std::move(placed.placed);
+      remeshed.notices = std::move(placed.notices);
+      run(std::move(input), howTo, remeshed);
+    });
+  call.rethrow();
+  const RemeshResult& result = remeshed.made.remeshed;
+  if (result.status.code == StatusCode::Cancelled)
+  {
+    throw RunFailure(call.stopText());
+  }
+  if (!result.status.ok())
+  {
+    throw RunFailure(result.status.message.empty() ? "remeshing failed" : result.status.message);
+  }
+  remeshed.asked.curves = result.curves;
+  remeshed.notices.insert(remeshed.notices.end(), result.notices.begin(), result.notices.end());
+  py::dict dict = resultDict(remeshed);
+  if (result.stopped.empty()) // who has asked for a stop is not called again
+  {
+    call.finish();
+    call.rethrow();
+  }
+  return dict;
+}
+
+} // namespace quadrille::native
