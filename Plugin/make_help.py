@@ -5,7 +5,8 @@
   make_help.py FOLDER XML...
 
 ParaView's own generator leaves our filters out: it knows the element SourceProxy, but not the one of a proxy of our
-own, and not what a filter has from its base proxy. A page has the name that ParaView looks for, GROUP.NAME.html.
+own, and not what a filter has from its base proxy. A page has the name that ParaView looks for, GROUP.NAME.html;
+index.html is the page that the help window begins with.
 """
 import html
 import pathlib
@@ -80,14 +81,25 @@ def page_of(proxy, proxies):
             + (f"<p>Outputs:</p><ol>{outputs}</ol>\n" if outputs else "") + tables + "</body></html>\n")
 
 
+def index_of(pages):
+    """The page that the help window shows at first: all others, by their titles."""
+    links = "".join(f'<li><a href="{html.escape(name)}">{html.escape(title)}</a></li>\n'
+                    for title, name in sorted(pages))
+    return f"<html><head><title>Quadrille</title></head><body>\n<h2>Quadrille</h2>\n<ul>\n{links}</ul></body></html>\n"
+
+
 def main(folder, *files):
     groups = [group for file in files for group in ElementTree.parse(file).getroot().findall("ProxyGroup")]
     proxies = {(group.get("name"), proxy.get("name")): proxy for group in groups for proxy in group
                if proxy.get("class")}
     pathlib.Path(folder).mkdir(parents=True, exist_ok=True)
+    pages = []
     for (group, name), proxy in proxies.items():
         if group in ("filters", "sources", "writers"):
-            pathlib.Path(folder, f"{group}.{name}.html").write_text(page_of(proxy, proxies), encoding="utf-8")
+            page = f"{group}.{name}.html"
+            pathlib.Path(folder, page).write_text(page_of(proxy, proxies), encoding="utf-8")
+            pages.append((label_of(proxy), page))
+    pathlib.Path(folder, "index.html").write_text(index_of(pages), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -15,8 +15,10 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxyIterator.h"
 #include "vtkSMProxySelectionModel.h"
+#include "vtkSMQuadPickProxy.h"
 #include "vtkSMSession.h"
 #include "vtkSMSessionProxyManager.h"
+#include "vtkSMTrace.h"
 #include "vtkSMUncheckedPropertyHelper.h"
 #include "vtkSmartPointer.h"
 
@@ -24,6 +26,7 @@
 #include <cstddef>
 #include <cstring>
 #include <set>
+#include <utility>
 
 vtkStandardNewMacro(vtkSMQuadConstraintProxy);
 
@@ -156,6 +159,14 @@ std::vector<double> valuesOf(vtkSMPropertyHelper& helper)
   return values;
 }
 
+/// The coordinates of the last point; empty where there is none.
+std::vector<double> lastOf(const std::vector<double>& values)
+{
+  return values.size() < kCoordinates
+    ? std::vector<double>{}
+    : std::vector<double>(values.end() - static_cast<std::ptrdiff_t>(kCoordinates), values.end());
+}
+
 bool isAutoApplyOn(vtkSMSessionProxyManager* manager)
 {
   vtkSMProxy* settings = manager->GetProxy("settings", "GeneralSettings");
@@ -208,7 +219,11 @@ void updateViews(vtkSMSessionProxyManager* manager)
 } // namespace
 
 vtkSMQuadConstraintProxy::vtkSMQuadConstraintProxy() = default;
-vtkSMQuadConstraintProxy::~vtkSMQuadConstraintProxy() = default;
+
+vtkSMQuadConstraintProxy::~vtkSMQuadConstraintProxy()
+{
+  this->StopWaiting();
+}
 
 //------------------------------------------------------------------------------
 int vtkSMQuadConstraintProxy::ReadXMLAttributes(
@@ -223,7 +238,7 @@ int vtkSMQuadConstraintProxy::ReadXMLAttributes(
     vtkSMProperty* property = name ? this->GetProperty(name) : nullptr;
     if (std::strcmp(hint->GetName(), "Points") == 0 && property)
     {
-      this->PointsProperties.push_back({ name, hint->GetAttributeOrEmpty("shape"), {} });
+      this->PointsProperties.push_back({ name, hint->GetAttributeOrEmpty("shape"), {}, {}, {} });
       property->AddObserver(
         vtkCommand::UncheckedPropertyModifiedEvent, this, &vtkSMQuadConstraintProxy::Follow);
     }
@@ -263,6 +278,74 @@ void vtkSMQuadConstraintProxy::ReadFirstValues()
   {
     vtkSMPropertyHelper helper(this, points.Name.c_str());
     points.First = valuesOf(helper);
+    points.Shown = points.First;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMQuadConstraintProxy::NoteShown()
+{
+  for (PointsProperty& points : this->PointsProperties)
+  {
+    vtkSMUncheckedPropertyHelper helper(this, points.Name.c_str());
+    const std::vector<double> before = std::exchange(points.Shown, valuesOf(helper));
+    if (points.Shape == "line" && before.size() == points.Shown.size() &&
+      vtkSMQuadPickProxy::TakeLastPlace(lastOf(points.Shown)) &&
+      lastOf(before) != lastOf(points.First) &&
+      std::equal(before.begin(), before.end() - static_cast<std::ptrdiff_t>(kCoordinates),
+        points.Shown.begin()))
+    {
+      points.Picked = before;
+      const std::vector<double> place = lastOf(points.Shown);
+      points.Picked.insert(points.Picked.end(), place.begin(), place.end());
+      this->WaitForRender();
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMQuadConstraintProxy::WaitForRender()
+{
+  // The panel does not hear of changes while it makes one itself.
+  auto iterator = vtk::TakeSmartPointer(vtkSMProxyIterator::New());
+  iterator->SetSessionProxyManager(this->GetSessionProxyManager());
+  for (iterator->Begin("views"); !iterator->IsAtEnd(); iterator->Next())
+  {
+    vtkSMProxy* view = iterator->GetProxy();
+    const auto isIt = [view](const RenderWait& wait) { return wait.View == view; };
+    if (std::none_of(this->Waits.begin(), this->Waits.end(), isIt))
+    {
+      this->Waits.push_back({ view,
+        view->AddObserver(vtkCommand::EndEvent, this, &vtkSMQuadConstraintProxy::ShowPicked) });
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMQuadConstraintProxy::StopWaiting()
+{
+  for (const RenderWait& wait : this->Waits)
+  {
+    if (wait.View)
+    {
+      wait.View->RemoveObserver(wait.Observer);
+    }
+  }
+  this->Waits.clear();
+}
+
+//------------------------------------------------------------------------------
+void vtkSMQuadConstraintProxy::ShowPicked()
+{
+  this->StopWaiting();
+  for (PointsProperty& points : this->PointsProperties)
+  {
+    const std::vector<double> values = std::exchange(points.Picked, {});
+    if (!values.empty())
+    {
+      vtkSMUncheckedPropertyHelper(this, points.Name.c_str())
+        .Set(values.data(), static_cast<unsigned int>(values.size()));
+    }
   }
 }
 
@@ -326,6 +409,8 @@ void vtkSMQuadConstraintProxy::Attach()
   this->IsAttached = true;
   if (!this->ConnectedFilter())
   {
+    // A trace has what panels change; this is changed by no panel.
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", filter);
     vtkSMPropertyHelper(filter, "Constraints").Add(this, 0);
     filter->UpdateVTKObjects();
   }
@@ -357,6 +442,7 @@ void vtkSMQuadConstraintProxy::Follow()
   {
     return;
   }
+  this->NoteShown();
   vtkSMProxy* filter = this->ConnectedFilter();
   if (!filter || !hasPreview(filter) || !this->IsChanging() || !isAutoApplyOn(manager))
   {

@@ -4,7 +4,7 @@
  * @class   vtkSMQuadConstraintProxy
  * @brief   a source of a constraint, which finds its Quad Remesh by itself in ParaView's window
  *
- * Three things that save actions in the window; in scripts, where no panel shows the source, none but the first is
+ * Four things that save actions in the window; in scripts, where no panel shows the source, none but the first is
  * done:
  *
  * - Where its points are not given, they are put on the box round the surface that is selected, or that the selected
@@ -16,6 +16,10 @@
  * - While a point is dragged and ParaView's *Auto Apply* is on, the *Quad Remesh* behind it follows as a preview (see
  *   its property `Preview`). The values of the properties stay as they are until all is applied, so that an undo goes
  *   back to what was applied before.
+ * - ParaView's key 2 moves the last point of a line to the place under the mouse. Where that has been placed already,
+ *   the place becomes one more point instead, so that a line of any number of points is drawn by 1 where it begins and
+ *   2 at each place after that. ParaView's own ways to more points need Alt+click, which window managers take for
+ *   themselves, or a button in the panel, which takes the keys away from the view.
  *
  * A hint `<Points property="Points" shape="line"/>` names a property with coordinates of points. shape says where they
  * are at first: "point" on top of the box, "line" along it, "begin" and "end" of a line of two properties, whose
@@ -65,8 +69,20 @@ private:
     std::string Name;
     std::string Shape;
     std::vector<double> First;
+    std::vector<double> Shown;  ///< in the panel, applied or not
+    std::vector<double> Picked; ///< with one more point; empty: there is none to be shown
+  };
+  /// Who is told when a view has been drawn.
+  struct RenderWait
+  {
+    vtkWeakPointer<vtkSMProxy> View;
+    unsigned long Observer;
   };
   void ReadFirstValues();
+  void NoteShown();
+  void WaitForRender();
+  void StopWaiting();
+  void ShowPicked();
   bool IsShown();
   bool IsPlaced();
   void Attach();
@@ -76,6 +92,7 @@ private:
   void EndFollowing();
 
   std::vector<PointsProperty> PointsProperties;
+  std::vector<RenderWait> Waits;
   vtkWeakPointer<vtkSMProxy> Filter; ///< that it belongs to when it is made
   bool IsAttached = false;           ///< or need not be
   bool IsFollowing = false;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSMQuadrilleSourceProxy.h"
 
+#include "QuadrilleHelp.h"
+
 #include "vtkClientServerStream.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -52,6 +54,15 @@ void applyDisplayHints(vtkPVXMLElement* hints, int port, vtkSMProxy* representat
     {
       vtkSMPropertyHelper(representation, name).Set(value);
     }
+  }
+}
+
+/// ParaView looks for the cell that it picks under the mouse in the first output, whatever output it was drawn of.
+void letPicksThrough(int port, vtkSMProxy* representation)
+{
+  if (port > 0 && representation->GetProperty("Pickable"))
+  {
+    vtkSMPropertyHelper(representation, "Pickable").Set(0);
   }
 }
 
@@ -176,7 +187,10 @@ void markRepresentations(vtkSMProxy* producer, std::set<vtkSMProxy*>& visited)
 
 } // namespace
 
-vtkSMQuadrilleSourceProxy::vtkSMQuadrilleSourceProxy() = default;
+vtkSMQuadrilleSourceProxy::vtkSMQuadrilleSourceProxy()
+{
+  quadrille::allowHelpPages(); // ParaView loads plug-ins before it has a window
+}
 vtkSMQuadrilleSourceProxy::~vtkSMQuadrilleSourceProxy() = default;
 
 //------------------------------------------------------------------------------
@@ -200,8 +214,10 @@ void vtkSMQuadrilleSourceProxy::AddConsumer(vtkSMProperty* property, vtkSMProxy*
   this->Superclass::AddConsumer(property, consumer);
   if (isRepresentation(consumer))
   {
+    const int port = connectedPort(property, this);
     makeColourMaps(this->GetHints(), this->GetSessionProxyManager());
-    applyDisplayHints(this->GetHints(), connectedPort(property, this), consumer);
+    letPicksThrough(port, consumer);
+    applyDisplayHints(this->GetHints(), port, consumer);
   }
 }
 

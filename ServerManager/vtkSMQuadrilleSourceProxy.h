@@ -15,6 +15,10 @@
  * the moment it is made; there is one element for each property, with one number. What a user, a script or a state file
  * sets later stays.
  *
+ * Outputs other than the first come with *Pickable* off: balls of irregular vertices, lines and the like do not stand
+ * in the way of picks and selections, which go through to the quads. ParaView 5.11 and 5.13 take the id of what they
+ * pick for one of the first output, so that a pick of any other gives another place.
+ *
  * A hint `<ColourMap array="Valence">` with elements `<Entry value="3" text="3" red="0.2" green="0.4" blue="0.9"/>`
  * gives the values of an array colours and names of their own, in the legend, too; where the array has a colour map
  * already, that stays.
