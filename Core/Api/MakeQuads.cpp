@@ -56,9 +56,8 @@ SurfaceInput inputOf(const TriangleMesh& mesh)
   input.polygonPoints.reserve(3 * triangles);
   for (std::size_t t = 0; t < triangles; ++t)
   {
-    input.polygonOffsets[t + 1] = static_cast<Index>(3 * (t + 1));
-    input.polygonPoints.insert(
-      input.polygonPoints.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+    input.polygonOffsets.edit()[t + 1] = static_cast<Index>(3 * (t + 1));
+    input.polygonPoints.append(mesh.triangles[t].begin(), mesh.triangles[t].end());
   }
   input.featureEdges = mesh.featureEdges;
   input.patchIds = mesh.patchIds;

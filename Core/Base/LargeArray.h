@@ -6,9 +6,11 @@
 
 #include "Base/Memory.h"
 #include "Base/Progress.h"
+#include "Base/SharedArray.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace quadrille
@@ -58,9 +60,28 @@ void fillLarge(std::vector<T>& values, std::size_t count, const T& value, int th
   growLarge(values, count, value);
 }
 
-/// to = from, with poll() in between.
+/// The same of arrays that may be shared.
+template <typename T, typename... Value>
+void growLarge(SharedArray<T>& values, std::size_t count, const Value&... value)
+{
+  values.change([&](std::vector<T>& own) { growLarge(own, count, value...); });
+}
 template <typename T>
-void copyLarge(const std::vector<T>& from, std::vector<T>& to)
+void reserveWithRoom(SharedArray<T>& values, std::size_t count, int threads)
+{
+  values.change([&](std::vector<T>& own) { reserveWithRoom(own, count, threads); });
+}
+template <typename T>
+void fillLarge(SharedArray<T>& values, std::size_t count, const T& value, int threads = 1)
+{
+  std::vector<T> filled;
+  fillLarge(filled, count, value, threads);
+  values = std::move(filled);
+}
+
+/// to = from, with poll() in between.
+template <typename Array, typename T>
+void copyLarge(const Array& from, std::vector<T>& to)
 {
   to.clear();
   to.reserve(from.size());

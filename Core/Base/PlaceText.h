@@ -11,7 +11,7 @@
 namespace quadrille
 {
 
-/// Where a run works in coordinates of its own (see Mesh/Frame.h), messages of the thread that makes the scope name
+/// Where a run works in coordinates of its own (see Prepare/Frame.h), messages of the thread that makes the scope name
 /// places in those of the user: centre + unit * sign . p. Scopes nest; the innermost one counts.
 class PlaceScope
 {

@@ -14,9 +14,9 @@
 
 #include "Base/Error.h"
 #include "Base/Progress.h"
-#include "Mesh/Guides.h"
 #include "Mesh/Mesh.h"
-#include "Mesh/SeamRequests.h"
+#include "Requests/Guides.h"
+#include "Requests/SeamRequests.h"
 
 #include <cstdint>
 #include <vector>

@@ -7,7 +7,7 @@
 
 #include "Base/Progress.h"
 #include "CrossField/FieldTopology.h"
-#include "Mesh/Guides.h"
+#include "Requests/Guides.h"
 
 #include <cstdint>
 #include <vector>

@@ -12,11 +12,11 @@ namespace quadrille
 namespace
 {
 
-constexpr double kIrregular = 1.0; // an irregular vertex: a pair closer than about 2 s vanishes
-constexpr double kBend = 0.25;     // a sector that is not straight
-constexpr double kUnnatural = 2.0; // squared difference of a sector's turns to the natural ones
-constexpr double kCone = 0.1;      // the same inside; weak, because scans are full of small cones
-constexpr double kRare = 1e3;      // valence 2 and 6
+constexpr double kIrregular = 1.0;   // an irregular vertex: a pair closer than about 2 s vanishes
+constexpr double kCostOfBend = 0.25; // a sector that is not straight
+constexpr double kUnnatural = 2.0;   // squared difference of a sector's turns to the natural ones
+constexpr double kCone = 0.1;        // the same inside; weak, because scans are full of small cones
+constexpr double kRare = 1e3;        // valence 2 and 6
 
 } // namespace
 
@@ -31,7 +31,8 @@ double fanCost(const Fan& fan, double natural, int turns, double irregular)
   double cost = kForbiddenTurn * (std::max(0, 1 - turns) + std::max(0, turns - limit));
   if (fan.sector)
   {
-    return cost + kUnnatural * (turns - natural) * (turns - natural) + kBend * std::abs(turns - 2);
+    return cost + kUnnatural * (turns - natural) * (turns - natural) +
+      kCostOfBend * std::abs(turns - 2);
   }
   const int away = std::abs(turns - 4);
   cost += kCone * (turns - natural) * (turns - natural) +

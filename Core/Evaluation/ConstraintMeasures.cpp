@@ -3,6 +3,7 @@
 #include "Evaluation/ConstraintMeasures.h"
 
 #include "Base/Angles.h"
+#include "Base/PlaceText.h"
 #include "Base/Progress.h"
 
 #include <algorithm>
@@ -26,6 +27,17 @@ constexpr std::size_t kLeastPlaces = 100;
 
 /// Places on each edge of a curve that is as long as an edge of the quads.
 constexpr double kPlacesAnEdge = 8;
+
+/// The mean of the four edges of a quad.
+double edgeLengthOf(const QuadMesh& mesh, Index quad)
+{
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    sum += (mesh.points[mesh.quads[quad][i]] - mesh.points[mesh.quads[quad][(i + 1) % 4]]).norm();
+  }
+  return sum / 4;
+}
 
 double angleBetweenLines(const Vector3& a, const Vector3& b)
 {
@@ -241,6 +253,40 @@ ConstraintMeasure ConstraintMeasures::valence(const Vector3& place, int asked)
   word.isMet = got == asked;
   word.reason = word.isMet ? "" : "asked " + std::to_string(asked) + ", got " + std::to_string(got);
   return word;
+}
+
+std::string ConstraintMeasures::offSurface(const std::vector<Vector3>& given)
+{
+  if (mesh_.quads.empty())
+  {
+    return {};
+  }
+  if (!quads_)
+  {
+    quads_.emplace(mesh_);
+  }
+  double farthest = kFarOffSurface;
+  std::string text;
+  for (std::size_t i = 0; i < given.size(); ++i)
+  {
+    pollNowAndThen(i);
+    const std::optional<NearestQuads::Place> there = quads_->at(given[i]);
+    const double length = there ? edgeLengthOf(mesh_, there->quad) : 0;
+    const double distance = there ? (given[i] - there->point).norm() : 0;
+    if (length > 0 && distance > farthest * length)
+    {
+      farthest = distance / length;
+      text = "its point " + placeText(given[i]) + " lies " + shortText(farthest) +
+        " edge lengths off the surface, whose nearest place is " + placeText(there->point) +
+        ": move the point if that place is not what was meant";
+    }
+  }
+  return text;
+}
+
+std::string withRemark(const std::string& reason, const std::string& remark)
+{
+  return reason + (reason.empty() || remark.empty() ? "" : "; ") + remark;
 }
 
 } // namespace quadrille

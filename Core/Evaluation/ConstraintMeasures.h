@@ -4,7 +4,7 @@
 #pragma once
 
 #include "Evaluation/QuadPlaces.h"
-#include "Mesh/DrawnConstraints.h"
+#include "Requests/DrawnConstraints.h"
 
 #include <array>
 #include <cstddef>
@@ -19,6 +19,8 @@ namespace quadrille
 constexpr double kMetAngle = 5;
 constexpr double kMetDistance = 0.1;
 constexpr double kMetFactor = 1.25;
+/// Edge lengths beyond which a drawn point lies off the surface.
+constexpr double kFarOffSurface = 1;
 
 /// What was found of one constraint. What could not be measured is not a number.
 struct ConstraintMeasure
@@ -28,7 +30,8 @@ struct ConstraintMeasure
   double deviation = 0;
   double deviation95 = 0; ///< the 95th percentile of what deviation is the mean of
   const char* unit = "";
-  std::string reason; ///< empty where it is met
+  std::string
+    reason; ///< why it is not met; where it is, empty or that a point lies off the surface
 
   static ConstraintMeasure unknown(const Vector3& place, const char* unit, std::string reason);
 };
@@ -47,6 +50,8 @@ double percentile95(std::vector<WeightedDeviation> values);
 /// A number with three digits; a share as whole percent.
 std::string shortText(double number);
 std::string percentText(double share);
+/// Both of them, where there are both.
+std::string withRemark(const std::string& reason, const std::string& remark);
 
 /// The most places at which each of so many guides, or a curve, is measured.
 std::size_t mostPlacesOf(std::size_t guides);
@@ -69,6 +74,10 @@ public:
   ConstraintMeasure curve(const std::vector<std::array<Vector3, 2>>& curve);
   /// "valence": the number of edges there, on boundaries one more, less the one asked for.
   ConstraintMeasure valence(const Vector3& place, int asked);
+  /// Of the points that were drawn the one farthest from the quads, if that is more than an edge length of the quads
+  /// there: a sentence on where it lies, how far off, and which place counts in its stead. Empty: there is none, or
+  /// there are no quads.
+  std::string offSurface(const std::vector<Vector3>& given);
 
 private:
   bool isAtIrregularVertex(Index quad) const;

@@ -3,9 +3,9 @@
 /// What connections and cycles became in the quads: straight chains of edges.
 #pragma once
 
-#include "Extraction/QuadChains.h"
-#include "GridMap/CurveIsolines.h"
-#include "Mesh/DrawnConstraints.h"
+#include "Integers/CurveIsolines.h"
+#include "Quads/QuadChains.h"
+#include "Requests/DrawnConstraints.h"
 
 #include <utility>
 #include <vector>

@@ -3,7 +3,7 @@
 #include "Evaluation/QuadPlaces.h"
 
 #include "Mesh/Distance.h"
-#include "Mesh/Guides.h"
+#include "Requests/Guides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -102,13 +102,14 @@ std::optional<NearestQuads::Place> NearestQuads::at(const Vector3& p) const
   }
   Place place;
   place.quad = nearest / 2;
+  place.point = placeOn(nearest);
   const bool isSecond = nearest % 2 != 0;
   const std::array<Index, 4>& quad = mesh_.quads[place.quad];
   std::array<Vector3, 4> corners;
   std::transform(
     quad.begin(), quad.end(), corners.begin(), [this](Index i) { return mesh_.points[i]; });
   // Coordinates in the unit square, where the corners are (0, 0), (1, 0), (1, 1), (0, 1).
-  const Vector3 weights = weightsIn(triangle(nearest), placeOn(nearest));
+  const Vector3 weights = weightsIn(triangle(nearest), place.point);
   const double u = isSecond ? weights[1] : weights[1] + weights[2];
   const double v = isSecond ? weights[1] + weights[2] : weights[2];
   const Vector3 alongU = (1 - v) * (corners[1] - corners[0]) + v * (corners[2] - corners[3]);

@@ -37,6 +37,7 @@ public:
   struct Place
   {
     Index quad = kInvalidIndex;
+    Vector3 point = Vector3::Zero();
     /// Unit tangents of its two families of edges, blended from opposite edges.
     std::array<Vector3, 2> along;
   };

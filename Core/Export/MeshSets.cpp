@@ -20,7 +20,7 @@ namespace
 {
 
 /// Bends above this may be corners, as on feature curves of the input (Hierarchy/FeatureCurves.h).
-constexpr double kBend = radians(40);
+constexpr double kCornerOfSet = radians(40);
 
 std::string defaultPatchName(std::int64_t number)
 {
@@ -155,7 +155,7 @@ private:
     {
       const bool isEnd =
         at.count != 2 || edges_.isBoundary(at.first) != edges_.isBoundary(at.second);
-      if (isEnd || (bend(node, at) > kBend && !goesStraightOn(node, at)))
+      if (isEnd || (bend(node, at) > kCornerOfSet && !goesStraightOn(node, at)))
       {
         cornerOf_[node] = static_cast<Index>(sets_.corners.size());
         sets_.corners.push_back({ "CORNER_" + std::to_string(sets_.corners.size() + 1), node });

@@ -163,6 +163,20 @@ void writeMeditList(OutputFile& file, const char* keyword, const std::vector<Num
 }
 
 //------------------------------------------------------------------------------
+// OBJ
+
+void writeObjFace(const ElementMesh& mesh, std::size_t e, OutputFile& file)
+{
+  pollNowAndThen(e);
+  file << 'f';
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    file << ' ' << mesh.corner(e, i) + 1;
+  }
+  file << '\n';
+}
+
+//------------------------------------------------------------------------------
 // STL
 
 /// The least angle of a triangle, as the largest of the cosines: less is better. Beyond 1 without area.
@@ -309,7 +323,6 @@ std::vector<std::string> writeObj(const ElementMesh& mesh, const MeshSets& sets,
   report(progress, 0, writingText(mesh));
   SetNames names(kObjNames);
   const std::vector<std::string> groups = names.unique(wantedNames(sets.patches));
-  const std::vector<Index> setOf = setOfElements(mesh, sets);
   OutputFile file(path);
   file << "# quad mesh made by Quadrille: " << std::uint64_t{ mesh.nodes.size() } << " points, "
        << std::uint64_t{ mesh.elementCount() } << " faces\n";
@@ -322,19 +335,17 @@ std::vector<std::string> writeObj(const ElementMesh& mesh, const MeshSets& sets,
     file << static_cast<const char*>(line);
   }
   report(progress, 0.5, writingText(mesh));
-  for (std::size_t e = 0; e < mesh.elementCount(); ++e)
+  for (std::size_t e = 0; !withGroups && e < mesh.elementCount(); ++e)
   {
-    pollNowAndThen(e);
-    if (withGroups && (e == 0 || setOf[e] != setOf[e - 1]))
+    writeObjFace(mesh, e, file);
+  }
+  for (std::size_t i = 0; withGroups && i < sets.patches.size(); ++i)
+  {
+    file << "g " << groups[i] << '\n';
+    for (const Index e : sets.patches[i].elements)
     {
-      file << "g " << groups[setOf[e]] << '\n';
+      writeObjFace(mesh, e, file);
     }
-    file << 'f';
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      file << ' ' << mesh.corner(e, i) + 1;
-    }
-    file << '\n';
   }
   file.close();
   report(progress, 1, writingText(mesh));

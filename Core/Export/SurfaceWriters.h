@@ -20,15 +20,17 @@ namespace quadrille
 std::vector<std::string> writeMedit(const ElementMesh& mesh, const MeshSets& sets,
   const std::string& path, const ProgressCallback& progress);
 
-/// OBJ, with 17 digits. withGroups: a line "g NAME" where the set of patches changes; elements keep their order. Of
-/// first order only, else InvalidInput. Source: Wavefront, Advanced Visualizer Manual, appendix B1.
+/// OBJ, with 17 digits. withGroups: each set of patches is one group, "g NAME" and its elements, as many readers make
+/// an object of each line "g"; elements keep their order within a group only. Of first order only, else InvalidInput.
+/// Source: Wavefront, Advanced Visualizer Manual, appendix B1.
 std::vector<std::string> writeObj(const ElementMesh& mesh, const MeshSets& sets, bool withGroups,
   const std::string& path, const ProgressCallback& progress);
 
 /// PLY, binary in the byte order of this machine, which is little-endian; single precision, or double. patchProperty:
 /// the name of an int property of faces with the number of the patch, and comments say the names of the sets; empty:
-/// none. Throws InvalidInput for elements of second order, and for numbers of patches that an int cannot hold. Source:
-/// G. Turk, The PLY Polygon File Format, 1994.
+/// none, as some readers fail at a property behind the list of corners. Without groups or patches sets may be empty.
+/// Throws InvalidInput for elements of second order, and for numbers of patches that an int cannot hold. Source: G.
+/// Turk, The PLY Polygon File Format, 1994.
 std::vector<std::string> writePly(const ElementMesh& mesh, const MeshSets& sets,
   const std::string& patchProperty, bool inDouble, const std::string& path,
   const ProgressCallback& progress);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "Extraction/Extraction.h"
-#include "Extraction/QuadTopology.h"
+#include "Quads/QuadTopology.h"
 
 namespace quadrille
 {

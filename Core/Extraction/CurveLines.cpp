@@ -3,7 +3,7 @@
 #include "Extraction/CurveLines.h"
 
 #include "Base/Progress.h"
-#include "Extraction/SurfaceWalk.h"
+#include "Quads/SurfaceWalk.h"
 
 #include <algorithm>
 #include <cstdlib>

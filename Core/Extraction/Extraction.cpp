@@ -9,10 +9,10 @@
 #include "Extraction/FreeBoundary.h"
 #include "Extraction/HoleFilling.h"
 #include "Extraction/QuadAssembly.h"
-#include "Extraction/QuadSmoothing.h"
-#include "Extraction/QuadTopology.h"
-#include "Extraction/QuadUntangling.h"
-#include "Extraction/SurfaceShape.h"
+#include "Quads/QuadSmoothing.h"
+#include "Quads/QuadTopology.h"
+#include "Quads/QuadUntangling.h"
+#include "Quads/SurfaceShape.h"
 
 #include <cmath>
 #include <sstream>
@@ -302,18 +302,6 @@ std::vector<std::pair<std::string, std::size_t>> namedCounts(const ExtractionCou
     { "merged_vertices", counts.mergedVertices }, { "zipped_sides", counts.zippedSides },
     { "cancelled_quads", counts.cancelledQuads }, { "dropped_outlines", counts.droppedFaces },
     { "filled_holes", counts.filledHoles } };
-}
-
-std::optional<Index> meshCorner(const QuadMesh& quads, Index p)
-{
-  for (Index i = 0; i < 3; ++i)
-  {
-    if (quads.sourceWeights[p][i] == 1)
-    {
-      return 3 * quads.sourceFace[p] + i;
-    }
-  }
-  return std::nullopt;
 }
 
 ExtractionResult extractQuads(

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// The quad mesh of an integer-grid map.
+/// From an integer-grid map to its quads.
 #pragma once
 
 #include "Base/Error.h"
@@ -8,9 +8,8 @@
 #include "Base/Progress.h"
 #include "Extraction/FeatureEnds.h"
 #include "Mesh/Mesh.h"
+#include "Quads/QuadMesh.h"
 
-#include <array>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,36 +51,6 @@ struct ExtractionOptions
   int threads = 0;
   ProgressCallback progress;
 };
-
-/// An edge of the quad mesh that lies on a feature or on the boundary.
-struct QuadLine
-{
-  Index a = 0, b = 0;             ///< quad vertices
-  Index halfEdge = kInvalidIndex; ///< a constrained half-edge of the input that it runs along
-  bool boundary = false;
-};
-
-struct QuadMesh
-{
-  std::vector<Vector3> points;
-  std::vector<std::array<Index, 4>> quads;          ///< counterclockwise like the input's faces
-  std::vector<Index> sourceFace;                    ///< per point: face of the mapped mesh
-  std::vector<std::array<double, 3>> sourceWeights; ///< per point: barycentric in that face
-  std::vector<Index> quadSourceFace; ///< per quad: face of the mapped mesh under its uv centre
-  /// Per quad: barycentric of the uv centre in that face, in whatever charts the map has; all zero for a quad that
-  /// is no unit square of the map (see HoleFilling.h).
-  std::vector<std::array<double, 3>> quadSourceWeights;
-  /// Polygon i has the points polygonPoints[polygonOffsets[i]] to polygonPoints[polygonOffsets[i + 1] - 1],
-  /// counterclockwise; three, or more than that. Both empty unless BoundaryMode::Polygons makes some.
-  std::vector<Index> polygonOffsets, polygonPoints;
-  std::vector<Index> polygonSourceFace; ///< per polygon: a face of the mapped mesh in it
-  std::vector<int> valence;             ///< per point: number of edges
-  std::vector<std::uint8_t> onBoundary; ///< per point
-  std::vector<QuadLine> lines;          ///< features and boundary
-};
-
-/// The corner of the mapped mesh that point p lies on exactly; none where it lies on an edge or in a face.
-std::optional<Index> meshCorner(const QuadMesh& quads, Index p);
 
 /// What the extraction met; all zero for an integer-grid map.
 struct ExtractionCounts

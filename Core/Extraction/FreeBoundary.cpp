@@ -5,8 +5,8 @@
 #include "Extraction/CurveLines.h"
 #include "Extraction/FaceTrace.h"
 #include "Extraction/PartialCells.h"
-#include "Extraction/QuadHalfEdges.h"
-#include "Extraction/QuadTopology.h"
+#include "Quads/QuadHalfEdges.h"
+#include "Quads/QuadTopology.h"
 
 #include <algorithm>
 #include <set>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "Extraction/GridVertices.h"
-#include "Extraction/SurfaceWalk.h"
+#include "Quads/SurfaceWalk.h"
 
 namespace quadrille
 {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/HoleFilling.h"
 
-#include "Extraction/QuadShape.h"
-#include "Extraction/QuadTopology.h"
+#include "Quads/QuadShape.h"
+#include "Quads/QuadTopology.h"
 
 #include <algorithm>
 #include <limits>

@@ -10,10 +10,11 @@
 #include "GridMap/GuidesInMap.h"
 #include "GridMap/MapShape.h"
 #include "GridMap/MeshParts.h"
-#include "GridMap/Quantize.h"
 #include "GridMap/RoundedMap.h"
 #include "GridMap/SeamlessMap.h"
-#include "Mesh/SmallComponents.h"
+#include "Integers/Quantize.h"
+#include "Mesh/ComponentSizes.h"
+#include "Requests/SeamRequests.h"
 
 #include <algorithm>
 #include <cassert>

@@ -11,10 +11,10 @@
 #include "Base/Progress.h"
 #include "CrossField/CrossField.h"
 #include "GridMap/Certificate.h"
-#include "GridMap/CurveIsolines.h"
 #include "GridMap/PreviousMap.h"
+#include "Integers/CurveIsolines.h"
 #include "Mesh/Mesh.h"
-#include "Mesh/StraightRequests.h"
+#include "Requests/StraightRequests.h"
 
 #include <string>
 #include <vector>

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "Base/FixedPoint.h"
-#include "Mesh/Guides.h"
 #include "Mesh/Mesh.h"
+#include "Requests/Guides.h"
 
 #include <cstddef>
 #include <vector>

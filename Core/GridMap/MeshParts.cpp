@@ -3,6 +3,7 @@
 #include "GridMap/MeshParts.h"
 
 #include "Mesh/Topology.h"
+#include "Requests/SeamRequests.h"
 
 #include <utility>
 

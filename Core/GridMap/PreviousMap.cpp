@@ -16,10 +16,10 @@ namespace quadrille
 namespace
 {
 
-template <typename T>
-std::size_t bytesOf(const std::vector<T>& values)
+template <typename Array>
+std::size_t bytesOf(const Array& values)
 {
-  return values.capacity() * sizeof(T);
+  return values.capacity() * sizeof(typename Array::value_type);
 }
 
 /// Half-edge 3f + i within the chain of corners that begins at `corner`.

@@ -13,8 +13,8 @@
 #include "Base/Error.h"
 #include "Base/FixedPoint.h"
 #include "Base/Progress.h"
-#include "Mesh/Guides.h"
 #include "Mesh/Mesh.h"
+#include "Requests/Guides.h"
 
 #include <cstdint>
 #include <limits>

@@ -3,6 +3,7 @@
 #include "GridMap/SeamlessSpace.h"
 
 #include "Mesh/Sizing.h"
+#include "Requests/SeamRequests.h"
 
 #include <algorithm>
 #include <cmath>

@@ -17,11 +17,11 @@ namespace quadrille
 class DecimationMesh
 {
 public:
-  /// Copies the connectivity; positions stay with `fine`, which must outlive this object.
+  /// Copies the connectivity and shares the positions.
   DecimationMesh(const Mesh& fine, FeatureCurves featureCurves, int threads = 1);
 
-  const std::vector<Vector3>& position;
-  const std::vector<float>& sizing; ///< see Mesh
+  const SharedArray<Vector3> position;
+  const SharedArray<float> sizing; ///< see Mesh
   std::vector<Index> origin;
   std::vector<Index> twin;
   std::vector<std::uint8_t> flags;

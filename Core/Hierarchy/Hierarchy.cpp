@@ -16,8 +16,8 @@
 #include "Hierarchy/StarCache.h"
 #include "Hierarchy/UniformDecimation.h"
 #include "Hierarchy/VertexRestoration.h"
+#include "Mesh/ComponentSizes.h"
 #include "Mesh/Sizing.h"
-#include "Mesh/SmallComponents.h"
 
 #include <Eigen/Geometry>
 
@@ -296,7 +296,7 @@ class Redecimation::Implementation
 {
 public:
   Implementation(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options)
-    : fine_(&fine), edgeLength_(options.targetEdgeLength), order_(options.order),
+    : fine_(fine), edgeLength_(options.targetEdgeLength), order_(options.order),
       draws_(options.draws), byPhase1_{ sorted(options.keepVertices), fine.sizing }
   {
     checkOptions(fine, options);
@@ -320,17 +320,17 @@ public:
   /// has now. All else is as phase 1 has left it.
   void putOnLevel(const std::vector<Index>& vertices, const HierarchyOptions& options)
   {
-    if ((asPhase1Left_ ? byRestoration_ : byPhase1_).is(vertices, *fine_))
+    if ((asPhase1Left_ ? byRestoration_ : byPhase1_).is(vertices, fine_))
     {
       return;
     }
     returnToPhase1();
-    if (byPhase1_.is(vertices, *fine_))
+    if (byPhase1_.is(vertices, fine_))
     {
       return;
     }
     const std::vector<Index> missing = missingVertices(vertices);
-    if (missing.empty() && byPhase1_.sizing == fine_->sizing)
+    if (missing.empty() && byPhase1_.sizing == fine_.sizing)
     {
       return;
     }
@@ -378,7 +378,7 @@ public:
     changed.rename(hierarchy_.log, options.threads);
     hierarchy_.log.fineHash = fineHash;
     hierarchy_.log.fineFaces = fine.faceCount();
-    fine_ = &fine;
+    fine_ = fine;
     byPhase1_ = { {}, fine.sizing };
     byRestoration_ = {};
     logPlaces_.reset();
@@ -408,6 +408,8 @@ public:
     return bytes;
   }
 
+  void setSizes(SharedArray<float> sizing) { fine_.sizing = std::move(sizing); }
+
   const Hierarchy& update(const HierarchyOptions& options)
   {
     if (!allows(options))
@@ -415,7 +417,7 @@ public:
       throw InvalidInput("The coarse level cannot be made anew: the edge length or the order of "
                          "phase 1 has changed.");
     }
-    checkPhase2(*fine_, options);
+    checkPhase2(fine_, options);
     const Stopwatch watch;
     putOnLevel(sorted(options.keepVertices), options);
     if (cost_ != options.cost)
@@ -452,9 +454,9 @@ private:
   void thinOut(std::uint64_t fineHash, const HierarchyOptions& options)
   {
     DecimationMesh mesh(
-      *fine_, traceFeatureCurves(*fine_, kCornerScale * edgeLength_), options.threads);
+      fine_, traceFeatureCurves(fine_, kCornerScale * edgeLength_), options.threads);
     UniformOptions uniform = uniformOptions(options);
-    VertexScales scales = vertexScales(*fine_, edgeLength_, options.isConnected, options.threads);
+    VertexScales scales = vertexScales(fine_, edgeLength_, options.isConnected, options.threads);
     anySmallComponent_ = scales.anySmallComponent;
     uniform.scale = std::move(scales.scale);
     uniform.keepVertices = byPhase1_.kept;
@@ -479,7 +481,7 @@ private:
     makeIntermediate(mesh.curves, mesh.curveError, level.fineVertex);
     hierarchy_.log = log.finish();
     hierarchy_.log.fineHash = fineHash;
-    hierarchy_.log.fineFaces = fine_->faceCount();
+    hierarchy_.log.fineFaces = fine_.faceCount();
     intermediateEnd_ = hierarchy_.log.end();
   }
 
@@ -507,7 +509,7 @@ private:
   /// Of these, and where quads are to be smaller than phase 1 had them, those that it has removed.
   std::vector<Index> missingVertices(const std::vector<Index>& vertices) const
   {
-    std::vector<Index> wanted = smallerThan(*fine_, byPhase1_.sizing);
+    std::vector<Index> wanted = smallerThan(fine_, byPhase1_.sizing);
     wanted.insert(wanted.end(), vertices.begin(), vertices.end());
     wanted = sorted(std::move(wanted));
     std::vector<Index> missing;
@@ -521,10 +523,10 @@ private:
     const HierarchyOptions& options)
   {
     const RestoredLevel restored = undoRemovals(
-      *fine_, hierarchy_.intermediate, intermediate_->curveError, hierarchy_.log, removals);
+      fine_, hierarchy_.intermediate, intermediate_->curveError, hierarchy_.log, removals);
     if (fineCurves_.kind.empty())
     {
-      fineCurves_ = traceFeatureCurves(*fine_, kCornerScale * edgeLength_);
+      fineCurves_ = traceFeatureCurves(fine_, kCornerScale * edgeLength_);
     }
     ThinnedAgain again = thinOutAgain(restored, vertices, options);
     asPhase1Left_.emplace(AsPhase1Left{ std::move(hierarchy_.intermediate),
@@ -538,7 +540,7 @@ private:
       returnToPhase1();
       throw;
     }
-    byRestoration_ = { vertices, fine_->sizing };
+    byRestoration_ = { vertices, fine_.sizing };
   }
 
   /// What uniform decimation near some places leads to, in terms of the finest mesh.
@@ -567,7 +569,7 @@ private:
     if (anySmallComponent_)
     {
       const VertexScales scales =
-        vertexScales(*fine_, edgeLength_, options.isConnected, options.threads);
+        vertexScales(fine_, edgeLength_, options.isConnected, options.threads);
       uniform.scale.clear();
       for (const Index v : restored.level.fineVertex)
       {
@@ -640,7 +642,7 @@ private:
     guides_ = {};
     hierarchy_.intermediate.guides = {};
     hierarchy_.intermediate.guides = guidesOfLevel(
-      *fine_, hierarchy_.intermediate, options.guides, kGuideReach * edgeLength_, options.threads);
+      fine_, hierarchy_.intermediate, options.guides, kGuideReach * edgeLength_, options.threads);
     guides_ = options.guides;
   }
 
@@ -659,7 +661,7 @@ private:
     {
       if (fineDefect_.empty())
       {
-        fineDefect_ = angleDefects(*fine_);
+        fineDefect_ = angleDefects(fine_);
       }
       for (const Index v : level.fineVertex)
       {
@@ -713,7 +715,7 @@ private:
       inFineTerms(records.bytes(), hierarchy_.intermediate), records.collapses(), records.flips());
   }
 
-  const Mesh* fine_;
+  Mesh fine_;
   double edgeLength_ = 0;
   DecimationOrder order_ = DecimationOrder::Sweeps;
   RandomDraws draws_;
@@ -725,7 +727,7 @@ private:
   struct Wanted
   {
     std::vector<Index> kept;   ///< ascending
-    std::vector<float> sizing; ///< of the finest mesh
+    SharedArray<float> sizing; ///< of the finest mesh
 
     bool is(const std::vector<Index>& vertices, const Mesh& fine) const
     {
@@ -781,6 +783,11 @@ bool Redecimation::allows(const HierarchyOptions& options) const
 const Level& Redecimation::intermediateOfPhase1() const
 {
   return implementation_->levelOfPhase1();
+}
+
+void Redecimation::setSizes(SharedArray<float> sizing)
+{
+  implementation_->setSizes(std::move(sizing));
 }
 
 const Hierarchy& Redecimation::update(const HierarchyOptions& options)

@@ -5,9 +5,9 @@
 
 #include "Base/Progress.h"
 #include "Hierarchy/DecimationLog.h"
-#include "Mesh/Guides.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/NamesBefore.h"
+#include "Requests/Guides.h"
 
 #include <memory>
 #include <string>
@@ -124,24 +124,24 @@ struct Hierarchy
 class Redecimation
 {
 public:
-  /// Phase 1 with the vertices to keep of the options. Throws as buildHierarchy does. `fine` must outlive this object;
-  /// its sizes alone may change.
+  /// Phase 1 with the vertices to keep of the options. Throws as buildHierarchy does.
   Redecimation(const Mesh& fine, std::uint64_t fineHash, const HierarchyOptions& options);
   ~Redecimation();
   Redecimation(Redecimation&&) noexcept;
   Redecimation& operator=(Redecimation&&) noexcept;
 
-  /// Takes the levels along when few places of the finest mesh have changed: they are then those of `fine`, which must
-  /// outlive this object in place of the mesh before, that need not be there any more. Phase 1 must have kept no
-  /// vertices. What it would do anew near the changed places is done there alone, so the levels are as good as new ones
-  /// and not the same. options: of which threads and isConnected count. False where too many vertices would have to
-  /// come back; this object is of no use then. Cancelled leaves it so, too.
+  /// Takes the levels along when few places of the finest mesh have changed: they are then those of `fine`. Phase 1
+  /// must have kept no vertices. What it would do anew near the changed places is done there alone, so the levels are
+  /// as good as new ones and not the same. options: of which threads and isConnected count. False where too many
+  /// vertices would have to come back; this object is of no use then. Cancelled leaves it so, too.
   bool follow(const Mesh& fine, std::uint64_t fineHash, const NamesBefore& names,
     const HierarchyOptions& options);
   /// Whether update() can honour the options: target edge length and order are those of phase 1. All else may change.
   bool allows(const HierarchyOptions& options) const;
   /// The intermediate level as phase 1 left it, without vertices that were brought back. Valid until update().
   const Level& intermediateOfPhase1() const;
+  /// Other sizes of the finest mesh, for the next update().
+  void setSizes(SharedArray<float> sizing);
   /// Phase 2: makes the coarse level and the end of the log anew. Vertices to keep that phase 1 has removed come back
   /// first, and as many as are needed where the mesh has smaller sizes now, see VertexRestoration.h. The result depends
   /// on what phase 1 was given, and on what is asked for now, but not on what came between. Throws InvalidInput unless

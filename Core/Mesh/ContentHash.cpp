@@ -35,10 +35,10 @@ std::uint64_t hashBytes(const unsigned char* bytes, std::size_t count)
   return hash;
 }
 
-template <typename T>
-std::uint64_t hashVector(const std::vector<T>& values, int threads)
+template <typename Array>
+std::uint64_t hashVector(const Array& values, int threads)
 {
-  return contentHash(values.data(), values.size() * sizeof(T), threads);
+  return contentHash(values.data(), values.size() * sizeof(typename Array::value_type), threads);
 }
 
 } // namespace

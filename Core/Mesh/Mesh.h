@@ -10,6 +10,7 @@
 ///           3f
 #pragma once
 
+#include "Base/SharedArray.h"
 #include "Base/Types.h"
 
 #include <vector>
@@ -28,13 +29,14 @@ enum HalfEdgeFlag : std::uint8_t
   kYieldingFeature = 8 ///< asked for, but may be given up where quads cannot follow it
 };
 
+/// A copy shares all arrays until one of the two changes one: it costs next to nothing.
 struct Mesh
 {
-  std::vector<Vector3> position;   ///< #V points
-  std::vector<Index> origin;       ///< #H = 3 #F; vertex that the half-edge leaves
-  std::vector<Index> twin;         ///< #H; kInvalidIndex on the boundary
-  std::vector<std::uint8_t> flags; ///< #H; HalfEdgeFlag bits
-  std::vector<float>
+  SharedArray<Vector3> position;   ///< #V points
+  SharedArray<Index> origin;       ///< #H = 3 #F; vertex that the half-edge leaves
+  SharedArray<Index> twin;         ///< #H; kInvalidIndex on the boundary
+  SharedArray<std::uint8_t> flags; ///< #H; HalfEdgeFlag bits
+  SharedArray<float>
     sizing; ///< #V, or empty: wanted edge length there as a multiple of s; see Sizing.h
 
   Index vertexCount() const { return static_cast<Index>(position.size()); }

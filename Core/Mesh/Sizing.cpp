@@ -151,10 +151,11 @@ void collectSizing(const SurfaceInput& input, PreparedSurface& surface)
   }
   Mesh& mesh = surface.mesh;
   mesh.sizing.assign(mesh.vertexCount(), std::numeric_limits<float>::infinity());
+  float* const sizing = mesh.sizing.edit();
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     pollNowAndThen(h);
-    float& size = mesh.sizing[mesh.origin[h]];
+    float& size = sizing[mesh.origin[h]];
     size = std::min(size, static_cast<float>(askedAt(input, surface, h)));
   }
 }
@@ -214,7 +215,7 @@ SizingReport limitSizeGrowth(Mesh& mesh, double edgeLength)
       const float most = mostAt(w, size, v);
       if (most < mesh.sizing[w])
       {
-        mesh.sizing[w] = most;
+        mesh.sizing.edit()[w] = most;
         queue.push({ most, w });
       }
     };
@@ -271,7 +272,7 @@ std::size_t scaleSizesNear(
       std::any_of(found->second.begin(), found->second.end(),
         [&](std::size_t i) { return (places[i] - p).norm() < radius; }))
     {
-      mesh.sizing[v] = static_cast<float>(factor * double{ mesh.sizing[v] });
+      mesh.sizing.edit()[v] = static_cast<float>(factor * double{ mesh.sizing[v] });
       ++count;
     }
   }

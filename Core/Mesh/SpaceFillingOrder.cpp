@@ -235,6 +235,12 @@ public:
       });
   }
 
+  template <std::size_t kWidth, typename T>
+  void operator()(SharedArray<T>& values, const std::vector<Index>& order)
+  {
+    values.change([&](std::vector<T>& own) { this->operator()<kWidth>(own, order); });
+  }
+
 private:
   template <typename T>
   static char* bytesOf(std::vector<T>& values)
@@ -265,10 +271,10 @@ std::vector<Index> dropUnused(Mesh& mesh, int threads)
     pollNowAndThen(v);
     if (used.has(v))
     {
-      mesh.position[kept.size()] = mesh.position[v];
+      mesh.position.edit()[kept.size()] = mesh.position[v];
       if (!mesh.sizing.empty())
       {
-        mesh.sizing[kept.size()] = mesh.sizing[v];
+        mesh.sizing.edit()[kept.size()] = mesh.sizing[v];
       }
       kept.push_back(v);
     }
@@ -337,12 +343,13 @@ void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
       orderNames(newId, order.size(), surface.namesBefore->vertex);
     }
   }
+  Index* origin = mesh.origin.edit();
   parallelFor(mesh.origin.size(), kOrderChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t h = begin; h < end; ++h)
       {
-        mesh.origin[h] = mesh.origin[h] == kInvalidIndex ? kInvalidIndex : newId[mesh.origin[h]];
+        origin[h] = origin[h] == kInvalidIndex ? kInvalidIndex : newId[origin[h]];
       }
     });
   renameRequests(surface, [&](Index v) { return newId[v]; });
@@ -442,15 +449,16 @@ std::vector<Index> facesByLowestVertex(const Mesh& mesh, int threads)
 void orderWeights(PreparedSurface& surface)
 {
   std::vector<std::array<std::array<double, 3>, 3>> weights;
-  for (Index& entry : surface.refinedEntry)
+  Index* entry = surface.refinedEntry.edit();
+  for (std::size_t f = 0; f < surface.refinedEntry.size(); ++f)
   {
-    if (entry != kInvalidIndex)
+    if (entry[f] != kInvalidIndex)
     {
-      weights.push_back(surface.cornerWeights[entry]);
-      entry = static_cast<Index>(weights.size() - 1);
+      weights.push_back(surface.cornerWeights[entry[f]]);
+      entry[f] = static_cast<Index>(weights.size() - 1);
     }
   }
-  surface.cornerWeights.swap(weights);
+  surface.cornerWeights = std::move(weights);
 }
 
 void orderTwins(Mesh& mesh, const std::vector<Index>& order, Permuter& permute)
@@ -466,10 +474,11 @@ void orderTwins(Mesh& mesh, const std::vector<Index>& order, Permuter& permute)
     newFace[order[i]] = i;
   }
   permute.operator()<3>(mesh.twin, order);
+  Index* twin = mesh.twin.edit();
   for (std::size_t h = 0; h < mesh.twin.size(); ++h)
   {
     pollNowAndThen(h);
-    Index& g = mesh.twin[h];
+    Index& g = twin[h];
     g = g == kInvalidIndex ? kInvalidIndex : 3 * newFace[g / 3] + g % 3;
   }
 }
@@ -540,6 +549,11 @@ void moveElements(std::vector<T>& values, const Moves& moves)
   }
   values.resize(kWidth * moves.count);
 }
+template <std::size_t kWidth, typename T>
+void moveElements(SharedArray<T>& values, const Moves& moves)
+{
+  values.change([&](std::vector<T>& own) { moveElements<kWidth>(own, moves); });
+}
 
 /// The indices below count for which goes(i) holds, ascending.
 template <typename Goes>
@@ -584,9 +598,9 @@ void compactFaces(PreparedSurface& surface, int threads)
       }
       if (Mesh::face(g) < moves.count) // else it is moved itself
       {
-        mesh.twin[g] = newSlot(h);
+        mesh.twin.edit()[g] = newSlot(h);
       }
-      mesh.twin[h] = newSlot(g);
+      mesh.twin.edit()[h] = newSlot(g);
     }
   }
   if (surface.namesBefore)
@@ -616,12 +630,13 @@ void compactVertices(PreparedSurface& surface, int threads)
   }
   moveElements<1>(mesh.position, moves);
   moveElements<1>(mesh.sizing, moves);
+  Index* origin = mesh.origin.edit();
   parallelFor(mesh.origin.size(), kOrderChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t h = begin; h < end; ++h)
       {
-        mesh.origin[h] = moves.newId(mesh.origin[h]);
+        origin[h] = moves.newId(origin[h]);
       }
     });
   renameRequests(surface, [&](Index v) { return moves.newId(v); });

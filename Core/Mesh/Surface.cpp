@@ -2,100 +2,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Surface.h"
 
-#include "Base/Angles.h"
-#include "Base/Clock.h"
-#include "Base/Parallel.h"
 #include "Base/PlaceText.h"
-#include "Base/Progress.h"
-#include "Mesh/CleanSurface.h"
-#include "Mesh/ContentHash.h"
-#include "Mesh/EdgeRuns.h"
-#include "Mesh/Features.h"
-#include "Mesh/PointSets.h"
-#include "Mesh/Repair.h"
-#include "Mesh/Sizing.h"
-#include "Mesh/SpaceFillingOrder.h"
-#include "Mesh/Triangulate.h"
-
-#include <algorithm>
-#include <utility>
 
 namespace quadrille
 {
-
 namespace
 {
 
-void checkOptions(const PrepareOptions& options)
+void append(std::string& text, std::size_t count, const char* singular, const char* plural)
 {
-  if (options.featureAngle && !(*options.featureAngle > 0 && *options.featureAngle <= kPi))
+  if (count > 0)
   {
-    throw InvalidInput("the feature angle must be above 0 and at most 180 degrees.");
+    text +=
+      (text.empty() ? "" : ", ") + std::to_string(count) + " " + (count == 1 ? singular : plural);
   }
-}
-
-void requireFaces(const PreparedSurface& surface)
-{
-  if (surface.mesh.origin.empty())
-  {
-    throw InvalidInput("no face is left of the surface after repair (" + surface.repair.text() +
-      "): all polygons are degenerate.");
-  }
-}
-
-void markFeatures(
-  PreparedSurface& surface, const SurfaceInput& input, const PrepareOptions& options)
-{
-  if (!input.patchIds.empty())
-  {
-    markFeaturesByPatch(surface, input.patchIds, input.patchesYield);
-  }
-  if (options.featureAngle && input.detectedFeatures.empty())
-  {
-    surface.facets =
-      markCreases(surface.mesh, *options.featureAngle, options.threads, input.precision);
-  }
-  if (!input.patchIds.empty() || !input.featureEdges.empty())
-  {
-    makeFlagsSymmetric(surface.mesh); // features by angle are already
-  }
-}
-
-/// The sum in the order of the faces.
-double sumOfAreas(const Mesh& mesh, int threads)
-{
-  constexpr std::size_t kFacesAtOnce = std::size_t{ 1 } << 19;
-  constexpr std::size_t kAreaChunk = std::size_t{ 1 } << 15;
-  std::vector<double> areas(std::min<std::size_t>(kFacesAtOnce, mesh.faceCount()));
-  double area = 0;
-  for (std::size_t first = 0; first < mesh.faceCount(); first += kFacesAtOnce)
-  {
-    const std::size_t count = std::min(kFacesAtOnce, mesh.faceCount() - first);
-    parallelFor(count, kAreaChunk, threads,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          const Index h = static_cast<Index>(3 * (first + i));
-          areas[i] = mesh.edgeVector(h).cross(mesh.edgeVector(h + 1)).norm() / 2;
-        }
-      });
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      area += areas[i];
-    }
-  }
-  return area;
-}
-
-void measure(PreparedSurface& surface, int threads)
-{
-  surface.area = sumOfAreas(surface.mesh, threads);
-  const PointBox box = boxOfPoints(surface.mesh.position, threads);
-  surface.boundingBoxDiagonal = (box.high - box.low).norm();
 }
 
 } // namespace
+
+std::string RepairReport::text() const
+{
+  std::string text;
+  append(text, triangulatedPolygons, "polygon triangulated", "polygons triangulated");
+  append(text, mergedPoints, "coincident point merged", "coincident points merged");
+  append(text, degenerateFaces, "degenerate face removed", "degenerate faces removed");
+  append(text, duplicateFaces, "duplicate face removed", "duplicate faces removed");
+  append(text, isolatedPoints, "isolated point dropped", "isolated points dropped");
+  append(text, nonManifoldEdges, "non-manifold edge split", "non-manifold edges split");
+  append(text, nonManifoldVertices, "non-manifold vertex split", "non-manifold vertices split");
+  append(text, reorientedFaces, "face reoriented", "faces reoriented");
+  append(text, removedComponents, "component too small to mesh removed",
+    "components too small to mesh removed");
+  append(text, refinedFaces, "large face refined", "large faces refined");
+  append(text, closedHandles, "small handle cut and closed", "small handles cut and closed");
+  append(text, filledHoles, "small hole filled", "small holes filled");
+  return text;
+}
 
 std::string FacetReport::text() const
 {
@@ -125,57 +67,6 @@ SourceLocation PreparedSurface::locate(Index f, const std::array<double, 3>& wei
     }
   }
   return location;
-}
-
-PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& options)
-{
-  return prepareSurface(SurfaceInput(input), options);
-}
-
-PreparedSurface prepareSurface(SurfaceInput&& input, const PrepareOptions& options)
-{
-  PreparedSurface surface;
-  Stopwatch watch;
-  checkOptions(options);
-  report(options.progress, 0, "Checking the surface");
-  checkInput(input, options.threads);
-  poll();
-  triangulate(input, surface, options.threads);
-  requireFaces(surface);
-  const std::size_t points = input.points.size();
-  surface.mesh.position.swap(input.points);
-  std::vector<Index>().swap(input.polygonOffsets);
-  std::vector<Index>().swap(input.polygonPoints);
-  double repairSeconds = watch.lap();
-
-  report(options.progress, 0.2, "Ordering the surface");
-  orderSurface(surface, options.threads);
-  surface.repair.isolatedPoints = points - surface.mesh.vertexCount();
-  const double orderSeconds = watch.lap();
-
-  report(options.progress, 0.5, "Connecting the surface");
-  const bool isClean = connectCleanSurface(surface, options.threads);
-  const double connectivitySeconds = watch.lap();
-  if (!isClean)
-  {
-    std::vector<Index>().swap(surface.mesh.twin);
-    repairSurface(surface,
-      EdgeRuns(surface.mesh.origin, surface.mesh.vertexCount(), options.threads), options.threads);
-    poll();
-    requireFaces(surface);
-    repairSeconds += watch.lap();
-  }
-
-  report(options.progress, 0.8, "Finding features");
-  markFeatures(surface, input, options);
-  measure(surface, options.threads);
-  collectRequests(input, surface, options.threads);
-  collectSizing(input, surface);
-  surface.hash = contentHash(surface.mesh, options.threads);
-  report(options.progress, 1, "Surface prepared");
-  surface.seconds = { { "repair", repairSeconds }, { "order", orderSeconds },
-    { "connectivity", connectivitySeconds + watch.lap() } };
-  return surface;
 }
 
 } // namespace quadrille

@@ -1,17 +1,11 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// From a polygon soup to the prepared surface: validation, repair, space-filling-curve order,
-/// features, refinement where the triangles are too large for the quads that are asked for.
+/// The surface: as the user hands it in, and as runs see it, repaired and in order, with what was asked for.
 #pragma once
 
-#include "Base/Progress.h"
-#include "Mesh/CurveRequests.h"
-#include "Mesh/Guides.h"
-#include "Mesh/HeldVertices.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/NamesBefore.h"
-#include "Mesh/SeamRequests.h"
-#include "Mesh/StraightRequests.h"
+#include "Mesh/Requests.h"
 
 #include <array>
 #include <cstdint>
@@ -34,9 +28,9 @@ enum class FaceOrder
 /// What the user hands in. Nothing is assumed about it.
 struct SurfaceInput
 {
-  std::vector<Vector3> points;
-  std::vector<Index> polygonOffsets; ///< #P + 1 offsets into polygonPoints
-  std::vector<Index> polygonPoints;  ///< point ids, polygon after polygon
+  SharedArray<Vector3> points;
+  SharedArray<Index> polygonOffsets; ///< #P + 1 offsets into polygonPoints
+  SharedArray<Index> polygonPoints;  ///< point ids, polygon after polygon
   std::vector<std::uint8_t>
     featureEdges; ///< empty or #P; bit i: edge from corner i to i+1 is a feature
   std::vector<std::int64_t> patchIds; ///< empty or #P; an edge between two values is a feature
@@ -66,14 +60,6 @@ struct SurfaceInput
   FaceOrder faceOrder = FaceOrder::AsGiven; ///< see Frame.h
   /// By how much coordinates may differ from what was meant, in units of the points, >= 0; 0: not known.
   double precision = 0;
-};
-
-struct PrepareOptions
-{
-  /// Edges whose face normals differ by more than this are features; radians in (0, pi]; none: off.
-  std::optional<double> featureAngle;
-  int threads = 0; ///< 0: all
-  ProgressCallback progress;
 };
 
 /// What repair changed; all counts. Zero everywhere for a clean triangle mesh.
@@ -115,8 +101,9 @@ struct FacetReport
   std::string text() const;
 };
 
-/// The finest level: repaired, ordered, with features. Immutable after refinement.
-struct PreparedSurface
+/// The finest level: repaired, ordered, with features. Copies share the triangles and where they come from; another
+/// version of a surface, with other features, sizes or requests, is such a copy.
+struct PreparedSurface : SurfaceRequests
 {
   Mesh mesh;
   RepairReport repair;
@@ -127,28 +114,23 @@ struct PreparedSurface
   /// Content hash of positions, connectivity and features; binds a decimation log to its mesh.
   std::uint64_t hash = 0;
 
-  std::vector<Index> sourcePolygon; ///< #F
+  SharedArray<Index> sourcePolygon; ///< #F
   /// #F; ids of the input points at the corners of the unrefined face. Repair may have moved a corner
   /// of a degenerate polygon's neighbour to another input point; then that point's id stands here.
-  std::vector<std::array<Index, 3>> sourcePoints;
+  SharedArray<std::array<Index, 3>> sourcePoints;
   /// Only where a face was split: index into cornerWeights, else kInvalidIndex. Empty when no face
   /// was split.
-  std::vector<Index> refinedEntry;
-  std::vector<std::array<std::array<double, 3>, 3>> cornerWeights; ///< [corner][source corner]
-
-  /// Guides and valences that were asked for; not part of the hash, as the finest level does not depend on them.
-  std::vector<PolygonGuide> polygonGuides;     ///< ascending by polygon; see surfaceGuides
-  std::vector<ValenceRequest> valenceRequests; ///< ascending by vertex, one a vertex
-  std::size_t unusedValences = 0;              ///< requests of points that no face uses
-  std::vector<CurveRequest> curves;            ///< as they were given, in the frame
-  bool regularElsewhere = false;               ///< as it was given
-  std::vector<SectorRequest> sectorRequests;   ///< ascending by vertex
-  bool regularOnFeatures = false;              ///< as it was given
-  std::vector<SeamRequest> seams;              ///< as they were given, in the frame
-  std::vector<StraightRequest> straight;       ///< as they were given, in the frame
+  SharedArray<Index> refinedEntry;
+  SharedArray<std::array<std::array<double, 3>, 3>> cornerWeights; ///< [corner][source corner]
 
   /// Set by who wants to know what becomes of the elements; orderSurface keeps it.
   std::optional<NamesBefore> namesBefore;
+
+  const SurfaceRequests& requests() const { return *this; }
+  void setRequests(SurfaceRequests requests)
+  {
+    static_cast<SurfaceRequests&>(*this) = std::move(requests);
+  }
 
   /// Sub-stages with their seconds: repair, order, connectivity.
   std::vector<std::pair<std::string, double>> seconds;
@@ -158,25 +140,5 @@ struct PreparedSurface
   /// Source of the point with barycentric coordinates `weights` in face `f` of the mesh.
   SourceLocation locate(Index f, const std::array<double, 3>& weights) const;
 };
-
-/// Validates, repairs and orders. Throws InvalidInput for an empty input, a non-finite coordinate
-/// (names the point), a corner id out of range (names the polygon), a non-orientable component (names
-/// a face of it), when nothing is left after repair, and for guides, valences and sizes as
-/// checkRequests, collectRequests and checkSizing do.
-PreparedSurface prepareSurface(const SurfaceInput& input, const PrepareOptions& options);
-
-/// The same without a copy: the points and polygons of the input are used up.
-PreparedSurface prepareSurface(SurfaceInput&& input, const PrepareOptions& options);
-
-/// Splits edges longer than maximumEdgeLength times the size there, and times triangulationScale() in small components
-/// (conforming, at edge midpoints, longest first), and
-/// chords: unconstrained edges whose two ends lie on constrained edges, that no decimation could ever
-/// repair. Afterwards every face has at most one constrained edge and no chord is left. The geometry
-/// does not change: new vertices lie on the old triangles. Long thin triangles can multiply; past
-/// about 16 #F + 20 area / maximumEdgeLength^2 faces (160 #F up to four million) the longest edges are
-/// split and the rest is left, which `notice` tells. Throws InvalidInput unless maximumEdgeLength is
-/// positive and finite. The hash is taken anew. threads: 0: all; the result does not depend on it.
-void refineSurface(PreparedSurface& surface, double maximumEdgeLength,
-  const ProgressCallback& progress, int threads = 1);
 
 } // namespace quadrille

@@ -24,7 +24,7 @@ Index ensureEntry(PreparedSurface& surface, Index f)
   }
   if (surface.refinedEntry[f] == kInvalidIndex)
   {
-    surface.refinedEntry[f] = static_cast<Index>(surface.cornerWeights.size());
+    surface.refinedEntry.edit()[f] = static_cast<Index>(surface.cornerWeights.size());
     surface.cornerWeights.push_back({ { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } });
   }
   return surface.refinedEntry[f];
@@ -37,8 +37,8 @@ Weights cornerOf(const PreparedSurface& surface, Index h)
 
 void setCorner(PreparedSurface& surface, Index h, Index vertex, const Weights& weights)
 {
-  surface.mesh.origin[h] = vertex;
-  surface.cornerWeights[surface.refinedEntry[Mesh::face(h)]][h % 3] = weights;
+  surface.mesh.origin.edit()[h] = vertex;
+  surface.cornerWeights.edit()[surface.refinedEntry[Mesh::face(h)]][h % 3] = weights;
 }
 
 /// Appends a copy of face f, half-edge for half-edge, without twins and flags; returns its id.
@@ -65,11 +65,11 @@ void glue(Mesh& mesh, Index h, Index g)
 {
   if (h != kInvalidIndex)
   {
-    mesh.twin[h] = g;
+    mesh.twin.edit()[h] = g;
   }
   if (g != kInvalidIndex)
   {
-    mesh.twin[g] = h;
+    mesh.twin.edit()[g] = h;
   }
 }
 
@@ -77,13 +77,13 @@ void glue(Mesh& mesh, Index h, Index g)
 void moveEdge(Mesh& mesh, Index h, Index to)
 {
   glue(mesh, to, mesh.twin[h]);
-  mesh.flags[to] = mesh.flags[h];
+  mesh.flags.edit()[to] = mesh.flags[h];
 }
 
 void joinInner(Mesh& mesh, Index h, Index g)
 {
   glue(mesh, h, g);
-  mesh.flags[h] = mesh.flags[g] = 0;
+  mesh.flags.edit()[h] = mesh.flags.edit()[g] = 0;
 }
 
 Weights mean(const Weights& a, const Weights& b)
@@ -102,7 +102,7 @@ Index splitOneSide(PreparedSurface& surface, Index h, Index m)
   setCorner(surface, Mesh::next(h), m, middle);
   setCorner(surface, other, m, middle);
   joinInner(mesh, Mesh::next(h), Mesh::previous(other));
-  mesh.flags[other] = mesh.flags[h];
+  mesh.flags.edit()[other] = mesh.flags[h];
   return other;
 }
 
@@ -150,7 +150,7 @@ void closeWithFan(PreparedSurface& surface, const std::vector<Index>& run, const
     setCorner(surface, face + 1, from, weightsFrom);
     setCorner(surface, face + 2, middle, mean(weightsTo, weightsFrom));
     glue(mesh, h, face);
-    mesh.flags[face] = mesh.flags[h];
+    mesh.flags.edit()[face] = mesh.flags[h];
   }
   const Index count = static_cast<Index>(run.size());
   for (Index i = 0; i < count; ++i)
@@ -252,12 +252,12 @@ void cutAndClose(PreparedSurface& surface, const std::vector<Index>& loop)
   }
   for (const auto& [h, copy] : moved)
   {
-    mesh.origin[h] = copy;
+    mesh.origin.edit()[h] = copy;
   }
   for (const Index h : loop)
   {
-    mesh.twin[mesh.twin[h]] = kInvalidIndex;
-    mesh.twin[h] = kInvalidIndex;
+    mesh.twin.edit()[mesh.twin[h]] = kInvalidIndex;
+    mesh.twin.edit()[h] = kInvalidIndex;
   }
   closeWithFan(surface, loop, meanOfOrigins(mesh, loop));
   closeWithFan(surface, beyond, meanOfOrigins(mesh, beyond));
@@ -268,7 +268,7 @@ void fillWithFan(PreparedSurface& surface, const std::vector<Index>& loop, const
   assert(loop.size() >= 3);
   for (const Index h : loop)
   {
-    surface.mesh.flags[h] = 0;
+    surface.mesh.flags.edit()[h] = 0;
   }
   closeWithFan(surface, loop, middle);
 }
@@ -278,8 +278,8 @@ void removeFace(PreparedSurface& surface, Index f)
   for (Index h = 3 * f; h < 3 * f + 3; ++h)
   {
     glue(surface.mesh, kInvalidIndex, surface.mesh.twin[h]);
-    surface.mesh.twin[h] = kInvalidIndex;
-    surface.mesh.origin[h] = kInvalidIndex;
+    surface.mesh.twin.edit()[h] = kInvalidIndex;
+    surface.mesh.origin.edit()[h] = kInvalidIndex;
   }
 }
 
@@ -327,8 +327,8 @@ void collapseEdge(PreparedSurface& surface, Index h)
   forEachInFan(mesh, h,
     [&](Index e)
     {
-      mesh.origin[e] = kept;
-      surface.sourcePoints[Mesh::face(e)][e % 3] = keptPoint;
+      mesh.origin.edit()[e] = kept;
+      surface.sourcePoints.edit()[Mesh::face(e)][e % 3] = keptPoint;
     });
   const Index g = mesh.twin[h];
   for (const Index side : { h, g })
@@ -346,7 +346,7 @@ void collapseEdge(PreparedSurface& surface, Index h)
     {
       if (e != kInvalidIndex)
       {
-        mesh.flags[e] = flags;
+        mesh.flags.edit()[e] = flags;
       }
     }
   }
@@ -377,25 +377,25 @@ void flipSliver(PreparedSurface& surface, Index h)
   const std::uint8_t feature = mesh.flags[h];
   for (const Index e : { n, p })
   {
-    mesh.flags[e] |= feature;
+    mesh.flags.edit()[e] |= feature;
     if (mesh.twin[e] != kInvalidIndex)
     {
-      mesh.flags[mesh.twin[e]] |= feature;
+      mesh.flags.edit()[mesh.twin[e]] |= feature;
     }
   }
-  auto& pointsF = surface.sourcePoints[Mesh::face(h)];
-  auto& pointsK = surface.sourcePoints[Mesh::face(g)];
+  auto& pointsF = surface.sourcePoints.edit()[Mesh::face(h)];
+  auto& pointsK = surface.sourcePoints.edit()[Mesh::face(g)];
   const Index pointC = pointsF[p % 3];
   const Index pointD = pointsK[pg % 3];
 
   moveEdge(mesh, ng, h); // a -> d
   moveEdge(mesh, n, g);  // b -> c
   joinInner(mesh, n, ng);
-  mesh.origin[n] = mesh.origin[pg]; // d -> c
-  mesh.origin[ng] = mesh.origin[p]; // c -> d
+  mesh.origin.edit()[n] = mesh.origin[pg]; // d -> c
+  mesh.origin.edit()[ng] = mesh.origin[p]; // c -> d
   pointsF[n % 3] = pointD;
   pointsK[ng % 3] = pointC;
-  surface.sourcePolygon[Mesh::face(h)] = surface.sourcePolygon[Mesh::face(g)];
+  surface.sourcePolygon.edit()[Mesh::face(h)] = surface.sourcePolygon[Mesh::face(g)];
 }
 
 } // namespace quadrille

@@ -28,7 +28,7 @@ struct Corner
 void appendTriangle(PreparedSurface& surface, Index polygon, const std::array<Index, 3>& points,
   std::uint8_t features)
 {
-  surface.mesh.origin.insert(surface.mesh.origin.end(), points.begin(), points.end());
+  surface.mesh.origin.append(points.begin(), points.end());
   for (int i = 0; i < 3; ++i)
   {
     surface.mesh.flags.push_back((features >> i & 1) != 0 ? kFeatureEdge | kRequestedFeature : 0);
@@ -269,14 +269,17 @@ bool hasOnlyTriangles(const SurfaceInput& input, int threads)
 void copyTriangles(const SurfaceInput& input, PreparedSurface& surface, int threads)
 {
   const std::size_t faces = input.polygonOffsets.size() - 1;
-  reserveWithRoom(surface.mesh.origin, 3 * faces, threads);
-  reserveWithRoom(surface.mesh.flags, 3 * faces, threads);
-  reserveWithRoom(surface.sourcePoints, faces, threads);
-  reserveWithRoom(surface.sourcePolygon, faces, threads);
-  growLarge(surface.mesh.origin, 3 * faces);
-  growLarge(surface.mesh.flags, 3 * faces);
-  growLarge(surface.sourcePoints, faces);
-  growLarge(surface.sourcePolygon, faces);
+  std::vector<Index> origin, sourcePolygon;
+  std::vector<std::array<Index, 3>> sourcePoints;
+  std::vector<std::uint8_t> flags;
+  reserveWithRoom(origin, 3 * faces, threads);
+  reserveWithRoom(flags, 3 * faces, threads);
+  reserveWithRoom(sourcePoints, faces, threads);
+  reserveWithRoom(sourcePolygon, faces, threads);
+  growLarge(origin, 3 * faces);
+  growLarge(flags, 3 * faces);
+  growLarge(sourcePoints, faces);
+  growLarge(sourcePolygon, faces);
   parallelFor(faces, kTriangleChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
@@ -284,16 +287,20 @@ void copyTriangles(const SurfaceInput& input, PreparedSurface& surface, int thre
       {
         const Triangle triangle = orderedTriangle(input.polygonPoints.data() + 3 * f,
           input.featureEdges.empty() ? 0 : input.featureEdges[f], input.faceOrder);
-        surface.sourcePoints[f] = triangle.points;
-        surface.sourcePolygon[f] = static_cast<Index>(f);
+        sourcePoints[f] = triangle.points;
+        sourcePolygon[f] = static_cast<Index>(f);
         for (std::size_t i = 0; i < 3; ++i)
         {
-          surface.mesh.origin[3 * f + i] = triangle.points[i];
-          surface.mesh.flags[3 * f + i] =
+          origin[3 * f + i] = triangle.points[i];
+          flags[3 * f + i] =
             (triangle.features >> i & 1) != 0 ? kFeatureEdge | kRequestedFeature : 0;
         }
       }
     });
+  surface.mesh.origin = std::move(origin);
+  surface.mesh.flags = std::move(flags);
+  surface.sourcePoints = std::move(sourcePoints);
+  surface.sourcePolygon = std::move(sourcePolygon);
 }
 
 /// The edges that detectedFeatures names, by the points at their ends.
@@ -319,7 +326,7 @@ void markDetected(const SurfaceInput& input, PreparedSurface& surface)
         const Index from = surface.mesh.origin[h], to = surface.mesh.target(h);
         if ((from == a && to == b) || (from == b && to == a))
         {
-          surface.mesh.flags[h] |= kFeatureEdge;
+          surface.mesh.flags.edit()[h] |= kFeatureEdge;
         }
       }
     }

@@ -3,7 +3,7 @@
 #include "Pipeline/EnterFrame.h"
 
 #include "Mesh/ContentHash.h"
-#include "Mesh/Repair.h"
+#include "Prepare/Repair.h"
 
 #include <memory>
 #include <utility>
@@ -76,7 +76,7 @@ private:
 
 } // namespace
 
-EnteredInput enterFrame(SurfaceInput& input, const RemeshOptions& options, ResultStore* store)
+EnteredInput enterFrame(SurfaceInput input, const RemeshOptions& options, ResultStore* store)
 {
   const FrameFinder finder(input, options, store);
   if (finder.hasSurface())
@@ -85,32 +85,6 @@ EnteredInput enterFrame(SurfaceInput& input, const RemeshOptions& options, Resul
     return finder.enterKnown(std::move(input));
   }
   return finder.enter(std::move(input));
-}
-
-LentInput::LentInput(SurfaceInput& input, const RemeshOptions& options, ResultStore* store)
-  : input_(input)
-{
-  const FrameFinder finder(input, options, store);
-  if (!finder.hasSurface())
-  {
-    entered_ = finder.enter(input);
-    return;
-  }
-  checkArrays(input);
-  isLent_ = true;
-  entered_ = finder.enterKnown(std::move(input));
-  polygonOffsets_ = std::move(entered_.framed.input.polygonOffsets);
-  polygonPoints_ = std::move(entered_.framed.input.polygonPoints);
-}
-
-LentInput::~LentInput()
-{
-  if (isLent_)
-  {
-    input_.points = std::move(entered_.framed.points);
-    input_.polygonOffsets = std::move(polygonOffsets_);
-    input_.polygonPoints = std::move(polygonPoints_);
-  }
 }
 
 } // namespace quadrille

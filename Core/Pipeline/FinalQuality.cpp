@@ -4,7 +4,8 @@
 
 #include "Base/Error.h"
 #include "Extraction/Extraction.h"
-#include "Extraction/QuadShape.h"
+#include "Quads/QuadShape.h"
+#include "Requests/Guides.h"
 #include "Transfer/PatchMender.h"
 #include "Transfer/Transfer.h"
 

@@ -87,7 +87,6 @@ FirstLevels makeFirstLevels(
     tinyHolesText(first.smallParts, size) };
   first.notices.insert(first.notices.end(), plan.notices.begin(), plan.notices.end());
   first.notices.push_back(first.hierarchy.notice);
-  surface.apply({});
   return first;
 }
 

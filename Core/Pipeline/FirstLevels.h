@@ -4,9 +4,9 @@
 #pragma once
 
 #include "Hierarchy/Hierarchy.h"
-#include "Mesh/Frame.h"
 #include "Pipeline/Attempt.h"
 #include "Pipeline/SizedSurface.h"
+#include "Prepare/Frame.h"
 
 #include <string>
 #include <vector>

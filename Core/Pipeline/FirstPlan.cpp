@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Mesh/Sizing.h"
+#include "Requests/Guides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,7 @@ std::shared_ptr<const std::vector<float>> sizesAtLoops(
       mesh.sizing.resize(mesh.vertexCount(), 1.0F);
       for (Index v = 0; v < mesh.vertexCount(); ++v)
       {
-        mesh.sizing[v] *= factor[v];
+        mesh.sizing.edit()[v] *= factor[v];
       }
       limitSizeGrowth(mesh, run.edgeLength);
     });

@@ -102,9 +102,10 @@ void reverseQuads(QuadMesh& quads)
 
 void leaveFrame(Level& level, const Frame& frame, const std::vector<Vector3>& positions)
 {
+  Vector3* position = level.mesh.position.edit();
   for (Index v = 0; v < level.mesh.vertexCount(); ++v)
   {
-    level.mesh.position[v] = positions[level.fineVertex[v]];
+    position[v] = positions[level.fineVertex[v]];
   }
   for (Guide& guide : level.guides)
   {
@@ -270,8 +271,8 @@ void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vect
   }
   else
   {
-    std::vector<Vector3>().swap(surface.mesh.position);
-    for (Vector3& p : result.coarse.mesh.position)
+    surface.mesh.position.clear();
+    for (Vector3& p : result.coarse.mesh.position.editAll())
     {
       p = frame.toUser(p);
     }
@@ -280,7 +281,7 @@ void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vect
       reverseFaces(result.coarse.mesh);
     }
   }
-  leaveFrame(surface, frame, std::move(surface.mesh.position));
+  leaveFrame(surface, frame, surface.mesh.position.take());
   if (frame.reversed)
   {
     reverseMap(result.uv);

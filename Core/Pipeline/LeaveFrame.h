@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a run made in its frame (see Mesh/Frame.h), back on the user's surface. Where the frame's faces run the other
-/// way round, corners 0 1 2 become 0 2 1 everywhere and u and v change places, so that maps stay positive.
+/// What a run made in its frame (see Prepare/Frame.h), back on the user's surface. Where the frame's faces run the
+/// other way round, corners 0 1 2 become 0 2 1 everywhere and u and v change places, so that maps stay positive.
 #pragma once
 
 #include "Extraction/Extraction.h"
-#include "Mesh/Frame.h"
 #include "Pipeline/Pipeline.h"
+#include "Prepare/Frame.h"
 
 #include <cstdint>
 #include <vector>

@@ -59,7 +59,7 @@ bool Levels::recall(ResultKey wanted)
   }
   std::shared_ptr<StoredLevels> found =
     store_ != nullptr ? store_->find<StoredLevels>(wanted) : nullptr;
-  if (!found || !found->levels || found->surface != surface_.pointer())
+  if (!found || !found->levels)
   {
     return false;
   }
@@ -70,13 +70,12 @@ bool Levels::recall(ResultKey wanted)
   return true;
 }
 
-void Levels::decimate(const HierarchyOptions& options, ResultKey key)
+void Levels::decimate(const Mesh& mesh, const HierarchyOptions& options, ResultKey key)
 {
   letGo(); // before the new ones take their memory
   ++decimations_;
   auto made = std::make_shared<StoredLevels>();
-  made->surface = surface_.pointer();
-  made->levels = std::make_unique<Redecimation>(surface_->mesh, surface_->hash, options);
+  made->levels = std::make_unique<Redecimation>(mesh, surface_->hash, options);
   releaseFreedMemory();
   held_ = std::move(made);
   heldKey_ = key;
@@ -101,7 +100,7 @@ void Levels::obtain(const HierarchyOptions& options)
       KeyMaker(surface_.key()).add(options.targetEdgeLength).add(options.keepVertices).key();
     if (!recall(key))
     {
-      decimate(phase1, key);
+      decimate(surface_->mesh, phase1, key);
     }
     return;
   }
@@ -109,7 +108,7 @@ void Levels::obtain(const HierarchyOptions& options)
   if (!recall(key))
   {
     phase1.keepVertices.clear();
-    surface_.withSizesBefore([&] { decimate(phase1, key); });
+    decimate(surface_.meshWithSizesBefore(), phase1, key);
   }
 }
 
@@ -138,19 +137,18 @@ std::unique_ptr<Redecimation> Levels::giveToFollow(const HierarchyOptions& optio
 void Levels::follow(std::unique_ptr<Redecimation> levels, const HierarchyOptions& options)
 {
   auto stored = std::make_shared<StoredLevels>();
-  stored->surface = surface_.pointer();
   stored->levels = std::move(levels);
   hasFollowed_ = true;
   held_ = std::move(stored);
   heldKey_ = plainKey(options);
 }
 
-std::shared_ptr<StoredLevels> Levels::findFollowed(ResultStore& store,
-  const std::shared_ptr<PreparedSurface>& surface, ResultKey surfaceKey, double edgeLength)
+std::shared_ptr<StoredLevels> Levels::findFollowed(
+  ResultStore& store, ResultKey surfaceKey, double edgeLength)
 {
   std::shared_ptr<StoredLevels> found =
     store.find<StoredLevels>(keyOfFollowed(surfaceKey, edgeLength));
-  return found && found->levels && found->surface == surface ? found : nullptr;
+  return found && found->levels ? found : nullptr;
 }
 
 void Levels::follow(std::shared_ptr<StoredLevels> found, const HierarchyOptions& options)
@@ -174,6 +172,7 @@ const Hierarchy& Levels::make(const HierarchyOptions& options)
   if (held_->made != wanted)
   {
     held_->made = 0; // what is stopped on the way is not made
+    held_->levels->setSizes(surface_->mesh.sizing);
     const Hierarchy& hierarchy = held_->levels->update(options);
     if (!hierarchy.coarse.guides.empty())
     {

@@ -5,8 +5,8 @@
 
 #include "Hierarchy/Hierarchy.h"
 #include "Pipeline/ResultStore.h"
+#include "Pipeline/RunSurface.h"
 #include "Pipeline/StageRecords.h"
-#include "Pipeline/SurfaceVersion.h"
 
 #include <memory>
 #include <vector>
@@ -18,7 +18,6 @@ namespace quadrille
 /// is done.
 struct StoredLevels
 {
-  std::shared_ptr<PreparedSurface> surface; ///< that they refer to
   std::unique_ptr<Redecimation> levels;
   ResultKey made = 0; ///< of the options of phase 2, when the coarse level was made last
 
@@ -56,8 +55,8 @@ public:
   void follow(std::unique_ptr<Redecimation> levels, const HierarchyOptions& options);
   bool hasFollowed() const { return hasFollowed_; }
   /// The same from the store, which has them; null there where it has not.
-  static std::shared_ptr<StoredLevels> findFollowed(ResultStore& store,
-    const std::shared_ptr<PreparedSurface>& surface, ResultKey surfaceKey, double edgeLength);
+  static std::shared_ptr<StoredLevels> findFollowed(
+    ResultStore& store, ResultKey surfaceKey, double edgeLength);
   void follow(std::shared_ptr<StoredLevels> found, const HierarchyOptions& options);
 
   int decimations() const { return decimations_; } ///< runs of phase 1
@@ -70,7 +69,7 @@ private:
   bool isPlain(const HierarchyOptions& options) const;
   ResultKey plainKey(const HierarchyOptions& options) const;
   bool recall(ResultKey wanted);
-  void decimate(const HierarchyOptions& options, ResultKey key);
+  void decimate(const Mesh& mesh, const HierarchyOptions& options, ResultKey key);
 
   RunSurface& surface_;
   ResultStore* store_;

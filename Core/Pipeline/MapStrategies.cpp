@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/Strategies.h"
+#include "Requests/Guides.h"
 
-#include "Mesh/FeatureFilter.h"
+#include "Features/FeatureFilter.h"
 #include "Mesh/Mesh.h"
 
 #include <algorithm>

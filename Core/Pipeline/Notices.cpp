@@ -3,7 +3,7 @@
 #include "Pipeline/Notices.h"
 
 #include "Base/PlaceText.h"
-#include "Extraction/QuadShape.h"
+#include "Quads/QuadShape.h"
 
 #include <iomanip>
 #include <sstream>

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "Extraction/Extraction.h"
+#include "Features/FeatureFilter.h"
 #include "GridMap/GridMap.h"
-#include "Mesh/FeatureFilter.h"
 
 #include <string>
 

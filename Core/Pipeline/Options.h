@@ -7,9 +7,9 @@
 #include "Base/Progress.h"
 #include "GridMap/GridMap.h"
 #include "Hierarchy/Hierarchy.h"
-#include "Mesh/AdaptiveSizes.h"
 #include "Mesh/Mesh.h"
 #include "Pipeline/FinalQuality.h"
+#include "Sizes/AdaptiveSizes.h"
 
 #include <cstddef>
 #include <cstdint>

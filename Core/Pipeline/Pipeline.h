@@ -5,10 +5,9 @@
 
 #include "Base/Error.h"
 #include "Extraction/Extraction.h"
+#include "Features/GivenUpFeatures.h"
 #include "GridMap/GridMap.h"
 #include "Hierarchy/Hierarchy.h"
-#include "Mesh/Frame.h"
-#include "Mesh/GivenUpFeatures.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Estimate.h"
 #include "Pipeline/FinalQuality.h"
@@ -17,6 +16,7 @@
 #include "Pipeline/SmallDetails.h"
 #include "Pipeline/SmallParts.h"
 #include "Pipeline/StageRecords.h"
+#include "Prepare/Frame.h"
 #include "Transfer/Charts.h"
 #include "Transfer/Transfer.h"
 
@@ -40,7 +40,7 @@ struct RemeshResult
   /// Of remeshQuads: the finest level in the frame, shared with the store; valid until the next run with that.
   std::shared_ptr<const PreparedSurface> framed;
   /// #V of surface.mesh, in the frame; empty unless mergeCharts, or where mapIsKnown.
-  std::vector<Vector3> framePositions;
+  SharedArray<Vector3> framePositions;
   std::vector<FixedVec2> uv; ///< #H of surface.mesh
   /// Of uv and the surface that it belongs to: where it is the same, they are, but for warm starts.
   ResultKey mapKey = 0;
@@ -83,11 +83,11 @@ struct RemeshResult
     notices; ///< what the user should know: repairs, raised budgets, refinement
 };
 
-/// Runs everything, in coordinates of its own (see Mesh/Frame.h): of a surface that is shifted, scaled or mirrored it
-/// makes the same quads, shifted, scaled or mirrored, up to rounding. Throws InvalidInput for bad input or options; any
-/// other failure, a stop before there are quads included, is a status and leaves `quads` empty; a stop later keeps the
-/// best quads so far, see RemeshResult::stopped. The input's memory (about 30 bytes a triangle)
-/// is let go as soon as the surface is prepared: move it in where it is not needed any more.
+/// Runs everything, in coordinates of its own (see Prepare/Frame.h): of a surface that is shifted, scaled or mirrored
+/// it makes the same quads, shifted, scaled or mirrored, up to rounding. Throws InvalidInput for bad input or options;
+/// any other failure, a stop before there are quads included, is a status and leaves `quads` empty; a stop later keeps
+/// the best quads so far, see RemeshResult::stopped. The input's memory (about 30 bytes a triangle) is let go as soon
+/// as the surface is prepared: move it in where it is not needed any more. A copy shares it.
 RemeshResult remesh(SurfaceInput input, const RemeshOptions& options);
 
 /// The same with a store: what earlier runs have left there is not computed again, and it holds this run's stages
@@ -96,10 +96,9 @@ RemeshResult remesh(SurfaceInput input, const RemeshOptions& options);
 RemeshResult remesh(SurfaceInput input, const RemeshOptions& options, ResultStore& store);
 
 /// The quads alone, for who changes one thing after the other: `surface`, `uv`, `coarse` and what else is of the mapped
-/// mesh stay empty, and nothing is copied that the store holds. Points and polygons of the input are the caller's again
-/// afterwards, whatever happens; its other arrays are taken. options: mergeCharts and knownMap do not count. Quads,
+/// mesh stay empty, and nothing is copied that the store holds. options: mergeCharts and knownMap do not count. Quads,
 /// errors and messages are those of remesh(); sourceFace is that of `framed`, whose corners 1 and 2 change places where
 /// its faces run the other way round, as in sourceWeights.
-RemeshResult remeshQuads(SurfaceInput& input, const RemeshOptions& options, ResultStore& store);
+RemeshResult remeshQuads(SurfaceInput input, const RemeshOptions& options, ResultStore& store);
 
 } // namespace quadrille

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/Plan.h"
 
+#include "Requests/Guides.h"
+
 namespace quadrille
 {
 

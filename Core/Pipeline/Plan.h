@@ -5,8 +5,9 @@
 #pragma once
 
 #include "Base/Types.h"
-#include "Mesh/FeatureNetwork.h"
+#include "Features/FeatureNetwork.h"
 #include "Pipeline/ResultStore.h"
+#include "Requests/Guides.h"
 
 #include <cstddef>
 #include <memory>

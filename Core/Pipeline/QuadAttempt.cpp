@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/Attempt.h"
+#include "Requests/Guides.h"
 
 #include "Base/PlaceText.h"
-#include "Extraction/QuadShape.h"
-#include "Extraction/SurfaceShape.h"
 #include "Pipeline/Estimate.h"
 #include "Pipeline/Notices.h"
+#include "Quads/QuadShape.h"
+#include "Quads/SurfaceShape.h"
 #include "Transfer/Transfer.h"
 
 #include <algorithm>

@@ -102,11 +102,11 @@ private:
   std::uint64_t uses_ = 0;
 };
 
-/// Bytes that a vector has taken.
-template <typename T>
-std::size_t bytesOf(const std::vector<T>& values)
+/// Bytes that a vector or a shared array has taken.
+template <typename Array, typename Value = typename Array::value_type>
+std::size_t bytesOf(const Array& values)
 {
-  return values.capacity() * sizeof(T);
+  return values.capacity() * sizeof(Value);
 }
 
 } // namespace quadrille

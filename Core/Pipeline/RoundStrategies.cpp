@@ -4,12 +4,12 @@
 
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
-#include "Mesh/FeatureFilter.h"
-#include "Mesh/FeatureNetwork.h"
-#include "Mesh/GivenUpFeatures.h"
-#include "Mesh/Guides.h"
+#include "Features/FeatureFilter.h"
+#include "Features/FeatureNetwork.h"
+#include "Features/GivenUpFeatures.h"
 #include "Mesh/Sizing.h"
 #include "Pipeline/FirstPlan.h"
+#include "Requests/Guides.h"
 
 #include <algorithm>
 #include <array>
@@ -145,7 +145,7 @@ void giveUp(const std::vector<Index>& features, Plan& plan)
 std::vector<Index> unresolvedWithBorders(const RunContext& run, double times)
 {
   Mesh mesh = run.surface->mesh;
-  for (std::uint8_t& flags : mesh.flags)
+  for (std::uint8_t& flags : mesh.flags.editAll())
   {
     flags &= (flags & kYieldingFeature) != 0 ? static_cast<std::uint8_t>(~kRequestedFeature) : 0xFF;
   }
@@ -297,7 +297,7 @@ std::optional<Plan> smallerQuadsNear(const Trouble& trouble)
         sizesOfLoops(loops, run.edgeLength, kLeastSizeOfLoop, mesh.vertexCount());
       for (Index v = 0; v < mesh.vertexCount(); ++v)
       {
-        mesh.sizing[v] = std::min(mesh.sizing[v], fitting[v]);
+        mesh.sizing.edit()[v] = std::min(mesh.sizing[v], fitting[v]);
       }
       limitSizeGrowth(mesh, run.edgeLength);
     }));

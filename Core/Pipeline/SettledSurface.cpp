@@ -3,14 +3,15 @@
 #include "Pipeline/SettledSurface.h"
 
 #include "Base/PlaceText.h"
-#include "Mesh/CloseHandles.h"
-#include "Mesh/FillHoles.h"
-#include "Mesh/Handles.h"
-#include "Mesh/SmallComponents.h"
-#include "Mesh/ThinParts.h"
+#include "Details/CloseHandles.h"
+#include "Details/FillHoles.h"
+#include "Details/Handles.h"
+#include "Details/SmallComponents.h"
+#include "Details/ThinParts.h"
 #include "Pipeline/FirstLevels.h"
 #include "Pipeline/FirstPlan.h"
 #include "Pipeline/SmallHandles.h"
+#include "Prepare/Refine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +69,7 @@ constexpr double kLoopOfRest = 4;
 /// What is asked of a surface, with the places of the vertices.
 struct AskedOf
 {
-  explicit AskedOf(const PreparedSurface& surface) : requests(requestsOf(surface))
+  explicit AskedOf(const PreparedSurface& surface) : requests(surface.requests())
   {
     for (const ValenceRequest& request : requests.valenceRequests)
     {
@@ -123,8 +124,7 @@ void moveRequests(
 /// A simplified surface in the store, without what was asked of it: guides, valences and curves change nothing of it.
 struct StoredSettled
 {
-  std::shared_ptr<PreparedSurface> surface;
-  SurfaceMarks marks;
+  PreparedSurface surface;
   ResultKey key = 0;
   std::vector<SmallDetail> simplified;
   bool hasFollowed = false; ///< its levels follow those of the surface before, see Levels
@@ -173,7 +173,7 @@ public:
       simplifyAll();
       if (isOwn_)
       {
-        takeRequests();
+        takeRequests(*sized_.surface);
         remember();
       }
     }
@@ -219,26 +219,29 @@ private:
   /// Before the surface is changed: its elements are followed where there are levels that can be.
   void beginChange()
   {
-    PreparedSurface& surface = own();
+    isOwn_ = true;
+    changed_ = *sized_.surface;
     if ((made_.bench || levels_) && mayFollow())
     {
-      surface.namesBefore = NamesBefore::of(surface.mesh.vertexCount(), surface.mesh.faceCount());
+      changed_.namesBefore =
+        NamesBefore::of(changed_.mesh.vertexCount(), changed_.mesh.faceCount());
     }
   }
 
   /// Afterwards: takes the levels along, or lets them go.
   void endChange(std::unique_ptr<Redecimation> levels)
   {
-    PreparedSurface& surface = *sized_.surface;
     HierarchyOptions options;
     options.threads = options_.threads;
-    options.isConnected = surface.components == 1;
-    if (levels && mayFollow() && surface.namesBefore &&
-      levels->follow(surface.mesh, surface.hash, *surface.namesBefore, options))
+    options.isConnected = changed_.components == 1;
+    if (levels && mayFollow() && changed_.namesBefore &&
+      levels->follow(changed_.mesh, changed_.hash, *changed_.namesBefore, options))
     {
       levels_ = std::move(levels);
     }
-    surface.namesBefore.reset();
+    changed_.namesBefore.reset();
+    sized_.surface = std::make_shared<const PreparedSurface>(std::move(changed_));
+    changed_ = {};
   }
 
   /// Of a surface that has changed.
@@ -249,17 +252,6 @@ private:
       made_.decimations += made_.bench->levels.decimations();
       made_.bench.reset();
     }
-  }
-
-  /// The surface as it was goes to the store's other users; a copy of it is changed.
-  PreparedSurface& own()
-  {
-    if (!isOwn_ && store_ != nullptr)
-    {
-      sized_.surface = std::make_shared<PreparedSurface>(*sized_.surface);
-    }
-    isOwn_ = true;
-    return *sized_.surface;
   }
 
   void note(DetailKind kind, double length, const Vector3& place)
@@ -310,7 +302,7 @@ private:
     }
     const std::size_t before = sized_.surface->mesh.faceCount();
     beginChange();
-    const std::vector<std::size_t> filled = fillHoles(own(), loops);
+    const std::vector<std::size_t> filled = fillHoles(changed_, loops);
     for (const std::size_t i : filled)
     {
       note(DetailKind::BoundaryLoop, loops[i].length, places[i]);
@@ -361,7 +353,7 @@ private:
     const double start = secondsNow();
     const std::size_t before = sized_.surface->mesh.faceCount();
     beginChange();
-    const std::vector<std::size_t> closed = closeHandles(own(), places,
+    const std::vector<std::size_t> closed = closeHandles(changed_, places,
       kLongerAlongEdges * handleLimit_, kGirthOfLimb * sized_.edgeLength, options_.threads);
     for (const std::size_t i : closed)
     {
@@ -379,7 +371,7 @@ private:
   {
     if (changed == 0)
     {
-      sized_.surface->namesBefore.reset();
+      changed_ = {};
       return;
     }
     std::unique_ptr<Redecimation> levels = std::move(levels_);
@@ -390,11 +382,11 @@ private:
     }
     letGo();
     // What was left long for its number stays so: the bound grows with the faces that there are now.
-    if (sized_.surface->notice.empty())
+    if (changed_.notice.empty())
     {
-      refineSurface(*sized_.surface, sized_.edgeLength, {}, options_.threads);
+      refineSurface(changed_, sized_.edgeLength, {}, options_.threads);
     }
-    sized_.key = KeyMaker(sized_.key).add(sized_.surface->hash).key();
+    sized_.key = KeyMaker(sized_.key).add(changed_.hash).key();
     endChange(std::move(levels));
     countBlocksAgain();
     stages_.add("simplify", secondsNow() - start, facesBefore, sized_.surface->mesh.faceCount());
@@ -502,7 +494,7 @@ private:
     }
     const std::vector<std::size_t> removed = parts.empty()
       ? std::vector<std::size_t>()
-      : cutThinParts(own(), parts, kLongerAlongEdges, kQuadsOfThinPart * quad);
+      : cutThinParts(changed_, parts, kLongerAlongEdges, kQuadsOfThinPart * quad);
     for (const std::size_t i : removed)
     {
       note(DetailKind::ThinPart, parts[i].length, at[i]);
@@ -580,15 +572,13 @@ private:
     }
     if (known->hasFollowed)
     {
-      storedLevels_ = Levels::findFollowed(*store_, known->surface, known->key, sized_.edgeLength);
+      storedLevels_ = Levels::findFollowed(*store_, known->key, sized_.edgeLength);
       if (!storedLevels_)
       {
         return false;
       }
     }
-    sized_.surface = known->surface;
-    putOn(known->marks, *sized_.surface);
-    takeRequests();
+    takeRequests(known->surface);
     sized_.key = known->key;
     countBlocksAgain();
     made_.details = known->simplified;
@@ -603,22 +593,20 @@ private:
       return;
     }
     auto stored = std::make_shared<StoredSettled>();
-    stored->surface = sized_.surface;
-    stored->marks = marksOf(*sized_.surface);
-    forgetRequests(stored->marks);
+    stored->surface = *sized_.surface;
+    stored->surface.setRequests({});
     stored->key = sized_.key;
     stored->simplified = made_.details;
     stored->hasFollowed = made_.bench && made_.bench->levels.hasFollowed();
-    const std::size_t bytes = bytesOf(*stored->surface) + stored->marks.bytes();
+    const std::size_t bytes = bytesOf(stored->surface);
     store_->put(key_, std::move(stored), bytes);
   }
 
-  /// On the vertices of the surface as it is now, in the same way for one that was made and one from the store.
-  void takeRequests()
+  /// On the vertices of the simplified surface, in the same way for one that was made and one from the store.
+  void takeRequests(PreparedSurface surface)
   {
-    PreparedSurface& surface = *sized_.surface;
     const std::vector<ValenceRequest> before = surface.valenceRequests;
-    putOn(asked_.requests, surface);
+    surface.setRequests(asked_.requests);
     moveRequests(surface.mesh, asked_.valencePlaces, surface.valenceRequests);
     moveRequests(surface.mesh, asked_.sectorPlaces, surface.sectorRequests);
     const bool isSame = std::equal(before.begin(), before.end(), surface.valenceRequests.begin(),
@@ -627,6 +615,11 @@ private:
     if (!isSame && !(made_.bench && made_.bench->levels.hasFollowed()))
     {
       letGo(); // its levels hold other vertices
+    }
+    sized_.surface = std::make_shared<const PreparedSurface>(std::move(surface));
+    if (made_.bench)
+    {
+      made_.bench->surface.setRequests(sized_.surface);
     }
   }
 
@@ -661,6 +654,7 @@ private:
   std::size_t changes_ = 0; ///< places where the surface was changed
   bool isThinning_ = false; ///< thin parts are too many, or nothing else has led to quads
   bool isOwn_ = false;
+  PreparedSurface changed_; ///< the surface while it is simplified
   ResultKey key_ = 0;
   std::unique_ptr<Redecimation> levels_;       ///< that have followed, for the next bench
   std::shared_ptr<StoredLevels> storedLevels_; ///< the same from the store
@@ -697,7 +691,6 @@ bool simplifyRest(Settled& settled, SizedSurface& sized, const RemeshOptions& op
   }
   before.erase(std::stable_partition(before.begin(), before.end(), isSimplified), before.end());
   const int decimations = settled.decimations + settled.bench->levels.decimations();
-  settled.bench->surface.apply({}); // of the plan that was tried last
   settled.bench.reset();
   settled = Settling(sized, options, store, true, stages, reused).run();
   settled.decimations += decimations;

@@ -4,17 +4,21 @@
 
 #include "Base/Memory.h"
 #include "Base/PlaceText.h"
-#include "Mesh/AdaptiveSizing.h"
-#include "Mesh/CreaseCurves.h"
-#include "Mesh/CurvatureGuides.h"
-#include "Mesh/FeatureFilter.h"
-#include "Mesh/FeatureNetwork.h"
-#include "Mesh/Frame.h"
-#include "Mesh/RepairText.h"
+#include "Details/SmallComponents.h"
+#include "Features/CreaseCurves.h"
+#include "Features/FeatureFilter.h"
+#include "Features/FeatureNetwork.h"
 #include "Mesh/Sizing.h"
-#include "Mesh/SmallComponents.h"
 #include "Pipeline/Notices.h"
 #include "Pipeline/SmallHandles.h"
+#include "Prepare/Frame.h"
+#include "Prepare/Prepare.h"
+#include "Prepare/Refine.h"
+#include "Prepare/RepairText.h"
+#include "Requests/Guides.h"
+#include "Requests/HeldVertices.h"
+#include "Sizes/AdaptiveSizing.h"
+#include "Sizes/CurvatureGuides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,22 +42,20 @@ constexpr double kAnyNumber = std::numeric_limits<double>::infinity();
 
 /// How often the edge length is chosen anew where sizes that grow gradually make too many quads, and when it is good.
 constexpr int kSizingRounds = 3;
-constexpr double kCountTolerance = 0.03;
+constexpr double kSizedCountTolerance = 0.03;
 
-/// A prepared surface in the store: triangles, which sized surfaces may share, and its own marks.
+/// A prepared surface in the store, without requests.
 struct StoredPrepared
 {
-  std::shared_ptr<PreparedSurface> surface;
-  SurfaceMarks marks;
+  PreparedSurface surface;
   double sizedArea = 0;
 };
 
 /// A sized one. The number of quads is that of the limited sizes, where an edge length was asked for.
 struct StoredSized
 {
-  std::shared_ptr<PreparedSurface> surface;
-  SurfaceMarks marks;
-  bool hasRequests = false; ///< of its own, moved by what closed handles
+  PreparedSurface surface;
+  bool hasRequests = false; ///< moved by what closed handles
   double edgeLength = 0;    ///< s; adaptive sizes change it where a number of quads is asked for
   std::size_t targetQuads = 0;
   std::vector<std::string> notices;
@@ -210,7 +212,7 @@ public:
 
   SizedSurface run(PreparedSurface surface, const StageRecords& stages)
   {
-    made_.surface = std::make_shared<PreparedSurface>(std::move(surface));
+    surface_ = std::move(surface);
     made_.stages = stages;
     measure();
     return sizeAll();
@@ -231,6 +233,10 @@ private:
     {
       guideByCurvature();
       tellRequests();
+    }
+    made_.surface = std::make_shared<const PreparedSurface>(std::move(surface_));
+    if (made_.status.ok())
+    {
       countBlocks(made_, options_, store_);
     }
     return std::move(made_);
@@ -238,8 +244,8 @@ private:
 
   void measure()
   {
-    sizedArea_ = areaOverSizes(*made_.surface);
-    diagonal_ = made_.surface->boundingBoxDiagonal;
+    sizedArea_ = areaOverSizes(surface_);
+    diagonal_ = surface_.boundingBoxDiagonal;
   }
 
   void tell(const std::string& notice)
@@ -261,8 +267,9 @@ private:
     {
       if ((prepared_ = store_->find<StoredPrepared>(preparedKey_)))
       {
+        surface_ = prepared_->surface;
         sizedArea_ = prepared_->sizedArea;
-        diagonal_ = prepared_->surface->boundingBoxDiagonal;
+        diagonal_ = surface_.boundingBoxDiagonal;
         reuse({ "repair", "order", "connectivity" });
         return;
       }
@@ -274,30 +281,28 @@ private:
     requestsKey_ = options_.closeHandles > 0 ? requestsKey(input_) : 0;
     const std::size_t polygons =
       input_.polygonOffsets.empty() ? 0 : input_.polygonOffsets.size() - 1;
-    made_.surface =
-      std::make_shared<PreparedSurface>(prepareSurface(std::move(input_), prepareOptions));
+    surface_ = prepareSurface(std::move(input_), prepareOptions);
     SurfaceInput later; // what placeHeld still needs
     later.held = std::move(input_.held);
     later.targetValences =
       later.held.empty() ? std::vector<int>{} : std::move(input_.targetValences);
     input_ = std::move(later);
     releaseFreedMemory();
-    for (const auto& [name, seconds] : made_.surface->seconds)
+    for (const auto& [name, seconds] : surface_.seconds)
     {
-      made_.stages.add(name, seconds, polygons, made_.surface->mesh.faceCount());
+      made_.stages.add(name, seconds, polygons, surface_.mesh.faceCount());
     }
     measure();
   }
 
   bool findSized()
   {
-    if (made_.surface == nullptr)
+    if (prepared_)
     {
       requestsKey_ = options_.closeHandles > 0 ? requestsKey(input_) : 0;
     }
     // Of details only components are taken out before the surface is sized.
-    const PreparedSurface& prepared = prepared_ ? *prepared_->surface : *made_.surface;
-    const bool mayDrop = maySimplify(options_) && prepared.components > 1;
+    const bool mayDrop = maySimplify(options_) && surface_.components > 1;
     made_.key = KeyMaker(preparedKey_)
                   .add(made_.edgeLength)
                   .add(std::uint64_t{ judgesCreases(options_) ? 1U : 0U })
@@ -323,11 +328,10 @@ private:
     {
       return false;
     }
-    made_.surface = found->surface;
-    putOn(found->marks, *made_.surface);
+    surface_ = found->surface;
     if (!found->hasRequests)
     {
-      collectRequests(input_, *made_.surface, options_.threads);
+      collectRequests(input_, surface_, options_.threads);
       placeHeld();
     }
     made_.edgeLength = found->edgeLength;
@@ -339,29 +343,17 @@ private:
     return !refuseTooMany();
   }
 
-  /// Of the prepared surface, which is kept as it was where there is a store.
   void size()
   {
-    std::shared_ptr<PreparedSurface> before = made_.surface;
-    SurfaceMarks marks;
-    if (prepared_)
+    auto prepared = prepared_;
+    if (prepared)
     {
-      before = prepared_->surface;
-      marks = prepared_->marks;
+      collectRequests(input_, surface_, options_.threads);
     }
     else if (store_ != nullptr)
     {
-      marks = marksOf(*made_.surface);
-      forgetRequests(marks);
-    }
-    if (store_ != nullptr)
-    {
-      made_.surface = std::make_shared<PreparedSurface>(*before);
-      if (prepared_)
-      {
-        putOn(marks, *made_.surface);
-        collectRequests(input_, *made_.surface, options_.threads);
-      }
+      prepared = std::make_shared<StoredPrepared>(StoredPrepared{ surface_, sizedArea_ });
+      prepared->surface.setRequests({});
     }
     if (options_.sizes.any())
     {
@@ -379,61 +371,46 @@ private:
     placeHeld();
     if (store_ != nullptr)
     {
-      keep(std::move(before), std::move(marks));
+      keep(prepared);
     }
   }
 
   /// On the triangles as they are to stay, unlike the other requests.
   void placeHeld()
   {
-    PreparedSurface& surface = *made_.surface;
-    placeHeldVertices(input_, surface, surface.valenceRequests, surface.sectorRequests);
+    placeHeldVertices(input_, surface_, surface_.valenceRequests, surface_.sectorRequests);
   }
 
-  /// Triangles that refinement left as they were are kept once.
-  void keep(std::shared_ptr<PreparedSurface> before, SurfaceMarks marks)
+  /// Triangles that refinement left as they were are shared, and count once.
+  void keep(const std::shared_ptr<StoredPrepared>& prepared)
   {
-    const bool hasRequests = options_.closeHandles > 0;
-    const bool sameTriangles =
-      !hasRequests && !hasDropped_ && before->mesh.faceCount() == made_.surface->mesh.faceCount();
     auto sized = std::make_shared<StoredSized>();
-    sized->marks = marksOf(*made_.surface);
-    sized->hasRequests = hasRequests;
+    sized->surface = surface_;
+    sized->hasRequests = options_.closeHandles > 0;
     sized->targetQuads = made_.targetQuads;
     sized->edgeLength = made_.edgeLength;
     sized->notices = made_.notices;
     sized->givenUpFeatures = made_.givenUpFeatures;
     sized->details = made_.details;
-    if (sameTriangles)
+    if (!sized->hasRequests)
     {
-      putOn(sized->marks, *before);
-      made_.surface = before;
+      sized->surface.setRequests({});
     }
-    if (!hasRequests)
-    {
-      forgetRequests(sized->marks);
-    }
-    sized->surface = made_.surface;
-    auto prepared = std::make_shared<StoredPrepared>();
-    prepared->surface = std::move(before);
-    prepared->marks = std::move(marks);
-    prepared->sizedArea = sizedArea_;
-    const std::size_t own = bytesOf(*prepared->surface) + prepared->marks.bytes();
-    store_->put(preparedKey_, std::move(prepared), own);
-    const std::size_t bytes = sized->marks.bytes() + bytesOf(sized->givenUpFeatures) +
-      (sameTriangles ? 0 : bytesOf(*made_.surface));
+    store_->put(preparedKey_, prepared, bytesOf(prepared->surface));
+    const std::size_t bytes =
+      bytesOf(sized->surface, &prepared->surface) + bytesOf(sized->givenUpFeatures);
     store_->put(made_.key, std::move(sized), bytes);
   }
 
   /// The edge length stays; where the number of quads was asked for, it is met by the scale of the map.
   void limitSizes()
   {
-    Mesh& mesh = made_.surface->mesh;
+    Mesh& mesh = surface_.mesh;
     const SizingReport limited = limitSizeGrowth(mesh, made_.edgeLength);
     tell(sizingNotice(mesh, limited));
     if (limited.changed > 0 && !options_.quads)
     {
-      made_.targetQuads = predictedQuads(areaOverSizes(*made_.surface), made_.edgeLength);
+      made_.targetQuads = predictedQuads(areaOverSizes(surface_), made_.edgeLength);
     }
   }
 
@@ -441,11 +418,11 @@ private:
   /// with which they make as many, and the lengths that the shape asks for stay what they are.
   void adaptSizes()
   {
-    Mesh& mesh = made_.surface->mesh;
+    Mesh& mesh = surface_.mesh;
     const AdaptiveSizes& sizes = options_.sizes;
     const double start = secondsNow();
     // On faces no larger than quads, so that there are places to ask for sizes at.
-    refineSurface(*made_.surface, made_.edgeLength, {}, options_.threads);
+    refineSurface(surface_, made_.edgeLength, {}, options_.threads);
     const double reach = options_.quads ? sizes.largest / sizes.smallest : sizes.largest;
     const std::vector<float> asked = mesh.sizing;
     const std::vector<float> lengths =
@@ -464,7 +441,7 @@ private:
         mesh, asked, multiplied(lengths, shared.lengthFactor), sizes, made_.edgeLength);
       limitSizeGrowth(mesh, made_.edgeLength);
       made = sizedArea(mesh) / (made_.edgeLength * made_.edgeLength);
-      if (!options_.quads || std::abs(made / target - 1) < kCountTolerance)
+      if (!options_.quads || std::abs(made / target - 1) < kSizedCountTolerance)
       {
         break;
       }
@@ -517,7 +494,7 @@ private:
 
   void refine()
   {
-    PreparedSurface& surface = *made_.surface;
+    PreparedSurface& surface = surface_;
     double start = secondsNow();
     const std::size_t before = surface.mesh.faceCount();
     dropSmallComponents();
@@ -541,7 +518,7 @@ private:
 
   void filterFeatures()
   {
-    Mesh& mesh = made_.surface->mesh;
+    Mesh& mesh = surface_.mesh;
     std::vector<std::uint8_t> before = mesh.flags;
     FeatureFilterReport filtered =
       removeUnresolvedFeatures(mesh, made_.edgeLength, options_.threads);
@@ -566,7 +543,7 @@ private:
     {
       return;
     }
-    const Mesh& mesh = made_.surface->mesh;
+    const Mesh& mesh = surface_.mesh;
     const std::vector<Index> lost = lostFeatures(mesh, before);
     if (!lost.empty())
     {
@@ -587,19 +564,17 @@ private:
       return;
     }
     SmallComponents small =
-      findSmallComponents(*made_.surface, made_.edgeLength, kAnyNumber, options_.threads);
+      findSmallComponents(surface_, made_.edgeLength, kAnyNumber, options_.threads);
     if (!isAsked)
     {
       if (small.quads <= static_cast<double>(made_.targetQuads))
       {
         return;
       }
-      small =
-        findSmallComponents(*made_.surface, made_.edgeLength, kQuadsOfSpeck, options_.threads);
+      small = findSmallComponents(surface_, made_.edgeLength, kQuadsOfSpeck, options_.threads);
     }
-    const std::size_t removed = quadrille::removeSmallComponents(*made_.surface, small);
-    hasDropped_ = removed > 0;
-    if (!hasDropped_)
+    const std::size_t removed = quadrille::removeSmallComponents(surface_, small);
+    if (removed == 0)
     {
       return;
     }
@@ -617,7 +592,7 @@ private:
       return;
     }
     const double start = secondsNow();
-    PreparedSurface& surface = *made_.surface;
+    PreparedSurface& surface = surface_;
     const std::size_t guided =
       addCurvatureGuides(surface, made_.edgeLength, *options_.curvatureGuides, options_.threads);
     made_.stages.add("guides", secondsNow() - start, surface.mesh.faceCount(), guided);
@@ -626,7 +601,7 @@ private:
 
   void tellRequests()
   {
-    const PreparedSurface& surface = *made_.surface;
+    const PreparedSurface& surface = surface_;
     for (const std::string& notice :
       requestNotices(surface, surfaceGuides(surface, options_.threads)))
     {
@@ -642,10 +617,10 @@ private:
   const RemeshOptions& options_;
   ResultStore* store_;
   SizedSurface made_;
+  PreparedSurface surface_; ///< until it is made_.surface
   ResultKey preparedKey_, requestsKey_ = 0;
   std::shared_ptr<StoredPrepared> prepared_; ///< found in the store
   double sizedArea_ = 0, diagonal_ = 0;
-  bool hasDropped_ = false; ///< components
 };
 
 } // namespace

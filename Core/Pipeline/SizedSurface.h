@@ -5,13 +5,13 @@
 #pragma once
 
 #include "Base/Error.h"
-#include "Mesh/GivenUpFeatures.h"
+#include "Features/GivenUpFeatures.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Options.h"
 #include "Pipeline/ResultStore.h"
+#include "Pipeline/RunSurface.h"
 #include "Pipeline/SmallDetails.h"
 #include "Pipeline/StageRecords.h"
-#include "Pipeline/SurfaceVersion.h"
 
 #include <memory>
 #include <string>
@@ -23,7 +23,7 @@ namespace quadrille
 struct SizedSurface
 {
   Status status; ///< TooLarge where more quads would be made than may
-  std::shared_ptr<PreparedSurface> surface;
+  std::shared_ptr<const PreparedSurface> surface;
   ResultKey key = 0;           ///< of all but guides and valences
   double edgeLength = 0;       ///< s, in the frame
   std::size_t targetQuads = 0; ///< predicted where an edge length was asked for

@@ -3,9 +3,11 @@
 #include "Pipeline/SmallHandles.h"
 
 #include "Base/PlaceText.h"
+#include "Details/CloseHandles.h"
+#include "Details/Handles.h"
 #include "Hierarchy/Hierarchy.h"
-#include "Mesh/CloseHandles.h"
-#include "Mesh/Handles.h"
+#include "Prepare/Refine.h"
+#include "Requests/Guides.h"
 
 #include <algorithm>
 #include <optional>

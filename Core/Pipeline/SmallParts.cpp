@@ -3,7 +3,7 @@
 #include "Pipeline/SmallParts.h"
 
 #include "Base/PlaceText.h"
-#include "Mesh/NearLoops.h"
+#include "Details/NearLoops.h"
 #include "Pipeline/SmallHandles.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 /// Handles and holes that quads of the size asked for cannot resolve.
 #pragma once
 
+#include "Details/Handles.h"
 #include "Hierarchy/Hierarchy.h"
-#include "Mesh/Handles.h"
 
 #include <string>
 #include <vector>

@@ -3,8 +3,8 @@
 #include "Repair/Soup.h"
 
 #include "Base/Refuse.h"
-#include "Mesh/Repair.h"
 #include "Mesh/Triangulate.h"
+#include "Prepare/Repair.h"
 
 #include <Eigen/Geometry>
 

@@ -117,6 +117,22 @@ std::vector<Halfedge> boundaryLoops(const SurfaceMesh& mesh)
   return loops;
 }
 
+/// Whether there are faces in the hole then.
+bool fillHole(SurfaceMesh& mesh, Halfedge border, bool withoutCubicSearch)
+{
+  std::vector<Face> faces;
+  const auto options = CGAL::parameters::do_not_use_cubic_algorithm(withoutCubicSearch);
+#if CGAL_VERSION_NR >= 1050600000 // 5.6, which takes the iterators among its named parameters
+  pmp::triangulate_refine_and_fair_hole(
+    mesh, border, options.face_output_iterator(std::back_inserter(faces)));
+#else
+  std::vector<SurfaceMesh::Vertex_index> vertices;
+  pmp::triangulate_refine_and_fair_hole(
+    mesh, border, std::back_inserter(faces), std::back_inserter(vertices), options);
+#endif
+  return !faces.empty();
+}
+
 void fillHoles(SurfaceMesh& mesh, const SoupRepairOptions& options, SoupReport& counts)
 {
   // The cubic search of CGAL, for boundaries that the Delaunay one cannot fill, takes minutes above this.
@@ -131,12 +147,8 @@ void fillHoles(SurfaceMesh& mesh, const SoupRepairOptions& options, SoupReport& 
     }
     report(options.progress, 0.3 + 0.3 * static_cast<double>(i) / static_cast<double>(loops.size()),
       "Filling hole " + std::to_string(i + 1) + " of " + std::to_string(loops.size()));
-    std::vector<Face> faces;
-    std::vector<SurfaceMesh::Vertex_index> vertices;
-    pmp::triangulate_refine_and_fair_hole(mesh, loops[i], std::back_inserter(faces),
-      std::back_inserter(vertices),
-      CGAL::parameters::do_not_use_cubic_algorithm(place.faces > kMostCubicEdges));
-    ++(faces.empty() ? counts.unfilledHoles : counts.filledHoles);
+    const bool filled = fillHole(mesh, loops[i], place.faces > kMostCubicEdges);
+    ++(filled ? counts.filledHoles : counts.unfilledHoles);
   }
 }
 

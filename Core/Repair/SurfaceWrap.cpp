@@ -66,16 +66,16 @@ void wrapSoup(const Soup& soup, const WrappedSurface& lengths, const WrapVisitor
   cgal::SurfaceMesh& wrap)
 {
   const std::vector<cgal::Point> points = cgal::pointsOf(soup.triangles);
-  const auto outOptions = CGAL::parameters::visitor(visitor);
-  const auto inOptions = CGAL::parameters::default_values();
+  // CGAL 5 looks for the visitor among the options of the output, CGAL 6 among those of the input.
+  const auto options = CGAL::parameters::visitor(visitor);
   if (soup.triangles.corners.empty())
   {
-    CGAL::alpha_wrap_3(points, lengths.alpha, lengths.offset, wrap, inOptions, outOptions);
+    CGAL::alpha_wrap_3(points, lengths.alpha, lengths.offset, wrap, options, options);
   }
   else
   {
     CGAL::alpha_wrap_3(points, cgal::cornersOf(soup.triangles), lengths.alpha, lengths.offset, wrap,
-      inOptions, outOptions);
+      options, options);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
+#include "Requests/CurveRequests.h"
 #include "Session/IrregularEdits.h"
 
 #include <algorithm>
@@ -12,20 +13,6 @@ namespace quadrille
 {
 namespace
 {
-
-SurfaceInput withoutGeometry(const SurfaceInput& surface)
-{
-  // By name, so that an array that is new has to be put on one side or the other here.
-  const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, patchesYield,
-    detectedFeatures, guideDirections, guideWeights, targetValences, sizing, curves,
-    regularElsewhere, held, regularOnFeatures, seams, straight, faceOrder, precision] = surface;
-  static_cast<void>(points);
-  static_cast<void>(polygonOffsets);
-  static_cast<void>(polygonPoints);
-  return { {}, {}, {}, featureEdges, patchIds, patchesYield, detectedFeatures, guideDirections,
-    guideWeights, targetValences, sizing, curves, regularElsewhere, held, regularOnFeatures, seams,
-    straight, faceOrder, precision };
-}
 
 /// Lines that are remembered; a stroke of ten thousand polygons takes a megabyte.
 constexpr std::size_t kMostPlacements = 256;
@@ -38,7 +25,7 @@ public:
     : surface_(surface), places_(places), lines_(lines), constraints_(constraints),
       holdFeatures_(holdFeatures)
   {
-    composed_.input = withoutGeometry(surface);
+    composed_.input = surface;
     composed_.parts.resize(constraints.size());
     for (std::size_t p = 0; p < surface.targetValences.size(); ++p)
     {

@@ -3,7 +3,7 @@
 /// All constraints of a session, put on its surface.
 #pragma once
 
-#include "Mesh/DrawnConstraints.h"
+#include "Requests/DrawnConstraints.h"
 #include "Session/Constraints.h"
 
 #include <map>

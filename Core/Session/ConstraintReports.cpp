@@ -21,6 +21,27 @@ namespace
 /// Edge lengths within which a vertex is the one that was meant.
 constexpr double kReachOfOperation = 2;
 
+/// Empty for what is not asked for at points.
+template <class Content>
+std::vector<Vector3> drawnPoints(const Content& content)
+{
+  struct Points
+  {
+    std::vector<Vector3> operator()(const FeatureLine& line) const { return line.points; }
+    std::vector<Vector3> operator()(const GuideStroke& stroke) const { return stroke.points; }
+    std::vector<Vector3> operator()(const ValenceAt& at) const { return { at.point }; }
+    std::vector<Vector3> operator()(const SizeAt& at) const { return { at.point }; }
+    std::vector<Vector3> operator()(const IrregularEdit& edit) const { return edit.points; }
+    std::vector<Vector3> operator()(const Connection& line) const { return line.points; }
+    std::vector<Vector3> operator()(const Cycle& line) const { return line.points; }
+    std::vector<Vector3> operator()(const GuideRegion&) const { return {}; }
+    std::vector<Vector3> operator()(const SizeRegion&) const { return {}; }
+    std::vector<Vector3> operator()(const MirrorSymmetry&) const { return {}; }
+    std::vector<Vector3> operator()(const RotationalSymmetry&) const { return {}; }
+  };
+  return std::visit(Points{}, content);
+}
+
 class SessionJudge
 {
 public:
@@ -48,8 +69,10 @@ public:
       id_ = constraints_[i]->id;
       const SessionConstraint& constraint = *constraints_[i];
       const ConstraintMeasure measure = measureOf(constraint);
+      const std::string off = measures_.offSurface(drawnPoints(constraint.content));
       words.push_back({ constraint.id, kindOf(constraint.content), constraint.name(), measure.place,
-        measure.isMet, measure.deviation, measure.deviation95, measure.unit, measure.reason });
+        measure.isMet, measure.deviation, measure.deviation95, measure.unit,
+        withRemark(measure.reason, off), !off.empty() });
     }
     return words;
   }

@@ -3,9 +3,9 @@
 /// A word on each constraint of a session, measured in the quads.
 #pragma once
 
-#include "Pipeline/Symmetry.h"
 #include "Session/ComposedInput.h"
 #include "Session/Session.h"
+#include "Symmetry/Symmetry.h"
 
 #include <vector>
 

@@ -3,8 +3,8 @@
 #include "Session/Constraints.h"
 
 #include "Base/Refuse.h"
-#include "Mesh/Guides.h"
-#include "Pipeline/Symmetry.h"
+#include "Requests/Guides.h"
+#include "Symmetry/Symmetry.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,10 +5,10 @@
 #pragma once
 
 #include "Base/Types.h"
-#include "Mesh/CurveRequests.h"
-#include "Mesh/HeldVertices.h"
-#include "Mesh/MirrorPlane.h"
-#include "Mesh/RotationAxis.h"
+#include "Requests/CurveRequests.h"
+#include "Requests/HeldVertices.h"
+#include "Symmetry/MirrorPlane.h"
+#include "Symmetry/RotationAxis.h"
 
 #include <optional>
 #include <string>

@@ -5,7 +5,7 @@
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
-#include "Mesh/Guides.h"
+#include "Requests/Guides.h"
 
 #include <algorithm>
 #include <array>

@@ -3,8 +3,8 @@
 /// Irregular vertices as things that can be moved, split, merged, cancelled and added.
 #pragma once
 
-#include "Mesh/SurfacePlaces.h"
 #include "Pipeline/Pipeline.h"
+#include "Requests/SurfacePlaces.h"
 #include "Session/Constraints.h"
 
 #include <map>
@@ -19,7 +19,7 @@ struct MadeSurface
 {
   const PreparedSurface& surface;
   const Frame* frame = nullptr;                 ///< null: it is the user's
-  const std::vector<Vector3>* points = nullptr; ///< of the user's surface; where there is a frame
+  const SharedArray<Vector3>* points = nullptr; ///< of the user's surface; where there is a frame
 
   Vector3 placeAt(Index halfEdge) const
   {

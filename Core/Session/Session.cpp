@@ -6,15 +6,15 @@
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
 #include "Mesh/ContentHash.h"
-#include "Mesh/Guides.h"
-#include "Mesh/SurfacePlaces.h"
 #include "Numerics/MinCostFlow.h"
-#include "Pipeline/Symmetry.h"
+#include "Requests/Guides.h"
+#include "Requests/SurfacePlaces.h"
 #include "Session/ComposedInput.h"
 #include "Session/ConstraintReports.h"
 #include "Session/IrregularEdits.h"
 #include "Session/SessionData.h"
 #include "Session/SessionJson.h"
+#include "Symmetry/Symmetry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,27 +48,6 @@ void checkSettings(const RemeshOptions& settings)
     refuse("the largest number of quads must be at least 1");
   }
 }
-
-/// Points and polygons of a surface, in the hands of a run while this lives.
-class GeometryLoan
-{
-public:
-  GeometryLoan(SurfaceInput& from, SurfaceInput& to) : from_(from), to_(to) { exchange(); }
-  ~GeometryLoan() { exchange(); }
-  GeometryLoan(const GeometryLoan&) = delete;
-  GeometryLoan& operator=(const GeometryLoan&) = delete;
-
-private:
-  void exchange()
-  {
-    from_.points.swap(to_.points);
-    from_.polygonOffsets.swap(to_.polygonOffsets);
-    from_.polygonPoints.swap(to_.polygonPoints);
-  }
-
-  SurfaceInput& from_;
-  SurfaceInput& to_;
-};
 
 /// All runs that a state needs.
 class StateRun
@@ -147,6 +126,13 @@ public:
     {
       report.constraints = reportConstraints(data_.surface, state_.constraints, composed_, made,
         *result, composed_.symmetry ? &mirrored_ : nullptr);
+      for (const ConstraintReport& word : report.constraints)
+      {
+        if (word.isOffSurface)
+        {
+          report.notices.push_back(word.text + ": " + word.reason);
+        }
+      }
     }
     if (made.status.ok())
     {
@@ -192,11 +178,7 @@ private:
     return made;
   }
 
-  RemeshResult runQuads()
-  {
-    const GeometryLoan loan(data_.surface, composed_.input);
-    return remeshQuads(composed_.input, options_, data_.store);
-  }
+  RemeshResult runQuads() { return remeshQuads(composed_.input, options_, data_.store); }
 
   /// In the mirror plane the half has its boundary, where vertices may become irregular that no operation asks for.
   void tellOtherIrregular(SessionResult& result) const
@@ -231,7 +213,6 @@ private:
     const SessionConstraint& constraint = *state_.constraints[*composed_.symmetry];
     try
     {
-      const GeometryLoan loan(data_.surface, composed_.input);
       SymmetryOptions symmetry;
       if (const auto* rotation = std::get_if<RotationalSymmetry>(&constraint.content))
       {

@@ -28,7 +28,10 @@ struct ConstraintReport
   double deviation = 0;   ///< in unit
   double deviation95 = 0; ///< the 95th percentile of what deviation is the mean of
   std::string unit;       ///< "degrees", "edge lengths", "valence", "factor", "diagonals"
-  std::string reason;     ///< empty where it is met
+  std::string
+    reason; ///< why it is not met, and which of its points lies off the surface; empty: neither
+  /// A point that was drawn lies farther than an edge length off the surface; the reason and a notice say which.
+  bool isOffSurface = false;
 };
 
 /// What an update did.

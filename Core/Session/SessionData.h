@@ -3,8 +3,8 @@
 /// What a session holds.
 #pragma once
 
-#include "Mesh/SurfacePlaces.h"
 #include "Pipeline/ResultStore.h"
+#include "Requests/SurfacePlaces.h"
 #include "Session/ComposedInput.h"
 #include "Session/IrregularEdits.h"
 #include "Session/Session.h"

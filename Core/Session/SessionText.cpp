@@ -132,4 +132,15 @@ std::string comparisonText(const StateComparison& comparison)
   return json.dump();
 }
 
+void changeSettings(Session& session, const std::string& text)
+{
+  RemeshOptions options = session.settings();
+  options.threads = session.threads();
+  options.memoryLimit = session.memoryLimit();
+  settingsFromText(text, options);
+  session.setSettings(options);
+  session.setThreads(options.threads);
+  session.setMemoryLimit(options.memoryLimit);
+}
+
 } // namespace quadrille

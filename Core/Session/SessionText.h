@@ -16,6 +16,8 @@ ConstraintContent contentFromText(const std::string& text);
 /// Changes what the text names; "threads" and "memory_limit" (bytes; null: none) may be among it.
 void settingsFromText(const std::string& text, RemeshOptions& settings);
 std::string settingsText(const RemeshOptions& settings);
+/// The same of a session, with its threads and its limit of memory.
+void changeSettings(Session& session, const std::string& text);
 
 /// A list of the constraints with "id" and "revision"; what the session has made of irregular operations is left out.
 std::string constraintsText(const Session& session);

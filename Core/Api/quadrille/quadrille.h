@@ -8,8 +8,9 @@
 ///     options.quads = 2000;
 ///     const quadrille::QuadResult result = quadrille::makeQuads(mesh, options);
 ///
-/// In CMake: find_package(Quadrille), target_link_libraries(program Quadrille::quadrille). The names here stay within a
-/// minor version (0.1.x), and so does the binary interface.
+/// In CMake: find_package(Quadrille), target_link_libraries(program Quadrille::quadrille). Within a
+/// major version names here stay, and so does the binary interface, which the soname libquadrille.so.MAJOR tells; a
+/// minor version may add some. A new major version is another library, which can be installed beside the old one.
 #pragma once
 
 #include <array>
@@ -121,7 +122,7 @@ public:
 /// may call it at once. Throws InputError, NoQuadsError or StoppedError.
 QUADRILLE_API QuadResult makeQuads(const TriangleMesh& mesh, const QuadOptions& options = {});
 
-/// The version of the library that is loaded, for example "0.1.0".
+/// The version of the library that is loaded, as MAJOR.MINOR.PATCH.
 QUADRILLE_API const char* libraryVersion();
 
 } // namespace quadrille

@@ -1,0 +1,801 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Assembly/PartSplit.h"
+
+#include "Base/Angles.h"
+#include "Base/DisjointSets.h"
+#include "Base/Progress.h"
+#include "Mesh/Distance.h"
+#include "Mesh/Topology.h"
+#include "Quads/QuadTopology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// What is cut up: a result, with what says whose its polygons and points are.
+struct CutSource
+{
+  const RemeshResult& result;
+  const JoinedParts& joined;
+  const JointSheets* sheets = nullptr; ///< where the surface is of sheets
+  const MetSheets* met = nullptr;
+  QuadMesh quads; ///< of the result, each on a face of the parts that it goes to
+
+  /// Polygons of the joint surface at a face.
+  std::vector<Index> polygonsAt(Index face) const
+  {
+    const Index polygon = result.surface.sourcePolygon[face];
+    return sheets != nullptr ? sheets->polygons[polygon] : std::vector<Index>{ polygon };
+  }
+  Index jointPoint(Index point) const
+  {
+    return sheets != nullptr ? sheets->jointPoint[point] : point;
+  }
+  /// The lowest point of the quads that is the same.
+  Index same(Index point) const { return met != nullptr ? met->same[point] : point; }
+};
+
+/// Whose the faces are: of one part, or, where parts share a face, of several.
+class FaceParts
+{
+public:
+  explicit FaceParts(const CutSource& source)
+    : first_(source.result.surface.mesh.faceCount() + 1, 0), faces_(source.joined.parts.size())
+  {
+    for (Index f = 0; f + 1 < first_.size(); ++f)
+    {
+      pollNowAndThen(f);
+      for (const Index polygon : source.polygonsAt(f))
+      {
+        const Index part = source.joined.partOf(polygon);
+        owners_.push_back({ part, static_cast<Index>(faces_[part].size()), polygon });
+        faces_[part].push_back(f);
+      }
+      first_[f + 1] = static_cast<Index>(owners_.size());
+    }
+  }
+
+  struct Owner
+  {
+    Index part, face; ///< the face's id in the part
+    Index polygon;    ///< of the joint surface
+  };
+
+  /// Null where the part does not have the face.
+  const Owner* ownerIn(Index part, Index face) const
+  {
+    for (Index i = first_[face]; i < first_[face + 1]; ++i)
+    {
+      if (owners_[i].part == part)
+      {
+        return &owners_[i];
+      }
+    }
+    return nullptr;
+  }
+  bool has(Index part, Index face) const { return ownerIn(part, face) != nullptr; }
+  Index ownFace(Index part, Index face) const { return ownerIn(part, face)->face; }
+  Index ownHalfEdge(Index part, Index h) const { return 3 * ownFace(part, h / 3) + h % 3; }
+  const std::vector<Index>& faces(std::size_t part) const { return faces_[part]; }
+  template <class Visit>
+  void forEachOwner(Index face, const Visit& visit) const
+  {
+    std::for_each(owners_.begin() + first_[face], owners_.begin() + first_[face + 1], visit);
+  }
+
+private:
+  std::vector<Index> first_; ///< per face, in owners_
+  std::vector<Owner> owners_;
+  std::vector<std::vector<Index>> faces_;
+};
+
+/// Quarter turns of the map within a fan of faces, from corner to corner; its border lies on isolines.
+int turnsWithin(const std::vector<FixedVec2>& uv, const std::vector<Index>& corners)
+{
+  double angle = 0;
+  for (const Index h : corners)
+  {
+    const FixedVec2 origin = uv[h], next = uv[Mesh::next(h)], previous = uv[Mesh::previous(h)];
+    const Vector2 a(toDouble(next.u - origin.u), toDouble(next.v - origin.v));
+    const Vector2 b(toDouble(previous.u - origin.u), toDouble(previous.v - origin.v));
+    angle += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+  }
+  return static_cast<int>(std::lround(angle / (0.5 * kPi)));
+}
+
+/// The faces of a part as a surface of its own.
+class PartSurface
+{
+public:
+  PartSurface(const CutSource& source, const FaceParts& faceParts, std::size_t part)
+    : source_(source), result_(source.result), whole_(source.result.surface.mesh),
+      faceParts_(faceParts), faces_(faceParts.faces(part)), part_(static_cast<Index>(part))
+  {
+  }
+
+  void write(RemeshResult& to)
+  {
+    Mesh& mesh = to.surface.mesh;
+    mesh.origin.assign(3 * faces_.size(), kInvalidIndex);
+    for (const Index f : faces_)
+    {
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        const Index g = whole_.twin[h];
+        const bool isInside = g != kInvalidIndex && faceParts_.has(part_, Mesh::face(g));
+        mesh.twin.push_back(isInside ? faceParts_.ownHalfEdge(part_, g) : kInvalidIndex);
+        mesh.flags.push_back(whole_.flags[h]);
+        if (!result_.uv.empty())
+        {
+          to.uv.push_back(result_.uv[h]);
+        }
+      }
+    }
+    writeVertices(to);
+    const JoinedParts& joined = source_.joined;
+    writeSources(joined.parts[part_], joined.firstPolygon[part_], to.surface);
+    faceComponents(mesh, to.surface.components);
+    to.surface.boundingBoxDiagonal = result_.surface.boundingBoxDiagonal;
+  }
+
+private:
+  /// A vertex for each fan: a part may touch itself where other parts lie between.
+  void writeVertices(RemeshResult& to) const
+  {
+    Mesh& mesh = to.surface.mesh;
+    std::vector<Index> corners;
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      pollNowAndThen(h);
+      if (mesh.origin[h] != kInvalidIndex)
+      {
+        continue;
+      }
+      const Index v = whole_.origin[wholeHalfEdge(h)];
+      const Index own = mesh.vertexCount();
+      Index first = h;
+      for (Index g = mesh.twin[h]; g != kInvalidIndex && Mesh::next(g) != h; g = mesh.twin[first])
+      {
+        first = Mesh::next(g);
+      }
+      corners.clear();
+      for (Index g = first; g != kInvalidIndex && mesh.origin[g] == kInvalidIndex;
+           g = mesh.twin[Mesh::previous(g)])
+      {
+        mesh.origin.edit()[g] = own;
+        corners.push_back(g);
+      }
+      mesh.position.push_back(whole_.position[v]);
+      if (!whole_.sizing.empty())
+      {
+        mesh.sizing.push_back(whole_.sizing[v]);
+      }
+      if (!result_.framePositions.empty())
+      {
+        to.framePositions.push_back(result_.framePositions[v]);
+      }
+      if (!result_.turns.empty())
+      {
+        to.turns.push_back(mesh.isBoundary(first) ? turnsWithin(to.uv, corners) : result_.turns[v]);
+      }
+    }
+  }
+
+  Index wholeHalfEdge(Index own) const { return 3 * faces_[own / 3] + own % 3; }
+
+  void writeSources(
+    const JoinedParts::Part& own, Index firstPolygon, PreparedSurface& surface) const
+  {
+    const PreparedSurface& from = result_.surface;
+    for (const Index f : faces_)
+    {
+      const Index polygon = faceParts_.ownerIn(part_, f)->polygon - firstPolygon;
+      surface.sourcePolygon.push_back(polygon);
+      std::array<Index, 3> points{};
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        points[i] = own.ownPoint(source_.jointPoint(from.sourcePoints[f][i]));
+        if (points[i] == kInvalidIndex)
+        {
+          // Repair has moved the corner to a point that only another part has.
+          points[i] = own.polygonPoints[own.polygonOffsets[polygon]];
+        }
+      }
+      surface.sourcePoints.push_back(points);
+      if (!from.refinedEntry.empty())
+      {
+        const Index entry = from.refinedEntry[f];
+        surface.refinedEntry.push_back(
+          entry == kInvalidIndex ? entry : static_cast<Index>(surface.cornerWeights.size()));
+        if (entry != kInvalidIndex)
+        {
+          surface.cornerWeights.push_back(from.cornerWeights[entry]);
+        }
+      }
+      const Mesh& mesh = whole_;
+      surface.area += 0.5 * mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm();
+    }
+  }
+
+  const CutSource& source_;
+  const RemeshResult& result_;
+  const Mesh& whole_;
+  const FaceParts& faceParts_;
+  const std::vector<Index>& faces_;
+  Index part_;
+};
+
+/// Where a point of the quads lies in the faces of one part.
+class PartPlaces
+{
+public:
+  PartPlaces(const CutSource& source, const FaceParts& faceParts)
+    : mesh_(source.result.surface.mesh), quads_(source.quads), faceParts_(faceParts)
+  {
+  }
+
+  struct Place
+  {
+    Index face = kInvalidIndex; ///< of the whole surface
+    std::array<double, 3> weights{};
+  };
+
+  /// near: a face of the part that is not far.
+  Place in(Index part, Index point, Index near) const
+  {
+    const Index f = quads_.sourceFace[point];
+    if (faceParts_.has(part, f))
+    {
+      return { f, quads_.sourceWeights[point] };
+    }
+    // On the border of two parts: in one of the faces round the corners, the nearest one.
+    Place best = placeOn(near, quads_.points[point]);
+    double least = distance(best, point);
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      visitFan(h,
+        [&](Index g)
+        {
+          if (faceParts_.has(part, g))
+          {
+            const Place place = placeOn(g, quads_.points[point]);
+            const double found = distance(place, point);
+            if (found < least || (found == least && place.face < best.face))
+            {
+              best = place;
+              least = found;
+            }
+          }
+        });
+    }
+    return best;
+  }
+
+  Index twin(Index h) const { return mesh_.twin[h]; }
+
+private:
+  template <class Visit>
+  void visitFan(Index h, const Visit& visit) const
+  {
+    Index first = h;
+    for (Index g = mesh_.twin[h]; g != kInvalidIndex && Mesh::next(g) != h; g = mesh_.twin[first])
+    {
+      first = Mesh::next(g);
+    }
+    Index g = first;
+    do
+    {
+      visit(Mesh::face(g));
+      g = mesh_.rotateCounterclockwise(g);
+    } while (g != kInvalidIndex && g != first);
+  }
+
+  Place placeOn(Index f, const Vector3& p) const
+  {
+    const Vector3& a = mesh_.position[mesh_.origin[3 * f]];
+    const Vector3& b = mesh_.position[mesh_.origin[3 * f + 1]];
+    const Vector3& c = mesh_.position[mesh_.origin[3 * f + 2]];
+    const Vector3 at = nearestOnTriangle(p, a, b, c);
+    const Vector3 normal = (b - a).cross(c - a);
+    const double area = normal.squaredNorm();
+    if (!(area > 0))
+    {
+      return { f, { 1, 0, 0 } };
+    }
+    const double u = std::clamp(normal.dot((c - b).cross(at - b)) / area, 0.0, 1.0);
+    const double v = std::clamp(normal.dot((a - c).cross(at - c)) / area, 0.0, 1.0 - u);
+    return { f, { u, v, std::max(0.0, 1 - u - v) } };
+  }
+
+  double distance(const Place& place, Index point) const
+  {
+    Vector3 at = Vector3::Zero();
+    for (Index i = 0; i < 3; ++i)
+    {
+      at += place.weights[i] * mesh_.position[mesh_.origin[3 * place.face + i]];
+    }
+    return (at - quads_.points[point]).norm();
+  }
+
+  const Mesh& mesh_;
+  const QuadMesh& quads_;
+  const FaceParts& faceParts_;
+};
+
+/// Where quads do not follow the border between two parts, it becomes a staircase between their centres. Quads that
+/// stick out of it, or lie alone beyond it, go to the part round them, as long as theirs has others.
+class EvenBorders
+{
+public:
+  EvenBorders(CutSource& source, const FaceParts& faceParts)
+    : source_(source), faceParts_(faceParts), places_(source, faceParts),
+      topology_(analyzeQuads(source.quads.quads, source.quads.points.size()))
+  {
+  }
+
+  void even()
+  {
+    nameOwners();
+    findLines();
+    bool any = true;
+    for (int sweep = 0; any && sweep < kMostSweeps; ++sweep)
+    {
+      poll();
+      any = false;
+      for (Index q = 0; q < label_.size(); ++q)
+      {
+        any = evenQuad(q) || any;
+      }
+    }
+  }
+
+private:
+  static constexpr int kMostSweeps = 20;
+  using Owners = std::vector<Index>; ///< parts, ascending
+
+  Owners ownersOf(Index quad) const
+  {
+    Owners owners;
+    faceParts_.forEachOwner(source_.quads.quadSourceFace[quad],
+      [&](const FaceParts::Owner& owner) { owners.push_back(owner.part); });
+    std::sort(owners.begin(), owners.end());
+    return owners;
+  }
+
+  void nameOwners()
+  {
+    std::map<Owners, Index> names;
+    for (Index q = 0; q < source_.quads.quads.size(); ++q)
+    {
+      const Owners owners = ownersOf(q);
+      const Index label = names.emplace(owners, static_cast<Index>(names.size())).first->second;
+      label_.push_back(label);
+      if (label == owners_.size())
+      {
+        owners_.push_back(owners);
+        count_.push_back(0);
+      }
+      ++count_[label];
+    }
+  }
+
+  /// Features are borders that quads follow.
+  void findLines()
+  {
+    std::set<std::pair<Index, Index>> lines;
+    for (const QuadLine& line : source_.quads.lines)
+    {
+      lines.emplace(std::min(line.a, line.b), std::max(line.a, line.b));
+    }
+    for (Index h = 0; h < topology_.twin.size(); ++h)
+    {
+      const auto& quad = source_.quads.quads[h / 4];
+      const Index a = quad[h % 4], b = quad[(h + 1) % 4];
+      isLine_.push_back(lines.count({ std::min(a, b), std::max(a, b) }) != 0 ? 1 : 0);
+    }
+  }
+
+  bool evenQuad(Index q)
+  {
+    // By label, how many sides; the side by which one comes to it.
+    std::map<Index, std::pair<int, Index>> beside;
+    int own = 0;
+    for (Index h = 4 * q; h < 4 * q + 4; ++h)
+    {
+      const Index g = topology_.twin[h];
+      if (g == kInvalidIndex || isLine_[h] != 0)
+      {
+        continue;
+      }
+      const Index label = label_[g / 4];
+      own += label == label_[q] ? 1 : 0;
+      ++beside.emplace(label, std::make_pair(0, h)).first->second.first;
+    }
+    for (const auto& [label, sides] : beside)
+    {
+      const bool isMost = sides.first >= 3 || (own == 0 && sides.first == 2);
+      if (label != label_[q] && isMost && own < 2 && count_[label_[q]] > 1)
+      {
+        return give(q, label, sides.second);
+      }
+    }
+    return false;
+  }
+
+  /// The quad is on its common edge with the other one then, if there is a face of these parts.
+  bool give(Index q, Index label, Index side)
+  {
+    const Index point = source_.quads.quads[q][side % 4];
+    const Index near = source_.quads.quadSourceFace[topology_.twin[side] / 4];
+    const PartPlaces::Place place = places_.in(owners_[label].front(), point, near);
+    if (!isOf(place.face, label))
+    {
+      return false;
+    }
+    source_.quads.quadSourceFace[q] = place.face;
+    source_.quads.quadSourceWeights[q] = place.weights;
+    --count_[label_[q]];
+    label_[q] = label;
+    ++count_[label];
+    return true;
+  }
+
+  bool isOf(Index face, Index label) const
+  {
+    const Owners& owners = owners_[label];
+    std::size_t found = 0;
+    bool all = true;
+    faceParts_.forEachOwner(face,
+      [&](const FaceParts::Owner& owner)
+      {
+        ++found;
+        all = all && std::binary_search(owners.begin(), owners.end(), owner.part);
+      });
+    return all && found == owners.size();
+  }
+
+  CutSource& source_;
+  const FaceParts& faceParts_;
+  PartPlaces places_;
+  QuadTopology topology_;
+  std::vector<Index> label_;         ///< per quad
+  std::vector<Owners> owners_;       ///< per label
+  std::vector<std::size_t> count_;   ///< per label, quads
+  std::vector<std::uint8_t> isLine_; ///< per half-edge of the quads
+};
+
+/// Whether the polygon under a face of the part has its corners the other way round; 0 where repair has changed them.
+int orientationIn(const JoinedParts::Part& part, const PreparedSurface& surface, Index face)
+{
+  const Index polygon = surface.sourcePolygon[face];
+  const Index* begin = part.polygonPoints.data() + part.polygonOffsets[polygon];
+  const Index* end = part.polygonPoints.data() + part.polygonOffsets[polygon + 1];
+  std::array<std::ptrdiff_t, 3> at{};
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const Index* found = std::find(begin, end, surface.sourcePoints[face][i]);
+    if (found == end)
+    {
+      return 0;
+    }
+    at[i] = found - begin;
+  }
+  const int rises = (at[0] < at[1] ? 1 : 0) + (at[1] < at[2] ? 1 : 0) + (at[2] < at[0] ? 1 : 0);
+  return rises == 2 ? 1 : -1;
+}
+
+/// Per quad, by most of the faces under its connected component.
+std::vector<std::uint8_t> reversedQuads(const JoinedParts::Part& part, const RemeshResult& result)
+{
+  const QuadMesh& quads = result.quads;
+  const QuadTopology topology = analyzeQuads(quads.quads, quads.points.size());
+  DisjointSets components(quads.quads.size(), 1);
+  for (Index h = 0; h < topology.twin.size(); ++h)
+  {
+    if (topology.twin[h] != kInvalidIndex)
+    {
+      components.join(h / 4, topology.twin[h] / 4);
+    }
+  }
+  std::vector<long long> votes(quads.quads.size(), 0);
+  for (Index q = 0; q < quads.quads.size(); ++q)
+  {
+    votes[components.find(q)] += orientationIn(part, result.surface, quads.quadSourceFace[q]);
+  }
+  std::vector<std::uint8_t> reversed;
+  for (Index q = 0; q < quads.quads.size(); ++q)
+  {
+    reversed.push_back(votes[components.find(q)] < 0 ? 1 : 0);
+  }
+  return reversed;
+}
+
+/// The quads of one part as a mesh of its own.
+class PartQuads
+{
+public:
+  PartQuads(
+    const CutSource& source, const FaceParts& faceParts, const PartPlaces& places, Index part)
+    : source_(source), whole_(source.quads), faceParts_(faceParts), places_(places), part_(part)
+  {
+  }
+
+  /// to: with its surface.
+  void write(const std::vector<Index>& quads, RemeshResult& to)
+  {
+    QuadMesh& own = to.quads;
+    for (const Index q : quads)
+    {
+      own.quads.push_back(whole_.quads[q]);
+      own.quadSourceFace.push_back(faceParts_.ownFace(part_, whole_.quadSourceFace[q]));
+      own.quadSourceWeights.push_back(whole_.quadSourceWeights[q]);
+    }
+    if (source_.met != nullptr)
+    {
+      orientSheets(to);
+    }
+    namePoints(own);
+    const QuadTopology topology = analyzeQuads(own.quads, own.points.size());
+    own.valence = topology.valence;
+    own.onBoundary = topology.onBoundary;
+    writeLines(topology, own);
+  }
+
+private:
+  /// Each sheet as the part's own polygons run, as only then its quads fit to those of other sheets.
+  void orientSheets(RemeshResult& to) const
+  {
+    to.quads.points.resize(whole_.points.size());
+    const std::vector<std::uint8_t> reversed = reversedQuads(source_.joined.parts[part_], to);
+    to.quads.points.clear();
+    for (std::size_t q = 0; q < reversed.size(); ++q)
+    {
+      if (reversed[q] != 0)
+      {
+        std::array<Index, 4>& quad = to.quads.quads[q];
+        quad = { quad[1], quad[0], quad[3], quad[2] };
+      }
+    }
+  }
+
+  /// Points of this part, in the order of the whole mesh; one for each fan.
+  void namePoints(QuadMesh& to)
+  {
+    const auto corners = static_cast<Index>(4 * to.quads.size());
+    std::vector<Index> wholeCorner(corners); // before points that are the same became one
+    for (Index h = 0; h < corners; ++h)
+    {
+      wholeCorner[h] = to.quads[h / 4][h % 4];
+      to.quads[h / 4][h % 4] = source_.same(wholeCorner[h]);
+    }
+    const QuadTopology topology = analyzeQuads(to.quads, whole_.points.size());
+    const auto cornerAfter = [](Index h) { return h - h % 4 + (h + 1) % 4; };
+    DisjointSets fans(corners, 1);
+    for (Index h = 0; h < corners; ++h)
+    {
+      if (topology.twin[h] != kInvalidIndex)
+      {
+        fans.join(h, cornerAfter(topology.twin[h]));
+      }
+    }
+    std::vector<std::pair<Index, Index>> points; // of the whole mesh, a corner
+    for (Index h = 0; h < corners; ++h)
+    {
+      if (fans.find(h) == h)
+      {
+        points.emplace_back(to.quads[h / 4][h % 4], h);
+      }
+    }
+    std::sort(points.begin(), points.end());
+    std::vector<Index> name(corners);
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const auto [point, corner] = points[i];
+      name[corner] = static_cast<Index>(i);
+      wholePoint_.push_back(point);
+      to.points.push_back(whole_.points[point]);
+      const PartPlaces::Place place =
+        places_.in(part_, wholeCorner[corner], faceOf(to, corner / 4));
+      to.sourceFace.push_back(faceParts_.ownFace(part_, place.face));
+      to.sourceWeights.push_back(place.weights);
+    }
+    for (Index h = 0; h < corners; ++h)
+    {
+      to.quads[h / 4][h % 4] = name[fans.find(h)];
+    }
+  }
+
+  /// Of the whole surface, under a quad of this part.
+  Index faceOf(const QuadMesh& to, Index quad) const
+  {
+    return faceParts_.faces(part_)[to.quadSourceFace[quad]];
+  }
+
+  /// Features and boundary: lines of the whole mesh, and what its features did not follow.
+  void writeLines(const QuadTopology& topology, QuadMesh& to) const
+  {
+    using Edge = std::pair<Index, Index>;
+    std::vector<std::pair<Edge, Index>> edges; // by points of the whole mesh, with a half-edge
+    for (Index h = 0; h < 4 * to.quads.size(); ++h)
+    {
+      if (topology.twin[h] == kInvalidIndex || h < topology.twin[h])
+      {
+        const Index a = wholePoint_[to.quads[h / 4][h % 4]];
+        const Index b = wholePoint_[to.quads[h / 4][(h + 1) % 4]];
+        edges.push_back({ { std::min(a, b), std::max(a, b) }, h });
+      }
+    }
+    std::sort(edges.begin(), edges.end());
+    std::vector<std::uint8_t> hasLine(4 * to.quads.size(), 0);
+    const auto add = [&](Index h, Index halfEdge)
+    {
+      if (hasLine[h] != 0)
+      {
+        return; // of another sheet
+      }
+      hasLine[h] = 1;
+      to.lines.push_back({ to.quads[h / 4][h % 4], to.quads[h / 4][(h + 1) % 4], halfEdge,
+        topology.twin[h] == kInvalidIndex });
+    };
+    for (const QuadLine& line : whole_.lines)
+    {
+      const Index a = source_.same(line.a), b = source_.same(line.b);
+      const Edge edge{ std::min(a, b), std::max(a, b) };
+      for (auto found =
+             std::lower_bound(edges.begin(), edges.end(), std::make_pair(edge, Index{ 0 }));
+           found != edges.end() && found->first == edge; ++found)
+      {
+        add(found->second, ownHalfEdge(line.halfEdge, to.quadSourceFace[found->second / 4]));
+      }
+    }
+    for (const auto& [edge, h] : edges)
+    {
+      if (topology.twin[h] == kInvalidIndex && hasLine[h] == 0)
+      {
+        add(h, 3 * to.quadSourceFace[h / 4]);
+      }
+    }
+  }
+
+  /// On the side of this part; where the line is on none of its faces, of the face under the quad.
+  Index ownHalfEdge(Index h, Index face) const
+  {
+    for (const Index side : { h, places_.twin(h) })
+    {
+      if (side != kInvalidIndex && faceParts_.has(part_, Mesh::face(side)))
+      {
+        return faceParts_.ownHalfEdge(part_, side);
+      }
+    }
+    return 3 * face;
+  }
+
+  const CutSource& source_;
+  const QuadMesh& whole_;
+  const FaceParts& faceParts_;
+  const PartPlaces& places_;
+  Index part_;
+  std::vector<Index> wholePoint_; ///< per point of the part
+};
+
+/// What a run tells as a whole.
+void copyReport(const RemeshResult& from, RemeshResult& to)
+{
+  to.status = from.status;
+  to.stopped = from.stopped;
+  to.frame = from.frame;
+  to.coarseCertificate = from.coarseCertificate;
+  to.certificate = from.certificate;
+  to.extraction = from.extraction;
+  to.finalQuality = from.finalQuality;
+  to.beyondAnisotropyLimit = from.beyondAnisotropyLimit;
+  to.smallParts = from.smallParts;
+  to.attempts = from.attempts;
+  to.stages = from.stages;
+  to.reused = from.reused;
+  to.estimate = from.estimate;
+  to.decimations = from.decimations;
+  to.replays = from.replays;
+  to.targetEdgeLength = from.targetEdgeLength;
+  to.notices = from.notices;
+  to.surface.repair = from.surface.repair;
+}
+
+/// The part whose faces lie nearest to a place.
+class NearestPart
+{
+public:
+  NearestPart(const Mesh& mesh, const FaceParts& faceParts) : mesh_(mesh), faceParts_(faceParts) {}
+
+  std::size_t to(const Vector3& place) const
+  {
+    Index nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (Index f = 0; f < mesh_.faceCount(); ++f)
+    {
+      pollNowAndThen(f);
+      const double distance =
+        (nearestOnTriangle(place, mesh_.position[mesh_.origin[3 * f]],
+           mesh_.position[mesh_.origin[3 * f + 1]], mesh_.position[mesh_.origin[3 * f + 2]]) -
+          place)
+          .squaredNorm();
+      if (distance < least)
+      {
+        least = distance;
+        faceParts_.forEachOwner(f, [&](const FaceParts::Owner& owner) { nearest = owner.part; });
+      }
+    }
+    return nearest;
+  }
+
+private:
+  const Mesh& mesh_;
+  const FaceParts& faceParts_;
+};
+
+std::vector<PartResult> cutUp(CutSource source)
+{
+  const RemeshResult& result = source.result;
+  const JoinedParts& joined = source.joined;
+  const FaceParts faceParts(source);
+  EvenBorders(source, faceParts).even();
+  std::vector<std::vector<Index>> quads(joined.parts.size());
+  for (std::size_t q = 0; q < source.quads.quads.size(); ++q)
+  {
+    faceParts.forEachOwner(source.quads.quadSourceFace[q],
+      [&](const FaceParts::Owner& owner) { quads[owner.part].push_back(static_cast<Index>(q)); });
+  }
+  const PartPlaces places(source, faceParts);
+  std::vector<PartResult> parts(joined.parts.size());
+  for (std::size_t p = 0; p < parts.size(); ++p)
+  {
+    poll();
+    RemeshResult& own = parts[p].result;
+    copyReport(result, own);
+    PartSurface(source, faceParts, p).write(own);
+    PartQuads(source, faceParts, places, static_cast<Index>(p)).write(quads[p], own);
+    parts[p].reversed = source.met == nullptr ? reversedQuads(joined.parts[p], own)
+                                              : std::vector<std::uint8_t>(quads[p].size(), 0);
+    if (!result.curves.empty())
+    {
+      const auto first = result.curves.begin();
+      own.curves.assign(first + static_cast<std::ptrdiff_t>(joined.firstCurve[p]),
+        first + static_cast<std::ptrdiff_t>(joined.firstCurve[p + 1]));
+    }
+  }
+  const NearestPart nearest(result.surface.mesh, faceParts);
+  for (const SmallDetail& detail : result.details)
+  {
+    parts[nearest.to(detail.place)].result.details.push_back(detail);
+  }
+  for (const GivenUpCurve& curve : result.givenUpFeatures)
+  {
+    parts[nearest.to(curve.place)].result.givenUpFeatures.push_back(curve);
+  }
+  return parts;
+}
+
+} // namespace
+
+std::vector<PartResult> splitParts(const RemeshResult& result, const JoinedParts& joined)
+{
+  return cutUp({ result, joined, nullptr, nullptr, result.quads });
+}
+
+std::vector<PartResult> splitSheets(const RemeshResult& result, const JoinedParts& joined,
+  const JointSheets& sheets, const MetSheets& met)
+{
+  return cutUp({ result, joined, &sheets, &met, result.quads });
+}
+
+} // namespace quadrille

@@ -1,0 +1,743 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Details/ThinParts.h"
+
+#include "Base/Progress.h"
+#include "Mesh/AskedVertices.h"
+#include "Mesh/ContentHash.h"
+#include "Mesh/Sizing.h"
+#include "Mesh/SpaceFillingOrder.h"
+#include "Mesh/SurfaceEdit.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <queue>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// The least height of a part over the length of its loop: what is flatter is a bump.
+constexpr double kLeastRise = 0.125;
+/// How far from the loop, over its length, the tip and the vertex outside are if they can be.
+constexpr double kFar = 1.1;
+/// A loop may be as long as this part of the way to the tip and back: a longer one may go there and round the tip.
+constexpr double kLoopOfHeight = 1.9;
+/// Faces that a search on the surface looks at: the way across a loop shorter than a quad is shorter.
+constexpr std::size_t kMostFacesNear = 200000;
+/// Faces that the search for parts looks at over those of the mesh. Where there are no necks it is one.
+constexpr std::size_t kMostWork = 100;
+
+using Near = std::pair<double, Index>; ///< distance, what is there
+using NearFirst = std::priority_queue<Near, std::vector<Near>, std::greater<>>;
+
+std::vector<Index> outgoingOf(const Mesh& mesh)
+{
+  std::vector<Index> outgoing(mesh.vertexCount(), kInvalidIndex);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.origin[h] != kInvalidIndex)
+    {
+      outgoing[mesh.origin[h]] = h;
+    }
+  }
+  return outgoing;
+}
+
+/// Three half-edges round the triangle a, b, c, which is no face: a to b, b to c, c to a.
+using Ring = std::array<Index, 3>;
+
+class PartSearch
+{
+public:
+  PartSearch(const Mesh& mesh, const ThinPartLimits& limits)
+    : mesh_(mesh), longest_(std::max(limits.loopOfDisc, limits.loopOfLarge)), limits_(limits),
+      area_(sizedArea(mesh)), outgoing_(outgoingOf(mesh)),
+      marked_(mesh.vertexCount(), kInvalidIndex), seen_(mesh.faceCount(), 0)
+  {
+  }
+
+  std::vector<ThinPart> run()
+  {
+    for (Index a = 0; a < mesh_.vertexCount(); ++a)
+    {
+      pollNowAndThen(a);
+      lookAt(a);
+    }
+    std::vector<ThinPart> parts = outerDiscs();
+    addNecks(parts);
+    return parts;
+  }
+
+private:
+  struct Found
+  {
+    ThinPart part;
+    std::vector<Index> faces;
+  };
+
+  /// Calls visit(w, h) for each edge of v to a vertex w, with a half-edge h of it.
+  template <typename Visitor>
+  void forEachEdge(Index v, Visitor&& visit) const
+  {
+    forEachInFan(mesh_, outgoing_[v],
+      [&](Index h)
+      {
+        visit(mesh_.target(h), h);
+        const Index before = Mesh::previous(h);
+        if (mesh_.isBoundary(before))
+        {
+          visit(mesh_.origin[before], before);
+        }
+      });
+  }
+
+  /// The half-edge of the same edge that leaves v.
+  Index from(Index v, Index h) const { return mesh_.origin[h] == v ? h : mesh_.twin[h]; }
+
+  /// Triangles of which a is the lowest vertex.
+  void lookAt(Index a)
+  {
+    if (outgoing_[a] == kInvalidIndex)
+    {
+      return;
+    }
+    forEachEdge(a, [&](Index b, Index h) { marked_[b] = h; });
+    forEachEdge(a,
+      [&](Index b, Index ab)
+      {
+        if (b < a || sizedLength(mesh_, ab) > longest_)
+        {
+          return;
+        }
+        forEachEdge(b,
+          [&](Index c, Index bc)
+          {
+            if (c > b && marked_[c] != kInvalidIndex)
+            {
+              look({ from(a, ab), from(b, bc), from(c, marked_[c]) });
+            }
+          });
+      });
+    forEachEdge(a, [&](Index b, Index) { marked_[b] = kInvalidIndex; });
+  }
+
+  void look(const Ring& ring)
+  {
+    const auto isBound = [&](Index h) { return h == kInvalidIndex || mesh_.isBoundary(h); };
+    if (std::any_of(ring.begin(), ring.end(), isBound) ||
+      Mesh::face(ring[0]) == Mesh::face(ring[1]) ||
+      Mesh::face(mesh_.twin[ring[0]]) == Mesh::face(mesh_.twin[ring[1]]))
+    {
+      return;
+    }
+    Found found;
+    ThinPart& part = found.part;
+    for (std::size_t i = 0; i < ring.size(); ++i)
+    {
+      part.loop[i] = mesh_.origin[ring[i]];
+      part.length += sizedLength(mesh_, ring[i]);
+      part.girth += mesh_.edgeVector(ring[i]).norm();
+    }
+    if (part.length < longest_ && hasSides(ring, found) && isThin(found))
+    {
+      found_.push_back(std::move(found));
+    }
+  }
+
+  /// Finds the side with fewer faces, if there are two, and it is a disc or large. Both grow side by side, so that a
+  /// small one costs little. Its faces are those seen by search_.
+  bool hasSides(const Ring& ring, Found& found)
+  {
+    std::array<std::vector<Index>, 2> sides{ std::vector<Index>{ Mesh::face(ring[0]) },
+      std::vector<Index>{ Mesh::face(mesh_.twin[ring[0]]) } };
+    search_ += 2;
+    seen_[sides[0].front()] = search_;
+    seen_[sides[1].front()] = search_ + 1;
+    std::size_t at = 0;
+    while (at < sides[0].size() && at < sides[1].size())
+    {
+      work_ += 2;
+      if (work_ > kMostWork * mesh_.faceCount() || !grow(ring, sides[0], at, search_) ||
+        !grow(ring, sides[1], at, search_ + 1))
+      {
+        return false;
+      }
+      ++at;
+    }
+    const std::size_t smaller = at < sides[0].size() ? 1 : 0;
+    inside_ = search_ + static_cast<std::uint32_t>(smaller);
+    found.faces = std::move(sides[smaller]);
+    for (const Index f : found.faces)
+    {
+      found.part.area += sizedArea(mesh_, f);
+    }
+    found.part.isLarge = found.part.area >= limits_.largeArea;
+    return found.part.isLarge
+      ? found.part.length < limits_.loopOfLarge && area_ - found.part.area >= limits_.largeArea
+      : isDisc(found.faces);
+  }
+
+  /// By the neighbours of one face; false where one of them is of the other side.
+  bool grow(const Ring& ring, std::vector<Index>& side, std::size_t at, std::uint32_t mark)
+  {
+    const std::uint32_t other = mark == search_ ? search_ + 1 : search_;
+    for (Index h = 3 * side[at]; h < 3 * side[at] + 3; ++h)
+    {
+      const bool isOfRing = std::any_of(
+        ring.begin(), ring.end(), [&](Index g) { return h == g || h == mesh_.twin[g]; });
+      if (isOfRing || mesh_.isBoundary(h))
+      {
+        continue;
+      }
+      const Index beyond = Mesh::face(mesh_.twin[h]);
+      if (seen_[beyond] == other)
+      {
+        return false;
+      }
+      if (seen_[beyond] != mark)
+      {
+        seen_[beyond] = mark;
+        side.push_back(beyond);
+      }
+    }
+    return true;
+  }
+
+  bool isDisc(const std::vector<Index>& faces) const
+  {
+    std::unordered_set<Index> corners;
+    for (const Index f : faces)
+    {
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        corners.insert(mesh_.origin[h]);
+        if (mesh_.isBoundary(h))
+        {
+          return false;
+        }
+      }
+    }
+    return 2 * (corners.size() + faces.size()) == 3 * faces.size() + 3 + 2;
+  }
+
+  /// Finds the tip and a vertex outside, as far away as the loop is long if there are any.
+  bool isThin(Found& found) const
+  {
+    ThinPart& part = found.part;
+    std::unordered_map<Index, double> distance;
+    NearFirst near;
+    for (const Index v : part.loop)
+    {
+      distance[v] = 0;
+      near.push({ 0, v });
+    }
+    while (!near.empty() && (part.height < kFar * part.girth || part.outside == kInvalidIndex))
+    {
+      const auto [d, v] = near.top();
+      near.pop();
+      if (d > distance.at(v))
+      {
+        continue;
+      }
+      const bool isInside = seen_[Mesh::face(outgoing_[v])] == inside_;
+      if (d > 0 && isInside && part.height < kFar * part.girth)
+      {
+        part.tip = v;
+        part.height = d;
+      }
+      if (d >= kFar * part.girth)
+      {
+        part.outside = isInside || part.outside != kInvalidIndex ? part.outside : v;
+        continue;
+      }
+      forEachEdge(v,
+        [&, at = d](Index w, Index h)
+        {
+          const double there = at + mesh_.edgeVector(h).norm();
+          const auto known = distance.find(w);
+          if (known == distance.end() || there < known->second)
+          {
+            distance[w] = there;
+            near.push({ there, w });
+          }
+        });
+    }
+    return part.outside != kInvalidIndex && part.tip != kInvalidIndex &&
+      part.height >= kLeastRise * part.girth;
+  }
+
+  std::vector<ThinPart> outerDiscs() const
+  {
+    std::vector<const Found*> order;
+    for (const Found& found : found_)
+    {
+      if (!found.part.isLarge)
+      {
+        order.push_back(&found);
+      }
+    }
+    std::stable_sort(order.begin(), order.end(),
+      [](const Found* a, const Found* b) { return a->faces.size() > b->faces.size(); });
+    std::vector<std::uint8_t> taken(mesh_.faceCount(), 0);
+    std::vector<ThinPart> parts;
+    for (const Found* found : order)
+    {
+      const auto isTaken = [&](Index f) { return taken[f] != 0; };
+      if (std::none_of(found->faces.begin(), found->faces.end(), isTaken))
+      {
+        for (const Index f : found->faces)
+        {
+          taken[f] = 1;
+        }
+        parts.push_back(found->part);
+      }
+    }
+    return parts;
+  }
+
+  /// Two with nearly the same areas may be on one neck, and what is between them would be a part too small.
+  void addNecks(std::vector<ThinPart>& parts) const
+  {
+    std::vector<const Found*> order;
+    for (const Found& found : found_)
+    {
+      if (found.part.isLarge)
+      {
+        order.push_back(&found);
+      }
+    }
+    std::stable_sort(order.begin(), order.end(),
+      [](const Found* a, const Found* b) { return a->part.length < b->part.length; });
+    std::vector<double> areas;
+    for (const Found* found : order)
+    {
+      const double own = found->part.area;
+      const auto isNear = [&](double area)
+      {
+        return std::abs(area - own) < limits_.largeArea ||
+          std::abs(area_ - area - own) < limits_.largeArea;
+      };
+      if (std::none_of(areas.begin(), areas.end(), isNear))
+      {
+        areas.push_back(own);
+        parts.push_back(found->part);
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  double longest_;
+  ThinPartLimits limits_;
+  double area_;
+  std::vector<Index> outgoing_;
+  std::vector<Index> marked_;       ///< #V; a half-edge of the edge to the vertex that is looked at
+  std::vector<std::uint32_t> seen_; ///< #F; by which search, and on which side
+  std::uint32_t search_ = 0, inside_ = 0;
+  std::size_t work_ = 0;
+  std::vector<Found> found_;
+};
+
+/// Loops along inner edges that part two vertices: those that cross a row of faces between them an odd number of times.
+class PartingLoops
+{
+public:
+  PartingLoops(const Mesh& mesh, const std::vector<Index>& outgoing)
+    : mesh_(mesh), outgoing_(outgoing)
+  {
+  }
+
+  /// False where the vertices are too far apart.
+  bool setApart(Index one, Index other)
+  {
+    std::unordered_map<Index, Index>
+      into; // half-edge of the face before, by which a face is entered
+    std::vector<Index> faces{ Mesh::face(outgoing_[one]) };
+    into[faces.front()] = kInvalidIndex;
+    for (std::size_t i = 0; i < faces.size() && faces.size() < kMostFacesNear; ++i)
+    {
+      const Index f = faces[i];
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        if (mesh_.origin[h] == other)
+        {
+          for (Index g = into.at(f); g != kInvalidIndex; g = into.at(Mesh::face(g)))
+          {
+            crossed_.insert(g);
+            crossed_.insert(mesh_.twin[g]);
+          }
+          return true;
+        }
+        if (!mesh_.isBoundary(h) && into.emplace(Mesh::face(mesh_.twin[h]), h).second)
+        {
+          faces.push_back(Mesh::face(mesh_.twin[h]));
+        }
+      }
+    }
+    return false;
+  }
+
+  /// The half-edges of the shortest loop through the root, each of which ends where the next one begins; empty where
+  /// none is shorter than the bound. What it would go to and fro is left out.
+  std::vector<Index> shortest(Index root, double& bound) const
+  {
+    struct Way
+    {
+      double length;
+      Index by;
+    };
+    std::unordered_map<Index, Way> known; // of vertex and parity: 2 v + p
+    NearFirst near;
+    known[2 * root] = { 0, kInvalidIndex };
+    near.push({ 0, 2 * root });
+    while (!near.empty() && known.size() < kMostFacesNear)
+    {
+      const auto [length, at] = near.top();
+      near.pop();
+      if (length > known.at(at).length)
+      {
+        continue;
+      }
+      if (at == 2 * root + 1)
+      {
+        bound = length;
+        std::vector<Index> loop;
+        for (Index x = at; known.at(x).by != kInvalidIndex;)
+        {
+          const Index h = known.at(x).by;
+          loop.push_back(h);
+          x = 2 * mesh_.origin[h] + ((x & 1U) ^ (crossed_.count(h) != 0 ? 1U : 0U));
+        }
+        std::reverse(loop.begin(), loop.end());
+        return simple(std::move(loop));
+      }
+      if (!isInner(at / 2))
+      {
+        continue;
+      }
+      forEachInFan(mesh_, outgoing_[at / 2],
+        [&, so = length, from = at](Index h)
+        {
+          const double there = so + mesh_.edgeVector(h).norm();
+          const Index to = 2 * mesh_.target(h) + ((from & 1U) ^ (crossed_.count(h) != 0 ? 1U : 0U));
+          const auto before = known.find(to);
+          if (there < bound && (before == known.end() || there < before->second.length))
+          {
+            known[to] = { there, h };
+            near.push({ there, to });
+          }
+        });
+    }
+    return {};
+  }
+
+  /// The loop of the shortest ways between three vertices, as short as the bound together; else empty.
+  std::vector<Index> through(const std::array<Index, 3>& corners, double bound) const
+  {
+    std::vector<Index> loop;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const std::vector<Index> way = wayTo(corners[i], corners[(i + 1) % 3], bound);
+      if (way.empty())
+      {
+        return {};
+      }
+      loop.insert(loop.end(), way.begin(), way.end());
+    }
+    return isOdd(loop.begin(), loop.end()) ? simple(std::move(loop)) : std::vector<Index>();
+  }
+
+private:
+  /// The half-edges of the shortest way; its length is taken off the bound.
+  std::vector<Index> wayTo(Index from, Index to, double& bound) const
+  {
+    struct Way
+    {
+      double length;
+      Index by;
+    };
+    std::unordered_map<Index, Way> known{ { from, { 0, kInvalidIndex } } };
+    NearFirst near;
+    near.push({ 0, from });
+    while (!near.empty() && known.size() < kMostFacesNear)
+    {
+      const auto [length, v] = near.top();
+      near.pop();
+      if (v == to)
+      {
+        std::vector<Index> way;
+        for (Index x = to; known.at(x).by != kInvalidIndex; x = mesh_.origin[way.back()])
+        {
+          way.push_back(known.at(x).by);
+        }
+        std::reverse(way.begin(), way.end());
+        bound -= length;
+        return way;
+      }
+      if (length > known.at(v).length || !isInner(v))
+      {
+        continue;
+      }
+      forEachInFan(mesh_, outgoing_[v],
+        [&, so = length](Index h)
+        {
+          const double there = so + mesh_.edgeVector(h).norm();
+          const auto before = known.find(mesh_.target(h));
+          if (there < bound && (before == known.end() || there < before->second.length))
+          {
+            known[mesh_.target(h)] = { there, h };
+            near.push({ there, mesh_.target(h) });
+          }
+        });
+    }
+    return {};
+  }
+
+  template <typename Iterator>
+  bool isOdd(Iterator begin, Iterator end) const
+  {
+    return std::count_if(begin, end, [&](Index h) { return crossed_.count(h) != 0; }) % 2 == 1;
+  }
+
+  bool isInner(Index v) const
+  {
+    bool inner = true;
+    forEachInFan(mesh_, outgoing_[v],
+      [&](Index h)
+      { inner = inner && !mesh_.isBoundary(h) && !mesh_.isBoundary(Mesh::previous(h)); });
+    return inner;
+  }
+
+  /// Of a closed walk that crosses the row an odd number of times, a part without double vertices that does so.
+  std::vector<Index> simple(std::vector<Index> walk) const
+  {
+    std::unordered_map<Index, std::size_t> at;
+    for (std::size_t j = 0; j < walk.size(); ++j)
+    {
+      const auto [before, isNew] = at.emplace(mesh_.origin[walk[j]], j);
+      if (isNew)
+      {
+        continue;
+      }
+      const auto begin = walk.begin() + static_cast<std::ptrdiff_t>(before->second);
+      const auto end = walk.begin() + static_cast<std::ptrdiff_t>(j);
+      if (isOdd(begin, end))
+      {
+        return simple({ begin, end });
+      }
+      walk.erase(begin, end);
+      return simple(std::move(walk));
+    }
+    return walk;
+  }
+
+  const Mesh& mesh_;
+  const std::vector<Index>& outgoing_;
+  std::unordered_set<Index> crossed_; ///< half-edges
+};
+
+class PartCutting
+{
+public:
+  PartCutting(PreparedSurface& surface, double mostArea)
+    : surface_(surface), mesh_(surface.mesh), mostArea_(mostArea),
+      outgoing_(outgoingOf(surface.mesh)), used_(surface.mesh.vertexCount(), 0)
+  {
+  }
+
+  bool cut(const ThinPart& part, double longer)
+  {
+    const std::vector<Index> loop = cutOf(part, longer);
+    if (loop.size() < 3)
+    {
+      return false;
+    }
+    if (part.isLarge)
+    {
+      cutInTwo(loop);
+      return true;
+    }
+    const std::optional<std::vector<Index>> faces =
+      discBehind(loop, Mesh::face(outgoing_[part.tip]));
+    if (!faces)
+    {
+      return false;
+    }
+    take(*faces, loop);
+    return true;
+  }
+
+private:
+  /// With what is taken out on the left or on the right.
+  std::vector<Index> cutOf(const ThinPart& part, double longer) const
+  {
+    const auto isUsed = [&](Index v) { return used_[v] != 0; };
+    PartingLoops loops(mesh_, outgoing_);
+    if (isUsed(part.tip) || isUsed(part.outside) ||
+      std::any_of(part.loop.begin(), part.loop.end(), isUsed) ||
+      !loops.setApart(part.tip, part.outside))
+    {
+      return {};
+    }
+    double bound = std::min(longer * part.girth, kLoopOfHeight * part.height);
+    std::vector<Index> best;
+    for (const Index root : part.loop)
+    {
+      std::vector<Index> loop = loops.shortest(root, bound);
+      if (!loop.empty())
+      {
+        best = std::move(loop);
+      }
+    }
+    if (best.empty())
+    {
+      best = loops.through(part.loop, longer * part.girth);
+    }
+    if (std::any_of(best.begin(), best.end(), [&](Index h) { return isUsed(mesh_.origin[h]); }))
+    {
+      return {};
+    }
+    return best;
+  }
+
+  std::optional<std::vector<Index>> discBehind(const std::vector<Index>& loop, Index first) const
+  {
+    std::unordered_set<Index> edges, seen{ first }, corners;
+    for (const Index h : loop)
+    {
+      edges.insert(h);
+      edges.insert(mesh_.twin[h]);
+    }
+    std::vector<Index> faces{ first };
+    double area = 0;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+    {
+      area += mesh_.edgeVector(3 * faces[i]).cross(mesh_.edgeVector(3 * faces[i] + 1)).norm() / 2;
+      if (faces.size() > kMostFacesNear || area > mostArea_)
+      {
+        return std::nullopt;
+      }
+      for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h)
+      {
+        const bool isEdge = edges.count(h) != 0;
+        if (mesh_.isBoundary(h) || (mesh_.flags[h] & kRequestedFeature) != 0 ||
+          used_[mesh_.origin[h]] != 0 || isAskedFor(surface_, mesh_.origin[h]))
+        {
+          return std::nullopt;
+        }
+        corners.insert(mesh_.origin[h]);
+        if (!isEdge && seen.insert(Mesh::face(mesh_.twin[h])).second)
+        {
+          faces.push_back(Mesh::face(mesh_.twin[h]));
+        }
+      }
+    }
+    const std::size_t doubled = 3 * faces.size() + loop.size();
+    if (2 * (corners.size() + faces.size()) != doubled + 2)
+    {
+      return std::nullopt;
+    }
+    return faces;
+  }
+
+  void take(const std::vector<Index>& faces, std::vector<Index> run)
+  {
+    const std::unordered_set<Index> inside(faces.begin(), faces.end());
+    if (inside.count(Mesh::face(run.front())) != 0)
+    {
+      std::reverse(run.begin(), run.end());
+      std::transform(run.begin(), run.end(), run.begin(), [&](Index h) { return mesh_.twin[h]; });
+    }
+    Vector3 middle = Vector3::Zero();
+    for (const Index h : run)
+    {
+      middle += mesh_.position[mesh_.origin[h]] / static_cast<double>(run.size());
+    }
+    for (const Index f : faces)
+    {
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        used_[mesh_.origin[h]] = 1;
+      }
+      surface_.area -= mesh_.edgeVector(3 * f).cross(mesh_.edgeVector(3 * f + 1)).norm() / 2;
+    }
+    for (const Index f : faces)
+    {
+      removeFace(surface_, f);
+    }
+    const Index first = mesh_.halfEdgeCount();
+    fillWithFan(surface_, run, middle);
+    addCaps(first);
+  }
+
+  void cutInTwo(const std::vector<Index>& loop)
+  {
+    for (const Index h : loop)
+    {
+      used_[mesh_.origin[h]] = 1;
+    }
+    const Index first = mesh_.halfEdgeCount();
+    cutAndClose(surface_, loop);
+    ++surface_.components;
+    addCaps(first);
+  }
+
+  void addCaps(Index first)
+  {
+    used_.resize(mesh_.vertexCount(), 1);
+    outgoing_.resize(mesh_.vertexCount(), kInvalidIndex);
+    for (Index h = first; h < mesh_.halfEdgeCount(); ++h)
+    {
+      outgoing_[mesh_.origin[h]] = h;
+      if (h % 3 == 0)
+      {
+        surface_.area += mesh_.edgeVector(h).cross(mesh_.edgeVector(h + 1)).norm() / 2;
+      }
+    }
+  }
+
+  PreparedSurface& surface_;
+  Mesh& mesh_;
+  double mostArea_;
+  std::vector<Index> outgoing_;
+  std::vector<std::uint8_t> used_; ///< #V; of a part that is gone, or of its cap
+};
+
+} // namespace
+
+std::vector<ThinPart> findThinParts(const Mesh& mesh, const ThinPartLimits& limits)
+{
+  return PartSearch(mesh, limits).run();
+}
+
+std::vector<std::size_t> cutThinParts(
+  PreparedSurface& surface, const std::vector<ThinPart>& parts, double longer, double mostArea)
+{
+  std::vector<std::size_t> done;
+  PartCutting cutting(surface, mostArea);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    poll();
+    if (cutting.cut(parts[i], longer))
+    {
+      done.push_back(i);
+    }
+  }
+  if (!done.empty())
+  {
+    orderSurface(surface, 1);
+    surface.hash = contentHash(surface.mesh, 1);
+  }
+  return done;
+}
+
+} // namespace quadrille

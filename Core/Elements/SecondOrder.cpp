@@ -1,0 +1,612 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Elements/SecondOrder.h"
+
+#include "Base/Parallel.h"
+#include "Base/Refuse.h"
+#include "Elements/QuadraticShape.h"
+#include "Elements/SurfaceSection.h"
+#include "Mesh/NearestTriangle.h"
+#include "Quads/QuadShape.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <tuple>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr std::size_t kNodeChunk = 256;
+/// How far a node has moved: 0 not, 1 along the surface, then off it until the straight edge.
+using MoveLevel = std::uint8_t;
+constexpr MoveLevel kAlong = 1;
+constexpr MoveLevel kStraight = 4;
+/// What of the way from the surface to the straight edge is left on the levels.
+constexpr std::array<double, 5> kLeft{ 1, 1, 0.5, 0.25, 0 };
+
+void checkQuads(const QuadsOnSurface& quads, const SecondOrderOptions& options)
+{
+  if (options.nodes != 8 && options.nodes != 9)
+  {
+    refuse("a quad of second order has 8 or 9 nodes, not ", options.nodes);
+  }
+  if (quads.places.size() != quads.points.size() ||
+    (!quads.featureEdges.empty() && quads.featureEdges.size() != quads.quads.size()))
+  {
+    refuse("quads of second order: the places or the feature edges do not fit the quads");
+  }
+  for (std::size_t q = 0; q < quads.quads.size(); ++q)
+  {
+    for (const Index corner : quads.quads[q])
+    {
+      if (corner >= quads.points.size())
+      {
+        refuse("quad ", q, " has the corner ", corner, ", but there are ", quads.points.size(),
+          " points");
+      }
+    }
+  }
+}
+
+/// The edges of the quads, numbered by their first quad.
+class QuadEdgeList
+{
+public:
+  QuadEdgeList(const QuadsOnSurface& quads, SecondOrderNodes& nodes)
+  {
+    struct Side
+    {
+      Index a, b, halfEdge;
+    };
+    std::vector<Side> sides;
+    sides.reserve(4 * quads.quads.size());
+    for (Index q = 0; q < quads.quads.size(); ++q)
+    {
+      for (Index i = 0; i < 4; ++i)
+      {
+        const auto [a, b] = std::minmax(quads.quads[q][i], quads.quads[q][(i + 1) % 4]);
+        sides.push_back({ a, b, 4 * q + i });
+      }
+    }
+    std::sort(sides.begin(), sides.end(),
+      [](const Side& l, const Side& r)
+      { return std::tie(l.a, l.b, l.halfEdge) < std::tie(r.a, r.b, r.halfEdge); });
+    const auto isFirst = [&sides](std::size_t i)
+    { return i == 0 || sides[i].a != sides[i - 1].a || sides[i].b != sides[i - 1].b; };
+    std::vector<Index> firstOf(sides.size(), kInvalidIndex); // per half-edge that begins an edge
+    for (std::size_t i = 0; i < sides.size(); ++i)
+    {
+      if (isFirst(i))
+      {
+        firstOf[sides[i].halfEdge] = static_cast<Index>(i);
+      }
+    }
+    nodes.edgesOfQuad.resize(quads.quads.size());
+    first_.push_back(0);
+    for (const Index first : firstOf)
+    {
+      if (first == kInvalidIndex)
+      {
+        continue;
+      }
+      const auto edge = static_cast<Index>(nodes.edges.size());
+      nodes.edges.push_back({ sides[first].a, sides[first].b });
+      std::size_t i = first;
+      do
+      {
+        halfEdges_.push_back(sides[i].halfEdge);
+        nodes.edgesOfQuad[sides[i].halfEdge / 4][sides[i].halfEdge % 4] = edge;
+        ++i;
+      } while (i < sides.size() && !isFirst(i));
+      first_.push_back(halfEdges_.size());
+      nodes.onBoundary.push_back(first_[edge + 1] - first_[edge] == 1);
+    }
+  }
+
+  const Index* begin(Index edge) const { return halfEdges_.data() + first_[edge]; }
+  const Index* end(Index edge) const { return halfEdges_.data() + first_[edge + 1]; }
+
+private:
+  std::vector<std::size_t> first_;
+  std::vector<Index> halfEdges_; ///< 4 quad + side, of each edge
+};
+
+//------------------------------------------------------------------------------
+class NodePlacer
+{
+public:
+  NodePlacer(const Mesh& surface, const QuadsOnSurface& quads, const SecondOrderOptions& options)
+    : surface_(surface), quads_(quads), options_(options), edges_(quads, nodes_)
+  {
+  }
+
+  SecondOrderNodes run()
+  {
+    const std::size_t edges = nodes_.edges.size();
+    const std::size_t all = edges + (options_.nodes == 9 ? quads_.quads.size() : 0);
+    nodes_.points.resize(all);
+    nodes_.places.resize(all);
+    nodes_.kinds.assign(all, NodePlace::Surface);
+    levels_.assign(all, 0);
+    fates_.assign(all, Fate::Found);
+    report(options_.progress, 0, "nodes between corners");
+    place(0, edges);
+    report(options_.progress, 0.5, "determinants");
+    straighten();
+    if (options_.nodes == 9)
+    {
+      // Between nodes that do not fold the element, as far as they alone can.
+      count_ = 9;
+      shape_ = QuadraticShape(9);
+      report(options_.progress, 0.7, "nodes in centres");
+      place(edges, all);
+      report(options_.progress, 0.9, "determinants");
+      straighten();
+    }
+    tell();
+    return std::move(nodes_);
+  }
+
+private:
+  enum class Fate : std::uint8_t
+  {
+    Found,
+    WithoutCurve, ///< found, but not on the curve of its edge
+    Nowhere,      ///< no way leads there
+    WithoutCurveOrWay
+  };
+
+  std::array<Vector3, 4> cornersOfQuad(Index q) const
+  {
+    return cornersOf(quads_.points, quads_.quads[q]);
+  }
+
+  bool isCentre(std::size_t n) const { return n >= nodes_.edges.size(); }
+  Index quadOfCentre(std::size_t n) const { return static_cast<Index>(n - nodes_.edges.size()); }
+
+  bool isFeature(Index edge) const
+  {
+    return !quads_.featureEdges.empty() &&
+      std::any_of(edges_.begin(edge), edges_.end(edge),
+        [this](Index h) { return (quads_.featureEdges[h / 4] >> h % 4 & 1) != 0; });
+  }
+
+  /// Of the straight quads at an edge, or of the quad of a centre.
+  Vector3 normalAt(std::size_t n) const
+  {
+    if (isCentre(n))
+    {
+      return centreNormal(cornersOfQuad(quadOfCentre(n))).stableNormalized();
+    }
+    Vector3 sum = Vector3::Zero();
+    const auto edge = static_cast<Index>(n);
+    for (const Index* h = edges_.begin(edge); h != edges_.end(edge); ++h)
+    {
+      sum += centreNormal(cornersOfQuad(*h / 4)).stableNormalized();
+    }
+    return sum;
+  }
+
+  /// Where the node is when the element is as straight as its corners and edges let it be.
+  Vector3 straightPlace(std::size_t n) const
+  {
+    if (!isCentre(n))
+    {
+      const auto [a, b] = nodes_.edges[n];
+      return quads_.points[a] + (quads_.points[b] - quads_.points[a]) / 2;
+    }
+    const Index q = quadOfCentre(n);
+    Vector3 place = Vector3::Zero();
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      place += nodes_.points[nodes_.edgesOfQuad[q][i]] / 2 - quads_.points[quads_.quads[q][i]] / 4;
+    }
+    return place;
+  }
+
+  /// How far from its straight place a node may lie, but on a curve: as on a half circle over the edge, and a little
+  /// more for rounding. What is farther, as behind a wall that the straight edge goes through, would be a spike.
+  double reachOf(std::size_t n) const
+  {
+    constexpr double kHalfCircle = 0.51;
+    const auto length = [this](Index edge) {
+      return (quads_.points[nodes_.edges[edge][1]] - quads_.points[nodes_.edges[edge][0]]).norm();
+    };
+    if (!isCentre(n))
+    {
+      return kHalfCircle * length(static_cast<Index>(n));
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (const Index edge : nodes_.edgesOfQuad[quadOfCentre(n)])
+    {
+      least = std::min(least, length(edge));
+    }
+    return kHalfCircle * least;
+  }
+
+  bool isNear(std::size_t n, const Vector3& p) const
+  {
+    return (p - straightPlace(n)).norm() <= reachOf(n);
+  }
+
+  void place(std::size_t first, std::size_t last)
+  {
+    parallelFor(last - first, kNodeChunk, options_.threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t n = first + begin; n < first + end; ++n)
+        {
+          isCentre(n) ? placeCentre(n) : placeMiddle(static_cast<Index>(n));
+        }
+      });
+    placeNearest(first, last);
+  }
+
+  void placeMiddle(Index edge)
+  {
+    const SurfacePoint& from = quads_.places[nodes_.edges[edge][0]];
+    const SurfacePoint& to = quads_.places[nodes_.edges[edge][1]];
+    if (from.face == kInvalidIndex || to.face == kInvalidIndex)
+    {
+      fates_[edge] = Fate::Nowhere;
+      return;
+    }
+    const bool isCurve = isOnCurve(edge);
+    if (isCurve)
+    {
+      if (const auto chain = chainOf(edge))
+      {
+        put(edge, chain->middle(surface_).onSurface());
+        return;
+      }
+      fates_[edge] = Fate::WithoutCurve;
+    }
+    const auto middle = middleOnSection(surface_, from, to, normalAt(edge));
+    if (middle && isNear(edge, positionOf(surface_, *middle)))
+    {
+      put(edge, *middle);
+      return;
+    }
+    fates_[edge] = isCurve ? Fate::WithoutCurveOrWay : Fate::Nowhere;
+  }
+
+  bool isOnCurve(Index edge) const { return nodes_.onBoundary[edge] != 0 || isFeature(edge); }
+
+  std::optional<CurveChain> chainOf(Index edge) const
+  {
+    return chainBetween(surface_, quads_.places[nodes_.edges[edge][0]],
+      quads_.places[nodes_.edges[edge][1]], nodes_.onBoundary[edge] != 0);
+  }
+
+  /// Of the two pairs of opposite edges that one is joined which is the shorter way.
+  void placeCentre(std::size_t n)
+  {
+    const std::array<Index, 4>& e = nodes_.edgesOfQuad[quadOfCentre(n)];
+    const double first = (nodes_.points[e[2]] - nodes_.points[e[0]]).squaredNorm();
+    const double second = (nodes_.points[e[3]] - nodes_.points[e[1]]).squaredNorm();
+    const std::size_t k = first <= second ? 0 : 1;
+    for (const std::size_t i : { k, 1 - k })
+    {
+      const SurfacePoint& from = nodes_.places[e[i]];
+      const SurfacePoint& to = nodes_.places[e[i + 2]];
+      if (from.face == kInvalidIndex || to.face == kInvalidIndex)
+      {
+        continue;
+      }
+      const auto middle = middleOnSection(surface_, from, to, normalAt(n));
+      if (middle && isNear(n, positionOf(surface_, *middle)))
+      {
+        put(n, *middle);
+        return;
+      }
+    }
+    fates_[n] = Fate::Nowhere;
+  }
+
+  void put(std::size_t n, const SurfacePoint& place)
+  {
+    nodes_.places[n] = place;
+    nodes_.points[n] = positionOf(surface_, place);
+  }
+
+  /// The nodes that no way leads to. The tree is made only where there are some.
+  void placeNearest(std::size_t first, std::size_t last)
+  {
+    std::vector<std::size_t> lost;
+    for (std::size_t n = first; n < last; ++n)
+    {
+      if (fates_[n] == Fate::Nowhere || fates_[n] == Fate::WithoutCurveOrWay)
+      {
+        lost.push_back(n);
+      }
+    }
+    if (lost.empty())
+    {
+      return;
+    }
+    if (!tree_)
+    {
+      TriangleList list;
+      list.points = surface_.position;
+      for (Index f = 0; f < surface_.faceCount(); ++f)
+      {
+        list.corners.push_back(
+          { surface_.origin[3 * f], surface_.origin[3 * f + 1], surface_.origin[3 * f + 2] });
+      }
+      tree_ = std::make_unique<NearestTriangle>(std::move(list));
+    }
+    parallelFor(lost.size(), kNodeChunk, options_.threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const Vector3 wanted = straightPlace(lost[i]);
+          if (const auto near = tree_->at(wanted, normalAt(lost[i]), reachOf(lost[i])))
+          {
+            put(lost[i], { near->triangle, near->weights });
+          }
+          else
+          {
+            nodes_.points[lost[i]] = wanted;
+            nodes_.kinds[lost[i]] = NodePlace::MovedOff;
+            levels_[lost[i]] = kStraight;
+          }
+        }
+      });
+  }
+
+  //----------------------------------------------------------------------------
+  QuadraticNodes nodesOf(Index q) const
+  {
+    QuadraticNodes x{};
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      x[i] = quads_.points[quads_.quads[q][i]];
+      x[4 + i] = nodes_.points[nodes_.edgesOfQuad[q][i]];
+    }
+    x[8] = count_ == 9 ? nodes_.points[nodes_.edges.size() + q] : x[0];
+    return x;
+  }
+
+  /// What a determinant must be above: so far from zero that rounding, also of others who compute it, does not matter,
+  /// but never more than the straight element can have.
+  double leastWanted(Index q) const
+  {
+    constexpr double kPartOfArea = 1e-6;
+    const std::array<Vector3, 4> p = cornersOfQuad(q);
+    const Vector3 area = centreNormal(p);
+    double least = kPartOfArea * area.norm() / 16; // of the straight element at its centre
+    const Vector3 normal = area.stableNormalized();
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const double corner = normal.dot((p[i] - p[(i + 3) % 4]).cross(p[(i + 1) % 4] - p[i])) / 4;
+      least = std::min(least, corner / 2);
+    }
+    return least;
+  }
+
+  bool isFolded(Index q) const { return !(shape_.leastDeterminant(nodesOf(q)) > leastWanted(q)); }
+
+  /// The node at another level. MoveLevel 1 is looked for anew each time, as few nodes need it.
+  std::pair<Vector3, SurfacePoint> nodeAt(std::size_t n, MoveLevel level) const
+  {
+    const Vector3 straight = straightPlace(n);
+    if (nodes_.places[n].face == kInvalidIndex)
+    {
+      return { straight, nodes_.places[n] };
+    }
+    const SurfacePoint foot = levels_[n] >= kAlong ? nodes_.places[n] : footOf(n, straight);
+    const Vector3 onSurface = positionOf(surface_, foot);
+    return { kLeft[level] == 1 ? onSurface
+                               : Vector3(straight + kLeft[level] * (onSurface - straight)),
+      foot };
+  }
+
+  SurfacePoint footOf(std::size_t n, const Vector3& straight) const
+  {
+    if (!isCentre(n) && isOnCurve(static_cast<Index>(n)))
+    {
+      const auto chain = chainOf(static_cast<Index>(n));
+      return chain ? chain->nearest(surface_, straight).onSurface() : nodes_.places[n];
+    }
+    return approach(surface_, nodes_.places[n], straight);
+  }
+
+  struct NodeMove
+  {
+    std::size_t node = 0;
+    MoveLevel level = 0;
+  };
+
+  /// The least move of one node that makes element q good, else the one that does most for it. None where all edges are
+  /// straight.
+  std::optional<NodeMove> wishOf(Index q) const
+  {
+    const double wanted = leastWanted(q);
+    std::optional<NodeMove> best;
+    double most = -std::numeric_limits<double>::infinity();
+    for (MoveLevel level = kAlong; level <= kStraight; ++level)
+    {
+      for (std::size_t slot = 4; slot < count_; ++slot)
+      {
+        const std::size_t n = slot < 8 ? nodes_.edgesOfQuad[q][slot - 4] : nodes_.edges.size() + q;
+        if (levels_[n] >= level)
+        {
+          continue;
+        }
+        QuadraticNodes x = nodesOf(q);
+        x[slot] = nodeAt(n, level).first;
+        if (slot < 8)
+        {
+          followWithCentre(q, x);
+        }
+        const double least = shape_.leastDeterminant(x);
+        if (least > most || !best)
+        {
+          most = least;
+          best = NodeMove{ n, level };
+        }
+      }
+      if (most > wanted)
+      {
+        break;
+      }
+    }
+    return best;
+  }
+
+  /// A centre off the surface follows the edges of its quad, also where these are only tried.
+  void followWithCentre(Index q, QuadraticNodes& x) const
+  {
+    const std::size_t n = nodes_.edges.size() + q;
+    if (count_ != 9 || levels_[n] <= kAlong)
+    {
+      return;
+    }
+    const Vector3 straight = (x[4] + x[5] + x[6] + x[7]) / 2 - (x[0] + x[1] + x[2] + x[3]) / 4;
+    x[8] = nodes_.places[n].face == kInvalidIndex
+      ? straight
+      : Vector3(straight + kLeft[levels_[n]] * (positionOf(surface_, nodes_.places[n]) - straight));
+  }
+
+  /// Rounds of moves, each of which only raises levels, so that they end. With all edges straight the element is that
+  /// of its corners, whose determinant is positive where it is so at the corners.
+  void straighten()
+  {
+    std::vector<Index> check(quads_.quads.size());
+    for (Index q = 0; q < check.size(); ++q)
+    {
+      check[q] = q;
+    }
+    while (!check.empty())
+    {
+      const std::vector<Index> folded = foldedOf(check);
+      check = move(folded);
+    }
+  }
+
+  std::vector<Index> foldedOf(const std::vector<Index>& check)
+  {
+    std::vector<std::uint8_t> isBad(check.size(), 0);
+    parallelFor(check.size(), kNodeChunk, options_.threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          isBad[i] = isInverted(cornersOfQuad(check[i])) ? 2 : isFolded(check[i]) ? 1 : 0;
+        }
+      });
+    std::vector<Index> folded;
+    for (std::size_t i = 0; i < check.size(); ++i)
+    {
+      if (isBad[i] == 1)
+      {
+        folded.push_back(check[i]);
+      }
+      else if (isBad[i] == 2)
+      {
+        nodes_.invertedQuads.push_back(check[i]);
+      }
+    }
+    return folded;
+  }
+
+  /// Moves one node of each of the elements. Returns the elements that have to be looked at again, ascending.
+  std::vector<Index> move(const std::vector<Index>& folded)
+  {
+    std::vector<std::optional<NodeMove>> wishes(folded.size());
+    parallelFor(folded.size(), 1, options_.threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          wishes[i] = wishOf(folded[i]);
+        }
+      });
+    std::vector<Index> again;
+    for (const std::optional<NodeMove>& wish : wishes)
+    {
+      if (!wish || levels_[wish->node] >= wish->level)
+      {
+        continue; // another element has moved it as far
+      }
+      const std::size_t n = wish->node;
+      std::tie(nodes_.points[n], nodes_.places[n]) = nodeAt(n, wish->level);
+      levels_[n] = wish->level;
+      nodes_.kinds[n] = wish->level == kAlong ? NodePlace::MovedAlong : NodePlace::MovedOff;
+      const auto look = [&](Index q)
+      {
+        again.push_back(q);
+        straightenCentre(q);
+      };
+      if (isCentre(n))
+      {
+        look(quadOfCentre(n));
+        continue;
+      }
+      for (const Index* h = edges_.begin(static_cast<Index>(n));
+           h != edges_.end(static_cast<Index>(n)); ++h)
+      {
+        look(*h / 4);
+      }
+    }
+    std::sort(again.begin(), again.end());
+    again.erase(std::unique(again.begin(), again.end()), again.end());
+    return again;
+  }
+
+  /// A centre off the surface follows the edges of its quad.
+  void straightenCentre(Index q)
+  {
+    const std::size_t n = nodes_.edges.size() + q;
+    if (count_ == 9 && levels_[n] > kAlong)
+    {
+      nodes_.points[n] = nodeAt(n, levels_[n]).first;
+    }
+  }
+
+  void tell()
+  {
+    for (std::size_t n = 0; n < fates_.size(); ++n)
+    {
+      if (fates_[n] == Fate::WithoutCurve || fates_[n] == Fate::WithoutCurveOrWay)
+      {
+        nodes_.withoutCurve.push_back(static_cast<Index>(n));
+      }
+      if (fates_[n] == Fate::Nowhere || fates_[n] == Fate::WithoutCurveOrWay)
+      {
+        nodes_.byNearest.push_back(static_cast<Index>(n));
+      }
+    }
+    std::sort(nodes_.invertedQuads.begin(), nodes_.invertedQuads.end());
+    nodes_.invertedQuads.erase(
+      std::unique(nodes_.invertedQuads.begin(), nodes_.invertedQuads.end()),
+      nodes_.invertedQuads.end());
+  }
+
+  const Mesh& surface_;
+  const QuadsOnSurface& quads_;
+  const SecondOrderOptions& options_;
+  SecondOrderNodes nodes_;
+  QuadEdgeList edges_;
+  std::size_t count_ = 8; ///< nodes of an element that are placed
+  QuadraticShape shape_{ 8 };
+  std::vector<MoveLevel> levels_; ///< per node
+  std::vector<Fate> fates_;       ///< per node
+  std::unique_ptr<NearestTriangle> tree_;
+};
+
+} // namespace
+
+SecondOrderNodes placeSecondOrderNodes(
+  const Mesh& surface, const QuadsOnSurface& quads, const SecondOrderOptions& options)
+{
+  checkQuads(quads, options);
+  return NodePlacer(surface, quads, options).run();
+}
+
+} // namespace quadrille

@@ -1,0 +1,393 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Evaluation/ConstraintWords.h"
+
+#include "Base/PlaceText.h"
+#include "Evaluation/ConstraintMeasures.h"
+#include "Evaluation/LinesInQuads.h"
+#include "Evaluation/QuadPlaces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace quadrille
+{
+
+namespace
+{
+
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+/// A share of a guided region above this is worth a word.
+constexpr double kNotableShare = 0.1;
+ConstraintWord worded(const char* kind, std::int64_t source, const ConstraintMeasure& measure)
+{
+  return { kind, source, measure.place, measure.isMet, measure.deviation, measure.deviation95,
+    measure.unit, measure.reason, false };
+}
+
+ConstraintWord unknownWord(
+  const char* kind, std::int64_t source, const char* unit, std::string reason)
+{
+  ConstraintWord word;
+  word.kind = kind;
+  word.source = source;
+  word.unit = unit;
+  word.deviation = word.deviation95 = kNotMeasured;
+  word.reason = std::move(reason);
+  return word;
+}
+
+class Judge
+{
+public:
+  Judge(const AskedConstraints& asked, const QuadMesh& mesh)
+    : asked_(asked), mesh_(mesh), measures_(mesh)
+  {
+    std::size_t guides = asked.arrays.guides.size();
+    for (std::size_t i = 0; i < asked.placed.size(); ++i)
+    {
+      guides += asked.placed[i].guided.empty() ? 0 : 1;
+      for (const GuidedPolygon& guided : asked.placed[i].guided)
+      {
+        strokeOf_[guided.polygon] = i; // the later one goes before
+      }
+    }
+    mostPlaces_ = mostPlacesOf(guides);
+  }
+
+  ConstraintWord guideArray(const ArrayConstraints::Region& region)
+  {
+    return guide("guide array", region.firstCell, region.measured, region.polygons, std::nullopt);
+  }
+  ConstraintWord featureEdges(const ArrayConstraints::Curve& curve)
+  {
+    return feature(curve.firstPoint, curve.edges);
+  }
+  ConstraintWord valence(const ArrayConstraints::Valence& asked)
+  {
+    return asked.isUsed
+      ? valenceAt(asked.point, asked.place, asked.asked)
+      : placed(
+          unknownWord("valence", asked.point, "valence", "no face uses the point"), asked.place);
+  }
+  ConstraintWord sizes(const std::vector<double>& sizes) const;
+  ConstraintWord drawn(std::size_t i)
+  {
+    ConstraintWord word = measured(i);
+    const std::string off = measures_.offSurface(asked_.placed[i].given);
+    word.reason = withRemark(word.reason, off);
+    word.isOffSurface = !off.empty();
+    return word;
+  }
+
+private:
+  ConstraintWord measured(std::size_t i);
+  static ConstraintWord placed(ConstraintWord word, const Vector3& place)
+  {
+    word.place = place;
+    return word;
+  }
+  ConstraintWord guide(const char* kind, std::int64_t source,
+    const std::vector<GuidedPolygon>& measured, const std::vector<Index>& polygons,
+    std::optional<std::size_t> stroke);
+  ConstraintWord feature(std::int64_t source, const std::vector<std::array<Vector3, 2>>& edges)
+  {
+    return worded("feature curve", source, measures_.curve(edges));
+  }
+  ConstraintWord valenceAt(std::int64_t source, const Vector3& place, int asked)
+  {
+    return worded("valence", source, measures_.valence(place, asked));
+  }
+  ConstraintWord line(const PlacedConstraint& constraint);
+  std::string whyNotAlong(const std::vector<GuidedPolygon>& measured,
+    const std::vector<Index>& polygons, std::optional<std::size_t> stroke,
+    double irregularShare) const;
+
+  const AskedConstraints& asked_;
+  const QuadMesh& mesh_;
+  std::map<Index, std::size_t> strokeOf_; ///< polygons under strokes
+  std::size_t mostPlaces_ = mostPlacesOf(1);
+  ConstraintMeasures measures_;
+  std::optional<LinesInQuads> lines_; ///< made when it is needed first
+};
+
+ConstraintWord Judge::guide(const char* kind, std::int64_t source,
+  const std::vector<GuidedPolygon>& measured, const std::vector<Index>& polygons,
+  std::optional<std::size_t> stroke)
+{
+  double irregularShare = 0;
+  ConstraintWord word =
+    worded(kind, source, measures_.guide(measured, mostPlaces_, &irregularShare));
+  // Where nothing was measured the reason says why.
+  if (!word.isMet && !std::isnan(word.deviation))
+  {
+    word.reason += whyNotAlong(measured, polygons, stroke, irregularShare);
+  }
+  return word;
+}
+
+std::string Judge::whyNotAlong(const std::vector<GuidedPolygon>& measured,
+  const std::vector<Index>& polygons, std::optional<std::size_t> stroke,
+  double irregularShare) const
+{
+  std::ostringstream text;
+  std::size_t overruled = 0, by = 0;
+  double least = 1;
+  for (const Index polygon : polygons)
+  {
+    const auto found = strokeOf_.find(polygon);
+    if (found != strokeOf_.end() && found->second != stroke)
+    {
+      ++overruled;
+      by = found->second;
+    }
+  }
+  for (const GuidedPolygon& asked : measured)
+  {
+    least = std::min(least, asked.weight);
+  }
+  if (overruled > 0)
+  {
+    text << "; " << overruled << " of its " << polygons.size() << " cells are under guiding stroke "
+         << asked_.placed[by].source << ", which goes before it";
+  }
+  if (irregularShare > kNotableShare)
+  {
+    text << "; " << percentText(irregularShare) << " of its area is in quads at irregular vertices";
+  }
+  if (least < 1)
+  {
+    text << "; its weight is " << shortText(least) << (stroke ? "" : " at least")
+         << ", a larger one is followed more closely";
+  }
+  return text.str();
+}
+
+/// By how much the sizes of the quads differ, against each other, from those asked for: the logarithms of the ratios
+/// against their median.
+ConstraintWord Judge::sizes(const std::vector<double>& sizes) const
+{
+  ConstraintWord word = unknownWord("size", -1, "factor", "no quads were made");
+  if (mesh_.quads.empty() || sizes.empty())
+  {
+    return word;
+  }
+  std::vector<WeightedDeviation> ratios;
+  std::vector<double> logarithms;
+  std::vector<std::size_t> quadOf;
+  for (std::size_t q = 0; q < mesh_.quads.size(); ++q)
+  {
+    const std::array<Index, 4>& quad = mesh_.quads[q];
+    double asked = 0;
+    for (const Index p : quad)
+    {
+      asked += 0.25 * sizes[p];
+    }
+    const double area = 0.5 *
+      (mesh_.points[quad[2]] - mesh_.points[quad[0]])
+        .cross(mesh_.points[quad[3]] - mesh_.points[quad[1]])
+        .norm();
+    if (area > 0 && asked > 0)
+    {
+      ratios.push_back({ std::log(std::sqrt(area) / asked), area });
+      logarithms.push_back(ratios.back().value);
+      quadOf.push_back(q);
+    }
+  }
+  if (ratios.empty())
+  {
+    word.reason = "the quads have no area";
+    return word;
+  }
+  const auto middle = logarithms.begin() + static_cast<std::ptrdiff_t>(logarithms.size() / 2);
+  std::nth_element(logarithms.begin(), middle, logarithms.end());
+  double worst = -1;
+  for (std::size_t i = 0; i < ratios.size(); ++i)
+  {
+    ratios[i].value = std::abs(ratios[i].value - *middle);
+    if (ratios[i].value > worst)
+    {
+      worst = ratios[i].value;
+      const std::array<Index, 4>& quad = mesh_.quads[quadOf[i]];
+      word.place = 0.25 *
+        (mesh_.points[quad[0]] + mesh_.points[quad[1]] + mesh_.points[quad[2]] +
+          mesh_.points[quad[3]]);
+    }
+  }
+  word.deviation = std::exp(meanOf(ratios));
+  word.deviation95 = std::exp(percentile95(std::move(ratios)));
+  word.isMet = word.deviation <= kMetFactor;
+  word.reason = word.isMet ? ""
+                           : "the sizes of the quads differ from those asked for by a factor of " +
+      shortText(word.deviation) + " on average, at most " + shortText(kMetFactor) +
+      " counts as met";
+  return word;
+}
+
+/// A connection or a cycle: the chain of edges that it became, and how far that is from what was drawn.
+ConstraintWord Judge::line(const PlacedConstraint& constraint)
+{
+  ConstraintWord word = placed(
+    unknownWord(nameOf(constraint.kind), constraint.source, "edge lengths", "no quads were made"),
+    constraint.path.front());
+  if (mesh_.quads.empty() || constraint.curve >= asked_.curves.size())
+  {
+    return word;
+  }
+  if (!lines_)
+  {
+    lines_.emplace(mesh_);
+  }
+  const CurveOutcome& outcome = asked_.curves[constraint.curve];
+  const std::vector<Vector3> chain = lines_->chainOf(constraint, outcome);
+  word.isMet = !chain.empty();
+  word.reason = word.isMet ? ""
+    : outcome.why.empty()  ? "the quads have no straight chain of edges there"
+                           : outcome.why;
+  if (!chain.empty())
+  {
+    const auto [distance, place] = farthestFrom(constraint.path, chain);
+    word.deviation = distance / lines_->edgeLength();
+    word.place = place;
+  }
+  return word;
+}
+
+ConstraintWord Judge::measured(std::size_t i)
+{
+  const PlacedConstraint& constraint = asked_.placed[i];
+  const bool isStroke = constraint.kind == ConstraintKind::Stroke;
+  const Vector3 place =
+    constraint.path.empty() ? Vector3(Vector3::Zero()) : constraint.path.front();
+  if (constraint.kind == ConstraintKind::Valence && !constraint.whyNot.empty())
+  {
+    return placed(unknownWord("valence", constraint.source, "valence", constraint.whyNot), place);
+  }
+  if (constraint.kind == ConstraintKind::Valence)
+  {
+    return valenceAt(constraint.source, place, constraint.valence);
+  }
+  if (constraint.kind == ConstraintKind::Move && !constraint.whyNot.empty())
+  {
+    return placed(unknownWord("move", constraint.source, "valence", constraint.whyNot), place);
+  }
+  if (constraint.kind == ConstraintKind::Move)
+  {
+    return worded(
+      "move", constraint.source, measures_.valence(constraint.path.back(), constraint.valence));
+  }
+  if (constraint.kind == ConstraintKind::Connection || constraint.kind == ConstraintKind::Cycle)
+  {
+    return line(constraint);
+  }
+  if (!constraint.whyNot.empty() || (isStroke && constraint.guided.empty()))
+  {
+    return placed(unknownWord(isStroke ? "guide stroke" : "feature curve", constraint.source,
+                    isStroke ? "degrees" : "edge lengths",
+                    constraint.whyNot.empty() ? "it runs over no face" : constraint.whyNot),
+      place);
+  }
+  if (isStroke)
+  {
+    std::vector<Index> polygons;
+    for (const GuidedPolygon& guided : constraint.guided)
+    {
+      polygons.push_back(guided.polygon);
+    }
+    return guide("guide stroke", constraint.source, constraint.guided, polygons, i);
+  }
+  std::vector<std::array<Vector3, 2>> edges;
+  for (std::size_t k = 0; k + 1 < constraint.path.size(); ++k)
+  {
+    edges.push_back({ constraint.path[k], constraint.path[k + 1] });
+  }
+  return feature(constraint.source, edges);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::vector<ConstraintWord> judgeConstraints(
+  const AskedConstraints& asked, const QuadMesh& mesh, const std::vector<double>& sizes)
+{
+  std::vector<ConstraintWord> words;
+  Judge judge(asked, mesh);
+  for (const ArrayConstraints::Region& region : asked.arrays.guides)
+  {
+    words.push_back(judge.guideArray(region));
+  }
+  for (const ArrayConstraints::Curve& curve : asked.arrays.curves)
+  {
+    words.push_back(judge.featureEdges(curve));
+  }
+  for (const ArrayConstraints::Valence& valence : asked.arrays.valences)
+  {
+    words.push_back(judge.valence(valence));
+  }
+  if (asked.arrays.sizes)
+  {
+    words.push_back(judge.sizes(sizes));
+  }
+  for (std::size_t i = 0; i < asked.placed.size(); ++i)
+  {
+    words.push_back(judge.drawn(i));
+  }
+  return words;
+}
+
+std::vector<bool> metOfDrawn(
+  const std::vector<ConstraintWord>& words, const AskedConstraints& asked)
+{
+  std::vector<bool> met;
+  for (std::size_t i = words.size() - asked.placed.size(); i < words.size(); ++i)
+  {
+    met.push_back(words[i].isMet);
+  }
+  return met;
+}
+
+std::vector<std::string> offSurfaceNotices(const std::vector<ConstraintWord>& words)
+{
+  std::vector<std::string> notices;
+  for (const ConstraintWord& word : words)
+  {
+    if (word.isOffSurface)
+    {
+      notices.push_back(
+        std::string(word.kind) + " " + std::to_string(word.source) + ": " + word.reason);
+    }
+  }
+  return notices;
+}
+
+std::vector<std::string> missedValences(
+  const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh)
+{
+  std::vector<std::string> missed;
+  const bool asksAny = std::any_of(placed.begin(), placed.end(),
+    [](const PlacedConstraint& constraint) { return constraint.kind == ConstraintKind::Valence; });
+  if (mesh.quads.empty() || !asksAny)
+  {
+    return missed;
+  }
+  const ReachedValences reached(mesh);
+  for (const PlacedConstraint& constraint : placed)
+  {
+    const bool asks = constraint.kind == ConstraintKind::Valence && constraint.whyNot.empty();
+    const int there = asks ? reached.at(constraint.path.front()) : 0;
+    if (asks && there != constraint.valence)
+    {
+      missed.push_back("valence " + std::to_string(constraint.valence) + " was asked for at " +
+        placeText(constraint.path.front()) + ", but the quads have " + std::to_string(there) +
+        " there: move the point away from sharp edges and other points, or ask for smaller quads");
+    }
+  }
+  return missed;
+}
+
+} // namespace quadrille

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// A word on each constraint: whether the quads do what was asked for, by how much not, and why not.
+#pragma once
+
+#include "Evaluation/ArrayConstraints.h"
+#include "Extraction/Extraction.h"
+#include "Integers/CurveIsolines.h"
+#include "Requests/DrawnConstraints.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// All that was asked of one surface.
+struct AskedConstraints
+{
+  ArrayConstraints arrays;
+  std::vector<PlacedConstraint> placed;
+  std::vector<CurveOutcome> curves; ///< of the run, see PlacedConstraint::curve; empty before
+};
+
+/// A row of the table. What could not be measured is not a number.
+struct ConstraintWord
+{
+  const char* kind = "";
+  std::int64_t source = -1;
+  Vector3 place = Vector3::Zero(); ///< where it deviates most
+  bool isMet = false;
+  double deviation = 0;
+  double deviation95 = 0; ///< the 95th percentile of what deviation is the mean of
+  const char* unit = "";
+  /// Why it is not met, and which of its points lies off the surface; empty: neither.
+  std::string reason;
+  bool isOffSurface = false;
+};
+
+/// mesh: what was made, without quads where there are none. sizes: what was asked for at its points, #points, or empty.
+/// In the order of the input: arrays of the surface (guides, curves, valences, sizes), then what was drawn.
+std::vector<ConstraintWord> judgeConstraints(
+  const AskedConstraints& asked, const QuadMesh& mesh, const std::vector<double>& sizes);
+
+/// Of the words, those on what was drawn, in their order: whether it is met.
+std::vector<bool> metOfDrawn(
+  const std::vector<ConstraintWord>& words, const AskedConstraints& asked);
+
+/// Of the words, those on points that lie farther than an edge length off the surface, as sentences.
+std::vector<std::string> offSurfaceNotices(const std::vector<ConstraintWord>& words);
+
+/// What to do about valences that the quads do not have, with place and both numbers. mesh: what was made.
+std::vector<std::string> missedValences(
+  const std::vector<PlacedConstraint>& placed, const QuadMesh& mesh);
+
+} // namespace quadrille

@@ -1,0 +1,556 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Features/FeatureFilter.h"
+
+#include "Base/DisjointSets.h"
+#include "Base/Error.h"
+#include "Base/Progress.h"
+#include "Mesh/Distance.h"
+#include "Mesh/Sizing.h"
+#include "Mesh/Topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr double kShortestDangling = 4;
+constexpr double kShortestLoop = 2;
+constexpr double kShortestMeanChain = 1;
+/// Length over length in steps of s. A circle of radius s has 1.04, one of 0.7 s 1.09; mesh edges that
+/// zigzag through noise have 1.2 and more.
+constexpr double kMostJagged = 1.1;
+
+/// Mean width of a patch over s; there a quad is at least so much narrower than it is long.
+constexpr double kThinnestPatch = 0.25;
+/// Chains shorter than this part of a patch's longest one are its ends and not its sides.
+constexpr double kShortestSide = 0.5;
+
+/// A maximal run of constrained edges between nodes; `ends` is invalid for a closed loop.
+struct Chain
+{
+  std::vector<Index> halfEdges; ///< one of each edge
+  double length = 0;
+  double sizedLength = 0; ///< length over the size of quads there
+  double jaggedness = 1;  ///< length over its length in steps of s
+  Index first = kInvalidIndex;
+  Index last = kInvalidIndex;
+  bool removable = true; ///< all of it was detected, none asked for, none on the boundary
+};
+
+class FeatureGraph
+{
+public:
+  /// edges: constrainedEdges of the mesh.
+  FeatureGraph(const Mesh& mesh, double edgeLength, const std::vector<Index>& edges)
+    : mesh_(mesh), edgeLength_(edgeLength), edges_(edges)
+  {
+    countDegrees();
+    listIncidentEdges();
+    traceChains();
+  }
+
+  const std::vector<Chain>& chains() const { return chains_; }
+  /// A single feature that ends in the surface or on the boundary continues nowhere.
+  bool endsThere(Index v) const
+  {
+    Index features = 0;
+    for (Index i = offset_[v]; i < offset_[v + 1]; ++i)
+    {
+      features += !mesh_.isBoundary(incident_[i]);
+    }
+    return features == 1;
+  }
+
+private:
+  Index degree(Index v) const { return offset_[v + 1] - offset_[v]; }
+
+  void countDegrees()
+  {
+    offset_.assign(mesh_.vertexCount() + 1, 0);
+    for (const Index h : edges_)
+    {
+      ++offset_[mesh_.origin[h] + 1];
+      ++offset_[mesh_.target(h) + 1];
+    }
+    std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
+  }
+
+  void listIncidentEdges()
+  {
+    incident_.resize(offset_.back());
+    std::vector<Index> fill(offset_.begin(), offset_.end() - 1);
+    for (const Index h : edges_)
+    {
+      incident_[fill[mesh_.origin[h]]++] = h;
+      incident_[fill[mesh_.target(h)]++] = h;
+    }
+  }
+
+  std::size_t placeOf(Index h) const
+  {
+    return static_cast<std::size_t>(
+      std::lower_bound(edges_.begin(), edges_.end(), h) - edges_.begin());
+  }
+
+  void traceChains()
+  {
+    std::vector<std::uint8_t> done(edges_.size(), 0);
+    for (const bool loops : { false, true })
+    {
+      for (std::size_t i = 0; i < edges_.size(); ++i)
+      {
+        pollNowAndThen(i);
+        const Index h = edges_[i];
+        if (done[i] != 0)
+        {
+          continue;
+        }
+        const bool startsHere = degree(mesh_.origin[h]) != 2;
+        const bool endsHere = degree(mesh_.target(h)) != 2;
+        if (startsHere || endsHere || loops)
+        {
+          trace(h, startsHere ? mesh_.origin[h] : mesh_.target(h), done);
+        }
+      }
+    }
+  }
+
+  Index otherEnd(Index h, Index v) const
+  {
+    return mesh_.origin[h] == v ? mesh_.target(h) : mesh_.origin[h];
+  }
+
+  void trace(Index h, Index start, std::vector<std::uint8_t>& done)
+  {
+    Chain chain;
+    Index v = start;
+    std::vector<Index> path{ start };
+    while (true)
+    {
+      done[placeOf(h)] = 1;
+      chain.halfEdges.push_back(h);
+      chain.length += mesh_.edgeVector(h).norm();
+      chain.sizedLength += sizedLength(mesh_, h);
+      chain.removable =
+        chain.removable && !mesh_.isBoundary(h) && (mesh_.flags[h] & kRequestedFeature) == 0;
+      v = otherEnd(h, v);
+      path.push_back(v);
+      if (degree(v) != 2)
+      {
+        break;
+      }
+      const Index a = incident_[offset_[v]];
+      const Index next = a == h ? incident_[offset_[v] + 1] : a;
+      if (done[placeOf(next)] != 0)
+      {
+        break; // a closed loop without a node
+      }
+      h = next;
+    }
+    if (degree(start) != 2)
+    {
+      chain.first = start;
+      chain.last = v;
+    }
+    chain.jaggedness = chain.length / std::max(steppedLength(path), 1e-12 * chain.length);
+    chains_.push_back(std::move(chain));
+  }
+
+  /// Length of the polyline through points of the path that are s (times the size there) apart along it.
+  double steppedLength(const std::vector<Index>& path) const
+  {
+    double sum = 0;
+    double walked = 0;
+    Vector3 last = mesh_.position[path.front()];
+    for (std::size_t i = 0; i + 1 < path.size(); ++i)
+    {
+      const Vector3& a = mesh_.position[path[i]];
+      const Vector3& b = mesh_.position[path[i + 1]];
+      const double length =
+        (b - a).norm() / std::sqrt(sizeAt(mesh_, path[i]) * sizeAt(mesh_, path[i + 1]));
+      double used = 0;
+      while (walked + length - used >= edgeLength_)
+      {
+        used += edgeLength_ - walked;
+        walked = 0;
+        const Vector3 point = a + (b - a) * (used / length);
+        sum += (point - last).norm();
+        last = point;
+      }
+      walked += length - used;
+    }
+    return sum + (mesh_.position[path.back()] - last).norm();
+  }
+
+  const Mesh& mesh_;
+  double edgeLength_;
+  const std::vector<Index>& edges_;
+  std::vector<Index> offset_;
+  std::vector<Index> incident_;
+  std::vector<Chain> chains_;
+};
+
+/// For each chain a vertex that stands for all chains which hang together with it at their ends.
+std::vector<Index> chainComponents(const Mesh& mesh, const std::vector<Chain>& chains)
+{
+  DisjointSets nodes(mesh.vertexCount(), 1);
+  for (const Chain& chain : chains)
+  {
+    if (chain.first != kInvalidIndex)
+    {
+      nodes.join(chain.first, chain.last);
+    }
+  }
+  std::vector<Index> component(chains.size());
+  for (std::size_t i = 0; i < chains.size(); ++i)
+  {
+    const Chain& chain = chains[i];
+    component[i] =
+      nodes.find(chain.first == kInvalidIndex ? mesh.origin[chain.halfEdges.front()] : chain.first);
+  }
+  return component;
+}
+
+/// Chain by chain; returns whether anything went.
+bool dropChains(
+  Mesh& mesh, double edgeLength, const FeatureGraph& graph, FeatureFilterReport& report)
+{
+  const std::vector<Chain>& chains = graph.chains();
+  const std::vector<Index> component = chainComponents(mesh, chains);
+  std::vector<double> total(mesh.vertexCount(), 0);
+  std::vector<Index> count(mesh.vertexCount(), 0);
+  for (std::size_t i = 0; i < chains.size(); ++i)
+  {
+    if (chains[i].removable)
+    {
+      total[component[i]] += chains[i].sizedLength;
+      ++count[component[i]];
+    }
+  }
+  bool removed = false;
+  for (std::size_t i = 0; i < chains.size(); ++i)
+  {
+    const Chain& chain = chains[i];
+    if (!chain.removable)
+    {
+      continue;
+    }
+    const bool loop = chain.first == kInvalidIndex;
+    const bool dangling = !loop && (graph.endsThere(chain.first) || graph.endsThere(chain.last));
+    const bool tangle = total[component[i]] < kShortestMeanChain * edgeLength * count[component[i]];
+    if ((loop && chain.sizedLength < kShortestLoop * edgeLength) ||
+      (dangling &&
+        (chain.sizedLength < kShortestDangling * edgeLength || chain.jaggedness > kMostJagged)) ||
+      tangle)
+    {
+      unmarkFeatures(mesh, chain.halfEdges);
+      report.removedEdges += chain.halfEdges.size();
+      removed = true;
+    }
+  }
+  return removed;
+}
+
+/// Patches, the connected faces between constrained edges, that are thinner than quads can be.
+class ThinPatches
+{
+public:
+  ThinPatches(const Mesh& mesh, double edgeLength, const std::vector<Chain>& chains)
+    : mesh_(mesh), chains_(chains), patch_(mesh.faceCount(), kInvalidIndex),
+      chainOf_(mesh.halfEdgeCount(), kInvalidIndex)
+  {
+    double longest = 0;
+    for (Index c = 0; c < chains.size(); ++c)
+    {
+      longest += 2 * chains[c].length;
+      for (const Index h : chains[c].halfEdges)
+      {
+        chainOf_[h] = c;
+        if (!mesh.isBoundary(h))
+        {
+          chainOf_[mesh.twin[h]] = c;
+        }
+      }
+    }
+    const double thinnest = kThinnestPatch * edgeLength;
+    const double largest = 0.5 * thinnest * longest; // a thin one has no more area than this
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      pollNowAndThen(h);
+      if (mesh.isConstrained(h) && patch_[Mesh::face(h)] == kInvalidIndex)
+      {
+        grow(Mesh::face(h), largest, thinnest);
+      }
+    }
+  }
+
+  /// For each of these patches the bluntest of its sides that has another patch beyond it; never two sides of the same
+  /// one, which the first may have made wide enough.
+  std::vector<Index> chainsToDrop() const
+  {
+    std::vector<Index> result;
+    std::vector<std::uint8_t> touched(isThin_.size(), 0);
+    for (const Thin& thin : thin_)
+    {
+      if (touched[thin.patch] == 0)
+      {
+        dropOne(thin, touched, result);
+      }
+    }
+    return result;
+  }
+
+private:
+  struct Thin
+  {
+    Index patch;
+    std::vector<Index> border; ///< constrained half-edges of its faces
+  };
+
+  void grow(Index seed, double largest, double thinnest)
+  {
+    const Index id = static_cast<Index>(isThin_.size());
+    std::vector<Index> faces{ seed };
+    Thin thin{ id, {} };
+    double area = 0, perimeter = 0;
+    patch_[seed] = id;
+    bool large = false;
+    for (std::size_t i = 0; i < faces.size() && !large; ++i)
+    {
+      pollNowAndThen(i);
+      const Index f = faces[i];
+      area += sizedArea(mesh_, f);
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        if (mesh_.isConstrained(h))
+        {
+          thin.border.push_back(h);
+          perimeter += sizedLength(mesh_, h);
+          continue;
+        }
+        const Index next = Mesh::face(mesh_.twin[h]);
+        // What reaches a patch that was left off as too large is a part of it.
+        large = large || (patch_[next] != kInvalidIndex && patch_[next] != id);
+        if (patch_[next] == kInvalidIndex)
+        {
+          patch_[next] = id;
+          faces.push_back(next);
+        }
+      }
+      large = large || area > largest;
+    }
+    isThin_.push_back(!large && 2 * area < thinnest * perimeter ? 1 : 0);
+    if (isThin_.back() != 0)
+    {
+      thin_.push_back(std::move(thin));
+    }
+  }
+
+  void dropOne(
+    const Thin& thin, std::vector<std::uint8_t>& touched, std::vector<Index>& result) const
+  {
+    std::vector<Index> sides;
+    double longest = 0;
+    for (const Index h : thin.border)
+    {
+      longest = std::max(longest, chains_[chainOf_[h]].length);
+      if (chains_[chainOf_[h]].removable && neighbour(h) != thin.patch)
+      {
+        sides.push_back(chainOf_[h]);
+      }
+    }
+    std::sort(sides.begin(), sides.end());
+    sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+    Index best = kInvalidIndex;
+    double bluntest = std::numeric_limits<double>::infinity();
+    for (const Index c : sides)
+    {
+      const bool isEnd = chains_[c].length < kShortestSide * longest;
+      const double sharpness = isEnd ? bluntest : sharpnessOf(chains_[c]);
+      if (sharpness < bluntest)
+      {
+        best = c;
+        bluntest = sharpness;
+      }
+    }
+    if (best == kInvalidIndex)
+    {
+      return;
+    }
+    // What is wide is not made wide by this.
+    std::vector<Index> joined;
+    for (const Index h : chains_[best].halfEdges)
+    {
+      for (const Index p : { patch_[Mesh::face(h)], neighbour(h) })
+      {
+        if (isThin_[p] != 0)
+        {
+          joined.push_back(p);
+        }
+      }
+    }
+    if (std::none_of(joined.begin(), joined.end(), [&](Index p) { return touched[p] != 0; }))
+    {
+      result.push_back(best);
+      for (const Index p : joined)
+      {
+        touched[p] = 1;
+      }
+    }
+  }
+
+  Index neighbour(Index h) const { return patch_[Mesh::face(mesh_.twin[h])]; }
+
+  Vector3 normal(Index f) const
+  {
+    return mesh_.edgeVector(3 * f).cross(mesh_.edgeVector(3 * f + 1)).normalized();
+  }
+
+  /// Mean angle between the normals on both sides.
+  double sharpnessOf(const Chain& chain) const
+  {
+    double sum = 0;
+    for (const Index h : chain.halfEdges)
+    {
+      const double cosine = normal(Mesh::face(h)).dot(normal(Mesh::face(mesh_.twin[h])));
+      sum += std::acos(std::clamp(cosine, -1.0, 1.0)) * mesh_.edgeVector(h).norm();
+    }
+    return sum / chain.length;
+  }
+
+  const Mesh& mesh_;
+  const std::vector<Chain>& chains_;
+  std::vector<Index> patch_;         ///< #F; kInvalidIndex where no patch was grown
+  std::vector<Index> chainOf_;       ///< #H
+  std::vector<std::uint8_t> isThin_; ///< #patches
+  std::vector<Thin> thin_;
+};
+
+bool dropAlongThinPatches(
+  Mesh& mesh, double edgeLength, const std::vector<Chain>& chains, FeatureFilterReport& report)
+{
+  const std::vector<Index> drop = ThinPatches(mesh, edgeLength, chains).chainsToDrop();
+  for (const Index c : drop)
+  {
+    unmarkFeatures(mesh, chains[c].halfEdges);
+    report.removedEdges += chains[c].halfEdges.size();
+  }
+  return !drop.empty();
+}
+
+/// One pass; returns whether anything went. Most scans have nothing to drop, and patches take memory for each
+/// half-edge. edges: constrainedEdges of the mesh.
+bool removeOnce(
+  Mesh& mesh, double edgeLength, const std::vector<Index>& edges, FeatureFilterReport& report)
+{
+  if (std::none_of(edges.begin(), edges.end(), [&](Index h) { return isDetectedFeature(mesh, h); }))
+  {
+    return false;
+  }
+  const FeatureGraph graph(mesh, edgeLength, edges);
+  const std::vector<Chain>& chains = graph.chains();
+  const bool any =
+    std::any_of(chains.begin(), chains.end(), [](const Chain& chain) { return chain.removable; });
+  return any &&
+    (dropChains(mesh, edgeLength, graph, report) ||
+      dropAlongThinPatches(mesh, edgeLength, chains, report));
+}
+
+/// One half-edge of each feature that `isOne` says so of and that comes closer than `radius` to one of the points.
+std::vector<Index> featuresNear(const Mesh& mesh, const std::vector<Vector3>& points, double radius,
+  bool (*isOne)(const Mesh&, Index))
+{
+  if (!(radius > 0))
+  {
+    throw InvalidInput("the radius for removing features must be positive");
+  }
+  std::vector<Index> found;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (!isOne(mesh, h))
+    {
+      continue;
+    }
+    const Vector3& a = mesh.position[mesh.origin[h]];
+    const Vector3& b = mesh.position[mesh.target(h)];
+    if (std::any_of(points.begin(), points.end(),
+          [&](const Vector3& p) { return distanceToSegment(p, a, b) < radius; }))
+    {
+      found.push_back(h);
+    }
+  }
+  return found;
+}
+
+} // namespace
+
+FeatureFilterReport removeUnresolvedFeatures(Mesh& mesh, double edgeLength, int threads)
+{
+  if (!(edgeLength > 0))
+  {
+    throw InvalidInput("the edge length for filtering features must be positive");
+  }
+  FeatureFilterReport report;
+  std::vector<Index> edges = constrainedEdges(mesh, threads);
+  const auto isFree = [&](Index h) { return !mesh.isConstrained(h); };
+  while (removeOnce(mesh, edgeLength, edges, report))
+  {
+    edges.erase(std::remove_if(edges.begin(), edges.end(), isFree), edges.end());
+  }
+  report.keptEdges = static_cast<std::size_t>(
+    std::count_if(edges.begin(), edges.end(), [&](Index h) { return mesh.isFeature(h); }));
+  return report;
+}
+
+bool isDetectedFeature(const Mesh& mesh, Index h)
+{
+  return mesh.isFeature(h) && !mesh.isBoundary(h) && h < mesh.twin[h] &&
+    (mesh.flags[h] & kRequestedFeature) == 0;
+}
+
+std::vector<Index> detectedFeaturesNear(
+  const Mesh& mesh, const std::vector<Vector3>& points, double radius)
+{
+  return featuresNear(mesh, points, radius, isDetectedFeature);
+}
+
+bool isYieldingFeature(const Mesh& mesh, Index h)
+{
+  return mesh.isFeature(h) && !mesh.isBoundary(h) && h < mesh.twin[h] &&
+    (mesh.flags[h] & kYieldingFeature) != 0;
+}
+
+std::vector<Index> yieldingFeaturesNear(
+  const Mesh& mesh, const std::vector<Vector3>& points, double radius)
+{
+  return featuresNear(mesh, points, radius, isYieldingFeature);
+}
+
+void markYielding(Mesh& mesh, const std::vector<Index>& halfEdges)
+{
+  for (const Index h : halfEdges)
+  {
+    for (const Index side : { h, mesh.twin[h] })
+    {
+      mesh.flags.edit()[side] |= kFeatureEdge | kRequestedFeature | kYieldingFeature;
+    }
+  }
+}
+
+void unmarkFeatures(Mesh& mesh, const std::vector<Index>& halfEdges)
+{
+  constexpr auto keep = static_cast<std::uint8_t>(~kFeatureEdge);
+  for (const Index h : halfEdges)
+  {
+    mesh.flags.edit()[h] &= keep;
+    mesh.flags.edit()[mesh.twin[h]] &= keep;
+  }
+}
+
+} // namespace quadrille

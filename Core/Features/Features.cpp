@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Features/Features.h"
+
+#include "Base/Parallel.h"
+#include "Base/Progress.h"
+#include "Features/Creases.h"
+#include "Features/FeatureFilter.h"
+#include "Mesh/PointSets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// Faces, whose normals fit a second level cache.
+constexpr std::size_t kFeatureChunk = 16384;
+
+/// Coordinates often come as float, even where they are double now: below this height over the size of the surface a
+/// face's normal can be off by degrees.
+constexpr double kReliableHeight = 1e-6;
+/// The same over the precision of the coordinates, where that is worse.
+constexpr double kReliableSteps = 16;
+
+constexpr int kMostSliversInARow = 16;
+
+struct FaceNormal
+{
+  Vector3 direction; ///< unit
+  bool isReliable;
+};
+
+/// Normals, computed when they are asked for: an array of them would be the largest of all.
+class FaceNormals
+{
+public:
+  FaceNormals(const Mesh& mesh, double precision, int threads) : mesh_(mesh)
+  {
+    const PointBox box = boxOfPoints(mesh.position, threads);
+    height_ = std::max(kReliableHeight * (box.high - box.low).norm(), kReliableSteps * precision);
+  }
+
+  FaceNormal of(Index f) const
+  {
+    const Vector3& p = mesh_.position[mesh_.origin[3 * f]];
+    const Vector3& q = mesh_.position[mesh_.origin[3 * f + 1]];
+    const Vector3& r = mesh_.position[mesh_.origin[3 * f + 2]];
+    const Vector3 a = q - p, b = r - q, c = p - r;
+    const Vector3 n = a.cross(b);
+    const double doubleArea = n.norm();
+    const double longest =
+      std::sqrt(std::max({ a.squaredNorm(), b.squaredNorm(), c.squaredNorm() }));
+    return { n / doubleArea, doubleArea > height_ * longest };
+  }
+
+private:
+  const Mesh& mesh_;
+  double height_;
+};
+
+/// Half-edges of a face, longest first.
+std::array<Index, 3> byLength(const Mesh& mesh, Index f)
+{
+  std::array<Index, 3> edges{ 3 * f, 3 * f + 1, 3 * f + 2 };
+  std::stable_sort(edges.begin(), edges.end(),
+    [&mesh](Index a, Index b)
+    { return mesh.edgeVector(a).squaredNorm() > mesh.edgeVector(b).squaredNorm(); });
+  return edges;
+}
+
+/// The face whose normal stands for that of a sliver f: beyond the longest edges of slivers, and never back.
+Index beyondSlivers(const Mesh& mesh, const FaceNormals& normals, Index f)
+{
+  Index previous = kInvalidIndex;
+  Index current = f;
+  for (int step = 0; step < kMostSliversInARow && !normals.of(current).isReliable; ++step)
+  {
+    const std::array<Index, 3> edges = byLength(mesh, current);
+    const auto leadsOn = [&](Index h)
+    { return !mesh.isBoundary(h) && Mesh::face(mesh.twin[h]) != previous; };
+    const auto way = std::find_if(edges.begin(), edges.end(), leadsOn);
+    if (way == edges.end())
+    {
+      break;
+    }
+    previous = current;
+    current = Mesh::face(mesh.twin[*way]);
+  }
+  return current;
+}
+
+Vector3 normalOf(const Mesh& mesh, const FaceNormals& normals, Index f)
+{
+  const FaceNormal own = normals.of(f);
+  return own.isReliable ? own.direction : normals.of(beyondSlivers(mesh, normals, f)).direction;
+}
+
+void markSharpEdges(Mesh& mesh, const FaceNormals& normals, double angle, int threads)
+{
+  const double limit = std::cos(angle);
+  std::uint8_t* const flags = mesh.flags.edit();
+  parallelFor(mesh.faceCount(), kFeatureChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<Vector3> known(end - begin); // faces next to each other are mostly in one chunk
+      for (std::size_t f = begin; f < end; ++f)
+      {
+        known[f - begin] = normalOf(mesh, normals, static_cast<Index>(f));
+      }
+      for (Index h = static_cast<Index>(3 * begin); h < 3 * end; ++h)
+      {
+        const Index twin = mesh.twin[h];
+        if (mesh.isBoundary(h) || twin < h)
+        {
+          continue; // an edge is marked from its lower half-edge
+        }
+        const Index beyond = Mesh::face(twin);
+        const double cosine = known[Mesh::face(h) - begin].dot(
+          beyond < end ? known[beyond - begin] : normalOf(mesh, normals, beyond));
+        if (cosine < limit)
+        {
+          flags[h] |= kFeatureEdge;
+          flags[twin] |= kFeatureEdge;
+        }
+      }
+    });
+}
+
+} // namespace
+
+void markFeaturesByAngle(Mesh& mesh, double angle, int threads, double precision)
+{
+  markSharpEdges(mesh, FaceNormals(mesh, precision, threads), angle, threads);
+}
+
+std::vector<Vector3> normalsBeside(
+  const Mesh& mesh, const std::vector<Index>& halfEdges, int threads, double precision)
+{
+  const FaceNormals normals(mesh, precision, threads);
+  std::vector<Vector3> result;
+  result.reserve(halfEdges.size());
+  for (const Index h : halfEdges)
+  {
+    result.push_back(normalOf(mesh, normals, Mesh::face(h)));
+  }
+  return result;
+}
+
+FacetReport markCreases(Mesh& mesh, double angle, int threads, double precision)
+{
+  const FaceNormals normals(mesh, precision, threads);
+  markSharpEdges(mesh, normals, angle, threads);
+  const auto angleOf = [&](Index h)
+  {
+    const double cosine =
+      normalOf(mesh, normals, Mesh::face(h)).dot(normalOf(mesh, normals, Mesh::face(mesh.twin[h])));
+    return std::acos(std::clamp(cosine, -1.0, 1.0));
+  };
+  const std::vector<Index> facets = edgesOfFacets(mesh, angle, angleOf, threads);
+  FacetReport report;
+  report.edges = facets.size();
+  if (!facets.empty())
+  {
+    const Index h = facets.front();
+    report.place = 0.5 * (mesh.position[mesh.origin[h]] + mesh.position[mesh.target(h)]);
+  }
+  unmarkFeatures(mesh, facets);
+  return report;
+}
+
+void markFeaturesByPatch(
+  PreparedSurface& surface, const std::vector<std::int64_t>& patchIds, bool yields)
+{
+  Mesh& mesh = surface.mesh;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    pollNowAndThen(h);
+    const Index g = mesh.twin[h];
+    if (mesh.isBoundary(h) || h > g ||
+      patchIds[surface.sourcePolygon[Mesh::face(h)]] ==
+        patchIds[surface.sourcePolygon[Mesh::face(g)]])
+    {
+      continue;
+    }
+    const bool isAsked = ((mesh.flags[h] | mesh.flags[g]) & kRequestedFeature) != 0;
+    const std::uint8_t yielding = yields && !isAsked ? kYieldingFeature : 0;
+    for (const Index side : { h, g })
+    {
+      mesh.flags.edit()[side] |= kFeatureEdge | kRequestedFeature | yielding;
+    }
+  }
+}
+
+void makeFlagsSymmetric(Mesh& mesh)
+{
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    pollNowAndThen(h);
+    if (!mesh.isBoundary(h))
+    {
+      mesh.flags.edit()[mesh.twin[h]] |= mesh.flags[h];
+    }
+  }
+}
+
+} // namespace quadrille

@@ -1,0 +1,764 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Integers/CurveIsolines.h"
+
+#include "Base/ChartRotation.h"
+#include "Base/PlaceText.h"
+#include "Mesh/Distance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr float kConnectionWeight = 0.5F;
+/// Far above what users can ask for: which way the field turns along a cycle decides whether it can close, so nothing
+/// may turn it, and quarter turns do not move across it.
+constexpr float kCycleWeight = 100.0F;
+/// In edges of quads: how far from an end of a connection the vertex may lie that it joins.
+constexpr double kReachOfIrregular = 3;
+constexpr double kReachOfCurve = 1.5;
+/// In edges of quads: how far from a curve vertices had better be regular.
+constexpr double kClearance = 1.5;
+/// A closed way along a field that does not go with it comes out short: the field turns, or runs across.
+constexpr double kLeastAlong = 0.5;
+/// A line is the one asked for where it is at most so many times longer than the way along the curve.
+constexpr std::int64_t kMostDetour = 2;
+
+std::vector<std::uint8_t> constrainedVertices(const Mesh& mesh)
+{
+  std::vector<std::uint8_t> result(mesh.vertexCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isConstrained(h))
+    {
+      result[mesh.origin[h]] = result[mesh.target(h)] = 1;
+    }
+  }
+  return result;
+}
+
+Index nearestVertex(const Mesh& mesh, const Vector3& p)
+{
+  Index best = 0;
+  for (Index v = 1; v < mesh.vertexCount(); ++v)
+  {
+    best =
+      (mesh.position[v] - p).squaredNorm() < (mesh.position[best] - p).squaredNorm() ? v : best;
+  }
+  return best;
+}
+
+/// The nearest of the flagged vertices within the radius.
+Index nearestFlagged(
+  const Mesh& mesh, const std::vector<std::uint8_t>& flags, const Vector3& p, double radius)
+{
+  Index best = kInvalidIndex;
+  double least = radius;
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    const double distance = (mesh.position[v] - p).norm();
+    if (flags[v] != 0 && distance <= least)
+    {
+      least = distance;
+      best = v;
+    }
+  }
+  return best;
+}
+
+struct CurveEnd
+{
+  Index vertex = kInvalidIndex;
+  bool isPoint =
+    false; ///< an irregular vertex, or a corner of a curve: it has a place of its own in the map
+};
+
+CurveEnd endNear(const Mesh& mesh, const CrossField& field, const Vector3& p, double edgeLength)
+{
+  const std::vector<std::uint8_t> integer = integerVertices(mesh, field);
+  const Index irregular = nearestFlagged(mesh, integer, p, kReachOfIrregular * edgeLength);
+  const Index curve =
+    nearestFlagged(mesh, constrainedVertices(mesh), p, kReachOfCurve * edgeLength);
+  const auto distance = [&](Index v)
+  {
+    return v == kInvalidIndex ? std::numeric_limits<double>::infinity()
+                              : (mesh.position[v] - p).norm();
+  };
+  // An irregular vertex that lies a little farther than the curve is what was meant.
+  const bool point = distance(irregular) <= distance(curve) + edgeLength;
+  const Index v = point ? irregular : curve;
+  return { v, v != kInvalidIndex && integer[v] != 0 };
+}
+
+struct CurveVertices
+{
+  Index from = kInvalidIndex, to = kInvalidIndex;
+};
+
+/// What a connection joins, or, where that is too far, what is nearest to its ends.
+CurveVertices verticesOf(
+  const Mesh& mesh, const CrossField& field, const CurveRequest& curve, double edgeLength)
+{
+  const auto vertexAt = [&](const Vector3& place)
+  {
+    const CurveEnd end = endNear(mesh, field, place, edgeLength);
+    return end.vertex != kInvalidIndex ? end.vertex : nearestVertex(mesh, place);
+  };
+  return { vertexAt(curve.points.front()), vertexAt(curve.points.back()) };
+}
+
+/// Flags the vertices near a curve but for its ends.
+void clearTheWay(const Mesh& mesh, const CurveRequest& curve, const CurveVertices& ends,
+  double edgeLength, std::vector<std::uint8_t>& regular)
+{
+  const std::vector<Vector3> samples = sampleCurve(curve, edgeLength);
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    for (std::size_t i = 0; i + 1 < samples.size() && v != ends.from && v != ends.to; ++i)
+    {
+      const bool isNear =
+        distanceToSegment(mesh.position[v], samples[i], samples[i + 1]) <= kClearance * edgeLength;
+      regular[v] |= isNear ? 1 : 0;
+    }
+  }
+}
+
+Index cornerAt(const Mesh& mesh, Index f, Index v)
+{
+  Index h = 3 * f;
+  while (h < 3 * f + 3 && mesh.origin[h] != v)
+  {
+    ++h;
+  }
+  return h < 3 * f + 3 ? h : kInvalidIndex;
+}
+
+/// In the field's frame of face f.
+Vector2 inField(const Mesh& mesh, const CrossField& field, Index f, const Vector3& p)
+{
+  const Vector3 x = mesh.edgeVector(3 * f).stableNormalized();
+  const Vector3 y = x.cross(mesh.edgeVector(3 * f + 1)).stableNormalized().cross(x);
+  const double c = std::cos(field.angle[f]), s = std::sin(field.angle[f]);
+  return { c * p.dot(x) + s * p.dot(y), c * p.dot(y) - s * p.dot(x) };
+}
+
+/// A way through the faces as the field sees it.
+struct WayInField
+{
+  Vector2 vector = Vector2::Zero(); ///< from end to end, in the frame of the first face
+  int rotation = 0;                 ///< from that frame to the frame of the last face
+  double length = 0;
+};
+
+/// Through the middles of the edges that are crossed. begin, end: null for a closed way.
+WayInField wayInField(const Mesh& mesh, const CrossField& field, const FacePath& path,
+  const Vector3* begin, const Vector3* end)
+{
+  const auto middle = [&](Index h)
+  { return Vector3((mesh.position[mesh.origin[h]] + mesh.position[mesh.target(h)]) / 2); };
+  WayInField way;
+  Index f = path.first;
+  Vector3 at = begin != nullptr ? *begin : middle(path.crossed.back());
+  const auto go = [&](const Vector3& to)
+  {
+    way.vector += turned(inField(mesh, field, f, to - at), -way.rotation);
+    way.length += (to - at).norm();
+    at = to;
+  };
+  for (const Index h : path.crossed)
+  {
+    go(middle(h));
+    way.rotation = (way.rotation + field.matching[h]) & 3;
+    f = Mesh::face(mesh.twin[h]);
+  }
+  if (end != nullptr)
+  {
+    go(*end);
+  }
+  return way;
+}
+
+int axisOf(const Vector2& vector)
+{
+  const bool alongU = std::abs(vector.x()) >= std::abs(vector.y());
+  return alongU ? (vector.x() >= 0 ? 0 : 2) : (vector.y() >= 0 ? 1 : 3);
+}
+
+void leaveOut(RequestedLine& line, const std::string& why)
+{
+  line.outcome.why = why;
+}
+
+RequestedLine connectionOf(
+  const Mesh& mesh, const CrossField& field, const CurveRequest& curve, double edgeLength)
+{
+  RequestedLine result;
+  const CurveEnd a = endNear(mesh, field, curve.points.front(), edgeLength);
+  const CurveEnd b = endNear(mesh, field, curve.points.back(), edgeLength);
+  for (const auto& [end, place] :
+    { std::pair(a, curve.points.front()), std::pair(b, curve.points.back()) })
+  {
+    if (end.vertex == kInvalidIndex)
+    {
+      leaveOut(result,
+        "no irregular vertex, feature or boundary lies within " +
+          std::to_string(static_cast<int>(kReachOfIrregular)) + " quads of " + placeText(place) +
+          ": draw to one, or ask for a valence there");
+      return result;
+    }
+  }
+  result.outcome.from = a.vertex;
+  result.outcome.to = b.vertex;
+  result.outcome.start = mesh.position[a.vertex];
+  result.outcome.end = mesh.position[b.vertex];
+  if (a.vertex == b.vertex)
+  {
+    leaveOut(result,
+      "both ends are nearest to the same vertex, at " + placeText(result.outcome.start) +
+        ": draw between two");
+    return result;
+  }
+  if (!a.isPoint && !b.isPoint)
+  {
+    leaveOut(result, "neither end is near an irregular vertex: draw from one");
+    return result;
+  }
+  const std::optional<FacePath> path = pathAlong(mesh, curve, a.vertex, b.vertex);
+  if (!path)
+  {
+    leaveOut(
+      result, "a feature or nothing at all lies between its ends: connections cross no feature");
+    return result;
+  }
+  const Vector3 begin = mesh.position[a.vertex], end = mesh.position[b.vertex];
+  const WayInField way = wayInField(mesh, field, *path, &begin, &end);
+  result.line.crossed = path->crossed;
+  result.line.start = cornerAt(mesh, path->first, a.vertex);
+  result.line.end = cornerAt(mesh, path->faces(mesh).back(), b.vertex);
+  result.line.axis = axisOf(way.vector);
+  result.hasLine = a.isPoint && b.isPoint;
+  result.endsOnCurve = !result.hasLine;
+  return result;
+}
+
+RequestedLine cycleOf(const Mesh& mesh, const CrossField& field, const CurveRequest& curve)
+{
+  RequestedLine result;
+  result.outcome.start = result.outcome.end = curve.points.front();
+  const std::optional<FacePath> path = closedPathAlong(mesh, curve);
+  if (!path)
+  {
+    leaveOut(result,
+      "a feature cuts it, or it closes on nothing: draw it round something, across no feature");
+    return result;
+  }
+  const WayInField way = wayInField(mesh, field, *path, nullptr, nullptr);
+  if (way.rotation != 0)
+  {
+    leaveOut(result,
+      "the irregular vertices on one side of it turn the quads by " +
+        std::to_string(90 * std::min(way.rotation, 4 - way.rotation)) +
+        " degrees: 4 - valence of them has to sum up to 4; move one across it");
+    return result;
+  }
+  result.line.crossed = path->crossed;
+  result.line.start = result.line.end = 3 * path->first;
+  result.line.axis = axisOf(way.vector);
+  result.line.closed = true;
+  if (way.vector.norm() < kLeastAlong * way.length)
+  {
+    leaveOut(result,
+      "the quads' edges do not run along it: guide them, or move irregular vertices away from it");
+    return result;
+  }
+  result.hasLine = true;
+  return result;
+}
+
+std::int64_t lengthAlong(FixedVec2 p, int axis)
+{
+  return rotate(p, -axis).u;
+}
+
+void flagAsCurve(UvMesh& map, Index h)
+{
+  map.flags[h] |= kUvConstrained;
+  if (map.twin[h] != kInvalidIndex)
+  {
+    map.flags[map.twin[h]] |= kUvConstrained;
+  }
+}
+
+/// Where a line ends that goes straight on through vertices that are not flagged.
+struct LineStop
+{
+  Index vertex = kInvalidIndex; ///< the flagged one, or one on the boundary
+  Index curve = kInvalidIndex;  ///< or the half-edge of a curve
+  std::int64_t length = 0;      ///< to the vertex
+};
+
+LineStop followThrough(const UvMesh& map, UvDirection direction, std::int64_t maximumLength,
+  const std::vector<std::uint8_t>& flags)
+{
+  LineStop end;
+  while (end.length < maximumLength)
+  {
+    const UvRay ray = followLine(map, direction, maximumLength - end.length, true);
+    if (!ray.meetsVertex())
+    {
+      end.curve = ray.curve;
+      return end;
+    }
+    end.length += ray.length;
+    const Index v = map.origin[ray.end.corner];
+    const std::optional<UvDirection> on = straightOn(map, ray.end);
+    if (flags[v] != 0 || !on)
+    {
+      end.vertex = v;
+      return end;
+    }
+    direction = *on;
+  }
+  return end;
+}
+
+bool lockParts(UvMesh& map, UvEditor& editor, UvDirection direction, std::int64_t length)
+{
+  while (true)
+  {
+    const std::optional<UvDirection> edge = makeEdgeAlong(map, editor, direction, length);
+    if (!edge)
+    {
+      return false;
+    }
+    flagAsCurve(map, edge->corner);
+    length -= lengthAlong(map.vector(edge->corner), edge->axis);
+    if (length <= 0)
+    {
+      return true;
+    }
+    const std::optional<UvDirection> on = straightOn(map, { Mesh::next(edge->corner), edge->axis });
+    if (!on)
+    {
+      return false;
+    }
+    direction = *on;
+  }
+}
+
+/// The way's places, in the middle of the edges that it crosses.
+std::vector<Vector3> placesOf(const Mesh& mesh, const Isoline& line)
+{
+  std::vector<Vector3> places;
+  for (const Index h : line.crossed)
+  {
+    places.emplace_back((mesh.position[mesh.origin[h]] + mesh.position[mesh.target(h)]) / 2);
+  }
+  return places;
+}
+
+/// A direction from one of the vertices that comes back to it after the length, from the one nearest to the way.
+std::optional<UvDirection> closedLine(const UvMesh& map, const std::vector<std::uint8_t>& integer,
+  const Mesh& mesh, const Isoline& line, std::int64_t length)
+{
+  std::optional<UvDirection> best;
+  double least = std::numeric_limits<double>::infinity();
+  const std::vector<Vector3> way = placesOf(mesh, line);
+  for (Index v = 0; v < integer.size(); ++v)
+  {
+    double distance = std::numeric_limits<double>::infinity();
+    for (const Vector3& p : way)
+    {
+      distance = std::min(distance, (mesh.position[v] - p).norm());
+    }
+    if (integer[v] == 0 || map.outgoing[v] == kInvalidIndex || distance >= least)
+    {
+      continue;
+    }
+    for (const UvDirection& direction : axisDirections(map, v))
+    {
+      const LineStop end = followThrough(map, direction, length, integer);
+      if (end.vertex == v && end.length == length)
+      {
+        best = direction;
+        least = distance;
+        break;
+      }
+    }
+  }
+  return best;
+}
+
+std::optional<UvDirection> lineBetween(const UvMesh& map, const std::vector<std::uint8_t>& integer,
+  Index from, Index to, std::int64_t length)
+{
+  for (const UvDirection& direction : axisDirections(map, from))
+  {
+    const LineStop end = followThrough(map, direction, length, integer);
+    if (end.vertex == to && end.length == length)
+    {
+      return direction;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Where a line leaves a face. Vertices on it count as left of it, which makes the way unique.
+Index wayOut(const UvMesh& map, Index f, FixedVec2 p, int axis)
+{
+  const FixedVec2 unit = rotate(FixedVec2{ 1, 0 }, axis);
+  const auto isLeft = [&](Index corner)
+  {
+    const FixedVec2 d = map.uv[corner] - p;
+    return unit.u * d.v - unit.v * d.u >= 0;
+  };
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  {
+    if (!isLeft(h) && isLeft(Mesh::next(h)))
+    {
+      return h;
+    }
+  }
+  return kInvalidIndex;
+}
+
+/// Whether the line through p, along an axis of a face's chart, comes back to itself within the length.
+bool closesOnItself(
+  const UvMesh& map, Index face, FixedVec2 start, int axis, std::int64_t maximumLength)
+{
+  Index f = face;
+  FixedVec2 p = start;
+  int k = axis;
+  for (std::size_t steps = 0; steps < 4 * map.alive.size(); ++steps)
+  {
+    const Index out = wayOut(map, f, p, k);
+    if (out == kInvalidIndex || map.twin[out] == kInvalidIndex ||
+      lengthAlong(map.uv[out] - p, k) > maximumLength)
+    {
+      return false;
+    }
+    const Transition change = map.transition(out);
+    p = change.apply(p);
+    k = (k + change.rotation) & 3;
+    f = Mesh::face(map.twin[out]);
+    if (f == face && k == axis && rotate(p - start, -axis).v == 0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Whether one of the grid lines that pass the faces of the way closes. One beside an irregular vertex does where the
+/// lines next to it do, on one side.
+bool hasClosedGridLine(const UvMesh& map, const Isoline& line, std::int64_t maximumLength)
+{
+  int axis = line.axis;
+  Index f = Mesh::face(line.start);
+  for (const Index h : line.crossed)
+  {
+    // In coordinates whose u runs along the line.
+    const std::array<FixedVec2, 3> corner{ rotate(map.uv[3 * f], -axis),
+      rotate(map.uv[3 * f + 1], -axis), rotate(map.uv[3 * f + 2], -axis) };
+    const auto [low, high] = std::minmax({ corner[0].v, corner[1].v, corner[2].v });
+    for (std::int64_t v = unitAbove(low - 1); v <= high; v += kOne)
+    {
+      for (const std::int64_t beside : { v - 1, v + 1 })
+      {
+        const FixedVec2 p = rotate(FixedVec2{ corner[0].u, beside }, axis);
+        if (beside > low && beside < high && closesOnItself(map, f, p, axis, maximumLength))
+        {
+          return true;
+        }
+      }
+    }
+    axis = (axis + map.rotation[h]) & 3;
+    f = Mesh::face(map.twin[h]);
+  }
+  return false;
+}
+
+/// Whether a line from the irregular end of a connection meets a feature or boundary near its other end.
+bool reachesCurve(const Mesh& mesh, const UvMesh& map, const std::vector<std::uint8_t>& integer,
+  const CurveOutcome& ends, std::int64_t maximumLength, double reach)
+{
+  const bool forward = integer[ends.from] != 0;
+  const Index from = forward ? ends.from : ends.to;
+  const std::vector<std::uint8_t> onCurve = constrainedVertices(mesh);
+  const Vector3 goal = mesh.position[forward ? ends.to : ends.from];
+  for (const UvDirection& direction : axisDirections(map, from))
+  {
+    const LineStop end = followThrough(map, direction, maximumLength, integer);
+    const bool atVertex = end.vertex != kInvalidIndex && onCurve[end.vertex] != 0 &&
+      (mesh.position[end.vertex] - goal).norm() <= reach;
+    const bool atCurve = end.curve != kInvalidIndex &&
+      distanceToSegment(goal, mesh.position[mesh.origin[end.curve]],
+        mesh.position[mesh.target(end.curve)]) <= reach;
+    if (atVertex || atCurve)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Straight lines from one vertex to another, seen through the faces between them.
+class Sight
+{
+public:
+  Sight(const UvMesh& map, Index from, Index to, double maximumLength)
+    : map_(map), to_(to), maximumLength_(maximumLength)
+  {
+    for (const Index h : map.star(from))
+    {
+      const FixedVec2 eye = map.uv[h];
+      first_ = h;
+      meet(Mesh::next(h), { eye, map.uv[Mesh::next(h)] - eye, map.uv[Mesh::previous(h)] - eye });
+    }
+  }
+
+  struct Line
+  {
+    Index start = kInvalidIndex, end = kInvalidIndex; ///< corners
+    std::vector<Index> crossed;
+    FixedVec2 vector; ///< in the chart of the first face
+  };
+  const std::vector<Line>& lines() const { return lines_; }
+
+private:
+  /// What is seen between two directions, right and left, from a place in the chart of a face.
+  struct View
+  {
+    FixedVec2 eye, right, left;
+  };
+
+  static Int128 cross(FixedVec2 a, FixedVec2 b)
+  {
+    return Int128{ a.u } * b.v - Int128{ a.v } * b.u;
+  }
+
+  /// Through the half-edge `out` of the face that the view is in.
+  void meet(Index out, const View& view)
+  {
+    if (map_.twin[out] == kInvalidIndex || (map_.flags[out] & kUvConstrained) != 0 ||
+      ++steps_ > kMostSteps || isFar(out, view.eye))
+    {
+      return;
+    }
+    const Transition change = map_.transition(out);
+    const View next{ change.apply(view.eye), rotate(view.right, change.rotation),
+      rotate(view.left, change.rotation) };
+    const Index g = map_.twin[out];
+    const Index corner = Mesh::previous(g);
+    const FixedVec2 there = map_.uv[corner] - next.eye;
+    crossed_.push_back(out);
+    rotation_ += change.rotation;
+    const bool leftOfRight = cross(next.right, there) > 0;
+    const bool rightOfLeft = cross(there, next.left) > 0;
+    if (leftOfRight && rightOfLeft && map_.origin[corner] == to_)
+    {
+      lines_.push_back({ first_, corner, crossed_, rotate(there, -rotation_) });
+    }
+    // The face's other sides: next(g) lies right of the corner, as seen, previous(g) left of it.
+    if (leftOfRight)
+    {
+      meet(Mesh::next(g), { next.eye, next.right, rightOfLeft ? there : next.left });
+    }
+    if (rightOfLeft)
+    {
+      meet(Mesh::previous(g), { next.eye, leftOfRight ? there : next.right, next.left });
+    }
+    rotation_ -= change.rotation;
+    crossed_.pop_back();
+  }
+
+  bool isFar(Index h, FixedVec2 eye) const
+  {
+    return std::min(toDouble(map_.uv[h] - eye).norm(),
+             toDouble(map_.uv[Mesh::next(h)] - eye).norm()) > maximumLength_;
+  }
+
+  static constexpr std::size_t kMostSteps = 200000;
+
+  const UvMesh& map_;
+  Index to_;
+  double maximumLength_;
+  Index first_ = kInvalidIndex;
+  std::vector<Index> crossed_;
+  int rotation_ = 0;
+  std::size_t steps_ = 0;
+  std::vector<Line> lines_;
+};
+
+} // namespace
+
+CurvesInField followedCurves(const Mesh& mesh, const CrossField& field,
+  const std::vector<FollowedCurve>& curves, double edgeLength, std::vector<Guide> guides)
+{
+  CurvesInField result;
+  guides.resize(mesh.faceCount());
+  result.regular.assign(mesh.vertexCount(), 0);
+  for (const auto& [curve, way] : curves)
+  {
+    const bool cycle = curve.kind == CurveKind::Cycle;
+    const CurveVertices ends = cycle ? CurveVertices{} : verticesOf(mesh, field, curve, edgeLength);
+    const std::optional<FacePath> path = way ? FacePath{ Mesh::face(way->start), way->crossed }
+      : cycle                                ? closedPathAlong(mesh, curve)
+                                             : pathAlong(mesh, curve, ends.from, ends.to);
+    if (path)
+    {
+      result.lines.push_back({ path->crossed, directionsAlong(mesh, *path, cycle) });
+      guideAlong(mesh, *path, cycle, cycle ? kCycleWeight : kConnectionWeight, guides);
+      clearTheWay(mesh, curve, ends, edgeLength, result.regular);
+    }
+  }
+  result.guides = std::move(guides);
+  return result;
+}
+
+std::vector<int> valencesOf(const Mesh& mesh, const CrossField& field, std::vector<int> valences)
+{
+  valences.resize(mesh.vertexCount(), 0);
+  const std::vector<std::uint8_t> onCurve = constrainedVertices(mesh);
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    valences[v] = valences[v] == 0 && onCurve[v] == 0 ? field.turns[v] : valences[v];
+  }
+  return valences;
+}
+
+std::vector<int> valencesWithEnds(const Mesh& mesh, const CrossField& field,
+  const std::vector<FollowedCurve>& curves, double edgeLength, std::vector<int> valences)
+{
+  const std::vector<std::uint8_t> onCurve = constrainedVertices(mesh);
+  for (const auto& [curve, way] : curves)
+  {
+    if (curve.kind != CurveKind::Connection)
+    {
+      continue;
+    }
+    for (const Vector3& place : { curve.points.front(), curve.points.back() })
+    {
+      const CurveEnd end = endNear(mesh, field, place, edgeLength);
+      if (end.isPoint && onCurve[end.vertex] == 0)
+      {
+        valences.resize(mesh.vertexCount(), 0);
+        int& valence = valences[end.vertex];
+        valence = valence == 0 ? field.turns[end.vertex] : valence;
+      }
+    }
+  }
+  return valences;
+}
+
+RequestedLine lineOf(
+  const Mesh& mesh, const CrossField& field, const CurveRequest& curve, double edgeLength)
+{
+  return curve.kind == CurveKind::Cycle ? cycleOf(mesh, field, curve)
+                                        : connectionOf(mesh, field, curve, edgeLength);
+}
+
+std::optional<Isoline> straightWay(const Mesh& mesh, const CrossField& field,
+  const std::vector<FixedVec2>& seamlessUv, const CurveRequest& curve, const CurveOutcome& ends,
+  double edgeLength)
+{
+  constexpr double kMostOverStraight = 3;  // in quads, of a bent way and of sizes that differ
+  constexpr double kMostTangent = 0.7;     // of the angle to the axis, where 45 degrees are 1
+  constexpr double kPriceOfDistance = 0.1; // of an edge length from the curve
+  const UvMesh map = UvMesh::from(mesh, field, seamlessUv);
+  const double quads = (ends.end - ends.start).norm() / edgeLength;
+  const Sight sight(map, ends.from, ends.to, kMostOverStraight * quads + kReachOfIrregular);
+  const std::vector<Vector3> samples = sampleCurve(curve, edgeLength);
+  std::optional<Isoline> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Sight::Line& line : sight.lines())
+  {
+    const Vector2 vector = toDouble(line.vector);
+    const double tangent =
+      vector.cwiseAbs().minCoeff() / std::max(vector.cwiseAbs().maxCoeff(), 1e-300);
+    Isoline way{ line.start, line.end, line.crossed, axisOf(vector), false };
+    double away = 0;
+    for (const Vector3& p : placesOf(mesh, way))
+    {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i + 1 < samples.size(); ++i)
+      {
+        nearest = std::min(nearest, distanceToSegment(p, samples[i], samples[i + 1]));
+      }
+      away = std::max(away, nearest / edgeLength);
+    }
+    const double price = tangent + kPriceOfDistance * away;
+    if (tangent <= kMostTangent && price < least)
+    {
+      least = price;
+      best = std::move(way);
+    }
+  }
+  return best;
+}
+
+int axisAlong(const Mesh& mesh, const CrossField& field, const Isoline& way)
+{
+  const FacePath path{ Mesh::face(way.start), way.crossed };
+  const Vector3 begin = mesh.position[mesh.origin[way.start]];
+  const Vector3 end = mesh.position[mesh.origin[way.end]];
+  return axisOf(wayInField(mesh, field, path, &begin, &end).vector);
+}
+
+FixedVec2 developedVector(const UvMesh& map, const Isoline& line)
+{
+  // From charts along the way to that of its first face.
+  Transition back;
+  for (const Index h : line.crossed)
+  {
+    back = back.after(map.transition(h).inverse());
+  }
+  return back.apply(map.uv[line.end]) - map.uv[line.start];
+}
+
+bool lockLine(UvMesh& map, UvEditor& editor, const std::vector<std::uint8_t>& integer,
+  const Mesh& mesh, const Isoline& line, FixedVec2 developed)
+{
+  const std::int64_t length = std::abs(lengthAlong(developed, line.axis));
+  if (length == 0)
+  {
+    return false;
+  }
+  const std::optional<UvDirection> start = line.closed
+    ? closedLine(map, integer, mesh, line, length)
+    : lineBetween(map, integer, mesh.origin[line.start], mesh.origin[line.end], length);
+  return start && lockParts(map, editor, *start, length);
+}
+
+bool hasGridLine(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv,
+  const RequestedLine& wanted, double edgeLength)
+{
+  const UvMesh map = UvMesh::from(mesh, field, uv);
+  const std::vector<std::uint8_t> integer = integerVertices(mesh, field);
+  const std::int64_t length =
+    std::abs(lengthAlong(developedVector(map, wanted.line), wanted.line.axis));
+  const std::int64_t most = kMostDetour * length + kOne;
+  if (wanted.line.closed)
+  {
+    return hasClosedGridLine(map, wanted.line, most);
+  }
+  if (wanted.endsOnCurve)
+  {
+    return reachesCurve(mesh, map, integer, wanted.outcome, most, kReachOfIrregular * edgeLength);
+  }
+  const std::vector<UvDirection> directions = axisDirections(map, wanted.outcome.from);
+  return std::any_of(directions.begin(), directions.end(),
+    [&](const UvDirection& direction)
+    { return followThrough(map, direction, most, integer).vertex == wanted.outcome.to; });
+}
+
+} // namespace quadrille

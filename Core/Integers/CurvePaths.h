@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Ways through the faces of a mesh along curves that a user has drawn. Of a curve only its course counts: which way
+/// round vertices, handles and holes it goes.
+#pragma once
+
+#include "Mesh/Mesh.h"
+#include "Requests/CurveRequests.h"
+#include "Requests/Guides.h"
+
+#include <optional>
+#include <vector>
+
+namespace quadrille
+{
+
+/// From face to face through unconstrained edges.
+struct FacePath
+{
+  Index first = kInvalidIndex; ///< the face that it begins in
+  std::vector<Index>
+    crossed; ///< half-edges through which it leaves its faces; a closed one comes back to `first`
+
+  /// The faces in order; of a closed path the first one stands at the end again.
+  std::vector<Index> faces(const Mesh& mesh) const;
+};
+
+/// The curve's own points and more between them, at most `spacing` apart; a cycle's last point is its first.
+std::vector<Vector3> sampleCurve(const CurveRequest& curve, double spacing);
+
+/// The way along the curve from the star of vertex a to that of b. Empty where only features, or nothing, join them.
+std::optional<FacePath> pathAlong(const Mesh& mesh, const CurveRequest& curve, Index a, Index b);
+/// The closed way along a cycle. Empty where features cut it, or where it closes on nothing.
+std::optional<FacePath> closedPathAlong(const Mesh& mesh, const CurveRequest& curve);
+
+/// Its direction in each of its faces, over some faces before and behind; zero where it has none.
+std::vector<Vector3> directionsAlong(const Mesh& mesh, const FacePath& path, bool closed);
+
+/// Gives the faces of the path that have no guide yet its direction. guides: #F.
+void guideAlong(
+  const Mesh& mesh, const FacePath& path, bool closed, float weight, std::vector<Guide>& guides);
+
+} // namespace quadrille

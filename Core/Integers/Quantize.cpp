@@ -1,0 +1,332 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Quantization without a T-mesh [Coudert-Osmont et al. 2023, from its description]. Where we differ: the decimation is
+/// exact and ends in the Delaunay triangulation of the locked vertices; straight edges between locked
+/// vertices of the coarse mesh stay, so every triangle that re-embedding cannot move is tested as it is; the
+/// start is repaired before the scale is raised; shrinking steps begin large.
+#include "Integers/Quantize.h"
+
+#include "Integers/CurveIsolines.h"
+#include "Integers/LockedVertices.h"
+#include "Integers/QuantizeIntegers.h"
+#include "Integers/UvDecimation.h"
+#include "Requests/SeamRequests.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// The growth is judged after shrinking, which undoes most of it. Real models became valid at scales up to about 12;
+/// where 12 is not enough the failures seen came back at every scale up to 256, so this leaves some room and ends
+/// there.
+constexpr double kMaximumScale = 32;
+
+void checkInput(const Mesh& mesh, const CrossField& field, const std::vector<FixedVec2>& uv)
+{
+  if (uv.size() != mesh.halfEdgeCount() || field.matching.size() != mesh.halfEdgeCount())
+  {
+    throw InvalidInput("quantizeMap: " + std::to_string(uv.size()) + " corners of the map and " +
+      std::to_string(field.matching.size()) + " matchings for " +
+      std::to_string(mesh.halfEdgeCount()) + " half-edges");
+  }
+}
+
+/// Why the map is no start for quantization; empty when it is one.
+std::string defectOf(const UvMesh& mesh)
+{
+  for (Index h = 0; h < mesh.origin.size(); ++h)
+  {
+    if (h % 3 == 0 && mesh.faceDeterminant(Mesh::face(h)) <= 0)
+    {
+      return "face " + std::to_string(Mesh::face(h)) + " is not positive in the seamless map";
+    }
+    const Index g = mesh.twin[h];
+    if (g != kInvalidIndex && mesh.vector(g) != -rotate(mesh.vector(h), mesh.rotation[h]))
+    {
+      return "the seamless map does not fit its matching across half-edge " + std::to_string(h);
+    }
+    const FixedVec2 d = mesh.vector(h);
+    if ((mesh.flags[h] & kUvConstrained) != 0 && d.u != 0 && d.v != 0)
+    {
+      return "constrained half-edge " + std::to_string(h) + " is not on an isoline";
+    }
+  }
+  return {};
+}
+
+void placeFace(const IntegerMap& map, Index corner, FixedVec2 at, UvMesh& mesh)
+{
+  const auto place = [&](Index h, FixedVec2 q) {
+    mesh.uv[h] = at + FixedVec2{ q.u * (kOne / kGrain), q.v * (kOne / kGrain) };
+  };
+  place(corner, {});
+  place(Mesh::next(corner), map[corner]);
+  place(Mesh::previous(corner), map[corner] + map[Mesh::next(corner)]);
+}
+
+/// Charts from displacements: integer vertices lie at whole points, so all translations are whole.
+void integrate(const IntegerMap& map, const std::vector<std::uint8_t>& integer, UvMesh& mesh)
+{
+  std::vector<std::uint8_t> placed(mesh.alive.size(), 0);
+  std::vector<Index> queue;
+  for (const Index seed : map.faces())
+  {
+    for (Index h = 3 * seed; h < 3 * seed + 3 && !placed[seed]; ++h)
+    {
+      if (integer[mesh.origin[h]])
+      {
+        placeFace(map, h, {}, mesh);
+        placed[seed] = 1;
+        queue.push_back(seed);
+      }
+    }
+  }
+  // Faces without an integer vertex follow from their neighbours.
+  for (std::size_t i = 0; i < queue.size(); ++i)
+  {
+    for (Index h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h)
+    {
+      const Index g = mesh.twin[h];
+      if (g != kInvalidIndex && !placed[Mesh::face(g)])
+      {
+        placeFace(map, g, rotate(mesh.uv[Mesh::next(h)], mesh.rotation[h]), mesh);
+        placed[Mesh::face(g)] = 1;
+        queue.push_back(Mesh::face(g));
+      }
+    }
+  }
+}
+
+/// In quads.
+double uvArea(const UvMesh& mesh)
+{
+  constexpr double kUnit = static_cast<double>(kOne) * static_cast<double>(kOne);
+  double area = 0;
+  for (Index f = 0; f < mesh.alive.size(); ++f)
+  {
+    area += mesh.alive[f] ? 0.5 / kUnit * static_cast<double>(mesh.faceDeterminant(f)) : 0.0;
+  }
+  return area;
+}
+
+void moveChart(UvMesh& mesh, Index f, FixedVec2 by)
+{
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  {
+    mesh.uv[h] = mesh.uv[h] + by;
+  }
+}
+
+/// Joins charts: along a spanning tree of the faces the transitions become rotations without translation.
+void joinCharts(UvMesh& mesh)
+{
+  std::vector<std::uint8_t> reached(mesh.alive.size(), 0);
+  std::vector<Index> queue;
+  for (Index seed = 0; seed < mesh.alive.size(); ++seed)
+  {
+    if (reached[seed])
+    {
+      continue;
+    }
+    reached[seed] = 1;
+    queue.assign(1, seed);
+    for (std::size_t i = 0; i < queue.size(); ++i)
+    {
+      for (Index h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h)
+      {
+        const Index g = mesh.twin[h];
+        if (g != kInvalidIndex && !reached[Mesh::face(g)])
+        {
+          reached[Mesh::face(g)] = 1;
+          moveChart(mesh, Mesh::face(g), -mesh.transition(h).translation);
+          queue.push_back(Mesh::face(g));
+        }
+      }
+    }
+  }
+}
+
+/// Integers that begin as those of a map along the same field; not valid where they lead nowhere.
+/// done: how the seamless map came to its triangles.
+IntegerStart startFrom(const std::vector<FixedVec2>& uv, const Mesh& mesh, const CrossField& field,
+  const UvEditor& done, IntegerMap& integers)
+{
+  UvMesh followed = UvMesh::from(mesh, field, uv);
+  UvEditor(followed).repeat(done.records());
+  return integers.adopt(followed.uv) ? repairIntegers(integers) : IntegerStart{};
+}
+
+std::vector<FixedVec2> developedVectors(const UvMesh& map, const CrossField& field)
+{
+  std::vector<FixedVec2> vectors;
+  for (const Isoline& line : field.isolines)
+  {
+    vectors.push_back(developedVector(map, line));
+  }
+  return vectors;
+}
+
+/// The mesh with its seams joined, as each one is an edge now: strips that leave by one part come back by its image, so
+/// that both keep the same length.
+class JoinedSides
+{
+public:
+  JoinedSides(UvMesh& mesh, const Mesh& whole, const CrossField& field) : mesh_(mesh)
+  {
+    for (const SeamEdges& seam : field.seams)
+    {
+      const Index a = edgeOf(whole, seam.left);
+      const Index b = edgeOf(whole, seam.right);
+      if (a == kInvalidIndex || b == kInvalidIndex || !join(a, b))
+      {
+        isWhole_ = false;
+        return;
+      }
+    }
+  }
+
+  bool isWhole() const { return isWhole_; }
+
+  void takeApart()
+  {
+    for (const Index h : joined_)
+    {
+      mesh_.twin[h] = kInvalidIndex;
+      mesh_.rotation[h] = 0;
+    }
+    joined_.clear();
+  }
+
+private:
+  Index edgeOf(const Mesh& whole, const std::vector<Index>& part) const
+  {
+    const Index h = mesh_.outgoing[whole.origin[part.front()]];
+    const bool isEdge = h != kInvalidIndex && mesh_.twin[h] == kInvalidIndex &&
+      mesh_.target(h) == whole.target(part.back());
+    return isEdge ? h : kInvalidIndex;
+  }
+
+  bool join(Index a, Index b)
+  {
+    for (int r = 0; r < 4; ++r)
+    {
+      if (mesh_.vector(b) == -rotate(mesh_.vector(a), r))
+      {
+        mesh_.twin[a] = b;
+        mesh_.twin[b] = a;
+        mesh_.rotation[a] = static_cast<std::int8_t>(r);
+        mesh_.rotation[b] = static_cast<std::int8_t>(-r & 3);
+        joined_.insert(joined_.end(), { a, b });
+        return true;
+      }
+    }
+    return false;
+  }
+
+  UvMesh& mesh_;
+  std::vector<Index> joined_;
+  bool isWhole_ = true;
+};
+
+/// A vertex between the ends of a seam that may lie anywhere on it is none that its image need have.
+void freeSeams(const Mesh& mesh, const CrossField& field, LockedVertices& locked)
+{
+  for (const SeamEdges& seam : field.seams)
+  {
+    for (const std::vector<Index>* part : { &seam.left, &seam.right })
+    {
+      for (std::size_t i = 1; i < part->size(); ++i)
+      {
+        const Index v = mesh.origin[(*part)[i]];
+        locked.keep[v] = locked.integer[v];
+      }
+    }
+  }
+}
+
+Status tooFine(double growth)
+{
+  return { StatusCode::NotConverged,
+    "quads would have to be smaller by a factor of " + std::to_string(growth) };
+}
+
+} // namespace
+
+QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
+  const std::vector<FixedVec2>& seamlessUv, const QuantizeOptions& options)
+{
+  checkInput(mesh, field, seamlessUv);
+  if (!(options.pull >= 0 && options.pull <= 1))
+  {
+    throw InvalidInput("quantizeMap: the share of the sizes that integers keep must be in [0, 1]");
+  }
+  QuantizeResult result;
+  result.uv = seamlessUv;
+  UvMesh uvMesh = UvMesh::from(mesh, field, seamlessUv);
+  const std::string defect = defectOf(uvMesh);
+  if (!defect.empty())
+  {
+    result.status = { StatusCode::Infeasible, "quantization: " + defect };
+    return result;
+  }
+  const double wantedArea = uvArea(uvMesh);
+  UvEditor editor(uvMesh);
+  LockedVertices locked =
+    lockedVertices(mesh, uvMesh, integerVertices(mesh, field), options.watched);
+  freeSeams(mesh, field, locked);
+  const std::vector<FixedVec2> lines = developedVectors(uvMesh, field);
+  decimateInUv(uvMesh, editor, locked.keep);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+  {
+    // One that cannot be locked is not lost for certain: the map is asked for it in the end.
+    lockLine(uvMesh, editor, locked.integer, mesh, field.isolines[i], lines[i]);
+  }
+
+  const std::size_t decimated = editor.recordCount();
+  JoinedSides seams(uvMesh, mesh, field);
+  if (!seams.isWhole())
+  {
+    result.status = { StatusCode::NotConverged,
+      "quantization: the two sides of the cut have not the same corners and ends of features" };
+    return result;
+  }
+  IntegerMap integers(uvMesh, editor, locked.integer);
+  IntegerStart start;
+  if (options.previousUv != nullptr)
+  {
+    start = startFrom(*options.previousUv, mesh, field, editor, integers);
+    result.startedFromPrevious = start.valid;
+  }
+  if (!start.valid)
+  {
+    start = findValidIntegers(integers, 1, kMaximumScale, options.progress);
+  }
+  if (!start.valid)
+  {
+    result.status = { StatusCode::NotConverged,
+      "quantization: no valid integers up to scale " +
+        std::to_string(std::min(start.scale, kMaximumScale)) };
+    return result;
+  }
+  integers.setPull(options.pull);
+  improveIntegers(integers, options.progress);
+  result.refinement = std::max(1.0, std::sqrt(integers.area() / wantedArea));
+  integrate(integers, locked.integer, uvMesh);
+  editor.undoTo(decimated);
+  seams.takeApart();
+  editor.undoAll();
+  joinCharts(uvMesh);
+  result.uv = uvMesh.uv;
+  if (result.refinement > options.maximumRefinement)
+  {
+    result.status = tooFine(result.refinement);
+  }
+  return result;
+}
+
+} // namespace quadrille

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Choosing the integers on the decimated mesh [Coudert-Osmont et al. 2023, from its description]: a first valid
+/// assignment, then strips, moves of free vertices and flips that bring it nearer to what is wanted.
+#pragma once
+
+#include "Base/Progress.h"
+#include "Integers/IntegerMap.h"
+
+namespace quadrille
+{
+
+struct IntegerStart
+{
+  bool valid = false;
+  double scale = 1;      ///< of the wanted displacements, at which the map became valid
+  std::size_t steps = 0; ///< StripSearch::work of closing and repairs
+};
+
+/// Rounds, closes and repairs at scales that grow from `scale` by sqrt 2 up to maximumScale until valid.
+IntegerStart findValidIntegers(
+  IntegerMap& map, double scale, double maximumScale, const ProgressCallback& progress);
+
+/// Closes and repairs the displacements that the map has, whose scale is 1; not valid where that does not succeed.
+IntegerStart repairIntegers(IntegerMap& map);
+
+/// Lowers the energy of a valid map until nothing helps; it stays valid.
+void improveIntegers(IntegerMap& map, const ProgressCallback& progress);
+
+} // namespace quadrille

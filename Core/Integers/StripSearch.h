@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Shortest strips (see IntegerMap.h) by Dijkstra's algorithm over (half-edge entered, vector carried).
+#pragma once
+
+#include "Integers/IntegerMap.h"
+
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace quadrille
+{
+
+/// One shift of a strip.
+struct StripStep
+{
+  Index halfEdge;
+  FixedVec2 e;
+};
+
+struct Strip
+{
+  std::vector<StripStep> steps;
+  double cost = std::numeric_limits<double>::infinity();
+  bool found() const { return !steps.empty(); }
+};
+
+/// What crossing a triangle costs.
+enum class StripCost
+{
+  KeepSound, ///< never breaks a triangle; cost is the energy that edges gain
+  Repair     ///< breaking costs first, energy second
+};
+
+class StripSearch
+{
+public:
+  /// faceWeight: #F, multiplies the price of breaking a face; must outlive the search. None: all 1.
+  StripSearch(
+    const IntegerMap& map, StripCost cost, const std::vector<double>* faceWeight = nullptr);
+
+  /// The cheapest strip that contains shift(h, e): a closed one, or one from boundary to boundary. The
+  /// price of that first shift is left out; strips that cost `bound` or more are not found. With KeepSound the search
+  /// also ends after a bounded number of steps, and what it has found till then counts.
+  Strip through(Index h, FixedVec2 e, double bound);
+
+  /// The cheapest strip that carries the vector e of the defect of face f to a face whose defect it
+  /// lowers, or out through the boundary. defects: #F.
+  Strip discharge(Index f, FixedVec2 e, const std::vector<FixedVec2>& defects);
+
+  /// The faces that the last call of through() looked at, each once: as long as none of them changes, the same call
+  /// finds the same.
+  const std::vector<Index>& visitedFaces() const { return visited_; }
+  /// Half-edges with their step that all searches so far have settled.
+  std::size_t work() const { return work_; }
+
+  static constexpr double kBroken = 1e4; ///< price of one unit of IntegerMap::brokenness
+
+private:
+  struct End
+  {
+    double cost = std::numeric_limits<double>::infinity();
+    Index state = kInvalidIndex; ///< last state of the path; kInvalidIndex: the path has none
+    Index exit = kInvalidIndex;  ///< boundary half-edge that it leaves through
+    FixedVec2 exitVector;
+  };
+
+  /// A state as a search has left it.
+  struct Reached
+  {
+    double distance = 0;
+    Index parent = kInvalidIndex;
+    std::uint32_t stamp =
+      0; ///< twice the round that reached it, and one more where that has settled it
+  };
+  struct Entry
+  {
+    double cost;
+    Index state;
+
+    bool isBefore(const Entry& other) const
+    {
+      return cost < other.cost || (cost == other.cost && state < other.state);
+    }
+  };
+
+  void restart();
+  void push(Entry entry);
+  Entry popFirst();
+  void visit(Index f);
+  static Index stateOf(Index h, FixedVec2 e);
+  FixedVec2 vectorOf(Index state) const;
+  void relax(Index state, double cost, Index parent);
+  bool pop(Index& state, double& cost);
+  double crossingCost(Index in, FixedVec2 e, Index out, bool isFirst) const;
+  double edgeCost(Index out, FixedVec2 e) const;
+  /// Shortest ways on from shift(h, e): to where it closes, and to a boundary.
+  void explore(Index h, FixedVec2 e, double bound, End& closed, End& border);
+  void appendPath(const End& end, std::vector<StripStep>& steps) const;
+
+  const IntegerMap& map_;
+  const UvMesh& mesh_;
+  StripCost cost_;
+  const std::vector<double>* faceWeight_;
+  std::int64_t length_ = 1;      ///< of the vectors of the current search
+  std::vector<Reached> reached_; ///< by state
+  std::uint32_t round_ = 0;
+  std::vector<Entry>
+    heap_; ///< a heap of four children each: half as deep, and those lie side by side
+  std::vector<Index> visited_;
+  std::vector<std::size_t> visitStamp_; ///< #F: the search that visited the face last
+  std::size_t searches_ = 0;
+  std::size_t work_ = 0;
+};
+
+} // namespace quadrille

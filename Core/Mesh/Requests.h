@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What can be asked of places of a surface: directions of the quads' edges (guides), valences of vertices (index
+/// constraints) and lines of edges (layout constraints) [Ebke et al. 2016, Section 4], and what runs ask of each other:
+/// irregular vertices that stay, and parts of the boundary that fit together or are straight. The functions of each are
+/// in the folder Requests.
+#pragma once
+
+#include "Base/Types.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Smallest and largest valence that can be asked for.
+constexpr int kLeastValence = 2;
+constexpr int kMostValence = 8;
+constexpr int kRegularValence = 4;
+
+/// The direction that one family of the quads' edges should have in a face.
+struct Guide
+{
+  Vector3 direction = Vector3::Zero(); ///< unit vector in the plane of the face; zero: free
+  float weight = 0;                    ///< in (0, 1]; 0 where free
+
+  bool isFree() const { return !(weight > 0); }
+  bool operator==(const Guide& other) const
+  {
+    return direction == other.direction && weight == other.weight;
+  }
+};
+
+/// The guide of a polygon of the input, as it was given.
+struct PolygonGuide
+{
+  Index polygon = kInvalidIndex;
+  Vector3 direction = Vector3::Zero(); ///< unit vector
+  float weight = 1;
+};
+
+/// The guide of a face of a mesh.
+struct FaceGuide
+{
+  Index face = kInvalidIndex;
+  Guide guide;
+
+  bool operator==(const FaceGuide& other) const
+  {
+    return face == other.face && guide == other.guide;
+  }
+};
+
+/// A vertex is to have this valence. On a boundary it is what the vertex would have if the quads went on beyond, so
+/// that 4 is regular everywhere: 3 is a corner with one quad, 5 one with three.
+struct ValenceRequest
+{
+  Index vertex = kInvalidIndex;
+  int valence = kRegularValence;
+  Index point = kInvalidIndex; ///< of the input
+};
+
+/// What becomes of a curve.
+enum class CurveKind : std::uint8_t
+{
+  Connection, ///< joins the irregular vertex, or the feature or boundary, nearest to each end
+  Cycle       ///< closes on itself, from the last point back to the first
+};
+
+/// A curve that a user draws where a line of the quads' edges should run.
+struct CurveRequest
+{
+  CurveKind kind = CurveKind::Connection;
+  std::vector<Vector3> points; ///< a polyline on or near the surface; at least 2, of a cycle 3
+};
+
+/// A sector at a vertex: from one feature or boundary edge counterclockwise to the next.
+struct HeldSector
+{
+  Vector3 middle = Vector3::Zero(); ///< the direction that halves its angle, of length 1
+  int turns = 2;                    ///< quarter turns of the map, >= 1
+
+  bool operator==(const HeldSector& other) const
+  {
+    return middle == other.middle && turns == other.turns;
+  }
+};
+
+/// An irregular vertex that stays, by a point of the input near it.
+struct HeldVertex
+{
+  Index point = kInvalidIndex; ///< a corner of the input's triangle that the vertex lies in
+  Vector3 place = Vector3::Zero();
+  /// Counterclockwise, of a vertex on features or the boundary; at the boundary from its first one on. Empty: a vertex
+  /// off them, which is the one that the target valence of the point is for.
+  std::vector<HeldSector> sectors;
+
+  bool operator==(const HeldVertex& other) const
+  {
+    return point == other.point && place == other.place && sectors == other.sectors;
+  }
+};
+
+/// The same at a vertex of a surface.
+struct SectorRequest
+{
+  Index vertex = kInvalidIndex;
+  std::vector<HeldSector> sectors; ///< see HeldVertex
+};
+
+/// Two parts of the boundary that are images of each other, by the places of boundary vertices at their ends. One
+/// runs along the boundary from `from` to `to` without another end between them, the other from the image of `to` to
+/// that of `from`. from == to: both are closed.
+struct SeamRequest
+{
+  Vector3 from = Vector3::Zero();
+  Vector3 to = Vector3::Zero();
+  Vector3 imageFrom = Vector3::Zero();
+  Vector3 imageTo = Vector3::Zero();
+};
+
+/// A part of the boundary that is one straight side of the map, by places of boundary vertices: that between `from` and
+/// `to` that passes `via`, or, where from == to, all of the loop there. At its ends, where another part of the boundary
+/// begins, the map has a corner of one quarter turn.
+struct StraightRequest
+{
+  Vector3 from = Vector3::Zero();
+  Vector3 via = Vector3::Zero();
+  Vector3 to = Vector3::Zero();
+  /// Unit: where the surface would go on beyond the part; zero where it ends there.
+  Vector3 outward = Vector3::Zero();
+
+  bool isClosed() const { return from == to; }
+};
+
+/// What a prepared surface was asked for. The finest level does not depend on it, so it is not part of its hash.
+struct SurfaceRequests
+{
+  std::vector<PolygonGuide> polygonGuides;     ///< ascending by polygon; see surfaceGuides
+  std::vector<ValenceRequest> valenceRequests; ///< ascending by vertex, one a vertex
+  std::size_t unusedValences = 0;              ///< requests of points that no face uses
+  std::vector<CurveRequest> curves;            ///< as they were given, in the frame
+  bool regularElsewhere = false;               ///< as it was given
+  std::vector<SectorRequest> sectorRequests;   ///< ascending by vertex
+  bool regularOnFeatures = false;              ///< as it was given
+  std::vector<SeamRequest> seams;              ///< as they were given, in the frame
+  std::vector<StraightRequest> straight;       ///< as they were given, in the frame
+};
+
+} // namespace quadrille

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pieces/PlaceOnSource.h"
+
+#include <algorithm>
+
+namespace quadrille
+{
+namespace
+{
+
+/// By how much a point may be off the place that its source names, over the size of the triangle.
+constexpr double kSameSpot = 1e-6;
+
+} // namespace
+
+std::optional<FacePlace> placeOnSource(const PreparedSurface& mapped, Index face,
+  const std::array<double, 3>& weights, const SourceTriangles& source, const Vector3* point)
+{
+  const SourceLocation at = mapped.locate(face, weights);
+  if (at.polygon >= source.corners.size() / 3)
+  {
+    return std::nullopt;
+  }
+  const Index* const corners = &source.corners[3 * std::size_t{ at.polygon }];
+  FacePlace found;
+  found.face = at.polygon;
+  Vector3 place = Vector3::Zero();
+  double sum = 0, size = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const auto corner = std::find(at.points.begin(), at.points.end(), corners[k]);
+    if (corner == at.points.end())
+    {
+      return std::nullopt;
+    }
+    double& weight = found.weights[k];
+    weight = std::max(0.0, at.weights[static_cast<std::size_t>(corner - at.points.begin())]);
+    sum += weight;
+    place += weight * source.points[corners[k]];
+    size = std::max(size, (source.points[corners[k]] - source.points[corners[0]]).norm());
+  }
+  if (!(sum > 0) || (point != nullptr && !((place / sum - *point).norm() <= kSameSpot * size)))
+  {
+    return std::nullopt;
+  }
+  for (double& weight : found.weights)
+  {
+    weight /= sum;
+  }
+  return found;
+}
+
+std::optional<FacePlace> middleOnSource(const PreparedSurface& mapped, Index face,
+  const std::array<double, 3>& weights, const SourceTriangles& source)
+{
+  constexpr std::array<double, 3> kMiddle{ 1.0 / 3, 1.0 / 3, 1.0 / 3 };
+  const bool isKnown = weights[0] + weights[1] + weights[2] > 0;
+  return placeOnSource(mapped, face, isKnown ? weights : kMiddle, source, nullptr);
+}
+
+} // namespace quadrille

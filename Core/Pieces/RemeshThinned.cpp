@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Base/Progress.h"
+#include "Pieces/RemeshInPieces.h"
+#include "Pieces/SurfacePiece.h"
+#include "Pieces/ThinnedSurface.h"
+#include "Pipeline/EnterFrame.h"
+#include "Pipeline/Run.h"
+#include "Prepare/Prepare.h"
+
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+/// The surface in the frame, thinned out.
+ThinnedSurface thinOut(SurfaceInput& input, const RemeshOptions& options, StageRecords& stages)
+{
+  PrepareOptions prepare;
+  prepare.featureAngle = options.featureAngle;
+  prepare.threads = options.threads;
+  prepare.progress = subProgress(options.progress, 0.0, 0.25, "Preparing: ");
+  const std::size_t polygons = input.polygonOffsets.empty() ? 0 : input.polygonOffsets.size() - 1;
+  PreparedSurface fine = prepareSurface(std::move(input), prepare);
+  input = {};
+  const std::size_t faces = fine.mesh.faceCount();
+  for (const auto& [name, seconds] : fine.seconds)
+  {
+    stages.add(name, seconds, polygons, faces);
+  }
+  Stopwatch watch;
+  PieceOptions piece = pieceOptionsOf(options, fine.area, fine.boundingBoxDiagonal);
+  piece.threads = options.threads;
+  piece.progress = subProgress(options.progress, 0.25, 0.6, "Thinning: ");
+  ThinnedSurface thinned(std::move(fine), piece);
+  stages.add("thin", watch.lap(), faces, thinned.faceCount());
+  return thinned;
+}
+
+/// Points of the quads go from the thinned surface, where result has them, to that of the user.
+void carryToInput(ThinnedSurface& thinned, const std::vector<Vector3>& userPoints,
+  const std::vector<Vector3>& points, const RemeshOptions& options, RemeshResult& made,
+  PiecesResult& result)
+{
+  if (!made.status.ok())
+  {
+    return;
+  }
+  Stopwatch watch;
+  ThinnedSurface::Places places = thinned.carry(made.quads, made.surface, userPoints,
+    options.threads, subProgress(options.progress, 0.9, 1.0, "Carrying points: "));
+  putOnInput(places.ofPoints, points, made.quads.points);
+  result.pointSource = std::move(places.ofPoints);
+  result.quadSource = std::move(places.ofQuads);
+  made.stages.push_back(
+    { "carry", watch.lap(), result.pointSource.size(), result.quadSource.size() });
+}
+
+/// What is in the frame already. result: all but what remesh() makes.
+void runThinned(FramedInput& framed, const RemeshOptions& given, PlaceScope& places,
+  RemeshResult& made, PiecesResult& result)
+{
+  const Frame& frame = framed.frame;
+  places.set(frame.centre, frame.unit, frame.sign);
+  RemeshOptions options = optionsInFrame(given, frame);
+  options.mergeCharts = false;
+  StageRecords stages;
+  ThinnedSurface thinned = thinOut(framed.input, options, stages);
+  result.pieces = 1;
+  result.joinedTriangles = thinned.faceCount();
+  const std::vector<Vector3> userPoints = thinned.userPoints(frame, framed.points);
+  options.progress = subProgress(given.progress, 0.6, 0.9);
+  std::vector<SmallDetail> closed;
+  SizedSurface sized = sizePrepared(thinned.surface(options.threads, closed), stages, options);
+  remeshSized(sized, frame, options, nullptr, false, made);
+  tellClosedHandles(closed, made);
+  putOnUserSurface(sized, { frame, {}, userPoints }, options, false, made);
+  carryToInput(thinned, userPoints, framed.points, given, made, result);
+  if (given.edgeLength && !options.quads)
+  {
+    made.targetEdgeLength = *given.edgeLength;
+  }
+}
+
+/// What needs the whole surface, see remeshThinned.
+void requireNothingPlaced(const SurfaceInput& input)
+{
+  if (!input.guideDirections.empty() || !input.targetValences.empty() || !input.curves.empty() ||
+    !input.held.empty() || !input.seams.empty() || !input.straight.empty() ||
+    input.regularElsewhere || input.regularOnFeatures)
+  {
+    throw InvalidInput("guides, valences and curves are those of the whole surface: do not have it "
+                       "thinned out.");
+  }
+}
+
+} // namespace
+
+PiecesResult remeshThinned(SurfaceInput input, const RemeshOptions& options)
+{
+  requireNothingPlaced(input);
+  PiecesResult made;
+  made.remeshed = guardedRun(input, options,
+    [&](const RemeshOptions& asked, std::size_t, PlaceScope& places, RemeshResult& remeshed)
+    {
+      EnteredInput entered = enterFrame(std::move(input), asked, nullptr);
+      runThinned(entered.framed, asked, places, remeshed, made);
+    });
+  made.estimate = made.remeshed.estimate;
+  return made;
+}
+
+} // namespace quadrille

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pieces/ThinnedSurface.h"
+
+#include "Base/Progress.h"
+#include "Mesh/ContentHash.h"
+#include "Pieces/CarriedPlaces.h"
+#include "Pieces/PlaceOnSource.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace quadrille
+{
+ThinnedSurface::ThinnedSurface(PreparedSurface fine, const PieceOptions& options)
+  : fine_(std::move(fine)), closedLoop_(options.closedLoop), quadEdge_(options.quadEdge)
+{
+  HierarchyOptions thinning;
+  thinning.targetEdgeLength = 2 * options.edgeLength; // phase 1 ends at a half of it
+  thinning.isRough = true;
+  thinning.isConnected = fine_.components == 1;
+  thinning.threads = options.threads;
+  thinning.progress = options.progress;
+  Hierarchy made = Redecimation(fine_.mesh, fine_.hash, thinning).take();
+  level_ = std::move(made.intermediate);
+  log_ = std::move(made.log);
+  handles_ = findShortHandles(fine_.mesh, level_, closedLoop_, quadEdge_, {}, options.threads);
+}
+
+PreparedSurface ThinnedSurface::surface(int threads, std::vector<SmallDetail>& closed) const
+{
+  PreparedSurface thinned;
+  thinned.mesh = level_.mesh;
+  thinned.repair = fine_.repair;
+  thinned.facets = fine_.facets;
+  thinned.area = fine_.area;
+  thinned.boundingBoxDiagonal = fine_.boundingBoxDiagonal;
+  thinned.components = fine_.components;
+  thinned.hash = contentHash(thinned.mesh, threads);
+  const Mesh& mesh = thinned.mesh;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    thinned.sourcePolygon.push_back(f);
+    thinned.sourcePoints.push_back(
+      { mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2] });
+  }
+  if (!handles_.empty())
+  {
+    std::vector<std::vector<Index>> places(handles_.size());
+    std::transform(handles_.begin(), handles_.end(), places.begin(),
+      [](const ShortHandle& handle) { return handle.onLevel; });
+    closed = cutShortHandles(thinned, handles_, places, closedLoop_, quadEdge_, threads);
+  }
+  return thinned;
+}
+
+std::vector<Vector3> ThinnedSurface::userPoints(
+  const Frame& frame, const std::vector<Vector3>& points) const
+{
+  const Mesh& fine = fine_.mesh;
+  std::vector<Index> corner(fine.vertexCount(), kInvalidIndex);
+  for (Index h = 0; h < fine.halfEdgeCount(); ++h)
+  {
+    pollNowAndThen(h);
+    corner[fine.origin[h]] = h;
+  }
+  std::vector<Vector3> positions;
+  positions.reserve(level_.fineVertex.size());
+  for (const Index v : level_.fineVertex)
+  {
+    positions.push_back(userPosition(fine_, corner[v], frame, points));
+  }
+  return positions;
+}
+
+ThinnedSurface::Places ThinnedSurface::carry(const QuadMesh& quads, const PreparedSurface& mapped,
+  const std::vector<Vector3>& userPoints, int threads, const ProgressCallback& progress)
+{
+  const SourceTriangles source{ level_.mesh.origin, userPoints };
+  Places made;
+  made.ofPoints.resize(quads.points.size());
+  made.ofQuads.resize(quads.quads.size());
+  std::vector<FacePlace> places;
+  std::vector<std::size_t> whose; // points, then quads
+  const auto add = [&](const std::optional<FacePlace>& place, std::size_t who)
+  {
+    if (place)
+    {
+      places.push_back(*place);
+      whose.push_back(who);
+    }
+  };
+  const std::size_t points = quads.points.size();
+  for (std::size_t p = 0; p < points; ++p)
+  {
+    add(
+      placeOnSource(mapped, quads.sourceFace[p], quads.sourceWeights[p], source, &quads.points[p]),
+      p);
+  }
+  for (std::size_t q = 0; q < quads.quads.size(); ++q)
+  {
+    add(middleOnSource(mapped, quads.quadSourceFace[q], quads.quadSourceWeights[q], source),
+      points + q);
+  }
+  const std::vector<FacePlace> onFine =
+    carryPlaces(fine_.mesh, level_, log_, places, threads, progress);
+  log_ = {};
+  for (std::size_t i = 0; i < onFine.size(); ++i)
+  {
+    SourceLocation& at =
+      whose[i] < points ? made.ofPoints[whose[i]] : made.ofQuads[whose[i] - points];
+    at = fine_.locate(onFine[i].face, onFine[i].weights);
+  }
+  return made;
+}
+
+void putOnInput(const std::vector<SourceLocation>& places, const std::vector<Vector3>& points,
+  std::vector<Vector3>& quadPoints)
+{
+  for (std::size_t p = 0; p < quadPoints.size(); ++p)
+  {
+    const SourceLocation& at = places[p];
+    if (at.polygon != kInvalidIndex)
+    {
+      quadPoints[p] = at.weights[0] * points[at.points[0]] + at.weights[1] * points[at.points[1]] +
+        at.weights[2] * points[at.points[2]];
+    }
+  }
+}
+
+} // namespace quadrille

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Quads/QuadMesh.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace quadrille
+{
+
+std::optional<Index> meshCorner(const QuadMesh& quads, Index p)
+{
+  for (Index i = 0; i < 3; ++i)
+  {
+    if (quads.sourceWeights[p][i] == 1)
+    {
+      return 3 * quads.sourceFace[p] + i;
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<std::uint8_t> featureEdgeBits(const QuadMesh& mesh)
+{
+  const auto sortedEdge = [](Index a, Index b)
+  { return std::pair(std::min(a, b), std::max(a, b)); };
+  std::vector<std::pair<Index, Index>> features;
+  for (const QuadLine& line : mesh.lines)
+  {
+    if (!line.boundary)
+    {
+      features.push_back(sortedEdge(line.a, line.b));
+    }
+  }
+  std::sort(features.begin(), features.end());
+  const auto bitsOf = [&](const Index* corners, std::size_t count)
+  {
+    constexpr std::size_t bitCount = 8; // a polygon may have more edges
+    int bits = 0;
+    for (std::size_t i = 0; i < std::min(count, bitCount); ++i)
+    {
+      const auto edge = sortedEdge(corners[i], corners[(i + 1) % count]);
+      bits |= std::binary_search(features.begin(), features.end(), edge) ? 1 << i : 0;
+    }
+    return static_cast<std::uint8_t>(bits);
+  };
+  std::vector<std::uint8_t> bits;
+  bits.reserve(mesh.quads.size() + mesh.polygonSourceFace.size());
+  for (const std::array<Index, 4>& quad : mesh.quads)
+  {
+    bits.push_back(bitsOf(quad.data(), 4));
+  }
+  for (std::size_t i = 0; i < mesh.polygonSourceFace.size(); ++i)
+  {
+    const Index first = mesh.polygonOffsets[i];
+    bits.push_back(bitsOf(mesh.polygonPoints.data() + first, mesh.polygonOffsets[i + 1] - first));
+  }
+  return bits;
+}
+
+} // namespace quadrille

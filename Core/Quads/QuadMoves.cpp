@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Quads/QuadMoves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr int kMaximumFaces = 2000;
+/// A curve that bends by more than this at a mesh vertex has a corner there that a quad vertex
+/// keeps.
+constexpr double kCurveCorner = 0.5235987755982988; // 30 degrees
+
+std::vector<std::pair<Index, Index>> pointsAndQuads(const QuadMesh& quads)
+{
+  std::vector<std::pair<Index, Index>> pairs;
+  pairs.reserve(4 * quads.quads.size());
+  for (Index q = 0; q < quads.quads.size(); ++q)
+  {
+    for (const Index p : quads.quads[q])
+    {
+      pairs.emplace_back(p, q);
+    }
+  }
+  return pairs;
+}
+
+std::vector<std::pair<Index, Index>> endsOfLines(const QuadMesh& quads)
+{
+  std::vector<std::pair<Index, Index>> pairs;
+  for (const QuadLine& line : quads.lines)
+  {
+    pairs.emplace_back(line.a, line.b);
+    pairs.emplace_back(line.b, line.a);
+  }
+  return pairs;
+}
+
+/// Does the constrained curve run nearly straight through the vertex of corner h?
+bool isSmoothCurve(const Mesh& mesh, Index h)
+{
+  const std::vector<Index> edges = constrainedEdgesAt(mesh, h);
+  if (edges.size() != 2)
+  {
+    return false;
+  }
+  const auto outgoing = [&](Index e) -> Vector3
+  { return mesh.origin[e] == mesh.origin[h] ? mesh.edgeVector(e) : -mesh.edgeVector(e); };
+  const Vector3 a = outgoing(edges[0]);
+  const Vector3 b = -outgoing(edges[1]);
+  return a.dot(b) > std::cos(kCurveCorner) * a.norm() * b.norm();
+}
+
+} // namespace
+
+PointLists::PointLists(std::size_t points, const std::vector<std::pair<Index, Index>>& pairs)
+  : first_(points + 1, 0), items_(pairs.size())
+{
+  for (const auto& pair : pairs)
+  {
+    ++first_[pair.first + 1];
+  }
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  std::vector<Index> fill(first_.begin(), first_.end() - 1);
+  for (const auto& pair : pairs)
+  {
+    items_[fill[pair.first]++] = pair.second;
+  }
+}
+
+QuadMoves::QuadMoves(const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices)
+  : mesh_(mesh), quads_(quads), incident_(quads.points.size(), pointsAndQuads(quads)),
+    lines_(quads.points.size(), endsOfLines(quads))
+{
+  freedom_.resize(quads_.points.size());
+  for (Index p = 0; p < quads_.points.size(); ++p)
+  {
+    freedom_[p] = freedomOf(p, fixedVertices);
+  }
+  for (const Index p : quads_.polygonPoints)
+  {
+    freedom_[p] = Freedom::Fixed;
+  }
+  computeNormals();
+}
+
+QuadMoves::Freedom QuadMoves::freedomOf(Index p, const std::vector<Index>& fixedVertices) const
+{
+  if (!fixedVertices.empty())
+  {
+    const std::optional<Index> corner = meshCorner(quads_, p);
+    if (corner &&
+      std::binary_search(fixedVertices.begin(), fixedVertices.end(), mesh_.origin[*corner]))
+    {
+      return Freedom::Fixed;
+    }
+  }
+  if (lines_.size(p) != 0)
+  {
+    return curveFreedom(p);
+  }
+  return quads_.onBoundary[p] ? Freedom::Fixed : Freedom::Surface; // where cells were trimmed
+}
+
+/// A point slides where one curve goes through it, and straight on where it is a mesh vertex.
+QuadMoves::Freedom QuadMoves::curveFreedom(Index p) const
+{
+  if (lines_.size(p) != 2)
+  {
+    return Freedom::Fixed;
+  }
+  const std::optional<Index> corner = meshCorner(quads_, p);
+  const bool slides = corner ? isSmoothCurve(mesh_, *corner) : curvePoint(p).has_value();
+  return slides ? Freedom::Curve : Freedom::Fixed;
+}
+
+bool QuadMoves::isRegularOnCurve(Index p) const
+{
+  if (quads_.onBoundary[p])
+  {
+    return incident_.size(p) == 2;
+  }
+  if (incident_.size(p) != 4)
+  {
+    return false;
+  }
+  const Index a = lines_.begin(p)[0];
+  const Index b = lines_.begin(p)[1];
+  return std::none_of(incident_.begin(p), incident_.end(p),
+    [&](Index q)
+    {
+      const std::array<Index, 4>& corners = quads_.quads[q];
+      const bool hasA = std::find(corners.begin(), corners.end(), a) != corners.end();
+      const bool hasB = std::find(corners.begin(), corners.end(), b) != corners.end();
+      return hasA && hasB; // a quarter turn between them
+    });
+}
+
+Vector3 QuadMoves::faceNormal(Index f) const
+{
+  return mesh_.edgeVector(3 * f).cross(mesh_.edgeVector(3 * f + 1)).normalized();
+}
+
+void QuadMoves::computeNormals()
+{
+  normal_.resize(quads_.quads.size());
+  for (std::size_t q = 0; q < normal_.size(); ++q)
+  {
+    normal_[q] = faceNormal(quads_.quadSourceFace[q]);
+    for (const Index p : quads_.quads[q])
+    {
+      if (lines_.size(p) == 0) // on a crease the face may be that of the other side
+      {
+        normal_[q] += faceNormal(quads_.sourceFace[p]);
+      }
+    }
+  }
+}
+
+std::optional<CurvePoint> QuadMoves::curvePoint(Index p) const
+{
+  if (const std::optional<Index> corner = meshCorner(quads_, p))
+  {
+    const std::vector<Index> edges = constrainedEdgesAt(mesh_, *corner);
+    if (edges.empty())
+    {
+      return std::nullopt;
+    }
+    const bool starts = mesh_.origin[edges[0]] == mesh_.origin[*corner];
+    return CurvePoint{ edges[0], starts ? 0.0 : 1.0 };
+  }
+  return locateOnCurve(mesh_, place(p));
+}
+
+std::optional<SurfacePoint> QuadMoves::target(Index p, const Vector3& displacement) const
+{
+  if (freedom_[p] != Freedom::Curve)
+  {
+    return walkSurface(mesh_, place(p), displacement, kMaximumFaces);
+  }
+  const std::optional<CurvePoint> from = curvePoint(p);
+  if (!from)
+  {
+    return std::nullopt;
+  }
+  const double length = displacement.dot(mesh_.edgeVector(from->h).normalized());
+  const std::optional<CurvePoint> to = walkCurve(mesh_, *from, length, kMaximumFaces);
+  return to ? std::optional<SurfacePoint>(to->onSurface()) : std::nullopt;
+}
+
+void QuadMoves::move(Index p, const SurfacePoint& place, const Vector3& position)
+{
+  quads_.points[p] = position;
+  quads_.sourceFace[p] = place.face;
+  quads_.sourceWeights[p] = place.weights;
+}
+
+std::array<Vector3, 4> QuadMoves::cornersWith(Index q, Index p, const Vector3& position) const
+{
+  std::array<Vector3, 4> corners;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    const Index c = quads_.quads[q][i];
+    corners[i] = c == p ? position : quads_.points[c];
+  }
+  return corners;
+}
+
+bool QuadMoves::facesOutwards(Index q, const std::array<Vector3, 4>& corners) const
+{
+  return (corners[2] - corners[0]).cross(corners[3] - corners[1]).dot(normal_[q]) > 0;
+}
+
+} // namespace quadrille

@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Quads/QuadSmoothing.h"
+
+#include "Base/Angles.h"
+#include "Base/Parallel.h"
+#include "Quads/QuadMoves.h"
+#include "Quads/QuadShape.h"
+
+#include <cmath>
+#include <limits>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr std::size_t kChunk = 256;
+/// A move must not shorten the shortest edge at a point below this part of their mean: the scaled
+/// Jacobian does not see lengths.
+constexpr double kShortEdge = 0.35;
+/// Below this a quad is worth a search in all directions.
+constexpr double kBadShape = 0.4;
+
+class Smoother
+{
+public:
+  Smoother(const Mesh& mesh, QuadMesh& quads, const SmoothingOptions& options)
+    : quads_(quads), options_(options), moves_(mesh, quads, options.fixedVertices),
+      incident_(moves_.incidentQuads())
+  {
+    colour();
+  }
+
+  SmoothingResult run()
+  {
+    SmoothingResult result;
+    for (int step = 0; step < options_.steps; ++step)
+    {
+      report(options_.progress, static_cast<double>(step) / options_.steps, "smoothing");
+      const std::size_t moves = sweep();
+      result.moves += moves;
+      if (moves == 0)
+      {
+        break;
+      }
+    }
+    return result;
+  }
+
+private:
+  struct Quality
+  {
+    double worst = std::numeric_limits<double>::infinity();
+    double sum = 0;
+
+    bool betterThan(const Quality& other) const
+    {
+      if (worst < other.worst)
+      {
+        return false;
+      }
+      return sum > other.sum + 1e-6 || (other.worst < kBadShape && worst > other.worst + 1e-6);
+    }
+  };
+
+  struct Move
+  {
+    SurfacePoint place;
+    Vector3 position;
+    Quality quality;
+  };
+
+  /// A point of a curve slides only where the curve goes straight on in the quad mesh.
+  bool mayMove(Index p) const
+  {
+    return moves_.freedom(p) == QuadMoves::Freedom::Surface ||
+      (moves_.freedom(p) == QuadMoves::Freedom::Curve && moves_.isRegularOnCurve(p));
+  }
+
+  /// Colours so that two points of a quad never have the same one.
+  void colour()
+  {
+    const Index points = static_cast<Index>(quads_.points.size());
+    std::vector<Index> colourOf(points, kInvalidIndex);
+    std::vector<Index> usedBy; // per colour the last point that saw it
+    for (Index p = 0; p < points; ++p)
+    {
+      for (const Index* q = incident_.begin(p); q != incident_.end(p); ++q)
+      {
+        for (const Index n : quads_.quads[*q])
+        {
+          if (colourOf[n] != kInvalidIndex)
+          {
+            usedBy[colourOf[n]] = p;
+          }
+        }
+      }
+      Index c = 0;
+      while (c < usedBy.size() && usedBy[c] == p)
+      {
+        ++c;
+      }
+      if (c == usedBy.size())
+      {
+        usedBy.push_back(kInvalidIndex);
+        classes_.emplace_back();
+      }
+      colourOf[p] = c;
+      if (mayMove(p))
+      {
+        classes_[c].push_back(p);
+      }
+    }
+  }
+
+  std::size_t sweep()
+  {
+    std::size_t moves = 0;
+    for (const std::vector<Index>& points : classes_)
+    {
+      std::vector<std::uint8_t> moved(points.size(), 0);
+      parallelFor(points.size(), kChunk, options_.threads,
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            moved[i] = improve(points[i]) ? 1 : 0;
+          }
+        });
+      moves += static_cast<std::size_t>(std::count(moved.begin(), moved.end(), 1));
+    }
+    return moves;
+  }
+
+  bool improve(Index p)
+  {
+    const Quality before = qualityAt(p, quads_.points[p]);
+    if (before.worst > options_.goodShape)
+    {
+      return false;
+    }
+    const bool bad = before.worst < kBadShape;
+    const QuadMoves::EdgeLengths lengths = moves_.edgeLengths(p, quads_.points[p]);
+    const double reach = 0.5 * (bad ? lengths.mean : lengths.shortest);
+    Move best{ moves_.place(p), quads_.points[p], before };
+    tryWantedPlaces(p, reach, best);
+    if (bad)
+    {
+      tryAllDirections(p, reach, best);
+    }
+    if (!best.quality.betterThan(before))
+    {
+      return false;
+    }
+    moves_.move(p, best.place, best.position);
+    return true;
+  }
+
+  /// Towards the average of the neighbours, and to where the quads would be parallelograms.
+  void tryWantedPlaces(Index p, double reach, Move& best) const
+  {
+    const Vector3 here = quads_.points[p];
+    const Vector3 average = averageOfNeighbours(p) - here;
+    const Vector3 parallelogram = parallelogramCorner(p) - here;
+    for (const Vector3& wanted : { average, parallelogram, Vector3((average + parallelogram) / 2) })
+    {
+      const double length = wanted.norm();
+      const double scale = length > reach ? reach / length : 1.0;
+      for (const double factor : { 1.0, 0.5, 0.25 })
+      {
+        tryMove(p, factor * scale * wanted, best);
+      }
+    }
+  }
+
+  void tryAllDirections(Index p, double reach, Move& best) const
+  {
+    const Vector3 x = moves_.tangentAt(p);
+    const Vector3 y = moves_.normalAt(p).cross(x);
+    for (const double factor : { 1.0, 0.3, 0.1, 0.03 })
+    {
+      for (int i = 0; i < 8; ++i)
+      {
+        const double angle = i * kPi / 4;
+        tryMove(p, factor * reach * (std::cos(angle) * x + std::sin(angle) * y), best);
+      }
+    }
+  }
+
+  /// Keeps the move in `best` when it is better than what is there.
+  void tryMove(Index p, const Vector3& displacement, Move& best) const
+  {
+    const std::optional<SurfacePoint> place = moves_.target(p, displacement);
+    if (!place)
+    {
+      return;
+    }
+    const Vector3 position = positionOf(moves_.mesh(), *place);
+    if (shrinksShortEdge(p, position))
+    {
+      return;
+    }
+    const Quality quality = qualityAt(p, position);
+    if (quality.betterThan(best.quality))
+    {
+      best = { *place, position, quality };
+    }
+  }
+
+  Quality qualityAt(Index p, const Vector3& position) const
+  {
+    Quality quality;
+    for (const Index* q = incident_.begin(p); q != incident_.end(p); ++q)
+    {
+      const std::array<Vector3, 4> corners = moves_.cornersWith(*q, p, position);
+      const double shape = scaledJacobian(corners);
+      // A quad that turns over passes through a bow tie of -1 and gets worse from there.
+      const double value = moves_.facesOutwards(*q, corners) ? shape : -2 - shape;
+      quality.worst = std::min(quality.worst, value);
+      quality.sum += value;
+    }
+    return quality;
+  }
+
+  Vector3 averageOfNeighbours(Index p) const
+  {
+    Vector3 sum = Vector3::Zero();
+    int count = 0;
+    moves_.forEachNeighbour(p,
+      [&](const Vector3& x)
+      {
+        sum += x;
+        ++count;
+      });
+    return sum / std::max(count, 1);
+  }
+
+  Vector3 parallelogramCorner(Index p) const
+  {
+    Vector3 sum = Vector3::Zero();
+    for (const Index* q = incident_.begin(p); q != incident_.end(p); ++q)
+    {
+      const std::array<Index, 4>& c = quads_.quads[*q];
+      const std::size_t i = static_cast<std::size_t>(std::find(c.begin(), c.end(), p) - c.begin());
+      sum += quads_.points[c[(i + 1) % 4]] + quads_.points[c[(i + 3) % 4]] -
+        quads_.points[c[(i + 2) % 4]];
+    }
+    return sum / incident_.size(p);
+  }
+
+  bool shrinksShortEdge(Index p, const Vector3& position) const
+  {
+    const QuadMoves::EdgeLengths after = moves_.edgeLengths(p, position);
+    return after.shortest < kShortEdge * after.mean &&
+      after.shortest < moves_.edgeLengths(p, quads_.points[p]).shortest;
+  }
+
+  QuadMesh& quads_;
+  const SmoothingOptions& options_;
+  QuadMoves moves_;
+  const PointLists& incident_;              ///< per point its quads
+  std::vector<std::vector<Index>> classes_; ///< movable points per colour
+};
+
+} // namespace
+
+SmoothingResult smoothQuads(const Mesh& mesh, QuadMesh& quads, const SmoothingOptions& options)
+{
+  if (options.steps < 0)
+  {
+    throw InvalidInput("smoothing: the number of steps is negative");
+  }
+  if (options.steps == 0 || quads.quads.empty())
+  {
+    return {};
+  }
+  return Smoother(mesh, quads, options).run();
+}
+
+} // namespace quadrille

@@ -1,0 +1,410 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Quads/QuadUntangling.h"
+
+#include "Base/DisjointSets.h"
+#include "Base/Parallel.h"
+#include "Quads/QuadMoves.h"
+#include "Quads/QuadShape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace quadrille
+{
+namespace
+{
+
+/// So many rings of quads round those that are inverted may move; the next number where some are left.
+constexpr int kRings[] = { 1, 2, 4, 8 };
+constexpr int kMaximumSweeps = 30;
+/// A sweep that lowers the badness of a place by less than this part is the last one.
+constexpr double kLeastProgress = 0.01;
+/// Corners with less than this area go on moving once no quad is inverted.
+constexpr double kMargin = 0.15;
+/// Points whose corners all have more than this area stay.
+constexpr double kGoodCorner = 0.6;
+/// A move must not shorten the shortest edge at a point below this part of their mean.
+constexpr double kShortUntangledEdge = 0.2;
+/// A move has to lower the badness of the corners at the point by this part.
+constexpr double kLeastGain = 1e-3;
+/// Parts of the way to a corner of the quads at a point that are tried.
+constexpr double kSteps[] = { 0.5, 0.2, 0.08, 0.03, 0.01 };
+
+/// Areas of the parallelograms at the four corners, negative where the quad is inverted.
+std::array<double, 4> cornerAreas(const std::array<Vector3, 4>& p)
+{
+  const Vector3 normal = centreNormal(p).normalized();
+  std::array<double, 4> areas{};
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    areas[i] = normal.dot((p[i] - p[(i + 3) % 4]).cross(p[(i + 1) % 4] - p[i]));
+  }
+  return areas;
+}
+
+/// How much a corner counts that has this area in units of the quads there: the worst ones count above all.
+double badness(double area)
+{
+  constexpr double kSteepness = 6;
+  constexpr double kLinear = -20; // the tangent beyond, so that nothing overflows
+  const double bounded = std::exp(-kSteepness * std::max(area, kLinear));
+  return bounded * (1 + kSteepness * std::max(0.0, kLinear - area));
+}
+
+class Untangling
+{
+public:
+  Untangling(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options)
+    : quads_(quads), options_(options), moves_(mesh, quads, options.fixedVertices),
+      unit_(quads.quads.size(), 0), changed_(quads.quads.size(), 0), tried_(quads.points.size(), 0)
+  {
+  }
+
+  /// The quads that are left inverted.
+  std::vector<Index> run(std::vector<Index> inverted)
+  {
+    for (const int rings : kRings)
+    {
+      if (inverted.empty())
+      {
+        break;
+      }
+      const std::vector<Place> places = separate(pointsRound(inverted, rings));
+      parallelFor(places.size(), 1, options_.threads,
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            mend(places[i]);
+          }
+        });
+      inverted = invertedQuads(quads_.points, quads_.quads);
+    }
+    return inverted;
+  }
+
+private:
+  /// Points that may move, and all quads at them; both ascending. Places share no quad, so they can be mended at the
+  /// same time.
+  struct Place
+  {
+    std::vector<Index> points, quads;
+  };
+
+  template <typename Visitor>
+  void forQuadsAt(Index p, const Visitor& visit) const
+  {
+    std::for_each(moves_.incidentQuads().begin(p), moves_.incidentQuads().end(p), visit);
+  }
+
+  /// The movable points of these quads and of so many rings round them, ascending.
+  std::vector<Index> pointsRound(const std::vector<Index>& quads, int rings) const
+  {
+    std::vector<std::uint8_t> near(quads_.points.size(), 0);
+    std::vector<Index> front = quads;
+    std::vector<Index> points;
+    for (int ring = 0; ring <= rings; ++ring)
+    {
+      std::vector<Index> next;
+      for (const Index q : front)
+      {
+        for (const Index p : quads_.quads[q])
+        {
+          if (near[p] == 0)
+          {
+            near[p] = 1;
+            forQuadsAt(p, [&](Index beyond) { next.push_back(beyond); });
+            if (moves_.freedom(p) != QuadMoves::Freedom::Fixed)
+            {
+              points.push_back(p);
+            }
+          }
+        }
+      }
+      front = std::move(next);
+    }
+    std::sort(points.begin(), points.end());
+    return points;
+  }
+
+  std::vector<Place> separate(const std::vector<Index>& points) const
+  {
+    std::vector<std::pair<Index, Index>> quadsAt; // quad and number of a point at it
+    for (Index i = 0; i < points.size(); ++i)
+    {
+      forQuadsAt(points[i], [&](Index q) { quadsAt.emplace_back(q, i); });
+    }
+    std::sort(quadsAt.begin(), quadsAt.end());
+    DisjointSets sets(points.size(), 1);
+    for (std::size_t k = 1; k < quadsAt.size(); ++k)
+    {
+      if (quadsAt[k].first == quadsAt[k - 1].first)
+      {
+        sets.join(quadsAt[k].second, quadsAt[k - 1].second);
+      }
+    }
+    std::vector<Index> number(points.size(), kInvalidIndex);
+    std::vector<Place> places;
+    for (Index i = 0; i < points.size(); ++i)
+    {
+      Index& place = number[sets.find(i)];
+      if (place == kInvalidIndex)
+      {
+        place = static_cast<Index>(places.size());
+        places.emplace_back();
+      }
+      places[place].points.push_back(points[i]);
+    }
+    for (std::size_t k = 0; k < quadsAt.size(); ++k)
+    {
+      if (k == 0 || quadsAt[k].first != quadsAt[k - 1].first)
+      {
+        places[number[sets.find(quadsAt[k].second)]].quads.push_back(quadsAt[k].first);
+      }
+    }
+    return places;
+  }
+
+  std::array<double, 4> areasInUnits(Index q, const std::array<Vector3, 4>& corners) const
+  {
+    std::array<double, 4> areas = cornerAreas(corners);
+    const bool outwards = moves_.facesOutwards(q, corners);
+    for (double& area : areas)
+    {
+      area /= unit_[q];
+      area = outwards ? area : -2 - area; // all are positive where a quad is inverted as a whole
+    }
+    return areas;
+  }
+
+  /// How good the quads of a place are.
+  struct State
+  {
+    std::size_t inverted = 0;
+    std::size_t inwards = 0;                                ///< quads inverted as a whole
+    double worst = std::numeric_limits<double>::infinity(); ///< area of a corner, in units
+    double badness = 0;                                     ///< of all corners
+    std::vector<SurfacePoint> points;
+    std::vector<Vector3> positions;
+
+    bool betterThan(const State& other) const
+    {
+      return inwards <= other.inwards &&
+        (inverted < other.inverted || (inverted == other.inverted && worst > other.worst));
+    }
+  };
+
+  State stateOf(const Place& place) const
+  {
+    State state;
+    for (const Index q : place.quads)
+    {
+      const std::array<Vector3, 4> corners = cornersOf(quads_.points, quads_.quads[q]);
+      state.inverted += isInverted(corners) ? 1 : 0;
+      state.inwards += moves_.facesOutwards(q, corners) ? 0 : 1;
+      for (const double area : areasInUnits(q, corners))
+      {
+        state.worst = std::min(state.worst, area);
+        state.badness += badness(area);
+      }
+    }
+    for (const Index p : place.points)
+    {
+      state.points.push_back(moves_.place(p));
+      state.positions.push_back(moves_.position(p));
+    }
+    return state;
+  }
+
+  /// Sweeps over the points of a place; they end up where the quads were best.
+  void mend(const Place& place)
+  {
+    measureUnits(place);
+    const State before = stateOf(place);
+    State best = before;
+    std::uint32_t time = 1;
+    double left = before.badness;
+    for (int sweep = 0; sweep < kMaximumSweeps && (best.inverted > 0 || best.worst < kMargin);
+         ++sweep)
+    {
+      for (const Index p : place.points)
+      {
+        improve(p, ++time);
+      }
+      State moved = stateOf(place);
+      const bool last = !(moved.badness < (1 - kLeastProgress) * left);
+      left = moved.badness;
+      if (moved.betterThan(best))
+      {
+        best = std::move(moved);
+      }
+      if (last)
+      {
+        break;
+      }
+    }
+    const State& result = best.inverted < before.inverted ? best : before;
+    for (std::size_t i = 0; i < place.points.size(); ++i)
+    {
+      moves_.move(place.points[i], result.points[i], result.positions[i]);
+    }
+  }
+
+  /// Areas at corners are compared with the mean area of the quads round a quad, so that quads may be long and thin as
+  /// long as they are so together: near a tip or in a slit that cannot be otherwise.
+  void measureUnits(const Place& place)
+  {
+    const auto area = [&](Index q)
+    { return 0.25 * centreNormal(cornersOf(quads_.points, quads_.quads[q])).norm(); };
+    for (const Index q : place.quads)
+    {
+      unit_[q] = 0;
+      changed_[q] = 1;
+    }
+    for (const Index p : place.points)
+    {
+      tried_[p] = 0;
+      double sum = 0;
+      forQuadsAt(p, [&](Index q) { sum += area(q); });
+      const double mean = sum / moves_.incidentQuads().size(p);
+      forQuadsAt(p, [&](Index q) { unit_[q] = std::max(unit_[q], mean); });
+    }
+  }
+
+  struct Move
+  {
+    SurfacePoint place;
+    Vector3 position;
+    double badness = 0; ///< of the quads at the point
+  };
+
+  /// time: of this look at the point; rises from call to call.
+  void improve(Index p, std::uint32_t time)
+  {
+    bool changed = false;
+    forQuadsAt(p, [&](Index q) { changed = changed || changed_[q] > tried_[p]; });
+    if (!changed)
+    {
+      return;
+    }
+    tried_[p] = time;
+    const double before = badnessAt(p, moves_.position(p));
+    if (before < badness(kGoodCorner))
+    {
+      return;
+    }
+    const Move best = bestMove(p, before);
+    if (best.badness < (1 - kLeastGain) * before)
+    {
+      moves_.move(p, best.place, best.position);
+      forQuadsAt(p, [&](Index q) { changed_[q] = time + 1; });
+    }
+  }
+
+  /// Along the ways to the other corners of the quads at the point and back: these scale with quads that are long and
+  /// thin. The first length that helps.
+  Move bestMove(Index p, double before) const
+  {
+    Move best{ moves_.place(p), moves_.position(p), before };
+    const QuadMoves::EdgeLengths lengths = moves_.edgeLengths(p, moves_.position(p));
+    const std::vector<Vector3> ways = waysFrom(p);
+    for (const double step : kSteps)
+    {
+      for (const Vector3& way : ways)
+      {
+        tryMove(p, step * way, lengths, best);
+        tryMove(p, -step * way, lengths, best);
+      }
+      if (best.badness < (1 - kLeastGain) * before)
+      {
+        break;
+      }
+    }
+    return best;
+  }
+
+  std::vector<Vector3> waysFrom(Index p) const
+  {
+    std::vector<Index> corners;
+    forQuadsAt(p,
+      [&](Index q)
+      {
+        for (const Index c : quads_.quads[q])
+        {
+          if (c != p && std::find(corners.begin(), corners.end(), c) == corners.end())
+          {
+            corners.push_back(c);
+          }
+        }
+      });
+    std::vector<Vector3> ways;
+    ways.reserve(corners.size());
+    for (const Index c : corners)
+    {
+      ways.push_back(moves_.position(c) - moves_.position(p));
+    }
+    return ways;
+  }
+
+  /// Keeps the move in `best` when it is better than what is there.
+  void tryMove(
+    Index p, const Vector3& displacement, const QuadMoves::EdgeLengths& before, Move& best) const
+  {
+    const std::optional<SurfacePoint> place = moves_.target(p, displacement);
+    if (!place)
+    {
+      return;
+    }
+    const Vector3 position = positionOf(moves_.mesh(), *place);
+    const QuadMoves::EdgeLengths after = moves_.edgeLengths(p, position);
+    if (after.shortest < kShortUntangledEdge * after.mean && after.shortest < before.shortest)
+    {
+      return;
+    }
+    const double there = badnessAt(p, position);
+    if (there < best.badness)
+    {
+      best = { *place, position, there };
+    }
+  }
+
+  double badnessAt(Index p, const Vector3& position) const
+  {
+    double sum = 0;
+    forQuadsAt(p,
+      [&](Index q)
+      {
+        const std::array<Vector3, 4> corners = moves_.cornersWith(q, p, position);
+        for (const double area : areasInUnits(q, corners))
+        {
+          sum += badness(area);
+        }
+      });
+    return sum;
+  }
+
+  QuadMesh& quads_;
+  const UntanglingOptions& options_;
+  QuadMoves moves_;
+  std::vector<double> unit_; ///< per quad: area that those of its corners are held against
+  std::vector<std::uint32_t> changed_; ///< per quad: when one of its points moved
+  std::vector<std::uint32_t> tried_;   ///< per point: when it was looked at
+};
+
+} // namespace
+
+UntanglingResult untangleQuads(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options)
+{
+  UntanglingResult result;
+  std::vector<Index> inverted = invertedQuads(quads.points, quads.quads);
+  result.invertedBefore = inverted.size();
+  if (!inverted.empty())
+  {
+    result.invertedAfter = Untangling(mesh, quads, options).run(std::move(inverted)).size();
+  }
+  return result;
+}
+
+} // namespace quadrille

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Quads that are inverted at a corner, mended by moving points over the input surface.
+#pragma once
+
+#include "Quads/QuadMesh.h"
+
+namespace quadrille
+{
+
+struct UntanglingOptions
+{
+  std::vector<Index> fixedVertices; ///< of the mesh, ascending; points on them stay
+  int threads = 0;
+};
+
+struct UntanglingResult
+{
+  std::size_t invertedBefore = 0; ///< quads with a scaled Jacobian <= 0
+  std::size_t invertedAfter = 0;
+};
+
+/// Where a map is valid, but a quad of it spans a sharp tip, a crease or a thin part of the surface, the corners of the
+/// quad may make it inverted in space. Points within up to eight rings of such quads move over the faces of the mesh,
+/// those of features and boundaries along their curves (see QuadMoves.h), so that the areas at the corners of the quads
+/// become positive, the worst ones first. The points round a place keep their moves only if fewer quads are inverted
+/// there.
+/// Nothing changes where no quad is inverted, or away from these places. The result does not depend on the number of
+/// threads. quads must be a manifold that was extracted from mesh.
+UntanglingResult untangleQuads(const Mesh& mesh, QuadMesh& quads, const UntanglingOptions& options);
+
+} // namespace quadrille

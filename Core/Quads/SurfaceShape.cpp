@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Quads/SurfaceShape.h"
+
+#include "Base/Parallel.h"
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr std::size_t kShapeChunk = std::size_t{ 1 } << 17;
+
+CurveGraph constrainedGraph(const Mesh& mesh, int threads)
+{
+  std::vector<std::vector<Index>> parts((mesh.halfEdgeCount() + kShapeChunk - 1) / kShapeChunk);
+  parallelFor(mesh.halfEdgeCount(), kShapeChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (Index h = static_cast<Index>(begin); h < end; ++h)
+      {
+        if (mesh.isConstrained(h) && h < mesh.twin[h])
+        {
+          parts[begin / kShapeChunk].push_back(h);
+        }
+      }
+    });
+  std::vector<std::pair<Index, Index>> edges;
+  for (const std::vector<Index>& part : parts)
+  {
+    for (const Index h : part)
+    {
+      edges.emplace_back(mesh.origin[h], mesh.target(h));
+    }
+  }
+  return { edges, mesh.position.size() };
+}
+
+} // namespace
+
+CurveGraph::CurveGraph(const std::vector<std::pair<Index, Index>>& edges, std::size_t vertices)
+{
+  if (edges.empty())
+  {
+    return;
+  }
+  std::vector<int> degrees(vertices, 0);
+  for (const auto& [a, b] : edges)
+  {
+    ++degrees[a];
+    ++degrees[b];
+  }
+  cycles = static_cast<long long>(edges.size());
+  for (const int degree : degrees)
+  {
+    cycles -= degree > 0 ? 1 : 0;
+    if (degree != 0 && degree != 2)
+    {
+      ++nodes[degree];
+    }
+  }
+}
+
+SurfaceShape shapeOf(const Mesh& mesh, int threads)
+{
+  return { summarizeTopology(mesh, threads), constrainedGraph(mesh, threads) };
+}
+
+} // namespace quadrille

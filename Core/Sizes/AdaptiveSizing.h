@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Edge lengths of quads that the shape of the surface asks for: small where it is curved, or where another sheet of it
+/// is near.
+#pragma once
+
+#include "Mesh/Mesh.h"
+#include "Sizes/AdaptiveSizes.h"
+#include "Sizes/Curvature.h"
+
+#include <vector>
+
+namespace quadrille
+{
+
+/// #V, units of the mesh: sqrt(8 e / k) with the chord error e and the largest absolute normal curvature k over about
+/// `edgeLength`, of the surface or of a feature or boundary there; infinite in a plane.
+std::vector<float> lengthsByCurvature(
+  const Mesh& mesh, double chordError, double edgeLength, int threads);
+
+/// #V, units of the mesh: the distance to the opposite sheet, inside or outside, over `quads`; infinite where there is
+/// none within `reach`. A sheet is opposite where a ray along the normal meets it and the two normals are at most 45
+/// degrees from opposite.
+std::vector<float> lengthsByGap(
+  const Mesh& mesh, double quads, double edgeLength, double reach, int threads);
+
+/// The smaller of both, as far as they are asked for; #V. edgeLength: about that of the quads, the scale over which the
+/// surface is looked at; the largest one that may be asked for is `reach` times it.
+std::vector<float> adaptiveLengths(
+  const Mesh& mesh, const AdaptiveSizes& sizes, double edgeLength, double reach, int threads);
+
+/// Gives the mesh sizes: the smaller of `asked` (multiples of edgeLength, #V or empty) and of the lengths, kept within
+/// the range of `sizes`.
+void setAdaptiveSizes(Mesh& mesh, const std::vector<float>& asked,
+  const std::vector<float>& lengths, const AdaptiveSizes& sizes, double edgeLength);
+
+/// How a number of quads is shared.
+struct DistributedSizes
+{
+  double edgeLength = 0;   ///< s
+  double lengthFactor = 1; ///< by which the lengths are to be multiplied, at least 1
+};
+
+/// The edge length with which the sizes make `quads` quads: larger than that without sizes, where these are smaller
+/// than 1. Where so few quads are asked for that the smallest size would stop the lengths on more than a twentieth of
+/// the area, these are multiplied by the least factor with which it does not, as the quads would be all alike there.
+/// Growth is not limited.
+DistributedSizes distributeSizes(const Mesh& mesh, const std::vector<float>& asked,
+  const std::vector<float>& lengths, const AdaptiveSizes& sizes, double quads);
+
+/// The share of the area on which the mesh's sizes times edgeLength are at most 5 % above the lengths.
+double shareOfLengthsMet(const Mesh& mesh, const std::vector<float>& lengths, double edgeLength);
+
+} // namespace quadrille

@@ -1,0 +1,375 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Sizes/Curvature.h"
+
+#include "Base/Angles.h"
+#include "Base/DisjointSets.h"
+#include "Base/Error.h"
+#include "Base/Parallel.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr std::size_t kPatchChunk = 1024;
+/// A curve that turns more at a vertex has a corner there, which is an end of edges whatever their length is.
+constexpr double kCornerTurn = 40 * kPi / 180;
+
+using Cell = std::array<std::int32_t, 3>;
+
+Vector3 areaVector(const Mesh& mesh, Index f)
+{
+  return 0.5 * mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1));
+}
+
+Vector3 middleOfFace(const Mesh& mesh, Index f)
+{
+  return (mesh.position[mesh.origin[3 * f]] + mesh.position[mesh.origin[3 * f + 1]] +
+           mesh.position[mesh.origin[3 * f + 2]]) /
+    3;
+}
+
+template <typename Body>
+void forEachChunk(std::size_t count, int threads, const Body& body)
+{
+  parallelFor(count, kPatchChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        body(static_cast<Index>(i));
+      }
+    });
+}
+
+std::vector<Cell> cellsOf(const Mesh& mesh, double side, int threads)
+{
+  std::vector<Cell> cells(mesh.faceCount());
+  forEachChunk(cells.size(), threads,
+    [&](Index f)
+    {
+      const Vector3 p = middleOfFace(mesh, f) / side;
+      for (int i = 0; i < 3; ++i)
+      {
+        cells[f][static_cast<std::size_t>(i)] =
+          static_cast<std::int32_t>(std::clamp(std::floor(p[i]), -2147483647.0, 2147483647.0));
+      }
+    });
+  return cells;
+}
+
+/// Lists by key, each in ascending order.
+struct Lists
+{
+  std::vector<Index> first, items;
+};
+
+Lists listsOf(const std::vector<Index>& key, std::size_t keys)
+{
+  Lists lists;
+  lists.first.assign(keys + 1, 0);
+  for (const Index k : key)
+  {
+    ++lists.first[k + 1];
+  }
+  for (std::size_t k = 0; k < keys; ++k)
+  {
+    lists.first[k + 1] += lists.first[k];
+  }
+  lists.items.resize(key.size());
+  std::vector<Index> at(lists.first.begin(), lists.first.end() - 1);
+  for (Index i = 0; i < key.size(); ++i)
+  {
+    lists.items[at[key[i]]++] = i;
+  }
+  return lists;
+}
+
+SurfacePatch measurePatch(const Mesh& mesh, const Index* begin, const Index* end)
+{
+  SurfacePatch patch;
+  Vector3 sum = Vector3::Zero();
+  for (const Index* f = begin; f != end; ++f)
+  {
+    const Vector3 area = areaVector(mesh, *f);
+    patch.area += area.norm();
+    patch.centre += area.norm() * middleOfFace(mesh, *f);
+    sum += area;
+  }
+  patch.centre = patch.area > 0 ? Vector3(patch.centre / patch.area) : middleOfFace(mesh, *begin);
+  patch.normal = sum.norm() > 0 ? Vector3(sum.normalized()) : Vector3(Vector3::Zero());
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Index* f = begin; f != end; ++f)
+  {
+    const double distance = (middleOfFace(mesh, *f) - patch.centre).squaredNorm();
+    if (distance < nearest)
+    {
+      nearest = distance;
+      patch.face = *f;
+    }
+  }
+  return patch;
+}
+
+void findNeighbours(const Mesh& mesh, const Lists& faces, SurfacePatches& result, int threads)
+{
+  std::vector<std::vector<Index>> neighbours(result.patches.size());
+  forEachChunk(result.patches.size(), threads,
+    [&](Index p)
+    {
+      std::vector<Index>& mine = neighbours[p];
+      for (Index i = faces.first[p]; i < faces.first[p + 1]; ++i)
+      {
+        for (Index h = 3 * faces.items[i]; h < 3 * faces.items[i] + 3; ++h)
+        {
+          const Index other = mesh.isConstrained(h) ? p : result.patchOf[Mesh::face(mesh.twin[h])];
+          if (other != p)
+          {
+            mine.push_back(other);
+          }
+        }
+      }
+      std::sort(mine.begin(), mine.end());
+      mine.erase(std::unique(mine.begin(), mine.end()), mine.end());
+    });
+  result.first.assign(1, 0);
+  for (const std::vector<Index>& mine : neighbours)
+  {
+    result.neighbours.insert(result.neighbours.end(), mine.begin(), mine.end());
+    result.first.push_back(static_cast<Index>(result.neighbours.size()));
+  }
+}
+
+/// Sums over the faces of a patch.
+struct Bend
+{
+  Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero(); ///< bend times length, along the edges
+  Vector3 turn = Vector3::Zero();                   ///< of the tangents of curves
+  double length = 0;                                ///< of curves
+};
+
+/// Half of what each edge of the face bends; the other half is that of the face across.
+Eigen::Matrix3d bendOf(const Mesh& mesh, Index f)
+{
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  const Vector3 a = areaVector(mesh, f);
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  {
+    if (mesh.isConstrained(h))
+    {
+      continue;
+    }
+    const Vector3 b = areaVector(mesh, Mesh::face(mesh.twin[h]));
+    const Vector3 axis = a.cross(b);
+    const Vector3 edge = mesh.edgeVector(h);
+    const double length = edge.norm();
+    if (length > 0)
+    {
+      const double angle = std::atan2(axis.norm(), a.dot(b));
+      sum += (axis.dot(edge) < 0 ? -0.5 : 0.5) * angle / length * edge * edge.transpose();
+    }
+  }
+  return sum;
+}
+
+/// What the features and boundaries of a mesh turn at their vertices.
+class CurveTurns
+{
+public:
+  explicit CurveTurns(const Mesh& mesh)
+    : mesh_(mesh), ends_(mesh.vertexCount()), count_(ends_.size(), 0)
+  {
+    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+    {
+      if (mesh.isConstrained(h) && (mesh.isBoundary(h) || h < mesh.twin[h]))
+      {
+        add(mesh.origin[h], mesh.target(h));
+        add(mesh.target(h), mesh.origin[h]);
+      }
+    }
+  }
+
+  /// Adds the turn at the vertex that half-edge h, which is constrained, leaves.
+  void addTurn(Index h, Bend& bend) const
+  {
+    const Index v = mesh_.origin[h];
+    if (count_[v] != 2)
+    {
+      return;
+    }
+    const Vector3 a = mesh_.position[ends_[v][0]] - mesh_.position[v];
+    const Vector3 b = mesh_.position[ends_[v][1]] - mesh_.position[v];
+    if (a.norm() > 0 && b.norm() > 0 && std::atan2(a.cross(b).norm(), -a.dot(b)) < kCornerTurn)
+    {
+      bend.turn += a.normalized() + b.normalized();
+      bend.length += (a.norm() + b.norm()) / 2;
+    }
+  }
+
+private:
+  void add(Index v, Index end)
+  {
+    if (count_[v] < 2)
+    {
+      ends_[v][count_[v]] = end;
+    }
+    count_[v] = static_cast<std::uint8_t>(std::min(count_[v] + 1, 3));
+  }
+
+  const Mesh& mesh_;
+  std::vector<std::array<Index, 2>> ends_;
+  std::vector<std::uint8_t> count_;
+};
+
+std::vector<Bend> bendsOf(const Mesh& mesh, const SurfacePatches& patches, int threads)
+{
+  const Lists faces = listsOf(patches.patchOf, patches.patches.size());
+  const CurveTurns turns(mesh);
+  std::vector<Bend> bends(patches.patches.size());
+  forEachChunk(bends.size(), threads,
+    [&](Index p)
+    {
+      for (Index i = faces.first[p]; i < faces.first[p + 1]; ++i)
+      {
+        const Index f = faces.items[i];
+        bends[p].tensor += bendOf(mesh, f);
+        for (Index h = 3 * f; h < 3 * f + 3; ++h)
+        {
+          if (mesh.isConstrained(h))
+          {
+            turns.addTurn(h, bends[p]);
+          }
+        }
+      }
+    });
+  return bends;
+}
+
+/// The tensor has its eigenvalues along the edges that bend, that is across the principal directions.
+PatchCurvature curvatureOf(const Bend& bend, double area, const Vector3& normal)
+{
+  PatchCurvature result;
+  result.curve = bend.length > 0 ? bend.turn.norm() / bend.length : 0;
+  if (!(area > 0) || normal.isZero(0))
+  {
+    return result;
+  }
+  const Vector3 x = normal.unitOrthogonal();
+  const Vector3 y = normal.cross(x);
+  Eigen::Matrix<double, 3, 2> plane;
+  plane << x, y;
+  const Eigen::Matrix2d flat = plane.transpose() * bend.tensor * plane / area;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(flat);
+  const int most = std::abs(solver.eigenvalues()[1]) >= std::abs(solver.eigenvalues()[0]) ? 1 : 0;
+  result.largest = solver.eigenvalues()[most];
+  result.smallest = solver.eigenvalues()[1 - most];
+  result.direction = result.largest != 0 ? Vector3(plane * solver.eigenvectors().col(1 - most))
+                                         : Vector3(Vector3::Zero());
+  return result;
+}
+
+} // namespace
+
+double PatchCurvature::anisotropy() const
+{
+  const double sum = std::abs(largest) + std::abs(smallest);
+  return sum > 0 ? std::abs(largest - smallest) / sum : 0;
+}
+
+void SurfacePatches::gather(Index p, double radius, std::vector<Index>& near) const
+{
+  near.assign(1, p);
+  for (std::size_t i = 0; i < near.size(); ++i)
+  {
+    for (Index k = first[near[i]]; k < first[near[i] + 1]; ++k)
+    {
+      const Index q = neighbours[k];
+      if ((patches[q].centre - patches[p].centre).norm() <= radius &&
+        std::find(near.begin(), near.end(), q) == near.end())
+      {
+        near.push_back(q);
+      }
+    }
+  }
+}
+
+SurfacePatches findPatches(const Mesh& mesh, double cell, int threads)
+{
+  if (!(cell > 0) || !std::isfinite(cell))
+  {
+    throw InvalidInput("patches of a surface: the side of a cell must be positive and finite.");
+  }
+  const std::vector<Cell> cells = cellsOf(mesh, cell, threads);
+  DisjointSets sets(mesh.faceCount(), threads);
+  forEachChunk(mesh.faceCount(), threads,
+    [&](Index f)
+    {
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      {
+        if (!mesh.isConstrained(h) && h < mesh.twin[h] &&
+          cells[f] == cells[Mesh::face(mesh.twin[h])])
+        {
+          sets.join(f, Mesh::face(mesh.twin[h]));
+        }
+      }
+    });
+  SurfacePatches result;
+  result.patchOf.resize(mesh.faceCount());
+  Index count = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f) // the root is the lowest face
+  {
+    const Index root = sets.find(f);
+    result.patchOf[f] = root == f ? count++ : result.patchOf[root];
+  }
+  result.patches.resize(count);
+  const Lists faces = listsOf(result.patchOf, count);
+  forEachChunk(count, threads,
+    [&](Index p)
+    {
+      result.patches[p] =
+        measurePatch(mesh, &faces.items[faces.first[p]], faces.items.data() + faces.first[p + 1]);
+    });
+  findNeighbours(mesh, faces, result, threads);
+  return result;
+}
+
+std::vector<PatchCurvature> patchCurvatures(
+  const Mesh& mesh, const SurfacePatches& patches, double radius, int threads)
+{
+  const std::vector<Bend> bends = bendsOf(mesh, patches, threads);
+  std::vector<PatchCurvature> result(bends.size());
+  parallelFor(result.size(), kPatchChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::vector<Index> near;
+      for (std::size_t p = begin; p < end; ++p)
+      {
+        patches.gather(static_cast<Index>(p), radius, near);
+        Bend sum;
+        double area = 0;
+        Vector3 normal = Vector3::Zero();
+        for (const Index q : near)
+        {
+          sum.tensor += bends[q].tensor;
+          sum.turn += bends[q].turn;
+          sum.length += bends[q].length;
+          area += patches.patches[q].area;
+          normal += patches.patches[q].area * patches.patches[q].normal;
+        }
+        result[p] = curvatureOf(
+          sum, area, normal.norm() > 0 ? Vector3(normal.normalized()) : Vector3(Vector3::Zero()));
+      }
+    });
+  return result;
+}
+
+} // namespace quadrille

@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Symmetry/MirrorFit.h"
+
+#include "Base/Parallel.h"
+#include "Pipeline/RunSurface.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace quadrille
+{
+
+namespace
+{
+
+/// How often moves are evened out before points go to the nearest place again: first the surface is followed as a
+/// whole, then in its detail.
+constexpr std::array<int, 8> kEvenings{ 64, 32, 16, 8, 4, 2, 1, 1 };
+constexpr std::size_t kFitChunk = 256;
+
+TriangleList facesOf(const Mesh& mesh)
+{
+  TriangleList list;
+  list.points = mesh.position;
+  list.corners.resize(mesh.faceCount());
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    list.corners[f] = { mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2] };
+  }
+  return list;
+}
+
+/// Edges of the boundary, or features inside.
+TriangleList linesOf(const Mesh& mesh, bool boundary)
+{
+  TriangleList list;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const bool wanted =
+      boundary ? mesh.isBoundary(h) : !mesh.isBoundary(h) && mesh.isFeature(h) && h < mesh.twin[h];
+    if (wanted)
+    {
+      const auto first = static_cast<Index>(list.points.size());
+      list.points.push_back(mesh.position[mesh.origin[h]]);
+      list.points.push_back(mesh.position[mesh.target(h)]);
+      list.corners.push_back({ first, first + 1, first + 1 });
+    }
+  }
+  return list;
+}
+
+class ImageFit
+{
+public:
+  ImageFit(DoubledQuads& doubled, const SearchedSurface& whole, double tolerance, double reach,
+    int threads)
+    : doubled_(doubled), quads_(doubled.quads), whole_(whole), tolerance_(tolerance), reach_(reach),
+      threads_(threads), first_(doubled.halfPoints),
+      count_(doubled.quads.points.size() - doubled.halfPoints)
+  {
+  }
+
+  MirrorFit run()
+  {
+    findNormals();
+    findLines();
+    targets_.assign(
+      quads_.points.begin() + static_cast<std::ptrdiff_t>(first_), quads_.points.end());
+    const std::vector<Vector3> exact = targets_;
+    std::vector<Vector3> nearest = nearestPlaces();
+    std::vector<std::uint8_t> isOff(count_, 0);
+    MirrorFit fit;
+    for (std::size_t i = 0; i < count_; ++i)
+    {
+      const double distance = (nearest[i] - exact[i]).norm();
+      isOff[i] = distance > tolerance_ ? 1 : 0;
+      fit.moved += isOff[i];
+      if (isOff[i] != 0 && distance > fit.farthest)
+      {
+        fit.farthest = distance;
+        fit.place = exact[i];
+      }
+    }
+    for (const int evenings : kEvenings)
+    {
+      if (fit.moved == 0)
+      {
+        break;
+      }
+      aim(exact, nearest, evenings);
+      nearest = nearestPlaces();
+    }
+    for (std::size_t i = 0; i < count_; ++i)
+    {
+      quads_.points[first_ + i] = isOff[i] != 0 ? nearest[i] : exact[i];
+    }
+    locate(fit);
+    return fit;
+  }
+
+private:
+  void findNormals()
+  {
+    normals_.assign(quads_.points.size(), Vector3::Zero());
+    for (const std::array<Index, 4>& quad : quads_.quads)
+    {
+      const Vector3 normal = (quads_.points[quad[2]] - quads_.points[quad[0]])
+                               .cross(quads_.points[quad[3]] - quads_.points[quad[1]]);
+      for (const Index corner : quad)
+      {
+        normals_[corner] += normal;
+      }
+    }
+  }
+
+  void findLines()
+  {
+    onFeature_.assign(quads_.points.size(), 0);
+    for (const QuadLine& line : quads_.lines)
+    {
+      if (!line.boundary)
+      {
+        onFeature_[line.a] = onFeature_[line.b] = 1;
+      }
+    }
+  }
+
+  NearestTriangle::Place nearestFace(const Vector3& p, const Vector3& normal) const
+  {
+    const auto facing = whole_.faces.at(p, normal);
+    return facing ? *facing : *whole_.faces.at(p);
+  }
+
+  Vector3 nearestPlace(std::size_t i) const
+  {
+    const std::size_t point = first_ + i;
+    const NearestTriangle& lines =
+      quads_.onBoundary[point] != 0 ? whole_.boundary : whole_.features;
+    if (quads_.onBoundary[point] != 0 || onFeature_[point] != 0)
+    {
+      if (const auto place = lines.at(targets_[i], Vector3::Zero(), reach_))
+      {
+        return place->point;
+      }
+    }
+    return nearestFace(targets_[i], normals_[point]).point;
+  }
+
+  std::vector<Vector3> nearestPlaces() const
+  {
+    std::vector<Vector3> places(count_);
+    parallelFor(count_, kFitChunk, threads_,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          places[i] = nearestPlace(i);
+        }
+      });
+    return places;
+  }
+
+  /// Targets become the exact images, moved as the nearest places are, but evenly.
+  void aim(const std::vector<Vector3>& exact, const std::vector<Vector3>& nearest, int evenings)
+  {
+    std::vector<Vector3> moves(quads_.points.size(), Vector3::Zero());
+    for (std::size_t i = 0; i < count_; ++i)
+    {
+      moves[first_ + i] = nearest[i] - exact[i];
+    }
+    for (int k = 0; k < evenings; ++k)
+    {
+      evenOut(moves);
+    }
+    for (std::size_t i = 0; i < count_; ++i)
+    {
+      targets_[i] = exact[i] + moves[first_ + i];
+    }
+  }
+
+  /// Each move becomes the mean over the quads round the point; points in the plane stay.
+  void evenOut(std::vector<Vector3>& moves) const
+  {
+    std::vector<Vector3> sum(moves.size(), Vector3::Zero());
+    std::vector<double> weight(moves.size(), 0);
+    for (std::size_t q = doubled_.halfQuads; q < quads_.quads.size(); ++q)
+    {
+      const std::array<Index, 4>& quad = quads_.quads[q];
+      const Vector3 mean = (moves[quad[0]] + moves[quad[1]] + moves[quad[2]] + moves[quad[3]]) / 4;
+      for (const Index corner : quad)
+      {
+        sum[corner] += mean;
+        weight[corner] += 1;
+      }
+    }
+    for (std::size_t p = first_; p < moves.size(); ++p)
+    {
+      moves[p] = sum[p] / std::max(weight[p], 1.0);
+    }
+  }
+
+  void locate(MirrorFit& fit) const
+  {
+    fit.images.resize(count_);
+    fit.quadPolygons.resize(quads_.quads.size() - doubled_.halfQuads);
+    const PreparedSurface& surface = whole_.surface;
+    parallelFor(count_, kFitChunk, threads_,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const auto at = nearestFace(quads_.points[first_ + i], normals_[first_ + i]);
+          fit.images[i] = surface.locate(at.triangle, at.weights);
+        }
+      });
+    parallelFor(fit.quadPolygons.size(), kFitChunk, threads_,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t q = begin; q < end; ++q)
+        {
+          const std::array<Index, 4>& quad = quads_.quads[doubled_.halfQuads + q];
+          const Vector3 centre = (quads_.points[quad[0]] + quads_.points[quad[1]] +
+                                   quads_.points[quad[2]] + quads_.points[quad[3]]) /
+            4;
+          const Vector3 normal = (quads_.points[quad[2]] - quads_.points[quad[0]])
+                                   .cross(quads_.points[quad[3]] - quads_.points[quad[1]]);
+          fit.quadPolygons[q] = surface.sourcePolygon[nearestFace(centre, normal).triangle];
+        }
+      });
+  }
+
+  DoubledQuads& doubled_;
+  QuadMesh& quads_;
+  const SearchedSurface& whole_;
+  double tolerance_, reach_;
+  int threads_;
+  std::size_t first_, count_;
+  std::vector<Vector3> normals_; ///< per point
+  std::vector<std::uint8_t> onFeature_;
+  std::vector<Vector3> targets_; ///< per image: where it would go
+};
+
+} // namespace
+
+SearchedSurface::SearchedSurface(PreparedSurface prepared)
+  : surface(std::move(prepared)), faces(facesOf(surface.mesh)),
+    features(linesOf(surface.mesh, false)), boundary(linesOf(surface.mesh, true))
+{
+}
+
+std::size_t SearchedSurface::bytes() const
+{
+  return bytesOf(surface) + faces.bytes() + features.bytes() + boundary.bytes();
+}
+
+MirrorFit fitImages(
+  DoubledQuads& doubled, const SearchedSurface& whole, double tolerance, double reach, int threads)
+{
+  return ImageFit(doubled, whole, tolerance, reach, threads).run();
+}
+
+} // namespace quadrille
