@@ -2,11 +2,21 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Installs what is missing, builds, runs all tests. Ends with CTest's summary; the exit code is CTest's.
-# Arguments go to ctest, for example -L core or -R Extraction.
+# Installs what is missing, builds, runs all tests. Ends with CTest's summary, before which stand the slowest tests and
+# what is left out as this machine has not what only those tests need; the exit code is CTest's.
+# Arguments go to ctest: -L quick for what a change is tried with, in two minutes on two cores, or -R Extraction, say.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-Scripts/install-dependencies.sh
-Scripts/build.sh -DQUADRILLE_BUILD_TESTS=ON
-exec ctest --preset release --parallel "$(nproc)" "$@"
+Scripts/build/install-dependencies.sh --tests
+begin=$SECONDS
+Scripts/build/build.sh -DQUADRILLE_BUILD_TESTS=ON
+mkdir -p build/Testing
+echo $((SECONDS - begin)) >build/Testing/build-seconds.txt
+if [[ -s build/Testing/left-out.txt ]]; then
+  cat build/Testing/left-out.txt
+fi
+times=$PWD/build/Testing/times.xml
+rm -f "$times"
+ctest --preset release --parallel "$(nproc)" --output-junit "$times" "$@" |
+  Scripts/check/test_times.py "$times" build/Testing/build-seconds.txt

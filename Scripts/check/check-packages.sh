@@ -2,45 +2,29 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Installs the packages of Scripts/make-packages.sh in clean minimal Debian 12, once beside ParaView and once without,
-# uses what they bring, and purges them: nothing may be left. By hand, as it downloads some hundred megabytes; as root,
-# with mmdebstrap. Prints each command that runs in there (Documentation/Installation.md has them) and what it says.
-#   Scripts/check-packages.sh [FOLDER with the packages, default out/packages]
+# Installs the packages of Scripts/build/make-packages.sh in a clean minimal Debian, once beside ParaView and once
+# without, uses what they bring, and purges them: nothing may be left. By hand, as it downloads some hundred megabytes;
+# as root, with mmdebstrap. Prints each command that runs in there (Documentation/Installation.md has them) and what it
+# says.
+#   Scripts/check/check-packages.sh [FOLDER with the packages, default out/packages] [SUITE that they are made on, by
+#                                   default that of this machine]
 set -euo pipefail
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 packages=$(cd "${1:-$here/out/packages}" && pwd)
+suite=${2:-$(. /etc/os-release && echo "$VERSION_CODENAME")}
+arguments=("$packages" "$suite")
 [[ $(id -u) -eq 0 ]] || { echo "check-packages: has to be run as root" >&2; exit 1; }
 command -v mmdebstrap >/dev/null || { echo "check-packages: mmdebstrap is missing" >&2; exit 1; }
-# Mounts of its own, which end with the script.
-[[ ${CHECK_PACKAGES_MOUNTS:-} ]] || CHECK_PACKAGES_MOUNTS=1 exec unshare --mount --fork "$0" "$packages"
+source "$here/Scripts/check/clean-debian.sh"
+make_base "$suite"
 
-work=$(mktemp -d)
-trap 'umount -R -l -q "$work"/*/proc "$work"/*/dev "$work"/*/sys || true; rm -rf --one-file-system "$work"' EXIT
-# The sources of this machine, which has to be Debian 12.
-sources=()
-for file in /etc/apt/sources.list /etc/apt/sources.list.d/debian.sources; do
-  [[ -f $file ]] && sources+=("$file")
-done
-mmdebstrap --quiet --variant=minbase --include=ca-certificates bookworm "$work/base.tar" "${sources[@]}"
-
-make_root() # NAME: a clean system, which `inside` uses from here on
+make_system() # NAME
 {
-  root=$work/$1
-  mkdir "$root"
-  tar -x -f "$work/base.tar" -C "$root"
-  cp /etc/resolv.conf "$root/etc/resolv.conf"
-  mount -t proc proc "$root/proc"
-  mount --rbind /dev "$root/dev"
-  mount --rbind /sys "$root/sys"
+  make_root "$1"
   cp "$packages"/*.deb "$root/root/"
   cp "$here/Data/part.ply" "$root/root/"
-  echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/fast" # it is thrown away: no need to wait for the disk
   quietly apt-get update
 }
-run_inside() { chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 \
-  DEBIAN_FRONTEND=noninteractive bash -c "cd /root && $1"; }
-inside() { echo "# $1"; run_inside "$1"; }
-quietly() { echo "# $*"; run_inside "$*" >"$work/log" 2>&1 || { tail -40 "$work/log" >&2; return 1; }; }
 # All that is there but caches, logs and the folders of this script; what dpkg knows of packages is in it. Some packages
 # of Debian that come along add a system group and leave the copy of the list that was before.
 files() { run_inside 'find / -xdev \( -path /proc -o -path /dev -o -path /sys -o -path /run -o -path /tmp -o \
@@ -59,10 +43,10 @@ nothing_left()
 }
 
 echo "== beside ParaView"
-make_root paraview
+make_system paraview
 quietly apt-get install -y --no-install-recommends paraview python3-paraview xvfb xauth libgl1-mesa-dri
 files >"$work/before"
-quietly apt-get install -y --no-install-recommends ./paraview-quadrille_*.deb ./quadrille_*.deb ./libquadrille-dev_*.deb
+quietly apt-get install -y --no-install-recommends ./paraview-quadrille_*.deb ./quadrille_*.deb ./libquadrille*.deb
 cat >"$root/root/lists.py" <<'PY'
 import sys
 from paraview import simple
@@ -93,15 +77,15 @@ use_commands()
   inside "quadrille-evaluate --help | head -1"
 }
 use_commands
-nothing_left quadrille paraview-quadrille libquadrille-dev
+nothing_left quadrille paraview-quadrille "'libquadrille*'"
 
 echo "== without ParaView"
-make_root plain
+make_system plain
 quietly apt-get install -y --no-install-recommends g++ cmake make
 files >"$work/before"
-quietly apt-get install -y --no-install-recommends ./quadrille_*.deb ./libquadrille-dev_*.deb
+quietly apt-get install -y --no-install-recommends ./quadrille_*.deb ./libquadrille*.deb
 use_commands
 inside "cmake -S /usr/share/doc/libquadrille-dev/examples/library -B build && cmake --build build"
 inside "build/sphere-quads sphere.obj 500 2>/dev/null"
-nothing_left quadrille libquadrille-dev
+nothing_left quadrille "'libquadrille*'"
 echo "check-packages: fine"

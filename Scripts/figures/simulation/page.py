@@ -7,7 +7,7 @@ import textwrap
 
 from . import calculix, meshes, study
 
-BEGIN = "<!-- measured: from here to the end mark by Scripts/solved_example.py -->"
+BEGIN = "<!-- measured: from here to the end mark by Scripts/figures/solved_example.py -->"
 END = "<!-- measured: end -->"
 COLUMNS = 120
 

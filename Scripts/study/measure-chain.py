@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the four stage filters take, against Quad Remesh, and whether they make the same quads.
 
-  PYTHONPATH=build/lib/python3/dist-packages Scripts/measure-chain.py MESH... [--quads N] [--threads N] [--repeat N]
+  PYTHONPATH=build/lib/python3/dist-packages Scripts/study/measure-chain.py MESH... [--quads N] [--threads N]
+      [--repeat N]
 
 Each mesh is read once. Then new filters, so that nothing is remembered, run --repeat times, Quad Remesh and the chain
 in turn. Printed are the medians of wall and processor seconds, those of each filter, and the ratio of the chain to Quad

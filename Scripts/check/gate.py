@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Whether a change leaves every quad mesh as it was: a fixed list of runs, and what came out of each.
 
-  Scripts/gate.py record FILE --python BUILD [--shared FOLDER] [--jobs N] [--quick] [--only REGEX]
-  Scripts/gate.py compare OLD NEW [--common]
-  Scripts/gate.py list [--shared FOLDER]
+  Scripts/check/gate.py record FILE --python BUILD [--shared FOLDER] [--jobs N] [--quick] [--only REGEX]
+  Scripts/check/gate.py compare OLD NEW [--common]
+  Scripts/check/gate.py list [--shared FOLDER]
 
 record makes each run of the list in a process of its own, through the VTK filters of the build in the folder BUILD, and
 writes to FILE: status, texts, number of quads, and SHA-256 sums of the quads (points, corners), of the map on the
@@ -36,7 +36,7 @@ import time
 
 # The process that starts the runs imports neither numpy nor VTK: what it holds would count in their peak memory.
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 RUN_LIMIT = 180  # seconds; a run that takes longer is recorded as stopped
 MEMORY_TOLERANCE = 1.03
 SCALE_AWARE, MIXED_INTEGER, QUADCOVER, SEAMLESS = range(4)  # vtkQuadRemesh.Methods

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws what Scripts/spread_table.py writes: how the bytes that ranks gather and send grow with the triangles at the
-same number of quads, and with the quads on the same surface, as SVG with logarithmic axes.
+"""Draws what Scripts/study/spread_table.py writes: how the bytes that ranks gather and send grow with the triangles at
+the same number of quads, and with the quads on the same surface, as SVG with logarithmic axes.
 
-  Scripts/spread_table.py SMALL.ply MIDDLE.ply LARGE.ply --ranks 4 --splits stripes --table triangles.csv ...
-  Scripts/spread_table.py MIDDLE.ply --quads 5000,20000,80000 --ranks 4 --splits stripes --table quads.csv ...
-  Scripts/plot-spread.py triangles.csv quads.csv Documentation/Pictures/spread-bytes.svg
+  Scripts/study/spread_table.py SMALL.ply MIDDLE.ply LARGE.ply --ranks 4 --splits stripes --table triangles.csv ...
+  Scripts/study/spread_table.py MIDDLE.ply --quads 5000,20000,80000 --ranks 4 --splits stripes --table quads.csv ...
+  Scripts/figures/plot-spread.py triangles.csv quads.csv Documentation/Pictures/spread-bytes.svg
 
 A dashed line shows growth in proportion. Runs of the same number of ranks are compared: each table has one.
 """

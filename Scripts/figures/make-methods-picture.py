@@ -5,7 +5,7 @@
 and guides, the isolines of each map on it, irregular vertices as balls (blue: fewer than four edges, red: more), and
 triangles that the map inverts in red.
 
-  PYTHONPATH=build/lib/python3/dist-packages xvfb-run -a pvpython Scripts/make-methods-picture.py
+  PYTHONPATH=build/lib/python3/dist-packages xvfb-run -a pvpython Scripts/figures/make-methods-picture.py
       [SURFACE.ply] [OUT.png] [--quads N] [--view X Y Z] [--up X Y Z] [--zoom Z]
 
 Guides: the cells in the middle third of the surface, along its longest extent, ask for the direction of that extent,

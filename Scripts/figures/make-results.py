@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the quadrille command over a folder of models and judges every result.
 
-  Scripts/make-results.py --data FOLDER --judge quadstats.py [--command build/bin/quadrille] [--out out/results]
+  Scripts/figures/make-results.py --data FOLDER --judge quadstats.py [--command build/bin/quadrille] [--out out/results]
 
 Writes Documentation/Results.md, and in --out one JSON a run, all.json, the meshes and contact sheets of
 pictures. The runs go one after the other. A run that is already there for the same build of the command is not
@@ -25,6 +25,8 @@ import time
 
 import numpy as np
 from scipy.spatial import cKDTree
+
+import made_from
 
 MODELS = [
     "scan/bunny_69k.ply", "scan/armadillo_86k.ply", "scan/nefertiti_100k.ply", "scan/igea.ply", "scan/bunny_ct.ply",
@@ -321,11 +323,12 @@ def summary(rows):
 
 def writeMarkdown(options, rows, badRows, everyRows):
     parts = ["# Results", "",
-             "Written by `Scripts/make-results.py`; do not edit. Judged by an independent tool: exact topology, "
-             f"exact distances of {options.samples:,} samples. A figure is followed by ✓ or ✗ where the bar has a "
-             "limit for it. Lines below \"topology\" count "
+             "Written by `Scripts/figures/make-results.py`; do not edit. Judged by an independent tool: exact "
+             f"topology, exact distances of {options.samples:,} samples. A figure is followed by ✓ or ✗ where the bar "
+             "has a limit for it. Lines below \"topology\" count "
              "the runs with the right topology only.", "",
-             f"Machine: {options.machine}. Times and memory are of the whole command, from file to file.", "",
+             made_from.madeFrom(options.commit, options.machine), "",
+             "Times and memory are of the whole command, from file to file.", "",
              summary(rows), "",
              "| run | topology | quads | Jacobian mean | <= 0 | irregular, other than 3 and 5 | "
              "distance to the input | features | s | MB |",
@@ -350,7 +353,9 @@ def writeMarkdown(options, rows, badRows, everyRows):
         parts += [""] + againstPeers(peers, {r["name"]: r for r in everyRows + rows})
     if options.field:
         parts += [""] + fieldCounts(options.field)
-    options.markdown.write_text("\n".join(parts) + "\n")
+    options.markdown.write_text("\n".join(
+        line if line.startswith(("|", "#")) else made_from.filled(line)
+        for part in parts for line in part.split("\n")) + "\n")
 
 
 # ------------------------------------------------------------------------------------------- other tools
@@ -502,16 +507,8 @@ def contactSheets(options, rows):
                        + meshes[k:k + 12], check=False)
 
 
-def describeMachine():
-    cores = len(os.sched_getaffinity(0))
-    model = next((l.split(":", 1)[1].strip() for l in open("/proc/cpuinfo") if l.startswith("model name")),
-                 "unknown processor")
-    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2 ** 30
-    return f"{cores} cores of {model}, {memory:.0f} GiB"
-
-
 def parseArguments():
-    root = pathlib.Path(__file__).resolve().parent.parent
+    root = pathlib.Path(__file__).resolve().parents[2]
     parser = argparse.ArgumentParser(description="Runs the command over models and judges the results.")
     parser.add_argument("--data", type=pathlib.Path, required=True, help="folder that holds the models")
     parser.add_argument("--judge", required=True, help="quadstats.py")
@@ -530,13 +527,16 @@ def parseArguments():
     parser.add_argument("--quads", type=int, nargs="*", default=COUNTS)
     parser.add_argument("--timeout", type=float, default=600, help="seconds a run")
     parser.add_argument("--samples", type=int, default=100000)
-    parser.add_argument("--machine", default=describeMachine())
+    parser.add_argument("--commit", help="that the command was built from; default: that of the checkout")
+    parser.add_argument("--machine", default=made_from.machine())
     parser.add_argument("--extra", nargs="*", default=[],
                         help="further arguments of the command, without their dashes' first --")
     parser.add_argument("--fresh", action="store_true", help="repeat runs that are already there")
     parser.add_argument("--keep", action="store_true", help="do not repeat runs of an older build")
     parser.add_argument("--no-pictures", action="store_true")
-    return parser.parse_args()
+    options = parser.parse_args()
+    options.commit = options.commit or made_from.commit()
+    return options
 
 
 def meshesOf(folder, data):

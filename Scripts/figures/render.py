@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Picture of a quad mesh: quads with their edges, irregular vertices as balls, feature lines.
 
-  xvfb-run -a pvpython --force-offscreen-rendering Scripts/render.py QUADS.{vtp,obj,ply,vtu} PICTURE.png
+  xvfb-run -a pvpython --force-offscreen-rendering Scripts/figures/render.py QUADS.{vtp,obj,ply,vtu} PICTURE.png
       [--size W H] [--view X Y Z] [--up X Y Z] [--zoom Z] [--no-edges] [--no-balls]
 
 Balls: valence 3 blue, 5 red, 6 and more purple, 2 and less black; on the boundary, where 3 is regular: 2 green, 4 and

@@ -4,7 +4,7 @@
 """Draws what quadrille-costs writes: the irregular vertices and the distances of every cost, model by model, as SVG.
 
   quadrille-costs MESH... > costs.csv
-  Scripts/plot-costs.py costs.csv Documentation/Pictures/costs.svg
+  Scripts/figures/plot-costs.py costs.csv Documentation/Pictures/costs.svg
 """
 import csv
 import sys

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Solves two problems with CalculiX on meshes of Quadrille and of Gmsh, and compares the errors.
 
-  Scripts/solved_example.py OUT [--documentation] [--drawn-again]
+  Scripts/figures/solved_example.py OUT [--documentation] [--drawn-again]
 
 A plate with a hole (exact solution known) with even and with graded sizes, and the Scordelis-Lo roof (published
 reference); quads by Quadrille, quads and triangles by Gmsh; four sizes; elements of first and second order. OUT gets
@@ -21,8 +21,8 @@ import sys
 
 from simulation import calculix, meshes, page, pictures, plate, roof, study
 
-HERE = pathlib.Path(__file__).resolve().parent
-DOCUMENTATION = HERE.parent / "Documentation"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DOCUMENTATION = ROOT / "Documentation"
 
 
 def solve_all(problems, program, folder):
@@ -68,7 +68,7 @@ def require_programs(parser, quadrille):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", type=pathlib.Path, help="folder, made if it is not there")
-    parser.add_argument("--quadrille", type=pathlib.Path, default=HERE.parent / "build" / "bin" / "quadrille")
+    parser.add_argument("--quadrille", type=pathlib.Path, default=ROOT / "build" / "bin" / "quadrille")
     parser.add_argument("--documentation", action="store_true", help="replace page and pictures in the checkout")
     parser.add_argument("--drawn-again", action="store_true", help="solve nothing; take what is in OUT")
     chosen = parser.parse_args()

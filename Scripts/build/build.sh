@@ -5,7 +5,7 @@
 # Configures and builds the "release" preset into build/. Arguments go to the configure step, for example
 # -DQUADRILLE_BUILD_TESTS=OFF. A fresh folder is built with QUADRILLE_UNITY_BUILD; one that is there keeps its setting.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 options=()
 [[ -f build/CMakeCache.txt ]] || options+=(-DQUADRILLE_UNITY_BUILD=ON)

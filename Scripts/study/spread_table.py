@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a surface costs that stays spread over ranks, and what its quads are worth against those of a serial run.
 
-  Scripts/spread_table.py MODEL.ply... --python build [--quads N,N] [--ranks 1,2,4,8] [--splits redistribute,stripes,
-                          random] [--judge QUADSTATS] [--samples N] [--table FILE.csv] [--work FOLDER]
+  Scripts/study/spread_table.py MODEL.ply... --python build [--quads N,N] [--ranks 1,2,4,8]
+                                [--splits redistribute,stripes,random] [--judge QUADSTATS] [--samples N]
+                                [--table FILE.csv] [--work FOLDER]
 
 Each model is cut into a part for each rank: as ParaView's Redistribute Data Set cuts it, in stripes along the longest
 side of its box, and face by face at random. Then each rank reads its part alone, *Quad Remesh* runs with Spread

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the detection of features brings: on scans it should cost nothing, on parts it should keep every crease.
 
-  Scripts/crease_table.py --command BIN/quadrille --judge QUADSTATS --scans FOLDER --parts FOLDER [--quads N,N]
-                          [--modes NAME,NAME] [--only REGEX] [--table FILE.csv]
+  Scripts/study/crease_table.py --command BIN/quadrille --judge QUADSTATS --scans FOLDER --parts FOLDER [--quads N,N]
+                                [--modes NAME,NAME] [--only REGEX] [--table FILE.csv]
 
 Each scan of the one folder and each part of the other is remeshed with each mode (automatic, angle, off) and each
 number of quads. QUADSTATS is a script that is called as `QUADSTATS QUADS.obj --no-distance` and prints JSON. The table

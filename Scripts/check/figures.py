@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The stored figures of a list of models, and whether a change makes one of them worse.
 
-  Scripts/figures.py record QUADRILLE [--shared FOLDER] [--all] [--only REGEX] [--jobs N] [--table FILE]
-  Scripts/figures.py check  QUADRILLE [--shared FOLDER] [--all] [--only REGEX] [--jobs N] [--table FILE]
+  Scripts/check/figures.py record QUADRILLE [--shared FOLDER] [--all] [--only REGEX] [--jobs N] [--table FILE]
+  Scripts/check/figures.py check  QUADRILLE [--shared FOLDER] [--all] [--only REGEX] [--jobs N] [--table FILE]
 
 The table, Testing/Figures.json, has for each run (a model and a number of quads) what its quads and its map are, and no
 times. record makes the runs and puts them into the table; check makes them and ends with 1 where a figure is worse than
@@ -21,7 +21,8 @@ such a move has been seen to do, not zero:
   mean scaled Jacobian: 0.005 less; least one: 0.1 less;
   mean distance between quads and surface: 5 % more; length of sharp edges on edges of quads: 1 % less;
   mean anisotropy of the map: 2 % more, mean shear 0.5 degrees less, distance of singularities: 20 % and 5 more;
-  instructions of a run on one thread, and of its parts, counted by valgrind where that is there: 5 % more.
+  instructions of a run on one thread, and of its parts, counted by valgrind where that is there: 5 % more. They are
+    compared where the program was made by the compiler of the table, as another one makes other instructions.
 """
 import argparse
 import concurrent.futures
@@ -34,7 +35,7 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 TABLE = ROOT / "Testing" / "Figures.json"
 #: Of the shared models, for each change: scans, parts with creases, open ones, handles, several components.
 SUBSET = (("scan/horse.ply", 2500), ("scan/igea.ply", 5000), ("scan/gargoyle_50k.ply", 2500), ("cad/fandisk.ply", 2500),
@@ -108,6 +109,14 @@ def maps(path, quads):
             "singularities": round(outcome.distance["Irregular vertices"], 2)}
 
 
+def compiler_of(program):
+    """Name and major version of the compiler that made a program, by what it has left in it, as "GCC 12"."""
+    text = subprocess.run(["readelf", "--string-dump=.comment", program], capture_output=True, text=True,
+                          check=False).stdout
+    match = re.search(r"(GCC|clang).* (\d+)\.\d+\.\d+", text)
+    return f"{match[1]} {match[2]}" if match else "unknown"
+
+
 def instructions(program, path, quads):
     """Instructions of a run and of its parts in millions; nothing without valgrind."""
     if not shutil.which("valgrind") or not shutil.which("callgrind_annotate"):
@@ -122,7 +131,7 @@ def instructions(program, path, quads):
             raise SystemExit(f"figures: valgrind ended with {done.returncode}: {done.stderr[-300:]}")
         listing = subprocess.run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", counts],
                                  capture_output=True, text=True, check=True).stdout
-    result = {}
+    result = {"compiler": compiler_of(program)}
     for line in listing.splitlines():
         match = re.match(r"\s*([\d,]+) (?:\([ \d.]+%\))?\s+(.*)", line)
         if not match:
@@ -185,8 +194,11 @@ def main():
             print(f"{key}: not in the table; record it")
             faults += 1
             continue
-        for name in sorted(set(known[key]) | set(figures)):
-            if name.startswith("instructions") and name not in figures:
+        compilers = {known[key].get("compiler"), figures.get("compiler")} - {None}
+        if len(compilers) == 2:
+            print(f"{key}: instructions are not compared, as the compilers are {' and '.join(sorted(compilers))}")
+        for name in sorted((set(known[key]) | set(figures)) - {"compiler"}):
+            if name.startswith("instructions") and (name not in figures or len(compilers) == 2):
                 continue
             old, new = known[key].get(name), figures.get(name)
             how = worse(name, old, new)

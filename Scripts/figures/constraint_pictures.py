@@ -4,7 +4,7 @@
 """Pictures of what each constraint does, as in Figures 1 and 9 of [Ebke et al. 2016]: quads before and after on the
 same surface, seen by the same camera.
 
-  PYTHONPATH=build/lib/python3/dist-packages xvfb-run -a /usr/bin/python3 Scripts/constraint_pictures.py
+  PYTHONPATH=build/lib/python3/dist-packages xvfb-run -a /usr/bin/python3 Scripts/figures/constraint_pictures.py
       [SURFACE.ply] [FOLDER] [--quads N] [--chord-error E] [--view X Y Z] [--up X Y Z] [--only CLASS ...]
 
 On the left what is asked for, as it is drawn with the mouse in this view, in orange; on the right what became of it,

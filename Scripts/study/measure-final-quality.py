@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What solving the map again on a finer level brings, as a table in Markdown.
 
-  Scripts/measure-final-quality.py --program build/bin/quadrille MESH... [--quads N]... [--threads N] [-- more options]
+  Scripts/study/measure-final-quality.py --program build/bin/quadrille MESH... [--quads N]... [--threads N]
+                                         [-- more options]
 
 Each mesh is remeshed three times. Distortion is that of the map on the input: the mean over the area of the symmetric
 Dirichlet energy over 4 (1 where the map is an isometry), the value that 99 hundredths of the area lie below, and the

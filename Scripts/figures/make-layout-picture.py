@@ -4,7 +4,7 @@
 """Picture of the layout of quads: patches in colours, on features red lines between them, elsewhere black ones. On the
 left the quads of the size asked for, on the right those of the coarsest layout.
 
-  PYTHONPATH=build/lib/python3/dist-packages xvfb-run -a pvpython Scripts/make-layout-picture.py
+  PYTHONPATH=build/lib/python3/dist-packages xvfb-run -a pvpython Scripts/figures/make-layout-picture.py
       [SURFACE.ply] [OUT.png] [--quads N] [--view X Y Z] [--up X Y Z] [--zoom Z]
 """
 import argparse

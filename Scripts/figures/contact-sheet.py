@@ -4,7 +4,7 @@
 """Draws up to 12 meshes into one picture, with their edges, irregular vertices as dots (blue: fewer than four edges,
 red: more), boundary vertices left out.
 
-  xvfb-run -a pvpython Scripts/contact-sheet.py OUT.png MESH.obj...
+  xvfb-run -a pvpython Scripts/figures/contact-sheet.py OUT.png MESH.obj...
 """
 import math
 import pathlib

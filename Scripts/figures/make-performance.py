@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures the stages with quadrille-bench and writes the tables of Documentation/Performance.md.
 
-  Scripts/make-performance.py [--data FOLDER] [--command build/bin/quadrille-bench] [--out out/performance] [--repeat 5]
+  Scripts/figures/make-performance.py [--data FOLDER] [--command build/bin/quadrille-bench] [--out out/performance]
+                                      [--repeat 5]
 
 Meshes: the shape `beast` of Data/generate.py at 125 k, 500 k, 2 M and 8 M faces, the one of 2 M with its faces and
 points shuffled, and, where --data has scan/bunny_ct.ply, that scan, the same shuffled, and the same with each face cut
@@ -28,7 +29,9 @@ import time
 
 import numpy as np
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+import made_from
+
+ROOT = made_from.ROOT
 # Names of the marks round generated parts of the page.
 TABLES, REPLAY, COARSE, EXTRACTION, ANY_SIZE = "tables", "replay", "coarse", "extraction", "sizes"
 REPLAY_QUADS = [1000, 2500, 10000]
@@ -389,13 +392,15 @@ def hasReplay(row):
     return row["ok"] == 1 or row["inverted_stars"] > 0
 
 
-def writePart(page, name, text):
+def writePart(page, name, text, commit):
+    """commit: that of before the measurement."""
     begin, end = f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
     before, _, rest = page.read_text().partition(begin)
     _, found, after = rest.partition(end)
     if not found:
         raise SystemExit(f"{page} has no marks for the part {name}")
-    page.write_text(f"{before}{begin}\n\n{text}\n\n{end}{after}")
+    made = made_from.madeFrom(commit, made_from.machine())
+    page.write_text(f"{before}{begin}\n\n{made}\n\n{text}\n\n{end}{after}")
 
 
 def main():
@@ -419,19 +424,20 @@ def main():
                              "quadrille beside quadrille-bench")
     arguments = parser.parse_args()
     page = pathlib.Path(arguments.markdown)
+    commit = made_from.commit()
     if arguments.coarse:
         models = [path for folder in ("scan", "cad", "open")
                   for path in sorted((pathlib.Path(arguments.data or "") / folder).glob("*.ply"))]
         if not arguments.data or not models:
             raise SystemExit("--coarse needs --data with folders scan, cad and open of PLY files")
-        writePart(page, COARSE, coarseTable(coarseRows(arguments.command, models, arguments.repeat)))
+        writePart(page, COARSE, coarseTable(coarseRows(arguments.command, models, arguments.repeat)), commit)
         return 0
     if arguments.extraction:
         scan = pathlib.Path(arguments.data or "") / "scan" / "bunny_ct.ply"
         if not arguments.data or not scan.exists():
             raise SystemExit("--extraction needs --data with scan/bunny_ct.ply")
         writePart(page, EXTRACTION, extractionTable(extractionRows(arguments.command, scan, arguments.repeat,
-                                                                   arguments.quads)))
+                                                                   arguments.quads)), commit)
         return 0
     if arguments.sizes:
         scan = pathlib.Path(arguments.data or "") / "scan" / "bunny_ct.ply"
@@ -443,13 +449,13 @@ def main():
         runs = f"medians of {arguments.repeat}" if arguments.repeat > 1 else "one run each"
         writePart(page, ANY_SIZE, "\n\n".join(
             f"Seconds with {count} thread{'s' if count > 1 else ''}, {runs}:\n\n"
-            f"{sizesTable(results, count)}" for count in arguments.threads))
+            f"{sizesTable(results, count)}" for count in arguments.threads), commit)
         return 0
     if arguments.replay:
         scans = sorted((pathlib.Path(arguments.data or "") / "scan").glob("*.ply"))
         if not arguments.data or not scans:
             raise SystemExit("--replay needs --data with a folder scan of PLY files")
-        writePart(page, REPLAY, replayTable(replayRows(arguments.command, scans, max(arguments.threads))))
+        writePart(page, REPLAY, replayTable(replayRows(arguments.command, scans, max(arguments.threads))), commit)
         return 0
     meshes = makeMeshes(pathlib.Path(arguments.out), arguments.data)
     if arguments.meshes:
@@ -460,8 +466,9 @@ def main():
                        f"medians of {arguments.repeat} ({arguments.large_repeat} at 8 M):\n\n{table(results, count)}"
                        for count in arguments.threads)
     for name, reason in failures.items():
-        text += f"\n\n{name} gave no quads and is left out: {reason[:200].replace(str(ROOT), '')}"
-    writePart(page, TABLES, text)
+        reason = reason[:200].replace(str(ROOT), "")
+        text += "\n\n" + made_from.filled(f"{name} gave no quads and is left out: {reason}")
+    writePart(page, TABLES, text, commit)
     return 0
 
 
