@@ -3,7 +3,7 @@
 /// What quads of a surface have to keep that was thinned out before they were made.
 #pragma once
 
-#include "Pipeline/RemeshInPieces.h"
+#include "Pieces/RemeshInPieces.h"
 
 #include <gtest/gtest.h>
 

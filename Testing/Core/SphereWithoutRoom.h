@@ -21,10 +21,10 @@ inline SurfaceInput sphereWithoutRoom()
   const std::array<Index, 3> t{ input.polygonPoints[0], input.polygonPoints[1],
     input.polygonPoints[2] };
   input.points.push_back((input.points[t[0]] + input.points[t[1]] + input.points[t[2]]) / 3);
-  input.polygonPoints[2] = middle;
+  input.polygonPoints.edit()[2] = middle;
   for (const std::size_t i : { 1U, 2U })
   {
-    input.polygonPoints.insert(input.polygonPoints.end(), { t[i], t[(i + 1) % 3], middle });
+    input.polygonPoints.append({ t[i], t[(i + 1) % 3], middle });
     input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
   }
   input.targetValences.assign(input.points.size(), 0);

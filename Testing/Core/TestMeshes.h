@@ -32,7 +32,7 @@ inline Mesh makeMesh(std::vector<Vector3> points, const std::vector<Triangle>& t
   mesh.position = std::move(points);
   for (const Triangle& t : triangles)
   {
-    mesh.origin.insert(mesh.origin.end(), t.begin(), t.end());
+    mesh.origin.append(t.begin(), t.end());
   }
   mesh.twin = pairHalfEdges(mesh.origin, mesh.vertexCount());
   mesh.flags.assign(mesh.origin.size(), 0);
@@ -63,7 +63,7 @@ inline Mesh markFeatures(Mesh mesh, double angleRadians)
     if (g != kInvalidIndex &&
       faceNormal(mesh, Mesh::face(h)).dot(faceNormal(mesh, Mesh::face(g))) < std::cos(angleRadians))
     {
-      mesh.flags[h] |= kFeatureEdge;
+      mesh.flags.edit()[h] |= kFeatureEdge;
     }
   }
   return mesh;

@@ -8,6 +8,7 @@
 #include "Base/Angles.h"
 #include "Mesh/Surface.h"
 #include "Mesh/Topology.h"
+#include "Prepare/Prepare.h"
 
 #include <vtkCellData.h>
 #include <vtkCompositeDataSet.h>

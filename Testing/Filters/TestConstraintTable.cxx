@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuadrilleConstraintTable.h"
+#include "QuadrilleConstraints.h"
 #include "TestSurfaces.h"
 
 #include <vtkCellData.h>
@@ -88,7 +89,7 @@ AskedConstraints ask(vtkPolyData* data, const ConstraintInputs& inputs = {})
 {
   ConvertedSurface surface = convertSurface(data, "");
   AskedConstraints asked;
-  asked.arrays = arrayConstraints(surface);
+  asked.arrays = arrayConstraints(surface.input);
   asked.placed = applyConstraints(surface, inputs).placed;
   return asked;
 }
@@ -109,7 +110,7 @@ TEST(ConstraintTable, GuidesAreAsFarOffAsTheQuadsAreTurned)
          { 70.0, 40.0 }, { 16.0, 4.0 }, { 14.0, 6.0 } })
   {
     guide(data, degrees, everywhere);
-    const auto words = judgeConstraints(ask(data), turnedGrid(20, 20), nullptr);
+    const auto words = judgeConstraints(ask(data), turnedGrid(20, 20), {});
     ASSERT_EQ(words.size(), 1u);
     EXPECT_STREQ(words[0].kind, "guide array");
     EXPECT_STREQ(words[0].unit, "degrees");
@@ -139,7 +140,7 @@ TEST(ConstraintTable, MeanAndPercentileAreByArea)
       directions->SetTuple3(i, std::cos(30 * kDegree), std::sin(30 * kDegree), 0);
     }
   }
-  const auto words = judgeConstraints(ask(data), turnedGrid(8, 0), nullptr);
+  const auto words = judgeConstraints(ask(data), turnedGrid(8, 0), {});
   ASSERT_EQ(words.size(), 1u);
   EXPECT_NEAR(words[0].deviation, 3, 1e-9);
   EXPECT_NEAR(words[0].deviation95, 30, 1e-9);
@@ -152,7 +153,7 @@ TEST(ConstraintTable, EachConnectedRegionHasItsRow)
   const vtkSmartPointer<vtkPolyData> data = plate();
   guide(data, 0, [](const Vector3& p) { return std::abs(p.x()) > 2; });
   const AskedConstraints asked = ask(data);
-  const auto words = judgeConstraints(asked, turnedGrid(20, 0), nullptr);
+  const auto words = judgeConstraints(asked, turnedGrid(20, 0), {});
   ASSERT_EQ(words.size(), 2u);
   EXPECT_NE(words[0].source, words[1].source);
   EXPECT_EQ(asked.arrays.guides[0].polygons.size() + asked.arrays.guides[1].polygons.size(), 256u);
@@ -165,7 +166,7 @@ TEST(ConstraintTable, AStrokeThatRunsOverARegionIsNamed)
   const vtkSmartPointer<vtkPolyData> stroke = test::polyline({ { -4, 0, 0 }, { 4, 0, 0 } });
   ConstraintInputs inputs;
   inputs.strokes = stroke;
-  const auto words = judgeConstraints(ask(data, inputs), turnedGrid(20, 0), nullptr);
+  const auto words = judgeConstraints(ask(data, inputs), turnedGrid(20, 0), {});
   ASSERT_EQ(words.size(), 2u);
   EXPECT_NEAR(words[0].deviation, 45, 1e-9);
   EXPECT_NE(
@@ -176,6 +177,27 @@ TEST(ConstraintTable, AStrokeThatRunsOverARegionIsNamed)
   EXPECT_TRUE(words[1].isMet);
 }
 
+TEST(ConstraintTable, PointsFartherThanAnEdgeLengthOffTheSurfaceAreTold)
+{
+  const vtkSmartPointer<vtkPolyData> data = plate();
+  for (const auto& [height, isTold] : { std::pair{ 0.9, false }, { 1.1, true }, { -3.0, true } })
+  {
+    const vtkSmartPointer<vtkPolyData> stroke =
+      test::polyline({ { -4, 0, 0 }, { 2, 0, height }, { 4, 0, 0 } });
+    ConstraintInputs inputs;
+    inputs.strokes = stroke;
+    const auto words = judgeConstraints(ask(data, inputs), turnedGrid(20, 0), {});
+    ASSERT_EQ(words.size(), 1u);
+    EXPECT_TRUE(words[0].isMet);
+    EXPECT_EQ(words[0].isOffSurface, isTold) << height;
+    EXPECT_EQ(words[0].reason.empty(), !isTold) << words[0].reason;
+    const std::vector<std::string> notices = offSurfaceNotices(words);
+    ASSERT_EQ(notices.size(), isTold ? 1u : 0u);
+    EXPECT_TRUE(!isTold || notices[0].find("nearest place is (2, 0, 0)") != std::string::npos)
+      << notices[0];
+  }
+}
+
 TEST(ConstraintTable, CurvesAreAsFarAsTheNearestEdges)
 {
   const vtkSmartPointer<vtkPolyData> data = plate(); // its lines are half a quad apart
@@ -184,7 +206,7 @@ TEST(ConstraintTable, CurvesAreAsFarAsTheNearestEdges)
     const vtkSmartPointer<vtkPolyData> curve = test::polyline({ { -4, y, 0 }, { 4, y, 0 } });
     ConstraintInputs inputs;
     inputs.curves = curve;
-    const auto words = judgeConstraints(ask(data, inputs), turnedGrid(20, 0), nullptr);
+    const auto words = judgeConstraints(ask(data, inputs), turnedGrid(20, 0), {});
     ASSERT_EQ(words.size(), 1u);
     EXPECT_STREQ(words[0].kind, "feature curve");
     EXPECT_STREQ(words[0].unit, "edge lengths");
@@ -218,7 +240,7 @@ TEST(ConstraintTable, MarkedEdgesAreACurveEach)
   const AskedConstraints asked = ask(data);
   ASSERT_EQ(asked.arrays.curves.size(), 2u);
   EXPECT_EQ(asked.arrays.curves[0].edges.size(), 16u);
-  const auto words = judgeConstraints(asked, turnedGrid(20, 0), nullptr);
+  const auto words = judgeConstraints(asked, turnedGrid(20, 0), {});
   EXPECT_TRUE(words[0].isMet);
   EXPECT_NEAR(words[1].deviation, 0.5, 1e-9);
 }
@@ -241,7 +263,7 @@ TEST(ConstraintTable, ValencesSayWhatIsThere)
   valences->SetValue(data->GetNumberOfPoints() - 1, 5);
   data->GetPointData()->AddArray(valences);
   // The corners of eight by eight quads have one quad: valence 3 as it is asked for.
-  const auto words = judgeConstraints(ask(data), turnedGrid(8, 0), nullptr);
+  const auto words = judgeConstraints(ask(data), turnedGrid(8, 0), {});
   ASSERT_EQ(words.size(), 3u);
   EXPECT_EQ(words[0].deviation, 1);
   EXPECT_EQ(words[0].reason, "asked 2, got 3");
@@ -264,7 +286,7 @@ TEST(ConstraintTable, SizesAreComparedWithEachOther)
   vtkNew<vtkDoubleArray> there;
   there->SetNumberOfTuples(static_cast<vtkIdType>(mesh.points.size()));
   there->Fill(3);
-  auto words = judgeConstraints(ask(data), mesh, there);
+  auto words = judgeConstraints(ask(data), mesh, valuesOf(there));
   ASSERT_EQ(words.size(), 1u);
   EXPECT_NEAR(words[0].deviation, 1, 1e-12);
   EXPECT_TRUE(words[0].isMet);
@@ -274,7 +296,7 @@ TEST(ConstraintTable, SizesAreComparedWithEachOther)
   {
     there->SetValue(static_cast<vtkIdType>(i), mesh.points[i].x() > 1.5 ? 2 : 1);
   }
-  words = judgeConstraints(ask(data), mesh, there);
+  words = judgeConstraints(ask(data), mesh, valuesOf(there));
   EXPECT_NEAR(words[0].deviation, std::pow(1.5 * 2 * 2, 1.0 / 8), 1e-12);
   EXPECT_NEAR(words[0].deviation95, 2, 1e-12);
 }
@@ -288,7 +310,7 @@ TEST(ConstraintTable, WhatIsNotFollowedHasARowToo)
   inputs.strokes = point;
   const AskedConstraints asked = ask(data, inputs);
   const QuadMesh mesh = turnedGrid(20, 0);
-  const auto words = judgeConstraints(asked, mesh, nullptr);
+  const auto words = judgeConstraints(asked, mesh, {});
   ASSERT_EQ(words.size(), 2u);
   for (const ConstraintWord& word : words)
   {
@@ -308,7 +330,7 @@ TEST(ConstraintTable, WithoutQuadsNothingIsMet)
 {
   const vtkSmartPointer<vtkPolyData> data = plate();
   guide(data, 0, everywhere);
-  const auto words = judgeConstraints(ask(data), {}, nullptr);
+  const auto words = judgeConstraints(ask(data), {}, {});
   ASSERT_EQ(words.size(), 1u);
   EXPECT_FALSE(words[0].isMet);
   EXPECT_EQ(words[0].reason, "no quads were made");
@@ -437,7 +459,8 @@ TEST(ConstraintTable, AgreesWithTheQuadsOfTheFilter)
   {
     EXPECT_EQ(text(row, "Kind"), "valence");
     EXPECT_EQ(value(row, "SourceId"), row - 2);
-    const vtkIdType nearest = quads->FindPoint(value(row, "X"), value(row, "Y"), value(row, "Z"));
+    const vtkIdType nearest =
+      test::nearestPoint(quads, { value(row, "X"), value(row, "Y"), value(row, "Z") });
     const bool isThere = (Vector3(quads->GetPoint(nearest)) -
                            Vector3(value(row, "X"), value(row, "Y"), value(row, "Z")))
                            .norm() < 1e-6;

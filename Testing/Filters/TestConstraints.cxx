@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Evaluation/ConstraintWords.h"
 #include "QuadrilleArrayNames.h"
 #include "QuadrilleConstraints.h"
 #include "TestSurfaces.h"

@@ -12,6 +12,7 @@
 #include <vtkFloatArray.h>
 #include <vtkIntArray.h>
 #include <vtkPointData.h>
+#include <vtkSOADataArrayTemplate.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkUnsignedCharArray.h>
@@ -105,6 +106,47 @@ TEST(Convert, PointsKeepEveryBit)
   data->SetPoints(exact);
   const ConvertedSurface surface = convertSurface(data, "");
   EXPECT_EQ(surface.input.points[5], Vector3(5 * value, -5 * value, value));
+}
+
+template <class Value>
+vtkSmartPointer<vtkDataArray> inColumns(vtkDataArray* array)
+{
+  auto columns = vtkSmartPointer<vtkSOADataArrayTemplate<Value>>::New();
+  columns->SetNumberOfComponents(array->GetNumberOfComponents());
+  columns->SetName(array->GetName());
+  columns->DeepCopy(array);
+  return columns;
+}
+
+/// An array has the type of its values, but not the class that goes with the type: columns here, computed arrays of
+/// later versions of VTK.
+TEST(Convert, ArraysOfAnotherLayoutAreReadAlike)
+{
+  const vtkSmartPointer<vtkPolyData> plain = mixedCells();
+  vtkNew<vtkIntArray> patches;
+  patches->SetName("PatchId");
+  vtkNew<vtkUnsignedCharArray> features;
+  features->SetName("FeatureEdges");
+  for (int i = 0; i < 5; ++i)
+  {
+    patches->InsertNextValue(10 + i);
+    features->InsertNextValue(i == 2 ? 17 : 0);
+  }
+  plain->GetCellData()->AddArray(patches);
+  plain->GetCellData()->AddArray(features);
+  vtkNew<vtkPolyData> apart;
+  apart->ShallowCopy(plain);
+  vtkNew<vtkPoints> points;
+  points->SetData(inColumns<float>(plain->GetPoints()->GetData()));
+  apart->SetPoints(points);
+  apart->GetCellData()->AddArray(inColumns<int>(patches));
+  apart->GetCellData()->AddArray(inColumns<unsigned char>(features));
+  ASSERT_FALSE(apart->GetCellData()->GetArray("PatchId")->HasStandardMemoryLayout());
+  const ConvertedSurface one = convertSurface(plain, "PatchId");
+  const ConvertedSurface other = convertSurface(apart, "PatchId");
+  EXPECT_EQ(one.input.points, other.input.points);
+  EXPECT_EQ(one.input.patchIds, other.input.patchIds);
+  EXPECT_EQ(one.input.featureEdges, other.input.featureEdges);
 }
 
 TEST(Convert, PatchIdsAndFeaturesComeByCell)
@@ -317,10 +359,10 @@ TEST(Convert, TwinsSurviveWhereCornersDoNotTellThem)
   mesh.origin = { 0, 1, 2, 1, 0, 3, 0, 1, 4, 1, 0, 5 };
   mesh.twin.assign(12, kInvalidIndex);
   mesh.flags.assign(12, 0);
-  mesh.twin[0] = 3;
-  mesh.twin[3] = 0;
-  mesh.twin[6] = 9;
-  mesh.twin[9] = 6;
+  mesh.twin.edit()[0] = 3;
+  mesh.twin.edit()[3] = 0;
+  mesh.twin.edit()[6] = 9;
+  mesh.twin.edit()[9] = 6;
   const vtkSmartPointer<vtkPolyData> data = writeMesh(mesh);
   EXPECT_TRUE(data->GetCellData()->HasArray("Twin"));
   EXPECT_EQ(readMesh(data).twin, mesh.twin);

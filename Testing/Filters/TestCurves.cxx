@@ -34,7 +34,7 @@ constexpr double kTurn = 2 * 3.14159265358979323846;
 vtkSmartPointer<vtkPolyData> bumpyBall()
 {
   Mesh mesh = test::sphere(4);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p *= 1 + 0.1 * std::sin(5 * p.x() + 1) * std::cos(4 * p.y()) + 0.06 * std::sin(6 * p.z() + 0.5);
     p.x() *= 1.5;
@@ -115,7 +115,7 @@ void connect(vtkPolyData* data, const std::vector<Vector3>& ends)
   ids->Fill(0);
   for (const Vector3& p : ends)
   {
-    ids->SetValue(data->FindPoint(p.x(), p.y(), p.z()), 5);
+    ids->SetValue(test::nearestPoint(data, p), 5);
   }
   data->GetPointData()->AddArray(ids);
 }
@@ -260,7 +260,7 @@ TEST(Cycles, AmongConstraintsOfAllClasses)
     loop->SetPoint(static_cast<vtkIdType>(i), points[i].x(), points[i].y(), points[i].z());
   }
   double place[3];
-  ball->GetPoint(ball->FindPoint(0, 0, 2), place);
+  ball->GetPoint(test::nearestPoint(ball, { 0, 0, 2 }), place);
   valence->SetPoint1(place[0], place[1], place[2]);
   filter->AddConstraintsConnection(loop->GetOutputPort());
   expectClosed(filter);
@@ -301,7 +301,7 @@ TEST(Moves, OfCurvesByTheirType)
   const Vector3 from = before[0].first;
   const Vector3 aside =
     from + 0.25 * from.cross(Vector3(0.3, 0.5, 0.8)).normalized(); // two edges away
-  const Vector3 to(ball->GetPoint(ball->FindPoint(aside.x(), aside.y(), aside.z())));
+  const Vector3 to(ball->GetPoint(test::nearestPoint(ball, aside)));
   filter->SetCurvesData(lineOfType({ from, to }, 4));
   expectMet(filter, "move");
   const auto after = irregularOf(filter);

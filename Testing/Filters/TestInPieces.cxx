@@ -11,6 +11,7 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -169,6 +170,20 @@ TEST(InPieces, SaysWhatNeedsTheWholeSurface)
                       filter->SetInputData(sized);
                     }),
     "Sizing"));
+  EXPECT_TRUE(has(reason(
+                    [&](vtkQuadRemesh* filter)
+                    {
+                      vtkNew<vtkPolyData> patched;
+                      patched->ShallowCopy(input);
+                      vtkNew<vtkIntArray> material;
+                      material->SetName("Material");
+                      material->SetNumberOfTuples(patched->GetNumberOfCells());
+                      material->Fill(1);
+                      patched->GetCellData()->AddArray(material);
+                      filter->SetPatchArrayName("Material");
+                      filter->SetInputData(patched);
+                    }),
+    "Material"));
   // Automatic leaves a surface of this size whole.
   vtkNew<vtkQuadRemesh> filter;
   setUp(filter, input);

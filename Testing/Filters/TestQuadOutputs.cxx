@@ -4,8 +4,9 @@
 #include "PlyFile.h"
 #include "TestSurfaces.h"
 
-#include "Extraction/QuadLayout.h"
-#include "Mesh/Features.h"
+#include "Features/Features.h"
+#include "Prepare/Prepare.h"
+#include "Quads/QuadLayout.h"
 
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Extraction/QuadShape.h"
 #include "QuadrilleConvert.h"
 #include "QuadrilleFrame.h"
+#include "Quads/QuadShape.h"
 #include "TestSurfaces.h"
 
 #include <vtkCellArray.h>
@@ -254,7 +254,7 @@ TEST(StageFilters, ChainEqualsOneClickFarAwayAndInTheMirror)
     for (const bool reversed : { false, true })
     {
       Mesh mesh = test::torus(80, 40);
-      for (Vector3& p : mesh.position)
+      for (Vector3& p : mesh.position.editAll())
       {
         p = Vector3((mirrored ? -1 : 1) * p.x() + 30000, p.y() - 20000, p.z());
       }
@@ -366,7 +366,7 @@ TEST(StageFilters, ChainHonoursSizes)
   std::size_t fine = 0;
   for (const Vector3& p : pointsOf(quads))
   {
-    const vtkIdType at = oneClick->GetOutput()->FindPoint(p.x(), p.y(), p.z());
+    const vtkIdType at = test::nearestPoint(oneClick->GetOutput(), p);
     EXPECT_LT((Vector3(oneClick->GetOutput()->GetPoint(at)) - p).norm(), 1e-12);
     fine += p.x() > 0 ? 1 : 0;
   }

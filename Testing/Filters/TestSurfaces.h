@@ -125,6 +125,11 @@ inline vtkSmartPointer<vtkPolyData> polyline(const std::vector<Vector3>& points)
   return data;
 }
 
+inline vtkIdType nearestPoint(vtkPolyData* data, Vector3 place)
+{
+  return data->FindPoint(place.data()); // the form that VTK's versions share
+}
+
 /// The mean of the corners of a cell.
 inline Vector3 cellCentre(vtkPolyData* data, vtkIdType cell)
 {

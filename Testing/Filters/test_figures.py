@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether Scripts/figures.py tells worse figures from others.
+"""Whether Scripts/check/figures.py tells worse figures from others.
 
   test_figures.py SCRIPTS DATA
 """

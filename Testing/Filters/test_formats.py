@@ -22,9 +22,10 @@ import gmsh
 import meshio
 import numpy
 import quadrille
+from quad_meshes import QUAD_CELLS, Mesh, Sets, add_strings, box, by_kind, data_of, grid, plate, second_order
 from scipy.io import netcdf_file
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkIntArray, vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonCore import vtkBitArray, vtkIntArray, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 from vtkmodules.vtkIOExodus import vtkExodusIIReader
 from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
@@ -33,206 +34,6 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 ARGS = None
 REMESHED = {}  # models of Data/, each once
-QUAD_CELLS = {4: 9, 8: 23, 9: 28}  # VTK_QUAD, VTK_QUADRATIC_QUAD, VTK_BIQUADRATIC_QUAD
-
-Mesh = collections.namedtuple("Mesh", "points elements patch features")
-
-
-# ------------------------------------------------------------------------------------------------- meshes
-def grid(data):
-    """A Mesh as a vtkUnstructuredGrid."""
-    mesh = vtkUnstructuredGrid()
-    mesh.SetPoints(vtkPoints())
-    mesh.GetPoints().SetData(numpy_to_vtk(numpy.asarray(data.points, float), deep=True))
-    for element in data.elements:
-        mesh.InsertNextCell(QUAD_CELLS[len(element)], len(element), [int(i) for i in element])
-    for name, values in (("PatchId", data.patch), ("FeatureEdges", data.features)):
-        array = vtkIntArray()
-        array.SetName(name)
-        for value in values:
-            array.InsertNextValue(int(value))
-        mesh.GetCellData().AddArray(array)
-    return mesh
-
-
-def add_strings(attributes, name, values):
-    array = vtkStringArray()
-    array.SetName(name)
-    for value in values:
-        array.InsertNextValue(value)
-    attributes.AddArray(array)
-
-
-def data_of(mesh):
-    """A vtkPolyData or vtkUnstructuredGrid of quads as a Mesh."""
-    cells = mesh.GetPolys() if hasattr(mesh, "GetPolys") else mesh.GetCells()
-    nodes = cells.GetMaxCellSize()
-    elements = vtk_to_numpy(cells.GetConnectivityArray()).reshape(-1, nodes)
-    cell_data = mesh.GetCellData()
-    patch = cell_data.GetArray("PatchId") or cell_data.GetArray("LayoutPatch")
-    return Mesh(vtk_to_numpy(mesh.GetPoints().GetData()).astype(float), elements, vtk_to_numpy(patch),
-                vtk_to_numpy(cell_data.GetArray("FeatureEdges")))
-
-
-def plate(columns=6, rows=4, patches=2):
-    """A rectangle in the plane z = 0 with a feature between its patches, which are halves."""
-    points = [(i, j, 0.0) for j in range(rows + 1) for i in range(columns + 1)]
-    elements, patch, features = [], [], []
-    for j in range(rows):
-        for i in range(columns):
-            first = j * (columns + 1) + i
-            elements.append((first, first + 1, first + columns + 2, first + columns + 1))
-            patch.append(1 + i * patches // columns)
-            features.append(0)
-    split = columns // 2
-    for j in range(rows if patches > 1 else 0):
-        features[j * columns + split - 1] |= 1 << 1
-        features[j * columns + split] |= 1 << 3
-    return Mesh(numpy.array(points), numpy.array(elements), patch, features)
-
-
-def box(n=3):
-    """Ten patches: the sides of a cube without its top, each but the bottom cut in two, with edges on features."""
-    ids, points, elements, patch = {}, [], [], []
-
-    def node(p):
-        if p not in ids:
-            ids[p] = len(points)
-            points.append([x / n for x in p])
-        return ids[p]
-
-    sides = [((1, 0, 0), (0, 0, 1), (0, 0, 0)), ((0, 1, 0), (0, 0, 1), (n, 0, 0)), ((-1, 0, 0), (0, 0, 1), (n, n, 0)),
-             ((0, -1, 0), (0, 0, 1), (0, n, 0)), ((0, 1, 0), (1, 0, 0), (0, 0, 0))]
-    for side, (u, v, origin) in enumerate(sides):
-        for j in range(n):
-            for i in range(n):
-                corner = [tuple(origin[k] + (i + a) * u[k] + (j + b) * v[k] for k in range(3))
-                          for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
-                elements.append([node(p) for p in corner])
-                patch.append(2 * side + (1 if i >= n // 2 else 0))
-    return with_features_at_borders(numpy.array(points), numpy.array(elements), patch)
-
-
-def with_features_at_borders(points, elements, patch):
-    seen = collections.defaultdict(set)
-    for e, element in enumerate(elements):
-        for i in range(4):
-            seen[frozenset((element[i], element[(i + 1) % 4]))].add(patch[e])
-    features = [sum((len(seen[frozenset((element[i], element[(i + 1) % 4]))]) > 1) << i for i in range(4))
-                for element in elements]
-    return Mesh(points, elements, patch, features)
-
-
-def second_order(data, nodes):
-    """Straight edges get their middles, and for 9 nodes elements their centres."""
-    points, middles, elements = [list(p) for p in data.points], {}, []
-
-    def add(ids):
-        points.append(numpy.mean([data.points[i] for i in ids], axis=0))
-        return len(points) - 1
-
-    for element in data.elements:
-        element = list(element)
-        for i in range(4):
-            edge = frozenset((element[i], element[(i + 1) % 4]))
-            if edge not in middles:
-                middles[edge] = add(edge)
-            element.append(middles[edge])
-        if nodes == 9:
-            element.append(add(element[:4]))
-        elements.append(element)
-    return Mesh(numpy.array(points), numpy.array(elements), data.patch, data.features)
-
-
-# ------------------------------------------------------------------------------------------------- a second derivation
-class Sets:
-    """Node sets and sides of loops, curves and corners; elements of patches. Written for being simple: sets of edges,
-    put together by their ends."""
-
-    def __init__(self, data, names=None):
-        edges, middle = collections.defaultdict(list), {}
-        for e, element in enumerate(data.elements):
-            for i in range(4):
-                edge = frozenset((int(element[i]), int(element[(i + 1) % 4])))
-                edges[edge].append((e, i))
-                middle[edge] = int(element[4 + i]) if len(element) > 4 else None
-        boundary = {edge for edge, sides in edges.items() if len(sides) == 1}
-        feature = {edge for edge, sides in edges.items() if len(sides) > 1
-                   and any(int(data.features[e]) >> i & 1 for e, i in sides)}
-        around = collections.defaultdict(int)
-        for element in data.elements:
-            for node in element[:4]:
-                around[int(node)] += 1
-        at = collections.defaultdict(list)
-        for edge in boundary | feature:
-            for node in edge:
-                at[node].append(edge)
-        self.edges, self.middle = edges, middle
-        self.corners = {node for node, there in at.items()
-                        if len(there) != 2 or self._is_corner(data, node, there, boundary, around)}
-        self.loops = self._components(boundary, cut=set())
-        self.curves = self._components(feature, cut=self.corners)
-        self.patches = collections.defaultdict(set)
-        for e, patch in enumerate(data.patch):
-            name = (names or {}).get(int(patch)) or f"PATCH_{patch}"
-            self.patches[name].add(e)
-
-    def _is_corner(self, data, node, there, boundary, around):
-        a, b = (next(iter(edge - {node})) for edge in there)
-        first, second = data.points[node] - data.points[a], data.points[b] - data.points[node]
-        angle = math.atan2(numpy.linalg.norm(numpy.cross(first, second)), first @ second)
-        if angle <= math.radians(40):
-            return False
-        if there[0] in boundary:
-            return around[node] != 2
-        # Straight on: of the four elements at an inner node none is beside both edges.
-        beside = [{e for e, _ in self.edges[edge]} for edge in there]
-        return around[node] != 4 or bool(beside[0] & beside[1])
-
-    @staticmethod
-    def _components(edges, cut):
-        left, result = set(edges), []
-        ends = collections.defaultdict(set)
-        for edge in edges:
-            for node in edge:
-                ends[node].add(edge)
-        while left:
-            component, todo = set(), [left.pop()]
-            while todo:
-                edge = todo.pop()
-                component.add(edge)
-                for node in edge - frozenset(cut):
-                    todo += [other for other in ends[node] if other in left]
-                    left -= ends[node]
-            result.append(frozenset(component))
-        return result
-
-    def nodes(self, component):
-        inner = {self.middle[edge] for edge in component} - {None}
-        return frozenset(node for edge in component for node in edge) | frozenset(inner)
-
-    def node_sets(self):
-        """Without the names, which depend on an order: kinds with the sets of nodes."""
-        return {"BOUNDARY": sorted(sorted(self.nodes(c)) for c in self.loops),
-                "CURVE": sorted(sorted(self.nodes(c)) for c in self.curves),
-                "CORNER": sorted([node] for node in self.corners)}
-
-    def side_sets(self):
-        return {"BOUNDARY": sorted(sorted(c, key=sorted) for c in self.loops),
-                "CURVE": sorted((sorted(c, key=sorted) for c in self.curves), key=lambda c: [sorted(e) for e in c])}
-
-
-def by_kind(named):
-    """Sets with names like CURVE_3 as Sets.node_sets has them."""
-    found = {"BOUNDARY": [], "CURVE": [], "CORNER": []}
-    numbers = collections.defaultdict(list)
-    for name, nodes in named.items():
-        kind, number = re.fullmatch(r"(BOUNDARY|CURVE|CORNER)_(\d+)", name).groups()
-        found[kind].append(sorted(int(i) for i in nodes))
-        numbers[kind].append(int(number))
-    for kind, those in numbers.items():
-        assert sorted(those) == list(range(1, len(those) + 1)), (kind, those)
-    return {kind: sorted(sets) for kind, sets in found.items()}
 
 
 # ------------------------------------------------------------------------------------------------- readers
@@ -317,6 +118,12 @@ def run_calculix(deck, folder):
     return run.stdout + run.stderr, results.read_text() if results.exists() else ""
 
 
+def by_calculix(test):
+    """A test that needs CalculiX, which not every release of Debian has."""
+    test.by_calculix = True
+    return test
+
+
 # ------------------------------------------------------------------------------------------------- tests
 class FormatTest(unittest.TestCase):
     def setUp(self):
@@ -374,6 +181,7 @@ class FormatTest(unittest.TestCase):
                 loops[found.group(1)] |= {frozenset(map(int, edge)) for edge in ends}
         self.assertEqual({frozenset(edges) for edges in loops.values()}, set(sets.loops))
 
+    @by_calculix
     def test_inp_by_calculix(self):
         """CalculiX reads the deck without a warning, prints the members of each set, and loads act on the sides."""
         data = box(2)
@@ -425,6 +233,7 @@ BOUNDARY_1_E3, EDNOR3, 2.
                 members.add(int(line.split()[0]) - 1)
         return found
 
+    @by_calculix
     def test_inp_surfaces(self):
         """A pressure on the surface of a loop is the same force as on its sides by element sets: both solve."""
         data = plate(4, 4, 1)
@@ -490,6 +299,7 @@ U
         self.assertEqual(len(moved), len(nodes_right))
         return numpy.mean(moved) / length
 
+    @by_calculix
     def test_thickness_and_axis_by_calculix(self):
         """Fibres along x carry ten times what those across do; half the thickness gives twice the strain."""
         data = plate(4, 2, 1)
@@ -507,6 +317,7 @@ U
                         strain = self.pulled(path, left, right, 4.0)
                         self.assertAlmostEqual(strain * modulus * thickness, 1, places=3)
 
+    @by_calculix
     def test_axes_differ_by_element(self):
         """Two halves in a row, fibres along in one and across in the other: the strains add up."""
         data = plate(4, 2, 1)
@@ -520,6 +331,7 @@ U
                 path = self.write(mesh, "halves.inp", element=kind, material="PLY")
                 self.assertAlmostEqual(self.pulled(path, left, right, 4.0) / (0.5 / 1e5 + 0.5 / 1e4), 1, places=2)
 
+    @by_calculix
     def test_many_thicknesses_go_by_nodes(self):
         """A strip whose thickness grows along x: strain is the mean of 1 / t where t is linear."""
         data = plate(80, 1, 1)
@@ -707,28 +519,32 @@ U
                 self.assertEqual(found, sorted(map(len, sets.loops + sets.curves)))
 
     def test_obj(self):
+        """A group each patch in one piece, however the patches alternate; elements keep their order within a group."""
         data = box()
         path = self.write(grid(data), "box.obj")
         read = read_silently(path)
         numpy.testing.assert_array_equal(read.points, data.points)
-        self.same_elements([row for c in read.cells for row in c.data], data)
-        found = collections.defaultdict(set)
-        group, faces = None, 0
-        for line in path.read_text().splitlines():
-            if line.startswith("g "):
-                group = line[2:]
-            elif line.startswith("f "):
-                found[group].add(faces)
-                faces += 1
-        self.assertEqual(dict(found), dict(Sets(data).patches))
+        groups = [line[2:] for line in path.read_text().splitlines() if line.startswith("g ")]
+        expected = Sets(data).patches
+        self.assertEqual(sorted(groups), sorted(expected))
+        self.assertEqual(len(read.cells), len(groups))  # meshio begins a block at each line "g"
+        for group, block in zip(groups, read.cells):
+            self.same_elements(block.data, data._replace(elements=data.elements[sorted(expected[group])]))
         reader = vtkOBJReader()
         reader.SetFileName(str(path))
         reader.Update()
         self.assertEqual(reader.GetOutput().GetNumberOfPolys(), len(data.elements))
 
-    def test_ply(self):
+    def test_obj_without_patches(self):
+        """Without patches of the user there are no groups, and elements keep their order."""
+        mesh = quadrille.to_polydata(box().points, box().elements)
+        path = self.write(mesh, "plain.obj")
+        self.assertNotIn("\ng ", path.read_text())
+        self.same_elements([row for c in read_silently(path).cells for row in c.data], box())
+
+    def test_ply_with_details(self):
         data = box()
-        path = self.write(grid(data), "box.ply")
+        path = self.write(grid(data), "box.ply", file_details=True)
         reader = vtkPLYReader()
         reader.SetFileName(str(path))
         reader.Update()
@@ -744,15 +560,20 @@ U
         self.same_elements([row[1:5] for row in rows], data)
         self.assertIn(b"comment PatchId 3: PATCH_3\n", path.read_bytes())
 
-    def test_ply_without_patches(self):
-        """As VTK writes it, and whole or not there: its writer does not tell of a full disk."""
+    def test_ply(self):
+        """Points and faces only, with or without patches in the mesh, and whole or not there."""
         mesh = quadrille.to_polydata(box().points, box().elements)
         reader = vtkPLYReader()
         reader.SetFileName(str(self.write(mesh, "plain.ply")))
         reader.Update()
+        plain = (self.work / "plain.ply").read_bytes()
+        self.assertEqual(self.write(grid(box()), "patches.ply").read_bytes(), plain)
+        self.assertEqual(plain.split(b"end_header\n")[0].count(b"property"), 4)
+        self.assertEqual(self.write(mesh, "details.ply", file_details=True).read_bytes(), plain)  # no patches to tell
         self.same_elements(vtk_to_numpy(reader.GetOutput().GetPolys().GetConnectivityArray()).reshape(-1, 4), box())
         size = (self.work / "plain.ply").stat().st_size
-        (self.work / "plain.ply").unlink()
+        for name in ("plain.ply", "patches.ply", "details.ply"):
+            (self.work / name).unlink()
         limit = resource.getrlimit(resource.RLIMIT_FSIZE)
         before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         try:
@@ -833,6 +654,47 @@ U
             quadrille.write(mesh, path, patch_array="LayoutPatch")
             self.assertEqual(len(re.findall(r"ELSET=PATCH_", path.read_text())), count)
 
+    def test_vtu_for_others(self):
+        """meshio ends at texts, bits, and field data without values, each alone; with details all of them are there."""
+        def named(array, name, *values):
+            if name:
+                array.SetName(name)
+            for value in values:
+                array.InsertNextValue(value)
+            return array
+
+        data = box()
+        count = len(data.elements)
+        texts = {"cells": named(vtkStringArray(), "Words", *["a"] * count),
+                 "bits": named(vtkBitArray(), "Bits", *[1] * count), "nameless": named(vtkIntArray(), "", *[1] * count)}
+        fields = {"PatchNames": named(vtkStringArray(), "PatchNames", "one"), "Empty": named(vtkIntArray(), "Empty"),
+                  "Notices": named(vtkStringArray(), "Notices", "told"), "Kept": named(vtkIntArray(), "Kept", 3)}
+        for name in (*texts, *fields):
+            with self.subTest(name):
+                mesh = grid(data)
+                (mesh.GetCellData() if name in texts else mesh.GetFieldData()).AddArray({**texts, **fields}[name])
+                notices = quadrille.write(mesh, self.work / "a.vtu")
+                self.assertEqual(len(notices), name in texts or name == "PatchNames", notices)
+                read = read_silently(self.work / "a.vtu")
+                self.same_elements(read.cells[0].data, data)
+                self.assertEqual(set(read.cell_data), {"PatchId", "FeatureEdges"})
+                self.assertEqual(set(read.field_data), {"Kept"} & {name})
+                # The mesh that was given keeps its arrays.
+                self.assertEqual(mesh.GetCellData().GetNumberOfArrays() + mesh.GetFieldData().GetNumberOfArrays(), 3)
+                self.assertEqual(quadrille.write(mesh, self.work / "b.vtu", file_details=True), [])
+                reader = vtkXMLUnstructuredGridReader()
+                reader.SetFileName(str(self.work / "b.vtu"))
+                reader.Update()
+                again = reader.GetOutput()
+                self.assertEqual(again.GetCellData().GetNumberOfArrays() + again.GetFieldData().GetNumberOfArrays(), 3)
+        # From polygons, too, and vtp has all.
+        quads = quadrille.to_polydata(data.points, data.elements)
+        add_strings(quads.GetFieldData(), "Notices", ["told"])
+        self.write(quads, "c.vtu")
+        self.assertEqual(read_silently(self.work / "c.vtu").field_data, {})
+        self.assertIn(b'Name="Notices"', self.write(quads, "c.vtp").read_bytes())
+        self.assertTrue(quads.GetFieldData().HasArray("Notices"))
+
     def test_vtu_of_mixed_faces(self):
         """Boundaries in the old shape leave faces of three and more than four corners."""
         points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0.5, 0), (0.5, 2, 0), (1.5, 1.5, 0)]
@@ -866,12 +728,6 @@ U
                     self.assertTrue(all(re.fullmatch(r"[A-Z][A-Z0-9_]{0,79}", name) for name in names), names)
                     self.assertEqual(len({name.upper() for name in names}), len(names))
                     self.assertIn("INLET_PIPE", names)
-                    # CalculiX takes them, too.
-                    sections = "".join(f"*SHELL SECTION, ELSET={n}, MATERIAL=M\n1.\n" for n in names if n != "EALL")
-                    deck = (f"*INCLUDE, INPUT={path.name}\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n{sections}"
-                            "*BOUNDARY\nNALL, 1, 3\n*STEP\n*STATIC\n*CLOAD\n1, 1, 1.\n*END STEP\n")
-                    log, _ = run_calculix(deck, self.work)
-                    self.assertNotRegex(log.upper(), r"\*WARNING|\*ERROR")
                 elif extension == "msh":
                     with Gmsh(path) as read:
                         groups = read.groups(2)
@@ -885,6 +741,17 @@ U
                     self.assertIn("inlet pipe", blocks)
                     self.assertTrue(all(len(name.encode()) <= 32 for name in blocks), blocks)
                 self.assertEqual(found, members)
+
+    @by_calculix
+    def test_names_by_calculix(self):
+        path = self.work / "named.inp"
+        quadrille.write(self.named_box(), path)
+        names = [name for name in read_silently(path).cell_sets if not re.search(r"_E[1-4]$", name) and name != "EALL"]
+        sections = "".join(f"*SHELL SECTION, ELSET={name}, MATERIAL=M\n1.\n" for name in names)
+        log, _ = run_calculix(f"*INCLUDE, INPUT={path.name}\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n{sections}"
+                              "*BOUNDARY\nNALL, 1, 3\n*STEP\n*STATIC\n*CLOAD\n1, 1, 1.\n*END STEP\n", self.work)
+        self.assertNotRegex(log.upper(), r"\*WARNING|\*ERROR")
+        self.assertEqual(len(names), 9)
 
     def test_where_names_come_from(self):
         def patches(mesh, **options):
@@ -963,6 +830,7 @@ U
             (grid(nine), "a.mesh", {}, "MEDIT's format has no elements of 9 nodes"),
             (grid(nine), "a.obj", {}, "OBJ has no elements of 9 nodes"),
             (grid(nine), "a.ply", {}, "PLY has no elements of 9 nodes"),
+            (triangle, "a.ply", {}, "cell 0 is no quad"),
             (grid(plate()), "a.xyz", {}, "unknown extension; known are vtp, vtu"),
             (self.with_cell_array(plate(), "Thickness", [0.0] * 24), "a.inp", {}, "element 0 has the thickness 0"),
             (self.with_cell_array(plate(), "ElementAxis", [(2, 0, 0)] * 24), "a.inp", {}, "has the length 2"),
@@ -1032,7 +900,8 @@ U
                 ("a.inp", ["--inp-dialect", "abaqus", "--patch-array", "LayoutPatch"],
                  {"dialect": "abaqus", "patch_array": "LayoutPatch"}),
                 ("a.msh", ["--msh-version", "2.2"], {"msh_version": "2.2"}),
-                ("a.msh", [], {}), ("a.mesh", [], {}), ("a.stl", [], {}), ("a.obj", [], {}), ("a.ply", [], {})):
+                ("a.msh", [], {}), ("a.mesh", [], {}), ("a.stl", [], {}), ("a.obj", [], {}), ("a.ply", [], {}),
+                ("a.ply", ["--file-details"], {"file_details": True})):
             with self.subTest(name, options=options):
                 ours = self.write(quads, "b" + name[1:], **arguments)
                 self.assertEqual(run(name, *options).read_bytes(), ours.read_bytes())
@@ -1113,5 +982,9 @@ if __name__ == "__main__":
     parser.add_argument("--quadrille", required=True)
     parser.add_argument("--data", required=True)
     parser.add_argument("--work", required=True)
+    parser.add_argument("--calculix", choices=("only", "without"), default="without")
     ARGS, rest = parser.parse_known_args()
+    for name in unittest.defaultTestLoader.getTestCaseNames(FormatTest):
+        if hasattr(getattr(FormatTest, name), "by_calculix") != (ARGS.calculix == "only"):
+            delattr(FormatTest, name)
     unittest.main(argv=[__file__, *rest])

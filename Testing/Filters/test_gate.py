@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scripts/gate.py: two records of the same build are equal, and each kind of difference is found: test_gate.py GATE
-BUILD WORK."""
+"""Scripts/check/gate.py: two records of the same build are equal, and each kind of difference is found: test_gate.py
+GATE BUILD WORK."""
 import copy
 import importlib.util
 import json

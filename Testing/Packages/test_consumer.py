@@ -28,7 +28,8 @@ def require(truth, text):
         sys.exit(f"FAILED: {text}")
 
 
-run(cmake, "--install", build, "--prefix", prefix, "--component", "Library")
+for component in "SharedLibrary", "Library":
+    run(cmake, "--install", build, "--prefix", prefix, "--component", component)
 installed = sorted(str(path.relative_to(prefix)) for path in prefix.rglob("*") if not path.is_dir())
 print("\n".join(installed))
 require([name for name in installed if name.endswith(".h")] == ["include/quadrille/quadrille.h"], "the headers")
@@ -68,7 +69,7 @@ require("at least 1" in run(work / "build" / "sphere-quads", work / "none.obj", 
 wrong = work / "wrong"
 shutil.copytree(project, wrong)
 lists = wrong / "CMakeLists.txt"
-lists.write_text(lists.read_text().replace("find_package(Quadrille 0.1 ", "find_package(Quadrille 99 "))
+lists.write_text(re.sub(r"(find_package\(Quadrille) \d+ ", r"\1 99 ", lists.read_text()))
 done = subprocess.run([cmake, "-S", wrong, "-B", wrong / "build", f"-DCMAKE_PREFIX_PATH={prefix}"], text=True,
                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 require(done.returncode != 0 and "99" in done.stdout, "another version is not found")

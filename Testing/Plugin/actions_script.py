@@ -1,13 +1,7 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run by ParaView's window itself, see count_actions.py: opens a surface, makes quads and answers questions.
-
-A question is Python code in the file QUADRILLE_QUESTION; what it prints comes back in a file beside it.
-"""
-import contextlib
-import io
+"""Run by ParaView's window itself, see count_actions.py: opens a surface, makes quads and answers questions."""
 import os
-import traceback
 
 import quadrille  # the raw classes behind the proxies
 from paraview import simple
@@ -15,7 +9,8 @@ from paraview.modules.vtkRemotingSettings import vtkPVGeneralSettings
 from vtkmodules.vtkCommonCore import reference
 from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator
 
-QUESTION = os.environ["QUADRILLE_QUESTION"]
+import window_answers
+
 simple.LoadPlugin(os.environ["QUADRILLE_PLUGIN"], remote=False, ns=globals())
 surface = simple.PLYReader(registrationName="surface",
                            FileNames=[os.path.join(os.environ["QUADRILLE_DATA"], "beast.ply")])
@@ -117,24 +112,5 @@ def clear():
     simple.Render(view)
 
 
-def answer(*_):
-    if not os.path.exists(QUESTION):
-        return
-    with open(QUESTION, encoding="utf-8") as file:
-        text = file.read()
-    os.remove(QUESTION)
-    out = io.StringIO()
-    try:
-        with contextlib.redirect_stdout(out):
-            exec(text, globals())
-    except Exception:
-        out.write("FAILED: " + traceback.format_exc())
-    with open(QUESTION + ".part", "w", encoding="utf-8") as file:
-        file.write(out.getvalue())
-    os.rename(QUESTION + ".part", QUESTION + ".answer")
-
-
 quads.GetClientSideObject().AddObserver("EndEvent", count_previews)
-interactor = view.GetInteractor()
-interactor.AddObserver("TimerEvent", answer)
-interactor.CreateRepeatingTimer(50)
+interactor = window_answers.serve(view, globals())

@@ -19,7 +19,7 @@ try:
 
     # The first Apply shows the quads alone, with edges: Apply asks this of each output.
     controller = servermanager.vtkSMParaViewPipelineControllerWithRendering()
-    for port in range(7):
+    for port in range(8):
         chosen = controller.ShowInPreferredView(quads.SMProxy, port, view.SMProxy)
         check((chosen is not None) == (port == 0), f"output {port} shows at first Apply: {chosen}")
     check(simple.GetDisplayProperties(quads, view).Representation == "Surface With Edges", "the quads have no edges")
@@ -27,6 +27,9 @@ try:
     irregular = simple.Show(simple.OutputPort(quads, 4), view)
     check((irregular.Representation, irregular.PointSize, irregular.RenderPointsAsSpheres) == ("Points", 12.0, 1),
           f"irregular vertices as {irregular.Representation} of size {irregular.PointSize}")
+    # ParaView takes what it picks for a cell of the first output.
+    check(irregular.Pickable == 0 and simple.GetDisplayProperties(quads, view).Pickable == 1,
+          "balls can be picked, or quads cannot")
     check(irregular.ColorArrayName[1] == "Valence", f"irregular vertices are coloured by {irregular.ColorArrayName}")
     colours = simple.GetColorTransferFunction("Valence")
     check(colours.InterpretValuesAsCategories == 1 and colours.Annotations[2:4] == ["3", "3"],

@@ -23,9 +23,14 @@ def start(program, *options):
     return server, f":{number}"
 
 
-def stop(server):
-    server.terminate()
-    server.wait(timeout=15)
+def stop(process):
+    """Ends the server, or another program of a test; by force where it does not end by itself."""
+    process.terminate()
+    try:
+        process.wait(timeout=15)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
 
 
 if __name__ == "__main__":

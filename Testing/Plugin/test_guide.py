@@ -4,6 +4,10 @@
 the project.
 
     test_guide.py GUIDE.md SOURCE_FOLDER BUILD_FOLDER PVPYTHON PYTHON WORK_FOLDER
+    test_guide.py GUIDE.md --list       the snippets in their order; runs none
+
+The pages are GUIDE.md and those of the folder Guide beside it, in the order in which GUIDE.md links to them; a page in
+that folder without a link is an error.
 
 What counts as a snippet, for who edits the guide:
 
@@ -15,16 +19,18 @@ What counts as a snippet, for who edits the guide:
 
 A line directly above the fence may say more, as a comment that readers do not see:
 
-    <!-- snippet: continues -->         begins where the Python snippet before it ended (its code is run first)
+    <!-- snippet: continues -->         begins where the Python snippet before it on its page ended (its code is run
+                                        first)
     <!-- snippet: with NAME -->         needs the file NAME, which is one of FILES below
+    <!-- snippet: without VTK -->       is of the Python package without VTK, that of the build's folder wheel
     <!-- snippet: prints an error -->   an error of VTK or ParaView is part of it, and has to come
     <!-- snippet: not run, REASON -->   only for `sh`: what changes the machine; each is listed with its reason in
                                         the test's output
 
 Several of them are separated by semicolons: <!-- snippet: continues; prints an error -->.
 
-A snippet fails where its exit code is not 0 or it prints an error of VTK or ParaView. All snippets share one folder, in
-the order of the guide, so that one can use the files that another has written.
+A snippet fails where its exit code is not 0 or it prints an error of VTK or ParaView. All snippets of all pages share
+one folder, in the order of the guide, so that one can use the files that another has written.
 """
 import os
 import re
@@ -44,9 +50,10 @@ class GuideError(Exception):
 class Snippet:
     def __init__(self, line, language, code, directives):
         self.line, self.language, self.code, self.directives = line, language, code, directives
+        self.page = ""
 
     def __str__(self):
-        return f"line {self.line} ({self.language})"
+        return f"{self.page}:{self.line} ({self.language})"
 
 
 def write_param_obj(path):
@@ -106,6 +113,30 @@ def read_snippets(text):
     return snippets
 
 
+def pages_of(guide):
+    """The guide and its pages, in the order of its links."""
+    folder = os.path.join(os.path.dirname(guide), "Guide")
+    with open(guide) as file:
+        linked = list(dict.fromkeys(re.findall(r"\]\(Guide/(\w+\.md)\)", file.read())))
+    there = {name for name in os.listdir(folder) if name.endswith(".md")}
+    if there != set(linked):
+        raise GuideError(f"pages and links differ: {', '.join(sorted(there.symmetric_difference(linked)))}")
+    return [guide] + [os.path.join(folder, name) for name in linked]
+
+
+def snippets_of(page):
+    name = os.path.basename(page)
+    with open(page) as file:
+        try:
+            snippets = [snippet for snippet in read_snippets(file.read()) if snippet.language != "text"]
+        except GuideError as error:
+            raise GuideError(f"{name}: {error}") from None
+    for snippet in snippets:
+        snippet.page = name
+    chain(snippets)
+    return snippets
+
+
 def chain(snippets):
     """Puts the code before a snippet that continues into it."""
     previous = None
@@ -141,6 +172,10 @@ def prepare(snippet, folder):
         elif reason and snippet.language == "sh":
             print(f"{snippet} is NOT RUN: {reason.group(1)}", flush=True)
             wanted = False
+        elif directive == "without VTK" and snippet.language == "python":
+            if not os.path.isdir(os.path.join(folder, "build", "wheel", "quadrille")):
+                print(f"{snippet} is NOT RUN: the build has no package without VTK (pybind11-dev)", flush=True)
+                wanted = False
         elif directive != "prints an error" and (directive != "continues" or snippet.language != "python"):
             raise GuideError(f"{snippet}: the directive {directive!r} is not known for this language")
     return wanted
@@ -159,18 +194,18 @@ def run(snippet, command, folder, environment):
 
 
 def main(guide, source, build, pvpython, python, folder):
-    with open(guide) as file:
-        snippets = [snippet for snippet in read_snippets(file.read()) if snippet.language != "text"]
-    chain(snippets)
+    snippets = [snippet for page in pages_of(guide) for snippet in snippets_of(page)]
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
     for name, target in (("build", build), ("Data", os.path.join(source, "Data")),
                          ("Scripts", os.path.join(source, "Scripts"))):
         os.symlink(target, os.path.join(folder, name))
-    environment = dict(os.environ, PYTHONPATH=os.path.join(build, "lib/python3/dist-packages"))
+    environment = dict(os.environ)
     results = []
     for number, snippet in enumerate(snippets):
         if prepare(snippet, folder):
+            package = "wheel" if "without VTK" in snippet.directives else "lib/python3/dist-packages"
+            environment["PYTHONPATH"] = os.path.join(build, package)
             results.append(run(snippet, command_for(snippet, number, folder, pvpython, python), folder, environment))
     if not results:
         raise GuideError("the guide has no snippet")
@@ -180,6 +215,10 @@ def main(guide, source, build, pvpython, python, folder):
 
 if __name__ == "__main__":
     try:
+        if sys.argv[2:] == ["--list"]:
+            print("\n".join(f"{snippet} {'; '.join(snippet.directives)}".rstrip()
+                            for page in pages_of(sys.argv[1]) for snippet in snippets_of(page)))
+            sys.exit(0)
         sys.exit(main(*sys.argv[1:]))
     except GuideError as error:
         sys.exit(f"FAILED: the guide: {error}")

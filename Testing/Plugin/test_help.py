@@ -55,6 +55,9 @@ for name in ("QuadrillePLYReader", "QuadrilleOFFReader", "QuadStroke", "QuadVale
     look("sources", name)
 for name in ("QuadInpWriter", "QuadMshWriter", "QuadMeditWriter", "QuadExodusWriter"):
     look("writers", name)
+ours = [name for name in pages if name.startswith(("filters.", "sources.", "writers."))]
+missing = [name for name in ours if f'href="{name}"' not in pages["index.html"]]
+check(len(ours) > 20 and not missing, f"the index has no link to {missing}")
 # The window takes the pages from the plugin itself.
 text = base64.b64encode(qch.read_bytes())
 check(text[:2000] in pathlib.Path(PLUGIN).read_bytes(), "the plugin does not hold the pages")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scripts/render.py makes a picture with quads, red and blue balls and lines: test_render.py RENDER_SCRIPT."""
+"""Scripts/figures/render.py makes a picture with quads, red and blue balls and lines: test_render.py RENDER_SCRIPT."""
 import os
 import runpy
 import sys

@@ -9,7 +9,8 @@ from paraview import servermanager, simple
 
 from plugin_common import DATA, PLUGIN, check, surface
 
-EXTENSIONS = {"inp": "QuadInpWriter", "msh": "QuadMshWriter", "mesh": "QuadMeditWriter", "exo": "QuadExodusWriter"}
+EXTENSIONS = {"inp": "QuadInpWriter", "msh": "QuadMshWriter", "mesh": "QuadMeditWriter",
+              "exodus": "QuadExodusWriter"}
 
 
 def written(name, source, **options):
@@ -61,7 +62,7 @@ def look():
 
     # Exodus with sets comes back by ParaView's own reader.
     part = QuadRemesh(Input=PartReader(), NumberOfQuads=1500)
-    path = written("part.exo", part)
+    path = written("part.exodus", part)
     again = simple.ExodusIIReader(FileName=[str(path)])
     again.UpdatePipeline()
     blocks = [str(name) for name in again.GetPropertyValue("ElementBlocks")]

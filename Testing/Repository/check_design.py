@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
 """What the documents name is there: files of Core (`Hierarchy/StarCache`, without ending, or with one), names of the
-sources in code spans of the design (`quadsOfBlock`, `Mesh::sizing`), and what links lead to, headings included. Pages
-that comments and documents name (Documentation/Design/Map.md) are there as well.
+sources in code spans of the design (`quadsOfBlock`, `Mesh::sizing`). Pages that comments and documents name
+(Documentation/Design/Map.md) are there as well; links are a matter of check_links.py.
 
   check_design.py SOURCE_DIR
 """
@@ -15,7 +15,6 @@ from check_sources import repositoryFiles
 
 ENDINGS = (".h", ".cpp")
 SOURCES = {".h", ".cpp", ".cxx", ".py", ".xml", ".cmake", ".txt", ".sh"}
-LINK = re.compile(r"\]\(([^)#\s]*)(?:#([^)\s]+))?\)")
 PAGE = re.compile(r"\bDocumentation/[\w/]+\.(?:md|bib)\b")
 SPAN = re.compile(r"`([A-Za-z_]\w*(?:::\w+)*)(?:\(\))?`")
 LIBRARY = re.compile(r"(?:std|tbb)::|vtkSMPTools$")
@@ -40,29 +39,6 @@ def spans(text):
     return sorted({match.split("::")[-1] for match in SPAN.findall(FENCE.sub("", text)) if not LIBRARY.match(match)})
 
 
-def anchor(heading):
-    """What GitHub makes of a heading."""
-    return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
-
-
-def anchors(text):
-    return {anchor(line.lstrip("#")) for line in FENCE.sub("", text).splitlines() if re.match(r"#+ ", line)}
-
-
-def linkProblems(page, text):
-    """Links within the repository that lead nowhere; page is a path."""
-    result = []
-    for target, heading in LINK.findall(FENCE.sub("", text)):
-        if re.match(r"\w+:", target):
-            continue
-        goal = (page.parent / target).resolve() if target else page
-        if not goal.exists():
-            result.append(f"link to {target}, which is not there")
-        elif heading and goal.suffix == ".md" and heading not in anchors(goal.read_text()):
-            result.append(f"link to {target}#{heading}: no such heading")
-    return result
-
-
 def selftest(root):
     folders = modules(root)
     assert names("`Mesh/Mesh`, `Core/Mesh/Mesh.h` and Some/Thing", folders) == ["Mesh/Mesh", "Mesh/Mesh.h"]
@@ -70,10 +46,6 @@ def selftest(root):
     assert exists(root / "Core", "Mesh/Mesh") and exists(root / "Core", "Mesh/Mesh.h")
     assert not exists(root / "Core", "Mesh/Mesh.cxx") and not exists(root / "Core", "Mesh/NoSuchFile")
     assert spans("`poll()` of `Some::thing`, `std::sort`, `a b`, `x.h`\n```\n`no`\n```\n") == ["poll", "thing"]
-    assert anchors("# A b, c\n```\n# no\n```\n## [D] e-f\n") == {"a-b-c", "d-e-f"}
-    page = root / "README.md"
-    assert not linkProblems(page, "[a](README.md) [b](https://example.org/x)")
-    assert len(linkProblems(page, "[a](NoSuchFile.md) [b](README.md#no-such-heading)")) == 2
 
 
 def main():
@@ -88,8 +60,6 @@ def main():
         page = path.relative_to(root)
         pages = sorted(set(PAGE.findall(text)))
         problems += [f"{page}: no {goal} here" for goal in pages if not (root / goal).is_file()]
-        if path.suffix == ".md":
-            problems += [f"{page}: {line}" for line in linkProblems(path, text)]
         if path in design:
             found = names(text, modules(root))
             named |= set(found)

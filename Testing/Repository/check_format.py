@@ -65,7 +65,7 @@ def main():
     root, program = pathlib.Path(sys.argv[1]), sys.argv[2]
     if versionOf(program) != VERSION:
         sys.exit(f"format: no clang-format {VERSION} here, the version of Debian 12, but {program}. Install the "
-                 "package clang-format (Scripts/install-dependencies.sh does), then run "
+                 "package clang-format (Scripts/build/install-dependencies.sh does), then run "
                  "cmake -U QUADRILLE_CLANG_FORMAT on the build folder")
     selftest(program, (root / ".clang-format").read_text())
     files = sorted(p for p in repositoryFiles(root) if p.suffix in ENDINGS)

@@ -35,8 +35,9 @@ def repositoryFiles(root):
         return [root / n for n in names if (root / n).is_file()]
     found = []
     for folder, folders, files in os.walk(root):
-        folders[:] = sorted(f for f in folders
-                            if not f.startswith(("build", "__pycache__")) and f not in (".git", "out"))
+        isTop = pathlib.Path(folder) == root
+        folders[:] = sorted(f for f in folders if not (isTop and f.startswith("build"))
+                            and not f.startswith("__pycache__") and f not in (".git", "out"))
         found += [pathlib.Path(folder) / f for f in sorted(files)]
     return found
 

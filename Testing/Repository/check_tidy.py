@@ -68,8 +68,9 @@ def main():
     arguments = arguments[:arguments.index("--only")] if only else arguments
     root, program, work = pathlib.Path(arguments[0]), arguments[1], pathlib.Path(arguments[2])
     if program.endswith("-NOTFOUND"):
-        sys.exit("tidy: no clang-tidy here. Install the package clang-tidy (Scripts/install-dependencies.sh does), "
-                 "then run cmake -U QUADRILLE_CLANG_TIDY on the build folder")
+        sys.exit("tidy: no clang-tidy here. Install the package clang-tidy "
+                 "(Scripts/build/install-dependencies.sh does), then run "
+                 "cmake -U QUADRILLE_CLANG_TIDY on the build folder")
     style = (root / ".clang-tidy").read_text()
     selftest(program, style)
     work.mkdir(parents=True, exist_ok=True)

@@ -144,10 +144,10 @@ TEST(CrossField, FacesWithCornersInOnePlaceKeepTurnsAndMatchingsTogether)
   {
     for (Mesh mesh : { sphere(1), torus(8, 6), twoComponents() })
     {
-      mesh.position[mesh.target(0)] = mesh.position[mesh.origin[0]];
+      mesh.position.edit()[mesh.target(0)] = mesh.position[mesh.origin[0]];
       if (wholeFace)
       {
-        mesh.position[mesh.origin[2]] = mesh.position[mesh.origin[0]];
+        mesh.position.edit()[mesh.origin[2]] = mesh.position[mesh.origin[0]];
       }
       expectValid(mesh, fieldOf(mesh));
     }
@@ -235,7 +235,7 @@ TEST(CrossField, TorusFollowsItsPrincipalDirections)
 Mesh zigzagPlane(int cells, double amplitude)
 {
   Mesh mesh = gridPlane(cells, cells);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     const double sign = static_cast<int>(p.x() + p.y()) % 2 == 0 ? 1.0 : -1.0;
     const bool onX = p.x() == 0 || p.x() == cells;
@@ -262,8 +262,8 @@ TEST(CrossField, ClosedInTriangleIsInfeasible)
   Mesh mesh = unitCube(2);
   for (Index h = 0; h < 3; ++h)
   {
-    mesh.flags[h] |= kFeatureEdge;
-    mesh.flags[mesh.twin[h]] |= kFeatureEdge;
+    mesh.flags.edit()[h] |= kFeatureEdge;
+    mesh.flags.edit()[mesh.twin[h]] |= kFeatureEdge;
   }
   const CrossField field = fieldOf(mesh);
   EXPECT_EQ(field.status.code, StatusCode::Infeasible);
@@ -284,7 +284,7 @@ TEST(CrossField, TriangleWithTwoConstrainedEdgesCarriesOneQuarterTurn)
 Mesh dentedEllipsoid()
 {
   Mesh mesh = sphere(3);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     const double dent = 1 + 0.1 * std::sin(3 * p.x() + 1) * std::cos(4 * p.y()) + 0.05 * p.z();
     p = dent * Vector3(1.7 * p.x(), 1.2 * p.y(), p.z());
@@ -297,7 +297,8 @@ Mesh shuffled(const Mesh& mesh)
 {
   const Index last = mesh.vertexCount() - 1;
   const Eigen::AngleAxisd turn(0.7, Vector3(1, 2, 3).normalized());
-  std::vector<Vector3> points(mesh.position.rbegin(), mesh.position.rend());
+  std::vector<Vector3> points(mesh.position.begin(), mesh.position.end());
+  std::reverse(points.begin(), points.end());
   for (Vector3& p : points)
   {
     p = turn * p;
@@ -318,7 +319,7 @@ TEST(CrossField, TurnsDoNotDependOnOrderOrPosition)
   const Mesh bumpyPlate = []
   {
     Mesh mesh = plateL(6);
-    for (Vector3& p : mesh.position)
+    for (Vector3& p : mesh.position.editAll())
     {
       p.z() = 0.8 * std::sin(0.7 * p.x()) * std::cos(0.9 * p.y());
     }

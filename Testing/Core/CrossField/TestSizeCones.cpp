@@ -128,12 +128,12 @@ TEST(SizeCones, TinyComponentsAndDegenerateTrianglesHaveAFactorToo)
 {
   Mesh mesh = gridPlane(12, 12);
   Mesh speck = gridPlane(3, 3);
-  for (Vector3& p : speck.position)
+  for (Vector3& p : speck.position.editAll())
   {
     p *= 1e-7;
   }
-  speck.position[5] = 0.5 * (speck.position[4] + speck.position[6]);
-  speck.position[9] = speck.position[5];
+  speck.position.edit()[5] = 0.5 * (speck.position[4] + speck.position[6]);
+  speck.position.edit()[9] = speck.position[5];
   for (int i = 0; i < 5; ++i)
   {
     mesh = disjointUnion(mesh, speck, Vector3(20 + i, 0, 0));

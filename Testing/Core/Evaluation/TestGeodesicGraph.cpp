@@ -43,7 +43,7 @@ TEST(GeodesicGraph, IsStraightInThePlane)
     {
       std::mt19937 random(4);
       std::uniform_real_distribution<double> jitter(-0.2, 0.2);
-      for (Vector3& p : mesh.position)
+      for (Vector3& p : mesh.position.editAll())
       {
         const bool onSide = p.x() == 0 || p.x() == 24 || p.y() == 0 || p.y() == 18;
         p += onSide ? Vector3(0, 0, 0) : Vector3(jitter(random), jitter(random), 0);

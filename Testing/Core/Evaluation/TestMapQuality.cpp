@@ -65,7 +65,7 @@ TEST(MapQuality, DoesNotSeeQuarterTurnsNorWhereTheSurfaceLies)
   Mesh mesh = test::gridPlane(3, 3);
   const std::vector<FixedVec2> uv = mappedBy(mesh, matrix(0, -1, 1, 0));
   const double angle = 0.7;
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p = Vector3(std::cos(angle) * p.x(), p.y(), std::sin(angle) * p.x()) + Vector3(5, -3, 2);
   }

@@ -3,7 +3,7 @@
 #include "Evaluation/QuadQuality.h"
 
 #include "Base/Error.h"
-#include "Extraction/QuadShape.h"
+#include "Quads/QuadShape.h"
 
 #include <gtest/gtest.h>
 

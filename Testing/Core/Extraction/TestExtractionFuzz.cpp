@@ -130,10 +130,10 @@ void breakMap(GridMapCase& c, Random& random)
         }
         break;
       case 2:
-        c.mesh.flags[h] = kFeatureEdge;
+        c.mesh.flags.edit()[h] = kFeatureEdge;
         if (!c.mesh.isBoundary(h))
         {
-          c.mesh.flags[c.mesh.twin[h]] = kFeatureEdge;
+          c.mesh.flags.edit()[c.mesh.twin[h]] = kFeatureEdge;
         }
         break;
       default:

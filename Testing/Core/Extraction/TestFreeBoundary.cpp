@@ -165,7 +165,7 @@ void putOnImages(GridMapCase& c)
   for (Index h = 0; h < c.mesh.halfEdgeCount(); ++h)
   {
     const Vector2 p = toDouble(c.uv[h]);
-    c.mesh.position[c.mesh.origin[h]] = Vector3(p.x(), p.y(), 0);
+    c.mesh.position.edit()[c.mesh.origin[h]] = Vector3(p.x(), p.y(), 0);
   }
 }
 
@@ -404,7 +404,7 @@ GridMapCase partOf(const GridMapCase& whole, const std::vector<std::uint8_t>& ke
       Index g = id[h];
       do
       {
-        part.mesh.origin[g] = v;
+        part.mesh.origin.edit()[g] = v;
         g = left ? part.mesh.rotateCounterclockwise(g) : part.mesh.rotateClockwise(g);
       } while (g != kInvalidIndex && part.mesh.origin[g] != v);
     }
@@ -787,7 +787,7 @@ TEST(FreeBoundary, SmoothingLeavesTheFreeBoundary)
 {
   Random random(79);
   GridMapCase c = planeCase("", gridPlane(12, 12), turned(kOne / 4, { kOne / 3, kOne / 5 }));
-  for (Vector3& p : c.mesh.position)
+  for (Vector3& p : c.mesh.position.editAll())
   {
     p += 0.35 * Vector3(std::sin(1.7 * p.y()), std::sin(2.1 * p.x()), 0);
   }
@@ -822,7 +822,7 @@ TEST(FreeBoundary, EndsOfFeaturesAreReported)
       if ((c.mesh.position[c.mesh.origin[h]] == a && c.mesh.position[c.mesh.target(h)] == b) ||
         (c.mesh.position[c.mesh.origin[h]] == b && c.mesh.position[c.mesh.target(h)] == a))
       {
-        c.mesh.flags[h] |= kFeatureEdge;
+        c.mesh.flags.edit()[h] |= kFeatureEdge;
       }
     }
   };
@@ -862,7 +862,7 @@ TEST(FreeBoundary, PolygonsKeepFeaturesToTheBoundary)
   {
     if (c.mesh.position[c.mesh.origin[h]].y() == 2 && c.mesh.position[c.mesh.target(h)].y() == 2)
     {
-      c.mesh.flags[h] |= kFeatureEdge;
+      c.mesh.flags.edit()[h] |= kFeatureEdge;
     }
   }
   putOnImages(c);

@@ -4,7 +4,7 @@
 
 #include "Extraction/Extraction.h"
 #include "Extraction/HoleFilling.h"
-#include "Extraction/QuadTopology.h"
+#include "Quads/QuadTopology.h"
 
 #include <gtest/gtest.h>
 

@@ -108,7 +108,7 @@ TEST(QuadCoverage, NothingFromBeyondAFeatureCounts)
   const QuadMesh quads = quadsOf(c);
   for (Index h = 0; h < c.mesh.halfEdgeCount(); ++h) // all diagonals
   {
-    c.mesh.flags[h] |= h % 6 == 2 || h % 6 == 3 ? kFeatureEdge : 0;
+    c.mesh.flags.edit()[h] |= h % 6 == 2 || h % 6 == 3 ? kFeatureEdge : 0;
   }
   const QuadCoverage coverage = coverQuads(c.mesh, c.uv, quads, 1);
   for (std::size_t q = 0; q < quads.quads.size(); ++q)

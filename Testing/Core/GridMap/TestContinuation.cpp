@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/Continuation.h"
-#include "GridMap/Quantize.h"
+#include "Integers/Quantize.h"
 #include "SyntheticMaps.h"
 
 #include <gtest/gtest.h>

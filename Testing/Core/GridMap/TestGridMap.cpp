@@ -25,7 +25,7 @@ namespace
 Mesh shearedCube(int n, double shear = 0.2)
 {
   Mesh mesh = test::unitCube(n);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p.x() += shear * (p.y() + 0.5 * std::sin(5 * p.z()));
   }
@@ -121,7 +121,7 @@ TEST(GridMap, ManyComponentsCostTheirSum)
 TEST(GridMap, ComponentsGetQuadsByTheirArea)
 {
   Mesh big = shearedCube(8);
-  for (Vector3& p : big.position)
+  for (Vector3& p : big.position.editAll())
   {
     p *= 4;
   }

@@ -25,7 +25,7 @@ constexpr double kLength = 0.25;
 Mesh slantedCube(int n)
 {
   Mesh mesh = test::unitCube(n);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p.x() += 0.4 * (p.y() + 0.5 * std::sin(5 * p.z()));
   }
@@ -36,7 +36,7 @@ Mesh slantedCube(int n)
 Mesh wavyTorus()
 {
   Mesh mesh = test::torus(40, 20);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p += 0.12 * Vector3(std::sin(4 * p.z()), std::sin(3 * p.x()), std::cos(4 * p.y()));
   }
@@ -110,7 +110,7 @@ Mesh flipped(Mesh mesh, Index h)
   const std::array<Index, 4> v = { mesh.origin[h], mesh.target(h), mesh.origin[Mesh::previous(h)],
     mesh.origin[Mesh::previous(g)] };
   const auto set = [&](Index f, const std::array<Index, 3>& corners)
-  { std::copy(corners.begin(), corners.end(), mesh.origin.begin() + 3 * f); };
+  { std::copy(corners.begin(), corners.end(), mesh.origin.edit() + 3 * f); };
   set(Mesh::face(h), { v[0], v[3], v[2] });
   set(Mesh::face(g), { v[1], v[2], v[3] });
   mesh.twin = pairHalfEdges(mesh.origin, mesh.vertexCount());
@@ -191,7 +191,7 @@ TEST(PreviousMap, OtherTurnsOrEdgesAreNoMap)
   EXPECT_FALSE(some.isMap);
   EXPECT_EQ(some.knownFaces, mesh.faceCount() - 2);
   Mesh moved = mesh;
-  moved.position[0].x() += 1e-9;
+  moved.position.edit()[0].x() += 1e-9;
   EXPECT_LT(carrier.carry(moved, map.field, ownIds(mesh)).knownFaces, mesh.faceCount());
 }
 

@@ -30,7 +30,7 @@ struct ShakenPlane
     std::mt19937 random(5);
     std::uniform_real_distribution<double> value(-size, size);
     std::vector<FixedVec2> image;
-    for (Vector3& p : mesh.position)
+    for (Vector3& p : mesh.position.editAll())
     {
       const bool sideU = p.x() == 0 || p.x() == n, sideV = p.y() == 0 || p.y() == n;
       image.push_back(
@@ -149,7 +149,7 @@ TEST(RelaxMap, LeavesWhatIsNotPositiveAlone)
 TEST(RelaxMap, KeepsIsolinesAndIntegers)
 {
   ShakenPlane plane(9, 0);
-  for (Vector3& p : plane.mesh.position)
+  for (Vector3& p : plane.mesh.position.editAll())
   {
     p.z() = 3 * std::exp(-(p - Vector3(3, 4, 0)).squaredNorm() / 4);
   }

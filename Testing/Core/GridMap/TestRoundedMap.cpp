@@ -107,7 +107,7 @@ TEST(RoundedMap, OnlyWhatMustBeWholeIsPinned)
 {
   // The corner that lies at the origin is one of an integer vertex, where there is any.
   Mesh mesh = test::sphere(3);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p.x() *= 1.3 + 0.2 * p.y() + 0.1 * p.z();
   }

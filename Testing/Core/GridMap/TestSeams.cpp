@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Maps in which two parts of the boundary are equally long.
 #include "GridMap/GridMap.h"
+#include "Requests/SeamRequests.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +22,7 @@ Mesh unevenL(double width)
 {
   const int n = 6;
   Mesh mesh = plateL(n);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p /= n;
     p.y() *= width;

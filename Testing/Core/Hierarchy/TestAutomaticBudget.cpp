@@ -26,7 +26,7 @@ HierarchyOptions automaticOptions(double edgeLength, Index coarseVertices)
 Mesh wavySphere(int level, double height)
 {
   Mesh mesh = sphere(level);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p *= 1 + height * std::sin(7 * p.x()) * std::cos(6 * p.y() + p.z());
   }
@@ -77,7 +77,7 @@ TEST(AutomaticBudget, DoesNotDependOnTheUnit)
   // A power of two changes no digit of any number.
   Mesh mesh = wavySphere(4, 0.1);
   const DecimationLog log = buildHierarchy(mesh, 1, automaticOptions(0.12, 0)).log;
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p *= 1024;
   }
@@ -105,7 +105,7 @@ TEST(AutomaticBudget, StaysInsideItsLimits)
   // Noise as large as the edges moves too far with the first vertex, but is not all kept.
   Mesh noise = sphere(6);
   std::uint32_t random = 1;
-  for (Vector3& p : noise.position)
+  for (Vector3& p : noise.position.editAll())
   {
     random = random * 1664525U + 1013904223U;
     p *= 1 + 0.01 * (static_cast<double>(random) / 4294967296.0);

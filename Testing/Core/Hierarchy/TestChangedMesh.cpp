@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// Levels that are taken along when places of their finest mesh are changed.
+#include "Details/CloseHandles.h"
+#include "Details/FillHoles.h"
+#include "Details/Handles.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Hierarchy/VertexRestoration.h"
-#include "Mesh/CloseHandles.h"
-#include "Mesh/FillHoles.h"
-#include "Mesh/Handles.h"
 #include "Mesh/Topology.h"
 #include "MeshInput.h"
+#include "Prepare/Prepare.h"
+#include "Prepare/Refine.h"
 #include "TestHandleMeshes.h"
 #include "TestMeshes.h"
 

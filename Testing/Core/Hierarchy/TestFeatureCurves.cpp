@@ -25,8 +25,8 @@ void markWay(Mesh& mesh, const Vector3& a, const Vector3& b)
     { return (x - a).norm() + (b - x).norm() <= (b - a).norm() + 1e-9; };
     if (!mesh.isBoundary(h) && between(p) && between(q))
     {
-      mesh.flags[h] |= kFeatureEdge;
-      mesh.flags[mesh.twin[h]] |= kFeatureEdge;
+      mesh.flags.edit()[h] |= kFeatureEdge;
+      mesh.flags.edit()[mesh.twin[h]] |= kFeatureEdge;
     }
   }
 }

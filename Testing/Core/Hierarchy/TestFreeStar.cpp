@@ -20,7 +20,7 @@ Mesh roughSphere(int level, double amplitude)
 {
   Mesh mesh = sphere(level);
   std::uint32_t state = 12345;
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -125,7 +125,7 @@ TEST(FreeStar, LeavesSliversToVertexRemoval)
   DecimationMesh before = decimationMesh(mesh);
   const Index a = before.target(before.outgoing[v]);
   const Index b = before.target(before.twin[Mesh::previous(before.outgoing[v])]);
-  mesh.position[v] =
+  mesh.position.edit()[v] =
     0.5 * (mesh.position[a] + mesh.position[b]); // the face v a b has no height left
   DecimationMesh flat = decimationMesh(mesh);
   FreeStar star(flat, RemovalGuards());

@@ -31,7 +31,7 @@ HierarchyOptions makeOptions(double edgeLength, Index coarseVertices, int thread
 Mesh bumpySphere(int level)
 {
   Mesh mesh = sphere(level);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p *= 1 + 0.15 * std::sin(4 * p.x()) * std::cos(3 * p.y());
   }
@@ -284,7 +284,7 @@ TEST(Hierarchy, BoundaryLoopsKeepFourEdges)
   // A hole that is tiny against s: everything about it wants to collapse.
   const Mesh mesh = plateWithHole(4);
   Mesh warped = mesh;
-  for (Vector3& p : warped.position)
+  for (Vector3& p : warped.position.editAll())
   {
     const Vector3 d = p - Vector3(6, 6, 0);
     const double r = d.head<2>().norm();
@@ -314,7 +314,7 @@ TEST(Hierarchy, EndsAndJunctionsOfFeaturesStay)
     const Vector3& b = mesh.position[mesh.target(h)];
     if ((isOnLine(a) && isOnLine(b)) || (isOnBranch(a) && isOnBranch(b)))
     {
-      mesh.flags[h] |= kFeatureEdge;
+      mesh.flags.edit()[h] |= kFeatureEdge;
     }
   }
   const Mesh coarse = buildHierarchy(mesh, 1, makeOptions(20, 20)).coarse.mesh;
@@ -488,7 +488,7 @@ TEST(Hierarchy, RedecimationKnowsTheCostsThatItHadBefore)
 TEST(Hierarchy, LaterCeilingsKnowThePlansOfEarlierOnes)
 {
   Mesh mesh = test::sphere(5);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p *= 1 + 0.04 * std::sin(91 * p.x()) * std::sin(87 * p.y()) * std::sin(95 * p.z());
   }
@@ -511,7 +511,7 @@ TEST(Hierarchy, EveryComponentKeepsItsShare)
   // One large sphere and thirty that are smaller than s.
   Mesh mesh = bumpySphere(4);
   Mesh small = sphere(2);
-  for (Vector3& p : small.position)
+  for (Vector3& p : small.position.editAll())
   {
     p *= 0.05;
   }

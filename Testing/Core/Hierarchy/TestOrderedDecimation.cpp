@@ -31,7 +31,7 @@ HierarchyOptions orderOptions(double edgeLength, DecimationOrder order)
 Mesh unevenSphere(int level)
 {
   Mesh mesh = sphere(level);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p *= 1 + 0.15 * std::sin(4 * p.x()) * std::cos(3 * p.y() + p.z());
   }

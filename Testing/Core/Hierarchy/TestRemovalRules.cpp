@@ -44,7 +44,7 @@ Mesh markEdges(Mesh mesh, const Condition& on)
   {
     if (on(mesh.position[mesh.origin[h]]) && on(mesh.position[mesh.target(h)]))
     {
-      mesh.flags[h] |= kFeatureEdge;
+      mesh.flags.edit()[h] |= kFeatureEdge;
     }
   }
   return mesh;
@@ -120,7 +120,7 @@ TEST(RemovalRules, ARemovedVertexDividesItsCurveAsItsEdgesWere)
   Mesh mesh = gridPlane(8, 8);
   mesh = markEdges(std::move(mesh), [](const Vector3& p) { return p.y() == 4; });
   const Index v = vertexAt(mesh, Vector3(4, 4, 0));
-  mesh.position[v].x() = 4.5;
+  mesh.position.edit()[v].x() = 4.5;
   DecimationMesh work(mesh, traceFeatureCurves(mesh, 0.01));
   VertexRemoval removal(work);
   ASSERT_TRUE(removal.gather(v));
@@ -200,7 +200,7 @@ TEST(RemovalRules, DeviationsOfACurveAddUp)
 {
   // Each vertex of a feature may go by itself, but one that took another's deviation over may not.
   Mesh mesh = gridPlane(10, 10);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p.z() = p.y() == 5 ? 0.02 * std::pow(p.x() - 5, 2) : 0;
   }
@@ -228,7 +228,10 @@ TEST(RemovalRules, AStarThatMeetsAVertexTwiceStays)
   DecimationMesh apart(mesh, traceFeatureCurves(mesh, 0.01));
   ASSERT_TRUE(canGo(apart, 6, looseGuards()));
   ASSERT_EQ(planFast(apart, 6, looseGuards()), FreeStar::Outcome::Planned);
-  std::replace(mesh.origin.begin(), mesh.origin.end(), Index{ 3 }, Index{ 0 });
+  for (Index& v : mesh.origin.editAll())
+  {
+    v = v == 3 ? 0 : v;
+  }
   DecimationMesh joined(mesh, traceFeatureCurves(mesh, 0.01));
   EXPECT_FALSE(canGo(joined, 6, looseGuards()));
   EXPECT_EQ(planFast(joined, 6, looseGuards()), FreeStar::Outcome::Unsuited);
@@ -241,7 +244,7 @@ TEST(RemovalRules, ACurveIsStraightInThePlanarMap)
   Mesh mesh = markEdges(gridPlane(8, 8),
     [](const Vector3& p) { return (p.y() == 4 && p.x() >= 4) || (p.x() == 4 && p.y() >= 4); });
   const Index v = vertexAt(mesh, Vector3(4, 4, 0));
-  mesh.position[vertexAt(mesh, Vector3(5, 5, 0))] = Vector3(4.4, 4.4, 0);
+  mesh.position.edit()[vertexAt(mesh, Vector3(5, 5, 0))] = Vector3(4.4, 4.4, 0);
   DecimationMesh work(mesh, traceFeatureCurves(mesh, 0.01));
   work.curves.kind[v] = VertexKind::Curve; // as if it were no corner
   EXPECT_TRUE(canGo(work, v, looseGuards()));

@@ -23,7 +23,7 @@ using test::unitCube;
 Mesh dentedBall(int subdivisions)
 {
   Mesh mesh = test::sphere(subdivisions);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p *= 1 + 0.05 * std::sin(7 * p.x()) * std::sin(5 * p.y() + p.z());
   }
@@ -239,6 +239,7 @@ TEST(VertexRestoration, SmallerSizesBringVerticesBack)
       sizes[v] = isNear(mesh.position[v], 1) ? 0.4F : 1.0F;
     }
     mesh.sizing = sizes;
+    levels.setSizes(mesh.sizing);
     ASSERT_TRUE(isLocalChange(mesh, {}, 0));
     const Hierarchy& finer = levels.update(options);
     const auto countNear = [&](const Level& level)
@@ -255,6 +256,7 @@ TEST(VertexRestoration, SmallerSizesBringVerticesBack)
     }
     EXPECT_NO_THROW(DecimationLog::deserialize(finer.log.serialize(), 5));
     mesh.sizing.clear();
+    levels.setSizes(mesh.sizing);
     EXPECT_EQ(levels.update(options).log.serialize(), pure) << "and back again";
   }
 }

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/Sizing.h"
+#include "Prepare/Refine.h"
 
-#include "Mesh/FeatureFilter.h"
-#include "Mesh/Handles.h"
+#include "Details/Handles.h"
+#include "Features/FeatureFilter.h"
 #include "SurfaceInputs.h"
 #include "TestMeshes.h"
 
@@ -187,7 +188,7 @@ TEST(Sizing, FeaturesAreMeasuredInSizes)
       const Vector3& b = mesh.position[mesh.target(h)];
       if (a.y() == 6 && b.y() == 6 && std::min(a.x(), b.x()) >= 5 && std::max(a.x(), b.x()) <= 7)
       {
-        mesh.flags[h] |= kFeatureEdge;
+        mesh.flags.edit()[h] |= kFeatureEdge;
       }
     }
   };

@@ -97,9 +97,9 @@ TEST(SpaceFillingOrder, NeighboursInStorageAreNeighboursInSpace)
   const std::vector<Vector3> points = input.points;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    input.points[shuffled[i]] = points[i];
+    input.points.edit()[shuffled[i]] = points[i];
   }
-  for (Index& v : input.polygonPoints)
+  for (Index& v : input.polygonPoints.editAll())
   {
     v = shuffled[v];
   }

@@ -3,17 +3,17 @@
 // Every pass over a whole mesh looks out for a stop.
 #include "Base/Error.h"
 #include "Base/Progress.h"
-#include "Mesh/DuplicateFaces.h"
+#include "Features/FeatureFilter.h"
+#include "Features/Features.h"
 #include "Mesh/EdgeRuns.h"
-#include "Mesh/FeatureFilter.h"
-#include "Mesh/Features.h"
-#include "Mesh/Refine.h"
-#include "Mesh/Repair.h"
-#include "Mesh/Sheets.h"
 #include "Mesh/SpaceFillingOrder.h"
 #include "Mesh/Topology.h"
 #include "Mesh/Triangulate.h"
 #include "MeshInput.h"
+#include "Prepare/DuplicateFaces.h"
+#include "Prepare/Refine.h"
+#include "Prepare/Repair.h"
+#include "Prepare/Sheets.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>

@@ -171,13 +171,13 @@ TEST(Topology, ValidateFindsEachKindOfDamage)
     return validate(mesh);
   };
   EXPECT_EQ(validate(good), "");
-  EXPECT_NE(damaged([](Mesh& m) { m.twin[4] = 4; }), "");
-  EXPECT_NE(damaged([](Mesh& m) { m.twin[4] = kInvalidIndex; }), "");
-  EXPECT_NE(damaged([](Mesh& m) { m.flags[5] ^= kFeatureEdge; }), "");
+  EXPECT_NE(damaged([](Mesh& m) { m.twin.edit()[4] = 4; }), "");
+  EXPECT_NE(damaged([](Mesh& m) { m.twin.edit()[4] = kInvalidIndex; }), "");
+  EXPECT_NE(damaged([](Mesh& m) { m.flags.edit()[5] ^= kFeatureEdge; }), "");
   EXPECT_NE(damaged([](Mesh& m) { m.flags.pop_back(); }), "");
-  EXPECT_NE(damaged([](Mesh& m) { m.position[3].x() = NAN; }), "");
+  EXPECT_NE(damaged([](Mesh& m) { m.position.edit()[3].x() = NAN; }), "");
   EXPECT_NE(damaged([](Mesh& m) { m.position.emplace_back(0, 0, 0); }), "");
-  EXPECT_NE(damaged([](Mesh& m) { m.origin[0] = m.vertexCount(); }), "");
+  EXPECT_NE(damaged([](Mesh& m) { m.origin.edit()[0] = m.vertexCount(); }), "");
 }
 
 TEST(Topology, ValidateFindsABowTie)

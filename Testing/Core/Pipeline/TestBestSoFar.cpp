@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// What a stop keeps, and how a run ends by itself.
 #include "Pipeline/Pipeline.h"
-#include "Pipeline/Symmetry.h"
 #include "Pipeline/WorkBound.h"
+#include "Symmetry/Symmetry.h"
 
 #include "SphereWithoutRoom.h"
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 /// Connections and cycles from the input to the quads.
-#include "Extraction/QuadChains.h"
 #include "Pipeline/Pipeline.h"
+#include "Quads/QuadChains.h"
 
 #include "MeshInput.h"
 #include "TestMeshes.h"
@@ -46,7 +46,7 @@ std::vector<Index> irregularPoints(const QuadMesh& quads)
 Mesh bumpyEllipsoid()
 {
   Mesh mesh = sphere(5);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p *= 1 + 0.1 * std::sin(5 * p.x() + 1) * std::cos(4 * p.y()) + 0.06 * std::sin(6 * p.z() + 0.5);
     p.x() *= 1.5;

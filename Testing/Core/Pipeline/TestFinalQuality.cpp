@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/Pipeline.h"
+#include "Prepare/Prepare.h"
 
-#include "Extraction/QuadShape.h"
 #include "MeshInput.h"
 #include "PlyFile.h"
+#include "Quads/QuadShape.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -96,7 +97,7 @@ TEST(FinalQuality, LowersTheDistortionOfAnOpenSurface)
 {
   // A dented plate.
   Mesh mesh = test::gridPlane(40, 40);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p.z() = 6 * std::exp(-(p - Vector3(17, 23, 0)).squaredNorm() / 60);
   }

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// What a run tells of sharp edges that its quads do not follow.
 #include "Pipeline/Pipeline.h"
+#include "Prepare/Prepare.h"
 
 #include "Base/Angles.h"
-#include "Mesh/FeatureNetwork.h"
+#include "Features/FeatureNetwork.h"
 #include "MeshInput.h"
 #include "StaggeredTube.h"
 #include "TestMeshes.h"
@@ -24,7 +25,7 @@ Mesh groovedBlock(double scale)
 {
   Mesh mesh = test::voxelSurface({ 24, 16, 12 }, 1,
     [](int i, int j, int k) { return k < 11 || (i > 12 && j != 8) || (k == 11 && i == 4); });
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p *= scale;
   }

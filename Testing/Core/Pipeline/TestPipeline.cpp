@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Extraction/QuadShape.h"
 #include "Pipeline/Pipeline.h"
 #include "Pipeline/WorkBound.h"
+#include "Quads/QuadShape.h"
 
+#include "Features/FeatureFilter.h"
 #include "Isosurface.h"
-#include "Mesh/FeatureFilter.h"
 #include "Mesh/Topology.h"
 #include "MeshInput.h"
 #include "PlyFile.h"
@@ -323,7 +323,7 @@ Mesh sphereWithIslands(int count)
 {
   Mesh mesh = test::sphere(4);
   Mesh island = test::sphere(0);
-  for (Vector3& p : island.position)
+  for (Vector3& p : island.position.editAll())
   {
     p *= 0.01;
   }
@@ -415,7 +415,7 @@ TEST(Pipeline, QuadsRoundTheTipOfAConeAreNotInverted)
   }
   for (Index i = 1; i <= kSides; ++i)
   {
-    cone.polygonPoints.insert(cone.polygonPoints.end(), { 0, i, i % kSides + 1 });
+    cone.polygonPoints.append({ 0, i, i % kSides + 1 });
     cone.polygonOffsets.push_back(static_cast<Index>(cone.polygonPoints.size()));
   }
   RemeshOptions options;
@@ -436,7 +436,7 @@ SurfaceInput ridgeInRoughSheet()
   Mesh mesh = test::gridPlane(40, 24);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> noise(-0.3, 0.3);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     const double slope = std::clamp(std::min(p.x() - 8, 32 - p.x()) / 4, 0.0, 0.75);
     p.z() = -slope * std::abs(p.y() - 12) + (p.y() != 12 ? noise(random) : 0.0);
@@ -582,7 +582,7 @@ TEST(Pipeline, AutomaticCoarseLevel)
 {
   // Waves of a few quads need more than the least of vertices, and no given number of them.
   Mesh mesh = test::sphere(5);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p *= 1 + 0.08 * std::sin(7 * p.x()) * std::cos(6 * p.y());
   }
@@ -617,7 +617,7 @@ TEST(Pipeline, SameBytesForAnyNumberOfThreads)
 TEST(Pipeline, TheDistortionMetricIsMeasuredOnRequestOnly)
 {
   Mesh dented = test::sphere(5);
-  for (Vector3& p : dented.position)
+  for (Vector3& p : dented.position.editAll())
   {
     p *= 1 + 0.15 * std::sin(4 * p.x()) * std::cos(3 * p.y() + p.z());
   }
@@ -759,7 +759,7 @@ TEST(Pipeline, BadInputAndOptionsThrow)
   EXPECT_THROW(remesh(input, options), InvalidInput);
   options.anisotropyLimit = 0;
   options.method = MapMethod::ScaleAware;
-  input.points[7].x() = std::numeric_limits<double>::quiet_NaN();
+  input.points.edit()[7].x() = std::numeric_limits<double>::quiet_NaN();
   try
   {
     remesh(input, options);

@@ -3,8 +3,8 @@
 /// Quads of the intermediate level before those of the surface.
 #include "Pipeline/Pipeline.h"
 
-#include "Extraction/QuadTopology.h"
 #include "MeshInput.h"
+#include "Quads/QuadTopology.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>

@@ -3,6 +3,8 @@
 /// What each recovery strategy makes of hand-made attempts, and when it has nothing to offer.
 #include "Pipeline/FirstPlan.h"
 #include "Pipeline/Recovery.h"
+#include "Prepare/Prepare.h"
+#include "Requests/Guides.h"
 
 #include "HandMadeAttempts.h"
 #include "Mesh/Sizing.h"
@@ -82,7 +84,7 @@ void putTube(MapAttempt& map, const Vector3& place, int rows = 2)
 {
   constexpr int around = 8;
   Mesh tube = test::openCylinder(around, 4, kTubeRadius, kTubeRadius);
-  for (Vector3& p : tube.position)
+  for (Vector3& p : tube.position.editAll())
   {
     p += place;
   }
@@ -944,7 +946,7 @@ TEST(Recovery, TheLastResortLeavesFeaturesThatWereAskedFor)
   Mesh& mesh = const_cast<Mesh&>(run.mesh());
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
-    mesh.flags[h] |= mesh.isFeature(h) ? kRequestedFeature : 0;
+    mesh.flags.edit()[h] |= mesh.isFeature(h) ? kRequestedFeature : 0;
   }
   EXPECT_FALSE(run.nextAfter(run.first(), failedMap(), nullptr, true));
 }

@@ -126,7 +126,7 @@ TEST(Requests, CurvatureGuidesAQuarterOfAnEllipse)
 {
   // Half of an elliptic cylinder, cut askew at both ends: by its boundaries alone the quads would follow the cuts.
   Mesh mesh = gridPlane(60, 60);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     const double angle = kPi * p.x() / 60;
     p = Vector3(std::cos(angle), 0.7 * std::sin(angle), p.y() / 15 + 0.8 * std::cos(angle));

@@ -44,7 +44,7 @@ const Names kAll = with(kMapped, { "extract" });
 SurfaceInput dentedSphere()
 {
   Mesh mesh = test::sphere(5);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p *= 1 + 0.15 * std::sin(4 * p.x()) * std::cos(3 * p.y() + p.z());
   }
@@ -147,7 +147,7 @@ TEST(ResultStore, TheSameBytesFromTheStageThatIsAsked)
   expectCold(input, options, store, kPrepared);
   options.featureAngle = 0.5;
   expectCold(input, options, store, {});
-  input.points[7] *= 1.001;
+  input.points.edit()[7] *= 1.001;
   expectCold(input, options, store, {});
 }
 
@@ -201,7 +201,7 @@ TEST(ResultStore, RefinedSurfacesAndFeaturesAreRemembered)
 TEST(ResultStore, FeaturesThatOneSizeCannotResolveComeBackForAnother)
 {
   SurfaceInput input = dentedSphere();
-  input.points[topmost(input)] *= 1.08; // a spike with sharp edges
+  input.points.edit()[topmost(input)] *= 1.08; // a spike with sharp edges
   RemeshOptions options = optionsFor(300);
   ResultStore memory;
   const auto features = [](const RemeshResult& result)
@@ -266,7 +266,7 @@ TEST(ResultStore, WhatARetryFoundIsRememberedForTheNextEdit)
   // So deep in dents that the first map does not hold on the input and its offenders, which phase 1 has removed, come
   // back.
   Mesh mesh = test::sphere(5);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p *= 1 + 0.9 * std::sin(8 * p.x()) * std::cos(7 * p.y() + p.z());
   }
@@ -465,7 +465,7 @@ TEST(ResultStore, IsWholeAfterBadInput)
   expectSame(after, expected);
   EXPECT_EQ(sorted(after.reused), kAll);
   bad = input;
-  bad.points[3].y() = std::nan("");
+  bad.points.edit()[3].y() = std::nan("");
   EXPECT_THROW(remesh(bad, options, memory), InvalidInput);
   expectSame(remesh(input, options, memory), expected);
 }
@@ -483,7 +483,7 @@ TEST(ResultStore, KeepsToItsBoundAndLetsGoWhereThereIsNoRoom)
   // For one surface there is room, not for two.
   memory.setMaximumBytes(held * 11 / 10);
   SurfaceInput other = input;
-  other.points[0] *= 1.01;
+  other.points.edit()[0] *= 1.01;
   remesh(other, options, memory);
   EXPECT_LT(static_cast<double>(memory.bytes()), 1.2 * static_cast<double>(held));
   options.memoryLimit = first.estimate.bytes + 100 * triangles;

@@ -69,11 +69,11 @@ double diagonalOf(const std::vector<Vector3>& points)
 
 SurfaceInput moved(SurfaceInput input, const Move& move, bool reverse)
 {
-  std::transform(input.points.begin(), input.points.end(), input.points.begin(), move);
+  std::transform(input.points.begin(), input.points.end(), input.points.edit(), move);
   for (std::size_t p = 0; reverse && p + 1 < input.polygonOffsets.size(); ++p)
   {
-    std::reverse(input.polygonPoints.begin() + input.polygonOffsets[p],
-      input.polygonPoints.begin() + input.polygonOffsets[p + 1]);
+    std::reverse(input.polygonPoints.edit() + input.polygonOffsets[p],
+      input.polygonPoints.edit() + input.polygonOffsets[p + 1]);
   }
   return input;
 }

@@ -178,7 +178,7 @@ TEST(Sizing, StepsAreSmoothedAndTold)
 Mesh ellipsoid()
 {
   Mesh mesh = sphere(5);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p.x() *= 3;
   }
@@ -234,7 +234,7 @@ TEST(Sizing, TheChordErrorIsMetWhereAnEdgeLengthIsAskedFor)
 TEST(Sizing, ThinPartsGetAsManyQuadsAsAskedFor)
 {
   Mesh mesh = unitCube(12);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p = Vector3(2 * p.x(), p.y(), 0.15 * p.z());
   }

@@ -220,7 +220,7 @@ TEST(SmallDetails, SpecksAreLeftOutWhereTheirBlocksWouldSwampTheQuads)
 {
   Mesh mesh = test::sphere(4);
   Mesh speck = test::sphere(0);
-  for (Vector3& p : speck.position)
+  for (Vector3& p : speck.position.editAll())
   {
     p *= 0.01;
   }

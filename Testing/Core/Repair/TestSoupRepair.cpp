@@ -68,7 +68,7 @@ TEST(SoupRepair, MergesAndOrientsASoup)
   SurfaceInput input = exploded(toInput(cube));
   for (std::size_t t = 0; t < input.polygonPoints.size() / 3; t += 3)
   {
-    std::swap(input.polygonPoints[3 * t], input.polygonPoints[3 * t + 1]);
+    std::swap(input.polygonPoints.edit()[3 * t], input.polygonPoints.edit()[3 * t + 1]);
   }
   const RepairedSoup repaired = repairSoup(soupOf(input), {});
   EXPECT_EQ(repaired.surface.points.size(), cube.vertexCount());
@@ -147,7 +147,7 @@ TEST(SoupRepair, RemovesDegenerateAndDoubleFaces)
   const std::size_t faces = input.polygonPoints.size() / 3;
   const std::vector<Index> more = { 0, 0, 1, input.polygonPoints[1], input.polygonPoints[0],
     input.polygonPoints[2] };
-  input.polygonPoints.insert(input.polygonPoints.end(), more.begin(), more.end());
+  input.polygonPoints.append(more.begin(), more.end());
   input.polygonOffsets.push_back(input.polygonOffsets.back() + 3);
   input.polygonOffsets.push_back(input.polygonOffsets.back() + 3);
   input.points.emplace_back(5, 5, 5);
@@ -164,10 +164,10 @@ TEST(SoupRepair, FacesThatStandAloneAreHopeless)
   for (int i = 0; i < 8; ++i)
   {
     const double x = 2 * i;
-    input.points.insert(input.points.end(), { { x, 0, 0 }, { x + 1, 0, 0 }, { x, 1, 0 } });
+    input.points.append({ { x, 0, 0 }, { x + 1, 0, 0 }, { x, 1, 0 } });
   }
   input.polygonPoints.resize(24);
-  std::iota(input.polygonPoints.begin(), input.polygonPoints.end(), 0);
+  std::iota(input.polygonPoints.edit(), input.polygonPoints.edit() + 24, 0);
   input.polygonOffsets = { 0, 3, 6, 9, 12, 15, 18, 21, 24 };
   const SoupReport eight = repairSoup(soupOf(input), {}).report;
   EXPECT_EQ(eight.components, 8u);
@@ -178,7 +178,7 @@ TEST(SoupRepair, FacesThatStandAloneAreHopeless)
   {
     const double angle = kPi / 8 * static_cast<double>(i / 3);
     const double side = i % 3 == 0 ? -1 : 1;
-    input.points[i] = i % 3 == 2
+    input.points.edit()[i] = i % 3 == 2
       ? Vector3(0, 0, 1 + static_cast<double>(i))
       : Vector3(side * std::cos(angle), side * std::sin(angle), -0.1 * static_cast<double>(i));
   }

@@ -137,7 +137,7 @@ TEST(SurfaceWrap, RefusesWhatCannotBe)
   EXPECT_THROW(soupOf(input), InvalidInput);
   input.points.assign(3, Vector3::Zero());
   EXPECT_THROW(wrapSurface(soupOf(input), {}), InvalidInput);
-  input.points[1].x() = std::numeric_limits<double>::quiet_NaN();
+  input.points.edit()[1].x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(soupOf(input), InvalidInput);
 }
 

@@ -24,7 +24,7 @@ namespace quadrille::test
 inline SurfaceInput dents()
 {
   Mesh mesh = sphere(4);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p *= 1 + 0.15 * std::sin(4 * p.x()) * std::cos(3 * p.y() + p.z());
   }

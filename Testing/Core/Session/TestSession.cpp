@@ -4,7 +4,9 @@
 #include "SessionHelpers.h"
 #include "SphereWithoutRoom.h"
 
-#include "Extraction/QuadChains.h"
+#include "Quads/QuadChains.h"
+
+#include <algorithm>
 
 namespace quadrille
 {
@@ -104,6 +106,23 @@ TEST(Session, ValencesComeOutAndAreTold)
   EXPECT_EQ(report.constraints[0].kind, "valence");
   EXPECT_EQ(quadValenceAt(session.result()->quads, place), 5);
   EXPECT_EQ(valencesOf(*session.result())[100], 5);
+}
+
+TEST(Session, PointsOffTheSurfaceAreToldWithTheirPlace)
+{
+  Session session(dents(), sessionOptions(400));
+  const Vector3 place = session.surface().points[100];
+  session.add(ValenceAt{ 1.7 * place, 5 }); // farther from the middle
+  const SessionReport& report = session.update();
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  const ConstraintReport& word = report.constraints[0];
+  EXPECT_TRUE(word.isOffSurface);
+  EXPECT_NE(word.reason.find("off the surface"), std::string::npos) << word.reason;
+  EXPECT_EQ(
+    std::count(report.notices.begin(), report.notices.end(), word.text + ": " + word.reason), 1);
+  session.remove(1);
+  session.add(ValenceAt{ place, 5 });
+  EXPECT_FALSE(session.update().constraints[0].isOffSurface);
 }
 
 TEST(Session, TheLaterOfTwoThatContradictIsLeftOut)

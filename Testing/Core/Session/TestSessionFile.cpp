@@ -113,7 +113,7 @@ TEST_F(SessionFile, RefusesOtherSurfaces)
   EXPECT_NE(other.find("\"points\":2562"), std::string::npos) << other;
   EXPECT_NE(other.find("\"points\":162"), std::string::npos) << other;
   SurfaceInput moved = dents();
-  moved.points[7].x() = std::nextafter(moved.points[7].x(), 10.0);
+  moved.points.edit()[7].x() = std::nextafter(moved.points[7].x(), 10.0);
   EXPECT_NE(messageOfLoad(moved).find("another surface"), std::string::npos);
   EXPECT_EQ(messageOfLoad(dents()), "loaded");
 }

@@ -3,7 +3,7 @@
 /// Symmetry as a constraint of a session.
 #include "SessionHelpers.h"
 
-#include "Pipeline/Symmetry.h"
+#include "Symmetry/Symmetry.h"
 
 #include <cstdio>
 #include <fstream>
@@ -20,7 +20,7 @@ using namespace quadrille::test;
 SurfaceInput lopsided()
 {
   Mesh mesh = sphere(3);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     const double bump = 0.25 * std::exp(-8 * (p - Vector3(0, 0.6, 0.8)).squaredNorm());
     p = (1 + bump) * Vector3(p.x(), 1.6 * p.y() + 0.2 * p.z(), 1.2 * p.z());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Transfer/CarriedPlaces.h"
+#include "Pieces/CarriedPlaces.h"
 
 #include "Base/Error.h"
 #include "TestMeshes.h"

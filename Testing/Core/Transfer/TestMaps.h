@@ -138,7 +138,7 @@ inline std::vector<FixedVec2> cubeMap(
     const int side = static_cast<int>(2 * axis) + (n[axis] > 0 ? 0 : 1);
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
-      const Vector3& p = (moved != nullptr ? *moved : mesh.position)[mesh.origin[h]];
+      const Vector3& p = (moved != nullptr ? *moved : mesh.position.vector())[mesh.origin[h]];
       Vector2 flat(p[(axis + 1) % 3], p[(axis + 2) % 3]);
       if (n[axis] < 0)
       {

@@ -53,7 +53,7 @@ struct PlanePatch
       at[mesh.origin[h]].push_back(h);
       if (isOnCurve(mesh.origin[h]) && isOnCurve(mesh.target(h)))
       {
-        mesh.flags[h] |= kFeatureEdge;
+        mesh.flags.edit()[h] |= kFeatureEdge;
       }
     }
     std::vector<std::size_t> first;

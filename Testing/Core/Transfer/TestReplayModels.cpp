@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The replay of smooth seamless maps on every model there is: exact to the bit.
 #include "CrossField/CrossField.h"
+#include "Features/FeatureFilter.h"
 #include "GridMap/SeamlessMap.h"
-#include "Mesh/FeatureFilter.h"
 #include "PlyFile.h"
+#include "Prepare/Prepare.h"
+#include "Prepare/Refine.h"
 #include "ReplayChecks.h"
 #include "TestMaps.h"
 
@@ -43,7 +45,7 @@ Mesh bentAtRandom(Mesh mesh, unsigned seed)
   {
     w = Vector3(number(-1, 1), number(-1, 1), number(-1, 1)).normalized() * (2 * kPi / size);
   }
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     const Vector3 from = p - low;
     for (Index i = 0; i < 3; ++i)

@@ -75,7 +75,7 @@ TEST(SurfaceStretch, OfWavesIsTheirLengthOverThatOfTheChord)
     unrolled.push_back(unrolled.back() + std::hypot(0.5, height(0.5 * i) - height(0.5 * (i - 1))));
   }
   Mesh mesh = gridPlane(kColumns, kRows);
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p = Vector3(0.5 * p.x(), 0.5 * p.y(), height(0.5 * p.x()));
   }

@@ -115,9 +115,9 @@ TEST(Transfer, FeaturesInsideAPlaneStayOnTheirIsolines)
   {
     const bool onLine =
       mesh.position[mesh.origin[h]].y() == 20 && mesh.position[mesh.target(h)].y() == 20;
-    mesh.flags[h] |= onLine ? kFeatureEdge : 0;
+    mesh.flags.edit()[h] |= onLine ? kFeatureEdge : 0;
   }
-  for (Vector3& p : mesh.position)
+  for (Vector3& p : mesh.position.editAll())
   {
     p.z() = 3 * std::sin(0.2 * p.x()) * std::cos(0.15 * p.y());
   }

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Features/Creases.h"
+
+#include "Features/Features.h"
+#include "Isosurface.h"
+#include "SurfaceInputs.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr double kAngle = 40 * test::kPi / 180;
+
+struct Counts
+{
+  Index sharp = 0;   ///< by the angle alone
+  Index creases = 0; ///< that are left
+};
+
+Counts countEdges(const Mesh& mesh, int threads = 1)
+{
+  Mesh sharp = mesh;
+  markFeaturesByAngle(sharp, kAngle, 1);
+  Mesh creases = mesh;
+  markCreases(creases, kAngle, threads);
+  return { test::featureHalfEdges(sharp) / 2, test::featureHalfEdges(creases) / 2 };
+}
+
+/// A prism with lids that are fans.
+Mesh prism(int sides)
+{
+  std::vector<Vector3> points;
+  std::vector<test::Triangle> triangles;
+  const auto n = static_cast<Index>(sides);
+  for (Index i = 0; i < 2 * n; ++i)
+  {
+    const double angle = 2 * test::kPi * static_cast<double>(i % n) / sides;
+    points.emplace_back(std::cos(angle), std::sin(angle), i < n ? 0.0 : 1.0);
+  }
+  points.emplace_back(0, 0, 0);
+  points.emplace_back(0, 0, 1);
+  for (Index i = 0; i < n; ++i)
+  {
+    const Index j = (i + 1) % n;
+    triangles.insert(triangles.end(),
+      { { i, j, n + j }, { i, n + j, n + i }, { 2 * n, j, i }, { 2 * n + 1, n + i, n + j } });
+  }
+  return test::makeMesh(std::move(points), triangles);
+}
+
+TEST(Creases, FacetsOfACoarseIsosurfaceAreNone)
+{
+  const Mesh mesh = test::isosurface(8, test::waves);
+  const Counts counts = countEdges(mesh);
+  ASSERT_GT(counts.sharp, 300u); // else the surface is not coarse
+  EXPECT_LT(10 * counts.creases, counts.sharp);
+}
+
+TEST(Creases, SolidsKeepAllOfTheirEdges)
+{
+  for (const int sides : { 3, 4, 5, 6, 7, 8 })
+  {
+    const Counts counts = countEdges(prism(sides));
+    EXPECT_EQ(counts.creases, static_cast<Index>(3 * sides)) << sides;
+  }
+  // The rims of a round solid stand out from its flat and its bent sides alike.
+  for (const int sides : { 10, 12, 16, 40 })
+  {
+    EXPECT_EQ(countEdges(prism(sides)).creases, static_cast<Index>(2 * sides)) << sides;
+  }
+  EXPECT_EQ(countEdges(test::sphere(0)).creases, 30u);
+  EXPECT_EQ(countEdges(test::unitCube(5)).creases, 60u);
+  EXPECT_EQ(countEdges(test::doubleTorus(2)).creases, countEdges(test::doubleTorus(2)).sharp);
+}
+
+TEST(Creases, ARidgeThroughNoiseStays)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> noise(-0.8, 0.8);
+  Mesh mesh = test::gridPlane(40, 24);
+  Index ridge = 0;
+  for (Vector3& p : mesh.position.editAll())
+  {
+    const bool onRidge = std::abs(p.y() - 12) < 1e-9;
+    ridge += onRidge ? 1 : 0;
+    p.z() = -2 * std::abs(p.y() - 12) + (onRidge ? 0.0 : noise(random));
+  }
+  Mesh creases = mesh;
+  markCreases(creases, kAngle, 1);
+  Index kept = 0, elsewhere = 0;
+  for (Index h = 0; h < creases.halfEdgeCount(); ++h)
+  {
+    if (creases.isFeature(h))
+    {
+      const bool on = std::abs(creases.position[creases.origin[h]].y() - 12) < 1e-9 &&
+        std::abs(creases.position[creases.target(h)].y() - 12) < 1e-9;
+      ++(on ? kept : elsewhere);
+    }
+  }
+  EXPECT_EQ(kept, 2 * (ridge - 1));
+  EXPECT_GT(countEdges(mesh).sharp, ridge + 100); // the noise is sharp, too
+  EXPECT_LT(elsewhere, 60u);
+}
+
+TEST(Creases, WhatWasAskedForStays)
+{
+  Mesh mesh = test::isosurface(6, test::waves);
+  markFeaturesByAngle(mesh, kAngle, 1);
+  for (std::uint8_t& flags : mesh.flags.editAll())
+  {
+    flags |= (flags & kFeatureEdge) != 0 ? kRequestedFeature : 0;
+  }
+  const Index before = test::featureHalfEdges(mesh);
+  EXPECT_EQ(markCreases(mesh, kAngle, 1).edges, 0u);
+  EXPECT_EQ(test::featureHalfEdges(mesh), before);
+}
+
+TEST(Creases, ThreadsDoNotMatter)
+{
+  const Mesh mesh = test::isosurface(9, test::waves);
+  Mesh one = mesh, four = mesh;
+  markCreases(one, kAngle, 1);
+  markCreases(four, kAngle, 4);
+  EXPECT_EQ(one.flags, four.flags);
+}
+
+TEST(Creases, TheUserIsTold)
+{
+  const PreparedSurface surface =
+    test::prepare(test::toSoup(test::isosurface(6, test::waves)), kAngle);
+  EXPECT_GT(surface.facets.edges, 0u);
+  EXPECT_TRUE(test::contains(surface.facets.text(), "do not stand out")) << surface.facets.text();
+  EXPECT_TRUE(test::contains(surface.facets.text(), "near (")) << surface.facets.text();
+  EXPECT_EQ(test::prepare(test::toSoup(test::unitCube(4)), kAngle).facets.text(), "");
+}
+
+} // namespace
+} // namespace quadrille

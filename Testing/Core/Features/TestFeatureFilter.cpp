@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Features/FeatureFilter.h"
+
+#include "Base/Error.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+Index featureEdges(const Mesh& mesh)
+{
+  Index count = 0;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    count += mesh.isFeature(h) && h < mesh.twin[h];
+  }
+  return count;
+}
+
+void mark(Mesh& mesh, Index h, std::uint8_t flags)
+{
+  mesh.flags.edit()[h] |= flags;
+  mesh.flags.edit()[mesh.twin[h]] |= flags;
+}
+
+/// The horizontal edges of a grid plane in one inner row of vertices, from column a to column b.
+void markRow(Mesh& mesh, int row, double a, double b, std::uint8_t flags)
+{
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3& p = mesh.position[mesh.origin[h]];
+    const Vector3& q = mesh.position[mesh.target(h)];
+    if (!mesh.isBoundary(h) && p.y() == row && q.y() == row && p.x() >= a && q.x() <= b &&
+      q.x() > p.x())
+    {
+      mark(mesh, h, flags);
+    }
+  }
+}
+
+constexpr std::uint8_t kDetected = kFeatureEdge;
+
+TEST(FeatureFilter, ShortDanglingChainGoesLongOneStays)
+{
+  Mesh mesh = test::gridPlane(20, 6);
+  markRow(mesh, 2, 3, 6, kDetected);  // length 3
+  markRow(mesh, 4, 3, 15, kDetected); // length 12
+  const FeatureFilterReport report = removeUnresolvedFeatures(mesh, 1.0);
+  EXPECT_EQ(report.removedEdges, 3u);
+  EXPECT_EQ(report.keptEdges, 12u);
+  EXPECT_EQ(featureEdges(mesh), 12u);
+}
+
+TEST(FeatureFilter, DanglingChainThatZigzagsGoes)
+{
+  // A staircase of unit steps: length 2 for each diagonal of sqrt 2.
+  Mesh mesh = test::gridPlane(20, 20);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3& p = mesh.position[mesh.origin[h]];
+    const Vector3& q = mesh.position[mesh.target(h)];
+    const bool step = (q - p).norm() < 1.1 && p.x() >= 4 && q.x() <= 14 &&
+      ((p.x() == p.y() && q.x() > p.x()) || (p.x() == p.y() + 1 && q.y() > p.y()));
+    if (step)
+    {
+      mark(mesh, h, kDetected);
+    }
+  }
+  Mesh fine = mesh;
+  ASSERT_GT(featureEdges(mesh), 15u);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 2.9).keptEdges, 0u);
+  // Quads smaller than the steps can follow them.
+  EXPECT_EQ(removeUnresolvedFeatures(fine, 0.1).removedEdges, 0u);
+}
+
+TEST(FeatureFilter, WhatTheUserAskedForStays)
+{
+  Mesh mesh = test::gridPlane(20, 6);
+  markRow(mesh, 2, 3, 6, kFeatureEdge | kRequestedFeature);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 10.0).removedEdges, 0u);
+  EXPECT_EQ(featureEdges(mesh), 3u);
+}
+
+TEST(FeatureFilter, ChainFromBoundaryToBoundaryNeedsLengthToo)
+{
+  Mesh mesh = test::gridPlane(3, 6);
+  markRow(mesh, 2, 0, 3, kDetected);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 1.0).keptEdges, 0u);
+  markRow(mesh, 2, 0, 3, kDetected);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 0.5).keptEdges, 3u);
+}
+
+TEST(FeatureFilter, LoopIsJudgedByItsLength)
+{
+  // The edges of one side of the cube form a loop of length 4 without nodes.
+  const Mesh cube = test::unitCube(3);
+  Mesh mesh = cube;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3& p = mesh.position[mesh.origin[h]];
+    const Vector3& q = mesh.position[mesh.target(h)];
+    const auto onRim = [](const Vector3& x)
+    { return x.z() == 1 && (x.x() == 0 || x.x() == 1 || x.y() == 0 || x.y() == 1); };
+    // On the rim, and along it: the edge keeps x or y.
+    if (onRim(p) && onRim(q) && ((p.x() == q.x()) != (p.y() == q.y())) && (p - q).norm() < 0.4)
+    {
+      mark(mesh, h, kDetected);
+    }
+  }
+  Mesh coarse = mesh;
+  EXPECT_EQ(featureEdges(mesh), 12u);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 1.9).keptEdges, 12u);
+  EXPECT_EQ(removeUnresolvedFeatures(coarse, 2.1).keptEdges, 0u);
+}
+
+TEST(FeatureFilter, SharpCubeIsLeftAlone)
+{
+  Mesh mesh = test::markFeatures(test::unitCube(6), 0.5);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 0.9).removedEdges, 0u);
+  EXPECT_EQ(featureEdges(mesh), 72u);
+}
+
+/// A plane 40 by 40 with a band between the rows y = 20 and y = 20 + width, where it bends by `first` and `second`
+/// radians.
+Mesh bentBand(int width, double first, double second, std::uint8_t secondFlags = kDetected)
+{
+  Mesh mesh = test::gridPlane(40, 40);
+  markRow(mesh, 20, 0, 40, kDetected);
+  markRow(mesh, 20 + width, 0, 40, secondFlags);
+  for (Vector3& p : mesh.position.editAll())
+  {
+    const double inBand = std::clamp(p.y() - 20, 0.0, double(width));
+    const double beyond = std::max(p.y() - 20 - width, 0.0);
+    p = Vector3(p.x(),
+      std::min(p.y(), 20.0) + inBand * std::cos(first) + beyond * std::cos(first + second),
+      inBand * std::sin(first) + beyond * std::sin(first + second));
+  }
+  return mesh;
+}
+
+/// Feature edges in row y = 20, which did not move.
+Index edgesOfFirstRow(const Mesh& mesh)
+{
+  Index count = 0;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    count += mesh.isFeature(h) && h < mesh.twin[h] && mesh.position[mesh.origin[h]].y() == 20 &&
+      mesh.position[mesh.target(h)].y() == 20;
+  }
+  return count;
+}
+
+TEST(FeatureFilter, ThinBandKeepsItsSharperSide)
+{
+  // A band of 1 by 40 has a mean width of 80 / 82.
+  Mesh bluntFirst = bentBand(1, 0.8, 0.9);
+  EXPECT_EQ(removeUnresolvedFeatures(bluntFirst, 4.0).removedEdges, 40u);
+  EXPECT_EQ(edgesOfFirstRow(bluntFirst), 0u);
+  Mesh sharpFirst = bentBand(1, 0.9, 0.8);
+  EXPECT_EQ(removeUnresolvedFeatures(sharpFirst, 4.0).removedEdges, 40u);
+  EXPECT_EQ(edgesOfFirstRow(sharpFirst), 40u);
+}
+
+TEST(FeatureFilter, BandThatQuadsResolveKeepsBothSides)
+{
+  Mesh mesh = bentBand(1, 0.8, 0.9);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 3.8).removedEdges, 0u);
+  Mesh wide = bentBand(2, 0.8, 0.9);
+  EXPECT_EQ(removeUnresolvedFeatures(wide, 4.0).removedEdges, 0u);
+}
+
+TEST(FeatureFilter, SideOfAThinBandThatWasAskedForStays)
+{
+  Mesh mesh = bentBand(1, 0.9, 0.8, kFeatureEdge | kRequestedFeature);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 4.0).removedEdges, 40u);
+  EXPECT_EQ(edgesOfFirstRow(mesh), 0u); // though it is the sharper one
+  Mesh both = bentBand(1, 0.9, 0.8, kFeatureEdge | kRequestedFeature);
+  markRow(both, 20, 0, 40, kFeatureEdge | kRequestedFeature);
+  EXPECT_EQ(removeUnresolvedFeatures(both, 4.0).removedEdges, 0u);
+}
+
+TEST(FeatureFilter, EndOfAThinBandIsNoSideOfIt)
+{
+  // A flat column of features at x = 30 ends the band. Without its edge there the band would be a bay of the wide patch
+  // beyond, and as thin as before.
+  Mesh mesh = bentBand(1, 0.8, 0.9);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const Vector3& p = mesh.position[mesh.origin[h]];
+    const Vector3& q = mesh.position[mesh.target(h)];
+    if (mesh.isFeature(h) && std::max(p.x(), q.x()) > 30)
+    {
+      unmarkFeatures(mesh, { h });
+    }
+    if (p.x() == 30 && q.x() == 30)
+    {
+      mark(mesh, h, kDetected);
+    }
+  }
+  ASSERT_EQ(featureEdges(mesh), 100u);
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 4.0).removedEdges, 30u);
+  EXPECT_EQ(edgesOfFirstRow(mesh), 0u);
+}
+
+TEST(FeatureFilter, OfTwoThinBandsSideBySideTheMiddleCurveMayGo)
+{
+  // Bends of 0.8, 0.3 and 0.9 radians: without the middle one there is one band of width 2 left, which is wide enough.
+  Mesh mesh = test::gridPlane(40, 20);
+  for (const int row : { 9, 10, 11 })
+  {
+    markRow(mesh, row, 0, 40, kDetected);
+  }
+  for (Vector3& p : mesh.position.editAll())
+  {
+    Vector3 bent(p.x(), std::min(p.y(), 9.0), 0);
+    double angle = 0;
+    for (const auto& [start, bend] :
+      { std::pair(9.0, 0.8), std::pair(10.0, 0.3), std::pair(11.0, 0.9) })
+    {
+      angle += bend;
+      const double length = std::clamp(p.y() - start, 0.0, start < 11 ? 1.0 : 20.0);
+      bent += Vector3(0, length * std::cos(angle), length * std::sin(angle));
+    }
+    p = bent;
+  }
+  EXPECT_EQ(removeUnresolvedFeatures(mesh, 4.0).removedEdges, 40u);
+  EXPECT_EQ(featureEdges(mesh), 80u);
+}
+
+TEST(FeatureFilter, NearAPlaceOnlyDetectedFeaturesGo)
+{
+  Mesh mesh = test::gridPlane(20, 6);
+  markRow(mesh, 2, 0, 20, kDetected);
+  markRow(mesh, 4, 0, 20, kFeatureEdge | kRequestedFeature);
+  // The row at y = 2 is 0.5 away; edges [7, 8] to [11, 12] come closer than 2.2 to (9.5, 2.5).
+  const std::vector<Index> near = detectedFeaturesNear(mesh, { Vector3(9.5, 2.5, 0) }, 2.2);
+  EXPECT_EQ(near.size(), 5u);
+  unmarkFeatures(mesh, near);
+  EXPECT_EQ(featureEdges(mesh), 35u);
+  EXPECT_TRUE(detectedFeaturesNear(mesh, { Vector3(9.5, 2.5, 0) }, 2.2).empty());
+  EXPECT_TRUE(detectedFeaturesNear(mesh, {}, 100).empty());
+  // Boundaries are no features.
+  EXPECT_EQ(detectedFeaturesNear(mesh, { Vector3(10, 3, 0) }, 100).size(), 15u);
+  EXPECT_THROW(detectedFeaturesNear(mesh, {}, 0), InvalidInput);
+}
+
+TEST(FeatureFilter, EdgeLengthMustBePositive)
+{
+  Mesh mesh = test::gridPlane(2, 2);
+  EXPECT_THROW(removeUnresolvedFeatures(mesh, 0), InvalidInput);
+}
+
+} // namespace
+} // namespace quadrille

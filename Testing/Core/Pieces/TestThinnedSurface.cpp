@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pieces/ThinnedSurface.h"
+
+#include "Base/Error.h"
+#include "MeshInput.h"
+#include "Pieces/RemeshInPieces.h"
+#include "PiecesChecks.h"
+#include "TestHandleMeshes.h"
+#include "TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+using namespace quadrille::test;
+
+TEST(ThinnedSurface, TorusHasItsQuadsOnTheInput)
+{
+  const SurfaceInput input = toInput(torus(160, 80, 2, 1));
+  const PiecesResult made = remeshThinned(input, askForQuads(500));
+  ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
+  EXPECT_LT(made.joinedTriangles, input.polygonOffsets.size() - 1);
+  EXPECT_TRUE(made.remeshed.certificate.valid());
+  EXPECT_EQ(made.remeshed.certificate.triangles, made.remeshed.surface.mesh.faceCount());
+  EXPECT_NEAR(static_cast<double>(made.remeshed.quads.quads.size()), 500, 100);
+  expectPlacesOfSources(made, input);
+}
+
+TEST(ThinnedSurface, TheSameForAnyNumberOfThreads)
+{
+  const SurfaceInput input = toInput(torus(160, 80, 2, 1));
+  const PiecesResult one = remeshThinned(input, askForQuads(400, 1));
+  const PiecesResult four = remeshThinned(input, askForQuads(400, 4));
+  ASSERT_TRUE(one.remeshed.status.ok()) << one.remeshed.status.message;
+  EXPECT_EQ(one.remeshed.quads.quads, four.remeshed.quads.quads);
+  EXPECT_EQ(one.remeshed.quads.points, four.remeshed.quads.points);
+  for (std::size_t v = 0; v < one.pointSource.size(); ++v)
+  {
+    EXPECT_EQ(one.pointSource[v].polygon, four.pointSource[v].polygon);
+    EXPECT_EQ(one.pointSource[v].weights, four.pointSource[v].weights);
+  }
+}
+
+/// As remesh() does: the run has coordinates of its own.
+TEST(ThinnedSurface, AShiftedMirrorImageHasTheSameQuads)
+{
+  SurfaceInput input = toInput(torus(160, 80, 2, 1));
+  for (Vector3& p : input.points.editAll())
+  {
+    p = p.cast<float>().cast<double>();
+  }
+  SurfaceInput image = input;
+  for (Vector3& p : image.points.editAll())
+  {
+    p = Vector3(64 - p.x(), p.y(), p.z());
+  }
+  const PiecesResult made = remeshThinned(input, askForQuads(400));
+  const PiecesResult mirrored = remeshThinned(image, askForQuads(400));
+  ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
+  ASSERT_EQ(mirrored.remeshed.quads.points.size(), made.remeshed.quads.points.size());
+  for (std::size_t v = 0; v < made.pointSource.size(); ++v)
+  {
+    const Vector3& p = mirrored.remeshed.quads.points[v];
+    EXPECT_LT((Vector3(64 - p.x(), p.y(), p.z()) - made.remeshed.quads.points[v]).norm(), 1e-9);
+  }
+  expectPlacesOfSources(mirrored, image);
+}
+
+TEST(ThinnedSurface, HandlesBelowAQuadAreCutFirst)
+{
+  const Vector3 place = Vector3(1, 0.2, 0.3).normalized();
+  SurfaceInput input = toInput(sphereWithHandle(5, place).mesh);
+  for (Vector3& p : input.points.editAll())
+  {
+    p = 3 * p + Vector3(10, 20, 30);
+  }
+  const PiecesResult made = remeshThinned(input, askForQuads(80));
+  const RemeshResult& remeshed = made.remeshed;
+  ASSERT_TRUE(remeshed.status.ok()) << remeshed.status.message;
+  EXPECT_EQ(remeshed.quads.points.size(), remeshed.quads.quads.size() + 2); // a sphere
+  ASSERT_EQ(remeshed.details.size(), 1U);
+  EXPECT_EQ(remeshed.details.front().decision, DetailDecision::Simplify);
+  EXPECT_LT((remeshed.details.front().place - Vector3(10, 20, 30) - 3 * place).norm(), 0.6);
+  ASSERT_FALSE(remeshed.notices.empty());
+  EXPECT_NE(remeshed.notices.front().find("1 handle was cut and closed"), std::string::npos);
+  for (const Vector3& p : remeshed.quads.points)
+  {
+    EXPECT_NEAR((p - Vector3(10, 20, 30)).norm(), 3, 0.03);
+  }
+}
+
+TEST(ThinnedSurface, EdgesOfACubeStaySharp)
+{
+  const PiecesResult made = remeshThinned(toInput(unitCube(40)), askForQuads(600));
+  ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
+  // Each edge of the cube is a line of the quads.
+  const QuadMesh& quads = made.remeshed.quads;
+  double length = 0;
+  for (const QuadLine& line : quads.lines)
+  {
+    length += (quads.points[line.a] - quads.points[line.b]).norm();
+  }
+  EXPECT_NEAR(length, 12, 1e-6);
+}
+
+TEST(ThinnedSurface, AnOpenSurfaceKeepsItsBoundary)
+{
+  const SurfaceInput input = toInput(gridPlane(90, 90));
+  const PiecesResult made = remeshThinned(input, askForQuads(300));
+  ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
+  double length = 0;
+  for (const QuadLine& line : made.remeshed.quads.lines)
+  {
+    length += (made.remeshed.quads.points[line.a] - made.remeshed.quads.points[line.b]).norm();
+  }
+  const auto byX = [](const Vector3& a, const Vector3& b) { return a.x() < b.x(); };
+  const double width = std::max_element(input.points.begin(), input.points.end(), byX)->x() -
+    std::min_element(input.points.begin(), input.points.end(), byX)->x();
+  EXPECT_NEAR(length, 4 * width, 1e-6 * width);
+  expectPlacesOfSources(made, input);
+}
+
+/// Two components and points that no polygon uses: what repair drops and orders is told in terms of the input.
+TEST(ThinnedSurface, SourcesAreThoseOfTheInput)
+{
+  SurfaceInput input = toInput(torus(120, 60, 2, 1));
+  input.points.prepend(1, Vector3(100, 100, 100));
+  for (Index& id : input.polygonPoints.editAll())
+  {
+    ++id;
+  }
+  const Index second = static_cast<Index>(input.points.size());
+  const SurfaceInput other = toInput(torus(120, 60, 2, 1));
+  for (const Vector3& p : other.points)
+  {
+    input.points.push_back(p + Vector3(10, 0, 0));
+  }
+  for (const Index id : other.polygonPoints)
+  {
+    input.polygonPoints.push_back(second + id);
+    if (input.polygonPoints.size() % 3 == 0)
+    {
+      input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
+    }
+  }
+  const PiecesResult made = remeshThinned(input, askForQuads(800));
+  ASSERT_TRUE(made.remeshed.status.ok()) << made.remeshed.status.message;
+  expectPlacesOfSources(made, input);
+}
+
+TEST(ThinnedSurface, RefusesWhatIsPlacedOnTheSurface)
+{
+  SurfaceInput input = toInput(sphere(4));
+  input.targetValences.assign(input.points.size(), 0);
+  EXPECT_THROW(remeshThinned(input, askForQuads(100)), InvalidInput);
+  SurfaceInput broken = toInput(sphere(4));
+  broken.polygonPoints.edit()[300] = 123456;
+  EXPECT_THROW(remeshThinned(broken, askForQuads(100)), InvalidInput);
+}
+
+TEST(ThinnedSurface, StopsOnRequest)
+{
+  const SurfaceInput input = toInput(torus(160, 80, 2, 1));
+  for (const double at : { 0.0, 0.2, 0.5, 0.7 })
+  {
+    RemeshOptions options = askForQuads(500);
+    bool hasAsked = false;
+    options.progress = [&](double fraction, const std::string&)
+    {
+      hasAsked = hasAsked || fraction >= at;
+      return !hasAsked;
+    };
+    const PiecesResult made = remeshThinned(input, options);
+    EXPECT_EQ(made.remeshed.status.code, StatusCode::Cancelled) << at;
+    EXPECT_TRUE(made.remeshed.quads.quads.empty());
+  }
+}
+
+} // namespace
+} // namespace quadrille

@@ -1,0 +1,259 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GridMaps.h"
+
+#include "Extraction/Extraction.h"
+#include "Quads/QuadShape.h"
+#include "Quads/QuadSmoothing.h"
+#include "Quads/SurfaceWalk.h"
+
+#include <gtest/gtest.h>
+
+namespace quadrille::test
+{
+namespace
+{
+
+QuadMesh extractRaw(const GridMapCase& c)
+{
+  ExtractionOptions options;
+  options.smoothingSteps = 0;
+  ExtractionResult result = extractQuads(c.mesh, c.uv, options);
+  EXPECT_TRUE(result.status.ok()) << result.status.message;
+  return result.mesh;
+}
+
+std::array<Vector3, 4> cornersOf(const QuadMesh& mesh, std::size_t q)
+{
+  const auto& c = mesh.quads[q];
+  return { mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]], mesh.points[c[3]] };
+}
+
+/// All points may move, so that there is something to see.
+SmoothingResult smooth(const GridMapCase& c, QuadMesh& mesh, int steps, int threads)
+{
+  SmoothingOptions options;
+  options.steps = steps;
+  options.threads = threads;
+  options.goodShape = 1;
+  return smoothQuads(c.mesh, mesh, options);
+}
+
+double worstShape(const QuadMesh& mesh)
+{
+  double worst = 1;
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+  {
+    worst = std::min(worst, scaledJacobian(cornersOf(mesh, q)));
+  }
+  return worst;
+}
+
+double meanShape(const QuadMesh& mesh)
+{
+  double sum = 0;
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+  {
+    sum += scaledJacobian(cornersOf(mesh, q));
+  }
+  return sum / static_cast<double>(mesh.quads.size());
+}
+
+} // namespace
+
+TEST(QuadSmoothing, RaisesShapesAndStaysOnTheSurface)
+{
+  const GridMapCase c = crumpledPlane(12, 9, 1);
+  QuadMesh mesh = extractRaw(c);
+  const double worst = worstShape(mesh);
+  const double mean = meanShape(mesh);
+  ASSERT_LT(mean, 0.95); // else there is nothing to do
+  const SmoothingResult result = smooth(c, mesh, 10, 1);
+  EXPECT_GT(result.moves, 0u);
+  EXPECT_GE(worstShape(mesh), worst);
+  EXPECT_GT(meanShape(mesh), mean + 0.5 * (1 - mean)); // a flat plate allows squares
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    const SurfacePoint place{ mesh.sourceFace[i], mesh.sourceWeights[i] };
+    EXPECT_NEAR((positionOf(c.mesh, place) - mesh.points[i]).norm(), 0, 1e-12);
+    EXPECT_EQ(mesh.points[i].z(), 0);
+    for (const double w : place.weights)
+    {
+      EXPECT_GE(w, 0);
+      EXPECT_LE(w, 1);
+    }
+  }
+}
+
+TEST(QuadSmoothing, BoundarySlidesAndCornersStay)
+{
+  const GridMapCase c = crumpledPlane(6, 5, 2);
+  QuadMesh mesh = extractRaw(c);
+  const QuadMesh before = mesh;
+  smooth(c, mesh, 10, 1);
+  int corners = 0;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    const Vector3& p = mesh.points[i];
+    if (mesh.onBoundary[i])
+    {
+      EXPECT_TRUE(p.x() == 0 || p.x() == 12 || p.y() == 0 || p.y() == 10) << p.transpose();
+    }
+    if (mesh.onBoundary[i] && mesh.valence[i] == 2)
+    {
+      EXPECT_EQ(p, before.points[i]);
+      ++corners;
+    }
+  }
+  EXPECT_EQ(corners, 4);
+}
+
+TEST(QuadSmoothing, FeaturesOfABlockStay)
+{
+  GridMapCase c = squares("block", markFeatures(doubleTorus(2), 0.7), 3);
+  Random random(5);
+  MapEditor editor(c);
+  editor.refine(random, 3000, false);
+  editor.shuffleCharts(random);
+  QuadMesh mesh = extractRaw(c);
+  const QuadMesh before = mesh;
+  const double worst = worstShape(mesh);
+  smooth(c, mesh, 5, 1);
+  EXPECT_GE(worstShape(mesh), worst);
+  std::vector<int> lines(mesh.points.size(), 0);
+  for (const QuadLine& line : mesh.lines)
+  {
+    ++lines[line.a];
+    ++lines[line.b];
+  }
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    if (lines[i] != 0 && lines[i] != 2)
+    {
+      EXPECT_EQ(mesh.points[i], before.points[i]);
+    }
+    if (lines[i] != 0)
+    {
+      // Still on an edge or a vertex of the mesh, one that is constrained.
+      const SurfacePoint place{ mesh.sourceFace[i], mesh.sourceWeights[i] };
+      EXPECT_TRUE(locateOnCurve(c.mesh, place) || mesh.points[i] == before.points[i]);
+    }
+  }
+}
+
+TEST(QuadSmoothing, SameBytesForAnyNumberOfThreads)
+{
+  GridMapCase c = squares("", markFeatures(tripod(3), 0.7), 6);
+  Random random(6);
+  MapEditor editor(c);
+  editor.refine(random, 5000);
+  const QuadMesh raw = extractRaw(c);
+  QuadMesh one = raw;
+  QuadMesh three = raw;
+  smooth(c, one, 3, 1);
+  smooth(c, three, 3, 3);
+  EXPECT_NE(one.points, raw.points);
+  EXPECT_EQ(one.points, three.points);
+  EXPECT_EQ(one.sourceFace, three.sourceFace);
+  EXPECT_EQ(one.sourceWeights, three.sourceWeights);
+}
+
+TEST(QuadSmoothing, ZeroStepsAndBadSteps)
+{
+  const GridMapCase c = squares("", unitCube(1), 3);
+  QuadMesh mesh = extractRaw(c);
+  const QuadMesh before = mesh;
+  EXPECT_EQ(smooth(c, mesh, 0, 1).moves, 0u);
+  EXPECT_EQ(mesh.points, before.points);
+  EXPECT_THROW(smooth(c, mesh, -1, 1), InvalidInput);
+}
+
+TEST(QuadSmoothing, LeavesGoodQuadsAlone)
+{
+  const GridMapCase c = crumpledPlane(12, 9, 3);
+  const QuadMesh raw = extractRaw(c);
+  QuadMesh mesh = raw;
+  SmoothingOptions options;
+  options.goodShape = 0.7;
+  smoothQuads(c.mesh, mesh, options);
+  std::vector<double> worst(mesh.points.size(), 1);
+  for (std::size_t q = 0; q < raw.quads.size(); ++q)
+  {
+    for (const Index p : raw.quads[q])
+    {
+      worst[p] = std::min(worst[p], scaledJacobian(cornersOf(raw, q)));
+    }
+  }
+  int moved = 0;
+  for (std::size_t p = 0; p < mesh.points.size(); ++p)
+  {
+    moved += mesh.points[p] != raw.points[p] ? 1 : 0;
+    // A move round a point never makes its quads worse, so who starts above the threshold stays.
+    EXPECT_TRUE(worst[p] <= 0.7 || mesh.points[p] == raw.points[p]);
+  }
+  EXPECT_GT(moved, 0);
+}
+
+// Straight over a flat mesh is straight in the plane.
+TEST(SurfaceWalk, StraightOverAPlane)
+{
+  const Mesh mesh = gridPlane(10, 10);
+  Random random(9);
+  for (int i = 0; i < 200; ++i)
+  {
+    const SurfacePoint from{ static_cast<Index>(pick(random, 200)), { 0.2, 0.3, 0.5 } };
+    const Vector3 start = positionOf(mesh, from);
+    const Vector3 d(pick(random, 100) * 0.05 - 2.5, pick(random, 100) * 0.05 - 2.5, 0);
+    const Vector3 end = start + d;
+    const bool inside = end.x() > 0 && end.y() > 0 && end.x() < 10 && end.y() < 10;
+    const auto to = walkSurface(mesh, from, d, 100);
+    ASSERT_EQ(to.has_value(), inside);
+    if (to)
+    {
+      EXPECT_NEAR((positionOf(mesh, *to) - end).norm(), 0, 1e-12); // rounding over < 20 faces
+    }
+  }
+}
+
+// Round a cylinder along a circle one comes back.
+TEST(SurfaceWalk, RoundACylinder)
+{
+  const Mesh mesh = openCylinder(12, 4);
+  const double side = 2 * std::sin(kPi / 12);
+  const SurfacePoint from{ 2 * 12, { 0.5, 0.25, 0.25 } };
+  const Vector3 along = mesh.edgeVector(3 * from.face).normalized();
+  const auto to = walkSurface(mesh, from, 12 * side * along, 1000);
+  ASSERT_TRUE(to);
+  EXPECT_NEAR((positionOf(mesh, *to) - positionOf(mesh, from)).norm(), 0, 1e-12);
+}
+
+TEST(SurfaceWalk, CurvesStopAtForksAndEnds)
+{
+  const Mesh cylinder = openCylinder(12, 4);
+  Index h = 0;
+  while (!cylinder.isBoundary(h))
+  {
+    ++h;
+  }
+  const double side = cylinder.edgeVector(h).norm();
+  for (const double sign : { 1.0, -1.0 })
+  {
+    const auto round = walkCurve(cylinder, { h, 0.25 }, sign * 12 * side, 100);
+    ASSERT_TRUE(round);
+    const Vector3 start = positionOf(cylinder, CurvePoint{ h, 0.25 }.onSurface());
+    EXPECT_NEAR((positionOf(cylinder, round->onSurface()) - start).norm(), 0, 1e-12);
+    EXPECT_FALSE(walkCurve(cylinder, { h, 0.25 }, sign * 12 * side, 5));
+  }
+  // Three features meet in the corner of a cube.
+  const Mesh cube = markFeatures(unitCube(2), 0.7);
+  for (Index g = 0; g < cube.halfEdgeCount(); ++g)
+  {
+    if (cube.isFeature(g))
+    {
+      EXPECT_FALSE(walkCurve(cube, { g, 0.5 }, 1.1, 100));
+      EXPECT_FALSE(walkCurve(cube, { g, 0.5 }, -1.1, 100));
+    }
+  }
+}
+
+} // namespace quadrille::test

@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GridMaps.h"
+
+#include "Extraction/Extraction.h"
+#include "Quads/QuadShape.h"
+#include "Quads/QuadUntangling.h"
+#include "Quads/SurfaceWalk.h"
+
+#include <gtest/gtest.h>
+
+namespace quadrille::test
+{
+namespace
+{
+
+QuadMesh rawQuads(const GridMapCase& c)
+{
+  ExtractionOptions options;
+  options.smoothingSteps = 0;
+  ExtractionResult result = extractQuads(c.mesh, c.uv, options);
+  EXPECT_TRUE(result.status.ok()) << result.status.message;
+  return result.mesh;
+}
+
+/// As thin as the wedges near a tip: long quads whose Jacobians are small even where their shape is as good as can be.
+GridMapCase thinCrumpledPlane(unsigned seed, double thickness)
+{
+  GridMapCase c = crumpledPlane(12, 9, seed, 40000);
+  for (Vector3& p : c.mesh.position.editAll())
+  {
+    p.y() *= thickness;
+  }
+  return c;
+}
+
+std::size_t invertedCount(const QuadMesh& mesh)
+{
+  return invertedQuads(mesh.points, mesh.quads).size();
+}
+
+void expectSamePlaces(const QuadMesh& a, const QuadMesh& b)
+{
+  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.sourceFace, b.sourceFace);
+  EXPECT_EQ(a.sourceWeights, b.sourceWeights);
+}
+
+/// One quad on two triangles, with a reflex corner that nothing but the surface's own corner can be.
+struct Dart
+{
+  Mesh mesh = makeMesh(
+    { { 0, 0, 0 }, { 2, 0, 0 }, { 0.5, 0.5, 0 }, { 0, 2, 0 } }, { { 0, 1, 2 }, { 0, 2, 3 } });
+  QuadMesh quads;
+
+  Dart()
+  {
+    quads.points = mesh.position;
+    quads.quads = { { 0, 1, 2, 3 } };
+    quads.sourceFace = { 0, 0, 0, 1 };
+    for (Index p = 0; p < 4; ++p)
+    {
+      quads.sourceWeights.emplace_back();
+      for (Index i = 0; i < 3; ++i)
+      {
+        quads.sourceWeights[p][i] = mesh.origin[3 * quads.sourceFace[p] + i] == p ? 1 : 0;
+      }
+    }
+    quads.quadSourceFace = { 0 };
+    quads.quadSourceWeights = { { 0.25, 0.25, 0.5 } };
+    quads.valence = { 2, 2, 2, 2 };
+    quads.onBoundary = { 1, 1, 1, 1 };
+    for (Index p = 0; p < 4; ++p)
+    {
+      QuadLine line;
+      line.a = p;
+      line.b = (p + 1) % 4;
+      line.boundary = true;
+      quads.lines.push_back(line);
+    }
+  }
+};
+
+} // namespace
+
+TEST(QuadShape, InvertedIsAJacobianOfAtMostZero)
+{
+  Random random(3);
+  const auto coordinate = [&]() { return 0.01 * pick(random, 200); };
+  int inverted = 0;
+  for (int i = 0; i < 2000; ++i)
+  {
+    std::array<Vector3, 4> p;
+    for (Vector3& x : p)
+    {
+      x = Vector3(coordinate(), coordinate(), 0.2 * coordinate());
+    }
+    EXPECT_EQ(isInverted(p), !(scaledJacobian(p) > 0));
+    inverted += isInverted(p) ? 1 : 0;
+  }
+  EXPECT_GT(inverted, 200);
+  EXPECT_LT(inverted, 1800);
+  const Vector3 o(0, 0, 0), x(1, 0, 0), y(0, 1, 0);
+  EXPECT_TRUE(isInverted({ o, o, x, y }));                // an edge without length
+  EXPECT_TRUE(isInverted({ o, x, Vector3(2, 0, 0), y })); // a straight corner
+  EXPECT_FALSE(isInverted({ o, x, Vector3(x + y), y }));
+}
+
+// On a plane every place can be mended, thick or thin.
+TEST(QuadUntangling, MendsAllOfAPlane)
+{
+  for (const double thickness : { 1.0, 0.05, 0.002 })
+  {
+    const GridMapCase c = thinCrumpledPlane(1, thickness);
+    QuadMesh mesh = rawQuads(c);
+    const std::size_t before = invertedCount(mesh);
+    ASSERT_GE(before, 5u); // else there is nothing to see
+    const UntanglingResult result = untangleQuads(c.mesh, mesh, {});
+    EXPECT_EQ(result.invertedBefore, before);
+    EXPECT_EQ(result.invertedAfter, 0u) << thickness;
+    EXPECT_EQ(invertedCount(mesh), 0u);
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    {
+      const SurfacePoint place{ mesh.sourceFace[i], mesh.sourceWeights[i] };
+      EXPECT_NEAR((positionOf(c.mesh, place) - mesh.points[i]).norm(), 0, 1e-12);
+      EXPECT_TRUE(!mesh.onBoundary[i] || mesh.points[i].x() == 0 || mesh.points[i].x() == 24 ||
+        mesh.points[i].y() == 0 || mesh.points[i].y() == 18 * thickness);
+    }
+  }
+}
+
+TEST(QuadUntangling, MovesNothingButPointsNearInvertedQuads)
+{
+  const GridMapCase c = crumpledPlane(40, 30, 4, 50000);
+  const QuadMesh raw = rawQuads(c);
+  QuadMesh mesh = raw;
+  untangleQuads(c.mesh, mesh, {});
+  std::vector<Vector3> centres;
+  for (const Index q : invertedQuads(raw.points, raw.quads))
+  {
+    const std::array<Vector3, 4> p = quadrille::cornersOf(raw.points, raw.quads[q]);
+    centres.push_back((p[0] + p[1] + p[2] + p[3]) / 4);
+  }
+  ASSERT_GT(centres.size(), 0u);
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    const bool isNear = std::any_of(centres.begin(), centres.end(),
+      [&](const Vector3& centre) { return (centre - raw.points[i]).norm() < 12; }); // six quads
+    const bool stays = mesh.points[i] == raw.points[i];
+    moved += stays ? 0 : 1;
+    EXPECT_TRUE(stays || isNear);
+  }
+  EXPECT_GT(moved, 0u);
+}
+
+TEST(QuadUntangling, LeavesMeshesWithoutSuchQuadsAlone)
+{
+  for (const GridMapCase& c : allCases(2))
+  {
+    const QuadMesh raw = rawQuads(c);
+    if (invertedCount(raw) == 0)
+    {
+      QuadMesh mesh = raw;
+      EXPECT_EQ(untangleQuads(c.mesh, mesh, {}).invertedBefore, 0u);
+      expectSamePlaces(mesh, raw);
+    }
+  }
+}
+
+TEST(QuadUntangling, WhatCannotBeMendedStaysAsItWas)
+{
+  Dart dart;
+  const QuadMesh before = dart.quads;
+  const UntanglingResult result = untangleQuads(dart.mesh, dart.quads, {});
+  EXPECT_EQ(result.invertedBefore, 1u);
+  EXPECT_EQ(result.invertedAfter, 1u);
+  expectSamePlaces(dart.quads, before);
+}
+
+TEST(QuadUntangling, SameBytesForAnyNumberOfThreads)
+{
+  const GridMapCase c = crumpledPlane(40, 30, 5, 50000);
+  const QuadMesh raw = rawQuads(c);
+  QuadMesh one = raw;
+  QuadMesh three = raw;
+  untangleQuads(c.mesh, one, { {}, 1 });
+  untangleQuads(c.mesh, three, { {}, 3 });
+  EXPECT_NE(one.points, raw.points);
+  expectSamePlaces(one, three);
+}
+
+// By default it follows the smoothing; without smoothing the points stay where the map has them.
+TEST(QuadUntangling, IsPartOfTheExtraction)
+{
+  const GridMapCase c = thinCrumpledPlane(1, 0.002);
+  const ExtractionResult result = extractQuads(c.mesh, c.uv, {});
+  ASSERT_TRUE(result.status.ok());
+  EXPECT_EQ(invertedCount(result.mesh), 0u);
+  EXPECT_GT(invertedCount(rawQuads(c)), 0u);
+}
+
+} // namespace quadrille::test

@@ -1,0 +1,296 @@
+# SPDX-FileCopyrightText: The Quadrille maintainers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where the gestures of the user guide put things, in ParaView's real window under openbox at its defaults.
+
+  test_places.py XVFB PARAVIEW PVPYTHON OPENBOX [--picks N] [--strokes N] [--traces N] [--seed N]
+
+Opens a surface and makes quads by keyboard. A pick: a key over a ball of *Irregular Vertices*, with its eye on. A
+stroke: four random visible places, by the gesture of the guide. Where the points came to lie is compared with the ball,
+or with the place under the mouse, which rays from the camera tell: half an edge length of the quads is allowed. A
+trace: all from File > Open on is recorded, with one or two constraints, and run in pvpython: same bytes. All random
+places come from the seed. Screenshots are left in the folder QUADRILLE_ARTIFACTS. Needs Debian's openbox and xdotool.
+"""
+import argparse
+import math
+import os
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+import time
+
+import count_actions
+import private_display
+
+SURFACE = pathlib.Path(os.environ["QUADRILLE_DATA"]) / "beast.ply"
+ALLOWED = 0.5  # edge lengths
+NEAR = 0.3     # edge lengths between what pixels beside each other see
+
+
+class Session(count_actions.Window):
+    """ParaView under a window manager, and a pipeline made in it."""
+
+    def __init__(self, folder, programs):
+        self.programs = programs
+        self.server, display = private_display.start(programs.xvfb, "-screen", "0", "1920x1080x24", "-fbdir",
+                                                     str(folder))
+        super().__init__(folder, display)
+        environment = count_actions.environment_of(self)
+        script = pathlib.Path(__file__).with_name("places_script.py")
+        self.manager = subprocess.Popen([programs.openbox], env=environment, stdout=subprocess.DEVNULL,
+                                        stderr=subprocess.DEVNULL)
+        with open(folder / "log", "w", encoding="utf-8") as output:
+            self.paraview = subprocess.Popen([programs.paraview, "--dr", f"--script={script}"], env=environment,
+                                             stdout=output, stderr=subprocess.STDOUT)
+
+    def close(self):
+        for process in (self.paraview, self.manager, self.server):
+            private_display.stop(process)
+
+    def start(self):
+        """A window with room for its frame on the screen."""
+        self.ask("pass", seconds=180)
+        self.xdotool("search", "--sync", "--onlyvisible", "--name", "ParaView", "windowmove", 0, 0, "windowsize", 1880,
+                     1000)
+        time.sleep(2)
+        self.find_origin()
+
+    def look(self, azimuth, elevation):
+        self.ask(f"look({azimuth}, {elevation})")
+
+    def new(self, name):
+        """By its name, as in the menus, from the list that Ctrl+Space opens."""
+        self.xdotool("mousemove", *self.middle(), "key", "ctrl+space", "sleep", 0.7)
+        self.xdotool("type", "--delay", 20, name)
+        self.xdotool("sleep", 0.7, "key", "Return", "sleep", 0.5)
+        wanted = name.replace(" ", "")
+        self.wait_until(f"simple.GetActiveSource().GetXMLName() == {wanted!r}")
+        time.sleep(0.5)
+
+    def middle(self):
+        return self.origin[0] + 400, self.origin[1] - 300
+
+    def open(self):
+        """File > Open, Apply, Quad Remesh, Apply."""
+        self.xdotool("mousemove", *self.middle(), "key", "ctrl+o", "sleep", 2)
+        self.xdotool("type", "--delay", 20, str(SURFACE))
+        self.xdotool("sleep", 1, "key", "Return", "sleep", 1)
+        self.wait_until("simple.GetActiveSource() is not None")
+        self.apply()
+        self.new("Quad Remesh")
+        self.apply()
+        self.wait_until("quads() is not None and output(0).GetNumberOfCells() > 0", seconds=120)
+        time.sleep(1)
+        self.find_origin()
+        self.edge = self.value("edge_length()")
+
+    def screen(self, pixel):
+        """Of a pixel of the view, from the left and from the bottom."""
+        return self.origin[0] + pixel[0], self.origin[1] - pixel[1]
+
+    def shot(self, name):
+        time.sleep(0.5)
+        count_actions.test_gui.write_png(count_actions.ARTIFACTS / f"places-{name}.png", self.rows())
+
+    def places(self, chance, count):
+        """Random ones among those that are clearly seen, pixel and place."""
+        found = []
+        for _ in range(40):
+            numbers = [(round(chance.random(), 6), round(chance.random(), 6)) for _ in range(20)]
+            found += self.value(f"visible_places({numbers!r}, {NEAR * self.edge})")
+            if len(found) >= count:
+                return found[:count]
+        raise SystemExit("FAILED: hardly any place of the quads is seen")
+
+    def balls(self):
+        return self.value(f"visible_balls({NEAR * self.edge})")
+
+    def draw(self, places):
+        """A line of several points: the gesture of the guide."""
+        self.key("1", self.screen(places[0][0]))
+        for pixel, _ in places[1:]:
+            self.key("2", self.screen(pixel))
+
+    def put(self, name, places):
+        """A constraint through the places, applied."""
+        self.new(name)
+        if name == "Quad Valence":
+            self.key("p", self.screen(places[0][0]))
+        else:
+            self.draw(places)
+        self.apply()
+        time.sleep(0.3)
+
+    def farthest(self, properties, places):
+        """The largest distance of points of the selected source from the places, in edge lengths."""
+        if not self.value("is_connected()"):
+            return math.inf
+        values = [v for name in properties for v in self.value(f"applied({name!r})")]
+        points = [values[i:i + 3] for i in range(0, len(values), 3)]
+        if len(points) != len(places):
+            return math.inf
+        return max(math.dist(p, place) for p, (_, place) in zip(points, places)) / self.edge
+
+
+def random_view(session, chance):
+    session.look(round(chance.uniform(0, 360), 3), round(chance.uniform(-30, 45), 3))
+
+
+def picks(session, chance, count):
+    """P of a valence, 1 of a move and 1 of a stroke over balls, in turns; the other end is where it may be."""
+    kinds = (("Quad Valence", ("Point",)), ("Quad Move", ("From", "To")), ("Quad Stroke", ("Points",)))
+    off = []
+    while len(off) < count:
+        session.ask("clear(); show_balls(True)")
+        random_view(session, chance)
+        balls = session.balls()
+        if not balls:
+            continue
+        name, properties = kinds[len(off) % len(kinds)]
+        places = [chance.choice(balls)] + ([] if name == "Quad Valence" else session.places(chance, 1))
+        session.put(name, places)
+        off.append(session.farthest(properties, places))
+        print(f"pick {len(off)}: {name}, {off[-1]:.3f} edge lengths off; {session.value('rows()')}", flush=True)
+        if len(off) <= len(kinds):
+            session.shot(f"pick-{len(off)}")
+    session.ask("clear(); show_balls(False)")
+    return off
+
+
+def strokes(session, chance, count):
+    off = []
+    while len(off) < count:
+        session.ask("clear()")
+        random_view(session, chance)
+        places = session.places(chance, 4)
+        session.put("Quad Stroke", places)
+        off.append(session.farthest(("Points",), places))
+        print(f"stroke {len(off)}: {off[-1]:.3f} edge lengths off; {session.value('rows()')}", flush=True)
+        if len(off) <= 2:
+            session.shot(f"stroke-{len(off)}")
+    session.ask("clear()")
+    return off
+
+
+def check_selection(session, chance):
+    """A click with the tool for cells takes a quad, also where a ball lies over it."""
+    session.ask("clear(); show_balls(True)")
+    balls = []
+    while not balls:
+        random_view(session, chance)
+        balls = session.balls()
+    pixel = balls[0][0]
+    code = (f"simple.SelectSurfaceCells(Rectangle=[{pixel[0]}, {pixel[1]}, {pixel[0]}, {pixel[1]}], View=view); "
+            "print(repr([(p, quads().SMProxy.GetSelectionInput(p) is not None) for p in (0, 4)]))")
+    found = dict(eval(session.ask(code)))
+    session.ask("simple.ClearSelection(quads()); show_balls(False)")
+    print(f"selection over a ball: quads {found[0]}, irregular vertices {found[4]}")
+    return found[0] and not found[4]
+
+
+DRAWN = (("Quad Stroke",), ("Quad Valence",), ("Quad Move",), ("Quad Stroke", "Quad Valence"),
+         ("Quad Feature Curve", "Quad Stroke"))
+
+
+def trace(folder, programs, number, chance):
+    """A session of its own, recorded: the file with the trace, and what the quads are."""
+    place = folder / f"trace-{number}"
+    place.mkdir()
+    session = Session(place, programs)
+    try:
+        session.start()
+        session.ask("smtrace.start_trace()")
+        session.open()
+        random_view(session, chance)
+        before = session.value("bytes_of(quads())")
+        for name in DRAWN[number % len(DRAWN)]:
+            places = session.places(chance, {"Quad Valence": 1, "Quad Move": 2}.get(name, 3))
+            session.put(name, places)
+        quads = session.value("bytes_of(quads())")
+        path = place / "trace.py"
+        path.write_text(session.value("smtrace.stop_trace()"), encoding="utf-8")
+        if quads == before:
+            raise SystemExit("FAILED: the constraints changed nothing, so that the trace shows nothing")
+        connected = session.value("len(quads().Constraints)")
+        print(f"trace {number + 1}: {', '.join(DRAWN[number % len(DRAWN)])}; {session.value('rows()')}", flush=True)
+    except BaseException:
+        session.shot(f"failure-trace-{number}")
+        print((place / "log").read_text(encoding="utf-8"))
+        raise
+    finally:
+        environment = count_actions.environment_of(session)
+        session.close()
+    return path, (*quads, connected), environment
+
+
+def replay(path, programs, environment):
+    server, display = private_display.start(programs.xvfb, "-screen", "0", "1280x1024x24")
+    try:
+        script = pathlib.Path(__file__).with_name("replay_trace.py")
+        done = subprocess.run([programs.pvpython, str(script), str(path)], env=dict(environment, DISPLAY=display),
+                              capture_output=True, text=True, timeout=300)
+    finally:
+        private_display.stop(server)
+    for line in done.stdout.splitlines():
+        if line.startswith("replayed"):
+            digest, cells, connected = line.split()[2:]
+            return digest, int(cells), int(connected)
+    raise SystemExit(f"FAILED: the trace does not run\n{path.read_text(encoding='utf-8')}\n{done.stdout}{done.stderr}")
+
+
+def traces(folder, programs, chance, count):
+    """How many replays give other bytes."""
+    bad = 0
+    for number in range(count):
+        path, made, environment = trace(folder, programs, number, chance)
+        again = replay(path, programs, environment)
+        print(f"  made {made}, replayed {again}", flush=True)
+        if made != again:
+            print(path.read_text(encoding="utf-8"))
+            bad += 1
+    return bad
+
+
+def summary(what, off):
+    far = sum(not d <= ALLOWED for d in off)
+    if off:
+        print(f"{what}: {len(off)}, {far} farther than {ALLOWED} edge lengths; largest {max(off):.3f}, "
+              f"median {sorted(off)[len(off) // 2]:.3f}")
+    return far
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    for program in ("xvfb", "paraview", "pvpython", "openbox"):
+        parser.add_argument(program)
+    for what, count in (("picks", 20), ("strokes", 20), ("traces", 5), ("seed", 31)):
+        parser.add_argument("--" + what, type=int, default=count)
+    options = parser.parse_args()
+    bad = 0
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        if options.picks + options.strokes > 0:
+            place = folder / "window"
+            place.mkdir()
+            session = Session(place, options)
+            try:
+                session.start()
+                session.open()
+                bad += summary("picks", picks(session, random.Random(options.seed), options.picks))
+                bad += summary("strokes", strokes(session, random.Random(options.seed + 1), options.strokes))
+                bad += not check_selection(session, random.Random(options.seed + 2))
+            except BaseException:
+                session.shot("failure")
+                print((place / "log").read_text(encoding="utf-8"))
+                raise
+            finally:
+                session.close()
+        bad += traces(folder, options, random.Random(options.seed + 3), options.traces)
+    if bad:
+        sys.exit(f"FAILED: {bad} of the checks above")
+    print("places: fine")
+
+
+if __name__ == "__main__":
+    main()
