@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
 # What differs between the versions of VTK and ParaView that the sources are built with, and what their Debian packages
-# lack. The same for C++ is in Filters/QuadrilleVtkVersions.h. Included before either is looked for.
+# lack. The same for C++ is in Filters/Common/VtkVersions.h. Included before either is looked for.
 
 # quadrille_python_exports(PACKAGE FILE...): Debian 13's CMake files of VTK and ParaView name modules of Python
 # (vtkCommonCore.so) that are installed under the interpreter's name for them (vtkCommonCore.cpython-313-...so), and

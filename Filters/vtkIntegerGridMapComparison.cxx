@@ -3,11 +3,11 @@
 #include "vtkIntegerGridMapComparison.h"
 
 #include "Base/Refuse.h"
+#include "Blocks/Blocks.h"
+#include "Common/NewArray.h"
+#include "Common/Report.h"
 #include "Evaluation/SingularityDistance.h"
-#include "QuadrilleBlocks.h"
-#include "QuadrilleMapMeasures.h"
-#include "QuadrilleNewArray.h"
-#include "QuadrilleReport.h"
+#include "Stages/MapMeasures.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

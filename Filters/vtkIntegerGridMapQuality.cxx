@@ -4,10 +4,10 @@
 
 #include "Base/Angles.h"
 #include "Base/Refuse.h"
-#include "QuadrilleBlocks.h"
-#include "QuadrilleMapMeasures.h"
-#include "QuadrilleNewArray.h"
-#include "QuadrilleReport.h"
+#include "Blocks/Blocks.h"
+#include "Common/NewArray.h"
+#include "Common/Report.h"
+#include "Stages/MapMeasures.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadConstraintSource.h"
 
-#include "QuadrilleConvert.h"
-#include "QuadrilleNewArray.h"
+#include "Common/NewArray.h"
+#include "Convert/PolyData.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

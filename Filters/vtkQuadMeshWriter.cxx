@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadMeshWriter.h"
 
+#include "Common/Far.h"
+#include "ElementGrids/Elements.h"
 #include "Export/InpWriter.h"
 #include "Export/MshWriter.h"
 #include "Export/OutputFile.h"
 #include "Export/SurfaceWriters.h"
-#include "QuadrilleElements.h"
-#include "QuadrilleFar.h"
-#include "QuadrilleMeshFiles.h"
+#include "Files/MeshFiles.h"
 
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"

@@ -3,11 +3,11 @@
 #include "vtkQuadProjection.h"
 
 #include "Base/Refuse.h"
-#include "QuadrilleBlocks.h"
-#include "QuadrilleElementGrid.h"
-#include "QuadrilleNewArray.h"
-#include "QuadrilleReport.h"
-#include "QuadrilleSoup.h"
+#include "Blocks/Blocks.h"
+#include "Common/NewArray.h"
+#include "Common/Report.h"
+#include "Convert/Soup.h"
+#include "ElementGrids/ElementGrid.h"
 #include "Quads/QuadProjection.h"
 
 #include "vtkCellData.h"

@@ -27,7 +27,7 @@
  *    0: none), `Separatrix` (1: the straight line has an irregular end); `QuadPointId` on points.
  * 4. the irregular vertices of the quads as vertices, with `Valence` (number of edges), `Index` (edges that are missing
  *    to a regular vertex), `OnBoundary` and `QuadPointId`.
- * 5. what the constraints of the inputs 1 to 6 became on the surface, see QuadrilleConstraints.h.
+ * 5. what the constraints of the inputs 1 to 6 became on the surface, see Filters/Constraints/Constraints.h.
  * 6. a vtkTable with a row for each constraint, in the order of the input: those of the surface's arrays (guides,
  *    feature edges, valences, sizes), then those of the inputs 1 to 6. `Id` (0, 1, ...), `Kind` ("guide array": a
  *    connected region, "guide stroke", "feature curve": of `FeatureEdges` a connected set, "valence", "size": the

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadrilleExecutive.h"
 
-#include "QuadrilleRanks.h"
+#include "Ranks/Ranks.h"
 #include "vtkQuadrilleAlgorithm.h"
 
 #include "vtkInformation.h"

@@ -3,8 +3,8 @@
 #include "vtkQuadrilleFileReader.h"
 
 #include "Base/Error.h"
-#include "QuadrilleObjDigits.h"
-#include "QuadrilleXmlReaders.h"
+#include "Files/ObjDigits.h"
+#include "Files/XmlReaders.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadrilleSTLReader.h"
 
-#include "QuadrilleSurfaceFile.h"
+#include "Files/SurfaceFile.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"

@@ -3,8 +3,8 @@
 #include "vtkQuadrilleSession.h"
 
 #include "Base/Refuse.h"
-#include "QuadrilleConvert.h"
-#include "QuadrilleNewArray.h"
+#include "Common/NewArray.h"
+#include "Convert/PolyData.h"
 #include "Session/SessionText.h"
 
 #include <vtkCellArray.h>

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadrilleSurfaceAlgorithm.h"
 
+#include "Blocks/BlockQuads.h"
+#include "Blocks/Blocks.h"
+#include "Constraints/ConstraintTable.h"
+#include "Constraints/Constraints.h"
+#include "Convert/ArrayNames.h"
+#include "Convert/PolyData.h"
 #include "Pipeline/Pipeline.h"
-#include "QuadrilleArrayNames.h"
-#include "QuadrilleBlockQuads.h"
-#include "QuadrilleBlocks.h"
-#include "QuadrilleConstraintTable.h"
-#include "QuadrilleConstraints.h"
-#include "QuadrilleConvert.h"
-#include "QuadrilleInPieces.h"
+#include "Runs/InPieces.h"
 
 #include "vtkCellData.h"
 #include "vtkMath.h"

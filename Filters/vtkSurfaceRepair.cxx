@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSurfaceRepair.h"
 
-#include "QuadrilleBlocks.h"
-#include "QuadrilleNewArray.h"
-#include "QuadrilleReport.h"
-#include "QuadrilleSoup.h"
+#include "Blocks/Blocks.h"
+#include "Common/NewArray.h"
+#include "Common/Report.h"
+#include "Convert/Soup.h"
 #include "Repair/SoupRepair.h"
 
 #include "vtkCellData.h"

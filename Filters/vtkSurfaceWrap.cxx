@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSurfaceWrap.h"
 
-#include "QuadrilleBlocks.h"
-#include "QuadrilleConvert.h"
-#include "QuadrilleReport.h"
-#include "QuadrilleSoup.h"
+#include "Blocks/Blocks.h"
+#include "Common/Report.h"
+#include "Convert/PolyData.h"
+#include "Convert/Soup.h"
 #include "Repair/SurfaceWrap.h"
 
 #include "vtkCellData.h"

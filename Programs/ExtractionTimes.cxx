@@ -3,11 +3,11 @@
 #include "ExtractionTimes.h"
 
 #include "Base/Parallel.h"
+#include "Convert/PolyData.h"
 #include "Extraction/ExactMap.h"
 #include "Extraction/Extraction.h"
 #include "MeshFiles.h"
 #include "Pipeline/Pipeline.h"
-#include "QuadrilleConvert.h"
 
 #include <vtkPolyData.h>
 

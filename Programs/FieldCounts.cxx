@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldCounts.h"
 
+#include "Convert/PolyData.h"
 #include "CrossField/CrossField.h"
 #include "Features/FeatureFilter.h"
 #include "MeshFiles.h"
 #include "Pipeline/Pipeline.h"
 #include "Prepare/Prepare.h"
 #include "Prepare/Refine.h"
-#include "QuadrilleConvert.h"
 
 #include <vtkPolyData.h>
 

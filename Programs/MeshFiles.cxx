@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshFiles.h"
 
+#include "Common/Far.h"
+#include "Common/VtkErrors.h"
 #include "Export/OutputFile.h"
-#include "QuadrilleFar.h"
-#include "QuadrilleVtkErrors.h"
-#include "QuadrilleXmlReaders.h"
+#include "Files/XmlReaders.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkExecutive.h>

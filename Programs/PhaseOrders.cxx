@@ -3,11 +3,11 @@
 #include "PhaseOrders.h"
 
 #include "Base/Parallel.h"
+#include "Convert/PolyData.h"
 #include "Features/FeatureFilter.h"
 #include "MeshFiles.h"
 #include "Prepare/Prepare.h"
 #include "Prepare/Refine.h"
-#include "QuadrilleConvert.h"
 
 #include <vtkPolyData.h>
 

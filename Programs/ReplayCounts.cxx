@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReplayCounts.h"
 
+#include "Convert/PolyData.h"
 #include "MeshFiles.h"
 #include "Pipeline/Pipeline.h"
-#include "QuadrilleConvert.h"
 
 #include <vtkPolyData.h>
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Report.h"
 
+#include "Common/VtkJson.h"
 #include "Evaluation/QuadQuality.h"
-#include "QuadrilleVtkJson.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>

@@ -134,7 +134,7 @@ def per_element(name, values, count, element, components=1):
 
 
 def is_far(points):
-    """Whether single precision is not enough there: see Filters/QuadrilleFar.h."""
+    """Whether single precision is not enough there: see Filters/Common/Far.h."""
     if not len(points):
         return False
     return bool(numpy.abs(points).max() > 4 * (points.max(axis=0) - points.min(axis=0)).max())

@@ -304,7 +304,7 @@ def session_irregular(session):
 
 _READ = (".ply", ".off", ".obj", ".stl")
 _WRITTEN = (".inp", ".msh", ".mesh", ".obj", ".ply", ".stl")
-#: Sets of elements of more patches of the layout than this nobody works with, see Filters/QuadrilleElements.h.
+#: Sets of elements of more patches of the layout than this nobody works with, see Filters/ElementGrids/Elements.h.
 _MOST_LAYOUT_PATCHES = 200
 
 

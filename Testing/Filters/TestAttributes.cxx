@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "QuadrilleAttributes.h"
+#include "Convert/Attributes.h"
 
 #include <vtkBitArray.h>
 #include <vtkCellData.h>

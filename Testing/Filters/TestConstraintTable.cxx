@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "QuadrilleConstraintTable.h"
-#include "QuadrilleConstraints.h"
+#include "Constraints/ConstraintTable.h"
+#include "Constraints/Constraints.h"
 #include "TestSurfaces.h"
 
 #include <vtkCellData.h>

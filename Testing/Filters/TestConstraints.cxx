@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Constraints/Constraints.h"
+#include "Convert/ArrayNames.h"
 #include "Evaluation/ConstraintWords.h"
-#include "QuadrilleArrayNames.h"
-#include "QuadrilleConstraints.h"
 #include "TestSurfaces.h"
 
 #include "Base/Error.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "QuadrilleConvert.h"
-#include "QuadrilleLog.h"
+#include "Convert/PolyData.h"
+#include "Stages/Log.h"
 #include "TestSurfaces.h"
 
 #include "Base/Error.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "QuadrilleConvert.h"
+#include "Convert/PolyData.h"
 #include "TestSurfaces.h"
 
 #include <vtkCellData.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "QuadrilleInPieces.h"
+#include "Runs/InPieces.h"
 
 #include "TestSurfaces.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "QuadrilleConvert.h"
-#include "QuadrilleFrame.h"
+#include "Convert/Frame.h"
+#include "Convert/PolyData.h"
 #include "Quads/QuadShape.h"
 #include "TestSurfaces.h"
 

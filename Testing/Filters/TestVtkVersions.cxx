@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Both sides of what QuadrilleVtkVersions.h guards, whichever VTK this is: stand-ins have the functions of the other.
-#include "QuadrilleBlocks.h"
-#include "QuadrilleVtkVersions.h"
+/// Both sides of what Filters/Common/VtkVersions.h guards, whichever VTK this is: stand-ins have the functions of the other.
+#include "Blocks/Blocks.h"
+#include "Common/VtkVersions.h"
 
 #include <vtkCellArray.h>
 #include <vtkDataSet.h>

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: The Quadrille maintainers
 # SPDX-License-Identifier: BSD-3-Clause
 """Holds the includes of Core against the layers: a module includes only itself and the modules below it
-that it may know, and no VTK.
+that it may know, and no VTK. The same for the folders of Filters, whose VTK classes may include all of them.
 
   check_layers.py SOURCE_DIR [--selftest]
 """
@@ -40,13 +40,25 @@ MAY_INCLUDE = {
     "Api": ["Pipeline"],  # the library for C++ programs
     "Repair": ["Prepare"],  # with CGAL, and nothing of Core needs it: it can be left out
 }
+# The folders of Filters in the same way; headers of Core and of VTK they may all include.
+FILTERS_MAY_INCLUDE = {
+    "Common": [],
+    "Convert": ["Common"],  # surfaces, quads and their arrays, from VTK and to VTK
+    "Ranks": ["Convert"],
+    "Blocks": ["Ranks"],
+    "Constraints": ["Convert"],
+    "ElementGrids": ["Convert"],
+    "Files": ["ElementGrids"],
+    "Stages": ["Blocks"],  # what stage filters hand to each other
+    "Runs": ["Constraints"],  # what a run made, as VTK data
+}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 
 
-def reachable(module):
+def reachable(module, table=MAY_INCLUDE):
     found = {module}
-    for other in MAY_INCLUDE[module]:
-        found |= reachable(other)
+    for other in table[module]:
+        found |= reachable(other, table)
     return found
 
 
@@ -64,8 +76,26 @@ def violations(module, name, text):
     return result
 
 
+def violationsOfFilters(folder, name, text):
+    """The same for one file of a folder of Filters."""
+    result = []
+    for bracket, path in INCLUDE.findall(text):
+        first = path.split("/")[0]
+        if first in FILTERS_MAY_INCLUDE and first not in reachable(folder, FILTERS_MAY_INCLUDE):
+            result.append(f"{name}: Filters/{folder} must not include {path}")
+        elif bracket == '"' and re.match(r"vtk(Quad|IntegerGrid|Decimation|Surface)\w+\.h$", path):
+            result.append(f"{name}: what filters call must not know the filters: {path}")
+    return result
+
+
 def check(root):
     result, files = [], 0
+    for folder in sorted(p.name for p in (root / "Filters").iterdir() if p.is_dir() and p.name != "Python"):
+        if folder not in FILTERS_MAY_INCLUDE:
+            result.append(f"Filters/{folder}: a folder that the layers do not know")
+            continue
+        for path in sorted((root / "Filters" / folder).rglob("*")):
+            result += violationsOfFilters(folder, str(path.relative_to(root)), path.read_text())
     for module in sorted(p.name for p in (root / "Core").iterdir() if p.is_dir()):
         if module not in MAY_INCLUDE:
             result.append(f"Core/{module}: a module that the layers do not know")
@@ -88,6 +118,10 @@ def selftest():
     below = reachable("Session") - {"Session"}
     assert not violations("Session", "a", "".join(f'#include "{m}/X.h"\n' for m in below))
     assert violations("Session", "a", '#include "Repair/Soup.h"\n')
+    assert not set(MAY_INCLUDE) & set(FILTERS_MAY_INCLUDE), "an include would be of either"
+    assert not violationsOfFilters("Ranks", "a", '#include "Mesh/Mesh.h"\n#include "Convert/Quads.h"\n')
+    assert violationsOfFilters("Convert", "a", '#include "Ranks/Ranks.h"\n')
+    assert violationsOfFilters("Convert", "a", '#include "vtkQuadRemesh.h"\n')
 
 
 def main():

@@ -6,9 +6,8 @@
   check_tidy.py SOURCE_DIR CLANG_TIDY WORK_DIR INCLUDE_DIR... [--only MODULE]
 
 A source of Core costs clang-tidy 17 seconds, nearly all of it for the headers of Eigen and of the standard library. So
-each module is one source here, which includes all of its sources, as QUADRILLE_UNITY_BUILD does: ten of them take four
-minutes of one core, 142 would take forty. That names of anonymous namespaces do not meet is what repository.unity
-holds.
+the sources of a module are included in one here, or in two where names of anonymous namespaces would meet (see
+CMake/unity_groups.py): ten of them take four minutes of one core, 142 would take forty.
 """
 import concurrent.futures
 import os
@@ -18,6 +17,9 @@ import subprocess
 import sys
 import tempfile
 import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "CMake"))
+import unity_groups
 
 # Sources are included on purpose, in the file that this script writes.
 LEFT_OUT = "-bugprone-suspicious-include"
@@ -43,10 +45,12 @@ def findings(program, unit, filterOfNames, includes):
 
 def check(program, root, work, includes, module):
     begin = time.perf_counter()
-    unit = work / f"{module.name}.cpp"
-    unit.write_text("".join(f'#include "{path}"\n' for path in sourcesOf(module)))
     own = re.escape(str(root / "Core")) + r"/.*\.(h|cpp)$"
-    found = findings(program, unit, own, includes)
+    found = []
+    for number, sources in enumerate(unity_groups.groupsOf(sourcesOf(module), 1000)):
+        unit = work / f"{module.name}{number}.cpp"
+        unit.write_text("".join(f'#include "{path}"\n' for path in sources))
+        found += findings(program, unit, own, includes)
     seconds = time.perf_counter() - begin
     print(f"tidy: Core/{module.name}, {len(sourcesOf(module))} sources, {seconds:.0f} s", flush=True)
     return found

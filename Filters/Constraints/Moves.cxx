@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Constraints/Moves.h"
+
+#include "Base/Error.h"
+#include "Requests/Guides.h"
+#include "Requests/SurfacePlaces.h"
+#include "Session/ComposedInput.h"
+#include "Session/IrregularEdits.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+bool isMove(const PlacedConstraint& constraint)
+{
+  return constraint.kind == ConstraintKind::Move;
+}
+
+/// The same failure would come without the constraints.
+bool isForOtherReasons(const Status& status)
+{
+  return status.ok() || status.code == StatusCode::Cancelled || status.code == StatusCode::TooLarge;
+}
+
+/// The list of irregular vertices as an operation leaves it; ascending by point.
+void change(std::vector<IrregularVertex>& irregular,
+  const std::vector<IrregularEdit::Change>& changes, const SurfaceInput& surface)
+{
+  std::map<Index, IrregularVertex> byPoint;
+  for (const IrregularVertex& vertex : irregular)
+  {
+    byPoint[vertex.point] = vertex;
+  }
+  for (const IrregularEdit::Change& made : changes)
+  {
+    const IrregularVertex isNew{ made.point, surface.points[made.point], kRegularValence };
+    const auto found = byPoint.emplace(made.point, isNew).first;
+    found->second.valence = made.after;
+    if (made.after == kRegularValence)
+    {
+      byPoint.erase(found);
+    }
+  }
+  irregular.clear();
+  for (const auto& [point, vertex] : byPoint)
+  {
+    irregular.push_back(vertex);
+  }
+}
+
+/// Moves as the operations of a session, resolved one after the other.
+class MoveList
+{
+public:
+  MoveList(const SurfaceInput& surface, const SurfacePlaces& places, const RemeshResult& without,
+    int threads)
+    : surface_(surface), places_(places)
+  {
+    const OnCurves onCurves = findOnCurves(without.surface, threads);
+    const MadeSurface made{ without.surface };
+    irregular_ = irregularVertices(made, without.turns, onCurves);
+    fixedPoints_ = onCurves.points;
+    onFeatures_ = featureVertices(made, without.onFeatures);
+  }
+
+  /// id: above 0. Fills the move's path and valence, or whyNot.
+  void add(int id, PlacedConstraint& move)
+  {
+    IrregularEdit edit;
+    edit.operation = IrregularOperation::Move;
+    edit.points = move.path;
+    try
+    {
+      resolveEdit(
+        edit, "move " + std::to_string(move.source), surface_, places_, irregular_, fixedPoints_);
+    }
+    catch (const InvalidInput& error)
+    {
+      move.whyNot = error.what();
+      return;
+    }
+    // Of the two changes that to a regular vertex is at the begin, but where it comes to another irregular vertex.
+    const Vector3 from = nearest(move.path[0]).place;
+    move.valence = nearest(move.path[0]).valence;
+    const Index to = places_.nearestCorner(move.path[1]);
+    move.distance = (move.path[1] - surface_.points[to]).norm();
+    move.path = { from, surface_.points[to] };
+    edit.upon = list_.links();
+    edit.onFeatures = onFeatures_;
+    list_.apply(id, 0, edit, surface_);
+    change(irregular_, edit.changes, surface_);
+    for (const IrregularVertex& vertex : irregular_)
+    {
+      move.valence = vertex.point == to ? vertex.valence : move.valence;
+    }
+    auto constraint = std::make_shared<SessionConstraint>();
+    constraint->id = id;
+    constraint->content = std::move(edit);
+    constraints_.push_back(std::move(constraint));
+  }
+
+  const SessionConstraints& constraints() const { return constraints_; }
+
+private:
+  const IrregularVertex& nearest(const Vector3& place) const
+  {
+    return *std::min_element(irregular_.begin(), irregular_.end(),
+      [&](const IrregularVertex& a, const IrregularVertex& b)
+      { return (a.place - place).squaredNorm() < (b.place - place).squaredNorm(); });
+  }
+
+  const SurfaceInput& surface_;
+  const SurfacePlaces& places_;
+  std::vector<IrregularVertex> irregular_;
+  std::vector<Index> fixedPoints_;
+  std::vector<HeldVertex> onFeatures_;
+  IrregularList list_;
+  SessionConstraints constraints_;
+};
+
+void tellLeftOut(const std::vector<PlacedConstraint>& placed, std::vector<std::string>& notices)
+{
+  for (const PlacedConstraint& constraint : placed)
+  {
+    if (isMove(constraint) && !constraint.whyNot.empty())
+    {
+      notices.push_back("an irregular vertex is not moved: " + constraint.whyNot);
+    }
+  }
+}
+
+} // namespace
+
+bool asksForMoves(const std::vector<PlacedConstraint>& placed)
+{
+  return std::any_of(placed.begin(), placed.end(), isMove);
+}
+
+SymmetricResult remeshWithMoves(const SurfaceInput& input, const RemeshOptions& options,
+  const RemeshRun& run, std::vector<PlacedConstraint>& placed, std::vector<std::string>& notices)
+{
+  RemeshOptions first = options;
+  first.preview = false; // it has no places on the surface
+  first.mergeCharts = false;
+  first.knownMap = 0;
+  SymmetricResult made = run(input, first);
+  if (!made.remeshed.stopped.empty())
+  {
+    // Quads without the moves are none that were asked for.
+    made = {};
+    made.remeshed.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+  }
+  if (!made.remeshed.status.ok())
+  {
+    return made;
+  }
+  const SurfacePlaces places(input, options.threads);
+  MoveList list(input, places, made.remeshed, options.threads);
+  for (std::size_t i = 0; i < placed.size(); ++i)
+  {
+    if (isMove(placed[i]))
+    {
+      list.add(static_cast<int>(i) + 1, placed[i]);
+    }
+  }
+  std::map<int, std::string> leftOut;
+  LinePlacements lines;
+  bool holdsFeatures = true;
+  while (true)
+  {
+    ComposedInput composed =
+      composeInput(input, places, lines, list.constraints(), leftOut, holdsFeatures);
+    const bool isHeld = composed.input.regularOnFeatures;
+    composed.input.points = input.points;
+    composed.input.polygonOffsets = input.polygonOffsets;
+    composed.input.polygonPoints = input.polygonPoints;
+    std::optional<int> last;
+    for (std::size_t c = 0; c < list.constraints().size(); ++c)
+    {
+      const int id = list.constraints()[c]->id;
+      placed[static_cast<std::size_t>(id) - 1].whyNot = composed.parts[c].whyNot;
+      last = composed.parts[c].whyNot.empty() ? id : last;
+    }
+    made = run(std::move(composed.input), options);
+    if (!isForOtherReasons(made.remeshed.status) && isHeld)
+    {
+      notices.push_back(
+        "moves may change irregular vertices on features, as these cannot be held: " +
+        made.remeshed.status.message);
+      holdsFeatures = false;
+      continue;
+    }
+    if (isForOtherReasons(made.remeshed.status) || !last)
+    {
+      tellLeftOut(placed, notices);
+      return made;
+    }
+    leftOut[*last] = made.remeshed.status.message;
+  }
+}
+
+} // namespace quadrille
