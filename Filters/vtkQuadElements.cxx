@@ -404,12 +404,12 @@ void vtkQuadElements::AddProperties(vtkUnstructuredGrid* grid)
     quadrille::addCount(grid, "ElementsWithoutDirection", replaced.count);
     if (replaced.count > 0)
     {
-      constexpr std::array<const char*, 5> kNames{ "", "the x axis", "the y axis", "the z axis",
-        "their own direction" };
+      constexpr std::array<const char*, 5> kDirectionNames{ "", "the x axis", "the y axis",
+        "the z axis", "their own direction" };
       this->AddNotice("the direction '" + this->AxisArrayName +
         "' is zero or along the normal of " + countText(replaced.count, "element", "elements") +
         ", the first is " + placeOf(replaced.first) + ": they got " +
-        kNames[static_cast<std::size_t>(this->AxisFallback)]);
+        kDirectionNames[static_cast<std::size_t>(this->AxisFallback)]);
     }
   }
   for (const std::string& name : this->VectorArrayNames)

@@ -15,7 +15,8 @@
  * sizes give way where it grows by more than a quarter per edge length, which is told in a notice. The number of quads
  * asked for is met as a whole.
  *
- * Three optional inputs hold what is drawn beside the surface, see Filters/Constraints/Constraints.h for how it is put there:
+ * Three optional inputs hold what is drawn beside the surface, see Filters/Constraints/Constraints.h for how it is put
+ * there:
  * - port 1, feature curves: polylines that become features, along the edges of the surface nearest to them. The line
  *   cell array `ConstraintType` may say 1: a guiding stroke instead; 2: a connection; 3: a cycle; 4: a move of an
  *   irregular vertex (see vtkQuadRemesh, which has inputs for them, too); other values than 0 to 4 are an error;

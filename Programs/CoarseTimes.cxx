@@ -108,8 +108,8 @@ std::vector<bool> ringsRound(const Mesh& mesh, Index v, int rings)
 /// A stroke along the field over the faces round v, turned by `turn` radians.
 std::vector<Guide> strokeRound(const Mesh& mesh, const CrossField& field, Index v, double turn)
 {
-  constexpr int kRings = 2;
-  const std::vector<bool> inside = ringsRound(mesh, v, kRings);
+  constexpr int kTimedRings = 2;
+  const std::vector<bool> inside = ringsRound(mesh, v, kTimedRings);
   std::vector<Guide> guides(mesh.faceCount());
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {

@@ -23,7 +23,7 @@ namespace
 {
 
 /// The flow that makes the turns takes minutes beyond that.
-constexpr Index kMostFaces = 500000;
+constexpr Index kMostCountedFaces = 500000;
 
 std::size_t countIrregular(const Mesh& mesh, const std::vector<int>& turns)
 {
@@ -65,10 +65,10 @@ void printFieldCounts(const std::string& path, double quads, int threads)
   fieldOptions.targetEdgeLength = std::sqrt(surface.area / quads);
   removeUnresolvedFeatures(surface.mesh, fieldOptions.targetEdgeLength);
   refineSurface(surface, fieldOptions.targetEdgeLength, {});
-  if (surface.mesh.faceCount() > kMostFaces)
+  if (surface.mesh.faceCount() > kMostCountedFaces)
   {
     throw InvalidInput(path + ": " + std::to_string(surface.mesh.faceCount()) +
-      " faces after refinement, more than " + std::to_string(kMostFaces) +
+      " faces after refinement, more than " + std::to_string(kMostCountedFaces) +
       " are too many for a field on all of them");
   }
   const CrossField field = computeCrossField(surface.mesh, fieldOptions);

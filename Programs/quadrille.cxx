@@ -100,7 +100,7 @@ struct Request
 
 void addSizes(CommandOptions& options, vtkQuadRemesh* filter)
 {
-  constexpr double kSmallest = 1e-300;
+  constexpr double kSmallestLength = 1e-300;
   options.beginGroup("size of the quads (at most one):");
   options.addCount(
     "quads", "N", { 1, 1000000000 },
@@ -111,7 +111,7 @@ void addSizes(CommandOptions& options, vtkQuadRemesh* filter)
     },
     "target number of quads (default 5000)");
   options.addNumber(
-    "edge-length", "S", { kSmallest, 1e300 },
+    "edge-length", "S", { kSmallestLength, 1e300 },
     [filter](double length)
     {
       filter->SetTargetTypeToEdgeLength();
@@ -119,7 +119,7 @@ void addSizes(CommandOptions& options, vtkQuadRemesh* filter)
     },
     "target edge length in units of the input");
   options.addNumber(
-    "relative-edge-length", "R", { kSmallest, 10 },
+    "relative-edge-length", "R", { kSmallestLength, 10 },
     [filter](double length)
     {
       filter->SetTargetTypeToRelativeEdgeLength();
@@ -127,7 +127,7 @@ void addSizes(CommandOptions& options, vtkQuadRemesh* filter)
     },
     "target edge length over the bounding-box diagonal");
   options.addNumber(
-    "chord-error", "E", { kSmallest, 1e300 },
+    "chord-error", "E", { kSmallestLength, 1e300 },
     [filter](double error) { filter->SetChordError(error); },
     "by how much edges of the quads may lie off the surface, in units of the input: they are "
     "shorter where it is curved; with --quads as many quads are distributed so");
@@ -162,11 +162,11 @@ std::optional<std::array<double, count>> numbersIn(const std::string& text)
 /// The order, or the order and six numbers.
 void setRotation(vtkQuadRemesh* filter, const std::string& text)
 {
-  constexpr double kLeast = 2, kMost = 64;
+  constexpr double kLeastOrder = 2, kMostOrder = 64;
   const auto order = numbersIn<1>(text);
   const auto all = numbersIn<7>(text);
   const double steps = order ? order->front() : all ? all->front() : 0;
-  if (!(steps >= kLeast && steps <= kMost && steps == std::floor(steps)))
+  if (!(steps >= kLeastOrder && steps <= kMostOrder && steps == std::floor(steps)))
   {
     throw UsageError("--rotation " + text +
       ": give the order, 2 to 64, for an axis that is found, or with a point of the axis and its "

@@ -28,7 +28,7 @@ namespace quadrille
 namespace
 {
 
-constexpr Index kNone = kInvalidIndex;
+constexpr Index kNoJoint = kInvalidIndex;
 
 /// A joint between two nodes, by points of the joint surface.
 struct JointSegment
@@ -42,7 +42,7 @@ struct JointSegment
 /// What a sheet's quads have along a segment, or along its own boundary between two nodes.
 struct SheetChain
 {
-  Index segment = kNone;
+  Index segment = kNoJoint;
   bool isForward = true;
   std::vector<Index> points; ///< of the quads, at least one
   std::size_t edges() const { return points.size() - 1; }
@@ -61,7 +61,7 @@ struct FineLoop
   Index sheet = 0;
   std::vector<Index> halfEdges;
   std::vector<double> arc;       ///< of the origin of each; the length of the loop at the end
-  std::vector<Index> jointPoint; ///< at the origin of each, or kNone
+  std::vector<Index> jointPoint; ///< at the origin of each, or kNoJoint
 };
 
 std::pair<Index, Index> sortedPair(Index a, Index b)
@@ -119,7 +119,7 @@ private:
         return surface.sourcePoints[f][i];
       }
     }
-    return kNone;
+    return kNoJoint;
   }
 
   void findFineLoops()
@@ -140,7 +140,7 @@ private:
         loop.halfEdges.push_back(g);
         loop.arc.push_back(loop.arc.back() + mesh_.edgeVector(g).norm());
         const Index input = inputAt(g);
-        loop.jointPoint.push_back(input == kNone ? kNone : sheets_.jointPoint[input]);
+        loop.jointPoint.push_back(input == kNoJoint ? kNoJoint : sheets_.jointPoint[input]);
       }
     }
   }
@@ -162,12 +162,12 @@ private:
     }
     for (const FineLoop& loop : fineLoops_)
     {
-      Index before = kNone, first = kNone;
+      Index before = kNoJoint, first = kNoJoint;
       for (std::size_t i = 0; i < loop.halfEdges.size(); ++i)
       {
         const Index point = loop.jointPoint[i];
         const Index v = mesh_.origin[loop.halfEdges[i]];
-        if (point == kNone)
+        if (point == kNoJoint)
         {
           continue;
         }
@@ -175,14 +175,14 @@ private:
         {
           nodes_.insert(point);
         }
-        if (before != kNone)
+        if (before != kNoJoint)
         {
           sheetsAt[sortedPair(before, point)].insert(loop.sheet);
         }
-        first = first == kNone ? point : first;
+        first = first == kNoJoint ? point : first;
         before = point;
       }
-      if (first != kNone)
+      if (first != kNoJoint)
       {
         sheetsAt[sortedPair(before, first)].insert(loop.sheet);
       }
@@ -317,7 +317,7 @@ private:
     {
       const FineLoop& loop = fineLoops_[l];
       const auto isOnJoint = [&](Index point)
-      { return point != kNone && neighbours_.count(point) != 0; };
+      { return point != kNoJoint && neighbours_.count(point) != 0; };
       const auto at = std::find_if(loop.jointPoint.begin(), loop.jointPoint.end(), isOnJoint);
       if (hasQuads[l] == 0 && at != loop.jointPoint.end())
       {
@@ -345,12 +345,12 @@ private:
     std::vector<Stop> stops;
     for (std::size_t i = 0; i < fine.halfEdges.size(); ++i)
     {
-      if (fine.jointPoint[i] == kNone || nodes_.count(fine.jointPoint[i]) == 0)
+      if (fine.jointPoint[i] == kNoJoint || nodes_.count(fine.jointPoint[i]) == 0)
       {
         continue;
       }
-      Index next = kNone;
-      for (std::size_t k = 1; k <= fine.halfEdges.size() && next == kNone; ++k)
+      Index next = kNoJoint;
+      for (std::size_t k = 1; k <= fine.halfEdges.size() && next == kNoJoint; ++k)
       {
         next = fine.jointPoint[(i + k) % fine.halfEdges.size()];
       }
@@ -429,7 +429,7 @@ private:
       {
         for (const SheetChain& chain : loop.chains)
         {
-          if (chain.segment != kNone)
+          if (chain.segment != kNoJoint)
           {
             std::size_t& edges = segments_[chain.segment].edges;
             edges = std::max(edges, chain.edges());
@@ -459,13 +459,13 @@ private:
       {
         return loop.sheet == sheet &&
           std::any_of(loop.chains.begin(), loop.chains.end(),
-            [](const SheetChain& chain) { return chain.segment == kNone; });
+            [](const SheetChain& chain) { return chain.segment == kNoJoint; });
       });
   }
 
   std::size_t lackOf(const SheetChain& chain) const
   {
-    return chain.segment == kNone ? 0 : segments_[chain.segment].edges - chain.edges();
+    return chain.segment == kNoJoint ? 0 : segments_[chain.segment].edges - chain.edges();
   }
 
   std::size_t lackOf(Index sheet) const
@@ -536,7 +536,7 @@ private:
   {
     const SheetChain& chain = loops_[to.loop].chains[to.chain];
     const bool isSame = to.loop == from.loop && to.chain == from.chain;
-    return chain.segment == kNone || lackOf(chain) >= (isSame ? 2U : 1U);
+    return chain.segment == kNoJoint || lackOf(chain) >= (isSame ? 2U : 1U);
   }
 
   /// Before a strip goes there.
@@ -564,7 +564,7 @@ private:
         {
           continue;
         }
-        const double cost = !takes ? raiseCost : chain.segment == kNone ? freeCost : 0;
+        const double cost = !takes ? raiseCost : chain.segment == kNoJoint ? freeCost : 0;
         for (const Index p : chain.points)
         {
           const double atPoint = cost + crowdedCost(p);
@@ -704,7 +704,7 @@ private:
     constexpr double share = 1.0 / 3;
     const SheetChain& chain = loops_[place.loop].chains[place.chain];
     const auto at = std::find(chain.points.begin(), chain.points.end(), point);
-    if (chain.segment != kNone || at == chain.points.begin() || at + 1 >= chain.points.end())
+    if (chain.segment != kNoJoint || at == chain.points.begin() || at + 1 >= chain.points.end())
     {
       return;
     }
@@ -910,12 +910,12 @@ private:
     }
     std::map<Index, std::vector<Index>> atNode; // points of the quads
     std::map<std::pair<Index, std::size_t>, std::vector<Index>> atStop;
-    target_.assign(quads_.points.size(), kNone);
+    target_.assign(quads_.points.size(), kNoJoint);
     for (const SheetLoop& loop : loops_)
     {
       for (const SheetChain& chain : loop.chains)
       {
-        if (chain.segment == kNone)
+        if (chain.segment == kNoJoint)
         {
           continue;
         }
@@ -967,7 +967,8 @@ private:
     std::vector<QuadLine> joints, others;
     for (QuadLine& line : quads_.lines)
     {
-      const bool isOnJoint = line.boundary && target_[line.a] != kNone && target_[line.b] != kNone;
+      const bool isOnJoint =
+        line.boundary && target_[line.a] != kNoJoint && target_[line.b] != kNoJoint;
       if (line.halfEdge == kInvalidIndex)
       {
         line.halfEdge = nearestOnLoops(sheetOfFace(quads_.sourceFace[line.a]),
@@ -1067,7 +1068,7 @@ private:
     }
     for (Index p = 0; p < quads_.points.size(); ++p)
     {
-      const bool isPlaced = p < target_.size() && target_[p] != kNone;
+      const bool isPlaced = p < target_.size() && target_[p] != kNoJoint;
       quads_.points[p] = isPlaced
         ? places_[target_[p]]
         : Vector3(quads_.points[p] - sheets_.offset[sheetOfFace(quads_.sourceFace[p])]);
@@ -1104,7 +1105,7 @@ private:
   std::vector<SheetLoop> loops_;
   std::map<Index, double> crowded_; ///< by point of the quads, what it costs to begin a strip there
   std::set<Index> withStrips_;      ///< sheets
-  std::vector<Index> target_;       ///< per point of the quads: its place on a joint, or kNone
+  std::vector<Index> target_;       ///< per point of the quads: its place on a joint, or kNoJoint
   std::vector<Vector3> places_;
 };
 

@@ -58,7 +58,7 @@ class PathSearch
 public:
   PathSearch(const QuadMesh& mesh)
     : mesh_(mesh), topology_(analyzeQuads(mesh.quads, mesh.points.size())),
-      isLine_(4 * mesh.quads.size(), 0), cost_(4 * mesh.quads.size(), kFar),
+      isLine_(4 * mesh.quads.size(), 0), cost_(4 * mesh.quads.size(), kUnreached),
       before_(4 * mesh.quads.size(), kInvalidIndex), start_(4 * mesh.quads.size(), kInvalidIndex)
   {
     for (const Index h : halfEdgesOfLines(mesh))
@@ -92,7 +92,7 @@ public:
         reach(h, 1 + start->second, kInvalidIndex, from);
       }
     }
-    double least = kFar;
+    double least = kUnreached;
     Index last = kInvalidIndex;
     while (!queue_.empty() && queue_.top().first < least)
     {
@@ -129,7 +129,7 @@ public:
   }
 
 private:
-  static constexpr double kFar = std::numeric_limits<double>::infinity();
+  static constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
   void reach(Index h, double cost, Index before, Index start)
   {

@@ -26,7 +26,7 @@ public:
   DisjointSets(std::size_t count, int threads)
     : count_(count), threads_(threads), parent_(new std::atomic<Index>[count])
   {
-    parallelFor(count, kChunk, threads,
+    parallelFor(count, kSetChunk, threads,
       [this](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
@@ -77,8 +77,8 @@ public:
   /// Number of sets.
   std::size_t countSets() const
   {
-    std::vector<std::size_t> parts((count_ + kChunk - 1) / kChunk, 0);
-    parallelFor(count_, kChunk, threads_,
+    std::vector<std::size_t> parts((count_ + kSetChunk - 1) / kSetChunk, 0);
+    parallelFor(count_, kSetChunk, threads_,
       [&](std::size_t begin, std::size_t end)
       {
         std::size_t roots = 0;
@@ -86,13 +86,13 @@ public:
         {
           roots += parent_[i].load(std::memory_order_relaxed) == i ? 1 : 0;
         }
-        parts[begin / kChunk] = roots;
+        parts[begin / kSetChunk] = roots;
       });
     return std::accumulate(parts.begin(), parts.end(), std::size_t{ 0 });
   }
 
 private:
-  static constexpr std::size_t kChunk = std::size_t{ 1 } << 15;
+  static constexpr std::size_t kSetChunk = std::size_t{ 1 } << 15;
 
   std::size_t count_;
   int threads_;

@@ -14,7 +14,7 @@ namespace
 
 // Angles are integers, so that the answer is exact.
 constexpr std::int64_t kQuarterTurn = 360;
-constexpr std::int64_t kSmallest = 4; // one degree
+constexpr std::int64_t kSmallestAngle = 4; // one degree
 
 // Nodes are triangles, then fans. A triangle above half a turn passes angle on: it lowers its corner at a fan, which
 // raises the corner of another triangle there, until a triangle below half a turn takes it.
@@ -81,7 +81,7 @@ public:
         const Index other = otherEnd(node, corner);
         // Angle leaves a triangle only where its corner can shrink; it may enter anywhere.
         const bool leaving = (node < faces_) == forward;
-        if (seen[other] == 0 && (!leaving || angle_[corner] > kSmallest))
+        if (seen[other] == 0 && (!leaving || angle_[corner] > kSmallestAngle))
         {
           seen[other] = 1;
           queue.push_back(other);
@@ -124,7 +124,7 @@ private:
   void spreadTurns(Index i, int turns)
   {
     const Fan& fan = topology_.fans[i];
-    std::int64_t left = kQuarterTurn * turns - kSmallest * fan.corners;
+    std::int64_t left = kQuarterTurn * turns - kSmallestAngle * fan.corners;
     fit_ = fit_ && left >= 0;
     left = std::max<std::int64_t>(left, 0);
     double angleLeft = fan.angle;
@@ -135,7 +135,7 @@ private:
       const std::int64_t part = k + 1 == firstCorner_[i + 1]
         ? left
         : static_cast<std::int64_t>(share * static_cast<double>(left));
-      angle_[corners_[k]] = kSmallest + part;
+      angle_[corners_[k]] = kSmallestAngle + part;
       left -= part;
       angleLeft -= own;
     }
@@ -164,7 +164,7 @@ private:
       {
         const Index corner = cornerOf(node, k);
         const Index other = otherEnd(node, corner);
-        if (level_[other] == kInvalidIndex && (node >= faces_ || angle_[corner] > kSmallest))
+        if (level_[other] == kInvalidIndex && (node >= faces_ || angle_[corner] > kSmallestAngle))
         {
           level_[other] = level_[node] + 1;
           queue.push_back(other);
@@ -186,7 +186,8 @@ private:
       {
         const Index corner = cornerOf(node, next_[node]);
         const Index other = otherEnd(node, corner);
-        if (level_[other] == level_[node] + 1 && (node >= faces_ || angle_[corner] > kSmallest))
+        if (level_[other] == level_[node] + 1 &&
+          (node >= faces_ || angle_[corner] > kSmallestAngle))
         {
           path_.push_back(corner);
           node = other;
@@ -207,7 +208,7 @@ private:
     std::int64_t amount = std::min(surplus_[f], -surplus_[node]);
     for (std::size_t i = 0; i < path_.size(); i += 2)
     {
-      amount = std::min(amount, angle_[path_[i]] - kSmallest);
+      amount = std::min(amount, angle_[path_[i]] - kSmallestAngle);
     }
     for (std::size_t i = 0; i < path_.size(); ++i)
     {

@@ -230,7 +230,7 @@ void adopt(const FieldTopology& topology, const PowerFields& fields,
 }
 
 // A field with more irregular vertices has to lessen the expected error of sizes by this factor.
-constexpr double kWorthwhile = 0.9;
+constexpr double kWorthwhileError = 0.9;
 
 // Where sizes are asked for: irregular vertices with which quads can have them, if turns can be moved so.
 void adaptToSizes(const Mesh& mesh, const FieldTopology& topology,
@@ -256,7 +256,7 @@ void adaptToSizes(const Mesh& mesh, const FieldTopology& topology,
   const TurnRepairResult repair = repairTurns(input);
   if (repair.complete &&
     sizeError(mesh, topology, repair.turns) <
-      kWorthwhile * sizeError(mesh, topology, solution.turns))
+      kWorthwhileError * sizeError(mesh, topology, solution.turns))
   {
     applyShift(topology, repair.shift, solution.jump);
     solution.turns = repair.turns;

@@ -20,7 +20,7 @@ namespace
 using Complex = std::complex<double>;
 constexpr int kDiffusionSteps = 8; // the singularities hardly move after these
 // A guide of weight 1 against the Laplacian, times s^2: the field turns away from it within s / 4.
-constexpr double kGuideStrength = 16;
+constexpr double kGuideStrengthOfField = 16;
 
 // Unknown index of each free face, and whether its component (across unconstrained edges) holds a fixed face.
 struct FreeFaces
@@ -415,7 +415,7 @@ void addGuides(const Mesh& mesh, const FieldTopology& topology, const std::vecto
     const Vector3 y = x.cross(mesh.edgeVector(3 * f + 1)).normalized().cross(x);
     constraints.guideAngle[f] = std::atan2(guides[f].direction.dot(y), guides[f].direction.dot(x));
     constraints.guideStrength[f] =
-      kGuideStrength * double{ guides[f].weight } * topology.area[f] / (length * length);
+      kGuideStrengthOfField * double{ guides[f].weight } * topology.area[f] / (length * length);
   }
 }
 

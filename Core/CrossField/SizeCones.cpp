@@ -26,7 +26,7 @@ constexpr double kMostCotangent = 1e6;
 /// afterwards. A share of the whole area would be lost in rounding where a component is a tiny part of the surface.
 constexpr double kPull = 1e-6;
 /// Vertices that turns may move between, about; each is a solve.
-constexpr std::size_t kMostPlaces = 500;
+constexpr std::size_t kMostConePlaces = 500;
 constexpr int kMostMoves = 100;
 /// Columns of a product that are computed at once.
 constexpr Eigen::Index kBlock = 64;
@@ -197,7 +197,7 @@ std::vector<ConePlace> placesOf(const Mesh& mesh, const FieldTopology& topology,
   }
   std::sort(all.begin(), all.end(),
     [](const ConePlace& a, const ConePlace& b) { return a.vertex < b.vertex; });
-  const std::size_t step = all.size() / kMostPlaces + 1;
+  const std::size_t step = all.size() / kMostConePlaces + 1;
   std::vector<ConePlace> places;
   for (std::size_t i = 0; i < all.size(); ++i)
   {

@@ -49,8 +49,8 @@ public:
   bool move(const Flags& from, const Flags& to)
   {
     using Entry = std::pair<double, Index>;
-    constexpr double kFar = std::numeric_limits<double>::infinity();
-    std::vector<double> distance(result_.turns.size(), kFar);
+    constexpr double kUnreached = std::numeric_limits<double>::infinity();
+    std::vector<double> distance(result_.turns.size(), kUnreached);
     std::vector<std::optional<Link>> entry(result_.turns.size());
     std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
     for (Index i = 0; i < from.size(); ++i)

@@ -29,7 +29,7 @@ namespace
 /// The least height of a part over the length of its loop: what is flatter is a bump.
 constexpr double kLeastRise = 0.125;
 /// How far from the loop, over its length, the tip and the vertex outside are if they can be.
-constexpr double kFar = 1.1;
+constexpr double kFarOverLength = 1.1;
 /// A loop may be as long as this part of the way to the tip and back: a longer one may go there and round the tip.
 constexpr double kLoopOfHeight = 1.9;
 /// Faces that a search on the surface looks at: the way across a loop shorter than a quad is shorter.
@@ -241,7 +241,8 @@ private:
       distance[v] = 0;
       near.push({ 0, v });
     }
-    while (!near.empty() && (part.height < kFar * part.girth || part.outside == kInvalidIndex))
+    while (
+      !near.empty() && (part.height < kFarOverLength * part.girth || part.outside == kInvalidIndex))
     {
       const auto [d, v] = near.top();
       near.pop();
@@ -250,12 +251,12 @@ private:
         continue;
       }
       const bool isInside = seen_[Mesh::face(outgoing_[v])] == inside_;
-      if (d > 0 && isInside && part.height < kFar * part.girth)
+      if (d > 0 && isInside && part.height < kFarOverLength * part.girth)
       {
         part.tip = v;
         part.height = d;
       }
-      if (d >= kFar * part.girth)
+      if (d >= kFarOverLength * part.girth)
       {
         part.outside = isInside || part.outside != kInvalidIndex ? part.outside : v;
         continue;

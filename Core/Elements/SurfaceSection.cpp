@@ -502,12 +502,12 @@ std::optional<SurfacePoint> middleOnSection(
 
 SurfacePoint approach(const Mesh& mesh, SurfacePoint from, const Vector3& target)
 {
-  constexpr int kSteps = 40;
+  constexpr int kMostSectionSteps = 40;
   constexpr int kFaces = 10000;
   constexpr double kNearer = 1 - 1e-9;
   double distance = (target - positionOf(mesh, from)).norm();
   double part = 1;
-  for (int i = 0; i < kSteps && distance > 0; ++i)
+  for (int i = 0; i < kMostSectionSteps && distance > 0; ++i)
   {
     const Vector3 wanted = part * (target - positionOf(mesh, from));
     const std::optional<SurfacePoint> place = walkSurface(mesh, from, wanted, kFaces);

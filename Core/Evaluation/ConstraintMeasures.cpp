@@ -21,9 +21,9 @@ namespace
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// Places at which a constraint is measured, and all of them together, at most: a mean over so many has an error of a
 /// fiftieth of the spread, a tenth of a degree. More of them would take longer than the map of a scan.
-constexpr std::size_t kMostPlaces = 2500;
+constexpr std::size_t kMostGuidePlaces = 2500;
 constexpr std::size_t kMostPlacesOfAll = 20000;
-constexpr std::size_t kLeastPlaces = 100;
+constexpr std::size_t kLeastGuidePlaces = 100;
 
 /// Places on each edge of a curve that is as long as an edge of the quads.
 constexpr double kPlacesAnEdge = 8;
@@ -105,7 +105,8 @@ double percentile95(std::vector<WeightedDeviation> values)
 
 std::size_t mostPlacesOf(std::size_t guides)
 {
-  return std::clamp(kMostPlacesOfAll / std::max<std::size_t>(guides, 1), kLeastPlaces, kMostPlaces);
+  return std::clamp(
+    kMostPlacesOfAll / std::max<std::size_t>(guides, 1), kLeastGuidePlaces, kMostGuidePlaces);
 }
 
 std::size_t strideOf(std::size_t count, std::size_t most)

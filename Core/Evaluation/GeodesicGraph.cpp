@@ -142,8 +142,8 @@ std::vector<double> GeodesicGraph::distances(Index source, const std::vector<Ind
     }
   };
   check(source);
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  std::vector<double> distance(vertices, kFar);
+  constexpr double kUnreached = std::numeric_limits<double>::infinity();
+  std::vector<double> distance(vertices, kUnreached);
   std::vector<std::uint8_t> wanted(vertices, 0);
   std::size_t open = 0;
   for (const Index v : targets)

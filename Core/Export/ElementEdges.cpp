@@ -77,7 +77,7 @@ void ElementEdges::joinRun(const Index* begin, const Index* end)
     kinds_[*h] = static_cast<std::uint8_t>((count == 1   ? kBoundary
                                                : feature ? kFeature
                                                          : 0) |
-      (h == begin ? kLowest : 0));
+      (h == begin ? kLowestHalfEdge : 0));
   }
 }
 

@@ -28,12 +28,12 @@ public:
   /// On a feature and not on the boundary. An edge of more than two elements counts as one.
   bool isFeature(Index h) const { return (kinds_[h] & kFeature) != 0; }
   /// Whether it is the lowest half-edge of its edge, so that each edge is visited once.
-  bool isLowest(Index h) const { return (kinds_[h] & kLowest) != 0; }
+  bool isLowest(Index h) const { return (kinds_[h] & kLowestHalfEdge) != 0; }
   /// The other side of the same element at one end of h.
   Index otherSide(Index h, Index node) const;
 
 private:
-  static constexpr std::uint8_t kBoundary = 1, kFeature = 2, kLowest = 4;
+  static constexpr std::uint8_t kBoundary = 1, kFeature = 2, kLowestHalfEdge = 4;
 
   void sortIntoBuckets(std::vector<Index>& first, std::vector<Index>& inBuckets) const;
   void joinRun(const Index* begin, const Index* end);

@@ -61,7 +61,7 @@ class PlaneCheck
 public:
   explicit PlaneCheck(const ElementMesh& mesh) : mesh_(mesh)
   {
-    constexpr double kTolerance = 1e-9;
+    constexpr double kPlaceTolerance = 1e-9;
     Vector3 low = mesh.nodes.empty() ? Vector3(Vector3::Zero()) : mesh.nodes.front();
     Vector3 high = low;
     for (const Vector3& p : mesh.nodes)
@@ -69,7 +69,7 @@ public:
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
-    tolerance_ = kTolerance * (high - low).norm();
+    tolerance_ = kPlaceTolerance * (high - low).norm();
   }
 
   void require(const std::string& type) const
@@ -236,7 +236,7 @@ std::vector<std::string> inpElementTypes(int nodesPerElement, InpDialect dialect
 std::vector<std::string> writeInp(
   const ElementMesh& mesh, const MeshSets& sets, const std::string& path, const InpOptions& options)
 {
-  constexpr double kAfterNodes = 0.4, kAfterElements = 0.7, kAfterSets = 0.85;
+  constexpr double kAfterNodesOfInp = 0.4, kAfterElements = 0.7, kAfterSets = 0.85;
   const std::string type = typeOf(mesh, options);
   const bool isPlane = isPlaneType(type);
   if (isPlane)
@@ -251,7 +251,7 @@ std::vector<std::string> writeInp(
   file << "*HEADING\nQuads made by Quadrille: " << static_cast<std::uint64_t>(mesh.nodes.size())
        << " nodes, " << static_cast<std::uint64_t>(mesh.elementCount()) << " elements\n";
   writeInpNodes(mesh, isPlane, file);
-  report(options.progress, kAfterNodes, text);
+  report(options.progress, kAfterNodesOfInp, text);
   writeInpElements(mesh, type, file);
   report(options.progress, kAfterElements, text);
   writeInpSets(sets, names, isPlane, options.dialect, file);

@@ -76,7 +76,7 @@ public:
     writeEntities();
     report(progress, kAfterEntities, text);
     writeNodesByEntity();
-    report(progress, kAfterNodes, text);
+    report(progress, kAfterNodesOfMsh, text);
     writeElementsByEntity();
     file_.close();
     report(progress, 1, text);
@@ -89,7 +89,7 @@ public:
     writeHeader("2.2");
     writeNames();
     writeNodeList();
-    report(progress, kAfterNodes, text);
+    report(progress, kAfterNodesOfMsh, text);
     writeElementList();
     file_.close();
     report(progress, 1, text);
@@ -102,7 +102,7 @@ public:
   }
 
 private:
-  static constexpr double kAfterEntities = 0.1, kAfterNodes = 0.5;
+  static constexpr double kAfterEntities = 0.1, kAfterNodesOfMsh = 0.5;
   static constexpr int kPoint = 15;
 
   std::string progressText() const

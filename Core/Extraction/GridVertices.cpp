@@ -13,7 +13,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kFaceChunk = 1 << 14;
+constexpr std::size_t kGridFaceChunk = 1 << 14;
 /// Corners of a vertex that are searched one by one.
 constexpr std::size_t kLargeFan = 64;
 
@@ -237,11 +237,11 @@ GridVertices::GridVertices(const ExactMap& map, int threads)
   : map_(map), faceFirst_(std::size_t{ map.mesh.faceCount() } + 1, 0)
 {
   const std::size_t faces = map.mesh.faceCount();
-  std::vector<Part> parts((faces + kFaceChunk - 1) / kFaceChunk);
-  parallelFor(faces, kFaceChunk, threads,
+  std::vector<Part> parts((faces + kGridFaceChunk - 1) / kGridFaceChunk);
+  parallelFor(faces, kGridFaceChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      Part& part = parts[begin / kFaceChunk];
+      Part& part = parts[begin / kGridFaceChunk];
       for (std::size_t f = begin; f < end; ++f)
       {
         const std::size_t first = part.vertices.size();
@@ -265,10 +265,10 @@ GridVertices::GridVertices(const ExactMap& map, int threads)
     portCount_ += part.ports;
   }
   vertices_.resize(total);
-  parallelFor(faces, kFaceChunk, threads,
+  parallelFor(faces, kGridFaceChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      const std::size_t chunk = begin / kFaceChunk;
+      const std::size_t chunk = begin / kGridFaceChunk;
       for (std::size_t q = 0; q < parts[chunk].vertices.size(); ++q)
       {
         vertices_[firstVertex[chunk] + q] = parts[chunk].vertices[q];

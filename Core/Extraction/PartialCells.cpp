@@ -18,7 +18,7 @@ namespace
 {
 
 /// Where polygons cut the boundary short they stay within this, in quads.
-constexpr double kTolerance = 0.1;
+constexpr double kPolygonTolerance = 0.1;
 /// Cosine of the angle by which a boundary bends at a corner that polygons keep.
 constexpr double kCornerCosine = 0.8660254037844387; // 30 degrees
 
@@ -131,7 +131,7 @@ private:
     }
   }
 
-  /// Follows the boundary to within kTolerance [Douglas and Peucker 1973].
+  /// Follows the boundary to within kPolygonTolerance [Douglas and Peucker 1973].
   void keepWhereFar()
   {
     std::vector<Index> corners = keptStops();
@@ -149,7 +149,7 @@ private:
       const auto [a, b] = gaps.back();
       gaps.pop_back();
       const Index between = farthest(a, b);
-      if (between != kInvalidIndex && distance(between, a, b) > kTolerance)
+      if (between != kInvalidIndex && distance(between, a, b) > kPolygonTolerance)
       {
         kept_[between] = 1;
         gaps.emplace_back(a, between);

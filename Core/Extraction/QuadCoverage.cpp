@@ -129,19 +129,19 @@ public:
   {
     for (const std::size_t slot : used_)
     {
-      slots_[slot] = kFree;
+      slots_[slot] = kFreeSlot;
     }
     used_.clear();
   }
 
 private:
-  static constexpr std::uint64_t kFree = ~std::uint64_t{ 0 };
+  static constexpr std::uint64_t kFreeSlot = ~std::uint64_t{ 0 };
 
   std::size_t find(std::uint64_t key) const
   {
     const std::size_t mask = slots_.size() - 1;
     std::size_t slot = (key * 0x9e3779b97f4a7c15 >> 20) & mask;
-    while (slots_[slot] != kFree && slots_[slot] != key)
+    while (slots_[slot] != kFreeSlot && slots_[slot] != key)
     {
       slot = (slot + 1) & mask;
     }
@@ -155,7 +155,7 @@ private:
     {
       keys.push_back(slots_[slot]);
     }
-    slots_.assign(4 * slots_.size(), kFree);
+    slots_.assign(4 * slots_.size(), kFreeSlot);
     used_.clear();
     for (const std::uint64_t key : keys)
     {
@@ -164,7 +164,7 @@ private:
     }
   }
 
-  std::vector<std::uint64_t> slots_ = std::vector<std::uint64_t>(64, kFree); ///< power of two
+  std::vector<std::uint64_t> slots_ = std::vector<std::uint64_t>(64, kFreeSlot); ///< power of two
   std::vector<std::size_t> used_;
 };
 

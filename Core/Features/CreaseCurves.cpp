@@ -25,7 +25,7 @@ namespace
 constexpr double kSideWidth = 0.5;
 constexpr double kPlaceDistance = 0.5;
 /// A short curve is looked at in so many places, too.
-constexpr double kLeastPlaces = 4;
+constexpr double kLeastCurvePlaces = 4;
 /// A curve goes on through a junction where it bends by less than this (radians) over an edge length.
 constexpr double kBend = 0.6;
 
@@ -282,7 +282,7 @@ CreaseSide lookBeside(const Mesh& mesh, Index h, double width)
 /// Places along a curve, at equal distances in the middle of parts of equal length; the half-edges that they lie on.
 std::vector<Index> placesAlong(const Mesh& mesh, const CreaseCurve& curve, double edgeLength)
 {
-  const double step = std::min(kPlaceDistance, curve.length / kLeastPlaces);
+  const double step = std::min(kPlaceDistance, curve.length / kLeastCurvePlaces);
   std::vector<Index> places;
   double begin = 0, wanted = 0.5 * step;
   for (const Index h : curve.halfEdges)

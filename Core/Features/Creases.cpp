@@ -20,7 +20,7 @@ namespace
 
 constexpr std::size_t kEdgeChunk = 64;
 /// Rings of vertices round an edge whose edges are looked at.
-constexpr int kRings = 2;
+constexpr int kCreaseRings = 2;
 /// The search does not go on from vertices with more edges, as the tip of a fan is near to all of its rim.
 constexpr std::size_t kMostEdges = 32;
 /// Edges above this part of the feature angle are blunt ones and not flat.
@@ -181,7 +181,7 @@ private:
   {
     std::vector<Index> vertices{ mesh_.origin[h], mesh_.target(h) };
     std::size_t begin = 0;
-    for (int ring = 0; ring < kRings; ++ring)
+    for (int ring = 0; ring < kCreaseRings; ++ring)
     {
       const std::size_t end = vertices.size();
       for (std::size_t k = begin; k < end; ++k)

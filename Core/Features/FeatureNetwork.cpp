@@ -37,7 +37,7 @@ constexpr double kMovable = 0.1;
 /// A curve goes straight on where it bends by less than this (radians) over half an edge length.
 constexpr double kStraightOn = 0.7;
 constexpr double kCourse = 0.5;
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
 struct NetworkArc
 {
@@ -179,7 +179,7 @@ private:
 struct Resolution
 {
   std::vector<Index> arcs;
-  double loss = kNever; ///< in edge lengths
+  double loss = kUnreached; ///< in edge lengths
 };
 
 Resolution lesser(Resolution a, Resolution b)
@@ -210,7 +210,7 @@ Resolution endOfCurve(const ArcNetwork& network, Index node, Index arc)
       if (a != kept && !again)
       {
         made.arcs.push_back(a);
-        made.loss += arcs[a].removable ? arcs[a].length : kNever;
+        made.loss += arcs[a].removable ? arcs[a].length : kUnreached;
       }
     }
     // A corner so near to the other end is as good as a node, unless a curve may be moved so far.
@@ -459,8 +459,8 @@ private:
     open.push({ 0, from });
     known[from] = { 0, kInvalidIndex };
     std::optional<Index> best;
-    double least = kNever;
-    while (!open.empty() && open.top().first < std::min(least, kFarthest))
+    double least = kUnreached;
+    while (!open.empty() && open.top().first < std::min(least, kFarthestEnd))
     {
       const auto [distance, v] = open.top();
       open.pop();
@@ -515,7 +515,7 @@ private:
   }
 
   static constexpr double kReach = 1.5;
-  static constexpr double kFarthest = 3;
+  static constexpr double kFarthestEnd = 3;
 
   Mesh& mesh_;
   double edgeLength_;
@@ -529,9 +529,9 @@ private:
 /// Most surfaces have no features, or none that nobody asked for.
 bool hasDetectedFeature(const Mesh& mesh)
 {
-  constexpr std::uint8_t kBits = kFeatureEdge | kRequestedFeature;
+  constexpr std::uint8_t kFeatureBits = kFeatureEdge | kRequestedFeature;
   return std::any_of(mesh.flags.begin(), mesh.flags.end(),
-    [](std::uint8_t flags) { return (flags & kBits) == kFeatureEdge; });
+    [](std::uint8_t flags) { return (flags & kFeatureBits) == kFeatureEdge; });
 }
 
 std::string inQuads(double length)

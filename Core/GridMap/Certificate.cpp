@@ -21,7 +21,8 @@ namespace
 {
 
 constexpr std::size_t kWorstFaces = 16;
-constexpr std::size_t kChunk = 1 << 14; ///< faces; their uv and twins fit a second level cache
+constexpr std::size_t kCertificateChunk = 1
+  << 14; ///< faces; their uv and twins fit a second level cache
 
 using FaceValue = std::pair<Int128, Index>;
 
@@ -269,12 +270,12 @@ Certificate certify(const Mesh& mesh, const std::vector<FixedVec2>& uv,
   Certificate result;
   result.triangles = mesh.faceCount();
   std::vector<std::int8_t> entered(mesh.halfEdgeCount(), 0);
-  std::vector<Partial> partials((mesh.faceCount() + kChunk - 1) / kChunk);
-  parallelFor(mesh.faceCount(), kChunk, threads,
+  std::vector<Partial> partials((mesh.faceCount() + kCertificateChunk - 1) / kCertificateChunk);
+  parallelFor(mesh.faceCount(), kCertificateChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       checkFaces(mesh, uv, integerVertex, static_cast<Index>(begin), static_cast<Index>(end),
-        entered, partials[begin / kChunk]);
+        entered, partials[begin / kCertificateChunk]);
     });
   merge(partials, result);
   checkTurns(mesh, entered, expectedTurns, result);

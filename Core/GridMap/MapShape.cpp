@@ -19,7 +19,7 @@ namespace
 
 /// Least height of a reference over its longest edge: the references of needles, or of triangles without
 /// area, stay invertible.
-constexpr double kLeastHeight = 1e-2;
+constexpr double kLeastShapeHeight = 1e-2;
 
 /// The same with lengths over the sizes that are wanted there.
 Eigen::Matrix2d flattenSized(const Mesh& mesh, Index f)
@@ -28,8 +28,8 @@ Eigen::Matrix2d flattenSized(const Mesh& mesh, Index f)
   const double longest = std::max(
     { triangle.width, triangle.apex.norm(), (triangle.apex - Vector2(triangle.width, 0)).norm() });
   Eigen::Matrix2d result;
-  result << std::max(triangle.width, kLeastHeight * longest), triangle.apex.x(), 0,
-    std::max(triangle.apex.y(), kLeastHeight * longest);
+  result << std::max(triangle.width, kLeastShapeHeight * longest), triangle.apex.x(), 0,
+    std::max(triangle.apex.y(), kLeastShapeHeight * longest);
   return result;
 }
 
@@ -44,9 +44,9 @@ Eigen::Matrix2d flattenFace(const Mesh& mesh, Index f)
   const Vector3 a = mesh.edgeVector(3 * f);
   const Vector3 b = -mesh.edgeVector(3 * f + 2);
   const double longest = std::max({ a.norm(), b.norm(), (b - a).norm() });
-  const double width = std::max(a.norm(), kLeastHeight * longest);
+  const double width = std::max(a.norm(), kLeastShapeHeight * longest);
   const double along = a.norm() > 0 ? a.dot(b) / a.norm() : 0;
-  const double height = std::max(a.cross(b).norm() / width, kLeastHeight * longest);
+  const double height = std::max(a.cross(b).norm() / width, kLeastShapeHeight * longest);
   Eigen::Matrix2d result;
   result << width, along, 0, height;
   return result;

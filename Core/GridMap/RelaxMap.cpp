@@ -27,7 +27,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunkFaces = 1 << 12;
+constexpr std::size_t kFacesOfRelaxation = 1 << 12;
 /// Energy of an isometry, |J|^2 + |J^-1|^2.
 constexpr double kIsometry = 4;
 /// A step may not shrink a triangle below this part of its determinant, unless it stays above the same part of an
@@ -61,7 +61,7 @@ constexpr double kLeastInset = 1e-3;
 /// How often a whole step is halved before those of single vertices are shortened.
 constexpr int kInsetHalvings = 2;
 /// Strength of a guide of weight 1 against the energy, as in the map of the coarse level.
-constexpr double kGuideStrength = 100;
+constexpr double kGuideStrengthOfMap = 100;
 
 /// The linear part of a triangle: J = E inverseReference with the edges E.
 struct Reference
@@ -443,7 +443,7 @@ void MapRelaxation::makeDirections()
     {
       const Vector2 inPlane(guide.direction.dot(along.normalized()),
         guide.direction.dot(normal.cross(along).normalized()));
-      directions_[f] = { inPlane, kGuideStrength * guide.weight };
+      directions_[f] = { inPlane, kGuideStrengthOfMap * guide.weight };
     }
   }
 }
@@ -563,8 +563,8 @@ void MapRelaxation::element(
 double MapRelaxation::totalEnergy(bool stepped) const
 {
   const std::size_t faces = mesh_.faceCount();
-  std::vector<double> sums((faces + kChunkFaces - 1) / kChunkFaces, 0);
-  parallelFor(faces, kChunkFaces, options_.threads,
+  std::vector<double> sums((faces + kFacesOfRelaxation - 1) / kFacesOfRelaxation, 0);
+  parallelFor(faces, kFacesOfRelaxation, options_.threads,
     [&](std::size_t begin, std::size_t end)
     {
       double sum = 0;
@@ -576,7 +576,7 @@ double MapRelaxation::totalEnergy(bool stepped) const
           sum += energy(f, stepped ? steppedCorners(f) : cornersOf(f));
         }
       }
-      sums[begin / kChunkFaces] = sum;
+      sums[begin / kFacesOfRelaxation] = sum;
     });
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
@@ -625,14 +625,14 @@ bool MapRelaxation::allows(Index f) const
 void MapRelaxation::shortenSteps()
 {
   const std::size_t faces = mesh_.faceCount();
-  std::vector<std::vector<Index>> refused((faces + kChunkFaces - 1) / kChunkFaces);
+  std::vector<std::vector<Index>> refused((faces + kFacesOfRelaxation - 1) / kFacesOfRelaxation);
   std::vector<std::uint8_t> shortened(mesh_.vertexCount(), 0);
   for (int round = 0;; ++round)
   {
-    parallelFor(faces, kChunkFaces, options_.threads,
+    parallelFor(faces, kFacesOfRelaxation, options_.threads,
       [&](std::size_t begin, std::size_t end)
       {
-        std::vector<Index>& list = refused[begin / kChunkFaces];
+        std::vector<Index>& list = refused[begin / kFacesOfRelaxation];
         list.clear();
         for (std::size_t i = begin; i < end; ++i)
         {
@@ -674,7 +674,7 @@ void MapRelaxation::shortenSteps()
 
 void MapRelaxation::takeStep()
 {
-  parallelFor(mesh_.halfEdgeCount(), kChunkFaces, options_.threads,
+  parallelFor(mesh_.halfEdgeCount(), kFacesOfRelaxation, options_.threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t h = begin; h < end; ++h)

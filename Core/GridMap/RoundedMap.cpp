@@ -16,11 +16,11 @@ namespace quadrille
 namespace
 {
 
-constexpr Index kFree = kInvalidIndex;     ///< a variable that need not be whole
-constexpr Index kZero = kInvalidIndex - 1; ///< one that is 0 whatever the unknowns are
+constexpr Index kFreeUnknown = kInvalidIndex; ///< a variable that need not be whole
+constexpr Index kZero = kInvalidIndex - 1;    ///< one that is 0 whatever the unknowns are
 
 /// Part of the mean diagonal that is added to it against rounding, as in fitReferences.
-constexpr double kShift = 1e-12;
+constexpr double kDiagonalShift = 1e-12;
 
 /// An integer vertex lies best at the origin, else a vertex of an isoline: then what must be whole is so.
 std::vector<std::uint8_t> rankOf(const Mesh& mesh, const std::vector<std::uint8_t>& integerVertex)
@@ -96,7 +96,7 @@ void RoundedMap::collectForms(const CrossField& field)
   std::fill(whole.begin() + 2 * graph.wedges, whole.end(), std::uint8_t{ 1 });
 
   std::map<std::pair<IntegerRow, std::int64_t>, Index> known;
-  form_.assign(basis.rows.size(), kFree);
+  form_.assign(basis.rows.size(), kFreeUnknown);
   for (std::size_t i = 0; i < whole.size(); ++i)
   {
     pollNowAndThen(i);
@@ -124,7 +124,7 @@ bool RoundedMap::solvePoisson()
     return false;
   }
   poisson_.analyze(system.hessian());
-  if (!poisson_.factorize(system.hessian(), kShift * system.hessian().diagonal().mean()))
+  if (!poisson_.factorize(system.hessian(), kDiagonalShift * system.hessian().diagonal().mean()))
   {
     return false;
   }
@@ -217,7 +217,7 @@ std::vector<FixedVec2> RoundedMap::unfold(
       for (Index i = 0; i < 2; ++i)
       {
         const Index variable = 2 * graph.wedge[corner] + i;
-        if (form_[variable] == kFree)
+        if (form_[variable] == kFreeUnknown)
         {
           continue;
         }

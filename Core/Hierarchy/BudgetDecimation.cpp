@@ -44,7 +44,7 @@ constexpr std::array<double, 5> kCeilings{ 0.25, 0.5, 1, 2,
 constexpr double kVerticesPerQuad = 0.4;
 
 /// Vertices that a thread evaluates at a time.
-constexpr std::size_t kChunk = 1024;
+constexpr std::size_t kCandidateChunk = 1024;
 
 /// Positions in a value of the cache, see BudgetDecimation::writeValue().
 constexpr std::size_t kCurvatureAt = 1;
@@ -372,7 +372,7 @@ void BudgetDecimation::runStage(const Stage& stage, RecordWriter& records)
   std::size_t visits = 0;
   while (alive_ > budget_ && !heap.empty() && double{ heap.top().cost } <= stage.ceiling)
   {
-    if (++visits % kChunk == 0)
+    if (++visits % kCandidateChunk == 0)
     {
       poll();
     }
@@ -434,16 +434,16 @@ std::vector<BudgetDecimation::Entry> BudgetDecimation::evaluateAll(const Stage& 
   }
   std::vector<float> cost(alive.size(), -1);
   std::deque<Work> works;
-  for (std::size_t begin = 0; begin < alive.size(); begin += kChunk)
+  for (std::size_t begin = 0; begin < alive.size(); begin += kCandidateChunk)
   {
     works.emplace_back(mesh_);
   }
-  parallelFor(alive.size(), kChunk, options_.threads,
+  parallelFor(alive.size(), kCandidateChunk, options_.threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        cost[i] = evaluate(alive[i], stage, works[begin / kChunk]).value_or(-1);
+        cost[i] = evaluate(alive[i], stage, works[begin / kCandidateChunk]).value_or(-1);
       }
     });
   for (Work& work : works)

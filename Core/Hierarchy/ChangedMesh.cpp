@@ -13,21 +13,22 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kFaceChunk = std::size_t{ 1 } << 16;
+constexpr std::size_t kChangedFaceChunk = std::size_t{ 1 } << 16;
 
 /// Faces for which select(f) holds, ascending.
 template <typename Select>
 std::vector<Index> selectFaces(const Mesh& mesh, int threads, const Select& select)
 {
-  std::vector<std::vector<Index>> parts((mesh.faceCount() + kFaceChunk - 1) / kFaceChunk);
-  parallelFor(mesh.faceCount(), kFaceChunk, threads,
+  std::vector<std::vector<Index>> parts(
+    (mesh.faceCount() + kChangedFaceChunk - 1) / kChangedFaceChunk);
+  parallelFor(mesh.faceCount(), kChangedFaceChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (Index f = static_cast<Index>(begin); f < end; ++f)
       {
         if (select(f))
         {
-          parts[begin / kFaceChunk].push_back(f);
+          parts[begin / kChangedFaceChunk].push_back(f);
         }
       }
     });

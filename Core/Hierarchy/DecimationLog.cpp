@@ -20,8 +20,8 @@ namespace
 // intermediateRounds, number of rounds, of blocks, of record bytes (64 bit each); blocks per round, bytes
 // per block (64 bit each); records; CRC-64 of all before it.
 constexpr std::array<std::uint8_t, 8> kMagic{ 'Q', 'D', 'R', 'L', 'D', 'L', 'O', 'G' };
-constexpr std::uint32_t kVersion = 2;
-constexpr std::size_t kHeaderBytes = 8 + 4 + 4 + 7 * 8;
+constexpr std::uint32_t kLogVersion = 2;
+constexpr std::size_t kLogHeaderBytes = 8 + 4 + 4 + 7 * 8;
 
 /// CRC-64 of ECMA-182 in its reflected form, eight bytes at a time [Kounavis and Berry 2005].
 class Crc64
@@ -236,10 +236,10 @@ std::size_t DecimationLog::recordBytes() const
 std::vector<std::uint8_t> DecimationLog::serialize() const
 {
   std::vector<std::uint8_t> bytes(
-    kHeaderBytes + 8 * (rounds.size() + blocks.size()) + recordBytes() + 8);
+    kLogHeaderBytes + 8 * (rounds.size() + blocks.size()) + recordBytes() + 8);
   Writer writer(bytes.data());
   writer.putBytes(kMagic);
-  writer.put32(kVersion);
+  writer.put32(kLogVersion);
   writer.put32(fineFaces);
   for (const std::uint64_t value : { fineHash, std::uint64_t{ collapses }, std::uint64_t{ flips },
          std::uint64_t{ intermediateRounds }, std::uint64_t{ rounds.size() },
@@ -270,16 +270,16 @@ DecimationLog DecimationLog::deserialize(
   {
     refuse("these bytes are no decimation log.");
   }
-  if (bytes.size() < kHeaderBytes + 8)
+  if (bytes.size() < kLogHeaderBytes + 8)
   {
     refuse("it is truncated.");
   }
   Reader reader(bytes.data() + kMagic.size());
   const std::uint32_t version = reader.get32();
-  if (version != kVersion)
+  if (version != kLogVersion)
   {
     refuse("it has version " + std::to_string(version) + ", this program reads version " +
-      std::to_string(kVersion) + ".");
+      std::to_string(kLogVersion) + ".");
   }
   DecimationLog log;
   log.fineFaces = reader.get32();
@@ -290,7 +290,7 @@ DecimationLog DecimationLog::deserialize(
   const std::uint64_t roundCount = reader.get64();
   const std::uint64_t blockCount = reader.get64();
   const std::uint64_t recordBytes = reader.get64();
-  const std::uint64_t rest = bytes.size() - kHeaderBytes - 8;
+  const std::uint64_t rest = bytes.size() - kLogHeaderBytes - 8;
   if (roundCount > rest / 8 || blockCount > rest / 8 || 8 * (roundCount + blockCount) > rest ||
     rest - 8 * (roundCount + blockCount) != recordBytes)
   {

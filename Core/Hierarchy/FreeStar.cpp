@@ -25,7 +25,7 @@ constexpr float kFlattestFace = 0.022F;
 template <int N>
 struct RingTable
 {
-  static constexpr std::size_t kLanes = (N + 3) / 4 * 4;
+  static constexpr std::size_t kPaddedLanes = (N + 3) / 4 * 4;
   static constexpr std::size_t kTriples = std::size_t{ N } * (N - 1) * (N - 2) / 6;
   static constexpr std::size_t kOrbits = (kTriples + N - 1) / N;
 
@@ -92,7 +92,7 @@ struct RingTable
     {
       ++k;
     }
-    return static_cast<std::uint8_t>(k * kLanes + static_cast<std::size_t>(start));
+    return static_cast<std::uint8_t>(k * kPaddedLanes + static_cast<std::size_t>(start));
   }
 };
 
@@ -252,7 +252,7 @@ FreeStar::Outcome FreeStar::planRing()
 template <int N>
 bool FreeStar::measure()
 {
-  constexpr std::size_t lanes = RingTable<N>::kLanes;
+  constexpr std::size_t lanes = RingTable<N>::kPaddedLanes;
   goRound<N>(x_);
   goRound<N>(y_);
   goRound<N>(z_);
@@ -313,7 +313,7 @@ bool FreeStar::measure()
 template <int N>
 bool FreeStar::mapToPlane()
 {
-  constexpr std::size_t lanes = RingTable<N>::kLanes;
+  constexpr std::size_t lanes = RingTable<N>::kPaddedLanes;
   alignas(64) std::array<float, lanes> direction{};
   float sum = 0;
   for (std::size_t i = 0; i < N; ++i)
@@ -345,7 +345,7 @@ bool FreeStar::mapToPlane()
 template <int N>
 void FreeStar::evaluateTriangles()
 {
-  constexpr std::size_t lanes = RingTable<N>::kLanes;
+  constexpr std::size_t lanes = RingTable<N>::kPaddedLanes;
   std::size_t out = 0;
   for (const auto& orbit : kRingTable<N>.orbit)
   {

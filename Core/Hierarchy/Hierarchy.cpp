@@ -47,7 +47,7 @@ constexpr double kVerticesPerSquare = 0.35;
 /// Distance on both sides over which the bend at a corner is measured, in s.
 constexpr double kCornerScale = 0.25;
 /// Faces of a chunk of the passes over the mesh.
-constexpr std::size_t kChunkFaces = std::size_t{ 1 } << 15;
+constexpr std::size_t kFacesOfLevel = std::size_t{ 1 } << 15;
 /// What bringing a vertex back undoes, in removals, and what another size does, at most, where it is worth it.
 constexpr std::size_t kUndoneForKept = 32;
 constexpr std::size_t kUndoneForSize = 2;
@@ -103,7 +103,7 @@ void checkOptions(const Mesh& fine, const HierarchyOptions& options)
 DisjointSets componentsOf(const Mesh& fine, int threads)
 {
   DisjointSets components(fine.vertexCount(), threads);
-  parallelFor(fine.faceCount(), kChunkFaces, threads,
+  parallelFor(fine.faceCount(), kFacesOfLevel, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t h = 3 * begin; h < 3 * end; h += 3)
@@ -124,11 +124,11 @@ std::vector<double> componentAreas(const Mesh& fine, DisjointSets& components, i
     Index root = kInvalidIndex;
     double doubledArea = 0;
   };
-  std::vector<std::vector<Sum>> sums(fine.faceCount() / kChunkFaces + 1);
-  parallelFor(fine.faceCount(), kChunkFaces, threads,
+  std::vector<std::vector<Sum>> sums(fine.faceCount() / kFacesOfLevel + 1);
+  parallelFor(fine.faceCount(), kFacesOfLevel, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      std::vector<Sum>& sum = sums[begin / kChunkFaces];
+      std::vector<Sum>& sum = sums[begin / kFacesOfLevel];
       for (Index f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f)
       {
         const Index root = components.find(fine.origin[3 * f]);

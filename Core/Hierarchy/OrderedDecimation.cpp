@@ -46,7 +46,7 @@ public:
   void byDraws(const RandomDraws& draws);
 
 private:
-  static constexpr float kNever = std::numeric_limits<float>::infinity();
+  static constexpr float kNeverCost = std::numeric_limits<float>::infinity();
 
   using Entry = LazyHeapEntry;
 
@@ -67,22 +67,22 @@ private:
   std::size_t ticks_ = 0;
 };
 
-/// E_uni, or kNever for a vertex that has to stay or whose edges are long enough.
+/// E_uni, or kNeverCost for a vertex that has to stay or whose edges are long enough.
 float OrderedDecimation::costOf(Index v, StarRemoval& star) const
 {
   if (kept_[v] != 0 || !star.gather(v))
   {
-    return kNever;
+    return kNeverCost;
   }
   const double limit =
     options_.edgeLength * (options_.scale.empty() ? 1.0 : double{ options_.scale[v] });
   const double shortest = star.shortestEdge(limit);
-  return shortest < limit ? static_cast<float>(shortest) : kNever;
+  return shortest < limit ? static_cast<float>(shortest) : kNeverCost;
 }
 
 bool OrderedDecimation::remove(Index v, StarRemoval& star, RecordWriter& records)
 {
-  if (costOf(v, star) == kNever || star.plan() != StarRemoval::Outcome::Planned)
+  if (costOf(v, star) == kNeverCost || star.plan() != StarRemoval::Outcome::Planned)
   {
     return false;
   }
@@ -125,8 +125,8 @@ std::size_t OrderedDecimation::heapPass()
   std::vector<Entry> entries;
   for (Index v = 0; v < static_cast<Index>(mesh_.position.size()); ++v)
   {
-    const float cost = mesh_.outgoing[v] == kInvalidIndex ? kNever : costOf(v, star);
-    if (cost != kNever)
+    const float cost = mesh_.outgoing[v] == kInvalidIndex ? kNeverCost : costOf(v, star);
+    if (cost != kNeverCost)
     {
       entries.push_back({ cost, v, 0 });
     }
@@ -146,7 +146,7 @@ std::size_t OrderedDecimation::heapPass()
     {
       ++version[w];
       const float cost = costOf(w, star);
-      if (cost != kNever)
+      if (cost != kNeverCost)
       {
         heap.push({ cost, w, version[w] });
       }
@@ -183,7 +183,7 @@ void OrderedDecimation::drawUntilEmpty(
   {
     tick();
     std::size_t best = 0;
-    float least = kNever;
+    float least = kNeverCost;
     for (int i = 0; i < draws.candidates; ++i)
     {
       const std::size_t at = random() % alive.size();
@@ -196,14 +196,14 @@ void OrderedDecimation::drawUntilEmpty(
       }
     }
     ++empty;
-    if (least == kNever)
+    if (least == kNeverCost)
     {
       continue;
     }
     const Index v = alive[best];
     if (!remove(v, star, records))
     {
-      cost[v] = kNever; // until its star changes
+      cost[v] = kNeverCost; // until its star changes
       continue;
     }
     empty = 0;

@@ -23,7 +23,7 @@ namespace
 constexpr std::size_t kBlocks = 16;
 /// Live vertices of a block: large against its border, small enough for the cache.
 constexpr std::size_t kLeastBlock = 4096;
-constexpr std::size_t kMostBlock = 32768;
+constexpr std::size_t kLargestBlock = 32768;
 constexpr double kThresholdStep = 1.5;
 /// Sweeps inside one round. The second one takes what the first one locked while the block is in the cache.
 constexpr int kSweepsPerRound = 2;
@@ -228,7 +228,7 @@ std::vector<Block> UniformDecimation::makeBlocks(bool serial)
   std::vector<std::size_t> borders{ 0 };
   if (!serial)
   {
-    const std::size_t size = std::clamp(alive_.size() / kBlocks, kLeastBlock, kMostBlock);
+    const std::size_t size = std::clamp(alive_.size() / kBlocks, kLeastBlock, kLargestBlock);
     for (std::size_t border = shifted_ ? size / 2 : size; border < alive_.size(); border += size)
     {
       borders.push_back(border);

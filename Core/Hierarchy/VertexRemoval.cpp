@@ -216,10 +216,10 @@ void VertexRemoval::addStarKey(
 double VertexRemoval::sizeChange() const
 {
   const auto logOf = [&](std::size_t i) { return std::log(mesh_.sizeOf(ring_[weightRing_[i]])); };
-  constexpr double kUnit = 1.0 / 4294967296.0;
+  constexpr double kWeightUnit = 1.0 / 4294967296.0;
   const double first = logOf(0);
   return std::abs(std::log(mesh_.sizeOf(vertex_)) - first -
-    kUnit * weight_[0] * (logOf(1) - first) - kUnit * weight_[1] * (logOf(2) - first));
+    kWeightUnit * weight_[0] * (logOf(1) - first) - kWeightUnit * weight_[1] * (logOf(2) - first));
 }
 
 void VertexRemoval::savePlan(std::vector<std::uint32_t>& words) const

@@ -83,7 +83,7 @@ const std::vector<Bundle>& bundles()
 }
 
 /// What is read at first, for the header.
-constexpr std::uint64_t kHeaderBytes = 65536;
+constexpr std::uint64_t kLongestHeader = 65536;
 
 /// One a property; those of lists have no numbers.
 using Columns = std::vector<FileArray>;
@@ -99,7 +99,7 @@ public:
     {
       throw InvalidInput(path + ": cannot be opened for reading");
     }
-    load(kHeaderBytes);
+    load(kLongestHeader);
   }
 
   SurfaceFile read()
@@ -427,11 +427,11 @@ private:
       rowBytes += sizeOf(*property.type);
     }
     std::array<std::size_t, 3> xyz{};
-    constexpr std::array<const char*, 3> kNames{ "x", "y", "z" };
+    constexpr std::array<const char*, 3> kCoordinateNames{ "x", "y", "z" };
     for (std::size_t k = 0; k < 3; ++k)
     {
       const auto found = std::find_if(element.properties.begin(), element.properties.end(),
-        [&](const Property& property) { return property.name == kNames[k]; });
+        [&](const Property& property) { return property.name == kCoordinateNames[k]; });
       xyz[k] = static_cast<std::size_t>(found - element.properties.begin());
       if (found == element.properties.end() || found->type != element.properties[xyz[0]].type ||
         (found->type != NumberType::Float32 && found->type != NumberType::Float64))

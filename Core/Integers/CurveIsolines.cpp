@@ -550,7 +550,7 @@ private:
   void meet(Index out, const View& view)
   {
     if (map_.twin[out] == kInvalidIndex || (map_.flags[out] & kUvConstrained) != 0 ||
-      ++steps_ > kMostSteps || isFar(out, view.eye))
+      ++steps_ > kMostCurveSteps || isFar(out, view.eye))
     {
       return;
     }
@@ -587,7 +587,7 @@ private:
              toDouble(map_.uv[Mesh::next(h)] - eye).norm()) > maximumLength_;
   }
 
-  static constexpr std::size_t kMostSteps = 200000;
+  static constexpr std::size_t kMostCurveSteps = 200000;
 
   const UvMesh& map_;
   Index to_;

@@ -277,11 +277,11 @@ void IntegerMap::round(double scale)
 
 bool IntegerMap::adopt(const std::vector<FixedVec2>& uv)
 {
-  constexpr int kBits = kFractionBits - 4; // of a sixteenth
-  static_assert(std::int64_t{ 1 } << kBits == kOne / kGrain);
+  constexpr int kGrainBits = kFractionBits - 4; // of a sixteenth
+  static_assert(std::int64_t{ 1 } << kGrainBits == kOne / kGrain);
   // Rounds up on a tie everywhere, so that whole translations change nothing.
   const auto nearestGrain = [](std::int64_t x)
-  { return (x + (std::int64_t{ 1 } << (kBits - 1))) >> kBits; };
+  { return (x + (std::int64_t{ 1 } << (kGrainBits - 1))) >> kGrainBits; };
   const auto grains = [&](FixedVec2 p) {
     return FixedVec2{ nearestGrain(p.u), nearestGrain(p.v) };
   };

@@ -105,11 +105,11 @@ void integrate(const IntegerMap& map, const std::vector<std::uint8_t>& integer, 
 /// In quads.
 double uvArea(const UvMesh& mesh)
 {
-  constexpr double kUnit = static_cast<double>(kOne) * static_cast<double>(kOne);
+  constexpr double kSquaredOne = static_cast<double>(kOne) * static_cast<double>(kOne);
   double area = 0;
   for (Index f = 0; f < mesh.alive.size(); ++f)
   {
-    area += mesh.alive[f] ? 0.5 / kUnit * static_cast<double>(mesh.faceDeterminant(f)) : 0.0;
+    area += mesh.alive[f] ? 0.5 / kSquaredOne * static_cast<double>(mesh.faceDeterminant(f)) : 0.0;
   }
   return area;
 }

@@ -16,9 +16,9 @@ namespace
 {
 
 /// Energies are of order one; changes below this are rounding.
-constexpr double kLeastGain = 1e-7;
+constexpr double kLeastEnergyGain = 1e-7;
 /// Sweeps over all half-edges with one length of step; they end by themselves long before.
-constexpr int kMaximumSweeps = 100;
+constexpr int kMostIntegerSweeps = 100;
 /// Steps of the repairs at all scales, a face; each one's own bound is half of it. What fails at two scales in full
 /// fails at the others, too.
 constexpr std::size_t kMostStepsOfScales = 10000;
@@ -214,7 +214,7 @@ public:
       {
         continue;
       }
-      if (breakouts_ == 0 || search_.work() > kMostSteps * map_.faces().size())
+      if (breakouts_ == 0 || search_.work() > kMostIntegerSteps * map_.faces().size())
       {
         return false;
       }
@@ -375,7 +375,7 @@ private:
   static constexpr double kLeastMend = 0.5; ///< below one unit of brokenness
   static constexpr std::size_t kBreakouts = 40;
   /// Of the searches, a face; repairs that succeeded took up to 4,100, others more than 11,000.
-  static constexpr std::size_t kMostSteps = 5000;
+  static constexpr std::size_t kMostIntegerSteps = 5000;
 
   IntegerMap& map_;
   std::vector<double> weight_; ///< #F
@@ -401,7 +401,7 @@ public:
       for (std::int64_t length = longest; length >= kGrain; length /= 2)
       {
         refused_.assign(4 * map_.mesh().origin.size(), {});
-        for (int sweep = 0; sweep < kMaximumSweeps; ++sweep)
+        for (int sweep = 0; sweep < kMostIntegerSweeps; ++sweep)
         {
           report(progress, 0.5, "improving integers");
           const bool strips = sweepStrips(length);
@@ -462,7 +462,7 @@ private:
         {
           const FixedVec2 e = stepVector(direction, length);
           const double gain = -map_.energyChange(h, e);
-          if (gain > kLeastGain && map_.mayShift(h, e))
+          if (gain > kLeastEnergyGain && map_.mayShift(h, e))
           {
             result.push_back({ gain, h, direction });
           }
@@ -486,7 +486,7 @@ private:
       const FixedVec2 e = stepVector(candidate.direction, length);
       Refusal& refusal = refused_[4 * candidate.halfEdge + candidate.direction];
       double gain = -map_.energyChange(candidate.halfEdge, e);
-      while (gain > kLeastGain && !isUpToDate(refusal) &&
+      while (gain > kLeastEnergyGain && !isUpToDate(refusal) &&
         accept(search_.through(candidate.halfEdge, e, gain), refusal))
       {
         improved = true;
@@ -531,7 +531,7 @@ private:
       {
         localReason = false;
       }
-      else if (change < -kLeastGain && brokenness(map_, crossed.faces) == 0)
+      else if (change < -kLeastEnergyGain && brokenness(map_, crossed.faces) == 0)
       {
         // A triangle that is crossed once keeps its sign on the way, so the winding cannot change; one that
         // is crossed twice may be rotated by 180 degrees.
@@ -560,7 +560,7 @@ private:
         for (int direction = 0; direction < 4; ++direction)
         {
           const FixedVec2 e = stepVector(direction, length);
-          while (map_.mayMove(v, e) && map_.moveEnergy(v, e) < -kLeastGain)
+          while (map_.mayMove(v, e) && map_.moveEnergy(v, e) < -kLeastEnergyGain)
           {
             map_.moveVertex(v, e);
             if (brokenness(map_, faces) > 0)

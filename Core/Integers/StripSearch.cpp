@@ -16,11 +16,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Makes the shorter of two equally cheap strips win.
 constexpr double kStepCost = 1e-6;
 /// Steps that an improving search may settle.
-constexpr std::size_t kFarthest = 4000;
+constexpr std::size_t kMostSettled = 4000;
 /// Steps that count as work at a time, and the units that they are, see WorkCount.h.
 constexpr std::size_t kCountedSteps = 1000;
 constexpr std::size_t kWorkOfCountedSteps = 160;
-constexpr std::size_t kChildren = 4;
+constexpr std::size_t kHeapChildren = 4;
 
 } // namespace
 
@@ -63,7 +63,7 @@ void StripSearch::push(Entry entry)
   heap_.push_back(entry);
   while (i > 0)
   {
-    const std::size_t above = (i - 1) / kChildren;
+    const std::size_t above = (i - 1) / kHeapChildren;
     if (!entry.isBefore(heap_[above]))
     {
       break;
@@ -81,10 +81,10 @@ StripSearch::Entry StripSearch::popFirst()
   heap_.pop_back();
   const std::size_t count = heap_.size();
   std::size_t i = 0;
-  for (std::size_t child = 1; child < count; child = kChildren * i + 1)
+  for (std::size_t child = 1; child < count; child = kHeapChildren * i + 1)
   {
     std::size_t least = child;
-    for (std::size_t other = child + 1; other < std::min(child + kChildren, count); ++other)
+    for (std::size_t other = child + 1; other < std::min(child + kHeapChildren, count); ++other)
     {
       least = heap_[other].isBefore(heap_[least]) ? other : least;
     }
@@ -167,7 +167,7 @@ void StripSearch::explore(Index h, FixedVec2 e, double bound, End& closed, End& 
   Index state = 0;
   double cost = 0;
   // A repair has to reach far; what improves does so nearby, or costs more time than it is worth.
-  const std::size_t end = work_ + kFarthest;
+  const std::size_t end = work_ + kMostSettled;
   while (pop(state, cost) && (cost_ == StripCost::Repair || work_ < end))
   {
     // The first triangle may repay, so the bound may be negative.

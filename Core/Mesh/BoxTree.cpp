@@ -28,14 +28,15 @@ BoxTree::BoxTree(const std::vector<Box>& boxes, int threads)
   items_ = spaceFillingOrder(centres, threads);
   const auto addLevel = [&](std::size_t count, const auto& boxOf)
   {
-    std::vector<Box> level((count + kChildren - 1) / kChildren);
+    std::vector<Box> level((count + kBoxChildren - 1) / kBoxChildren);
     parallelFor(level.size(), kBoxChunk, threads,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t k = begin; k < end; ++k)
         {
-          level[k] = boxOf(kChildren * k);
-          for (std::size_t i = kChildren * k + 1; i < std::min(kChildren * (k + 1), count); ++i)
+          level[k] = boxOf(kBoxChildren * k);
+          for (std::size_t i = kBoxChildren * k + 1; i < std::min(kBoxChildren * (k + 1), count);
+               ++i)
           {
             const Box& box = boxOf(i);
             level[k].low = level[k].low.cwiseMin(box.low);

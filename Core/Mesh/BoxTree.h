@@ -48,7 +48,7 @@ public:
 
 private:
   /// Boxes, and items, below one box.
-  static constexpr std::size_t kChildren = 8;
+  static constexpr std::size_t kBoxChildren = 8;
 
   struct Nearest
   {
@@ -60,10 +60,10 @@ private:
   void search(const Vector3& p, std::size_t level, std::size_t box,
     const SquaredDistance& squaredDistance, Nearest& best) const
   {
-    const std::size_t begin = kChildren * box;
+    const std::size_t begin = kBoxChildren * box;
     if (level == 0)
     {
-      for (std::size_t i = begin; i < std::min(begin + kChildren, items_.size()); ++i)
+      for (std::size_t i = begin; i < std::min(begin + kBoxChildren, items_.size()); ++i)
       {
         const double squared = squaredDistance(items_[i]);
         if (squared < best.squared || (squared == best.squared && items_[i] < best.item))
@@ -74,9 +74,9 @@ private:
       return;
     }
     const std::vector<Box>& below = levels_[level - 1];
-    std::array<std::pair<double, std::size_t>, kChildren> order;
+    std::array<std::pair<double, std::size_t>, kBoxChildren> order;
     std::size_t count = 0;
-    for (std::size_t i = begin; i < std::min(begin + kChildren, below.size()); ++i)
+    for (std::size_t i = begin; i < std::min(begin + kBoxChildren, below.size()); ++i)
     {
       order[count++] = { below[i].squaredDistance(p), i };
     }

@@ -19,17 +19,17 @@ namespace
 {
 
 /// 2^11 cells an axis: on a surface some 10^7 cells, so ten million vertices are about one a cell.
-constexpr int kCellBits = 11;
+constexpr int kBitsOfCell = 11;
 constexpr std::size_t kOrderChunk = 65536;
 
 /// The keys' 33 bits are sorted by their upper 11 first, which leaves 22 to sort among the few points of a bucket.
 constexpr int kDigitBits = 11;
-constexpr std::size_t kBuckets = std::size_t{ 1 } << kDigitBits;
-constexpr int kLowerBits = 3 * kCellBits - kDigitBits;
+constexpr std::size_t kDigitValues = std::size_t{ 1 } << kDigitBits;
+constexpr int kLowerBits = 3 * kBitsOfCell - kDigitBits;
 /// Buckets below this size are sorted by comparing.
 constexpr std::size_t kSmallKeyBucket = 512;
 /// Cells whose keys are computed in step; a multiple of the lanes of any vector unit.
-constexpr std::size_t kLanes = 32;
+constexpr std::size_t kCellLanes = 32;
 
 /// Coordinates of cells, axis by axis.
 template <std::size_t kCount>
@@ -96,17 +96,17 @@ std::vector<std::uint64_t> computeKeys(const std::vector<Vector3>& points, int t
   const PointBox box = boxOfPoints(points, threads);
   const Vector3& low = box.low;
   const double extent = (box.high - box.low).maxCoeff();
-  const double last = (1 << kCellBits) - 1;
+  const double last = (1 << kBitsOfCell) - 1;
   const double scale = extent > 0 ? last / extent : 0;
 
   std::vector<std::uint64_t> keys(points.size());
   parallelFor(points.size(), kOrderChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      for (std::size_t first = begin; first < end; first += kLanes)
+      for (std::size_t first = begin; first < end; first += kCellLanes)
       {
-        const std::size_t count = std::min(kLanes, end - first);
-        Cells<kLanes> cell{};
+        const std::size_t count = std::min(kCellLanes, end - first);
+        Cells<kCellLanes> cell{};
         for (std::size_t i = 0; i < count; ++i)
         {
           for (Index k = 0; k < 3; ++k)
@@ -115,7 +115,7 @@ std::vector<std::uint64_t> computeKeys(const std::vector<Vector3>& points, int t
             cell[k][i] = static_cast<std::uint32_t>(std::clamp(x, 0.0, last));
           }
         }
-        toHilbert(cell, kCellBits);
+        toHilbert(cell, kBitsOfCell);
         for (std::size_t i = 0; i < count; ++i)
         {
           keys[first + i] = interleave(cell, i);
@@ -136,34 +136,34 @@ std::vector<std::uint64_t> distribute(
   const std::vector<std::uint64_t>& keys, std::vector<std::size_t>& begin, int threads)
 {
   const std::size_t chunks = (keys.size() + kOrderChunk - 1) / kOrderChunk;
-  std::vector<std::array<std::size_t, kBuckets>> next(chunks);
+  std::vector<std::array<std::size_t, kDigitValues>> next(chunks);
   parallelFor(keys.size(), kOrderChunk, threads,
     [&](std::size_t first, std::size_t last)
     {
-      std::array<std::size_t, kBuckets>& count = next[first / kOrderChunk];
+      std::array<std::size_t, kDigitValues>& count = next[first / kOrderChunk];
       count.fill(0);
       for (std::size_t i = first; i < last; ++i)
       {
         ++count[bucketOf(keys[i])];
       }
     });
-  begin.assign(kBuckets + 1, 0);
+  begin.assign(kDigitValues + 1, 0);
   std::size_t sum = 0;
-  for (std::size_t bucket = 0; bucket < kBuckets; ++bucket)
+  for (std::size_t bucket = 0; bucket < kDigitValues; ++bucket)
   {
     begin[bucket] = sum;
-    for (std::array<std::size_t, kBuckets>& chunk : next)
+    for (std::array<std::size_t, kDigitValues>& chunk : next)
     {
       sum += chunk[bucket];
       chunk[bucket] = sum - chunk[bucket];
     }
   }
-  begin[kBuckets] = sum;
+  begin[kDigitValues] = sum;
   std::vector<std::uint64_t> items(keys.size());
   parallelFor(keys.size(), kOrderChunk, threads,
     [&](std::size_t first, std::size_t last)
     {
-      std::array<std::size_t, kBuckets>& place = next[first / kOrderChunk];
+      std::array<std::size_t, kDigitValues>& place = next[first / kOrderChunk];
       constexpr std::uint64_t kLower = (std::uint64_t{ 1 } << kLowerBits) - 1;
       for (std::size_t i = first; i < last; ++i)
       {
@@ -184,18 +184,18 @@ void sortKeyBucket(std::uint64_t* items, std::uint64_t* scratch, std::size_t cou
   }
   for (int shift = 32; shift < 32 + kLowerBits; shift += kDigitBits)
   {
-    std::array<std::size_t, kBuckets + 1> begin{};
+    std::array<std::size_t, kDigitValues + 1> begin{};
     for (std::size_t i = 0; i < count; ++i)
     {
-      ++begin[(items[i] >> shift & (kBuckets - 1)) + 1];
+      ++begin[(items[i] >> shift & (kDigitValues - 1)) + 1];
     }
-    for (std::size_t b = 1; b <= kBuckets; ++b)
+    for (std::size_t b = 1; b <= kDigitValues; ++b)
     {
       begin[b] += begin[b - 1];
     }
     for (std::size_t i = 0; i < count; ++i)
     {
-      scratch[begin[items[i] >> shift & (kBuckets - 1)]++] = items[i];
+      scratch[begin[items[i] >> shift & (kDigitValues - 1)]++] = items[i];
     }
     std::swap(items, scratch);
   }
@@ -388,13 +388,13 @@ std::vector<Index> facesByLowestVertex(const Mesh& mesh, int threads)
   const auto lowest = [&mesh](std::size_t f) {
     return std::min({ mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2] });
   };
-  const std::size_t width = mesh.vertexCount() / kBuckets + 1;
+  const std::size_t width = mesh.vertexCount() / kDigitValues + 1;
   const std::size_t chunks = (std::size_t{ mesh.faceCount() } + kOrderChunk - 1) / kOrderChunk;
-  std::vector<std::array<Index, kBuckets>> next(chunks);
+  std::vector<std::array<Index, kDigitValues>> next(chunks);
   parallelFor(mesh.faceCount(), kOrderChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      std::array<Index, kBuckets>& count = next[begin / kOrderChunk];
+      std::array<Index, kDigitValues>& count = next[begin / kOrderChunk];
       count.fill(0);
       for (std::size_t f = begin; f < end; ++f)
       {
@@ -404,24 +404,24 @@ std::vector<Index> facesByLowestVertex(const Mesh& mesh, int threads)
         }
       }
     });
-  std::vector<Index> begin(kBuckets + 1);
+  std::vector<Index> begin(kDigitValues + 1);
   Index sum = 0;
-  for (std::size_t bucket = 0; bucket < kBuckets; ++bucket)
+  for (std::size_t bucket = 0; bucket < kDigitValues; ++bucket)
   {
     begin[bucket] = sum;
-    for (std::array<Index, kBuckets>& chunk : next)
+    for (std::array<Index, kDigitValues>& chunk : next)
     {
       sum += chunk[bucket];
       chunk[bucket] = sum - chunk[bucket];
     }
   }
-  begin[kBuckets] = sum;
+  begin[kDigitValues] = sum;
   std::vector<FaceByLowest> faces;
   growLarge(faces, sum);
   parallelFor(mesh.faceCount(), kOrderChunk, threads,
     [&](std::size_t first, std::size_t last)
     {
-      std::array<Index, kBuckets>& place = next[first / kOrderChunk];
+      std::array<Index, kDigitValues>& place = next[first / kOrderChunk];
       for (std::size_t f = first; f < last; ++f)
       {
         if (!isRemoved(mesh, static_cast<Index>(f)))
@@ -433,7 +433,7 @@ std::vector<Index> facesByLowestVertex(const Mesh& mesh, int threads)
     });
   std::vector<Index> order;
   growLarge(order, sum);
-  parallelFor(kBuckets, 16, threads,
+  parallelFor(kDigitValues, 16, threads,
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t b = first; b < last; ++b)
@@ -657,7 +657,7 @@ std::vector<Index> spaceFillingOrder(const std::vector<Vector3>& points, int thr
   std::vector<std::size_t> begin;
   std::vector<std::uint64_t> items = distribute(keys, begin, threads);
   std::vector<Index> order(points.size());
-  parallelFor(kBuckets, 16, threads,
+  parallelFor(kDigitValues, 16, threads,
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t b = first; b < last; ++b)

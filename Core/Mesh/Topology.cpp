@@ -241,10 +241,10 @@ std::vector<Index> selectHalfEdges(const Mesh& mesh, int threads, const Select& 
 /// The boundary half-edges, ascending, and the number of components.
 std::vector<Index> joinFaces(const Mesh& mesh, int threads, Index& components)
 {
-  constexpr std::size_t kTopologyChunk = std::size_t{ 1 } << 15;
+  constexpr std::size_t kComponentChunk = std::size_t{ 1 } << 15;
   DisjointSets faces(mesh.faceCount(), threads);
-  std::vector<std::vector<Index>> parts((mesh.faceCount() + kTopologyChunk - 1) / kTopologyChunk);
-  parallelFor(mesh.faceCount(), kTopologyChunk, threads,
+  std::vector<std::vector<Index>> parts((mesh.faceCount() + kComponentChunk - 1) / kComponentChunk);
+  parallelFor(mesh.faceCount(), kComponentChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (Index f = static_cast<Index>(begin); f < end; ++f)
@@ -254,7 +254,7 @@ std::vector<Index> joinFaces(const Mesh& mesh, int threads, Index& components)
           const Index g = mesh.twin[h];
           if (g == kInvalidIndex)
           {
-            parts[begin / kTopologyChunk].push_back(h);
+            parts[begin / kComponentChunk].push_back(h);
           }
           else if (g < h)
           {

@@ -17,14 +17,14 @@ namespace
 {
 
 /// Beyond this nothing is added or multiplied any more.
-constexpr std::int64_t kLargest = std::int64_t{ 1 } << 62;
+constexpr std::int64_t kLargestEntry = std::int64_t{ 1 } << 62;
 
 /// Coefficients by coordinate.
 using Terms = std::map<Index, std::int64_t>;
 
 bool fits(Int128 x)
 {
-  return x < kLargest && x > -Int128{ kLargest };
+  return x < kLargestEntry && x > -Int128{ kLargestEntry };
 }
 
 std::int64_t smallestFactor(std::int64_t n)

@@ -14,12 +14,12 @@ namespace quadrille
 namespace
 {
 
-constexpr std::int64_t kUnreached = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kUnreachedCost = std::numeric_limits<std::int64_t>::max();
 
 } // namespace
 
 MinCostFlow::MinCostFlow(Index nodeCount)
-  : excess_(nodeCount, 0), potential_(nodeCount, 0), distance_(nodeCount, kUnreached),
+  : excess_(nodeCount, 0), potential_(nodeCount, 0), distance_(nodeCount, kUnreachedCost),
     entry_(nodeCount, kInvalidIndex), settled_(nodeCount, 0)
 {
 }
@@ -116,7 +116,7 @@ void MinCostFlow::settle(Index node, Direction direction)
     const std::int64_t length = distance_[node] + arcs_[used].cost + step;
     if (length < distance_[other])
     {
-      if (distance_[other] == kUnreached)
+      if (distance_[other] == kUnreachedCost)
       {
         touched_.push_back(other);
       }
@@ -134,7 +134,7 @@ Index MinCostFlow::findNearest(Index start, Direction direction)
 {
   for (const Index node : touched_)
   {
-    distance_[node] = kUnreached;
+    distance_[node] = kUnreachedCost;
     settled_[node] = 0;
   }
   touched_.assign(1, start);

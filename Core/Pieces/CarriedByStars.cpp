@@ -76,7 +76,7 @@ struct FlatTriangle
 };
 
 /// Weights below it are rounding: the place is on the edge, or at the corner.
-constexpr double kRounding = 1e-9;
+constexpr double kWeightRounding = 1e-9;
 
 /// None below 0, sum 1.
 std::array<double, 3> clampedWeights(std::array<double, 3> weights)
@@ -84,7 +84,7 @@ std::array<double, 3> clampedWeights(std::array<double, 3> weights)
   double sum = 0;
   for (double& weight : weights)
   {
-    weight = weight > kRounding ? weight : 0;
+    weight = weight > kWeightRounding ? weight : 0;
     sum += weight;
   }
   for (double& weight : weights)

@@ -301,7 +301,7 @@ private:
 };
 
 /// Weights below it are rounding of single precision: the place is on the edge, or at the corner.
-constexpr double kOnEdge = 1e-5;
+constexpr double kOnEdgeOfSingle = 1e-5;
 
 /// None below 0, sum 1.
 std::array<double, 3> inside(std::array<double, 3> weights)
@@ -309,7 +309,7 @@ std::array<double, 3> inside(std::array<double, 3> weights)
   double sum = 0;
   for (double& weight : weights)
   {
-    weight = weight > kOnEdge ? weight : 0; // also where it is no number
+    weight = weight > kOnEdgeOfSingle ? weight : 0; // also where it is no number
     sum += weight;
   }
   if (!(sum > 0) || !(sum <= std::numeric_limits<double>::max()))

@@ -33,7 +33,7 @@ namespace
 {
 
 /// Triangles that are read at once.
-constexpr std::size_t kChunk = 65536;
+constexpr std::size_t kChunkOfPieces = 65536;
 /// Cells of the grid that pieces are made of: 2^kCellBits an axis.
 constexpr int kCellBits = 7;
 constexpr std::size_t kCells = std::size_t{ 1 } << (3 * kCellBits);
@@ -77,8 +77,8 @@ struct Extent
 Extent extentOf(const TriangleSource& source, int threads)
 {
   const std::size_t faces = source.triangleCount();
-  std::vector<Extent> parts((faces + kChunk - 1) / kChunk);
-  parallelFor(faces, kChunk, threads,
+  std::vector<Extent> parts((faces + kChunkOfPieces - 1) / kChunkOfPieces);
+  parallelFor(faces, kChunkOfPieces, threads,
     [&](std::size_t begin, std::size_t end)
     {
       ChunkReader reader(source);
@@ -94,7 +94,7 @@ Extent extentOf(const TriangleSource& source, int threads)
         }
         part.area += 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
       }
-      parts[begin / kChunk] = part;
+      parts[begin / kChunkOfPieces] = part;
     });
   Extent all;
   for (const Extent& part : parts)
@@ -149,7 +149,7 @@ private:
     growLarge(cell_, faces);
     const double width = box_.diagonal().maxCoeff();
     const double scale = width > 0 ? (1 << kCellBits) / width : 0;
-    parallelFor(faces, kChunk, threads_,
+    parallelFor(faces, kChunkOfPieces, threads_,
       [&](std::size_t begin, std::size_t end)
       {
         ChunkReader reader(source_);

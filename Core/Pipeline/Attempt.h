@@ -120,7 +120,7 @@ HierarchyOptions levelOptions(const RunContext& run, const Plan& plan);
 /// Levels, map, and map of the surface by the plan, which is put on the surface. allowance: work that the map of the
 /// coarse level may take; one that would take more is interrupted and has failed.
 std::shared_ptr<MapAttempt> makeMap(
-  RunContext& run, const Plan& plan, std::size_t allowance = WorkBound::kNone);
+  RunContext& run, const Plan& plan, std::size_t allowance = WorkBound::kNoBound);
 
 /// The quads of a map with status ok, whose plan is on the surface; the levels are let go.
 std::shared_ptr<const QuadAttempt> makeQuads(RunContext& run, const Plan& plan, MapAttempt& map);

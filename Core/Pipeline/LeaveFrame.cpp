@@ -14,7 +14,7 @@ namespace
 {
 
 /// Rounding of a place between three points of a frame, in which no coordinate is above one half.
-constexpr double kRounding = 1e-12;
+constexpr double kPlaceRounding = 1e-12;
 
 using Weights = std::array<double, 3>;
 
@@ -37,7 +37,7 @@ public:
 
   Vector3 operator()(const Vector3& point, Index f, const Weights& weights) const
   {
-    if ((between(mapped_, f, weights) - point).cwiseAbs().maxCoeff() > kRounding)
+    if ((between(mapped_, f, weights) - point).cwiseAbs().maxCoeff() > kPlaceRounding)
     {
       return frame_.toUser(point); // the point is not on its face
     }

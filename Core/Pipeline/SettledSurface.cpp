@@ -40,10 +40,10 @@ constexpr double kMostGrowthOfSeveral = 1.15;
 constexpr std::size_t kManyHandles = 24;
 constexpr double kMostGrowthOfMany = 1.05;
 /// Where a round cuts less than this part of those it has tried, another one is not worth its phase 1.
-constexpr double kWorthwhile = 0.125;
+constexpr double kWorthwhileCut = 0.125;
 /// What the smallest block of a component may need, over the quads that its area is worth, so that maps are tried: with
 /// the handles that are left, and before any was cut. Small components of few handles become blocks anyway.
-constexpr double kMostBlock = 3;
+constexpr double kMostBlockWorth = 3;
 constexpr double kMostBlockBefore = 8;
 constexpr double kQuadsOfFewHandles = 64;
 /// From 512 handles on, that of twice as many before any was cut, the exact equations of a map take minutes: only where
@@ -361,7 +361,7 @@ private:
     }
     finish(closed.size(), start, before);
     handlesCut_ += closed.size();
-    return static_cast<double>(closed.size()) < kWorthwhile * static_cast<double>(places.size())
+    return static_cast<double>(closed.size()) < kWorthwhileCut * static_cast<double>(places.size())
       ? 0
       : closed.size();
   }
@@ -528,7 +528,7 @@ private:
         const double worth = component.area / quad;
         const double block = component.block;
         return block > kQuadsOfFewHandles &&
-          (isCut ? block > kMostBlock * worth || block > kLargeBlock
+          (isCut ? block > kMostBlockWorth * worth || block > kLargeBlock
                  : block > kMostBlockBefore * worth ||
                 (block > kLargeBlockBefore && block > kWorthOfLargeBefore * worth));
       });

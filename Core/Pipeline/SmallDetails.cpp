@@ -31,15 +31,15 @@ constexpr std::array<SimplifiedCount, 3> kSimplifiedCounts{ {
 
 const char* nameOf(DetailKind kind)
 {
-  constexpr std::array<const char*, 4> kNames{ "handle", "boundary loop", "component",
+  constexpr std::array<const char*, 4> kKindNames{ "handle", "boundary loop", "component",
     "thin part" };
-  return kNames[static_cast<std::size_t>(kind)];
+  return kKindNames[static_cast<std::size_t>(kind)];
 }
 
 const char* nameOf(DetailDecision decision)
 {
-  constexpr std::array<const char*, 3> kNames{ "resolved", "simplified", "kept" };
-  return kNames[static_cast<std::size_t>(decision)];
+  constexpr std::array<const char*, 3> kDecisionNames{ "resolved", "simplified", "kept" };
+  return kDecisionNames[static_cast<std::size_t>(decision)];
 }
 
 bool maySimplify(const RemeshOptions& options)

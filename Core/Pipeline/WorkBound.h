@@ -13,14 +13,14 @@ namespace quadrille
 
 struct WorkBound
 {
-  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  static constexpr std::size_t kNoBound = std::numeric_limits<std::size_t>::max();
 
   /// No attempt begins beyond it; where there are quads, or a map that they can be made of, one that is under way ends
   /// there, too.
-  std::size_t work = kNone;
+  std::size_t work = kNoBound;
   /// What the map of one attempt may take where there is neither.
-  std::size_t ofMap = kNone;
-  std::size_t attempts = kNone; ///< that a run makes at most
+  std::size_t ofMap = kNoBound;
+  std::size_t attempts = kNoBound; ///< that a run makes at most
   // Of these, for the attempt that is the last resort and those after it; work as many units more than was done before.
   std::size_t attemptsOfLastResort = 0;
   std::size_t workOfLastResort = 0;

@@ -18,7 +18,7 @@ namespace
 constexpr std::size_t kDegenerateChunk = 65536;
 
 /// An edge this much shorter than the longest one is collapsed; a longer one means a cap.
-constexpr double kShortEdge = 1e-9;
+constexpr double kNeedleEdge = 1e-9;
 
 struct Sliver
 {
@@ -86,7 +86,7 @@ private:
     const Index shortest = shortestEdge(mesh_, f);
     const Index longest = longestEdge(mesh_, f);
     const bool needle =
-      squaredLength(mesh_, shortest) <= kShortEdge * kShortEdge * squaredLength(mesh_, longest);
+      squaredLength(mesh_, shortest) <= kNeedleEdge * kNeedleEdge * squaredLength(mesh_, longest);
     if (needle && mayCollapse(mesh_, shortest))
     {
       collapse(shortest);

@@ -57,7 +57,7 @@ private:
 /// Length of the first sampled edges of polygons by powers of two; how fine the grid has to be.
 int gridBits(const SurfaceInput& input, double unit)
 {
-  constexpr int kLowest = -64;
+  constexpr int kLowestExponent = -64;
   std::array<std::size_t, 64> count{};
   const std::size_t corners = input.polygonPoints.size();
   const std::size_t stride = std::max<std::size_t>(1, corners / kEdgeSamples);
@@ -69,14 +69,15 @@ int gridBits(const SurfaceInput& input, double unit)
       unit;
     if (length > 0)
     {
-      ++count[static_cast<std::size_t>(std::clamp(std::ilogb(length), kLowest, -1) - kLowest)];
+      ++count[static_cast<std::size_t>(
+        std::clamp(std::ilogb(length), kLowestExponent, -1) - kLowestExponent)];
       ++sum;
     }
   }
   std::size_t below = 0;
-  int exponent = kLowest;
+  int exponent = kLowestExponent;
   while (exponent < -1 &&
-    (below += count[static_cast<std::size_t>(exponent - kLowest)]) * kFineShare <= sum)
+    (below += count[static_cast<std::size_t>(exponent - kLowestExponent)]) * kFineShare <= sum)
   {
     ++exponent;
   }

@@ -31,7 +31,7 @@ constexpr double kFacesPerSquare = 20;
 constexpr double kFacesPerFace = 16;
 constexpr double kFacesPerFaceOfSmall = 160;
 constexpr double kSmallEnd = 4e6;
-constexpr double kMostFaces = 1e8;
+constexpr double kMostRefinedFaces = 1e8;
 
 /// A connected surface with the area of so many squares of the maximum edge length is not small.
 constexpr double kSurelyNotSmall = 2 * kQuadsOfSmallTriangulation;
@@ -41,7 +41,7 @@ constexpr Index kLargeSurface = Index{ 1 } << 18;
 constexpr Index kFewAmong = 256;
 
 constexpr std::size_t kSplitsBetweenReports = 100000;
-constexpr std::size_t kChunkFaces = std::size_t{ 1 } << 16;
+constexpr std::size_t kFacesOfRefinement = std::size_t{ 1 } << 16;
 
 struct LongEdge
 {
@@ -60,7 +60,7 @@ struct LongEdge
 class LongEdgeBuckets
 {
 public:
-  explicit LongEdgeBuckets(double squaredLimit) : limit_(squaredLimit), buckets_(kBuckets) {}
+  explicit LongEdgeBuckets(double squaredLimit) : limit_(squaredLimit), buckets_(kLengthBuckets) {}
 
   void push(const LongEdge& edge)
   {
@@ -94,23 +94,23 @@ public:
 
 private:
   /// 32 buckets for each power of two of the squared length over the limit, by the bits of the ratio.
-  static constexpr int kShift = 23 - 5;
-  static constexpr std::size_t kBuckets = 2048;
+  static constexpr int kRatioShift = 23 - 5;
+  static constexpr std::size_t kLengthBuckets = 2048;
 
   std::size_t bucketOf(double squaredLength) const
   {
     const float ratio = static_cast<float>(squaredLength / limit_);
     std::uint32_t bits = 0, one = 0;
-    constexpr float kOne = 1;
+    constexpr float kUnitRatio = 1;
     std::memcpy(&bits, &ratio, sizeof(bits));
-    std::memcpy(&one, &kOne, sizeof(one));
-    return bits <= one ? 0 : std::min<std::size_t>((bits - one) >> kShift, kBuckets - 1);
+    std::memcpy(&one, &kUnitRatio, sizeof(one));
+    return bits <= one ? 0 : std::min<std::size_t>((bits - one) >> kRatioShift, kLengthBuckets - 1);
   }
 
   double limit_;
   std::vector<std::vector<LongEdge>> buckets_;
   std::priority_queue<LongEdge> top_;
-  std::size_t current_ = kBuckets; ///< those from here on are in top_
+  std::size_t current_ = kLengthBuckets; ///< those from here on are in top_
 };
 
 class LongEdgeQueue
@@ -121,8 +121,8 @@ public:
       queue_(limit_)
   {
     findScales(surface, maximumLength, threads);
-    std::vector<std::vector<LongEdge>> found(faces_ / kChunkFaces + 1);
-    parallelFor(faces_, kChunkFaces, threads,
+    std::vector<std::vector<LongEdge>> found(faces_ / kFacesOfRefinement + 1);
+    parallelFor(faces_, kFacesOfRefinement, threads,
       [&](std::size_t begin, std::size_t end)
       {
         for (Index f = static_cast<Index>(begin); f < end; ++f)
@@ -133,7 +133,7 @@ public:
             // The twin of a boundary half-edge is above all others.
             if (lengths[i] > limit_ && 3 * f + i < mesh_.twin[3 * f + i])
             {
-              found[begin / kChunkFaces].push_back({ lengths[i], 3 * f + i });
+              found[begin / kFacesOfRefinement].push_back({ lengths[i], 3 * f + i });
             }
           }
         }
@@ -249,7 +249,7 @@ private:
 bool anyConstraint(const Mesh& mesh, int threads)
 {
   const std::size_t faces = mesh.faceCount();
-  return firstRefused(faces, kChunkFaces, threads,
+  return firstRefused(faces, kFacesOfRefinement, threads,
            [&](std::size_t f)
            {
              const Index h = static_cast<Index>(3 * f);
@@ -280,7 +280,7 @@ std::size_t faceLimit(const PreparedSurface& surface, double maximumLength)
   const double growth =
     std::max(kFacesPerFace * faces, std::min(kFacesPerFaceOfSmall * faces, kSmallEnd));
   const double wanted = growth + kFacesPerSquare * area / (maximumLength * maximumLength);
-  return static_cast<std::size_t>(std::min(wanted, std::max(faces, kMostFaces)));
+  return static_cast<std::size_t>(std::min(wanted, std::max(faces, kMostRefinedFaces)));
 }
 
 /// Faces among the first `count` that had no weights before and have some now.

@@ -30,8 +30,8 @@ inline void requirePoint(std::size_t polygon, Index point, std::size_t points)
 /// Throws InvalidInput where a coordinate of the point is not finite, or so large that lengths overflow.
 inline void requireCoordinates(std::size_t point, const Vector3& place)
 {
-  constexpr double kLargest = 1e150; // the squared size of the box must be finite, too
-  if (!(place.cwiseAbs().maxCoeff() < kLargest) || !place.allFinite())
+  constexpr double kLargestCoordinate = 1e150; // the squared size of the box must be finite, too
+  if (!(place.cwiseAbs().maxCoeff() < kLargestCoordinate) || !place.allFinite())
   {
     refuse("point ", point,
       " has a coordinate that is not finite or exceeds 1e150: remove the point and the polygons "

@@ -156,8 +156,8 @@ QuadProjectionReport projectQuads(std::vector<Vector3>& points, const QuadList& 
   const NearestTriangle halves(halvesOf(before, quads));
   const PointTargets targets{ surface, halves, options.distance, std::cos(options.angle) };
   std::vector<PointFate> fates(points.size());
-  constexpr std::size_t kQuestions = 256;
-  parallelFor(points.size(), kQuestions, options.threads,
+  constexpr std::size_t kPointsAtATime = 256;
+  parallelFor(points.size(), kPointsAtATime, options.threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

@@ -15,10 +15,10 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kChunk = 256;
+constexpr std::size_t kSmoothingChunk = 256;
 /// A move must not shorten the shortest edge at a point below this part of their mean: the scaled
 /// Jacobian does not see lengths.
-constexpr double kShortEdge = 0.35;
+constexpr double kShortQuadEdge = 0.35;
 /// Below this a quad is worth a search in all directions.
 constexpr double kBadShape = 0.4;
 
@@ -120,7 +120,7 @@ private:
     for (const std::vector<Index>& points : classes_)
     {
       std::vector<std::uint8_t> moved(points.size(), 0);
-      parallelFor(points.size(), kChunk, options_.threads,
+      parallelFor(points.size(), kSmoothingChunk, options_.threads,
         [&](std::size_t begin, std::size_t end)
         {
           for (std::size_t i = begin; i < end; ++i)
@@ -252,7 +252,7 @@ private:
   bool shrinksShortEdge(Index p, const Vector3& position) const
   {
     const QuadMoves::EdgeLengths after = moves_.edgeLengths(p, position);
-    return after.shortest < kShortEdge * after.mean &&
+    return after.shortest < kShortQuadEdge * after.mean &&
       after.shortest < moves_.edgeLengths(p, quads_.points[p]).shortest;
   }
 

@@ -3,6 +3,8 @@
 /// Better-shaped quads without leaving the input surface.
 #pragma once
 
+#include "Base/Progress.h"
+#include "Mesh/Mesh.h"
 #include "Quads/QuadMesh.h"
 
 namespace quadrille

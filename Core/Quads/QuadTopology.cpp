@@ -17,7 +17,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kTopologyChunk = std::size_t{ 1 } << 11;
+constexpr std::size_t kQuadTopologyChunk = std::size_t{ 1 } << 11;
 
 using Quads = std::vector<std::array<Index, 4>>;
 
@@ -37,7 +37,7 @@ public:
   LeavingHalfEdges(const Quads& quads, std::size_t pointCount, int threads)
     : first_(new std::atomic<Index>[pointCount]), next_(4 * quads.size())
   {
-    parallelFor(pointCount, kTopologyChunk, threads,
+    parallelFor(pointCount, kQuadTopologyChunk, threads,
       [this](std::size_t begin, std::size_t end)
       {
         for (std::size_t p = begin; p < end; ++p)
@@ -45,8 +45,9 @@ public:
           first_[p].store(kInvalidIndex, std::memory_order_relaxed);
         }
       });
-    std::vector<Index> wrong((quads.size() + kTopologyChunk - 1) / kTopologyChunk, kInvalidIndex);
-    parallelFor(quads.size(), kTopologyChunk, threads,
+    std::vector<Index> wrong(
+      (quads.size() + kQuadTopologyChunk - 1) / kQuadTopologyChunk, kInvalidIndex);
+    parallelFor(quads.size(), kQuadTopologyChunk, threads,
       [&](std::size_t begin, std::size_t end)
       {
         for (Index h = static_cast<Index>(4 * begin); h < 4 * end; ++h)
@@ -54,7 +55,7 @@ public:
           const Index p = originOf(quads, h);
           if (p >= pointCount)
           {
-            wrong[begin / kTopologyChunk] = h;
+            wrong[begin / kQuadTopologyChunk] = h;
             return;
           }
           next_[h] = first_[p].exchange(h, std::memory_order_relaxed);
@@ -227,10 +228,11 @@ void checkQuad(const std::array<Index, 4>& q, DisjointSets& sets, Counts& counts
 template <typename Body>
 void overChunks(std::size_t size, int threads, QuadTopology& topology, const Body& body)
 {
-  std::vector<Counts> parts((size + kTopologyChunk - 1) / kTopologyChunk);
-  parallelFor(size, kTopologyChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    { body(static_cast<Index>(begin), static_cast<Index>(end), parts[begin / kTopologyChunk]); });
+  std::vector<Counts> parts((size + kQuadTopologyChunk - 1) / kQuadTopologyChunk);
+  parallelFor(size, kQuadTopologyChunk, threads,
+    [&](std::size_t begin, std::size_t end) {
+      body(static_cast<Index>(begin), static_cast<Index>(end), parts[begin / kQuadTopologyChunk]);
+    });
   for (const Counts& part : parts)
   {
     topology.edges += part.edges;

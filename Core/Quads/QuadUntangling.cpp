@@ -17,8 +17,8 @@ namespace
 {
 
 /// So many rings of quads round those that are inverted may move; the next number where some are left.
-constexpr int kRings[] = { 1, 2, 4, 8 };
-constexpr int kMaximumSweeps = 30;
+constexpr int kRingsThatMove[] = { 1, 2, 4, 8 };
+constexpr int kMostUntanglingSweeps = 30;
 /// A sweep that lowers the badness of a place by less than this part is the last one.
 constexpr double kLeastProgress = 0.01;
 /// Corners with less than this area go on moving once no quad is inverted.
@@ -28,9 +28,9 @@ constexpr double kGoodCorner = 0.6;
 /// A move must not shorten the shortest edge at a point below this part of their mean.
 constexpr double kShortUntangledEdge = 0.2;
 /// A move has to lower the badness of the corners at the point by this part.
-constexpr double kLeastGain = 1e-3;
+constexpr double kLeastBadnessGain = 1e-3;
 /// Parts of the way to a corner of the quads at a point that are tried.
-constexpr double kSteps[] = { 0.5, 0.2, 0.08, 0.03, 0.01 };
+constexpr double kPartsOfWay[] = { 0.5, 0.2, 0.08, 0.03, 0.01 };
 
 /// Areas of the parallelograms at the four corners, negative where the quad is inverted.
 std::array<double, 4> cornerAreas(const std::array<Vector3, 4>& p)
@@ -65,7 +65,7 @@ public:
   /// The quads that are left inverted.
   std::vector<Index> run(std::vector<Index> inverted)
   {
-    for (const int rings : kRings)
+    for (const int rings : kRingsThatMove)
     {
       if (inverted.empty())
       {
@@ -226,8 +226,8 @@ private:
     State best = before;
     std::uint32_t time = 1;
     double left = before.badness;
-    for (int sweep = 0; sweep < kMaximumSweeps && (best.inverted > 0 || best.worst < kMargin);
-         ++sweep)
+    for (int sweep = 0;
+         sweep < kMostUntanglingSweeps && (best.inverted > 0 || best.worst < kMargin); ++sweep)
     {
       for (const Index p : place.points)
       {
@@ -296,7 +296,7 @@ private:
       return;
     }
     const Move best = bestMove(p, before);
-    if (best.badness < (1 - kLeastGain) * before)
+    if (best.badness < (1 - kLeastBadnessGain) * before)
     {
       moves_.move(p, best.place, best.position);
       forQuadsAt(p, [&](Index q) { changed_[q] = time + 1; });
@@ -310,14 +310,14 @@ private:
     Move best{ moves_.place(p), moves_.position(p), before };
     const QuadMoves::EdgeLengths lengths = moves_.edgeLengths(p, moves_.position(p));
     const std::vector<Vector3> ways = waysFrom(p);
-    for (const double step : kSteps)
+    for (const double step : kPartsOfWay)
     {
       for (const Vector3& way : ways)
       {
         tryMove(p, step * way, lengths, best);
         tryMove(p, -step * way, lengths, best);
       }
-      if (best.badness < (1 - kLeastGain) * before)
+      if (best.badness < (1 - kLeastBadnessGain) * before)
       {
         break;
       }

@@ -3,6 +3,7 @@
 /// Quads that are inverted at a corner, mended by moving points over the input surface.
 #pragma once
 
+#include "Mesh/Mesh.h"
 #include "Quads/QuadMesh.h"
 
 namespace quadrille

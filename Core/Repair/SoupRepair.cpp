@@ -161,7 +161,7 @@ void tellBoundaries(const SurfaceMesh& mesh, SoupReport& report)
   report.openBoundaries = report.boundaries.size();
   std::stable_sort(report.boundaries.begin(), report.boundaries.end(),
     [](const SoupPlace& a, const SoupPlace& b) { return a.length > b.length; });
-  report.boundaries.resize(std::min(report.boundaries.size(), SoupReport::kMostPlaces));
+  report.boundaries.resize(std::min(report.boundaries.size(), SoupReport::kMostPlacesTold));
 }
 
 /// Faces of which no three corners lie on a line; CGAL's test of crossing needs that.
@@ -244,7 +244,7 @@ void tellIntersections(
   result.report.intersectionPlaces = places.size();
   std::stable_sort(places.begin(), places.end(),
     [](const SoupPlace& a, const SoupPlace& b) { return a.faces > b.faces; });
-  places.resize(std::min(places.size(), SoupReport::kMostPlaces));
+  places.resize(std::min(places.size(), SoupReport::kMostPlacesTold));
 }
 
 std::size_t countComponents(const SurfaceMesh& mesh)

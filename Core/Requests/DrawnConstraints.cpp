@@ -27,7 +27,7 @@ constexpr double kFarLine = 0.1;
 constexpr double kSamplesAnEdge = 3;
 constexpr double kMostSamples = 4096;
 /// Barycentric nearness to an edge of a sample that lies on it.
-constexpr double kOnEdge = 1e-6;
+constexpr double kOnEdgeOfPolygon = 1e-6;
 /// Of the path under a stroke, which only says which polygons get the stroke's direction.
 constexpr double kHaste = 1.3;
 
@@ -243,7 +243,7 @@ void ConstraintPlacement::guide(
 {
   const Index begin = input_.polygonOffsets[place.polygon];
   const Index corners = input_.polygonOffsets[place.polygon + 1] - begin;
-  const double near = kOnEdge * meanEdge(input_, place.polygon);
+  const double near = kOnEdgeOfPolygon * meanEdge(input_, place.polygon);
   for (Index i = 0; i < corners; ++i)
   {
     if ((input_.points[input_.polygonPoints[begin + i]] - place.point).norm() < near)

@@ -235,12 +235,12 @@ SurfaceGuides surfaceGuides(const PreparedSurface& surface, int threads)
     guideOf[surface.polygonGuides[i].polygon] = static_cast<Index>(i);
   }
   const Mesh& mesh = surface.mesh;
-  constexpr std::size_t kFaceChunk = kHalfEdgeChunk / 3;
-  std::vector<SurfaceGuides> parts((mesh.faceCount() + kFaceChunk - 1) / kFaceChunk);
-  parallelFor(mesh.faceCount(), kFaceChunk, threads,
+  constexpr std::size_t kGuideFaceChunk = kHalfEdgeChunk / 3;
+  std::vector<SurfaceGuides> parts((mesh.faceCount() + kGuideFaceChunk - 1) / kGuideFaceChunk);
+  parallelFor(mesh.faceCount(), kGuideFaceChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
-      SurfaceGuides& part = parts[begin / kFaceChunk];
+      SurfaceGuides& part = parts[begin / kGuideFaceChunk];
       for (Index f = static_cast<Index>(begin); f < end; ++f)
       {
         const Index polygon = surface.sourcePolygon[f];

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Requests/HeldVertices.h"
 
+#include "Base/Progress.h"
 #include "Mesh/Surface.h"
 
 #include <algorithm>

@@ -183,10 +183,10 @@ private:
 
 const char* kindOf(const ConstraintContent& content)
 {
-  constexpr const char* kNames[] = { "feature", "guide", "guide region", "valence", "size",
-    "size region", "irregular", "connection", "cycle", "symmetry", "rotation" };
-  static_assert(std::variant_size_v<ConstraintContent> == std::size(kNames));
-  return kNames[content.index()];
+  constexpr const char* kConstraintKinds[] = { "feature", "guide", "guide region", "valence",
+    "size", "size region", "irregular", "connection", "cycle", "symmetry", "rotation" };
+  static_assert(std::variant_size_v<ConstraintContent> == std::size(kConstraintKinds));
+  return kConstraintKinds[content.index()];
 }
 
 std::optional<Vector3> placeOf(const ConstraintContent& content)

@@ -226,17 +226,17 @@ private:
 
 OnCurves findOnCurves(const PreparedSurface& surface, int threads)
 {
-  constexpr std::size_t kChunk = 3 << 15;
+  constexpr std::size_t kEditChunk = 3 << 15;
   const Mesh& mesh = surface.mesh;
-  std::vector<std::vector<Index>> constrained((mesh.halfEdgeCount() + kChunk - 1) / kChunk);
-  parallelFor(mesh.halfEdgeCount(), kChunk, threads,
+  std::vector<std::vector<Index>> constrained((mesh.halfEdgeCount() + kEditChunk - 1) / kEditChunk);
+  parallelFor(mesh.halfEdgeCount(), kEditChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (Index h = static_cast<Index>(begin); h < end; ++h)
       {
         if (mesh.isConstrained(h))
         {
-          constrained[begin / kChunk].push_back(h);
+          constrained[begin / kEditChunk].push_back(h);
         }
       }
     });
@@ -250,14 +250,14 @@ OnCurves findOnCurves(const PreparedSurface& surface, int threads)
     }
   }
   std::vector<std::vector<Index>> points(constrained.size());
-  parallelFor(mesh.halfEdgeCount(), kChunk, threads,
+  parallelFor(mesh.halfEdgeCount(), kEditChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (Index h = static_cast<Index>(begin); h < end; ++h)
       {
         if (on.vertices[mesh.origin[h]] != 0)
         {
-          points[begin / kChunk].push_back(pointsNearCorner(surface, h)[0]);
+          points[begin / kEditChunk].push_back(pointsNearCorner(surface, h)[0]);
         }
       }
     });

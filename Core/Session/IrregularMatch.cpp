@@ -53,11 +53,11 @@ std::vector<IrregularPair> pairsWithin(const std::vector<IrregularVertex>& expec
 /// As vertices whose valence is the sum of turns; those of ends and junctions differ by the number of sectors, too.
 std::vector<IrregularVertex> asVertices(const std::vector<HeldVertex>& held)
 {
-  constexpr int kMostTurns = 1000;
+  constexpr int kMostSectorTurns = 1000;
   std::vector<IrregularVertex> vertices;
   for (const HeldVertex& vertex : held)
   {
-    int turns = kMostTurns * static_cast<int>(vertex.sectors.size());
+    int turns = kMostSectorTurns * static_cast<int>(vertex.sectors.size());
     for (const HeldSector& sector : vertex.sectors)
     {
       turns += sector.turns;

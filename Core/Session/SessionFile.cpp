@@ -26,7 +26,7 @@ namespace
 {
 
 constexpr const char* kFormat = "quadrille-session";
-constexpr int kVersion = 1;
+constexpr int kSessionVersion = 1;
 
 std::string hexText(std::uint64_t number)
 {
@@ -253,7 +253,7 @@ void Session::save(const std::string& path) const
 {
   SessionJson json;
   json["format"] = kFormat;
-  json["version"] = kVersion;
+  json["version"] = kSessionVersion;
   json["mesh"] = meshToJson(data_->surface, data_->threads);
   json["next_id"] = data_->nextId;
   json["state"] = stateToJson(data_->now());
@@ -276,9 +276,9 @@ Session Session::load(const std::string& path, SurfaceInput surface)
     refuse(where, " is no file of a session");
   }
   const SessionJson& version = memberOf(json, "version", where);
-  if (version != kVersion)
+  if (version != kSessionVersion)
   {
-    refuse(where, " is of version ", version.dump(), ", but only version ", kVersion,
+    refuse(where, " is of version ", version.dump(), ", but only version ", kSessionVersion,
       " can be read here");
   }
   requireOnly(json, { "format", "version", "mesh", "next_id", "state", "named_states" }, where);

@@ -29,7 +29,7 @@ constexpr double kMostFactor = 1e4;
 constexpr double kMostStopped = 0.05;
 constexpr double kClearlyBelow = 0.99;
 /// Of lengths, by their logarithm: each is less than a hundredth wide for lengths from 1 to 10^8.
-constexpr std::size_t kBins = 4096;
+constexpr std::size_t kLengthBins = 4096;
 
 constexpr float kNoLength = std::numeric_limits<float>::infinity();
 
@@ -165,8 +165,9 @@ private:
       least = std::min(least, length);
       most = length < kNoLength ? std::max(most, length) : most;
     }
-    const double scale = most > least ? kBins / std::log(double{ most } / double{ least }) : 0;
-    std::vector<double> area(kBins + 1, 0), sum(kBins + 1, 0);
+    const double scale =
+      most > least ? kLengthBins / std::log(double{ most } / double{ least }) : 0;
+    std::vector<double> area(kLengthBins + 1, 0), sum(kLengthBins + 1, 0);
     double withoutLength = 0;
     for (std::size_t v = 0; v < lengths.size(); ++v)
     {
@@ -176,10 +177,10 @@ private:
         continue;
       }
       const auto bin = static_cast<std::size_t>(scale * std::log(double{ lengths[v] } / least));
-      area[std::min<std::size_t>(bin, kBins)] += areas[v];
-      sum[std::min<std::size_t>(bin, kBins)] += areas[v] * lengths[v];
+      area[std::min<std::size_t>(bin, kLengthBins)] += areas[v];
+      sum[std::min<std::size_t>(bin, kLengthBins)] += areas[v] * lengths[v];
     }
-    for (std::size_t bin = 0; bin <= kBins; ++bin)
+    for (std::size_t bin = 0; bin <= kLengthBins; ++bin)
     {
       if (area[bin] > 0)
       {

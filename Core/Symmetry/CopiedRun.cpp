@@ -38,7 +38,7 @@ namespace
 
 constexpr std::size_t kImageChunk = 1024;
 /// Times as many quads as were asked for, at most, where the part is too narrow for them.
-constexpr std::size_t kMostQuads = 4;
+constexpr std::size_t kMostTimesQuads = 4;
 constexpr FaceWeights kWholeFace{ { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
 
 } // namespace
@@ -206,7 +206,7 @@ void CopiedRun::remeshAndCopy()
       laps_.add(record.stage, record.seconds, record.elementsIn, record.elementsOut);
     }
     const bool isCrowded = made_.remeshed.status.ok() && !copy();
-    if (!isCrowded || isStopped() || more == kMostQuads)
+    if (!isCrowded || isStopped() || more == kMostTimesQuads)
     {
       break;
     }

@@ -23,7 +23,7 @@ constexpr std::size_t kFirstSamples = 200;  ///< for all candidates
 constexpr std::size_t kMiddleSamples = 500; ///< for the best of them
 constexpr std::size_t kLastSamples = 4000;  ///< for the result
 constexpr std::size_t kRefined = 6;         ///< candidates
-constexpr int kFewSteps = 8, kMostSteps = 30;
+constexpr int kFewSteps = 8, kMostPlaneSteps = 30;
 constexpr std::size_t kMostPoints = 20000; ///< of the surface, for the maximum
 /// Steps go on while they make the deviation less by this share, or it is rounding.
 constexpr double kStillBetter = 1e-3;
@@ -206,7 +206,7 @@ MirrorPlane findMirrorPlane(const NearestTriangle& surface, int threads)
   sortByRms(candidates, sampling.size);
   sampling.samples = sampleByArea(surface.triangles(), kLastSamples);
   MirrorPlane plane =
-    Refinement(surface, sampling, threads).run(candidates.front().plane, kMostSteps).plane;
+    Refinement(surface, sampling, threads).run(candidates.front().plane, kMostPlaneSteps).plane;
   plane.origin = plane.foot(sampling.centre);
   plane.normal = withSign(plane.normal);
   return plane;

@@ -20,12 +20,12 @@ namespace
 using Matrix4 = Eigen::Matrix4d;
 using Vector4 = Eigen::Vector4d;
 
-constexpr std::size_t kFirstTurned = 200;        ///< samples for all candidates
-constexpr std::size_t kMiddleTurned = 500;       ///< for the best of them
-constexpr std::size_t kLastTurned = 4000;        ///< for the result
-constexpr std::size_t kRefinedAxes = 6;          ///< candidates
-constexpr int kFewTurns = 8, kMostTurns = 30;    ///< steps of a refinement
-constexpr std::size_t kMostTurnedPoints = 20000; ///< of the surface, for the maximum
+constexpr std::size_t kFirstTurned = 200;         ///< samples for all candidates
+constexpr std::size_t kMiddleTurned = 500;        ///< for the best of them
+constexpr std::size_t kLastTurned = 4000;         ///< for the result
+constexpr std::size_t kRefinedAxes = 6;           ///< candidates
+constexpr int kFewTurns = 8, kMostAxisTurns = 30; ///< steps of a refinement
+constexpr std::size_t kMostTurnedPoints = 20000;  ///< of the surface, for the maximum
 constexpr double kBetterAxis =
   1e-3; ///< steps go on while they make the deviation less by this share
 constexpr std::size_t kTurnChunk = 64;
@@ -210,8 +210,9 @@ RotationAxis findRotationAxis(const NearestTriangle& surface, int order, int thr
   }
   sortAxes(candidates, sampling.size);
   sampling.samples = sampleByArea(surface.triangles(), kLastTurned);
-  RotationAxis axis =
-    AxisRefinement(surface, sampling, order, threads).run(candidates.front().axis, kMostTurns).axis;
+  RotationAxis axis = AxisRefinement(surface, sampling, order, threads)
+                        .run(candidates.front().axis, kMostAxisTurns)
+                        .axis;
   axis.direction = withSign(axis.direction);
   axis.origin = axis.foot(sampling.centre);
   return axis;

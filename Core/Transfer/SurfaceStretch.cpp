@@ -25,7 +25,7 @@ using Polygon = std::vector<Complex>;
 
 /// Steps from triangle to triangle after which a walk stays where it is: only triangles without area make it go in
 /// circles.
-constexpr int kMostSteps = 64;
+constexpr int kMostCircleSteps = 64;
 /// Triangles through which a face may reach; what is farther counts for the last one.
 constexpr int kMostDepth = 24;
 
@@ -174,7 +174,7 @@ private:
   void goHome(Index f)
   {
     Complex* const p = &corner_[3 * std::size_t{ f }];
-    for (int step = 0; step < kMostSteps; ++step)
+    for (int step = 0; step < kMostCircleSteps; ++step)
     {
       const Index h = planes_.exit(home_[f], (p[0] + p[1] + p[2]) / 3.0);
       if (h == kInvalidIndex)

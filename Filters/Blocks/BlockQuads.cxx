@@ -18,7 +18,7 @@ namespace
 {
 
 /// Above it a double does not hold every whole number.
-constexpr double kMostQuads = 1e15;
+constexpr double kMostQuadsOfBlock = 1e15;
 /// Names in a message.
 constexpr std::size_t kNamesTold = 12;
 
@@ -32,7 +32,7 @@ std::string trimmed(const std::string& text)
 
 bool isNumberOfQuads(double value)
 {
-  return value >= 1 && value <= kMostQuads && std::floor(value) == value;
+  return value >= 1 && value <= kMostQuadsOfBlock && std::floor(value) == value;
 }
 
 BlockQuads readPair(const std::string& text)

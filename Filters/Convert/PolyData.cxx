@@ -46,14 +46,14 @@ namespace
 constexpr std::int64_t kLargestExact = std::int64_t{ 1 } << (28 + kFractionBits);
 /// Sine of the angle to the normal below which a direction says nothing about a face.
 constexpr double kLeastTangent = 0.01;
-constexpr double kRounding = 1e-9;
-constexpr std::size_t kChunk = std::size_t{ 1 } << 16;
+constexpr double kTangentRounding = 1e-9;
+constexpr std::size_t kTupleChunk = std::size_t{ 1 } << 16;
 
 /// body(i) for all i below count, by all threads.
 template <class Body>
 void forEachIndex(std::size_t count, int threads, const Body& body)
 {
-  parallelFor(count, kChunk, threads,
+  parallelFor(count, kTupleChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -121,7 +121,7 @@ template <class Id>
 std::size_t copyPolygonPoints(const Id* ids, vtkIdType points, int threads, SurfaceInput& input)
 {
   Index* const own = input.polygonPoints.edit();
-  return firstRefused(input.polygonPoints.size(), kChunk, threads,
+  return firstRefused(input.polygonPoints.size(), kTupleChunk, threads,
     [&](std::size_t i)
     {
       own[i] = static_cast<Index>(ids[i]);
@@ -364,7 +364,7 @@ void readFeatureEdges(vtkPolyData* data, ConvertedSurface& surface, int threads)
   std::vector<std::uint8_t>& bits = surface.input.featureEdges;
   bits.resize(polygonCount(surface.input));
   const vtkIdType firstStrip = surface.firstCell + data->GetNumberOfPolys();
-  const std::size_t refused = firstRefused(bits.size(), kChunk, threads,
+  const std::size_t refused = firstRefused(bits.size(), kTupleChunk, threads,
     [&](std::size_t i)
     {
       const double value = valueOf(i);
@@ -460,7 +460,7 @@ std::vector<Index> readIds(vtkDataArray* array, std::size_t limit, int threads =
     return values ? static_cast<double>(values[i])
                   : array->GetComponent(static_cast<vtkIdType>(i), 0);
   };
-  const std::size_t refused = firstRefused(ids.size(), kChunk, threads,
+  const std::size_t refused = firstRefused(ids.size(), kTupleChunk, threads,
     [&](std::size_t i)
     {
       const double id = value(i);
@@ -592,7 +592,7 @@ void readFlags(vtkPolyData* data, Mesh& mesh, int threads)
     return ((bits >> (h % 3)) & 1) != 0;
   };
   std::uint8_t* const flags = mesh.flags.edit();
-  parallelFor(mesh.halfEdgeCount(), kChunk, threads,
+  parallelFor(mesh.halfEdgeCount(), kTupleChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (Index h = static_cast<Index>(begin); h < end; ++h)
@@ -610,7 +610,7 @@ template <class Offset, class Id>
 std::size_t copyTriangles(
   const Offset* offsets, const Id* ids, vtkIdType points, int threads, std::vector<Index>& corners)
 {
-  return firstRefused(corners.size() / 3, kChunk, threads,
+  return firstRefused(corners.size() / 3, kTupleChunk, threads,
     [=, &corners](std::size_t f)
     {
       if (offsets[f + 1] - offsets[f] != 3)
@@ -1071,7 +1071,7 @@ std::vector<Guide> readGuides(vtkPolyData* data, const Mesh& mesh)
     const Vector3 direction = given.direction(f);
     const Vector3 tangent = direction.stableNormalized() - n * n.dot(direction.stableNormalized());
     // What writeLevel wrote comes back with every bit.
-    const bool exact = (tangent - direction).norm() < kRounding;
+    const bool exact = (tangent - direction).norm() < kTangentRounding;
     if (exact || tangent.norm() > kLeastTangent)
     {
       guides.back() = { exact ? direction : Vector3(tangent.normalized()),
@@ -1188,7 +1188,7 @@ void addMap(vtkPolyData* data, const std::vector<FixedVec2>& uv, int threads)
   auto igm = newArray<vtkDoubleArray>(arrays::kIgm, 6, faces);
   auto determinants = newArray<vtkDoubleArray>(arrays::kDeterminant, 1, faces);
   double* value = igm->GetPointer(0);
-  const std::size_t refused = firstRefused(uv.size(), kChunk, threads,
+  const std::size_t refused = firstRefused(uv.size(), kTupleChunk, threads,
     [&](std::size_t h)
     {
       value[2 * h] = toDouble(uv[h].u);
@@ -1227,7 +1227,7 @@ std::vector<FixedVec2> readMap(vtkPolyData* data, int threads)
                   : Vector2(array->GetComponent(f, first), array->GetComponent(f, first + 1));
   };
   std::vector<FixedVec2> uv(3 * static_cast<std::size_t>(array->GetNumberOfTuples()));
-  const std::size_t refused = firstRefused(uv.size(), kChunk, threads,
+  const std::size_t refused = firstRefused(uv.size(), kTupleChunk, threads,
     [&](std::size_t h)
     {
       const Vector2 p = corner(h);

@@ -24,7 +24,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kQuestions = 512; ///< of the tree, in a chunk
+constexpr std::size_t kSoupQuestions = 512; ///< of the tree, in a chunk
 
 NearestTriangle::Place nearestTo(const NearestTriangle& tree, const Vector3& p)
 {
@@ -35,7 +35,7 @@ std::vector<PointOrigin> pointOrigins(
   const NearestTriangle& tree, const TriangleList& target, int threads)
 {
   std::vector<PointOrigin> origins(target.points.size());
-  parallelFor(origins.size(), kQuestions, threads,
+  parallelFor(origins.size(), kSoupQuestions, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -52,7 +52,7 @@ std::vector<vtkIdType> cellOrigins(
   const NearestTriangle& tree, const ConvertedSoup& from, const TriangleList& target, int threads)
 {
   std::vector<vtkIdType> origins(target.corners.size());
-  parallelFor(origins.size(), kQuestions, threads,
+  parallelFor(origins.size(), kSoupQuestions, threads,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

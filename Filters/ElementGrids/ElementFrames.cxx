@@ -29,7 +29,7 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kFrameChunk = 4096;
+constexpr std::size_t kElementFrameChunk = 4096;
 
 using ElementCorners = std::array<vtkIdType, 4>;
 
@@ -37,7 +37,7 @@ using ElementCorners = std::array<vtkIdType, 4>;
 template <class Visitor>
 void forEachElement(vtkUnstructuredGrid* grid, int threads, const Visitor& visit)
 {
-  parallelFor(static_cast<std::size_t>(grid->GetNumberOfCells()), kFrameChunk, threads,
+  parallelFor(static_cast<std::size_t>(grid->GetNumberOfCells()), kElementFrameChunk, threads,
     [&](std::size_t begin, std::size_t end)
     {
       vtkNew<vtkIdList> ids;

@@ -36,8 +36,8 @@ namespace
 
 /// Cells of the box along each axis, as a power of two: with 2^18 of them the parts are even, and their counts take 2
 /// MB.
-constexpr unsigned kBits = 6;
-constexpr std::size_t kBins = std::size_t{ 1 } << (3 * kBits);
+constexpr unsigned kBinBits = 6;
+constexpr std::size_t kCellBins = std::size_t{ 1 } << (3 * kBinBits);
 
 /// The number of a cell of the box along the curve: the bits of its three coordinates in turn [Morton 1966].
 std::size_t curveBin(const Vector3& x, const vtkBoundingBox& box)
@@ -48,11 +48,11 @@ std::size_t curveBin(const Vector3& x, const vtkBoundingBox& box)
   {
     const double length = box.GetLength(axis);
     const double part = length > 0 ? (x[axis] - box.GetMinPoint()[axis]) / length : 0;
-    constexpr double last = (1U << kBits) - 1;
+    constexpr double last = (1U << kBinBits) - 1;
     cell[static_cast<std::size_t>(axis)] =
       static_cast<std::size_t>(std::clamp(part * (last + 1), 0.0, last));
   }
-  for (unsigned bit = kBits; bit-- > 0;)
+  for (unsigned bit = kBinBits; bit-- > 0;)
   {
     for (const std::size_t coordinate : cell)
     {
@@ -584,7 +584,7 @@ std::vector<SpreadPiece> redistributeCells(const Ranks& ranks, std::vector<Sprea
   ranks.together("redistributing the surface",
     [&]
     {
-      polygons.resize(kBins, 0);
+      polygons.resize(kCellBins, 0);
       for (vtkPolyData* one : data)
       {
         bins.push_back(binsOf(one, box));

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Both sides of what Filters/Common/VtkVersions.h guards, whichever VTK this is: stand-ins have the functions of the other.
+/// Both sides of what Filters/Common/VtkVersions.h guards, whichever VTK this is: stand-ins have the functions of the
+/// other.
 #include "Blocks/Blocks.h"
 #include "Common/VtkVersions.h"
 
