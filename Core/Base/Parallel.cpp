@@ -3,6 +3,7 @@
 #include "Base/Parallel.h"
 
 #include "Base/Progress.h"
+#include "Base/TryCount.h"
 
 #include <algorithm>
 #include <atomic>
@@ -55,10 +56,16 @@ void parallelFor(std::size_t count, std::size_t chunkSize, int threads,
     }
   };
 
+  const TryHandover tries;
   std::vector<std::thread> pool;
   for (std::size_t i = 1; i < workers; ++i)
   {
-    pool.emplace_back(work);
+    pool.emplace_back(
+      [&]()
+      {
+        tries.take();
+        work();
+      });
   }
   work();
   for (std::thread& thread : pool)

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Base/TryCount.h"
+
+namespace quadrille
+{
+namespace
+{
+
+thread_local TryScope* innermostTries = nullptr;
+
+constexpr std::array<TryRow, kTries> kTryRows{ {
+  { "pipeline", "more freedom",
+    "intermediate vertices near offenders are kept, or both levels get twice the budget",
+    "2 in a row" },
+  { "pipeline", "room for curves", "vertices round places without room for curves are kept",
+    "1 a round" },
+  { "pipeline", "kept offenders", "vertices of the surface's bad triangles are kept on all levels",
+    "2 a round" },
+  { "pipeline", "smaller quads near", "sizes are halved where quads of the coarse map touch",
+    "4 in a row" },
+  { "pipeline", "more quads", "twice the quads", "3 in a row" },
+  { "pipeline", "fewer borders", "borders of patches are led together, or given up", "6" },
+  { "pipeline", "fewer features", "detected features near the places of a failure are given up",
+    "4" },
+  { "pipeline", "no features", "all detected features are given up", "1" },
+  { "pipeline", "no borders", "borders of patches are given up but for long ones, then all", "2" },
+  { "pipeline", "fewer details", "details that had been left are cut, and all begins again", "1" },
+  { "pipeline", "borders yield", "all begins again, with borders of patches that give way", "1" },
+  { "pipeline", "without its guides", "the map is carried without the guides of the finer level",
+    "1" },
+  { "pipeline", "larger pull", "the coarsest integers with a larger pull to the wanted sizes",
+    "6 maps" },
+  { "pipeline", "carried map held", "final quality with vertices near inverted quads held", "3" },
+  { "pipeline", "raised limit", "the limit of the size of details is raised", "3 s" },
+  { "map", "fewer irregular at seams", "the map again with fewer irregular vertices", "1" },
+  { "map", "without the earlier map", "the map again from the beginning", "1" },
+  { "map", "without the curves", "the map without the asked curves, as a measure and to begin with",
+    "1" },
+  { "map", "straight ways", "curves along straight ways", "3 maps" },
+  { "map", "without unmet curves", "the map without the equations of curves it does not meet",
+    "1" },
+  { "map", "curves by halves", "curves are added half by half", "as many as curves" },
+  { "map", "irregular only at ends", "irregular vertices at the ends of curves only", "1" },
+  { "map", "other scale", "integers at a corrected scale for the number of quads", "4" },
+  { "map", "other integers", "integers with room round the offenders of the embedding", "4" },
+  { "map", "seamless near the earlier", "the seamless map starts from the earlier one", "1" },
+  { "map", "embedded near the earlier", "the embedding starts from the earlier one", "1" },
+  { "map", "second start", "the embedding from its other start", "1" },
+  { "map", "more weight, seamless", "more weight round defects of the seamless map", "4" },
+  { "map", "more weight, embedded", "more weight round defects of the embedded map", "3" },
+  { "map", "from the seamless map", "the seamless map is carried over to the integers in steps",
+    "1" },
+  { "map", "guides and limit followed",
+    "once more with terms for guides and the limit of anisotropy", "1" },
+  { "integers", "of the earlier map", "the integers of the earlier map", "1" },
+  { "integers", "finer scale", "rounded at a scale larger by the square root of two", "11" },
+  { "integers", "breakout", "the weight of a triangle that nothing mends is doubled",
+    "40 and a quarter of the triangles" },
+  { "field", "other fields", "principal directions, without guides, the smoothest field", "3" },
+  { "field", "valences for sizes", "irregular vertices are moved so that sizes can be followed",
+    "1" },
+  { "transfer", "wider patches", "two, four, eight, sixteen rings round a bad triangle", "4" },
+  { "transfer", "harmonic start", "a patch from its harmonic map", "1" },
+  { "transfer", "equilateral references", "a patch towards equilateral triangles", "1" },
+  { "transfer", "turned references", "a patch towards triangles turned along a path", "1" },
+  { "transfer", "more weight, turned", "more weight round defects of a turned patch", "4" },
+  { "transfer", "shapes again", "the surface's shapes from a valid map of a patch", "1" },
+  { "transfer", "mended by levels", "a patch on coarser levels of its own", "3" },
+  { "transfer", "level of a patch", "a patch with fewer, or more, of its vertices", "5" },
+  { "transfer", "room for a vertex", "the ring of a vertex is relaxed", "8" },
+  { "extraction", "more corners", "a polygon of the boundary with more corners",
+    "stops of the face" },
+  { "quads", "wider untangling", "two, four, eight rings round inverted quads may move", "4" },
+  { "elements", "node moved further", "a node nearer to the straight edge", "4" },
+  { "elements", "centre otherwise", "the centre by the other pair of edges, or the nearest place",
+    "3" },
+  { "hierarchy", "looser guards", "guards and prices of removals are loosened", "15 stages" },
+  { "hierarchy", "old folds", "stars that were folded before may stay folded", "1" },
+  { "hierarchy", "other diagonals", "a star's triangulation without a diagonal that is there",
+    "4" },
+  { "details", "through three corners", "the cut leads through three corners", "1" },
+  { "symmetry", "twice the quads", "the part is made with twice the quads", "2" },
+  { "symmetry", "another half plane", "the cut along another half plane", "12" },
+  { "symmetry", "narrower band", "fewer rows beside the mirror plane are solved again", "4" },
+  { "assembly", "even numbers", "numbers of edges of joints are all even", "1" },
+  { "assembly", "strip otherwise", "a strip is split, or raised", "3" },
+  { "session", "without held vertices", "vertices on features are free", "1" },
+  { "session", "without a constraint", "a constraint is left out", "as many as constraints" },
+  { "session", "without the symmetry", "a symmetry that is refused is left out",
+    "as many as symmetries" },
+} };
+
+std::array<std::size_t, kTries> valuesOf(
+  const std::array<std::atomic<std::size_t>, kTries>& counters)
+{
+  std::array<std::size_t, kTries> values{};
+  for (std::size_t i = 0; i < kTries; ++i)
+  {
+    values[i] = counters[i].load(std::memory_order_relaxed);
+  }
+  return values;
+}
+
+} // namespace
+
+const std::array<TryRow, kTries>& tryTable()
+{
+  return kTryRows;
+}
+
+void TryCounts::addTaken(const TryCounts& other)
+{
+  for (std::size_t i = 0; i < kTries; ++i)
+  {
+    taken[i] += other.taken[i];
+  }
+}
+
+void TryCounts::add(const TryCounts& other)
+{
+  addTaken(other);
+  for (std::size_t i = 0; i < kTries; ++i)
+  {
+    led[i] += other.led[i];
+  }
+}
+
+TryScope::TryScope() : outer_(innermostTries)
+{
+  innermostTries = this;
+}
+
+TryScope::~TryScope()
+{
+  innermostTries = outer_;
+}
+
+TryCounts TryScope::counts() const
+{
+  return { valuesOf(taken_), valuesOf(led_) };
+}
+
+TryHandover::TryHandover() : scope_(innermostTries) {}
+
+void TryHandover::take() const
+{
+  innermostTries = scope_;
+}
+
+void countTry(Try which, std::size_t times)
+{
+  if (innermostTries != nullptr)
+  {
+    innermostTries->taken_[static_cast<std::size_t>(which)].fetch_add(
+      times, std::memory_order_relaxed);
+  }
+}
+
+void countTryLed(Try which, std::size_t times)
+{
+  if (innermostTries != nullptr)
+  {
+    innermostTries->led_[static_cast<std::size_t>(which)].fetch_add(
+      times, std::memory_order_relaxed);
+  }
+}
+
+} // namespace quadrille
