@@ -117,13 +117,18 @@ void TryCounts::addTaken(const TryCounts& other)
   }
 }
 
-void TryCounts::add(const TryCounts& other)
+void TryCounts::addLed(const TryCounts& other)
 {
-  addTaken(other);
   for (std::size_t i = 0; i < kTries; ++i)
   {
     led[i] += other.led[i];
   }
+}
+
+void TryCounts::add(const TryCounts& other)
+{
+  addTaken(other);
+  addLed(other);
 }
 
 TryScope::TryScope() : outer_(innermostTries)

@@ -89,6 +89,10 @@ struct TryRow
 };
 /// One row for each value of Try, in its order.
 const std::array<TryRow, kTries>& tryTable();
+inline const TryRow& tryRow(Try which)
+{
+  return tryTable()[static_cast<std::size_t>(which)];
+}
 
 /// How often each was tried, and how often what it tried is used by what followed.
 struct TryCounts
@@ -96,6 +100,7 @@ struct TryCounts
   std::array<std::size_t, kTries> taken{}, led{};
 
   void addTaken(const TryCounts& other);
+  void addLed(const TryCounts& other);
   void add(const TryCounts& other);
 };
 

@@ -246,6 +246,11 @@ void carryToSurface(RunContext& run, MapAttempt& made)
   if (!guided || !made.certificate.valid())
   {
     carry(run, false, made);
+    if (guided)
+    {
+      countTry(Try::WithoutGuides);
+      countTryLed(Try::WithoutGuides, made.certificate.valid() ? 1 : 0);
+    }
   }
   if (run.options.method == MapMethod::ScaleAware && !made.transfer.offenders.empty())
   {
@@ -479,6 +484,7 @@ HierarchyOptions levelOptions(const RunContext& run, const Plan& plan)
 
 std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan, std::size_t allowance)
 {
+  const TryScope tries;
   run.surface.apply(plan);
   const ResultKey key = mapKey(run, plan);
   const auto found = findMap(run, key, allowance);
@@ -500,6 +506,7 @@ std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan, std::size
       tellOfRounding(run.options.method, *made);
     }
   }
+  made->tries.add(tries.counts());
   if (!found || made->isCarried != found->isCarried)
   {
     keepMap(run, *made);

@@ -5,6 +5,7 @@
 
 #include "Base/Error.h"
 #include "Base/FixedPoint.h"
+#include "Base/TryCount.h"
 #include "Extraction/Extraction.h"
 #include "GridMap/GridMap.h"
 #include "Hierarchy/Hierarchy.h"
@@ -72,6 +73,7 @@ struct MapAttempt
   Certificate certificate;
   TransferResult transfer; ///< but for uv
 
+  TryCounts tries; ///< of its making, whether in this run or in an earlier one
   std::vector<std::string> notices;
   std::vector<std::string> reused;  ///< names of stages that were not computed
   std::vector<std::string> started; ///< names of those that were, from an earlier map
@@ -98,6 +100,7 @@ struct QuadAttempt
   std::optional<Certificate> certificate;
   std::size_t invertedQuads = 0;
   bool invertedAtFolds = false; ///< some of them where the map has folds
+  TryCounts tries;
   std::vector<std::string> notices, reused;
   StageRecords stages;
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/CoarsestMap.h"
 
+#include "Base/TryCount.h"
 #include "Extraction/Extraction.h"
 
 #include <algorithm>
@@ -30,6 +31,7 @@ GridMapResult computeCoarsestMap(const Mesh& mesh, GridMapOptions options)
   for (double pull = 0;; pull = pull > 0 ? 2 * pull : kFirstPull)
   {
     options.pull = pull;
+    countTry(Try::LargerPull, pull > 0 ? 1 : 0);
     GridMapResult map = computeGridMap(mesh, options);
     map.addWork(spent);
     // Without a seamless map, or any integers for it, there is nothing that other shares could change.
@@ -38,6 +40,7 @@ GridMapResult computeCoarsestMap(const Mesh& mesh, GridMapOptions options)
     const bool last = pull >= 1 || (!map.status.ok() && !started);
     if (last || (map.status.ok() && hasSoundQuads(mesh, map.uv)))
     {
+      countTryLed(Try::LargerPull, pull > 0 && map.status.ok() ? 1 : 0);
       return map;
     }
     spent = std::move(map);

@@ -3,6 +3,7 @@
 #include "Pipeline/FinalQuality.h"
 
 #include "Base/Error.h"
+#include "Base/TryCount.h"
 #include "Extraction/Extraction.h"
 #include "Quads/QuadShape.h"
 #include "Requests/Guides.h"
@@ -229,6 +230,7 @@ FinalQualityReport improveMap(const PreparedSurface& surface, const std::vector<
     if (inverted.valid >= before.valid && inverted.centres.size() <= before.centres.size())
     {
       report.improved = true;
+      countTryLed(Try::CarriedMapHeld, hold > 0 ? 1 : 0);
       report.after = after;
       map = { std::move(uv), certificate };
       return report;
@@ -243,6 +245,7 @@ FinalQualityReport improveMap(const PreparedSurface& surface, const std::vector<
     improvement.fixNear(inverted.centres, radius);
     radius *= 2;
     ++report.holds;
+    countTry(Try::CarriedMapHeld);
   }
 }
 

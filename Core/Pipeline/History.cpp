@@ -21,6 +21,11 @@ void History::addMap(const Plan& plan, std::shared_ptr<MapAttempt> map)
   workOfLast_ = map->work + bound_.ofAttempt;
   work_ += workOfLast_;
   all_.add(map->stages);
+  tries_.addTaken(map->tries);
+  if (!plan.made.empty())
+  {
+    ++tries_.taken[static_cast<std::size_t>(plan.made.back())];
+  }
   reused_.insert(reused_.end(), map->reused.begin(), map->reused.end());
   last_ = { plan, std::move(map), nullptr };
   if (!last_.map->status.ok())
@@ -50,6 +55,7 @@ void History::addQuads(std::shared_ptr<const QuadAttempt> quads)
   best_.quads = std::move(quads);
   last_ = best_;
   all_.add(last_.quads->stages);
+  tries_.addTaken(last_.quads->tries);
   reused_.insert(reused_.end(), last_.quads->reused.begin(), last_.quads->reused.end());
   if (last_.quads->status.ok() &&
     (!result_.quads || 2 * last_.quads->invertedQuads <= result_.quads->invertedQuads))
@@ -106,6 +112,22 @@ std::size_t History::trailing(const std::string& step) const
 std::size_t History::offendersBefore() const
 {
   return round_.size() < 2 ? 0 : round_[round_.size() - 2].offenders;
+}
+
+TryCounts History::tries() const
+{
+  TryCounts all = tries_;
+  if (!hasResult())
+  {
+    return all;
+  }
+  for (const Try step : result_.plan.made)
+  {
+    ++all.led[static_cast<std::size_t>(step)];
+  }
+  all.addLed(result_.map->tries);
+  all.addLed(result_.quads->tries);
+  return all;
 }
 
 StageRecords History::stages() const

@@ -63,6 +63,8 @@ public:
   /// Of all attempts, the first one's "first".
   const std::vector<std::string>& steps() const { return steps_; }
   int replays() const { return replays_; } ///< maps that were carried to the surface
+  /// Of all attempts, with those that led to the result.
+  TryCounts tries() const;
   /// Sizes of the result's stages, with the seconds of all attempts. Stages that only others have had are one,
   /// "retries".
   StageRecords stages() const;
@@ -87,6 +89,7 @@ private:
   std::vector<Summary> round_;
   std::vector<std::string> steps_;
   StageRecords all_;
+  TryCounts tries_; ///< taken
   std::vector<std::string> reused_;
   bool hasSomething() const { return result_.quads != nullptr || roundHasMap(); }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Base/Error.h"
+#include "Base/TryCount.h"
 #include "Extraction/Extraction.h"
 #include "Features/GivenUpFeatures.h"
 #include "GridMap/GridMap.h"
@@ -65,8 +66,11 @@ struct RemeshResult
   /// What is smaller than the quads: handles and boundary loops shorter than kQuadsOfLoop s, small components.
   std::vector<SmallDetail> details;
   /// Names of the strategies by which the attempts were made, in their order; the first one's is "first". Where they
-  /// began again without details, that of the first one then is kFewerDetails.
+  /// began again without details, that of the first one then is "fewer details".
   std::vector<std::string> attempts;
+  /// What was tried otherwise, in whatever stage, and how often what was tried is used by this result (see
+  /// Base/TryCount.h). What a run takes over from an earlier one below its maps is not counted again.
+  TryCounts tries;
   /// What became of the input's curves, in their order; vertices are those of the coarse mesh.
   std::vector<CurveOutcome> curves;
   std::vector<StageRecord> stages; ///< see StageRecords; seconds are sums over all attempts

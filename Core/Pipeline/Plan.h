@@ -4,6 +4,7 @@
 /// behind.
 #pragma once
 
+#include "Base/TryCount.h"
 #include "Base/Types.h"
 #include "Features/FeatureNetwork.h"
 #include "Pipeline/ResultStore.h"
@@ -54,7 +55,8 @@ struct Plan
   const char* step =
     "first"; ///< what made it of the one before, a name of the table in Recovery.cpp
 
-  std::string why; ///< what was wrong with the attempt before, for the progress text
+  std::vector<Try> made; ///< all that has made it of the first one and still shows, in order
+  std::string why;       ///< what was wrong with the attempt before, for the progress text
 
   LevelPlan levels;
   /// Of the next round: without what was kept for the sake of the map on the surface, but with all that the coarse map

@@ -247,10 +247,12 @@ std::shared_ptr<const QuadAttempt> makeQuads(RunContext& run, const Plan& plan, 
     run.levels.letGo(); // before the map takes their memory
   }
   map.unpack(mesh);
+  const TryScope tries;
   auto made = std::make_shared<QuadAttempt>();
   improve(run, plan, map, *made);
   run.levels.letGo();
   extract(run, map, *made);
+  made->tries = tries.counts();
   // What a limit of this run has kept from being made is not remembered.
   const bool limited = made->status.code == StatusCode::TooLarge ||
     (run.options.finalQuality != FinalQuality::Coarse && !made->finalQuality.improved);

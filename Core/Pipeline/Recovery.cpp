@@ -13,28 +13,28 @@ namespace
 
 struct Strategy
 {
-  const char* name;
+  Try which;
   std::size_t bound; ///< how often, see the function
   std::optional<Plan> (*next)(const Trouble& trouble);
 };
 
 /// The strategies in the order in which they are asked.
 constexpr std::array<Strategy, 3> kForMaps{ {
-  { "more freedom", 2, moreFreedom },
-  { "room for curves", 1, roomForCurves },
-  { "kept offenders", 2, keptOffenders },
+  { Try::MoreFreedom, 2, moreFreedom },
+  { Try::RoomForCurves, 1, roomForCurves },
+  { Try::KeptOffenders, 2, keptOffenders },
 } };
 constexpr std::array<Strategy, 4> kForRounds{ {
-  { "smaller quads near", 4, smallerQuadsNear },
-  { "more quads", 3, moreQuads },
-  { kFewerBorders, kMostBorderDrops, fewerBorders },
-  { "fewer features", kMostFeatureDrops, fewerFeatures },
+  { Try::SmallerQuadsNear, 4, smallerQuadsNear },
+  { Try::MoreQuads, 3, moreQuads },
+  { Try::FewerBorders, kMostBorderDrops, fewerBorders },
+  { Try::FewerFeatures, kMostFeatureDrops, fewerFeatures },
 } };
 
 /// Where no round has quads and none of the others is left, or may be tried any more.
 constexpr std::array<Strategy, 2> kLastResort{ {
-  { kNoFeatures, 1, noFeatures },
-  { kNoBorders, 2, noBorders },
+  { Try::NoFeatures, 1, noFeatures },
+  { Try::NoBorders, 2, noBorders },
 } };
 
 /// What is wrong with an attempt, in a few words.
@@ -69,7 +69,7 @@ std::optional<Plan> firstOffer(const Strategies& strategies, Trouble& trouble)
     trouble.bound = strategy.bound;
     if (std::optional<Plan> plan = strategy.next(trouble))
     {
-      plan->step = strategy.name;
+      setStep(*plan, strategy.which);
       plan->why = whyNotGood(trouble.attempt);
       return plan;
     }
@@ -78,6 +78,12 @@ std::optional<Plan> firstOffer(const Strategies& strategies, Trouble& trouble)
 }
 
 } // namespace
+
+void setStep(Plan& plan, Try which)
+{
+  plan.step = tryRow(which).name;
+  plan.made.push_back(which);
+}
 
 std::optional<Plan> nextMapPlan(RunContext& run, const History& history)
 {
@@ -121,15 +127,15 @@ std::vector<std::string> recoverySteps()
   names.reserve(kForMaps.size() + kForRounds.size());
   for (const Strategy& strategy : kForMaps)
   {
-    names.emplace_back(strategy.name);
+    names.emplace_back(tryRow(strategy.which).name);
   }
   for (const Strategy& strategy : kForRounds)
   {
-    names.emplace_back(strategy.name);
+    names.emplace_back(tryRow(strategy.which).name);
   }
   for (const Strategy& strategy : kLastResort)
   {
-    names.emplace_back(strategy.name);
+    names.emplace_back(tryRow(strategy.which).name);
   }
   return names;
 }

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <iomanip>
 #include <sstream>
 #include <string>
@@ -57,9 +58,20 @@ constexpr std::array<BorderStep, kMostBorderDrops> kBorderSteps{ {
 /// Of the last resort, before all of them go.
 constexpr double kLastBorderSize = 8;
 
+/// These do not show in the plan any more.
+void forget(std::initializer_list<Try> steps, Plan& plan)
+{
+  std::vector<Try>& made = plan.made;
+  made.erase(
+    std::remove_if(made.begin(), made.end(),
+      [&](Try step) { return std::find(steps.begin(), steps.end(), step) != steps.end(); }),
+    made.end());
+}
+
 Plan newRound(Plan plan)
 {
   plan.levels = plan.nextLevels;
+  forget({ Try::KeptOffenders, Try::RoomForCurves }, plan);
   return plan;
 }
 
@@ -69,6 +81,7 @@ Plan withoutShrinks(Plan plan)
   if (plan.finer.shrinks > 0 && plan.finer.mayShrink)
   {
     plan.sizes = plan.finer.sizesBefore;
+    forget({ Try::SmallerQuadsNear }, plan);
   }
   plan.finer.mayShrink = false;
   return plan;
@@ -123,6 +136,7 @@ std::vector<HandleLoop> loopsNear(const RunContext& run, const std::vector<Vecto
 Plan fromTheBeginning(const RunContext& run, const Plan& before)
 {
   Plan plan = withoutShrinks(before);
+  forget({ Try::MoreFreedom, Try::KeptOffenders, Try::RoomForCurves, Try::MoreQuads }, plan);
   plan.finer = {};
   plan.levels = {};
   plan.levels.keptVertices = keptVertices(*run.surface);
@@ -391,7 +405,6 @@ std::optional<Plan> withFewerBorders(
     return std::nullopt;
   }
   Plan plan = fromTheBeginning(run, before);
-  plan.step = kFewerBorders;
   while (static_cast<std::size_t>(plan.borderDrops) < kBorderSteps.size())
   {
     const BorderStep& step = kBorderSteps[static_cast<std::size_t>(plan.borderDrops++)];
@@ -437,7 +450,6 @@ std::optional<Plan> withoutFeatures(RunContext& run, const Plan& before)
     std::to_string(plan.featuresGivenUp->size()) +
     " sharp edges that were found by their angle were not used as features; ask for smaller "
     "quads, or mark the edges that are to stay");
-  plan.step = kNoFeatures;
   return plan;
 }
 

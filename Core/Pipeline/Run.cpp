@@ -378,17 +378,29 @@ void attemptWithBorders(Settled& settled, SizedSurface& sized, const RemeshOptio
     // triangles.
     RunContext& run = settled.bench->run;
     begin = withoutFeatures(run, firstPlan(run));
+    if (begin)
+    {
+      setStep(*begin, Try::NoFeatures);
+    }
   }
   if (!settled.status.ok() || (!isOther && !begin))
   {
     return;
   }
+  const bool isBegun = begin.has_value();
+  countTry(Try::FewerDetails, isOther ? 1 : 0);
   const double seconds = secondsOf(history);
+  result.tries.addTaken(history.tries());
   history = History(bound, history.work(), history.attempts());
   Attempts(settled.bench->run, history, true, result.stopped).run(std::move(begin));
+  countTryLed(Try::FewerDetails, isOther && history.hasResult() ? 1 : 0);
   sized.stages.add("retries", seconds, 0, 0);
-  result.attempts.emplace_back(kFewerDetails);
-  result.attempts.insert(result.attempts.end(), history.steps().begin() + 1, history.steps().end());
+  const std::size_t before = result.attempts.size();
+  result.attempts.insert(result.attempts.end(), history.steps().begin(), history.steps().end());
+  if (!isBegun && result.attempts.size() > before)
+  {
+    result.attempts[before] = tryRow(Try::FewerDetails).name;
+  }
 }
 
 /// The same; where nothing has quads, again with borders of patches that give way, as much as before.
@@ -409,11 +421,15 @@ void attemptAll(Settled& settled, SizedSurface& sized, const RemeshOptions& opti
   {
     return;
   }
+  setStep(*begin, Try::FewerBorders);
+  countTry(Try::BordersYield);
+  result.tries.addTaken(history.tries());
   const double seconds = secondsOf(history);
   const std::vector<std::string> before = result.attempts;
   history = History(workBound(sized.surface->mesh.faceCount(), sized.targetQuads));
   Attempts(run, history, true, result.stopped).run(std::move(begin));
   sized.stages.add("retries", seconds, 0, 0);
+  countTryLed(Try::BordersYield, history.hasResult() ? 1 : 0);
   result.attempts = before;
   result.attempts.insert(result.attempts.end(), history.steps().begin(), history.steps().end());
 }
@@ -435,6 +451,7 @@ void runAttempts(SizedSurface& sized, const Frame& frame, const RemeshOptions& o
   {
     History history;
     attemptAll(settled, sized, options, store, quadsAlone, history, result);
+    result.tries.add(history.tries());
     tellDetails(settled, result);
     RunBench& bench = *settled.bench;
     RunContext& run = bench.run;
@@ -484,6 +501,7 @@ RemeshResult guardedRun(const SurfaceInput& input, RemeshOptions options, const 
       { return !result.stopped.empty() || asked(fraction, text); });
   options.progress = poll.callback();
   PlaceScope places;
+  const TryScope tries;
   try
   {
     const std::size_t triangles = countTriangles(input);
@@ -501,6 +519,7 @@ RemeshResult guardedRun(const SurfaceInput& input, RemeshOptions options, const 
     result.estimate = estimated;
     result.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
   }
+  result.tries.add(tries.counts());
   return result;
 }
 

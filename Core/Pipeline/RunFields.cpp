@@ -65,6 +65,23 @@ RunFields attemptFields(const std::vector<std::string>& attempts)
     { "RecoveryCounts", counts } };
 }
 
+RunFields tryFields(const TryCounts& tries)
+{
+  Texts names;
+  Counts taken, led;
+  for (std::size_t i = 0; i < kTries; ++i)
+  {
+    if (tries.taken[i] > 0)
+    {
+      const TryRow& row = tryTable()[i];
+      names.push_back(std::string(row.room) + ": " + row.name);
+      taken.push_back(tries.taken[i]);
+      led.push_back(tries.led[i]);
+    }
+  }
+  return { { "TryNames", names }, { "TriesTaken", taken }, { "TriesLed", led } };
+}
+
 RunFields finalQualityFields(const FinalQualityReport& report)
 {
   if (report.level == FinalQuality::Coarse)
@@ -166,6 +183,7 @@ RunFields runFields(const RemeshResult& result)
       { "SurfaceFaces", Counts{ result.surface.mesh.faceCount() } } });
   addAll(fields, smallPartFields(result.smallParts, result.targetEdgeLength));
   addAll(fields, attemptFields(result.attempts));
+  addAll(fields, tryFields(result.tries));
   if (!result.stopped.empty())
   {
     addAll(fields, { { "Stopped", Texts{ result.stopped } } });

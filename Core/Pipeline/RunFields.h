@@ -38,8 +38,8 @@ RunFields anisotropyFields(double limit, double beyond);
 /// All of a run: stages, ReusedStages, certificate, repair, extraction; EstimatedSeconds, EstimatedMegabytes,
 /// TargetEdgeLength, TargetQuads, ActualQuads, CoarseVertices, Decimations, Replays, SurfaceFaces; Handles,
 /// UnresolvedHandles, ShortestLoopOverEdgeLength and ShortestLoopPlace, ShortestBoundaryOverEdgeLength and
-/// ShortestBoundaryPlace; Attempts, RecoveryNames with RecoveryCounts, how often each strategy made one of them;
-/// Stopped, where the run was; DistortionNames, DistortionBefore, DistortionAfter and OptimizationSteps, unless final
+/// ShortestBoundaryPlace; Attempts, RecoveryNames with RecoveryCounts, how often each strategy made one of them; TryNames
+/// with TriesTaken and TriesLed, what was tried otherwise and how often that is used; Stopped, where the run was; DistortionNames, DistortionBefore, DistortionAfter and OptimizationSteps, unless final
 /// quality is Coarse.
 RunFields runFields(const RemeshResult& result);
 

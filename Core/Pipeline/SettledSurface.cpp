@@ -3,6 +3,7 @@
 #include "Pipeline/SettledSurface.h"
 
 #include "Base/PlaceText.h"
+#include "Base/TryCount.h"
 #include "Details/CloseHandles.h"
 #include "Details/FillHoles.h"
 #include "Details/Handles.h"
@@ -425,10 +426,14 @@ private:
     if (handles.size() >= kSeveralHandles && !resolvesLoops(run, handles, growth))
     {
       handleLimit_ = most;
+      countTry(Try::RaisedLimit);
+      isRaised_ = true;
     }
     while (limit_ < most && !resolvesLoops(run, loopsAboveLimit(false)))
     {
       limit_ = std::min(most, limit_ + kLimitStep * sized_.edgeLength);
+      countTry(Try::RaisedLimit);
+      isRaised_ = true;
     }
     handleLimit_ = std::max(handleLimit_, limit_);
   }
@@ -447,6 +452,8 @@ private:
       {
         break;
       }
+      countTryLed(Try::RaisedLimit, isRaised_ ? 1 : 0);
+      isRaised_ = false;
     }
     if (!made_.bench)
     {
@@ -648,8 +655,9 @@ private:
   StageRecords& stages_;
   std::vector<std::string>& reused_;
   AskedOf asked_;
-  double limit_;       ///< of boundary loops, in units of the mesh
-  double handleLimit_; ///< of handles
+  bool isRaised_ = false; ///< a limit, since anything was cut
+  double limit_;          ///< of boundary loops, in units of the mesh
+  double handleLimit_;    ///< of handles
   std::size_t handlesCut_ = 0;
   std::size_t changes_ = 0; ///< places where the surface was changed
   bool isThinning_ = false; ///< thin parts are too many, or nothing else has led to quads

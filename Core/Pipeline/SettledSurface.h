@@ -28,9 +28,6 @@ struct RunBench
   RunContext run;
 };
 
-/// The step, in RemeshResult::attempts, by which attempts begin again after simplifyRest.
-constexpr const char* kFewerDetails = "fewer details";
-
 /// What settling told beside the bench.
 struct Settled
 {

@@ -83,6 +83,9 @@ std::optional<Plan> withoutFeatures(RunContext& run, const Plan& before);
 constexpr const char* kNoBorders = "no borders";
 std::optional<Plan> noBorders(const Trouble& trouble);
 
+/// Calls the plan by what has made it.
+void setStep(Plan& plan, Try which);
+
 /// Whether features leave coarse triangles no area at so many places that no other vertices mend it.
 bool leavesNoArea(const MapAttempt& map);
 
