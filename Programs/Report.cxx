@@ -55,6 +55,19 @@ Json pairs(vtkPolyData* data, const char* namesName, const char* valuesName)
   return json;
 }
 
+/// What was tried otherwise: how often, and how often that is used.
+Json triesOf(vtkPolyData* quads)
+{
+  Json tries = Json::object();
+  const Json taken = pairs(quads, "TryNames", "TriesTaken");
+  const Json led = pairs(quads, "TryNames", "TriesLed");
+  for (const auto& [name, times] : taken.items())
+  {
+    tries[name] = { { "taken", times }, { "led", led[name] } };
+  }
+  return tries;
+}
+
 QuadQuality measureQuads(vtkPolyData* data)
 {
   std::vector<Vector3> points(static_cast<std::size_t>(data->GetNumberOfPoints()));
@@ -134,6 +147,7 @@ void addSuccess(Json& json, vtkPolyData* quads)
   json["quads_actual"] = quads->GetNumberOfPolys();
   json["attempts"] = field("Attempts");
   json["recoveries"] = pairs(quads, "RecoveryNames", "RecoveryCounts");
+  json["tries"] = triesOf(quads);
   json["repair"] = pairs(quads, "RepairNames", "RepairCounts");
   json["extraction"] = pairs(quads, "ExtractionNames", "ExtractionCounts");
   json["sizes"] = { { "surface_faces", field("SurfaceFaces") },

@@ -87,6 +87,9 @@ def info(quads):
     result["repair"] = pairs("RepairNames", "RepairCounts")
     result["extraction"] = pairs("ExtractionNames", "ExtractionCounts")
     result["recoveries"] = pairs("RecoveryNames", "RecoveryCounts")
+    led = pairs("TryNames", "TriesLed")
+    result["tries"] = {name: {"taken": taken, "led": led[name]}
+                       for name, taken in pairs("TryNames", "TriesTaken").items()}
     return result
 
 

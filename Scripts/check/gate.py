@@ -483,7 +483,20 @@ def step_record(run, outputs, surface_output, seconds):
         "count": sum(leaf.GetNumberOfPolys() for leaf in leaves(data) if leaf is not None),
         "quads": sum_of(*mesh_arrays(data)), "map": sum_of(*map_arrays(surface_output)),
         "drawn": sum_of(*(array for port in outputs for array in mesh_arrays(run.GetOutputDataObject(port)))),
-        "seconds": round(seconds, 3)}
+        "tries": tries_of(data), "seconds": round(seconds, 3)}
+
+
+def tries_of(data):
+    """Of the ledger: name -> how often tried, and how often that is used."""
+    tries = {}
+    for leaf in leaves(data):
+        fields = leaf.GetFieldData() if leaf is not None else None
+        names = fields.GetAbstractArray("TryNames") if fields is not None else None
+        for i in range(names.GetNumberOfValues() if names else 0):
+            counts = tries.setdefault(names.GetValue(i), [0, 0])
+            for k, array in enumerate(("TriesTaken", "TriesLed")):
+                counts[k] += int(fields.GetArray(array).GetTuple1(i))
+    return tries
 
 
 def with_one_filter(surface, run, steps):
