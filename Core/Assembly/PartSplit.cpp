@@ -701,6 +701,7 @@ void copyReport(const RemeshResult& from, RemeshResult& to)
   to.beyondAnisotropyLimit = from.beyondAnisotropyLimit;
   to.smallParts = from.smallParts;
   to.attempts = from.attempts;
+  to.tries = from.tries;
   to.stages = from.stages;
   to.reused = from.reused;
   to.estimate = from.estimate;

@@ -5,6 +5,7 @@
 #include "Assembly/StripInsertion.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Base/TryCount.h"
 #include "Mesh/Topology.h"
 #include "Quads/QuadHalfEdges.h"
 #include "Quads/QuadMoves.h"
@@ -1114,7 +1115,10 @@ private:
 MetSheets meetAtJoints(RemeshResult& result, const JointSheets& sheets,
   const std::vector<Vector3>& jointPoints, int smoothingSteps, int threads)
 {
-  return SheetMeeting(result, sheets, jointPoints, smoothingSteps, threads).meet();
+  const TryScope tries;
+  MetSheets met = SheetMeeting(result, sheets, jointPoints, smoothingSteps, threads).meet();
+  result.tries.add(tries.counts());
+  return met;
 }
 
 } // namespace quadrille

@@ -5,6 +5,7 @@
 #include "Base/Clock.h"
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
+#include "Base/TryCount.h"
 #include "Mesh/ContentHash.h"
 #include "Numerics/MinCostFlow.h"
 #include "Requests/Guides.h"
@@ -69,6 +70,7 @@ public:
   std::shared_ptr<SessionResult> run()
   {
     const double start = secondsNow();
+    const TryScope tries; // but for those of the pipeline's runs
     std::map<int, std::string> leftOut;
     RemeshResult made = runWith(leftOut);
     if (mayBeForConstraints(made) && composed_.input.regularOnFeatures)
@@ -105,6 +107,9 @@ public:
                           [this](const std::string& name) { return stages_.has(name); }),
       report.reused.end());
     report.runs = runs_;
+    report.tries.addTaken(tries_);
+    report.tries.addLed(made.tries);
+    report.tries.add(tries.counts());
     if (made.status.ok() && !options_.preview)
     {
       const MadeSurface surface = made.framed
@@ -175,6 +180,7 @@ private:
       stages_.add(record.stage, record.seconds, record.elementsIn, record.elementsOut);
     }
     ++runs_;
+    tries_.addTaken(made.tries);
     return made;
   }
 
@@ -294,6 +300,7 @@ private:
   Status stopped_;
   bool wasStopped_ = false; ///< no run may follow
   int runs_ = 0;
+  TryCounts tries_; ///< of the pipeline's runs, taken
 };
 
 std::vector<std::string> settingDifferences(const RemeshOptions& a, const RemeshOptions& b)
@@ -692,6 +699,7 @@ const SessionReport& Session::update()
     report.stages.clear();
     report.reused = { "all" };
     report.runs = 0;
+    report.tries = {};
     report.seconds = secondsNow() - start;
     return report;
   }

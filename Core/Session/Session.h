@@ -3,6 +3,7 @@
 /// A session: a surface, what is asked of it, and every state that it has been through.
 #pragma once
 
+#include "Base/TryCount.h"
 #include "Pipeline/Pipeline.h"
 #include "Session/Constraints.h"
 
@@ -42,6 +43,7 @@ struct SessionReport
   std::vector<std::string> reused; ///< stages whose results were there; "all": nothing was to do
   /// Of the pipeline: none where nothing was to do, more than one where constraints had to be left out.
   int runs = 0;
+  TryCounts tries; ///< of all of them, see Base/TryCount.h
   /// Stopped with the best quads so far, see RemeshResult::stopped: what was still being tried. The next update makes
   /// the state's result.
   std::string stopped;

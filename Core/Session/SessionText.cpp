@@ -99,6 +99,16 @@ std::string reportText(const SessionReport& report)
   }
   json["reused"] = report.reused;
   json["runs"] = report.runs;
+  json["tries"] = SessionJson::object();
+  for (std::size_t i = 0; i < kTries; ++i)
+  {
+    if (report.tries.taken[i] > 0)
+    {
+      const TryRow& row = tryTable()[i];
+      json["tries"][std::string(row.room) + ": " + row.name] = { { "taken", report.tries.taken[i] },
+        { "led", report.tries.led[i] } };
+    }
+  }
   json["stopped"] = report.stopped;
   json["seconds"] = report.seconds;
   json["notices"] = report.notices;

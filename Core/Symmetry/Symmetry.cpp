@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Base/TryCount.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
 #include "Pipeline/Estimate.h"
@@ -321,6 +322,7 @@ SymmetricResult remeshSymmetric(SurfaceInput input, const RemeshOptions& options
       "features that were detected on a finer surface cannot be cut by a symmetry: "
       "give them as feature edges.");
   }
+  const TryScope tries; // but for those of the part's runs
   std::unique_ptr<CopiedRun> run;
   // What is left to do after a stop that has kept the quads of the part is short, and does not ask again.
   PollScope poll(!options.progress ? ProgressCallback()
@@ -348,7 +350,9 @@ SymmetricResult remeshSymmetric(SurfaceInput input, const RemeshOptions& options
     {
       run = std::make_unique<MirrorRun>(ownOptions, symmetry, store);
     }
-    return run->run(input);
+    SymmetricResult made = run->run(input);
+    made.remeshed.tries.add(tries.counts());
+    return made;
   }
   catch (const Cancelled&)
   {
