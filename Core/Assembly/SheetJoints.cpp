@@ -422,6 +422,7 @@ private:
   {
     for (const bool allEven : { false, true })
     {
+      countTry(Try::EvenNumbers, allEven ? 1 : 0);
       for (JointSegment& segment : segments_)
       {
         segment.edges = 1;
@@ -448,6 +449,7 @@ private:
       }
       if (isPossible)
       {
+        countTryLed(Try::EvenNumbers, allEven ? 1 : 0);
         return;
       }
     }
@@ -503,15 +505,32 @@ private:
          from = mostLacking())
     {
       poll();
-      const bool isDone = met_.strips < most &&
-        (insertFrom(*from, false) || splitFrom(*from, false) || insertFrom(*from, true) ||
-          splitFrom(*from, true));
+      const bool isDone = met_.strips < most && (insertFrom(*from, false) || fillOtherwise(*from));
       if (!isDone)
       {
         fail("the quads of a sheet cannot get the edges that others have along their common curve",
           segments_[loops_[from->loop].chains[from->chain].segment].points.front());
       }
     }
+  }
+
+  /// Where no path leads to a chain that lacks edges too.
+  bool fillOtherwise(const ChainPlace& from)
+  {
+    countTry(Try::StripOtherwise);
+    bool isDone = splitFrom(from, false);
+    if (!isDone)
+    {
+      countTry(Try::StripOtherwise);
+      isDone = insertFrom(from, true);
+    }
+    if (!isDone)
+    {
+      countTry(Try::StripOtherwise);
+      isDone = splitFrom(from, true);
+    }
+    countTryLed(Try::StripOtherwise, isDone ? 1 : 0);
+    return isDone;
   }
 
   std::optional<ChainPlace> mostLacking() const

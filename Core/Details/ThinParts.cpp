@@ -3,6 +3,7 @@
 #include "Details/ThinParts.h"
 
 #include "Base/Progress.h"
+#include "Base/TryCount.h"
 #include "Mesh/AskedVertices.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/Sizing.h"
@@ -557,13 +558,15 @@ public:
 
   bool cut(const ThinPart& part, double longer)
   {
-    const std::vector<Index> loop = cutOf(part, longer);
+    bool isThrough = false;
+    const std::vector<Index> loop = cutOf(part, longer, isThrough);
     if (loop.size() < 3)
     {
       return false;
     }
     if (part.isLarge)
     {
+      countTryLed(Try::ThreeCorners, isThrough ? 1 : 0);
       cutInTwo(loop);
       return true;
     }
@@ -573,13 +576,14 @@ public:
     {
       return false;
     }
+    countTryLed(Try::ThreeCorners, isThrough ? 1 : 0);
     take(*faces, loop);
     return true;
   }
 
 private:
-  /// With what is taken out on the left or on the right.
-  std::vector<Index> cutOf(const ThinPart& part, double longer) const
+  /// With what is taken out on the left or on the right. Through the three corners where nothing else does.
+  std::vector<Index> cutOf(const ThinPart& part, double longer, bool& isThrough) const
   {
     const auto isUsed = [&](Index v) { return used_[v] != 0; };
     PartingLoops loops(mesh_, outgoing_);
@@ -599,8 +603,10 @@ private:
         best = std::move(loop);
       }
     }
-    if (best.empty())
+    isThrough = best.empty();
+    if (isThrough)
     {
+      countTry(Try::ThreeCorners);
       best = loops.through(part.loop, longer * part.girth);
     }
     if (std::any_of(best.begin(), best.end(), [&](Index h) { return isUsed(mesh_.origin[h]); }))

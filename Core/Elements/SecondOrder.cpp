@@ -4,6 +4,7 @@
 
 #include "Base/Parallel.h"
 #include "Base/Refuse.h"
+#include "Base/TryCount.h"
 #include "Elements/QuadraticShape.h"
 #include "Elements/SurfaceSection.h"
 #include "Mesh/NearestTriangle.h"
@@ -297,9 +298,11 @@ private:
       {
         continue;
       }
+      countTry(Try::CentreOtherwise, i == k ? 0 : 1);
       const auto middle = middleOnSection(surface_, from, to, normalAt(n));
       if (middle && isNear(n, positionOf(surface_, *middle)))
       {
+        countTryLed(Try::CentreOtherwise, i == k ? 0 : 1);
         put(n, *middle);
         return;
       }
@@ -339,6 +342,7 @@ private:
       }
       tree_ = std::make_unique<NearestTriangle>(std::move(list));
     }
+    countTry(Try::CentreOtherwise, lost.size());
     parallelFor(lost.size(), kNodeChunk, options_.threads,
       [&](std::size_t begin, std::size_t end)
       {
@@ -347,6 +351,7 @@ private:
           const Vector3 wanted = straightPlace(lost[i]);
           if (const auto near = tree_->at(wanted, normalAt(lost[i]), reachOf(lost[i])))
           {
+            countTryLed(Try::CentreOtherwise);
             put(lost[i], { near->triangle, near->weights });
           }
           else
@@ -535,6 +540,9 @@ private:
         continue; // another element has moved it as far
       }
       const std::size_t n = wish->node;
+      // A node that is moved again has led once.
+      countTry(Try::NodeFurther);
+      countTryLed(Try::NodeFurther, levels_[n] == 0 ? 1 : 0);
       std::tie(nodes_.points[n], nodes_.places[n]) = nodeAt(n, wish->level);
       levels_[n] = wish->level;
       nodes_.kinds[n] = wish->level == kAlong ? NodePlace::MovedAlong : NodePlace::MovedOff;

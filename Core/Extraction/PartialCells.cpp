@@ -3,6 +3,7 @@
 #include "Extraction/PartialCells.h"
 
 #include "Base/Progress.h"
+#include "Base/TryCount.h"
 #include "Extraction/CellTopology.h"
 #include "Extraction/FaceTrace.h"
 #include "Extraction/QuadAssembly.h"
@@ -62,17 +63,19 @@ public:
   {
     keepWhereFlat();
     keepWhereFar();
-    for (;;)
+    for (bool isFirst = true;; isFirst = false)
     {
       std::vector<Index> corners = keptStops();
       if (isSimple(corners))
       {
+        countTryLed(Try::MoreCorners, isFirst ? 0 : 1);
         return corners;
       }
       if (!refine(corners))
       {
         return {};
       }
+      countTry(Try::MoreCorners);
     }
   }
 
@@ -527,7 +530,9 @@ private:
       {
         simplifier.keepBetween(face.corners[i], face.corners[(i + 1) % face.corners.size()]);
       }
+      countTry(Try::MoreCorners);
       face.corners = simplifier.run();
+      countTryLed(Try::MoreCorners, face.corners.empty() ? 0 : 1);
     }
   }
 

@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Base/Parallel.h"
+#include "Base/TryCount.h"
 #include "Hierarchy/ComparedCosts.h"
 #include "Hierarchy/GaussianCurvatureCost.h"
 #include "Hierarchy/GuideRegions.h"
@@ -335,7 +336,11 @@ BudgetResult BudgetDecimation::run()
       stage.guards = guards;
       if (alive_ > budget_)
       {
+        const bool isLooser = stage.number > 0;
+        const Index before = alive_;
+        countTry(Try::LooserGuards, isLooser ? 1 : 0);
         runStage(stage, result.records);
+        countTryLed(Try::LooserGuards, isLooser && alive_ < before ? 1 : 0);
       }
       ++stage.number;
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/OrderedDecimation.h"
 
+#include "Base/TryCount.h"
 #include "Hierarchy/LazyHeap.h"
 #include "Hierarchy/StarRemoval.h"
 
@@ -110,9 +111,12 @@ void OrderedDecimation::byHeap()
   for (const bool folds : { false, true })
   {
     guards_.allowOldFolds = folds; // as the sweeps end
+    const std::size_t before = alive_;
+    countTry(Try::OldFolds, folds ? 1 : 0);
     for (int i = 0; i < kMostPasses && heapPass() * 500 >= alive_; ++i)
     {
     }
+    countTryLed(Try::OldFolds, folds && alive_ < before ? 1 : 0);
   }
 }
 

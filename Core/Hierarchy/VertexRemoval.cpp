@@ -3,6 +3,7 @@
 #include "Hierarchy/VertexRemoval.h"
 
 #include "Base/Angles.h"
+#include "Base/TryCount.h"
 
 #include <Eigen/Geometry>
 
@@ -444,6 +445,10 @@ bool VertexRemoval::triangulate(const RemovalGuards& guards)
   // Diagonals that the mesh has already are looked up only when the triangulation wants them.
   for (int attempt = 0; attempt < 4; ++attempt)
   {
+    if (attempt > 0)
+    {
+      countTry(Try::OtherDiagonals);
+    }
     triangleCount_ = 0;
     if (splits())
     {
@@ -459,6 +464,10 @@ bool VertexRemoval::triangulate(const RemovalGuards& guards)
     }
     if (!forbidExistingDiagonals())
     {
+      if (attempt > 0)
+      {
+        countTryLed(Try::OtherDiagonals);
+      }
       return true;
     }
     metExistingDiagonal_ = true;

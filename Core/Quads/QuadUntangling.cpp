@@ -4,6 +4,7 @@
 
 #include "Base/DisjointSets.h"
 #include "Base/Parallel.h"
+#include "Base/TryCount.h"
 #include "Quads/QuadMoves.h"
 #include "Quads/QuadShape.h"
 
@@ -71,6 +72,9 @@ public:
       {
         break;
       }
+      const bool isWider = rings > kRingsThatMove[0];
+      countTry(Try::WiderUntangling, isWider ? 1 : 0);
+      const std::size_t before = inverted.size();
       const std::vector<Place> places = separate(pointsRound(inverted, rings));
       parallelFor(places.size(), 1, options_.threads,
         [&](std::size_t begin, std::size_t end)
@@ -81,6 +85,7 @@ public:
           }
         });
       inverted = invertedQuads(quads_.points, quads_.quads);
+      countTryLed(Try::WiderUntangling, isWider && inverted.size() < before ? 1 : 0);
     }
     return inverted;
   }

@@ -76,6 +76,7 @@ public:
     if (mayBeForConstraints(made) && composed_.input.regularOnFeatures)
     {
       whyNotHeld_ = made.status.message;
+      countTry(Try::WithoutHeld, wasStopped_ ? 0 : 1);
       made = runWith(leftOut);
     }
     // Of those that cannot be met together with all that came before, each is left out.
@@ -89,6 +90,12 @@ public:
       }
       leftOut.insert(*culprit);
       made = runWith(leftOut);
+    }
+    if (made.status.ok())
+    {
+      countTryLed(Try::WithoutHeld, whyNotHeld_.empty() ? 0 : 1);
+      countTryLed(Try::WithoutConstraint, leftOut.size());
+      countTryLed(Try::WithoutSymmetry, refused_.size());
     }
     auto result = std::make_shared<SessionResult>();
     SessionReport& report = result->report;
@@ -235,6 +242,7 @@ private:
     }
     catch (const InvalidInput& error)
     {
+      countTry(Try::WithoutSymmetry);
       refused_[constraint.id] = error.what();
       compose(leftOut);
       return std::nullopt;
@@ -261,6 +269,7 @@ private:
     {
       const int id = state_.constraints[rest[count]]->id;
       without[id] = "not tried";
+      countTry(Try::WithoutConstraint, wasStopped_ ? 0 : 1);
       const RemeshResult made = runWith(without);
       if (!mayBeForConstraints(made))
       {

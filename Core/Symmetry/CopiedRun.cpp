@@ -5,6 +5,7 @@
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Base/TryCount.h"
 #include "Evaluation/QuadQuality.h"
 #include "Features/CreaseCurves.h"
 #include "Features/FeatureFilter.h"
@@ -200,12 +201,15 @@ void CopiedRun::remeshAndCopy()
 {
   for (std::size_t more = 1;; more *= 2)
   {
+    countTry(Try::TwiceTheQuads, more > 1 ? 1 : 0);
     remeshPart(more);
     for (const StageRecord& record : made_.remeshed.stages)
     {
       laps_.add(record.stage, record.seconds, record.elementsIn, record.elementsOut);
     }
     const bool isCrowded = made_.remeshed.status.ok() && !copy();
+    const bool hasLed = more > 1 && made_.remeshed.status.ok() && !isCrowded;
+    countTryLed(Try::TwiceTheQuads, hasLed ? 1 : 0);
     if (!isCrowded || isStopped() || more == kMostTimesQuads)
     {
       break;

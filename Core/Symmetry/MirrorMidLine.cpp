@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Base/TryCount.h"
 #include "GridMap/RelaxMap.h"
 #include "Mesh/Topology.h"
 #include "Prepare/Frame.h"
@@ -740,6 +741,8 @@ Status insetPlane(const PreparedSurface& half, const DoubledMesh& doubled,
   }
   for (double rows = kRows;; rows /= 2)
   {
+    const bool isNarrower = rows < kRows;
+    countTry(Try::NarrowerBand, isNarrower ? 1 : 0);
     const Band band = BandBuilder(mesh, doubled.isGlued, uv, rows).build();
     RelaxOptions relax;
     relax.maximumBytes = options.maximumBytes;
@@ -765,6 +768,7 @@ Status insetPlane(const PreparedSurface& half, const DoubledMesh& doubled,
     {
       continue;
     }
+    countTryLed(Try::NarrowerBand, isNarrower && relaxed.status.ok() ? 1 : 0);
     for (std::size_t h = 0; h < bandUv.size() && relaxed.status.ok(); ++h)
     {
       uv[3 * std::size_t{ band.face[h / 3] } + h % 3] = bandUv[h];

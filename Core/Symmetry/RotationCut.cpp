@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Base/TryCount.h"
 #include "Mesh/Topology.h"
 #include "Symmetry/MirrorCut.h"
 
@@ -755,8 +756,10 @@ SurfaceWedge cutWedge(const Mesh& mesh, const RotationAxis& axis, int order, dou
     [&](std::size_t a, std::size_t b)
     { return std::floor(*lengths[a] / unit) < std::floor(*lengths[b] / unit); });
   std::optional<SurfaceWedge> best;
+  bool isOther = false;
   for (std::size_t i = 0; i < std::min(kMostCuts, byLength.size()); ++i)
   {
+    countTry(Try::OtherHalfPlane, i > 0 ? 1 : 0);
     SurfaceWedge wedge =
       WedgeBuilder(mesh, axis, order, angles[byLength[i]], tolerance, reach).build();
     const bool isBetter = !best || (!best->mismatch.empty() && wedge.mismatch.empty()) ||
@@ -764,6 +767,7 @@ SurfaceWedge cutWedge(const Mesh& mesh, const RotationAxis& axis, int order, dou
     if (isBetter)
     {
       best = std::move(wedge);
+      isOther = i > 0;
     }
     if (best->mismatch.empty() && best->loneFeatures == 0)
     {
@@ -775,6 +779,7 @@ SurfaceWedge cutWedge(const Mesh& mesh, const RotationAxis& axis, int order, dou
     best.emplace();
     best->mismatch = "faces of the surface lie in every half plane that could cut it";
   }
+  countTryLed(Try::OtherHalfPlane, isOther && best->mismatch.empty() ? 1 : 0);
   return std::move(*best);
 }
 

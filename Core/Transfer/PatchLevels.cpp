@@ -3,6 +3,7 @@
 #include "Transfer/PatchLevels.h"
 
 #include "Base/ChartRotation.h"
+#include "Base/TryCount.h"
 #include "Hierarchy/LogRecords.h"
 #include "Numerics/IsotropicEnergy.h"
 #include "Transfer/RingKernel.h"
@@ -785,12 +786,14 @@ bool PatchLevels::putBack(const Collapse& record)
     undo(record);
     if (place(record.vertex))
     {
+      countTryLed(Try::RoomForVertex, round > 0 ? 1 : 0);
       break;
     }
     if (round == kRoundsOfRoom)
     {
       return false;
     }
+    countTry(Try::RoomForVertex);
     const std::vector<Index> ring = neighbours(record.vertex);
     const std::vector<Index> corners = cornersAround(record.vertex);
     collapse(*std::find_if(
@@ -826,6 +829,7 @@ PatchLevelsResult PatchLevels::run(const PatchSolver& solver)
   PatchLevelsResult result;
   const std::size_t before = inner_;
   coarsen();
+  bool isOther = false;
   for (const std::size_t most : levels())
   {
     while (!collapses_.empty() && inner_ < most)
@@ -837,8 +841,10 @@ PatchLevelsResult PatchLevels::run(const PatchSolver& solver)
     {
       break; // tried as a whole before
     }
+    countTry(Try::LevelOfPatch, isOther ? 1 : 0);
     if (!solve(solver))
     {
+      isOther = true;
       continue;
     }
     result.valid = true;
@@ -848,6 +854,7 @@ PatchLevelsResult PatchLevels::run(const PatchSolver& solver)
       collapses_.pop_back();
       result.valid = putBack(record);
     }
+    countTryLed(Try::LevelOfPatch, isOther && result.valid ? 1 : 0);
     break;
   }
   result.work = work_;

@@ -6,6 +6,7 @@
 #include "Base/ChartRotation.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/TryCount.h"
 #include "GridMap/FieldUntangling.h"
 #include "GridMap/MapCheck.h"
 #include "GridMap/MapShape.h"
@@ -84,6 +85,32 @@ Eigen::Matrix2d equilateral(double side)
   return edges;
 }
 
+/// Counts what a try has made where that is used, and says whether it is.
+bool hasLed(Try which, bool isUsed)
+{
+  countTryLed(which, isUsed ? 1 : 0);
+  return isUsed;
+}
+
+/// The tries of `act`, which no scope around it has counted.
+template <typename Act>
+TryCounts triesOf(const Act& act)
+{
+  TryScope scope;
+  act();
+  return scope.counts();
+}
+
+/// Counts such tries for the scope around after all, and that they have led only where what they made is used.
+void countAgain(const TryCounts& tries, bool isUsed)
+{
+  for (std::size_t i = 0; i < kTries; ++i)
+  {
+    countTry(static_cast<Try>(i), tries.taken[i]);
+    countTryLed(static_cast<Try>(i), isUsed ? tries.led[i] : 0);
+  }
+}
+
 class PatchMender
 {
 public:
@@ -124,12 +151,13 @@ private:
   std::size_t countDefectsInPatch() const;
   std::vector<Index> defectVertices() const;
 
-  bool embedPatch();
+  bool embedPatch(bool isWider);
   bool embedWhole();
   bool embedTurned();
   bool embedByLevels();
   bool embedFrom(
     const UntangleProblem& problem, const Eigen::VectorXd& start, Energy energy = Energy::Shape);
+  void embedShapes(Energy energy);
   void stiffen(const std::vector<Index>& vertices, UntangleProblem& problem) const;
   void collectFans();
   void addFan(Index corner);
@@ -356,7 +384,7 @@ bool PatchMender::mendAround(Index seed, int rings)
       }
     }
   }
-  const bool improved = patch_.size() <= kMaximumPatchFaces && embedPatch();
+  const bool improved = patch_.size() <= kMaximumPatchFaces && embedPatch(rings > kGrowth.front());
   if (improved)
   {
     changed_.insert(changed_.end(), patch_.begin(), patch_.end());
@@ -418,7 +446,11 @@ bool PatchMender::mendWithLevels(Index seed, std::size_t vertices)
   if (patch_.size() < kMaximumFacesOfLevels)
   {
     collectFans();
-    improved = unknowns_ > 0 && countDefectsInPatch() > 0 && embedByLevels();
+    if (unknowns_ > 0 && countDefectsInPatch() > 0)
+    {
+      countTry(Try::MendedByLevels);
+      improved = hasLed(Try::MendedByLevels, embedByLevels());
+    }
   }
   if (improved)
   {
@@ -566,14 +598,19 @@ Eigen::VectorXd harmonicStart(const UntangleProblem& problem)
   return solver.solve(-(problem.basis.transpose() * (energy * problem.offset)));
 }
 
-bool PatchMender::embedPatch()
+bool PatchMender::embedPatch(bool isWider)
 {
   collectFans();
-  if (unknowns_ == 0)
+  if (unknowns_ == 0 || countDefectsInPatch() == 0)
   {
-    return false;
+    return false; // mended as part of another patch
   }
-  return countDefectsInPatch() > 0 && embedWhole(); // else mended as part of another patch
+  if (!isWider)
+  {
+    return embedWhole();
+  }
+  countTry(Try::WiderPatch);
+  return hasLed(Try::WiderPatch, embedWhole());
 }
 
 /// From the map as it is, and from others.
@@ -584,12 +621,14 @@ bool PatchMender::embedWhole()
   if (countDefectsInPatch() > 0)
   {
     const UntangleProblem again = improved ? makeProblem(Reference::Surface) : problem;
-    improved = embedFrom(again, harmonicStart(again)) || improved;
+    countTry(Try::HarmonicStart);
+    improved = hasLed(Try::HarmonicStart, embedFrom(again, harmonicStart(again))) || improved;
   }
   if (countDefectsInPatch() > 0)
   {
     const UntangleProblem even = makeProblem(Reference::Equilateral);
-    improved = embedFrom(even, harmonicStart(even)) || improved;
+    countTry(Try::EquilateralReferences);
+    improved = hasLed(Try::EquilateralReferences, embedFrom(even, harmonicStart(even))) || improved;
   }
   if (countDefectsInPatch() > 0)
   {
@@ -605,7 +644,7 @@ bool PatchMender::solve(const std::vector<Index>& patch, std::size_t& work)
   {
     inPatch_[f] = 1;
   }
-  embedPatch();
+  embedPatch(false);
   work = work_;
   return countDefectsInPatch() == 0;
 }
@@ -624,23 +663,33 @@ bool PatchMender::embedByLevels()
                                const std::vector<int>& turns, std::vector<FixedVec2>& uv)
   {
     std::size_t work = 0;
-    const bool solved = PatchMender(mesh, uv, turns, 1).solve(patch, work);
+    bool solved = false;
+    const TryCounts tries =
+      triesOf([&]() { solved = PatchMender(mesh, uv, turns, 1).solve(patch, work); });
+    countAgain(tries, solved);
     work_ += work;
     return solved;
   };
   std::vector<FixedVec2> saved = cornersOfPatch();
   double imageArea = 0;
-  const PatchLevelsResult result =
-    solveByLevels(mesh_, patch_, stars, expectedTurns_, referenceScale(imageArea), solver, uv_);
+  PatchLevelsResult result;
+  const TryCounts tries = triesOf(
+    [&]()
+    {
+      result =
+        solveByLevels(mesh_, patch_, stars, expectedTurns_, referenceScale(imageArea), solver, uv_);
+    });
   work_ += result.work;
-  if (!result.valid || countDefectsInPatch() > 0)
+  const bool isUsed = result.valid && countDefectsInPatch() == 0;
+  countAgain(tries, isUsed);
+  if (!isUsed)
   {
     restore(saved);
     return false;
   }
   if (patch_.size() <= kMaximumPatchFaces)
   {
-    embedFrom(makeProblem(Reference::Surface), Eigen::VectorXd::Zero(unknowns_), Energy::Settle);
+    embedShapes(Energy::Settle);
   }
   return true;
 }
@@ -683,15 +732,26 @@ bool PatchMender::embedTurned()
   bool improved = false;
   for (int round = 0; round < kTurnedRounds && countDefectsInPatch() > 0; ++round)
   {
-    improved = embedFrom(problem, fitReferences(problem), Energy::Turned) || improved;
+    const Try which = round == 0 ? Try::TurnedReferences : Try::MoreWeightTurned;
+    countTry(which);
+    improved =
+      hasLed(which, embedFrom(problem, fitReferences(problem), Energy::Turned)) || improved;
     stiffen(left_, problem);
   }
   if (improved && countDefectsInPatch() == 0)
   {
     // From a valid map no vertex changes its winding.
-    embedFrom(makeProblem(Reference::Surface), Eigen::VectorXd::Zero(unknowns_), Energy::Polish);
+    embedShapes(Energy::Polish);
   }
   return improved;
+}
+
+/// The surface's shapes, from a valid map.
+void PatchMender::embedShapes(Energy energy)
+{
+  countTry(Try::ShapesAgain);
+  hasLed(Try::ShapesAgain,
+    embedFrom(makeProblem(Reference::Surface), Eigen::VectorXd::Zero(unknowns_), energy));
 }
 
 /// Faces that touch one of these vertices, or touch one that does, weigh more.
