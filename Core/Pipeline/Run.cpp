@@ -52,115 +52,72 @@ Status estimate(std::size_t triangles, const RemeshOptions& options, RemeshResul
   return memoryStatus(result.estimate, triangles, options);
 }
 
-/// The rounds of attempts of a run on one bench.
-class Attempts
+/// Maps until one is good or no other would be better.
+void makeRound(RunContext& run, History& history, std::optional<Plan> plan)
 {
-public:
-  /// isLast: where no attempt has quads, nothing follows. stopped: RemeshResult::stopped; once it is not empty,
-  /// progress does not ask to stop any more.
-  Attempts(RunContext& given, History& history, bool isLast, std::string& stopped)
-    : given_(given), options_(given.options), history_(history), isLast_(isLast),
-      stopped_(stopped), run_{ options_, given.edgeLength, given.targetQuads, given.surface,
-        given.levels, given.store, std::move(given.shortLoops), std::move(given.spare),
-        given.hasCrowd }
+  while (plan)
   {
-    if (given.options.progress)
+    if (history.attempts() > 0)
     {
-      // From the second attempt on, progress tells which it is, what is tried, and why.
-      options_.progress = [this](double fraction, const std::string& text)
-      { return given_.options.progress(fraction, (tried_.empty() ? "" : tried_ + ": ") + text); };
+      run.tried = "Attempt " + std::to_string(history.attempts() + 1) + " of at most " +
+        std::to_string(history.bound().attempts) + ", " + plan->step +
+        (plan->why.empty() ? "" : " (" + plan->why + ")");
+    }
+    if (plan->step == std::string(kNoFeatures) || plan->step == std::string(kNoBorders))
+    {
+      history.beginLastResort();
+    }
+    history.packMaps(run.surface->mesh);
+    history.addMap(*plan, makeMap(run, *plan, history.allowance()));
+    plan = nextMapPlan(run, history);
+  }
+}
+
+void makeQuadsOfRound(RunContext& run, History& history)
+{
+  const Attempt& best = history.ofRound();
+  run.surface.apply(best.plan);
+  history.addQuads(!history.roundHasMap() ? nullptr
+      : run.options.preview               ? makePreview(run, best.plan, *best.map)
+                                          : makeQuads(run, best.plan, *best.map));
+}
+
+/// Rounds of attempts until one is good or nothing is left to try. begin: none for the first plan of the surface.
+/// isLast: where no attempt has quads, nothing follows. stopped: RemeshResult::stopped; after a stop it tells what was
+/// tried, and the quads so far are the result, or those of a map that is there already; throws Cancelled without any.
+void makeAttempts(RunContext& run, History& history, bool isLast, std::string& stopped,
+  std::optional<Plan> begin = std::nullopt)
+{
+  bool makesQuads = false; // a stop meanwhile may leave the map half solved
+  try
+  {
+    for (std::optional<Plan> plan = begin ? std::move(begin) : firstPlan(run); plan;
+         plan = nextPlan(run, history, isLast))
+    {
+      makeRound(run, history, std::move(plan));
+      makesQuads = true;
+      makeQuadsOfRound(run, history);
+      makesQuads = false;
     }
   }
-
-  ~Attempts()
+  catch (const Cancelled&)
   {
-    given_.targetQuads = run_.targetQuads;
-    given_.shortLoops = std::move(run_.shortLoops);
-    given_.spare = std::move(run_.spare);
-  }
-  Attempts(const Attempts&) = delete;
-  Attempts& operator=(const Attempts&) = delete;
-
-  /// Until one is good or nothing is left to try. begin: none for the first plan of the surface.
-  void run(std::optional<Plan> begin = std::nullopt)
-  {
-    try
-    {
-      for (std::optional<Plan> plan = begin ? std::move(begin) : firstPlan(run_); plan;
-           plan = nextPlan(run_, history_, isLast_))
-      {
-        makeRound(std::move(plan));
-      }
-    }
-    catch (const Cancelled&)
-    {
-      keepWhatIsThere();
-    }
-  }
-
-private:
-  void makeRound(std::optional<Plan> plan)
-  {
-    while (plan)
-    {
-      if (history_.attempts() > 0)
-      {
-        tried_ = "Attempt " + std::to_string(history_.attempts() + 1) + " of at most " +
-          std::to_string(history_.bound().attempts) + ", " + plan->step +
-          (plan->why.empty() ? "" : " (" + plan->why + ")");
-      }
-      if (plan->step == std::string(kNoFeatures) || plan->step == std::string(kNoBorders))
-      {
-        history_.beginLastResort();
-      }
-      history_.packMaps(run_.surface->mesh);
-      history_.addMap(*plan, makeMap(run_, *plan, history_.allowance()));
-      plan = nextMapPlan(run_, history_);
-    }
-    makeQuadsOfRound();
-  }
-
-  void makeQuadsOfRound()
-  {
-    makesQuads_ = true;
-    const Attempt& best = history_.ofRound();
-    run_.surface.apply(best.plan);
-    history_.addQuads(!history_.roundHasMap() ? nullptr
-        : run_.options.preview                ? makePreview(run_, best.plan, *best.map)
-                                              : makeQuads(run_, best.plan, *best.map));
-    makesQuads_ = false;
-  }
-
-  /// After a stop: the quads so far, or those of a map that is there already. Stops without any.
-  void keepWhatIsThere()
-  {
-    // A stop while quads are made may leave their map half solved.
-    const bool hasMap = history_.roundHasMap() && !makesQuads_;
-    if (!history_.hasResult() && !hasMap)
+    if (!history.hasResult() && (!history.roundHasMap() || makesQuads))
     {
       throw;
     }
-    stopped_ = tried_.empty() ? "attempt 1" : tried_;
-    if (!history_.hasResult())
+    stopped = run.tried.empty() ? "attempt 1" : run.tried;
+    if (!history.hasResult())
     {
-      makeQuadsOfRound();
+      makeQuadsOfRound(run, history);
     }
-    if (!history_.hasResult())
+    if (!history.hasResult())
     {
-      stopped_.clear();
+      stopped.clear();
       throw;
     }
   }
-
-  RunContext& given_;
-  RemeshOptions options_;
-  History& history_;
-  bool isLast_;
-  std::string& stopped_;
-  RunContext run_;
-  std::string tried_; ///< what the attempt is; empty for the first one
-  bool makesQuads_ = false;
-};
+}
 
 void tell(const std::vector<std::string>& notices, RemeshResult& result)
 {
@@ -363,7 +320,7 @@ void attemptWithBorders(Settled& settled, SizedSurface& sized, const RemeshOptio
   const WorkBound bound = workBound(sized.surface->mesh.faceCount(), sized.targetQuads);
   const bool isLast = !hasRest(settled, options);
   history = History(isLast ? bound : boundBeforeRest(bound));
-  Attempts(settled.bench->run, history, isLast, result.stopped).run();
+  makeAttempts(settled.bench->run, history, isLast, result.stopped);
   result.attempts = history.steps();
   if (history.hasResult() || isLast)
   {
@@ -392,7 +349,7 @@ void attemptWithBorders(Settled& settled, SizedSurface& sized, const RemeshOptio
   const double seconds = secondsOf(history);
   result.tries.addTaken(history.tries());
   history = History(bound, history.work(), history.attempts());
-  Attempts(settled.bench->run, history, true, result.stopped).run(std::move(begin));
+  makeAttempts(settled.bench->run, history, true, result.stopped, std::move(begin));
   countTryLed(Try::FewerDetails, isOther && history.hasResult() ? 1 : 0);
   sized.stages.add("retries", seconds, 0, 0);
   const std::size_t before = result.attempts.size();
@@ -427,7 +384,8 @@ void attemptAll(Settled& settled, SizedSurface& sized, const RemeshOptions& opti
   const double seconds = secondsOf(history);
   const std::vector<std::string> before = result.attempts;
   history = History(workBound(sized.surface->mesh.faceCount(), sized.targetQuads));
-  Attempts(run, history, true, result.stopped).run(std::move(begin));
+  run.tried.clear();
+  makeAttempts(run, history, true, result.stopped, std::move(begin));
   sized.stages.add("retries", seconds, 0, 0);
   countTryLed(Try::BordersYield, history.hasResult() ? 1 : 0);
   result.attempts = before;

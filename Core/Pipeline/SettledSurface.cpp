@@ -671,10 +671,15 @@ private:
 
 } // namespace
 
-RunBench::RunBench(const SizedSurface& sized, const RemeshOptions& options, ResultStore* store)
-  : surface(sized.surface, sized.key, options.threads), levels(surface, store), run{ options,
-      sized.edgeLength, sized.targetQuads, surface, levels, store, {} }
+RunBench::RunBench(const SizedSurface& sized, const RemeshOptions& given, ResultStore* store)
+  : surface(sized.surface, sized.key, given.threads), levels(surface, store),
+    options(given), run{ options, sized.edgeLength, sized.targetQuads, surface, levels, store, {} }
 {
+  if (given.progress)
+  {
+    options.progress = [this, asked = given.progress](double fraction, const std::string& text)
+    { return asked(fraction, (run.tried.empty() ? "" : run.tried + ": ") + text); };
+  }
 }
 
 Settled settleDetails(SizedSurface& sized, const RemeshOptions& options, ResultStore* store,

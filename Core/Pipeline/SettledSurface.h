@@ -25,6 +25,8 @@ struct RunBench
 
   RunSurface surface;
   Levels levels;
+  /// Progress tells which attempt it is, from the second one on.
+  RemeshOptions options;
   RunContext run;
 };
 
