@@ -3,6 +3,7 @@
 #include "CrossField/CrossField.h"
 
 #include "Base/PlaceText.h"
+#include "Base/TryCount.h"
 #include "CrossField/FieldLines.h"
 #include "CrossField/FieldTopology.h"
 #include "CrossField/PowerField.h"
@@ -243,6 +244,7 @@ void adaptToSizes(const Mesh& mesh, const FieldTopology& topology,
   {
     return;
   }
+  countTry(Try::ValencesForSizes);
   const RepairData data(mesh, topology, constraints, solution.angle, solution.jump);
   const TurnPrescription prescription =
     prescribeTurns(mesh, topology, targets, options.sectorTurns);
@@ -258,6 +260,7 @@ void adaptToSizes(const Mesh& mesh, const FieldTopology& topology,
     sizeError(mesh, topology, repair.turns) <
       kWorthwhileError * sizeError(mesh, topology, solution.turns))
   {
+    countTryLed(Try::ValencesForSizes);
     applyShift(topology, repair.shift, solution.jump);
     solution.turns = repair.turns;
   }
@@ -295,6 +298,8 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
         return solution;
       }
     }
+    const bool isFirst = best.angle.empty();
+    countTry(Try::OtherField, isFirst ? 0 : 1);
     const TurnRepairResult repair = repairTurns(inputOf(data));
     if (!repair.complete && !prescription.turns.empty())
     {
@@ -304,8 +309,9 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
     }
     applyShift(topology, repair.shift, solution.jump);
     solution.turns = repair.turns;
-    if (best.angle.empty() || (!best.status.ok() && solution.status.ok()))
+    if (isFirst || (!best.status.ok() && solution.status.ok()))
     {
+      countTryLed(Try::OtherField, isFirst ? 0 : 1);
       best = std::move(solution);
       fewest = countIrregular(topology, fields, best.turns);
       continue;
@@ -320,6 +326,8 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
     {
       better[c] = irregular[c] < fewest[c] ? 1 : 0;
     }
+    const bool isAdopted = std::find(better.begin(), better.end(), 1) != better.end();
+    countTryLed(Try::OtherField, isAdopted ? 1 : 0);
     adopt(topology, fields, better, solution, best);
   }
 

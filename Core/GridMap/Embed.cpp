@@ -3,6 +3,7 @@
 #include "GridMap/Embed.h"
 
 #include "Base/Error.h"
+#include "Base/TryCount.h"
 #include "GridMap/Continuation.h"
 #include "GridMap/FieldUntangling.h"
 #include "GridMap/LockedMap.h"
@@ -47,11 +48,13 @@ std::vector<Eigen::VectorXd> startsOf(const Mesh& mesh, const CrossField& field,
 {
   if (previous != nullptr && previous->knownFaces > 0)
   {
+    countTry(Try::NearEmbedded);
     const UntangleProblem nearby = referToMap(problem, *previous, previous->uv, {}, 1);
     const Eigen::VectorXd start = fitReferences(nearby);
     fromPrevious = findDefects(mesh, field, locked.snap(start)).none();
     if (fromPrevious)
     {
+      countTryLed(Try::NearEmbedded);
       return { start };
     }
   }
@@ -68,6 +71,7 @@ std::vector<Eigen::VectorXd> startsOf(const Mesh& mesh, const CrossField& field,
 void embedFromSeamless(const Mesh& mesh, const CrossField& field, const LockedMap& locked,
   const UntangleProblem& problem, const EmbedOptions& options, FieldUntangling& untangling)
 {
+  countTry(Try::FromSeamless);
   const ContinuationResult way =
     continueToIntegers(mesh, field, *options.seamlessUv, locked, options.progress);
   untangling.newtonSteps += way.newtonSteps;
@@ -83,6 +87,7 @@ void embedFromSeamless(const Mesh& mesh, const CrossField& field, const LockedMa
     MapDefects left = findDefects(mesh, field, uv);
     if (left.none())
     {
+      countTryLed(Try::FromSeamless);
       untangling.uv = std::move(uv);
       untangling.y = *y;
       untangling.defects = std::move(left);
@@ -125,8 +130,8 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
   const std::vector<Eigen::VectorXd> starts =
     startsOf(mesh, field, locked, problem, options.previous, result.startedFromPrevious);
   const auto snap = [&](const Eigen::VectorXd& y) { return locked.snap(y); };
-  FieldUntangling untangled =
-    untangleAlongField(mesh, field, problem, starts, kEmbedRounds, snap, options.progress);
+  FieldUntangling untangled = untangleAlongField(
+    mesh, field, problem, starts, kEmbedRounds, Try::MoreWeightEmbedded, snap, options.progress);
   if (!untangled.defects.none() && options.seamlessUv != nullptr &&
     verticesOf(mesh, untangled.defects) != options.failedBefore)
   {

@@ -70,7 +70,7 @@ UntangleOptions fieldUntangleOptions(const ProgressCallback& progress)
 
 FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
   const UntangleProblem& problem, const std::vector<Eigen::VectorXd>& starts, int rounds,
-  const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
+  Try moreWeight, const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
   const ProgressCallback& progress, int maximumSteps)
 {
   FieldUntangling best;
@@ -91,6 +91,8 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
     {
       break;
     }
+    const Try other = given ? Try::SecondStart : moreWeight;
+    countTry(other, i > 0 ? 1 : 0);
     if (!given)
     {
       stiffen(mesh, best.defects, stiffened.weight);
@@ -109,6 +111,7 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
     const bool better = i == 0 || defects.count() < best.defects.count();
     if (better)
     {
+      countTryLed(other, i > 0 ? 1 : 0);
       best.defects = std::move(defects);
       best.uv = std::move(uv);
       best.y = std::move(attempt.y);
@@ -140,11 +143,13 @@ void followRequests(const Mesh& mesh, const CrossField& field, const UntanglePro
   }
   options.axisWeight = hasGuides ? kGuideWeight : 0;
   options.polishSteps = kRequestSteps;
+  countTry(Try::RequestsFollowed);
   UntangleResult shaped = untangle(problem, untangling.y, options);
   untangling.newtonSteps += shaped.steps;
   std::vector<FixedVec2> uv = snap(shaped.y);
   if (findDefects(mesh, field, uv).none())
   {
+    countTryLed(Try::RequestsFollowed);
     untangling.uv = std::move(uv);
     untangling.y = std::move(shaped.y);
   }

@@ -3,6 +3,7 @@
 /// Untangling until a map winds like its field everywhere; shared by the seamless map and the re-embedding.
 #pragma once
 
+#include "Base/TryCount.h"
 #include "GridMap/MapCheck.h"
 #include "Numerics/Untangler.h"
 
@@ -27,10 +28,10 @@ struct FieldUntangling
 /// may end with a wrong one: then the references are fitted again with more weight round it [stiffening of
 /// Bommes et al. 2009], at most `rounds` times, until it winds rightly from the start. snap rounds
 /// unknowns to a map. The first triangles of the problem are the faces. maximumSteps: of Newton, of all attempts; 0 for
-/// no bound but that of each.
+/// no bound but that of each. moreWeight: its row in the ledger.
 FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
   const UntangleProblem& problem, const std::vector<Eigen::VectorXd>& starts, int rounds,
-  const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
+  Try moreWeight, const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
   const ProgressCallback& progress, int maximumSteps = 0);
 
 /// Newton steps from a map without defects that bring the isolines along the guides of the field, and the ratio of the

@@ -5,6 +5,7 @@
 #include "Base/Clock.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Base/TryCount.h"
 #include "Base/WorkCount.h"
 #include "GridMap/Embed.h"
 #include "GridMap/GuidesInMap.h"
@@ -246,9 +247,12 @@ private:
       fieldOptions.targetValences = all ? valencesOf(mesh_, result_.field, options_.targetValences)
                                         : valencesWithEnds(mesh_, result_.field, curves,
                                             options_.edgeLength, options_.targetValences);
+      const bool isOther = !all && try_.holdsIrregular;
+      countTry(Try::IrregularAtEnds, isOther ? 1 : 0);
       CrossField led = computeCrossField(mesh_, fieldOptions);
       if (led.status.ok() && (!all || cyclesClose(led, curves)))
       {
+        countTryLed(Try::IrregularAtEnds, isOther ? 1 : 0);
         holdsIrregular_ = all;
         result_.field = std::move(led);
         return;
@@ -374,6 +378,7 @@ private:
     double bestDeviation = std::numeric_limits<double>::infinity();
     for (int scaling = 0; scaling < kMaximumScalings; ++scaling)
     {
+      countTry(Try::OtherScale, scaling > 0 ? 1 : 0);
       if (!makeIntegers(wanted))
       {
         return; // an earlier scale may have integers
@@ -384,6 +389,7 @@ private:
       {
         bestDeviation = deviation;
         keepTried();
+        countTryLed(Try::OtherScale, scaling > 0 ? 1 : 0);
       }
       // With a component missing there will be no quads to count.
       // Integers that are to be small do not follow the scale.
@@ -647,6 +653,7 @@ private:
       tried.push_back(std::move(component.uv));
       if (embedded.status.ok())
       {
+        countTryLed(Try::OtherIntegers, tried.size() > 1 ? 1 : 0);
         component.uv = std::move(embedded.uv);
         return;
       }
@@ -654,6 +661,7 @@ private:
       {
         break;
       }
+      countTry(Try::OtherIntegers);
       watched = join(std::move(watched), embedded.offenders);
       QuantizeResult quantized = quantize(component, component.startUv, watched, progress);
       if (!quantized.status.ok() ||
@@ -772,6 +780,7 @@ public:
     }
     // What is left out does not lead the field either.
     std::vector<std::string> leftOut = reasons(first);
+    countTry(Try::WithoutCurves);
     GridMapResult plain = make({ leftOut, {}, true, 0 });
     if (!plain.status.ok())
     {
@@ -811,9 +820,11 @@ public:
       {
         break;
       }
+      countTry(Try::StraightWays);
       GridMapResult other = make(howto);
       if (hasMore(other, best))
       {
+        countTryLed(Try::StraightWays);
         best = std::move(other);
         bestTry = howto;
       }
@@ -906,7 +917,9 @@ private:
       const std::size_t unmet = countUnmet(best);
       if (unmet == best.curves.size())
       {
-        return hasMore(best, plain) ? std::move(best) : std::move(plain);
+        const bool isPlain = !hasMore(best, plain);
+        countTryLed(Try::WithoutCurves, isPlain ? 1 : 0);
+        return isPlain ? std::move(plain) : std::move(best);
       }
       bestTry.leftOut = reasons(best);
       for (std::size_t i = 0; i < best.curves.size(); ++i)
@@ -917,9 +930,13 @@ private:
         }
       }
       bestTry.maximumSteps = maximumSteps_;
+      countTry(Try::WithoutUnmet);
       GridMapResult some = make(bestTry);
-      return hasMore(best, some) || !some.status.ok() ? std::move(best) : std::move(some);
+      const bool isOther = !hasMore(best, some) && some.status.ok();
+      countTryLed(Try::WithoutUnmet, isOther ? 1 : 0);
+      return isOther ? std::move(some) : std::move(best);
     }
+    countTryLed(Try::WithoutCurves); // the others, if any, come to it
     std::vector<std::size_t> all(leftOut.size());
     std::iota(all.begin(), all.end(), std::size_t(0));
     Adding adding{ std::move(plain), { std::move(leftOut), ways, true, maximumSteps_ },
@@ -956,9 +973,11 @@ private:
       {
         howto.leftOut[i].clear();
       }
+      countTry(Try::CurvesByHalves);
       GridMapResult next = make(howto);
       if (hasMore(next, to.map))
       {
+        countTryLed(Try::CurvesByHalves);
         // Those that it lacks are no equations of the next one.
         for (const std::size_t i : half)
         {
@@ -1079,9 +1098,11 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
   {
     GridMapOptions fewer = options;
     fewer.fewIrregular = true;
+    countTry(Try::SeamsFewer);
     GridMapResult again = CurvedMap(mesh, fewer).run();
     if (again.status.ok())
     {
+      countTryLed(Try::SeamsFewer);
       again.addWork(result);
       return again;
     }
@@ -1090,7 +1111,9 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
   {
     GridMapOptions cold = options;
     cold.previous = nullptr;
+    countTry(Try::WithoutEarlier);
     GridMapResult again = CurvedMap(mesh, cold).run();
+    countTryLed(Try::WithoutEarlier, again.status.ok() ? 1 : 0);
     again.addWork(result);
     return again;
   }

@@ -3,6 +3,7 @@
 #include "GridMap/SeamlessMap.h"
 
 #include "Base/Error.h"
+#include "Base/TryCount.h"
 #include "GridMap/FieldUntangling.h"
 #include "GridMap/MapCheck.h"
 #include "GridMap/MapShape.h"
@@ -144,9 +145,11 @@ SeamlessResult computeSeamlessMap(
   MapDefects defects;
   if (options.previous != nullptr && options.previous->knownFaces > 0)
   {
+    countTry(Try::NearSeamless);
     start = startNear(mesh, space, *options.previous);
     result.uv = snapScaled(space, start, options.targetQuads);
     result.startedFromPrevious = findDefects(mesh, field, result.uv).none();
+    countTryLed(Try::NearSeamless, result.startedFromPrevious ? 1 : 0);
   }
   if (!result.startedFromPrevious)
   {
@@ -161,7 +164,7 @@ SeamlessResult computeSeamlessMap(
   const auto snap = [&](const Eigen::VectorXd& y)
   { return snapScaled(space, y, options.targetQuads); };
   FieldUntangling untangled = untangleAlongField(mesh, field, space.problem(), { start },
-    kSeamlessRounds, snap, options.progress, options.maximumSteps);
+    kSeamlessRounds, Try::MoreWeightSeamless, snap, options.progress, options.maximumSteps);
   followRequests(
     mesh, field, space.problem(), options.anisotropyLimit, snap, options.progress, untangled);
   result.uv = std::move(untangled.uv);

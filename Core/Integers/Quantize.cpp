@@ -6,6 +6,7 @@
 /// start is repaired before the scale is raised; shrinking steps begin large.
 #include "Integers/Quantize.h"
 
+#include "Base/TryCount.h"
 #include "Integers/CurveIsolines.h"
 #include "Integers/LockedVertices.h"
 #include "Integers/QuantizeIntegers.h"
@@ -299,7 +300,9 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   IntegerStart start;
   if (options.previousUv != nullptr)
   {
+    countTry(Try::EarlierIntegers);
     start = startFrom(*options.previousUv, mesh, field, editor, integers);
+    countTryLed(Try::EarlierIntegers, start.valid ? 1 : 0);
     result.startedFromPrevious = start.valid;
   }
   if (!start.valid)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Integers/QuantizeIntegers.h"
 
+#include "Base/TryCount.h"
 #include "Integers/StripSearch.h"
 
 #include <algorithm>
@@ -202,12 +203,14 @@ public:
 
   bool run()
   {
+    bool hasBrokenOut = false;
     while (true)
     {
       poll();
       const Index worst = firstBroken();
       if (worst == kInvalidIndex)
       {
+        countTryLed(Try::Breakout, hasBrokenOut ? 1 : 0);
         return true;
       }
       if (flipAt(worst) || moveAt(worst) || stripAt(worst))
@@ -218,6 +221,8 @@ public:
       {
         return false;
       }
+      countTry(Try::Breakout);
+      hasBrokenOut = true;
       --breakouts_;
       weight_[worst] *= 2;
     }
@@ -613,10 +618,12 @@ IntegerStart findValidIntegers(
   for (start.scale = scale; start.scale <= maximumScale; start.scale *= std::sqrt(2.0))
   {
     report(progress, 0.2, "rounding at scale " + std::to_string(start.scale));
+    countTry(Try::FinerScale, start.scale > scale ? 1 : 0);
     map.round(start.scale);
     const IntegerStart repaired = repairIntegers(map);
     start.steps += repaired.steps;
     start.valid = repaired.valid;
+    countTryLed(Try::FinerScale, start.valid && start.scale > scale ? 1 : 0);
     if (start.valid || start.steps > kMostStepsOfScales * map.faces().size())
     {
       return start;
