@@ -244,7 +244,6 @@ void adaptToSizes(const Mesh& mesh, const FieldTopology& topology,
   {
     return;
   }
-  countTry(Try::ValencesForSizes);
   const RepairData data(mesh, topology, constraints, solution.angle, solution.jump);
   const TurnPrescription prescription =
     prescribeTurns(mesh, topology, targets, options.sectorTurns);
@@ -255,6 +254,7 @@ void adaptToSizes(const Mesh& mesh, const FieldTopology& topology,
   input.residual = &data.residual;
   input.turns = &data.turns;
   input.prescription = &prescription;
+  countTry(Try::ValencesForSizes);
   const TurnRepairResult repair = repairTurns(input);
   if (repair.complete &&
     sizeError(mesh, topology, repair.turns) <
@@ -283,8 +283,14 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
   };
   Solution best;
   std::vector<std::size_t> fewest;
+  bool hasOther = false; // some component has not the first one
   for (const std::vector<double>& candidate : fields.candidates)
   {
+    const bool isOther = !best.angle.empty();
+    if (isOther)
+    {
+      countTry(Try::OtherField);
+    }
     Solution solution{ candidate, roundJumps(mesh, topology, candidate), {}, {}, {} };
     held = holdJumps(mesh, topology, options.lines, candidate, solution.jump);
     const RepairData data(mesh, topology, constraints, candidate, solution.jump);
@@ -298,8 +304,6 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
         return solution;
       }
     }
-    const bool isFirst = best.angle.empty();
-    countTry(Try::OtherField, isFirst ? 0 : 1);
     const TurnRepairResult repair = repairTurns(inputOf(data));
     if (!repair.complete && !prescription.turns.empty())
     {
@@ -309,10 +313,10 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
     }
     applyShift(topology, repair.shift, solution.jump);
     solution.turns = repair.turns;
-    if (isFirst || (!best.status.ok() && solution.status.ok()))
+    if (best.angle.empty() || (!best.status.ok() && solution.status.ok()))
     {
-      countTryLed(Try::OtherField, isFirst ? 0 : 1);
       best = std::move(solution);
+      hasOther = isOther;
       fewest = countIrregular(topology, fields, best.turns);
       continue;
     }
@@ -325,10 +329,13 @@ Solution bestSolution(const Mesh& mesh, const FieldTopology& topology,
     for (std::size_t c = 0; c < better.size(); ++c)
     {
       better[c] = irregular[c] < fewest[c] ? 1 : 0;
+      hasOther = hasOther || better[c] != 0;
     }
-    const bool isAdopted = std::find(better.begin(), better.end(), 1) != better.end();
-    countTryLed(Try::OtherField, isAdopted ? 1 : 0);
     adopt(topology, fields, better, solution, best);
+  }
+  if (hasOther)
+  {
+    countTryLed(Try::OtherField);
   }
 
   if (!mesh.sizing.empty() && best.status.ok())

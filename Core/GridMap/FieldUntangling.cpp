@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/FieldUntangling.h"
 
+#include "Base/TryCount.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -78,7 +80,7 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
   const int stepsOfAttempt = options.maximumSteps;
   UntangleProblem stiffened = problem;
   const int attempts = static_cast<int>(starts.size()) + rounds;
-  int idle = 0;
+  int idle = 0, kept = 0;
   const std::size_t many = std::max(kMany, mesh.faceCount() / kFacesPerDefect);
   for (int i = 0; i < attempts; ++i)
   {
@@ -91,11 +93,14 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
     {
       break;
     }
-    const Try other = given ? Try::SecondStart : moreWeight;
-    countTry(other, i > 0 ? 1 : 0);
     if (!given)
     {
+      countTry(moreWeight);
       stiffen(mesh, best.defects, stiffened.weight);
+    }
+    else if (i > 0)
+    {
+      countTry(Try::SecondStart);
     }
     UntangleResult attempt =
       untangle(stiffened, given ? starts[i] : fitReferences(stiffened), options);
@@ -111,10 +116,10 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
     const bool better = i == 0 || defects.count() < best.defects.count();
     if (better)
     {
-      countTryLed(other, i > 0 ? 1 : 0);
       best.defects = std::move(defects);
       best.uv = std::move(uv);
       best.y = std::move(attempt.y);
+      kept = i;
     }
     idle = given || better ? 0 : idle + 1;
     const bool startsLeft = i + 1 < static_cast<int>(starts.size());
@@ -122,6 +127,10 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
     {
       break;
     }
+  }
+  if (kept > 0)
+  {
+    countTryLed(kept < static_cast<int>(starts.size()) ? Try::SecondStart : moreWeight);
   }
   return best;
 }

@@ -244,15 +244,21 @@ private:
       {
         continue;
       }
+      const bool again = !all && try_.holdsIrregular;
+      if (again)
+      {
+        countTry(Try::IrregularAtEnds);
+      }
       fieldOptions.targetValences = all ? valencesOf(mesh_, result_.field, options_.targetValences)
                                         : valencesWithEnds(mesh_, result_.field, curves,
                                             options_.edgeLength, options_.targetValences);
-      const bool isOther = !all && try_.holdsIrregular;
-      countTry(Try::IrregularAtEnds, isOther ? 1 : 0);
       CrossField led = computeCrossField(mesh_, fieldOptions);
       if (led.status.ok() && (!all || cyclesClose(led, curves)))
       {
-        countTryLed(Try::IrregularAtEnds, isOther ? 1 : 0);
+        if (again)
+        {
+          countTryLed(Try::IrregularAtEnds);
+        }
         holdsIrregular_ = all;
         result_.field = std::move(led);
         return;
@@ -376,28 +382,36 @@ private:
   {
     double wanted = besideBlocks(options_.targetQuads);
     double bestDeviation = std::numeric_limits<double>::infinity();
+    int kept = 0;
     for (int scaling = 0; scaling < kMaximumScalings; ++scaling)
     {
-      countTry(Try::OtherScale, scaling > 0 ? 1 : 0);
+      if (scaling > 0)
+      {
+        countTry(Try::OtherScale);
+      }
       if (!makeIntegers(wanted))
       {
-        return; // an earlier scale may have integers
+        break; // an earlier scale may have integers
       }
       const double ratio = options_.targetQuads > 0 ? ratioToTarget(wanted) : 1;
       const double deviation = std::abs(std::log(ratio));
       if (deviation < bestDeviation)
       {
         bestDeviation = deviation;
+        kept = scaling;
         keepTried();
-        countTryLed(Try::OtherScale, scaling > 0 ? 1 : 0);
       }
       // With a component missing there will be no quads to count.
       // Integers that are to be small do not follow the scale.
       if (deviation <= kCountTolerance || failures() > 0 || options_.pull < 1)
       {
-        return;
+        break;
       }
       wanted /= ratio;
+    }
+    if (kept > 0)
+    {
+      countTryLed(Try::OtherScale);
     }
   }
 
@@ -653,7 +667,10 @@ private:
       tried.push_back(std::move(component.uv));
       if (embedded.status.ok())
       {
-        countTryLed(Try::OtherIntegers, tried.size() > 1 ? 1 : 0);
+        if (tried.size() > 1)
+        {
+          countTryLed(Try::OtherIntegers);
+        }
         component.uv = std::move(embedded.uv);
         return;
       }
@@ -824,15 +841,19 @@ public:
       GridMapResult other = make(howto);
       if (hasMore(other, best))
       {
-        countTryLed(Try::StraightWays);
         best = std::move(other);
         bestTry = howto;
+        hasOtherWays_ = true;
       }
     }
     if (!isWhole(best))
     {
       best = withFewer(std::move(best), std::move(bestTry), std::move(plain), leftOut, ways);
       best.curveOffenders = offenders;
+    }
+    if (hasOtherWays_)
+    {
+      countTryLed(Try::StraightWays);
     }
     return finish(std::move(best));
   }
@@ -917,9 +938,13 @@ private:
       const std::size_t unmet = countUnmet(best);
       if (unmet == best.curves.size())
       {
-        const bool isPlain = !hasMore(best, plain);
-        countTryLed(Try::WithoutCurves, isPlain ? 1 : 0);
-        return isPlain ? std::move(plain) : std::move(best);
+        if (hasMore(best, plain))
+        {
+          return best;
+        }
+        countTryLed(Try::WithoutCurves);
+        hasOtherWays_ = false;
+        return plain;
       }
       bestTry.leftOut = reasons(best);
       for (std::size_t i = 0; i < best.curves.size(); ++i)
@@ -932,11 +957,13 @@ private:
       bestTry.maximumSteps = maximumSteps_;
       countTry(Try::WithoutUnmet);
       GridMapResult some = make(bestTry);
-      const bool isOther = !hasMore(best, some) && some.status.ok();
-      countTryLed(Try::WithoutUnmet, isOther ? 1 : 0);
-      return isOther ? std::move(some) : std::move(best);
+      if (hasMore(best, some) || !some.status.ok())
+      {
+        return best;
+      }
+      countTryLed(Try::WithoutUnmet);
+      return some;
     }
-    countTryLed(Try::WithoutCurves); // the others, if any, come to it
     std::vector<std::size_t> all(leftOut.size());
     std::iota(all.begin(), all.end(), std::size_t(0));
     Adding adding{ std::move(plain), { std::move(leftOut), ways, true, maximumSteps_ },
@@ -945,6 +972,7 @@ private:
     {
       addHalves(all, adding);
     }
+    countTryLed(adding.isPlain ? Try::WithoutCurves : Try::CurvesByHalves);
     return std::move(adding.map);
   }
 
@@ -954,6 +982,7 @@ private:
     GridMapResult map;
     CurveTry howto;   ///< that led to it
     std::size_t left; ///< how many maps may still be made
+    bool isPlain = true;
   };
 
   /// Adds as many of the curves as it can, the earlier half before the later one: with all of them there was no map.
@@ -977,7 +1006,6 @@ private:
       GridMapResult next = make(howto);
       if (hasMore(next, to.map))
       {
-        countTryLed(Try::CurvesByHalves);
         // Those that it lacks are no equations of the next one.
         for (const std::size_t i : half)
         {
@@ -985,6 +1013,7 @@ private:
         }
         to.map = std::move(next);
         to.howto = std::move(howto);
+        to.isPlain = false;
       }
       else if (half.size() > 1)
       {
@@ -997,6 +1026,7 @@ private:
   const GridMapOptions& options_;
   int maximumSteps_ = 0;        ///< of the seamless map of a try
   bool holdsIrregular_ = false; ///< of the last one that was made
+  bool hasOtherWays_ = false;   ///< the map that is kept, or the one that it comes from
   GridMapResult taken_;
 };
 
@@ -1113,7 +1143,10 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
     cold.previous = nullptr;
     countTry(Try::WithoutEarlier);
     GridMapResult again = CurvedMap(mesh, cold).run();
-    countTryLed(Try::WithoutEarlier, again.status.ok() ? 1 : 0);
+    if (again.status.ok())
+    {
+      countTryLed(Try::WithoutEarlier);
+    }
     again.addWork(result);
     return again;
   }

@@ -149,7 +149,10 @@ SeamlessResult computeSeamlessMap(
     start = startNear(mesh, space, *options.previous);
     result.uv = snapScaled(space, start, options.targetQuads);
     result.startedFromPrevious = findDefects(mesh, field, result.uv).none();
-    countTryLed(Try::NearSeamless, result.startedFromPrevious ? 1 : 0);
+    if (result.startedFromPrevious)
+    {
+      countTryLed(Try::NearSeamless);
+    }
   }
   if (!result.startedFromPrevious)
   {

@@ -302,8 +302,11 @@ QuantizeResult quantizeMap(const Mesh& mesh, const CrossField& field,
   {
     countTry(Try::EarlierIntegers);
     start = startFrom(*options.previousUv, mesh, field, editor, integers);
-    countTryLed(Try::EarlierIntegers, start.valid ? 1 : 0);
     result.startedFromPrevious = start.valid;
+    if (start.valid)
+    {
+      countTryLed(Try::EarlierIntegers);
+    }
   }
   if (!start.valid)
   {

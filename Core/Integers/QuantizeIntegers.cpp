@@ -200,17 +200,16 @@ public:
   }
 
   std::size_t steps() const { return search_.work(); }
+  bool hasBrokenOut() const { return hasBrokenOut_; }
 
   bool run()
   {
-    bool hasBrokenOut = false;
     while (true)
     {
       poll();
       const Index worst = firstBroken();
       if (worst == kInvalidIndex)
       {
-        countTryLed(Try::Breakout, hasBrokenOut ? 1 : 0);
         return true;
       }
       if (flipAt(worst) || moveAt(worst) || stripAt(worst))
@@ -222,7 +221,7 @@ public:
         return false;
       }
       countTry(Try::Breakout);
-      hasBrokenOut = true;
+      hasBrokenOut_ = true;
       --breakouts_;
       weight_[worst] *= 2;
     }
@@ -386,6 +385,7 @@ private:
   std::vector<double> weight_; ///< #F
   StripSearch search_;
   std::size_t breakouts_;
+  bool hasBrokenOut_ = false;
   std::size_t position_ = 0;
 };
 
@@ -601,6 +601,10 @@ IntegerStart repairIntegers(IntegerMap& map)
   {
     Repair repair(map);
     start.valid = repair.run() && map.isValid();
+    if (start.valid && repair.hasBrokenOut())
+    {
+      countTryLed(Try::Breakout);
+    }
     start.steps += repair.steps();
   }
   if (start.valid && map.shortageOfLoops() > 0)
@@ -618,12 +622,18 @@ IntegerStart findValidIntegers(
   for (start.scale = scale; start.scale <= maximumScale; start.scale *= std::sqrt(2.0))
   {
     report(progress, 0.2, "rounding at scale " + std::to_string(start.scale));
-    countTry(Try::FinerScale, start.scale > scale ? 1 : 0);
+    if (start.scale > scale)
+    {
+      countTry(Try::FinerScale);
+    }
     map.round(start.scale);
     const IntegerStart repaired = repairIntegers(map);
     start.steps += repaired.steps;
     start.valid = repaired.valid;
-    countTryLed(Try::FinerScale, start.valid && start.scale > scale ? 1 : 0);
+    if (start.valid && start.scale > scale)
+    {
+      countTryLed(Try::FinerScale);
+    }
     if (start.valid || start.steps > kMostStepsOfScales * map.faces().size())
     {
       return start;

@@ -41,7 +41,7 @@ struct RunContext
   std::vector<FixedVec2> spare = {}; ///< see TransferOptions
   /// Whether many details are left that can be taken out where a round has no quads: better than other rounds.
   bool hasCrowd = false;
-  std::string tried; ///< which attempt this is, and why; empty for the first one
+  std::string tried = {}; ///< which attempt this is, and why; empty for the first one
 };
 
 /// A map of the coarse level, carried to the surface where there is one.
