@@ -40,11 +40,10 @@ double lengthOfUnit(
   return mapped > 0 && area > 0 ? std::sqrt(area / mapped) : edgeLength;
 }
 
-/// The given map and the Poisson solution, the one with fewer defects first. A start near an earlier map comes before
-/// them where nothing is wrong with it.
-std::vector<Eigen::VectorXd> startsOf(const Mesh& mesh, const CrossField& field,
-  const LockedMap& locked, const UntangleProblem& problem, const CarriedMap* previous,
-  bool& fromPrevious)
+/// The given map or the Poisson solution, whichever has fewer defects. A start near an earlier map comes before them
+/// where nothing is wrong with it.
+Eigen::VectorXd startOf(const Mesh& mesh, const CrossField& field, const LockedMap& locked,
+  const UntangleProblem& problem, const CarriedMap* previous, bool& fromPrevious)
 {
   if (previous != nullptr && previous->knownFaces > 0)
   {
@@ -55,16 +54,13 @@ std::vector<Eigen::VectorXd> startsOf(const Mesh& mesh, const CrossField& field,
     if (fromPrevious)
     {
       countTryLed(Try::NearEmbedded);
-      return { start };
+      return start;
     }
   }
-  std::vector<Eigen::VectorXd> starts{ locked.start(), fitReferences(problem) };
-  const std::size_t given = findDefects(mesh, field, locked.snap(starts[0])).count();
-  if (findDefects(mesh, field, locked.snap(starts[1])).count() < given)
-  {
-    std::swap(starts[0], starts[1]);
-  }
-  return starts;
+  Eigen::VectorXd given = locked.start(), fitted = fitReferences(problem);
+  const auto defects = [&](const Eigen::VectorXd& start)
+  { return findDefects(mesh, field, locked.snap(start)).count(); };
+  return defects(fitted) < defects(given) ? fitted : given;
 }
 
 /// Follows the way from the seamless map; the map changes only if it leads to the end.
@@ -127,11 +123,11 @@ EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
   }
   const UntangleProblem problem =
     locked.problem(lengthOfUnit(mesh, field, integerUv, options.edgeLength));
-  const std::vector<Eigen::VectorXd> starts =
-    startsOf(mesh, field, locked, problem, options.previous, result.startedFromPrevious);
+  const Eigen::VectorXd start =
+    startOf(mesh, field, locked, problem, options.previous, result.startedFromPrevious);
   const auto snap = [&](const Eigen::VectorXd& y) { return locked.snap(y); };
   FieldUntangling untangled = untangleAlongField(
-    mesh, field, problem, starts, kEmbedRounds, Try::MoreWeightEmbedded, snap, options.progress);
+    mesh, field, problem, start, kEmbedRounds, Try::MoreWeightEmbedded, snap, options.progress);
   if (!untangled.defects.none() && options.seamlessUv != nullptr &&
     verticesOf(mesh, untangled.defects) != options.failedBefore)
   {

@@ -71,20 +71,18 @@ UntangleOptions fieldUntangleOptions(const ProgressCallback& progress)
 }
 
 FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
-  const UntangleProblem& problem, const std::vector<Eigen::VectorXd>& starts, int rounds,
-  Try moreWeight, const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
+  const UntangleProblem& problem, const Eigen::VectorXd& start, int rounds, Try moreWeight,
+  const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
   const ProgressCallback& progress, int maximumSteps)
 {
   FieldUntangling best;
   UntangleOptions options = fieldUntangleOptions(progress);
   const int stepsOfAttempt = options.maximumSteps;
   UntangleProblem stiffened = problem;
-  const int attempts = static_cast<int>(starts.size()) + rounds;
   int idle = 0, kept = 0;
   const std::size_t many = std::max(kMany, mesh.faceCount() / kFacesPerDefect);
-  for (int i = 0; i < attempts; ++i)
+  for (int i = 0; i <= rounds; ++i)
   {
-    const bool given = i < static_cast<int>(starts.size());
     if (maximumSteps > 0)
     {
       options.maximumSteps = std::min(stepsOfAttempt, maximumSteps - best.newtonSteps);
@@ -93,19 +91,14 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
     {
       break;
     }
-    if (!given)
+    if (i > 0)
     {
       countTry(moreWeight);
       stiffen(mesh, best.defects, stiffened.weight);
     }
-    else if (i > 0)
-    {
-      countTry(Try::SecondStart);
-    }
-    UntangleResult attempt =
-      untangle(stiffened, given ? starts[i] : fitReferences(stiffened), options);
+    UntangleResult attempt = untangle(stiffened, i > 0 ? fitReferences(stiffened) : start, options);
     best.newtonSteps += attempt.steps;
-    if (!given && findDefects(mesh, field, snap(attempt.y)).none())
+    if (i > 0 && findDefects(mesh, field, snap(attempt.y)).none())
     {
       // From a valid map no vertex can change its winding any more, whatever the weights.
       attempt = untangle(problem, attempt.y, options);
@@ -121,17 +114,13 @@ FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
       best.y = std::move(attempt.y);
       kept = i;
     }
-    idle = given || better ? 0 : idle + 1;
-    const bool startsLeft = i + 1 < static_cast<int>(starts.size());
-    if (best.defects.none() || idle >= kIdleRounds || (!startsLeft && best.defects.count() > many))
+    idle = better ? 0 : idle + 1;
+    if (best.defects.none() || idle >= kIdleRounds || best.defects.count() > many)
     {
       break;
     }
   }
-  if (kept > 0)
-  {
-    countTryLed(kept < static_cast<int>(starts.size()) ? Try::SecondStart : moreWeight);
-  }
+  countTryLed(moreWeight, kept > 0 ? 1 : 0);
   return best;
 }
 

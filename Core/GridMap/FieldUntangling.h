@@ -24,14 +24,14 @@ struct FieldUntangling
   int newtonSteps = 0;
 };
 
-/// Tries the starts in turn. Seams fix the winding of a vertex modulo 4 only, so a start that is inverted there
+/// From the start. Seams fix the winding of a vertex modulo 4 only, so a start that is inverted there
 /// may end with a wrong one: then the references are fitted again with more weight round it [stiffening of
 /// Bommes et al. 2009], at most `rounds` times, until it winds rightly from the start. snap rounds
 /// unknowns to a map. The first triangles of the problem are the faces. maximumSteps: of Newton, of all attempts; 0 for
 /// no bound but that of each. The rounds count themselves as moreWeight.
 FieldUntangling untangleAlongField(const Mesh& mesh, const CrossField& field,
-  const UntangleProblem& problem, const std::vector<Eigen::VectorXd>& starts, int rounds,
-  Try moreWeight, const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
+  const UntangleProblem& problem, const Eigen::VectorXd& start, int rounds, Try moreWeight,
+  const std::function<std::vector<FixedVec2>(const Eigen::VectorXd&)>& snap,
   const ProgressCallback& progress, int maximumSteps = 0);
 
 /// Newton steps from a map without defects that bring the isolines along the guides of the field, and the ratio of the

@@ -34,8 +34,6 @@ constexpr double kLeastQuality = 0.01;
 /// Newton steps of a vertex that has come back, and of those round it.
 constexpr int kStepsOfVertex = 4;
 constexpr int kStepsOfRing = 2;
-/// How often points move for one that has no kernel.
-constexpr int kRoundsOfRoom = 8;
 /// Work of a collapse, in triangles.
 constexpr std::size_t kWorkOfCollapse = 100;
 /// Triangles that a vertex that stays keeps round it, in each of its sectors, where it has them.
@@ -777,32 +775,13 @@ void PatchLevels::relax(Index v, int steps)
   }
 }
 
-/// The vertex of a collapse comes back. Where rounding leaves its star no kernel, the points round the vertex that it
-/// had gone to move first.
+/// The vertex of a collapse comes back; not where rounding leaves its star no kernel.
 bool PatchLevels::putBack(const Collapse& record)
 {
-  for (int round = 0;; ++round)
+  undo(record);
+  if (!place(record.vertex))
   {
-    undo(record);
-    if (place(record.vertex))
-    {
-      countTryLed(Try::RoomForVertex, round > 0 ? 1 : 0);
-      break;
-    }
-    if (round == kRoundsOfRoom)
-    {
-      return false;
-    }
-    countTry(Try::RoomForVertex);
-    const std::vector<Index> ring = neighbours(record.vertex);
-    const std::vector<Index> corners = cornersAround(record.vertex);
-    collapse(*std::find_if(
-      corners.begin(), corners.end(), [&](Index c) { return target(c) == record.target; }));
-    collapses_.pop_back();
-    for (const Index w : ring)
-    {
-      relax(w, kStepsOfVertex);
-    }
+    return false;
   }
   relax(record.vertex, kStepsOfVertex);
   for (const Index w : neighbours(record.vertex))
