@@ -7,7 +7,7 @@
 set -euo pipefail
 
 needed=(
-  g++ cmake ninja-build dpkg-dev
+  g++ cmake ninja-build dpkg-dev file
   paraview paraview-dev python3-paraview
   libopenmpi-dev openmpi-bin            # ParaView's CMake files ask for MPI::MPI_C
   libcgal-dev libeigen3-dev libsuitesparse-dev
