@@ -4,7 +4,7 @@
 #pragma once
 
 #include "Base/Types.h"
-#include "Ranks/Ranks.h"
+#include "Ranks/Bytes.h"
 
 #include <vtkPolyData.h>
 #include <vtkType.h>

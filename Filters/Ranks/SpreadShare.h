@@ -4,9 +4,9 @@
 #pragma once
 
 #include "Convert/Pieces.h"
+#include "Ranks/Bytes.h"
 #include "Ranks/Packing.h"
 #include "Ranks/PlacedQuads.h"
-#include "Ranks/Ranks.h"
 
 #include <vtkPointData.h>
 #include <vtkSmartPointer.h>
