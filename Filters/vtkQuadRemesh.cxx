@@ -2,324 +2,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkQuadRemesh.h"
 
-#include "Assembly/JoinParts.h"
-#include "Assembly/JointSheets.h"
-#include "Assembly/PartSplit.h"
-#include "Base/PlaceText.h"
+#include "Base/Error.h"
 #include "Blocks/Blocks.h"
+#include "Blocks/LevelMemory.h"
+#include "Blocks/Together.h"
 #include "Common/Report.h"
-#include "Common/Stamps.h"
-#include "Constraints/ConstraintTable.h"
-#include "Constraints/Constraints.h"
 #include "Constraints/Moves.h"
-#include "Convert/Frame.h"
+#include "Convert/MappedOutput.h"
 #include "Convert/PolyData.h"
 #include "Convert/Quads.h"
-#include "Convert/Surfaces.h"
 #include "Pipeline/Pipeline.h"
 #include "Pipeline/ResultStore.h"
-#include "Ranks/Spread.h"
-#include "Runs/InPieces.h"
-#include "Runs/SmallDetails.h"
-#include "Runs/Symmetry.h"
+#include "Runs/RunOfBlock.h"
 #include "Symmetry/Symmetry.h"
 
-#include "vtkFieldData.h"
 #include "vtkInformation.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <map>
+#include <cstddef>
+#include <memory>
 #include <optional>
-#include <sstream>
-#include <stdexcept>
+#include <ostream>
+#include <string>
 #include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkQuadRemesh);
-
-namespace
-{
-
-quadrille::QuadSource sourceOf(const quadrille::PreparedSurface& surface,
-  const quadrille::ConvertedSurface& converted, vtkPolyData* input)
-{
-  quadrille::QuadSource source;
-  source.carrier = input;
-  source.patchArray = converted.patchArray;
-  source.carrierPoint = [&surface, &converted, input](
-                          quadrille::Index face, const std::array<double, 3>& weights)
-  { return quadrille::pointOrigin(surface, converted, input, face, weights); };
-  source.carrierCell = [&surface, &converted](quadrille::Index face)
-  { return converted.cell(surface.sourcePolygon[face]); };
-  return source;
-}
-
-/// The second output of the last execution, and what it was made from.
-struct MappedOutput
-{
-  vtkPolyData* input = nullptr;
-  vtkMTimeType inputTime = 0;
-  vtkTypeBool textureCoordinates = 0;
-  quadrille::ResultKey map = 0; ///< 0: there is none
-  vtkSmartPointer<vtkPolyData> surface;
-  std::uint64_t triangles = 0;         ///< hash of the surface
-  bool reversed = false;               ///< its faces against those of the input
-  std::vector<quadrille::Stamp> cells; ///< of the input
-
-  /// What was written, where another surface from the same cells has the same triangles.
-  vtkPolyData* sameTriangles(const quadrille::RemeshResult& result, vtkPolyData* from) const
-  {
-    return surface && triangles == result.surface.hash && reversed == result.frame.reversed &&
-        cells == cellStamps(from)
-      ? surface
-      : nullptr;
-  }
-  static std::vector<quadrille::Stamp> cellStamps(vtkPolyData* data)
-  {
-    vtkNew<vtkPolyData> cells;
-    cells->SetVerts(data->GetVerts());
-    cells->SetLines(data->GetLines());
-    cells->SetPolys(data->GetPolys());
-    cells->SetStrips(data->GetStrips());
-    std::vector<quadrille::Stamp> stamps;
-    quadrille::addStamps(cells, stamps);
-    return stamps;
-  }
-  /// The map's key, where another output from the same input would be the same.
-  quadrille::ResultKey mapFor(vtkPolyData* other, vtkTypeBool withTextureCoordinates) const
-  {
-    return other == input && other->GetMTime() == inputTime &&
-        withTextureCoordinates == textureCoordinates
-      ? map
-      : 0;
-  }
-};
-
-/// What a block keeps for its next execution.
-struct LevelMemory : quadrille::BlockMemory
-{
-  quadrille::ResultStore levels;
-  MappedOutput mapped;
-};
-
-std::string resultText(const quadrille::RemeshResult& result, vtkIdType irregular)
-{
-  std::ostringstream text;
-  if (result.quads.quads.empty())
-  {
-    text << "No quads, as the method makes none: the mapped surface is the result.";
-    return text.str();
-  }
-  text << result.quads.quads.size() << " quads (about " << result.targetQuads << " asked for), "
-       << irregular << " irregular vertices";
-  return text.str();
-}
-
-/// What is added to the sentence above where something was asked for.
-std::string constraintText(const std::vector<quadrille::ConstraintWord>& words)
-{
-  const auto met = std::count_if(
-    words.begin(), words.end(), [](const quadrille::ConstraintWord& word) { return word.isMet; });
-  const auto off = std::count_if(words.begin(), words.end(),
-    [](const quadrille::ConstraintWord& word) { return word.isOffSurface; });
-  std::ostringstream text;
-  if (!words.empty())
-  {
-    text << ", " << met << " of " << words.size() << " constraints met"
-         << (off > 0 ? ", " + std::to_string(off) + " with a point off the surface" : "")
-         << (off > 0 || static_cast<std::size_t>(met) < words.size() ? " (see Constraint Table)"
-                                                                     : "");
-  }
-  return text.str();
-}
-
-std::vector<const quadrille::SurfaceInput*> addressesOf(
-  const std::vector<quadrille::SurfaceInput>& parts)
-{
-  std::vector<const quadrille::SurfaceInput*> addresses;
-  for (const quadrille::SurfaceInput& part : parts)
-  {
-    addresses.push_back(&part);
-  }
-  return addresses;
-}
-
-std::vector<std::string> namesOfOthers(
-  const std::vector<quadrille::Block*>& blocks, std::size_t than)
-{
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-  {
-    if (i != than)
-    {
-      names.push_back(blocks[i]->name);
-    }
-  }
-  return names;
-}
-
-/// Whether a block has far more or fewer quads than were asked for.
-bool isFarFrom(std::size_t target, quadrille::Block& block)
-{
-  constexpr double factor = 1.5;
-  const auto quads = static_cast<double>(block.output(0)->GetNumberOfPolys());
-  const auto wanted = static_cast<double>(target);
-  return quads > factor * wanted || factor * quads < wanted;
-}
-
-/// Of conforming blocks, at the first one.
-std::string togetherText(
-  const std::vector<quadrille::Block*>& blocks, const quadrille::PartContacts& contacts)
-{
-  constexpr std::size_t told = 8;
-  const std::vector<std::string> names = namesOfOthers(blocks, 0);
-  std::ostringstream text;
-  text << "conforming, made in one run with ";
-  for (std::size_t i = 0; i < std::min(names.size(), told); ++i)
-  {
-    text << (i == 0 ? "'" : ", '") << names[i] << "'";
-  }
-  if (names.size() > told)
-  {
-    text << " and " << names.size() - told << " others";
-  }
-  text << ": they have " << contacts.edges << " edges in common";
-  return text.str();
-}
-
-/// Of the polygons, each in triangles from its first corner.
-double areaOfPolygons(const quadrille::SurfaceInput& input)
-{
-  double area = 0;
-  for (std::size_t i = 0; i + 1 < input.polygonOffsets.size(); ++i)
-  {
-    const quadrille::Index first = input.polygonOffsets[i];
-    const quadrille::Vector3& a = input.points[input.polygonPoints[first]];
-    for (quadrille::Index k = first + 2; k < input.polygonOffsets[i + 1]; ++k)
-    {
-      area += 0.5 *
-        (input.points[input.polygonPoints[k - 1]] - a)
-          .cross(input.points[input.polygonPoints[k]] - a)
-          .norm();
-    }
-  }
-  return area;
-}
-
-/// Blocks that are narrower than a quad, where no quads follow their borders.
-std::string withoutQuadsText(
-  const std::vector<quadrille::Block*>& blocks, const std::vector<std::size_t>& withoutQuads)
-{
-  const auto largest = *std::max_element(withoutQuads.begin(), withoutQuads.end(),
-    [&blocks](std::size_t a, std::size_t b)
-    { return quadrille::areaOf(blocks[a]->input()) < quadrille::areaOf(blocks[b]->input()); });
-  std::array<double, 6> box{};
-  blocks[largest]->input()->GetBounds(box.data());
-  const quadrille::Vector3 middle(
-    0.5 * (box[0] + box[1]), 0.5 * (box[2] + box[3]), 0.5 * (box[4] + box[5]));
-  std::ostringstream text;
-  text << withoutQuads.size() << " of " << blocks.size() << " blocks "
-       << (withoutQuads.size() == 1 ? "is" : "are")
-       << " too small or too narrow for a quad and have none, the largest of them '"
-       << blocks[largest]->name << "' near " << quadrille::placeText(middle)
-       << ": their place went to quads of blocks beside; ask for more quads, or join these blocks "
-          "with others";
-  return text.str();
-}
-
-std::string sheetsText(const quadrille::MetSheets& met)
-{
-  std::ostringstream text;
-  text << met.segments << " curves are common to more than two sheets";
-  if (met.strips > 0)
-  {
-    text << "; " << met.strips
-         << (met.strips == 1 ? " strip of quads was" : " strips of quads were")
-         << " put in so that all sheets have the same points there";
-  }
-  if (met.inverted > 0)
-  {
-    text << "; " << met.inverted << " quads are inverted: more quads often help";
-  }
-  return text.str();
-}
-
-std::string touchingText(const quadrille::JointSheets& sheets)
-{
-  std::ostringstream text;
-  text
-    << "sheets that go on beyond touch at " << sheets.touching << " edges, one of them near "
-    << quadrille::placeText(sheets.touchingPlace)
-    << ", as solids do that have a curve in common and no face: there is no result with the same "
-       "points in all of them there, so they are not made to meet at these edges; ask for more "
-       "quads, or cut the blocks in two there";
-  return text.str();
-}
-
-/// Of the joint surface, with a factor a part; the smaller one counts where parts meet. asked: those of the points
-/// without it, or empty.
-std::vector<float> sizesOf(const quadrille::JoinedParts& joined, const std::vector<float>& asked,
-  const std::vector<double>& factors)
-{
-  std::vector<float> sizes(joined.input.points.size(), std::numeric_limits<float>::max());
-  for (std::size_t p = 0; p < joined.parts.size(); ++p)
-  {
-    for (const auto& [joint, own] : joined.parts[p].points)
-    {
-      const float size = asked.empty() ? 1.0F : asked[joint];
-      sizes[joint] = std::min(sizes[joint], size * static_cast<float>(factors[p]));
-    }
-  }
-  return sizes;
-}
-
-/// What the surface's own arrays come from.
-struct MappedSource
-{
-  vtkPolyData* input = nullptr;
-  const quadrille::ConvertedSurface* converted = nullptr;
-  bool textureCoordinates = false;
-  vtkPolyData* earlier = nullptr; ///< see writeMappedSurface
-};
-
-void writeMapped(const quadrille::RemeshResult& result, const quadrille::RemeshOptions& options,
-  const MappedSource& source, vtkPolyData* mapped)
-{
-  mapped->ShallowCopy(quadrille::writeMappedSurface(result.surface, result.uv,
-    quadrille::matchingOf(result.surface.mesh, result.uv, options.threads), result.turns,
-    source.input, *source.converted, source.textureCoordinates, options.threads, nullptr,
-    source.earlier));
-  if (!result.framePositions.empty()) // of sheets that were moved there are none
-  {
-    quadrille::addFrame(mapped, result.frame, result.framePositions);
-  }
-  quadrille::addFields(mapped, quadrille::methodFields(options.method));
-  quadrille::addFields(
-    mapped, quadrille::anisotropyFields(options.anisotropyLimit, result.beyondAnisotropyLimit));
-  quadrille::addFields(mapped, quadrille::certificateFields(result.certificate));
-  quadrille::addCount(mapped, "Charts", result.charts.charts);
-  quadrille::addCount(mapped, "SeamEdges", result.charts.seamEdges);
-}
-
-} // namespace
-
-/// What is written of one block.
-struct vtkQuadRemesh::RunOfBlock
-{
-  const quadrille::ConvertedSurface& converted;
-  const quadrille::AskedConstraints& asked;
-  const quadrille::RemeshResult& result;
-  const quadrille::SymmetricResult* symmetric; ///< null where nothing symmetric was asked for
-  const quadrille::PiecesResult* pieces;       ///< null where the surface was not cut
-};
 
 //------------------------------------------------------------------------------
 vtkQuadRemesh::vtkQuadRemesh()
@@ -328,6 +38,7 @@ vtkQuadRemesh::vtkQuadRemesh()
   this->SetNumberOfOutputPorts(8);
 }
 
+//------------------------------------------------------------------------------
 vtkQuadRemesh::~vtkQuadRemesh() = default;
 
 //------------------------------------------------------------------------------
@@ -366,7 +77,7 @@ double vtkQuadRemesh::GetRememberedMegabytes() const
   this->VisitStates(
     [&bytes](quadrille::BlockState& state)
     {
-      bytes += state.memory ? state.memoryAs<LevelMemory>().levels.bytes() : 0;
+      bytes += state.memory ? state.memoryAs<quadrille::LevelMemory>().levels.bytes() : 0;
       bytes += state.bytesOfEarlier();
     });
   return 1e-6 * static_cast<double>(bytes);
@@ -521,7 +232,8 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
   quadrille::ConvertedSurface converted =
     toCut ? this->ConvertForPieces(block) : this->ConvertInputs(block, &asked);
   quadrille::PiecesResult pieces;
-  LevelMemory* memory = this->KeepLevels ? &block.state->memoryAs<LevelMemory>() : nullptr;
+  quadrille::LevelMemory* memory =
+    this->KeepLevels ? &block.state->memoryAs<quadrille::LevelMemory>() : nullptr;
   if (memory != nullptr && options.mergeCharts)
   {
     options.knownMap = memory->mapped.mapFor(input, this->TextureCoordinates);
@@ -555,11 +267,11 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
     this->WritePreview(block, asked, result);
     return;
   }
-  const RunOfBlock whole{ converted, asked, result,
+  const quadrille::RunOfBlock whole{ converted, asked, result,
     this->Symmetry != SYMMETRY_NONE ? &made : nullptr, toCut || isThinned ? &pieces : nullptr };
   this->WriteQuads(block, whole);
   if (!block.path.empty() && options.quads && !options.coarsestIntegers &&
-    isFarFrom(*options.quads, block))
+    quadrille::isFarFrom(*options.quads, block))
   {
     this->AddNotice("has " + std::to_string(result.quads.quads.size()) +
       " quads where its share is " + std::to_string(*options.quads) +
@@ -576,504 +288,17 @@ void vtkQuadRemesh::Execute(quadrille::Block& block)
     {
       vtkPolyData* earlier =
         memory != nullptr ? memory->mapped.sameTriangles(result, input) : nullptr;
-      writeMapped(
+      quadrille::writeMapped(
         result, options, { input, &converted, this->TextureCoordinates != 0, earlier }, mapped);
     }
     if (memory != nullptr)
     {
       memory->mapped = { input, input->GetMTime(), this->TextureCoordinates, result.mapKey,
         vtkSmartPointer<vtkPolyData>::New(), result.surface.hash, result.frame.reversed,
-        MappedOutput::cellStamps(input) };
+        quadrille::MappedOutput::cellStamps(input) };
       memory->mapped.surface->ShallowCopy(mapped);
     }
   }
-}
-
-//------------------------------------------------------------------------------
-void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const RunOfBlock& run)
-{
-  const quadrille::RemeshResult& result = run.result;
-  vtkPolyData* input = block.input();
-  quadrille::QuadSource source = sourceOf(result.surface, run.converted, input);
-  source.cellDataFrom = static_cast<quadrille::CellDataFrom>(this->CellDataFrom);
-  source.threads = this->NumberOfThreads;
-  if (run.symmetric != nullptr)
-  {
-    quadrille::addMirrorSources(*run.symmetric, run.converted, input, source);
-  }
-  if (run.pieces != nullptr)
-  {
-    quadrille::addPieceSources(*run.pieces, result.quads, run.converted, input, source);
-    const std::string cut = run.pieces->pieces > 1
-      ? "the surface was cut into " + std::to_string(run.pieces->pieces) + " pieces, which were"
-      : "the surface was";
-    this->AddNotice(cut + " thinned out to " + std::to_string(run.pieces->joinedTriangles) +
-      " triangles before quads were made; the certificate is that of their map (Pieces Never, "
-      "--pieces never, keeps the surface whole)");
-  }
-  const quadrille::QuadOutputs written =
-    quadrille::writeOutputs(result.quads, result.surface.mesh, result.uv, source);
-  std::vector<std::string>& notices = block.state->report.notices;
-  notices.insert(notices.end(), written.notCarried.begin(), written.notCarried.end());
-  for (const std::string& warning : quadrille::missedValences(run.asked.placed, result.quads))
-  {
-    notices.push_back(warning);
-    vtkWarningMacro(<< warning);
-  }
-  vtkPolyData* quads = block.output(0);
-  quads->ShallowCopy(written.quads);
-  quadrille::addFields(quads, quadrille::runFields(result));
-  quadrille::addFields(
-    quads, quadrille::methodFields(static_cast<quadrille::MapMethod>(this->Method)));
-  quadrille::addFields(
-    quads, quadrille::anisotropyFields(this->AnisotropyLimit, result.beyondAnisotropyLimit));
-  if (run.symmetric != nullptr)
-  {
-    quadrille::addSymmetry(quads, *run.symmetric);
-  }
-  block.output(2)->ShallowCopy(written.lines);
-  block.output(3)->ShallowCopy(written.separatrices);
-  block.output(4)->ShallowCopy(written.irregular);
-  std::vector<quadrille::ConstraintWord> words =
-    quadrille::judgeConstraints(run.asked, result.quads,
-      quadrille::valuesOf(written.quads->GetPointData()->GetArray(quadrille::arrays::kSizing)));
-  const std::vector<std::string> off = quadrille::offSurfaceNotices(words);
-  notices.insert(notices.end(), off.begin(), off.end());
-  quadrille::addText(quads, "Notices", notices);
-  block.output(5)->ShallowCopy(quadrille::writeConstraints(
-    run.asked.placed, run.asked.curves, result.quads, quadrille::metOfDrawn(words, run.asked)));
-  if (run.symmetric != nullptr)
-  {
-    words.push_back(quadrille::judgeSymmetry(*run.symmetric));
-    quadrille::addMirrorLines(block.output(5), *run.symmetric, words.back().isMet);
-  }
-  block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
-  block.output(7)->ShallowCopy(
-    quadrille::writeSmallDetails(result.details, result.givenUpFeatures));
-  block.state->report.result =
-    resultText(result, written.irregular->GetNumberOfPoints()) + constraintText(words);
-  block.state->report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
-}
-
-//------------------------------------------------------------------------------
-std::vector<vtkQuadrilleAlgorithm::Together> vtkQuadRemesh::FindTogether(
-  const std::vector<quadrille::Block*>& blocks)
-{
-  if (!this->Conforming || blocks.size() < 2)
-  {
-    return this->Superclass::FindTogether(blocks);
-  }
-  // What cannot be read is executed alone, where it says why.
-  std::vector<quadrille::SurfaceInput> parts;
-  for (const quadrille::Block* block : blocks)
-  {
-    try
-    {
-      parts.push_back(quadrille::convertSurface(block->input(), "", this->NumberOfThreads).input);
-    }
-    catch (const quadrille::InvalidInput&)
-    {
-      parts.emplace_back();
-    }
-  }
-  const quadrille::PartContacts contacts = quadrille::findContacts(addressesOf(parts));
-  std::map<quadrille::Index, Together> groups;
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-  {
-    groups[contacts.group[i]].blocks.push_back(i);
-  }
-  if (contacts.loosePoints > 0)
-  {
-    std::ostringstream text;
-    text << contacts.loosePoints << " points of blocks lie at points of others where no edges have "
-         << "equal ends, one of '" << blocks[contacts.looseParts[0]]->name << "' and '"
-         << blocks[contacts.looseParts[1]]->name << "' at "
-         << quadrille::placeText(contacts.loosePlace)
-         << ": quads do not meet there; along a common curve both need the same points";
-    groups[contacts.group[contacts.looseParts[0]]].notices.push_back(text.str());
-  }
-  std::vector<Together> all;
-  for (const auto& [first, together] : groups)
-  {
-    all.push_back(together);
-  }
-  return all;
-}
-
-//------------------------------------------------------------------------------
-void vtkQuadRemesh::ExecuteTogether(const std::vector<quadrille::Block*>& blocks)
-{
-  this->CheckProperties();
-  if (this->Symmetry != SYMMETRY_NONE)
-  {
-    throw quadrille::InvalidInput(
-      "conforming blocks cannot be made symmetric: switch Conforming or "
-      "Symmetry off");
-  }
-  std::vector<quadrille::ConvertedSurface> converted;
-  std::vector<quadrille::AskedConstraints> asked(blocks.size());
-  std::vector<quadrille::SurfaceInput> parts;
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-  {
-    this->SayOf(*blocks[i]);
-    converted.push_back(this->ConvertInputs(*blocks[i], &asked[i]));
-    parts.push_back(std::move(converted.back().input));
-    if (quadrille::asksForMoves(asked[i].placed))
-    {
-      throw quadrille::InvalidInput("irregular vertices of conforming blocks cannot be moved: take "
-                                    "the moves away, or switch Conforming off");
-    }
-  }
-  this->SayOf(*blocks.front());
-  const quadrille::PartContacts contacts = quadrille::findContacts(addressesOf(parts));
-  const bool hasSheets = contacts.manyFaced > 0;
-  if (hasSheets)
-  {
-    this->CheckSheets(parts, contacts, blocks);
-  }
-  quadrille::RemeshOptions options = this->MakeRunOptions(*blocks.front());
-  options.preview = false; // what it leaves out is needed to take the quads apart
-  std::vector<double> shares, sizes;
-  this->ShareQuads(blocks, options, shares, sizes);
-  quadrille::JoinedParts joined = quadrille::joinParts(std::move(parts), contacts);
-  this->AddNotice(togetherText(blocks, contacts));
-  // Faces that several blocks share are made once, but are quads of each.
-  double oncePerFace = 1;
-  if (hasSheets)
-  {
-    oncePerFace = areaOfPolygons(quadrille::cutIntoSheets(joined.input, std::nullopt).input) /
-      areaOfPolygons(joined.input);
-    if (options.quads)
-    {
-      options.quads = static_cast<std::size_t>(
-        std::max(1L, std::lround(oncePerFace * static_cast<double>(*options.quads))));
-    }
-    else if (this->TargetType == TARGET_RELATIVE_EDGE_LENGTH && !options.edgeLength)
-    {
-      options.edgeLength = this->RelativeEdgeLength * quadrille::diagonalOf(joined.input);
-    }
-  }
-  quadrille::RemeshResult result;
-  std::vector<quadrille::PartResult> results;
-  if (hasSheets)
-  {
-    quadrille::JointSheets sheets;
-    quadrille::MetSheets met;
-    result = this->RunSheets(*blocks.front(), joined, options, sizes, sheets, met);
-    this->TellRun(*blocks.front(), result);
-    quadrille::requireOk(met.status, "conforming blocks");
-    this->AddNotice(sheetsText(met));
-    results = quadrille::splitSheets(result, joined, sheets, met);
-  }
-  else
-  {
-    std::optional<quadrille::JointSheets> none;
-    result = this->RunJoined(
-      *blocks.front(), joined, options, sizes, none, quadrille::TouchingSheets::Joined);
-    this->TellRun(*blocks.front(), result);
-    results = quadrille::splitParts(result, joined);
-  }
-  std::vector<std::size_t> withoutQuads;
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-  {
-    quadrille::Block& block = *blocks[i];
-    const quadrille::RemeshResult& own = results[i].result;
-    results[i].result.targetQuads = static_cast<std::size_t>(
-      std::lround(shares[i] * static_cast<double>(result.targetQuads) / oncePerFace));
-    asked[i].curves = own.curves;
-    if (own.quads.quads.empty() && this->Method != METHOD_SEAMLESS)
-    {
-      withoutQuads.push_back(i);
-    }
-    this->WriteQuads(block, { converted[i], asked[i], own, nullptr, nullptr });
-    quadrille::reverseQuads(block.output(0), results[i].reversed);
-    quadrille::addText(block.output(0), "ConformingWith", namesOfOthers(blocks, i));
-    block.state->report.numbers["TargetQuads"] = static_cast<double>(own.targetQuads);
-    if (options.quads && !options.coarsestIntegers && isFarFrom(own.targetQuads, block))
-    {
-      this->SayOf(block);
-      this->AddNotice("has " + std::to_string(own.quads.quads.size()) +
-        " quads where its share is " + std::to_string(own.targetQuads) +
-        ": where it meets others it has as many edges as they have");
-    }
-    if (this->ComputeMappedSurface)
-    {
-      writeMapped(own, options,
-        { block.input(), &converted[i], this->TextureCoordinates != 0, nullptr }, block.output(1));
-    }
-  }
-  if (!withoutQuads.empty())
-  {
-    this->SayOf(*blocks.front());
-    this->AddNotice(withoutQuadsText(blocks, withoutQuads));
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkQuadRemesh::ShareQuads(const std::vector<quadrille::Block*>& blocks,
-  quadrille::RemeshOptions& options, std::vector<double>& shares, std::vector<double>& sizes)
-{
-  // The least number that a small block gets for itself is no matter here: those without a number of their own have
-  // one edge length.
-  const bool isShared = this->QuadsAre == QUADS_ARE_SHARED_BY_AREA;
-  std::vector<double> areas;
-  double area = 0, all = 0, sharedArea = 0, sharedQuads = 0;
-  for (const quadrille::Block* block : blocks)
-  {
-    areas.push_back(quadrille::areaOf(block->input()));
-    const std::optional<std::size_t> quads = this->MakeOptions(*block).quads;
-    shares.push_back(quads ? static_cast<double>(*quads) : areas.back());
-    area += areas.back();
-    all += shares.back();
-    sharedArea += block->ownTarget > 0 ? 0 : areas.back();
-    sharedQuads += block->ownTarget > 0 ? 0 : shares.back();
-  }
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-  {
-    if (isShared && !(blocks[i]->ownTarget > 0) && sharedArea > 0)
-    {
-      shares[i] = sharedQuads * areas[i] / sharedArea;
-    }
-  }
-  if (options.quads)
-  {
-    options.quads = static_cast<std::size_t>(std::lround(all));
-  }
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-  {
-    shares[i] /= all;
-    sizes.push_back(std::sqrt(areas[i] / area / shares[i]));
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkQuadRemesh::CheckSheets(const std::vector<quadrille::SurfaceInput>& parts,
-  const quadrille::PartContacts& contacts, const std::vector<quadrille::Block*>& blocks) const
-{
-  std::string names;
-  for (const quadrille::Index part : contacts.manyFacedParts)
-  {
-    names += (names.empty() ? "'" : "' and '") + blocks[part]->name;
-  }
-  const std::string where = "more than two sheets meet, of " + names + "' near " +
-    quadrille::placeText(contacts.manyFacedPlace);
-  if (this->Method == METHOD_SEAMLESS)
-  {
-    throw quadrille::InvalidInput(where +
-      ", which takes quads to be conforming: choose another method than 'seamless', or switch "
-      "Conforming off");
-  }
-  if (std::any_of(parts.begin(), parts.end(),
-        [](const quadrille::SurfaceInput& part) { return !part.curves.empty(); }))
-  {
-    throw quadrille::InvalidInput(where +
-      ": there are no connections and cycles with that. Take them away, or switch Conforming off");
-  }
-}
-
-//------------------------------------------------------------------------------
-quadrille::RemeshResult vtkQuadRemesh::RunJoined(quadrille::Block& first,
-  quadrille::JoinedParts& joined, const quadrille::RemeshOptions& options,
-  const std::vector<double>& sizes, std::optional<quadrille::JointSheets>& sheets,
-  quadrille::TouchingSheets touching)
-{
-  quadrille::ResultStore* levels =
-    this->KeepLevels ? &first.state->memoryAs<LevelMemory>().levels : nullptr;
-  const auto run = [&]()
-  {
-    if (!sheets)
-    {
-      return this->RunPipeline(joined.input, options, levels).remeshed;
-    }
-    sheets = quadrille::cutIntoSheets(joined.input, options.featureAngle, touching);
-    const quadrille::PlaceFold fold(
-      [&sheets](const quadrille::Vector3& place) { return sheets->movedBack(place); });
-    return this->RunPipeline(std::move(sheets->input), options, levels).remeshed;
-  };
-  constexpr double nothing = 0.01;
-  const bool isUniform = std::all_of(
-    sizes.begin(), sizes.end(), [](double size) { return std::abs(size - 1) < nothing; });
-  if (isUniform)
-  {
-    return run();
-  }
-  // Sizes that differ between parts may leave no map, as they ask for irregular vertices where features leave no room:
-  // then the parts get sizes half as far from each other, and at last one.
-  const std::vector<float> asked = joined.input.sizing;
-  for (const double share : { 1.0, 0.5, 0.0 })
-  {
-    std::vector<double> factors;
-    for (const double size : sizes)
-    {
-      factors.push_back(std::pow(size, share));
-    }
-    joined.input.sizing = share > 0 ? sizesOf(joined, asked, factors) : asked;
-    const bool isLast = share == 0;
-    quadrille::RemeshResult result = run();
-    joined.input.sizing = asked;
-    if (isLast || result.status.ok() || result.status.code == quadrille::StatusCode::Cancelled ||
-      result.status.code == quadrille::StatusCode::TooLarge)
-    {
-      if (share < 1)
-      {
-        this->AddNotice(
-          std::string("with the sizes that the blocks' own numbers of quads ask for there "
-                      "is no map: ") +
-          (isLast ? "all blocks have quads of one size"
-                  : "the sizes differ half as much between blocks"));
-      }
-      return result;
-    }
-  }
-  throw std::logic_error("no run was the last one");
-}
-
-//------------------------------------------------------------------------------
-quadrille::RemeshResult vtkQuadRemesh::RunSheets(quadrille::Block& first,
-  quadrille::JoinedParts& joined, const quadrille::RemeshOptions& options,
-  const std::vector<double>& sizes, quadrille::JointSheets& sheets, quadrille::MetSheets& met)
-{
-  const std::vector<quadrille::Vector3> jointPoints = joined.input.points;
-  quadrille::RemeshResult result;
-  for (const auto touching : { quadrille::TouchingSheets::Joined, quadrille::TouchingSheets::Left })
-  {
-    std::optional<quadrille::JointSheets> cut;
-    cut.emplace();
-    quadrille::RemeshResult made = this->RunJoined(first, joined, options, sizes, cut, touching);
-    const bool hasQuads = made.status.ok();
-    const bool isStopped = made.status.code == quadrille::StatusCode::Cancelled ||
-      made.status.code == quadrille::StatusCode::TooLarge;
-    quadrille::MetSheets meeting;
-    if (hasQuads)
-    {
-      meeting = quadrille::meetAtJoints(
-        made, *cut, jointPoints, this->SmoothingSteps, this->NumberOfThreads);
-    }
-    const bool isFirst = touching == quadrille::TouchingSheets::Joined;
-    const bool isGood = hasQuads && meeting.status.ok();
-    if (isFirst || isGood)
-    {
-      sheets = std::move(*cut);
-      met = std::move(meeting);
-      result = std::move(made);
-    }
-    if (isGood && sheets.touching > 0)
-    {
-      this->AddNotice(touchingText(sheets));
-    }
-    if (isGood || isStopped ||
-      (isFirst &&
-        quadrille::cutIntoSheets(joined.input, std::nullopt, quadrille::TouchingSheets::Left)
-            .touching == 0))
-    {
-      break;
-    }
-  }
-  return result;
-}
-
-//------------------------------------------------------------------------------
-std::string vtkQuadRemesh::ReasonForWhole() const
-{
-  if (this->Symmetry != SYMMETRY_NONE)
-  {
-    return "symmetric quads need the whole surface";
-  }
-  if (this->Preview)
-  {
-    return "a preview has no quads on the surface";
-  }
-  if (this->Method == METHOD_SEAMLESS)
-  {
-    return "the method 'seamless' makes no quads";
-  }
-  if (this->CellDataFrom != CELL_DATA_FROM_CENTRE)
-  {
-    return "cell data by area need all cells under a quad";
-  }
-  return {};
-}
-
-//------------------------------------------------------------------------------
-std::string vtkQuadRemesh::ReasonNotToCut(const quadrille::Block& block) const
-{
-  const std::string reason = this->ReasonForWhole();
-  if (!reason.empty())
-  {
-    return reason;
-  }
-  if (this->ComputeMappedSurface)
-  {
-    return "the mapped surface is that of the whole (Compute Mapped Surface)";
-  }
-  if (this->FinalQuality == Input)
-  {
-    return "final quality on the input needs the map of the whole surface";
-  }
-  if (!this->GetGuideArrayInUse().empty())
-  {
-    return "directions by an array are those of the whole surface";
-  }
-  for (std::size_t port = 1; port < block.inputs.size(); ++port)
-  {
-    vtkPolyData* constraints = block.input(static_cast<int>(port));
-    if (constraints && constraints->GetNumberOfPoints() > 0)
-    {
-      return "constraints are drawn on the whole surface";
-    }
-  }
-  const std::string array = quadrille::constrainingArray(block.input(), this->PatchArrayName);
-  return array.empty() ? "" : "the array " + array + " constrains the whole surface";
-}
-
-//------------------------------------------------------------------------------
-std::unique_ptr<quadrille::TriangleSource> vtkQuadRemesh::TrianglesToCut(
-  const quadrille::Block& block, const quadrille::RemeshOptions& options) const
-{
-  vtkPolyData* input = block.input();
-  const auto cells = static_cast<std::size_t>(input->GetNumberOfPolys());
-  constexpr std::size_t leastWithLevels = 10000000; // what is held of the whole would be gigabytes
-  if (this->Pieces == PIECES_NEVER || quadrille::isJoined(input) ||
-    (this->Pieces == PIECES_AUTOMATIC &&
-      cells < (this->KeepLevels ? leastWithLevels : quadrille::kTrianglesWorthPieces)))
-  {
-    return nullptr;
-  }
-  std::string reason = this->ReasonNotToCut(block);
-  std::unique_ptr<quadrille::TriangleSource> triangles;
-  if (reason.empty())
-  {
-    triangles = quadrille::trianglesOf(input);
-    reason = triangles ? ""
-                       : "it has polygons that are no triangles, or points that are not float "
-                         "or double";
-  }
-  if (this->Pieces == PIECES_AUTOMATIC)
-  {
-    return triangles && quadrille::isWorthPieces(*triangles, options) ? std::move(triangles)
-                                                                      : nullptr;
-  }
-  if (!triangles)
-  {
-    throw quadrille::InvalidInput(
-      "the surface cannot be cut into pieces: " + reason + "; set Pieces to Automatic or Never");
-  }
-  return triangles;
-}
-
-//------------------------------------------------------------------------------
-bool vtkQuadRemesh::IsWorthThinning(
-  const quadrille::Block& block, const quadrille::RemeshOptions& options) const
-{
-  vtkPolyData* input = block.input();
-  if (this->Pieces != PIECES_AUTOMATIC || this->KeepLevels || quadrille::isJoined(input) ||
-    static_cast<std::size_t>(input->GetNumberOfPolys()) < quadrille::kTrianglesWorthThinning ||
-    !this->ReasonNotToCut(block).empty())
-  {
-    return false;
-  }
-  const std::unique_ptr<quadrille::TriangleSource> triangles = quadrille::trianglesOf(input);
-  return triangles && quadrille::isWorthThinning(*triangles, options);
 }
 
 //------------------------------------------------------------------------------
@@ -1086,48 +311,6 @@ void vtkQuadRemesh::SetSizes(quadrille::RemeshOptions& options) const
   options.sizes.gapQuads = this->GapQuads;
   options.sizes.smallest = this->SmallestSize;
   options.sizes.largest = this->LargestSize;
-}
-
-//------------------------------------------------------------------------------
-std::string vtkQuadRemesh::ReasonNotToSpread(
-  const std::vector<vtkSmartPointer<vtkPolyData>>& pieces) const
-{
-  const std::string reason = this->ReasonForWhole();
-  return reason.empty() ? quadrille::reasonNotToSpread(pieces, this->GetGuideArrayInUse()) : reason;
-}
-
-//------------------------------------------------------------------------------
-void vtkQuadRemesh::PlanSpread(const quadrille::Block& block, const quadrille::SpreadSize& size,
-  quadrille::SpreadPlan& plan) const
-{
-  quadrille::RemeshOptions options = this->MakeOptions(block);
-  this->SetSizes(options);
-  plan.piece = quadrille::pieceOptionsOf(options, size.area, size.diagonal);
-  plan.patchArray = this->PatchArrayName;
-  plan.guideArray = this->GetGuideArrayInUse();
-  plan.memoryLimit = 1e6 * this->MemoryLimit;
-}
-
-//------------------------------------------------------------------------------
-void vtkQuadRemesh::WritePreview(quadrille::Block& block, const quadrille::AskedConstraints& asked,
-  const quadrille::RemeshResult& result)
-{
-  const quadrille::QuadOutputs written = quadrille::writePreview(result.quads);
-  vtkPolyData* quads = block.output(0);
-  quads->ShallowCopy(written.quads);
-  quadrille::addFields(quads, quadrille::runFields(result));
-  quadrille::addText(quads, "Notices", this->GetBlockNotices());
-  block.output(4)->ShallowCopy(written.irregular);
-  const std::vector<quadrille::ConstraintWord> words =
-    quadrille::judgeConstraints(asked, result.quads, {});
-  block.output(5)->ShallowCopy(quadrille::writeConstraints(
-    asked.placed, asked.curves, result.quads, quadrille::metOfDrawn(words, asked)));
-  block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
-  block.output(7)->ShallowCopy(
-    quadrille::writeSmallDetails(result.details, result.givenUpFeatures));
-  this->SetResult("preview: " + resultText(result, written.irregular->GetNumberOfPoints()) +
-    constraintText(words));
-  block.state->report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
 }
 
 //------------------------------------------------------------------------------

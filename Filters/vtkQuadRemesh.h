@@ -87,6 +87,7 @@ struct JoinedParts;
 struct JointSheets;
 struct MetSheets;
 struct PartContacts;
+struct RunOfBlock;
 struct SurfaceInput;
 struct SymmetricResult;
 enum class TouchingSheets : std::uint8_t;
@@ -611,13 +612,12 @@ private:
   vtkQuadRemesh(const vtkQuadRemesh&) = delete;
   void operator=(const vtkQuadRemesh&) = delete;
 
-  struct RunOfBlock;
   void CheckProperties() const;
   quadrille::RemeshOptions MakeRunOptions(const quadrille::Block& block);
   quadrille::SymmetricResult RunPipeline(quadrille::SurfaceInput surface,
     const quadrille::RemeshOptions& options, quadrille::ResultStore* levels);
   void TellRun(quadrille::Block& block, const quadrille::RemeshResult& result);
-  void WriteQuads(quadrille::Block& block, const RunOfBlock& run);
+  void WriteQuads(quadrille::Block& block, const quadrille::RunOfBlock& run);
   /// The options get the number of quads of all blocks; shares: of each, sum 1; sizes: of its quads for that share,
   /// over the mean.
   void ShareQuads(const std::vector<quadrille::Block*>& blocks, quadrille::RemeshOptions& options,

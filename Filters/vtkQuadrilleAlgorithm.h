@@ -42,7 +42,9 @@ namespace quadrille
 {
 struct Block;
 struct BlockReport;
+struct BlockRun;
 struct BlockState;
+struct BlockWork;
 struct Certificate;
 struct EarlierResult;
 class SharedStop;
@@ -251,8 +253,8 @@ private:
   vtkQuadrilleAlgorithm(const vtkQuadrilleAlgorithm&) = delete;
   void operator=(const vtkQuadrilleAlgorithm&) = delete;
 
-  struct Run;
-  struct Work;
+  using Run = quadrille::BlockRun;
+  using Work = quadrille::BlockWork;
   int RunBlocks(Run& run, vtkInformationVector** inputs, vtkInformationVector* outputs);
   void ReadInputs(Run& run, vtkInformationVector** inputs);
   void ListBlocks(Run& run);
@@ -268,7 +270,6 @@ private:
   void WaitForAll(Run& run);
   void MeasureBlocks(Run& run);
   void ShareTarget(Run& run, const std::vector<double>& areas);
-  void ShareOut(Run& run);
   void GroupBlocks(Run& run);
   void RunWorks(const std::vector<Work*>& works);
   bool TakeEarlier(Work& work, bool andUse);

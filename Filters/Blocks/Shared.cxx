@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Blocks/Shared.h"
 
+#include "Blocks/BlockRun.h"
 #include "Convert/Pieces.h"
+#include "Ranks/Ranks.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -237,6 +239,71 @@ vtkSmartPointer<vtkPolyData> selectItems(vtkPolyData* shared, const std::vector<
   }
   std::vector<std::string> notices; // one source has no arrays that differ
   return assembly.write(notices);
+}
+
+//------------------------------------------------------------------------------
+void shareOut(BlockRun& run)
+{
+  for (std::size_t port = 0; port < run.shared.size(); ++port)
+  {
+    auto* shared = vtkPolyData::SafeDownCast(run.shared[port]);
+    if (!shared)
+    {
+      continue;
+    }
+    if (run.works.size() == 1)
+    {
+      run.works[0].block.inputs[port] = shared;
+      continue;
+    }
+    const std::size_t items = sharedItems(shared);
+    Packer packer;
+    for (const BlockWork& work : run.works)
+    {
+      packer.count(run.owns(work));
+      if (run.owns(work))
+      {
+        for (const double distance : itemDistances(shared, work.block.input()))
+        {
+          packer.number(distance);
+        }
+      }
+    }
+    // Of several surfaces at the same distance the first one.
+    std::vector<double> least(items, std::numeric_limits<double>::infinity());
+    std::vector<std::size_t> nearest(items, 0);
+    const std::vector<std::string> all = run.ranks.gather(packer.bytes());
+    std::vector<Unpacker> unpackers(all.begin(), all.end());
+    for (std::size_t w = 0; w < run.works.size(); ++w)
+    {
+      run.works[w].isChanged = true; // it may have got what another one had
+      for (Unpacker& unpacker : unpackers)
+      {
+        const bool isThere = unpacker.count() != 0;
+        for (std::size_t i = 0; isThere && i < items; ++i)
+        {
+          const double distance = unpacker.number();
+          if (distance < least[i])
+          {
+            least[i] = distance;
+            nearest[i] = w;
+          }
+        }
+      }
+    }
+    for (std::size_t w = 0; w < run.works.size(); ++w)
+    {
+      std::vector<bool> isChosen(items, false);
+      for (std::size_t i = 0; i < items; ++i)
+      {
+        isChosen[i] = nearest[i] == w;
+      }
+      if (run.owns(run.works[w]))
+      {
+        run.works[w].block.inputs[port] = selectItems(shared, isChosen);
+      }
+    }
+  }
 }
 
 } // namespace quadrille

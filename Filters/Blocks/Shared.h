@@ -15,6 +15,8 @@ class vtkPolyData;
 namespace quadrille
 {
 
+struct BlockRun;
+
 /// The vtkPolyData among these as one, or null where there is no point. Arrays are joined as joinPieces does.
 vtkSmartPointer<vtkPolyData> joinShared(
   const std::vector<vtkSmartPointer<vtkDataObject>>& pieces, std::vector<std::string>& notices);
@@ -27,5 +29,8 @@ std::vector<double> itemDistances(vtkPolyData* shared, vtkPolyData* surface);
 
 /// The items with `isChosen`, with their arrays; null where there is none.
 vtkSmartPointer<vtkPolyData> selectItems(vtkPolyData* shared, const std::vector<bool>& isChosen);
+
+/// Gives each block of a run the items of the shared inputs that are nearest to it. Collective.
+void shareOut(BlockRun& run);
 
 } // namespace quadrille

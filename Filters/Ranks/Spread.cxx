@@ -8,6 +8,7 @@
 #include "Convert/ArrayNames.h"
 #include "Convert/Pieces.h"
 #include "Convert/Surfaces.h"
+#include "Ranks/InnerFaces.h"
 #include "Ranks/Packing.h"
 #include "Ranks/SpreadArrays.h"
 #include "Ranks/SpreadCells.h"

@@ -25,11 +25,6 @@ std::size_t estimatedBorder(const SpreadPiece& piece, bool byIds, double unit);
 std::vector<SpreadPiece> redistributeCells(const Ranks& ranks, std::vector<SpreadPiece> pieces,
   vtkPolyData* model, double unit, SpreadFigures& figures);
 
-/// Faces of volume cells that two pieces have are inside of the volume and go. Only faces whose box meets that of
-/// another piece are looked at. Collective.
-void dropInnerFaces(const Ranks& ranks, std::vector<SpreadPiece>& pieces, bool byIds, double unit,
-  std::vector<std::string>& notices);
-
 /// A tuple for each origin, as gatherArrays, of sources that all have the arrays of `model`: in its order, with those
 /// active that are so there.
 void gatherInModelsOrder(const std::vector<vtkDataSetAttributes*>& sources,

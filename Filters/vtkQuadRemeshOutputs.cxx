@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkQuadRemesh.h"
+
+#include "Base/Types.h"
+#include "Blocks/Blocks.h"
+#include "Common/Report.h"
+#include "Constraints/ConstraintTable.h"
+#include "Constraints/Constraints.h"
+#include "Convert/PolyData.h"
+#include "Convert/Quads.h"
+#include "Pipeline/Pipeline.h"
+#include "Runs/InPieces.h"
+#include "Runs/RunOfBlock.h"
+#include "Runs/SmallDetails.h"
+#include "Runs/Symmetry.h"
+#include "Symmetry/Symmetry.h"
+
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+quadrille::QuadSource sourceOf(const quadrille::PreparedSurface& surface,
+  const quadrille::ConvertedSurface& converted, vtkPolyData* input)
+{
+  quadrille::QuadSource source;
+  source.carrier = input;
+  source.patchArray = converted.patchArray;
+  source.carrierPoint = [&surface, &converted, input](
+                          quadrille::Index face, const std::array<double, 3>& weights)
+  { return quadrille::pointOrigin(surface, converted, input, face, weights); };
+  source.carrierCell = [&surface, &converted](quadrille::Index face)
+  { return converted.cell(surface.sourcePolygon[face]); };
+  return source;
+}
+
+std::string resultText(const quadrille::RemeshResult& result, vtkIdType irregular)
+{
+  std::ostringstream text;
+  if (result.quads.quads.empty())
+  {
+    text << "No quads, as the method makes none: the mapped surface is the result.";
+    return text.str();
+  }
+  text << result.quads.quads.size() << " quads (about " << result.targetQuads << " asked for), "
+       << irregular << " irregular vertices";
+  return text.str();
+}
+
+/// What is added to the sentence above where something was asked for.
+std::string constraintText(const std::vector<quadrille::ConstraintWord>& words)
+{
+  const auto met = std::count_if(
+    words.begin(), words.end(), [](const quadrille::ConstraintWord& word) { return word.isMet; });
+  const auto off = std::count_if(words.begin(), words.end(),
+    [](const quadrille::ConstraintWord& word) { return word.isOffSurface; });
+  std::ostringstream text;
+  if (!words.empty())
+  {
+    text << ", " << met << " of " << words.size() << " constraints met"
+         << (off > 0 ? ", " + std::to_string(off) + " with a point off the surface" : "")
+         << (off > 0 || static_cast<std::size_t>(met) < words.size() ? " (see Constraint Table)"
+                                                                     : "");
+  }
+  return text.str();
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::WriteQuads(quadrille::Block& block, const quadrille::RunOfBlock& run)
+{
+  const quadrille::RemeshResult& result = run.result;
+  vtkPolyData* input = block.input();
+  quadrille::QuadSource source = sourceOf(result.surface, run.converted, input);
+  source.cellDataFrom = static_cast<quadrille::CellDataFrom>(this->CellDataFrom);
+  source.threads = this->NumberOfThreads;
+  if (run.symmetric != nullptr)
+  {
+    quadrille::addMirrorSources(*run.symmetric, run.converted, input, source);
+  }
+  if (run.pieces != nullptr)
+  {
+    quadrille::addPieceSources(*run.pieces, result.quads, run.converted, input, source);
+    const std::string cut = run.pieces->pieces > 1
+      ? "the surface was cut into " + std::to_string(run.pieces->pieces) + " pieces, which were"
+      : "the surface was";
+    this->AddNotice(cut + " thinned out to " + std::to_string(run.pieces->joinedTriangles) +
+      " triangles before quads were made; the certificate is that of their map (Pieces Never, "
+      "--pieces never, keeps the surface whole)");
+  }
+  const quadrille::QuadOutputs written =
+    quadrille::writeOutputs(result.quads, result.surface.mesh, result.uv, source);
+  std::vector<std::string>& notices = block.state->report.notices;
+  notices.insert(notices.end(), written.notCarried.begin(), written.notCarried.end());
+  for (const std::string& warning : quadrille::missedValences(run.asked.placed, result.quads))
+  {
+    notices.push_back(warning);
+    vtkWarningMacro(<< warning);
+  }
+  vtkPolyData* quads = block.output(0);
+  quads->ShallowCopy(written.quads);
+  quadrille::addFields(quads, quadrille::runFields(result));
+  quadrille::addFields(
+    quads, quadrille::methodFields(static_cast<quadrille::MapMethod>(this->Method)));
+  quadrille::addFields(
+    quads, quadrille::anisotropyFields(this->AnisotropyLimit, result.beyondAnisotropyLimit));
+  if (run.symmetric != nullptr)
+  {
+    quadrille::addSymmetry(quads, *run.symmetric);
+  }
+  block.output(2)->ShallowCopy(written.lines);
+  block.output(3)->ShallowCopy(written.separatrices);
+  block.output(4)->ShallowCopy(written.irregular);
+  std::vector<quadrille::ConstraintWord> words =
+    quadrille::judgeConstraints(run.asked, result.quads,
+      quadrille::valuesOf(written.quads->GetPointData()->GetArray(quadrille::arrays::kSizing)));
+  const std::vector<std::string> off = quadrille::offSurfaceNotices(words);
+  notices.insert(notices.end(), off.begin(), off.end());
+  quadrille::addText(quads, "Notices", notices);
+  block.output(5)->ShallowCopy(quadrille::writeConstraints(
+    run.asked.placed, run.asked.curves, result.quads, quadrille::metOfDrawn(words, run.asked)));
+  if (run.symmetric != nullptr)
+  {
+    words.push_back(quadrille::judgeSymmetry(*run.symmetric));
+    quadrille::addMirrorLines(block.output(5), *run.symmetric, words.back().isMet);
+  }
+  block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
+  block.output(7)->ShallowCopy(
+    quadrille::writeSmallDetails(result.details, result.givenUpFeatures));
+  block.state->report.result =
+    resultText(result, written.irregular->GetNumberOfPoints()) + constraintText(words);
+  block.state->report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
+}
+
+//------------------------------------------------------------------------------
+void vtkQuadRemesh::WritePreview(quadrille::Block& block, const quadrille::AskedConstraints& asked,
+  const quadrille::RemeshResult& result)
+{
+  const quadrille::QuadOutputs written = quadrille::writePreview(result.quads);
+  vtkPolyData* quads = block.output(0);
+  quads->ShallowCopy(written.quads);
+  quadrille::addFields(quads, quadrille::runFields(result));
+  quadrille::addText(quads, "Notices", this->GetBlockNotices());
+  block.output(4)->ShallowCopy(written.irregular);
+  const std::vector<quadrille::ConstraintWord> words =
+    quadrille::judgeConstraints(asked, result.quads, {});
+  block.output(5)->ShallowCopy(quadrille::writeConstraints(
+    asked.placed, asked.curves, result.quads, quadrille::metOfDrawn(words, asked)));
+  block.outputTable(6)->ShallowCopy(quadrille::writeConstraintTable(words));
+  block.output(7)->ShallowCopy(
+    quadrille::writeSmallDetails(result.details, result.givenUpFeatures));
+  this->SetResult("preview: " + resultText(result, written.irregular->GetNumberOfPoints()) +
+    constraintText(words));
+  block.state->report.numbers["ActualQuads"] = static_cast<double>(quads->GetNumberOfPolys());
+}
