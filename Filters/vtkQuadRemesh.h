@@ -59,8 +59,8 @@
  * `RepairCounts`, `ExtractionNames`, `ExtractionCounts`, `Notices`, `EstimatedSeconds`, `EstimatedMegabytes`,
  * `TargetEdgeLength`, `TargetQuads`, `ActualQuads`, `CoarseVertices`, `Decimations`, `Replays`, `SurfaceFaces`,
  * `Attempts` (maps that were tried), `RecoveryNames` and `RecoveryCounts` (the strategies that made all but the first
- * one), `TryNames`, `TriesTaken` and `TriesLed` (what was tried otherwise in any stage, how often, and how often that is
- * used), `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`, `ShortestBoundaryOverEdgeLength` (see the
+ * one), `TryNames`, `TriesTaken` and `TriesLed` (what was tried otherwise in any stage, how often, and how often that
+ * is used), `Handles`, `UnresolvedHandles`, `ShortestLoopOverEdgeLength`, `ShortestBoundaryOverEdgeLength` (see the
  * getters of the same names), `ShortestLoopPlace`, `ShortestBoundaryPlace`; with a FinalQuality other than Coarse
  * `DistortionNames`, `DistortionBefore`, `DistortionAfter`, `OptimizationSteps`; with a Symmetry `SymmetryOrigin` and
  * `SymmetryNormal` of the plane, or `SymmetryOrigin`, `SymmetryDirection` and `SymmetryOrder` of the rotation,

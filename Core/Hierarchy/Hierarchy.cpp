@@ -3,7 +3,6 @@
 #include "Hierarchy/Hierarchy.h"
 
 #include "Base/Clock.h"
-#include "Base/DisjointSets.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Hierarchy/BudgetDecimation.h"
@@ -11,15 +10,15 @@
 #include "Hierarchy/DecimationMesh.h"
 #include "Hierarchy/GaussianCurvatureCost.h"
 #include "Hierarchy/GuideRegions.h"
+#include "Hierarchy/HierarchyChecks.h"
+#include "Hierarchy/LevelTerms.h"
 #include "Hierarchy/LogBuilder.h"
 #include "Hierarchy/OrderedDecimation.h"
 #include "Hierarchy/StarCache.h"
 #include "Hierarchy/UniformDecimation.h"
 #include "Hierarchy/VertexRestoration.h"
-#include "Mesh/ComponentSizes.h"
+#include "Hierarchy/VertexScales.h"
 #include "Mesh/Sizing.h"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -46,247 +45,17 @@ constexpr double kGuideReach = 0.25;
 constexpr double kVerticesPerSquare = 0.35;
 /// Distance on both sides over which the bend at a corner is measured, in s.
 constexpr double kCornerScale = 0.25;
-/// Faces of a chunk of the passes over the mesh.
-constexpr std::size_t kFacesOfLevel = std::size_t{ 1 } << 15;
 /// What bringing a vertex back undoes, in removals, and what another size does, at most, where it is worth it.
 constexpr std::size_t kUndoneForKept = 32;
 constexpr std::size_t kUndoneForSize = 2;
 /// Of an intermediate level and of its DecimationMesh, about.
 constexpr std::size_t kBytesOfLevelVertex = 200;
 
-/// What may change from one update to the next.
-void checkPhase2(const Mesh& fine, const HierarchyOptions& options)
-{
-  for (std::size_t i = 0; i < options.guides.size(); ++i)
-  {
-    const Index f = options.guides[i].face;
-    if (f >= fine.faceCount() || (i > 0 && options.guides[i - 1].face >= f))
-    {
-      throw InvalidInput("Guide " + std::to_string(i) + " is of face " + std::to_string(f) +
-        ", but guides must ascend by face, and the mesh has " + std::to_string(fine.faceCount()) +
-        " faces.");
-    }
-  }
-  for (const Index v : options.keepVertices)
-  {
-    if (v >= fine.vertexCount())
-    {
-      throw InvalidInput("Vertex " + std::to_string(v) + " is to be kept, but the mesh has only " +
-        std::to_string(fine.vertexCount()) + " vertices.");
-    }
-  }
-  if (options.coarseVertices == 0 && options.cost != DecimationCost::Gaussian &&
-    options.cost != DecimationCost::GaussianMemory)
-  {
-    throw InvalidInput("A coarse level without a number of vertices needs a cost that measures the "
-                       "change of curvature.");
-  }
-}
-
-void checkOptions(const Mesh& fine, const HierarchyOptions& options)
-{
-  if (!(options.targetEdgeLength > 0) || !std::isfinite(options.targetEdgeLength))
-  {
-    throw InvalidInput(
-      "The target edge length of a decimation must be positive and finite, but is " +
-      std::to_string(options.targetEdgeLength) + ".");
-  }
-  if (options.order == DecimationOrder::Stochastic && options.draws.candidates < 1)
-  {
-    throw InvalidInput("A draw of vertices needs at least one candidate, but is to have " +
-      std::to_string(options.draws.candidates) + ".");
-  }
-  checkPhase2(fine, options);
-}
-
-/// The vertices of each component, joined along edges.
-DisjointSets componentsOf(const Mesh& fine, int threads)
-{
-  DisjointSets components(fine.vertexCount(), threads);
-  parallelFor(fine.faceCount(), kFacesOfLevel, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t h = 3 * begin; h < 3 * end; h += 3)
-      {
-        components.join(fine.origin[h], fine.origin[h + 1]);
-        components.join(fine.origin[h], fine.origin[h + 2]);
-      }
-    });
-  return components;
-}
-
-/// Area of each component over its sizes, at its root.
-std::vector<double> componentAreas(const Mesh& fine, DisjointSets& components, int threads)
-{
-  // Sums of consecutive faces of one component, chunk by chunk, so that the number of threads does not show.
-  struct Sum
-  {
-    Index root = kInvalidIndex;
-    double doubledArea = 0;
-  };
-  std::vector<std::vector<Sum>> sums(fine.faceCount() / kFacesOfLevel + 1);
-  parallelFor(fine.faceCount(), kFacesOfLevel, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::vector<Sum>& sum = sums[begin / kFacesOfLevel];
-      for (Index f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f)
-      {
-        const Index root = components.find(fine.origin[3 * f]);
-        if (sum.empty() || sum.back().root != root)
-        {
-          sum.push_back({ root, 0 });
-        }
-        sum.back().doubledArea += fine.sizing.empty()
-          ? fine.edgeVector(3 * f).cross(fine.edgeVector(3 * f + 1)).norm()
-          : 2 * sizedArea(fine, f);
-      }
-    });
-  std::vector<double> area(fine.vertexCount(), 0.0);
-  for (const std::vector<Sum>& chunk : sums)
-  {
-    for (const Sum& sum : chunk)
-    {
-      area[sum.root] += 0.5 * sum.doubledArea;
-    }
-  }
-  return area;
-}
-
-/// Factors on s.
-struct VertexScales
-{
-  std::vector<float>
-    scale; ///< #V; empty where no size is asked for and no component is small against s
-  bool anySmallComponent = false; ///< else they are the sizes that are asked for
-};
-
-/// Whether a connected mesh surely is no small component, by the faces up to where that is clear.
-bool isSurelyLarge(const Mesh& fine, double edgeLength)
-{
-  constexpr double kSurely = 2 * kQuadsOfSmallTriangulation;
-  double doubledArea = 0;
-  for (Index h = 0; h < fine.halfEdgeCount(); h += 3)
-  {
-    pollNowAndThen(h);
-    doubledArea += fine.edgeVector(h).cross(fine.edgeVector(h + 1)).norm();
-    if (doubledArea > 2 * kSurely * edgeLength * edgeLength)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-VertexScales vertexScales(const Mesh& fine, double edgeLength, bool isConnected, int threads)
-{
-  if (isConnected && fine.sizing.empty() && isSurelyLarge(fine, edgeLength))
-  {
-    return {};
-  }
-  DisjointSets components = componentsOf(fine, threads);
-  const std::vector<double> area = componentAreas(fine, components, threads);
-  const auto scale = [&](Index root) { return triangulationScale(area[root], edgeLength); };
-  VertexScales result;
-  bool& anySmall = result.anySmallComponent;
-  for (Index v = 0; v < fine.vertexCount() && !anySmall; ++v)
-  {
-    pollNowAndThen(v);
-    anySmall = components.find(v) == v && scale(v) < 1;
-  }
-  result.scale.resize(anySmall || !fine.sizing.empty() ? fine.vertexCount() : 0);
-  for (Index v = 0; v < static_cast<Index>(result.scale.size()); ++v)
-  {
-    result.scale[v] = static_cast<float>(scale(components.find(v)) * sizeAt(fine, v));
-  }
-  return result;
-}
-
-double sizeAt(const std::vector<float>& sizing, Index v)
-{
-  return sizing.empty() ? 1.0 : double{ sizing[v] };
-}
-
-/// The vertices at which the mesh has smaller sizes than these, ascending.
-std::vector<Index> smallerThan(const Mesh& fine, const std::vector<float>& sizes)
-{
-  std::vector<Index> smaller;
-  if (fine.sizing.empty() && sizes.empty())
-  {
-    return smaller;
-  }
-  for (Index v = 0; v < fine.vertexCount(); ++v)
-  {
-    if (sizeAt(fine, v) < sizeAt(sizes, v))
-    {
-      smaller.push_back(v);
-    }
-  }
-  return smaller;
-}
-
-/// The vertex of the level that is vertex v of the finest one, if it is there.
-std::optional<Index> positionIn(const Level& level, Index v)
-{
-  const auto found = std::lower_bound(level.fineVertex.begin(), level.fineVertex.end(), v);
-  return found != level.fineVertex.end() && *found == v
-    ? std::optional<Index>(static_cast<Index>(found - level.fineVertex.begin()))
-    : std::nullopt;
-}
-
 std::vector<Index> sorted(std::vector<Index> values)
 {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
-}
-
-/// A level of a level, in terms of the finest mesh.
-Level inFineTerms(Level level, const Level& above)
-{
-  for (Index& v : level.fineVertex)
-  {
-    v = above.fineVertex[v];
-  }
-  for (Index& f : level.fineFace)
-  {
-    f = above.fineFace[f];
-  }
-  return level;
-}
-
-/// The same for records.
-BlockRecords inFineTerms(BlockRecords records, const Level& above)
-{
-  renameRecords(
-    records, [&](Index slot) { return 3 * above.fineFace[slot / 3] + slot % 3; },
-    [&](Index v) { return above.fineVertex[v]; });
-  return records;
-}
-
-/// The curves among the vertices of a level; the ends of curves are on every level.
-FeatureCurves curvesOf(const Level& level, const FeatureCurves& fine)
-{
-  FeatureCurves curves;
-  for (const Index v : level.fineVertex)
-  {
-    curves.kind.push_back(fine.kind[v]);
-    curves.curve.push_back(fine.curve[v]);
-  }
-  const auto toLevel = [&](const std::array<Index, 2>& ends)
-  {
-    return ends[0] == kInvalidIndex
-      ? ends
-      : std::array<Index, 2>{ *positionIn(level, ends[0]), *positionIn(level, ends[1]) };
-  };
-  for (const std::array<Index, 2>& ends : fine.ends)
-  {
-    curves.ends.push_back(toLevel(ends));
-  }
-  for (const std::array<Index, 2>& ends : fine.endPairs)
-  {
-    curves.endPairs.push_back(toLevel(ends)); // the order of the vertices is kept
-  }
-  return curves;
 }
 
 } // namespace

@@ -15,7 +15,8 @@ if [[ $# -gt 0 && $1 != -* ]]; then
 fi
 mkdir -p "$packages"
 for tool in dpkg-shlibdeps apt-get gzip file; do
-  command -v "$tool" >/dev/null || { echo "make-packages: $tool is missing (packages dpkg-dev, apt, gzip, file)" >&2; exit 1; }
+  command -v "$tool" >/dev/null ||
+    { echo "make-packages: $tool is missing (packages dpkg-dev, apt, gzip, file)" >&2; exit 1; }
 done
 
 options=(-G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr -DQUADRILLE_PACKAGES=ON

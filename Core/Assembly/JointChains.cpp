@@ -1,0 +1,333 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Assembly/JointChains.h"
+
+#include "Base/PlaceText.h"
+#include "Base/Progress.h"
+#include "Base/TryCount.h"
+#include "Quads/QuadTopology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace quadrille
+{
+
+namespace
+{
+
+std::pair<Index, Index> sortedPair(Index a, Index b)
+{
+  return { std::min(a, b), std::max(a, b) };
+}
+
+} // namespace
+
+void JointChains::findNodes()
+{
+  std::map<Index, std::vector<Index>> neighbours;
+  for (const auto& [a, b] : sheets_.edges)
+  {
+    neighbours[a].push_back(b);
+    neighbours[b].push_back(a);
+  }
+  std::map<std::pair<Index, Index>, std::set<Index>> sheetsAt; // of edges
+  std::set<Index> onFeatures;
+  for (const SectorRequest& request : result_.onFeatures)
+  {
+    onFeatures.insert(request.vertex);
+  }
+  for (const FineLoop& loop : fineLoops_)
+  {
+    Index before = kNoJoint, first = kNoJoint;
+    for (std::size_t i = 0; i < loop.halfEdges.size(); ++i)
+    {
+      const Index point = loop.jointPoint[i];
+      const Index v = mesh_.origin[loop.halfEdges[i]];
+      if (point == kNoJoint)
+      {
+        continue;
+      }
+      if (neighbours.count(point) != 0 && (onFeatures.count(v) != 0 || result_.turns[v] != 2))
+      {
+        nodes_.insert(point);
+      }
+      if (before != kNoJoint)
+      {
+        sheetsAt[sortedPair(before, point)].insert(loop.sheet);
+      }
+      first = first == kNoJoint ? point : first;
+      before = point;
+    }
+    if (first != kNoJoint)
+    {
+      sheetsAt[sortedPair(before, first)].insert(loop.sheet);
+    }
+  }
+  for (const auto& [point, others] : neighbours)
+  {
+    if (others.size() != 2 ||
+      sheetsAt[sortedPair(point, others[0])] != sheetsAt[sortedPair(point, others[1])])
+    {
+      nodes_.insert(point);
+    }
+  }
+  neighbours_ = std::move(neighbours);
+}
+
+void JointChains::findSegments()
+{
+  std::set<std::pair<Index, Index>> taken;
+  const auto follow = [&](Index from, Index next)
+  {
+    if (!taken.insert(sortedPair(from, next)).second)
+    {
+      return;
+    }
+    JointSegment segment;
+    segment.points = { from, next };
+    while (nodes_.count(segment.points.back()) == 0)
+    {
+      const Index at = segment.points.back(), before = segment.points[segment.points.size() - 2];
+      const std::vector<Index>& others = neighbours_[at];
+      const Index following = others[0] == before ? others[1] : others[0];
+      taken.insert(sortedPair(at, following));
+      segment.points.push_back(following);
+    }
+    segment.arc.push_back(0);
+    for (std::size_t i = 1; i < segment.points.size(); ++i)
+    {
+      segment.arc.push_back(segment.arc.back() +
+        (jointPoints_[segment.points[i]] - jointPoints_[segment.points[i - 1]]).norm());
+    }
+    const auto id = static_cast<Index>(segments_.size());
+    for (std::size_t i = 1; i < segment.points.size(); ++i)
+    {
+      segmentOf_[{ segment.points[i - 1], segment.points[i] }] = { id, true };
+      segmentOf_[{ segment.points[i], segment.points[i - 1] }] = { id, false };
+    }
+    segments_.push_back(std::move(segment));
+  };
+  const auto followAll = [&](Index node)
+  {
+    for (const Index next : neighbours_[node])
+    {
+      follow(node, next);
+    }
+  };
+  const std::set<Index> found = nodes_;
+  for (const Index node : found)
+  {
+    followAll(node);
+  }
+  for (const auto& [point, others] : neighbours_)
+  {
+    // What is left are closed joints without a node: the lowest point becomes one.
+    if (taken.count(sortedPair(point, others.front())) == 0)
+    {
+      nodes_.insert(point);
+      followAll(point);
+    }
+  }
+  met_.segments = segments_.size();
+}
+
+void JointChains::findChains()
+{
+  const QuadTopology topology = analyzeQuads(quads_.quads, quads_.points.size(), threads_);
+  std::vector<std::uint8_t> hasQuads(fineLoops_.size(), 0);
+  for (const std::vector<Index>& halfEdges : boundaryLoops(topology))
+  {
+    poll();
+    const Index sheet = borders_.sheetOfFace(quads_.quadSourceFace[halfEdges.front() / 4]);
+    std::vector<std::pair<double, Index>> points; // by arc
+    std::size_t fine = fineLoops_.size();
+    for (const Index h : halfEdges)
+    {
+      const Index p = quads_.quads[h / 4][h % 4];
+      const SheetBorders::OnLoop place = borders_.nearestOnLoops(sheet, quads_.points[p]);
+      fine = fine == fineLoops_.size() ? place.loop : fine;
+      points.emplace_back(place.arc, p);
+    }
+    if (fine == fineLoops_.size())
+    {
+      continue;
+    }
+    hasQuads[fine] = 1;
+    // In the order of the loop, from the one with the least arc on.
+    std::rotate(points.begin(), std::min_element(points.begin(), points.end()), points.end());
+    addLoop(fineLoops_[fine], points);
+  }
+  for (std::size_t l = 0; l < fineLoops_.size(); ++l)
+  {
+    const FineLoop& loop = fineLoops_[l];
+    const auto isOnJoint = [&](Index point)
+    { return point != kNoJoint && neighbours_.count(point) != 0; };
+    const auto at = std::find_if(loop.jointPoint.begin(), loop.jointPoint.end(), isOnJoint);
+    if (hasQuads[l] == 0 && at != loop.jointPoint.end())
+    {
+      fail("a sheet has no quads along a curve of more than two sheets", *at);
+    }
+  }
+}
+
+void JointChains::fail(const std::string& what, Index jointPoint)
+{
+  met_.status = { StatusCode::NotConverged,
+    what + " near " + placeText(jointPoints_[jointPoint]) + ": ask for more quads" };
+}
+
+void JointChains::addLoop(const FineLoop& fine, const std::vector<std::pair<double, Index>>& points)
+{
+  const double length = fine.arc.back();
+  struct Stop
+  {
+    double arc;
+    Index node;
+    Index next; ///< the next point of the input
+    std::size_t point;
+  };
+  std::vector<Stop> stops;
+  for (std::size_t i = 0; i < fine.halfEdges.size(); ++i)
+  {
+    if (fine.jointPoint[i] == kNoJoint || nodes_.count(fine.jointPoint[i]) == 0)
+    {
+      continue;
+    }
+    Index next = kNoJoint;
+    for (std::size_t k = 1; k <= fine.halfEdges.size() && next == kNoJoint; ++k)
+    {
+      next = fine.jointPoint[(i + k) % fine.halfEdges.size()];
+    }
+    stops.push_back({ fine.arc[i], fine.jointPoint[i], next, 0 });
+  }
+  if (stops.empty())
+  {
+    return;
+  }
+  for (Stop& stop : stops)
+  {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const double gap = std::abs(points[i].first - stop.arc);
+      const double around = std::min(gap, length - gap);
+      if (around < least)
+      {
+        least = around;
+        stop.point = i;
+      }
+    }
+  }
+  SheetLoop& loop = loops_.emplace_back();
+  loop.sheet = fine.sheet;
+  // Where all stops are at one point, the longest chain goes all the way round.
+  const auto lengthOf = [&](std::size_t s)
+  {
+    const double gap = stops[(s + 1) % stops.size()].arc - stops[s].arc;
+    return gap > 0 ? gap : gap + length;
+  };
+  std::size_t whole = stops.size();
+  if (std::all_of(stops.begin(), stops.end(),
+        [&](const Stop& stop) { return stop.point == stops.front().point; }))
+  {
+    whole = 0;
+    for (std::size_t s = 1; s < stops.size(); ++s)
+    {
+      whole = lengthOf(s) > lengthOf(whole) ? s : whole;
+    }
+  }
+  for (std::size_t s = 0; s < stops.size(); ++s)
+  {
+    const Stop& stop = stops[s];
+    const Stop& following = stops[(s + 1) % stops.size()];
+    SheetChain chain;
+    const auto segment = segmentOf_.find({ stop.node, stop.next });
+    if (segment != segmentOf_.end())
+    {
+      chain.segment = segment->second.first;
+      chain.isForward = segment->second.second;
+    }
+    chain.points.push_back(points[stop.point].second);
+    for (std::size_t i = stop.point;
+         i != following.point || (s == whole && chain.points.size() == 1);)
+    {
+      i = (i + 1) % points.size();
+      chain.points.push_back(points[i].second);
+    }
+    loop.chains.push_back(std::move(chain));
+  }
+}
+
+//----------------------------------------------------------------------------
+// Numbers of edges
+
+void JointChains::chooseNumbers()
+{
+  for (const bool allEven : { false, true })
+  {
+    countTry(Try::EvenNumbers, allEven ? 1 : 0);
+    for (JointSegment& segment : segments_)
+    {
+      segment.edges = 1;
+    }
+    for (const SheetLoop& loop : loops_)
+    {
+      for (const SheetChain& chain : loop.chains)
+      {
+        if (chain.segment != kNoJoint)
+        {
+          std::size_t& edges = segments_[chain.segment].edges;
+          edges = std::max(edges, chain.edges());
+        }
+      }
+    }
+    for (JointSegment& segment : segments_)
+    {
+      segment.edges += allEven ? segment.edges % 2 : 0;
+    }
+    bool isPossible = true;
+    for (Index sheet = 0; sheet < sheets_.offset.size(); ++sheet)
+    {
+      isPossible = isPossible && (hasFree(sheet) || lackOf(sheet) % 2 == 0);
+    }
+    if (isPossible)
+    {
+      countTryLed(Try::EvenNumbers, allEven ? 1 : 0);
+      return;
+    }
+  }
+}
+
+bool JointChains::hasFree(Index sheet) const
+{
+  return std::any_of(loops_.begin(), loops_.end(),
+    [&](const SheetLoop& loop)
+    {
+      return loop.sheet == sheet &&
+        std::any_of(loop.chains.begin(), loop.chains.end(),
+          [](const SheetChain& chain) { return chain.segment == kNoJoint; });
+    });
+}
+
+std::size_t JointChains::lackOf(const SheetChain& chain) const
+{
+  return chain.segment == kNoJoint ? 0 : segments_[chain.segment].edges - chain.edges();
+}
+
+std::size_t JointChains::lackOf(Index sheet) const
+{
+  std::size_t lack = 0;
+  for (const SheetLoop& loop : loops_)
+  {
+    for (const SheetChain& chain : loop.chains)
+    {
+      lack += loop.sheet == sheet ? lackOf(chain) : 0;
+    }
+  }
+  return lack;
+}
+
+} // namespace quadrille

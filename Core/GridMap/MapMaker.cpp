@@ -1,0 +1,592 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GridMap/MapMaker.h"
+
+#include "Base/Clock.h"
+#include "Base/PlaceText.h"
+#include "Base/Progress.h"
+#include "Base/TryCount.h"
+#include "GridMap/Embed.h"
+#include "GridMap/MapShape.h"
+#include "GridMap/MeshParts.h"
+#include "GridMap/RoundedMap.h"
+#include "GridMap/SeamlessMap.h"
+#include "Integers/Quantize.h"
+#include "Mesh/ComponentSizes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr int kMaximumScalings = 4;
+/// How often other integers are tried where embedding fails.
+constexpr std::size_t kMaximumEmbeddings = 4;
+/// The number of quads is accepted when it is this close to the target (relative).
+constexpr double kCountTolerance = 0.06;
+/// However many blocks there are, the other components have this part of the quads that they would have alone.
+constexpr double kLeastBesideBlocks = 0.5;
+/// A map with a component missing is none. That many failures in one stage have a common cause, which more work in
+/// later stages does not mend: the caller hears of them at once.
+constexpr std::size_t kHopeless = 4;
+
+/// Area of the map in quads.
+double mapArea(const Mesh& mesh, const std::vector<FixedVec2>& uv)
+{
+  double area = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    const Vector2 p = toDouble(uv[3 * f + 1] - uv[3 * f]);
+    const Vector2 q = toDouble(uv[3 * f + 2] - uv[3 * f]);
+    area += 0.5 * (p.x() * q.y() - p.y() * q.x());
+  }
+  return area;
+}
+
+std::vector<Index> cornerVertices(const Mesh& mesh, const std::vector<Index>& faces)
+{
+  std::vector<Index> vertices;
+  for (const Index f : faces)
+  {
+    for (Index corner = 0; corner < 3; ++corner)
+    {
+      vertices.push_back(mesh.origin[3 * f + corner]);
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+std::vector<Index> join(std::vector<Index> a, const std::vector<Index>& b)
+{
+  a.insert(a.end(), b.begin(), b.end());
+  std::sort(a.begin(), a.end());
+  a.erase(std::unique(a.begin(), a.end()), a.end());
+  return a;
+}
+
+/// One connected component on its way to its map.
+struct Component
+{
+  MeshPart part;
+  CarriedMap previous;                          ///< empty where there is none
+  double share = 1;                             ///< of the area of the surface over its sizes
+  double block = 0;                             ///< quads that it has at least, see quadsOfBlock
+  bool hasIntegers = false;                     ///< of an earlier scale
+  Eigen::VectorXd solution;                     ///< of its seamless map, for the next scale
+  std::vector<FixedVec2> seamlessUv, integerUv; ///< of the scale that is tried
+  std::unique_ptr<RoundedMap> rounded;          ///< of the methods that round
+  std::vector<FixedVec2> startUv;               ///< the seamless map that uv was quantized from
+  std::vector<FixedVec2> uv;
+  double triedRefinement = 1, refinement = 1;
+  bool seamlessReused = false, integersReused = false, embedReused = false;
+  Status status;
+  std::vector<Index> offenders; ///< vertices of the part
+
+  const CarriedMap* earlier() const { return previous.knownFaces > 0 ? &previous : nullptr; }
+
+  void fail(const Status& why, std::vector<FixedVec2> best, std::vector<Index> where)
+  {
+    status = why;
+    uv = std::move(best);
+    offenders = std::move(where);
+  }
+};
+
+/// A component whose share is less than a block of quads gets that block. With no number wanted all follow the edge
+/// length.
+bool isBlock(const Component& component, double wanted)
+{
+  return wanted > 0 && wanted * component.share < component.block;
+}
+
+double quadsOf(const Component& component, double wanted)
+{
+  return isBlock(component, wanted) ? component.block : wanted * component.share;
+}
+
+/// The number of quads of which the others get their shares, so that with the blocks there are as many as asked for.
+/// Where blocks would take more than half of the quads, the others keep half of what they would have alone.
+double besideBlocks(const std::vector<Component>& components, double target)
+{
+  double wanted = target;
+  for (bool changed = true; changed;)
+  {
+    double blocks = 0, shares = 0;
+    for (const Component& component : components)
+    {
+      blocks += isBlock(component, wanted) ? component.block : 0;
+      shares += isBlock(component, wanted) ? 0 : component.share;
+    }
+    const double left = blocks > 0 && shares > 0
+      ? std::max(kLeastBesideBlocks * target, (target - blocks) / shares)
+      : target;
+    changed = left < wanted;
+    wanted = std::min(left, wanted); // fewer quads make more blocks
+  }
+  return wanted;
+}
+
+/// Quads of the components that are no blocks over what they should have. Those without integers are as if they had
+/// their share.
+double ratioToTarget(const std::vector<Component>& components, double wanted, double targetQuads)
+{
+  double quads = 0, shares = 0, blocks = 0, shareOfBlocks = 0;
+  for (const Component& component : components)
+  {
+    const bool block = isBlock(component, wanted);
+    const double made = component.status.ok() && !component.integerUv.empty()
+      ? mapArea(component.part.mesh, component.integerUv)
+      : component.block;
+    blocks += block ? made : 0;
+    shareOfBlocks += block ? component.share : 0;
+    if (!block && component.status.ok())
+    {
+      quads += made;
+      shares += component.share;
+    }
+  }
+  if (!(quads > 0 && shares > 0))
+  {
+    return 1;
+  }
+  const double target = shareOfBlocks > 0
+    ? std::max(kLeastBesideBlocks * targetQuads, (targetQuads - blocks) / (1 - shareOfBlocks))
+    : targetQuads;
+  return quads / shares / target;
+}
+
+/// Where and why a component has no map, and what helps: the stages count, as numbers of the coarse mesh say nothing
+/// to users.
+std::string explain(const std::vector<Component>& components, std::size_t i, std::size_t failures)
+{
+  const Component& component = components[i];
+  const Index v = component.offenders.empty() ? 0 : component.offenders.front();
+  std::ostringstream text;
+  if (components.size() > 1)
+  {
+    text << "at least " << failures << " of " << components.size()
+         << " connected components have no map, one of them ";
+  }
+  text << "near " << placeText(component.part.mesh.position[v]) << ": " << component.status.message
+       << "; ask for smaller quads, for fewer features there (a larger "
+       << "feature angle, or none) or for more coarse vertices";
+  return text.str();
+}
+
+class MapMaker
+{
+public:
+  MapMaker(const Mesh& mesh, const GridMapOptions& options, const CurveTry& howto)
+    : mesh_(mesh), options_(options), try_(howto), field_(mesh, options, howto, result_)
+  {
+  }
+
+  GridMapResult run()
+  {
+    if (!field_.findSeams())
+    {
+      return std::move(result_);
+    }
+    field_.computeField();
+    if (!result_.field.status.ok())
+    {
+      result_.status = result_.field.status;
+      result_.offenders = result_.field.offenders;
+      return std::move(result_);
+    }
+    field_.addLines();
+    split();
+    if (options_.method == MapMethod::Seamless)
+    {
+      keepSeamless();
+    }
+    else
+    {
+      chooseScale();
+    }
+    if (options_.method == MapMethod::ScaleAware)
+    {
+      embed();
+    }
+    collect();
+    return std::move(result_);
+  }
+
+  /// Of the field that the last run led along the curves.
+  bool holdsIrregular() const { return field_.holdsIrregular(); }
+
+private:
+  ProgressCallback progressOf(std::size_t i, double begin, double end) const
+  {
+    const double step = (end - begin) / static_cast<double>(components_.size());
+    return subProgress(options_.progress, begin + step * static_cast<double>(i),
+      begin + step * static_cast<double>(i + 1));
+  }
+
+  void split()
+  {
+    std::optional<MapCarrier> carrier;
+    if (options_.previous != nullptr && options_.method == MapMethod::ScaleAware)
+    {
+      carrier.emplace(*options_.previous);
+    }
+    const double area = stretchedArea(mesh_, result_.field);
+    for (MeshPart& part : splitIntoParts(mesh_, result_.field))
+    {
+      components_.emplace_back();
+      components_.back().share = area > 0 ? stretchedArea(part.mesh, part.field) / area : 0;
+      components_.back().block = measureComponents(part.mesh).block.front();
+      components_.back().part = std::move(part);
+      if (carrier)
+      {
+        carryOver(*carrier, components_.back());
+      }
+    }
+  }
+
+  void carryOver(const MapCarrier& carrier, Component& component)
+  {
+    std::vector<Index> ids;
+    for (const Index v : component.part.vertex)
+    {
+      ids.push_back(options_.vertexIds[v]);
+    }
+    component.previous = carrier.carry(component.part.mesh, component.part.field, ids);
+    result_.reuse.faces += component.previous.knownFaces;
+  }
+
+  std::size_t failures() const
+  {
+    return static_cast<std::size_t>(std::count_if(
+      components_.begin(), components_.end(), [](const Component& c) { return !c.status.ok(); }));
+  }
+
+  /// Integers at the scale whose number of quads comes nearest to the target. Scales change together, so
+  /// that quads stay alike on all components.
+  void chooseScale()
+  {
+    double wanted = besideBlocks(components_, options_.targetQuads);
+    double bestDeviation = std::numeric_limits<double>::infinity();
+    int kept = 0;
+    for (int scaling = 0; scaling < kMaximumScalings; ++scaling)
+    {
+      countTry(Try::OtherScale, scaling > 0 ? 1 : 0);
+      if (!makeIntegers(wanted))
+      {
+        break; // an earlier scale may have integers
+      }
+      const double ratio =
+        options_.targetQuads > 0 ? ratioToTarget(components_, wanted, options_.targetQuads) : 1;
+      const double deviation = std::abs(std::log(ratio));
+      if (deviation < bestDeviation)
+      {
+        bestDeviation = deviation;
+        keepTried();
+        kept = scaling;
+      }
+      // With a component missing there will be no quads to count.
+      // Integers that are to be small do not follow the scale.
+      if (deviation <= kCountTolerance || failures() > 0 || options_.pull < 1)
+      {
+        break;
+      }
+      wanted /= ratio;
+    }
+    countTryLed(Try::OtherScale, kept > 0 ? 1 : 0);
+  }
+
+  /// Components fail at the first scale only; at a later one the first failure ends the try.
+  bool makeIntegers(double wanted)
+  {
+    if (options_.method != MapMethod::ScaleAware)
+    {
+      roundIntegers(wanted);
+      return true;
+    }
+    for (std::size_t i = 0; i < components_.size(); ++i)
+    {
+      Component& component = components_[i];
+      if (component.status.ok() && !mapSeamlessly(component, wanted, progressOf(i, 0.1, 0.4)) &&
+        component.hasIntegers)
+      {
+        return false;
+      }
+    }
+    for (std::size_t i = 0; i < components_.size() && failures() < kHopeless; ++i)
+    {
+      Component& component = components_[i];
+      if (component.status.ok() && !makeIntegers(component, progressOf(i, 0.4, 0.7)) &&
+        component.hasIntegers)
+      {
+        return false;
+      }
+    }
+    return failures() < kHopeless;
+  }
+
+  /// No integers: the map as it is.
+  void keepSeamless()
+  {
+    for (std::size_t i = 0; i < components_.size(); ++i)
+    {
+      Component& component = components_[i];
+      if (mapSeamlessly(
+            component, besideBlocks(components_, options_.targetQuads), progressOf(i, 0.1, 1.0)))
+      {
+        component.uv = std::move(component.seamlessUv);
+      }
+    }
+  }
+
+  /// Whatever becomes of the triangles: that is a property of these methods.
+  void roundIntegers(double wanted)
+  {
+    for (std::size_t i = 0; i < components_.size(); ++i)
+    {
+      Component& component = components_[i];
+      if (!component.status.ok())
+      {
+        continue;
+      }
+      report(progressOf(i, 0.1, 1.0), 0.0, "rounding the map");
+      if (!component.rounded)
+      {
+        const TimedScope timed(result_.secondsSeamless, result_.processorSeamless);
+        component.rounded = std::make_unique<RoundedMap>(
+          component.part.mesh, component.part.field, options_.edgeLength);
+      }
+      if (!component.rounded->status().ok())
+      {
+        const Status& why = component.rounded->status();
+        component.fail(
+          { why.code, std::string(nameOf(options_.method)) + ": " + why.message }, {}, {});
+        continue;
+      }
+      const TimedScope timed(result_.secondsQuantize, result_.processorQuantize);
+      component.integerUv = component.rounded->make(quadsOf(component, wanted),
+        options_.method == MapMethod::QuadCover ? RoundingOrder::AllAtOnce
+                                                : RoundingOrder::OneAtATime);
+    }
+  }
+
+  void keepTried()
+  {
+    for (Component& component : components_)
+    {
+      if (component.status.ok())
+      {
+        component.uv = std::move(component.integerUv);
+        component.startUv = std::move(component.seamlessUv);
+        component.refinement = component.triedRefinement;
+      }
+    }
+  }
+
+  /// The seamless map that has its share of `wanted`.
+  bool mapSeamlessly(Component& component, double wanted, const ProgressCallback& progress)
+  {
+    const TimedScope timed(result_.secondsSeamless, result_.processorSeamless);
+    const MeshPart& part = component.part;
+    SeamlessOptions seamlessOptions;
+    seamlessOptions.edgeLength = options_.edgeLength;
+    seamlessOptions.targetQuads = quadsOf(component, wanted);
+    seamlessOptions.solution = component.hasIntegers ? &component.solution : nullptr;
+    seamlessOptions.previous = component.earlier();
+    seamlessOptions.anisotropyLimit = options_.anisotropyLimit;
+    seamlessOptions.maximumSteps = try_.maximumSteps;
+    seamlessOptions.progress = progress;
+    SeamlessResult seamless = computeSeamlessMap(part.mesh, part.field, seamlessOptions);
+    result_.seamlessSteps += seamless.newtonSteps;
+    component.seamlessReused = component.seamlessReused || seamless.startedFromPrevious;
+    if (!seamless.status.ok())
+    {
+      if (!component.hasIntegers)
+      {
+        result_.collapsedFaces += seamless.collapsed;
+        component.fail(seamless.status, std::move(seamless.uv),
+          join(cornerVertices(part.mesh, seamless.inverted), seamless.offenders));
+      }
+      return false;
+    }
+    component.solution = std::move(seamless.solution);
+    component.seamlessUv = std::move(seamless.uv);
+    return true;
+  }
+
+  bool makeIntegers(Component& component, const ProgressCallback& progress)
+  {
+    QuantizeResult quantized = quantize(component, component.seamlessUv, {}, progress);
+    if (!quantized.status.ok())
+    {
+      if (!component.hasIntegers)
+      {
+        component.fail(quantized.status, std::move(quantized.uv), {});
+      }
+      return false;
+    }
+    component.hasIntegers = true;
+    component.integersReused = quantized.startedFromPrevious;
+    component.integerUv = std::move(quantized.uv);
+    component.triedRefinement = quantized.refinement;
+    return true;
+  }
+
+  QuantizeResult quantize(const Component& component, const std::vector<FixedVec2>& seamlessUv,
+    const std::vector<Index>& watched, const ProgressCallback& progress)
+  {
+    const TimedScope timed(result_.secondsQuantize, result_.processorQuantize);
+    QuantizeOptions quantizeOptions;
+    quantizeOptions.watched = watched;
+    quantizeOptions.pull = options_.pull;
+    // Other integers are asked for where some vertices are watched, or where those of the first scale were too many or
+    // too few.
+    const bool again = component.hasIntegers || !watched.empty();
+    quantizeOptions.previousUv =
+      !again && component.previous.isMap ? &component.previous.uv : nullptr;
+    quantizeOptions.progress = progress;
+    return quantizeMap(component.part.mesh, component.part.field, seamlessUv, quantizeOptions);
+  }
+
+  void embed()
+  {
+    for (std::size_t i = 0; i < components_.size() && failures() < kHopeless; ++i)
+    {
+      if (components_[i].status.ok())
+      {
+        embedOne(components_[i], progressOf(i, 0.7, 1.0));
+      }
+    }
+  }
+
+  /// Where embedding fails, other integers leave room round the places of the failure; integers that were tried before
+  /// would fail again. Where another component has no map, all that counts is where this one would fail, too: one try
+  /// tells.
+  void embedOne(Component& component, const ProgressCallback& progress)
+  {
+    const MeshPart& part = component.part;
+    std::vector<Index> watched;
+    std::vector<std::vector<FixedVec2>> tried;
+    EmbedResult embedded;
+    while (true)
+    {
+      EmbedOptions embedOptions;
+      embedOptions.edgeLength = options_.edgeLength;
+      embedOptions.seamlessUv = failures() == 0 ? &component.startUv : nullptr;
+      embedOptions.previous = component.earlier();
+      embedOptions.anisotropyLimit = options_.anisotropyLimit;
+      embedOptions.failedBefore = embedded.offenders;
+      embedOptions.progress = progress;
+      {
+        const TimedScope timed(result_.secondsEmbed, result_.processorEmbed);
+        embedded = embedMap(part.mesh, part.field, component.uv, embedOptions);
+        result_.embedSteps += embedded.newtonSteps;
+      }
+      component.embedReused = embedded.startedFromPrevious;
+      tried.push_back(std::move(component.uv));
+      if (embedded.status.ok())
+      {
+        countTryLed(Try::OtherIntegers, tried.size() > 1 ? 1 : 0);
+        component.uv = std::move(embedded.uv);
+        return;
+      }
+      if (failures() > 0 || tried.size() >= kMaximumEmbeddings)
+      {
+        break;
+      }
+      countTry(Try::OtherIntegers);
+      watched = join(std::move(watched), embedded.offenders);
+      QuantizeResult quantized = quantize(component, component.startUv, watched, progress);
+      if (!quantized.status.ok() ||
+        std::find(tried.begin(), tried.end(), quantized.uv) != tried.end())
+      {
+        break;
+      }
+      component.refinement = quantized.refinement;
+      component.integersReused = false;
+      component.uv = std::move(quantized.uv);
+    }
+    component.fail(embedded.status, std::move(embedded.uv),
+      join(cornerVertices(part.mesh, embedded.inverted), embedded.offenders));
+  }
+
+  /// The maps of the components become one.
+  void collect()
+  {
+    result_.components = components_.size();
+    result_.uv.assign(mesh_.halfEdgeCount(), {});
+    result_.seamlessUv.assign(mesh_.halfEdgeCount(), {});
+    for (std::size_t i = 0; i < components_.size(); ++i)
+    {
+      const Component& component = components_[i];
+      // What a block grows by is a few quads.
+      result_.refinement = std::max(
+        result_.refinement, isBlock(component, options_.targetQuads) ? 1.0 : component.refinement);
+      const auto place = [&](Index h) { return 3 * component.part.face[Mesh::face(h)] + h % 3; };
+      for (Index h = 0; h < component.uv.size(); ++h)
+      {
+        result_.uv[place(h)] = component.uv[h];
+      }
+      for (Index h = 0; h < component.startUv.size(); ++h)
+      {
+        result_.seamlessUv[place(h)] = component.startUv[h];
+      }
+      result_.reuse.seamless += component.seamlessReused ? 1 : 0;
+      result_.reuse.integers += component.integersReused ? 1 : 0;
+      result_.reuse.embedded += component.embedReused ? 1 : 0;
+      for (const Index v : component.offenders)
+      {
+        result_.offenders.push_back(component.part.vertex[v]);
+      }
+      if (!component.status.ok() && result_.failedComponents++ == 0)
+      {
+        result_.status = { component.status.code, explain(components_, i, failures()) };
+      }
+    }
+    std::sort(result_.offenders.begin(), result_.offenders.end());
+    result_.certificate =
+      certify(mesh_, result_.uv, result_.field.turns, integerVertices(mesh_, result_.field));
+    if (result_.status.ok() && !hasPromised(result_.certificate, options_.method))
+    {
+      result_.status = { StatusCode::NotConverged,
+        "the coarse map does not pass its certificate: " + result_.certificate.text() };
+      result_.offenders = cornerVertices(mesh_, result_.certificate.worstFaces);
+    }
+    field_.judgeLines();
+    if (options_.anisotropyLimit > 0 && result_.status.ok())
+    {
+      result_.beyondAnisotropyLimit = shareBeyondRatio(mesh_, result_.uv, options_.anisotropyLimit);
+    }
+  }
+
+  const Mesh& mesh_;
+  const GridMapOptions& options_;
+  const CurveTry& try_;
+  GridMapResult result_;
+  FieldOfMap field_;
+  std::vector<Component> components_;
+};
+
+} // namespace
+
+TriedMap mapInOneTry(const Mesh& mesh, const GridMapOptions& options, const CurveTry& howto)
+{
+  MapMaker maker(mesh, options, howto);
+  TriedMap tried;
+  tried.map = maker.run();
+  tried.holdsIrregular = maker.holdsIrregular();
+  return tried;
+}
+
+} // namespace quadrille

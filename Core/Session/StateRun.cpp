@@ -1,0 +1,308 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Session/StateRun.h"
+
+#include "Base/Clock.h"
+#include "Base/PlaceText.h"
+#include "Base/TryCount.h"
+#include "Requests/Guides.h"
+#include "Session/ComposedInput.h"
+#include "Session/ConstraintReports.h"
+#include "Symmetry/Symmetry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace quadrille
+{
+namespace
+{
+
+/// Constraints that can keep a run from a result; guides and sizes are followed as far as may be.
+bool mayFail(const SessionConstraint& constraint)
+{
+  const ConstraintContent& content = constraint.content;
+  return !std::holds_alternative<GuideStroke>(content) &&
+    !std::holds_alternative<GuideRegion>(content) && !std::holds_alternative<SizeAt>(content) &&
+    !std::holds_alternative<SizeRegion>(content);
+}
+
+/// All runs that a state needs.
+class StateRun
+{
+public:
+  StateRun(SessionData& data, const SessionState& state, bool isPreview = false)
+    : data_(data), state_(state)
+  {
+    options_ = state.settings;
+    options_.threads = data.threads;
+    options_.memoryLimit = data.memoryLimit;
+    options_.progress = data.progress;
+    options_.preview = isPreview;
+    options_.mergeCharts = false;
+    options_.knownMap = 0;
+  }
+
+  /// Null where it was stopped.
+  std::shared_ptr<SessionResult> run()
+  {
+    const double start = secondsNow();
+    const TryScope tries; // but for those of the pipeline's runs
+    std::map<int, std::string> leftOut;
+    RemeshResult made = runWith(leftOut);
+    if (mayBeForConstraints(made) && composed_.input.regularOnFeatures)
+    {
+      whyNotHeld_ = made.status.message;
+      countTry(Try::WithoutHeld, wasStopped_ ? 0 : 1);
+      made = runWith(leftOut);
+    }
+    // Of those that cannot be met together with all that came before, each is left out.
+    while (mayBeForConstraints(made))
+    {
+      const auto culprit = lastOfShortestFailing(leftOut);
+      if (!culprit)
+      {
+        compose(leftOut);
+        break;
+      }
+      leftOut.insert(*culprit);
+      made = runWith(leftOut);
+    }
+    if (made.status.ok())
+    {
+      countTryLed(Try::WithoutHeld, whyNotHeld_.empty() ? 0 : 1);
+      countTryLed(Try::WithoutConstraint, leftOut.size());
+      countTryLed(Try::WithoutSymmetry, refused_.size());
+    }
+    auto result = std::make_shared<SessionResult>();
+    SessionReport& report = result->report;
+    if (made.status.code == StatusCode::Cancelled)
+    {
+      stopped_ = made.status;
+      return nullptr;
+    }
+    report.status = made.status;
+    report.stopped = made.stopped;
+    report.notices = composed_.notices;
+    report.notices.insert(report.notices.end(), made.notices.begin(), made.notices.end());
+    report.stages = stages_.all();
+    report.reused = made.reused;
+    report.reused.erase(std::remove_if(report.reused.begin(), report.reused.end(),
+                          [this](const std::string& name) { return stages_.has(name); }),
+      report.reused.end());
+    report.runs = runs_;
+    report.tries.addTaken(tries_);
+    report.tries.addLed(made.tries);
+    report.tries.add(tries.counts());
+    if (made.status.ok() && !options_.preview)
+    {
+      const MadeSurface surface = made.framed
+        ? MadeSurface{ *made.framed, &made.frame, &data_.surface.points }
+        : MadeSurface{ made.surface };
+      const OnCurves& onCurves = data_.onCurvesOf(surface.surface);
+      result->irregular = irregularVertices(surface, made.turns, onCurves);
+      result->fixedPoints = onCurves.points;
+      result->onFeatures = featureVertices(surface, made.onFeatures);
+    }
+    if (made.status.ok() && composed_.symmetry && !mirrored_.rotation &&
+      composed_.input.regularElsewhere)
+    {
+      tellOtherIrregular(*result);
+    }
+    result->targetEdgeLength = made.targetEdgeLength;
+    result->targetQuads = made.targetQuads;
+    if (!options_.preview)
+    {
+      report.constraints = reportConstraints(data_.surface, state_.constraints, composed_, made,
+        *result, composed_.symmetry ? &mirrored_ : nullptr);
+      for (const ConstraintReport& word : report.constraints)
+      {
+        if (word.isOffSurface)
+        {
+          report.notices.push_back(word.text + ": " + word.reason);
+        }
+      }
+    }
+    if (made.status.ok())
+    {
+      result->mirrorPoint = std::move(mirrored_.mirrorPoint);
+      result->rotatedPoint = std::move(mirrored_.rotatedPoint);
+    }
+    result->quads = std::move(made.quads);
+    report.seconds = secondsNow() - start;
+    return result;
+  }
+
+  const Status& stopped() const { return stopped_; }
+
+private:
+  bool mayBeForConstraints(const RemeshResult& made) const
+  {
+    return !made.status.ok() && made.status.code != StatusCode::Cancelled &&
+      made.status.code != StatusCode::TooLarge;
+  }
+
+  RemeshResult runWith(const std::map<int, std::string>& leftOut)
+  {
+    if (wasStopped_)
+    {
+      RemeshResult none;
+      none.status = { StatusCode::Cancelled, "stopped on request; no quads were made" };
+      return none;
+    }
+    compose(leftOut);
+    mirrored_ = {};
+    std::optional<RemeshResult> symmetric;
+    while (composed_.symmetry && !symmetric)
+    {
+      symmetric = runSymmetric(leftOut);
+    }
+    RemeshResult made = symmetric ? std::move(*symmetric) : runQuads();
+    wasStopped_ = made.status.code == StatusCode::Cancelled || !made.stopped.empty();
+    for (const StageRecord& record : made.stages)
+    {
+      stages_.add(record.stage, record.seconds, record.elementsIn, record.elementsOut);
+    }
+    ++runs_;
+    tries_.addTaken(made.tries);
+    return made;
+  }
+
+  RemeshResult runQuads() { return remeshQuads(composed_.input, options_, data_.store); }
+
+  /// In the mirror plane the half has its boundary, where vertices may become irregular that no operation asks for.
+  void tellOtherIrregular(SessionResult& result) const
+  {
+    const std::vector<int>& asked = composed_.input.targetValences;
+    for (const IrregularVertex& vertex : result.irregular)
+    {
+      const int there = vertex.point < asked.size() ? asked[vertex.point] : 0;
+      const int valence = there != 0 ? there : kRegularValence;
+      if (mirrored_.plane.height(vertex.place) >= -kMirrorTolerance * mirrored_.diagonal &&
+        valence != vertex.valence)
+      {
+        result.report.notices.push_back("the operations leave valence " + std::to_string(valence) +
+          " at " + placeText(vertex.place) + ", but the symmetric quads have " +
+          std::to_string(vertex.valence) + " there");
+      }
+    }
+  }
+
+  void compose(std::map<int, std::string> leftOut)
+  {
+    leftOut.insert(refused_.begin(), refused_.end());
+    composed_ = composeInput(
+      data_.surface, data_.places(), data_.lines, state_.constraints, leftOut, whyNotHeld_.empty());
+    composed_.whyNotHeld = whyNotHeld_;
+  }
+
+  /// None where the surface has no such symmetry, whatever else is asked of it: then it is left out of all runs. Were
+  /// the input at fault in another way, a run without it would say so.
+  std::optional<RemeshResult> runSymmetric(const std::map<int, std::string>& leftOut)
+  {
+    const SessionConstraint& constraint = *state_.constraints[*composed_.symmetry];
+    try
+    {
+      SymmetryOptions symmetry;
+      if (const auto* rotation = std::get_if<RotationalSymmetry>(&constraint.content))
+      {
+        symmetry.rotation = RotationRequest{ rotation->order, rotation->axis };
+      }
+      else
+      {
+        const auto& mirror = std::get<MirrorSymmetry>(constraint.content);
+        symmetry.plane = mirror.plane;
+        symmetry.planeCurve = mirror.planeCurve;
+      }
+      mirrored_ = remeshSymmetric(composed_.input, options_, symmetry, &data_.store);
+      return std::move(mirrored_.remeshed);
+    }
+    catch (const InvalidInput& error)
+    {
+      countTry(Try::WithoutSymmetry);
+      refused_[constraint.id] = error.what();
+      compose(leftOut);
+      return std::nullopt;
+    }
+  }
+
+  /// Of the constraints that are not left out, in their order, the last one of the shortest row that has no result,
+  /// and why. None where there is none, as the surface has no result either.
+  std::optional<std::pair<int, std::string>> lastOfShortestFailing(
+    const std::map<int, std::string>& leftOut)
+  {
+    std::vector<std::size_t> rest;
+    for (std::size_t i = 0; i < state_.constraints.size(); ++i)
+    {
+      if (mayFail(*state_.constraints[i]) && composed_.parts[i].whyNot.empty())
+      {
+        rest.push_back(i);
+      }
+    }
+    std::map<int, std::string> without = leftOut;
+    std::string whyNot;
+    std::optional<std::size_t> last;
+    for (std::size_t count = rest.size(); count-- > 0;)
+    {
+      const int id = state_.constraints[rest[count]]->id;
+      without[id] = "not tried";
+      countTry(Try::WithoutConstraint, wasStopped_ ? 0 : 1);
+      const RemeshResult made = runWith(without);
+      if (!mayBeForConstraints(made))
+      {
+        last = rest[count];
+        break;
+      }
+    }
+    if (!last)
+    {
+      return std::nullopt;
+    }
+    // The reason is that of the row with it.
+    const int id = state_.constraints[*last]->id;
+    without.erase(id);
+    whyNot = runWith(without).status.message;
+    std::string others;
+    for (const std::size_t i : rest)
+    {
+      if (i < *last)
+      {
+        others += (others.empty() ? "" : ", ") + state_.constraints[i]->name();
+      }
+    }
+    return std::make_pair(id,
+      "it cannot be met" + (others.empty() ? std::string() : " together with " + others) + ": " +
+        whyNot);
+  }
+
+  SessionData& data_;
+  const SessionState& state_;
+  RemeshOptions options_;
+  ComposedInput composed_;
+  SymmetricResult mirrored_; ///< of the last run, without `remeshed`
+  std::string whyNotHeld_;   ///< vertices on features and boundaries; empty while they are
+  std::map<int, std::string> refused_; ///< symmetries that the surface has not, and why
+  StageRecords stages_;
+  Status stopped_;
+  bool wasStopped_ = false; ///< no run may follow
+  int runs_ = 0;
+  TryCounts tries_; ///< of the pipeline's runs, taken
+};
+} // namespace
+
+MadeState runState(SessionData& data, const SessionState& state, bool isPreview)
+{
+  StateRun run(data, state, isPreview);
+  MadeState made;
+  made.result = run.run();
+  made.stopped = run.stopped();
+  return made;
+}
+
+} // namespace quadrille
