@@ -38,9 +38,9 @@ RunFields anisotropyFields(double limit, double beyond);
 /// All of a run: stages, ReusedStages, certificate, repair, extraction; EstimatedSeconds, EstimatedMegabytes,
 /// TargetEdgeLength, TargetQuads, ActualQuads, CoarseVertices, Decimations, Replays, SurfaceFaces; Handles,
 /// UnresolvedHandles, ShortestLoopOverEdgeLength and ShortestLoopPlace, ShortestBoundaryOverEdgeLength and
-/// ShortestBoundaryPlace; Attempts, RecoveryNames with RecoveryCounts, how often each strategy made one of them; TryNames
-/// with TriesTaken and TriesLed, what was tried otherwise and how often that is used; Stopped, where the run was; DistortionNames, DistortionBefore, DistortionAfter and OptimizationSteps, unless final
-/// quality is Coarse.
+/// ShortestBoundaryPlace; Attempts, RecoveryNames with RecoveryCounts, how often each strategy made one of them;
+/// TryNames with TriesTaken and TriesLed, what was tried otherwise and how often that is used; Stopped, where the run
+/// was; DistortionNames, DistortionBefore, DistortionAfter and OptimizationSteps, unless final quality is Coarse.
 RunFields runFields(const RemeshResult& result);
 
 /// Every count of repair with its name, in the order of the struct.
