@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The ledger of tries (Core/Base/TryCount.h) over many runs: how often each was taken, and how often it led to one.
 
-  Scripts/study/tries_table.py --command BIN/quadrille [--gate GATE.json] [--quads N,N] [--folder NAME=FOLDER ...]
+  Scripts/study/tries_table.py --command BIN/quadrille [--gate GATE.json] [--folder NAME=FOLDER@QUADS,QUADS ...]
                                [--table FILE.md] [--record FILE.json] [--limit SECONDS]
 
 GATE.json is a record of Scripts/check/gate.py. Of each FOLDER all surfaces are remeshed with each number of quads, and
@@ -57,10 +57,10 @@ def tries_of_model(command, model, quads, limit):
         return {"tries": json.loads(report.read_text())["tries"]}
 
 
-def tries_of_folder(arguments, folder, record):
+def tries_of_folder(arguments, folder, numbers, record):
     total = collections.defaultdict(lambda: [0, 0])
     for model in sorted(path for path in folder.rglob("*") if path.suffix.lower() in SURFACES):
-        for quads in arguments.quads:
+        for quads in numbers:
             key = f"{model} {quads}"
             if key not in record:
                 record[key] = tries_of_model(arguments.command, model, quads, arguments.limit)
@@ -86,7 +86,6 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--command", required=True)
     parser.add_argument("--gate", type=pathlib.Path)
-    parser.add_argument("--quads", type=lambda text: [int(n) for n in text.split(",")], default=[2000])
     parser.add_argument("--folder", action="append", default=[])
     parser.add_argument("--table", type=pathlib.Path)
     parser.add_argument("--record", type=pathlib.Path)
@@ -95,8 +94,8 @@ def main():
     columns = {"gate": tries_of_gate(arguments.gate)} if arguments.gate else {}
     record = json.loads(arguments.record.read_text()) if arguments.record and arguments.record.exists() else {}
     for text in arguments.folder:
-        name, _, folder = text.partition("=")
-        columns[name] = tries_of_folder(arguments, pathlib.Path(folder), record)
+        name, folder, numbers = re.fullmatch(r"(.+?)=(.+)@([\d,]+)", text).groups()
+        columns[name] = tries_of_folder(arguments, pathlib.Path(folder), [int(n) for n in numbers.split(",")], record)
     text = table(columns)
     print(text, end="")
     if arguments.table:
