@@ -2,14 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Assembly/PartSplit.h"
 
-#include "Base/Angles.h"
+#include "Assembly/FaceParts.h"
+#include "Assembly/PartSurface.h"
 #include "Base/DisjointSets.h"
 #include "Base/Progress.h"
 #include "Mesh/Distance.h"
 #include "Mesh/Topology.h"
 #include "Quads/QuadTopology.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -21,219 +25,6 @@ namespace quadrille
 
 namespace
 {
-
-/// What is cut up: a result, with what says whose its polygons and points are.
-struct CutSource
-{
-  const RemeshResult& result;
-  const JoinedParts& joined;
-  const JointSheets* sheets = nullptr; ///< where the surface is of sheets
-  const MetSheets* met = nullptr;
-  QuadMesh quads; ///< of the result, each on a face of the parts that it goes to
-
-  /// Polygons of the joint surface at a face.
-  std::vector<Index> polygonsAt(Index face) const
-  {
-    const Index polygon = result.surface.sourcePolygon[face];
-    return sheets != nullptr ? sheets->polygons[polygon] : std::vector<Index>{ polygon };
-  }
-  Index jointPoint(Index point) const
-  {
-    return sheets != nullptr ? sheets->jointPoint[point] : point;
-  }
-  /// The lowest point of the quads that is the same.
-  Index same(Index point) const { return met != nullptr ? met->same[point] : point; }
-};
-
-/// Whose the faces are: of one part, or, where parts share a face, of several.
-class FaceParts
-{
-public:
-  explicit FaceParts(const CutSource& source)
-    : first_(source.result.surface.mesh.faceCount() + 1, 0), faces_(source.joined.parts.size())
-  {
-    for (Index f = 0; f + 1 < first_.size(); ++f)
-    {
-      pollNowAndThen(f);
-      for (const Index polygon : source.polygonsAt(f))
-      {
-        const Index part = source.joined.partOf(polygon);
-        owners_.push_back({ part, static_cast<Index>(faces_[part].size()), polygon });
-        faces_[part].push_back(f);
-      }
-      first_[f + 1] = static_cast<Index>(owners_.size());
-    }
-  }
-
-  struct Owner
-  {
-    Index part, face; ///< the face's id in the part
-    Index polygon;    ///< of the joint surface
-  };
-
-  /// Null where the part does not have the face.
-  const Owner* ownerIn(Index part, Index face) const
-  {
-    for (Index i = first_[face]; i < first_[face + 1]; ++i)
-    {
-      if (owners_[i].part == part)
-      {
-        return &owners_[i];
-      }
-    }
-    return nullptr;
-  }
-  bool has(Index part, Index face) const { return ownerIn(part, face) != nullptr; }
-  Index ownFace(Index part, Index face) const { return ownerIn(part, face)->face; }
-  Index ownHalfEdge(Index part, Index h) const { return 3 * ownFace(part, h / 3) + h % 3; }
-  const std::vector<Index>& faces(std::size_t part) const { return faces_[part]; }
-  template <class Visit>
-  void forEachOwner(Index face, const Visit& visit) const
-  {
-    std::for_each(owners_.begin() + first_[face], owners_.begin() + first_[face + 1], visit);
-  }
-
-private:
-  std::vector<Index> first_; ///< per face, in owners_
-  std::vector<Owner> owners_;
-  std::vector<std::vector<Index>> faces_;
-};
-
-/// Quarter turns of the map within a fan of faces, from corner to corner; its border lies on isolines.
-int turnsWithin(const std::vector<FixedVec2>& uv, const std::vector<Index>& corners)
-{
-  double angle = 0;
-  for (const Index h : corners)
-  {
-    const FixedVec2 origin = uv[h], next = uv[Mesh::next(h)], previous = uv[Mesh::previous(h)];
-    const Vector2 a(toDouble(next.u - origin.u), toDouble(next.v - origin.v));
-    const Vector2 b(toDouble(previous.u - origin.u), toDouble(previous.v - origin.v));
-    angle += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
-  }
-  return static_cast<int>(std::lround(angle / (0.5 * kPi)));
-}
-
-/// The faces of a part as a surface of its own.
-class PartSurface
-{
-public:
-  PartSurface(const CutSource& source, const FaceParts& faceParts, std::size_t part)
-    : source_(source), result_(source.result), whole_(source.result.surface.mesh),
-      faceParts_(faceParts), faces_(faceParts.faces(part)), part_(static_cast<Index>(part))
-  {
-  }
-
-  void write(RemeshResult& to)
-  {
-    Mesh& mesh = to.surface.mesh;
-    mesh.origin.assign(3 * faces_.size(), kInvalidIndex);
-    for (const Index f : faces_)
-    {
-      for (Index h = 3 * f; h < 3 * f + 3; ++h)
-      {
-        const Index g = whole_.twin[h];
-        const bool isInside = g != kInvalidIndex && faceParts_.has(part_, Mesh::face(g));
-        mesh.twin.push_back(isInside ? faceParts_.ownHalfEdge(part_, g) : kInvalidIndex);
-        mesh.flags.push_back(whole_.flags[h]);
-        if (!result_.uv.empty())
-        {
-          to.uv.push_back(result_.uv[h]);
-        }
-      }
-    }
-    writeVertices(to);
-    const JoinedParts& joined = source_.joined;
-    writeSources(joined.parts[part_], joined.firstPolygon[part_], to.surface);
-    faceComponents(mesh, to.surface.components);
-    to.surface.boundingBoxDiagonal = result_.surface.boundingBoxDiagonal;
-  }
-
-private:
-  /// A vertex for each fan: a part may touch itself where other parts lie between.
-  void writeVertices(RemeshResult& to) const
-  {
-    Mesh& mesh = to.surface.mesh;
-    std::vector<Index> corners;
-    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-    {
-      pollNowAndThen(h);
-      if (mesh.origin[h] != kInvalidIndex)
-      {
-        continue;
-      }
-      const Index v = whole_.origin[wholeHalfEdge(h)];
-      const Index own = mesh.vertexCount();
-      Index first = h;
-      for (Index g = mesh.twin[h]; g != kInvalidIndex && Mesh::next(g) != h; g = mesh.twin[first])
-      {
-        first = Mesh::next(g);
-      }
-      corners.clear();
-      for (Index g = first; g != kInvalidIndex && mesh.origin[g] == kInvalidIndex;
-           g = mesh.twin[Mesh::previous(g)])
-      {
-        mesh.origin.edit()[g] = own;
-        corners.push_back(g);
-      }
-      mesh.position.push_back(whole_.position[v]);
-      if (!whole_.sizing.empty())
-      {
-        mesh.sizing.push_back(whole_.sizing[v]);
-      }
-      if (!result_.framePositions.empty())
-      {
-        to.framePositions.push_back(result_.framePositions[v]);
-      }
-      if (!result_.turns.empty())
-      {
-        to.turns.push_back(mesh.isBoundary(first) ? turnsWithin(to.uv, corners) : result_.turns[v]);
-      }
-    }
-  }
-
-  Index wholeHalfEdge(Index own) const { return 3 * faces_[own / 3] + own % 3; }
-
-  void writeSources(
-    const JoinedParts::Part& own, Index firstPolygon, PreparedSurface& surface) const
-  {
-    const PreparedSurface& from = result_.surface;
-    for (const Index f : faces_)
-    {
-      const Index polygon = faceParts_.ownerIn(part_, f)->polygon - firstPolygon;
-      surface.sourcePolygon.push_back(polygon);
-      std::array<Index, 3> points{};
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        points[i] = own.ownPoint(source_.jointPoint(from.sourcePoints[f][i]));
-        if (points[i] == kInvalidIndex)
-        {
-          // Repair has moved the corner to a point that only another part has.
-          points[i] = own.polygonPoints[own.polygonOffsets[polygon]];
-        }
-      }
-      surface.sourcePoints.push_back(points);
-      if (!from.refinedEntry.empty())
-      {
-        const Index entry = from.refinedEntry[f];
-        surface.refinedEntry.push_back(
-          entry == kInvalidIndex ? entry : static_cast<Index>(surface.cornerWeights.size()));
-        if (entry != kInvalidIndex)
-        {
-          surface.cornerWeights.push_back(from.cornerWeights[entry]);
-        }
-      }
-      const Mesh& mesh = whole_;
-      surface.area += 0.5 * mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm();
-    }
-  }
-
-  const CutSource& source_;
-  const RemeshResult& result_;
-  const Mesh& whole_;
-  const FaceParts& faceParts_;
-  const std::vector<Index>& faces_;
-  Index part_;
-};
 
 /// Where a point of the quads lies in the faces of one part.
 class PartPlaces
@@ -763,7 +554,7 @@ std::vector<PartResult> cutUp(CutSource source)
     poll();
     RemeshResult& own = parts[p].result;
     copyReport(result, own);
-    PartSurface(source, faceParts, p).write(own);
+    writePartSurface(source, faceParts, p, own);
     PartQuads(source, faceParts, places, static_cast<Index>(p)).write(quads[p], own);
     parts[p].reversed = source.met == nullptr ? reversedQuads(joined.parts[p], own)
                                               : std::vector<std::uint8_t>(quads[p].size(), 0);
