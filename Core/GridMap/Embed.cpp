@@ -49,7 +49,7 @@ Eigen::VectorXd startOf(const Mesh& mesh, const CrossField& field, const LockedM
   {
     countTry(Try::NearEmbedded);
     const UntangleProblem nearby = referToMap(problem, *previous, previous->uv, {}, 1);
-    const Eigen::VectorXd start = fitReferences(nearby);
+    Eigen::VectorXd start = fitReferences(nearby);
     fromPrevious = findDefects(mesh, field, locked.snap(start)).none();
     if (fromPrevious)
     {
