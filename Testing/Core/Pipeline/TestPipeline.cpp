@@ -214,6 +214,19 @@ TEST(Pipeline, CoarseLevelThatHasAllVerticesGetsMore)
       std::to_string(kMostAttempts) + ", " + result.attempts[i + 1] + " (";
     EXPECT_EQ(attempts[i].substr(0, expected.size()), expected);
   }
+  // The ledger has each attempt but the first, and the last one's step has led to the quads.
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < kTries; ++i)
+  {
+    EXPECT_LE(result.tries.led[i], result.tries.taken[i]) << tryTable()[i].name;
+    const auto isThis = [&](const std::string& step) { return step == tryTable()[i].name; };
+    if (std::any_of(result.attempts.begin(), result.attempts.end(), isThis))
+    {
+      taken += result.tries.taken[i];
+      EXPECT_EQ(result.tries.led[i] > 0, isThis(result.attempts.back())) << tryTable()[i].name;
+    }
+  }
+  EXPECT_EQ(taken + 1, result.attempts.size());
   const TopologyCounts topology = topologyOf(result.quads);
   EXPECT_EQ(topology.euler, 0);
   EXPECT_TRUE(topology.oriented);
