@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What the arrays of a surface ask for, and what the words say of a plane of unit quads.
+#include "Evaluation/ConstraintWords.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+namespace
+{
+
+constexpr Index kSide = 10;
+
+Index pointAt(Index x, Index y)
+{
+  return y * (kSide + 1) + x;
+}
+
+/// Unit quads in the plane, columns along x.
+QuadMesh plane()
+{
+  QuadMesh mesh;
+  for (Index y = 0; y <= kSide; ++y)
+  {
+    for (Index x = 0; x <= kSide; ++x)
+    {
+      const bool atX = x == 0 || x == kSide, atY = y == 0 || y == kSide;
+      mesh.points.emplace_back(x, y, 0);
+      mesh.valence.push_back(4 - (atX ? 1 : 0) - (atY ? 1 : 0));
+      mesh.onBoundary.push_back(atX || atY ? 1 : 0);
+    }
+  }
+  for (Index y = 0; y < kSide; ++y)
+  {
+    for (Index x = 0; x < kSide; ++x)
+    {
+      mesh.quads.push_back(
+        { pointAt(x, y), pointAt(x + 1, y), pointAt(x + 1, y + 1), pointAt(x, y + 1) });
+    }
+  }
+  return mesh;
+}
+
+/// The same polygons as a surface.
+SurfaceInput surface()
+{
+  const QuadMesh mesh = plane();
+  std::vector<Index> offsets{ 0 }, points;
+  for (const auto& quad : mesh.quads)
+  {
+    points.insert(points.end(), quad.begin(), quad.end());
+    offsets.push_back(static_cast<Index>(points.size()));
+  }
+  SurfaceInput input;
+  input.points = mesh.points;
+  input.polygonOffsets = offsets;
+  input.polygonPoints = points;
+  return input;
+}
+
+/// Guides in rows 1 and 2 along x, in row 7 along the diagonal.
+SurfaceInput guided()
+{
+  SurfaceInput input = surface();
+  input.guideDirections.assign(std::size_t{ kSide } * kSide, Vector3::Zero());
+  for (const Index row : { 1, 2, 7 })
+  {
+    for (Index x = 2; x < 8; ++x)
+    {
+      input.guideDirections[row * kSide + x] = row == 7 ? Vector3(1, 1, 0) : Vector3(3, 0, 0);
+    }
+  }
+  return input;
+}
+
+TEST(ArrayConstraints, GuidesThatTouchAreOneRegion)
+{
+  const ArrayConstraints asked =
+    arrayConstraints(guided(), [](Index polygon) { return std::int64_t{ 1000 } + polygon; });
+  ASSERT_EQ(asked.guides.size(), 2U);
+  EXPECT_EQ(asked.guides[0].polygons.size(), 12U);
+  EXPECT_EQ(asked.guides[0].firstCell, 1012);
+  EXPECT_EQ(asked.guides[1].polygons.size(), 6U);
+  EXPECT_TRUE(asked.curves.empty());
+  EXPECT_TRUE(asked.valences.empty());
+  EXPECT_FALSE(asked.sizes);
+}
+
+TEST(ArrayConstraints, EdgesThatMeetAreOneCurveAndUnusedPointsAreTold)
+{
+  SurfaceInput input = surface();
+  input.points.push_back(Vector3(50, 50, 0)); // of no polygon
+  input.featureEdges.assign(std::size_t{ kSide } * kSide, 0);
+  for (Index x = 2; x < 5; ++x)
+  {
+    input.featureEdges[3 * kSide + x] = 1; // y = 3
+  }
+  input.featureEdges[8 * kSide + 6] = 2; // x = 7
+  input.targetValences.assign(input.points.size(), 0);
+  input.targetValences[pointAt(4, 4)] = 3;
+  input.targetValences.back() = 5;
+  const ArrayConstraints asked = arrayConstraints(input);
+  ASSERT_EQ(asked.curves.size(), 2U);
+  EXPECT_EQ(asked.curves[0].edges.size(), 3U);
+  EXPECT_EQ(asked.curves[1].edges.size(), 1U);
+  ASSERT_EQ(asked.valences.size(), 2U);
+  EXPECT_TRUE(asked.valences[0].isUsed);
+  EXPECT_FALSE(asked.valences[1].isUsed);
+}
+
+TEST(ConstraintWords, GuidesAlongTheQuadsAreMetAndThoseAcrossAreNot)
+{
+  AskedConstraints asked;
+  asked.arrays = arrayConstraints(guided());
+  const std::vector<ConstraintWord> words = judgeConstraints(asked, plane(), {});
+  ASSERT_EQ(words.size(), 2U);
+  EXPECT_TRUE(words[0].isMet) << words[0].reason;
+  EXPECT_NEAR(words[0].deviation, 0, 1e-6);
+  EXPECT_FALSE(words[1].isMet);
+  EXPECT_NEAR(words[1].deviation, 45, 1e-3);
+  EXPECT_FALSE(words[1].reason.empty());
+}
+
+TEST(ConstraintWords, ValencesAndCurvesAreReadOffTheQuads)
+{
+  AskedConstraints asked;
+  asked.arrays.valences = { { 1, Vector3(4, 4, 0), 4, true }, { 2, Vector3(5, 5, 0), 3, true },
+    { 3, Vector3(50, 50, 0), 5, false } };
+  asked.arrays.curves = { { 0, { { Vector3(2, 3, 0), Vector3(6, 3, 0) } } } };
+  const std::vector<ConstraintWord> words = judgeConstraints(asked, plane(), {});
+  ASSERT_EQ(words.size(), 4U);
+  EXPECT_STREQ(words[1].kind, "valence");
+  EXPECT_TRUE(words[1].isMet) << words[1].reason;
+  EXPECT_FALSE(words[2].isMet);
+  EXPECT_EQ(words[2].source, 2);
+  EXPECT_FALSE(words[3].isMet);
+  EXPECT_EQ(words[3].reason, "no face uses the point");
+}
+
+TEST(ConstraintWords, SizesAreComparedAgainstEachOther)
+{
+  const QuadMesh mesh = plane();
+  AskedConstraints asked;
+  asked.arrays.sizes = true;
+  std::vector<double> sizes(mesh.points.size(), 7); // all alike, whatever the unit
+  EXPECT_TRUE(judgeConstraints(asked, mesh, sizes)[0].isMet);
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+  {
+    sizes[i] = mesh.points[i].x() < 5 ? 1 : 4;
+  }
+  const ConstraintWord word = judgeConstraints(asked, mesh, sizes)[0];
+  EXPECT_FALSE(word.isMet);
+  EXPECT_GT(word.deviation, 1.5);
+  EXPECT_NE(word.reason.find("factor"), std::string::npos);
+}
+
+TEST(ConstraintWords, WithoutQuadsNothingIsMetAndAPointOffTheSurfaceIsTold)
+{
+  AskedConstraints asked;
+  PlacedConstraint valence;
+  valence.kind = ConstraintKind::Valence;
+  valence.source = 9;
+  valence.given = { Vector3(4, 4, 8) };
+  valence.path = { Vector3(4, 4, 0) };
+  valence.valence = 3;
+  asked.placed = { valence };
+  const std::vector<ConstraintWord> words = judgeConstraints(asked, plane(), {});
+  ASSERT_EQ(words.size(), 1U);
+  EXPECT_TRUE(words[0].isOffSurface);
+  EXPECT_EQ(offSurfaceNotices(words).size(), 1U);
+  EXPECT_EQ(metOfDrawn(words, asked), std::vector<bool>{ false });
+  EXPECT_EQ(missedValences(asked.placed, plane()).size(), 1U);
+  const std::vector<ConstraintWord> none = judgeConstraints(asked, QuadMesh{}, {});
+  ASSERT_EQ(none.size(), 1U);
+  EXPECT_FALSE(none[0].isMet);
+  EXPECT_TRUE(missedValences(asked.placed, QuadMesh{}).empty());
+}
+
+} // namespace
+} // namespace quadrille
