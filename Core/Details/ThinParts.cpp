@@ -4,6 +4,7 @@
 
 #include "Base/Progress.h"
 #include "Base/TryCount.h"
+#include "Details/PartingLoops.h"
 #include "Mesh/AskedVertices.h"
 #include "Mesh/ContentHash.h"
 #include "Mesh/Sizing.h"
@@ -13,10 +14,9 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
 #include <optional>
-#include <queue>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -33,13 +33,8 @@ constexpr double kLeastRise = 0.125;
 constexpr double kFarOverLength = 1.1;
 /// A loop may be as long as this part of the way to the tip and back: a longer one may go there and round the tip.
 constexpr double kLoopOfHeight = 1.9;
-/// Faces that a search on the surface looks at: the way across a loop shorter than a quad is shorter.
-constexpr std::size_t kMostFacesNear = 200000;
 /// Faces that the search for parts looks at over those of the mesh. Where there are no necks it is one.
 constexpr std::size_t kMostWork = 100;
-
-using Near = std::pair<double, Index>; ///< distance, what is there
-using NearFirst = std::priority_queue<Near, std::vector<Near>, std::greater<>>;
 
 std::vector<Index> outgoingOf(const Mesh& mesh)
 {
@@ -347,204 +342,6 @@ private:
   std::uint32_t search_ = 0, inside_ = 0;
   std::size_t work_ = 0;
   std::vector<Found> found_;
-};
-
-/// Loops along inner edges that part two vertices: those that cross a row of faces between them an odd number of times.
-class PartingLoops
-{
-public:
-  PartingLoops(const Mesh& mesh, const std::vector<Index>& outgoing)
-    : mesh_(mesh), outgoing_(outgoing)
-  {
-  }
-
-  /// False where the vertices are too far apart.
-  bool setApart(Index one, Index other)
-  {
-    std::unordered_map<Index, Index>
-      into; // half-edge of the face before, by which a face is entered
-    std::vector<Index> faces{ Mesh::face(outgoing_[one]) };
-    into[faces.front()] = kInvalidIndex;
-    for (std::size_t i = 0; i < faces.size() && faces.size() < kMostFacesNear; ++i)
-    {
-      const Index f = faces[i];
-      for (Index h = 3 * f; h < 3 * f + 3; ++h)
-      {
-        if (mesh_.origin[h] == other)
-        {
-          for (Index g = into.at(f); g != kInvalidIndex; g = into.at(Mesh::face(g)))
-          {
-            crossed_.insert(g);
-            crossed_.insert(mesh_.twin[g]);
-          }
-          return true;
-        }
-        if (!mesh_.isBoundary(h) && into.emplace(Mesh::face(mesh_.twin[h]), h).second)
-        {
-          faces.push_back(Mesh::face(mesh_.twin[h]));
-        }
-      }
-    }
-    return false;
-  }
-
-  /// The half-edges of the shortest loop through the root, each of which ends where the next one begins; empty where
-  /// none is shorter than the bound. What it would go to and fro is left out.
-  std::vector<Index> shortest(Index root, double& bound) const
-  {
-    struct Way
-    {
-      double length;
-      Index by;
-    };
-    std::unordered_map<Index, Way> known; // of vertex and parity: 2 v + p
-    NearFirst near;
-    known[2 * root] = { 0, kInvalidIndex };
-    near.push({ 0, 2 * root });
-    while (!near.empty() && known.size() < kMostFacesNear)
-    {
-      const auto [length, at] = near.top();
-      near.pop();
-      if (length > known.at(at).length)
-      {
-        continue;
-      }
-      if (at == 2 * root + 1)
-      {
-        bound = length;
-        std::vector<Index> loop;
-        for (Index x = at; known.at(x).by != kInvalidIndex;)
-        {
-          const Index h = known.at(x).by;
-          loop.push_back(h);
-          x = 2 * mesh_.origin[h] + ((x & 1U) ^ (crossed_.count(h) != 0 ? 1U : 0U));
-        }
-        std::reverse(loop.begin(), loop.end());
-        return simple(std::move(loop));
-      }
-      if (!isInner(at / 2))
-      {
-        continue;
-      }
-      forEachInFan(mesh_, outgoing_[at / 2],
-        [&, so = length, from = at](Index h)
-        {
-          const double there = so + mesh_.edgeVector(h).norm();
-          const Index to = 2 * mesh_.target(h) + ((from & 1U) ^ (crossed_.count(h) != 0 ? 1U : 0U));
-          const auto before = known.find(to);
-          if (there < bound && (before == known.end() || there < before->second.length))
-          {
-            known[to] = { there, h };
-            near.push({ there, to });
-          }
-        });
-    }
-    return {};
-  }
-
-  /// The loop of the shortest ways between three vertices, as short as the bound together; else empty.
-  std::vector<Index> through(const std::array<Index, 3>& corners, double bound) const
-  {
-    std::vector<Index> loop;
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const std::vector<Index> way = wayTo(corners[i], corners[(i + 1) % 3], bound);
-      if (way.empty())
-      {
-        return {};
-      }
-      loop.insert(loop.end(), way.begin(), way.end());
-    }
-    return isOdd(loop.begin(), loop.end()) ? simple(std::move(loop)) : std::vector<Index>();
-  }
-
-private:
-  /// The half-edges of the shortest way; its length is taken off the bound.
-  std::vector<Index> wayTo(Index from, Index to, double& bound) const
-  {
-    struct Way
-    {
-      double length;
-      Index by;
-    };
-    std::unordered_map<Index, Way> known{ { from, { 0, kInvalidIndex } } };
-    NearFirst near;
-    near.push({ 0, from });
-    while (!near.empty() && known.size() < kMostFacesNear)
-    {
-      const auto [length, v] = near.top();
-      near.pop();
-      if (v == to)
-      {
-        std::vector<Index> way;
-        for (Index x = to; known.at(x).by != kInvalidIndex; x = mesh_.origin[way.back()])
-        {
-          way.push_back(known.at(x).by);
-        }
-        std::reverse(way.begin(), way.end());
-        bound -= length;
-        return way;
-      }
-      if (length > known.at(v).length || !isInner(v))
-      {
-        continue;
-      }
-      forEachInFan(mesh_, outgoing_[v],
-        [&, so = length](Index h)
-        {
-          const double there = so + mesh_.edgeVector(h).norm();
-          const auto before = known.find(mesh_.target(h));
-          if (there < bound && (before == known.end() || there < before->second.length))
-          {
-            known[mesh_.target(h)] = { there, h };
-            near.push({ there, mesh_.target(h) });
-          }
-        });
-    }
-    return {};
-  }
-
-  template <typename Iterator>
-  bool isOdd(Iterator begin, Iterator end) const
-  {
-    return std::count_if(begin, end, [&](Index h) { return crossed_.count(h) != 0; }) % 2 == 1;
-  }
-
-  bool isInner(Index v) const
-  {
-    bool inner = true;
-    forEachInFan(mesh_, outgoing_[v],
-      [&](Index h)
-      { inner = inner && !mesh_.isBoundary(h) && !mesh_.isBoundary(Mesh::previous(h)); });
-    return inner;
-  }
-
-  /// Of a closed walk that crosses the row an odd number of times, a part without double vertices that does so.
-  std::vector<Index> simple(std::vector<Index> walk) const
-  {
-    std::unordered_map<Index, std::size_t> at;
-    for (std::size_t j = 0; j < walk.size(); ++j)
-    {
-      const auto [before, isNew] = at.emplace(mesh_.origin[walk[j]], j);
-      if (isNew)
-      {
-        continue;
-      }
-      const auto begin = walk.begin() + static_cast<std::ptrdiff_t>(before->second);
-      const auto end = walk.begin() + static_cast<std::ptrdiff_t>(j);
-      if (isOdd(begin, end))
-      {
-        return simple({ begin, end });
-      }
-      walk.erase(begin, end);
-      return simple(std::move(walk));
-    }
-    return walk;
-  }
-
-  const Mesh& mesh_;
-  const std::vector<Index>& outgoing_;
-  std::unordered_set<Index> crossed_; ///< half-edges
 };
 
 class PartCutting
