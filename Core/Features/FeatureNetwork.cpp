@@ -5,18 +5,16 @@
 #include "Base/Error.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Features/ArcNetwork.h"
 #include "Features/FeatureFilter.h"
 #include "Mesh/Sizing.h"
-#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <queue>
 #include <sstream>
@@ -34,146 +32,7 @@ constexpr double kLossOfPair = 3;
 constexpr double kShortestGap = 0.25;
 /// So far, in edge lengths, phase 1 may move a curve.
 constexpr double kMovable = 0.1;
-/// A curve goes straight on where it bends by less than this (radians) over half an edge length.
-constexpr double kStraightOn = 0.7;
-constexpr double kCourse = 0.5;
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
-
-struct NetworkArc
-{
-  std::vector<Index> halfEdges; ///< one of each edge, in their order
-  std::array<Index, 2> ends{};  ///< nodes
-  double length = 0;            ///< in edge lengths of the quads there
-  bool removable = true;
-  bool yields = true; ///< kYieldingFeature all along
-};
-
-/// Constrained edges as arcs between nodes. Closed curves without nodes are none.
-class ArcNetwork
-{
-public:
-  ArcNetwork(const Mesh& mesh, double edgeLength)
-    : mesh_(mesh), edgeLength_(edgeLength), edges_(constrainedEdges(mesh))
-  {
-    offset_.assign(mesh.vertexCount() + 1, 0);
-    forEachEdge(
-      [&](Index h)
-      {
-        ++offset_[mesh.origin[h] + 1];
-        ++offset_[mesh.target(h) + 1];
-      });
-    std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
-    incident_.resize(offset_.back());
-    std::vector<Index> fill(offset_.begin(), offset_.end() - 1);
-    forEachEdge(
-      [&](Index h)
-      {
-        incident_[fill[mesh.origin[h]]++] = h;
-        incident_[fill[mesh.target(h)]++] = h;
-      });
-    traceAll();
-  }
-
-  const std::vector<NetworkArc>& arcs() const { return arcs_; }
-  /// Arcs that end at a node; one that does so with both ends is there twice.
-  std::vector<Index> arcsAt(Index node) const
-  {
-    std::vector<Index> found;
-    for (Index i = offset_[node]; i < offset_[node + 1]; ++i)
-    {
-      found.push_back(arcOf_[incident_[i]]);
-    }
-    return found;
-  }
-
-  /// Whether two arcs that end at a node make one curve that goes straight on there.
-  bool goStraightOn(Index node, Index a, Index b) const
-  {
-    const double cosine = courseFrom(node, arcs_[a]).dot(courseFrom(node, arcs_[b]));
-    return -cosine > std::cos(kStraightOn);
-  }
-
-private:
-  template <typename Visitor>
-  void forEachEdge(Visitor&& visit) const
-  {
-    for (std::size_t i = 0; i < edges_.size(); ++i)
-    {
-      pollNowAndThen(i);
-      visit(edges_[i]);
-    }
-  }
-
-  Index degree(Index v) const { return offset_[v + 1] - offset_[v]; }
-  Index otherEnd(Index h, Index v) const
-  {
-    return mesh_.origin[h] == v ? mesh_.target(h) : mesh_.origin[h];
-  }
-
-  void traceAll()
-  {
-    arcOf_.assign(mesh_.halfEdgeCount(), kInvalidIndex);
-    for (Index v = 0; v < mesh_.vertexCount(); ++v)
-    {
-      pollNowAndThen(v);
-      for (Index i = offset_[v]; degree(v) != 2 && i < offset_[v + 1]; ++i)
-      {
-        if (arcOf_[incident_[i]] == kInvalidIndex)
-        {
-          trace(v, incident_[i]);
-        }
-      }
-    }
-  }
-
-  void trace(Index start, Index h)
-  {
-    const Index id = static_cast<Index>(arcs_.size());
-    NetworkArc arc;
-    Index v = start;
-    while (true)
-    {
-      arcOf_[h] = id;
-      arc.halfEdges.push_back(h);
-      arc.length += sizedLength(mesh_, h) / edgeLength_;
-      arc.removable =
-        arc.removable && !mesh_.isBoundary(h) && (mesh_.flags[h] & kRequestedFeature) == 0;
-      arc.yields = arc.yields && !mesh_.isBoundary(h) && (mesh_.flags[h] & kYieldingFeature) != 0;
-      v = otherEnd(h, v);
-      if (degree(v) != 2)
-      {
-        break;
-      }
-      const Index first = incident_[offset_[v]];
-      h = first == h ? incident_[offset_[v] + 1] : first;
-    }
-    arc.ends = { start, v };
-    arcs_.push_back(std::move(arc));
-  }
-
-  /// Direction from a node along an arc, over half an edge length.
-  Vector3 courseFrom(Index node, const NetworkArc& arc) const
-  {
-    const bool forward = arc.ends[0] == node;
-    const std::size_t count = arc.halfEdges.size();
-    Index v = node;
-    double walked = 0;
-    for (std::size_t i = 0; i < count && walked < kCourse; ++i)
-    {
-      const Index h = arc.halfEdges[forward ? i : count - 1 - i];
-      walked += sizedLength(mesh_, h) / edgeLength_;
-      v = otherEnd(h, v);
-    }
-    return (mesh_.position[v] - mesh_.position[node]).stableNormalized();
-  }
-
-  const Mesh& mesh_;
-  double edgeLength_;
-  std::vector<Index> edges_;
-  std::vector<Index> offset_, incident_; ///< edges at each vertex
-  std::vector<Index> arcOf_;             ///< #H, of one half-edge of each edge
-  std::vector<NetworkArc> arcs_;
-};
 
 /// What to take out for one short arc.
 struct Resolution
