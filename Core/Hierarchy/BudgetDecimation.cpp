@@ -6,6 +6,7 @@
 #include "Base/Parallel.h"
 #include "Base/TryCount.h"
 #include "Hierarchy/ComparedCosts.h"
+#include "Hierarchy/ComponentShares.h"
 #include "Hierarchy/GaussianCurvatureCost.h"
 #include "Hierarchy/GuideRegions.h"
 #include "Hierarchy/LazyHeap.h"
@@ -18,7 +19,6 @@
 #include <cstring>
 #include <deque>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <queue>
 
@@ -67,10 +67,6 @@ float numberOf(std::uint32_t word)
   return number;
 }
 
-/// Vertices that a component keeps for its topology.
-constexpr Index kVerticesPerComponent = 12;
-constexpr Index kVerticesPerHandleOrLoop = 8;
-
 /// Removals are first confined to the strictest guards; the next ones are taken when the budget needs it.
 std::vector<RemovalGuards> guardStages(double curveTolerance, double regionTolerance)
 {
@@ -91,92 +87,6 @@ std::vector<RemovalGuards> guardStages(double curveTolerance, double regionToler
   loose.maximumValence = 12;
   return { strict, medium, loose };
 }
-
-/// Connected components of what is alive, and how many vertices each has to keep.
-class ComponentShares
-{
-public:
-  explicit ComponentShares(const DecimationMesh& mesh)
-    : component_(mesh.position.size(), kInvalidIndex)
-  {
-    std::vector<long> euler;
-    std::vector<Index> stack;
-    for (Index seed = 0; seed < component_.size(); ++seed)
-    {
-      if (mesh.outgoing[seed] == kInvalidIndex || component_[seed] != kInvalidIndex)
-      {
-        continue;
-      }
-      const Index id = static_cast<Index>(count_.size());
-      count_.push_back(0);
-      euler.push_back(0);
-      component_[seed] = id;
-      stack.assign(1, seed);
-      while (!stack.empty())
-      {
-        const Index v = stack.back();
-        stack.pop_back();
-        ++count_[id];
-        ++euler[id];
-        visitNeighbours(mesh, v,
-          [&](Index w)
-          {
-            if (component_[w] == kInvalidIndex)
-            {
-              component_[w] = id;
-              stack.push_back(w);
-            }
-          });
-      }
-    }
-    countEdgesAndFaces(mesh, euler);
-    for (std::size_t id = 0; id < count_.size(); ++id)
-    {
-      const long handles = std::max(0L, 2 - euler[id]);
-      keep_.push_back(std::min(count_[id],
-        kVerticesPerComponent + kVerticesPerHandleOrLoop * static_cast<Index>(handles)));
-    }
-  }
-
-  Index needed() const { return std::accumulate(keep_.begin(), keep_.end(), Index{ 0 }); }
-  std::size_t components() const { return count_.size(); }
-  bool maySpare(Index v) const { return count_[component_[v]] > keep_[component_[v]]; }
-  void remove(Index v) { --count_[component_[v]]; }
-  Index total() const { return std::accumulate(count_.begin(), count_.end(), Index{ 0 }); }
-
-private:
-  template <typename Body>
-  static void visitNeighbours(const DecimationMesh& mesh, Index v, const Body& body)
-  {
-    const Index first = mesh.outgoing[v];
-    Index h = first;
-    do
-    {
-      body(mesh.target(h));
-      body(mesh.origin[Mesh::previous(h)]);
-      h = mesh.twin[Mesh::previous(h)];
-    } while (h != first && h != kInvalidIndex);
-  }
-  void countEdgesAndFaces(const DecimationMesh& mesh, std::vector<long>& euler) const
-  {
-    for (Index f = 0; f < mesh.faceCount(); ++f)
-    {
-      if (!mesh.isAlive(f))
-      {
-        continue;
-      }
-      long& sum = euler[component_[mesh.origin[3 * f]]];
-      ++sum;
-      for (Index h = 3 * f; h < 3 * f + 3; ++h)
-      {
-        sum -= mesh.isBoundary(h) || h < mesh.twin[h] ? 1 : 0;
-      }
-    }
-  }
-  std::vector<Index> component_;
-  std::vector<Index> count_;
-  std::vector<Index> keep_;
-};
 
 class BudgetDecimation
 {
