@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Base/Parallel.h"
+#include "Hierarchy/RegionBorders.h"
 #include "Hierarchy/VertexRemoval.h"
 #include "Mesh/Distance.h"
 #include "Mesh/Topology.h"
@@ -22,8 +23,6 @@ namespace quadrille
 namespace
 {
 
-/// Inner angles of a region from here on are no corners.
-constexpr double kCornerLimit = 0.75 * kPi;
 /// A walk to the face below a point ends when so many steps have brought it no nearer.
 constexpr int kVainSteps = 24;
 constexpr std::size_t kRegionChunk = 256;
@@ -346,94 +345,6 @@ std::vector<Guide> guidesOfLevel(const Mesh& fine, const Level& level,
 
 namespace
 {
-
-/// The borders of the guided regions of a mesh whose flags have them. Half-edges of borders that have the region on
-/// their left run round it counterclockwise.
-class RegionBorders
-{
-public:
-  RegionBorders(const DecimationMesh& mesh, double length)
-    : mesh_(mesh), length_(length), degree_(mesh.position.size(), 0),
-      leaving_(mesh.position.size(), kInvalidIndex), arriving_(mesh.position.size(), kInvalidIndex)
-  {
-    for (Index h = 0; h < mesh.origin.size(); ++h)
-    {
-      if (mesh.isRegionBorder(h))
-      {
-        ++degree_[mesh.origin[h]];
-        if (!mesh.guides[h / 3].isFree())
-        {
-          leaving_[mesh.origin[h]] = h;
-          arriving_[mesh.target(h)] = h;
-        }
-      }
-    }
-  }
-
-  bool touches(Index v) const { return degree_[v] > 0; }
-  /// The border passes, and nothing else is there.
-  bool passes(Index v) const { return degree_[v] == 2 && mesh_.curves.kind[v] == VertexKind::Free; }
-  /// How much the border bends at a corner; 0 where it is none.
-  double sharpness(Index v) const
-  {
-    if (!passes(v) || !(innerAngle(v) < kCornerLimit))
-    {
-      return 0;
-    }
-    const Vector3& p = mesh_.position[v];
-    const Vector3 before = p - walk(v, false);
-    const Vector3 after = walk(v, true) - p;
-    Vector3 normal = Vector3::Zero();
-    for (Index h = leaving_[v]; h != kInvalidIndex; h = nextInside(h))
-    {
-      const Vector3 out = mesh_.position[mesh_.target(h)] - p;
-      normal += out.cross(mesh_.position[mesh_.origin[Mesh::previous(h)]] - p);
-    }
-    const Vector3 axis = before.cross(after);
-    const double bend = std::atan2(axis.norm(), before.dot(after));
-    return axis.dot(normal) > 0 && bend > kPi - kCornerLimit ? bend : 0;
-  }
-
-private:
-  /// The next corner of the region at the same vertex; none past the border.
-  Index nextInside(Index h) const
-  {
-    const Index incoming = Mesh::previous(h);
-    return mesh_.isRegionBorder(incoming) ? kInvalidIndex : mesh_.twin[incoming];
-  }
-  double innerAngle(Index v) const
-  {
-    double angle = 0;
-    const Vector3& p = mesh_.position[v];
-    for (Index h = leaving_[v]; h != kInvalidIndex; h = nextInside(h))
-    {
-      const Vector3 a = mesh_.position[mesh_.target(h)] - p;
-      const Vector3 b = mesh_.position[mesh_.origin[Mesh::previous(h)]] - p;
-      angle += std::atan2(a.cross(b).norm(), a.dot(b));
-    }
-    return angle;
-  }
-  /// The point about `length` further along the border.
-  Vector3 walk(Index v, bool forward) const
-  {
-    double walked = 0;
-    Index at = v;
-    do
-    {
-      const Index h = forward ? leaving_[at] : arriving_[at];
-      const Index to = forward ? mesh_.target(h) : mesh_.origin[h];
-      walked += (mesh_.position[to] - mesh_.position[at]).norm();
-      at = to;
-    } while (walked < length_ && at != v && passes(at));
-    return mesh_.position[at];
-  }
-
-  const DecimationMesh& mesh_;
-  double length_;
-  std::vector<std::uint8_t> degree_; // of the border
-  std::vector<Index> leaving_;       // half-edge of the border with the region on its left
-  std::vector<Index> arriving_;
-};
 
 /// The sharpest corners that are not closer to each other than length.
 std::vector<Index> chooseCorners(
