@@ -6,10 +6,10 @@
 #include "Base/TryCount.h"
 #include "Extraction/CellTopology.h"
 #include "Extraction/FaceTrace.h"
+#include "Extraction/PolygonSimplifier.h"
 #include "Extraction/QuadAssembly.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -18,231 +18,8 @@ namespace quadrille
 namespace
 {
 
-/// Where polygons cut the boundary short they stay within this, in quads.
-constexpr double kPolygonTolerance = 0.1;
 /// Cosine of the angle by which a boundary bends at a corner that polygons keep.
 constexpr double kCornerCosine = 0.8660254037844387; // 30 degrees
-
-/// Do the segments ab and cd cross, each inside of the other?
-bool cross(FixedVec2 a, FixedVec2 b, FixedVec2 c, FixedVec2 d)
-{
-  const int c1 = orientation(a, b, c), d1 = orientation(a, b, d);
-  const int a1 = orientation(c, d, a), b1 = orientation(c, d, b);
-  return c1 * d1 < 0 && a1 * b1 < 0;
-}
-
-/// Which stops of a face become corners of its polygon.
-class Simplifier
-{
-public:
-  Simplifier(const std::vector<Stop>& stops, const std::vector<std::uint8_t>& wanted)
-    : stops_(stops), kept_(wanted)
-  {
-    // A face lies in one cell, so that differences have few bits.
-    for (const Stop& stop : stops)
-    {
-      const FixedVec2 d = stop.uv - stops.front().uv;
-      constexpr std::int64_t kFine = std::int64_t{ 1 } << kFineBits;
-      place_.push_back({ d.u * kFine + stop.fine.u, d.v * kFine + stop.fine.v });
-    }
-  }
-
-  /// Keeps one more stop between a kept one and the next; false where there is none.
-  bool keepBetween(Index a, Index b)
-  {
-    const Index between = farthest(a, b);
-    if (between != kInvalidIndex)
-    {
-      kept_[between] = 1;
-    }
-    return between != kInvalidIndex;
-  }
-
-  /// Ascending; empty where no choice gives a simple polygon.
-  std::vector<Index> run()
-  {
-    keepWhereFlat();
-    keepWhereFar();
-    for (bool isFirst = true;; isFirst = false)
-    {
-      std::vector<Index> corners = keptStops();
-      if (isSimple(corners))
-      {
-        countTryLed(Try::MoreCorners, isFirst ? 0 : 1);
-        return corners;
-      }
-      if (!refine(corners))
-      {
-        return {};
-      }
-      countTry(Try::MoreCorners);
-    }
-  }
-
-private:
-  std::vector<Index> keptStops() const
-  {
-    std::vector<Index> corners;
-    for (Index i = 0; i < stops_.size(); ++i)
-    {
-      if (kept_[i])
-      {
-        corners.push_back(i);
-      }
-    }
-    return corners;
-  }
-
-  Index after(Index i) const { return i + 1 == stops_.size() ? 0 : i + 1; }
-
-  /// The stop strictly between a and b that is farthest from their line; none where there is none.
-  Index farthest(Index a, Index b) const
-  {
-    Index best = kInvalidIndex;
-    Int128 most = -1;
-    for (Index i = after(a); i != b; i = after(i))
-    {
-      const FixedVec2 d = place_[i] - place_[a];
-      Int128 distance = Int128{ d.u } * d.u + Int128{ d.v } * d.v;
-      if (place_[a] != place_[b])
-      {
-        distance = determinant(place_[a], place_[b], place_[i]);
-        distance = distance < 0 ? -distance : distance;
-      }
-      if (distance > most)
-      {
-        most = distance;
-        best = i;
-      }
-    }
-    return best;
-  }
-
-  /// A boundary that comes back to the isoline that it left must not be cut short to a part of it.
-  void keepWhereFlat()
-  {
-    const std::vector<Index> corners = keptStops();
-    for (std::size_t k = 0; k < corners.size(); ++k)
-    {
-      const Index a = corners[k];
-      const Index b = corners[(k + 1) % corners.size()];
-      const bool flat = corners.size() == 1 || onOneIsoline(stops_[a], stops_[b]);
-      if (flat)
-      {
-        keepBetween(a, b);
-      }
-    }
-  }
-
-  /// Follows the boundary to within kPolygonTolerance [Douglas and Peucker 1973].
-  void keepWhereFar()
-  {
-    std::vector<Index> corners = keptStops();
-    if (corners.empty())
-    {
-      return;
-    }
-    std::vector<std::pair<Index, Index>> gaps;
-    for (std::size_t k = 0; k < corners.size(); ++k)
-    {
-      gaps.emplace_back(corners[k], corners[(k + 1) % corners.size()]);
-    }
-    while (!gaps.empty())
-    {
-      const auto [a, b] = gaps.back();
-      gaps.pop_back();
-      const Index between = farthest(a, b);
-      if (between != kInvalidIndex && distance(between, a, b) > kPolygonTolerance)
-      {
-        kept_[between] = 1;
-        gaps.emplace_back(a, between);
-        gaps.emplace_back(between, b);
-      }
-    }
-  }
-
-  /// Of a stop from the line through two others, or from both where they are one; in quads.
-  double distance(Index i, Index a, Index b) const
-  {
-    const auto vector = [this](Index from, Index to) -> Vector2
-    { return toDouble(place_[to] - place_[from]) / static_cast<double>(1LL << kFineBits); };
-    const Vector2 line = vector(a, b), way = vector(a, i);
-    const double length = line.norm();
-    return length > 0 ? std::abs(line.x() * way.y() - line.y() * way.x()) / length : way.norm();
-  }
-
-  static bool onOneIsoline(const Stop& a, const Stop& b)
-  {
-    return (a.uv.u == b.uv.u && isInteger(a.uv.u) && a.fine.u == 0 && b.fine.u == 0) ||
-      (a.uv.v == b.uv.v && isInteger(a.uv.v) && a.fine.v == 0 && b.fine.v == 0);
-  }
-
-  bool isSimple(const std::vector<Index>& corners) const
-  {
-    const std::size_t n = corners.size();
-    if (n < 3)
-    {
-      return false;
-    }
-    Int128 area = 0;
-    for (std::size_t i = 0; i + 2 < n; ++i)
-    {
-      area += determinant(uv(corners, 0), uv(corners, i + 1), uv(corners, i + 2));
-    }
-    if (area <= 0)
-    {
-      return false;
-    }
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      for (std::size_t k = i + 2; k < n; ++k)
-      {
-        if ((k + 1) % n != i &&
-          cross(uv(corners, i), uv(corners, i + 1), uv(corners, k), uv(corners, k + 1)))
-        {
-          return false;
-        }
-      }
-    }
-    return true;
-  }
-
-  FixedVec2 uv(const std::vector<Index>& corners, std::size_t i) const
-  {
-    return place_[corners[i % corners.size()]];
-  }
-
-  /// Keeps one more stop between any two; false when there is none.
-  bool refine(const std::vector<Index>& corners)
-  {
-    bool any = false;
-    if (corners.empty())
-    {
-      kept_[lowest()] = 1;
-      return true;
-    }
-    for (std::size_t k = 0; k < corners.size(); ++k)
-    {
-      any = keepBetween(corners[k], corners[(k + 1) % corners.size()]) || any;
-    }
-    return any;
-  }
-
-  Index lowest() const
-  {
-    Index best = 0;
-    for (Index i = 1; i < stops_.size(); ++i)
-    {
-      const auto key = [this](Index s) { return std::make_pair(place_[s].u, place_[s].v); };
-      best = key(i) < key(best) ? i : best;
-    }
-    return best;
-  }
-
-  const std::vector<Stop>& stops_;
-  std::vector<std::uint8_t> kept_;
-  std::vector<FixedVec2> place_; ///< against the first stop, in the fine unit
-};
 
 class PolygonMaker
 {
@@ -471,7 +248,7 @@ private:
     return in.dot(out) < kCornerCosine * in.norm() * out.norm();
   }
 
-  Simplifier simplifierOf(const std::vector<Stop>& stops) const
+  PolygonSimplifier simplifierOf(const std::vector<Stop>& stops) const
   {
     std::vector<std::uint8_t> wanted;
     wanted.reserve(stops.size());
@@ -525,7 +302,7 @@ private:
     for (const auto& [f, gaps] : bends_)
     {
       Face& face = faces_[f];
-      Simplifier simplifier = simplifierOf(face.stops);
+      PolygonSimplifier simplifier = simplifierOf(face.stops);
       for (const std::size_t i : gaps)
       {
         simplifier.keepBetween(face.corners[i], face.corners[(i + 1) % face.corners.size()]);
