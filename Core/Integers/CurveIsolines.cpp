@@ -4,6 +4,8 @@
 
 #include "Base/ChartRotation.h"
 #include "Base/PlaceText.h"
+#include "Integers/AxisLines.h"
+#include "Integers/Sight.h"
 #include "Mesh/Distance.h"
 
 #include <algorithm>
@@ -284,77 +286,6 @@ RequestedLine cycleOf(const Mesh& mesh, const CrossField& field, const CurveRequ
   return result;
 }
 
-std::int64_t lengthAlong(FixedVec2 p, int axis)
-{
-  return rotate(p, -axis).u;
-}
-
-void flagAsCurve(UvMesh& map, Index h)
-{
-  map.flags[h] |= kUvConstrained;
-  if (map.twin[h] != kInvalidIndex)
-  {
-    map.flags[map.twin[h]] |= kUvConstrained;
-  }
-}
-
-/// Where a line ends that goes straight on through vertices that are not flagged.
-struct LineStop
-{
-  Index vertex = kInvalidIndex; ///< the flagged one, or one on the boundary
-  Index curve = kInvalidIndex;  ///< or the half-edge of a curve
-  std::int64_t length = 0;      ///< to the vertex
-};
-
-LineStop followThrough(const UvMesh& map, UvDirection direction, std::int64_t maximumLength,
-  const std::vector<std::uint8_t>& flags)
-{
-  LineStop end;
-  while (end.length < maximumLength)
-  {
-    const UvRay ray = followLine(map, direction, maximumLength - end.length, true);
-    if (!ray.meetsVertex())
-    {
-      end.curve = ray.curve;
-      return end;
-    }
-    end.length += ray.length;
-    const Index v = map.origin[ray.end.corner];
-    const std::optional<UvDirection> on = straightOn(map, ray.end);
-    if (flags[v] != 0 || !on)
-    {
-      end.vertex = v;
-      return end;
-    }
-    direction = *on;
-  }
-  return end;
-}
-
-bool lockParts(UvMesh& map, UvEditor& editor, UvDirection direction, std::int64_t length)
-{
-  while (true)
-  {
-    const std::optional<UvDirection> edge = makeEdgeAlong(map, editor, direction, length);
-    if (!edge)
-    {
-      return false;
-    }
-    flagAsCurve(map, edge->corner);
-    length -= lengthAlong(map.vector(edge->corner), edge->axis);
-    if (length <= 0)
-    {
-      return true;
-    }
-    const std::optional<UvDirection> on = straightOn(map, { Mesh::next(edge->corner), edge->axis });
-    if (!on)
-    {
-      return false;
-    }
-    direction = *on;
-  }
-}
-
 /// The way's places, in the middle of the edges that it crosses.
 std::vector<Vector3> placesOf(const Mesh& mesh, const Isoline& line)
 {
@@ -412,81 +343,6 @@ std::optional<UvDirection> lineBetween(const UvMesh& map, const std::vector<std:
   return std::nullopt;
 }
 
-/// Where a line leaves a face. Vertices on it count as left of it, which makes the way unique.
-Index wayOut(const UvMesh& map, Index f, FixedVec2 p, int axis)
-{
-  const FixedVec2 unit = rotate(FixedVec2{ 1, 0 }, axis);
-  const auto isLeft = [&](Index corner)
-  {
-    const FixedVec2 d = map.uv[corner] - p;
-    return unit.u * d.v - unit.v * d.u >= 0;
-  };
-  for (Index h = 3 * f; h < 3 * f + 3; ++h)
-  {
-    if (!isLeft(h) && isLeft(Mesh::next(h)))
-    {
-      return h;
-    }
-  }
-  return kInvalidIndex;
-}
-
-/// Whether the line through p, along an axis of a face's chart, comes back to itself within the length.
-bool closesOnItself(
-  const UvMesh& map, Index face, FixedVec2 start, int axis, std::int64_t maximumLength)
-{
-  Index f = face;
-  FixedVec2 p = start;
-  int k = axis;
-  for (std::size_t steps = 0; steps < 4 * map.alive.size(); ++steps)
-  {
-    const Index out = wayOut(map, f, p, k);
-    if (out == kInvalidIndex || map.twin[out] == kInvalidIndex ||
-      lengthAlong(map.uv[out] - p, k) > maximumLength)
-    {
-      return false;
-    }
-    const Transition change = map.transition(out);
-    p = change.apply(p);
-    k = (k + change.rotation) & 3;
-    f = Mesh::face(map.twin[out]);
-    if (f == face && k == axis && rotate(p - start, -axis).v == 0)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// Whether one of the grid lines that pass the faces of the way closes. One beside an irregular vertex does where the
-/// lines next to it do, on one side.
-bool hasClosedGridLine(const UvMesh& map, const Isoline& line, std::int64_t maximumLength)
-{
-  int axis = line.axis;
-  Index f = Mesh::face(line.start);
-  for (const Index h : line.crossed)
-  {
-    // In coordinates whose u runs along the line.
-    const std::array<FixedVec2, 3> corner{ rotate(map.uv[3 * f], -axis),
-      rotate(map.uv[3 * f + 1], -axis), rotate(map.uv[3 * f + 2], -axis) };
-    const auto [low, high] = std::minmax({ corner[0].v, corner[1].v, corner[2].v });
-    for (std::int64_t v = unitAbove(low - 1); v <= high; v += kOne)
-    {
-      for (const std::int64_t beside : { v - 1, v + 1 })
-      {
-        const FixedVec2 p = rotate(FixedVec2{ corner[0].u, beside }, axis);
-        if (beside > low && beside < high && closesOnItself(map, f, p, axis, maximumLength))
-        {
-          return true;
-        }
-      }
-    }
-    axis = (axis + map.rotation[h]) & 3;
-    f = Mesh::face(map.twin[h]);
-  }
-  return false;
-}
-
 /// Whether a line from the irregular end of a connection meets a feature or boundary near its other end.
 bool reachesCurve(const Mesh& mesh, const UvMesh& map, const std::vector<std::uint8_t>& integer,
   const CurveOutcome& ends, std::int64_t maximumLength, double reach)
@@ -510,94 +366,6 @@ bool reachesCurve(const Mesh& mesh, const UvMesh& map, const std::vector<std::ui
   }
   return false;
 }
-
-/// Straight lines from one vertex to another, seen through the faces between them.
-class Sight
-{
-public:
-  Sight(const UvMesh& map, Index from, Index to, double maximumLength)
-    : map_(map), to_(to), maximumLength_(maximumLength)
-  {
-    for (const Index h : map.star(from))
-    {
-      const FixedVec2 eye = map.uv[h];
-      first_ = h;
-      meet(Mesh::next(h), { eye, map.uv[Mesh::next(h)] - eye, map.uv[Mesh::previous(h)] - eye });
-    }
-  }
-
-  struct Line
-  {
-    Index start = kInvalidIndex, end = kInvalidIndex; ///< corners
-    std::vector<Index> crossed;
-    FixedVec2 vector; ///< in the chart of the first face
-  };
-  const std::vector<Line>& lines() const { return lines_; }
-
-private:
-  /// What is seen between two directions, right and left, from a place in the chart of a face.
-  struct View
-  {
-    FixedVec2 eye, right, left;
-  };
-
-  static Int128 cross(FixedVec2 a, FixedVec2 b)
-  {
-    return Int128{ a.u } * b.v - Int128{ a.v } * b.u;
-  }
-
-  /// Through the half-edge `out` of the face that the view is in.
-  void meet(Index out, const View& view)
-  {
-    if (map_.twin[out] == kInvalidIndex || (map_.flags[out] & kUvConstrained) != 0 ||
-      ++steps_ > kMostCurveSteps || isFar(out, view.eye))
-    {
-      return;
-    }
-    const Transition change = map_.transition(out);
-    const View next{ change.apply(view.eye), rotate(view.right, change.rotation),
-      rotate(view.left, change.rotation) };
-    const Index g = map_.twin[out];
-    const Index corner = Mesh::previous(g);
-    const FixedVec2 there = map_.uv[corner] - next.eye;
-    crossed_.push_back(out);
-    rotation_ += change.rotation;
-    const bool leftOfRight = cross(next.right, there) > 0;
-    const bool rightOfLeft = cross(there, next.left) > 0;
-    if (leftOfRight && rightOfLeft && map_.origin[corner] == to_)
-    {
-      lines_.push_back({ first_, corner, crossed_, rotate(there, -rotation_) });
-    }
-    // The face's other sides: next(g) lies right of the corner, as seen, previous(g) left of it.
-    if (leftOfRight)
-    {
-      meet(Mesh::next(g), { next.eye, next.right, rightOfLeft ? there : next.left });
-    }
-    if (rightOfLeft)
-    {
-      meet(Mesh::previous(g), { next.eye, leftOfRight ? there : next.right, next.left });
-    }
-    rotation_ -= change.rotation;
-    crossed_.pop_back();
-  }
-
-  bool isFar(Index h, FixedVec2 eye) const
-  {
-    return std::min(toDouble(map_.uv[h] - eye).norm(),
-             toDouble(map_.uv[Mesh::next(h)] - eye).norm()) > maximumLength_;
-  }
-
-  static constexpr std::size_t kMostCurveSteps = 200000;
-
-  const UvMesh& map_;
-  Index to_;
-  double maximumLength_;
-  Index first_ = kInvalidIndex;
-  std::vector<Index> crossed_;
-  int rotation_ = 0;
-  std::size_t steps_ = 0;
-  std::vector<Line> lines_;
-};
 
 } // namespace
 
