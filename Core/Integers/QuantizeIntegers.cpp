@@ -4,6 +4,7 @@
 
 #include "Base/TryCount.h"
 #include "Integers/StripSearch.h"
+#include "Integers/StripSteps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,84 +39,6 @@ std::vector<FixedVec2> stepsIn(FixedVec2 p)
     steps.push_back({ 0, p.v > 0 ? kGrain : -kGrain });
   }
   return steps;
-}
-
-void apply(IntegerMap& map, const Strip& strip)
-{
-  for (const StripStep& step : strip.steps)
-  {
-    map.shift(step.halfEdge, step.e);
-  }
-}
-
-void revert(IntegerMap& map, const Strip& strip)
-{
-  for (const StripStep& step : strip.steps)
-  {
-    map.shift(step.halfEdge, -step.e);
-  }
-}
-
-/// Applies and returns the change of energy.
-double applyMeasured(IntegerMap& map, const Strip& strip)
-{
-  double change = 0;
-  for (const StripStep& step : strip.steps)
-  {
-    change += map.energyChange(step.halfEdge, step.e);
-    map.shift(step.halfEdge, step.e);
-  }
-  return change;
-}
-
-struct CrossedFaces
-{
-  std::vector<Index> faces; ///< each once
-  bool repeated = false;    ///< whether the strip crosses one of them twice
-};
-
-CrossedFaces crossedFaces(const UvMesh& mesh, const Strip& strip)
-{
-  CrossedFaces result;
-  std::vector<Index>& faces = result.faces;
-  for (const StripStep& step : strip.steps)
-  {
-    faces.push_back(Mesh::face(step.halfEdge));
-    if (mesh.twin[step.halfEdge] != kInvalidIndex)
-    {
-      faces.push_back(Mesh::face(mesh.twin[step.halfEdge]));
-    }
-  }
-  std::sort(faces.begin(), faces.end());
-  // A face that is crossed once is entered once and left once.
-  for (std::size_t i = 2; i < faces.size(); ++i)
-  {
-    result.repeated = result.repeated || faces[i] == faces[i - 2];
-  }
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  return result;
-}
-
-std::int64_t brokenness(const IntegerMap& map, const std::vector<Index>& faces)
-{
-  std::int64_t sum = 0;
-  for (const Index f : faces)
-  {
-    sum += IntegerMap::brokenness(map.determinant(f));
-  }
-  return sum;
-}
-
-std::vector<Index> facesAround(const UvMesh& mesh, Index v)
-{
-  std::vector<Index> faces;
-  for (const Index h : mesh.star(v))
-  {
-    faces.push_back(Mesh::face(h));
-  }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  return faces;
 }
 
 /// Carries the defects of all triangles to each other, or out. False when one cannot leave its face.
