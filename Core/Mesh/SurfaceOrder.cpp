@@ -1,0 +1,488 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/SpaceFillingOrder.h"
+
+#include "Base/LargeArray.h"
+#include "Base/Parallel.h"
+#include "Base/Progress.h"
+#include "Mesh/PointSets.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
+
+namespace quadrille
+{
+
+namespace
+{
+
+constexpr std::size_t kOrderChunk = 65536;
+/// Buckets of vertices by which faces are sorted.
+constexpr std::size_t kVertexBuckets = 2048;
+
+/// Rearranges arrays through one buffer, which keeps its memory from one array to the next.
+class Permuter
+{
+public:
+  explicit Permuter(int threads) : threads_(threads) {}
+
+  /// values[i] = old values[order[i]], kWidth values an element. Empty arrays stay empty.
+  template <std::size_t kWidth, typename T>
+  void operator()(std::vector<T>& values, const std::vector<Index>& order)
+  {
+    if (values.empty())
+    {
+      return;
+    }
+    constexpr std::size_t kBytes = kWidth * sizeof(T);
+    const std::size_t bytes = values.size() * sizeof(T);
+    reserveLarge(buffer_, bytes, threads_);
+    growLarge(buffer_, std::max(buffer_.size(), bytes));
+    parallelFor(bytes, kBytes * kOrderChunk, threads_,
+      [&](std::size_t begin, std::size_t end)
+      { std::memcpy(&buffer_[begin], bytesOf(values) + begin, end - begin); });
+    values.resize(order.size() * kWidth);
+    parallelFor(order.size(), kOrderChunk, threads_,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          std::memcpy(
+            bytesOf(values) + i * kBytes, &buffer_[std::size_t{ order[i] } * kBytes], kBytes);
+        }
+      });
+  }
+
+  template <std::size_t kWidth, typename T>
+  void operator()(SharedArray<T>& values, const std::vector<Index>& order)
+  {
+    values.change([&](std::vector<T>& own) { this->operator()<kWidth>(own, order); });
+  }
+
+private:
+  template <typename T>
+  static char* bytesOf(std::vector<T>& values)
+  {
+    return reinterpret_cast<char*>(values.data());
+  }
+
+  int threads_;
+  std::vector<char> buffer_;
+};
+
+bool isRemoved(const Mesh& mesh, Index f)
+{
+  return mesh.origin[3 * f] == kInvalidIndex;
+}
+
+/// Drops the vertices without a face; returns the old ids of the others, or nothing when all stay.
+std::vector<Index> dropUnused(Mesh& mesh, int threads)
+{
+  const UsedPoints used(mesh.origin, mesh.vertexCount(), threads);
+  std::vector<Index> kept;
+  if (used.hasAll(threads))
+  {
+    return kept;
+  }
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    pollNowAndThen(v);
+    if (used.has(v))
+    {
+      mesh.position.edit()[kept.size()] = mesh.position[v];
+      if (!mesh.sizing.empty())
+      {
+        mesh.sizing.edit()[kept.size()] = mesh.sizing[v];
+      }
+      kept.push_back(v);
+    }
+  }
+  mesh.position.resize(kept.size());
+  mesh.sizing.resize(mesh.sizing.empty() ? 0 : kept.size());
+  return kept;
+}
+
+/// newId: of each element; kInvalidIndex for those that go. Elements behind the names have none.
+void orderNames(const std::vector<Index>& newId, std::size_t count, std::vector<Index>& names)
+{
+  names.resize(newId.size(), kInvalidIndex);
+  std::vector<Index> ordered(count);
+  for (std::size_t i = 0; i < newId.size(); ++i)
+  {
+    pollNowAndThen(i);
+    if (newId[i] != kInvalidIndex)
+    {
+      ordered[newId[i]] = names[i];
+    }
+  }
+  names.swap(ordered);
+}
+
+template <typename NewId>
+void renameRequests(PreparedSurface& surface, const NewId& newId)
+{
+  for (ValenceRequest& request : surface.valenceRequests)
+  {
+    request.vertex = newId(request.vertex);
+  }
+  std::sort(surface.valenceRequests.begin(), surface.valenceRequests.end(),
+    [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex < b.vertex; });
+  for (SectorRequest& request : surface.sectorRequests)
+  {
+    request.vertex = newId(request.vertex);
+  }
+  std::sort(surface.sectorRequests.begin(), surface.sectorRequests.end(),
+    [](const SectorRequest& a, const SectorRequest& b) { return a.vertex < b.vertex; });
+}
+
+/// Puts the vertices that have a face into curve order and renames the corners.
+void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
+{
+  Mesh& mesh = surface.mesh;
+  std::vector<Index> newId(mesh.vertexCount(), kInvalidIndex);
+  const std::vector<Index> kept = dropUnused(mesh, threads);
+  {
+    const std::vector<Index> order = spaceFillingOrder(mesh.position, threads);
+    permute.operator()<1>(mesh.position, order);
+    if (!mesh.sizing.empty())
+    {
+      permute.operator()<1>(mesh.sizing, order);
+    }
+    parallelFor(order.size(), kOrderChunk, threads,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          newId[kept.empty() ? order[i] : kept[order[i]]] = static_cast<Index>(i);
+        }
+      });
+    if (surface.namesBefore)
+    {
+      orderNames(newId, order.size(), surface.namesBefore->vertex);
+    }
+  }
+  Index* origin = mesh.origin.edit();
+  parallelFor(mesh.origin.size(), kOrderChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t h = begin; h < end; ++h)
+      {
+        origin[h] = origin[h] == kInvalidIndex ? kInvalidIndex : newId[origin[h]];
+      }
+    });
+  renameRequests(surface, [&](Index v) { return newId[v]; });
+}
+
+/// A face under the name of its lowest vertex.
+struct FaceByLowest
+{
+  Index lowest;
+  Index face;
+};
+
+/// Sorts the faces of a bucket, whose lowest vertices are in [first, first + width), by these; ties keep their order.
+void sortFaceBucket(
+  const FaceByLowest* faces, std::size_t count, Index first, std::size_t width, Index* order)
+{
+  std::vector<Index> begin(width + 1, 0);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    ++begin[faces[i].lowest - first + 1];
+  }
+  for (std::size_t v = 1; v <= width; ++v)
+  {
+    begin[v] += begin[v - 1];
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    order[begin[faces[i].lowest - first]++] = faces[i].face;
+  }
+}
+
+/// Faces that are left, by their lowest vertex; ties keep their order. First into buckets of vertices, chunk by chunk,
+/// then each bucket by itself.
+std::vector<Index> facesByLowestVertex(const Mesh& mesh, int threads)
+{
+  const auto lowest = [&mesh](std::size_t f) {
+    return std::min({ mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2] });
+  };
+  const std::size_t width = mesh.vertexCount() / kVertexBuckets + 1;
+  const std::size_t chunks = (std::size_t{ mesh.faceCount() } + kOrderChunk - 1) / kOrderChunk;
+  std::vector<std::array<Index, kVertexBuckets>> next(chunks);
+  parallelFor(mesh.faceCount(), kOrderChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      std::array<Index, kVertexBuckets>& count = next[begin / kOrderChunk];
+      count.fill(0);
+      for (std::size_t f = begin; f < end; ++f)
+      {
+        if (!isRemoved(mesh, static_cast<Index>(f)))
+        {
+          ++count[lowest(f) / width];
+        }
+      }
+    });
+  std::vector<Index> begin(kVertexBuckets + 1);
+  Index sum = 0;
+  for (std::size_t bucket = 0; bucket < kVertexBuckets; ++bucket)
+  {
+    begin[bucket] = sum;
+    for (std::array<Index, kVertexBuckets>& chunk : next)
+    {
+      sum += chunk[bucket];
+      chunk[bucket] = sum - chunk[bucket];
+    }
+  }
+  begin[kVertexBuckets] = sum;
+  std::vector<FaceByLowest> faces;
+  growLarge(faces, sum);
+  parallelFor(mesh.faceCount(), kOrderChunk, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      std::array<Index, kVertexBuckets>& place = next[first / kOrderChunk];
+      for (std::size_t f = first; f < last; ++f)
+      {
+        if (!isRemoved(mesh, static_cast<Index>(f)))
+        {
+          const Index v = lowest(f);
+          faces[place[v / width]++] = { v, static_cast<Index>(f) };
+        }
+      }
+    });
+  std::vector<Index> order;
+  growLarge(order, sum);
+  parallelFor(kVertexBuckets, 16, threads,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t b = first; b < last; ++b)
+      {
+        sortFaceBucket(faces.data() + begin[b], begin[b + 1] - begin[b],
+          static_cast<Index>(b * width), width, order.data() + begin[b]);
+      }
+    });
+  return order;
+}
+
+/// Keeps of the corner weights what a face still uses, in the order of the faces.
+void orderWeights(PreparedSurface& surface)
+{
+  std::vector<std::array<std::array<double, 3>, 3>> weights;
+  Index* entry = surface.refinedEntry.edit();
+  for (std::size_t f = 0; f < surface.refinedEntry.size(); ++f)
+  {
+    if (entry[f] != kInvalidIndex)
+    {
+      weights.push_back(surface.cornerWeights[entry[f]]);
+      entry[f] = static_cast<Index>(weights.size() - 1);
+    }
+  }
+  surface.cornerWeights = std::move(weights);
+}
+
+void orderTwins(Mesh& mesh, const std::vector<Index>& order, Permuter& permute)
+{
+  if (mesh.twin.empty())
+  {
+    return;
+  }
+  std::vector<Index> newFace(mesh.faceCount(), kInvalidIndex);
+  for (Index i = 0; i < order.size(); ++i)
+  {
+    pollNowAndThen(i);
+    newFace[order[i]] = i;
+  }
+  permute.operator()<3>(mesh.twin, order);
+  Index* twin = mesh.twin.edit();
+  for (std::size_t h = 0; h < mesh.twin.size(); ++h)
+  {
+    pollNowAndThen(h);
+    Index& g = twin[h];
+    g = g == kInvalidIndex ? kInvalidIndex : 3 * newFace[g / 3] + g % 3;
+  }
+}
+
+void orderFaces(PreparedSurface& surface, Permuter& permute, int threads)
+{
+  Mesh& mesh = surface.mesh;
+  const std::vector<Index> order = facesByLowestVertex(mesh, threads);
+  if (surface.namesBefore)
+  {
+    surface.namesBefore->face.resize(mesh.faceCount(), kInvalidIndex);
+    permute.operator()<1>(surface.namesBefore->face, order);
+  }
+  orderTwins(mesh, order, permute);
+  permute.operator()<3>(mesh.origin, order);
+  permute.operator()<3>(mesh.flags, order);
+  permute.operator()<1>(surface.sourcePolygon, order);
+  permute.operator()<1>(surface.sourcePoints, order);
+  permute.operator()<1>(surface.refinedEntry, order);
+  orderWeights(surface);
+}
+
+/// Which of the last elements takes the place of which one that goes; `goes` ascending, of `count` elements.
+struct Moves
+{
+  Index count = 0;                            ///< of elements that stay
+  std::vector<std::pair<Index, Index>> moved; ///< from, ascending, and to
+
+  /// Of an element that stays.
+  Index newId(Index i) const
+  {
+    return i < count
+      ? i
+      : std::lower_bound(moved.begin(), moved.end(), std::pair<Index, Index>{ i, 0 })->second;
+  }
+};
+
+Moves fillHoles(const std::vector<Index>& goes, Index count)
+{
+  Moves moves;
+  moves.count = count - static_cast<Index>(goes.size());
+  auto hole = goes.begin();
+  auto behind = std::lower_bound(goes.begin(), goes.end(), moves.count);
+  for (Index from = moves.count; from < count; ++from)
+  {
+    if (behind != goes.end() && *behind == from)
+    {
+      ++behind;
+      continue;
+    }
+    moves.moved.emplace_back(from, *hole++);
+  }
+  return moves;
+}
+
+/// kWidth values an element; empty arrays stay empty.
+template <std::size_t kWidth, typename T>
+void moveElements(std::vector<T>& values, const Moves& moves)
+{
+  if (values.empty())
+  {
+    return;
+  }
+  for (const auto& [from, to] : moves.moved)
+  {
+    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(kWidth * from), kWidth,
+      values.begin() + static_cast<std::ptrdiff_t>(kWidth * to));
+  }
+  values.resize(kWidth * moves.count);
+}
+template <std::size_t kWidth, typename T>
+void moveElements(SharedArray<T>& values, const Moves& moves)
+{
+  values.change([&](std::vector<T>& own) { moveElements<kWidth>(own, moves); });
+}
+
+/// The indices below count for which goes(i) holds, ascending.
+template <typename Goes>
+std::vector<Index> whatGoes(std::size_t count, int threads, const Goes& goes)
+{
+  std::vector<std::vector<Index>> parts((count + kOrderChunk - 1) / kOrderChunk);
+  parallelFor(count, kOrderChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        if (goes(i))
+        {
+          parts[begin / kOrderChunk].push_back(static_cast<Index>(i));
+        }
+      }
+    });
+  std::vector<Index> all;
+  for (const std::vector<Index>& part : parts)
+  {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+void compactFaces(PreparedSurface& surface, int threads)
+{
+  Mesh& mesh = surface.mesh;
+  const Moves moves =
+    fillHoles(whatGoes(mesh.faceCount(), threads,
+                [&](std::size_t f) { return isRemoved(mesh, static_cast<Index>(f)); }),
+      mesh.faceCount());
+  const auto newSlot = [&](Index h) { return 3 * moves.newId(h / 3) + h % 3; };
+  for (const auto& [from, to] : moves.moved)
+  {
+    for (Index h = 3 * from; h < 3 * from + 3; ++h)
+    {
+      const Index g = mesh.twin[h];
+      if (g == kInvalidIndex)
+      {
+        continue;
+      }
+      if (Mesh::face(g) < moves.count) // else it is moved itself
+      {
+        mesh.twin.edit()[g] = newSlot(h);
+      }
+      mesh.twin.edit()[h] = newSlot(g);
+    }
+  }
+  if (surface.namesBefore)
+  {
+    surface.namesBefore->face.resize(mesh.faceCount(), kInvalidIndex);
+    moveElements<1>(surface.namesBefore->face, moves);
+  }
+  moveElements<3>(mesh.origin, moves);
+  moveElements<3>(mesh.twin, moves);
+  moveElements<3>(mesh.flags, moves);
+  moveElements<1>(surface.sourcePolygon, moves);
+  moveElements<1>(surface.sourcePoints, moves);
+  moveElements<1>(surface.refinedEntry, moves);
+}
+
+void compactVertices(PreparedSurface& surface, int threads)
+{
+  Mesh& mesh = surface.mesh;
+  const UsedPoints used(mesh.origin, mesh.vertexCount(), threads);
+  const Moves moves =
+    fillHoles(whatGoes(mesh.vertexCount(), threads, [&](std::size_t v) { return !used.has(v); }),
+      mesh.vertexCount());
+  if (surface.namesBefore)
+  {
+    surface.namesBefore->vertex.resize(mesh.vertexCount(), kInvalidIndex);
+    moveElements<1>(surface.namesBefore->vertex, moves);
+  }
+  moveElements<1>(mesh.position, moves);
+  moveElements<1>(mesh.sizing, moves);
+  Index* origin = mesh.origin.edit();
+  parallelFor(mesh.origin.size(), kOrderChunk, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t h = begin; h < end; ++h)
+      {
+        origin[h] = moves.newId(origin[h]);
+      }
+    });
+  renameRequests(surface, [&](Index v) { return moves.newId(v); });
+}
+
+} // namespace
+
+void orderSurface(PreparedSurface& surface, int threads)
+{
+  Permuter permute(threads);
+  orderVertices(surface, permute, threads);
+  orderFaces(surface, permute, threads);
+}
+
+void compactSurface(PreparedSurface& surface, int threads)
+{
+  compactFaces(surface, threads);
+  compactVertices(surface, threads);
+}
+
+void orderAfterChanges(PreparedSurface& surface, std::size_t places, int threads)
+{
+  constexpr std::size_t kFewPlaces = 8;
+  constexpr Index kLarge = Index{ 1 } << 18; // faces
+  const bool isLittle = places <= kFewPlaces && surface.mesh.faceCount() >= kLarge;
+  isLittle ? compactSurface(surface, threads) : orderSurface(surface, threads);
+}
+
+} // namespace quadrille
