@@ -19,8 +19,8 @@ constexpr std::size_t kManyHandles = 24;
 class DetailLimits
 {
 public:
-  /// takesAll: what is shorter than kQuadsOfLoop edge lengths, whatever smaller quads could do. isRest: nothing else has
-  /// led to quads.
+  /// takesAll: what is shorter than kQuadsOfLoop edge lengths, whatever smaller quads could do. isRest: nothing else
+  /// has led to quads.
   DetailLimits(double edgeLength, bool takesAll, bool isRest);
 
   double ofBoundaryLoops() const { return limit_; } ///< in units of the mesh
