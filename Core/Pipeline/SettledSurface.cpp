@@ -2,24 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/SettledSurface.h"
 
-#include "Base/PlaceText.h"
+#include "Base/Clock.h"
 #include "Base/TryCount.h"
 #include "Details/CloseHandles.h"
 #include "Details/FillHoles.h"
 #include "Details/Handles.h"
-#include "Details/SmallComponents.h"
 #include "Details/ThinParts.h"
+#include "Pipeline/AskedPlaces.h"
+#include "Pipeline/DetailLimits.h"
 #include "Pipeline/FirstLevels.h"
 #include "Pipeline/FirstPlan.h"
+#include "Pipeline/QuadsForHandles.h"
 #include "Pipeline/SmallHandles.h"
 #include "Prepare/Refine.h"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <limits>
-#include <map>
-#include <sstream>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace quadrille
@@ -34,26 +33,8 @@ constexpr std::size_t kMostFollowed = 8;
 constexpr Index kLeastFollowed = Index{ 1 } << 18;
 /// How often handles are looked for and cut: those whose loops meet others' have to wait.
 constexpr int kMostCuttings = 10;
-/// Where smaller quads round so many handles would make more than so many times the quads, they meet each other, and
-/// maps fail: measured on scans with 20 and more of them. Few handles are worth it, as a ring's own one is.
-constexpr std::size_t kSeveralHandles = 8;
-constexpr double kMostGrowthOfSeveral = 1.15;
-constexpr std::size_t kManyHandles = 24;
-constexpr double kMostGrowthOfMany = 1.05;
 /// Where a round cuts less than this part of those it has tried, another one is not worth its phase 1.
 constexpr double kWorthwhileCut = 0.125;
-/// What the smallest block of a component may need, over the quads that its area is worth, so that maps are tried: with
-/// the handles that are left, and before any was cut. Small components of few handles become blocks anyway.
-constexpr double kMostBlockWorth = 3;
-constexpr double kMostBlockBefore = 8;
-constexpr double kQuadsOfFewHandles = 64;
-/// From 512 handles on, that of twice as many before any was cut, the exact equations of a map take minutes: only where
-/// the area is worth the block.
-constexpr double kLargeBlock = 8192;
-constexpr double kLargeBlockBefore = 16384;
-constexpr double kWorthOfLargeBefore = 2;
-/// By how much the limit below which Automatic simplifies grows where smaller quads at the rest take too many.
-constexpr double kLimitStep = 0.5;
 
 /// Of the stubs that a crowd of handles leaves, those with less area than so many quads are cut off, and how often
 /// others are looked for that were inside or beside them.
@@ -63,65 +44,6 @@ constexpr int kMostThinnings = 6;
 /// leaves no room for a map, and where nothing else has led to quads: every cut changes the surface.
 constexpr double kMostOfBudget = 0.5;
 
-/// Handles that are cut where nothing else has led to quads, in edge lengths. Loops of the intermediate level are up to
-/// a tenth too short, and of four quads round a handle a map may leave two: then they touch themselves.
-constexpr double kLoopOfRest = 4;
-
-/// What is asked of a surface, with the places of the vertices.
-struct AskedOf
-{
-  explicit AskedOf(const PreparedSurface& surface) : requests(surface.requests())
-  {
-    for (const ValenceRequest& request : requests.valenceRequests)
-    {
-      valencePlaces.push_back(surface.mesh.position[request.vertex]);
-    }
-    for (const SectorRequest& request : requests.sectorRequests)
-    {
-      sectorPlaces.push_back(surface.mesh.position[request.vertex]);
-    }
-  }
-
-  SurfaceRequests requests;
-  std::vector<Vector3> valencePlaces, sectorPlaces;
-};
-
-/// The vertices at the same places of another surface, of several at one place that of the lowest id; a request without
-/// one is dropped. requests: ascending by vertex, before and afterwards.
-template <class Request>
-void moveRequests(
-  const Mesh& mesh, const std::vector<Vector3>& places, std::vector<Request>& requests)
-{
-  if (requests.empty())
-  {
-    return;
-  }
-  const auto isBefore = [](const Vector3& a, const Vector3& b)
-  { return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3); };
-  std::map<Vector3, Index, decltype(isBefore)> vertexAt(isBefore);
-  for (const Vector3& p : places)
-  {
-    vertexAt.emplace(p, kInvalidIndex);
-  }
-  for (Index v = 0; v < mesh.vertexCount(); ++v)
-  {
-    const auto found = vertexAt.find(mesh.position[v]);
-    if (found != vertexAt.end() && found->second == kInvalidIndex)
-    {
-      found->second = v;
-    }
-  }
-  for (std::size_t i = 0; i < requests.size(); ++i)
-  {
-    requests[i].vertex = vertexAt.at(places[i]);
-  }
-  requests.erase(std::remove_if(requests.begin(), requests.end(),
-                   [](const Request& request) { return request.vertex == kInvalidIndex; }),
-    requests.end());
-  std::sort(requests.begin(), requests.end(),
-    [](const Request& a, const Request& b) { return a.vertex < b.vertex; });
-}
-
 /// A simplified surface in the store, without what was asked of it: guides, valences and curves change nothing of it.
 struct StoredSettled
 {
@@ -129,11 +51,6 @@ struct StoredSettled
   ResultKey key = 0;
   std::vector<SmallDetail> simplified;
   bool hasFollowed = false; ///< its levels follow those of the surface before, see Levels
-};
-
-/// Of a surface that has no component of more handles than quads go round: an edit does not count them again.
-struct JudgedPossible
-{
 };
 
 bool isSimplified(const SmallDetail& detail)
@@ -157,8 +74,7 @@ public:
     StageRecords& stages, std::vector<std::string>& reused)
     : sized_(sized), options_(options), store_(store), isRest_(isRest),
       takesAll_(isRest || options.smallDetails == SmallDetails::Simplify), stages_(stages),
-      reused_(reused), asked_(*sized.surface), limit_(firstLimit()),
-      handleLimit_(isRest ? kLoopOfRest * sized.edgeLength : limit_)
+      reused_(reused), asked_(*sized.surface), limits_(sized.edgeLength, takesAll_, isRest)
   {
   }
 
@@ -191,11 +107,6 @@ public:
   }
 
 private:
-  double firstLimit() const
-  {
-    return sized_.edgeLength * (takesAll_ ? kQuadsOfLoop : kSimplifiedLoop);
-  }
-
   void measure()
   {
     letGo();
@@ -261,36 +172,12 @@ private:
       { kind, DetailDecision::Simplify, length / sized_.edgeLength, place, whatBecomes(kind) });
   }
 
-  /// Below the limit. Those of components with less area than a closed block of quads are left to them.
-  std::vector<HandleLoop> shortBoundaryLoops() const
-  {
-    const PreparedSurface& surface = *sized_.surface;
-    std::vector<HandleLoop> loops = measureBoundary(surface.mesh, limit_).tooShort;
-    if (loops.empty())
-    {
-      return loops;
-    }
-    const SmallComponents small =
-      findSmallComponents(surface, sized_.edgeLength, quadsOfBlock(2, 0), options_.threads);
-    if (small.count > 0)
-    {
-      std::vector<std::uint8_t> isSmall(surface.mesh.vertexCount(), 0);
-      for (Index h = 0; h < surface.mesh.halfEdgeCount(); ++h)
-      {
-        isSmall[surface.mesh.origin[h]] |= small.isSmall[Mesh::face(h)];
-      }
-      const auto isOfSmall = [&](const HandleLoop& loop)
-      { return isSmall[loop.vertices.front()] != 0; };
-      loops.erase(std::remove_if(loops.begin(), loops.end(), isOfSmall), loops.end());
-    }
-    return loops;
-  }
-
   /// The number of holes that were filled.
   std::size_t fill()
   {
     const double start = secondsNow();
-    const std::vector<HandleLoop> loops = shortBoundaryLoops();
+    const std::vector<HandleLoop> loops = shortBoundaryLoops(
+      *sized_.surface, sized_.edgeLength, limits_.ofBoundaryLoops(), options_.threads);
     if (loops.empty())
     {
       return 0;
@@ -312,36 +199,12 @@ private:
     return filled.size();
   }
 
-  /// With vertices of the surface. The run knows those of up to kQuadsOfLoop edge lengths.
-  std::vector<HandleLoop> handlesBelowLimit() const
-  {
-    RunBench& bench = *made_.bench;
-    if (handleLimit_ > kQuadsOfLoop * sized_.edgeLength)
-    {
-      const Level& level = bench.levels.makeIntermediate(levelOptions(bench.run, {}));
-      std::vector<HandleLoop> loops = findHandles(level.mesh, handleLimit_).loops;
-      for (HandleLoop& loop : loops)
-      {
-        loop.vertices = onFinest(loop.vertices, level);
-      }
-      return loops;
-    }
-    const ShortLoops& found = bench.run.shortLoops;
-    std::vector<HandleLoop> loops;
-    std::copy_if(found.loops.begin(),
-      found.loops.begin() + static_cast<std::ptrdiff_t>(found.parts.unresolvedHandles),
-      std::back_inserter(loops),
-      [&](const HandleLoop& loop) { return loop.length < handleLimit_; });
-    return loops;
-  }
-
-  /// The number of handles below the limit that were cut; 0 where it is not worth going on. All were measured.
   std::size_t cut()
   {
     std::vector<std::vector<Index>> places;
     std::vector<double> lengths;
     std::vector<Vector3> at;
-    for (HandleLoop& loop : handlesBelowLimit())
+    for (HandleLoop& loop : handlesBelow(made_.bench->run, sized_.edgeLength, limits_.ofHandles()))
     {
       lengths.push_back(loop.length);
       at.push_back(sized_.surface->mesh.position[loop.vertices.front()]);
@@ -355,7 +218,7 @@ private:
     const std::size_t before = sized_.surface->mesh.faceCount();
     beginChange();
     const std::vector<std::size_t> closed = closeHandles(changed_, places,
-      kLongerAlongEdges * handleLimit_, kGirthOfLimb * sized_.edgeLength, options_.threads);
+      kLongerAlongEdges * limits_.ofHandles(), kGirthOfLimb * sized_.edgeLength, options_.threads);
     for (const std::size_t i : closed)
     {
       note(DetailKind::Handle, lengths[i], at[i]);
@@ -402,42 +265,6 @@ private:
     }
   }
 
-  /// The short loops that are at least as long as the limit: all, or those of handles only.
-  std::vector<HandleLoop> loopsAboveLimit(bool ofHandles) const
-  {
-    const ShortLoops& found = made_.bench->run.shortLoops;
-    const auto end = ofHandles
-      ? found.loops.begin() + static_cast<std::ptrdiff_t>(found.parts.unresolvedHandles)
-      : found.loops.end();
-    std::vector<HandleLoop> loops;
-    std::copy_if(found.loops.begin(), end, std::back_inserter(loops),
-      [&](const HandleLoop& loop) { return loop.length >= (ofHandles ? handleLimit_ : limit_); });
-    return loops;
-  }
-
-  /// The limit grows until smaller quads do for the loops that are at least as long. A crowd of handles is
-  /// resolved as a whole or cut.
-  void raiseLimit()
-  {
-    RunContext& run = made_.bench->run;
-    const double most = kQuadsOfLoop * sized_.edgeLength;
-    const std::vector<HandleLoop> handles = loopsAboveLimit(true);
-    const double growth = handles.size() >= kManyHandles ? kMostGrowthOfMany : kMostGrowthOfSeveral;
-    if (handles.size() >= kSeveralHandles && !resolvesLoops(run, handles, growth))
-    {
-      handleLimit_ = most;
-      countTry(Try::RaisedLimit);
-      isRaised_ = true;
-    }
-    while (limit_ < most && !resolvesLoops(run, loopsAboveLimit(false)))
-    {
-      limit_ = std::min(most, limit_ + kLimitStep * sized_.edgeLength);
-      countTry(Try::RaisedLimit);
-      isRaised_ = true;
-    }
-    handleLimit_ = std::max(handleLimit_, limit_);
-  }
-
   /// Until no loop below the limit is left that can be closed.
   void simplifyAll()
   {
@@ -446,14 +273,13 @@ private:
       measure();
       if (!takesAll_)
       {
-        raiseLimit();
+        limits_.raise(made_.bench->run);
       }
       if (cut() + fill() == 0)
       {
         break;
       }
-      countTryLed(Try::RaisedLimit, isRaised_ ? 1 : 0);
-      isRaised_ = false;
+      countTryLed(Try::RaisedLimit, limits_.takeRaised() ? 1 : 0);
     }
     if (!made_.bench)
     {
@@ -476,8 +302,8 @@ private:
     const double start = secondsNow();
     const Level& level = made_.bench->levels.makeIntermediate(levelOptions(made_.bench->run, {}));
     const double quad = sized_.edgeLength * sized_.edgeLength;
-    std::vector<ThinPart> parts = findThinParts(
-      level.mesh, { handleLimit_, kSimplifiedLoop * sized_.edgeLength, kQuadsOfThinPart * quad });
+    std::vector<ThinPart> parts = findThinParts(level.mesh,
+      { limits_.ofHandles(), kSimplifiedLoop * sized_.edgeLength, kQuadsOfThinPart * quad });
     isThinning_ = isThinning_ || isRest_ || 3 * parts.size() > kMostOfBudget * coarseBudget();
     if (!isThinning_)
     {
@@ -517,45 +343,11 @@ private:
     return options_.coarseVertices > 0 ? options_.coarseVertices : RemeshOptions().coarseVertices;
   }
 
-  /// A surface with more handles and holes than so many quads can go round ends in minutes of attempts that fail.
+  /// Then the status tells why.
   bool isHopeless(bool isCut)
   {
-    const ResultKey key =
-      KeyMaker(sized_.key).add(sized_.edgeLength).add(std::uint64_t{ isCut ? 1U : 0U }).key();
-    if (store_ != nullptr && store_->find<JudgedPossible>(key))
-    {
-      return false;
-    }
-    const double quad = sized_.edgeLength * sized_.edgeLength;
-    const SmallComponents small = findSmallComponents(*sized_.surface, sized_.edgeLength,
-      std::numeric_limits<double>::infinity(), options_.threads);
-    const auto found = std::find_if(small.each.begin(), small.each.end(),
-      [&](const SmallComponent& component)
-      {
-        const double worth = component.area / quad;
-        const double block = component.block;
-        return block > kQuadsOfFewHandles &&
-          (isCut ? block > kMostBlockWorth * worth || block > kLargeBlock
-                 : block > kMostBlockBefore * worth ||
-                (block > kLargeBlockBefore && block > kWorthOfLargeBefore * worth));
-      });
-    if (found == small.each.end())
-    {
-      if (store_ != nullptr)
-      {
-        store_->put(key, std::make_shared<JudgedPossible>(), sizeof(JudgedPossible));
-      }
-      return false;
-    }
-    std::ostringstream text;
-    text
-      << "the handles and boundary loops of the component near " << placeText(found->place)
-      << " need at least about " << std::llround(found->block) << " quads, but its area is that of "
-      << std::llround(found->area / quad)
-      << " of this size: simplify or wrap the surface (Surface Wrap), ask for more quads, or have "
-         "it tried (Small Details Resolve, --small-details resolve)";
-    made_.status = { StatusCode::Infeasible, text.str() };
-    return true;
+    made_.status = judgeHandles(sized_, isCut, options_.threads, store_);
+    return !made_.status.ok();
   }
 
   ResultKey storeKey() const
@@ -613,9 +405,7 @@ private:
   void takeRequests(PreparedSurface surface)
   {
     const std::vector<ValenceRequest> before = surface.valenceRequests;
-    surface.setRequests(asked_.requests);
-    moveRequests(surface.mesh, asked_.valencePlaces, surface.valenceRequests);
-    moveRequests(surface.mesh, asked_.sectorPlaces, surface.sectorRequests);
+    asked_.askOf(surface);
     const bool isSame = std::equal(before.begin(), before.end(), surface.valenceRequests.begin(),
       surface.valenceRequests.end(),
       [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex == b.vertex; });
@@ -654,10 +444,8 @@ private:
   bool takesAll_; ///< what is shorter than kQuadsOfLoop s, whatever smaller quads could do
   StageRecords& stages_;
   std::vector<std::string>& reused_;
-  AskedOf asked_;
-  bool isRaised_ = false; ///< a limit, since anything was cut
-  double limit_;          ///< of boundary loops, in units of the mesh
-  double handleLimit_;    ///< of handles
+  AskedPlaces asked_;
+  DetailLimits limits_;
   std::size_t handlesCut_ = 0;
   std::size_t changes_ = 0; ///< places where the surface was changed
   bool isThinning_ = false; ///< thin parts are too many, or nothing else has led to quads

@@ -2,47 +2,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/SizedSurface.h"
 
+#include "Base/Clock.h"
 #include "Base/Memory.h"
-#include "Base/PlaceText.h"
-#include "Details/SmallComponents.h"
 #include "Features/CreaseCurves.h"
 #include "Features/FeatureFilter.h"
 #include "Features/FeatureNetwork.h"
 #include "Mesh/Sizing.h"
 #include "Pipeline/Notices.h"
+#include "Pipeline/SmallBlocks.h"
 #include "Pipeline/SmallHandles.h"
+#include "Pipeline/SurfaceSizes.h"
 #include "Prepare/Frame.h"
 #include "Prepare/Prepare.h"
 #include "Prepare/Refine.h"
 #include "Prepare/RepairText.h"
 #include "Requests/Guides.h"
 #include "Requests/HeldVertices.h"
-#include "Sizes/AdaptiveSizing.h"
 #include "Sizes/CurvatureGuides.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <limits>
-#include <sstream>
+#include <initializer_list>
 #include <utility>
 
 namespace quadrille
 {
 namespace
 {
-
-/// Above this share of the area what is left is not worth a word, nor is a factor of lengths below the other one.
-constexpr double kMostOfArea = 0.94;
-constexpr double kToldFactor = 1.05;
-
-/// Components with less area are left out where there are too many small ones.
-constexpr double kQuadsOfSpeck = 1;
-constexpr double kAnyNumber = std::numeric_limits<double>::infinity();
-
-/// How often the edge length is chosen anew where sizes that grow gradually make too many quads, and when it is good.
-constexpr int kSizingRounds = 3;
-constexpr double kSizedCountTolerance = 0.03;
 
 /// A prepared surface in the store, without requests.
 struct StoredPrepared
@@ -62,18 +48,6 @@ struct StoredSized
   std::vector<GivenUpCurve> givenUpFeatures;
   std::vector<SmallDetail> details;
 };
-
-/// What a sized surface has of components that are too small for a block of quads.
-struct StoredSmallComponents
-{
-  SmallComponents small; ///< without its flags of faces
-  double area = 0;       ///< of the whole surface, over the sizes
-};
-
-double areaOverSizes(const PreparedSurface& surface)
-{
-  return surface.mesh.sizing.empty() ? surface.area : sizedArea(surface.mesh);
-}
 
 /// Of guides, valences and curves, where closed handles move their corners.
 ResultKey requestsKey(const SurfaceInput& input)
@@ -127,72 +101,9 @@ ResultKey requestsKey(const SurfaceInput& input)
     .key();
 }
 
-std::string smallComponentsText(const SmallComponents& small, std::size_t count, double edgeLength)
-{
-  std::ostringstream text;
-  text << count << " of " << small.components
-       << " connected components are smaller than a closed block of quads of this size, the "
-          "largest with the area of "
-       << std::setprecision(2) << small.largest / (edgeLength * edgeLength) << std::setprecision(6)
-       << " quads near " << placeText(small.place);
-  return text.str();
-}
-
-std::string specksText(const SmallComponents& small, double edgeLength)
-{
-  std::ostringstream text;
-  text << small.count << " of " << small.components
-       << " connected components have less area than a quad of this size, the largest "
-       << std::setprecision(2) << small.largest / (edgeLength * edgeLength) << std::setprecision(6)
-       << " of one near " << placeText(small.place)
-       << ": left out, as the smallest blocks of quads for them, " << std::llround(small.quads)
-       << " altogether, are more than was asked for; ask for more quads, or have them kept (Small "
-          "Details Resolve, --small-details resolve)";
-  return text.str();
-}
-
-std::vector<float> multiplied(std::vector<float> lengths, double factor)
-{
-  for (float& length : lengths)
-  {
-    length = static_cast<float>(length * factor);
-  }
-  return lengths;
-}
-
 ResultKey preparedKey(ResultKey inputHash, const RemeshOptions& options)
 {
   return KeyMaker(inputHash).add(options.featureAngle.value_or(0)).key();
-}
-
-template <class Text>
-void noteComponents(const SmallComponents& small, double edgeLength, const Text& whatBecomes,
-  std::vector<SmallDetail>& details)
-{
-  for (const SmallComponent& component : small.each)
-  {
-    details.push_back({ DetailKind::Component, DetailDecision::Simplify,
-      std::sqrt(component.area) / edgeLength, component.place, whatBecomes(component) });
-  }
-}
-
-/// From the store where it has them.
-StoredSmallComponents smallComponents(const SizedSurface& sized, ResultStore* store, int threads)
-{
-  const auto known = store != nullptr ? store->find<StoredSmallComponents>(sized.key) : nullptr;
-  if (known)
-  {
-    return *known;
-  }
-  StoredSmallComponents found{ findSmallComponents(
-                                 *sized.surface, sized.edgeLength, kAnyNumber, threads),
-    areaOverSizes(*sized.surface) };
-  found.small.isSmall = {};
-  if (store != nullptr)
-  {
-    store->put(sized.key, std::make_shared<StoredSmallComponents>(found), sizeof(found));
-  }
-  return found;
 }
 
 class SurfaceSizing
@@ -357,7 +268,7 @@ private:
     }
     if (options_.sizes.any())
     {
-      adaptSizes();
+      tell(adaptSizes(surface_, options_, made_));
     }
     else
     {
@@ -414,69 +325,6 @@ private:
     }
   }
 
-  /// Sizes that the shape of the surface asks for. Where a number of quads is asked for, the edge length is the one
-  /// with which they make as many, and the lengths that the shape asks for stay what they are.
-  void adaptSizes()
-  {
-    Mesh& mesh = surface_.mesh;
-    const AdaptiveSizes& sizes = options_.sizes;
-    const double start = secondsNow();
-    // On faces no larger than quads, so that there are places to ask for sizes at.
-    refineSurface(surface_, made_.edgeLength, {}, options_.threads);
-    const double reach = options_.quads ? sizes.largest / sizes.smallest : sizes.largest;
-    const std::vector<float> asked = mesh.sizing;
-    const std::vector<float> lengths =
-      adaptiveLengths(mesh, sizes, made_.edgeLength, reach, options_.threads);
-    const double target = options_.quads ? static_cast<double>(*options_.quads) : 0;
-    double wanted = target, made = 0;
-    DistributedSizes shared;
-    for (int round = 0; round < kSizingRounds; ++round)
-    {
-      if (options_.quads)
-      {
-        shared = distributeSizes(mesh, asked, lengths, sizes, wanted);
-        made_.edgeLength = roundedLength(shared.edgeLength);
-      }
-      setAdaptiveSizes(
-        mesh, asked, multiplied(lengths, shared.lengthFactor), sizes, made_.edgeLength);
-      limitSizeGrowth(mesh, made_.edgeLength);
-      made = sizedArea(mesh) / (made_.edgeLength * made_.edgeLength);
-      if (!options_.quads || std::abs(made / target - 1) < kSizedCountTolerance)
-      {
-        break;
-      }
-      wanted *= target / made; // sizes that grow gradually make more quads
-    }
-    if (!options_.quads)
-    {
-      made_.targetQuads = predictedQuads(made, 1);
-    }
-    made_.stages.add("sizes", secondsNow() - start, mesh.faceCount(), mesh.faceCount());
-    tell(adaptiveSizesNotice(mesh, lengths, shared.lengthFactor));
-  }
-
-  std::string adaptiveSizesNotice(
-    const Mesh& mesh, const std::vector<float>& lengths, double factor) const
-  {
-    const auto [least, most] = std::minmax_element(mesh.sizing.begin(), mesh.sizing.end());
-    std::ostringstream text;
-    text << std::setprecision(2) << "quads get sizes from " << double{ *least } << " to "
-         << double{ *most } << " times the target edge length";
-    if (factor > kToldFactor)
-    {
-      text << "; so few quads are longer than curvature and thickness ask for, by a factor of "
-           << factor << ": ask for " << std::setprecision(2) << factor * factor
-           << " times as many, or for a larger chord error";
-    }
-    const double share = shareOfLengthsMet(mesh, multiplied(lengths, factor), made_.edgeLength);
-    if (share < kMostOfArea)
-    {
-      text << "; on " << std::lround(100 * (1 - share))
-           << " % of the area the smallest size keeps them longer than these ask for";
-    }
-    return text.str();
-  }
-
   bool refuseTooMany()
   {
     if (made_.targetQuads <= options_.maximumNumberOfQuads)
@@ -497,7 +345,7 @@ private:
     PreparedSurface& surface = surface_;
     double start = secondsNow();
     const std::size_t before = surface.mesh.faceCount();
-    dropSmallComponents();
+    tell(dropSmallComponents(surface, options_, made_));
     tell(surface.facets.text());
     filterFeatures();
     refineSurface(surface, made_.edgeLength,
@@ -555,36 +403,6 @@ private:
     }
   }
 
-  /// On request, or where their blocks alone would be more quads than are asked for; before anything depends on them.
-  void dropSmallComponents()
-  {
-    const bool isAsked = options_.removeSmallComponents;
-    if (!isAsked && !maySimplify(options_))
-    {
-      return;
-    }
-    SmallComponents small =
-      findSmallComponents(surface_, made_.edgeLength, kAnyNumber, options_.threads);
-    if (!isAsked)
-    {
-      if (small.quads <= static_cast<double>(made_.targetQuads))
-      {
-        return;
-      }
-      small = findSmallComponents(surface_, made_.edgeLength, kQuadsOfSpeck, options_.threads);
-    }
-    const std::size_t removed = quadrille::removeSmallComponents(surface_, small);
-    if (removed == 0)
-    {
-      return;
-    }
-    tell(isAsked
-        ? smallComponentsText(small, removed, made_.edgeLength) + ": removed, as was asked for"
-        : specksText(small, made_.edgeLength));
-    noteComponents(
-      small, made_.edgeLength, [](const SmallComponent&) { return "left out"; }, made_.details);
-  }
-
   void guideByCurvature()
   {
     if (!options_.curvatureGuides)
@@ -624,36 +442,6 @@ private:
 };
 
 } // namespace
-
-/// What of the surface is left after the removal, or becomes blocks, sets the number of quads where an edge length is
-/// asked for.
-void countBlocks(SizedSurface& sized, const RemeshOptions& options, ResultStore* store)
-{
-  const double quad = sized.edgeLength * sized.edgeLength;
-  const StoredSmallComponents known = smallComponents(sized, store, options.threads);
-  const SmallComponents& small = known.small;
-  sized.blocks.clear();
-  sized.blocksNotice.clear();
-  if (!options.quads)
-  {
-    const double quads = (known.area - small.area) / quad + small.quads;
-    sized.targetQuads = predictedQuads(quads, 1);
-  }
-  if (small.count > 0)
-  {
-    noteComponents(
-      small, sized.edgeLength,
-      [](const SmallComponent& component) {
-        return "made a block of about " + std::to_string(std::llround(component.block)) + " quads";
-      },
-      sized.blocks);
-    sized.blocksNotice = smallComponentsText(small, small.count, sized.edgeLength) +
-      ": each was made of about the smallest block of quads there is, " +
-      std::to_string(std::llround(small.quads)) +
-      " altogether; ask for more quads to resolve them, or have them removed (Small Components, "
-      "--small-components remove)";
-  }
-}
 
 bool judgesCreases(const RemeshOptions& options)
 {

@@ -3,11 +3,14 @@
 #include "Session/SessionJson.h"
 
 #include "Base/Refuse.h"
+#include "Session/JsonReader.h"
 
 #include <array>
-#include <cmath>
-#include <limits>
-#include <set>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 namespace quadrille
 {
@@ -15,12 +18,7 @@ namespace
 {
 
 constexpr std::array<const char*, 5> kOperations{ "move", "split", "merge", "cancel", "add" };
-constexpr std::array<const char*, 4> kMethods{ "scale-aware", "mixed-integer", "quadcover",
-  "seamless" };
-constexpr std::array<const char*, 2> kFeatureCriteria{ "creases", "angle" };
-constexpr std::array<const char*, 3> kFinalQualities{ "coarse", "intermediate", "input" };
 constexpr std::array<const char*, 2> kPlaneCurves{ "isoline", "mid-line" };
-constexpr std::array<const char*, 4> kSmallDetails{ "automatic", "resolve", "simplify", "keep" };
 
 SessionJson pointToJson(const Vector3& p)
 {
@@ -36,143 +34,6 @@ SessionJson pointsToJson(const std::vector<Vector3>& points)
   }
   return json;
 }
-
-/// Takes the values of an object one by one; what is left at the end has no place in it.
-class ObjectReader
-{
-public:
-  ObjectReader(const SessionJson& json, std::string where) : json_(json), where_(std::move(where))
-  {
-    if (!json.is_object())
-    {
-      refuse(where_, " is no JSON object");
-    }
-  }
-
-  bool has(const char* key) const { return json_.contains(key); }
-
-  const SessionJson& at(const char* key)
-  {
-    if (!has(key))
-    {
-      refuse(where_, " has no \"", key, "\"");
-    }
-    taken_.insert(key);
-    return json_[key];
-  }
-  void read(const char* key, double& value) { value = numberIn(at(key), key); }
-  void read(const char* key, bool& value)
-  {
-    require(at(key).is_boolean(), key, "true or false");
-    value = json_[key].get<bool>();
-  }
-  void read(const char* key, std::string& value)
-  {
-    require(at(key).is_string(), key, "a text");
-    value = json_[key].get<std::string>();
-  }
-  template <class Integer, std::enable_if_t<std::is_integral_v<Integer>, int> = 0>
-  void read(const char* key, Integer& value)
-  {
-    value = integerIn<Integer>(at(key), key);
-  }
-  void read(const char* key, Vector3& value) { value = pointIn(at(key), key); }
-  template <class T>
-  void read(const char* key, std::vector<T>& values)
-  {
-    require(at(key).is_array(), key, "a list");
-    values.clear();
-    for (const SessionJson& value : json_[key])
-    {
-      if constexpr (std::is_same_v<T, Vector3>)
-      {
-        values.push_back(pointIn(value, key));
-      }
-      else
-      {
-        values.push_back(integerIn<T>(value, key));
-      }
-    }
-  }
-  template <class T>
-  void readIf(const char* key, T& value)
-  {
-    if (has(key))
-    {
-      read(key, value);
-    }
-  }
-  template <std::size_t kCount>
-  std::size_t readName(const char* key, const std::array<const char*, kCount>& names)
-  {
-    std::string name;
-    read(key, name);
-    for (std::size_t i = 0; i < kCount; ++i)
-    {
-      if (name == names[i])
-      {
-        return i;
-      }
-    }
-    std::string all;
-    for (const char* known : names)
-    {
-      all += std::string(all.empty() ? "" : ", ") + known;
-    }
-    refuse("\"", key, "\" of ", where_, " is \"", name, "\", but must be one of: ", all);
-  }
-  void finish() const
-  {
-    for (const auto& [key, value] : json_.items())
-    {
-      if (taken_.count(key) == 0)
-      {
-        refuse(where_, " has \"", key, "\", which is not known here");
-      }
-    }
-  }
-  const std::string& where() const { return where_; }
-
-private:
-  void require(bool is, const char* key, const char* what) const
-  {
-    if (!is)
-    {
-      refuse("\"", key, "\" of ", where_, " must be ", what);
-    }
-  }
-  double numberIn(const SessionJson& value, const char* key) const
-  {
-    require(value.is_number(), key, "a number");
-    return value.get<double>();
-  }
-  Vector3 pointIn(const SessionJson& value, const char* key) const
-  {
-    require(value.is_array() && value.size() == 3, key, "three numbers a point");
-    return { numberIn(value[0], key), numberIn(value[1], key), numberIn(value[2], key) };
-  }
-  template <class Integer>
-  Integer integerIn(const SessionJson& value, const char* key) const
-  {
-    using Limits = std::numeric_limits<Integer>;
-    bool fits = false;
-    if (value.is_number_unsigned())
-    {
-      fits = value.get<std::uint64_t>() <= static_cast<std::uint64_t>(Limits::max());
-    }
-    else if (value.is_number_integer())
-    {
-      fits =
-        Limits::is_signed && value.get<std::int64_t>() >= static_cast<std::int64_t>(Limits::min());
-    }
-    require(fits, key, "a whole number in its range");
-    return value.get<Integer>();
-  }
-
-  const SessionJson& json_;
-  std::string where_;
-  std::set<std::string> taken_;
-};
 
 /// Writes the members of each kind.
 struct ContentWriter
@@ -506,138 +367,6 @@ SessionConstraint constraintFromJson(const SessionJson& json, const std::string&
   }
   reader.finish();
   return constraint;
-}
-
-SessionJson settingsToJson(const RemeshOptions& options)
-{
-  // By name, so that an option that is new has to be put on one side or the other here.
-  const auto& [quads, edgeLength, relativeEdgeLength, featureAngle, featureCriterion, shapeSizes,
-    curvatureGuides, method, coarsestIntegers, coarseVertices, decimationCost, closeHandles,
-    smallDetails, removeSmallComponents, anisotropyLimit, finalQuality, distortionMetric,
-    maximumNumberOfQuads, preview, smoothingSteps, memoryLimit, keepsPositions, mergeCharts,
-    knownMap, threads, warmStart, progress] = options;
-  static_cast<void>(decimationCost); // sessions have the default one
-  static_cast<void>(preview);
-  static_cast<void>(memoryLimit);
-  static_cast<void>(keepsPositions);
-  static_cast<void>(mergeCharts);
-  static_cast<void>(knownMap);
-  static_cast<void>(threads);
-  static_cast<void>(progress);
-  SessionJson json;
-  if (quads)
-  {
-    json["quads"] = *quads;
-  }
-  else if (edgeLength)
-  {
-    json["edge_length"] = *edgeLength;
-  }
-  else
-  {
-    json["relative_edge_length"] = relativeEdgeLength;
-  }
-  json["feature_angle"] = featureAngle ? SessionJson(*featureAngle) : SessionJson(nullptr);
-  json["feature_criterion"] = kFeatureCriteria[static_cast<std::size_t>(featureCriterion)];
-  json["chord_error"] =
-    shapeSizes.chordError ? SessionJson(*shapeSizes.chordError) : SessionJson(nullptr);
-  json["gap_quads"] = shapeSizes.gapQuads;
-  json["smallest_size"] = shapeSizes.smallest;
-  json["largest_size"] = shapeSizes.largest;
-  json["curvature_guides"] = curvatureGuides ? SessionJson(*curvatureGuides) : SessionJson(nullptr);
-  json["method"] = kMethods[static_cast<std::size_t>(method)];
-  json["integers"] = coarsestIntegers ? "coarsest" : "keep-sizes";
-  json["coarse_vertices"] = coarseVertices;
-  json["close_handles"] = closeHandles;
-  json["small_details"] = kSmallDetails[static_cast<std::size_t>(smallDetails)];
-  json["small_components"] = removeSmallComponents ? "remove" : "keep";
-  json["anisotropy_limit"] = anisotropyLimit;
-  json["final_quality"] = kFinalQualities[static_cast<std::size_t>(finalQuality)];
-  json["distortion_metric"] = distortionMetric;
-  json["maximum_number_of_quads"] = maximumNumberOfQuads;
-  json["smoothing_steps"] = smoothingSteps;
-  json["warm_start"] = warmStart;
-  return json;
-}
-
-void settingsFromJson(const SessionJson& json, RemeshOptions& options, const std::string& where)
-{
-  ObjectReader reader(json, where);
-  const int sizes = static_cast<int>(reader.has("quads")) +
-    static_cast<int>(reader.has("edge_length")) +
-    static_cast<int>(reader.has("relative_edge_length"));
-  if (sizes > 1)
-  {
-    refuse(where, " has more than one of \"quads\", \"edge_length\", \"relative_edge_length\"");
-  }
-  if (sizes == 1)
-  {
-    options.quads.reset();
-    options.edgeLength.reset();
-  }
-  if (reader.has("quads"))
-  {
-    reader.read("quads", options.quads.emplace());
-  }
-  if (reader.has("edge_length"))
-  {
-    reader.read("edge_length", options.edgeLength.emplace());
-  }
-  reader.readIf("relative_edge_length", options.relativeEdgeLength);
-  const auto readOptional = [&](const char* name, std::optional<double>& value)
-  {
-    if (reader.has(name))
-    {
-      value.reset();
-      if (!reader.at(name).is_null())
-      {
-        reader.read(name, value.emplace());
-      }
-    }
-  };
-  readOptional("feature_angle", options.featureAngle);
-  if (reader.has("feature_criterion"))
-  {
-    options.featureCriterion =
-      static_cast<FeatureCriterion>(reader.readName("feature_criterion", kFeatureCriteria));
-  }
-  readOptional("chord_error", options.sizes.chordError);
-  readOptional("curvature_guides", options.curvatureGuides);
-  reader.readIf("gap_quads", options.sizes.gapQuads);
-  reader.readIf("smallest_size", options.sizes.smallest);
-  reader.readIf("largest_size", options.sizes.largest);
-  constexpr std::array<const char*, 2> kIntegers{ "keep-sizes", "coarsest" };
-  constexpr std::array<const char*, 2> kSmall{ "keep", "remove" };
-  if (reader.has("method"))
-  {
-    options.method = static_cast<MapMethod>(reader.readName("method", kMethods));
-  }
-  if (reader.has("integers"))
-  {
-    options.coarsestIntegers = reader.readName("integers", kIntegers) == 1;
-  }
-  if (reader.has("small_details"))
-  {
-    options.smallDetails =
-      static_cast<SmallDetails>(reader.readName("small_details", kSmallDetails));
-  }
-  if (reader.has("small_components"))
-  {
-    options.removeSmallComponents = reader.readName("small_components", kSmall) == 1;
-  }
-  if (reader.has("final_quality"))
-  {
-    options.finalQuality =
-      static_cast<FinalQuality>(reader.readName("final_quality", kFinalQualities));
-  }
-  reader.readIf("coarse_vertices", options.coarseVertices);
-  reader.readIf("close_handles", options.closeHandles);
-  reader.readIf("anisotropy_limit", options.anisotropyLimit);
-  reader.readIf("distortion_metric", options.distortionMetric);
-  reader.readIf("maximum_number_of_quads", options.maximumNumberOfQuads);
-  reader.readIf("smoothing_steps", options.smoothingSteps);
-  reader.readIf("warm_start", options.warmStart);
-  reader.finish();
 }
 
 SessionJson parseJson(const std::string& text, const std::string& where)

@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Transfer/PatchProblems.h"
+
+#include "Base/Angles.h"
+#include "Base/ChartRotation.h"
+#include "GridMap/MapShape.h"
+#include "Transfer/PatchRotations.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+/// What weighs most is no nearer than this, squared and over the largest distance of the patch.
+constexpr double kNearest = 1e-4;
+/// How much more weight those at defects get each time.
+constexpr double kStiffening = 10;
+
+Eigen::Matrix2d equilateral(double side)
+{
+  Eigen::Matrix2d edges;
+  edges << side, 0.5 * side, 0, 0.8660254037844386 * side;
+  return edges;
+}
+
+/// The displacement of unknown direction (1, 0) or (0, 1) in a corner's chart.
+Vector2 direction(bool alongU, int rotation)
+{
+  const FixedVec2 d = rotate(alongU ? FixedVec2{ 1, 0 } : FixedVec2{ 0, 1 }, rotation);
+  return { static_cast<double>(d.u), static_cast<double>(d.v) };
+}
+
+} // namespace
+
+UntangleProblem PatchProblems::make(
+  PatchReference reference, const std::vector<double>& rotations) const
+{
+  // A point per corner, relative to its face's first corner: only differences inside a face matter.
+  UntangleProblem problem;
+  const int points = 3 * static_cast<int>(patch_.faces().size());
+  double imageArea = 0;
+  const double scale = referenceScale(imageArea);
+  const Eigen::Matrix2d uniform =
+    equilateral(std::sqrt(imageArea / (0.433 * static_cast<double>(patch_.faces().size()))))
+      .inverse();
+  problem.offset = Eigen::VectorXd::Zero(2 * points);
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto pointOf = [&](Index corner)
+  {
+    const auto face = std::lower_bound(patch_.faces().begin(), patch_.faces().end(), corner / 3);
+    return 3 * static_cast<int>(face - patch_.faces().begin()) + static_cast<int>(corner % 3);
+  };
+  for (std::size_t i = 0; i < patch_.faces().size(); ++i)
+  {
+    const Index f = patch_.faces()[i];
+    const Index point = static_cast<Index>(3 * i);
+    problem.triangles.push_back({ point, point + 1, point + 2 });
+    problem.inverseReference.push_back(
+      reference == PatchReference::Equilateral ? uniform : inverseReference(f, scale));
+    if (reference == PatchReference::Turned)
+    {
+      problem.inverseReference.back() *= Eigen::Rotation2Dd(-rotations[i]).toRotationMatrix();
+    }
+    problem.weight.push_back(0.5 / std::abs(problem.inverseReference.back().determinant()));
+    for (Index k = 0; k < 3; ++k)
+    {
+      problem.offset.segment<2>(2 * (point + k)) = toDouble(uv_[3 * f + k] - uv_[3 * f]);
+    }
+  }
+  for (const PatchVertex& vertex : patch_.vertices())
+  {
+    for (std::size_t i = 0; i < vertex.fanCount && vertex.freedom != PatchFreedom::Fixed; ++i)
+    {
+      const PatchCorner& c = patch_.fans()[vertex.firstFan + i];
+      const int row = 2 * pointOf(c.corner);
+      int column = vertex.firstUnknown;
+      for (const bool alongU : { true, false })
+      {
+        if (vertex.freedom == (alongU ? PatchFreedom::AlongV : PatchFreedom::AlongU))
+        {
+          continue;
+        }
+        const Vector2 d = direction(alongU, c.rotation);
+        const int axis = d.x() != 0 ? 0 : 1;
+        entries.emplace_back(row + axis, column++, d[axis]);
+      }
+    }
+  }
+  problem.basis.resize(2 * points, patch_.unknowns());
+  problem.basis.setFromTriplets(entries.begin(), entries.end());
+  return problem;
+}
+
+double PatchProblems::referenceScale(double& imageArea) const
+{
+  // So that the references have as much area as the image: the area of the image does not change, as its
+  // border stays.
+  double area = 0;
+  double image = 0;
+  for (const Index f : patch_.faces())
+  {
+    area += 0.5 * mesh_.edgeVector(3 * f).cross(mesh_.edgeVector(3 * f + 1)).norm();
+    const Vector2 a = toDouble(uv_[3 * f + 1] - uv_[3 * f]);
+    const Vector2 b = toDouble(uv_[3 * f + 2] - uv_[3 * f]);
+    image += 0.5 * (a.x() * b.y() - a.y() * b.x());
+  }
+  imageArea = image > 0 ? image : std::max(area, 1e-12);
+  return area > 0 && image > 0 ? std::sqrt(image / area) : 1.0;
+}
+
+Eigen::Matrix2d PatchProblems::inverseReference(Index f, double scale) const
+{
+  const Vector3 ab = scale * mesh_.edgeVector(3 * f);
+  const Vector3 ac = -scale * mesh_.edgeVector(3 * f + 2);
+  return inverseOfTriangle(ab, ac);
+}
+
+std::vector<double> PatchProblems::nearnessToFixed() const
+{
+  std::vector<Vector3> fixed;
+  for (const PatchVertex& vertex : patch_.vertices())
+  {
+    const auto begin = patch_.fans().begin() + static_cast<std::ptrdiff_t>(vertex.firstFan);
+    const bool inside = std::all_of(begin, begin + static_cast<std::ptrdiff_t>(vertex.fanCount),
+      [&](const PatchCorner& c) { return patch_.inPatch()[Mesh::face(c.corner)] != 0; });
+    if (vertex.freedom == PatchFreedom::Fixed && inside)
+    {
+      fixed.push_back(mesh_.position[mesh_.origin[begin->corner]]);
+    }
+  }
+  std::vector<double> nearness(patch_.faces().size(), 1);
+  if (fixed.empty())
+  {
+    return nearness;
+  }
+  double farthest = 0;
+  for (std::size_t i = 0; i < patch_.faces().size(); ++i)
+  {
+    const auto corner = [&](Index k)
+    { return mesh_.position[mesh_.origin[3 * patch_.faces()[i] + k]]; };
+    const Vector3 middle = (corner(0) + corner(1) + corner(2)) / 3;
+    double squared = std::numeric_limits<double>::infinity();
+    for (const Vector3& p : fixed)
+    {
+      squared = std::min(squared, (middle - p).squaredNorm());
+    }
+    nearness[i] = squared;
+    farthest = std::max(farthest, squared);
+  }
+  for (double& squared : nearness)
+  {
+    squared = farthest > 0 ? 1 / std::max(squared / farthest, kNearest) : 1;
+  }
+  return nearness;
+}
+
+void PatchProblems::guardCurves(const std::vector<double>& rotations,
+  const std::vector<double>& nearness, UntangleProblem& problem) const
+{
+  double imageArea = 0;
+  const double scale = referenceScale(imageArea);
+  std::vector<Index> fixed;
+  for (const PatchVertex& vertex : patch_.vertices())
+  {
+    if (vertex.freedom == PatchFreedom::Fixed)
+    {
+      fixed.push_back(mesh_.origin[patch_.fans()[vertex.firstFan].corner]);
+    }
+  }
+  std::sort(fixed.begin(), fixed.end());
+  std::vector<GuardedEdge> edges;
+  std::vector<double> factors;
+  for (std::size_t i = 0; i < patch_.faces().size(); ++i)
+  {
+    for (Index k = 0; k < 3; ++k)
+    {
+      const Index h = 3 * patch_.faces()[i] + k;
+      const double length = scale * mesh_.edgeVector(h).norm();
+      const bool stays = std::binary_search(fixed.begin(), fixed.end(), mesh_.origin[h]) &&
+        std::binary_search(fixed.begin(), fixed.end(), mesh_.target(h));
+      if (!mesh_.isConstrained(h) || stays || !(length > 0))
+      {
+        continue;
+      }
+      const double direction = rotations[i] + directionOf(mesh_, h);
+      const int axis = static_cast<int>(std::lround(direction / kRightAngle));
+      edges.push_back(
+        { static_cast<Index>(3 * i + k), static_cast<Index>(3 * i + (k + 1) % 3), axis, length });
+      factors.push_back(nearness[i]);
+    }
+  }
+  const std::size_t before = problem.weight.size();
+  guardEdges(problem, edges);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    problem.weight[before + i] *= factors[i];
+  }
+}
+
+void PatchProblems::stiffen(const std::vector<Index>& vertices, UntangleProblem& problem) const
+{
+  std::vector<Index> near = vertices;
+  for (int ring = 0; ring < 2; ++ring)
+  {
+    std::sort(near.begin(), near.end());
+    std::vector<Index> touched;
+    for (std::size_t i = 0; i < patch_.faces().size(); ++i)
+    {
+      const Index* v = &mesh_.origin[3 * patch_.faces()[i]];
+      if (std::any_of(
+            v, v + 3, [&](Index w) { return std::binary_search(near.begin(), near.end(), w); }))
+      {
+        touched.insert(touched.end(), v, v + 3);
+        problem.weight[i] *= ring == 1 ? kStiffening : 1;
+      }
+    }
+    near = std::move(touched);
+  }
+}
+
+Eigen::VectorXd harmonicStart(const UntangleProblem& problem)
+{
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t t = 0; t < problem.triangles.size(); ++t)
+  {
+    const Eigen::Matrix2d& inverse = problem.inverseReference[t];
+    // Rows: how each corner enters the two columns of J.
+    Eigen::Matrix<double, 3, 2> gradient;
+    gradient.row(1) = inverse.row(0);
+    gradient.row(2) = inverse.row(1);
+    gradient.row(0) = -inverse.row(0) - inverse.row(1);
+    const Eigen::Matrix3d stiffness = problem.weight[t] * gradient * gradient.transpose();
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        for (int axis = 0; axis < 2; ++axis)
+        {
+          entries.emplace_back(2 * static_cast<int>(problem.triangles[t][i]) + axis,
+            2 * static_cast<int>(problem.triangles[t][j]) + axis, stiffness(i, j));
+        }
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> energy(problem.offset.size(), problem.offset.size());
+  energy.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SparseMatrix<double> reduced = problem.basis.transpose() * energy * problem.basis;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(reduced);
+  if (solver.info() != Eigen::Success)
+  {
+    return Eigen::VectorXd::Zero(problem.basis.cols());
+  }
+  return solver.solve(-(problem.basis.transpose() * (energy * problem.offset)));
+}
+
+} // namespace quadrille

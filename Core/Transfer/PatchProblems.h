@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What the untangler gets of a patch.
+#pragma once
+
+#include "Base/FixedPoint.h"
+#include "Mesh/Mesh.h"
+#include "Numerics/Untangler.h"
+#include "Transfer/MendedPatch.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Which shapes the untangler aims at: those of the surface, or, where slivers keep it from converging, the same
+/// for all triangles.
+enum class PatchReference : std::uint8_t
+{
+  Surface,
+  Equilateral,
+  Turned ///< those of the surface, each turned as the map round the patch asks for
+};
+
+/// Of a patch with its fans, and of the map as it is whenever something is asked for.
+class PatchProblems
+{
+public:
+  PatchProblems(const Mesh& mesh, const std::vector<FixedVec2>& uv, const MendedPatch& patch)
+    : mesh_(mesh), uv_(uv), patch_(patch)
+  {
+  }
+
+  /// rotations: per face, where the references are turned.
+  UntangleProblem make(PatchReference reference, const std::vector<double>& rotations = {}) const;
+  /// Of the map over the surface; imageArea: of the map.
+  double referenceScale(double& imageArea) const;
+
+  /// Per face, one over its squared distance from the nearest vertex inside the patch that stays, in patch sizes.
+  std::vector<double> nearnessToFixed() const;
+  /// Edges of curves between vertices that may slide past each other otherwise.
+  void guardCurves(const std::vector<double>& rotations, const std::vector<double>& nearness,
+    UntangleProblem& problem) const;
+  /// Faces that touch one of these vertices, or touch one that does, weigh more.
+  void stiffen(const std::vector<Index>& vertices, UntangleProblem& problem) const;
+
+private:
+  Eigen::Matrix2d inverseReference(Index f, double scale) const;
+
+  const Mesh& mesh_;
+  const std::vector<FixedVec2>& uv_;
+  const MendedPatch& patch_;
+};
+
+/// The displacements of least Dirichlet energy: no valid map yet, but one that has forgotten any wrong winding.
+Eigen::VectorXd harmonicStart(const UntangleProblem& problem);
+
+} // namespace quadrille
