@@ -51,7 +51,7 @@ public:
   {
   }
 
-  /// Adds the seams between a chain in the first half plane and one in the second, counts features of one side only.
+  /// Adds the seams between a chain in the first half plane and one in the second; counts features of one side only.
   /// Where a feature ends on one side its image ends on the other one, or there is at least a vertex of the quads.
   void add(const WedgeChain& firstChain, const WedgeChain& secondChain, SurfaceWedge& wedge);
 
