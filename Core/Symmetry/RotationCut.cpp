@@ -7,11 +7,13 @@
 #include "Base/TryCount.h"
 #include "Mesh/Topology.h"
 #include "Symmetry/MirrorCut.h"
+#include "Symmetry/SeamMarks.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -76,15 +78,6 @@ Mesh connectTriangles(const SurfaceInput& input)
   return mesh;
 }
 
-/// A run of the boundary in one of the half planes.
-struct WedgeChain
-{
-  std::vector<Index> edges; ///< half-edges, in the order of the boundary
-  bool closed = false;
-  double length = 0;
-  Vector3 middle = Vector3::Zero(); ///< mean over the length
-};
-
 class WedgeBuilder
 {
 public:
@@ -123,8 +116,9 @@ public:
     findSides();
     findPoles();
     findChains();
-    matchChains();
-    splitForMarks();
+    SeamMarks marks(cut_, axis_, order_, tolerance_, alignReach_);
+    matchChains(marks);
+    splitForMarks(marks.splits());
     return std::move(wedge_);
   }
 
@@ -321,12 +315,7 @@ private:
 
   const Vector3& place(const WedgeChain& chain, std::size_t i) const
   {
-    return cut_.position[vertexOf(chain, i)];
-  }
-  Index vertexOf(const WedgeChain& chain, std::size_t i) const
-  {
-    const std::size_t count = chain.edges.size();
-    return i < count ? cut_.origin[chain.edges[i]] : cut_.target(chain.edges[count - 1]);
+    return chain.place(cut_, i);
   }
 
   Vector3 imageOf(const Vector3& p) const { return axis_.image(p, 1, order_); }
@@ -348,7 +337,7 @@ private:
     return farthest;
   }
 
-  void matchChains()
+  void matchChains(SeamMarks& marks)
   {
     Index count = 0;
     const std::vector<Index> component = faceComponents(cut_, count);
@@ -376,7 +365,7 @@ private:
           " does not reach from one side of its wedge to the other";
         return;
       }
-      addSeams(first, second);
+      marks.add(first, second, wedge_);
     }
     if (chains_[0].size() != chains_[1].size())
     {
@@ -387,269 +376,27 @@ private:
     }
   }
 
-  /// Places along a chain, but its ends, at which features end.
-  std::vector<std::size_t> featureEnds(const WedgeChain& chain) const
-  {
-    std::vector<std::size_t> ends;
-    for (std::size_t i = chain.closed ? 0 : 1; i < chain.edges.size(); ++i)
-    {
-      bool isEnd = false;
-      Index h = Mesh::previous(chain.edges[i]);
-      while (!cut_.isBoundary(h))
-      {
-        isEnd = isEnd || cut_.isFeature(h);
-        h = Mesh::previous(cut_.twin[h]);
-      }
-      if (isEnd)
-      {
-        ends.push_back(i);
-      }
-    }
-    return ends;
-  }
-
-  /// The chain from a place on, in the second half plane against the order of the boundary.
-  struct Course
-  {
-    const WedgeChain* chain = nullptr;
-    bool backwards = false;
-    std::vector<double>
-      arc;            ///< per place along the chain: its way from the beginning, in chain order
-    double begin = 0; ///< of a closed one
-
-    double total() const { return arc.back(); }
-    /// Of place i of the chain, as the course runs.
-    double at(std::size_t i) const
-    {
-      double way = backwards ? total() - arc[i] : arc[i];
-      way -= chain->closed ? begin : 0;
-      return way < 0 ? way + total() : way;
-    }
-  };
-
-  Course courseOf(const WedgeChain& chain, bool backwards) const
-  {
-    Course course{ &chain, backwards, { 0 }, 0 };
-    for (const Index h : chain.edges)
-    {
-      course.arc.push_back(course.arc.back() + cut_.edgeVector(h).norm());
-    }
-    return course;
-  }
-
-  /// Where the quads get a vertex on both sides: the ways along the two courses.
-  struct Mark
-  {
-    double first = 0, second = 0;
-  };
-
-  /// Features that end on both sides at each other's images, as they come along the courses: those that lie within
-  /// reach, with the least sum of distances, where leaving two of them alone costs as much as the reach.
-  std::vector<Mark> alignFeatures(const Course& first, const std::vector<std::size_t>& here,
-    const Course& second, const std::vector<std::size_t>& there) const
-  {
-    const std::size_t n = here.size(), m = there.size();
-    const double alone = alignReach_ / 2;
-    std::vector<double> cost((n + 1) * (m + 1), 0);
-    const auto at = [m](std::size_t i, std::size_t j) { return i * (m + 1) + j; };
-    const auto pairCost = [&](std::size_t i, std::size_t j)
-    { return (imageOf(place(*first.chain, here[i])) - place(*second.chain, there[j])).norm(); };
-    for (std::size_t i = 0; i <= n; ++i)
-    {
-      for (std::size_t j = 0; j <= m; ++j)
-      {
-        double& best = cost[at(i, j)];
-        best = alone * static_cast<double>(i + j);
-        best = i > 0 ? std::min(best, cost[at(i - 1, j)] + alone) : best;
-        best = j > 0 ? std::min(best, cost[at(i, j - 1)] + alone) : best;
-        best =
-          i > 0 && j > 0 ? std::min(best, cost[at(i - 1, j - 1)] + pairCost(i - 1, j - 1)) : best;
-      }
-    }
-    std::vector<Mark> marks;
-    for (std::size_t i = n, j = m; i > 0 && j > 0;)
-    {
-      if (cost[at(i, j)] == cost[at(i - 1, j - 1)] + pairCost(i - 1, j - 1))
-      {
-        marks.push_back({ first.at(here[--i]), second.at(there[--j]) });
-      }
-      else if (cost[at(i, j)] == cost[at(i - 1, j)] + alone)
-      {
-        --i;
-      }
-      else
-      {
-        --j;
-      }
-    }
-    std::reverse(marks.begin(), marks.end());
-    return marks;
-  }
-
-  /// Closed courses begin where features end at each other's images, else at a vertex and the place nearest to its
-  /// image.
-  void beginClosed(Course& first, const std::vector<std::size_t>& here, Course& second,
-    const std::vector<std::size_t>& there) const
-  {
-    double nearest = alignReach_;
-    first.begin = 0;
-    bool found = false;
-    for (const std::size_t i : here)
-    {
-      for (const std::size_t j : there)
-      {
-        const double distance = (imageOf(place(*first.chain, i)) - place(*second.chain, j)).norm();
-        if (distance <= nearest)
-        {
-          nearest = distance;
-          found = true;
-          first.begin = first.arc[i];
-          second.begin = second.total() - second.arc[j];
-        }
-      }
-    }
-    if (!found)
-    {
-      second.begin = second.total() - nearestWay(second, imageOf(place(*first.chain, 0)));
-    }
-    const auto wrapped = [](Course& course)
-    { course.begin = course.begin >= course.total() ? 0 : course.begin; };
-    wrapped(first);
-    wrapped(second);
-  }
-
-  /// Of a place, along the chain.
-  double nearestWay(const Course& course, const Vector3& p) const
-  {
-    double nearest = std::numeric_limits<double>::infinity();
-    double way = 0;
-    for (std::size_t i = 0; i < course.chain->edges.size(); ++i)
-    {
-      const Vector3& from = place(*course.chain, i);
-      const Vector3 along = cut_.edgeVector(course.chain->edges[i]);
-      const double length = std::max(along.squaredNorm(), std::numeric_limits<double>::min());
-      const double share = std::clamp(along.dot(p - from) / length, 0.0, 1.0);
-      const double distance = (from + share * along - p).norm();
-      if (distance < nearest)
-      {
-        nearest = distance;
-        way = course.arc[i] + share * along.norm();
-      }
-    }
-    return way;
-  }
-
-  /// A mark for a feature that ends on one side only: on the other one between the same marks, as far along.
-  static void addLone(std::vector<Mark>& marks, double way, double Mark::*here, double Mark::*there)
-  {
-    const auto after = std::find_if(
-      marks.begin() + 1, marks.end(), [&](const Mark& mark) { return mark.*here >= way; });
-    const Mark& before = *(after - 1);
-    const double span = (*after).*here - before.*here;
-    if (after == marks.end() || !(way > before.*here) || !(way < (*after).*here) || !(span > 0))
-    {
-      return; // there is a mark
-    }
-    Mark mark;
-    mark.*here = way;
-    mark.*there = before.*there + (way - before.*here) / span * ((*after).*there - before.*there);
-    marks.insert(after, mark);
-  }
-
-  /// Where a feature ends on one side its image ends on the other one, or there is at least a vertex of the quads.
-  void addSeams(const WedgeChain& firstChain, const WedgeChain& secondChain)
-  {
-    Course first = courseOf(firstChain, false), second = courseOf(secondChain, true);
-    std::vector<std::size_t> here = featureEnds(firstChain), there = featureEnds(secondChain);
-    if (firstChain.closed)
-    {
-      beginClosed(first, here, second, there);
-    }
-    const auto sortAlong = [](const Course& course, std::vector<std::size_t>& ends)
-    {
-      std::sort(ends.begin(), ends.end(),
-        [&](std::size_t a, std::size_t b) { return course.at(a) < course.at(b); });
-    };
-    sortAlong(first, here);
-    sortAlong(second, there);
-    std::vector<Mark> marks{ { 0, 0 } };
-    std::size_t paired = 0;
-    for (const Mark& mark : alignFeatures(first, here, second, there))
-    {
-      // Of closed courses the first one is where they begin.
-      paired += mark.first > 0 && mark.second > 0 ? 0U : 1U;
-      if (mark.first > 0 && mark.second > 0)
-      {
-        marks.push_back(mark);
-      }
-    }
-    marks.push_back({ first.total(), second.total() });
-    wedge_.loneFeatures += here.size() + there.size() - 2 * (marks.size() - 2 + paired);
-    for (const std::size_t i : here)
-    {
-      addLone(marks, first.at(i), &Mark::first, &Mark::second);
-    }
-    for (const std::size_t i : there)
-    {
-      addLone(marks, second.at(i), &Mark::second, &Mark::first);
-    }
-    std::vector<std::array<Vector3, 2>> places;
-    places.reserve(marks.size());
-    for (const Mark& mark : marks)
-    {
-      places.push_back({ markPlace(first, mark.first), markPlace(second, mark.second) });
-    }
-    for (std::size_t i = 0; i + 1 < places.size(); ++i)
-    {
-      wedge_.input.seams.push_back(
-        { places[i][0], places[i + 1][0], places[i][1], places[i + 1][1] });
-    }
-  }
-
-  /// The vertex there, or one to be made.
-  Vector3 markPlace(const Course& course, double way)
-  {
-    double along = way + (course.chain->closed ? course.begin : 0);
-    along -= course.chain->closed && along >= course.total() ? course.total() : 0;
-    along = course.backwards ? course.total() - along : along;
-    const auto after = std::upper_bound(course.arc.begin(), course.arc.end(), along);
-    const std::size_t last = course.chain->edges.size() - 1;
-    const std::size_t i = after == course.arc.begin()
-      ? 0
-      : std::min(last, static_cast<std::size_t>(after - course.arc.begin()) - 1);
-    const double length = course.arc[i + 1] - course.arc[i];
-    const double share = length > 0 ? (along - course.arc[i]) / length : 0;
-    if (share * length <= tolerance_ || (1 - share) * length <= tolerance_)
-    {
-      return place(*course.chain, share * length <= tolerance_ ? i : i + 1);
-    }
-    const Index h = course.chain->edges[i];
-    Vector3 p = cut_.position[cut_.origin[h]] + share * cut_.edgeVector(h);
-    splits_.push_back({ h, share, p });
-    return p;
-  }
-
   /// Vertices of marks between those of the surface. Of several on an edge the last one first, so that the rest of it
   /// stays where it was.
-  void splitForMarks()
+  void splitForMarks(std::vector<SeamMarks::Split> splits)
   {
-    std::sort(splits_.begin(), splits_.end(),
-      [](const Split& a, const Split& b)
+    std::sort(splits.begin(), splits.end(),
+      [](const SeamMarks::Split& a, const SeamMarks::Split& b)
       { return a.halfEdge != b.halfEdge ? a.halfEdge < b.halfEdge : a.share > b.share; });
     double rest = 1;
-    for (std::size_t i = 0; i < splits_.size(); ++i)
+    for (std::size_t i = 0; i < splits.size(); ++i)
     {
-      const Split& split = splits_[i];
-      const bool isFirst = i == 0 || splits_[i - 1].halfEdge != split.halfEdge;
-      if (!isFirst && splits_[i - 1].share == split.share)
+      const SeamMarks::Split& split = splits[i];
+      const bool isFirst = i == 0 || splits[i - 1].halfEdge != split.halfEdge;
+      if (!isFirst && splits[i - 1].share == split.share)
       {
         continue;
       }
-      rest = isFirst ? 1 : splits_[i - 1].share;
+      rest = isFirst ? 1 : splits[i - 1].share;
       const auto triangle = static_cast<Index>(wedge_.face.size());
       const Index after = Mesh::next(split.halfEdge);
       splitEdge(split.halfEdge, split.place, split.share / rest);
-      for (Split& other : splits_)
+      for (SeamMarks::Split& other : splits)
       {
         // Another edge of the triangle has become one of the new triangle.
         other.halfEdge = other.halfEdge == after ? 3 * triangle + 1 : other.halfEdge;
@@ -667,13 +414,6 @@ private:
   Mesh cut_; ///< the wedge
   std::vector<WedgeSide> sides_;
   std::array<std::vector<WedgeChain>, 2> chains_; ///< in the first and in the second half plane
-  struct Split
-  {
-    Index halfEdge = kInvalidIndex; ///< of the wedge
-    double share = 0;
-    Vector3 place;
-  };
-  std::vector<Split> splits_;
 };
 
 /// Length of the curve that a half plane cuts out of the surface; none where faces lie in it.
