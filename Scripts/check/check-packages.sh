@@ -81,7 +81,8 @@ nothing_left quadrille paraview-quadrille "'libquadrille*'"
 
 echo "== without ParaView"
 make_system plain
-quietly apt-get install -y --no-install-recommends g++ cmake make
+# What needs adduser brings it along, and autoremove leaves it on Debian 13.
+quietly apt-get install -y --no-install-recommends g++ cmake make adduser
 files >"$work/before"
 quietly apt-get install -y --no-install-recommends ./quadrille_*.deb ./libquadrille*.deb
 use_commands
