@@ -26,10 +26,10 @@ make_system() # NAME
   quietly apt-get update
 }
 # All that is there but caches, logs and the folders of this script; what dpkg knows of packages is in it. Some packages
-# of Debian that come along add a system group and leave the copy of the list that was before.
+# of Debian that come along add a system group and leave the copy of the list that was before; netbase makes /etc/hosts.
 files() { run_inside 'find / -xdev \( -path /proc -o -path /dev -o -path /sys -o -path /run -o -path /tmp -o \
   -path /root -o -path /var/cache -o -path /var/log -o -path /var/lib/apt -o -path "/etc/*shadow-" -o \
-  -path "/etc/group-" \) -prune -o -print | sort'; }
+  -path "/etc/group-" -o -path /etc/hosts \) -prune -o -print | sort'; }
 nothing_left()
 {
   quietly apt-get purge -y "$@"
