@@ -6,7 +6,6 @@
 #include "Mesh/Topology.h"
 
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace quadrille
@@ -24,31 +23,16 @@ constexpr double kCourse = 0.5;
 ArcNetwork::ArcNetwork(const Mesh& mesh, double edgeLength)
   : mesh_(mesh), edgeLength_(edgeLength), edges_(constrainedEdges(mesh))
 {
-  offset_.assign(mesh.vertexCount() + 1, 0);
-  forEachEdge(
-    [&](Index h)
-    {
-      ++offset_[mesh.origin[h] + 1];
-      ++offset_[mesh.target(h) + 1];
-    });
-  std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
-  incident_.resize(offset_.back());
-  std::vector<Index> fill(offset_.begin(), offset_.end() - 1);
-  forEachEdge(
-    [&](Index h)
-    {
-      incident_[fill[mesh.origin[h]]++] = h;
-      incident_[fill[mesh.target(h)]++] = h;
-    });
+  at_ = edgesAtVertices(mesh, edges_);
   traceAll();
 }
 
 std::vector<Index> ArcNetwork::arcsAt(Index node) const
 {
   std::vector<Index> found;
-  for (Index i = offset_[node]; i < offset_[node + 1]; ++i)
+  for (Index i = at_.offset[node]; i < at_.offset[node + 1]; ++i)
   {
-    found.push_back(arcOf_[incident_[i]]);
+    found.push_back(arcOf_[at_.incident[i]]);
   }
   return found;
 }
@@ -70,11 +54,11 @@ void ArcNetwork::traceAll()
   for (Index v = 0; v < mesh_.vertexCount(); ++v)
   {
     pollNowAndThen(v);
-    for (Index i = offset_[v]; degree(v) != 2 && i < offset_[v + 1]; ++i)
+    for (Index i = at_.offset[v]; degree(v) != 2 && i < at_.offset[v + 1]; ++i)
     {
-      if (arcOf_[incident_[i]] == kInvalidIndex)
+      if (arcOf_[at_.incident[i]] == kInvalidIndex)
       {
-        trace(v, incident_[i]);
+        trace(v, at_.incident[i]);
       }
     }
   }
@@ -98,8 +82,8 @@ void ArcNetwork::trace(Index start, Index h)
     {
       break;
     }
-    const Index first = incident_[offset_[v]];
-    h = first == h ? incident_[offset_[v] + 1] : first;
+    const Index first = at_.incident[at_.offset[v]];
+    h = first == h ? at_.incident[at_.offset[v] + 1] : first;
   }
   arc.ends = { start, v };
   arcs_.push_back(std::move(arc));

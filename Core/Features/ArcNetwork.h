@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Base/Progress.h"
+#include "Features/EdgesAtVertices.h"
 #include "Mesh/Mesh.h"
 
 #include <array>
@@ -47,7 +48,7 @@ private:
     }
   }
 
-  Index degree(Index v) const { return offset_[v + 1] - offset_[v]; }
+  Index degree(Index v) const { return at_.offset[v + 1] - at_.offset[v]; }
   Index otherEnd(Index h, Index v) const;
 
   void traceAll();
@@ -60,8 +61,8 @@ private:
   const Mesh& mesh_;
   double edgeLength_;
   std::vector<Index> edges_;
-  std::vector<Index> offset_, incident_; ///< edges at each vertex
-  std::vector<Index> arcOf_;             ///< #H, of one half-edge of each edge
+  EdgesAtVertices at_;
+  std::vector<Index> arcOf_; ///< #H, of one half-edge of each edge
   std::vector<NetworkArc> arcs_;
 };
 

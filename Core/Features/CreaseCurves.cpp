@@ -6,6 +6,7 @@
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Features/EdgesAtVertices.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
 
@@ -67,22 +68,7 @@ public:
       edges_.clear(); // nothing to judge
       return;
     }
-    offset_.assign(mesh.vertexCount() + 1, 0);
-    forEachEdge(
-      [&](Index h)
-      {
-        ++offset_[mesh.origin[h] + 1];
-        ++offset_[mesh.target(h) + 1];
-      });
-    std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
-    incident_.resize(offset_.back());
-    std::vector<Index> fill(offset_.begin(), offset_.end() - 1);
-    forEachEdge(
-      [&](Index h)
-      {
-        incident_[fill[mesh.origin[h]]++] = h;
-        incident_[fill[mesh.target(h)]++] = h;
-      });
+    at_ = edgesAtVertices(mesh, edges_);
   }
 
   std::vector<CreaseCurve> curves() const
@@ -116,7 +102,7 @@ private:
     return !mesh_.isBoundary(h) && (mesh_.flags[h] & kRequestedFeature) == 0;
   }
 
-  Index degree(Index v) const { return offset_[v + 1] - offset_[v]; }
+  Index degree(Index v) const { return at_.offset[v + 1] - at_.offset[v]; }
 
   Index otherEnd(Index h, Index v) const
   {
@@ -125,8 +111,8 @@ private:
 
   Index otherEdge(Index h, Index v) const
   {
-    const Index first = incident_[offset_[v]];
-    return first == h ? incident_[offset_[v] + 1] : first;
+    const Index first = at_.incident[at_.offset[v]];
+    return first == h ? at_.incident[at_.offset[v] + 1] : first;
   }
 
   /// Direction from v along edge h and on to the next junction, at most an edge length.
@@ -158,13 +144,14 @@ private:
     const Vector3 forward = -courseFrom(v, h);
     double most = std::cos(kBend);
     Index best = kInvalidIndex;
-    for (Index i = offset_[v]; i < offset_[v + 1]; ++i)
+    for (Index i = at_.offset[v]; i < at_.offset[v + 1]; ++i)
     {
-      const double cosine = incident_[i] == h ? -1.0 : forward.dot(courseFrom(v, incident_[i]));
+      const double cosine =
+        at_.incident[i] == h ? -1.0 : forward.dot(courseFrom(v, at_.incident[i]));
       if (cosine > most)
       {
         most = cosine;
-        best = incident_[i];
+        best = at_.incident[i];
       }
     }
     return best;
@@ -224,7 +211,7 @@ private:
   const Mesh& mesh_;
   double edgeLength_;
   std::vector<Index> edges_;
-  std::vector<Index> offset_, incident_; ///< edges at each vertex
+  EdgesAtVertices at_;
 };
 
 Vector3 doubleAreaNormal(const Mesh& mesh, Index f)

@@ -12,13 +12,13 @@ ten. Left out are sources with CGAL's headers.
 import concurrent.futures
 import os
 import pathlib
-import re
 import subprocess
 import sys
 
+from check_sources import CGAL_INCLUDE
+
 STANDARD = ("algorithm", "array", "atomic", "chrono", "cmath", "fstream", "functional", "map", "memory", "mutex",
             "optional", "queue", "set", "sstream", "string", "thread", "tuple", "unordered_map", "utility", "vector")
-CGAL_INCLUDE = re.compile(r'#include (?:<CGAL/|"Repair/CgalMesh\.h")')
 
 
 def problem(command, source):

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Which of some edges end at a vertex, for networks of feature edges.
+#pragma once
+
+#include "Mesh/Mesh.h"
+
+#include <vector>
+
+namespace quadrille
+{
+
+struct EdgesAtVertices
+{
+  std::vector<Index> offset,
+    incident; ///< those of v: incident[offset[v]] to incident[offset[v + 1] - 1]
+};
+
+/// edges: half-edges, one of each edge. At a vertex they have the order in which they are given.
+EdgesAtVertices edgesAtVertices(const Mesh& mesh, const std::vector<Index>& edges);
+
+} // namespace quadrille
