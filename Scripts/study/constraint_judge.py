@@ -283,8 +283,6 @@ class Course:
         self.tree = cKDTree(self.places)
         steps = numpy.linalg.norm(numpy.diff(self.places, axis=0), axis=1)
         self.at = numpy.concatenate(([0], numpy.cumsum(steps)))
-        #: The length that each sample stands for.
-        self.stands_for = 0.5 * (numpy.append(steps, 0) + numpy.append(0, steps))
 
     def distance(self, places):
         """From the polyline: of the nearest samples' pieces, which are shorter than the spacing."""
@@ -301,11 +299,9 @@ class Course:
             best = numpy.minimum(best, numpy.linalg.norm(places - end, axis=1))
         return best
 
-    def beyond(self, places):
-        """Whether what is nearest is an end of the course, and the place lies past it."""
-        near = self.tree.query(places)[1]
-        before = (near == 0) & (dots(places - self.line[0], self.directions[0]) < 0)
-        return before | ((near == len(self.places) - 1) & (dots(places - self.line[-1], self.directions[-1]) > 0))
+    def place(self, at):
+        """Places at lengths along the course, its ends beyond them."""
+        return numpy.stack([numpy.interp(at, self.at, self.places[:, i]) for i in range(3)], axis=1)
 
     def apart_from_itself(self, length):
         """Whether places that are far apart along the course are so in space."""
@@ -520,24 +516,26 @@ def judge_feature(quads, course):
     edge = quads.length_at(course.places)
     near = quads._edge_tree.query(course.places, k=min(24, len(quads.edges)))[1]
     a, b = quads.points[quads.edges[near, 0]], quads.points[quads.edges[near, 1]]
-    distance = numpy.linalg.norm(on_segments(course.places[:, None], a, b) - course.places[:, None], axis=2)
-    # At a corner of the course edges along either side of it count.
-    turning = max(1, round(0.6 / STEP))
-    at = numpy.arange(len(course.places))
+    feet = on_segments(course.places[:, None], a, b)
+    distance = numpy.linalg.norm(feet - course.places[:, None], axis=2)
     runs = numpy.zeros(near.shape, bool)
-    for by in (-turning, 0, turning):
-        direction = course.directions[numpy.clip(at + by, 0, len(at) - 1)]
-        runs |= numpy.abs(dots(unit(b - a), direction[:, None])) >= math.cos(math.radians(ALONG))
+    # Over an edge length before, round and after a place: edges along either side of a corner count.
+    for before, after in ((1, 0), (0.5, 0.5), (0, 1)):
+        chord = unit(course.place(course.at + after * edge) - course.place(course.at - before * edge))
+        runs |= numpy.abs(dots(unit(b - a), chord[:, None])) >= math.cos(math.radians(ALONG))
     aligned = numpy.where(runs, distance, numpy.inf)
-    best = aligned.min(axis=1)
-    to = float(best.max()) / edge
-    # The chain: the edges that are nearest along half an edge of the course; at a corner others are for shorter.
-    lasting = numpy.bincount(near[at, aligned.argmin(axis=1)], course.stands_for * numpy.isfinite(best))
-    used = numpy.flatnonzero(lasting >= 0.5 * edge)
-    ends = quads.points[quads.edges[used]]
-    places = numpy.concatenate([ends[:, 0] + part * (ends[:, 1] - ends[:, 0]) for part in (0, 0.25, 0.5, 0.75, 1)])
-    places = places[~course.beyond(places)]
-    back = float(course.distance(places).max()) / edge if len(places) else 0.0
+    to = float(aligned.min(axis=1).max()) / edge
+    # The part of each edge that is nearest to some of the course.
+    samples, best = numpy.arange(len(near)), aligned.argmin(axis=1)
+    a, along, feet = a[samples, best], (b - a)[samples, best], feet[samples, best]
+    part = dots(feet - a, along) / dots(along, along)
+    low, high = numpy.ones(len(quads.edges)), numpy.zeros(len(quads.edges))
+    numpy.minimum.at(low, near[samples, best], part)
+    numpy.maximum.at(high, near[samples, best], part)
+    used = numpy.unique(near[samples, best])
+    start, end = quads.points[quads.edges[used, 0]], quads.points[quads.edges[used, 1]]
+    parts = [low[used] + step * (high[used] - low[used]) for step in (0, 0.25, 0.5, 0.75, 1)]
+    back = float(course.distance(numpy.concatenate([start + p[:, None] * (end - start) for p in parts])).max()) / edge
     return Verdict(max(to, back) <= PLACE, max(to, back),
                    f"any edges within {float(distance.min(axis=1).max()) / edge:.2f}, back {back:.2f}")
 
