@@ -15,11 +15,12 @@ from scipy.spatial import cKDTree
 
 #: Edge lengths between samples of a course.
 STEP = 0.1
-#: Edge lengths within which a place, a line, or an end of a chain has to be.
+#: Edge lengths within which a place or a line has to be.
 PLACE = 0.3
 #: Edge lengths round the old place of a moved vertex in which none of its valence may be left.
 LEFT = 0.5
-#: Edge lengths by which other irregular vertices may have gone with a move, and count as where they were.
+#: Edge lengths by which other irregular vertices, and those at the ends of a connection, may have gone, and count as
+#: where they were.
 OTHERS = 1
 #: Edge lengths from a closed course within which a closed chain counts, as the guide has it.
 REACH = 6
@@ -472,7 +473,7 @@ def judge_move(surface, quads, free, origin, target, valence):
 
 
 def judge_connection(surface, quads, course):
-    """A straight chain between vertices that are irregular, on a feature or on the boundary, each within PLACE of its
+    """A straight chain between vertices that are irregular, on a feature or on the boundary, each within OTHERS of its
     end; of several the one that stays nearest to the course. The deviation is its farthest distance from there."""
     start, end = course.line[0], course.line[-1]
     holds = quads.boundary | (quads.valence != 4)
@@ -489,11 +490,11 @@ def judge_connection(surface, quads, course):
             for k in [k for k in range(1, len(chain)) if holds[chain[k]] and off[1][chain[k]] <= 3]:
                 far = float(course.distance(quads.along(chain[:k + 1])).max()) / numpy.mean(edge)
                 ends = max(off[0][point], off[1][chain[k]])
-                if far <= REACH and (best is None or (ends > PLACE, far) < (best[0] > PLACE, best[1])):
+                if far <= REACH and (best is None or (ends > OTHERS, far) < (best[0] > OTHERS, best[1])):
                     best = ends, far
     if best is None:
         return Verdict(False, math.inf, "no straight chain between vertices within 3 edges of both ends")
-    return Verdict(best[0] <= PLACE, best[1], f"ends off by {best[0]:.2f} edges")
+    return Verdict(best[0] <= OTHERS, best[1], f"ends off by {best[0]:.2f} edges")
 
 
 def judge_cycle(quads, course):

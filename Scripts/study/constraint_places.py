@@ -116,6 +116,8 @@ class Model:
         irregular = self.free.irregular()
         away = self.surface.to_feature(self.free.points[irregular]) > 0.5 * edge
         self.irregular = irregular[away]
+        #: Pairs of them that were asked for.
+        self.connected = []
 
     # Places.
 
@@ -204,8 +206,8 @@ class Model:
         for attempt in range(TRIES if len(self.irregular) > 1 else 0):
             start = int(self.random.choice(self.irregular))
             near, before = self.around(start, 4, 15)
-            near = numpy.intersect1d(near, self.irregular)
-            if not len(near):
+            near = [p for p in numpy.intersect1d(near, self.irregular) if {start, p} not in self.connected]
+            if not near:
                 continue
             end = int(self.random.choice(near))
             way = [end]
@@ -221,12 +223,13 @@ class Model:
                 line.append(piece[1:])
             else:
                 course = self.course(numpy.concatenate(line))
-                drawn = points, course, "the course crosses a feature" if self.crosses(course) else ""
-                if not drawn[2] or attempt > PREFERRED:
+                drawn = {start, end}, points, course, "the course crosses a feature" if self.crosses(course) else ""
+                if not drawn[3] or attempt > PREFERRED:
                     break
         if drawn is None:
             return None
-        points, course, excuse = drawn
+        pair, points, course, excuse = drawn
+        self.connected.append(pair)
         return Ask("connection", " ".join(map(text_of, points)), lambda s: s.connect(points),
                    lambda quads: judge.judge_connection(self.surface, quads, course), excuse)
 

@@ -115,13 +115,14 @@ class Judge(unittest.TestCase):
         self.assertTrue(along.ok)
         self.assertAlmostEqual(along.deviation, 0, delta=1e-6)
         self.assertFalse(judge.judge_connection(self.surface, grid(), self.course((0, 0, 1), (1, 1, 1))).ok)
-        # Across a side, from feature to feature, a fifth of an edge beside the chain; and from where no vertex is.
+        # Across a side, from feature to feature, a fifth of an edge beside the chain.
         beside = self.course((0.5 + 0.2 / N, 0, 1), (0.5 + 0.2 / N, 1, 1))
         verdict = judge.judge_connection(self.surface, grid(), beside)
         self.assertTrue(verdict.ok)
         self.assertAlmostEqual(verdict.deviation, 0.2, delta=1e-6)
-        between = self.course((0.5 + 0.5 / N, 0, 1), (0.5 + 0.5 / N, 1, 1))
-        self.assertFalse(judge.judge_connection(self.surface, grid(), between).ok)
+        # One end lies in a side, two edges from the nearest vertex that is irregular or on a feature.
+        inside = self.course((0.5, 2 / N, 1), (0.5, 1, 1))
+        self.assertFalse(judge.judge_connection(self.surface, grid(), inside).ok)
 
     def test_cycle(self):
         for height, off in ((0.5, 0), (0.5 + 0.4 / N, 0.4)):
