@@ -6,18 +6,18 @@ judged in the quads alone (`constraint_judge.py`) against what was asked, and co
 
   constraint_places.py [--model MODEL]... [--class CLASS]... [--count N] [--quads N] [--seed N] [--threads N]
                        [--parts FOLDER] [--scans FOLDER] [--out CSV] [--again CSV]
-  constraint_places.py --table [--parts FOLDER] [--out CSV]
+  constraint_places.py --table [--out CSV]
 
 MODEL is a file, or `cube` (12 triangles), `sphere` (an icosahedron, 20 triangles, all of whose edges are features) or
 `ball` (the same without features); without one it is ten parts, two scans, `Data/part.ply` and these. Of CLASS there
 are valence, move, connection, cycle, feature, stroke and size. --quads is 5,000, and 2,400 for those of 12 and 20.
---out takes a row for each constraint; --again tells the table of such a file. With --table the rows of a cube's table
-are asked for, which large triangles had wrong. Each model runs in a process of its own, so that a crash is told and the
-others go on.
+--out takes a row for each constraint; --again tells the table of such a file. With --table it is what large triangles
+had wrong on a cube: a row each, with its notices. Each model runs in a process of its own, so that a crash is told and
+the others go on.
 
 A place is feasible unless the session does not give it and the judge sees why not: it lies on a feature or boundary,
 the way there crosses a feature, what lies between features has room for less than nine quads, or a size has no room to
-grow. Random sessions of all kinds of edits are made by `check/random_sessions.py MODEL... --sessions N`.
+grow. Random sessions of all kinds of edits are made by `check/random_sessions.py MODEL... --sessions N --inside`.
 """
 import argparse
 import collections
@@ -555,6 +555,8 @@ def tell(rows):
             told = f"{float(row['told']):.2f}" if row["told"] not in ("", None) else "nothing"
             print(f"{row['model']} {row['kind']} {row['number']}: {row['word']} with {told} {row['unit']}, judged "
                   f"{number(float(row['deviation']))}; {row['more']}")
+        if row["met"] and "not met" in row["notices"]:
+            print(f"{row['model']} {row['kind']} {row['number']}: met, and not met by a notice")
     reasons = collections.Counter()
     for row in rows:
         if row["word"] not in ("met", "no place"):
