@@ -7,8 +7,10 @@ a reason with a place, a met one is found in the quads; undo, redo and named sta
 a loaded session the same as the one that was saved. Fails where any of this does not hold, or a process crashes.
 
   random_sessions.py MESH... [--quads N[,N...]] [--sessions N] [--edits N] [--seed N] [--jobs N] [--json FILE]
+                     [--inside]
 
-Session i is on mesh i modulo their number, with the seed --seed + i. --quads: one number, or one for each mesh.
+Session i is on mesh i modulo their number, with the seed --seed + i. --quads: one number, or one for each mesh. Places
+are points of the mesh, or with --inside places in its faces, by their area.
 """
 import argparse
 import collections
@@ -208,7 +210,7 @@ def has_loop(quads, points, reach):
 
 
 class RandomSession:
-    def __init__(self, mesh, quads, seed):
+    def __init__(self, mesh, quads, seed, inside):
         import quadrille
         self.quadrille = quadrille
         self.mesh = quadrille.read(mesh)
@@ -216,6 +218,13 @@ class RandomSession:
         self.session = quadrille.Session(self.mesh, quads=quads, threads=1)
         self.points = self.session._points
         self.faces = self.mesh.GetNumberOfPolys()
+        self.corners = None
+        if inside:
+            _, faces = quadrille.to_arrays(self.mesh)
+            self.corners = self.points[faces[:, :3]]
+            areas = numpy.linalg.norm(numpy.cross(self.corners[:, 1] - self.corners[:, 0],
+                                                  self.corners[:, 2] - self.corners[:, 0]), axis=1)
+            self.areas = numpy.cumsum(areas).tolist()
         self.size = float(numpy.linalg.norm(self.points.max(axis=0) - self.points.min(axis=0)))
         self.problems, self.edits = [], []
         self.count = quads
@@ -229,7 +238,11 @@ class RandomSession:
     # Places.
 
     def point(self):
-        return self.points[self.random.randrange(len(self.points))]
+        if self.corners is None:
+            return self.points[self.random.randrange(len(self.points))]
+        face = self.random.choices(range(len(self.corners)), cum_weights=self.areas)[0]
+        first, second = sorted((self.random.random(), self.random.random()))
+        return numpy.array((first, second - first, 1 - second)) @ self.corners[face]
 
     def place(self):
         """Mostly on the surface; now and then away from it."""
@@ -333,6 +346,8 @@ class RandomSession:
             centre = self.point()
             height = (self.points - centre) @ axis
             slab = self.points[numpy.abs(height) < 0.01 * self.size]
+            if self.corners is not None:
+                slab = numpy.vstack((slab, centre))
             if how > 0.8:
                 away = numpy.linalg.norm(slab - centre, axis=1)
                 slab = slab[away < 0.2 * self.size]
@@ -551,9 +566,12 @@ class RandomSession:
         reach = REACH * max(before.length, after.length)
         # Places beside the surface are taken to it first.
         places = [self.points[numpy.argmin(numpy.linalg.norm(self.points - p, axis=1))] for p in constraint["points"]]
+        if self.corners is not None:
+            places += list(constraint["points"])
         if constraint["operation"] != "add":
             # What it took was the nearest irregular vertex that can move, which need not be near: its word has it.
-            taken = places[:2 if constraint["operation"] in ("merge", "cancel") else 1]
+            first = 2 if constraint["operation"] in ("merge", "cancel") else 1
+            taken = places[:first] + ([] if self.corners is None else list(constraint["points"])[:first])
             irregular = numpy.flatnonzero(before.index != 0)
             places += [before.points[irregular[numpy.argsort(numpy.linalg.norm(
                 before.points[irregular] - p, axis=1))[:3]]] for p in taken]
@@ -611,11 +629,11 @@ class RandomSession:
                 "shape": self.now.shape() if self.now else None}
 
 
-def run_one(mesh, quads, seed, edits, limit):
+def run_one(mesh, quads, seed, edits, limit, inside):
     """In a process of its own, so that a crash is counted."""
     start = time.time()
     command = [sys.executable, os.path.abspath(__file__), mesh, "--quads", str(quads), "--seed", str(seed), "--edits",
-               str(edits), "--limit", str(limit), "--one"]
+               str(edits), "--limit", str(limit), "--one"] + ["--inside"] * inside
     result = {"mesh": os.path.basename(mesh), "seed": seed}
     waited = SLOWEST * limit
     try:
@@ -673,6 +691,7 @@ def main():
     parser.add_argument("--limit", type=float, default=300,
                         help="seconds of a processor for one session, whatever else the machine does")
     parser.add_argument("--json", help="file for all results")
+    parser.add_argument("--inside", action="store_true", help="places in faces, not at points of the mesh")
     parser.add_argument("--one", action="store_true", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     quads = [int(text) for text in arguments.quads.split(",")]
@@ -680,14 +699,15 @@ def main():
     if arguments.one:
         seconds = math.ceil(arguments.limit)
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
-        print(json.dumps(RandomSession(arguments.mesh[0], quads[0], arguments.seed).run(arguments.edits)))
+        session = RandomSession(arguments.mesh[0], quads[0], arguments.seed, arguments.inside)
+        print(json.dumps(session.run(arguments.edits)))
         return 0
     quads = quads * len(arguments.mesh) if len(quads) == 1 else quads
     if len(quads) != len(arguments.mesh):
         parser.error(f"{len(quads)} numbers of quads for {len(arguments.mesh)} meshes")
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         runs = [pool.submit(run_one, arguments.mesh[i % len(quads)], quads[i % len(quads)], arguments.seed + i,
-                            arguments.edits, arguments.limit) for i in range(arguments.sessions)]
+                            arguments.edits, arguments.limit, arguments.inside) for i in range(arguments.sessions)]
         results = []
         for run in concurrent.futures.as_completed(runs):
             result = run.result()
