@@ -209,8 +209,7 @@ private:
 // curvature tensor, which turns by twice the angle of its principal directions.
 Complex bendingDeviator(const Mesh& mesh, const FieldTopology& topology, Index f)
 {
-  const auto normal = [&](Index g)
-  { return mesh.edgeVector(3 * g).cross(mesh.edgeVector(3 * g + 1)); };
+  const auto normal = [&](Index g) { return mesh.doubleAreaNormal(g); };
   Complex sum = 0;
   for (Index h = 3 * f; h < 3 * f + 3; ++h)
   {

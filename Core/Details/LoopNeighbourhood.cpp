@@ -47,7 +47,7 @@ public:
         {
           return false;
         }
-        forEachFace(v,
+        forEachInFan(mesh_, outgoing_[v],
           [&](Index h)
           {
             const Index w = mesh_.target(h);
@@ -100,17 +100,6 @@ public:
 private:
   using Triangle = std::array<Index, 3>;
 
-  template <typename Visitor>
-  void forEachFace(Index v, Visitor&& visit) const
-  {
-    Index h = outgoing_[v];
-    do
-    {
-      visit(h);
-      h = mesh_.rotateCounterclockwise(h);
-    } while (h != outgoing_[v] && h != kInvalidIndex);
-  }
-
   /// Takes all faces at a vertex; false at the boundary and where they become too many.
   bool takeStar(Index v)
   {
@@ -118,7 +107,7 @@ private:
     {
       return false;
     }
-    forEachFace(v,
+    forEachInFan(mesh_, outgoing_[v],
       [&](Index h)
       {
         const Index f = Mesh::face(h);
@@ -152,7 +141,8 @@ private:
           return false;
         }
         int leaving = 0;
-        forEachFace(mesh_.origin[h], [&](Index g) { leaving += isInside(g) && isRim(g) ? 1 : 0; });
+        forEachInFan(mesh_, outgoing_[mesh_.origin[h]],
+          [&](Index g) { leaving += isInside(g) && isRim(g) ? 1 : 0; });
         // Faces that come are looked at later, as are those that they make a pinch of: they are rims of one of them.
         if (leaving > 1 && !takeStar(mesh_.origin[h]))
         {
@@ -238,18 +228,15 @@ private:
   DisjointSets piecesOfRest() const
   {
     DisjointSets pieces(mesh_.faceCount(), threads_);
-    parallelFor(mesh_.faceCount(), kPieceChunk, threads_,
-      [&](std::size_t begin, std::size_t end)
+    parallelForEach(mesh_.faceCount(), kPieceChunk, threads_,
+      [&](Index f)
       {
-        for (Index f = static_cast<Index>(begin); f < end; ++f)
+        for (Index h = 3 * f; h < 3 * f + 3; ++h)
         {
-          for (Index h = 3 * f; h < 3 * f + 3; ++h)
+          const Index g = mesh_.twin[h];
+          if (g < h && inside_[f] == 0 && !isInside(g))
           {
-            const Index g = mesh_.twin[h];
-            if (g < h && inside_[f] == 0 && !isInside(g))
-            {
-              pieces.join(f, Mesh::face(g));
-            }
+            pieces.join(f, Mesh::face(g));
           }
         }
       });

@@ -84,7 +84,7 @@ std::vector<Index> lostCurve(
       }
       done[next] = true;
       ways[side].push_back(next);
-      v = mesh.origin[next] == v ? mesh.target(next) : mesh.origin[next];
+      v = mesh.otherEnd(next, v);
       h = next;
     }
   }

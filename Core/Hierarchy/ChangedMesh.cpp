@@ -15,31 +15,6 @@ namespace
 
 constexpr std::size_t kChangedFaceChunk = std::size_t{ 1 } << 16;
 
-/// Faces for which select(f) holds, ascending.
-template <typename Select>
-std::vector<Index> selectFaces(const Mesh& mesh, int threads, const Select& select)
-{
-  std::vector<std::vector<Index>> parts(
-    (mesh.faceCount() + kChangedFaceChunk - 1) / kChangedFaceChunk);
-  parallelFor(mesh.faceCount(), kChangedFaceChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (Index f = static_cast<Index>(begin); f < end; ++f)
-      {
-        if (select(f))
-        {
-          parts[begin / kChangedFaceChunk].push_back(f);
-        }
-      }
-    });
-  std::vector<Index> faces;
-  for (const std::vector<Index>& part : parts)
-  {
-    faces.insert(faces.end(), part.begin(), part.end());
-  }
-  return faces;
-}
-
 void sortUnique(std::vector<Index>& values)
 {
   std::sort(values.begin(), values.end());
@@ -80,12 +55,13 @@ ChangedMesh::ChangedMesh(const Mesh& fine, const NamesBefore& names, int threads
     newFace_(invert(names.face, names.faces, madeFaces_)), changed_(fine.vertexCount(), false)
 {
   const auto corner = [&](Index f, Index i) { return fine.origin[3 * f + i]; };
-  const std::vector<Index> changedFaces = selectFaces(fine, threads,
-    [&](Index f)
-    {
-      const auto isMade = [&](Index i) { return names.vertex[corner(f, i)] == kInvalidIndex; };
-      return names.face[f] == kInvalidIndex || isMade(0) || isMade(1) || isMade(2);
-    });
+  const std::vector<Index> changedFaces =
+    parallelSelect(fine.faceCount(), kChangedFaceChunk, threads,
+      [&](Index f)
+      {
+        const auto isMade = [&](Index i) { return names.vertex[corner(f, i)] == kInvalidIndex; };
+        return names.face[f] == kInvalidIndex || isMade(0) || isMade(1) || isMade(2);
+      });
   for (const Index f : changedFaces)
   {
     for (Index i = 0; i < 3; ++i)
@@ -95,7 +71,7 @@ ChangedMesh::ChangedMesh(const Mesh& fine, const NamesBefore& names, int threads
     }
   }
   sortUnique(changedVertices_);
-  const std::vector<Index> stars = selectFaces(fine, threads,
+  const std::vector<Index> stars = parallelSelect(fine.faceCount(), kChangedFaceChunk, threads,
     [&](Index f)
     {
       return hasChangedStar(corner(f, 0)) || hasChangedStar(corner(f, 1)) ||

@@ -85,13 +85,12 @@ std::vector<std::uint8_t> cornerLocks(
       done[v] = 1;
       bool alongU = map.vector(first).v == 0;
       // For a boundary vertex this is its first corner, so the fan is complete.
-      Index h = first;
-      do
-      {
-        locks[h] = alongU ? kLockedV : kLockedU;
-        alongU = alongU == (map.rotation[Mesh::previous(h)] % 2 == 0);
-        h = mesh.rotateCounterclockwise(h);
-      } while (h != kInvalidIndex && h != first);
+      forEachInFan(mesh, first,
+        [&](Index h)
+        {
+          locks[h] = alongU ? kLockedV : kLockedU;
+          alongU = alongU == (map.rotation[Mesh::previous(h)] % 2 == 0);
+        });
     }
   }
   return locks;

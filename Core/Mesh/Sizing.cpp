@@ -50,7 +50,7 @@ double meanDensity(double a, double b, double c, int splits)
 
 double areaOf(const Mesh& mesh, Index f)
 {
-  return 0.5 * mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm();
+  return mesh.faceArea(f);
 }
 
 /// The size that the user asked for at a corner.
@@ -219,13 +219,12 @@ SizingReport limitSizeGrowth(Mesh& mesh, double edgeLength)
         queue.push({ most, w });
       }
     };
-    Index h = outgoing[v];
-    do
-    {
-      reach(mesh.target(h));
-      reach(mesh.origin[Mesh::previous(h)]);
-      h = mesh.rotateCounterclockwise(h);
-    } while (h != outgoing[v] && h != kInvalidIndex);
+    forEachInFan(mesh, outgoing[v],
+      [&](Index h)
+      {
+        reach(mesh.target(h));
+        reach(mesh.origin[Mesh::previous(h)]);
+      });
   }
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {

@@ -28,27 +28,13 @@ using Cell = std::array<std::int32_t, 3>;
 
 Vector3 areaVector(const Mesh& mesh, Index f)
 {
-  return 0.5 * mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1));
-}
-
-Vector3 middleOfFace(const Mesh& mesh, Index f)
-{
-  return (mesh.position[mesh.origin[3 * f]] + mesh.position[mesh.origin[3 * f + 1]] +
-           mesh.position[mesh.origin[3 * f + 2]]) /
-    3;
+  return 0.5 * mesh.doubleAreaNormal(f);
 }
 
 template <typename Body>
 void forEachChunk(std::size_t count, int threads, const Body& body)
 {
-  parallelFor(count, kPatchChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        body(static_cast<Index>(i));
-      }
-    });
+  parallelForEach(count, kPatchChunk, threads, [&](std::size_t i) { body(static_cast<Index>(i)); });
 }
 
 std::vector<Cell> cellsOf(const Mesh& mesh, double side, int threads)
@@ -57,7 +43,7 @@ std::vector<Cell> cellsOf(const Mesh& mesh, double side, int threads)
   forEachChunk(cells.size(), threads,
     [&](Index f)
     {
-      const Vector3 p = middleOfFace(mesh, f) / side;
+      const Vector3 p = mesh.middleOfFace(f) / side;
       for (int i = 0; i < 3; ++i)
       {
         cells[f][static_cast<std::size_t>(i)] =
@@ -102,15 +88,15 @@ SurfacePatch measurePatch(const Mesh& mesh, const Index* begin, const Index* end
   {
     const Vector3 area = areaVector(mesh, *f);
     patch.area += area.norm();
-    patch.centre += area.norm() * middleOfFace(mesh, *f);
+    patch.centre += area.norm() * mesh.middleOfFace(*f);
     sum += area;
   }
-  patch.centre = patch.area > 0 ? Vector3(patch.centre / patch.area) : middleOfFace(mesh, *begin);
+  patch.centre = patch.area > 0 ? Vector3(patch.centre / patch.area) : mesh.middleOfFace(*begin);
   patch.normal = sum.norm() > 0 ? Vector3(sum.normalized()) : Vector3(Vector3::Zero());
   double nearest = std::numeric_limits<double>::infinity();
   for (const Index* f = begin; f != end; ++f)
   {
-    const double distance = (middleOfFace(mesh, *f) - patch.centre).squaredNorm();
+    const double distance = (mesh.middleOfFace(*f) - patch.centre).squaredNorm();
     if (distance < nearest)
     {
       nearest = distance;
