@@ -136,16 +136,10 @@ public:
 
   void undo(const std::uint8_t* begin, const std::uint8_t* end)
   {
-    while (end[-1] == 0)
-    {
-      undoFlip(slot(loadLittleEndian(end - 9)), slot(loadLittleEndian(end - 5)));
-      end -= kFlipBytes;
-    }
-    assert(end - begin == static_cast<std::ptrdiff_t>(collapseBytes(end[-1])));
-    static_cast<void>(begin);
     CollapseRecord record;
-    readCollapse(end, record);
-    undoCollapse(record);
+    readBackwards(
+      begin, end, record, [this](Index h, Index g) { undoFlip(slot(h), slot(g)); },
+      [&] { undoCollapse(record); });
   }
 
   RestoredLevel finish() const;
