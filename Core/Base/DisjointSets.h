@@ -30,8 +30,8 @@ public:
       [&](std::size_t i) { parent_[i].store(static_cast<Index>(i), std::memory_order_relaxed); });
   }
 
-  /// Any number of threads may join at once.
-  void join(Index a, Index b)
+  /// True when the two were in different sets. Any number of threads may join at once.
+  bool join(Index a, Index b)
   {
     for (;;)
     {
@@ -39,13 +39,13 @@ public:
       b = find(b);
       if (a == b)
       {
-        return;
+        return false;
       }
       const Index low = std::min(a, b);
       Index high = std::max(a, b);
       if (parent_[high].compare_exchange_strong(high, low, std::memory_order_relaxed))
       {
-        return;
+        return true;
       }
     }
   }

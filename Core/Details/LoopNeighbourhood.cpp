@@ -5,6 +5,7 @@
 #include "Base/DisjointSets.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
 #include "Mesh/Topology.h"
 
 #include <algorithm>
@@ -75,8 +76,7 @@ public:
         part.vertex.push_back(mesh_.origin[h]);
       }
     }
-    std::sort(part.vertex.begin(), part.vertex.end());
-    part.vertex.erase(std::unique(part.vertex.begin(), part.vertex.end()), part.vertex.end());
+    sortUnique(part.vertex);
     for (const Index v : part.vertex)
     {
       part.mesh.position.push_back(mesh_.position[v]);
@@ -85,7 +85,7 @@ public:
     {
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
       {
-        part.mesh.origin.push_back(idIn(part, mesh_.origin[h]));
+        part.mesh.origin.push_back(placeIn(part.vertex, mesh_.origin[h]));
       }
     }
     for (const std::vector<std::vector<Index>>& loops : loopsOfPieces())
@@ -151,12 +151,6 @@ private:
       }
     }
     return true;
-  }
-
-  Index idIn(const LoopNeighbourhood& part, Index v) const
-  {
-    return static_cast<Index>(
-      std::lower_bound(part.vertex.begin(), part.vertex.end(), v) - part.vertex.begin());
   }
 
   /// The loops that the part has in common with the rest: vertices in the order of the part's half-edges, and one of
@@ -253,7 +247,8 @@ private:
       const Index middle = addVertex(part);
       for (std::size_t k = 0; k < loop.size(); ++k)
       {
-        const Triangle face{ idIn(part, loop[(k + 1) % loop.size()]), idIn(part, loop[k]), middle };
+        const Triangle face{ placeIn(part.vertex, loop[(k + 1) % loop.size()]),
+          placeIn(part.vertex, loop[k]), middle };
         if (k == 0 && i > 0)
         {
           addFrame(face, { joint[0], joint[2], joint[1] }, part);

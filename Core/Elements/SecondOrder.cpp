@@ -4,6 +4,7 @@
 
 #include "Base/Parallel.h"
 #include "Base/Refuse.h"
+#include "Base/Sorted.h"
 #include "Base/TryCount.h"
 #include "Elements/QuadEdgeList.h"
 #include "Elements/QuadraticShape.h"
@@ -487,8 +488,7 @@ private:
         look(*h / 4);
       }
     }
-    std::sort(again.begin(), again.end());
-    again.erase(std::unique(again.begin(), again.end()), again.end());
+    sortUnique(again);
     return again;
   }
 

@@ -7,6 +7,7 @@
 #include "Base/LargeArray.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
 #include "Mesh/Topology.h"
 
 #include <algorithm>
@@ -122,8 +123,7 @@ private:
       forEachEdgeInFan(mesh_, outgoing_[v],
         [&](Index h) { found.push_back(mesh_.isBoundary(h) ? h : std::min(h, mesh_.twin[h])); });
     }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    sortUnique(found);
     for (const Index h : found)
     {
       if (mesh_.isBoundary(h) || (mesh_.isFeature(h) && indexOf_[h] == kInvalidIndex))
@@ -173,8 +173,7 @@ private:
         vertices.end());
       begin = end;
     }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sortUnique(vertices);
     return vertices;
   }
 

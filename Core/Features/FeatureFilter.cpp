@@ -5,6 +5,7 @@
 #include "Base/DisjointSets.h"
 #include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
 #include "Features/EdgesAtVertices.h"
 #include "Mesh/Distance.h"
 #include "Mesh/Sizing.h"
@@ -68,12 +69,6 @@ public:
   }
 
 private:
-  std::size_t placeOf(Index h) const
-  {
-    return static_cast<std::size_t>(
-      std::lower_bound(edges_.begin(), edges_.end(), h) - edges_.begin());
-  }
-
   void traceChains()
   {
     std::vector<std::uint8_t> done(edges_.size(), 0);
@@ -104,7 +99,7 @@ private:
     std::vector<Index> path{ start };
     while (true)
     {
-      done[placeOf(h)] = 1;
+      done[placeIn(edges_, h)] = 1;
       chain.halfEdges.push_back(h);
       chain.length += mesh_.edgeVector(h).norm();
       chain.sizedLength += sizedLength(mesh_, h);
@@ -117,7 +112,7 @@ private:
         break;
       }
       const Index next = at_.otherThan(h, v);
-      if (done[placeOf(next)] != 0)
+      if (done[placeIn(edges_, next)] != 0)
       {
         break; // a closed loop without a node
       }
@@ -334,8 +329,7 @@ private:
         sides.push_back(chainOf_[h]);
       }
     }
-    std::sort(sides.begin(), sides.end());
-    sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+    sortUnique(sides);
     Index best = kInvalidIndex;
     double bluntest = std::numeric_limits<double>::infinity();
     for (const Index c : sides)

@@ -8,6 +8,7 @@
 #include "Features/ArcNetwork.h"
 #include "Features/FeatureFilter.h"
 #include "Mesh/Sizing.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <array>
@@ -187,19 +188,9 @@ class JunctionMerge
 public:
   JunctionMerge(Mesh& mesh, double edgeLength)
     : mesh_(mesh), edgeLength_(edgeLength), network_(mesh, edgeLength),
-      touched_(mesh.vertexCount(), 0), isConstrained_(mesh.vertexCount(), 0),
-      outgoing_(mesh.vertexCount(), kInvalidIndex)
+      touched_(mesh.vertexCount(), 0), isConstrained_(constrainedVertices(mesh)),
+      outgoing_(outgoingHalfEdges(mesh))
   {
-    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-    {
-      pollNowAndThen(h);
-      Index& first = outgoing_[mesh.origin[h]];
-      first = first == kInvalidIndex || mesh.isBoundary(h) ? h : first;
-      if (mesh.isConstrained(h))
-      {
-        isConstrained_[mesh.origin[h]] = isConstrained_[mesh.target(h)] = 1;
-      }
-    }
   }
 
   MovedFeatures merge()

@@ -4,6 +4,7 @@
 
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
 
 #include <algorithm>
 #include <cassert>
@@ -156,9 +157,7 @@ private:
     {
       return 3 * back->second + fineSlot % 3;
     }
-    const auto place = std::lower_bound(levelFaces_.begin(), levelFaces_.end(), face);
-    assert(place != levelFaces_.end() && *place == face);
-    return 3 * static_cast<Index>(place - levelFaces_.begin()) + fineSlot % 3;
+    return 3 * placeIn(levelFaces_, face) + fineSlot % 3;
   }
 
   void link(Index h, Index g, std::uint8_t flag)
@@ -354,8 +353,7 @@ LogPlaces::LogPlaces(const DecimationLog& log, int threads) : blocks_(log.blocks
 {
   const auto sort = [](std::vector<Index>& places)
   {
-    std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end()), places.end());
+    sortUnique(places);
     places.shrink_to_fit();
   };
   const auto add = [](std::vector<Index>& places, Index element)

@@ -47,16 +47,6 @@ Index nearestFace(const Mesh& mesh, const Vector3& p)
   return best;
 }
 
-double distanceToCurve(const std::vector<Vector3>& samples, const Vector3& p)
-{
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i + 1 < samples.size(); ++i)
-  {
-    least = std::min(least, distanceToSegment(p, samples[i], samples[i + 1]));
-  }
-  return least;
-}
-
 /// Shortest ways from face to face, dearer the farther they are from the curve.
 class CurveWays
 {
@@ -352,6 +342,16 @@ std::vector<Vector3> sampleCurve(const CurveRequest& curve, double spacing)
   }
   samples.push_back(curve.points[segments % count]);
   return samples;
+}
+
+double distanceToCurve(const std::vector<Vector3>& samples, const Vector3& p)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i)
+  {
+    least = std::min(least, distanceToSegment(p, samples[i], samples[i + 1]));
+  }
+  return least;
 }
 
 std::optional<FacePath> pathAlong(const Mesh& mesh, const CurveRequest& curve, Index a, Index b)

@@ -279,6 +279,19 @@ std::vector<Index> constrainedEdges(const Mesh& mesh, int threads)
     [&](Index h) { return mesh.isConstrained(h) && h < mesh.twin[h]; });
 }
 
+std::vector<std::uint8_t> constrainedVertices(const Mesh& mesh)
+{
+  std::vector<std::uint8_t> flags(mesh.vertexCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isConstrained(h))
+    {
+      flags[mesh.origin[h]] = flags[mesh.target(h)] = 1;
+    }
+  }
+  return flags;
+}
+
 std::vector<Index> boundaryHalfEdges(const Mesh& mesh, int threads)
 {
   return parallelSelect(

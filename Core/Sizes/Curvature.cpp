@@ -6,6 +6,7 @@
 #include "Base/DisjointSets.h"
 #include "Base/Error.h"
 #include "Base/Parallel.h"
+#include "Base/Sorted.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -124,8 +125,7 @@ void findNeighbours(const Mesh& mesh, const Lists& faces, SurfacePatches& result
           }
         }
       }
-      std::sort(mine.begin(), mine.end());
-      mine.erase(std::unique(mine.begin(), mine.end()), mine.end());
+      sortUnique(mine);
     });
   result.first.assign(1, 0);
   for (const std::vector<Index>& mine : neighbours)

@@ -4,6 +4,7 @@
 
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
 #include "GridMap/MapCheck.h"
 
 #include <algorithm>
@@ -87,8 +88,7 @@ std::vector<Index> DefectSearch::findAmong(
       forEachInFan(mesh_, h, [&](Index c) { faces.push_back(Mesh::face(c)); });
     }
   }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  sortUnique(faces);
   faces.erase(
     std::remove_if(faces.begin(), faces.end(), [&](Index f) { return !isDefect(f); }), faces.end());
   return faces;

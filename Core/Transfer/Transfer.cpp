@@ -5,6 +5,7 @@
 #include "Base/LargeArray.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
 #include "GridMap/MapCheck.h"
 #include "Transfer/ExpectedTurns.h"
 #include "Transfer/PatchMender.h"
@@ -99,8 +100,7 @@ std::vector<Index> verticesOf(const Mesh& fine, const std::vector<Index>& faces)
     vertices.insert(
       vertices.end(), { fine.origin[3 * f], fine.origin[3 * f + 1], fine.origin[3 * f + 2] });
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sortUnique(vertices);
   return vertices;
 }
 
