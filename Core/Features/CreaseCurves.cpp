@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Features/CreaseCurves.h"
 
+#include "Base/Angles.h"
 #include "Base/Error.h"
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
@@ -36,11 +37,6 @@ constexpr double kMostRoughWithOneEnd = 0.5;
 /// Noise makes no curve of so many edge lengths.
 constexpr double kLongCrease = 50;
 constexpr std::size_t kCurveChunk = 1;
-
-double angleBetween(const Vector3& a, const Vector3& b)
-{
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 double meanOf(const std::vector<double>& values)
 {

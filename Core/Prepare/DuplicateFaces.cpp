@@ -80,9 +80,6 @@ enum class PairFate
   KeepNone
 };
 
-/// A flap has at most so many faces for each edge that holds it.
-constexpr Index kFlapDepth = 4;
-
 /// Finds regions of opposite pairs that hang together, and what they are from the edges where they
 /// end: by how many other faces there are.
 class PairRegions
