@@ -70,9 +70,10 @@ public:
   {
     std::vector<CreaseCurve> result;
     std::vector<std::uint8_t> done(edges_.empty() ? 0 : mesh_.halfEdgeCount(), 0);
-    for (const Index h : edges_)
+    for (std::size_t i = 0; i < edges_.size(); ++i)
     {
-      pollNowAndThen(h);
+      pollNowAndThen(i);
+      const Index h = edges_[i];
       if (done[h] == 0 && isDetected(h))
       {
         result.push_back(trace(h, done));
