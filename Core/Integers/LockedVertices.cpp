@@ -85,12 +85,13 @@ std::vector<std::uint8_t> cornerLocks(
       done[v] = 1;
       bool alongU = map.vector(first).v == 0;
       // For a boundary vertex this is its first corner, so the fan is complete.
-      forEachInFan(mesh, first,
-        [&](Index h)
-        {
-          locks[h] = alongU ? kLockedV : kLockedU;
-          alongU = alongU == (map.rotation[Mesh::previous(h)] % 2 == 0);
-        });
+      Index h = first;
+      do
+      {
+        locks[h] = alongU ? kLockedV : kLockedU;
+        alongU = alongU == (map.rotation[Mesh::previous(h)] % 2 == 0);
+        h = mesh.rotateCounterclockwise(h);
+      } while (h != kInvalidIndex && h != first);
     }
   }
   return locks;
