@@ -48,11 +48,6 @@ double meanDensity(double a, double b, double c, int splits)
     4;
 }
 
-double areaOf(const Mesh& mesh, Index f)
-{
-  return mesh.faceArea(f);
-}
-
 /// The size that the user asked for at a corner.
 double askedAt(const SurfaceInput& input, const PreparedSurface& surface, Index h)
 {
@@ -102,7 +97,7 @@ SizedTriangle sizedTriangle(const Mesh& mesh, Index f)
 
 double sizedArea(const Mesh& mesh, Index f)
 {
-  const double area = areaOf(mesh, f);
+  const double area = mesh.faceArea(f);
   return mesh.sizing.empty() ? area
                              : area *
       meanDensity(sizeAt(mesh, mesh.origin[3 * f]), sizeAt(mesh, mesh.origin[3 * f + 1]),

@@ -32,16 +32,10 @@ Vector3 areaVector(const Mesh& mesh, Index f)
   return 0.5 * mesh.doubleAreaNormal(f);
 }
 
-template <typename Body>
-void forEachChunk(std::size_t count, int threads, const Body& body)
-{
-  parallelForEach(count, kPatchChunk, threads, [&](std::size_t i) { body(static_cast<Index>(i)); });
-}
-
 std::vector<Cell> cellsOf(const Mesh& mesh, double side, int threads)
 {
   std::vector<Cell> cells(mesh.faceCount());
-  forEachChunk(cells.size(), threads,
+  parallelForEach(cells.size(), kPatchChunk, threads,
     [&](Index f)
     {
       const Vector3 p = mesh.middleOfFace(f) / side;
@@ -110,7 +104,7 @@ SurfacePatch measurePatch(const Mesh& mesh, const Index* begin, const Index* end
 void findNeighbours(const Mesh& mesh, const Lists& faces, SurfacePatches& result, int threads)
 {
   std::vector<std::vector<Index>> neighbours(result.patches.size());
-  forEachChunk(result.patches.size(), threads,
+  parallelForEach(result.patches.size(), kPatchChunk, threads,
     [&](Index p)
     {
       std::vector<Index>& mine = neighbours[p];
@@ -221,7 +215,7 @@ std::vector<Bend> bendsOf(const Mesh& mesh, const SurfacePatches& patches, int t
   const Lists faces = listsOf(patches.patchOf, patches.patches.size());
   const CurveTurns turns(mesh);
   std::vector<Bend> bends(patches.patches.size());
-  forEachChunk(bends.size(), threads,
+  parallelForEach(bends.size(), kPatchChunk, threads,
     [&](Index p)
     {
       for (Index i = faces.first[p]; i < faces.first[p + 1]; ++i)
@@ -296,7 +290,7 @@ SurfacePatches findPatches(const Mesh& mesh, double cell, int threads)
   }
   const std::vector<Cell> cells = cellsOf(mesh, cell, threads);
   DisjointSets sets(mesh.faceCount(), threads);
-  forEachChunk(mesh.faceCount(), threads,
+  parallelForEach(mesh.faceCount(), kPatchChunk, threads,
     [&](Index f)
     {
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
@@ -318,7 +312,7 @@ SurfacePatches findPatches(const Mesh& mesh, double cell, int threads)
   }
   result.patches.resize(count);
   const Lists faces = listsOf(result.patchOf, count);
-  forEachChunk(count, threads,
+  parallelForEach(count, kPatchChunk, threads,
     [&](Index p)
     {
       result.patches[p] =

@@ -156,10 +156,7 @@ double distanceFrom(
     const Vector3 normal = mesh.doubleAreaNormal(f);
     return normal.dot(patch.normal) < -kLeastOpposition * normal.norm();
   };
-  const Vector3 p =
-    (mesh.position[mesh.origin[3 * patch.face]] + mesh.position[mesh.origin[3 * patch.face + 1]] +
-      mesh.position[mesh.origin[3 * patch.face + 2]]) /
-    3;
+  const Vector3 p = mesh.middleOfFace(patch.face);
   double nearest = reach;
   for (const double side : { -1.0, 1.0 })
   {
