@@ -164,8 +164,7 @@ inline const std::uint8_t* recordBegin(const std::uint8_t* end)
 }
 
 /// Calls fetch(slot) for slots of the record that ends at `end`, without branches on its kind or size, which cannot be
-/// predicted. Inlined, as fetch() has to be: GCC 12 takes a function of mere prefetches for one without effect and drops
-/// its calls.
+/// predicted. Inlined, as fetch() has to be: GCC 12 takes a function of mere prefetches for one without effect.
 template <typename Fetch>
 [[gnu::always_inline]] inline void fetchRecord(const std::uint8_t* end, const Fetch& fetch)
 {
