@@ -83,12 +83,7 @@ private:
     {
       first = Mesh::next(g);
     }
-    Index g = first;
-    do
-    {
-      visit(Mesh::face(g));
-      g = mesh_.rotateCounterclockwise(g);
-    } while (g != kInvalidIndex && g != first);
+    forEachInFan(mesh_, first, [&](Index g) { visit(Mesh::face(g)); });
   }
 
   Place placeOn(Index f, const Vector3& p) const

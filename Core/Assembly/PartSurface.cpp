@@ -141,7 +141,7 @@ private:
         }
       }
       const Mesh& mesh = whole_;
-      surface.area += 0.5 * mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm();
+      surface.area += mesh.faceArea(f);
     }
   }
 

@@ -3,6 +3,10 @@
 /// Angles are radians in Core; degrees appear at the user's surface only.
 #pragma once
 
+#include "Base/Types.h"
+
+#include <cmath>
+
 namespace quadrille
 {
 
@@ -13,6 +17,12 @@ constexpr double kRightAngle = kPi / 2;
 constexpr double radians(double degrees)
 {
   return degrees * kPi / 180;
+}
+
+/// In [0, pi]. Unlike acos, atan2 stays accurate for nearly parallel vectors.
+inline double angleBetween(const Vector3& a, const Vector3& b)
+{
+  return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 } // namespace quadrille

@@ -26,18 +26,12 @@ public:
   DisjointSets(std::size_t count, int threads)
     : count_(count), threads_(threads), parent_(new std::atomic<Index>[count])
   {
-    parallelFor(count, kSetChunk, threads,
-      [this](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          parent_[i].store(static_cast<Index>(i), std::memory_order_relaxed);
-        }
-      });
+    parallelForEach(count, kSetChunk, threads,
+      [&](std::size_t i) { parent_[i].store(static_cast<Index>(i), std::memory_order_relaxed); });
   }
 
-  /// Any number of threads may join at once.
-  void join(Index a, Index b)
+  /// True when the two were in different sets. Any number of threads may join at once.
+  bool join(Index a, Index b)
   {
     for (;;)
     {
@@ -45,13 +39,13 @@ public:
       b = find(b);
       if (a == b)
       {
-        return;
+        return false;
       }
       const Index low = std::min(a, b);
       Index high = std::max(a, b);
       if (parent_[high].compare_exchange_strong(high, low, std::memory_order_relaxed))
       {
-        return;
+        return true;
       }
     }
   }
@@ -77,18 +71,8 @@ public:
   /// Number of sets.
   std::size_t countSets() const
   {
-    std::vector<std::size_t> parts((count_ + kSetChunk - 1) / kSetChunk, 0);
-    parallelFor(count_, kSetChunk, threads_,
-      [&](std::size_t begin, std::size_t end)
-      {
-        std::size_t roots = 0;
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          roots += parent_[i].load(std::memory_order_relaxed) == i ? 1 : 0;
-        }
-        parts[begin / kSetChunk] = roots;
-      });
-    return std::accumulate(parts.begin(), parts.end(), std::size_t{ 0 });
+    return parallelCount(count_, kSetChunk, threads_,
+      [&](std::size_t i) { return parent_[i].load(std::memory_order_relaxed) == i; });
   }
 
 private:

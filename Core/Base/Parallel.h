@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <numeric>
 #include <vector>
 
 namespace quadrille
@@ -21,6 +22,71 @@ int resolveThreads(int requested);
 /// thrown by a body is rethrown here after all threads have stopped; so is Cancelled (see poll()).
 void parallelFor(std::size_t count, std::size_t chunkSize, int threads,
   const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+/// The same for a body(i) of each element by itself.
+template <typename Id, typename Body>
+void parallelForEach(Id count, std::size_t chunkSize, int threads, const Body& body)
+{
+  parallelFor(count, chunkSize, threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (Id i = static_cast<Id>(begin); i < end; ++i)
+      {
+        body(i);
+      }
+    });
+}
+
+/// The same for a body(begin, end, part) with a part for each chunk; returns the parts in the order of the chunks.
+template <typename Part, typename Id, typename Body>
+std::vector<Part> parallelParts(Id count, std::size_t chunkSize, int threads, const Body& body)
+{
+  std::vector<Part> parts((count + chunkSize - 1) / chunkSize);
+  parallelFor(count, chunkSize, threads,
+    [&](std::size_t begin, std::size_t end)
+    { body(static_cast<Id>(begin), static_cast<Id>(end), parts[begin / chunkSize]); });
+  return parts;
+}
+
+/// The ids below count for which select(id) holds, ascending, whatever the number of threads.
+template <typename Id, typename Select>
+std::vector<Id> parallelSelect(Id count, std::size_t chunkSize, int threads, const Select& select)
+{
+  const auto parts = parallelParts<std::vector<Id>>(count, chunkSize, threads,
+    [&](Id begin, Id end, std::vector<Id>& part)
+    {
+      for (Id i = begin; i < end; ++i)
+      {
+        if (select(i))
+        {
+          part.push_back(i);
+        }
+      }
+    });
+  std::vector<Id> all;
+  for (const std::vector<Id>& part : parts)
+  {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+/// The number of ids below count for which counts(id) holds.
+template <typename Id, typename Counts>
+std::size_t parallelCount(Id count, std::size_t chunkSize, int threads, const Counts& counts)
+{
+  const auto parts = parallelParts<std::size_t>(count, chunkSize, threads,
+    [&](Id begin, Id end, std::size_t& part)
+    {
+      std::size_t found = 0;
+      for (Id i = begin; i < end; ++i)
+      {
+        found += counts(i) ? 1U : 0U;
+      }
+      part = found;
+    });
+  return std::accumulate(parts.begin(), parts.end(), std::size_t{ 0 });
+}
 
 /// Calls body(i) for all i below count. Where it returns false for some, the lowest of these comes back, whatever the
 /// number of threads; else count. Behind a refused one the rest of its chunk is left out.

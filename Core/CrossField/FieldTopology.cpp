@@ -17,12 +17,6 @@ namespace
 // 1.
 constexpr double kLeastWeight = 1e-9;
 
-// Unlike acos, atan2 stays accurate for slivers.
-double angleBetween(const Vector3& a, const Vector3& b)
-{
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
 /// Where two corners of a face lie in one place, no direction gives their angles; they still have to add up to half a
 /// turn, or the turns counted round a vertex would not be those of the matchings. Such a face counts as the limit of an
 /// isosceles one, and a face in one point as equilateral.

@@ -209,8 +209,6 @@ private:
 // curvature tensor, which turns by twice the angle of its principal directions.
 Complex bendingDeviator(const Mesh& mesh, const FieldTopology& topology, Index f)
 {
-  const auto normal = [&](Index g)
-  { return mesh.edgeVector(3 * g).cross(mesh.edgeVector(3 * g + 1)); };
   Complex sum = 0;
   for (Index h = 3 * f; h < 3 * f + 3; ++h)
   {
@@ -218,8 +216,8 @@ Complex bendingDeviator(const Mesh& mesh, const FieldTopology& topology, Index f
     {
       continue;
     }
-    const Vector3 a = normal(f);
-    const Vector3 b = normal(Mesh::face(mesh.twin[h]));
+    const Vector3 a = mesh.doubleAreaNormal(f);
+    const Vector3 b = mesh.doubleAreaNormal(Mesh::face(mesh.twin[h]));
     const Vector3 axis = a.cross(b);
     const double bend = std::atan2(axis.norm(), a.dot(b)); // convex: axis along h
     const double sign = axis.dot(mesh.edgeVector(h)) < 0 ? -1.0 : 1.0;

@@ -130,7 +130,7 @@ private:
   bool take(Index f)
   {
     faces_.push_back(f);
-    area_ += mesh_.edgeVector(3 * f).cross(mesh_.edgeVector(3 * f + 1)).norm() / 2;
+    area_ += mesh_.faceArea(f);
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
       if ((mesh_.flags[h] & kRequestedFeature) != 0 || mesh_.isBoundary(h))
@@ -239,7 +239,7 @@ bool removeStub(PreparedSurface& surface, Index h, double girth, double opening)
   const auto& [faces, fan] = *stub;
   for (const Index f : faces)
   {
-    surface.area -= mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm() / 2;
+    surface.area -= mesh.faceArea(f);
   }
   for (const Index f : faces)
   {

@@ -5,6 +5,7 @@
 #include "Base/DisjointSets.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
 #include "Mesh/Topology.h"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ public:
         {
           return false;
         }
-        forEachFace(v,
+        forEachInFan(mesh_, outgoing_[v],
           [&](Index h)
           {
             const Index w = mesh_.target(h);
@@ -75,8 +76,7 @@ public:
         part.vertex.push_back(mesh_.origin[h]);
       }
     }
-    std::sort(part.vertex.begin(), part.vertex.end());
-    part.vertex.erase(std::unique(part.vertex.begin(), part.vertex.end()), part.vertex.end());
+    sortUnique(part.vertex);
     for (const Index v : part.vertex)
     {
       part.mesh.position.push_back(mesh_.position[v]);
@@ -85,7 +85,7 @@ public:
     {
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
       {
-        part.mesh.origin.push_back(idIn(part, mesh_.origin[h]));
+        part.mesh.origin.push_back(placeIn(part.vertex, mesh_.origin[h]));
       }
     }
     for (const std::vector<std::vector<Index>>& loops : loopsOfPieces())
@@ -100,17 +100,6 @@ public:
 private:
   using Triangle = std::array<Index, 3>;
 
-  template <typename Visitor>
-  void forEachFace(Index v, Visitor&& visit) const
-  {
-    Index h = outgoing_[v];
-    do
-    {
-      visit(h);
-      h = mesh_.rotateCounterclockwise(h);
-    } while (h != outgoing_[v] && h != kInvalidIndex);
-  }
-
   /// Takes all faces at a vertex; false at the boundary and where they become too many.
   bool takeStar(Index v)
   {
@@ -118,7 +107,7 @@ private:
     {
       return false;
     }
-    forEachFace(v,
+    forEachInFan(mesh_, outgoing_[v],
       [&](Index h)
       {
         const Index f = Mesh::face(h);
@@ -152,7 +141,8 @@ private:
           return false;
         }
         int leaving = 0;
-        forEachFace(mesh_.origin[h], [&](Index g) { leaving += isInside(g) && isRim(g) ? 1 : 0; });
+        forEachInFan(mesh_, outgoing_[mesh_.origin[h]],
+          [&](Index g) { leaving += isInside(g) && isRim(g) ? 1 : 0; });
         // Faces that come are looked at later, as are those that they make a pinch of: they are rims of one of them.
         if (leaving > 1 && !takeStar(mesh_.origin[h]))
         {
@@ -161,12 +151,6 @@ private:
       }
     }
     return true;
-  }
-
-  Index idIn(const LoopNeighbourhood& part, Index v) const
-  {
-    return static_cast<Index>(
-      std::lower_bound(part.vertex.begin(), part.vertex.end(), v) - part.vertex.begin());
   }
 
   /// The loops that the part has in common with the rest: vertices in the order of the part's half-edges, and one of
@@ -238,18 +222,15 @@ private:
   DisjointSets piecesOfRest() const
   {
     DisjointSets pieces(mesh_.faceCount(), threads_);
-    parallelFor(mesh_.faceCount(), kPieceChunk, threads_,
-      [&](std::size_t begin, std::size_t end)
+    parallelForEach(mesh_.faceCount(), kPieceChunk, threads_,
+      [&](Index f)
       {
-        for (Index f = static_cast<Index>(begin); f < end; ++f)
+        for (Index h = 3 * f; h < 3 * f + 3; ++h)
         {
-          for (Index h = 3 * f; h < 3 * f + 3; ++h)
+          const Index g = mesh_.twin[h];
+          if (g < h && inside_[f] == 0 && !isInside(g))
           {
-            const Index g = mesh_.twin[h];
-            if (g < h && inside_[f] == 0 && !isInside(g))
-            {
-              pieces.join(f, Mesh::face(g));
-            }
+            pieces.join(f, Mesh::face(g));
           }
         }
       });
@@ -266,7 +247,8 @@ private:
       const Index middle = addVertex(part);
       for (std::size_t k = 0; k < loop.size(); ++k)
       {
-        const Triangle face{ idIn(part, loop[(k + 1) % loop.size()]), idIn(part, loop[k]), middle };
+        const Triangle face{ placeIn(part.vertex, loop[(k + 1) % loop.size()]),
+          placeIn(part.vertex, loop[k]), middle };
         if (k == 0 && i > 0)
         {
           addFrame(face, { joint[0], joint[2], joint[1] }, part);

@@ -142,17 +142,16 @@ void LoopSearch::growTree()
     for (std::size_t i = (queue.push_back(seed), queue.size() - 1); i < queue.size(); ++i)
     {
       pollNowAndThen(i);
-      Index h = outgoing_[queue[i]];
-      do
-      {
-        if (reached[mesh_.target(h)] == 0)
+      forEachInFan(mesh_, outgoing_[queue[i]],
+        [&](Index h)
         {
-          reached[mesh_.target(h)] = 1;
-          inTree_[h] = inTree_[mesh_.twin[h]] = 1;
-          queue.push_back(mesh_.target(h));
-        }
-        h = mesh_.rotateCounterclockwise(h);
-      } while (h != outgoing_[queue[i]]);
+          if (reached[mesh_.target(h)] == 0)
+          {
+            reached[mesh_.target(h)] = 1;
+            inTree_[h] = inTree_[mesh_.twin[h]] = 1;
+            queue.push_back(mesh_.target(h));
+          }
+        });
     }
   }
 }
@@ -290,12 +289,7 @@ std::vector<Index> LoopSearch::roots() const
   for (Index v = 0; v < vertices_ && !generators_.empty(); ++v)
   {
     bool labelled = false;
-    Index h = outgoing_[v];
-    do
-    {
-      labelled = labelled || label_[h] != 0;
-      h = mesh_.rotateCounterclockwise(h);
-    } while (h != outgoing_[v]);
+    forEachInFan(mesh_, outgoing_[v], [&](Index h) { labelled = labelled || label_[h] != 0; });
     if (labelled && barred_[v] == 0)
     {
       roots.push_back(v);
@@ -318,25 +312,24 @@ std::vector<Index> LoopSearch::generatorRoots() const
 template <typename Visitor>
 void LoopSearch::forEachArc(Index v, Visitor&& visit) const
 {
-  Index h = outgoing_[v];
-  do
-  {
-    if (barred_[mesh_.target(h)] == 0)
+  forEachInFan(mesh_, outgoing_[v],
+    [&](Index h)
     {
-      visit(Arc{ h, false }, mesh_.target(h), sizedLength(mesh_, h), label_[h]);
-    }
-    const Index e = Mesh::next(h);
-    if (moves_ == kStraightened && Mesh::face(e) < faces_ && Mesh::face(mesh_.twin[e]) < faces_)
-    {
-      if (const std::optional<double> length = straightAcross(mesh_, e))
+      if (barred_[mesh_.target(h)] == 0)
       {
-        const Index w = mesh_.origin[Mesh::previous(mesh_.twin[e])];
-        visit(Arc{ e, true }, w, *length / std::sqrt(sizeAt(mesh_, v) * sizeAt(mesh_, w)),
-          label_[h] ^ label_[Mesh::next(mesh_.twin[e])]);
+        visit(Arc{ h, false }, mesh_.target(h), sizedLength(mesh_, h), label_[h]);
       }
-    }
-    h = mesh_.rotateCounterclockwise(h);
-  } while (h != outgoing_[v]);
+      const Index e = Mesh::next(h);
+      if (moves_ == kStraightened && Mesh::face(e) < faces_ && Mesh::face(mesh_.twin[e]) < faces_)
+      {
+        if (const std::optional<double> length = straightAcross(mesh_, e))
+        {
+          const Index w = mesh_.origin[Mesh::previous(mesh_.twin[e])];
+          visit(Arc{ e, true }, w, *length / std::sqrt(sizeAt(mesh_, v) * sizeAt(mesh_, w)),
+            label_[h] ^ label_[Mesh::next(mesh_.twin[e])]);
+        }
+      }
+    });
 }
 
 /// Dijkstra's algorithm up to half the bound, which may shrink on the way; meet(a, b, arc, length, label) for each arc

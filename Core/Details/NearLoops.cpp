@@ -3,6 +3,7 @@
 #include "Details/NearLoops.h"
 
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
 
 #include <algorithm>
 #include <utility>
@@ -30,12 +31,6 @@ std::optional<LoopNeighbourhood> partNear(
   return loopNeighbourhood(mesh, allOf(places), kBeyondRounding * bound / 2, threads);
 }
 
-Index idInPart(const LoopNeighbourhood& part, Index v)
-{
-  return static_cast<Index>(
-    std::lower_bound(part.vertex.begin(), part.vertex.end(), v) - part.vertex.begin());
-}
-
 /// The shortest loop below the bound that meets a vertex of the place. part: what is searched; null: all.
 std::optional<LoopSearch::Loop> shortestAt(
   LoopSearch& search, const LoopNeighbourhood* part, const std::vector<Index>& place, double bound)
@@ -43,7 +38,7 @@ std::optional<LoopSearch::Loop> shortestAt(
   std::optional<LoopSearch::Loop> best;
   for (const Index root : place)
   {
-    const Index from = part != nullptr ? idInPart(*part, root) : root;
+    const Index from = part != nullptr ? placeIn(part->vertex, root) : root;
     if (std::optional<LoopSearch::Loop> loop = search.shortest(from, best ? best->length : bound))
     {
       best = std::move(loop);

@@ -116,7 +116,7 @@ std::size_t removeSmallComponents(PreparedSurface& surface, const SmallComponent
     {
       continue;
     }
-    surface.area -= mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm() / 2;
+    surface.area -= mesh.faceArea(f);
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
       goes[mesh.origin[h]] = 1;

@@ -81,22 +81,6 @@ private:
     std::vector<Index> faces;
   };
 
-  /// Calls visit(w, h) for each edge of v to a vertex w, with a half-edge h of it.
-  template <typename Visitor>
-  void forEachEdge(Index v, Visitor&& visit) const
-  {
-    forEachInFan(mesh_, outgoing_[v],
-      [&](Index h)
-      {
-        visit(mesh_.target(h), h);
-        const Index before = Mesh::previous(h);
-        if (mesh_.isBoundary(before))
-        {
-          visit(mesh_.origin[before], before);
-        }
-      });
-  }
-
   /// The half-edge of the same edge that leaves v.
   Index from(Index v, Index h) const { return mesh_.origin[h] == v ? h : mesh_.twin[h]; }
 
@@ -107,24 +91,27 @@ private:
     {
       return;
     }
-    forEachEdge(a, [&](Index b, Index h) { marked_[b] = h; });
-    forEachEdge(a,
-      [&](Index b, Index ab)
+    forEachEdgeInFan(mesh_, outgoing_[a], [&](Index h) { marked_[mesh_.otherEnd(h, a)] = h; });
+    forEachEdgeInFan(mesh_, outgoing_[a],
+      [&](Index ab)
       {
+        const Index b = mesh_.otherEnd(ab, a);
         if (b < a || sizedLength(mesh_, ab) > longest_)
         {
           return;
         }
-        forEachEdge(b,
-          [&](Index c, Index bc)
+        forEachEdgeInFan(mesh_, outgoing_[b],
+          [&](Index bc)
           {
+            const Index c = mesh_.otherEnd(bc, b);
             if (c > b && marked_[c] != kInvalidIndex)
             {
               look({ from(a, ab), from(b, bc), from(c, marked_[c]) });
             }
           });
       });
-    forEachEdge(a, [&](Index b, Index) { marked_[b] = kInvalidIndex; });
+    forEachEdgeInFan(
+      mesh_, outgoing_[a], [&](Index h) { marked_[mesh_.otherEnd(h, a)] = kInvalidIndex; });
   }
 
   void look(const Ring& ring)
@@ -257,9 +244,10 @@ private:
         part.outside = isInside || part.outside != kInvalidIndex ? part.outside : v;
         continue;
       }
-      forEachEdge(v,
-        [&, at = d](Index w, Index h)
+      forEachEdgeInFan(mesh_, outgoing_[v],
+        [&, at = d, v = v](Index h)
         {
+          const Index w = mesh_.otherEnd(h, v);
           const double there = at + mesh_.edgeVector(h).norm();
           const auto known = distance.find(w);
           if (known == distance.end() || there < known->second)
@@ -425,7 +413,7 @@ private:
     double area = 0;
     for (std::size_t i = 0; i < faces.size(); ++i)
     {
-      area += mesh_.edgeVector(3 * faces[i]).cross(mesh_.edgeVector(3 * faces[i] + 1)).norm() / 2;
+      area += mesh_.faceArea(faces[i]);
       if (faces.size() > kMostFacesNear || area > mostArea_)
       {
         return std::nullopt;
@@ -472,7 +460,7 @@ private:
       {
         used_[mesh_.origin[h]] = 1;
       }
-      surface_.area -= mesh_.edgeVector(3 * f).cross(mesh_.edgeVector(3 * f + 1)).norm() / 2;
+      surface_.area -= mesh_.faceArea(f);
     }
     for (const Index f : faces)
     {

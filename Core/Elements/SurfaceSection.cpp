@@ -33,26 +33,6 @@ std::vector<Index> weightedCorners(const SurfacePoint& point)
   return corners;
 }
 
-/// Calls visit(h) for each corner h at the vertex of `corner`.
-template <class Visitor>
-void forEachCorner(const Mesh& mesh, Index corner, const Visitor& visit)
-{
-  Index g = corner;
-  do
-  {
-    visit(g);
-    g = mesh.rotateCounterclockwise(g);
-  } while (g != corner && g != kInvalidIndex);
-  if (g == corner)
-  {
-    return;
-  }
-  for (g = mesh.rotateClockwise(corner); g != kInvalidIndex; g = mesh.rotateClockwise(g))
-  {
-    visit(g);
-  }
-}
-
 /// The plane halfway between two places that is perpendicular to their connection.
 class MiddlePlane
 {
@@ -281,8 +261,7 @@ private:
     {
       return 1;
     }
-    const auto normal = [this](Index f)
-    { return mesh_.edgeVector(3 * f).cross(mesh_.edgeVector(3 * f + 1)).stableNormalized(); };
+    const auto normal = [this](Index f) { return mesh_.doubleAreaNormal(f).stableNormalized(); };
     const double cosine = normal(Mesh::face(h)).dot(normal(Mesh::face(mesh_.twin[h])));
     return 1 + kFlat * std::exp(-std::acos(std::clamp(cosine, -1.0, 1.0)) / kFlatAngle);
   }
@@ -323,7 +302,7 @@ private:
   template <class Visitor>
   void forEachEdge(Index corner, const Visitor& visit) const
   {
-    forEachCorner(mesh_, corner,
+    forEachInFan(mesh_, corner,
       [&](Index g)
       {
         if (isAllowed(g))
@@ -473,7 +452,7 @@ std::vector<Index> facesAt(const Mesh& mesh, const SurfacePoint& point)
   std::vector<Index> faces;
   if (corners.size() == 1)
   {
-    forEachCorner(mesh, corners[0], [&](Index g) { faces.push_back(Mesh::face(g)); });
+    forEachInFan(mesh, corners[0], [&](Index g) { faces.push_back(Mesh::face(g)); });
     return faces;
   }
   faces.push_back(point.face);

@@ -3,6 +3,7 @@
 #include "Evaluation/ArrayConstraints.h"
 
 #include "Base/DisjointSets.h"
+#include "Base/Sorted.h"
 #include "Evaluation/ConstraintMeasures.h"
 
 #include <algorithm>
@@ -117,8 +118,7 @@ std::vector<ArrayConstraints::Curve> markedCurves(const SurfaceInput& input)
       }
     }
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  sortUnique(edges);
   std::vector<ArrayConstraints::Curve> curves;
   if (edges.empty())
   {

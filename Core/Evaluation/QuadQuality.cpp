@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Evaluation/QuadQuality.h"
 
+#include "Base/Angles.h"
 #include "Quads/QuadShape.h"
 #include "Quads/QuadTopology.h"
 
@@ -56,11 +57,6 @@ void countValences(const QuadTopology& topology, QuadQuality& quality)
       valence != regular ? 1 : 0;
     quality.indexSum += regular - valence;
   }
-}
-
-double angleBetween(const Vector3& a, const Vector3& b)
-{
-  return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 void measureShapes(const std::vector<Vector3>& points, const Quads& quads, QuadQuality& quality)

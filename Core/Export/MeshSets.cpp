@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Base/LargeArray.h"
+#include "Base/Sorted.h"
 #include "Export/ElementEdges.h"
 
 #include <algorithm>
@@ -298,9 +299,7 @@ private:
     chain.closed = isRing;
     const auto finish = [&]
     {
-      std::sort(chain.patches.begin(), chain.patches.end());
-      chain.patches.erase(
-        std::unique(chain.patches.begin(), chain.patches.end()), chain.patches.end());
+      sortUnique(chain.patches);
       if (!isRing)
       {
         chain.startCorner = corner(chain.nodes.front());

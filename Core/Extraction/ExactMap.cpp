@@ -148,12 +148,8 @@ void merge(MapCheck& into, const MapCheck& from)
 template <typename Body>
 MapCheck overFaces(Index faces, int threads, const Body& body)
 {
-  std::vector<MapCheck> parts((faces + kMapChunk - 1) / kMapChunk);
-  parallelFor(faces, kMapChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    { body(static_cast<Index>(begin), static_cast<Index>(end), parts[begin / kMapChunk]); });
   MapCheck whole;
-  for (const MapCheck& part : parts)
+  for (const MapCheck& part : parallelParts<MapCheck>(faces, kMapChunk, threads, body))
   {
     merge(whole, part);
   }

@@ -164,16 +164,14 @@ private:
 /// In the order of the grid vertices.
 std::vector<Parts> collect(const Collector& collector, std::size_t vertexCount, int threads)
 {
-  std::vector<Parts> parts((vertexCount + kAssemblyChunk - 1) / kAssemblyChunk);
-  parallelFor(vertexCount, kAssemblyChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  return parallelParts<Parts>(vertexCount, kAssemblyChunk, threads,
+    [&](std::size_t begin, std::size_t end, Parts& part)
     {
       for (std::size_t q = begin; q < end; ++q)
       {
-        collector.visitVertex(static_cast<Index>(q), parts[begin / kAssemblyChunk]);
+        collector.visitVertex(static_cast<Index>(q), part);
       }
     });
-  return parts;
 }
 
 std::size_t countCells(const std::vector<Parts>& parts)
@@ -195,14 +193,7 @@ void forEachPart(const std::vector<Parts>& parts, int threads, const Body& body)
   {
     first.push_back(first.back() + part.cells.size());
   }
-  parallelFor(parts.size(), 1, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        body(parts[i], first[i]);
-      }
-    });
+  parallelForEach(parts.size(), 1, threads, [&](std::size_t i) { body(parts[i], first[i]); });
 }
 
 /// Cycles of the corner relation that are no quads.
@@ -270,17 +261,14 @@ std::vector<Index> makePoints(const ExactMap& map, const GridVertices& grid,
   mesh.points.resize(used.size());
   mesh.sourceFace.resize(used.size());
   mesh.sourceWeights.resize(used.size());
-  parallelFor(used.size(), kAssemblyChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(used.size(), kAssemblyChunk, threads,
+    [&](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        pointOf[used[i]] = static_cast<Index>(i);
-        const SurfacePoint place = placeOf(map, grid.vertices()[used[i]]);
-        mesh.sourceFace[i] = place.face;
-        mesh.sourceWeights[i] = place.weights;
-        mesh.points[i] = positionOf(map.mesh, place);
-      }
+      pointOf[used[i]] = static_cast<Index>(i);
+      const SurfacePoint place = placeOf(map, grid.vertices()[used[i]]);
+      mesh.sourceFace[i] = place.face;
+      mesh.sourceWeights[i] = place.weights;
+      mesh.points[i] = positionOf(map.mesh, place);
     });
   return pointOf;
 }

@@ -288,12 +288,10 @@ QuadCoverage coverQuads(
   const std::size_t count = quads.quads.size();
   QuadCoverage coverage;
   coverage.first.assign(count + 1, 0);
-  std::vector<std::vector<FaceShare>> parts((count + kCoverageChunk - 1) / kCoverageChunk);
-  parallelFor(count, kCoverageChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  auto parts = parallelParts<std::vector<FaceShare>>(count, kCoverageChunk, threads,
+    [&](std::size_t begin, std::size_t end, std::vector<FaceShare>& part)
     {
       Coverer coverer(mesh, uv, quads);
-      std::vector<FaceShare>& part = parts[begin / kCoverageChunk];
       for (std::size_t q = begin; q < end; ++q)
       {
         coverer.cover(q, part);

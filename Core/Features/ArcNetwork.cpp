@@ -43,18 +43,13 @@ bool ArcNetwork::goStraightOn(Index node, Index a, Index b) const
   return -cosine > std::cos(kStraightOn);
 }
 
-Index ArcNetwork::otherEnd(Index h, Index v) const
-{
-  return mesh_.origin[h] == v ? mesh_.target(h) : mesh_.origin[h];
-}
-
 void ArcNetwork::traceAll()
 {
   arcOf_.assign(mesh_.halfEdgeCount(), kInvalidIndex);
   for (Index v = 0; v < mesh_.vertexCount(); ++v)
   {
     pollNowAndThen(v);
-    for (Index i = at_.offset[v]; degree(v) != 2 && i < at_.offset[v + 1]; ++i)
+    for (Index i = at_.offset[v]; at_.degree(v) != 2 && i < at_.offset[v + 1]; ++i)
     {
       if (arcOf_[at_.incident[i]] == kInvalidIndex)
       {
@@ -77,13 +72,12 @@ void ArcNetwork::trace(Index start, Index h)
     arc.removable =
       arc.removable && !mesh_.isBoundary(h) && (mesh_.flags[h] & kRequestedFeature) == 0;
     arc.yields = arc.yields && !mesh_.isBoundary(h) && (mesh_.flags[h] & kYieldingFeature) != 0;
-    v = otherEnd(h, v);
-    if (degree(v) != 2)
+    v = mesh_.otherEnd(h, v);
+    if (at_.degree(v) != 2)
     {
       break;
     }
-    const Index first = at_.incident[at_.offset[v]];
-    h = first == h ? at_.incident[at_.offset[v] + 1] : first;
+    h = at_.otherThan(h, v);
   }
   arc.ends = { start, v };
   arcs_.push_back(std::move(arc));
@@ -99,7 +93,7 @@ Vector3 ArcNetwork::courseFrom(Index node, const NetworkArc& arc) const
   {
     const Index h = arc.halfEdges[forward ? i : count - 1 - i];
     walked += sizedLength(mesh_, h) / edgeLength_;
-    v = otherEnd(h, v);
+    v = mesh_.otherEnd(h, v);
   }
   return (mesh_.position[v] - mesh_.position[node]).stableNormalized();
 }

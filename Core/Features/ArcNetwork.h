@@ -38,19 +38,6 @@ public:
   bool goStraightOn(Index node, Index a, Index b) const;
 
 private:
-  template <typename Visitor>
-  void forEachEdge(Visitor&& visit) const
-  {
-    for (std::size_t i = 0; i < edges_.size(); ++i)
-    {
-      pollNowAndThen(i);
-      visit(edges_[i]);
-    }
-  }
-
-  Index degree(Index v) const { return at_.offset[v + 1] - at_.offset[v]; }
-  Index otherEnd(Index h, Index v) const;
-
   void traceAll();
 
   void trace(Index start, Index h);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Features/CreaseCurves.h"
 
+#include "Base/Angles.h"
 #include "Base/Error.h"
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
@@ -14,7 +15,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 #include <unordered_set>
 
 namespace quadrille
@@ -37,11 +37,6 @@ constexpr double kMostRoughWithOneEnd = 0.5;
 /// Noise makes no curve of so many edge lengths.
 constexpr double kLongCrease = 50;
 constexpr std::size_t kCurveChunk = 1;
-
-double angleBetween(const Vector3& a, const Vector3& b)
-{
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 double meanOf(const std::vector<double>& values)
 {
@@ -75,44 +70,22 @@ public:
   {
     std::vector<CreaseCurve> result;
     std::vector<std::uint8_t> done(edges_.empty() ? 0 : mesh_.halfEdgeCount(), 0);
-    forEachEdge(
-      [&](Index h)
+    for (std::size_t i = 0; i < edges_.size(); ++i)
+    {
+      pollNowAndThen(i);
+      const Index h = edges_[i];
+      if (done[h] == 0 && isDetected(h))
       {
-        if (done[h] == 0 && isDetected(h))
-        {
-          result.push_back(trace(h, done));
-        }
-      });
+        result.push_back(trace(h, done));
+      }
+    }
     return result;
   }
 
 private:
-  template <typename Visitor>
-  void forEachEdge(Visitor&& visit) const
-  {
-    for (std::size_t i = 0; i < edges_.size(); ++i)
-    {
-      pollNowAndThen(i);
-      visit(edges_[i]);
-    }
-  }
-
   bool isDetected(Index h) const
   {
     return !mesh_.isBoundary(h) && (mesh_.flags[h] & kRequestedFeature) == 0;
-  }
-
-  Index degree(Index v) const { return at_.offset[v + 1] - at_.offset[v]; }
-
-  Index otherEnd(Index h, Index v) const
-  {
-    return mesh_.origin[h] == v ? mesh_.target(h) : mesh_.origin[h];
-  }
-
-  Index otherEdge(Index h, Index v) const
-  {
-    const Index first = at_.incident[at_.offset[v]];
-    return first == h ? at_.incident[at_.offset[v] + 1] : first;
   }
 
   /// Direction from v along edge h and on to the next junction, at most an edge length.
@@ -124,12 +97,12 @@ private:
     while (true)
     {
       walked += sizedLength(mesh_, h);
-      v = otherEnd(h, v);
-      if (walked >= edgeLength_ || degree(v) != 2)
+      v = mesh_.otherEnd(h, v);
+      if (walked >= edgeLength_ || at_.degree(v) != 2)
       {
         break;
       }
-      h = otherEdge(h, v);
+      h = at_.otherThan(h, v);
       if (h == first)
       {
         break;
@@ -161,11 +134,11 @@ private:
   Index onwards(Index h, Index v) const
   {
     Index next = kInvalidIndex;
-    if (degree(v) == 2)
+    if (at_.degree(v) == 2)
     {
-      next = otherEdge(h, v);
+      next = at_.otherThan(h, v);
     }
-    else if (degree(v) > 2)
+    else if (at_.degree(v) > 2)
     {
       const Index best = straightest(h, v);
       next = best != kInvalidIndex && straightest(best, v) == h ? best : kInvalidIndex;
@@ -194,9 +167,9 @@ private:
         done[next] = 1;
         ways[static_cast<std::size_t>(side)].push_back(next);
         h = next;
-        v = otherEnd(h, v);
+        v = mesh_.otherEnd(h, v);
       }
-      curve.freeEnds += degree(v) == 1 ? 1 : 0;
+      curve.freeEnds += at_.degree(v) == 1 ? 1 : 0;
     }
     curve.halfEdges.assign(ways[0].rbegin(), ways[0].rend());
     curve.halfEdges.push_back(seed);
@@ -213,18 +186,6 @@ private:
   std::vector<Index> edges_;
   EdgesAtVertices at_;
 };
-
-Vector3 doubleAreaNormal(const Mesh& mesh, Index f)
-{
-  return mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1));
-}
-
-Vector3 centreOf(const Mesh& mesh, Index f)
-{
-  return (mesh.position[mesh.origin[3 * f]] + mesh.position[mesh.origin[3 * f + 1]] +
-           mesh.position[mesh.origin[3 * f + 2]]) /
-    3;
-}
 
 /// The faces beside a half-edge, as far as no constrained edge is crossed.
 struct CreaseSide
@@ -243,7 +204,7 @@ CreaseSide lookBeside(const Mesh& mesh, Index h, double width)
   std::unordered_set<Index> seen{ Mesh::face(h) };
   for (std::size_t i = 0; i < faces.size(); ++i)
   {
-    const Vector3 normal = doubleAreaNormal(mesh, faces[i]);
+    const Vector3 normal = mesh.doubleAreaNormal(faces[i]);
     side.normal += normal;
     for (Index g = 3 * faces[i]; g < 3 * faces[i] + 3; ++g)
     {
@@ -255,9 +216,9 @@ CreaseSide lookBeside(const Mesh& mesh, Index h, double width)
       const Vector3 edge = mesh.edgeVector(g);
       const double part = edge.dot(along);
       // Half, as an edge inside is met from both of its faces.
-      side.turning += 0.5 * angleBetween(normal, doubleAreaNormal(mesh, next)) * part * part /
+      side.turning += 0.5 * angleBetween(normal, mesh.doubleAreaNormal(next)) * part * part /
         std::max(edge.norm(), 1e-300);
-      if ((centreOf(mesh, next) - middle).norm() < width && seen.insert(next).second)
+      if ((mesh.middleOfFace(next) - middle).norm() < width && seen.insert(next).second)
       {
         faces.push_back(next);
       }
@@ -303,22 +264,14 @@ void measureCurve(const Mesh& mesh, double edgeLength, CreaseCurve& curve)
     const Index twin = mesh.twin[h];
     const CreaseSide left = lookBeside(mesh, h, width);
     const CreaseSide right = lookBeside(mesh, twin, width);
-    angles.push_back(angleBetween(
-      doubleAreaNormal(mesh, Mesh::face(h)), doubleAreaNormal(mesh, Mesh::face(twin))));
+    angles.push_back(
+      angleBetween(mesh.doubleAreaNormal(Mesh::face(h)), mesh.doubleAreaNormal(Mesh::face(twin))));
     wide.push_back(angleBetween(left.normal, right.normal));
     rough.push_back((left.turning + right.turning) / (2 * width)); // over the length of both discs
   }
   curve.angle = meanOf(angles);
   curve.wideAngle = meanOf(wide);
   curve.roughness = middleValue(rough);
-}
-
-std::string lengthText(double length)
-{
-  std::ostringstream text;
-  text.precision(length < 10 ? 2 : 3);
-  text << length;
-  return text.str();
 }
 
 } // namespace
@@ -341,15 +294,12 @@ std::vector<CreaseCurve> traceCreases(const Mesh& mesh, double edgeLength, int t
     throw InvalidInput("the edge length for judging creases must be positive");
   }
   std::vector<CreaseCurve> curves = CreaseNetwork(mesh, edgeLength, threads).curves();
-  parallelFor(curves.size(), kCurveChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(curves.size(), kCurveChunk, threads,
+    [&](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      if (curves[i].freeEnds > 0 && curves[i].length < kLongCrease)
       {
-        if (curves[i].freeEnds > 0 && curves[i].length < kLongCrease)
-        {
-          measureCurve(mesh, edgeLength, curves[i]);
-        }
+        measureCurve(mesh, edgeLength, curves[i]);
       }
     });
   return curves;
@@ -404,14 +354,14 @@ std::string CreaseReport::text() const
   return std::to_string(removedCurves) +
     (removedCurves == 1 ? " curve of sharp edges is no crease: "
                         : " curves of sharp edges are no creases: ") +
-    lengthText(removedLength) + " edge lengths" +
-    (removedCurves == 1 ? "" : " altogether, the longest of " + lengthText(longest)) + " near " +
+    inEdgeLengths(removedLength) + " edge lengths" +
+    (removedCurves == 1 ? "" : " altogether, the longest of " + inEdgeLengths(longest)) + " near " +
     placeText(place) +
     ". What ends in the surface has to stand out from its roughness and to be sharp over half an "
     "edge length, too; " +
     (keptCurves == 0 ? std::string("none is left")
                      : std::to_string(keptCurves) + (keptCurves == 1 ? " curve" : " curves") +
-          " with " + lengthText(keptLength) + " edge lengths stayed") +
+          " with " + inEdgeLengths(keptLength) + " edge lengths stayed") +
     " (Feature Criterion Angle, --feature-criterion angle, keeps all; or mark edges)";
 }
 

@@ -7,6 +7,7 @@
 #include "Base/LargeArray.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
 #include "Mesh/Topology.h"
 
 #include <algorithm>
@@ -105,40 +106,12 @@ private:
     return !mesh_.isBoundary(h) && mesh_.isFeature(h) && (mesh_.flags[h] & kRequestedFeature) == 0;
   }
 
-  /// All edges at v, as half-edges from or to it.
-  template <typename Visitor>
-  void forEachEdgeAt(Index v, Visitor&& visit) const
-  {
-    Index h = outgoing_[v];
-    do
-    {
-      visit(h);
-      const Index back = Mesh::previous(h);
-      if (mesh_.isBoundary(back))
-      {
-        visit(back);
-      }
-      h = mesh_.rotateCounterclockwise(h);
-    } while (h != kInvalidIndex && h != outgoing_[v]);
-  }
-
-  Index otherEnd(Index h, Index v) const
-  {
-    return mesh_.origin[h] == v ? mesh_.target(h) : mesh_.origin[h];
-  }
-
   void lookRound(int threads)
   {
     near_.resize(edges_.size());
     blunt_.assign(edges_.size(), 0.0);
-    parallelFor(edges_.size(), kEdgeChunk, threads,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          lookRound(static_cast<Index>(i));
-        }
-      });
+    parallelForEach(
+      edges_.size(), kEdgeChunk, threads, [&](std::size_t i) { lookRound(static_cast<Index>(i)); });
   }
 
   void lookRound(Index i)
@@ -147,11 +120,10 @@ private:
     std::vector<Index> found;
     for (const Index v : verticesNear(edge.halfEdge))
     {
-      forEachEdgeAt(
-        v, [&](Index h) { found.push_back(mesh_.isBoundary(h) ? h : std::min(h, mesh_.twin[h])); });
+      forEachEdgeInFan(mesh_, outgoing_[v],
+        [&](Index h) { found.push_back(mesh_.isBoundary(h) ? h : std::min(h, mesh_.twin[h])); });
     }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    sortUnique(found);
     for (const Index h : found)
     {
       if (mesh_.isBoundary(h) || (mesh_.isFeature(h) && indexOf_[h] == kInvalidIndex))
@@ -188,7 +160,8 @@ private:
       {
         const Index v = vertices[k];
         const std::size_t before = vertices.size();
-        forEachEdgeAt(v, [&](Index g) { vertices.push_back(otherEnd(g, v)); });
+        forEachEdgeInFan(
+          mesh_, outgoing_[v], [&](Index g) { vertices.push_back(mesh_.otherEnd(g, v)); });
         if (vertices.size() - before > kMostEdges)
         {
           vertices.resize(before);
@@ -200,8 +173,7 @@ private:
         vertices.end());
       begin = end;
     }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sortUnique(vertices);
     return vertices;
   }
 
@@ -216,7 +188,7 @@ private:
     const Vector3 forward = -away(i);
     Index best = kInvalidIndex;
     double most = kStraight;
-    forEachEdgeAt(v,
+    forEachEdgeInFan(mesh_, outgoing_[v],
       [&](Index h)
       {
         const Index k = indexOf_[h];
@@ -254,7 +226,7 @@ private:
           seen[next] = 1;
           line.push_back(next);
           current = next;
-          v = otherEnd(edges_[current].halfEdge, v);
+          v = mesh_.otherEnd(edges_[current].halfEdge, v);
           next = straightOn(current, v);
         }
       }
@@ -310,7 +282,7 @@ private:
     {
       for (const Index v : { mesh_.origin[edges_[i].halfEdge], mesh_.target(edges_[i].halfEdge) })
       {
-        forEachEdgeAt(v,
+        forEachEdgeInFan(mesh_, outgoing_[v],
           [&](Index h)
           {
             const Index k = indexOf_[h];

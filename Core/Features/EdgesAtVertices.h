@@ -14,6 +14,14 @@ struct EdgesAtVertices
 {
   std::vector<Index> offset,
     incident; ///< those of v: incident[offset[v]] to incident[offset[v + 1] - 1]
+
+  Index degree(Index v) const { return offset[v + 1] - offset[v]; }
+  /// At a vertex of two edges the one that is not h.
+  Index otherThan(Index h, Index v) const
+  {
+    const Index first = incident[offset[v]];
+    return first == h ? incident[offset[v] + 1] : first;
+  }
 };
 
 /// edges: half-edges, one of each edge. At a vertex they have the order in which they are given.

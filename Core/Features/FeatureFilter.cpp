@@ -5,6 +5,8 @@
 #include "Base/DisjointSets.h"
 #include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
+#include "Features/EdgesAtVertices.h"
 #include "Mesh/Distance.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
@@ -12,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <vector>
 
 namespace quadrille
@@ -48,10 +51,8 @@ class FeatureGraph
 public:
   /// edges: constrainedEdges of the mesh.
   FeatureGraph(const Mesh& mesh, double edgeLength, const std::vector<Index>& edges)
-    : mesh_(mesh), edgeLength_(edgeLength), edges_(edges)
+    : mesh_(mesh), edgeLength_(edgeLength), edges_(edges), at_(edgesAtVertices(mesh, edges))
   {
-    countDegrees();
-    listIncidentEdges();
     traceChains();
   }
 
@@ -60,44 +61,14 @@ public:
   bool endsThere(Index v) const
   {
     Index features = 0;
-    for (Index i = offset_[v]; i < offset_[v + 1]; ++i)
+    for (Index i = at_.offset[v]; i < at_.offset[v + 1]; ++i)
     {
-      features += !mesh_.isBoundary(incident_[i]);
+      features += !mesh_.isBoundary(at_.incident[i]);
     }
     return features == 1;
   }
 
 private:
-  Index degree(Index v) const { return offset_[v + 1] - offset_[v]; }
-
-  void countDegrees()
-  {
-    offset_.assign(mesh_.vertexCount() + 1, 0);
-    for (const Index h : edges_)
-    {
-      ++offset_[mesh_.origin[h] + 1];
-      ++offset_[mesh_.target(h) + 1];
-    }
-    std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
-  }
-
-  void listIncidentEdges()
-  {
-    incident_.resize(offset_.back());
-    std::vector<Index> fill(offset_.begin(), offset_.end() - 1);
-    for (const Index h : edges_)
-    {
-      incident_[fill[mesh_.origin[h]]++] = h;
-      incident_[fill[mesh_.target(h)]++] = h;
-    }
-  }
-
-  std::size_t placeOf(Index h) const
-  {
-    return static_cast<std::size_t>(
-      std::lower_bound(edges_.begin(), edges_.end(), h) - edges_.begin());
-  }
-
   void traceChains()
   {
     std::vector<std::uint8_t> done(edges_.size(), 0);
@@ -111,19 +82,14 @@ private:
         {
           continue;
         }
-        const bool startsHere = degree(mesh_.origin[h]) != 2;
-        const bool endsHere = degree(mesh_.target(h)) != 2;
+        const bool startsHere = at_.degree(mesh_.origin[h]) != 2;
+        const bool endsHere = at_.degree(mesh_.target(h)) != 2;
         if (startsHere || endsHere || loops)
         {
           trace(h, startsHere ? mesh_.origin[h] : mesh_.target(h), done);
         }
       }
     }
-  }
-
-  Index otherEnd(Index h, Index v) const
-  {
-    return mesh_.origin[h] == v ? mesh_.target(h) : mesh_.origin[h];
   }
 
   void trace(Index h, Index start, std::vector<std::uint8_t>& done)
@@ -133,27 +99,26 @@ private:
     std::vector<Index> path{ start };
     while (true)
     {
-      done[placeOf(h)] = 1;
+      done[placeIn(edges_, h)] = 1;
       chain.halfEdges.push_back(h);
       chain.length += mesh_.edgeVector(h).norm();
       chain.sizedLength += sizedLength(mesh_, h);
       chain.removable =
         chain.removable && !mesh_.isBoundary(h) && (mesh_.flags[h] & kRequestedFeature) == 0;
-      v = otherEnd(h, v);
+      v = mesh_.otherEnd(h, v);
       path.push_back(v);
-      if (degree(v) != 2)
+      if (at_.degree(v) != 2)
       {
         break;
       }
-      const Index a = incident_[offset_[v]];
-      const Index next = a == h ? incident_[offset_[v] + 1] : a;
-      if (done[placeOf(next)] != 0)
+      const Index next = at_.otherThan(h, v);
+      if (done[placeIn(edges_, next)] != 0)
       {
         break; // a closed loop without a node
       }
       h = next;
     }
-    if (degree(start) != 2)
+    if (at_.degree(start) != 2)
     {
       chain.first = start;
       chain.last = v;
@@ -191,8 +156,7 @@ private:
   const Mesh& mesh_;
   double edgeLength_;
   const std::vector<Index>& edges_;
-  std::vector<Index> offset_;
-  std::vector<Index> incident_;
+  EdgesAtVertices at_;
   std::vector<Chain> chains_;
 };
 
@@ -365,8 +329,7 @@ private:
         sides.push_back(chainOf_[h]);
       }
     }
-    std::sort(sides.begin(), sides.end());
-    sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+    sortUnique(sides);
     Index best = kInvalidIndex;
     double bluntest = std::numeric_limits<double>::infinity();
     for (const Index c : sides)
@@ -407,10 +370,7 @@ private:
 
   Index neighbour(Index h) const { return patch_[Mesh::face(mesh_.twin[h])]; }
 
-  Vector3 normal(Index f) const
-  {
-    return mesh_.edgeVector(3 * f).cross(mesh_.edgeVector(3 * f + 1)).normalized();
-  }
+  Vector3 normal(Index f) const { return mesh_.doubleAreaNormal(f).normalized(); }
 
   /// Mean angle between the normals on both sides.
   double sharpnessOf(const Chain& chain) const
@@ -541,6 +501,14 @@ void markYielding(Mesh& mesh, const std::vector<Index>& halfEdges)
       mesh.flags.edit()[side] |= kFeatureEdge | kRequestedFeature | kYieldingFeature;
     }
   }
+}
+
+std::string inEdgeLengths(double length)
+{
+  std::ostringstream text;
+  text.precision(length < 10 ? 2 : 3);
+  text << length;
+  return text.str();
 }
 
 void unmarkFeatures(Mesh& mesh, const std::vector<Index>& halfEdges)

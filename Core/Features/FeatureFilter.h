@@ -6,6 +6,7 @@
 
 #include "Mesh/Mesh.h"
 
+#include <string>
 #include <vector>
 
 namespace quadrille
@@ -42,6 +43,9 @@ std::vector<Index> yieldingFeaturesNear(
 
 /// These half-edges and their twins become features that were asked for and yield. They must not be on the boundary.
 void markYielding(Mesh& mesh, const std::vector<Index>& halfEdges);
+
+/// A length of features as messages tell it, to two or three digits.
+std::string inEdgeLengths(double length);
 
 /// These half-edges and their twins are no features any more.
 void unmarkFeatures(Mesh& mesh, const std::vector<Index>& halfEdges);

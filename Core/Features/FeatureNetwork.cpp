@@ -8,6 +8,7 @@
 #include "Features/ArcNetwork.h"
 #include "Features/FeatureFilter.h"
 #include "Mesh/Sizing.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +18,6 @@
 #include <map>
 #include <optional>
 #include <queue>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -188,19 +188,9 @@ class JunctionMerge
 public:
   JunctionMerge(Mesh& mesh, double edgeLength)
     : mesh_(mesh), edgeLength_(edgeLength), network_(mesh, edgeLength),
-      touched_(mesh.vertexCount(), 0), isConstrained_(mesh.vertexCount(), 0),
-      outgoing_(mesh.vertexCount(), kInvalidIndex)
+      touched_(mesh.vertexCount(), 0), isConstrained_(constrainedVertices(mesh)),
+      outgoing_(outgoingHalfEdges(mesh))
   {
-    for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-    {
-      pollNowAndThen(h);
-      Index& first = outgoing_[mesh.origin[h]];
-      first = first == kInvalidIndex || mesh.isBoundary(h) ? h : first;
-      if (mesh.isConstrained(h))
-      {
-        isConstrained_[mesh.origin[h]] = isConstrained_[mesh.target(h)] = 1;
-      }
-    }
   }
 
   MovedFeatures merge()
@@ -333,7 +323,7 @@ private:
       {
         continue;
       }
-      forEachOutgoing(v,
+      forEachInFan(mesh_, outgoing_[v],
         [&, d = distance](Index h)
         {
           const Index w = mesh_.target(h);
@@ -362,17 +352,6 @@ private:
   }
 
   /// Of an edge that has a face beyond; a boundary edge is constrained, so the one beside it is no way.
-  template <typename Visit>
-  void forEachOutgoing(Index v, const Visit& visit) const
-  {
-    Index h = outgoing_[v];
-    do
-    {
-      visit(h);
-      h = mesh_.rotateCounterclockwise(h);
-    } while (h != kInvalidIndex && h != outgoing_[v]);
-  }
-
   static constexpr double kReach = 1.5;
   static constexpr double kFarthestEnd = 3;
 
@@ -391,14 +370,6 @@ bool hasDetectedFeature(const Mesh& mesh)
   constexpr std::uint8_t kFeatureBits = kFeatureEdge | kRequestedFeature;
   return std::any_of(mesh.flags.begin(), mesh.flags.end(),
     [](std::uint8_t flags) { return (flags & kFeatureBits) == kFeatureEdge; });
-}
-
-std::string inQuads(double length)
-{
-  std::ostringstream text;
-  text.precision(length < 10 ? 2 : 3);
-  text << length;
-  return text.str();
 }
 
 } // namespace
@@ -451,12 +422,12 @@ std::string NetworkReport::text() const
     return {};
   }
   return std::to_string(removedCurves) + (removedCurves == 1 ? " curve" : " curves") +
-    " of sharp edges with " + inQuads(removedLength) + " edge lengths" +
-    (removedCurves == 1 ? "" : " altogether, the longest of " + inQuads(longest)) + " near " +
+    " of sharp edges with " + inEdgeLengths(removedLength) + " edge lengths" +
+    (removedCurves == 1 ? "" : " altogether, the longest of " + inEdgeLengths(longest)) + " near " +
     placeText(place) + (removedCurves == 1 ? " was" : " were") +
     " not used as features: junctions of features were nearer to each other than half a quad at " +
     std::to_string(shortArcs) + (shortArcs == 1 ? " place" : " places") + ". Features of " +
-    inQuads(keptLength) +
+    inEdgeLengths(keptLength) +
     " edge lengths stayed; ask for smaller quads, or mark the edges that are to stay";
 }
 

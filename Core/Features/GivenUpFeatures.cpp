@@ -17,7 +17,7 @@ namespace
 class LostNetwork
 {
 public:
-  LostNetwork(const Mesh& mesh, const std::vector<Index>& halfEdges) : mesh_(mesh)
+  LostNetwork(const Mesh& mesh, const std::vector<Index>& halfEdges)
   {
     for (const Index h : halfEdges)
     {
@@ -62,7 +62,6 @@ private:
     }
   }
 
-  const Mesh& mesh_;
   std::unordered_map<Index, Meeting> at_; // only looked up, so its order does not matter
 };
 
@@ -84,7 +83,7 @@ std::vector<Index> lostCurve(
       }
       done[next] = true;
       ways[side].push_back(next);
-      v = mesh.origin[next] == v ? mesh.target(next) : mesh.origin[next];
+      v = mesh.otherEnd(next, v);
       h = next;
     }
   }

@@ -183,16 +183,15 @@ public:
       }));
     result_.uv.resize(uv_.size());
     const std::vector<Index> outgoing = outgoingHalfEdges(mesh_);
-    std::vector<SnapResult> parts((outgoing.size() + kSnapChunk - 1) / kSnapChunk);
-    parallelFor(outgoing.size(), kSnapChunk, options_.threads,
-      [&](std::size_t begin, std::size_t end)
+    const auto parts = parallelParts<SnapResult>(outgoing.size(), kSnapChunk, options_.threads,
+      [&](std::size_t begin, std::size_t end, SnapResult& part)
       {
         std::vector<Corner> corners;
         for (std::size_t v = begin; v < end; ++v)
         {
           if (outgoing[v] != kInvalidIndex)
           {
-            snapVertex(outgoing[v], corners, parts[begin / kSnapChunk]);
+            snapVertex(outgoing[v], corners, part);
           }
         }
       });
@@ -299,20 +298,18 @@ private:
   template <typename Check>
   EdgeFaults findFaults(const Check& check) const
   {
-    const std::size_t count = mesh_.halfEdgeCount();
-    std::vector<EdgeFaults> parts((count + kSnapChunk - 1) / kSnapChunk);
-    parallelFor(count, kSnapChunk, options_.threads,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
+    const auto parts =
+      parallelParts<EdgeFaults>(mesh_.halfEdgeCount(), kSnapChunk, options_.threads,
+        [&](Index begin, Index end, EdgeFaults& part)
         {
-          const Index h = static_cast<Index>(i);
-          if (mesh_.twin[h] != kInvalidIndex && h < mesh_.twin[h])
+          for (Index h = begin; h < end; ++h)
           {
-            check(h, parts[begin / kSnapChunk]);
+            if (mesh_.twin[h] != kInvalidIndex && h < mesh_.twin[h])
+            {
+              check(h, part);
+            }
           }
-        }
-      });
+        });
     EdgeFaults whole;
     for (const EdgeFaults& part : parts)
     {

@@ -248,15 +248,12 @@ Transition transitionOf(
 std::vector<std::int8_t> matchingOf(const Mesh& mesh, const std::vector<FixedVec2>& uv, int threads)
 {
   std::vector<std::int8_t> matching(mesh.halfEdgeCount(), 0);
-  parallelFor(mesh.halfEdgeCount(), 1 << 16, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(mesh.halfEdgeCount(), 1 << 16, threads,
+    [&](Index h)
     {
-      for (Index h = static_cast<Index>(begin); h < end; ++h)
+      if (!mesh.isBoundary(h))
       {
-        if (!mesh.isBoundary(h))
-        {
-          matching[h] = static_cast<std::int8_t>(transitionOf(mesh, uv, h).rotation);
-        }
+        matching[h] = static_cast<std::int8_t>(transitionOf(mesh, uv, h).rotation);
       }
     });
   return matching;
@@ -270,13 +267,9 @@ Certificate certify(const Mesh& mesh, const std::vector<FixedVec2>& uv,
   Certificate result;
   result.triangles = mesh.faceCount();
   std::vector<std::int8_t> entered(mesh.halfEdgeCount(), 0);
-  std::vector<Partial> partials((mesh.faceCount() + kCertificateChunk - 1) / kCertificateChunk);
-  parallelFor(mesh.faceCount(), kCertificateChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      checkFaces(mesh, uv, integerVertex, static_cast<Index>(begin), static_cast<Index>(end),
-        entered, partials[begin / kCertificateChunk]);
-    });
+  const auto partials = parallelParts<Partial>(mesh.faceCount(), kCertificateChunk, threads,
+    [&](Index begin, Index end, Partial& partial)
+    { checkFaces(mesh, uv, integerVertex, begin, end, entered, partial); });
   merge(partials, result);
   checkTurns(mesh, entered, expectedTurns, result);
   return result;

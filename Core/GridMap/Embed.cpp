@@ -34,8 +34,7 @@ double lengthOfUnit(
     const Vector2 b = toDouble(uv[3 * f + 2] - uv[3 * f]);
     mapped += a.x() * b.y() - a.y() * b.x();
     area += areaStretch(field, f) *
-      (mesh.sizing.empty() ? mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm()
-                           : 2 * sizedArea(mesh, f));
+      (mesh.sizing.empty() ? mesh.doubleAreaNormal(f).norm() : 2 * sizedArea(mesh, f));
   }
   return mapped > 0 && area > 0 ? std::sqrt(area / mapped) : edgeLength;
 }

@@ -50,7 +50,7 @@ std::size_t unfollowedRegions(
   std::vector<double> excess(guides.size(), 0.0); // of the area times the angle, by root
   for (Index f = 0; f < guides.size(); ++f)
   {
-    const double area = mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm();
+    const double area = mesh.doubleAreaNormal(f).norm();
     if (!guides[f].isFree() && area > 0)
     {
       excess[regions.find(f)] +=

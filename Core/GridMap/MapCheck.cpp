@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/MapCheck.h"
 
+#include "Base/Sorted.h"
 #include "Mesh/Topology.h"
 
 #include <algorithm>
@@ -188,8 +189,7 @@ std::vector<Index> verticesOf(const Mesh& mesh, const MapDefects& defects)
     result.push_back(mesh.origin[h]);
     result.push_back(mesh.target(h));
   }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  sortUnique(result);
   return result;
 }
 

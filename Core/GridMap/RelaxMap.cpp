@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
 #include "GridMap/RelaxedTriangles.h"
 #include "Numerics/NestedSolver.h"
 
@@ -311,8 +312,7 @@ void MapRelaxation::relaxCrushed()
         }
       }
     }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sortUnique(vertices);
     bool moved = false;
     for (std::size_t i = 0; i < vertices.size(); ++i)
     {

@@ -357,21 +357,16 @@ void RelaxedTriangles::element(
 /// Sums over chunks, added in their order.
 double RelaxedTriangles::totalEnergy(bool stepped) const
 {
-  const std::size_t faces = mesh_.faceCount();
-  std::vector<double> sums((faces + kFacesOfRelaxation - 1) / kFacesOfRelaxation, 0);
-  parallelFor(faces, kFacesOfRelaxation, options_.threads,
-    [&](std::size_t begin, std::size_t end)
+  const auto sums = parallelParts<double>(mesh_.faceCount(), kFacesOfRelaxation, options_.threads,
+    [&](Index begin, Index end, double& sum)
     {
-      double sum = 0;
-      for (std::size_t i = begin; i < end; ++i)
+      for (Index f = begin; f < end; ++f)
       {
-        const Index f = static_cast<Index>(i);
         if (references_[f].weight > 0)
         {
           sum += energy(f, stepped ? steppedCorners(f) : cornersOf(f));
         }
       }
-      sums[begin / kFacesOfRelaxation] = sum;
     });
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
@@ -501,14 +496,8 @@ void RelaxedTriangles::shortenSteps()
 
 void RelaxedTriangles::takeStep()
 {
-  parallelFor(mesh_.halfEdgeCount(), kFacesOfRelaxation, options_.threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t h = begin; h < end; ++h)
-      {
-        uv_[h] = uv_[h] + stepOf(static_cast<Index>(h));
-      }
-    });
+  parallelForEach(mesh_.halfEdgeCount(), kFacesOfRelaxation, options_.threads,
+    [&](std::size_t h) { uv_[h] = uv_[h] + stepOf(static_cast<Index>(h)); });
 }
 
 } // namespace quadrille

@@ -25,14 +25,7 @@ constexpr double kDiagonalShift = 1e-12;
 /// An integer vertex lies best at the origin, else a vertex of an isoline: then what must be whole is so.
 std::vector<std::uint8_t> rankOf(const Mesh& mesh, const std::vector<std::uint8_t>& integerVertex)
 {
-  std::vector<std::uint8_t> rank(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (mesh.isConstrained(h))
-    {
-      rank[mesh.origin[h]] = rank[mesh.target(h)] = 1;
-    }
-  }
+  std::vector<std::uint8_t> rank = constrainedVertices(mesh);
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
     rank[v] = integerVertex[v] != 0 ? 2 : rank[v];

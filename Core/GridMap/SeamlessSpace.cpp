@@ -3,6 +3,7 @@
 #include "GridMap/SeamlessSpace.h"
 
 #include "Mesh/Sizing.h"
+#include "Mesh/Topology.h"
 #include "Requests/SeamRequests.h"
 
 #include <algorithm>
@@ -356,19 +357,12 @@ std::vector<Index> SeamlessSpace::collapsedFaces(const std::vector<Index>& candi
 
 std::vector<Index> SeamlessSpace::flattenedChords() const
 {
-  std::vector<bool> onCurve(mesh_.vertexCount(), false);
-  for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
-  {
-    if (mesh_.isConstrained(h))
-    {
-      onCurve[mesh_.origin[h]] = onCurve[mesh_.target(h)] = true;
-    }
-  }
+  const std::vector<std::uint8_t> onCurve = constrainedVertices(mesh_);
   std::vector<Index> result;
   for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
   {
-    if (mesh_.isConstrained(h) || mesh_.twin[h] < h || !onCurve[mesh_.origin[h]] ||
-      !onCurve[mesh_.target(h)])
+    if (mesh_.isConstrained(h) || mesh_.twin[h] < h || onCurve[mesh_.origin[h]] == 0 ||
+      onCurve[mesh_.target(h)] == 0)
     {
       continue;
     }

@@ -3,9 +3,9 @@
 #include "Hierarchy/ChangedMesh.h"
 
 #include "Base/Parallel.h"
+#include "Base/Sorted.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstddef>
 
 namespace quadrille
@@ -14,37 +14,6 @@ namespace
 {
 
 constexpr std::size_t kChangedFaceChunk = std::size_t{ 1 } << 16;
-
-/// Faces for which select(f) holds, ascending.
-template <typename Select>
-std::vector<Index> selectFaces(const Mesh& mesh, int threads, const Select& select)
-{
-  std::vector<std::vector<Index>> parts(
-    (mesh.faceCount() + kChangedFaceChunk - 1) / kChangedFaceChunk);
-  parallelFor(mesh.faceCount(), kChangedFaceChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (Index f = static_cast<Index>(begin); f < end; ++f)
-      {
-        if (select(f))
-        {
-          parts[begin / kChangedFaceChunk].push_back(f);
-        }
-      }
-    });
-  std::vector<Index> faces;
-  for (const std::vector<Index>& part : parts)
-  {
-    faces.insert(faces.end(), part.begin(), part.end());
-  }
-  return faces;
-}
-
-void sortUnique(std::vector<Index>& values)
-{
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
 
 /// The ids now of the ids before; those that were made are listed in `made`.
 std::vector<Index> invert(
@@ -65,14 +34,6 @@ std::vector<Index> invert(
   return now;
 }
 
-/// Where a value stands among ascending ones that have it.
-Index placeOf(const std::vector<Index>& values, Index value)
-{
-  const auto found = std::lower_bound(values.begin(), values.end(), value);
-  assert(found != values.end() && *found == value);
-  return static_cast<Index>(found - values.begin());
-}
-
 } // namespace
 
 ChangedMesh::ChangedMesh(const Mesh& fine, const NamesBefore& names, int threads)
@@ -80,12 +41,13 @@ ChangedMesh::ChangedMesh(const Mesh& fine, const NamesBefore& names, int threads
     newFace_(invert(names.face, names.faces, madeFaces_)), changed_(fine.vertexCount(), false)
 {
   const auto corner = [&](Index f, Index i) { return fine.origin[3 * f + i]; };
-  const std::vector<Index> changedFaces = selectFaces(fine, threads,
-    [&](Index f)
-    {
-      const auto isMade = [&](Index i) { return names.vertex[corner(f, i)] == kInvalidIndex; };
-      return names.face[f] == kInvalidIndex || isMade(0) || isMade(1) || isMade(2);
-    });
+  const std::vector<Index> changedFaces =
+    parallelSelect(fine.faceCount(), kChangedFaceChunk, threads,
+      [&](Index f)
+      {
+        const auto isMade = [&](Index i) { return names.vertex[corner(f, i)] == kInvalidIndex; };
+        return names.face[f] == kInvalidIndex || isMade(0) || isMade(1) || isMade(2);
+      });
   for (const Index f : changedFaces)
   {
     for (Index i = 0; i < 3; ++i)
@@ -95,7 +57,7 @@ ChangedMesh::ChangedMesh(const Mesh& fine, const NamesBefore& names, int threads
     }
   }
   sortUnique(changedVertices_);
-  const std::vector<Index> stars = selectFaces(fine, threads,
+  const std::vector<Index> stars = parallelSelect(fine.faceCount(), kChangedFaceChunk, threads,
     [&](Index f)
     {
       return hasChangedStar(corner(f, 0)) || hasChangedStar(corner(f, 1)) ||
@@ -155,14 +117,14 @@ RestoredLevel ChangedMesh::apply(const RestoredLevel& before) const
     }
     const Index name = names_.vertex[v];
     result.curveError.push_back(
-      name == kInvalidIndex ? 0.0F : before.curveError[placeOf(old.fineVertex, name)]);
+      name == kInvalidIndex ? 0.0F : before.curveError[placeIn(old.fineVertex, name)]);
   }
   const auto slotNow = [&](Index fineSlot)
-  { return 3 * placeOf(level.fineFace, fineSlot / 3) + fineSlot % 3; };
+  { return 3 * placeIn(level.fineFace, fineSlot / 3) + fineSlot % 3; };
   for (const Index f : level.fineFace)
   {
     const Index name = names_.face[f];
-    const Index oldFace = name == kInvalidIndex ? kInvalidIndex : placeOf(old.fineFace, name);
+    const Index oldFace = name == kInvalidIndex ? kInvalidIndex : placeIn(old.fineFace, name);
     for (Index i = 0; i < 3; ++i)
     {
       const Index h = 3 * f + i;
@@ -173,7 +135,7 @@ RestoredLevel ChangedMesh::apply(const RestoredLevel& before) const
       const Index oldSlot = 3 * oldFace + i;
       const Index v =
         isFineFace ? fine_.origin[h] : newVertex_[old.fineVertex[old.mesh.origin[oldSlot]]];
-      level.mesh.origin.push_back(placeOf(level.fineVertex, v));
+      level.mesh.origin.push_back(placeIn(level.fineVertex, v));
       Index twin = fine_.twin[h];
       if (!isFineEdge)
       {
@@ -189,12 +151,12 @@ RestoredLevel ChangedMesh::apply(const RestoredLevel& before) const
     const Index now = newVertex_[old.fineVertex[v]];
     if (now != kInvalidIndex)
     {
-      result.touched.push_back(placeOf(level.fineVertex, now));
+      result.touched.push_back(placeIn(level.fineVertex, now));
     }
   }
   for (const Index v : changedVertices_)
   {
-    result.touched.push_back(placeOf(level.fineVertex, v));
+    result.touched.push_back(placeIn(level.fineVertex, v));
   }
   sortUnique(result.touched);
   return result;

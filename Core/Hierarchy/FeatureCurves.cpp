@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Hierarchy/FeatureCurves.h"
 
+#include "Base/Angles.h"
 #include "Base/Progress.h"
 #include "Mesh/Sizing.h"
 
@@ -126,11 +127,6 @@ std::vector<Chain> collectChains(const Mesh& mesh, const CurveEdges& graph)
     }
   }
   return chains;
-}
-
-double angleBetween(const Vector3& a, const Vector3& b)
-{
-  return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 /// A chain's vertex by signed position, wrapping round in a closed chain.

@@ -30,32 +30,6 @@ constexpr std::size_t kRegionChunk = 256;
 /// a line of triangles much smaller than they are.
 constexpr double kHalfWidth = 3;
 
-Vector3 normalOf(const Mesh& mesh, Index f)
-{
-  return mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1));
-}
-
-Vector3 middleOf(const Mesh& mesh, Index f)
-{
-  return (mesh.position[mesh.origin[3 * f]] + mesh.position[mesh.origin[3 * f + 1]] +
-           mesh.position[mesh.origin[3 * f + 2]]) /
-    3;
-}
-
-double distanceToFace(const Mesh& mesh, Index f, const Vector3& p)
-{
-  const Vector3 n = normalOf(mesh, f);
-  bool inside = n.squaredNorm() > 0;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (Index h = 3 * f; h < 3 * f + 3; ++h)
-  {
-    const Vector3& a = mesh.position[mesh.origin[h]];
-    inside = inside && n.dot(mesh.edgeVector(h).cross(p - a)) >= 0;
-    nearest = std::min(nearest, distanceToSegment(p, a, mesh.position[mesh.target(h)]));
-  }
-  return inside ? std::abs(n.normalized().dot(p - mesh.position[mesh.origin[3 * f]])) : nearest;
-}
-
 /// Finds the fine face below a point near some fine vertices by walking over the surface, so that a sheet close by is
 /// never taken for it.
 class FaceFinder
@@ -98,13 +72,7 @@ private:
 
   void visitFan(Index v, const Vector3& point, const Vector3& normal)
   {
-    const Index first = outgoing_[v];
-    Index h = first;
-    do
-    {
-      visit(Mesh::face(h), point, normal);
-      h = mesh_.rotateCounterclockwise(h);
-    } while (h != kInvalidIndex && h != first);
+    forEachInFan(mesh_, outgoing_[v], [&](Index h) { visit(Mesh::face(h), point, normal); });
   }
   void visit(Index f, const Vector3& point, const Vector3& normal)
   {
@@ -112,7 +80,7 @@ private:
     {
       seen_.push_back(f);
       // Faces that look the other way lie behind a fold or a sharp edge.
-      const bool away = normalOf(mesh_, f).dot(normal) < 0;
+      const bool away = mesh_.doubleAreaNormal(f).dot(normal) < 0;
       queue_.push({ (away ? 4 : 1) * distanceToFace(mesh_, f, point), f });
     }
   }
@@ -148,13 +116,13 @@ std::vector<Index> spread(
       continue;
     }
     reached[face] = from;
-    const Vector3 start = middleOf(mesh, source[from]);
+    const Vector3 start = mesh.middleOfFace(source[from]);
     for (Index h = 3 * face; h < 3 * face + 3; ++h)
     {
       const Index g = mesh.isBoundary(h) ? kInvalidIndex : Mesh::face(mesh.twin[h]);
       if (g != kInvalidIndex && reached[g] == kInvalidIndex && mayCross(h))
       {
-        const double distance = (middleOf(mesh, g) - start).norm();
+        const double distance = (mesh.middleOfFace(g) - start).norm();
         if (distance <= reach)
         {
           queue.push({ distance, { g, from } });
@@ -230,11 +198,12 @@ private:
         FaceFinder finder(fine_, outgoing);
         for (Index f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f)
         {
-          const Vector3 middle = middleOf(mesh, f);
+          const Vector3 middle = mesh.middleOfFace(f);
           const auto vertex = [&](Index i) { return level_.fineVertex[mesh.origin[3 * f + i]]; };
           if (box.contains(middle))
           {
-            below_[f] = finder.find(middle, normalOf(mesh, f), { vertex(0), vertex(1), vertex(2) });
+            below_[f] =
+              finder.find(middle, mesh.doubleAreaNormal(f), { vertex(0), vertex(1), vertex(2) });
           }
         }
       });
@@ -242,8 +211,8 @@ private:
 
   void adopt(Index f, const FaceGuide& source)
   {
-    const Eigen::Quaterniond rotation =
-      Eigen::Quaterniond::FromTwoVectors(normalOf(fine_, source.face), normalOf(level_.mesh, f));
+    const Eigen::Quaterniond rotation = Eigen::Quaterniond::FromTwoVectors(
+      fine_.doubleAreaNormal(source.face), level_.mesh.doubleAreaNormal(f));
     result_[f] = { (rotation * source.guide.direction).normalized(), source.guide.weight };
   }
 

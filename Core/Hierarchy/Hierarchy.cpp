@@ -5,6 +5,7 @@
 #include "Base/Clock.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
 #include "Hierarchy/BudgetDecimation.h"
 #include "Hierarchy/ChangedMesh.h"
 #include "Hierarchy/DecimationMesh.h"
@@ -53,8 +54,7 @@ constexpr std::size_t kBytesOfLevelVertex = 200;
 
 std::vector<Index> sorted(std::vector<Index> values)
 {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
+  sortUnique(values);
   return values;
 }
 

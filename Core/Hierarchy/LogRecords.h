@@ -151,6 +151,71 @@ inline void readCollapse(const std::uint8_t* end, CollapseRecord& record)
   }
 }
 
+/// Fetches nothing, see readBackwards.
+struct NoFetch
+{
+  void operator()(Index) const {}
+};
+
+/// The beginning of the record that ends at `end`.
+inline const std::uint8_t* recordBegin(const std::uint8_t* end)
+{
+  return end - (end[-1] == 0 ? kFlipBytes : collapseBytes(end[-1]));
+}
+
+/// Calls fetch(slot) for slots of the record that ends at `end`, without branches on its kind or size, which cannot be
+/// predicted. Inlined, as fetch() has to be: GCC 12 takes a function of mere prefetches for one without effect.
+template <typename Fetch>
+[[gnu::always_inline]] inline void fetchRecord(const std::uint8_t* end, const Fetch& fetch)
+{
+  constexpr int kSlotsAhead = 6; // few records have more
+  const std::uint8_t* const slots = recordBegin(end);
+  const int count = end[-1] == 0 ? 2 : end[-1];
+  for (int i = 0; i < kSlotsAhead; ++i)
+  {
+    fetch(loadLittleEndian(slots + 4 * (i < count ? i : count - 1)));
+  }
+}
+
+/// Calls flip(h, g) or collapse(), with what was read in `record`, for each of the records in [begin, end), the last
+/// one first. fetch(slot): brings what a slot has to the processor while the records before it are at work.
+template <typename Flip, typename Collapse, typename Fetch = NoFetch>
+void readBackwards(const std::uint8_t* begin, const std::uint8_t* end, CollapseRecord& record,
+  const Flip& flip, const Collapse& collapse, const Fetch& fetch = {})
+{
+  constexpr int kRecordsAhead = 4; // they take about as long as the memory needs
+  const std::uint8_t* ahead = end;
+  for (int i = 0; i < kRecordsAhead && ahead > begin; ++i)
+  {
+    ahead = recordBegin(ahead);
+  }
+  while (end > begin)
+  {
+    if (ahead > begin)
+    {
+      fetchRecord(ahead, fetch);
+      ahead = recordBegin(ahead);
+    }
+    if (end[-1] == 0)
+    {
+      flip(loadLittleEndian(end - 9), loadLittleEndian(end - 5));
+      end -= kFlipBytes;
+    }
+    else
+    {
+      readCollapse(end, record);
+      collapse();
+      end -= collapseBytes(record.faces);
+    }
+  }
+}
+template <typename Flip, typename Collapse, typename Fetch = NoFetch>
+void readBackwards(const BlockRecords& records, CollapseRecord& record, const Flip& flip,
+  const Collapse& collapse, const Fetch& fetch = {})
+{
+  readBackwards(records.data(), records.data() + records.size(), record, flip, collapse, fetch);
+}
+
 /// Replaces every slot and every vertex in the records of a block.
 template <typename NewSlot, typename NewVertex>
 void renameRecords(BlockRecords& bytes, const NewSlot& newSlot, const NewVertex& newVertex)

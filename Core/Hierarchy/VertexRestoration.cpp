@@ -4,6 +4,7 @@
 
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
 
 #include <algorithm>
 #include <cassert>
@@ -136,16 +137,10 @@ public:
 
   void undo(const std::uint8_t* begin, const std::uint8_t* end)
   {
-    while (end[-1] == 0)
-    {
-      undoFlip(slot(loadLittleEndian(end - 9)), slot(loadLittleEndian(end - 5)));
-      end -= kFlipBytes;
-    }
-    assert(end - begin == static_cast<std::ptrdiff_t>(collapseBytes(end[-1])));
-    static_cast<void>(begin);
     CollapseRecord record;
-    readCollapse(end, record);
-    undoCollapse(record);
+    readBackwards(
+      begin, end, record, [this](Index h, Index g) { undoFlip(slot(h), slot(g)); },
+      [&] { undoCollapse(record); });
   }
 
   RestoredLevel finish() const;
@@ -162,9 +157,7 @@ private:
     {
       return 3 * back->second + fineSlot % 3;
     }
-    const auto place = std::lower_bound(levelFaces_.begin(), levelFaces_.end(), face);
-    assert(place != levelFaces_.end() && *place == face);
-    return 3 * static_cast<Index>(place - levelFaces_.begin()) + fineSlot % 3;
+    return 3 * placeIn(levelFaces_, face) + fineSlot % 3;
   }
 
   void link(Index h, Index g, std::uint8_t flag)
@@ -360,8 +353,7 @@ LogPlaces::LogPlaces(const DecimationLog& log, int threads) : blocks_(log.blocks
 {
   const auto sort = [](std::vector<Index>& places)
   {
-    std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end()), places.end());
+    sortUnique(places);
     places.shrink_to_fit();
   };
   const auto add = [](std::vector<Index>& places, Index element)

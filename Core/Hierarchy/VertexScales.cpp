@@ -24,14 +24,11 @@ constexpr std::size_t kFacesOfLevel = std::size_t{ 1 } << 15;
 DisjointSets componentsOf(const Mesh& fine, int threads)
 {
   DisjointSets components(fine.vertexCount(), threads);
-  parallelFor(fine.faceCount(), kFacesOfLevel, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(fine.faceCount(), kFacesOfLevel, threads,
+    [&](Index f)
     {
-      for (std::size_t h = 3 * begin; h < 3 * end; h += 3)
-      {
-        components.join(fine.origin[h], fine.origin[h + 1]);
-        components.join(fine.origin[h], fine.origin[h + 2]);
-      }
+      components.join(fine.origin[3 * f], fine.origin[3 * f + 1]);
+      components.join(fine.origin[3 * f], fine.origin[3 * f + 2]);
     });
   return components;
 }
@@ -45,21 +42,18 @@ std::vector<double> componentAreas(const Mesh& fine, DisjointSets& components, i
     Index root = kInvalidIndex;
     double doubledArea = 0;
   };
-  std::vector<std::vector<Sum>> sums(fine.faceCount() / kFacesOfLevel + 1);
-  parallelFor(fine.faceCount(), kFacesOfLevel, threads,
-    [&](std::size_t begin, std::size_t end)
+  const auto sums = parallelParts<std::vector<Sum>>(fine.faceCount(), kFacesOfLevel, threads,
+    [&](Index begin, Index end, std::vector<Sum>& sum)
     {
-      std::vector<Sum>& sum = sums[begin / kFacesOfLevel];
-      for (Index f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f)
+      for (Index f = begin; f < end; ++f)
       {
         const Index root = components.find(fine.origin[3 * f]);
         if (sum.empty() || sum.back().root != root)
         {
           sum.push_back({ root, 0 });
         }
-        sum.back().doubledArea += fine.sizing.empty()
-          ? fine.edgeVector(3 * f).cross(fine.edgeVector(3 * f + 1)).norm()
-          : 2 * sizedArea(fine, f);
+        sum.back().doubledArea +=
+          fine.sizing.empty() ? fine.doubleAreaNormal(f).norm() : 2 * sizedArea(fine, f);
       }
     });
   std::vector<double> area(fine.vertexCount(), 0.0);

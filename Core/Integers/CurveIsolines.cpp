@@ -7,6 +7,7 @@
 #include "Integers/AxisLines.h"
 #include "Integers/Sight.h"
 #include "Mesh/Distance.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <array>
@@ -34,19 +35,6 @@ constexpr double kClearance = 1.5;
 constexpr double kLeastAlong = 0.5;
 /// A line is the one asked for where it is at most so many times longer than the way along the curve.
 constexpr std::int64_t kMostDetour = 2;
-
-std::vector<std::uint8_t> constrainedVertices(const Mesh& mesh)
-{
-  std::vector<std::uint8_t> result(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (mesh.isConstrained(h))
-    {
-      result[mesh.origin[h]] = result[mesh.target(h)] = 1;
-    }
-  }
-  return result;
-}
 
 Index nearestVertex(const Mesh& mesh, const Vector3& p)
 {
@@ -125,11 +113,10 @@ void clearTheWay(const Mesh& mesh, const CurveRequest& curve, const CurveVertice
   const std::vector<Vector3> samples = sampleCurve(curve, edgeLength);
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
-    for (std::size_t i = 0; i + 1 < samples.size() && v != ends.from && v != ends.to; ++i)
+    if (v != ends.from && v != ends.to &&
+      distanceToCurve(samples, mesh.position[v]) <= kClearance * edgeLength)
     {
-      const bool isNear =
-        distanceToSegment(mesh.position[v], samples[i], samples[i + 1]) <= kClearance * edgeLength;
-      regular[v] |= isNear ? 1 : 0;
+      regular[v] = 1;
     }
   }
 }
@@ -457,12 +444,7 @@ std::optional<Isoline> straightWay(const Mesh& mesh, const CrossField& field,
     double away = 0;
     for (const Vector3& p : placesOf(mesh, way))
     {
-      double nearest = std::numeric_limits<double>::infinity();
-      for (std::size_t i = 0; i + 1 < samples.size(); ++i)
-      {
-        nearest = std::min(nearest, distanceToSegment(p, samples[i], samples[i + 1]));
-      }
-      away = std::max(away, nearest / edgeLength);
+      away = std::max(away, distanceToCurve(samples, p) / edgeLength);
     }
     const double price = tangent + kPriceOfDistance * away;
     if (tangent <= kMostTangent && price < least)

@@ -31,29 +31,6 @@ double meanEdge(const Mesh& mesh)
   return mesh.halfEdgeCount() > 0 ? sum / static_cast<double>(mesh.halfEdgeCount()) : 1;
 }
 
-Vector3 centreOf(const Mesh& mesh, Index f)
-{
-  return (mesh.position[mesh.origin[3 * f]] + mesh.position[mesh.origin[3 * f + 1]] +
-           mesh.position[mesh.origin[3 * f + 2]]) /
-    3;
-}
-
-/// From p to a face: over its inside, else to the nearest side.
-double distanceToFace(const Mesh& mesh, Index f, const Vector3& p)
-{
-  const Vector3 normal = mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1));
-  bool inside = normal.squaredNorm() > 0;
-  double toSides = std::numeric_limits<double>::infinity();
-  for (Index h = 3 * f; h < 3 * f + 3; ++h)
-  {
-    const Vector3& a = mesh.position[mesh.origin[h]];
-    toSides = std::min(toSides, distanceToSegment(p, a, mesh.position[mesh.target(h)]));
-    inside = inside && normal.dot(mesh.edgeVector(h).cross(p - a)) >= 0;
-  }
-  return inside ? std::abs(normal.normalized().dot(p - mesh.position[mesh.origin[3 * f]]))
-                : toSides;
-}
-
 Index nearestFace(const Mesh& mesh, const Vector3& p)
 {
   Index best = 0;
@@ -68,16 +45,6 @@ Index nearestFace(const Mesh& mesh, const Vector3& p)
     }
   }
   return best;
-}
-
-double distanceToCurve(const std::vector<Vector3>& samples, const Vector3& p)
-{
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i + 1 < samples.size(); ++i)
-  {
-    least = std::min(least, distanceToSegment(p, samples[i], samples[i + 1]));
-  }
-  return least;
 }
 
 /// Shortest ways from face to face, dearer the farther they are from the curve.
@@ -150,8 +117,8 @@ public:
           continue;
         }
         const Index g = Mesh::face(mesh_.twin[h]);
-        const double next =
-          reached + (centreOf(mesh_, g) - centreOf(mesh_, f)).norm() * (price(f) + price(g)) / 2;
+        const double next = reached +
+          (mesh_.middleOfFace(g) - mesh_.middleOfFace(f)).norm() * (price(f) + price(g)) / 2;
         if (next < cost[g])
         {
           cost[g] = next;
@@ -169,7 +136,7 @@ private:
   {
     if (price_[f] < 0)
     {
-      const double away = distanceToCurve(samples_, centreOf(mesh_, f)) / edge_;
+      const double away = distanceToCurve(samples_, mesh_.middleOfFace(f)) / edge_;
       price_[f] = 1 + 4 * away * away;
     }
     return price_[f];
@@ -375,6 +342,16 @@ std::vector<Vector3> sampleCurve(const CurveRequest& curve, double spacing)
   }
   samples.push_back(curve.points[segments % count]);
   return samples;
+}
+
+double distanceToCurve(const std::vector<Vector3>& samples, const Vector3& p)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i)
+  {
+    least = std::min(least, distanceToSegment(p, samples[i], samples[i + 1]));
+  }
+  return least;
 }
 
 std::optional<FacePath> pathAlong(const Mesh& mesh, const CurveRequest& curve, Index a, Index b)

@@ -28,6 +28,9 @@ struct FacePath
 /// The curve's own points and more between them, at most `spacing` apart; a cycle's last point is its first.
 std::vector<Vector3> sampleCurve(const CurveRequest& curve, double spacing);
 
+/// From p to the nearest place on a curve that was sampled; infinite where that is a single point.
+double distanceToCurve(const std::vector<Vector3>& samples, const Vector3& p);
+
 /// The way along the curve from the star of vertex a to that of b. Empty where only features, or nothing, join them.
 std::optional<FacePath> pathAlong(const Mesh& mesh, const CurveRequest& curve, Index a, Index b);
 /// The closed way along a cycle. Empty where features cut it, or where it closes on nothing.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Integers/StripSteps.h"
 
+#include "Base/Sorted.h"
+
 #include <algorithm>
 #include <cstddef>
 
@@ -64,8 +66,7 @@ std::vector<Index> facesAround(const UvMesh& mesh, Index v)
   {
     faces.push_back(Mesh::face(h));
   }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  sortUnique(faces);
   return faces;
 }
 

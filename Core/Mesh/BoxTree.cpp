@@ -29,19 +29,15 @@ BoxTree::BoxTree(const std::vector<Box>& boxes, int threads)
   const auto addLevel = [&](std::size_t count, const auto& boxOf)
   {
     std::vector<Box> level((count + kBoxChildren - 1) / kBoxChildren);
-    parallelFor(level.size(), kBoxChunk, threads,
-      [&](std::size_t begin, std::size_t end)
+    parallelForEach(level.size(), kBoxChunk, threads,
+      [&](std::size_t k)
       {
-        for (std::size_t k = begin; k < end; ++k)
+        level[k] = boxOf(kBoxChildren * k);
+        for (std::size_t i = kBoxChildren * k + 1; i < std::min(kBoxChildren * (k + 1), count); ++i)
         {
-          level[k] = boxOf(kBoxChildren * k);
-          for (std::size_t i = kBoxChildren * k + 1; i < std::min(kBoxChildren * (k + 1), count);
-               ++i)
-          {
-            const Box& box = boxOf(i);
-            level[k].low = level[k].low.cwiseMin(box.low);
-            level[k].high = level[k].high.cwiseMax(box.high);
-          }
+          const Box& box = boxOf(i);
+          level[k].low = level[k].low.cwiseMin(box.low);
+          level[k].high = level[k].high.cwiseMax(box.high);
         }
       });
     levels_.push_back(std::move(level));

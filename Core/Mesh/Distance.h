@@ -3,9 +3,11 @@
 /// Distances of points, and nearest places.
 #pragma once
 
-#include "Base/Types.h"
+#include "Mesh/Mesh.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace quadrille
 {
@@ -17,6 +19,22 @@ inline double distanceToSegment(const Vector3& p, const Vector3& a, const Vector
   const double squared = ab.squaredNorm();
   const double t = squared > 0 ? std::clamp((p - a).dot(ab) / squared, 0.0, 1.0) : 0.0;
   return (p - a - t * ab).norm();
+}
+
+/// From p to face f of the mesh: over its inside, else to the nearest side.
+inline double distanceToFace(const Mesh& mesh, Index f, const Vector3& p)
+{
+  const Vector3 normal = mesh.doubleAreaNormal(f);
+  bool inside = normal.squaredNorm() > 0;
+  double toSides = std::numeric_limits<double>::infinity();
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+  {
+    const Vector3& a = mesh.position[mesh.origin[h]];
+    toSides = std::min(toSides, distanceToSegment(p, a, mesh.position[mesh.target(h)]));
+    inside = inside && normal.dot(mesh.edgeVector(h).cross(p - a)) >= 0;
+  }
+  return inside ? std::abs(normal.normalized().dot(p - mesh.position[mesh.origin[3 * f]]))
+                : toSides;
 }
 
 /// The place on the triangle a b c nearest to p; the triangle may have no area.

@@ -126,14 +126,8 @@ void EdgeRuns::fill(const std::vector<Index>& origin)
 
 void EdgeRuns::sortBuckets(int threads)
 {
-  parallelFor(begin_.size() - 1, kBucketChunk, threads,
-    [&](std::size_t first, std::size_t last)
-    {
-      for (std::size_t v = first; v < last; ++v)
-      {
-        sortBucket(entries_.data() + begin_[v], begin_[v + 1] - begin_[v]);
-      }
-    });
+  parallelForEach(begin_.size() - 1, kBucketChunk, threads,
+    [&](std::size_t v) { sortBucket(entries_.data() + begin_[v], begin_[v + 1] - begin_[v]); });
 }
 
 } // namespace quadrille

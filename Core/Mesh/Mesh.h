@@ -64,6 +64,16 @@ struct Mesh
   bool isConstrained(Index h) const { return isBoundary(h) || isFeature(h); }
 
   Vector3 edgeVector(Index h) const { return position[target(h)] - position[origin[h]]; }
+  /// The end of the edge of h that is not v.
+  Index otherEnd(Index h, Index v) const { return origin[h] == v ? target(h) : origin[h]; }
+  /// Normal of a face, as long as twice its area.
+  Vector3 doubleAreaNormal(Index f) const { return edgeVector(3 * f).cross(edgeVector(3 * f + 1)); }
+  double faceArea(Index f) const { return doubleAreaNormal(f).norm() / 2; }
+  Vector3 middleOfFace(Index f) const
+  {
+    return (position[origin[3 * f]] + position[origin[3 * f + 1]] + position[origin[3 * f + 2]]) /
+      3;
+  }
 
   /// The next half-edge that leaves the same vertex, counterclockwise; kInvalidIndex past a boundary.
   Index rotateCounterclockwise(Index h) const { return twin[previous(h)]; }
@@ -73,5 +83,42 @@ struct Mesh
     return twin[h] == kInvalidIndex ? kInvalidIndex : next(twin[h]);
   }
 };
+
+/// Calls visit(g) for each half-edge g that leaves the origin of h and is in the same fan: from h on counterclockwise,
+/// and then what lies clockwise of it up to a boundary.
+template <typename Visitor>
+void forEachInFan(const Mesh& mesh, Index h, Visitor&& visit)
+{
+  Index g = h;
+  do
+  {
+    visit(g);
+    g = mesh.rotateCounterclockwise(g);
+  } while (g != kInvalidIndex && g != h);
+  if (g == h)
+  {
+    return;
+  }
+  for (g = mesh.rotateClockwise(h); g != kInvalidIndex; g = mesh.rotateClockwise(g))
+  {
+    visit(g);
+  }
+}
+
+/// Calls visit(g) for each edge at the origin of h, if that has one fan: with a half-edge that leaves it, but for the
+/// last one of a boundary vertex, which has none.
+template <typename Visitor>
+void forEachEdgeInFan(const Mesh& mesh, Index h, Visitor&& visit)
+{
+  forEachInFan(mesh, h,
+    [&](Index g)
+    {
+      visit(g);
+      if (mesh.isBoundary(Mesh::previous(g)))
+      {
+        visit(Mesh::previous(g));
+      }
+    });
+}
 
 } // namespace quadrille

@@ -26,23 +26,14 @@ public:
   UsedPoints(const std::vector<Index>& corners, std::size_t points, int threads)
     : count_(points), used_(new std::atomic<std::uint8_t>[points])
   {
-    parallelFor(points, kPointChunk, threads,
-      [&](std::size_t begin, std::size_t end)
+    parallelForEach(points, kPointChunk, threads,
+      [&](std::size_t i) { used_[i].store(0, std::memory_order_relaxed); });
+    parallelForEach(corners.size(), kPointChunk, threads,
+      [&](std::size_t i)
       {
-        for (std::size_t i = begin; i < end; ++i)
+        if (corners[i] != kInvalidIndex)
         {
-          used_[i].store(0, std::memory_order_relaxed);
-        }
-      });
-    parallelFor(corners.size(), kPointChunk, threads,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          if (corners[i] != kInvalidIndex)
-          {
-            used_[corners[i]].store(1, std::memory_order_relaxed);
-          }
+          used_[corners[i]].store(1, std::memory_order_relaxed);
         }
       });
   }
@@ -69,7 +60,6 @@ struct PointBox
 template <typename IsCounted>
 PointBox boxOfPoints(const std::vector<Vector3>& points, int threads, const IsCounted& isCounted)
 {
-  std::vector<std::pair<bool, PointBox>> parts((points.size() + kPointChunk - 1) / kPointChunk);
   const auto extend = [](std::pair<bool, PointBox>& part, const Vector3& low, const Vector3& high)
   {
     PointBox& box = part.second;
@@ -77,10 +67,9 @@ PointBox boxOfPoints(const std::vector<Vector3>& points, int threads, const IsCo
     box.high = part.first ? Vector3(box.high.cwiseMax(high)) : high;
     part.first = true;
   };
-  parallelFor(points.size(), kPointChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  const auto parts = parallelParts<std::pair<bool, PointBox>>(points.size(), kPointChunk, threads,
+    [&](std::size_t begin, std::size_t end, std::pair<bool, PointBox>& part)
     {
-      std::pair<bool, PointBox> part;
       for (std::size_t i = begin; i < end; ++i)
       {
         if (isCounted(i))
@@ -88,7 +77,6 @@ PointBox boxOfPoints(const std::vector<Vector3>& points, int threads, const IsCo
           extend(part, points[i], points[i]);
         }
       }
-      parts[begin / kPointChunk] = part;
     });
   std::pair<bool, PointBox> all;
   for (const auto& [any, box] : parts)

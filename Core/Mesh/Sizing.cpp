@@ -48,11 +48,6 @@ double meanDensity(double a, double b, double c, int splits)
     4;
 }
 
-double areaOf(const Mesh& mesh, Index f)
-{
-  return 0.5 * mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm();
-}
-
 /// The size that the user asked for at a corner.
 double askedAt(const SurfaceInput& input, const PreparedSurface& surface, Index h)
 {
@@ -102,7 +97,7 @@ SizedTriangle sizedTriangle(const Mesh& mesh, Index f)
 
 double sizedArea(const Mesh& mesh, Index f)
 {
-  const double area = areaOf(mesh, f);
+  const double area = mesh.faceArea(f);
   return mesh.sizing.empty() ? area
                              : area *
       meanDensity(sizeAt(mesh, mesh.origin[3 * f]), sizeAt(mesh, mesh.origin[3 * f + 1]),
@@ -219,13 +214,12 @@ SizingReport limitSizeGrowth(Mesh& mesh, double edgeLength)
         queue.push({ most, w });
       }
     };
-    Index h = outgoing[v];
-    do
-    {
-      reach(mesh.target(h));
-      reach(mesh.origin[Mesh::previous(h)]);
-      h = mesh.rotateCounterclockwise(h);
-    } while (h != outgoing[v] && h != kInvalidIndex);
+    forEachInFan(mesh, outgoing[v],
+      [&](Index h)
+      {
+        reach(mesh.target(h));
+        reach(mesh.origin[Mesh::previous(h)]);
+      });
   }
   for (Index v = 0; v < mesh.vertexCount(); ++v)
   {

@@ -3,6 +3,7 @@
 #include "Mesh/SpaceFillingOrder.h"
 
 #include "Base/Parallel.h"
+#include "Mesh/Buckets.h"
 #include "Mesh/PointSets.h"
 
 #include <algorithm>
@@ -17,7 +18,6 @@ namespace
 
 /// 2^11 cells an axis: on a surface some 10^7 cells, so ten million vertices are about one a cell.
 constexpr int kBitsOfCell = 11;
-constexpr std::size_t kOrderChunk = 65536;
 
 /// The keys' 33 bits are sorted by their upper 11 first, which leaves 22 to sort among the few points of a bucket.
 constexpr int kDigitBits = 11;
@@ -122,54 +122,6 @@ std::vector<std::uint64_t> computeKeys(const std::vector<Vector3>& points, int t
   return keys;
 }
 
-std::size_t bucketOf(std::uint64_t key)
-{
-  return static_cast<std::size_t>(key >> kLowerBits);
-}
-
-/// Points in buckets by the upper bits of their keys, as (lower bits of the key, point); in the order of the points
-/// inside a bucket. begin: where each bucket begins.
-std::vector<std::uint64_t> distribute(
-  const std::vector<std::uint64_t>& keys, std::vector<std::size_t>& begin, int threads)
-{
-  const std::size_t chunks = (keys.size() + kOrderChunk - 1) / kOrderChunk;
-  std::vector<std::array<std::size_t, kDigitValues>> next(chunks);
-  parallelFor(keys.size(), kOrderChunk, threads,
-    [&](std::size_t first, std::size_t last)
-    {
-      std::array<std::size_t, kDigitValues>& count = next[first / kOrderChunk];
-      count.fill(0);
-      for (std::size_t i = first; i < last; ++i)
-      {
-        ++count[bucketOf(keys[i])];
-      }
-    });
-  begin.assign(kDigitValues + 1, 0);
-  std::size_t sum = 0;
-  for (std::size_t bucket = 0; bucket < kDigitValues; ++bucket)
-  {
-    begin[bucket] = sum;
-    for (std::array<std::size_t, kDigitValues>& chunk : next)
-    {
-      sum += chunk[bucket];
-      chunk[bucket] = sum - chunk[bucket];
-    }
-  }
-  begin[kDigitValues] = sum;
-  std::vector<std::uint64_t> items(keys.size());
-  parallelFor(keys.size(), kOrderChunk, threads,
-    [&](std::size_t first, std::size_t last)
-    {
-      std::array<std::size_t, kDigitValues>& place = next[first / kOrderChunk];
-      constexpr std::uint64_t kLower = (std::uint64_t{ 1 } << kLowerBits) - 1;
-      for (std::size_t i = first; i < last; ++i)
-      {
-        items[place[bucketOf(keys[i])]++] = (keys[i] & kLower) << 32 | i;
-      }
-    });
-  return items;
-}
-
 /// Sorts the items of a bucket by their keys; least significant digit first, so that equal keys keep their order.
 void sortKeyBucket(std::uint64_t* items, std::uint64_t* scratch, std::size_t count)
 {
@@ -211,8 +163,13 @@ std::uint64_t hilbertKey(std::array<std::uint32_t, 3> cell, int bits)
 std::vector<Index> spaceFillingOrder(const std::vector<Vector3>& points, int threads)
 {
   std::vector<std::uint64_t> keys = computeKeys(points, threads);
-  std::vector<std::size_t> begin;
-  std::vector<std::uint64_t> items = distribute(keys, begin, threads);
+  // By their upper bits; an item is the lower ones of the key, and the point.
+  constexpr std::uint64_t kLower = (std::uint64_t{ 1 } << kLowerBits) - 1;
+  auto buckets = sortIntoBuckets<kDigitValues, std::uint64_t>(
+    keys.size(), threads, [&](std::size_t i) { return keys[i] >> kLowerBits; },
+    [&](std::size_t i) { return (keys[i] & kLower) << 32 | i; });
+  std::vector<std::uint64_t>& items = buckets.items;
+  const std::vector<std::size_t>& begin = buckets.begin;
   std::vector<Index> order(points.size());
   parallelFor(kDigitValues, 16, threads,
     [&](std::size_t first, std::size_t last)

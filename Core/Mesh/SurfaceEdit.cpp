@@ -165,15 +165,8 @@ void closeWithFan(PreparedSurface& surface, const std::vector<Index>& run, const
 std::vector<Index> neighboursOf(const Mesh& mesh, Index h)
 {
   std::vector<Index> neighbours;
-  forEachInFan(mesh, h,
-    [&](Index g)
-    {
-      neighbours.push_back(mesh.target(g));
-      if (mesh.isBoundary(Mesh::previous(g)))
-      {
-        neighbours.push_back(mesh.origin[Mesh::previous(g)]);
-      }
-    });
+  const Index v = mesh.origin[h];
+  forEachEdgeInFan(mesh, h, [&](Index g) { neighbours.push_back(mesh.otherEnd(g, v)); });
   return neighbours;
 }
 

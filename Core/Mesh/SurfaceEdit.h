@@ -9,26 +9,6 @@
 namespace quadrille
 {
 
-/// Calls visit(g) for each half-edge g that leaves the origin of h and is in the same fan.
-template <typename Visitor>
-void forEachInFan(const Mesh& mesh, Index h, Visitor&& visit)
-{
-  Index g = h;
-  do
-  {
-    visit(g);
-    g = mesh.rotateCounterclockwise(g);
-  } while (g != kInvalidIndex && g != h);
-  if (g == h)
-  {
-    return;
-  }
-  for (g = mesh.rotateClockwise(h); g != kInvalidIndex; g = mesh.rotateClockwise(g))
-  {
-    visit(g);
-  }
-}
-
 /// Vertices joined to the origin of h by an edge of its fan.
 std::vector<Index> neighboursOf(const Mesh& mesh, Index h);
 

@@ -5,6 +5,7 @@
 #include "Base/LargeArray.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Mesh/Buckets.h"
 #include "Mesh/PointSets.h"
 
 #include <algorithm>
@@ -18,7 +19,6 @@ namespace quadrille
 namespace
 {
 
-constexpr std::size_t kOrderChunk = 65536;
 /// Buckets of vertices by which faces are sorted.
 constexpr std::size_t kVertexBuckets = 2048;
 
@@ -44,14 +44,10 @@ public:
       [&](std::size_t begin, std::size_t end)
       { std::memcpy(&buffer_[begin], bytesOf(values) + begin, end - begin); });
     values.resize(order.size() * kWidth);
-    parallelFor(order.size(), kOrderChunk, threads_,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          std::memcpy(
-            bytesOf(values) + i * kBytes, &buffer_[std::size_t{ order[i] } * kBytes], kBytes);
-        }
+    parallelForEach(order.size(), kOrderChunk, threads_,
+      [&](std::size_t i) {
+        std::memcpy(
+          bytesOf(values) + i * kBytes, &buffer_[std::size_t{ order[i] } * kBytes], kBytes);
       });
   }
 
@@ -150,28 +146,18 @@ void orderVertices(PreparedSurface& surface, Permuter& permute, int threads)
     {
       permute.operator()<1>(mesh.sizing, order);
     }
-    parallelFor(order.size(), kOrderChunk, threads,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          newId[kept.empty() ? order[i] : kept[order[i]]] = static_cast<Index>(i);
-        }
-      });
+    parallelForEach(order.size(), kOrderChunk, threads,
+      [&](std::size_t i)
+      { newId[kept.empty() ? order[i] : kept[order[i]]] = static_cast<Index>(i); });
     if (surface.namesBefore)
     {
       orderNames(newId, order.size(), surface.namesBefore->vertex);
     }
   }
   Index* origin = mesh.origin.edit();
-  parallelFor(mesh.origin.size(), kOrderChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t h = begin; h < end; ++h)
-      {
-        origin[h] = origin[h] == kInvalidIndex ? kInvalidIndex : newId[origin[h]];
-      }
-    });
+  parallelForEach(mesh.origin.size(), kOrderChunk, threads,
+    [&](std::size_t h)
+    { origin[h] = origin[h] == kInvalidIndex ? kInvalidIndex : newId[origin[h]]; });
   renameRequests(surface, [&](Index v) { return newId[v]; });
 }
 
@@ -201,66 +187,28 @@ void sortFaceBucket(
   }
 }
 
-/// Faces that are left, by their lowest vertex; ties keep their order. First into buckets of vertices, chunk by chunk,
-/// then each bucket by itself.
+/// Faces that are left, by their lowest vertex; ties keep their order. First into buckets of vertices, then each bucket
+/// by itself.
 std::vector<Index> facesByLowestVertex(const Mesh& mesh, int threads)
 {
   const auto lowest = [&mesh](std::size_t f) {
     return std::min({ mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2] });
   };
   const std::size_t width = mesh.vertexCount() / kVertexBuckets + 1;
-  const std::size_t chunks = (std::size_t{ mesh.faceCount() } + kOrderChunk - 1) / kOrderChunk;
-  std::vector<std::array<Index, kVertexBuckets>> next(chunks);
-  parallelFor(mesh.faceCount(), kOrderChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::array<Index, kVertexBuckets>& count = next[begin / kOrderChunk];
-      count.fill(0);
-      for (std::size_t f = begin; f < end; ++f)
-      {
-        if (!isRemoved(mesh, static_cast<Index>(f)))
-        {
-          ++count[lowest(f) / width];
-        }
-      }
-    });
-  std::vector<Index> begin(kVertexBuckets + 1);
-  Index sum = 0;
-  for (std::size_t bucket = 0; bucket < kVertexBuckets; ++bucket)
-  {
-    begin[bucket] = sum;
-    for (std::array<Index, kVertexBuckets>& chunk : next)
-    {
-      sum += chunk[bucket];
-      chunk[bucket] = sum - chunk[bucket];
-    }
-  }
-  begin[kVertexBuckets] = sum;
-  std::vector<FaceByLowest> faces;
-  growLarge(faces, sum);
-  parallelFor(mesh.faceCount(), kOrderChunk, threads,
-    [&](std::size_t first, std::size_t last)
-    {
-      std::array<Index, kVertexBuckets>& place = next[first / kOrderChunk];
-      for (std::size_t f = first; f < last; ++f)
-      {
-        if (!isRemoved(mesh, static_cast<Index>(f)))
-        {
-          const Index v = lowest(f);
-          faces[place[v / width]++] = { v, static_cast<Index>(f) };
-        }
-      }
+  const auto faces = sortIntoBuckets<kVertexBuckets, FaceByLowest>(
+    mesh.faceCount(), threads,
+    [&](std::size_t f)
+    { return isRemoved(mesh, static_cast<Index>(f)) ? kVertexBuckets : lowest(f) / width; },
+    [&](std::size_t f) {
+      return FaceByLowest{ lowest(f), static_cast<Index>(f) };
     });
   std::vector<Index> order;
-  growLarge(order, sum);
-  parallelFor(kVertexBuckets, 16, threads,
-    [&](std::size_t first, std::size_t last)
+  growLarge(order, faces.items.size());
+  parallelForEach(kVertexBuckets, 16, threads,
+    [&](std::size_t b)
     {
-      for (std::size_t b = first; b < last; ++b)
-      {
-        sortFaceBucket(faces.data() + begin[b], begin[b + 1] - begin[b],
-          static_cast<Index>(b * width), width, order.data() + begin[b]);
-      }
+      sortFaceBucket(faces.items.data() + faces.begin[b], faces.begin[b + 1] - faces.begin[b],
+        static_cast<Index>(b * width), width, order.data() + faces.begin[b]);
     });
   return order;
 }
@@ -375,37 +323,12 @@ void moveElements(SharedArray<T>& values, const Moves& moves)
   values.change([&](std::vector<T>& own) { moveElements<kWidth>(own, moves); });
 }
 
-/// The indices below count for which goes(i) holds, ascending.
-template <typename Goes>
-std::vector<Index> whatGoes(std::size_t count, int threads, const Goes& goes)
-{
-  std::vector<std::vector<Index>> parts((count + kOrderChunk - 1) / kOrderChunk);
-  parallelFor(count, kOrderChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        if (goes(i))
-        {
-          parts[begin / kOrderChunk].push_back(static_cast<Index>(i));
-        }
-      }
-    });
-  std::vector<Index> all;
-  for (const std::vector<Index>& part : parts)
-  {
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  return all;
-}
-
 void compactFaces(PreparedSurface& surface, int threads)
 {
   Mesh& mesh = surface.mesh;
-  const Moves moves =
-    fillHoles(whatGoes(mesh.faceCount(), threads,
-                [&](std::size_t f) { return isRemoved(mesh, static_cast<Index>(f)); }),
-      mesh.faceCount());
+  const Moves moves = fillHoles(parallelSelect(mesh.faceCount(), kOrderChunk, threads,
+                                  [&](Index f) { return isRemoved(mesh, f); }),
+    mesh.faceCount());
   const auto newSlot = [&](Index h) { return 3 * moves.newId(h / 3) + h % 3; };
   for (const auto& [from, to] : moves.moved)
   {
@@ -440,9 +363,9 @@ void compactVertices(PreparedSurface& surface, int threads)
 {
   Mesh& mesh = surface.mesh;
   const UsedPoints used(mesh.origin, mesh.vertexCount(), threads);
-  const Moves moves =
-    fillHoles(whatGoes(mesh.vertexCount(), threads, [&](std::size_t v) { return !used.has(v); }),
-      mesh.vertexCount());
+  const Moves moves = fillHoles(
+    parallelSelect(mesh.vertexCount(), kOrderChunk, threads, [&](Index v) { return !used.has(v); }),
+    mesh.vertexCount());
   if (surface.namesBefore)
   {
     surface.namesBefore->vertex.resize(mesh.vertexCount(), kInvalidIndex);
@@ -451,14 +374,8 @@ void compactVertices(PreparedSurface& surface, int threads)
   moveElements<1>(mesh.position, moves);
   moveElements<1>(mesh.sizing, moves);
   Index* origin = mesh.origin.edit();
-  parallelFor(mesh.origin.size(), kOrderChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t h = begin; h < end; ++h)
-      {
-        origin[h] = moves.newId(origin[h]);
-      }
-    });
+  parallelForEach(mesh.origin.size(), kOrderChunk, threads,
+    [&](std::size_t h) { origin[h] = moves.newId(origin[h]); });
   renameRequests(surface, [&](Index v) { return moves.newId(v); });
 }
 

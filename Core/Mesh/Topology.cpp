@@ -18,6 +18,7 @@ namespace quadrille
 namespace
 {
 
+constexpr std::size_t kSelectChunk = std::size_t{ 1 } << 17;
 constexpr std::size_t kOutgoingChunk = std::size_t{ 1 } << 17;
 
 /// See outgoingHalfEdges.
@@ -25,35 +26,20 @@ std::vector<Index> outgoingByThreads(const Mesh& mesh, int threads)
 {
   const std::size_t vertices = mesh.vertexCount();
   std::unique_ptr<std::atomic<Index>[]> first(new std::atomic<Index>[vertices]);
-  parallelFor(vertices, kOutgoingChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(vertices, kOutgoingChunk, threads,
+    [&](std::size_t v) { first[v].store(kInvalidIndex, std::memory_order_relaxed); });
+  parallelForEach(mesh.halfEdgeCount(), kOutgoingChunk, threads,
+    [&](Index h)
     {
-      for (std::size_t v = begin; v < end; ++v)
+      std::atomic<Index>& lowest = first[mesh.origin[h]];
+      Index known = lowest.load(std::memory_order_relaxed);
+      while (h < known && !lowest.compare_exchange_weak(known, h, std::memory_order_relaxed))
       {
-        first[v].store(kInvalidIndex, std::memory_order_relaxed);
-      }
-    });
-  parallelFor(mesh.halfEdgeCount(), kOutgoingChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (Index h = static_cast<Index>(begin); h < end; ++h)
-      {
-        std::atomic<Index>& lowest = first[mesh.origin[h]];
-        Index known = lowest.load(std::memory_order_relaxed);
-        while (h < known && !lowest.compare_exchange_weak(known, h, std::memory_order_relaxed))
-        {
-        }
       }
     });
   std::vector<Index> outgoing(vertices);
-  parallelFor(vertices, kOutgoingChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        outgoing[v] = first[v].load(std::memory_order_relaxed);
-      }
-    });
+  parallelForEach(vertices, kOutgoingChunk, threads,
+    [&](std::size_t v) { outgoing[v] = first[v].load(std::memory_order_relaxed); });
   for (const Index h : boundaryHalfEdges(mesh, threads))
   {
     outgoing[mesh.origin[h]] = h; // in their order, as on one thread
@@ -211,65 +197,23 @@ std::string checkFans(const Mesh& mesh)
   return {};
 }
 
-/// The half-edges for which select(h) holds, ascending.
-template <typename Select>
-std::vector<Index> selectHalfEdges(const Mesh& mesh, int threads, const Select& select)
-{
-  constexpr std::size_t kSelectChunk = std::size_t{ 1 } << 17;
-  const std::size_t halfEdges = mesh.halfEdgeCount();
-  std::vector<std::vector<Index>> parts((halfEdges + kSelectChunk - 1) / kSelectChunk);
-  parallelFor(halfEdges, kSelectChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::vector<Index>& part = parts[begin / kSelectChunk];
-      for (Index h = static_cast<Index>(begin); h < end; ++h)
-      {
-        if (select(h))
-        {
-          part.push_back(h);
-        }
-      }
-    });
-  std::vector<Index> selected;
-  for (const std::vector<Index>& part : parts)
-  {
-    selected.insert(selected.end(), part.begin(), part.end());
-  }
-  return selected;
-}
-
-/// The boundary half-edges, ascending, and the number of components.
-std::vector<Index> joinFaces(const Mesh& mesh, int threads, Index& components)
+/// Faces that hang together.
+DisjointSets joinedFaces(const Mesh& mesh, int threads)
 {
   constexpr std::size_t kComponentChunk = std::size_t{ 1 } << 15;
   DisjointSets faces(mesh.faceCount(), threads);
-  std::vector<std::vector<Index>> parts((mesh.faceCount() + kComponentChunk - 1) / kComponentChunk);
-  parallelFor(mesh.faceCount(), kComponentChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(mesh.faceCount(), kComponentChunk, threads,
+    [&](Index f)
     {
-      for (Index f = static_cast<Index>(begin); f < end; ++f)
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
       {
-        for (Index h = 3 * f; h < 3 * f + 3; ++h)
+        if (mesh.twin[h] < h)
         {
-          const Index g = mesh.twin[h];
-          if (g == kInvalidIndex)
-          {
-            parts[begin / kComponentChunk].push_back(h);
-          }
-          else if (g < h)
-          {
-            faces.join(f, Mesh::face(g));
-          }
+          faces.join(f, Mesh::face(mesh.twin[h]));
         }
       }
     });
-  components = static_cast<Index>(faces.countSets());
-  std::vector<Index> boundary;
-  for (const std::vector<Index>& part : parts)
-  {
-    boundary.insert(boundary.end(), part.begin(), part.end());
-  }
-  return boundary;
+  return faces;
 }
 
 } // namespace
@@ -331,13 +275,27 @@ std::vector<Index> outgoingHalfEdges(const Mesh& mesh, int threads)
 std::vector<Index> constrainedEdges(const Mesh& mesh, int threads)
 {
   // The twin of a boundary half-edge is above all others.
-  return selectHalfEdges(
-    mesh, threads, [&](Index h) { return mesh.isConstrained(h) && h < mesh.twin[h]; });
+  return parallelSelect(mesh.halfEdgeCount(), kSelectChunk, threads,
+    [&](Index h) { return mesh.isConstrained(h) && h < mesh.twin[h]; });
+}
+
+std::vector<std::uint8_t> constrainedVertices(const Mesh& mesh)
+{
+  std::vector<std::uint8_t> flags(mesh.vertexCount(), 0);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isConstrained(h))
+    {
+      flags[mesh.origin[h]] = flags[mesh.target(h)] = 1;
+    }
+  }
+  return flags;
 }
 
 std::vector<Index> boundaryHalfEdges(const Mesh& mesh, int threads)
 {
-  return selectHalfEdges(mesh, threads, [&](Index h) { return mesh.isBoundary(h); });
+  return parallelSelect(
+    mesh.halfEdgeCount(), kSelectChunk, threads, [&](Index h) { return mesh.isBoundary(h); });
 }
 
 Index countBoundaryLoops(const Mesh& mesh, const std::vector<Index>& boundary)
@@ -382,22 +340,7 @@ Index nextOnBoundary(const Mesh& mesh, Index h)
 
 std::vector<Index> faceComponents(const Mesh& mesh, Index& componentCount, int threads)
 {
-  constexpr std::size_t kComponentChunk = std::size_t{ 1 } << 15;
-  DisjointSets faces(mesh.faceCount(), threads);
-  parallelFor(mesh.faceCount(), kComponentChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (Index f = static_cast<Index>(begin); f < end; ++f)
-      {
-        for (Index h = 3 * f; h < 3 * f + 3; ++h)
-        {
-          if (mesh.twin[h] < h)
-          {
-            faces.join(f, Mesh::face(mesh.twin[h]));
-          }
-        }
-      }
-    });
+  DisjointSets faces = joinedFaces(mesh, threads);
   std::vector<Index> component(mesh.faceCount());
   componentCount = 0;
   for (Index f = 0; f < mesh.faceCount(); ++f)
@@ -414,7 +357,8 @@ TopologySummary summarizeTopology(const Mesh& mesh, int threads)
   TopologySummary summary;
   summary.vertices = mesh.vertexCount();
   summary.faces = mesh.faceCount();
-  const std::vector<Index> boundary = joinFaces(mesh, threads, summary.components);
+  summary.components = static_cast<Index>(joinedFaces(mesh, threads).countSets());
+  const std::vector<Index> boundary = boundaryHalfEdges(mesh, threads);
   summary.boundaryLoops = countBoundaryLoops(mesh, boundary);
   summary.edges = static_cast<Index>((std::size_t{ mesh.halfEdgeCount() } + boundary.size()) / 2);
   summary.eulerCharacteristic = static_cast<long long>(summary.vertices) -

@@ -24,6 +24,9 @@ std::vector<Index> outgoingHalfEdges(const Mesh& mesh, int threads = 1);
 /// One half-edge, the lower one, of each edge that is a feature or on the boundary; ascending.
 std::vector<Index> constrainedEdges(const Mesh& mesh, int threads = 1);
 
+/// Flags (#V) of the ends of edges that are features or on the boundary.
+std::vector<std::uint8_t> constrainedVertices(const Mesh& mesh);
+
 /// Quarter turns of a map round each vertex (#V) where none is irregular: 4, on a boundary 2.
 std::vector<int> regularTurns(const Mesh& mesh);
 

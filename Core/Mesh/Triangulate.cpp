@@ -280,21 +280,17 @@ void copyTriangles(const SurfaceInput& input, PreparedSurface& surface, int thre
   growLarge(flags, 3 * faces);
   growLarge(sourcePoints, faces);
   growLarge(sourcePolygon, faces);
-  parallelFor(faces, kTriangleChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(faces, kTriangleChunk, threads,
+    [&](std::size_t f)
     {
-      for (std::size_t f = begin; f < end; ++f)
+      const Triangle triangle = orderedTriangle(input.polygonPoints.data() + 3 * f,
+        input.featureEdges.empty() ? 0 : input.featureEdges[f], input.faceOrder);
+      sourcePoints[f] = triangle.points;
+      sourcePolygon[f] = static_cast<Index>(f);
+      for (std::size_t i = 0; i < 3; ++i)
       {
-        const Triangle triangle = orderedTriangle(input.polygonPoints.data() + 3 * f,
-          input.featureEdges.empty() ? 0 : input.featureEdges[f], input.faceOrder);
-        sourcePoints[f] = triangle.points;
-        sourcePolygon[f] = static_cast<Index>(f);
-        for (std::size_t i = 0; i < 3; ++i)
-        {
-          origin[3 * f + i] = triangle.points[i];
-          flags[3 * f + i] =
-            (triangle.features >> i & 1) != 0 ? kFeatureEdge | kRequestedFeature : 0;
-        }
+        origin[3 * f + i] = triangle.points[i];
+        flags[3 * f + i] = (triangle.features >> i & 1) != 0 ? kFeatureEdge | kRequestedFeature : 0;
       }
     });
   surface.mesh.origin = std::move(origin);

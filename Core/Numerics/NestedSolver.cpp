@@ -5,6 +5,7 @@
 #include "Base/Error.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
 #include "Numerics/DenseFront.h"
 
 #include <algorithm>
@@ -242,8 +243,7 @@ void NestedSolver::findBorders()
         std::for_each(fronts_[child].border.begin(), fronts_[child].border.end(), add);
       }
     }
-    std::sort(border.begin(), border.end());
-    border.erase(std::unique(border.begin(), border.end()), border.end());
+    sortUnique(border);
     front.own = offset_[front.end] - offset_[front.first];
     for (const Index v : border)
     {

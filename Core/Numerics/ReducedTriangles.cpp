@@ -4,6 +4,7 @@
 
 #include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
 
 #include <algorithm>
 #include <cmath>
@@ -124,8 +125,7 @@ void ReducedTriangles::buildPattern()
   for (Eigen::Index j = 0; j < count; ++j)
   {
     pollNowAndThen(static_cast<std::size_t>(j), kTrianglesBetweenPolls);
-    std::sort(columns[j].begin(), columns[j].end());
-    columns[j].erase(std::unique(columns[j].begin(), columns[j].end()), columns[j].end());
+    sortUnique(columns[j]);
     start[j + 1] = start[j] + static_cast<int>(columns[j].size());
   }
   hessian_.resizeNonZeros(start[count]);

@@ -3,8 +3,7 @@
 #include "Pieces/CarriedPlaces.h"
 
 #include "Base/Error.h"
-#include "Base/Parallel.h"
-#include "Transfer/PlaneReplay.h"
+#include "Pieces/PlaneStar.h"
 
 #include <algorithm>
 #include <array>
@@ -19,10 +18,6 @@ namespace quadrille
 {
 namespace
 {
-
-/// How many records ahead faces are fetched, and how many of a record.
-constexpr int kRecordsFetched = 4;
-constexpr int kFacesFetched = 6;
 
 /// Where a place is now.
 struct PlaceState
@@ -49,74 +44,25 @@ struct PlacesByFace
   }
 };
 
-double planeCross(Complex a, Complex b)
-{
-  return a.real() * b.imag() - a.imag() * b.real();
-}
-
-/// A triangle that a place may go to.
-struct FlatTriangle
-{
-  Index slot = kInvalidIndex; ///< of the first corner
-  std::array<Complex, 3> corner{};
-
-  /// Barycentric; the least of them is below 0 outside. Triangles without area hold nothing, nor do inverted ones.
-  std::array<double, 3> weightsOf(Complex p) const
-  {
-    const double area = planeCross(corner[1] - corner[0], corner[2] - corner[0]);
-    if (!(area > 0))
-    {
-      constexpr double kNowhere = -std::numeric_limits<double>::infinity();
-      return { kNowhere, kNowhere, kNowhere };
-    }
-    const double second = planeCross(p - corner[0], corner[2] - corner[0]) / area;
-    const double third = planeCross(corner[1] - corner[0], p - corner[0]) / area;
-    return { 1 - second - third, second, third };
-  }
-};
-
 /// Weights below it are rounding: the place is on the edge, or at the corner.
 constexpr double kWeightRounding = 1e-9;
 
-/// None below 0, sum 1.
-std::array<double, 3> clampedWeights(std::array<double, 3> weights)
+/// Fetches the face of a slot.
+struct FetchFace
 {
-  double sum = 0;
-  for (double& weight : weights)
+  [[gnu::always_inline]] void operator()(Index slot) const
   {
-    weight = weight > kWeightRounding ? weight : 0;
-    sum += weight;
-  }
-  for (double& weight : weights)
-  {
-    weight = sum > 0 ? weight / sum : 1.0 / 3;
-  }
-  return weights;
-}
-
-/// The beginning of the record that ends at `end`.
-const std::uint8_t* beginOfRecord(const std::uint8_t* end)
-{
-  return end - (end[-1] == 0 ? kFlipBytes : collapseBytes(end[-1]));
-}
-
-/// Fetches the faces of the record that ends at `end`. Inlined for the reason that Replay.cpp gives.
-[[gnu::always_inline]] inline void fetchFaces(const PlacesByFace& state, const std::uint8_t* end)
-{
 #if defined(__GNUC__)
-  const std::uint8_t* const slots = beginOfRecord(end);
-  const int count = end[-1] == 0 ? 2 : end[-1];
-  for (int i = 0; i < kFacesFetched; ++i)
-  {
-    const Index slot = loadLittleEndian(slots + 4 * std::min(i, count - 1));
-    __builtin_prefetch(&state.corner[slot], 1);
-    __builtin_prefetch(&state.firstPlace[slot / 3], 1);
-  }
+    __builtin_prefetch(&corner[slot], 1);
+    __builtin_prefetch(&firstPlace[slot / 3], 1);
 #else
-  static_cast<void>(state);
-  static_cast<void>(end);
+    static_cast<void>(slot);
 #endif
-}
+  }
+
+  const Index* corner;
+  const Index* firstPlace;
+};
 
 class StarCarrier
 {
@@ -128,30 +74,9 @@ public:
 
   void run(const BlockRecords& records)
   {
-    const std::uint8_t* const begin = records.data();
-    const std::uint8_t* end = begin + records.size();
-    const std::uint8_t* ahead = end;
-    for (int i = 0; i < kRecordsFetched && ahead > begin; ++i)
-    {
-      ahead = beginOfRecord(ahead);
-    }
-    while (end > begin)
-    {
-      if (ahead > begin)
-      {
-        fetchFaces(state_, ahead);
-        ahead = beginOfRecord(ahead);
-      }
-      if (end[-1] == 0)
-      {
-        unflip(loadLittleEndian(end - 9), loadLittleEndian(end - 5));
-        end -= kFlipBytes;
-        continue;
-      }
-      readCollapse(end, record_);
-      end -= collapseBytes(record_.faces);
-      uncollapse();
-    }
+    readBackwards(
+      records, record_, [this](Index h, Index g) { unflip(h, g); }, [this] { uncollapse(); },
+      FetchFace{ state_.corner, state_.firstPlace.get() });
   }
 
 private:
@@ -221,20 +146,10 @@ private:
   /// Returns the first corner of the triangle. Outside of all of them it stays outside: a later star may have it.
   Index putInside(Complex at, PlaceState& place) const
   {
-    Index slot = triangles_.front().slot;
-    std::array<double, 3> weights{ 1.0 / 3, 1.0 / 3, 1.0 / 3 };
-    double depth = -std::numeric_limits<double>::infinity();
-    for (const FlatTriangle& triangle : triangles_)
-    {
-      const std::array<double, 3> ofThis = triangle.weightsOf(at);
-      const double least = std::min({ ofThis[0], ofThis[1], ofThis[2] });
-      if (least > depth)
-      {
-        depth = least;
-        slot = triangle.slot;
-        weights = ofThis;
-      }
-    }
+    const PlaneTriangle<Complex>* const held = triangleOf(triangles_, at);
+    const Index slot = held != nullptr ? held->slot : triangles_.front().slot;
+    const std::array<double, 3> weights =
+      held != nullptr ? held->weightsOf(at) : std::array<double, 3>{ 1.0 / 3, 1.0 / 3, 1.0 / 3 };
     for (Index k = 0; k < 3; ++k)
     {
       place.weights[(slot + k) % 3] = weights[k];
@@ -244,7 +159,7 @@ private:
 
   Index putAt(Index vertex, PlaceState& place)
   {
-    for (const FlatTriangle& triangle : triangles_)
+    for (const PlaneTriangle<Complex>& triangle : triangles_)
     {
       const Index first = triangle.slot / 3 * 3;
       for (Index h = first; h < first + 3; ++h)
@@ -331,38 +246,8 @@ private:
       before = after;
       at = next;
     }
-    // Of an interior star the end of the ring is its beginning, the target.
-    const auto count = static_cast<std::size_t>(record_.ringSize());
-    const Complex p = intoStar(placeOfVertex());
-    triangles_.clear();
-    for (int i = 0; i < record_.faces; ++i)
-    {
-      const auto at0 = static_cast<std::size_t>(i);
-      triangles_.push_back({ slot(i), { p, ring_[at0], ring_[(at0 + 1) % count] } });
-    }
-  }
-
-  /// p, or where that would invert the star a point in its kernel, if there is one.
-  Complex intoStar(Complex p) const
-  {
-    const auto count = static_cast<std::size_t>(record_.ringSize());
-    bool isPositive = true;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(record_.faces); ++i)
-    {
-      isPositive = isPositive && planeCross(ring_[i] - p, ring_[(i + 1) % count] - p) > 0;
-    }
-    return isPositive ? p : intoKernel(ring_.data(), record_, p);
-  }
-
-  Complex placeOfVertex() const
-  {
-    const Complex base = ring_[record_.ring[0]];
-    Complex p = base + PlaneCharts::scaled(ring_[record_.ring[1]] - base, record_.weight[0]);
-    if (!record_.onCurve)
-    {
-      p += PlaneCharts::scaled(ring_[record_.ring[2]] - base, record_.weight[1]);
-    }
-    return p;
+    const Complex p = StarReplay<PlaneCharts>::placeInRing(ring_, record_);
+    layOutStar(record_, ring_, intoStar(record_, ring_, p), triangles_);
   }
 
   /// The vertex gets its corners, and the faces at its edge to the target come back.
@@ -397,7 +282,7 @@ private:
   CollapseRecord record_;
   std::array<Complex, kMaximumRing + 1> ring_;
   std::vector<Moving> moving_;
-  std::vector<FlatTriangle> triangles_;
+  std::vector<PlaneTriangle<Complex>> triangles_;
 };
 
 void checkCarried(const Mesh& fine, const Level& level, const DecimationLog& log,
@@ -411,14 +296,7 @@ void checkCarried(const Mesh& fine, const Level& level, const DecimationLog& log
       " removals are not those of a mesh of " + std::to_string(fine.vertexCount()) +
       " vertices and " + std::to_string(fine.faceCount()) + " faces.");
   }
-  for (const FacePlace& place : places)
-  {
-    if (place.face >= level.mesh.faceCount())
-    {
-      throw InvalidInput("A place is on face " + std::to_string(place.face) +
-        ", but the level has " + std::to_string(level.mesh.faceCount()) + " faces.");
-    }
-  }
+  requirePlaces(level, places);
 }
 
 } // namespace
@@ -443,20 +321,12 @@ std::vector<FacePlace> carryPlaces(Mesh& fine, const Level& level, const Decimat
     state.places[i].weights = places[i].weights;
     state.put(static_cast<Index>(i), level.fineFace[places[i].face]);
   }
-  for (std::size_t round = log.rounds.size(); round-- > 0;)
-  {
-    report(progress,
-      static_cast<double>(log.rounds.size() - round) / static_cast<double>(log.rounds.size() + 1),
-      "carrying points to the surface");
-    const DecimationLog::Round& blocks = log.rounds[round];
-    parallelFor(blocks.blockCount, 1, threads,
-      [&](std::size_t block, std::size_t)
-      { StarCarrier(state, fine.position).run(log.blocks[blocks.firstBlock + block]); });
-  }
+  carryBackwards(log, log.rounds.size(), threads, progress,
+    [&](const BlockRecords& records) { StarCarrier(state, fine.position).run(records); });
   std::vector<FacePlace> result(places.size());
   std::transform(state.places.begin(), state.places.end(), result.begin(),
     [](const PlaceState& place) {
-      return FacePlace{ place.face, clampedWeights(place.weights) };
+      return FacePlace{ place.face, insideWeights(place.weights, kWeightRounding) };
     });
   return result;
 }

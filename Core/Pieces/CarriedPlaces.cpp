@@ -4,8 +4,7 @@
 
 #include "Base/Error.h"
 #include "Base/LargeArray.h"
-#include "Base/Parallel.h"
-#include "Transfer/PlaneReplay.h"
+#include "Pieces/PlaneStar.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,29 +16,9 @@ namespace quadrille
 namespace
 {
 
-/// A point of a plane, in single precision: coordinates are those of one triangle of the level, and what is fine
-/// against it still has three digits where a million triangles lie on it.
-struct FlatPoint
-{
-  float x = 0, y = 0;
-
-  friend FlatPoint operator+(FlatPoint a, FlatPoint b) { return { a.x + b.x, a.y + b.y }; }
-  friend FlatPoint operator-(FlatPoint a, FlatPoint b) { return { a.x - b.x, a.y - b.y }; }
-  /// As complex numbers: the first one rotates where it has length 1.
-  friend FlatPoint operator*(FlatPoint a, FlatPoint b)
-  {
-    return { a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x };
-  }
-};
-
 FlatPoint conjugate(FlatPoint p)
 {
   return { p.x, -p.y };
-}
-
-float flatCross(FlatPoint a, FlatPoint b)
-{
-  return a.x * b.y - a.y * b.x;
 }
 
 /// As the one of complex numbers.
@@ -65,32 +44,6 @@ struct FlatCharts
   {
     const float w = std::ldexp(static_cast<float>(weight), -32);
     return { w * difference.x, w * difference.y };
-  }
-};
-
-/// A triangle of a star or of two faces at an edge.
-struct Candidate
-{
-  Index face = kInvalidIndex;
-  std::array<FlatPoint, 3> corner{};
-
-  /// Barycentric coordinates of p, in the order of the corners; not finite for a triangle without area.
-  std::array<double, 3> weightsOf(FlatPoint p) const
-  {
-    const double area = flatCross(corner[1] - corner[0], corner[2] - corner[0]);
-    const double second = double{ flatCross(p - corner[0], corner[2] - corner[0]) } / area;
-    const double third = double{ flatCross(corner[1] - corner[0], p - corner[0]) } / area;
-    return { 1 - second - third, second, third };
-  }
-  /// The least of them: below 0 outside. Triangles without area hold nothing, nor do inverted ones.
-  double depthOf(FlatPoint p) const
-  {
-    if (!(flatCross(corner[1] - corner[0], corner[2] - corner[0]) > 0))
-    {
-      return -std::numeric_limits<double>::infinity();
-    }
-    const std::array<double, 3> weights = weightsOf(p);
-    return std::min({ weights[0], weights[1], weights[2] });
   }
 };
 
@@ -136,19 +89,8 @@ public:
 
   void run(const BlockRecords& records)
   {
-    for (std::size_t end = records.size(); end > 0;)
-    {
-      const std::uint8_t* const at = records.data() + end;
-      if (at[-1] == 0)
-      {
-        unflip(loadLittleEndian(at - 9), loadLittleEndian(at - 5));
-        end -= kFlipBytes;
-        continue;
-      }
-      readCollapse(at, record_);
-      end -= collapseBytes(record_.faces);
-      uncollapse();
-    }
+    readBackwards(
+      records, record_, [this](Index h, Index g) { unflip(h, g); }, [this] { uncollapse(); });
   }
 
 private:
@@ -174,25 +116,17 @@ private:
     }
   }
 
-  /// Puts what moves into the candidate that holds it; toFace(i, p): into the chart of the i-th candidate's face.
+  /// Puts what moves into the triangle that holds it; toFace(i, p): into the chart of the i-th triangle's face.
   template <typename ToFace>
   void putAll(const ToFace& toFace)
   {
     for (const Moving& moving : moving_)
     {
-      std::size_t best = 0;
-      double depth = -std::numeric_limits<double>::infinity();
-      for (std::size_t i = 0; i < candidates_.size(); ++i)
-      {
-        const double ofThis = candidates_[i].depthOf(moving.at);
-        if (ofThis > depth)
-        {
-          depth = ofThis;
-          best = i;
-        }
-      }
-      carried_.at[moving.place] = toFace(best, moving.at);
-      carried_.lists.put(candidates_[best].face, moving.place);
+      const PlaneTriangle<FlatPoint>* const held = triangleOf(triangles_, moving.at);
+      const PlaneTriangle<FlatPoint>* const best = held != nullptr ? held : triangles_.data();
+      carried_.at[moving.place] =
+        toFace(static_cast<std::size_t>(best - triangles_.data()), moving.at);
+      carried_.lists.put(best->slot / 3, moving.place);
     }
     moving_.clear();
   }
@@ -221,14 +155,15 @@ private:
       return;
     }
     const FlatPoint a = corner()[h], c = corner()[Mesh::previous(h)];
-    candidates_ = { { f, { a, bInF, c } }, { other, { bInF, a, dInF } } };
+    triangles_ = { { h, { a, bInF, c } }, { g, { bInF, a, dInF } } };
     putAll([&](std::size_t i, FlatPoint p)
       { return i == 0 ? p : dInG + conjugate(rotation) * (p - dInF); });
   }
 
   void uncollapse()
   {
-    const FlatPoint p = intoStar(star_.unfold(record_));
+    const FlatPoint unfolded = star_.unfold(record_);
+    const FlatPoint p = intoStar(record_, star_.ring(), unfolded);
     const int first = record_.firstSurvivor();
     const int last = record_.lastSurvivor();
     std::array<FlatPoint, kMaximumRing> base; // where the vertex of the collapse is in the charts
@@ -241,7 +176,7 @@ private:
     }
     if (!moving_.empty())
     {
-      makeStar(p);
+      layOutStar(record_, star_.ring(), p, triangles_);
     }
     star_.write(record_, p);
     if (moving_.empty())
@@ -257,71 +192,17 @@ private:
       });
   }
 
-  /// p, or where that would invert the star a point in its kernel, if there is one.
-  FlatPoint intoStar(FlatPoint p) const
-  {
-    const auto& ring = star_.ring();
-    const auto count = static_cast<std::size_t>(record_.ringSize());
-    bool isPositive = true;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(record_.faces); ++i)
-    {
-      isPositive = isPositive && flatCross(ring[i] - p, ring[(i + 1) % count] - p) > 0;
-    }
-    if (isPositive)
-    {
-      return p;
-    }
-    std::array<Complex, kMaximumRing + 1> wide;
-    std::transform(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(count), wide.begin(),
-      [](FlatPoint q) { return Complex(q.x, q.y); });
-    const Complex moved = intoKernel(wide.data(), record_, Complex(p.x, p.y));
-    return { static_cast<float>(moved.real()), static_cast<float>(moved.imag()) };
-  }
-
-  /// The star of the vertex at p, in the chart of the ring.
-  void makeStar(FlatPoint p)
-  {
-    const auto& ring = star_.ring();
-    const auto count = static_cast<std::size_t>(record_.ringSize());
-    candidates_.clear();
-    for (int i = 0; i < record_.faces; ++i)
-    {
-      const auto at = static_cast<std::size_t>(i);
-      candidates_.push_back({ slot(i) / 3, { p, ring[at], ring[(at + 1) % count] } });
-    }
-  }
-
   Index slot(int i) const { return record_.slot[static_cast<std::size_t>(i)]; }
 
   Carried& carried_;
   StarReplay<FlatCharts> star_;
   CollapseRecord record_;
   std::vector<Moving> moving_;
-  std::vector<Candidate> candidates_;
+  std::vector<PlaneTriangle<FlatPoint>> triangles_;
 };
 
 /// Weights below it are rounding of single precision: the place is on the edge, or at the corner.
 constexpr double kOnEdgeOfSingle = 1e-5;
-
-/// None below 0, sum 1.
-std::array<double, 3> inside(std::array<double, 3> weights)
-{
-  double sum = 0;
-  for (double& weight : weights)
-  {
-    weight = weight > kOnEdgeOfSingle ? weight : 0; // also where it is no number
-    sum += weight;
-  }
-  if (!(sum > 0) || !(sum <= std::numeric_limits<double>::max()))
-  {
-    return { 1.0 / 3, 1.0 / 3, 1.0 / 3 };
-  }
-  for (double& weight : weights)
-  {
-    weight /= sum;
-  }
-  return weights;
-}
 
 void check(const Level& level, const DecimationLog& log, std::size_t rounds,
   const std::vector<FacePlace>& places)
@@ -337,6 +218,13 @@ void check(const Level& level, const DecimationLog& log, std::size_t rounds,
       std::to_string(log.rounds.size()) + " rounds for " + std::to_string(log.fineFaces) +
       " faces.");
   }
+  requirePlaces(level, places);
+}
+
+} // namespace
+
+void requirePlaces(const Level& level, const std::vector<FacePlace>& places)
+{
   for (const FacePlace& place : places)
   {
     if (place.face >= level.mesh.faceCount())
@@ -346,8 +234,6 @@ void check(const Level& level, const DecimationLog& log, std::size_t rounds,
     }
   }
 }
-
-} // namespace
 
 std::vector<FacePlace> carryPlaces(const Level& level, const DecimationLog& log, std::size_t rounds,
   const std::vector<FacePlace>& places, int threads, const ProgressCallback& progress)
@@ -362,8 +248,11 @@ std::vector<FacePlace> carryPlaces(const Level& level, const DecimationLog& log,
     const std::array<Complex, 3> corners = layOut(level.mesh, f);
     std::transform(corners.begin(), corners.end(),
       &carried.corner[3 * std::size_t{ level.fineFace[f] }],
-      [](Complex p) {
-        return FlatPoint{ static_cast<float>(p.real()), static_cast<float>(p.imag()) };
+      [](Complex p)
+      {
+        FlatPoint flat;
+        convert(p, flat);
+        return flat;
       });
   }
   for (std::size_t i = 0; i < places.size(); ++i)
@@ -378,15 +267,8 @@ std::vector<FacePlace> carryPlaces(const Level& level, const DecimationLog& log,
     }
     carried.lists.put(face, static_cast<Index>(i));
   }
-  for (std::size_t round = rounds; round-- > 0;)
-  {
-    report(progress, static_cast<double>(rounds - round) / static_cast<double>(rounds + 1),
-      "carrying points to the surface");
-    const DecimationLog::Round& blocks = log.rounds[round];
-    parallelFor(blocks.blockCount, 1, threads,
-      [&](std::size_t block, std::size_t)
-      { BlockCarrier(carried).run(log.blocks[blocks.firstBlock + block]); });
-  }
+  carryBackwards(log, rounds, threads, progress,
+    [&](const BlockRecords& records) { BlockCarrier(carried).run(records); });
   std::vector<FacePlace> result(places.size());
   for (Index f = 0; f < log.fineFaces; ++f)
   {
@@ -394,7 +276,10 @@ std::vector<FacePlace> carryPlaces(const Level& level, const DecimationLog& log,
     for (Index i = carried.lists.first(f); i != kInvalidIndex; i = carried.lists.next(i))
     {
       const FlatPoint* const p = &carried.corner[3 * std::size_t{ f }];
-      result[i] = { f, inside(Candidate{ f, { p[0], p[1], p[2] } }.weightsOf(carried.at[i])) };
+      result[i] = { f,
+        insideWeights(
+          PlaneTriangle<FlatPoint>{ 3 * f, { p[0], p[1], p[2] } }.weightsOf(carried.at[i]),
+          kOnEdgeOfSingle) };
     }
   }
   return result;

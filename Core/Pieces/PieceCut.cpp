@@ -159,13 +159,11 @@ private:
 SourceExtent extentOf(const TriangleSource& source, int threads)
 {
   const std::size_t faces = source.triangleCount();
-  std::vector<SourceExtent> parts((faces + kChunkOfPieces - 1) / kChunkOfPieces);
-  parallelFor(faces, kChunkOfPieces, threads,
-    [&](std::size_t begin, std::size_t end)
+  const auto parts = parallelParts<SourceExtent>(faces, kChunkOfPieces, threads,
+    [&](std::size_t begin, std::size_t end, SourceExtent& part)
     {
       ChunkReader reader(source);
       reader.read(begin, end);
-      SourceExtent part;
       for (std::size_t i = 0; i < end - begin; ++i)
       {
         const Vector3* const p = reader.places(i);
@@ -176,7 +174,6 @@ SourceExtent extentOf(const TriangleSource& source, int threads)
         }
         part.area += 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
       }
-      parts[begin / kChunkOfPieces] = part;
     });
   SourceExtent all;
   for (const SourceExtent& part : parts)

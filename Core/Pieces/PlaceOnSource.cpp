@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pieces/PlaceOnSource.h"
 
+#include "Base/Progress.h"
+
 #include <algorithm>
 
 namespace quadrille
@@ -51,12 +53,34 @@ std::optional<FacePlace> placeOnSource(const PreparedSurface& mapped, Index face
   return found;
 }
 
-std::optional<FacePlace> middleOnSource(const PreparedSurface& mapped, Index face,
-  const std::array<double, 3>& weights, const SourceTriangles& source)
+PlacesOfQuads placesOfQuads(
+  const PreparedSurface& mapped, const QuadMesh& quads, const SourceTriangles& source)
 {
-  constexpr std::array<double, 3> kMiddle{ 1.0 / 3, 1.0 / 3, 1.0 / 3 };
-  const bool isKnown = weights[0] + weights[1] + weights[2] > 0;
-  return placeOnSource(mapped, face, isKnown ? weights : kMiddle, source, nullptr);
+  PlacesOfQuads found;
+  const auto add =
+    [&](Index face, const std::array<double, 3>& weights, const Vector3* point, std::size_t who)
+  {
+    pollNowAndThen(who);
+    if (const auto place = placeOnSource(mapped, face, weights, source, point))
+    {
+      found.places.push_back(*place);
+      found.whose.push_back(who);
+    }
+  };
+  const std::size_t points = quads.points.size();
+  for (std::size_t p = 0; p < points; ++p)
+  {
+    add(quads.sourceFace[p], quads.sourceWeights[p], &quads.points[p], p);
+  }
+  for (std::size_t q = 0; q < quads.quads.size(); ++q)
+  {
+    // All zero where the quad is no unit square of the map, and its face is all that is known.
+    constexpr std::array<double, 3> kMiddle{ 1.0 / 3, 1.0 / 3, 1.0 / 3 };
+    const std::array<double, 3>& weights = quads.quadSourceWeights[q];
+    const bool isKnown = weights[0] + weights[1] + weights[2] > 0;
+    add(quads.quadSourceFace[q], isKnown ? weights : kMiddle, nullptr, points + q);
+  }
+  return found;
 }
 
 } // namespace quadrille

@@ -5,8 +5,10 @@
 
 #include "Mesh/Surface.h"
 #include "Pieces/CarriedPlaces.h"
+#include "Quads/QuadMesh.h"
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -25,9 +27,15 @@ struct SourceTriangles
 std::optional<FacePlace> placeOnSource(const PreparedSurface& mapped, Index face,
   const std::array<double, 3>& weights, const SourceTriangles& source, const Vector3* point);
 
-/// The same of the middle of a quad; weights: all zero where the quad is no unit square of the map, and its face is all
-/// that is known.
-std::optional<FacePlace> middleOnSource(const PreparedSurface& mapped, Index face,
-  const std::array<double, 3>& weights, const SourceTriangles& source);
+/// Of points and middles of quads.
+struct PlacesOfQuads
+{
+  std::vector<FacePlace> places;
+  std::vector<std::size_t> whose; ///< points, then quads: those that have a place
+};
+
+/// The places of points where they are, and of the middles of quads.
+PlacesOfQuads placesOfQuads(
+  const PreparedSurface& mapped, const QuadMesh& quads, const SourceTriangles& source);
 
 } // namespace quadrille

@@ -390,37 +390,21 @@ private:
 
   void carry(const JoinedPieces& joined)
   {
-    QuadMesh& quads = result_.remeshed.quads;
-    const std::size_t points = quads.points.size();
-    result_.pointSource.resize(points);
+    const QuadMesh& quads = result_.remeshed.quads;
+    result_.pointSource.resize(quads.points.size());
     result_.quadSource.resize(quads.quads.size());
     std::vector<std::vector<PiecePlace>> places(parts_.size());
     std::vector<std::vector<std::size_t>> whose(parts_.size());
-    const auto add = [&](const std::optional<FacePlace>& on, std::size_t who)
-    {
-      if (on)
-      {
-        const auto& first = joined.firstTriangle;
-        const auto piece = static_cast<std::size_t>(
-          std::upper_bound(first.begin(), first.end(), on->face) - first.begin() - 1);
-        places[piece].push_back({ on->face - first[piece], on->weights });
-        whose[piece].push_back(who);
-      }
-    };
-    const PreparedSurface& mapped = result_.remeshed.surface;
     const SourceTriangles source{ joined.surface.polygonPoints, joined.surface.points };
-    for (std::size_t v = 0; v < points; ++v)
+    const PlacesOfQuads found = placesOfQuads(result_.remeshed.surface, quads, source);
+    const auto& first = joined.firstTriangle;
+    for (std::size_t i = 0; i < found.places.size(); ++i)
     {
-      pollNowAndThen(v);
-      add(placeOnSource(
-            mapped, quads.sourceFace[v], quads.sourceWeights[v], source, &quads.points[v]),
-        v);
-    }
-    for (std::size_t q = 0; q < quads.quads.size(); ++q)
-    {
-      pollNowAndThen(q);
-      add(middleOnSource(mapped, quads.quadSourceFace[q], quads.quadSourceWeights[q], source),
-        points + q);
+      const FacePlace& on = found.places[i];
+      const auto piece = static_cast<std::size_t>(
+        std::upper_bound(first.begin(), first.end(), on.face) - first.begin() - 1);
+      places[piece].push_back({ on.face - first[piece], on.weights });
+      whose[piece].push_back(found.whose[i]);
     }
     report(options_.progress, 0.9, "Carrying points to the surface");
     parallelFor(parts_.size(), 1, options_.threads,

@@ -4,6 +4,7 @@
 
 #include "Base/Clock.h"
 #include "Base/Error.h"
+#include "Base/Sorted.h"
 #include "Features/Features.h"
 #include "Hierarchy/Hierarchy.h"
 #include "Pieces/CarriedPlaces.h"
@@ -264,8 +265,7 @@ private:
         boundary_.push_back(inputPoint_[mesh.target(h)]);
       }
     }
-    std::sort(boundary_.begin(), boundary_.end());
-    boundary_.erase(std::unique(boundary_.begin(), boundary_.end()), boundary_.end());
+    sortUnique(boundary_);
   }
 
   void tellLevel(const std::vector<Index>& shared)

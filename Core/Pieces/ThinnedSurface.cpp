@@ -8,7 +8,6 @@
 #include "Pieces/PlaceOnSource.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 namespace quadrille
@@ -81,35 +80,15 @@ ThinnedSurface::Places ThinnedSurface::carry(const QuadMesh& quads, const Prepar
   Places made;
   made.ofPoints.resize(quads.points.size());
   made.ofQuads.resize(quads.quads.size());
-  std::vector<FacePlace> places;
-  std::vector<std::size_t> whose; // points, then quads
-  const auto add = [&](const std::optional<FacePlace>& place, std::size_t who)
-  {
-    if (place)
-    {
-      places.push_back(*place);
-      whose.push_back(who);
-    }
-  };
-  const std::size_t points = quads.points.size();
-  for (std::size_t p = 0; p < points; ++p)
-  {
-    add(
-      placeOnSource(mapped, quads.sourceFace[p], quads.sourceWeights[p], source, &quads.points[p]),
-      p);
-  }
-  for (std::size_t q = 0; q < quads.quads.size(); ++q)
-  {
-    add(middleOnSource(mapped, quads.quadSourceFace[q], quads.quadSourceWeights[q], source),
-      points + q);
-  }
+  const PlacesOfQuads found = placesOfQuads(mapped, quads, source);
   const std::vector<FacePlace> onFine =
-    carryPlaces(fine_.mesh, level_, log_, places, threads, progress);
+    carryPlaces(fine_.mesh, level_, log_, found.places, threads, progress);
   log_ = {};
   for (std::size_t i = 0; i < onFine.size(); ++i)
   {
+    const std::size_t who = found.whose[i];
     SourceLocation& at =
-      whose[i] < points ? made.ofPoints[whose[i]] : made.ofQuads[whose[i] - points];
+      who < made.ofPoints.size() ? made.ofPoints[who] : made.ofQuads[who - made.ofPoints.size()];
     at = fine_.locate(onFine[i].face, onFine[i].weights);
   }
   return made;

@@ -215,40 +215,20 @@ private:
   std::atomic<bool> isClean_{ true };
 };
 
-/// Half-edges of the fan of h round its origin.
-std::size_t fanSize(const Mesh& mesh, Index h)
-{
-  std::size_t count = 0;
-  Index g = h;
-  do
-  {
-    ++count;
-    g = mesh.rotateCounterclockwise(g);
-  } while (g != h && g != kInvalidIndex);
-  if (g == kInvalidIndex)
-  {
-    for (g = mesh.rotateClockwise(h); g != kInvalidIndex; g = mesh.rotateClockwise(g))
-    {
-      ++count;
-    }
-  }
-  return count;
-}
-
 /// Whether each vertex has one fan: then any one of its fans has all of its half-edges.
 bool hasSingleFans(const Mesh& mesh, const std::atomic<Index>* outgoing, int threads)
 {
-  std::vector<std::size_t> counts((mesh.vertexCount() + kBlockVertices - 1) / kBlockVertices, 0);
-  parallelFor(mesh.vertexCount(), kBlockVertices, threads,
-    [&](std::size_t begin, std::size_t end)
+  const auto counts = parallelParts<std::size_t>(mesh.vertexCount(), kBlockVertices, threads,
+    [&](Index begin, Index end, std::size_t& count)
     {
-      std::size_t count = 0;
-      for (std::size_t v = begin; v < end; ++v)
+      for (Index v = begin; v < end; ++v)
       {
         const Index h = outgoing[v].load(std::memory_order_relaxed);
-        count += h == kInvalidIndex ? 0 : fanSize(mesh, h);
+        if (h != kInvalidIndex)
+        {
+          forEachInFan(mesh, h, [&](Index) { ++count; });
+        }
       }
-      counts[begin / kBlockVertices] = count;
     });
   return std::accumulate(counts.begin(), counts.end(), std::size_t{ 0 }) == mesh.origin.size();
 }
@@ -259,14 +239,8 @@ bool isWithoutSlivers(PreparedSurface& surface, int threads)
   const Mesh& mesh = surface.mesh;
   DisjointSets components(mesh.faceCount(), threads);
   std::unique_ptr<std::atomic<Index>[]> outgoing(new std::atomic<Index>[mesh.vertexCount()]);
-  parallelFor(mesh.vertexCount(), kBlockVertices, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        outgoing[v].store(kInvalidIndex, std::memory_order_relaxed);
-      }
-    });
+  parallelForEach(mesh.vertexCount(), kBlockVertices, threads,
+    [&](std::size_t v) { outgoing[v].store(kInvalidIndex, std::memory_order_relaxed); });
   const std::size_t faces = mesh.faceCount();
   const std::size_t refused = firstRefused(faces, kCleanChunk, threads,
     [&](std::size_t face)

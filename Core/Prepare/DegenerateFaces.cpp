@@ -130,25 +130,8 @@ private:
 
 std::vector<Index> findDegenerate(const Mesh& mesh, int threads)
 {
-  std::vector<std::vector<Index>> found(
-    (mesh.faceCount() + kDegenerateChunk - 1) / kDegenerateChunk);
-  parallelFor(mesh.faceCount(), kDegenerateChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t f = begin; f < end; ++f)
-      {
-        if (isDegenerate(mesh, static_cast<Index>(f)))
-        {
-          found[begin / kDegenerateChunk].push_back(static_cast<Index>(f));
-        }
-      }
-    });
-  std::vector<Index> faces;
-  for (const std::vector<Index>& part : found)
-  {
-    faces.insert(faces.end(), part.begin(), part.end());
-  }
-  return faces;
+  return parallelSelect(
+    mesh.faceCount(), kDegenerateChunk, threads, [&](Index f) { return isDegenerate(mesh, f); });
 }
 
 } // namespace

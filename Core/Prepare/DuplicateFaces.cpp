@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Prepare/DuplicateFaces.h"
 
+#include "Base/DisjointSets.h"
+
 #include <algorithm>
 #include <array>
 #include <tuple>
@@ -78,9 +80,6 @@ enum class PairFate
   KeepNone
 };
 
-/// A flap has at most so many faces for each edge that holds it.
-constexpr Index kFlapDepth = 4;
-
 /// Finds regions of opposite pairs that hang together, and what they are from the edges where they
 /// end: by how many other faces there are.
 class PairRegions
@@ -88,31 +87,27 @@ class PairRegions
 public:
   /// pairOfFace: #F, kInvalidIndex for faces in no pair.
   PairRegions(const EdgeRuns& runs, const std::vector<Index>& pairOfFace, Index pairs)
-    : parent_(pairs), ends_(pairs)
+    : regions_(pairs, 1), ends_(pairs)
   {
-    for (Index i = 0; i < pairs; ++i)
-    {
-      parent_[i] = i;
-    }
     runs.forEach([&](const EdgeRuns::Entry* begin, const EdgeRuns::Entry* end)
       { addEdge(begin, end, pairOfFace); });
   }
 
   std::vector<PairFate> fates()
   {
-    std::vector<Ends> total(parent_.size());
-    for (Index i = 0; i < parent_.size(); ++i)
+    std::vector<Ends> total(ends_.size());
+    for (Index i = 0; i < ends_.size(); ++i)
     {
-      Ends& ends = total[find(i)];
+      Ends& ends = total[regions_.find(i)];
       ends.complete += ends_[i].complete;
       ends.open += ends_[i].open;
       ends.rim += ends_[i].rim;
       ++ends.pairs;
     }
-    std::vector<PairFate> fates(parent_.size());
-    for (Index i = 0; i < parent_.size(); ++i)
+    std::vector<PairFate> fates(ends_.size());
+    for (Index i = 0; i < ends_.size(); ++i)
     {
-      fates[i] = fateOf(total[find(i)]);
+      fates[i] = fateOf(total[regions_.find(i)]);
     }
     return fates;
   }
@@ -141,16 +136,6 @@ private:
                                       : PairFate::KeepOne; // a flap, or a patch
   }
 
-  Index find(Index i)
-  {
-    while (parent_[i] != i)
-    {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
-    }
-    return i;
-  }
-
   void addEdge(
     const EdgeRuns::Entry* begin, const EdgeRuns::Entry* end, const std::vector<Index>& pairOfFace)
   {
@@ -169,12 +154,11 @@ private:
       ends_[pair].complete += others >= 2 && others % 2 == 0 ? 1 : 0;
       ends_[pair].open += others % 2 == 1 ? 1 : 0;
       ends_[pair].rim += others == 0 && pairs_.size() == 2 ? 1 : 0;
-      const Index a = find(pair), b = find(pairs_.front());
-      parent_[std::max(a, b)] = std::min(a, b);
+      regions_.join(pair, pairs_.front());
     }
   }
 
-  std::vector<Index> parent_;
+  DisjointSets regions_;
   std::vector<Ends> ends_;
   std::vector<Index> pairs_;
 };

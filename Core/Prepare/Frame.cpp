@@ -103,16 +103,13 @@ void toGrid(FramedInput& framed, const Snap& snap, double steps, int threads)
   reserveWithRoom(framed.input.points, framed.points.size(), threads);
   growLarge(framed.input.points, framed.points.size());
   Vector3* placed = framed.input.points.edit();
-  parallelFor(framed.points.size(), kFrameChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(framed.points.size(), kFrameChunk, threads,
+    [&](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      for (int k = 0; k < 3; ++k)
       {
-        for (int k = 0; k < 3; ++k)
-        {
-          const double x = snap(framed.points[i][k] - framed.frame.centre[k]);
-          placed[i][k] = roundToGrid(x / framed.frame.unit * steps);
-        }
+        const double x = snap(framed.points[i][k] - framed.frame.centre[k]);
+        placed[i][k] = roundToGrid(x / framed.frame.unit * steps);
       }
     });
 }
@@ -192,9 +189,8 @@ bool firstPolygonDescends(const SurfaceInput& input)
 bool looksInwards(const SurfaceInput& input, int threads)
 {
   const std::size_t polygons = input.polygonOffsets.size() - 1;
-  std::vector<std::array<double, 2>> parts((polygons + kFrameChunk - 1) / kFrameChunk, { 0, 0 });
-  parallelFor(polygons, kFrameChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  const auto parts = parallelParts<std::array<double, 2>>(polygons, kFrameChunk, threads,
+    [&](std::size_t begin, std::size_t end, std::array<double, 2>& part)
     {
       for (std::size_t p = begin; p < end; ++p)
       {
@@ -204,8 +200,8 @@ bool looksInwards(const SurfaceInput& input, int threads)
         {
           const double volume =
             input.points[ids[0]].dot(input.points[ids[i - 1]].cross(input.points[ids[i]]));
-          parts[begin / kFrameChunk][0] += volume;
-          parts[begin / kFrameChunk][1] += std::abs(volume);
+          part[0] += volume;
+          part[1] += std::abs(volume);
         }
       }
     });
@@ -296,14 +292,11 @@ FramedInput enterFrame(SurfaceInput input, int threads)
   frame.sign =
     signsOf(framed.input.points, used, boxOfPoints(framed.input.points, threads, isUsed));
   Vector3* placed = framed.input.points.edit();
-  parallelFor(framed.input.points.size(), kFrameChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(framed.input.points.size(), kFrameChunk, threads,
+    [&](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        // Of the two zeros one.
-        placed[i] = frame.mirrored(placed[i]) / steps + Vector3::Zero();
-      }
+      // Of the two zeros one.
+      placed[i] = frame.mirrored(placed[i]) / steps + Vector3::Zero();
     });
   requestsToFrame(framed);
   frame.reversed = looksInwards(framed.input, threads);
@@ -381,15 +374,12 @@ void forEachUserPosition(const PreparedSurface& surface, const Frame& frame,
     Index& corner = first[mesh.origin[h]];
     corner = std::min(corner, h);
   }
-  parallelFor(mesh.vertexCount(), kFrameChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(mesh.vertexCount(), kFrameChunk, threads,
+    [&](std::size_t v)
     {
-      for (std::size_t v = begin; v < end; ++v)
+      if (first[v] != kInvalidIndex)
       {
-        if (first[v] != kInvalidIndex)
-        {
-          put(v, userPositionAt(surface, first[v], frame, points));
-        }
+        put(v, userPositionAt(surface, first[v], frame, points));
       }
     });
 }

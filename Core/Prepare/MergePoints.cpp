@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Prepare/MergePoints.h"
 
+#include "Base/DisjointSets.h"
+#include "Base/Sorted.h"
+
 #include <algorithm>
 #include <array>
 #include <tuple>
@@ -47,8 +50,7 @@ std::vector<Index> placesOf(const Mesh& mesh, const std::vector<Index>& halfEdge
     ends.push_back(mesh.origin[h]);
     ends.push_back(mesh.target(h));
   }
-  std::sort(ends.begin(), ends.end());
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  sortUnique(ends);
   const auto coordinates = [&mesh](Index v)
   { return std::tie(mesh.position[v].x(), mesh.position[v].y(), mesh.position[v].z()); };
   std::stable_sort(
@@ -87,38 +89,6 @@ std::vector<OpenEdge> sortedByPlace(
   return edges;
 }
 
-class VertexClasses
-{
-public:
-  explicit VertexClasses(Index vertices) : lowest_(vertices)
-  {
-    for (Index v = 0; v < vertices; ++v)
-    {
-      lowest_[v] = v;
-    }
-  }
-  Index find(Index v)
-  {
-    while (lowest_[v] != v)
-    {
-      lowest_[v] = lowest_[lowest_[v]];
-      v = lowest_[v];
-    }
-    return v;
-  }
-  /// True when the two were in different classes.
-  bool join(Index a, Index b)
-  {
-    a = find(a);
-    b = find(b);
-    lowest_[std::max(a, b)] = std::min(a, b);
-    return a != b;
-  }
-
-private:
-  std::vector<Index> lowest_;
-};
-
 } // namespace
 
 bool wouldMerge(const Mesh& mesh, const std::vector<Index>& halfEdges)
@@ -140,7 +110,7 @@ std::size_t mergeOpenEdges(Mesh& mesh, const EdgeRuns& runs)
     return 0;
   }
   const std::vector<OpenEdge> edges = sortedByPlace(mesh, halfEdges, placesOf(mesh, halfEdges));
-  VertexClasses classes(mesh.vertexCount());
+  DisjointSets classes(mesh.vertexCount(), 1);
   std::size_t merged = 0;
   for (std::size_t i = 1; i < edges.size(); ++i)
   {

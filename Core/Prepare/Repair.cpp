@@ -59,29 +59,20 @@ void checkOffsets(const SurfaceInput& input)
 
 void checkIds(const SurfaceInput& input, int threads)
 {
-  parallelFor(input.polygonOffsets.size() - 1, kRepairChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(input.polygonOffsets.size() - 1, kRepairChunk, threads,
+    [&](std::size_t polygon)
     {
-      for (std::size_t polygon = begin; polygon < end; ++polygon)
+      for (Index i = input.polygonOffsets[polygon]; i < input.polygonOffsets[polygon + 1]; ++i)
       {
-        for (Index i = input.polygonOffsets[polygon]; i < input.polygonOffsets[polygon + 1]; ++i)
-        {
-          requirePoint(polygon, input.polygonPoints[i], input.points.size());
-        }
+        requirePoint(polygon, input.polygonPoints[i], input.points.size());
       }
     });
 }
 
 void checkCoordinates(const SurfaceInput& input, int threads)
 {
-  parallelFor(input.points.size(), kRepairChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        requireCoordinates(i, input.points[i]);
-      }
-    });
+  parallelForEach(input.points.size(), kRepairChunk, threads,
+    [&](std::size_t i) { requireCoordinates(i, input.points[i]); });
 }
 
 std::size_t removeFacesWithRepeatedCorner(Mesh& mesh)

@@ -339,12 +339,7 @@ std::vector<std::uint8_t> verticesOfManyFans(const Mesh& mesh)
     {
       continue;
     }
-    Index h = outgoing[v];
-    do
-    {
-      --degree[v];
-      h = mesh.rotateCounterclockwise(h);
-    } while (h != kInvalidIndex && h != outgoing[v]);
+    forEachInFan(mesh, outgoing[v], [&](Index) { --degree[v]; });
     many[v] = degree[v] != 0;
   }
   return many;

@@ -143,7 +143,7 @@ bool QuadMoves::isRegularOnCurve(Index p) const
 
 Vector3 QuadMoves::faceNormal(Index f) const
 {
-  return mesh_.edgeVector(3 * f).cross(mesh_.edgeVector(3 * f + 1)).normalized();
+  return mesh_.doubleAreaNormal(f).normalized();
 }
 
 void QuadMoves::computeNormals()

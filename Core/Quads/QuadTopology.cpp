@@ -37,14 +37,8 @@ public:
   LeavingHalfEdges(const Quads& quads, std::size_t pointCount, int threads)
     : first_(new std::atomic<Index>[pointCount]), next_(4 * quads.size())
   {
-    parallelFor(pointCount, kQuadTopologyChunk, threads,
-      [this](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t p = begin; p < end; ++p)
-        {
-          first_[p].store(kInvalidIndex, std::memory_order_relaxed);
-        }
-      });
+    parallelForEach(pointCount, kQuadTopologyChunk, threads,
+      [&](std::size_t p) { first_[p].store(kInvalidIndex, std::memory_order_relaxed); });
     std::vector<Index> wrong(
       (quads.size() + kQuadTopologyChunk - 1) / kQuadTopologyChunk, kInvalidIndex);
     parallelFor(quads.size(), kQuadTopologyChunk, threads,
@@ -228,12 +222,7 @@ void checkQuad(const std::array<Index, 4>& q, DisjointSets& sets, Counts& counts
 template <typename Body>
 void overChunks(std::size_t size, int threads, QuadTopology& topology, const Body& body)
 {
-  std::vector<Counts> parts((size + kQuadTopologyChunk - 1) / kQuadTopologyChunk);
-  parallelFor(size, kQuadTopologyChunk, threads,
-    [&](std::size_t begin, std::size_t end) {
-      body(static_cast<Index>(begin), static_cast<Index>(end), parts[begin / kQuadTopologyChunk]);
-    });
-  for (const Counts& part : parts)
+  for (const Counts& part : parallelParts<Counts>(size, kQuadTopologyChunk, threads, body))
   {
     topology.edges += part.edges;
     topology.boundaryEdges += part.boundaryEdges;

@@ -2,36 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quads/SurfaceShape.h"
 
-#include "Base/Parallel.h"
+#include "Mesh/Topology.h"
 
 namespace quadrille
 {
 namespace
 {
 
-constexpr std::size_t kShapeChunk = std::size_t{ 1 } << 17;
-
 CurveGraph constrainedGraph(const Mesh& mesh, int threads)
 {
-  std::vector<std::vector<Index>> parts((mesh.halfEdgeCount() + kShapeChunk - 1) / kShapeChunk);
-  parallelFor(mesh.halfEdgeCount(), kShapeChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (Index h = static_cast<Index>(begin); h < end; ++h)
-      {
-        if (mesh.isConstrained(h) && h < mesh.twin[h])
-        {
-          parts[begin / kShapeChunk].push_back(h);
-        }
-      }
-    });
   std::vector<std::pair<Index, Index>> edges;
-  for (const std::vector<Index>& part : parts)
+  for (const Index h : constrainedEdges(mesh, threads))
   {
-    for (const Index h : part)
-    {
-      edges.emplace_back(mesh.origin[h], mesh.target(h));
-    }
+    edges.emplace_back(mesh.origin[h], mesh.target(h));
   }
   return { edges, mesh.position.size() };
 }

@@ -83,7 +83,7 @@ std::vector<double> vertexAreas(const Mesh& mesh)
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
     pollNowAndThen(f);
-    const double third = mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm() / 6;
+    const double third = mesh.doubleAreaNormal(f).norm() / 6;
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
       areas[mesh.origin[h]] += third;

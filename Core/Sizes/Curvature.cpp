@@ -6,6 +6,7 @@
 #include "Base/DisjointSets.h"
 #include "Base/Error.h"
 #include "Base/Parallel.h"
+#include "Base/Sorted.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -28,36 +29,16 @@ using Cell = std::array<std::int32_t, 3>;
 
 Vector3 areaVector(const Mesh& mesh, Index f)
 {
-  return 0.5 * mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1));
-}
-
-Vector3 middleOfFace(const Mesh& mesh, Index f)
-{
-  return (mesh.position[mesh.origin[3 * f]] + mesh.position[mesh.origin[3 * f + 1]] +
-           mesh.position[mesh.origin[3 * f + 2]]) /
-    3;
-}
-
-template <typename Body>
-void forEachChunk(std::size_t count, int threads, const Body& body)
-{
-  parallelFor(count, kPatchChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        body(static_cast<Index>(i));
-      }
-    });
+  return 0.5 * mesh.doubleAreaNormal(f);
 }
 
 std::vector<Cell> cellsOf(const Mesh& mesh, double side, int threads)
 {
   std::vector<Cell> cells(mesh.faceCount());
-  forEachChunk(cells.size(), threads,
+  parallelForEach(cells.size(), kPatchChunk, threads,
     [&](Index f)
     {
-      const Vector3 p = middleOfFace(mesh, f) / side;
+      const Vector3 p = mesh.middleOfFace(f) / side;
       for (int i = 0; i < 3; ++i)
       {
         cells[f][static_cast<std::size_t>(i)] =
@@ -102,15 +83,15 @@ SurfacePatch measurePatch(const Mesh& mesh, const Index* begin, const Index* end
   {
     const Vector3 area = areaVector(mesh, *f);
     patch.area += area.norm();
-    patch.centre += area.norm() * middleOfFace(mesh, *f);
+    patch.centre += area.norm() * mesh.middleOfFace(*f);
     sum += area;
   }
-  patch.centre = patch.area > 0 ? Vector3(patch.centre / patch.area) : middleOfFace(mesh, *begin);
+  patch.centre = patch.area > 0 ? Vector3(patch.centre / patch.area) : mesh.middleOfFace(*begin);
   patch.normal = sum.norm() > 0 ? Vector3(sum.normalized()) : Vector3(Vector3::Zero());
   double nearest = std::numeric_limits<double>::infinity();
   for (const Index* f = begin; f != end; ++f)
   {
-    const double distance = (middleOfFace(mesh, *f) - patch.centre).squaredNorm();
+    const double distance = (mesh.middleOfFace(*f) - patch.centre).squaredNorm();
     if (distance < nearest)
     {
       nearest = distance;
@@ -123,7 +104,7 @@ SurfacePatch measurePatch(const Mesh& mesh, const Index* begin, const Index* end
 void findNeighbours(const Mesh& mesh, const Lists& faces, SurfacePatches& result, int threads)
 {
   std::vector<std::vector<Index>> neighbours(result.patches.size());
-  forEachChunk(result.patches.size(), threads,
+  parallelForEach(result.patches.size(), kPatchChunk, threads,
     [&](Index p)
     {
       std::vector<Index>& mine = neighbours[p];
@@ -138,8 +119,7 @@ void findNeighbours(const Mesh& mesh, const Lists& faces, SurfacePatches& result
           }
         }
       }
-      std::sort(mine.begin(), mine.end());
-      mine.erase(std::unique(mine.begin(), mine.end()), mine.end());
+      sortUnique(mine);
     });
   result.first.assign(1, 0);
   for (const std::vector<Index>& mine : neighbours)
@@ -235,7 +215,7 @@ std::vector<Bend> bendsOf(const Mesh& mesh, const SurfacePatches& patches, int t
   const Lists faces = listsOf(patches.patchOf, patches.patches.size());
   const CurveTurns turns(mesh);
   std::vector<Bend> bends(patches.patches.size());
-  forEachChunk(bends.size(), threads,
+  parallelForEach(bends.size(), kPatchChunk, threads,
     [&](Index p)
     {
       for (Index i = faces.first[p]; i < faces.first[p + 1]; ++i)
@@ -310,7 +290,7 @@ SurfacePatches findPatches(const Mesh& mesh, double cell, int threads)
   }
   const std::vector<Cell> cells = cellsOf(mesh, cell, threads);
   DisjointSets sets(mesh.faceCount(), threads);
-  forEachChunk(mesh.faceCount(), threads,
+  parallelForEach(mesh.faceCount(), kPatchChunk, threads,
     [&](Index f)
     {
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
@@ -332,7 +312,7 @@ SurfacePatches findPatches(const Mesh& mesh, double cell, int threads)
   }
   result.patches.resize(count);
   const Lists faces = listsOf(result.patchOf, count);
-  forEachChunk(count, threads,
+  parallelForEach(count, kPatchChunk, threads,
     [&](Index p)
     {
       result.patches[p] =

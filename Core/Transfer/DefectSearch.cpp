@@ -4,6 +4,7 @@
 
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
 #include "GridMap/MapCheck.h"
 
 #include <algorithm>
@@ -17,53 +18,21 @@ namespace
 /// Faces of a chunk of the pass over the mesh; their uv fit a second level cache.
 constexpr std::size_t kMendChunk = 1 << 14;
 
-/// Calls visit(c) for every corner of the vertex of `corner`.
-template <typename Visit>
-void forEachCorner(const Mesh& mesh, Index corner, Visit visit)
-{
-  Index h = corner;
-  do
-  {
-    visit(h);
-    h = mesh.rotateCounterclockwise(h);
-  } while (h != kInvalidIndex && h != corner);
-  if (h == kInvalidIndex)
-  {
-    for (h = mesh.rotateClockwise(corner); h != kInvalidIndex; h = mesh.rotateClockwise(h))
-    {
-      visit(h);
-    }
-  }
-}
-
 } // namespace
 
 std::vector<Index> DefectSearch::find(int threads) const
 {
   const std::vector<int> turns = countTurns(threads);
-  std::vector<std::vector<Index>> parts((mesh_.faceCount() + kMendChunk - 1) / kMendChunk);
-  parallelFor(mesh_.faceCount(), kMendChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  return parallelSelect(mesh_.faceCount(), kMendChunk, threads,
+    [&](Index f)
     {
-      for (std::size_t f = begin; f < end; ++f)
+      bool defect = !isPositive(f);
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
       {
-        bool defect = !isPositive(static_cast<Index>(f));
-        for (std::size_t h = 3 * f; h < 3 * f + 3; ++h)
-        {
-          defect = defect || turns[mesh_.origin[h]] != expectedTurns_[mesh_.origin[h]];
-        }
-        if (defect)
-        {
-          parts[begin / kMendChunk].push_back(static_cast<Index>(f));
-        }
+        defect = defect || turns[mesh_.origin[h]] != expectedTurns_[mesh_.origin[h]];
       }
+      return defect;
     });
-  std::vector<Index> seeds;
-  for (const std::vector<Index>& part : parts)
-  {
-    seeds.insert(seeds.end(), part.begin(), part.end());
-  }
-  return seeds;
 }
 
 std::array<std::int8_t, 3> DefectSearch::enteredBy(Index f) const
@@ -95,7 +64,7 @@ std::vector<int> DefectSearch::countTurns(int threads) const
 int DefectSearch::turnsRound(Index corner) const
 {
   int turns = 0;
-  forEachCorner(mesh_, corner, [&](Index h) { turns += enteredBy(Mesh::face(h))[h % 3]; });
+  forEachInFan(mesh_, corner, [&](Index h) { turns += enteredBy(Mesh::face(h))[h % 3]; });
   return turns;
 }
 
@@ -116,11 +85,10 @@ std::vector<Index> DefectSearch::findAmong(
   {
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
     {
-      forEachCorner(mesh_, h, [&](Index c) { faces.push_back(Mesh::face(c)); });
+      forEachInFan(mesh_, h, [&](Index c) { faces.push_back(Mesh::face(c)); });
     }
   }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  sortUnique(faces);
   faces.erase(
     std::remove_if(faces.begin(), faces.end(), [&](Index f) { return !isDefect(f); }), faces.end());
   return faces;

@@ -3,6 +3,7 @@
 #include "Transfer/LevelMesh.h"
 
 #include "Base/ChartRotation.h"
+#include "Base/Sorted.h"
 
 #include <algorithm>
 #include <iterator>
@@ -79,8 +80,7 @@ LevelMesh::Ids LevelMesh::takeStars(const Mesh& mesh, const std::vector<Index>& 
       around.push_back(Mesh::face(c->corner));
     }
   }
-  std::sort(around.begin(), around.end());
-  around.erase(std::unique(around.begin(), around.end()), around.end());
+  sortUnique(around);
   std::set_difference(
     around.begin(), around.end(), patch.begin(), patch.end(), std::back_inserter(fineFace_));
   std::sort(ids.begin(), ids.end());
@@ -165,8 +165,7 @@ std::vector<Index> LevelMesh::neighbours(Index v) const
     found.push_back(target(c));
     found.push_back(origin(Mesh::previous(c)));
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sortUnique(found);
   return found;
 }
 

@@ -110,7 +110,7 @@ double PatchProblems::referenceScale(double& imageArea) const
   double image = 0;
   for (const Index f : patch_.faces())
   {
-    area += 0.5 * mesh_.edgeVector(3 * f).cross(mesh_.edgeVector(3 * f + 1)).norm();
+    area += mesh_.faceArea(f);
     const Vector2 a = toDouble(uv_[3 * f + 1] - uv_[3 * f]);
     const Vector2 b = toDouble(uv_[3 * f + 2] - uv_[3 * f]);
     image += 0.5 * (a.x() * b.y() - a.y() * b.x());

@@ -82,9 +82,8 @@ std::optional<ComplexNumber> carriedAcross(
 
 double weightOf(const Mesh& mesh, Index h)
 {
-  const auto doubledArea = [&](Index f)
-  { return mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm(); };
-  const double areas = doubledArea(Mesh::face(h)) + doubledArea(Mesh::face(mesh.twin[h]));
+  const double areas = mesh.doubleAreaNormal(Mesh::face(h)).norm() +
+    mesh.doubleAreaNormal(Mesh::face(mesh.twin[h])).norm();
   const double weight = areas > 0 ? mesh.edgeVector(h).squaredNorm() / areas : kMostWeight;
   return std::clamp(weight, 1 / kMostWeight, kMostWeight);
 }

@@ -53,7 +53,7 @@ class BlockReplay
 {
 public:
   explicit BlockReplay(std::vector<FixedVec2>& uv) : uv_(uv), star_(uv) {}
-  void run(const std::uint8_t* begin, const std::uint8_t* end);
+  void run(const BlockRecords& records);
   ReplayCounts counts() const
   {
     ReplayCounts counts = counts_;
@@ -71,66 +71,32 @@ private:
   ReplayCounts counts_;
 };
 
-/// How many records ahead uv is fetched: four take about as long as the memory needs.
-constexpr int kRecordsAhead = 4;
-/// How many of a record's slots are fetched; few have more.
-constexpr int kSlotsAhead = 6;
-
-/// The beginning of the record that ends at `end`.
-const std::uint8_t* recordBegin(const std::uint8_t* end)
+/// Fetches uv of the face of a slot.
+struct FetchUv
 {
-  return end - (end[-1] == 0 ? kFlipBytes : collapseBytes(end[-1]));
-}
-
-/// Fetches uv of the record that ends at `end`, without branches on its kind or size, which cannot be predicted.
-/// Inlined, since GCC 12 takes a function of mere prefetches for one without effect and drops its calls.
-[[gnu::always_inline]] inline void prefetchRecord(const FixedVec2* uv, const std::uint8_t* end)
-{
-#if defined(__GNUC__)
-  const std::uint8_t* const slots = recordBegin(end);
-  const int count = end[-1] == 0 ? 2 : end[-1];
-  for (int i = 0; i < kSlotsAhead; ++i)
+  [[gnu::always_inline]] void operator()(Index slot) const
   {
+#if defined(__GNUC__)
     // The two lines that the 48 bytes of a face can lie on.
-    const auto address = reinterpret_cast<std::uintptr_t>(uv) +
-      sizeof(FixedVec2) * std::uintptr_t{ loadLittleEndian(slots + 4 * std::min(i, count - 1)) };
+    const auto address =
+      reinterpret_cast<std::uintptr_t>(uv) + sizeof(FixedVec2) * std::uintptr_t{ slot };
     // NOLINTBEGIN(performance-no-int-to-ptr): nothing is read there
     __builtin_prefetch(reinterpret_cast<const void*>(address - 32), 1);
     __builtin_prefetch(reinterpret_cast<const void*>(address + 32), 1);
     // NOLINTEND(performance-no-int-to-ptr)
-  }
 #else
-  static_cast<void>(uv);
-  static_cast<void>(end);
+    static_cast<void>(slot);
 #endif
-}
+  }
 
-void BlockReplay::run(const std::uint8_t* begin, const std::uint8_t* end)
+  const FixedVec2* uv;
+};
+
+void BlockReplay::run(const BlockRecords& records)
 {
-  const std::uint8_t* ahead = end;
-  for (int i = 0; i < kRecordsAhead && ahead > begin; ++i)
-  {
-    ahead = recordBegin(ahead);
-  }
-  while (end > begin)
-  {
-    if (ahead > begin)
-    {
-      prefetchRecord(uv_.data(), ahead);
-      ahead = recordBegin(ahead);
-    }
-    if (end[-1] == 0)
-    {
-      star_.unflip(loadLittleEndian(end - 9), loadLittleEndian(end - 5));
-      end -= kFlipBytes;
-    }
-    else
-    {
-      readCollapse(end, record_);
-      uncollapse();
-      end -= collapseBytes(record_.faces);
-    }
-  }
+  readBackwards(
+    records, record_, [this](Index h, Index g) { star_.unflip(h, g); }, [this] { uncollapse(); },
+    FetchUv{ uv_.data() });
 }
 
 void BlockReplay::uncollapse()
@@ -193,7 +159,7 @@ ReplayCounts replayRounds(const DecimationLog& log, const ReplayRange& range,
       {
         const std::size_t id = round.firstBlock + begin;
         BlockReplay block(uv);
-        block.run(log.blocks[id].data(), log.blocks[id].data() + log.blocks[id].size());
+        block.run(log.blocks[id]);
         counts[id] = block.counts();
       });
   }

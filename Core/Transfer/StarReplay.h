@@ -70,7 +70,20 @@ public:
         ring_[at(i + 1)] = Charts::rotate(rotation, corner_[Mesh::previous(corner)] - base);
       }
     }
-    return interpolate(record);
+    return placeInRing(ring_, record);
+  }
+
+  /// Where the weights of a record put its vertex.
+  static Point placeInRing(
+    const std::array<Point, kMaximumRing + 1>& ring, const CollapseRecord& record)
+  {
+    const Point base = ring[record.ring[0]];
+    Point p = base + Charts::scaled(ring[record.ring[1]] - base, record.weight[0]);
+    if (!record.onCurve)
+    {
+      p = p + Charts::scaled(ring[record.ring[2]] - base, record.weight[1]);
+    }
+    return p;
   }
 
   /// The ring that was unfolded, record.ringSize() points.
@@ -114,17 +127,6 @@ public:
 
 private:
   static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-  Point interpolate(const CollapseRecord& record) const
-  {
-    const Point base = ring_[record.ring[0]];
-    Point p = base + Charts::scaled(ring_[record.ring[1]] - base, record.weight[0]);
-    if (!record.onCurve)
-    {
-      p = p + Charts::scaled(ring_[record.ring[2]] - base, record.weight[1]);
-    }
-    return p;
-  }
 
   std::vector<Point>& corner_;
   Charts charts_;

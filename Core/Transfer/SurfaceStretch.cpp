@@ -123,25 +123,22 @@ public:
   template <typename SlotOf>
   void goBack(const BlockRecords& records, const SlotOf& slotOf)
   {
-    for (std::size_t end = records.size(); end > 0;)
-    {
-      const std::uint8_t* const at = records.data() + end;
-      if (at[-1] == 0)
+    readBackwards(
+      records, record_,
+      [&](Index fineH, Index fineG)
       {
-        const Index h = slotOf(loadLittleEndian(at - 9));
-        const Index g = slotOf(loadLittleEndian(at - 5));
+        const Index h = slotOf(fineH);
+        const Index g = slotOf(fineG);
         star_.unflip(h, g);
         goHome(h / 3);
         goHome(g / 3);
-        end -= kFlipBytes;
-        continue;
-      }
-      readCollapse(at, record_);
-      end -= collapseBytes(record_.faces);
-      std::for_each(record_.slot.begin(), record_.slot.begin() + record_.faces,
-        [&](Index& slot) { slot = slotOf(slot); });
-      uncollapse();
-    }
+      },
+      [&]
+      {
+        std::for_each(record_.slot.begin(), record_.slot.begin() + record_.faces,
+          [&](Index& slot) { slot = slotOf(slot); });
+        uncollapse();
+      });
   }
 
   const Complex* corners(Index f) const { return &corner_[3 * std::size_t{ f }]; }

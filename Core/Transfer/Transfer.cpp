@@ -5,6 +5,7 @@
 #include "Base/LargeArray.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Sorted.h"
 #include "GridMap/MapCheck.h"
 #include "Transfer/ExpectedTurns.h"
 #include "Transfer/PatchMender.h"
@@ -87,18 +88,8 @@ void checkSizes(const Mesh& fine, const Level& coarse, const DecimationLog& log)
 std::size_t countNotPositive(const std::vector<FixedVec2>& uv, int threads)
 {
   const std::size_t faces = uv.size() / 3;
-  std::vector<std::size_t> counts((faces + kCountChunk - 1) / kCountChunk, 0);
-  parallelFor(faces, kCountChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      std::size_t count = 0;
-      for (std::size_t h = 3 * begin; h < 3 * end; h += 3)
-      {
-        count += determinant(uv[h], uv[h + 1], uv[h + 2]) > 0 ? 0U : 1U;
-      }
-      counts[begin / kCountChunk] = count;
-    });
-  return std::accumulate(counts.begin(), counts.end(), std::size_t{ 0 });
+  return parallelCount(faces, kCountChunk, threads,
+    [&](std::size_t f) { return !(determinant(uv[3 * f], uv[3 * f + 1], uv[3 * f + 2]) > 0); });
 }
 
 std::vector<Index> verticesOf(const Mesh& fine, const std::vector<Index>& faces)
@@ -109,8 +100,7 @@ std::vector<Index> verticesOf(const Mesh& fine, const std::vector<Index>& faces)
     vertices.insert(
       vertices.end(), { fine.origin[3 * f], fine.origin[3 * f + 1], fine.origin[3 * f + 2] });
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sortUnique(vertices);
   return vertices;
 }
 

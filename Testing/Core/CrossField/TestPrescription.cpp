@@ -22,19 +22,6 @@ using namespace quadrille::test;
 
 constexpr double kEdgeLength = 0.2;
 
-std::vector<std::uint8_t> constrainedVertices(const Mesh& mesh)
-{
-  std::vector<std::uint8_t> constrained(mesh.vertexCount(), 0);
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if (mesh.isConstrained(h))
-    {
-      constrained[mesh.origin[h]] = constrained[mesh.target(h)] = 1;
-    }
-  }
-  return constrained;
-}
-
 std::vector<Mesh> models()
 {
   const double angle = 40 * kPi / 180;
