@@ -22,6 +22,31 @@ int resolveThreads(int requested);
 void parallelFor(std::size_t count, std::size_t chunkSize, int threads,
   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
+/// Calls body(i) for all i below count, the i of one chunk on one thread; Number: the type of i.
+template <typename Number = std::size_t, typename Body>
+void parallelForEach(std::size_t count, std::size_t chunkSize, int threads, const Body& body)
+{
+  parallelFor(count, chunkSize, threads,
+    [&body](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        body(static_cast<Number>(i));
+      }
+    });
+}
+
+/// What body(begin, end, part) makes of each chunk, in the order of the chunks.
+template <typename Part, typename Body>
+std::vector<Part> parallelParts(
+  std::size_t count, std::size_t chunkSize, int threads, const Body& body)
+{
+  std::vector<Part> parts((count + chunkSize - 1) / chunkSize);
+  parallelFor(count, chunkSize, threads,
+    [&](std::size_t begin, std::size_t end) { body(begin, end, parts[begin / chunkSize]); });
+  return parts;
+}
+
 /// Calls body(i) for all i below count. Where it returns false for some, the lowest of these comes back, whatever the
 /// number of threads; else count. Behind a refused one the rest of its chunk is left out.
 template <typename Body>

@@ -3,7 +3,7 @@
 #include "CrossField/PowerField.h"
 
 #include "Base/Angles.h"
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 
 #include <Eigen/SparseCholesky>
 
@@ -398,11 +398,8 @@ FieldConstraints fieldConstraints(const Mesh& mesh, const FieldTopology& topolog
 void addGuides(const Mesh& mesh, const FieldTopology& topology, const std::vector<Guide>& guides,
   double length, FieldConstraints& constraints)
 {
-  if (guides.size() != mesh.faceCount())
-  {
-    throw InvalidInput("cross field: " + std::to_string(guides.size()) + " guides for " +
-      std::to_string(mesh.faceCount()) + " faces");
-  }
+  refuseIf(guides.size() != mesh.faceCount(), "cross field: ", guides.size(), " guides for ",
+    mesh.faceCount(), " faces");
   constraints.guideAngle.assign(mesh.faceCount(), 0.0);
   constraints.guideStrength.assign(mesh.faceCount(), 0.0);
   for (Index f = 0; f < mesh.faceCount(); ++f)

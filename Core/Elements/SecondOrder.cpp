@@ -32,10 +32,8 @@ constexpr std::array<double, 5> kLeft{ 1, 1, 0.5, 0.25, 0 };
 
 void checkQuads(const QuadsOnSurface& quads, const SecondOrderOptions& options)
 {
-  if (options.nodes != 8 && options.nodes != 9)
-  {
-    refuse("a quad of second order has 8 or 9 nodes, not ", options.nodes);
-  }
+  refuseIf(options.nodes != 8 && options.nodes != 9,
+    "a quad of second order has 8 or 9 nodes, not ", options.nodes);
   if (quads.places.size() != quads.points.size() ||
     (!quads.featureEdges.empty() && quads.featureEdges.size() != quads.quads.size()))
   {
@@ -45,11 +43,8 @@ void checkQuads(const QuadsOnSurface& quads, const SecondOrderOptions& options)
   {
     for (const Index corner : quads.quads[q])
     {
-      if (corner >= quads.points.size())
-      {
-        refuse("quad ", q, " has the corner ", corner, ", but there are ", quads.points.size(),
-          " points");
-      }
+      refuseIf(corner >= quads.points.size(), "quad ", q, " has the corner ", corner,
+        ", but there are ", quads.points.size(), " points");
     }
   }
 }

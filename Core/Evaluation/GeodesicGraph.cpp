@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Evaluation/GeodesicGraph.h"
 
-#include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 
 #include <algorithm>
 #include <cmath>
@@ -134,13 +134,7 @@ std::vector<double> GeodesicGraph::distances(Index source, const std::vector<Ind
 {
   const std::size_t vertices = firstArc_.size() - 1;
   const auto check = [&](Index v)
-  {
-    if (v >= vertices)
-    {
-      throw InvalidInput("distances: there is no vertex " + std::to_string(v) + " in a mesh of " +
-        std::to_string(vertices));
-    }
-  };
+  { refuseIf(v >= vertices, "distances: there is no vertex ", v, " in a mesh of ", vertices); };
   check(source);
   constexpr double kUnreached = std::numeric_limits<double>::infinity();
   std::vector<double> distance(vertices, kUnreached);

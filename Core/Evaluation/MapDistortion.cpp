@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Evaluation/MapDistortion.h"
 
-#include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "Evaluation/Distribution.h"
 #include "GridMap/MapShape.h"
 #include "Mesh/Sizing.h"
@@ -29,10 +29,7 @@ double mappedArea(const std::vector<FixedVec2>& uv, Index f)
 
 MapDistortion measureDistortion(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 {
-  if (uv.size() != mesh.origin.size())
-  {
-    throw InvalidInput("distortion: the map has not the size of the mesh");
-  }
+  refuseIf(uv.size() != mesh.origin.size(), "distortion: the map has not the size of the mesh");
   double area = 0, mapped = 0;
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {

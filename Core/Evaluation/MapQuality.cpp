@@ -3,8 +3,8 @@
 #include "Evaluation/MapQuality.h"
 
 #include "Base/Angles.h"
-#include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "GridMap/MapCheck.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
@@ -64,10 +64,7 @@ std::vector<double> evenBins(double first, double last)
 
 MapQuality measureMapQuality(const Mesh& mesh, const std::vector<FixedVec2>& uv, double edgeLength)
 {
-  if (uv.size() != mesh.origin.size())
-  {
-    throw InvalidInput("map quality: the map has not the size of the mesh");
-  }
+  refuseIf(uv.size() != mesh.origin.size(), "map quality: the map has not the size of the mesh");
   if (!(edgeLength > 0) || !std::isfinite(edgeLength))
   {
     throw InvalidInput("map quality: the edge length has to be positive and finite");
@@ -108,10 +105,7 @@ MapQuality measureMapQuality(const Mesh& mesh, const std::vector<FixedVec2>& uv,
 
 std::vector<int> turnsOfMap(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 {
-  if (uv.size() != mesh.origin.size())
-  {
-    throw InvalidInput("turns of a map: the map has not the size of the mesh");
-  }
+  refuseIf(uv.size() != mesh.origin.size(), "turns of a map: the map has not the size of the mesh");
   std::vector<int> turns(mesh.vertexCount(), 0);
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {

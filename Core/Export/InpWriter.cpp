@@ -28,10 +28,8 @@ std::string upperCased(std::string text)
 std::string typeOf(const ElementMesh& mesh, const InpOptions& options)
 {
   const std::vector<std::string> types = inpElementTypes(mesh.nodesPerElement, options.dialect);
-  if (types.empty())
-  {
-    refuse("CalculiX has no elements of 9 nodes: make them with 8, or write for Abaqus");
-  }
+  refuseIf(
+    types.empty(), "CalculiX has no elements of 9 nodes: make them with 8, or write for Abaqus");
   if (options.elementType.empty())
   {
     return types.front();
@@ -76,20 +74,16 @@ public:
   {
     for (std::size_t i = 0; i < mesh_.nodes.size(); ++i)
     {
-      if (std::abs(mesh_.nodes[i][2]) > tolerance_)
-      {
-        refuse("elements of type ", type, " lie in the plane z = 0, but node ", i,
-          " has z = ", mesh_.nodes[i][2], ": move the mesh there, or choose shells (S4, S8R)");
-      }
+      refuseIf(std::abs(mesh_.nodes[i][2]) > tolerance_, "elements of type ", type,
+        " lie in the plane z = 0, but node ", i, " has z = ", mesh_.nodes[i][2],
+        ": move the mesh there, or choose shells (S4, S8R)");
     }
     for (std::size_t e = 0; e < mesh_.elementCount(); ++e)
     {
       pollNowAndThen(e);
-      if (elementNormal(mesh_, e)[2] < 0)
-      {
-        refuse("elements of type ", type, " are counterclockwise seen from above (z), but element ",
-          e, " is clockwise: reverse the surface");
-      }
+      refuseIf(elementNormal(mesh_, e)[2] < 0, "elements of type ", type,
+        " are counterclockwise seen from above (z), but element ", e,
+        " is clockwise: reverse the surface");
     }
   }
 

@@ -20,11 +20,8 @@ namespace
 
 void requireFirstOrder(const ElementMesh& mesh, const char* format)
 {
-  if (mesh.nodesPerElement != 4)
-  {
-    refuse(format, " has no elements of ", mesh.nodesPerElement,
-      " nodes: make them of first order, or write vtu, ex2, inp or msh");
-  }
+  refuseIf(mesh.nodesPerElement != 4, format, " has no elements of ", mesh.nodesPerElement,
+    " nodes: make them of first order, or write vtu, ex2, inp or msh");
 }
 
 std::string writingText(const ElementMesh& mesh)
@@ -397,10 +394,8 @@ std::vector<std::string> writePly(const ElementMesh& mesh, const MeshSets& sets,
       file.writeBinary(static_cast<std::int32_t>(mesh.corner(e, i)));
     }
     const std::int64_t number = mesh.patches[mesh.patch(e)].number;
-    if (withPatches && (number < Limits::min() || number > Limits::max()))
-    {
-      refuse("element ", e, " is of patch ", number, ", which is no int: number patches lower");
-    }
+    refuseIf(withPatches && (number < Limits::min() || number > Limits::max()), "element ", e,
+      " is of patch ", number, ", which is no int: number patches lower");
     if (withPatches)
     {
       file.writeBinary(static_cast<std::int32_t>(number));
@@ -417,10 +412,8 @@ std::vector<std::string> writeStl(
   report(progress, 0, writingText(mesh));
   const std::size_t each = mesh.nodesPerElement == 4 ? 2 : mesh.nodesPerElement == 8 ? 6 : 8;
   const std::size_t count = each * mesh.elementCount();
-  if (count > std::numeric_limits<std::uint32_t>::max())
-  {
-    refuse("STL has room for 4,294,967,295 triangles, but these quads are ", count);
-  }
+  refuseIf(count > std::numeric_limits<std::uint32_t>::max(),
+    "STL has room for 4,294,967,295 triangles, but these quads are ", count);
   std::array<char, 80> header{};
   std::snprintf(header.data(), header.size(), "triangles of a quad mesh made by Quadrille");
   OutputFile file(path);

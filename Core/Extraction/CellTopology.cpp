@@ -3,7 +3,7 @@
 #include "Extraction/CellTopology.h"
 
 #include "Base/DisjointSets.h"
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 
 #include <algorithm>
 #include <numeric>
@@ -31,11 +31,7 @@ struct Corners
     }
     for (const Index p : point)
     {
-      if (p >= mesh.points.size())
-      {
-        throw InvalidInput("a cell refers to point " + std::to_string(p) + " of " +
-          std::to_string(mesh.points.size()));
-      }
+      refuseIf(p >= mesh.points.size(), "a cell refers to point ", p, " of ", mesh.points.size());
     }
   }
 

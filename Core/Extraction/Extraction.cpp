@@ -5,6 +5,7 @@
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "Extraction/CellTopology.h"
 #include "Extraction/FreeBoundary.h"
 #include "Extraction/HoleFilling.h"
@@ -25,10 +26,7 @@ namespace
 
 void checkCorners(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 {
-  if (mesh.faceCount() == 0)
-  {
-    throw InvalidInput("extraction: the mesh has no faces");
-  }
+  refuseIf(mesh.faceCount() == 0, "extraction: the mesh has no faces");
   if (uv.size() != mesh.origin.size() || mesh.twin.size() != mesh.origin.size() ||
     mesh.flags.size() != mesh.origin.size())
   {
@@ -39,12 +37,8 @@ void checkCorners(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 
 void checkOutOfRange(const MapCheck& check)
 {
-  if (check.outOfRange != kInvalidIndex)
-  {
-    throw InvalidInput("extraction: the map of face " + std::to_string(check.outOfRange / 3) +
-      ", corner " + std::to_string(check.outOfRange % 3) +
-      ", is beyond the range of exact coordinates (2^20 quads)");
-  }
+  refuseIf(check.outOfRange != kInvalidIndex, "extraction: the map of face ", check.outOfRange / 3,
+    ", corner ", check.outOfRange % 3, ", is beyond the range of exact coordinates (2^20 quads)");
 }
 
 /// Refuses what would make too many quads, or a map that is nearly all slivers far longer than a

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/QuadCoverage.h"
 
-#include "Base/Error.h"
 #include "Base/Parallel.h"
+#include "Base/Refuse.h"
 #include "Extraction/ExactMap.h"
 
 #include <algorithm>
@@ -271,12 +271,10 @@ private:
 
 void checkSizes(const Mesh& mesh, const std::vector<FixedVec2>& uv, const QuadMesh& quads)
 {
-  if (uv.size() != mesh.origin.size() || quads.quadSourceFace.size() != quads.quads.size() ||
-    quads.quadSourceWeights.size() != quads.quads.size())
-  {
-    throw InvalidInput("coverage of quads: " + std::to_string(uv.size()) + " uv for " +
-      std::to_string(mesh.origin.size()) + " corners, or quads without their sources");
-  }
+  refuseIf(uv.size() != mesh.origin.size() || quads.quadSourceFace.size() != quads.quads.size() ||
+      quads.quadSourceWeights.size() != quads.quads.size(),
+    "coverage of quads: ", uv.size(), " uv for ", mesh.origin.size(),
+    " corners, or quads without their sources");
 }
 
 } // namespace

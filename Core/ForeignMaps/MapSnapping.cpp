@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ForeignMaps/MapSnapping.h"
 
-#include "Base/Error.h"
 #include "Base/Parallel.h"
+#include "Base/Refuse.h"
 #include "Extraction/ExactMap.h"
 #include "Mesh/Topology.h"
 
@@ -34,10 +34,7 @@ void checkSnapArguments(
   const Mesh& mesh, const std::vector<Vector2>& uv, const SnapOptions& options)
 {
   const std::string corners = std::to_string(mesh.origin.size()) + " corners";
-  if (uv.size() != mesh.origin.size())
-  {
-    throw InvalidInput("map: " + std::to_string(uv.size()) + " uv for " + corners);
-  }
+  refuseIf(uv.size() != mesh.origin.size(), "map: ", uv.size(), " uv for ", corners);
   if (!options.matching.empty() && options.matching.size() != mesh.origin.size())
   {
     throw InvalidInput(

@@ -3,9 +3,9 @@
 #include "GridMap/Certificate.h"
 
 #include "Base/ChartRotation.h"
-#include "Base/Error.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "GridMap/MapCheck.h"
 
 #include <algorithm>
@@ -196,10 +196,9 @@ void merge(const std::vector<Partial>& partials, Certificate& result)
 
 void checkSizes(const Mesh& mesh, std::size_t uv, std::size_t turns, std::size_t integers)
 {
-  if (uv != mesh.origin.size() || turns != mesh.position.size() || integers != mesh.position.size())
-  {
-    throw InvalidInput("certificate: map, turns or flags do not have the size of the mesh");
-  }
+  refuseIf(
+    uv != mesh.origin.size() || turns != mesh.position.size() || integers != mesh.position.size(),
+    "certificate: map, turns or flags do not have the size of the mesh");
 }
 
 } // namespace
@@ -219,11 +218,7 @@ Transition transitionOf(
   const Mesh& mesh, const std::vector<FixedVec2>& uv, Index h, int fallbackRotation, bool* residual)
 {
   const Index g = mesh.twin[h];
-  if (g == kInvalidIndex)
-  {
-    throw InvalidInput(
-      "half-edge " + std::to_string(h) + " lies on the boundary and has no transition");
-  }
+  refuseIf(g == kInvalidIndex, "half-edge ", h, " lies on the boundary and has no transition");
   const FixedVec2 from = uv[Mesh::next(h)] - uv[h];
   const FixedVec2 to = uv[g] - uv[Mesh::next(g)];
   Transition result;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/Embed.h"
 
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 #include "Base/TryCount.h"
 #include "GridMap/Continuation.h"
 #include "GridMap/FieldUntangling.h"
@@ -105,10 +105,8 @@ void failEmbedding(const Mesh& mesh, StatusCode code, const std::string& message
 EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
   const std::vector<FixedVec2>& integerUv, const EmbedOptions& options)
 {
-  if (!(options.edgeLength > 0) || !std::isfinite(options.edgeLength))
-  {
-    throw InvalidInput("embedding: the edge length must be positive and finite");
-  }
+  refuseIf(!(options.edgeLength > 0) || !std::isfinite(options.edgeLength),
+    "embedding: the edge length must be positive and finite");
   checkAnisotropyLimit(options.anisotropyLimit);
   report(options.progress, 0, "embedding the map");
   EmbedResult result;

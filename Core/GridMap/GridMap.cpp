@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/GridMap.h"
 
+#include "Base/Refuse.h"
 #include "Base/TryCount.h"
 #include "Base/WorkCount.h"
 #include "GridMap/GuidesInMap.h"
@@ -336,16 +337,12 @@ void GridMapResult::takeWork(const GridMapResult& other)
 
 GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
 {
-  if (!(options.edgeLength > 0) || !std::isfinite(options.edgeLength))
-  {
-    throw InvalidInput("the target edge length must be a positive number");
-  }
+  refuseIf(!(options.edgeLength > 0) || !std::isfinite(options.edgeLength),
+    "the target edge length must be a positive number");
   checkAnisotropyLimit(options.anisotropyLimit);
-  if (options.anisotropyLimit > 0 &&
-    (options.method == MapMethod::MixedInteger || options.method == MapMethod::QuadCover))
-  {
-    throw InvalidInput("an anisotropy limit needs the scale aware or the seamless method");
-  }
+  refuseIf(options.anisotropyLimit > 0 &&
+      (options.method == MapMethod::MixedInteger || options.method == MapMethod::QuadCover),
+    "an anisotropy limit needs the scale aware or the seamless method");
   if (mesh.vertexCount() > options.maximumVertices)
   {
     GridMapResult result;
@@ -357,11 +354,8 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
         "edges" };
     return result;
   }
-  if (options.previous != nullptr && options.vertexIds.size() != mesh.vertexCount())
-  {
-    throw InvalidInput("grid map: " + std::to_string(options.vertexIds.size()) +
-      " vertex ids for " + std::to_string(mesh.vertexCount()) + " vertices");
-  }
+  refuseIf(options.previous != nullptr && options.vertexIds.size() != mesh.vertexCount(),
+    "grid map: ", options.vertexIds.size(), " vertex ids for ", mesh.vertexCount(), " vertices");
   if (!options.stretch.empty() && options.stretch.size() != mesh.faceCount())
   {
     throw InvalidInput("grid map: " + std::to_string(options.stretch.size()) + " stretches for " +

@@ -3,7 +3,7 @@
 #include "GridMap/MapShape.h"
 
 #include "Base/Angles.h"
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 #include "Mesh/Sizing.h"
 
 #include <Eigen/Geometry>
@@ -54,11 +54,8 @@ Eigen::Matrix2d flattenFace(const Mesh& mesh, Index f)
 
 double shareBeyondRatio(const Mesh& mesh, const std::vector<FixedVec2>& uv, double limit)
 {
-  if (!(limit >= 1) || !std::isfinite(limit) || uv.size() != mesh.origin.size())
-  {
-    throw InvalidInput(
-      "share beyond a ratio: the ratio must be a number from 1 on, and the map of the mesh's size");
-  }
+  refuseIf(!(limit >= 1) || !std::isfinite(limit) || uv.size() != mesh.origin.size(),
+    "share beyond a ratio: the ratio must be a number from 1 on, and the map of the mesh's size");
   double area = 0, beyond = 0;
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
@@ -82,10 +79,8 @@ double shareBeyondRatio(const Mesh& mesh, const std::vector<FixedVec2>& uv, doub
 
 void checkAnisotropyLimit(double limit)
 {
-  if (limit != 0 && !(limit >= 1 && std::isfinite(limit)))
-  {
-    throw InvalidInput("the anisotropy limit must be 0 (none) or a number from 1 on");
-  }
+  refuseIf(limit != 0 && !(limit >= 1 && std::isfinite(limit)),
+    "the anisotropy limit must be 0 (none) or a number from 1 on");
 }
 
 double areaStretch(const CrossField& field, Index f)

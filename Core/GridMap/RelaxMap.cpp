@@ -4,6 +4,7 @@
 
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "GridMap/RelaxedTriangles.h"
 #include "Numerics/NestedSolver.h"
 
@@ -421,13 +422,11 @@ RelaxResult MapRelaxation::run()
 RelaxResult relaxMap(const Mesh& mesh, const std::vector<std::uint8_t>& integerVertex,
   const RelaxOptions& options, std::vector<FixedVec2>& uv)
 {
-  if (uv.size() != mesh.origin.size() || integerVertex.size() != mesh.position.size() ||
-    (!options.guides.empty() && options.guides.size() != mesh.faceCount()) ||
-    (!options.inset.empty() && (options.inset.size() != uv.size() || options.maximumSteps < 1)))
-  {
-    throw InvalidInput("relaxing a map: the sizes of mesh, map, integer vertices, guides and inset "
-                       "boundary disagree");
-  }
+  refuseIf(uv.size() != mesh.origin.size() || integerVertex.size() != mesh.position.size() ||
+      (!options.guides.empty() && options.guides.size() != mesh.faceCount()) ||
+      (!options.inset.empty() && (options.inset.size() != uv.size() || options.maximumSteps < 1)),
+    "relaxing a map: the sizes of mesh, map, integer vertices, guides and inset "
+    "boundary disagree");
   return MapRelaxation(mesh, integerVertex, options, uv).run();
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Import/SurfaceFile.h"
 
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 
 #include <algorithm>
 #include <charconv>
@@ -350,10 +350,7 @@ private:
 SurfaceFile readOff(const std::string& path)
 {
   std::ifstream file(path, std::ios::binary);
-  if (!file)
-  {
-    throw InvalidInput(path + ": cannot be opened for reading");
-  }
+  refuseIf(!file, path, ": cannot be opened for reading");
   std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   return OffReader(path, std::move(text)).read();
 }

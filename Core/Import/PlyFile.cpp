@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Import/PlyFile.h"
 
+#include "Base/Refuse.h"
 #include <algorithm>
 #include <charconv>
 #include <cstring>
@@ -51,10 +52,7 @@ PlyFile::PlyFile(const std::string& path) : path_(path)
 {
   std::error_code code;
   size_ = std::filesystem::file_size(path, code);
-  if (code || !std::ifstream(path))
-  {
-    throw InvalidInput(path + ": cannot be opened for reading");
-  }
+  refuseIf(code || !std::ifstream(path), path, ": cannot be opened for reading");
   load(kLongestHeader);
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Numerics/MinCostFlow.h"
 
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -26,10 +26,8 @@ MinCostFlow::MinCostFlow(Index nodeCount)
 
 Index MinCostFlow::addArc(Index from, Index to, std::int64_t capacity, std::int64_t cost)
 {
-  if (from >= excess_.size() || to >= excess_.size() || capacity < 0)
-  {
-    throw InvalidInput("flow: an arc needs two existing nodes and a capacity of 0 or more");
-  }
+  refuseIf(from >= excess_.size() || to >= excess_.size() || capacity < 0,
+    "flow: an arc needs two existing nodes and a capacity of 0 or more");
   arcs_.push_back({ to, capacity, cost });
   arcs_.push_back({ from, 0, -cost });
   return static_cast<Index>(arcs_.size() / 2 - 1);
@@ -37,19 +35,13 @@ Index MinCostFlow::addArc(Index from, Index to, std::int64_t capacity, std::int6
 
 void MinCostFlow::addSupply(Index node, std::int64_t amount)
 {
-  if (node >= excess_.size())
-  {
-    throw InvalidInput("flow: supply at a node that does not exist");
-  }
+  refuseIf(node >= excess_.size(), "flow: supply at a node that does not exist");
   excess_[node] += amount;
 }
 
 void MinCostFlow::setGround(Index node)
 {
-  if (node >= excess_.size())
-  {
-    throw InvalidInput("flow: the ground has to be an existing node");
-  }
+  refuseIf(node >= excess_.size(), "flow: the ground has to be an existing node");
   ground_ = node;
 }
 

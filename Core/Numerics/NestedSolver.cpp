@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Numerics/NestedSolver.h"
 
-#include "Base/Error.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "Numerics/DenseFront.h"
 
 #include <algorithm>
@@ -138,10 +138,7 @@ NestedSolver::NestedSolver(const std::vector<Vector3>& position,
   {
     fits = fits && t[0] < count && t[1] < count && t[2] < count;
   }
-  if (!fits)
-  {
-    throw InvalidInput("nested solver: positions, unknowns and triangles disagree in size");
-  }
+  refuseIf(!fits, "nested solver: positions, unknowns and triangles disagree in size");
   Dissection dissection{ position, {}, {}, {}, std::vector<Index>(count, 0), 0, fronts_,
     vertexAt_ };
   std::vector<std::size_t>& first = dissection.firstNeighbour;

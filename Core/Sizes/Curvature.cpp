@@ -4,8 +4,8 @@
 
 #include "Base/Angles.h"
 #include "Base/DisjointSets.h"
-#include "Base/Error.h"
 #include "Base/Parallel.h"
+#include "Base/Refuse.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -304,10 +304,8 @@ void SurfacePatches::gather(Index p, double radius, std::vector<Index>& near) co
 
 SurfacePatches findPatches(const Mesh& mesh, double cell, int threads)
 {
-  if (!(cell > 0) || !std::isfinite(cell))
-  {
-    throw InvalidInput("patches of a surface: the side of a cell must be positive and finite.");
-  }
+  refuseIf(!(cell > 0) || !std::isfinite(cell),
+    "patches of a surface: the side of a cell must be positive and finite.");
   const std::vector<Cell> cells = cellsOf(mesh, cell, threads);
   DisjointSets sets(mesh.faceCount(), threads);
   forEachChunk(mesh.faceCount(), threads,
