@@ -26,14 +26,9 @@ public:
   DisjointSets(std::size_t count, int threads)
     : count_(count), threads_(threads), parent_(new std::atomic<Index>[count])
   {
-    parallelFor(count, kSetChunk, threads,
-      [this](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          parent_[i].store(static_cast<Index>(i), std::memory_order_relaxed);
-        }
-      });
+    parallelForEach(count, kSetChunk, threads,
+      [this](std::size_t i)
+      { parent_[i].store(static_cast<Index>(i), std::memory_order_relaxed); });
   }
 
   /// Any number of threads may join at once.

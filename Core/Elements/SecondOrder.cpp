@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Elements/SecondOrder.h"
 
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Refuse.h"
 #include "Base/TryCount.h"
@@ -276,23 +277,20 @@ private:
       tree_ = std::make_unique<NearestTriangle>(std::move(list));
     }
     countTry(Try::CentreOtherwise, lost.size());
-    parallelFor(lost.size(), kNodeChunk, options_.threads,
-      [&](std::size_t begin, std::size_t end)
+    parallelForEach(lost.size(), kNodeChunk, options_.threads,
+      [&](std::size_t i)
       {
-        for (std::size_t i = begin; i < end; ++i)
+        const Vector3 wanted = straightPlace(lost[i]);
+        if (const auto near = tree_->at(wanted, normalAt(lost[i]), reachOf(lost[i])))
         {
-          const Vector3 wanted = straightPlace(lost[i]);
-          if (const auto near = tree_->at(wanted, normalAt(lost[i]), reachOf(lost[i])))
-          {
-            countTryLed(Try::CentreOtherwise);
-            put(lost[i], { near->triangle, near->weights });
-          }
-          else
-          {
-            nodes_.points[lost[i]] = wanted;
-            nodes_.kinds[lost[i]] = NodePlace::MovedOff;
-            levels_[lost[i]] = kStraight;
-          }
+          countTryLed(Try::CentreOtherwise);
+          put(lost[i], { near->triangle, near->weights });
+        }
+        else
+        {
+          nodes_.points[lost[i]] = wanted;
+          nodes_.kinds[lost[i]] = NodePlace::MovedOff;
+          levels_[lost[i]] = kStraight;
         }
       });
   }
@@ -430,13 +428,9 @@ private:
   std::vector<Index> foldedOf(const std::vector<Index>& check)
   {
     std::vector<std::uint8_t> isBad(check.size(), 0);
-    parallelFor(check.size(), kNodeChunk, options_.threads,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          isBad[i] = isInverted(cornersOfQuad(check[i])) ? 2 : isFolded(check[i]) ? 1 : 0;
-        }
+    parallelForEach(check.size(), kNodeChunk, options_.threads,
+      [&](std::size_t i) {
+        isBad[i] = isInverted(cornersOfQuad(check[i])) ? 2 : isFolded(check[i]) ? 1 : 0;
       });
     std::vector<Index> folded;
     for (std::size_t i = 0; i < check.size(); ++i)
@@ -457,14 +451,8 @@ private:
   std::vector<Index> move(const std::vector<Index>& folded)
   {
     std::vector<std::optional<NodeMove>> wishes(folded.size());
-    parallelFor(folded.size(), 1, options_.threads,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          wishes[i] = wishOf(folded[i]);
-        }
-      });
+    parallelForEach(
+      folded.size(), 1, options_.threads, [&](std::size_t i) { wishes[i] = wishOf(folded[i]); });
     std::vector<Index> again;
     for (const std::optional<NodeMove>& wish : wishes)
     {
@@ -495,8 +483,7 @@ private:
         look(*h / 4);
       }
     }
-    std::sort(again.begin(), again.end());
-    again.erase(std::unique(again.begin(), again.end()), again.end());
+    sortUnique(again);
     return again;
   }
 
@@ -523,10 +510,7 @@ private:
         nodes_.byNearest.push_back(static_cast<Index>(n));
       }
     }
-    std::sort(nodes_.invertedQuads.begin(), nodes_.invertedQuads.end());
-    nodes_.invertedQuads.erase(
-      std::unique(nodes_.invertedQuads.begin(), nodes_.invertedQuads.end()),
-      nodes_.invertedQuads.end());
+    sortUnique(nodes_.invertedQuads);
   }
 
   const Mesh& surface_;

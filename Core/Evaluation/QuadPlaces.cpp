@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Evaluation/QuadPlaces.h"
 
+#include "Base/Lists.h"
 #include "Mesh/Distance.h"
 #include "Requests/Guides.h"
 
@@ -130,8 +131,7 @@ NearestEdges::NearestEdges(const QuadMesh& mesh) : mesh_(mesh)
       edges_.push_back({ std::min(a, b), std::max(a, b) });
     }
   }
-  std::sort(edges_.begin(), edges_.end());
-  edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+  sortUnique(edges_);
   std::vector<BoxTree::Box> boxes;
   for (const auto& [a, b] : edges_)
   {

@@ -55,14 +55,8 @@ std::vector<std::vector<double>> waysBetween(
 {
   const GeodesicGraph graph(mesh);
   std::vector<std::vector<double>> ways(sources.vertices.size());
-  parallelFor(ways.size(), 1, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        ways[i] = graph.distances(sources.vertices[i], sinks.vertices);
-      }
-    });
+  parallelForEach(ways.size(), 1, threads,
+    [&](std::size_t i) { ways[i] = graph.distances(sources.vertices[i], sinks.vertices); });
   return ways;
 }
 

@@ -83,11 +83,21 @@ void requireValid(const ElementMesh& mesh)
   }
 }
 
-Vector3 elementNormal(const ElementMesh& mesh, std::size_t element)
+std::string writingText(const ElementMesh& mesh)
+{
+  return "writing " + std::to_string(mesh.elementCount()) + " elements";
+}
+
+Vector3 elementAreaVector(const ElementMesh& mesh, std::size_t element)
 {
   const auto corner = [&](std::size_t i) -> const Vector3&
   { return mesh.nodes[mesh.corner(element, i)]; };
-  const Vector3 normal = (corner(2) - corner(0)).cross(corner(3) - corner(1));
+  return (corner(2) - corner(0)).cross(corner(3) - corner(1));
+}
+
+Vector3 elementNormal(const ElementMesh& mesh, std::size_t element)
+{
+  const Vector3 normal = elementAreaVector(mesh, element);
   const double length = normal.stableNorm();
   return length > 0 ? Vector3(normal / length) : Vector3(Vector3::Zero());
 }

@@ -95,13 +95,6 @@ void writeFrame(OutputFile& file, const InpFrame& frame)
   file << '\n';
 }
 
-double elementArea(const ElementMesh& mesh, std::size_t e)
-{
-  const auto corner = [&](std::size_t i) -> const Vector3&
-  { return mesh.nodes[mesh.corner(e, i)]; };
-  return ((corner(2) - corner(0)).cross(corner(3) - corner(1))).norm() / 2;
-}
-
 /// Per node, the average over its elements by area; 0 where no element is.
 std::vector<double> nodalThickness(const ElementMesh& mesh)
 {
@@ -110,7 +103,7 @@ std::vector<double> nodalThickness(const ElementMesh& mesh)
   for (std::size_t e = 0; e < mesh.elementCount(); ++e)
   {
     pollNowAndThen(e);
-    const double area = elementArea(mesh, e);
+    const double area = elementAreaVector(mesh, e).norm() / 2;
     for (int i = 0; i < mesh.nodesPerElement; ++i)
     {
       const Index node = mesh.element(e)[i];
@@ -133,7 +126,7 @@ void writeNodalThickness(const std::vector<double>& thickness, OutputFile& file)
     pollNowAndThen(i);
     if (thickness[i] > 0)
     {
-      file << static_cast<std::uint64_t>(i + 1) << ", " << inpReal(thickness[i]) << '\n';
+      file << i + 1 << ", " << inpReal(thickness[i]) << '\n';
     }
   }
 }
@@ -153,7 +146,7 @@ void writeDistribution(const Distinct<InpFrame>& frames, InpDialect dialect, Out
     pollNowAndThen(e);
     if (frames.of[e] != kInvalidIndex)
     {
-      file << static_cast<std::uint64_t>(e + 1) << ", ";
+      file << e + 1 << ", ";
       writeFrame(file, frames.values[frames.of[e]]);
     }
   }
@@ -165,7 +158,7 @@ void writeOrientations(const std::vector<InpFrame>& frames, OutputFile& file)
   for (std::size_t i = 0; i < frames.size(); ++i)
   {
     pollNowAndThen(i);
-    file << "*ORIENTATION, NAME=AXES_" << static_cast<std::uint64_t>(i + 1) << '\n';
+    file << "*ORIENTATION, NAME=AXES_" << i + 1 << '\n';
     writeFrame(file, frames[i]);
   }
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Export/InpWriter.h"
 
+#include "Base/Lists.h"
 #include "Base/Refuse.h"
 #include "Export/InpSections.h"
 #include "Export/SetNames.h"
@@ -37,13 +38,8 @@ std::string typeOf(const ElementMesh& mesh, const InpOptions& options)
   std::string type = upperCased(options.elementType);
   if (std::find(types.begin(), types.end(), type) == types.end())
   {
-    std::string known;
-    for (const std::string& one : types)
-    {
-      known += (known.empty() ? "" : ", ") + one;
-    }
     refuse("elements of ", mesh.nodesPerElement, " nodes cannot be of type ", options.elementType,
-      "; choose one of ", known);
+      "; choose one of ", joined(types, types.size(), [](const std::string& one) { return one; }));
   }
   return type;
 }
@@ -53,44 +49,29 @@ bool isPlaneType(const std::string& type)
   return type[0] == 'C';
 }
 
-/// For the plane z = 0.
-class PlaneCheck
+void requireInPlane(const ElementMesh& mesh, const std::string& type)
 {
-public:
-  explicit PlaneCheck(const ElementMesh& mesh) : mesh_(mesh)
+  constexpr double kPlaceTolerance = 1e-9;
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : mesh.nodes)
   {
-    constexpr double kPlaceTolerance = 1e-9;
-    Vector3 low = mesh.nodes.empty() ? Vector3(Vector3::Zero()) : mesh.nodes.front();
-    Vector3 high = low;
-    for (const Vector3& p : mesh.nodes)
-    {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    tolerance_ = kPlaceTolerance * (high - low).norm();
+    box.extend(p);
   }
-
-  void require(const std::string& type) const
+  const double tolerance = box.isEmpty() ? 0 : kPlaceTolerance * box.diagonal().norm();
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
   {
-    for (std::size_t i = 0; i < mesh_.nodes.size(); ++i)
-    {
-      refuseIf(std::abs(mesh_.nodes[i][2]) > tolerance_, "elements of type ", type,
-        " lie in the plane z = 0, but node ", i, " has z = ", mesh_.nodes[i][2],
-        ": move the mesh there, or choose shells (S4, S8R)");
-    }
-    for (std::size_t e = 0; e < mesh_.elementCount(); ++e)
-    {
-      pollNowAndThen(e);
-      refuseIf(elementNormal(mesh_, e)[2] < 0, "elements of type ", type,
-        " are counterclockwise seen from above (z), but element ", e,
-        " is clockwise: reverse the surface");
-    }
+    refuseIf(std::abs(mesh.nodes[i][2]) > tolerance, "elements of type ", type,
+      " lie in the plane z = 0, but node ", i, " has z = ", mesh.nodes[i][2],
+      ": move the mesh there, or choose shells (S4, S8R)");
   }
-
-private:
-  const ElementMesh& mesh_;
-  double tolerance_ = 0;
-};
+  for (std::size_t e = 0; e < mesh.elementCount(); ++e)
+  {
+    pollNowAndThen(e);
+    refuseIf(elementNormal(mesh, e)[2] < 0, "elements of type ", type,
+      " are counterclockwise seen from above (z), but element ", e,
+      " is clockwise: reverse the surface");
+  }
+}
 
 void writeInpNodes(const ElementMesh& mesh, bool isPlane, OutputFile& file)
 {
@@ -98,7 +79,7 @@ void writeInpNodes(const ElementMesh& mesh, bool isPlane, OutputFile& file)
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
   {
     pollNowAndThen(i);
-    file << static_cast<std::uint64_t>(i + 1);
+    file << i + 1;
     for (int k = 0; k < 3; ++k)
     {
       // CalculiX takes nothing but zero for plane elements.
@@ -115,7 +96,7 @@ void writeInpElements(const ElementMesh& mesh, const std::string& type, OutputFi
   for (std::size_t e = 0; e < mesh.elementCount(); ++e)
   {
     pollNowAndThen(e);
-    file << static_cast<std::uint64_t>(e + 1);
+    file << e + 1;
     for (int i = 0; i < mesh.nodesPerElement; ++i)
     {
       file << ", " << mesh.element(e)[i] + 1;
@@ -138,7 +119,7 @@ void writeInpSides(const std::vector<ElementSide>& sides, const std::string& nam
     std::sort(elements[i].begin(), elements[i].end());
     if (!elements[i].empty())
     {
-      file << "*ELSET, ELSET=" << name << "_E" << static_cast<int>(i + 1) << '\n';
+      file << "*ELSET, ELSET=" << name << "_E" << i + 1 << '\n';
       writeInpIds(file, elements[i]);
     }
   }
@@ -149,7 +130,7 @@ void writeInpSides(const std::vector<ElementSide>& sides, const std::string& nam
   {
     if (!elements[i].empty())
     {
-      file << name << "_E" << static_cast<int>(i + 1) << ", " << (isAbaqusShell ? "E" : "S")
+      file << name << "_E" << i + 1 << ", " << (isAbaqusShell ? "E" : "S")
            << static_cast<int>(i) + firstSide << '\n';
     }
   }
@@ -161,28 +142,16 @@ struct InpSetNames
   std::vector<std::string> patches, boundaries, curves, corners;
 };
 
-template <class Set>
-std::vector<std::string> inpNamesOf(const std::vector<Set>& sets)
-{
-  std::vector<std::string> names;
-  names.reserve(sets.size());
-  for (const Set& set : sets)
-  {
-    names.push_back(set.name);
-  }
-  return names;
-}
-
 InpSetNames uniqueNames(const MeshSets& sets, SetNames& names)
 {
   constexpr std::size_t kRoomForSides = 6; // _EDGES
   names.unique({ "NALL", "EALL" });
   InpSetNames result;
-  result.boundaries = names.unique(inpNamesOf(sets.boundaries), kRoomForSides);
-  result.curves = names.unique(inpNamesOf(sets.curves));
-  result.corners = names.unique(inpNamesOf(sets.corners));
+  result.boundaries = names.uniqueOf(sets.boundaries, kRoomForSides);
+  result.curves = names.uniqueOf(sets.curves);
+  result.corners = names.uniqueOf(sets.corners);
   // The generated names come first, so that a patch cannot take one of them.
-  result.patches = names.unique(inpNamesOf(sets.patches));
+  result.patches = names.uniqueOf(sets.patches);
   return result;
 }
 
@@ -235,15 +204,15 @@ std::vector<std::string> writeInp(
   const bool isPlane = isPlaneType(type);
   if (isPlane)
   {
-    PlaneCheck(mesh).require(type);
+    requireInPlane(mesh, type);
   }
   SetNames setNames(kInpNames);
   const InpSetNames names = uniqueNames(sets, setNames);
-  const std::string text = "writing " + std::to_string(mesh.elementCount()) + " elements";
+  const std::string text = writingText(mesh);
   report(options.progress, 0, text);
   OutputFile file(path);
-  file << "*HEADING\nQuads made by Quadrille: " << static_cast<std::uint64_t>(mesh.nodes.size())
-       << " nodes, " << static_cast<std::uint64_t>(mesh.elementCount()) << " elements\n";
+  file << "*HEADING\nQuads made by Quadrille: " << mesh.nodes.size() << " nodes, "
+       << mesh.elementCount() << " elements\n";
   writeInpNodes(mesh, isPlane, file);
   report(options.progress, kAfterNodesOfInp, text);
   writeInpElements(mesh, type, file);
@@ -253,10 +222,7 @@ std::vector<std::string> writeInp(
   std::vector<std::string> notices = writeInpSections(mesh, type[0] == 'S', options, file);
   file.close();
   report(options.progress, 1, text);
-  if (const std::string notice = setNames.notice("this format"); !notice.empty())
-  {
-    notices.push_back(notice);
-  }
+  append(notices, setNames.notices());
   return notices;
 }
 

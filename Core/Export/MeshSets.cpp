@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Base/LargeArray.h"
+#include "Base/Lists.h"
 #include "Export/ElementEdges.h"
 
 #include <algorithm>
@@ -29,8 +30,7 @@ std::string defaultPatchName(std::int64_t number)
                     : "PATCH_" + std::to_string(number);
 }
 
-/// Also the set of each element.
-std::vector<ElementSet> patchSets(const ElementMesh& mesh, std::vector<Index>& setOfElement)
+std::vector<ElementSet> patchSets(const ElementMesh& mesh)
 {
   std::vector<Index> order(mesh.patches.size());
   std::iota(order.begin(), order.end(), Index{ 0 });
@@ -55,17 +55,7 @@ std::vector<ElementSet> patchSets(const ElementMesh& mesh, std::vector<Index>& s
     pollNowAndThen(e);
     sets[setOf[mesh.patch(e)]].elements.push_back(static_cast<Index>(e));
   }
-  sets.erase(std::remove_if(sets.begin(), sets.end(),
-               [](const ElementSet& set) { return set.elements.empty(); }),
-    sets.end());
-  growLarge(setOfElement, mesh.elementCount(), Index{ 0 });
-  for (std::size_t i = 0; i < sets.size(); ++i)
-  {
-    for (const Index e : sets[i].elements)
-    {
-      setOfElement[e] = static_cast<Index>(i);
-    }
-  }
+  eraseIf(sets, [](const ElementSet& set) { return set.elements.empty(); });
   return sets;
 }
 
@@ -74,14 +64,18 @@ std::vector<ElementSet> patchSets(const ElementMesh& mesh, std::vector<Index>& s
 class SetNetwork
 {
 public:
-  SetNetwork(const ElementMesh& mesh, const std::vector<Index>& setOfElement, MeshSets& sets)
-    : mesh_(mesh), setOfElement_(setOfElement), edges_(mesh), sets_(sets)
+  SetNetwork(const ElementMesh& mesh, MeshSets& sets)
+    : mesh_(mesh), setOfElement_(patchSetOfElements(mesh, sets)), edges_(mesh), sets_(sets)
   {
     collect();
     findCorners();
     growLarge(done_, edges_.halfEdgeCount(), std::uint8_t{ 0 });
-    traceBoundaries();
-    traceFeatures();
+    trace(
+      "BOUNDARY_", sets.boundaries, [this](Index h) { return edges_.isBoundary(h); },
+      [this](Index h, Index node) { return nextOnBoundary(h, node); });
+    trace(
+      "CURVE_", sets.curves, [this](Index h) { return edges_.isFeature(h) && edges_.isLowest(h); },
+      [this](Index h, Index node) { return nextOnFeature(h, node); });
   }
 
 private:
@@ -123,14 +117,15 @@ private:
     return std::atan2(in.cross(out).norm(), in.dot(out));
   }
 
-  /// From an edge of the network at the node through elements to the next one: that one and how many elements are
-  /// between; none where an element comes again.
-  std::optional<std::pair<Index, Index>> across(Index h, Index node) const
+  /// From an edge at the node through elements to the next one that `ends` holds for, or that goes no further: that one
+  /// and how many elements are between; none where an element comes again.
+  template <class Ends>
+  std::optional<std::pair<Index, Index>> across(Index h, Index node, const Ends& ends) const
   {
     Index side = edges_.otherSide(h, node);
     for (Index count = 1; count <= elementsAt_[node]; ++count)
     {
-      if (isInNetwork(side) || edges_.twin(side) == kInvalidIndex)
+      if (ends(side) || edges_.twin(side) == kInvalidIndex)
       {
         return std::make_pair(side, count);
       }
@@ -145,7 +140,7 @@ private:
     {
       return elementsAt_[node] == 2;
     }
-    const auto found = across(at.first, node);
+    const auto found = across(at.first, node, [this](Index h) { return isInNetwork(h); });
     return found && found->second == 2 && elementsAt_[node] == 4;
   }
 
@@ -178,20 +173,8 @@ private:
   /// The boundary edge after h at the node, round the elements between them; none at a place that is no manifold.
   std::optional<Index> nextOnBoundary(Index h, Index node) const
   {
-    Index side = edges_.otherSide(h, node);
-    for (Index count = 0; count < elementsAt_[node]; ++count)
-    {
-      if (edges_.isBoundary(side))
-      {
-        return side;
-      }
-      if (edges_.twin(side) == kInvalidIndex)
-      {
-        return std::nullopt;
-      }
-      side = edges_.otherSide(edges_.twin(side), node);
-    }
-    return std::nullopt;
+    const auto found = across(h, node, [this](Index side) { return edges_.isBoundary(side); });
+    return found && edges_.isBoundary(found->first) ? std::optional(found->first) : std::nullopt;
   }
 
   /// The other feature edge at a node that is no corner.
@@ -298,9 +281,7 @@ private:
     chain.closed = isRing;
     const auto finish = [&]
     {
-      std::sort(chain.patches.begin(), chain.patches.end());
-      chain.patches.erase(
-        std::unique(chain.patches.begin(), chain.patches.end()), chain.patches.end());
+      sortUnique(chain.patches);
       if (!isRing)
       {
         chain.startCorner = corner(chain.nodes.front());
@@ -328,38 +309,25 @@ private:
     finish();
   }
 
-  void traceBoundaries()
+  /// One curve for each edge that `begins` holds for and no curve before has.
+  template <class Begins, class Next>
+  void trace(
+    const char* name, std::vector<CurveSet>& curves, const Begins& begins, const Next& next)
   {
-    const auto next = [this](Index h, Index node) { return nextOnBoundary(h, node); };
     for (Index h = 0; h < edges_.halfEdgeCount(); ++h)
     {
       pollNowAndThen(h);
-      if (edges_.isBoundary(h) && !done_[h])
+      if (begins(h) && !done_[h])
       {
-        CurveSet loop{ "BOUNDARY_" + std::to_string(sets_.boundaries.size() + 1), {} };
-        addChains(followBothWays(h, next), loop);
-        sets_.boundaries.push_back(std::move(loop));
-      }
-    }
-  }
-
-  void traceFeatures()
-  {
-    const auto next = [this](Index h, Index node) { return nextOnFeature(h, node); };
-    for (Index h = 0; h < edges_.halfEdgeCount(); ++h)
-    {
-      pollNowAndThen(h);
-      if (edges_.isFeature(h) && edges_.isLowest(h) && !done_[h])
-      {
-        CurveSet curve{ "CURVE_" + std::to_string(sets_.curves.size() + 1), {} };
+        CurveSet curve{ name + std::to_string(curves.size() + 1), {} };
         addChains(followBothWays(h, next), curve);
-        sets_.curves.push_back(std::move(curve));
+        curves.push_back(std::move(curve));
       }
     }
   }
 
   const ElementMesh& mesh_;
-  const std::vector<Index>& setOfElement_;
+  const std::vector<Index> setOfElement_;
   const ElementEdges edges_;
   MeshSets& sets_;
   std::vector<Index> elementsAt_; ///< #nodes
@@ -374,10 +342,29 @@ MeshSets setsOf(const ElementMesh& mesh)
 {
   requireValid(mesh);
   MeshSets sets;
-  std::vector<Index> setOfElement;
-  sets.patches = patchSets(mesh, setOfElement);
-  SetNetwork network(mesh, setOfElement, sets);
+  sets.patches = patchSets(mesh);
+  SetNetwork network(mesh, sets);
   return sets;
+}
+
+std::size_t MeshSets::edgeCount() const
+{
+  return std::accumulate(chains.begin(), chains.end(), std::size_t{ 0 },
+    [](std::size_t count, const EdgeChain& chain) { return count + chain.sides.size(); });
+}
+
+std::vector<Index> patchSetOfElements(const ElementMesh& mesh, const MeshSets& sets)
+{
+  std::vector<Index> setOf;
+  growLarge(setOf, mesh.elementCount(), Index{ 0 });
+  for (std::size_t i = 0; i < sets.patches.size(); ++i)
+  {
+    for (const Index e : sets.patches[i].elements)
+    {
+      setOf[e] = static_cast<Index>(i);
+    }
+  }
+  return setOf;
 }
 
 std::vector<Index> nodesOf(const MeshSets& sets, const CurveSet& curve)

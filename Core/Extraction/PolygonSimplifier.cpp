@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/PolygonSimplifier.h"
 
+#include "Base/Lists.h"
 #include "Base/TryCount.h"
 
 #include <cmath>
@@ -71,15 +72,7 @@ std::vector<Index> PolygonSimplifier::run()
 
 std::vector<Index> PolygonSimplifier::keptStops() const
 {
-  std::vector<Index> corners;
-  for (Index i = 0; i < stops_.size(); ++i)
-  {
-    if (kept_[i])
-    {
-      corners.push_back(i);
-    }
-  }
-  return corners;
+  return idsWhere(stops_.size(), [&](Index i) { return kept_[i]; });
 }
 
 Index PolygonSimplifier::farthest(Index a, Index b) const

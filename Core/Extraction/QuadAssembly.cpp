@@ -195,14 +195,7 @@ void forEachPart(const std::vector<Parts>& parts, int threads, const Body& body)
   {
     first.push_back(first.back() + part.cells.size());
   }
-  parallelFor(parts.size(), 1, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        body(parts[i], first[i]);
-      }
-    });
+  parallelForEach(parts.size(), 1, threads, [&](std::size_t i) { body(parts[i], first[i]); });
 }
 
 /// Cycles of the corner relation that are no quads.
@@ -270,17 +263,14 @@ std::vector<Index> makePoints(const ExactMap& map, const GridVertices& grid,
   mesh.points.resize(used.size());
   mesh.sourceFace.resize(used.size());
   mesh.sourceWeights.resize(used.size());
-  parallelFor(used.size(), kAssemblyChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(used.size(), kAssemblyChunk, threads,
+    [&](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        pointOf[used[i]] = static_cast<Index>(i);
-        const SurfacePoint place = placeOf(map, grid.vertices()[used[i]]);
-        mesh.sourceFace[i] = place.face;
-        mesh.sourceWeights[i] = place.weights;
-        mesh.points[i] = positionOf(map.mesh, place);
-      }
+      pointOf[used[i]] = static_cast<Index>(i);
+      const SurfacePoint place = placeOf(map, grid.vertices()[used[i]]);
+      mesh.sourceFace[i] = place.face;
+      mesh.sourceWeights[i] = place.weights;
+      mesh.points[i] = positionOf(map.mesh, place);
     });
   return pointOf;
 }

@@ -243,15 +243,12 @@ Transition transitionOf(
 std::vector<std::int8_t> matchingOf(const Mesh& mesh, const std::vector<FixedVec2>& uv, int threads)
 {
   std::vector<std::int8_t> matching(mesh.halfEdgeCount(), 0);
-  parallelFor(mesh.halfEdgeCount(), 1 << 16, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach<Index>(mesh.halfEdgeCount(), 1 << 16, threads,
+    [&](Index h)
     {
-      for (Index h = static_cast<Index>(begin); h < end; ++h)
+      if (!mesh.isBoundary(h))
       {
-        if (!mesh.isBoundary(h))
-        {
-          matching[h] = static_cast<std::int8_t>(transitionOf(mesh, uv, h).rotation);
-        }
+        matching[h] = static_cast<std::int8_t>(transitionOf(mesh, uv, h).rotation);
       }
     });
   return matching;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/MapCheck.h"
 
+#include "Base/Lists.h"
 #include "Mesh/Topology.h"
 
 #include <algorithm>
@@ -66,15 +67,7 @@ bool runsAlongItsAxis(const std::vector<FixedVec2>& uv, Index h, int axis)
 
 std::vector<Index> flagged(const std::vector<std::uint8_t>& flags)
 {
-  std::vector<Index> result;
-  for (Index i = 0; i < flags.size(); ++i)
-  {
-    if (flags[i])
-    {
-      result.push_back(i);
-    }
-  }
-  return result;
+  return idsWhere(flags.size(), [&](Index i) { return flags[i]; });
 }
 
 } // namespace
@@ -141,15 +134,8 @@ MapDefects findDefects(const Mesh& mesh, const CrossField& field, const std::vec
 
 std::vector<Index> findNotPositive(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 {
-  std::vector<Index> result;
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-  {
-    if (orientation(uv[3 * f], uv[3 * f + 1], uv[3 * f + 2]) <= 0)
-    {
-      result.push_back(f);
-    }
-  }
-  return result;
+  return idsWhere(mesh.faceCount(),
+    [&](Index f) { return orientation(uv[3 * f], uv[3 * f + 1], uv[3 * f + 2]) <= 0; });
 }
 
 std::vector<Index> crowdedVertices(const Mesh& mesh, const CrossField& field)
@@ -188,8 +174,7 @@ std::vector<Index> verticesOf(const Mesh& mesh, const MapDefects& defects)
     result.push_back(mesh.origin[h]);
     result.push_back(mesh.target(h));
   }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  sortUnique(result);
   return result;
 }
 

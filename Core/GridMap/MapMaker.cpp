@@ -3,6 +3,7 @@
 #include "GridMap/MapMaker.h"
 
 #include "Base/Clock.h"
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Base/TryCount.h"
@@ -63,16 +64,14 @@ std::vector<Index> cornerVertices(const Mesh& mesh, const std::vector<Index>& fa
       vertices.push_back(mesh.origin[3 * f + corner]);
     }
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sortUnique(vertices);
   return vertices;
 }
 
 std::vector<Index> join(std::vector<Index> a, const std::vector<Index>& b)
 {
   a.insert(a.end(), b.begin(), b.end());
-  std::sort(a.begin(), a.end());
-  a.erase(std::unique(a.begin(), a.end()), a.end());
+  sortUnique(a);
   return a;
 }
 

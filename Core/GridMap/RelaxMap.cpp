@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/RelaxMap.h"
 
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
@@ -312,8 +313,7 @@ void MapRelaxation::relaxCrushed()
         }
       }
     }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sortUnique(vertices);
     bool moved = false;
     for (std::size_t i = 0; i < vertices.size(); ++i)
     {

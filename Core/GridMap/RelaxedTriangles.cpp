@@ -501,14 +501,8 @@ void RelaxedTriangles::shortenSteps()
 
 void RelaxedTriangles::takeStep()
 {
-  parallelFor(mesh_.halfEdgeCount(), kFacesOfRelaxation, options_.threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t h = begin; h < end; ++h)
-      {
-        uv_[h] = uv_[h] + stepOf(static_cast<Index>(h));
-      }
-    });
+  parallelForEach(mesh_.halfEdgeCount(), kFacesOfRelaxation, options_.threads,
+    [&](std::size_t h) { uv_[h] = uv_[h] + stepOf(static_cast<Index>(h)); });
 }
 
 } // namespace quadrille

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/SeamlessSpace.h"
 
+#include "Base/Lists.h"
 #include "Mesh/Sizing.h"
 #include "Requests/SeamRequests.h"
 
@@ -241,9 +242,7 @@ Form difference(const ExactBasis::Row& a, const ExactBasis::Row& b, std::int64_t
       result.insert(place, { id, value });
     }
   }
-  result.erase(
-    std::remove_if(result.begin(), result.end(), [](const auto& term) { return term.second == 0; }),
-    result.end());
+  eraseIf(result, [](const auto& term) { return term.second == 0; });
   return result;
 }
 

@@ -56,28 +56,16 @@ public:
       size_ *= 2;
     }
     table_.reset(new std::atomic<Index>[size_]);
-    parallelFor(size_, kCornerChunk, threads,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          table_[i].store(kInvalidIndex, std::memory_order_relaxed);
-        }
-      });
+    parallelForEach(size_, kCornerChunk, threads,
+      [&](std::size_t i) { table_[i].store(kInvalidIndex, std::memory_order_relaxed); });
   }
 
   /// Fills the numbers of the corners; returns the points.
   NumberArray number(std::int32_t* ids)
   {
     const std::size_t corners = coordinates_.size() / 3;
-    parallelFor(corners, kCornerChunk, threads_,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          ids[i] = static_cast<std::int32_t>(put(static_cast<Index>(i)));
-        }
-      });
+    parallelForEach(corners, kCornerChunk, threads_,
+      [&](std::size_t i) { ids[i] = static_cast<std::int32_t>(put(static_cast<Index>(i))); });
     const auto isFirst = [&](std::size_t i)
     { return table_[static_cast<std::size_t>(ids[i])].load(std::memory_order_relaxed) == i; };
     std::vector<Index> firsts((corners + kCornerChunk - 1) / kCornerChunk + 1, 0);
@@ -112,14 +100,11 @@ public:
           }
         }
       });
-    parallelFor(corners, kCornerChunk, threads_,
-      [&](std::size_t begin, std::size_t end)
+    parallelForEach(corners, kCornerChunk, threads_,
+      [&](std::size_t i)
       {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          ids[i] = static_cast<std::int32_t>(
-            table_[static_cast<std::size_t>(ids[i])].load(std::memory_order_relaxed));
-        }
+        ids[i] = static_cast<std::int32_t>(
+          table_[static_cast<std::size_t>(ids[i])].load(std::memory_order_relaxed));
       });
     return points;
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Numerics/NestedSolver.h"
 
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
@@ -239,8 +240,7 @@ void NestedSolver::findBorders()
         std::for_each(fronts_[child].border.begin(), fronts_[child].border.end(), add);
       }
     }
-    std::sort(border.begin(), border.end());
-    border.erase(std::unique(border.begin(), border.end()), border.end());
+    sortUnique(border);
     front.own = offset_[front.end] - offset_[front.first];
     for (const Index v : border)
     {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Numerics/ReducedTriangles.h"
 
+#include "Base/Lists.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
 
@@ -118,8 +119,7 @@ void ReducedTriangles::buildPattern()
   for (Eigen::Index j = 0; j < count; ++j)
   {
     pollNowAndThen(static_cast<std::size_t>(j), kTrianglesBetweenPolls);
-    std::sort(columns[j].begin(), columns[j].end());
-    columns[j].erase(std::unique(columns[j].begin(), columns[j].end()), columns[j].end());
+    sortUnique(columns[j]);
     start[j + 1] = start[j] + static_cast<int>(columns[j].size());
   }
   hessian_.resizeNonZeros(start[count]);

@@ -154,14 +154,8 @@ QuadProjectionReport projectQuads(std::vector<Vector3>& points, const QuadList& 
   const PointTargets targets{ surface, halves, options.distance, std::cos(options.angle) };
   std::vector<PointFate> fates(points.size());
   constexpr std::size_t kPointsAtATime = 256;
-  parallelFor(points.size(), kPointsAtATime, options.threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        fates[i] = targets.fateOf(before[i], normals[i], points[i]);
-      }
-    });
+  parallelForEach(points.size(), kPointsAtATime, options.threads,
+    [&](std::size_t i) { fates[i] = targets.fateOf(before[i], normals[i], points[i]); });
   keepQuadsConvex(before, quads, points, fates);
   return countFates(fates);
 }

@@ -121,14 +121,8 @@ private:
     for (const std::vector<Index>& points : classes_)
     {
       std::vector<std::uint8_t> moved(points.size(), 0);
-      parallelFor(points.size(), kSmoothingChunk, options_.threads,
-        [&](std::size_t begin, std::size_t end)
-        {
-          for (std::size_t i = begin; i < end; ++i)
-          {
-            moved[i] = improve(points[i]) ? 1 : 0;
-          }
-        });
+      parallelForEach(points.size(), kSmoothingChunk, options_.threads,
+        [&](std::size_t i) { moved[i] = improve(points[i]) ? 1 : 0; });
       moves += static_cast<std::size_t>(std::count(moved.begin(), moved.end(), 1));
     }
     return moves;

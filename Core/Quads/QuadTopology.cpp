@@ -37,14 +37,8 @@ public:
   LeavingHalfEdges(const Quads& quads, std::size_t pointCount, int threads)
     : first_(new std::atomic<Index>[pointCount]), next_(4 * quads.size())
   {
-    parallelFor(pointCount, kQuadTopologyChunk, threads,
-      [this](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t p = begin; p < end; ++p)
-        {
-          first_[p].store(kInvalidIndex, std::memory_order_relaxed);
-        }
-      });
+    parallelForEach(pointCount, kQuadTopologyChunk, threads,
+      [this](std::size_t p) { first_[p].store(kInvalidIndex, std::memory_order_relaxed); });
     std::vector<Index> wrong(
       (quads.size() + kQuadTopologyChunk - 1) / kQuadTopologyChunk, kInvalidIndex);
     parallelFor(quads.size(), kQuadTopologyChunk, threads,

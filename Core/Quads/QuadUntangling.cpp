@@ -76,14 +76,7 @@ public:
       countTry(Try::WiderUntangling, isWider ? 1 : 0);
       const std::size_t before = inverted.size();
       const std::vector<Place> places = separate(pointsRound(inverted, rings));
-      parallelFor(places.size(), 1, options_.threads,
-        [&](std::size_t begin, std::size_t end)
-        {
-          for (std::size_t i = begin; i < end; ++i)
-          {
-            mend(places[i]);
-          }
-        });
+      parallelForEach(places.size(), 1, options_.threads, [&](std::size_t i) { mend(places[i]); });
       inverted = invertedQuads(quads_.points, quads_.quads);
       countTryLed(Try::WiderUntangling, isWider && inverted.size() < before ? 1 : 0);
     }

@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Base/DisjointSets.h"
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Refuse.h"
 
@@ -41,14 +42,7 @@ Vector3 middleOfFace(const Mesh& mesh, Index f)
 template <typename Body>
 void forEachChunk(std::size_t count, int threads, const Body& body)
 {
-  parallelFor(count, kPatchChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        body(static_cast<Index>(i));
-      }
-    });
+  parallelForEach(count, kPatchChunk, threads, [&](std::size_t i) { body(static_cast<Index>(i)); });
 }
 
 std::vector<Cell> cellsOf(const Mesh& mesh, double side, int threads)
@@ -138,8 +132,7 @@ void findNeighbours(const Mesh& mesh, const Lists& faces, SurfacePatches& result
           }
         }
       }
-      std::sort(mine.begin(), mine.end());
-      mine.erase(std::unique(mine.begin(), mine.end()), mine.end());
+      sortUnique(mine);
     });
   result.first.assign(1, 0);
   for (const std::vector<Index>& mine : neighbours)

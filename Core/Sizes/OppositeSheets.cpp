@@ -91,16 +91,13 @@ private:
   void makeLevel(std::size_t children, int threads, const BoxOf& boxOf)
   {
     std::vector<Eigen::AlignedBox3f> level((children + kBranches - 1) / kBranches);
-    parallelFor(level.size(), kSheetChunk, threads,
-      [&](std::size_t begin, std::size_t end)
+    parallelForEach(level.size(), kSheetChunk, threads,
+      [&](std::size_t i)
       {
-        for (std::size_t i = begin; i < end; ++i)
+        const std::size_t last = std::min(children, (i + 1) * kBranches);
+        for (std::size_t child = i * kBranches; child < last; ++child)
         {
-          const std::size_t last = std::min(children, (i + 1) * kBranches);
-          for (std::size_t child = i * kBranches; child < last; ++child)
-          {
-            level[i].extend(boxOf(static_cast<Index>(child)));
-          }
+          level[i].extend(boxOf(static_cast<Index>(child)));
         }
       });
     levels_.push_back(std::move(level));
@@ -185,15 +182,12 @@ std::vector<float> distancesToOpposite(
 {
   const SheetTree tree(mesh, threads);
   std::vector<float> single(patches.patches.size(), std::numeric_limits<float>::infinity());
-  parallelFor(single.size(), kRayChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  parallelForEach(single.size(), kRayChunk, threads,
+    [&](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      if (!patches.patches[i].normal.isZero(0))
       {
-        if (!patches.patches[i].normal.isZero(0))
-        {
-          single[i] = static_cast<float>(distanceFrom(mesh, tree, patches.patches[i], reach));
-        }
+        single[i] = static_cast<float>(distanceFrom(mesh, tree, patches.patches[i], reach));
       }
     });
   std::vector<float> result(single.size());
