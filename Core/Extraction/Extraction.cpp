@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/Extraction.h"
 
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
-#include "Extraction/CellTopology.h"
 #include "Extraction/FreeBoundary.h"
 #include "Extraction/HoleFilling.h"
 #include "Extraction/QuadAssembly.h"
@@ -63,20 +63,25 @@ Status checkSize(const MapCheck& check, const Mesh& mesh, const ExtractionOption
 
 void append(std::string& text, const std::string& more)
 {
-  text += (text.empty() ? "" : "; ") + more;
+  text += (text.empty() || more.empty() ? "" : "; ") + more;
 }
 
-/// The first few.
+/// Not ok, with what in the map explains it; ok where there is no problem.
+Status statusOf(const std::string& isNot, const std::string& problem, const MapCheck& check)
+{
+  const std::string cause = check.text();
+  return problem.empty() ? Status{}
+                         : Status{ StatusCode::NotConverged,
+                             isNot + problem + (cause.empty() ? "" : ". The map has " + cause) };
+}
+
+/// Of the first few.
 std::string describePoints(const QuadMesh& mesh, const std::vector<Index>& points)
 {
   constexpr std::size_t kNamedPoints = 8;
-  std::ostringstream text;
-  for (std::size_t i = 0; i < std::min(points.size(), kNamedPoints); ++i)
-  {
-    const Index p = points[i];
-    text << (text.tellp() > 0 ? ", " : "") << placeText(mesh.points[p]);
-  }
-  return text.str();
+  const std::vector<Index> few(points.begin(),
+    points.begin() + static_cast<std::ptrdiff_t>(std::min(points.size(), kNamedPoints)));
+  return joined(few, kNamedPoints, [&](Index p) { return placeText(mesh.points[p]); });
 }
 
 /// Compares with the input surface, of whose boundary loops some are covered. Empty when the quad
@@ -123,11 +128,8 @@ std::string compareLines(
   const CurveGraph& wanted, const QuadMesh& quads, const QuadTopology& found, const MapCheck& check)
 {
   std::string problem;
-  std::size_t boundary = 0;
-  for (const QuadLine& line : quads.lines)
-  {
-    boundary += line.boundary ? 1 : 0;
-  }
+  const auto boundary = static_cast<std::size_t>(std::count_if(
+    quads.lines.begin(), quads.lines.end(), [](const QuadLine& line) { return line.boundary; }));
   if (boundary != found.boundaryEdges)
   {
     append(problem,
@@ -189,11 +191,7 @@ Status judge(const Mesh& mesh, const SurfaceShape& wanted, const MapCheck& check
   const QuadTopology& found, const ExtractionResult& result)
 {
   std::string problem = compareTopology(wanted.topology, result.mesh, found, 0);
-  const std::string lines = compareLines(wanted.curves, result.mesh, found, check);
-  if (!lines.empty())
-  {
-    append(problem, lines);
-  }
+  append(problem, compareLines(wanted.curves, result.mesh, found, check));
   if (check.count[kOffIsoline] > result.features.offIsolines.size())
   {
     append(problem,
@@ -215,14 +213,8 @@ Status judge(const Mesh& mesh, const SurfaceShape& wanted, const MapCheck& check
       std::to_string(result.openPorts) + " open grid edges, " +
         std::to_string(result.droppedFaces) + " dropped faces");
   }
-  if (const std::string ends = result.features.text(mesh); !ends.empty())
-  {
-    append(problem, ends);
-  }
-  const std::string cause = check.text();
-  return { StatusCode::NotConverged,
-    "the quad mesh is not the input surface: " + problem +
-      (cause.empty() ? "" : ". The map has " + cause) };
+  append(problem, result.features.text(mesh));
+  return statusOf("the quad mesh is not the input surface: ", problem, check);
 }
 
 /// The same where the boundary is free.
@@ -266,14 +258,7 @@ Status judgeFree(const Mesh& mesh, const MapCheck& check, const QuadTopology& fo
   {
     append(problem, result.features.text(mesh));
   }
-  if (problem.empty())
-  {
-    return {};
-  }
-  const std::string cause = check.text();
-  return { StatusCode::NotConverged,
-    "the quad mesh is not the input surface up to its boundary: " + problem +
-      (cause.empty() ? "" : ". The map has " + cause) };
+  return statusOf("the quad mesh is not the input surface up to its boundary: ", problem, check);
 }
 
 /// Exact pieces of cells need an exact map without folds.

@@ -288,7 +288,7 @@ bool FaceTrace::isStraight(Index out) const
   {
     axes += axesInCorner(map_, g);
   }
-  return axes == 2 && isAligned(map_, out) && isAligned(map_, boundary_.before(out));
+  return axes == 2 && map_.isOnIsoline(out) && map_.isOnIsoline(boundary_.before(out));
 }
 
 bool FaceTrace::followBoundary(Place& place, Index node, Side& side)

@@ -9,17 +9,14 @@ namespace quadrille
 namespace
 {
 
-std::array<double, 3> weightsOnEdge(const ExactMap& map, const GridVertex& vertex)
+SurfacePoint placeOnEdge(const ExactMap& map, const GridVertex& vertex)
 {
   const FixedVec2 e = map.edge(vertex.site);
   const FixedVec2 d = vertex.uv - map.at(vertex.site);
   const bool byU = std::abs(e.u) >= std::abs(e.v);
   const double t = byU ? static_cast<double>(d.u) / static_cast<double>(e.u)
                        : static_cast<double>(d.v) / static_cast<double>(e.v);
-  std::array<double, 3> weights{};
-  weights[vertex.site % 3] = 1 - t;
-  weights[Mesh::next(vertex.site) % 3] = t;
-  return weights;
+  return CurvePoint{ vertex.site, t }.onSurface();
 }
 
 } // namespace
@@ -46,8 +43,7 @@ SurfacePoint placeOf(const ExactMap& map, const GridVertex& vertex)
       place.weights = weightsInFace(map, vertex.site, vertex.uv);
       break;
     case Site::Edge:
-      place.weights = weightsOnEdge(map, vertex);
-      break;
+      return placeOnEdge(map, vertex);
     default:
       place.weights[vertex.site % 3] = 1;
   }

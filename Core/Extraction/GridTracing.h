@@ -50,6 +50,11 @@ struct Walk
 /// The side that starts at the port of the sector with this direction.
 Walk startOf(const Sector& sector, int direction);
 
+/// The half-edge of the walk's face through which the moved line leaves it.
+Index exitEdge(const ExactMap& map, const Walk& walk);
+/// Does the corner at the target lie before that half-edge h?
+bool isBefore(const ExactMap& map, const Walk& walk, Index h);
+
 /// For each port the port at the other end of its side, that is, the next corner of the same cell with the cell to the
 /// left on the surface.
 struct CellCorners
@@ -81,6 +86,10 @@ struct TracingOptions
   std::size_t maximumSteps = 0; ///< triangles that the walks may cross together
   int threads = 0;
 };
+
+/// The ports of the four corners of the cell of a port, from it on; false where it is not whole. isLowest: nor where the
+/// port is not the lowest one.
+bool cellOf(const CellCorners& cells, Index port, bool isLowest, std::array<Index, 4>& ports);
 
 /// Follows every port to the end of its side. Linear in the triangles that lines cross; parallel; the result does not
 /// depend on the number of threads.

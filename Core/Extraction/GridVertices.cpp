@@ -237,11 +237,9 @@ GridVertices::GridVertices(const ExactMap& map, int threads)
   : map_(map), faceFirst_(std::size_t{ map.mesh.faceCount() } + 1, 0)
 {
   const std::size_t faces = map.mesh.faceCount();
-  std::vector<Part> parts((faces + kGridFaceChunk - 1) / kGridFaceChunk);
-  parallelFor(faces, kGridFaceChunk, threads,
-    [&](std::size_t begin, std::size_t end)
+  std::vector<Part> parts = parallelParts<Part>(faces, kGridFaceChunk, threads,
+    [&](std::size_t begin, std::size_t end, Part& part)
     {
-      Part& part = parts[begin / kGridFaceChunk];
       for (std::size_t f = begin; f < end; ++f)
       {
         const std::size_t first = part.vertices.size();

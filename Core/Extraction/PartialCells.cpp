@@ -4,10 +4,10 @@
 
 #include "Base/Progress.h"
 #include "Base/TryCount.h"
-#include "Extraction/CellTopology.h"
 #include "Extraction/FaceTrace.h"
 #include "Extraction/PolygonSimplifier.h"
 #include "Extraction/QuadAssembly.h"
+#include "Quads/QuadTopology.h"
 
 #include <algorithm>
 #include <map>
@@ -67,7 +67,7 @@ private:
     for (Index n = 0; n < done.size(); ++n)
     {
       pollNowAndThen(n);
-      if (done[n] || isAligned(map_, boundary_.nodes()[n].h))
+      if (done[n] || map_.isOnIsoline(boundary_.nodes()[n].h))
       {
         continue;
       }
@@ -433,16 +433,8 @@ FreeBoundaryReport addPartialCells(const ExactMap& map, const GridVertices& grid
 
 std::optional<std::array<Index, 4>> wholeCell(const CellCorners& cells, Index port)
 {
-  std::array<Index, 4> ports{ port };
-  for (std::size_t i = 1; i < 4; ++i)
-  {
-    ports[i] = cells.next[ports[i - 1]];
-    if (ports[i] == kInvalidIndex)
-    {
-      return std::nullopt;
-    }
-  }
-  if (cells.next[ports[3]] != port)
+  std::array<Index, 4> ports{};
+  if (!cellOf(cells, port, false, ports))
   {
     return std::nullopt;
   }
