@@ -61,7 +61,7 @@ Status checkSize(const MapCheck& check, const Mesh& mesh, const ExtractionOption
   return { text.str().empty() ? StatusCode::Ok : StatusCode::TooLarge, text.str() };
 }
 
-void append(std::string& text, const std::string& more)
+void note(std::string& text, const std::string& more)
 {
   text += (text.empty() || more.empty() ? "" : "; ") + more;
 }
@@ -92,13 +92,13 @@ std::string compareTopology(const TopologySummary& wanted, const QuadMesh& quads
   std::string problem;
   if (!found.manifold())
   {
-    append(problem, found.text() + " near " + describePoints(quads, found.offendingPoints));
+    note(problem, found.text() + " near " + describePoints(quads, found.offendingPoints));
   }
   const auto differ = [&problem](const char* what, long long has, long long should)
   {
     if (has != should)
     {
-      append(problem,
+      note(problem,
         std::string(what) + " " + std::to_string(has) + " instead of " + std::to_string(should));
     }
   };
@@ -132,7 +132,7 @@ std::string compareLines(
     quads.lines.begin(), quads.lines.end(), [](const QuadLine& line) { return line.boundary; }));
   if (boundary != found.boundaryEdges)
   {
-    append(problem,
+    note(problem,
       std::to_string(found.boundaryEdges) + " boundary edges, of which " +
         std::to_string(boundary) + " lie on the input's boundary");
   }
@@ -140,13 +140,13 @@ std::string compareLines(
   const bool folded = check.count[kNotPositive] > 0;
   if (!folded && static_cast<double>(quads.lines.size()) != check.constrainedLength)
   {
-    append(problem,
+    note(problem,
       std::to_string(quads.lines.size()) + " feature and boundary edges instead of " +
         std::to_string(check.constrainedLength));
   }
   if (!(lineGraph(quads) == wanted))
   {
-    append(problem, "features or boundaries are interrupted");
+    note(problem, "features or boundaries are interrupted");
   }
   return problem;
 }
@@ -191,17 +191,17 @@ Status judge(const Mesh& mesh, const SurfaceShape& wanted, const MapCheck& check
   const QuadTopology& found, const ExtractionResult& result)
 {
   std::string problem = compareTopology(wanted.topology, result.mesh, found, 0);
-  append(problem, compareLines(wanted.curves, result.mesh, found, check));
+  note(problem, compareLines(wanted.curves, result.mesh, found, check));
   if (check.count[kOffIsoline] > result.features.offIsolines.size())
   {
-    append(problem,
+    note(problem,
       "the boundary is off the isolines, where cells that it cuts can be trimmed or kept as "
       "polygons "
       "(boundary mode)");
   }
   if (!result.features.offIsolines.empty())
   {
-    append(problem, "features are not reproduced");
+    note(problem, "features are not reproduced");
   }
   if (problem.empty())
   {
@@ -209,11 +209,11 @@ Status judge(const Mesh& mesh, const SurfaceShape& wanted, const MapCheck& check
   }
   if (result.openPorts > 0 || result.droppedFaces > 0)
   {
-    append(problem,
+    note(problem,
       std::to_string(result.openPorts) + " open grid edges, " +
         std::to_string(result.droppedFaces) + " dropped faces");
   }
-  append(problem, result.features.text(mesh));
+  note(problem, result.features.text(mesh));
   return statusOf("the quad mesh is not the input surface: ", problem, check);
 }
 
@@ -239,13 +239,13 @@ Status judgeFree(const Mesh& mesh, const MapCheck& check, const QuadTopology& fo
   // A trimmed mesh cannot be held against the input, so the map must be nearly free of folds.
   if (options.boundary == BoundaryMode::Trimmed && !isNearlyValid(check, mesh))
   {
-    append(problem, "the map is no integer-grid map with a few folds");
+    note(problem, "the map is no integer-grid map with a few folds");
   }
   const auto count = [&problem](std::size_t number, const char* what)
   {
     if (number > 0)
     {
-      append(problem, std::to_string(number) + " " + what);
+      note(problem, std::to_string(number) + " " + what);
     }
   };
   count(report.dropped, "cells at the boundary have no simple polygon");
@@ -256,7 +256,7 @@ Status judgeFree(const Mesh& mesh, const MapCheck& check, const QuadTopology& fo
   }
   if (!result.features.offIsolines.empty())
   {
-    append(problem, result.features.text(mesh));
+    note(problem, result.features.text(mesh));
   }
   return statusOf("the quad mesh is not the input surface up to its boundary: ", problem, check);
 }

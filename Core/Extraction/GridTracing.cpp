@@ -217,35 +217,6 @@ void collectMerges(const ExactMap& map, const GridVertices& grid, CellCorners& c
 
 } // namespace
 
-Index exitEdge(const ExactMap& map, const Walk& walk)
-{
-  const Index h = 3 * walk.face;
-  const int axis = walk.inside();
-  const std::int64_t isoline = along(walk.target, axis);
-  const std::array<bool, 3> inner{ along(map.at(h), axis) > isoline,
-    along(map.at(h + 1), axis) > isoline, along(map.at(h + 2), axis) > isoline };
-  for (Index i = 0; i < 3; ++i)
-  {
-    if (!inner[i] && inner[(i + 1) % 3])
-    {
-      return h + i;
-    }
-  }
-  return kInvalidIndex;
-}
-
-bool isBefore(const ExactMap& map, const Walk& walk, Index h)
-{
-  const int side = walk.orientation * orientation(map.at(h), map.at(Mesh::next(h)), walk.target);
-  if (side != 0)
-  {
-    return side > 0;
-  }
-  // The edge's line passes through the target. In an inverted triangle the corner is e before it and e^2 inside of the
-  // isoline, and the edge crosses the isoline. Otherwise it is e inside and e^2 before it.
-  return walk.orientation < 0 || along(map.edge(h), walk.direction) >= 0;
-}
-
 bool cellOf(const CellCorners& cells, Index port, bool isLowest, std::array<Index, 4>& ports)
 {
   ports[0] = port;
