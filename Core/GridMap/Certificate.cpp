@@ -3,6 +3,7 @@
 #include "GridMap/Certificate.h"
 
 #include "Base/ChartRotation.h"
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
@@ -157,12 +158,6 @@ void checkTurns(const Mesh& mesh, const std::vector<std::int8_t>& entered,
   }
 }
 
-std::size_t countDifferent(std::vector<Index>& vertices)
-{
-  std::sort(vertices.begin(), vertices.end());
-  return static_cast<std::size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
-}
-
 void merge(const std::vector<Partial>& partials, Certificate& result)
 {
   Int128 area = 0;
@@ -180,9 +175,10 @@ void merge(const std::vector<Partial>& partials, Certificate& result)
     {
       insertWorst(worst, value);
     }
-    offIntegers.insert(offIntegers.end(), partial.offIntegers.begin(), partial.offIntegers.end());
+    append(offIntegers, partial.offIntegers);
   }
-  result.offIntegers = countDifferent(offIntegers);
+  sortUnique(offIntegers);
+  result.offIntegers = offIntegers.size();
   result.area = std::ldexp(static_cast<double>(area), -2 * kFractionBits - 1);
   for (const FaceValue& value : worst)
   {
@@ -262,13 +258,13 @@ Certificate certify(const Mesh& mesh, const std::vector<FixedVec2>& uv,
   Certificate result;
   result.triangles = mesh.faceCount();
   std::vector<std::int8_t> entered(mesh.halfEdgeCount(), 0);
-  std::vector<Partial> partials((mesh.faceCount() + kCertificateChunk - 1) / kCertificateChunk);
-  parallelFor(mesh.faceCount(), kCertificateChunk, threads,
-    [&](std::size_t begin, std::size_t end)
-    {
-      checkFaces(mesh, uv, integerVertex, static_cast<Index>(begin), static_cast<Index>(end),
-        entered, partials[begin / kCertificateChunk]);
-    });
+  const std::vector<Partial> partials =
+    parallelParts<Partial>(mesh.faceCount(), kCertificateChunk, threads,
+      [&](std::size_t begin, std::size_t end, Partial& partial)
+      {
+        checkFaces(mesh, uv, integerVertex, static_cast<Index>(begin), static_cast<Index>(end),
+          entered, partial);
+      });
   merge(partials, result);
   checkTurns(mesh, entered, expectedTurns, result);
   return result;

@@ -28,11 +28,6 @@ Vector2 edge(const Eigen::VectorXd& x, Index from, Index to)
   return x.segment<2>(2 * Eigen::Index(to)) - x.segment<2>(2 * Eigen::Index(from));
 }
 
-double cross(const Vector2& a, const Vector2& b)
-{
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// Measures the map against the seamless one, whose coordinates are x, instead of the surface: there the way
 /// begins without stress. Holds for the faces and for the guards of constrained edges behind them.
 void referTo(const Eigen::VectorXd& x, Index faces, UntangleProblem& problem)
@@ -127,7 +122,7 @@ private:
     const Eigen::VectorXd x = problem_.basis * y + problem_.offset;
     return static_cast<int>(std::count_if(problem_.triangles.begin(), problem_.triangles.end(),
       [&](const std::array<Index, 3>& t)
-      { return !(cross(edge(x, t[0], t[1]), edge(x, t[0], t[2])) > 0); }));
+      { return !(parallelogram(edge(x, t[0], t[1]), edge(x, t[0], t[2])) > 0); }));
   }
 
   /// Where every determinant is positive the angle sums are multiples of 90 degrees but for rounding.
@@ -138,7 +133,7 @@ private:
     for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
     {
       const Vector2 a = edge(x, h, Mesh::next(h)), b = edge(x, h, Mesh::previous(h));
-      angle[mesh_.origin[h]] += std::atan2(cross(a, b), a.dot(b));
+      angle[mesh_.origin[h]] += std::atan2(parallelogram(a, b), a.dot(b));
     }
     for (Index v = 0; v < mesh_.vertexCount(); ++v)
     {

@@ -19,20 +19,17 @@ void checkEdges(const Mesh& mesh, const CrossField& field)
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     const Index g = mesh.twin[h];
-    const std::string name = "cross field: half-edge " + std::to_string(h);
-    refuseIf(mesh.isConstrained(h) != (field.alignment[h] >= 0), name,
+    refuseIf(mesh.isConstrained(h) != (field.alignment[h] >= 0), "cross field: half-edge ", h,
       " is constrained but not aligned, or the other way round");
     if (g == kInvalidIndex)
     {
       continue;
     }
-    refuseIf(((field.matching[h] + field.matching[g]) & 3) != 0, name,
+    refuseIf(((field.matching[h] + field.matching[g]) & 3) != 0, "cross field: half-edge ", h,
       " and its twin have matchings that are not inverse to each other");
-    if (mesh.isFeature(h) &&
-      ((field.alignment[g] + 2 - field.alignment[h] - field.matching[h]) & 3) != 0)
-    {
-      throw InvalidInput(name + " has a matching that contradicts its alignments");
-    }
+    refuseIf(mesh.isFeature(h) &&
+        ((field.alignment[g] + 2 - field.alignment[h] - field.matching[h]) & 3) != 0,
+      "cross field: half-edge ", h, " has a matching that contradicts its alignments");
   }
 }
 

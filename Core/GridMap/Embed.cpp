@@ -30,9 +30,7 @@ double lengthOfUnit(
   double area = 0;
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
-    const Vector2 a = toDouble(uv[3 * f + 1] - uv[3 * f]);
-    const Vector2 b = toDouble(uv[3 * f + 2] - uv[3 * f]);
-    mapped += a.x() * b.y() - a.y() * b.x();
+    mapped += 2 * mappedArea(uv, f);
     area += areaStretch(field, f) *
       (mesh.sizing.empty() ? mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm()
                            : 2 * sizedArea(mesh, f));

@@ -11,6 +11,7 @@
 #include "Integers/CurveIsolines.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <numeric>
@@ -145,7 +146,7 @@ private:
   /// With what all tries have taken.
   GridMapResult finish(GridMapResult map) const
   {
-    map.takeWork(taken_);
+    static_cast<MapWork&>(map) = taken_;
     return map;
   }
 
@@ -272,7 +273,7 @@ private:
   const GridMapOptions& options_;
   int maximumSteps_ = 0;        ///< of the seamless map of a try
   bool holdsIrregular_ = false; ///< of the last one that was made
-  GridMapResult taken_;
+  MapWork taken_;
 };
 
 } // namespace
@@ -292,20 +293,12 @@ bool hasPromised(const Certificate& certificate, MapMethod method)
 
 const char* nameOf(MapMethod method)
 {
-  switch (method)
-  {
-    case MapMethod::ScaleAware:
-      return "scale aware";
-    case MapMethod::MixedInteger:
-      return "mixed integer";
-    case MapMethod::QuadCover:
-      return "QuadCover";
-    default:
-      return "seamless";
-  }
+  constexpr std::array<const char*, 4> kNames{ "scale aware", "mixed integer", "QuadCover",
+    "seamless" };
+  return kNames[static_cast<std::size_t>(method)];
 }
 
-void GridMapResult::addWork(const GridMapResult& other)
+void MapWork::addWork(const MapWork& other)
 {
   work += other.work;
   secondsField += other.secondsField;
@@ -318,21 +311,6 @@ void GridMapResult::addWork(const GridMapResult& other)
   processorEmbed += other.processorEmbed;
   seamlessSteps += other.seamlessSteps;
   embedSteps += other.embedSteps;
-}
-
-void GridMapResult::takeWork(const GridMapResult& other)
-{
-  work = other.work;
-  secondsField = other.secondsField;
-  secondsSeamless = other.secondsSeamless;
-  secondsQuantize = other.secondsQuantize;
-  secondsEmbed = other.secondsEmbed;
-  processorField = other.processorField;
-  processorSeamless = other.processorSeamless;
-  processorQuantize = other.processorQuantize;
-  processorEmbed = other.processorEmbed;
-  seamlessSteps = other.seamlessSteps;
-  embedSteps = other.embedSteps;
 }
 
 GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)

@@ -173,16 +173,9 @@ UntangleProblem LockedMap::problem(double edgeLength) const
   {
     addTriangle(problem, { 3 * f, 3 * f + 1, 3 * f + 2 }, mesh_, field_, f, 0, edgeLength);
   }
-  std::vector<GuardedEdge> edges;
-  for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
-  {
-    const double length = stretchedLength(mesh_, field_, h) / edgeLength;
-    if (mesh_.isConstrained(h) && (mesh_.isBoundary(h) || h < mesh_.twin[h]) && length > 0)
-    {
-      edges.push_back({ h, Mesh::next(h), field_.alignment[h], length });
-    }
-  }
-  guardEdges(problem, edges);
+  guardEdges(problem,
+    guardedEdges(
+      mesh_, field_, edgeLength, [](Index h) { return h; }, [](Index) { return 0; }));
   return problem;
 }
 

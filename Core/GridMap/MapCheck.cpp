@@ -162,13 +162,21 @@ std::vector<Index> crowdedVertices(const Mesh& mesh, const CrossField& field)
   return flagged(crowded);
 }
 
+std::vector<Index> cornerVertices(const Mesh& mesh, const std::vector<Index>& faces)
+{
+  std::vector<Index> vertices;
+  for (const Index f : faces)
+  {
+    vertices.insert(vertices.end(), mesh.origin.begin() + 3 * f, mesh.origin.begin() + 3 * f + 3);
+  }
+  sortUnique(vertices);
+  return vertices;
+}
+
 std::vector<Index> verticesOf(const Mesh& mesh, const MapDefects& defects)
 {
-  std::vector<Index> result = defects.wrongTurns;
-  for (const Index f : defects.notPositive)
-  {
-    result.insert(result.end(), mesh.origin.begin() + 3 * f, mesh.origin.begin() + 3 * f + 3);
-  }
+  std::vector<Index> result = cornerVertices(mesh, defects.notPositive);
+  append(result, defects.wrongTurns);
   for (const Index h : defects.reversed)
   {
     result.push_back(mesh.origin[h]);
