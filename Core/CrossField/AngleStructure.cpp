@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossField/AngleStructure.h"
 
+#include "Base/Lists.h"
 #include "Base/Progress.h"
 
 #include <algorithm>
@@ -24,9 +25,15 @@ public:
   AngleTransport(const Mesh& mesh, const FieldTopology& topology, const std::vector<int>& turns)
     : topology_(topology), faces_(mesh.faceCount()),
       nodes_(faces_ + static_cast<Index>(topology.fans.size())), angle_(mesh.halfEdgeCount()),
-      surplus_(faces_, -2 * kQuarterTurn)
+      surplus_(faces_, -2 * kQuarterTurn), corners_(topology.fans.size(),
+                                             [&](const auto& visit)
+                                             {
+                                               for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+                                               {
+                                                 visit(topology.fanOfCorner[h], h);
+                                               }
+                                             })
   {
-    groupCorners();
     for (Index i = 0; i < turns.size(); ++i)
     {
       spreadTurns(i, turns[i]);
@@ -92,32 +99,14 @@ public:
   }
 
 private:
-  Index degree(Index node) const
-  {
-    return node < faces_ ? 3 : firstCorner_[node - faces_ + 1] - firstCorner_[node - faces_];
-  }
+  Index degree(Index node) const { return node < faces_ ? 3 : corners_.size(node - faces_); }
   Index cornerOf(Index node, Index k) const
   {
-    return node < faces_ ? 3 * node + k : corners_[firstCorner_[node - faces_] + k];
+    return node < faces_ ? 3 * node + k : corners_.begin(node - faces_)[k];
   }
   Index otherEnd(Index node, Index corner) const
   {
     return node < faces_ ? faces_ + topology_.fanOfCorner[corner] : Mesh::face(corner);
-  }
-
-  void groupCorners()
-  {
-    firstCorner_.assign(topology_.fans.size() + 1, 0);
-    for (std::size_t i = 0; i < topology_.fans.size(); ++i)
-    {
-      firstCorner_[i + 1] = firstCorner_[i] + topology_.fans[i].corners;
-    }
-    corners_.resize(angle_.size());
-    std::vector<Index> next(firstCorner_.begin(), firstCorner_.end() - 1);
-    for (Index h = 0; h < angle_.size(); ++h)
-    {
-      corners_[next[topology_.fanOfCorner[h]]++] = h;
-    }
   }
 
   // Starts from the surface's own angles, scaled to the turns: most triangles are then nearly right.
@@ -128,14 +117,14 @@ private:
     fit_ = fit_ && left >= 0;
     left = std::max<std::int64_t>(left, 0);
     double angleLeft = fan.angle;
-    for (Index k = firstCorner_[i]; k < firstCorner_[i + 1]; ++k)
+    for (const Index* h = corners_.begin(i); h != corners_.end(i); ++h)
     {
-      const double own = topology_.cornerAngle[corners_[k]];
+      const double own = topology_.cornerAngle[*h];
       const double share = angleLeft > 0 ? std::min(1.0, own / angleLeft) : 1.0;
-      const std::int64_t part = k + 1 == firstCorner_[i + 1]
+      const std::int64_t part = h + 1 == corners_.end(i)
         ? left
         : static_cast<std::int64_t>(share * static_cast<double>(left));
-      angle_[corners_[k]] = kSmallestAngle + part;
+      angle_[*h] = kSmallestAngle + part;
       left -= part;
       angleLeft -= own;
     }
@@ -224,8 +213,7 @@ private:
   Index nodes_;
   std::vector<std::int64_t> angle_;   // #H
   std::vector<std::int64_t> surplus_; // #F, over half a turn
-  std::vector<Index> firstCorner_;    // #fans + 1
-  std::vector<Index> corners_;        // #H, by fan
+  Grouped<> corners_;                 // by fan
   std::vector<Index> level_;          // #nodes
   std::vector<Index> next_;           // #nodes, next arc to try
   std::vector<Index> path_;           // corners; even ones shrink, odd ones grow

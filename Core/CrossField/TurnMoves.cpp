@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Base/DisjointSets.h"
+#include "Base/Lists.h"
 #include "CrossField/AngleStructure.h"
 #include "CrossField/TurnCosts.h"
 #include "CrossField/TurnRepair.h"
@@ -21,27 +23,27 @@ using Flags = std::vector<std::uint8_t>;
 // Shortest paths for single turns over the unconstrained edges.
 class TurnMover
 {
+  // Edge and direction; forward: a turn goes from the fan of edges[e][1] to that of edges[e][0].
+  struct Link
+  {
+    Index edge = kInvalidIndex;
+    bool forward = false;
+  };
+
 public:
   TurnMover(const TurnRepairInput& input, TurnRepairResult& result)
-    : input_(input), result_(result), start_(result.turns.size() + 1, 0)
+    : input_(input), result_(result),
+      links_(result.turns.size(),
+        [&](const auto& visit)
+        {
+          const FieldTopology& topology = *input.topology;
+          for (Index e = 0; e < topology.edges.size(); ++e)
+          {
+            visit(topology.fanOfCorner[topology.edges[e][0]], { e, false });
+            visit(topology.fanOfCorner[topology.edges[e][1]], { e, true });
+          }
+        })
   {
-    const FieldTopology& topology = *input.topology;
-    for (const std::array<Index, 2>& edge : topology.edges)
-    {
-      ++start_[topology.fanOfCorner[edge[0]] + 1];
-      ++start_[topology.fanOfCorner[edge[1]] + 1];
-    }
-    for (std::size_t i = 1; i < start_.size(); ++i)
-    {
-      start_[i] += start_[i - 1];
-    }
-    link_.resize(2 * topology.edges.size());
-    std::vector<Index> next(start_.begin(), start_.end() - 1);
-    for (Index e = 0; e < topology.edges.size(); ++e)
-    {
-      link_[next[topology.fanOfCorner[topology.edges[e][0]]]++] = { e, false };
-      link_[next[topology.fanOfCorner[topology.edges[e][1]]]++] = { e, true };
-    }
   }
 
   // Takes a turn from the cheapest fan of one group to the cheapest of the other; false when that would make
@@ -76,14 +78,14 @@ public:
         best = length + changeCost(fan, 1);
         goal = fan;
       }
-      for (Index k = start_[fan]; k < start_[fan + 1]; ++k)
+      for (const Link* link = links_.begin(fan); link != links_.end(fan); ++link)
       {
-        const Index other = otherFan(link_[k]);
-        const double through = length + linkCost(link_[k]);
+        const Index other = otherFan(*link);
+        const double through = length + linkCost(*link);
         if (through < distance[other])
         {
           distance[other] = through;
-          entry[other] = link_[k];
+          entry[other] = *link;
           queue.emplace(through, other);
         }
       }
@@ -96,13 +98,6 @@ public:
   }
 
 private:
-  // Edge and direction; forward: a turn goes from the fan of edges[e][1] to that of edges[e][0].
-  struct Link
-  {
-    Index edge = kInvalidIndex;
-    bool forward = false;
-  };
-
   Index otherFan(const Link& link) const
   {
     return input_.topology->fanOfCorner[input_.topology->edges[link.edge][link.forward ? 0 : 1]];
@@ -146,46 +141,35 @@ private:
 
   const TurnRepairInput& input_;
   TurnRepairResult& result_;
-  std::vector<Index> start_; // #fans + 1, into link_
-  std::vector<Link> link_;   // links that leave each fan
+  Grouped<Link> links_; // that leave each fan
 };
 
 // Splits a group into parts that no unconstrained edge joins.
 std::vector<Flags> splitGroup(const FieldTopology& topology, const Flags& group)
 {
-  std::vector<std::vector<Index>> neighbours(group.size());
+  DisjointSets sets(group.size(), 1);
   for (const std::array<Index, 2>& edge : topology.edges)
   {
     const Index a = topology.fanOfCorner[edge[0]];
     const Index b = topology.fanOfCorner[edge[1]];
     if (group[a] != 0 && group[b] != 0)
     {
-      neighbours[a].push_back(b);
-      neighbours[b].push_back(a);
+      sets.join(a, b);
     }
   }
   std::vector<Flags> parts;
-  Flags seen(group.size(), 0);
-  for (Index seed = 0; seed < group.size(); ++seed)
+  std::vector<std::size_t> partOf(group.size()); // per root, which is the lowest fan of its part
+  for (Index fan = 0; fan < group.size(); ++fan)
   {
-    if (group[seed] == 0 || seen[seed] != 0)
+    const Index root = sets.find(fan);
+    if (group[fan] != 0 && root == fan)
     {
-      continue;
+      partOf[fan] = parts.size();
+      parts.emplace_back(group.size(), 0);
     }
-    parts.emplace_back(group.size(), 0);
-    std::vector<Index> queue{ seed };
-    seen[seed] = 1;
-    for (std::size_t i = 0; i < queue.size(); ++i)
+    if (group[fan] != 0)
     {
-      parts.back()[queue[i]] = 1;
-      for (const Index next : neighbours[queue[i]])
-      {
-        if (seen[next] == 0)
-        {
-          seen[next] = 1;
-          queue.push_back(next);
-        }
-      }
+      parts[partOf[root]][fan] = 1;
     }
   }
   return parts;

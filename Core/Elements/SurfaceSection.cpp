@@ -3,6 +3,7 @@
 #include "Elements/SurfaceSection.h"
 
 #include "Base/Angles.h"
+#include "Mesh/SurfaceEdit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,26 +32,6 @@ std::vector<Index> weightedCorners(const SurfacePoint& point)
     }
   }
   return corners;
-}
-
-/// Calls visit(h) for each corner h at the vertex of `corner`.
-template <class Visitor>
-void forEachCorner(const Mesh& mesh, Index corner, const Visitor& visit)
-{
-  Index g = corner;
-  do
-  {
-    visit(g);
-    g = mesh.rotateCounterclockwise(g);
-  } while (g != corner && g != kInvalidIndex);
-  if (g == corner)
-  {
-    return;
-  }
-  for (g = mesh.rotateClockwise(corner); g != kInvalidIndex; g = mesh.rotateClockwise(g))
-  {
-    visit(g);
-  }
 }
 
 /// The plane halfway between two places that is perpendicular to their connection.
@@ -323,7 +304,7 @@ private:
   template <class Visitor>
   void forEachEdge(Index corner, const Visitor& visit) const
   {
-    forEachCorner(mesh_, corner,
+    forEachInFan(mesh_, corner,
       [&](Index g)
       {
         if (isAllowed(g))
@@ -473,7 +454,7 @@ std::vector<Index> facesAt(const Mesh& mesh, const SurfacePoint& point)
   std::vector<Index> faces;
   if (corners.size() == 1)
   {
-    forEachCorner(mesh, corners[0], [&](Index g) { faces.push_back(Mesh::face(g)); });
+    forEachInFan(mesh, corners[0], [&](Index g) { faces.push_back(Mesh::face(g)); });
     return faces;
   }
   faces.push_back(point.face);

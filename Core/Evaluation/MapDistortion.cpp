@@ -15,18 +15,6 @@
 
 namespace quadrille
 {
-namespace
-{
-
-double mappedArea(const std::vector<FixedVec2>& uv, Index f)
-{
-  const Vector2 a = toDouble(uv[3 * f + 1] - uv[3 * f]);
-  const Vector2 b = toDouble(uv[3 * f + 2] - uv[3 * f]);
-  return (a.x() * b.y() - a.y() * b.x()) / 2;
-}
-
-} // namespace
-
 MapDistortion measureDistortion(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 {
   refuseIf(uv.size() != mesh.origin.size(), "distortion: the map has not the size of the mesh");
@@ -50,9 +38,7 @@ MapDistortion measureDistortion(const Mesh& mesh, const std::vector<FixedVec2>& 
       ++result.left;
       continue;
     }
-    Eigen::Matrix2d edges;
-    edges << toDouble(uv[3 * f + 1] - uv[3 * f]), toDouble(uv[3 * f + 2] - uv[3 * f]);
-    const Eigen::Matrix2d j = unit * edges * flattenFace(mesh, f).inverse();
+    const Eigen::Matrix2d j = unit * mappedEdges(uv, f) * flattenFace(mesh, f).inverse();
     const double d = j.determinant();
     const double squared = j.squaredNorm();
     energies.push_back(squared * (1 + 1 / (d * d)) / 4);

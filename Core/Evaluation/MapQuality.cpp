@@ -6,6 +6,7 @@
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
 #include "GridMap/MapCheck.h"
+#include "GridMap/MapShape.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
 
@@ -26,13 +27,6 @@ Eigen::Matrix2d flatEdges(const Mesh& mesh, Index f)
   const SizedTriangle triangle = sizedTriangle(mesh, f);
   Eigen::Matrix2d edges;
   edges << triangle.width, triangle.apex.x(), 0, triangle.apex.y();
-  return edges;
-}
-
-Eigen::Matrix2d mappedEdges(const std::vector<FixedVec2>& uv, Index f)
-{
-  Eigen::Matrix2d edges;
-  edges << toDouble(uv[3 * f + 1] - uv[3 * f]), toDouble(uv[3 * f + 2] - uv[3 * f]);
   return edges;
 }
 

@@ -3,6 +3,7 @@
 #include "Export/ElementEdges.h"
 
 #include "Base/LargeArray.h"
+#include "Base/Lists.h"
 
 #include <algorithm>
 #include <utility>
@@ -15,46 +16,32 @@ ElementEdges::ElementEdges(const ElementMesh& mesh) : mesh_(mesh)
   const std::size_t count = 4 * mesh.elementCount();
   growLarge(twin_, count, kInvalidIndex);
   growLarge(kinds_, count, std::uint8_t{ 0 });
-  std::vector<Index> first;
-  std::vector<Index> inBuckets; // half-edges by the lower node of their edge
-  sortIntoBuckets(first, inBuckets);
+  const Grouped<> byLowerNode(mesh.nodes.size(),
+    [this](const auto& visit)
+    {
+      for (Index h = 0; h < halfEdgeCount(); ++h)
+      {
+        pollNowAndThen(h);
+        visit(std::min(start(h), end(h)), h);
+      }
+    });
   const auto key = [this](Index h) { return std::max(start(h), end(h)); };
-  for (std::size_t v = 0; v + 1 < first.size(); ++v)
+  std::vector<Index> bucket;
+  for (std::size_t v = 0; v < mesh.nodes.size(); ++v)
   {
     pollNowAndThen(v);
-    Index* const begin = inBuckets.data() + first[v];
-    Index* const bucketEnd = inBuckets.data() + first[v + 1];
-    std::sort(begin, bucketEnd,
+    bucket.assign(byLowerNode.begin(v), byLowerNode.end(v));
+    std::sort(bucket.begin(), bucket.end(),
       [&](Index a, Index b) { return std::make_pair(key(a), a) < std::make_pair(key(b), b); });
-    for (Index* run = begin; run != bucketEnd;)
+    const Index* const bucketEnd = bucket.data() + bucket.size();
+    for (const Index* run = bucket.data(); run != bucketEnd;)
     {
-      Index* runEnd = std::find_if(run, bucketEnd, [&](Index h) { return key(h) != key(*run); });
+      const Index* runEnd =
+        std::find_if(run, bucketEnd, [&](Index h) { return key(h) != key(*run); });
       joinRun(run, runEnd);
       run = runEnd;
     }
   }
-}
-
-void ElementEdges::sortIntoBuckets(std::vector<Index>& first, std::vector<Index>& inBuckets) const
-{
-  growLarge(first, mesh_.nodes.size() + 2, Index{ 0 });
-  growLarge(inBuckets, twin_.size(), Index{ 0 });
-  const auto lower = [this](Index h) { return std::min(start(h), end(h)); };
-  for (Index h = 0; h < halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    ++first[lower(h) + 2];
-  }
-  for (std::size_t v = 2; v < first.size(); ++v)
-  {
-    first[v] += first[v - 1];
-  }
-  for (Index h = 0; h < halfEdgeCount(); ++h)
-  {
-    pollNowAndThen(h);
-    inBuckets[first[lower(h) + 1]++] = h;
-  }
-  first.pop_back();
 }
 
 /// Half-edges of one edge, the lowest first.

@@ -35,7 +35,6 @@ public:
 private:
   static constexpr std::uint8_t kBoundary = 1, kFeature = 2, kLowestHalfEdge = 4;
 
-  void sortIntoBuckets(std::vector<Index>& first, std::vector<Index>& inBuckets) const;
   void joinRun(const Index* begin, const Index* end);
 
   const ElementMesh& mesh_;

@@ -180,20 +180,19 @@ public:
       }));
     result_.uv.resize(uv_.size());
     const std::vector<Index> outgoing = outgoingHalfEdges(mesh_);
-    std::vector<SnapResult> parts((outgoing.size() + kSnapChunk - 1) / kSnapChunk);
-    parallelFor(outgoing.size(), kSnapChunk, options_.threads,
-      [&](std::size_t begin, std::size_t end)
-      {
-        std::vector<Corner> corners;
-        for (std::size_t v = begin; v < end; ++v)
+    for (const SnapResult& part :
+      parallelParts<SnapResult>(outgoing.size(), kSnapChunk, options_.threads,
+        [&](std::size_t begin, std::size_t end, SnapResult&snapped)
         {
-          if (outgoing[v] != kInvalidIndex)
+          std::vector<Corner> corners;
+          for (std::size_t v = begin; v < end; ++v)
           {
-            snapVertex(outgoing[v], corners, parts[begin / kSnapChunk]);
+            if (outgoing[v] != kInvalidIndex)
+            {
+              snapVertex(outgoing[v], corners, snapped);
+            }
           }
-        }
-      });
-    for (const SnapResult& part : parts)
+        }))
     {
       add(part);
     }
@@ -297,21 +296,18 @@ private:
   EdgeFaults findFaults(const Check& check) const
   {
     const std::size_t count = mesh_.halfEdgeCount();
-    std::vector<EdgeFaults> parts((count + kSnapChunk - 1) / kSnapChunk);
-    parallelFor(count, kSnapChunk, options_.threads,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          const Index h = static_cast<Index>(i);
-          if (mesh_.twin[h] != kInvalidIndex && h < mesh_.twin[h])
-          {
-            check(h, parts[begin / kSnapChunk]);
-          }
-        }
-      });
     EdgeFaults whole;
-    for (const EdgeFaults& part : parts)
+    for (const EdgeFaults& part : parallelParts<EdgeFaults>(count, kSnapChunk, options_.threads,
+           [&](std::size_t begin, std::size_t end, EdgeFaults&found)
+           {
+             for (Index h = static_cast<Index>(begin); h < end; ++h)
+             {
+               if (mesh_.twin[h] != kInvalidIndex && h < mesh_.twin[h])
+               {
+                 check(h, found);
+               }
+             }
+           }))
     {
       whole.add(part);
     }

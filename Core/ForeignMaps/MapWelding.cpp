@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ForeignMaps/MapWelding.h"
 
+#include "Base/Lists.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
 #include "Mesh/EdgeRuns.h"
+#include "Mesh/SurfaceEdit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -252,17 +254,10 @@ private:
       }
       if (!side->empty() && side->size() + other.size() > 2 && couldPair(*side, other))
       {
-        std::string cells;
-        for (const Index h : *side)
-        {
-          cells += " " + std::to_string(h / 3) + ",";
-        }
-        for (const Index h : other)
-        {
-          cells += " " + std::to_string(h / 3) + ",";
-        }
-        cells.pop_back();
-        throw InvalidInput("cells" + cells +
+        std::vector<Index> all = *side;
+        append(all, other);
+        throw InvalidInput("cells " +
+          joined(all, all.size(), [](Index h) { return std::to_string(h / 3); }) +
           " meet at one edge, and neither points nor images tell which of them belong together");
       }
       if (soup_ && side->size() > 1 && other.empty())
@@ -296,17 +291,7 @@ private:
       }
       const Index v = mesh_.vertexCount();
       mesh_.position.push_back(in_.position[point(h)]);
-      Index g = h;
-      do
-      {
-        mesh_.origin.edit()[g] = v;
-        g = mesh_.rotateCounterclockwise(g);
-      } while (g != h && g != kInvalidIndex);
-      for (g = mesh_.rotateClockwise(h); g != kInvalidIndex && mesh_.origin[g] != v;
-           g = mesh_.rotateClockwise(g))
-      {
-        mesh_.origin.edit()[g] = v;
-      }
+      forEachInFan(mesh_, h, [&](Index g) { mesh_.origin.edit()[g] = v; });
     }
   }
 

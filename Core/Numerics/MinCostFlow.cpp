@@ -66,25 +66,6 @@ void MinCostFlow::saturateNegativeArcs()
   }
 }
 
-void MinCostFlow::buildAdjacency()
-{
-  firstOut_.assign(excess_.size() + 1, 0);
-  for (std::size_t i = 0; i < arcs_.size(); ++i)
-  {
-    ++firstOut_[arcs_[i ^ 1].to + 1];
-  }
-  for (std::size_t n = 0; n < excess_.size(); ++n)
-  {
-    firstOut_[n + 1] += firstOut_[n];
-  }
-  outgoing_.resize(arcs_.size());
-  std::vector<Index> next(firstOut_.begin(), firstOut_.end() - 1);
-  for (std::size_t i = 0; i < arcs_.size(); ++i)
-  {
-    outgoing_[next[arcs_[i ^ 1].to]++] = static_cast<Index>(i);
-  }
-}
-
 bool MinCostFlow::isGoal(Index node, Direction direction) const
 {
   return node == ground_ ||
@@ -95,10 +76,10 @@ void MinCostFlow::settle(Index node, Direction direction)
 {
   const bool forward = direction == Direction::Forward;
   settled_[node] = 1;
-  for (Index k = firstOut_[node]; k < firstOut_[node + 1]; ++k)
+  for (const Index* arc = outgoing_.begin(node); arc != outgoing_.end(node); ++arc)
   {
-    const Index other = arcs_[outgoing_[k]].to;
-    const Index used = forward ? outgoing_[k] : outgoing_[k] ^ 1; // backward: other -> node
+    const Index other = arcs_[*arc].to;
+    const Index used = forward ? *arc : *arc ^ 1; // backward: other -> node
     if (arcs_[used].capacity == 0 || settled_[other] != 0)
     {
       continue;
@@ -203,7 +184,14 @@ void MinCostFlow::route(Direction direction)
 MinCostFlow::Result MinCostFlow::solve()
 {
   saturateNegativeArcs();
-  buildAdjacency();
+  outgoing_ = { excess_.size(),
+    [this](const auto& visit)
+    {
+      for (Index i = 0; i < arcs_.size(); ++i)
+      {
+        visit(arcs_[i ^ 1].to, i);
+      }
+    } };
   route(Direction::Forward);
   if (ground_ != kInvalidIndex)
   {

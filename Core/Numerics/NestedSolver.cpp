@@ -29,8 +29,7 @@ constexpr Index kSubtrees = 64;
 struct NestedSolver::Dissection
 {
   const std::vector<Vector3>& position;
-  std::vector<std::size_t> firstNeighbour; ///< #V + 1
-  std::vector<Index> neighbour;
+  Grouped<> neighbours;        ///< of vertices with unknowns
   std::vector<Index> vertices; ///< those with unknowns; parts are ranges of it
   std::vector<Index> part;     ///< #V: which part it is in, for neighbours
   Index parts = 0;
@@ -52,9 +51,8 @@ struct NestedSolver::Dissection
   /// Vertices of [begin, end) with a neighbour in part `other`.
   bool touches(Index v, Index other) const
   {
-    return std::any_of(neighbour.begin() + static_cast<std::ptrdiff_t>(firstNeighbour[v]),
-      neighbour.begin() + static_cast<std::ptrdiff_t>(firstNeighbour[v + 1]),
-      [&](Index w) { return part[w] == other; });
+    return std::any_of(
+      neighbours.begin(v), neighbours.end(v), [&](Index w) { return part[w] == other; });
   }
   void label(Iterator begin, Iterator end, Index id)
   {
@@ -140,10 +138,6 @@ NestedSolver::NestedSolver(const std::vector<Vector3>& position,
     fits = fits && t[0] < count && t[1] < count && t[2] < count;
   }
   refuseIf(!fits, "nested solver: positions, unknowns and triangles disagree in size");
-  Dissection dissection{ position, {}, {}, {}, std::vector<Index>(count, 0), 0, fronts_,
-    vertexAt_ };
-  std::vector<std::size_t>& first = dissection.firstNeighbour;
-  first.assign(std::size_t{ count } + 1, 0);
   // Over both directions of a triangle's edges: those inside of the mesh come twice, which does no harm.
   const auto forEachEdge = [&](const auto& visit)
   {
@@ -160,18 +154,9 @@ NestedSolver::NestedSolver(const std::vector<Vector3>& position,
       }
     }
   };
-  forEachEdge([&](Index a, Index) { ++first[a + 1]; });
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  dissection.neighbour.resize(first.back());
-  std::vector<std::size_t> next(first.begin(), first.end() - 1);
-  forEachEdge([&](Index a, Index b) { dissection.neighbour[next[a]++] = b; });
-  for (Index v = 0; v < count; ++v)
-  {
-    if (unknowns[v] != 0)
-    {
-      dissection.vertices.push_back(v);
-    }
-  }
+  Dissection dissection{ position, { count, forEachEdge },
+    idsWhere(count, [&](Index v) { return unknowns[v] != 0; }), std::vector<Index>(count, 0), 0,
+    fronts_, vertexAt_ };
   poll();
   dissection.run(dissection.vertices.begin(), dissection.vertices.end());
   poll();

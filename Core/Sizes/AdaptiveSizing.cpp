@@ -225,21 +225,6 @@ void checkAdaptiveSizes(const AdaptiveSizes& sizes)
   }
 }
 
-std::vector<float> lengthsByCurvature(
-  const Mesh& mesh, double chordError, double edgeLength, int threads)
-{
-  const SurfacePatches patches = findPatches(mesh, kPatchSide * edgeLength, threads);
-  return toVertices(
-    mesh, patches, patchLengthsByCurvature(mesh, patches, chordError, edgeLength, threads));
-}
-
-std::vector<float> lengthsByGap(
-  const Mesh& mesh, double quads, double edgeLength, double reach, int threads)
-{
-  const SurfacePatches patches = findPatches(mesh, kPatchSide * edgeLength, threads);
-  return toVertices(mesh, patches, patchLengthsByGap(mesh, patches, quads, reach, threads));
-}
-
 std::vector<float> adaptiveLengths(
   const Mesh& mesh, const AdaptiveSizes& sizes, double edgeLength, double reach, int threads)
 {
