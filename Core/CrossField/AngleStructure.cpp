@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 
 namespace quadrille
 {
@@ -49,7 +50,7 @@ public:
 
   void solve()
   {
-    while (buildLevels())
+    while (buildLevels(true))
     {
       next_.assign(nodes_, 0);
       for (Index f = 0; f < faces_; ++f)
@@ -66,36 +67,14 @@ public:
     return std::all_of(surplus_.begin(), surplus_.end(), [](std::int64_t s) { return s == 0; });
   }
 
-  // Nodes that surplus reaches (forward), or from which a deficit is reached.
-  std::vector<std::uint8_t> reached(bool forward) const
+  // Flags of the fans that surplus reaches (forward), or from which a deficit is reached.
+  std::vector<std::uint8_t> reached(bool forward)
   {
-    std::vector<std::uint8_t> seen(nodes_, 0);
-    std::vector<Index> queue;
-    for (Index f = 0; f < faces_; ++f)
-    {
-      if (forward ? surplus_[f] > 0 : surplus_[f] < 0)
-      {
-        seen[f] = 1;
-        queue.push_back(f);
-      }
-    }
-    for (std::size_t i = 0; i < queue.size(); ++i)
-    {
-      const Index node = queue[i];
-      for (Index k = 0; k < degree(node); ++k)
-      {
-        const Index corner = cornerOf(node, k);
-        const Index other = otherEnd(node, corner);
-        // Angle leaves a triangle only where its corner can shrink; it may enter anywhere.
-        const bool leaving = (node < faces_) == forward;
-        if (seen[other] == 0 && (!leaving || angle_[corner] > kSmallestAngle))
-        {
-          seen[other] = 1;
-          queue.push_back(other);
-        }
-      }
-    }
-    return { seen.begin() + faces_, seen.end() };
+    buildLevels(forward);
+    std::vector<std::uint8_t> flags;
+    std::transform(level_.begin() + faces_, level_.end(), std::back_inserter(flags),
+      [](Index level) { return level != kInvalidIndex ? 1 : 0; });
+    return flags;
   }
 
 private:
@@ -130,30 +109,29 @@ private:
     }
   }
 
-  // Distances from triangles with surplus; whether a triangle with a deficit is reached.
-  bool buildLevels()
+  // Distances from triangles with surplus (backward: to those with a deficit); whether one with a deficit (a surplus) is
+  // reached. Angle leaves a triangle only where its corner can shrink; it may enter anywhere.
+  bool buildLevels(bool forward)
   {
     level_.assign(nodes_, kInvalidIndex);
-    std::vector<Index> queue;
-    for (Index f = 0; f < faces_; ++f)
+    std::vector<Index> queue =
+      idsWhere(faces_, [&](Index f) { return forward ? surplus_[f] > 0 : surplus_[f] < 0; });
+    for (const Index f : queue)
     {
-      if (surplus_[f] > 0)
-      {
-        level_[f] = 0;
-        queue.push_back(f);
-      }
+      level_[f] = 0;
     }
     bool found = false;
     for (std::size_t i = 0; i < queue.size(); ++i)
     {
       pollNowAndThen(++steps_);
       const Index node = queue[i];
-      found = found || (node < faces_ && surplus_[node] < 0);
+      found = found || (node < faces_ && (forward ? surplus_[node] < 0 : surplus_[node] > 0));
       for (Index k = 0; k < degree(node); ++k)
       {
         const Index corner = cornerOf(node, k);
         const Index other = otherEnd(node, corner);
-        if (level_[other] == kInvalidIndex && (node >= faces_ || angle_[corner] > kSmallestAngle))
+        const bool isLeaving = (node < faces_) == forward;
+        if (level_[other] == kInvalidIndex && (!isLeaving || angle_[corner] > kSmallestAngle))
         {
           level_[other] = level_[node] + 1;
           queue.push_back(other);

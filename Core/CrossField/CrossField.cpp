@@ -5,13 +5,11 @@
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
 #include "Base/TryCount.h"
-#include "CrossField/FieldLines.h"
 #include "CrossField/FieldTopology.h"
 #include "CrossField/PowerField.h"
 #include "CrossField/SizeCones.h"
 #include "CrossField/TurnCosts.h"
 #include "CrossField/TurnRepair.h"
-#include "CrossField/TurnTargets.h"
 #include "CrossField/Turns.h"
 
 #include <cassert>

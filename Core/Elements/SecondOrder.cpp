@@ -51,49 +51,14 @@ void checkQuads(const QuadsOnSurface& quads, const SecondOrderOptions& options)
 }
 
 //------------------------------------------------------------------------------
-class NodePlacer
+/// Nodes by their numbers, edges before centres: where they belong, whatever the surface is there.
+class NodeGeometry
 {
-public:
-  NodePlacer(const Mesh& surface, const QuadsOnSurface& quads, const SecondOrderOptions& options)
-    : surface_(surface), quads_(quads), options_(options), edges_(quads, nodes_)
+protected:
+  NodeGeometry(const Mesh& surface, const QuadsOnSurface& quads)
+    : surface_(surface), quads_(quads), edges_(quads, nodes_)
   {
   }
-
-  SecondOrderNodes run()
-  {
-    const std::size_t edges = nodes_.edges.size();
-    const std::size_t all = edges + (options_.nodes == 9 ? quads_.quads.size() : 0);
-    nodes_.points.resize(all);
-    nodes_.places.resize(all);
-    nodes_.kinds.assign(all, NodePlace::Surface);
-    levels_.assign(all, 0);
-    fates_.assign(all, Fate::Found);
-    report(options_.progress, 0, "nodes between corners");
-    place(0, edges);
-    report(options_.progress, 0.5, "determinants");
-    straighten();
-    if (options_.nodes == 9)
-    {
-      // Between nodes that do not fold the element, as far as they alone can.
-      count_ = 9;
-      shape_ = QuadraticShape(9);
-      report(options_.progress, 0.7, "nodes in centres");
-      place(edges, all);
-      report(options_.progress, 0.9, "determinants");
-      straighten();
-    }
-    tell();
-    return std::move(nodes_);
-  }
-
-private:
-  enum class Fate : std::uint8_t
-  {
-    Found,
-    WithoutCurve, ///< found, but not on the curve of its edge
-    Nowhere,      ///< no way leads there
-    WithoutCurveOrWay
-  };
 
   std::array<Vector3, 4> cornersOfQuad(Index q) const
   {
@@ -168,6 +133,65 @@ private:
     return (p - straightPlace(n)).norm() <= reachOf(n);
   }
 
+  bool isOnCurve(Index edge) const { return nodes_.onBoundary[edge] != 0 || isFeature(edge); }
+
+  std::optional<CurveChain> chainOf(Index edge) const
+  {
+    return chainBetween(surface_, quads_.places[nodes_.edges[edge][0]],
+      quads_.places[nodes_.edges[edge][1]], nodes_.onBoundary[edge] != 0);
+  }
+
+  const Mesh& surface_;
+  const QuadsOnSurface& quads_;
+  SecondOrderNodes nodes_;
+  QuadEdgeList edges_;
+};
+
+//------------------------------------------------------------------------------
+class NodePlacer : NodeGeometry
+{
+public:
+  NodePlacer(const Mesh& surface, const QuadsOnSurface& quads, const SecondOrderOptions& options)
+    : NodeGeometry(surface, quads), options_(options)
+  {
+  }
+
+  SecondOrderNodes run()
+  {
+    const std::size_t edges = nodes_.edges.size();
+    const std::size_t all = edges + (options_.nodes == 9 ? quads_.quads.size() : 0);
+    nodes_.points.resize(all);
+    nodes_.places.resize(all);
+    nodes_.kinds.assign(all, NodePlace::Surface);
+    levels_.assign(all, 0);
+    fates_.assign(all, Fate::Found);
+    report(options_.progress, 0, "nodes between corners");
+    place(0, edges);
+    report(options_.progress, 0.5, "determinants");
+    straighten();
+    if (options_.nodes == 9)
+    {
+      // Between nodes that do not fold the element, as far as they alone can.
+      count_ = 9;
+      shape_ = QuadraticShape(9);
+      report(options_.progress, 0.7, "nodes in centres");
+      place(edges, all);
+      report(options_.progress, 0.9, "determinants");
+      straighten();
+    }
+    tell();
+    return std::move(nodes_);
+  }
+
+private:
+  enum class Fate : std::uint8_t
+  {
+    Found,
+    WithoutCurve, ///< found, but not on the curve of its edge
+    Nowhere,      ///< no way leads there
+    WithoutCurveOrWay
+  };
+
   void place(std::size_t first, std::size_t last)
   {
     parallelFor(last - first, kNodeChunk, options_.threads,
@@ -209,14 +233,6 @@ private:
     fates_[edge] = isCurve ? Fate::WithoutCurveOrWay : Fate::Nowhere;
   }
 
-  bool isOnCurve(Index edge) const { return nodes_.onBoundary[edge] != 0 || isFeature(edge); }
-
-  std::optional<CurveChain> chainOf(Index edge) const
-  {
-    return chainBetween(surface_, quads_.places[nodes_.edges[edge][0]],
-      quads_.places[nodes_.edges[edge][1]], nodes_.onBoundary[edge] != 0);
-  }
-
   /// Of the two pairs of opposite edges that one is joined which is the shorter way.
   void placeCentre(std::size_t n)
   {
@@ -250,17 +266,15 @@ private:
     nodes_.points[n] = positionOf(surface_, place);
   }
 
+  bool isLost(std::size_t n) const
+  {
+    return fates_[n] == Fate::Nowhere || fates_[n] == Fate::WithoutCurveOrWay;
+  }
+
   /// The nodes that no way leads to. The tree is made only where there are some.
   void placeNearest(std::size_t first, std::size_t last)
   {
-    std::vector<std::size_t> lost;
-    for (std::size_t n = first; n < last; ++n)
-    {
-      if (fates_[n] == Fate::Nowhere || fates_[n] == Fate::WithoutCurveOrWay)
-      {
-        lost.push_back(n);
-      }
-    }
+    std::vector<Index> lost = idsWhere(last, [&](Index n) { return n >= first && isLost(n); });
     if (lost.empty())
     {
       return;
@@ -413,11 +427,7 @@ private:
   /// of its corners, whose determinant is positive where it is so at the corners.
   void straighten()
   {
-    std::vector<Index> check(quads_.quads.size());
-    for (Index q = 0; q < check.size(); ++q)
-    {
-      check[q] = q;
-    }
+    std::vector<Index> check = idsWhere(quads_.quads.size(), [](Index) { return true; });
     while (!check.empty())
     {
       const std::vector<Index> folded = foldedOf(check);
@@ -499,25 +509,14 @@ private:
 
   void tell()
   {
-    for (std::size_t n = 0; n < fates_.size(); ++n)
-    {
-      if (fates_[n] == Fate::WithoutCurve || fates_[n] == Fate::WithoutCurveOrWay)
-      {
-        nodes_.withoutCurve.push_back(static_cast<Index>(n));
-      }
-      if (fates_[n] == Fate::Nowhere || fates_[n] == Fate::WithoutCurveOrWay)
-      {
-        nodes_.byNearest.push_back(static_cast<Index>(n));
-      }
-    }
+    nodes_.withoutCurve = idsWhere(fates_.size(),
+      [this](Index n)
+      { return fates_[n] == Fate::WithoutCurve || fates_[n] == Fate::WithoutCurveOrWay; });
+    nodes_.byNearest = idsWhere(fates_.size(), [this](Index n) { return isLost(n); });
     sortUnique(nodes_.invertedQuads);
   }
 
-  const Mesh& surface_;
-  const QuadsOnSurface& quads_;
   const SecondOrderOptions& options_;
-  SecondOrderNodes nodes_;
-  QuadEdgeList edges_;
   std::size_t count_ = 8; ///< nodes of an element that are placed
   QuadraticShape shape_{ 8 };
   std::vector<MoveLevel> levels_; ///< per node

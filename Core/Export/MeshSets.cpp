@@ -5,20 +5,116 @@
 #include "Base/Angles.h"
 #include "Base/LargeArray.h"
 #include "Base/Lists.h"
-#include "Export/ElementEdges.h"
+#include "Export/ElementMesh.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <optional>
 #include <set>
+#include <utility>
+#include <vector>
 
 namespace quadrille
 {
 
 namespace
 {
+
+class ElementEdges
+{
+public:
+  /// Linear for bounded valence. Looks out for a stop. The mesh must outlive it and be valid.
+  explicit ElementEdges(const ElementMesh& mesh);
+
+  Index halfEdgeCount() const { return static_cast<Index>(twin_.size()); }
+  Index start(Index h) const { return mesh_.corner(h / 4, h % 4); }
+  Index end(Index h) const { return mesh_.corner(h / 4, h % 4 + 1); }
+  Index otherEnd(Index h, Index node) const { return start(h) == node ? end(h) : start(h); }
+  /// The same edge in the other element; kInvalidIndex where there is none, or more than one.
+  Index twin(Index h) const { return twin_[h]; }
+  bool isBoundary(Index h) const { return (kinds_[h] & kBoundary) != 0; }
+  /// On a feature and not on the boundary. An edge of more than two elements counts as one.
+  bool isFeature(Index h) const { return (kinds_[h] & kFeature) != 0; }
+  /// Whether it is the lowest half-edge of its edge, so that each edge is visited once.
+  bool isLowest(Index h) const { return (kinds_[h] & kLowestHalfEdge) != 0; }
+  /// The other side of the same element at one end of h.
+  Index otherSide(Index h, Index node) const;
+
+private:
+  static constexpr std::uint8_t kBoundary = 1, kFeature = 2, kLowestHalfEdge = 4;
+
+  void joinRun(const Index* begin, const Index* end);
+
+  const ElementMesh& mesh_;
+  std::vector<Index> twin_;
+  std::vector<std::uint8_t> kinds_;
+};
+
+ElementEdges::ElementEdges(const ElementMesh& mesh) : mesh_(mesh)
+{
+  const std::size_t count = 4 * mesh.elementCount();
+  growLarge(twin_, count, kInvalidIndex);
+  growLarge(kinds_, count, std::uint8_t{ 0 });
+  const Grouped<> byLowerNode(mesh.nodes.size(),
+    [this](const auto& visit)
+    {
+      for (Index h = 0; h < halfEdgeCount(); ++h)
+      {
+        pollNowAndThen(h);
+        visit(std::min(start(h), end(h)), h);
+      }
+    });
+  const auto key = [this](Index h) { return std::max(start(h), end(h)); };
+  std::vector<Index> bucket;
+  for (std::size_t v = 0; v < mesh.nodes.size(); ++v)
+  {
+    pollNowAndThen(v);
+    bucket.assign(byLowerNode.begin(v), byLowerNode.end(v));
+    std::sort(bucket.begin(), bucket.end(),
+      [&](Index a, Index b) { return std::make_pair(key(a), a) < std::make_pair(key(b), b); });
+    const Index* const bucketEnd = bucket.data() + bucket.size();
+    for (const Index* run = bucket.data(); run != bucketEnd;)
+    {
+      const Index* runEnd =
+        std::find_if(run, bucketEnd, [&](Index h) { return key(h) != key(*run); });
+      joinRun(run, runEnd);
+      run = runEnd;
+    }
+  }
+}
+
+/// Half-edges of one edge, the lowest first.
+void ElementEdges::joinRun(const Index* begin, const Index* end)
+{
+  const auto count = end - begin;
+  bool feature = count > 2;
+  for (const Index* h = begin; h != end; ++h)
+  {
+    feature = feature ||
+      (!mesh_.featureEdges.empty() && ((mesh_.featureEdges[*h / 4] >> (*h % 4)) & 1) != 0);
+  }
+  if (count == 2)
+  {
+    twin_[begin[0]] = begin[1];
+    twin_[begin[1]] = begin[0];
+  }
+  for (const Index* h = begin; h != end; ++h)
+  {
+    kinds_[*h] = static_cast<std::uint8_t>((count == 1   ? kBoundary
+                                               : feature ? kFeature
+                                                         : 0) |
+      (h == begin ? kLowestHalfEdge : 0));
+  }
+}
+
+Index ElementEdges::otherSide(Index h, Index node) const
+{
+  const Index side = h % 4;
+  return h - side + (start(h) == node ? (side + 3) % 4 : (side + 1) % 4);
+}
 
 /// Bends above this may be corners, as on feature curves of the input (Hierarchy/FeatureCurves.h).
 constexpr double kCornerOfSet = radians(40);

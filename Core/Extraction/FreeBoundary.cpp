@@ -6,7 +6,6 @@
 #include "Extraction/CurveLines.h"
 #include "Extraction/FaceTrace.h"
 #include "Extraction/PartialCells.h"
-#include "Quads/QuadHalfEdges.h"
 #include "Quads/QuadTopology.h"
 
 #include <algorithm>

@@ -12,6 +12,7 @@
 #pragma once
 
 #include "Extraction/ExactMap.h"
+#include "Quads/SurfaceWalk.h"
 
 #include <algorithm>
 #include <optional>
@@ -185,5 +186,11 @@ private:
   std::vector<FanCorner> largeFans_; ///< by half-edge
   Index portCount_ = 0;
 };
+
+/// Barycentric coordinates of a point in the chart of a face with area.
+std::array<double, 3> weightsInFace(const ExactMap& map, Index face, FixedVec2 uv);
+
+/// The place of a grid vertex; weights are exactly 0 and 1 on edges and vertices where they must be.
+SurfacePoint placeOf(const ExactMap& map, const GridVertex& vertex);
 
 } // namespace quadrille

@@ -5,7 +5,7 @@
 #include "Base/Parallel.h"
 #include "Extraction/CurveLines.h"
 #include "Extraction/FoldedCells.h"
-#include "Extraction/GridPlaces.h"
+#include "Extraction/GridVertices.h"
 
 #include <algorithm>
 #include <atomic>

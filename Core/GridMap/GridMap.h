@@ -14,8 +14,10 @@
 #include "GridMap/PreviousMap.h"
 #include "Integers/CurveIsolines.h"
 #include "Mesh/Mesh.h"
+#include "Requests/Guides.h"
 #include "Requests/StraightRequests.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -120,5 +122,13 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options);
 /// What the next map can start from; the status of `map` must be ok. vertexIds: #V of its mesh.
 PreviousMap previousMap(
   const Mesh& mesh, const GridMapResult& map, const std::vector<Index>& vertexIds);
+
+/// Radians, on average over the area of a region.
+constexpr double kFollowedAngle = 0.045;
+
+/// How many regions, that is connected sets of guided faces, the isolines leave by more than that. guides: empty or #F;
+/// uv: #H.
+std::size_t unfollowedRegions(
+  const Mesh& mesh, const std::vector<Guide>& guides, const std::vector<FixedVec2>& uv);
 
 } // namespace quadrille

@@ -15,19 +15,7 @@ namespace
 /// The quadrant [0, 90), [90, 180), ... degrees of a vector; -1 for the zero vector.
 int quadrantOf(FixedVec2 d)
 {
-  if (d.u > 0 && d.v >= 0)
-  {
-    return 0;
-  }
-  if (d.u <= 0 && d.v > 0)
-  {
-    return 1;
-  }
-  if (d.u < 0 && d.v <= 0)
-  {
-    return 2;
-  }
-  return d.v < 0 ? 3 : -1;
+  return d == FixedVec2{} ? -1 : quadrantOfNonzero(d);
 }
 
 /// The sector that begins at constrained half-edge `start`: its corners, counterclockwise.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GridMap/MapMaker.h"
+#include "GridMap/FieldOfMap.h"
 
 #include "Base/Clock.h"
 #include "Base/Lists.h"

@@ -3,7 +3,6 @@
 #include "Quads/QuadChains.h"
 
 #include "Mesh/Distance.h"
-#include "Quads/QuadHalfEdges.h"
 
 #include <algorithm>
 #include <limits>

@@ -55,7 +55,7 @@ private:
     double distance, std::vector<std::uint8_t>& passed) const;
 
   const QuadMesh& quads_;
-  std::vector<Index> twin_; ///< #H, see QuadHalfEdges.h
+  std::vector<Index> twin_; ///< #H, see QuadMesh.h
   Grouped<> leaving_;       ///< half-edges by the point that they leave
 };
 

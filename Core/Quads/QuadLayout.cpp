@@ -6,7 +6,6 @@
 #include "Base/Error.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
-#include "Quads/QuadHalfEdges.h"
 #include "Quads/QuadTopology.h"
 
 #include <algorithm>

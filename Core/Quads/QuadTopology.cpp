@@ -6,7 +6,6 @@
 #include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Refuse.h"
-#include "Quads/QuadHalfEdges.h"
 
 #include <algorithm>
 #include <atomic>
