@@ -8,7 +8,6 @@
 #include "CrossField/FieldTopology.h"
 #include "CrossField/PowerField.h"
 #include "CrossField/SizeCones.h"
-#include "CrossField/TurnCosts.h"
 #include "CrossField/TurnRepair.h"
 #include "CrossField/Turns.h"
 

@@ -5,7 +5,7 @@
 #include "Base/DisjointSets.h"
 #include "Base/PlaceText.h"
 #include "Base/Refuse.h"
-#include "CrossField/TurnCosts.h"
+#include "CrossField/TurnRepair.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -6,7 +6,6 @@
 #include "Base/Parallel.h"
 #include "Base/Refuse.h"
 #include "Base/TryCount.h"
-#include "Elements/QuadEdgeList.h"
 #include "Elements/QuadraticShape.h"
 #include "Elements/SurfaceSection.h"
 #include "Mesh/NearestTriangle.h"
@@ -50,13 +49,59 @@ void checkQuads(const QuadsOnSurface& quads, const SecondOrderOptions& options)
   }
 }
 
+/// The edges of the quads, numbered by their first quad; returns the half-edges of each, 4 quad + side.
+Grouped<> findEdges(const QuadsOnSurface& quads, SecondOrderNodes& nodes)
+{
+  const auto halfEdges = static_cast<Index>(4 * quads.quads.size());
+  const auto ends = [&](Index h)
+  {
+    const std::array<Index, 4>& quad = quads.quads[h / 4];
+    return std::array<Index, 2>{ std::min(quad[h % 4], quad[(h + 1) % 4]),
+      std::max(quad[h % 4], quad[(h + 1) % 4]) };
+  };
+  const Grouped<> byLower(quads.points.size(),
+    [&](const auto& visit)
+    {
+      for (Index h = 0; h < halfEdges; ++h)
+      {
+        visit(ends(h)[0], h);
+      }
+    });
+  nodes.edgesOfQuad.resize(quads.quads.size());
+  const auto edgeOf = [&](Index h) -> Index& { return nodes.edgesOfQuad[h / 4][h % 4]; };
+  for (Index h = 0; h < halfEdges; ++h)
+  {
+    const std::array<Index, 2> edge = ends(h);
+    const Index first = *std::find_if(
+      byLower.begin(edge[0]), byLower.end(edge[0]), [&](Index g) { return ends(g) == edge; });
+    if (first == h)
+    {
+      nodes.edges.push_back(edge);
+    }
+    edgeOf(h) = first == h ? static_cast<Index>(nodes.edges.size() - 1) : edgeOf(first);
+  }
+  Grouped<> result(nodes.edges.size(),
+    [&](const auto& visit)
+    {
+      for (Index h = 0; h < halfEdges; ++h)
+      {
+        visit(edgeOf(h), h);
+      }
+    });
+  for (Index edge = 0; edge < nodes.edges.size(); ++edge)
+  {
+    nodes.onBoundary.push_back(result.size(edge) == 1);
+  }
+  return result;
+}
+
 //------------------------------------------------------------------------------
 /// Nodes by their numbers, edges before centres: where they belong, whatever the surface is there.
 class NodeGeometry
 {
 protected:
   NodeGeometry(const Mesh& surface, const QuadsOnSurface& quads)
-    : surface_(surface), quads_(quads), edges_(quads, nodes_)
+    : surface_(surface), quads_(quads), edges_(findEdges(quads, nodes_))
   {
   }
 
@@ -144,7 +189,7 @@ protected:
   const Mesh& surface_;
   const QuadsOnSurface& quads_;
   SecondOrderNodes nodes_;
-  QuadEdgeList edges_;
+  Grouped<> edges_; ///< half-edges by edge
 };
 
 //------------------------------------------------------------------------------

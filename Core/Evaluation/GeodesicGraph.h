@@ -28,8 +28,6 @@ public:
   /// The mesh is read here only. Time and memory are linear in it, some 800 bytes a vertex.
   explicit GeodesicGraph(const Mesh& mesh);
 
-  std::size_t arcCount() const { return arcs_.size(); }
-
   /// The distance from `source` to each target; infinite for one of another component. The search ends when it has all
   /// of them. Throws InvalidInput for a vertex out of range.
   std::vector<double> distances(Index source, const std::vector<Index>& targets) const;

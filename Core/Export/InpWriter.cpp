@@ -265,7 +265,7 @@ std::string typeOf(const ElementMesh& mesh, const InpOptions& options)
     return types.front();
   }
   std::string type = upperCased(options.elementType);
-  if (std::find(types.begin(), types.end(), type) == types.end())
+  if (!contains(types, type))
   {
     refuse("elements of ", mesh.nodesPerElement, " nodes cannot be of type ", options.elementType,
       "; choose one of ", joined(types, types.size(), [](const std::string& one) { return one; }));

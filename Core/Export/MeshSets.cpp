@@ -327,7 +327,7 @@ private:
     whole.nodes.assign(back.nodes.rbegin(), back.nodes.rend() - 1);
     whole.halfEdges.assign(back.halfEdges.rbegin(), back.halfEdges.rend() - 1);
     whole.nodes.insert(whole.nodes.end(), walk.nodes.begin() + 1, walk.nodes.end());
-    whole.halfEdges.insert(whole.halfEdges.end(), walk.halfEdges.begin(), walk.halfEdges.end());
+    append(whole.halfEdges, walk.halfEdges);
     return whole;
   }
 
@@ -491,7 +491,7 @@ std::vector<ElementSide> sidesOf(const MeshSets& sets, const CurveSet& curve)
   std::vector<ElementSide> sides;
   for (const Index c : curve.chains)
   {
-    sides.insert(sides.end(), sets.chains[c].sides.begin(), sets.chains[c].sides.end());
+    append(sides, sets.chains[c].sides);
   }
   return sides;
 }

@@ -343,7 +343,7 @@ private:
     {
       addLine(points[i], points[(i + 1) % points.size()], face.stops[face.corners[i]].via);
     }
-    mesh_.polygonPoints.insert(mesh_.polygonPoints.end(), points.begin(), points.end());
+    append(mesh_.polygonPoints, points);
     mesh_.polygonOffsets.push_back(static_cast<Index>(mesh_.polygonPoints.size()));
     mesh_.polygonSourceFace.push_back(face.face);
   }

@@ -55,7 +55,7 @@ double mapArea(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 
 std::vector<Index> join(std::vector<Index> a, const std::vector<Index>& b)
 {
-  a.insert(a.end(), b.begin(), b.end());
+  append(a, b);
   sortUnique(a);
   return a;
 }
@@ -492,8 +492,7 @@ private:
       countTry(Try::OtherIntegers);
       watched = join(std::move(watched), embedded.offenders);
       QuantizeResult quantized = quantize(component, component.startUv, watched, progress);
-      if (!quantized.status.ok() ||
-        std::find(tried.begin(), tried.end(), quantized.uv) != tried.end())
+      if (!quantized.status.ok() || contains(tried, quantized.uv))
       {
         break;
       }

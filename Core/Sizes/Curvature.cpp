@@ -116,7 +116,7 @@ void findNeighbours(const Mesh& mesh, const Grouped<>& faces, SurfacePatches& re
   result.first.assign(1, 0);
   for (const std::vector<Index>& mine : neighbours)
   {
-    result.neighbours.insert(result.neighbours.end(), mine.begin(), mine.end());
+    append(result.neighbours, mine);
     result.first.push_back(static_cast<Index>(result.neighbours.size()));
   }
 }
@@ -264,8 +264,7 @@ void SurfacePatches::gather(Index p, double radius, std::vector<Index>& near) co
     for (Index k = first[near[i]]; k < first[near[i] + 1]; ++k)
     {
       const Index q = neighbours[k];
-      if ((patches[q].centre - patches[p].centre).norm() <= radius &&
-        std::find(near.begin(), near.end(), q) == near.end())
+      if ((patches[q].centre - patches[p].centre).norm() <= radius && !contains(near, q))
       {
         near.push_back(q);
       }
