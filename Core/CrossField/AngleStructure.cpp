@@ -109,8 +109,8 @@ private:
     }
   }
 
-  // Distances from triangles with surplus (backward: to those with a deficit); whether one with a deficit (a surplus) is
-  // reached. Angle leaves a triangle only where its corner can shrink; it may enter anywhere.
+  // Distances from triangles with surplus (backward: to those with a deficit); whether one with a deficit (a surplus)
+  // is reached. Angle leaves a triangle only where its corner can shrink; it may enter anywhere.
   bool buildLevels(bool forward)
   {
     level_.assign(nodes_, kInvalidIndex);

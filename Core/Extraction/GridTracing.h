@@ -113,8 +113,8 @@ struct TracingOptions
   int threads = 0;
 };
 
-/// The ports of the four corners of the cell of a port, from it on; false where it is not whole. isLowest: nor where the
-/// port is not the lowest one.
+/// The ports of the four corners of the cell of a port, from it on; false where it is not whole. isLowest: nor where
+/// the port is not the lowest one.
 bool cellOf(const CellCorners& cells, Index port, bool isLowest, std::array<Index, 4>& ports);
 
 /// Follows every port to the end of its side. Linear in the triangles that lines cross; parallel; the result does not

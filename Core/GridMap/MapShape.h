@@ -57,8 +57,8 @@ struct GuardedEdge
   double length = 0;      ///< wanted, > 0
 };
 
-/// Those of a mesh, one half-edge each: the other one follows through the seam. pointOf: of a corner; turnsOf: quarter turns
-/// of the problem's chart of a face against that of the field.
+/// Those of a mesh, one half-edge each: the other one follows through the seam. pointOf: of a corner; turnsOf: quarter
+/// turns of the problem's chart of a face against that of the field.
 template <class PointOf, class TurnsOf>
 std::vector<GuardedEdge> guardedEdges(const Mesh& mesh, const CrossField& field, double edgeLength,
   const PointOf& pointOf, const TurnsOf& turnsOf)

@@ -16,11 +16,11 @@ namespace quadrille
 /// #V, units of the mesh: the smaller of two lengths, as far as they are asked for.
 /// - sqrt(8 e / k) with the chord error e and the largest absolute normal curvature k over about `edgeLength`, of the
 ///   surface or of a feature or boundary there; infinite in a plane.
-/// - The distance to the opposite sheet, inside or outside, over the quads across a gap; infinite where there is none near
+/// - The distance to the opposite sheet, inside or outside, over the quads across a gap; infinite where none is near
 ///   enough to matter. A sheet is opposite where a ray along the normal meets it and the two normals are at most 45
 ///   degrees from opposite.
-/// edgeLength: about that of the quads, the scale over which the
-/// surface is looked at; the largest one that may be asked for is `reach` times it.
+/// edgeLength: about that of the quads, the scale over which the surface is looked at; the largest one that may be
+/// asked for is `reach` times it.
 std::vector<float> adaptiveLengths(
   const Mesh& mesh, const AdaptiveSizes& sizes, double edgeLength, double reach, int threads);
 

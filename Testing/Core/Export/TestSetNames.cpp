@@ -24,8 +24,8 @@ TEST(SetNames, IdentifiersHaveLettersDigitsAndUnderscores)
               "e",
               "  ", "_x" }),
     (Names{ "INLET_PIPE", "A_B_C", "S_7UP", "GR__E", "S_", "S__X" }));
-  EXPECT_NE(names.notices().at(0).find("6 names of sets are another in this format"),
-    std::string::npos);
+  EXPECT_NE(
+    names.notices().at(0).find("6 names of sets are another in this format"), std::string::npos);
 }
 
 /// Case alone is no change where it does not count, but makes two names one.
