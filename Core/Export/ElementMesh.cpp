@@ -55,8 +55,11 @@ void requireElement(const ElementMesh& mesh, std::size_t e)
 void requireProperties(const ElementMesh& mesh, std::size_t e)
 {
   constexpr double kUnitTolerance = 1e-6; // an array of floats is a unit vector to 1e-7
-  refuseIf(!mesh.thickness.empty() && !(mesh.thickness[e] > 0 && std::isfinite(mesh.thickness[e])),
-    "element ", e, " has the thickness ", mesh.thickness[e], "; give it one above 0");
+  if (!mesh.thickness.empty())
+  {
+    refuseIf(!(mesh.thickness[e] > 0 && std::isfinite(mesh.thickness[e])), "element ", e,
+      " has the thickness ", mesh.thickness[e], "; give it one above 0");
+  }
   if (!mesh.axis.empty())
   {
     const double length = mesh.axis[e].norm();
