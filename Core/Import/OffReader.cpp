@@ -302,13 +302,13 @@ private:
   void readCorners(long long f, std::string_view& line, std::vector<std::int64_t>& corners)
   {
     long long count = 0;
-    refuseIf(!lines_.next(line) || !parseWord(nextWord(line), count) || count < 0, path_,
-      ": face " + std::to_string(f) + " is missing or has no number of corners");
+    refuseIf(!lines_.next(line) || !parseWord(nextWord(line), count) || count < 0, path_, ": face ",
+      f, " is missing or has no number of corners");
     for (long long i = 0; i < count; ++i)
     {
       long long id = 0;
-      refuseIf(!parseWord(nextWord(line), id) || id < 0 || id >= pointCount_, path_,
-        ": face " + std::to_string(f) + " has a corner that is missing or no vertex");
+      refuseIf(!parseWord(nextWord(line), id) || id < 0 || id >= pointCount_, path_, ": face ", f,
+        " has a corner that is missing or no vertex");
       corners.push_back(id);
     }
   }

@@ -161,10 +161,10 @@ void PlyFile::checkSize(const PlyElement& element) const
     least += text ? 1 : sizeOf(property.isList() ? *property.countType : *property.type);
   }
   refuseIf(
-    least == 0 && element.count > 0, path_, ": the element " + element.name + " has no property");
+    least == 0 && element.count > 0, path_, ": the element ", element.name, " has no property");
   refuseIf(least > 0 && static_cast<std::size_t>(element.count) > size_ / least, path_,
-    ": announces " + std::to_string(element.count) + " of the element " + element.name +
-      ", more than fit into its " + std::to_string(size_) + " bytes");
+    ": announces ", element.count, " of the element ", element.name, ", more than fit into its ",
+    size_, " bytes");
 }
 
 //----------------------------------------------------------------------------
