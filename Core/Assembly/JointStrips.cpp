@@ -4,7 +4,7 @@
 
 #include "Base/Progress.h"
 #include "Base/TryCount.h"
-#include "Quads/QuadHalfEdges.h"
+#include "Quads/QuadMesh.h"
 #include "Quads/QuadTopology.h"
 #include "Quads/SurfaceWalk.h"
 

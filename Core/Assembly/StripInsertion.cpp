@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Assembly/StripInsertion.h"
 
-#include "Quads/QuadHalfEdges.h"
+#include "Quads/QuadMesh.h"
 #include "Quads/QuadTopology.h"
 
 #include <algorithm>

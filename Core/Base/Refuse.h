@@ -19,4 +19,14 @@ template <class... Parts>
   throw InvalidInput(text.str());
 }
 
+/// The same where the condition holds. The parts are asked for in any case: they must exist, and cost nothing.
+template <class... Parts>
+void refuseIf(bool condition, const Parts&... parts)
+{
+  if (condition)
+  {
+    refuse(parts...);
+  }
+}
+
 } // namespace quadrille

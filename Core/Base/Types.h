@@ -22,4 +22,10 @@ constexpr Index kInvalidIndex = std::numeric_limits<Index>::max();
 using Vector2 = Eigen::Vector2d;
 using Vector3 = Eigen::Vector3d;
 
+/// Signed area of the parallelogram of two vectors; positive where b lies counterclockwise of a.
+inline double parallelogram(const Vector2& a, const Vector2& b)
+{
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 } // namespace quadrille

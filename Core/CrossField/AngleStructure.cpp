@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CrossField/AngleStructure.h"
 
+#include "Base/Lists.h"
 #include "Base/Progress.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 
 namespace quadrille
 {
@@ -24,9 +26,15 @@ public:
   AngleTransport(const Mesh& mesh, const FieldTopology& topology, const std::vector<int>& turns)
     : topology_(topology), faces_(mesh.faceCount()),
       nodes_(faces_ + static_cast<Index>(topology.fans.size())), angle_(mesh.halfEdgeCount()),
-      surplus_(faces_, -2 * kQuarterTurn)
+      surplus_(faces_, -2 * kQuarterTurn), corners_(topology.fans.size(),
+                                             [&](const auto& visit)
+                                             {
+                                               for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+                                               {
+                                                 visit(topology.fanOfCorner[h], h);
+                                               }
+                                             })
   {
-    groupCorners();
     for (Index i = 0; i < turns.size(); ++i)
     {
       spreadTurns(i, turns[i]);
@@ -42,7 +50,7 @@ public:
 
   void solve()
   {
-    while (buildLevels())
+    while (buildLevels(true))
     {
       next_.assign(nodes_, 0);
       for (Index f = 0; f < faces_; ++f)
@@ -59,65 +67,25 @@ public:
     return std::all_of(surplus_.begin(), surplus_.end(), [](std::int64_t s) { return s == 0; });
   }
 
-  // Nodes that surplus reaches (forward), or from which a deficit is reached.
-  std::vector<std::uint8_t> reached(bool forward) const
+  // Flags of the fans that surplus reaches (forward), or from which a deficit is reached.
+  std::vector<std::uint8_t> reached(bool forward)
   {
-    std::vector<std::uint8_t> seen(nodes_, 0);
-    std::vector<Index> queue;
-    for (Index f = 0; f < faces_; ++f)
-    {
-      if (forward ? surplus_[f] > 0 : surplus_[f] < 0)
-      {
-        seen[f] = 1;
-        queue.push_back(f);
-      }
-    }
-    for (std::size_t i = 0; i < queue.size(); ++i)
-    {
-      const Index node = queue[i];
-      for (Index k = 0; k < degree(node); ++k)
-      {
-        const Index corner = cornerOf(node, k);
-        const Index other = otherEnd(node, corner);
-        // Angle leaves a triangle only where its corner can shrink; it may enter anywhere.
-        const bool leaving = (node < faces_) == forward;
-        if (seen[other] == 0 && (!leaving || angle_[corner] > kSmallestAngle))
-        {
-          seen[other] = 1;
-          queue.push_back(other);
-        }
-      }
-    }
-    return { seen.begin() + faces_, seen.end() };
+    buildLevels(forward);
+    std::vector<std::uint8_t> flags;
+    std::transform(level_.begin() + faces_, level_.end(), std::back_inserter(flags),
+      [](Index level) { return level != kInvalidIndex ? 1 : 0; });
+    return flags;
   }
 
 private:
-  Index degree(Index node) const
-  {
-    return node < faces_ ? 3 : firstCorner_[node - faces_ + 1] - firstCorner_[node - faces_];
-  }
+  Index degree(Index node) const { return node < faces_ ? 3 : corners_.size(node - faces_); }
   Index cornerOf(Index node, Index k) const
   {
-    return node < faces_ ? 3 * node + k : corners_[firstCorner_[node - faces_] + k];
+    return node < faces_ ? 3 * node + k : corners_.begin(node - faces_)[k];
   }
   Index otherEnd(Index node, Index corner) const
   {
     return node < faces_ ? faces_ + topology_.fanOfCorner[corner] : Mesh::face(corner);
-  }
-
-  void groupCorners()
-  {
-    firstCorner_.assign(topology_.fans.size() + 1, 0);
-    for (std::size_t i = 0; i < topology_.fans.size(); ++i)
-    {
-      firstCorner_[i + 1] = firstCorner_[i] + topology_.fans[i].corners;
-    }
-    corners_.resize(angle_.size());
-    std::vector<Index> next(firstCorner_.begin(), firstCorner_.end() - 1);
-    for (Index h = 0; h < angle_.size(); ++h)
-    {
-      corners_[next[topology_.fanOfCorner[h]]++] = h;
-    }
   }
 
   // Starts from the surface's own angles, scaled to the turns: most triangles are then nearly right.
@@ -128,43 +96,42 @@ private:
     fit_ = fit_ && left >= 0;
     left = std::max<std::int64_t>(left, 0);
     double angleLeft = fan.angle;
-    for (Index k = firstCorner_[i]; k < firstCorner_[i + 1]; ++k)
+    for (const Index* h = corners_.begin(i); h != corners_.end(i); ++h)
     {
-      const double own = topology_.cornerAngle[corners_[k]];
+      const double own = topology_.cornerAngle[*h];
       const double share = angleLeft > 0 ? std::min(1.0, own / angleLeft) : 1.0;
-      const std::int64_t part = k + 1 == firstCorner_[i + 1]
+      const std::int64_t part = h + 1 == corners_.end(i)
         ? left
         : static_cast<std::int64_t>(share * static_cast<double>(left));
-      angle_[corners_[k]] = kSmallestAngle + part;
+      angle_[*h] = kSmallestAngle + part;
       left -= part;
       angleLeft -= own;
     }
   }
 
-  // Distances from triangles with surplus; whether a triangle with a deficit is reached.
-  bool buildLevels()
+  // Distances from triangles with surplus (backward: to those with a deficit); whether one with a deficit (a surplus)
+  // is reached. Angle leaves a triangle only where its corner can shrink; it may enter anywhere.
+  bool buildLevels(bool forward)
   {
     level_.assign(nodes_, kInvalidIndex);
-    std::vector<Index> queue;
-    for (Index f = 0; f < faces_; ++f)
+    std::vector<Index> queue =
+      idsWhere(faces_, [&](Index f) { return forward ? surplus_[f] > 0 : surplus_[f] < 0; });
+    for (const Index f : queue)
     {
-      if (surplus_[f] > 0)
-      {
-        level_[f] = 0;
-        queue.push_back(f);
-      }
+      level_[f] = 0;
     }
     bool found = false;
     for (std::size_t i = 0; i < queue.size(); ++i)
     {
       pollNowAndThen(++steps_);
       const Index node = queue[i];
-      found = found || (node < faces_ && surplus_[node] < 0);
+      found = found || (node < faces_ && (forward ? surplus_[node] < 0 : surplus_[node] > 0));
       for (Index k = 0; k < degree(node); ++k)
       {
         const Index corner = cornerOf(node, k);
         const Index other = otherEnd(node, corner);
-        if (level_[other] == kInvalidIndex && (node >= faces_ || angle_[corner] > kSmallestAngle))
+        const bool isLeaving = (node < faces_) == forward;
+        if (level_[other] == kInvalidIndex && (!isLeaving || angle_[corner] > kSmallestAngle))
         {
           level_[other] = level_[node] + 1;
           queue.push_back(other);
@@ -224,8 +191,7 @@ private:
   Index nodes_;
   std::vector<std::int64_t> angle_;   // #H
   std::vector<std::int64_t> surplus_; // #F, over half a turn
-  std::vector<Index> firstCorner_;    // #fans + 1
-  std::vector<Index> corners_;        // #H, by fan
+  Grouped<> corners_;                 // by fan
   std::vector<Index> level_;          // #nodes
   std::vector<Index> next_;           // #nodes, next arc to try
   std::vector<Index> path_;           // corners; even ones shrink, odd ones grow

@@ -3,14 +3,12 @@
 #include "CrossField/CrossField.h"
 
 #include "Base/PlaceText.h"
+#include "Base/Refuse.h"
 #include "Base/TryCount.h"
-#include "CrossField/FieldLines.h"
 #include "CrossField/FieldTopology.h"
 #include "CrossField/PowerField.h"
 #include "CrossField/SizeCones.h"
-#include "CrossField/TurnCosts.h"
 #include "CrossField/TurnRepair.h"
-#include "CrossField/TurnTargets.h"
 #include "CrossField/Turns.h"
 
 #include <cassert>
@@ -24,10 +22,7 @@ namespace
 
 void requireInput(const Mesh& mesh, const CrossFieldOptions& options)
 {
-  if (mesh.faceCount() == 0)
-  {
-    throw InvalidInput("cross field: the mesh has no faces");
-  }
+  refuseIf(mesh.faceCount() == 0, "cross field: the mesh has no faces");
   if (!(options.targetEdgeLength > 0) || !std::isfinite(options.targetEdgeLength))
   {
     throw InvalidInput("cross field: targetEdgeLength has to be positive and finite");

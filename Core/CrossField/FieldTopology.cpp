@@ -3,6 +3,7 @@
 #include "CrossField/FieldTopology.h"
 
 #include "Base/Angles.h"
+#include "Base/DisjointSets.h"
 #include "Mesh/Sizing.h"
 
 #include <algorithm>
@@ -185,6 +186,24 @@ int constrainedEdges(const Mesh& mesh, Index f)
     count += mesh.isConstrained(h) ? 1 : 0;
   }
   return count;
+}
+
+std::vector<Index> regionsOf(const Mesh& mesh)
+{
+  DisjointSets sets(mesh.faceCount(), 1);
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (!mesh.isConstrained(h))
+    {
+      sets.join(Mesh::face(h), Mesh::face(mesh.twin[h]));
+    }
+  }
+  std::vector<Index> region(mesh.faceCount());
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    region[f] = sets.find(f);
+  }
+  return region;
 }
 
 FieldTopology buildFieldTopology(const Mesh& mesh)

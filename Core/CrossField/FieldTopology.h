@@ -51,6 +51,9 @@ FieldTopology buildFieldTopology(const Mesh& mesh);
 /// How often the three half-edges of face f are constrained.
 int constrainedEdges(const Mesh& mesh, Index f);
 
+/// #F: the lowest of the faces that unconstrained edges join a face with.
+std::vector<Index> regionsOf(const Mesh& mesh);
+
 /// x modulo 2 pi in (-pi, pi].
 double wrapAngle(double x);
 

@@ -3,7 +3,7 @@
 #include "CrossField/PowerField.h"
 
 #include "Base/Angles.h"
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 
 #include <Eigen/SparseCholesky>
 
@@ -41,54 +41,28 @@ struct FreeFaces
   }
 };
 
-// Marks the component of `seed` with `id`; true when it meets no fixed face.
-bool floodComponent(const Mesh& mesh, const FieldConstraints& constraints, Index seed, Index id,
-  std::vector<Index>& component, std::vector<Index>& members)
-{
-  bool loose = true;
-  members.assign(1, seed);
-  component[seed] = id;
-  for (std::size_t i = 0; i < members.size(); ++i)
-  {
-    const Index f = members[i];
-    loose = loose && constraints.fixed[f] == 0;
-    for (Index h = 3 * f; h < 3 * f + 3; ++h)
-    {
-      if (mesh.isConstrained(h))
-      {
-        continue;
-      }
-      const Index g = Mesh::face(mesh.twin[h]);
-      if (component[g] == kInvalidIndex)
-      {
-        component[g] = id;
-        members.push_back(g);
-      }
-    }
-  }
-  return loose;
-}
-
 FreeFaces numberFreeFaces(const Mesh& mesh, const FieldConstraints& constraints)
 {
   FreeFaces free;
   free.unknown.assign(mesh.faceCount(), kInvalidIndex);
-  std::vector<Index> component(mesh.faceCount(), kInvalidIndex);
-  std::vector<Index> members;
-  std::vector<Index> looseOf; // per component
+  const std::vector<Index> region = regionsOf(mesh);
+  std::vector<std::uint8_t> isHeld(mesh.faceCount(), 0); // per region
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
-    if (component[f] == kInvalidIndex)
+    isHeld[region[f]] |= constraints.fixed[f];
+  }
+  std::vector<Index> looseOf(mesh.faceCount(), kInvalidIndex); // per region
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    if (region[f] == f && isHeld[f] == 0)
     {
-      const Index id = static_cast<Index>(looseOf.size());
-      const bool loose = floodComponent(mesh, constraints, f, id, component, members);
-      looseOf.push_back(loose ? free.looseCount++ : kInvalidIndex);
+      looseOf[f] = free.looseCount++;
     }
     if (constraints.fixed[f] == 0)
     {
       free.unknown[f] = static_cast<Index>(free.face.size());
       free.face.push_back(f);
-      free.loose.push_back(looseOf[component[f]]);
+      free.loose.push_back(looseOf[region[f]]);
     }
   }
   free.guided.assign(free.looseCount, 0);
@@ -396,11 +370,8 @@ FieldConstraints fieldConstraints(const Mesh& mesh, const FieldTopology& topolog
 void addGuides(const Mesh& mesh, const FieldTopology& topology, const std::vector<Guide>& guides,
   double length, FieldConstraints& constraints)
 {
-  if (guides.size() != mesh.faceCount())
-  {
-    throw InvalidInput("cross field: " + std::to_string(guides.size()) + " guides for " +
-      std::to_string(mesh.faceCount()) + " faces");
-  }
+  refuseIf(guides.size() != mesh.faceCount(), "cross field: ", guides.size(), " guides for ",
+    mesh.faceCount(), " faces");
   constraints.guideAngle.assign(mesh.faceCount(), 0.0);
   constraints.guideStrength.assign(mesh.faceCount(), 0.0);
   for (Index f = 0; f < mesh.faceCount(); ++f)

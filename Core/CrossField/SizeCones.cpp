@@ -149,36 +149,6 @@ struct ConePlace
   int turns = 4;
 };
 
-/// Faces that unconstrained edges join, by their lowest face.
-std::vector<Index> regionsOf(const Mesh& mesh)
-{
-  std::vector<Index> region(mesh.faceCount(), kInvalidIndex);
-  std::vector<Index> stack;
-  for (Index start = 0; start < mesh.faceCount(); ++start)
-  {
-    if (region[start] != kInvalidIndex)
-    {
-      continue;
-    }
-    region[start] = start;
-    stack.push_back(start);
-    while (!stack.empty())
-    {
-      const Index f = stack.back();
-      stack.pop_back();
-      for (Index h = 3 * f; h < 3 * f + 3; ++h)
-      {
-        if (!mesh.isConstrained(h) && region[Mesh::face(mesh.twin[h])] == kInvalidIndex)
-        {
-          region[Mesh::face(mesh.twin[h])] = start;
-          stack.push_back(Mesh::face(mesh.twin[h]));
-        }
-      }
-    }
-  }
-  return region;
-}
-
 /// The irregular vertices, and others evenly in the order of the mesh, which runs along a space-filling curve.
 std::vector<ConePlace> placesOf(const Mesh& mesh, const FieldTopology& topology,
   const std::vector<int>& turns, const std::vector<int>& asked)

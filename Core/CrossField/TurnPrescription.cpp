@@ -4,7 +4,8 @@
 
 #include "Base/DisjointSets.h"
 #include "Base/PlaceText.h"
-#include "CrossField/TurnCosts.h"
+#include "Base/Refuse.h"
+#include "CrossField/TurnRepair.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -129,11 +130,8 @@ std::string textOfMissing(const Mesh& mesh, const SetSums& sum, long missing, bo
 void prescribeValences(const Mesh& mesh, const FieldTopology& topology,
   const std::vector<int>& targetValence, TurnPrescription& result)
 {
-  if (targetValence.size() != mesh.vertexCount())
-  {
-    throw InvalidInput("cross field: " + std::to_string(targetValence.size()) +
-      " target valences for " + std::to_string(mesh.vertexCount()) + " vertices");
-  }
+  refuseIf(targetValence.size() != mesh.vertexCount(), "cross field: ", targetValence.size(),
+    " target valences for ", mesh.vertexCount(), " vertices");
   const std::vector<std::uint8_t> boundary = boundaryVertices(mesh);
   std::vector<Index> groupOfVertex(mesh.vertexCount(), kInvalidIndex);
   for (Index i = 0; i < topology.fans.size(); ++i)

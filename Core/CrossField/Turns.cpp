@@ -3,13 +3,94 @@
 #include "CrossField/Turns.h"
 
 #include "Base/Angles.h"
+#include "CrossField/PowerField.h"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace quadrille
 {
 namespace
 {
+
+constexpr double kNoise = kPi / 3; // turns up to here can be noise,
+constexpr double kSharp =
+  kPi / 2; // from here on they are the shape's own, like the steps of a part
+
+// Walking along the border of the faces on the left, sector after sector.
+struct BorderWalk
+{
+  std::vector<Index> before; // #fans; the sector at the other end of the incoming constrained edge
+  std::vector<Index> after;  // #fans; ... of the outgoing one
+};
+
+BorderWalk linkSectors(const FieldTopology& topology)
+{
+  const std::size_t count = topology.fans.size();
+  BorderWalk walk{ std::vector<Index>(count, kInvalidIndex),
+    std::vector<Index>(count, kInvalidIndex) };
+  for (Index i = 0; i < count; ++i)
+  {
+    if (topology.fans[i].sector)
+    {
+      // The fan that the start edge of this sector ends in holds the next corner of the same face.
+      const Index next = topology.fanOfCorner[Mesh::next(topology.fans[i].first)];
+      walk.after[i] = next;
+      walk.before[next] = i;
+    }
+  }
+  return walk;
+}
+
+// Turn of the border between its mean directions over `window` before and after sector i: the turns nearby
+// weighted by a hat.
+double windowedTurn(const FieldTopology& topology, const BorderWalk& walk,
+  const std::vector<double>& turn, Index i, double window)
+{
+  double sum = turn[i];
+  for (const bool forward : { true, false })
+  {
+    double distance = 0;
+    Index at = i;
+    while (true)
+    {
+      const Index next = forward ? walk.after[at] : walk.before[at];
+      const Fan& start = topology.fans[forward ? at : next];
+      distance += topology.edgeLength[start.first];
+      if (distance >= window || next == i)
+      {
+        break;
+      }
+      sum += turn[next] * (1 - distance / window);
+      at = next;
+    }
+  }
+  return sum;
+}
+
+/// Quarter turns from the direction to the nearest axis of the field in face f.
+int axisFrom(const Mesh& mesh, Index f, const Vector3& direction, double angle)
+{
+  const Vector3 x = mesh.edgeVector(3 * f).stableNormalized();
+  const Vector3 y = x.cross(mesh.edgeVector(3 * f + 1)).stableNormalized().cross(x);
+  return static_cast<int>(
+    std::lround((angle - std::atan2(direction.dot(y), direction.dot(x))) / kRightAngle));
+}
+
+/// How the direction of a line turns from face to face, without the field's own axes: from direction to direction by
+/// less than half a turn.
+int jumpAlong(const Mesh& mesh, const FieldTopology& topology, const std::vector<double>& angle,
+  const FieldLine& line, std::size_t i)
+{
+  const Index h = line.crossed[i];
+  const Index f = Mesh::face(h), g = Mesh::face(mesh.twin[h]);
+  const int here = axisFrom(mesh, f, line.along[i], angle[f]);
+  const int there = axisFrom(mesh, g, line.along[i + 1], angle[g]);
+  // The direction carried across is the next one but for whole turns, which the angles leave open.
+  const double carried = edgeResidual(topology, angle, mesh, h, here - there) / (4 * kRightAngle);
+  return here - there + 4 * static_cast<int>(std::lround(carried));
+}
 
 // Angle from the axis of its alignment to constrained half-edge h, in (-pi, pi].
 double deviation(const FieldTopology& topology, const FieldConstraints& constraints,
@@ -62,6 +143,65 @@ std::vector<int> countTurns(const Mesh& mesh, const FieldTopology& topology,
     turns[i] = static_cast<int>(std::lround(sum[i] / kRightAngle));
   }
   return turns;
+}
+
+std::vector<std::uint8_t> holdJumps(const Mesh& mesh, const FieldTopology& topology,
+  const std::vector<FieldLine>& lines, const std::vector<double>& angle, std::vector<int>& jump)
+{
+  if (lines.empty())
+  {
+    return {};
+  }
+  std::vector<std::uint8_t> isHeld(mesh.halfEdgeCount(), 0);
+  for (const FieldLine& line : lines)
+  {
+    assert(line.along.size() == line.crossed.size() + 1);
+    int missing = 0;
+    for (std::size_t i = 0; i < line.crossed.size(); ++i)
+    {
+      const Index h = line.crossed[i], twin = mesh.twin[h];
+      const int wanted = jumpAlong(mesh, topology, angle, line, i) + missing;
+      if (isHeld[h] == 0)
+      {
+        jump[h] = wanted;
+        jump[twin] = -wanted;
+        isHeld[h] = isHeld[twin] = 1;
+      }
+      missing = wanted - jump[h];
+    }
+  }
+  std::vector<std::uint8_t> held;
+  for (const auto& edge : topology.edges)
+  {
+    held.push_back(isHeld[edge[0]]);
+  }
+  return held;
+}
+
+std::vector<double> naturalTurns(const FieldTopology& topology, double window)
+{
+  const BorderWalk walk = linkSectors(topology);
+  std::vector<double> turn(topology.fans.size(), 0.0);
+  for (std::size_t i = 0; i < turn.size(); ++i)
+  {
+    turn[i] = topology.fans[i].sector ? topology.fans[i].angle - kPi : 0.0;
+  }
+  std::vector<double> natural(turn.size());
+  for (Index i = 0; i < turn.size(); ++i)
+  {
+    if (!topology.fans[i].sector)
+    {
+      natural[i] = topology.fans[i].angle / (0.5 * kPi);
+      continue;
+    }
+    const double smooth = windowedTurn(topology, walk, turn, i, window);
+    const double kept = turn[i] * smooth > 0
+      ? std::copysign(std::min(std::abs(turn[i]), std::abs(smooth)), turn[i])
+      : 0.0;
+    const double sharp = std::clamp((std::abs(turn[i]) - kNoise) / (kSharp - kNoise), 0.0, 1.0);
+    natural[i] = 2 + (sharp * turn[i] + (1 - sharp) * kept) / (0.5 * kPi);
+  }
+  return natural;
 }
 
 } // namespace quadrille

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Elements/SecondOrder.h"
 
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Refuse.h"
 #include "Base/Sorted.h"
 #include "Base/TryCount.h"
-#include "Elements/QuadEdgeList.h"
 #include "Elements/QuadraticShape.h"
 #include "Elements/SurfaceSection.h"
 #include "Mesh/NearestTriangle.h"
@@ -33,10 +33,8 @@ constexpr std::array<double, 5> kLeft{ 1, 1, 0.5, 0.25, 0 };
 
 void checkQuads(const QuadsOnSurface& quads, const SecondOrderOptions& options)
 {
-  if (options.nodes != 8 && options.nodes != 9)
-  {
-    refuse("a quad of second order has 8 or 9 nodes, not ", options.nodes);
-  }
+  refuseIf(options.nodes != 8 && options.nodes != 9,
+    "a quad of second order has 8 or 9 nodes, not ", options.nodes);
   if (quads.places.size() != quads.points.size() ||
     (!quads.featureEdges.empty() && quads.featureEdges.size() != quads.quads.size()))
   {
@@ -46,59 +44,67 @@ void checkQuads(const QuadsOnSurface& quads, const SecondOrderOptions& options)
   {
     for (const Index corner : quads.quads[q])
     {
-      if (corner >= quads.points.size())
-      {
-        refuse("quad ", q, " has the corner ", corner, ", but there are ", quads.points.size(),
-          " points");
-      }
+      refuseIf(corner >= quads.points.size(), "quad ", q, " has the corner ", corner,
+        ", but there are ", quads.points.size(), " points");
     }
   }
 }
 
-//------------------------------------------------------------------------------
-class NodePlacer
+/// The edges of the quads, numbered by their first quad; returns the half-edges of each, 4 quad + side.
+Grouped<> findEdges(const QuadsOnSurface& quads, SecondOrderNodes& nodes)
 {
-public:
-  NodePlacer(const Mesh& surface, const QuadsOnSurface& quads, const SecondOrderOptions& options)
-    : surface_(surface), quads_(quads), options_(options), edges_(quads, nodes_)
+  const auto halfEdges = static_cast<Index>(4 * quads.quads.size());
+  const auto ends = [&](Index h)
   {
-  }
-
-  SecondOrderNodes run()
-  {
-    const std::size_t edges = nodes_.edges.size();
-    const std::size_t all = edges + (options_.nodes == 9 ? quads_.quads.size() : 0);
-    nodes_.points.resize(all);
-    nodes_.places.resize(all);
-    nodes_.kinds.assign(all, NodePlace::Surface);
-    levels_.assign(all, 0);
-    fates_.assign(all, Fate::Found);
-    report(options_.progress, 0, "nodes between corners");
-    place(0, edges);
-    report(options_.progress, 0.5, "determinants");
-    straighten();
-    if (options_.nodes == 9)
-    {
-      // Between nodes that do not fold the element, as far as they alone can.
-      count_ = 9;
-      shape_ = QuadraticShape(9);
-      report(options_.progress, 0.7, "nodes in centres");
-      place(edges, all);
-      report(options_.progress, 0.9, "determinants");
-      straighten();
-    }
-    tell();
-    return std::move(nodes_);
-  }
-
-private:
-  enum class Fate : std::uint8_t
-  {
-    Found,
-    WithoutCurve, ///< found, but not on the curve of its edge
-    Nowhere,      ///< no way leads there
-    WithoutCurveOrWay
+    const std::array<Index, 4>& quad = quads.quads[h / 4];
+    return std::array<Index, 2>{ std::min(quad[h % 4], quad[(h + 1) % 4]),
+      std::max(quad[h % 4], quad[(h + 1) % 4]) };
   };
+  const Grouped<> byLower(quads.points.size(),
+    [&](const auto& visit)
+    {
+      for (Index h = 0; h < halfEdges; ++h)
+      {
+        visit(ends(h)[0], h);
+      }
+    });
+  nodes.edgesOfQuad.resize(quads.quads.size());
+  const auto edgeOf = [&](Index h) -> Index& { return nodes.edgesOfQuad[h / 4][h % 4]; };
+  for (Index h = 0; h < halfEdges; ++h)
+  {
+    const std::array<Index, 2> edge = ends(h);
+    const Index first = *std::find_if(
+      byLower.begin(edge[0]), byLower.end(edge[0]), [&](Index g) { return ends(g) == edge; });
+    if (first == h)
+    {
+      nodes.edges.push_back(edge);
+    }
+    edgeOf(h) = first == h ? static_cast<Index>(nodes.edges.size() - 1) : edgeOf(first);
+  }
+  Grouped<> result(nodes.edges.size(),
+    [&](const auto& visit)
+    {
+      for (Index h = 0; h < halfEdges; ++h)
+      {
+        visit(edgeOf(h), h);
+      }
+    });
+  for (Index edge = 0; edge < nodes.edges.size(); ++edge)
+  {
+    nodes.onBoundary.push_back(result.size(edge) == 1);
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+/// Nodes by their numbers, edges before centres: where they belong, whatever the surface is there.
+class NodeGeometry
+{
+protected:
+  NodeGeometry(const Mesh& surface, const QuadsOnSurface& quads)
+    : surface_(surface), quads_(quads), edges_(findEdges(quads, nodes_))
+  {
+  }
 
   std::array<Vector3, 4> cornersOfQuad(Index q) const
   {
@@ -173,6 +179,65 @@ private:
     return (p - straightPlace(n)).norm() <= reachOf(n);
   }
 
+  bool isOnCurve(Index edge) const { return nodes_.onBoundary[edge] != 0 || isFeature(edge); }
+
+  std::optional<CurveChain> chainOf(Index edge) const
+  {
+    return chainBetween(surface_, quads_.places[nodes_.edges[edge][0]],
+      quads_.places[nodes_.edges[edge][1]], nodes_.onBoundary[edge] != 0);
+  }
+
+  const Mesh& surface_;
+  const QuadsOnSurface& quads_;
+  SecondOrderNodes nodes_;
+  Grouped<> edges_; ///< half-edges by edge
+};
+
+//------------------------------------------------------------------------------
+class NodePlacer : NodeGeometry
+{
+public:
+  NodePlacer(const Mesh& surface, const QuadsOnSurface& quads, const SecondOrderOptions& options)
+    : NodeGeometry(surface, quads), options_(options)
+  {
+  }
+
+  SecondOrderNodes run()
+  {
+    const std::size_t edges = nodes_.edges.size();
+    const std::size_t all = edges + (options_.nodes == 9 ? quads_.quads.size() : 0);
+    nodes_.points.resize(all);
+    nodes_.places.resize(all);
+    nodes_.kinds.assign(all, NodePlace::Surface);
+    levels_.assign(all, 0);
+    fates_.assign(all, Fate::Found);
+    report(options_.progress, 0, "nodes between corners");
+    place(0, edges);
+    report(options_.progress, 0.5, "determinants");
+    straighten();
+    if (options_.nodes == 9)
+    {
+      // Between nodes that do not fold the element, as far as they alone can.
+      count_ = 9;
+      shape_ = QuadraticShape(9);
+      report(options_.progress, 0.7, "nodes in centres");
+      place(edges, all);
+      report(options_.progress, 0.9, "determinants");
+      straighten();
+    }
+    tell();
+    return std::move(nodes_);
+  }
+
+private:
+  enum class Fate : std::uint8_t
+  {
+    Found,
+    WithoutCurve, ///< found, but not on the curve of its edge
+    Nowhere,      ///< no way leads there
+    WithoutCurveOrWay
+  };
+
   void place(std::size_t first, std::size_t last)
   {
     parallelFor(last - first, kNodeChunk, options_.threads,
@@ -214,14 +279,6 @@ private:
     fates_[edge] = isCurve ? Fate::WithoutCurveOrWay : Fate::Nowhere;
   }
 
-  bool isOnCurve(Index edge) const { return nodes_.onBoundary[edge] != 0 || isFeature(edge); }
-
-  std::optional<CurveChain> chainOf(Index edge) const
-  {
-    return chainBetween(surface_, quads_.places[nodes_.edges[edge][0]],
-      quads_.places[nodes_.edges[edge][1]], nodes_.onBoundary[edge] != 0);
-  }
-
   /// Of the two pairs of opposite edges that one is joined which is the shorter way.
   void placeCentre(std::size_t n)
   {
@@ -255,17 +312,15 @@ private:
     nodes_.points[n] = positionOf(surface_, place);
   }
 
+  bool isLost(std::size_t n) const
+  {
+    return fates_[n] == Fate::Nowhere || fates_[n] == Fate::WithoutCurveOrWay;
+  }
+
   /// The nodes that no way leads to. The tree is made only where there are some.
   void placeNearest(std::size_t first, std::size_t last)
   {
-    std::vector<std::size_t> lost;
-    for (std::size_t n = first; n < last; ++n)
-    {
-      if (fates_[n] == Fate::Nowhere || fates_[n] == Fate::WithoutCurveOrWay)
-      {
-        lost.push_back(n);
-      }
-    }
+    std::vector<Index> lost = idsWhere(last, [&](Index n) { return n >= first && isLost(n); });
     if (lost.empty())
     {
       return;
@@ -418,11 +473,7 @@ private:
   /// of its corners, whose determinant is positive where it is so at the corners.
   void straighten()
   {
-    std::vector<Index> check(quads_.quads.size());
-    for (Index q = 0; q < check.size(); ++q)
-    {
-      check[q] = q;
-    }
+    std::vector<Index> check = idsWhere(quads_.quads.size(), [](Index) { return true; });
     while (!check.empty())
     {
       const std::vector<Index> folded = foldedOf(check);
@@ -504,28 +555,14 @@ private:
 
   void tell()
   {
-    for (std::size_t n = 0; n < fates_.size(); ++n)
-    {
-      if (fates_[n] == Fate::WithoutCurve || fates_[n] == Fate::WithoutCurveOrWay)
-      {
-        nodes_.withoutCurve.push_back(static_cast<Index>(n));
-      }
-      if (fates_[n] == Fate::Nowhere || fates_[n] == Fate::WithoutCurveOrWay)
-      {
-        nodes_.byNearest.push_back(static_cast<Index>(n));
-      }
-    }
-    std::sort(nodes_.invertedQuads.begin(), nodes_.invertedQuads.end());
-    nodes_.invertedQuads.erase(
-      std::unique(nodes_.invertedQuads.begin(), nodes_.invertedQuads.end()),
-      nodes_.invertedQuads.end());
+    nodes_.withoutCurve = idsWhere(fates_.size(),
+      [this](Index n)
+      { return fates_[n] == Fate::WithoutCurve || fates_[n] == Fate::WithoutCurveOrWay; });
+    nodes_.byNearest = idsWhere(fates_.size(), [this](Index n) { return isLost(n); });
+    sortUnique(nodes_.invertedQuads);
   }
 
-  const Mesh& surface_;
-  const QuadsOnSurface& quads_;
   const SecondOrderOptions& options_;
-  SecondOrderNodes nodes_;
-  QuadEdgeList edges_;
   std::size_t count_ = 8; ///< nodes of an element that are placed
   QuadraticShape shape_{ 8 };
   std::vector<MoveLevel> levels_; ///< per node

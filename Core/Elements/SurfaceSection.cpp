@@ -3,6 +3,7 @@
 #include "Elements/SurfaceSection.h"
 
 #include "Base/Angles.h"
+#include "Mesh/SurfaceEdit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Evaluation/Distribution.h"
 
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,17 +13,12 @@ namespace quadrille
 WeightedDistribution::WeightedDistribution(
   const std::vector<double>& values, const std::vector<double>& weights)
 {
-  if (values.size() != weights.size())
-  {
-    throw InvalidInput("distribution: there are " + std::to_string(values.size()) +
-      " values, but " + std::to_string(weights.size()) + " weights");
-  }
+  refuseIf(values.size() != weights.size(), "distribution: there are ", values.size(),
+    " values, but ", weights.size(), " weights");
   for (std::size_t i = 0; i < values.size(); ++i)
   {
-    if (!std::isfinite(values[i]) || !std::isfinite(weights[i]))
-    {
-      throw InvalidInput("distribution: a value or a weight is not finite");
-    }
+    refuseIf(!std::isfinite(values[i]) || !std::isfinite(weights[i]),
+      "distribution: a value or a weight is not finite");
     if (weights[i] > 0)
     {
       entries_.emplace_back(values[i], weights[i]);
@@ -69,10 +64,8 @@ double WeightedDistribution::quantile(double part) const
 
 std::vector<double> WeightedDistribution::histogram(const std::vector<double>& edges) const
 {
-  if (edges.size() < 2 || !std::is_sorted(edges.begin(), edges.end()))
-  {
-    throw InvalidInput("histogram: it needs two edges of bins at least, and they have to ascend");
-  }
+  refuseIf(edges.size() < 2 || !std::is_sorted(edges.begin(), edges.end()),
+    "histogram: it needs two edges of bins at least, and they have to ascend");
   std::vector<double> shares(edges.size() - 1, 0.0);
   for (const auto& [value, weight] : entries_)
   {
@@ -86,10 +79,8 @@ std::vector<double> WeightedDistribution::histogram(const std::vector<double>& e
 
 double wassersteinDistance(const WeightedDistribution& a, const WeightedDistribution& b)
 {
-  if (a.isEmpty() != b.isEmpty())
-  {
-    throw InvalidInput("Wasserstein distance: one of the two distributions is empty");
-  }
+  refuseIf(
+    a.isEmpty() != b.isEmpty(), "Wasserstein distance: one of the two distributions is empty");
   double sum = 0, last = 0, shareA = 0, shareB = 0;
   auto i = a.entries().begin();
   auto j = b.entries().begin();

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Evaluation/GeodesicGraph.h"
 
-#include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,11 +16,6 @@ namespace quadrille
 {
 namespace
 {
-
-double cross(const Vector2& a, const Vector2& b)
-{
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// The arcs of one vertex. Strips begin with a face at the vertex, laid out with the vertex at the origin.
 class StripWalk
@@ -69,7 +64,7 @@ private:
   {
     const Index twin = mesh_.twin[window.halfEdge];
     if (twin == kInvalidIndex || window.crossings == GeodesicGraph::kMostCrossings ||
-      !(cross(window.right, window.left) > 0))
+      !(parallelogram(window.right, window.left) > 0))
     {
       return;
     }
@@ -87,8 +82,8 @@ private:
     // The apex lies beyond the edge, to its right as it runs counterclockwise round the origin.
     const Vector2 unit = along / length;
     const Vector2 apex = window.from + x * unit + y * Vector2(unit.y(), -unit.x());
-    const bool rightOfLeft = cross(apex, window.left) > 0;
-    const bool leftOfRight = cross(window.right, apex) > 0;
+    const bool rightOfLeft = parallelogram(apex, window.left) > 0;
+    const bool leftOfRight = parallelogram(window.right, apex) > 0;
     if (rightOfLeft && leftOfRight)
     {
       addArc(mesh_.origin[Mesh::next(toApex)], apex.norm());
@@ -134,13 +129,7 @@ std::vector<double> GeodesicGraph::distances(Index source, const std::vector<Ind
 {
   const std::size_t vertices = firstArc_.size() - 1;
   const auto check = [&](Index v)
-  {
-    if (v >= vertices)
-    {
-      throw InvalidInput("distances: there is no vertex " + std::to_string(v) + " in a mesh of " +
-        std::to_string(vertices));
-    }
-  };
+  { refuseIf(v >= vertices, "distances: there is no vertex ", v, " in a mesh of ", vertices); };
   check(source);
   constexpr double kUnreached = std::numeric_limits<double>::infinity();
   std::vector<double> distance(vertices, kUnreached);

@@ -3,9 +3,11 @@
 #include "Evaluation/MapQuality.h"
 
 #include "Base/Angles.h"
-#include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
+#include "Evaluation/Distribution.h"
 #include "GridMap/MapCheck.h"
+#include "GridMap/MapShape.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
 
@@ -14,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace quadrille
 {
@@ -26,13 +29,6 @@ Eigen::Matrix2d flatEdges(const Mesh& mesh, Index f)
   const SizedTriangle triangle = sizedTriangle(mesh, f);
   Eigen::Matrix2d edges;
   edges << triangle.width, triangle.apex.x(), 0, triangle.apex.y();
-  return edges;
-}
-
-Eigen::Matrix2d mappedEdges(const std::vector<FixedVec2>& uv, Index f)
-{
-  Eigen::Matrix2d edges;
-  edges << toDouble(uv[3 * f + 1] - uv[3 * f]), toDouble(uv[3 * f + 2] - uv[3 * f]);
   return edges;
 }
 
@@ -64,10 +60,7 @@ std::vector<double> evenBins(double first, double last)
 
 MapQuality measureMapQuality(const Mesh& mesh, const std::vector<FixedVec2>& uv, double edgeLength)
 {
-  if (uv.size() != mesh.origin.size())
-  {
-    throw InvalidInput("map quality: the map has not the size of the mesh");
-  }
+  refuseIf(uv.size() != mesh.origin.size(), "map quality: the map has not the size of the mesh");
   if (!(edgeLength > 0) || !std::isfinite(edgeLength))
   {
     throw InvalidInput("map quality: the edge length has to be positive and finite");
@@ -108,10 +101,7 @@ MapQuality measureMapQuality(const Mesh& mesh, const std::vector<FixedVec2>& uv,
 
 std::vector<int> turnsOfMap(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 {
-  if (uv.size() != mesh.origin.size())
-  {
-    throw InvalidInput("turns of a map: the map has not the size of the mesh");
-  }
+  refuseIf(uv.size() != mesh.origin.size(), "turns of a map: the map has not the size of the mesh");
   std::vector<int> turns(mesh.vertexCount(), 0);
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
@@ -150,6 +140,52 @@ std::vector<double> anisotropyBins()
 std::vector<double> shearBins()
 {
   return evenBins(0, kPi / 2);
+}
+
+MapDistortion measureDistortion(const Mesh& mesh, const std::vector<FixedVec2>& uv)
+{
+  refuseIf(uv.size() != mesh.origin.size(), "distortion: the map has not the size of the mesh");
+  double area = 0, mapped = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    pollNowAndThen(f);
+    area += sizedArea(mesh, f);
+    mapped += mappedArea(uv, f);
+  }
+  const double unit = area > 0 && mapped > 0 ? std::sqrt(area / mapped) : 1;
+  MapDistortion result;
+  std::vector<double> energies, weights;
+  double total = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+  {
+    pollNowAndThen(f);
+    const double weight = sizedArea(mesh, f);
+    if (!(weight > 0) || !(mappedArea(uv, f) > 0))
+    {
+      ++result.left;
+      continue;
+    }
+    const Eigen::Matrix2d j = unit * mappedEdges(uv, f) * flattenFace(mesh, f).inverse();
+    const double d = j.determinant();
+    const double squared = j.squaredNorm();
+    energies.push_back(squared * (1 + 1 / (d * d)) / 4);
+    weights.push_back(weight);
+    result.mean += weight * energies.back();
+    result.angle += weight * squared / (2 * d);
+    result.size += weight * std::abs(std::log2(d));
+    total += weight;
+  }
+  if (total > 0)
+  {
+    result.mean /= total;
+    result.angle /= total;
+    result.size /= total;
+  }
+  const WeightedDistribution distribution(energies, weights);
+  result.median = distribution.quantile(0.5);
+  result.p90 = distribution.quantile(0.9);
+  result.p99 = distribution.quantile(0.99);
+  return result;
 }
 
 } // namespace quadrille

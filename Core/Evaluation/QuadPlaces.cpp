@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Evaluation/QuadPlaces.h"
 
-#include "Base/Sorted.h"
+#include "Base/Lists.h"
 #include "Mesh/Distance.h"
 #include "Requests/Guides.h"
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Evaluation/SingularityDistance.h"
 
-#include "Base/Error.h"
 #include "Base/Parallel.h"
+#include "Base/Refuse.h"
 #include "Evaluation/GeodesicGraph.h"
 #include "Mesh/Topology.h"
 #include "Numerics/MinCostFlow.h"
@@ -24,11 +24,8 @@ constexpr double kUnitsOfLongest = 1e6;
 
 void requireTurns(const Mesh& mesh, const std::vector<int>& turns)
 {
-  if (turns.size() != mesh.vertexCount())
-  {
-    throw InvalidInput("There are quarter turns for " + std::to_string(turns.size()) +
-      " vertices, but the mesh has " + std::to_string(mesh.vertexCount()) + ".");
-  }
+  refuseIf(turns.size() != mesh.vertexCount(), "There are quarter turns for ", turns.size(),
+    " vertices, but the mesh has ", mesh.vertexCount(), ".");
 }
 
 /// Vertices where one field has more quarter turns than the other one, with how many.

@@ -15,31 +15,22 @@ namespace
 
 void requireSize(std::size_t size, std::size_t elements, const char* what)
 {
-  if (size != 0 && size != elements)
-  {
-    refuse(what, " are given for ", size, " elements, but there are ", elements);
-  }
+  refuseIf(size != 0 && size != elements, what, " are given for ", size,
+    " elements, but there are ", elements);
 }
 
 void requireSizes(const ElementMesh& mesh)
 {
-  if (mesh.nodesPerElement != 4 && mesh.nodesPerElement != 8 && mesh.nodesPerElement != 9)
-  {
-    refuse("elements have ", mesh.nodesPerElement, " nodes, but only 4, 8 or 9 are known");
-  }
+  refuseIf(mesh.nodesPerElement != 4 && mesh.nodesPerElement != 8 && mesh.nodesPerElement != 9,
+    "elements have ", mesh.nodesPerElement, " nodes, but only 4, 8 or 9 are known");
   const std::size_t count = mesh.elementCount();
-  if (count * static_cast<std::size_t>(mesh.nodesPerElement) != mesh.elements.size())
-  {
-    refuse("the list of elements ends in the middle of element ", count);
-  }
+  refuseIf(count * static_cast<std::size_t>(mesh.nodesPerElement) != mesh.elements.size(),
+    "the list of elements ends in the middle of element ", count);
   requireSize(mesh.patchOf.size(), count, "patches");
   requireSize(mesh.featureEdges.size(), count, "feature edges");
   requireSize(mesh.thickness.size(), count, "thicknesses");
   requireSize(mesh.axis.size(), count, "axes");
-  if (mesh.patches.empty() && count > 0)
-  {
-    refuse("there are elements, but no patch");
-  }
+  refuseIf(mesh.patches.empty() && count > 0, "there are elements, but no patch");
 }
 
 void requireElement(const ElementMesh& mesh, std::size_t e)
@@ -48,16 +39,11 @@ void requireElement(const ElementMesh& mesh, std::size_t e)
   for (std::size_t i = 0; i < nodes; ++i)
   {
     const Index node = mesh.element(e)[i];
-    if (node >= mesh.nodes.size())
-    {
-      refuse("element ", e, " has the node ", node, ", but there are ", mesh.nodes.size());
-    }
+    refuseIf(node >= mesh.nodes.size(), "element ", e, " has the node ", node, ", but there are ",
+      mesh.nodes.size());
     for (std::size_t k = 0; k < i; ++k)
     {
-      if (mesh.element(e)[k] == node)
-      {
-        refuse("element ", e, " has the node ", node, " twice");
-      }
+      refuseIf(mesh.element(e)[k] == node, "element ", e, " has the node ", node, " twice");
     }
   }
   if (mesh.patch(e) >= mesh.patches.size())
@@ -69,18 +55,16 @@ void requireElement(const ElementMesh& mesh, std::size_t e)
 void requireProperties(const ElementMesh& mesh, std::size_t e)
 {
   constexpr double kUnitTolerance = 1e-6; // an array of floats is a unit vector to 1e-7
-  if (!mesh.thickness.empty() && !(mesh.thickness[e] > 0 && std::isfinite(mesh.thickness[e])))
+  if (!mesh.thickness.empty())
   {
-    refuse("element ", e, " has the thickness ", mesh.thickness[e], "; give it one above 0");
+    refuseIf(!(mesh.thickness[e] > 0 && std::isfinite(mesh.thickness[e])), "element ", e,
+      " has the thickness ", mesh.thickness[e], "; give it one above 0");
   }
   if (!mesh.axis.empty())
   {
     const double length = mesh.axis[e].norm();
-    if (!(length == 0 || std::abs(length - 1) < kUnitTolerance))
-    {
-      refuse("the axis of element ", e, " has the length ", length,
-        "; give a unit vector, or zero where it has none");
-    }
+    refuseIf(!(length == 0 || std::abs(length - 1) < kUnitTolerance), "the axis of element ", e,
+      " has the length ", length, "; give a unit vector, or zero where it has none");
   }
 }
 
@@ -92,10 +76,7 @@ void requireValid(const ElementMesh& mesh)
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
   {
     pollNowAndThen(i);
-    if (!mesh.nodes[i].allFinite())
-    {
-      refuse("node ", i, " has a coordinate that is no number");
-    }
+    refuseIf(!mesh.nodes[i].allFinite(), "node ", i, " has a coordinate that is no number");
   }
   for (std::size_t e = 0; e < mesh.elementCount(); ++e)
   {
@@ -105,11 +86,21 @@ void requireValid(const ElementMesh& mesh)
   }
 }
 
-Vector3 elementNormal(const ElementMesh& mesh, std::size_t element)
+std::string writingText(const ElementMesh& mesh)
+{
+  return "writing " + std::to_string(mesh.elementCount()) + " elements";
+}
+
+Vector3 elementAreaVector(const ElementMesh& mesh, std::size_t element)
 {
   const auto corner = [&](std::size_t i) -> const Vector3&
   { return mesh.nodes[mesh.corner(element, i)]; };
-  const Vector3 normal = (corner(2) - corner(0)).cross(corner(3) - corner(1));
+  return (corner(2) - corner(0)).cross(corner(3) - corner(1));
+}
+
+Vector3 elementNormal(const ElementMesh& mesh, std::size_t element)
+{
+  const Vector3 normal = elementAreaVector(mesh, element);
   const double length = normal.stableNorm();
   return length > 0 ? Vector3(normal / length) : Vector3(Vector3::Zero());
 }

@@ -59,6 +59,12 @@ struct ElementMesh
 /// element has a node twice, coordinates are finite, thicknesses above 0 and axes of length 1 or 0 (to 1e-6).
 void requireValid(const ElementMesh& mesh);
 
+/// "writing 12 elements".
+std::string writingText(const ElementMesh& mesh);
+
+/// Twice the vector area of an element, by its diagonals.
+Vector3 elementAreaVector(const ElementMesh& mesh, std::size_t element);
+
 /// The unit normal of an element, by its diagonals; zero where they are parallel.
 Vector3 elementNormal(const ElementMesh& mesh, std::size_t element);
 

@@ -2,19 +2,249 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Export/InpWriter.h"
 
+#include "Base/LargeArray.h"
+#include "Base/Lists.h"
 #include "Base/Refuse.h"
-#include "Export/InpSections.h"
+#include "Export/OutputFile.h"
 #include "Export/SetNames.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <map>
 
 namespace quadrille
 {
 
 namespace
 {
+
+/// More different thicknesses than this are given by nodes.
+constexpr std::size_t kMostThicknesses = 64;
+constexpr std::size_t kInpReal = 20;
+
+std::string inpReal(double number)
+{
+  return realText(number, kInpReal);
+}
+
+/// Elements with the same thickness and frame; kInvalidIndex: by nodes, or none.
+struct Section
+{
+  Index thickness = kInvalidIndex;
+  Index frame = kInvalidIndex;
+  bool operator<(const Section& other) const
+  {
+    return std::tie(thickness, frame) < std::tie(other.thickness, other.frame);
+  }
+};
+
+/// The first and the second direction of an element.
+using InpFrame = std::array<double, 6>;
+
+/// Values in the order of their first elements, and which one each element has.
+template <class Value>
+struct Distinct
+{
+  std::vector<Value> values;
+  std::vector<Index> of; ///< #E; kInvalidIndex: none
+
+  explicit Distinct(std::size_t elements) { growLarge(of, elements, kInvalidIndex); }
+  void set(std::size_t element, const Value& value)
+  {
+    const auto [found, isNew] = ids_.emplace(value, static_cast<Index>(values.size()));
+    if (isNew)
+    {
+      values.push_back(value);
+    }
+    of[element] = found->second;
+  }
+
+private:
+  std::map<Value, Index> ids_;
+};
+
+Distinct<double> distinctThicknesses(const ElementMesh& mesh)
+{
+  Distinct<double> found(mesh.elementCount());
+  for (std::size_t e = 0; e < mesh.thickness.size(); ++e)
+  {
+    pollNowAndThen(e);
+    found.set(e, mesh.thickness[e]);
+  }
+  return found;
+}
+
+Distinct<InpFrame> distinctFrames(const ElementMesh& mesh)
+{
+  Distinct<InpFrame> found(mesh.elementCount());
+  for (std::size_t e = 0; e < mesh.axis.size(); ++e)
+  {
+    pollNowAndThen(e);
+    const Vector3& a = mesh.axis[e];
+    const Vector3 b = elementNormal(mesh, e).cross(a);
+    if (a.squaredNorm() > 0 && b.squaredNorm() > 0)
+    {
+      // Adding 0 makes +0 of -0, so that equal directions are equal text.
+      found.set(e, { a[0] + 0., a[1] + 0., a[2] + 0., b[0] + 0., b[1] + 0., b[2] + 0. });
+    }
+  }
+  return found;
+}
+
+void writeFrame(OutputFile& file, const InpFrame& frame)
+{
+  for (std::size_t k = 0; k < frame.size(); ++k)
+  {
+    file << (k > 0 ? ", " : "") << inpReal(frame[k]);
+  }
+  file << '\n';
+}
+
+/// Per node, the average over its elements by area; 0 where no element is.
+std::vector<double> nodalThickness(const ElementMesh& mesh)
+{
+  std::vector<double> sums(mesh.nodes.size(), 0.);
+  std::vector<double> areas(mesh.nodes.size(), 0.);
+  for (std::size_t e = 0; e < mesh.elementCount(); ++e)
+  {
+    pollNowAndThen(e);
+    const double area = elementAreaVector(mesh, e).norm() / 2;
+    for (int i = 0; i < mesh.nodesPerElement; ++i)
+    {
+      const Index node = mesh.element(e)[i];
+      sums[node] += area * mesh.thickness[e];
+      areas[node] += area;
+    }
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i)
+  {
+    sums[i] = areas[i] > 0 ? sums[i] / areas[i] : 0;
+  }
+  return sums;
+}
+
+void writeNodalThickness(const std::vector<double>& thickness, OutputFile& file)
+{
+  file << "*NODAL THICKNESS\n";
+  for (std::size_t i = 0; i < thickness.size(); ++i)
+  {
+    pollNowAndThen(i);
+    if (thickness[i] > 0)
+    {
+      file << i + 1 << ", " << inpReal(thickness[i]) << '\n';
+    }
+  }
+}
+
+/// One distribution for all elements; its first line is for those that it leaves out.
+void writeDistribution(const Distinct<InpFrame>& frames, InpDialect dialect, OutputFile& file)
+{
+  if (dialect == InpDialect::Abaqus)
+  {
+    file << "*DISTRIBUTION TABLE, NAME=AXES_TABLE\nCOORD3D, COORD3D\n";
+  }
+  file << "*DISTRIBUTION, NAME=AXES_DISTRIBUTION, LOCATION=ELEMENT"
+       << (dialect == InpDialect::Abaqus ? ", TABLE=AXES_TABLE\n" : "\n");
+  file << ", 1., 0., 0., 0., 1., 0.\n";
+  for (std::size_t e = 0; e < frames.of.size(); ++e)
+  {
+    pollNowAndThen(e);
+    if (frames.of[e] != kInvalidIndex)
+    {
+      file << e + 1 << ", ";
+      writeFrame(file, frames.values[frames.of[e]]);
+    }
+  }
+  file << "*ORIENTATION, NAME=AXES\nAXES_DISTRIBUTION\n3, 0.\n";
+}
+
+void writeOrientations(const std::vector<InpFrame>& frames, OutputFile& file)
+{
+  for (std::size_t i = 0; i < frames.size(); ++i)
+  {
+    pollNowAndThen(i);
+    file << "*ORIENTATION, NAME=AXES_" << i + 1 << '\n';
+    writeFrame(file, frames[i]);
+  }
+}
+
+/// Numbers in a line of a deck, at most 16; `first` and the ids count from 0.
+void writeInpIds(OutputFile& file, const std::vector<Index>& ids)
+{
+  constexpr std::size_t kInLine = 16;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    pollNowAndThen(i);
+    const bool isLast = i + 1 == ids.size() || (i + 1) % kInLine == 0;
+    file << ids[i] + 1 << (isLast ? "\n" : ", ");
+  }
+}
+
+/// Nothing where the mesh has neither. Returns what the user should know.
+std::vector<std::string> writeInpSections(
+  const ElementMesh& mesh, bool areShells, const InpOptions& options, OutputFile& file)
+{
+  std::vector<std::string> notices;
+  if (mesh.thickness.empty() && mesh.axis.empty())
+  {
+    return notices;
+  }
+  Distinct<double> thicknesses = distinctThicknesses(mesh);
+  const bool byNodes = thicknesses.values.size() > kMostThicknesses;
+  const bool byElements = !mesh.thickness.empty() && !byNodes;
+  const Distinct<InpFrame> frames = distinctFrames(mesh);
+  const bool hasFrames = !frames.values.empty();
+  const bool hasDistribution = hasFrames && (!areShells || options.dialect == InpDialect::Abaqus);
+  if (mesh.thickness.empty())
+  {
+    notices.emplace_back("sections are written with the thickness 1, as the mesh has no thickness: "
+                         "add the cell array Thickness, or change them in the file");
+  }
+  if (byNodes)
+  {
+    writeNodalThickness(nodalThickness(mesh), file);
+    notices.push_back("there are " + std::to_string(thicknesses.values.size()) +
+      " different thicknesses: they are written by nodes, averaged over the elements at each");
+  }
+  if (hasDistribution)
+  {
+    writeDistribution(frames, options.dialect, file);
+  }
+  else if (hasFrames)
+  {
+    writeOrientations(frames.values, file);
+  }
+  // Elements without an axis of their own are in another section, without orientation.
+  std::map<Section, std::vector<Index>> sections;
+  for (std::size_t e = 0; e < mesh.elementCount(); ++e)
+  {
+    const Index frame = hasDistribution && frames.of[e] != kInvalidIndex ? 0 : frames.of[e];
+    sections[{ byElements ? thicknesses.of[e] : kInvalidIndex, frame }].push_back(
+      static_cast<Index>(e));
+  }
+  Index number = 0;
+  for (const auto& [section, elements] : sections)
+  {
+    const std::string name = "SECTION_" + std::to_string(++number);
+    file << "*ELSET, ELSET=" << name << '\n';
+    writeInpIds(file, elements);
+    file << (areShells ? "*SHELL SECTION" : "*SOLID SECTION") << ", ELSET=" << name
+         << ", MATERIAL=" << options.material;
+    if (section.frame != kInvalidIndex)
+    {
+      file << ", ORIENTATION=AXES"
+           << (hasDistribution ? std::string() : "_" + std::to_string(section.frame + 1));
+    }
+    // With nodal thickness this one is not used, but CalculiX reads a line.
+    file << (byNodes ? ", NODAL THICKNESS\n" : "\n")
+         << (byElements   ? inpReal(thicknesses.values[section.thickness])
+                : byNodes ? inpReal(mesh.thickness[elements.front()])
+                          : "1.")
+         << '\n';
+  }
+  return notices;
+}
 
 constexpr std::size_t kMostCharacters = 20; // of a real number, in both programs
 
@@ -28,24 +258,17 @@ std::string upperCased(std::string text)
 std::string typeOf(const ElementMesh& mesh, const InpOptions& options)
 {
   const std::vector<std::string> types = inpElementTypes(mesh.nodesPerElement, options.dialect);
-  if (types.empty())
-  {
-    refuse("CalculiX has no elements of 9 nodes: make them with 8, or write for Abaqus");
-  }
+  refuseIf(
+    types.empty(), "CalculiX has no elements of 9 nodes: make them with 8, or write for Abaqus");
   if (options.elementType.empty())
   {
     return types.front();
   }
   std::string type = upperCased(options.elementType);
-  if (std::find(types.begin(), types.end(), type) == types.end())
+  if (!contains(types, type))
   {
-    std::string known;
-    for (const std::string& one : types)
-    {
-      known += (known.empty() ? "" : ", ") + one;
-    }
     refuse("elements of ", mesh.nodesPerElement, " nodes cannot be of type ", options.elementType,
-      "; choose one of ", known);
+      "; choose one of ", joined(types, types.size(), [](const std::string& one) { return one; }));
   }
   return type;
 }
@@ -55,48 +278,29 @@ bool isPlaneType(const std::string& type)
   return type[0] == 'C';
 }
 
-/// For the plane z = 0.
-class PlaneCheck
+void requireInPlane(const ElementMesh& mesh, const std::string& type)
 {
-public:
-  explicit PlaneCheck(const ElementMesh& mesh) : mesh_(mesh)
+  constexpr double kPlaceTolerance = 1e-9;
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : mesh.nodes)
   {
-    constexpr double kPlaceTolerance = 1e-9;
-    Vector3 low = mesh.nodes.empty() ? Vector3(Vector3::Zero()) : mesh.nodes.front();
-    Vector3 high = low;
-    for (const Vector3& p : mesh.nodes)
-    {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    tolerance_ = kPlaceTolerance * (high - low).norm();
+    box.extend(p);
   }
-
-  void require(const std::string& type) const
+  const double tolerance = box.isEmpty() ? 0 : kPlaceTolerance * box.diagonal().norm();
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
   {
-    for (std::size_t i = 0; i < mesh_.nodes.size(); ++i)
-    {
-      if (std::abs(mesh_.nodes[i][2]) > tolerance_)
-      {
-        refuse("elements of type ", type, " lie in the plane z = 0, but node ", i,
-          " has z = ", mesh_.nodes[i][2], ": move the mesh there, or choose shells (S4, S8R)");
-      }
-    }
-    for (std::size_t e = 0; e < mesh_.elementCount(); ++e)
-    {
-      pollNowAndThen(e);
-      if (elementNormal(mesh_, e)[2] < 0)
-      {
-        refuse("elements of type ", type, " are counterclockwise seen from above (z), but element ",
-          e, " is clockwise: reverse the surface");
-      }
-    }
+    refuseIf(std::abs(mesh.nodes[i][2]) > tolerance, "elements of type ", type,
+      " lie in the plane z = 0, but node ", i, " has z = ", mesh.nodes[i][2],
+      ": move the mesh there, or choose shells (S4, S8R)");
   }
-
-private:
-  const ElementMesh& mesh_;
-  double tolerance_ = 0;
-};
+  for (std::size_t e = 0; e < mesh.elementCount(); ++e)
+  {
+    pollNowAndThen(e);
+    refuseIf(elementNormal(mesh, e)[2] < 0, "elements of type ", type,
+      " are counterclockwise seen from above (z), but element ", e,
+      " is clockwise: reverse the surface");
+  }
+}
 
 void writeInpNodes(const ElementMesh& mesh, bool isPlane, OutputFile& file)
 {
@@ -104,7 +308,7 @@ void writeInpNodes(const ElementMesh& mesh, bool isPlane, OutputFile& file)
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
   {
     pollNowAndThen(i);
-    file << static_cast<std::uint64_t>(i + 1);
+    file << i + 1;
     for (int k = 0; k < 3; ++k)
     {
       // CalculiX takes nothing but zero for plane elements.
@@ -121,7 +325,7 @@ void writeInpElements(const ElementMesh& mesh, const std::string& type, OutputFi
   for (std::size_t e = 0; e < mesh.elementCount(); ++e)
   {
     pollNowAndThen(e);
-    file << static_cast<std::uint64_t>(e + 1);
+    file << e + 1;
     for (int i = 0; i < mesh.nodesPerElement; ++i)
     {
       file << ", " << mesh.element(e)[i] + 1;
@@ -144,7 +348,7 @@ void writeInpSides(const std::vector<ElementSide>& sides, const std::string& nam
     std::sort(elements[i].begin(), elements[i].end());
     if (!elements[i].empty())
     {
-      file << "*ELSET, ELSET=" << name << "_E" << static_cast<int>(i + 1) << '\n';
+      file << "*ELSET, ELSET=" << name << "_E" << i + 1 << '\n';
       writeInpIds(file, elements[i]);
     }
   }
@@ -155,7 +359,7 @@ void writeInpSides(const std::vector<ElementSide>& sides, const std::string& nam
   {
     if (!elements[i].empty())
     {
-      file << name << "_E" << static_cast<int>(i + 1) << ", " << (isAbaqusShell ? "E" : "S")
+      file << name << "_E" << i + 1 << ", " << (isAbaqusShell ? "E" : "S")
            << static_cast<int>(i) + firstSide << '\n';
     }
   }
@@ -167,28 +371,16 @@ struct InpSetNames
   std::vector<std::string> patches, boundaries, curves, corners;
 };
 
-template <class Set>
-std::vector<std::string> inpNamesOf(const std::vector<Set>& sets)
-{
-  std::vector<std::string> names;
-  names.reserve(sets.size());
-  for (const Set& set : sets)
-  {
-    names.push_back(set.name);
-  }
-  return names;
-}
-
 InpSetNames uniqueNames(const MeshSets& sets, SetNames& names)
 {
   constexpr std::size_t kRoomForSides = 6; // _EDGES
   names.unique({ "NALL", "EALL" });
   InpSetNames result;
-  result.boundaries = names.unique(inpNamesOf(sets.boundaries), kRoomForSides);
-  result.curves = names.unique(inpNamesOf(sets.curves));
-  result.corners = names.unique(inpNamesOf(sets.corners));
+  result.boundaries = names.uniqueOf(sets.boundaries, kRoomForSides);
+  result.curves = names.uniqueOf(sets.curves);
+  result.corners = names.uniqueOf(sets.corners);
   // The generated names come first, so that a patch cannot take one of them.
-  result.patches = names.unique(inpNamesOf(sets.patches));
+  result.patches = names.uniqueOf(sets.patches);
   return result;
 }
 
@@ -241,15 +433,15 @@ std::vector<std::string> writeInp(
   const bool isPlane = isPlaneType(type);
   if (isPlane)
   {
-    PlaneCheck(mesh).require(type);
+    requireInPlane(mesh, type);
   }
   SetNames setNames(kInpNames);
   const InpSetNames names = uniqueNames(sets, setNames);
-  const std::string text = "writing " + std::to_string(mesh.elementCount()) + " elements";
+  const std::string text = writingText(mesh);
   report(options.progress, 0, text);
   OutputFile file(path);
-  file << "*HEADING\nQuads made by Quadrille: " << static_cast<std::uint64_t>(mesh.nodes.size())
-       << " nodes, " << static_cast<std::uint64_t>(mesh.elementCount()) << " elements\n";
+  file << "*HEADING\nQuads made by Quadrille: " << mesh.nodes.size() << " nodes, "
+       << mesh.elementCount() << " elements\n";
   writeInpNodes(mesh, isPlane, file);
   report(options.progress, kAfterNodesOfInp, text);
   writeInpElements(mesh, type, file);
@@ -259,10 +451,7 @@ std::vector<std::string> writeInp(
   std::vector<std::string> notices = writeInpSections(mesh, type[0] == 'S', options, file);
   file.close();
   report(options.progress, 1, text);
-  if (const std::string notice = setNames.notice("this format"); !notice.empty())
-  {
-    notices.push_back(notice);
-  }
+  append(notices, setNames.notices());
   return notices;
 }
 

@@ -4,21 +4,117 @@
 
 #include "Base/Angles.h"
 #include "Base/LargeArray.h"
-#include "Base/Sorted.h"
-#include "Export/ElementEdges.h"
+#include "Base/Lists.h"
+#include "Export/ElementMesh.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <optional>
 #include <set>
+#include <utility>
+#include <vector>
 
 namespace quadrille
 {
 
 namespace
 {
+
+class ElementEdges
+{
+public:
+  /// Linear for bounded valence. Looks out for a stop. The mesh must outlive it and be valid.
+  explicit ElementEdges(const ElementMesh& mesh);
+
+  Index halfEdgeCount() const { return static_cast<Index>(twin_.size()); }
+  Index start(Index h) const { return mesh_.corner(h / 4, h % 4); }
+  Index end(Index h) const { return mesh_.corner(h / 4, h % 4 + 1); }
+  Index otherEnd(Index h, Index node) const { return start(h) == node ? end(h) : start(h); }
+  /// The same edge in the other element; kInvalidIndex where there is none, or more than one.
+  Index twin(Index h) const { return twin_[h]; }
+  bool isBoundary(Index h) const { return (kinds_[h] & kBoundary) != 0; }
+  /// On a feature and not on the boundary. An edge of more than two elements counts as one.
+  bool isFeature(Index h) const { return (kinds_[h] & kFeature) != 0; }
+  /// Whether it is the lowest half-edge of its edge, so that each edge is visited once.
+  bool isLowest(Index h) const { return (kinds_[h] & kLowestHalfEdge) != 0; }
+  /// The other side of the same element at one end of h.
+  Index otherSide(Index h, Index node) const;
+
+private:
+  static constexpr std::uint8_t kBoundary = 1, kFeature = 2, kLowestHalfEdge = 4;
+
+  void joinRun(const Index* begin, const Index* end);
+
+  const ElementMesh& mesh_;
+  std::vector<Index> twin_;
+  std::vector<std::uint8_t> kinds_;
+};
+
+ElementEdges::ElementEdges(const ElementMesh& mesh) : mesh_(mesh)
+{
+  const std::size_t count = 4 * mesh.elementCount();
+  growLarge(twin_, count, kInvalidIndex);
+  growLarge(kinds_, count, std::uint8_t{ 0 });
+  const Grouped<> byLowerNode(mesh.nodes.size(),
+    [this](const auto& visit)
+    {
+      for (Index h = 0; h < halfEdgeCount(); ++h)
+      {
+        pollNowAndThen(h);
+        visit(std::min(start(h), end(h)), h);
+      }
+    });
+  const auto key = [this](Index h) { return std::max(start(h), end(h)); };
+  std::vector<Index> bucket;
+  for (std::size_t v = 0; v < mesh.nodes.size(); ++v)
+  {
+    pollNowAndThen(v);
+    bucket.assign(byLowerNode.begin(v), byLowerNode.end(v));
+    std::sort(bucket.begin(), bucket.end(),
+      [&](Index a, Index b) { return std::make_pair(key(a), a) < std::make_pair(key(b), b); });
+    const Index* const bucketEnd = bucket.data() + bucket.size();
+    for (const Index* run = bucket.data(); run != bucketEnd;)
+    {
+      const Index* runEnd =
+        std::find_if(run, bucketEnd, [&](Index h) { return key(h) != key(*run); });
+      joinRun(run, runEnd);
+      run = runEnd;
+    }
+  }
+}
+
+/// Half-edges of one edge, the lowest first.
+void ElementEdges::joinRun(const Index* begin, const Index* end)
+{
+  const auto count = end - begin;
+  bool feature = count > 2;
+  for (const Index* h = begin; h != end; ++h)
+  {
+    feature = feature ||
+      (!mesh_.featureEdges.empty() && ((mesh_.featureEdges[*h / 4] >> (*h % 4)) & 1) != 0);
+  }
+  if (count == 2)
+  {
+    twin_[begin[0]] = begin[1];
+    twin_[begin[1]] = begin[0];
+  }
+  for (const Index* h = begin; h != end; ++h)
+  {
+    kinds_[*h] = static_cast<std::uint8_t>((count == 1   ? kBoundary
+                                               : feature ? kFeature
+                                                         : 0) |
+      (h == begin ? kLowestHalfEdge : 0));
+  }
+}
+
+Index ElementEdges::otherSide(Index h, Index node) const
+{
+  const Index side = h % 4;
+  return h - side + (start(h) == node ? (side + 3) % 4 : (side + 1) % 4);
+}
 
 /// Bends above this may be corners, as on feature curves of the input (Hierarchy/FeatureCurves.h).
 constexpr double kCornerOfSet = radians(40);
@@ -30,8 +126,7 @@ std::string defaultPatchName(std::int64_t number)
                     : "PATCH_" + std::to_string(number);
 }
 
-/// Also the set of each element.
-std::vector<ElementSet> patchSets(const ElementMesh& mesh, std::vector<Index>& setOfElement)
+std::vector<ElementSet> patchSets(const ElementMesh& mesh)
 {
   std::vector<Index> order(mesh.patches.size());
   std::iota(order.begin(), order.end(), Index{ 0 });
@@ -56,17 +151,7 @@ std::vector<ElementSet> patchSets(const ElementMesh& mesh, std::vector<Index>& s
     pollNowAndThen(e);
     sets[setOf[mesh.patch(e)]].elements.push_back(static_cast<Index>(e));
   }
-  sets.erase(std::remove_if(sets.begin(), sets.end(),
-               [](const ElementSet& set) { return set.elements.empty(); }),
-    sets.end());
-  growLarge(setOfElement, mesh.elementCount(), Index{ 0 });
-  for (std::size_t i = 0; i < sets.size(); ++i)
-  {
-    for (const Index e : sets[i].elements)
-    {
-      setOfElement[e] = static_cast<Index>(i);
-    }
-  }
+  eraseIf(sets, [](const ElementSet& set) { return set.elements.empty(); });
   return sets;
 }
 
@@ -75,14 +160,18 @@ std::vector<ElementSet> patchSets(const ElementMesh& mesh, std::vector<Index>& s
 class SetNetwork
 {
 public:
-  SetNetwork(const ElementMesh& mesh, const std::vector<Index>& setOfElement, MeshSets& sets)
-    : mesh_(mesh), setOfElement_(setOfElement), edges_(mesh), sets_(sets)
+  SetNetwork(const ElementMesh& mesh, MeshSets& sets)
+    : mesh_(mesh), setOfElement_(patchSetOfElements(mesh, sets)), edges_(mesh), sets_(sets)
   {
     collect();
     findCorners();
     growLarge(done_, edges_.halfEdgeCount(), std::uint8_t{ 0 });
-    traceBoundaries();
-    traceFeatures();
+    trace(
+      "BOUNDARY_", sets.boundaries, [this](Index h) { return edges_.isBoundary(h); },
+      [this](Index h, Index node) { return nextOnBoundary(h, node); });
+    trace(
+      "CURVE_", sets.curves, [this](Index h) { return edges_.isFeature(h) && edges_.isLowest(h); },
+      [this](Index h, Index node) { return nextOnFeature(h, node); });
   }
 
 private:
@@ -124,14 +213,15 @@ private:
     return std::atan2(in.cross(out).norm(), in.dot(out));
   }
 
-  /// From an edge of the network at the node through elements to the next one: that one and how many elements are
-  /// between; none where an element comes again.
-  std::optional<std::pair<Index, Index>> across(Index h, Index node) const
+  /// From an edge at the node through elements to the next one that `ends` holds for, or that goes no further: that one
+  /// and how many elements are between; none where an element comes again.
+  template <class Ends>
+  std::optional<std::pair<Index, Index>> across(Index h, Index node, const Ends& ends) const
   {
     Index side = edges_.otherSide(h, node);
     for (Index count = 1; count <= elementsAt_[node]; ++count)
     {
-      if (isInNetwork(side) || edges_.twin(side) == kInvalidIndex)
+      if (ends(side) || edges_.twin(side) == kInvalidIndex)
       {
         return std::make_pair(side, count);
       }
@@ -146,7 +236,7 @@ private:
     {
       return elementsAt_[node] == 2;
     }
-    const auto found = across(at.first, node);
+    const auto found = across(at.first, node, [this](Index h) { return isInNetwork(h); });
     return found && found->second == 2 && elementsAt_[node] == 4;
   }
 
@@ -179,20 +269,8 @@ private:
   /// The boundary edge after h at the node, round the elements between them; none at a place that is no manifold.
   std::optional<Index> nextOnBoundary(Index h, Index node) const
   {
-    Index side = edges_.otherSide(h, node);
-    for (Index count = 0; count < elementsAt_[node]; ++count)
-    {
-      if (edges_.isBoundary(side))
-      {
-        return side;
-      }
-      if (edges_.twin(side) == kInvalidIndex)
-      {
-        return std::nullopt;
-      }
-      side = edges_.otherSide(edges_.twin(side), node);
-    }
-    return std::nullopt;
+    const auto found = across(h, node, [this](Index side) { return edges_.isBoundary(side); });
+    return found && edges_.isBoundary(found->first) ? std::optional(found->first) : std::nullopt;
   }
 
   /// The other feature edge at a node that is no corner.
@@ -249,7 +327,7 @@ private:
     whole.nodes.assign(back.nodes.rbegin(), back.nodes.rend() - 1);
     whole.halfEdges.assign(back.halfEdges.rbegin(), back.halfEdges.rend() - 1);
     whole.nodes.insert(whole.nodes.end(), walk.nodes.begin() + 1, walk.nodes.end());
-    whole.halfEdges.insert(whole.halfEdges.end(), walk.halfEdges.begin(), walk.halfEdges.end());
+    append(whole.halfEdges, walk.halfEdges);
     return whole;
   }
 
@@ -327,38 +405,25 @@ private:
     finish();
   }
 
-  void traceBoundaries()
+  /// One curve for each edge that `begins` holds for and no curve before has.
+  template <class Begins, class Next>
+  void trace(
+    const char* name, std::vector<CurveSet>& curves, const Begins& begins, const Next& next)
   {
-    const auto next = [this](Index h, Index node) { return nextOnBoundary(h, node); };
     for (Index h = 0; h < edges_.halfEdgeCount(); ++h)
     {
       pollNowAndThen(h);
-      if (edges_.isBoundary(h) && !done_[h])
+      if (begins(h) && !done_[h])
       {
-        CurveSet loop{ "BOUNDARY_" + std::to_string(sets_.boundaries.size() + 1), {} };
-        addChains(followBothWays(h, next), loop);
-        sets_.boundaries.push_back(std::move(loop));
-      }
-    }
-  }
-
-  void traceFeatures()
-  {
-    const auto next = [this](Index h, Index node) { return nextOnFeature(h, node); };
-    for (Index h = 0; h < edges_.halfEdgeCount(); ++h)
-    {
-      pollNowAndThen(h);
-      if (edges_.isFeature(h) && edges_.isLowest(h) && !done_[h])
-      {
-        CurveSet curve{ "CURVE_" + std::to_string(sets_.curves.size() + 1), {} };
+        CurveSet curve{ name + std::to_string(curves.size() + 1), {} };
         addChains(followBothWays(h, next), curve);
-        sets_.curves.push_back(std::move(curve));
+        curves.push_back(std::move(curve));
       }
     }
   }
 
   const ElementMesh& mesh_;
-  const std::vector<Index>& setOfElement_;
+  const std::vector<Index> setOfElement_;
   const ElementEdges edges_;
   MeshSets& sets_;
   std::vector<Index> elementsAt_; ///< #nodes
@@ -373,10 +438,29 @@ MeshSets setsOf(const ElementMesh& mesh)
 {
   requireValid(mesh);
   MeshSets sets;
-  std::vector<Index> setOfElement;
-  sets.patches = patchSets(mesh, setOfElement);
-  SetNetwork network(mesh, setOfElement, sets);
+  sets.patches = patchSets(mesh);
+  SetNetwork network(mesh, sets);
   return sets;
+}
+
+std::size_t MeshSets::edgeCount() const
+{
+  return std::accumulate(chains.begin(), chains.end(), std::size_t{ 0 },
+    [](std::size_t count, const EdgeChain& chain) { return count + chain.sides.size(); });
+}
+
+std::vector<Index> patchSetOfElements(const ElementMesh& mesh, const MeshSets& sets)
+{
+  std::vector<Index> setOf;
+  growLarge(setOf, mesh.elementCount(), Index{ 0 });
+  for (std::size_t i = 0; i < sets.patches.size(); ++i)
+  {
+    for (const Index e : sets.patches[i].elements)
+    {
+      setOf[e] = static_cast<Index>(i);
+    }
+  }
+  return setOf;
 }
 
 std::vector<Index> nodesOf(const MeshSets& sets, const CurveSet& curve)
@@ -407,7 +491,7 @@ std::vector<ElementSide> sidesOf(const MeshSets& sets, const CurveSet& curve)
   std::vector<ElementSide> sides;
   for (const Index c : curve.chains)
   {
-    sides.insert(sides.end(), sets.chains[c].sides.begin(), sets.chains[c].sides.end());
+    append(sides, sets.chains[c].sides);
   }
   return sides;
 }

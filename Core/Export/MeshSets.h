@@ -64,12 +64,16 @@ struct MeshSets
     boundaries; ///< BOUNDARY_1, ...: by the lowest sides of elements. Elements are on their left
   std::vector<CurveSet> curves;   ///< CURVE_1, ...: the same; one chain each
   std::vector<CornerSet> corners; ///< CORNER_1, ...: by ids of nodes
+
+  std::size_t edgeCount() const; ///< of all chains
 };
 
 /// Patches without a name are PATCH_n by their number (PATCH_MINUS_n below 0). Deterministic, n log n at worst. Looks
 /// out for a stop. Throws InvalidInput as requireValid does.
 MeshSets setsOf(const ElementMesh& mesh);
 
+/// #E: the set in MeshSets::patches.
+std::vector<Index> patchSetOfElements(const ElementMesh& mesh, const MeshSets& sets);
 /// All nodes of a curve in their order, with those in the middle of edges, each once.
 std::vector<Index> nodesOf(const MeshSets& sets, const CurveSet& curve);
 /// All edges of a curve in their order.

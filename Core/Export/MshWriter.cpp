@@ -3,6 +3,7 @@
 #include "Export/MshWriter.h"
 
 #include "Base/LargeArray.h"
+#include "Base/Lists.h"
 #include "Export/OutputFile.h"
 #include "Export/SetNames.h"
 
@@ -31,19 +32,6 @@ struct MshPoint
   bool isCorner = false;
 };
 
-/// A box that is empty at first.
-struct MshBox
-{
-  Vector3 low = Vector3::Constant(std::numeric_limits<double>::max());
-  Vector3 high = Vector3::Constant(std::numeric_limits<double>::lowest());
-
-  void add(const Vector3& p)
-  {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-};
-
 class MshFile
 {
 public:
@@ -67,48 +55,31 @@ public:
     groupCurves();
   }
 
-  void writeV41(const ProgressCallback& progress)
+  void write(MshVersion version, const ProgressCallback& progress)
   {
-    const std::string text = progressText();
+    const bool is41 = version == MshVersion::V41;
+    const std::string text = writingText(mesh_);
     report(progress, 0, text);
-    writeHeader("4.1");
+    file_ << "$MeshFormat\n" << (is41 ? "4.1" : "2.2") << " 0 8\n$EndMeshFormat\n";
     writeNames();
-    writeEntities();
-    report(progress, kAfterEntities, text);
-    writeNodesByEntity();
+    if (is41)
+    {
+      writeEntities();
+      report(progress, kAfterEntities, text);
+    }
+    is41 ? writeNodesByEntity() : writeNodeList();
     report(progress, kAfterNodesOfMsh, text);
-    writeElementsByEntity();
+    is41 ? writeElementsByEntity() : writeElementList();
     file_.close();
     report(progress, 1, text);
   }
 
-  void writeV22(const ProgressCallback& progress)
-  {
-    const std::string text = progressText();
-    report(progress, 0, text);
-    writeHeader("2.2");
-    writeNames();
-    writeNodeList();
-    report(progress, kAfterNodesOfMsh, text);
-    writeElementList();
-    file_.close();
-    report(progress, 1, text);
-  }
-
-  std::vector<std::string> notices() const
-  {
-    const std::string notice = names_.notice("this format");
-    return notice.empty() ? std::vector<std::string>{} : std::vector<std::string>{ notice };
-  }
+  std::vector<std::string> notices() const { return names_.notices(); }
 
 private:
   static constexpr double kAfterEntities = 0.1, kAfterNodesOfMsh = 0.5;
   static constexpr int kPoint = 15;
 
-  std::string progressText() const
-  {
-    return "writing " + std::to_string(mesh_.elementCount()) + " elements";
-  }
   int lineType() const { return mesh_.nodesPerElement == 4 ? 1 : 8; }
   int quadType() const
   {
@@ -118,13 +89,7 @@ private:
   template <class Set>
   void addGroups(int dimension, const std::vector<Set>& sets, Tag firstTag)
   {
-    std::vector<std::string> wanted;
-    wanted.reserve(sets.size());
-    for (const Set& set : sets)
-    {
-      wanted.push_back(set.name);
-    }
-    const std::vector<std::string> names = names_.unique(wanted);
+    const std::vector<std::string> names = names_.uniqueOf(sets);
     for (std::size_t i = 0; i < names.size(); ++i)
     {
       groups_.push_back({ dimension, firstTag + i, names[i] });
@@ -156,14 +121,9 @@ private:
     }
   }
 
-  void writeHeader(const char* version)
-  {
-    file_ << "$MeshFormat\n" << version << " 0 8\n$EndMeshFormat\n";
-  }
-
   void writeNames()
   {
-    file_ << "$PhysicalNames\n" << Tag{ groups_.size() } << '\n';
+    file_ << "$PhysicalNames\n" << groups_.size() << '\n';
     for (const PhysicalGroup& group : groups_)
     {
       file_ << group.dimension << ' ' << group.tag << " \"" << group.name << "\"\n";
@@ -173,11 +133,11 @@ private:
 
   void writePlace(const Vector3& p) { file_ << p[0] << ' ' << p[1] << ' ' << p[2]; }
 
-  void writeBox(const MshBox& box)
+  void writeBox(const Eigen::AlignedBox3d& box)
   {
-    writePlace(box.low);
+    writePlace(box.min());
     file_ << ' ';
-    writePlace(box.high);
+    writePlace(box.max());
   }
 
   //----------------------------------------------------------------------------
@@ -186,26 +146,24 @@ private:
   void writeEntities()
   {
     file_ << "$Entities\n"
-          << Tag{ points_.size() } << ' ' << Tag{ sets_.chains.size() } << ' '
-          << Tag{ sets_.patches.size() } << " 0\n";
+          << points_.size() << ' ' << sets_.chains.size() << ' ' << sets_.patches.size() << " 0\n";
     for (std::size_t i = 0; i < points_.size(); ++i)
     {
-      file_ << Tag{ i + 1 } << ' ';
+      file_ << i + 1 << ' ';
       writePlace(mesh_.nodes[points_[i].node]);
       file_ << (points_[i].isCorner ? " 1 " + std::to_string(i + 1) : " 0") << '\n';
     }
     for (std::size_t i = 0; i < sets_.chains.size(); ++i)
     {
-      MshBox box;
+      Eigen::AlignedBox3d box;
       for (const auto* nodes : { &sets_.chains[i].nodes, &sets_.chains[i].middles })
       {
         std::for_each(
-          nodes->begin(), nodes->end(), [&](Index node) { box.add(mesh_.nodes[node]); });
+          nodes->begin(), nodes->end(), [&](Index node) { box.extend(mesh_.nodes[node]); });
       }
-      file_ << Tag{ i + 1 } << ' ';
+      file_ << i + 1 << ' ';
       writeBox(box);
-      file_ << " 1 " << groupOf_[i] << " 2 " << Tag{ startOf_[i] + 1 } << " -"
-            << Tag{ endOf_[i] + 1 } << '\n';
+      file_ << " 1 " << groupOf_[i] << " 2 " << startOf_[i] + 1 << " -" << endOf_[i] + 1 << '\n';
     }
     writeSurfaces();
     file_ << "$EndEntities\n";
@@ -223,18 +181,18 @@ private:
     }
     for (std::size_t i = 0; i < sets_.patches.size(); ++i)
     {
-      MshBox box;
+      Eigen::AlignedBox3d box;
       for (const Index e : sets_.patches[i].elements)
       {
         pollNowAndThen(e);
         for (int k = 0; k < mesh_.nodesPerElement; ++k)
         {
-          box.add(mesh_.nodes[mesh_.element(e)[k]]);
+          box.extend(mesh_.nodes[mesh_.element(e)[k]]);
         }
       }
-      file_ << Tag{ i + 1 } << ' ';
+      file_ << i + 1 << ' ';
       writeBox(box);
-      file_ << " 1 " << Tag{ i + 1 } << ' ' << Tag{ curvesOf[i].size() };
+      file_ << " 1 " << i + 1 << ' ' << curvesOf[i].size();
       for (const Index curve : curvesOf[i])
       {
         file_ << ' ' << curve + 1;
@@ -294,9 +252,7 @@ private:
     {
       take(blocks.back(), static_cast<Index>(i)); // nodes without an element
     }
-    blocks.erase(std::remove_if(blocks.begin(), blocks.end(),
-                   [](const NodeBlock& block) { return block.nodes.empty(); }),
-      blocks.end());
+    eraseIf(blocks, [](const NodeBlock& block) { return block.nodes.empty(); });
     return blocks;
   }
 
@@ -305,12 +261,11 @@ private:
     std::vector<NodeBlock> blocks = nodeBlocks();
     const Tag count = mesh_.nodes.size();
     file_ << "$Nodes\n"
-          << Tag{ blocks.size() } << ' ' << count << ' ' << Tag{ count > 0 ? 1U : 0U } << ' '
-          << count << '\n';
+          << blocks.size() << ' ' << count << ' ' << (count > 0 ? 1 : 0) << ' ' << count << '\n';
     for (NodeBlock& block : blocks)
     {
       std::sort(block.nodes.begin(), block.nodes.end());
-      file_ << block.dimension << ' ' << block.tag << " 0 " << Tag{ block.nodes.size() } << '\n';
+      file_ << block.dimension << ' ' << block.tag << " 0 " << block.nodes.size() << '\n';
       for (const Index node : block.nodes)
       {
         pollNowAndThen(node);
@@ -324,16 +279,6 @@ private:
       }
     }
     file_ << "$EndNodes\n";
-  }
-
-  std::size_t lineCount() const
-  {
-    std::size_t count = 0;
-    for (const EdgeChain& chain : sets_.chains)
-    {
-      count += chain.sides.size();
-    }
-    return count;
   }
 
   void writeLineNodes(const EdgeChain& chain, std::size_t edge)
@@ -359,21 +304,20 @@ private:
   void writeElementsByEntity()
   {
     const Tag quads = mesh_.elementCount();
-    const Tag count = quads + lineCount() + sets_.corners.size();
+    const Tag count = quads + sets_.edgeCount() + sets_.corners.size();
     file_ << "$Elements\n"
-          << Tag{ sets_.corners.size() + sets_.chains.size() + sets_.patches.size() } << ' '
-          << count << ' ' << Tag{ count > 0 ? 1U : 0U } << ' ' << count << '\n';
+          << sets_.corners.size() + sets_.chains.size() + sets_.patches.size() << ' ' << count
+          << ' ' << (count > 0 ? 1 : 0) << ' ' << count << '\n';
     Tag next = quads; // quads have the first tags, though they come last
     for (std::size_t i = 0; i < sets_.corners.size(); ++i)
     {
-      file_ << "0 " << Tag{ i + 1 } << ' ' << kPoint << " 1\n"
+      file_ << "0 " << i + 1 << ' ' << kPoint << " 1\n"
             << ++next << ' ' << sets_.corners[i].node + 1 << '\n';
     }
     for (std::size_t i = 0; i < sets_.chains.size(); ++i)
     {
       const EdgeChain& chain = sets_.chains[i];
-      file_ << "1 " << Tag{ i + 1 } << ' ' << lineType() << ' ' << Tag{ chain.sides.size() }
-            << '\n';
+      file_ << "1 " << i + 1 << ' ' << lineType() << ' ' << chain.sides.size() << '\n';
       for (std::size_t k = 0; k < chain.sides.size(); ++k)
       {
         file_ << ++next;
@@ -382,8 +326,8 @@ private:
     }
     for (std::size_t i = 0; i < sets_.patches.size(); ++i)
     {
-      file_ << "2 " << Tag{ i + 1 } << ' ' << quadType() << ' '
-            << Tag{ sets_.patches[i].elements.size() } << '\n';
+      file_ << "2 " << i + 1 << ' ' << quadType() << ' ' << sets_.patches[i].elements.size()
+            << '\n';
       for (const Index e : sets_.patches[i].elements)
       {
         pollNowAndThen(e);
@@ -399,11 +343,11 @@ private:
 
   void writeNodeList()
   {
-    file_ << "$Nodes\n" << Tag{ mesh_.nodes.size() } << '\n';
+    file_ << "$Nodes\n" << mesh_.nodes.size() << '\n';
     for (std::size_t i = 0; i < mesh_.nodes.size(); ++i)
     {
       pollNowAndThen(i);
-      file_ << Tag{ i + 1 } << ' ';
+      file_ << i + 1 << ' ';
       writePlace(mesh_.nodes[i]);
       file_ << '\n';
     }
@@ -419,19 +363,12 @@ private:
   void writeElementList()
   {
     const Tag quads = mesh_.elementCount();
-    file_ << "$Elements\n" << Tag{ quads + lineCount() + sets_.corners.size() } << '\n';
-    std::vector<Tag> surfaceOf(mesh_.elementCount());
-    for (std::size_t i = 0; i < sets_.patches.size(); ++i)
-    {
-      for (const Index e : sets_.patches[i].elements)
-      {
-        surfaceOf[e] = i + 1;
-      }
-    }
+    file_ << "$Elements\n" << quads + sets_.edgeCount() + sets_.corners.size() << '\n';
+    const std::vector<Index> setOf = patchSetOfElements(mesh_, sets_);
     for (std::size_t e = 0; e < mesh_.elementCount(); ++e)
     {
       pollNowAndThen(e);
-      beginElement(e + 1, quadType(), surfaceOf[e], surfaceOf[e]);
+      beginElement(e + 1, quadType(), setOf[e] + 1, setOf[e] + 1);
       writeQuadNodes(static_cast<Index>(e));
     }
     Tag next = quads;
@@ -467,14 +404,7 @@ std::vector<std::string> writeMsh(const ElementMesh& mesh, const MeshSets& sets,
   const std::string& path, MshVersion version, const ProgressCallback& progress)
 {
   MshFile file(mesh, sets, path);
-  if (version == MshVersion::V41)
-  {
-    file.writeV41(progress);
-  }
-  else
-  {
-    file.writeV22(progress);
-  }
+  file.write(version, progress);
   return file.notices();
 }
 

@@ -93,27 +93,6 @@ OutputFile& OutputFile::operator<<(std::string_view text)
   return *this;
 }
 
-OutputFile& OutputFile::operator<<(std::int64_t number)
-{
-  char text[24];
-  const auto end = std::to_chars(text, text + sizeof(text), number).ptr;
-  return *this << std::string_view(text, static_cast<std::size_t>(end - text));
-}
-
-OutputFile& OutputFile::operator<<(std::uint64_t number)
-{
-  char text[24];
-  const auto end = std::to_chars(text, text + sizeof(text), number).ptr;
-  return *this << std::string_view(text, static_cast<std::size_t>(end - text));
-}
-
-OutputFile& OutputFile::operator<<(double number)
-{
-  char text[40];
-  const auto end = std::to_chars(text, text + sizeof(text), number).ptr;
-  return *this << std::string_view(text, static_cast<std::size_t>(end - text));
-}
-
 void OutputFile::close()
 {
   if (std::fclose(file_.release()) != 0)

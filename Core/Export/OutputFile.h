@@ -6,13 +6,14 @@
 #include "Base/Error.h"
 #include "Base/Types.h"
 
-#include <cstdint>
+#include <charconv>
 #include <cstdio>
 #include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace quadrille
 {
@@ -44,11 +45,13 @@ public:
   OutputFile& operator<<(const char* text) { return *this << std::string_view(text); }
   OutputFile& operator<<(const std::string& text) { return *this << std::string_view(text); }
   OutputFile& operator<<(char c) { return *this << std::string_view(&c, 1); }
-  OutputFile& operator<<(std::int64_t number);
-  OutputFile& operator<<(std::uint64_t number);
-  OutputFile& operator<<(int number) { return *this << static_cast<std::int64_t>(number); }
-  OutputFile& operator<<(Index number) { return *this << static_cast<std::uint64_t>(number); }
-  OutputFile& operator<<(double number);
+  template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
+  OutputFile& operator<<(Number number)
+  {
+    char text[40];
+    const auto end = std::to_chars(text, text + sizeof(text), number).ptr;
+    return *this << std::string_view(text, static_cast<std::size_t>(end - text));
+  }
   /// The bytes of a value, in the order of this machine.
   template <class Value>
   OutputFile& writeBinary(const Value& value)

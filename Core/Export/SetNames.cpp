@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Export/SetNames.h"
 
+#include "Base/Lists.h"
+
 #include <algorithm>
 
 namespace quadrille
@@ -15,19 +17,19 @@ bool isContinuation(char c)
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; // of a character of UTF-8
 }
 
+char inUpperCase(char c)
+{
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
 bool isLetter(char c)
 {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  return inUpperCase(c) >= 'A' && inUpperCase(c) <= 'Z';
 }
 
 bool isDigit(char c)
 {
   return c >= '0' && c <= '9';
-}
-
-char inUpperCase(char c)
-{
-  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
 
 /// At most so many bytes, and no part of a character.
@@ -72,11 +74,7 @@ std::string SetNames::cleaned(const std::string& name, std::size_t longest) cons
   {
     clean = "S_" + clean;
   }
-  if (rules_.upperCase)
-  {
-    std::transform(clean.begin(), clean.end(), clean.begin(), inUpperCase);
-  }
-  return clean.empty() ? "S" : cut(clean, longest);
+  return clean.empty() ? "S" : cut(keyOf(clean), longest);
 }
 
 std::string SetNames::keyOf(const std::string& name) const
@@ -128,7 +126,7 @@ std::vector<std::string> SetNames::unique(const std::vector<std::string>& names,
   return result;
 }
 
-std::string SetNames::notice(const std::string& format) const
+std::vector<std::string> SetNames::notices() const
 {
   constexpr std::size_t kShown = 5;
   if (changed_.empty())
@@ -136,13 +134,12 @@ std::string SetNames::notice(const std::string& format) const
     return {};
   }
   std::string text = std::to_string(changed_.size()) +
-    (changed_.size() == 1 ? " name of a set is" : " names of sets are") + " another in " + format +
-    ", as it cannot have the character, the length, or the same name twice: ";
-  for (std::size_t i = 0; i < std::min(kShown, changed_.size()); ++i)
-  {
-    text += (i > 0 ? ", '" : "'") + changed_[i].first + "' is " + changed_[i].second;
-  }
-  return text + (changed_.size() > kShown ? ", ..." : "");
+    (changed_.size() == 1 ? " name of a set is" : " names of sets are") +
+    " another in this format, as it cannot have the character, the length, or the same name "
+    "twice: ";
+  return { text +
+    joined(changed_, kShown,
+      [](const auto& change) { return "'" + change.first + "' is " + change.second; }) };
 }
 
 } // namespace quadrille

@@ -41,8 +41,19 @@ public:
 
   /// The names in their order; `room` bytes less than the longest, for what is put behind them.
   std::vector<std::string> unique(const std::vector<std::string>& names, std::size_t room = 0);
-  /// One sentence of all names that were changed; empty where none was.
-  std::string notice(const std::string& format) const;
+  /// The same of sets that have a name.
+  template <class Set>
+  std::vector<std::string> uniqueOf(const std::vector<Set>& sets, std::size_t room = 0)
+  {
+    std::vector<std::string> names;
+    for (const Set& set : sets)
+    {
+      names.push_back(set.name);
+    }
+    return unique(names, room);
+  }
+  /// One sentence of all names that were changed; none where none was.
+  std::vector<std::string> notices() const;
 
 private:
   std::string cleaned(const std::string& name, std::size_t longest) const;

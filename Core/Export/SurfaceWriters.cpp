@@ -20,48 +20,8 @@ namespace
 
 void requireFirstOrder(const ElementMesh& mesh, const char* format)
 {
-  if (mesh.nodesPerElement != 4)
-  {
-    refuse(format, " has no elements of ", mesh.nodesPerElement,
-      " nodes: make them of first order, or write vtu, ex2, inp or msh");
-  }
-}
-
-std::string writingText(const ElementMesh& mesh)
-{
-  return "writing " + std::to_string(mesh.elementCount()) + " elements";
-}
-
-template <class Set>
-std::vector<std::string> wantedNames(const std::vector<Set>& sets)
-{
-  std::vector<std::string> names;
-  names.reserve(sets.size());
-  for (const Set& set : sets)
-  {
-    names.push_back(set.name);
-  }
-  return names;
-}
-
-std::vector<std::string> noticesOf(const SetNames& names)
-{
-  const std::string notice = names.notice("this format");
-  return notice.empty() ? std::vector<std::string>{} : std::vector<std::string>{ notice };
-}
-
-std::vector<Index> setOfElements(const ElementMesh& mesh, const MeshSets& sets)
-{
-  std::vector<Index> setOf;
-  growLarge(setOf, mesh.elementCount(), Index{ 0 });
-  for (std::size_t i = 0; i < sets.patches.size(); ++i)
-  {
-    for (const Index e : sets.patches[i].elements)
-    {
-      setOf[e] = static_cast<Index>(i);
-    }
-  }
-  return setOf;
+  refuseIf(mesh.nodesPerElement != 4, format, " has no elements of ", mesh.nodesPerElement,
+    " nodes: make them of first order, or write vtu, ex2, inp or msh");
 }
 
 //------------------------------------------------------------------------------
@@ -72,7 +32,7 @@ void writeReferenceNames(OutputFile& file, const char* kind, const std::vector<s
 {
   for (std::size_t i = 0; i < names.size(); ++i)
   {
-    file << "# " << kind << " " << std::uint64_t{ firstReference + i } << ": " << names[i] << '\n';
+    file << "# " << kind << " " << firstReference + i << ": " << names[i] << '\n';
   }
 }
 
@@ -84,7 +44,7 @@ void writeMeditVertices(const ElementMesh& mesh, const MeshSets& sets, OutputFil
   {
     referenceOf[sets.corners[i].node] = static_cast<Index>(i + 1);
   }
-  file << "\nVertices\n" << std::uint64_t{ mesh.nodes.size() } << '\n';
+  file << "\nVertices\n" << mesh.nodes.size() << '\n';
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
   {
     pollNowAndThen(i);
@@ -96,17 +56,13 @@ void writeMeditVertices(const ElementMesh& mesh, const MeshSets& sets, OutputFil
 /// Boundary loops, then feature curves. Returns the places of the latter among the edges, from 1.
 std::vector<std::uint64_t> writeMeditEdges(const MeshSets& sets, OutputFile& file)
 {
-  std::size_t count = 0;
-  for (const EdgeChain& chain : sets.chains)
-  {
-    count += chain.sides.size();
-  }
+  const std::size_t count = sets.edgeCount();
   std::vector<std::uint64_t> ridges;
   if (count == 0)
   {
     return ridges;
   }
-  file << "\nEdges\n" << std::uint64_t{ count } << '\n';
+  file << "\nEdges\n" << count << '\n';
   std::uint64_t edge = 0;
   std::uint64_t reference = 0;
   for (const auto* curves : { &sets.boundaries, &sets.curves })
@@ -135,8 +91,8 @@ std::vector<std::uint64_t> writeMeditEdges(const MeshSets& sets, OutputFile& fil
 
 void writeMeditQuads(const ElementMesh& mesh, const MeshSets& sets, OutputFile& file)
 {
-  const std::vector<Index> setOf = setOfElements(mesh, sets);
-  file << "\nQuadrilaterals\n" << std::uint64_t{ mesh.elementCount() } << '\n';
+  const std::vector<Index> setOf = patchSetOfElements(mesh, sets);
+  file << "\nQuadrilaterals\n" << mesh.elementCount() << '\n';
   for (std::size_t e = 0; e < mesh.elementCount(); ++e)
   {
     pollNowAndThen(e);
@@ -155,7 +111,7 @@ void writeMeditList(OutputFile& file, const char* keyword, const std::vector<Num
   {
     return;
   }
-  file << '\n' << keyword << '\n' << std::uint64_t{ numbers.size() } << '\n';
+  file << '\n' << keyword << '\n' << numbers.size() << '\n';
   for (const Number number : numbers)
   {
     file << number << '\n';
@@ -293,11 +249,10 @@ std::vector<std::string> writeMedit(const ElementMesh& mesh, const MeshSets& set
   SetNames names(kCommentNames);
   OutputFile file(path);
   file << "MeshVersionFormatted 2\n\nDimension 3\n\n# quad mesh made by Quadrille; references:\n";
-  writeReferenceNames(file, "quadrilaterals", names.unique(wantedNames(sets.patches)), 1);
-  writeReferenceNames(file, "edges", names.unique(wantedNames(sets.boundaries)), 1);
-  writeReferenceNames(
-    file, "edges", names.unique(wantedNames(sets.curves)), 1 + sets.boundaries.size());
-  writeReferenceNames(file, "vertices", names.unique(wantedNames(sets.corners)), 1);
+  writeReferenceNames(file, "quadrilaterals", names.uniqueOf(sets.patches), 1);
+  writeReferenceNames(file, "edges", names.uniqueOf(sets.boundaries), 1);
+  writeReferenceNames(file, "edges", names.uniqueOf(sets.curves), 1 + sets.boundaries.size());
+  writeReferenceNames(file, "vertices", names.uniqueOf(sets.corners), 1);
   writeMeditVertices(mesh, sets, file);
   report(progress, 0.5, writingText(mesh));
   const std::vector<std::uint64_t> ridges = writeMeditEdges(sets, file);
@@ -305,7 +260,7 @@ std::vector<std::string> writeMedit(const ElementMesh& mesh, const MeshSets& set
   std::vector<std::uint64_t> corners;
   for (const CornerSet& corner : sets.corners)
   {
-    corners.push_back(std::uint64_t{ corner.node } + 1);
+    corners.push_back(corner.node + 1);
   }
   writeMeditList(file, "Ridges", ridges);
   writeMeditList(file, "Corners", corners);
@@ -313,7 +268,7 @@ std::vector<std::string> writeMedit(const ElementMesh& mesh, const MeshSets& set
   file << "\nEnd\n";
   file.close();
   report(progress, 1, writingText(mesh));
-  return noticesOf(names);
+  return names.notices();
 }
 
 std::vector<std::string> writeObj(const ElementMesh& mesh, const MeshSets& sets, bool withGroups,
@@ -322,10 +277,10 @@ std::vector<std::string> writeObj(const ElementMesh& mesh, const MeshSets& sets,
   requireFirstOrder(mesh, "OBJ");
   report(progress, 0, writingText(mesh));
   SetNames names(kObjNames);
-  const std::vector<std::string> groups = names.unique(wantedNames(sets.patches));
+  const std::vector<std::string> groups = names.uniqueOf(sets.patches);
   OutputFile file(path);
-  file << "# quad mesh made by Quadrille: " << std::uint64_t{ mesh.nodes.size() } << " points, "
-       << std::uint64_t{ mesh.elementCount() } << " faces\n";
+  file << "# quad mesh made by Quadrille: " << mesh.nodes.size() << " points, "
+       << mesh.elementCount() << " faces\n";
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
   {
     pollNowAndThen(i);
@@ -349,7 +304,7 @@ std::vector<std::string> writeObj(const ElementMesh& mesh, const MeshSets& sets,
   }
   file.close();
   report(progress, 1, writingText(mesh));
-  return withGroups ? noticesOf(names) : std::vector<std::string>{};
+  return withGroups ? names.notices() : std::vector<std::string>{};
 }
 
 std::vector<std::string> writePly(const ElementMesh& mesh, const MeshSets& sets,
@@ -361,7 +316,7 @@ std::vector<std::string> writePly(const ElementMesh& mesh, const MeshSets& sets,
   using Limits = std::numeric_limits<std::int32_t>;
   const bool withPatches = !patchProperty.empty();
   SetNames names(kCommentNames);
-  const std::vector<std::string> patches = names.unique(wantedNames(sets.patches));
+  const std::vector<std::string> patches = names.uniqueOf(sets.patches);
   const std::string real = inDouble ? "double" : "float";
   OutputFile file(path);
   file << "ply\nformat binary_little_endian 1.0\ncomment quad mesh made by Quadrille\n";
@@ -370,13 +325,12 @@ std::vector<std::string> writePly(const ElementMesh& mesh, const MeshSets& sets,
     file << "comment " << patchProperty << ' ' << sets.patches[i].number << ": " << patches[i]
          << '\n';
   }
-  file << "element vertex " << std::uint64_t{ mesh.nodes.size() } << '\n';
+  file << "element vertex " << mesh.nodes.size() << '\n';
   for (const char* axis : { "x", "y", "z" })
   {
     file << "property " << real << ' ' << axis << '\n';
   }
-  file << "element face " << std::uint64_t{ mesh.elementCount() }
-       << "\nproperty list uchar int vertex_indices\n"
+  file << "element face " << mesh.elementCount() << "\nproperty list uchar int vertex_indices\n"
        << (withPatches ? "property int " + patchProperty + "\n" : "") << "end_header\n";
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
   {
@@ -397,10 +351,8 @@ std::vector<std::string> writePly(const ElementMesh& mesh, const MeshSets& sets,
       file.writeBinary(static_cast<std::int32_t>(mesh.corner(e, i)));
     }
     const std::int64_t number = mesh.patches[mesh.patch(e)].number;
-    if (withPatches && (number < Limits::min() || number > Limits::max()))
-    {
-      refuse("element ", e, " is of patch ", number, ", which is no int: number patches lower");
-    }
+    refuseIf(withPatches && (number < Limits::min() || number > Limits::max()), "element ", e,
+      " is of patch ", number, ", which is no int: number patches lower");
     if (withPatches)
     {
       file.writeBinary(static_cast<std::int32_t>(number));
@@ -408,7 +360,7 @@ std::vector<std::string> writePly(const ElementMesh& mesh, const MeshSets& sets,
   }
   file.close();
   report(progress, 1, writingText(mesh));
-  return withPatches ? noticesOf(names) : std::vector<std::string>{};
+  return withPatches ? names.notices() : std::vector<std::string>{};
 }
 
 std::vector<std::string> writeStl(
@@ -417,10 +369,8 @@ std::vector<std::string> writeStl(
   report(progress, 0, writingText(mesh));
   const std::size_t each = mesh.nodesPerElement == 4 ? 2 : mesh.nodesPerElement == 8 ? 6 : 8;
   const std::size_t count = each * mesh.elementCount();
-  if (count > std::numeric_limits<std::uint32_t>::max())
-  {
-    refuse("STL has room for 4,294,967,295 triangles, but these quads are ", count);
-  }
+  refuseIf(count > std::numeric_limits<std::uint32_t>::max(),
+    "STL has room for 4,294,967,295 triangles, but these quads are ", count);
   std::array<char, 80> header{};
   std::snprintf(header.data(), header.size(), "triangles of a quad mesh made by Quadrille");
   OutputFile file(path);

@@ -9,17 +9,6 @@
 
 namespace quadrille
 {
-namespace
-{
-
-} // namespace
-
-bool isAligned(const ExactMap& map, Index h)
-{
-  const FixedVec2 e = map.edge(h);
-  return (e.v == 0 && isInteger(map.at(h).v)) || (e.u == 0 && isInteger(map.at(h).u));
-}
-
 int axesInCorner(const ExactMap& map, Index h)
 {
   const FixedVec2 left = map.at(Mesh::previous(h)) - map.at(h);
@@ -107,7 +96,7 @@ void Boundary::addOrigin(Index h)
   {
     return;
   }
-  bool met = isAligned(map_, before(h));
+  bool met = map_.isOnIsoline(before(h));
   for (Index g = h; g != kInvalidIndex; g = map_.mesh.rotateCounterclockwise(g))
   {
     met = met || lastIsoline(map_, g).has_value();

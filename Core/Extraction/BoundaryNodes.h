@@ -14,9 +14,6 @@ namespace quadrille
 /// A crossing of an isoline with a boundary edge is told to 2^-56 quads where polygons are compared.
 constexpr int kFineBits = 32;
 
-/// Does half-edge h run along an integer isoline?
-bool isAligned(const ExactMap& map, Index h);
-
 /// Number of axis directions from the right side of corner h on, before its left side.
 int axesInCorner(const ExactMap& map, Index h);
 

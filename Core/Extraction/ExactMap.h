@@ -71,6 +71,13 @@ struct ExactMap
       uv[3 * std::size_t{ f }], uv[3 * std::size_t{ f } + 1], uv[3 * std::size_t{ f } + 2]);
   }
 
+  /// Does half-edge h run along an integer isoline?
+  bool isOnIsoline(Index h) const
+  {
+    const FixedVec2 e = edge(h);
+    return (e.v == 0 && isInteger(uv[h].v)) || (e.u == 0 && isInteger(uv[h].u));
+  }
+
   /// The transition over h into the chart of its twin's face; false when there is no unique one: a
   /// boundary, an image of length zero, or two images that differ by more than a transition.
   bool transition(Index h, Transition& result) const

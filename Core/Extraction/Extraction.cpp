@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/Extraction.h"
 
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
-#include "Extraction/CellTopology.h"
+#include "Base/Refuse.h"
 #include "Extraction/FreeBoundary.h"
 #include "Extraction/HoleFilling.h"
 #include "Extraction/QuadAssembly.h"
@@ -25,10 +26,7 @@ namespace
 
 void checkCorners(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 {
-  if (mesh.faceCount() == 0)
-  {
-    throw InvalidInput("extraction: the mesh has no faces");
-  }
+  refuseIf(mesh.faceCount() == 0, "extraction: the mesh has no faces");
   if (uv.size() != mesh.origin.size() || mesh.twin.size() != mesh.origin.size() ||
     mesh.flags.size() != mesh.origin.size())
   {
@@ -39,12 +37,8 @@ void checkCorners(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 
 void checkOutOfRange(const MapCheck& check)
 {
-  if (check.outOfRange != kInvalidIndex)
-  {
-    throw InvalidInput("extraction: the map of face " + std::to_string(check.outOfRange / 3) +
-      ", corner " + std::to_string(check.outOfRange % 3) +
-      ", is beyond the range of exact coordinates (2^20 quads)");
-  }
+  refuseIf(check.outOfRange != kInvalidIndex, "extraction: the map of face ", check.outOfRange / 3,
+    ", corner ", check.outOfRange % 3, ", is beyond the range of exact coordinates (2^20 quads)");
 }
 
 /// Refuses what would make too many quads, or a map that is nearly all slivers far longer than a
@@ -67,22 +61,27 @@ Status checkSize(const MapCheck& check, const Mesh& mesh, const ExtractionOption
   return { text.str().empty() ? StatusCode::Ok : StatusCode::TooLarge, text.str() };
 }
 
-void append(std::string& text, const std::string& more)
+void note(std::string& text, const std::string& more)
 {
-  text += (text.empty() ? "" : "; ") + more;
+  text += (text.empty() || more.empty() ? "" : "; ") + more;
 }
 
-/// The first few.
+/// Not ok, with what in the map explains it; ok where there is no problem.
+Status statusOf(const std::string& isNot, const std::string& problem, const MapCheck& check)
+{
+  const std::string cause = check.text();
+  return problem.empty() ? Status{}
+                         : Status{ StatusCode::NotConverged,
+                             isNot + problem + (cause.empty() ? "" : ". The map has " + cause) };
+}
+
+/// Of the first few.
 std::string describePoints(const QuadMesh& mesh, const std::vector<Index>& points)
 {
   constexpr std::size_t kNamedPoints = 8;
-  std::ostringstream text;
-  for (std::size_t i = 0; i < std::min(points.size(), kNamedPoints); ++i)
-  {
-    const Index p = points[i];
-    text << (text.tellp() > 0 ? ", " : "") << placeText(mesh.points[p]);
-  }
-  return text.str();
+  const std::vector<Index> few(points.begin(),
+    points.begin() + static_cast<std::ptrdiff_t>(std::min(points.size(), kNamedPoints)));
+  return joined(few, kNamedPoints, [&](Index p) { return placeText(mesh.points[p]); });
 }
 
 /// Compares with the input surface, of whose boundary loops some are covered. Empty when the quad
@@ -93,13 +92,13 @@ std::string compareTopology(const TopologySummary& wanted, const QuadMesh& quads
   std::string problem;
   if (!found.manifold())
   {
-    append(problem, found.text() + " near " + describePoints(quads, found.offendingPoints));
+    note(problem, found.text() + " near " + describePoints(quads, found.offendingPoints));
   }
   const auto differ = [&problem](const char* what, long long has, long long should)
   {
     if (has != should)
     {
-      append(problem,
+      note(problem,
         std::string(what) + " " + std::to_string(has) + " instead of " + std::to_string(should));
     }
   };
@@ -129,14 +128,11 @@ std::string compareLines(
   const CurveGraph& wanted, const QuadMesh& quads, const QuadTopology& found, const MapCheck& check)
 {
   std::string problem;
-  std::size_t boundary = 0;
-  for (const QuadLine& line : quads.lines)
-  {
-    boundary += line.boundary ? 1 : 0;
-  }
+  const auto boundary = static_cast<std::size_t>(std::count_if(
+    quads.lines.begin(), quads.lines.end(), [](const QuadLine& line) { return line.boundary; }));
   if (boundary != found.boundaryEdges)
   {
-    append(problem,
+    note(problem,
       std::to_string(found.boundaryEdges) + " boundary edges, of which " +
         std::to_string(boundary) + " lie on the input's boundary");
   }
@@ -144,13 +140,13 @@ std::string compareLines(
   const bool folded = check.count[kNotPositive] > 0;
   if (!folded && static_cast<double>(quads.lines.size()) != check.constrainedLength)
   {
-    append(problem,
+    note(problem,
       std::to_string(quads.lines.size()) + " feature and boundary edges instead of " +
         std::to_string(check.constrainedLength));
   }
   if (!(lineGraph(quads) == wanted))
   {
-    append(problem, "features or boundaries are interrupted");
+    note(problem, "features or boundaries are interrupted");
   }
   return problem;
 }
@@ -195,21 +191,17 @@ Status judge(const Mesh& mesh, const SurfaceShape& wanted, const MapCheck& check
   const QuadTopology& found, const ExtractionResult& result)
 {
   std::string problem = compareTopology(wanted.topology, result.mesh, found, 0);
-  const std::string lines = compareLines(wanted.curves, result.mesh, found, check);
-  if (!lines.empty())
-  {
-    append(problem, lines);
-  }
+  note(problem, compareLines(wanted.curves, result.mesh, found, check));
   if (check.count[kOffIsoline] > result.features.offIsolines.size())
   {
-    append(problem,
+    note(problem,
       "the boundary is off the isolines, where cells that it cuts can be trimmed or kept as "
       "polygons "
       "(boundary mode)");
   }
   if (!result.features.offIsolines.empty())
   {
-    append(problem, "features are not reproduced");
+    note(problem, "features are not reproduced");
   }
   if (problem.empty())
   {
@@ -217,18 +209,12 @@ Status judge(const Mesh& mesh, const SurfaceShape& wanted, const MapCheck& check
   }
   if (result.openPorts > 0 || result.droppedFaces > 0)
   {
-    append(problem,
+    note(problem,
       std::to_string(result.openPorts) + " open grid edges, " +
         std::to_string(result.droppedFaces) + " dropped faces");
   }
-  if (const std::string ends = result.features.text(mesh); !ends.empty())
-  {
-    append(problem, ends);
-  }
-  const std::string cause = check.text();
-  return { StatusCode::NotConverged,
-    "the quad mesh is not the input surface: " + problem +
-      (cause.empty() ? "" : ". The map has " + cause) };
+  note(problem, result.features.text(mesh));
+  return statusOf("the quad mesh is not the input surface: ", problem, check);
 }
 
 /// The same where the boundary is free.
@@ -253,13 +239,13 @@ Status judgeFree(const Mesh& mesh, const MapCheck& check, const QuadTopology& fo
   // A trimmed mesh cannot be held against the input, so the map must be nearly free of folds.
   if (options.boundary == BoundaryMode::Trimmed && !isNearlyValid(check, mesh))
   {
-    append(problem, "the map is no integer-grid map with a few folds");
+    note(problem, "the map is no integer-grid map with a few folds");
   }
   const auto count = [&problem](std::size_t number, const char* what)
   {
     if (number > 0)
     {
-      append(problem, std::to_string(number) + " " + what);
+      note(problem, std::to_string(number) + " " + what);
     }
   };
   count(report.dropped, "cells at the boundary have no simple polygon");
@@ -270,16 +256,9 @@ Status judgeFree(const Mesh& mesh, const MapCheck& check, const QuadTopology& fo
   }
   if (!result.features.offIsolines.empty())
   {
-    append(problem, result.features.text(mesh));
+    note(problem, result.features.text(mesh));
   }
-  if (problem.empty())
-  {
-    return {};
-  }
-  const std::string cause = check.text();
-  return { StatusCode::NotConverged,
-    "the quad mesh is not the input surface up to its boundary: " + problem +
-      (cause.empty() ? "" : ". The map has " + cause) };
+  return statusOf("the quad mesh is not the input surface up to its boundary: ", problem, check);
 }
 
 /// Exact pieces of cells need an exact map without folds.

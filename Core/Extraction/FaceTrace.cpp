@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/FaceTrace.h"
 
+#include "Extraction/GridTracing.h"
+
 namespace quadrille
 {
 namespace
@@ -12,6 +14,48 @@ FixedVec2 withAlong(FixedVec2 p, int direction, std::int64_t value)
 {
   const std::int64_t signedValue = (direction & 3) >= 2 ? -value : value;
   return (direction & 1) == 0 ? FixedVec2{ signedValue, p.v } : FixedVec2{ p.u, signedValue };
+}
+
+/// As GridTracing.h walks along it; all triangles are positive.
+Walk walkOf(const Side& side)
+{
+  return { side.place.face, {}, side.target, side.direction, 1 };
+}
+
+/// The constrained half-edge of the face that holds the point and runs along the direction.
+Index constrainedAlong(const ExactMap& map, Index face, FixedVec2 point, int direction)
+{
+  for (Index h = 3 * face; h < 3 * face + 3; ++h)
+  {
+    const FixedVec2 e = map.edge(h);
+    const std::int64_t reached = along(point - map.at(h), direction);
+    if (map.mesh.isConstrained(h) && along(e, direction + 1) == 0 && along(e, direction) > 0 &&
+      along(point - map.at(h), direction + 1) == 0 && reached >= 0 && reached < along(e, direction))
+    {
+      return h;
+    }
+  }
+  return kInvalidIndex;
+}
+
+/// The constrained half-edge that leaves the vertex of a corner along a direction at or clockwise of the corner.
+Index constrainedFrom(const ExactMap& map, Index corner, int direction)
+{
+  for (;;)
+  {
+    const FixedVec2 e = map.edge(corner);
+    if (along(e, direction + 1) == 0 && along(e, direction) > 0)
+    {
+      return map.mesh.isConstrained(corner) ? corner : kInvalidIndex;
+    }
+    Transition t;
+    if (map.mesh.isBoundary(corner) || !map.transition(corner, t))
+    {
+      return kInvalidIndex;
+    }
+    direction += t.rotation;
+    corner = map.mesh.rotateClockwise(corner);
+  }
 }
 
 } // namespace
@@ -85,12 +129,12 @@ bool FaceTrace::followSide(Side& side, bool noteVertices)
     {
       noteVerticesOn(side);
     }
-    const Index exit = exitOf(side);
+    const Index exit = exitEdge(map_, walkOf(side));
     if (exit == kInvalidIndex)
     {
       return false;
     }
-    if (isBefore(side, exit))
+    if (isBefore(map_, walkOf(side), exit))
     {
       side.arrived = true;
       return true;
@@ -116,26 +160,6 @@ void FaceTrace::cross(Place& place, Index h, const Transition& t) const
 {
   place.face = Mesh::face(map_.mesh.twin[h]);
   place.toStart = place.toStart.after(t.inverse());
-}
-
-Index FaceTrace::exitOf(const Side& side) const
-{
-  const auto isLeft = [&](Index h)
-  { return along(map_.at(h) - side.target, side.direction + 1) > 0; };
-  for (Index h = 3 * side.place.face; h < 3 * side.place.face + 3; ++h)
-  {
-    if (!isLeft(h) && isLeft(Mesh::next(h)))
-    {
-      return h;
-    }
-  }
-  return kInvalidIndex;
-}
-
-bool FaceTrace::isBefore(const Side& side, Index h) const
-{
-  const int where = orientation(map_.at(h), map_.at(Mesh::next(h)), side.target);
-  return where > 0 || (where == 0 && along(map_.edge(h), side.direction) >= 0);
 }
 
 void FaceTrace::addStop(const Stop& stop)
@@ -166,22 +190,6 @@ Stop FaceTrace::stopAt(Index node, const Place& place, Index via) const
     place.toStart.apply(n.uv), via, rotate(n.fine, place.toStart.rotation) };
 }
 
-Index FaceTrace::constrainedAlong(Index face, FixedVec2 point, int direction) const
-{
-  for (Index h = 3 * face; h < 3 * face + 3; ++h)
-  {
-    const FixedVec2 e = map_.edge(h);
-    const std::int64_t reached = along(point - map_.at(h), direction);
-    if (map_.mesh.isConstrained(h) && along(e, direction + 1) == 0 && along(e, direction) > 0 &&
-      along(point - map_.at(h), direction + 1) == 0 && reached >= 0 &&
-      reached < along(e, direction))
-    {
-      return h;
-    }
-  }
-  return kInvalidIndex;
-}
-
 bool FaceTrace::turnLeft(Side& side)
 {
   const std::optional<Index> q = grid_.find(side.place.face, side.target);
@@ -190,7 +198,7 @@ bool FaceTrace::turnLeft(Side& side)
     return false;
   }
   const FixedVec2 from = side.target;
-  const Index via = constrainedAlong(side.place.face, from, side.direction + 1);
+  const Index via = constrainedAlong(map_, side.place.face, from, side.direction + 1);
   addStop({ StopKind::Grid, *q, side.place.toStart.apply(from), via });
   side = sideFrom(side.place, from, side.direction + 1);
   return true;
@@ -259,26 +267,7 @@ void FaceTrace::noteVertex(const Side& side, Index corner)
     return;
   }
   addStop({ StopKind::Node, *node, side.place.toStart.apply(map_.at(corner)),
-    constrainedFrom(corner, side.direction) });
-}
-
-Index FaceTrace::constrainedFrom(Index corner, int direction) const
-{
-  for (;;)
-  {
-    const FixedVec2 e = map_.edge(corner);
-    if (along(e, direction + 1) == 0 && along(e, direction) > 0)
-    {
-      return map_.mesh.isConstrained(corner) ? corner : kInvalidIndex;
-    }
-    Transition t;
-    if (map_.mesh.isBoundary(corner) || !map_.transition(corner, t))
-    {
-      return kInvalidIndex;
-    }
-    direction += t.rotation;
-    corner = map_.mesh.rotateClockwise(corner);
-  }
+    constrainedFrom(map_, corner, side.direction) });
 }
 
 bool FaceTrace::isStraight(Index out) const
@@ -288,7 +277,7 @@ bool FaceTrace::isStraight(Index out) const
   {
     axes += axesInCorner(map_, g);
   }
-  return axes == 2 && isAligned(map_, out) && isAligned(map_, boundary_.before(out));
+  return axes == 2 && map_.isOnIsoline(out) && map_.isOnIsoline(boundary_.before(out));
 }
 
 bool FaceTrace::followBoundary(Place& place, Index node, Side& side)
@@ -340,7 +329,7 @@ void FaceTrace::startInside(const Place& place, Index node, Side& side)
   if (n.gridVertex != kInvalidIndex)
   {
     const int direction = (firstAxis(e) + 1) & 3;
-    addStop(stopAt(node, place, constrainedAlong(place.face, n.uv, direction)));
+    addStop(stopAt(node, place, constrainedAlong(map_, place.face, n.uv, direction)));
     side = sideFrom(place, n.uv, direction);
     return;
   }
@@ -362,7 +351,8 @@ bool FaceTrace::startAtVertex(Place& place, Index corner, Index out, Side& side)
   {
     if (const std::optional<int> direction = lastIsoline(map_, corner))
     {
-      Stop stop = stopAt(node, place, constrainedAlong(place.face, map_.at(corner), *direction));
+      Stop stop =
+        stopAt(node, place, constrainedAlong(map_, place.face, map_.at(corner), *direction));
       stop.uv = place.toStart.apply(map_.at(corner)); // of this corner's chart
       addStop(stop);
       side = sideFrom(place, map_.at(corner), *direction);

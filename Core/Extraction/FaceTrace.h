@@ -73,12 +73,6 @@ private:
   /// Crosses half-edge h of the place's face.
   void cross(Place& place, Index h, const Transition& t) const;
 
-  /// The half-edge through which the moved line leaves the face: from a right to a left vertex.
-  Index exitOf(const Side& side) const;
-
-  /// Does the target, moved by e to the left and by e^2 back, lie before half-edge h?
-  bool isBefore(const Side& side, Index h) const;
-
   void addStop(const Stop& stop);
 
   void closeUp();
@@ -86,9 +80,6 @@ private:
   Stop stopAt(Index node, const Place& place, Index via) const;
 
   // ---------------------------------------------------------------- along isolines
-
-  /// The constrained half-edge of the face that holds the point and runs along the direction.
-  Index constrainedAlong(Index face, FixedVec2 point, int direction) const;
 
   /// Notes the grid vertex at the target and turns into the next side.
   bool turnLeft(Side& side);
@@ -102,10 +93,6 @@ private:
   void noteVerticesOn(Side& side);
 
   void noteVertex(const Side& side, Index corner);
-
-  /// The constrained half-edge that leaves the vertex of a corner along a direction at or clockwise
-  /// of the corner.
-  Index constrainedFrom(Index corner, int direction) const;
 
   /// Does the boundary run straight along an isoline at the origin of boundary half-edge out?
   bool isStraight(Index out) const;

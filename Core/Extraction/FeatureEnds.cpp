@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/FeatureEnds.h"
 
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Mesh/Topology.h"
 
@@ -59,12 +60,6 @@ bool endsAt(const ExactMap& map, Index h)
   return g == kInvalidIndex || features != 2 || !goesStraightOn(map, onFeature);
 }
 
-bool isOnIsoline(const ExactMap& map, Index h)
-{
-  const FixedVec2 e = map.edge(h);
-  return (e.v == 0 && isInteger(map.at(h).v)) || (e.u == 0 && isInteger(map.at(h).u));
-}
-
 } // namespace
 
 FeatureEnds findFeatureEnds(const ExactMap& map)
@@ -78,14 +73,12 @@ FeatureEnds findFeatureEnds(const ExactMap& map)
       ends.nonInteger.push_back(map.mesh.origin[h]);
     }
   }
-  for (Index h = 0; h < map.mesh.halfEdgeCount(); ++h)
-  {
-    if (map.mesh.isFeature(h) && h < map.mesh.twin[h] && !map.mesh.isBoundary(h) &&
-      !isOnIsoline(map, h))
+  ends.offIsolines = idsWhere(map.mesh.halfEdgeCount(),
+    [&](Index h)
     {
-      ends.offIsolines.push_back(h);
-    }
-  }
+      return map.mesh.isFeature(h) && h < map.mesh.twin[h] && !map.mesh.isBoundary(h) &&
+        !map.isOnIsoline(h);
+    });
   return ends;
 }
 
@@ -98,13 +91,9 @@ std::string FeatureEnds::text(const Mesh& mesh) const
     {
       return;
     }
-    std::string places;
-    for (std::size_t i = 0; i < std::min(list.size(), kNamedPlaces); ++i)
-    {
-      places += (i > 0 ? ", " : "") + placeText(mesh.position[vertexOf(list[i])]);
-    }
     result += (result.empty() ? "" : ", ") + std::to_string(list.size()) + " " + what + " (near " +
-      places + (list.size() > kNamedPlaces ? ", ...)" : ")");
+      joined(list, kNamedPlaces, [&](Index id) { return placeText(mesh.position[vertexOf(id)]); }) +
+      ")";
   };
   add(nonInteger, "ends, corners or junctions of features that are no integer points",
     [](Index v) { return v; });

@@ -4,7 +4,7 @@
 
 #include "Base/DisjointSets.h"
 #include "Base/Progress.h"
-#include "Extraction/GridPlaces.h"
+#include "Extraction/GridVertices.h"
 
 #include <algorithm>
 #include <numeric>

@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/FreeBoundary.h"
 
+#include "Base/Lists.h"
 #include "Extraction/CurveLines.h"
 #include "Extraction/FaceTrace.h"
 #include "Extraction/PartialCells.h"
-#include "Quads/QuadHalfEdges.h"
 #include "Quads/QuadTopology.h"
 
 #include <algorithm>
 #include <set>
-#include <tuple>
 
 namespace quadrille
 {
@@ -149,65 +148,54 @@ private:
 
 // ------------------------------------------------------------------ fans
 
-/// The lines' places among the half-edges of the quads.
-class LineEdges
+/// Per line the lowest half-edge of the quads along it, twice, and 1 more where that runs backwards.
+std::vector<Index> edgesOfLines(const QuadMesh& mesh)
 {
-public:
-  explicit LineEdges(const QuadMesh& mesh)
+  if (mesh.lines.empty())
   {
-    for (std::size_t l = 0; l < mesh.lines.size(); ++l)
-    {
-      lines_.push_back({ mesh.lines[l].a, mesh.lines[l].b, l });
-    }
-    std::sort(lines_.begin(), lines_.end());
-    halfEdge_.assign(mesh.lines.size(), kInvalidIndex);
-    for (Index h = 0; h < 4 * mesh.quads.size() && !lines_.empty(); ++h)
-    {
-      const Index a = mesh.quads[h / 4][h % 4];
-      const Index b = mesh.quads[h / 4][nextInQuad(h) % 4];
-      note(a, b, h, true);
-      note(b, a, h, false);
-    }
+    return {};
   }
-
-  /// The lines with the present names of their ends; those that are no edge any more are left out.
-  void rename(QuadMesh& mesh) const
-  {
-    std::vector<QuadLine> lines;
-    for (std::size_t l = 0; l < mesh.lines.size(); ++l)
+  const auto point = [&](Index h) { return mesh.quads[h / 4][h % 4]; };
+  const Grouped<> leaving(mesh.points.size(),
+    [&](const auto& visit)
     {
-      const Index h = halfEdge_[l] / 2;
-      if (halfEdge_[l] != kInvalidIndex)
+      for (Index h = 0; h < 4 * mesh.quads.size(); ++h)
       {
-        QuadLine line = mesh.lines[l];
-        line.a = mesh.quads[h / 4][h % 4];
-        line.b = mesh.quads[h / 4][nextInQuad(h) % 4];
-        if (halfEdge_[l] % 2 != 0)
-        {
-          std::swap(line.a, line.b);
-        }
-        lines.push_back(line);
+        visit(point(h), h);
       }
-    }
-    mesh.lines.swap(lines);
-  }
-
-private:
-  using Entry = std::tuple<Index, Index, std::size_t>;
-
-  void note(Index a, Index b, Index h, bool forward)
+    });
+  std::vector<Index> edges;
+  for (const QuadLine& line : mesh.lines)
   {
-    for (auto found = std::lower_bound(lines_.begin(), lines_.end(), Entry{ a, b, 0 });
-         found != lines_.end() && std::get<0>(*found) == a && std::get<1>(*found) == b; ++found)
+    const auto lowest = [&](Index a, Index b)
     {
-      Index& place = halfEdge_[std::get<2>(*found)];
-      place = std::min(place, 2 * h + (forward ? 0 : 1));
+      const Index* h = std::find_if(
+        leaving.begin(a), leaving.end(a), [&](Index g) { return point(nextInQuad(g)) == b; });
+      return h == leaving.end(a) ? kInvalidIndex : 2 * *h;
+    };
+    const Index forwards = lowest(line.a, line.b), backwards = lowest(line.b, line.a);
+    edges.push_back(forwards < backwards || backwards == kInvalidIndex ? forwards : backwards + 1);
+  }
+  return edges;
+}
+
+/// The lines with the present names of their ends; those that are no edge any more are left out.
+void renameLines(const std::vector<Index>& edges, QuadMesh& mesh)
+{
+  std::vector<QuadLine> lines;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
+  {
+    const Index h = edges[l] / 2;
+    if (edges[l] != kInvalidIndex)
+    {
+      lines.push_back(mesh.lines[l]);
+      const bool isBackwards = edges[l] % 2 != 0;
+      (isBackwards ? lines.back().b : lines.back().a) = mesh.quads[h / 4][h % 4];
+      (isBackwards ? lines.back().a : lines.back().b) = mesh.quads[h / 4][nextInQuad(h) % 4];
     }
   }
-
-  std::vector<Entry> lines_;
-  std::vector<Index> halfEdge_; ///< per line twice the half-edge, and 1 where it runs backwards
-};
+  mesh.lines.swap(lines);
+}
 
 /// Appends a copy of a point.
 Index copyPoint(Index p, QuadMesh& mesh)
@@ -273,7 +261,7 @@ std::size_t separateFans(QuadMesh& mesh)
 {
   const QuadTopology topology = analyzeQuads(mesh.quads, mesh.points.size());
   const Index count = static_cast<Index>(4 * mesh.quads.size());
-  const LineEdges lineEdges(mesh);
+  const std::vector<Index> edges = edgesOfLines(mesh);
   std::vector<std::uint8_t> seen(count, 0), taken(mesh.points.size(), 0);
   std::size_t copies = 0;
   for (Index start = 0; start < count; ++start)
@@ -305,7 +293,7 @@ std::size_t separateFans(QuadMesh& mesh)
     } while (h != kInvalidIndex && h != first);
   }
   compact(mesh);
-  lineEdges.rename(mesh);
+  renameLines(edges, mesh);
   return copies;
 }
 

@@ -14,37 +14,6 @@ namespace
 
 constexpr std::size_t kTraceChunk = 1 << 9;
 
-/// The half-edge of walk.face through which the line leaves.
-Index exitEdge(const ExactMap& map, const Walk& walk)
-{
-  const Index h = 3 * walk.face;
-  const int axis = walk.inside();
-  const std::int64_t isoline = along(walk.target, axis);
-  const std::array<bool, 3> inner{ along(map.at(h), axis) > isoline,
-    along(map.at(h + 1), axis) > isoline, along(map.at(h + 2), axis) > isoline };
-  for (Index i = 0; i < 3; ++i)
-  {
-    if (!inner[i] && inner[(i + 1) % 3])
-    {
-      return h + i;
-    }
-  }
-  return kInvalidIndex;
-}
-
-/// Does the corner at the target lie before the exit edge h?
-bool isBefore(const ExactMap& map, const Walk& walk, Index h)
-{
-  const int side = walk.orientation * orientation(map.at(h), map.at(Mesh::next(h)), walk.target);
-  if (side != 0)
-  {
-    return side > 0;
-  }
-  // The edge's line passes through the target. In an inverted triangle the corner is e before it and e^2 inside of the
-  // isoline, and the edge crosses the isoline. Otherwise it is e inside and e^2 before it.
-  return walk.orientation < 0 || along(map.edge(h), walk.direction) >= 0;
-}
-
 enum class Step
 {
   Arrived,
@@ -107,94 +76,66 @@ bool follow(const ExactMap& map, Walk& walk, std::size_t maximumSteps, std::size
   return false;
 }
 
-/// Traces the ports of a range of grid vertices.
-template <bool kFolded>
-class RangeTracer
+/// In a valid map the side of the cell beyond the isoline from q to `end` runs back between the ports beside these:
+///
+///       port  |        | next              . it comes from the one after next and leads to the one
+///        q ---+--------+--- end            . before port, counterclockwise
+///      before |        | after
+void setOtherSide(
+  const GridVertices& grid, Index q, Index port, Index end, Index next, CellCorners& cells)
 {
-public:
-  RangeTracer(const ExactMap& map, const GridVertices& grid, const TracingOptions& options,
-    std::size_t begin, std::size_t end, CellCorners& cells)
-    : map_(map), grid_(grid), options_(options), begin_(begin), end_(end), cells_(cells)
+  const std::optional<Index> before = grid.portBefore(q, port);
+  const std::optional<Index> after = grid.portAfter(end, next);
+  if (before && after)
   {
+    cells.next[*after] = *before;
   }
+}
 
-  /// Returns the number of triangles that the walks crossed.
-  std::size_t traceVertex(Index q)
-  {
-    std::size_t steps = 0;
-    Index port = grid_.vertices()[q].firstPort;
-    grid_.forEachSector(q,
-      [&](const Sector& sector)
-      {
-        for (int i = 0; i < sector.count; ++i, ++port)
-        {
-          cells_.vertex[port] = q;
-          if constexpr (kFolded)
-          {
-            cells_.orientation[port] = static_cast<std::int8_t>(sector.orientation);
-          }
-          if (cells_.next[port] == kInvalidIndex)
-          {
-            trace(q, port, startOf(sector, sector.firstDirection + i), steps);
-          }
-        }
-      });
-    return steps;
-  }
-
-private:
-  void trace(Index q, Index port, Walk walk, std::size_t& steps)
-  {
-    if (!follow<kFolded>(map_, walk, options_.maximumSteps, steps))
-    {
-      return;
-    }
-    const std::optional<Index> end = grid_.find(walk.face, walk.target);
-    const std::optional<Index> next =
-      end ? grid_.findPort(*end, walk.face, walk.target, walk.arrivalPort()) : std::nullopt;
-    if (!next)
-    {
-      return;
-    }
-    cells_.next[port] = *next;
-    if (options_.valid && begin_ <= *end && *end < end_)
-    {
-      setOtherSide(q, port, *end, *next);
-    }
-  }
-
-  /// In a valid map the side of the cell beyond the isoline runs back between the ports beside these:
-  ///
-  ///       port  |        | next              . it comes from the one after next and leads to the one
-  ///        q ---+--------+--- end            . before port, counterclockwise
-  ///      before |        | after
-  void setOtherSide(Index q, Index port, Index end, Index next)
-  {
-    const std::optional<Index> before = grid_.portBefore(q, port);
-    const std::optional<Index> after = grid_.portAfter(end, next);
-    if (before && after)
-    {
-      cells_.next[*after] = *before;
-    }
-  }
-
-  const ExactMap& map_;
-  const GridVertices& grid_;
-  const TracingOptions& options_;
-  std::size_t begin_;
-  std::size_t end_;
-  CellCorners& cells_;
-};
-
+/// Traces the ports of a range of grid vertices. Returns the number of triangles that the walks crossed.
 template <bool kFolded>
 std::size_t traceRange(const ExactMap& map, const GridVertices& grid, const TracingOptions& options,
   std::size_t begin, std::size_t end, std::size_t maximumSteps, CellCorners& cells)
 {
-  RangeTracer<kFolded> tracer(map, grid, options, begin, end, cells);
   std::size_t steps = 0;
-  for (std::size_t q = begin; q < end && steps <= maximumSteps; ++q)
+  const auto trace = [&](Index q, Index port, Walk walk)
   {
-    steps += tracer.traceVertex(static_cast<Index>(q));
+    if (!follow<kFolded>(map, walk, options.maximumSteps, steps))
+    {
+      return;
+    }
+    const std::optional<Index> last = grid.find(walk.face, walk.target);
+    const std::optional<Index> next =
+      last ? grid.findPort(*last, walk.face, walk.target, walk.arrivalPort()) : std::nullopt;
+    if (next)
+    {
+      cells.next[port] = *next;
+      if (options.valid && begin <= *last && *last < end)
+      {
+        setOtherSide(grid, q, port, *last, *next, cells);
+      }
+    }
+  };
+  for (std::size_t i = begin; i < end && steps <= maximumSteps; ++i)
+  {
+    const Index q = static_cast<Index>(i);
+    Index port = grid.vertices()[q].firstPort;
+    grid.forEachSector(q,
+      [&](const Sector& sector)
+      {
+        for (int k = 0; k < sector.count; ++k, ++port)
+        {
+          cells.vertex[port] = q;
+          if constexpr (kFolded)
+          {
+            cells.orientation[port] = static_cast<std::int8_t>(sector.orientation);
+          }
+          if (cells.next[port] == kInvalidIndex)
+          {
+            trace(q, port, startOf(sector, sector.firstDirection + k));
+          }
+        }
+      });
   }
   return steps;
 }
@@ -247,6 +188,20 @@ void collectMerges(const ExactMap& map, const GridVertices& grid, CellCorners& c
 }
 
 } // namespace
+
+bool cellOf(const CellCorners& cells, Index port, bool isLowest, std::array<Index, 4>& ports)
+{
+  ports[0] = port;
+  for (std::size_t i = 1; i < 4; ++i)
+  {
+    ports[i] = cells.next[ports[i - 1]];
+    if (ports[i] == kInvalidIndex || (isLowest && ports[i] <= port))
+    {
+      return false;
+    }
+  }
+  return cells.next[ports[3]] == port;
+}
 
 Walk startOf(const Sector& sector, int direction)
 {

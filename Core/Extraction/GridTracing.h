@@ -50,6 +50,37 @@ struct Walk
 /// The side that starts at the port of the sector with this direction.
 Walk startOf(const Sector& sector, int direction);
 
+/// The half-edge of the walk's face through which the moved line leaves it.
+inline Index exitEdge(const ExactMap& map, const Walk& walk)
+{
+  const Index h = 3 * walk.face;
+  const int axis = walk.inside();
+  const std::int64_t isoline = along(walk.target, axis);
+  const std::array<bool, 3> inner{ along(map.at(h), axis) > isoline,
+    along(map.at(h + 1), axis) > isoline, along(map.at(h + 2), axis) > isoline };
+  for (Index i = 0; i < 3; ++i)
+  {
+    if (!inner[i] && inner[(i + 1) % 3])
+    {
+      return h + i;
+    }
+  }
+  return kInvalidIndex;
+}
+
+/// Does the corner at the target lie before that half-edge h?
+inline bool isBefore(const ExactMap& map, const Walk& walk, Index h)
+{
+  const int side = walk.orientation * orientation(map.at(h), map.at(Mesh::next(h)), walk.target);
+  if (side != 0)
+  {
+    return side > 0;
+  }
+  // The edge's line passes through the target. In an inverted triangle the corner is e before it and e^2 inside of the
+  // isoline, and the edge crosses the isoline. Otherwise it is e inside and e^2 before it.
+  return walk.orientation < 0 || along(map.edge(h), walk.direction) >= 0;
+}
+
 /// For each port the port at the other end of its side, that is, the next corner of the same cell with the cell to the
 /// left on the surface.
 struct CellCorners
@@ -81,6 +112,10 @@ struct TracingOptions
   std::size_t maximumSteps = 0; ///< triangles that the walks may cross together
   int threads = 0;
 };
+
+/// The ports of the four corners of the cell of a port, from it on; false where it is not whole. isLowest: nor where
+/// the port is not the lowest one.
+bool cellOf(const CellCorners& cells, Index port, bool isLowest, std::array<Index, 4>& ports);
 
 /// Follows every port to the end of its side. Linear in the triangles that lines cross; parallel; the result does not
 /// depend on the number of threads.

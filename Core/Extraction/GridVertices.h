@@ -12,6 +12,7 @@
 #pragma once
 
 #include "Extraction/ExactMap.h"
+#include "Quads/SurfaceWalk.h"
 
 #include <algorithm>
 #include <optional>
@@ -148,62 +149,35 @@ private:
   template <typename Visitor>
   void visitSectors(const GridVertex& vertex, const Visitor& visit) const
   {
-    if (vertex.kind == Site::Face)
+    const auto offer = [&visit](const Sector& sector)
     {
-      visitFace(vertex, visit);
-    }
-    else if (vertex.kind == Site::Edge)
-    {
-      visitEdge(vertex, visit);
-    }
-    else
-    {
-      visitFan(vertex, visit);
-    }
-  }
-
-  template <typename Visitor>
-  void visitFace(const GridVertex& vertex, const Visitor& visit) const
-  {
-    const Sector sector = faceSector(vertex);
-    if (sector.count > 0)
-    {
-      visit(sector);
-    }
-  }
-
-  template <typename Visitor>
-  void visitEdge(const GridVertex& vertex, const Visitor& visit) const
-  {
-    const Sector mine = edgeSector(vertex.site, vertex.uv);
-    if (mine.count > 0)
-    {
-      visit(mine);
-    }
-    Transition t;
-    if (map_.transition(vertex.site, t))
-    {
-      const Sector other = edgeSector(map_.mesh.twin[vertex.site], t.apply(vertex.uv));
-      if (other.count > 0)
-      {
-        visit(other);
-      }
-    }
-  }
-
-  template <typename Visitor>
-  void visitFan(const GridVertex& vertex, const Visitor& visit) const
-  {
-    Index h = vertex.site;
-    do
-    {
-      const Sector sector = cornerSector(h);
       if (sector.count > 0)
       {
         visit(sector);
       }
-      h = map_.mesh.rotateCounterclockwise(h);
-    } while (h != vertex.site && h != kInvalidIndex);
+    };
+    Index h = vertex.site;
+    if (vertex.kind == Site::Face)
+    {
+      offer(faceSector(vertex));
+    }
+    else if (vertex.kind == Site::Edge)
+    {
+      offer(edgeSector(h, vertex.uv));
+      Transition t;
+      if (map_.transition(h, t))
+      {
+        offer(edgeSector(map_.mesh.twin[h], t.apply(vertex.uv)));
+      }
+    }
+    else
+    {
+      do
+      {
+        offer(cornerSector(h));
+        h = map_.mesh.rotateCounterclockwise(h);
+      } while (h != vertex.site && h != kInvalidIndex);
+    }
   }
 
   ExactMap map_;
@@ -212,5 +186,11 @@ private:
   std::vector<FanCorner> largeFans_; ///< by half-edge
   Index portCount_ = 0;
 };
+
+/// Barycentric coordinates of a point in the chart of a face with area.
+std::array<double, 3> weightsInFace(const ExactMap& map, Index face, FixedVec2 uv);
+
+/// The place of a grid vertex; weights are exactly 0 and 1 on edges and vertices where they must be.
+SurfacePoint placeOf(const ExactMap& map, const GridVertex& vertex);
 
 } // namespace quadrille

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/PartialCells.h"
 
+#include "Base/Lists.h"
 #include "Base/Progress.h"
 #include "Base/TryCount.h"
-#include "Extraction/CellTopology.h"
 #include "Extraction/FaceTrace.h"
 #include "Extraction/PolygonSimplifier.h"
 #include "Extraction/QuadAssembly.h"
+#include "Quads/QuadTopology.h"
 
 #include <algorithm>
 #include <map>
@@ -67,7 +68,7 @@ private:
     for (Index n = 0; n < done.size(); ++n)
     {
       pollNowAndThen(n);
-      if (done[n] || isAligned(map_, boundary_.nodes()[n].h))
+      if (done[n] || map_.isOnIsoline(boundary_.nodes()[n].h))
       {
         continue;
       }
@@ -248,15 +249,14 @@ private:
     return in.dot(out) < kCornerCosine * in.norm() * out.norm();
   }
 
-  PolygonSimplifier simplifierOf(const std::vector<Stop>& stops) const
+  std::vector<std::uint8_t> wantedOf(const std::vector<Stop>& stops) const
   {
     std::vector<std::uint8_t> wanted;
-    wanted.reserve(stops.size());
     for (const Stop& stop : stops)
     {
       wanted.push_back(isWanted(stop) ? 1 : 0);
     }
-    return { stops, wanted };
+    return wanted;
   }
 
   void addFace(std::vector<Stop> stops, Index face)
@@ -264,7 +264,7 @@ private:
     std::vector<Index> corners;
     if (!stops.empty() && takeDetoursAway(stops))
     {
-      corners = simplifierOf(stops).run();
+      corners = simplePolygon(stops, wantedOf(stops));
     }
     if (corners.empty())
     {
@@ -302,13 +302,13 @@ private:
     for (const auto& [f, gaps] : bends_)
     {
       Face& face = faces_[f];
-      PolygonSimplifier simplifier = simplifierOf(face.stops);
+      std::vector<std::pair<Index, Index>> between;
       for (const std::size_t i : gaps)
       {
-        simplifier.keepBetween(face.corners[i], face.corners[(i + 1) % face.corners.size()]);
+        between.emplace_back(face.corners[i], face.corners[(i + 1) % face.corners.size()]);
       }
       countTry(Try::MoreCorners);
-      face.corners = simplifier.run();
+      face.corners = simplePolygon(face.stops, wantedOf(face.stops), between);
       countTryLed(Try::MoreCorners, face.corners.empty() ? 0 : 1);
     }
   }
@@ -343,7 +343,7 @@ private:
     {
       addLine(points[i], points[(i + 1) % points.size()], face.stops[face.corners[i]].via);
     }
-    mesh_.polygonPoints.insert(mesh_.polygonPoints.end(), points.begin(), points.end());
+    append(mesh_.polygonPoints, points);
     mesh_.polygonOffsets.push_back(static_cast<Index>(mesh_.polygonPoints.size()));
     mesh_.polygonSourceFace.push_back(face.face);
   }
@@ -400,15 +400,11 @@ private:
   void dropLinesOffEdges()
   {
     const std::vector<std::uint8_t> onEdge = linesOnEdges(mesh_);
-    std::vector<QuadLine> lines;
-    for (std::size_t l = 0; l < onEdge.size(); ++l)
-    {
-      if (onEdge[l])
-      {
-        lines.push_back(mesh_.lines[l]);
-      }
-    }
-    mesh_.lines.swap(lines);
+    const std::vector<Index> kept =
+      idsWhere(onEdge.size(), [&](Index l) { return onEdge[l] != 0; });
+    std::transform(
+      kept.begin(), kept.end(), mesh_.lines.begin(), [this](Index l) { return mesh_.lines[l]; });
+    mesh_.lines.resize(kept.size());
   }
 
   const ExactMap& map_;
@@ -433,16 +429,8 @@ FreeBoundaryReport addPartialCells(const ExactMap& map, const GridVertices& grid
 
 std::optional<std::array<Index, 4>> wholeCell(const CellCorners& cells, Index port)
 {
-  std::array<Index, 4> ports{ port };
-  for (std::size_t i = 1; i < 4; ++i)
-  {
-    ports[i] = cells.next[ports[i - 1]];
-    if (ports[i] == kInvalidIndex)
-    {
-      return std::nullopt;
-    }
-  }
-  if (cells.next[ports[3]] != port)
+  std::array<Index, 4> ports{};
+  if (!cellOf(cells, port, false, ports))
   {
     return std::nullopt;
   }

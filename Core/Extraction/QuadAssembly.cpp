@@ -5,7 +5,7 @@
 #include "Base/Parallel.h"
 #include "Extraction/CurveLines.h"
 #include "Extraction/FoldedCells.h"
-#include "Extraction/GridPlaces.h"
+#include "Extraction/GridVertices.h"
 
 #include <algorithm>
 #include <atomic>
@@ -34,21 +34,6 @@ struct Parts
   std::vector<Cell> cells;
   std::vector<CurveLine> lines;
 };
-
-/// The four ports of the cell of this port when it closes and the port is its lowest.
-bool closedCell(const CellCorners& cells, Index port, std::array<Index, 4>& ports)
-{
-  ports[0] = port;
-  for (std::size_t i = 1; i < 4; ++i)
-  {
-    ports[i] = cells.next[ports[i - 1]];
-    if (ports[i] == kInvalidIndex || ports[i] <= port)
-    {
-      return false;
-    }
-  }
-  return cells.next[ports[3]] == port;
-}
 
 /// Does the port run along the right side of its sector?
 bool runsAlong(const ExactMap& map, const Sector& sector, int direction)
@@ -106,7 +91,7 @@ private:
       return cell != kInvalidIndex;
     }
     std::array<Index, 4> ports;
-    if (!closedCell(cells_, port, ports))
+    if (!cellOf(cells_, port, true, ports))
     {
       return false;
     }

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "Extraction/Extraction.h"
-#include "Extraction/GridPlaces.h"
 #include "Extraction/GridTracing.h"
+#include "Extraction/GridVertices.h"
 
 namespace quadrille
 {

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Extraction/QuadCoverage.h"
 
-#include "Base/Error.h"
 #include "Base/Parallel.h"
+#include "Base/Refuse.h"
 #include "Extraction/ExactMap.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <unordered_set>
 
 namespace quadrille
 {
@@ -102,72 +103,6 @@ bool entersSquare(const Vector2& a, const Vector2& b)
   return begin < end;
 }
 
-/// Faces that were met, each with the rotation to the first chart: beside a vertex of valence 2 a face can lie
-/// under a quad in two places. Cleared in the time of what it holds.
-class FaceSet
-{
-public:
-  /// False when it is there already.
-  bool insert(Index face, int rotation)
-  {
-    if (2 * (used_.size() + 1) > slots_.size())
-    {
-      grow();
-    }
-    const std::uint64_t key = 4 * std::uint64_t{ face } + static_cast<std::uint64_t>(rotation);
-    const std::size_t slot = find(key);
-    if (slots_[slot] == key)
-    {
-      return false;
-    }
-    slots_[slot] = key;
-    used_.push_back(slot);
-    return true;
-  }
-
-  void clear()
-  {
-    for (const std::size_t slot : used_)
-    {
-      slots_[slot] = kFreeSlot;
-    }
-    used_.clear();
-  }
-
-private:
-  static constexpr std::uint64_t kFreeSlot = ~std::uint64_t{ 0 };
-
-  std::size_t find(std::uint64_t key) const
-  {
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t slot = (key * 0x9e3779b97f4a7c15 >> 20) & mask;
-    while (slots_[slot] != kFreeSlot && slots_[slot] != key)
-    {
-      slot = (slot + 1) & mask;
-    }
-    return slot;
-  }
-
-  void grow()
-  {
-    std::vector<std::uint64_t> keys;
-    for (const std::size_t slot : used_)
-    {
-      keys.push_back(slots_[slot]);
-    }
-    slots_.assign(4 * slots_.size(), kFreeSlot);
-    used_.clear();
-    for (const std::uint64_t key : keys)
-    {
-      used_.push_back(find(key));
-      slots_[used_.back()] = key;
-    }
-  }
-
-  std::vector<std::uint64_t> slots_ = std::vector<std::uint64_t>(64, kFreeSlot); ///< power of two
-  std::vector<std::size_t> used_;
-};
-
 class Coverer
 {
 public:
@@ -208,6 +143,12 @@ private:
     Transition toFirst; ///< from the chart of face to that of the first face
   };
 
+  /// With the rotation to the first chart: beside a vertex of valence 2 a face can lie under a quad in two places.
+  static std::uint64_t keyOf(Index face, int rotation)
+  {
+    return 4 * std::uint64_t{ face } + static_cast<std::uint64_t>(rotation);
+  }
+
   /// Of the quad's square, in the chart of the face under its centre: the centre is half an integer, so rounding in
   /// the weights does not matter.
   FixedVec2 lowerCorner(std::size_t q) const
@@ -227,7 +168,7 @@ private:
     const int orientation = map_.orientationOf(start);
     seen_.clear();
     stack_.assign({ { start, {} } });
-    seen_.insert(start, 0);
+    seen_.insert(keyOf(start, 0));
     while (!stack_.empty())
     {
       const Visit here = stack_.back();
@@ -257,7 +198,7 @@ private:
       return;
     }
     const Visit next{ Mesh::face(map_.mesh.twin[h]), toFirst.after(t.inverse()) };
-    if (seen_.insert(next.face, next.toFirst.rotation))
+    if (seen_.insert(keyOf(next.face, next.toFirst.rotation)).second)
     {
       stack_.push_back(next);
     }
@@ -265,18 +206,16 @@ private:
 
   ExactMap map_;
   const QuadMesh& quads_;
-  FaceSet seen_;
+  std::unordered_set<std::uint64_t> seen_; ///< faces that were met, see keyOf
   std::vector<Visit> stack_;
 };
 
 void checkSizes(const Mesh& mesh, const std::vector<FixedVec2>& uv, const QuadMesh& quads)
 {
-  if (uv.size() != mesh.origin.size() || quads.quadSourceFace.size() != quads.quads.size() ||
-    quads.quadSourceWeights.size() != quads.quads.size())
-  {
-    throw InvalidInput("coverage of quads: " + std::to_string(uv.size()) + " uv for " +
-      std::to_string(mesh.origin.size()) + " corners, or quads without their sources");
-  }
+  refuseIf(uv.size() != mesh.origin.size() || quads.quadSourceFace.size() != quads.quads.size() ||
+      quads.quadSourceWeights.size() != quads.quads.size(),
+    "coverage of quads: ", uv.size(), " uv for ", mesh.origin.size(),
+    " corners, or quads without their sources");
 }
 
 } // namespace
@@ -288,8 +227,9 @@ QuadCoverage coverQuads(
   const std::size_t count = quads.quads.size();
   QuadCoverage coverage;
   coverage.first.assign(count + 1, 0);
-  auto parts = parallelParts<std::vector<FaceShare>>(count, kCoverageChunk, threads,
-    [&](std::size_t begin, std::size_t end, std::vector<FaceShare>& part)
+  using Shares = std::vector<FaceShare>;
+  std::vector<Shares> parts = parallelParts<Shares>(count, kCoverageChunk, threads,
+    [&](std::size_t begin, std::size_t end, Shares& part)
     {
       Coverer coverer(mesh, uv, quads);
       for (std::size_t q = begin; q < end; ++q)

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ForeignMaps/MapSnapping.h"
 
-#include "Base/Error.h"
 #include "Base/Parallel.h"
+#include "Base/Refuse.h"
 #include "Extraction/ExactMap.h"
 #include "Mesh/Topology.h"
 
@@ -34,10 +34,7 @@ void checkSnapArguments(
   const Mesh& mesh, const std::vector<Vector2>& uv, const SnapOptions& options)
 {
   const std::string corners = std::to_string(mesh.origin.size()) + " corners";
-  if (uv.size() != mesh.origin.size())
-  {
-    throw InvalidInput("map: " + std::to_string(uv.size()) + " uv for " + corners);
-  }
+  refuseIf(uv.size() != mesh.origin.size(), "map: ", uv.size(), " uv for ", corners);
   if (!options.matching.empty() && options.matching.size() != mesh.origin.size())
   {
     throw InvalidInput(
@@ -183,19 +180,19 @@ public:
       }));
     result_.uv.resize(uv_.size());
     const std::vector<Index> outgoing = outgoingHalfEdges(mesh_);
-    const auto parts = parallelParts<SnapResult>(outgoing.size(), kSnapChunk, options_.threads,
-      [&](std::size_t begin, std::size_t end, SnapResult& part)
-      {
-        std::vector<Corner> corners;
-        for (std::size_t v = begin; v < end; ++v)
+    for (const SnapResult& part :
+      parallelParts<SnapResult>(outgoing.size(), kSnapChunk, options_.threads,
+        [&](std::size_t begin, std::size_t end, SnapResult&snapped)
         {
-          if (outgoing[v] != kInvalidIndex)
+          std::vector<Corner> corners;
+          for (std::size_t v = begin; v < end; ++v)
           {
-            snapVertex(outgoing[v], corners, part);
+            if (outgoing[v] != kInvalidIndex)
+            {
+              snapVertex(outgoing[v], corners, snapped);
+            }
           }
-        }
-      });
-    for (const SnapResult& part : parts)
+        }))
     {
       add(part);
     }
@@ -298,20 +295,19 @@ private:
   template <typename Check>
   EdgeFaults findFaults(const Check& check) const
   {
-    const auto parts =
-      parallelParts<EdgeFaults>(mesh_.halfEdgeCount(), kSnapChunk, options_.threads,
-        [&](Index begin, Index end, EdgeFaults& part)
-        {
-          for (Index h = begin; h < end; ++h)
-          {
-            if (mesh_.twin[h] != kInvalidIndex && h < mesh_.twin[h])
-            {
-              check(h, part);
-            }
-          }
-        });
+    const std::size_t count = mesh_.halfEdgeCount();
     EdgeFaults whole;
-    for (const EdgeFaults& part : parts)
+    for (const EdgeFaults& part : parallelParts<EdgeFaults>(count, kSnapChunk, options_.threads,
+           [&](std::size_t begin, std::size_t end, EdgeFaults&found)
+           {
+             for (Index h = static_cast<Index>(begin); h < end; ++h)
+             {
+               if (mesh_.twin[h] != kInvalidIndex && h < mesh_.twin[h])
+               {
+                 check(h, found);
+               }
+             }
+           }))
     {
       whole.add(part);
     }

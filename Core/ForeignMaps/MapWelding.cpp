@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ForeignMaps/MapWelding.h"
 
-#include "Base/Error.h"
+#include "Base/Lists.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "Mesh/EdgeRuns.h"
+#include "Mesh/SurfaceEdit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,25 +22,16 @@ constexpr double kFit = 0.01;
 
 void checkTriangles(const MappedTriangles& triangles)
 {
-  if (triangles.corners.size() % 3 != 0 || triangles.uv.size() != triangles.corners.size())
-  {
-    throw InvalidInput("welding: " + std::to_string(triangles.uv.size()) + " uv for " +
-      std::to_string(triangles.corners.size()) + " corners");
-  }
+  refuseIf(triangles.corners.size() % 3 != 0 || triangles.uv.size() != triangles.corners.size(),
+    "welding: ", triangles.uv.size(), " uv for ", triangles.corners.size(), " corners");
   for (std::size_t i = 0; i < triangles.position.size(); ++i)
   {
-    if (!triangles.position[i].allFinite())
-    {
-      throw InvalidInput("point " + std::to_string(i) + " has a position that is not finite");
-    }
+    refuseIf(!triangles.position[i].allFinite(), "point ", i, " has a position that is not finite");
   }
   for (std::size_t h = 0; h < triangles.corners.size(); ++h)
   {
-    if (triangles.corners[h] >= triangles.position.size())
-    {
-      throw InvalidInput("cell " + std::to_string(h / 3) + " refers to point " +
-        std::to_string(triangles.corners[h]) + " of " + std::to_string(triangles.position.size()));
-    }
+    refuseIf(triangles.corners[h] >= triangles.position.size(), "cell ", h / 3, " refers to point ",
+      triangles.corners[h], " of ", triangles.position.size());
   }
 }
 
@@ -143,11 +136,8 @@ private:
       const Index a = places_.place[in_.corners[3 * f]];
       const Index b = places_.place[in_.corners[3 * f + 1]];
       const Index c = places_.place[in_.corners[3 * f + 2]];
-      if (a == b || b == c || c == a)
-      {
-        throw InvalidInput("cell " + std::to_string(f) +
-          " has two corners at one place; take such cells out of the surface");
-      }
+      refuseIf(a == b || b == c || c == a, "cell ", f,
+        " has two corners at one place; take such cells out of the surface");
     }
   }
 
@@ -264,17 +254,10 @@ private:
       }
       if (!side->empty() && side->size() + other.size() > 2 && couldPair(*side, other))
       {
-        std::string cells;
-        for (const Index h : *side)
-        {
-          cells += " " + std::to_string(h / 3) + ",";
-        }
-        for (const Index h : other)
-        {
-          cells += " " + std::to_string(h / 3) + ",";
-        }
-        cells.pop_back();
-        throw InvalidInput("cells" + cells +
+        std::vector<Index> all = *side;
+        append(all, other);
+        throw InvalidInput("cells " +
+          joined(all, all.size(), [](Index h) { return std::to_string(h / 3); }) +
           " meet at one edge, and neither points nor images tell which of them belong together");
       }
       if (soup_ && side->size() > 1 && other.empty())
@@ -308,17 +291,7 @@ private:
       }
       const Index v = mesh_.vertexCount();
       mesh_.position.push_back(in_.position[point(h)]);
-      Index g = h;
-      do
-      {
-        mesh_.origin.edit()[g] = v;
-        g = mesh_.rotateCounterclockwise(g);
-      } while (g != h && g != kInvalidIndex);
-      for (g = mesh_.rotateClockwise(h); g != kInvalidIndex && mesh_.origin[g] != v;
-           g = mesh_.rotateClockwise(g))
-      {
-        mesh_.origin.edit()[g] = v;
-      }
+      forEachInFan(mesh_, h, [&](Index g) { mesh_.origin.edit()[g] = v; });
     }
   }
 

@@ -3,9 +3,10 @@
 #include "GridMap/Certificate.h"
 
 #include "Base/ChartRotation.h"
-#include "Base/Error.h"
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "GridMap/MapCheck.h"
 
 #include <algorithm>
@@ -157,12 +158,6 @@ void checkTurns(const Mesh& mesh, const std::vector<std::int8_t>& entered,
   }
 }
 
-std::size_t countDifferent(std::vector<Index>& vertices)
-{
-  std::sort(vertices.begin(), vertices.end());
-  return static_cast<std::size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
-}
-
 void merge(const std::vector<Partial>& partials, Certificate& result)
 {
   Int128 area = 0;
@@ -180,9 +175,10 @@ void merge(const std::vector<Partial>& partials, Certificate& result)
     {
       insertWorst(worst, value);
     }
-    offIntegers.insert(offIntegers.end(), partial.offIntegers.begin(), partial.offIntegers.end());
+    append(offIntegers, partial.offIntegers);
   }
-  result.offIntegers = countDifferent(offIntegers);
+  sortUnique(offIntegers);
+  result.offIntegers = offIntegers.size();
   result.area = std::ldexp(static_cast<double>(area), -2 * kFractionBits - 1);
   for (const FaceValue& value : worst)
   {
@@ -196,10 +192,9 @@ void merge(const std::vector<Partial>& partials, Certificate& result)
 
 void checkSizes(const Mesh& mesh, std::size_t uv, std::size_t turns, std::size_t integers)
 {
-  if (uv != mesh.origin.size() || turns != mesh.position.size() || integers != mesh.position.size())
-  {
-    throw InvalidInput("certificate: map, turns or flags do not have the size of the mesh");
-  }
+  refuseIf(
+    uv != mesh.origin.size() || turns != mesh.position.size() || integers != mesh.position.size(),
+    "certificate: map, turns or flags do not have the size of the mesh");
 }
 
 } // namespace
@@ -219,11 +214,7 @@ Transition transitionOf(
   const Mesh& mesh, const std::vector<FixedVec2>& uv, Index h, int fallbackRotation, bool* residual)
 {
   const Index g = mesh.twin[h];
-  if (g == kInvalidIndex)
-  {
-    throw InvalidInput(
-      "half-edge " + std::to_string(h) + " lies on the boundary and has no transition");
-  }
+  refuseIf(g == kInvalidIndex, "half-edge ", h, " lies on the boundary and has no transition");
   const FixedVec2 from = uv[Mesh::next(h)] - uv[h];
   const FixedVec2 to = uv[g] - uv[Mesh::next(g)];
   Transition result;
@@ -248,7 +239,7 @@ Transition transitionOf(
 std::vector<std::int8_t> matchingOf(const Mesh& mesh, const std::vector<FixedVec2>& uv, int threads)
 {
   std::vector<std::int8_t> matching(mesh.halfEdgeCount(), 0);
-  parallelForEach(mesh.halfEdgeCount(), 1 << 16, threads,
+  parallelForEach<Index>(mesh.halfEdgeCount(), 1 << 16, threads,
     [&](Index h)
     {
       if (!mesh.isBoundary(h))
@@ -267,9 +258,13 @@ Certificate certify(const Mesh& mesh, const std::vector<FixedVec2>& uv,
   Certificate result;
   result.triangles = mesh.faceCount();
   std::vector<std::int8_t> entered(mesh.halfEdgeCount(), 0);
-  const auto partials = parallelParts<Partial>(mesh.faceCount(), kCertificateChunk, threads,
-    [&](Index begin, Index end, Partial& partial)
-    { checkFaces(mesh, uv, integerVertex, begin, end, entered, partial); });
+  const std::vector<Partial> partials =
+    parallelParts<Partial>(mesh.faceCount(), kCertificateChunk, threads,
+      [&](std::size_t begin, std::size_t end, Partial& partial)
+      {
+        checkFaces(mesh, uv, integerVertex, static_cast<Index>(begin), static_cast<Index>(end),
+          entered, partial);
+      });
   merge(partials, result);
   checkTurns(mesh, entered, expectedTurns, result);
   return result;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/CutGraph.h"
 
-#include "Base/Error.h"
 #include "Base/PlaceText.h"
+#include "Base/Refuse.h"
 #include "Mesh/Topology.h"
 
 #include <numeric>
@@ -19,24 +19,17 @@ void checkEdges(const Mesh& mesh, const CrossField& field)
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     const Index g = mesh.twin[h];
-    const std::string name = "cross field: half-edge " + std::to_string(h);
-    if (mesh.isConstrained(h) != (field.alignment[h] >= 0))
-    {
-      throw InvalidInput(name + " is constrained but not aligned, or the other way round");
-    }
+    refuseIf(mesh.isConstrained(h) != (field.alignment[h] >= 0), "cross field: half-edge ", h,
+      " is constrained but not aligned, or the other way round");
     if (g == kInvalidIndex)
     {
       continue;
     }
-    if (((field.matching[h] + field.matching[g]) & 3) != 0)
-    {
-      throw InvalidInput(name + " and its twin have matchings that are not inverse to each other");
-    }
-    if (mesh.isFeature(h) &&
-      ((field.alignment[g] + 2 - field.alignment[h] - field.matching[h]) & 3) != 0)
-    {
-      throw InvalidInput(name + " has a matching that contradicts its alignments");
-    }
+    refuseIf(((field.matching[h] + field.matching[g]) & 3) != 0, "cross field: half-edge ", h,
+      " and its twin have matchings that are not inverse to each other");
+    refuseIf(mesh.isFeature(h) &&
+        ((field.alignment[g] + 2 - field.alignment[h] - field.matching[h]) & 3) != 0,
+      "cross field: half-edge ", h, " has a matching that contradicts its alignments");
   }
 }
 
@@ -66,11 +59,10 @@ void checkVertices(const Mesh& mesh, const CrossField& field)
 
 void checkField(const Mesh& mesh, const CrossField& field)
 {
-  if (field.matching.size() != mesh.origin.size() || field.alignment.size() != mesh.origin.size() ||
-    field.angle.size() != mesh.faceCount() || field.turns.size() != mesh.position.size())
-  {
-    throw InvalidInput("cross field: it does not have the size of the mesh");
-  }
+  refuseIf(field.matching.size() != mesh.origin.size() ||
+      field.alignment.size() != mesh.origin.size() || field.angle.size() != mesh.faceCount() ||
+      field.turns.size() != mesh.position.size(),
+    "cross field: it does not have the size of the mesh");
   checkEdges(mesh, field);
   checkVertices(mesh, field);
 }

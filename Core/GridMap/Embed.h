@@ -6,8 +6,11 @@
 #include "Base/FixedPoint.h"
 #include "Base/Progress.h"
 #include "CrossField/CrossField.h"
+#include "GridMap/LockedMap.h"
 #include "GridMap/PreviousMap.h"
+#include "Mesh/Mesh.h"
 
+#include <optional>
 #include <vector>
 
 namespace quadrille
@@ -41,5 +44,19 @@ struct EmbedResult
 /// Throws InvalidInput, naming the element, when integerUv is fractional or contradicts the field.
 EmbedResult embedMap(const Mesh& mesh, const CrossField& field,
   const std::vector<FixedVec2>& integerUv, const EmbedOptions& options);
+
+struct ContinuationResult
+{
+  /// Unknowns of the integer map; none when the way was blocked.
+  std::optional<Eigen::VectorXd> y;
+  int newtonSteps = 0;
+  double reached = 0;         ///< how far it came, 1 is the end
+  std::vector<Index> blocked; ///< the faces that could not be mended when it was blocked
+};
+
+/// seamlessUv and the map of `integers` have transitions with the same rotations and lock the same vertices.
+ContinuationResult continueToIntegers(const Mesh& mesh, const CrossField& field,
+  const std::vector<FixedVec2>& seamlessUv, const LockedMap& integers,
+  const ProgressCallback& progress);
 
 } // namespace quadrille

@@ -75,4 +75,13 @@ private:
   std::vector<std::vector<Index>> straight_;
 };
 
+/// A map of one try: its field, the maps of its components, and these as one.
+struct TriedMap
+{
+  GridMapResult map;
+  bool holdsIrregular = false; ///< of the field that was led along the curves
+};
+
+TriedMap mapInOneTry(const Mesh& mesh, const GridMapOptions& options, const CurveTry& howto);
+
 } // namespace quadrille

@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/GridMap.h"
 
+#include "Base/DisjointSets.h"
+#include "Base/Refuse.h"
 #include "Base/TryCount.h"
 #include "Base/WorkCount.h"
-#include "GridMap/GuidesInMap.h"
-#include "GridMap/MapMaker.h"
+#include "GridMap/FieldOfMap.h"
 #include "GridMap/MapShape.h"
 #include "Integers/CurveIsolines.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <numeric>
@@ -22,6 +24,27 @@ namespace quadrille
 {
 namespace
 {
+
+/// Between the guide of a face and the nearer of the two families of isolines, in its plane.
+double angleToIsolines(
+  const Mesh& mesh, const std::vector<FixedVec2>& uv, Index f, const Vector3& direction)
+{
+  const Vector3 e1 = mesh.edgeVector(3 * f), e2 = -mesh.edgeVector(3 * f + 2);
+  const Vector3 x = e1.stableNormalized();
+  const Vector3 y = x.cross(e2).stableNormalized().cross(x);
+  Eigen::Matrix2d edges, images;
+  edges << e1.dot(x), e2.dot(x), e1.dot(y), e2.dot(y);
+  images << toDouble(uv[3 * f + 1] - uv[3 * f]), toDouble(uv[3 * f + 2] - uv[3 * f]);
+  const Eigen::Matrix2d gradients = images * edges.inverse();
+  const Vector2 guide = Vector2(direction.dot(x), direction.dot(y)).stableNormalized();
+  double sine = 1;
+  for (Eigen::Index coordinate = 0; coordinate < 2; ++coordinate)
+  {
+    const Vector2 gradient = gradients.row(coordinate).transpose();
+    sine = std::min(sine, std::abs(gradient.stableNormalized().dot(guide)));
+  }
+  return std::asin(sine);
+}
 
 /// Newton steps of the seamless map where other curves, or other ways of theirs, can still be tried: maps that hold
 /// take some 20, with strokes 200, those that never hold take 340.
@@ -144,7 +167,7 @@ private:
   /// With what all tries have taken.
   GridMapResult finish(GridMapResult map) const
   {
-    map.takeWork(taken_);
+    static_cast<MapWork&>(map) = taken_;
     return map;
   }
 
@@ -271,7 +294,7 @@ private:
   const GridMapOptions& options_;
   int maximumSteps_ = 0;        ///< of the seamless map of a try
   bool holdsIrregular_ = false; ///< of the last one that was made
-  GridMapResult taken_;
+  MapWork taken_;
 };
 
 } // namespace
@@ -291,20 +314,12 @@ bool hasPromised(const Certificate& certificate, MapMethod method)
 
 const char* nameOf(MapMethod method)
 {
-  switch (method)
-  {
-    case MapMethod::ScaleAware:
-      return "scale aware";
-    case MapMethod::MixedInteger:
-      return "mixed integer";
-    case MapMethod::QuadCover:
-      return "QuadCover";
-    default:
-      return "seamless";
-  }
+  constexpr std::array<const char*, 4> kNames{ "scale aware", "mixed integer", "QuadCover",
+    "seamless" };
+  return kNames[static_cast<std::size_t>(method)];
 }
 
-void GridMapResult::addWork(const GridMapResult& other)
+void MapWork::addWork(const MapWork& other)
 {
   work += other.work;
   secondsField += other.secondsField;
@@ -319,33 +334,14 @@ void GridMapResult::addWork(const GridMapResult& other)
   embedSteps += other.embedSteps;
 }
 
-void GridMapResult::takeWork(const GridMapResult& other)
-{
-  work = other.work;
-  secondsField = other.secondsField;
-  secondsSeamless = other.secondsSeamless;
-  secondsQuantize = other.secondsQuantize;
-  secondsEmbed = other.secondsEmbed;
-  processorField = other.processorField;
-  processorSeamless = other.processorSeamless;
-  processorQuantize = other.processorQuantize;
-  processorEmbed = other.processorEmbed;
-  seamlessSteps = other.seamlessSteps;
-  embedSteps = other.embedSteps;
-}
-
 GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
 {
-  if (!(options.edgeLength > 0) || !std::isfinite(options.edgeLength))
-  {
-    throw InvalidInput("the target edge length must be a positive number");
-  }
+  refuseIf(!(options.edgeLength > 0) || !std::isfinite(options.edgeLength),
+    "the target edge length must be a positive number");
   checkAnisotropyLimit(options.anisotropyLimit);
-  if (options.anisotropyLimit > 0 &&
-    (options.method == MapMethod::MixedInteger || options.method == MapMethod::QuadCover))
-  {
-    throw InvalidInput("an anisotropy limit needs the scale aware or the seamless method");
-  }
+  refuseIf(options.anisotropyLimit > 0 &&
+      (options.method == MapMethod::MixedInteger || options.method == MapMethod::QuadCover),
+    "an anisotropy limit needs the scale aware or the seamless method");
   if (mesh.vertexCount() > options.maximumVertices)
   {
     GridMapResult result;
@@ -357,11 +353,8 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options)
         "edges" };
     return result;
   }
-  if (options.previous != nullptr && options.vertexIds.size() != mesh.vertexCount())
-  {
-    throw InvalidInput("grid map: " + std::to_string(options.vertexIds.size()) +
-      " vertex ids for " + std::to_string(mesh.vertexCount()) + " vertices");
-  }
+  refuseIf(options.previous != nullptr && options.vertexIds.size() != mesh.vertexCount(),
+    "grid map: ", options.vertexIds.size(), " vertex ids for ", mesh.vertexCount(), " vertices");
   if (!options.stretch.empty() && options.stretch.size() != mesh.faceCount())
   {
     throw InvalidInput("grid map: " + std::to_string(options.stretch.size()) + " stretches for " +
@@ -399,6 +392,32 @@ PreviousMap previousMap(
 {
   assert(map.status.ok());
   return { mesh, vertexIds, map.field, map.seamlessUv, map.uv };
+}
+
+std::size_t unfollowedRegions(
+  const Mesh& mesh, const std::vector<Guide>& guides, const std::vector<FixedVec2>& uv)
+{
+  DisjointSets regions(guides.size(), 1);
+  for (Index h = 0; h < 3 * guides.size(); ++h)
+  {
+    const Index f = Mesh::face(h), g = mesh.isBoundary(h) ? f : Mesh::face(mesh.twin[h]);
+    if (!guides[f].isFree() && !guides[g].isFree())
+    {
+      regions.join(f, g);
+    }
+  }
+  std::vector<double> excess(guides.size(), 0.0); // of the area times the angle, by root
+  for (Index f = 0; f < guides.size(); ++f)
+  {
+    const double area = mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).norm();
+    if (!guides[f].isFree() && area > 0)
+    {
+      excess[regions.find(f)] +=
+        area * (angleToIsolines(mesh, uv, f, guides[f].direction) - kFollowedAngle);
+    }
+  }
+  return static_cast<std::size_t>(
+    std::count_if(excess.begin(), excess.end(), [](double sum) { return sum > 0; }));
 }
 
 } // namespace quadrille

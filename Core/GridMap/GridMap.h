@@ -14,8 +14,10 @@
 #include "GridMap/PreviousMap.h"
 #include "Integers/CurveIsolines.h"
 #include "Mesh/Mesh.h"
+#include "Requests/Guides.h"
 #include "Requests/StraightRequests.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -80,7 +82,19 @@ struct MapReuse
 
   bool any() const { return seamless + integers + embedded > 0; }
 };
-struct GridMapResult
+/// What making maps has taken.
+struct MapWork
+{
+  std::size_t work = 0; ///< as counted by countWork()
+  double secondsField = 0, secondsSeamless = 0, secondsQuantize = 0, secondsEmbed = 0;
+  /// The same in processor time of the whole process, which other programs on the machine do not disturb.
+  double processorField = 0, processorSeamless = 0, processorQuantize = 0, processorEmbed = 0;
+  int seamlessSteps = 0, embedSteps = 0; ///< Newton steps of all solves
+
+  /// Adds what another, failed try has taken.
+  void addWork(const MapWork& other);
+};
+struct GridMapResult : MapWork
 {
   std::vector<FixedVec2> uv;         ///< #H; zero on connected components that have no map at all
   std::vector<FixedVec2> seamlessUv; ///< #H; of the components that have a map
@@ -100,17 +114,6 @@ struct GridMapResult
   /// is not ok.
   double beyondAnisotropyLimit = 0;
   std::size_t components = 0, failedComponents = 0;
-  /// What all of it has counted by countWork().
-  std::size_t work = 0;
-  double secondsField = 0, secondsSeamless = 0, secondsQuantize = 0, secondsEmbed = 0;
-  /// The same in processor time of the whole process, which other programs on the machine do not disturb.
-  double processorField = 0, processorSeamless = 0, processorQuantize = 0, processorEmbed = 0;
-  int seamlessSteps = 0, embedSteps = 0; ///< Newton steps of all solves
-
-  /// Adds what another, failed try has taken.
-  void addWork(const GridMapResult& other);
-  /// What it has taken is what another one says.
-  void takeWork(const GridMapResult& other);
 };
 /// The whole chain on one coarse mesh. Its connected components are solved one by one; each gets quads by its area, and
 /// all are tried, so that offenders tells about every one that fails.
@@ -119,5 +122,13 @@ GridMapResult computeGridMap(const Mesh& mesh, const GridMapOptions& options);
 /// What the next map can start from; the status of `map` must be ok. vertexIds: #V of its mesh.
 PreviousMap previousMap(
   const Mesh& mesh, const GridMapResult& map, const std::vector<Index>& vertexIds);
+
+/// Radians, on average over the area of a region.
+constexpr double kFollowedAngle = 0.045;
+
+/// How many regions, that is connected sets of guided faces, the isolines leave by more than that. guides: empty or #F;
+/// uv: #H.
+std::size_t unfollowedRegions(
+  const Mesh& mesh, const std::vector<Guide>& guides, const std::vector<FixedVec2>& uv);
 
 } // namespace quadrille

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/LockedMap.h"
 
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 #include "GridMap/MapShape.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
@@ -13,11 +13,6 @@ namespace quadrille
 {
 namespace
 {
-
-[[noreturn]] void refuse(const std::string& what)
-{
-  throw InvalidInput("embedding: " + what);
-}
 
 /// Transition of h with the rotation of the field.
 Transition fieldTransition(
@@ -34,11 +29,9 @@ LockedMap::LockedMap(
   : mesh_(mesh), field_(field), uv_(uv), whole_(whole), place_(mesh.origin.size()),
     master_(mesh.vertexCount()), lockedU_(mesh.vertexCount(), 0), lockedV_(mesh.vertexCount(), 0)
 {
-  if (uv.size() != mesh.origin.size() || field.matching.size() != mesh.origin.size() ||
-    field.alignment.size() != mesh.origin.size() || field.turns.size() != mesh.position.size())
-  {
-    refuse("map or field do not have the size of the mesh");
-  }
+  refuseIf(uv.size() != mesh.origin.size() || field.matching.size() != mesh.origin.size() ||
+      field.alignment.size() != mesh.origin.size() || field.turns.size() != mesh.position.size(),
+    "embedding: map or field do not have the size of the mesh");
   checkTransitions();
   checkIsolines();
   lockIntegers();
@@ -63,14 +56,12 @@ void LockedMap::checkTransitions() const
       continue;
     }
     const Transition transition = fieldTransition(mesh_, field_, uv_, h);
-    if (transition.apply(uv_[Mesh::next(h)]) != uv_[mesh_.twin[h]])
-    {
-      refuse("the two images of half-edge " + std::to_string(h) +
-        " do not agree under the quarter turns of the field");
-    }
+    refuseIf(transition.apply(uv_[Mesh::next(h)]) != uv_[mesh_.twin[h]],
+      "embedding: the two images of half-edge ", h,
+      " do not agree under the quarter turns of the field");
     if (whole_ && !isInteger(transition.translation))
     {
-      refuse("the transition of half-edge " + std::to_string(h) + " is not whole");
+      refuse("embedding: the transition of half-edge " + std::to_string(h) + " is not whole");
     }
   }
 }
@@ -85,10 +76,8 @@ void LockedMap::checkIsolines() const
     }
     const FixedVec2 a = rotate(uv_[h], -field_.alignment[h]);
     const FixedVec2 b = rotate(uv_[Mesh::next(h)], -field_.alignment[h]);
-    if (a.v != b.v || (whole_ && !isInteger(a.v)))
-    {
-      refuse("constrained half-edge " + std::to_string(h) + " does not lie on an integer isoline");
-    }
+    refuseIf(a.v != b.v || (whole_ && !isInteger(a.v)), "embedding: constrained half-edge ", h,
+      " does not lie on an integer isoline");
   }
 }
 
@@ -97,10 +86,8 @@ void LockedMap::lockIntegers()
   lockedU_ = lockedV_ = integerVertices(mesh_, field_);
   for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
   {
-    if (whole_ && lockedU_[mesh_.origin[h]] && !isInteger(uv_[h]))
-    {
-      refuse("vertex " + std::to_string(mesh_.origin[h]) + " does not lie at a whole point");
-    }
+    refuseIf(whole_ && lockedU_[mesh_.origin[h]] && !isInteger(uv_[h]), "embedding: vertex ",
+      mesh_.origin[h], " does not lie at a whole point");
   }
 }
 
@@ -120,10 +107,8 @@ void LockedMap::placeCorners(Index v, Index start)
       fieldTransition(mesh_, field_, uv_, Mesh::previous(h)).after(place_[h]);
     if (next == start)
     {
-      if (!isLocked(v) && !place.isIdentity())
-      {
-        refuse("the transitions round vertex " + std::to_string(v) + " do not close");
-      }
+      refuseIf(!isLocked(v) && !place.isIdentity(), "embedding: the transitions round vertex ", v,
+        " do not close");
       return;
     }
     place_[next] = place;
@@ -188,16 +173,9 @@ UntangleProblem LockedMap::problem(double edgeLength) const
   {
     addTriangle(problem, { 3 * f, 3 * f + 1, 3 * f + 2 }, mesh_, field_, f, 0, edgeLength);
   }
-  std::vector<GuardedEdge> edges;
-  for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
-  {
-    const double length = stretchedLength(mesh_, field_, h) / edgeLength;
-    if (mesh_.isConstrained(h) && (mesh_.isBoundary(h) || h < mesh_.twin[h]) && length > 0)
-    {
-      edges.push_back({ h, Mesh::next(h), field_.alignment[h], length });
-    }
-  }
-  guardEdges(problem, edges);
+  guardEdges(problem,
+    guardedEdges(
+      mesh_, field_, edgeLength, [](Index h) { return h; }, [](Index) { return 0; }));
   return problem;
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/MapCheck.h"
 
-#include "Base/Sorted.h"
+#include "Base/Lists.h"
 #include "Mesh/Topology.h"
 
 #include <algorithm>
@@ -15,19 +15,7 @@ namespace
 /// The quadrant [0, 90), [90, 180), ... degrees of a vector; -1 for the zero vector.
 int quadrantOf(FixedVec2 d)
 {
-  if (d.u > 0 && d.v >= 0)
-  {
-    return 0;
-  }
-  if (d.u <= 0 && d.v > 0)
-  {
-    return 1;
-  }
-  if (d.u < 0 && d.v <= 0)
-  {
-    return 2;
-  }
-  return d.v < 0 ? 3 : -1;
+  return d == FixedVec2{} ? -1 : quadrantOfNonzero(d);
 }
 
 /// The sector that begins at constrained half-edge `start`: its corners, counterclockwise.
@@ -67,15 +55,7 @@ bool runsAlongItsAxis(const std::vector<FixedVec2>& uv, Index h, int axis)
 
 std::vector<Index> flagged(const std::vector<std::uint8_t>& flags)
 {
-  std::vector<Index> result;
-  for (Index i = 0; i < flags.size(); ++i)
-  {
-    if (flags[i])
-    {
-      result.push_back(i);
-    }
-  }
-  return result;
+  return idsWhere(flags.size(), [&](Index i) { return flags[i]; });
 }
 
 } // namespace
@@ -142,15 +122,8 @@ MapDefects findDefects(const Mesh& mesh, const CrossField& field, const std::vec
 
 std::vector<Index> findNotPositive(const Mesh& mesh, const std::vector<FixedVec2>& uv)
 {
-  std::vector<Index> result;
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-  {
-    if (orientation(uv[3 * f], uv[3 * f + 1], uv[3 * f + 2]) <= 0)
-    {
-      result.push_back(f);
-    }
-  }
-  return result;
+  return idsWhere(mesh.faceCount(),
+    [&](Index f) { return orientation(uv[3 * f], uv[3 * f + 1], uv[3 * f + 2]) <= 0; });
 }
 
 std::vector<Index> crowdedVertices(const Mesh& mesh, const CrossField& field)
@@ -177,13 +150,21 @@ std::vector<Index> crowdedVertices(const Mesh& mesh, const CrossField& field)
   return flagged(crowded);
 }
 
+std::vector<Index> cornerVertices(const Mesh& mesh, const std::vector<Index>& faces)
+{
+  std::vector<Index> vertices;
+  for (const Index f : faces)
+  {
+    vertices.insert(vertices.end(), mesh.origin.begin() + 3 * f, mesh.origin.begin() + 3 * f + 3);
+  }
+  sortUnique(vertices);
+  return vertices;
+}
+
 std::vector<Index> verticesOf(const Mesh& mesh, const MapDefects& defects)
 {
-  std::vector<Index> result = defects.wrongTurns;
-  for (const Index f : defects.notPositive)
-  {
-    result.insert(result.end(), mesh.origin.begin() + 3 * f, mesh.origin.begin() + 3 * f + 3);
-  }
+  std::vector<Index> result = cornerVertices(mesh, defects.notPositive);
+  append(result, defects.wrongTurns);
   for (const Index h : defects.reversed)
   {
     result.push_back(mesh.origin[h]);

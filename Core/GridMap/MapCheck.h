@@ -74,6 +74,9 @@ std::vector<Index> findNotPositive(const Mesh& mesh, const std::vector<FixedVec2
 /// every triangle turns by less than half a circle.
 std::vector<Index> crowdedVertices(const Mesh& mesh, const CrossField& field);
 
+/// The corners of the faces, ascending.
+std::vector<Index> cornerVertices(const Mesh& mesh, const std::vector<Index>& faces);
+
 /// The vertices of all defects, ascending.
 std::vector<Index> verticesOf(const Mesh& mesh, const MapDefects& defects);
 

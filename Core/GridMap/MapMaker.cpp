@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GridMap/MapMaker.h"
+#include "GridMap/FieldOfMap.h"
 
 #include "Base/Clock.h"
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Base/Sorted.h"
 #include "Base/TryCount.h"
 #include "GridMap/Embed.h"
+#include "GridMap/MapCheck.h"
 #include "GridMap/MapShape.h"
 #include "GridMap/MeshParts.h"
 #include "GridMap/RoundedMap.h"
@@ -47,30 +49,14 @@ double mapArea(const Mesh& mesh, const std::vector<FixedVec2>& uv)
   double area = 0;
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
-    const Vector2 p = toDouble(uv[3 * f + 1] - uv[3 * f]);
-    const Vector2 q = toDouble(uv[3 * f + 2] - uv[3 * f]);
-    area += 0.5 * (p.x() * q.y() - p.y() * q.x());
+    area += mappedArea(uv, f);
   }
   return area;
 }
 
-std::vector<Index> cornerVertices(const Mesh& mesh, const std::vector<Index>& faces)
-{
-  std::vector<Index> vertices;
-  for (const Index f : faces)
-  {
-    for (Index corner = 0; corner < 3; ++corner)
-    {
-      vertices.push_back(mesh.origin[3 * f + corner]);
-    }
-  }
-  sortUnique(vertices);
-  return vertices;
-}
-
 std::vector<Index> join(std::vector<Index> a, const std::vector<Index>& b)
 {
-  a.insert(a.end(), b.begin(), b.end());
+  append(a, b);
   sortUnique(a);
   return a;
 }
@@ -507,8 +493,7 @@ private:
       countTry(Try::OtherIntegers);
       watched = join(std::move(watched), embedded.offenders);
       QuantizeResult quantized = quantize(component, component.startUv, watched, progress);
-      if (!quantized.status.ok() ||
-        std::find(tried.begin(), tried.end(), quantized.uv) != tried.end())
+      if (!quantized.status.ok() || contains(tried, quantized.uv))
       {
         break;
       }

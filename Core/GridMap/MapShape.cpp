@@ -3,7 +3,7 @@
 #include "GridMap/MapShape.h"
 
 #include "Base/Angles.h"
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 #include "Mesh/Sizing.h"
 
 #include <Eigen/Geometry>
@@ -33,6 +33,19 @@ Eigen::Matrix2d flattenSized(const Mesh& mesh, Index f)
   return result;
 }
 
+/// The derivative by J of the component off its axis of what the map makes of the guide of face f.
+Eigen::Vector4d offAxisOf(const FieldGuide& guide, double fieldAngle, int quarterTurns)
+{
+  const double against = guide.angle - fieldAngle;
+  // The field is within an eighth of a turn of one of the guide's four directions.
+  const double axis = (quarterTurns + std::round(against / kRightAngle)) * kRightAngle;
+  const double along = quarterTurns * kRightAngle + against;
+  const Vector2 normal = std::sqrt(guide.weight) * Vector2(-std::sin(axis), std::cos(axis));
+  Eigen::Vector4d result;
+  result << std::cos(along) * normal, std::sin(along) * normal;
+  return result;
+}
+
 } // namespace
 
 Eigen::Matrix2d flattenFace(const Mesh& mesh, Index f)
@@ -52,13 +65,23 @@ Eigen::Matrix2d flattenFace(const Mesh& mesh, Index f)
   return result;
 }
 
+Eigen::Matrix2d mappedEdges(const std::vector<FixedVec2>& uv, Index f)
+{
+  Eigen::Matrix2d edges;
+  edges << toDouble(uv[3 * f + 1] - uv[3 * f]), toDouble(uv[3 * f + 2] - uv[3 * f]);
+  return edges;
+}
+
+double mappedArea(const std::vector<FixedVec2>& uv, Index f)
+{
+  return parallelogram(toDouble(uv[3 * f + 1] - uv[3 * f]), toDouble(uv[3 * f + 2] - uv[3 * f])) /
+    2;
+}
+
 double shareBeyondRatio(const Mesh& mesh, const std::vector<FixedVec2>& uv, double limit)
 {
-  if (!(limit >= 1) || !std::isfinite(limit) || uv.size() != mesh.origin.size())
-  {
-    throw InvalidInput(
-      "share beyond a ratio: the ratio must be a number from 1 on, and the map of the mesh's size");
-  }
+  refuseIf(!(limit >= 1) || !std::isfinite(limit) || uv.size() != mesh.origin.size(),
+    "share beyond a ratio: the ratio must be a number from 1 on, and the map of the mesh's size");
   double area = 0, beyond = 0;
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
@@ -67,9 +90,7 @@ double shareBeyondRatio(const Mesh& mesh, const std::vector<FixedVec2>& uv, doub
     {
       continue; // a point
     }
-    Eigen::Matrix2d edges;
-    edges << toDouble(uv[3 * f + 1] - uv[3 * f]), toDouble(uv[3 * f + 2] - uv[3 * f]);
-    const Eigen::Matrix2d j = edges * reference.inverse();
+    const Eigen::Matrix2d j = mappedEdges(uv, f) * reference.inverse();
     area += reference.determinant();
     const double d = j.determinant();
     if (!(d > 0 && j.squaredNorm() <= (limit + 1 / limit) * d))
@@ -82,10 +103,8 @@ double shareBeyondRatio(const Mesh& mesh, const std::vector<FixedVec2>& uv, doub
 
 void checkAnisotropyLimit(double limit)
 {
-  if (limit != 0 && !(limit >= 1 && std::isfinite(limit)))
-  {
-    throw InvalidInput("the anisotropy limit must be 0 (none) or a number from 1 on");
-  }
+  refuseIf(limit != 0 && !(limit >= 1 && std::isfinite(limit)),
+    "the anisotropy limit must be 0 (none) or a number from 1 on");
 }
 
 double areaStretch(const CrossField& field, Index f)
@@ -131,24 +150,6 @@ double stretchedLength(const Mesh& mesh, const CrossField& field, Index h)
   return length * sum / sides;
 }
 
-namespace
-{
-
-/// The derivative by J of the component off its axis of what the map makes of the guide of face f.
-Eigen::Vector4d offAxisOf(const FieldGuide& guide, double fieldAngle, int quarterTurns)
-{
-  const double against = guide.angle - fieldAngle;
-  // The field is within an eighth of a turn of one of the guide's four directions.
-  const double axis = (quarterTurns + std::round(against / kRightAngle)) * kRightAngle;
-  const double along = quarterTurns * kRightAngle + against;
-  const Vector2 normal = std::sqrt(guide.weight) * Vector2(-std::sin(axis), std::cos(axis));
-  Eigen::Vector4d result;
-  result << std::cos(along) * normal, std::sin(along) * normal;
-  return result;
-}
-
-} // namespace
-
 void addTriangle(UntangleProblem& problem, const std::array<Index, 3>& points, const Mesh& mesh,
   const CrossField& field, Index f, int quarterTurns, double edgeLength)
 {
@@ -179,11 +180,10 @@ UntangleProblem referToMap(const UntangleProblem& problem, const CarriedMap& car
     {
       continue;
     }
-    Eigen::Matrix2d shape;
-    shape << toDouble(uv[3 * f + 1] - uv[3 * f]), toDouble(uv[3 * f + 2] - uv[3 * f]);
     const int turns = quarterTurns.empty() ? 0 : quarterTurns[f];
     const Eigen::Rotation2Dd rotation(carried.fieldRotation[f] + turns * kRightAngle);
-    result.inverseReference[f] = (scale * rotation.toRotationMatrix() * shape).inverse();
+    result.inverseReference[f] =
+      (scale * rotation.toRotationMatrix() * mappedEdges(uv, f)).inverse();
   }
   return result;
 }

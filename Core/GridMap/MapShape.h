@@ -18,6 +18,11 @@ namespace quadrille
 /// wants there; needles are made a little higher, so that the matrix is never singular unless the face is a point.
 Eigen::Matrix2d flattenFace(const Mesh& mesh, Index f);
 
+/// The same edges of the face in a map; uv: #H.
+Eigen::Matrix2d mappedEdges(const std::vector<FixedVec2>& uv, Index f);
+/// Signed area of the face in a map, in quads.
+double mappedArea(const std::vector<FixedVec2>& uv, Index f);
+
 /// The share of the area, over the sizes that the mesh wants, of faces whose two stretches (the singular values of the
 /// map's Jacobian) have a ratio above `limit`; faces without a positive determinant count as such. uv: #H. Throws
 /// InvalidInput unless limit >= 1 and finite, or where sizes disagree.
@@ -51,6 +56,25 @@ struct GuardedEdge
   int axis = 0;           ///< quarter turns of the direction (1, 0)
   double length = 0;      ///< wanted, > 0
 };
+
+/// Those of a mesh, one half-edge each: the other one follows through the seam. pointOf: of a corner; turnsOf: quarter
+/// turns of the problem's chart of a face against that of the field.
+template <class PointOf, class TurnsOf>
+std::vector<GuardedEdge> guardedEdges(const Mesh& mesh, const CrossField& field, double edgeLength,
+  const PointOf& pointOf, const TurnsOf& turnsOf)
+{
+  std::vector<GuardedEdge> edges;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    const double length = stretchedLength(mesh, field, h) / edgeLength;
+    if (mesh.isConstrained(h) && (mesh.isBoundary(h) || h < mesh.twin[h]) && length > 0)
+    {
+      edges.push_back({ pointOf(h), pointOf(Mesh::next(h)),
+        field.alignment[h] + turnsOf(Mesh::face(h)), length });
+    }
+  }
+  return edges;
+}
 
 /// Appends a triangle for each edge, after those of the faces, that is positive when the edge runs along its
 /// axis and inverted when it runs against it: a feature or a boundary can fold over at a vertex though

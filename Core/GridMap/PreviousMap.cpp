@@ -3,7 +3,7 @@
 #include "GridMap/PreviousMap.h"
 
 #include "Base/Angles.h"
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 
 #include <Eigen/Geometry>
 
@@ -56,15 +56,13 @@ std::size_t PreviousMap::bytes() const
 MapCarrier::MapCarrier(const PreviousMap& previous) : previous_(previous)
 {
   const Mesh& mesh = previous.mesh;
-  if (previous.vertexIds.size() != mesh.vertexCount() ||
-    previous.uv.size() != mesh.halfEdgeCount() ||
-    previous.seamlessUv.size() != mesh.halfEdgeCount() ||
-    previous.field.angle.size() != mesh.faceCount() ||
-    previous.field.matching.size() != mesh.halfEdgeCount() ||
-    previous.field.turns.size() != mesh.vertexCount())
-  {
-    throw InvalidInput("previous map: map, field and ids do not have the size of its mesh");
-  }
+  refuseIf(previous.vertexIds.size() != mesh.vertexCount() ||
+      previous.uv.size() != mesh.halfEdgeCount() ||
+      previous.seamlessUv.size() != mesh.halfEdgeCount() ||
+      previous.field.angle.size() != mesh.faceCount() ||
+      previous.field.matching.size() != mesh.halfEdgeCount() ||
+      previous.field.turns.size() != mesh.vertexCount(),
+    "previous map: map, field and ids do not have the size of its mesh");
   for (Index f = 0; f < mesh.faceCount(); ++f)
   {
     Index first = 3 * f;

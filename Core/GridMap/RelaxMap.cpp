@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/RelaxMap.h"
 
+#include "Base/Lists.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
-#include "Base/Sorted.h"
+#include "Base/Refuse.h"
+#include "GridMap/MapCheck.h"
 #include "GridMap/RelaxedTriangles.h"
 #include "Numerics/NestedSolver.h"
 
@@ -299,20 +301,14 @@ void MapRelaxation::relaxCrushed()
 {
   for (int sweep = 0; sweep < kLocalSweeps; ++sweep)
   {
-    std::vector<Index> vertices;
-    for (Index f = 0; f < mesh_.faceCount(); ++f)
-    {
-      pollNowAndThen(f);
-      if (references_[f].weight > 0 &&
-        energy(f, cornersOf(f)) > kCrushed * kIsometry * references_[f].weight)
-      {
-        for (Index i = 0; i < 3; ++i)
+    const std::vector<Index> vertices = cornerVertices(mesh_,
+      idsWhere(mesh_.faceCount(),
+        [&](Index f)
         {
-          vertices.push_back(mesh_.origin[3 * f + i]);
-        }
-      }
-    }
-    sortUnique(vertices);
+          pollNowAndThen(f);
+          return references_[f].weight > 0 &&
+            energy(f, cornersOf(f)) > kCrushed * kIsometry * references_[f].weight;
+        }));
     bool moved = false;
     for (std::size_t i = 0; i < vertices.size(); ++i)
     {
@@ -379,7 +375,8 @@ RelaxResult MapRelaxation::run()
 {
   RelaxResult result;
   result.heldVertices = held_;
-  const double scale = area_ > 0 ? 1 / (kIsometry * area_) : 0;
+  const double area = referenceArea();
+  const double scale = area > 0 ? 1 / (kIsometry * area) : 0;
   double current = totalEnergy(false);
   result.before = result.after = scale * current;
   if (options_.maximumSteps > 0 && !makeSolver(result))
@@ -421,13 +418,11 @@ RelaxResult MapRelaxation::run()
 RelaxResult relaxMap(const Mesh& mesh, const std::vector<std::uint8_t>& integerVertex,
   const RelaxOptions& options, std::vector<FixedVec2>& uv)
 {
-  if (uv.size() != mesh.origin.size() || integerVertex.size() != mesh.position.size() ||
-    (!options.guides.empty() && options.guides.size() != mesh.faceCount()) ||
-    (!options.inset.empty() && (options.inset.size() != uv.size() || options.maximumSteps < 1)))
-  {
-    throw InvalidInput("relaxing a map: the sizes of mesh, map, integer vertices, guides and inset "
-                       "boundary disagree");
-  }
+  refuseIf(uv.size() != mesh.origin.size() || integerVertex.size() != mesh.position.size() ||
+      (!options.guides.empty() && options.guides.size() != mesh.faceCount()) ||
+      (!options.inset.empty() && (options.inset.size() != uv.size() || options.maximumSteps < 1)),
+    "relaxing a map: the sizes of mesh, map, integer vertices, guides and inset "
+    "boundary disagree");
   return MapRelaxation(mesh, integerVertex, options, uv).run();
 }
 

@@ -188,10 +188,8 @@ std::vector<double> RelaxedTriangles::unitLengths() const
       const Index f = open.back();
       open.pop_back();
       pollNowAndThen(f);
-      const Vector2 a = toDouble(uv_[3 * f + 1] - uv_[3 * f]);
-      const Vector2 b = toDouble(uv_[3 * f + 2] - uv_[3 * f]);
       areas[id][0] += 2 * sizedArea(mesh_, f);
-      areas[id][1] += a.x() * b.y() - a.y() * b.x();
+      areas[id][1] += 2 * mappedArea(uv_, f);
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
       {
         if (!mesh_.isBoundary(h) && component[Mesh::face(mesh_.twin[h])] == kInvalidIndex)
@@ -228,7 +226,6 @@ void RelaxedTriangles::makeReferences()
     {
       const Eigen::Matrix2d shape = flattenFace(mesh_, f) / unit[f];
       references_[f] = { shape.inverse(), shape.determinant() / 2 };
-      area_ += references_[f].weight;
     }
   }
   if (!options_.guides.empty())
@@ -354,20 +351,32 @@ void RelaxedTriangles::element(
   rightSide.noalias() = -(derivative.transpose() * gradient);
 }
 
+/// Of all triangles that count.
+double RelaxedTriangles::referenceArea() const
+{
+  return std::accumulate(references_.begin(), references_.end(), 0.0,
+    [](double sum, const Reference& reference) { return sum + reference.weight; });
+}
+
 /// Sums over chunks, added in their order.
 double RelaxedTriangles::totalEnergy(bool stepped) const
 {
-  const auto sums = parallelParts<double>(mesh_.faceCount(), kFacesOfRelaxation, options_.threads,
-    [&](Index begin, Index end, double& sum)
-    {
-      for (Index f = begin; f < end; ++f)
+  const std::size_t faces = mesh_.faceCount();
+  const std::vector<double> sums =
+    parallelParts<double>(faces, kFacesOfRelaxation, options_.threads,
+      [&](std::size_t begin, std::size_t end, double& part)
       {
-        if (references_[f].weight > 0)
+        double sum = 0;
+        for (std::size_t i = begin; i < end; ++i)
         {
-          sum += energy(f, stepped ? steppedCorners(f) : cornersOf(f));
+          const Index f = static_cast<Index>(i);
+          if (references_[f].weight > 0)
+          {
+            sum += energy(f, stepped ? steppedCorners(f) : cornersOf(f));
+          }
         }
-      }
-    });
+        part = sum;
+      });
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
@@ -408,11 +417,9 @@ bool RelaxedTriangles::allows(Index f) const
   // det(t) = before + linear t + square t^2 along the step.
   const Vector2 a = toDouble(from[1] - from[0]), b = toDouble(from[2] - from[0]);
   const Vector2 c = toDouble(to[1] - to[0]) - a, d = toDouble(to[2] - to[0]) - b;
-  const auto cross = [](const Vector2& x, const Vector2& y)
-  { return x.x() * y.y() - x.y() * y.x(); };
-  const double before = cross(a, b);
-  const double linear = cross(a, d) + cross(c, b);
-  const double square = cross(c, d);
+  const double before = parallelogram(a, b);
+  const double linear = parallelogram(a, d) + parallelogram(c, b);
+  const double square = parallelogram(c, d);
   const double after = before + linear + square;
   const double isometric = 2 * references_[f].weight;
   if (after < kLeastShrink * before && after < kLeastShrink * isometric)

@@ -61,6 +61,7 @@ protected:
   /// Derivatives of J by the displacements of a corner's vertex along its two axes.
   Eigen::Matrix<double, 4, 2> cornerDerivative(Index h) const;
   void element(Index f, NestedSolver::Matrix6& matrix, NestedSolver::Vector6& rightSide) const;
+  double referenceArea() const;
   double totalEnergy(bool stepped) const;
   double starEnergy(Index v, bool stepped) const;
   bool allows(Index f) const;
@@ -80,7 +81,6 @@ protected:
   std::vector<FixedVec2>
     inset_;         ///< empty or #V: what vertices have yet to move, along axes that are not free
   double rise_ = 0; ///< by which a step may raise the energy of a crushed triangle; 0: any
-  double area_ = 0;
   std::size_t held_ = 0;
 
 private:

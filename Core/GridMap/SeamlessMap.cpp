@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/SeamlessMap.h"
 
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 #include "Base/TryCount.h"
 #include "GridMap/FieldUntangling.h"
 #include "GridMap/MapCheck.h"
@@ -121,11 +121,9 @@ void explain(
 SeamlessResult computeSeamlessMap(
   const Mesh& mesh, const CrossField& field, const SeamlessOptions& options)
 {
-  if (!(options.edgeLength > 0) || !std::isfinite(options.edgeLength) ||
-    !(options.targetQuads >= 0) || !std::isfinite(options.targetQuads))
-  {
-    throw InvalidInput("seamless map: edge length and target must be positive and finite");
-  }
+  refuseIf(!(options.edgeLength > 0) || !std::isfinite(options.edgeLength) ||
+      !(options.targetQuads >= 0) || !std::isfinite(options.targetQuads),
+    "seamless map: edge length and target must be positive and finite");
   checkAnisotropyLimit(options.anisotropyLimit);
   SeamlessResult result;
   report(options.progress, 0, "seamless map");

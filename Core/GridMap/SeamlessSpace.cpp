@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridMap/SeamlessSpace.h"
 
+#include "Base/Lists.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/Topology.h"
 #include "Requests/SeamRequests.h"
@@ -70,29 +71,11 @@ private:
   void join(Index left, Index right, Index segment)
   {
     const Index t = 2 * (graph_.wedges + segment);
-    const Index u = 2 * left, v = 2 * left + 1;
-    switch (graph_.rotation[segment])
+    for (Index i = 0; i < 2; ++i)
     {
-      case 0:
-        addPair(right, t, { u, -1 }, { v, -1 });
-        break;
-      case 1:
-        addPair(right, t, { v, 1 }, { u, -1 });
-        break;
-      case 2:
-        addPair(right, t, { u, 1 }, { v, 1 });
-        break;
-      default:
-        addPair(right, t, { v, -1 }, { u, 1 });
-        break;
+      rows_.push_back({ { 2 * right + i, 1 }, { t + i, -1 },
+        turnedTerm(2 * left, graph_.rotation[segment], i, -1) });
     }
-  }
-
-  void addPair(
-    Index right, Index t, std::pair<Index, std::int64_t> u, std::pair<Index, std::int64_t> v)
-  {
-    rows_.push_back({ { 2 * right, 1 }, { t, -1 }, u });
-    rows_.push_back({ { 2 * right + 1, 1 }, { t + 1, -1 }, v });
   }
 
   void joinSegments()
@@ -242,9 +225,7 @@ Form difference(const ExactBasis::Row& a, const ExactBasis::Row& b, std::int64_t
       result.insert(place, { id, value });
     }
   }
-  result.erase(
-    std::remove_if(result.begin(), result.end(), [](const auto& term) { return term.second == 0; }),
-    result.end());
+  eraseIf(result, [](const auto& term) { return term.second == 0; });
   return result;
 }
 
@@ -306,24 +287,10 @@ void SeamlessSpace::buildProblem(const CrossField& field, double edgeLength)
     addTriangle(
       problem_, { wedge[0], wedge[1], wedge[2] }, mesh_, field, f, graph_.comb[f], edgeLength);
   }
-  guardEdges(problem_, guardedEdges(field, edgeLength));
-}
-
-/// One half-edge of each constrained edge; the other one follows through the seam.
-std::vector<GuardedEdge> SeamlessSpace::guardedEdges(
-  const CrossField& field, double edgeLength) const
-{
-  std::vector<GuardedEdge> edges;
-  for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
-  {
-    const double length = stretchedLength(mesh_, field, h) / edgeLength;
-    if (mesh_.isConstrained(h) && (mesh_.isBoundary(h) || h < mesh_.twin[h]) && length > 0)
-    {
-      edges.push_back({ graph_.wedge[h], graph_.wedge[Mesh::next(h)],
-        field.alignment[h] + graph_.comb[Mesh::face(h)], length });
-    }
-  }
-  return edges;
+  guardEdges(problem_,
+    guardedEdges(
+      mesh_, field, edgeLength, [&](Index h) { return graph_.wedge[h]; },
+      [&](Index f) { return graph_.comb[f]; }));
 }
 
 std::vector<Index> SeamlessSpace::collapsedFaces(const std::vector<Index>& candidates) const
@@ -384,8 +351,7 @@ double SeamlessSpace::area(const Eigen::VectorXd& y) const
   {
     const auto point = [&](int i)
     { return Vector2(x.segment<2>(2 * Eigen::Index(graph_.wedge[3 * f + i]))); };
-    const Vector2 a = point(1) - point(0), b = point(2) - point(0);
-    area += (a.x() * b.y() - a.y() * b.x()) / 2;
+    area += parallelogram(point(1) - point(0), point(2) - point(0)) / 2;
   }
   return area;
 }

@@ -50,7 +50,6 @@ public:
 
 private:
   void buildProblem(const CrossField& field, double edgeLength);
-  std::vector<GuardedEdge> guardedEdges(const CrossField& field, double edgeLength) const;
 
   const Mesh& mesh_;
   CutGraph graph_;

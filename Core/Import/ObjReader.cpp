@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Import/SurfaceFile.h"
 
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -20,10 +20,7 @@ class ObjReader
 public:
   explicit ObjReader(const std::string& path) : path_(path), file_(path)
   {
-    if (!file_)
-    {
-      throw InvalidInput(path + ": cannot be opened for reading");
-    }
+    refuseIf(!file_, path, ": cannot be opened for reading");
   }
 
   SurfaceFile read()

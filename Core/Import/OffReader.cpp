@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Import/SurfaceFile.h"
 
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 
 #include <algorithm>
 #include <charconv>
@@ -171,19 +171,16 @@ private:
   {
     throw InvalidInput(path_ + ": " + reason);
   }
-  [[noreturn]] void failAtVertex(long long i, const std::string& reason) const
+  void requireAtVertex(bool condition, long long i, const char* reason) const
   {
-    fail("vertex " + std::to_string(i) + " " + reason);
+    refuseIf(!condition, path_, ": vertex ", i, " ", reason);
   }
 
   /// "[ST][C][N]OFF" and then three counts, on the same line or the next one.
   void readHeader()
   {
     std::string_view line;
-    if (!lines_.next(line))
-    {
-      fail("is empty");
-    }
+    refuseIf(!lines_.next(line), path_, ": is empty");
     readKind(nextWord(line));
     std::string_view rest = line;
     if (nextWord(rest) == "BINARY")
@@ -191,10 +188,7 @@ private:
       fail("is a binary OFF file; only the text form is read");
     }
     rest = line;
-    if (nextWord(rest).empty() && !lines_.next(line))
-    {
-      fail("has no counts");
-    }
+    refuseIf(nextWord(rest).empty() && !lines_.next(line), path_, ": has no counts");
     if (!parseWord(nextWord(line), pointCount_) || !parseWord(nextWord(line), faceCount_) ||
       pointCount_ < 0 || faceCount_ < 0)
     {
@@ -204,11 +198,9 @@ private:
 
   void readKind(std::string_view magic)
   {
-    if (magic.size() < 3 || magic.substr(magic.size() - 3) != "OFF" ||
-      magic.find_first_of("4n") != std::string_view::npos)
-    {
-      fail("does not begin with OFF, or is of a kind other than three-dimensional");
-    }
+    refuseIf(magic.size() < 3 || magic.substr(magic.size() - 3) != "OFF" ||
+        magic.find_first_of("4n") != std::string_view::npos,
+      path_, ": does not begin with OFF, or is of a kind other than three-dimensional");
     magic.remove_suffix(3);
     hasTexture_ = magic.substr(0, 2) == "ST";
     magic.remove_prefix(hasTexture_ ? 2 : 0);
@@ -232,10 +224,7 @@ private:
     {
       const Words words = lines_.next(line) ? wordsOf(line) : Words{};
       double p[3];
-      if (!parseWords(words, 0, p))
-      {
-        failAtVertex(i, "is missing or has no three numbers");
-      }
+      requireAtVertex(parseWords(words, 0, p), i, "is missing or has no three numbers");
       points.insert(points.end(), std::begin(p), std::end(p));
       readExtras(i, words, normals, texture, colors);
     }
@@ -259,10 +248,8 @@ private:
     if (hasNormals_)
     {
       double n[3];
-      if (!parseWords(words, first, n))
-      {
-        failAtVertex(i, "has no normal of three numbers, as the file's first word promises");
-      }
+      requireAtVertex(parseWords(words, first, n), i,
+        "has no normal of three numbers, as the file's first word promises");
       normals.insert(normals.end(), std::begin(n), std::end(n));
       first += 3;
     }
@@ -271,18 +258,13 @@ private:
       double st[2];
       // The last two words; where there is no colour, those that come next.
       const std::size_t place = hasColors_ && words.size() >= first + 5 ? words.size() - 2 : first;
-      if (!parseWords(words, place, st))
-      {
-        failAtVertex(i, "has no two texture coordinates, as the file's first word promises");
-      }
+      requireAtVertex(parseWords(words, place, st), i,
+        "has no two texture coordinates, as the file's first word promises");
       texture.insert(texture.end(), std::begin(st), std::end(st));
     }
     const std::size_t last = words.size() - (hasTexture_ ? 2 : 0);
-    if (hasColors_ && (last < first || !colors.add(words, first, last)))
-    {
-      failAtVertex(i,
-        "has no colour of three or four parts like the others, as the file's first word promises");
-    }
+    requireAtVertex(!(hasColors_ && (last < first || !colors.add(words, first, last))), i,
+      "has no colour of three or four parts like the others, as the file's first word promises");
   }
 
   void readFaces()
@@ -320,17 +302,13 @@ private:
   void readCorners(long long f, std::string_view& line, std::vector<std::int64_t>& corners)
   {
     long long count = 0;
-    if (!lines_.next(line) || !parseWord(nextWord(line), count) || count < 0)
-    {
-      fail("face " + std::to_string(f) + " is missing or has no number of corners");
-    }
+    refuseIf(!lines_.next(line) || !parseWord(nextWord(line), count) || count < 0, path_, ": face ",
+      f, " is missing or has no number of corners");
     for (long long i = 0; i < count; ++i)
     {
       long long id = 0;
-      if (!parseWord(nextWord(line), id) || id < 0 || id >= pointCount_)
-      {
-        fail("face " + std::to_string(f) + " has a corner that is missing or no vertex");
-      }
+      refuseIf(!parseWord(nextWord(line), id) || id < 0 || id >= pointCount_, path_, ": face ", f,
+        " has a corner that is missing or no vertex");
       corners.push_back(id);
     }
   }
@@ -350,10 +328,7 @@ private:
 SurfaceFile readOff(const std::string& path)
 {
   std::ifstream file(path, std::ios::binary);
-  if (!file)
-  {
-    throw InvalidInput(path + ": cannot be opened for reading");
-  }
+  refuseIf(!file, path, ": cannot be opened for reading");
   std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   return OffReader(path, std::move(text)).read();
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Import/PlyFile.h"
 
+#include "Base/Refuse.h"
 #include <algorithm>
 #include <charconv>
 #include <cstring>
@@ -37,24 +38,13 @@ bool isSpace(char c)
   return c == ' ' || c == '\n' || c == '\t' || c == '\r';
 }
 
-template <class Number>
-double convert(const unsigned char* bytes)
-{
-  Number number;
-  std::memcpy(&number, bytes, sizeof(Number));
-  return static_cast<double>(number);
-}
-
 } // namespace
 
 PlyFile::PlyFile(const std::string& path) : path_(path)
 {
   std::error_code code;
   size_ = std::filesystem::file_size(path, code);
-  if (code || !std::ifstream(path))
-  {
-    throw InvalidInput(path + ": cannot be opened for reading");
-  }
+  refuseIf(code || !std::ifstream(path), path, ": cannot be opened for reading");
   load(kLongestHeader);
 }
 
@@ -68,10 +58,8 @@ void PlyFile::load(std::uint64_t count)
   bytes_.resize(count);
   std::ifstream file(path_, std::ios::binary);
   file.read(bytes_.data(), static_cast<std::streamsize>(count));
-  if (file.gcount() != static_cast<std::streamsize>(count))
-  {
-    fail("cannot be read to its end");
-  }
+  refuseIf(
+    file.gcount() != static_cast<std::streamsize>(count), path_, ": cannot be read to its end");
 }
 
 //----------------------------------------------------------------------------
@@ -83,10 +71,7 @@ std::string PlyFile::nextLine()
   {
     load(size_);
   }
-  if (position_ >= bytes_.size())
-  {
-    fail("the header has no end");
-  }
+  refuseIf(position_ >= bytes_.size(), path_, ": the header has no end");
   const std::size_t end = std::min(bytes_.find('\n', position_), bytes_.size());
   std::string line = bytes_.substr(position_, end - position_);
   position_ = std::min(end + 1, bytes_.size());
@@ -99,10 +84,7 @@ std::string PlyFile::nextLine()
 
 void PlyFile::readHeader()
 {
-  if (bytes_.compare(0, 3, "ply") != 0 || nextLine() != "ply")
-  {
-    fail("is no PLY file");
-  }
+  refuseIf(bytes_.compare(0, 3, "ply") != 0 || nextLine() != "ply", path_, ": is no PLY file");
   for (std::string line = nextLine(); line != "end_header"; line = nextLine())
   {
     std::istringstream words(line);
@@ -120,15 +102,12 @@ void PlyFile::readHeader()
     {
       readProperty(words, line);
     }
-    else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty())
+    else
     {
-      fail("the header has the line '" + line + "'");
+      requireInHeader(keyword == "comment" || keyword == "obj_info" || keyword.empty(), line);
     }
   }
-  if (!format_)
-  {
-    fail("the header names no format");
-  }
+  refuseIf(!format_, path_, ": the header names no format");
   for (const PlyElement& element : elements_)
   {
     checkSize(element);
@@ -143,20 +122,14 @@ void PlyFile::readFormat(std::istringstream& words, const std::string& line)
     { "binary_little_endian", PlyFormat::LittleEndian },
     { "binary_big_endian", PlyFormat::BigEndian } };
   const auto found = kFormats.find(name);
-  if (found == kFormats.end())
-  {
-    fail("the header has the line '" + line + "'");
-  }
+  requireInHeader(found != kFormats.end(), line);
   format_ = found->second;
 }
 
 void PlyFile::readElement(std::istringstream& words, const std::string& line)
 {
   PlyElement element;
-  if (!(words >> element.name >> element.count) || element.count < 0)
-  {
-    fail("the header has the line '" + line + "'");
-  }
+  requireInHeader((words >> element.name >> element.count) && element.count >= 0, line);
   elements_.push_back(element);
 }
 
@@ -170,17 +143,12 @@ void PlyFile::readProperty(std::istringstream& words, const std::string& line)
     std::string count;
     words >> count >> type;
     property.countType = typeOf(count);
-    if (!property.countType || property.countType == NumberType::Float32 ||
-      property.countType == NumberType::Float64)
-    {
-      fail("the header has the line '" + line + "'");
-    }
+    requireInHeader(property.countType && property.countType != NumberType::Float32 &&
+        property.countType != NumberType::Float64,
+      line);
   }
   property.type = typeOf(type);
-  if (elements_.empty() || !property.type || !(words >> property.name))
-  {
-    fail("the header has the line '" + line + "'");
-  }
+  requireInHeader(!elements_.empty() && property.type && (words >> property.name), line);
   elements_.back().properties.push_back(property);
 }
 
@@ -192,15 +160,11 @@ void PlyFile::checkSize(const PlyElement& element) const
     const bool text = *format_ == PlyFormat::Text;
     least += text ? 1 : sizeOf(property.isList() ? *property.countType : *property.type);
   }
-  if (least == 0 && element.count > 0)
-  {
-    fail("the element " + element.name + " has no property");
-  }
-  if (least > 0 && static_cast<std::size_t>(element.count) > size_ / least)
-  {
-    fail("announces " + std::to_string(element.count) + " of the element " + element.name +
-      ", more than fit into its " + std::to_string(size_) + " bytes");
-  }
+  refuseIf(
+    least == 0 && element.count > 0, path_, ": the element ", element.name, " has no property");
+  refuseIf(least > 0 && static_cast<std::size_t>(element.count) > size_ / least, path_,
+    ": announces ", element.count, " of the element ", element.name, ", more than fit into its ",
+    size_, " bytes");
 }
 
 //----------------------------------------------------------------------------
@@ -243,33 +207,7 @@ bool PlyFile::nextBinary(NumberType type, double& value)
   {
     std::reverse(bytes, bytes + size); // x86 and ARM are little-endian
   }
-  switch (type)
-  {
-    case NumberType::Int8:
-      value = convert<signed char>(bytes);
-      break;
-    case NumberType::UInt8:
-      value = convert<unsigned char>(bytes);
-      break;
-    case NumberType::Int16:
-      value = convert<short>(bytes);
-      break;
-    case NumberType::UInt16:
-      value = convert<unsigned short>(bytes);
-      break;
-    case NumberType::Int32:
-      value = convert<int>(bytes);
-      break;
-    case NumberType::UInt32:
-      value = convert<unsigned int>(bytes);
-      break;
-    case NumberType::Float32:
-      value = convert<float>(bytes);
-      break;
-    default:
-      value = convert<double>(bytes);
-      break;
-  }
+  value = numberAt(bytes, type);
   return true;
 }
 

@@ -3,7 +3,7 @@
 /// The bytes of a PLY file: its header, and its values one by one.
 #pragma once
 
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 #include "Import/SurfaceFile.h"
 
 #include <cstddef>
@@ -59,6 +59,11 @@ public:
     const PlyElement& element, std::int64_t i, const std::string& reason) const
   {
     fail(element.name + " " + std::to_string(i) + " " + reason);
+  }
+
+  void requireInHeader(bool condition, const std::string& line) const
+  {
+    refuseIf(!condition, path_, ": the header has the line '", line, "'");
   }
 
   /// The first bytes of the file, at least so many where it has them.

@@ -45,6 +45,90 @@ const std::vector<Bundle>& bundles()
 /// One a property; those of lists have no numbers.
 using Columns = std::vector<FileArray>;
 
+FileArray columnOf(const PlyElement& element, const PlyProperty& property)
+{
+  return { property.name, ArrayRole::None,
+    NumberArray(*property.type, 1, static_cast<std::size_t>(element.count)) };
+}
+
+RowTarget targetOf(FileArray& column, std::size_t offset)
+{
+  const std::size_t size = sizeOf(column.numbers.type());
+  return { offset, size, column.numbers.bytes(), size };
+}
+
+bool isListOfCorners(const PlyProperty& property)
+{
+  return property.name == "vertex_indices" || property.name == "vertex_index";
+}
+
+Columns columnsOf(const PlyElement& element)
+{
+  Columns columns;
+  for (const PlyProperty& property : element.properties)
+  {
+    columns.emplace_back();
+    if (!property.isList())
+    {
+      columns.back() = columnOf(element, property);
+    }
+  }
+  return columns;
+}
+
+/// Null where there is no such column.
+const FileArray* take(const Columns& columns, const std::string& name)
+{
+  const auto found = std::find_if(
+    columns.begin(), columns.end(), [&](const FileArray& column) { return column.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+FileArray bundleOf(const std::vector<const FileArray*>& parts, const Bundle& bundle)
+{
+  const NumberArray& first = parts[0]->numbers;
+  FileArray array{ bundle.name, bundle.role,
+    NumberArray(first.type(), parts.size(), first.rows()) };
+  for (std::size_t i = 0; i < first.rows(); ++i)
+  {
+    for (std::size_t k = 0; k < parts.size(); ++k)
+    {
+      array.numbers.set(i, k, parts[k]->numbers.get(i));
+    }
+  }
+  return array;
+}
+
+void addColumns(Columns columns, std::vector<FileArray>& target)
+{
+  std::vector<const FileArray*> bundled;
+  for (const Bundle& bundle : bundles())
+  {
+    std::vector<const FileArray*> parts;
+    for (const char* name : bundle.parts)
+    {
+      const FileArray* part = take(columns, name);
+      const bool free = std::find(bundled.begin(), bundled.end(), part) == bundled.end();
+      if (part && free && (parts.empty() || part->numbers.type() == parts[0]->numbers.type()))
+      {
+        parts.push_back(part);
+      }
+    }
+    if (parts.size() == bundle.parts.size())
+    {
+      target.push_back(bundleOf(parts, bundle));
+      bundled.insert(bundled.end(), parts.begin(), parts.end());
+    }
+  }
+  for (FileArray& column : columns)
+  {
+    if (!column.name.empty() && std::find(bundled.begin(), bundled.end(), &column) == bundled.end())
+    {
+      target.push_back(std::move(column));
+    }
+  }
+}
+
 class PlyReader
 {
 public:
@@ -74,10 +158,11 @@ public:
       }
       else
       {
-        skip(element);
+        readRows(element, kNoList);
       }
     }
-    return finish();
+    refuseIf(data_.points.components() != 3, file_.path(), ": has no vertices");
+    return std::move(data_);
   }
 
 private:
@@ -248,41 +333,12 @@ private:
     return isRead;
   }
 
-  static FileArray columnOf(const PlyElement& element, const PlyProperty& property)
-  {
-    return { property.name, ArrayRole::None,
-      NumberArray(*property.type, 1, static_cast<std::size_t>(element.count)) };
-  }
-
-  static RowTarget targetOf(FileArray& column, std::size_t offset)
-  {
-    const std::size_t size = sizeOf(column.numbers.type());
-    return { offset, size, column.numbers.bytes(), size };
-  }
-
-  static bool isListOfCorners(const PlyProperty& property)
-  {
-    return property.name == "vertex_indices" || property.name == "vertex_index";
-  }
-
   //----------------------------------------------------------------------------
   // Elements
 
-  static Columns columnsOf(const PlyElement& element)
-  {
-    Columns columns;
-    for (const PlyProperty& property : element.properties)
-    {
-      columns.emplace_back();
-      if (!property.isList())
-      {
-        columns.back() = columnOf(element, property);
-      }
-    }
-    return columns;
-  }
+  static constexpr auto kNoList = [](std::int64_t, const std::vector<std::int64_t>&) {};
 
-  /// Reads all values of an element; the list of this name goes to onList.
+  /// Reads all values of an element; lists of corners go to onList.
   template <class OnList>
   Columns readRows(const PlyElement& element, OnList onList)
   {
@@ -309,19 +365,11 @@ private:
     return columns;
   }
 
-  void skip(const PlyElement& element)
-  {
-    readRows(element, [](std::int64_t, const std::vector<std::int64_t>&) {});
-  }
-
   void readVertices(const PlyElement& element)
   {
-    auto columns = readRows(element, [](std::int64_t, const std::vector<std::int64_t>&) {});
+    Columns columns = readRows(element, kNoList);
     const FileArray* const xyz[3] = { take(columns, "x"), take(columns, "y"), take(columns, "z") };
-    if (!xyz[0] || !xyz[1] || !xyz[2])
-    {
-      file_.fail("its vertices have no x, y and z");
-    }
+    refuseIf(!xyz[0] || !xyz[1] || !xyz[2], file_.path(), ": its vertices have no x, y and z");
     const bool isSingle = xyz[0]->numbers.type() == NumberType::Float32;
     data_.points = NumberArray(isSingle ? NumberType::Float32 : NumberType::Float64, 3,
       static_cast<std::size_t>(element.count));
@@ -353,10 +401,8 @@ private:
         ids.insert(ids.end(), corners.begin(), corners.end());
         offsets.push_back(static_cast<std::int64_t>(ids.size()));
       });
-    if (static_cast<std::int64_t>(offsets.size()) != element.count + 1)
-    {
-      file_.fail("its faces have no list vertex_indices");
-    }
+    refuseIf(static_cast<std::int64_t>(offsets.size()) != element.count + 1, file_.path(),
+      ": its faces have no list vertex_indices");
     data_.polygons = FileCells::of(offsets, ids);
     addColumns(std::move(columns), data_.cellData);
   }
@@ -412,72 +458,6 @@ private:
       }
     }
     return 0;
-  }
-
-  //----------------------------------------------------------------------------
-  // Arrays
-
-  /// Null where there is no such column.
-  static const FileArray* take(const Columns& columns, const std::string& name)
-  {
-    const auto found = std::find_if(
-      columns.begin(), columns.end(), [&](const FileArray& column) { return column.name == name; });
-    return found == columns.end() ? nullptr : &*found;
-  }
-
-  static void addColumns(Columns columns, std::vector<FileArray>& target)
-  {
-    std::vector<const FileArray*> bundled;
-    for (const Bundle& bundle : bundles())
-    {
-      std::vector<const FileArray*> parts;
-      for (const char* name : bundle.parts)
-      {
-        const FileArray* part = take(columns, name);
-        const bool free = std::find(bundled.begin(), bundled.end(), part) == bundled.end();
-        if (part && free && (parts.empty() || part->numbers.type() == parts[0]->numbers.type()))
-        {
-          parts.push_back(part);
-        }
-      }
-      if (parts.size() == bundle.parts.size())
-      {
-        target.push_back(bundleOf(parts, bundle));
-        bundled.insert(bundled.end(), parts.begin(), parts.end());
-      }
-    }
-    for (FileArray& column : columns)
-    {
-      if (!column.name.empty() &&
-        std::find(bundled.begin(), bundled.end(), &column) == bundled.end())
-      {
-        target.push_back(std::move(column));
-      }
-    }
-  }
-
-  static FileArray bundleOf(const std::vector<const FileArray*>& parts, const Bundle& bundle)
-  {
-    const NumberArray& first = parts[0]->numbers;
-    FileArray array{ bundle.name, bundle.role,
-      NumberArray(first.type(), parts.size(), first.rows()) };
-    for (std::size_t i = 0; i < first.rows(); ++i)
-    {
-      for (std::size_t k = 0; k < parts.size(); ++k)
-      {
-        array.numbers.set(i, k, parts[k]->numbers.get(i));
-      }
-    }
-    return array;
-  }
-
-  SurfaceFile finish()
-  {
-    if (data_.points.components() != 3)
-    {
-      file_.fail("has no vertices");
-    }
-    return std::move(data_);
   }
 
   PlyFile file_;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Import/SurfaceFile.h"
 
-#include "Base/Error.h"
 #include "Base/Parallel.h"
+#include "Base/Refuse.h"
 #include "Base/Types.h"
 #include "Import/FixedRows.h"
 
@@ -220,20 +220,14 @@ SurfaceFile readBinaryStl(const std::string& path, int threads)
       }
       return rows;
     });
-  if (read < triangles)
-  {
-    throw InvalidInput(path + ": triangle " + std::to_string(read) + " cannot be read");
-  }
+  refuseIf(read < triangles, path, ": triangle ", read, " cannot be read");
   return joinCorners(coordinates, threads);
 }
 
 SurfaceFile readTextStl(const std::string& path, int threads)
 {
   std::ifstream file(path);
-  if (!file)
-  {
-    throw InvalidInput(path + ": cannot be opened for reading");
-  }
+  refuseIf(!file, path, ": cannot be opened for reading");
   std::vector<float> coordinates;
   std::string word;
   const auto fail = [&](const std::string& reason) {

@@ -65,16 +65,20 @@ NumberArray NumberArray::ofIds(const std::vector<std::int64_t>& ids)
   return array;
 }
 
-double NumberArray::get(std::size_t row, std::size_t component) const
+double numberAt(const unsigned char* bytes, NumberType type)
 {
-  const std::size_t place = components_ * row + component;
-  return withType(type_,
+  return withType(type,
     [&](auto* of)
     {
       std::remove_pointer_t<decltype(of)> number{};
-      std::memcpy(&number, bytes_.get() + place * sizeof(number), sizeof(number));
+      std::memcpy(&number, bytes, sizeof(number));
       return static_cast<double>(number);
     });
+}
+
+double NumberArray::get(std::size_t row, std::size_t component) const
+{
+  return numberAt(bytes_.get() + (components_ * row + component) * sizeOf(type_), type_);
 }
 
 void NumberArray::set(std::size_t row, std::size_t component, double value)

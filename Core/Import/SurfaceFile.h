@@ -29,6 +29,8 @@ enum class NumberType : std::uint8_t
 
 /// Bytes.
 std::size_t sizeOf(NumberType type);
+/// The number of a type whose bytes stand there, in the order of this machine.
+double numberAt(const unsigned char* bytes, NumberType type);
 
 /// What an array is drawn as.
 enum class ArrayRole

@@ -33,8 +33,8 @@ std::int64_t narrow(Int128 value)
   return static_cast<std::int64_t>(value);
 }
 
-/// Sorts by variable, adds up repeated ones, drops zeros and divides by the common factor.
-void normalize(IntegerRow& row)
+/// Sorts by variable, adds up repeated ones and drops zeros.
+void mergeTerms(IntegerRow& row)
 {
   std::sort(row.begin(), row.end());
   std::size_t kept = 0;
@@ -52,6 +52,12 @@ void normalize(IntegerRow& row)
     }
   }
   row.resize(kept);
+}
+
+/// The same, and divides by the common factor.
+void normalize(IntegerRow& row)
+{
+  mergeTerms(row);
   std::int64_t common = 0;
   for (const auto& term : row)
   {
@@ -273,33 +279,18 @@ private:
   /// result = sum / denominator in lowest terms with a positive denominator.
   static void finish(IntegerRow& sum, std::int64_t denominator, ExactBasis::Row& result)
   {
-    std::sort(sum.begin(), sum.end());
-    IntegerRow merged;
+    mergeTerms(sum);
     std::int64_t common = std::abs(denominator);
-    for (std::size_t i = 0; i < sum.size();)
+    for (const auto& term : sum)
     {
-      Int128 total = 0;
-      const Index id = sum[i].first;
-      for (; i < sum.size() && sum[i].first == id; ++i)
-      {
-        total += sum[i].second;
-      }
-      if (total != 0)
-      {
-        merged.emplace_back(id, narrow(total));
-        common = std::gcd(common, merged.back().second);
-      }
-    }
-    if (merged.empty())
-    {
-      common = std::abs(denominator);
+      common = std::gcd(common, term.second);
     }
     const std::int64_t signedCommon = denominator < 0 ? -common : common;
-    for (auto& term : merged)
+    for (auto& term : sum)
     {
       term.second /= signedCommon;
     }
-    result.numerators = std::move(merged);
+    result.numerators = std::move(sum);
     result.denominator = denominator / signedCommon;
   }
 

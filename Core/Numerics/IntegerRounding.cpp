@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Numerics/IntegerRounding.h"
 
-#include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 
 #include <cmath>
 #include <limits>
@@ -94,10 +94,8 @@ private:
   void fix(Eigen::Index i, double wanted)
   {
     const double pivot = matrix_(i, i);
-    if (!(pivot > 0) || !(std::abs(wanted) < kLargestValue))
-    {
-      throw InvalidInput("rounding: the forms depend on each other, or their values are too large");
-    }
+    refuseIf(!(pivot > 0) || !(std::abs(wanted) < kLargestValue),
+      "rounding: the forms depend on each other, or their values are too large");
     const Eigen::Index rest = x_.size() - i - 1;
     const double whole = std::round(wanted);
     value_[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(whole);
@@ -141,11 +139,9 @@ private:
 RoundedForms roundForms(const Eigen::MatrixXd& schur, const Eigen::VectorXd& x,
   const std::vector<std::uint8_t>& last, RoundingOrder order)
 {
-  if (schur.rows() != x.size() || schur.cols() != x.size() ||
-    last.size() != static_cast<std::size_t>(x.size()))
-  {
-    throw InvalidInput("rounding: matrix, values and flags disagree in size");
-  }
+  refuseIf(schur.rows() != x.size() || schur.cols() != x.size() ||
+      last.size() != static_cast<std::size_t>(x.size()),
+    "rounding: matrix, values and flags disagree in size");
   return Rounding(schur, x, last, order).run();
 }
 

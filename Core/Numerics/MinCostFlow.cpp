@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Numerics/MinCostFlow.h"
 
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -26,10 +26,8 @@ MinCostFlow::MinCostFlow(Index nodeCount)
 
 Index MinCostFlow::addArc(Index from, Index to, std::int64_t capacity, std::int64_t cost)
 {
-  if (from >= excess_.size() || to >= excess_.size() || capacity < 0)
-  {
-    throw InvalidInput("flow: an arc needs two existing nodes and a capacity of 0 or more");
-  }
+  refuseIf(from >= excess_.size() || to >= excess_.size() || capacity < 0,
+    "flow: an arc needs two existing nodes and a capacity of 0 or more");
   arcs_.push_back({ to, capacity, cost });
   arcs_.push_back({ from, 0, -cost });
   return static_cast<Index>(arcs_.size() / 2 - 1);
@@ -37,19 +35,13 @@ Index MinCostFlow::addArc(Index from, Index to, std::int64_t capacity, std::int6
 
 void MinCostFlow::addSupply(Index node, std::int64_t amount)
 {
-  if (node >= excess_.size())
-  {
-    throw InvalidInput("flow: supply at a node that does not exist");
-  }
+  refuseIf(node >= excess_.size(), "flow: supply at a node that does not exist");
   excess_[node] += amount;
 }
 
 void MinCostFlow::setGround(Index node)
 {
-  if (node >= excess_.size())
-  {
-    throw InvalidInput("flow: the ground has to be an existing node");
-  }
+  refuseIf(node >= excess_.size(), "flow: the ground has to be an existing node");
   ground_ = node;
 }
 
@@ -74,25 +66,6 @@ void MinCostFlow::saturateNegativeArcs()
   }
 }
 
-void MinCostFlow::buildAdjacency()
-{
-  firstOut_.assign(excess_.size() + 1, 0);
-  for (std::size_t i = 0; i < arcs_.size(); ++i)
-  {
-    ++firstOut_[arcs_[i ^ 1].to + 1];
-  }
-  for (std::size_t n = 0; n < excess_.size(); ++n)
-  {
-    firstOut_[n + 1] += firstOut_[n];
-  }
-  outgoing_.resize(arcs_.size());
-  std::vector<Index> next(firstOut_.begin(), firstOut_.end() - 1);
-  for (std::size_t i = 0; i < arcs_.size(); ++i)
-  {
-    outgoing_[next[arcs_[i ^ 1].to]++] = static_cast<Index>(i);
-  }
-}
-
 bool MinCostFlow::isGoal(Index node, Direction direction) const
 {
   return node == ground_ ||
@@ -103,10 +76,10 @@ void MinCostFlow::settle(Index node, Direction direction)
 {
   const bool forward = direction == Direction::Forward;
   settled_[node] = 1;
-  for (Index k = firstOut_[node]; k < firstOut_[node + 1]; ++k)
+  for (const Index* arc = outgoing_.begin(node); arc != outgoing_.end(node); ++arc)
   {
-    const Index other = arcs_[outgoing_[k]].to;
-    const Index used = forward ? outgoing_[k] : outgoing_[k] ^ 1; // backward: other -> node
+    const Index other = arcs_[*arc].to;
+    const Index used = forward ? *arc : *arc ^ 1; // backward: other -> node
     if (arcs_[used].capacity == 0 || settled_[other] != 0)
     {
       continue;
@@ -211,7 +184,14 @@ void MinCostFlow::route(Direction direction)
 MinCostFlow::Result MinCostFlow::solve()
 {
   saturateNegativeArcs();
-  buildAdjacency();
+  outgoing_ = { excess_.size(),
+    [this](const auto& visit)
+    {
+      for (Index i = 0; i < arcs_.size(); ++i)
+      {
+        visit(arcs_[i ^ 1].to, i);
+      }
+    } };
   route(Direction::Forward);
   if (ground_ != kInvalidIndex)
   {

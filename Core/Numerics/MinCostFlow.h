@@ -4,6 +4,7 @@
 /// Documentation/Design/Libraries.md compares it with LEMON.
 #pragma once
 
+#include "Base/Lists.h"
 #include "Base/Types.h"
 
 #include <cstdint>
@@ -58,7 +59,6 @@ private:
   };
 
   void saturateNegativeArcs();
-  void buildAdjacency();
   // Searches run along arcs from a supply, or against them from a demand.
   enum class Direction
   {
@@ -80,8 +80,7 @@ private:
   std::vector<std::uint8_t> settled_;
   std::vector<Index> touched_;
   std::vector<std::pair<std::int64_t, Index>> heap_; // distance and node, least on top
-  std::vector<Index> firstOut_;                      // #nodes + 1
-  std::vector<Index> outgoing_;                      // residual arcs by tail node
+  Grouped<> outgoing_;                               // residual arcs by tail node
 };
 
 } // namespace quadrille

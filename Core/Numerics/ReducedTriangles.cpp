@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Numerics/ReducedTriangles.h"
 
-#include "Base/Error.h"
+#include "Base/Lists.h"
 #include "Base/Progress.h"
-#include "Base/Sorted.h"
+#include "Base/Refuse.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,22 +23,16 @@ using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 void checkSizes(const UntangleProblem& problem)
 {
   const std::size_t count = problem.triangles.size();
-  if (problem.basis.rows() != problem.offset.size() || problem.offset.size() % 2 != 0 ||
-    problem.inverseReference.size() != count || problem.weight.size() != count)
-  {
-    throw InvalidInput(
-      "untangling: basis, offset, triangles, references and weights disagree in size");
-  }
+  refuseIf(problem.basis.rows() != problem.offset.size() || problem.offset.size() % 2 != 0 ||
+      problem.inverseReference.size() != count || problem.weight.size() != count,
+    "untangling: basis, offset, triangles, references and weights disagree in size");
   const std::size_t points = static_cast<std::size_t>(problem.offset.size() / 2);
   for (std::size_t t = 0; t < count; ++t)
   {
     for (const Index point : problem.triangles[t])
     {
-      if (point >= points)
-      {
-        throw InvalidInput("untangling: triangle " + std::to_string(t) + " names point " +
-          std::to_string(point) + ", which does not exist");
-      }
+      refuseIf(point >= points, "untangling: triangle ", t, " names point ", point,
+        ", which does not exist");
     }
   }
 }

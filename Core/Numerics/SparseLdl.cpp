@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Numerics/SparseLdl.h"
 
-#include "Base/Error.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 
 #include <Eigen/OrderingMethods>
 
@@ -27,11 +27,8 @@ void checkLower(const SparseLdl::Matrix& lower)
     const int begin = lower.outerIndexPtr()[j];
     fits = begin < lower.outerIndexPtr()[j + 1] && lower.innerIndexPtr()[begin] == j;
   }
-  if (!fits)
-  {
-    throw InvalidInput(
-      "L D L^T: the matrix is not the lower triangle of a square one with all of its diagonal");
-  }
+  refuseIf(!fits,
+    "L D L^T: the matrix is not the lower triangle of a square one with all of its diagonal");
 }
 
 /// From this part of all columns on a row is taken for a dense one.
@@ -155,10 +152,8 @@ void SparseLdl::analyze(const Matrix& lower)
 bool SparseLdl::factorize(const Matrix& lower, double shift)
 {
   const int n = static_cast<int>(diagonal_.size());
-  if (lower.cols() != n || static_cast<std::size_t>(lower.nonZeros()) != source_.size())
-  {
-    throw InvalidInput("L D L^T: the matrix has not the pattern that was analyzed");
-  }
+  refuseIf(lower.cols() != n || static_cast<std::size_t>(lower.nonZeros()) != source_.size(),
+    "L D L^T: the matrix has not the pattern that was analyzed");
   std::vector<double> y(n, 0.0); // row k of L D, while it is computed
   std::vector<int> seen(n, -1);
   std::vector<int> path(n), pattern(n);
@@ -243,10 +238,7 @@ Eigen::MatrixXd SparseLdl::schur(const Matrix& columns) const
 {
   const int n = static_cast<int>(diagonal_.size());
   const int k = static_cast<int>(columns.cols());
-  if (columns.rows() != n)
-  {
-    throw InvalidInput("L D L^T: the columns have not the size of the matrix");
-  }
+  refuseIf(columns.rows() != n, "L D L^T: the columns have not the size of the matrix");
   if (k == 0)
   {
     return Eigen::MatrixXd(0, 0); // Eigen's products look at the first entry

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Numerics/Untangler.h"
 
-#include "Base/Error.h"
+#include "Base/Refuse.h"
 #include "Base/WorkCount.h"
 #include "Numerics/IsotropicEnergy.h"
 #include "Numerics/ReducedTriangles.h"
@@ -313,19 +313,15 @@ Vector fitReferences(const UntangleProblem& problem)
 UntangleResult untangle(
   const UntangleProblem& problem, const Vector& y0, const UntangleOptions& options)
 {
-  if (y0.size() != problem.basis.cols())
-  {
-    throw InvalidInput("untangling: the initial guess has not the size of the unknowns");
-  }
+  refuseIf(y0.size() != problem.basis.cols(),
+    "untangling: the initial guess has not the size of the unknowns");
   if (!y0.allFinite())
   {
     throw InvalidInput("untangling: the initial guess has an entry that is not finite");
   }
-  if (options.anisotropyLimit != 0 &&
-    !(options.anisotropyLimit >= 1 && std::isfinite(options.anisotropyLimit)))
-  {
-    throw InvalidInput("untangling: the anisotropy limit must be 0 or a number from 1 on");
-  }
+  refuseIf(options.anisotropyLimit != 0 &&
+      !(options.anisotropyLimit >= 1 && std::isfinite(options.anisotropyLimit)),
+    "untangling: the anisotropy limit must be 0 or a number from 1 on");
   return Minimizer(problem, y0, options).run();
 }
 

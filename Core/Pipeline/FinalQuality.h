@@ -5,7 +5,7 @@
 #pragma once
 
 #include "Base/FixedPoint.h"
-#include "Evaluation/MapDistortion.h"
+#include "Evaluation/MapQuality.h"
 #include "GridMap/GridMap.h"
 #include "GridMap/RelaxMap.h"
 #include "Hierarchy/Hierarchy.h"

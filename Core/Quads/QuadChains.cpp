@@ -3,7 +3,6 @@
 #include "Quads/QuadChains.h"
 
 #include "Mesh/Distance.h"
-#include "Quads/QuadHalfEdges.h"
 
 #include <algorithm>
 #include <limits>
@@ -34,31 +33,20 @@ double distanceToLoop(const std::vector<Vector3>& polyline, const Vector3& p)
 
 QuadChains::QuadChains(const QuadMesh& quads)
   : quads_(quads), twin_(4 * quads.quads.size(), kInvalidIndex),
-    firstOf_(quads.points.size() + 1, 0)
-{
-  const Index count = static_cast<Index>(twin_.size());
-  for (Index h = 0; h < count; ++h)
-  {
-    ++firstOf_[originInQuads(quads, h) + 1];
-  }
-  for (std::size_t p = 1; p < firstOf_.size(); ++p)
-  {
-    firstOf_[p] += firstOf_[p - 1];
-  }
-  leaving_.resize(count);
-  std::vector<Index> place(firstOf_.begin(), firstOf_.end() - 1);
-  for (Index h = 0; h < count; ++h)
-  {
-    leaving_[place[originInQuads(quads, h)]++] = h;
-  }
-  for (Index h = 0; h < count; ++h)
-  {
-    for (Index i = firstOf_[end(h)]; i < firstOf_[end(h) + 1]; ++i)
-    {
-      if (end(leaving_[i]) == originInQuads(quads, h))
+    leaving_(quads.points.size(),
+      [&](const auto& visit)
       {
-        twin_[h] = leaving_[i];
-      }
+        for (Index h = 0; h < 4 * quads.quads.size(); ++h)
+        {
+          visit(originInQuads(quads, h), h);
+        }
+      })
+{
+  for (Index h = 0; h < twin_.size(); ++h)
+  {
+    for (const Index* g = leaving_.begin(end(h)); g != leaving_.end(end(h)); ++g)
+    {
+      twin_[h] = end(*g) == originInQuads(quads, h) ? *g : twin_[h];
     }
   }
 }
@@ -92,10 +80,10 @@ bool QuadChains::isPassed(Index point) const
 template <typename Visit>
 void QuadChains::followAll(Index a, Visit visit) const
 {
-  for (Index i = firstOf_[a]; i < firstOf_[a + 1]; ++i)
+  for (const Index* first = leaving_.begin(a); first != leaving_.end(a); ++first)
   {
     std::vector<Index> chain{ a };
-    std::optional<Index> h = leaving_[i];
+    std::optional<Index> h = *first;
     while (h && chain.size() <= quads_.points.size())
     {
       chain.push_back(end(*h));

@@ -8,6 +8,7 @@
 ///    |     |     |     |
 #pragma once
 
+#include "Base/Lists.h"
 #include "Quads/QuadMesh.h"
 
 #include <cstdint>
@@ -54,9 +55,8 @@ private:
     double distance, std::vector<std::uint8_t>& passed) const;
 
   const QuadMesh& quads_;
-  std::vector<Index> twin_;    ///< #H, see QuadHalfEdges.h
-  std::vector<Index> firstOf_; ///< #points + 1: half-edges that leave a point, in `leaving_`
-  std::vector<Index> leaving_;
+  std::vector<Index> twin_; ///< #H, see QuadMesh.h
+  Grouped<> leaving_;       ///< half-edges by the point that they leave
 };
 
 } // namespace quadrille

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quads/QuadLayout.h"
 
+#include "Base/DisjointSets.h"
 #include "Base/Error.h"
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
-#include "Quads/QuadHalfEdges.h"
 #include "Quads/QuadTopology.h"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ public:
     markFeatures();
     traceSeparatrices();
     traceFeatures();
-    floodPatches();
+    joinPatches();
     measurePatches();
     describeMeshLines();
     return std::move(layout_);
@@ -287,33 +287,25 @@ private:
 
   // ------------------------------------------------------------------ patches
 
-  void floodPatches()
+  void joinPatches()
   {
-    layout_.patchOf.assign(mesh_.quads.size(), kInvalidIndex);
-    std::vector<Index> stack;
-    for (Index first = 0; first < layout_.patchOf.size(); ++first)
+    DisjointSets sets(mesh_.quads.size(), 1);
+    for (Index h = 0; h < marks_.size(); ++h)
     {
-      if (layout_.patchOf[first] != kInvalidIndex)
+      if (!isWall(h))
       {
-        continue;
+        sets.join(h / 4, twin(h) / 4);
       }
-      const Index patch = static_cast<Index>(layout_.patches.size());
-      layout_.patches.push_back({ first, {}, {} });
-      layout_.patchOf[first] = patch;
-      stack.push_back(first);
-      while (!stack.empty())
+    }
+    for (Index q = 0; q < mesh_.quads.size(); ++q) // the root is the lowest quad
+    {
+      const Index root = sets.find(q);
+      if (root == q)
       {
-        const Index q = stack.back();
-        stack.pop_back();
-        for (Index h = 4 * q; h < 4 * q + 4; ++h)
-        {
-          if (!isWall(h) && layout_.patchOf[twin(h) / 4] == kInvalidIndex)
-          {
-            layout_.patchOf[twin(h) / 4] = patch;
-            stack.push_back(twin(h) / 4);
-          }
-        }
+        layout_.patches.push_back({ q, {}, {} });
       }
+      layout_.patchOf.push_back(
+        root == q ? static_cast<Index>(layout_.patches.size() - 1) : layout_.patchOf[root]);
     }
   }
 

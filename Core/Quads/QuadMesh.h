@@ -40,6 +40,22 @@ struct QuadMesh
   std::vector<QuadLine> lines;          ///< features and boundary
 };
 
+/// Half-edge 4q + i runs from corner i of quad q to corner i + 1.
+inline Index nextInQuad(Index h)
+{
+  return h % 4 == 3 ? h - 3 : h + 1;
+}
+
+inline Index previousInQuad(Index h)
+{
+  return h % 4 == 0 ? h + 3 : h - 1;
+}
+
+inline Index oppositeInQuad(Index h)
+{
+  return h % 4 < 2 ? h + 2 : h - 2;
+}
+
 /// The corner of the mapped mesh that point p lies on exactly; none where it lies on an edge or in a face.
 std::optional<Index> meshCorner(const QuadMesh& quads, Index p);
 

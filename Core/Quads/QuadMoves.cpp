@@ -16,29 +16,32 @@ constexpr int kMaximumFaces = 2000;
 /// keeps.
 constexpr double kCurveCorner = 0.5235987755982988; // 30 degrees
 
-std::vector<std::pair<Index, Index>> pointsAndQuads(const QuadMesh& quads)
+PointLists quadsOfPoints(const QuadMesh& quads)
 {
-  std::vector<std::pair<Index, Index>> pairs;
-  pairs.reserve(4 * quads.quads.size());
-  for (Index q = 0; q < quads.quads.size(); ++q)
-  {
-    for (const Index p : quads.quads[q])
+  return { quads.points.size(),
+    [&](const auto& visit)
     {
-      pairs.emplace_back(p, q);
-    }
-  }
-  return pairs;
+      for (Index q = 0; q < quads.quads.size(); ++q)
+      {
+        for (const Index p : quads.quads[q])
+        {
+          visit(p, q);
+        }
+      }
+    } };
 }
 
-std::vector<std::pair<Index, Index>> endsOfLines(const QuadMesh& quads)
+PointLists endsOfLines(const QuadMesh& quads)
 {
-  std::vector<std::pair<Index, Index>> pairs;
-  for (const QuadLine& line : quads.lines)
-  {
-    pairs.emplace_back(line.a, line.b);
-    pairs.emplace_back(line.b, line.a);
-  }
-  return pairs;
+  return { quads.points.size(),
+    [&](const auto& visit)
+    {
+      for (const QuadLine& line : quads.lines)
+      {
+        visit(line.a, line.b);
+        visit(line.b, line.a);
+      }
+    } };
 }
 
 /// Does the constrained curve run nearly straight through the vertex of corner h?
@@ -58,24 +61,8 @@ bool isSmoothCurve(const Mesh& mesh, Index h)
 
 } // namespace
 
-PointLists::PointLists(std::size_t points, const std::vector<std::pair<Index, Index>>& pairs)
-  : first_(points + 1, 0), items_(pairs.size())
-{
-  for (const auto& pair : pairs)
-  {
-    ++first_[pair.first + 1];
-  }
-  std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  std::vector<Index> fill(first_.begin(), first_.end() - 1);
-  for (const auto& pair : pairs)
-  {
-    items_[fill[pair.first]++] = pair.second;
-  }
-}
-
 QuadMoves::QuadMoves(const Mesh& mesh, QuadMesh& quads, const std::vector<Index>& fixedVertices)
-  : mesh_(mesh), quads_(quads), incident_(quads.points.size(), pointsAndQuads(quads)),
-    lines_(quads.points.size(), endsOfLines(quads))
+  : mesh_(mesh), quads_(quads), incident_(quadsOfPoints(quads)), lines_(endsOfLines(quads))
 {
   freedom_.resize(quads_.points.size());
   for (Index p = 0; p < quads_.points.size(); ++p)

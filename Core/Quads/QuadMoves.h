@@ -3,6 +3,7 @@
 /// How the points of a quad mesh may move over the surface that it was extracted from.
 #pragma once
 
+#include "Base/Lists.h"
 #include "Quads/QuadMesh.h"
 #include "Quads/SurfaceWalk.h"
 
@@ -16,21 +17,8 @@
 namespace quadrille
 {
 
-/// A list per point, all in one array.
-class PointLists
-{
-public:
-  /// pairs: point and item; the items of a point keep their order.
-  PointLists(std::size_t points, const std::vector<std::pair<Index, Index>>& pairs);
-
-  const Index* begin(Index p) const { return items_.data() + first_[p]; }
-  const Index* end(Index p) const { return items_.data() + first_[p + 1]; }
-  Index size(Index p) const { return first_[p + 1] - first_[p]; }
-
-private:
-  std::vector<Index> first_;
-  std::vector<Index> items_;
-};
+/// A list per point.
+using PointLists = Grouped<>;
 
 /// Where the points of a quad mesh may go: straight over the faces of the mesh, so that sourceFace and sourceWeights
 /// stay exact; points of features and boundaries along their curves. Corners, ends and junctions of curves, points of

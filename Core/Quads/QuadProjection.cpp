@@ -146,11 +146,8 @@ QuadProjectionReport countFates(const std::vector<PointFate>& fates)
 QuadProjectionReport projectQuads(std::vector<Vector3>& points, const QuadList& quads,
   const NearestTriangle& surface, const QuadProjectionOptions& options)
 {
-  if (!(options.distance > 0) || !std::isfinite(options.distance))
-  {
-    refuse(
-      "the distance within which points are projected must be positive, not ", options.distance);
-  }
+  refuseIf(!(options.distance > 0) || !std::isfinite(options.distance),
+    "the distance within which points are projected must be positive, not ", options.distance);
   const std::vector<Vector3> before = points;
   const std::vector<Vector3> normals = pointNormals(before, quads);
   const NearestTriangle halves(halvesOf(before, quads));

@@ -5,6 +5,8 @@
 
 #include "Base/Types.h"
 
+#include "Base/Lists.h"
+
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -65,15 +67,7 @@ inline bool isInverted(const std::array<Vector3, 4>& p)
 inline std::vector<Index> invertedQuads(
   const std::vector<Vector3>& points, const std::vector<std::array<Index, 4>>& quads)
 {
-  std::vector<Index> inverted;
-  for (Index q = 0; q < quads.size(); ++q)
-  {
-    if (isInverted(cornersOf(points, quads[q])))
-    {
-      inverted.push_back(q);
-    }
-  }
-  return inverted;
+  return idsWhere(quads.size(), [&](Index q) { return isInverted(cornersOf(points, quads[q])); });
 }
 
 } // namespace quadrille

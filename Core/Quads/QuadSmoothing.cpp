@@ -4,6 +4,7 @@
 
 #include "Base/Angles.h"
 #include "Base/Parallel.h"
+#include "Base/Refuse.h"
 #include "Quads/QuadMoves.h"
 #include "Quads/QuadShape.h"
 
@@ -261,10 +262,7 @@ private:
 
 SmoothingResult smoothQuads(const Mesh& mesh, QuadMesh& quads, const SmoothingOptions& options)
 {
-  if (options.steps < 0)
-  {
-    throw InvalidInput("smoothing: the number of steps is negative");
-  }
+  refuseIf(options.steps < 0, "smoothing: the number of steps is negative");
   if (options.steps == 0 || quads.quads.empty())
   {
     return {};

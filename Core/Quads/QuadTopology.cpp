@@ -3,9 +3,9 @@
 #include "Quads/QuadTopology.h"
 
 #include "Base/DisjointSets.h"
-#include "Base/Error.h"
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
-#include "Quads/QuadHalfEdges.h"
+#include "Base/Refuse.h"
 
 #include <algorithm>
 #include <atomic>
@@ -21,47 +21,89 @@ constexpr std::size_t kQuadTopologyChunk = std::size_t{ 1 } << 11;
 
 using Quads = std::vector<std::array<Index, 4>>;
 
-Index originOf(const Quads& quads, Index h)
+/// The corners of quads: corner, and half-edge, 4q + i.
+struct QuadCorners
 {
-  return quads[h / 4][h % 4];
-}
-Index targetOf(const Quads& quads, Index h)
+  const Quads& quads;
+
+  std::size_t cells() const { return quads.size(); }
+  Index firstOf(std::size_t cell) const { return static_cast<Index>(4 * cell); }
+  Index point(Index h) const { return quads[h / 4][h % 4]; }
+  Index next(Index h) const { return nextInQuad(h); }
+  Index previous(Index h) const { return previousInQuad(h); }
+};
+
+/// The corners of quads and polygons in one list, quads first.
+class CellCornerList
 {
-  return originOf(quads, nextInQuad(h));
-}
+public:
+  explicit CellCornerList(const QuadMesh& mesh)
+  {
+    for (const std::array<Index, 4>& quad : mesh.quads)
+    {
+      addCell(quad.begin(), quad.end());
+    }
+    for (std::size_t i = 0; i + 1 < mesh.polygonOffsets.size(); ++i)
+    {
+      addCell(mesh.polygonPoints.begin() + mesh.polygonOffsets[i],
+        mesh.polygonPoints.begin() + mesh.polygonOffsets[i + 1]);
+    }
+    for (const Index p : point_)
+    {
+      refuseIf(p >= mesh.points.size(), "a cell refers to point ", p, " of ", mesh.points.size());
+    }
+  }
+
+  std::size_t cells() const { return first_.size() - 1; }
+  Index firstOf(std::size_t cell) const { return first_[cell]; }
+  Index point(Index h) const { return point_[h]; }
+  Index next(Index h) const { return next_[h]; }
+  Index previous(Index h) const { return previous_[h]; }
+
+private:
+  template <typename Iterator>
+  void addCell(Iterator begin, Iterator end)
+  {
+    const Index first = first_.back();
+    const Index count = static_cast<Index>(end - begin);
+    for (Index i = 0; i < count; ++i)
+    {
+      point_.push_back(begin[i]);
+      next_.push_back(first + (i + 1) % count);
+      previous_.push_back(first + (i + count - 1) % count);
+    }
+    first_.push_back(first + count);
+  }
+
+  std::vector<Index> point_, next_, previous_;
+  std::vector<Index> first_{ 0 }; ///< #cells + 1
+};
 
 /// The half-edges that leave each point, as lists that all threads make at once; their order is that of the threads.
 class LeavingHalfEdges
 {
 public:
-  LeavingHalfEdges(const Quads& quads, std::size_t pointCount, int threads)
-    : first_(new std::atomic<Index>[pointCount]), next_(4 * quads.size())
+  template <class Cells>
+  LeavingHalfEdges(const Cells& cells, std::size_t pointCount, int threads)
+    : first_(new std::atomic<Index>[pointCount]), next_(cells.firstOf(cells.cells()))
   {
     parallelForEach(pointCount, kQuadTopologyChunk, threads,
-      [&](std::size_t p) { first_[p].store(kInvalidIndex, std::memory_order_relaxed); });
-    std::vector<Index> wrong(
-      (quads.size() + kQuadTopologyChunk - 1) / kQuadTopologyChunk, kInvalidIndex);
-    parallelFor(quads.size(), kQuadTopologyChunk, threads,
-      [&](std::size_t begin, std::size_t end)
+      [this](std::size_t p) { first_[p].store(kInvalidIndex, std::memory_order_relaxed); });
+    const std::size_t wrong = firstRefused(next_.size(), 4 * kQuadTopologyChunk, threads,
+      [&](std::size_t i)
       {
-        for (Index h = static_cast<Index>(4 * begin); h < 4 * end; ++h)
+        const Index h = static_cast<Index>(i);
+        const Index p = cells.point(h);
+        if (p < pointCount)
         {
-          const Index p = originOf(quads, h);
-          if (p >= pointCount)
-          {
-            wrong[begin / kQuadTopologyChunk] = h;
-            return;
-          }
           next_[h] = first_[p].exchange(h, std::memory_order_relaxed);
         }
+        return p < pointCount;
       });
-    for (const Index h : wrong)
+    if (wrong < next_.size())
     {
-      if (h != kInvalidIndex)
-      {
-        throw InvalidInput("quad " + std::to_string(h / 4) + " refers to point " +
-          std::to_string(originOf(quads, h)) + " of " + std::to_string(pointCount));
-      }
+      refuse("quad ", wrong / 4, " refers to point ", cells.point(static_cast<Index>(wrong)),
+        " of ", pointCount);
     }
   }
 
@@ -82,15 +124,16 @@ struct Star
   std::vector<Spoke> out;
   std::vector<Spoke> in;
 
-  void gather(const Quads& quads, const LeavingHalfEdges& corners, std::size_t p)
+  template <class Cells>
+  void gather(const Cells& cells, const LeavingHalfEdges& corners, std::size_t p)
   {
     out.clear();
     in.clear();
     for (Index h = corners.first(p); h != kInvalidIndex; h = corners.next(h))
     {
-      const Index before = previousInQuad(h);
-      out.emplace_back(targetOf(quads, h), h);
-      in.emplace_back(originOf(quads, before), before);
+      const Index before = cells.previous(h);
+      out.emplace_back(cells.point(cells.next(h)), h);
+      in.emplace_back(cells.point(before), before);
     }
     std::sort(out.begin(), out.end());
     std::sort(in.begin(), in.end());
@@ -109,21 +152,9 @@ SpokeRange endOfRun(SpokeRange begin, SpokeRange end)
   return last;
 }
 
-/// Counts of one chunk of points or quads.
-struct Counts
-{
-  std::size_t edges = 0;
-  std::size_t boundaryEdges = 0;
-  std::size_t nonManifoldEdges = 0;
-  std::size_t nonManifoldVertices = 0;
-  std::size_t degenerateQuads = 0;
-  std::size_t isolatedPoints = 0;
-  std::vector<Index> offendingPoints;
-};
-
 /// The edges between p and one neighbour: `out` half-edges leave along them, `in` arrive.
 void countEdge(Index p, Index neighbour, SpokeRange outBegin, SpokeRange outEnd, SpokeRange inBegin,
-  SpokeRange inEnd, QuadTopology& topology, Counts& counts)
+  SpokeRange inEnd, QuadTopology& topology, QuadCounts& counts)
 {
   const std::ptrdiff_t out = outEnd - outBegin;
   const std::ptrdiff_t in = inEnd - inBegin;
@@ -149,7 +180,7 @@ void countEdge(Index p, Index neighbour, SpokeRange outBegin, SpokeRange outEnd,
   }
 }
 
-void visitStar(const Star& star, Index p, QuadTopology& topology, Counts& counts)
+void visitStar(const Star& star, Index p, QuadTopology& topology, QuadCounts& counts)
 {
   SpokeRange out = star.out.begin();
   SpokeRange in = star.in.begin();
@@ -165,12 +196,13 @@ void visitStar(const Star& star, Index p, QuadTopology& topology, Counts& counts
   }
 }
 
-/// Size of the fan round the origin of h, and whether it ends at a boundary.
-Index fanSize(const QuadTopology& topology, Index h)
+/// Size of the fan round the origin of h.
+template <class Cells>
+Index fanSize(const Cells& cells, const std::vector<Index>& twin, Index h)
 {
   Index size = 1;
-  Index g = topology.twin[previousInQuad(h)];
-  for (; g != kInvalidIndex && g != h; g = topology.twin[previousInQuad(g)])
+  Index g = twin[cells.previous(h)];
+  for (; g != kInvalidIndex && g != h; g = twin[cells.previous(g)])
   {
     ++size;
   }
@@ -178,43 +210,46 @@ Index fanSize(const QuadTopology& topology, Index h)
   {
     return size;
   }
-  for (g = topology.twin[h]; g != kInvalidIndex; g = topology.twin[nextInQuad(g)])
+  for (g = twin[h]; g != kInvalidIndex; g = twin[cells.next(g)])
   {
     ++size;
   }
   return size;
 }
 
-void checkFan(
-  const LeavingHalfEdges& corners, Index p, const QuadTopology& topology, Counts& counts)
+template <class Cells>
+void checkFan(const Cells& cells, const LeavingHalfEdges& corners, Index p,
+  const std::vector<Index>& twin, QuadCounts& counts)
 {
   Index count = 0;
   for (Index h = corners.first(p); h != kInvalidIndex; h = corners.next(h))
   {
     ++count;
   }
-  if (count == 0)
+  if (count == 0 || fanSize(cells, twin, corners.first(p)) != count)
   {
-    ++counts.isolatedPoints;
-    counts.offendingPoints.push_back(p);
-  }
-  else if (fanSize(topology, corners.first(p)) != count)
-  {
-    ++counts.nonManifoldVertices;
+    ++(count == 0 ? counts.isolatedPoints : counts.nonManifoldVertices);
     counts.offendingPoints.push_back(p);
   }
 }
 
-void checkQuad(const std::array<Index, 4>& q, DisjointSets& sets, Counts& counts)
+template <class Cells>
+void checkCell(const Cells& cells, std::size_t cell, DisjointSets& sets, QuadCounts& counts)
 {
-  if (q[0] == q[1] || q[0] == q[2] || q[0] == q[3] || q[1] == q[2] || q[1] == q[3] || q[2] == q[3])
+  const Index first = cells.firstOf(cell);
+  bool isDegenerate = false;
+  for (Index h = first + 1; h < cells.firstOf(cell + 1); ++h)
+  {
+    for (Index g = first; g < h; ++g)
+    {
+      isDegenerate = isDegenerate || cells.point(g) == cells.point(h);
+    }
+    sets.join(cells.point(first), cells.point(h));
+  }
+  if (isDegenerate)
   {
     ++counts.degenerateQuads;
-    counts.offendingPoints.push_back(q[0]);
-  }
-  for (std::size_t i = 1; i < 4; ++i)
-  {
-    sets.join(q[0], q[i]);
+    counts.offendingPoints.push_back(cells.point(first));
   }
 }
 
@@ -222,29 +257,20 @@ void checkQuad(const std::array<Index, 4>& q, DisjointSets& sets, Counts& counts
 template <typename Body>
 void overChunks(std::size_t size, int threads, QuadTopology& topology, const Body& body)
 {
-  for (const Counts& part : parallelParts<Counts>(size, kQuadTopologyChunk, threads, body))
+  for (const QuadCounts& part : parallelParts<QuadCounts>(size, kQuadTopologyChunk, threads, body))
   {
-    topology.edges += part.edges;
-    topology.boundaryEdges += part.boundaryEdges;
-    topology.nonManifoldEdges += part.nonManifoldEdges;
-    topology.nonManifoldVertices += part.nonManifoldVertices;
-    topology.degenerateQuads += part.degenerateQuads;
-    topology.isolatedPoints += part.isolatedPoints;
-    topology.offendingPoints.insert(
-      topology.offendingPoints.end(), part.offendingPoints.begin(), part.offendingPoints.end());
+    topology.add(part);
   }
 }
 
-} // namespace
-
-std::vector<std::vector<Index>> boundaryLoops(const QuadTopology& topology)
+template <class Next>
+std::vector<std::vector<Index>> loopsOf(const std::vector<Index>& twin, const Next& next)
 {
-  const Index count = static_cast<Index>(topology.twin.size());
-  std::vector<std::uint8_t> seen(count, 0);
+  std::vector<std::uint8_t> seen(twin.size(), 0);
   std::vector<std::vector<Index>> loops;
-  for (Index h = 0; h < count; ++h)
+  for (Index h = 0; h < twin.size(); ++h)
   {
-    if (topology.twin[h] != kInvalidIndex || seen[h])
+    if (twin[h] != kInvalidIndex || seen[h])
     {
       continue;
     }
@@ -253,58 +279,108 @@ std::vector<std::vector<Index>> boundaryLoops(const QuadTopology& topology)
     {
       seen[g] = 1;
       loops.back().push_back(g);
-      g = nextInQuad(g);
-      while (topology.twin[g] != kInvalidIndex)
+      g = next(g);
+      while (twin[g] != kInvalidIndex)
       {
-        g = nextInQuad(topology.twin[g]);
+        g = next(twin[g]);
       }
     }
   }
   return loops;
 }
 
-QuadTopology analyzeQuads(const Quads& quads, std::size_t pointCount, int threads)
+template <class Cells>
+QuadTopology analyze(const Cells& cells, std::size_t pointCount, int threads)
 {
   QuadTopology topology;
   topology.valence.assign(pointCount, 0);
   topology.onBoundary.assign(pointCount, 0);
-  topology.twin.assign(4 * quads.size(), kInvalidIndex);
-  const LeavingHalfEdges corners(quads, pointCount, threads);
+  topology.twin.assign(cells.firstOf(cells.cells()), kInvalidIndex);
+  const LeavingHalfEdges corners(cells, pointCount, threads);
   overChunks(pointCount, threads, topology,
-    [&](Index begin, Index end, Counts& counts)
+    [&](std::size_t begin, std::size_t end, QuadCounts& counts)
     {
       Star star;
-      for (Index p = begin; p < end; ++p)
+      for (std::size_t p = begin; p < end; ++p)
       {
-        star.gather(quads, corners, p);
-        visitStar(star, p, topology, counts);
+        star.gather(cells, corners, p);
+        visitStar(star, static_cast<Index>(p), topology, counts);
       }
     });
   overChunks(pointCount, threads, topology,
-    [&](Index begin, Index end, Counts& counts)
+    [&](std::size_t begin, std::size_t end, QuadCounts& counts)
     {
-      for (Index p = begin; p < end; ++p)
+      for (std::size_t p = begin; p < end; ++p)
       {
-        checkFan(corners, p, topology, counts);
+        checkFan(cells, corners, static_cast<Index>(p), topology.twin, counts);
       }
     });
   DisjointSets sets(pointCount, threads);
-  overChunks(quads.size(), threads, topology,
-    [&](Index begin, Index end, Counts& counts)
+  overChunks(cells.cells(), threads, topology,
+    [&](std::size_t begin, std::size_t end, QuadCounts& counts)
     {
-      for (Index q = begin; q < end; ++q)
+      for (std::size_t cell = begin; cell < end; ++cell)
       {
-        checkQuad(quads[q], sets, counts);
+        checkCell(cells, cell, sets, counts);
       }
     });
   topology.components = sets.countSets() - topology.isolatedPoints;
   if (topology.manifold() && !topology.closed())
   {
-    topology.boundaryLoops = boundaryLoops(topology).size();
+    topology.boundaryLoops = loopsOf(topology.twin, [&](Index h) { return cells.next(h); }).size();
   }
   topology.eulerCharacteristic = static_cast<long long>(pointCount - topology.isolatedPoints) -
-    static_cast<long long>(topology.edges) + static_cast<long long>(quads.size());
+    static_cast<long long>(topology.edges) + static_cast<long long>(cells.cells());
   return topology;
+}
+
+} // namespace
+
+void QuadCounts::add(const QuadCounts& other)
+{
+  edges += other.edges;
+  boundaryEdges += other.boundaryEdges;
+  nonManifoldEdges += other.nonManifoldEdges;
+  nonManifoldVertices += other.nonManifoldVertices;
+  degenerateQuads += other.degenerateQuads;
+  isolatedPoints += other.isolatedPoints;
+  append(offendingPoints, other.offendingPoints);
+}
+
+std::vector<std::vector<Index>> boundaryLoops(const QuadTopology& topology)
+{
+  return loopsOf(topology.twin, nextInQuad);
+}
+
+QuadTopology analyzeQuads(const Quads& quads, std::size_t pointCount, int threads)
+{
+  return analyze(QuadCorners{ quads }, pointCount, threads);
+}
+
+QuadTopology analyzeCells(const QuadMesh& mesh)
+{
+  return analyze(CellCornerList(mesh), mesh.points.size(), 1);
+}
+
+std::vector<std::uint8_t> linesOnEdges(const QuadMesh& mesh)
+{
+  const CellCornerList cells(mesh);
+  const LeavingHalfEdges corners(cells, mesh.points.size(), 1);
+  const auto isEdge = [&](Index a, Index b)
+  {
+    Index h = corners.first(a);
+    while (h != kInvalidIndex && cells.point(cells.next(h)) != b)
+    {
+      h = corners.next(h);
+    }
+    return h != kInvalidIndex;
+  };
+  std::vector<std::uint8_t> found;
+  for (const QuadLine& line : mesh.lines)
+  {
+    found.push_back(isEdge(line.a, line.b) || isEdge(line.b, line.a) ? 1 : 0);
+  }
+  return found;
 }
 
 std::string QuadTopology::text() const

@@ -2,19 +2,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quads/SurfaceShape.h"
 
-#include "Mesh/Topology.h"
+#include "Base/Lists.h"
+#include "Base/Parallel.h"
 
 namespace quadrille
 {
 namespace
 {
 
+constexpr std::size_t kShapeChunk = std::size_t{ 1 } << 17;
+
 CurveGraph constrainedGraph(const Mesh& mesh, int threads)
 {
-  std::vector<std::pair<Index, Index>> edges;
-  for (const Index h : constrainedEdges(mesh, threads))
+  using Edges = std::vector<std::pair<Index, Index>>;
+  Edges edges;
+  for (const Edges& part : parallelParts<Edges>(mesh.halfEdgeCount(), kShapeChunk, threads,
+         [&](std::size_t begin, std::size_t end, Edges&found)
+         {
+           for (Index h = static_cast<Index>(begin); h < end; ++h)
+           {
+             if (mesh.isConstrained(h) && h < mesh.twin[h])
+             {
+               found.emplace_back(mesh.origin[h], mesh.target(h));
+             }
+           }
+         }))
   {
-    edges.emplace_back(mesh.origin[h], mesh.target(h));
+    append(edges, part);
   }
   return { edges, mesh.position.size() };
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quads/SurfaceWalk.h"
 
+#include "Mesh/SurfaceEdit.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -156,21 +158,12 @@ std::vector<Index> constrainedEdgesAt(const Mesh& mesh, Index h)
       edges.push_back(lowest);
     }
   };
-  const auto addCorner = [&](Index corner)
-  {
-    add(corner);
-    add(Mesh::previous(corner));
-  };
-  Index g = h;
-  do
-  {
-    addCorner(g);
-    g = mesh.rotateCounterclockwise(g);
-  } while (g != h && g != kInvalidIndex);
-  for (g = g == h ? kInvalidIndex : h; g != kInvalidIndex; g = mesh.rotateClockwise(g))
-  {
-    addCorner(g);
-  }
+  forEachInFan(mesh, h,
+    [&](Index corner)
+    {
+      add(corner);
+      add(Mesh::previous(corner));
+    });
   return edges;
 }
 

@@ -16,16 +16,12 @@ namespace
 
 void checkCloud(const std::vector<Vector3>& points)
 {
-  if (points.empty())
-  {
-    refuse("there is no point in the input. Connect a surface with polygons, or points.");
-  }
+  refuseIf(
+    points.empty(), "there is no point in the input. Connect a surface with polygons, or points.");
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    if (!points[i].allFinite())
-    {
-      refuse("point ", i, " has a coordinate that is not finite; remove or correct it");
-    }
+    refuseIf(!points[i].allFinite(), "point ", i,
+      " has a coordinate that is not finite; remove or correct it");
   }
 }
 

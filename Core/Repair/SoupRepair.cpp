@@ -265,20 +265,16 @@ std::size_t countComponents(const SurfaceMesh& mesh)
 
 RepairedSoup repairSoup(const Soup& soup, const SoupRepairOptions& options)
 {
-  if (!(options.fillBelow >= 0))
-  {
-    refuse("the length below which holes are filled must be 0 or more, not ", options.fillBelow);
-  }
+  refuseIf(!(options.fillBelow >= 0),
+    "the length below which holes are filled must be 0 or more, not ", options.fillBelow);
   RepairedSoup result;
   SoupReport& counts = result.report;
   counts.degenerateFaces = soup.degenerate;
   SoupArrays arrays{ cgal::pointsOf(soup.triangles), cgal::cornersOf(soup.triangles) };
   report(options.progress, 0, "Merging points");
   mergeSoup(arrays, counts);
-  if (arrays.corners.empty())
-  {
-    refuse("no face has three different corners: there is nothing to repair");
-  }
+  refuseIf(
+    arrays.corners.empty(), "no face has three different corners: there is nothing to repair");
   report(options.progress, 0.1, "Orienting faces");
   orientSoup(arrays, counts);
   SurfaceMesh mesh;

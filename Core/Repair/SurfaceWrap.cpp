@@ -23,10 +23,8 @@ constexpr double kMostOffsetOverAlpha = 1.0 / 6;
 
 double positive(const char* name, double value)
 {
-  if (!(value > 0) || !std::isfinite(value))
-  {
-    refuse(name, " must be a positive, finite length in units of the surface, not ", value);
-  }
+  refuseIf(!(value > 0) || !std::isfinite(value), name,
+    " must be a positive, finite length in units of the surface, not ", value);
   return value;
 }
 
@@ -83,20 +81,16 @@ void wrapSoup(const Soup& soup, const WrappedSurface& lengths, const WrapVisitor
 
 WrappedSurface wrapSurface(const Soup& soup, const WrapOptions& options)
 {
-  if (!(soup.diagonal > 0))
-  {
-    refuse("all points of the input lie at one place: there is nothing to wrap");
-  }
+  refuseIf(
+    !(soup.diagonal > 0), "all points of the input lie at one place: there is nothing to wrap");
   WrappedSurface result;
   result.alpha = positive("alpha", options.alpha.value_or(kDefaultAlpha * soup.diagonal));
   result.offset = positive("the offset",
     options.offset.value_or(
       std::min(kDefaultOffset * soup.diagonal, kMostOffsetOverAlpha * result.alpha)));
-  if (result.alpha < kLeastRelativeAlpha * soup.diagonal)
-  {
-    refuse("alpha is ", result.alpha, ", below a ", 1 / kLeastRelativeAlpha,
-      "th of the diagonal, which is ", soup.diagonal, ": give a larger one");
-  }
+  refuseIf(result.alpha < kLeastRelativeAlpha * soup.diagonal, "alpha is ", result.alpha,
+    ", below a ", 1 / kLeastRelativeAlpha, "th of the diagonal, which is ", soup.diagonal,
+    ": give a larger one");
   const double expected = std::max(1000.0, 2 * soup.area / (result.alpha * result.alpha));
   std::size_t points = 0;
   cgal::SurfaceMesh wrap;

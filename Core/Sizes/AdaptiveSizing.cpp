@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sizes/AdaptiveSizing.h"
 
-#include "Base/Error.h"
 #include "Base/Parallel.h"
 #include "Base/Progress.h"
+#include "Base/Refuse.h"
 #include "Sizes/OppositeSheets.h"
 
 #include <algorithm>
@@ -211,37 +211,18 @@ private:
 
 void checkAdaptiveSizes(const AdaptiveSizes& sizes)
 {
-  if (sizes.chordError && !(*sizes.chordError > 0 && std::isfinite(*sizes.chordError)))
-  {
-    throw InvalidInput("the chord error must be a positive number");
-  }
+  refuseIf(sizes.chordError && !(*sizes.chordError > 0 && std::isfinite(*sizes.chordError)),
+    "the chord error must be a positive number");
   if (!(sizes.gapQuads >= 0 && std::isfinite(sizes.gapQuads)))
   {
     throw InvalidInput("the number of quads across a gap must be 0 or a positive number");
   }
-  if (!(sizes.smallest > 0 && sizes.smallest <= 1))
-  {
-    throw InvalidInput("the smallest size must be above 0 and at most 1");
-  }
+  refuseIf(!(sizes.smallest > 0 && sizes.smallest <= 1),
+    "the smallest size must be above 0 and at most 1");
   if (!(sizes.largest >= 1 && std::isfinite(sizes.largest)))
   {
     throw InvalidInput("the largest size must be a number from 1 on");
   }
-}
-
-std::vector<float> lengthsByCurvature(
-  const Mesh& mesh, double chordError, double edgeLength, int threads)
-{
-  const SurfacePatches patches = findPatches(mesh, kPatchSide * edgeLength, threads);
-  return toVertices(
-    mesh, patches, patchLengthsByCurvature(mesh, patches, chordError, edgeLength, threads));
-}
-
-std::vector<float> lengthsByGap(
-  const Mesh& mesh, double quads, double edgeLength, double reach, int threads)
-{
-  const SurfacePatches patches = findPatches(mesh, kPatchSide * edgeLength, threads);
-  return toVertices(mesh, patches, patchLengthsByGap(mesh, patches, quads, reach, threads));
 }
 
 std::vector<float> adaptiveLengths(

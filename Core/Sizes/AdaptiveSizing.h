@@ -13,19 +13,14 @@
 namespace quadrille
 {
 
-/// #V, units of the mesh: sqrt(8 e / k) with the chord error e and the largest absolute normal curvature k over about
-/// `edgeLength`, of the surface or of a feature or boundary there; infinite in a plane.
-std::vector<float> lengthsByCurvature(
-  const Mesh& mesh, double chordError, double edgeLength, int threads);
-
-/// #V, units of the mesh: the distance to the opposite sheet, inside or outside, over `quads`; infinite where there is
-/// none within `reach`. A sheet is opposite where a ray along the normal meets it and the two normals are at most 45
-/// degrees from opposite.
-std::vector<float> lengthsByGap(
-  const Mesh& mesh, double quads, double edgeLength, double reach, int threads);
-
-/// The smaller of both, as far as they are asked for; #V. edgeLength: about that of the quads, the scale over which the
-/// surface is looked at; the largest one that may be asked for is `reach` times it.
+/// #V, units of the mesh: the smaller of two lengths, as far as they are asked for.
+/// - sqrt(8 e / k) with the chord error e and the largest absolute normal curvature k over about `edgeLength`, of the
+///   surface or of a feature or boundary there; infinite in a plane.
+/// - The distance to the opposite sheet, inside or outside, over the quads across a gap; infinite where none is near
+///   enough to matter. A sheet is opposite where a ray along the normal meets it and the two normals are at most 45
+///   degrees from opposite.
+/// edgeLength: about that of the quads, the scale over which the surface is looked at; the largest one that may be
+/// asked for is `reach` times it.
 std::vector<float> adaptiveLengths(
   const Mesh& mesh, const AdaptiveSizes& sizes, double edgeLength, double reach, int threads);
 

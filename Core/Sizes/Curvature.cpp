@@ -4,9 +4,9 @@
 
 #include "Base/Angles.h"
 #include "Base/DisjointSets.h"
-#include "Base/Error.h"
+#include "Base/Lists.h"
 #include "Base/Parallel.h"
-#include "Base/Sorted.h"
+#include "Base/Refuse.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -29,13 +29,20 @@ using Cell = std::array<std::int32_t, 3>;
 
 Vector3 areaVector(const Mesh& mesh, Index f)
 {
-  return 0.5 * mesh.doubleAreaNormal(f);
+  return 0.5 * mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1));
+}
+
+Vector3 middleOfFace(const Mesh& mesh, Index f)
+{
+  return (mesh.position[mesh.origin[3 * f]] + mesh.position[mesh.origin[3 * f + 1]] +
+           mesh.position[mesh.origin[3 * f + 2]]) /
+    3;
 }
 
 std::vector<Cell> cellsOf(const Mesh& mesh, double side, int threads)
 {
   std::vector<Cell> cells(mesh.faceCount());
-  parallelForEach(cells.size(), kPatchChunk, threads,
+  parallelForEach<Index>(cells.size(), kPatchChunk, threads,
     [&](Index f)
     {
       const Vector3 p = mesh.middleOfFace(f) / side;
@@ -48,31 +55,16 @@ std::vector<Cell> cellsOf(const Mesh& mesh, double side, int threads)
   return cells;
 }
 
-/// Lists by key, each in ascending order.
-struct Lists
+Grouped<> facesOfPatches(const std::vector<Index>& patchOf, std::size_t patches)
 {
-  std::vector<Index> first, items;
-};
-
-Lists listsOf(const std::vector<Index>& key, std::size_t keys)
-{
-  Lists lists;
-  lists.first.assign(keys + 1, 0);
-  for (const Index k : key)
-  {
-    ++lists.first[k + 1];
-  }
-  for (std::size_t k = 0; k < keys; ++k)
-  {
-    lists.first[k + 1] += lists.first[k];
-  }
-  lists.items.resize(key.size());
-  std::vector<Index> at(lists.first.begin(), lists.first.end() - 1);
-  for (Index i = 0; i < key.size(); ++i)
-  {
-    lists.items[at[key[i]]++] = i;
-  }
-  return lists;
+  return { patches,
+    [&](const auto& visit)
+    {
+      for (Index f = 0; f < patchOf.size(); ++f)
+      {
+        visit(patchOf[f], f);
+      }
+    } };
 }
 
 SurfacePatch measurePatch(const Mesh& mesh, const Index* begin, const Index* end)
@@ -101,16 +93,16 @@ SurfacePatch measurePatch(const Mesh& mesh, const Index* begin, const Index* end
   return patch;
 }
 
-void findNeighbours(const Mesh& mesh, const Lists& faces, SurfacePatches& result, int threads)
+void findNeighbours(const Mesh& mesh, const Grouped<>& faces, SurfacePatches& result, int threads)
 {
   std::vector<std::vector<Index>> neighbours(result.patches.size());
-  parallelForEach(result.patches.size(), kPatchChunk, threads,
+  parallelForEach<Index>(result.patches.size(), kPatchChunk, threads,
     [&](Index p)
     {
       std::vector<Index>& mine = neighbours[p];
-      for (Index i = faces.first[p]; i < faces.first[p + 1]; ++i)
+      for (const Index* f = faces.begin(p); f != faces.end(p); ++f)
       {
-        for (Index h = 3 * faces.items[i]; h < 3 * faces.items[i] + 3; ++h)
+        for (Index h = 3 * *f; h < 3 * *f + 3; ++h)
         {
           const Index other = mesh.isConstrained(h) ? p : result.patchOf[Mesh::face(mesh.twin[h])];
           if (other != p)
@@ -124,7 +116,7 @@ void findNeighbours(const Mesh& mesh, const Lists& faces, SurfacePatches& result
   result.first.assign(1, 0);
   for (const std::vector<Index>& mine : neighbours)
   {
-    result.neighbours.insert(result.neighbours.end(), mine.begin(), mine.end());
+    append(result.neighbours, mine);
     result.first.push_back(static_cast<Index>(result.neighbours.size()));
   }
 }
@@ -212,17 +204,16 @@ private:
 
 std::vector<Bend> bendsOf(const Mesh& mesh, const SurfacePatches& patches, int threads)
 {
-  const Lists faces = listsOf(patches.patchOf, patches.patches.size());
+  const Grouped<> faces = facesOfPatches(patches.patchOf, patches.patches.size());
   const CurveTurns turns(mesh);
   std::vector<Bend> bends(patches.patches.size());
-  parallelForEach(bends.size(), kPatchChunk, threads,
+  parallelForEach<Index>(bends.size(), kPatchChunk, threads,
     [&](Index p)
     {
-      for (Index i = faces.first[p]; i < faces.first[p + 1]; ++i)
+      for (const Index* f = faces.begin(p); f != faces.end(p); ++f)
       {
-        const Index f = faces.items[i];
-        bends[p].tensor += bendOf(mesh, f);
-        for (Index h = 3 * f; h < 3 * f + 3; ++h)
+        bends[p].tensor += bendOf(mesh, *f);
+        for (Index h = 3 * *f; h < 3 * *f + 3; ++h)
         {
           if (mesh.isConstrained(h))
           {
@@ -273,8 +264,7 @@ void SurfacePatches::gather(Index p, double radius, std::vector<Index>& near) co
     for (Index k = first[near[i]]; k < first[near[i] + 1]; ++k)
     {
       const Index q = neighbours[k];
-      if ((patches[q].centre - patches[p].centre).norm() <= radius &&
-        std::find(near.begin(), near.end(), q) == near.end())
+      if ((patches[q].centre - patches[p].centre).norm() <= radius && !contains(near, q))
       {
         near.push_back(q);
       }
@@ -284,13 +274,11 @@ void SurfacePatches::gather(Index p, double radius, std::vector<Index>& near) co
 
 SurfacePatches findPatches(const Mesh& mesh, double cell, int threads)
 {
-  if (!(cell > 0) || !std::isfinite(cell))
-  {
-    throw InvalidInput("patches of a surface: the side of a cell must be positive and finite.");
-  }
+  refuseIf(!(cell > 0) || !std::isfinite(cell),
+    "patches of a surface: the side of a cell must be positive and finite.");
   const std::vector<Cell> cells = cellsOf(mesh, cell, threads);
   DisjointSets sets(mesh.faceCount(), threads);
-  parallelForEach(mesh.faceCount(), kPatchChunk, threads,
+  parallelForEach<Index>(mesh.faceCount(), kPatchChunk, threads,
     [&](Index f)
     {
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
@@ -311,13 +299,9 @@ SurfacePatches findPatches(const Mesh& mesh, double cell, int threads)
     result.patchOf[f] = root == f ? count++ : result.patchOf[root];
   }
   result.patches.resize(count);
-  const Lists faces = listsOf(result.patchOf, count);
-  parallelForEach(count, kPatchChunk, threads,
-    [&](Index p)
-    {
-      result.patches[p] =
-        measurePatch(mesh, &faces.items[faces.first[p]], faces.items.data() + faces.first[p + 1]);
-    });
+  const Grouped<> faces = facesOfPatches(result.patchOf, count);
+  parallelForEach<Index>(count, kPatchChunk, threads,
+    [&](Index p) { result.patches[p] = measurePatch(mesh, faces.begin(p), faces.end(p)); });
   findNeighbours(mesh, faces, result, threads);
   return result;
 }

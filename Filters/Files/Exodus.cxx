@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/MeshFiles.h"
 
+#include "Base/Lists.h"
 #include "Base/Refuse.h"
 #include "Common/NewArray.h"
 #include "Common/VtkErrors.h"
@@ -261,29 +262,18 @@ ExodusSet sideSet(const std::string& name, const std::vector<ElementSide>& sides
   return set;
 }
 
-template <class Set>
-std::vector<std::string> exodusNames(SetNames& names, const std::vector<Set>& sets)
-{
-  std::vector<std::string> wanted;
-  for (const Set& set : sets)
-  {
-    wanted.push_back(set.name);
-  }
-  return names.unique(wanted);
-}
-
 void addSets(const MeshSets& sets, SetNames& names, ExodusWriter* writer)
 {
   for (const auto* curves : { &sets.boundaries, &sets.curves })
   {
-    const std::vector<std::string> curveNames = exodusNames(names, *curves);
+    const std::vector<std::string> curveNames = names.uniqueOf(*curves);
     for (std::size_t i = 0; i < curves->size(); ++i)
     {
       writer->nodeSets.push_back(nodeSet(curveNames[i], nodesOf(sets, (*curves)[i])));
       writer->sideSets.push_back(sideSet(curveNames[i], sidesOf(sets, (*curves)[i])));
     }
   }
-  const std::vector<std::string> cornerNames = exodusNames(names, sets.corners);
+  const std::vector<std::string> cornerNames = names.uniqueOf(sets.corners);
   for (std::size_t i = 0; i < cornerNames.size(); ++i)
   {
     writer->nodeSets.push_back(nodeSet(cornerNames[i], { sets.corners[i].node }));
@@ -306,7 +296,7 @@ std::vector<std::string> writeExodus(
   const std::vector<int> blockIds = blockIdsOf(sets);
   vtkNew<ExodusWriter> writer;
   addSets(sets, names, writer);
-  const std::vector<std::string> blockNames = exodusNames(names, sets.patches);
+  const std::vector<std::string> blockNames = names.uniqueOf(sets.patches);
   for (std::size_t i = 0; i < blockIds.size(); ++i)
   {
     writer->blockNames[blockIds[i]] = blockNames[i];
@@ -327,10 +317,7 @@ std::vector<std::string> writeExodus(
   {
     notices.push_back("arrays that an Exodus file cannot have are left out: " + quoted(leftOut));
   }
-  if (const std::string notice = names.notice("this format"); !notice.empty())
-  {
-    notices.push_back(notice);
-  }
+  append(notices, names.notices());
   return notices;
 }
 

@@ -4,7 +4,6 @@
 #include "CrossField/CrossField.h"
 #include "CrossField/PowerField.h"
 #include "CrossField/TurnRepair.h"
-#include "CrossField/TurnTargets.h"
 #include "CrossField/Turns.h"
 #include "TestMeshes.h"
 

@@ -3,7 +3,7 @@
 #include "../TestMeshes.h"
 
 #include "Base/Error.h"
-#include "Evaluation/MapDistortion.h"
+#include "Evaluation/MapQuality.h"
 
 #include <gtest/gtest.h>
 

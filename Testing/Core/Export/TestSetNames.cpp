@@ -13,7 +13,7 @@ TEST(SetNames, GoodNamesStay)
 {
   SetNames names(kInpNames);
   EXPECT_EQ(names.unique({ "INLET", "PATCH_1", "A1_B" }), (Names{ "INLET", "PATCH_1", "A1_B" }));
-  EXPECT_EQ(names.notice("x"), "");
+  EXPECT_TRUE(names.notices().empty());
 }
 
 TEST(SetNames, IdentifiersHaveLettersDigitsAndUnderscores)
@@ -24,8 +24,8 @@ TEST(SetNames, IdentifiersHaveLettersDigitsAndUnderscores)
               "e",
               "  ", "_x" }),
     (Names{ "INLET_PIPE", "A_B_C", "S_7UP", "GR__E", "S_", "S__X" }));
-  EXPECT_NE(names.notice("this format").find("6 names of sets are another in this format"),
-    std::string::npos);
+  EXPECT_NE(
+    names.notices().at(0).find("6 names of sets are another in this format"), std::string::npos);
 }
 
 /// Case alone is no change where it does not count, but makes two names one.
@@ -33,9 +33,9 @@ TEST(SetNames, CaseDoesNotCountInDecks)
 {
   SetNames names(kInpNames);
   EXPECT_EQ(names.unique({ "Wall" }), Names{ "WALL" });
-  EXPECT_EQ(names.notice("x"), "");
+  EXPECT_TRUE(names.notices().empty());
   EXPECT_EQ(names.unique({ "wAll" }), Names{ "WALL_2" });
-  EXPECT_NE(names.notice("x"), "");
+  EXPECT_FALSE(names.notices().empty());
 }
 
 /// A name that needs no change keeps it, wherever it stands.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GridMap/Continuation.h"
+#include "GridMap/Embed.h"
 #include "Integers/Quantize.h"
 #include "SyntheticMaps.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GridMap/GuidesInMap.h"
+#include "GridMap/GridMap.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>

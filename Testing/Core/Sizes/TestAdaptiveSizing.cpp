@@ -97,7 +97,9 @@ TEST(AdaptiveSizing, ChordErrorOfASphereIsTheOneAskedFor)
 {
   const double error = 0.001;
   const double wanted = std::sqrt(8 * error); // k = 1
-  for (const float length : lengthsByCurvature(sphere(5), error, kEdge, 2))
+  AdaptiveSizes sizes;
+  sizes.chordError = error;
+  for (const float length : adaptiveLengths(sphere(5), sizes, kEdge, 1, 2))
   {
     EXPECT_NEAR(length, wanted, 0.1 * wanted);
   }
@@ -112,7 +114,9 @@ TEST(AdaptiveSizing, GapsAreThicknessAndDistance)
     p.z() *= 0.2;
   }
   mesh = markFeatures(mesh, 0.6);
-  const std::vector<float> lengths = lengthsByGap(mesh, 4, 0.2, 0.5, 2);
+  AdaptiveSizes sizes;
+  sizes.gapQuads = 4;
+  const std::vector<float> lengths = adaptiveLengths(mesh, sizes, 0.2, 0.625, 2); // within 0.5
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
     const bool flat = std::abs(faceNormal(mesh, Mesh::face(h)).z()) > 0.5;
@@ -125,7 +129,7 @@ TEST(AdaptiveSizing, GapsAreThicknessAndDistance)
   const auto far =
     std::count(lengths.begin(), lengths.end(), std::numeric_limits<float>::infinity());
   EXPECT_GT(far, 0);
-  for (const float length : lengthsByGap(mesh, 4, 0.2, 0.1, 2))
+  for (const float length : adaptiveLengths(mesh, sizes, 0.2, 0.125, 2))
   {
     EXPECT_EQ(length, std::numeric_limits<float>::infinity());
   }
