@@ -41,9 +41,7 @@ struct FinalQualityReport
   FinalQuality level = FinalQuality::Coarse;
   bool improved = false; ///< otherwise the carried map is the result, and `notice` says why
   MapDistortion before, after;
-  int steps = 0; ///< of Newton's method
-  int holds =
-    0; ///< how often it was solved again with the carried map round quads that were inverted
+  int steps = 0;            ///< of Newton's method
   std::size_t elements = 0; ///< triangles of the level
   std::string notice;
 };

@@ -3,7 +3,7 @@
 #include "Symmetry/MirrorFit.h"
 
 #include "Base/Parallel.h"
-#include "Pipeline/RunSurface.h"
+#include "Pipeline/PlannedSurface.h"
 
 #include <algorithm>
 #include <array>
