@@ -145,8 +145,8 @@ void countInverted(const RunContext& run, const MapAttempt& map, QuadAttempt& ma
     });
 }
 
-/// certificate: of the map that the quads are made of.
-void extract(const RunContext& run, const Mesh& mesh, const std::vector<FixedVec2>& uv,
+/// certificate: of the map that the quads are made of. Returns how many quads there are, also where they are not valid.
+std::size_t extract(const RunContext& run, const Mesh& mesh, const std::vector<FixedVec2>& uv,
   ExtractionOptions options, const Certificate& certificate, QuadAttempt& made)
 {
   options.maximumNumberOfQuads = run.options.maximumNumberOfQuads;
@@ -155,10 +155,11 @@ void extract(const RunContext& run, const Mesh& mesh, const std::vector<FixedVec
   if (!extracted.status.ok())
   {
     made.status = failureOf(extracted.status, run.options.method, certificate);
-    return;
+    return extracted.mesh.quads.size();
   }
   made.extraction = extracted;
   made.quads = std::move(extracted.mesh);
+  return made.quads.quads.size();
 }
 
 void extractOnSurface(
@@ -181,8 +182,8 @@ void extractOnSurface(
   options.mapIsCertified = map.certificate.valid();
   options.shape = shape.get();
   options.progress = subProgress(run.options.progress, 0.9, 1.0, "Extracting: ");
-  extract(run, mesh, map.uv, options, map.certificate, made);
-  made.stages.add("extract", secondsNow() - start, mesh.faceCount(), made.quads.quads.size());
+  const std::size_t quads = extract(run, mesh, map.uv, options, map.certificate, made);
+  made.stages.add("extract", secondsNow() - start, mesh.faceCount(), quads);
   if (made.status.ok())
   {
     tell(
@@ -262,8 +263,8 @@ std::shared_ptr<const QuadAttempt> makePreview(
     levels.log.intermediateRounds, levels.log, map.coarseUv, transfer);
   ExtractionOptions options;
   options.smoothingSteps = 0;
-  extract(run, mesh, uv, options, map.coarseCertificate, *made);
-  made->stages.add("preview", secondsNow() - start, mesh.faceCount(), made->quads.quads.size());
+  const std::size_t quads = extract(run, mesh, uv, options, map.coarseCertificate, *made);
+  made->stages.add("preview", secondsNow() - start, mesh.faceCount(), quads);
   run.levels.letGo();
   return made;
 }
