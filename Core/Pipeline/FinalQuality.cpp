@@ -231,6 +231,7 @@ FinalQualityReport improveMap(const PreparedSurface& surface, const std::vector<
     // Large quads on creases and in pockets that are narrower than they are.
     fixNear(surface.mesh, made.centres, radius, fixed);
     radius *= 2;
+    ++report.holds;
     countTry(Try::CarriedMapHeld);
   }
 }

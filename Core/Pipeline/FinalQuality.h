@@ -41,7 +41,9 @@ struct FinalQualityReport
   FinalQuality level = FinalQuality::Coarse;
   bool improved = false; ///< otherwise the carried map is the result, and `notice` says why
   MapDistortion before, after;
-  int steps = 0;            ///< of Newton's method
+  int steps = 0; ///< of Newton's method
+  int holds =
+    0; ///< how often it was solved again with the carried map round quads that were inverted
   std::size_t elements = 0; ///< triangles of the level
   std::string notice;
 };
