@@ -6,6 +6,7 @@
 #include "Pieces/ThinnedSurface.h"
 #include "Pipeline/EnterFrame.h"
 #include "Pipeline/Run.h"
+#include "Pipeline/RunResult.h"
 #include "Prepare/Prepare.h"
 
 #include <utility>
@@ -102,8 +103,8 @@ PiecesResult remeshThinned(SurfaceInput input, const RemeshOptions& options)
 {
   requireNothingPlaced(input);
   PiecesResult made;
-  made.remeshed = guardedRun(input, options,
-    [&](const RemeshOptions& asked, std::size_t, PlaceScope& places, RemeshResult& remeshed)
+  made.remeshed = guardedRun(input, options, nullptr,
+    [&](const RemeshOptions& asked, ResultStore*, PlaceScope& places, RemeshResult& remeshed)
     {
       EnteredInput entered = enterFrame(std::move(input), asked, nullptr);
       runThinned(entered.framed, asked, places, remeshed, made);

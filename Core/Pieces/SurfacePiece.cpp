@@ -9,8 +9,8 @@
 #include "Hierarchy/Hierarchy.h"
 #include "Pieces/CarriedPlaces.h"
 #include "Pieces/HandlesOfPiece.h"
+#include "Pipeline/PlannedSurface.h"
 #include "Pipeline/ResultStore.h"
-#include "Pipeline/RunSurface.h"
 #include "Pipeline/SmallParts.h"
 #include "Prepare/Prepare.h"
 

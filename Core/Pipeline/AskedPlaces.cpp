@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Pipeline/AskedPlaces.h"
+#include "Pipeline/DetailSteps.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -49,23 +49,25 @@ void moveRequests(
 
 } // namespace
 
-AskedPlaces::AskedPlaces(const PreparedSurface& surface) : requests_(surface.requests())
+AskedPlaces askedPlaces(const PreparedSurface& surface)
 {
-  for (const ValenceRequest& request : requests_.valenceRequests)
+  AskedPlaces asked{ surface.requests(), {}, {} };
+  for (const ValenceRequest& request : surface.valenceRequests)
   {
-    valencePlaces_.push_back(surface.mesh.position[request.vertex]);
+    asked.valencePlaces.push_back(surface.mesh.position[request.vertex]);
   }
-  for (const SectorRequest& request : requests_.sectorRequests)
+  for (const SectorRequest& request : surface.sectorRequests)
   {
-    sectorPlaces_.push_back(surface.mesh.position[request.vertex]);
+    asked.sectorPlaces.push_back(surface.mesh.position[request.vertex]);
   }
+  return asked;
 }
 
-void AskedPlaces::askOf(PreparedSurface& surface) const
+void ask(const AskedPlaces& asked, PreparedSurface& surface)
 {
-  surface.setRequests(requests_);
-  moveRequests(surface.mesh, valencePlaces_, surface.valenceRequests);
-  moveRequests(surface.mesh, sectorPlaces_, surface.sectorRequests);
+  surface.setRequests(asked.requests);
+  moveRequests(surface.mesh, asked.valencePlaces, surface.valenceRequests);
+  moveRequests(surface.mesh, asked.sectorPlaces, surface.sectorRequests);
 }
 
 } // namespace quadrille

@@ -7,6 +7,8 @@
 #include "Pipeline/CoarsestMap.h"
 #include "Pipeline/GuidedMap.h"
 #include "Pipeline/Notices.h"
+#include "Pipeline/RequestKeys.h"
+#include "Pipeline/SmallHandles.h"
 #include "Quads/QuadTopology.h"
 #include "Requests/CurveRequests.h"
 #include "Requests/Guides.h"
@@ -17,6 +19,7 @@
 #include "Transfer/SurfaceStretch.h"
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 #include <utility>
 
@@ -25,142 +28,110 @@ namespace quadrille
 namespace
 {
 
-/// Of all that a map depends on.
-ResultKey mapKey(const RunContext& run, const Plan& plan)
-{
-  const RemeshOptions& options = run.options;
-  KeyMaker key(run.surface.key());
-  key.add(run.edgeLength).add(plan.levelsKey());
-  key.add(static_cast<std::uint64_t>(options.method))
-    .add(static_cast<std::uint64_t>(options.decimationCost))
-    .add(std::uint64_t{ options.coarsestIntegers ? 1U : 0U })
-    .add(std::uint64_t{ options.distortionMetric ? 1U : 0U })
-    .add(std::uint64_t{ options.warmStart ? 1U : 0U })
-    .add(options.anisotropyLimit);
-  addRequests(*run.surface, key);
-  return key.key();
-}
-
 /// Of what a map has to share with an earlier one for a warm start.
-ResultKey warmKey(const RunContext& run, const Plan& plan)
+ResultKey warmKey(const RunContext& run, const PlannedSurface& surface, const Plan& plan)
 {
-  return KeyMaker(run.surface.key())
-    .add(run.edgeLength)
-    .add(plan.quads)
-    .add(run.options.anisotropyLimit)
-    .add(std::uint64_t{ run.options.distortionMetric ? 1U : 0U })
+  return KeyMaker(surface.key)
+    .add(run.edgeLength, plan.quads, run.options.anisotropyLimit, run.options.distortionMetric)
     .key();
 }
 
-GridMapOptions mapOptions(RunContext& run, const Plan& plan, MapAttempt& made)
+GridMapOptions mapOptions(const RunContext& run, const PlannedSurface& surface,
+  const Hierarchy& levels, const Plan& plan, MapAttempt& made)
 {
-  const Hierarchy& levels = run.levels.hierarchy();
+  const Level& coarse = levels.coarse;
   GridMapOptions options;
   options.method = run.options.method;
   options.edgeLength = run.edgeLength;
   options.targetQuads = plan.quads;
   options.anisotropyLimit = run.options.anisotropyLimit;
-  options.guides = levels.coarse.guides;
-  options.targetValences =
-    levelValences(*run.surface, levels.coarse.mesh, levels.coarse.fineVertex);
-  options.sectorTurns = levelSectors(*run.surface, levels.coarse.mesh, levels.coarse.fineVertex);
-  options.curves = run.surface->curves;
-  options.seams = run.surface->seams;
+  options.guides = coarse.guides;
+  options.targetValences = levelValences(*surface, coarse.mesh, coarse.fineVertex);
+  options.sectorTurns = levelSectors(*surface, coarse.mesh, coarse.fineVertex);
+  options.curves = surface->curves;
+  options.seams = surface->seams;
   options.progress = subProgress(run.options.progress, 0.45, 0.8, "Mapping: ");
   if (run.options.distortionMetric) // on request
   {
     const double start = secondsNow();
-    options.stretch = measureStretch(levels.intermediate, levels.coarse, levels.log).stretch;
+    options.stretch = measureStretch(levels.intermediate, coarse, levels.log).stretch;
     made.stages.add("metric", secondsNow() - start, levels.intermediate.mesh.faceCount(),
-      levels.coarse.mesh.faceCount());
+      coarse.mesh.faceCount());
   }
   return options;
 }
 
-GridMapResult computeMap(RunContext& run, const Plan& plan, MapAttempt& made)
+GridMapResult computeMap(RunContext& run, const PlannedSurface& surface, const Hierarchy& levels,
+  const Plan& plan, MapAttempt& made)
 {
-  const Level& coarse = run.levels.hierarchy().coarse;
+  const Level& coarse = levels.coarse;
   // Half of the quads at a straight part will lie outside.
-  const bool isOutset = !run.surface->straight.empty();
+  const bool isOutset = !surface->straight.empty();
   OutsetMesh outset;
   if (isOutset)
   {
-    outset = withOutset(coarse.mesh, run.surface->straight, run.edgeLength / 2);
+    outset = withOutset(coarse.mesh, surface->straight, run.edgeLength / 2);
   }
   const Mesh& mesh = isOutset ? outset.mesh : coarse.mesh;
-  GridMapOptions options = mapOptions(run, plan, made);
+  GridMapOptions options = mapOptions(run, surface, levels, plan, made);
   options.straight = std::move(outset.requests);
   if (run.options.coarsestIntegers)
   {
     return computeCoarsestMap(mesh, options);
   }
   const bool remembers = run.store != nullptr && run.options.method == MapMethod::ScaleAware;
+  const ResultKey key = warmKey(run, surface, plan);
   const std::shared_ptr<PreviousMap> previous =
-    remembers && run.options.warmStart ? run.store->find<PreviousMap>(warmKey(run, plan)) : nullptr;
+    remembers && run.options.warmStart ? run.store->find<PreviousMap>(key) : nullptr;
   if (previous)
   {
     options.previous = previous.get();
     options.vertexIds = coarse.fineVertex;
   }
   GridMapResult map = computeGridMap(mesh, options);
-  const auto reuseIf = [&](std::size_t components, const char* stage)
+  const std::array<std::pair<std::size_t, const char*>, 3> reuses{
+    { { map.reuse.seamless, "seamless" }, { map.reuse.integers, "quantize" },
+      { map.reuse.embedded, "embed" } }
+  };
+  for (const auto& [components, stage] : reuses)
   {
     if (components > 0)
     {
       made.started.emplace_back(stage);
     }
-  };
-  reuseIf(map.reuse.seamless, "seamless");
-  reuseIf(map.reuse.integers, "quantize");
-  reuseIf(map.reuse.embedded, "embed");
+  }
   if (remembers && map.status.ok())
   {
     auto next = std::make_shared<PreviousMap>(previousMap(mesh, map, coarse.fineVertex));
     const std::size_t bytes = next->bytes();
-    run.store->put(warmKey(run, plan), std::move(next), bytes);
+    run.store->put(key, std::move(next), bytes);
   }
   return map;
 }
 
-void tellCurves(const RunContext& run, MapAttempt& made)
-{
-  for (std::size_t i = 0; i < made.curves.size(); ++i)
-  {
-    if (!made.curves[i].met)
-    {
-      made.notices.push_back(
-        curveText(run.surface->curves[i], i) + " is not met: " + made.curves[i].why);
-    }
-  }
-}
-
 /// What is left of a map on the coarse level.
 void recordCoarse(
-  const RunContext& run, const Hierarchy& levels, GridMapResult& map, MapAttempt& made)
+  const PlannedSurface& surface, const Hierarchy& levels, GridMapResult& map, MapAttempt& made)
 {
   const std::size_t coarse = levels.coarse.mesh.faceCount();
   made.stages.add("field", map.secondsField, coarse, coarse);
   made.stages.add("seamless", map.secondsSeamless, coarse, coarse);
   made.stages.add("quantize", map.secondsQuantize, coarse, coarse);
   made.stages.add("embed", map.secondsEmbed, coarse, coarse);
-  for (const std::string& notice : { levels.notice, refinementNotice(map.refinement) })
+  tell({ levels.notice, refinementNotice(map.refinement) }, made.notices);
+  made.curves = std::move(map.curves);
+  made.curveOffenders = onFinest(map.curveOffenders, levels.coarse);
+  for (std::size_t i = 0; i < made.curves.size(); ++i)
   {
-    if (!notice.empty())
+    if (!made.curves[i].met)
     {
-      made.notices.push_back(notice);
+      made.notices.push_back(
+        curveText(surface->curves[i], i) + " is not met: " + made.curves[i].why);
     }
   }
-  made.curves = map.curves;
-  for (const Index v : map.curveOffenders)
-  {
-    made.curveOffenders.push_back(levels.coarse.fineVertex[v]);
-  }
-  tellCurves(run, made);
   made.coarse = levels.coarse;
   made.coarseUv = std::move(map.uv);
-  const bool hasField =
-    !map.field.turns.empty(); // there is none where the level is too large for one
-  if (hasField)
+  if (!map.field.turns.empty()) // there is none where the level is too large for one
   {
     made.coarseTurns = map.field.turns;
     made.coarseInteger = integerVertices(made.coarse.mesh, map.field);
@@ -169,7 +140,7 @@ void recordCoarse(
   }
   made.coarseCertificate = map.certificate;
   // Where features are held, more freedom is what helps, see Session.
-  const bool isHeld = run.surface->regularOnFeatures && !map.status.ok();
+  const bool isHeld = surface->regularOnFeatures && !map.status.ok();
   made.hopeless = isHeld || map.status.code == StatusCode::TooLarge ||
     (map.status.code == StatusCode::Infeasible && map.offenders.empty());
   if (!map.status.ok())
@@ -177,18 +148,14 @@ void recordCoarse(
     made.status = { map.status.code, "no valid map of the coarse mesh: " + map.status.message };
     made.collapsed = map.collapsedFaces > 0;
     made.coarseTroubles = positionsOf(levels.coarse.mesh, map.offenders);
-    for (const Index v : map.offenders)
-    {
-      made.coarseOffenders.push_back(levels.coarse.fineVertex[v]);
-    }
+    made.coarseOffenders = onFinest(map.offenders, levels.coarse);
   }
 }
 
 /// Fills transfer, uv and certificate. False where nothing was carried.
-bool carry(RunContext& run, bool alongGuides, MapAttempt& made)
+bool carry(
+  RunContext& run, const Mesh& mesh, const Hierarchy& levels, bool alongGuides, MapAttempt& made)
 {
-  const Mesh& mesh = run.surface->mesh;
-  const Hierarchy& levels = run.levels.hierarchy();
   double start = secondsNow();
   TransferOptions options;
   options.spare = &run.spare;
@@ -212,12 +179,12 @@ bool carry(RunContext& run, bool alongGuides, MapAttempt& made)
 }
 
 /// A few places that the transfer could not mend, with the vertices of the level between.
-void mendFewPlaces(RunContext& run, MapAttempt& made)
+void mendFewPlaces(
+  const RunContext& run, const Mesh& mesh, const Hierarchy& levels, MapAttempt& made)
 {
-  const Mesh& mesh = run.surface->mesh;
   const double start = secondsNow();
   const MendResult mended =
-    mendPatchesByLevels(mesh, made.uv, made.turns, run.levels.hierarchy().intermediate.fineVertex,
+    mendPatchesByLevels(mesh, made.uv, made.turns, levels.intermediate.fineVertex,
       run.options.threads, subProgress(run.options.progress, 0.8, 0.9, "Mapping back: "));
   made.transfer.mendedPatches += mended.patches;
   made.transfer.notPositive = mended.notPositive;
@@ -231,32 +198,6 @@ void mendFewPlaces(RunContext& run, MapAttempt& made)
   offenders.erase(std::unique(offenders.begin(), offenders.end()), offenders.end());
   made.certificate = certify(mesh, made.uv, made.turns, made.integerVertex, run.options.threads);
   made.stages.add("replay", secondsNow() - start, made.coarse.mesh.faceCount(), mesh.faceCount());
-}
-
-void carryToSurface(RunContext& run, MapAttempt& made)
-{
-  const Mesh& mesh = run.surface->mesh;
-  made.turns = expectedTurns(mesh, made.coarse, made.coarseTurns);
-  made.integerVertex.assign(mesh.vertexCount(), 0);
-  for (Index v = 0; v < made.coarseInteger.size(); ++v)
-  {
-    made.integerVertex[made.coarse.fineVertex[v]] = made.coarseInteger[v];
-  }
-  const bool guided = run.options.method == MapMethod::ScaleAware && carry(run, true, made);
-  if (!guided || !made.certificate.valid())
-  {
-    carry(run, false, made);
-    if (guided)
-    {
-      countTry(Try::WithoutGuides);
-      countTryLed(Try::WithoutGuides, made.certificate.valid() ? 1 : 0);
-    }
-  }
-  if (run.options.method == MapMethod::ScaleAware && !made.transfer.offenders.empty())
-  {
-    mendFewPlaces(run, made);
-  }
-  made.isCarried = true;
 }
 
 void tellOfRounding(MapMethod method, MapAttempt& made)
@@ -273,43 +214,10 @@ void tellOfRounding(MapMethod method, MapAttempt& made)
   }
 }
 
-void keepMap(RunContext& run, MapAttempt& map)
-{
-  if (run.store == nullptr)
-  {
-    return;
-  }
-  std::vector<FixedVec2> uv = std::move(map.uv);
-  map.uv = {};
-  if (!uv.empty())
-  {
-    map.packed = PackedMap(run.surface->mesh, uv);
-  }
-  auto kept = std::make_shared<MapAttempt>(map);
-  map.packed = {};
-  map.uv = std::move(uv);
-  const std::size_t bytes = kept->bytes();
-  run.store->put(map.key, std::move(kept), bytes);
-}
-
-/// Names of what an attempt from the store has not computed.
-std::shared_ptr<MapAttempt> asReused(const MapAttempt& found)
-{
-  auto map = std::make_shared<MapAttempt>(found);
-  map->reused = { "phase1", "phase2" };
-  for (const StageRecord& record : found.stages.all())
-  {
-    map->reused.push_back(record.stage);
-  }
-  map->started.clear();
-  map->stages = {};
-  return map;
-}
-
 /// A map that was interrupted is that of another run with the same allowance only.
 ResultKey interruptedKey(ResultKey key, std::size_t allowance)
 {
-  return KeyMaker(key).add(std::uint64_t{ allowance }).key();
+  return KeyMaker(key).add(allowance).key();
 }
 
 void interrupt(const Hierarchy& levels, std::size_t allowance, MapAttempt& made)
@@ -325,113 +233,7 @@ void interrupt(const Hierarchy& levels, std::size_t allowance, MapAttempt& made)
     "fewer coarse vertices" };
 }
 
-std::shared_ptr<MapAttempt> makeCoarseMap(
-  RunContext& run, const Plan& plan, ResultKey key, std::size_t allowance)
-{
-  auto made = std::make_shared<MapAttempt>();
-  made->key = key;
-  const Hierarchy& levels = run.levels.make(levelOptions(run, plan));
-  made->stages.add(run.levels.stages());
-  if (!made->stages.has("phase2"))
-  {
-    made->reused.emplace_back("phase2");
-  }
-  const double start = secondsNow();
-  try
-  {
-    const WorkScope scope(allowance);
-    GridMapResult map = computeMap(run, plan, *made);
-    made->work = scope.done();
-    recordCoarse(run, levels, map, *made);
-  }
-  catch (const WorkSpent&)
-  {
-    interrupt(levels, allowance, *made);
-    const std::size_t faces = levels.coarse.mesh.faceCount();
-    made->stages.add("interrupted", secondsNow() - start, faces, faces);
-  }
-  return made;
-}
-
-/// From the store, as a run without one would make it.
-std::shared_ptr<MapAttempt> findMap(const RunContext& run, ResultKey key, std::size_t allowance)
-{
-  if (run.store == nullptr)
-  {
-    return nullptr;
-  }
-  const auto found = run.store->find<MapAttempt>(key);
-  return found && found->work <= allowance
-    ? found
-    : run.store->find<MapAttempt>(interruptedKey(key, allowance));
-}
-
-/// Whether the levels are those of the map; they are made where they are not there.
-bool hasLevelsOf(RunContext& run, const Plan& plan, const MapAttempt& map)
-{
-  run.levels.make(levelOptions(run, plan));
-  return run.levels.hierarchy().coarse.fineVertex == map.coarse.fineVertex;
-}
-
 } // namespace
-
-void addRequests(const PreparedSurface& surface, KeyMaker& key)
-{
-  for (const PolygonGuide& guide : surface.polygonGuides)
-  {
-    key.add(std::uint64_t{ guide.polygon }).add(double{ guide.weight });
-    for (int i = 0; i < 3; ++i)
-    {
-      key.add(guide.direction[i]);
-    }
-  }
-  for (const ValenceRequest& request : surface.valenceRequests)
-  {
-    key.add(std::uint64_t{ request.vertex })
-      .add(static_cast<std::uint64_t>(static_cast<std::int64_t>(request.valence)));
-  }
-  if (surface.regularElsewhere)
-  {
-    key.add(std::uint64_t{ 1 });
-  }
-  if (surface.regularOnFeatures)
-  {
-    key.add(std::uint64_t{ 2 }).add(std::uint64_t{ surface.sectorRequests.size() });
-    for (const SectorRequest& request : surface.sectorRequests)
-    {
-      key.add(std::uint64_t{ request.vertex }).add(std::uint64_t{ request.sectors.size() });
-      for (const HeldSector& sector : request.sectors)
-      {
-        key.add(sector.middle[0]).add(sector.middle[1]).add(sector.middle[2]);
-        key.add(static_cast<std::uint64_t>(sector.turns));
-      }
-    }
-  }
-  for (const SeamRequest& seam : surface.seams)
-  {
-    key.add(std::uint64_t{ 4 });
-    for (const Vector3& p : { seam.from, seam.to, seam.imageFrom, seam.imageTo })
-    {
-      key.add(p[0]).add(p[1]).add(p[2]);
-    }
-  }
-  for (const StraightRequest& part : surface.straight)
-  {
-    key.add(std::uint64_t{ 5 });
-    for (const Vector3& p : { part.from, part.via, part.to, part.outward })
-    {
-      key.add(p[0]).add(p[1]).add(p[2]);
-    }
-  }
-  for (const CurveRequest& curve : surface.curves)
-  {
-    key.add(static_cast<std::uint64_t>(curve.kind) + 2).add(std::uint64_t{ curve.points.size() });
-    for (const Vector3& p : curve.points)
-    {
-      key.add(p[0]).add(p[1]).add(p[2]);
-    }
-  }
-}
 
 std::size_t MapAttempt::defects() const
 {
@@ -468,6 +270,19 @@ std::size_t MapAttempt::bytes() const
     bytesOf(coarseUv) + bytesOf(uv) + packed.bytes() + bytesOf(turns) + bytesOf(integerVertex);
 }
 
+RunContext makeRun(const SizedSurface& sized, const RemeshOptions& options, ResultStore* store)
+{
+  RunContext run{ options, sized.edgeLength, sized.targetQuads,
+    withoutPlan(sized.surface, sized.key), store, Levels(store) };
+  if (options.progress)
+  {
+    run.options.progress = [tried = run.tried, asked = options.progress](
+                             double fraction, const std::string& text)
+    { return asked(fraction, (tried->empty() ? "" : *tried + ": ") + text); };
+  }
+  return run;
+}
+
 HierarchyOptions levelOptions(const RunContext& run, const Plan& plan)
 {
   HierarchyOptions options;
@@ -482,36 +297,109 @@ HierarchyOptions levelOptions(const RunContext& run, const Plan& plan)
   return options;
 }
 
-std::shared_ptr<MapAttempt> makeMap(RunContext& run, const Plan& plan, std::size_t allowance)
+ResultKey mapKey(const RunContext& run, const PlannedSurface& surface, const Plan& plan)
 {
-  const TryScope tries;
-  run.surface.apply(plan);
-  const ResultKey key = mapKey(run, plan);
-  const auto found = findMap(run, key, allowance);
-  std::shared_ptr<MapAttempt> made =
-    found ? asReused(*found) : makeCoarseMap(run, plan, key, allowance);
-  const bool isDone = !made->status.ok() || made->isCarried || run.options.preview;
-  if (!isDone && hasLevelsOf(run, plan, *made))
+  const RemeshOptions& options = run.options;
+  return KeyMaker(surface.key)
+    .add(run.edgeLength, plan.levels.keptVertices, plan.levels.coarseVertices,
+      plan.levels.edgeLength, plan.quads, options.method, options.decimationCost,
+      options.coarsestIntegers, options.distortionMetric, options.warmStart,
+      options.anisotropyLimit, requestsKey(*surface))
+    .key();
+}
+
+std::shared_ptr<MapAttempt> findMap(const RunContext& run, ResultKey key, std::size_t allowance)
+{
+  if (run.store == nullptr)
   {
-    carryToSurface(run, *made);
-    tellOfRounding(run.options.method, *made);
+    return nullptr;
   }
-  else if (!isDone)
+  auto found = run.store->find<MapAttempt>(key);
+  if (!found || found->work > allowance)
   {
-    // Levels that were made again may be others than those that a preview has left a map of.
-    made = makeCoarseMap(run, plan, key, allowance);
-    if (made->status.ok())
-    {
-      carryToSurface(run, *made);
-      tellOfRounding(run.options.method, *made);
-    }
+    found = run.store->find<MapAttempt>(interruptedKey(key, allowance));
   }
-  made->tries.add(tries.counts());
-  if (!found || made->isCarried != found->isCarried)
+  return found ? asReused(*found, { "phase1", "phase2" }) : nullptr;
+}
+
+bool isMapOf(const MapAttempt& map, const Hierarchy& levels)
+{
+  return levels.coarse.fineVertex == map.coarse.fineVertex;
+}
+
+std::shared_ptr<MapAttempt> makeCoarseMap(RunContext& run, const PlannedSurface& surface,
+  const Hierarchy& levels, const Plan& plan, ResultKey key, std::size_t allowance)
+{
+  auto made = std::make_shared<MapAttempt>();
+  made->key = key;
+  made->stages.add(run.levels.stages());
+  if (!made->stages.has("phase2"))
   {
-    keepMap(run, *made);
+    made->reused.emplace_back("phase2");
+  }
+  const double start = secondsNow();
+  try
+  {
+    const WorkScope scope(allowance);
+    GridMapResult map = computeMap(run, surface, levels, plan, *made);
+    made->work = scope.done();
+    recordCoarse(surface, levels, map, *made);
+  }
+  catch (const WorkSpent&)
+  {
+    interrupt(levels, allowance, *made);
+    const std::size_t faces = levels.coarse.mesh.faceCount();
+    made->stages.add("interrupted", secondsNow() - start, faces, faces);
   }
   return made;
+}
+
+void carryToSurface(
+  RunContext& run, const PlannedSurface& surface, const Hierarchy& levels, MapAttempt& made)
+{
+  const Mesh& mesh = surface->mesh;
+  made.turns = expectedTurns(mesh, made.coarse, made.coarseTurns);
+  made.integerVertex.assign(mesh.vertexCount(), 0);
+  for (Index v = 0; v < made.coarseInteger.size(); ++v)
+  {
+    made.integerVertex[made.coarse.fineVertex[v]] = made.coarseInteger[v];
+  }
+  const bool isScaleAware = run.options.method == MapMethod::ScaleAware;
+  const bool guided = isScaleAware && carry(run, mesh, levels, true, made);
+  if (!guided || !made.certificate.valid())
+  {
+    carry(run, mesh, levels, false, made);
+    if (guided)
+    {
+      countTry(Try::WithoutGuides);
+      countTryLed(Try::WithoutGuides, made.certificate.valid() ? 1 : 0);
+    }
+  }
+  if (isScaleAware && !made.transfer.offenders.empty())
+  {
+    mendFewPlaces(run, mesh, levels, made);
+  }
+  made.isCarried = true;
+  tellOfRounding(run.options.method, made);
+}
+
+void keepMap(const RunContext& run, const Mesh& surface, MapAttempt& map)
+{
+  if (run.store == nullptr)
+  {
+    return;
+  }
+  std::vector<FixedVec2> uv = std::move(map.uv);
+  map.uv = {};
+  if (!uv.empty())
+  {
+    map.packed = PackedMap(surface, uv);
+  }
+  auto kept = std::make_shared<MapAttempt>(map);
+  map.packed = {};
+  map.uv = std::move(uv);
+  const std::size_t bytes = kept->bytes();
+  run.store->put(map.key, std::move(kept), bytes);
 }
 
 std::optional<GridTroubles> gridTroubles(const RunContext& run, const MapAttempt& map)

@@ -4,21 +4,16 @@
 #pragma once
 
 #include "Base/Error.h"
-#include "Base/FixedPoint.h"
 #include "Base/TryCount.h"
-#include "Extraction/Extraction.h"
-#include "GridMap/GridMap.h"
-#include "Hierarchy/Hierarchy.h"
-#include "Pipeline/FinalQuality.h"
 #include "Pipeline/Levels.h"
 #include "Pipeline/Options.h"
 #include "Pipeline/Plan.h"
-#include "Pipeline/RunSurface.h"
+#include "Pipeline/PlannedSurface.h"
+#include "Pipeline/RunMap.h"
+#include "Pipeline/SizedSurface.h"
 #include "Pipeline/SmallParts.h"
 #include "Pipeline/StageRecords.h"
-#include "Pipeline/WorkBound.h"
 #include "Transfer/PackedMap.h"
-#include "Transfer/Transfer.h"
 
 #include <memory>
 #include <optional>
@@ -31,54 +26,65 @@ namespace quadrille
 /// What all attempts of a run share.
 struct RunContext
 {
-  const RemeshOptions& options;
-  double edgeLength = 0;       ///< s, in the frame
-  std::size_t targetQuads = 0; ///< asked for, or predicted from s
-  RunSurface& surface;
-  Levels& levels;
-  ResultStore* store = nullptr;      ///< null: none
-  ShortLoops shortLoops;             ///< of the surface before any plan
+  RemeshOptions options;        ///< lengths in the frame; progress tells `tried`
+  double edgeLength = 0;        ///< s, in the frame
+  std::size_t targetQuads = 0;  ///< asked for, or predicted from s
+  PlannedSurface surface;       ///< without a plan
+  ResultStore* store = nullptr; ///< null: none
+  Levels levels;
+  ShortLoops shortLoops = {};        ///< of the surface before any plan
   std::vector<FixedVec2> spare = {}; ///< see TransferOptions
   /// Whether many details are left that can be taken out where a round has no quads: better than other rounds.
   bool hasCrowd = false;
-  std::string tried = {}; ///< which attempt this is, and why; empty for the first one
+  /// Which attempt this is, and why; empty for the first one.
+  std::shared_ptr<std::string> tried = std::make_shared<std::string>();
 };
+RunContext makeRun(const SizedSurface& sized, const RemeshOptions& options, ResultStore* store);
 
-/// A map of the coarse level, carried to the surface where there is one.
-struct MapAttempt
+/// What a part of an attempt tells.
+struct AttemptLog
 {
-  ResultKey key = 0;
-  Status status;          ///< of the coarse map
-  bool hopeless = false;  ///< no other triangulation can mend it
-  bool collapsed = false; ///< arcs of features leave some coarse triangles no area
-  Level coarse;
-  std::vector<FixedVec2> coarseUv;         ///< #H of coarse.mesh; also where the status is not ok
-  std::vector<int> coarseTurns;            ///< #V of coarse.mesh
-  std::vector<std::uint8_t> coarseInteger; ///< #V of coarse.mesh, see integerVertices
-  /// Ends, corners and bends of features and boundaries, by vertex of the surface.
-  std::vector<SectorRequest> onFeatures;
-  Certificate coarseCertificate;
-  std::vector<Index> coarseOffenders;  ///< vertices of the surface, where the status is not ok
-  std::vector<Vector3> coarseTroubles; ///< their positions
-  std::size_t work = 0;                ///< see Base/WorkCount.h; of the map of the coarse level
-  bool isInterrupted = false;          ///< as the work was spent
-  std::vector<CurveOutcome> curves;    ///< GridMapResult::curves
-  std::vector<Index> curveOffenders; ///< GridMapResult::curveOffenders, as vertices of the surface
-
-  // Where the status is ok and the map was carried to the surface, which for a preview it is not.
-  bool isCarried = false;
-  std::vector<FixedVec2> uv; ///< #H of the surface; empty while packed
-  PackedMap packed;
-  std::vector<int> turns;                  ///< #V of the surface
-  std::vector<std::uint8_t> integerVertex; ///< #V of the surface
-  Certificate certificate;
-  TransferResult transfer; ///< but for uv
-
   TryCounts tries; ///< of its making, whether in this run or in an earlier one
   std::vector<std::string> notices;
   std::vector<std::string> reused;  ///< names of stages that were not computed
   std::vector<std::string> started; ///< names of those that were, from an earlier map
   StageRecords stages;
+};
+
+/// What the store has, with its stages as reused, after those that led to it.
+template <typename Part>
+std::shared_ptr<Part> asReused(const Part& found, std::vector<std::string> before)
+{
+  auto part = std::make_shared<Part>(found);
+  part->reused = std::move(before);
+  for (const StageRecord& record : found.stages.all())
+  {
+    part->reused.push_back(record.stage);
+  }
+  part->started.clear();
+  part->stages = {};
+  return part;
+}
+
+/// A map of the coarse level, carried to the surface where there is one.
+struct MapAttempt
+  : RunMap
+  , AttemptLog
+{
+  ResultKey key = 0;
+  Status status;                           ///< of the coarse map
+  bool hopeless = false;                   ///< no other triangulation can mend it
+  bool collapsed = false;                  ///< arcs of features leave some coarse triangles no area
+  std::vector<std::uint8_t> coarseInteger; ///< #V of coarse.mesh, see integerVertices
+  std::vector<Index> coarseOffenders;      ///< vertices of the surface, where the status is not ok
+  std::vector<Vector3> coarseTroubles;     ///< their positions
+  std::size_t work = 0;                    ///< see Base/WorkCount.h; of the map of the coarse level
+  bool isInterrupted = false;              ///< as the work was spent
+  std::vector<Index> curveOffenders; ///< GridMapResult::curveOffenders, as vertices of the surface
+
+  bool isCarried = false;                  ///< to the surface
+  PackedMap packed;                        ///< in place of uv
+  std::vector<std::uint8_t> integerVertex; ///< #V of the surface
 
   /// Of the map on the surface: what keeps it from being valid.
   std::size_t defects() const;
@@ -91,19 +97,15 @@ struct MapAttempt
 
 /// The quads of a map, solved again before on request.
 struct QuadAttempt
+  : RunQuads
+  , AttemptLog
 {
   Status status;
-  QuadMesh quads;
-  ExtractionCounts extraction;
-  FinalQualityReport finalQuality;
   /// Where the map was solved again.
   std::optional<PackedMap> uv;
   std::optional<Certificate> certificate;
   std::size_t invertedQuads = 0;
   bool invertedAtFolds = false; ///< some of them where the map has folds
-  TryCounts tries;
-  std::vector<std::string> notices, reused;
-  StageRecords stages;
 
   std::size_t bytes() const;
 };
@@ -115,23 +117,33 @@ struct Attempt
   std::shared_ptr<const QuadAttempt> quads; ///< null: none were made
 };
 
-/// Adds what the surface's guides, valences and curves ask for.
-void addRequests(const PreparedSurface& surface, KeyMaker& key);
-
-/// What a plan asks of the levels. The plan is on the surface.
+/// What a plan asks of the levels.
 HierarchyOptions levelOptions(const RunContext& run, const Plan& plan);
 
-/// Levels, map, and map of the surface by the plan, which is put on the surface. allowance: work that the map of the
-/// coarse level may take; one that would take more is interrupted and has failed.
-std::shared_ptr<MapAttempt> makeMap(
-  RunContext& run, const Plan& plan, std::size_t allowance = WorkBound::kNoBound);
+/// Of all that a map depends on. surface, here and below: with the plan.
+ResultKey mapKey(const RunContext& run, const PlannedSurface& surface, const Plan& plan);
+/// The map of the store, as a run without one would make it, with its stages as reused; null where there is none.
+std::shared_ptr<MapAttempt> findMap(const RunContext& run, ResultKey key, std::size_t allowance);
+/// Whether the levels are those of the map: such that were made again may be others than those that a preview has left
+/// a map of.
+bool isMapOf(const MapAttempt& map, const Hierarchy& levels);
+/// Field, seamless map and integers on the coarse level. allowance: work that they may take; a map that would take more
+/// is interrupted and has failed.
+std::shared_ptr<MapAttempt> makeCoarseMap(RunContext& run, const PlannedSurface& surface,
+  const Hierarchy& levels, const Plan& plan, ResultKey key, std::size_t allowance);
+/// The map with status ok on the surface.
+void carryToSurface(
+  RunContext& run, const PlannedSurface& surface, const Hierarchy& levels, MapAttempt& made);
+/// In the store, if there is one.
+void keepMap(const RunContext& run, const Mesh& surface, MapAttempt& map);
 
-/// The quads of a map with status ok, whose plan is on the surface; the levels are let go.
-std::shared_ptr<const QuadAttempt> makeQuads(RunContext& run, const Plan& plan, MapAttempt& map);
+/// The quads of a map that was carried to the surface; the levels are let go.
+std::shared_ptr<const QuadAttempt> makeQuads(
+  RunContext& run, const PlannedSurface& surface, const Plan& plan, MapAttempt& map);
 
 /// The same on the intermediate level, for a preview.
 std::shared_ptr<const QuadAttempt> makePreview(
-  RunContext& run, const Plan& plan, const MapAttempt& map);
+  RunContext& run, const PlannedSurface& surface, const Plan& plan, const MapAttempt& map);
 
 /// Where quads of the coarse map touch themselves: round a small handle or a thin part, where a loop is one or two
 /// quads long, that shows on the coarse map already, and only smaller quads can help. None where this is not the cause

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Pipeline/DetailLimits.h"
+#include "Pipeline/DetailSteps.h"
 
 #include "Base/TryCount.h"
 #include "Details/SmallComponents.h"
@@ -29,50 +29,53 @@ constexpr double kLimitStep = 0.5;
 /// a tenth too short, and of four quads round a handle a map may leave two: then they touch themselves.
 constexpr double kLoopOfRest = 4;
 
-} // namespace
-
-DetailLimits::DetailLimits(double edgeLength, bool takesAll, bool isRest)
-  : edgeLength_(edgeLength), limit_(edgeLength * (takesAll ? kQuadsOfLoop : kSimplifiedLoop)),
-    handleLimit_(isRest ? kLoopOfRest * edgeLength : limit_)
+/// The short loops that are handles come first.
+std::vector<HandleLoop>::const_iterator endOfHandles(const ShortLoops& found)
 {
+  return found.loops.begin() + static_cast<std::ptrdiff_t>(found.parts.unresolvedHandles);
 }
 
-/// The short loops that are at least as long as the limit: all, or those of handles only.
-std::vector<HandleLoop> DetailLimits::loopsAbove(const RunContext& run, bool ofHandles) const
+/// Of these those that are at least as long.
+std::vector<HandleLoop> loopsAbove(double length, std::vector<HandleLoop>::const_iterator begin,
+  std::vector<HandleLoop>::const_iterator end)
 {
-  const ShortLoops& found = run.shortLoops;
-  const auto end = ofHandles
-    ? found.loops.begin() + static_cast<std::ptrdiff_t>(found.parts.unresolvedHandles)
-    : found.loops.end();
   std::vector<HandleLoop> loops;
-  std::copy_if(found.loops.begin(), end, std::back_inserter(loops),
-    [&](const HandleLoop& loop) { return loop.length >= (ofHandles ? handleLimit_ : limit_); });
+  std::copy_if(begin, end, std::back_inserter(loops),
+    [&](const HandleLoop& loop) { return loop.length >= length; });
   return loops;
 }
 
-void DetailLimits::raise(RunContext& run)
+} // namespace
+
+DetailLimits detailLimits(double edgeLength, bool takesAll, bool isRest)
 {
-  const double most = kQuadsOfLoop * edgeLength_;
-  const std::vector<HandleLoop> handles = loopsAbove(run, true);
+  const double limit = edgeLength * (takesAll ? kQuadsOfLoop : kSimplifiedLoop);
+  return { limit, isRest ? kLoopOfRest * edgeLength : limit };
+}
+
+bool raise(DetailLimits& limits, const RunContext& run)
+{
+  const ShortLoops& found = run.shortLoops;
+  const double most = kQuadsOfLoop * run.edgeLength;
+  std::size_t times = 0;
+  const std::vector<HandleLoop> handles =
+    loopsAbove(limits.handles, found.loops.begin(), endOfHandles(found));
   const double growth = handles.size() >= kManyHandles ? kMostGrowthOfMany : kMostGrowthOfSeveral;
   if (handles.size() >= kSeveralHandles && !resolvesLoops(run, handles, growth))
   {
-    handleLimit_ = most;
-    countTry(Try::RaisedLimit);
-    isRaised_ = true;
+    limits.handles = most;
+    ++times;
   }
-  while (limit_ < most && !resolvesLoops(run, loopsAbove(run, false)))
+  double& limit = limits.boundaryLoops;
+  while (
+    limit < most && !resolvesLoops(run, loopsAbove(limit, found.loops.begin(), found.loops.end())))
   {
-    limit_ = std::min(most, limit_ + kLimitStep * edgeLength_);
-    countTry(Try::RaisedLimit);
-    isRaised_ = true;
+    limit = std::min(most, limit + kLimitStep * run.edgeLength);
+    ++times;
   }
-  handleLimit_ = std::max(handleLimit_, limit_);
-}
-
-bool DetailLimits::takeRaised()
-{
-  return std::exchange(isRaised_, false);
+  limits.handles = std::max(limits.handles, limit);
+  countTry(Try::RaisedLimit, times);
+  return times > 0;
 }
 
 std::vector<HandleLoop> shortBoundaryLoops(
@@ -99,22 +102,20 @@ std::vector<HandleLoop> shortBoundaryLoops(
   return loops;
 }
 
-std::vector<HandleLoop> handlesBelow(RunContext& run, double edgeLength, double limit)
+std::vector<HandleLoop> handlesBelow(RunContext& run, double limit)
 {
-  if (limit > kQuadsOfLoop * edgeLength)
+  std::vector<HandleLoop> loops;
+  if (limit > kQuadsOfLoop * run.edgeLength)
   {
-    const Level& level = run.levels.makeIntermediate(levelOptions(run, {}));
-    std::vector<HandleLoop> loops = findHandles(level.mesh, limit).loops;
+    const Level& level = run.levels.makeIntermediate(run.surface, levelOptions(run, {}));
+    loops = findHandles(level.mesh, limit).loops;
     for (HandleLoop& loop : loops)
     {
       loop.vertices = onFinest(loop.vertices, level);
     }
     return loops;
   }
-  const ShortLoops& found = run.shortLoops;
-  std::vector<HandleLoop> loops;
-  std::copy_if(found.loops.begin(),
-    found.loops.begin() + static_cast<std::ptrdiff_t>(found.parts.unresolvedHandles),
+  std::copy_if(run.shortLoops.loops.cbegin(), endOfHandles(run.shortLoops),
     std::back_inserter(loops), [&](const HandleLoop& loop) { return loop.length < limit; });
   return loops;
 }

@@ -61,11 +61,16 @@ std::vector<T> onLevel(const Level& level, const std::vector<T>& values)
   return result;
 }
 
+std::string keptText(const std::string& why)
+{
+  return "final quality: the map of the coarse level was kept, as " + why;
+}
+
 std::string comparison(const char* what, double before, double after)
 {
   char text[128];
   std::snprintf(text, sizeof(text), "%s would have gone from %.4g to %.4g", what, before, after);
-  return std::string("final quality: the map of the coarse level was kept, as ") + text;
+  return keptText(text);
 }
 
 /// The quads of a map that are inverted at a corner.
@@ -75,110 +80,94 @@ struct InvertedQuads
   std::vector<Vector3> centres;
 };
 
-class Improvement
+InvertedQuads invertedQuadsOf(const PreparedSurface& surface, const std::vector<FixedVec2>& uv,
+  const FinalQualityOptions& options)
 {
-public:
-  Improvement(const PreparedSurface& surface, const std::vector<int>& turns,
-    const std::vector<std::uint8_t>& integerVertex, const CoarseMap& coarse,
-    const FinalQualityOptions& options, const SurfaceMap& carried)
-    : surface_(surface), turns_(turns), fixed_(integerVertex), coarse_(coarse), options_(options),
-      carried_(carried)
+  ExtractionOptions extraction;
+  extraction.maximumNumberOfQuads = options.maximumNumberOfQuads;
+  extraction.smoothingSteps = options.smoothingSteps;
+  extraction.fixedVertices = indexVertices(surface);
+  extraction.threads = options.threads;
+  const ExtractionResult quads = extractQuads(surface.mesh, uv, extraction);
+  InvertedQuads result;
+  result.valid = quads.status.ok();
+  for (const Index q : invertedQuads(quads.mesh.points, quads.mesh.quads))
   {
+    const std::array<Vector3, 4> p = cornersOf(quads.mesh.points, quads.mesh.quads[q]);
+    result.centres.push_back((p[0] + p[1] + p[2] + p[3]) / 4);
   }
+  return result;
+}
 
-  /// The map with the vertices fixed that are; not ok where it would take too much.
-  RelaxResult solve(std::vector<FixedVec2>& uv) const
+/// The vertices near these places keep what the carried map gives them. fixed: #V flags.
+void fixNear(const Mesh& mesh, const std::vector<Vector3>& places, double radius,
+  std::vector<std::uint8_t>& fixed)
+{
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
   {
-    return options_.level == FinalQuality::Input ? solveOnInput(uv) : solveOnIntermediate(uv);
-  }
-
-  InvertedQuads invertedQuadsOf(const std::vector<FixedVec2>& uv) const
-  {
-    if (carried_.certificate.fractionalTransitions > 0)
+    pollNowAndThen(v, 1024);
+    const auto isNear = [&](const Vector3& p)
+    { return (mesh.position[v] - p).squaredNorm() < radius * radius; };
+    if (fixed[v] == 0 && std::any_of(places.begin(), places.end(), isNear))
     {
-      return {}; // a seamless map without integers has none
-    }
-    ExtractionOptions extraction;
-    extraction.maximumNumberOfQuads = options_.maximumNumberOfQuads;
-    extraction.smoothingSteps = options_.smoothingSteps;
-    extraction.fixedVertices = indexVertices(surface_);
-    extraction.threads = options_.threads;
-    const ExtractionResult quads = extractQuads(surface_.mesh, uv, extraction);
-    InvertedQuads result;
-    result.valid = quads.status.ok();
-    for (const Index q : invertedQuads(quads.mesh.points, quads.mesh.quads))
-    {
-      const std::array<Vector3, 4> p = cornersOf(quads.mesh.points, quads.mesh.quads[q]);
-      result.centres.push_back((p[0] + p[1] + p[2] + p[3]) / 4);
-    }
-    return result;
-  }
-
-  /// The vertices near these places keep what the carried map gives them.
-  void fixNear(const std::vector<Vector3>& places, double radius)
-  {
-    for (Index v = 0; v < surface_.mesh.vertexCount(); ++v)
-    {
-      pollNowAndThen(v, 1024);
-      const auto isNear = [&](const Vector3& p)
-      { return (surface_.mesh.position[v] - p).squaredNorm() < radius * radius; };
-      if (fixed_[v] == 0 && std::any_of(places.begin(), places.end(), isNear))
-      {
-        fixed_[v] = 1;
-      }
+      fixed[v] = 1;
     }
   }
+}
 
-private:
-  RelaxOptions relaxOptions() const
+RelaxOptions relaxOptions(const FinalQualityOptions& options)
+{
+  RelaxOptions relax;
+  relax.maximumBytes = options.maximumBytes;
+  relax.threads = options.threads;
+  relax.progress = options.progress;
+  return relax;
+}
+
+/// uv: the carried map, before.
+RelaxResult solveOnInput(const PreparedSurface& surface, const std::vector<std::uint8_t>& fixed,
+  const FinalQualityOptions& options, std::vector<FixedVec2>& uv)
+{
+  RelaxOptions relax = relaxOptions(options);
+  relax.guides = guidesOf(surface, options.threads);
+  return relaxMap(surface.mesh, fixed, relax, uv);
+}
+
+RelaxResult solveOnIntermediate(const Mesh& mesh, const std::vector<int>& turns,
+  const std::vector<std::uint8_t>& fixed, const CoarseMap& coarse,
+  const FinalQualityOptions& options, std::vector<FixedVec2>& uv)
+{
+  const Level& level = coarse.hierarchy->intermediate;
+  const DecimationLog& log = coarse.hierarchy->log;
+  TransferOptions transfer;
+  transfer.threads = options.threads;
+  std::vector<FixedVec2> levelUv = transferToLevel(
+    coarse.hierarchy->coarse, level, log.intermediateRounds, log, *coarse.uv, transfer);
+  mendPatches(level.mesh, levelUv, onLevel(level, turns), options.threads, {});
+  RelaxOptions relax = relaxOptions(options);
+  relax.guides = level.guides;
+  RelaxResult result = relaxMap(level.mesh, onLevel(level, fixed), relax, levelUv);
+  if (result.status.ok())
   {
-    RelaxOptions relax;
-    relax.maximumBytes = options_.maximumBytes;
-    relax.threads = options_.threads;
-    relax.progress = options_.progress;
-    return relax;
+    uv = transferFromLevel(mesh, level, log.intermediateRounds, log, levelUv, turns, transfer).uv;
+    // The replay has put vertices into kernels once more, where their triangles are thin.
+    RelaxOptions local = relaxOptions(options);
+    local.maximumSteps = 0;
+    relaxMap(mesh, fixed, local, uv);
   }
+  return result;
+}
 
-  RelaxResult solveOnInput(std::vector<FixedVec2>& uv) const
+/// Why the map that was solved again does not count; empty where it may.
+std::string whyWorse(const Certificate& certificate, const MapDistortion& after,
+  const Certificate& carried, const MapDistortion& before)
+{
+  if (!noWorse(certificate, carried))
   {
-    uv = carried_.uv;
-    RelaxOptions relax = relaxOptions();
-    relax.guides = guidesOf(surface_, options_.threads);
-    return relaxMap(surface_.mesh, fixed_, relax, uv);
+    return keptText("the certificate would have become worse: " + certificate.text());
   }
-
-  RelaxResult solveOnIntermediate(std::vector<FixedVec2>& uv) const
-  {
-    const Level& level = coarse_.hierarchy->intermediate;
-    const DecimationLog& log = coarse_.hierarchy->log;
-    TransferOptions transfer;
-    transfer.threads = options_.threads;
-    std::vector<FixedVec2> levelUv = transferToLevel(
-      coarse_.hierarchy->coarse, level, log.intermediateRounds, log, *coarse_.uv, transfer);
-    mendPatches(level.mesh, levelUv, onLevel(level, turns_), options_.threads, {});
-    RelaxOptions relax = relaxOptions();
-    relax.guides = level.guides;
-    RelaxResult result = relaxMap(level.mesh, onLevel(level, fixed_), relax, levelUv);
-    if (result.status.ok())
-    {
-      uv = transferFromLevel(
-        surface_.mesh, level, log.intermediateRounds, log, levelUv, turns_, transfer)
-             .uv;
-      // The replay has put vertices into kernels once more, where their triangles are thin.
-      RelaxOptions local = relaxOptions();
-      local.maximumSteps = 0;
-      relaxMap(surface_.mesh, fixed_, local, uv);
-    }
-    return result;
-  }
-
-  const PreparedSurface& surface_;
-  const std::vector<int>& turns_;
-  std::vector<std::uint8_t> fixed_; ///< #V flags
-  const CoarseMap& coarse_;
-  const FinalQualityOptions& options_;
-  const SurfaceMap& carried_;
-};
+  return after.mean < before.mean ? "" : comparison("the distortion", before.mean, after.mean);
+}
 
 } // namespace
 
@@ -196,38 +185,36 @@ FinalQualityReport improveMap(const PreparedSurface& surface, const std::vector<
   report.elements = options.level == FinalQuality::Input
     ? surface.mesh.faceCount()
     : coarse.hierarchy->intermediate.mesh.faceCount();
-  Improvement improvement(surface, turns, integerVertex, coarse, options, map);
-  const InvertedQuads before = improvement.invertedQuadsOf(map.uv);
+  const bool isOnInput = options.level == FinalQuality::Input;
+  // A seamless map without integers has no quads.
+  const bool hasQuads = map.certificate.fractionalTransitions == 0;
+  const auto inverted = [&](const std::vector<FixedVec2>& uv)
+  { return hasQuads ? invertedQuadsOf(surface, uv, options) : InvertedQuads{}; };
+  const InvertedQuads before = inverted(map.uv);
+  std::vector<std::uint8_t> fixed = integerVertex;
   double radius = kFirstHold * options.edgeLength;
   for (int hold = 0;; ++hold)
   {
-    std::vector<FixedVec2> uv;
-    const RelaxResult relaxed = improvement.solve(uv);
+    std::vector<FixedVec2> uv = isOnInput ? map.uv : std::vector<FixedVec2>{};
+    const RelaxResult relaxed = isOnInput
+      ? solveOnInput(surface, fixed, options, uv)
+      : solveOnIntermediate(surface.mesh, turns, fixed, coarse, options, uv);
     report.steps += relaxed.steps;
     if (!relaxed.status.ok())
     {
-      report.notice =
-        "final quality: the map of the coarse level was kept, as " + relaxed.status.message;
+      report.notice = keptText(relaxed.status.message);
       return report;
     }
     const Certificate certificate =
       certify(surface.mesh, uv, turns, integerVertex, options.threads);
     const MapDistortion after = measureDistortion(surface.mesh, uv);
-    if (!noWorse(certificate, map.certificate))
+    report.notice = whyWorse(certificate, after, map.certificate, report.before);
+    if (!report.notice.empty())
     {
-      report.notice =
-        "final quality: the map of the coarse level was kept, as the certificate would "
-        "have become worse: " +
-        certificate.text();
       return report;
     }
-    if (!(after.mean < report.before.mean))
-    {
-      report.notice = comparison("the distortion", report.before.mean, after.mean);
-      return report;
-    }
-    const InvertedQuads inverted = improvement.invertedQuadsOf(uv);
-    if (inverted.valid >= before.valid && inverted.centres.size() <= before.centres.size())
+    const InvertedQuads made = inverted(uv);
+    if (made.valid >= before.valid && made.centres.size() <= before.centres.size())
     {
       report.improved = true;
       countTryLed(Try::CarriedMapHeld, hold > 0 ? 1 : 0);
@@ -235,14 +222,14 @@ FinalQualityReport improveMap(const PreparedSurface& surface, const std::vector<
       map = { std::move(uv), certificate };
       return report;
     }
-    if (inverted.valid < before.valid || hold == kMaximumHolds)
+    if (made.valid < before.valid || hold == kMaximumHolds)
     {
       report.notice = comparison("the number of quads that are turned over",
-        static_cast<double>(before.centres.size()), static_cast<double>(inverted.centres.size()));
+        static_cast<double>(before.centres.size()), static_cast<double>(made.centres.size()));
       return report;
     }
     // Large quads on creases and in pockets that are narrower than they are.
-    improvement.fixNear(inverted.centres, radius);
+    fixNear(surface.mesh, made.centres, radius, fixed);
     radius *= 2;
     ++report.holds;
     countTry(Try::CarriedMapHeld);

@@ -21,10 +21,10 @@ namespace
 constexpr double kQuadsOfShrunkLoop = 4;
 constexpr double kLeastShrink = 0.1;
 
-/// In the store.
-struct StoredFirstSizes
+/// Null: they would make too many quads.
+struct FirstSizes
 {
-  std::shared_ptr<const std::vector<float>> sizes; ///< null: they would make too many quads
+  std::shared_ptr<const std::vector<float>> sizes;
 };
 
 /// How many times as many quads smaller ones may make.
@@ -37,48 +37,37 @@ double mostGrowth(const RunContext& run)
           static_cast<double>(run.targetQuads));
 }
 
-/// Null where they would make too many quads.
-std::shared_ptr<const std::vector<float>> sizesAtLoops(
-  RunContext& run, const std::vector<HandleLoop>& loops)
+FirstSizes makeFirstSizes(const RunContext& run, const std::vector<HandleLoop>& loops)
 {
-  std::vector<float> sizes = run.surface.changedSizes(
-    [&](Mesh& mesh)
-    {
-      const std::vector<float> factor =
-        sizesOfLoops(loops, run.edgeLength, kLeastShrink, mesh.vertexCount());
-      mesh.sizing.resize(mesh.vertexCount(), 1.0F);
-      for (Index v = 0; v < mesh.vertexCount(); ++v)
-      {
-        mesh.sizing.edit()[v] *= factor[v];
-      }
-      limitSizeGrowth(mesh, run.edgeLength);
-    });
-  return run.surface.sizedArea(sizes) > mostGrowth(run) * run.surface.sizedArea()
-    ? nullptr
-    : std::make_shared<const std::vector<float>>(std::move(sizes));
+  Mesh mesh = run.surface->mesh;
+  const std::vector<float> factor =
+    sizesOfLoops(loops, run.edgeLength, kLeastShrink, mesh.vertexCount());
+  mesh.sizing.resize(mesh.vertexCount(), 1.0F);
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    mesh.sizing.edit()[v] *= factor[v];
+  }
+  limitSizeGrowth(mesh, run.edgeLength);
+  std::vector<float> sizes = mesh.sizing.take();
+  const bool areTooMany =
+    areaOverSizes(*run.surface, sizes) > mostGrowth(run) * areaOverSizes(*run.surface);
+  return { areTooMany ? nullptr : std::make_shared<const std::vector<float>>(std::move(sizes)) };
 }
 
 /// The same, from the store where it has them.
-std::shared_ptr<const std::vector<float>> knownSizesAtLoops(
-  RunContext& run, const std::vector<HandleLoop>& loops)
+std::shared_ptr<const std::vector<float>> sizesAtLoops(
+  const RunContext& run, const std::vector<HandleLoop>& loops)
 {
-  if (run.store == nullptr)
-  {
-    return sizesAtLoops(run, loops);
-  }
-  KeyMaker key(run.surface.key());
-  key.add(run.edgeLength).add(mostGrowth(run));
+  KeyMaker key(run.surface.key);
+  key.add(run.edgeLength, mostGrowth(run));
   for (const HandleLoop& loop : loops)
   {
-    key.add(loop.length).add(loop.vertices);
+    key.add(loop.length, loop.vertices);
   }
-  auto known = run.store->find<StoredFirstSizes>(key.key());
-  if (!known)
-  {
-    known = std::make_shared<StoredFirstSizes>(StoredFirstSizes{ sizesAtLoops(run, loops) });
-    run.store->put(key.key(), known, known->sizes ? bytesOf(*known->sizes) : 0);
-  }
-  return known->sizes;
+  return findOrMake<FirstSizes>(
+    run.store, key.key(), [&] { return makeFirstSizes(run, loops); },
+    [](const FirstSizes& made) { return made.sizes ? bytesOf(*made.sizes) : 0; })
+    ->sizes;
 }
 
 bool mayResolve(const RemeshOptions& options)
@@ -89,14 +78,14 @@ bool mayResolve(const RemeshOptions& options)
 
 } // namespace
 
-bool resolvesLoops(RunContext& run, const std::vector<HandleLoop>& loops, double most)
+bool resolvesLoops(const RunContext& run, const std::vector<HandleLoop>& loops, double most)
 {
   if (loops.empty())
   {
     return true;
   }
-  const auto sizes = mayResolve(run.options) ? knownSizesAtLoops(run, loops) : nullptr;
-  return sizes && run.surface.sizedArea(*sizes) <= most * run.surface.sizedArea();
+  const auto sizes = mayResolve(run.options) ? sizesAtLoops(run, loops) : nullptr;
+  return sizes && areaOverSizes(*run.surface, *sizes) <= most * areaOverSizes(*run.surface);
 }
 
 std::vector<float> sizesOfLoops(
@@ -133,12 +122,12 @@ Plan firstPlan(RunContext& run)
   {
     return plan;
   }
-  plan.sizes = knownSizesAtLoops(run, loops);
+  plan.sizes = sizesAtLoops(run, loops);
   if (!plan.sizes)
   {
     return plan;
   }
-  const double growth = run.surface.sizedArea(*plan.sizes) / run.surface.sizedArea();
+  const double growth = areaOverSizes(*run.surface, *plan.sizes) / areaOverSizes(*run.surface);
   if (growth > kMostGrowth)
   {
     // With the same number of quads all others would be so much larger that there were other short loops.

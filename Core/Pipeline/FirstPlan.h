@@ -21,7 +21,7 @@ Plan firstPlan(RunContext& run);
 
 /// Whether the first plan had smaller quads round these short loops; true where there is none. most: how many times as
 /// many quads they may make, beside the bound that the plan has.
-bool resolvesLoops(RunContext& run, const std::vector<HandleLoop>& loops,
+bool resolvesLoops(const RunContext& run, const std::vector<HandleLoop>& loops,
   double most = std::numeric_limits<double>::infinity());
 
 /// The number of quads that the map of a plan is scaled to. sizedArea: of the surface with the sizes of the plan; not

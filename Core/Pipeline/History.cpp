@@ -3,6 +3,7 @@
 #include "Pipeline/History.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace quadrille
@@ -20,13 +21,11 @@ void History::addMap(const Plan& plan, std::shared_ptr<MapAttempt> map)
   round_.push_back({ plan.step, map->coarseOffenders.size() });
   workOfLast_ = map->work + bound_.ofAttempt;
   work_ += workOfLast_;
-  all_.add(map->stages);
-  tries_.addTaken(map->tries);
+  take(*map);
   if (!plan.made.empty())
   {
-    ++tries_.taken[static_cast<std::size_t>(plan.made.back())];
+    ++all_.tries.taken[static_cast<std::size_t>(plan.made.back())];
   }
-  reused_.insert(reused_.end(), map->reused.begin(), map->reused.end());
   last_ = { plan, std::move(map), nullptr };
   if (!last_.map->status.ok())
   {
@@ -54,14 +53,19 @@ void History::addQuads(std::shared_ptr<const QuadAttempt> quads)
   }
   best_.quads = std::move(quads);
   last_ = best_;
-  all_.add(last_.quads->stages);
-  tries_.addTaken(last_.quads->tries);
-  reused_.insert(reused_.end(), last_.quads->reused.begin(), last_.quads->reused.end());
+  take(*last_.quads);
   if (last_.quads->status.ok() &&
     (!result_.quads || 2 * last_.quads->invertedQuads <= result_.quads->invertedQuads))
   {
     result_ = last_;
   }
+}
+
+void History::take(const AttemptLog& log)
+{
+  all_.stages.add(log.stages);
+  all_.tries.addTaken(log.tries);
+  all_.reused.insert(all_.reused.end(), log.reused.begin(), log.reused.end());
 }
 
 void History::packMaps(const Mesh& surface)
@@ -116,7 +120,7 @@ std::size_t History::offendersBefore() const
 
 TryCounts History::tries() const
 {
-  TryCounts all = tries_;
+  TryCounts all = all_.tries;
   if (!hasResult())
   {
     return all;
@@ -128,6 +132,12 @@ TryCounts History::tries() const
   all.addLed(result_.map->tries);
   all.addLed(result_.quads->tries);
   return all;
+}
+
+double History::seconds() const
+{
+  return std::accumulate(all_.stages.all().begin(), all_.stages.all().end(), 0.0,
+    [](double sum, const StageRecord& record) { return sum + record.seconds; });
 }
 
 StageRecords History::stages() const
@@ -144,7 +154,7 @@ StageRecords History::stages() const
   }
   StageRecords told;
   double others = 0;
-  for (const StageRecord& record : all_.all())
+  for (const StageRecord& record : all_.stages.all())
   {
     if (own.has(record.stage))
     {

@@ -32,7 +32,6 @@ public:
   /// Before another map takes its memory.
   void packMaps(const Mesh& surface);
 
-  bool isEmpty() const { return last_.map == nullptr; }
   const Attempt& last() const { return last_; }
   /// The best of the round, that is the one with the fewest defects, or the last one where none was carried to the
   /// surface.
@@ -68,8 +67,9 @@ public:
   /// Sizes of the result's stages, with the seconds of all attempts. Stages that only others have had are one,
   /// "retries".
   StageRecords stages() const;
+  double seconds() const; ///< of all attempts
   /// Stages that some attempt has taken over.
-  const std::vector<std::string>& reused() const { return reused_; }
+  const std::vector<std::string>& reused() const { return all_.reused; }
   /// Stages that the result has computed from an earlier map.
   std::vector<std::string> started() const
   {
@@ -77,6 +77,9 @@ public:
   }
 
 private:
+  bool hasSomething() const { return result_.quads != nullptr || roundHasMap(); }
+  void take(const AttemptLog& log);
+
   struct Summary
   {
     std::string step;
@@ -88,10 +91,7 @@ private:
   bool roundIsOver_ = true;
   std::vector<Summary> round_;
   std::vector<std::string> steps_;
-  StageRecords all_;
-  TryCounts tries_; ///< taken
-  std::vector<std::string> reused_;
-  bool hasSomething() const { return result_.quads != nullptr || roundHasMap(); }
+  AttemptLog all_; ///< without notices; tries: taken
 
   WorkBound bound_;
   std::size_t work_ = 0;

@@ -18,60 +18,6 @@ constexpr double kPlaceRounding = 1e-12;
 
 using Weights = std::array<double, 3>;
 
-Vector3 between(const Mesh& mesh, Index f, const Weights& weights)
-{
-  return weights[0] * mesh.position[mesh.origin[3 * f]] +
-    weights[1] * mesh.position[mesh.origin[3 * f + 1]] +
-    weights[2] * mesh.position[mesh.origin[3 * f + 2]];
-}
-
-/// Where a point of the quads lies on the user's surface. positionOf: of the vertex at a corner of the mapped mesh.
-template <typename PositionOf>
-class PlaceOnSurface
-{
-public:
-  PlaceOnSurface(const Mesh& mapped, const Frame& frame, const PositionOf& positionOf)
-    : mapped_(mapped), frame_(frame), positionOf_(positionOf)
-  {
-  }
-
-  Vector3 operator()(const Vector3& point, Index f, const Weights& weights) const
-  {
-    if ((between(mapped_, f, weights) - point).cwiseAbs().maxCoeff() > kPlaceRounding)
-    {
-      return frame_.toUser(point); // the point is not on its face
-    }
-    Vector3 place = Vector3::Zero();
-    for (Index i = 0; i < 3; ++i)
-    {
-      Vector3 corner = positionOf_(3 * f + i);
-      if (weights[i] == 1)
-      {
-        return corner;
-      }
-      place += weights[i] * (corner - frame_.centre);
-    }
-    return frame_.centre + place;
-  }
-
-private:
-  const Mesh& mapped_;
-  const Frame& frame_;
-  const PositionOf& positionOf_;
-};
-
-template <typename PositionOf>
-void leaveFrameAt(
-  QuadMesh& quads, const Mesh& mapped, const Frame& frame, const PositionOf& positionOf)
-{
-  const PlaceOnSurface<PositionOf> place(mapped, frame, positionOf);
-  for (std::size_t p = 0; p < quads.points.size(); ++p)
-  {
-    pollNowAndThen(p);
-    quads.points[p] = place(quads.points[p], quads.sourceFace[p], quads.sourceWeights[p]);
-  }
-}
-
 void reverseQuads(QuadMesh& quads)
 {
   for (std::array<Index, 4>& quad : quads.quads)
@@ -95,6 +41,46 @@ void reverseQuads(QuadMesh& quads)
   {
     std::swap(line.a, line.b);
     line.halfEdge = line.halfEdge == kInvalidIndex ? kInvalidIndex : reversedEdge(line.halfEdge);
+  }
+}
+
+/// Puts points of the quads where they lie on the user's surface. positionOf: of the vertex at a corner of the mapped
+/// mesh.
+template <typename PositionOf>
+void leaveFrameAt(
+  QuadMesh& quads, const Mesh& mapped, const Frame& frame, const PositionOf& positionOf)
+{
+  for (std::size_t p = 0; p < quads.points.size(); ++p)
+  {
+    pollNowAndThen(p);
+    const Index h = 3 * quads.sourceFace[p];
+    const Weights& weights = quads.sourceWeights[p];
+    Vector3& point = quads.points[p];
+    const Vector3 between = weights[0] * mapped.position[mapped.origin[h]] +
+      weights[1] * mapped.position[mapped.origin[h + 1]] +
+      weights[2] * mapped.position[mapped.origin[h + 2]];
+    const auto corner = std::find(weights.begin(), weights.end(), 1.0);
+    if ((between - point).cwiseAbs().maxCoeff() > kPlaceRounding)
+    {
+      point = frame.toUser(point); // it is not on its face
+    }
+    else if (corner != weights.end())
+    {
+      point = positionOf(h + static_cast<Index>(corner - weights.begin()));
+    }
+    else
+    {
+      Vector3 place = Vector3::Zero();
+      for (Index i = 0; i < 3; ++i)
+      {
+        place += weights[i] * (positionOf(h + i) - frame.centre);
+      }
+      point = frame.centre + place;
+    }
+  }
+  if (frame.reversed)
+  {
+    reverseQuads(quads);
   }
 }
 
@@ -158,10 +144,6 @@ void leaveFrame(
   QuadMesh& quads, const Mesh& mapped, const Frame& frame, const std::vector<Vector3>& positions)
 {
   leaveFrameAt(quads, mapped, frame, [&](Index h) { return positions[mapped.origin[h]]; });
-  if (frame.reversed)
-  {
-    reverseQuads(quads);
-  }
 }
 
 void reverseMap(std::vector<FixedVec2>& uv)
@@ -243,10 +225,6 @@ void leaveFrame(RemeshResult& result, const PreparedSurface& made, const Frame& 
   leaveMeasures(result, frame);
   leaveFrameAt(
     result.quads, made.mesh, frame, [&](Index h) { return userPosition(made, h, frame, points); });
-  if (frame.reversed)
-  {
-    reverseQuads(result.quads);
-  }
 }
 
 void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vector3>& points,
@@ -260,10 +238,6 @@ void leaveFrame(RemeshResult& result, const Frame& frame, const std::vector<Vect
   PreparedSurface& surface = result.surface;
   leaveFrameAt(result.quads, surface.mesh, frame,
     [&](Index h) { return userPosition(surface, h, frame, points); });
-  if (frame.reversed)
-  {
-    reverseQuads(result.quads);
-  }
   if (keepsPositions)
   {
     putUserPositions(surface, frame, points, threads);

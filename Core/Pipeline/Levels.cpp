@@ -13,31 +13,26 @@ namespace
 {
 
 /// Of what phase 2 depends on.
-ResultKey phase2Key(const HierarchyOptions& options)
+ResultKey phase2Key(ResultKey surface, const HierarchyOptions& options)
 {
-  KeyMaker key;
-  key.add(options.keepVertices).add(std::uint64_t{ options.coarseVertices });
+  KeyMaker key(surface);
+  key.add(options.keepVertices, options.coarseVertices, options.cost);
   for (const FaceGuide& guide : options.guides)
   {
-    key.add(std::uint64_t{ guide.face }).add(double{ guide.guide.weight });
-    for (int i = 0; i < 3; ++i)
-    {
-      key.add(guide.guide.direction[i]);
-    }
+    key.add(guide.face, guide.guide.weight, guide.guide.direction);
   }
-  return key.add(static_cast<std::uint64_t>(options.cost)).add(std::uint64_t{ 1 }).key();
+  return key.key();
 }
 
-/// Of phase 1 without anything that is to be kept.
-ResultKey keyOfPlain(ResultKey surface, double edgeLength)
+/// Of phase 1 without anything that is to be kept; that of levels that have followed is another one.
+ResultKey keyOfPlain(ResultKey surface, double edgeLength, bool hasFollowed)
 {
-  return KeyMaker(surface).add(edgeLength).key();
+  return KeyMaker(surface).add(edgeLength, hasFollowed).key();
 }
 
-/// Of levels that have followed.
-ResultKey keyOfFollowed(ResultKey surface, double edgeLength)
+bool isPlain(const PlannedSurface& surface, const HierarchyOptions& options)
 {
-  return KeyMaker(keyOfPlain(surface, edgeLength)).add(std::uint64_t{ 1 }).key();
+  return isLocalChange(surface->mesh, surface.sizesBefore, options.keepVertices.size());
 }
 
 } // namespace
@@ -48,8 +43,6 @@ std::size_t StoredLevels::bytes() const
   return hierarchy.log.recordBytes() + hierarchy.cache.bytes + bytesOf(hierarchy.coarse.mesh) +
     2 * bytesOf(hierarchy.intermediate.mesh) + levels->bytesAside();
 }
-
-Levels::Levels(RunSurface& surface, ResultStore* store) : surface_(surface), store_(store) {}
 
 bool Levels::recall(ResultKey wanted)
 {
@@ -70,62 +63,56 @@ bool Levels::recall(ResultKey wanted)
   return true;
 }
 
-void Levels::decimate(const Mesh& mesh, const HierarchyOptions& options, ResultKey key)
+void Levels::decimate(
+  const PlannedSurface& surface, const Mesh& mesh, const HierarchyOptions& options, ResultKey key)
 {
   letGo(); // before the new ones take their memory
   ++decimations_;
-  auto made = std::make_shared<StoredLevels>();
-  made->levels = std::make_unique<Redecimation>(mesh, surface_->hash, options);
-  releaseFreedMemory();
-  held_ = std::move(made);
+  held_ = std::make_shared<StoredLevels>();
+  held_->levels = std::make_unique<Redecimation>(mesh, surface->hash, options);
   heldKey_ = key;
+  releaseFreedMemory();
   const Hierarchy& hierarchy = held_->levels->hierarchy();
-  stages_.add("phase1", hierarchy.secondsPhase1, surface_->mesh.faceCount(),
-    hierarchy.intermediate.mesh.faceCount());
+  stages_.add(
+    "phase1", hierarchy.secondsPhase1, mesh.faceCount(), hierarchy.intermediate.mesh.faceCount());
 }
 
 /// Phase 1, of the surface without the sizes of the plan, and without what the plan keeps; with them, where they are
 /// not few.
-void Levels::obtain(const HierarchyOptions& options)
+void Levels::obtain(const PlannedSurface& surface, const HierarchyOptions& options)
 {
   stages_ = {};
-  HierarchyOptions phase1 = options;
-  if (hasFollowed_ && (!isPlain(options) || plainKey(options) != heldKey_))
+  const bool plain = isPlain(surface, options);
+  if (hasFollowed_ && (!plain || plainKey(surface, options) != heldKey_))
   {
     letGo();
   }
-  if (!isPlain(options))
+  const ResultKey key = plain
+    ? plainKey(surface, options)
+    : KeyMaker(surface.key).add(options.targetEdgeLength, options.keepVertices).key();
+  if (recall(key))
   {
-    const ResultKey key =
-      KeyMaker(surface_.key()).add(options.targetEdgeLength).add(options.keepVertices).key();
-    if (!recall(key))
-    {
-      decimate(surface_->mesh, phase1, key);
-    }
     return;
   }
-  const ResultKey key = plainKey(options);
-  if (!recall(key))
+  HierarchyOptions phase1 = options;
+  Mesh mesh = surface->mesh;
+  if (plain)
   {
     phase1.keepVertices.clear();
-    decimate(surface_.meshWithSizesBefore(), phase1, key);
+    mesh.sizing = surface.sizesBefore;
   }
+  decimate(surface, mesh, phase1, key);
 }
 
-bool Levels::isPlain(const HierarchyOptions& options) const
+ResultKey Levels::plainKey(const PlannedSurface& surface, const HierarchyOptions& options) const
 {
-  return isLocalChange(surface_->mesh, surface_.sizesBefore(), options.keepVertices.size());
+  return keyOfPlain(surface.keyWithoutSizes, options.targetEdgeLength, hasFollowed_);
 }
 
-ResultKey Levels::plainKey(const HierarchyOptions& options) const
+std::unique_ptr<Redecimation> Levels::giveToFollow(
+  const PlannedSurface& surface, const HierarchyOptions& options)
 {
-  return (hasFollowed_ ? keyOfFollowed : keyOfPlain)(
-    surface_.keyWithoutSizes(), options.targetEdgeLength);
-}
-
-std::unique_ptr<Redecimation> Levels::giveToFollow(const HierarchyOptions& options)
-{
-  if (!held_ || !isPlain(options) || heldKey_ != plainKey(options))
+  if (!held_ || !isPlain(surface, options) || heldKey_ != plainKey(surface, options))
   {
     return nullptr;
   }
@@ -134,45 +121,38 @@ std::unique_ptr<Redecimation> Levels::giveToFollow(const HierarchyOptions& optio
   return levels;
 }
 
-void Levels::follow(std::unique_ptr<Redecimation> levels, const HierarchyOptions& options)
+void Levels::follow(std::shared_ptr<StoredLevels> followed, bool isStored,
+  const PlannedSurface& surface, const HierarchyOptions& options)
 {
-  auto stored = std::make_shared<StoredLevels>();
-  stored->levels = std::move(levels);
   hasFollowed_ = true;
-  held_ = std::move(stored);
-  heldKey_ = plainKey(options);
+  recalled_ = recalled_ || isStored;
+  held_ = std::move(followed);
+  heldKey_ = plainKey(surface, options);
 }
 
 std::shared_ptr<StoredLevels> Levels::findFollowed(
   ResultStore& store, ResultKey surfaceKey, double edgeLength)
 {
   std::shared_ptr<StoredLevels> found =
-    store.find<StoredLevels>(keyOfFollowed(surfaceKey, edgeLength));
+    store.find<StoredLevels>(keyOfPlain(surfaceKey, edgeLength, true));
   return found && found->levels ? found : nullptr;
 }
 
-void Levels::follow(std::shared_ptr<StoredLevels> found, const HierarchyOptions& options)
+const Level& Levels::makeIntermediate(
+  const PlannedSurface& surface, const HierarchyOptions& options)
 {
-  hasFollowed_ = true;
-  recalled_ = true;
-  held_ = std::move(found);
-  heldKey_ = plainKey(options);
-}
-
-const Level& Levels::makeIntermediate(const HierarchyOptions& options)
-{
-  obtain(options);
+  obtain(surface, options);
   return held_->levels->intermediateOfPhase1();
 }
 
-const Hierarchy& Levels::make(const HierarchyOptions& options)
+const Hierarchy& Levels::make(const PlannedSurface& surface, const HierarchyOptions& options)
 {
-  obtain(options);
-  const ResultKey wanted = KeyMaker(surface_.key()).add(phase2Key(options)).key();
+  obtain(surface, options);
+  const ResultKey wanted = phase2Key(surface.key, options);
   if (held_->made != wanted)
   {
     held_->made = 0; // what is stopped on the way is not made
-    held_->levels->setSizes(surface_->mesh.sizing);
+    held_->levels->setSizes(surface->mesh.sizing);
     const Hierarchy& hierarchy = held_->levels->update(options);
     if (!hierarchy.coarse.guides.empty())
     {
@@ -188,6 +168,12 @@ const Hierarchy& Levels::make(const HierarchyOptions& options)
 
 Hierarchy Levels::take()
 {
+  if (store_ != nullptr)
+  {
+    Hierarchy copy = hierarchy();
+    letGo();
+    return copy;
+  }
   Hierarchy taken = held_->levels->take();
   held_.reset();
   return taken;

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "Hierarchy/Hierarchy.h"
+#include "Pipeline/PlannedSurface.h"
 #include "Pipeline/ResultStore.h"
-#include "Pipeline/RunSurface.h"
 #include "Pipeline/StageRecords.h"
 
 #include <memory>
@@ -29,35 +29,35 @@ class Levels
 {
 public:
   /// store: null: none.
-  Levels(RunSurface& surface, ResultStore* store);
+  explicit Levels(ResultStore* store) : store_(store) {}
   ~Levels() { letGo(); }
-  Levels(const Levels&) = delete;
-  Levels& operator=(const Levels&) = delete;
+  Levels(Levels&&) = default;
+  Levels& operator=(Levels&&) = delete;
 
-  /// The intermediate level of the surface as it is now, as phase 1 leaves it whatever is to be kept. Valid until the
-  /// next call.
-  const Level& makeIntermediate(const HierarchyOptions& options);
-  /// Both levels of the surface as it is now.
-  const Hierarchy& make(const HierarchyOptions& options);
+  /// The intermediate level, as phase 1 leaves it whatever is to be kept. Valid until the next call.
+  const Level& makeIntermediate(const PlannedSurface& surface, const HierarchyOptions& options);
+  /// All three levels.
+  const Hierarchy& make(const PlannedSurface& surface, const HierarchyOptions& options);
   /// What was made last.
   const Hierarchy& hierarchy() const { return held_->levels->hierarchy(); }
-  bool has() const { return held_ != nullptr; }
   /// To the store, where there is one.
   void letGo();
-  /// Gives away what was made last; not where there is a store.
+  /// What was made last, which goes to the store, too, where there is one.
   Hierarchy take();
 
   /// Levels that have followed a change by which the surface was made (Redecimation::follow) are others than those that
   /// phase 1 makes of it. So that it does not matter what a store still has, they count only until they are let go.
   /// Gives the levels of the surface without a plan away, from before a change; null where others are held.
-  std::unique_ptr<Redecimation> giveToFollow(const HierarchyOptions& options);
-  /// Takes them back, of a surface that has followed. options: those of makeIntermediate.
-  void follow(std::unique_ptr<Redecimation> levels, const HierarchyOptions& options);
+  std::unique_ptr<Redecimation> giveToFollow(
+    const PlannedSurface& surface, const HierarchyOptions& options);
+  /// Takes them back, of a surface that has followed. options: those of makeIntermediate. isStored: whether they are
+  /// from the store.
+  void follow(std::shared_ptr<StoredLevels> followed, bool isStored, const PlannedSurface& surface,
+    const HierarchyOptions& options);
   bool hasFollowed() const { return hasFollowed_; }
-  /// The same from the store, which has them; null there where it has not.
+  /// The same from the store; null where it has none.
   static std::shared_ptr<StoredLevels> findFollowed(
     ResultStore& store, ResultKey surfaceKey, double edgeLength);
-  void follow(std::shared_ptr<StoredLevels> found, const HierarchyOptions& options);
 
   int decimations() const { return decimations_; } ///< runs of phase 1
   bool recalled() const { return recalled_; }      ///< whether phase 1 was in the store
@@ -65,13 +65,12 @@ public:
   const StageRecords& stages() const { return stages_; }
 
 private:
-  void obtain(const HierarchyOptions& options);
-  bool isPlain(const HierarchyOptions& options) const;
-  ResultKey plainKey(const HierarchyOptions& options) const;
+  void obtain(const PlannedSurface& surface, const HierarchyOptions& options);
+  ResultKey plainKey(const PlannedSurface& surface, const HierarchyOptions& options) const;
   bool recall(ResultKey wanted);
-  void decimate(const Mesh& mesh, const HierarchyOptions& options, ResultKey key);
+  void decimate(const PlannedSurface& surface, const Mesh& mesh, const HierarchyOptions& options,
+    ResultKey key);
 
-  RunSurface& surface_;
   ResultStore* store_;
   std::shared_ptr<StoredLevels> held_;
   ResultKey heldKey_ = 0;

@@ -69,13 +69,13 @@ std::vector<Index> ringsRound(
 }
 
 /// Whether features leave coarse triangles no area, and so many others are inverted that no few vertices will mend it.
-bool isMatterOfFeatures(const RunContext& run, const Attempt& attempt)
+bool isMatterOfFeatures(const Trouble& trouble)
 {
-  const std::vector<Vector3>& places = attempt.map->coarseTroubles;
-  return leavesNoArea(*attempt.map) &&
-    (!featuresNear(run, attempt.plan, places).empty() ||
-      (attempt.plan.borderDrops > 0 &&
-        !yieldingFeaturesNear(run.surface->mesh, places, run.edgeLength).empty()));
+  const std::vector<Vector3>& places = trouble.attempt.map->coarseTroubles;
+  return leavesNoArea(*trouble.attempt.map) &&
+    (!featuresNear(trouble, places).empty() ||
+      (trouble.attempt.plan.borderDrops > 0 &&
+        !yieldingFeaturesNear(trouble.surface->mesh, places, trouble.run.edgeLength).empty()));
 }
 
 } // namespace
@@ -96,16 +96,15 @@ std::optional<Plan> moreFreedom(const Trouble& trouble)
   {
     return std::nullopt;
   }
-  RunContext& run = trouble.run;
-  run.surface.apply(last.plan);
-  if (isMatterOfFeatures(run, last) ||
+  if (isMatterOfFeatures(trouble) ||
     (offenders == 0 &&
       static_cast<double>(last.map->work) >
         kCheapFailure * static_cast<double>(history.bound().work)))
   {
     return std::nullopt;
   }
-  const Hierarchy& levels = run.levels.make(levelOptions(run, last.plan));
+  RunContext& run = trouble.run;
+  const Hierarchy& levels = run.levels.make(trouble.surface, levelOptions(run, last.plan));
   const Index coarse = levels.coarse.mesh.vertexCount();
   Plan plan = last.plan;
   if (coarse == levels.intermediate.mesh.vertexCount())
@@ -117,7 +116,7 @@ std::optional<Plan> moreFreedom(const Trouble& trouble)
   }
   const std::size_t before = plan.levels.keptVertices.size();
   keepAlso(
-    ringsRound(levels.intermediate, last.map->coarseOffenders, run.surface->mesh.vertexCount()),
+    ringsRound(levels.intermediate, last.map->coarseOffenders, trouble.surface->mesh.vertexCount()),
     plan);
   const std::size_t added = plan.levels.keptVertices.size() - before;
   plan.levels.coarseVertices =
@@ -133,7 +132,6 @@ std::optional<Plan> moreFreedom(const Trouble& trouble)
 std::optional<Plan> keptOffenders(const Trouble& trouble)
 {
   const History& history = trouble.history;
-  const RunContext& run = trouble.run;
   const std::size_t times = history.inRound("kept offenders");
   if (!history.lastIsBest() || times == trouble.bound)
   {
@@ -143,15 +141,15 @@ std::optional<Plan> keptOffenders(const Trouble& trouble)
   const std::vector<Index>& offenders = map.transfer.offenders;
   const Index coarse = map.coarse.mesh.vertexCount();
   // With offenders everywhere it is not a matter of a few places, and the coarse level would grow out of hand.
-  if (hasPromised(map.certificate, run.options.method) || offenders.empty() ||
+  if (hasPromised(map.certificate, trouble.run.options.method) || offenders.empty() ||
     offenders.size() > coarse / 2)
   {
     return std::nullopt;
   }
   // The last time is left out where features can be given up: what keeping vertices did not mend once is theirs.
   const bool isLast = times + 1 == trouble.bound;
-  const std::vector<Vector3> places = positionsOf(run.surface->mesh, offenders);
-  if (isLast && !featuresNear(run, history.last().plan, places).empty())
+  const std::vector<Vector3> places = positionsOf(trouble.surface->mesh, offenders);
+  if (isLast && !featuresNear(trouble, places).empty())
   {
     return std::nullopt;
   }
@@ -175,12 +173,11 @@ std::optional<Plan> roomForCurves(const Trouble& trouble)
     return std::nullopt;
   }
   RunContext& run = trouble.run;
-  run.surface.apply(history.last().plan);
-  const Hierarchy& levels = run.levels.make(levelOptions(run, history.last().plan));
   Plan plan = history.last().plan;
+  const Hierarchy& levels = run.levels.make(trouble.surface, levelOptions(run, plan));
   const std::size_t before = plan.levels.keptVertices.size();
   keepAlso(
-    ringsRound(levels.intermediate, map.curveOffenders, run.surface->mesh.vertexCount()), plan);
+    ringsRound(levels.intermediate, map.curveOffenders, trouble.surface->mesh.vertexCount()), plan);
   plan.levels.coarseVertices =
     levels.coarse.mesh.vertexCount() + static_cast<Index>(plan.levels.keptVertices.size() - before);
   return plan;

@@ -5,7 +5,9 @@
 #include "Base/PlaceText.h"
 #include "Quads/QuadShape.h"
 
+#include <algorithm>
 #include <iomanip>
+#include <iterator>
 #include <sstream>
 
 namespace quadrille
@@ -26,6 +28,12 @@ void append(std::string& text, std::size_t count, const char* one, const char* m
 }
 
 } // namespace
+
+void tell(const std::vector<std::string>& texts, std::vector<std::string>& notices)
+{
+  std::copy_if(texts.begin(), texts.end(), std::back_inserter(notices),
+    [](const std::string& text) { return !text.empty(); });
+}
 
 std::string featureNotice(const FeatureFilterReport& report)
 {

@@ -9,9 +9,13 @@
 #include "GridMap/GridMap.h"
 
 #include <string>
+#include <vector>
 
 namespace quadrille
 {
+
+/// Adds those that are not empty.
+void tell(const std::vector<std::string>& texts, std::vector<std::string>& notices);
 
 /// Features that the edge length cannot resolve.
 std::string featureNotice(const FeatureFilterReport& report);

@@ -5,21 +5,17 @@
 
 #include "Base/Error.h"
 #include "Base/TryCount.h"
-#include "Extraction/Extraction.h"
 #include "Features/GivenUpFeatures.h"
-#include "GridMap/GridMap.h"
-#include "Hierarchy/Hierarchy.h"
 #include "Mesh/Surface.h"
 #include "Pipeline/Estimate.h"
-#include "Pipeline/FinalQuality.h"
 #include "Pipeline/Options.h"
 #include "Pipeline/ResultStore.h"
+#include "Pipeline/RunMap.h"
 #include "Pipeline/SmallDetails.h"
 #include "Pipeline/SmallParts.h"
 #include "Pipeline/StageRecords.h"
 #include "Prepare/Frame.h"
 #include "Transfer/Charts.h"
-#include "Transfer/Transfer.h"
 
 #include <memory>
 #include <string>
@@ -28,13 +24,16 @@
 namespace quadrille
 {
 
+/// The map is that of the attempt that counts; quads of a preview are without all that tells of the
+/// mapped mesh, which is then missing.
 struct RemeshResult
+  : RunMap
+  , RunQuads
 {
   Status status;
   /// Where the callback asked to stop and there were quads by then, which are the result with status ok: what was still
   /// being tried. Another run may end with others, so who remembers results must not take it for the final one.
   std::string stopped;
-  QuadMesh quads; ///< of a preview without all that tells of the mapped mesh, which is then missing
   PreparedSurface
     surface; ///< the finest level that uv belongs to; its hash is that of the surface in its frame
   Frame frame; ///< that the run worked in; all else here is on the user's surface
@@ -42,23 +41,10 @@ struct RemeshResult
   std::shared_ptr<const PreparedSurface> framed;
   /// #V of surface.mesh, in the frame; empty unless mergeCharts, or where mapIsKnown.
   SharedArray<Vector3> framePositions;
-  std::vector<FixedVec2> uv; ///< #H of surface.mesh
   /// Of uv and the surface that it belongs to: where it is the same, they are, but for warm starts.
   ResultKey mapKey = 0;
   bool mapIsKnown = false; ///< whether it is that of RemeshOptions::knownMap
-  std::vector<int> turns;  ///< #V of surface.mesh
-  /// Ends, corners and bends of features and boundaries, ascending by vertex of surface.mesh.
-  std::vector<SectorRequest> onFeatures;
-  Level coarse; ///< coarse mesh
-  std::vector<FixedVec2>
-    coarseUv;                    ///< #H of coarse.mesh; also when the status is not ok, for a look
-  std::vector<int> coarseTurns;  ///< #V of coarse.mesh
-  Certificate coarseCertificate; ///< of the coarse map
-  Certificate certificate;       ///< of the map on the input surface
-  ChartCounts charts;            ///< of uv; zero unless mergeCharts, or where mapIsKnown
-  TransferResult transfer;       ///< counts only, uv is moved out
-  ExtractionCounts extraction;   ///< what the map on the surface made necessary
-  FinalQualityReport finalQuality; ///< zero unless asked for
+  ChartCounts charts;      ///< of uv; zero unless mergeCharts, or where mapIsKnown
   /// The share of the coarse level's area whose ratio of stretches is above the limit; 0 without limit.
   double beyondAnisotropyLimit = 0;
   SmallParts smallParts;
@@ -71,8 +57,6 @@ struct RemeshResult
   /// What was tried otherwise, in whatever stage, and how often what was tried is used by this result (see
   /// Base/TryCount.h). What a run takes over from an earlier one below its maps is not counted again.
   TryCounts tries;
-  /// What became of the input's curves, in their order; vertices are those of the coarse mesh.
-  std::vector<CurveOutcome> curves;
   std::vector<StageRecord> stages; ///< see StageRecords; seconds are sums over all attempts
   /// Names of the stages that no attempt has computed, as the store had their results, and of those that started from
   /// an earlier map.

@@ -7,8 +7,6 @@
 #include "Base/TryCount.h"
 #include "Base/Types.h"
 #include "Features/FeatureNetwork.h"
-#include "Pipeline/ResultStore.h"
-#include "Requests/Guides.h"
 
 #include <cstddef>
 #include <memory>
@@ -63,7 +61,7 @@ struct Plan
   /// could not do without, so that another round need not find that out again.
   LevelPlan nextLevels;
 
-  // Of the surface, see RunSurface.
+  // Of the surface, see withPlan.
   std::shared_ptr<const std::vector<float>> sizes;           ///< #V; null: those of the surface
   std::shared_ptr<const std::vector<Index>> featuresGivenUp; ///< half-edges; null: none
   /// Borders of patches that other edges stand for; null: none.
@@ -77,11 +75,6 @@ struct Plan
 
   std::vector<std::string> notices; ///< what the user should know of the choices
   std::string borderNotice;         ///< of all borders of patches that are given up
-
-  /// Of sizes and features.
-  ResultKey surfaceKey() const;
-  /// Of the rest that a map depends on.
-  ResultKey levelsKey() const;
 };
 
 } // namespace quadrille

@@ -36,45 +36,40 @@ FinalQualityOptions finalQualityOptions(const RunContext& run)
 
 /// Why the map is not solved again, though that was asked for; empty where it can be. The levels are made for it where
 /// they are needed.
-std::string hindrance(RunContext& run, const Plan& plan, const MapAttempt& map)
+std::string hindrance(
+  RunContext& run, const PlannedSurface& surface, const Plan& plan, const MapAttempt& map)
 {
   if (run.options.method != MapMethod::ScaleAware && !map.certificate.valid())
   {
     return std::string("that by the method '") + nameOf(run.options.method) +
       "' is no integer-grid map to begin with";
   }
-  if (run.options.finalQuality == FinalQuality::Intermediate)
-  {
-    run.levels.make(levelOptions(run, plan));
-    if (run.levels.hierarchy().coarse.fineVertex != map.coarse.fineVertex)
-    {
-      // Levels that the store has kept from another run are nearly the same only.
-      return "its decimation is not there any more";
-    }
-  }
-  return {};
+  const bool isThere = run.options.finalQuality != FinalQuality::Intermediate ||
+    isMapOf(map, run.levels.make(surface, levelOptions(run, plan)));
+  return isThere ? "" : "its decimation is not there any more";
 }
 
 /// On request: the same integers, solved again on a finer level.
-void improve(RunContext& run, const Plan& plan, MapAttempt& map, QuadAttempt& made)
+void improve(RunContext& run, const PlannedSurface& surface, const Plan& plan, MapAttempt& map,
+  QuadAttempt& made)
 {
   if (run.options.finalQuality == FinalQuality::Coarse)
   {
     return;
   }
   const double start = secondsNow();
-  const std::string why = hindrance(run, plan, map);
+  const std::string why = hindrance(run, surface, plan, map);
   if (!why.empty())
   {
     made.notices.push_back("final quality: the map of the coarse level was kept, as " + why);
     return;
   }
   const bool byLevels = run.options.finalQuality == FinalQuality::Intermediate;
-  const Mesh& mesh = run.surface->mesh;
+  const Mesh& mesh = surface->mesh;
   SurfaceMap improved{ std::move(map.uv), map.certificate };
   const CoarseMap coarse{ byLevels ? &run.levels.hierarchy() : nullptr, &map.coarseUv };
-  made.finalQuality = improveMap(
-    *run.surface, map.turns, map.integerVertex, coarse, finalQualityOptions(run), improved);
+  made.finalQuality =
+    improveMap(*surface, map.turns, map.integerVertex, coarse, finalQualityOptions(run), improved);
   map.uv = std::move(improved.uv);
   if (made.finalQuality.improved)
   {
@@ -82,10 +77,7 @@ void improve(RunContext& run, const Plan& plan, MapAttempt& map, QuadAttempt& ma
     made.uv = PackedMap(mesh, map.uv);
     made.certificate = improved.certificate;
   }
-  if (!made.finalQuality.notice.empty())
-  {
-    made.notices.push_back(made.finalQuality.notice);
-  }
+  tell({ made.finalQuality.notice }, made.notices);
   made.stages.add("optimize", secondsNow() - start, made.finalQuality.elements, mesh.faceCount());
 }
 
@@ -153,24 +145,25 @@ void countInverted(const RunContext& run, const MapAttempt& map, QuadAttempt& ma
     });
 }
 
-/// Of the surface as it is now, whatever its sizes are.
-std::shared_ptr<const SurfaceShape> shapeOfSurface(const RunContext& run)
+/// certificate: of the map that the quads are made of. Returns how many quads there are, also where they are not valid.
+std::size_t extract(const RunContext& run, const Mesh& mesh, const std::vector<FixedVec2>& uv,
+  ExtractionOptions options, const Certificate& certificate, QuadAttempt& made)
 {
-  const ResultKey key = run.surface.keyWithoutSizes();
-  std::shared_ptr<SurfaceShape> shape =
-    run.store != nullptr ? run.store->find<SurfaceShape>(key) : nullptr;
-  if (!shape)
+  options.maximumNumberOfQuads = run.options.maximumNumberOfQuads;
+  options.threads = run.options.threads;
+  ExtractionResult extracted = extractQuads(mesh, uv, options);
+  if (!extracted.status.ok())
   {
-    shape = std::make_shared<SurfaceShape>(shapeOf(run.surface->mesh, run.options.threads));
-    if (run.store != nullptr)
-    {
-      run.store->put(key, shape, sizeof(SurfaceShape));
-    }
+    made.status = failureOf(extracted.status, run.options.method, certificate);
+    return extracted.mesh.quads.size();
   }
-  return shape;
+  made.extraction = extracted;
+  made.quads = std::move(extracted.mesh);
+  return made.quads.quads.size();
 }
 
-void extract(RunContext& run, const MapAttempt& map, QuadAttempt& made)
+void extractOnSurface(
+  const RunContext& run, const PlannedSurface& surface, const MapAttempt& map, QuadAttempt& made)
 {
   if (run.options.method == MapMethod::Seamless)
   {
@@ -179,34 +172,41 @@ void extract(RunContext& run, const MapAttempt& map, QuadAttempt& made)
     return;
   }
   const double start = secondsNow();
-  const Mesh& mesh = run.surface->mesh;
+  const Mesh& mesh = surface->mesh;
+  const std::shared_ptr<const SurfaceShape> shape = findOrMake<SurfaceShape>(
+    run.store, surface.keyWithoutSizes, [&] { return shapeOf(mesh, run.options.threads); },
+    [](const SurfaceShape&) { return sizeof(SurfaceShape); });
   ExtractionOptions options;
-  options.maximumNumberOfQuads = run.options.maximumNumberOfQuads;
   options.smoothingSteps = run.options.smoothingSteps;
-  options.fixedVertices = indexVertices(*run.surface);
+  options.fixedVertices = indexVertices(*surface);
   options.mapIsCertified = map.certificate.valid();
-  const std::shared_ptr<const SurfaceShape> shape = shapeOfSurface(run);
   options.shape = shape.get();
-  options.threads = run.options.threads;
   options.progress = subProgress(run.options.progress, 0.9, 1.0, "Extracting: ");
-  ExtractionResult extracted = extractQuads(mesh, map.uv, options);
-  made.stages.add("extract", secondsNow() - start, mesh.faceCount(), extracted.mesh.quads.size());
-  if (!extracted.status.ok())
+  const std::size_t quads = extract(run, mesh, map.uv, options, map.certificate, made);
+  made.stages.add("extract", secondsNow() - start, mesh.faceCount(), quads);
+  if (made.status.ok())
   {
-    made.status = failureOf(extracted.status, run.options.method, map.certificate);
-    return;
+    tell(
+      { mapNotice(mesh, map.certificate), missedValencesText(*surface, made.quads) }, made.notices);
+    countInverted(run, map, made);
   }
-  made.extraction = extracted;
-  made.quads = std::move(extracted.mesh);
-  for (const std::string& notice :
-    { mapNotice(mesh, map.certificate), missedValencesText(*run.surface, made.quads) })
+}
+
+/// From the store; null where it has none that this run may take.
+std::shared_ptr<const QuadAttempt> findQuads(RunContext& run, ResultKey key, MapAttempt& map)
+{
+  const auto found = findIn<QuadAttempt>(run.store, key);
+  if (!found || found->quads.quads.size() > run.options.maximumNumberOfQuads)
   {
-    if (!notice.empty())
-    {
-      made.notices.push_back(notice);
-    }
+    return nullptr;
   }
-  countInverted(run, map, made);
+  if (found->uv)
+  {
+    map.uv.clear();
+    map.packed = *found->uv;
+    map.certificate = *found->certificate;
+  }
+  return asReused(*found, {});
 }
 
 } // namespace
@@ -217,41 +217,26 @@ std::size_t QuadAttempt::bytes() const
     bytesOf(quads.sourceWeights) + (uv ? uv->bytes() : 0);
 }
 
-std::shared_ptr<const QuadAttempt> makeQuads(RunContext& run, const Plan& plan, MapAttempt& map)
+std::shared_ptr<const QuadAttempt> makeQuads(
+  RunContext& run, const PlannedSurface& surface, const Plan& plan, MapAttempt& map)
 {
-  const Mesh& mesh = run.surface->mesh;
-  const ResultKey key = KeyMaker(map.key)
-                          .add(static_cast<std::uint64_t>(run.options.smoothingSteps))
-                          .add(static_cast<std::uint64_t>(run.options.finalQuality))
-                          .key();
-  const auto found = run.store != nullptr ? run.store->find<QuadAttempt>(key) : nullptr;
-  if (found && found->quads.quads.size() <= run.options.maximumNumberOfQuads)
+  const ResultKey key =
+    KeyMaker(map.key).add(run.options.smoothingSteps, run.options.finalQuality).key();
+  if (const auto known = findQuads(run, key, map))
   {
-    if (found->uv)
-    {
-      map.uv.clear();
-      map.packed = *found->uv;
-      map.certificate = *found->certificate;
-    }
     run.levels.letGo();
-    auto reused = std::make_shared<QuadAttempt>(*found);
-    for (const StageRecord& record : found->stages.all())
-    {
-      reused->reused.push_back(record.stage);
-    }
-    reused->stages = {};
-    return reused;
+    return known;
   }
   if (run.options.finalQuality != FinalQuality::Intermediate)
   {
     run.levels.letGo(); // before the map takes their memory
   }
-  map.unpack(mesh);
+  map.unpack(surface->mesh);
   const TryScope tries;
   auto made = std::make_shared<QuadAttempt>();
-  improve(run, plan, map, *made);
+  improve(run, surface, plan, map, *made);
   run.levels.letGo();
-  extract(run, map, *made);
+  extractOnSurface(run, surface, map, *made);
   made->tries = tries.counts();
   // What a limit of this run has kept from being made is not remembered.
   const bool limited = made->status.code == StatusCode::TooLarge ||
@@ -265,33 +250,22 @@ std::shared_ptr<const QuadAttempt> makeQuads(RunContext& run, const Plan& plan, 
 }
 
 std::shared_ptr<const QuadAttempt> makePreview(
-  RunContext& run, const Plan& plan, const MapAttempt& map)
+  RunContext& run, const PlannedSurface& surface, const Plan& plan, const MapAttempt& map)
 {
   auto made = std::make_shared<QuadAttempt>();
-  const Hierarchy& levels = run.levels.make(levelOptions(run, plan));
+  const Hierarchy& levels = run.levels.make(surface, levelOptions(run, plan));
   const double start = secondsNow();
+  const Mesh& mesh = levels.intermediate.mesh;
   TransferOptions transfer;
   transfer.spare = &run.spare;
   transfer.threads = run.options.threads;
   const std::vector<FixedVec2> uv = transferToLevel(map.coarse, levels.intermediate,
     levels.log.intermediateRounds, levels.log, map.coarseUv, transfer);
   ExtractionOptions options;
-  options.maximumNumberOfQuads = run.options.maximumNumberOfQuads;
   options.smoothingSteps = 0;
-  options.threads = run.options.threads;
-  ExtractionResult extracted = extractQuads(levels.intermediate.mesh, uv, options);
-  made->stages.add("preview", secondsNow() - start, levels.intermediate.mesh.faceCount(),
-    extracted.mesh.quads.size());
+  const std::size_t quads = extract(run, mesh, uv, options, map.coarseCertificate, *made);
+  made->stages.add("preview", secondsNow() - start, mesh.faceCount(), quads);
   run.levels.letGo();
-  if (extracted.status.ok())
-  {
-    made->extraction = extracted;
-    made->quads = std::move(extracted.mesh);
-  }
-  else
-  {
-    made->status = failureOf(extracted.status, run.options.method, map.coarseCertificate);
-  }
   return made;
 }
 

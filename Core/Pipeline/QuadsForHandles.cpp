@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Pipeline/QuadsForHandles.h"
+#include "Pipeline/DetailSteps.h"
 
 #include "Base/PlaceText.h"
 #include "Details/SmallComponents.h"

@@ -4,6 +4,7 @@
 
 #include "Pipeline/Strategies.h"
 
+#include <algorithm>
 #include <array>
 
 namespace quadrille
@@ -91,7 +92,9 @@ std::optional<Plan> nextMapPlan(RunContext& run, const History& history)
   {
     return std::nullopt;
   }
-  Trouble trouble{ run, history, history.last(), {}, true, {}, 0 };
+  const Attempt& attempt = history.last();
+  Trouble trouble{ run, history, attempt, withPlan(run.surface, attempt.plan, run.options.threads),
+    {}, true, {}, 0 };
   return firstOffer(kForMaps, trouble);
 }
 
@@ -105,8 +108,8 @@ std::optional<Plan> nextPlan(RunContext& run, const History& history, bool isLas
   {
     return std::nullopt;
   }
-  run.surface.apply(attempt.plan);
-  Trouble trouble{ run, history, attempt, {}, !hasQuads, {}, 0 };
+  Trouble trouble{ run, history, attempt, withPlan(run.surface, attempt.plan, run.options.threads),
+    {}, !hasQuads, {}, 0 };
   trouble.places = mapped ? positionsOf(run.surface->mesh, attempt.map->transfer.offenders)
                           : attempt.map->coarseTroubles;
   if (trouble.failed)
@@ -121,22 +124,21 @@ std::optional<Plan> nextPlan(RunContext& run, const History& history, bool isLas
   return plan || !isLast || history.hasResult() ? plan : firstOffer(kLastResort, trouble);
 }
 
+bool isLastResort(const Plan& plan)
+{
+  return std::any_of(kLastResort.begin(), kLastResort.end(),
+    [&](const Strategy& strategy)
+    { return !plan.made.empty() && plan.made.back() == strategy.which; });
+}
+
 std::vector<std::string> recoverySteps()
 {
   std::vector<std::string> names;
-  names.reserve(kForMaps.size() + kForRounds.size());
-  for (const Strategy& strategy : kForMaps)
-  {
-    names.emplace_back(tryRow(strategy.which).name);
-  }
-  for (const Strategy& strategy : kForRounds)
-  {
-    names.emplace_back(tryRow(strategy.which).name);
-  }
-  for (const Strategy& strategy : kLastResort)
-  {
-    names.emplace_back(tryRow(strategy.which).name);
-  }
+  const auto add = [&](const Strategy& strategy)
+  { names.emplace_back(tryRow(strategy.which).name); };
+  std::for_each(kForMaps.begin(), kForMaps.end(), add);
+  std::for_each(kForRounds.begin(), kForRounds.end(), add);
+  std::for_each(kLastResort.begin(), kLastResort.end(), add);
   return names;
 }
 

@@ -22,6 +22,9 @@ std::optional<Plan> nextMapPlan(RunContext& run, const History& history);
 /// there are no quads, so that the last resort is tried, too, whatever the work.
 std::optional<Plan> nextPlan(RunContext& run, const History& history, bool isLast = true);
 
+/// Whether the plan is one of those that are made where nothing else is left.
+bool isLastResort(const Plan& plan);
+
 /// Of the plans of a run, the names of the steps that made them, in the order in which they are tried.
 std::vector<std::string> recoverySteps();
 

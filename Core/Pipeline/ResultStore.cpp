@@ -6,7 +6,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstring>
 
 namespace quadrille
@@ -18,23 +17,22 @@ constexpr std::size_t kShareOfMachine = 4;
 
 } // namespace
 
-KeyMaker& KeyMaker::add(std::uint64_t value)
+void KeyMaker::addBits(std::uint64_t value)
 {
   key_ = combineHashes(key_, value);
-  return *this;
 }
 
-KeyMaker& KeyMaker::add(double value)
+void KeyMaker::addNumber(double value)
 {
   std::uint64_t bits = 0;
   static_assert(sizeof(bits) == sizeof(value));
   std::memcpy(&bits, &value, sizeof(bits));
-  return add(bits);
+  addBits(bits);
 }
 
-KeyMaker& KeyMaker::addBytes(const void* bytes, std::size_t count)
+void KeyMaker::addBytes(const void* bytes, std::size_t count)
 {
-  return add(contentHash(bytes, count, 1));
+  addBits(contentHash(bytes, count, 1));
 }
 
 std::size_t ResultStore::bytesOfMachine()
@@ -50,12 +48,6 @@ ResultStore::ResultStore(std::size_t maximumBytes)
 {
 }
 
-void ResultStore::setMaximumBytes(std::size_t bytes)
-{
-  maximumBytes_ = bytes > 0 ? bytes : bytesOfMachine() / kShareOfMachine;
-  shrinkTo(maximumBytes_);
-}
-
 void ResultStore::clear()
 {
   entries_.clear();
@@ -67,7 +59,7 @@ void ResultStore::putEntry(const Name& name, std::shared_ptr<void> value, std::s
   Entry& entry = entries_[name];
   bytes_ += bytes - entry.bytes;
   entry = { std::move(value), bytes, ++uses_ };
-  shrinkTo(maximumBytes_);
+  shrink();
 }
 
 std::shared_ptr<void> ResultStore::findEntry(const Name& name)
@@ -81,30 +73,9 @@ std::shared_ptr<void> ResultStore::findEntry(const Name& name)
   return found->second.value;
 }
 
-std::vector<std::shared_ptr<void>> ResultStore::allOf(std::type_index type) const
+void ResultStore::shrink()
 {
-  std::vector<std::pair<std::uint64_t, std::shared_ptr<void>>> found;
-  for (const auto& [name, entry] : entries_)
-  {
-    if (name.first == type)
-    {
-      found.emplace_back(entry.lastUse, entry.value);
-    }
-  }
-  std::sort(
-    found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::vector<std::shared_ptr<void>> values;
-  values.reserve(found.size());
-  for (auto& [use, value] : found)
-  {
-    values.push_back(std::move(value));
-  }
-  return values;
-}
-
-void ResultStore::shrinkTo(std::size_t bytes)
-{
-  while (bytes_ > bytes)
+  while (bytes_ > maximumBytes_)
   {
     auto oldest = entries_.end();
     for (auto at = entries_.begin(); at != entries_.end(); ++at)

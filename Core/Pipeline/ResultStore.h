@@ -4,10 +4,13 @@
 /// the keys: an edit is answered from the first stage whose key it changes, and one that is taken back is a look-up.
 #pragma once
 
+#include "Base/Types.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <type_traits>
 #include <typeindex>
 #include <utility>
 #include <vector>
@@ -23,18 +26,39 @@ class KeyMaker
 {
 public:
   explicit KeyMaker(ResultKey first = 0) : key_(first) {}
-  KeyMaker& add(std::uint64_t value);
-  KeyMaker& add(double value);
-  /// Plain numbers, with how many they are.
-  template <typename T>
-  KeyMaker& add(const std::vector<T>& values)
+  /// Numbers, enumerators, vectors of space, and arrays of plain numbers with how many they are.
+  template <typename... Values>
+  KeyMaker& add(const Values&... values)
   {
-    return addBytes(values.data(), values.size() * sizeof(T));
+    (addValue(values), ...);
+    return *this;
   }
   ResultKey key() const { return key_; }
 
 private:
-  KeyMaker& addBytes(const void* bytes, std::size_t count);
+  template <typename Value>
+  void addValue(const Value& value)
+  {
+    if constexpr (std::is_floating_point_v<Value>)
+    {
+      addNumber(value);
+    }
+    else if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>)
+    {
+      addBits(static_cast<std::uint64_t>(value));
+    }
+    else if constexpr (std::is_same_v<Value, Vector3>)
+    {
+      add(value[0], value[1], value[2]);
+    }
+    else
+    {
+      addBytes(value.data(), value.size() * sizeof(*value.data()));
+    }
+  }
+  void addBits(std::uint64_t value);
+  void addNumber(double value);
+  void addBytes(const void* bytes, std::size_t count);
 
   ResultKey key_;
 };
@@ -53,9 +77,6 @@ public:
   static std::size_t bytesOfMachine();
 
   std::size_t bytes() const { return bytes_; }
-  std::size_t maximumBytes() const { return maximumBytes_; }
-  /// Lets go what is beyond.
-  void setMaximumBytes(std::size_t bytes);
   void clear();
 
   template <typename T>
@@ -69,19 +90,6 @@ public:
   {
     return std::static_pointer_cast<T>(findEntry({ std::type_index(typeid(T)), key }));
   }
-  /// All of a type, the last used one first.
-  template <typename T>
-  std::vector<std::shared_ptr<T>> all() const
-  {
-    std::vector<std::shared_ptr<T>> values;
-    for (const std::shared_ptr<void>& value : allOf(std::type_index(typeid(T))))
-    {
-      values.push_back(std::static_pointer_cast<T>(value));
-    }
-    return values;
-  }
-  /// Lets go what is used least until no more than so many bytes are held, or the rest is in use.
-  void shrinkTo(std::size_t bytes);
 
 private:
   using Name = std::pair<std::type_index, ResultKey>;
@@ -94,13 +102,38 @@ private:
 
   void putEntry(const Name& name, std::shared_ptr<void> value, std::size_t bytes);
   std::shared_ptr<void> findEntry(const Name& name);
-  std::vector<std::shared_ptr<void>> allOf(std::type_index type) const;
+  /// Lets go what is used least until no more is held than may be, or the rest is in use.
+  void shrink();
 
   std::map<Name, Entry> entries_;
   std::size_t maximumBytes_;
   std::size_t bytes_ = 0;
   std::uint64_t uses_ = 0;
 };
+
+/// What the store has under the key; null where it has none, or there is no store.
+template <typename T>
+std::shared_ptr<T> findIn(ResultStore* store, ResultKey key)
+{
+  return store != nullptr ? store->find<T>(key) : nullptr;
+}
+
+/// The same, made where there is none, and then put into the store, if any. bytes: of what was made.
+template <typename T, typename Make, typename Bytes>
+std::shared_ptr<T> findOrMake(
+  ResultStore* store, ResultKey key, const Make& make, const Bytes& bytes)
+{
+  std::shared_ptr<T> found = findIn<T>(store, key);
+  if (!found)
+  {
+    found = std::make_shared<T>(make());
+    if (store != nullptr)
+    {
+      store->put(key, found, bytes(*found));
+    }
+  }
+  return found;
+}
 
 /// Bytes that a vector or a shared array has taken.
 template <typename Array, typename Value = typename Array::value_type>

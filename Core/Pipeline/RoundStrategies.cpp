@@ -92,13 +92,6 @@ std::string nearText(const std::vector<Vector3>& places)
   return " near " + placeText(places.front()) + (places.size() > 1 ? " and other places" : "");
 }
 
-/// Whether a limit of the user stands in the way, which features have no part in.
-bool isTooLarge(const Attempt& attempt)
-{
-  return attempt.map->status.code == StatusCode::TooLarge ||
-    (attempt.quads && attempt.quads->status.code == StatusCode::TooLarge);
-}
-
 /// Where an earlier round has quads, of which some are inverted, a finer grid would cost more than it gives.
 bool asksForFinerGrid(const Trouble& trouble)
 {
@@ -156,9 +149,8 @@ void giveUp(const std::vector<Index>& features, Plan& plan)
 
 /// Features that quads so many times as large as they are to be cannot resolve, where those that yield count as
 /// detected ones.
-std::vector<Index> unresolvedWithBorders(const RunContext& run, double times)
+std::vector<Index> unresolvedWithBorders(const RunContext& run, Mesh mesh, double times)
 {
-  Mesh mesh = run.surface->mesh;
   for (std::uint8_t& flags : mesh.flags.editAll())
   {
     flags &= (flags & kYieldingFeature) != 0 ? static_cast<std::uint8_t>(~kRequestedFeature) : 0xFF;
@@ -171,15 +163,14 @@ std::vector<Index> unresolvedWithBorders(const RunContext& run, double times)
 }
 
 /// Junctions of borders that are too near to each other for quads become one; null where there are none.
-std::shared_ptr<const MovedFeatures> mergedJunctions(const RunContext& run)
+std::shared_ptr<const MovedFeatures> mergedJunctions(Mesh mesh, double edgeLength)
 {
   constexpr int mostRounds = 4;
-  Mesh mesh = run.surface->mesh;
   const std::vector<std::uint8_t> before = mesh.flags;
   auto all = std::make_shared<MovedFeatures>();
   for (int round = 0; round < mostRounds; ++round)
   {
-    const MovedFeatures moved = mergeNearJunctions(mesh, run.edgeLength);
+    const MovedFeatures moved = mergeNearJunctions(mesh, edgeLength);
     if (moved.junctions == 0)
     {
       break;
@@ -210,9 +201,8 @@ std::string mergedNotice(const MovedFeatures& moved)
 }
 
 /// All borders of patches that a plan gives up, in a sentence.
-std::string borderNotice(const RunContext& run, const Plan& plan)
+std::string borderNotice(const RunContext& run, const Mesh& mesh, const Plan& plan)
 {
-  const Mesh& mesh = run.surface->mesh;
   std::vector<Index> borders;
   for (const Index h : *plan.featuresGivenUp)
   {
@@ -271,18 +261,24 @@ std::vector<Index> allOf(const Mesh& mesh, bool (*isOne)(const Mesh&, Index))
 
 } // namespace
 
-std::vector<Index> featuresNear(
-  const RunContext& run, const Plan& plan, const std::vector<Vector3>& places)
+bool isTooLarge(const Attempt& attempt)
 {
-  const double radius = kFirstFeatureDrop * run.edgeLength * std::pow(2.0, plan.featureDrops);
-  return static_cast<std::size_t>(plan.featureDrops) < kMostFeatureDrops
-    ? detectedFeaturesNear(run.surface->mesh, places, radius)
+  return attempt.map->status.code == StatusCode::TooLarge ||
+    (attempt.quads && attempt.quads->status.code == StatusCode::TooLarge);
+}
+
+std::vector<Index> featuresNear(const Trouble& trouble, const std::vector<Vector3>& places)
+{
+  const int drops = trouble.attempt.plan.featureDrops;
+  return static_cast<std::size_t>(drops) < kMostFeatureDrops
+    ? detectedFeaturesNear(trouble.surface->mesh, places,
+        kFirstFeatureDrop * trouble.run.edgeLength * std::pow(2.0, drops))
     : std::vector<Index>{};
 }
 
 std::optional<Plan> smallerQuadsNear(const Trouble& trouble)
 {
-  RunContext& run = trouble.run;
+  const RunContext& run = trouble.run;
   Plan plan = newRound(trouble.attempt.plan);
   FinerGrid& finer = plan.finer;
   // A map with other sizes has other places where quads only just fit, so their number need not fall each time.
@@ -296,26 +292,24 @@ std::optional<Plan> smallerQuadsNear(const Trouble& trouble)
   if (finer.shrinks++ == 0)
   {
     finer.sizesBefore = plan.sizes;
-    finer.areaBefore = run.surface.sizedArea();
+    finer.areaBefore = areaOverSizes(*trouble.surface);
     finer.firstTroubles = *trouble.grid;
     const std::vector<Vector3>& hopeless = run.shortLoops.hopelessPlaces;
     places.insert(places.end(), hopeless.begin(), hopeless.end());
   }
   finer.defects = trouble.grid->defects;
   const std::vector<HandleLoop> loops = loopsNear(run, trouble.grid->places);
-  plan.sizes = std::make_shared<const std::vector<float>>(run.surface.changedSizes(
-    [&](Mesh& mesh)
-    {
-      scaleSizesNear(mesh, places, kShrinkRadius * run.edgeLength, kShrink);
-      const std::vector<float> fitting =
-        sizesOfLoops(loops, run.edgeLength, kLeastSizeOfLoop, mesh.vertexCount());
-      for (Index v = 0; v < mesh.vertexCount(); ++v)
-      {
-        mesh.sizing.edit()[v] = std::min(mesh.sizing[v], fitting[v]);
-      }
-      limitSizeGrowth(mesh, run.edgeLength);
-    }));
-  const double area = run.surface.sizedArea(*plan.sizes);
+  Mesh mesh = trouble.surface->mesh;
+  scaleSizesNear(mesh, places, kShrinkRadius * run.edgeLength, kShrink);
+  const std::vector<float> fitting =
+    sizesOfLoops(loops, run.edgeLength, kLeastSizeOfLoop, mesh.vertexCount());
+  for (Index v = 0; v < mesh.vertexCount(); ++v)
+  {
+    mesh.sizing.edit()[v] = std::min(mesh.sizing[v], fitting[v]);
+  }
+  limitSizeGrowth(mesh, run.edgeLength);
+  plan.sizes = std::make_shared<const std::vector<float>>(mesh.sizing.take());
+  const double area = areaOverSizes(*trouble.surface, *plan.sizes);
   if (area > kMostGrowth * finer.areaBefore)
   {
     return std::nullopt;
@@ -332,7 +326,7 @@ std::optional<Plan> smallerQuadsNear(const Trouble& trouble)
 
 std::optional<Plan> moreQuads(const Trouble& trouble)
 {
-  RunContext& run = trouble.run;
+  const RunContext& run = trouble.run;
   Plan plan = newRound(withoutShrinks(trouble.attempt.plan));
   FinerGrid& finer = plan.finer;
   // The first time after sizes were tried it is their beginning that counts.
@@ -362,7 +356,7 @@ std::optional<Plan> moreQuads(const Trouble& trouble)
 
 std::optional<Plan> fewerFeatures(const Trouble& trouble)
 {
-  RunContext& run = trouble.run;
+  const RunContext& run = trouble.run;
   const Attempt& attempt = trouble.attempt;
   std::vector<Vector3> places = trouble.places;
   Plan plan = newRound(attempt.plan);
@@ -376,7 +370,7 @@ std::optional<Plan> fewerFeatures(const Trouble& trouble)
     plan.finer = {};
     plan.quads = quadsFor(run, plan, 0);
   }
-  const std::vector<Index> features = featuresNear(run, plan, places);
+  const std::vector<Index> features = featuresNear(trouble, places);
   if (isTooLarge(attempt) || features.empty())
   {
     return std::nullopt;
@@ -396,10 +390,10 @@ std::optional<Plan> fewerBorders(const Trouble& trouble)
 }
 
 std::optional<Plan> withFewerBorders(
-  RunContext& run, const Plan& before, const std::vector<Vector3>& places)
+  const RunContext& run, const Plan& before, const std::vector<Vector3>& places)
 {
-  run.surface.apply(before);
-  const Mesh& mesh = run.surface->mesh;
+  const PlannedSurface surface = withPlan(run.surface, before, run.options.threads);
+  const Mesh& mesh = surface->mesh;
   if (allOf(mesh, isYieldingFeature).empty())
   {
     return std::nullopt;
@@ -408,7 +402,7 @@ std::optional<Plan> withFewerBorders(
   while (static_cast<std::size_t>(plan.borderDrops) < kBorderSteps.size())
   {
     const BorderStep& step = kBorderSteps[static_cast<std::size_t>(plan.borderDrops++)];
-    if (step.way == BorderStep::Way::Merge && (plan.moved = mergedJunctions(run)))
+    if (step.way == BorderStep::Way::Merge && (plan.moved = mergedJunctions(mesh, run.edgeLength)))
     {
       plan.notices.push_back(mergedNotice(*plan.moved));
       return plan;
@@ -416,7 +410,7 @@ std::optional<Plan> withFewerBorders(
     std::vector<Index> features;
     if (step.way == BorderStep::Way::Unresolved)
     {
-      features = unresolvedWithBorders(run, step.size);
+      features = unresolvedWithBorders(run, mesh, step.size);
     }
     else if (step.way == BorderStep::Way::Near && !places.empty())
     {
@@ -428,17 +422,17 @@ std::optional<Plan> withFewerBorders(
     if (!features.empty())
     {
       giveUp(features, plan);
-      plan.borderNotice = borderNotice(run, plan);
+      plan.borderNotice = borderNotice(run, mesh, plan);
       return plan;
     }
   }
   return std::nullopt;
 }
 
-std::optional<Plan> withoutFeatures(RunContext& run, const Plan& before)
+std::optional<Plan> withoutFeatures(const RunContext& run, const Plan& before)
 {
-  run.surface.apply(before);
-  const std::vector<Index> features = allOf(run.surface->mesh, isDetectedFeature);
+  const PlannedSurface surface = withPlan(run.surface, before, run.options.threads);
+  const std::vector<Index> features = allOf(surface->mesh, isDetectedFeature);
   if (features.empty())
   {
     return std::nullopt;
@@ -455,27 +449,28 @@ std::optional<Plan> withoutFeatures(RunContext& run, const Plan& before)
 
 std::optional<Plan> noBorders(const Trouble& trouble)
 {
-  RunContext& run = trouble.run;
+  const RunContext& run = trouble.run;
+  const Mesh& mesh = trouble.surface->mesh;
   const Plan& before = trouble.attempt.plan;
-  const std::vector<Index> all = allOf(run.surface->mesh, isYieldingFeature);
+  const std::vector<Index> all = allOf(mesh, isYieldingFeature);
   if (all.empty() || isTooLarge(trouble.attempt) || before.borderDrops == 0)
   {
     return std::nullopt;
   }
   const std::vector<Index> some = static_cast<std::size_t>(before.borderDrops) <= kMostBorderDrops
-    ? unresolvedWithBorders(run, kLastBorderSize)
+    ? unresolvedWithBorders(run, mesh, kLastBorderSize)
     : std::vector<Index>{};
   Plan plan = fromTheBeginning(run, before);
   plan.borderDrops = static_cast<int>(kMostBorderDrops) + 1;
   giveUp(some.empty() ? all : some, plan);
-  plan.borderNotice = borderNotice(run, plan);
+  plan.borderNotice = borderNotice(run, mesh, plan);
   return plan;
 }
 
 std::optional<Plan> noFeatures(const Trouble& trouble)
 {
   const std::vector<std::string>& steps = trouble.history.steps();
-  const auto times = std::count(steps.begin(), steps.end(), kNoFeatures);
+  const auto times = std::count(steps.begin(), steps.end(), tryRow(Try::NoFeatures).name);
   return static_cast<std::size_t>(times) >= trouble.bound || isTooLarge(trouble.attempt)
     ? std::nullopt
     : withoutFeatures(trouble.run, trouble.attempt.plan);

@@ -11,19 +11,20 @@
 #include "Pipeline/SizedSurface.h"
 #include "Prepare/Frame.h"
 
-#include <cstddef>
 #include <functional>
 
 namespace quadrille
 {
 
-/// What a run does once there is the memory for it. triangles: of the input; places: to be set to the frame.
+/// What a run does once there is the memory for it. store: null also where there is no room for both it and the run;
+/// places: to be set to the frame.
 using RunBody = std::function<void(
-  const RemeshOptions& options, std::size_t triangles, PlaceScope& places, RemeshResult& result)>;
+  const RemeshOptions& options, ResultStore* store, PlaceScope& places, RemeshResult& result)>;
 
 /// Checks the options, estimates the cost, and calls `run` where there is the memory for it. A stop on request before
 /// there are quads is the status Cancelled. Throws InvalidInput.
-RemeshResult guardedRun(const SurfaceInput& input, RemeshOptions options, const RunBody& run);
+RemeshResult guardedRun(
+  const SurfaceInput& input, RemeshOptions options, ResultStore* store, const RunBody& run);
 
 /// The options with lengths in the frame.
 RemeshOptions optionsInFrame(RemeshOptions options, const Frame& frame);
@@ -31,9 +32,5 @@ RemeshOptions optionsInFrame(RemeshOptions options, const Frame& frame);
 /// From the sized surface to the result in the frame. options: in the frame. quadsAlone: without the mapped mesh.
 void remeshSized(SizedSurface& sized, const Frame& frame, const RemeshOptions& options,
   ResultStore* store, bool quadsAlone, RemeshResult& result);
-
-/// Brings the result to the user's surface.
-void putOnUserSurface(SizedSurface& sized, const FramedInput& framed, const RemeshOptions& options,
-  bool quadsAlone, RemeshResult& result);
 
 } // namespace quadrille

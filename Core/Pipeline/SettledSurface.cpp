@@ -8,17 +8,16 @@
 #include "Details/FillHoles.h"
 #include "Details/Handles.h"
 #include "Details/ThinParts.h"
-#include "Pipeline/AskedPlaces.h"
-#include "Pipeline/DetailLimits.h"
+#include "Pipeline/DetailSteps.h"
 #include "Pipeline/FirstLevels.h"
 #include "Pipeline/FirstPlan.h"
-#include "Pipeline/QuadsForHandles.h"
 #include "Pipeline/SmallHandles.h"
 #include "Prepare/Refine.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
+#include <functional>
+#include <memory>
 #include <utility>
 
 namespace quadrille
@@ -61,419 +60,371 @@ bool isSimplified(const SmallDetail& detail)
 constexpr const char* kCutOff = "cut off";
 constexpr const char* kCutInTwo = "cut in two";
 
-const char* whatBecomes(DetailKind kind)
+/// A surface while its details are taken out.
+struct Settling
 {
-  return kind == DetailKind::Handle ? kCutAndClosed : "filled";
+  SizedSurface& sized;
+  const RemeshOptions& options;
+  ResultStore* store;
+  bool isRest;   ///< nothing else has led to quads
+  bool takesAll; ///< see detailLimits
+  Settled made;  ///< its run: of the surface as it is; none: to be made
+  std::shared_ptr<StoredLevels>
+    levels;                ///< of the surface as it is that have followed, for the next run
+  bool areStored = false;  ///< these are from the store
+  std::size_t changes = 0; ///< places where the surface was changed
+  bool isOwn = false;      ///< whether any change was tried
+};
+
+/// Of a surface that has changed.
+void letGo(Settled& made)
+{
+  if (made.run)
+  {
+    made.decimations += made.run->levels.decimations();
+    made.run.reset();
+  }
 }
 
-class Settling
+/// Another run, of the surface as it is, with its short loops.
+void measure(Settling& work)
 {
-public:
-  /// isRest: nothing else has led to quads.
-  Settling(SizedSurface& sized, const RemeshOptions& options, ResultStore* store, bool isRest,
-    StageRecords& stages, std::vector<std::string>& reused)
-    : sized_(sized), options_(options), store_(store), isRest_(isRest),
-      takesAll_(isRest || options.smallDetails == SmallDetails::Simplify), stages_(stages),
-      reused_(reused), asked_(*sized.surface), limits_(sized.edgeLength, takesAll_, isRest)
+  letGo(work.made);
+  RunContext& run = work.made.run.emplace(makeRun(work.sized, work.options, work.store));
+  if (work.levels)
   {
+    run.levels.follow(std::move(work.levels), work.areStored, run.surface, levelOptions(run, {}));
   }
+  findShortLoops(run, work.sized.stages, work.sized.reused);
+}
 
-  Settled run()
+/// Handles that were cut need no quads.
+void countBlocksAgain(Settling& work)
+{
+  if (!work.sized.blocks.empty())
   {
-    if (maySimplify(options_) && !recall())
+    countBlocks(work.sized, work.options, work.store);
+  }
+}
+
+bool mayFollow(const Settling& work)
+{
+  return work.changes <= kMostFollowed && work.sized.surface->mesh.faceCount() >= kLeastFollowed;
+}
+
+/// The levels of the surface before a change, if they can be had; the run of that surface is let go.
+std::shared_ptr<StoredLevels> levelsBefore(Settling& work)
+{
+  std::shared_ptr<StoredLevels> levels = std::move(work.levels);
+  if (work.made.run && mayFollow(work))
+  {
+    RunContext& run = *work.made.run;
+    auto given = std::make_shared<StoredLevels>();
+    given->levels = run.levels.giveToFollow(run.surface, levelOptions(run, {}));
+    levels = given->levels ? std::move(given) : nullptr;
+  }
+  letGo(work.made);
+  return levels;
+}
+
+/// What `change` closes becomes a surface with triangles no larger than quads, and a key of its own. change: tells the
+/// details that it has taken out, none where the surface is as it was. Returns how many these are.
+std::size_t changeSurface(
+  Settling& work, const std::function<std::vector<SmallDetail>(PreparedSurface&)>& change)
+{
+  const double start = secondsNow();
+  SizedSurface& sized = work.sized;
+  PreparedSurface changed = *sized.surface;
+  const std::size_t facesBefore = changed.mesh.faceCount();
+  work.isOwn = true;
+  if ((work.made.run || work.levels) && mayFollow(work))
+  {
+    changed.namesBefore = NamesBefore::of(changed.mesh.vertexCount(), changed.mesh.faceCount());
+  }
+  const std::vector<SmallDetail> details = change(changed);
+  if (details.empty())
+  {
+    return 0;
+  }
+  work.made.details.insert(work.made.details.end(), details.begin(), details.end());
+  work.changes += details.size();
+  std::shared_ptr<StoredLevels> levels = levelsBefore(work);
+  // What was left long for its number stays so: the bound grows with the faces that there are now.
+  if (changed.notice.empty())
+  {
+    refineSurface(changed, sized.edgeLength, {}, work.options.threads);
+  }
+  sized.key = KeyMaker(sized.key).add(changed.hash).key();
+  HierarchyOptions options;
+  options.threads = work.options.threads;
+  options.isConnected = changed.components == 1;
+  if (levels && mayFollow(work) && changed.namesBefore &&
+    levels->levels->follow(changed.mesh, changed.hash, *changed.namesBefore, options))
+  {
+    work.levels = std::move(levels);
+  }
+  changed.namesBefore.reset();
+  sized.surface = std::make_shared<const PreparedSurface>(std::move(changed));
+  countBlocksAgain(work);
+  sized.stages.add("simplify", secondsNow() - start, facesBefore, sized.surface->mesh.faceCount());
+  return details.size();
+}
+
+/// The number of holes that were filled.
+std::size_t fill(Settling& work, double limit)
+{
+  const double edgeLength = work.sized.edgeLength;
+  const std::vector<HandleLoop> loops =
+    shortBoundaryLoops(*work.sized.surface, edgeLength, limit, work.options.threads);
+  return loops.empty()
+    ? 0
+    : changeSurface(work,
+        [&](PreparedSurface& surface)
+        {
+          const SharedArray<Vector3> position = surface.mesh.position;
+          std::vector<SmallDetail> details;
+          for (const std::size_t i : fillHoles(surface, loops))
+          {
+            details.push_back({ DetailKind::BoundaryLoop, DetailDecision::Simplify,
+              loops[i].length / edgeLength, position[loops[i].vertices.front()], "filled" });
+          }
+          return details;
+        });
+}
+
+/// The number of handles that were cut; 0 also where those were few of all.
+std::size_t cut(Settling& work, double limit)
+{
+  const double edgeLength = work.sized.edgeLength;
+  const std::vector<HandleLoop> loops = handlesBelow(*work.made.run, limit);
+  if (loops.empty())
+  {
+    return 0;
+  }
+  std::vector<std::vector<Index>> places;
+  for (const HandleLoop& loop : loops)
+  {
+    places.push_back(loop.vertices);
+  }
+  const std::size_t closed = changeSurface(work,
+    [&](PreparedSurface& surface)
     {
-      fill();
-      if (isHopeless(false))
+      const SharedArray<Vector3> position = surface.mesh.position;
+      std::vector<SmallDetail> details;
+      for (const std::size_t i : closeHandles(surface, places, kLongerAlongEdges * limit,
+             kGirthOfLimb * edgeLength, work.options.threads))
       {
-        return std::move(made_);
+        details.push_back({ DetailKind::Handle, DetailDecision::Simplify,
+          loops[i].length / edgeLength, position[places[i].front()], kCutAndClosed });
       }
-      simplifyAll();
-      if (isOwn_)
+      return details;
+    });
+  return static_cast<double>(closed) < kWorthwhileCut * static_cast<double>(places.size()) ? 0
+                                                                                           : closed;
+}
+
+/// Of the coarse level; where the curvature sets it, the default one.
+double coarseBudget(const RemeshOptions& options)
+{
+  return options.coarseVertices > 0 ? options.coarseVertices : RemeshOptions().coarseVertices;
+}
+
+/// What a crowd of handles leaves where they were cut are stubs all over: on a coarse level these would have more
+/// vertices than all else, and no room. The number of those that were cut off.
+std::size_t thin(Settling& work, double limit, bool isBegun)
+{
+  const double edgeLength = work.sized.edgeLength;
+  const double mostArea = kQuadsOfThinPart * edgeLength * edgeLength;
+  RunContext& run = *work.made.run;
+  const Level& level = run.levels.makeIntermediate(run.surface, levelOptions(run, {}));
+  std::vector<ThinPart> parts =
+    findThinParts(level.mesh, { limit, kSimplifiedLoop * edgeLength, mostArea });
+  const bool areTooMany =
+    3 * static_cast<double>(parts.size()) > kMostOfBudget * coarseBudget(work.options);
+  if (parts.empty() || (!isBegun && !areTooMany))
+  {
+    return 0;
+  }
+  std::vector<Vector3> places;
+  for (ThinPart& part : parts)
+  {
+    places.push_back(level.mesh.position[part.loop.front()]);
+    for (Index& v : part.loop)
+    {
+      v = level.fineVertex[v];
+    }
+    part.tip = level.fineVertex[part.tip];
+    part.outside = level.fineVertex[part.outside];
+  }
+  return changeSurface(work,
+    [&](PreparedSurface& surface)
+    {
+      std::vector<SmallDetail> details;
+      for (const std::size_t i : cutThinParts(surface, parts, kLongerAlongEdges, mostArea))
       {
-        takeRequests(*sized_.surface);
-        remember();
+        details.push_back({ DetailKind::ThinPart, DetailDecision::Simplify,
+          parts[i].length / edgeLength, places[i], parts[i].isLarge ? kCutInTwo : kCutOff });
       }
-    }
-    if (maySimplify(options_) && isHopeless(true))
-    {
-      return std::move(made_);
-    }
-    if (!made_.bench)
-    {
-      measure();
-    }
-    addRest();
-    return std::move(made_);
-  }
+      return details;
+    });
+}
 
-private:
-  void measure()
+/// Until no loop below the limits is left that can be closed.
+void simplifyAll(Settling& work, DetailLimits& limits)
+{
+  for (int cutting = 0; cutting < kMostCuttings; ++cutting)
   {
-    letGo();
-    made_.bench = std::make_unique<RunBench>(sized_, options_, store_);
-    Levels& levels = made_.bench->levels;
-    if (levels_)
+    measure(work);
+    const bool isRaised = !work.takesAll && raise(limits, *work.made.run);
+    const std::size_t closed = cut(work, limits.handles);
+    if (closed + fill(work, limits.boundaryLoops) == 0)
     {
-      levels.follow(std::move(levels_), levelOptions(made_.bench->run, {}));
+      break;
     }
-    else if (storedLevels_)
-    {
-      levels.follow(std::move(storedLevels_), levelOptions(made_.bench->run, {}));
-    }
-    findShortLoops(made_.bench->run, stages_, reused_);
+    countTryLed(Try::RaisedLimit, isRaised ? 1 : 0);
   }
-
-  bool mayFollow() const
+  if (!work.made.run)
   {
-    return changes_ <= kMostFollowed && sized_.surface->mesh.faceCount() >= kLeastFollowed;
+    measure(work);
   }
-
-  /// Before the surface is changed: its elements are followed where there are levels that can be.
-  void beginChange()
+  const auto isHandle = [](const SmallDetail& detail) { return detail.kind == DetailKind::Handle; };
+  const std::vector<SmallDetail>& details = work.made.details;
+  const bool isCrowd = static_cast<std::size_t>(
+                         std::count_if(details.begin(), details.end(), isHandle)) >= kManyHandles;
+  for (int i = 0;
+       isCrowd && i < kMostThinnings && thin(work, limits.handles, i > 0 || work.isRest) > 0; ++i)
   {
-    isOwn_ = true;
-    changed_ = *sized_.surface;
-    if ((made_.bench || levels_) && mayFollow())
-    {
-      changed_.namesBefore =
-        NamesBefore::of(changed_.mesh.vertexCount(), changed_.mesh.faceCount());
-    }
+    measure(work);
   }
+}
 
-  /// Afterwards: takes the levels along, or lets them go.
-  void endChange(std::unique_ptr<Redecimation> levels)
+/// What was asked of the surface before, of the simplified one, in the same way for one that was made and one from the
+/// store.
+void takeRequests(PreparedSurface surface, const AskedPlaces& asked, Settling& work)
+{
+  const std::vector<ValenceRequest> before = surface.valenceRequests;
+  ask(asked, surface);
+  const bool isSame = std::equal(before.begin(), before.end(), surface.valenceRequests.begin(),
+    surface.valenceRequests.end(),
+    [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex == b.vertex; });
+  if (!isSame && !(work.made.run && work.made.run->levels.hasFollowed()))
   {
-    HierarchyOptions options;
-    options.threads = options_.threads;
-    options.isConnected = changed_.components == 1;
-    if (levels && mayFollow() && changed_.namesBefore &&
-      levels->follow(changed_.mesh, changed_.hash, *changed_.namesBefore, options))
-    {
-      levels_ = std::move(levels);
-    }
-    changed_.namesBefore.reset();
-    sized_.surface = std::make_shared<const PreparedSurface>(std::move(changed_));
-    changed_ = {};
+    letGo(work.made); // its levels hold other vertices
   }
-
-  /// Of a surface that has changed.
-  void letGo()
+  work.sized.surface = std::make_shared<const PreparedSurface>(std::move(surface));
+  if (work.made.run)
   {
-    if (made_.bench)
-    {
-      made_.decimations += made_.bench->levels.decimations();
-      made_.bench.reset();
-    }
+    work.made.run->surface = withoutPlan(work.sized.surface, work.sized.key);
   }
+}
 
-  void note(DetailKind kind, double length, const Vector3& place)
+bool recall(ResultKey key, const AskedPlaces& asked, Settling& work)
+{
+  const auto known = findIn<StoredSettled>(work.store, key);
+  if (!known)
   {
-    made_.details.push_back(
-      { kind, DetailDecision::Simplify, length / sized_.edgeLength, place, whatBecomes(kind) });
+    return false;
   }
-
-  /// The number of holes that were filled.
-  std::size_t fill()
+  if (known->hasFollowed)
   {
-    const double start = secondsNow();
-    const std::vector<HandleLoop> loops = shortBoundaryLoops(
-      *sized_.surface, sized_.edgeLength, limits_.ofBoundaryLoops(), options_.threads);
-    if (loops.empty())
-    {
-      return 0;
-    }
-    std::vector<Vector3> places;
-    places.reserve(loops.size());
-    for (const HandleLoop& loop : loops)
-    {
-      places.push_back(sized_.surface->mesh.position[loop.vertices.front()]);
-    }
-    const std::size_t before = sized_.surface->mesh.faceCount();
-    beginChange();
-    const std::vector<std::size_t> filled = fillHoles(changed_, loops);
-    for (const std::size_t i : filled)
-    {
-      note(DetailKind::BoundaryLoop, loops[i].length, places[i]);
-    }
-    finish(filled.size(), start, before);
-    return filled.size();
-  }
-
-  std::size_t cut()
-  {
-    std::vector<std::vector<Index>> places;
-    std::vector<double> lengths;
-    std::vector<Vector3> at;
-    for (HandleLoop& loop : handlesBelow(made_.bench->run, sized_.edgeLength, limits_.ofHandles()))
-    {
-      lengths.push_back(loop.length);
-      at.push_back(sized_.surface->mesh.position[loop.vertices.front()]);
-      places.push_back(std::move(loop.vertices));
-    }
-    if (places.empty())
-    {
-      return 0;
-    }
-    const double start = secondsNow();
-    const std::size_t before = sized_.surface->mesh.faceCount();
-    beginChange();
-    const std::vector<std::size_t> closed = closeHandles(changed_, places,
-      kLongerAlongEdges * limits_.ofHandles(), kGirthOfLimb * sized_.edgeLength, options_.threads);
-    for (const std::size_t i : closed)
-    {
-      note(DetailKind::Handle, lengths[i], at[i]);
-    }
-    finish(closed.size(), start, before);
-    handlesCut_ += closed.size();
-    return static_cast<double>(closed.size()) < kWorthwhileCut * static_cast<double>(places.size())
-      ? 0
-      : closed.size();
-  }
-
-  /// What was closed becomes a surface with triangles no larger than quads, and a key of its own.
-  void finish(std::size_t changed, double start, std::size_t facesBefore)
-  {
-    if (changed == 0)
-    {
-      changed_ = {};
-      return;
-    }
-    std::unique_ptr<Redecimation> levels = std::move(levels_);
-    changes_ += changed;
-    if (made_.bench && mayFollow())
-    {
-      levels = made_.bench->levels.giveToFollow(levelOptions(made_.bench->run, {}));
-    }
-    letGo();
-    // What was left long for its number stays so: the bound grows with the faces that there are now.
-    if (changed_.notice.empty())
-    {
-      refineSurface(changed_, sized_.edgeLength, {}, options_.threads);
-    }
-    sized_.key = KeyMaker(sized_.key).add(changed_.hash).key();
-    endChange(std::move(levels));
-    countBlocksAgain();
-    stages_.add("simplify", secondsNow() - start, facesBefore, sized_.surface->mesh.faceCount());
-  }
-
-  /// Handles that were cut need no quads.
-  void countBlocksAgain()
-  {
-    if (!sized_.blocks.empty())
-    {
-      countBlocks(sized_, options_, store_);
-    }
-  }
-
-  /// Until no loop below the limit is left that can be closed.
-  void simplifyAll()
-  {
-    for (int cutting = 0; cutting < kMostCuttings; ++cutting)
-    {
-      measure();
-      if (!takesAll_)
-      {
-        limits_.raise(made_.bench->run);
-      }
-      if (cut() + fill() == 0)
-      {
-        break;
-      }
-      countTryLed(Try::RaisedLimit, limits_.takeRaised() ? 1 : 0);
-    }
-    if (!made_.bench)
-    {
-      measure();
-    }
-    for (int thinning = 0; thinning < kMostThinnings && thin() > 0; ++thinning)
-    {
-      measure();
-    }
-  }
-
-  /// What a crowd of handles leaves where they were cut are stubs all over: on a coarse level these would have more
-  /// vertices than all else, and no room. The number of those that were cut off.
-  std::size_t thin()
-  {
-    if (handlesCut_ < kManyHandles)
-    {
-      return 0;
-    }
-    const double start = secondsNow();
-    const Level& level = made_.bench->levels.makeIntermediate(levelOptions(made_.bench->run, {}));
-    const double quad = sized_.edgeLength * sized_.edgeLength;
-    std::vector<ThinPart> parts = findThinParts(level.mesh,
-      { limits_.ofHandles(), kSimplifiedLoop * sized_.edgeLength, kQuadsOfThinPart * quad });
-    isThinning_ = isThinning_ || isRest_ || 3 * parts.size() > kMostOfBudget * coarseBudget();
-    if (!isThinning_)
-    {
-      return 0;
-    }
-    std::vector<Vector3> at;
-    for (ThinPart& part : parts)
-    {
-      at.push_back(level.mesh.position[part.loop.front()]);
-      for (Index& v : part.loop)
-      {
-        v = level.fineVertex[v];
-      }
-      part.tip = level.fineVertex[part.tip];
-      part.outside = level.fineVertex[part.outside];
-    }
-    const std::size_t before = sized_.surface->mesh.faceCount();
-    if (!parts.empty())
-    {
-      beginChange();
-    }
-    const std::vector<std::size_t> removed = parts.empty()
-      ? std::vector<std::size_t>()
-      : cutThinParts(changed_, parts, kLongerAlongEdges, kQuadsOfThinPart * quad);
-    for (const std::size_t i : removed)
-    {
-      note(DetailKind::ThinPart, parts[i].length, at[i]);
-      made_.details.back().result = parts[i].isLarge ? kCutInTwo : kCutOff;
-    }
-    finish(removed.size(), start, before);
-    return removed.size();
-  }
-
-  /// Of the coarse level; where the curvature sets it, the default one.
-  double coarseBudget() const
-  {
-    return options_.coarseVertices > 0 ? options_.coarseVertices : RemeshOptions().coarseVertices;
-  }
-
-  /// Then the status tells why.
-  bool isHopeless(bool isCut)
-  {
-    made_.status = judgeHandles(sized_, isCut, options_.threads, store_);
-    return !made_.status.ok();
-  }
-
-  ResultKey storeKey() const
-  {
-    KeyMaker key(sized_.key);
-    key.add(sized_.edgeLength).add(std::uint64_t{ isRest_ ? 3U : takesAll_ ? 2U : 1U });
-    return key.key();
-  }
-
-  bool recall()
-  {
-    if (store_ == nullptr)
+    work.levels = Levels::findFollowed(*work.store, known->key, work.sized.edgeLength);
+    work.areStored = work.levels != nullptr;
+    if (!work.areStored)
     {
       return false;
     }
-    key_ = storeKey();
-    const auto known = store_->find<StoredSettled>(key_);
-    if (!known)
-    {
-      return false;
-    }
-    if (known->hasFollowed)
-    {
-      storedLevels_ = Levels::findFollowed(*store_, known->key, sized_.edgeLength);
-      if (!storedLevels_)
-      {
-        return false;
-      }
-    }
-    takeRequests(known->surface);
-    sized_.key = known->key;
-    countBlocksAgain();
-    made_.details = known->simplified;
-    reused_.emplace_back("simplify");
-    return true;
   }
+  takeRequests(known->surface, asked, work);
+  work.sized.key = known->key;
+  countBlocksAgain(work);
+  work.made.details = known->simplified;
+  work.sized.reused.emplace_back("simplify");
+  return true;
+}
 
-  void remember()
+void remember(ResultKey key, const Settling& work)
+{
+  if (work.store == nullptr)
   {
-    if (store_ == nullptr)
-    {
-      return;
-    }
-    auto stored = std::make_shared<StoredSettled>();
-    stored->surface = *sized_.surface;
-    stored->surface.setRequests({});
-    stored->key = sized_.key;
-    stored->simplified = made_.details;
-    stored->hasFollowed = made_.bench && made_.bench->levels.hasFollowed();
-    const std::size_t bytes = bytesOf(stored->surface);
-    store_->put(key_, std::move(stored), bytes);
+    return;
   }
+  const Settled& made = work.made;
+  auto stored = std::make_shared<StoredSettled>();
+  stored->surface = *work.sized.surface;
+  stored->surface.setRequests({});
+  stored->key = work.sized.key;
+  stored->simplified = made.details;
+  stored->hasFollowed = made.run && made.run->levels.hasFollowed();
+  const std::size_t bytes = bytesOf(stored->surface);
+  work.store->put(key, std::move(stored), bytes);
+}
 
-  /// On the vertices of the simplified surface, in the same way for one that was made and one from the store.
-  void takeRequests(PreparedSurface surface)
+/// Details below the limits, from the store or one after the other. Not ok where that cannot help.
+Status simplify(Settling& work)
+{
+  SizedSurface& sized = work.sized;
+  const AskedPlaces asked = askedPlaces(*sized.surface);
+  const ResultKey key = KeyMaker(sized.key).add(sized.edgeLength, work.isRest, work.takesAll).key();
+  if (!recall(key, asked, work))
   {
-    const std::vector<ValenceRequest> before = surface.valenceRequests;
-    asked_.askOf(surface);
-    const bool isSame = std::equal(before.begin(), before.end(), surface.valenceRequests.begin(),
-      surface.valenceRequests.end(),
-      [](const ValenceRequest& a, const ValenceRequest& b) { return a.vertex == b.vertex; });
-    if (!isSame && !(made_.bench && made_.bench->levels.hasFollowed()))
+    DetailLimits limits = detailLimits(sized.edgeLength, work.takesAll, work.isRest);
+    fill(work, limits.boundaryLoops);
+    const Status status = judgeHandles(sized, false, work.options.threads, work.store);
+    if (!status.ok())
     {
-      letGo(); // its levels hold other vertices
+      return status;
     }
-    sized_.surface = std::make_shared<const PreparedSurface>(std::move(surface));
-    if (made_.bench)
+    simplifyAll(work, limits);
+    if (work.isOwn)
     {
-      made_.bench->surface.setRequests(sized_.surface);
+      takeRequests(*sized.surface, asked, work);
+      remember(key, work);
     }
   }
+  return judgeHandles(sized, true, work.options.threads, work.store);
+}
 
-  /// The loops that are left, which quads resolve where the first plan has sizes for them.
-  void addRest()
+/// The loops that are left, which quads resolve where the first plan has sizes for them.
+void addRest(bool mayBeSimplified, Settled& made)
+{
+  RunContext& run = *made.run;
+  const std::vector<HandleLoop>& loops = run.shortLoops.loops;
+  run.hasCrowd = mayBeSimplified && loops.size() >= kManyHandles;
+  const bool resolved = !loops.empty() && resolvesLoops(run, loops);
+  for (std::size_t i = 0; i < loops.size(); ++i)
   {
-    const RunContext& run = made_.bench->run;
-    const std::vector<HandleLoop>& loops = run.shortLoops.loops;
-    made_.bench->run.hasCrowd = maySimplify(options_) && !takesAll_ && loops.size() >= kManyHandles;
-    const bool resolved = !loops.empty() && resolvesLoops(made_.bench->run, loops);
-    for (std::size_t i = 0; i < loops.size(); ++i)
-    {
-      const bool isHandle = i < run.shortLoops.parts.unresolvedHandles;
-      made_.details.push_back({ isHandle ? DetailKind::Handle : DetailKind::BoundaryLoop,
-        resolved ? DetailDecision::Resolve : DetailDecision::Keep, loops[i].length / run.edgeLength,
-        run.surface->mesh.position[loops[i].vertices.front()],
-        resolved ? "quads are smaller there" : "quads have the size that was asked for" });
-    }
+    const bool isHandle = i < run.shortLoops.parts.unresolvedHandles;
+    made.details.push_back({ isHandle ? DetailKind::Handle : DetailKind::BoundaryLoop,
+      resolved ? DetailDecision::Resolve : DetailDecision::Keep, loops[i].length / run.edgeLength,
+      run.surface->mesh.position[loops[i].vertices.front()],
+      resolved ? "quads are smaller there" : "quads have the size that was asked for" });
   }
+}
 
-  SizedSurface& sized_;
-  const RemeshOptions& options_;
-  ResultStore* store_;
-  bool isRest_;
-  bool takesAll_; ///< what is shorter than kQuadsOfLoop s, whatever smaller quads could do
-  StageRecords& stages_;
-  std::vector<std::string>& reused_;
-  AskedPlaces asked_;
-  DetailLimits limits_;
-  std::size_t handlesCut_ = 0;
-  std::size_t changes_ = 0; ///< places where the surface was changed
-  bool isThinning_ = false; ///< thin parts are too many, or nothing else has led to quads
-  bool isOwn_ = false;
-  PreparedSurface changed_; ///< the surface while it is simplified
-  ResultKey key_ = 0;
-  std::unique_ptr<Redecimation> levels_;       ///< that have followed, for the next bench
-  std::shared_ptr<StoredLevels> storedLevels_; ///< the same from the store
-  Settled made_;
-};
+Settled settle(SizedSurface& sized, const RemeshOptions& options, ResultStore* store, bool isRest)
+{
+  const bool takesAll = isRest || options.smallDetails == SmallDetails::Simplify;
+  Settling work{ sized, options, store, isRest, takesAll, {}, nullptr };
+  if (maySimplify(options))
+  {
+    work.made.status = simplify(work);
+  }
+  if (work.made.status.ok() && !work.made.run)
+  {
+    measure(work);
+  }
+  if (work.made.status.ok())
+  {
+    addRest(maySimplify(options) && !takesAll, work.made);
+  }
+  return std::move(work.made);
+}
 
 } // namespace
 
-RunBench::RunBench(const SizedSurface& sized, const RemeshOptions& given, ResultStore* store)
-  : surface(sized.surface, sized.key, given.threads), levels(surface, store),
-    options(given), run{ options, sized.edgeLength, sized.targetQuads, surface, levels, store, {} }
+Settled settleDetails(SizedSurface& sized, const RemeshOptions& options, ResultStore* store)
 {
-  if (given.progress)
-  {
-    options.progress = [this, asked = given.progress](double fraction, const std::string& text)
-    { return asked(fraction, (run.tried.empty() ? "" : run.tried + ": ") + text); };
-  }
-}
-
-Settled settleDetails(SizedSurface& sized, const RemeshOptions& options, ResultStore* store,
-  StageRecords& stages, std::vector<std::string>& reused)
-{
-  return Settling(sized, options, store, false, stages, reused).run();
+  return settle(sized, options, store, false);
 }
 
 bool hasRest(const Settled& settled, const RemeshOptions& options)
@@ -482,25 +433,26 @@ bool hasRest(const Settled& settled, const RemeshOptions& options)
     !std::all_of(settled.details.begin(), settled.details.end(), isSimplified);
 }
 
-bool simplifyRest(Settled& settled, SizedSurface& sized, const RemeshOptions& options,
-  ResultStore* store, StageRecords& stages, std::vector<std::string>& reused)
+bool simplifyRest(
+  Settled& settled, SizedSurface& sized, const RemeshOptions& options, ResultStore* store)
 {
-  std::vector<SmallDetail> before = settled.details;
   if (!hasRest(settled, options))
   {
     return false;
   }
-  before.erase(std::stable_partition(before.begin(), before.end(), isSimplified), before.end());
-  const int decimations = settled.decimations + settled.bench->levels.decimations();
-  settled.bench.reset();
-  settled = Settling(sized, options, store, true, stages, reused).run();
-  settled.decimations += decimations;
-  if (!settled.bench)
+  letGo(settled);
+  Settled rest = settle(sized, options, store, true);
+  if (!rest.run)
   {
-    settled.bench = std::make_unique<RunBench>(sized, options, store);
+    rest.run.emplace(makeRun(sized, options, store));
   }
-  const bool isMore = std::any_of(settled.details.begin(), settled.details.end(), isSimplified);
-  settled.details.insert(settled.details.begin(), before.begin(), before.end());
+  std::vector<SmallDetail>& before = settled.details;
+  before.erase(std::stable_partition(before.begin(), before.end(), isSimplified), before.end());
+  const bool isMore = std::any_of(rest.details.begin(), rest.details.end(), isSimplified);
+  settled.status = rest.status;
+  settled.run.emplace(std::move(*rest.run));
+  settled.decimations += rest.decimations;
+  before.insert(before.end(), rest.details.begin(), rest.details.end());
   return isMore && settled.status.ok();
 }
 

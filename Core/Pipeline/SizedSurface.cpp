@@ -9,9 +9,9 @@
 #include "Features/FeatureNetwork.h"
 #include "Mesh/Sizing.h"
 #include "Pipeline/Notices.h"
-#include "Pipeline/SmallBlocks.h"
+#include "Pipeline/PlannedSurface.h"
+#include "Pipeline/RequestKeys.h"
 #include "Pipeline/SmallHandles.h"
-#include "Pipeline/SurfaceSizes.h"
 #include "Prepare/Frame.h"
 #include "Prepare/Prepare.h"
 #include "Prepare/Refine.h"
@@ -22,7 +22,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <utility>
 
 namespace quadrille
@@ -38,408 +37,247 @@ struct StoredPrepared
 };
 
 /// A sized one. The number of quads is that of the limited sizes, where an edge length was asked for.
-struct StoredSized
+struct StoredSized : SizeReport
 {
   PreparedSurface surface;
   bool hasRequests = false; ///< moved by what closed handles
-  double edgeLength = 0;    ///< s; adaptive sizes change it where a number of quads is asked for
-  std::size_t targetQuads = 0;
-  std::vector<std::string> notices;
-  std::vector<GivenUpCurve> givenUpFeatures;
-  std::vector<SmallDetail> details;
 };
-
-/// Of guides, valences and curves, where closed handles move their corners.
-ResultKey requestsKey(const SurfaceInput& input)
-{
-  KeyMaker key;
-  for (const Vector3& direction : input.guideDirections)
-  {
-    key.add(direction[0]).add(direction[1]).add(direction[2]);
-  }
-  for (const CurveRequest& curve : input.curves)
-  {
-    key.add(static_cast<std::uint64_t>(curve.kind));
-    for (const Vector3& p : curve.points)
-    {
-      key.add(p[0]).add(p[1]).add(p[2]);
-    }
-  }
-  for (const HeldVertex& vertex : input.held)
-  {
-    key.add(std::uint64_t{ vertex.point }).add(std::uint64_t{ vertex.sectors.size() });
-    key.add(vertex.place[0]).add(vertex.place[1]).add(vertex.place[2]);
-    for (const HeldSector& sector : vertex.sectors)
-    {
-      key.add(sector.middle[0]).add(sector.middle[1]).add(sector.middle[2]);
-      key.add(static_cast<std::uint64_t>(sector.turns));
-    }
-  }
-  if (input.regularOnFeatures)
-  {
-    key.add(std::uint64_t{ 2 });
-  }
-  for (const SeamRequest& seam : input.seams)
-  {
-    key.add(std::uint64_t{ 4 });
-    for (const Vector3& p : { seam.from, seam.to, seam.imageFrom, seam.imageTo })
-    {
-      key.add(p[0]).add(p[1]).add(p[2]);
-    }
-  }
-  for (const StraightRequest& part : input.straight)
-  {
-    key.add(std::uint64_t{ 5 });
-    for (const Vector3& p : { part.from, part.via, part.to, part.outward })
-    {
-      key.add(p[0]).add(p[1]).add(p[2]);
-    }
-  }
-  return key.add(input.guideWeights)
-    .add(input.targetValences)
-    .add(std::uint64_t{ input.regularElsewhere ? 1U : 0U })
-    .key();
-}
 
 ResultKey preparedKey(ResultKey inputHash, const RemeshOptions& options)
 {
   return KeyMaker(inputHash).add(options.featureAngle.value_or(0)).key();
 }
 
-class SurfaceSizing
+/// surface: prepared. requests: those of the input where closed handles move their corners.
+ResultKey sizedKey(ResultKey prepared, ResultKey requests, const PreparedSurface& surface,
+  const RemeshOptions& options, const SizedSurface& sized)
 {
-public:
-  SurfaceSizing(SurfaceInput& input, const RemeshOptions& options, const KnownInput& known)
-    : input_(input), options_(options), store_(known.store),
-      preparedKey_(preparedKey(known.inputHash, options))
+  // Of details only components are taken out before the surface is sized.
+  const bool mayDrop = maySimplify(options) && surface.components > 1;
+  KeyMaker key(prepared);
+  key.add(sized.edgeLength, judgesCreases(options), options.closeHandles, requests,
+    options.removeSmallComponents, mayDrop, mayDrop ? sized.targetQuads : 0);
+  if (options.sizes.any())
   {
+    const AdaptiveSizes& sizes = options.sizes;
+    key.add(sizes.chordError.value_or(0), sizes.gapQuads, sizes.smallest, sizes.largest,
+      options.quads.has_value());
   }
+  return key.key();
+}
 
-  SizedSurface run()
+/// Repaired, in order and with features. What only placeHeld needs is left of the input.
+PreparedSurface prepareInput(
+  SurfaceInput& input, const RemeshOptions& options, StageRecords& stages)
+{
+  PrepareOptions prepareOptions;
+  prepareOptions.featureAngle = options.featureAngle;
+  prepareOptions.threads = options.threads;
+  prepareOptions.progress = subProgress(options.progress, 0.0, 0.1, "Preparing: ");
+  const std::size_t polygons = input.polygonOffsets.empty() ? 0 : input.polygonOffsets.size() - 1;
+  PreparedSurface surface = prepareSurface(std::move(input), prepareOptions);
+  SurfaceInput later;
+  later.held = std::move(input.held);
+  later.targetValences = later.held.empty() ? std::vector<int>{} : std::move(input.targetValences);
+  input = std::move(later);
+  releaseFreedMemory();
+  for (const auto& [name, seconds] : surface.seconds)
   {
-    prepare();
-    return sizeAll();
+    stages.add(name, seconds, polygons, surface.mesh.faceCount());
   }
+  return surface;
+}
 
-  SizedSurface run(PreparedSurface surface, const StageRecords& stages)
+/// On the triangles as they are to stay, unlike the other requests.
+void placeHeld(const SurfaceInput& input, PreparedSurface& surface)
+{
+  placeHeldVertices(input, surface, surface.valenceRequests, surface.sectorRequests);
+}
+
+bool refuseTooMany(const RemeshOptions& options, SizedSurface& sized)
+{
+  if (sized.targetQuads <= options.maximumNumberOfQuads)
   {
-    surface_ = std::move(surface);
-    made_.stages = stages;
-    measure();
-    return sizeAll();
+    return false;
   }
+  sized.status = { StatusCode::TooLarge,
+    "about " + std::to_string(sized.targetQuads) + " quads would be made, more than the limit of " +
+      std::to_string(options.maximumNumberOfQuads) +
+      "; ask for fewer or longer quads, or raise the limit (Maximum Number Of Quads, "
+      "--maximum-quads)" };
+  return true;
+}
 
-private:
-  SizedSurface sizeAll()
+/// surface: prepared, without requests; sized afterwards, with them. False where the store does not have it.
+bool recallSized(const SurfaceInput& input, const RemeshOptions& options, ResultStore& store,
+  PreparedSurface& surface, SizedSurface& sized)
+{
+  const auto found = store.find<StoredSized>(sized.key);
+  if (!found || (!options.quads && found->targetQuads > options.maximumNumberOfQuads))
   {
-    made_.edgeLength = targetEdgeLength(options_, sizedArea_, diagonal_);
-    made_.targetQuads =
-      options_.quads ? *options_.quads : predictedQuads(sizedArea_, made_.edgeLength);
-    if (!findSized())
-    {
-      size();
-    }
-    input_ = {};
-    if (made_.status.ok())
-    {
-      guideByCurvature();
-      tellRequests();
-    }
-    made_.surface = std::make_shared<const PreparedSurface>(std::move(surface_));
-    if (made_.status.ok())
-    {
-      countBlocks(made_, options_, store_);
-    }
-    return std::move(made_);
+    return false;
   }
-
-  void measure()
+  surface = found->surface;
+  if (!found->hasRequests)
   {
-    sizedArea_ = areaOverSizes(surface_);
-    diagonal_ = surface_.boundingBoxDiagonal;
+    collectRequests(input, surface, options.threads);
+    placeHeld(input, surface);
   }
+  static_cast<SizeReport&>(sized) = *found;
+  sized.targetQuads = options.quads.value_or(found->targetQuads);
+  sized.reused.emplace_back("refine");
+  refuseTooMany(options, sized);
+  return true;
+}
 
-  void tell(const std::string& notice)
+/// Triangles that refinement left as they were are shared, and count once.
+void keepSized(std::shared_ptr<StoredPrepared> prepared, ResultKey preparedAt,
+  const PreparedSurface& surface, const RemeshOptions& options, ResultStore& store,
+  const SizedSurface& sized)
+{
+  auto stored = std::make_shared<StoredSized>();
+  static_cast<SizeReport&>(*stored) = sized;
+  stored->surface = surface;
+  stored->hasRequests = options.closeHandles > 0;
+  if (!stored->hasRequests)
   {
-    if (!notice.empty())
-    {
-      made_.notices.push_back(notice);
-    }
+    stored->surface.setRequests({});
   }
+  const std::size_t bytes =
+    bytesOf(stored->surface, &prepared->surface) + bytesOf(stored->givenUpFeatures);
+  const std::size_t bytesPrepared = bytesOf(prepared->surface);
+  store.put(preparedAt, std::move(prepared), bytesPrepared);
+  store.put(sized.key, std::move(stored), bytes);
+}
 
-  void reuse(std::initializer_list<const char*> stages)
+/// The edge length stays; where the number of quads was asked for, it is met by the scale of the map.
+void limitSizes(PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized)
+{
+  const SizingReport limited = limitSizeGrowth(surface.mesh, sized.edgeLength);
+  tell({ sizingNotice(surface.mesh, limited) }, sized.notices);
+  if (limited.changed > 0 && !options.quads)
   {
-    made_.reused.insert(made_.reused.end(), stages.begin(), stages.end());
+    sized.targetQuads = predictedQuads(areaOverSizes(surface), sized.edgeLength);
   }
+}
 
-  void prepare()
+/// What a step has unmarked, where it did; `before` becomes what it has left.
+void noteGivenUp(FeatureLoss reason, std::size_t removed, const Mesh& mesh,
+  std::vector<std::uint8_t>& before, SizedSurface& sized)
+{
+  const std::vector<Index> lost = removed > 0 ? lostFeatures(mesh, before) : std::vector<Index>{};
+  if (!lost.empty())
   {
-    if (store_ != nullptr)
-    {
-      if ((prepared_ = store_->find<StoredPrepared>(preparedKey_)))
-      {
-        surface_ = prepared_->surface;
-        sizedArea_ = prepared_->sizedArea;
-        diagonal_ = surface_.boundingBoxDiagonal;
-        reuse({ "repair", "order", "connectivity" });
-        return;
-      }
-    }
-    PrepareOptions prepareOptions;
-    prepareOptions.featureAngle = options_.featureAngle;
-    prepareOptions.threads = options_.threads;
-    prepareOptions.progress = subProgress(options_.progress, 0.0, 0.1, "Preparing: ");
-    requestsKey_ = options_.closeHandles > 0 ? requestsKey(input_) : 0;
-    const std::size_t polygons =
-      input_.polygonOffsets.empty() ? 0 : input_.polygonOffsets.size() - 1;
-    surface_ = prepareSurface(std::move(input_), prepareOptions);
-    SurfaceInput later; // what placeHeld still needs
-    later.held = std::move(input_.held);
-    later.targetValences =
-      later.held.empty() ? std::vector<int>{} : std::move(input_.targetValences);
-    input_ = std::move(later);
-    releaseFreedMemory();
-    for (const auto& [name, seconds] : surface_.seconds)
-    {
-      made_.stages.add(name, seconds, polygons, surface_.mesh.faceCount());
-    }
-    measure();
+    const std::vector<GivenUpCurve> curves = givenUpCurves(mesh, lost, sized.edgeLength, reason);
+    sized.givenUpFeatures.insert(sized.givenUpFeatures.end(), curves.begin(), curves.end());
+    before = mesh.flags;
   }
+}
 
-  bool findSized()
+void filterFeatures(Mesh& mesh, const RemeshOptions& options, SizedSurface& sized)
+{
+  std::vector<std::uint8_t> before = mesh.flags;
+  FeatureFilterReport filtered = removeUnresolvedFeatures(mesh, sized.edgeLength, options.threads);
+  noteGivenUp(FeatureLoss::Unresolved, filtered.removedEdges, mesh, before, sized);
+  CreaseReport creases;
+  if (judgesCreases(options))
   {
-    if (prepared_)
-    {
-      requestsKey_ = options_.closeHandles > 0 ? requestsKey(input_) : 0;
-    }
-    // Of details only components are taken out before the surface is sized.
-    const bool mayDrop = maySimplify(options_) && surface_.components > 1;
-    made_.key = KeyMaker(preparedKey_)
-                  .add(made_.edgeLength)
-                  .add(std::uint64_t{ judgesCreases(options_) ? 1U : 0U })
-                  .add(options_.closeHandles)
-                  .add(requestsKey_)
-                  .add(std::uint64_t{ options_.removeSmallComponents ? 1U : 0U })
-                  .add(std::uint64_t{ mayDrop ? 1U : 0U })
-                  .add(std::uint64_t{ mayDrop ? made_.targetQuads : 0 })
-                  .key();
-    if (options_.sizes.any())
-    {
-      const AdaptiveSizes& sizes = options_.sizes;
-      made_.key = KeyMaker(made_.key)
-                    .add(sizes.chordError.value_or(0))
-                    .add(sizes.gapQuads)
-                    .add(sizes.smallest)
-                    .add(sizes.largest)
-                    .add(std::uint64_t{ options_.quads ? 1U : 0U })
-                    .key();
-    }
-    const auto found = prepared_ ? store_->find<StoredSized>(made_.key) : nullptr;
-    if (!found || (!options_.quads && found->targetQuads > options_.maximumNumberOfQuads))
-    {
-      return false;
-    }
-    surface_ = found->surface;
-    if (!found->hasRequests)
-    {
-      collectRequests(input_, surface_, options_.threads);
-      placeHeld();
-    }
-    made_.edgeLength = found->edgeLength;
-    made_.targetQuads = options_.quads ? *options_.quads : found->targetQuads;
-    made_.notices = found->notices;
-    made_.givenUpFeatures = found->givenUpFeatures;
-    made_.details = found->details;
-    reuse({ "refine" });
-    return !refuseTooMany();
+    creases = removeFalseCreases(mesh, sized.edgeLength, options.threads, filtered);
+    noteGivenUp(FeatureLoss::NoCrease, creases.removedEdges, mesh, before, sized);
   }
+  const NetworkReport network = simplifyFeatureNetwork(mesh, sized.edgeLength, filtered);
+  noteGivenUp(FeatureLoss::ShortArc, network.removedEdges, mesh, before, sized);
+  tell({ featureNotice(filtered), creases.text(), network.text() }, sized.notices);
+}
 
-  void size()
+/// Without small components and features that quads cannot resolve, in triangles no larger than quads.
+void refine(PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized)
+{
+  const double start = secondsNow();
+  const std::size_t before = surface.mesh.faceCount();
+  tell({ dropSmallComponents(surface, options, sized) }, sized.notices);
+  tell({ surface.facets.text() }, sized.notices);
+  filterFeatures(surface.mesh, options, sized);
+  refineSurface(surface, sized.edgeLength, subProgress(options.progress, 0.1, 0.15, "Refining: "),
+    options.threads);
+  sized.stages.add("refine", secondsNow() - start, before, surface.mesh.faceCount());
+  tell({ surface.notice }, sized.notices);
+}
+
+void closeAsAsked(PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized)
+{
+  if (!(options.closeHandles > 0))
   {
-    auto prepared = prepared_;
-    if (prepared)
-    {
-      collectRequests(input_, surface_, options_.threads);
-    }
-    else if (store_ != nullptr)
-    {
-      prepared = std::make_shared<StoredPrepared>(StoredPrepared{ surface_, sizedArea_ });
-      prepared->surface.setRequests({});
-    }
-    if (options_.sizes.any())
-    {
-      tell(adaptSizes(surface_, options_, made_));
-    }
-    else
-    {
-      limitSizes();
-    }
-    if (refuseTooMany())
-    {
-      return;
-    }
-    refine();
-    placeHeld();
-    if (store_ != nullptr)
-    {
-      keep(prepared);
-    }
+    return;
   }
+  const double start = secondsNow();
+  const std::size_t before = surface.mesh.faceCount();
+  const ClosedHandles closed = closeSmallHandles(surface, sized.edgeLength, options);
+  tell({ closed.notice }, sized.notices);
+  sized.details.insert(sized.details.end(), closed.details.begin(), closed.details.end());
+  sized.decimations += closed.decimations;
+  sized.stages.add("close", secondsNow() - start, before, surface.mesh.faceCount());
+}
 
-  /// On the triangles as they are to stay, unlike the other requests.
-  void placeHeld()
+/// From the prepared surface with its requests to the sized one.
+void sizePreparedSurface(
+  PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized)
+{
+  if (options.sizes.any())
   {
-    placeHeldVertices(input_, surface_, surface_.valenceRequests, surface_.sectorRequests);
+    tell({ adaptSizes(surface, options, sized) }, sized.notices);
   }
-
-  /// Triangles that refinement left as they were are shared, and count once.
-  void keep(const std::shared_ptr<StoredPrepared>& prepared)
+  else
   {
-    auto sized = std::make_shared<StoredSized>();
-    sized->surface = surface_;
-    sized->hasRequests = options_.closeHandles > 0;
-    sized->targetQuads = made_.targetQuads;
-    sized->edgeLength = made_.edgeLength;
-    sized->notices = made_.notices;
-    sized->givenUpFeatures = made_.givenUpFeatures;
-    sized->details = made_.details;
-    if (!sized->hasRequests)
-    {
-      sized->surface.setRequests({});
-    }
-    store_->put(preparedKey_, prepared, bytesOf(prepared->surface));
-    const std::size_t bytes =
-      bytesOf(sized->surface, &prepared->surface) + bytesOf(sized->givenUpFeatures);
-    store_->put(made_.key, std::move(sized), bytes);
+    limitSizes(surface, options, sized);
   }
-
-  /// The edge length stays; where the number of quads was asked for, it is met by the scale of the map.
-  void limitSizes()
+  if (!refuseTooMany(options, sized))
   {
-    Mesh& mesh = surface_.mesh;
-    const SizingReport limited = limitSizeGrowth(mesh, made_.edgeLength);
-    tell(sizingNotice(mesh, limited));
-    if (limited.changed > 0 && !options_.quads)
-    {
-      made_.targetQuads = predictedQuads(areaOverSizes(surface_), made_.edgeLength);
-    }
+    refine(surface, options, sized);
+    closeAsAsked(surface, options, sized);
   }
+}
 
-  bool refuseTooMany()
+void setTarget(double sizedArea, double diagonal, const RemeshOptions& options, SizedSurface& sized)
+{
+  sized.edgeLength = targetEdgeLength(options, sizedArea, diagonal);
+  sized.targetQuads = options.quads.value_or(predictedQuads(sizedArea, sized.edgeLength));
+}
+
+void guideByCurvature(PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized)
+{
+  if (!options.curvatureGuides)
   {
-    if (made_.targetQuads <= options_.maximumNumberOfQuads)
-    {
-      return false;
-    }
-    made_.status = { StatusCode::TooLarge,
-      "about " + std::to_string(made_.targetQuads) +
-        " quads would be made, more than the limit of " +
-        std::to_string(options_.maximumNumberOfQuads) +
-        "; ask for fewer or longer quads, or raise the limit (Maximum Number Of Quads, "
-        "--maximum-quads)" };
-    return true;
+    return;
   }
+  const double start = secondsNow();
+  const std::size_t guided =
+    addCurvatureGuides(surface, sized.edgeLength, *options.curvatureGuides, options.threads);
+  sized.stages.add("guides", secondsNow() - start, surface.mesh.faceCount(), guided);
+  tell({ std::to_string(guided) + " polygons are guided by the curvature of the surface" },
+    sized.notices);
+}
 
-  void refine()
+/// What does not depend on whether the store had the surface.
+SizedSurface finished(
+  PreparedSurface surface, const RemeshOptions& options, ResultStore* store, SizedSurface sized)
+{
+  if (sized.status.ok())
   {
-    PreparedSurface& surface = surface_;
-    double start = secondsNow();
-    const std::size_t before = surface.mesh.faceCount();
-    tell(dropSmallComponents(surface, options_, made_));
-    tell(surface.facets.text());
-    filterFeatures();
-    refineSurface(surface, made_.edgeLength,
-      subProgress(options_.progress, 0.1, 0.15, "Refining: "), options_.threads);
-    made_.stages.add("refine", secondsNow() - start, before, surface.mesh.faceCount());
-    tell(surface.notice);
-    if (options_.closeHandles > 0)
-    {
-      start = secondsNow();
-      const std::size_t open = surface.mesh.faceCount();
-      const ClosedHandles closed = closeSmallHandles(surface, made_.edgeLength, options_);
-      tell(closed.notice);
-      made_.details.insert(made_.details.end(), closed.details.begin(), closed.details.end());
-      made_.decimations += closed.decimations;
-      made_.stages.add("close", secondsNow() - start, open, surface.mesh.faceCount());
-    }
-  }
-
-  void filterFeatures()
-  {
-    Mesh& mesh = surface_.mesh;
-    std::vector<std::uint8_t> before = mesh.flags;
-    FeatureFilterReport filtered =
-      removeUnresolvedFeatures(mesh, made_.edgeLength, options_.threads);
-    noteGivenUp(FeatureLoss::Unresolved, filtered.removedEdges > 0, before);
-    CreaseReport creases;
-    if (judgesCreases(options_))
-    {
-      creases = removeFalseCreases(mesh, made_.edgeLength, options_.threads, filtered);
-      noteGivenUp(FeatureLoss::NoCrease, creases.removedEdges > 0, before);
-    }
-    const NetworkReport network = simplifyFeatureNetwork(mesh, made_.edgeLength, filtered);
-    noteGivenUp(FeatureLoss::ShortArc, network.removedEdges > 0, before);
-    tell(featureNotice(filtered));
-    tell(creases.text());
-    tell(network.text());
-  }
-
-  /// What a step has unmarked, where it did; `before` becomes what it has left.
-  void noteGivenUp(FeatureLoss reason, bool any, std::vector<std::uint8_t>& before)
-  {
-    if (!any)
-    {
-      return;
-    }
-    const Mesh& mesh = surface_.mesh;
-    const std::vector<Index> lost = lostFeatures(mesh, before);
-    if (!lost.empty())
-    {
-      for (const GivenUpCurve& curve : givenUpCurves(mesh, lost, made_.edgeLength, reason))
-      {
-        made_.givenUpFeatures.push_back(curve);
-      }
-      before = mesh.flags;
-    }
-  }
-
-  void guideByCurvature()
-  {
-    if (!options_.curvatureGuides)
-    {
-      return;
-    }
-    const double start = secondsNow();
-    PreparedSurface& surface = surface_;
-    const std::size_t guided =
-      addCurvatureGuides(surface, made_.edgeLength, *options_.curvatureGuides, options_.threads);
-    made_.stages.add("guides", secondsNow() - start, surface.mesh.faceCount(), guided);
-    tell(std::to_string(guided) + " polygons are guided by the curvature of the surface");
-  }
-
-  void tellRequests()
-  {
-    const PreparedSurface& surface = surface_;
-    for (const std::string& notice :
-      requestNotices(surface, surfaceGuides(surface, options_.threads)))
-    {
-      tell(notice);
-    }
+    guideByCurvature(surface, options, sized);
+    tell(requestNotices(surface, surfaceGuides(surface, options.threads)), sized.notices);
     for (const std::string& sentence : repairSentences(surface.repair))
     {
-      tell("input: " + sentence);
+      tell({ "input: " + sentence }, sized.notices);
     }
   }
-
-  SurfaceInput& input_;
-  const RemeshOptions& options_;
-  ResultStore* store_;
-  SizedSurface made_;
-  PreparedSurface surface_; ///< until it is made_.surface
-  ResultKey preparedKey_, requestsKey_ = 0;
-  std::shared_ptr<StoredPrepared> prepared_; ///< found in the store
-  double sizedArea_ = 0, diagonal_ = 0;
-};
+  sized.surface = std::make_shared<const PreparedSurface>(std::move(surface));
+  if (sized.status.ok())
+  {
+    countBlocks(sized, options, store);
+  }
+  return sized;
+}
 
 } // namespace
 
@@ -466,20 +304,60 @@ std::size_t predictedQuads(double sizedArea, double edgeLength)
 
 bool isPrepared(const KnownInput& known, const RemeshOptions& options)
 {
-  return known.store != nullptr &&
-    known.store->find<StoredPrepared>(preparedKey(known.inputHash, options)) != nullptr;
+  return findIn<StoredPrepared>(known.store, preparedKey(known.inputHash, options)) != nullptr;
 }
 
 SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, const KnownInput& known)
 {
-  return SurfaceSizing(input, options, known).run();
+  SizedSurface sized;
+  ResultStore* store = known.store;
+  const ResultKey preparedAt = preparedKey(known.inputHash, options);
+  const ResultKey requests = options.closeHandles > 0 ? requestsKey(input) : 0;
+  std::shared_ptr<StoredPrepared> prepared = findIn<StoredPrepared>(store, preparedAt);
+  const bool isKnown = prepared != nullptr;
+  PreparedSurface surface =
+    isKnown ? prepared->surface : prepareInput(input, options, sized.stages);
+  const double sizedArea = isKnown ? prepared->sizedArea : areaOverSizes(surface);
+  if (isKnown)
+  {
+    sized.reused = { "repair", "order", "connectivity" };
+  }
+  setTarget(sizedArea, surface.boundingBoxDiagonal, options, sized);
+  sized.key = sizedKey(preparedAt, requests, surface, options, sized);
+  if (!isKnown || !recallSized(input, options, *store, surface, sized))
+  {
+    if (isKnown)
+    {
+      collectRequests(input, surface, options.threads);
+    }
+    else if (store != nullptr)
+    {
+      prepared = std::make_shared<StoredPrepared>(StoredPrepared{ surface, sizedArea });
+      prepared->surface.setRequests({});
+    }
+    sizePreparedSurface(surface, options, sized);
+    if (sized.status.ok())
+    {
+      placeHeld(input, surface);
+    }
+    if (sized.status.ok() && store != nullptr)
+    {
+      keepSized(std::move(prepared), preparedAt, surface, options, *store, sized);
+    }
+  }
+  input = {};
+  return finished(std::move(surface), options, store, std::move(sized));
 }
 
 SizedSurface sizePrepared(
   PreparedSurface surface, const StageRecords& stages, const RemeshOptions& options)
 {
-  SurfaceInput none;
-  return SurfaceSizing(none, options, {}).run(std::move(surface), stages);
+  SizedSurface sized;
+  sized.stages = stages;
+  setTarget(areaOverSizes(surface), surface.boundingBoxDiagonal, options, sized);
+  sized.key = sizedKey(preparedKey(0, options), 0, surface, options, sized);
+  sizePreparedSurface(surface, options, sized);
+  return finished(std::move(surface), options, nullptr, std::move(sized));
 }
 
 } // namespace quadrille

@@ -9,7 +9,6 @@
 #include "Mesh/Surface.h"
 #include "Pipeline/Options.h"
 #include "Pipeline/ResultStore.h"
-#include "Pipeline/RunSurface.h"
 #include "Pipeline/SmallDetails.h"
 #include "Pipeline/StageRecords.h"
 
@@ -20,17 +19,22 @@
 namespace quadrille
 {
 
-struct SizedSurface
+/// What sizing has set, and what is to be told of it.
+struct SizeReport
 {
-  Status status; ///< TooLarge where more quads would be made than may
-  std::shared_ptr<const PreparedSurface> surface;
-  ResultKey key = 0;           ///< of all but guides and valences
   double edgeLength = 0;       ///< s, in the frame
   std::size_t targetQuads = 0; ///< predicted where an edge length was asked for
   std::vector<std::string> notices;
   std::vector<GivenUpCurve> givenUpFeatures; ///< lengths and places in the frame
   /// Components that were left out, and handles that closeHandles has closed.
   std::vector<SmallDetail> details;
+};
+
+struct SizedSurface : SizeReport
+{
+  Status status; ///< TooLarge where more quads would be made than may
+  std::shared_ptr<const PreparedSurface> surface;
+  ResultKey key = 0; ///< of all but guides and valences
   /// Components that become the smallest blocks of quads, and a word on them, see countBlocks.
   std::vector<SmallDetail> blocks;
   std::string blocksNotice;
@@ -57,6 +61,17 @@ SizedSurface sizeSurface(
 /// The same of a surface that is prepared, which stays nowhere else. stages: those that have led to it.
 SizedSurface sizePrepared(
   PreparedSurface surface, const StageRecords& stages, const RemeshOptions& options);
+
+/// Sizes that the shape of the surface asks for. Where a number of quads is asked for, the edge length is the one
+/// with which they make as many, and the lengths that the shape asks for stay what they are.
+/// sized: its edge length, number of quads and stages change. Returns what to tell of the sizes.
+std::string adaptSizes(PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized);
+
+/// Leaves components with less area than a closed block of quads out, on request, or where their blocks alone would be
+/// more quads than are asked for; before anything depends on them. sized: its details tell them. Returns what to tell;
+/// empty where none was left out.
+std::string dropSmallComponents(
+  PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized);
 
 /// Counts the components that become blocks on the surface as it is: handles that were cut need no quads. Where an edge
 /// length is asked for, the number of quads follows.

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Pipeline/SmallBlocks.h"
-
 #include "Base/PlaceText.h"
 #include "Details/SmallComponents.h"
-#include "Pipeline/SurfaceSizes.h"
+#include "Pipeline/PlannedSurface.h"
+#include "Pipeline/SizedSurface.h"
 
 #include <cmath>
 #include <cstddef>
@@ -65,22 +64,12 @@ void noteComponents(const SmallComponents& small, double edgeLength, const Text&
   }
 }
 
-/// From the store where it has them.
-StoredSmallComponents smallComponents(const SizedSurface& sized, ResultStore* store, int threads)
+StoredSmallComponents smallComponents(const SizedSurface& sized, int threads)
 {
-  const auto known = store != nullptr ? store->find<StoredSmallComponents>(sized.key) : nullptr;
-  if (known)
-  {
-    return *known;
-  }
   StoredSmallComponents found{ findSmallComponents(
                                  *sized.surface, sized.edgeLength, kAnyNumber, threads),
     areaOverSizes(*sized.surface) };
   found.small.isSmall = {};
-  if (store != nullptr)
-  {
-    store->put(sized.key, std::make_shared<StoredSmallComponents>(found), sizeof(found));
-  }
   return found;
 }
 
@@ -121,13 +110,15 @@ std::string dropSmallComponents(
 void countBlocks(SizedSurface& sized, const RemeshOptions& options, ResultStore* store)
 {
   const double quad = sized.edgeLength * sized.edgeLength;
-  const StoredSmallComponents known = smallComponents(sized, store, options.threads);
-  const SmallComponents& small = known.small;
+  const auto known = findOrMake<StoredSmallComponents>(
+    store, sized.key, [&] { return smallComponents(sized, options.threads); },
+    [](const StoredSmallComponents&) { return sizeof(StoredSmallComponents); });
+  const SmallComponents& small = known->small;
   sized.blocks.clear();
   sized.blocksNotice.clear();
   if (!options.quads)
   {
-    const double quads = (known.area - small.area) / quad + small.quads;
+    const double quads = (known->area - small.area) / quad + small.quads;
     sized.targetQuads = predictedQuads(quads, 1);
   }
   if (small.count > 0)

@@ -24,6 +24,7 @@ struct Trouble
   RunContext& run;
   const History& history;
   const Attempt& attempt;      ///< of the round
+  PlannedSurface surface;      ///< by its plan
   std::vector<Vector3> places; ///< where the map or its quads failed
   bool failed = true;          ///< else there are quads, but some are inverted at folds of the map
   std::optional<GridTroubles> grid;
@@ -64,33 +65,32 @@ std::optional<Plan> fewerFeatures(const Trouble& trouble);
 /// resolve, by the rules for detected ones, then those near the places of the failure, then those that larger quads
 /// could not resolve. Only after a plan of withFewerBorders, with which attempts begin again where none has had quads
 /// with all borders. Bound: times in all.
-constexpr const char* kFewerBorders = "fewer borders";
 std::optional<Plan> fewerBorders(const Trouble& trouble);
 /// The next of these steps of a plan; none where nothing yields. places: of the failure.
 std::optional<Plan> withFewerBorders(
-  RunContext& run, const Plan& before, const std::vector<Vector3>& places);
+  const RunContext& run, const Plan& before, const std::vector<Vector3>& places);
 
 /// Where nothing else has led to quads: all features that only the dihedral angle asked for are given up. Bound: times
 /// in all.
 std::optional<Plan> noFeatures(const Trouble& trouble);
 
 /// The plan of noFeatures; none where there is no such feature.
-constexpr const char* kNoFeatures = "no features";
-std::optional<Plan> withoutFeatures(RunContext& run, const Plan& before);
+std::optional<Plan> withoutFeatures(const RunContext& run, const Plan& before);
 
 /// Where that has not led to quads either: features that yield are given up but for long ones far from each other, and
 /// then all. Bound: times in all.
-constexpr const char* kNoBorders = "no borders";
 std::optional<Plan> noBorders(const Trouble& trouble);
 
 /// Calls the plan by what has made it.
 void setStep(Plan& plan, Try which);
 
+/// Whether a limit of the user stands in the way, which features have no part in.
+bool isTooLarge(const Attempt& attempt);
+
 /// Whether features leave coarse triangles no area at so many places that no other vertices mend it.
 bool leavesNoArea(const MapAttempt& map);
 
 /// Features that can be given up near the places.
-std::vector<Index> featuresNear(
-  const RunContext& run, const Plan& plan, const std::vector<Vector3>& places);
+std::vector<Index> featuresNear(const Trouble& trouble, const std::vector<Vector3>& places);
 
 } // namespace quadrille

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Pipeline/SurfaceSizes.h"
-
 #include "Base/Clock.h"
 #include "Mesh/Sizing.h"
+#include "Pipeline/SizedSurface.h"
 #include "Prepare/Frame.h"
 #include "Prepare/Refine.h"
 #include "Sizes/AdaptiveSizing.h"
@@ -60,11 +59,6 @@ std::string adaptiveSizesNotice(
 }
 
 } // namespace
-
-double areaOverSizes(const PreparedSurface& surface)
-{
-  return surface.mesh.sizing.empty() ? surface.area : sizedArea(surface.mesh);
-}
 
 std::string adaptSizes(PreparedSurface& surface, const RemeshOptions& options, SizedSurface& sized)
 {

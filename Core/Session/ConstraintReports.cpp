@@ -21,55 +21,28 @@ namespace
 /// Edge lengths within which a vertex is the one that was meant.
 constexpr double kReachOfOperation = 2;
 
-/// Empty for what is not asked for at points.
-template <class Content>
-std::vector<Vector3> drawnPoints(const Content& content)
-{
-  struct Points
-  {
-    std::vector<Vector3> operator()(const FeatureLine& line) const { return line.points; }
-    std::vector<Vector3> operator()(const GuideStroke& stroke) const { return stroke.points; }
-    std::vector<Vector3> operator()(const ValenceAt& at) const { return { at.point }; }
-    std::vector<Vector3> operator()(const SizeAt& at) const { return { at.point }; }
-    std::vector<Vector3> operator()(const IrregularEdit& edit) const { return edit.points; }
-    std::vector<Vector3> operator()(const Connection& line) const { return line.points; }
-    std::vector<Vector3> operator()(const Cycle& line) const { return line.points; }
-    std::vector<Vector3> operator()(const GuideRegion&) const { return {}; }
-    std::vector<Vector3> operator()(const SizeRegion&) const { return {}; }
-    std::vector<Vector3> operator()(const MirrorSymmetry&) const { return {}; }
-    std::vector<Vector3> operator()(const RotationalSymmetry&) const { return {}; }
-  };
-  return std::visit(Points{}, content);
-}
-
 class SessionJudge
 {
 public:
   SessionJudge(const SurfaceInput& surface, const SessionConstraints& constraints,
     const ComposedInput& composed, const RemeshResult& made, const SessionResult& result,
     const SymmetricResult* symmetric)
-    : surface_(surface), constraints_(constraints), composed_(composed), quads_(made.quads),
-      curves_(made.curves), irregular_(result.irregular), onFeatures_(result.onFeatures),
-      targetEdgeLength_(made.targetEdgeLength), symmetric_(symmetric), measures_(made.quads)
+    : surface_(surface), constraints_(constraints), composed_(composed), made_(made),
+      irregular_(result.irregular), onFeatures_(result.onFeatures), symmetric_(symmetric),
+      measures_(made.quads),
+      mostPlaces_(mostPlacesOf(static_cast<std::size_t>(std::count_if(composed.parts.begin(),
+        composed.parts.end(), [](const PlacedPart& part) { return !part.guided.empty(); }))))
   {
-    std::size_t guides = 0;
-    for (const PlacedPart& part : composed.parts)
-    {
-      guides += part.guided.empty() ? 0 : 1;
-    }
-    mostPlaces_ = mostPlacesOf(guides);
   }
 
   std::vector<ConstraintReport> run()
   {
     std::vector<ConstraintReport> words;
-    for (std::size_t i = 0; i < constraints_.size(); ++i)
+    for (at_ = 0; at_ < constraints_.size(); ++at_)
     {
-      part_ = &composed_.parts[i];
-      id_ = constraints_[i]->id;
-      const SessionConstraint& constraint = *constraints_[i];
+      const SessionConstraint& constraint = *constraints_[at_];
       const ConstraintMeasure measure = measureOf(constraint);
-      const std::string off = measures_.offSurface(drawnPoints(constraint.content));
+      const std::string off = measures_.offSurface(pointsOf(constraint.content));
       words.push_back({ constraint.id, kindOf(constraint.content), constraint.name(), measure.place,
         measure.isMet, measure.deviation, measure.deviation95, measure.unit,
         withRemark(measure.reason, off), !off.empty() });
@@ -80,9 +53,9 @@ public:
   ConstraintMeasure operator()(const FeatureLine&)
   {
     std::vector<std::array<Vector3, 2>> edges;
-    for (std::size_t k = 0; k + 1 < part_->path.size(); ++k)
+    for (std::size_t k = 0; k + 1 < part().path.size(); ++k)
     {
-      edges.push_back({ part_->path[k], part_->path[k + 1] });
+      edges.push_back({ part().path[k], part().path[k + 1] });
     }
     return measures_.curve(edges);
   }
@@ -90,11 +63,11 @@ public:
   ConstraintMeasure operator()(const GuideRegion& region) { return guide(region.weight); }
   ConstraintMeasure operator()(const ValenceAt& at)
   {
-    return measures_.valence(part_->place, at.valence);
+    return measures_.valence(part().place, at.valence);
   }
   ConstraintMeasure operator()(const SizeAt& at) { return size(at.factor); }
   ConstraintMeasure operator()(const SizeRegion& region) { return size(region.factor); }
-  ConstraintMeasure operator()(const IrregularEdit&) { return irregularEdit(id_); }
+  ConstraintMeasure operator()(const IrregularEdit&) { return irregularEdit(); }
   ConstraintMeasure operator()(const Connection& connection)
   {
     return line(ConstraintKind::Connection, connection.points);
@@ -118,7 +91,7 @@ public:
 
 private:
   ConstraintMeasure judgeSymmetry(const char* unlike) const;
-  ConstraintMeasure irregularEdit(int id);
+  ConstraintMeasure irregularEdit();
   Vector3 placeOfPoint(Index point) const;
   int valenceNear(const Vector3& place, int asked);
   std::vector<Vector3> otherChanges();
@@ -126,19 +99,19 @@ private:
 
   ConstraintMeasure measureOf(const SessionConstraint& constraint)
   {
-    if (!part_->whyNot.empty())
+    if (!part().whyNot.empty())
     {
-      return ConstraintMeasure::unknown(part_->place, "", part_->whyNot);
+      return ConstraintMeasure::unknown(part().place, "", part().whyNot);
     }
-    if (quads_.quads.empty())
+    if (made_.quads.quads.empty())
     {
-      return ConstraintMeasure::unknown(part_->place, "", "no quads were made");
+      return ConstraintMeasure::unknown(part().place, "", "no quads were made");
     }
     ConstraintMeasure measure = std::visit(*this, constraint.content);
-    if (!measure.isMet && part_->overruled > 0)
+    if (!measure.isMet && part().overruled > 0)
     {
       std::ostringstream text;
-      text << "; on " << part_->overruled << " of its places constraint " << part_->overruledBy
+      text << "; on " << part().overruled << " of its places constraint " << part().overruledBy
            << ", which is later, counts";
       measure.reason += text.str();
     }
@@ -147,12 +120,12 @@ private:
 
   ConstraintMeasure guide(double weight)
   {
-    if (part_->guided.empty())
+    if (part().guided.empty())
     {
-      return ConstraintMeasure::unknown(part_->place, "degrees", "it runs over no face");
+      return ConstraintMeasure::unknown(part().place, "degrees", "it runs over no face");
     }
     double irregularShare = 0;
-    ConstraintMeasure measure = measures_.guide(part_->guided, mostPlaces_, &irregularShare);
+    ConstraintMeasure measure = measures_.guide(part().guided, mostPlaces_, &irregularShare);
     constexpr double kNotableShare = 0.1;
     if (!measure.isMet && irregularShare > kNotableShare)
     {
@@ -167,6 +140,12 @@ private:
     return measure;
   }
 
+  const PlacedPart& part() const { return composed_.parts[at_]; }
+  bool isLastOperation(std::size_t i) const
+  {
+    return constraints_[i]->id == composed_.lastOperation;
+  }
+
   ConstraintMeasure size(double factor);
 
   ConstraintMeasure line(ConstraintKind kind, std::vector<Vector3> path);
@@ -174,30 +153,27 @@ private:
   const SurfaceInput& surface_;
   const SessionConstraints& constraints_;
   const ComposedInput& composed_;
-  const QuadMesh& quads_;
-  const std::vector<CurveOutcome>& curves_;
+  const RemeshResult& made_;
   const std::vector<IrregularVertex>& irregular_;
   const std::vector<HeldVertex>& onFeatures_;
-  double targetEdgeLength_;
   const SymmetricResult* symmetric_; ///< null: the quads were not made so
   ConstraintMeasures measures_;
+  std::size_t mostPlaces_;
   std::optional<IrregularMatch> match_; ///< and this
   std::optional<LinesInQuads> lines_;   ///< made when they are needed first
-  std::size_t mostPlaces_ = 0;
-  const PlacedPart* part_ = nullptr;
-  int id_ = 0; ///< of the constraint
+  std::size_t at_ = 0;                  ///< the constraint
 };
 
 /// The vertices that it changed last have their valences in the quads; and of the last operation: all others are
 /// where they were. deviation counts those that have not, or are not.
-ConstraintMeasure SessionJudge::irregularEdit(int id)
+ConstraintMeasure SessionJudge::irregularEdit()
 {
   ConstraintMeasure measure;
-  measure.place = part_->place;
+  measure.place = part().place;
   measure.unit = "valence";
   measure.deviation95 = std::numeric_limits<double>::quiet_NaN();
   std::size_t wrong = 0;
-  for (const auto& [point, asked] : part_->valences)
+  for (const auto& [point, asked] : part().valences)
   {
     const Vector3 place = placeOfPoint(point);
     const int got = valenceNear(place, asked);
@@ -214,7 +190,7 @@ ConstraintMeasure SessionJudge::irregularEdit(int id)
     measure.reason += "; with a symmetry the operations in front of the mirror plane count: make "
                       "it at the mirror image";
   }
-  if (id == composed_.lastOperation && symmetric_ == nullptr && composed_.input.regularElsewhere)
+  if (isLastOperation(at_) && symmetric_ == nullptr && composed_.input.regularElsewhere)
   {
     const std::vector<Vector3> others = otherChanges();
     if (!others.empty())
@@ -262,7 +238,7 @@ int SessionJudge::valenceNear(const Vector3& place, int asked)
   for (const std::size_t k : match.unexpected)
   {
     const double distance = (irregular_[k].place - place).norm();
-    if (distance <= kReachOfOperation * targetEdgeLength_ &&
+    if (distance <= kReachOfOperation * made_.targetEdgeLength &&
       (!best || distance < (best->place - place).norm()))
     {
       best = &irregular_[k];
@@ -275,7 +251,7 @@ int SessionJudge::valenceNear(const Vector3& place, int asked)
 std::vector<Vector3> SessionJudge::otherChanges()
 {
   const IrregularMatch& match = irregularMatch();
-  const double reach = kReachOfOperation * targetEdgeLength_;
+  const double reach = kReachOfOperation * made_.targetEdgeLength;
   const auto isNear = [&](const std::vector<Vector3>& all, const Vector3& p, double distance)
   {
     return std::any_of(
@@ -288,7 +264,7 @@ std::vector<Vector3> SessionJudge::otherChanges()
   for (std::size_t i = 0; i < constraints_.size(); ++i)
   {
     const PlacedPart& part = composed_.parts[i];
-    isLater = isLater || constraints_[i]->id == composed_.lastOperation;
+    isLater = isLater || isLastOperation(i);
     if (isLater) // a feature has ends, and corners with others
     {
       drawn.insert(drawn.end(), part.path.begin(), part.path.end());
@@ -341,7 +317,8 @@ const IrregularMatch& SessionJudge::irregularMatch()
 {
   if (!match_)
   {
-    match_ = matchIrregular(composed_.irregular, irregular_, kReachOfOperation * targetEdgeLength_);
+    match_ =
+      matchIrregular(composed_.irregular, irregular_, kReachOfOperation * made_.targetEdgeLength);
   }
   return *match_;
 }
@@ -352,7 +329,7 @@ ConstraintMeasure SessionJudge::judgeSymmetry(const char* unlike) const
 {
   if (symmetric_ == nullptr)
   {
-    return ConstraintMeasure::unknown(part_->place, "diagonals", "the quads are not symmetric");
+    return ConstraintMeasure::unknown(part().place, "diagonals", "the quads are not symmetric");
   }
   ConstraintMeasure measure;
   measure.place = symmetric_->deviation.place;
@@ -367,24 +344,24 @@ ConstraintMeasure SessionJudge::judgeSymmetry(const char* unlike) const
 /// Met where there is a straight chain of edges; how far it runs from what was drawn is told.
 ConstraintMeasure SessionJudge::line(ConstraintKind kind, std::vector<Vector3> path)
 {
-  if (!part_->curve || *part_->curve >= curves_.size())
+  if (!part().curve || *part().curve >= made_.curves.size())
   {
     return ConstraintMeasure::unknown(
-      part_->place, "edge lengths", "the method has no connections and cycles: choose another one");
+      part().place, "edge lengths", "the method has no connections and cycles: choose another one");
   }
   if (!lines_)
   {
-    lines_.emplace(quads_);
+    lines_.emplace(made_.quads);
   }
-  const CurveOutcome& outcome = curves_[*part_->curve];
+  const CurveOutcome& outcome = made_.curves[*part().curve];
   PlacedConstraint placed;
   placed.kind = kind;
-  placed.curve = *part_->curve;
+  placed.curve = *part().curve;
   placed.path = std::move(path);
   const std::vector<Vector3> chain = lines_->chainOf(placed, outcome);
   if (chain.empty())
   {
-    return ConstraintMeasure::unknown(part_->place, "edge lengths",
+    return ConstraintMeasure::unknown(part().place, "edge lengths",
       outcome.why.empty() ? "the quads have no straight chain of edges there" : outcome.why);
   }
   const auto [distance, place] = farthestFrom(placed.path, chain);
@@ -400,28 +377,28 @@ ConstraintMeasure SessionJudge::line(ConstraintKind kind, std::vector<Vector3> p
 /// By which factor the edge lengths at the places, from the areas of the quads there, differ from those asked for.
 ConstraintMeasure SessionJudge::size(double factor)
 {
-  const NearestQuads nearest(quads_);
+  const NearestQuads nearest(made_.quads);
   const auto lengthOf = [this](Index q)
   {
-    const std::array<Index, 4>& quad = quads_.quads[q];
+    const std::array<Index, 4>& quad = made_.quads.quads[q];
     return std::sqrt(0.5 *
-      (quads_.points[quad[2]] - quads_.points[quad[0]])
-        .cross(quads_.points[quad[3]] - quads_.points[quad[1]])
+      (made_.quads.points[quad[2]] - made_.quads.points[quad[0]])
+        .cross(made_.quads.points[quad[3]] - made_.quads.points[quad[1]])
         .norm());
   };
   ConstraintMeasure measure =
-    ConstraintMeasure::unknown(part_->place, "factor", "the quads near it have no area");
+    ConstraintMeasure::unknown(part().place, "factor", "the quads near it have no area");
   std::vector<WeightedDeviation> logarithms;
   double worst = -1;
-  const std::size_t stride = strideOf(part_->points.size(), mostPlacesOf(1));
-  for (std::size_t i = 0; i < part_->points.size(); i += stride)
+  const std::size_t stride = strideOf(part().points.size(), mostPlacesOf(1));
+  for (std::size_t i = 0; i < part().points.size(); i += stride)
   {
-    const Vector3& p = surface_.points[part_->points[i]];
+    const Vector3& p = surface_.points[part().points[i]];
     const auto there = nearest.at(p);
     const double length = there ? lengthOf(there->quad) : 0;
     if (length > 0)
     {
-      const double off = std::abs(std::log(length / (factor * targetEdgeLength_)));
+      const double off = std::abs(std::log(length / (factor * made_.targetEdgeLength)));
       logarithms.push_back({ off, 1 });
       if (off > worst)
       {

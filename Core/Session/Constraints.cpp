@@ -189,21 +189,28 @@ const char* kindOf(const ConstraintContent& content)
   return kConstraintKinds[content.index()];
 }
 
+std::vector<Vector3> pointsOf(const ConstraintContent& content)
+{
+  using Points = std::vector<Vector3>;
+  return std::visit(
+    ByKind{ [](const ValenceAt& at) { return Points{ at.point }; },
+      [](const SizeAt& at) { return Points{ at.point }; },
+      [](const GuideRegion&) { return Points{}; }, [](const SizeRegion&) { return Points{}; },
+      [](const MirrorSymmetry&) { return Points{}; },
+      [](const RotationalSymmetry&) { return Points{}; },
+      [](const auto& line) { return line.points; } },
+    content);
+}
+
 std::optional<Vector3> placeOf(const ConstraintContent& content)
 {
-  const auto first = [](const auto& line) -> std::optional<Vector3>
-  { return line.points.empty() ? std::nullopt : std::optional<Vector3>(line.points.front()); };
-  return std::visit(
-    ByKind{ [](const ValenceAt& at) -> std::optional<Vector3> { return at.point; },
-      [](const SizeAt& at) -> std::optional<Vector3> { return at.point; },
-      [](const GuideRegion&) -> std::optional<Vector3> { return std::nullopt; },
-      [](const SizeRegion&) -> std::optional<Vector3> { return std::nullopt; },
-      [](const MirrorSymmetry& symmetry) -> std::optional<Vector3>
-      { return symmetry.plane ? std::optional<Vector3>(symmetry.plane->origin) : std::nullopt; },
-      [](const RotationalSymmetry& rotation) -> std::optional<Vector3>
-      { return rotation.axis ? std::optional<Vector3>(rotation.axis->origin) : std::nullopt; },
-      first },
-    content);
+  const std::vector<Vector3> points = pointsOf(content);
+  const auto* mirror = std::get_if<MirrorSymmetry>(&content);
+  const auto* rotation = std::get_if<RotationalSymmetry>(&content);
+  return !points.empty()         ? std::optional<Vector3>(points.front())
+    : mirror && mirror->plane    ? std::optional<Vector3>(mirror->plane->origin)
+    : rotation && rotation->axis ? std::optional<Vector3>(rotation->axis->origin)
+                                 : std::nullopt;
 }
 
 void checkConstraint(

@@ -150,6 +150,8 @@ using ConstraintContent = std::variant<FeatureLine, GuideStroke, GuideRegion, Va
 /// "feature", "guide", "guide region", "valence", "size", "size region", "irregular", "connection", "cycle",
 /// "symmetry", "rotation".
 const char* kindOf(const ConstraintContent& content);
+/// The points that it was drawn at; none of regions and symmetries.
+std::vector<Vector3> pointsOf(const ConstraintContent& content);
 /// Where it is, for messages: its first point.
 std::optional<Vector3> placeOf(const ConstraintContent& content);
 

@@ -146,29 +146,29 @@ std::uint64_t surfaceHash(const SurfaceInput& surface, int threads)
   KeyMaker key(contentHash(surface, threads));
   for (const Vector3& direction : surface.guideDirections)
   {
-    key.add(direction[0]).add(direction[1]).add(direction[2]);
+    key.add(direction);
   }
-  key.add(surface.guideWeights).add(surface.targetValences);
+  key.add(surface.guideWeights, surface.targetValences);
   for (const CurveRequest& curve : surface.curves)
   {
-    key.add(static_cast<std::uint64_t>(curve.kind));
+    key.add(curve.kind);
     for (const Vector3& p : curve.points)
     {
-      key.add(p[0]).add(p[1]).add(p[2]);
+      key.add(p);
     }
   }
-  return key.add(std::uint64_t{ surface.regularElsewhere ? 1U : 0U }).key();
+  return key.add(surface.regularElsewhere).key();
 }
 
 //------------------------------------------------------------------------------
-SessionData::SessionData(SurfaceInput input) : surface(std::move(input))
+SessionData::SessionData(SurfaceInput input)
+  : surface(std::move(input)), results(ResultStore::bytesOfMachine() / kResultsShareOfMachine)
 {
   if (surface.polygonPoints.empty())
   {
     refuse("the surface has no polygon");
   }
   requirePolygons(surface);
-  maximumResultBytes = ResultStore::bytesOfMachine() / kResultsShareOfMachine;
   history.push_back(std::make_shared<SessionState>());
 }
 
@@ -176,44 +176,27 @@ const SurfacePlaces& SessionData::places()
 {
   if (!places_)
   {
-    places_ = std::make_unique<SurfacePlaces>(surface, threads);
+    places_ = std::make_unique<SurfacePlaces>(surface, limits.threads);
   }
   return *places_;
 }
 
-const OnCurves& SessionData::onCurvesOf(const PreparedSurface& made)
+std::shared_ptr<const OnCurves> SessionData::onCurvesOf(const PreparedSurface& made)
 {
-  if (!onCurves_ || onCurvesHash_ != made.hash)
-  {
-    onCurves_ = std::make_unique<OnCurves>(findOnCurves(made, threads));
-    onCurvesHash_ = made.hash;
-  }
-  return *onCurves_;
+  return findOrMake<OnCurves>(
+    &store, made.hash, [&] { return findOnCurves(made, limits.threads); },
+    [](const OnCurves& found) { return bytesOf(found.vertices) + bytesOf(found.points); });
 }
 
 std::shared_ptr<SessionResult> SessionData::resultOf(const SessionState& state)
 {
-  const auto found = results.find(state.key());
-  if (found == results.end())
-  {
-    return nullptr;
-  }
-  found->second.lastUse = ++uses;
-  return found->second.result;
+  return results.find<SessionResult>(state.key());
 }
 
 void SessionData::keep(const SessionState& state, std::shared_ptr<SessionResult> result)
 {
-  resultBytes += result->bytes();
-  const std::string& key = state.key();
-  results[key] = { std::move(result), ++uses };
-  while (resultBytes > maximumResultBytes && results.size() > 1)
-  {
-    const auto oldest = std::min_element(results.begin(), results.end(),
-      [](const auto& a, const auto& b) { return a.second.lastUse < b.second.lastUse; });
-    resultBytes -= oldest->second.result->bytes();
-    results.erase(oldest);
-  }
+  const std::size_t bytes = result->bytes();
+  results.put(state.key(), std::move(result), bytes);
 }
 
 void SessionData::enter(std::shared_ptr<SessionState> state)
@@ -226,7 +209,7 @@ void SessionData::enter(std::shared_ptr<SessionState> state)
 SessionState SessionData::next() const
 {
   SessionState state = now();
-  state.key_.clear();
+  state.key_.reset();
   return state;
 }
 
@@ -280,9 +263,9 @@ SessionConstraints::iterator SessionState::find(int id)
   return found;
 }
 
-const std::string& SessionState::key() const
+ResultKey SessionState::key() const
 {
-  if (key_.empty())
+  if (!key_)
   {
     SessionJson json;
     json["settings"] = settingsToJson(settings);
@@ -290,9 +273,9 @@ const std::string& SessionState::key() const
     {
       json["constraints"].push_back(constraintToJson(*constraint));
     }
-    key_ = json.dump();
+    key_ = KeyMaker().add(json.dump()).key();
   }
-  return key_;
+  return *key_;
 }
 
 //------------------------------------------------------------------------------
@@ -300,9 +283,7 @@ Session::Session(SurfaceInput surface, RemeshOptions settings)
   : data_(std::make_unique<SessionData>(std::move(surface)))
 {
   checkSettings(settings);
-  data_->threads = settings.threads;
-  data_->memoryLimit = settings.memoryLimit;
-  data_->progress = settings.progress;
+  data_->limits = { settings.threads, settings.memoryLimit, settings.progress };
   data_->history.front()->settings = std::move(settings);
 }
 
@@ -335,34 +316,27 @@ void Session::setSettings(const RemeshOptions& settings)
 
 int Session::threads() const
 {
-  return data_->threads;
+  return data_->limits.threads;
 }
 
 std::optional<double> Session::memoryLimit() const
 {
-  return data_->memoryLimit;
+  return data_->limits.memoryLimit;
 }
 
 void Session::setThreads(int threads)
 {
-  data_->threads = threads;
+  data_->limits.threads = threads;
 }
 
 void Session::setMemoryLimit(std::optional<double> bytes)
 {
-  data_->memoryLimit = bytes;
+  data_->limits.memoryLimit = bytes;
 }
 
 void Session::setProgress(ProgressCallback progress)
 {
-  data_->progress = std::move(progress);
-}
-
-void Session::setMaximumBytes(std::size_t stages, std::size_t results)
-{
-  data_->store.setMaximumBytes(stages);
-  data_->maximumResultBytes =
-    results > 0 ? results : ResultStore::bytesOfMachine() / kResultsShareOfMachine;
+  data_->limits.progress = std::move(progress);
 }
 
 int Session::add(ConstraintContent content)
@@ -444,14 +418,12 @@ const SessionReport& Session::update()
   const MadeState run = runState(*data_, state);
   if (const std::shared_ptr<SessionResult>& made = run.result)
   {
-    data_->soFar.reset();
-    if (!made->report.stopped.empty())
+    const bool isStopped = !made->report.stopped.empty();
+    data_->soFar = { isStopped ? made : nullptr, state.key() };
+    if (!isStopped)
     {
-      data_->soFar = made;
-      data_->stateOfSoFar = state.key();
-      return made->report;
+      data_->keep(state, made);
     }
-    data_->keep(state, made);
     return made->report;
   }
   data_->stopped = {};
@@ -463,7 +435,7 @@ std::shared_ptr<const SessionResult> Session::result() const
 {
   const SessionState& now = data_->now();
   const auto found = data_->resultOf(now);
-  return !found && data_->soFar && data_->stateOfSoFar == now.key() ? data_->soFar : found;
+  return !found && data_->soFar.state == now.key() ? data_->soFar.result : found;
 }
 
 SessionResult Session::preview()

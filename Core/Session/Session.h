@@ -120,9 +120,6 @@ public:
   std::optional<double> memoryLimit() const;
   void setMemoryLimit(std::optional<double> bytes);
   void setProgress(ProgressCallback progress);
-  /// Bytes that stages, and results of states, may hold; 0: a quarter and a 32nd of the machine's memory.
-  void setMaximumBytes(std::size_t stages, std::size_t results);
-
   /// Returns its id. Throws InvalidInput as checkConstraint does; an irregular operation is applied to the quads of
   /// the present state, which are made where they are not, and refused where its places or the sum of indices do not
   /// allow it.

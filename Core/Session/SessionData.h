@@ -23,14 +23,22 @@ struct SessionState
   RemeshOptions settings;
   SessionConstraints constraints;
 
-  /// All that its result depends on, beside the surface.
-  const std::string& key() const;
+  /// Of all that its result depends on, beside the surface.
+  ResultKey key() const;
   /// Throws InvalidInput, with the ids that there are.
   SessionConstraints::iterator find(int id);
 
 private:
   friend struct SessionData;
-  mutable std::string key_;
+  mutable std::optional<ResultKey> key_;
+};
+
+/// What no result depends on.
+struct RunLimits
+{
+  int threads = 0;
+  std::optional<double> memoryLimit;
+  ProgressCallback progress;
 };
 
 struct SessionData
@@ -45,41 +53,32 @@ struct SessionData
   /// Empty: the present one.
   SessionState& named(const std::string& name) const;
   const SurfacePlaces& places();
-  /// Of the surface under the quads; kept until another one comes.
-  const OnCurves& onCurvesOf(const PreparedSurface& made);
+  /// Of the surface under the quads.
+  std::shared_ptr<const OnCurves> onCurvesOf(const PreparedSurface& made);
   std::shared_ptr<SessionResult> resultOf(const SessionState& state);
   void keep(const SessionState& state, std::shared_ptr<SessionResult> result);
   /// Irregular operations of the present state that are in force.
   std::vector<IrregularEdit::Link> linksInForce() const;
 
   SurfaceInput surface;
-  int threads = 0;
-  std::optional<double> memoryLimit;
-  ProgressCallback progress;
+  RunLimits limits;
   int nextId = 1;
   std::vector<std::shared_ptr<SessionState>> history;
   std::size_t at = 0; ///< of the present one
   std::map<std::string, std::shared_ptr<SessionState>> names;
-  ResultStore store;
+  ResultStore store;   ///< of the runs' stages
+  ResultStore results; ///< of states, by their keys
   LinePlacements lines;
   SessionReport stopped; ///< of an update that was
-  /// Of one that was stopped with quads, and the key of its state; they count until that has a result.
-  std::shared_ptr<SessionResult> soFar;
-  std::string stateOfSoFar;
-
-  struct Kept
+  /// Of one that was stopped with quads; it counts until its state has a result.
+  struct
   {
     std::shared_ptr<SessionResult> result;
-    std::uint64_t lastUse = 0;
-  };
-  std::map<std::string, Kept> results; ///< by SessionState::key
-  std::size_t resultBytes = 0, maximumResultBytes = 0;
-  std::uint64_t uses = 0;
+    ResultKey state = 0;
+  } soFar;
 
 private:
   std::unique_ptr<SurfacePlaces> places_; ///< made when they are needed first
-  std::unique_ptr<OnCurves> onCurves_;    ///< of the surface with the hash
-  std::uint64_t onCurvesHash_ = 0;
 };
 
 } // namespace quadrille

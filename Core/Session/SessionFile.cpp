@@ -254,7 +254,7 @@ void Session::save(const std::string& path) const
   SessionJson json;
   json["format"] = kFormat;
   json["version"] = kSessionVersion;
-  json["mesh"] = meshToJson(data_->surface, data_->threads);
+  json["mesh"] = meshToJson(data_->surface, data_->limits.threads);
   json["next_id"] = data_->nextId;
   json["state"] = stateToJson(data_->now());
   json["named_states"] = SessionJson::object();
@@ -283,7 +283,7 @@ Session Session::load(const std::string& path, SurfaceInput surface)
   }
   requireOnly(json, { "format", "version", "mesh", "next_id", "state", "named_states" }, where);
   auto data = std::make_unique<SessionData>(std::move(surface));
-  requireSameMesh(memberOf(json, "mesh", where), data->surface, data->threads, where);
+  requireSameMesh(memberOf(json, "mesh", where), data->surface, data->limits.threads, where);
   data->history.front() = std::make_shared<SessionState>(
     stateFromJson(memberOf(json, "state", where), data->surface, where));
   const SessionJson& names = memberOf(json, "named_states", where);

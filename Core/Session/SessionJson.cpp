@@ -3,7 +3,7 @@
 #include "Session/SessionJson.h"
 
 #include "Base/Refuse.h"
-#include "Session/JsonReader.h"
+#include "Session/JsonFields.h"
 
 #include <array>
 #include <cstddef>
@@ -20,153 +20,66 @@ namespace
 constexpr std::array<const char*, 5> kOperations{ "move", "split", "merge", "cancel", "add" };
 constexpr std::array<const char*, 2> kPlaneCurves{ "isoline", "mid-line" };
 
-SessionJson pointToJson(const Vector3& p)
+/// The fields of each kind.
+template <typename Fields>
+struct ContentFields
 {
-  return { p.x(), p.y(), p.z() };
-}
+  Fields& json;
 
-SessionJson pointsToJson(const std::vector<Vector3>& points)
-{
-  SessionJson json = SessionJson::array();
-  for (const Vector3& p : points)
+  template <typename Line>
+  void points(Line& line) const
   {
-    json.push_back(pointToJson(p));
+    json.need("points", line.points);
   }
-  return json;
-}
 
-/// Writes the members of each kind.
-struct ContentWriter
-{
-  SessionJson& json;
-
-  void operator()(const FeatureLine& line) const { json["points"] = pointsToJson(line.points); }
-  void operator()(const GuideStroke& stroke) const
-  {
-    json["points"] = pointsToJson(stroke.points);
-    json["weight"] = stroke.weight;
-    json["radius"] = stroke.radius;
-  }
-  void operator()(const GuideRegion& region) const
-  {
-    json["polygons"] = region.polygons;
-    json["direction"] = pointToJson(region.direction);
-    json["weight"] = region.weight;
-  }
-  void operator()(const ValenceAt& at) const
-  {
-    json["point"] = pointToJson(at.point);
-    json["valence"] = at.valence;
-  }
-  void operator()(const SizeAt& at) const
-  {
-    json["point"] = pointToJson(at.point);
-    json["radius"] = at.radius;
-    json["factor"] = at.factor;
-  }
-  void operator()(const SizeRegion& region) const
-  {
-    json["polygons"] = region.polygons;
-    json["factor"] = region.factor;
-  }
-  void operator()(const IrregularEdit& edit) const
-  {
-    json["operation"] = kOperations[static_cast<std::size_t>(edit.operation)];
-    json["points"] = pointsToJson(edit.points);
-    json["valences"] = edit.valences;
-  }
-  void operator()(const Connection& connection) const
-  {
-    json["points"] = pointsToJson(connection.points);
-  }
-  void operator()(const Cycle& cycle) const { json["points"] = pointsToJson(cycle.points); }
-  void operator()(const MirrorSymmetry& symmetry) const
-  {
-    if (symmetry.plane)
-    {
-      json["origin"] = pointToJson(symmetry.plane->origin);
-      json["normal"] = pointToJson(symmetry.plane->normal);
-    }
-    // Files without it are read as before.
-    if (symmetry.planeCurve != PlaneCurve::Isoline)
-    {
-      json["plane_curve"] = kPlaneCurves[static_cast<std::size_t>(symmetry.planeCurve)];
-    }
-  }
-  void operator()(const RotationalSymmetry& rotation) const
-  {
-    json["order"] = rotation.order;
-    if (rotation.axis)
-    {
-      json["origin"] = pointToJson(rotation.axis->origin);
-      json["direction"] = pointToJson(rotation.axis->direction);
-    }
-  }
-};
-
-struct ContentReader
-{
-  ObjectReader& json;
-
-  void operator()(FeatureLine& line) const { json.read("points", line.points); }
+  void operator()(FeatureLine& line) const { points(line); }
   void operator()(GuideStroke& stroke) const
   {
-    json.read("points", stroke.points);
-    json.readIf("weight", stroke.weight);
-    json.readIf("radius", stroke.radius);
+    points(stroke);
+    json.may("weight", stroke.weight);
+    json.may("radius", stroke.radius);
   }
   void operator()(GuideRegion& region) const
   {
-    json.read("polygons", region.polygons);
-    json.read("direction", region.direction);
-    json.readIf("weight", region.weight);
+    json.need("polygons", region.polygons);
+    json.need("direction", region.direction);
+    json.may("weight", region.weight);
   }
   void operator()(ValenceAt& at) const
   {
-    json.read("point", at.point);
-    json.read("valence", at.valence);
+    json.need("point", at.point);
+    json.need("valence", at.valence);
   }
   void operator()(SizeAt& at) const
   {
-    json.read("point", at.point);
-    json.readIf("radius", at.radius);
-    json.read("factor", at.factor);
+    json.need("point", at.point);
+    json.may("radius", at.radius);
+    json.need("factor", at.factor);
   }
   void operator()(SizeRegion& region) const
   {
-    json.read("polygons", region.polygons);
-    json.read("factor", region.factor);
+    json.need("polygons", region.polygons);
+    json.need("factor", region.factor);
   }
   void operator()(IrregularEdit& edit) const
   {
-    edit.operation = static_cast<IrregularOperation>(json.readName("operation", kOperations));
-    json.read("points", edit.points);
-    json.readIf("valences", edit.valences);
+    json.needName("operation", edit.operation, kOperations);
+    points(edit);
+    json.may("valences", edit.valences);
   }
-  void operator()(Connection& connection) const { json.read("points", connection.points); }
-  void operator()(Cycle& cycle) const { json.read("points", cycle.points); }
+  void operator()(Connection& connection) const { points(connection); }
+  void operator()(Cycle& cycle) const { points(cycle); }
   void operator()(MirrorSymmetry& symmetry) const
   {
-    if (json.has("origin") || json.has("normal"))
-    {
-      symmetry.plane.emplace();
-      json.read("origin", symmetry.plane->origin);
-      json.read("normal", symmetry.plane->normal);
-    }
-    if (json.has("plane_curve"))
-    {
-      symmetry.planeCurve = static_cast<PlaneCurve>(json.readName("plane_curve", kPlaneCurves));
-    }
+    json.both("origin", &MirrorPlane::origin, "normal", &MirrorPlane::normal, symmetry.plane);
+    // Files without it are read as before.
+    json.unlessUsual("plane_curve", symmetry.planeCurve, PlaneCurve::Isoline, kPlaneCurves);
   }
   void operator()(RotationalSymmetry& rotation) const
   {
-    json.read("order", rotation.order);
-    if (json.has("origin") || json.has("direction"))
-    {
-      rotation.axis.emplace();
-      json.read("origin", rotation.axis->origin);
-      json.read("direction", rotation.axis->direction);
-    }
+    json.need("order", rotation.order);
+    json.both(
+      "origin", &RotationAxis::origin, "direction", &RotationAxis::direction, rotation.axis);
   }
 };
 
@@ -190,134 +103,52 @@ ConstraintContent emptyOfKind(const std::string& kind, const std::string& where)
   refuse(where, " is of the kind \"", kind, "\", which this version does not know");
 }
 
-ConstraintContent readContent(ObjectReader& reader)
+ConstraintContent readContent(FieldReader& reader)
 {
   std::string kind;
-  reader.read("kind", kind);
+  reader.need("kind", kind);
   ConstraintContent content = emptyOfKind(kind, reader.where());
-  std::visit(ContentReader{ reader }, content);
+  std::visit(ContentFields<FieldReader>{ reader }, content);
   return content;
 }
 
-SessionJson changesToJson(const std::vector<IrregularEdit::Change>& changes)
+constexpr auto kVertexFields = [](auto& fields, auto& vertex)
 {
-  SessionJson json = SessionJson::array();
-  for (const IrregularEdit::Change& change : changes)
-  {
-    json.push_back(
-      { { "point", change.point }, { "before", change.before }, { "after", change.after } });
-  }
-  return json;
-}
-
+  fields.need("point", vertex.point);
+  fields.need("place", vertex.place);
+  fields.need("valence", vertex.valence);
+};
+constexpr auto kChangeFields = [](auto& fields, auto& change)
+{
+  fields.need("point", change.point);
+  fields.need("before", change.before);
+  fields.need("after", change.after);
+};
+constexpr auto kLinkFields = [](auto& fields, auto& link)
+{
+  fields.need("id", link.id);
+  fields.need("revision", link.revision);
+  fields.needEach("changes", link.changes, kChangeFields);
+};
+constexpr auto kSectorFields = [](auto& fields, auto& sector)
+{
+  fields.need("middle", sector.middle);
+  fields.need("turns", sector.turns);
+};
+constexpr auto kHeldFields = [](auto& fields, auto& held)
+{
+  fields.need("point", held.point);
+  fields.need("place", held.place);
+  fields.needEach("sectors", held.sectors, kSectorFields);
+};
 /// What the session has made of an irregular operation.
-SessionJson resolvedToJson(const IrregularEdit& edit)
+constexpr auto kResolvedFields = [](auto& fields, auto& edit)
 {
-  SessionJson before = SessionJson::array();
-  for (const IrregularVertex& vertex : edit.before)
-  {
-    before.push_back({ { "point", vertex.point }, { "place", pointToJson(vertex.place) },
-      { "valence", vertex.valence } });
-  }
-  SessionJson upon = SessionJson::array();
-  for (const IrregularEdit::Link& link : edit.upon)
-  {
-    upon.push_back({ { "id", link.id }, { "revision", link.revision },
-      { "changes", changesToJson(link.changes) } });
-  }
-  SessionJson onFeatures = SessionJson::array();
-  for (const HeldVertex& vertex : edit.onFeatures)
-  {
-    SessionJson sectors = SessionJson::array();
-    for (const HeldSector& sector : vertex.sectors)
-    {
-      sectors.push_back({ { "middle", pointToJson(sector.middle) }, { "turns", sector.turns } });
-    }
-    onFeatures.push_back({ { "point", vertex.point }, { "place", pointToJson(vertex.place) },
-      { "sectors", sectors } });
-  }
-  return { { "before", before }, { "changes", changesToJson(edit.changes) }, { "upon", upon },
-    { "on_features", onFeatures } };
-}
-
-template <class Read>
-void readEach(const SessionJson& list, const std::string& where, const Read& read)
-{
-  if (!list.is_array())
-  {
-    refuse(where, " must be a list");
-  }
-  for (const SessionJson& json : list)
-  {
-    ObjectReader reader(json, where);
-    read(reader);
-    reader.finish();
-  }
-}
-
-void readChanges(
-  const SessionJson& json, const std::string& where, std::vector<IrregularEdit::Change>& changes)
-{
-  readEach(json, "\"changes\" of " + where,
-    [&](ObjectReader& each)
-    {
-      IrregularEdit::Change change;
-      each.read("point", change.point);
-      each.read("before", change.before);
-      each.read("after", change.after);
-      changes.push_back(change);
-    });
-}
-
-void readOnFeatures(
-  const SessionJson& json, const std::string& where, std::vector<HeldVertex>& vertices)
-{
-  readEach(json, "\"on_features\" of " + where,
-    [&](ObjectReader& each)
-    {
-      HeldVertex vertex;
-      each.read("point", vertex.point);
-      each.read("place", vertex.place);
-      readEach(each.at("sectors"), "\"sectors\" of " + where,
-        [&](ObjectReader& eachSector)
-        {
-          HeldSector sector;
-          eachSector.read("middle", sector.middle);
-          eachSector.read("turns", sector.turns);
-          vertex.sectors.push_back(sector);
-        });
-      vertices.push_back(std::move(vertex));
-    });
-}
-
-void readResolved(const SessionJson& json, const std::string& where, IrregularEdit& edit)
-{
-  ObjectReader reader(json, where);
-  readEach(reader.at("before"), "\"before\" of " + where,
-    [&](ObjectReader& each)
-    {
-      IrregularVertex vertex;
-      each.read("point", vertex.point);
-      each.read("place", vertex.place);
-      each.read("valence", vertex.valence);
-      edit.before.push_back(vertex);
-    });
-  readChanges(reader.at("changes"), where, edit.changes);
-  readEach(reader.at("upon"), "\"upon\" of " + where,
-    [&](ObjectReader& each)
-    {
-      IrregularEdit::Link link;
-      each.read("id", link.id);
-      each.read("revision", link.revision);
-      readChanges(each.at("changes"), where, link.changes);
-      edit.upon.push_back(link);
-    });
-  if (reader.has("on_features")) // files of before have none
-  {
-    readOnFeatures(reader.at("on_features"), where, edit.onFeatures);
-  }
-  reader.finish();
-}
+  fields.needEach("before", edit.before, kVertexFields);
+  fields.needEach("changes", edit.changes, kChangeFields);
+  fields.needEach("upon", edit.upon, kLinkFields);
+  fields.mayEach("on_features", edit.onFeatures, kHeldFields); // files of before have none
+};
 
 } // namespace
 
@@ -325,13 +156,15 @@ SessionJson contentToJson(const ConstraintContent& content)
 {
   SessionJson json;
   json["kind"] = kindOf(content);
-  std::visit(ContentWriter{ json }, content);
+  FieldWriter writer(json);
+  ConstraintContent copy = content; // a list of fields is for both ways
+  std::visit(ContentFields<FieldWriter>{ writer }, copy);
   return json;
 }
 
 ConstraintContent contentFromJson(const SessionJson& json, const std::string& where)
 {
-  ObjectReader reader(json, where);
+  FieldReader reader(json, where);
   ConstraintContent content = readContent(reader);
   reader.finish();
   return content;
@@ -345,7 +178,8 @@ SessionJson constraintToJson(const SessionConstraint& constraint)
   json.update(contentToJson(constraint.content));
   if (const auto* edit = std::get_if<IrregularEdit>(&constraint.content))
   {
-    json["resolved"] = resolvedToJson(*edit);
+    FieldWriter writer(json["resolved"]);
+    kResolvedFields(writer, *edit);
   }
   return json;
 }
@@ -354,16 +188,18 @@ SessionConstraint constraintFromJson(const SessionJson& json, const std::string&
 {
   SessionConstraint constraint;
   {
-    ObjectReader ids(json, where);
-    ids.read("id", constraint.id);
+    FieldReader ids(json, where);
+    ids.need("id", constraint.id);
   }
-  ObjectReader reader(json, "constraint " + std::to_string(constraint.id) + " of " + where);
-  reader.read("id", constraint.id);
-  reader.read("revision", constraint.revision);
+  FieldReader reader(json, "constraint " + std::to_string(constraint.id) + " of " + where);
+  reader.need("id", constraint.id);
+  reader.need("revision", constraint.revision);
   constraint.content = readContent(reader);
   if (auto* edit = std::get_if<IrregularEdit>(&constraint.content))
   {
-    readResolved(reader.at("resolved"), reader.where(), *edit);
+    FieldReader resolved(reader.at("resolved"), reader.where());
+    kResolvedFields(resolved, *edit);
+    resolved.finish();
   }
   reader.finish();
   return constraint;

@@ -11,7 +11,7 @@
 #include "Symmetry/Symmetry.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -33,27 +33,56 @@ bool mayFail(const SessionConstraint& constraint)
     !std::holds_alternative<SizeRegion>(content);
 }
 
+bool mayBeForConstraints(const RemeshResult& made)
+{
+  return !made.status.ok() && made.status.code != StatusCode::Cancelled &&
+    made.status.code != StatusCode::TooLarge;
+}
+
 /// All runs that a state needs.
 class StateRun
 {
 public:
-  StateRun(SessionData& data, const SessionState& state, bool isPreview = false)
-    : data_(data), state_(state)
+  StateRun(SessionData& data, const SessionState& state, bool isPreview)
+    : data_(data), state_(state), options_(state.settings)
   {
-    options_ = state.settings;
-    options_.threads = data.threads;
-    options_.memoryLimit = data.memoryLimit;
-    options_.progress = data.progress;
+    options_.threads = data.limits.threads;
+    options_.memoryLimit = data.limits.memoryLimit;
+    options_.progress = data.limits.progress;
     options_.preview = isPreview;
     options_.mergeCharts = false;
     options_.knownMap = 0;
   }
 
-  /// Null where it was stopped.
-  std::shared_ptr<SessionResult> run()
+  MadeState run()
   {
     const double start = secondsNow();
     const TryScope tries; // but for those of the pipeline's runs
+    RemeshResult made = runUntilMet();
+    if (made.status.code == StatusCode::Cancelled)
+    {
+      return { nullptr, made.status };
+    }
+    auto result = std::make_shared<SessionResult>();
+    takeIrregular(made, *result);
+    result->targetEdgeLength = made.targetEdgeLength;
+    result->targetQuads = made.targetQuads;
+    takeReport(made, *result);
+    result->report.tries.add(tries.counts());
+    if (made.status.ok())
+    {
+      result->mirrorPoint = std::move(mirrored_.mirrorPoint);
+      result->rotatedPoint = std::move(mirrored_.rotatedPoint);
+    }
+    result->quads = std::move(made.quads);
+    result->report.seconds = secondsNow() - start;
+    return { std::move(result), {} };
+  }
+
+private:
+  /// Of constraints that cannot be met together with all that came before, each is left out.
+  RemeshResult runUntilMet()
+  {
     std::map<int, std::string> leftOut;
     RemeshResult made = runWith(leftOut);
     if (mayBeForConstraints(made) && composed_.input.regularOnFeatures)
@@ -62,7 +91,6 @@ public:
       countTry(Try::WithoutHeld, wasStopped_ ? 0 : 1);
       made = runWith(leftOut);
     }
-    // Of those that cannot be met together with all that came before, each is left out.
     while (mayBeForConstraints(made))
     {
       const auto culprit = lastOfShortestFailing(leftOut);
@@ -80,72 +108,54 @@ public:
       countTryLed(Try::WithoutConstraint, leftOut.size());
       countTryLed(Try::WithoutSymmetry, refused_.size());
     }
-    auto result = std::make_shared<SessionResult>();
-    SessionReport& report = result->report;
-    if (made.status.code == StatusCode::Cancelled)
-    {
-      stopped_ = made.status;
-      return nullptr;
-    }
-    report.status = made.status;
-    report.stopped = made.stopped;
-    report.notices = composed_.notices;
-    report.notices.insert(report.notices.end(), made.notices.begin(), made.notices.end());
-    report.stages = stages_.all();
-    report.reused = made.reused;
-    report.reused.erase(std::remove_if(report.reused.begin(), report.reused.end(),
-                          [this](const std::string& name) { return stages_.has(name); }),
-      report.reused.end());
-    report.runs = runs_;
-    report.tries.addTaken(tries_);
-    report.tries.addLed(made.tries);
-    report.tries.add(tries.counts());
+    return made;
+  }
+
+  void takeIrregular(const RemeshResult& made, SessionResult& result)
+  {
     if (made.status.ok() && !options_.preview)
     {
       const MadeSurface surface = made.framed
         ? MadeSurface{ *made.framed, &made.frame, &data_.surface.points }
         : MadeSurface{ made.surface };
-      const OnCurves& onCurves = data_.onCurvesOf(surface.surface);
-      result->irregular = irregularVertices(surface, made.turns, onCurves);
-      result->fixedPoints = onCurves.points;
-      result->onFeatures = featureVertices(surface, made.onFeatures);
+      const auto onCurves = data_.onCurvesOf(surface.surface);
+      result.irregular = irregularVertices(surface, made.turns, *onCurves);
+      result.fixedPoints = onCurves->points;
+      result.onFeatures = featureVertices(surface, made.onFeatures);
     }
+  }
+
+  /// result: its irregular vertices and sizes are there.
+  void takeReport(const RemeshResult& made, SessionResult& result) const
+  {
+    SessionReport& report = result.report;
+    report.status = made.status;
+    report.stopped = made.stopped;
+    report.notices = composed_.notices;
+    report.notices.insert(report.notices.end(), made.notices.begin(), made.notices.end());
+    report.stages = stages_.all();
+    std::copy_if(made.reused.begin(), made.reused.end(), std::back_inserter(report.reused),
+      [this](const std::string& name) { return !stages_.has(name); });
+    report.runs = runs_;
+    report.tries.addTaken(tries_);
+    report.tries.addLed(made.tries);
     if (made.status.ok() && composed_.symmetry && !mirrored_.rotation &&
       composed_.input.regularElsewhere)
     {
-      tellOtherIrregular(*result);
+      tellOtherIrregular(result);
     }
-    result->targetEdgeLength = made.targetEdgeLength;
-    result->targetQuads = made.targetQuads;
     if (!options_.preview)
     {
       report.constraints = reportConstraints(data_.surface, state_.constraints, composed_, made,
-        *result, composed_.symmetry ? &mirrored_ : nullptr);
-      for (const ConstraintReport& word : report.constraints)
+        result, composed_.symmetry ? &mirrored_ : nullptr);
+    }
+    for (const ConstraintReport& word : report.constraints)
+    {
+      if (word.isOffSurface)
       {
-        if (word.isOffSurface)
-        {
-          report.notices.push_back(word.text + ": " + word.reason);
-        }
+        report.notices.push_back(word.text + ": " + word.reason);
       }
     }
-    if (made.status.ok())
-    {
-      result->mirrorPoint = std::move(mirrored_.mirrorPoint);
-      result->rotatedPoint = std::move(mirrored_.rotatedPoint);
-    }
-    result->quads = std::move(made.quads);
-    report.seconds = secondsNow() - start;
-    return result;
-  }
-
-  const Status& stopped() const { return stopped_; }
-
-private:
-  bool mayBeForConstraints(const RemeshResult& made) const
-  {
-    return !made.status.ok() && made.status.code != StatusCode::Cancelled &&
-      made.status.code != StatusCode::TooLarge;
   }
 
   RemeshResult runWith(const std::map<int, std::string>& leftOut)
@@ -289,7 +299,6 @@ private:
   std::string whyNotHeld_;   ///< vertices on features and boundaries; empty while they are
   std::map<int, std::string> refused_; ///< symmetries that the surface has not, and why
   StageRecords stages_;
-  Status stopped_;
   bool wasStopped_ = false; ///< no run may follow
   int runs_ = 0;
   TryCounts tries_; ///< of the pipeline's runs, taken
@@ -298,11 +307,7 @@ private:
 
 MadeState runState(SessionData& data, const SessionState& state, bool isPreview)
 {
-  StateRun run(data, state, isPreview);
-  MadeState made;
-  made.result = run.run();
-  made.stopped = run.stopped();
-  return made;
+  return StateRun(data, state, isPreview).run();
 }
 
 } // namespace quadrille

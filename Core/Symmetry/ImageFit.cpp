@@ -3,7 +3,7 @@
 #include "Symmetry/ImageFit.h"
 
 #include "Base/Parallel.h"
-#include "Pipeline/RunSurface.h"
+#include "Pipeline/PlannedSurface.h"
 
 #include <algorithm>
 #include <array>

@@ -48,11 +48,9 @@ StageRecord recordOf(const StageRecords& stages, const std::string& name)
 TEST(History, TheMapWithTheFewestDefectsOfARoundCounts)
 {
   History history;
-  EXPECT_TRUE(history.isEmpty());
   const auto first = carriedMap(5), second = carriedMap(3), equal = carriedMap(3),
              worse = carriedMap(4);
   history.addMap(planOf("first"), first);
-  EXPECT_FALSE(history.isEmpty());
   EXPECT_EQ(history.ofRound().map, first);
   EXPECT_TRUE(history.lastIsBest());
   history.addMap(planOf("kept offenders"), second);

@@ -36,9 +36,10 @@ constexpr double kTubeRadius = 0.05;
 struct TestRun
 {
   TestRun(const SurfaceInput& input, double s, std::optional<double> featureAngle = std::nullopt)
-    : surface(
-        std::make_shared<PreparedSurface>(prepareSurface(input, { featureAngle, 1, {} })), 1, 1),
-      levels(surface, nullptr), context{ options, s, kTarget, surface, levels, nullptr, {} }
+    : context{ {}, s, kTarget,
+        withoutPlan(
+          std::make_shared<PreparedSurface>(prepareSurface(input, { featureAngle, 1, {} })), 1),
+        nullptr, Levels(nullptr) }
   {
     options.threads = 1;
   }
@@ -47,7 +48,14 @@ struct TestRun
   {
   }
 
-  const Mesh& mesh() const { return surface->mesh; }
+  const Mesh& mesh() const { return context.surface->mesh; }
+  PlannedSurface planned(const Plan& plan) const { return withPlan(context.surface, plan, 1); }
+  const Hierarchy& levels(const Plan& plan)
+  {
+    return context.levels.make(planned(plan), levelOptions(context, plan));
+  }
+  /// Those that were made last.
+  const Hierarchy& levels() const { return context.levels.hierarchy(); }
   Index vertexAt(const Vector3& p) const
   {
     const auto found = std::find(mesh().position.begin(), mesh().position.end(), p);
@@ -65,10 +73,8 @@ struct TestRun
     return nextPlan(context, history, isLast);
   }
 
-  RemeshOptions options;
-  RunSurface surface;
-  Levels levels;
   RunContext context;
+  RemeshOptions& options = context.options;
 };
 
 /// Without any plan the test ends here.
@@ -215,7 +221,7 @@ TEST(Recovery, MoreFreedomKeepsTheRingsRoundOffendersAndRaisesTheBudget)
 {
   SphereRun run;
   Plan plan = run.first();
-  const Hierarchy& levels = run.levels.make(levelOptions(run.context, plan));
+  const Hierarchy& levels = run.levels(plan);
   ASSERT_LT(levels.intermediate.mesh.vertexCount(), run.mesh().vertexCount());
   const std::vector<Index> offenders{ levels.coarse.fineVertex[7], levels.coarse.fineVertex[80] };
   const std::vector<Index> rings = twoRings(levels.intermediate, offenders);
@@ -237,7 +243,7 @@ TEST(Recovery, MoreFreedomKeepsTheRingsRoundOffendersAndRaisesTheBudget)
   history.addMap(plan, failedMap(offenders));
   next = nextMapPlan(run.context, history);
   expectStep(next, "more freedom");
-  const std::vector<Index>& onLevel = run.levels.hierarchy().coarse.fineVertex;
+  const std::vector<Index>& onLevel = run.levels().coarse.fineVertex;
   for (const Index v : { rings[0], offenders[0], offenders[1] })
   {
     EXPECT_TRUE(
@@ -267,13 +273,13 @@ TEST(Recovery, MoreFreedomTakesFinerLevelsWhereTheCoarseOneIsTheIntermediateOne)
   history.addMap(plan, failedMap({ 0, 1 }));
   const std::optional<Plan> next = nextMapPlan(run.context, history);
   expectStep(next, "more freedom");
-  const Index coarse = run.levels.hierarchy().coarse.mesh.vertexCount();
-  EXPECT_EQ(coarse, run.levels.hierarchy().intermediate.mesh.vertexCount());
+  const Index coarse = run.levels().coarse.mesh.vertexCount();
+  EXPECT_EQ(coarse, run.levels().intermediate.mesh.vertexCount());
   EXPECT_EQ(next->levels.coarseVertices, 2 * coarse);
   EXPECT_DOUBLE_EQ(next->levels.edgeLength, std::sqrt(0.5));
   EXPECT_DOUBLE_EQ(next->nextLevels.edgeLength, std::sqrt(0.5));
   EXPECT_TRUE(next->levels.keptVertices.empty());
-  EXPECT_GT(run.levels.make(levelOptions(run.context, *next)).coarse.mesh.vertexCount(), coarse);
+  EXPECT_GT(run.levels(*next).coarse.mesh.vertexCount(), coarse);
 }
 
 TEST(Recovery, MoreFreedomEndsAfterTwoTimesOneAfterTheOther)
@@ -492,7 +498,7 @@ TEST(Recovery, SmallerQuadsNearShrinkSizesNearThePlacesOnly)
   EXPECT_EQ(next->finer.sizesBefore, nullptr);
   EXPECT_EQ(next->finer.defects, troubles->defects);
   EXPECT_EQ(next->finer.firstTroubles.defects, troubles->defects);
-  const double area = run.surface.sizedArea(sizes);
+  const double area = areaOverSizes(*run.context.surface, sizes);
   EXPECT_GT(area, 1640);
   EXPECT_DOUBLE_EQ(next->quads, kTarget * area / 1600);
   EXPECT_NE(next->finer.notice.find("made smaller there"), std::string::npos);
@@ -513,7 +519,7 @@ TEST(Recovery, SmallerQuadsNearGoOnFromTheSizesOfBefore)
   EXPECT_EQ(next->finer.areaBefore, 1600);
   EXPECT_EQ(next->finer.firstTroubles.defects, first->finer.firstTroubles.defects);
   EXPECT_GT(next->finer.defects, first->finer.defects);
-  EXPECT_DOUBLE_EQ(next->quads, kTarget * run.surface.sizedArea(*next->sizes) / 1600);
+  EXPECT_DOUBLE_EQ(next->quads, kTarget * areaOverSizes(*run.context.surface, *next->sizes) / 1600);
 }
 
 TEST(Recovery, SmallerQuadsNearEndAfterFourTimes)
@@ -624,7 +630,7 @@ TEST(Recovery, ManyOffendersAreNotKeptForTheNextRound)
 {
   SphereRun run;
   const Plan plan = run.first();
-  std::vector<Index> many = run.levels.make(levelOptions(run.context, plan)).coarse.fineVertex;
+  std::vector<Index> many = run.levels(plan).coarse.fineVertex;
   ASSERT_GE(many.size(), 100U);
   History history;
   history.addMap(plan, failedMap(many));
@@ -735,10 +741,10 @@ TEST(Recovery, FewerFeaturesGivesThemUpNearThePlacesFurtherEachTime)
   EXPECT_EQ(second->notices.size(), 2U);
   // On the surface they are features no more, and are again for a plan that gives up none.
   const Index h = second->featuresGivenUp->front();
-  run.surface.apply(*second);
-  EXPECT_FALSE(run.mesh().isFeature(h) || run.mesh().isFeature(run.mesh().twin[h]));
-  run.surface.apply(run.first());
-  EXPECT_TRUE(run.mesh().isFeature(h) && run.mesh().isFeature(run.mesh().twin[h]));
+  const auto isFeature = [&](const Mesh& mesh)
+  { return std::pair(mesh.isFeature(h), mesh.isFeature(mesh.twin[h])); };
+  EXPECT_EQ(isFeature(run.planned(*second)->mesh), std::pair(false, false));
+  EXPECT_EQ(isFeature(run.planned(run.first())->mesh), std::pair(true, true));
 }
 
 TEST(Recovery, FewerFeaturesAreForThePlacesOfACoarseFailureToo)
