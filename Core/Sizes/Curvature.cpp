@@ -32,13 +32,6 @@ Vector3 areaVector(const Mesh& mesh, Index f)
   return 0.5 * mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1));
 }
 
-Vector3 middleOfFace(const Mesh& mesh, Index f)
-{
-  return (mesh.position[mesh.origin[3 * f]] + mesh.position[mesh.origin[3 * f + 1]] +
-           mesh.position[mesh.origin[3 * f + 2]]) /
-    3;
-}
-
 std::vector<Cell> cellsOf(const Mesh& mesh, double side, int threads)
 {
   std::vector<Cell> cells(mesh.faceCount());

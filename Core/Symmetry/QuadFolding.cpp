@@ -3,7 +3,6 @@
 // The quads of the doubled map as those of the half, their images, and those that are their own: foldQuads.
 #include "Base/PlaceText.h"
 #include "Prepare/Frame.h"
-#include "Quads/QuadHalfEdges.h"
 #include "Quads/QuadTopology.h"
 #include "Symmetry/MidLine.h"
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The points of both cuts of a wedge that are each other's images: pairSeams.
 #include "Base/PlaceText.h"
-#include "Quads/QuadHalfEdges.h"
 #include "Quads/QuadTopology.h"
 #include "Requests/SeamRequests.h"
 #include "Symmetry/Seams.h"
