@@ -163,6 +163,15 @@ struct StrokeRequest
   }
 };
 
+/// What a stroke asks of a face of a surface.
+struct StrokeFace
+{
+  Index face = kInvalidIndex;
+  Vector3 direction = Vector3::Zero(); ///< unit
+  float weight = 1;
+  int order = 0; ///< of the stroke
+};
+
 /// A point of the surface is to be a vertex of this valence, see ValenceRequest.
 struct ValencePlace
 {
@@ -236,6 +245,7 @@ struct SurfaceRequests
   std::vector<ValenceRequest> valenceRequests; ///< ascending by vertex, one a vertex
   std::size_t unusedValences = 0;              ///< requests of points that no face uses
   std::vector<StrokeRequest> strokes;          ///< as they were given, in the frame
+  std::vector<StrokeFace> strokeFaces;         ///< ascending by face; see placeStrokes
   std::vector<CurveRequest> curves;            ///< as they were given, in the frame
   bool regularElsewhere = false;               ///< as it was given
   std::vector<SectorRequest> sectorRequests;   ///< ascending by vertex

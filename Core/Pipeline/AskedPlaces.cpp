@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/AskedPlaces.h"
 
+#include "Requests/Guides.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <map>
@@ -49,7 +51,8 @@ void moveRequests(
 
 } // namespace
 
-AskedPlaces::AskedPlaces(const PreparedSurface& surface) : requests_(surface.requests())
+AskedPlaces::AskedPlaces(const PreparedSurface& surface, int threads)
+  : requests_(surface.requests()), threads_(threads)
 {
   for (const ValenceRequest& request : requests_.valenceRequests)
   {
@@ -64,6 +67,7 @@ AskedPlaces::AskedPlaces(const PreparedSurface& surface) : requests_(surface.req
 void AskedPlaces::askOf(PreparedSurface& surface) const
 {
   surface.setRequests(requests_);
+  placeStrokes(surface, threads_);
   moveRequests(surface.mesh, valencePlaces_, surface.valenceRequests);
   moveRequests(surface.mesh, sectorPlaces_, surface.sectorRequests);
 }

@@ -13,13 +13,14 @@ namespace quadrille
 class AskedPlaces
 {
 public:
-  explicit AskedPlaces(const PreparedSurface& surface);
+  AskedPlaces(const PreparedSurface& surface, int threads);
 
   /// Of the vertices at the same places of another surface; what has none there is dropped.
   void askOf(PreparedSurface& surface) const;
 
 private:
   SurfaceRequests requests_;
+  int threads_;
   std::vector<Vector3> valencePlaces_, sectorPlaces_;
 };
 

@@ -385,6 +385,14 @@ void addRequests(const PreparedSurface& surface, KeyMaker& key)
       key.add(guide.direction[i]);
     }
   }
+  for (const StrokeFace& guided : surface.strokeFaces)
+  {
+    key.add(std::uint64_t{ guided.face }).add(double{ guided.weight });
+    for (int i = 0; i < 3; ++i)
+    {
+      key.add(guided.direction[i]);
+    }
+  }
   for (const ValenceRequest& request : surface.valenceRequests)
   {
     key.add(std::uint64_t{ request.vertex })

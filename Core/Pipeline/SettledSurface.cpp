@@ -74,7 +74,7 @@ public:
     StageRecords& stages, std::vector<std::string>& reused)
     : sized_(sized), options_(options), store_(store), isRest_(isRest),
       takesAll_(isRest || options.smallDetails == SmallDetails::Simplify), stages_(stages),
-      reused_(reused), asked_(*sized.surface), limits_(sized.edgeLength, takesAll_, isRest)
+      reused_(reused), asked_(*sized.surface, options.threads), limits_(sized.edgeLength, takesAll_, isRest)
   {
   }
 

@@ -7,6 +7,7 @@
 #include "Features/CreaseCurves.h"
 #include "Features/FeatureFilter.h"
 #include "Features/FeatureNetwork.h"
+#include "Mesh/ContentHash.h"
 #include "Mesh/Sizing.h"
 #include "Pipeline/Notices.h"
 #include "Pipeline/SmallBlocks.h"
@@ -18,6 +19,7 @@
 #include "Prepare/RepairText.h"
 #include "Requests/Guides.h"
 #include "Requests/HeldVertices.h"
+#include "Requests/InsertPlaces.h"
 #include "Sizes/CurvatureGuides.h"
 
 #include <algorithm>
@@ -35,6 +37,7 @@ struct StoredPrepared
 {
   PreparedSurface surface;
   double sizedArea = 0;
+  std::size_t addedVertices = 0; ///< by what is drawn on it
 };
 
 /// A sized one. The number of quads is that of the limited sizes, where an edge length was asked for.
@@ -49,10 +52,70 @@ struct StoredSized
   std::vector<SmallDetail> details;
 };
 
+void addPlace(const Vector3& p, KeyMaker& key)
+{
+  key.add(p[0]).add(p[1]).add(p[2]);
+}
+
+/// Of what is drawn that changes the triangles and sizes of the surface, whatever the size of quads makes of it.
+ResultKey drawnKey(const SurfaceInput& input, ResultKey prepared, double edgeLength)
+{
+  const DrawnRequests& drawn = input.drawn;
+  if (drawn.features.empty() && drawn.sizes.empty())
+  {
+    return prepared;
+  }
+  KeyMaker key(prepared);
+  key.add(edgeLength);
+  for (const FeatureRequest& feature : drawn.features)
+  {
+    key.add(std::uint64_t{ feature.points.size() });
+    for (const Vector3& p : feature.points)
+    {
+      addPlace(p, key);
+    }
+  }
+  for (const SizeRequest& size : drawn.sizes)
+  {
+    addPlace(size.place, key);
+    key.add(size.radius).add(size.factor).add(static_cast<std::uint64_t>(size.order));
+  }
+  return key.add(input.sizingOrders).key();
+}
+
+/// Orders of sizes of points, at the vertices that they became.
+std::vector<int> sizingOrdersOf(const std::vector<int>& orders, const PreparedSurface& surface)
+{
+  std::vector<int> result;
+  if (!orders.empty())
+  {
+    result.assign(surface.mesh.vertexCount(), 0);
+    for (Index h = 0; h < surface.mesh.halfEdgeCount(); ++h)
+    {
+      int& order = result[surface.mesh.origin[h]];
+      order = std::max(order, orders[surface.sourcePoints[Mesh::face(h)][h % 3]]);
+    }
+  }
+  return result;
+}
+
 /// Of guides, valences and curves, where closed handles move their corners.
 ResultKey requestsKey(const SurfaceInput& input)
 {
   KeyMaker key;
+  for (const ValencePlace& asked : input.drawn.valences)
+  {
+    addPlace(asked.place, key);
+    key.add(static_cast<std::uint64_t>(asked.valence));
+  }
+  for (const StrokeRequest& stroke : input.drawn.strokes)
+  {
+    for (const Vector3& p : stroke.points)
+    {
+      addPlace(p, key);
+    }
+    key.add(stroke.weight).add(stroke.radius).add(static_cast<std::uint64_t>(stroke.order));
+  }
   for (const Vector3& direction : input.guideDirections)
   {
     key.add(direction[0]).add(direction[1]).add(direction[2]);
@@ -111,13 +174,14 @@ class SurfaceSizing
 public:
   SurfaceSizing(SurfaceInput& input, const RemeshOptions& options, const KnownInput& known)
     : input_(input), options_(options), store_(known.store),
-      preparedKey_(preparedKey(known.inputHash, options))
+      preparedKey_(preparedKey(known.inputHash, options)), drawnKey_(preparedKey_)
   {
   }
 
   SizedSurface run()
   {
     prepare();
+    drawOn();
     return sizeAll();
   }
 
@@ -139,12 +203,14 @@ private:
     {
       size();
     }
-    input_ = {};
     if (made_.status.ok())
     {
+      insertPlaces();
+      placeStrokes(surface_, options_.threads);
       guideByCurvature();
       tellRequests();
     }
+    input_ = {};
     made_.surface = std::make_shared<const PreparedSurface>(std::move(surface_));
     if (made_.status.ok())
     {
@@ -197,6 +263,8 @@ private:
     later.held = std::move(input_.held);
     later.targetValences =
       later.held.empty() ? std::vector<int>{} : std::move(input_.targetValences);
+    later.drawn = std::move(input_.drawn);
+    later.sizingOrders = std::move(input_.sizingOrders);
     input_ = std::move(later);
     releaseFreedMemory();
     for (const auto& [name, seconds] : surface_.seconds)
@@ -204,6 +272,88 @@ private:
       made_.stages.add(name, seconds, polygons, surface_.mesh.faceCount());
     }
     measure();
+  }
+
+  /// Feature curves and sizes, as part of the prepared surface. How fine that has to be follows from the quads.
+  void drawOn()
+  {
+    if (input_.drawn.features.empty() && input_.drawn.sizes.empty())
+    {
+      return;
+    }
+    const InsertionOptions insertion{ targetEdgeLength(options_, sizedArea_, diagonal_),
+      options_.threads };
+    drawnKey_ = drawnKey(input_, preparedKey_, insertion.edgeLength);
+    keepPrepared();
+    const auto known = store_ != nullptr ? store_->find<StoredPrepared>(drawnKey_) : nullptr;
+    if (known)
+    {
+      prepared_ = known;
+      surface_ = known->surface;
+      sizedArea_ = known->sizedArea;
+      tellAdded(known->addedVertices);
+      return;
+    }
+    const double start = secondsNow();
+    if (prepared_)
+    {
+      requestsKey_ = options_.closeHandles > 0 ? requestsKey(input_) : 0;
+      collectRequests(input_, surface_, options_.threads);
+      prepared_.reset();
+    }
+    const std::size_t before = surface_.mesh.faceCount();
+    const std::size_t verticesBefore = surface_.mesh.vertexCount();
+    insertFeatures(surface_, input_.drawn.features, insertion);
+    insertSizes(
+      surface_, input_.drawn.sizes, sizingOrdersOf(input_.sizingOrders, surface_), insertion);
+    surface_.hash = contentHash(surface_.mesh, options_.threads);
+    measure();
+    addedVertices_ = surface_.mesh.vertexCount() - verticesBefore;
+    tellAdded(addedVertices_);
+    made_.stages.add("draw", secondsNow() - start, before, surface_.mesh.faceCount());
+  }
+
+  void tellAdded(std::size_t vertices)
+  {
+    if (vertices > 0)
+    {
+      tell(std::to_string(vertices) +
+        " vertices were added to the triangles where constraints lie; the shape stays as it is");
+    }
+  }
+
+  /// The surface without what is drawn on it, for the next run.
+  void keepPrepared()
+  {
+    if (store_ != nullptr && !prepared_)
+    {
+      auto prepared = std::make_shared<StoredPrepared>(StoredPrepared{ surface_, sizedArea_ });
+      prepared->surface.setRequests({});
+      const std::size_t bytes = bytesOf(prepared->surface);
+      store_->put(preparedKey_, std::move(prepared), bytes);
+    }
+  }
+
+  /// Valences at places, on the triangles as they are to stay.
+  void insertPlaces()
+  {
+    if (input_.drawn.valences.empty())
+    {
+      return;
+    }
+    const Index before = surface_.mesh.faceCount();
+    const Index verticesBefore = surface_.mesh.vertexCount();
+    const InsertionOptions insertion{ made_.edgeLength, options_.threads };
+    if (insertValences(surface_, input_.drawn.valences, insertion))
+    {
+      splitChords(surface_);
+    }
+    if (surface_.mesh.faceCount() != before)
+    {
+      tellAdded(surface_.mesh.vertexCount() - verticesBefore);
+      surface_.hash = contentHash(surface_.mesh, options_.threads);
+      made_.key = KeyMaker(made_.key).add(surface_.hash).key();
+    }
   }
 
   bool findSized()
@@ -214,7 +364,7 @@ private:
     }
     // Of details only components are taken out before the surface is sized.
     const bool mayDrop = maySimplify(options_) && surface_.components > 1;
-    made_.key = KeyMaker(preparedKey_)
+    made_.key = KeyMaker(drawnKey_)
                   .add(made_.edgeLength)
                   .add(std::uint64_t{ judgesCreases(options_) ? 1U : 0U })
                   .add(options_.closeHandles)
@@ -263,7 +413,8 @@ private:
     }
     else if (store_ != nullptr)
     {
-      prepared = std::make_shared<StoredPrepared>(StoredPrepared{ surface_, sizedArea_ });
+      prepared =
+        std::make_shared<StoredPrepared>(StoredPrepared{ surface_, sizedArea_, addedVertices_ });
       prepared->surface.setRequests({});
     }
     if (options_.sizes.any())
@@ -307,7 +458,7 @@ private:
     {
       sized->surface.setRequests({});
     }
-    store_->put(preparedKey_, prepared, bytesOf(prepared->surface));
+    store_->put(drawnKey_, prepared, bytesOf(prepared->surface));
     const std::size_t bytes =
       bytesOf(sized->surface, &prepared->surface) + bytesOf(sized->givenUpFeatures);
     store_->put(made_.key, std::move(sized), bytes);
@@ -436,9 +587,12 @@ private:
   ResultStore* store_;
   SizedSurface made_;
   PreparedSurface surface_; ///< until it is made_.surface
-  ResultKey preparedKey_, requestsKey_ = 0;
+  ResultKey preparedKey_;
+  ResultKey drawnKey_; ///< of the prepared surface with what is drawn on it
+  ResultKey requestsKey_ = 0;
   std::shared_ptr<StoredPrepared> prepared_; ///< found in the store
   double sizedArea_ = 0, diagonal_ = 0;
+  std::size_t addedVertices_ = 0; ///< by features and sizes that are drawn
 };
 
 } // namespace

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// Puts what is asked for at points and along paths into the triangulation of a surface: vertices where points are,
+/// edges where paths run. Splits change no shape; new vertices have their sources as those of refinement have.
+#pragma once
+
+#include "Mesh/Surface.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace quadrille
+{
+
+struct InsertionOptions
+{
+  double edgeLength = 0; ///< s: of the quads, in units of the mesh; > 0
+  int threads = 0;       ///< 0: all; the result does not depend on it
+};
+
+/// Makes the features: each of their points becomes a vertex, and a path of edges, straight across faces, runs from one
+/// to the next, see pathOnMesh. Where the mesh is so fine that quads do not tell, points and paths take the vertices
+/// that are there. Returns the paths, as vertices. Throws InvalidInput, with the places, where two points of a feature
+/// are on different components.
+std::vector<std::vector<Index>> insertFeatures(PreparedSurface& surface,
+  const std::vector<FeatureRequest>& features, const InsertionOptions& options);
+
+/// Makes the sizes of vertices within the radii of the requests, with as many vertices there as it takes. orders: #V,
+/// those of the sizes that there are, or empty.
+void insertSizes(PreparedSurface& surface, const std::vector<SizeRequest>& sizes,
+  std::vector<int> orders, const InsertionOptions& options);
+
+/// Adds valence requests of vertices at the places, which become vertices; ascending by vertex. Throws InvalidInput,
+/// with the place, where two ask for different valences of one vertex, and for a valence below 3 on the boundary.
+/// Returns whether an edge on features or the boundary was split.
+bool insertValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
+  const InsertionOptions& options);
+
+} // namespace quadrille
