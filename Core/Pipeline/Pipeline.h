@@ -73,6 +73,7 @@ struct RemeshResult
   TryCounts tries;
   /// What became of the input's curves, in their order; vertices are those of the coarse mesh.
   std::vector<CurveOutcome> curves;
+  DrawnPaths drawnPaths; ///< of the input's drawn requests, on the surface
   std::vector<StageRecord> stages; ///< see StageRecords; seconds are sums over all attempts
   /// Names of the stages that no attempt has computed, as the store had their results, and of those that started from
   /// an earlier map.

@@ -512,10 +512,30 @@ void remeshSized(SizedSurface& sized, const Frame& frame, const RemeshOptions& o
   }
 }
 
+namespace
+{
+
+std::vector<std::vector<Vector3>> toUser(
+  std::vector<std::vector<Vector3>> paths, const Frame& frame)
+{
+  for (std::vector<Vector3>& path : paths)
+  {
+    for (Vector3& p : path)
+    {
+      p = frame.toUser(p);
+    }
+  }
+  return paths;
+}
+
+} // namespace
+
 void putOnUserSurface(SizedSurface& sized, const FramedInput& framed, const RemeshOptions& options,
   bool quadsAlone, RemeshResult& result)
 {
   result.frame = framed.frame;
+  result.drawnPaths = { toUser(sized.surface->featurePaths, framed.frame),
+    toUser(sized.surface->strokePaths, framed.frame) };
   if (options.preview)
   {
     leaveFrameAlone(result, framed.frame);

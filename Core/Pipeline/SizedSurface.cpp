@@ -303,7 +303,7 @@ private:
     }
     const std::size_t before = surface_.mesh.faceCount();
     const std::size_t verticesBefore = surface_.mesh.vertexCount();
-    insertFeatures(surface_, input_.drawn.features, insertion);
+    surface_.featurePaths = insertFeatures(surface_, input_.drawn.features, insertion);
     insertSizes(
       surface_, input_.drawn.sizes, sizingOrdersOf(input_.sizingOrders, surface_), insertion);
     surface_.hash = contentHash(surface_.mesh, options_.threads);

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace quadrille
 {
@@ -260,7 +261,9 @@ private:
 
 void placeStrokes(PreparedSurface& surface, int threads)
 {
-  surface.strokeFaces = facesOfStrokes(surface.mesh, surface.strokes, threads);
+  PlacedStrokes placed = strokesOnMesh(surface.mesh, surface.strokes, threads);
+  surface.strokeFaces = std::move(placed.faces);
+  surface.strokePaths = std::move(placed.paths);
 }
 
 SurfaceGuides surfaceGuides(const PreparedSurface& surface, int threads)

@@ -400,7 +400,7 @@ bool isOnBoundary(const Mesh& mesh, Index v)
 
 } // namespace
 
-std::vector<std::vector<Index>> insertFeatures(PreparedSurface& surface,
+std::vector<std::vector<Vector3>> insertFeatures(PreparedSurface& surface,
   const std::vector<FeatureRequest>& features, const InsertionOptions& options)
 {
   Insertion insertion(surface, options);
@@ -410,11 +410,11 @@ std::vector<std::vector<Index>> insertFeatures(PreparedSurface& surface,
     points.insert(points.end(), feature.points.begin(), feature.points.end());
   }
   const std::vector<Index> vertices = insertion.vertices(points);
-  std::vector<std::vector<Index>> paths;
+  std::vector<std::vector<Vector3>> paths;
   std::size_t at = 0;
   for (const FeatureRequest& feature : features)
   {
-    paths.emplace_back(1, vertices[at]);
+    paths.emplace_back(1, surface.mesh.position[vertices[at]]);
     for (std::size_t i = 0; i + 1 < feature.points.size(); ++i, ++at)
     {
       if (vertices[at] == vertices[at + 1])
@@ -430,7 +430,10 @@ std::vector<std::vector<Index>> insertFeatures(PreparedSurface& surface,
           "parts of the surface; draw one line for each part");
       }
       insertion.mark(chain);
-      paths.back().insert(paths.back().end(), chain.begin() + 1, chain.end());
+      for (std::size_t k = 1; k < chain.size(); ++k)
+      {
+        paths.back().push_back(surface.mesh.position[chain[k]]);
+      }
     }
     ++at;
   }

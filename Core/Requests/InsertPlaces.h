@@ -20,9 +20,9 @@ struct InsertionOptions
 
 /// Makes the features: each of their points becomes a vertex, and a path of edges, straight across faces, runs from one
 /// to the next, see pathOnMesh. Where the mesh is so fine that quads do not tell, points and paths take the vertices
-/// that are there. Returns the paths, as vertices. Throws InvalidInput, with the places, where two points of a feature
+/// that are there. Returns the paths. Throws InvalidInput, with the places, where two points of a feature
 /// are on different components.
-std::vector<std::vector<Index>> insertFeatures(PreparedSurface& surface,
+std::vector<std::vector<Vector3>> insertFeatures(PreparedSurface& surface,
   const std::vector<FeatureRequest>& features, const InsertionOptions& options);
 
 /// Makes the sizes of vertices within the radii of the requests, with as many vertices there as it takes. orders: #V,

@@ -123,41 +123,38 @@ std::map<Index, Vector3> directionsOf(const Mesh& mesh, const PathParts& parts, 
   return directions;
 }
 
-} // namespace
-
-std::vector<std::vector<Vector3>> strokePaths(
-  const Mesh& mesh, const std::vector<StrokeRequest>& strokes, int threads)
+std::vector<Vector3> pathOf(const PathParts& parts)
 {
-  std::vector<std::vector<Vector3>> paths;
-  for (const PathParts& parts : partsOf(mesh, strokes, threads))
+  std::vector<Vector3> path;
+  for (const PathPart& part : parts)
   {
-    paths.emplace_back();
-    for (const PathPart& part : parts)
+    if (path.empty() || path.back() != part.from)
     {
-      if (paths.back().empty() || paths.back().back() != part.from)
-      {
-        paths.back().push_back(part.from);
-      }
-      if (part.to != part.from)
-      {
-        paths.back().push_back(part.to);
-      }
+      path.push_back(part.from);
+    }
+    if (part.to != part.from)
+    {
+      path.push_back(part.to);
     }
   }
-  return paths;
+  return path;
 }
 
-std::vector<StrokeFace> facesOfStrokes(
+} // namespace
+
+PlacedStrokes strokesOnMesh(
   const Mesh& mesh, const std::vector<StrokeRequest>& strokes, int threads)
 {
+  PlacedStrokes placed;
   if (strokes.empty())
   {
-    return {};
+    return placed;
   }
   const std::vector<PathParts> parts = partsOf(mesh, strokes, threads);
   std::map<Index, StrokeFace> faces;
   for (std::size_t k = 0; k < strokes.size(); ++k)
   {
+    placed.paths.push_back(pathOf(parts[k]));
     for (const auto& [face, direction] : directionsOf(mesh, parts[k], strokes[k].radius))
     {
       StrokeFace& guided = faces.try_emplace(face).first->second;
@@ -167,15 +164,14 @@ std::vector<StrokeFace> facesOfStrokes(
       }
     }
   }
-  std::vector<StrokeFace> result;
   for (const auto& [face, guided] : faces)
   {
     if (!guided.direction.isZero(0))
     {
-      result.push_back(guided);
+      placed.faces.push_back(guided);
     }
   }
-  return result;
+  return placed;
 }
 
 } // namespace quadrille
