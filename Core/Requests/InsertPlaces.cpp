@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -59,43 +58,38 @@ public:
     {
       return {};
     }
-    std::vector<Index> chain(path->size() + 2);
+    const std::vector<EdgeCrossing>& crossings = path->crossings;
+    std::vector<Index> chain(crossings.size() + 2);
     chain.front() = from;
     chain.back() = to;
-    touched_.clear();
     // Backwards: a split gives the edges of the faces beside it other names, and those before it are left by half-edges
     // of faces that come earlier.
-    for (std::size_t i = path->size(); i-- > 0;)
+    for (std::size_t i = crossings.size(); i-- > 0;)
     {
-      touched_.push_back(Mesh::face((*path)[i].halfEdge));
-      touched_.push_back(Mesh::face(mesh_.twin[(*path)[i].halfEdge]));
-      chain[i + 1] = vertexOn((*path)[i]);
+      chain[i + 1] = vertexOn(crossings[i]);
     }
     straighten(chain);
-    for (const MeshPlace& end : { placeOf(from), placeOf(to) })
-    {
-      touched_.push_back(end.face);
-    }
     return chain;
   }
 
   /// The edges of a chain become features.
   void mark(const std::vector<Index>& chain)
   {
-    std::set<std::pair<Index, Index>> edges;
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
     {
-      edges.insert(std::minmax(chain[i], chain[i + 1]));
-    }
-    for (std::size_t i = 0; i < touched_.size(); ++i)
-    {
-      for (Index h = 3 * touched_[i]; h < 3 * touched_[i] + 3; ++h)
-      {
-        if (edges.count(std::minmax(Index{ mesh_.origin[h] }, mesh_.target(h))) != 0)
+      forEachInFan(mesh_, halfEdgeFrom(chain[i]),
+        [&](Index h)
         {
-          setFeature(h);
-        }
-      }
+          for (const Index edge : { h, Mesh::previous(h) })
+          {
+            const bool isOfChain =
+              mesh_.target(edge) == chain[i + 1] || mesh_.origin[edge] == chain[i + 1];
+            if (isOfChain)
+            {
+              setFeature(edge);
+            }
+          }
+        });
     }
   }
 
@@ -125,7 +119,7 @@ public:
       {
         continue;
       }
-      const Index longest = longestBeside(h);
+      const Index longest = endOfLongest(h);
       const Index first = mesh_.faceCount();
       const Index twin = mesh_.twin[longest];
       split(longest, 0.5);
@@ -160,7 +154,18 @@ private:
       length > std::max(kShareOfRadius * size.radius, kShareOfDistance * distance);
   }
 
-  /// Of the faces beside an edge, as in longest-edge bisection [Rivara 1984], so that angles stay large.
+  /// The end of the way from an edge to the longest one of the faces beside it, and so on, as in longest-edge bisection
+  /// [Rivara 1984]: to split it keeps angles large.
+  Index endOfLongest(Index h) const
+  {
+    for (Index next = longestBeside(h); next != h; next = longestBeside(h))
+    {
+      h = next;
+    }
+    return h;
+  }
+
+  /// Of the faces beside an edge.
   Index longestBeside(Index h) const
   {
     Index longest = h;
@@ -338,7 +343,6 @@ private:
       const Index whole = root == rootOf_.end() ? of : root->second;
       rootOf_[f] = whole;
       partsOf_[whole].push_back(f);
-      touched_.push_back(f);
     }
   }
 
@@ -383,7 +387,6 @@ private:
   std::unordered_map<Index, Index> out_;    ///< half-edges that leave vertices
   std::unordered_map<Index, Index> rootOf_; ///< of new faces: the face that they are parts of
   std::unordered_map<Index, std::vector<Index>> partsOf_;
-  std::vector<Index> touched_; ///< faces along the last path
 };
 
 bool isOnBoundary(const Mesh& mesh, Index v)

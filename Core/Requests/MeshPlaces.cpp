@@ -3,6 +3,7 @@
 #include "Requests/MeshPlaces.h"
 
 #include "Base/Parallel.h"
+#include "Base/Progress.h"
 #include "Mesh/Distance.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <queue>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 namespace quadrille
 {
@@ -344,7 +346,163 @@ std::vector<PathCorner> shortestIn(const LaidOutStrip& flat)
       }
     }
   }
+  if (path.back().portal > count) // the end itself, which both sides have come to
+  {
+    path.pop_back();
+  }
   path.push_back({ flat.to, count });
+  return path;
+}
+
+double lengthOf(const std::vector<PathCorner>& path)
+{
+  double length = 0;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i)
+  {
+    length += (path[i + 1].point - path[i].point).norm();
+  }
+  return length;
+}
+
+/// The end of a half-edge that lies where the corner of a path is.
+Index vertexOfCorner(const Mesh& mesh, const LaidOutStrip& flat, const std::vector<Index>& strip,
+  const PathCorner& corner)
+{
+  const std::size_t i = corner.portal - 1;
+  const Portal& portal = flat.portals[i];
+  const bool isRight =
+    (corner.point - portal.right).squaredNorm() <= (corner.point - portal.left).squaredNorm();
+  return isRight ? mesh.origin[strip[i]] : mesh.target(strip[i]);
+}
+
+bool endsAt(const Mesh& mesh, Index h, Index v)
+{
+  return mesh.origin[h] == v || mesh.target(h) == v;
+}
+
+/// Portals of a strip that end at one vertex.
+struct FanOfStrip
+{
+  std::size_t first = 0, last = 0;
+};
+
+/// The way round a vertex on its other side, from the face before the portals that end there to that behind them; none
+/// where the boundary is there.
+std::optional<std::vector<Index>> otherWayRound(
+  const Mesh& mesh, const std::vector<Index>& strip, const FanOfStrip& fan, Index v)
+{
+  const bool isLeft =
+    mesh.target(strip[fan.first]) == v; // the strip runs counterclockwise round it
+  const Index end = Mesh::face(mesh.twin[strip[fan.last]]);
+  Index corner = isLeft ? Mesh::next(strip[fan.first]) : strip[fan.first]; // leaves v
+  std::vector<Index> way;
+  for (Index f = Mesh::face(corner); f != end; f = Mesh::face(corner))
+  {
+    const Index over = isLeft ? corner : Mesh::previous(corner);
+    if (mesh.isBoundary(over) || way.size() > mesh.halfEdgeCount())
+    {
+      return std::nullopt;
+    }
+    way.push_back(over);
+    corner = isLeft ? Mesh::next(mesh.twin[over]) : mesh.twin[over];
+  }
+  return way;
+}
+
+/// A strip, and the shortest path in it.
+struct StripPath
+{
+  std::vector<Index> strip;
+  LaidOutStrip flat;
+  std::vector<PathCorner> corners;
+
+  StripPath(const Mesh& mesh, std::vector<Index> faces, const MeshPlace& from, const MeshPlace& to)
+    : strip(std::move(faces))
+  {
+    if (strip.empty())
+    {
+      corners = { { Vector2::Zero(), 0 }, { Vector2((to.point - from.point).norm(), 0), 0 } };
+      return;
+    }
+    flat = layOut(mesh, strip, from, to);
+    corners = shortestIn(flat);
+  }
+};
+
+/// Where the path has a corner and the other way round the vertex there is shorter, the strip takes that way.
+bool leadRound(
+  const Mesh& mesh, std::size_t k, const MeshPlace& from, const MeshPlace& to, StripPath& path)
+{
+  const Index v = vertexOfCorner(mesh, path.flat, path.strip, path.corners[k]);
+  FanOfStrip fan{ path.corners[k].portal - 1, path.corners[k].portal - 1 };
+  while (fan.first > 0 && endsAt(mesh, path.strip[fan.first - 1], v))
+  {
+    --fan.first;
+  }
+  while (fan.last + 1 < path.strip.size() && endsAt(mesh, path.strip[fan.last + 1], v))
+  {
+    ++fan.last;
+  }
+  const auto way = otherWayRound(mesh, path.strip, fan, v);
+  if (!way)
+  {
+    return false;
+  }
+  std::vector<Index> strip(
+    path.strip.begin(), path.strip.begin() + static_cast<std::ptrdiff_t>(fan.first));
+  strip.insert(strip.end(), way->begin(), way->end());
+  strip.insert(
+    strip.end(), path.strip.begin() + static_cast<std::ptrdiff_t>(fan.last) + 1, path.strip.end());
+  StripPath other(mesh, std::move(strip), from, to);
+  constexpr double kShorter = 1 - 1e-12;
+  if (!(lengthOf(other.corners) < kShorter * lengthOf(path.corners)))
+  {
+    return false;
+  }
+  path = std::move(other);
+  return true;
+}
+
+bool liesOn(const Mesh& mesh, Index h, const Vector3& p)
+{
+  constexpr double kOnEdge = 1e-12; // of its length
+  return distanceToSegment(p, mesh.position[mesh.origin[h]], mesh.position[mesh.target(h)]) <=
+    kOnEdge * mesh.edgeVector(h).norm();
+}
+
+/// Without the faces that the path only touches, where it begins or ends on their edges. face: the first one of the
+/// strip, before and afterwards.
+std::vector<Index> trimmed(const Mesh& mesh, const std::vector<Index>& strip, const MeshPlace& from,
+  const MeshPlace& to, Index& face)
+{
+  auto first = strip.begin(), last = strip.end();
+  for (; first != last && liesOn(mesh, *first, from.point); ++first)
+  {
+    face = Mesh::face(mesh.twin[*first]);
+  }
+  while (first != last && liesOn(mesh, *(last - 1), to.point))
+  {
+    --last;
+  }
+  return { first, last };
+}
+
+/// A shortest path as near to the strip as can be [Mancinelli et al. 2022, after Xin, Wang 2007]: one that no way round
+/// the other side of a vertex makes shorter.
+StripPath straightPath(
+  const Mesh& mesh, std::vector<Index> strip, const MeshPlace& from, const MeshPlace& to)
+{
+  StripPath path(mesh, std::move(strip), from, to);
+  bool isShorter = true;
+  while (isShorter)
+  {
+    isShorter = false;
+    for (std::size_t k = 1; k + 1 < path.corners.size() && !isShorter; ++k)
+    {
+      pollNowAndThen(k);
+      isShorter = leadRound(mesh, k, from, to, path);
+    }
+  }
   return path;
 }
 
@@ -388,32 +546,27 @@ std::vector<MeshPlace> placesOnMesh(
   return places;
 }
 
-std::optional<std::vector<EdgeCrossing>> pathOnMesh(
-  const Mesh& mesh, const MeshPlace& from, const MeshPlace& to)
+std::optional<MeshPath> pathOnMesh(const Mesh& mesh, const MeshPlace& from, const MeshPlace& to)
 {
   const std::optional<std::vector<Index>> strip = FaceStripSearch(mesh, from, to).run();
   if (!strip)
   {
     return std::nullopt;
   }
-  std::vector<EdgeCrossing> path;
-  if (strip->empty())
-  {
-    return path;
-  }
-  const LaidOutStrip flat = layOut(mesh, *strip, from, to);
-  const std::vector<PathCorner> corners = shortestIn(flat);
+  MeshPath result{ from.face, {} };
+  const StripPath path = straightPath(mesh, trimmed(mesh, *strip, from, to, result.face), from, to);
   std::size_t next = 1;
-  for (std::size_t i = 0; i < strip->size(); ++i)
+  for (std::size_t i = 0; i < path.strip.size(); ++i)
   {
-    while (corners[next].portal <= i && next + 1 < corners.size())
+    while (path.corners[next].portal <= i && next + 1 < path.corners.size())
     {
       ++next;
     }
-    path.push_back({ (*strip)[i],
-      shareOfCrossing(flat.portals[i], corners[next - 1].point, corners[next].point) });
+    result.crossings.push_back({ path.strip[i],
+      shareOfCrossing(
+        path.flat.portals[i], path.corners[next - 1].point, path.corners[next].point) });
   }
-  return path;
+  return result;
 }
 
 } // namespace quadrille

@@ -45,9 +45,9 @@ std::vector<PathParts> partsOf(
       {
         continue;
       }
-      Index face = places[at].face;
+      Index face = path->face;
       Vector3 from = places[at].point;
-      for (const EdgeCrossing& crossing : *path)
+      for (const EdgeCrossing& crossing : path->crossings)
       {
         result[k].push_back({ face, from, crossing.point(mesh) });
         from = result[k].back().to;
