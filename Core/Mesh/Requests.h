@@ -20,6 +20,8 @@ namespace quadrille
 constexpr int kLeastValence = 2;
 constexpr int kMostValence = 8;
 constexpr int kRegularValence = 4;
+/// On a boundary: a corner with one quad.
+constexpr int kLeastOnBoundary = 3;
 
 /// The direction that one family of the quads' edges should have in a face.
 struct Guide

@@ -37,7 +37,7 @@ struct StoredPrepared
 {
   PreparedSurface surface;
   double sizedArea = 0;
-  std::size_t addedVertices = 0; ///< by what is drawn on it
+  std::vector<std::string> drawnNotices; ///< on what is drawn on it
 };
 
 /// A sized one. The number of quads is that of the limited sizes, where an edge length was asked for.
@@ -291,7 +291,8 @@ private:
       prepared_ = known;
       surface_ = known->surface;
       sizedArea_ = known->sizedArea;
-      tellAdded(known->addedVertices);
+      made_.notices.insert(
+        made_.notices.end(), known->drawnNotices.begin(), known->drawnNotices.end());
       return;
     }
     const double start = secondsNow();
@@ -303,21 +304,22 @@ private:
     }
     const std::size_t before = surface_.mesh.faceCount();
     const std::size_t verticesBefore = surface_.mesh.vertexCount();
-    surface_.featurePaths = insertFeatures(surface_, input_.drawn.features, insertion);
+    surface_.featurePaths =
+      insertFeatures(surface_, input_.drawn.features, insertion, drawnNotices_);
     insertSizes(
       surface_, input_.drawn.sizes, sizingOrdersOf(input_.sizingOrders, surface_), insertion);
     surface_.hash = contentHash(surface_.mesh, options_.threads);
     measure();
-    addedVertices_ = surface_.mesh.vertexCount() - verticesBefore;
-    tellAdded(addedVertices_);
+    tellAdded(surface_.mesh.vertexCount() - verticesBefore, drawnNotices_);
+    made_.notices.insert(made_.notices.end(), drawnNotices_.begin(), drawnNotices_.end());
     made_.stages.add("draw", secondsNow() - start, before, surface_.mesh.faceCount());
   }
 
-  void tellAdded(std::size_t vertices)
+  static void tellAdded(std::size_t vertices, std::vector<std::string>& notices)
   {
     if (vertices > 0)
     {
-      tell(std::to_string(vertices) +
+      notices.push_back(std::to_string(vertices) +
         " vertices were added to the triangles where constraints lie; the shape stays as it is");
     }
   }
@@ -327,7 +329,7 @@ private:
   {
     if (store_ != nullptr && !prepared_)
     {
-      auto prepared = std::make_shared<StoredPrepared>(StoredPrepared{ surface_, sizedArea_ });
+      auto prepared = std::make_shared<StoredPrepared>(StoredPrepared{ surface_, sizedArea_, {} });
       prepared->surface.setRequests({});
       const std::size_t bytes = bytesOf(prepared->surface);
       store_->put(preparedKey_, std::move(prepared), bytes);
@@ -344,13 +346,15 @@ private:
     const Index before = surface_.mesh.faceCount();
     const Index verticesBefore = surface_.mesh.vertexCount();
     const InsertionOptions insertion{ made_.edgeLength, options_.threads };
-    if (insertValences(surface_, input_.drawn.valences, insertion))
+    const InsertedValences inserted = insertValences(surface_, input_.drawn.valences, insertion);
+    made_.notices.insert(made_.notices.end(), inserted.notices.begin(), inserted.notices.end());
+    if (inserted.splitConstraint)
     {
       splitChords(surface_);
     }
     if (surface_.mesh.faceCount() != before)
     {
-      tellAdded(surface_.mesh.vertexCount() - verticesBefore);
+      tellAdded(surface_.mesh.vertexCount() - verticesBefore, made_.notices);
       surface_.hash = contentHash(surface_.mesh, options_.threads);
       made_.key = KeyMaker(made_.key).add(surface_.hash).key();
     }
@@ -397,7 +401,7 @@ private:
     }
     made_.edgeLength = found->edgeLength;
     made_.targetQuads = options_.quads ? *options_.quads : found->targetQuads;
-    made_.notices = found->notices;
+    made_.notices = found->notices; // those on what is drawn among them
     made_.givenUpFeatures = found->givenUpFeatures;
     made_.details = found->details;
     reuse({ "refine" });
@@ -414,7 +418,7 @@ private:
     else if (store_ != nullptr)
     {
       prepared =
-        std::make_shared<StoredPrepared>(StoredPrepared{ surface_, sizedArea_, addedVertices_ });
+        std::make_shared<StoredPrepared>(StoredPrepared{ surface_, sizedArea_, drawnNotices_ });
       prepared->surface.setRequests({});
     }
     if (options_.sizes.any())
@@ -592,7 +596,7 @@ private:
   ResultKey requestsKey_ = 0;
   std::shared_ptr<StoredPrepared> prepared_; ///< found in the store
   double sizedArea_ = 0, diagonal_ = 0;
-  std::size_t addedVertices_ = 0; ///< by features and sizes that are drawn
+  std::vector<std::string> drawnNotices_; ///< on features and sizes that are drawn
 };
 
 } // namespace

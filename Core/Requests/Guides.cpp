@@ -25,8 +25,6 @@ namespace
 
 /// Sine of the angle to the normal below which a direction says nothing about the plane: half a degree.
 constexpr double kLeastTangent = 0.01;
-/// Valence of a corner with one quad.
-constexpr int kLeastOnBoundary = 3;
 constexpr std::size_t kHalfEdgeChunk = 3 << 15;
 
 bool isGiven(const Vector3& direction)

@@ -4,7 +4,6 @@
 
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
-#include "Base/Refuse.h"
 #include "Mesh/Distance.h"
 #include "Mesh/Sizing.h"
 #include "Mesh/SurfaceEdit.h"
@@ -13,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
@@ -404,7 +404,8 @@ bool isOnBoundary(const Mesh& mesh, Index v)
 } // namespace
 
 std::vector<std::vector<Vector3>> insertFeatures(PreparedSurface& surface,
-  const std::vector<FeatureRequest>& features, const InsertionOptions& options)
+  const std::vector<FeatureRequest>& features, const InsertionOptions& options,
+  std::vector<std::string>& notices)
 {
   Insertion insertion(surface, options);
   std::vector<Vector3> points;
@@ -427,10 +428,10 @@ std::vector<std::vector<Vector3>> insertFeatures(PreparedSurface& surface,
       const std::vector<Index> chain = insertion.connect(vertices[at], vertices[at + 1]);
       if (chain.empty())
       {
-        refuse("no way on the surface leads from ", placeText(feature.points[i]), " to ",
-          placeText(feature.points[i + 1]),
-          " of a feature curve: the places lie on different "
-          "parts of the surface; draw one line for each part");
+        notices.push_back("a feature curve is not followed from " + placeText(feature.points[i]) +
+          " to " + placeText(feature.points[i + 1]) +
+          ": the places lie on parts of the surface that are not joined; draw one line for each");
+        continue;
       }
       insertion.mark(chain);
       for (std::size_t k = 1; k < chain.size(); ++k)
@@ -481,7 +482,7 @@ void insertSizes(PreparedSurface& surface, const std::vector<SizeRequest>& sizes
   }
 }
 
-bool insertValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
+InsertedValences insertValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
   const InsertionOptions& options)
 {
   Insertion insertion(surface, options);
@@ -491,6 +492,8 @@ bool insertValences(PreparedSurface& surface, const std::vector<ValencePlace>& v
     places.push_back(asked.place);
   }
   const std::vector<Index> vertices = insertion.vertices(places);
+  InsertedValences inserted;
+  inserted.splitConstraint = insertion.splitConstraint();
   std::map<Index, ValenceRequest> byVertex;
   for (const ValenceRequest& request : surface.valenceRequests)
   {
@@ -499,18 +502,25 @@ bool insertValences(PreparedSurface& surface, const std::vector<ValencePlace>& v
   for (std::size_t i = 0; i < valences.size(); ++i)
   {
     const Index v = vertices[i];
-    const auto [found, isNew] = byVertex.emplace(v, ValenceRequest{ v, valences[i].valence });
-    if (!isNew && found->second.valence != valences[i].valence)
+    const auto leaveOut = [&](const std::string& why)
     {
-      refuse("valences ", found->second.valence, " and ", valences[i].valence,
-        " are asked for at one place, ", placeText(places[i]),
-        ": give both the same, or take one away");
+      inserted.notices.push_back("valence " + std::to_string(valences[i].valence) + " at " +
+        placeText(places[i]) + " is left out: " + why);
+    };
+    const auto found = byVertex.find(v);
+    if (found != byVertex.end() && found->second.valence != valences[i].valence)
+    {
+      leaveOut("valence " + std::to_string(found->second.valence) +
+        " is asked for there already; give both the same, or take one away");
     }
-    if (isNew && valences[i].valence < 3 && isOnBoundary(surface.mesh, v))
+    else if (valences[i].valence < kLeastOnBoundary && isOnBoundary(surface.mesh, v))
     {
-      refuse("valence ", valences[i].valence, " is asked for at ", placeText(places[i]),
-        ", on the boundary of the surface, where the least is 3, a corner with one quad: ask for 3 "
-        "or more there, or move the place inside");
+      leaveOut("the place is on the boundary, where the least is 3, a corner with one quad; ask "
+               "for 3 or more, or move the place inside");
+    }
+    else
+    {
+      byVertex[v] = { v, valences[i].valence };
     }
   }
   surface.valenceRequests.clear();
@@ -518,7 +528,7 @@ bool insertValences(PreparedSurface& surface, const std::vector<ValencePlace>& v
   {
     surface.valenceRequests.push_back(request);
   }
-  return insertion.splitConstraint();
+  return inserted;
 }
 
 } // namespace quadrille

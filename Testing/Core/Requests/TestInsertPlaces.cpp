@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Requests/InsertPlaces.h"
 
-#include "Base/Error.h"
 #include "Mesh/Distance.h"
 #include "Mesh/Sizing.h"
 #include "Prepare/Prepare.h"
@@ -175,7 +174,7 @@ TEST(InsertPlaces, APlaceBecomesAVertexAndTheShapeStays)
   const Mesh cube = unitCube(1);
   PreparedSurface surface = prepared(cube);
   const Vector3 place(0.3, 0.45, 1);
-  EXPECT_FALSE(insertValences(surface, { { place, 3 } }, { 0.05, 1 }));
+  EXPECT_FALSE(insertValences(surface, { { place, 3 } }, { 0.05, 1 }).splitConstraint);
   EXPECT_EQ(validate(surface.mesh), "");
   ASSERT_EQ(surface.valenceRequests.size(), 1U);
   EXPECT_LT((surface.mesh.position[surface.valenceRequests[0].vertex] - place).norm(), 1e-12);
@@ -188,8 +187,9 @@ TEST(InsertPlaces, NearPlacesTakeVerticesAndEdges)
 {
   PreparedSurface surface = prepared(unitCube(1));
   // Within a hundredth of 0.1 of a corner and of an edge of the cube, and farther away.
-  EXPECT_TRUE(insertValences(
-    surface, { { { 0.0005, 0.0005, 1 }, 3 }, { { 0.5, 0.0005, 1 }, 5 } }, { 0.1, 1 }));
+  EXPECT_TRUE(
+    insertValences(surface, { { { 0.0005, 0.0005, 1 }, 3 }, { { 0.5, 0.0005, 1 }, 5 } }, { 0.1, 1 })
+      .splitConstraint);
   EXPECT_EQ(validate(surface.mesh), "");
   ASSERT_EQ(surface.valenceRequests.size(), 2U);
   EXPECT_EQ(surface.mesh.vertexCount(), 9U);
@@ -215,13 +215,20 @@ TEST(InsertPlaces, AFineMeshKeepsItsVertices)
   EXPECT_EQ(surface.valenceRequests.size(), 10U);
 }
 
-TEST(InsertPlaces, ContradictionsAreRefusedWithThePlace)
+TEST(InsertPlaces, ContradictionsAreLeftOutAndTold)
 {
   PreparedSurface surface = prepared(unitCube(2));
   const Vector3 place(0.3, 0.45, 1);
-  EXPECT_THROW(insertValences(surface, { { place, 3 }, { place, 5 } }, { 0.05, 1 }), InvalidInput);
+  const InsertedValences two =
+    insertValences(surface, { { place, 3 }, { place, 5 }, { place, 3 } }, { 0.05, 1 });
+  ASSERT_EQ(two.notices.size(), 1U);
+  EXPECT_NE(two.notices[0].find("(0.3, 0.45, 1)"), std::string::npos) << two.notices[0];
+  ASSERT_EQ(surface.valenceRequests.size(), 1U);
+  EXPECT_EQ(surface.valenceRequests[0].valence, 3);
+
   PreparedSurface open = prepared(gridPlane(3, 3));
-  EXPECT_THROW(insertValences(open, { { { 1.5, 0, 0 }, 2 } }, { 0.1, 1 }), InvalidInput);
+  EXPECT_EQ(insertValences(open, { { { 1.5, 0, 0 }, 2 } }, { 0.1, 1 }).notices.size(), 1U);
+  EXPECT_TRUE(open.valenceRequests.empty());
 }
 
 /// Many random lines over a cube of twelve triangles, which cross each other and the cube's edges.
@@ -239,7 +246,9 @@ TEST(InsertPlaces, FeaturePathsAreEdges)
       feature.points = { Vector3(unit(random), unit(random), 1),
         Vector3(unit(random), unit(random), 1), Vector3(1, unit(random), unit(random)) };
     }
-    const auto paths = insertFeatures(surface, features, { 0.02, 1 });
+    std::vector<std::string> notices;
+    const auto paths = insertFeatures(surface, features, { 0.02, 1 }, notices);
+    EXPECT_TRUE(notices.empty());
     EXPECT_EQ(validate(surface.mesh), "");
     EXPECT_NEAR(areaOf(surface.mesh), 6, 1e-9);
     expectSources(surface, cube);
@@ -279,12 +288,13 @@ TEST(InsertPlaces, AFeatureAlongEdgesAddsNothing)
 {
   PreparedSurface surface = prepared(unitCube(4));
   const Index before = surface.mesh.vertexCount();
-  insertFeatures(surface, { { { { 0.25, 0.25, 1 }, { 0.75, 0.25, 1 } } } }, { 0.1, 1 });
+  std::vector<std::string> notices;
+  insertFeatures(surface, { { { { 0.25, 0.25, 1 }, { 0.75, 0.25, 1 } } } }, { 0.1, 1 }, notices);
   EXPECT_EQ(surface.mesh.vertexCount(), before);
   EXPECT_NEAR(requestedLength(surface.mesh), 0.5, 1e-12);
 }
 
-TEST(InsertPlaces, FeaturesBetweenComponentsAreRefused)
+TEST(InsertPlaces, FeaturesBetweenComponentsAreLeftOutAndTold)
 {
   PreparedSurface surface = prepared(twoComponents());
   const Vector3 a = surface.mesh.position[0];
@@ -293,7 +303,10 @@ TEST(InsertPlaces, FeaturesBetweenComponentsAreRefused)
   {
     b = (p - a).norm() > (b - a).norm() ? p : b;
   }
-  EXPECT_THROW(insertFeatures(surface, { { { a, b } } }, { 0.1, 1 }), InvalidInput);
+  std::vector<std::string> notices;
+  insertFeatures(surface, { { { a, b } } }, { 0.1, 1 }, notices);
+  EXPECT_EQ(notices.size(), 1U);
+  EXPECT_EQ(requestedLength(surface.mesh), 0);
 }
 
 TEST(InsertPlaces, SizesHoldWithinTheirRadius)
