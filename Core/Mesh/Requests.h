@@ -221,6 +221,13 @@ struct DrawnRequests
   {
     return features.empty() && strokes.empty() && valences.empty() && sizes.empty();
   }
+  void append(const DrawnRequests& other)
+  {
+    features.insert(features.end(), other.features.begin(), other.features.end());
+    strokes.insert(strokes.end(), other.strokes.begin(), other.strokes.end());
+    valences.insert(valences.end(), other.valences.begin(), other.valences.end());
+    sizes.insert(sizes.end(), other.sizes.begin(), other.sizes.end());
+  }
   /// Calls place(Vector3&) for each point and length(double&) for each radius.
   template <class PlaceVisitor, class LengthVisitor>
   void visit(PlaceVisitor place, LengthVisitor length)
