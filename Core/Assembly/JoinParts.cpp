@@ -473,6 +473,7 @@ JoinedParts joinParts(std::vector<SurfaceInput> parts, const PartContacts& conta
     appendOr(all.guideDirections, part.guideDirections, polygons, Vector3(Vector3::Zero()), guides);
     appendOr(all.guideWeights, part.guideWeights, polygons, 1.0, weights);
     all.curves.insert(all.curves.end(), part.curves.begin(), part.curves.end());
+    all.drawn.append(part.drawn);
     kept.polygonOffsets = std::move(part.polygonOffsets);
     kept.polygonPoints = std::move(part.polygonPoints);
     part = {};

@@ -6,6 +6,7 @@
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Base/Refuse.h"
+#include "Requests/SurfacePlaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -274,6 +275,10 @@ private:
           {
             input.sizing.push_back(joint_.sizing[point]);
           }
+          if (!joint_.sizingOrders.empty())
+          {
+            input.sizingOrders.push_back(joint_.sizingOrders[point]);
+          }
         }
         input.polygonPoints.push_back(found->second);
       }
@@ -307,6 +312,7 @@ private:
       copy(joint_.featureEdges, input.featureEdges);
       copy(joint_.guideDirections, input.guideDirections);
       copy(joint_.guideWeights, input.guideWeights);
+      copy(joint_.guideOrders, input.guideOrders);
     }
     input.patchesYield = joint_.patchesYield;
     input.curves = joint_.curves;
@@ -360,6 +366,44 @@ private:
     }
   }
 
+  /// Each request goes with the sheet that its middle lies on.
+  void moveDrawn()
+  {
+    sheets_.input.drawn = joint_.drawn;
+    DrawnRequests& drawn = sheets_.input.drawn;
+    if (drawn.empty())
+    {
+      return;
+    }
+    const SurfacePlaces places(sheets_.input);
+    const auto offsetAt = [&](const Vector3& p)
+    { return sheets_.offset[sheets_.sheetOf[places.nearestPlace(p).polygon]]; };
+    const auto move = [&](std::vector<Vector3>& points)
+    {
+      const Vector3 offset = offsetAt(points[points.size() / 2]);
+      for (Vector3& p : points)
+      {
+        p += offset;
+      }
+    };
+    for (FeatureRequest& feature : drawn.features)
+    {
+      move(feature.points);
+    }
+    for (StrokeRequest& stroke : drawn.strokes)
+    {
+      move(stroke.points);
+    }
+    for (ValencePlace& asked : drawn.valences)
+    {
+      asked.place += offsetAt(asked.place);
+    }
+    for (SizeRequest& size : drawn.sizes)
+    {
+      size.place += offsetAt(size.place);
+    }
+  }
+
   void moveApart()
   {
     Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -379,6 +423,7 @@ private:
       sheets_.offset[i] = step * Vector3(column, row, layer);
     }
     sheets_.centre = 0.5 * (low + high);
+    moveDrawn();
     for (std::size_t i = 0; i < sheets_.input.points.size(); ++i)
     {
       sheets_.input.points.edit()[i] += sheets_.offset[sheets_.sheetOfPoint[i]];

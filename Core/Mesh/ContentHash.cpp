@@ -88,14 +88,18 @@ std::uint64_t contentHash(const GeometryHash& geometry, const SurfaceInput& inpu
 {
   // By name, so that an array that is new has to be put on one side or the other here.
   const auto& [points, polygonOffsets, polygonPoints, featureEdges, patchIds, patchesYield,
-    detectedFeatures, guideDirections, guideWeights, targetValences, sizing, curves,
-    regularElsewhere, held, regularOnFeatures, seams, straight, faceOrder, precision] = input;
+    detectedFeatures, guideDirections, guideWeights, guideOrders, targetValences, sizing,
+    sizingOrders, drawn, curves, regularElsewhere, held, regularOnFeatures, seams, straight,
+    faceOrder, precision] = input;
   static_cast<void>(points);
   static_cast<void>(polygonOffsets);
   static_cast<void>(polygonPoints);
   static_cast<void>(guideDirections);
   static_cast<void>(guideWeights);
+  static_cast<void>(guideOrders);
   static_cast<void>(targetValences);
+  static_cast<void>(sizingOrders); // of what is drawn, which has a key of its own
+  static_cast<void>(drawn);
   static_cast<void>(curves);
   static_cast<void>(regularElsewhere);
   static_cast<void>(held);

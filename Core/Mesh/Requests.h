@@ -8,6 +8,7 @@
 
 #include "Base/Types.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -19,6 +20,8 @@ namespace quadrille
 constexpr int kLeastValence = 2;
 constexpr int kMostValence = 8;
 constexpr int kRegularValence = 4;
+/// On a boundary: a corner with one quad.
+constexpr int kLeastOnBoundary = 3;
 
 /// The direction that one family of the quads' edges should have in a face.
 struct Guide
@@ -39,6 +42,7 @@ struct PolygonGuide
   Index polygon = kInvalidIndex;
   Vector3 direction = Vector3::Zero(); ///< unit vector
   float weight = 1;
+  int order = 0; ///< see StrokeRequest
 };
 
 /// The guide of a face of a mesh.
@@ -135,18 +139,135 @@ struct StraightRequest
   bool isClosed() const { return from == to; }
 };
 
+/// A polyline on the surface that becomes edges of the quads: straight across faces, from one point to the next.
+struct FeatureRequest
+{
+  std::vector<Vector3> points; ///< 2 or more
+
+  bool operator==(const FeatureRequest& other) const { return points == other.points; }
+};
+
+/// A polyline on the surface that edges of the quads follow, in the faces that it crosses and in those that are joined
+/// to these by others and have their centre within the radius of it.
+struct StrokeRequest
+{
+  std::vector<Vector3> points; ///< 2 or more
+  double weight = 1;           ///< in (0, 1]
+  double radius = 0;           ///< >= 0, in units of the points
+  /// Where guides overlap the one of the highest order counts, of the same order the later one; of guides of polygons
+  /// see SurfaceInput::guideOrders.
+  int order = 0;
+
+  bool operator==(const StrokeRequest& other) const
+  {
+    return points == other.points && weight == other.weight && radius == other.radius &&
+      order == other.order;
+  }
+};
+
+/// Where feature curves and strokes run on a surface, from point to point; of each request in their order.
+struct DrawnPaths
+{
+  std::vector<std::vector<Vector3>> features, strokes;
+};
+
+/// What a stroke asks of a face of a surface.
+struct StrokeFace
+{
+  Index face = kInvalidIndex;
+  Vector3 direction = Vector3::Zero(); ///< unit
+  float weight = 1;
+  int order = 0; ///< of the stroke
+};
+
+/// A point of the surface is to be a vertex of this valence, see ValenceRequest.
+struct ValencePlace
+{
+  Vector3 place = Vector3::Zero();
+  int valence = kRegularValence;
+
+  bool operator==(const ValencePlace& other) const
+  {
+    return place == other.place && valence == other.valence;
+  }
+};
+
+/// Quads near a point of the surface have another size.
+struct SizeRequest
+{
+  Vector3 place = Vector3::Zero();
+  double radius =
+    0; ///< >= 0, in units of the points: straight distance within which the size is asked for
+  double factor = 1; ///< > 0: the edge length there as a multiple of the target edge length
+  int order = 0;     ///< as of strokes; of sizes of points see SurfaceInput::sizingOrders
+
+  bool operator==(const SizeRequest& other) const
+  {
+    return place == other.place && radius == other.radius && factor == other.factor &&
+      order == other.order;
+  }
+};
+
+/// What is asked for at points and along paths of the surface, whatever its triangles are. All points lie on the
+/// surface, up to rounding; those that do not mean the nearest point of it.
+struct DrawnRequests
+{
+  std::vector<FeatureRequest> features;
+  std::vector<StrokeRequest> strokes;
+  std::vector<ValencePlace> valences;
+  std::vector<SizeRequest> sizes;
+
+  bool empty() const
+  {
+    return features.empty() && strokes.empty() && valences.empty() && sizes.empty();
+  }
+  void append(const DrawnRequests& other)
+  {
+    features.insert(features.end(), other.features.begin(), other.features.end());
+    strokes.insert(strokes.end(), other.strokes.begin(), other.strokes.end());
+    valences.insert(valences.end(), other.valences.begin(), other.valences.end());
+    sizes.insert(sizes.end(), other.sizes.begin(), other.sizes.end());
+  }
+  /// Calls place(Vector3&) for each point and length(double&) for each radius.
+  template <class PlaceVisitor, class LengthVisitor>
+  void visit(PlaceVisitor place, LengthVisitor length)
+  {
+    for (FeatureRequest& feature : features)
+    {
+      std::for_each(feature.points.begin(), feature.points.end(), place);
+    }
+    for (StrokeRequest& stroke : strokes)
+    {
+      std::for_each(stroke.points.begin(), stroke.points.end(), place);
+      length(stroke.radius);
+    }
+    for (ValencePlace& asked : valences)
+    {
+      place(asked.place);
+    }
+    for (SizeRequest& size : sizes)
+    {
+      place(size.place);
+      length(size.radius);
+    }
+  }
+};
+
 /// What a prepared surface was asked for. The finest level does not depend on it, so it is not part of its hash.
 struct SurfaceRequests
 {
-  std::vector<PolygonGuide> polygonGuides;     ///< ascending by polygon; see surfaceGuides
-  std::vector<ValenceRequest> valenceRequests; ///< ascending by vertex, one a vertex
-  std::size_t unusedValences = 0;              ///< requests of points that no face uses
-  std::vector<CurveRequest> curves;            ///< as they were given, in the frame
-  bool regularElsewhere = false;               ///< as it was given
-  std::vector<SectorRequest> sectorRequests;   ///< ascending by vertex
-  bool regularOnFeatures = false;              ///< as it was given
-  std::vector<SeamRequest> seams;              ///< as they were given, in the frame
-  std::vector<StraightRequest> straight;       ///< as they were given, in the frame
+  std::vector<PolygonGuide> polygonGuides;       ///< ascending by polygon; see surfaceGuides
+  std::vector<ValenceRequest> valenceRequests;   ///< ascending by vertex, one a vertex
+  std::size_t unusedValences = 0;                ///< requests of points that no face uses
+  std::vector<StrokeRequest> strokes;            ///< as they were given, in the frame
+  std::vector<StrokeFace> strokeFaces;           ///< ascending by face; see placeStrokes
+  std::vector<std::vector<Vector3>> strokePaths; ///< where the strokes run on the surface
+  std::vector<CurveRequest> curves;              ///< as they were given, in the frame
+  bool regularElsewhere = false;                 ///< as it was given
+  std::vector<SectorRequest> sectorRequests;     ///< ascending by vertex
+  bool regularOnFeatures = false;                ///< as it was given
+  std::vector<SeamRequest> seams;                ///< as they were given, in the frame
+  std::vector<StraightRequest> straight;         ///< as they were given, in the frame
 };
 
 } // namespace quadrille

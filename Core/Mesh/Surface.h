@@ -43,9 +43,12 @@ struct SurfaceInput
   std::vector<Vector3> guideDirections;
   std::vector<double>
     guideWeights; ///< empty (1 everywhere) or #P; in (0, 1] where there is a direction
+  std::vector<int> guideOrders;    ///< empty (0 everywhere) or #P; see StrokeRequest::order
   std::vector<int> targetValences; ///< empty or #points; 0: free, else see ValenceRequest
   /// Empty or #points: the edge length that quads should have there as a multiple of the target edge length, > 0.
   std::vector<float> sizing;
+  std::vector<int> sizingOrders;    ///< empty (0 everywhere) or #points; see SizeRequest::order
+  DrawnRequests drawn;              ///< in units of the points
   std::vector<CurveRequest> curves; ///< connections and cycles, in units of the points
   /// Vertices inside, on no feature, that no target valence names are to be regular.
   bool regularElsewhere = false;
@@ -122,6 +125,9 @@ struct PreparedSurface : SurfaceRequests
   /// was split.
   SharedArray<Index> refinedEntry;
   SharedArray<std::array<std::array<double, 3>, 3>> cornerWeights; ///< [corner][source corner]
+
+  std::vector<std::vector<Vector3>>
+    featurePaths; ///< where features that were drawn run on the surface
 
   /// Set by who wants to know what becomes of the elements; orderSurface keeps it.
   std::optional<NamesBefore> namesBefore;

@@ -91,13 +91,23 @@ Weights mean(const Weights& a, const Weights& b)
   return { (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2 };
 }
 
-/// Splits the face of h between the new vertex m on h and its opposite corner. With h from a to b:
+Weights between(const Weights& a, const Weights& b, double share)
+{
+  Weights weights{};
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    weights[k] = (1 - share) * a[k] + share * b[k];
+  }
+  return weights;
+}
+
+/// Splits the face of h between the new vertex m on h, at a share of it, and its opposite corner. With h from a to b:
 /// the face keeps the half at a, the appended face has the other half in the same slots.
-Index splitOneSide(PreparedSurface& surface, Index h, Index m)
+Index splitOneSide(PreparedSurface& surface, Index h, Index m, double share)
 {
   Mesh& mesh = surface.mesh;
   const Index other = 3 * appendCopy(surface, Mesh::face(h)) + h % 3;
-  const Weights middle = mean(cornerOf(surface, h), cornerOf(surface, Mesh::next(h)));
+  const Weights middle = between(cornerOf(surface, h), cornerOf(surface, Mesh::next(h)), share);
   moveEdge(mesh, Mesh::next(h), Mesh::next(other));
   setCorner(surface, Mesh::next(h), m, middle);
   setCorner(surface, other, m, middle);
@@ -170,37 +180,52 @@ std::vector<Index> neighboursOf(const Mesh& mesh, Index h)
   return neighbours;
 }
 
-Index splitEdge(PreparedSurface& surface, Index h)
+Index splitEdge(PreparedSurface& surface, Index h, double share)
 {
   Mesh& mesh = surface.mesh;
   const Index m = mesh.vertexCount();
   const Index g = mesh.twin[h];
-  mesh.position.push_back((mesh.position[mesh.origin[h]] + mesh.position[mesh.target(h)]) / 2);
-  addSize(mesh, (sizeAt(mesh, mesh.origin[h]) + sizeAt(mesh, mesh.target(h))) / 2);
-  const Index h1 = splitOneSide(surface, h, m); // h: a -> m, h1: m -> b
+  const Index a = mesh.origin[h], b = mesh.target(h);
+  mesh.position.push_back(Vector3((1 - share) * mesh.position[a] + share * mesh.position[b]));
+  addSize(mesh, (1 - share) * sizeAt(mesh, a) + share * sizeAt(mesh, b));
+  const Index h1 = splitOneSide(surface, h, m, share); // h: a -> m, h1: m -> b
   if (g != kInvalidIndex)
   {
-    const Index g1 = splitOneSide(surface, g, m); // g: b -> m, g1: m -> a
+    const Index g1 = splitOneSide(surface, g, m, 1 - share); // g: b -> m, g1: m -> a
     glue(mesh, h, g1);
     glue(mesh, h1, g);
   }
   return m;
 }
 
+namespace
+{
+
+/// Of a face whose new vertex m has the weights `centre` in its source.
+void splitAt(PreparedSurface& surface, Index f, Index m, const Weights& centre)
+{
+  Mesh& mesh = surface.mesh;
+  const Index a = 3 * f;
+  const Index b = 3 * appendCopy(surface, f);
+  const Index c = 3 * appendCopy(surface, f);
+  moveEdge(mesh, a + 1, b + 1);
+  moveEdge(mesh, a + 2, c + 2);
+  setCorner(surface, a + 2, m, centre); // (a, b, m)
+  setCorner(surface, b, m, centre);     // (m, b, c)
+  setCorner(surface, c + 1, m, centre); // (a, m, c)
+  joinInner(mesh, a + 1, b);
+  joinInner(mesh, b + 2, c + 1);
+  joinInner(mesh, a + 2, c);
+}
+
+} // namespace
+
 Index splitFace(PreparedSurface& surface, Index f)
 {
   Mesh& mesh = surface.mesh;
   const Index a = 3 * f;
   const Index m = mesh.vertexCount();
-  mesh.position.push_back((mesh.position[mesh.origin[a]] + mesh.position[mesh.origin[a + 1]] +
-                            mesh.position[mesh.origin[a + 2]]) /
-    3);
-  addSize(mesh,
-    (sizeAt(mesh, mesh.origin[a]) + sizeAt(mesh, mesh.origin[a + 1]) +
-      sizeAt(mesh, mesh.origin[a + 2])) /
-      3);
-  const Index b = 3 * appendCopy(surface, f);
-  const Index c = 3 * appendCopy(surface, f);
+  ensureEntry(surface, f);
   Weights centre{};
   for (Index i = 0; i < 3; ++i)
   {
@@ -210,14 +235,39 @@ Index splitFace(PreparedSurface& surface, Index f)
       centre[k] += corner[k] / 3;
     }
   }
-  moveEdge(mesh, a + 1, b + 1);
-  moveEdge(mesh, a + 2, c + 2);
-  setCorner(surface, a + 2, m, centre); // (a, b, m)
-  setCorner(surface, b, m, centre);     // (m, b, c)
-  setCorner(surface, c + 1, m, centre); // (a, m, c)
-  joinInner(mesh, a + 1, b);
-  joinInner(mesh, b + 2, c + 1);
-  joinInner(mesh, a + 2, c);
+  mesh.position.push_back((mesh.position[mesh.origin[a]] + mesh.position[mesh.origin[a + 1]] +
+                            mesh.position[mesh.origin[a + 2]]) /
+    3);
+  addSize(mesh,
+    (sizeAt(mesh, mesh.origin[a]) + sizeAt(mesh, mesh.origin[a + 1]) +
+      sizeAt(mesh, mesh.origin[a + 2])) /
+      3);
+  splitAt(surface, f, m, centre);
+  return m;
+}
+
+Index splitFace(PreparedSurface& surface, Index f, const std::array<double, 3>& weights)
+{
+  Mesh& mesh = surface.mesh;
+  const Index m = mesh.vertexCount();
+  ensureEntry(surface, f);
+  Weights place{};
+  Vector3 point = Vector3::Zero();
+  double size = 0;
+  for (Index i = 0; i < 3; ++i)
+  {
+    const Index v = mesh.origin[3 * f + i];
+    const Weights corner = cornerOf(surface, 3 * f + i);
+    point += weights[i] * mesh.position[v];
+    size += weights[i] * sizeAt(mesh, v);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      place[k] += weights[i] * corner[k];
+    }
+  }
+  mesh.position.push_back(Vector3(point));
+  addSize(mesh, size);
+  splitAt(surface, f, m, place);
   return m;
 }
 

@@ -12,13 +12,16 @@ namespace quadrille
 /// Vertices joined to the origin of h by an edge of its fan.
 std::vector<Index> neighboursOf(const Mesh& mesh, Index h);
 
-/// Splits the edge of h at its midpoint; returns the new vertex. Its 1 or 2 faces become 2 or 4:
-/// each keeps the half at its own half-edge's origin, and the other half is appended.
-Index splitEdge(PreparedSurface& surface, Index h);
+/// Splits the edge of h at a share of it in (0, 1) from the origin of h, by default at its midpoint; returns the new
+/// vertex. Its 1 or 2 faces become 2 or 4: each keeps the half at its own half-edge's origin, and the other half is
+/// appended.
+Index splitEdge(PreparedSurface& surface, Index h, double share = 0.5);
 
 /// Splits a face in three at its centroid; returns the new vertex. Half-edge 3f stays, the faces at
 /// 3f+1 and 3f+2 are appended.
 Index splitFace(PreparedSurface& surface, Index f);
+/// The same at another place; weights: barycentric, above 0, sum 1.
+Index splitFace(PreparedSurface& surface, Index f, const std::array<double, 3>& weights);
 
 /// Cuts the surface open along a simple closed loop of at least 3 inner half-edges, each of which ends where the next
 /// one begins, that meets no boundary; closes both sides with a fan round a new vertex at the mean of the loop's

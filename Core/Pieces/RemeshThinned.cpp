@@ -88,9 +88,9 @@ void runThinned(FramedInput& framed, const RemeshOptions& given, PlaceScope& pla
 /// What needs the whole surface, see remeshThinned.
 void requireNothingPlaced(const SurfaceInput& input)
 {
-  if (!input.guideDirections.empty() || !input.targetValences.empty() || !input.curves.empty() ||
-    !input.held.empty() || !input.seams.empty() || !input.straight.empty() ||
-    input.regularElsewhere || input.regularOnFeatures)
+  if (!input.guideDirections.empty() || !input.targetValences.empty() || !input.drawn.empty() ||
+    !input.curves.empty() || !input.held.empty() || !input.seams.empty() ||
+    !input.straight.empty() || input.regularElsewhere || input.regularOnFeatures)
   {
     throw InvalidInput("guides, valences and curves are those of the whole surface: do not have it "
                        "thinned out.");

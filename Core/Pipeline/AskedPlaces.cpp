@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/DetailSteps.h"
 
+#include "Requests/Guides.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <map>
@@ -63,9 +65,10 @@ AskedPlaces askedPlaces(const PreparedSurface& surface)
   return asked;
 }
 
-void ask(const AskedPlaces& asked, PreparedSurface& surface)
+void ask(const AskedPlaces& asked, PreparedSurface& surface, int threads)
 {
   surface.setRequests(asked.requests);
+  placeStrokes(surface, threads);
   moveRequests(surface.mesh, asked.valencePlaces, surface.valenceRequests);
   moveRequests(surface.mesh, asked.sectorPlaces, surface.sectorRequests);
 }

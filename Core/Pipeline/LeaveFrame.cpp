@@ -112,6 +112,18 @@ void leaveFrame(PreparedSurface& surface, const Frame& frame, std::vector<Vector
   {
     guide.direction = frame.mirrored(guide.direction);
   }
+  for (StrokeFace& guided : surface.strokeFaces)
+  {
+    guided.direction = frame.mirrored(guided.direction);
+  }
+  for (StrokeRequest& stroke : surface.strokes)
+  {
+    for (Vector3& p : stroke.points)
+    {
+      p = frame.toUser(p);
+    }
+    stroke.radius *= frame.unit;
+  }
   for (CurveRequest& curve : surface.curves)
   {
     for (Vector3& p : curve.points)

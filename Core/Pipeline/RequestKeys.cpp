@@ -42,7 +42,15 @@ ResultKey requestsKey(const SurfaceInput& input)
 {
   KeyMaker key;
   addShared(input, key);
-  key.add(input.guideDirections, input.guideWeights, input.targetValences);
+  key.add(input.guideDirections, input.guideWeights, input.guideOrders, input.targetValences);
+  for (const ValencePlace& asked : input.drawn.valences)
+  {
+    key.add(asked.place, asked.valence);
+  }
+  for (const StrokeRequest& stroke : input.drawn.strokes)
+  {
+    key.add(stroke.points, stroke.weight, stroke.radius, stroke.order);
+  }
   for (const HeldVertex& vertex : input.held)
   {
     key.add(vertex.point, vertex.place);
@@ -56,6 +64,10 @@ ResultKey requestsKey(const SurfaceRequests& requests)
   KeyMaker key;
   addShared(requests, key);
   key.add(requests.polygonGuides.size(), requests.valenceRequests.size());
+  for (const StrokeFace& guided : requests.strokeFaces)
+  {
+    key.add(guided.face, guided.weight, guided.direction);
+  }
   for (const PolygonGuide& guide : requests.polygonGuides)
   {
     key.add(guide.polygon, guide.weight, guide.direction);

@@ -8,6 +8,7 @@
 #include "Features/FeatureFilter.h"
 #include "Features/FeatureNetwork.h"
 #include "Mesh/Sizing.h"
+#include "Pipeline/DrawnOnSurface.h"
 #include "Pipeline/Notices.h"
 #include "Pipeline/PlannedSurface.h"
 #include "Pipeline/RequestKeys.h"
@@ -34,6 +35,7 @@ struct StoredPrepared
 {
   PreparedSurface surface;
   double sizedArea = 0;
+  std::vector<std::string> notices; ///< on what is drawn on it
 };
 
 /// A sized one. The number of quads is that of the limited sizes, where an edge length was asked for.
@@ -79,6 +81,8 @@ PreparedSurface prepareInput(
   SurfaceInput later;
   later.held = std::move(input.held);
   later.targetValences = later.held.empty() ? std::vector<int>{} : std::move(input.targetValences);
+  later.drawn = std::move(input.drawn);
+  later.sizingOrders = std::move(input.sizingOrders);
   input = std::move(later);
   releaseFreedMemory();
   for (const auto& [name, seconds] : surface.seconds)
@@ -264,6 +268,7 @@ SizedSurface finished(
 {
   if (sized.status.ok())
   {
+    placeStrokes(surface, options.threads);
     guideByCurvature(surface, options, sized);
     tell(requestNotices(surface, surfaceGuides(surface, options.threads)), sized.notices);
     for (const std::string& sentence : repairSentences(surface.repair))
@@ -277,6 +282,76 @@ SizedSurface finished(
     countBlocks(sized, options, store);
   }
   return sized;
+}
+
+/// The prepared surface that a run begins with, and where it is stored; stored: null where it was made.
+struct PreparedOfRun
+{
+  PreparedSurface surface; ///< without requests where it is stored
+  double sizedArea = 0;
+  ResultKey key = 0;
+  std::shared_ptr<StoredPrepared> stored;
+};
+
+std::shared_ptr<StoredPrepared> withoutRequests(
+  const PreparedOfRun& prepared, const std::vector<std::string>& notices)
+{
+  auto stored = std::make_shared<StoredPrepared>(
+    StoredPrepared{ prepared.surface, prepared.sizedArea, notices });
+  stored->surface.setRequests({});
+  return stored;
+}
+
+PreparedOfRun findOrPrepare(
+  SurfaceInput& input, const RemeshOptions& options, const KnownInput& known, SizedSurface& sized)
+{
+  PreparedOfRun prepared;
+  prepared.key = preparedKey(known.inputHash, options);
+  prepared.stored = findIn<StoredPrepared>(known.store, prepared.key);
+  if (prepared.stored)
+  {
+    prepared.surface = prepared.stored->surface;
+    prepared.sizedArea = prepared.stored->sizedArea;
+    sized.reused = { "repair", "order", "connectivity" };
+    return prepared;
+  }
+  prepared.surface = prepareInput(input, options, sized.stages);
+  prepared.sizedArea = areaOverSizes(prepared.surface);
+  return prepared;
+}
+
+/// Features and sizes that are drawn become those of the prepared surface. How fine that has to be follows from the
+/// quads.
+void findOrDraw(const SurfaceInput& input, const RemeshOptions& options, ResultStore* store,
+  PreparedOfRun& prepared, SizedSurface& sized)
+{
+  const double edgeLength =
+    targetEdgeLength(options, prepared.sizedArea, prepared.surface.boundingBoxDiagonal);
+  if (store != nullptr && !prepared.stored)
+  {
+    const std::shared_ptr<StoredPrepared> plain = withoutRequests(prepared, {});
+    const std::size_t bytes = bytesOf(plain->surface);
+    store->put(prepared.key, plain, bytes); // for runs that draw something else
+  }
+  prepared.key = drawnKey(prepared.key, input, edgeLength);
+  if (const auto drawn = findIn<StoredPrepared>(store, prepared.key))
+  {
+    prepared.stored = drawn;
+    prepared.surface = drawn->surface;
+    prepared.sizedArea = drawn->sizedArea;
+    sized.notices = drawn->notices;
+    return;
+  }
+  if (prepared.stored)
+  {
+    collectRequests(input, prepared.surface, options.threads);
+    prepared.stored.reset();
+  }
+  const double start = secondsNow();
+  const std::size_t before = prepared.surface.mesh.faceCount();
+  drawOn(prepared.surface, input, edgeLength, options.threads, sized.notices);
+  prepared.sizedArea = areaOverSizes(prepared.surface);
+  sized.stages.add("draw", secondsNow() - start, before, prepared.surface.mesh.faceCount());
 }
 
 } // namespace
@@ -311,29 +386,25 @@ SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, cons
 {
   SizedSurface sized;
   ResultStore* store = known.store;
-  const ResultKey preparedAt = preparedKey(known.inputHash, options);
   const ResultKey requests = options.closeHandles > 0 ? requestsKey(input) : 0;
-  std::shared_ptr<StoredPrepared> prepared = findIn<StoredPrepared>(store, preparedAt);
-  const bool isKnown = prepared != nullptr;
-  PreparedSurface surface =
-    isKnown ? prepared->surface : prepareInput(input, options, sized.stages);
-  const double sizedArea = isKnown ? prepared->sizedArea : areaOverSizes(surface);
-  if (isKnown)
+  PreparedOfRun prepared = findOrPrepare(input, options, known, sized);
+  if (changesSurface(input.drawn))
   {
-    sized.reused = { "repair", "order", "connectivity" };
+    findOrDraw(input, options, store, prepared, sized);
   }
-  setTarget(sizedArea, surface.boundingBoxDiagonal, options, sized);
-  sized.key = sizedKey(preparedAt, requests, surface, options, sized);
-  if (!isKnown || !recallSized(input, options, *store, surface, sized))
+  PreparedSurface& surface = prepared.surface;
+  setTarget(prepared.sizedArea, surface.boundingBoxDiagonal, options, sized);
+  sized.key = sizedKey(prepared.key, requests, surface, options, sized);
+  if (!prepared.stored || !recallSized(input, options, *store, surface, sized))
   {
-    if (isKnown)
+    std::shared_ptr<StoredPrepared> stored = prepared.stored;
+    if (stored)
     {
       collectRequests(input, surface, options.threads);
     }
     else if (store != nullptr)
     {
-      prepared = std::make_shared<StoredPrepared>(StoredPrepared{ surface, sizedArea });
-      prepared->surface.setRequests({});
+      stored = withoutRequests(prepared, sized.notices);
     }
     sizePreparedSurface(surface, options, sized);
     if (sized.status.ok())
@@ -342,8 +413,13 @@ SizedSurface sizeSurface(SurfaceInput& input, const RemeshOptions& options, cons
     }
     if (sized.status.ok() && store != nullptr)
     {
-      keepSized(std::move(prepared), preparedAt, surface, options, *store, sized);
+      keepSized(std::move(stored), prepared.key, surface, options, *store, sized);
     }
+  }
+  if (sized.status.ok() &&
+    drawValences(surface, input.drawn.valences, sized.edgeLength, options.threads, sized.notices))
+  {
+    sized.key = KeyMaker(sized.key).add(surface.hash).key();
   }
   input = {};
   return finished(std::move(surface), options, store, std::move(sized));

@@ -140,6 +140,8 @@ void requestsToFrame(FramedInput& framed)
   {
     direction = frame.mirrored(direction);
   }
+  framed.input.drawn.visit([&](Vector3& p) { p = frame.fromUser(p); },
+    [&](double& length) { length = frame.lengthOf(length); });
   for (CurveRequest& curve : framed.input.curves)
   {
     for (Vector3& p : curve.points)

@@ -10,10 +10,12 @@
 #include "Requests/CurveRequests.h"
 #include "Requests/SeamRequests.h"
 #include "Requests/StraightRequests.h"
+#include "Requests/StrokeGuides.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace quadrille
 {
@@ -23,8 +25,6 @@ namespace
 
 /// Sine of the angle to the normal below which a direction says nothing about the plane: half a degree.
 constexpr double kLeastTangent = 0.01;
-/// Valence of a corner with one quad.
-constexpr int kLeastOnBoundary = 3;
 constexpr std::size_t kHalfEdgeChunk = 3 << 15;
 
 bool isGiven(const Vector3& direction)
@@ -89,7 +89,8 @@ std::vector<PolygonGuide> guidesOf(const SurfaceInput& input)
     {
       const double weight = input.guideWeights.empty() ? 1.0 : input.guideWeights[i];
       guides.push_back({ static_cast<Index>(i), direction.stableNormalized(),
-        std::max(static_cast<float>(weight), std::numeric_limits<float>::min()) });
+        std::max(static_cast<float>(weight), std::numeric_limits<float>::min()),
+        input.guideOrders.empty() ? 0 : input.guideOrders[i] });
     }
   }
   return guides;
@@ -167,6 +168,7 @@ void checkRequests(const SurfaceInput& input)
   requireGuideSize(
     "the array of guiding directions", input.guideDirections.size(), polygons, "polygons");
   requireGuideSize("the array of guiding weights", input.guideWeights.size(), polygons, "polygons");
+  requireGuideSize("the orders of guides", input.guideOrders.size(), polygons, "polygons");
   requireGuideSize(
     "the array of target valences", input.targetValences.size(), input.points.size(), "points");
   checkGuides(input);
@@ -177,6 +179,8 @@ void checkRequests(const SurfaceInput& input)
 void collectRequests(const SurfaceInput& input, PreparedSurface& surface, int threads)
 {
   surface.polygonGuides = guidesOf(input);
+  surface.strokes = input.drawn.strokes;
+  surface.strokeFaces.clear();
   surface.curves = input.curves;
   surface.regularElsewhere = input.regularElsewhere;
   surface.regularOnFeatures = input.regularOnFeatures;
@@ -221,19 +225,53 @@ void collectRequests(const SurfaceInput& input, PreparedSurface& surface, int th
   }
 }
 
+namespace
+{
+
+/// The polygon's guide of each face; null: none.
+class GuideOfFace
+{
+public:
+  explicit GuideOfFace(const PreparedSurface& surface) : surface_(surface)
+  {
+    const std::vector<PolygonGuide>& guides = surface.polygonGuides;
+    guideOf_.resize(guides.empty() ? 0 : guides.back().polygon + std::size_t{ 1 }, kInvalidIndex);
+    for (std::size_t i = 0; i < guides.size(); ++i)
+    {
+      guideOf_[guides[i].polygon] = static_cast<Index>(i);
+    }
+  }
+
+  const PolygonGuide* operator()(Index f) const
+  {
+    const Index polygon = surface_.sourcePolygon[f];
+    return polygon >= guideOf_.size() || guideOf_[polygon] == kInvalidIndex
+      ? nullptr
+      : &surface_.polygonGuides[guideOf_[polygon]];
+  }
+
+private:
+  const PreparedSurface& surface_;
+  std::vector<Index> guideOf_;
+};
+
+} // namespace
+
+void placeStrokes(PreparedSurface& surface, int threads)
+{
+  PlacedStrokes placed = strokesOnMesh(surface.mesh, surface.strokes, threads);
+  surface.strokeFaces = std::move(placed.faces);
+  surface.strokePaths = std::move(placed.paths);
+}
+
 SurfaceGuides surfaceGuides(const PreparedSurface& surface, int threads)
 {
   SurfaceGuides result;
-  if (surface.polygonGuides.empty())
+  if (surface.polygonGuides.empty() && surface.strokeFaces.empty())
   {
     return result;
   }
-  std::vector<Index> guideOf(
-    surface.polygonGuides.back().polygon + std::size_t{ 1 }, kInvalidIndex);
-  for (std::size_t i = 0; i < surface.polygonGuides.size(); ++i)
-  {
-    guideOf[surface.polygonGuides[i].polygon] = static_cast<Index>(i);
-  }
+  const GuideOfFace guideOf(surface);
   const Mesh& mesh = surface.mesh;
   constexpr std::size_t kGuideFaceChunk = kHalfEdgeChunk / 3;
   std::vector<SurfaceGuides> parts((mesh.faceCount() + kGuideFaceChunk - 1) / kGuideFaceChunk);
@@ -241,25 +279,35 @@ SurfaceGuides surfaceGuides(const PreparedSurface& surface, int threads)
     [&](std::size_t begin, std::size_t end)
     {
       SurfaceGuides& part = parts[begin / kGuideFaceChunk];
-      for (Index f = static_cast<Index>(begin); f < end; ++f)
+      auto stroke = std::lower_bound(surface.strokeFaces.begin(), surface.strokeFaces.end(), begin,
+        [](const StrokeFace& guided, std::size_t face) { return guided.face < face; });
+      const auto add = [&](Index f, const Vector3& direction, float weight)
       {
-        const Index polygon = surface.sourcePolygon[f];
-        if (polygon >= guideOf.size() || guideOf[polygon] == kInvalidIndex)
-        {
-          continue;
-        }
-        const PolygonGuide& guide = surface.polygonGuides[guideOf[polygon]];
         const Vector3 normal =
           mesh.edgeVector(3 * f).cross(mesh.edgeVector(3 * f + 1)).stableNormalized();
-        const Vector3 tangent = guide.direction - normal * normal.dot(guide.direction);
+        const Vector3 tangent = direction - normal * normal.dot(direction);
         if (tangent.norm() > kLeastTangent)
         {
-          part.faces.push_back({ f, { tangent.normalized(), guide.weight } });
+          part.faces.push_back({ f, { tangent.normalized(), weight } });
         }
         else
         {
           ++part.dropped;
         }
+      };
+      for (Index f = static_cast<Index>(begin); f < end; ++f)
+      {
+        const PolygonGuide* polygon = guideOf(f);
+        const bool hasStroke = stroke != surface.strokeFaces.end() && stroke->face == f;
+        if (hasStroke && (polygon == nullptr || polygon->order <= stroke->order))
+        {
+          add(f, stroke->direction, stroke->weight);
+        }
+        else if (polygon != nullptr)
+        {
+          add(f, polygon->direction, polygon->weight);
+        }
+        stroke += hasStroke ? 1 : 0;
       }
     });
   for (const SurfaceGuides& part : parts)

@@ -26,7 +26,11 @@ void checkRequests(const SurfaceInput& input);
 /// The same for any number of threads, as below.
 void collectRequests(const SurfaceInput& input, PreparedSurface& surface, int threads);
 
-/// Guides of the faces of the mesh, ascending by face.
+/// Finds the faces that the surface's strokes guide, once the surface has its final faces, and again where these have
+/// changed.
+void placeStrokes(PreparedSurface& surface, int threads);
+
+/// Guides of the faces of the mesh, ascending by face: of polygons and of strokes.
 struct SurfaceGuides
 {
   std::vector<FaceGuide> faces;

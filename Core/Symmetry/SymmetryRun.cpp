@@ -133,6 +133,7 @@ SymmetricResult SymmetryRun::run(SurfaceInput& input)
   { all.insert(all.begin(), first.begin(), first.end()); };
   putBefore(result.notices, told_.notices);
   putBefore(result.reused, told_.reused);
+  result.drawnPaths = {}; // those of the part are pieces, and images of pieces
   result.stages = told_.laps.all();
   return std::move(made_);
 }
@@ -176,6 +177,7 @@ void SymmetryRun::prepare(SurfaceInput& input)
   }
   made_.diagonal = surface().boundingBoxDiagonal;
   tolerance_ = kMirrorTolerance * made_.diagonal;
+  asked_.drawn = std::move(input.drawn);
   input = {};
 }
 
@@ -262,6 +264,7 @@ void SymmetryRun::cut()
   {
     told_.notices.push_back(notice);
   }
+  part_.input.drawn = drawnOfPart(task(), part_, asked_.drawn, told_.notices);
   asked_.curves = askCurvesOfPart(task());
   part_.input.curves = asked_.curves.curves;
   part_.input.regularElsewhere = surface().regularElsewhere;

@@ -5,6 +5,7 @@
 
 #include "Mesh/Topology.h"
 #include "Symmetry/ImageFit.h"
+#include "Symmetry/PartDrawn.h"
 #include "Symmetry/PartRequests.h"
 #include "Symmetry/PartSources.h"
 #include "Symmetry/PlaneCut.h"
@@ -42,6 +43,7 @@ private:
     std::vector<GivenUpCurve> givenUp; ///< in the plane
     double inPlane = 0;                ///< length of the plane's curve over the sizes
     PartCurves curves;
+    DrawnRequests drawn; ///< of the whole
   };
   /// What comes before that of the part's run.
   struct Told

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pipeline/DrawnOnSurface.h"
+
+#include "Mesh/ContentHash.h"
+#include "Prepare/Refine.h"
+#include "Requests/InsertPlaces.h"
+
+#include <algorithm>
+
+namespace quadrille
+{
+namespace
+{
+
+/// Orders of sizes of points, at the vertices that they became.
+std::vector<int> sizingOrdersOf(const std::vector<int>& orders, const PreparedSurface& surface)
+{
+  std::vector<int> result;
+  if (!orders.empty())
+  {
+    result.assign(surface.mesh.vertexCount(), 0);
+    for (Index h = 0; h < surface.mesh.halfEdgeCount(); ++h)
+    {
+      int& order = result[surface.mesh.origin[h]];
+      order = std::max(order, orders[surface.sourcePoints[Mesh::face(h)][h % 3]]);
+    }
+  }
+  return result;
+}
+
+/// The surface has more vertices than before.
+void noteAdded(
+  PreparedSurface& surface, Index before, int threads, std::vector<std::string>& notices)
+{
+  surface.hash = contentHash(surface.mesh, threads);
+  const Index added = surface.mesh.vertexCount() - before;
+  if (added > 0)
+  {
+    notices.push_back(std::to_string(added) +
+      " vertices were added to the triangles where constraints lie; the shape stays as it is");
+  }
+}
+
+std::vector<std::vector<Vector3>> toUser(
+  std::vector<std::vector<Vector3>> paths, const Frame& frame)
+{
+  for (std::vector<Vector3>& path : paths)
+  {
+    for (Vector3& p : path)
+    {
+      p = frame.toUser(p);
+    }
+  }
+  return paths;
+}
+
+} // namespace
+
+bool changesSurface(const DrawnRequests& drawn)
+{
+  return !drawn.features.empty() || !drawn.sizes.empty();
+}
+
+ResultKey drawnKey(ResultKey prepared, const SurfaceInput& input, double edgeLength)
+{
+  KeyMaker key(prepared);
+  key.add(edgeLength, input.drawn.features.size(), input.sizingOrders);
+  for (const FeatureRequest& feature : input.drawn.features)
+  {
+    key.add(feature.points);
+  }
+  for (const SizeRequest& size : input.drawn.sizes)
+  {
+    key.add(size.place, size.radius, size.factor, size.order);
+  }
+  return key.key();
+}
+
+void drawOn(PreparedSurface& surface, const SurfaceInput& input, double edgeLength, int threads,
+  std::vector<std::string>& notices)
+{
+  const Index before = surface.mesh.vertexCount();
+  const InsertionOptions insertion{ edgeLength, threads };
+  surface.featurePaths = insertFeatures(surface, input.drawn.features, insertion, notices);
+  insertSizes(surface, input.drawn.sizes, sizingOrdersOf(input.sizingOrders, surface), insertion);
+  noteAdded(surface, before, threads, notices);
+}
+
+bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
+  double edgeLength, int threads, std::vector<std::string>& notices)
+{
+  if (valences.empty())
+  {
+    return false;
+  }
+  const Index before = surface.mesh.vertexCount();
+  const InsertedValences inserted = insertValences(surface, valences, { edgeLength, threads });
+  notices.insert(notices.end(), inserted.notices.begin(), inserted.notices.end());
+  if (inserted.splitConstraint)
+  {
+    splitChords(surface);
+  }
+  if (surface.mesh.vertexCount() == before)
+  {
+    return false;
+  }
+  noteAdded(surface, before, threads, notices);
+  return true;
+}
+
+DrawnPaths drawnPathsOf(const PreparedSurface& surface, const Frame& frame)
+{
+  return { toUser(surface.featurePaths, frame), toUser(surface.strokePaths, frame) };
+}
+
+} // namespace quadrille

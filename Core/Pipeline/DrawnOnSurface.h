@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+/// What is drawn at points and along paths, put on the surface of a run.
+#pragma once
+
+#include "Mesh/Surface.h"
+#include "Pipeline/ResultStore.h"
+#include "Prepare/Frame.h"
+
+#include <string>
+#include <vector>
+
+namespace quadrille
+{
+
+/// Whether anything of it changes the triangles, features or sizes that a run begins with: features and sizes do.
+bool changesSurface(const DrawnRequests& drawn);
+
+/// Of a prepared surface with features and sizes that were drawn on it for quads of this edge length.
+ResultKey drawnKey(ResultKey prepared, const SurfaceInput& input, double edgeLength);
+
+/// Features and sizes become those of the surface. Adds what the user should know to notices.
+void drawOn(PreparedSurface& surface, const SurfaceInput& input, double edgeLength, int threads,
+  std::vector<std::string>& notices);
+
+/// Valences at places, on the triangles as they are to stay. Whether these have changed.
+bool drawValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
+  double edgeLength, int threads, std::vector<std::string>& notices);
+
+/// Where the features and strokes of a surface run, in units of the user.
+DrawnPaths drawnPathsOf(const PreparedSurface& surface, const Frame& frame);
+
+} // namespace quadrille

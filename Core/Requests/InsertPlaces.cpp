@@ -1,0 +1,534 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Requests/InsertPlaces.h"
+
+#include "Base/PlaceText.h"
+#include "Base/Progress.h"
+#include "Mesh/Distance.h"
+#include "Mesh/Sizing.h"
+#include "Mesh/SurfaceEdit.h"
+#include "Requests/MeshPlaces.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+namespace quadrille
+{
+namespace
+{
+
+/// Points nearer to a vertex, or to an edge, take it, in s.
+constexpr double kTaken = 0.01;
+/// Of a mesh with edges below this, in s, the vertices that are there will do: the nearest one is within a tenth of s.
+constexpr double kFineEnough = 0.2;
+/// Edges that come so near to a size's place, in radii, are made short against the radius.
+constexpr double kShareOfRadius = 0.5;
+/// From there on they may be so long against their distance, over so many s: within these sizes grow to any other.
+constexpr double kShareOfDistance = 0.5;
+constexpr double kGrowthReach = 4;
+
+class Insertion
+{
+public:
+  Insertion(PreparedSurface& surface, const InsertionOptions& options)
+    : surface_(surface), mesh_(surface.mesh), s_(options.edgeLength), threads_(options.threads)
+  {
+  }
+
+  /// A vertex for each point, in their order.
+  std::vector<Index> vertices(const std::vector<Vector3>& points)
+  {
+    std::vector<Index> result;
+    for (const MeshPlace& place : placesOnMesh(mesh_, points, threads_))
+    {
+      result.push_back(vertexAt(place));
+    }
+    return result;
+  }
+
+  /// Edges from one vertex to another, as a chain of vertices; empty where there is no way.
+  std::vector<Index> connect(Index from, Index to)
+  {
+    const auto path = pathOnMesh(mesh_, placeOf(from), placeOf(to));
+    if (!path)
+    {
+      return {};
+    }
+    const std::vector<EdgeCrossing>& crossings = path->crossings;
+    std::vector<Index> chain(crossings.size() + 2);
+    chain.front() = from;
+    chain.back() = to;
+    // Backwards: a split gives the edges of the faces beside it other names, and those before it are left by half-edges
+    // of faces that come earlier.
+    for (std::size_t i = crossings.size(); i-- > 0;)
+    {
+      chain[i + 1] = vertexOn(crossings[i]);
+    }
+    straighten(chain);
+    return chain;
+  }
+
+  /// The edges of a chain become features.
+  void mark(const std::vector<Index>& chain)
+  {
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+    {
+      forEachInFan(mesh_, halfEdgeFrom(chain[i]),
+        [&](Index h)
+        {
+          for (const Index edge : { h, Mesh::previous(h) })
+          {
+            const bool isOfChain =
+              mesh_.target(edge) == chain[i + 1] || mesh_.origin[edge] == chain[i + 1];
+            if (isOfChain)
+            {
+              setFeature(edge);
+            }
+          }
+        });
+    }
+  }
+
+  bool splitConstraint() const { return splitConstraint_; }
+
+  /// Splits edges near a place until they are as short as the size there needs.
+  void refineAround(const SizeRequest& size)
+  {
+    if (!(size.radius > 0))
+    {
+      return;
+    }
+    std::vector<Index> open;
+    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    {
+      pollNowAndThen(h);
+      if (isTooLong(h, size))
+      {
+        open.push_back(h);
+      }
+    }
+    while (!open.empty())
+    {
+      const Index h = open.back();
+      open.pop_back();
+      if (!isTooLong(h, size))
+      {
+        continue;
+      }
+      const Index longest = endOfLongest(h);
+      const Index first = mesh_.faceCount();
+      const Index twin = mesh_.twin[longest];
+      split(longest, 0.5);
+      for (Index f = first; f < mesh_.faceCount(); ++f)
+      {
+        open.insert(open.end(), { 3 * f, 3 * f + 1, 3 * f + 2 });
+      }
+      for (const Index side : { longest, twin })
+      {
+        if (side != kInvalidIndex)
+        {
+          const Index f = Mesh::face(side);
+          open.insert(open.end(), { 3 * f, 3 * f + 1, 3 * f + 2 });
+        }
+      }
+      open.push_back(h);
+    }
+  }
+
+private:
+  bool isTooLong(Index h, const SizeRequest& size) const
+  {
+    const Vector3& a = mesh_.position[mesh_.origin[h]];
+    const Vector3& b = mesh_.position[mesh_.target(h)];
+    const double length = (b - a).norm();
+    if (length <= kShareOfRadius * size.radius)
+    {
+      return false;
+    }
+    const double distance = distanceToSegment(size.place, a, b);
+    return distance < size.radius + kGrowthReach * s_ &&
+      length > std::max(kShareOfRadius * size.radius, kShareOfDistance * distance);
+  }
+
+  /// The end of the way from an edge to the longest one of the faces beside it, and so on, as in longest-edge bisection
+  /// [Rivara 1984]: to split it keeps angles large.
+  Index endOfLongest(Index h) const
+  {
+    for (Index next = longestBeside(h); next != h; next = longestBeside(h))
+    {
+      h = next;
+    }
+    return h;
+  }
+
+  /// Of the faces beside an edge.
+  Index longestBeside(Index h) const
+  {
+    Index longest = h;
+    double most = mesh_.edgeVector(h).squaredNorm();
+    for (const Index side : { h, Index{ mesh_.twin[h] } })
+    {
+      for (Index k = 3 * Mesh::face(side); side != kInvalidIndex && k < 3 * Mesh::face(side) + 3;
+           ++k)
+      {
+        const double squared = mesh_.edgeVector(k).squaredNorm();
+        if (squared > most * (1 + 1e-9))
+        {
+          most = squared;
+          longest = k;
+        }
+      }
+    }
+    return longest;
+  }
+
+  MeshPlace placeOf(Index v) { return { Mesh::face(halfEdgeFrom(v)), mesh_.position[v] }; }
+
+  /// A half-edge that leaves the vertex: of those that were there the one that was found, of new ones that of their
+  /// split, which later splits may have renamed.
+  Index halfEdgeFrom(Index v)
+  {
+    const auto known = out_.find(v);
+    if (known != out_.end() && mesh_.origin[known->second] == v)
+    {
+      return known->second;
+    }
+    for (Index h = 0; h < mesh_.halfEdgeCount(); ++h)
+    {
+      if (mesh_.origin[h] == v)
+      {
+        out_[v] = h;
+        return h;
+      }
+    }
+    return kInvalidIndex;
+  }
+
+  Index take(Index h)
+  {
+    out_[mesh_.origin[h]] = h;
+    return mesh_.origin[h];
+  }
+
+  bool isOnConstraint(Index h) const
+  {
+    bool on = false;
+    forEachInFan(mesh_, h,
+      [&](Index g)
+      { on = on || mesh_.isConstrained(g) || mesh_.isConstrained(Mesh::previous(g)); });
+    return on;
+  }
+
+  bool isFine(Index f) const
+  {
+    double longest = 0;
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      longest = std::max(longest, mesh_.edgeVector(h).norm());
+    }
+    return longest < kFineEnough * s_;
+  }
+
+  /// Of the faces that the one where the place was found has been split into.
+  Index faceNow(const MeshPlace& place) const
+  {
+    Index best = place.face;
+    double least = (nearestOnFace(mesh_, best, place.point) - place.point).squaredNorm();
+    const auto parts = partsOf_.find(place.face);
+    for (std::size_t i = 0; parts != partsOf_.end() && i < parts->second.size(); ++i)
+    {
+      const Index f = parts->second[i];
+      const double squared = (nearestOnFace(mesh_, f, place.point) - place.point).squaredNorm();
+      if (squared < least)
+      {
+        least = squared;
+        best = f;
+      }
+    }
+    return best;
+  }
+
+  Index vertexAt(const MeshPlace& place)
+  {
+    const Index f = faceNow(place);
+    const bool fine = isFine(f);
+    Index nearest = kInvalidIndex;
+    double least = 0;
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      const double distance = (mesh_.position[mesh_.origin[h]] - place.point).norm();
+      const bool isTaken = distance <= kTaken * s_ || (fine && !isOnConstraint(h));
+      if (isTaken && (nearest == kInvalidIndex || distance < least))
+      {
+        nearest = h;
+        least = distance;
+      }
+    }
+    return nearest != kInvalidIndex ? take(nearest) : newVertexAt(f, place.point);
+  }
+
+  Index newVertexAt(Index f, const Vector3& point)
+  {
+    Index edge = kInvalidIndex;
+    double least = kTaken * s_;
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    {
+      const double distance =
+        distanceToSegment(point, mesh_.position[mesh_.origin[h]], mesh_.position[mesh_.target(h)]);
+      if (distance < least)
+      {
+        least = distance;
+        edge = h;
+      }
+    }
+    if (edge != kInvalidIndex)
+    {
+      const Vector3 along = mesh_.edgeVector(edge);
+      const double share =
+        (point - mesh_.position[mesh_.origin[edge]]).dot(along) / along.squaredNorm();
+      return split(edge, std::clamp(share, kLeastShare, 1 - kLeastShare));
+    }
+    const Index first = mesh_.faceCount();
+    const Index v = splitFace(surface_, f, weightsIn(f, point));
+    noteParts(first, f, f);
+    out_[v] = 3 * f + 2;
+    return v;
+  }
+
+  std::array<double, 3> weightsIn(Index f, const Vector3& point) const
+  {
+    const Vector3 a = mesh_.position[mesh_.origin[3 * f]];
+    const Vector3 normal = mesh_.edgeVector(3 * f).cross(mesh_.edgeVector(3 * f + 1));
+    const double v =
+      normal.dot((point - a).cross(-mesh_.edgeVector(3 * f + 2))) / normal.squaredNorm();
+    const double w = normal.dot(mesh_.edgeVector(3 * f).cross(point - a)) / normal.squaredNorm();
+    return { 1 - v - w, v, w };
+  }
+
+  Index vertexOn(const EdgeCrossing& crossing)
+  {
+    const Index h = crossing.halfEdge;
+    const double length = mesh_.edgeVector(h).norm();
+    const double before = crossing.share * length;
+    const double after = length - before;
+    if (std::min(before, after) <= kTaken * s_ || length < kFineEnough * s_)
+    {
+      return take(before <= after ? h : Mesh::next(h));
+    }
+    return split(h, crossing.share);
+  }
+
+  Index split(Index h, double share)
+  {
+    const Index g = mesh_.twin[h];
+    splitConstraint_ = splitConstraint_ || mesh_.isConstrained(h);
+    const Index first = mesh_.faceCount();
+    const Index v = splitEdge(surface_, h, share);
+    noteParts(first, Mesh::face(h), g == kInvalidIndex ? kInvalidIndex : Mesh::face(g));
+    out_[v] = Mesh::next(h);
+    return v;
+  }
+
+  /// Faces from `first` on are parts of one face, and then of another one.
+  void noteParts(Index first, Index face, Index other)
+  {
+    for (Index f = first; f < mesh_.faceCount(); ++f)
+    {
+      const Index of = f == first ? face : other;
+      const auto root = rootOf_.find(of);
+      const Index whole = root == rootOf_.end() ? of : root->second;
+      rootOf_[f] = whole;
+      partsOf_[whole].push_back(f);
+    }
+  }
+
+  /// Vertices that come twice, one after the other or round another one, were taken for several crossings.
+  static void straighten(std::vector<Index>& chain)
+  {
+    std::vector<Index> result;
+    for (const Index v : chain)
+    {
+      if (!result.empty() && result.back() == v)
+      {
+        continue;
+      }
+      if (result.size() >= 2 && result[result.size() - 2] == v)
+      {
+        result.pop_back();
+        continue;
+      }
+      result.push_back(v);
+    }
+    chain = std::move(result);
+  }
+
+  void setFeature(Index h)
+  {
+    for (const Index side : { h, Index{ mesh_.twin[h] } })
+    {
+      if (side != kInvalidIndex)
+      {
+        mesh_.flags.edit()[side] |= kFeatureEdge | kRequestedFeature;
+      }
+    }
+  }
+
+  static constexpr double kLeastShare = 1e-9;
+
+  PreparedSurface& surface_;
+  Mesh& mesh_;
+  double s_;
+  int threads_;
+  bool splitConstraint_ = false;
+  std::unordered_map<Index, Index> out_;    ///< half-edges that leave vertices
+  std::unordered_map<Index, Index> rootOf_; ///< of new faces: the face that they are parts of
+  std::unordered_map<Index, std::vector<Index>> partsOf_;
+};
+
+bool isOnBoundary(const Mesh& mesh, Index v)
+{
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isBoundary(h) && (mesh.origin[h] == v || mesh.target(h) == v))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+} // namespace
+
+std::vector<std::vector<Vector3>> insertFeatures(PreparedSurface& surface,
+  const std::vector<FeatureRequest>& features, const InsertionOptions& options,
+  std::vector<std::string>& notices)
+{
+  Insertion insertion(surface, options);
+  std::vector<Vector3> points;
+  for (const FeatureRequest& feature : features)
+  {
+    points.insert(points.end(), feature.points.begin(), feature.points.end());
+  }
+  const std::vector<Index> vertices = insertion.vertices(points);
+  std::vector<std::vector<Vector3>> paths;
+  std::size_t at = 0;
+  for (const FeatureRequest& feature : features)
+  {
+    paths.emplace_back(1, surface.mesh.position[vertices[at]]);
+    for (std::size_t i = 0; i + 1 < feature.points.size(); ++i, ++at)
+    {
+      if (vertices[at] == vertices[at + 1])
+      {
+        continue;
+      }
+      const std::vector<Index> chain = insertion.connect(vertices[at], vertices[at + 1]);
+      if (chain.empty())
+      {
+        notices.push_back("a feature curve is not followed from " + placeText(feature.points[i]) +
+          " to " + placeText(feature.points[i + 1]) +
+          ": the places lie on parts of the surface that are not joined; draw one line for each");
+        continue;
+      }
+      insertion.mark(chain);
+      for (std::size_t k = 1; k < chain.size(); ++k)
+      {
+        paths.back().push_back(surface.mesh.position[chain[k]]);
+      }
+    }
+    ++at;
+  }
+  return paths;
+}
+
+void insertSizes(PreparedSurface& surface, const std::vector<SizeRequest>& sizes,
+  std::vector<int> orders, const InsertionOptions& options)
+{
+  if (sizes.empty())
+  {
+    return;
+  }
+  Mesh& mesh = surface.mesh;
+  mesh.sizing.resize(mesh.vertexCount(), 1.0F);
+  Insertion insertion(surface, options);
+  std::vector<Vector3> places;
+  for (const SizeRequest& size : sizes)
+  {
+    places.push_back(size.place);
+  }
+  const std::vector<Index> centres = insertion.vertices(places);
+  for (const SizeRequest& size : sizes)
+  {
+    insertion.refineAround(size);
+  }
+  orders.resize(mesh.vertexCount(), 0);
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+  {
+    const SizeRequest& size = sizes[i];
+    for (Index v = 0; v < mesh.vertexCount(); ++v)
+    {
+      pollNowAndThen(v);
+      const bool isNear = v == centres[i] ||
+        (mesh.position[v] - size.place).squaredNorm() <= size.radius * size.radius;
+      if (isNear && orders[v] <= size.order)
+      {
+        mesh.sizing.edit()[v] = static_cast<float>(size.factor);
+        orders[v] = size.order;
+      }
+    }
+  }
+}
+
+InsertedValences insertValences(PreparedSurface& surface, const std::vector<ValencePlace>& valences,
+  const InsertionOptions& options)
+{
+  Insertion insertion(surface, options);
+  std::vector<Vector3> places;
+  for (const ValencePlace& asked : valences)
+  {
+    places.push_back(asked.place);
+  }
+  const std::vector<Index> vertices = insertion.vertices(places);
+  InsertedValences inserted;
+  inserted.splitConstraint = insertion.splitConstraint();
+  std::map<Index, ValenceRequest> byVertex;
+  for (const ValenceRequest& request : surface.valenceRequests)
+  {
+    byVertex.emplace(request.vertex, request);
+  }
+  for (std::size_t i = 0; i < valences.size(); ++i)
+  {
+    const Index v = vertices[i];
+    const auto leaveOut = [&](const std::string& why)
+    {
+      inserted.notices.push_back("valence " + std::to_string(valences[i].valence) + " at " +
+        placeText(places[i]) + " is left out: " + why);
+    };
+    const auto found = byVertex.find(v);
+    if (found != byVertex.end() && found->second.valence != valences[i].valence)
+    {
+      leaveOut("valence " + std::to_string(found->second.valence) +
+        " is asked for there already; give both the same, or take one away");
+    }
+    else if (valences[i].valence < kLeastOnBoundary && isOnBoundary(surface.mesh, v))
+    {
+      leaveOut("the place is on the boundary, where the least is 3, a corner with one quad; ask "
+               "for 3 or more, or move the place inside");
+    }
+    else
+    {
+      byVertex[v] = { v, valences[i].valence };
+    }
+  }
+  surface.valenceRequests.clear();
+  for (const auto& [v, request] : byVertex)
+  {
+    surface.valenceRequests.push_back(request);
+  }
+  return inserted;
+}
+
+} // namespace quadrille

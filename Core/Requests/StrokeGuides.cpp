@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: The Quadrille maintainers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Requests/StrokeGuides.h"
+
+#include "Mesh/Distance.h"
+#include "Requests/MeshPlaces.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace quadrille
+{
+namespace
+{
+
+/// A straight part of a path, in one face.
+struct PathPart
+{
+  Index face = kInvalidIndex;
+  Vector3 from = Vector3::Zero(), to = Vector3::Zero();
+};
+
+using PathParts = std::vector<PathPart>;
+
+/// Of each stroke.
+std::vector<PathParts> partsOf(
+  const Mesh& mesh, const std::vector<StrokeRequest>& strokes, int threads)
+{
+  std::vector<Vector3> points;
+  for (const StrokeRequest& stroke : strokes)
+  {
+    points.insert(points.end(), stroke.points.begin(), stroke.points.end());
+  }
+  const std::vector<MeshPlace> places = placesOnMesh(mesh, points, threads);
+  std::vector<PathParts> result(strokes.size());
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < strokes.size(); ++k)
+  {
+    for (std::size_t i = 0; i + 1 < strokes[k].points.size(); ++i, ++at)
+    {
+      const auto path = pathOnMesh(mesh, places[at], places[at + 1]);
+      if (!path)
+      {
+        continue;
+      }
+      Index face = path->face;
+      Vector3 from = places[at].point;
+      for (const EdgeCrossing& crossing : path->crossings)
+      {
+        result[k].push_back({ face, from, crossing.point(mesh) });
+        from = result[k].back().to;
+        face = Mesh::face(mesh.twin[crossing.halfEdge]);
+      }
+      result[k].push_back({ face, from, places[at + 1].point });
+    }
+    ++at;
+  }
+  return result;
+}
+
+Vector3 centreOf(const Mesh& mesh, Index f)
+{
+  return (mesh.position[mesh.origin[3 * f]] + mesh.position[mesh.origin[3 * f + 1]] +
+           mesh.position[mesh.origin[3 * f + 2]]) /
+    3;
+}
+
+/// The direction of the nearest part of a path, where it is within the radius; else zero.
+Vector3 directionNear(const PathParts& parts, const Vector3& p, double radius)
+{
+  double least = std::numeric_limits<double>::infinity();
+  Vector3 direction = Vector3::Zero();
+  for (const PathPart& part : parts)
+  {
+    const double distance = distanceToSegment(p, part.from, part.to);
+    if (distance < least && part.from != part.to)
+    {
+      least = distance;
+      direction = (part.to - part.from).stableNormalized();
+    }
+  }
+  return least <= radius ? direction : Vector3(Vector3::Zero());
+}
+
+/// Directions of faces under one stroke and round it.
+std::map<Index, Vector3> directionsOf(const Mesh& mesh, const PathParts& parts, double radius)
+{
+  std::map<Index, Vector3> directions;
+  for (const PathPart& part : parts)
+  {
+    Vector3& sum = directions.try_emplace(part.face, Vector3::Zero()).first->second;
+    const Vector3 along = part.to - part.from;
+    sum += sum.dot(along) < 0 ? Vector3(-along) : along;
+  }
+  std::set<Index> seen, front;
+  for (auto& [face, direction] : directions)
+  {
+    direction = direction.stableNormalized();
+    seen.insert(face);
+    front.insert(face);
+  }
+  while (radius > 0 && !front.empty())
+  {
+    const Index face = *front.begin();
+    front.erase(front.begin());
+    for (Index h = 3 * face; h < 3 * face + 3; ++h)
+    {
+      const Index other = mesh.isBoundary(h) ? kInvalidIndex : Mesh::face(mesh.twin[h]);
+      if (other == kInvalidIndex || !seen.insert(other).second)
+      {
+        continue;
+      }
+      const Vector3 direction = directionNear(parts, centreOf(mesh, other), radius);
+      if (!direction.isZero(0))
+      {
+        directions[other] = direction;
+        front.insert(other);
+      }
+    }
+  }
+  return directions;
+}
+
+std::vector<Vector3> pathOf(const PathParts& parts)
+{
+  std::vector<Vector3> path;
+  for (const PathPart& part : parts)
+  {
+    if (path.empty() || path.back() != part.from)
+    {
+      path.push_back(part.from);
+    }
+    if (part.to != part.from)
+    {
+      path.push_back(part.to);
+    }
+  }
+  return path;
+}
+
+} // namespace
+
+PlacedStrokes strokesOnMesh(
+  const Mesh& mesh, const std::vector<StrokeRequest>& strokes, int threads)
+{
+  PlacedStrokes placed;
+  if (strokes.empty())
+  {
+    return placed;
+  }
+  const std::vector<PathParts> parts = partsOf(mesh, strokes, threads);
+  std::map<Index, StrokeFace> faces;
+  for (std::size_t k = 0; k < strokes.size(); ++k)
+  {
+    placed.paths.push_back(pathOf(parts[k]));
+    for (const auto& [face, direction] : directionsOf(mesh, parts[k], strokes[k].radius))
+    {
+      StrokeFace& guided = faces.try_emplace(face).first->second;
+      if (guided.face == kInvalidIndex || guided.order <= strokes[k].order)
+      {
+        guided = { face, direction, static_cast<float>(strokes[k].weight), strokes[k].order };
+      }
+    }
+  }
+  for (const auto& [face, guided] : faces)
+  {
+    if (!guided.direction.isZero(0))
+    {
+      placed.faces.push_back(guided);
+    }
+  }
+  return placed;
+}
+
+} // namespace quadrille
