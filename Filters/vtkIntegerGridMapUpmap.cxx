@@ -132,8 +132,7 @@ void vtkIntegerGridMapUpmap::Execute(quadrille::Block& block)
   quadrille::SurfaceRecipe recipe = quadrille::readRecipe(logData);
   quadrille::ConvertedSurface converted =
     quadrille::convertSurface(source, recipe.patchArray, this->NumberOfThreads);
-  quadrille::addFeatureMarks(
-    converted.input, converted.input.polygonOffsets.size() - 1, recipe.curveMarks);
+  converted.input.drawn = recipe.drawn;
   quadrille::FramedInput framed =
     quadrille::enterFrame(std::move(converted.input), this->NumberOfThreads);
   const quadrille::Frame& frame = framed.frame;
@@ -234,7 +233,8 @@ void vtkIntegerGridMapUpmap::FindOrPrepare(quadrille::SurfaceInput& input,
   const quadrille::SurfaceRecipe& recipe, quadrille::StageLaps& laps, quadrille::SharedLevels& held)
 {
   const quadrille::SurfaceKey key{ quadrille::contentHash(input, this->NumberOfThreads),
-    recipe.featureAngle, recipe.featureCriterion, recipe.edgeLength };
+    quadrille::drawnHash(input.drawn), recipe.featureAngle, recipe.featureCriterion,
+    recipe.edgeLength };
   if (auto found = quadrille::findSharedSurface(key))
   {
     held.surface = std::move(found);

@@ -8,7 +8,6 @@
 #include "Pipeline/GuidedMap.h"
 #include "Pipeline/Notices.h"
 #include "Quads/QuadTopology.h"
-#include "Requests/CurveRequests.h"
 #include "Requests/Guides.h"
 #include "Requests/HeldVertices.h"
 #include "Requests/StraightRequests.h"
@@ -122,18 +121,6 @@ GridMapResult computeMap(RunContext& run, const Plan& plan, MapAttempt& made)
   return map;
 }
 
-void tellCurves(const RunContext& run, MapAttempt& made)
-{
-  for (std::size_t i = 0; i < made.curves.size(); ++i)
-  {
-    if (!made.curves[i].met)
-    {
-      made.notices.push_back(
-        curveText(run.surface->curves[i], i) + " is not met: " + made.curves[i].why);
-    }
-  }
-}
-
 /// What is left of a map on the coarse level.
 void recordCoarse(
   const RunContext& run, const Hierarchy& levels, GridMapResult& map, MapAttempt& made)
@@ -155,7 +142,6 @@ void recordCoarse(
   {
     made.curveOffenders.push_back(levels.coarse.fineVertex[v]);
   }
-  tellCurves(run, made);
   made.coarse = levels.coarse;
   made.coarseUv = std::move(map.uv);
   const bool hasField =

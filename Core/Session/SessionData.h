@@ -44,9 +44,12 @@ struct SessionData
   void enter(std::shared_ptr<SessionState> state);
   /// Empty: the present one.
   SessionState& named(const std::string& name) const;
-  const SurfacePlaces& places();
+  /// For settings of the session. What it refers to lives as long as this.
+  PlacesOfSession places(const RemeshOptions& settings);
+  /// What a run has left of the surface, for the next lines; null: nothing.
+  void keepSurface(std::shared_ptr<const PreparedSurface> made, const Frame& frame);
   /// Of the surface under the quads; kept until another one comes.
-  const OnCurves& onCurvesOf(const PreparedSurface& made);
+  const OnCurves& onCurvesOf(const MadeSurface& made);
   std::shared_ptr<SessionResult> resultOf(const SessionState& state);
   void keep(const SessionState& state, std::shared_ptr<SessionResult> result);
   /// Irregular operations of the present state that are in force.
@@ -77,8 +80,10 @@ struct SessionData
   std::uint64_t uses = 0;
 
 private:
-  std::unique_ptr<SurfacePlaces> places_; ///< made when they are needed first
-  std::unique_ptr<OnCurves> onCurves_;    ///< of the surface with the hash
+  std::unique_ptr<SurfacePlaces> places_; ///< these are made when they are needed first
+  std::unique_ptr<SurfacePaths> paths_;
+  double area_ = 0, diagonal_ = 0;
+  std::unique_ptr<OnCurves> onCurves_; ///< of the surface with the hash
   std::uint64_t onCurvesHash_ = 0;
 };
 

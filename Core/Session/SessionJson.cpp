@@ -204,8 +204,8 @@ SessionJson changesToJson(const std::vector<IrregularEdit::Change>& changes)
   SessionJson json = SessionJson::array();
   for (const IrregularEdit::Change& change : changes)
   {
-    json.push_back(
-      { { "point", change.point }, { "before", change.before }, { "after", change.after } });
+    json.push_back({ { "place", pointToJson(change.place) }, { "before", change.before },
+      { "after", change.after } });
   }
   return json;
 }
@@ -216,8 +216,7 @@ SessionJson resolvedToJson(const IrregularEdit& edit)
   SessionJson before = SessionJson::array();
   for (const IrregularVertex& vertex : edit.before)
   {
-    before.push_back({ { "point", vertex.point }, { "place", pointToJson(vertex.place) },
-      { "valence", vertex.valence } });
+    before.push_back({ { "place", pointToJson(vertex.place) }, { "valence", vertex.valence } });
   }
   SessionJson upon = SessionJson::array();
   for (const IrregularEdit::Link& link : edit.upon)
@@ -262,7 +261,7 @@ void readChanges(
     [&](ObjectReader& each)
     {
       IrregularEdit::Change change;
-      each.read("point", change.point);
+      each.read("place", change.place);
       each.read("before", change.before);
       each.read("after", change.after);
       changes.push_back(change);
@@ -297,7 +296,6 @@ void readResolved(const SessionJson& json, const std::string& where, IrregularEd
     [&](ObjectReader& each)
     {
       IrregularVertex vertex;
-      each.read("point", vertex.point);
       each.read("place", vertex.place);
       each.read("valence", vertex.valence);
       edit.before.push_back(vertex);
@@ -312,7 +310,7 @@ void readResolved(const SessionJson& json, const std::string& where, IrregularEd
       readChanges(each.at("changes"), where, link.changes);
       edit.upon.push_back(link);
     });
-  if (reader.has("on_features")) // files of before have none
+  if (reader.has("on_features")) // files of version 1 may have none
   {
     readOnFeatures(reader.at("on_features"), where, edit.onFeatures);
   }

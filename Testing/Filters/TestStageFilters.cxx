@@ -27,6 +27,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace quadrille
 {
@@ -458,6 +459,62 @@ TEST(StageFilters, ChainMakesCycles)
   ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
   EXPECT_EQ(oneClick->GetConstraintTable()->GetValueByName(0, "Met").ToInt(), 1);
   EXPECT_EQ(pointsOf(chain.extraction->GetOutput()), pointsOf(oneClick->GetOutput()));
+}
+
+/// What is drawn on a cube of twelve triangles changes these; the second surface is made again from the log.
+TEST(StageFilters, ChainHonoursWhatIsDrawn)
+{
+  const vtkSmartPointer<vtkPolyData> input = test::toPolyData(test::unitCube(1));
+  const vtkSmartPointer<vtkPolyData> curve = test::polyline({ { 0.2, 0.1, 1 }, { 0.9, 0.8, 1 } });
+  const vtkSmartPointer<vtkPolyData> stroke = test::polyline({ { 1, 0.3, 0.3 }, { 1, 0.7, 0.6 } });
+  vtkNew<vtkPolyData> points;
+  vtkNew<vtkPoints> coordinates;
+  coordinates->InsertNextPoint(0.3, 0, 0.4);
+  points->SetPoints(coordinates);
+  const auto draw = [&](vtkQuadrilleSurfaceAlgorithm* filter)
+  {
+    filter->SetCurvesData(curve);
+    filter->SetStrokesData(stroke);
+    filter->SetStrokeRadius(0.2);
+    filter->SetValencePointsData(points);
+  };
+  auto chain = std::make_unique<Chain>(input);
+  draw(chain->hierarchy);
+  chain->extraction->Update();
+  ASSERT_EQ(chain->extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
+    << chain->hierarchy->GetOutcomeText() << chain->map->GetOutcomeText()
+    << chain->upmap->GetOutcomeText() << chain->extraction->GetOutcomeText();
+  const std::vector<Vector3> quads = pointsOf(chain->extraction->GetOutput());
+  const auto oneClick = vtkSmartPointer<vtkQuadRemesh>::New();
+  oneClick->SetInputData(input);
+  draw(oneClick);
+  oneClick->SetTargetTypeToNumberOfQuads();
+  oneClick->SetNumberOfQuads(500);
+  oneClick->Update();
+  ASSERT_EQ(oneClick->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded);
+  if (oneClick->GetOutput()->GetFieldData()->GetArray("Attempts")->GetTuple1(0) == 1)
+  {
+    EXPECT_EQ(quads, pointsOf(oneClick->GetOutput()));
+  }
+  // From data alone, as behind a file: nothing of this process is found.
+  vtkNew<vtkPolyData> coarse;
+  coarse->DeepCopy(chain->map->GetOutput());
+  vtkNew<vtkPolyData> intermediate;
+  intermediate->DeepCopy(chain->hierarchy->GetOutput(1));
+  vtkNew<vtkTable> log;
+  log->DeepCopy(chain->hierarchy->GetOutputDataObject(2));
+  chain.reset();
+  vtkNew<vtkIntegerGridMapUpmap> upmap;
+  upmap->SetInputData(0, coarse);
+  upmap->SetInputData(1, input);
+  upmap->SetInputDataObject(2, log);
+  upmap->SetInputData(3, intermediate);
+  vtkNew<vtkQuadExtraction> extraction;
+  extraction->SetInputConnection(upmap->GetOutputPort());
+  extraction->Update();
+  ASSERT_EQ(extraction->GetOutcome(), vtkQuadrilleAlgorithm::Succeeded)
+    << upmap->GetOutcomeText() << extraction->GetOutcomeText();
+  EXPECT_EQ(pointsOf(extraction->GetOutput()), quads);
 }
 
 /// An array of the surface that changes is answered from the stage that it enters at, with the same levels.
