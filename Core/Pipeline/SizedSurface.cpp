@@ -261,8 +261,6 @@ private:
     surface_ = prepareSurface(std::move(input_), prepareOptions);
     SurfaceInput later; // what placeHeld still needs
     later.held = std::move(input_.held);
-    later.targetValences =
-      later.held.empty() ? std::vector<int>{} : std::move(input_.targetValences);
     later.drawn = std::move(input_.drawn);
     later.sizingOrders = std::move(input_.sizingOrders);
     input_ = std::move(later);
@@ -444,7 +442,7 @@ private:
   /// On the triangles as they are to stay, unlike the other requests.
   void placeHeld()
   {
-    placeHeldVertices(input_, surface_, surface_.valenceRequests, surface_.sectorRequests);
+    surface_.sectorRequests = placeHeldVertices(input_, surface_);
   }
 
   /// Triangles that refinement left as they were are shared, and count once.
