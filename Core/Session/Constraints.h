@@ -7,8 +7,7 @@
 #include "Base/Types.h"
 #include "Requests/CurveRequests.h"
 #include "Requests/HeldVertices.h"
-#include "Symmetry/MirrorPlane.h"
-#include "Symmetry/RotationAxis.h"
+#include "Symmetry/Isometry.h"
 
 #include <algorithm>
 #include <optional>
@@ -141,7 +140,7 @@ struct Cycle
 /// Quads that are their own mirror image, see remeshSymmetric. One symmetry at most is in force.
 struct MirrorSymmetry
 {
-  /// The normal may have any length but 0. None: found, see findMirrorPlane.
+  /// The normal may have any length but 0. None: found, see findIsometry.
   std::optional<MirrorPlane> plane;
   PlaneCurve planeCurve = PlaneCurve::Isoline;
 };
@@ -150,7 +149,7 @@ struct MirrorSymmetry
 struct RotationalSymmetry
 {
   int order = 2; ///< in [kLeastOrder, kMostOrder]
-  /// The direction may have any length but 0. None: found, see findRotationAxis.
+  /// The direction may have any length but 0. None: found, see findIsometry.
   std::optional<RotationAxis> axis;
 };
 

@@ -3,7 +3,9 @@
 // The quads of the doubled map as those of the half, their images, and those that are their own: foldQuads.
 #include "Base/PlaceText.h"
 #include "Prepare/Frame.h"
-#include "Symmetry/MirrorMidLine.h"
+#include "Quads/QuadHalfEdges.h"
+#include "Quads/QuadTopology.h"
+#include "Symmetry/MidLine.h"
 
 #include <algorithm>
 #include <array>
@@ -22,67 +24,46 @@ namespace
 class QuadFolding
 {
 public:
-  QuadFolding(const QuadMesh& extracted, const DoubledMesh& doubled, const MirrorPlane& plane)
-    : given_(extracted), doubled_(doubled), plane_(plane),
+  QuadFolding(const QuadMesh& extracted, const CopiedMesh& copied, const Isometry& mirror)
+    : given_(extracted), copied_(copied), mirror_(mirror),
+      twin_(analyzeQuads(extracted.quads, extracted.points.size()).twin),
       image_(extracted.points.size(), kInvalidIndex),
       imageOfQuad_(extracted.quads.size(), kInvalidIndex)
   {
   }
 
-  DoubledQuads run()
+  CopiedQuads run()
   {
-    DoubledQuads result;
-    findEdges();
     pairAcross();
     spread();
     pairRest();
     const Index lost = unpaired();
     if (crowded_ != kInvalidIndex || lost != kInvalidIndex)
     {
+      CopiedQuads result;
       result.status = { StatusCode::NotConverged,
         "the half in front of the mirror plane is too narrow near " +
           placeText(given_.points[crowded_ != kInvalidIndex ? crowded_ : lost]) +
           " for quads across the plane and their neighbours: it needs more quads" };
       return result;
     }
-    number(result);
-    takePoints(result);
-    takeQuads(result);
-    takeLines(result);
+    CopiedQuads result = copyQuads(inFront(), copied_, {}, mirror_);
+    addAcross(result);
+    addLines(result);
     return result;
   }
 
 private:
-  bool isFront(Index p) const { return given_.sourceFace[p] < doubled_.halfFaces; }
-  std::size_t frontCorners(const std::array<Index, 4>& quad) const
+  bool isFront(Index p) const { return given_.sourceFace[p] < copied_.partFaces; }
+  std::size_t frontCorners(Index q) const
   {
+    const std::array<Index, 4>& quad = given_.quads[q];
     return static_cast<std::size_t>(
       std::count_if(quad.begin(), quad.end(), [&](Index p) { return isFront(p); }));
   }
 
-  void findEdges()
-  {
-    for (Index q = 0; q < given_.quads.size(); ++q)
-    {
-      const std::array<Index, 4>& quad = given_.quads[q];
-      for (Index i = 0; i < 4; ++i)
-      {
-        edges_.push_back({ { quad[i], quad[(i + 1) % 4] }, 4 * q + i });
-      }
-    }
-    std::sort(edges_.begin(), edges_.end());
-  }
-
-  /// 4 q + i: the edge of quad q from its corner i on.
-  Index edge(Index from, Index to) const
-  {
-    const auto found =
-      std::lower_bound(edges_.begin(), edges_.end(), std::pair(std::pair(from, to), Index{ 0 }));
-    return found != edges_.end() && found->first == std::pair(from, to) ? found->second
-                                                                        : kInvalidIndex;
-  }
-
-  Index corner(Index q, Index i) const { return given_.quads[q][i % 4]; }
+  Index from(Index h) const { return given_.quads[h / 4][h % 4]; }
+  Index to(Index h) const { return from(nextInQuad(h)); }
 
   void pair(Index a, Index b)
   {
@@ -92,35 +73,45 @@ private:
     image_[b] = a;
   }
 
+  /// Both ends of a half-edge and of its image, which runs the other way.
+  void pairEdges(Index h, Index image)
+  {
+    pair(from(h), to(image));
+    pair(to(h), from(image));
+  }
+
+  /// The quads beyond two half-edges that are each other's images.
+  void goOn(Index h, Index image)
+  {
+    if (twin_[h] != kInvalidIndex)
+    {
+      next_.emplace_back(twin_[h], twin_[image]);
+    }
+  }
+
   /// The quads across the plane, and the points at their corners.
   void pairAcross()
   {
     for (Index q = 0; q < given_.quads.size(); ++q)
     {
-      const std::array<Index, 4>& quad = given_.quads[q];
-      const std::size_t front = frontCorners(quad);
+      const std::size_t front = frontCorners(q);
       if (front == 0 || front == 4)
       {
         continue;
       }
-      Index i = 0;
-      while (i < 4 && !(isFront(quad[i]) && isFront(corner(q, i + 1)) && front == 2))
+      Index h = 4 * q;
+      while (h < 4 * q + 4 && !(isFront(from(h)) && isFront(to(h)) && front == 2))
       {
-        ++i;
+        ++h;
       }
-      if (i == 4)
+      if (h == 4 * q + 4)
       {
-        crowded_ = quad[0];
+        crowded_ = from(4 * q);
         continue;
       }
-      pair(quad[i], corner(q, i + 3));
-      pair(corner(q, i + 1), corner(q, i + 2));
+      pairEdges(h, oppositeInQuad(h));
       imageOfQuad_[q] = q;
-      const Index inside = edge(corner(q, i + 1), quad[i]);
-      if (inside != kInvalidIndex)
-      {
-        next_.push_back(inside);
-      }
+      goOn(h, oppositeInQuad(h));
     }
   }
 
@@ -129,31 +120,26 @@ private:
   {
     while (!next_.empty())
     {
-      const Index at = next_.back();
+      auto [h, image] = next_.back();
       next_.pop_back();
-      const Index q = at / 4;
+      const Index q = h / 4;
       if (imageOfQuad_[q] != kInvalidIndex)
       {
         continue;
       }
-      const Index a = corner(q, at), b = corner(q, at + 1);
-      const Index other = edge(image_[b], image_[a]);
-      if (other == kInvalidIndex || imageOfQuad_[other / 4] != kInvalidIndex || !isFront(a))
+      if (image == kInvalidIndex || imageOfQuad_[image / 4] != kInvalidIndex || !isFront(from(h)))
       {
-        crowded_ = a;
+        crowded_ = from(h);
         continue;
       }
-      imageOfQuad_[q] = other / 4;
-      imageOfQuad_[other / 4] = q;
-      pair(corner(q, at + 3), corner(other / 4, other + 2));
-      pair(corner(q, at + 2), corner(other / 4, other + 3));
-      for (Index i = 1; i < 4; ++i)
+      imageOfQuad_[q] = image / 4;
+      imageOfQuad_[image / 4] = q;
+      pairEdges(oppositeInQuad(h), oppositeInQuad(image));
+      for (int i = 1; i < 4; ++i)
       {
-        const Index across = edge(corner(q, at + i + 1), corner(q, at + i));
-        if (across != kInvalidIndex)
-        {
-          next_.push_back(across);
-        }
+        h = nextInQuad(h);
+        image = previousInQuad(image);
+        goOn(h, image);
       }
     }
   }
@@ -163,139 +149,114 @@ private:
   {
     for (Index q = 0; q < given_.quads.size() && crowded_ == kInvalidIndex; ++q)
     {
-      if (imageOfQuad_[q] != kInvalidIndex || frontCorners(given_.quads[q]) != 4)
+      if (imageOfQuad_[q] != kInvalidIndex || frontCorners(q) != 4)
       {
         continue;
       }
-      std::array<Vector3, 4> images;
-      for (Index i = 0; i < 4; ++i)
-      {
-        images[i] = plane_.image(given_.points[corner(q, i)]);
-      }
-      double nearest = std::numeric_limits<double>::infinity();
-      Index best = kInvalidIndex;
-      for (Index other = 0; other < given_.quads.size(); ++other)
-      {
-        for (Index i = 0; i < 4 && imageOfQuad_[other] == kInvalidIndex; ++i)
-        {
-          double sum = 0;
-          for (Index k = 0; k < 4; ++k)
-          {
-            sum += (given_.points[corner(other, i + 4 - k)] - images[k]).squaredNorm();
-          }
-          if (sum < nearest && frontCorners(given_.quads[other]) == 0)
-          {
-            nearest = sum;
-            best = 4 * other + i;
-          }
-        }
-      }
-      if (best == kInvalidIndex)
+      const Index image = nearestImage(4 * q);
+      if (image == kInvalidIndex)
       {
         return;
       }
-      pair(corner(q, 0), corner(best / 4, best));
-      pair(corner(q, 1), corner(best / 4, best + 3));
-      next_.push_back(4 * q);
+      pairEdges(4 * q, image);
+      next_.emplace_back(4 * q, image);
       spread();
     }
   }
 
-  Index unpaired() const
+  /// Of quads behind without an image the edge that may be that of an edge in front.
+  Index nearestImage(Index front) const
   {
-    for (const std::array<Index, 4>& quad : given_.quads)
+    double nearest = std::numeric_limits<double>::infinity();
+    Index best = kInvalidIndex;
+    for (Index other = 0; other < 4 * given_.quads.size(); ++other)
     {
-      for (const Index p : quad)
+      if (imageOfQuad_[other / 4] != kInvalidIndex)
       {
-        if (image_[p] == kInvalidIndex)
-        {
-          return p;
-        }
+        continue;
+      }
+      double sum = 0;
+      Index image = other;
+      for (Index k = 0, h = front; k < 4; ++k, h = nextInQuad(h))
+      {
+        sum += (given_.points[from(image)] - mirror_.image(given_.points[from(h)])).squaredNorm();
+        image = previousInQuad(image);
+      }
+      if (sum < nearest && frontCorners(other / 4) == 0)
+      {
+        nearest = sum;
+        best = previousInQuad(other);
       }
     }
-    const auto none = std::find(imageOfQuad_.begin(), imageOfQuad_.end(), kInvalidIndex);
-    return none == imageOfQuad_.end()
-      ? kInvalidIndex
-      : given_.quads[static_cast<std::size_t>(none - imageOfQuad_.begin())][0];
+    return best;
   }
 
-  /// Points in front in their order, then their images in the same.
-  void number(DoubledQuads& result)
+  Index unpaired() const
   {
+    for (Index h = 0; h < 4 * given_.quads.size(); ++h)
+    {
+      if (image_[from(h)] == kInvalidIndex || imageOfQuad_[h / 4] == kInvalidIndex)
+      {
+        return from(h);
+      }
+    }
+    return kInvalidIndex;
+  }
+
+  /// Points and quads in front in their order, without lines. Numbers them, and the images behind in the same order.
+  QuadMesh inFront()
+  {
+    QuadMesh front;
+    std::vector<Index> old;
     number_.assign(image_.size(), kInvalidIndex);
     for (Index p = 0; p < image_.size(); ++p)
     {
       if (isFront(p))
       {
-        number_[p] = result.halfPoints++;
-        old_.push_back(p);
+        number_[p] = static_cast<Index>(old.size());
+        old.push_back(p);
+        front.points.push_back(given_.points[p]);
+        front.sourceFace.push_back(given_.sourceFace[p]);
+        front.sourceWeights.push_back(given_.sourceWeights[p]);
       }
     }
-    for (Index p = 0; p < result.halfPoints; ++p)
+    for (const Index p : old)
     {
-      number_[image_[old_[p]]] = result.halfPoints + p;
-      result.image.push_back(result.halfPoints + p);
+      number_[image_[p]] = static_cast<Index>(old.size()) + number_[p];
     }
-    for (Index p = 0; p < result.halfPoints; ++p)
-    {
-      result.image.push_back(p);
-    }
-  }
-
-  void takePoints(DoubledQuads& result) const
-  {
-    QuadMesh& quads = result.quads;
-    for (const Index p : old_)
-    {
-      quads.points.push_back(given_.points[p]);
-      quads.sourceFace.push_back(given_.sourceFace[p]);
-      quads.sourceWeights.push_back(given_.sourceWeights[p]);
-    }
-    for (const Index p : old_)
-    {
-      quads.points.push_back(plane_.image(given_.points[p]));
-      quads.sourceFace.push_back(doubled_.halfFaces + given_.sourceFace[p]);
-      quads.sourceWeights.push_back(imageWeights(given_.sourceWeights[p]));
-    }
-  }
-
-  void takeQuads(DoubledQuads& result) const
-  {
-    QuadMesh& quads = result.quads;
-    const auto take = [&](Index q)
-    {
-      std::array<Index, 4> quad = given_.quads[q];
-      for (Index& p : quad)
-      {
-        p = number_[p];
-      }
-      quads.quads.push_back(quad);
-      quads.quadSourceFace.push_back(given_.quadSourceFace[q]);
-      quads.quadSourceWeights.push_back(given_.quadSourceWeights[q]);
-    };
     for (Index q = 0; q < given_.quads.size(); ++q)
     {
-      if (frontCorners(given_.quads[q]) == 4)
+      if (frontCorners(q) == 4)
       {
-        take(q);
+        take(q, front);
       }
     }
-    result.halfQuads = static_cast<Index>(quads.quads.size());
-    for (Index q = 0; q < result.halfQuads; ++q)
+    return front;
+  }
+
+  void take(Index q, QuadMesh& quads) const
+  {
+    std::array<Index, 4> quad = given_.quads[q];
+    for (Index& p : quad)
     {
-      const std::array<Index, 4> quad = quads.quads[q];
-      const std::vector<Index>& image = result.image;
-      quads.quads.push_back({ image[quad[0]], image[quad[3]], image[quad[2]], image[quad[1]] });
-      quads.quadSourceFace.push_back(doubled_.halfFaces + quads.quadSourceFace[q]);
-      quads.quadSourceWeights.push_back(imageWeights(quads.quadSourceWeights[q]));
+      p = number_[p];
     }
+    quads.quads.push_back(quad);
+    quads.quadSourceFace.push_back(given_.quadSourceFace[q]);
+    quads.quadSourceWeights.push_back(given_.quadSourceWeights[q]);
+  }
+
+  void addAcross(CopiedQuads& result) const
+  {
+    QuadMesh& quads = result.quads;
     for (Index q = 0; q < given_.quads.size(); ++q)
     {
       if (imageOfQuad_[q] == q)
       {
-        take(q);
+        take(q, quads);
       }
     }
+    result.status = {};
     const Index crowded = countEdges(quads);
     if (crowded != kInvalidIndex)
     {
@@ -306,7 +267,7 @@ private:
     }
   }
 
-  void takeLines(DoubledQuads& result) const
+  void addLines(CopiedQuads& result) const
   {
     std::vector<QuadLine> images;
     for (QuadLine line : given_.lines)
@@ -322,33 +283,27 @@ private:
       if (front && other)
       {
         images.push_back({ result.image[line.b], result.image[line.a],
-          3 * doubled_.halfFaces + reversedEdge(line.halfEdge), line.boundary });
+          3 * copied_.partFaces + reversedEdge(line.halfEdge), line.boundary });
       }
     }
     result.quads.lines.insert(result.quads.lines.end(), images.begin(), images.end());
   }
 
-  static std::array<double, 3> imageWeights(const std::array<double, 3>& weights)
-  {
-    return { weights[0], weights[2], weights[1] };
-  }
-
   const QuadMesh& given_;
-  const DoubledMesh& doubled_;
-  const MirrorPlane& plane_;
-  std::vector<std::pair<std::pair<Index, Index>, Index>> edges_;
-  std::vector<Index> image_, imageOfQuad_; ///< per point, per quad
-  std::vector<Index> next_;                ///< edges of quads in front
-  std::vector<Index> number_, old_;        ///< of points
-  Index crowded_ = kInvalidIndex;          ///< a point with two images
+  const CopiedMesh& copied_;
+  const Isometry& mirror_;
+  std::vector<Index> twin_;                   ///< per half-edge of the quads
+  std::vector<Index> image_, imageOfQuad_;    ///< per point, per quad
+  std::vector<std::pair<Index, Index>> next_; ///< edges of quads in front, and their images
+  std::vector<Index> number_;                 ///< of points
+  Index crowded_ = kInvalidIndex;             ///< a point with two images
 };
 
 } // namespace
 
-DoubledQuads foldQuads(
-  const QuadMesh& extracted, const DoubledMesh& doubled, const MirrorPlane& plane)
+CopiedQuads foldQuads(const QuadMesh& extracted, const CopiedMesh& copied, const Isometry& mirror)
 {
-  return QuadFolding(extracted, doubled, plane).run();
+  return QuadFolding(extracted, copied, mirror).run();
 }
 
 } // namespace quadrille

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The points of a seam half way between their two places, and those round it: fitSeams.
 #include "Evaluation/QuadQuality.h"
-#include "Symmetry/CutLines.h"
-#include "Symmetry/RotationCopies.h"
+#include "Symmetry/Seams.h"
 
 #include <algorithm>
 #include <array>
@@ -27,9 +26,10 @@ constexpr int kSeamRings = 2;
 class SeamFit
 {
 public:
-  SeamFit(QuadMesh& quads, const std::vector<SeamPoints>& pairs, const MadeRotation& rotation,
+  SeamFit(QuadMesh& quads, const CutQuads& cut, const Isometry& rotation,
     const SearchedSurface& whole, double tolerance)
-    : quads_(quads), pairs_(pairs), rotation_(rotation), whole_(whole), tolerance_(tolerance)
+    : quads_(quads), cut_(cut), pairs_(cut.pairs), rotation_(rotation), whole_(whole),
+      tolerance_(tolerance)
   {
   }
 
@@ -37,7 +37,7 @@ public:
   {
     findRoles();
     findNeighbours();
-    findNormals();
+    normals_ = pointNormals(quads_);
     const std::vector<Vector3> before = quads_.points;
     followPairs();
     const std::size_t given = countUnsound();
@@ -75,17 +75,17 @@ private:
   {
     const std::size_t count = quads_.points.size();
     isPaired_.assign(count, 0);
-    for (const SeamPoints& pair : pairs_)
+    for (const SamePoints& pair : pairs_)
     {
       isPaired_[pair.first] = isPaired_[pair.second] = 1;
     }
     role_.assign(count, Role::Free);
     const auto add = [&](Index p, Role role)
     { role_[p] = role_[p] == Role::Free || role_[p] == role ? role : Role::Stays; };
-    const CutLines cut(count, pairs_);
-    for (const QuadLine& line : quads_.lines)
+    for (std::size_t l = 0; l < quads_.lines.size(); ++l)
     {
-      if (!cut.has(line))
+      const QuadLine& line = quads_.lines[l];
+      if (cut_.lines[l] == CutQuads::Own)
       {
         const Role role = line.boundary ? Role::OnBoundary : Role::OnFeature;
         add(line.a, role);
@@ -99,7 +99,7 @@ private:
       const bool isIrregular = quads_.onBoundary[p] == 0 && quads_.valence[p] != kRegular;
       role_[p] = isIrregular ? Role::Stays : role_[p];
     }
-    for (const SeamPoints& pair : pairs_)
+    for (const SamePoints& pair : pairs_)
     {
       if (pair.first == pair.second)
       {
@@ -128,26 +128,12 @@ private:
     }
   }
 
-  void findNormals()
-  {
-    normals_.assign(quads_.points.size(), Vector3::Zero());
-    for (const std::array<Index, 4>& quad : quads_.quads)
-    {
-      const Vector3 normal = (quads_.points[quad[2]] - quads_.points[quad[0]])
-                               .cross(quads_.points[quad[3]] - quads_.points[quad[1]]);
-      for (const Index corner : quad)
-      {
-        normals_[corner] += normal;
-      }
-    }
-  }
-
-  Vector3 forth(const Vector3& p) const { return rotation_.axis.image(p, 1, rotation_.order); }
-  Vector3 back(const Vector3& p) const { return rotation_.axis.image(p, -1, rotation_.order); }
+  Vector3 forth(const Vector3& p) const { return rotation_.image(p); }
+  Vector3 back(const Vector3& p) const { return rotation_.image(p, -1); }
 
   void followPairs()
   {
-    for (const SeamPoints& pair : pairs_)
+    for (const SamePoints& pair : pairs_)
     {
       if (pair.first != pair.second)
       {
@@ -172,14 +158,13 @@ private:
         return at->point;
       }
     }
-    const auto facing = whole_.faces.at(place, normals_[p]);
-    return facing ? facing->point : whole_.faces.at(place)->point;
+    return whole_.nearestFace(place, normals_[p]).point;
   }
 
   void meetHalfWay()
   {
     std::vector<Vector3> moves(quads_.points.size(), Vector3::Zero());
-    for (const SeamPoints& pair : pairs_)
+    for (const SamePoints& pair : pairs_)
     {
       const Vector3& here = quads_.points[pair.first];
       const Vector3 there = back(quads_.points[pair.second]);
@@ -235,7 +220,7 @@ private:
     std::vector<int> ring(quads_.points.size(), kSeamRings + 1);
     std::vector<Index> imageOf(quads_.points.size(), kInvalidIndex);
     std::vector<std::uint8_t> isSecond(quads_.points.size(), 0);
-    for (const SeamPoints& pair : pairs_)
+    for (const SamePoints& pair : pairs_)
     {
       ring[pair.first] = ring[pair.second] = 0;
       imageOf[pair.first] = pair.second;
@@ -286,8 +271,9 @@ private:
   }
 
   QuadMesh& quads_;
-  const std::vector<SeamPoints>& pairs_;
-  const MadeRotation& rotation_;
+  const CutQuads& cut_;
+  const std::vector<SamePoints>& pairs_;
+  const Isometry& rotation_;
   const SearchedSurface& whole_;
   double tolerance_;
   std::vector<std::uint8_t> isPaired_;
@@ -298,10 +284,10 @@ private:
 
 } // namespace
 
-std::vector<std::uint8_t> fitSeams(QuadMesh& quads, const std::vector<SeamPoints>& pairs,
-  const MadeRotation& rotation, const SearchedSurface& whole, double tolerance)
+std::vector<std::uint8_t> fitSeams(QuadMesh& quads, const CutQuads& cut, const Isometry& rotation,
+  const SearchedSurface& whole, double tolerance)
 {
-  return SeamFit(quads, pairs, rotation, whole, tolerance).run();
+  return SeamFit(quads, cut, rotation, whole, tolerance).run();
 }
 
 } // namespace quadrille

@@ -10,7 +10,7 @@ namespace quadrille
 {
 
 /// Places along a chain, but its ends, at which features end.
-std::vector<std::size_t> SeamMarks::featureEnds(const WedgeChain& chain) const
+std::vector<std::size_t> SeamMarks::featureEnds(const BorderChain& chain) const
 {
   std::vector<std::size_t> ends;
   for (std::size_t i = chain.closed ? 0 : 1; i < chain.edges.size(); ++i)
@@ -30,7 +30,7 @@ std::vector<std::size_t> SeamMarks::featureEnds(const WedgeChain& chain) const
   return ends;
 }
 
-SeamMarks::Course SeamMarks::courseOf(const WedgeChain& chain, bool backwards) const
+SeamMarks::Course SeamMarks::courseOf(const BorderChain& chain, bool backwards) const
 {
   Course course{ &chain, backwards, { 0 }, 0 };
   for (const Index h : chain.edges)
@@ -51,7 +51,7 @@ std::vector<SeamMarks::Mark> SeamMarks::alignFeatures(const Course& first,
   std::vector<double> cost((n + 1) * (m + 1), 0);
   const auto at = [m](std::size_t i, std::size_t j) { return i * (m + 1) + j; };
   const auto pairCost = [&](std::size_t i, std::size_t j)
-  { return (imageOf(place(*first.chain, here[i])) - place(*second.chain, there[j])).norm(); };
+  { return distance(first, here[i], second, there[j]); };
   for (std::size_t i = 0; i <= n; ++i)
   {
     for (std::size_t j = 0; j <= m; ++j)
@@ -96,10 +96,10 @@ void SeamMarks::beginClosed(Course& first, const std::vector<std::size_t>& here,
   {
     for (const std::size_t j : there)
     {
-      const double distance = (imageOf(place(*first.chain, i)) - place(*second.chain, j)).norm();
-      if (distance <= nearest)
+      const double apart = distance(first, i, second, j);
+      if (apart <= nearest)
       {
-        nearest = distance;
+        nearest = apart;
         found = true;
         first.begin = first.arc[i];
         second.begin = second.total() - second.arc[j];
@@ -108,7 +108,8 @@ void SeamMarks::beginClosed(Course& first, const std::vector<std::size_t>& here,
   }
   if (!found)
   {
-    second.begin = second.total() - nearestWay(second, imageOf(place(*first.chain, 0)));
+    second.begin =
+      second.total() - nearestWay(second, rotation_.image(first.chain->place(cut_, 0)));
   }
   const auto wrapped = [](Course& course)
   { course.begin = course.begin >= course.total() ? 0 : course.begin; };
@@ -123,14 +124,14 @@ double SeamMarks::nearestWay(const Course& course, const Vector3& p) const
   double way = 0;
   for (std::size_t i = 0; i < course.chain->edges.size(); ++i)
   {
-    const Vector3& from = place(*course.chain, i);
+    const Vector3& from = course.chain->place(cut_, i);
     const Vector3 along = cut_.edgeVector(course.chain->edges[i]);
     const double length = std::max(along.squaredNorm(), std::numeric_limits<double>::min());
     const double share = std::clamp(along.dot(p - from) / length, 0.0, 1.0);
-    const double distance = (from + share * along - p).norm();
-    if (distance < nearest)
+    const double apart = (from + share * along - p).norm();
+    if (apart < nearest)
     {
-      nearest = distance;
+      nearest = apart;
       way = course.arc[i] + share * along.norm();
     }
   }
@@ -156,7 +157,7 @@ void SeamMarks::addLone(
 }
 
 void SeamMarks::add(
-  const WedgeChain& firstChain, const WedgeChain& secondChain, SurfaceWedge& wedge)
+  const BorderChain& firstChain, const BorderChain& secondChain, SurfacePart& wedge)
 {
   Course first = courseOf(firstChain, false), second = courseOf(secondChain, true);
   std::vector<std::size_t> here = featureEnds(firstChain), there = featureEnds(secondChain);
@@ -219,7 +220,7 @@ Vector3 SeamMarks::markPlace(const Course& course, double way)
   const double share = length > 0 ? (along - course.arc[i]) / length : 0;
   if (share * length <= tolerance_ || (1 - share) * length <= tolerance_)
   {
-    return place(*course.chain, share * length <= tolerance_ ? i : i + 1);
+    return course.chain->place(cut_, share * length <= tolerance_ ? i : i + 1);
   }
   const Index h = course.chain->edges[i];
   Vector3 p = cut_.position[cut_.origin[h]] + share * cut_.edgeVector(h);

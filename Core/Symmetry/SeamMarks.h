@@ -4,34 +4,14 @@
 /// the seams.
 #pragma once
 
-#include "Mesh/Mesh.h"
-#include "Symmetry/RotationAxis.h"
-#include "Symmetry/RotationCut.h"
+#include "Symmetry/CutBorder.h"
+#include "Symmetry/PlaneCut.h"
 
 #include <cstddef>
 #include <vector>
 
 namespace quadrille
 {
-
-/// A run of the boundary in one of the half planes.
-struct WedgeChain
-{
-  std::vector<Index> edges; ///< half-edges, in the order of the boundary
-  bool closed = false;
-  double length = 0;
-  Vector3 middle = Vector3::Zero(); ///< mean over the length
-
-  Index vertex(const Mesh& cut, std::size_t i) const
-  {
-    const std::size_t count = edges.size();
-    return i < count ? cut.origin[edges[i]] : cut.target(edges[count - 1]);
-  }
-  const Vector3& place(const Mesh& cut, std::size_t i) const
-  {
-    return cut.position[vertex(cut, i)];
-  }
-};
 
 /// Of chains that are each other's images.
 class SeamMarks
@@ -46,14 +26,14 @@ public:
   };
 
   /// cut: the mesh of the wedge. reach: between features and images of those on the other side.
-  SeamMarks(const Mesh& cut, const RotationAxis& axis, int order, double tolerance, double reach)
-    : cut_(cut), axis_(axis), order_(order), tolerance_(tolerance), alignReach_(reach)
+  SeamMarks(const Mesh& cut, const Isometry& rotation, double tolerance, double reach)
+    : cut_(cut), rotation_(rotation), tolerance_(tolerance), alignReach_(reach)
   {
   }
 
   /// Adds the seams between a chain in the first half plane and one in the second; counts features of one side only.
   /// Where a feature ends on one side its image ends on the other one, or there is at least a vertex of the quads.
-  void add(const WedgeChain& firstChain, const WedgeChain& secondChain, SurfaceWedge& wedge);
+  void add(const BorderChain& firstChain, const BorderChain& secondChain, SurfacePart& wedge);
 
   const std::vector<Split>& splits() const { return splits_; }
 
@@ -61,7 +41,7 @@ private:
   /// The chain from a place on, in the second half plane against the order of the boundary.
   struct Course
   {
-    const WedgeChain* chain = nullptr;
+    const BorderChain* chain = nullptr;
     bool backwards = false;
     std::vector<double>
       arc;            ///< per place along the chain: its way from the beginning, in chain order
@@ -83,8 +63,8 @@ private:
     double first = 0, second = 0;
   };
 
-  std::vector<std::size_t> featureEnds(const WedgeChain& chain) const;
-  Course courseOf(const WedgeChain& chain, bool backwards) const;
+  std::vector<std::size_t> featureEnds(const BorderChain& chain) const;
+  Course courseOf(const BorderChain& chain, bool backwards) const;
   std::vector<Mark> alignFeatures(const Course& first, const std::vector<std::size_t>& here,
     const Course& second, const std::vector<std::size_t>& there) const;
   void beginClosed(Course& first, const std::vector<std::size_t>& here, Course& second,
@@ -94,15 +74,14 @@ private:
     std::vector<Mark>& marks, double way, double Mark::*here, double Mark::*there);
   Vector3 markPlace(const Course& course, double way);
 
-  const Vector3& place(const WedgeChain& chain, std::size_t i) const
+  /// From the image of a place of the first chain to one of the second.
+  double distance(const Course& first, std::size_t i, const Course& second, std::size_t j) const
   {
-    return chain.place(cut_, i);
+    return (rotation_.image(first.chain->place(cut_, i)) - second.chain->place(cut_, j)).norm();
   }
-  Vector3 imageOf(const Vector3& p) const { return axis_.image(p, 1, order_); }
 
   const Mesh& cut_;
-  const RotationAxis& axis_;
-  int order_;
+  const Isometry& rotation_;
   double tolerance_, alignReach_;
   std::vector<Split> splits_;
 };

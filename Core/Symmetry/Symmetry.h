@@ -11,9 +11,8 @@
 
 #include "Evaluation/ConstraintWords.h"
 #include "Pipeline/Pipeline.h"
-#include "Symmetry/MirrorPlane.h"
-#include "Symmetry/MirrorSearch.h"
-#include "Symmetry/RotationAxis.h"
+#include "Symmetry/Isometry.h"
+#include "Symmetry/SymmetrySearch.h"
 
 #include <optional>
 #include <vector>
@@ -35,13 +34,13 @@ constexpr int kMostOrder = 64;
 struct RotationRequest
 {
   int order = 2; ///< in [kLeastOrder, kMostOrder]
-  /// The direction may have any length but 0. None: found, see findRotationAxis.
+  /// The direction may have any length but 0. None: found, see findIsometry.
   std::optional<RotationAxis> axis;
 };
 
 struct SymmetryOptions
 {
-  /// The normal may have any length but 0. None: found, see findMirrorPlane.
+  /// The normal may have any length but 0. None: found, see findIsometry.
   std::optional<MirrorPlane> plane;
   /// In place of a mirror plane.
   std::optional<RotationRequest> rotation = std::nullopt;
@@ -64,8 +63,8 @@ struct SymmetricResult
   RemeshResult remeshed;
   MirrorPlane plane;                    ///< normal: unit; the half in front of it was remeshed
   std::optional<MadeRotation> rotation; ///< in place of the plane
-  MirrorDeviation deviation; ///< of the image, or of that turned by one step, in units of the input
-  double diagonal = 0;       ///< of the input's box
+  ImageDeviation deviation; ///< of the image, or of that turned by one step, in units of the input
+  double diagonal = 0;      ///< of the input's box
   // Where the status is ok.
   std::vector<Index>
     mirrorPoint; ///< per point of the quads: its image. Maps quads to quads and is its own inverse.
@@ -80,7 +79,7 @@ struct SymmetricResult
 };
 
 /// As remesh(), which see; the target number of quads is that of the whole. Guides, valences and sizes of one side are
-/// asked of both, see askOfHalf and askOfWedge; features are those of the half in front, or of the wedge. Of a rotation
+/// asked of both, see askOfPart; features are those of the half in front, or of the wedge. Of a rotation
 /// the mapped surface is n wedges side by side, not joined at the cuts. With a store plane, axis and surface are not
 /// looked at again. Throws InvalidInput, too, for a normal or an axis without direction, an order out of its range, a
 /// plane with nothing of the surface in front of it or behind, wedges that do not fit together, and a surface that is

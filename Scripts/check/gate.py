@@ -8,8 +8,9 @@
   Scripts/check/gate.py list [--shared FOLDER]
 
 record makes each run of the list in a process of its own, through the VTK filters of the build in the folder BUILD, and
-writes to FILE: status, texts, number of quads, and SHA-256 sums of the quads (points, corners), of the map on the
-surface (points, `IGM`, `Matching`) and of the outputs drawn from the quads; seconds and peak memory of the process.
+writes to FILE: status, texts, number of quads, and SHA-256 sums of the quads (points, corners; of symmetric ones their
+images), of the map on the surface (points, `IGM`, `Matching`) and of the outputs drawn from the quads; seconds and peak
+memory of the process.
 Models are those of Data/, and those of FOLDER (default: shared/data beside the checkout), which are left out, with a
 line, where they are not there. A run of several steps uses the same filter for all of them; some are followed by a run
 that makes each step with a new filter, or with other numbers of threads, which must give the same sums: where they
@@ -41,6 +42,7 @@ RUN_LIMIT = 180  # seconds; a run that takes longer is recorded as stopped
 MEMORY_TOLERANCE = 1.03
 SCALE_AWARE, MIXED_INTEGER, QUADCOVER, SEAMLESS = range(4)  # vtkQuadRemesh.Methods
 INTERMEDIATE, INPUT = 1, 2  # vtkQuadRemesh.FinalQualityLevel
+PLANE, FOUND, AXIS, AXIS_FOUND = range(1, 5)  # vtkQuadRemesh.SymmetryTypes
 OUTCOMES = ("not run", "succeeded", "bad input", "no valid result", "aborted", "timed out", "too large")
 
 
@@ -164,6 +166,59 @@ def own_runs():
     runs += warm_and_cold("frame/edits-of-what-fails", frame, quads(60), EDITS[:4] + EDITS[5:8] + EDITS[-1:])
     runs += one_and_two_threads(part, 4000) + one_and_two_threads(beast, 4000, FinalQuality=INTERMEDIATE)
     runs += one_and_two_threads(frame, 2000, Integers=1)
+    return runs + symmetric_runs()
+
+
+def symmetric_runs():
+    """Mirror planes with their curve on edges and across quads, rotations of the orders 2 to 6."""
+    def plane(mesh, number, label, normal=(1, 0, 0), **requests):
+        return single(mesh, number, f"plane-{label}", Symmetry=PLANE, SymmetryNormal=normal, **requests)
+
+    def turned(mesh, number, order, label="", **requests):
+        return single(mesh, number, f"turned-{order}{label}", Symmetry=AXIS, SymmetryNormal=(0, 0, 1),
+                      RotationOrder=order, **requests)
+
+    runs = [turned("ring of 60", 800, order) for order in (2, 3, 4, 5, 6)]
+    runs += [turned("ball of 60", 800, order) for order in (2, 3, 4, 5, 6)]
+    runs += [
+        turned("box", 900, 2), turned("box", 900, 4), turned("tube", 600, 5), turned("dented ring", 900, 3),
+        turned("dented box", 900, 2), turned("wavy ring", 600, 6, "-sizes", sizes="finer to one end"),
+        turned("wavy ring", 600, 3, "-directions", directions="round z"),
+        turned("ball of 60", 700, 2, "-valences", valences="three and five"),
+        turned("box", 900, 4, "-strokes", strokes="over the top"),
+        turned("tube", 900, 2, "-curves", curves="along the side"),
+        turned("tube", 900, 4, "-seamless", Method=SEAMLESS),
+        turned("ring of 60", 60, 6), turned("box", 900, 3), turned("tube", 900, 3),
+        Run("wavy ring/600/axis-found", "wavy ring", quads(600, Symmetry=AXIS_FOUND, RotationOrder=6), quick=True),
+        Run("wavy ring/edge-length/turned-3", "wavy ring",
+            {"TargetType": 1, "EdgeLength": 0.1, "Symmetry": AXIS_FOUND, "RotationOrder": 3}),
+    ]
+    for curve, label in ((0, "on-edges"), (1, "across")):
+        def halved(mesh, number, more="", normal=(1, 0, 0), across=curve, name=label, **requests):
+            return plane(mesh, number, name + more, normal, PlaneCurve=across, **requests)
+
+        runs += [
+            halved("ball of 60", 800), halved("ring of 60", 800), halved("ring of 60", 900, "-level", (0, 0, 1)),
+            halved("box", 900), halved("tube", 600), halved("dented ring", 900), halved("dented box", 900),
+            halved("box", 900, "-oblique", (0.2, 0.1, 1)), halved("wavy ring", 600, "-sizes", sizes="finer to one end"),
+            halved("dented ring", 900, "-directions", directions="round z"),
+            halved("ball of 60", 700, "-valences", (0, 0, 1), valences="three and five"),
+            halved("wavy ring", 700, "-strokes", strokes="along the side"),
+            halved("tube", 900, "-curves", (0, 0, 1), curves="along the side"),
+            halved("ring of 60", 24), halved("wavy ring", 600),
+            halved("tube", 600, "-seamless", Method=SEAMLESS),
+            Run(f"wavy ring/600/found-{label}", "wavy ring", quads(600, Symmetry=FOUND, PlaneCurve=curve), quick=True),
+            Run(f"box/edge-length/{label}", "box",
+                {"TargetType": 1, "EdgeLength": 0.1, "Symmetry": PLANE, "PlaneCurve": curve}),
+        ]
+    runs += [single(f"Data/{name}.ply", number, f"mirrored{label}", Symmetry=FOUND, PlaneCurve=curve)
+             for name, number in (("part", 3000), ("beast", 2000), ("frame", 1500))
+             for curve, label in ((0, ""), (1, "-across"))]
+    runs += warm_and_cold("box/symmetries", "box", quads(900), [
+        ("half", {"Symmetry": PLANE}), ("across", {"Symmetry": PLANE, "PlaneCurve": 1}),
+        ("turned", {"Symmetry": AXIS, "SymmetryNormal": (0, 0, 1), "RotationOrder": 4}), ("none", {}),
+        ("half again", {"Symmetry": PLANE}), ("more quads", {"Symmetry": PLANE, "NumberOfQuads": 1500}),
+    ])
     return runs
 
 
@@ -288,10 +343,86 @@ def blocks():
     return result
 
 
+def swept(around, along, closed, place):
+    """A grid of triangles that closes in one direction or in both; place: of two shares in [0, 1]."""
+    import numpy
+    import quadrille
+    rows = along if closed else along + 1
+    points = [place(i / around, k / along) for k in range(rows) for i in range(around)]
+    faces = []
+    for k in range(along):
+        for i in range(around):
+            a, b, c, d = (((k + row) % rows) * around + (i + column) % around
+                          for row, column in ((0, 0), (0, 1), (1, 1), (1, 0)))
+            faces += [(a, b, c), (a, c, d)]
+    return quadrille.to_polydata(numpy.array(points), numpy.array(faces))
+
+
+def ring(around, waves=0, dent=0.0):
+    """A torus round z, with waves, or with a dent in one place."""
+    from math import cos, exp, pi, sin
+
+    def place(u, v):
+        r = 0.35 * (1 + 0.2 * cos(2 * pi * waves * u) * (waves > 0))
+        r *= 1 - dent * exp(-40 * ((u - 0.1) ** 2 + (v - 0.2) ** 2))
+        out = 1 + r * cos(2 * pi * v)
+        return out * cos(2 * pi * u), out * sin(2 * pi * u), r * sin(2 * pi * v)
+    return swept(around, 24, True, place)
+
+
+def ball(around):
+    """Round z, flattened, with a vertex at both ends of it."""
+    import numpy
+    import quadrille
+    from math import cos, pi, sin
+    rows = 24
+    points = [(sin(pi * k / rows) * cos(2 * pi * i / around), sin(pi * k / rows) * sin(2 * pi * i / around),
+               0.7 * cos(pi * k / rows)) for k in range(1, rows) for i in range(around)]
+    last = len(points)
+    points += [(0, 0, 0.7), (0, 0, -0.7)]
+    faces = []
+    for i in range(around):
+        j = (i + 1) % around
+        faces += [(last, i, j), (last + 1, last - around + j, last - around + i)]
+        for row in range(0, last - around, around):
+            faces += [(row + i, row + around + i, row + around + j), (row + i, row + around + j, row + j)]
+    return quadrille.to_polydata(numpy.array(points), numpy.array(faces))
+
+
+def box(dent=0.0):
+    """A cube whose six sides have the same grid, about the origin; the dent is in one side."""
+    import numpy
+    import quadrille
+    count, points, faces = 12, {}, []
+
+    def point(side, i, k):
+        place = numpy.roll((2 * i / count - 1, 2 * k / count - 1, 1 if side < 3 else -1), side % 3)
+        place = tuple(numpy.round(0.8 * place, 12))
+        return points.setdefault(place, len(points))
+    for side in range(6):
+        for i in range(count):
+            for k in range(count):
+                a, b, c, d = point(side, i, k), point(side, i + 1, k), point(side, i + 1, k + 1), point(side, i, k + 1)
+                faces += [(a, b, c), (a, c, d)] if side < 3 else [(a, c, b), (a, d, c)]
+    places = numpy.array(list(points))
+    near = numpy.exp(-8 * ((places - (0.8, 0.3, 0.2)) ** 2).sum(axis=1))
+    return quadrille.to_polydata(places * (1 - dent * near)[:, None], numpy.array(faces))
+
+
+def tube():
+    from math import cos, pi, sin
+    return swept(60, 20, False, lambda u, v: (cos(2 * pi * u), sin(2 * pi * u), 1.6 * v - 0.8))
+
+
+MADE = {"ring of 60": lambda: ring(60), "wavy ring": lambda: ring(96, waves=6),
+        "dented ring": lambda: ring(60, dent=0.2), "ball of 60": lambda: ball(60), "box": box,
+        "dented box": lambda: box(dent=0.1), "tube": tube}
+
+
 def surface_of(mesh, shared):
     import quadrille
     from vtkmodules.vtkCommonDataModel import vtkPolyData
-    made = {"islands": islands, "torn": torn, "blocks": blocks, "empty": vtkPolyData}
+    made = {"islands": islands, "torn": torn, "blocks": blocks, "empty": vtkPolyData, **MADE}
     if mesh in made:
         return made[mesh]()
     path = (ROOT if mesh.startswith("Data/") else shared) / mesh
@@ -449,6 +580,20 @@ def mesh_arrays(data):
     return result
 
 
+def image_arrays(data):
+    """Of symmetric quads: what becomes of what, about what, and where the quads lie on the input."""
+    result = []
+    for leaf in leaves(data):
+        names = ("MirrorPoint", "RotatedPoint", "SymmetryOrigin", "SymmetryNormal", "SymmetryDirection",
+                 "SymmetryDeviation", "SymmetryMovedPoints", "SymmetryFarthestMoved")
+        arrays = [(leaf.GetPointData().GetArray(name) or leaf.GetFieldData().GetArray(name)) for name in names
+                  ] if leaf is not None else []
+        if any(arrays):
+            result += [numbers(array) for array in arrays]
+            result += [numbers(leaf.GetPointData().GetArray(name)) for name in ("SourcePointIds", "SourceBarycentric")]
+    return result
+
+
 def map_arrays(data):
     result = []
     for leaf in leaves(data):
@@ -481,7 +626,7 @@ def step_record(run, outputs, surface_output, seconds):
         "status": OUTCOMES[run.GetOutcome()], **{key: value.strip() for key, value in texts.items()},
         "reused": run.GetReusedStagesText().strip() if hasattr(run, "GetReusedStagesText") else "",
         "count": sum(leaf.GetNumberOfPolys() for leaf in leaves(data) if leaf is not None),
-        "quads": sum_of(*mesh_arrays(data)), "map": sum_of(*map_arrays(surface_output)),
+        "quads": sum_of(*mesh_arrays(data), *image_arrays(data)), "map": sum_of(*map_arrays(surface_output)),
         "drawn": sum_of(*(array for port in outputs for array in mesh_arrays(run.GetOutputDataObject(port)))),
         "tries": tries_of(data), "seconds": round(seconds, 3)}
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Symmetry/MirrorMidLine.h"
+#include "Symmetry/MidLine.h"
 
 #include "MeshInput.h"
 #include "SymmetricQuads.h"
-#include "Symmetry/MirrorRequests.h"
+#include "Symmetry/PartRequests.h"
 
 #include <gtest/gtest.h>
 

@@ -82,10 +82,11 @@ void expectTurnedConnectivity(const SymmetricResult& made)
 void expectExactTurns(const SymmetricResult& made)
 {
   const std::vector<Vector3>& points = made.remeshed.quads.points;
+  const Isometry rotation = Isometry::of(made.rotation->axis, made.rotation->order);
   double worst = 0;
   for (Index p = 0; p < points.size(); ++p)
   {
-    const Vector3 image = made.rotation->axis.image(points[p], 1, made.rotation->order);
+    const Vector3 image = rotation.image(points[p]);
     worst = std::max(worst, (image - points[made.rotatedPoint[p]]).norm());
   }
   EXPECT_LE(worst, 1e-12 * made.diagonal);
@@ -318,7 +319,7 @@ TEST(Rotation, ValencesOfOneWedgeAreAskedOfAll)
   EXPECT_TRUE(isNoticed(made, "multiples of 5"));
   for (int k = 0; k < 5; ++k)
   {
-    const Vector3 place = made.rotation->axis.image(input.points[aside], k, 5);
+    const Vector3 place = Isometry::of(made.rotation->axis, 5).image(input.points[aside], k);
     const Index p = nearestTo(quads.points, place);
     EXPECT_LE((quads.points[p] - place).norm(), 1e-9);
     EXPECT_EQ(quads.valence[p], 3);
@@ -418,7 +419,7 @@ TEST(Rotation, PartsThatNoCutMeets)
     const RotationAxis axis{ Vector3(-2, 0, 0), Vector3::UnitZ() };
     for (Vector3& p : ball.position.editAll())
     {
-      p = axis.image(p, k, 3);
+      p = Isometry::of(axis, 3).image(p, k);
     }
     all = k == 0 ? ball : disjointUnion(all, ball, Vector3::Zero());
   }

@@ -6,8 +6,7 @@
 #include "Evaluation/QuadQuality.h"
 #include "MeshInput.h"
 #include "SymmetricQuads.h"
-#include "Symmetry/MirrorCut.h"
-#include "Symmetry/MirrorRequests.h"
+#include "Symmetry/PartRequests.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -274,8 +273,9 @@ TEST(Symmetry, GuidesOfTheOtherSideAreMirrored)
   const MirrorPlane plane{ Vector3::Zero(), Vector3::UnitX() };
   const PreparedSurface prepared = prepareSurface(input, {});
   const SearchedSurface whole(prepared);
-  MirrorHalf half = cutByMirror(prepared.mesh, plane, 1e-9);
-  const std::vector<std::string> notices = askOfHalf({ whole, plane, 1e-9, 1e-9, 2 }, half);
+  SurfacePart half = cutByPlane(prepared.mesh, plane, 1e-9);
+  const Isometry mirror = Isometry::of(plane);
+  const std::vector<std::string> notices = askOfPart({ whole, mirror, 0, 1e-9, 1e-9, 2 }, half);
   EXPECT_TRUE(notices.empty());
   std::size_t count = 0;
   for (std::size_t t = 0; t < half.face.size(); ++t)

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Symmetry/RotationCut.h"
+#include "Symmetry/WedgeCut.h"
 
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Base/TryCount.h"
 #include "Mesh/Topology.h"
-#include "Symmetry/MirrorCut.h"
 #include "Symmetry/SeamMarks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -28,85 +28,34 @@ constexpr int kHalfPlanes = 48;
 /// Of them, the shortest that are cut.
 constexpr std::size_t kMostCuts = 12;
 
-using CornerWeights = SurfaceWedge::CornerWeights;
-
-enum class WedgeSide : std::uint8_t
-{
-  Inside,
-  First,  ///< in the first half plane
-  Second, ///< in the second one
-  Own     ///< a boundary of the surface
-};
-
-/// Twins by the ids of points. featureEdges become requested features.
-Mesh connectTriangles(const SurfaceInput& input)
-{
-  Mesh mesh;
-  mesh.position = input.points;
-  mesh.origin = input.polygonPoints;
-  mesh.twin.assign(mesh.origin.size(), kInvalidIndex);
-  mesh.flags.assign(mesh.origin.size(), 0);
-  std::vector<std::array<Index, 3>> edges; // lower and upper end, half-edge
-  edges.reserve(mesh.origin.size());
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    const auto [low, high] = std::minmax({ mesh.origin[h], mesh.target(h) });
-    edges.push_back({ low, high, h });
-  }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t i = 1; i < edges.size(); ++i)
-  {
-    const Index g = edges[i - 1][2], h = edges[i][2];
-    const bool isSame = edges[i - 1][0] == edges[i][0] && edges[i - 1][1] == edges[i][1];
-    if (isSame && mesh.origin[g] != mesh.origin[h])
-    {
-      mesh.twin.edit()[g] = h;
-      mesh.twin.edit()[h] = g;
-    }
-  }
-  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
-  {
-    if ((input.featureEdges[Mesh::face(h)] & 1U << h % 3) != 0)
-    {
-      mesh.flags.edit()[h] |= kFeatureEdge | kRequestedFeature;
-      if (mesh.twin[h] != kInvalidIndex)
-      {
-        mesh.flags.edit()[mesh.twin[h]] |= kFeatureEdge | kRequestedFeature;
-      }
-    }
-  }
-  return mesh;
-}
-
 class WedgeBuilder
 {
 public:
-  WedgeBuilder(const Mesh& mesh, const RotationAxis& axis, int order, double startAngle,
-    double tolerance, const WedgeReach& reach)
-    : mesh_(mesh), axis_(axis), order_(order), tolerance_(tolerance), reach_(reach.ofCuts),
-      alignReach_(reach.ofFeatures)
+  WedgeBuilder(const Mesh& mesh, const Isometry& rotation, double startAngle, double tolerance,
+    const WedgeReach& reach)
+    : mesh_(mesh), rotation_(rotation), axis_(rotation.axis()), tolerance_(tolerance), reach_(reach)
   {
     wedge_.startAngle = startAngle;
-    const Vector3 start = axis.turned(axis.direction.unitOrthogonal(), startAngle);
-    radial_ = { start, axis.imageOf(start, 1, order) };
-    planes_[0] = { axis.origin, axis.direction.cross(radial_[0]) };
-    planes_[1] = { axis.origin, -axis.direction.cross(radial_[1]) };
-    wedge_.planes = planes_;
+    const Vector3 start = axis_.turned(axis_.direction.unitOrthogonal(), startAngle);
+    radial_ = { start, rotation.imageOf(start) };
+    planes_[0] = { axis_.origin, axis_.direction.cross(radial_[0]) };
+    planes_[1] = { axis_.origin, -axis_.direction.cross(radial_[1]) };
   }
 
-  SurfaceWedge build()
+  SurfacePart build()
   {
-    if (order_ == 2)
+    const double startAngle = wedge_.startAngle;
+    wedge_ = cutByPlane(mesh_, planes_[0], tolerance_);
+    if (rotation_.order == 2)
     {
-      takeHalf(cutByMirror(mesh_, planes_[0], tolerance_));
       splitAtAxis();
     }
     else
     {
-      const MirrorHalf half = cutByMirror(mesh_, planes_[0], tolerance_);
-      const Mesh connected = connectTriangles(half.input);
-      takeSecond(half, connected, cutByMirror(connected, planes_[1], tolerance_));
+      cutAgain();
     }
+    wedge_.planes.assign(planes_.begin(), planes_.end());
+    wedge_.startAngle = startAngle;
     if (wedge_.face.empty())
     {
       wedge_.mismatch = "nothing of the surface lies in a wedge";
@@ -115,46 +64,28 @@ public:
     cut_ = connectTriangles(wedge_.input);
     findSides();
     findPoles();
-    findChains();
-    SeamMarks marks(cut_, axis_, order_, tolerance_, alignReach_);
+    SeamMarks marks(cut_, rotation_, tolerance_, reach_.ofFeatures);
     matchChains(marks);
     splitForMarks(marks.splits());
     return std::move(wedge_);
   }
 
 private:
-  void takeHalf(MirrorHalf half)
+  /// What is in front of the second half plane, too.
+  void cutAgain()
   {
-    for (Index t = 0; t < half.face.size(); ++t)
-    {
-      wedge_.weights.push_back(half.cornerWeights(mesh_, t));
-    }
-    wedge_.input = std::move(half.input);
-    wedge_.face = std::move(half.face);
-  }
-
-  void takeSecond(const MirrorHalf& half, const Mesh& connected, MirrorHalf second)
-  {
-    for (Index t = 0; t < second.face.size(); ++t)
+    SurfacePart second = cutByPlane(connectTriangles(wedge_.input), planes_[1], tolerance_);
+    for (std::size_t t = 0; t < second.face.size(); ++t)
     {
       const Index before = second.face[t];
-      const CornerWeights inHalf = second.cornerWeights(connected, t);
-      const CornerWeights corners = half.cornerWeights(mesh_, before);
-      CornerWeights weights{};
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        for (std::size_t k = 0; k < 3; ++k)
-        {
-          for (std::size_t j = 0; j < 3; ++j)
-          {
-            weights[i][j] += inHalf[i][k] * corners[k][j];
-          }
-        }
-      }
-      wedge_.face.push_back(half.face[before]);
-      wedge_.weights.push_back(weights);
+      second.face[t] = wedge_.face[before];
+      second.weights[t] = composed(second.weights[t], wedge_.weights[before]);
     }
-    wedge_.input = std::move(second.input);
+    for (Index& v : second.vertex)
+    {
+      v = v == kInvalidIndex ? v : wedge_.vertex[v];
+    }
+    wedge_ = std::move(second);
   }
 
   /// Of two wedges the halves of one plane are the sides: where its curve crosses the axis they meet in a point.
@@ -179,8 +110,8 @@ private:
     }
   }
 
-  /// The triangle (p, q, c) with the edge from p to q becomes (p, x, c), and (x, q, c) a new one. Returns x.
-  Index splitEdge(Index h, const Vector3& place, double share)
+  /// The triangle (p, q, c) with the edge from p to q becomes (p, x, c), and (x, q, c) a new one.
+  void splitEdge(Index h, const Vector3& place, double share)
   {
     SurfaceInput& input = wedge_.input;
     const Index t = Mesh::face(h);
@@ -188,6 +119,7 @@ private:
     const Index q = input.polygonPoints[3 * t + j], c = input.polygonPoints[3 * t + k];
     const auto x = static_cast<Index>(input.points.size());
     input.points.push_back(place);
+    wedge_.vertex.push_back(kInvalidIndex);
     input.polygonPoints.edit()[3 * t + j] = x;
     const std::uint8_t bits = input.featureEdges[t];
     const auto bit = [&](std::size_t edge) { return static_cast<unsigned>(bits >> edge & 1U); };
@@ -195,7 +127,7 @@ private:
     input.polygonPoints.append({ x, q, c });
     input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
     input.featureEdges.push_back(static_cast<std::uint8_t>(bit(i) | bit(j) << 1U));
-    const CornerWeights weights = wedge_.weights[t];
+    const FaceWeights weights = wedge_.weights[t];
     std::array<double, 3> at{};
     for (std::size_t corner = 0; corner < 3; ++corner)
     {
@@ -204,7 +136,6 @@ private:
     wedge_.weights.push_back({ at, weights[j], weights[k] });
     wedge_.weights[t][j] = at;
     wedge_.face.push_back(wedge_.face[t]);
-    return x;
   }
 
   bool isIn(std::size_t side, Index point) const
@@ -214,7 +145,7 @@ private:
 
   void findSides()
   {
-    sides_.assign(cut_.halfEdgeCount(), WedgeSide::Inside);
+    sides_.assign(cut_.halfEdgeCount(), 0);
     for (Index h = 0; h < cut_.halfEdgeCount(); ++h)
     {
       if (!cut_.isBoundary(h))
@@ -227,152 +158,97 @@ private:
         return isIn(side, cut_.origin[h]) && isIn(side, cut_.target(h)) &&
           radial_[side].dot(middle - axis_.origin) > 0;
       };
-      sides_[h] = lies(0) ? WedgeSide::First : lies(1) ? WedgeSide::Second : WedgeSide::Own;
+      sides_[h] = lies(0) ? 1 : lies(1) ? 2 : 0;
     }
-  }
-
-  Index nextOnBoundary(Index h) const
-  {
-    h = Mesh::next(h);
-    while (!cut_.isBoundary(h))
-    {
-      h = Mesh::next(cut_.twin[h]);
-    }
-    return h;
-  }
-
-  static bool isCut(WedgeSide side)
-  {
-    return side == WedgeSide::First || side == WedgeSide::Second;
   }
 
   void findPoles()
   {
     for (Index h = 0; h < cut_.halfEdgeCount(); ++h)
     {
-      const Index next = isCut(sides_[h]) ? nextOnBoundary(h) : h;
-      if (isCut(sides_[next]) && sides_[next] != sides_[h])
+      const Index next = sides_[h] != 0 ? nextOnBoundary(cut_, h) : h;
+      if (sides_[next] != 0 && sides_[next] != sides_[h])
       {
         wedge_.poles.push_back(cut_.position[cut_.origin[next]]);
       }
     }
   }
 
-  void findChains()
+  /// Mean over the length.
+  Vector3 middle(const BorderChain& chain) const
   {
-    std::vector<std::uint8_t> isDone(cut_.halfEdgeCount(), 0);
-    const auto collect = [&](Index first)
-    {
-      WedgeChain chain;
-      Index h = first;
-      do
-      {
-        isDone[h] = 1;
-        chain.edges.push_back(h);
-        h = nextOnBoundary(h);
-      } while (sides_[h] == sides_[first] && h != first);
-      chain.closed = h == first;
-      chains_[sides_[first] == WedgeSide::First ? 0 : 1].push_back(std::move(chain));
-    };
-    std::vector<std::uint8_t> isLater(cut_.halfEdgeCount(), 0);
-    for (Index h = 0; h < cut_.halfEdgeCount(); ++h)
-    {
-      if (isCut(sides_[h]))
-      {
-        const Index next = nextOnBoundary(h);
-        isLater[next] = sides_[next] == sides_[h] ? 1 : 0;
-      }
-    }
-    for (const bool closed : { false, true })
-    {
-      for (Index h = 0; h < cut_.halfEdgeCount(); ++h)
-      {
-        if (isCut(sides_[h]) && isDone[h] == 0 && (closed || isLater[h] == 0))
-        {
-          collect(h);
-        }
-      }
-    }
-    for (std::vector<WedgeChain>& side : chains_)
-    {
-      for (WedgeChain& chain : side)
-      {
-        measure(chain);
-      }
-    }
-  }
-
-  void measure(WedgeChain& chain) const
-  {
+    double whole = 0;
+    Vector3 sum = Vector3::Zero();
     for (const Index h : chain.edges)
     {
       const double length = cut_.edgeVector(h).norm();
-      chain.length += length;
-      chain.middle += length / 2 * (cut_.position[cut_.origin[h]] + cut_.position[cut_.target(h)]);
+      whole += length;
+      sum += length / 2 * (cut_.position[cut_.origin[h]] + cut_.position[cut_.target(h)]);
     }
-    chain.middle /= std::max(chain.length, std::numeric_limits<double>::min());
+    return sum / std::max(whole, std::numeric_limits<double>::min());
   }
-
-  const Vector3& place(const WedgeChain& chain, std::size_t i) const
-  {
-    return chain.place(cut_, i);
-  }
-
-  Vector3 imageOf(const Vector3& p) const { return axis_.image(p, 1, order_); }
 
   /// How far the image of a chain in the first half plane is from one in the second.
-  double distance(const WedgeChain& first, const WedgeChain& second) const
+  double distance(const BorderChain& first, const BorderChain& second) const
   {
     if (first.closed != second.closed)
     {
       return std::numeric_limits<double>::infinity();
     }
-    double farthest = (imageOf(first.middle) - second.middle).norm();
-    if (!first.closed)
-    {
-      farthest =
-        std::max({ farthest, (imageOf(place(first, 0)) - place(second, second.edges.size())).norm(),
-          (imageOf(place(first, first.edges.size())) - place(second, 0)).norm() });
-    }
-    return farthest;
+    const auto apart = [&](const Vector3& here, const Vector3& there)
+    { return (rotation_.image(here) - there).norm(); };
+    const double ofMiddles = apart(middle(first), middle(second));
+    return first.closed
+      ? ofMiddles
+      : std::max({ ofMiddles, apart(first.place(cut_, 0), second.place(cut_, second.edges.size())),
+          apart(first.place(cut_, first.edges.size()), second.place(cut_, 0)) });
   }
 
   void matchChains(SeamMarks& marks)
   {
+    std::array<std::vector<BorderChain>, 2> chains; // in the first and in the second half plane
+    for (BorderChain& chain : borderChains(cut_, sides_))
+    {
+      chains[sides_[chain.edges.front()] - 1U].push_back(std::move(chain));
+    }
     Index count = 0;
     const std::vector<Index> component = faceComponents(cut_, count);
-    std::vector<std::uint8_t> isTaken(chains_[1].size(), 0);
-    for (const WedgeChain& first : chains_[0])
+    std::vector<std::uint8_t> isTaken(chains[1].size(), 0);
+    const auto missing = [&](const BorderChain& chain)
     {
-      std::size_t best = chains_[1].size();
-      for (std::size_t i = 0; i < chains_[1].size(); ++i)
+      return "the cut near " + placeText(chain.place(cut_, 0)) +
+        " has no image on the other side of its wedge";
+    };
+    for (const BorderChain& first : chains[0])
+    {
+      std::size_t best = chains[1].size();
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < chains[1].size(); ++i)
       {
-        const bool isNearer = best == chains_[1].size() ||
-          distance(first, chains_[1][i]) < distance(first, chains_[1][best]);
-        best = isTaken[i] == 0 && isNearer ? i : best;
+        const double apart = isTaken[i] == 0 ? distance(first, chains[1][i]) : least;
+        best = apart < least ? i : best;
+        least = std::min(apart, least);
       }
-      if (best == chains_[1].size() || !(distance(first, chains_[1][best]) <= reach_))
+      if (best == chains[1].size() || !(least <= reach_.ofCuts))
       {
-        wedge_.mismatch = "the cut near " + placeText(place(first, 0)) +
-          " has no image on the other side of its wedge";
+        wedge_.mismatch = missing(first);
         return;
       }
       isTaken[best] = 1;
-      const WedgeChain& second = chains_[1][best];
+      const BorderChain& second = chains[1][best];
       if (component[Mesh::face(first.edges.front())] != component[Mesh::face(second.edges.front())])
       {
-        wedge_.mismatch = "the part of the surface at the cut near " + placeText(place(first, 0)) +
+        wedge_.mismatch = "the part of the surface at the cut near " +
+          placeText(first.place(cut_, 0)) +
           " does not reach from one side of its wedge to the other";
         return;
       }
       marks.add(first, second, wedge_);
     }
-    if (chains_[0].size() != chains_[1].size())
+    const auto left = std::find(isTaken.begin(), isTaken.end(), 0);
+    if (left != isTaken.end())
     {
-      const std::size_t i =
-        static_cast<std::size_t>(std::find(isTaken.begin(), isTaken.end(), 0) - isTaken.begin());
-      wedge_.mismatch = "the cut near " + placeText(place(chains_[1][i], 0)) +
-        " has no image on the other side of its wedge";
+      wedge_.mismatch = missing(chains[1][static_cast<std::size_t>(left - isTaken.begin())]);
     }
   }
 
@@ -405,15 +281,15 @@ private:
   }
 
   const Mesh& mesh_;
-  const RotationAxis& axis_;
-  int order_;
-  double tolerance_, reach_, alignReach_;
+  const Isometry& rotation_;
+  RotationAxis axis_;
+  double tolerance_;
+  const WedgeReach& reach_;
   std::array<Vector3, 2> radial_;
   std::array<MirrorPlane, 2> planes_;
-  SurfaceWedge wedge_;
-  Mesh cut_; ///< the wedge
-  std::vector<WedgeSide> sides_;
-  std::array<std::vector<WedgeChain>, 2> chains_; ///< in the first and in the second half plane
+  SurfacePart wedge_;
+  Mesh cut_;                        ///< the wedge
+  std::vector<std::uint8_t> sides_; ///< per half-edge: 1 in the first half plane, 2 in the second
 };
 
 /// Length of the curve that a half plane cuts out of the surface; none where faces lie in it.
@@ -467,21 +343,22 @@ std::vector<std::optional<double>> cutLengths(
 
 } // namespace
 
-SurfaceWedge cutWedge(const Mesh& mesh, const RotationAxis& axis, int order, double tolerance,
+SurfacePart cutWedge(const Mesh& mesh, const Isometry& rotation, double tolerance,
   const WedgeReach& reach, std::optional<double> startAngle)
 {
   if (startAngle)
   {
-    return WedgeBuilder(mesh, axis, order, *startAngle, tolerance, reach).build();
+    return WedgeBuilder(mesh, rotation, *startAngle, tolerance, reach).build();
   }
   std::vector<double> angles;
   angles.reserve(kHalfPlanes);
   for (int k = 0; k < kHalfPlanes; ++k)
   {
     // Not through the vertices of evenly divided circles.
-    angles.push_back((k + 0.5) / kHalfPlanes * 2 * kPi / order);
+    angles.push_back((k + 0.5) / kHalfPlanes * 2 * kPi / rotation.order);
   }
-  const std::vector<std::optional<double>> lengths = cutLengths(mesh, axis, angles, tolerance);
+  const std::vector<std::optional<double>> lengths =
+    cutLengths(mesh, rotation.axis(), angles, tolerance);
   std::vector<std::size_t> byLength;
   for (std::size_t k = 0; k < angles.size(); ++k)
   {
@@ -495,13 +372,12 @@ SurfaceWedge cutWedge(const Mesh& mesh, const RotationAxis& axis, int order, dou
   std::stable_sort(byLength.begin(), byLength.end(),
     [&](std::size_t a, std::size_t b)
     { return std::floor(*lengths[a] / unit) < std::floor(*lengths[b] / unit); });
-  std::optional<SurfaceWedge> best;
+  std::optional<SurfacePart> best;
   bool isOther = false;
   for (std::size_t i = 0; i < std::min(kMostCuts, byLength.size()); ++i)
   {
     countTry(Try::OtherHalfPlane, i > 0 ? 1 : 0);
-    SurfaceWedge wedge =
-      WedgeBuilder(mesh, axis, order, angles[byLength[i]], tolerance, reach).build();
+    SurfacePart wedge = WedgeBuilder(mesh, rotation, angles[byLength[i]], tolerance, reach).build();
     const bool isBetter = !best || (!best->mismatch.empty() && wedge.mismatch.empty()) ||
       (best->mismatch.empty() == wedge.mismatch.empty() && wedge.loneFeatures < best->loneFeatures);
     if (isBetter)

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Symmetry/MirrorCut.h"
+#include "Symmetry/PlaneCut.h"
 
 #include "Base/Progress.h"
+#include "Mesh/SurfaceEdit.h"
+#include "Mesh/Topology.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +23,10 @@ namespace
 ///    /   \         x---x        / | \         /   \        x: cut
 ///   0-----+       /     \      /  |  \       x-----x       fans of triangles, from the first corner that is kept
 ///    kept        -       -    -   0   +     /  ...  +
-class HalfBuilder
+class FrontBuilder
 {
 public:
-  HalfBuilder(const Mesh& mesh, const MirrorPlane& plane, double tolerance)
+  FrontBuilder(const Mesh& mesh, const MirrorPlane& plane, double tolerance)
     : mesh_(mesh), plane_(plane), pointOf_(mesh.vertexCount(), kInvalidIndex),
       cutOf_(mesh.halfEdgeCount(), kInvalidIndex)
   {
@@ -36,15 +38,16 @@ public:
     }
   }
 
-  MirrorHalf build()
+  SurfacePart build()
   {
-    half_.input.polygonOffsets.push_back(0);
+    part_.planes = { plane_ };
+    part_.input.polygonOffsets.push_back(0);
     for (Index f = 0; f < mesh_.faceCount(); ++f)
     {
       pollNowAndThen(f);
       addFace(f);
     }
-    return std::move(half_);
+    return std::move(part_);
   }
 
 private:
@@ -53,6 +56,7 @@ private:
   {
     Index point = kInvalidIndex;
     Index halfEdge = kInvalidIndex;
+    std::array<double, 3> weights{}; ///< in the face
   };
 
   double height(Index h) const { return heights_[mesh_.origin[h]]; }
@@ -70,11 +74,12 @@ private:
       const double to = height(Mesh::next(h));
       if (from >= 0)
       {
-        corners.push_back({ pointOfVertex(mesh_.origin[h]), to >= 0 ? h : kInvalidIndex });
+        corners.push_back({ pointOfVertex(mesh_.origin[h]), to >= 0 ? h : kInvalidIndex, {} });
+        corners.back().weights[h % 3] = 1;
       }
       if ((from > 0 && to < 0) || (from < 0 && to > 0))
       {
-        corners.push_back({ pointOfCut(h), to > 0 ? h : kInvalidIndex });
+        corners.push_back({ pointOfCut(h), to > 0 ? h : kInvalidIndex, weightsOfCut(h) });
         if (to < 0)
         {
           // The edge runs along h up to here.
@@ -89,7 +94,7 @@ private:
   void addFan(Index f, std::vector<Corner> corners)
   {
     const auto place = [&](std::size_t i) -> const Vector3&
-    { return half_.input.points[corners[i].point]; };
+    { return part_.input.points[corners[i].point]; };
     if (corners.size() == 4 &&
       (place(1) - place(3)).squaredNorm() < (place(0) - place(2)).squaredNorm())
     {
@@ -100,13 +105,14 @@ private:
       const std::array<Index, 3> sides{ i == 1 ? corners[0].halfEdge : kInvalidIndex,
         corners[i].halfEdge, i + 2 == corners.size() ? corners[i + 1].halfEdge : kInvalidIndex };
       addTriangle(f, { corners[0].point, corners[i].point, corners[i + 1].point }, sides);
+      part_.weights.push_back({ corners[0].weights, corners[i].weights, corners[i + 1].weights });
     }
   }
 
   void addTriangle(
     Index f, const std::array<Index, 3>& points, const std::array<Index, 3>& halfEdges)
   {
-    SurfaceInput& input = half_.input;
+    SurfaceInput& input = part_.input;
     input.polygonPoints.append(points.begin(), points.end());
     input.polygonOffsets.push_back(static_cast<Index>(input.polygonPoints.size()));
     std::uint8_t bits = 0;
@@ -118,7 +124,7 @@ private:
       }
     }
     input.featureEdges.push_back(bits);
-    half_.face.push_back(f);
+    part_.face.push_back(f);
   }
 
   /// In the plane it becomes a boundary, which by its angle would be none.
@@ -128,11 +134,11 @@ private:
     return mesh_.isFeature(h) && (inPlane || (mesh_.flags[h] & kRequestedFeature) != 0);
   }
 
-  Index add(const Vector3& p, const CutPoint& origin)
+  Index add(const Vector3& p, Index vertex)
   {
-    half_.input.points.push_back(p);
-    half_.origin.push_back(origin);
-    return static_cast<Index>(half_.origin.size() - 1);
+    part_.input.points.push_back(p);
+    part_.vertex.push_back(vertex);
+    return static_cast<Index>(part_.vertex.size() - 1);
   }
 
   Index pointOfVertex(Index v)
@@ -140,58 +146,115 @@ private:
     if (pointOf_[v] == kInvalidIndex)
     {
       const Vector3& p = mesh_.position[v];
-      pointOf_[v] = add(heights_[v] == 0 ? plane_.foot(p) : p, { v, v, 0 });
+      pointOf_[v] = add(heights_[v] == 0 ? plane_.foot(p) : p, v);
     }
     return pointOf_[v];
   }
 
+  /// Of the edge of h the half-edge of the face that comes first, and the place of the cut on it.
+  std::pair<Index, double> cutOn(Index h) const
+  {
+    const Index first = mesh_.isBoundary(h) ? h : std::min(h, mesh_.twin[h]);
+    return { first, height(first) / (height(first) - height(Mesh::next(first))) };
+  }
+
   Index pointOfCut(Index h)
   {
-    const Index twin = mesh_.twin[h];
-    if (cutOf_[h] == kInvalidIndex)
+    const auto [first, share] = cutOn(h);
+    if (cutOf_[first] == kInvalidIndex)
     {
-      const Index from = mesh_.origin[h];
-      const Index to = mesh_.target(h);
-      const double share = heights_[from] / (heights_[from] - heights_[to]);
-      const Vector3 p = mesh_.position[from] + share * mesh_.edgeVector(h);
-      cutOf_[h] = add(plane_.foot(p), { from, to, share });
-      if (twin != kInvalidIndex)
-      {
-        cutOf_[twin] = cutOf_[h];
-      }
+      const Vector3 p = mesh_.position[mesh_.origin[first]] + share * mesh_.edgeVector(first);
+      cutOf_[first] = add(plane_.foot(p), kInvalidIndex);
     }
-    return cutOf_[h];
+    return cutOf_[first];
+  }
+
+  std::array<double, 3> weightsOfCut(Index h) const
+  {
+    const auto [first, share] = cutOn(h);
+    std::array<double, 3> weights{};
+    weights[h % 3] = first == h ? 1 - share : share;
+    weights[Mesh::next(h) % 3] = first == h ? share : 1 - share;
+    return weights;
   }
 
   const Mesh& mesh_;
   const MirrorPlane& plane_;
   std::vector<double> heights_;
   std::vector<Index> pointOf_; ///< per vertex
-  std::vector<Index> cutOf_;   ///< per half-edge
-  MirrorHalf half_;
+  std::vector<Index> cutOf_;   ///< per half-edge, the lower one of its edge
+  SurfacePart part_;
 };
 
 } // namespace
 
-std::array<std::array<double, 3>, 3> MirrorHalf::cornerWeights(const Mesh& mesh, Index t) const
+FaceWeights composed(const FaceWeights& inner, const FaceWeights& outer)
 {
-  std::array<std::array<double, 3>, 3> weights{};
+  FaceWeights weights{};
   for (std::size_t i = 0; i < 3; ++i)
   {
-    const CutPoint& at = origin[input.polygonPoints[3 * t + i]];
     for (std::size_t k = 0; k < 3; ++k)
     {
-      const Index corner = mesh.origin[3 * std::size_t{ face[t] } + k];
-      weights[i][k] += corner == at.from ? 1 - at.share : 0;
-      weights[i][k] += corner == at.to ? at.share : 0;
+      for (std::size_t j = 0; j < 3; ++j)
+      {
+        weights[i][j] += inner[i][k] * outer[k][j];
+      }
     }
   }
   return weights;
 }
 
-MirrorHalf cutByMirror(const Mesh& mesh, const MirrorPlane& plane, double tolerance)
+void requestCutFeatures(Mesh& mesh, const MirrorPlane& plane, double tolerance)
 {
-  return HalfBuilder(mesh, plane, tolerance).build();
+  std::vector<Index> featuresAt(mesh.vertexCount(), 0);
+  std::vector<Index> next;
+  const auto take = [&](Index h)
+  {
+    for (const Index side : { h, mesh.twin[h] })
+    {
+      mesh.flags.edit()[side] |= kRequestedFeature;
+    }
+    next.push_back(h);
+  };
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (mesh.isBoundary(h) || !mesh.isFeature(h))
+    {
+      continue;
+    }
+    ++featuresAt[mesh.origin[h]];
+    const double from = plane.height(mesh.position[mesh.origin[h]]);
+    const double to = plane.height(mesh.position[mesh.target(h)]);
+    if (h < mesh.twin[h] && std::min(from, to) <= tolerance && std::max(from, to) >= -tolerance)
+    {
+      take(h);
+    }
+  }
+  const std::vector<Index> outgoing = outgoingHalfEdges(mesh);
+  while (!next.empty())
+  {
+    const Index h = next.back();
+    next.pop_back();
+    for (const Index v : { mesh.origin[h], mesh.target(h) })
+    {
+      const auto takeMore = [&](Index g)
+      {
+        if (!mesh.isBoundary(g) && mesh.isFeature(g) && (mesh.flags[g] & kRequestedFeature) == 0)
+        {
+          take(g);
+        }
+      };
+      if (featuresAt[v] == 2)
+      {
+        forEachInFan(mesh, outgoing[v], takeMore);
+      }
+    }
+  }
+}
+
+SurfacePart cutByPlane(const Mesh& mesh, const MirrorPlane& plane, double tolerance)
+{
+  return FrontBuilder(mesh, plane, tolerance).build();
 }
 
 } // namespace quadrille

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Symmetry/RotationCut.h"
-
-#include "Symmetry/RotationSearch.h"
+#include "Symmetry/SymmetrySearch.h"
+#include "Symmetry/WedgeCut.h"
 #include "TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +31,7 @@ double areaOf(const std::vector<Vector3>& points, const std::vector<Index>& corn
 }
 
 /// A wedge has its share of the area, its corners are where their weights say, and seams end at each other's images.
-void expectWedge(const SurfaceWedge& wedge, const Mesh& mesh, int order)
+void expectWedge(const SurfacePart& wedge, const Mesh& mesh, int order)
 {
   EXPECT_EQ(wedge.mismatch, "");
   EXPECT_EQ(wedge.loneFeatures, 0U);
@@ -54,16 +53,17 @@ void expectWedge(const SurfaceWedge& wedge, const Mesh& mesh, int order)
     EXPECT_GE(wedge.planes[0].height(p), -1e-9);
     EXPECT_GE(order == 2 ? 0 : wedge.planes[1].height(p), -1e-9);
   }
+  const Isometry rotation = Isometry::of(kUpwards, order);
   for (const SeamRequest& seam : input.seams)
   {
-    EXPECT_LE((kUpwards.image(seam.from, 1, order) - seam.imageFrom).norm(), 1e-9);
-    EXPECT_LE((kUpwards.image(seam.to, 1, order) - seam.imageTo).norm(), 1e-9);
+    EXPECT_LE((rotation.image(seam.from) - seam.imageFrom).norm(), 1e-9);
+    EXPECT_LE((rotation.image(seam.to) - seam.imageTo).norm(), 1e-9);
   }
 }
 
-SurfaceWedge wedgeOf(const Mesh& mesh, int order)
+SurfacePart wedgeOf(const Mesh& mesh, int order)
 {
-  return cutWedge(mesh, kUpwards, order, 1e-9, { 1e-3, 1e-3 });
+  return cutWedge(mesh, Isometry::of(kUpwards, order), 1e-9, { 1e-3, 1e-3 });
 }
 
 TEST(RotationCut, TorusIsCutIntoTubes)
@@ -72,7 +72,7 @@ TEST(RotationCut, TorusIsCutIntoTubes)
   for (const int order : { 2, 3, 4, 10, 60 })
   {
     SCOPED_TRACE(order);
-    const SurfaceWedge wedge = wedgeOf(mesh, order);
+    const SurfacePart wedge = wedgeOf(mesh, order);
     expectWedge(wedge, mesh, order);
     ASSERT_EQ(wedge.input.seams.size(), 1U);
     EXPECT_EQ(wedge.input.seams[0].from, wedge.input.seams[0].to);
@@ -95,7 +95,7 @@ TEST(RotationCut, CubeIsCutBetweenItsPoles)
   for (const int order : { 2, 4 })
   {
     SCOPED_TRACE(order);
-    const SurfaceWedge wedge = wedgeOf(mesh, order);
+    const SurfacePart wedge = wedgeOf(mesh, order);
     expectWedge(wedge, mesh, order);
     ASSERT_EQ(wedge.poles.size(), 2U);
     for (const Vector3& pole : wedge.poles)
@@ -140,13 +140,13 @@ TEST(RotationSearch, AxisOfATurnedSurface)
     list.corners.push_back({ mesh.origin[3 * f], mesh.origin[3 * f + 1], mesh.origin[3 * f + 2] });
   }
   const NearestTriangle surface(list);
-  const RotationAxis found = findRotationAxis(surface, 7, 2);
+  const Isometry found = findIsometry(surface, Isometry::of(kUpwards, 7), 2);
   // As accurate as the coordinates.
   EXPECT_LE(found.direction.cross(direction).norm(), 1e-12);
-  EXPECT_LE(found.radial(place).norm(), 1e-11);
-  EXPECT_LE(rotationDeviation(surface, found, 7, 2).maximum, 1e-11);
+  EXPECT_LE(found.axis().radial(place).norm(), 1e-11);
+  EXPECT_LE(imageDeviation(surface, found, 2).maximum, 1e-11);
   // Round the same axis it is of no order that does not divide 7 and 70.
-  EXPECT_GT(rotationDeviation(surface, found, 4, 2).rms, 0.01);
+  EXPECT_GT(imageDeviation(surface, Isometry::of(found.axis(), 4), 2).rms, 0.01);
 }
 
 } // namespace

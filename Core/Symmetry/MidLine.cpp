@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Symmetry/MirrorMidLine.h"
+#include "Symmetry/MidLine.h"
 
 #include "Base/PlaceText.h"
 #include "Base/Progress.h"
 #include "Base/TryCount.h"
+#include "GridMap/Certificate.h"
 #include "GridMap/RelaxMap.h"
 #include "Mesh/Topology.h"
 #include "Requests/Guides.h"
-#include "Symmetry/CopiedRun.h"
-#include "Symmetry/PlaneBoundary.h"
+#include "Symmetry/CutBorder.h"
+#include "Symmetry/SymmetryRun.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,12 +31,13 @@ constexpr double kRows = 8;
 constexpr double kLeastRows = 1;
 
 /// Inside the parts in the plane two turns, one at their ends: then they can move by half a quad.
-Status checkStraight(const Mesh& mesh, const DoubledMesh& doubled, const std::vector<int>& turns)
+Status checkStraight(
+  const Mesh& mesh, const std::vector<std::uint8_t>& isGlued, const std::vector<int>& turns)
 {
   std::vector<std::uint8_t> ends(mesh.vertexCount(), 0);
   for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
   {
-    if (doubled.isGlued[h] != 0)
+    if (isGlued[h] != 0)
     {
       ++ends[mesh.origin[h]];
       ++ends[mesh.target(h)];
@@ -198,40 +200,7 @@ std::vector<Guide> guidesIn(const Band& band, const PreparedSurface& half, int t
   return guides;
 }
 
-} // namespace
-
-void askMidLine(MirrorHalf& half, const MirrorPlane& plane, double tolerance)
-{
-  SurfaceInput& input = half.input;
-  const PlaneBoundary boundary(half, plane, tolerance);
-  const std::vector<Index> features = boundary.featuresAt();
-  const auto& points = input.points;
-  for (const std::vector<Index>& chain : boundary.chains())
-  {
-    const Index from = boundary.from(chain.front()), to = boundary.to(chain.back());
-    const bool closed = from == to;
-    for (const Index edge : chain)
-    {
-      for (const Index p : { boundary.from(edge), boundary.to(edge) })
-      {
-        const bool isEnd = !closed && (p == from || p == to);
-        if (features[p] > (isEnd ? 0U : 1U))
-        {
-          throw InvalidInput(
-            std::string(isEnd ? "a feature meets the boundary" : "several features meet") +
-            " in the mirror plane, at " + placeText(points[p]) +
-            ", where a mid-line of quads has no point: choose an isoline for the plane's curve, or "
-            "leave one of these features out");
-        }
-      }
-    }
-    const Index middle = chain[chain.size() / 2];
-    const Vector3 via =
-      chain.size() == 1 ? Vector3((points[from] + points[to]) / 2) : points[boundary.from(middle)];
-    input.straight.push_back({ points[from], via, points[to], -plane.normal });
-  }
-}
-
+/// Half-edges, one of each edge, of the features of a surface that lie in the plane between its two sides. Ascending.
 std::vector<Index> featuresInPlane(const Mesh& mesh, const MirrorPlane& plane, double tolerance)
 {
   std::vector<double> heights;
@@ -259,56 +228,41 @@ std::vector<Index> featuresInPlane(const Mesh& mesh, const MirrorPlane& plane, d
   return features;
 }
 
-double midLineLength(const MirrorHalf& half, const MirrorPlane& plane, double tolerance)
+/// The half's map (#H, changed in place) with its boundary in the plane half a quad inside.
+Status insetPlane(const RemeshResult& half, const std::vector<std::uint8_t>& isGlued,
+  const RemeshOptions& options, std::vector<FixedVec2>& uv)
 {
-  const SurfaceInput& input = half.input;
-  const PlaneBoundary boundary(half, plane, tolerance);
-  double length = 0;
-  for (const Index edge : boundary.edges())
-  {
-    const Index a = boundary.from(edge), b = boundary.to(edge);
-    const double size =
-      input.sizing.empty() ? 1 : (double{ input.sizing[a] } + double{ input.sizing[b] }) / 2;
-    length += (input.points[a] - input.points[b]).norm() / size;
-  }
-  return length;
-}
-
-Status insetPlane(const PreparedSurface& half, const DoubledMesh& doubled,
-  const std::vector<int>& turns, const std::vector<Index>& onFeatures,
-  const MidLineOptions& options, std::vector<FixedVec2>& uv)
-{
-  const Mesh& mesh = half.mesh;
-  if (std::find(doubled.isGlued.begin(), doubled.isGlued.end(), 1) == doubled.isGlued.end())
+  const Mesh& mesh = half.surface.mesh;
+  if (std::find(isGlued.begin(), isGlued.end(), 1) == isGlued.end())
   {
     return {};
   }
-  Status straight = checkStraight(mesh, doubled, turns);
+  Status straight = checkStraight(mesh, isGlued, half.turns);
   if (!straight.ok())
   {
     return straight;
   }
-  std::vector<std::uint8_t> fixed = irregularOf(mesh, turns);
-  for (const Index v : onFeatures)
+  std::vector<std::uint8_t> fixed = irregularOf(mesh, half.turns);
+  for (const SectorRequest& request : half.onFeatures)
   {
-    fixed[v] = 1;
+    fixed[request.vertex] = 1;
   }
   for (double rows = kRows;; rows /= 2)
   {
     const bool isNarrower = rows < kRows;
     countTry(Try::NarrowerBand, isNarrower ? 1 : 0);
-    const Band band = BandBuilder(mesh, doubled.isGlued, uv, rows).build();
+    const Band band = BandBuilder(mesh, isGlued, uv, rows).build();
     RelaxOptions relax;
-    relax.maximumBytes = options.maximumBytes;
-    relax.guides = guidesIn(band, half, options.threads);
+    relax.maximumBytes = options.memoryLimit.value_or(freeMemory());
+    relax.guides = guidesIn(band, half.surface, options.threads);
     relax.threads = options.threads;
-    relax.progress = options.progress;
+    relax.progress = subProgress(options.progress, 0.95, 0.97);
     std::vector<FixedVec2> bandUv;
     for (const Index f : band.face)
     {
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
       {
-        relax.inset.push_back(doubled.isGlued[h]);
+        relax.inset.push_back(isGlued[h]);
         bandUv.push_back(uv[h]);
       }
     }
@@ -329,6 +283,144 @@ Status insetPlane(const PreparedSurface& half, const DoubledMesh& doubled,
     }
     return relaxed.status;
   }
+}
+
+} // namespace
+
+void askMidLine(SurfacePart& half, double tolerance)
+{
+  const Mesh mesh = connectTriangles(half.input);
+  const std::vector<std::uint8_t> inPlane = edgesInPlane(mesh, half.planes.front(), tolerance);
+  std::vector<Index> features(mesh.vertexCount(), 0); // inside, that end there
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    features[mesh.origin[h]] += mesh.isFeature(h) && !mesh.isBoundary(h) ? 1 : 0;
+  }
+  for (const BorderChain& chain : borderChains(mesh, inPlane))
+  {
+    const std::size_t count = chain.edges.size();
+    const Index from = chain.vertex(mesh, 0), to = mesh.target(chain.edges.back());
+    for (std::size_t i = 0; i <= count; ++i)
+    {
+      const Index p = i < count ? chain.vertex(mesh, i) : to;
+      const bool isEnd = from != to && (p == from || p == to);
+      if (features[p] > (isEnd ? 0U : 1U))
+      {
+        throw InvalidInput(
+          std::string(isEnd ? "a feature meets the boundary" : "several features meet") +
+          " in the mirror plane, at " + placeText(mesh.position[p]) +
+          ", where a mid-line of quads has no point: choose an isoline for the plane's curve, or "
+          "leave one of these features out");
+      }
+    }
+    const Vector3& start = mesh.position[from];
+    const Vector3& end = mesh.position[to];
+    const Vector3 via = count == 1 ? Vector3((start + end) / 2) : chain.place(mesh, count / 2);
+    half.input.straight.push_back({ start, via, end, -half.planes.front().normal });
+  }
+}
+
+double midLineLength(const SurfacePart& half, double tolerance)
+{
+  const std::vector<float>& sizing = half.input.sizing;
+  const Mesh mesh = connectTriangles(half.input);
+  const std::vector<std::uint8_t> inPlane = edgesInPlane(mesh, half.planes.front(), tolerance);
+  double length = 0;
+  for (Index h = 0; h < mesh.halfEdgeCount(); ++h)
+  {
+    if (inPlane[h] != 0)
+    {
+      const Index a = mesh.origin[h], b = mesh.target(h);
+      const double size = sizing.empty() ? 1 : (double{ sizing[a] } + double{ sizing[b] }) / 2;
+      length += (mesh.position[a] - mesh.position[b]).norm() / size;
+    }
+  }
+  return length;
+}
+
+std::vector<GivenUpCurve> giveUpInPlane(Mesh& mesh, const MirrorPlane& plane, double tolerance,
+  double edgeLength, std::vector<std::string>& notices)
+{
+  const std::vector<Index> inPlane = featuresInPlane(mesh, plane, tolerance);
+  for (const Index h : inPlane)
+  {
+    for (const Index side : { h, mesh.twin[h] })
+    {
+      mesh.flags.edit()[side] &= static_cast<std::uint8_t>(~(kFeatureEdge | kRequestedFeature));
+    }
+  }
+  std::vector<GivenUpCurve> givenUp =
+    givenUpCurves(mesh, inPlane, edgeLength, FeatureLoss::MidLine);
+  if (givenUp.empty())
+  {
+    return givenUp;
+  }
+  double length = 0;
+  for (const GivenUpCurve& curve : givenUp)
+  {
+    length += curve.length;
+  }
+  const auto longest = std::max_element(givenUp.begin(), givenUp.end(),
+    [](const GivenUpCurve& a, const GivenUpCurve& b) { return a.length < b.length; });
+  notices.push_back("features of the length " + shareText(length) +
+    " lie in the mirror plane, which quads straddle, and are not followed; the longest one, of " +
+    shareText(longest->lengthInQuads) + " edge lengths, is near " + placeText(longest->place) +
+    ": choose an isoline for the plane's curve to keep them");
+  return givenUp;
+}
+
+std::vector<std::uint8_t> irregularOf(const Mesh& mesh, const std::vector<int>& turns)
+{
+  const std::vector<int> regular = regularTurns(mesh);
+  std::vector<std::uint8_t> irregular(regular.size(), 0);
+  for (std::size_t v = 0; v < regular.size(); ++v)
+  {
+    irregular[v] = turns[v] != regular[v] ? 1 : 0;
+  }
+  return irregular;
+}
+
+CopiedQuads quadsAcross(
+  const RemeshResult& half, const RemeshOptions& options, const Isometry& mirror, CopiedMesh& whole)
+{
+  CopiedQuads failed;
+  std::vector<FixedVec2> uv = half.uv;
+  failed.status = insetPlane(half, whole.isGlued, options, uv);
+  if (!failed.status.ok())
+  {
+    return failed;
+  }
+  whole.uv = copyMap(whole, mirror, std::move(uv));
+  const Certificate& before = half.certificate;
+  const Certificate after = certify(
+    whole.mesh, whole.uv, whole.turns, irregularOf(whole.mesh, whole.turns), options.threads);
+  if (after.notPositive > 2 * before.notPositive || after.wrongTurns > 2 * before.wrongTurns ||
+    !after.whole())
+  {
+    failed.status = { StatusCode::NotConverged,
+      "the map with a mid-line in the mirror plane is no integer-grid map: " + after.text() };
+    return failed;
+  }
+  ExtractionOptions extraction;
+  extraction.maximumNumberOfQuads = options.maximumNumberOfQuads;
+  extraction.smoothingSteps = options.smoothingSteps;
+  extraction.fixedVertices = indexVertices(half.surface);
+  for (const Index v : indexVertices(half.surface))
+  {
+    extraction.fixedVertices.push_back(whole.image[v]);
+  }
+  std::sort(extraction.fixedVertices.begin(), extraction.fixedVertices.end());
+  extraction.mapIsCertified = after.valid();
+  extraction.threads = options.threads;
+  extraction.progress = subProgress(options.progress, 0.97, 0.98);
+  const ExtractionResult extracted = extractQuads(whole.mesh, whole.uv, extraction);
+  if (!extracted.status.ok())
+  {
+    failed.status = { extracted.status.code,
+      "no quads across the mirror plane: " + extracted.status.message };
+    return failed;
+  }
+  return foldQuads(extracted.mesh, whole, mirror);
 }
 
 } // namespace quadrille

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Quadrille maintainers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Symmetry/MirrorFit.h"
+#include "Symmetry/ImageFit.h"
 
 #include "Base/Parallel.h"
 #include "Pipeline/RunSurface.h"
@@ -51,27 +51,33 @@ TriangleList linesOf(const Mesh& mesh, bool boundary)
   return list;
 }
 
+Vector3 normalOf(const QuadMesh& quads, const std::array<Index, 4>& quad)
+{
+  return (quads.points[quad[2]] - quads.points[quad[0]])
+    .cross(quads.points[quad[3]] - quads.points[quad[1]]);
+}
+
 class ImageFit
 {
 public:
-  ImageFit(DoubledQuads& doubled, const SearchedSurface& whole, double tolerance, double reach,
-    int threads)
-    : doubled_(doubled), quads_(doubled.quads), whole_(whole), tolerance_(tolerance), reach_(reach),
-      threads_(threads), first_(doubled.halfPoints),
-      count_(doubled.quads.points.size() - doubled.halfPoints)
+  ImageFit(
+    CopiedQuads& copied, const SearchedSurface& whole, double tolerance, double reach, int threads)
+    : copied_(copied), quads_(copied.quads), whole_(whole), tolerance_(tolerance), reach_(reach),
+      threads_(threads), first_(copied.partPoints),
+      count_(copied.quads.points.size() - copied.partPoints)
   {
   }
 
-  MirrorFit run()
+  FittedImages run()
   {
-    findNormals();
+    normals_ = pointNormals(quads_);
     findLines();
     targets_.assign(
       quads_.points.begin() + static_cast<std::ptrdiff_t>(first_), quads_.points.end());
     const std::vector<Vector3> exact = targets_;
     std::vector<Vector3> nearest = nearestPlaces();
     std::vector<std::uint8_t> isOff(count_, 0);
-    MirrorFit fit;
+    FittedImages fit;
     for (std::size_t i = 0; i < count_; ++i)
     {
       const double distance = (nearest[i] - exact[i]).norm();
@@ -101,20 +107,6 @@ public:
   }
 
 private:
-  void findNormals()
-  {
-    normals_.assign(quads_.points.size(), Vector3::Zero());
-    for (const std::array<Index, 4>& quad : quads_.quads)
-    {
-      const Vector3 normal = (quads_.points[quad[2]] - quads_.points[quad[0]])
-                               .cross(quads_.points[quad[3]] - quads_.points[quad[1]]);
-      for (const Index corner : quad)
-      {
-        normals_[corner] += normal;
-      }
-    }
-  }
-
   void findLines()
   {
     onFeature_.assign(quads_.points.size(), 0);
@@ -125,12 +117,6 @@ private:
         onFeature_[line.a] = onFeature_[line.b] = 1;
       }
     }
-  }
-
-  NearestTriangle::Place nearestFace(const Vector3& p, const Vector3& normal) const
-  {
-    const auto facing = whole_.faces.at(p, normal);
-    return facing ? *facing : *whole_.faces.at(p);
   }
 
   Vector3 nearestPlace(std::size_t i) const
@@ -145,7 +131,7 @@ private:
         return place->point;
       }
     }
-    return nearestFace(targets_[i], normals_[point]).point;
+    return whole_.nearestFace(targets_[i], normals_[point]).point;
   }
 
   std::vector<Vector3> nearestPlaces() const
@@ -185,7 +171,7 @@ private:
   {
     std::vector<Vector3> sum(moves.size(), Vector3::Zero());
     std::vector<double> weight(moves.size(), 0);
-    for (std::size_t q = doubled_.halfQuads; q < quads_.quads.size(); ++q)
+    for (std::size_t q = copied_.partQuads; q < quads_.quads.size(); ++q)
     {
       const std::array<Index, 4>& quad = quads_.quads[q];
       const Vector3 mean = (moves[quad[0]] + moves[quad[1]] + moves[quad[2]] + moves[quad[3]]) / 4;
@@ -201,17 +187,17 @@ private:
     }
   }
 
-  void locate(MirrorFit& fit) const
+  void locate(FittedImages& fit) const
   {
     fit.images.resize(count_);
-    fit.quadPolygons.resize(quads_.quads.size() - doubled_.halfQuads);
+    fit.quadPolygons.resize(quads_.quads.size() - copied_.partQuads);
     const PreparedSurface& surface = whole_.surface;
     parallelFor(count_, kFitChunk, threads_,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
         {
-          const auto at = nearestFace(quads_.points[first_ + i], normals_[first_ + i]);
+          const auto at = whole_.nearestFace(quads_.points[first_ + i], normals_[first_ + i]);
           fit.images[i] = surface.locate(at.triangle, at.weights);
         }
       });
@@ -220,18 +206,17 @@ private:
       {
         for (std::size_t q = begin; q < end; ++q)
         {
-          const std::array<Index, 4>& quad = quads_.quads[doubled_.halfQuads + q];
+          const std::array<Index, 4>& quad = quads_.quads[copied_.partQuads + q];
           const Vector3 centre = (quads_.points[quad[0]] + quads_.points[quad[1]] +
                                    quads_.points[quad[2]] + quads_.points[quad[3]]) /
             4;
-          const Vector3 normal = (quads_.points[quad[2]] - quads_.points[quad[0]])
-                                   .cross(quads_.points[quad[3]] - quads_.points[quad[1]]);
-          fit.quadPolygons[q] = surface.sourcePolygon[nearestFace(centre, normal).triangle];
+          const Vector3 normal = normalOf(quads_, quad);
+          fit.quadPolygons[q] = surface.sourcePolygon[whole_.nearestFace(centre, normal).triangle];
         }
       });
   }
 
-  DoubledQuads& doubled_;
+  CopiedQuads& copied_;
   QuadMesh& quads_;
   const SearchedSurface& whole_;
   double tolerance_, reach_;
@@ -250,15 +235,35 @@ SearchedSurface::SearchedSurface(PreparedSurface prepared)
 {
 }
 
+NearestTriangle::Place SearchedSurface::nearestFace(const Vector3& p, const Vector3& normal) const
+{
+  const auto facing = faces.at(p, normal);
+  return facing ? *facing : *faces.at(p);
+}
+
 std::size_t SearchedSurface::bytes() const
 {
   return bytesOf(surface) + faces.bytes() + features.bytes() + boundary.bytes();
 }
 
-MirrorFit fitImages(
-  DoubledQuads& doubled, const SearchedSurface& whole, double tolerance, double reach, int threads)
+std::vector<Vector3> pointNormals(const QuadMesh& quads)
 {
-  return ImageFit(doubled, whole, tolerance, reach, threads).run();
+  std::vector<Vector3> normals(quads.points.size(), Vector3::Zero());
+  for (const std::array<Index, 4>& quad : quads.quads)
+  {
+    const Vector3 normal = normalOf(quads, quad);
+    for (const Index corner : quad)
+    {
+      normals[corner] += normal;
+    }
+  }
+  return normals;
+}
+
+FittedImages fitImages(
+  CopiedQuads& copied, const SearchedSurface& whole, double tolerance, double reach, int threads)
+{
+  return ImageFit(copied, whole, tolerance, reach, threads).run();
 }
 
 } // namespace quadrille
